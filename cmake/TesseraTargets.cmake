@@ -1,0 +1,64 @@
+# How this project declares its libraries, its vector code and its tests. Included once, from the top.
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+if(NOT CMAKE_BUILD_TYPE)
+    set(CMAKE_BUILD_TYPE Release)
+endif()
+
+find_program(CCACHE ccache)
+if(CCACHE)
+    set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE})
+endif()
+
+# Warnings and sanitizers, private to our own targets.
+add_library(tessera_options INTERFACE)
+target_compile_options(tessera_options INTERFACE -Wall -Wextra -Wshadow -Wconversion
+    -Wno-sign-conversion $<$<BOOL:${TESSERA_WERROR}>:-Werror>)
+if(TESSERA_SANITIZE)
+    target_compile_options(tessera_options INTERFACE -fsanitize=${TESSERA_SANITIZE}
+        -fno-omit-frame-pointer -fno-sanitize-recover=all)
+    target_link_options(tessera_options INTERFACE -fsanitize=${TESSERA_SANITIZE})
+endif()
+
+# tessera_library(NAME SOURCES... LINK libs...): one library per folder under src/.
+function(tessera_library name)
+    cmake_parse_arguments(ARG "" "" "SOURCES;LINK;PRIVATE_LINK" ${ARGN})
+    add_library(${name} STATIC ${ARG_SOURCES})
+    target_include_directories(${name} PUBLIC ${CMAKE_SOURCE_DIR}/src)
+    target_link_libraries(${name} PUBLIC ${ARG_LINK} PRIVATE ${ARG_PRIVATE_LINK} tessera_options)
+endfunction()
+
+# tessera_vector_source(LIBRARY FILE): compiles FILE once more for AVX2. Such a file includes no Eigen and
+# exports one function in namespace tessera::TESSERA_VECTOR_NAMESPACE; the caller picks at run time.
+function(tessera_vector_source library file)
+    get_filename_component(stem ${file} NAME_WE)
+    foreach(arch baseline avx2)
+        set(unit ${library}_${stem}_${arch})
+        add_library(${unit} OBJECT ${file})
+        target_include_directories(${unit} PRIVATE ${CMAKE_SOURCE_DIR}/src)
+        target_compile_definitions(${unit} PRIVATE TESSERA_VECTOR_NAMESPACE=${arch})
+        target_link_libraries(${unit} PRIVATE tessera_options)
+        if(arch STREQUAL avx2)
+            if(NOT CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+                continue()
+            endif()
+            target_compile_options(${unit} PRIVATE -mavx2 -mfma)
+            target_compile_definitions(${library} PRIVATE TESSERA_HAVE_AVX2)
+        endif()
+        target_sources(${library} PRIVATE $<TARGET_OBJECTS:${unit}>)
+    endforeach()
+endfunction()
+
+# tessera_test(NAME SOURCES... LINK libs... LABEL unit|data|slow): one GoogleTest program, one ctest entry per test.
+function(tessera_test name)
+    cmake_parse_arguments(ARG "" "LABEL" "SOURCES;LINK" ${ARGN})
+    if(NOT ARG_LABEL)
+        set(ARG_LABEL unit)
+    endif()
+    add_executable(${name} ${ARG_SOURCES})
+    target_include_directories(${name} PRIVATE ${CMAKE_SOURCE_DIR}/tests)
+    target_link_libraries(${name} PRIVATE ${ARG_LINK} GTest::gtest_main tessera_options)
+    gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES LABELS ${ARG_LABEL} TIMEOUT 900)
+endfunction()

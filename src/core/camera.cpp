@@ -1,0 +1,71 @@
+#include "core/camera.h"
+
+#include <yaml-cpp/yaml.h>
+
+#include <cmath>
+#include <map>
+#include <set>
+
+namespace tessera {
+namespace {
+
+Status CheckPlausible(const std::string& path, const CameraCalibration& c) {
+    const PinholeCamera& p = c.pinhole;
+    const auto bad = [&](const char* key, double value) {
+        return Status::Error(fmt::format("{}: {}: {} is not plausible", path, key, value));
+    };
+    for (const auto& [key, value] : std::map<const char*, double>{{"fx", p.fx}, {"fy", p.fy}})
+        if (!(value > 1.0 && value < 1e5)) return bad(key, value);
+    if (p.width < 16 || p.width > 8192) return bad("width", p.width);
+    if (p.height < 16 || p.height > 8192) return bad("height", p.height);
+    if (!(std::abs(p.cx) < 2.0 * p.width)) return bad("cx", p.cx);
+    if (!(std::abs(p.cy) < 2.0 * p.height)) return bad("cy", p.cy);
+    if (!(c.depth_scale > 0 && c.depth_scale < 1e7)) return bad("depth_scale", c.depth_scale);
+    if (!(c.fps > 0 && c.fps < 1e4)) return bad("fps", c.fps);
+    return Status::Ok();
+}
+
+}  // namespace
+
+Result<CameraCalibration> ReadCameraFile(const std::string& path) {
+    CameraCalibration c;
+    PinholeCamera& p = c.pinhole;
+    std::map<std::string, double*> numbers = {{"fx", &p.fx}, {"fy", &p.fy}, {"cx", &p.cx},
+                                              {"cy", &p.cy}, {"depth_scale", &c.depth_scale},
+                                              {"fps", &c.fps}};
+    std::map<std::string, int*> sizes = {{"width", &p.width}, {"height", &p.height}};
+    std::set<std::string> missing = {"fx", "fy", "cx", "cy"};
+    std::string key = "?";
+    try {
+        const YAML::Node root = YAML::LoadFile(path);
+        if (!root.IsMap()) return Status::Error(path + ": expected 'key: value' lines");
+        for (const auto& entry : root) {
+            key = entry.first.as<std::string>();
+            missing.erase(key);
+            if (numbers.count(key)) {
+                *numbers[key] = entry.second.as<double>();
+            } else if (sizes.count(key)) {
+                *sizes[key] = entry.second.as<int>();
+            } else if (key == "distortion") {
+                const auto k = entry.second.as<std::vector<double>>();
+                if (k.size() != 4 && k.size() != 5)
+                    return Status::Error(path + ": distortion: needs k1, k2, p1, p2 and perhaps k3");
+                c.distortion = {k[0], k[1], k[2], k[3], k.size() == 5 ? k[4] : 0.0};
+            } else {
+                return Status::Error(fmt::format(
+                    "{}: unknown key '{}' (known: width, height, fx, fy, cx, cy, distortion, "
+                    "depth_scale, fps)", path, key));
+            }
+        }
+    } catch (const YAML::BadFile&) {
+        return Status::Error(path + ": cannot be read");
+    } catch (const YAML::Exception& error) {
+        return Status::Error(fmt::format("{}: {}: {}", path, key, error.what()));
+    }
+    if (!missing.empty()) return Status::Error(fmt::format("{}: '{}' is missing", path, *missing.begin()));
+    p.fy = std::abs(p.fy);  // ICL-NUIM writes the y axis upwards in its intrinsics, but not in its images
+    if (Status status = CheckPlausible(path, c); !status.ok()) return status;
+    return c;
+}
+
+}  // namespace tessera

@@ -1,0 +1,48 @@
+// The camera: an ideal pinhole for everything behind a source, and the calibration file's lens distortion,
+// which sources correct before anyone else sees an image.
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+
+#include "core/status.h"
+
+namespace tessera {
+
+// Right-handed camera frame: x right, y down, z forward. Pixel (0, 0) is the top-left pixel's centre.
+struct PinholeCamera {
+    int width = 640;   // pixels
+    int height = 480;  // pixels
+    double fx = 525.0, fy = 525.0, cx = 319.5, cy = 239.5;  // pixels
+
+    // [B14] eq. 2. p_camera.z() must not be 0.
+    Eigen::Vector2d Project(const Eigen::Vector3d& p_camera) const {
+        return {p_camera.x() / p_camera.z() * fx + cx, p_camera.y() / p_camera.z() * fy + cy};
+    }
+    // [B14] eq. 1: the point in the camera frame, metres, of pixel (u, v) at depth z metres.
+    Eigen::Vector3d Unproject(double u, double v, double z) const {
+        return {(u - cx) / fx * z, (v - cy) / fy * z, z};
+    }
+    bool operator==(const PinholeCamera&) const = default;
+};
+
+// Brown-Conrady coefficients in OpenCV's order; all zero means an ideal lens.
+struct LensDistortion {
+    double k1 = 0, k2 = 0, p1 = 0, p2 = 0, k3 = 0;
+    bool IsZero() const { return k1 == 0 && k2 == 0 && p1 == 0 && p2 == 0 && k3 == 0; }
+    bool operator==(const LensDistortion&) const = default;
+};
+
+// What a camera.yaml says.
+struct CameraCalibration {
+    PinholeCamera pinhole;
+    LensDistortion distortion;
+    double depth_scale = 5000.0;  // stored depth value / depth_scale = metres
+    double fps = 30.0;            // frames per second, for sources without time stamps
+};
+
+// Reads width, height, fx, fy, cx, cy, distortion (4 or 5 numbers), depth_scale, fps. A negative fy (ICL-NUIM) is
+// taken as positive. Unknown keys, missing intrinsics and impossible values are errors that name file and key.
+Result<CameraCalibration> ReadCameraFile(const std::string& path);
+
+}  // namespace tessera

@@ -1,0 +1,21 @@
+// Checks for bugs in this program: they abort with file, line and values. Never for bad input (that is a
+// Status) nor for what is expected while running (that is a value).
+#pragma once
+
+#include <fmt/format.h>
+
+#include <string>
+
+namespace tessera {
+
+[[noreturn]] void CheckFailed(const char* file, int line, const char* expression,
+                              const std::string& details);
+
+}  // namespace tessera
+
+// TESSERA_CHECK(index < size, "index {} size {}", index, size)
+#define TESSERA_CHECK(expression, ...)                                                    \
+    do {                                                                                  \
+        if (!(expression)) [[unlikely]]                                                   \
+            ::tessera::CheckFailed(__FILE__, __LINE__, #expression, fmt::format(__VA_ARGS__)); \
+    } while (false)

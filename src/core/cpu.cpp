@@ -1,0 +1,14 @@
+#include "core/cpu.h"
+
+namespace tessera {
+
+bool CpuHasAvx2() {
+#if defined(__x86_64__)
+    static const bool kHas = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+    return kHas;
+#else
+    return false;
+#endif
+}
+
+}  // namespace tessera

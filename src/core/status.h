@@ -1,0 +1,60 @@
+// The outcome of work that a user's input can make fail: a file, a flag, a key. The message names the file or
+// key, what is wrong and what to do; programs print it and exit with 2. Values, copied freely.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "core/check.h"
+
+namespace tessera {
+
+class [[nodiscard]] Status {
+  public:
+    Status() = default;  // success
+    static Status Ok() { return {}; }
+    static Status Error(std::string message) {
+        Status status;
+        status.message_ = std::move(message);
+        return status;
+    }
+
+    bool ok() const { return !message_.has_value(); }
+    // The error's text; empty on success.
+    const std::string& message() const {
+        static const std::string kNone;
+        return message_ ? *message_ : kNone;
+    }
+
+  private:
+    std::optional<std::string> message_;
+};
+
+// A value of type T, or the reason why there is none.
+template <class T>
+class [[nodiscard]] Result {
+  public:
+    Result(T value) : value_(std::move(value)) {}  // NOLINT: implicit by design
+    Result(Status error) : status_(std::move(error)) {  // NOLINT
+        TESSERA_CHECK(!status_.ok(), "a Result without value needs an error");
+    }
+
+    bool ok() const { return value_.has_value(); }
+    const Status& status() const { return status_; }
+    const std::string& message() const { return status_.message(); }
+    T& value() {
+        TESSERA_CHECK(ok(), "{}", message());
+        return *value_;
+    }
+    const T& value() const {
+        TESSERA_CHECK(ok(), "{}", message());
+        return *value_;
+    }
+
+  private:
+    std::optional<T> value_;
+    Status status_;
+};
+
+}  // namespace tessera

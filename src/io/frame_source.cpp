@@ -1,0 +1,1 @@
+#include "io/frame_source.h"

@@ -1,0 +1,55 @@
+// Where frames come from: recorded folders, cameras, built-in scenes. A source hands out rectified, registered
+// frames in metres, in order. Owner thread only; FrameReader (frame_reader.h) runs one ahead on its own thread.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/camera.h"
+#include "core/frame.h"
+#include "core/se3.h"
+
+namespace tessera {
+
+enum class ReadStatus {
+    kOk,     // `frame` is filled
+    kSkip,   // this frame is bad (message says why); the next Read gives the one after it
+    kEnd,    // no more frames
+    kError,  // the source is broken for good (message says why)
+};
+
+struct ReadResult {
+    ReadStatus status = ReadStatus::kOk;
+    std::string message;  // names the file and what is wrong; empty when kOk or kEnd
+};
+
+struct SourceInfo {
+    std::string name;           // as the user gave it
+    std::string kind;           // "TUM folder", "synthetic scene", ...
+    PinholeCamera camera;       // of the frames handed out (after rectification)
+    std::int64_t frame_count = -1;  // pairs, -1 if not known beforehand
+    double fps = 30;
+    bool rectified = false;     // lens distortion was corrected
+    bool has_truth = false;
+    std::vector<std::string> notes;  // what a person should know: unpaired images, repeated stamps, ...
+};
+
+class FrameSource {
+  public:
+    virtual ~FrameSource() = default;
+    virtual const SourceInfo& info() const = 0;
+    // Fills `frame` (its storage is reused). Never throws.
+    virtual ReadResult Read(Frame& frame) = 0;
+    // Jumps so that the next Read returns frame `index` of the source's list. Sources that cannot return false.
+    virtual bool Seek(std::int64_t index) = 0;
+};
+
+// Which part of a source to read.
+struct FrameSelection {
+    std::int64_t start = 0;   // first frame
+    std::int64_t count = -1;  // how many frames to read, -1 = all
+    std::int64_t stride = 1;  // take every stride-th
+};
+
+}  // namespace tessera

@@ -1,0 +1,110 @@
+// The map: a pool of voxel blocks near the surface, found through a hash of the block coordinate, one array per
+// attribute (layer). One writer; any number of readers while nobody writes.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/config.h"
+#include "core/status.h"
+#include "mapping/virtual_array.h"
+#include "mapping/voxel.h"
+
+namespace tessera {
+
+// Index of a block in the pool. Block 0 always exists, is never written and holds only unknown voxels: what is not
+// in the map is block 0, so that readers need no branch.
+using BlockId = std::int32_t;
+inline constexpr BlockId kUnknownBlock = 0;
+
+class BlockMap {
+  public:
+    struct Config {
+        double voxel_size_m = 0.01;
+        double truncation_m = 0.04;  // the band's half width; distances are clamped to it
+
+        void Describe(ConfigParameters& parameters);
+        // Conditions between keys; single ranges are checked when a key is set.
+        Status Validate() const;
+    };
+
+    // Everything that a kernel needs to read the map; valid until the next Allocate or Clear.
+    struct View {
+        const FieldWord* field;           // [blocks * 512]
+        const std::int32_t* neighbours;   // [blocks * 8]: at offsets (x, y, z) = bits 0, 1, 2 of the slot
+        const std::int32_t* table;        // hash slots, each a BlockId, 0 = empty
+        const std::int32_t* coords;       // [blocks * 4]: x, y, z, unused
+        std::uint32_t table_mask;
+        float voxel_size_m, truncation_m;
+    };
+
+    explicit BlockMap(const Config& config);
+
+    const Config& config() const { return config_; }
+    View view() const;
+
+    // Number of ids in use, block 0 included: ids run from 0 to size() - 1, in order of allocation.
+    BlockId size() const { return size_; }
+    std::size_t max_size() const { return max_size_; }
+
+    BlockId Find(const BlockCoord& coord) const;
+    // The block, made if it is not there; kUnknownBlock if the map is full or the coordinate out of limits.
+    BlockId Allocate(const BlockCoord& coord);
+    void Clear();
+
+    BlockCoord coord(BlockId id) const;
+    BlockId neighbour(BlockId id, int dx, int dy, int dz) const;  // each in {-1, 0, 1}; a hash look-up
+
+    // One block's voxels, kBlockVoxels of each.
+    FieldWord* field(BlockId id) { return field_.data() + Offset(id); }
+    const FieldWord* field(BlockId id) const { return field_.data() + Offset(id); }
+    std::uint16_t* weight(BlockId id) { return weight_.data() + Offset(id); }
+    const std::uint16_t* weight(BlockId id) const { return weight_.data() + Offset(id); }
+    ColourWord* colour(BlockId id) { return colour_.data() + Offset(id); }
+    const ColourWord* colour(BlockId id) const { return colour_.data() + Offset(id); }
+
+    // Change tracking: the writer marks what it changed with its own increasing number.
+    void MarkChanged(BlockId id, std::uint32_t revision) { revision_[static_cast<std::size_t>(id)] = revision; }
+    std::uint32_t revision(BlockId id) const { return revision_[static_cast<std::size_t>(id)]; }
+
+    // Regions of 4 x 4 x 4 blocks: a view looks its blocks up through them, so that the cost of a frame follows
+    // what is in view, not the size of the map. The span is valid until the next Allocate or Clear.
+    static constexpr int kRegionBlocks = 4;
+    static BlockCoord RegionOf(const BlockCoord& block);
+    std::span<const BlockId> BlocksInRegion(const BlockCoord& region) const;
+
+    std::size_t bytes() const;         // memory in use by blocks and their index
+    double bytes_per_voxel() const;
+
+  private:
+    static std::size_t Offset(BlockId id) { return static_cast<std::size_t>(id) * kBlockVoxels; }
+    void InitialiseBlock(BlockId id, const BlockCoord& coord);
+    void InsertIntoTable(BlockId id);
+    void GrowTable();
+    void LinkNeighbours(BlockId id, const BlockCoord& coord);
+
+    Config config_;
+    BlockId size_ = 1;
+    std::size_t max_size_ = 0;
+    VirtualArray<FieldWord> field_;
+    VirtualArray<std::uint16_t> weight_;
+    VirtualArray<ColourWord> colour_;
+    VirtualArray<std::int32_t> neighbours_;
+    VirtualArray<std::int32_t> coords_;
+    VirtualArray<std::uint32_t> revision_;
+    std::vector<std::int32_t> table_;
+
+    // Regions: a second, coarser hash; each region lists its at most 64 blocks.
+    struct Region {
+        BlockCoord coord;
+        std::vector<BlockId> blocks;
+    };
+    std::vector<std::int32_t> region_table_;  // index + 1, 0 = empty
+    std::vector<Region> regions_;
+    Region* FindOrAddRegion(const BlockCoord& region);
+    std::int32_t FindRegion(const BlockCoord& region) const;
+};
+
+}  // namespace tessera

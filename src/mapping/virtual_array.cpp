@@ -1,0 +1,28 @@
+#include "mapping/virtual_array.h"
+
+#include <sys/mman.h>
+
+#include "core/check.h"
+
+namespace tessera {
+
+VirtualMemory::VirtualMemory(std::size_t bytes) : bytes_(bytes) {
+    constexpr std::size_t kLeast = std::size_t{1} << 20;
+    for (;;) {
+        void* memory = mmap(nullptr, bytes_, PROT_READ | PROT_WRITE,
+                            MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+        if (memory != MAP_FAILED) {
+            data_ = static_cast<std::byte*>(memory);
+            break;
+        }
+        TESSERA_CHECK(bytes_ > kLeast, "no address space left for {} bytes", bytes_);
+        bytes_ /= 2;  // a limit on address space (ulimit -v): a smaller map is better than none
+    }
+    madvise(data_, bytes_, MADV_HUGEPAGE);  // gathers over many blocks miss the TLB otherwise
+}
+
+VirtualMemory::~VirtualMemory() { munmap(data_, bytes_); }
+
+void VirtualMemory::Clear() { madvise(data_, bytes_, MADV_DONTNEED); }
+
+}  // namespace tessera

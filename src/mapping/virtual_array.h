@@ -1,0 +1,45 @@
+// An array that grows without moving: it reserves address space once and lets the system commit pages as they are
+// touched. So readers keep plain pointers and vector gathers have one base, and nothing is copied on growth.
+#pragma once
+
+#include <cstddef>
+
+namespace tessera {
+
+// Raw reservation; VirtualArray below is the typed face. Not copyable.
+class VirtualMemory {
+  public:
+    // Reserves `bytes` of address space (no memory yet). Halves the wish until the system grants it.
+    explicit VirtualMemory(std::size_t bytes);
+    ~VirtualMemory();
+    VirtualMemory(const VirtualMemory&) = delete;
+    VirtualMemory& operator=(const VirtualMemory&) = delete;
+
+    std::byte* data() const { return data_; }
+    std::size_t reserved_bytes() const { return bytes_; }
+    // Gives all pages back; they read as zero again.
+    void Clear();
+
+  private:
+    std::byte* data_ = nullptr;
+    std::size_t bytes_ = 0;
+};
+
+// Elements read as all-zero bytes until written. T must be trivial.
+template <class T>
+class VirtualArray {
+  public:
+    explicit VirtualArray(std::size_t max_elements) : memory_(max_elements * sizeof(T)) {}
+
+    std::size_t max_size() const { return memory_.reserved_bytes() / sizeof(T); }
+    T* data() { return reinterpret_cast<T*>(memory_.data()); }
+    const T* data() const { return reinterpret_cast<const T*>(memory_.data()); }
+    T& operator[](std::size_t i) { return data()[i]; }
+    const T& operator[](std::size_t i) const { return data()[i]; }
+    void Clear() { memory_.Clear(); }
+
+  private:
+    VirtualMemory memory_;
+};
+
+}  // namespace tessera

@@ -1,0 +1,98 @@
+// What a voxel is, bit by bit, and how blocks and voxels are counted. Host-device: plain functions on plain types,
+// shared by the CPU code and CUDA.
+//
+// A block holds 8 x 8 x 8 voxels; voxel (i, j, k), counted over the whole world, has its centre at
+// (i, j, k) * voxel_size_m. In a block, x runs fastest: offset = x + 8 y + 64 z. Indices use floor.
+#pragma once
+
+#include <cstdint>
+
+#ifdef __CUDACC__
+#define TESSERA_HD __host__ __device__
+#else
+#define TESSERA_HD
+#endif
+
+namespace tessera {
+
+inline constexpr int kBlockSide = 8;
+inline constexpr int kBlockVoxels = kBlockSide * kBlockSide * kBlockSide;
+
+// Geometry and intensity, what the tracker reads at eight corners, in one 32-bit word so that a corner is one
+// gather. Low half: intensity, 0 = none yet, else 1 + round(65534 * intensity). High half: signed distance in
+// truncations, two's complement, -32768 = none yet, else round(32767 * distance / truncation).
+using FieldWord = std::uint32_t;
+inline constexpr FieldWord kUnknownField = 0x80000000u;
+inline constexpr float kDistanceSteps = 32767.0f;
+inline constexpr float kIntensitySteps = 65534.0f;
+
+// Signed distance in truncations, [-1, 1]; positive in front of the surface. Only if HasDistance.
+TESSERA_HD inline float FieldDistance(FieldWord w) {
+    return static_cast<float>(static_cast<std::int32_t>(w) >> 16) * (1.0f / kDistanceSteps);
+}
+TESSERA_HD inline bool HasDistance(FieldWord w) { return (w >> 16) != 0x8000u; }
+// Intensity in [0, 1]. Only if HasIntensity.
+TESSERA_HD inline float FieldIntensity(FieldWord w) {
+    return static_cast<float>(static_cast<std::int32_t>(w & 0xffffu) - 1) * (1.0f / kIntensitySteps);
+}
+TESSERA_HD inline bool HasIntensity(FieldWord w) { return (w & 0xffffu) != 0; }
+
+// Weight of the distance: 8.8 fixed point, up to 255.
+inline constexpr float kWeightSteps = 256.0f;
+
+// Colour: the intensity of the field word plus chroma, so nothing is stored twice. Bits 0-9 Cb, 10-19 Cr (each
+// 512 + 511 * chroma), 20-31 the colour's weight in 1/16, up to 255. Cb = (B - Y) / 1.772, Cr = (R - Y) / 1.402.
+using ColourWord = std::uint32_t;
+inline constexpr float kChromaSteps = 1022.0f;  // chroma runs over [-0.5, 0.5]
+inline constexpr float kColourWeightSteps = 16.0f;
+inline constexpr ColourWord kNoColour = 512u | (512u << 10);
+inline constexpr float kMaxWeight = 255.0f;  // of both weights
+
+TESSERA_HD inline float ColourWeight(ColourWord c) {
+    return static_cast<float>(c >> 20) * (1.0f / kColourWeightSteps);
+}
+
+// Channel values in [0, 1], clamped.
+struct LinearRgb {
+    float r, g, b;
+};
+TESSERA_HD inline LinearRgb ColourFromWords(FieldWord field, ColourWord colour) {
+    const float y = FieldIntensity(field);
+    const float cb = (static_cast<float>(colour & 1023u) - 512.0f) * (1.0f / kChromaSteps);
+    const float cr = (static_cast<float>((colour >> 10) & 1023u) - 512.0f) * (1.0f / kChromaSteps);
+    const float r = y + 1.402f * cr;
+    const float b = y + 1.772f * cb;
+    const float g = (y - 0.299f * r - 0.114f * b) * (1.0f / 0.587f);
+    const auto clamp = [](float v) { return v < 0.0f ? 0.0f : (v > 1.0f ? 1.0f : v); };
+    return {clamp(r), clamp(g), clamp(b)};
+}
+
+// Integer coordinate of a block; block (0, 0, 0) holds voxels 0..7 along each axis.
+struct BlockCoord {
+    std::int32_t x = 0, y = 0, z = 0;
+    TESSERA_HD bool operator==(const BlockCoord& o) const {
+        return x == o.x && y == o.y && z == o.z;
+    }
+};
+// z, then y, then x: the one order used wherever blocks are sorted.
+TESSERA_HD inline bool operator<(const BlockCoord& a, const BlockCoord& b) {
+    return a.z != b.z ? a.z < b.z : (a.y != b.y ? a.y < b.y : a.x < b.x);
+}
+
+// Blocks live in [-kBlockLimit, kBlockLimit) along each axis: 21 bits, so that a coordinate packs into 64.
+inline constexpr std::int32_t kBlockLimit = 1 << 20;
+TESSERA_HD inline bool InLimits(const BlockCoord& c) {
+    return c.x >= -kBlockLimit && c.x < kBlockLimit && c.y >= -kBlockLimit && c.y < kBlockLimit &&
+           c.z >= -kBlockLimit && c.z < kBlockLimit;
+}
+
+// Position in the hash table before masking. Unsigned arithmetic wraps.
+TESSERA_HD inline std::uint32_t BlockHash(std::int32_t x, std::int32_t y, std::int32_t z) {
+    std::uint32_t h = static_cast<std::uint32_t>(x) * 73856093u ^
+                      static_cast<std::uint32_t>(y) * 19349669u ^
+                      static_cast<std::uint32_t>(z) * 83492791u;
+    h ^= h >> 15;
+    return h * 2654435769u >> 4 ^ h;
+}
+
+}  // namespace tessera
