@@ -1,0 +1,165 @@
+#include "io/file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <new>
+#include <system_error>
+
+namespace tessera {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string ErrorText(int error) {
+    switch (error) {
+        case ENOSPC:
+        case EDQUOT:
+            return "no space left on the device; free some or choose another place";
+        case EACCES:
+        case EPERM:
+        case EROFS:
+            return "no permission to write here; choose another place";
+        case ENOENT:
+        case ENOTDIR:
+            return "its folder does not exist; make it or choose another place";
+        case EISDIR:
+            return "is a folder; give a file's name";
+        default:
+            return std::generic_category().message(error);
+    }
+}
+
+// Unique in this process and, by the process id, among all that write to the same folder.
+std::string TemporaryName(const std::string& target) {
+    static std::atomic<unsigned> counter{0};
+    return fmt::format("{}.{}-{}.tmp", target, getpid(), counter.fetch_add(1));
+}
+
+std::string BehindLinks(const std::string& path) {
+    std::error_code error;
+    if (!fs::is_symlink(path, error)) return path;
+    const fs::path target = fs::weakly_canonical(path, error);
+    return error ? path : target.string();
+}
+
+}  // namespace
+
+AtomicFile::AtomicFile(const std::string& path) : path_(path), target_(BehindLinks(path)) {
+    struct stat info {};
+    const bool exists = stat(target_.c_str(), &info) == 0;
+    if (exists && S_ISDIR(info.st_mode)) {
+        errno = EISDIR;
+    } else if (exists && !S_ISREG(info.st_mode)) {
+        file_ = open(target_.c_str(), O_WRONLY | O_CLOEXEC);
+    } else {
+        temporary_ = TemporaryName(target_);
+        file_ = open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        if (file_ < 0) temporary_.clear();
+        if (file_ >= 0 && exists) (void)!fchmod(file_, info.st_mode & 07777);  // as it was
+    }
+    if (file_ < 0) Fail("cannot be written");
+}
+
+AtomicFile::~AtomicFile() {
+    Close();
+    if (!temporary_.empty()) unlink(temporary_.c_str());
+}
+
+void AtomicFile::Fail(const char* what) {
+    const int error = errno;
+    if (status_.ok()) status_ = Status::Error(fmt::format("{}: {}: {}", path_, what, ErrorText(error)));
+}
+
+void AtomicFile::Close() {
+    if (file_ >= 0 && close(file_) != 0) Fail("cannot be written");
+    file_ = -1;
+}
+
+void AtomicFile::Write(std::string_view bytes) {
+    while (status_.ok() && !bytes.empty()) {
+        const ssize_t written = write(file_, bytes.data(), bytes.size());
+        if (written < 0) {
+            if (errno != EINTR) Fail("cannot be written");
+        } else {
+            bytes.remove_prefix(static_cast<std::size_t>(written));
+        }
+    }
+}
+
+Status AtomicFile::Commit() {
+    // Pipes and some devices know no sync: not an error of ours.
+    if (status_.ok() && fsync(file_) != 0 && errno != EINVAL && errno != EROFS)
+        Fail("cannot be written");
+    Close();
+    if (status_.ok() && !temporary_.empty()) {
+        if (rename(temporary_.c_str(), target_.c_str()) == 0)
+            temporary_.clear();
+        else
+            Fail("cannot be replaced");
+    }
+    return status_;
+}
+
+Status WriteTextFile(const std::string& path, const std::string& text) {
+    AtomicFile file(path);
+    file.Write(text);
+    return file.Commit();
+}
+
+Status PrepareOutputFolder(const std::string& path) {
+    std::error_code error;
+    fs::create_directories(path, error);
+    if (fs::exists(path) && !fs::is_directory(path))
+        return Status::Error(path + ": is a file; give a folder to write to");
+    if (error)
+        return Status::Error(
+            fmt::format("{}: the folder cannot be made: {}", path, ErrorText(error.value())));
+    const std::string probe = TemporaryName((fs::path(path) / "probe").string());
+    const Status status = WriteTextFile(probe, std::string(4096, ' '));
+    unlink(probe.c_str());
+    if (status.ok()) return status;
+    return Status::Error(
+        fmt::format("{}: the folder cannot be written to ({}); choose another with --out", path,
+                    status.message()));
+}
+
+Result<std::string> ReadWholeFile(const std::string& path, std::size_t max_bytes) {
+    const auto fail = [&](const std::string& why) { return Status::Error(path + ": " + why); };
+    struct stat info {};
+    if (stat(path.c_str(), &info) != 0)
+        return fail(errno == ENOENT ? "no such file" : "cannot be read: " + ErrorText(errno));
+    if (S_ISDIR(info.st_mode)) return fail("is a folder; give a file");
+    const auto too_large = [&] { return fail(fmt::format("has more than {} bytes", max_bytes)); };
+    const auto claimed = static_cast<std::size_t>(std::max<off_t>(info.st_size, 0));
+    if (claimed > max_bytes) return too_large();
+
+    std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
+    if (!file) return fail("cannot be read: " + std::generic_category().message(errno));
+    try {
+        std::string bytes;
+        std::size_t wanted = std::min(claimed + 1, max_bytes + 1);  // one more: sees the end at once
+        while (true) {
+            const std::size_t have = bytes.size();
+            bytes.resize(wanted);
+            const std::size_t got = std::fread(bytes.data() + have, 1, wanted - have, file.get());
+            bytes.resize(have + got);
+            if (bytes.size() > max_bytes) return too_large();
+            if (bytes.size() < wanted) break;
+            wanted = std::min(2 * wanted + 65536, max_bytes + 1);
+        }
+        if (std::ferror(file.get())) return fail("cannot be read to its end");
+        return bytes;
+    } catch (const std::bad_alloc&) {
+        return fail("does not fit into memory");
+    }
+}
+
+}  // namespace tessera

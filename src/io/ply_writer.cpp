@@ -1,0 +1,78 @@
+#include <bit>
+#include <cstring>
+#include <limits>
+
+#include "io/file.h"
+#include "io/mesh_io.h"
+
+namespace tessera {
+namespace {
+
+constexpr std::size_t kBufferBytes = 1 << 20;
+
+// Collects small values and hands them on in large pieces.
+class BinaryBuffer {
+  public:
+    explicit BinaryBuffer(AtomicFile& file) : file_(file) { bytes_.reserve(kBufferBytes + 64); }
+    ~BinaryBuffer() { file_.Write(bytes_); }
+    BinaryBuffer(const BinaryBuffer&) = delete;
+    BinaryBuffer& operator=(const BinaryBuffer&) = delete;
+
+    template <class T>
+    void Add(const T& value) {
+        static_assert(std::endian::native == std::endian::little, "PLY files are little endian");
+        bytes_.append(reinterpret_cast<const char*>(&value), sizeof(T));
+        if (bytes_.size() < kBufferBytes) return;
+        file_.Write(bytes_);
+        bytes_.clear();
+    }
+    void AddVector(const Eigen::Vector3f& v) {
+        for (const float value : {v.x(), v.y(), v.z()}) Add(value);
+    }
+
+  private:
+    AtomicFile& file_;
+    std::string bytes_;
+};
+
+std::string Header(const TriangleMesh& mesh) {
+    std::string text = "ply\nformat binary_little_endian 1.0\ncomment made by tessera, metres\n";
+    text += fmt::format("element vertex {}\n", mesh.vertices.size());
+    text += "property float x\nproperty float y\nproperty float z\n";
+    if (!mesh.normals.empty())
+        text += "property float nx\nproperty float ny\nproperty float nz\n";
+    if (!mesh.colours.empty())
+        text += "property uchar red\nproperty uchar green\nproperty uchar blue\n";
+    text += fmt::format("element face {}\n", mesh.triangles.size());
+    text += "property list uchar int vertex_indices\nend_header\n";
+    return text;
+}
+
+}  // namespace
+
+Status WritePly(const std::string& path, const TriangleMesh& mesh) {
+    const std::size_t count = mesh.vertices.size();
+    TESSERA_CHECK(mesh.normals.empty() || mesh.normals.size() == count, "{} normals, {} vertices",
+                  mesh.normals.size(), count);
+    TESSERA_CHECK(mesh.colours.empty() || mesh.colours.size() == count, "{} colours, {} vertices",
+                  mesh.colours.size(), count);
+    if (count > std::numeric_limits<std::int32_t>::max())
+        return Status::Error(path + ": a PLY file holds at most 2^31 vertices");
+    AtomicFile file(path);
+    file.Write(Header(mesh));
+    {
+        BinaryBuffer buffer(file);
+        for (std::size_t i = 0; i < count; ++i) {
+            buffer.AddVector(mesh.vertices[i]);
+            if (!mesh.normals.empty()) buffer.AddVector(mesh.normals[i]);
+            if (!mesh.colours.empty()) buffer.Add(mesh.colours[i]);
+        }
+        for (const auto& triangle : mesh.triangles) {
+            buffer.Add(std::uint8_t{3});
+            buffer.Add(triangle);
+        }
+    }
+    return file.Commit();
+}
+
+}  // namespace tessera
