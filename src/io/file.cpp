@@ -75,7 +75,8 @@ AtomicFile::~AtomicFile() {
 
 void AtomicFile::Fail(const char* what) {
     const int error = errno;
-    if (status_.ok()) status_ = Status::Error(fmt::format("{}: {}: {}", path_, what, ErrorText(error)));
+    if (!status_.ok()) return;
+    status_ = Status::Error(fmt::format("{}: {}: {}", path_, what, ErrorText(error)));
 }
 
 void AtomicFile::Close() {
@@ -117,7 +118,8 @@ Status WriteTextFile(const std::string& path, const std::string& text) {
 Status PrepareOutputFolder(const std::string& path) {
     std::error_code error;
     fs::create_directories(path, error);
-    if (fs::exists(path) && !fs::is_directory(path))
+    std::error_code ignored;
+    if (fs::exists(path, ignored) && !fs::is_directory(path, ignored))
         return Status::Error(path + ": is a file; give a folder to write to");
     if (error)
         return Status::Error(
@@ -141,11 +143,12 @@ Result<std::string> ReadWholeFile(const std::string& path, std::size_t max_bytes
     const auto claimed = static_cast<std::size_t>(std::max<off_t>(info.st_size, 0));
     if (claimed > max_bytes) return too_large();
 
-    std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
+    using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
+    const File file(std::fopen(path.c_str(), "rb"), &std::fclose);
     if (!file) return fail("cannot be read: " + std::generic_category().message(errno));
     try {
         std::string bytes;
-        std::size_t wanted = std::min(claimed + 1, max_bytes + 1);  // one more: sees the end at once
+        std::size_t wanted = std::min(claimed, max_bytes) + 1;  // one more, to see the end at once
         while (true) {
             const std::size_t have = bytes.size();
             bytes.resize(wanted);

@@ -9,18 +9,20 @@
 
 namespace tessera {
 
-// Writes beside `path`, syncs and renames; says what failed (no space left, not writable) and leaves no debris.
-// A device or pipe is written in place, a symbolic link is followed. Thread-safe for different paths.
+// Writes beside `path`, syncs and renames; says what failed (no space left, not writable) and
+// leaves no debris. A device or pipe is written in place, a symbolic link is followed. Thread-safe
+// for different paths.
 Status WriteTextFile(const std::string& path, const std::string& text);
 
 // Makes the folder (and its parents) and proves that it can be written to.
 Status PrepareOutputFolder(const std::string& path);
 
-// The file's bytes. A folder, an unreadable file or one of more than max_bytes is an error, whatever the size that
-// the file claims.
+// The file's bytes. A folder, an unreadable file or one of more than max_bytes is an error, whatever
+// size the file claims to have.
 Result<std::string> ReadWholeFile(const std::string& path, std::size_t max_bytes);
 
-// What WriteTextFile does, in pieces: nothing is seen at `path` before Commit succeeded. Owner thread only.
+// What WriteTextFile does, in pieces: nothing is seen at `path` before Commit succeeded. Owner
+// thread only.
 class AtomicFile {
   public:
     explicit AtomicFile(const std::string& path);

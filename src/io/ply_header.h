@@ -39,8 +39,8 @@ struct PlyHeader {
     std::size_t body_offset = 0;  // bytes from the file's begin to the first element
 };
 
-// `file` is the whole file. Counts are checked against its size: no element claims more than there is.
-// Messages do not name the file.
+// `file` is the whole file. Counts are checked against its size: no element claims more than there
+// is. Messages do not name the file.
 Result<PlyHeader> ParsePlyHeader(std::string_view file);
 
 }  // namespace tessera

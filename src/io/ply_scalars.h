@@ -1,5 +1,5 @@
-// The numbers of a PLY file's body, one after the other, from text or binary. Used by mesh_io.cpp only. Both
-// readers give 0 once the file ended or a number is damaged; ok() tells.
+// The numbers of a PLY file's body, one after the other, from text or binary. Used by mesh_io.cpp
+// only. Both readers give 0 once the file ended or a number is damaged; ok() tells.
 #pragma once
 
 #include <algorithm>

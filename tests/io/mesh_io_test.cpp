@@ -40,7 +40,8 @@ TriangleMesh Tetrahedron() {
 }
 
 constexpr char kAsciiHead[] =
-    "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n";
+    "ply\nformat ascii 1.0\nelement vertex 4\n"
+    "property float x\nproperty float y\nproperty float z\n";
 
 TEST(MeshIo, RoundTripKeepsEveryBit) {
     for (const bool with_normals : {false, true})
@@ -147,9 +148,9 @@ TEST(MeshIo, HugeCountsAreRefusedBeforeAllocation) {
             EXPECT_NE(result.message().find("claims"), std::string::npos) << result.message();
         }
     // Without properties an element takes no bytes at all, whatever its count.
-    EXPECT_FALSE(ReadBytes("ply\nformat ascii 1.0\nelement vertex 18446744073709551615\nend_header\n").ok());
-    EXPECT_FALSE(ReadBytes("ply\nformat ascii 1.0\nelement vertex 99999999999999999999\n"
-                           "property float x\nend_header\n").ok());
+    const std::string head = "ply\nformat ascii 1.0\nelement vertex ";
+    EXPECT_FALSE(ReadBytes(head + "18446744073709551615\nend_header\n").ok());
+    EXPECT_FALSE(ReadBytes(head + "99999999999999999999\nproperty float x\nend_header\n").ok());
 }
 
 TEST(MeshIo, HostileListsEnd) {

@@ -92,9 +92,9 @@ TEST(Trajectory, SkipsAndNotesBadLines) {
     EXPECT_NEAR(trajectory.poses[1].T_world_camera(1, 0), 1.0, 1e-12);
     std::string notes;
     for (const std::string& note : trajectory.notes) notes += note + "\n";
-    for (const char* expected : {":2: not a finite", ":3: not a finite", ":4: zero quaternion",
-                                 ":5: 7 numbers", ":6: more than 1000 km", ":7: stamp 1.000000 again",
-                                 ":8: not a finite"})
+    for (const char* expected :
+         {":2: not a finite", ":3: not a finite", ":4: zero quaternion", ":5: 7 numbers",
+          ":6: more than 1000 km", ":7: stamp 1.000000 again", ":8: not a finite"})
         EXPECT_NE(notes.find(expected), std::string::npos) << expected << "\nin\n" << notes;
 }
 
@@ -157,7 +157,8 @@ TEST(Trajectory, InterpolatesHalfWay) {
 
 TEST(Trajectory, InterpolatesNothingOutsideOrAcrossGaps) {
     const Eigen::Quaterniond identity = Eigen::Quaterniond::Identity();
-    const std::vector<StampedPose> poses = {Pose(1, {1, 0, 0}, identity), Pose(2, {2, 0, 0}, identity)};
+    const std::vector<StampedPose> poses = {Pose(1, {1, 0, 0}, identity),
+                                            Pose(2, {2, 0, 0}, identity)};
     EXPECT_FALSE(InterpolatePose(poses, 1.5).has_value());
     EXPECT_TRUE(InterpolatePose(poses, 1.5, 1.0).has_value());
     EXPECT_FALSE(InterpolatePose(poses, 0.99, 10).has_value());
