@@ -7,11 +7,7 @@
 
 #include <cstdint>
 
-#ifdef __CUDACC__
-#define TESSERA_HD __host__ __device__
-#else
-#define TESSERA_HD
-#endif
+#include "core/host_device.h"
 
 namespace tessera {
 
@@ -27,15 +23,15 @@ inline constexpr float kDistanceSteps = 32767.0f;
 inline constexpr float kIntensitySteps = 65534.0f;
 
 // Signed distance in truncations, [-1, 1]; positive in front of the surface. Only if HasDistance.
-TESSERA_HD inline float FieldDistance(FieldWord w) {
+TESSERA_HD float FieldDistance(FieldWord w) {
     return static_cast<float>(static_cast<std::int32_t>(w) >> 16) * (1.0f / kDistanceSteps);
 }
-TESSERA_HD inline bool HasDistance(FieldWord w) { return (w >> 16) != 0x8000u; }
+TESSERA_HD bool HasDistance(FieldWord w) { return (w >> 16) != 0x8000u; }
 // Intensity in [0, 1]. Only if HasIntensity.
-TESSERA_HD inline float FieldIntensity(FieldWord w) {
+TESSERA_HD float FieldIntensity(FieldWord w) {
     return static_cast<float>(static_cast<std::int32_t>(w & 0xffffu) - 1) * (1.0f / kIntensitySteps);
 }
-TESSERA_HD inline bool HasIntensity(FieldWord w) { return (w & 0xffffu) != 0; }
+TESSERA_HD bool HasIntensity(FieldWord w) { return (w & 0xffffu) != 0; }
 
 // Weight of the distance: 8.8 fixed point, up to 255.
 inline constexpr float kWeightSteps = 256.0f;
@@ -48,7 +44,7 @@ inline constexpr float kColourWeightSteps = 16.0f;
 inline constexpr ColourWord kNoColour = 512u | (512u << 10);
 inline constexpr float kMaxWeight = 255.0f;  // of both weights
 
-TESSERA_HD inline float ColourWeight(ColourWord c) {
+TESSERA_HD float ColourWeight(ColourWord c) {
     return static_cast<float>(c >> 20) * (1.0f / kColourWeightSteps);
 }
 
@@ -56,7 +52,7 @@ TESSERA_HD inline float ColourWeight(ColourWord c) {
 struct LinearRgb {
     float r, g, b;
 };
-TESSERA_HD inline LinearRgb ColourFromWords(FieldWord field, ColourWord colour) {
+TESSERA_HD LinearRgb ColourFromWords(FieldWord field, ColourWord colour) {
     const float y = FieldIntensity(field);
     const float cb = (static_cast<float>(colour & 1023u) - 512.0f) * (1.0f / kChromaSteps);
     const float cr = (static_cast<float>((colour >> 10) & 1023u) - 512.0f) * (1.0f / kChromaSteps);
@@ -70,24 +66,24 @@ TESSERA_HD inline LinearRgb ColourFromWords(FieldWord field, ColourWord colour) 
 // Integer coordinate of a block; block (0, 0, 0) holds voxels 0..7 along each axis.
 struct BlockCoord {
     std::int32_t x = 0, y = 0, z = 0;
-    TESSERA_HD bool operator==(const BlockCoord& o) const {
+    TESSERA_HD_MEMBER bool operator==(const BlockCoord& o) const {
         return x == o.x && y == o.y && z == o.z;
     }
 };
 // z, then y, then x: the one order used wherever blocks are sorted.
-TESSERA_HD inline bool operator<(const BlockCoord& a, const BlockCoord& b) {
+TESSERA_HD bool operator<(const BlockCoord& a, const BlockCoord& b) {
     return a.z != b.z ? a.z < b.z : (a.y != b.y ? a.y < b.y : a.x < b.x);
 }
 
 // Blocks live in [-kBlockLimit, kBlockLimit) along each axis: 21 bits, so that a coordinate packs into 64.
 inline constexpr std::int32_t kBlockLimit = 1 << 20;
-TESSERA_HD inline bool InLimits(const BlockCoord& c) {
+TESSERA_HD bool InLimits(const BlockCoord& c) {
     return c.x >= -kBlockLimit && c.x < kBlockLimit && c.y >= -kBlockLimit && c.y < kBlockLimit &&
            c.z >= -kBlockLimit && c.z < kBlockLimit;
 }
 
 // Position in the hash table before masking. Unsigned arithmetic wraps.
-TESSERA_HD inline std::uint32_t BlockHash(std::int32_t x, std::int32_t y, std::int32_t z) {
+TESSERA_HD std::uint32_t BlockHash(std::int32_t x, std::int32_t y, std::int32_t z) {
     std::uint32_t h = static_cast<std::uint32_t>(x) * 73856093u ^
                       static_cast<std::uint32_t>(y) * 19349669u ^
                       static_cast<std::uint32_t>(z) * 83492791u;

@@ -1,0 +1,71 @@
+// Puts frames into the map: allocates blocks along the measured band, then updates every voxel that the frame sees.
+// The one writer of a BlockMap. Owner thread only; TBB inside, the same result for any number of threads.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <vector>
+
+#include "core/camera.h"
+#include "core/cpu.h"
+#include "mapping/block_map.h"
+#include "mapping/fusion_kernels.h"
+#include "mapping/prepared_frame.h"
+#include "mapping/visible_blocks.h"
+
+namespace tessera {
+
+class Integrator {
+  public:
+    struct Config {
+        DistanceWeight distance_weight = DistanceWeight::kDepthNoise;
+        ColourWeighting colour_weighting = ColourWeighting::kCosine;
+        double epsilon_m = 0.025;  // of linear_exp, [B14] eq. 13
+        double sigma = 60.0;       // of linear_exp, 1/m^2; the paper gives no value
+        double max_weight = 128.0;
+        double max_colour_weight = 64.0;
+        int max_new_blocks = 60000;
+
+        void Describe(ConfigParameters& parameters);
+    };
+
+    // What besides the images one integration needs.
+    struct View {
+        Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity();
+        Eigen::Isometry3d T_colour_depth = Eigen::Isometry3d::Identity();  // moved between the two exposures
+        float gain = 1.0f, offset = 0.0f;  // map intensity = gain * image intensity + offset
+        float weight = 1.0f;               // of the whole frame, in (0, 1]
+        float colour_weight = 1.0f;
+    };
+
+    struct Report {
+        std::int64_t new_blocks = 0;
+        std::int64_t refused_blocks = 0;  // beyond max_new_blocks or the map's end
+        std::int64_t fused_blocks = 0;
+        double allocate_ms = 0, fuse_ms = 0;
+    };
+
+    Integrator(const Config& config, const PinholeCamera& camera, VectorPath path = VectorPath::kAuto);
+
+    Report Integrate(const PreparedFrame& frame, const View& view, BlockMap& map);
+    // The ids that the last call changed, increasing.
+    const std::vector<BlockId>& changed_blocks() const { return *changed_; }
+    // Counts the integrations; blocks changed by the n-th carry BlockMap::revision n.
+    std::uint32_t revision() const { return revision_; }
+
+  private:
+    void Allocate(const PreparedFrame& frame, const View& view, BlockMap& map, Report& report);
+    void Fuse(const PreparedFrame& frame, const View& view, BlockMap& map, Report& report);
+
+    Config config_;
+    PinholeCamera camera_;
+    bool use_avx2_;
+    std::uint32_t revision_ = 0;
+    VisibleBlocks visible_;
+    std::vector<std::vector<BlockCoord>> missing_;  // per band of rows
+    std::vector<BlockCoord> new_blocks_;
+    const std::vector<BlockId>* changed_;
+    std::vector<BlockId> none_;
+};
+
+}  // namespace tessera

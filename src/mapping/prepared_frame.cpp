@@ -1,0 +1,140 @@
+#include "mapping/prepared_frame.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "mapping/fusion_rows.h"
+
+namespace tessera {
+namespace {
+
+constexpr int kBand = 16;  // rows per task; fixed, so that sums have a fixed order
+
+struct DepthCounts {
+    std::int64_t valid = 0, measured = 0;
+    float nearest = 1e9f, farthest = 0;
+};
+
+DepthCounts GateRows(const DepthImage& in, float low, float high, int first, int last, DepthImage& out) {
+    DepthCounts counts;
+    for (int y = first; y < last; ++y) {
+        const float* source = in.row(y);
+        float* target = out.row(y);
+        for (int x = 0; x < in.width(); ++x) {
+            const float z = source[x];
+            const bool ok = z >= low && z <= high;  // false for NaN
+            target[x] = ok ? z : 0.0f;
+            counts.valid += ok;
+            counts.measured += z > 0.0f;
+            counts.nearest = std::min(counts.nearest, ok ? z : 1e9f);
+            counts.farthest = std::max(counts.farthest, target[x]);
+        }
+    }
+    return counts;
+}
+
+// Luma of ITU-R BT.601, the weights of [B14] eq. 7.
+void LumaRow(const Rgb8* in, float* out, int width) {
+    for (int x = 0; x < width; ++x)
+        out[x] = (0.299f * in[x].r + 0.587f * in[x].g + 0.114f * in[x].b) * (1.0f / 255.0f);
+}
+
+// Binomial 1-2-1 in both directions; the border repeats.
+void Smooth(const Image<float>& in, int first, int last, Image<float>& out) {
+    const int width = in.width();
+    for (int y = first; y < last; ++y) {
+        const float* above = in.row(std::max(y - 1, 0));
+        const float* here = in.row(y);
+        const float* below = in.row(std::min(y + 1, in.height() - 1));
+        float* target = out.row(y);
+        const auto column = [&](int x) { return above[x] + 2.0f * here[x] + below[x]; };
+        target[0] = (3.0f * column(0) + column(1)) * (1.0f / 16.0f);
+        for (int x = 1; x + 1 < width; ++x)
+            target[x] = (column(x - 1) + 2.0f * column(x) + column(x + 1)) * (1.0f / 16.0f);
+        target[width - 1] = (column(width - 2) + 3.0f * column(width - 1)) * (1.0f / 16.0f);
+    }
+}
+
+void PackRow(const Rgb8* colour, const float* luma, std::uint32_t* out, int width) {
+    for (int x = 0; x < width; ++x) {
+        const float y = (0.299f * colour[x].r + 0.587f * colour[x].g + 0.114f * colour[x].b);
+        const float cb = (colour[x].b - y) * (1.0f / 1.772f);
+        const float cr = (colour[x].r - y) * (1.0f / 1.402f);
+        out[x] = static_cast<std::uint32_t>(luma[x] * 65535.0f + 0.5f) |
+                 static_cast<std::uint32_t>(cb + 128.5f) << 16 |
+                 static_cast<std::uint32_t>(cr + 128.5f) << 24;
+    }
+}
+
+template <class Work>
+void ForBands(int height, const Work& work) {
+    tbb::parallel_for(0, (height + kBand - 1) / kBand, [&](int band) {
+        work(band, band * kBand, std::min(height, (band + 1) * kBand));
+    });
+}
+
+}  // namespace
+
+void PreparedFrame::Config::Describe(ConfigParameters& p) {
+    p.Add("min_depth_m", min_depth_m, {0.0, 100.0}, "m", "nearer depth is ignored; the sensor's own limit");
+    p.Add("max_depth_m", max_depth_m, {0.1, 100.0}, "m",
+          "farther depth is ignored; structured light's noise grows with the square of the depth");
+    p.Add("intensity_blur_px", intensity_blur_px, {0, 4}, "px",
+          "times that the intensity is smoothed with a 1-2-1 kernel; a voxel is wider than a pixel, so that "
+          "unsmoothed intensity aliases");
+}
+
+Status PreparedFrame::Config::Validate() const {
+    if (min_depth_m >= max_depth_m)
+        return Status::Error(fmt::format("frame.min_depth_m: {} m is not below frame.max_depth_m ({} m)",
+                                         min_depth_m, max_depth_m));
+    return Status::Ok();
+}
+
+void PrepareFrame(const Frame& frame, const PreparedFrame::Config& config, PreparedFrame& p) {
+    const int width = frame.depth_m.width(), height = frame.depth_m.height();
+    p.depth_m.Resize(width, height);
+    std::vector<DepthCounts> counts(static_cast<std::size_t>((height + kBand - 1) / kBand));
+    ForBands(height, [&](int band, int first, int last) {
+        counts[static_cast<std::size_t>(band)] =
+            GateRows(frame.depth_m, static_cast<float>(config.min_depth_m),
+                     static_cast<float>(config.max_depth_m), first, last, p.depth_m);
+    });
+    DepthCounts total;
+    for (const DepthCounts& c : counts) {
+        total.valid += c.valid;
+        total.measured += c.measured;
+        total.nearest = std::min(total.nearest, c.nearest);
+        total.farthest = std::max(total.farthest, c.farthest);
+    }
+    p.valid_depth_pixels = total.valid;
+    p.measured_pixels = total.measured;
+    p.nearest_m = total.valid > 0 ? total.nearest : 0.0f;
+    p.farthest_m = total.farthest;
+
+    if (frame.colour.empty()) {
+        p.intensity = {};
+        p.packed_colour = {};
+        return;
+    }
+    p.intensity.Resize(width, height);
+    p.packed_colour.Resize(width, height);
+    ForBands(height, [&](int, int first, int last) {
+        for (int y = first; y < last; ++y) LumaRow(frame.colour.row(y), p.intensity.row(y), width);
+    });
+    Image<float> smoothed;
+    for (int pass = 0; pass < config.intensity_blur_px; ++pass) {
+        smoothed.Resize(width, height);
+        ForBands(height, [&](int, int first, int last) { Smooth(p.intensity, first, last, smoothed); });
+        std::swap(smoothed, p.intensity);
+    }
+    ForBands(height, [&](int, int first, int last) {
+        for (int y = first; y < last; ++y)
+            PackRow(frame.colour.row(y), p.intensity.row(y), p.packed_colour.row(y), width);
+    });
+}
+
+}  // namespace tessera

@@ -1,0 +1,38 @@
+#include "system/motion_model.h"
+
+namespace tessera {
+
+void MotionModel::Config::Describe(ConfigParameters& p) {
+    p.Add("constant_velocity", constant_velocity,
+          "start each frame where constant velocity would have it; off starts at the last pose ([B14], [D18])");
+    p.Add("max_gap_s", max_gap_s, {0.0, 60.0}, "s", "velocity is forgotten over longer gaps");
+}
+
+double MotionModel::SinceLast(double stamp_s) const {
+    if (!last_) return 0;
+    const double gap_s = stamp_s - last_->stamp_s;
+    return gap_s > 0 && gap_s <= config_.max_gap_s ? gap_s : 0;
+}
+
+Eigen::Isometry3d MotionModel::Predict(double stamp_s) const {
+    if (!last_) return Eigen::Isometry3d::Identity();
+    const double gap_s = SinceLast(stamp_s);
+    if (!config_.constant_velocity || !velocity_ || gap_s == 0) return last_->T_world_camera;
+    return last_->T_world_camera * Se3Exp(*velocity_ * gap_s);
+}
+
+void MotionModel::Add(const StampedPose& pose) {
+    const double gap_s = SinceLast(pose.stamp_s);
+    if (gap_s > 0)
+        velocity_ = Se3Log(last_->T_world_camera.inverse() * pose.T_world_camera) / gap_s;
+    else
+        velocity_.reset();
+    last_ = pose;
+}
+
+void MotionModel::Clear() {
+    last_.reset();
+    velocity_.reset();
+}
+
+}  // namespace tessera

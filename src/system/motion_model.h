@@ -1,0 +1,37 @@
+// Where the camera is expected next: constant body velocity over the last two tracked frames.
+#pragma once
+
+#include <optional>
+
+#include "core/config.h"
+#include "core/se3.h"
+
+namespace tessera {
+
+class MotionModel {
+  public:
+    struct Config {
+        bool constant_velocity = true;
+        double max_gap_s = 0.5;
+
+        void Describe(ConfigParameters& parameters);
+    };
+
+    explicit MotionModel(const Config& config) : config_(config) {}
+
+    // The last tracked pose; nothing before the first.
+    const std::optional<StampedPose>& last() const { return last_; }
+    // Seconds since then; 0 if there is none, or if it is too long ago to say anything about velocity.
+    double SinceLast(double stamp_s) const;
+    // The pose expected at a time; the last pose, or identity, where there is nothing to go by.
+    Eigen::Isometry3d Predict(double stamp_s) const;
+    void Add(const StampedPose& pose);
+    void Clear();
+
+  private:
+    Config config_;
+    std::optional<StampedPose> last_;
+    std::optional<Vector6d> velocity_;  // body twist per second
+};
+
+}  // namespace tessera

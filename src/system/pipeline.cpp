@@ -1,0 +1,118 @@
+#include "system/pipeline.h"
+
+#include <fmt/format.h>
+
+#include "core/stopwatch.h"
+
+namespace tessera {
+
+const char* ToString(TrackingMethod method) {
+    switch (method) {
+        case TrackingMethod::kSdf: return "sdf";
+        case TrackingMethod::kSdfGeometric: return "sdf-geometric";
+    }
+    return "?";
+}
+
+void PipelineConfig::Describe(ConfigParameters& p) {
+    p.Section("frame", [&](ConfigParameters& s) { frame.Describe(s); });
+    p.Section("mapping", [&](ConfigParameters& s) {
+        map.Describe(s);
+        fusion.Describe(s);
+    });
+    p.Section("tracking", [&](ConfigParameters& s) {
+        s.AddChoice("method", method,
+                    {{"sdf", TrackingMethod::kSdf}, {"sdf-geometric", TrackingMethod::kSdfGeometric}},
+                    "sdf uses distances and intensities ([B14]); sdf-geometric distances only ([B13])");
+        s.Section("motion", [&](ConfigParameters& m) { motion.Describe(m); });
+        s.Section("sdf", [&](ConfigParameters& t) { sdf.Describe(t); });
+    });
+}
+
+Status PipelineConfig::Validate() const {
+    if (Status status = frame.Validate(); !status.ok()) return status;
+    return map.Validate();
+}
+
+namespace {
+
+std::unique_ptr<Tracker> MakeTracker(const PipelineConfig& config, const PinholeCamera& camera) {
+    SdfTracker::Config sdf = config.sdf;
+    if (config.method == TrackingMethod::kSdfGeometric) {
+        sdf.alpha = 0;
+        sdf.alpha_mode = SdfTracker::AlphaMode::kFixed;
+    }
+    return std::make_unique<SdfTracker>(sdf, camera);
+}
+
+}  // namespace
+
+Pipeline::Pipeline(const PipelineConfig& config, const PinholeCamera& camera)
+    : config_(config),
+      camera_(camera),
+      map_(config.map),
+      integrator_(config.fusion, camera),
+      motion_(config.motion),
+      tracker_(MakeTracker(config, camera)) {}
+
+FrameReport Pipeline::Process(const Frame& frame, const std::optional<Eigen::Isometry3d>& given) {
+    FrameReport report;
+    report.index = frame.index;
+    report.stamp_s = frame.stamp_s;
+
+    // 1. Gate the depth, split the colour.
+    Stopwatch watch;
+    PrepareFrame(frame, config_.frame, prepared_);
+    report.prepare_ms = watch.LapMs();
+    report.valid_depth_fraction =
+        static_cast<double>(prepared_.valid_depth_pixels) / static_cast<double>(frame.depth_m.size());
+
+    // 2. Where was the camera?
+    report.first = !motion_.last().has_value();
+    if (prepared_.valid_depth_pixels == 0) {
+        report.track.reason = prepared_.measured_pixels > 0
+                                  ? "0 depth pixels in range: is depth_scale right?"
+                                  : "0 depth pixels in the image";
+    } else if (given) {
+        report.track.T_world_camera = *given;
+        report.track.status = TrackStatus::kGood;
+    } else if (report.first) {
+        report.track.status = TrackStatus::kGood;  // the first camera is the world
+    } else {
+        report.track = TrackFrame(frame);
+    }
+    report.track_ms = watch.LapMs();
+    if (report.tracked()) motion_.Add({frame.stamp_s, report.track.T_world_camera});
+
+    // 3. Put it into the map, unless it would harm it.
+    if (report.track.status == TrackStatus::kGood) {
+        report.fusion = integrator_.Integrate(prepared_, FusionView(report.track), map_);
+        report.fused = true;
+        if (report.fusion.refused_blocks > 0)
+            report.warning = fmt::format("{} of {} new blocks refused: mapping.max_new_blocks",
+                                         report.fusion.refused_blocks,
+                                         report.fusion.refused_blocks + report.fusion.new_blocks);
+    }
+    return report;
+}
+
+TrackResult Pipeline::TrackFrame(const Frame& frame) {
+    const StampedPose& last = *motion_.last();
+    return tracker_->Track({.frame = prepared_,
+                            .map = map_,
+                            .T_world_camera_prior = motion_.Predict(frame.stamp_s),
+                            .T_world_camera_last = last.T_world_camera,
+                            .since_last_s = motion_.SinceLast(frame.stamp_s),
+                            .colour_delay_s = frame.colour_stamp_s - frame.stamp_s});
+}
+
+Integrator::View Pipeline::FusionView(const TrackResult& track) const {
+    Integrator::View view;
+    view.T_world_camera = track.T_world_camera;
+    view.T_colour_depth = track.T_colour_depth;
+    view.gain = static_cast<float>(track.gain);
+    view.offset = static_cast<float>(track.offset);
+    return view;
+}
+
+}  // namespace tessera

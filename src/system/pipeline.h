@@ -1,0 +1,73 @@
+// A frame's life: prepare, track, judge, fuse. No thread of its own; whoever drives it may step it frame by frame.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "core/frame.h"
+#include "mapping/block_map.h"
+#include "mapping/integrator.h"
+#include "mapping/prepared_frame.h"
+#include "system/motion_model.h"
+#include "tracking/sdf_tracker.h"
+#include "tracking/tracker.h"
+
+namespace tessera {
+
+enum class TrackingMethod { kSdf, kSdfGeometric };
+const char* ToString(TrackingMethod method);
+
+struct PipelineConfig {
+    PreparedFrame::Config frame;
+    BlockMap::Config map;
+    Integrator::Config fusion;
+    MotionModel::Config motion;
+    TrackingMethod method = TrackingMethod::kSdf;
+    SdfTracker::Config sdf;
+
+    // Sections frame, mapping, tracking.
+    void Describe(ConfigParameters& parameters);
+    Status Validate() const;
+};
+
+// What became of one frame.
+struct FrameReport {
+    std::int64_t index = 0;
+    double stamp_s = 0;
+    TrackResult track;       // status good, with the given pose, when poses are given
+    bool first = false;      // the frame that started the map
+    bool fused = false;
+    double valid_depth_fraction = 0;
+    std::string warning;     // what a person should know of this frame, in words; mostly empty
+    Integrator::Report fusion;
+    double prepare_ms = 0, track_ms = 0;
+
+    bool tracked() const { return track.status != TrackStatus::kLost; }
+};
+
+class Pipeline {
+  public:
+    Pipeline(const PipelineConfig& config, const PinholeCamera& camera);
+
+    // Owner thread only. With a given pose the frame is fused there and not tracked. The world is the first fused
+    // frame's camera unless its pose is given.
+    FrameReport Process(const Frame& frame, const std::optional<Eigen::Isometry3d>& given = std::nullopt);
+
+    const BlockMap& map() const { return map_; }
+    const Integrator& integrator() const { return integrator_; }
+
+  private:
+    TrackResult TrackFrame(const Frame& frame);
+    Integrator::View FusionView(const TrackResult& track) const;
+
+    PipelineConfig config_;
+    PinholeCamera camera_;
+    BlockMap map_;
+    Integrator integrator_;
+    MotionModel motion_;
+    std::unique_ptr<Tracker> tracker_;
+    PreparedFrame prepared_;
+};
+
+}  // namespace tessera

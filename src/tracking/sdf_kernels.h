@@ -1,0 +1,75 @@
+// One point's share of [B14] eq. 8-11: residuals, Jacobians, robust weights and normal equations. Templates on the
+// number type: the same lines run in vectors, in the tests' plain floats, and on a GPU.
+//
+// The unknowns: a left increment (rotation, translation) of T_world_camera about a world point O near the camera
+// ("local" coordinates are world coordinates minus O), and the frame's brightness: gain a, offset b with
+// field intensity ~ a * image intensity + b.
+#pragma once
+
+#include "core/scalar_ops.h"
+#include "mapping/trilinear.h"
+
+namespace tessera {
+
+// Sums over points. Symmetric matrices keep the upper triangle, row by row.
+struct SdfSumLayout {
+    static constexpr int kHessian = 0;      // 21: pose x pose
+    static constexpr int kGradient = 21;    // 6: pose x residual
+    static constexpr int kCoupling = 27;    // 12: pose x (gain, offset)
+    static constexpr int kBrightness = 39;  // 3: gain^2, gain offset, offset^2
+    static constexpr int kBrightnessGradient = 42;  // 2
+    static constexpr int kDistanceError = 44;   // sum of w r^2, distance, m^2
+    static constexpr int kIntensityError = 45;  // the same for intensity, without alpha
+    static constexpr int kDistanceWeight = 46;  // sum of w
+    static constexpr int kIntensityWeight = 47;
+    static constexpr int kKnown = 48;     // points with a known distance
+    static constexpr int kInliers = 49;   // of these, with |r| below the robust scale
+    static constexpr int kColoured = 50;  // points with a known intensity
+    static constexpr int kCount = 51;
+};
+
+// Huber's weight: 1 up to the scale, then scale / |r|.
+template <class F>
+TESSERA_HD F HuberWeight(const F& residual, const F& scale) {
+    return scale / max(abs(residual), scale);
+}
+
+// d(residual)/d(increment) for a residual f(p) of a point p in local coordinates with gradient g: (p x g, g).
+template <class F>
+TESSERA_HD void PointJacobian(const F* p, const F* g, F* j) {
+    j[0] = p[1] * g[2] - p[2] * g[1];
+    j[1] = p[2] * g[0] - p[0] * g[2];
+    j[2] = p[0] * g[1] - p[1] * g[0];
+    j[3] = g[0];
+    j[4] = g[1];
+    j[5] = g[2];
+}
+
+// Adds w J J^T and w J r.
+template <class F>
+TESSERA_HD void AddPoseTerm(const F* j, const F& residual, const F& w, F* sums) {
+    int at = SdfSumLayout::kHessian;
+    for (int row = 0; row < 6; ++row) {
+        const F wj = w * j[row];
+        for (int column = row; column < 6; ++column, ++at) sums[at] = sums[at] + wj * j[column];
+        sums[SdfSumLayout::kGradient + row] = sums[SdfSumLayout::kGradient + row] + wj * residual;
+    }
+}
+
+// The brightness terms of the photometric residual r = field - (a * image + b): dr/da = -image, dr/db = -1.
+template <class F>
+TESSERA_HD void AddBrightnessTerm(const F* j, const F& residual, const F& image, const F& w, F* sums) {
+    using L = SdfSumLayout;
+    const F wi = w * image;
+    for (int row = 0; row < 6; ++row) {
+        sums[L::kCoupling + 2 * row] = sums[L::kCoupling + 2 * row] - wi * j[row];
+        sums[L::kCoupling + 2 * row + 1] = sums[L::kCoupling + 2 * row + 1] - w * j[row];
+    }
+    sums[L::kBrightness] = sums[L::kBrightness] + wi * image;
+    sums[L::kBrightness + 1] = sums[L::kBrightness + 1] + wi;
+    sums[L::kBrightness + 2] = sums[L::kBrightness + 2] + w;
+    sums[L::kBrightnessGradient] = sums[L::kBrightnessGradient] - wi * residual;
+    sums[L::kBrightnessGradient + 1] = sums[L::kBrightnessGradient + 1] - w * residual;
+}
+
+}  // namespace tessera

@@ -1,0 +1,82 @@
+#include "tracking/sdf_points.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "tracking/sdf_rows.h"
+
+namespace tessera {
+namespace {
+
+// Bilinear; -1 outside.
+float Sample(const Image<float>& image, float u, float v) {
+    if (!(u >= 0 && v >= 0 && u < static_cast<float>(image.width() - 1) &&
+          v < static_cast<float>(image.height() - 1)))
+        return -1.0f;
+    const int x = static_cast<int>(u), y = static_cast<int>(v);
+    const float fu = u - static_cast<float>(x), fv = v - static_cast<float>(y);
+    const float* above = image.row(y) + x;
+    const float* below = image.row(y + 1) + x;
+    const float top = above[0] + fu * (above[1] - above[0]);
+    const float bottom = below[0] + fu * (below[1] - below[0]);
+    return top + fv * (bottom - top);
+}
+
+}  // namespace
+
+void SdfPoints::Build(const PreparedFrame& frame, const PinholeCamera& camera, int step, double depth_exponent) {
+    const DepthImage& depth = frame.depth_m;
+    const int columns = (depth.width() + step - 1 - step / 2) / step;
+    step_ = step;
+    width_ = (columns + kSdfPointPadding - 1) / kSdfPointPadding * kSdfPointPadding;
+    height_ = (depth.height() + step - 1 - step / 2) / step;
+    for (auto* values : {&x, &y, &z, &weight}) values->assign(static_cast<std::size_t>(count()), 0.0f);
+    intensity.assign(static_cast<std::size_t>(count()), -1.0f);
+    std::vector<std::int64_t> valid(static_cast<std::size_t>(height_), 0);
+    const auto exponent = static_cast<float>(-depth_exponent);
+    tbb::parallel_for(0, height_, [&](int row) {
+        const int v = row * step + step / 2;
+        const float ray_y = static_cast<float>((v - camera.cy) / camera.fy);
+        const float* line = depth.row(v);
+        std::size_t at = static_cast<std::size_t>(row) * static_cast<std::size_t>(width_);
+        for (int u = step / 2; u < depth.width(); u += step, ++at) {
+            const float d = line[u];
+            if (d <= 0) continue;
+            x[at] = static_cast<float>((u - camera.cx) / camera.fx) * d;  // [B14] eq. 1
+            y[at] = ray_y * d;
+            z[at] = d;
+            weight[at] = exponent == -2.0f ? 1.0f / std::max(d * d, 0.25f) : std::pow(std::max(d, 0.5f), exponent);
+            ++valid[static_cast<std::size_t>(row)];
+        }
+    });
+    valid_ = std::accumulate(valid.begin(), valid.end(), std::int64_t{0});
+}
+
+void SdfPoints::SampleIntensity(const PreparedFrame& frame, const PinholeCamera& camera,
+                                const Eigen::Isometry3d& T_colour_depth) {
+    if (!frame.has_colour()) return;
+    const bool same_view = T_colour_depth.isApprox(Eigen::Isometry3d::Identity(), 1e-9);
+    const Eigen::Matrix3f R = T_colour_depth.linear().cast<float>();
+    const Eigen::Vector3f t = T_colour_depth.translation().cast<float>();
+    const auto fx = static_cast<float>(camera.fx), fy = static_cast<float>(camera.fy);
+    const auto cx = static_cast<float>(camera.cx), cy = static_cast<float>(camera.cy);
+    tbb::parallel_for(0, height_, [&](int row) {
+        const std::size_t begin = static_cast<std::size_t>(row) * static_cast<std::size_t>(width_);
+        for (int column = 0; column < width_; ++column) {
+            const std::size_t i = begin + static_cast<std::size_t>(column);
+            if (weight[i] <= 0) continue;
+            if (same_view) {
+                intensity[i] = frame.intensity(column * step_ + step_ / 2, row * step_ + step_ / 2);
+                continue;
+            }
+            const Eigen::Vector3f p = R * Eigen::Vector3f(x[i], y[i], z[i]) + t;
+            intensity[i] = p.z() > 0.05f ? Sample(frame.intensity, p.x() / p.z() * fx + cx, p.y() / p.z() * fy + cy)
+                                         : -1.0f;
+        }
+    });
+}
+
+}  // namespace tessera

@@ -1,0 +1,35 @@
+// The points of one depth image, every `step`-th pixel in both directions, as the hot loop reads them: one slot per
+// sampled pixel, weight 0 where there is no depth. Slots are laid out row by row, so that neighbours in the array are
+// neighbours in the image.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <vector>
+
+#include "core/camera.h"
+#include "mapping/prepared_frame.h"
+
+namespace tessera {
+
+class SdfPoints {
+  public:
+    // Points in the camera frame, metres. Weight (1 m / z)^depth_exponent, at most that of 0.5 m.
+    void Build(const PreparedFrame& frame, const PinholeCamera& camera, int step, double depth_exponent);
+    // Reads the intensity of each point where the colour camera saw it: its pose may differ from the depth camera's,
+    // because the two images were not taken at the same time. -1 where it saw nothing.
+    void SampleIntensity(const PreparedFrame& frame, const PinholeCamera& camera,
+                         const Eigen::Isometry3d& T_colour_depth);
+
+    int width() const { return width_; }    // slots per row, a multiple of kSdfPointPadding
+    int height() const { return height_; }  // rows
+    int count() const { return width_ * height_; }
+    std::int64_t valid() const { return valid_; }
+
+    std::vector<float> x, y, z, intensity, weight;
+
+  private:
+    int width_ = 0, height_ = 0, step_ = 1;
+    std::int64_t valid_ = 0;
+};
+
+}  // namespace tessera

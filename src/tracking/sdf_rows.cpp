@@ -1,0 +1,168 @@
+#include "tracking/sdf_rows.h"
+
+#include <limits>
+
+#include "core/vector_types.h"
+#include "mapping/voxel.h"
+
+namespace tessera::TESSERA_VECTOR_NAMESPACE {
+namespace {
+
+using L = SdfSumLayout;
+static_assert(kSdfPointPadding % kLanes == 0);
+
+// BlockHash of voxel.h for every lane.
+[[gnu::always_inline]] inline Int HashBlocks(const Int& x, const Int& y, const Int& z) {
+    Int h = (x * Int(73856093)) ^ (y * Int(19349669)) ^ (z * Int(83492791));
+    h = h ^ ShiftRightLogical(h, 15);
+    return ShiftRightLogical(h * Int(static_cast<std::int32_t>(2654435769u)), 4) ^ h;
+}
+
+// BlockMap::Find for every wanted lane; kUnknownBlock elsewhere.
+[[gnu::always_inline]] inline Int FindBlocks(const SdfArguments& a, const Int& x, const Int& y, const Int& z,
+                                             RealMask pending) {
+    const Int mask(static_cast<std::int32_t>(a.table_mask));
+    Int slot = HashBlocks(x, y, z) & mask;
+    Int found(0);
+    while (xsimd::any(pending)) {
+        const Int id = Gather(a.table, slot);
+        const Int at = id << 2;
+        const RealMask match = AsRealMask((Gather(a.coords, at) == x) & (Gather(a.coords + 1, at) == y) &
+                                          (Gather(a.coords + 2, at) == z));
+        found = Select(pending & match, id, found);
+        pending = pending & ~match & AsRealMask(id != Int(0));
+        slot = (slot + Int(1)) & mask;
+    }
+    return found;
+}
+
+// The words at the eight corners of the cells with lower voxel (x, y, z), local coordinates.
+[[gnu::always_inline]] inline void GatherCorners(const SdfArguments& a, const Int& x, const Int& y, const Int& z,
+                                                 const RealMask& wanted, Int* words) {
+    const Int block = FindBlocks(a, (x >> 3) + Int(a.origin_block[0]), (y >> 3) + Int(a.origin_block[1]),
+                                 (z >> 3) + Int(a.origin_block[2]), wanted);
+    const Int seven(7);
+    const Int x0 = x & seven, y0 = y & seven, z0 = z & seven;
+    const Int x1 = x0 + Int(1), y1 = y0 + Int(1), z1 = z0 + Int(1);
+    // Where the upper corner leaves the block: its neighbour's slot bits, else 0.
+    const Int over_x = x1 >> 3, over_y = y1 >> 3, over_z = z1 >> 3;
+    const Int in_x[2] = {x0, x1 & seven};
+    const Int in_y[2] = {y0 << 3, (y1 & seven) << 3};
+    const Int in_z[2] = {z0 << 6, (z1 & seven) << 6};
+    const auto* field = reinterpret_cast<const std::int32_t*>(a.field);
+    const bool inside = !xsimd::any(AsRealMask((over_x | over_y | over_z) != Int(0)));
+    for (int c = 0; c < 8; ++c) {
+        const int bx = c & 1, by = c >> 1 & 1, bz = c >> 2;
+        Int owner = block;
+        if (!inside && c != 0) {
+            const Int slot = (bx ? over_x : Int(0)) | (by ? over_y << 1 : Int(0)) | (bz ? over_z << 2 : Int(0));
+            owner = Gather(a.neighbours, (block << 3) + slot);
+        }
+        words[c] = Gather(field, (owner << 9) + in_x[bx] + in_y[by] + in_z[bz]);
+    }
+}
+
+struct Sums {
+    Real value[L::kCount];
+};
+
+[[gnu::always_inline]] inline void Add(Sums& s, int at, const Real& v) { s.value[at] = s.value[at] + v; }
+
+[[gnu::always_inline]] inline Real Masked(const RealMask& m, const Real& v) { return Select(m, v, Real(0.0f)); }
+
+[[gnu::always_inline]] inline void StoreResidual(float* target, int i, const RealMask& valid, const Real& r) {
+    if (target == nullptr) return;
+    Select(valid, r, Real(std::numeric_limits<float>::quiet_NaN())).store_unaligned(target + i);
+}
+
+// The geometric half of [B14] eq. 10: r = psi(p).
+[[gnu::always_inline]] inline void AddDistance(const SdfArguments& a, int i, const Real* p, const Real* fraction,
+                                               const Int* words, const RealMask& known, const Real& point_weight,
+                                               Sums& sums) {
+    Real corner[8];
+    for (int c = 0; c < 8; ++c) corner[c] = xsimd::to_float(words[c] >> 16);
+    const auto s = Trilinear(corner, fraction[0], fraction[1], fraction[2]);
+    const Real to_m(a.truncation_m / kDistanceSteps), slope(a.truncation_m / (kDistanceSteps * a.voxel_size_m));
+    const Real residual = s.value * to_m;
+    const Real g[3] = {s.gx * slope, s.gy * slope, s.gz * slope};
+    const Real scale(a.distance_scale_m);
+    const Real w = Masked(known, point_weight * HuberWeight(residual, scale));
+    Real j[6];
+    PointJacobian(p, g, j);
+    AddPoseTerm(j, residual, w, sums.value);
+    Add(sums, L::kDistanceError, w * residual * residual);
+    Add(sums, L::kDistanceWeight, w);
+    const RealMask counted = known & (point_weight > Real(0.0f));
+    Add(sums, L::kKnown, Masked(counted, Real(1.0f)));
+    Add(sums, L::kInliers, Masked(counted & (xsimd::abs(residual) < scale), Real(1.0f)));
+    StoreResidual(a.distance_residual, i, counted, residual);
+}
+
+// The photometric half: r = psi_I(p) - (gain * image + offset).
+[[gnu::always_inline]] inline void AddIntensity(const SdfArguments& a, int i, const Real* p, const Real* fraction,
+                                                const Int* words, RealMask known, const Real& point_weight,
+                                                Sums& sums) {
+    Real corner[8];
+    for (int c = 0; c < 8; ++c) {
+        const Int intensity = words[c] & Int(0xffff);
+        known = known & AsRealMask(intensity != Int(0));
+        corner[c] = xsimd::to_float(intensity);
+    }
+    const Real image = Load(a.intensity + i);
+    known = known & (image >= Real(0.0f)) & (point_weight > Real(0.0f));
+    if (xsimd::any(known)) {
+        const auto s = Trilinear(corner, fraction[0], fraction[1], fraction[2]);
+        const Real to_one(1.0f / kIntensitySteps), slope(1.0f / (kIntensitySteps * a.voxel_size_m));
+        const Real residual = (s.value - Real(1.0f)) * to_one - (Real(a.gain) * image + Real(a.offset));
+        const Real g[3] = {s.gx * slope, s.gy * slope, s.gz * slope};
+        const Real w = Masked(known, point_weight * HuberWeight(residual, Real(a.intensity_scale)));
+        const Real weighted = w * Real(a.alpha);
+        Real j[6];
+        PointJacobian(p, g, j);
+        AddPoseTerm(j, residual, weighted, sums.value);
+        AddBrightnessTerm(j, residual, image, weighted, sums.value);
+        Add(sums, L::kIntensityError, w * residual * residual);
+        Add(sums, L::kIntensityWeight, w);
+        Add(sums, L::kColoured, Masked(known, Real(1.0f)));
+        StoreResidual(a.intensity_residual, i, known, residual);
+    } else {
+        StoreResidual(a.intensity_residual, i, known, Real(0.0f));
+    }
+}
+
+}  // namespace
+
+void SumSdfPoints(const SdfArguments& a, int first, int last, double* sums) {
+    Sums lanes;
+    for (Real& value : lanes.value) value = Real(0.0f);
+    for (int i = first; i < last; i += kLanes) {
+        const Real x = Load(a.x + i), y = Load(a.y + i), z = Load(a.z + i);
+        const Real weight = Load(a.weight + i);
+        Real p[3], fraction[3];
+        Int cell[3];
+        for (int k = 0; k < 3; ++k) {
+            const float* r = a.rotation + 3 * k;
+            const Real q = Real(r[0]) * x + Real(r[1]) * y + Real(r[2]) * z + Real(a.translation[k]);
+            const Real lower = xsimd::floor(q);
+            cell[k] = xsimd::to_int(lower);
+            fraction[k] = q - lower;
+            p[k] = q * Real(a.voxel_size_m);
+        }
+        Int words[8];
+        GatherCorners(a, cell[0], cell[1], cell[2], weight > Real(0.0f), words);
+        // Unknown corners have the sentinel -32768 as distance.
+        Int lowest = words[0] >> 16;
+        for (int c = 1; c < 8; ++c) lowest = xsimd::min(lowest, words[c] >> 16);
+        const RealMask known = AsRealMask(lowest != Int(-32768));
+        if (!xsimd::any(known)) {
+            StoreResidual(a.distance_residual, i, known, Real(0.0f));
+            StoreResidual(a.intensity_residual, i, known, Real(0.0f));
+            continue;
+        }
+        AddDistance(a, i, p, fraction, words, known, weight, lanes);
+        if (a.alpha > 0.0f) AddIntensity(a, i, p, fraction, words, known, weight, lanes);
+    }
+    for (int k = 0; k < L::kCount; ++k) sums[k] += static_cast<double>(xsimd::hadd(lanes.value[k]));
+}
+
+}  // namespace tessera::TESSERA_VECTOR_NAMESPACE

@@ -1,0 +1,48 @@
+// The hot loop of the SDF tracker behind plain pointers: sums the normal equations over a run of points. Compiled twice
+// (portable, AVX2); sdf_tracker.cpp picks. No Eigen here.
+#pragma once
+
+#include <cstdint>
+
+#include "tracking/sdf_kernels.h"
+
+namespace tessera {
+
+struct SdfArguments {
+    // The map (BlockMap::View).
+    const std::uint32_t* field;
+    const std::int32_t* neighbours;
+    const std::int32_t* table;
+    const std::int32_t* coords;
+    std::uint32_t table_mask;
+    float voxel_size_m, truncation_m;
+    // p_local [voxels] = rotation * p_camera [m] + translation; O is origin_block's first voxel.
+    float rotation[9];
+    float translation[3];
+    std::int32_t origin_block[3];
+    // The points in the camera frame, padded to a multiple of kSdfPointPadding with weight 0.
+    const float* x;
+    const float* y;
+    const float* z;
+    const float* intensity;  // < 0 where there is none
+    const float* weight;
+    // The energy.
+    float alpha;
+    float gain, offset;
+    float distance_scale_m, intensity_scale;  // Huber
+    // If not null: residuals per point, NaN where unknown.
+    float* distance_residual;
+    float* intensity_residual;
+};
+
+inline constexpr int kSdfPointPadding = 8;
+
+// Adds the sums (SdfSumLayout) over points [first, last), both multiples of kSdfPointPadding, to sums[].
+namespace baseline {
+void SumSdfPoints(const SdfArguments& arguments, int first, int last, double* sums);
+}
+namespace avx2 {
+void SumSdfPoints(const SdfArguments& arguments, int first, int last, double* sums);
+}
+
+}  // namespace tessera

@@ -1,0 +1,85 @@
+#include "tracking/sdf_solver.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <cmath>
+
+namespace tessera {
+namespace {
+
+using L = SdfSumLayout;
+
+// Takes an increment about the camera with rotations in units of 1/depth to one about the local origin.
+Matrix6d FromNormalised(const Eigen::Vector3d& camera_local, double depth_m) {
+    Matrix6d A = Matrix6d::Identity();
+    A.topLeftCorner<3, 3>() *= 1.0 / depth_m;
+    A.bottomLeftCorner<3, 3>() = Skew(camera_local) / depth_m;  // x -> c + R (x - c) moves the origin by c x omega
+    return A;
+}
+
+}  // namespace
+
+SdfSums& SdfSums::operator+=(const SdfSums& other) {
+    for (int i = 0; i < L::kCount; ++i) value[i] += other.value[i];
+    return *this;
+}
+
+Matrix6d NormalisedHessian(const Matrix6d& hessian, const Eigen::Vector3d& camera_local, double scene_depth_m) {
+    const Matrix6d A = FromNormalised(camera_local, scene_depth_m);
+    const Matrix6d N = A.transpose() * hessian * A;
+    const double trace = N.trace();
+    return trace > 0 ? Matrix6d(N / trace) : Matrix6d::Zero();
+}
+
+SdfStep SolveSdfStep(const SdfSums& sums, const SdfSolverOptions& options, double gain, double offset,
+                     const Eigen::Vector3d& camera_local, double scene_depth_m) {
+    SdfStep step;
+    Matrix6d H;
+    Vector6d g;
+    int at = L::kHessian;
+    for (int i = 0; i < 6; ++i) {
+        for (int j = i; j < 6; ++j, ++at) H(i, j) = H(j, i) = sums[at];
+        g(i) = sums[L::kGradient + i];
+    }
+    // Brightness: eliminated by its Schur complement, so that it takes from the pose what it explains.
+    Eigen::Matrix<double, 6, 2> B = Eigen::Matrix<double, 6, 2>::Zero();
+    Eigen::Matrix2d C = Eigen::Matrix2d::Identity();
+    Eigen::Vector2d h = Eigen::Vector2d::Zero();
+    const bool brightness = options.estimate_brightness && sums[L::kBrightness + 2] > 0;
+    if (brightness) {
+        for (int i = 0; i < 6; ++i) B.row(i) << sums[L::kCoupling + 2 * i], sums[L::kCoupling + 2 * i + 1];
+        const double prior = options.brightness_prior * sums[L::kBrightness + 2];
+        C << sums[L::kBrightness] + prior, sums[L::kBrightness + 1], sums[L::kBrightness + 1],
+            sums[L::kBrightness + 2] + prior;
+        h << sums[L::kBrightnessGradient] + prior * (gain - 1.0), sums[L::kBrightnessGradient + 1] + prior * offset;
+        const Eigen::Matrix2d C_inverse = C.inverse();
+        H -= B * C_inverse * B.transpose();
+        g -= B * C_inverse * h;
+    }
+    if (!H.allFinite() || !g.allFinite() || H.trace() <= 0) return step;
+
+    // Solve in the normalised coordinates: well scaled, and directions that the scene does not hold can be left alone.
+    const Matrix6d A = FromNormalised(camera_local, scene_depth_m);
+    const Matrix6d N = A.transpose() * H * A;
+    const Vector6d n = A.transpose() * g;
+    const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(N);
+    if (eigen.info() != Eigen::Success) return step;
+    const Vector6d values = eigen.eigenvalues() / N.trace();
+    step.smallest_eigenvalue = values(0);
+    Vector6d projected = eigen.eigenvectors().transpose() * n;
+    for (int i = 0; i < 6; ++i) {
+        const bool hold = values(i) <= std::max(options.min_eigenvalue, 1e-12);
+        step.held_directions += hold;
+        projected(i) = hold ? 0.0 : -projected(i) / eigen.eigenvalues()(i);
+    }
+    step.increment = A * (eigen.eigenvectors() * projected);
+    if (brightness) {
+        const Eigen::Vector2d change = C.inverse() * (-h - B.transpose() * step.increment);
+        step.gain_change = change(0);
+        step.offset_change = change(1);
+    }
+    step.valid = step.increment.allFinite();
+    return step;
+}
+
+}  // namespace tessera

@@ -1,0 +1,176 @@
+#include "tracking/sdf_tracker.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tessera {
+namespace {
+
+using L = SdfSumLayout;
+
+constexpr int kTile = 2048;  // points per partial sum; fixed, so that sums have a fixed order
+
+// Copies a rigid motion with the voxel scale into the hot loop's arguments.
+void SetPose(const Eigen::Isometry3d& T_world_camera, const Eigen::Vector3d& origin_m, double voxel_m,
+             SdfArguments& a) {
+    const Eigen::Vector3d t = (T_world_camera.translation() - origin_m) / voxel_m;
+    for (int i = 0; i < 3; ++i) {
+        for (int j = 0; j < 3; ++j)
+            a.rotation[3 * i + j] = static_cast<float>(T_world_camera.linear()(i, j) / voxel_m);
+        a.translation[i] = static_cast<float>(t(i));
+    }
+}
+
+}  // namespace
+
+struct SdfTracker::State {
+    Eigen::Isometry3d T_world_camera;
+    Eigen::Isometry3d T_colour_depth = Eigen::Isometry3d::Identity();
+    Eigen::Vector3d origin_m;
+    double gain, offset;
+    double alpha;
+    double scene_depth_m = 1;
+    SdfArguments arguments{};
+    SdfSums sums;
+    SdfStep step;
+    int iterations = 0;
+    bool failed = false;
+};
+
+SdfTracker::SdfTracker(const Config& config, const PinholeCamera& camera, VectorPath path)
+    : config_(config),
+      camera_(camera),
+      use_avx2_(path == VectorPath::kAvx2 || (path == VectorPath::kAuto && CpuHasAvx2())),
+      points_(static_cast<std::size_t>(config.levels)) {
+    Reset();
+}
+
+void SdfTracker::Reset() {
+    alpha_ = config_.alpha;
+    gain_ = 1;
+    offset_ = 0;
+    distance_variance_ = intensity_variance_ = 0;
+}
+
+TrackResult SdfTracker::Track(const TrackInput& input) {
+    State state;
+    state.T_world_camera = input.T_world_camera_prior;
+    state.gain = gain_;
+    state.offset = offset_;
+    state.alpha = input.frame.has_colour() ? alpha_ : 0.0;
+    for (int level = config_.levels - 1; level >= 0 && !state.failed; --level) RunLevel(input, level, state);
+
+    TrackResult result;
+    result.T_world_camera = state.T_world_camera;
+    result.T_colour_depth = state.T_colour_depth;
+    result.alpha = state.alpha;
+    result.gain = state.gain;
+    result.offset = state.offset;
+    result.iterations = state.iterations;
+    Judge(input, state.sums, state.step, result);
+    if (result.status != TrackStatus::kLost) {
+        gain_ = state.gain;
+        offset_ = state.offset;
+        if (config_.alpha_mode == AlphaMode::kAuto && state.alpha > 0) {
+            const auto count = static_cast<std::size_t>(points_[0].count());
+            distance_residual_.resize(count);
+            intensity_residual_.resize(count);
+            state.arguments.distance_residual = distance_residual_.data();
+            state.arguments.intensity_residual = intensity_residual_.data();
+            (void)Sum(state.arguments, points_[0]);
+            UpdateAlpha(points_[0]);
+        }
+    }
+    return result;
+}
+
+// Gauss-Newton on every (finest_step_px << level)-th pixel.
+void SdfTracker::RunLevel(const TrackInput& input, int level, State& state) {
+    SdfPoints& points = points_[static_cast<std::size_t>(level)];
+    points.Build(input.frame, camera_, config_.finest_step_px << level, config_.depth_exponent);
+    if (points.valid() == 0) {
+        state.failed = true;
+        return;
+    }
+    if (state.alpha > 0) {
+        if (config_.colour_delay && input.since_last_s > 0 && input.colour_delay_s != 0) {
+            // Body velocity over the last interval, carried on to the colour image's time.
+            const Vector6d motion = Se3Log(input.T_world_camera_last.inverse() * state.T_world_camera);
+            state.T_colour_depth = Se3Exp(-motion * (input.colour_delay_s / input.since_last_s));
+        }
+        points.SampleIntensity(input.frame, camera_, state.T_colour_depth);
+    }
+
+    const BlockMap::View map = input.map.view();
+    const double voxel_m = input.map.config().voxel_size_m, block_m = voxel_m * kBlockSide;
+    const Eigen::Vector3d origin_block = (state.T_world_camera.translation() / block_m).array().floor();
+    state.origin_m = origin_block * block_m;
+    SdfArguments& a = state.arguments;
+    a = {};
+    a.field = map.field;
+    a.neighbours = map.neighbours;
+    a.table = map.table;
+    a.coords = map.coords;
+    a.table_mask = map.table_mask;
+    a.voxel_size_m = map.voxel_size_m;
+    a.truncation_m = map.truncation_m;
+    for (int i = 0; i < 3; ++i) a.origin_block[i] = static_cast<std::int32_t>(origin_block(i));
+    a.x = points.x.data();
+    a.y = points.y.data();
+    a.z = points.z.data();
+    a.intensity = points.intensity.data();
+    a.weight = points.weight.data();
+    a.alpha = static_cast<float>(state.alpha);
+    a.distance_scale_m = static_cast<float>(config_.distance_scale_m);
+    a.intensity_scale = static_cast<float>(config_.intensity_scale);
+    state.scene_depth_m = 0.5 * (input.frame.nearest_m + input.frame.farthest_m);
+
+    SdfSolverOptions options;
+    options.estimate_brightness = config_.brightness;
+    options.min_eigenvalue = config_.min_eigenvalue;
+    const int iterations = level == 0 ? config_.fine_iterations : config_.coarse_iterations;
+    for (int i = 0; i < iterations; ++i) {
+        SetPose(state.T_world_camera, state.origin_m, voxel_m, a);
+        a.gain = static_cast<float>(state.gain);
+        a.offset = static_cast<float>(state.offset);
+        state.sums = Sum(a, points);
+        ++state.iterations;
+        state.step = SolveSdfStep(state.sums, options, state.gain, state.offset,
+                                  state.T_world_camera.translation() - state.origin_m, state.scene_depth_m);
+        if (!state.step.valid) {
+            state.failed = true;
+            return;
+        }
+        // The increment acts about the local origin: conjugate it with the shift.
+        const Eigen::Translation3d shift(state.origin_m);
+        state.T_world_camera =
+            shift * Se3Exp(state.step.increment) * shift.inverse() * state.T_world_camera;
+        state.gain = std::clamp(state.gain + state.step.gain_change, 0.5, 2.0);
+        state.offset = std::clamp(state.offset + state.step.offset_change, -0.3, 0.3);
+        const double turn = state.step.increment.head<3>().norm();
+        const double move = state.step.increment.tail<3>().norm();
+        const double tolerance = level == 0 ? 1.0 : 4.0;
+        if (turn < 5e-5 * tolerance && move < 5e-5 * tolerance) break;
+    }
+    state.T_world_camera.linear() = Eigen::Quaterniond(state.T_world_camera.linear()).normalized().toRotationMatrix();
+}
+
+SdfSums SdfTracker::Sum(const SdfArguments& a, const SdfPoints& points) const {
+    const int tiles = (points.count() + kTile - 1) / kTile;
+    std::vector<SdfSums> partial(static_cast<std::size_t>(tiles));
+    tbb::parallel_for(0, tiles, [&](int tile) {
+        const int first = tile * kTile, last = std::min(points.count(), first + kTile);
+        double* sums = partial[static_cast<std::size_t>(tile)].value;
+#ifdef TESSERA_HAVE_AVX2
+        if (use_avx2_) return avx2::SumSdfPoints(a, first, last, sums);
+#endif
+        baseline::SumSdfPoints(a, first, last, sums);
+    });
+    SdfSums total;
+    for (const SdfSums& sums : partial) total += sums;
+    return total;
+}
+
+}  // namespace tessera

@@ -1,0 +1,55 @@
+// What every tracking method takes and gives, so that methods can be switched between two frames. Trackers read the map
+// and never write it.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <string>
+
+#include "core/camera.h"
+#include "mapping/block_map.h"
+#include "mapping/prepared_frame.h"
+
+namespace tessera {
+
+struct TrackInput {
+    const PreparedFrame& frame;
+    const BlockMap& map;
+    Eigen::Isometry3d T_world_camera_prior;  // where the motion model expects the camera
+    Eigen::Isometry3d T_world_camera_last;   // where it was at the last tracked frame
+    double since_last_s = 0;                 // 0 if there is no such frame
+    double colour_delay_s = 0;               // the colour image's time minus the depth image's
+};
+
+enum class TrackStatus {
+    kGood,  // fuse it
+    kPoor,  // a pose, but not to be trusted with the map: `reason` says why
+    kLost,  // no pose
+};
+const char* ToString(TrackStatus status);
+
+struct TrackResult {
+    Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity();
+    Eigen::Isometry3d T_colour_depth = Eigen::Isometry3d::Identity();  // motion between the two exposures
+    TrackStatus status = TrackStatus::kLost;
+    std::string reason;           // in words, unless good
+    bool degenerate = false;      // the scene leaves some motion unconstrained
+    double known_fraction = 0;    // of the points, those that lie where the map knows the distance
+    double inlier_fraction = 0;   // of the known points, those with a residual below the robust scale
+    double distance_rms_m = 0;    // robustly weighted
+    double intensity_rms = 0;     // [0, 1]; 0 without photometric term
+    double smallest_eigenvalue = 0;  // of the normalised Hessian (sdf_solver.h), 1/6 at best
+    double alpha = 0;             // photometric weight in use, [B14] eq. 8
+    double gain = 1, offset = 0;  // map intensity = gain * image intensity + offset
+    int iterations = 0;
+};
+
+class Tracker {
+  public:
+    virtual ~Tracker() = default;
+    // Never throws; a lost track is a value. Owner thread only.
+    virtual TrackResult Track(const TrackInput& input) = 0;
+    // Forgets brightness and weights, not the configuration.
+    virtual void Reset() = 0;
+};
+
+}  // namespace tessera
