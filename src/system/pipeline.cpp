@@ -25,6 +25,7 @@ void PipelineConfig::Describe(ConfigParameters& p) {
                     {{"sdf", TrackingMethod::kSdf}, {"sdf-geometric", TrackingMethod::kSdfGeometric}},
                     "sdf uses distances and intensities ([B14]); sdf-geometric distances only ([B13])");
         s.Section("motion", [&](ConfigParameters& m) { motion.Describe(m); });
+        s.Section("prealign", [&](ConfigParameters& a) { prealign.Describe(a); });
         s.Section("sdf", [&](ConfigParameters& t) { sdf.Describe(t); });
     });
 }
@@ -53,6 +54,7 @@ Pipeline::Pipeline(const PipelineConfig& config, const PinholeCamera& camera)
       map_(config.map),
       integrator_(config.fusion, camera),
       motion_(config.motion),
+      aligner_(config.prealign, camera),
       tracker_(MakeTracker(config, camera)) {}
 
 FrameReport Pipeline::Process(const Frame& frame, const std::optional<Eigen::Isometry3d>& given) {
@@ -78,6 +80,7 @@ FrameReport Pipeline::Process(const Frame& frame, const std::optional<Eigen::Iso
         report.track.status = TrackStatus::kGood;
     } else if (report.first) {
         report.track.status = TrackStatus::kGood;  // the first camera is the world
+        aligner_.Align(prepared_, Eigen::Isometry3d::Identity());
     } else {
         report.track = TrackFrame(frame);
     }
@@ -97,11 +100,14 @@ FrameReport Pipeline::Process(const Frame& frame, const std::optional<Eigen::Iso
 }
 
 TrackResult Pipeline::TrackFrame(const Frame& frame) {
-    const StampedPose& last = *motion_.last();
+    const Eigen::Isometry3d& T_world_last = motion_.last()->T_world_camera;
+    const Eigen::Isometry3d T_world_expected = motion_.Predict(frame.stamp_s);
+    const Eigen::Isometry3d T_world_aligned =
+        T_world_last * aligner_.Align(prepared_, T_world_last.inverse() * T_world_expected);
     return tracker_->Track({.frame = prepared_,
                             .map = map_,
-                            .T_world_camera_prior = motion_.Predict(frame.stamp_s),
-                            .T_world_camera_last = last.T_world_camera,
+                            .T_world_camera_starts = {T_world_expected, T_world_aligned},
+                            .T_world_camera_last = T_world_last,
                             .since_last_s = motion_.SinceLast(frame.stamp_s),
                             .colour_delay_s = frame.colour_stamp_s - frame.stamp_s});
 }

@@ -10,6 +10,7 @@
 #include "mapping/integrator.h"
 #include "mapping/prepared_frame.h"
 #include "system/motion_model.h"
+#include "tracking/image_aligner.h"
 #include "tracking/sdf_tracker.h"
 #include "tracking/tracker.h"
 
@@ -24,6 +25,7 @@ struct PipelineConfig {
     Integrator::Config fusion;
     MotionModel::Config motion;
     TrackingMethod method = TrackingMethod::kSdf;
+    ImageAligner::Config prealign;
     SdfTracker::Config sdf;
 
     // Sections frame, mapping, tracking.
@@ -66,6 +68,7 @@ class Pipeline {
     BlockMap map_;
     Integrator integrator_;
     MotionModel motion_;
+    ImageAligner aligner_;
     std::unique_ptr<Tracker> tracker_;
     PreparedFrame prepared_;
 };

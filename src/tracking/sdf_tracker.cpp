@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace tessera {
 namespace {
@@ -56,11 +57,15 @@ void SdfTracker::Reset() {
 
 TrackResult SdfTracker::Track(const TrackInput& input) {
     State state;
-    state.T_world_camera = input.T_world_camera_prior;
+    state.T_world_camera = input.T_world_camera_starts.front();
     state.gain = gain_;
     state.offset = offset_;
     state.alpha = input.frame.has_colour() ? alpha_ : 0.0;
-    for (int level = config_.levels - 1; level >= 0 && !state.failed; --level) RunLevel(input, level, state);
+    for (int level = config_.levels - 1; level >= 0 && !state.failed; --level) {
+        PrepareLevel(input, level, state);
+        if (level == config_.levels - 1) ChooseStart(input, state);
+        if (!state.failed) RunLevel(input, level, state);
+    }
 
     TrackResult result;
     result.T_world_camera = state.T_world_camera;
@@ -86,14 +91,11 @@ TrackResult SdfTracker::Track(const TrackInput& input) {
     return result;
 }
 
-// Gauss-Newton on every (finest_step_px << level)-th pixel.
-void SdfTracker::RunLevel(const TrackInput& input, int level, State& state) {
+// Points, their intensities and the map as the hot loop takes them, for every (finest_step_px << level)-th pixel.
+void SdfTracker::PrepareLevel(const TrackInput& input, int level, State& state) {
     SdfPoints& points = points_[static_cast<std::size_t>(level)];
     points.Build(input.frame, camera_, config_.finest_step_px << level, config_.depth_exponent);
-    if (points.valid() == 0) {
-        state.failed = true;
-        return;
-    }
+    state.failed = points.valid() == 0;
     if (state.alpha > 0) {
         if (config_.colour_delay && input.since_last_s > 0 && input.colour_delay_s != 0) {
             // Body velocity over the last interval, carried on to the colour image's time.
@@ -102,11 +104,11 @@ void SdfTracker::RunLevel(const TrackInput& input, int level, State& state) {
         }
         points.SampleIntensity(input.frame, camera_, state.T_colour_depth);
     }
-
     const BlockMap::View map = input.map.view();
-    const double voxel_m = input.map.config().voxel_size_m, block_m = voxel_m * kBlockSide;
+    const double block_m = input.map.config().voxel_size_m * kBlockSide;
     const Eigen::Vector3d origin_block = (state.T_world_camera.translation() / block_m).array().floor();
     state.origin_m = origin_block * block_m;
+    state.scene_depth_m = 0.5 * (input.frame.nearest_m + input.frame.farthest_m);
     SdfArguments& a = state.arguments;
     a = {};
     a.field = map.field;
@@ -125,28 +127,55 @@ void SdfTracker::RunLevel(const TrackInput& input, int level, State& state) {
     a.alpha = static_cast<float>(state.alpha);
     a.distance_scale_m = static_cast<float>(config_.distance_scale_m);
     a.intensity_scale = static_cast<float>(config_.intensity_scale);
-    state.scene_depth_m = 0.5 * (input.frame.nearest_m + input.frame.farthest_m);
+}
 
+SdfSums SdfTracker::SumAt(const TrackInput& input, const SdfPoints& points, State& state) const {
+    SetPose(state.T_world_camera, state.origin_m, input.map.config().voxel_size_m, state.arguments);
+    state.arguments.gain = static_cast<float>(state.gain);
+    state.arguments.offset = static_cast<float>(state.offset);
+    return Sum(state.arguments, points);
+}
+
+// The start with the least energy per weight on the coarsest level; points outside the known band count as badly
+// fitting, or a start that sees nothing of the map would win.
+void SdfTracker::ChooseStart(const TrackInput& input, State& state) {
+    if (state.failed || input.T_world_camera_starts.size() < 2) return;
+    const SdfPoints& points = points_.back();
+    double best = std::numeric_limits<double>::infinity();
+    Eigen::Isometry3d T_best = state.T_world_camera;
+    for (const Eigen::Isometry3d& start : input.T_world_camera_starts) {
+        state.T_world_camera = start;
+        const SdfSums sums = SumAt(input, points, state);
+        const double scale2 = config_.distance_scale_m * config_.distance_scale_m;
+        const double unknown = 1.0 - sums[L::kKnown] / static_cast<double>(points.valid());
+        double energy = unknown * (1.0 + state.alpha);
+        if (sums[L::kDistanceWeight] > 0) energy += sums[L::kDistanceError] / (sums[L::kDistanceWeight] * scale2);
+        if (sums[L::kIntensityWeight] > 0)
+            energy += state.alpha * sums[L::kIntensityError] / (sums[L::kIntensityWeight] * scale2);
+        if (energy >= best) continue;
+        best = energy;
+        T_best = start;
+    }
+    state.T_world_camera = T_best;
+}
+
+// Gauss-Newton on [B14] eq. 11.
+void SdfTracker::RunLevel(const TrackInput& input, int level, State& state) {
+    const SdfPoints& points = points_[static_cast<std::size_t>(level)];
     SdfSolverOptions options;
     options.estimate_brightness = config_.brightness;
     options.min_eigenvalue = config_.min_eigenvalue;
     const int iterations = level == 0 ? config_.fine_iterations : config_.coarse_iterations;
     for (int i = 0; i < iterations; ++i) {
-        SetPose(state.T_world_camera, state.origin_m, voxel_m, a);
-        a.gain = static_cast<float>(state.gain);
-        a.offset = static_cast<float>(state.offset);
-        state.sums = Sum(a, points);
+        state.sums = SumAt(input, points, state);
         ++state.iterations;
         state.step = SolveSdfStep(state.sums, options, state.gain, state.offset,
                                   state.T_world_camera.translation() - state.origin_m, state.scene_depth_m);
-        if (!state.step.valid) {
-            state.failed = true;
-            return;
-        }
+        state.failed = !state.step.valid;
+        if (state.failed) return;
         // The increment acts about the local origin: conjugate it with the shift.
         const Eigen::Translation3d shift(state.origin_m);
-        state.T_world_camera =
-            shift * Se3Exp(state.step.increment) * shift.inverse() * state.T_world_camera;
+        state.T_world_camera = shift * Se3Exp(state.step.increment) * shift.inverse() * state.T_world_camera;
         state.gain = std::clamp(state.gain + state.step.gain_change, 0.5, 2.0);
         state.offset = std::clamp(state.offset + state.step.offset_change, -0.3, 0.3);
         const double turn = state.step.increment.head<3>().norm();

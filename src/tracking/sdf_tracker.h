@@ -24,7 +24,7 @@ class SdfTracker : public Tracker {
         double depth_exponent = 2.0;
         int finest_step_px = 2;
         int levels = 3;
-        int coarse_iterations = 12;
+        int coarse_iterations = 20;
         int fine_iterations = 6;
         bool brightness = true;
         bool colour_delay = true;
@@ -45,7 +45,10 @@ class SdfTracker : public Tracker {
   private:
     struct State;  // of one call
 
+    void PrepareLevel(const TrackInput& input, int level, State& state);
+    void ChooseStart(const TrackInput& input, State& state);
     void RunLevel(const TrackInput& input, int level, State& state);
+    SdfSums SumAt(const TrackInput& input, const SdfPoints& points, State& state) const;
     SdfSums Sum(const SdfArguments& arguments, const SdfPoints& points) const;
     void Judge(const TrackInput& input, const SdfSums& sums, const SdfStep& step, TrackResult& result) const;
     void UpdateAlpha(const SdfPoints& points);

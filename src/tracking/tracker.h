@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <string>
+#include <vector>
 
 #include "core/camera.h"
 #include "mapping/block_map.h"
@@ -14,7 +15,9 @@ namespace tessera {
 struct TrackInput {
     const PreparedFrame& frame;
     const BlockMap& map;
-    Eigen::Isometry3d T_world_camera_prior;  // where the motion model expects the camera
+    // Where the camera may be: the motion model's expectation, perhaps others. A tracker starts from the one that fits
+    // best. Not empty.
+    std::vector<Eigen::Isometry3d> T_world_camera_starts;
     Eigen::Isometry3d T_world_camera_last;   // where it was at the last tracked frame
     double since_last_s = 0;                 // 0 if there is no such frame
     double colour_delay_s = 0;               // the colour image's time minus the depth image's

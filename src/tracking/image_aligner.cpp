@@ -1,0 +1,166 @@
+#include "tracking/image_aligner.h"
+
+#include <tbb/parallel_for.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "core/se3.h"
+
+namespace tessera {
+namespace {
+
+constexpr int kReductions[] = {16, 8};  // 40 x 30 and 80 x 60 from 640 x 480
+constexpr int kRowsPerTile = 5;         // fixed, so that sums have a fixed order
+constexpr double kIntensityScale = 0.04, kDepthScale_m = 0.05, kMostDepthError_m = 0.3;
+constexpr double kPriorTurn_rad = 0.5, kPriorMove_m = 0.5;  // keeps what the images leave open
+
+using Vector7d = Eigen::Matrix<double, 7, 1>;
+using Matrix7d = Eigen::Matrix<double, 7, 7>;
+
+struct Sample {
+    float value, gx, gy;
+};
+
+// Bilinear value and gradient; false at the border or next to a missing pixel (below `least`).
+bool Interpolate(const Image<float>& image, double u, double v, float least, Sample& out) {
+    if (!(u >= 0 && v >= 0 && u < image.width() - 1 && v < image.height() - 1)) return false;
+    const int x = static_cast<int>(u), y = static_cast<int>(v);
+    const float a = image(x, y), b = image(x + 1, y), c = image(x, y + 1), d = image(x + 1, y + 1);
+    if (std::min({a, b, c, d}) < least) return false;
+    const float fu = static_cast<float>(u - x), fv = static_cast<float>(v - y);
+    out.gx = (1 - fv) * (b - a) + fv * (d - c);
+    out.gy = (1 - fu) * (c - a) + fu * (d - b);
+    out.value = (1 - fv) * (a + fu * (b - a)) + fv * (c + fu * (d - c));
+    return true;
+}
+
+double Huber(double residual, double scale) { return scale / std::max(std::abs(residual), scale); }
+
+}  // namespace
+
+struct ImageAligner::System {
+    Matrix7d H = Matrix7d::Zero();
+    Vector7d g = Vector7d::Zero();
+
+    void Add(const Vector7d& j, double residual, double w) {
+        H.noalias() += w * j * j.transpose();
+        g.noalias() += w * residual * j;
+    }
+};
+
+void ImageAligner::Config::Describe(ConfigParameters& p) {
+    p.Add("enabled", enabled, "find a second start for the tracker from the frame before: helps fast motion");
+    p.Add("iterations", iterations, {1, 100}, "", "most steps on each of the two reduced levels");
+}
+
+ImageAligner::ImageAligner(const Config& config, const PinholeCamera& camera) : config_(config), camera_(camera) {}
+
+void ImageAligner::Clear() { has_last_ = false; }
+
+void ImageAligner::Reduce(const PreparedFrame& frame, std::vector<Level>& levels) const {
+    levels.resize(std::size(kReductions));
+    for (std::size_t i = 0; i < levels.size(); ++i) {
+        const int n = kReductions[i];
+        Level& level = levels[i];
+        PinholeCamera& c = level.camera;
+        c.width = camera_.width / n;
+        c.height = camera_.height / n;
+        c.fx = camera_.fx / n;
+        c.fy = camera_.fy / n;
+        c.cx = (camera_.cx + 0.5) / n - 0.5;
+        c.cy = (camera_.cy + 0.5) / n - 0.5;
+        level.depth_m.Resize(c.width, c.height);
+        level.intensity.Resize(c.width, c.height);
+        tbb::parallel_for(0, c.height, [&](int y) {
+            for (int x = 0; x < c.width; ++x) {
+                level.depth_m(x, y) = frame.depth_m(x * n + n / 2, y * n + n / 2);
+                if (!frame.has_colour()) {
+                    level.intensity(x, y) = -1.0f;
+                    continue;
+                }
+                float sum = 0;
+                for (int v = 0; v < n; ++v)
+                    for (int u = 0; u < n; ++u) sum += frame.intensity(x * n + u, y * n + v);
+                level.intensity(x, y) = sum / static_cast<float>(n * n);
+            }
+        });
+    }
+}
+
+// Residuals of the last frame's points in the current images; increments multiply T_current_last from the left. The
+// seventh unknown is an offset of the intensity.
+ImageAligner::System ImageAligner::Linearise(const Level& last, const Level& current,
+                                             const Eigen::Isometry3d& T_current_last, double offset) const {
+    const PinholeCamera& c = current.camera;
+    const int tiles = (last.camera.height + kRowsPerTile - 1) / kRowsPerTile;
+    std::vector<System> partial(static_cast<std::size_t>(tiles));
+    tbb::parallel_for(0, tiles, [&](int tile) {
+        System& system = partial[static_cast<std::size_t>(tile)];
+        const int y_end = std::min(last.camera.height, (tile + 1) * kRowsPerTile);
+        for (int y = tile * kRowsPerTile; y < y_end; ++y)
+            for (int x = 0; x < last.camera.width; ++x) {
+                const float z = last.depth_m(x, y);
+                if (z <= 0) continue;
+                const Eigen::Vector3d p = T_current_last * last.camera.Unproject(x, y, z);
+                if (p.z() < 0.1) continue;
+                const Eigen::Vector2d uv = c.Project(p);
+                // d(pixel)/d(increment), rows u and v: d(pixel)/dp * [-[p]x, I].
+                Eigen::Matrix<double, 2, 6> J;
+                const double iz = 1.0 / p.z(), xz = p.x() * iz, yz = p.y() * iz;
+                J.row(0) << -c.fx * xz * yz, c.fx * (1 + xz * xz), -c.fx * yz, c.fx * iz, 0, -c.fx * xz * iz;
+                J.row(1) << -c.fy * (1 + yz * yz), c.fy * xz * yz, c.fy * xz, 0, c.fy * iz, -c.fy * yz * iz;
+                Sample s;
+                Vector7d j;
+                if (Interpolate(current.intensity, uv.x(), uv.y(), 0.0f, s)) {
+                    const double residual = s.value + offset - last.intensity(x, y);
+                    j << (s.gx * J.row(0) + s.gy * J.row(1)).transpose(), 1.0;
+                    system.Add(j, residual, Huber(residual, kIntensityScale) / (kIntensityScale * kIntensityScale));
+                }
+                if (Interpolate(current.depth_m, uv.x(), uv.y(), 0.05f, s)) {
+                    const double residual = s.value - p.z();
+                    if (std::abs(residual) > kMostDepthError_m) continue;
+                    j << (s.gx * J.row(0) + s.gy * J.row(1)).transpose(), 0.0;
+                    j(0) -= p.y();  // dz/d(increment) = (y, -x, 0, 0, 0, 1)
+                    j(1) += p.x();
+                    j(5) -= 1.0;
+                    const double scale = kDepthScale_m * std::max(1.0, static_cast<double>(z));
+                    system.Add(j, residual, Huber(residual, scale) / (scale * scale));
+                }
+            }
+    });
+    System total;
+    for (const System& system : partial) {
+        total.H += system.H;
+        total.g += system.g;
+    }
+    return total;
+}
+
+Eigen::Isometry3d ImageAligner::Align(const PreparedFrame& frame, const Eigen::Isometry3d& T_last_current_guess) {
+    if (!config_.enabled) return T_last_current_guess;
+    std::swap(last_, current_);
+    Reduce(frame, current_);
+    const bool ready = has_last_;
+    has_last_ = true;
+    if (!ready) return T_last_current_guess;
+    Vector7d prior;
+    prior << Eigen::Vector3d::Constant(1.0 / (kPriorTurn_rad * kPriorTurn_rad)),
+        Eigen::Vector3d::Constant(1.0 / (kPriorMove_m * kPriorMove_m)), 100.0;
+    Eigen::Isometry3d T_current_last = T_last_current_guess.inverse();
+    double offset = 0;
+    for (std::size_t level = 0; level < last_.size(); ++level)
+        for (int i = 0; i < config_.iterations; ++i) {
+            System system = Linearise(last_[level], current_[level], T_current_last, offset);
+            system.H.diagonal() += prior;
+            const Vector7d step = system.H.ldlt().solve(-system.g);
+            if (!step.allFinite()) return T_last_current_guess;
+            T_current_last = Se3Exp(step.head<6>()) * T_current_last;
+            offset += step(6);
+            if (step.head<3>().norm() < 2e-4 && step.segment<3>(3).norm() < 2e-4) break;
+        }
+    return T_current_last.inverse();
+}
+
+}  // namespace tessera

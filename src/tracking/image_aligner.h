@@ -1,0 +1,50 @@
+// Aligns a frame with the one before it on heavily reduced images: intensity and depth together, all six motions. Not
+// accurate, but it finds fast motions that the field's narrow band and the texture's small basin would miss; trackers
+// take its answer as one more start, beside the motion model's.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <vector>
+
+#include "core/camera.h"
+#include "core/config.h"
+#include "mapping/prepared_frame.h"
+
+namespace tessera {
+
+class ImageAligner {
+  public:
+    struct Config {
+        bool enabled = true;
+        int iterations = 10;
+
+        void Describe(ConfigParameters& parameters);
+    };
+
+    ImageAligner(const Config& config, const PinholeCamera& camera);
+
+    // Takes `frame` as the newest and aligns it with the one given before. `T_last_current_guess` is where to start. The
+    // result is T_last_current; the guess itself if there is nothing to align. Owner thread only.
+    Eigen::Isometry3d Align(const PreparedFrame& frame, const Eigen::Isometry3d& T_last_current_guess);
+    void Clear();
+
+  private:
+    // One reduced image; intensity smoothed by averaging, depth sampled; -1 and 0 where missing.
+    struct Level {
+        PinholeCamera camera;
+        Image<float> intensity;
+        DepthImage depth_m;
+    };
+    struct System;  // normal equations
+
+    void Reduce(const PreparedFrame& frame, std::vector<Level>& levels) const;
+    System Linearise(const Level& last, const Level& current, const Eigen::Isometry3d& T_current_last,
+                     double offset) const;
+
+    Config config_;
+    PinholeCamera camera_;
+    std::vector<Level> last_, current_;  // coarse to fine
+    bool has_last_ = false;
+};
+
+}  // namespace tessera
