@@ -5,8 +5,10 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/se3.h"
+#include "tracking/image_search.h"
 
 namespace tessera {
 namespace {
@@ -44,7 +46,18 @@ struct ImageAligner::System {
     Matrix7d H = Matrix7d::Zero();
     Vector7d g = Vector7d::Zero();
 
-    void Add(const Vector7d& j, double residual, double w) {
+    double error = 0;   // sum of min((r / scale)^2, 4)
+    double samples = 0;
+
+    // A robust mean; few samples mean little overlap, which is no merit.
+    double Score() const {
+        return samples > 100 ? error / samples + 200.0 / samples : std::numeric_limits<double>::infinity();
+    }
+
+    void Add(const Vector7d& j, double residual, double scale) {
+        const double w = Huber(residual, scale) / (scale * scale);
+        error += std::min(residual * residual / (scale * scale), 4.0);
+        samples += 1;
         H.noalias() += w * j * j.transpose();
         g.noalias() += w * residual * j;
     }
@@ -53,6 +66,7 @@ struct ImageAligner::System {
 void ImageAligner::Config::Describe(ConfigParameters& p) {
     p.Add("enabled", enabled, "find a second start for the tracker from the frame before: helps fast motion");
     p.Add("iterations", iterations, {1, 100}, "", "most steps on each of the two reduced levels");
+    p.Add("starts", starts, {0, 16}, "", "best matches of an exhaustive search over rotations that are tried, too");
 }
 
 ImageAligner::ImageAligner(const Config& config, const PinholeCamera& camera) : config_(config), camera_(camera) {}
@@ -116,7 +130,7 @@ ImageAligner::System ImageAligner::Linearise(const Level& last, const Level& cur
                 if (Interpolate(current.intensity, uv.x(), uv.y(), 0.0f, s)) {
                     const double residual = s.value + offset - last.intensity(x, y);
                     j << (s.gx * J.row(0) + s.gy * J.row(1)).transpose(), 1.0;
-                    system.Add(j, residual, Huber(residual, kIntensityScale) / (kIntensityScale * kIntensityScale));
+                    system.Add(j, residual, kIntensityScale);
                 }
                 if (Interpolate(current.depth_m, uv.x(), uv.y(), 0.05f, s)) {
                     const double residual = s.value - p.z();
@@ -126,7 +140,7 @@ ImageAligner::System ImageAligner::Linearise(const Level& last, const Level& cur
                     j(1) += p.x();
                     j(5) -= 1.0;
                     const double scale = kDepthScale_m * std::max(1.0, static_cast<double>(z));
-                    system.Add(j, residual, Huber(residual, scale) / (scale * scale));
+                    system.Add(j, residual, scale);
                 }
             }
     });
@@ -134,8 +148,34 @@ ImageAligner::System ImageAligner::Linearise(const Level& last, const Level& cur
     for (const System& system : partial) {
         total.H += system.H;
         total.g += system.g;
+        total.error += system.error;
+        total.samples += system.samples;
     }
     return total;
+}
+
+// Gauss-Newton, coarse to fine, from one start; `score` is the mean robust error of the last linearisation.
+Eigen::Isometry3d ImageAligner::Refine(const Eigen::Isometry3d& T_last_current, double& score) const {
+    Vector7d prior;
+    prior << Eigen::Vector3d::Constant(1.0 / (kPriorTurn_rad * kPriorTurn_rad)),
+        Eigen::Vector3d::Constant(1.0 / (kPriorMove_m * kPriorMove_m)), 100.0;
+    Eigen::Isometry3d T_current_last = T_last_current.inverse();
+    double offset = 0;
+    for (std::size_t level = 0; level < last_.size(); ++level)
+        for (int i = 0; i < config_.iterations; ++i) {
+            System system = Linearise(last_[level], current_[level], T_current_last, offset);
+            score = system.Score();
+            system.H.diagonal() += prior;
+            const Vector7d step = system.H.ldlt().solve(-system.g);
+            if (!step.allFinite()) {
+                score = std::numeric_limits<double>::infinity();
+                return T_last_current;
+            }
+            T_current_last = Se3Exp(step.head<6>()) * T_current_last;
+            offset += step(6);
+            if (step.head<3>().norm() < 5e-4 && step.segment<3>(3).norm() < 5e-4) break;
+        }
+    return T_current_last.inverse();
 }
 
 Eigen::Isometry3d ImageAligner::Align(const PreparedFrame& frame, const Eigen::Isometry3d& T_last_current_guess) {
@@ -145,22 +185,24 @@ Eigen::Isometry3d ImageAligner::Align(const PreparedFrame& frame, const Eigen::I
     const bool ready = has_last_;
     has_last_ = true;
     if (!ready) return T_last_current_guess;
-    Vector7d prior;
-    prior << Eigen::Vector3d::Constant(1.0 / (kPriorTurn_rad * kPriorTurn_rad)),
-        Eigen::Vector3d::Constant(1.0 / (kPriorMove_m * kPriorMove_m)), 100.0;
-    Eigen::Isometry3d T_current_last = T_last_current_guess.inverse();
-    double offset = 0;
-    for (std::size_t level = 0; level < last_.size(); ++level)
-        for (int i = 0; i < config_.iterations; ++i) {
-            System system = Linearise(last_[level], current_[level], T_current_last, offset);
-            system.H.diagonal() += prior;
-            const Vector7d step = system.H.ldlt().solve(-system.g);
-            if (!step.allFinite()) return T_last_current_guess;
-            T_current_last = Se3Exp(step.head<6>()) * T_current_last;
-            offset += step(6);
-            if (step.head<3>().norm() < 2e-4 && step.segment<3>(3).norm() < 2e-4) break;
-        }
-    return T_current_last.inverse();
+
+    double best_score = std::numeric_limits<double>::infinity();
+    Eigen::Isometry3d best = T_last_current_guess;
+    const auto consider = [&](const Eigen::Isometry3d& start) {
+        double score = 0;
+        const Eigen::Isometry3d refined = Refine(start, score);
+        if (score >= best_score) return;
+        best_score = score;
+        best = refined;
+    };
+    consider(T_last_current_guess);
+    for (const Eigen::Vector3d& turn :
+         SearchRotations(last_[0].intensity, current_[0].intensity, current_[0].camera, config_.starts)) {
+        Vector6d twist;
+        twist << turn, Eigen::Vector3d::Zero();
+        consider(Se3Exp(twist).inverse());
+    }
+    return best;
 }
 
 }  // namespace tessera

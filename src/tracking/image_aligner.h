@@ -17,6 +17,7 @@ class ImageAligner {
     struct Config {
         bool enabled = true;
         int iterations = 10;
+        int starts = 3;
 
         void Describe(ConfigParameters& parameters);
     };
@@ -38,6 +39,7 @@ class ImageAligner {
     struct System;  // normal equations
 
     void Reduce(const PreparedFrame& frame, std::vector<Level>& levels) const;
+    Eigen::Isometry3d Refine(const Eigen::Isometry3d& T_last_current, double& score) const;
     System Linearise(const Level& last, const Level& current, const Eigen::Isometry3d& T_current_last,
                      double offset) const;
 
