@@ -1,0 +1,238 @@
+#include "mapping/block_mesh.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+
+#include "mapping/cell_bits.h"
+#include "mapping/marching_cubes_tables.h"
+
+namespace tessera {
+namespace {
+
+// ---- The block's field with an apron of one voxel below and two above, so that gradients need no look-ups.
+
+class LocalField {
+  public:
+    static constexpr int kStride[3] = {1, 11, 121};
+
+    LocalField(const BlockMap& map, BlockId id) {
+        BlockId ids[3][3][3] = {};  // [z][y][x]; what is not read stays unknown
+        for (const auto& [dx, dy, dz] : kMeshReadOffsets)
+            ids[dz + 1][dy + 1][dx + 1] = map.neighbour(id, dx, dy, dz);
+        FieldWord* out = words_;
+        for (int z = -1; z < 10; ++z)
+            for (int y = -1; y < 10; ++y, out += 11) {
+                const BlockId* row = ids[(z >> 3) + 1][(y >> 3) + 1];
+                const int offset = (y & 7) * 8 + (z & 7) * 64;
+                out[0] = map.field(row[0])[offset + 7];
+                std::memcpy(out + 1, map.field(row[1]) + offset, kBlockSide * sizeof(FieldWord));
+                std::memcpy(out + 9, map.field(row[2]) + offset, 2 * sizeof(FieldWord));
+            }
+    }
+
+    static int Index(int x, int y, int z) { return x + 1 + 11 * (y + 1) + 121 * (z + 1); }
+    FieldWord operator[](int index) const { return words_[index]; }
+
+    // In truncations per voxel: central differences, one-sided or zero where neighbours are unknown.
+    Eigen::Vector3f Gradient(int index) const {
+        return {Slope(index, kStride[0]), Slope(index, kStride[1]), Slope(index, kStride[2])};
+    }
+
+  private:
+    float Slope(int index, int stride) const {
+        const FieldWord here = words_[index];
+        FieldWord before = words_[index - stride], after = words_[index + stride];
+        const bool both = HasDistance(before) && HasDistance(after);
+        if (!HasDistance(before)) before = here;
+        if (!HasDistance(after)) after = here;
+        return (FieldDistance(after) - FieldDistance(before)) * (both ? 0.5f : 1.0f);
+    }
+
+    FieldWord words_[11 * 11 * 11];
+};
+
+// ---- Vertices.
+
+std::array<std::int16_t, 2> EncodeNormal(const Eigen::Vector3f& n) {
+    const Eigen::Vector3f p = n / n.lpNorm<1>();
+    float u = p.x(), v = p.y();
+    if (p.z() < 0) {
+        u = std::copysign(1 - std::abs(p.y()), p.x());
+        v = std::copysign(1 - std::abs(p.x()), p.y());
+    }
+    return {static_cast<std::int16_t>(std::lround(u * 32767)),
+            static_cast<std::int16_t>(std::lround(v * 32767))};
+}
+
+std::uint8_t ToByte(float value) { return static_cast<std::uint8_t>(value * 255.0f + 0.5f); }
+
+// [D18] eq. 10; where one end has no colour, the other's; where none has, grey.
+Rgb8 MixColours(FieldWord w1, ColourWord c1, FieldWord w2, ColourWord c2, float m) {
+    if (!HasIntensity(w1) && !HasIntensity(w2)) return {128, 128, 128};
+    const LinearRgb a = HasIntensity(w1) ? ColourFromWords(w1, c1) : ColourFromWords(w2, c2);
+    const LinearRgb b = HasIntensity(w2) ? ColourFromWords(w2, c2) : a;
+    return {ToByte(a.r + m * (b.r - a.r)), ToByte(a.g + m * (b.g - a.g)),
+            ToByte(a.b + m * (b.b - a.b))};
+}
+
+class VertexMaker {
+  public:
+    VertexMaker(const BlockMap& map, BlockId id, const std::array<BlockId, 8>& blocks)
+        : map_(map), blocks_(blocks), field_(map, id) {}
+
+    BlockMesh::Vertex Make(int axis, int x, int y, int z) const {
+        const int i1 = LocalField::Index(x, y, z), i2 = i1 + LocalField::kStride[axis];
+        const FieldWord w1 = field_[i1], w2 = field_[i2];
+        const float d1 = FieldDistance(w1), d2 = FieldDistance(w2);
+        // [D18] eq. 9, kept off the ends: a voxel at exactly zero would make triangles without area.
+        constexpr float kMargin = 1e-3f;
+        const float m = std::clamp(d1 / (d1 - d2), kMargin, 1 - kMargin);
+
+        Eigen::Vector3f normal = (1 - m) * field_.Gradient(i1) + m * field_.Gradient(i2);
+        if (normal.squaredNorm() < 1e-12f)
+            normal = Eigen::Vector3f::Unit(axis) * (d2 > d1 ? 1.0f : -1.0f);
+
+        const int offset = x + 8 * y + 64 * z;
+        int next[3] = {x, y, z};
+        const bool leaves = ++next[axis] == kBlockSide;
+        const BlockId next_block = blocks_[leaves ? 1 << axis : 0];
+        const int next_offset = (next[0] & 7) + 8 * (next[1] & 7) + 64 * (next[2] & 7);
+        return {static_cast<std::uint16_t>(axis * kBlockVoxels + offset),
+                static_cast<std::uint16_t>(std::lround(m * 65536)), EncodeNormal(normal),
+                MixColours(w1, map_.colour(blocks_[0])[offset], w2,
+                           map_.colour(next_block)[next_offset], m)};
+    }
+
+  private:
+    const BlockMap& map_;
+    const std::array<BlockId, 8>& blocks_;
+    LocalField field_;
+};
+
+int CountVertices(const CellBits& bits) {
+    int count = 0;
+    for (int axis = 0; axis < 3; ++axis)
+        for (int z = 0; z < kBlockSide; ++z)
+            for (int y = 0; y < kBlockSide; ++y)
+                count += std::popcount(bits.CrossedEdges(axis, y, z));
+    return count;
+}
+
+void MakeVertices(const BlockMap& map, BlockId id, const CellBits& bits, BlockMesh& mesh) {
+    const VertexMaker maker(map, id, mesh.blocks);
+    for (int axis = 0; axis < 3; ++axis)
+        for (int z = 0; z < kBlockSide; ++z)
+            for (int y = 0; y < kBlockSide; ++y)
+                for (std::uint32_t row = bits.CrossedEdges(axis, y, z); row != 0; row &= row - 1)
+                    mesh.vertices.push_back(maker.Make(axis, std::countr_zero(row), y, z));
+}
+
+// ---- Triangles.
+
+BlockMesh::VertexRef RefOf(int cube_edge, int x, int y, int z) {
+    const CubeEdge e = CubeEdgeAt(cube_edge);
+    x += e.corner & 1;
+    y += e.corner >> 1 & 1;
+    z += e.corner >> 2;
+    const int slot = x >> 3 | y >> 3 << 1 | z >> 3 << 2;
+    const int edge = e.axis * kBlockVoxels + (x & 7) + 8 * (y & 7) + 64 * (z & 7);
+    return static_cast<BlockMesh::VertexRef>(slot << BlockMesh::kSlotShift | edge);
+}
+
+void MakeTriangles(const CellBits& bits, BlockMesh& mesh) {
+    const auto& cases = CubeCases();
+    for (int z = 0; z < kBlockSide; ++z)
+        for (int y = 0; y < kBlockSide; ++y)
+            for (std::uint32_t row = bits.SurfaceCells(y, z); row != 0; row &= row - 1) {
+                const int x = std::countr_zero(row);
+                const CubeCase& cell = cases[bits.Configuration(x, y, z)];
+                for (int t = 0; t < cell.triangle_count; ++t) {
+                    const auto& [a, b, c] = cell.triangles[t];
+                    mesh.triangles.push_back({RefOf(a, x, y, z), RefOf(b, x, y, z), RefOf(c, x, y, z)});
+                }
+            }
+    mesh.triangles.shrink_to_fit();
+}
+
+bool HasSurfaceCell(const CellBits& bits) {
+    for (int z = 0; z < kBlockSide; ++z)
+        for (int y = 0; y < kBlockSide; ++y)
+            if (bits.SurfaceCells(y, z) != 0) return true;
+    return false;
+}
+
+constexpr auto FindReadOffsets() {
+    std::array<std::array<int, 3>, kMeshReads> offsets{};
+    std::size_t count = 0;
+    for (int z = -1; z <= 1; ++z)
+        for (int y = -1; y <= 1; ++y)
+            for (int x = -1; x <= 1; ++x) {
+                const int below = (x < 0) + (y < 0) + (z < 0), above = (x > 0) + (y > 0) + (z > 0);
+                if (below == 0 || (below == 1 && above <= 1)) offsets[count++] = {x, y, z};
+            }
+    return offsets;
+}
+
+}  // namespace
+
+constexpr std::array<std::array<int, 3>, kMeshReads> kMeshReadOffsets = FindReadOffsets();
+
+void MeshConfig::Describe(ConfigParameters& p) {
+    p.Add("min_weight", min_weight, {0, kMaxWeight}, "",
+          "least weight of the voxels that a piece of mesh is made from; raise it to leave out what "
+          "was seen once or badly");
+    p.Add("min_component_triangles", min_component_triangles, {0, 1e9}, "",
+          "connected pieces with fewer triangles are left out of the written mesh; 0 keeps all, "
+          "more removes larger floating specks");
+}
+
+std::unique_ptr<const BlockMesh> MeshBlock(const BlockMap& map, BlockId id, double min_weight) {
+    std::array<BlockId, 8> blocks;
+    std::copy_n(map.view().neighbours + 8 * static_cast<std::size_t>(id), 8, blocks.begin());
+    const CellBits bits(map, blocks, min_weight);
+    const int vertices = CountVertices(bits);
+    if (vertices == 0 && !HasSurfaceCell(bits)) return nullptr;
+    auto mesh = std::make_unique<BlockMesh>();
+    mesh->coord = map.coord(id);
+    mesh->blocks = blocks;
+    mesh->vertices.reserve(static_cast<std::size_t>(vertices));
+    MakeVertices(map, id, bits, *mesh);
+    MakeTriangles(bits, *mesh);
+    return mesh;
+}
+
+int BlockMesh::FindVertex(int edge) const {
+    const auto found = std::lower_bound(vertices.begin(), vertices.end(), edge,
+                                        [](const Vertex& v, int e) { return v.edge < e; });
+    if (found == vertices.end() || found->edge != edge) return -1;
+    return static_cast<int>(found - vertices.begin());
+}
+
+std::size_t BlockMesh::bytes() const {
+    return sizeof(*this) + vertices.capacity() * sizeof(Vertex) +
+           triangles.capacity() * sizeof(triangles[0]);
+}
+
+Eigen::Vector3f VertexPosition(const BlockMesh& mesh, const BlockMesh::Vertex& vertex,
+                               double voxel_size_m) {
+    const int offset = vertex.edge % kBlockVoxels, axis = vertex.edge / kBlockVoxels;
+    Eigen::Vector3d voxel(8.0 * mesh.coord.x + offset % 8, 8.0 * mesh.coord.y + offset / 8 % 8,
+                          8.0 * mesh.coord.z + offset / 64);
+    voxel[axis] += vertex.fraction / 65536.0;
+    return (voxel * voxel_size_m).cast<float>();
+}
+
+Eigen::Vector3f VertexNormal(const BlockMesh::Vertex& vertex) {
+    const float u = static_cast<float>(vertex.normal[0]) / 32767;
+    const float v = static_cast<float>(vertex.normal[1]) / 32767;
+    Eigen::Vector3f n(u, v, 1 - std::abs(u) - std::abs(v));
+    if (n.z() < 0) {
+        n.x() = std::copysign(1 - std::abs(v), u);
+        n.y() = std::copysign(1 - std::abs(u), v);
+    }
+    return n.normalized();
+}
+
+}  // namespace tessera

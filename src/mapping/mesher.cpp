@@ -1,0 +1,68 @@
+#include "mapping/mesher.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+
+#include "core/check.h"
+#include "mapping/mesh_assembly.h"
+
+namespace tessera {
+
+int Mesher::Update(const BlockMap& map, int budget_blocks) {
+    voxel_size_m_ = map.config().voxel_size_m;
+    FindChanged(map);
+    const std::size_t count =
+        std::min(pending_.size(), static_cast<std::size_t>(std::max(budget_blocks, 0)));
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 8), [&](const auto& range) {
+        for (std::size_t i = range.begin(); i < range.end(); ++i) {
+            const std::size_t id = static_cast<std::size_t>(pending_[i]);
+            meshes_[id] = MeshBlock(map, pending_[i], config_.min_weight);
+            is_pending_[id] = 0;
+        }
+    });
+    pending_.erase(pending_.begin(), pending_.begin() + static_cast<std::ptrdiff_t>(count));
+    return remaining();
+}
+
+// Appends to pending_ every block that reads one whose revision is new.
+void Mesher::FindChanged(const BlockMap& map) {
+    const std::size_t size = static_cast<std::size_t>(map.size());
+    TESSERA_CHECK(size >= meshes_.size(), "the map shrank from {} to {} blocks without Clear",
+                  meshes_.size(), size);
+    meshes_.resize(size);
+    seen_revision_.resize(size, 0);
+    is_pending_.resize(size, 0);
+    for (BlockId id = 1; id < map.size(); ++id) {
+        const std::uint32_t revision = map.revision(id);
+        if (revision == seen_revision_[static_cast<std::size_t>(id)]) continue;
+        seen_revision_[static_cast<std::size_t>(id)] = revision;
+        for (const auto& [dx, dy, dz] : kMeshReadOffsets) {
+            const BlockId reader = map.neighbour(id, -dx, -dy, -dz);
+            if (reader == kUnknownBlock || is_pending_[static_cast<std::size_t>(reader)]) continue;
+            is_pending_[static_cast<std::size_t>(reader)] = 1;
+            pending_.push_back(reader);
+        }
+    }
+}
+
+TriangleMesh Mesher::Assemble() const {
+    return AssembleMesh(meshes_, voxel_size_m_, config_.min_component_triangles);
+}
+
+void Mesher::Clear() {
+    meshes_.clear();
+    seen_revision_.clear();
+    is_pending_.clear();
+    pending_.clear();
+}
+
+std::size_t Mesher::bytes() const {
+    std::size_t total = meshes_.capacity() * (sizeof(meshes_[0]) + sizeof(std::uint32_t) + 1) +
+                        pending_.capacity() * sizeof(BlockId);
+    for (const auto& mesh : meshes_)
+        if (mesh) total += mesh->bytes();
+    return total;
+}
+
+}  // namespace tessera

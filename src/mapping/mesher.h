@@ -1,0 +1,50 @@
+// The map's surface as a triangle mesh, kept up to date block by block: only what changed is meshed again. Owns the
+// block meshes, copies what it needs from the map, and needs the map only inside Update.
+#pragma once
+
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include "core/mesh.h"
+#include "mapping/block_mesh.h"
+
+namespace tessera {
+
+// Owner thread only; Update works on all of TBB's threads and gives the same bytes for any number of them.
+class Mesher {
+  public:
+    using Config = MeshConfig;
+    static constexpr int kNoLimit = std::numeric_limits<int>::max();
+
+    explicit Mesher(const Config& config) : config_(config) {}
+
+    // Meshes again the blocks whose result may have changed since the last call: those that read a block
+    // (kMeshReadOffsets) whose BlockMap::revision differs from the one last seen. So whoever writes the map must use
+    // a new revision after each Update. At most `budget_blocks` are done, oldest first; returns how many remain.
+    // Nobody may write the map meanwhile. Between calls the map may only grow, else Clear first.
+    int Update(const BlockMap& map, int budget_blocks = kNoLimit);
+
+    // The whole mesh, with normals and colours. Vertices are shared across blocks, ordered by block id and edge; only
+    // those that a triangle uses. While blocks remain to be done there may be gaps between old and new blocks.
+    TriangleMesh Assemble() const;
+
+    // Forgets everything; to be called when the map was cleared or replaced.
+    void Clear();
+
+    int remaining() const { return static_cast<int>(pending_.size()); }
+    std::size_t bytes() const;  // memory of all block meshes
+
+  private:
+    void FindChanged(const BlockMap& map);
+
+    Config config_;
+    double voxel_size_m_ = 0;
+    // By block id.
+    std::vector<std::unique_ptr<const BlockMesh>> meshes_;  // null: no surface
+    std::vector<std::uint32_t> seen_revision_;
+    std::vector<std::uint8_t> is_pending_;
+    std::vector<BlockId> pending_;  // to be meshed, oldest first
+};
+
+}  // namespace tessera
