@@ -34,6 +34,22 @@ struct Row {
     }
 };
 
+// Where a point of the camera at the frame's instant is for the camera at time t: to first order
+// p - t (omega x p + velocity).
+[[gnu::always_inline]] inline Point AtTime(const FusionArguments& a, const Point& p, const Real& t) {
+    const float* w = a.twist_per_s;
+    return {p.x - t * (Real(w[1]) * p.z - Real(w[2]) * p.y + Real(w[3])),
+            p.y - t * (Real(w[2]) * p.x - Real(w[0]) * p.z + Real(w[4])),
+            p.z - t * (Real(w[0]) * p.y - Real(w[1]) * p.x + Real(w[5]))};
+}
+
+// Time of the row that a point is seen in, in read-outs from the middle row.
+[[gnu::always_inline]] inline Real RowTime(const FusionArguments& a, const Point& p) {
+    const Real v = p.y / xsimd::max(p.z, Real(0.05f)) * Real(a.fy) + Real(a.cy);
+    const Real share = v * Real(1.0f / static_cast<float>(a.height)) - Real(0.5f);
+    return xsimd::min(xsimd::max(share, Real(-0.5f)), Real(0.5f));
+}
+
 // Index of the nearest pixel and whether the point is in front of the camera and in the image. [B14] eq. 2.
 [[gnu::always_inline]] inline Int NearestPixel(const FusionArguments& a, const Point& p, RealMask& inside) {
     const Real inverse_z = Real(1.0f) / p.z;
@@ -125,9 +141,14 @@ struct Voxels {
     return xsimd::to_float(Int::load_aligned(steps)) * Real(1.0f / kWeightSteps);
 }
 
-[[gnu::always_inline]] inline void FuseVoxels(const FusionArguments& a, const Point& p, const Row& colour_row,
-                                              const Real& x, std::size_t at) {
+[[gnu::always_inline]] inline void FuseVoxels(const FusionArguments& a, const Point& instant, std::size_t at) {
     RealMask inside;
+    Point p = instant;
+    Real row_time(0.0f);
+    if (a.moving) {
+        row_time = RowTime(a, instant);
+        p = AtTime(a, instant, row_time * Real(a.depth_readout_s));
+    }
     const Int pixel = NearestPixel(a, p, inside);
     const Real depth = Gather(a.depth_m, pixel);
     const Real distance = depth - p.z;  // -([B14] eq. 12)
@@ -145,7 +166,8 @@ struct Voxels {
 
     RealMask coloured = update & (distance <= Real(a.truncation_m));
     if (a.packed_colour == nullptr || !xsimd::any(coloured)) return;
-    const Point q = colour_row.At(x);
+    const Point q =
+        a.moving ? AtTime(a, instant, Real(a.colour_delay_s) + row_time * Real(a.colour_readout_s)) : instant;
     RealMask in_colour;
     const Int colour_pixel = NearestPixel(a, q, in_colour);
     coloured = coloured & in_colour;
@@ -171,11 +193,10 @@ void FuseBlocks(const FusionArguments& a, const std::int32_t* blocks, std::int32
             const float vz = static_cast<float>(c[2] * kBlockSide + z - a.origin[2]);
             for (int y = 0; y < kBlockSide; ++y) {
                 const float vy = static_cast<float>(c[1] * kBlockSide + y - a.origin[1]);
-                const Row row(a.to_depth, a.voxel_size_m, vx, vy, vz);
-                const Row colour_row(a.to_colour, a.voxel_size_m, vx, vy, vz);
+                const Row row(a.to_camera, a.voxel_size_m, vx, vy, vz);
                 for (int step = 0; step < kStepsPerRow; ++step, at += kLanes) {
                     const Real x = lanes + Real(static_cast<float>(step * kLanes));
-                    FuseVoxels(a, row.At(x), colour_row, x, at);
+                    FuseVoxels(a, row.At(x), at);
                 }
             }
         }

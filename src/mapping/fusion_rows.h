@@ -26,8 +26,11 @@ struct FusionArguments {
     std::int32_t width, height;
     float fx, fy, cx, cy;
     std::uint32_t frame;  // seeds the dither
-    // Geometry. The colour image may have been taken at another time, hence from another place.
-    VoxelToCamera to_depth, to_colour;
+    // Geometry: the camera at the frame's instant, and how it moved around it (FrameMotion).
+    VoxelToCamera to_camera;
+    bool moving;
+    float twist_per_s[6];
+    float colour_delay_s, depth_readout_s, colour_readout_s;
     std::int32_t origin[3];  // voxels
     float voxel_size_m, truncation_m;
     // Weights.

@@ -158,8 +158,12 @@ void Integrator::Fuse(const PreparedFrame& frame, const View& view, BlockMap& ma
     a.cx = static_cast<float>(camera_.cx);
     a.cy = static_cast<float>(camera_.cy);
     a.frame = revision_;
-    a.to_depth = MakeVoxelToCamera(T_camera_world, origin * voxel_m);
-    a.to_colour = MakeVoxelToCamera(view.T_colour_depth * T_camera_world, origin * voxel_m);
+    a.to_camera = MakeVoxelToCamera(T_camera_world, origin * voxel_m);
+    for (int i = 0; i < 6; ++i) a.twist_per_s[i] = static_cast<float>(view.motion.twist_per_s(i));
+    a.colour_delay_s = static_cast<float>(view.motion.colour_delay_s);
+    a.depth_readout_s = static_cast<float>(view.motion.depth_readout_s);
+    a.colour_readout_s = static_cast<float>(view.motion.colour_readout_s);
+    a.moving = !view.motion.twist_per_s.isZero();
     for (int i = 0; i < 3; ++i) a.origin[i] = static_cast<std::int32_t>(origin[i]);
     a.voxel_size_m = static_cast<float>(voxel_m);
     a.truncation_m = static_cast<float>(map.config().truncation_m);

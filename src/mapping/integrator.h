@@ -8,6 +8,7 @@
 
 #include "core/camera.h"
 #include "core/cpu.h"
+#include "core/frame_motion.h"
 #include "mapping/block_map.h"
 #include "mapping/fusion_kernels.h"
 #include "mapping/prepared_frame.h"
@@ -32,7 +33,7 @@ class Integrator {
     // What besides the images one integration needs.
     struct View {
         Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity();
-        Eigen::Isometry3d T_colour_depth = Eigen::Isometry3d::Identity();  // moved between the two exposures
+        FrameMotion motion;
         float gain = 1.0f, offset = 0.0f;  // map intensity = gain * image intensity + offset
         float weight = 1.0f;               // of the whole frame, in (0, 1]
         float colour_weight = 1.0f;

@@ -14,6 +14,14 @@ const char* ToString(TrackingMethod method) {
     return "?";
 }
 
+void ShutterConfig::Describe(ConfigParameters& p) {
+    p.Add("colour_delay", colour_delay,
+          "allow for the camera's motion between the depth and the colour image's time stamps");
+    p.Add("depth_readout_s", depth_readout_s, {-0.1, 0.1}, "s",
+          "time from the depth image's first row to its last: the rolling shutter; 0 is a global one");
+    p.Add("colour_readout_s", colour_readout_s, {-0.1, 0.1}, "s", "the same of the colour image");
+}
+
 void PipelineConfig::Describe(ConfigParameters& p) {
     p.Section("frame", [&](ConfigParameters& s) { frame.Describe(s); });
     p.Section("mapping", [&](ConfigParameters& s) {
@@ -24,6 +32,7 @@ void PipelineConfig::Describe(ConfigParameters& p) {
         s.AddChoice("method", method,
                     {{"sdf", TrackingMethod::kSdf}, {"sdf-geometric", TrackingMethod::kSdfGeometric}},
                     "sdf uses distances and intensities ([B14]); sdf-geometric distances only ([B13])");
+        s.Section("shutter", [&](ConfigParameters& m) { shutter.Describe(m); });
         s.Section("motion", [&](ConfigParameters& m) { motion.Describe(m); });
         s.Section("prealign", [&](ConfigParameters& a) { prealign.Describe(a); });
         s.Section("sdf", [&](ConfigParameters& t) { sdf.Describe(t); });
@@ -109,13 +118,21 @@ TrackResult Pipeline::TrackFrame(const Frame& frame) {
                             .T_world_camera_starts = {T_world_expected, T_world_aligned},
                             .T_world_camera_last = T_world_last,
                             .since_last_s = motion_.SinceLast(frame.stamp_s),
-                            .colour_delay_s = frame.colour_stamp_s - frame.stamp_s});
+                            .motion = ShutterOf(frame)});
+}
+
+FrameMotion Pipeline::ShutterOf(const Frame& frame) const {
+    FrameMotion motion;
+    motion.colour_delay_s = config_.shutter.colour_delay ? frame.colour_stamp_s - frame.stamp_s : 0.0;
+    motion.depth_readout_s = config_.shutter.depth_readout_s;
+    motion.colour_readout_s = config_.shutter.colour_readout_s;
+    return motion;
 }
 
 Integrator::View Pipeline::FusionView(const TrackResult& track) const {
     Integrator::View view;
     view.T_world_camera = track.T_world_camera;
-    view.T_colour_depth = track.T_colour_depth;
+    view.motion = track.motion;
     view.gain = static_cast<float>(track.gain);
     view.offset = static_cast<float>(track.offset);
     return view;

@@ -19,11 +19,21 @@ namespace tessera {
 enum class TrackingMethod { kSdf, kSdfGeometric };
 const char* ToString(TrackingMethod method);
 
+// When a frame's images and rows were taken.
+struct ShutterConfig {
+    bool colour_delay = true;
+    double depth_readout_s = 0;
+    double colour_readout_s = 0;
+
+    void Describe(ConfigParameters& parameters);
+};
+
 struct PipelineConfig {
     PreparedFrame::Config frame;
     BlockMap::Config map;
     Integrator::Config fusion;
     MotionModel::Config motion;
+    ShutterConfig shutter;
     TrackingMethod method = TrackingMethod::kSdf;
     ImageAligner::Config prealign;
     SdfTracker::Config sdf;
@@ -61,6 +71,7 @@ class Pipeline {
 
   private:
     TrackResult TrackFrame(const Frame& frame);
+    FrameMotion ShutterOf(const Frame& frame) const;
     Integrator::View FusionView(const TrackResult& track) const;
 
     PipelineConfig config_;

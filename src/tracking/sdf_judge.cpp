@@ -108,14 +108,14 @@ void SdfTracker::Config::Describe(ConfigParameters& p) {
     p.Add("fine_iterations", fine_iterations, {1, 100}, "", "most Gauss-Newton steps on the finest level");
     p.Add("brightness", brightness,
           "estimate gain and offset of every frame, so that auto-exposure does not bend the path");
-    p.Add("colour_delay", colour_delay,
-          "allow for the camera's motion between the depth and the colour image's time stamps");
+    p.Add("brightness_prior", brightness_prior, {0.0, 10.0}, "",
+          "pull of gain 1 and offset 0, per unit of photometric weight; raise it where exposure is fixed");
     p.Add("min_eigenvalue", min_eigenvalue, {0.0, 0.1}, "",
           "motions whose share of the normalised Hessian is smaller are held and the frame is called degenerate");
     p.Add("min_known_fraction", min_known_fraction, {0.0, 1.0}, "",
           "lost if a smaller share of the depth lies in the map");
     p.Add("min_inlier_fraction", min_inlier_fraction, {0.0, 1.0}, "",
-          "lost if a smaller share of the known depth fits within distance_scale_m");
+          "lost if a smaller share of the known depth fits within half the truncation");
     p.Add("max_jump_m", max_jump_m, {0.0, 100.0}, "m", "lost if the camera moved farther since the last frame");
     p.Add("max_jump_rad", max_jump_rad, {0.0, 3.2}, "rad", "lost if the camera turned more since the last frame");
 }

@@ -23,7 +23,7 @@ struct SdfSumLayout {
     static constexpr int kDistanceWeight = 46;  // sum of w
     static constexpr int kIntensityWeight = 47;
     static constexpr int kKnown = 48;     // points with a known distance
-    static constexpr int kInliers = 49;   // of these, with |r| below the robust scale
+    static constexpr int kInliers = 49;   // of these, with |r| below the inlier distance
     static constexpr int kColoured = 50;  // points with a known intensity
     static constexpr int kCount = 51;
 };

@@ -27,7 +27,8 @@ float Sample(const Image<float>& image, float u, float v) {
 
 }  // namespace
 
-void SdfPoints::Build(const PreparedFrame& frame, const PinholeCamera& camera, int step, double depth_exponent) {
+void SdfPoints::Build(const PreparedFrame& frame, const PinholeCamera& camera, const FrameMotion& motion, int step,
+                      double depth_exponent) {
     const DepthImage& depth = frame.depth_m;
     const int columns = (depth.width() + step - 1 - step / 2) / step;
     step_ = step;
@@ -36,18 +37,23 @@ void SdfPoints::Build(const PreparedFrame& frame, const PinholeCamera& camera, i
     for (auto* values : {&x, &y, &z, &weight}) values->assign(static_cast<std::size_t>(count()), 0.0f);
     intensity.assign(static_cast<std::size_t>(count()), -1.0f);
     std::vector<std::int64_t> valid(static_cast<std::size_t>(height_), 0);
+    const Eigen::Vector3f turn = motion.twist_per_s.head<3>().cast<float>();
+    const Eigen::Vector3f move = motion.twist_per_s.tail<3>().cast<float>();
     const auto exponent = static_cast<float>(-depth_exponent);
     tbb::parallel_for(0, height_, [&](int row) {
         const int v = row * step + step / 2;
         const float ray_y = static_cast<float>((v - camera.cy) / camera.fy);
         const float* line = depth.row(v);
+        const auto time = static_cast<float>(motion.DepthTime(v, depth.height()));
         std::size_t at = static_cast<std::size_t>(row) * static_cast<std::size_t>(width_);
         for (int u = step / 2; u < depth.width(); u += step, ++at) {
             const float d = line[u];
             if (d <= 0) continue;
-            x[at] = static_cast<float>((u - camera.cx) / camera.fx) * d;  // [B14] eq. 1
-            y[at] = ray_y * d;
-            z[at] = d;
+            Eigen::Vector3f p(static_cast<float>((u - camera.cx) / camera.fx) * d, ray_y * d, d);  // [B14] eq. 1
+            p += time * (turn.cross(p) + move);
+            x[at] = p.x();
+            y[at] = p.y();
+            z[at] = p.z();
             weight[at] = exponent == -2.0f ? 1.0f / std::max(d * d, 0.25f) : std::pow(std::max(d, 0.5f), exponent);
             ++valid[static_cast<std::size_t>(row)];
         }
@@ -56,23 +62,26 @@ void SdfPoints::Build(const PreparedFrame& frame, const PinholeCamera& camera, i
 }
 
 void SdfPoints::SampleIntensity(const PreparedFrame& frame, const PinholeCamera& camera,
-                                const Eigen::Isometry3d& T_colour_depth) {
+                                const FrameMotion& motion) {
     if (!frame.has_colour()) return;
-    const bool same_view = T_colour_depth.isApprox(Eigen::Isometry3d::Identity(), 1e-9);
-    const Eigen::Matrix3f R = T_colour_depth.linear().cast<float>();
-    const Eigen::Vector3f t = T_colour_depth.translation().cast<float>();
+    const bool still = motion.twist_per_s.isZero();
+    const Eigen::Vector3f turn = motion.twist_per_s.head<3>().cast<float>();
+    const Eigen::Vector3f move = motion.twist_per_s.tail<3>().cast<float>();
     const auto fx = static_cast<float>(camera.fx), fy = static_cast<float>(camera.fy);
     const auto cx = static_cast<float>(camera.cx), cy = static_cast<float>(camera.cy);
     tbb::parallel_for(0, height_, [&](int row) {
         const std::size_t begin = static_cast<std::size_t>(row) * static_cast<std::size_t>(width_);
+        const int v = row * step_ + step_ / 2;
+        const auto time = static_cast<float>(motion.ColourTime(v, frame.depth_m.height()));
         for (int column = 0; column < width_; ++column) {
             const std::size_t i = begin + static_cast<std::size_t>(column);
             if (weight[i] <= 0) continue;
-            if (same_view) {
-                intensity[i] = frame.intensity(column * step_ + step_ / 2, row * step_ + step_ / 2);
+            if (still) {
+                intensity[i] = frame.intensity(column * step_ + step_ / 2, v);
                 continue;
             }
-            const Eigen::Vector3f p = R * Eigen::Vector3f(x[i], y[i], z[i]) + t;
+            Eigen::Vector3f p(x[i], y[i], z[i]);
+            p -= time * (turn.cross(p) + move);
             intensity[i] = p.z() > 0.05f ? Sample(frame.intensity, p.x() / p.z() * fx + cx, p.y() / p.z() * fy + cy)
                                          : -1.0f;
         }

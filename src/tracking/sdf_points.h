@@ -7,18 +7,19 @@
 #include <vector>
 
 #include "core/camera.h"
+#include "core/frame_motion.h"
 #include "mapping/prepared_frame.h"
 
 namespace tessera {
 
 class SdfPoints {
   public:
-    // Points in the camera frame, metres. Weight (1 m / z)^depth_exponent, at most that of 0.5 m.
-    void Build(const PreparedFrame& frame, const PinholeCamera& camera, int step, double depth_exponent);
-    // Reads the intensity of each point where the colour camera saw it: its pose may differ from the depth camera's,
-    // because the two images were not taken at the same time. -1 where it saw nothing.
-    void SampleIntensity(const PreparedFrame& frame, const PinholeCamera& camera,
-                         const Eigen::Isometry3d& T_colour_depth);
+    // Points in the frame of the camera at the frame's instant, metres. Weight (1 m / z)^depth_exponent, at most that of
+    // 0.5 m.
+    void Build(const PreparedFrame& frame, const PinholeCamera& camera, const FrameMotion& motion, int step,
+               double depth_exponent);
+    // Reads the intensity of each point where the colour camera saw it at its own time; -1 where it saw nothing.
+    void SampleIntensity(const PreparedFrame& frame, const PinholeCamera& camera, const FrameMotion& motion);
 
     int width() const { return width_; }    // slots per row, a multiple of kSdfPointPadding
     int height() const { return height_; }  // rows

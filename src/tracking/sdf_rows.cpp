@@ -94,7 +94,7 @@ struct Sums {
     Add(sums, L::kDistanceWeight, w);
     const RealMask counted = known & (point_weight > Real(0.0f));
     Add(sums, L::kKnown, Masked(counted, Real(1.0f)));
-    Add(sums, L::kInliers, Masked(counted & (xsimd::abs(residual) < scale), Real(1.0f)));
+    Add(sums, L::kInliers, Masked(counted & (xsimd::abs(residual) < Real(a.inlier_distance_m)), Real(1.0f)));
     StoreResidual(a.distance_residual, i, counted, residual);
 }
 

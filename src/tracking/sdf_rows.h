@@ -30,6 +30,7 @@ struct SdfArguments {
     float alpha;
     float gain, offset;
     float distance_scale_m, intensity_scale;  // Huber
+    float inlier_distance_m;  // for SdfSumLayout::kInliers
     // If not null: residuals per point, NaN where unknown.
     float* distance_residual;
     float* intensity_residual;

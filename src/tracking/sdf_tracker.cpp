@@ -28,7 +28,7 @@ void SetPose(const Eigen::Isometry3d& T_world_camera, const Eigen::Vector3d& ori
 
 struct SdfTracker::State {
     Eigen::Isometry3d T_world_camera;
-    Eigen::Isometry3d T_colour_depth = Eigen::Isometry3d::Identity();
+    FrameMotion motion;
     Eigen::Vector3d origin_m;
     double gain, offset;
     double alpha;
@@ -69,7 +69,7 @@ TrackResult SdfTracker::Track(const TrackInput& input) {
 
     TrackResult result;
     result.T_world_camera = state.T_world_camera;
-    result.T_colour_depth = state.T_colour_depth;
+    result.motion = state.motion;
     result.alpha = state.alpha;
     result.gain = state.gain;
     result.offset = state.offset;
@@ -94,16 +94,13 @@ TrackResult SdfTracker::Track(const TrackInput& input) {
 // Points, their intensities and the map as the hot loop takes them, for every (finest_step_px << level)-th pixel.
 void SdfTracker::PrepareLevel(const TrackInput& input, int level, State& state) {
     SdfPoints& points = points_[static_cast<std::size_t>(level)];
-    points.Build(input.frame, camera_, config_.finest_step_px << level, config_.depth_exponent);
+    state.motion = input.motion;
+    if (input.since_last_s > 0)  // the velocity of the last interval, as far as this level knows it
+        state.motion.twist_per_s =
+            Se3Log(input.T_world_camera_last.inverse() * state.T_world_camera) / input.since_last_s;
+    points.Build(input.frame, camera_, state.motion, config_.finest_step_px << level, config_.depth_exponent);
     state.failed = points.valid() == 0;
-    if (state.alpha > 0) {
-        if (config_.colour_delay && input.since_last_s > 0 && input.colour_delay_s != 0) {
-            // Body velocity over the last interval, carried on to the colour image's time.
-            const Vector6d motion = Se3Log(input.T_world_camera_last.inverse() * state.T_world_camera);
-            state.T_colour_depth = Se3Exp(-motion * (input.colour_delay_s / input.since_last_s));
-        }
-        points.SampleIntensity(input.frame, camera_, state.T_colour_depth);
-    }
+    if (state.alpha > 0) points.SampleIntensity(input.frame, camera_, state.motion);
     const BlockMap::View map = input.map.view();
     const double block_m = input.map.config().voxel_size_m * kBlockSide;
     const Eigen::Vector3d origin_block = (state.T_world_camera.translation() / block_m).array().floor();
@@ -127,6 +124,7 @@ void SdfTracker::PrepareLevel(const TrackInput& input, int level, State& state) 
     a.alpha = static_cast<float>(state.alpha);
     a.distance_scale_m = static_cast<float>(config_.distance_scale_m);
     a.intensity_scale = static_cast<float>(config_.intensity_scale);
+    a.inlier_distance_m = 0.5f * map.truncation_m;
 }
 
 SdfSums SdfTracker::SumAt(const TrackInput& input, const SdfPoints& points, State& state) const {
@@ -164,6 +162,7 @@ void SdfTracker::RunLevel(const TrackInput& input, int level, State& state) {
     const SdfPoints& points = points_[static_cast<std::size_t>(level)];
     SdfSolverOptions options;
     options.estimate_brightness = config_.brightness;
+    options.brightness_prior = config_.brightness_prior;
     options.min_eigenvalue = config_.min_eigenvalue;
     const int iterations = level == 0 ? config_.fine_iterations : config_.coarse_iterations;
     for (int i = 0; i < iterations; ++i) {

@@ -27,7 +27,7 @@ class SdfTracker : public Tracker {
         int coarse_iterations = 20;
         int fine_iterations = 6;
         bool brightness = true;
-        bool colour_delay = true;
+        double brightness_prior = 0.05;
         double min_eigenvalue = 1e-4;
         double min_known_fraction = 0.1;
         double min_inlier_fraction = 0.35;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/camera.h"
+#include "core/frame_motion.h"
 #include "mapping/block_map.h"
 #include "mapping/prepared_frame.h"
 
@@ -20,7 +21,7 @@ struct TrackInput {
     std::vector<Eigen::Isometry3d> T_world_camera_starts;
     Eigen::Isometry3d T_world_camera_last;   // where it was at the last tracked frame
     double since_last_s = 0;                 // 0 if there is no such frame
-    double colour_delay_s = 0;               // the colour image's time minus the depth image's
+    FrameMotion motion;                      // delays and read-out times; the twist is the tracker's to fill
 };
 
 enum class TrackStatus {
@@ -32,12 +33,12 @@ const char* ToString(TrackStatus status);
 
 struct TrackResult {
     Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity();
-    Eigen::Isometry3d T_colour_depth = Eigen::Isometry3d::Identity();  // motion between the two exposures
+    FrameMotion motion;           // while the frame was taken
     TrackStatus status = TrackStatus::kLost;
     std::string reason;           // in words, unless good
     bool degenerate = false;      // the scene leaves some motion unconstrained
     double known_fraction = 0;    // of the points, those that lie where the map knows the distance
-    double inlier_fraction = 0;   // of the known points, those with a residual below the robust scale
+    double inlier_fraction = 0;   // of the known points, those within half the truncation
     double distance_rms_m = 0;    // robustly weighted
     double intensity_rms = 0;     // [0, 1]; 0 without photometric term
     double smallest_eigenvalue = 0;  // of the normalised Hessian (sdf_solver.h), 1/6 at best

@@ -1,0 +1,41 @@
+#include "mapping/fusion_kernels.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace tessera {
+namespace {
+
+float Exp(float v) { return std::exp(v); }
+
+// [B14] eq. 13, whose d is the negative of our signed distance; delta is the map's truncation.
+TEST(FusionKernels, LinearExpWeightIsEquation13) {
+    constexpr float kEpsilon = 0.025f, kSigma = 60.0f;
+    EXPECT_FLOAT_EQ(LinearExpWeight(0.1f, kEpsilon, kSigma, Exp), 1.0f);     // in front
+    EXPECT_FLOAT_EQ(LinearExpWeight(-0.025f, kEpsilon, kSigma, Exp), 1.0f);  // d = epsilon
+    EXPECT_NEAR(LinearExpWeight(-0.125f, kEpsilon, kSigma, Exp), std::exp(-60.0 * 0.01), 1e-6);  // d - epsilon = 0.1
+    EXPECT_NEAR(LinearExpWeight(-0.3f, kEpsilon, kSigma, Exp), std::exp(-60.0 * 0.275 * 0.275), 1e-6);
+}
+
+// [B14] eq. 14: (3 * 0.02 + 1 * 0.06) / 4 = 0.03.
+TEST(FusionKernels, WeightedAverageIsEquation14) {
+    EXPECT_NEAR(WeightedAverage(0.02f, 3.0f, 0.06f, 1.0f), 0.03f, 1e-7);
+    EXPECT_NEAR(WeightedAverage(0.0f, 0.0f, 0.06f, 0.25f), 0.06f, 1e-7);
+}
+
+TEST(FusionKernels, DitherIsEvenlySpread) {
+    double mean = 0, high = 0;
+    constexpr int kCount = 1 << 16;
+    for (std::uint32_t i = 0; i < kCount; ++i) {
+        const std::uint32_t bits = DitherBits(i, 7u);
+        mean += (bits & 0xffffu) / 65536.0;
+        high += (bits >> 16) / 65536.0;
+    }
+    EXPECT_NEAR(mean / kCount, 0.5, 0.01);
+    EXPECT_NEAR(high / kCount, 0.5, 0.01);
+    EXPECT_NE(DitherBits(5u, 1u), DitherBits(5u, 2u));
+}
+
+}  // namespace
+}  // namespace tessera

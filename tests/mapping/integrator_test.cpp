@@ -1,0 +1,252 @@
+#include "mapping/integrator.h"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <cstring>
+
+#include "support/box_room.h"
+
+namespace tessera {
+namespace {
+
+using testing_support::BoxRoom;
+using testing_support::SmallCamera;
+using testing_support::SmoothPath;
+
+Integrator::View At(const Eigen::Isometry3d& T_world_camera) {
+    Integrator::View view;
+    view.T_world_camera = T_world_camera;
+    return view;
+}
+
+PreparedFrame Prepare(const Frame& frame) {
+    PreparedFrame prepared;
+    PrepareFrame(frame, {}, prepared);
+    return prepared;
+}
+
+BlockMap::Config MapConfig(double voxel_m = 0.02, double truncation_m = 0.08) {
+    BlockMap::Config config;
+    config.voxel_size_m = voxel_m;
+    config.truncation_m = truncation_m;
+    return config;
+}
+
+Frame UniformFrame(const PinholeCamera& camera, float depth_m, Rgb8 colour) {
+    Frame frame;
+    frame.depth_m = DepthImage(camera.width, camera.height, depth_m);
+    frame.colour = ColourImage(camera.width, camera.height, colour);
+    return frame;
+}
+
+// Calls visit(point in metres, field word, weight word, colour word) for every voxel with a distance.
+template <class Visit>
+void ForKnownVoxels(const BlockMap& map, const Visit& visit) {
+    for (BlockId id = 1; id < map.size(); ++id) {
+        const BlockCoord c = map.coord(id);
+        for (int i = 0; i < kBlockVoxels; ++i) {
+            if (!HasDistance(map.field(id)[i])) continue;
+            const Eigen::Vector3d p = Eigen::Vector3d(c.x * 8 + (i & 7), c.y * 8 + (i >> 3 & 7), c.z * 8 + (i >> 6)) *
+                                      map.config().voxel_size_m;
+            visit(p, map.field(id)[i], map.weight(id)[i], map.colour(id)[i]);
+        }
+    }
+}
+
+TEST(Integrator, PlaneGivesItsExactDistance) {
+    const PinholeCamera camera = SmallCamera();
+    BlockMap map(MapConfig());
+    Integrator integrator({}, camera);
+    for (int i = 0; i < 3; ++i)
+        integrator.Integrate(Prepare(UniformFrame(camera, 1.0f, {90, 120, 30})), {}, map);
+    int voxels = 0;
+    ForKnownVoxels(map, [&](const Eigen::Vector3d& p, FieldWord field, std::uint16_t, ColourWord) {
+        const double exact = std::clamp(1.0 - p.z(), -0.08, 0.08);
+        ASSERT_NEAR(FieldDistance(field) * 0.08, exact, 1e-5) << p.transpose();
+        ++voxels;
+    });
+    EXPECT_GT(voxels, 20000);
+}
+
+TEST(Integrator, WeightIsTheNumberOfFramesOverDepthSquared) {
+    const PinholeCamera camera = SmallCamera();
+    BlockMap map(MapConfig());
+    Integrator integrator({}, camera);
+    for (int i = 0; i < 5; ++i) integrator.Integrate(Prepare(UniformFrame(camera, 2.0f, {9, 9, 9})), {}, map);
+    ForKnownVoxels(map, [&](const Eigen::Vector3d& p, FieldWord, std::uint16_t weight, ColourWord) {
+        if (std::abs(p.x()) > 0.5 || std::abs(p.y()) > 0.5) return;
+        ASSERT_EQ(weight, static_cast<int>(5 * kWeightSteps / 4)) << p.transpose();
+    });
+}
+
+TEST(Integrator, RoomMatchesTheExactFieldNearTheSurface) {
+    // The measured distance runs along the optical axis ([B14] eq. 12): at an angle it exceeds the exact one by at most
+    // 1 / cosine, so both vanish together and agree in sign. Slanted walls: within a tenth of the band after dividing.
+    const PinholeCamera camera = SmallCamera();
+    BoxRoom room;
+    BlockMap map(MapConfig(0.02, 0.08));
+    Integrator integrator({}, camera);
+    for (int i = 0; i < 20; ++i)
+        integrator.Integrate(Prepare(room.Render(camera, SmoothPath(4 * i))), At(SmoothPath(4 * i)), map);
+    int voxels = 0, off = 0;
+    ForKnownVoxels(map, [&](const Eigen::Vector3d& p, FieldWord field, std::uint16_t, ColourWord) {
+        const double exact = room.SignedDistance(p);
+        if (std::abs(p.z() - room.high.z()) > 0.06) return;  // the wall that the camera faces
+        if (std::abs(p.x()) > 0.8 || std::abs(p.y()) > 0.6) return;
+        ++voxels;
+        off += std::abs(FieldDistance(field) * 0.08 - exact) > 0.004;
+    });
+    EXPECT_GT(voxels, 2000);
+    EXPECT_LT(off, voxels / 100);
+}
+
+TEST(Integrator, ColourComesBack) {
+    const PinholeCamera camera = SmallCamera();
+    BlockMap map(MapConfig());
+    Integrator integrator({}, camera);
+    const Rgb8 colour{200, 90, 40};
+    for (int i = 0; i < 8; ++i) integrator.Integrate(Prepare(UniformFrame(camera, 1.0f, colour)), {}, map);
+    int coloured = 0;
+    ForKnownVoxels(map, [&](const Eigen::Vector3d& p, FieldWord field, std::uint16_t, ColourWord word) {
+        if (!HasIntensity(field)) return;
+        const LinearRgb rgb = ColourFromWords(field, word);
+        ASSERT_NEAR(rgb.r * 255, colour.r, 1.6) << p.transpose();
+        ASSERT_NEAR(rgb.g * 255, colour.g, 1.6);
+        ASSERT_NEAR(rgb.b * 255, colour.b, 1.6);
+        ++coloured;
+    });
+    EXPECT_GT(coloured, 5000);
+}
+
+TEST(Integrator, BrightnessIsTakenBackToTheMaps) {
+    const PinholeCamera camera = SmallCamera();
+    BlockMap map(MapConfig());
+    Integrator integrator({}, camera);
+    Integrator::View view;
+    view.gain = 1.5f;
+    view.offset = 0.05f;
+    integrator.Integrate(Prepare(UniformFrame(camera, 1.0f, {100, 100, 100})), view, map);
+    ForKnownVoxels(map, [&](const Eigen::Vector3d&, FieldWord field, std::uint16_t, ColourWord) {
+        if (!HasIntensity(field)) return;
+        ASSERT_NEAR(FieldIntensity(field), 1.5 * 100 / 255.0 + 0.05, 1e-4);
+    });
+}
+
+// Eight-bit averages, and sixteen-bit ones rounded to nearest, stop moving once the weight is large.
+TEST(Integrator, TenThousandFramesConverge) {
+    const PinholeCamera camera{24, 18, 100, 100, 11.5, 8.5};
+    BlockMap map(MapConfig(0.02, 0.04));
+    Integrator integrator({}, camera);
+    const PreparedFrame wrong = Prepare(UniformFrame(camera, 1.010f, {255, 120, 120}));
+    const PreparedFrame right = Prepare(UniformFrame(camera, 1.000f, {100, 128, 140}));
+    for (int i = 0; i < 500; ++i) integrator.Integrate(wrong, {}, map);
+    for (int i = 0; i < 9500; ++i) integrator.Integrate(right, {}, map);
+    double worst_distance = 0, worst_colour = 0;
+    int voxels = 0;
+    ForKnownVoxels(map, [&](const Eigen::Vector3d& p, FieldWord field, std::uint16_t, ColourWord word) {
+        if (std::abs(p.z() - 1.0) > 0.025 || !HasIntensity(field)) return;
+        const LinearRgb rgb = ColourFromWords(field, word);
+        worst_distance = std::max(worst_distance, std::abs(FieldDistance(field) * 0.04 - (1.0 - p.z())));
+        worst_colour = std::max({worst_colour, std::abs(rgb.r * 255.0 - 100), std::abs(rgb.g * 255.0 - 128),
+                                 std::abs(rgb.b * 255.0 - 140)});
+        ++voxels;
+    });
+    EXPECT_GT(voxels, 100);
+    EXPECT_LT(worst_distance, 2e-4);
+    EXPECT_LT(worst_colour, 4.0);  // one frame's chroma has 8 bits; the rest is the dither's spread
+}
+
+TEST(Integrator, PortableAndAvx2Agree) {
+    if (!CpuHasAvx2()) GTEST_SKIP() << "this machine has no AVX2";
+    const PinholeCamera camera = SmallCamera();
+    BoxRoom room;
+    room.has_ball = true;
+    BlockMap maps[2] = {BlockMap(MapConfig()), BlockMap(MapConfig())};
+    Integrator integrators[2] = {Integrator({}, camera, VectorPath::kBaseline),
+                                 Integrator({}, camera, VectorPath::kAvx2)};
+    for (int i = 0; i < 5; ++i)
+        for (int k = 0; k < 2; ++k)
+            integrators[k].Integrate(Prepare(room.Render(camera, SmoothPath(10 * i))),
+                                     At(SmoothPath(10 * i)), maps[k]);
+    ASSERT_EQ(maps[0].size(), maps[1].size());
+    std::int64_t voxels = 0, differ = 0;
+    for (BlockId id = 1; id < maps[0].size(); ++id)
+        for (int i = 0; i < kBlockVoxels; ++i) {
+            const FieldWord a = maps[0].field(id)[i], b = maps[1].field(id)[i];
+            ++voxels;
+            differ += HasDistance(a) != HasDistance(b) || std::abs(FieldDistance(a) - FieldDistance(b)) > 1e-3f;
+        }
+    // Fused multiply-adds move a projection across a pixel's border now and then; the neighbouring pixel's depth differs.
+    EXPECT_LT(differ, voxels / 1000);
+}
+
+TEST(Integrator, ThreadsDoNotChangeAByte) {
+    const PinholeCamera camera = SmallCamera();
+    BoxRoom room;
+    room.has_ball = true;
+    BlockMap maps[2] = {BlockMap(MapConfig()), BlockMap(MapConfig())};
+    for (int k = 0; k < 2; ++k) {
+        tbb::global_control threads(tbb::global_control::max_allowed_parallelism, k == 0 ? 1 : 4);
+        Integrator integrator({}, camera);
+        for (int i = 0; i < 5; ++i)
+            integrator.Integrate(Prepare(room.Render(camera, SmoothPath(10 * i))), At(SmoothPath(10 * i)),
+                                 maps[k]);
+    }
+    ASSERT_EQ(maps[0].size(), maps[1].size());
+    const auto bytes = static_cast<std::size_t>(maps[0].size()) * kBlockVoxels;
+    EXPECT_EQ(std::memcmp(maps[0].field(0), maps[1].field(0), bytes * sizeof(FieldWord)), 0);
+    EXPECT_EQ(std::memcmp(maps[0].colour(0), maps[1].colour(0), bytes * sizeof(ColourWord)), 0);
+    EXPECT_EQ(std::memcmp(maps[0].weight(0), maps[1].weight(0), bytes * sizeof(std::uint16_t)), 0);
+}
+
+TEST(Integrator, FarFromTheOriginIsAsFine) {
+    const PinholeCamera camera = SmallCamera();
+    BlockMap map(MapConfig(0.02, 0.08));
+    Integrator integrator({}, camera);
+    Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+    T.translation() << 409.6, -204.8, 1024.0;  // whole blocks
+    integrator.Integrate(Prepare(UniformFrame(camera, 1.0f, {90, 90, 90})), At(T), map);
+    ForKnownVoxels(map, [&](const Eigen::Vector3d& p, FieldWord field, std::uint16_t, ColourWord) {
+        ASSERT_NEAR(FieldDistance(field) * 0.08, std::clamp(1025.0 - p.z(), -0.08, 0.08), 1e-4);
+    });
+}
+
+TEST(Integrator, HostileDepthStaysBounded) {
+    const PinholeCamera camera = SmallCamera();
+    BlockMap map(MapConfig());
+    Integrator::Config config;
+    config.max_new_blocks = 1000;
+    Integrator integrator(config, camera);
+    Frame frame = UniformFrame(camera, 0.0f, {1, 2, 3});
+    EXPECT_EQ(integrator.Integrate(Prepare(frame), {}, map).new_blocks, 0);  // no depth
+
+    frame = UniformFrame(camera, 65.535f, {1, 2, 3});
+    EXPECT_EQ(integrator.Integrate(Prepare(frame), {}, map).new_blocks, 0);  // out of range
+
+    std::uint32_t random = 1;
+    for (float& z : std::span(frame.depth_m.data(), frame.depth_m.size())) {
+        random = random * 1664525u + 1013904223u;
+        z = static_cast<float>(random >> 8) * (6.0f / (1 << 24));
+    }
+    const Integrator::Report report = integrator.Integrate(Prepare(frame), {}, map);
+    EXPECT_LE(report.new_blocks, 1000);
+    for (float& z : std::span(frame.depth_m.data(), frame.depth_m.size()))
+        z = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_EQ(integrator.Integrate(Prepare(frame), {}, map).new_blocks, 0);
+}
+
+TEST(Integrator, SeenThroughIsClearedAgain) {
+    const PinholeCamera camera = SmallCamera();
+    BlockMap map(MapConfig());
+    Integrator integrator({}, camera);
+    for (int i = 0; i < 3; ++i) integrator.Integrate(Prepare(UniformFrame(camera, 1.0f, {9, 9, 9})), {}, map);
+    for (int i = 0; i < 60; ++i) integrator.Integrate(Prepare(UniformFrame(camera, 2.0f, {9, 9, 9})), {}, map);
+    ForKnownVoxels(map, [&](const Eigen::Vector3d& p, FieldWord field, std::uint16_t, ColourWord) {
+        if (p.z() > 1.2 || std::abs(p.x()) > 0.3 || std::abs(p.y()) > 0.3) return;
+        ASSERT_GT(FieldDistance(field), 0.0f) << p.transpose();
+    });
+}
+
+}  // namespace
+}  // namespace tessera

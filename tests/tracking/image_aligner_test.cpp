@@ -1,0 +1,64 @@
+#include "tracking/image_aligner.h"
+
+#include <gtest/gtest.h>
+
+#include "core/se3.h"
+#include "support/box_room.h"
+#include "tracking/image_search.h"
+
+namespace tessera {
+namespace {
+
+using testing_support::BoxRoom;
+
+PinholeCamera FullCamera() { return {640, 480, 525, 525, 319.5, 239.5}; }
+
+PreparedFrame Prepare(const Frame& frame) {
+    PreparedFrame prepared;
+    PrepareFrame(frame, {}, prepared);
+    return prepared;
+}
+
+TEST(ImageAligner, FindsAFastMotionFromRest) {
+    BoxRoom room;
+    room.has_ball = true;
+    Vector6d twist;
+    twist << 0.06, -0.09, 0.05, 0.05, -0.03, 0.04;  // 6.6 degrees and 7 cm between two frames
+    ImageAligner aligner({}, FullCamera());
+    aligner.Align(Prepare(room.Render(FullCamera(), Eigen::Isometry3d::Identity())), Eigen::Isometry3d::Identity());
+    const Eigen::Isometry3d T_true = Se3Exp(twist);
+    const Eigen::Isometry3d T = aligner.Align(Prepare(room.Render(FullCamera(), T_true)), Eigen::Isometry3d::Identity());
+    EXPECT_LT((T_true.inverse() * T).translation().norm(), 0.015);
+    EXPECT_LT(RotationAngle(T_true, T), 0.01);
+}
+
+TEST(ImageAligner, WithoutAnythingToAlignReturnsTheGuess) {
+    Eigen::Isometry3d guess = Eigen::Isometry3d::Identity();
+    guess.translation().x() = 0.1;
+    Frame frame;
+    frame.depth_m = DepthImage(640, 480, 0.0f);
+    ImageAligner aligner({}, FullCamera());
+    EXPECT_TRUE(aligner.Align(Prepare(frame), guess).isApprox(guess));
+    EXPECT_TRUE(aligner.Align(Prepare(frame), guess).isApprox(guess, 1e-6));
+}
+
+TEST(ImageSearch, FindsAShiftToThePixelAndItsSign) {
+    const PinholeCamera camera{40, 30, 32.8, 32.8, 19.5, 14.5};
+    Image<float> last(40, 30), current(40, 30);
+    const auto texture = [](int x, int y) { return 0.5f + 0.3f * static_cast<float>(std::sin(0.7 * x) * std::cos(0.9 * y + 0.2 * x)); };
+    for (int y = 0; y < 30; ++y)
+        for (int x = 0; x < 40; ++x) {
+            last(x, y) = texture(x, y);
+            current(x, y) = 0.1f + texture(x - 3, y + 2);  // the content moved by (+3, -2), and got brighter
+        }
+    const auto rotations = SearchRotations(last, current, camera, 1);
+    ASSERT_EQ(rotations.size(), 1u);
+    // A rotation taking last camera coordinates to current ones that moves the image right and up.
+    const Eigen::Vector3d p = Se3Exp((Vector6d() << rotations[0], Eigen::Vector3d::Zero()).finished()) *
+                              camera.Unproject(19.5, 14.5, 1.0);
+    EXPECT_NEAR(camera.Project(p).x(), 22.5, 0.1);
+    EXPECT_NEAR(camera.Project(p).y(), 12.5, 0.1);
+}
+
+}  // namespace
+}  // namespace tessera

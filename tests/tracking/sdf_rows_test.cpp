@@ -1,0 +1,172 @@
+#include "tracking/sdf_rows.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/cpu.h"
+#include "mapping/block_map.h"
+#include "support/box_room.h"
+#include "tracking/sdf_solver.h"
+
+namespace tessera {
+namespace {
+
+using L = SdfSumLayout;
+
+// Fills every voxel of the blocks in a cube with a smooth field; leaves one block out and one voxel unknown.
+void Fill(BlockMap& map) {
+    for (int z = -2; z <= 2; ++z)
+        for (int y = -2; y <= 2; ++y)
+            for (int x = -2; x <= 2; ++x) {
+                if (x == 1 && y == 1 && z == 1) continue;
+                const BlockId id = map.Allocate({x, y, z});
+                for (int i = 0; i < kBlockVoxels; ++i) {
+                    const double px = 8 * x + (i & 7), py = 8 * y + (i >> 3 & 7), pz = 8 * z + (i >> 6);
+                    const double d = 0.8 * std::sin(0.07 * px + 0.05 * py - 0.06 * pz);
+                    const double c = 0.5 + 0.4 * std::cos(0.11 * px - 0.08 * py + 0.05 * pz);
+                    const auto distance = static_cast<std::int32_t>(std::lround(32767 * d));
+                    const auto intensity = static_cast<std::uint32_t>(1 + std::lround(65534 * c));
+                    map.field(id)[i] = static_cast<std::uint32_t>(distance) << 16 | intensity;
+                }
+            }
+    map.field(map.Find({0, 0, 0}))[100] = kUnknownField;
+    map.field(map.Find({-1, 0, 0}))[200] &= 0xffff0000u;  // distance without intensity
+}
+
+struct Points {
+    std::vector<float> x, y, z, intensity, weight;
+
+    explicit Points(int count) {
+        std::uint32_t state = 12345;
+        const auto random = [&state] {
+            state = state * 1664525u + 1013904223u;
+            return static_cast<float>(state >> 8) / static_cast<float>(1 << 24);
+        };
+        for (int i = 0; i < count; ++i) {
+            x.push_back(0.3f * (random() - 0.5f));
+            y.push_back(0.3f * (random() - 0.5f));
+            z.push_back(0.3f * (random() - 0.5f));
+            intensity.push_back(i % 7 == 0 ? -1.0f : random());
+            weight.push_back(i % 5 == 0 ? 0.0f : 0.5f + random());
+        }
+    }
+};
+
+// The same sums, slowly: one point at a time, one hash look-up per corner, in double.
+SdfSums SlowSums(const BlockMap& map, const Points& points, const SdfArguments& a) {
+    SdfSums sums;
+    const auto word = [&](int x, int y, int z) {
+        const BlockId id = map.Find({x >> 3, y >> 3, z >> 3});
+        return map.field(id)[(x & 7) + 8 * (y & 7) + 64 * (z & 7)];
+    };
+    for (std::size_t i = 0; i < points.x.size(); ++i) {
+        if (points.weight[i] <= 0) continue;
+        const double p_camera[3] = {points.x[i], points.y[i], points.z[i]};
+        double q[3], p[3];
+        for (int k = 0; k < 3; ++k) {
+            q[k] = a.translation[k];
+            for (int m = 0; m < 3; ++m) q[k] += a.rotation[3 * k + m] * p_camera[m];
+            p[k] = q[k] * a.voxel_size_m;
+        }
+        const int cell[3] = {int(std::floor(q[0])), int(std::floor(q[1])), int(std::floor(q[2]))};
+        double distance[8], intensity[8];
+        bool known = true, coloured = points.intensity[i] >= 0;
+        for (int c = 0; c < 8; ++c) {
+            const FieldWord w = word(8 * a.origin_block[0] + cell[0] + (c & 1), 8 * a.origin_block[1] + cell[1] + (c >> 1 & 1),
+                                     8 * a.origin_block[2] + cell[2] + (c >> 2));
+            known = known && HasDistance(w);
+            coloured = coloured && HasIntensity(w);
+            distance[c] = FieldDistance(w);
+            intensity[c] = FieldIntensity(w);
+        }
+        if (!known) continue;
+        const double weight = points.weight[i];
+        const auto add = [&](const double* corner, double unit, double scale, double share, bool photometric) {
+            const auto s = Trilinear<double>(corner, q[0] - cell[0], q[1] - cell[1], q[2] - cell[2]);
+            const double slope = unit / a.voxel_size_m;
+            const double g[3] = {s.gx * slope, s.gy * slope, s.gz * slope};
+            double r = s.value * unit;
+            if (photometric) r -= a.gain * points.intensity[i] + a.offset;
+            const double w = weight * std::min(1.0, scale / std::abs(r));
+            double j[6];
+            PointJacobian(p, g, j);
+            AddPoseTerm(j, r, share * w, sums.value);
+            if (photometric) AddBrightnessTerm(j, r, double(points.intensity[i]), share * w, sums.value);
+            sums.value[photometric ? L::kIntensityError : L::kDistanceError] += w * r * r;
+            sums.value[photometric ? L::kIntensityWeight : L::kDistanceWeight] += w;
+            if (photometric) {
+                sums.value[L::kColoured] += 1;
+            } else {
+                sums.value[L::kKnown] += 1;
+                sums.value[L::kInliers] += std::abs(r) < a.inlier_distance_m;
+            }
+        };
+        add(distance, a.truncation_m, a.distance_scale_m, 1.0, false);
+        if (a.alpha > 0 && coloured) add(intensity, 1.0, a.intensity_scale, a.alpha, true);
+    }
+    return sums;
+}
+
+class SdfRows : public testing::TestWithParam<float> {};
+
+TEST_P(SdfRows, AgreeWithTheSlowSums) {
+    BlockMap map({.voxel_size_m = 0.01, .truncation_m = 0.04});
+    Fill(map);
+    const Points points(4096);
+    SdfArguments a{};
+    const BlockMap::View view = map.view();
+    a.field = view.field;
+    a.neighbours = view.neighbours;
+    a.table = view.table;
+    a.coords = view.coords;
+    a.table_mask = view.table_mask;
+    a.voxel_size_m = view.voxel_size_m;
+    a.truncation_m = view.truncation_m;
+    Vector6d twist;
+    twist << 0.3, -0.2, 0.5, 0, 0, 0;
+    const Eigen::Matrix3d R = Se3Exp(twist).linear() / 0.01;
+    for (int i = 0; i < 9; ++i) a.rotation[i] = static_cast<float>(R(i / 3, i % 3));
+    a.translation[0] = 8.5f;
+    a.translation[1] = -3.25f;
+    a.translation[2] = 1.0f;
+    a.origin_block[0] = -1;
+    a.x = points.x.data();
+    a.y = points.y.data();
+    a.z = points.z.data();
+    a.intensity = points.intensity.data();
+    a.weight = points.weight.data();
+    a.alpha = GetParam();
+    a.gain = 1.1f;
+    a.offset = -0.03f;
+    a.distance_scale_m = 0.015f;
+    a.intensity_scale = 0.1f;
+    a.inlier_distance_m = 0.02f;
+    std::vector<float> distance_residual(4096), intensity_residual(4096);
+    a.distance_residual = distance_residual.data();
+    a.intensity_residual = intensity_residual.data();
+
+    const SdfSums slow = SlowSums(map, points, a);
+    ASSERT_GT(slow[L::kKnown], 1000);
+    const auto expect_equal = [&](const SdfSums& sums) {
+        for (int k = 0; k < L::kCount; ++k)
+            EXPECT_NEAR(sums[k], slow[k], 2e-4 * (1.0 + std::abs(slow[k]))) << "sum " << k;
+        EXPECT_EQ(sums[L::kKnown], slow[L::kKnown]);
+        EXPECT_EQ(sums[L::kColoured], slow[L::kColoured]);
+        const auto known = std::count_if(distance_residual.begin(), distance_residual.end(),
+                                         [](float r) { return !std::isnan(r); });
+        EXPECT_EQ(static_cast<double>(known), slow[L::kKnown]);
+    };
+    SdfSums portable;
+    baseline::SumSdfPoints(a, 0, 4096, portable.value);
+    expect_equal(portable);
+    if (!CpuHasAvx2()) GTEST_SKIP() << "no AVX2 here: only the portable path was checked";
+    SdfSums vector;
+    avx2::SumSdfPoints(a, 0, 4096, vector.value);
+    expect_equal(vector);
+}
+
+INSTANTIATE_TEST_SUITE_P(Alpha, SdfRows, testing::Values(0.0f, 0.1f));
+
+}  // namespace
+}  // namespace tessera
