@@ -1,0 +1,185 @@
+#include "io/folder_layout.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "io/folder_truth.h"
+#include "io/image_lists.h"
+#include "io/named_images.h"
+#include "io/published_cameras.h"
+
+namespace tessera {
+namespace {
+
+namespace fs = std::filesystem;
+
+enum class Layout { kLists, kAssociations, kSevenScenes, kNamedImages };
+
+bool Exists(const fs::path& path) {
+    std::error_code error;
+    return fs::exists(path, error);
+}
+
+// The folder's own name, also for "." and a trailing slash.
+std::string FolderName(const fs::path& folder) {
+    std::error_code error;
+    const fs::path whole = fs::canonical(folder, error);
+    return (error ? folder : whole).filename().string();
+}
+
+Status CheckFolder(const std::string& folder) {
+    std::error_code error;
+    const fs::file_status status = fs::status(folder, error);
+    if (!fs::exists(status)) return Status::Error(folder + ": no such folder");
+    if (!fs::is_directory(status))
+        return Status::Error(folder + ": is a file; give the folder of a recorded sequence");
+    if (fs::is_empty(folder, error)) return Status::Error(folder + ": is empty");
+    if (error) return Status::Error(fmt::format("{}: cannot be read: {}", folder, error.message()));
+    return Status::Ok();
+}
+
+Result<Layout> RecogniseLayout(const fs::path& folder) {
+    const bool rgb = Exists(folder / "rgb.txt"), depth = Exists(folder / "depth.txt");
+    if (rgb && depth) return Layout::kLists;
+    if (Exists(folder / "associations.txt")) return Layout::kAssociations;
+    if (rgb != depth)
+        return Status::Error(fmt::format("{}: there is {} but no {}", folder.string(),
+                                         rgb ? "rgb.txt" : "depth.txt",
+                                         rgb ? "depth.txt" : "rgb.txt"));
+    if (Exists(folder / "frame-000000.depth.png") || Exists(folder / "frame-000000.color.png"))
+        return Layout::kSevenScenes;
+    if (FindImageFolders(folder.string()).complete()) return Layout::kNamedImages;
+    const bool parent = Exists(folder / "seq-01");
+    return Status::Error(fmt::format(
+        "{}: {}", folder.string(),
+        parent ? "holds several sequences; give one of them, such as seq-01"
+               : "no sequence that is known here; expected rgb.txt and depth.txt (TUM), "
+                 "associations.txt (ICL-NUIM), "
+                 "frame-000000.depth.png (7-Scenes), or camera.yaml with depth/ and rgb/"));
+}
+
+bool StampsAreFrameNumbers(const std::vector<ImagePair>& pairs) {
+    constexpr double kMostFrames = 1e7;
+    return std::all_of(pairs.begin(), pairs.end(), [](const ImagePair& pair) {
+        const double stamp = pair.depth_stamp_s;
+        return stamp >= 0 && stamp < kMostFrames && stamp == std::floor(stamp);
+    });
+}
+
+bool IsIclFolder(const fs::path& folder, Layout layout) {
+    if (layout != Layout::kLists && layout != Layout::kAssociations) return false;
+    const std::string name = FolderName(folder);
+    for (const char* part : {"living_room", "livingRoom", "office_room", "frei_png"})
+        if (name.find(part) != std::string::npos) return true;
+    if (!FindIclTruth(folder.string()).empty()) return true;
+    if (layout != Layout::kAssociations || Exists(folder / "camera.yaml")) return false;
+    const auto images = ReadAssociations((folder / "associations.txt").string());
+    return images.ok() && StampsAreFrameNumbers(images.value().pairs);
+}
+
+Result<CameraCalibration> FindCamera(const fs::path& folder, const std::string& published,
+                                     std::vector<std::string>& notes) {
+    const fs::path file = folder / "camera.yaml";
+    if (Exists(file)) return ReadCameraFile(file.string());
+    std::string name = published;
+    for (const char* tum : {"freiburg1", "freiburg2", "freiburg3"})
+        if (FolderName(folder).find(tum) != std::string::npos) name = tum;
+    if (const auto camera = PublishedCamera(name)) {
+        notes.push_back(
+            fmt::format("no camera.yaml: the published values of {} are used; put a camera.yaml "
+                        "there if it is another camera",
+                        name));
+        return *camera;
+    }
+    return Status::Error(
+        fmt::format("{}: no such file; write width, height, fx, fy, cx, cy (pixels) and "
+                    "depth_scale (stored depth value of one "
+                    "metre, e.g. 5000 or 1000), one 'key: value' a line, and 'distortion: [k1, k2, "
+                    "p1, p2, k3]' if the lens is not "
+                    "corrected",
+                    file.string()));
+}
+
+Result<ImagePairs> ReadPairs(const fs::path& folder, Layout layout, double fps,
+                             double max_pair_gap_s) {
+    switch (layout) {
+        case Layout::kLists:
+            return ReadImageLists((folder / "depth.txt").string(), (folder / "rgb.txt").string(),
+                                  max_pair_gap_s);
+        case Layout::kAssociations:
+            return ReadAssociations((folder / "associations.txt").string());
+        case Layout::kSevenScenes:
+            return ReadSevenScenesNames(folder.string(), fps);
+        case Layout::kNamedImages:
+            break;
+    }
+    return PairByName(folder.string(), FindImageFolders(folder.string()), fps, max_pair_gap_s);
+}
+
+Status AddFrames(const fs::path& folder, const std::vector<ImagePair>& pairs,
+                 FolderLayout& layout) {
+    std::size_t absent = 0;
+    std::string first_absent;
+    for (const ImagePair& pair : pairs) {
+        FolderFrame frame{pair.depth_stamp_s, pair.colour_stamp_s, (folder / pair.depth).string(),
+                          (folder / pair.colour).string(), std::nullopt};
+        const bool has_depth = Exists(frame.depth_path);
+        if (!has_depth || !Exists(frame.colour_path)) {
+            if (absent++ == 0) first_absent = has_depth ? frame.colour_path : frame.depth_path;
+        }
+        layout.frames.push_back(std::move(frame));
+    }
+    if (absent == pairs.size())
+        return Status::Error(
+            fmt::format("{}: no such file, and none of the {} frames has both its images; are they "
+                        "unpacked, and is the list theirs?",
+                        first_absent, absent));
+    if (absent > 0)
+        layout.notes.push_back(
+            fmt::format("{} of {} frames lack an image (first: {}); they will be skipped", absent,
+                        pairs.size(), first_absent));
+    return Status::Ok();
+}
+
+// Kind, the published camera's name, and what is peculiar to the layout.
+std::string Characterise(const fs::path& folder, Layout layout, FolderLayout& result) {
+    if (IsIclFolder(folder, layout)) {
+        result.kind = "ICL-NUIM folder";
+        return "icl_nuim";
+    }
+    if (layout == Layout::kSevenScenes) {
+        constexpr std::uint16_t kSevenScenesInvalid = 65535;
+        result.kind = "7-Scenes sequence";
+        result.invalid_depth = kSevenScenesInvalid;
+        result.notes.push_back("7-Scenes: colour is not registered to depth and is used as it is");
+        return "seven_scenes";
+    }
+    result.kind = layout == Layout::kNamedImages ? "image folder" : "TUM RGB-D folder";
+    return {};
+}
+
+}  // namespace
+
+Result<FolderLayout> ReadFolderLayout(const std::string& path, double max_pair_gap_s) {
+    if (Status status = CheckFolder(path); !status.ok()) return status;
+    const fs::path folder(path);
+    const Result<Layout> layout = RecogniseLayout(folder);
+    if (!layout.ok()) return layout.status();
+
+    FolderLayout result;
+    const std::string published = Characterise(folder, layout.value(), result);
+    const auto calibration = FindCamera(folder, published, result.notes);
+    if (!calibration.ok()) return calibration.status();
+    result.calibration = calibration.value();
+
+    const auto images = ReadPairs(folder, layout.value(), result.calibration.fps, max_pair_gap_s);
+    if (!images.ok()) return images.status();
+    const ImagePairs& found = images.value();
+    result.notes.insert(result.notes.end(), found.notes.begin(), found.notes.end());
+    if (Status status = AddFrames(folder, found.pairs, result); !status.ok()) return status;
+    AddTruth(path, StampsAreFrameNumbers(found.pairs), result);
+    return result;
+}
+
+}  // namespace tessera

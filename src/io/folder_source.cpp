@@ -1,0 +1,132 @@
+#include "io/folder_source.h"
+
+#include <algorithm>
+
+#include "io/folder_layout.h"
+#include "io/image_decoder.h"
+#include "io/rectifier.h"
+
+namespace tessera {
+namespace {
+
+class FolderSource : public FrameSource {
+  public:
+    FolderSource(const std::string& path, FolderLayout layout, const FolderSourceConfig& config)
+        : layout_(std::move(layout)),
+          rectifier_(layout_.calibration, {config.rectify, layout_.invalid_depth}) {
+        info_.name = path;
+        info_.kind = layout_.kind;
+        info_.camera = layout_.calibration.pinhole;
+        info_.frame_count = static_cast<std::int64_t>(layout_.frames.size());
+        info_.fps = layout_.calibration.fps;
+        info_.rectified = rectifier_.active();
+        info_.has_truth =
+            std::any_of(layout_.frames.begin(), layout_.frames.end(),
+                        [](const FolderFrame& frame) { return frame.T_world_camera.has_value(); });
+        info_.notes = layout_.notes;
+        if (!info_.rectified && !layout_.calibration.distortion.IsZero())
+            info_.notes.push_back("the lens distortion is not corrected, as configured");
+    }
+
+    const SourceInfo& info() const override { return info_; }
+
+    ReadResult Read(Frame& frame) override {
+        if (next_ >= layout_.frames.size()) return {ReadStatus::kEnd, {}};
+        const std::size_t index = next_++;
+        const FolderFrame& listed = layout_.frames[index];
+        if (Status status = Decode(listed); !status.ok())
+            return {ReadStatus::kSkip, status.message()};
+        frame.index = static_cast<std::int64_t>(index);
+        frame.stamp_s = listed.depth_stamp_s;
+        frame.colour_stamp_s = listed.colour_stamp_s;
+        frame.T_world_camera = listed.T_world_camera;
+        rectifier_.Depth(depth_, frame.depth_m);
+        if (rectifier_.active())
+            rectifier_.Colour(colour_, frame.colour);
+        else
+            std::swap(frame.colour, colour_);
+        return {};
+    }
+
+    bool Seek(std::int64_t index) override {
+        if (index < 0 || index > info_.frame_count) return false;
+        next_ = static_cast<std::size_t>(index);
+        return true;
+    }
+
+    // Fails if none of some frames, spread over the sequence, is usable: with what is wrong with
+    // the first.
+    Status Probe() {
+        constexpr std::size_t kProbes = 5;
+        const std::size_t count = layout_.frames.size();
+        Status first;
+        for (std::size_t i = 0; i < std::min(kProbes, count); ++i) {
+            Status status = Decode(layout_.frames[i * count / std::min(kProbes, count)]);
+            if (status.ok()) return status;
+            if (first.ok()) first = std::move(status);
+        }
+        return first;
+    }
+
+  private:
+    // The frame's raw images, of the calibration's size.
+    Status Decode(const FolderFrame& listed) {
+        if (Status status = decoder_.ReadDepth(listed.depth_path, depth_); !status.ok())
+            return status;
+        if (Status status = decoder_.ReadColour(listed.colour_path, colour_); !status.ok())
+            return status;
+        if (depth_.width() != colour_.width() || depth_.height() != colour_.height())
+            return Status::Error(
+                fmt::format("{}: {} x {} pixels, but its colour image {} has {} x {}",
+                            listed.depth_path, depth_.width(), depth_.height(), listed.colour_path,
+                            colour_.width(), colour_.height()));
+        if (depth_.width() != info_.camera.width || depth_.height() != info_.camera.height)
+            return Status::Error(
+                fmt::format("{}: {} x {} pixels, but the camera has {} x {}; correct camera.yaml",
+                            listed.depth_path, depth_.width(), depth_.height(), info_.camera.width,
+                            info_.camera.height));
+        return Status::Ok();
+    }
+
+    FolderLayout layout_;
+    Rectifier rectifier_;
+    SourceInfo info_;
+    ImageDecoder decoder_;
+    Image<std::uint16_t> depth_;
+    ColourImage colour_;
+    std::size_t next_ = 0;
+};
+
+}  // namespace
+
+void FolderSourceConfig::Describe(ConfigParameters& p) {
+    p.Add("max_pair_gap_s", max_pair_gap_s, {1e-6, 10.0}, "s",
+          "colour and depth images this far apart in time or farther are no pair; raise it for a "
+          "recorder that is not "
+          "synchronised, at the price of colours beside their surface in fast motion");
+    p.Add("rectify", rectify,
+          "correct the lens distortion that camera.yaml gives; off only to measure what it brings");
+    p.Add("depth_scale", depth_scale, {0.0, 1e6}, "",
+          "stored depth value of one metre; 0 takes the camera file's; set it where depths come "
+          "out too long or short");
+}
+
+Status FolderSourceConfig::Validate() const {
+    constexpr double kLeast = 1e-3;
+    if (depth_scale == 0 || depth_scale >= kLeast) return Status::Ok();
+    return Status::Error(
+        fmt::format("source.depth_scale: {} is neither 0 nor at least {}", depth_scale, kLeast));
+}
+
+Result<std::unique_ptr<FrameSource>> OpenFolderSource(const std::string& path,
+                                                      const FolderSourceConfig& config) {
+    if (Status status = config.Validate(); !status.ok()) return status;
+    Result<FolderLayout> layout = ReadFolderLayout(path, config.max_pair_gap_s);
+    if (!layout.ok()) return layout.status();
+    if (config.depth_scale > 0) layout.value().calibration.depth_scale = config.depth_scale;
+    auto source = std::make_unique<FolderSource>(path, std::move(layout.value()), config);
+    if (Status status = source->Probe(); !status.ok()) return status;
+    return std::unique_ptr<FrameSource>(std::move(source));
+}
+
+}  // namespace tessera

@@ -1,0 +1,58 @@
+#include "io/image_io.h"
+
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "io/image_decoder.h"
+
+namespace tessera {
+namespace {
+
+constexpr int kJpegQuality = 95;
+
+// OpenCV's matrices have no const view of foreign pixels; what is wrapped here is only read.
+template <class T>
+cv::Mat Wrap(const Image<T>& image, int type) {
+    return {image.height(), image.width(), type, const_cast<T*>(image.data())};
+}
+
+Status Write(const std::string& path, const cv::Mat& pixels) {
+    if (pixels.empty()) return Status::Error(path + ": there are no pixels to write");
+    try {
+        if (cv::imwrite(path, pixels, {cv::IMWRITE_JPEG_QUALITY, kJpegQuality}))
+            return Status::Ok();
+    } catch (const cv::Exception&) {  // the extension is unknown
+        return Status::Error(path + ": is no image format that can be written; use .png");
+    }
+    return Status::Error(path + ": cannot be written; is the folder there, writable and not full?");
+}
+
+}  // namespace
+
+Result<ColourImage> ReadColourImage(const std::string& path) {
+    ColourImage image;
+    if (Status status = ImageDecoder().ReadColour(path, image); !status.ok()) return status;
+    return image;
+}
+
+Result<Image<std::uint16_t>> ReadDepthImage(const std::string& path) {
+    Image<std::uint16_t> image;
+    if (Status status = ImageDecoder().ReadDepth(path, image); !status.ok()) return status;
+    return image;
+}
+
+Status WriteColourImage(const std::string& path, const ColourImage& image) {
+    cv::Mat bgr;
+    if (!image.empty()) cv::cvtColor(Wrap(image, CV_8UC3), bgr, cv::COLOR_RGB2BGR);
+    return Write(path, bgr);
+}
+
+Status WriteDepthImage(const std::string& path, const Image<std::uint16_t>& image) {
+    return Write(path, Wrap(image, CV_16UC1));
+}
+
+Status WriteGreyImage(const std::string& path, const Image<std::uint8_t>& image) {
+    return Write(path, Wrap(image, CV_8UC1));
+}
+
+}  // namespace tessera

@@ -1,0 +1,172 @@
+#include "io/image_lists.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "io/read_file.h"
+#include "io/stamp_pairing.h"
+
+namespace tessera {
+namespace {
+
+constexpr std::size_t kMaxListBytes = std::size_t{256} << 20;  // two days at 30 Hz
+
+struct ListedImage {
+    double stamp_s;
+    std::string name;
+};
+
+std::vector<std::string_view> SplitWords(std::string_view line) {
+    constexpr std::string_view kSeparators = " \t\r,";
+    std::vector<std::string_view> words;
+    while (true) {
+        const std::size_t begin = line.find_first_not_of(kSeparators);
+        if (begin == std::string_view::npos) return words;
+        line.remove_prefix(begin);
+        words.push_back(line.substr(0, line.find_first_of(kSeparators)));
+        line.remove_prefix(words.back().size());
+    }
+}
+
+std::optional<double> ParseStamp(std::string_view word) {
+    double stamp_s = 0;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), stamp_s);
+    if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(stamp_s))
+        return std::nullopt;
+    return stamp_s;
+}
+
+// Hands each line's words to `use`, which says whether they are what they should be; notes how many
+// are not.
+Status ForEachLine(const std::string& path, const std::string& form,
+                   const std::function<bool(std::span<const std::string_view>)>& use,
+                   std::vector<std::string>& notes) {
+    std::vector<std::uint8_t> bytes;
+    if (Status status = ReadFileBytes(path, kMaxListBytes, bytes); !status.ok()) return status;
+    std::string_view rest(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    if (rest.starts_with("\xef\xbb\xbf")) rest.remove_prefix(3);  // a byte order mark
+    std::size_t bad = 0, first_bad = 0, good = 0;
+    for (std::size_t number = 1; !rest.empty(); ++number) {
+        const std::size_t end = std::min(rest.find('\n'), rest.size());
+        const std::string_view line = rest.substr(0, end);
+        rest.remove_prefix(std::min(end + 1, rest.size()));
+        const auto words = SplitWords(line.substr(0, line.find('#')));
+        if (words.empty()) continue;
+        if (use(words)) {
+            ++good;
+        } else if (bad++ == 0) {
+            first_bad = number;
+        }
+    }
+    if (good == 0) return Status::Error(fmt::format("{}: no line '{}' in it", path, form));
+    if (bad > 0)
+        notes.push_back(fmt::format("{}: {} line{} not '{}' (first: line {}); skipped", path, bad,
+                                    bad == 1 ? " is" : "s are", form, first_bad));
+    return Status::Ok();
+}
+
+// Sorts by stamp and drops what repeats one; `stamp` names the member.
+template <class Entry>
+void SortByStamp(const std::string& path, double Entry::*stamp, std::vector<Entry>& entries,
+                 std::vector<std::string>& notes) {
+    const auto earlier = [stamp](const Entry& a, const Entry& b) { return a.*stamp < b.*stamp; };
+    if (!std::is_sorted(entries.begin(), entries.end(), earlier)) {
+        notes.push_back(path + ": stamps are out of order; sorted");
+        std::stable_sort(entries.begin(), entries.end(), earlier);
+    }
+    const auto last =
+        std::unique(entries.begin(), entries.end(),
+                    [stamp](const Entry& a, const Entry& b) { return a.*stamp == b.*stamp; });
+    const auto repeated = std::distance(last, entries.end());
+    if (repeated == 0) return;
+    notes.push_back(fmt::format("{}: {} stamp{} repeated; the first image of each is used", path,
+                                repeated, repeated == 1 ? " is" : "s are"));
+    entries.erase(last, entries.end());
+}
+
+Result<std::vector<ListedImage>> ReadList(const std::string& path,
+                                          std::vector<std::string>& notes) {
+    std::vector<ListedImage> images;
+    const auto use = [&](std::span<const std::string_view> words) {
+        const auto stamp_s = ParseStamp(words[0]);
+        if (!stamp_s || words.size() < 2) return false;
+        images.push_back({*stamp_s, std::string(words[1])});
+        return true;
+    };
+    if (Status status = ForEachLine(path, "stamp filename", use, notes); !status.ok())
+        return status;
+    SortByStamp(path, &ListedImage::stamp_s, images, notes);
+    return images;
+}
+
+std::vector<double> Stamps(const std::vector<ListedImage>& images) {
+    std::vector<double> stamps_s;
+    for (const ListedImage& image : images) stamps_s.push_back(image.stamp_s);
+    return stamps_s;
+}
+
+bool NamesDepth(std::string_view name) {
+    std::string lower(name);
+    std::transform(lower.begin(), lower.end(), lower.begin(),
+                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+    return lower.find("depth") != std::string::npos;
+}
+
+}  // namespace
+
+Result<ImagePairs> ReadImageLists(const std::string& depth_list, const std::string& colour_list,
+                                  double max_gap_s) {
+    ImagePairs result;
+    const auto depth = ReadList(depth_list, result.notes);
+    if (!depth.ok()) return depth.status();
+    const auto colour = ReadList(colour_list, result.notes);
+    if (!colour.ok()) return colour.status();
+    const std::vector<double> depth_s = Stamps(depth.value()), colour_s = Stamps(colour.value());
+    for (const StampPair& pair : PairNearest(depth_s, colour_s, max_gap_s)) {
+        const ListedImage& d = depth.value()[pair.depth];
+        const ListedImage& c = colour.value()[pair.colour];
+        result.pairs.push_back({d.stamp_s, c.stamp_s, d.name, c.name});
+    }
+    if (result.pairs.empty())
+        return Status::Error(
+            fmt::format("{}: no image is less than {} s from one in {} (the smallest gap is {:.6g} "
+                        "s); correct the stamps or "
+                        "raise max_pair_gap_s",
+                        depth_list, max_gap_s, colour_list, SmallestGap(depth_s, colour_s)));
+    const std::size_t pairs = result.pairs.size();
+    if (pairs < depth_s.size() || pairs < colour_s.size())
+        result.notes.push_back(fmt::format(
+            "{} of {} depth and {} of {} colour images have no partner less than {} s away",
+            depth_s.size() - pairs, depth_s.size(), colour_s.size() - pairs, colour_s.size(),
+            max_gap_s));
+    return result;
+}
+
+Result<ImagePairs> ReadAssociations(const std::string& list) {
+    ImagePairs result;
+    const auto use = [&](std::span<const std::string_view> words) {
+        if (words.size() < 4) return false;
+        const auto first_s = ParseStamp(words[0]), second_s = ParseStamp(words[2]);
+        const bool depth_first = NamesDepth(words[1]);
+        if (!first_s || !second_s || depth_first == NamesDepth(words[3])) return false;
+        ImagePair pair{*first_s, *second_s, std::string(words[1]), std::string(words[3])};
+        if (!depth_first) {
+            std::swap(pair.depth_stamp_s, pair.colour_stamp_s);
+            std::swap(pair.depth, pair.colour);
+        }
+        result.pairs.push_back(std::move(pair));
+        return true;
+    };
+    if (Status status = ForEachLine(list, "stamp depth/file stamp rgb/file", use, result.notes);
+        !status.ok())
+        return status;
+    SortByStamp(list, &ImagePair::depth_stamp_s, result.pairs, result.notes);
+    return result;
+}
+
+}  // namespace tessera

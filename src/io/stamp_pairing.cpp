@@ -1,0 +1,98 @@
+#include "io/stamp_pairing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <queue>
+#include <tuple>
+
+namespace tessera {
+namespace {
+
+constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+
+// Both lists merged by time, as a doubly linked list from which paired images are taken out.
+struct Item {
+    double stamp_s;
+    bool is_depth;
+    std::size_t index;          // in its own list
+    std::size_t before, after;  // in the merged list
+    bool taken;
+};
+
+std::vector<Item> Merge(std::span<const double> depth, std::span<const double> colour) {
+    std::vector<Item> items;
+    items.reserve(depth.size() + colour.size());
+    std::size_t d = 0, c = 0;
+    while (d < depth.size() || c < colour.size()) {
+        const bool is_depth = c == colour.size() || (d < depth.size() && depth[d] < colour[c]);
+        const std::size_t index = is_depth ? d++ : c++;
+        const std::size_t at = items.size();
+        items.push_back({is_depth ? depth[index] : colour[index], is_depth, index,
+                         at == 0 ? kNone : at - 1, at + 1, false});
+    }
+    if (!items.empty()) items.back().after = kNone;
+    return items;
+}
+
+struct Candidate {
+    double gap_s;
+    double colour_stamp_s, depth_stamp_s;
+    std::size_t first, second;  // in the merged list
+
+    bool operator>(const Candidate& o) const {
+        return std::tie(gap_s, colour_stamp_s, depth_stamp_s) >
+               std::tie(o.gap_s, o.colour_stamp_s, o.depth_stamp_s);
+    }
+};
+
+}  // namespace
+
+// The closest pair of what remains always stands side by side in the merged order: whatever stood
+// between the two would be closer to one of them. So neighbours are the only candidates, and taking
+// a pair out makes one new one.
+std::vector<StampPair> PairNearest(std::span<const double> depth_stamps_s,
+                                   std::span<const double> colour_stamps_s, double max_gap_s) {
+    std::vector<Item> items = Merge(depth_stamps_s, colour_stamps_s);
+    std::priority_queue<Candidate, std::vector<Candidate>, std::greater<>> candidates;
+    const auto consider = [&](std::size_t first, std::size_t second) {
+        if (first == kNone || second == kNone || items[first].is_depth == items[second].is_depth)
+            return;
+        const Item& depth = items[items[first].is_depth ? first : second];
+        const Item& colour = items[items[first].is_depth ? second : first];
+        const double gap_s = std::abs(colour.stamp_s - depth.stamp_s);
+        if (gap_s < max_gap_s)
+            candidates.push({gap_s, colour.stamp_s, depth.stamp_s, first, second});
+    };
+    for (std::size_t i = 0; i + 1 < items.size(); ++i) consider(i, i + 1);
+
+    std::vector<StampPair> pairs;
+    while (!candidates.empty()) {
+        const Candidate best = candidates.top();
+        candidates.pop();
+        Item& first = items[best.first];
+        Item& second = items[best.second];
+        if (first.taken || second.taken) continue;
+        first.taken = second.taken = true;
+        pairs.push_back({first.is_depth ? first.index : second.index,
+                         first.is_depth ? second.index : first.index});
+        if (first.before != kNone) items[first.before].after = second.after;
+        if (second.after != kNone) items[second.after].before = first.before;
+        consider(first.before, second.after);
+    }
+    std::sort(pairs.begin(), pairs.end(),
+              [](const StampPair& a, const StampPair& b) { return a.depth < b.depth; });
+    return pairs;
+}
+
+double SmallestGap(std::span<const double> depth_stamps_s,
+                   std::span<const double> colour_stamps_s) {
+    const std::vector<Item> items = Merge(depth_stamps_s, colour_stamps_s);
+    double smallest_s = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i + 1 < items.size(); ++i)
+        if (items[i].is_depth != items[i + 1].is_depth)
+            smallest_s = std::min(smallest_s, items[i + 1].stamp_s - items[i].stamp_s);
+    return smallest_s;
+}
+
+}  // namespace tessera

@@ -1,0 +1,149 @@
+#include "io/folder_layout.h"
+
+#include <gtest/gtest.h>
+
+#include "io/temporary_folder.h"
+
+namespace tessera {
+namespace {
+
+constexpr const char* kCamera =
+    "width: 32\nheight: 24\nfx: 30\nfy: 31\ncx: 15.5\ncy: 11.5\ndepth_scale: 1000\nfps: 10\n";
+
+Result<FolderLayout> Read(const TemporaryFolder& folder) {
+    return ReadFolderLayout(folder.path(), 0.02);
+}
+
+void WriteTumLists(const TemporaryFolder& folder) {
+    folder.WriteText("depth.txt", "1.0 depth/1.png\n2.0 depth/2.png\n");
+    folder.WriteText("rgb.txt", "1.0 rgb/1.png\n2.0 rgb/2.png\n");
+    for (const char* name : {"depth/1.png", "depth/2.png", "rgb/1.png", "rgb/2.png"})
+        folder.WriteText(name, "");
+}
+
+bool HasNote(const FolderLayout& layout, const std::string& part) {
+    for (const std::string& note : layout.notes)
+        if (note.find(part) != std::string::npos) return true;
+    return false;
+}
+
+TEST(ReadFolderLayout, RecognisesTumListsAndTheirCameraFile) {
+    TemporaryFolder folder("rgbd_dataset_freiburg1_rpy");  // camera.yaml comes before the name
+    WriteTumLists(folder);
+    folder.WriteText("camera.yaml", kCamera);
+    const auto layout = Read(folder);
+    ASSERT_TRUE(layout.ok()) << layout.message();
+    EXPECT_EQ(layout.value().kind, "TUM RGB-D folder");
+    EXPECT_EQ(layout.value().calibration.pinhole.fx, 30);
+    ASSERT_EQ(layout.value().frames.size(), 2u);
+    EXPECT_EQ(layout.value().frames[1].depth_path, folder.Path("depth/2.png"));
+    EXPECT_TRUE(layout.value().notes.empty());
+}
+
+TEST(ReadFolderLayout, TakesThePublishedCameraOfANamedFolder) {
+    TemporaryFolder folder("rgbd_dataset_freiburg2_desk");
+    WriteTumLists(folder);
+    for (const std::string& path : {folder.path(), folder.path() + "/"}) {
+        const auto layout = ReadFolderLayout(path, 0.02);
+        ASSERT_TRUE(layout.ok()) << layout.message();
+        EXPECT_EQ(layout.value().calibration.pinhole.fx, 520.9);
+        EXPECT_EQ(layout.value().calibration.distortion.k3, 0.9172);
+        EXPECT_TRUE(HasNote(layout.value(), "published values of freiburg2"));
+    }
+}
+
+TEST(ReadFolderLayout, RefusesACameraThatNobodyGave) {
+    TemporaryFolder folder;
+    WriteTumLists(folder);
+    const std::string message = Read(folder).message();
+    EXPECT_EQ(message.find(folder.Path("camera.yaml") + ": no such file; write width, height, fx"),
+              0u)
+        << message;
+}
+
+TEST(ReadFolderLayout, RecognisesIclNuim) {
+    TemporaryFolder folder;
+    folder.WriteText("associations.txt", "0 depth/0.png 0 rgb/0.png\n1 depth/1.png 1 rgb/1.png\n");
+    for (const char* name : {"depth/0.png", "depth/1.png", "rgb/0.png", "rgb/1.png"})
+        folder.WriteText(name, "");
+    const auto layout = Read(folder);
+    ASSERT_TRUE(layout.ok()) << layout.message();
+    EXPECT_EQ(layout.value().kind, "ICL-NUIM folder");
+    EXPECT_EQ(layout.value().calibration.pinhole,
+              (PinholeCamera{640, 480, 481.2, 480.0, 319.5, 239.5}));
+    EXPECT_EQ(layout.value().frames[1].depth_stamp_s, 1.0);
+}
+
+TEST(ReadFolderLayout, AssociationsWithTimesNeedACamera) {
+    TemporaryFolder folder;
+    folder.WriteText("associations.txt", "0.25 depth/0.png 0.25 rgb/0.png\n");
+    folder.WriteText("depth/0.png", "");
+    folder.WriteText("rgb/0.png", "");
+    EXPECT_NE(Read(folder).message().find("camera.yaml: no such file"), std::string::npos);
+    folder.WriteText("camera.yaml", kCamera);
+    ASSERT_TRUE(Read(folder).ok()) << Read(folder).message();
+    EXPECT_EQ(Read(folder).value().kind, "TUM RGB-D folder");
+}
+
+TEST(ReadFolderLayout, RecognisesSevenScenes) {
+    TemporaryFolder folder("seq-01");
+    folder.WriteText("frame-000000.color.png", "");
+    folder.WriteText("frame-000000.depth.png", "");
+    const auto layout = Read(folder);
+    ASSERT_TRUE(layout.ok()) << layout.message();
+    EXPECT_EQ(layout.value().kind, "7-Scenes sequence");
+    EXPECT_EQ(layout.value().calibration.depth_scale, 1000);
+    EXPECT_EQ(layout.value().calibration.pinhole.fx, 585);
+    EXPECT_EQ(layout.value().invalid_depth, 65535);
+    EXPECT_TRUE(HasNote(layout.value(), "not registered"));
+}
+
+TEST(ReadFolderLayout, PairsAnyFolderWithACameraByName) {
+    TemporaryFolder folder;
+    for (const char* name : {"depth/5.png", "depth/6.png", "colour/5.jpg", "colour/6.jpg"})
+        folder.WriteText(name, "");
+    EXPECT_NE(Read(folder).message().find("camera.yaml: no such file"), std::string::npos);
+    folder.WriteText("camera.yaml", kCamera);
+    const auto layout = Read(folder);
+    ASSERT_TRUE(layout.ok()) << layout.message();
+    EXPECT_EQ(layout.value().kind, "image folder");
+    EXPECT_EQ(layout.value().frames[1].depth_stamp_s, 0.6);  // the camera's 10 frames a second
+}
+
+TEST(ReadFolderLayout, SaysWhatIsWrongWithTheFolder) {
+    TemporaryFolder folder;
+    EXPECT_EQ(ReadFolderLayout(folder.Path("absent"), 0.02).message(),
+              folder.Path("absent") + ": no such folder");
+    EXPECT_EQ(Read(folder).message(), folder.path() + ": is empty");
+    folder.WriteText("rgb.txt", "1.0 a\n");
+    EXPECT_EQ(ReadFolderLayout(folder.Path("rgb.txt"), 0.02).message(),
+              folder.Path("rgb.txt") + ": is a file; give the folder of a recorded sequence");
+    EXPECT_EQ(Read(folder).message(), folder.path() + ": there is rgb.txt but no depth.txt");
+    std::filesystem::remove(folder.Path("rgb.txt"));
+    folder.WriteText("seq-01/frame-000000.color.png", "");
+    EXPECT_EQ(Read(folder).message(),
+              folder.path() + ": holds several sequences; give one of them, such as seq-01");
+    std::filesystem::remove_all(folder.Path("seq-01"));
+    folder.WriteText("notes.md", "");
+    EXPECT_NE(Read(folder).message().find("no sequence that is known here"), std::string::npos);
+}
+
+TEST(ReadFolderLayout, NotesSingleAbsentFilesAndRefusesWhenAllAreAbsent) {
+    TemporaryFolder folder;
+    WriteTumLists(folder);
+    folder.WriteText("camera.yaml", kCamera);
+    std::filesystem::remove(folder.Path("rgb/2.png"));
+    const auto layout = Read(folder);
+    ASSERT_TRUE(layout.ok()) << layout.message();
+    EXPECT_EQ(layout.value().frames.size(), 2u);
+    EXPECT_EQ(layout.value().notes,
+              std::vector<std::string>{"1 of 2 frames lack an image (first: " +
+                                       folder.Path("rgb/2.png") + "); they will be skipped"});
+    std::filesystem::remove(folder.Path("depth/1.png"));
+    EXPECT_EQ(Read(folder).message().find(folder.Path("depth/1.png") +
+                                          ": no such file, and none of the 2 frames"),
+              0u);
+}
+
+}  // namespace
+}  // namespace tessera

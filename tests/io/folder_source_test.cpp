@@ -1,0 +1,179 @@
+#include "io/folder_source.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "io/temporary_folder.h"
+
+namespace tessera {
+namespace {
+
+constexpr const char* kCamera =
+    "width: 32\nheight: 24\nfx: 30\nfy: 31\ncx: 15.5\ncy: 11.5\ndepth_scale: 1000\n";
+
+// `count` frames of 32 x 24; frame i is (i + 1) metres away and has the red value 10 i.
+void WriteSequence(const TemporaryFolder& folder, int count) {
+    std::string depth_list, colour_list;
+    for (int i = 0; i < count; ++i) {
+        const std::string name = std::to_string(i) + ".png";
+        folder.WriteDepth("depth/" + name, 32, 24, static_cast<std::uint16_t>(1000 * (i + 1)));
+        folder.WriteColour("rgb/" + name, 32, 24, {static_cast<std::uint8_t>(10 * i), 20, 30});
+        depth_list += fmt::format("{}.5 depth/{}\n", i, name);
+        colour_list += fmt::format("{}.51 rgb/{}\n", i, name);
+    }
+    folder.WriteText("depth.txt", depth_list);
+    folder.WriteText("rgb.txt", colour_list);
+    folder.WriteText("camera.yaml", kCamera);
+}
+
+std::unique_ptr<FrameSource> Open(const TemporaryFolder& folder,
+                                  const FolderSourceConfig& config = {}) {
+    auto source = OpenFolderSource(folder.path(), config);
+    EXPECT_TRUE(source.ok()) << source.message();
+    return source.ok() ? std::move(source.value()) : nullptr;
+}
+
+TEST(FolderSource, GivesEachFrameInMetresWithItsStamps) {
+    TemporaryFolder folder;
+    WriteSequence(folder, 3);
+    folder.WriteText("groundtruth.txt", "1.5 7 0 0 0 0 0 1\n");
+    const auto source = Open(folder);
+    ASSERT_NE(source, nullptr);
+    EXPECT_EQ(source->info().name, folder.path());
+    EXPECT_EQ(source->info().frame_count, 3);
+    EXPECT_EQ(source->info().camera, (PinholeCamera{32, 24, 30, 31, 15.5, 11.5}));
+    EXPECT_TRUE(source->info().has_truth);
+    EXPECT_FALSE(source->info().rectified);
+    Frame frame;
+    for (int i = 0; i < 3; ++i) {
+        ASSERT_EQ(source->Read(frame).status, ReadStatus::kOk);
+        EXPECT_EQ(frame.index, i);
+        EXPECT_EQ(frame.stamp_s, i + 0.5);
+        EXPECT_EQ(frame.colour_stamp_s, i + 0.51);
+        EXPECT_EQ(frame.depth_m, DepthImage(32, 24, static_cast<float>(i + 1)));
+        EXPECT_EQ(frame.colour, ColourImage(32, 24, {static_cast<std::uint8_t>(10 * i), 20, 30}));
+        EXPECT_EQ(frame.T_world_camera.has_value(), i == 1);
+    }
+    EXPECT_EQ(source->Read(frame).status, ReadStatus::kEnd);
+    EXPECT_EQ(source->Read(frame).status, ReadStatus::kEnd);
+}
+
+TEST(FolderSource, Seeks) {
+    TemporaryFolder folder;
+    WriteSequence(folder, 3);
+    const auto source = Open(folder);
+    Frame frame;
+    ASSERT_TRUE(source->Seek(2));
+    ASSERT_EQ(source->Read(frame).status, ReadStatus::kOk);
+    EXPECT_EQ(frame.index, 2);
+    ASSERT_TRUE(source->Seek(0));
+    ASSERT_EQ(source->Read(frame).status, ReadStatus::kOk);
+    EXPECT_EQ(frame.index, 0);
+    EXPECT_FALSE(source->Seek(-1));
+    EXPECT_FALSE(source->Seek(4));
+}
+
+TEST(FolderSource, CorrectsTheLensUnlessToldNotTo) {
+    TemporaryFolder folder;
+    WriteSequence(folder, 1);
+    folder.WriteText("camera.yaml", std::string(kCamera) + "distortion: [0.5, 0, 0, 0]\n");
+    Frame frame;
+    auto source = Open(folder);
+    EXPECT_TRUE(source->info().rectified);
+    ASSERT_EQ(source->Read(frame).status, ReadStatus::kOk);
+    EXPECT_EQ(frame.depth_m(0, 0), 0.0f);  // the lens put it outside of the raw image
+    EXPECT_EQ(frame.depth_m(16, 12), 1.0f);
+    source = Open(folder, {.rectify = false});
+    EXPECT_FALSE(source->info().rectified);
+    EXPECT_EQ(source->info().notes.back(), "the lens distortion is not corrected, as configured");
+    ASSERT_EQ(source->Read(frame).status, ReadStatus::kOk);
+    EXPECT_EQ(frame.depth_m(0, 0), 1.0f);
+}
+
+TEST(FolderSource, TheConfiguredDepthScaleComesFirst) {
+    TemporaryFolder folder;
+    WriteSequence(folder, 1);
+    const auto source = Open(folder, {.depth_scale = 500});
+    Frame frame;
+    ASSERT_EQ(source->Read(frame).status, ReadStatus::kOk);
+    EXPECT_EQ(frame.depth_m(3, 3), 2.0f);
+    EXPECT_FALSE(OpenFolderSource(folder.path(), {.depth_scale = 1e-9}).ok());
+}
+
+TEST(FolderSource, PassesGarbageDepthThrough) {
+    TemporaryFolder folder;
+    WriteSequence(folder, 2);
+    folder.WriteDepth("depth/0.png", 32, 24, 65535);
+    folder.WriteDepth("depth/1.png", 32, 24, 0);
+    const auto source = Open(folder);
+    Frame frame;
+    ASSERT_EQ(source->Read(frame).status, ReadStatus::kOk);
+    EXPECT_FLOAT_EQ(frame.depth_m(0, 0), 65.535f);
+    ASSERT_EQ(source->Read(frame).status, ReadStatus::kOk);
+    EXPECT_EQ(frame.depth_m, DepthImage(32, 24, 0.0f));
+}
+
+// Each kind of broken image costs its frame, by name, and no other.
+TEST(FolderSource, SkipsBrokenFramesAndSaysWhy) {
+    TemporaryFolder folder;
+    WriteSequence(folder, 8);
+    const std::string whole = ReadText(folder.Path("depth/1.png"));
+    folder.WriteText("depth/1.png", whole.substr(0, whole.size() - 20));
+    ASSERT_TRUE(WriteGreyImage(folder.Path("depth/2.png"), Image<std::uint8_t>(32, 24)).ok());
+    folder.WriteColour("depth/3.png", 32, 24, {});
+    folder.WriteColour("rgb/4.png", 16, 12, {});
+    folder.WriteDepth("depth/5.png", 16, 12, 1);
+    folder.WriteColour("rgb/5.png", 16, 12, {});
+    std::filesystem::remove(folder.Path("rgb/6.png"));
+    const std::vector<std::string> expected = {
+        "",
+        folder.Path("depth/1.png") + ": is truncated or damaged",
+        folder.Path("depth/2.png") +
+            ": has 8 bits and 1 channel; depth needs 16 bits and 1 channel",
+        folder.Path("depth/3.png") +
+            ": has 8 bits and 3 channels; depth needs 16 bits and 1 channel",
+        folder.Path("depth/4.png") + ": 32 x 24 pixels, but its colour image " +
+            folder.Path("rgb/4.png") + " has 16 x 12",
+        folder.Path("depth/5.png") +
+            ": 16 x 12 pixels, but the camera has 32 x 24; correct camera.yaml",
+        folder.Path("rgb/6.png") + ": cannot be read: no such file",
+        ""};
+    const auto source = Open(folder);
+    Frame frame;
+    for (const std::string& message : expected) {
+        const ReadResult result = source->Read(frame);
+        EXPECT_EQ(result.status, message.empty() ? ReadStatus::kOk : ReadStatus::kSkip);
+        EXPECT_EQ(result.message, message);
+    }
+    EXPECT_EQ(frame.index, 7);
+    EXPECT_EQ(source->Read(frame).status, ReadStatus::kEnd);
+}
+
+TEST(FolderSource, IsRefusedWhereNoFrameIsUsable) {
+    TemporaryFolder folder;
+    WriteSequence(folder, 7);
+    folder.WriteText("camera.yaml", "width: 64\nheight: 24\nfx: 30\nfy: 31\ncx: 15.5\ncy: 11.5\n");
+    EXPECT_EQ(OpenFolderSource(folder.path(), {}).message(),
+              folder.Path("depth/0.png") +
+                  ": 32 x 24 pixels, but the camera has 64 x 24; correct camera.yaml");
+    folder.WriteText("camera.yaml", "width: 64\nfx: nonsense\n");
+    EXPECT_EQ(
+        OpenFolderSource(folder.path(), {}).message().find(folder.Path("camera.yaml") + ": fx"),
+        0u);
+}
+
+TEST(FolderSourceConfig, DescribesItself) {
+    FolderSourceConfig config;
+    ConfigParameters parameters;
+    config.Describe(parameters);
+    EXPECT_TRUE(parameters.Set("depth_scale", "1000").ok());
+    EXPECT_TRUE(parameters.Set("rectify", "off").ok());
+    EXPECT_FALSE(parameters.Set("max_pair_gap_s", "0").ok());
+    EXPECT_EQ(config.depth_scale, 1000);
+    EXPECT_FALSE(config.rectify);
+    EXPECT_TRUE(config.Validate().ok());
+}
+
+}  // namespace
+}  // namespace tessera
