@@ -51,7 +51,7 @@ class TileRenderer {
                 view_.cos_incidence(x, y) = hit.cos_incidence;
                 view_.instance(x, y) = static_cast<std::uint16_t>(instance);
                 view_.class_id(x, y) = static_cast<std::uint16_t>(scene_.instances()[instance].class_id);
-                view_.patch(x, y) = hit.valid() ? scene_.PatchOf(hit) : -1;
+                if (!view_.patch.empty()) view_.patch(x, y) = hit.valid() ? scene_.PatchOf(hit) : -1;
             }
         }
     }
@@ -67,20 +67,21 @@ class TileRenderer {
     RenderedView& view_;
 };
 
-void Resize(RenderedView& view, int width, int height) {
+void Resize(RenderedView& view, int width, int height, bool with_patches) {
     view.colour = Image<RgbF>(width, height);
     view.depth_m.Resize(width, height);
     view.cos_incidence.Resize(width, height);
     view.class_id.Resize(width, height);
     view.instance.Resize(width, height);
-    view.patch.Resize(width, height);
+    view.patch.Resize(with_patches ? width : 0, with_patches ? height : 0);
 }
 
 }  // namespace
 
-void FrameRenderer::Render(const CameraPath& path, double time_s, double exposure_s, RenderedView& view) const {
+void FrameRenderer::Render(const CameraPath& path, double time_s, double exposure_s, RenderedView& view,
+                           bool with_patches) const {
     const int width = camera_.width, height = camera_.height;
-    Resize(view, width, height);
+    Resize(view, width, height, with_patches);
     const auto truth = scene_.View(camera_, path.T_world_camera(time_s));
     std::array<std::unique_ptr<ViewCaster>, kSamples> moments;
     for (int i = 0; i < kSamples; ++i) {

@@ -16,7 +16,7 @@ struct RenderedView {
     Image<float> cos_incidence;     // |cos| between ray and normal
     Image<std::uint16_t> class_id;
     Image<std::uint16_t> instance;
-    Image<std::int64_t> patch;      // Scene::PatchOf
+    Image<std::int64_t> patch;      // Scene::PatchOf; empty unless asked for
 };
 
 class FrameRenderer {
@@ -25,8 +25,10 @@ class FrameRenderer {
     FrameRenderer(const Scene& scene, const PinholeCamera& camera) : scene_(scene), camera_(camera) {}
 
     // The view at `time_s`, the middle of an exposure of `exposure_s` seconds (0: no motion blur). Four rays a pixel
-    // sample the pixel's area and the exposure at once. The same result for any number of threads. Thread-safe.
-    void Render(const CameraPath& path, double time_s, double exposure_s, RenderedView& view) const;
+    // sample the pixel's area and the exposure at once. `with_patches` fills view.patch.
+    // The same result for any number of threads. Thread-safe.
+    void Render(const CameraPath& path, double time_s, double exposure_s, RenderedView& view,
+                bool with_patches = false) const;
 
   private:
     const Scene& scene_;

@@ -53,13 +53,17 @@ bool SyntheticSource::Seek(std::int64_t index) {
     return true;
 }
 
-ReadResult SyntheticSource::Read(Frame& frame) { return ReadWithTruth(frame, view_); }
+ReadResult SyntheticSource::Read(Frame& frame) { return ReadFrame(frame, view_, false); }
 
 ReadResult SyntheticSource::ReadWithTruth(Frame& frame, RenderedView& truth) {
+    return ReadFrame(frame, truth, true);
+}
+
+ReadResult SyntheticSource::ReadFrame(Frame& frame, RenderedView& truth, bool with_patches) {
     if (next_ >= info_.frame_count) return {ReadStatus::kEnd, ""};
     const std::int64_t index = next_++;
     const double time_s = static_cast<double>(index) / config_.fps;
-    renderer_.Render(staged_.path, time_s, sensor_.exposure_s(), truth);
+    renderer_.Render(staged_.path, time_s, sensor_.exposure_s(), truth, with_patches);
     frame.index = index;
     frame.stamp_s = frame.colour_stamp_s = kFirstStamp_s + time_s;
     frame.T_world_camera = staged_.path.T_world_camera(time_s);

@@ -42,6 +42,8 @@ class SyntheticSource : public FrameSource {
     const SynthConfig& config() const { return config_; }
 
   private:
+    ReadResult ReadFrame(Frame& frame, RenderedView& truth, bool with_patches);
+
     SynthConfig config_;
     StagedScene staged_;
     FrameRenderer renderer_;

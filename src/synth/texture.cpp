@@ -29,17 +29,26 @@ struct Axis {
     std::uint32_t weight;
 };
 
+// std::floor is a library call on the baseline instruction set.
+int Floor(float x) {
+    const int truncated = static_cast<int>(x);
+    return truncated - (x < static_cast<float>(truncated) ? 1 : 0);
+}
+
+// `position` in [0, 1] of the image.
 Axis Locate(float position, int size, Texture::Wrap wrap) {
-    if (wrap == Texture::Wrap::kRepeat) position -= std::floor(position);
-    const float texel = std::clamp(position, -1.0f, 2.0f) * static_cast<float>(size) - 0.5f;
-    const float floor = std::floor(texel);
-    const int index = static_cast<int>(floor);
-    const auto weight = static_cast<std::uint32_t>((texel - floor) * 16.0f);
-    if (wrap == Texture::Wrap::kRepeat) {
-        const int first = index < 0 ? size - 1 : std::min(index, size - 1);
-        return {first, first + 1 == size ? 0 : first + 1, weight};
-    }
-    return {std::clamp(index, 0, size - 1), std::clamp(index + 1, 0, size - 1), weight};
+    const float texel = position * static_cast<float>(size) - 0.5f;
+    const int index = Floor(texel);
+    const auto weight = static_cast<std::uint32_t>((texel - static_cast<float>(index)) * 16.0f);
+    int first = index, second = index + 1;
+    if (first < 0) first = wrap == Texture::Wrap::kRepeat ? size - 1 : 0;
+    if (second >= size) second = wrap == Texture::Wrap::kRepeat ? 0 : size - 1;
+    return {std::min(first, size - 1), second, weight};
+}
+
+float WrapIntoImage(float position, Texture::Wrap wrap) {
+    if (wrap == Texture::Wrap::kClamp) return std::clamp(position, 0.0f, 1.0f);
+    return position - static_cast<float>(Floor(position));
 }
 
 }  // namespace
@@ -85,6 +94,8 @@ RgbF Texture::SampleLevel(const Level& level, float u, float v) const {
 }
 
 RgbF Texture::Sample(float u, float v, float footprint) const {
+    u = WrapIntoImage(u, wrap_);
+    v = WrapIntoImage(v, wrap_);
     const float texels = footprint * static_cast<float>(levels_.front().width);
     const int last = static_cast<int>(levels_.size()) - 1;
     if (!(texels > 1.0f) || last == 0) return SampleLevel(levels_.front(), u, v);
