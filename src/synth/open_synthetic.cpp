@@ -3,6 +3,8 @@
 #include <cctype>
 #include <utility>
 
+#include "synth/mesh_scene.h"
+#include "synth/model_path.h"
 #include "synth/synthetic_source.h"
 
 namespace tessera {
@@ -15,13 +17,29 @@ bool IsObj(const std::string& name) {
     return end == ".obj";
 }
 
+Result<StagedScene> StageModel(const std::string& path, UpAxis up) {
+    Result<ObjModel> model = ReadObj(path);
+    if (!model.ok()) return model.status();
+    StagedScene staged;
+    const std::size_t triangles = model.value().triangles.size();
+    auto scene = std::make_unique<MeshScene>(std::move(model.value()));
+    staged.path = MakeModelPath(*scene, up == UpAxis::kZ ? Eigen::Vector3d::UnitZ() : Eigen::Vector3d::UnitY());
+    staged.description = fmt::format("model of {} triangles, {} objects", triangles, scene->instances().size() - 1);
+    if (!scene->missing_textures().empty())
+        staged.description += fmt::format("; {} textures missing, drawn in flat colour (the first: {})",
+                                          scene->missing_textures().size(), scene->missing_textures().front());
+    staged.scene = std::move(scene);
+    return staged;
+}
+
 }  // namespace
 
 Result<std::unique_ptr<SyntheticSource>> OpenSynthetic(const std::string& name, const SynthConfig& config) {
     if (Status status = config.Validate(); !status.ok()) return status;
     const std::string prefix = "synthetic:";
     const std::string scene_name = name.starts_with(prefix) ? name.substr(prefix.size()) : name;
-    Result<StagedScene> staged = MakeBuiltinScene(scene_name);
+    Result<StagedScene> staged =
+        IsObj(scene_name) ? StageModel(scene_name, config.model_up) : MakeBuiltinScene(scene_name);
     if (!staged.ok()) return staged.status();
     if (!config.trajectory.empty()) {
         const Eigen::Isometry3d T_world_start = staged.value().path.T_world_camera(0);
