@@ -1,0 +1,99 @@
+// A scene of boxes, spheres, cylinders and rectangles with painted surfaces and baked light. Built by adding parts,
+// then Finish; const and thread-safe from then on.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "synth/scene.h"
+#include "synth/shape.h"
+
+namespace tessera {
+
+// How a texture lies on a chart.
+struct Paint {
+    int texture = 0;         // from AddTexture
+    double width_m = 0;      // the texture's width and height on the surface; 0 = stretched over the chart
+    double height_m = 0;
+    double offset_u_m = 0, offset_v_m = 0;
+};
+
+// A ball that shines equally in all directions.
+struct Light {
+    Eigen::Vector3d p_world;
+    double radius_m = 0.2;   // soft shadows
+    double intensity = 1.0;  // irradiance at 1 m, as a share of full brightness
+};
+
+struct Lighting {
+    std::vector<Light> lights;
+    double ambient = 0.45;     // share of full brightness where nothing shades
+    double texel_m = 0.02;     // finest resolution of the baked light
+    bool baked = true;         // false: each face evenly, by its direction only (scenes without texture)
+};
+
+class AnalyticScene : public Scene {
+  public:
+    int AddTexture(const ColourImage& image, Texture::Wrap wrap = Texture::Wrap::kRepeat);
+    // Later parts belong to it. Class names are made as they come; an empty one means the surroundings.
+    void BeginInstance(const std::string& name, const std::string& class_name);
+    // Returns the part's number, for SetPaint. Every chart gets `paint`.
+    int AddShape(const Shape& shape, const Paint& paint);
+    void SetPaint(int part, int chart, const Paint& paint);
+    // Bakes the light (deterministic) and ends the building.
+    void Finish(const Lighting& lighting);
+
+    std::unique_ptr<ViewCaster> View(const PinholeCamera& camera,
+                                     const Eigen::Isometry3d& T_world_camera) const override;
+    SurfaceHit CastRay(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const override;
+    Eigen::Vector3d Normal(const SurfaceHit& hit) const override;
+    RgbF Colour(const SurfaceHit& hit, float footprint_m) const override;
+    int InstanceOf(const SurfaceHit& hit) const override;
+    std::int64_t patch_count() const override { return patch_count_; }
+    std::int64_t PatchOf(const SurfaceHit& hit) const override;
+    TriangleMesh PatchMesh(const std::vector<bool>* keep) const override;
+    TriangleMesh InstanceMesh(int instance) const override;
+    std::optional<double> SignedDistance(const Eigen::Vector3d& p_world) const override;
+
+    std::size_t part_count() const { return parts_.size(); }
+
+  private:
+    friend class AnalyticView;
+
+    // The baked light on a chart: a grid of shares of full brightness, and the patches' grid.
+    struct Chart {
+        Paint paint;
+        float scale_u = 1, scale_v = 1, offset_u = 0, offset_v = 0;  // metres to texture coordinates
+        int light_columns = 1, light_rows = 1;
+        float light_scale_u = 0, light_scale_v = 0;
+        std::vector<float> light;
+        int patch_columns = 1, patch_rows = 1;
+        std::int64_t first_patch = 0;
+    };
+    struct Part {
+        Shape shape;
+        Eigen::Isometry3d T_shape_world;
+        double radius_m = 0;  // of the bounding ball
+        int instance = 0;
+        std::array<Chart, 6> charts;
+    };
+
+    bool Occluded(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double length) const;
+    double Irradiance(const Lighting& lighting, const Eigen::Vector3d& p, const Eigen::Vector3d& normal,
+                      std::uint64_t key) const;
+    void BakeChart(const Lighting& lighting, std::size_t part, int chart);
+    float LightAt(const Chart& chart, float u, float v) const;
+    void LayPatches(Part& part);
+    static Eigen::Vector3d PatchCorner(const Shape& shape, int number, const Chart& chart, int column, int row);
+    void AppendChart(const Shape& shape, int number, const Chart& chart, const std::vector<bool>* keep,
+                     TriangleMesh& mesh) const;
+    void AppendPatches(const Part& part, const std::vector<bool>* keep, TriangleMesh& mesh) const;
+
+    std::vector<Texture> textures_;
+    std::vector<Part> parts_;
+    int current_instance_ = 0;
+    std::int64_t patch_count_ = 0;
+};
+
+}  // namespace tessera

@@ -1,0 +1,35 @@
+#include "synth/builtin_scenes.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <utility>
+
+namespace tessera {
+namespace {
+
+constexpr std::array<std::pair<const char*, StagedScene (*)()>, 6> kScenes = {{
+    {"desk", MakeDesk},
+    {"room", MakeRoom},
+    {"corridor", MakeCorridor},
+    {"floor", MakeFloor},
+    {"corner", MakeCorner},
+    {"wall", MakeWall},
+}};
+
+}  // namespace
+
+std::vector<std::string> BuiltinSceneNames() {
+    std::vector<std::string> names;
+    for (const auto& [name, make] : kScenes) names.emplace_back(name);
+    return names;
+}
+
+Result<StagedScene> MakeBuiltinScene(const std::string& name) {
+    for (const auto& [known, make] : kScenes)
+        if (name == known) return make();
+    return Status::Error(fmt::format("'{}' is no built-in scene; there are {}, or give an .obj file", name,
+                                     fmt::join(BuiltinSceneNames(), ", ")));
+}
+
+}  // namespace tessera

@@ -1,0 +1,105 @@
+#include "synth/frame_renderer.h"
+
+#include <oneapi/tbb/blocked_range2d.h>
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace tessera {
+namespace {
+
+constexpr int kTile = 16;  // pixels
+constexpr int kSamples = 4;
+// A rotated grid: each sample covers a column and a row of its own.
+constexpr double kOffsets[kSamples][2] = {{-0.125, -0.375}, {0.375, -0.125}, {-0.375, 0.125}, {0.125, 0.375}};
+// Each sample stands for a part of the pixel; a little more than its share, against moire.
+constexpr float kSampleExtentPx = 0.7f;
+
+using TileHits = std::array<SurfaceHit, kTile * kTile>;
+
+class TileRenderer {
+  public:
+    TileRenderer(const Scene& scene, const PinholeCamera& camera, RenderedView& view)
+        : scene_(scene), pixel_m_(static_cast<float>(kSampleExtentPx / camera.fx)), view_(view) {}
+
+    void AddColour(const ViewCaster& caster, const PixelRect& rect, int sample) const {
+        TileHits hits;
+        Cast(caster, rect, kOffsets[sample][0], kOffsets[sample][1], hits);
+        std::size_t i = 0;
+        for (int y = rect.y_begin; y < rect.y_end; ++y) {
+            for (int x = rect.x_begin; x < rect.x_end; ++x, ++i) {
+                if (!hits[i].valid()) continue;
+                const float stretch = 1.0f / std::sqrt(std::max(hits[i].cos_incidence, 0.05f));
+                const RgbF c = scene_.Colour(hits[i], static_cast<float>(hits[i].t) * pixel_m_ * stretch);
+                RgbF& sum = view_.colour(x, y);
+                sum = {sum.r + c.r / kSamples, sum.g + c.g / kSamples, sum.b + c.b / kSamples};
+            }
+        }
+    }
+
+    void FillTruth(const ViewCaster& caster, const PixelRect& rect) const {
+        TileHits hits;
+        Cast(caster, rect, 0, 0, hits);
+        std::size_t i = 0;
+        for (int y = rect.y_begin; y < rect.y_end; ++y) {
+            for (int x = rect.x_begin; x < rect.x_end; ++x, ++i) {
+                const SurfaceHit& hit = hits[i];
+                const int instance = hit.valid() ? scene_.InstanceOf(hit) : 0;
+                view_.depth_m(x, y) = hit.valid() ? static_cast<float>(hit.t) : 0.0f;
+                view_.cos_incidence(x, y) = hit.cos_incidence;
+                view_.instance(x, y) = static_cast<std::uint16_t>(instance);
+                view_.class_id(x, y) = static_cast<std::uint16_t>(scene_.instances()[instance].class_id);
+                if (!view_.patch.empty()) view_.patch(x, y) = hit.valid() ? scene_.PatchOf(hit) : -1;
+            }
+        }
+    }
+
+  private:
+    static void Cast(const ViewCaster& caster, const PixelRect& rect, double x, double y, TileHits& hits) {
+        const auto count = static_cast<std::size_t>(rect.width() * rect.height());
+        caster.Cast(rect, x, y, std::span(hits).first(count));
+    }
+
+    const Scene& scene_;
+    float pixel_m_;  // a sample's extent at 1 m
+    RenderedView& view_;
+};
+
+void Resize(RenderedView& view, int width, int height, bool with_patches) {
+    view.colour = Image<RgbF>(width, height);
+    view.depth_m.Resize(width, height);
+    view.cos_incidence.Resize(width, height);
+    view.class_id.Resize(width, height);
+    view.instance.Resize(width, height);
+    view.patch.Resize(with_patches ? width : 0, with_patches ? height : 0);
+}
+
+}  // namespace
+
+void FrameRenderer::Render(const CameraPath& path, double time_s, double exposure_s, RenderedView& view,
+                           bool with_patches) const {
+    const int width = camera_.width, height = camera_.height;
+    Resize(view, width, height, with_patches);
+    const auto truth = scene_.View(camera_, path.T_world_camera(time_s));
+    std::array<std::unique_ptr<ViewCaster>, kSamples> moments;
+    for (int i = 0; i < kSamples; ++i) {
+        const double share = (i + 0.5) / kSamples - 0.5;
+        moments[i] = scene_.View(camera_, path.T_world_camera(time_s + share * exposure_s));
+    }
+    const TileRenderer tile(scene_, camera_, view);
+    const int columns = (width + kTile - 1) / kTile, rows = (height + kTile - 1) / kTile;
+    tbb::parallel_for(tbb::blocked_range2d<int>(0, rows, 0, columns), [&](const auto& range) {
+        for (int row = range.rows().begin(); row < range.rows().end(); ++row) {
+            for (int column = range.cols().begin(); column < range.cols().end(); ++column) {
+                const PixelRect rect{column * kTile, row * kTile, std::min((column + 1) * kTile, width),
+                                     std::min((row + 1) * kTile, height)};
+                for (int i = 0; i < kSamples; ++i) tile.AddColour(*moments[i], rect, i);
+                tile.FillTruth(*truth, rect);
+            }
+        }
+    });
+}
+
+}  // namespace tessera

@@ -1,0 +1,139 @@
+#include "synth/sequence_writer.h"
+
+#include <fmt/format.h>
+#include <oneapi/tbb/parallel_invoke.h>
+
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "io/file.h"
+#include "io/image_io.h"
+#include "io/mesh_io.h"
+#include "io/trajectory.h"
+#include "synth/seen_objects.h"
+
+namespace tessera {
+namespace {
+
+constexpr double kDepthScale = 5000;  // stored value per metre
+constexpr float kFarthestStored_m = static_cast<float>(65535 / kDepthScale);
+
+Image<std::uint16_t> StoredDepth(const DepthImage& depth_m) {
+    Image<std::uint16_t> stored(depth_m.width(), depth_m.height());
+    for (std::size_t i = 0; i < depth_m.size(); ++i) {
+        const double value = std::round(depth_m.data()[i] * kDepthScale);
+        stored.data()[i] = value <= 65535 ? static_cast<std::uint16_t>(value) : std::uint16_t{0};
+    }
+    return stored;
+}
+
+Status FirstError(std::initializer_list<Status> statuses) {
+    for (const Status& status : statuses)
+        if (!status.ok()) return status;
+    return Status::Ok();
+}
+
+class Writer {
+  public:
+    Writer(SyntheticSource& source, const std::string& folder)
+        : source_(source),
+          folder_(folder),
+          objects_(source.scene(), static_cast<std::uint64_t>(source.config().seed)),
+          seen_patches_(static_cast<std::size_t>(source.scene().patch_count())) {}
+
+    Status PrepareFolders() const {
+        for (const char* name : {"rgb", "depth", "labels", "instances"})
+            if (Status status = PrepareOutputFolder(folder_ + "/" + name); !status.ok()) return status;
+        return Status::Ok();
+    }
+    Status WriteImages(const Frame& frame, const RenderedView& truth);
+    void Remember(const Frame& frame, const RenderedView& truth);
+    Status WriteLists() const;
+    SequenceSummary Summary(std::int64_t reference_triangles) const;
+    TriangleMesh Reference() const { return source_.scene().PatchMesh(&seen_patches_); }
+
+  private:
+    std::string CameraText() const;
+
+    SyntheticSource& source_;
+    std::string folder_;
+    SeenObjects objects_;
+    std::vector<bool> seen_patches_;
+    std::vector<StampedPose> poses_;
+    std::string rgb_list_, depth_list_;
+};
+
+Status Writer::WriteImages(const Frame& frame, const RenderedView& truth) {
+    const std::string file = fmt::format("/{:.6f}.png", frame.stamp_s);
+    std::array<Status, 4> done;
+    tbb::parallel_invoke(
+        [&] { done[0] = WriteColourImage(folder_ + "/rgb" + file, frame.colour); },
+        [&] { done[1] = WriteDepthImage(folder_ + "/depth" + file, StoredDepth(frame.depth_m)); },
+        [&] { done[2] = WriteDepthImage(folder_ + "/labels" + file, truth.class_id); },
+        [&] { done[3] = WriteDepthImage(folder_ + "/instances" + file, truth.instance); });
+    return FirstError({done[0], done[1], done[2], done[3]});
+}
+
+void Writer::Remember(const Frame& frame, const RenderedView& truth) {
+    for (std::size_t i = 0; i < truth.patch.size(); ++i) {
+        const float measured = frame.depth_m.data()[i];
+        if (truth.patch.data()[i] >= 0 && measured > 0 && measured <= kFarthestStored_m)
+            seen_patches_[static_cast<std::size_t>(truth.patch.data()[i])] = true;
+    }
+    objects_.Add(truth, frame.index, frame.stamp_s);
+    poses_.push_back({frame.stamp_s, *frame.T_world_camera});
+    rgb_list_ += fmt::format("{0:.6f} rgb/{0:.6f}.png\n", frame.stamp_s);
+    depth_list_ += fmt::format("{0:.6f} depth/{0:.6f}.png\n", frame.stamp_s);
+}
+
+std::string Writer::CameraText() const {
+    const PinholeCamera& c = source_.info().camera;
+    return fmt::format("width: {}\nheight: {}\nfx: {}\nfy: {}\ncx: {}\ncy: {}\ndepth_scale: {}\nfps: {}\n", c.width,
+                       c.height, c.fx, c.fy, c.cx, c.cy, kDepthScale, source_.info().fps);
+}
+
+Status Writer::WriteLists() const {
+    const std::string header = "# timestamp filename\n";
+    return FirstError({WriteTextFile(folder_ + "/rgb.txt", header + rgb_list_),
+                       WriteTextFile(folder_ + "/depth.txt", header + depth_list_),
+                       WriteTextFile(folder_ + "/camera.yaml", CameraText()),
+                       WriteTrajectory(folder_ + "/groundtruth.txt", poses_),
+                       WriteTextFile(folder_ + "/classes.txt", objects_.ClassesText()),
+                       WriteTextFile(folder_ + "/objects.json", objects_.ObjectsJson()),
+                       WriteTextFile(folder_ + "/detections.txt", objects_.DetectionsText())});
+}
+
+SequenceSummary Writer::Summary(std::int64_t reference_triangles) const {
+    SequenceSummary summary;
+    summary.frames = static_cast<std::int64_t>(poses_.size());
+    summary.reference_triangles = reference_triangles;
+    for (std::size_t i = 1; i < poses_.size(); ++i)
+        summary.path_m +=
+            (poses_[i].T_world_camera.translation() - poses_[i - 1].T_world_camera.translation()).norm();
+    return summary;
+}
+
+}  // namespace
+
+Result<SequenceSummary> WriteSequence(SyntheticSource& source, const std::string& folder,
+                                      const WriteProgress& progress) {
+    Writer writer(source, folder);
+    if (Status status = writer.PrepareFolders(); !status.ok()) return status;
+    source.Seek(0);
+    Frame frame;
+    RenderedView truth;
+    const std::int64_t total = source.info().frame_count;
+    for (std::int64_t done = 0; source.ReadWithTruth(frame, truth).status == ReadStatus::kOk;) {
+        if (Status status = writer.WriteImages(frame, truth); !status.ok()) return status;
+        writer.Remember(frame, truth);
+        if (progress && !progress(++done, total)) break;
+    }
+    const TriangleMesh reference = writer.Reference();
+    if (Status status = FirstError({writer.WriteLists(), WritePly(folder + "/reference.ply", reference)});
+        !status.ok())
+        return status;
+    return writer.Summary(static_cast<std::int64_t>(reference.triangles.size()));
+}
+
+}  // namespace tessera
