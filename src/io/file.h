@@ -17,8 +17,8 @@ Status WriteTextFile(const std::string& path, const std::string& text);
 // Makes the folder (and its parents) and proves that it can be written to.
 Status PrepareOutputFolder(const std::string& path);
 
-// The file's bytes. A folder, an unreadable file or one of more than max_bytes is an error, whatever
-// size the file claims to have.
+// The file's bytes. A folder, an unreadable file or one of more than max_bytes is an error,
+// whatever size the file claims to have.
 Result<std::string> ReadWholeFile(const std::string& path, std::size_t max_bytes);
 
 // What WriteTextFile does, in pieces: nothing is seen at `path` before Commit succeeded. Owner

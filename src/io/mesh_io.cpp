@@ -22,12 +22,15 @@ constexpr std::uint64_t kMaxIndex = std::numeric_limits<std::int32_t>::max();
 enum Slot { kX, kY, kZ, kNx, kNy, kNz, kRed, kGreen, kBlue, kSlots, kNone = kSlots };
 
 Slot SlotOf(std::string_view name) {
+    // clang-format off
     constexpr std::pair<std::string_view, Slot> kNames[] = {
-        {"x", kX},       {"y", kY},         {"z", kZ},       {"nx", kNx},
-        {"ny", kNy},     {"nz", kNz},       {"red", kRed},   {"green", kGreen},
-        {"blue", kBlue}, {"r", kRed},       {"g", kGreen},   {"b", kBlue},
-        {"normal_x", kNx},   {"normal_y", kNy},       {"normal_z", kNz},
+        {"x", kX},   {"y", kY},   {"z", kZ},
+        {"nx", kNx}, {"ny", kNy}, {"nz", kNz},
+        {"normal_x", kNx}, {"normal_y", kNy}, {"normal_z", kNz},
+        {"red", kRed}, {"green", kGreen}, {"blue", kBlue},
+        {"r", kRed},   {"g", kGreen},     {"b", kBlue},
         {"diffuse_red", kRed}, {"diffuse_green", kGreen}, {"diffuse_blue", kBlue}};
+    // clang-format on
     for (const auto& [text, slot] : kNames)
         if (text == name) return slot;
     return kNone;

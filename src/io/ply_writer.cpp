@@ -39,8 +39,7 @@ std::string Header(const TriangleMesh& mesh) {
     std::string text = "ply\nformat binary_little_endian 1.0\ncomment made by tessera, metres\n";
     text += fmt::format("element vertex {}\n", mesh.vertices.size());
     text += "property float x\nproperty float y\nproperty float z\n";
-    if (!mesh.normals.empty())
-        text += "property float nx\nproperty float ny\nproperty float nz\n";
+    if (!mesh.normals.empty()) text += "property float nx\nproperty float ny\nproperty float nz\n";
     if (!mesh.colours.empty())
         text += "property uchar red\nproperty uchar green\nproperty uchar blue\n";
     text += fmt::format("element face {}\n", mesh.triangles.size());

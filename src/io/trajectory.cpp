@@ -125,7 +125,8 @@ Result<Trajectory> ReadTrajectory(const std::string& path) {
         if (!parsed.bad_word.empty() && complete)
             return Status::Error(fmt::format(
                 "{}:{}: '{}' is no number; expected 'stamp tx ty tz qx qy qz qw' (comments start "
-                "with #)", path, number, parsed.bad_word));
+                "with #)",
+                path, number, parsed.bad_word));
         if (parsed.count == 0 && parsed.bad_word.empty()) continue;
         NumberedPose pose{{}, number};
         const std::string why =

@@ -115,8 +115,7 @@ TEST(MeshIo, BinaryOfEitherByteOrder) {
             file += Bytes(static_cast<std::int16_t>(-300 * i), big);
             file += Bytes<std::uint8_t>(2, big) + Bytes<std::uint16_t>(1, big) +
                     Bytes<std::uint16_t>(2, big);
-            for (const int c : {0, 32896, 65535})
-                file += Bytes(static_cast<std::uint16_t>(c), big);
+            for (const int c : {0, 32896, 65535}) file += Bytes(static_cast<std::uint16_t>(c), big);
         }
         file += Bytes<std::int32_t>(3, big);
         for (const int index : {2, 1, 0}) file += Bytes(static_cast<std::int16_t>(index), big);

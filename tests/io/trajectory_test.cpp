@@ -126,8 +126,8 @@ TEST(Trajectory, ALineCutOffAtTheEndIsSkipped) {
 TEST(Trajectory, ErrorsNameFileAndLine) {
     const auto words = ReadText("1 0 0 0 0 0 0 1\nstamp x y z\n");
     ASSERT_FALSE(words.ok());
-    EXPECT_NE(words.message().find(TestPath() + ":2: 'stamp' is no number"),
-              std::string::npos) << words.message();
+    EXPECT_NE(words.message().find(TestPath() + ":2: 'stamp' is no number"), std::string::npos)
+        << words.message();
     EXPECT_NE(ReadText("").message().find("no pose in it"), std::string::npos);
     EXPECT_NE(ReadText("# only\n").message().find("no pose in it"), std::string::npos);
     EXPECT_NE(ReadText("1 nan 0 0 0 0 0 1\n").message().find("not a finite"), std::string::npos);

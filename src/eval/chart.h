@@ -1,0 +1,46 @@
+// One chart: a frame with ticks, labels and curves, drawn with OpenCV. Used by plot.cpp only.
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <opencv2/core.hpp>
+#include <string>
+#include <vector>
+
+#include "core/image.h"
+
+namespace tessera {
+
+// Drawn this many times larger and scaled down at the end: smooth lines and letters.
+inline constexpr int kChartOversampling = 2;
+
+// Text with its left (centre, right: align -1, 0, 1) end of the base line at `at`, final pixels.
+void DrawText(cv::Mat& canvas, const std::string& text, cv::Point2d at, double height_px, int align,
+              const Rgb8& colour);
+
+class Chart {
+  public:
+    struct Range {
+        double low, high;
+        double size() const { return high - low; }
+    };
+
+    // `area` is everything, labels included, in final pixels. With equal_scale one of the ranges
+    // is widened so that a metre is as long along x as along y.
+    Chart(cv::Mat& canvas, const cv::Rect2d& area, Range x, Range y, bool equal_scale);
+
+    void DrawFrame(const std::string& title, const std::string& x_label,
+                   const std::string& y_label);
+    void DrawCurve(const std::vector<Eigen::Vector2d>& points, const Rgb8& colour, double width_px);
+    void DrawSegment(const Eigen::Vector2d& p, const Eigen::Vector2d& q, const Rgb8& colour,
+                     double width_px);
+
+  private:
+    cv::Point2d ToPixel(const Eigen::Vector2d& p) const;
+
+    cv::Mat& canvas_;
+    cv::Rect2d area_, plot_;
+    Range x_, y_;
+};
+
+}  // namespace tessera

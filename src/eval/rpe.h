@@ -1,0 +1,42 @@
+// Relative pose error: how much the motion over a fixed time differs from the reference's, as TUM's
+// evaluate_rpe.py --fixed_delta (Sturm et al., IROS 2012). Measures drift; needs no alignment.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/se3.h"
+#include "core/status.h"
+#include "eval/statistics.h"
+
+namespace tessera {
+
+struct RpeOptions {
+    double delta_s = 1.0;  // the time over which motions are compared
+};
+
+struct RpeResult {
+    struct Pair {
+        double begin_s, end_s;  // the estimate's stamps
+        double trans_m;
+        double rot_rad;
+    };
+    ErrorStatistics trans_m;
+    ErrorStatistics rot_rad;
+    double delta_s = 1.0;
+    std::vector<Pair> pairs;
+};
+
+// For every pose of the estimate the one nearest to delta_s later; for both the reference's
+// nearest, at most two of its median intervals away. All pairs count (the script draws 10,000 at
+// random), save those whose end is the last pose, as in the script, and those whose duration misses
+// delta_s by more than a tenth (a gap in the estimate), which the script keeps. Fewer than one pair
+// is an error. Thread-safe.
+Result<RpeResult> EvaluateRpe(const std::vector<StampedPose>& reference,
+                              const std::vector<StampedPose>& estimate,
+                              const RpeOptions& options = {});
+
+// {"rpe_trans_rmse_m", "rpe_rot_rmse_deg", "delta_s"}
+std::string RpeJson(const RpeResult& result);
+
+}  // namespace tessera

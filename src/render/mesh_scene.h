@@ -1,0 +1,53 @@
+// A triangle mesh prepared for questions: what does a ray hit, which point of the surface is
+// nearest. Holds its own copy of the triangles. The only place in src/render that knows Embree.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <memory>
+
+#include "core/mesh.h"
+
+namespace tessera {
+
+struct RayHit {
+    static constexpr std::uint32_t kNothing = 0xffffffffu;
+    std::uint32_t triangle = kNothing;  // index, or kNothing
+    float distance = 0;                 // in lengths of the ray's direction
+    float u = 0, v = 0;                 // the point is (1 - u - v) a + u b + v c
+    bool hit() const { return triangle != kNothing; }
+};
+
+struct SurfacePoint {
+    std::uint32_t triangle = RayHit::kNothing;
+    double distance_m = std::numeric_limits<double>::infinity();
+    bool found() const { return triangle != RayHit::kNothing; }
+};
+
+// After construction all questions are thread-safe.
+class MeshScene {
+  public:
+    // Indices of triangles must lie within the vertices.
+    explicit MeshScene(const TriangleMesh& mesh);
+    ~MeshScene();
+    MeshScene(MeshScene&&) noexcept;
+    MeshScene& operator=(MeshScene&&) noexcept;
+
+    // The first hits of four rays from one origin, best if nearly parallel. With cull_back_faces,
+    // triangles seen from behind (clockwise) are passed through.
+    std::array<RayHit, 4> CastFour(const Eigen::Vector3f& origin,
+                                   const std::array<Eigen::Vector3f, 4>& directions,
+                                   bool cull_back_faces) const;
+
+    // The nearest point of any triangle at most max_distance_m away, exact in double.
+    SurfacePoint Nearest(const Eigen::Vector3d& point,
+                         double max_distance_m = std::numeric_limits<double>::infinity()) const;
+
+  private:
+    struct Scene;
+    std::unique_ptr<Scene> scene_;
+};
+
+}  // namespace tessera
