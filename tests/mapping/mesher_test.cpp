@@ -199,7 +199,7 @@ TEST(Mesher, IncrementalEqualsFromScratch) {
             const int offset = random(2) ? corner : random(kBlockVoxels);
             const double distance = 2 * uniform() - 1;
             map.field(id)[offset] = random(6) ? PackField(distance, uniform()) : kUnknownField;
-            map.weight(id)[offset] = static_cast<std::uint16_t>(random(256));
+            map.weight(id)[offset] = static_cast<std::uint16_t>(random(8) ? 256 : 100);
             map.colour(id)[offset] = PackColour(paint({}));
         }
         map.MarkChanged(id, revision);

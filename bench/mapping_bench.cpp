@@ -1,0 +1,91 @@
+// Meshing and ray casting on a made-up room at 1 cm: a wavy floor, a sphere, a box. Per block and per pixel, on one
+// thread and on all.
+#include <benchmark/benchmark.h>
+#include <tbb/global_control.h>
+
+#include "mapping/analytic_fields.h"
+#include "mapping/mesher.h"
+#include "mapping/ray_caster.h"
+
+namespace tessera {
+namespace {
+
+using namespace testing;
+
+double Room(const Eigen::Vector3d& p) {
+    static const Sdf kBox = Box({.5, .3, .1}, {.2, .3, .15}), kSphere = Sphere({-.5, -.2, 0}, .3);
+    const double floor = .3 + .03 * std::sin(9 * p.x()) * std::cos(7 * p.y()) - p.z();
+    return std::min({floor, kBox(p), kSphere(p)});
+}
+
+BlockMap& RoomMap() {
+    static BlockMap map{BlockMap::Config{}};
+    if (map.size() == 1)
+        Fill(map, Room, {-20, -16, -5}, {19, 15, 5}, [](const Eigen::Vector3d& p) {
+            return Eigen::Vector3d(.5 + .2 * std::sin(20 * p.x()), .5, .5 + .3 * p.z());
+        });
+    return map;
+}
+
+// All of the room's blocks again, as after a frame that changed each.
+void MeshBlocks(benchmark::State& state) {
+    const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
+                                      static_cast<std::size_t>(state.range(0)));
+    BlockMap& map = RoomMap();
+    Mesher mesher{Mesher::Config{}};
+    std::uint32_t revision = 1;
+    for (auto _ : state) {
+        ++revision;
+        for (BlockId id = 1; id < map.size(); ++id) map.MarkChanged(id, revision);
+        mesher.Update(map);
+    }
+    const double blocks = map.size() - 1;
+    state.counters["blocks"] = blocks;
+    state.counters["us_per_block"] =
+        benchmark::Counter(blocks * static_cast<double>(state.iterations()) / 1e6,
+                           benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+    state.counters["mesh_bytes_per_block"] = static_cast<double>(mesher.bytes()) / blocks;
+}
+BENCHMARK(MeshBlocks)->ArgName("threads")->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+// What finding the changed blocks costs when none has changed.
+void MeshNothing(benchmark::State& state) {
+    Mesher mesher{Mesher::Config{}};
+    mesher.Update(RoomMap());
+    for (auto _ : state) benchmark::DoNotOptimize(mesher.Update(RoomMap()));
+}
+BENCHMARK(MeshNothing)->Unit(benchmark::kMicrosecond);
+
+void AssembleMesh(benchmark::State& state) {
+    Mesher mesher{Mesher::Config{}};
+    mesher.Update(RoomMap());
+    std::size_t triangles = 0;
+    for (auto _ : state) triangles = mesher.Assemble().triangles.size();
+    state.counters["triangles"] = static_cast<double>(triangles);
+}
+BENCHMARK(AssembleMesh)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+void CastView(benchmark::State& state) {
+    const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
+                                      static_cast<std::size_t>(state.range(0)));
+    Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+    T.linear() = Eigen::AngleAxisd(.4, Eigen::Vector3d::UnitX()).toRotationMatrix();
+    T.translation() = Eigen::Vector3d(0, .5, -1.2);
+    const PinholeCamera camera;
+    RayCaster caster;
+    PredictedView view;
+    for (auto _ : state) caster.Cast(RoomMap(), camera, T, .2f, 5.f, view);
+    const double pixels = static_cast<double>(view.depth_m.size());
+    double hits = 0;
+    for (std::size_t i = 0; i < view.depth_m.size(); ++i) hits += view.depth_m.data()[i] > 0;
+    state.counters["hits"] = hits / pixels;
+    state.counters["ns_per_pixel"] =
+        benchmark::Counter(pixels * static_cast<double>(state.iterations()) / 1e9,
+                           benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+}
+BENCHMARK(CastView)->ArgName("threads")->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+}  // namespace
+}  // namespace tessera
+
+BENCHMARK_MAIN();

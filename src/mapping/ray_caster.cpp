@@ -1,0 +1,237 @@
+#include "mapping/ray_caster.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "mapping/field_sampler.h"
+
+namespace tessera {
+namespace {
+
+using Sampler = FieldSampler<BlockMap::View>;
+
+// A ray in voxels from the sampler's origin, by depth along the camera's z: p(z) = start + z * step.
+struct Ray {
+    Eigen::Vector3f start, step;
+    float voxels_per_metre;  // |step|
+
+    Ray(const Eigen::Vector3f& from, const Eigen::Vector3f& direction)
+        : start(from), step(direction), voxels_per_metre(direction.norm()) {}
+    Eigen::Vector3f At(float z) const { return start + z * step; }
+};
+
+struct Hit {
+    float depth_m = 0;  // 0: none
+    FieldCell cell{};
+    FieldSample sample{};
+};
+
+class RayWalker {
+  public:
+    RayWalker(const BlockMap::View& map, const BlockCoord& origin)
+        : sampler_(map, origin), voxel_m_(map.voxel_size_m), truncation_m_(map.truncation_m) {}
+
+    Hit FirstSurface(const Ray& ray, float first_m, float last_m) {
+        float z = first_m;
+        front_m_ = kNothing;
+        while (z <= last_m) {
+            const Eigen::Vector3f p = ray.At(z);
+            const FieldCell cell = sampler_.Locate(p.x(), p.y(), p.z());
+            float advance_voxels;  // along the ray
+            if (cell.block == kUnknownBlock) {
+                front_m_ = kNothing;
+                advance_voxels = VoxelsToBlockEnd(ray, p);
+            } else {
+                const float distance_m = DistanceAt(cell);
+                if (distance_m <= 0 && front_m_ < kNothing) {
+                    const Hit hit = Refine(ray, front_z_, front_m_, z, distance_m);
+                    if (hit.depth_m > 0) return hit;
+                }
+                advance_voxels = std::max(std::abs(distance_m) / voxel_m_ - kMargin, kLeastStep);
+                front_m_ = distance_m > 0 ? distance_m : kNothing;
+                front_z_ = z;
+                if (distance_m == kNothing) advance_voxels = 1;
+            }
+            z += advance_voxels / ray.voxels_per_metre;
+        }
+        return {};
+    }
+
+  private:
+    static constexpr float kNothing = 1e9f;
+    static constexpr float kLeastStep = 0.5f;  // voxels
+    // The nearest voxel's distance differs from the point's by at most half a cell's diagonal.
+    static constexpr float kMargin = 0.87f;
+    static constexpr float kNearVoxels = 1.5f;
+    static constexpr float kExactVoxels = 1e-3f;
+
+    // Metres; the nearest voxel's far from the surface, interpolated near it. kNothing where unknown.
+    float DistanceAt(const FieldCell& cell) const {
+        const FieldWord word = sampler_.Nearest(cell);
+        if (!HasDistance(word)) return kNothing;
+        const float nearest_m = FieldDistance(word) * truncation_m_;
+        if (std::abs(nearest_m) > kNearVoxels * voxel_m_) return nearest_m;
+        const FieldSample sample = sampler_.Sample<false>(cell);
+        return sample.has_distance ? sample.distance.value : kNothing;
+    }
+
+    static float VoxelsToBlockEnd(const Ray& ray, const Eigen::Vector3f& p) {
+        constexpr float kBeyond = 1e-2f;
+        float least_z = kNothing;
+        for (int i = 0; i < 3; ++i) {
+            if (ray.step[i] == 0) continue;
+            const float low = static_cast<float>(Floor(p[i]) >> 3) * kBlockSide;
+            const float end = ray.step[i] > 0 ? low + kBlockSide : low;
+            least_z = std::min(least_z, (end - p[i]) / ray.step[i]);
+        }
+        return std::max(least_z * ray.voxels_per_metre, 0.0f) + kBeyond;
+    }
+
+    // The zero between a point in front (distance a_m > 0 at depth a_z) and one behind: regula falsi with the Illinois
+    // rule, on interpolated distances.
+    Hit Refine(const Ray& ray, float a_z, float a_m, float b_z, float b_m) {
+        if (a_m > 0.99f * truncation_m_ && b_m < -0.99f * truncation_m_) return {};
+        int last_side = 0;
+        for (int i = 0; i < 12; ++i) {
+            const float z = a_z + (b_z - a_z) * a_m / (a_m - b_m);
+            const Eigen::Vector3f p = ray.At(z);
+            const FieldCell cell = sampler_.Locate(p.x(), p.y(), p.z());
+            const FieldSample sample = sampler_.Sample<true>(cell);
+            if (!sample.has_distance) return {};
+            const float distance_m = sample.distance.value;
+            if (std::abs(distance_m) < kExactVoxels * voxel_m_) return {z, cell, sample};
+            const int side = distance_m > 0 ? 1 : -1;
+            if (side > 0) {
+                a_z = z;
+                a_m = distance_m;
+                if (last_side == side) b_m /= 2;
+            } else {
+                b_z = z;
+                b_m = distance_m;
+                if (last_side == side) a_m /= 2;
+            }
+            last_side = side;
+        }
+        return {};
+    }
+
+    Sampler sampler_;
+    float voxel_m_, truncation_m_;
+    // The last known point in front of a surface; kNothing if the walk has since met unknown space or a back.
+    float front_m_ = kNothing, front_z_ = 0;
+};
+
+// Interpolates the words' parts over the corners that have an intensity, then converts once.
+struct Appearance {
+    float intensity = -1;
+    Rgb8 colour{128, 128, 128};
+
+    Appearance(const BlockMap& map, const Sampler& sampler, const FieldCell& cell) {
+        std::int32_t voxel[8];
+        sampler.Corners(cell, voxel);
+        float total = 0, y = 0, cb = 0, cr = 0;
+        for (int c = 0; c < 8; ++c) {
+            const FieldWord word = map.field(0)[voxel[c]];
+            if (!HasIntensity(word)) continue;
+            const ColourWord chroma = map.colour(0)[voxel[c]];
+            const float w = (c & 1 ? cell.fx : 1 - cell.fx) * (c & 2 ? cell.fy : 1 - cell.fy) *
+                            (c & 4 ? cell.fz : 1 - cell.fz);
+            total += w;
+            y += w * FieldIntensity(word);
+            cb += w * static_cast<float>(chroma & 1023u);
+            cr += w * static_cast<float>(chroma >> 10 & 1023u);
+        }
+        if (total < 1e-3f) return;
+        intensity = y / total;
+        const auto round = [](float v) { return static_cast<std::uint32_t>(v + 0.5f); };
+        const LinearRgb rgb = ColourFromWords(1 + round(intensity * kIntensitySteps),
+                                              round(cb / total) | round(cr / total) << 10);
+        const auto byte = [](float v) { return static_cast<std::uint8_t>(v * 255.0f + 0.5f); };
+        colour = {byte(rgb.r), byte(rgb.g), byte(rgb.b)};
+    }
+};
+
+// Casts a row of tiles' pixels.
+class RowCaster {
+  public:
+    RowCaster(const BlockMap& map, PredictedView& view) : map_(map), map_view_(map.view()), view_(view) {
+        const double voxel_m = map.config().voxel_size_m;
+        const Eigen::Vector3d at = view.T_world_camera.translation() / voxel_m;
+        const Eigen::Vector3i block = (at / kBlockSide).array().floor().cast<int>();
+        origin_ = {block.x(), block.y(), block.z()};
+        start_ = (at - kBlockSide * block.cast<double>()).cast<float>();
+        voxel_from_camera_ = (view.T_world_camera.linear() / voxel_m).cast<float>();
+        camera_from_world_ = view.T_world_camera.linear().transpose().cast<float>();
+    }
+
+    void CastRow(int v, const RayRanges& ranges) const {
+        RayWalker walker(map_view_, origin_);
+        const Sampler sampler(map_view_, origin_);
+        const RayRanges::Range* range = ranges.ranges.data() + v / RayRanges::kTilePx * ranges.width;
+        const PinholeCamera& camera = view_.camera;
+        for (int u = 0; u < camera.width; ++u) {
+            const auto& [first_m, last_m] = range[u / RayRanges::kTilePx];
+            Store(u, v, Hit{}, sampler);
+            if (first_m > last_m) continue;
+            const Eigen::Vector3f direction = camera.Unproject(u, v, 1).cast<float>();
+            const Ray ray(start_, voxel_from_camera_ * direction);
+            const Hit hit = walker.FirstSurface(ray, first_m, last_m);
+            if (hit.depth_m > 0) Store(u, v, hit, sampler);
+        }
+    }
+
+  private:
+    void Store(int u, int v, const Hit& hit, const Sampler& sampler) const {
+        view_.depth_m(u, v) = hit.depth_m;
+        if (hit.depth_m == 0) {
+            view_.normal_camera(u, v).setZero();
+            view_.colour(u, v) = {};
+            view_.intensity(u, v) = 0;
+            return;
+        }
+        const auto& g = hit.sample.distance;
+        view_.normal_camera(u, v) =
+            (camera_from_world_ * Eigen::Vector3f(g.gx, g.gy, g.gz)).normalized();
+        const Appearance appearance(map_, sampler, hit.cell);
+        view_.colour(u, v) = appearance.colour;
+        view_.intensity(u, v) = appearance.intensity;
+    }
+
+    const BlockMap& map_;
+    const BlockMap::View map_view_;
+    PredictedView& view_;
+    BlockCoord origin_;
+    Eigen::Vector3f start_;
+    Eigen::Matrix3f voxel_from_camera_, camera_from_world_;
+};
+
+}  // namespace
+
+void RayCaster::Cast(const BlockMap& map, const PinholeCamera& camera,
+                     const Eigen::Isometry3d& T_world_camera, float min_depth_m, float max_depth_m,
+                     PredictedView& view) {
+    view.camera = camera;
+    view.T_world_camera = T_world_camera;
+    view.depth_m.Resize(camera.width, camera.height);
+    view.normal_camera.Resize(camera.width, camera.height);
+    view.colour.Resize(camera.width, camera.height);
+    view.intensity.Resize(camera.width, camera.height);
+    ranges_.Build(map, camera, T_world_camera, min_depth_m, max_depth_m);
+    const RowCaster caster(map, view);
+    tbb::parallel_for(tbb::blocked_range<int>(0, camera.height, RayRanges::kTilePx),
+                      [&](const auto& rows) {
+                          for (int v = rows.begin(); v < rows.end(); ++v) caster.CastRow(v, ranges_);
+                      });
+}
+
+PredictedView RayCaster::Cast(const BlockMap& map, const PinholeCamera& camera,
+                              const Eigen::Isometry3d& T_world_camera, float min_depth_m,
+                              float max_depth_m) {
+    PredictedView view;
+    Cast(map, camera, T_world_camera, min_depth_m, max_depth_m, view);
+    return view;
+}
+
+}  // namespace tessera
