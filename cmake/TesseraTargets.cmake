@@ -51,6 +51,9 @@ function(tessera_vector_source library file)
     endforeach()
 endfunction()
 
+# All unit test programs: what a sanitizer build needs.
+add_custom_target(tessera_unit_tests)
+
 # tessera_test(NAME SOURCES... LINK libs... LABEL unit|data|slow): one GoogleTest program, one ctest entry per test.
 function(tessera_test name)
     cmake_parse_arguments(ARG "" "LABEL" "SOURCES;LINK" ${ARGN})
@@ -60,5 +63,8 @@ function(tessera_test name)
     add_executable(${name} ${ARG_SOURCES})
     target_include_directories(${name} PRIVATE ${CMAKE_SOURCE_DIR}/tests)
     target_link_libraries(${name} PRIVATE ${ARG_LINK} GTest::gtest_main tessera_options)
-    gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES LABELS ${ARG_LABEL} TIMEOUT 900)
+    if(ARG_LABEL STREQUAL unit)
+        add_dependencies(tessera_unit_tests ${name})
+    endif()
+    gtest_discover_tests(${name} NO_PRETTY_VALUES DISCOVERY_TIMEOUT 60 PROPERTIES LABELS ${ARG_LABEL} TIMEOUT 900)
 endfunction()

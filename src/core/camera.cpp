@@ -20,6 +20,9 @@ Status CheckPlausible(const std::string& path, const CameraCalibration& c) {
     if (p.height < 16 || p.height > 8192) return bad("height", p.height);
     if (!(std::abs(p.cx) < 2.0 * p.width)) return bad("cx", p.cx);
     if (!(std::abs(p.cy) < 2.0 * p.height)) return bad("cy", p.cy);
+    const LensDistortion& d = c.distortion;
+    for (const double k : {d.k1, d.k2, d.p1, d.p2, d.k3})
+        if (!std::isfinite(k)) return bad("distortion", k);
     if (!(c.depth_scale > 0 && c.depth_scale < 1e7)) return bad("depth_scale", c.depth_scale);
     if (!(c.fps > 0 && c.fps < 1e4)) return bad("fps", c.fps);
     return Status::Ok();

@@ -23,6 +23,7 @@ class ConfigParameters {
         std::string default_value;  // the value when described
         std::function<std::string()> get;
         std::function<Status(const std::string&)> set;
+        bool is_text = false;       // written in quotes
     };
     struct Range {
         double minimum, maximum;  // both allowed

@@ -16,19 +16,18 @@ class [[nodiscard]] Status {
     static Status Ok() { return {}; }
     static Status Error(std::string message) {
         Status status;
+        status.failed_ = true;
         status.message_ = std::move(message);
         return status;
     }
 
-    bool ok() const { return !message_.has_value(); }
+    bool ok() const { return !failed_; }
     // The error's text; empty on success.
-    const std::string& message() const {
-        static const std::string kNone;
-        return message_ ? *message_ : kNone;
-    }
+    const std::string& message() const { return message_; }
 
   private:
-    std::optional<std::string> message_;
+    bool failed_ = false;
+    std::string message_;
 };
 
 // A value of type T, or the reason why there is none.

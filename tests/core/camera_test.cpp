@@ -1,0 +1,104 @@
+#include "core/camera.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <ostream>
+
+#include "support/temp_folder.h"
+
+namespace tessera {
+namespace {
+
+Result<CameraCalibration> ReadText(const std::string& text) {
+    const TempFolder folder;
+    std::ofstream(folder / "camera.yaml") << text;
+    return ReadCameraFile(folder / "camera.yaml");
+}
+
+constexpr const char* kIntrinsics = "fx: 500\nfy: 510\ncx: 310\ncy: 230\n";
+
+TEST(Camera, ProjectsWhatItUnprojects) {
+    const PinholeCamera camera{640, 480, 525, 520, 319.5, 239.5};
+    const Eigen::Vector3d p = camera.Unproject(10, 400, 2.5);
+    EXPECT_LT((p - Eigen::Vector3d((10 - 319.5) / 525 * 2.5, (400 - 239.5) / 520 * 2.5, 2.5)).norm(), 1e-15);
+    EXPECT_LT((camera.Project(p) - Eigen::Vector2d(10, 400)).norm(), 1e-12);
+    // The optical axis meets the image at the principal point.
+    EXPECT_EQ(camera.Project({0, 0, 3}), Eigen::Vector2d(319.5, 239.5));
+}
+
+TEST(CameraFile, ReadsEveryKey) {
+    const auto camera = ReadText(std::string("width: 320\nheight: 240\n") + kIntrinsics +
+                                 "distortion: [0.1, -0.2, 0.003, -0.004, 0.5]\ndepth_scale: 1000\nfps: 25\n");
+    ASSERT_TRUE(camera.ok()) << camera.message();
+    EXPECT_EQ(camera.value().pinhole, (PinholeCamera{320, 240, 500, 510, 310, 230}));
+    EXPECT_EQ(camera.value().distortion, (LensDistortion{0.1, -0.2, 0.003, -0.004, 0.5}));
+    EXPECT_EQ(camera.value().depth_scale, 1000);
+    EXPECT_EQ(camera.value().fps, 25);
+}
+
+TEST(CameraFile, DefaultsAreTumsAndAnIdealLens) {
+    const auto camera = ReadText(kIntrinsics);
+    ASSERT_TRUE(camera.ok()) << camera.message();
+    EXPECT_EQ(camera.value().pinhole.width, 640);
+    EXPECT_EQ(camera.value().pinhole.height, 480);
+    EXPECT_EQ(camera.value().depth_scale, 5000);
+    EXPECT_EQ(camera.value().fps, 30);
+    EXPECT_TRUE(camera.value().distortion.IsZero());
+    const auto four = ReadText(std::string(kIntrinsics) + "distortion: [1, 2, 3, 4]\n");
+    ASSERT_TRUE(four.ok());
+    EXPECT_EQ(four.value().distortion, (LensDistortion{1, 2, 3, 4, 0}));
+}
+
+TEST(CameraFile, ANegativeFyIsTakenAsPositive) {
+    const auto camera = ReadText("fx: 481.2\nfy: -480\ncx: 319.5\ncy: 239.5\n");
+    ASSERT_TRUE(camera.ok()) << camera.message();
+    EXPECT_EQ(camera.value().pinhole.fy, 480);
+}
+
+struct BadFile {
+    const char* text;
+    const char* named;  // what the message must name
+};
+void PrintTo(const BadFile& bad, std::ostream* out) { *out << bad.named; }
+class CameraFileBad : public testing::TestWithParam<BadFile> {};
+
+TEST_P(CameraFileBad, NamesFileAndKey) {
+    const auto camera = ReadText(GetParam().text);
+    ASSERT_FALSE(camera.ok());
+    EXPECT_NE(camera.message().find("/camera.yaml"), std::string::npos) << camera.message();
+    EXPECT_NE(camera.message().find(GetParam().named), std::string::npos) << camera.message();
+    EXPECT_EQ(camera.message().find('\n'), std::string::npos) << camera.message();
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, CameraFileBad,
+    testing::Values(
+        BadFile{"", "key: value"}, BadFile{"- 1\n- 2\n", "key: value"}, BadFile{"{", "yaml"},
+        BadFile{"fy: 510\ncx: 310\ncy: 230\n", "'fx' is missing"},
+        BadFile{"fx: 500\ncx: 310\ncy: 230\n", "'fy' is missing"},
+        BadFile{"fx: 500\nfy: 510\ncy: 230\n", "'cx' is missing"},
+        BadFile{"fx: 500\nfy: 510\ncx: 310\n", "'cy' is missing"},
+        BadFile{"fx: 500\nfy: 510\ncx: 310\ncy: 230\nk1: 2\n", "unknown key 'k1'"},
+        BadFile{"fx: wide\nfy: 510\ncx: 310\ncy: 230\n", "fx"},
+        BadFile{"fx: 0\nfy: 510\ncx: 310\ncy: 230\n", "fx"}, BadFile{"fx: -500\nfy: 510\ncx: 310\ncy: 230\n", "fx"},
+        BadFile{"fx: 500\nfy: .nan\ncx: 310\ncy: 230\n", "fy"}, BadFile{"fx: 500\nfy: 5\ncx: .inf\ncy: 230\n", "cx"},
+        BadFile{"fx: 500\nfy: 510\ncx: 310\ncy: 5000\n", "cy"},
+        BadFile{"fx: 500\nfy: 510\ncx: 310\ncy: 230\nwidth: 0\n", "width"},
+        BadFile{"fx: 500\nfy: 510\ncx: 310\ncy: 230\nwidth: 99999999999\n", "width"},
+        BadFile{"fx: 500\nfy: 510\ncx: 310\ncy: 230\nheight: 100000\n", "height"},
+        BadFile{"fx: 500\nfy: 510\ncx: 310\ncy: 230\ndepth_scale: 0\n", "depth_scale"},
+        BadFile{"fx: 500\nfy: 510\ncx: 310\ncy: 230\nfps: -1\n", "fps"},
+        BadFile{"fx: 500\nfy: 510\ncx: 310\ncy: 230\ndistortion: [1, 2]\n", "distortion"},
+        BadFile{"fx: 500\nfy: 510\ncx: 310\ncy: 230\ndistortion: [1, 2, .nan, 4]\n", "distortion"},
+        BadFile{"fx: 500\nfy: 510\ncx: 310\ncy: 230\ndistortion: 3\n", "distortion"},
+        BadFile{"[1, 2]: 3\n", "/camera.yaml"}));
+
+TEST(CameraFile, AMissingFileIsNamed) {
+    const auto camera = ReadCameraFile("/no/such/camera.yaml");
+    ASSERT_FALSE(camera.ok());
+    EXPECT_EQ(camera.message(), "/no/such/camera.yaml: cannot be read");
+}
+
+}  // namespace
+}  // namespace tessera

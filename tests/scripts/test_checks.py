@@ -1,0 +1,74 @@
+"""The checks of scripts/ find what they are there to find: each case is a small tree with one offence."""
+import pathlib
+import sys
+import tempfile
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "scripts"))
+sys.dont_write_bytecode = True
+import check_includes  # noqa: E402
+import check_style  # noqa: E402
+import summarise_tests  # noqa: E402
+
+
+class Tree(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.root = pathlib.Path(self.folder.name)
+
+    def tearDown(self):
+        self.folder.cleanup()
+
+    def write(self, path, text):
+        (self.root / path).parent.mkdir(parents=True, exist_ok=True)
+        (self.root / path).write_text(text)
+
+
+class Includes(Tree):
+    def offences(self):
+        return list(check_includes.offences(self.root))
+
+    def test_lower_and_own_folder_are_allowed(self):
+        self.write("src/tracking/a.cpp", '#include "tracking/a.h"\n#include "core/se3.h"\n#include <render/x.h>\n')
+        self.write("apps/main.cpp", '#include "system/pipeline.h"\n#include "command.h"\n')
+        self.assertEqual(self.offences(), [])
+
+    def test_higher_is_refused(self):
+        self.write("src/core/a.h", '\n  #  include "mapping/voxel.h"\n')
+        self.assertEqual(len(self.offences()), 1)
+        self.assertIn("src/core/a.h:2", self.offences()[0])
+
+    def test_same_rank_is_refused(self):
+        self.write("src/io/a.h", '#include "mapping/voxel.h"\n')
+        self.assertEqual(len(self.offences()), 1)
+
+    def test_relative_paths_and_unknown_folders_are_refused(self):
+        self.write("src/core/a.h", '#include "../mapping/voxel.h"\n')
+        self.write("src/util/a.h", "\n")
+        self.assertEqual(len(self.offences()), 2)
+
+
+class Style(Tree):
+    def test_long_files_warn_then_fail(self):
+        self.write("src/core/a.cpp", "\n" * 250)
+        self.write("src/core/b.cpp", "\n" * 251)
+        self.write("src/core/c.cpp", "\n" * 501)
+        self.assertEqual([failure for failure, _ in check_style.findings(self.root)], [False, True])
+
+    def test_heavy_includes_only_in_sources(self):
+        self.write("src/io/a.h", "#include <opencv2/core.hpp>\n")
+        self.write("src/io/a.cpp", "#include <opencv2/core.hpp>\n")
+        self.assertEqual(len(list(check_style.findings(self.root))), 1)
+
+
+class Summary(Tree):
+    def test_counts_and_missing_stages(self):
+        self.write("s.xml", '<testsuite><testcase name="a" status="run"/>'
+                            '<testcase name="b" status="fail"><failure/></testcase>'
+                            '<testcase name="c" status="notrun"><skipped/></testcase></testsuite>')
+        self.assertEqual(summarise_tests.read_stage(self.root / "s.xml"), (1, ["b"], ["c"]))
+        self.assertEqual(summarise_tests.main([str(self.root / "absent")]), 1)
+
+
+if __name__ == "__main__":
+    unittest.main()
