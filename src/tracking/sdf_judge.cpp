@@ -118,6 +118,7 @@ void SdfTracker::Config::Describe(ConfigParameters& p) {
           "lost if a smaller share of the known depth fits within half the truncation");
     p.Add("max_jump_m", max_jump_m, {0.0, 100.0}, "m", "lost if the camera moved farther since the last frame");
     p.Add("max_jump_rad", max_jump_rad, {0.0, 3.2}, "rad", "lost if the camera turned more since the last frame");
+    p.Section("shutter", [&](ConfigParameters& s) { shutter.Describe(s); });
 }
 
 }  // namespace tessera

@@ -41,7 +41,7 @@ void SdfPoints::Build(const PreparedFrame& frame, const PinholeCamera& camera, c
     const Eigen::Vector3f move = motion.twist_per_s.tail<3>().cast<float>();
     const auto exponent = static_cast<float>(-depth_exponent);
     tbb::parallel_for(0, height_, [&](int row) {
-        const int v = row * step + step / 2;
+        const int v = ImageRow(row);
         const float ray_y = static_cast<float>((v - camera.cy) / camera.fy);
         const float* line = depth.row(v);
         const auto time = static_cast<float>(motion.DepthTime(v, depth.height()));
@@ -71,7 +71,7 @@ void SdfPoints::SampleIntensity(const PreparedFrame& frame, const PinholeCamera&
     const auto cx = static_cast<float>(camera.cx), cy = static_cast<float>(camera.cy);
     tbb::parallel_for(0, height_, [&](int row) {
         const std::size_t begin = static_cast<std::size_t>(row) * static_cast<std::size_t>(width_);
-        const int v = row * step_ + step_ / 2;
+        const int v = ImageRow(row);
         const auto time = static_cast<float>(motion.ColourTime(v, frame.depth_m.height()));
         for (int column = 0; column < width_; ++column) {
             const std::size_t i = begin + static_cast<std::size_t>(column);

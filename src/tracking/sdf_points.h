@@ -24,6 +24,7 @@ class SdfPoints {
     int width() const { return width_; }    // slots per row, a multiple of kSdfPointPadding
     int height() const { return height_; }  // rows
     int count() const { return width_ * height_; }
+    int ImageRow(int row) const { return row * step_ + step_ / 2; }
     std::int64_t valid() const { return valid_; }
 
     std::vector<float> x, y, z, intensity, weight;

@@ -44,6 +44,7 @@ SdfTracker::SdfTracker(const Config& config, const PinholeCamera& camera, Vector
     : config_(config),
       camera_(camera),
       use_avx2_(path == VectorPath::kAvx2 || (path == VectorPath::kAuto && CpuHasAvx2())),
+      shutter_(config.shutter, camera),
       points_(static_cast<std::size_t>(config.levels)) {
     Reset();
 }
@@ -52,6 +53,7 @@ void SdfTracker::Reset() {
     alpha_ = config_.alpha;
     gain_ = 1;
     offset_ = 0;
+    shutter_.Reset();
     distance_variance_ = intensity_variance_ = 0;
 }
 
@@ -75,26 +77,25 @@ TrackResult SdfTracker::Track(const TrackInput& input) {
     result.offset = state.offset;
     result.iterations = state.iterations;
     Judge(input, state.sums, state.step, result);
-    if (result.status != TrackStatus::kLost) {
-        gain_ = state.gain;
-        offset_ = state.offset;
-        if (config_.alpha_mode == AlphaMode::kAuto && state.alpha > 0) {
-            const auto count = static_cast<std::size_t>(points_[0].count());
-            distance_residual_.resize(count);
-            intensity_residual_.resize(count);
-            state.arguments.distance_residual = distance_residual_.data();
-            state.arguments.intensity_residual = intensity_residual_.data();
-            (void)Sum(state.arguments, points_[0]);
-            UpdateAlpha(points_[0]);
-        }
-    }
+    if (result.status != TrackStatus::kLost) Learn(input, state, result);
     return result;
+}
+
+// What one frame teaches about the camera and the residuals, for the frames to come.
+void SdfTracker::Learn(const TrackInput& input, const State& state, const TrackResult& result) {
+    gain_ = state.gain;
+    offset_ = state.offset;
+    if (state.alpha <= 0) return;
+    shutter_.Update(input.frame, points_[0], intensity_residual_, state.motion, state.gain, result.intensity_rms);
+    if (config_.alpha_mode == AlphaMode::kAuto) UpdateAlpha(points_[0]);
 }
 
 // Points, their intensities and the map as the hot loop takes them, for every (finest_step_px << level)-th pixel.
 void SdfTracker::PrepareLevel(const TrackInput& input, int level, State& state) {
     SdfPoints& points = points_[static_cast<std::size_t>(level)];
     state.motion = input.motion;
+    state.motion.colour_delay_s += shutter_.delay_s();
+    state.motion.colour_readout_s += shutter_.readout_s();
     if (input.since_last_s > 0)  // the velocity of the last interval, as far as this level knows it
         state.motion.twist_per_s =
             Se3Log(input.T_world_camera_last.inverse() * state.T_world_camera) / input.since_last_s;
@@ -125,6 +126,11 @@ void SdfTracker::PrepareLevel(const TrackInput& input, int level, State& state) 
     a.distance_scale_m = static_cast<float>(config_.distance_scale_m);
     a.intensity_scale = static_cast<float>(config_.intensity_scale);
     a.inlier_distance_m = 0.5f * map.truncation_m;
+    if (level > 0) return;
+    distance_residual_.resize(static_cast<std::size_t>(points.count()));
+    intensity_residual_.resize(static_cast<std::size_t>(points.count()));
+    a.distance_residual = distance_residual_.data();
+    a.intensity_residual = state.alpha > 0 ? intensity_residual_.data() : nullptr;
 }
 
 SdfSums SdfTracker::SumAt(const TrackInput& input, const SdfPoints& points, State& state) const {

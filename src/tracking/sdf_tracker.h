@@ -8,6 +8,7 @@
 #include "tracking/sdf_points.h"
 #include "tracking/sdf_rows.h"
 #include "tracking/sdf_solver.h"
+#include "tracking/shutter_estimator.h"
 #include "tracking/tracker.h"
 
 namespace tessera {
@@ -33,6 +34,7 @@ class SdfTracker : public Tracker {
         double min_inlier_fraction = 0.35;
         double max_jump_m = 0.3;
         double max_jump_rad = 0.5;
+        ShutterEstimator::Config shutter;
 
         void Describe(ConfigParameters& parameters);
     };
@@ -51,6 +53,7 @@ class SdfTracker : public Tracker {
     SdfSums SumAt(const TrackInput& input, const SdfPoints& points, State& state) const;
     SdfSums Sum(const SdfArguments& arguments, const SdfPoints& points) const;
     void Judge(const TrackInput& input, const SdfSums& sums, const SdfStep& step, TrackResult& result) const;
+    void Learn(const TrackInput& input, const State& state, const TrackResult& result);
     void UpdateAlpha(const SdfPoints& points);
 
     Config config_;
@@ -59,6 +62,7 @@ class SdfTracker : public Tracker {
     double alpha_;          // in use
     double gain_ = 1, offset_ = 0;  // of the last good frame
     double distance_variance_ = 0, intensity_variance_ = 0;  // of tile means, smoothed over frames
+    ShutterEstimator shutter_;
     std::vector<SdfPoints> points_;  // per level
     std::vector<float> distance_residual_, intensity_residual_;
 };

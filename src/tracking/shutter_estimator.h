@@ -1,0 +1,45 @@
+// Learns, while the camera turns, when the rows of the colour image were really taken: a constant delay beyond the time
+// stamps and the read-out time of a rolling shutter. Both shear the image of a moving camera, and what they shear shows
+// in the photometric residuals. A global shutter is learnt as zero.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "core/camera.h"
+#include "core/config.h"
+#include "core/frame_motion.h"
+#include "mapping/prepared_frame.h"
+#include "tracking/sdf_points.h"
+
+namespace tessera {
+
+class ShutterEstimator {
+  public:
+    struct Config {
+        bool enabled = true;
+        double delay_prior_s = 0.005;
+        double readout_prior_s = 0.02;
+
+        void Describe(ConfigParameters& parameters);
+    };
+
+    ShutterEstimator(const Config& config, const PinholeCamera& camera) : config_(config), camera_(camera) { Reset(); }
+
+    // One tracked frame: its points, their photometric residuals (map minus gain times image minus offset; NaN where
+    // unknown) and the motion they were sampled with. Owner thread only.
+    void Update(const PreparedFrame& frame, const SdfPoints& points, const std::vector<float>& residuals,
+                const FrameMotion& motion, double gain, double residual_scale);
+    void Reset();
+
+    double delay_s() const { return estimate_(0); }    // to add to the time stamps' difference
+    double readout_s() const { return estimate_(1); }  // of the whole colour image
+
+  private:
+    Config config_;
+    PinholeCamera camera_;
+    Eigen::Vector2d estimate_;
+    Eigen::Matrix2d information_;
+};
+
+}  // namespace tessera
