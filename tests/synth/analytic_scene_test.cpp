@@ -123,8 +123,8 @@ TEST(AnalyticScene, AHitsPatchHoldsTheHit) {
         Eigen::AlignedBox3d box;
         for (const auto& v : patch.vertices) box.extend(v.cast<double>());
         EXPECT_LT(box.exteriorDistance(p), 0.002);  // curved patches bulge
-        for (const auto& [i0, i1, i2] : patch.triangles)
-            EXPECT_LT((patch.vertices[a] - patch.vertices[c]).norm(), 0.1415f);
+        for (const auto& t : patch.triangles)
+            EXPECT_LT((patch.vertices[t[0]] - patch.vertices[t[2]]).norm(), 0.1415f);
     }
     EXPECT_GT(hits, 200);
 }
