@@ -1,5 +1,6 @@
 #include "synth/obj_model.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -49,7 +50,7 @@ TEST(ObjModel, BadFilesAreRefusedInOneLine) {
     };
     int number = 0;
     for (const auto& [text, expected] : cases) {
-        const std::string path = WriteFile("bad" + std::to_string(number++) + ".obj", text);
+        const std::string path = WriteFile(fmt::format("bad{}.obj", number++), text);
         const auto model = ReadObj(path);
         ASSERT_FALSE(model.ok()) << text;
         EXPECT_EQ(model.message().rfind(path + ": ", 0), 0u) << model.message();
@@ -66,8 +67,8 @@ TEST(ObjModel, BadFilesAreRefusedInOneLine) {
 TEST(ObjModel, APolygonOfMoreCornersThanTheParserCountsIsSafe) {
     std::string text, face = "f";
     for (int i = 0; i < 700; ++i) {
-        text += "v " + std::to_string(i) + " " + std::to_string(i * i % 97) + " 0\n";
-        face += " " + std::to_string(i + 1);
+        text += fmt::format("v {} {} 0\n", i, i * i % 97);
+        face += fmt::format(" {}", i + 1);
     }
     (void)ReadObj(WriteFile("polygon.obj", text + face + "\n"));
 }
