@@ -21,12 +21,14 @@ int FlatCells(double length_m) {
     return std::max(static_cast<int>(std::ceil(length_m / kMaxPatch)), 1);
 }
 
-bool IsCap(const Shape& shape, int chart) { return shape.kind == ShapeKind::kCylinder && chart > 0; }
+bool IsCap(const Shape& shape, int chart) {
+    return shape.kind == ShapeKind::kCylinder && chart > 0;
+}
 
 }  // namespace
 
-Eigen::Vector3d AnalyticScene::PatchCorner(const Shape& shape, int number, const Chart& chart, int column,
-                                           int row) {
+Eigen::Vector3d AnalyticScene::PatchCorner(const Shape& shape, int number, const Chart& chart,
+                                           int column, int row) {
     const double u = static_cast<double>(column) / chart.patch_columns;
     const double v = static_cast<double>(row) / chart.patch_rows;
     const Eigen::Vector2d size = ChartSize(shape, IsCap(shape, number) ? 0 : number);
@@ -69,7 +71,8 @@ std::int64_t AnalyticScene::PatchOf(const SurfaceHit& hit) const {
         u = side.x() / ChartSize(shape, 0).x();
         v = p.head<2>().norm() / shape.half_size_m.x();
     }
-    const int column = std::clamp(static_cast<int>(u * chart.patch_columns), 0, chart.patch_columns - 1);
+    const int column =
+        std::clamp(static_cast<int>(u * chart.patch_columns), 0, chart.patch_columns - 1);
     const int row = std::clamp(static_cast<int>(v * chart.patch_rows), 0, chart.patch_rows - 1);
     return chart.first_patch + static_cast<std::int64_t>(row) * chart.patch_columns + column;
 }
@@ -91,7 +94,8 @@ TriangleMesh AnalyticScene::InstanceMesh(int instance) const {
 void AnalyticScene::AppendChart(const Shape& shape, int number, const Chart& chart,
                                 const std::vector<bool>* keep, TriangleMesh& mesh) const {
     const int columns = chart.patch_columns, rows = chart.patch_rows;
-    std::vector<std::uint32_t> index(static_cast<std::size_t>(columns + 1) * (rows + 1), UINT32_MAX);
+    std::vector<std::uint32_t> index(static_cast<std::size_t>(columns + 1) * (rows + 1),
+                                     UINT32_MAX);
     const auto vertex = [&](int column, int row) {
         std::uint32_t& v = index[static_cast<std::size_t>(row) * (columns + 1) + column];
         if (v == UINT32_MAX) {
@@ -101,15 +105,19 @@ void AnalyticScene::AppendChart(const Shape& shape, int number, const Chart& cha
         }
         return v;
     };
-    const bool from_below = IsCap(shape, number) && number == 1;  // u to the left, seen from outside
+    const bool from_below =
+        IsCap(shape, number) && number == 1;  // u to the left, seen from outside
     const auto triangle = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-        const Eigen::Vector3f ab = mesh.vertices[b] - mesh.vertices[a], ac = mesh.vertices[c] - mesh.vertices[a];
+        const Eigen::Vector3f ab = mesh.vertices[b] - mesh.vertices[a],
+                              ac = mesh.vertices[c] - mesh.vertices[a];
         if (ab.cross(ac).squaredNorm() < 1e-18f) return;  // at a pole or a cap's centre
         mesh.triangles.push_back({a, from_below ? c : b, from_below ? b : c});
     };
     for (int row = 0; row < rows; ++row) {
         for (int column = 0; column < columns; ++column) {
-            if (keep && !(*keep)[chart.first_patch + static_cast<std::int64_t>(row) * columns + column]) continue;
+            if (keep &&
+                !(*keep)[chart.first_patch + static_cast<std::int64_t>(row) * columns + column])
+                continue;
             const std::uint32_t right = vertex(column + 1, row), down = vertex(column, row + 1);
             triangle(vertex(column, row), down, right);
             triangle(right, down, vertex(column + 1, row + 1));
@@ -117,7 +125,8 @@ void AnalyticScene::AppendChart(const Shape& shape, int number, const Chart& cha
     }
 }
 
-void AnalyticScene::AppendPatches(const Part& part, const std::vector<bool>* keep, TriangleMesh& mesh) const {
+void AnalyticScene::AppendPatches(const Part& part, const std::vector<bool>* keep,
+                                  TriangleMesh& mesh) const {
     for (int i = 0; i < ChartCount(part.shape.kind); ++i)
         AppendChart(part.shape, i, part.charts[i], keep, mesh);
 }

@@ -30,7 +30,8 @@ int AnalyticScene::AddShape(const Shape& shape, const Paint& paint) {
     part.instance = current_instance_;
     LayPatches(part);
     for (int corner = 0; corner < 8; ++corner) {
-        const Eigen::Vector3d sign((corner & 1) ? 1 : -1, (corner & 2) ? 1 : -1, (corner & 4) ? 1 : -1);
+        const Eigen::Vector3d sign((corner & 1) ? 1 : -1, (corner & 2) ? 1 : -1,
+                                   (corner & 4) ? 1 : -1);
         bounds_.extend(shape.T_world_shape * shape.half_size_m.cwiseProduct(sign));
     }
     parts_.push_back(std::move(part));
@@ -53,14 +54,16 @@ void AnalyticScene::SetPaint(int part, int chart, const Paint& paint) {
     c.offset_v = static_cast<float>(paint.offset_v_m / height);
 }
 
-SurfaceHit AnalyticScene::CastRay(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const {
+SurfaceHit AnalyticScene::CastRay(const Eigen::Vector3d& origin,
+                                  const Eigen::Vector3d& direction) const {
     const double length2 = direction.squaredNorm();
     SurfaceHit best;
     for (std::size_t i = 0; i < parts_.size(); ++i) {
         const Part& part = parts_[i];
         const Eigen::Vector3d to_centre = part.shape.T_world_shape.translation() - origin;
         const double along = to_centre.dot(direction);
-        if (to_centre.squaredNorm() - along * along / length2 > part.radius_m * part.radius_m) continue;
+        if (to_centre.squaredNorm() - along * along / length2 > part.radius_m * part.radius_m)
+            continue;
         const Eigen::Vector3d o = part.T_shape_world * origin;
         const Eigen::Vector3d d = part.T_shape_world.linear() * direction;
         if (const auto hit = Intersect(part.shape, o, d, best.t); hit) {
@@ -93,12 +96,15 @@ RgbF AnalyticScene::Colour(const SurfaceHit& hit, float footprint_m) const {
     return {colour.r * light, colour.g * light, colour.b * light};
 }
 
-int AnalyticScene::InstanceOf(const SurfaceHit& hit) const { return parts_[hit.part].instance; }
+int AnalyticScene::InstanceOf(const SurfaceHit& hit) const {
+    return parts_[hit.part].instance;
+}
 
 std::optional<double> AnalyticScene::SignedDistance(const Eigen::Vector3d& p_world) const {
     double nearest = std::numeric_limits<double>::infinity();
     for (const Part& part : parts_)
-        nearest = std::min(nearest, tessera::SignedDistance(part.shape, part.T_shape_world * p_world));
+        nearest =
+            std::min(nearest, tessera::SignedDistance(part.shape, part.T_shape_world * p_world));
     return nearest;
 }
 

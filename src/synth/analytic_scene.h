@@ -1,5 +1,5 @@
-// A scene of boxes, spheres, cylinders and rectangles with painted surfaces and baked light. Built by adding parts,
-// then Finish; const and thread-safe from then on.
+// A scene of boxes, spheres, cylinders and rectangles with painted surfaces and baked light. Built
+// by adding parts, then Finish; const and thread-safe from then on.
 #pragma once
 
 #include <array>
@@ -13,8 +13,9 @@ namespace tessera {
 
 // How a texture lies on a chart.
 struct Paint {
-    int texture = 0;         // from AddTexture
-    double width_m = 0;      // the texture's width and height on the surface; 0 = stretched over the chart
+    int texture = 0;  // from AddTexture
+    double width_m =
+        0;  // the texture's width and height on the surface; 0 = stretched over the chart
     double height_m = 0;
     double offset_u_m = 0, offset_v_m = 0;
 };
@@ -28,15 +29,16 @@ struct Light {
 
 struct Lighting {
     std::vector<Light> lights;
-    double ambient = 0.45;     // share of full brightness where nothing shades
-    double texel_m = 0.02;     // finest resolution of the baked light
-    bool baked = true;         // false: each face evenly, by its direction only (scenes without texture)
+    double ambient = 0.45;  // share of full brightness where nothing shades
+    double texel_m = 0.02;  // finest resolution of the baked light
+    bool baked = true;  // false: each face evenly, by its direction only (scenes without texture)
 };
 
 class AnalyticScene : public Scene {
   public:
     int AddTexture(const ColourImage& image, Texture::Wrap wrap = Texture::Wrap::kRepeat);
-    // Later parts belong to it. Class names are made as they come; an empty one means the surroundings.
+    // Later parts belong to it. Class names are made as they come; an empty one means the
+    // surroundings.
     void BeginInstance(const std::string& name, const std::string& class_name);
     // Returns the part's number, for SetPaint. Every chart gets `paint`.
     int AddShape(const Shape& shape, const Paint& paint);
@@ -46,7 +48,8 @@ class AnalyticScene : public Scene {
 
     std::unique_ptr<ViewCaster> View(const PinholeCamera& camera,
                                      const Eigen::Isometry3d& T_world_camera) const override;
-    SurfaceHit CastRay(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const override;
+    SurfaceHit CastRay(const Eigen::Vector3d& origin,
+                       const Eigen::Vector3d& direction) const override;
     Eigen::Vector3d Normal(const SurfaceHit& hit) const override;
     RgbF Colour(const SurfaceHit& hit, float footprint_m) const override;
     int InstanceOf(const SurfaceHit& hit) const override;
@@ -64,7 +67,8 @@ class AnalyticScene : public Scene {
     // The baked light on a chart: a grid of shares of full brightness, and the patches' grid.
     struct Chart {
         Paint paint;
-        float scale_u = 1, scale_v = 1, offset_u = 0, offset_v = 0;  // metres to texture coordinates
+        float scale_u = 1, scale_v = 1, offset_u = 0,
+              offset_v = 0;  // metres to texture coordinates
         int light_columns = 1, light_rows = 1;
         float light_scale_u = 0, light_scale_v = 0;
         std::vector<float> light;
@@ -79,15 +83,18 @@ class AnalyticScene : public Scene {
         std::array<Chart, 6> charts;
     };
 
-    bool Occluded(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double length) const;
-    double Irradiance(const Lighting& lighting, const Eigen::Vector3d& p, const Eigen::Vector3d& normal,
-                      std::uint64_t key) const;
+    struct Occluders;
+    Occluders FindOccluders(const Lighting& lighting, const Shape& shape, int chart) const;
+    static double Irradiance(const Lighting& lighting, const Occluders& occluders,
+                             const Eigen::Vector3d& p, const Eigen::Vector3d& normal,
+                             std::uint64_t key);
     void BakeChart(const Lighting& lighting, std::size_t part, int chart);
     float LightAt(const Chart& chart, float u, float v) const;
     void LayPatches(Part& part);
-    static Eigen::Vector3d PatchCorner(const Shape& shape, int number, const Chart& chart, int column, int row);
-    void AppendChart(const Shape& shape, int number, const Chart& chart, const std::vector<bool>* keep,
-                     TriangleMesh& mesh) const;
+    static Eigen::Vector3d PatchCorner(const Shape& shape, int number, const Chart& chart,
+                                       int column, int row);
+    void AppendChart(const Shape& shape, int number, const Chart& chart,
+                     const std::vector<bool>* keep, TriangleMesh& mesh) const;
     void AppendPatches(const Part& part, const std::vector<bool>* keep, TriangleMesh& mesh) const;
 
     std::vector<Texture> textures_;

@@ -1,5 +1,6 @@
-// One camera's rays through an analytic scene: each body's transform and its rectangle of pixels are found once for
-// the view, so that a tile of pixels tries only the few bodies that can be in it, front to back.
+// One camera's rays through an analytic scene: each body's transform and its rectangle of pixels
+// are found once for the view, so that a tile of pixels tries only the few bodies that can be in
+// it, front to back.
 #include <algorithm>
 #include <cmath>
 
@@ -9,22 +10,24 @@ namespace tessera {
 
 class AnalyticView : public ViewCaster {
   public:
-    AnalyticView(const AnalyticScene& scene, const PinholeCamera& camera, const Eigen::Isometry3d& T_world_camera);
+    AnalyticView(const AnalyticScene& scene, const PinholeCamera& camera,
+                 const Eigen::Isometry3d& T_world_camera);
     void Cast(const PixelRect& rect, double offset_x_px, double offset_y_px,
               std::span<SurfaceHit> hits) const override;
 
   private:
     struct Candidate {
         int part;
-        double nearest_z;                 // no point of the body is nearer, metres along the optical axis
+        double nearest_z;  // no point of the body is nearer, metres along the optical axis
         double x_min, x_max, y_min, y_max;  // pixels
-        Eigen::Vector3d origin;           // the camera's centre in the shape's frame
+        Eigen::Vector3d origin;             // the camera's centre in the shape's frame
         Eigen::Matrix3d R_shape_camera;
         Eigen::Matrix<double, 3, 8> p_camera;  // the bounding box's corners
-        bool unbounded;                        // reaches behind the camera: the rectangle says nothing
+        bool unbounded;  // reaches behind the camera: the rectangle says nothing
     };
     void Add(int part, const Eigen::Isometry3d& T_world_camera);
-    bool InTile(const Candidate& candidate, const PixelRect& rect, double offset_x_px, double offset_y_px) const;
+    bool InTile(const Candidate& candidate, const PixelRect& rect, double offset_x_px,
+                double offset_y_px) const;
     const Candidate* Nearest(std::span<const Candidate* const> candidates, const Candidate* first,
                              const Eigen::Vector3d& d_camera, SurfaceHit& best) const;
     void Describe(const Candidate& winner, const Eigen::Vector3d& d_camera, SurfaceHit& hit) const;
@@ -38,12 +41,14 @@ AnalyticView::AnalyticView(const AnalyticScene& scene, const PinholeCamera& came
                            const Eigen::Isometry3d& T_world_camera)
     : scene_(scene), camera_(camera) {
     for (std::size_t i = 0; i < scene.parts_.size(); ++i) Add(static_cast<int>(i), T_world_camera);
-    std::stable_sort(candidates_.begin(), candidates_.end(),
-                     [](const Candidate& a, const Candidate& b) { return a.nearest_z < b.nearest_z; });
+    std::stable_sort(
+        candidates_.begin(), candidates_.end(),
+        [](const Candidate& a, const Candidate& b) { return a.nearest_z < b.nearest_z; });
 }
 
 void AnalyticView::Add(int number, const Eigen::Isometry3d& T_world_camera) {
-    constexpr double kNear = 1e-3;  // a corner this close to the camera's plane bounds no pixels, metres
+    constexpr double kNear =
+        1e-3;  // a corner this close to the camera's plane bounds no pixels, metres
     const AnalyticScene::Part& part = scene_.parts_[number];
     const Eigen::Isometry3d T_shape_camera = part.T_shape_world * T_world_camera;
     const Eigen::Isometry3d T_camera_shape = T_shape_camera.inverse();
@@ -57,7 +62,8 @@ void AnalyticView::Add(int number, const Eigen::Isometry3d& T_world_camera) {
     bool any_in_front = false;
     c.unbounded = false;
     for (int corner = 0; corner < 8; ++corner) {
-        const Eigen::Vector3d sign((corner & 1) ? 1 : -1, (corner & 2) ? 1 : -1, (corner & 4) ? 1 : -1);
+        const Eigen::Vector3d sign((corner & 1) ? 1 : -1, (corner & 2) ? 1 : -1,
+                                   (corner & 4) ? 1 : -1);
         const Eigen::Vector3d p = T_camera_shape * part.shape.half_size_m.cwiseProduct(sign).eval();
         c.p_camera.col(corner) = p;
         c.nearest_z = std::min(c.nearest_z, p.z());
@@ -73,19 +79,26 @@ void AnalyticView::Add(int number, const Eigen::Isometry3d& T_world_camera) {
 }
 
 // False only if no ray of the tile can meet the body.
-bool AnalyticView::InTile(const Candidate& c, const PixelRect& rect, double offset_x_px, double offset_y_px) const {
+bool AnalyticView::InTile(const Candidate& c, const PixelRect& rect, double offset_x_px,
+                          double offset_y_px) const {
     const double left = rect.x_begin + offset_x_px, right = rect.x_end - 1 + offset_x_px;
     const double top = rect.y_begin + offset_y_px, bottom = rect.y_end - 1 + offset_y_px;
-    if (!c.unbounded) return c.x_max >= left && c.x_min <= right && c.y_max >= top && c.y_min <= bottom;
+    if (!c.unbounded)
+        return c.x_max >= left && c.x_min <= right && c.y_max >= top && c.y_min <= bottom;
     // Outside of one side plane of the tile's pyramid with all corners.
-    const auto x = c.p_camera.row(0).array(), y = c.p_camera.row(1).array(), z = c.p_camera.row(2).array();
-    return (x >= (left - camera_.cx) / camera_.fx * z).any() && (x <= (right - camera_.cx) / camera_.fx * z).any() &&
-           (y >= (top - camera_.cy) / camera_.fy * z).any() && (y <= (bottom - camera_.cy) / camera_.fy * z).any();
+    const auto x = c.p_camera.row(0).array(), y = c.p_camera.row(1).array(),
+               z = c.p_camera.row(2).array();
+    return (x >= (left - camera_.cx) / camera_.fx * z).any() &&
+           (x <= (right - camera_.cx) / camera_.fx * z).any() &&
+           (y >= (top - camera_.cy) / camera_.fy * z).any() &&
+           (y <= (bottom - camera_.cy) / camera_.fy * z).any();
 }
 
-// `first` is tried first: what the ray beside this one met, so that all that is farther is left out.
+// `first` is tried first: what the ray beside this one met, so that all that is farther is left
+// out.
 const AnalyticView::Candidate* AnalyticView::Nearest(std::span<const Candidate* const> candidates,
-                                                     const Candidate* first, const Eigen::Vector3d& d_camera,
+                                                     const Candidate* first,
+                                                     const Eigen::Vector3d& d_camera,
                                                      SurfaceHit& best) const {
     const Candidate* winner = nullptr;
     const auto attempt = [&](const Candidate& candidate) {
@@ -104,7 +117,8 @@ const AnalyticView::Candidate* AnalyticView::Nearest(std::span<const Candidate* 
     return winner;
 }
 
-void AnalyticView::Describe(const Candidate& winner, const Eigen::Vector3d& d_camera, SurfaceHit& hit) const {
+void AnalyticView::Describe(const Candidate& winner, const Eigen::Vector3d& d_camera,
+                            SurfaceHit& hit) const {
     hit.part = winner.part;
     const Shape& shape = scene_.parts_[hit.part].shape;
     const Eigen::Vector3d d = winner.R_shape_camera * d_camera;
@@ -126,7 +140,8 @@ void AnalyticView::Cast(const PixelRect& rect, double offset_x_px, double offset
     std::size_t i = 0;
     for (int y = rect.y_begin; y < rect.y_end; ++y) {
         for (int x = rect.x_begin; x < rect.x_end; ++x, ++i) {
-            const Eigen::Vector3d d_camera = camera_.Unproject(x + offset_x_px, y + offset_y_px, 1.0);
+            const Eigen::Vector3d d_camera =
+                camera_.Unproject(x + offset_x_px, y + offset_y_px, 1.0);
             hits[i] = {};
             last = Nearest(tile, last, d_camera, hits[i]);
             if (last) Describe(*last, d_camera, hits[i]);

@@ -28,8 +28,9 @@ std::vector<std::string> BuiltinSceneNames() {
 Result<StagedScene> MakeBuiltinScene(const std::string& name) {
     for (const auto& [known, make] : kScenes)
         if (name == known) return make();
-    return Status::Error(fmt::format("'{}' is no built-in scene; there are {}, or give an .obj file", name,
-                                     fmt::join(BuiltinSceneNames(), ", ")));
+    return Status::Error(
+        fmt::format("'{}' is no built-in scene; there are {}, or give an .obj file", name,
+                    fmt::join(BuiltinSceneNames(), ", ")));
 }
 
 }  // namespace tessera

@@ -10,7 +10,8 @@
 
 namespace tessera {
 
-Eigen::Isometry3d LookAt(const Eigen::Vector3d& eye, const Eigen::Vector3d& target, const Eigen::Vector3d& up) {
+Eigen::Isometry3d LookAt(const Eigen::Vector3d& eye, const Eigen::Vector3d& target,
+                         const Eigen::Vector3d& up) {
     const Eigen::Vector3d z = (target - eye).normalized();
     const Eigen::Vector3d x = z.cross(up).normalized();
     Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
@@ -20,14 +21,15 @@ Eigen::Isometry3d LookAt(const Eigen::Vector3d& eye, const Eigen::Vector3d& targ
 }
 
 Eigen::Isometry3d Tremor(double time_s) {
-    constexpr double kFrequencies[3] = {0.83, 1.71, 3.37};   // Hz: no common period worth mentioning
+    constexpr double kFrequencies[3] = {0.83, 1.71, 3.37};  // Hz: no common period worth mentioning
     constexpr double kWeights[3] = {1.0, 0.5, 0.2};
     Vector6d twist;
     for (int i = 0; i < 6; ++i) {
         double sum = 0;
         for (int k = 0; k < 3; ++k)
-            sum += kWeights[k] * std::sin(2 * std::numbers::pi * kFrequencies[k] * (1 + 0.07 * i) * time_s +
-                                          1.3 * i + 2.1 * k);
+            sum += kWeights[k] *
+                   std::sin(2 * std::numbers::pi * kFrequencies[k] * (1 + 0.07 * i) * time_s +
+                            1.3 * i + 2.1 * k);
         twist[i] = sum * (i < 3 ? 0.0042 : 0.0017);  // radians, metres
     }
     return Se3Exp(twist);

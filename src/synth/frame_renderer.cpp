@@ -13,7 +13,8 @@ namespace {
 constexpr int kTile = 16;  // pixels
 constexpr int kSamples = 4;
 // A rotated grid: each sample covers a column and a row of its own.
-constexpr double kOffsets[kSamples][2] = {{-0.125, -0.375}, {0.375, -0.125}, {-0.375, 0.125}, {0.125, 0.375}};
+constexpr double kOffsets[kSamples][2] = {
+    {-0.125, -0.375}, {0.375, -0.125}, {-0.375, 0.125}, {0.125, 0.375}};
 // Each sample stands for a part of the pixel; a little more than its share, against moire.
 constexpr float kSampleExtentPx = 0.7f;
 
@@ -32,7 +33,8 @@ class TileRenderer {
             for (int x = rect.x_begin; x < rect.x_end; ++x, ++i) {
                 if (!hits[i].valid()) continue;
                 const float stretch = 1.0f / std::sqrt(std::max(hits[i].cos_incidence, 0.05f));
-                const RgbF c = scene_.Colour(hits[i], static_cast<float>(hits[i].t) * pixel_m_ * stretch);
+                const RgbF c =
+                    scene_.Colour(hits[i], static_cast<float>(hits[i].t) * pixel_m_ * stretch);
                 RgbF& sum = view_.colour(x, y);
                 sum = {sum.r + c.r / kSamples, sum.g + c.g / kSamples, sum.b + c.b / kSamples};
             }
@@ -50,14 +52,17 @@ class TileRenderer {
                 view_.depth_m(x, y) = hit.valid() ? static_cast<float>(hit.t) : 0.0f;
                 view_.cos_incidence(x, y) = hit.cos_incidence;
                 view_.instance(x, y) = static_cast<std::uint16_t>(instance);
-                view_.class_id(x, y) = static_cast<std::uint16_t>(scene_.instances()[instance].class_id);
-                if (!view_.patch.empty()) view_.patch(x, y) = hit.valid() ? scene_.PatchOf(hit) : -1;
+                view_.class_id(x, y) =
+                    static_cast<std::uint16_t>(scene_.instances()[instance].class_id);
+                if (!view_.patch.empty())
+                    view_.patch(x, y) = hit.valid() ? scene_.PatchOf(hit) : -1;
             }
         }
     }
 
   private:
-    static void Cast(const ViewCaster& caster, const PixelRect& rect, double x, double y, TileHits& hits) {
+    static void Cast(const ViewCaster& caster, const PixelRect& rect, double x, double y,
+                     TileHits& hits) {
         const auto count = static_cast<std::size_t>(rect.width() * rect.height());
         caster.Cast(rect, x, y, std::span(hits).first(count));
     }
@@ -78,8 +83,8 @@ void Resize(RenderedView& view, int width, int height, bool with_patches) {
 
 }  // namespace
 
-void FrameRenderer::Render(const CameraPath& path, double time_s, double exposure_s, RenderedView& view,
-                           bool with_patches) const {
+void FrameRenderer::Render(const CameraPath& path, double time_s, double exposure_s,
+                           RenderedView& view, bool with_patches) const {
     const int width = camera_.width, height = camera_.height;
     Resize(view, width, height, with_patches);
     const auto truth = scene_.View(camera_, path.T_world_camera(time_s));
@@ -93,7 +98,8 @@ void FrameRenderer::Render(const CameraPath& path, double time_s, double exposur
     tbb::parallel_for(tbb::blocked_range2d<int>(0, rows, 0, columns), [&](const auto& range) {
         for (int row = range.rows().begin(); row < range.rows().end(); ++row) {
             for (int column = range.cols().begin(); column < range.cols().end(); ++column) {
-                const PixelRect rect{column * kTile, row * kTile, std::min((column + 1) * kTile, width),
+                const PixelRect rect{column * kTile, row * kTile,
+                                     std::min((column + 1) * kTile, width),
                                      std::min((row + 1) * kTile, height)};
                 for (int i = 0; i < kSamples; ++i) tile.AddColour(*moments[i], rect, i);
                 tile.FillTruth(*truth, rect);

@@ -1,5 +1,6 @@
-// Things that built-in scenes are furnished with, each placed by the frame of its foot: origin in the middle of the
-// bottom, z up, the front towards -y. Owner thread only, while the scene is being built.
+// Things that built-in scenes are furnished with, each placed by the frame of its foot: origin in
+// the middle of the bottom, z up, the front towards -y. Owner thread only, while the scene is being
+// built.
 #pragma once
 
 #include <cstdint>
@@ -16,11 +17,12 @@ class Furnisher {
   public:
     explicit Furnisher(AnalyticScene& scene) : scene_(scene) {}
 
-    // Bodies by the middle of their bottom in the frame T_world_foot; sizes in metres. Return the part's number.
-    int Box(const Eigen::Isometry3d& T_world_foot, const Eigen::Vector3d& bottom, const Eigen::Vector3d& size,
-            const Paint& paint);
-    int Cylinder(const Eigen::Isometry3d& T_world_foot, const Eigen::Vector3d& bottom, double radius, double height,
-                 const Paint& paint);
+    // Bodies by the middle of their bottom in the frame T_world_foot; sizes in metres. Return the
+    // part's number.
+    int Box(const Eigen::Isometry3d& T_world_foot, const Eigen::Vector3d& bottom,
+            const Eigen::Vector3d& size, const Paint& paint);
+    int Cylinder(const Eigen::Isometry3d& T_world_foot, const Eigen::Vector3d& bottom,
+                 double radius, double height, const Paint& paint);
     int Sphere(const Eigen::Isometry3d& T_world_foot, const Eigen::Vector3d& bottom, double radius,
                const Paint& paint);
     // Stretched over a face, or repeated every `period_m`.
@@ -33,18 +35,25 @@ class Furnisher {
     void Laptop(const Eigen::Isometry3d& T, const std::string& name, std::uint64_t seed);
     void Cup(const Eigen::Isometry3d& T, const std::string& name, Rgb8 base, Rgb8 band);
     // Lying on its back cover; size is width, depth, thickness.
-    void Book(const Eigen::Isometry3d& T, const std::string& name, const Eigen::Vector3d& size, Rgb8 colour);
+    void Book(const Eigen::Isometry3d& T, const std::string& name, const Eigen::Vector3d& size,
+              Rgb8 colour);
     void Lamp(const Eigen::Isometry3d& T);
-    void Table(const Eigen::Isometry3d& T, const Eigen::Vector3d& size, const Paint& top, const std::string& name);
-    void Chair(const Eigen::Isometry3d& T, const std::string& name, Rgb8 colour, std::uint64_t seed);
+    void Table(const Eigen::Isometry3d& T, const Eigen::Vector3d& size, const Paint& top,
+               const std::string& name);
+    void Chair(const Eigen::Isometry3d& T, const std::string& name, Rgb8 colour,
+               std::uint64_t seed);
     void Shelf(const Eigen::Isometry3d& T, const std::string& name, std::uint64_t seed);
-    // Flat things on a wall whose frame has the wall's face in y = 0, the room towards -y; centre at (x, z).
-    void Poster(const Eigen::Isometry3d& T_world_wall, double x, double z, double width, double height,
-                const std::string& caption, std::uint64_t seed);
-    void Door(const Eigen::Isometry3d& T_world_wall, double x, const std::string& plate, Rgb8 colour);
+    // Flat things on a wall whose frame has the wall's face in y = 0, the room towards -y; centre
+    // at (x, z).
+    void Poster(const Eigen::Isometry3d& T_world_wall, double x, double z, double width,
+                double height, const std::string& caption, std::uint64_t seed);
+    void Door(const Eigen::Isometry3d& T_world_wall, double x, const std::string& plate,
+              Rgb8 colour);
 
-    // Floor, ceiling and four walls around x in [0, size.x], y in [0, size.y], z in [0, size.z], metres.
-    void Shell(const Eigen::Vector3d& size, const Paint& floor, const Paint& ceiling, const Paint& wall);
+    // Floor, ceiling and four walls around x in [0, size.x], y in [0, size.y], z in [0, size.z],
+    // metres.
+    void Shell(const Eigen::Vector3d& size, const Paint& floor, const Paint& ceiling,
+               const Paint& wall);
 
   private:
     AnalyticScene& scene_;

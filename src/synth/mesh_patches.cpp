@@ -1,5 +1,6 @@
-// The mesh scene's triangles, each cut into n^2 like ones of at most the patches' size. Patch `2 n j - j^2 + 2 i + k` of
-// a triangle is the k-th (0: like the triangle, 1: upside down) in column i of row j, u growing along i, v along j.
+// The mesh scene's triangles, each cut into n^2 like ones of at most the patches' size. Patch `2 n
+// j - j^2 + 2 i + k` of a triangle is the k-th (0: like the triangle, 1: upside down) in column i
+// of row j, u growing along i, v along j.
 #include <algorithm>
 #include <cmath>
 
@@ -8,7 +9,8 @@
 namespace tessera {
 namespace {
 
-constexpr std::int64_t kMaxPatches = 20'000'000;  // a model of the size of a town gets larger patches
+constexpr std::int64_t kMaxPatches =
+    20'000'000;  // a model of the size of a town gets larger patches
 constexpr int kMaxDivisions = 1000;
 
 }  // namespace
@@ -17,8 +19,10 @@ int MeshScene::Divisions(std::size_t triangle) const {
     const auto& v = model_.triangles[triangle].vertices;
     float longest = 0;
     for (int i = 0; i < 3; ++i)
-        longest = std::max(longest, (model_.vertices[v[i]] - model_.vertices[v[(i + 1) % 3]]).norm());
-    return std::clamp(static_cast<int>(std::min(std::ceil(longest / patch_m_), 1e6)), 1, kMaxDivisions);
+        longest =
+            std::max(longest, (model_.vertices[v[i]] - model_.vertices[v[(i + 1) % 3]]).norm());
+    return std::clamp(static_cast<int>(std::min(std::ceil(longest / patch_m_), 1e6)), 1,
+                      kMaxDivisions);
 }
 
 void MeshScene::LayPatches() {
@@ -39,15 +43,19 @@ std::int64_t MeshScene::PatchOf(const SurfaceHit& hit) const {
     const int i = std::clamp(static_cast<int>(hit.u * static_cast<float>(n)), 0, n - 1 - j);
     const float rest = (hit.u + hit.v) * static_cast<float>(n) - static_cast<float>(i + j);
     const int upside_down = rest > 1.0f && i < n - 1 - j ? 1 : 0;
-    return first_patch_[hit.part] + 2ll * n * j - static_cast<std::int64_t>(j) * j + 2 * i + upside_down;
+    return first_patch_[hit.part] + 2ll * n * j - static_cast<std::int64_t>(j) * j + 2 * i +
+           upside_down;
 }
 
-void MeshScene::AppendTriangle(std::size_t triangle, const std::vector<bool>* keep, TriangleMesh& mesh) const {
+void MeshScene::AppendTriangle(std::size_t triangle, const std::vector<bool>* keep,
+                               TriangleMesh& mesh) const {
     const auto& v = model_.triangles[triangle].vertices;
-    const Eigen::Vector3f a = model_.vertices[v[0]], b = model_.vertices[v[1]], c = model_.vertices[v[2]];
+    const Eigen::Vector3f a = model_.vertices[v[0]], b = model_.vertices[v[1]],
+                          c = model_.vertices[v[2]];
     const int n = Divisions(triangle);
     const auto corner = [&](int i, int j) -> Eigen::Vector3f {
-        const float u = static_cast<float>(i) / static_cast<float>(n), w = static_cast<float>(j) / static_cast<float>(n);
+        const float u = static_cast<float>(i) / static_cast<float>(n),
+                    w = static_cast<float>(j) / static_cast<float>(n);
         return a + u * (b - a) + w * (c - a);
     };
     std::int64_t patch = first_patch_[triangle];
@@ -57,9 +65,11 @@ void MeshScene::AppendTriangle(std::size_t triangle, const std::vector<bool>* ke
             const int i = k / 2;
             const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
             if (k % 2 == 0)
-                mesh.vertices.insert(mesh.vertices.end(), {corner(i, j), corner(i + 1, j), corner(i, j + 1)});
+                mesh.vertices.insert(mesh.vertices.end(),
+                                     {corner(i, j), corner(i + 1, j), corner(i, j + 1)});
             else
-                mesh.vertices.insert(mesh.vertices.end(), {corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1)});
+                mesh.vertices.insert(mesh.vertices.end(),
+                                     {corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1)});
             mesh.triangles.push_back({first, first + 1, first + 2});
         }
     }

@@ -51,7 +51,8 @@ SurfaceHit HitOf(const RTCRayHit& ray) {
 std::string ClassOf(const std::string& object) {
     const std::size_t end = object.find_last_not_of("_. 0123456789");
     std::string name = end == std::string::npos ? object : object.substr(0, end + 1);
-    std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
+    std::transform(name.begin(), name.end(), name.begin(),
+                   [](unsigned char c) { return std::tolower(c); });
     return name;
 }
 
@@ -64,7 +65,8 @@ void MeshScene::Tracer::Build(const ObjModel& model) const {
                                              3 * sizeof(float), model.vertices.size());
     void* indices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                                             3 * sizeof(unsigned), model.triangles.size());
-    TESSERA_CHECK(vertices && indices, "Embree gives no memory for {} triangles", model.triangles.size());
+    TESSERA_CHECK(vertices && indices, "Embree gives no memory for {} triangles",
+                  model.triangles.size());
     std::memcpy(vertices, model.vertices.data(), model.vertices.size() * 3 * sizeof(float));
     auto* index = static_cast<std::uint32_t*>(indices);
     for (const ObjModel::Triangle& triangle : model.triangles)
@@ -94,7 +96,8 @@ class MeshView : public ViewCaster {
         RTCIntersectContext context;
         rtcInitIntersectContext(&context);
         context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-        rtcIntersect1M(scene_, &context, rays.data(), static_cast<unsigned>(rays.size()), sizeof(RTCRayHit));
+        rtcIntersect1M(scene_, &context, rays.data(), static_cast<unsigned>(rays.size()),
+                       sizeof(RTCRayHit));
         std::transform(rays.begin(), rays.end(), hits.begin(), HitOf);
     }
 
@@ -104,7 +107,8 @@ class MeshView : public ViewCaster {
     Eigen::Isometry3d T_world_camera_;
 };
 
-MeshScene::MeshScene(ObjModel model) : model_(std::move(model)), tracer_(std::make_unique<Tracer>()) {
+MeshScene::MeshScene(ObjModel model)
+    : model_(std::move(model)), tracer_(std::make_unique<Tracer>()) {
     for (const Eigen::Vector3f& p : model_.vertices) bounds_.extend(p.cast<double>());
     tracer_->Build(model_);
     ReadTextures();
@@ -113,13 +117,15 @@ MeshScene::MeshScene(ObjModel model) : model_(std::move(model)), tracer_(std::ma
     const Eigen::Vector3f sun = Eigen::Vector3f(0.35f, 0.5f, 0.8f).normalized();
     for (const ObjModel::Triangle& t : model_.triangles) {
         const Eigen::Vector3f a = model_.vertices[t.vertices[0]];
-        const Eigen::Vector3f ab = model_.vertices[t.vertices[1]] - a, ac = model_.vertices[t.vertices[2]] - a;
+        const Eigen::Vector3f ab = model_.vertices[t.vertices[1]] - a,
+                              ac = model_.vertices[t.vertices[2]] - a;
         const Eigen::Vector3f normal = ab.cross(ac);
         const Eigen::Vector2f uv_ab = t.uv[1] - t.uv[0], uv_ac = t.uv[2] - t.uv[0];
         const float uv_area = std::abs(uv_ab.x() * uv_ac.y() - uv_ab.y() * uv_ac.x());
         // Faces of either winding are lit alike: models are not careful about it.
         const float facing = std::abs(normal.dot(sun)) / std::max(normal.norm(), 1e-12f);
-        surfaces_.push_back({0.68f + 0.32f * facing, std::sqrt(uv_area / std::max(normal.norm(), 1e-12f))});
+        surfaces_.push_back(
+            {0.68f + 0.32f * facing, std::sqrt(uv_area / std::max(normal.norm(), 1e-12f))});
     }
 }
 
@@ -152,7 +158,8 @@ std::unique_ptr<ViewCaster> MeshScene::View(const PinholeCamera& camera,
     return std::make_unique<MeshView>(tracer_->scene, camera, T_world_camera);
 }
 
-SurfaceHit MeshScene::CastRay(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const {
+SurfaceHit MeshScene::CastRay(const Eigen::Vector3d& origin,
+                              const Eigen::Vector3d& direction) const {
     RTCRayHit ray;
     SetRay(origin.cast<float>(), direction.cast<float>(), ray);
     RTCIntersectContext context;
@@ -164,7 +171,9 @@ SurfaceHit MeshScene::CastRay(const Eigen::Vector3d& origin, const Eigen::Vector
 Eigen::Vector3d MeshScene::Normal(const SurfaceHit& hit) const {
     const auto& v = model_.triangles[hit.part].vertices;
     const Eigen::Vector3d a = model_.vertices[v[0]].cast<double>();
-    return (model_.vertices[v[1]].cast<double>() - a).cross(model_.vertices[v[2]].cast<double>() - a).normalized();
+    return (model_.vertices[v[1]].cast<double>() - a)
+        .cross(model_.vertices[v[2]].cast<double>() - a)
+        .normalized();
 }
 
 RgbF MeshScene::Colour(const SurfaceHit& hit, float footprint_m) const {
@@ -175,6 +184,8 @@ RgbF MeshScene::Colour(const SurfaceHit& hit, float footprint_m) const {
     return {c.r * surface.shade, c.g * surface.shade, c.b * surface.shade};
 }
 
-int MeshScene::InstanceOf(const SurfaceHit& hit) const { return model_.triangles[hit.part].object + 1; }
+int MeshScene::InstanceOf(const SurfaceHit& hit) const {
+    return model_.triangles[hit.part].object + 1;
+}
 
 }  // namespace tessera

@@ -1,4 +1,5 @@
-// A scene that is a textured triangle mesh, its rays traced by Embree. Const and thread-safe once made.
+// A scene that is a textured triangle mesh, its rays traced by Embree. Const and thread-safe once
+// made.
 #pragma once
 
 #include <memory>
@@ -12,14 +13,16 @@ namespace tessera {
 
 class MeshScene : public Scene {
   public:
-    // Reads the model's textures. Each object of the file is an instance; its class is its name without trailing
-    // numbers ("Chair_01_002" -> "chair"). `model` must have triangles (ReadObj sees to it).
+    // Reads the model's textures. Each object of the file is an instance; its class is its name
+    // without trailing numbers ("Chair_01_002" -> "chair"). `model` must have triangles (ReadObj
+    // sees to it).
     explicit MeshScene(ObjModel model);
     ~MeshScene() override;
 
     std::unique_ptr<ViewCaster> View(const PinholeCamera& camera,
                                      const Eigen::Isometry3d& T_world_camera) const override;
-    SurfaceHit CastRay(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const override;
+    SurfaceHit CastRay(const Eigen::Vector3d& origin,
+                       const Eigen::Vector3d& direction) const override;
     Eigen::Vector3d Normal(const SurfaceHit& hit) const override;
     RgbF Colour(const SurfaceHit& hit, float footprint_m) const override;
     int InstanceOf(const SurfaceHit& hit) const override;
@@ -27,9 +30,12 @@ class MeshScene : public Scene {
     std::int64_t PatchOf(const SurfaceHit& hit) const override;
     TriangleMesh PatchMesh(const std::vector<bool>* keep) const override;
     TriangleMesh InstanceMesh(int instance) const override;
-    std::optional<double> SignedDistance(const Eigen::Vector3d&) const override { return std::nullopt; }
+    std::optional<double> SignedDistance(const Eigen::Vector3d&) const override {
+        return std::nullopt;
+    }
 
-    // Textures that the model names but that could not be read; their surfaces have the material's colour.
+    // Textures that the model names but that could not be read; their surfaces have the material's
+    // colour.
     const std::vector<std::string>& missing_textures() const { return missing_textures_; }
 
   private:
@@ -37,20 +43,21 @@ class MeshScene : public Scene {
     struct Tracer;  // Embree's device and scene
 
     struct Surface {
-        float shade;       // light, as a share of full brightness
-        float uv_per_m;    // texture coordinates a metre
+        float shade;     // light, as a share of full brightness
+        float uv_per_m;  // texture coordinates a metre
     };
 
     void ReadTextures();
     void NameInstances();
     void LayPatches();
     int Divisions(std::size_t triangle) const;
-    void AppendTriangle(std::size_t triangle, const std::vector<bool>* keep, TriangleMesh& mesh) const;
+    void AppendTriangle(std::size_t triangle, const std::vector<bool>* keep,
+                        TriangleMesh& mesh) const;
 
     ObjModel model_;
     std::unique_ptr<Tracer> tracer_;
-    std::vector<Texture> textures_;       // one a material
-    std::vector<Surface> surfaces_;       // one a triangle
+    std::vector<Texture> textures_;          // one a material
+    std::vector<Surface> surfaces_;          // one a triangle
     std::vector<std::int64_t> first_patch_;  // one a triangle, then the count
     double patch_m_ = 0.1;
     std::vector<std::string> missing_textures_;

@@ -15,7 +15,9 @@ constexpr double kSpeed = 0.35;        // m/s
 
 struct Axes {
     Vector3d right, ahead, up;
-    Vector3d Direction(double angle) const { return std::cos(angle) * right + std::sin(angle) * ahead; }
+    Vector3d Direction(double angle) const {
+        return std::cos(angle) * right + std::sin(angle) * ahead;
+    }
 };
 
 // How far the nearest of the surfaces around is; 0 where some directions are open: outdoors.
@@ -42,10 +44,12 @@ Vector3d RoomiestPlace(const Scene& scene, const Axes& axes, double height) {
         for (int j = 0; j < kGrid; ++j) {
             const Vector3d share((i + 0.5) / kGrid - 0.5, (j + 0.5) / kGrid - 0.5, 0);
             const Vector3d size = bounds.sizes();
-            Vector3d p = bounds.center() + share.x() * size.dot(axes.right.cwiseAbs()) * axes.right +
+            Vector3d p = bounds.center() +
+                         share.x() * size.dot(axes.right.cwiseAbs()) * axes.right +
                          share.y() * size.dot(axes.ahead.cwiseAbs()) * axes.ahead;
             p += (height - p.dot(axes.up)) * axes.up;
-            if (const double clearance = Clearance(scene, axes, p); clearance > most) most = clearance, best = p;
+            if (const double clearance = Clearance(scene, axes, p); clearance > most)
+                most = clearance, best = p;
         }
     }
     return best;
@@ -77,7 +81,8 @@ CameraPath MakeModelPath(const Scene& scene, const Vector3d& up) {
     path.T_world_camera = [=](double t) {
         const double a = kTwoPi * t / 24;
         const Vector3d eye = place - 0.3 * axes.Direction(a);
-        const Vector3d ahead = axes.Direction(a + 0.25 * std::sin(2 * a)) + (-0.3 + 0.1 * std::sin(3 * a)) * axes.up;
+        const Vector3d ahead =
+            axes.Direction(a + 0.25 * std::sin(2 * a)) + (-0.3 + 0.1 * std::sin(3 * a)) * axes.up;
         return Eigen::Isometry3d(LookAt(eye, eye + ahead, axes.up) * Tremor(t));
     };
     return path;

@@ -1,4 +1,5 @@
-// A camera motion for a model that brings none: around a small thing, or turning on the spot inside a building.
+// A camera motion for a model that brings none: around a small thing, or turning on the spot inside
+// a building.
 #pragma once
 
 #include "synth/camera_path.h"

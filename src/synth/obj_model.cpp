@@ -15,21 +15,26 @@ constexpr float kFarthest = 1e5f;  // metres; beyond it single precision has no 
 constexpr float kLargestUv = 1e4f;
 
 std::uint8_t ToByte(float share) {
-    return static_cast<std::uint8_t>(std::lround(255.0f * std::clamp(std::isnan(share) ? 0.0f : share, 0.0f, 1.0f)));
+    return static_cast<std::uint8_t>(
+        std::lround(255.0f * std::clamp(std::isnan(share) ? 0.0f : share, 0.0f, 1.0f)));
 }
 
 Status TakeVertices(const std::string& path, const tinyobj::attrib_t& attributes, ObjModel& model) {
     for (std::size_t i = 0; i + 2 < attributes.vertices.size(); i += 3) {
-        const Eigen::Vector3f p(attributes.vertices[i], attributes.vertices[i + 1], attributes.vertices[i + 2]);
+        const Eigen::Vector3f p(attributes.vertices[i], attributes.vertices[i + 1],
+                                attributes.vertices[i + 2]);
         if (!(p.cwiseAbs().maxCoeff() < kFarthest) || !p.allFinite())
-            return Status::Error(fmt::format("{}: vertex {} at ({}, {}, {}) is no place in metres; check the model's "
-                                             "units", path, i / 3 + 1, p.x(), p.y(), p.z()));
+            return Status::Error(fmt::format(
+                "{}: vertex {} at ({}, {}, {}) is no place in metres; check the model's "
+                "units",
+                path, i / 3 + 1, p.x(), p.y(), p.z()));
         model.vertices.push_back(p);
     }
     return Status::Ok();
 }
 
-void TakeMaterials(const std::string& folder, const std::vector<tinyobj::material_t>& materials, ObjModel& model) {
+void TakeMaterials(const std::string& folder, const std::vector<tinyobj::material_t>& materials,
+                   ObjModel& model) {
     for (const tinyobj::material_t& m : materials) {
         ObjModel::Material material;
         material.colour = {ToByte(m.diffuse[0]), ToByte(m.diffuse[1]), ToByte(m.diffuse[2])};
@@ -44,20 +49,23 @@ void TakeMaterials(const std::string& folder, const std::vector<tinyobj::materia
 }
 
 // One polygon's corners to a fan of triangles.
-Status TakePolygon(const std::string& path, const tinyobj::attrib_t& attributes, const tinyobj::index_t* corners,
-                   std::size_t count, ObjModel::Triangle triangle, ObjModel& model) {
+Status TakePolygon(const std::string& path, const tinyobj::attrib_t& attributes,
+                   const tinyobj::index_t* corners, std::size_t count, ObjModel::Triangle triangle,
+                   ObjModel& model) {
     const auto take = [&](std::size_t corner, int slot) {
         const tinyobj::index_t index = corners[corner];
-        if (index.vertex_index < 0 || static_cast<std::size_t>(index.vertex_index) >= model.vertices.size())
-            return Status::Error(fmt::format("{}: a face of '{}' names vertex {}, but there are {}", path,
-                                             model.object_names[triangle.object], index.vertex_index + 1,
-                                             model.vertices.size()));
+        if (index.vertex_index < 0 ||
+            static_cast<std::size_t>(index.vertex_index) >= model.vertices.size())
+            return Status::Error(fmt::format("{}: a face of '{}' names vertex {}, but there are {}",
+                                             path, model.object_names[triangle.object],
+                                             index.vertex_index + 1, model.vertices.size()));
         triangle.vertices[slot] = static_cast<std::uint32_t>(index.vertex_index);
         triangle.uv[slot].setZero();
         const auto uv = static_cast<std::size_t>(std::max(index.texcoord_index, 0)) * 2;
         if (index.texcoord_index >= 0 && uv + 1 < attributes.texcoords.size()) {
             const Eigen::Vector2f point(attributes.texcoords[uv], attributes.texcoords[uv + 1]);
-            if (point.allFinite() && point.cwiseAbs().maxCoeff() < kLargestUv) triangle.uv[slot] = point;
+            if (point.allFinite() && point.cwiseAbs().maxCoeff() < kLargestUv)
+                triangle.uv[slot] = point;
         }
         return Status::Ok();
     };
@@ -70,20 +78,22 @@ Status TakePolygon(const std::string& path, const tinyobj::attrib_t& attributes,
     return Status::Ok();
 }
 
-Status TakeShape(const std::string& path, const tinyobj::attrib_t& attributes, const tinyobj::mesh_t& mesh,
-                 ObjModel& model) {
+Status TakeShape(const std::string& path, const tinyobj::attrib_t& attributes,
+                 const tinyobj::mesh_t& mesh, ObjModel& model) {
     std::size_t at = 0;
     const int no_material = static_cast<int>(model.materials.size()) - 1;
     for (std::size_t face = 0; face < mesh.num_face_vertices.size(); ++face) {
         const std::size_t count = mesh.num_face_vertices[face];
         if (at + count > mesh.indices.size())
-            return Status::Error(fmt::format("{}: a face of '{}' has more than 255 corners; triangulate the model",
-                                             path, model.object_names.back()));
+            return Status::Error(
+                fmt::format("{}: a face of '{}' has more than 255 corners; triangulate the model",
+                            path, model.object_names.back()));
         ObjModel::Triangle triangle{};
         triangle.object = static_cast<int>(model.object_names.size()) - 1;
         const int material = face < mesh.material_ids.size() ? mesh.material_ids[face] : -1;
         triangle.material = material >= 0 && material < no_material ? material : no_material;
-        if (Status status = TakePolygon(path, attributes, mesh.indices.data() + at, count, triangle, model);
+        if (Status status =
+                TakePolygon(path, attributes, mesh.indices.data() + at, count, triangle, model);
             !status.ok())
             return status;
         at += count;
@@ -102,24 +112,29 @@ Result<ObjModel> Parse(const std::string& path) {
     std::vector<tinyobj::material_t> materials;
     std::string warning, problem;
     // Not triangulated by the parser: it does so before anyone has checked the indices.
-    if (!tinyobj::LoadObj(&attributes, &shapes, &materials, &warning, &problem, path.c_str(), prefix.c_str(), false)) {
+    if (!tinyobj::LoadObj(&attributes, &shapes, &materials, &warning, &problem, path.c_str(),
+                          prefix.c_str(), false)) {
         problem = problem.substr(0, problem.find('\n'));
-        return Status::Error(fmt::format("{}: not a readable .obj model{}{}", path, problem.empty() ? "" : ": ",
-                                         problem));
+        return Status::Error(fmt::format("{}: not a readable .obj model{}{}", path,
+                                         problem.empty() ? "" : ": ", problem));
     }
     ObjModel model;
     if (Status status = TakeVertices(path, attributes, model); !status.ok()) return status;
     TakeMaterials(prefix, materials, model);
     for (const tinyobj::shape_t& shape : shapes) {
         if (shape.mesh.indices.empty()) continue;
-        model.object_names.push_back(shape.name.empty() ? fmt::format("object {}", model.object_names.size() + 1)
-                                                        : shape.name);
-        if (Status status = TakeShape(path, attributes, shape.mesh, model); !status.ok()) return status;
+        model.object_names.push_back(shape.name.empty()
+                                         ? fmt::format("object {}", model.object_names.size() + 1)
+                                         : shape.name);
+        if (Status status = TakeShape(path, attributes, shape.mesh, model); !status.ok())
+            return status;
     }
-    if (model.triangles.empty()) return Status::Error(path + ": holds no triangles; export the model with faces");
+    if (model.triangles.empty())
+        return Status::Error(path + ": holds no triangles; export the model with faces");
     if (model.object_names.size() > 65534)
-        return Status::Error(fmt::format("{}: {} objects are more than instance images can number (65534); join some",
-                                         path, model.object_names.size()));
+        return Status::Error(fmt::format(
+            "{}: {} objects are more than instance images can number (65534); join some", path,
+            model.object_names.size()));
     return model;
 }
 

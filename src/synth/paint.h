@@ -1,5 +1,5 @@
-// Painted surfaces, made by program: the textures of the built-in scenes. Each is a function of its arguments alone
-// (fixed seeds), so a scene looks the same on every machine. Thread-safe.
+// Painted surfaces, made by program: the textures of the built-in scenes. Each is a function of its
+// arguments alone (fixed seeds), so a scene looks the same on every machine. Thread-safe.
 #pragma once
 
 #include <cstdint>
@@ -21,13 +21,15 @@ ColourImage PaintWood(Rgb8 base, int planks, int size_px, std::uint64_t seed);
 // Tiles with joints and a motif that varies from tile to tile; repeats seamlessly.
 ColourImage PaintTiles(Rgb8 base, Rgb8 joint, int tiles, int size_px, std::uint64_t seed);
 // A framed picture: hills under a sky, blocks and a caption.
-ColourImage PaintPoster(const std::string& caption, int width_px, int height_px, std::uint64_t seed);
+ColourImage PaintPoster(const std::string& caption, int width_px, int height_px,
+                        std::uint64_t seed);
 
 // A keyboard seen from above: `rows` rows of lettered keys.
 ColourImage PaintKeyboard(Rgb8 body, Rgb8 key, int width_px, int height_px, int rows);
 // A monitor's face: dark rim, and a program's window with lines of coloured text and a plot.
 ColourImage PaintScreen(int width_px, int height_px, std::uint64_t seed);
-ColourImage PaintBookCover(const std::string& title, Rgb8 colour, int width_px, int height_px, std::uint64_t seed);
+ColourImage PaintBookCover(const std::string& title, Rgb8 colour, int width_px, int height_px,
+                           std::uint64_t seed);
 ColourImage PaintBookSpine(const std::string& title, Rgb8 colour, int width_px, int height_px);
 // The edges of a book's leaves.
 ColourImage PaintLeaves(int width_px, int height_px, std::uint64_t seed);

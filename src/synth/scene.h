@@ -1,6 +1,6 @@
-// A scene: objects with classes and instances, and their exact geometry and colour behind one interface, be they
-// analytic bodies (analytic_scene.h) or a textured triangle mesh (mesh_scene.h). Immutable once built: every const
-// member is thread-safe.
+// A scene: objects with classes and instances, and their exact geometry and colour behind one
+// interface, be they analytic bodies (analytic_scene.h) or a textured triangle mesh (mesh_scene.h).
+// Immutable once built: every const member is thread-safe.
 //
 // World frame: metres, right-handed, z up in the built-in scenes; a model keeps its own axes.
 #pragma once
@@ -20,12 +20,13 @@
 
 namespace tessera {
 
-// What a ray met. `t` is in units of the ray's direction: along the optical axis for the rays of a ViewCaster.
+// What a ray met. `t` is in units of the ray's direction: along the optical axis for the rays of a
+// ViewCaster.
 struct SurfaceHit {
     double t = std::numeric_limits<double>::infinity();
-    std::int32_t part = -1;  // shape or triangle, the scene's own count; -1 = nothing was hit
-    std::int32_t chart = 0;  // analytic shapes: the part of the surface (shape.h)
-    float u = 0, v = 0;      // analytic shapes: chart coordinates, metres; meshes: barycentric
+    std::int32_t part = -1;   // shape or triangle, the scene's own count; -1 = nothing was hit
+    std::int32_t chart = 0;   // analytic shapes: the part of the surface (shape.h)
+    float u = 0, v = 0;       // analytic shapes: chart coordinates, metres; meshes: barycentric
     float cos_incidence = 0;  // |cos| of the angle between ray and surface normal
 
     bool valid() const { return part >= 0; }
@@ -33,8 +34,8 @@ struct SurfaceHit {
 
 // One thing that a person would name. Instance 0 and class 0 are the unlabelled surroundings.
 struct SceneInstance {
-    std::string name;   // "cup 1"
-    int class_id = 0;   // index into Scene::class_names()
+    std::string name;  // "cup 1"
+    int class_id = 0;  // index into Scene::class_names()
 };
 
 // A rectangle of pixels; the last ones are excluded.
@@ -48,8 +49,9 @@ struct PixelRect {
 class ViewCaster {
   public:
     virtual ~ViewCaster() = default;
-    // The nearest surface through each pixel of `rect`, row by row, `t` being the depth along the optical axis in
-    // metres. The rays pass (offset_x, offset_y) pixels beside the pixels' centres. hits.size() is the rect's area.
+    // The nearest surface through each pixel of `rect`, row by row, `t` being the depth along the
+    // optical axis in metres. The rays pass (offset_x, offset_y) pixels beside the pixels' centres.
+    // hits.size() is the rect's area.
     virtual void Cast(const PixelRect& rect, double offset_x_px, double offset_y_px,
                       std::span<SurfaceHit> hits) const = 0;
 };
@@ -62,7 +64,8 @@ class Scene {
     virtual std::unique_ptr<ViewCaster> View(const PinholeCamera& camera,
                                              const Eigen::Isometry3d& T_world_camera) const = 0;
     // The nearest surface along any ray; t in units of the direction's length.
-    virtual SurfaceHit CastRay(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const = 0;
+    virtual SurfaceHit CastRay(const Eigen::Vector3d& origin,
+                               const Eigen::Vector3d& direction) const = 0;
     // Outward unit normal at a hit.
     virtual Eigen::Vector3d Normal(const SurfaceHit& hit) const = 0;
     // Lit colour at a hit; `footprint_m` is the extent of the sample on the surface, for filtering.
@@ -70,17 +73,19 @@ class Scene {
     // Index into instances() at a hit.
     virtual int InstanceOf(const SurfaceHit& hit) const = 0;
 
-    // The surface cut into patches of at most 0.1 m, so that what a camera has seen can be told from the rest.
+    // The surface cut into patches of at most 0.1 m, so that what a camera has seen can be told
+    // from the rest.
     virtual std::int64_t patch_count() const = 0;
     virtual std::int64_t PatchOf(const SurfaceHit& hit) const = 0;
-    // The patches' exact mesh (curved surfaces within 0.5 mm), without normals and colours; with `keep`, one flag a
-    // patch, only those. A patch belongs to one instance.
+    // The patches' exact mesh (curved surfaces within 0.5 mm), without normals and colours; with
+    // `keep`, one flag a patch, only those. A patch belongs to one instance.
     virtual TriangleMesh PatchMesh(const std::vector<bool>* keep = nullptr) const = 0;
     // The mesh of one instance.
     virtual TriangleMesh InstanceMesh(int instance) const = 0;
 
-    // Distance from a world point to the nearest surface, metres, negative inside a body. Exact outside bodies and
-    // inside where bodies do not overlap. Nothing for meshes, which need not be closed.
+    // Distance from a world point to the nearest surface, metres, negative inside a body. Exact
+    // outside bodies and inside where bodies do not overlap. Nothing for meshes, which need not be
+    // closed.
     virtual std::optional<double> SignedDistance(const Eigen::Vector3d& p_world) const = 0;
 
     const std::vector<SceneInstance>& instances() const { return instances_; }

@@ -10,15 +10,16 @@ namespace tessera {
 namespace {
 
 // Sweeps of a hand in a box of `reach_m` around `eye`, the view following around `target`.
-CameraPath Sweep(const Eigen::Vector3d& eye, const Eigen::Vector3d& target, const Eigen::Vector3d& reach_m,
-                 const Eigen::Vector3d& up) {
+CameraPath Sweep(const Eigen::Vector3d& eye, const Eigen::Vector3d& target,
+                 const Eigen::Vector3d& reach_m, const Eigen::Vector3d& up) {
     CameraPath path;
     path.duration_s = 10;
     path.T_world_camera = [=](double t) {
         const double a = 2 * std::numbers::pi * t / 10;
         const Eigen::Vector3d wave(std::sin(a), std::sin(2 * a + 0.6), std::sin(2 * a + 2.0));
         const Eigen::Vector3d moved = eye + reach_m.cwiseProduct(wave);
-        const Eigen::Vector3d looked = target + 0.7 * reach_m.cwiseProduct(Eigen::Vector3d(std::sin(a + 0.3), wave.y(), 0));
+        const Eigen::Vector3d looked =
+            target + 0.7 * reach_m.cwiseProduct(Eigen::Vector3d(std::sin(a + 0.3), wave.y(), 0));
         return Eigen::Isometry3d(LookAt(moved, looked, up) * Tremor(t));
     };
     return path;
@@ -39,11 +40,12 @@ StagedScene MakeFloor() {
     Furnisher add(*scene);
     // A second, slower pattern keeps tile from looking like tile.
     add.Box(StandAt(0, 0, 0), {0, 0, -0.1}, {8, 8, 0.1},
-            add.Repeat(PaintTiles({176, 150, 118}, {84, 74, 66}, 12, 2048, 95), 3.6));
+            add.Repeat(PaintTiles({176, 150, 118}, {84, 74, 66}, 12, 1536, 95), 3.6));
     StagedScene staged;
     staged.scene = FinishEven(std::move(scene));
     staged.description = "a patterned floor: texture without structure";
-    staged.path = Sweep({0, -0.5, 1.25}, {0, 0.25, 0}, {0.45, 0.25, 0.12}, Eigen::Vector3d::UnitZ());
+    staged.path =
+        Sweep({0, -0.5, 1.25}, {0, 0.25, 0}, {0.45, 0.25, 0.12}, Eigen::Vector3d::UnitZ());
     return staged;
 }
 
@@ -57,7 +59,8 @@ StagedScene MakeCorner() {
     StagedScene staged;
     staged.scene = FinishEven(std::move(scene));
     staged.description = "three bare bright walls: structure without texture";
-    staged.path = Sweep({1.35, -1.45, 1.25}, {0.1, -0.15, 0.45}, {0.25, 0.25, 0.18}, Eigen::Vector3d::UnitZ());
+    staged.path = Sweep({1.35, -1.45, 1.25}, {0.1, -0.15, 0.45}, {0.25, 0.25, 0.18},
+                        Eigen::Vector3d::UnitZ());
     return staged;
 }
 

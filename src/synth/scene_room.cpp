@@ -44,10 +44,14 @@ void FurnishRoom(Furnisher& add) {
             add.Repeat(PaintWood({120, 80, 52}, 4, 512, 76), 0.7));
     add.Laptop(StandAt(2.2, 0.30, 0.7, 170), "laptop 1", 77);
     add.Lamp(StandAt(2.8, 0.28, 0.7));
-    add.Sphere(StandAt(3.9, 0.7, 0), {0, 0, 0}, 0.19, add.Repeat(PaintChecker({230, 90, 50}, {245, 240, 225}, 6, 6, 252), 0.5969));
-    add.Cylinder(StandAt(4.6, 3.7, 0), {0, 0, 0}, 0.16, 0.35, add.Repeat(PaintTiles({176, 110, 76}, {120, 70, 50}, 4, 256, 78), 0.3351));
-    add.Sphere(StandAt(4.6, 3.7, 0), {0, 0, 0.32}, 0.28, add.Repeat(PaintNoise({64, 112, 58}, 120, 256, 79), 0.5864));
-    add.Box(StandAt(2.4, 2.0, 0, 8), {0, 0, 0}, {1.9, 1.3, 0.012}, add.Repeat(PaintTiles({142, 60, 52}, {220, 200, 160}, 6, 512, 80), 0.9));
+    add.Sphere(StandAt(3.9, 0.7, 0), {0, 0, 0}, 0.19,
+               add.Repeat(PaintChecker({230, 90, 50}, {245, 240, 225}, 6, 6, 252), 0.5969));
+    add.Cylinder(StandAt(4.6, 3.7, 0), {0, 0, 0}, 0.16, 0.35,
+                 add.Repeat(PaintTiles({176, 110, 76}, {120, 70, 50}, 4, 256, 78), 0.3351));
+    add.Sphere(StandAt(4.6, 3.7, 0), {0, 0, 0.32}, 0.28,
+               add.Repeat(PaintNoise({64, 112, 58}, 120, 256, 79), 0.5864));
+    add.Box(StandAt(2.4, 2.0, 0, 8), {0, 0, 0}, {1.9, 1.3, 0.012},
+            add.Repeat(PaintTiles({142, 60, 52}, {220, 200, 160}, 6, 512, 80), 0.9));
 }
 
 void FurnishCorridor(Furnisher& add, double length, double width) {
@@ -57,7 +61,8 @@ void FurnishCorridor(Furnisher& add, double length, double width) {
         const double x = 2.6 + 5.0 * i, other = x + 2.3;
         const std::string number = std::to_string(101 + 2 * i);
         add.Door(left, x, number, doors[i % 4]);
-        if (other < length - 1) add.Door(right, -other, std::to_string(102 + 2 * i), doors[(i + 1) % 4]);
+        if (other < length - 1)
+            add.Door(right, -other, std::to_string(102 + 2 * i), doors[(i + 1) % 4]);
         const auto seed = static_cast<std::uint64_t>(200 + 10 * i);
         add.Poster(left, x + 1.5, 1.6, 0.7, 0.9, "Gallery " + number, seed);
         add.Poster(left, x + 2.7, 1.65, 0.9, 0.6, "Plan " + number, seed + 1);
@@ -89,7 +94,8 @@ StagedScene MakeRoom() {
     FurnishWalls(add);
     FurnishRoom(add);
     Lighting lighting;
-    lighting.lights = {{{2.5, 2.0, 2.4}, 0.25, 1.9}, {{0.8, 3.0, 2.3}, 0.2, 0.7}, {{4.2, 1.0, 2.3}, 0.2, 0.7}};
+    lighting.lights = {
+        {{2.5, 2.0, 2.4}, 0.25, 1.9}, {{0.8, 3.0, 2.3}, 0.2, 0.7}, {{4.2, 1.0, 2.3}, 0.2, 0.7}};
     lighting.texel_m = 0.03;
     scene->Finish(lighting);
     StagedScene staged;
@@ -99,10 +105,11 @@ StagedScene MakeRoom() {
     staged.path.T_world_camera = [](double t) {
         const double a = kTwoPi * t / 24;
         // Around the middle, looking across it and outwards, up and down a little.
-        const Eigen::Vector3d eye(2.45 - 0.75 * std::cos(a), 2.0 - 0.55 * std::sin(a), 1.45 + 0.08 * std::sin(3 * a));
+        const Eigen::Vector3d eye(2.45 - 0.75 * std::cos(a), 2.0 - 0.55 * std::sin(a),
+                                  1.45 + 0.08 * std::sin(3 * a));
         const double look = a + 0.25 * std::sin(2 * a);
-        const Eigen::Vector3d target =
-            eye + Eigen::Vector3d(std::cos(look), std::sin(look), -0.28 + 0.10 * std::sin(2 * a + 0.5));
+        const Eigen::Vector3d target = eye + Eigen::Vector3d(std::cos(look), std::sin(look),
+                                                             -0.28 + 0.10 * std::sin(2 * a + 0.5));
         return Eigen::Isometry3d(LookAt(eye, target) * Tremor(t));
     };
     return staged;
@@ -112,12 +119,14 @@ StagedScene MakeCorridor() {
     constexpr double kLength = 40, kWidth = 2.2, kWalk = 37, kDuration = 88;
     auto scene = std::make_unique<AnalyticScene>();
     Furnisher add(*scene);
-    add.Shell({kLength, kWidth, 2.6}, add.Repeat(PaintTiles({168, 160, 148}, {96, 92, 88}, 6, 1024, 91), 2.4),
+    add.Shell({kLength, kWidth, 2.6},
+              add.Repeat(PaintTiles({168, 160, 148}, {96, 92, 88}, 6, 1024, 91), 2.4),
               add.Repeat(PaintTiles({222, 222, 218}, {190, 190, 188}, 4, 512, 92), 2.4),
               add.Repeat(PaintNoise({204, 202, 186}, 64, 1024, 93), 2.9));
     FurnishCorridor(add, kLength, kWidth);
     Lighting lighting;
-    for (int i = 0; i < 10; ++i) lighting.lights.push_back({{2.0 + 4.0 * i, kWidth / 2, 2.5}, 0.2, 1.0});
+    for (int i = 0; i < 10; ++i)
+        lighting.lights.push_back({{2.0 + 4.0 * i, kWidth / 2, 2.5}, 0.2, 1.0});
     lighting.texel_m = 0.06;
     scene->Finish(lighting);
     StagedScene staged;
@@ -125,7 +134,8 @@ StagedScene MakeCorridor() {
     staged.description = "a corridor of 40 m, walked from end to end";
     staged.path.duration_s = kDuration;
     staged.path.T_world_camera = [](double t) {
-        // Constant pace; past the end the walk goes on backwards, so that any number of frames can be made.
+        // Constant pace; past the end the walk goes on backwards, so that any number of frames can
+        // be made.
         const double lap = std::abs(std::remainder(t, 2 * kDuration)) / kDuration;
         const Eigen::Vector3d eye(1.0 + kWalk * lap, kWidth / 2 + 0.25 * std::sin(0.31 * t),
                                   1.45 + 0.03 * std::sin(kTwoPi * 0.45 * t));

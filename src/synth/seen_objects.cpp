@@ -31,7 +31,8 @@ void Describe(const TriangleMesh& mesh, nlohmann::json& object) {
     Eigen::Vector3d moment = Eigen::Vector3d::Zero();
     double area = 0;
     for (const auto& [ia, ib, ic] : mesh.triangles) {
-        const Eigen::Vector3d a = mesh.vertices[ia].cast<double>(), b = mesh.vertices[ib].cast<double>(),
+        const Eigen::Vector3d a = mesh.vertices[ia].cast<double>(),
+                              b = mesh.vertices[ib].cast<double>(),
                               c = mesh.vertices[ic].cast<double>();
         for (const Eigen::Vector3d& p : {a, b, c}) bounds.extend(p);
         const double part = (b - a).cross(c - a).norm();
@@ -71,7 +72,8 @@ void SeenObjects::Add(const RenderedView& view, std::int64_t frame, double stamp
         if (boxes[i].pixels == 0) continue;
         ++counts_[i].frames;
         counts_[i].max_pixels = std::max(counts_[i].max_pixels, boxes[i].pixels);
-        if (static_cast<double>(boxes[i].pixels) > least) Detect(static_cast<int>(i), boxes[i], frame, stamp_s);
+        if (static_cast<double>(boxes[i].pixels) > least)
+            Detect(static_cast<int>(i), boxes[i], frame, stamp_s);
     }
 }
 
@@ -80,16 +82,19 @@ void SeenObjects::Detect(int instance, const Box& box, std::int64_t frame, doubl
                             4 * static_cast<std::uint64_t>(instance);
     if (UniformFromBits(MixBits(counter++)) < kMissed) return;
     int class_id = scene_.instances()[instance].class_id;
-    const int class_count = static_cast<int>(scene_.class_names().size()) - 1;  // without "unlabelled"
+    const int class_count =
+        static_cast<int>(scene_.class_names().size()) - 1;  // without "unlabelled"
     if (UniformFromBits(MixBits(counter++)) < kWrongClass && class_count > 1) {
-        const int step = 1 + static_cast<int>(UniformFromBits(MixBits(counter)) * (class_count - 1));
+        const int step =
+            1 + static_cast<int>(UniformFromBits(MixBits(counter)) * (class_count - 1));
         class_id = 1 + (class_id - 1 + step) % class_count;
     }
     ++counter;
-    const double p = std::clamp(kProbability + kProbabilityStd * GaussianFromBits(MixBits(counter)), 0.05, 0.999);
+    const double p = std::clamp(kProbability + kProbabilityStd * GaussianFromBits(MixBits(counter)),
+                                0.05, 0.999);
     detections_ += fmt::format("{:.6f} {} {:.3f} {} {} {} {}\n", stamp_s,
-                               WithoutBlanks(scene_.class_names()[class_id]), p, box.x_min, box.y_min, box.x_max,
-                               box.y_max);
+                               WithoutBlanks(scene_.class_names()[class_id]), p, box.x_min,
+                               box.y_min, box.x_max, box.y_max);
 }
 
 std::string SeenObjects::ClassesText() const {
@@ -121,7 +126,8 @@ std::string SeenObjects::ObjectsJson() const {
 }
 
 std::string SeenObjects::DetectionsText() const {
-    return "# timestamp class probability xmin ymin xmax ymax (inclusive pixels; class names with _ for blanks, see "
+    return "# timestamp class probability xmin ymin xmax ymax (inclusive pixels; class names with "
+           "_ for blanks, see "
            "classes.txt)\n" +
            detections_;
 }

@@ -1,5 +1,5 @@
-// What a synthetic sequence showed of each object, gathered frame by frame, and the texts made of it. Owner thread
-// only.
+// What a synthetic sequence showed of each object, gathered frame by frame, and the texts made of
+// it. Owner thread only.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,8 @@ class SeenObjects {
     // Refers to the scene; `seed` decides the detector's mistakes.
     SeenObjects(const Scene& scene, std::uint64_t seed);
 
-    // One frame: counts pixels, and notes detections of at least 400 pixels (of 640x480; in proportion for others).
+    // One frame: counts pixels, and notes detections of at least 400 pixels (of 640x480; in
+    // proportion for others).
     void Add(const RenderedView& view, std::int64_t frame, double stamp_s);
 
     std::string ClassesText() const;     // classes.txt: "id name" a line

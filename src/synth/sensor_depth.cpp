@@ -17,13 +17,15 @@ constexpr float kEdgeShare = 0.03f;
 // Cubic B-spline weights at fraction t, scaled so that their squares sum to 1.
 void UnitSplineWeights(double t, float weights[4]) {
     const double s = 1 - t;
-    const double w[4] = {s * s * s / 6, (3 * t * t * t - 6 * t * t + 4) / 6, (3 * s * s * s - 6 * s * s + 4) / 6,
-                         t * t * t / 6};
+    const double w[4] = {s * s * s / 6, (3 * t * t * t - 6 * t * t + 4) / 6,
+                         (3 * s * s * s - 6 * s * s + 4) / 6, t * t * t / 6};
     const double norm = std::sqrt(w[0] * w[0] + w[1] * w[1] + w[2] * w[2] + w[3] * w[3]);
     for (int i = 0; i < 4; ++i) weights[i] = static_cast<float>(w[i] / norm);
 }
 
-bool IsEdge(float z, float neighbour) { return !(std::abs(neighbour - z) <= kEdgeShare * z); }
+bool IsEdge(float z, float neighbour) {
+    return !(std::abs(neighbour - z) <= kEdgeShare * z);
+}
 
 bool HasEdgeBeside(const DepthImage& depth, int x, int y) {
     const float z = depth(x, y);
@@ -47,27 +49,32 @@ void SmoothNoise::Row(int y, std::vector<float>& out) const {
     std::vector<float> sums(static_cast<std::size_t>(columns));
     for (int c = 0; c < columns; ++c)
         for (int i = 0; i < 4; ++i)
-            sums[c] += weights[i] * GaussianFromBits(MixBits(key_ + (static_cast<std::uint64_t>(row + i) << 20) + c));
+            sums[c] +=
+                weights[i] *
+                GaussianFromBits(MixBits(key_ + (static_cast<std::uint64_t>(row + i) << 20) + c));
     out.resize(static_cast<std::size_t>(width_));
     for (int x = 0; x < width_; ++x) {
         const double u = x / spacing_px_;
         const int column = static_cast<int>(u);
         UnitSplineWeights(u - column, weights);
-        out[x] = weights[0] * sums[column] + weights[1] * sums[column + 1] + weights[2] * sums[column + 2] +
-                 weights[3] * sums[column + 3];
+        out[x] = weights[0] * sums[column] + weights[1] * sums[column + 1] +
+                 weights[2] * sums[column + 2] + weights[3] * sums[column + 3];
     }
 }
 
-void SensorModel::SenseDepthRow(const RenderedView& view, std::int64_t frame, int y, float* out) const {
+void SensorModel::SenseDepthRow(const RenderedView& view, std::int64_t frame, int y,
+                                float* out) const {
     const DepthImage& truth = view.depth_m;
     const int width = truth.width();
     const auto frame_key = static_cast<std::uint64_t>(frame);
     std::vector<float> noise;
-    SmoothNoise(StreamKey(seed_, kDisparityStream, frame_key), config_.correlation_px, width).Row(y, noise);
+    SmoothNoise(StreamKey(seed_, kDisparityStream, frame_key), config_.correlation_px, width)
+        .Row(y, noise);
     const std::uint64_t edge_key = StreamKey(seed_, kEdgeStream, frame_key);
     const double focal_baseline = config_.focal_px * config_.baseline_m;
     const double step = config_.disparity_step_px;
-    double lit_until = -1e9;  // the projector's rightmost column that a nearer surface on the left takes
+    double lit_until =
+        -1e9;  // the projector's rightmost column that a nearer surface on the left takes
     for (int x = 0; x < width; ++x) {
         out[x] = 0;
         if (!(truth(x, y) > 0)) continue;
@@ -97,17 +104,20 @@ void SensorModel::SenseDepthRow(const RenderedView& view, std::int64_t frame, in
         if (step > 0) disparity = std::round(disparity / step) * step;
         if (disparity <= 0) continue;
         const double measured = focal_baseline / disparity;
-        if (measured >= config_.min_depth_m && measured <= config_.max_depth_m) out[x] = static_cast<float>(measured);
+        if (measured >= config_.min_depth_m && measured <= config_.max_depth_m)
+            out[x] = static_cast<float>(measured);
     }
 }
 
-void SensorModel::SenseDepth(const RenderedView& view, std::int64_t frame, DepthImage& depth_m) const {
+void SensorModel::SenseDepth(const RenderedView& view, std::int64_t frame,
+                             DepthImage& depth_m) const {
     if (config_.noise == NoiseModel::kNone) {
         depth_m = view.depth_m;
         return;
     }
     depth_m.Resize(view.depth_m.width(), view.depth_m.height());
-    tbb::parallel_for(0, depth_m.height(), [&](int y) { SenseDepthRow(view, frame, y, depth_m.row(y)); });
+    tbb::parallel_for(0, depth_m.height(),
+                      [&](int y) { SenseDepthRow(view, frame, y, depth_m.row(y)); });
 }
 
 }  // namespace tessera

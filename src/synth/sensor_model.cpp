@@ -22,21 +22,29 @@ std::uint8_t Quantise(float grey) {
 void SensorModel::Config::Describe(ConfigParameters& p) {
     p.AddChoice("noise", noise, {{"none", NoiseModel::kNone}, {"kinect", NoiseModel::kKinect}},
                 "none: an ideal camera; kinect: all effects of this section");
-    p.Add("focal_px", focal_px, {50, 5000}, "px", "depth sensor's focal length; disparity = focal_px * baseline_m / z");
+    p.Add("focal_px", focal_px, {50, 5000}, "px",
+          "depth sensor's focal length; disparity = focal_px * baseline_m / z");
     p.Add("baseline_m", baseline_m, {0.005, 1}, "m", "distance of projector and depth camera");
-    p.Add("disparity_std_px", disparity_std_px, {0, 2}, "px", "noise of the disparity; depth noise grows with z^2");
-    p.Add("correlation_px", correlation_px, {0.5, 50}, "px", "how far the disparity noise reaches in the image");
-    p.Add("disparity_step_px", disparity_step_px, {0, 2}, "px", "quantisation of the disparity, 0 = none");
+    p.Add("disparity_std_px", disparity_std_px, {0, 2}, "px",
+          "noise of the disparity; depth noise grows with z^2");
+    p.Add("correlation_px", correlation_px, {0.5, 50}, "px",
+          "how far the disparity noise reaches in the image");
+    p.Add("disparity_step_px", disparity_step_px, {0, 2}, "px",
+          "quantisation of the disparity, 0 = none");
     p.Add("min_depth_m", min_depth_m, {0, 100}, "m", "nearer surfaces give no depth");
     p.Add("max_depth_m", max_depth_m, {0.1, 1000}, "m", "farther surfaces give no depth");
-    p.Add("min_cos", min_cos, {0, 1}, "", "surfaces seen flatter (cosine of the angle of incidence) give no depth");
+    p.Add("min_cos", min_cos, {0, 1}, "",
+          "surfaces seen flatter (cosine of the angle of incidence) give no depth");
     p.Add("lateral_std_px", lateral_std_px, {0, 3}, "px", "raggedness of depth edges");
-    p.Add("edge_dropout", edge_dropout, {0, 1}, "", "probability that a pixel at a depth edge has no depth");
+    p.Add("edge_dropout", edge_dropout, {0, 1}, "",
+          "probability that a pixel at a depth edge has no depth");
     p.Add("shadow", shadow, "no depth where the projector's light is blocked");
     p.Add("exposure_s", exposure_s, {0, 0.1}, "s", "exposure time: motion blur");
-    p.Add("colour_noise", colour_noise, {0, 50}, "grey levels", "noise in the dark; 0.6 of it in bright parts");
+    p.Add("colour_noise", colour_noise, {0, 50}, "grey levels",
+          "noise in the dark; 0.6 of it in bright parts");
     p.Add("vignetting", vignetting, {0, 0.9}, "", "loss of brightness in the image's corners");
-    p.Add("exposure_drift", exposure_drift, {0, 0.5}, "", "largest change of the brightness gain over time");
+    p.Add("exposure_drift", exposure_drift, {0, 0.5}, "",
+          "largest change of the brightness gain over time");
 }
 
 SensorModel::SensorModel(const Config& config, const PinholeCamera& camera, std::uint64_t seed)
@@ -60,11 +68,13 @@ void SensorModel::SenseColour(const RenderedView& view, std::int64_t frame, doub
     const auto vignetting = static_cast<float>(ideal ? 0.0 : config_.vignetting);
     const auto noise = static_cast<float>(ideal ? 0.0 : config_.colour_noise);
     const std::uint64_t key = StreamKey(seed_, kColourStream, static_cast<std::uint64_t>(frame));
-    const float centre_x = 0.5f * static_cast<float>(width - 1), centre_y = 0.5f * static_cast<float>(height - 1);
+    const float centre_x = 0.5f * static_cast<float>(width - 1),
+                centre_y = 0.5f * static_cast<float>(height - 1);
     const float corner2 = std::max(centre_x * centre_x + centre_y * centre_y, 1.0f);
     tbb::parallel_for(0, height, [&](int y) {
         for (int x = 0; x < width; ++x) {
-            const float dx = static_cast<float>(x) - centre_x, dy = static_cast<float>(y) - centre_y;
+            const float dx = static_cast<float>(x) - centre_x,
+                        dy = static_cast<float>(y) - centre_y;
             const float scale = gain * (1 - vignetting * (dx * dx + dy * dy) / corner2);
             const RgbF in = view.colour(x, y);
             float channels[3] = {in.r * scale, in.g * scale, in.b * scale};

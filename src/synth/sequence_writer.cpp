@@ -44,7 +44,8 @@ class Writer {
 
     Status PrepareFolders() const {
         for (const char* name : {"rgb", "depth", "labels", "instances"})
-            if (Status status = PrepareOutputFolder(folder_ + "/" + name); !status.ok()) return status;
+            if (Status status = PrepareOutputFolder(folder_ + "/" + name); !status.ok())
+                return status;
         return Status::Ok();
     }
     Status WriteImages(const Frame& frame, const RenderedView& truth);
@@ -89,8 +90,9 @@ void Writer::Remember(const Frame& frame, const RenderedView& truth) {
 
 std::string Writer::CameraText() const {
     const PinholeCamera& c = source_.info().camera;
-    return fmt::format("width: {}\nheight: {}\nfx: {}\nfy: {}\ncx: {}\ncy: {}\ndepth_scale: {}\nfps: {}\n", c.width,
-                       c.height, c.fx, c.fy, c.cx, c.cy, kDepthScale, source_.info().fps);
+    return fmt::format(
+        "width: {}\nheight: {}\nfx: {}\nfy: {}\ncx: {}\ncy: {}\ndepth_scale: {}\nfps: {}\n",
+        c.width, c.height, c.fx, c.fy, c.cx, c.cy, kDepthScale, source_.info().fps);
 }
 
 Status Writer::WriteLists() const {
@@ -110,7 +112,8 @@ SequenceSummary Writer::Summary(std::int64_t reference_triangles) const {
     summary.reference_triangles = reference_triangles;
     for (std::size_t i = 1; i < poses_.size(); ++i)
         summary.path_m +=
-            (poses_[i].T_world_camera.translation() - poses_[i - 1].T_world_camera.translation()).norm();
+            (poses_[i].T_world_camera.translation() - poses_[i - 1].T_world_camera.translation())
+                .norm();
     return summary;
 }
 
@@ -130,7 +133,8 @@ Result<SequenceSummary> WriteSequence(SyntheticSource& source, const std::string
         if (progress && !progress(++done, total)) break;
     }
     const TriangleMesh reference = writer.Reference();
-    if (Status status = FirstError({writer.WriteLists(), WritePly(folder + "/reference.ply", reference)});
+    if (Status status =
+            FirstError({writer.WriteLists(), WritePly(folder + "/reference.ply", reference)});
         !status.ok())
         return status;
     return writer.Summary(static_cast<std::int64_t>(reference.triangles.size()));

@@ -48,10 +48,11 @@ std::optional<ShapeHit> IntersectBox(const Vector3d& half, const Vector3d& o, co
     return std::nullopt;
 }
 
-// Roots of |o + t d| = radius in the first `dimensions` coordinates, ascending; the sum of squares is arranged so that
-// far origins lose no digits.
+// Roots of |o + t d| = radius in the first `dimensions` coordinates, ascending; the sum of squares
+// is arranged so that far origins lose no digits.
 template <int dimensions>
-std::optional<std::pair<double, double>> CircleRoots(const Vector3d& o, const Vector3d& d, double radius) {
+std::optional<std::pair<double, double>> CircleRoots(const Vector3d& o, const Vector3d& d,
+                                                     double radius) {
     const auto oc = o.head<dimensions>(), dc = d.head<dimensions>();
     const double a = dc.squaredNorm();
     if (a < 1e-300) return std::nullopt;
@@ -63,7 +64,8 @@ std::optional<std::pair<double, double>> CircleRoots(const Vector3d& o, const Ve
     return std::make_pair(t_closest - half_chord, t_closest + half_chord);
 }
 
-std::optional<ShapeHit> IntersectSphere(double radius, const Vector3d& o, const Vector3d& d, double t_max) {
+std::optional<ShapeHit> IntersectSphere(double radius, const Vector3d& o, const Vector3d& d,
+                                        double t_max) {
     const auto roots = CircleRoots<3>(o, d, radius);
     if (!roots) return std::nullopt;
     const double t = roots->first > 0 ? roots->first : roots->second;
@@ -71,8 +73,8 @@ std::optional<ShapeHit> IntersectSphere(double radius, const Vector3d& o, const 
     return std::nullopt;
 }
 
-std::optional<ShapeHit> IntersectCylinder(const Vector3d& half, const Vector3d& o, const Vector3d& d,
-                                          double t_max) {
+std::optional<ShapeHit> IntersectCylinder(const Vector3d& half, const Vector3d& o,
+                                          const Vector3d& d, double t_max) {
     ShapeHit best{t_max, -1};
     const auto consider = [&best](double t, int chart) {
         if (t > 0 && t < best.t) best = {t, chart};
@@ -92,8 +94,8 @@ std::optional<ShapeHit> IntersectCylinder(const Vector3d& half, const Vector3d& 
     return best;
 }
 
-std::optional<ShapeHit> IntersectRectangle(const Vector3d& half, const Vector3d& o, const Vector3d& d,
-                                           double t_max) {
+std::optional<ShapeHit> IntersectRectangle(const Vector3d& half, const Vector3d& o,
+                                           const Vector3d& d, double t_max) {
     if (d.z() == 0) return std::nullopt;
     const double t = -o.z() / d.z();
     if (!(t > 0 && t < t_max)) return std::nullopt;
@@ -112,9 +114,12 @@ double BoxDistance(const Vector& q) {
 
 int ChartCount(ShapeKind kind) {
     switch (kind) {
-        case ShapeKind::kBox: return 6;
-        case ShapeKind::kCylinder: return 3;
-        default: return 1;
+        case ShapeKind::kBox:
+            return 6;
+        case ShapeKind::kCylinder:
+            return 3;
+        default:
+            return 1;
     }
 }
 
@@ -125,10 +130,12 @@ Vector2d ChartSize(const Shape& shape, int chart) {
             const FaceAxes axes = kBoxFaces[chart];
             return {edge[std::abs(axes.u) - 1], edge[std::abs(axes.v) - 1]};
         }
-        case ShapeKind::kSphere: return {kPi * edge.x(), kPi * edge.x() / 2};
+        case ShapeKind::kSphere:
+            return {kPi * edge.x(), kPi * edge.x() / 2};
         case ShapeKind::kCylinder:
             return chart == 0 ? Vector2d(kPi * edge.x(), edge.z()) : Vector2d(edge.x(), edge.x());
-        case ShapeKind::kRectangle: break;
+        case ShapeKind::kRectangle:
+            break;
     }
     return edge.head<2>();
 }
@@ -144,9 +151,11 @@ Vector3d PointOnChart(const Shape& shape, int chart, const Vector2d& uv) {
             return p;
         }
         case ShapeKind::kSphere: {
-            const double longitude = uv.x() / half.x() - kPi, latitude = kPi / 2 - uv.y() / half.x();
+            const double longitude = uv.x() / half.x() - kPi,
+                         latitude = kPi / 2 - uv.y() / half.x();
             return half.x() * Vector3d(std::cos(latitude) * std::cos(longitude),
-                                       std::cos(latitude) * std::sin(longitude), std::sin(latitude));
+                                       std::cos(latitude) * std::sin(longitude),
+                                       std::sin(latitude));
         }
         case ShapeKind::kCylinder: {
             if (chart != 0)
@@ -155,7 +164,8 @@ Vector3d PointOnChart(const Shape& shape, int chart, const Vector2d& uv) {
             const double angle = uv.x() / half.x() - kPi;
             return {half.x() * std::cos(angle), half.x() * std::sin(angle), half.z() - uv.y()};
         }
-        case ShapeKind::kRectangle: break;
+        case ShapeKind::kRectangle:
+            break;
     }
     return {uv.x() - half.x(), half.y() - uv.y(), 0.0};
 }
@@ -166,35 +176,45 @@ Vector2d ChartPoint(const Shape& shape, int chart, const Vector3d& p) {
         case ShapeKind::kBox:
             return {AlongAxis(p, half, kBoxFaces[chart].u), AlongAxis(p, half, kBoxFaces[chart].v)};
         case ShapeKind::kSphere:
-            return half.x() * Vector2d(std::atan2(p.y(), p.x()) + kPi,
-                                       kPi / 2 - std::asin(std::clamp(p.z() / half.x(), -1.0, 1.0)));
+            return half.x() *
+                   Vector2d(std::atan2(p.y(), p.x()) + kPi,
+                            kPi / 2 - std::asin(std::clamp(p.z() / half.x(), -1.0, 1.0)));
         case ShapeKind::kCylinder:
-            if (chart != 0) return {p.x() + half.x(), chart == 1 ? p.y() + half.x() : half.x() - p.y()};
+            if (chart != 0)
+                return {p.x() + half.x(), chart == 1 ? p.y() + half.x() : half.x() - p.y()};
             return {half.x() * (std::atan2(p.y(), p.x()) + kPi), half.z() - p.z()};
-        case ShapeKind::kRectangle: break;
+        case ShapeKind::kRectangle:
+            break;
     }
     return {p.x() + half.x(), half.y() - p.y()};
 }
 
 Vector3d NormalOnChart(const Shape& shape, int chart, const Vector3d& p) {
     switch (shape.kind) {
-        case ShapeKind::kBox: return (chart % 2 == 0 ? -1.0 : 1.0) * Vector3d::Unit(chart / 2);
-        case ShapeKind::kSphere: return p.normalized();
+        case ShapeKind::kBox:
+            return (chart % 2 == 0 ? -1.0 : 1.0) * Vector3d::Unit(chart / 2);
+        case ShapeKind::kSphere:
+            return p.normalized();
         case ShapeKind::kCylinder:
             if (chart == 0) return Vector3d(p.x(), p.y(), 0).normalized();
             return chart == 1 ? Vector3d(0, 0, -1) : Vector3d(0, 0, 1);
-        case ShapeKind::kRectangle: break;
+        case ShapeKind::kRectangle:
+            break;
     }
     return Vector3d::UnitZ();
 }
 
-std::optional<ShapeHit> Intersect(const Shape& shape, const Vector3d& origin, const Vector3d& direction,
-                                  double t_max) {
+std::optional<ShapeHit> Intersect(const Shape& shape, const Vector3d& origin,
+                                  const Vector3d& direction, double t_max) {
     switch (shape.kind) {
-        case ShapeKind::kBox: return IntersectBox(shape.half_size_m, origin, direction, t_max);
-        case ShapeKind::kSphere: return IntersectSphere(shape.half_size_m.x(), origin, direction, t_max);
-        case ShapeKind::kCylinder: return IntersectCylinder(shape.half_size_m, origin, direction, t_max);
-        case ShapeKind::kRectangle: break;
+        case ShapeKind::kBox:
+            return IntersectBox(shape.half_size_m, origin, direction, t_max);
+        case ShapeKind::kSphere:
+            return IntersectSphere(shape.half_size_m.x(), origin, direction, t_max);
+        case ShapeKind::kCylinder:
+            return IntersectCylinder(shape.half_size_m, origin, direction, t_max);
+        case ShapeKind::kRectangle:
+            break;
     }
     return IntersectRectangle(shape.half_size_m, origin, direction, t_max);
 }
@@ -202,11 +222,14 @@ std::optional<ShapeHit> Intersect(const Shape& shape, const Vector3d& origin, co
 double SignedDistance(const Shape& shape, const Vector3d& p) {
     const Vector3d& half = shape.half_size_m;
     switch (shape.kind) {
-        case ShapeKind::kBox: return BoxDistance(Vector3d(p.cwiseAbs() - half));
-        case ShapeKind::kSphere: return p.norm() - half.x();
+        case ShapeKind::kBox:
+            return BoxDistance(Vector3d(p.cwiseAbs() - half));
+        case ShapeKind::kSphere:
+            return p.norm() - half.x();
         case ShapeKind::kCylinder:
             return BoxDistance(Vector2d(p.head<2>().norm() - half.x(), std::abs(p.z()) - half.z()));
-        case ShapeKind::kRectangle: break;
+        case ShapeKind::kRectangle:
+            break;
     }
     return Vector3d(p.cwiseAbs() - half).cwiseMax(0.0).norm();
 }

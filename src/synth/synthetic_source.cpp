@@ -15,9 +15,11 @@ void SynthConfig::Describe(ConfigParameters& p) {
     p.Add("fy", camera.fy, {1, 1e5}, "px", "focal length along y");
     p.Add("cx", camera.cx, {-8192, 16384}, "px", "principal point, x");
     p.Add("cy", camera.cy, {-8192, 16384}, "px", "principal point, y");
-    p.Add("trajectory", trajectory, "TUM trajectory file to move along, empty = the scene's own motion");
+    p.Add("trajectory", trajectory,
+          "TUM trajectory file to move along, empty = the scene's own motion");
     p.Add("trajectory_from_start", trajectory_from_start,
-          "move the trajectory so that it begins at the scene's own first pose; off: taken as it is, in the scene's "
+          "move the trajectory so that it begins at the scene's own first pose; off: taken as it "
+          "is, in the scene's "
           "world");
     p.AddChoice("model_up", model_up, {{"y", UpAxis::kY}, {"z", UpAxis::kZ}},
                 "which axis of an .obj model points upwards; only its own motion depends on it");
@@ -26,8 +28,9 @@ void SynthConfig::Describe(ConfigParameters& p) {
 
 Status SynthConfig::Validate() const {
     if (sensor.min_depth_m >= sensor.max_depth_m)
-        return Status::Error(fmt::format("synth.sensor.min_depth_m: {} m is not below max_depth_m, {} m",
-                                         sensor.min_depth_m, sensor.max_depth_m));
+        return Status::Error(
+            fmt::format("synth.sensor.min_depth_m: {} m is not below max_depth_m, {} m",
+                        sensor.min_depth_m, sensor.max_depth_m));
     return Status::Ok();
 }
 
@@ -43,7 +46,8 @@ SyntheticSource::SyntheticSource(std::string name, StagedScene staged, const Syn
     info_.has_truth = true;
     info_.frame_count = config.frames;
     if (config.frames == 0)
-        info_.frame_count = std::max<std::int64_t>(std::llround(staged_.path.duration_s * config.fps), 1);
+        info_.frame_count =
+            std::max<std::int64_t>(std::llround(staged_.path.duration_s * config.fps), 1);
     info_.notes = {staged_.description};
 }
 
@@ -53,7 +57,9 @@ bool SyntheticSource::Seek(std::int64_t index) {
     return true;
 }
 
-ReadResult SyntheticSource::Read(Frame& frame) { return ReadFrame(frame, view_, false); }
+ReadResult SyntheticSource::Read(Frame& frame) {
+    return ReadFrame(frame, view_, false);
+}
 
 ReadResult SyntheticSource::ReadWithTruth(Frame& frame, RenderedView& truth) {
     return ReadFrame(frame, truth, true);

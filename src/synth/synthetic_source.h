@@ -1,4 +1,5 @@
-// Synthetic scenes as a frame source: SOURCE `synthetic:NAME`, with exact poses and, for who asks, all truth.
+// Synthetic scenes as a frame source: SOURCE `synthetic:NAME`, with exact poses and, for who asks,
+// all truth.
 #pragma once
 
 #include <memory>
@@ -15,13 +16,14 @@ namespace tessera {
 enum class UpAxis { kY, kZ };
 
 struct SynthConfig {
-    int frames = 0;                   // 0: as long as the scene's motion (or the trajectory file) goes
-    int seed = 1;                     // of the noise; the scenes and motions themselves are fixed
+    int frames = 0;  // 0: as long as the scene's motion (or the trajectory file) goes
+    int seed = 1;    // of the noise; the scenes and motions themselves are fixed
     double fps = 30;
     PinholeCamera camera;
-    std::string trajectory;           // TUM trajectory file; empty: the scene's own motion
-    bool trajectory_from_start = false;  // begin at the scene's own first pose instead of the recorded one
-    UpAxis model_up = UpAxis::kZ;     // of an .obj model, for its own motion
+    std::string trajectory;  // TUM trajectory file; empty: the scene's own motion
+    bool trajectory_from_start =
+        false;  // begin at the scene's own first pose instead of the recorded one
+    UpAxis model_up = UpAxis::kZ;  // of an .obj model, for its own motion
     SensorModel::Config sensor;
 
     void Describe(ConfigParameters& parameters);
@@ -56,10 +58,12 @@ class SyntheticSource : public FrameSource {
 // The first frame's time stamp: file names made from stamps sort as text.
 inline constexpr double kFirstStamp_s = 1000.0;
 
-// `name`: one of BuiltinSceneNames() or a path that ends in .obj, with or without "synthetic:" before it. Errors name
-// the scene or file, and for an unknown scene the known ones.
-Result<std::unique_ptr<SyntheticSource>> OpenSynthetic(const std::string& name, const SynthConfig& config);
+// `name`: one of BuiltinSceneNames() or a path that ends in .obj, with or without "synthetic:"
+// before it. Errors name the scene or file, and for an unknown scene the known ones.
+Result<std::unique_ptr<SyntheticSource>> OpenSynthetic(const std::string& name,
+                                                       const SynthConfig& config);
 // The same as any other source.
-Result<std::unique_ptr<FrameSource>> OpenSyntheticScene(const std::string& name, const SynthConfig& config);
+Result<std::unique_ptr<FrameSource>> OpenSyntheticScene(const std::string& name,
+                                                        const SynthConfig& config);
 
 }  // namespace tessera

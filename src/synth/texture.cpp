@@ -14,12 +14,15 @@ std::uint32_t Pack(std::uint32_t r, std::uint32_t g, std::uint32_t b) {
 
 // Channels in 16-bit lanes, so that one multiplication or addition treats all three.
 std::uint64_t Spread(std::uint32_t texel) {
-    return (texel & 0xffu) | (texel & 0xff00u) << 8 | static_cast<std::uint64_t>(texel & 0xff0000u) << 16;
+    return (texel & 0xffu) | (texel & 0xff00u) << 8 |
+           static_cast<std::uint64_t>(texel & 0xff0000u) << 16;
 }
 
 std::uint32_t MeanOfFour(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
     const std::uint64_t sum = Spread(a) + Spread(b) + Spread(c) + Spread(d) + 0x000200020002ull;
-    const auto lane = [sum](int shift) { return static_cast<std::uint32_t>(sum >> shift & 0x3ff) >> 2; };
+    const auto lane = [sum](int shift) {
+        return static_cast<std::uint32_t>(sum >> shift & 0x3ff) >> 2;
+    };
     return Pack(lane(0), lane(16), lane(32));
 }
 
@@ -67,12 +70,14 @@ Texture::Texture(const ColourImage& image, Wrap wrap) : wrap_(wrap) {
         Level coarse{std::max(fine.width / 2, 1), std::max(fine.height / 2, 1), {}};
         coarse.texels.reserve(static_cast<std::size_t>(coarse.width) * coarse.height);
         for (int y = 0; y < coarse.height; ++y) {
-            const int y0 = std::min(2 * y, fine.height - 1), y1 = std::min(2 * y + 1, fine.height - 1);
+            const int y0 = std::min(2 * y, fine.height - 1),
+                      y1 = std::min(2 * y + 1, fine.height - 1);
             for (int x = 0; x < coarse.width; ++x) {
-                const int x0 = std::min(2 * x, fine.width - 1), x1 = std::min(2 * x + 1, fine.width - 1);
-                coarse.texels.push_back(
-                    MeanOfFour(fine.texels[y0 * fine.width + x0], fine.texels[y0 * fine.width + x1],
-                               fine.texels[y1 * fine.width + x0], fine.texels[y1 * fine.width + x1]));
+                const int x0 = std::min(2 * x, fine.width - 1),
+                          x1 = std::min(2 * x + 1, fine.width - 1);
+                coarse.texels.push_back(MeanOfFour(
+                    fine.texels[y0 * fine.width + x0], fine.texels[y0 * fine.width + x1],
+                    fine.texels[y1 * fine.width + x0], fine.texels[y1 * fine.width + x1]));
             }
         }
         levels_.push_back(std::move(coarse));
@@ -82,14 +87,17 @@ Texture::Texture(const ColourImage& image, Wrap wrap) : wrap_(wrap) {
 // All channels at once: four weights of sum 256 on eight-bit values fit the 16-bit lanes.
 RgbF Texture::SampleLevel(const Level& level, float u, float v) const {
     const Axis x = Locate(u, level.width, wrap_), y = Locate(v, level.height, wrap_);
-    const std::uint32_t* row0 = level.texels.data() + static_cast<std::ptrdiff_t>(y.first) * level.width;
-    const std::uint32_t* row1 = level.texels.data() + static_cast<std::ptrdiff_t>(y.second) * level.width;
+    const std::uint32_t* row0 =
+        level.texels.data() + static_cast<std::ptrdiff_t>(y.first) * level.width;
+    const std::uint32_t* row1 =
+        level.texels.data() + static_cast<std::ptrdiff_t>(y.second) * level.width;
     const std::uint64_t sum = Spread(row0[x.first]) * ((16 - x.weight) * (16 - y.weight)) +
                               Spread(row0[x.second]) * (x.weight * (16 - y.weight)) +
                               Spread(row1[x.first]) * ((16 - x.weight) * y.weight) +
                               Spread(row1[x.second]) * (x.weight * y.weight);
     constexpr float kScale = 1.0f / 256.0f;
-    return {static_cast<float>(sum & 0xffff) * kScale, static_cast<float>(sum >> 16 & 0xffff) * kScale,
+    return {static_cast<float>(sum & 0xffff) * kScale,
+            static_cast<float>(sum >> 16 & 0xffff) * kScale,
             static_cast<float>(sum >> 32 & 0xffff) * kScale};
 }
 
@@ -99,7 +107,8 @@ RgbF Texture::Sample(float u, float v, float footprint) const {
     const float texels = footprint * static_cast<float>(levels_.front().width);
     const int last = static_cast<int>(levels_.size()) - 1;
     if (!(texels > 1.0f) || last == 0) return SampleLevel(levels_.front(), u, v);
-    // The logarithm's integer part is exact, its fraction taken as linear: that is what a blend needs.
+    // The logarithm's integer part is exact, its fraction taken as linear: that is what a blend
+    // needs.
     int exponent;
     const float mantissa = std::frexp(texels, &exponent);  // in [0.5, 1)
     if (exponent - 1 >= last) return SampleLevel(levels_.back(), u, v);

@@ -1,5 +1,5 @@
-// A colour image with its mip pyramid: what the surfaces of synthetic scenes are painted with. Immutable after
-// construction, hence thread-safe.
+// A colour image with its mip pyramid: what the surfaces of synthetic scenes are painted with.
+// Immutable after construction, hence thread-safe.
 #pragma once
 
 #include <cstdint>
@@ -21,8 +21,9 @@ class Texture {
     // `image` must not be empty; 1x1 is a flat colour.
     Texture(const ColourImage& image, Wrap wrap);
 
-    // Trilinear. (u, v) run over [0, 1] from the image's top-left to its bottom-right corner, outside of which the
-    // image repeats or is continued; `footprint` is the sample's extent as a share of the image's width.
+    // Trilinear. (u, v) run over [0, 1] from the image's top-left to its bottom-right corner,
+    // outside of which the image repeats or is continued; `footprint` is the sample's extent as a
+    // share of the image's width.
     RgbF Sample(float u, float v, float footprint) const;
 
     int width() const { return levels_.front().width; }

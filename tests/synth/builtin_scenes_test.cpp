@@ -1,0 +1,85 @@
+#include "synth/builtin_scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+#include <set>
+
+namespace tessera {
+namespace {
+
+TEST(BuiltinScenes, AnUnknownNameListsTheKnownOnes) {
+    const auto scene = MakeBuiltinScene("kitchen");
+    ASSERT_FALSE(scene.ok());
+    EXPECT_EQ(scene.message(),
+              "'kitchen' is no built-in scene; there are desk, room, corridor, floor, corner, "
+              "wall, or give an .obj "
+              "file");
+}
+
+TEST(BuiltinScenes, TheDeskHasItsObjects) {
+    const auto desk = MakeBuiltinScene("desk");
+    ASSERT_TRUE(desk.ok());
+    const Scene& scene = *desk.value().scene;
+    std::multiset<std::string> classes;
+    for (const SceneInstance& instance : scene.instances())
+        classes.insert(scene.class_names()[instance.class_id]);
+    EXPECT_EQ(classes.count("computer"), 2u);
+    EXPECT_EQ(classes.count("cup"), 2u);
+    EXPECT_EQ(classes.count("keyboard"), 1u);
+    EXPECT_EQ(classes.count("laptop"), 1u);
+    EXPECT_GE(classes.count("book"), 3u);
+}
+
+// A hand's motion: its speed, and that it stays outside of things.
+TEST(BuiltinScenes, MotionsAreSmoothAndKeepClearOfTheScene) {
+    for (const char* name : {"desk", "floor", "corner", "wall", "corridor"}) {
+        const auto staged = MakeBuiltinScene(name);
+        ASSERT_TRUE(staged.ok());
+        const CameraPath& path = staged.value().path;
+        Eigen::Isometry3d last = path.T_world_camera(0);
+        double fastest = 0, fastest_turn = 0;
+        constexpr double kStep = 1.0 / 30;
+        for (double t = kStep; t < path.duration_s; t += kStep) {
+            const Eigen::Isometry3d T = path.T_world_camera(t);
+            fastest = std::max(fastest, (T.translation() - last.translation()).norm() / kStep);
+            fastest_turn = std::max(fastest_turn, RotationAngle(last, T) / kStep);
+            EXPECT_GT(*staged.value().scene->SignedDistance(T.translation()), 0.2)
+                << name << " at " << t;
+            last = T;
+        }
+        EXPECT_LT(fastest, 0.62) << name;
+        EXPECT_GT(fastest, 0.1) << name;
+        EXPECT_LT(fastest_turn, 40 * std::numbers::pi / 180) << name;
+    }
+}
+
+TEST(BuiltinScenes, TheRoomsTurnEndsWhereItBegan) {
+    const auto room = MakeBuiltinScene("room");
+    ASSERT_TRUE(room.ok());
+    const CameraPath& path = room.value().path;
+    const Eigen::Isometry3d first = path.T_world_camera(0),
+                            last = path.T_world_camera(path.duration_s);
+    EXPECT_LT((first.translation() - last.translation()).norm(), 0.02);
+    EXPECT_LT(RotationAngle(first, last), 0.03);
+}
+
+TEST(BuiltinScenes, ThePlainScenesAreAsPlainAsTheySay) {
+    for (const char* name : {"corner", "wall"}) {
+        const auto staged = MakeBuiltinScene(name);
+        ASSERT_TRUE(staged.ok());
+        const Scene& scene = *staged.value().scene;
+        const Eigen::Isometry3d T = staged.value().path.T_world_camera(1.0);
+        std::set<float> greys;
+        for (int i = 0; i < 400; ++i) {
+            const Eigen::Vector3d d((i % 20 - 9.5) / 20, (i / 20 - 9.5) / 26, 1);
+            const SurfaceHit hit = scene.CastRay(T.translation(), T.linear() * d);
+            ASSERT_TRUE(hit.valid()) << name;
+            greys.insert(scene.Colour(hit, 0.002f).g);
+        }
+        EXPECT_EQ(greys.size(), name == std::string("corner") ? 3u : 1u) << name;
+    }
+}
+
+}  // namespace
+}  // namespace tessera
