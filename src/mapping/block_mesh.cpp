@@ -62,8 +62,10 @@ std::array<std::int16_t, 2> EncodeNormal(const Eigen::Vector3f& n) {
         u = std::copysign(1 - std::abs(p.y()), p.x());
         v = std::copysign(1 - std::abs(p.x()), p.y());
     }
-    return {static_cast<std::int16_t>(std::lround(u * 32767)),
-            static_cast<std::int16_t>(std::lround(v * 32767))};
+    const auto steps = [](float c) {
+        return static_cast<std::int16_t>(c * 32767 + std::copysign(0.5f, c));
+    };
+    return {steps(u), steps(v)};
 }
 
 std::uint8_t ToByte(float value) { return static_cast<std::uint8_t>(value * 255.0f + 0.5f); }
@@ -100,7 +102,7 @@ class VertexMaker {
         const BlockId next_block = blocks_[leaves ? 1 << axis : 0];
         const int next_offset = (next[0] & 7) + 8 * (next[1] & 7) + 64 * (next[2] & 7);
         return {static_cast<std::uint16_t>(axis * kBlockVoxels + offset),
-                static_cast<std::uint16_t>(std::lround(m * 65536)), EncodeNormal(normal),
+                static_cast<std::uint16_t>(m * 65536 + 0.5f), EncodeNormal(normal),
                 MixColours(w1, map_.colour(blocks_[0])[offset], w2,
                            map_.colour(next_block)[next_offset], m)};
     }
@@ -110,15 +112,6 @@ class VertexMaker {
     const std::array<BlockId, 8>& blocks_;
     LocalField field_;
 };
-
-int CountVertices(const CellBits& bits) {
-    int count = 0;
-    for (int axis = 0; axis < 3; ++axis)
-        for (int z = 0; z < kBlockSide; ++z)
-            for (int y = 0; y < kBlockSide; ++y)
-                count += std::popcount(bits.CrossedEdges(axis, y, z));
-    return count;
-}
 
 void MakeVertices(const BlockMap& map, BlockId id, const CellBits& bits, BlockMesh& mesh) {
     const VertexMaker maker(map, id, mesh.blocks);
@@ -153,14 +146,6 @@ void MakeTriangles(const CellBits& bits, BlockMesh& mesh) {
                     mesh.triangles.push_back({RefOf(a, x, y, z), RefOf(b, x, y, z), RefOf(c, x, y, z)});
                 }
             }
-    mesh.triangles.shrink_to_fit();
-}
-
-bool HasSurfaceCell(const CellBits& bits) {
-    for (int z = 0; z < kBlockSide; ++z)
-        for (int y = 0; y < kBlockSide; ++y)
-            if (bits.SurfaceCells(y, z) != 0) return true;
-    return false;
 }
 
 constexpr auto FindReadOffsets() {
@@ -189,18 +174,18 @@ void MeshConfig::Describe(ConfigParameters& p) {
 }
 
 std::unique_ptr<const BlockMesh> MeshBlock(const BlockMap& map, BlockId id, double min_weight) {
-    std::array<BlockId, 8> blocks;
-    std::copy_n(map.view().neighbours + 8 * static_cast<std::size_t>(id), 8, blocks.begin());
-    const CellBits bits(map, blocks, min_weight);
-    const int vertices = CountVertices(bits);
-    if (vertices == 0 && !HasSurfaceCell(bits)) return nullptr;
-    auto mesh = std::make_unique<BlockMesh>();
-    mesh->coord = map.coord(id);
-    mesh->blocks = blocks;
-    mesh->vertices.reserve(static_cast<std::size_t>(vertices));
-    MakeVertices(map, id, bits, *mesh);
-    MakeTriangles(bits, *mesh);
-    return mesh;
+    // Kept between calls for its storage: the result is a copy that is no larger than it needs to be.
+    thread_local BlockMesh scratch;
+    std::copy_n(map.view().neighbours + 8 * static_cast<std::size_t>(id), 8, scratch.blocks.begin());
+    const CellBits bits(map, scratch.blocks, min_weight);
+    if (!bits.HasBothSigns()) return nullptr;
+    scratch.coord = map.coord(id);
+    scratch.vertices.clear();
+    scratch.triangles.clear();
+    MakeVertices(map, id, bits, scratch);
+    MakeTriangles(bits, scratch);
+    if (scratch.vertices.empty() && scratch.triangles.empty()) return nullptr;
+    return std::make_unique<BlockMesh>(scratch);
 }
 
 int BlockMesh::FindVertex(int edge) const {

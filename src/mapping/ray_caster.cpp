@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "mapping/field_sampler.h"
 
@@ -34,52 +35,57 @@ class RayWalker {
         : sampler_(map, origin), voxel_m_(map.voxel_size_m), truncation_m_(map.truncation_m) {}
 
     Hit FirstSurface(const Ray& ray, float first_m, float last_m) {
-        float z = first_m;
-        front_m_ = kNothing;
-        while (z <= last_m) {
+        // The last known point in front of a surface; none once the walk has met unknown space or a back.
+        bool has_front = false;
+        float front_z = 0, front_m = 0;
+        for (float z = first_m, advance_voxels = 0; z <= last_m;
+             z += advance_voxels / ray.voxels_per_metre) {
             const Eigen::Vector3f p = ray.At(z);
             const FieldCell cell = sampler_.Locate(p.x(), p.y(), p.z());
-            float advance_voxels;  // along the ray
-            if (cell.block == kUnknownBlock) {
-                front_m_ = kNothing;
-                advance_voxels = VoxelsToBlockEnd(ray, p);
-            } else {
-                const float distance_m = DistanceAt(cell);
-                if (distance_m <= 0 && front_m_ < kNothing) {
-                    const Hit hit = Refine(ray, front_z_, front_m_, z, distance_m);
-                    if (hit.depth_m > 0) return hit;
-                }
-                advance_voxels = std::max(std::abs(distance_m) / voxel_m_ - kMargin, kLeastStep);
-                front_m_ = distance_m > 0 ? distance_m : kNothing;
-                front_z_ = z;
-                if (distance_m == kNothing) advance_voxels = 1;
+            const Distance distance = DistanceAt(cell);
+            if (!distance.known) {
+                advance_voxels = cell.block == kUnknownBlock ? VoxelsToBlockEnd(ray, p) : 1.0f;
+                has_front = false;
+                continue;
             }
-            z += advance_voxels / ray.voxels_per_metre;
+            if (distance.metres <= 0 && has_front) {
+                const Hit hit = Refine(ray, front_z, front_m, z, distance.metres);
+                if (hit.depth_m > 0) return hit;
+            }
+            has_front = distance.metres > 0;
+            front_z = z;
+            front_m = distance.metres;
+            advance_voxels = distance.step_voxels;
         }
         return {};
     }
 
   private:
-    static constexpr float kNothing = 1e9f;
-    static constexpr float kLeastStep = 0.5f;  // voxels
-    // The nearest voxel's distance differs from the point's by at most half a cell's diagonal.
-    static constexpr float kMargin = 0.87f;
+    struct Distance {
+        bool known;
+        float metres;
+        float step_voxels;  // how far to walk on
+    };
     static constexpr float kNearVoxels = 1.5f;
     static constexpr float kExactVoxels = 1e-3f;
 
-    // Metres; the nearest voxel's far from the surface, interpolated near it. kNothing where unknown.
-    float DistanceAt(const FieldCell& cell) const {
+    // Far from the surface the nearest voxel's, near it interpolated.
+    Distance DistanceAt(const FieldCell& cell) const {
         const FieldWord word = sampler_.Nearest(cell);
-        if (!HasDistance(word)) return kNothing;
+        if (!HasDistance(word)) return {false, 0, 0};
         const float nearest_m = FieldDistance(word) * truncation_m_;
-        if (std::abs(nearest_m) > kNearVoxels * voxel_m_) return nearest_m;
+        const float nearest_voxels = std::abs(nearest_m) / voxel_m_;
+        // Stored distances run along the rays that measured them: too long for others, hence less than all of it.
+        if (nearest_voxels > kNearVoxels) return {true, nearest_m, 0.8f * nearest_voxels};
         const FieldSample sample = sampler_.Sample<false>(cell);
-        return sample.has_distance ? sample.distance.value : kNothing;
+        // Half a voxel more than to the surface, so that the next step ends behind it.
+        return {sample.has_distance, sample.distance.value,
+                std::abs(sample.distance.value) / voxel_m_ + 0.5f};
     }
 
     static float VoxelsToBlockEnd(const Ray& ray, const Eigen::Vector3f& p) {
         constexpr float kBeyond = 1e-2f;
-        float least_z = kNothing;
+        float least_z = std::numeric_limits<float>::max();
         for (int i = 0; i < 3; ++i) {
             if (ray.step[i] == 0) continue;
             const float low = static_cast<float>(Floor(p[i]) >> 3) * kBlockSide;
@@ -118,10 +124,7 @@ class RayWalker {
     }
 
     Sampler sampler_;
-    float voxel_m_, truncation_m_;
-    // The last known point in front of a surface; kNothing if the walk has since met unknown space or a back.
-    float front_m_ = kNothing, front_z_ = 0;
-};
+    float voxel_m_, truncation_m_;};
 
 // Interpolates the words' parts over the corners that have an intensity, then converts once.
 struct Appearance {
@@ -153,10 +156,9 @@ struct Appearance {
     }
 };
 
-// Casts a row of tiles' pixels.
-class RowCaster {
+class TileCaster {
   public:
-    RowCaster(const BlockMap& map, PredictedView& view) : map_(map), map_view_(map.view()), view_(view) {
+    TileCaster(const BlockMap& map, PredictedView& view) : map_(map), map_view_(map.view()), view_(view) {
         const double voxel_m = map.config().voxel_size_m;
         const Eigen::Vector3d at = view.T_world_camera.translation() / voxel_m;
         const Eigen::Vector3i block = (at / kBlockSide).array().floor().cast<int>();
@@ -166,24 +168,23 @@ class RowCaster {
         camera_from_world_ = view.T_world_camera.linear().transpose().cast<float>();
     }
 
-    void CastRow(int v, const RayRanges& ranges) const {
-        RayWalker walker(map_view_, origin_);
-        const Sampler sampler(map_view_, origin_);
-        const RayRanges::Range* range = ranges.ranges.data() + v / RayRanges::kTilePx * ranges.width;
+    // One tile of RayRanges: neighbouring rays read the same blocks.
+    void Cast(int tile_x, int tile_y, const RayRanges& ranges) const {
+        constexpr int kTile = RayRanges::kTilePx;
         const PinholeCamera& camera = view_.camera;
-        for (int u = 0; u < camera.width; ++u) {
-            const auto& [first_m, last_m] = range[u / RayRanges::kTilePx];
-            Store(u, v, Hit{}, sampler);
-            if (first_m > last_m) continue;
-            const Eigen::Vector3f direction = camera.Unproject(u, v, 1).cast<float>();
-            const Ray ray(start_, voxel_from_camera_ * direction);
-            const Hit hit = walker.FirstSurface(ray, first_m, last_m);
-            if (hit.depth_m > 0) Store(u, v, hit, sampler);
-        }
+        const auto& [first_m, last_m] =
+            ranges.ranges[static_cast<std::size_t>(tile_y * ranges.width + tile_x)];
+        RayWalker walker(map_view_, origin_);
+        for (int v = tile_y * kTile; v < std::min((tile_y + 1) * kTile, camera.height); ++v)
+            for (int u = tile_x * kTile; u < std::min((tile_x + 1) * kTile, camera.width); ++u) {
+                const Eigen::Vector3f direction = camera.Unproject(u, v, 1).cast<float>();
+                const Ray ray(start_, voxel_from_camera_ * direction);
+                Store(u, v, walker.FirstSurface(ray, first_m, last_m));
+            }
     }
 
   private:
-    void Store(int u, int v, const Hit& hit, const Sampler& sampler) const {
+    void Store(int u, int v, const Hit& hit) const {
         view_.depth_m(u, v) = hit.depth_m;
         if (hit.depth_m == 0) {
             view_.normal_camera(u, v).setZero();
@@ -194,7 +195,7 @@ class RowCaster {
         const auto& g = hit.sample.distance;
         view_.normal_camera(u, v) =
             (camera_from_world_ * Eigen::Vector3f(g.gx, g.gy, g.gz)).normalized();
-        const Appearance appearance(map_, sampler, hit.cell);
+        const Appearance appearance(map_, Sampler(map_view_, origin_), hit.cell);
         view_.colour(u, v) = appearance.colour;
         view_.intensity(u, v) = appearance.intensity;
     }
@@ -219,11 +220,10 @@ void RayCaster::Cast(const BlockMap& map, const PinholeCamera& camera,
     view.colour.Resize(camera.width, camera.height);
     view.intensity.Resize(camera.width, camera.height);
     ranges_.Build(map, camera, T_world_camera, min_depth_m, max_depth_m);
-    const RowCaster caster(map, view);
-    tbb::parallel_for(tbb::blocked_range<int>(0, camera.height, RayRanges::kTilePx),
-                      [&](const auto& rows) {
-                          for (int v = rows.begin(); v < rows.end(); ++v) caster.CastRow(v, ranges_);
-                      });
+    const TileCaster caster(map, view);
+    tbb::parallel_for(0, ranges_.height, [&](int y) {
+        for (int x = 0; x < ranges_.width; ++x) caster.Cast(x, y, ranges_);
+    });
 }
 
 PredictedView RayCaster::Cast(const BlockMap& map, const PinholeCamera& camera,
