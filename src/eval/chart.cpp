@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
 namespace tessera {
@@ -15,11 +16,12 @@ cv::Scalar ToScalar(const Rgb8& c) {
     return {double(c.r), double(c.g), double(c.b)};
 }
 
-void DrawLine(cv::Mat& canvas, cv::Point2d a, cv::Point2d b, const Rgb8& colour, double width_px) {
-    const auto fixed = [](const cv::Point2d& p) {
+void DrawLine(cv::Mat& canvas, const Eigen::Vector2d& a, const Eigen::Vector2d& b,
+              const Rgb8& colour, double width_px) {
+    const auto fixed = [](const Eigen::Vector2d& p) {
         const double scale = kChartOversampling * (1 << kSubpixelBits);
-        return cv::Point(static_cast<int>(std::lround(p.x * scale)),
-                         static_cast<int>(std::lround(p.y * scale)));
+        return cv::Point(static_cast<int>(std::lround(p.x() * scale)),
+                         static_cast<int>(std::lround(p.y() * scale)));
     };
     const int thickness = std::max(1, static_cast<int>(std::lround(width_px * kChartOversampling)));
     cv::line(canvas, fixed(a), fixed(b), ToScalar(colour), thickness, cv::LINE_AA, kSubpixelBits);
@@ -49,21 +51,21 @@ void ForTicks(const Chart::Range& range, double step, const Use& use) {
 
 }  // namespace
 
-void DrawText(cv::Mat& canvas, const std::string& text, cv::Point2d at, double height_px, int align,
-              const Rgb8& colour) {
+void DrawText(cv::Mat& canvas, const std::string& text, const Eigen::Vector2d& at, double height_px,
+              int align, const Rgb8& colour) {
     constexpr int kFont = cv::FONT_HERSHEY_SIMPLEX;
     const double scale = height_px * kChartOversampling / 21.0;  // capitals are 21 high at 1
     const int thickness = std::max(1, static_cast<int>(std::lround(scale * 1.6)));
     const int width = cv::getTextSize(text, kFont, scale, thickness, nullptr).width;
-    const cv::Point begin(static_cast<int>(at.x * kChartOversampling) - width * (align + 1) / 2,
-                          static_cast<int>(at.y * kChartOversampling));
+    const cv::Point begin(static_cast<int>(at.x() * kChartOversampling) - width * (align + 1) / 2,
+                          static_cast<int>(at.y() * kChartOversampling));
     cv::putText(canvas, text, begin, kFont, scale, ToScalar(colour), thickness, cv::LINE_AA);
 }
 
-Chart::Chart(cv::Mat& canvas, const cv::Rect2d& area, Range x, Range y, bool equal_scale)
+Chart::Chart(cv::Mat& canvas, const ChartArea& area, Range x, Range y, bool equal_scale)
     : canvas_(canvas),
       area_(area),
-      plot_(area.x + 62, area.y + 30, area.width - 80, area.height - 78),
+      plot_{area.x + 62, area.y + 30, area.width - 80, area.height - 78},
       x_(x),
       y_(y) {
     const auto widen = [](Range& range, double size) {
@@ -76,7 +78,7 @@ Chart::Chart(cv::Mat& canvas, const cv::Rect2d& area, Range x, Range y, bool equ
     widen(y_, units_per_px * plot_.height);
 }
 
-cv::Point2d Chart::ToPixel(const Eigen::Vector2d& p) const {
+Eigen::Vector2d Chart::ToPixel(const Eigen::Vector2d& p) const {
     return {plot_.x + (p.x() - x_.low) / x_.size() * plot_.width,
             plot_.y + (y_.high - p.y()) / y_.size() * plot_.height};
 }
@@ -87,16 +89,16 @@ void Chart::DrawFrame(const std::string& title, const std::string& x_label,
     const double y_step = TickStep(y_.size(), plot_.height / 50);
     const double bottom = plot_.y + plot_.height, right = plot_.x + plot_.width;
     ForTicks(x_, x_step, [&](double value) {
-        const double x = ToPixel({value, y_.low}).x;
+        const double x = ToPixel({value, y_.low}).x();
         DrawLine(canvas_, {x, plot_.y}, {x, bottom}, kGrid, 1);
         DrawText(canvas_, TickLabel(value, x_step), {x, bottom + 18}, 9, 0, kInk);
     });
     ForTicks(y_, y_step, [&](double value) {
-        const double y = ToPixel({x_.low, value}).y;
+        const double y = ToPixel({x_.low, value}).y();
         DrawLine(canvas_, {plot_.x, y}, {right, y}, kGrid, 1);
         DrawText(canvas_, TickLabel(value, y_step), {plot_.x - 8, y + 4}, 9, 1, kInk);
     });
-    const cv::Point2d corners[] = {
+    const Eigen::Vector2d corners[] = {
         {plot_.x, plot_.y}, {right, plot_.y}, {right, bottom}, {plot_.x, bottom}};
     for (int i = 0; i < 4; ++i) DrawLine(canvas_, corners[i], corners[(i + 1) % 4], kInk, 1);
     DrawText(canvas_, title, {plot_.x + plot_.width / 2, plot_.y - 10}, 10, 0, kInk);

@@ -3,11 +3,14 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <opencv2/core.hpp>
 #include <string>
 #include <vector>
 
 #include "core/image.h"
+
+namespace cv {
+class Mat;
+}
 
 namespace tessera {
 
@@ -15,8 +18,13 @@ namespace tessera {
 inline constexpr int kChartOversampling = 2;
 
 // Text with its left (centre, right: align -1, 0, 1) end of the base line at `at`, final pixels.
-void DrawText(cv::Mat& canvas, const std::string& text, cv::Point2d at, double height_px, int align,
-              const Rgb8& colour);
+void DrawText(cv::Mat& canvas, const std::string& text, const Eigen::Vector2d& at, double height_px,
+              int align, const Rgb8& colour);
+
+// A rectangle of the picture, final pixels.
+struct ChartArea {
+    double x, y, width, height;
+};
 
 class Chart {
   public:
@@ -27,7 +35,7 @@ class Chart {
 
     // `area` is everything, labels included, in final pixels. With equal_scale one of the ranges
     // is widened so that a metre is as long along x as along y.
-    Chart(cv::Mat& canvas, const cv::Rect2d& area, Range x, Range y, bool equal_scale);
+    Chart(cv::Mat& canvas, const ChartArea& area, Range x, Range y, bool equal_scale);
 
     void DrawFrame(const std::string& title, const std::string& x_label,
                    const std::string& y_label);
@@ -36,10 +44,10 @@ class Chart {
                      double width_px);
 
   private:
-    cv::Point2d ToPixel(const Eigen::Vector2d& p) const;
+    Eigen::Vector2d ToPixel(const Eigen::Vector2d& p) const;
 
     cv::Mat& canvas_;
-    cv::Rect2d area_, plot_;
+    ChartArea area_, plot_;
     Range x_, y_;
 };
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "core/check.h"
@@ -37,7 +38,7 @@ Chart::Range RangeOf(const AteResult& result, int axis) {
 }
 
 void DrawView(const AteResult& result, const std::string& title, int x_axis, int y_axis,
-              const cv::Rect2d& area, cv::Mat& canvas) {
+              const ChartArea& area, cv::Mat& canvas) {
     constexpr const char* kLabels[] = {"x [m]", "y [m]", "z [m]"};
     Chart chart(canvas, area, RangeOf(result, x_axis), RangeOf(result, y_axis), true);
     chart.DrawFrame(title, kLabels[x_axis], kLabels[y_axis]);
@@ -51,7 +52,7 @@ void DrawView(const AteResult& result, const std::string& title, int x_axis, int
     chart.DrawCurve(estimate, kEstimate, 1.5);
 }
 
-void DrawErrors(const AteResult& result, const cv::Rect2d& area, cv::Mat& canvas) {
+void DrawErrors(const AteResult& result, const ChartArea& area, cv::Mat& canvas) {
     const double begin_s = result.pairs.front().stamp_s;
     const double end_s = std::max(result.pairs.back().stamp_s - begin_s, 1e-3);
     const double top_mm = std::max(1000 * result.error_m.max * 1.08, 1e-3);

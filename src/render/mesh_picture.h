@@ -22,7 +22,7 @@ struct RenderStyle {
     Shading shading = Shading::kColour;
     // Triangles seen from behind are left out, so that a room seen from outside shows its inside.
     bool cull_back_faces = true;
-    Rgb8 background_top{255, 255, 255}, background_bottom{226, 230, 236};
+    Rgb8 background_top{240, 243, 247}, background_bottom{200, 207, 218};
     // T_world_camera of a run: drawn over the picture as a line with the cameras' outlines along
     // it.
     std::vector<Eigen::Isometry3d> path;

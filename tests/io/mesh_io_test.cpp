@@ -111,10 +111,12 @@ TEST(MeshIo, BinaryOfEitherByteOrder) {
                            "property ushort r\nproperty ushort g\nproperty ushort b\n"
                            "element face 1\nproperty list int short vertex_indices\nend_header\n";
         for (int i = 0; i < 3; ++i) {
-            file += Bytes(0.5f + static_cast<float>(i), big) + Bytes(-2.25 * i, big);
+            file += Bytes(0.5f + static_cast<float>(i), big);
+            file += Bytes(-2.25 * i, big);
             file += Bytes(static_cast<std::int16_t>(-300 * i), big);
-            file += Bytes<std::uint8_t>(2, big) + Bytes<std::uint16_t>(1, big) +
-                    Bytes<std::uint16_t>(2, big);
+            file += Bytes<std::uint8_t>(2, big);
+            file += Bytes<std::uint16_t>(1, big);
+            file += Bytes<std::uint16_t>(2, big);
             for (const int c : {0, 32896, 65535}) file += Bytes(static_cast<std::uint16_t>(c), big);
         }
         file += Bytes<std::int32_t>(3, big);

@@ -58,6 +58,13 @@ TEST(MeshPicture, TheCameraMovesTheOtherWay) {
     const ColourImage image = RenderMesh(RedSquare(), SmallCamera(), T_world_camera, OnWhite());
     EXPECT_EQ(image(12, 20), kRed);
     EXPECT_EQ(image(22, 20), kWhite);
+    // By 0.4 pixels: the samples, a quarter pixel from the centre, change sides all at once.
+    T_world_camera.translation().x() = 0.04;
+    const ColourImage near = RenderMesh(RedSquare(), SmallCamera(), T_world_camera, OnWhite());
+    EXPECT_EQ(near(14, 20), kWhite);
+    EXPECT_EQ(near(15, 20), kRed);
+    EXPECT_EQ(near(24, 20), kRed);
+    EXPECT_EQ(near(25, 20), kWhite);
 }
 
 TEST(MeshPicture, BackFacesAreLookedThrough) {
