@@ -167,13 +167,14 @@ std::optional<PngHeader> ReadPngHeader(std::span<const std::uint8_t> file) {
 Status PngDecoder::Inflate(std::span<const std::uint8_t> file, const PngHeader& header) {
     if (Status status = GatherData(file, compressed_); !status.ok()) return status;
     const std::size_t size = (RowBytes(header) + 1) * static_cast<std::size_t>(header.height);
-    const Status damaged = Status::Error("is truncated or damaged");
-    if (size / kMaxDeflateRatio > compressed_.size())
-        return damaged;  // before anything is allocated for it
+    if (size / kMaxDeflateRatio > compressed_.size())  // before anything is allocated for it
+        return Status::Error(
+            fmt::format("is truncated or damaged: too little data for {} x {} pixels", header.width,
+                        header.height));
     rows_.resize(size);
     if (libdeflate_zlib_decompress(inflater_->state, compressed_.data(), compressed_.size(),
                                    rows_.data(), rows_.size(), nullptr) != LIBDEFLATE_SUCCESS)
-        return damaged;
+        return Status::Error("is truncated or damaged");
     return Status::Ok();
 }
 

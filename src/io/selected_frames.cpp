@@ -44,7 +44,7 @@ ReadResult SelectedFrames::Next(Frame& frame) {
 
 ReadResult SelectedFrames::Advance(Frame& frame) {
     constexpr std::int64_t kLast = std::numeric_limits<std::int64_t>::max();
-    if (given_ > (kLast - selection_.start) / selection_.stride) return {ReadStatus::kEnd, {}};
+    if (given_ >= (kLast - selection_.start) / selection_.stride) return {ReadStatus::kEnd, {}};
     const std::int64_t wanted = selection_.start + given_ * selection_.stride;
     const std::int64_t count = source_->info().frame_count;
     if (count >= 0 && wanted >= count) return {ReadStatus::kEnd, {}};

@@ -122,19 +122,20 @@ TEST(FolderSource, SkipsBrokenFramesAndSaysWhy) {
     folder.WriteText("depth/1.png", whole.substr(0, whole.size() - 20));
     ASSERT_TRUE(WriteGreyImage(folder.Path("depth/2.png"), Image<std::uint8_t>(32, 24)).ok());
     folder.WriteColour("depth/3.png", 32, 24, {});
-    folder.WriteColour("rgb/4.png", 16, 12, {});
+    folder.WriteColour("rgb/4.png", 16, 24, {});
     folder.WriteDepth("depth/5.png", 16, 12, 1);
     folder.WriteColour("rgb/5.png", 16, 12, {});
     std::filesystem::remove(folder.Path("rgb/6.png"));
     const std::vector<std::string> expected = {
         "",
-        folder.Path("depth/1.png") + ": is truncated or damaged",
+        folder.Path("depth/1.png") +
+            ": is truncated or damaged: too little data for 32 x 24 pixels",
         folder.Path("depth/2.png") +
             ": has 8 bits and 1 channel; depth needs 16 bits and 1 channel",
         folder.Path("depth/3.png") +
             ": has 8 bits and 3 channels; depth needs 16 bits and 1 channel",
         folder.Path("depth/4.png") + ": 32 x 24 pixels, but its colour image " +
-            folder.Path("rgb/4.png") + " has 16 x 12",
+            folder.Path("rgb/4.png") + " has 16 x 24",
         folder.Path("depth/5.png") +
             ": 16 x 12 pixels, but the camera has 32 x 24; correct camera.yaml",
         folder.Path("rgb/6.png") + ": cannot be read: no such file",

@@ -65,6 +65,16 @@ TEST(FrameReader, EndsAtAnyMoment) {
     }
 }
 
+// Many times, because whether the full ring's reader already waits is a matter of chance.
+TEST(FrameReader, EndsWhileItsRingIsFull) {
+    for (int round = 0; round < 100; ++round) {
+        std::atomic<std::int64_t> reads{0};
+        FrameReader reader(Make({.count = 100, .reads = &reads}), {}, 2);
+        while (reads < 2) std::this_thread::yield();
+        for (int i = 0; i < round; ++i) std::this_thread::yield();
+    }
+}
+
 // The source waits until it is told to go on: Next waits meanwhile, and a stop from elsewhere ends
 // that wait.
 TEST(FrameReader, AStopEndsAWaitingNext) {
@@ -77,7 +87,10 @@ TEST(FrameReader, AStopEndsAWaitingNext) {
                                  }}),
                        {});
     reading.wait(false);
-    std::jthread stopper([&] { reader.RequestStop(); });
+    std::jthread stopper([&] {
+        for (int i = 0; i < 1000; ++i) std::this_thread::yield();  // for Next to be waiting
+        reader.RequestStop();
+    });
     Frame frame;
     EXPECT_EQ(reader.Next(frame).status, ReadStatus::kEnd);
     go_on = true;

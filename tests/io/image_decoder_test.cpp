@@ -81,8 +81,9 @@ TEST(ImageDecoder, NamesTheFileThatIsNoImage) {
               folder.Path("empty.png") + ": is empty");
     EXPECT_EQ(decoder.ReadColour(folder.Path("text.png"), colour).message(),
               folder.Path("text.png") + ": is no image, or truncated or damaged");
-    EXPECT_EQ(decoder.ReadDepth(folder.Path("cut.png"), depth).message(),
-              folder.Path("cut.png") + ": is truncated or damaged");
+    EXPECT_EQ(
+        decoder.ReadDepth(folder.Path("cut.png"), depth).message(),
+        folder.Path("cut.png") + ": is truncated or damaged: too little data for 64 x 48 pixels");
     EXPECT_EQ(decoder.ReadDepth(folder.Path("absent.png"), depth).message(),
               folder.Path("absent.png") + ": cannot be read: no such file");
 }
