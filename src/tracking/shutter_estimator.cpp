@@ -9,7 +9,7 @@ namespace {
 
 constexpr int kRowStep = 3, kColumnStep = 2;  // of the points: enough, and cheap
 constexpr double kSharedError = 100.0;  // neighbouring residuals err together: so many count as one
-constexpr double kMemory = 0.95;  // per frame: each step goes only part of the way, the pose takes the rest
+constexpr double kMemory = 0.85;  // per frame: each step goes only part of the way, the pose takes the rest
 
 // Central differences of the image at the nearest pixel; false at the border.
 bool Gradient(const Image<float>& image, double u, double v, Eigen::Vector2d& gradient) {
