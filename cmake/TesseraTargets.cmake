@@ -12,10 +12,10 @@ if(CCACHE)
     set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE})
 endif()
 
-# Warnings and sanitizers, private to our own targets.
+# Warnings and sanitizers, private to our own targets. -Wrestrict is wrong about std::string in g++ 12.
 add_library(tessera_options INTERFACE)
 target_compile_options(tessera_options INTERFACE -Wall -Wextra -Wshadow -Wconversion
-    -Wno-sign-conversion $<$<BOOL:${TESSERA_WERROR}>:-Werror>)
+    -Wno-sign-conversion -Wno-restrict $<$<BOOL:${TESSERA_WERROR}>:-Werror>)
 if(TESSERA_SANITIZE)
     target_compile_options(tessera_options INTERFACE -fsanitize=${TESSERA_SANITIZE}
         -fno-omit-frame-pointer -fno-sanitize-recover=all)

@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/check.h"
-#include "render/mesh_scene.h"
+#include "render/triangle_scene.h"
 
 namespace tessera {
 namespace {
@@ -18,7 +18,7 @@ constexpr std::size_t kGrain = 1024;
 
 // The nearest distance for each of the points; infinite where it exceeds max_distance_m.
 template <class Point>
-std::vector<double> Distances(const std::vector<Point>& points, const MeshScene& scene,
+std::vector<double> Distances(const std::vector<Point>& points, const TriangleScene& scene,
                               double max_distance_m) {
     std::vector<double> distances(points.size());
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, points.size(), kGrain),
@@ -44,13 +44,13 @@ double Completeness(const TriangleMesh& mesh, const TriangleMesh& reference,
                     const MeshErrorOptions& options) {
     const auto samples = SampleSurface(reference, options.completeness_samples);
     if (samples.empty()) return 0;
-    MeshScene scene(mesh);
+    TriangleScene scene(mesh);
     if (mesh.triangles.empty()) {
         TriangleMesh points;  // each vertex a triangle without extent
         points.vertices = mesh.vertices;
         for (std::uint32_t i = 0; i < mesh.vertices.size(); ++i)
             points.triangles.push_back({i, i, i});
-        scene = MeshScene(points);
+        scene = TriangleScene(points);
     }
     const auto distances = Distances(samples, scene, options.completeness_distance_m);
     const auto covered = std::count_if(distances.begin(), distances.end(),
@@ -67,7 +67,7 @@ Result<MeshErrorResult> MeasureMeshError(const TriangleMesh& mesh, const Triangl
         return Status::Error("the reference has no triangles to measure against");
     const TriangleMesh moved = TransformMesh(mesh, options.T_reference_mesh);
     std::vector<double> distances =
-        Distances(moved.vertices, MeshScene(reference), std::numeric_limits<double>::infinity());
+        Distances(moved.vertices, TriangleScene(reference), std::numeric_limits<double>::infinity());
     MeshErrorResult result;
     for (const double distance : distances)
         result.distances_m.push_back(static_cast<float>(distance));

@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "core/check.h"
-#include "render/mesh_scene.h"
+#include "render/triangle_scene.h"
 #include "render/path_overlay.h"
 
 namespace tessera {
@@ -82,7 +82,7 @@ constexpr double kSamples[4][2] = {{-0.25, -0.25}, {0.25, -0.25}, {-0.25, 0.25},
 ColourImage RenderMesh(const TriangleMesh& mesh, const PinholeCamera& camera,
                        const Eigen::Isometry3d& T_world_camera, const RenderStyle& style) {
     TESSERA_CHECK(camera.width > 0 && camera.height > 0, "{} x {}", camera.width, camera.height);
-    const MeshScene scene(mesh);
+    const TriangleScene scene(mesh);
     const Shader shade(mesh, style.shading);
     const Vector3f origin = T_world_camera.translation().cast<float>();
     ColourImage image(camera.width, camera.height);

@@ -1,4 +1,4 @@
-#include "render/mesh_scene.h"
+#include "render/triangle_scene.h"
 
 #include <gtest/gtest.h>
 
@@ -26,11 +26,11 @@ double NearestByHand(const TriangleMesh& mesh, const Vector3d& p) {
     return nearest;
 }
 
-TEST(MeshScene, NearestAgreesWithTryingEveryTriangle) {
+TEST(TriangleScene, NearestAgreesWithTryingEveryTriangle) {
     TestRandom random(1);
     for (std::uint64_t seed = 0; seed < 20; ++seed) {
         const TriangleMesh mesh = RandomMesh(seed, 40, 60);
-        const MeshScene scene(mesh);
+        const TriangleScene scene(mesh);
         for (int i = 0; i < 100; ++i) {
             const Vector3d p = random.Point(i % 10 == 0 ? 100 : 1.5);
             EXPECT_EQ(scene.Nearest(p).distance_m, NearestByHand(mesh, p)) << p.transpose();
@@ -38,15 +38,15 @@ TEST(MeshScene, NearestAgreesWithTryingEveryTriangle) {
     }
 }
 
-TEST(MeshScene, NearestStopsAtTheLimit) {
-    const MeshScene scene(Square(2, 1, 0));
+TEST(TriangleScene, NearestStopsAtTheLimit) {
+    const TriangleScene scene(Square(2, 1, 0));
     EXPECT_DOUBLE_EQ(scene.Nearest({0.3, 0.2, 0.25}, 0.25).distance_m, 0.25);
     EXPECT_FALSE(scene.Nearest({0.3, 0.2, 0.2501}, 0.25).found());
     EXPECT_NEAR(scene.Nearest({0.3, 0.2, 0}, 0.25).distance_m, 0, 1e-15);
 }
 
-TEST(MeshScene, NothingIsNearAnEmptyMesh) {
-    const MeshScene scene{TriangleMesh{}};
+TEST(TriangleScene, NothingIsNearAnEmptyMesh) {
+    const TriangleScene scene{TriangleMesh{}};
     EXPECT_FALSE(scene.Nearest(Vector3d::Zero()).found());
     EXPECT_FALSE(scene
                      .CastFour(Vector3f::Zero(),
@@ -54,11 +54,11 @@ TEST(MeshScene, NothingIsNearAnEmptyMesh) {
                      .hit());
 }
 
-TEST(MeshScene, RaysGiveTriangleDistanceAndBarycentrics) {
+TEST(TriangleScene, RaysGiveTriangleDistanceAndBarycentrics) {
     TriangleMesh mesh;
     mesh.vertices = {{0, 0, 2}, {0, 1, 2}, {1, 0, 2}};
     mesh.triangles = {{0, 1, 2}};  // counter-clockwise seen from the origin
-    const MeshScene scene(mesh);
+    const TriangleScene scene(mesh);
     const auto hits = scene.CastFour(
         Vector3f::Zero(),
         {Vector3f(0.25f, 0.5f, 2), {0.05f, 0.05f, 1}, {0.6f, 0.6f, 2}, {0, 0, -1}}, true);
@@ -72,11 +72,11 @@ TEST(MeshScene, RaysGiveTriangleDistanceAndBarycentrics) {
 }
 
 // Two squares, the nearer one facing away: culled, the ray goes on to the second.
-TEST(MeshScene, RaysPassThroughBackFaces) {
+TEST(TriangleScene, RaysPassThroughBackFaces) {
     TriangleMesh mesh;
     mesh.vertices = {{-1, -1, 1}, {1, -1, 1}, {0, 1, 1}, {-1, -1, 2}, {1, -1, 2}, {0, 1, 2}};
     mesh.triangles = {{0, 1, 2}, {3, 5, 4}};  // normals +z (away from the ray) and -z
-    const MeshScene scene(mesh);
+    const TriangleScene scene(mesh);
     const std::array<Vector3f, 4> ahead = {Vector3f(0, 0, 1), {0, 0, 1}, {0, 0, 1}, {0, 0, 1}};
     for (const RayHit& hit : scene.CastFour(Vector3f::Zero(), ahead, true)) {
         EXPECT_EQ(hit.triangle, 1u);

@@ -1,4 +1,4 @@
-#include "render/mesh_scene.h"
+#include "render/triangle_scene.h"
 
 #include <embree3/rtcore.h>
 
@@ -59,7 +59,7 @@ bool MeetTriangle(RTCPointQueryFunctionArguments* args) {
 
 }  // namespace
 
-struct MeshScene::Scene {
+struct TriangleScene::Scene {
     RTCDevice device = nullptr;
     RTCScene scene = nullptr;
     const Eigen::Vector3f* vertices = nullptr;  // in Embree's buffers
@@ -72,7 +72,7 @@ struct MeshScene::Scene {
     }
 };
 
-MeshScene::MeshScene(const TriangleMesh& mesh) : scene_(std::make_unique<Scene>()) {
+TriangleScene::TriangleScene(const TriangleMesh& mesh) : scene_(std::make_unique<Scene>()) {
     scene_->device = rtcNewDevice(nullptr);
     TESSERA_CHECK(scene_->device, "Embree: error {}", static_cast<int>(rtcGetDeviceError(nullptr)));
     scene_->scene = rtcNewScene(scene_->device);
@@ -85,7 +85,7 @@ MeshScene::MeshScene(const TriangleMesh& mesh) : scene_(std::make_unique<Scene>(
     TESSERA_CHECK(error == RTC_ERROR_NONE, "Embree: error {}", static_cast<int>(error));
 }
 
-void MeshScene::Scene::Attach(const TriangleMesh& mesh) {
+void TriangleScene::Scene::Attach(const TriangleMesh& mesh) {
     const std::size_t vertex_count = mesh.vertices.size(), count = mesh.triangles.size();
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
     auto* own_vertices = static_cast<Eigen::Vector3f*>(
@@ -103,11 +103,11 @@ void MeshScene::Scene::Attach(const TriangleMesh& mesh) {
     rtcReleaseGeometry(geometry);
 }
 
-MeshScene::~MeshScene() = default;
-MeshScene::MeshScene(MeshScene&&) noexcept = default;
-MeshScene& MeshScene::operator=(MeshScene&&) noexcept = default;
+TriangleScene::~TriangleScene() = default;
+TriangleScene::TriangleScene(TriangleScene&&) noexcept = default;
+TriangleScene& TriangleScene::operator=(TriangleScene&&) noexcept = default;
 
-std::array<RayHit, 4> MeshScene::CastFour(const Eigen::Vector3f& origin,
+std::array<RayHit, 4> TriangleScene::CastFour(const Eigen::Vector3f& origin,
                                           const std::array<Eigen::Vector3f, 4>& directions,
                                           bool cull_back_faces) const {
     RTCRayHit4 packet;
@@ -139,7 +139,7 @@ std::array<RayHit, 4> MeshScene::CastFour(const Eigen::Vector3f& origin,
     return hits;
 }
 
-SurfacePoint MeshScene::Nearest(const Eigen::Vector3d& point, double max_distance_m) const {
+SurfacePoint TriangleScene::Nearest(const Eigen::Vector3d& point, double max_distance_m) const {
     NearestQuery search{
         scene_->vertices, scene_->triangles, point, max_distance_m * max_distance_m, {}};
     RTCPointQuery query;

@@ -27,13 +27,13 @@ struct SurfacePoint {
 };
 
 // After construction all questions are thread-safe.
-class MeshScene {
+class TriangleScene {
   public:
     // Indices of triangles must lie within the vertices.
-    explicit MeshScene(const TriangleMesh& mesh);
-    ~MeshScene();
-    MeshScene(MeshScene&&) noexcept;
-    MeshScene& operator=(MeshScene&&) noexcept;
+    explicit TriangleScene(const TriangleMesh& mesh);
+    ~TriangleScene();
+    TriangleScene(TriangleScene&&) noexcept;
+    TriangleScene& operator=(TriangleScene&&) noexcept;
 
     // The first hits of four rays from one origin, best if nearly parallel. With cull_back_faces,
     // triangles seen from behind (clockwise) are passed through.

@@ -1,0 +1,45 @@
+// The commands of the program `tessera`, one file each. Every command only reads its arguments, calls the libraries
+// and prints.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/status.h"
+
+namespace CLI {
+class App;
+}
+
+namespace tessera {
+
+inline constexpr int kExitDone = 0;
+inline constexpr int kExitBadInput = 2;    // input or arguments; one line on stderr says which
+inline constexpr int kExitMostlyLost = 3;  // fewer than half of the frames tracked
+
+// What the commands share with main.
+struct CommandContext {
+    std::vector<std::string> arguments;  // the whole command line
+    int exit_code = kExitDone;           // left by the command that ran
+};
+
+// Each adds its subcommand to `app`; when that is parsed it runs at once and leaves its exit code. The context must
+// outlive the parsing.
+void AddConfigCommand(CLI::App& app, CommandContext& context);
+void AddDoctorCommand(CLI::App& app, CommandContext& context);
+void AddEvalCommand(CLI::App& app, CommandContext& context);
+void AddInfoCommand(CLI::App& app, CommandContext& context);
+void AddRenderCommand(CLI::App& app, CommandContext& context);
+void AddRunCommand(CLI::App& app, CommandContext& context);
+void AddSweepCommand(CLI::App& app, CommandContext& context);
+void AddSynthCommand(CLI::App& app, CommandContext& context);
+
+// A command or value of the contract that is still to come: an error line, and never silently accepted.
+Status NotInThisVersion(const std::string& what);
+
+// Prints the error as one line on stderr; returns kExitBadInput.
+int Fail(const Status& error);
+// kExitDone, or Fail.
+int ExitCode(const Status& status);
+
+}  // namespace tessera

@@ -1,0 +1,40 @@
+// tessera doctor: what this build can do on this machine; what is off says so.
+#include <tbb/info.h>
+#include <tbb/version.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <opencv2/core/version.hpp>
+
+#include "command.h"
+#include "core/cpu.h"
+#include "system/run_config.h"
+
+namespace tessera {
+namespace {
+
+int Doctor() {
+    const double memory_gb = static_cast<double>(sysconf(_SC_PHYS_PAGES)) *
+                             static_cast<double>(sysconf(_SC_PAGE_SIZE)) / (1024.0 * 1024.0 * 1024.0);
+    fmt::print("tessera {}, built with g++ {}, OpenCV {}, oneTBB {}\n", TESSERA_VERSION, __VERSION__,
+               CV_VERSION, TBB_VERSION_STRING);
+    fmt::print("processor    {} threads, vector code: {}\n", tbb::info::default_concurrency(),
+               CpuHasAvx2() ? "AVX2" : "baseline (this machine has no AVX2: about half the speed)");
+    fmt::print("memory       {:.1f} GB\n", memory_gb);
+    std::string presets;
+    for (const Preset& preset : Presets()) presets += " " + preset.name;
+    fmt::print("presets     {}\n", presets);
+    fmt::print("sources      folders (TUM RGB-D, ICL-NUIM, 7-Scenes, camera.yaml), synthetic scenes\n");
+    for (const char* off : {"CUDA        ", "cameras     ", ".oni, .klg  ", "window      ", "labels      ", "loop closure"})
+        fmt::print("{} not in this version\n", off);
+    return kExitDone;
+}
+
+}  // namespace
+
+void AddDoctorCommand(CLI::App& app, CommandContext& context) {
+    CLI::App* command = app.add_subcommand("doctor", "Say what this build can do on this machine");
+    command->callback([&context] { context.exit_code = Doctor(); });
+}
+
+}  // namespace tessera

@@ -1,0 +1,127 @@
+// tessera run: a source becomes a trajectory, a mesh and their figures.
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "command.h"
+#include "config_options.h"
+#include "console.h"
+#include "run_text.h"
+#include "stop_signal.h"
+#include "system/run.h"
+
+namespace tessera {
+namespace {
+
+struct Arguments {
+    RunRequest request;
+    ConfigOptions config;
+    std::string tracker, alpha;
+    int threads = -1;
+    // Of features to come: only the values that mean "without" are taken.
+    std::string device = "auto", mode = "lockstep", labels = "none", loop_closure = "off", scan, resume;
+    std::vector<std::string> switches;
+    bool view = false;
+};
+
+Status RefuseWhatIsToCome(const Arguments& a) {
+    if (a.tracker == "icp" || a.tracker == "icp-rgb") return NotInThisVersion("--tracker " + a.tracker);
+    if (a.device == "cuda") return NotInThisVersion("--device cuda");
+    if (a.mode == "live") return NotInThisVersion("--mode live");
+    if (a.labels != "none") return NotInThisVersion("--labels " + a.labels);
+    if (a.loop_closure == "on") return NotInThisVersion("--loop-closure on");
+    if (!a.switches.empty()) return NotInThisVersion("--switch");
+    if (!a.scan.empty()) return NotInThisVersion("--scan");
+    if (!a.resume.empty()) return NotInThisVersion("--resume");
+    if (a.view) return NotInThisVersion("--view");
+    return Status::Ok();
+}
+
+// The configuration, then the options that name a key of their own.
+Status Configure(const Arguments& a, RunConfig& config) {
+    ConfigParameters parameters;
+    config.Describe(parameters);
+    if (Status status = a.config.Apply(parameters); !status.ok()) return status;
+    if (!a.tracker.empty())
+        if (Status status = parameters.Set("tracking.method", a.tracker); !status.ok()) return status;
+    if (!a.alpha.empty()) {
+        const bool automatic = a.alpha == "auto";
+        if (Status status = parameters.Set("tracking.sdf.alpha_mode", automatic ? "auto" : "fixed"); !status.ok())
+            return status;
+        if (!automatic)
+            if (Status status = parameters.Set("tracking.sdf.alpha", a.alpha); !status.ok())
+                return Status::Error("--alpha: " + status.message());
+    }
+    if (a.threads >= 0) return parameters.Set("run.threads", std::to_string(a.threads));
+    return Status::Ok();
+}
+
+int Run(const Arguments& a) {
+    if (Status status = RefuseWhatIsToCome(a); !status.ok()) return Fail(status);
+    RunConfig config;
+    if (Status status = Configure(a, config); !status.ok()) return Fail(status);
+    Result<RunSummary> result = [&] {
+        Console console;
+        return ExecuteRun(a.request, config, console.Observer(), StopOnSignal());
+    }();
+    if (!result.ok()) return Fail(result.status());
+    const RunSummary& summary = result.value();
+    fmt::print("{}", RunText(a.request, summary));
+    if (2 * summary.counts.tracked >= summary.counts.frames) return kExitDone;
+    fmt::print(stderr, "tessera: only {} of {} frames tracked; the last reason: {}\n", summary.counts.tracked,
+               summary.counts.frames, summary.last_reason);
+    return kExitMostlyLost;
+}
+
+void AddOptionsToCome(CLI::App& command, Arguments& a) {
+    const std::string group = "For later versions (only the defaults are taken)";
+    const auto add = [&](const char* name, std::string& value, const char* text) {
+        return command.add_option(name, value, text)->group(group);
+    };
+    add("--device", a.device, "Where the kernels run; auto takes the processor")
+        ->check(CLI::IsMember({"auto", "cpu", "cuda"}))->capture_default_str();
+    add("--mode", a.mode, "lockstep: every frame; live: the newest frame wins")
+        ->check(CLI::IsMember({"lockstep", "live"}))->capture_default_str();
+    add("--labels", a.labels, "Object detector")->type_name("MODEL|DETECTIONS|none")->capture_default_str();
+    add("--loop-closure", a.loop_closure, "Pose graph")->check(CLI::IsMember({"on", "off"}))->capture_default_str();
+    add("--scan", a.scan, "Scan file to write")->type_name("FILE");
+    add("--resume", a.resume, "Scan file to go on with")->type_name("FILE");
+    command.add_option("--switch", a.switches, "Change the tracking method at a frame; repeatable")
+        ->type_name("FRAME:METHOD")->allow_extra_args(false)->group(group);
+    command.add_flag("--view", a.view, "Open a window")->group(group);
+}
+
+}  // namespace
+
+void AddRunCommand(CLI::App& app, CommandContext& context) {
+    auto a = std::make_shared<Arguments>();
+    a->request.output_folder = "out";
+    CLI::App* command = app.add_subcommand("run", "Track and fuse a source: trajectory, mesh, picture, timings");
+    command->add_option("SOURCE", a->request.source,
+                        "Folder (TUM RGB-D, ICL-NUIM, 7-Scenes, or images with a camera.yaml) or synthetic:NAME "
+                        "(desk, room, corridor, floor, corner, wall)")->required();
+    command->add_option("--out", a->request.output_folder, "Folder for the results")
+        ->type_name("DIR")->capture_default_str();
+    a->config.AddTo(*command);
+    command->add_option("--tracker", a->tracker, "Tracking method, as tracking.method (default sdf)")
+        ->check(CLI::IsMember({"sdf", "sdf-geometric", "icp", "icp-rgb"}));
+    command->add_option("--alpha", a->alpha, "Weight of the photometric residual in m^2, or auto, as tracking.sdf.alpha")
+        ->type_name("A|auto");
+    command->add_option("--start", a->request.selection.start, "First frame, counted from 0")
+        ->check(CLI::NonNegativeNumber)->capture_default_str();
+    command->add_option("--frames", a->request.selection.count, "Number of frames to read (default: all)")
+        ->check(CLI::PositiveNumber);
+    command->add_option("--stride", a->request.selection.stride, "Take every so-manieth frame")
+        ->check(CLI::PositiveNumber)->capture_default_str();
+    command->add_option("--threads", a->threads, "Threads of the parallel loops, 0 = one per core, as run.threads")
+        ->check(CLI::Range(0, 256));
+    command->add_option("--poses", a->request.poses_file,
+                        "Fuse at the poses of this TUM trajectory (seconds, metres) and do not track")
+        ->type_name("FILE");
+    AddOptionsToCome(*command, *a);
+    command->callback([a, &context] {
+        a->request.command_line = context.arguments;
+        context.exit_code = Run(*a);
+    });
+}
+
+}  // namespace tessera

@@ -1,0 +1,86 @@
+// The program: parses the command line, runs one command, returns its exit code.
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <new>
+
+#include "command.h"
+
+namespace tessera {
+
+Status NotInThisVersion(const std::string& what) { return Status::Error(what + ": not in this version"); }
+
+int Fail(const Status& error) {
+    std::string line = error.message();
+    std::replace(line.begin(), line.end(), '\n', ' ');
+    fmt::print(stderr, "tessera: {}\n", line);
+    return kExitBadInput;
+}
+
+int ExitCode(const Status& status) { return status.ok() ? kExitDone : Fail(status); }
+
+namespace {
+
+void AddCommandsToCome(CLI::App& app, CommandContext& context) {
+    for (const char* name : {"view", "export"}) {
+        CLI::App* command = app.add_subcommand(name, "Not in this version")->group("Not in this version");
+        command->allow_extras();
+        command->callback([&context, name] { context.exit_code = Fail(NotInThisVersion(name)); });
+    }
+}
+
+int ReportParseError(const CLI::App& app, const CLI::ParseError& error) {
+    if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) return app.exit(error);
+    std::string command = "tessera";
+    for (const CLI::App* used = &app; !used->get_subcommands().empty();) {
+        used = used->get_subcommands().front();
+        command += " " + used->get_name();
+    }
+    return Fail(Status::Error(fmt::format("{} ({} -h lists what can be given)", error.what(), command)));
+}
+
+int Main(int argc, char** argv) {
+    spdlog::set_default_logger(spdlog::stderr_color_mt("tessera"));
+    spdlog::set_pattern("%^%l%$: %v");
+    std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is a failed write, not the end
+
+    CLI::App app("Tessera: dense RGB-D SLAM. Exit codes: 0 done; 2 bad input or arguments; 3 fewer than half of the "
+                 "frames tracked.", "tessera");
+    app.set_version_flag("--version", std::string("tessera ") + TESSERA_VERSION);
+    app.require_subcommand(1);
+    app.get_formatter()->column_width(34);
+    CommandContext context{.arguments = {argv, argv + argc}};
+    AddRunCommand(app, context);
+    AddEvalCommand(app, context);
+    AddSynthCommand(app, context);
+    AddSweepCommand(app, context);
+    AddRenderCommand(app, context);
+    AddInfoCommand(app, context);
+    AddDoctorCommand(app, context);
+    AddConfigCommand(app, context);
+    AddCommandsToCome(app, context);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        return ReportParseError(app, error);
+    }
+    return context.exit_code;
+}
+
+}  // namespace
+}  // namespace tessera
+
+int main(int argc, char** argv) {
+    try {
+        return tessera::Main(argc, argv);
+    } catch (const std::bad_alloc&) {
+        return tessera::Fail(tessera::Status::Error("out of memory"));
+    } catch (const std::exception& error) {
+        return tessera::Fail(tessera::Status::Error(error.what()));
+    }
+}

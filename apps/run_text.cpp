@@ -1,0 +1,38 @@
+#include "run_text.h"
+
+namespace tessera {
+
+std::string AteText(const AteResult& ate) {
+    const ErrorStatistics& e = ate.error_m;
+    std::string text = fmt::format(
+        "ATE RMSE {:.4f} m (mean {:.4f}, median {:.4f}, max {:.4f}), {} pairs, SE(3) alignment without scale over all "
+        "frames, {:.1f} % tracked\n",
+        e.rmse, e.mean, e.median, e.max, ate.pairs.size(), 100 * ate.tracked_fraction);
+    if (!ate.warning.empty()) text += "note: " + ate.warning + "\n";
+    return text;
+}
+
+std::string RunText(const RunRequest& request, const RunSummary& s) {
+    const RunCounts& n = s.counts;
+    std::string text = fmt::format("{}{}: {} frames, {} tracked, {} fused, {} lost, {} skipped\n", request.source,
+                                   s.stopped ? " (stopped)" : "", n.frames, n.tracked, n.fused, n.lost, n.skipped);
+    if (s.ate) text += AteText(*s.ate);
+    double median_ms = 0;
+    for (const auto& [stage, statistics] : s.stages)
+        if (stage == "frame") median_ms = statistics.median_ms;
+    constexpr double kMegabyte = 1024.0 * 1024.0;
+    text += fmt::format(
+        "{:.1f} frames/s, median {:.1f} ms a frame; map {} blocks, {:.0f} MB ({:.1f} bytes a voxel); peak memory {:.0f} "
+        "MB\n",
+        s.fps, median_ms, s.map.blocks, static_cast<double>(s.map.bytes) / kMegabyte, s.map.bytes_per_voxel,
+        s.peak_rss_mb);
+    for (const auto& [file, what] : {std::pair{"trajectory.txt", "camera path, TUM format"},
+                                     {"mesh.ply", "coloured mesh"},
+                                     {"preview.png", "picture of it"},
+                                     {"timings.json", "time per stage"},
+                                     {"run.json", "settings and figures of this run"}})
+        text += fmt::format("  {}/{}  {}\n", request.output_folder, file, what);
+    return text;
+}
+
+}  // namespace tessera

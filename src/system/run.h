@@ -1,0 +1,70 @@
+// One whole run, from a source to a folder of results. No thread of its own but the source's reader; everything that a
+// person is told goes through the observer.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/status.h"
+#include "eval/ate.h"
+#include "io/frame_source.h"
+#include "system/run_config.h"
+#include "system/timings.h"
+
+namespace tessera {
+
+struct RunRequest {
+    std::string source;
+    FrameSelection selection;
+    std::string poses_file;     // TUM trajectory: fuse at its poses and do not track; empty = track
+    std::string output_folder;  // empty = nothing is written and no mesh is made
+    std::vector<std::string> command_line;  // as given, for run.json
+};
+
+struct RunCounts {
+    std::int64_t frames = 0;   // read, the skipped ones included
+    std::int64_t tracked = 0;  // with a pose: the trajectory's lines
+    std::int64_t fused = 0;
+    std::int64_t poor = 0;     // tracked, but too badly to be fused
+    std::int64_t lost = 0;     // no pose
+    std::int64_t skipped = 0;  // could not be read
+    std::int64_t degenerate = 0;  // the scene left some motion unconstrained
+};
+
+struct MapStatistics {
+    std::int64_t blocks = 0;
+    std::size_t bytes = 0;
+    double bytes_per_voxel = 0;
+};
+
+struct RunSummary {
+    SourceInfo source;
+    RunCounts counts;
+    // From the first frame's request to the last frame's completion; the mesh and the files at the end are not in it.
+    double wall_s = 0, cpu_s = 0, fps = 0;
+    double peak_rss_mb = 0;
+    std::vector<std::pair<std::string, StageStatistics>> stages;
+    MapStatistics map;
+    std::optional<AteResult> ate;  // against the source's own truth
+    std::string exit;              // "finished", "stopped", or "failed: ..."
+    std::string last_reason;       // why the last lost frame was lost
+    bool stopped = false;          // on request
+};
+
+// Called on the thread that runs. Members may be empty.
+struct RunObserver {
+    std::function<void(const SourceInfo&)> on_open;
+    std::function<void(const std::string&)> on_warning;
+    std::function<void(const RunCounts&, std::int64_t total)> on_frame;  // total: -1 if not known
+};
+
+// Errors: bad input, an output that cannot be written, or a source that broke; what was written by then stays and is
+// complete up to the last frame. Setting `stop` ends the run after the present frame as if the source ended there.
+Result<RunSummary> ExecuteRun(const RunRequest& request, const RunConfig& config, const RunObserver& observer,
+                              const std::atomic<bool>& stop);
+
+}  // namespace tessera

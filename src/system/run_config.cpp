@@ -1,0 +1,52 @@
+#include "system/run_config.h"
+
+#include <filesystem>
+
+namespace tessera {
+
+void RunConfig::Describe(ConfigParameters& p) {
+    p.Section("source", [&](ConfigParameters& s) { source.Describe(s); });
+    p.Section("synthetic", [&](ConfigParameters& s) { synthetic.Describe(s); });
+    pipeline.Describe(p);
+    p.Section("meshing", [&](ConfigParameters& s) { meshing.Describe(s); });
+    p.Section("run", [&](ConfigParameters& s) {
+        s.Add("threads", threads, {0, 256}, "",
+              "threads of the parallel loops, 0 = one per core; results do not depend on it");
+        s.Add("read_ahead", read_ahead, {1, 64}, "frames",
+              "decoded ahead on a thread of their own; more helps only where reading stalls");
+    });
+}
+
+Status RunConfig::Validate() const {
+    if (Status status = source.Validate(); !status.ok()) return status;
+    if (Status status = synthetic.Validate(); !status.ok()) return status;
+    return pipeline.Validate();
+}
+
+Status LoadPresetOrFile(const std::string& name_or_path, ConfigParameters& parameters) {
+    std::string names;
+    for (const Preset& preset : Presets()) {
+        if (preset.name == name_or_path)
+            return parameters.LoadYaml(preset.yaml, "preset " + preset.name);
+        names += (names.empty() ? "" : ", ") + preset.name;
+    }
+    std::error_code ignored;
+    if (!std::filesystem::exists(name_or_path, ignored))
+        return Status::Error(fmt::format("{}: neither a file nor a preset ({})", name_or_path, names));
+    return parameters.LoadYamlFile(name_or_path);
+}
+
+std::string ConfigurationDocument() {
+    RunConfig config;
+    ConfigParameters parameters;
+    config.Describe(parameters);
+    return "# Configuration\n\n"
+           "Made by `tessera config --markdown`; do not edit. A configuration file is YAML that nests as the\n"
+           "sections below do; `--config FILE` reads it, `--set section.key=value` overrides one key. A missing key\n"
+           "keeps its default, an unknown one is an error that names the nearest known key. `tessera config` prints\n"
+           "the whole configuration as such a file, and every run saves the one that it used in its run.json.\n"
+           "Presets that come with the program: `--config default`, `--config bylow2014`.\n" +
+           parameters.ToMarkdown();
+}
+
+}  // namespace tessera

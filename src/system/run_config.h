@@ -1,0 +1,42 @@
+// Every setting of a run, described once: the configuration file, --set, run.json and docs/configuration.md.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/config.h"
+#include "io/folder_source.h"
+#include "mapping/mesher.h"
+#include "synth/synthetic_source.h"
+#include "system/pipeline.h"
+
+namespace tessera {
+
+struct RunConfig {
+    FolderSourceConfig source;
+    SynthConfig synthetic;
+    PipelineConfig pipeline;
+    MeshConfig meshing;
+    int threads = 0;     // 0: as many as the machine has
+    int read_ahead = 4;  // frames decoded ahead
+
+    // Sections source, synthetic, frame, mapping, tracking, meshing, run.
+    void Describe(ConfigParameters& parameters);
+    // Conditions between keys; the error names the key.
+    Status Validate() const;
+};
+
+// A configuration that comes with the program (config/*.yaml, built in).
+struct Preset {
+    std::string name;
+    std::string yaml;
+};
+const std::vector<Preset>& Presets();
+
+// A preset by its name, else the YAML file of that path. Nothing is changed on error.
+Status LoadPresetOrFile(const std::string& name_or_path, ConfigParameters& parameters);
+
+// The text of docs/configuration.md.
+std::string ConfigurationDocument();
+
+}  // namespace tessera

@@ -1,0 +1,99 @@
+#include "system/run_output.h"
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+
+#include "io/file.h"
+#include "io/image_io.h"
+#include "io/mesh_io.h"
+#include "io/trajectory.h"
+#include "render/mesh_picture.h"
+#include "system/run_report.h"
+
+namespace tessera {
+namespace {
+
+constexpr const char* kFramesHeader =
+    "index,stamp_s,status,fused,degenerate,valid_depth_fraction,known_fraction,inlier_fraction,distance_rms_m,"
+    "intensity_rms,smallest_eigenvalue,alpha,gain,offset,iterations,new_blocks,fused_blocks,decode_ms,prepare_ms,"
+    "track_ms,allocate_ms,fuse_ms,frame_ms,reason\n";
+
+std::string FrameLine(const FrameReport& r, double decode_ms, double frame_ms) {
+    const TrackResult& t = r.track;
+    std::string reason = t.reason;
+    for (char& c : reason)
+        if (c == '"' || c == '\n') c = '\'';
+    return fmt::format(
+        "{},{:.6f},{},{:d},{:d},{:.4f},{:.4f},{:.4f},{:.6f},{:.5f},{:.3g},{:.4g},{:.4f},{:.4f},{},{},{},{:.3f},{:.3f},"
+        "{:.3f},{:.3f},{:.3f},{:.3f},\"{}\"\n",
+        r.index, r.stamp_s, ToString(t.status), r.fused, t.degenerate, r.valid_depth_fraction, t.known_fraction,
+        t.inlier_fraction, t.distance_rms_m, t.intensity_rms, t.smallest_eigenvalue, t.alpha, t.gain, t.offset,
+        t.iterations, r.fusion.new_blocks, r.fusion.fused_blocks, decode_ms, r.prepare_ms, r.track_ms,
+        r.fusion.allocate_ms, r.fusion.fuse_ms, frame_ms, reason);
+}
+
+}  // namespace
+
+Result<std::unique_ptr<RunOutput>> RunOutput::Open(const RunRequest& request, const RunConfig& config,
+                                                   const SourceInfo& source) {
+    if (Status status = PrepareOutputFolder(request.output_folder); !status.ok()) return status;
+    std::unique_ptr<RunOutput> output(new RunOutput(request, config));
+    std::error_code ignored;
+    for (const char* name : {"mesh.ply", "preview.png", "objects.json", "timings.json"})
+        std::filesystem::remove(output->Path(name), ignored);
+    RunSummary unfinished;
+    unfinished.source = source;
+    unfinished.exit = "unfinished";
+    for (const Status& status :
+         {WriteTextFile(output->Path("run.json"), RunJson(request, config, unfinished)),
+          output->OpenGrowing("trajectory.txt", "# stamp_s tx ty tz qx qy qz qw: T_world_camera, metres\n",
+                              output->trajectory_),
+          output->OpenGrowing("frames.csv", kFramesHeader, output->frames_)})
+        if (!status.ok()) return status;
+    return output;
+}
+
+Status RunOutput::OpenGrowing(const std::string& name, const std::string& header, File& file) {
+    file.reset(std::fopen(Path(name).c_str(), "w"));
+    if (!file) return Status::Error(fmt::format("{}: cannot be written: {}", Path(name), std::strerror(errno)));
+    return Append(name, header, file);
+}
+
+Status RunOutput::Append(const std::string& name, const std::string& line, File& file) {
+    if (std::fwrite(line.data(), 1, line.size(), file.get()) != line.size() || std::fflush(file.get()) != 0)
+        return Status::Error(fmt::format("{}: cannot be written: {}", Path(name), std::strerror(errno)));
+    return Status::Ok();
+}
+
+Status RunOutput::AddFrame(const FrameReport& report, double decode_ms, double frame_ms) {
+    if (report.tracked()) {
+        path_.push_back(report.track.T_world_camera);
+        const std::string line = TrajectoryLine({report.stamp_s, report.track.T_world_camera}) + "\n";
+        if (Status status = Append("trajectory.txt", line, trajectory_); !status.ok()) return status;
+    }
+    return Append("frames.csv", FrameLine(report, decode_ms, frame_ms), frames_);
+}
+
+Status RunOutput::WritePicture(const TriangleMesh& mesh) const {
+    if (mesh.triangles.empty()) return Status::Ok();
+    const MeshView view = ChooseView(mesh, path_);
+    RenderStyle style;
+    style.path = path_;
+    return WriteColourImage(Path("preview.png"), RenderMesh(mesh, view.camera, view.T_world_camera, style));
+}
+
+Status RunOutput::Finish(const RunSummary& summary, const TriangleMesh& mesh) {
+    Status first;
+    const auto keep_first = [&](const Status& status) {
+        if (first.ok()) first = status;
+    };
+    keep_first(WriteTextFile(Path("timings.json"), TimingsJson(summary)));
+    keep_first(WriteTextFile(Path("objects.json"), "[]\n"));
+    keep_first(WritePly(Path("mesh.ply"), mesh));
+    keep_first(WritePicture(mesh));
+    keep_first(WriteTextFile(Path("run.json"), RunJson(request_, config_, summary)));
+    return first;
+}
+
+}  // namespace tessera

@@ -1,0 +1,83 @@
+#include "system/run_report.h"
+
+#include <nlohmann/json.hpp>
+
+namespace tessera {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Paths and messages need not be UTF-8.
+std::string Dump(const Json& json) {
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+Json ConfigurationJson(RunConfig& config) {
+    ConfigParameters parameters;
+    config.Describe(parameters);
+    Json json = Json::object();
+    for (const ConfigParameters::Parameter& parameter : parameters.parameters()) {
+        const std::string text = parameter.get();
+        Json value = parameter.is_text ? Json(text) : Json::parse(text, nullptr, false);
+        json[parameter.key] = value.is_discarded() ? Json(text) : value;
+    }
+    return json;
+}
+
+Json SourceJson(const SourceInfo& source) {
+    const PinholeCamera& c = source.camera;
+    return {{"name", source.name},
+            {"kind", source.kind},
+            {"camera", {{"width", c.width}, {"height", c.height}, {"fx", c.fx}, {"fy", c.fy}, {"cx", c.cx}, {"cy", c.cy}}},
+            {"frames", source.frame_count},
+            {"fps", source.fps},
+            {"rectified", source.rectified},
+            {"has_truth", source.has_truth},
+            {"notes", source.notes}};
+}
+
+}  // namespace
+
+std::string TimingsJson(const RunSummary& summary) {
+    Json stages = Json::object();
+    for (const auto& [stage, s] : summary.stages)
+        stages[stage] = {{"mean_ms", s.mean_ms}, {"median_ms", s.median_ms}, {"p95_ms", s.p95_ms}, {"max_ms", s.max_ms}};
+    return Dump({{"frames", summary.counts.frames},
+                 {"tracked", summary.counts.tracked},
+                 {"wall_s", summary.wall_s},
+                 {"cpu_s", summary.cpu_s},
+                 {"fps", summary.fps},
+                 {"peak_rss_mb", summary.peak_rss_mb},
+                 {"stages", stages},
+                 {"map",
+                  {{"blocks", summary.map.blocks},
+                   {"bytes", summary.map.bytes},
+                   {"bytes_per_voxel", summary.map.bytes_per_voxel}}}});
+}
+
+std::string RunJson(const RunRequest& request, RunConfig config, const RunSummary& summary) {
+    const RunCounts& n = summary.counts;
+    Json json = {{"version", TESSERA_VERSION},
+                 {"command_line", request.command_line},
+                 {"exit", summary.exit},
+                 {"source", SourceJson(summary.source)},
+                 {"selection",
+                  {{"start", request.selection.start},
+                   {"frames", request.selection.count},
+                   {"stride", request.selection.stride}}},
+                 {"poses", request.poses_file},
+                 {"counts",
+                  {{"frames", n.frames},
+                   {"tracked", n.tracked},
+                   {"fused", n.fused},
+                   {"poor", n.poor},
+                   {"lost", n.lost},
+                   {"skipped", n.skipped},
+                   {"degenerate", n.degenerate}}},
+                 {"ate", nullptr}};
+    if (summary.ate) json["ate"] = Json::parse(AteJson(*summary.ate), nullptr, false);
+    json["configuration"] = ConfigurationJson(config);
+    return Dump(json);
+}
+
+}  // namespace tessera

@@ -1,0 +1,185 @@
+// The contract of docs/design.md, section 8: options, exit codes, one line on stderr.
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "io/trajectory.h"
+#include "support/temp_folder.h"
+
+namespace tessera {
+namespace {
+
+std::string ReadAll(const std::string& path) {
+    std::ifstream file(path);
+    std::stringstream text;
+    text << file.rdbuf();
+    return text.str();
+}
+
+struct Outcome {
+    int exit_code;
+    std::string out, err;
+};
+
+class Cli : public testing::Test {
+  protected:
+    Outcome Call(const std::string& arguments) const {
+        const std::string command = std::string(TESSERA_PROGRAM) + " " + arguments + " >" + (folder / "stdout") + " 2>" +
+                                    (folder / "stderr") + " </dev/null";
+        const int status = std::system(command.c_str());
+        return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, ReadAll(folder / "stdout"), ReadAll(folder / "stderr")};
+    }
+    // Bad input: exit code 2, one line that names the culprit.
+    void ExpectRefused(const std::string& arguments, const std::string& named) const {
+        const Outcome outcome = Call(arguments);
+        EXPECT_EQ(outcome.exit_code, 2) << arguments << "\n" << outcome.err;
+        EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << arguments << "\n" << outcome.err;
+        EXPECT_NE(outcome.err.find(named), std::string::npos) << arguments << "\n" << outcome.err;
+    }
+    // A run that takes a second.
+    static std::string SmallRun() {
+        return "run synthetic:desk --set synthetic.width=160 --set synthetic.height=120 --set synthetic.fx=131 "
+               "--set synthetic.fy=131 --set synthetic.cx=79.5 --set synthetic.cy=59.5 --set mapping.voxel_size_m=0.04 "
+               "--set mapping.truncation_m=0.16 ";
+    }
+    TempFolder folder;
+};
+
+TEST_F(Cli, HelpEverywhere) {
+    for (const char* command : {"", "run", "eval", "eval ate", "eval rpe", "eval mesh", "synth", "sweep", "sweep alpha",
+                                "render", "info", "doctor", "config"})
+        for (const char* flag : {" -h", " --help"}) {
+            const Outcome outcome = Call(std::string(command) + flag);
+            EXPECT_EQ(outcome.exit_code, 0) << command;
+            EXPECT_NE(outcome.out.find("--help"), std::string::npos) << command;
+        }
+    EXPECT_EQ(Call("--version").out.rfind("tessera ", 0), 0u);
+}
+
+TEST_F(Cli, BadArgumentsAreOneLineAndExitCode2) {
+    ExpectRefused("", "subcommand");
+    ExpectRefused("walk", "walk");
+    ExpectRefused("run", "SOURCE");
+    ExpectRefused("run synthetic:desk --nonsense", "--nonsense");
+    ExpectRefused("run synthetic:desk --frames 0", "--frames");
+    ExpectRefused("run synthetic:desk --stride -1", "--stride");
+    ExpectRefused("run synthetic:desk --threads x", "--threads");
+    ExpectRefused("run synthetic:desk --tracker orb", "--tracker");
+    ExpectRefused("run synthetic:desk --alpha 1e9", "alpha");
+    ExpectRefused("run synthetic:desk --set mapping.voxel_size=1", "mapping.voxel_size_m");
+    ExpectRefused("run synthetic:desk --set voxels", "KEY=VALUE");
+    ExpectRefused("run synthetic:desk --config nowhere.yaml", "nowhere.yaml");
+    ExpectRefused("run synthetic:nowhere --out " + (folder / "o"), "nowhere");
+    ExpectRefused("run /no/such/folder --out " + (folder / "o"), "/no/such/folder");
+    ExpectRefused("run synthetic:desk --out /proc/no", "/proc/no");
+    ExpectRefused("eval ate /no/reference.txt /no/estimate.txt", "/no/reference.txt");
+    ExpectRefused("eval mesh /no/a.ply /no/b.ply", "/no/a.ply");
+    ExpectRefused("render /no/a.ply --out a.png", "/no/a.ply");
+    ExpectRefused("sweep alpha synthetic:desk --values 1:0:1", "--values");
+    ExpectRefused("sweep alpha synthetic:desk --values 0:1:0", "--values");
+    ExpectRefused("info /no/such/folder", "/no/such/folder");
+}
+
+TEST_F(Cli, WhatIsToComeIsRefusedAndNeverIgnored) {
+    for (const char* option : {"--view", "--labels model.onnx", "--loop-closure on", "--scan a.scan", "--resume a.scan",
+                               "--device cuda", "--mode live", "--tracker icp", "--tracker icp-rgb", "--switch 5:icp"})
+        ExpectRefused(std::string("run synthetic:desk ") + option, "not in this version");
+    ExpectRefused("run a.oni", "not in this version");
+    ExpectRefused("view out", "not in this version");
+    ExpectRefused("export out --mesh a.glb", "not in this version");
+    ExpectRefused("eval labels a b", "not in this version");
+}
+
+TEST_F(Cli, RunsAndEvaluates) {
+    const std::string out = folder / "o";
+    const Outcome run = Call(SmallRun() + "--frames 5 --device cpu --mode lockstep --labels none --loop-closure off --out " + out);
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_NE(run.out.find("ATE RMSE"), std::string::npos) << run.out;
+    EXPECT_EQ(run.err.find('\r'), std::string::npos) << "a progress bar without a terminal";
+    for (const char* file : {"trajectory.txt", "mesh.ply", "objects.json", "timings.json", "run.json", "preview.png"})
+        EXPECT_TRUE(std::filesystem::exists(out + "/" + file)) << file;
+
+    const std::string trajectory = out + "/trajectory.txt", mesh = out + "/mesh.ply";
+    const Outcome ate = Call("eval ate " + trajectory + " " + trajectory + " --json " + (folder / "ate.json") + " --plot " +
+                             (folder / "ate.png"));
+    ASSERT_EQ(ate.exit_code, 0) << ate.err;
+    EXPECT_NE(ate.out.find("ATE RMSE 0.0000 m"), std::string::npos) << ate.out;
+    EXPECT_NE(ReadAll(folder / "ate.json").find("\"alignment\""), std::string::npos);
+    EXPECT_TRUE(std::filesystem::exists(folder / "ate.png"));
+    const Outcome surface = Call("eval mesh " + mesh + " " + mesh + " --align " + trajectory + " " + trajectory +
+                                 " --json " + (folder / "mesh.json") + " --picture " + (folder / "mesh.png"));
+    ASSERT_EQ(surface.exit_code, 0) << surface.err;
+    EXPECT_NE(ReadAll(folder / "mesh.json").find("\"completeness_5cm\""), std::string::npos);
+    EXPECT_EQ(Call("render " + mesh + " --out " + (folder / "m.png") + " --width 64 --height 48").exit_code, 0);
+    ExpectRefused("eval rpe " + trajectory + " " + trajectory, trajectory);  // five frames are less than a second
+    EXPECT_EQ(Call("eval rpe " + trajectory + " " + trajectory + " --delta 0.1").exit_code, 0);
+}
+
+TEST_F(Cli, MostlyLostIsExitCode3) {
+    const Outcome run = Call(SmallRun() + "--frames 4 --set frame.min_depth_m=50 --set frame.max_depth_m=60 --out " +
+                             (folder / "o"));
+    EXPECT_EQ(run.exit_code, 3);
+    EXPECT_NE(run.err.find("depth_scale"), std::string::npos) << run.err;
+}
+
+TEST_F(Cli, ADiskThatIsFullIsNamed) {
+    // No file may grow beyond 8 blocks: the same as a full disk, and needs no privileges.
+    const std::string limited = "sh -c 'ulimit -f 8; exec " TESSERA_PROGRAM " \"$@\"' sh ";
+    const std::string command = limited + SmallRun() + "--frames 5 --out " + (folder / "o") + " 2>" + (folder / "stderr") +
+                                " >/dev/null </dev/null";
+    const int status = std::system(command.c_str());
+    EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 2) << status;
+    EXPECT_NE(ReadAll(folder / "stderr").find("mesh.ply"), std::string::npos) << ReadAll(folder / "stderr");
+    const auto trajectory = ReadTrajectory(folder / "o/trajectory.txt");  // what was written stays
+    EXPECT_TRUE(trajectory.ok()) << trajectory.message();
+}
+
+TEST_F(Cli, SigtermEndsARunWithEverythingWritten) {
+    const std::string out = folder / "o";
+    const pid_t child = fork();
+    ASSERT_GE(child, 0);
+    if (child == 0) {
+        (void)!freopen("/dev/null", "w", stdout);
+        const std::string command = std::string("exec ") + TESSERA_PROGRAM + " " + SmallRun() + "--out " + out;
+        execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
+        _exit(127);
+    }
+    // The second line of the trajectory says that frames are being tracked.
+    while (std::count_if(std::istreambuf_iterator<char>(std::ifstream(out + "/trajectory.txt").rdbuf()), {},
+                         [](char c) { return c == '\n'; }) < 3)
+        if (waitpid(child, nullptr, WNOHANG) != 0) FAIL() << "ended before it could be stopped";
+    kill(child, SIGTERM);
+    int status = 0;
+    ASSERT_EQ(waitpid(child, &status, 0), child);
+    EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << status;
+    EXPECT_NE(ReadAll(out + "/run.json").find("\"stopped\""), std::string::npos);
+    EXPECT_TRUE(std::filesystem::exists(out + "/mesh.ply"));
+}
+
+TEST_F(Cli, ConfigRoundTrips) {
+    const Outcome yaml = Call("config --config bylow2014 --set tracking.sdf.levels=2");
+    ASSERT_EQ(yaml.exit_code, 0) << yaml.err;
+    std::ofstream(folder / "my.yaml") << yaml.out;
+    EXPECT_EQ(Call("config --config " + (folder / "my.yaml")).out, yaml.out);
+    EXPECT_NE(yaml.out.find("levels: 2"), std::string::npos);
+}
+
+TEST_F(Cli, InfoAndDoctorSayWhatThereIs) {
+    const Outcome info = Call("info synthetic:desk");
+    EXPECT_EQ(info.exit_code, 0) << info.err;
+    EXPECT_NE(info.out.find("640 x 480"), std::string::npos) << info.out;
+    EXPECT_NE(info.out.find("depth in"), std::string::npos) << info.out;
+    const Outcome doctor = Call("doctor");
+    EXPECT_EQ(doctor.exit_code, 0);
+    EXPECT_NE(doctor.out.find("not in this version"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace tessera

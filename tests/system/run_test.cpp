@@ -1,0 +1,172 @@
+// A whole run on a small synthetic sequence, and what it leaves behind in good and bad ends.
+#include "system/run.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "io/mesh_io.h"
+#include "io/trajectory.h"
+#include "support/temp_folder.h"
+
+namespace tessera {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string ReadAll(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    std::stringstream text;
+    text << file.rdbuf();
+    return text.str();
+}
+
+class Run : public testing::Test {
+  protected:
+    // Few small frames: this tests the run, not the tracker.
+    Run() {
+        config.synthetic.camera = {160, 120, 131.25, 131.25, 79.5, 59.5};
+        config.synthetic.frames = 6;
+        config.pipeline.map.voxel_size_m = 0.04;
+        config.pipeline.map.truncation_m = 0.16;
+        request.source = "synthetic:desk";
+        request.output_folder = folder / "out";
+        request.command_line = {"tessera", "run", "synthetic:desk"};
+        observer.on_warning = [this](const std::string& text) { warnings.push_back(text); };
+    }
+    Result<RunSummary> Execute() { return ExecuteRun(request, config, observer, stop); }
+    std::string Out(const std::string& name) const { return request.output_folder + "/" + name; }
+    nlohmann::json Json(const std::string& name) const { return nlohmann::json::parse(ReadAll(Out(name))); }
+
+    TempFolder folder;
+    RunConfig config;
+    RunRequest request;
+    RunObserver observer;
+    std::vector<std::string> warnings;
+    std::atomic<bool> stop{false};
+};
+
+TEST_F(Run, LeavesEveryFileOfTheContract) {
+    const auto run = Execute();
+    ASSERT_TRUE(run.ok()) << run.message();
+    EXPECT_EQ(run.value().counts.frames, 6);
+    const auto trajectory = ReadTrajectory(Out("trajectory.txt"));
+    ASSERT_TRUE(trajectory.ok()) << trajectory.message();
+    EXPECT_EQ(static_cast<std::int64_t>(trajectory.value().poses.size()), run.value().counts.tracked);
+    const auto mesh = ReadPly(Out("mesh.ply"));
+    ASSERT_TRUE(mesh.ok()) << mesh.message();
+    EXPECT_GT(mesh.value().triangles.size(), 100u);
+    EXPECT_EQ(mesh.value().colours.size(), mesh.value().vertices.size());
+    EXPECT_GT(fs::file_size(Out("preview.png")), 1000u);
+    EXPECT_EQ(Json("objects.json"), nlohmann::json::array());
+    const std::string frames = ReadAll(Out("frames.csv"));
+    EXPECT_EQ(std::count(frames.begin(), frames.end(), '\n'), 7);  // a header and six frames
+
+    const auto timings = Json("timings.json");
+    for (const char* key : {"frames", "tracked", "wall_s", "cpu_s", "fps", "peak_rss_mb"})
+        EXPECT_TRUE(timings.at(key).is_number()) << key;
+    for (const char* stage : {"frame", "decode", "track", "allocate", "fuse", "mesh"})
+        for (const char* key : {"mean_ms", "median_ms", "p95_ms", "max_ms"})
+            EXPECT_TRUE(timings.at("stages").at(stage).at(key).is_number()) << stage << " " << key;
+    for (const char* key : {"blocks", "bytes", "bytes_per_voxel"}) EXPECT_GT(timings.at("map").at(key), 0) << key;
+
+    const auto json = Json("run.json");
+    EXPECT_EQ(json.at("exit"), "finished");
+    EXPECT_EQ(json.at("command_line").size(), 3u);
+    EXPECT_EQ(json.at("configuration").at("mapping.voxel_size_m"), 0.04);
+    EXPECT_EQ(json.at("configuration").at("tracking.method"), "sdf");
+    EXPECT_EQ(json.at("source").at("kind"), run.value().source.kind);
+    EXPECT_TRUE(json.at("ate").at("ate_rmse_m").is_number());
+}
+
+TEST_F(Run, TheSameBytesForAnyNumberOfThreads) {
+    ASSERT_TRUE(Execute().ok());
+    const std::string trajectory = ReadAll(Out("trajectory.txt")), mesh = ReadAll(Out("mesh.ply"));
+    for (const int threads : {1, 2, 4}) {
+        config.threads = threads;
+        ASSERT_TRUE(Execute().ok());
+        EXPECT_TRUE(ReadAll(Out("trajectory.txt")) == trajectory) << threads << " threads";
+        EXPECT_TRUE(ReadAll(Out("mesh.ply")) == mesh) << threads << " threads";
+    }
+}
+
+TEST_F(Run, StopsBetweenFramesWithEverythingWritten) {
+    observer.on_frame = [this](const RunCounts& counts, std::int64_t total) {
+        EXPECT_EQ(total, 6);
+        stop = counts.frames == 2;
+    };
+    const auto run = Execute();
+    ASSERT_TRUE(run.ok()) << run.message();
+    EXPECT_EQ(run.value().counts.frames, 2);
+    EXPECT_EQ(Json("run.json").at("exit"), "stopped");
+    EXPECT_TRUE(fs::exists(Out("mesh.ply")));
+}
+
+TEST_F(Run, TheTrajectoryGrowsFrameByFrame) {
+    std::vector<std::size_t> sizes;
+    observer.on_frame = [&](const RunCounts&, std::int64_t) {
+        sizes.push_back(fs::file_size(Out("trajectory.txt")));
+        EXPECT_EQ(Json("run.json").at("exit"), "unfinished");
+        EXPECT_FALSE(fs::exists(Out("mesh.ply")));  // not even one that an earlier run left
+    };
+    fs::create_directories(request.output_folder);
+    std::ofstream(Out("mesh.ply")) << "stale";
+    ASSERT_TRUE(Execute().ok());
+    ASSERT_EQ(sizes.size(), 6u);
+    for (std::size_t i = 1; i < sizes.size(); ++i) EXPECT_GT(sizes[i], sizes[i - 1]);
+}
+
+TEST_F(Run, FusesAtGivenPosesOnly) {
+    ASSERT_TRUE(Execute().ok());
+    const auto tracked = ReadTrajectory(Out("trajectory.txt"));
+    ASSERT_TRUE(tracked.ok());
+    std::vector<StampedPose> poses(tracked.value().poses.begin(), tracked.value().poses.begin() + 4);
+    for (StampedPose& pose : poses) pose.T_world_camera.pretranslate(Eigen::Vector3d(10, 0, 0));
+    request.poses_file = folder / "poses.txt";
+    ASSERT_TRUE(WriteTrajectory(request.poses_file, poses).ok());
+    const auto run = Execute();
+    ASSERT_TRUE(run.ok()) << run.message();
+    EXPECT_EQ(run.value().counts.tracked, 4);
+    EXPECT_EQ(run.value().counts.lost, 2);  // no pose near their time
+    const auto given = ReadTrajectory(Out("trajectory.txt"));
+    ASSERT_TRUE(given.ok());
+    for (std::size_t i = 0; i < poses.size(); ++i)
+        EXPECT_LT((given.value().poses[i].T_world_camera.matrix() - poses[i].T_world_camera.matrix()).norm(), 1e-6);
+}
+
+TEST_F(Run, WithoutAFolderNothingIsWritten) {
+    request.output_folder.clear();
+    const auto run = Execute();
+    ASSERT_TRUE(run.ok()) << run.message();
+    EXPECT_TRUE(run.value().ate.has_value());
+    EXPECT_TRUE(fs::is_empty(folder.path()));
+}
+
+TEST_F(Run, BadInputIsAnErrorThatNamesIt) {
+    request.poses_file = folder / "none.txt";
+    EXPECT_NE(Execute().message().find("none.txt"), std::string::npos);
+    request.poses_file.clear();
+    std::ofstream(folder / "file") << "x";
+    request.output_folder = folder / "file/out";
+    EXPECT_NE(Execute().message().find("file"), std::string::npos) << Execute().message();
+    request.output_folder = folder / "out";
+    config.pipeline.map.truncation_m = 0.01;
+    EXPECT_NE(Execute().message().find("mapping.truncation_m"), std::string::npos);
+}
+
+TEST_F(Run, DepthsOutOfRangeAreNamedOnceAndLost) {
+    config.pipeline.frame.min_depth_m = 50;
+    config.pipeline.frame.max_depth_m = 60;
+    const auto run = Execute();
+    ASSERT_TRUE(run.ok()) << run.message();
+    EXPECT_EQ(run.value().counts.tracked, 0);
+    ASSERT_EQ(warnings.size(), 1u);
+    EXPECT_NE(warnings[0].find("is depth_scale right?"), std::string::npos);
+    EXPECT_TRUE(fs::exists(Out("run.json")));
+}
+
+}  // namespace
+}  // namespace tessera
