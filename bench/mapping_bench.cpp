@@ -1,5 +1,5 @@
-// Meshing and ray casting on a made-up room at 1 cm: a wavy floor, a sphere, a box. Per block and per pixel, on one
-// thread and on all.
+// Meshing and ray casting on a made-up room at 1 cm: a wavy floor, a sphere, a box. Per block and
+// per pixel, on one thread and on all.
 #include <benchmark/benchmark.h>
 #include <tbb/global_control.h>
 
@@ -46,7 +46,12 @@ void MeshBlocks(benchmark::State& state) {
                            benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
     state.counters["mesh_bytes_per_block"] = static_cast<double>(mesher.bytes()) / blocks;
 }
-BENCHMARK(MeshBlocks)->ArgName("threads")->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(MeshBlocks)
+    ->ArgName("threads")
+    ->Arg(1)
+    ->Arg(2)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
 
 // What finding the changed blocks costs when none has changed.
 void MeshNothing(benchmark::State& state) {
@@ -83,7 +88,12 @@ void CastView(benchmark::State& state) {
         benchmark::Counter(pixels * static_cast<double>(state.iterations()) / 1e9,
                            benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
-BENCHMARK(CastView)->ArgName("threads")->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(CastView)
+    ->ArgName("threads")
+    ->Arg(1)
+    ->Arg(2)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
 
 }  // namespace
 }  // namespace tessera

@@ -11,7 +11,8 @@
 namespace tessera {
 namespace {
 
-// ---- The block's field with an apron of one voxel below and two above, so that gradients need no look-ups.
+// ---- The block's field with an apron of one voxel below and two above, so that gradients need no
+// look-ups.
 
 class LocalField {
   public:
@@ -35,7 +36,8 @@ class LocalField {
     static int Index(int x, int y, int z) { return x + 1 + 11 * (y + 1) + 121 * (z + 1); }
     FieldWord operator[](int index) const { return words_[index]; }
 
-    // In truncations per voxel: central differences, one-sided or zero where neighbours are unknown.
+    // In truncations per voxel: central differences, one-sided or zero where neighbours are
+    // unknown.
     Eigen::Vector3f Gradient(int index) const {
         return {Slope(index, kStride[0]), Slope(index, kStride[1]), Slope(index, kStride[2])};
     }
@@ -68,7 +70,9 @@ std::array<std::int16_t, 2> EncodeNormal(const Eigen::Vector3f& n) {
     return {steps(u), steps(v)};
 }
 
-std::uint8_t ToByte(float value) { return static_cast<std::uint8_t>(value * 255.0f + 0.5f); }
+std::uint8_t ToByte(float value) {
+    return static_cast<std::uint8_t>(value * 255.0f + 0.5f);
+}
 
 // [D18] eq. 10; where one end has no colour, the other's; where none has, grey.
 Rgb8 MixColours(FieldWord w1, ColourWord c1, FieldWord w2, ColourWord c2, float m) {
@@ -88,7 +92,8 @@ class VertexMaker {
         const int i1 = LocalField::Index(x, y, z), i2 = i1 + LocalField::kStride[axis];
         const FieldWord w1 = field_[i1], w2 = field_[i2];
         const float d1 = FieldDistance(w1), d2 = FieldDistance(w2);
-        // [D18] eq. 9, kept off the ends: a voxel at exactly zero would make triangles without area.
+        // [D18] eq. 9, kept off the ends: a voxel at exactly zero would make triangles without
+        // area.
         constexpr float kMargin = 1e-3f;
         const float m = std::clamp(d1 / (d1 - d2), kMargin, 1 - kMargin);
 
@@ -143,7 +148,8 @@ void MakeTriangles(const CellBits& bits, BlockMesh& mesh) {
                 const CubeCase& cell = cases[bits.Configuration(x, y, z)];
                 for (int t = 0; t < cell.triangle_count; ++t) {
                     const auto& [a, b, c] = cell.triangles[t];
-                    mesh.triangles.push_back({RefOf(a, x, y, z), RefOf(b, x, y, z), RefOf(c, x, y, z)});
+                    mesh.triangles.push_back(
+                        {RefOf(a, x, y, z), RefOf(b, x, y, z), RefOf(c, x, y, z)});
                 }
             }
 }
@@ -165,18 +171,21 @@ constexpr auto FindReadOffsets() {
 constexpr std::array<std::array<int, 3>, kMeshReads> kMeshReadOffsets = FindReadOffsets();
 
 void MeshConfig::Describe(ConfigParameters& p) {
-    p.Add("min_weight", min_weight, {0, kMaxWeight}, "",
-          "least weight of the voxels that a piece of mesh is made from; raise it to leave out what "
-          "was seen once or badly");
+    p.Add(
+        "min_weight", min_weight, {0, kMaxWeight}, "",
+        "least weight of the voxels that a piece of mesh is made from; raise it to leave out what "
+        "was seen once or badly");
     p.Add("min_component_triangles", min_component_triangles, {0, 1e9}, "",
           "connected pieces with fewer triangles are left out of the written mesh; 0 keeps all, "
           "more removes larger floating specks");
 }
 
 std::unique_ptr<const BlockMesh> MeshBlock(const BlockMap& map, BlockId id, double min_weight) {
-    // Kept between calls for its storage: the result is a copy that is no larger than it needs to be.
+    // Kept between calls for its storage: the result is a copy that is no larger than it needs to
+    // be.
     thread_local BlockMesh scratch;
-    std::copy_n(map.view().neighbours + 8 * static_cast<std::size_t>(id), 8, scratch.blocks.begin());
+    std::copy_n(map.view().neighbours + 8 * static_cast<std::size_t>(id), 8,
+                scratch.blocks.begin());
     const CellBits bits(map, scratch.blocks, min_weight);
     if (!bits.HasBothSigns()) return nullptr;
     scratch.coord = map.coord(id);

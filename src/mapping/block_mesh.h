@@ -1,5 +1,6 @@
-// The surface inside one block: marching cubes over the block's 8 x 8 x 8 cells, stored compactly and referring to
-// neighbouring blocks for the vertices that those own. Mesher keeps one per block and joins them.
+// The surface inside one block: marching cubes over the block's 8 x 8 x 8 cells, stored compactly
+// and referring to neighbouring blocks for the vertices that those own. Mesher keeps one per block
+// and joins them.
 #pragma once
 
 #include <array>
@@ -19,19 +20,20 @@ struct MeshConfig {
     void Describe(ConfigParameters& parameters);
 };
 
-// A cell belongs to the block of its lowest corner; its other corners may lie in the seven positive neighbours. A
-// vertex belongs to the block of the lower end of its edge, so that each exists once.
+// A cell belongs to the block of its lowest corner; its other corners may lie in the seven positive
+// neighbours. A vertex belongs to the block of the lower end of its edge, so that each exists once.
 struct BlockMesh {
     // Edge axis * 512 + o runs from the block's voxel o to the next voxel along `axis`.
     static constexpr int kEdges = 3 * kBlockVoxels;
-    // A triangle's corner: neighbour slot (as in MapView::neighbours) << kSlotShift | edge in that block.
+    // A triangle's corner: neighbour slot (as in MapView::neighbours) << kSlotShift | edge in that
+    // block.
     static constexpr int kSlotShift = 11;
     using VertexRef = std::uint16_t;
 
     struct Vertex {
         std::uint16_t edge;
-        std::uint16_t fraction;                // of the way along the edge, in 1/65536; never 0
-        std::array<std::int16_t, 2> normal;    // octahedral
+        std::uint16_t fraction;              // of the way along the edge, in 1/65536; never 0
+        std::array<std::int16_t, 2> normal;  // octahedral
         Rgb8 colour;
     };
 
@@ -51,14 +53,16 @@ Eigen::Vector3f VertexPosition(const BlockMesh& mesh, const BlockMesh::Vertex& v
 // Unit, out of the surface (towards positive distance).
 Eigen::Vector3f VertexNormal(const BlockMesh::Vertex& vertex);
 
-// The blocks whose voxels a block's mesh is made from, as offsets: itself and the positive neighbours (corners of
-// cells), and those one step further along an axis (gradients at the vertices' ends).
+// The blocks whose voxels a block's mesh is made from, as offsets: itself and the positive
+// neighbours (corners of cells), and those one step further along an axis (gradients at the
+// vertices' ends).
 inline constexpr int kMeshReads = 17;
 extern const std::array<std::array<int, 3>, kMeshReads> kMeshReadOffsets;
 
-// Meshes one block. Only cells whose corners all have a distance and enough weight take part, and not those that hold
-// both ends of the distance's range: there the field jumps from free space to behind some other surface. Null if the
-// block has no vertex and no triangle. Thread-safe while nobody writes the map.
+// Meshes one block. Only cells whose corners all have a distance and enough weight take part, and
+// not those that hold both ends of the distance's range: there the field jumps from free space to
+// behind some other surface. Null if the block has no vertex and no triangle. Thread-safe while
+// nobody writes the map.
 std::unique_ptr<const BlockMesh> MeshBlock(const BlockMap& map, BlockId id, double min_weight);
 
 }  // namespace tessera

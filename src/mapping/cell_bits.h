@@ -1,5 +1,5 @@
-// Which cells and edges of a block hold surface: one bit per voxel of a row, so that a row of eight cells costs a few
-// operations. Used by block_mesh.cpp only.
+// Which cells and edges of a block hold surface: one bit per voxel of a row, so that a row of eight
+// cells costs a few operations. Used by block_mesh.cpp only.
 #pragma once
 
 #include <array>
@@ -12,7 +12,8 @@
 
 namespace tessera {
 
-// A voxel is inside where its distance is negative, and usable where it has a distance and enough weight.
+// A voxel is inside where its distance is negative, and usable where it has a distance and enough
+// weight.
 class CellBits {
   public:
     CellBits(const BlockMap& map, const std::array<BlockId, 8>& blocks, double min_weight) {
@@ -43,8 +44,7 @@ class CellBits {
     // Bit x: the edge from voxel (x, y, z) along `axis` has one end inside, one outside.
     std::uint32_t CrossedEdges(int axis, int y, int z) const {
         const RowBits& a = rows_[z][y];
-        if (axis == 0)
-            return (a.inside ^ a.inside >> 1) & a.usable & a.usable >> 1 & kRowBits;
+        if (axis == 0) return (a.inside ^ a.inside >> 1) & a.usable & a.usable >> 1 & kRowBits;
         const RowBits& b = axis == 1 ? rows_[z][y + 1] : rows_[z + 1][y];
         return (a.inside ^ b.inside) & a.usable & b.usable & kRowBits;
     }
@@ -93,7 +93,8 @@ class CellBits {
     }
     // Bit i: the lowest bit of byte i.
     static std::uint32_t LowestBits(std::uint64_t bytes) {
-        return static_cast<std::uint32_t>((bytes & 0x0101010101010101u) * 0x0102040810204080u >> 56);
+        return static_cast<std::uint32_t>((bytes & 0x0101010101010101u) * 0x0102040810204080u >>
+                                          56);
     }
     // Of eight voxels and the one after them.
     static RowBits Row(const std::uint8_t* flags, std::uint32_t last) {

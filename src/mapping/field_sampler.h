@@ -1,10 +1,11 @@
-// The map's field at any point: distance and intensity with their analytic gradients. Scalar, host-device; the formula is
-// trilinear.h's, which the vector code shares. Reads BlockMap::View, or any struct with the same plain pointers.
+// The map's field at any point: distance and intensity with their analytic gradients. Scalar,
+// host-device; the formula is trilinear.h's, which the vector code shares. Reads BlockMap::View, or
+// any struct with the same plain pointers.
 //
-// One look-up finds the block of a cell's lowest corner; the other seven corners lie in it or in its positive
-// neighbours, which View::neighbours lists. So the position of corner c is
-//     block = neighbours[8 * base + slot],  slot = which of (x, y, z) + (bits 0, 1, 2 of c) reach 8,
-//     voxel = 512 * block + (x & 7) + 8 (y & 7) + 64 (z & 7).
+// One look-up finds the block of a cell's lowest corner; the other seven corners lie in it or in
+// its positive neighbours, which View::neighbours lists. So the position of corner c is
+//     block = neighbours[8 * base + slot],  slot = which of (x, y, z) + (bits 0, 1, 2 of c) reach
+//     8, voxel = 512 * block + (x & 7) + 8 (y & 7) + 64 (z & 7).
 // What is not in the map is block 0, whose voxels are unknown: no branch.
 #pragma once
 
@@ -23,8 +24,8 @@ struct FieldCell {
 };
 
 struct FieldSample {
-    bool has_distance;   // all eight corners have one
-    bool has_intensity;  // likewise; implies has_distance
+    bool has_distance;                  // all eight corners have one
+    bool has_intensity;                 // likewise; implies has_distance
     ValueAndGradient<float> distance;   // metres; per metre
     ValueAndGradient<float> intensity;  // [0, 1]; per metre
 };
@@ -32,7 +33,8 @@ struct FieldSample {
 // A block's id by the map's hash; 0 if there is none.
 template <class View>
 TESSERA_HD std::int32_t FindBlock(const View& map, std::int32_t x, std::int32_t y, std::int32_t z) {
-    for (std::uint32_t slot = BlockHash(x, y, z) & map.table_mask;; slot = (slot + 1) & map.table_mask) {
+    for (std::uint32_t slot = BlockHash(x, y, z) & map.table_mask;;
+         slot = (slot + 1) & map.table_mask) {
         const std::int32_t id = map.table[slot];
         const std::int32_t* c = map.coords + 4 * static_cast<std::int64_t>(id);
         if (id == 0 || (c[0] == x && c[1] == y && c[2] == z)) return id;
@@ -45,9 +47,10 @@ TESSERA_HD std::int32_t Floor(float v) {
     return i - (static_cast<float>(i) > v ? 1 : 0);
 }
 
-// Points are given in voxels relative to voxel (0, 0, 0) of `origin`, a block near them: floats stay exact however far
-// from the world's origin the scan has come. Remembers the last block, as neighbouring points share it; so one sampler
-// per thread or ray. Points must stay within 2^20 voxels of the origin.
+// Points are given in voxels relative to voxel (0, 0, 0) of `origin`, a block near them: floats
+// stay exact however far from the world's origin the scan has come. Remembers the last block, as
+// neighbouring points share it; so one sampler per thread or ray. Points must stay within 2^20
+// voxels of the origin.
 template <class View>
 class FieldSampler {
   public:
@@ -59,10 +62,16 @@ class FieldSampler {
         const BlockCoord block{x >> 3, y >> 3, z >> 3};
         if (!(block == last_)) {
             last_ = block;
-            last_id_ = FindBlock(map_, origin_.x + block.x, origin_.y + block.y, origin_.z + block.z);
+            last_id_ =
+                FindBlock(map_, origin_.x + block.x, origin_.y + block.y, origin_.z + block.z);
         }
-        return {last_id_, x & 7, y & 7, z & 7,
-                px - static_cast<float>(x), py - static_cast<float>(y), pz - static_cast<float>(z)};
+        return {last_id_,
+                x & 7,
+                y & 7,
+                z & 7,
+                px - static_cast<float>(x),
+                py - static_cast<float>(y),
+                pz - static_cast<float>(z)};
     }
 
     // voxel[c]: index into the map's layers of the corner at offsets (x, y, z) = bits 0, 1, 2 of c.
@@ -70,7 +79,8 @@ class FieldSampler {
         for (int c = 0; c < 8; ++c) {
             const int x = cell.x + (c & 1), y = cell.y + (c >> 1 & 1), z = cell.z + (c >> 2);
             const int slot = x >> 3 | y >> 3 << 1 | z >> 3 << 2;
-            const std::int32_t block = map_.neighbours[8 * static_cast<std::int64_t>(cell.block) + slot];
+            const std::int32_t block =
+                map_.neighbours[8 * static_cast<std::int64_t>(cell.block) + slot];
             voxel[c] = kBlockVoxels * block + (x & 7) + 8 * (y & 7) + 64 * (z & 7);
         }
     }
@@ -80,7 +90,8 @@ class FieldSampler {
         const int x = cell.x + (cell.fx >= 0.5f), y = cell.y + (cell.fy >= 0.5f),
                   z = cell.z + (cell.fz >= 0.5f);
         const int slot = x >> 3 | y >> 3 << 1 | z >> 3 << 2;
-        const std::int32_t block = map_.neighbours[8 * static_cast<std::int64_t>(cell.block) + slot];
+        const std::int32_t block =
+            map_.neighbours[8 * static_cast<std::int64_t>(cell.block) + slot];
         return map_.field[kBlockVoxels * block + (x & 7) + 8 * (y & 7) + 64 * (z & 7)];
     }
 
@@ -100,7 +111,8 @@ class FieldSampler {
         }
         sample.has_intensity &= sample.has_distance;
         sample.distance = Scaled(Trilinear(distance, cell.fx, cell.fy, cell.fz), map_.truncation_m);
-        if (kIntensity) sample.intensity = Scaled(Trilinear(intensity, cell.fx, cell.fy, cell.fz), 1.0f);
+        if (kIntensity)
+            sample.intensity = Scaled(Trilinear(intensity, cell.fx, cell.fy, cell.fz), 1.0f);
         return sample;
     }
 

@@ -48,7 +48,8 @@ constexpr std::array<int, 3> Middle(int edge) {
     return p;
 }
 
-// What a diagonal between two edges' vertices costs: its squared length, or everything if it would lie in a face.
+// What a diagonal between two edges' vertices costs: its squared length, or everything if it would
+// lie in a face.
 constexpr int DiagonalCost(int a, int b) {
     const std::array<int, 3> p = Middle(a), q = Middle(b);
     int length = 0;
@@ -59,7 +60,8 @@ constexpr int DiagonalCost(int a, int b) {
     return length;
 }
 
-// The triangulation of a polygon with the shortest diagonals, by dynamic programming over its sub-polygons i..j.
+// The triangulation of a polygon with the shortest diagonals, by dynamic programming over its
+// sub-polygons i..j.
 class Triangulation {
   public:
     constexpr Triangulation(const Loop& loop, CubeCase& out) : loop_(loop), out_(out) {
@@ -132,6 +134,8 @@ FaceSegments CubeFaceSegments(int configuration, int face) {
     return SegmentsOf(configuration, face);
 }
 
-const std::array<CubeCase, kCubeConfigurations>& CubeCases() { return kCases; }
+const std::array<CubeCase, kCubeConfigurations>& CubeCases() {
+    return kCases;
+}
 
 }  // namespace tessera

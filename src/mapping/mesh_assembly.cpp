@@ -58,9 +58,8 @@ Triangles ResolveTriangles(const Blocks& blocks, const FirstIndices& first) {
                 triangles[first.triangle[id] + t][i] =
                     Resolve(blocks, block, block.triangles[t][i], first.vertex);
     });
-    std::erase_if(triangles, [](const auto& t) {
-        return t[0] == kNone || t[1] == kNone || t[2] == kNone;
-    });
+    std::erase_if(triangles,
+                  [](const auto& t) { return t[0] == kNone || t[1] == kNone || t[2] == kNone; });
     return triangles;
 }
 
@@ -97,7 +96,8 @@ void DropSmallComponents(Triangles& triangles, std::size_t vertices, int min_tri
                   [&](const auto& t) { return size[components.Root(t[0])] < min_triangles; });
 }
 
-// The new index of each vertex, counting only those in use; kNone for the others. Renumbers the triangles.
+// The new index of each vertex, counting only those in use; kNone for the others. Renumbers the
+// triangles.
 std::vector<std::uint32_t> Compact(Triangles& triangles, std::size_t vertices,
                                    std::uint32_t& count) {
     std::vector<std::uint32_t> index(vertices, kNone);

@@ -9,8 +9,9 @@
 
 namespace tessera {
 
-// `blocks` by block id, null where there is no surface. Triangles whose vertex the neighbour does not have (it was
-// meshed at another time) are left out, and so are connected pieces of fewer than `min_component_triangles`.
+// `blocks` by block id, null where there is no surface. Triangles whose vertex the neighbour does
+// not have (it was meshed at another time) are left out, and so are connected pieces of fewer than
+// `min_component_triangles`.
 TriangleMesh AssembleMesh(const std::vector<std::unique_ptr<const BlockMesh>>& blocks,
                           double voxel_size_m, int min_component_triangles);
 

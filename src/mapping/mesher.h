@@ -1,5 +1,6 @@
-// The map's surface as a triangle mesh, kept up to date block by block: only what changed is meshed again. Owns the
-// block meshes, copies what it needs from the map, and needs the map only inside Update.
+// The map's surface as a triangle mesh, kept up to date block by block: only what changed is meshed
+// again. Owns the block meshes, copies what it needs from the map, and needs the map only inside
+// Update.
 #pragma once
 
 #include <limits>
@@ -11,7 +12,8 @@
 
 namespace tessera {
 
-// Owner thread only; Update works on all of TBB's threads and gives the same bytes for any number of them.
+// Owner thread only; Update works on all of TBB's threads and gives the same bytes for any number
+// of them.
 class Mesher {
   public:
     using Config = MeshConfig;
@@ -19,14 +21,16 @@ class Mesher {
 
     explicit Mesher(const Config& config) : config_(config) {}
 
-    // Meshes again the blocks whose result may have changed since the last call: those that read a block
-    // (kMeshReadOffsets) whose BlockMap::revision differs from the one last seen. So whoever writes the map must use
-    // a new revision after each Update. At most `budget_blocks` are done, oldest first; returns how many remain.
-    // Nobody may write the map meanwhile. Between calls the map may only grow, else Clear first.
+    // Meshes again the blocks whose result may have changed since the last call: those that read a
+    // block (kMeshReadOffsets) whose BlockMap::revision differs from the one last seen. So whoever
+    // writes the map must use a new revision after each Update. At most `budget_blocks` are done,
+    // oldest first; returns how many remain. Nobody may write the map meanwhile. Between calls the
+    // map may only grow, else Clear first.
     int Update(const BlockMap& map, int budget_blocks = kNoLimit);
 
-    // The whole mesh, with normals and colours. Vertices are shared across blocks, ordered by block id and edge; only
-    // those that a triangle uses. While blocks remain to be done there may be gaps between old and new blocks.
+    // The whole mesh, with normals and colours. Vertices are shared across blocks, ordered by block
+    // id and edge; only those that a triangle uses. While blocks remain to be done there may be
+    // gaps between old and new blocks.
     TriangleMesh Assemble() const;
 
     // Forgets everything; to be called when the map was cleared or replaced.

@@ -13,13 +13,14 @@ namespace {
 
 using Sampler = FieldSampler<BlockMap::View>;
 
-// A ray in voxels from the sampler's origin, by depth along the camera's z: p(z) = start + z * step.
+// A ray in voxels from the sampler's origin, by depth along the camera's z: p(z) = start + z *
+// step.
 struct Ray {
     Eigen::Vector3f start, step;
-    float voxels_per_metre;  // |step|
+    float metres_per_voxel;  // of z: 1 / |step|
 
     Ray(const Eigen::Vector3f& from, const Eigen::Vector3f& direction)
-        : start(from), step(direction), voxels_per_metre(direction.norm()) {}
+        : start(from), step(direction), metres_per_voxel(1 / direction.norm()) {}
     Eigen::Vector3f At(float z) const { return start + z * step; }
 };
 
@@ -32,14 +33,18 @@ struct Hit {
 class RayWalker {
   public:
     RayWalker(const BlockMap::View& map, const BlockCoord& origin)
-        : sampler_(map, origin), voxel_m_(map.voxel_size_m), truncation_m_(map.truncation_m) {}
+        : sampler_(map, origin),
+          voxel_m_(map.voxel_size_m),
+          truncation_m_(map.truncation_m),
+          voxels_per_metre_(1 / map.voxel_size_m) {}
 
     Hit FirstSurface(const Ray& ray, float first_m, float last_m) {
-        // The last known point in front of a surface; none once the walk has met unknown space or a back.
+        // The last known point in front of a surface; none once the walk has met unknown space or a
+        // back.
         bool has_front = false;
         float front_z = 0, front_m = 0;
         for (float z = first_m, advance_voxels = 0; z <= last_m;
-             z += advance_voxels / ray.voxels_per_metre) {
+             z += advance_voxels * ray.metres_per_voxel) {
             const Eigen::Vector3f p = ray.At(z);
             const FieldCell cell = sampler_.Locate(p.x(), p.y(), p.z());
             const Distance distance = DistanceAt(cell);
@@ -74,13 +79,14 @@ class RayWalker {
         const FieldWord word = sampler_.Nearest(cell);
         if (!HasDistance(word)) return {false, 0, 0};
         const float nearest_m = FieldDistance(word) * truncation_m_;
-        const float nearest_voxels = std::abs(nearest_m) / voxel_m_;
-        // Stored distances run along the rays that measured them: too long for others, hence less than all of it.
+        const float nearest_voxels = std::abs(nearest_m) * voxels_per_metre_;
+        // Stored distances run along the rays that measured them: too long for others, hence less
+        // than all of it.
         if (nearest_voxels > kNearVoxels) return {true, nearest_m, 0.8f * nearest_voxels};
         const FieldSample sample = sampler_.Sample<false>(cell);
         // Half a voxel more than to the surface, so that the next step ends behind it.
         return {sample.has_distance, sample.distance.value,
-                std::abs(sample.distance.value) / voxel_m_ + 0.5f};
+                std::abs(sample.distance.value) * voxels_per_metre_ + 0.5f};
     }
 
     static float VoxelsToBlockEnd(const Ray& ray, const Eigen::Vector3f& p) {
@@ -92,11 +98,11 @@ class RayWalker {
             const float end = ray.step[i] > 0 ? low + kBlockSide : low;
             least_z = std::min(least_z, (end - p[i]) / ray.step[i]);
         }
-        return std::max(least_z * ray.voxels_per_metre, 0.0f) + kBeyond;
+        return std::max(least_z / ray.metres_per_voxel, 0.0f) + kBeyond;
     }
 
-    // The zero between a point in front (distance a_m > 0 at depth a_z) and one behind: regula falsi with the Illinois
-    // rule, on interpolated distances.
+    // The zero between a point in front (distance a_m > 0 at depth a_z) and one behind: regula
+    // falsi with the Illinois rule, on interpolated distances.
     Hit Refine(const Ray& ray, float a_z, float a_m, float b_z, float b_m) {
         if (a_m > 0.99f * truncation_m_ && b_m < -0.99f * truncation_m_) return {};
         int last_side = 0;
@@ -124,7 +130,9 @@ class RayWalker {
     }
 
     Sampler sampler_;
-    float voxel_m_, truncation_m_;};
+    float voxel_m_, truncation_m_;
+    float voxels_per_metre_;
+};
 
 // Interpolates the words' parts over the corners that have an intensity, then converts once.
 struct Appearance {
@@ -158,7 +166,8 @@ struct Appearance {
 
 class TileCaster {
   public:
-    TileCaster(const BlockMap& map, PredictedView& view) : map_(map), map_view_(map.view()), view_(view) {
+    TileCaster(const BlockMap& map, PredictedView& view)
+        : map_(map), map_view_(map.view()), view_(view) {
         const double voxel_m = map.config().voxel_size_m;
         const Eigen::Vector3d at = view.T_world_camera.translation() / voxel_m;
         const Eigen::Vector3i block = (at / kBlockSide).array().floor().cast<int>();

@@ -1,5 +1,5 @@
-// Predicted views of the map by ray casting: empty space is left out block by block, the band is crossed in steps of
-// the stored distance, the zero crossing found by trilinear interpolation.
+// Predicted views of the map by ray casting: empty space is left out block by block, the band is
+// crossed in steps of the stored distance, the zero crossing found by trilinear interpolation.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -11,13 +11,14 @@
 
 namespace tessera {
 
-// Owner thread only; Cast works on all of TBB's threads and gives the same bytes for any number of them. Nobody may
-// write the map meanwhile.
+// Owner thread only; Cast works on all of TBB's threads and gives the same bytes for any number of
+// them. Nobody may write the map meanwhile.
 class RayCaster {
   public:
-    // The first surface seen from the front on each pixel's ray, between the two depths (metres along z, min > 0).
-    // Surface is where all eight voxels around a point are known and the distance falls through zero; a fall over
-    // the whole range at once is an occlusion's edge and passed through, as by the mesher.
+    // The first surface seen from the front on each pixel's ray, between the two depths (metres
+    // along z, min > 0). Surface is where all eight voxels around a point are known and the
+    // distance falls through zero; a fall over the whole range at once is an occlusion's edge and
+    // passed through, as by the mesher.
     PredictedView Cast(const BlockMap& map, const PinholeCamera& camera,
                        const Eigen::Isometry3d& T_world_camera, float min_depth_m,
                        float max_depth_m);

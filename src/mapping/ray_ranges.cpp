@@ -11,7 +11,8 @@ struct TileSpan {
     int first, last;
 };
 
-// The tiles that a ball's image touches along one axis. `c` is the ball's centre along it, z its depth.
+// The tiles that a ball's image touches along one axis. `c` is the ball's centre along it, z its
+// depth.
 TileSpan SpanOfBall(float c, float z, float radius, float focal, float centre, int tiles) {
     const float near_z = z - radius, far_z = z + radius;
     if (near_z < 0.01f) return {0, tiles - 1};  // too near to bound its image
@@ -20,7 +21,8 @@ TileSpan SpanOfBall(float c, float z, float radius, float focal, float centre, i
     const float to = high / (high > 0 ? near_z : far_z) * focal + centre + 1;
     constexpr float kTile = RayRanges::kTilePx;
     const auto tile = [&](float pixel) {
-        return static_cast<int>(std::floor(std::clamp(pixel / kTile, -1.0f, static_cast<float>(tiles))));
+        return static_cast<int>(
+            std::floor(std::clamp(pixel / kTile, -1.0f, static_cast<float>(tiles))));
     };
     return {std::max(tile(from), 0), std::min(tile(to), tiles - 1)};
 }
@@ -39,7 +41,8 @@ void RayRanges::Build(const BlockMap& map, const PinholeCamera& camera,
     const float radius = static_cast<float>(0.5 * kBlockSide * voxel_m * std::sqrt(3.0));
     for (BlockId id = 1; id < map.size(); ++id) {
         const BlockCoord b = map.coord(id);
-        const Eigen::Vector3d middle = (Eigen::Vector3d(b.x, b.y, b.z).array() + 0.5) * kBlockSide * voxel_m;
+        const Eigen::Vector3d middle =
+            (Eigen::Vector3d(b.x, b.y, b.z).array() + 0.5) * kBlockSide * voxel_m;
         const Eigen::Vector3f c = (T_camera_world * middle).cast<float>();
         if (c.z() + radius < min_depth_m || c.z() - radius > max_depth_m) continue;
         const TileSpan columns = SpanOfBall(c.x(), c.z(), radius, static_cast<float>(camera.fx),

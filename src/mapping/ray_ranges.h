@@ -1,4 +1,5 @@
-// Between which depths the rays of a view can meet blocks at all: what lies before and after need not be walked.
+// Between which depths the rays of a view can meet blocks at all: what lies before and after need
+// not be walked.
 #pragma once
 
 #include <Eigen/Geometry>

@@ -46,7 +46,9 @@ inline std::uint32_t Mix(std::uint32_t v) {
     v = (v ^ v >> 15) * 0x846ca68bu;
     return v ^ v >> 16;
 }
-inline double Uniform(std::uint32_t counter) { return Mix(counter) / 4294967296.0; }
+inline double Uniform(std::uint32_t counter) {
+    return Mix(counter) / 4294967296.0;
+}
 
 // `distance` in truncations, clamped to [-1, 1]; intensity < 0: none.
 inline FieldWord PackField(double distance, double intensity = -1) {
@@ -56,7 +58,9 @@ inline FieldWord PackField(double distance, double intensity = -1) {
         intensity < 0 ? 0l : 1 + std::lround(intensity * static_cast<double>(kIntensitySteps));
     return static_cast<std::uint32_t>(steps) << 16 | static_cast<std::uint32_t>(grey);
 }
-inline double Luma(const Eigen::Vector3d& rgb) { return rgb.dot(Eigen::Vector3d(.299, .587, .114)); }
+inline double Luma(const Eigen::Vector3d& rgb) {
+    return rgb.dot(Eigen::Vector3d(.299, .587, .114));
+}
 inline ColourWord PackColour(const Eigen::Vector3d& rgb, double weight = 1) {
     const double steps = static_cast<double>(kChromaSteps), y = Luma(rgb);
     const auto cb = static_cast<std::uint32_t>(std::lround(512 + steps * (rgb.z() - y) / 1.772));
@@ -73,17 +77,18 @@ inline Eigen::Vector3i WorldVoxel(const BlockCoord& c, int offset) {
 inline void FillBlock(BlockMap& map, BlockId id, const Sdf& sdf, const Paint& paint,
                       std::uint32_t revision) {
     for (int offset = 0; offset < kBlockVoxels; ++offset) {
-        const Eigen::Vector3d p = WorldVoxel(map.coord(id), offset).cast<double>() *
-                                  map.config().voxel_size_m;
-        map.field(id)[offset] = PackField(sdf(p) / map.config().truncation_m,
-                                          paint ? Luma(paint(p)) : -1);
+        const Eigen::Vector3d p =
+            WorldVoxel(map.coord(id), offset).cast<double>() * map.config().voxel_size_m;
+        map.field(id)[offset] =
+            PackField(sdf(p) / map.config().truncation_m, paint ? Luma(paint(p)) : -1);
         map.weight(id)[offset] = static_cast<std::uint16_t>(kWeightSteps);
         if (paint) map.colour(id)[offset] = PackColour(paint(p));
     }
     map.MarkChanged(id, revision);
 }
 
-// Allocates and fills the blocks from `low` to `high`, both included, that the band around the surface may touch.
+// Allocates and fills the blocks from `low` to `high`, both included, that the band around the
+// surface may touch.
 inline void Fill(BlockMap& map, const Sdf& sdf, const BlockCoord& low, const BlockCoord& high,
                  const Paint& paint = nullptr, std::uint32_t revision = 1) {
     const double voxel = map.config().voxel_size_m;

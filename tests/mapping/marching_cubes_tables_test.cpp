@@ -17,7 +17,9 @@ std::set<Segment> Segments(int configuration, int face) {
     return result;
 }
 
-bool CornerOnFace(int corner, int face) { return (corner >> face / 2 & 1) == face % 2; }
+bool CornerOnFace(int corner, int face) {
+    return (corner >> face / 2 & 1) == face % 2;
+}
 
 bool EdgeOnFace(int edge, int face) {
     const CubeEdge e = CubeEdgeAt(edge);
@@ -44,7 +46,8 @@ TEST(MarchingCubesTables, EdgesAreTheTwelvePairsOfAdjacentCorners) {
     EXPECT_EQ(pairs.size(), 12u);
 }
 
-// Cells of any two configurations that share a face's corners draw the same segments on it, in opposite directions.
+// Cells of any two configurations that share a face's corners draw the same segments on it, in
+// opposite directions.
 TEST(MarchingCubesTables, NeighboursAgreeOnEveryFace) {
     int compared = 0;
     for (int axis = 0; axis < 3; ++axis)
@@ -64,7 +67,8 @@ TEST(MarchingCubesTables, NeighboursAgreeOnEveryFace) {
     EXPECT_EQ(compared, 3 * 256 * 16);
 }
 
-// In a cell, a side of a triangle either is a segment of a face, used once, or is interior, used once each way.
+// In a cell, a side of a triangle either is a segment of a face, used once, or is interior, used
+// once each way.
 TEST(MarchingCubesTables, TrianglesFillTheSegmentsOfEveryConfiguration) {
     for (int configuration = 0; configuration < kCubeConfigurations; ++configuration) {
         std::map<Segment, int> sides;
@@ -95,7 +99,8 @@ TEST(MarchingCubesTables, VerticesLieOnCrossedEdgesOnly) {
         for (int edge = 0; edge < kCubeEdges; ++edge) {
             const CubeEdge e = CubeEdgeAt(edge);
             const int other = e.corner | 1 << e.axis;
-            if ((configuration >> e.corner & 1) != (configuration >> other & 1)) crossed.insert(edge);
+            if ((configuration >> e.corner & 1) != (configuration >> other & 1))
+                crossed.insert(edge);
         }
         EXPECT_EQ(used, crossed) << configuration;
     }

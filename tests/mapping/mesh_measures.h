@@ -1,4 +1,4 @@
-// What tests ask of a triangle mesh: topology, area, volume.
+// Meshes of maps and formulas, and what tests ask of them: topology, area, volume.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -7,12 +7,14 @@
 #include <tuple>
 #include <utility>
 
-#include "core/mesh.h"
+#include "mapping/analytic_fields.h"
+#include "mapping/mesher.h"
 
 namespace tessera::testing {
 
 // How often each directed side of a triangle occurs.
-inline std::map<std::pair<std::uint32_t, std::uint32_t>, int> DirectedEdges(const TriangleMesh& mesh) {
+inline std::map<std::pair<std::uint32_t, std::uint32_t>, int> DirectedEdges(
+    const TriangleMesh& mesh) {
     std::map<std::pair<std::uint32_t, std::uint32_t>, int> uses;
     for (const auto& t : mesh.triangles)
         for (std::size_t i = 0; i < 3; ++i) ++uses[{t[i], t[(i + 1) % 3]}];
@@ -44,7 +46,8 @@ inline long EulerCharacteristic(const TriangleMesh& mesh) {
 }
 
 // Twice the area, along the outward normal.
-inline Eigen::Vector3d TriangleCross(const TriangleMesh& mesh, const std::array<std::uint32_t, 3>& t) {
+inline Eigen::Vector3d TriangleCross(const TriangleMesh& mesh,
+                                     const std::array<std::uint32_t, 3>& t) {
     const Eigen::Vector3d a = mesh.vertices[t[0]].cast<double>();
     return (mesh.vertices[t[1]].cast<double>() - a).cross(mesh.vertices[t[2]].cast<double>() - a);
 }
@@ -69,6 +72,23 @@ inline std::size_t DistinctPositions(const TriangleMesh& mesh) {
 inline bool SameBytes(const TriangleMesh& a, const TriangleMesh& b) {
     return a.vertices == b.vertices && a.normals == b.normals && a.colours == b.colours &&
            a.triangles == b.triangles;
+}
+
+// The whole mesh of a map.
+inline TriangleMesh MeshOf(const BlockMap& map, int min_component_triangles = 0) {
+    Mesher::Config config;
+    config.min_component_triangles = min_component_triangles;
+    Mesher mesher(config);
+    mesher.Update(map);
+    return mesher.Assemble();
+}
+
+// The same of a formula, at 1 cm voxels and 4 cm truncation.
+inline TriangleMesh MeshOf(const Sdf& sdf, const BlockCoord& low, const BlockCoord& high,
+                           const Paint& paint = nullptr) {
+    BlockMap map{BlockMap::Config{}};
+    Fill(map, sdf, low, high, paint);
+    return MeshOf(map);
 }
 
 }  // namespace tessera::testing

@@ -13,10 +13,13 @@ using namespace testing;
 // 1 cm voxels: a tenth of a voxel is a millimetre.
 constexpr double kTenthVoxel = 1e-3;
 
-PinholeCamera SmallCamera() { return {160, 120, 140, 145, 79.5, 60.5}; }
+PinholeCamera SmallCamera() {
+    return {160, 120, 140, 145, 79.5, 60.5};
+}
 
 // At `eye`, looking at `target`, turned about the optical axis.
-Eigen::Isometry3d LookAt(const Eigen::Vector3d& eye, const Eigen::Vector3d& target, double roll_rad = .3) {
+Eigen::Isometry3d LookAt(const Eigen::Vector3d& eye, const Eigen::Vector3d& target,
+                         double roll_rad = .3) {
     Eigen::Matrix3d R;
     R.col(2) = (target - eye).normalized();
     R.col(0) = Eigen::Vector3d(.1, 1, .2).cross(R.col(2)).normalized();
@@ -33,11 +36,13 @@ int CountHits(const PredictedView& view) {
     return hits;
 }
 
-// Depth along z at which the pixel's ray meets the sphere, 0 if it does not; cosine of the angle of incidence.
-double SphereDepth(const PinholeCamera& camera, const Eigen::Isometry3d& T_world_camera, int u, int v,
-                   const Eigen::Vector3d& centre, double radius, double* cosine) {
+// Depth along z at which the pixel's ray meets the sphere, 0 if it does not; cosine of the angle of
+// incidence.
+double SphereDepth(const PinholeCamera& camera, const Eigen::Isometry3d& T_world_camera, int u,
+                   int v, const Eigen::Vector3d& centre, double radius, double* cosine) {
     const Eigen::Vector3d ray = camera.Unproject(u, v, 1), c = T_world_camera.inverse() * centre;
-    const double a = ray.squaredNorm(), b = ray.dot(c), discriminant = b * b - a * (c.squaredNorm() - radius * radius);
+    const double a = ray.squaredNorm(), b = ray.dot(c),
+                 discriminant = b * b - a * (c.squaredNorm() - radius * radius);
     if (discriminant < 0) return 0;
     const double z = (b - std::sqrt(discriminant)) / a;
     *cosine = (c - z * ray).normalized().dot(ray.normalized());
@@ -50,8 +55,9 @@ TEST(RayCaster, SphereFromAllSides) {
     Fill(map, Sphere(centre, .3), {-6, -6, -6}, {5, 5, 5});
     RayCaster caster;
     const PinholeCamera camera = SmallCamera();
-    for (const Eigen::Vector3d& eye : {Eigen::Vector3d(1, .1, .2), Eigen::Vector3d(-.2, -1, .3),
-                                       Eigen::Vector3d(.1, .2, -.9), Eigen::Vector3d(-.7, .6, .7)}) {
+    for (const Eigen::Vector3d& eye :
+         {Eigen::Vector3d(1, .1, .2), Eigen::Vector3d(-.2, -1, .3), Eigen::Vector3d(.1, .2, -.9),
+          Eigen::Vector3d(-.7, .6, .7)}) {
         const Eigen::Isometry3d T = LookAt(eye, centre);
         const PredictedView view = caster.Cast(map, camera, T, .1f, 5.f);
         int missed = 0, compared = 0;
@@ -79,7 +85,8 @@ TEST(RayCaster, SphereFromAllSides) {
     }
 }
 
-// A plane's field is linear: interpolation is exact, and so must every pixel be, across blocks and at grazing angles.
+// A plane's field is linear: interpolation is exact, and so must every pixel be, across blocks and
+// at grazing angles.
 TEST(RayCaster, ObliquePlaneIsExact) {
     const Eigen::Vector3d normal = Eigen::Vector3d(.3, -.2, -1).normalized();
     BlockMap map{BlockMap::Config{}};
@@ -97,7 +104,8 @@ TEST(RayCaster, ObliquePlaneIsExact) {
                 if (z < .1 || z > 3 || (eye + z * ray).cwiseAbs().maxCoeff() > .9) continue;
                 ++compared;
                 ASSERT_NEAR(view.depth_m(u, v), z, 5e-5 / std::abs(normal.dot(ray.normalized())));
-                ASSERT_LT((T.linear() * view.normal_camera(u, v).cast<double>() - normal).norm(), 2e-3);
+                ASSERT_LT((T.linear() * view.normal_camera(u, v).cast<double>() - normal).norm(),
+                          2e-3);
             }
         EXPECT_GT(compared, 5000);
     }
@@ -106,7 +114,8 @@ TEST(RayCaster, ObliquePlaneIsExact) {
 TEST(RayCaster, FarFromTheWorldsOrigin) {
     BlockMap map{BlockMap::Config{}};
     const Eigen::Vector3d centre(400.003, -250.002, 123.001);
-    const BlockCoord block{static_cast<int>(400 / .08), static_cast<int>(-250 / .08), static_cast<int>(123 / .08)};
+    const BlockCoord block{static_cast<int>(400 / .08), static_cast<int>(-250 / .08),
+                           static_cast<int>(123 / .08)};
     Fill(map, Sphere(centre, .2), {block.x - 4, block.y - 4, block.z - 4},
          {block.x + 4, block.y + 4, block.z + 4});
     const Eigen::Isometry3d T = LookAt(centre + Eigen::Vector3d(0, .1, -1), centre, 0);
@@ -114,7 +123,8 @@ TEST(RayCaster, FarFromTheWorldsOrigin) {
     double cosine;
     for (int v = 50; v < 70; ++v)
         for (int u = 70; u < 90; ++u)
-            ASSERT_NEAR(view.depth_m(u, v), SphereDepth(SmallCamera(), T, u, v, centre, .2, &cosine), 2e-4);
+            ASSERT_NEAR(view.depth_m(u, v),
+                        SphereDepth(SmallCamera(), T, u, v, centre, .2, &cosine), 2e-4);
 }
 
 TEST(RayCaster, ColourAndIntensityAreInterpolated) {
@@ -142,7 +152,8 @@ TEST(RayCaster, ColourAndIntensityAreInterpolated) {
 TEST(RayCaster, SurfaceWithoutColourSaysSo) {
     BlockMap map{BlockMap::Config{}};
     Fill(map, Sphere({0, 0, 0}, .3), {-6, -6, -6}, {5, 5, 5});
-    const PredictedView view = RayCaster().Cast(map, SmallCamera(), LookAt({0, 0, -1}, {0, 0, 0}), .1f, 3.f);
+    const PredictedView view =
+        RayCaster().Cast(map, SmallCamera(), LookAt({0, 0, -1}, {0, 0, 0}), .1f, 3.f);
     ASSERT_GT(view.depth_m(80, 60), 0);
     EXPECT_EQ(view.intensity(80, 60), -1);
     EXPECT_EQ(view.colour(80, 60), (Rgb8{128, 128, 128}));
@@ -161,7 +172,8 @@ TEST(RayCaster, NothingToSee) {
     EXPECT_EQ(CountHits(view), 0);
     caster.Cast(map, camera, LookAt({0, 0, -1}, {0, 0, 0}), .1f, .6f, view);  // too far
     EXPECT_EQ(CountHits(view), 0);
-    caster.Cast(map, camera, LookAt({0, 0, 0}, {0, 0, 1}), .1f, 3.f, view);  // from inside: the back
+    caster.Cast(map, camera, LookAt({0, 0, 0}, {0, 0, 1}), .1f, 3.f,
+                view);  // from inside: the back
     EXPECT_EQ(CountHits(view), 0);
     for (std::size_t i = 0; i < view.depth_m.size(); ++i) {
         ASSERT_EQ(view.normal_camera.data()[i].norm(), 0);
@@ -170,7 +182,8 @@ TEST(RayCaster, NothingToSee) {
     }
 }
 
-// Unknown voxels are no surface, even where free space borders on them; nor is a jump over the whole range.
+// Unknown voxels are no surface, even where free space borders on them; nor is a jump over the
+// whole range.
 TEST(RayCaster, NoSurfaceAtUnknownSpaceNorAtJumps) {
     BlockMap map{BlockMap::Config{}};
     Fill(map, Plane({0, 0, -1}, 0), {-4, -4, -1}, {3, 3, 0});
@@ -186,7 +199,8 @@ TEST(RayCaster, NoSurfaceAtUnknownSpaceNorAtJumps) {
     EXPECT_EQ(CountHits(RayCaster().Cast(map, SmallCamera(), T, .1f, 3.f)), 0);
 }
 
-// The nearer surface wins although its band hides behind nothing; rays past its edge reach the wall.
+// The nearer surface wins although its band hides behind nothing; rays past its edge reach the
+// wall.
 TEST(RayCaster, OccluderInFrontOfAWall) {
     BlockMap map{BlockMap::Config{}};
     Fill(map, Union(Sphere({0, 0, 0}, .1), Plane({0, 0, -1}, -.5)), {-12, -12, -2}, {11, 11, 7});
@@ -198,7 +212,8 @@ TEST(RayCaster, OccluderInFrontOfAWall) {
             double cosine = 1;
             const double sphere = SphereDepth(camera, T, u, v, {0, 0, 0}, .1, &cosine);
             if (sphere > 0 && cosine < .3) continue;
-            ASSERT_NEAR(view.depth_m(u, v), sphere > 0 ? sphere : 1.5, kTenthVoxel) << u << " " << v;
+            ASSERT_NEAR(view.depth_m(u, v), sphere > 0 ? sphere : 1.5, kTenthVoxel)
+                << u << " " << v;
         }
 }
 
