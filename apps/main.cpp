@@ -36,6 +36,9 @@ void AddCommandsToCome(CLI::App& app, CommandContext& context) {
 
 int ReportParseError(const CLI::App& app, const CLI::ParseError& error) {
     if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) return app.exit(error);
+    // CLI11 says only that a command is missing.
+    if (app.get_subcommands().empty() && !app.remaining().empty())
+        return Fail(Status::Error(fmt::format("unknown command or option '{}' (tessera -h lists them)", app.remaining().front())));
     std::string command = "tessera";
     for (const CLI::App* used = &app; !used->get_subcommands().empty();) {
         used = used->get_subcommands().front();

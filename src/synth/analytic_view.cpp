@@ -126,8 +126,8 @@ void AnalyticView::Describe(const Candidate& winner, const Eigen::Vector3d& d_ca
     const Eigen::Vector2d uv = ChartPoint(shape, hit.chart, p);
     hit.u = static_cast<float>(uv.x());
     hit.v = static_cast<float>(uv.y());
-    hit.cos_incidence =
-        static_cast<float>(std::abs(NormalOnChart(shape, hit.chart, p).dot(d)) / d_camera.norm());
+    hit.cos_incidence = std::abs(static_cast<float>(AlongNormal(shape, hit.chart, p, d))) /
+                        std::sqrt(static_cast<float>(d_camera.squaredNorm()));
 }
 
 void AnalyticView::Cast(const PixelRect& rect, double offset_x_px, double offset_y_px,
@@ -138,10 +138,11 @@ void AnalyticView::Cast(const PixelRect& rect, double offset_x_px, double offset
         if (InTile(c, rect, offset_x_px, offset_y_px)) tile.push_back(&c);
     const Candidate* last = nullptr;
     std::size_t i = 0;
+    const double per_fx = 1 / camera_.fx, per_fy = 1 / camera_.fy;
     for (int y = rect.y_begin; y < rect.y_end; ++y) {
+        const double d_y = (y + offset_y_px - camera_.cy) * per_fy;
         for (int x = rect.x_begin; x < rect.x_end; ++x, ++i) {
-            const Eigen::Vector3d d_camera =
-                camera_.Unproject(x + offset_x_px, y + offset_y_px, 1.0);
+            const Eigen::Vector3d d_camera((x + offset_x_px - camera_.cx) * per_fx, d_y, 1.0);
             hits[i] = {};
             last = Nearest(tile, last, d_camera, hits[i]);
             if (last) Describe(*last, d_camera, hits[i]);

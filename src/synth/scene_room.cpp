@@ -95,7 +95,7 @@ StagedScene MakeRoom() {
     FurnishRoom(add);
     Lighting lighting;
     lighting.lights = {
-        {{2.5, 2.0, 2.4}, 0.25, 1.9}, {{0.8, 3.0, 2.3}, 0.2, 0.7}, {{4.2, 1.0, 2.3}, 0.2, 0.7}};
+        {{2.5, 2.0, 2.4}, 0.25, 2.7}, {{0.8, 3.0, 2.3}, 0.2, 1.0}, {{4.2, 1.0, 2.3}, 0.2, 1.0}};
     lighting.texel_m = 0.03;
     scene->Finish(lighting);
     StagedScene staged;
@@ -126,7 +126,7 @@ StagedScene MakeCorridor() {
     FurnishCorridor(add, kLength, kWidth);
     Lighting lighting;
     for (int i = 0; i < 10; ++i)
-        lighting.lights.push_back({{2.0 + 4.0 * i, kWidth / 2, 2.5}, 0.2, 1.0});
+        lighting.lights.push_back({{2.0 + 4.0 * i, kWidth / 2, 2.5}, 0.2, 1.35});
     lighting.texel_m = 0.06;
     scene->Finish(lighting);
     StagedScene staged;

@@ -34,6 +34,9 @@ Status FirstError(std::initializer_list<Status> statuses) {
     return Status::Ok();
 }
 
+// Depth noise stays below this share of the depth, jumps at edges above it.
+constexpr float kSameSurface = 0.03f;
+
 class Writer {
   public:
     Writer(SyntheticSource& source, const std::string& folder)
@@ -78,8 +81,10 @@ Status Writer::WriteImages(const Frame& frame, const RenderedView& truth) {
 
 void Writer::Remember(const Frame& frame, const RenderedView& truth) {
     for (std::size_t i = 0; i < truth.patch.size(); ++i) {
-        const float measured = frame.depth_m.data()[i];
-        if (truth.patch.data()[i] >= 0 && measured > 0 && measured <= kFarthestStored_m)
+        const float truth_m = truth.depth_m.data()[i], measured_m = frame.depth_m.data()[i];
+        // At a ragged edge the sensor gives a neighbour's depth: that surface was not seen here.
+        const bool is_this_surface = std::abs(measured_m - truth_m) < kSameSurface * truth_m;
+        if (truth.patch.data()[i] >= 0 && is_this_surface && measured_m <= kFarthestStored_m)
             seen_patches_[static_cast<std::size_t>(truth.patch.data()[i])] = true;
     }
     objects_.Add(truth, frame.index, frame.stamp_s);

@@ -41,10 +41,10 @@ std::optional<ShapeHit> IntersectBox(const Vector3d& half, const Vector3d& o, co
         const bool forward = inverse > 0;
         if (low > t_in) t_in = low, chart_in = 2 * i + (forward ? 0 : 1);
         if (high < t_out) t_out = high, chart_out = 2 * i + (forward ? 1 : 0);
+        if (t_in > t_out || t_in >= t_max || t_out <= 0) return std::nullopt;
     }
-    if (t_in > t_out) return std::nullopt;
-    if (t_in > 0) return t_in < t_max ? std::optional<ShapeHit>({t_in, chart_in}) : std::nullopt;
-    if (t_out > 0 && t_out < t_max) return ShapeHit{t_out, chart_out};
+    if (t_in > 0) return ShapeHit{t_in, chart_in};
+    if (t_out < t_max) return ShapeHit{t_out, chart_out};
     return std::nullopt;
 }
 
@@ -202,6 +202,21 @@ Vector3d NormalOnChart(const Shape& shape, int chart, const Vector3d& p) {
             break;
     }
     return Vector3d::UnitZ();
+}
+
+double AlongNormal(const Shape& shape, int chart, const Vector3d& p, const Vector3d& vector) {
+    switch (shape.kind) {
+        case ShapeKind::kBox:
+            return chart % 2 == 0 ? -vector[chart / 2] : vector[chart / 2];
+        case ShapeKind::kSphere:
+            return p.dot(vector) / shape.half_size_m.x();
+        case ShapeKind::kCylinder:
+            if (chart == 0) return p.head<2>().dot(vector.head<2>()) / shape.half_size_m.x();
+            return chart == 1 ? -vector.z() : vector.z();
+        case ShapeKind::kRectangle:
+            break;
+    }
+    return vector.z();
 }
 
 std::optional<ShapeHit> Intersect(const Shape& shape, const Vector3d& origin,

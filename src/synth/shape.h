@@ -32,6 +32,11 @@ Eigen::Vector2d ChartPoint(const Shape& shape, int chart, const Eigen::Vector3d&
 // Unit, outwards, in the shape's frame.
 Eigen::Vector3d NormalOnChart(const Shape& shape, int chart, const Eigen::Vector3d& p_shape);
 
+// The normal's scalar product with a vector in the shape's frame: what NormalOnChart gives, at less
+// cost.
+double AlongNormal(const Shape& shape, int chart, const Eigen::Vector3d& p_shape,
+                   const Eigen::Vector3d& vector);
+
 struct ShapeHit {
     double t;  // p = origin + t * direction
     int chart;

@@ -1,6 +1,7 @@
 #include "synth/texture.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "core/check.h"
@@ -105,17 +106,10 @@ RgbF Texture::Sample(float u, float v, float footprint) const {
     u = WrapIntoImage(u, wrap_);
     v = WrapIntoImage(v, wrap_);
     const float texels = footprint * static_cast<float>(levels_.front().width);
-    const int last = static_cast<int>(levels_.size()) - 1;
-    if (!(texels > 1.0f) || last == 0) return SampleLevel(levels_.front(), u, v);
-    // The logarithm's integer part is exact, its fraction taken as linear: that is what a blend
-    // needs.
-    int exponent;
-    const float mantissa = std::frexp(texels, &exponent);  // in [0.5, 1)
-    if (exponent - 1 >= last) return SampleLevel(levels_.back(), u, v);
-    const float blend = 2.0f * mantissa - 1.0f;
-    const RgbF a = SampleLevel(levels_[exponent - 1], u, v);
-    const RgbF b = SampleLevel(levels_[exponent], u, v);
-    return {a.r + blend * (b.r - a.r), a.g + blend * (b.g - a.g), a.b + blend * (b.b - a.b)};
+    if (!(texels > 1.0f)) return SampleLevel(levels_.front(), u, v);
+    const int level =
+        static_cast<int>(std::bit_cast<std::uint32_t>(texels) >> 23) - 127;  // floor(log2)
+    return SampleLevel(levels_[std::min(level, static_cast<int>(levels_.size()) - 1)], u, v);
 }
 
 }  // namespace tessera

@@ -21,9 +21,10 @@ class Texture {
     // `image` must not be empty; 1x1 is a flat colour.
     Texture(const ColourImage& image, Wrap wrap);
 
-    // Trilinear. (u, v) run over [0, 1] from the image's top-left to its bottom-right corner,
-    // outside of which the image repeats or is continued; `footprint` is the sample's extent as a
-    // share of the image's width.
+    // Bilinear, in the pyramid's level whose texels are as large as the footprint or up to half of
+    // it: the renderer's several samples a pixel average the rest away. (u, v) run over [0, 1] from
+    // the image's top-left to its bottom-right corner, outside of which the image repeats or is
+    // continued; `footprint` is the sample's extent as a share of the image's width.
     RgbF Sample(float u, float v, float footprint) const;
 
     int width() const { return levels_.front().width; }

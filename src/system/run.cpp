@@ -34,22 +34,26 @@ class Runner {
   private:
     Status Open() {
         if (Status status = config_.Validate(); !status.ok()) return status;
+        std::vector<std::string> pose_notes;
         if (!request_.poses_file.empty()) {
             Result<Trajectory> poses = ReadTrajectory(request_.poses_file);
             if (!poses.ok()) return poses.status();
             given_ = std::move(poses.value().poses);
-            for (const std::string& note : poses.value().notes) Warn(note);
+            pose_notes = std::move(poses.value().notes);
         }
         Result<std::unique_ptr<FrameSource>> source = OpenSource(request_.source, config_);
         if (!source.ok()) return source.status();
         reader_ = std::make_unique<FrameReader>(std::move(source.value()), request_.selection, config_.read_ahead);
         summary_.source = reader_->info();
         pipeline_ = std::make_unique<Pipeline>(config_.pipeline, summary_.source.camera);
+        if (!request_.output_folder.empty()) {
+            Result<std::unique_ptr<RunOutput>> output = RunOutput::Open(request_, config_, summary_.source);
+            if (!output.ok()) return output.status();
+            output_ = std::move(output.value());
+        }
+        // Only now: a refused run says one line.
         if (observer_.on_open) observer_.on_open(summary_.source);
-        if (request_.output_folder.empty()) return Status::Ok();
-        Result<std::unique_ptr<RunOutput>> output = RunOutput::Open(request_, config_, summary_.source);
-        if (!output.ok()) return output.status();
-        output_ = std::move(output.value());
+        for (const std::string& note : pose_notes) Warn(note);
         return Status::Ok();
     }
 

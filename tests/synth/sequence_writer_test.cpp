@@ -118,6 +118,20 @@ TEST_F(WrittenSequence, TheReferenceIsTheSeenPartOnTheSurface) {
     }
 }
 
+TEST(SequenceWriter, TheReferenceLeavesOutWhatTheSensorCannotMeasure) {
+    const std::string folder = testing::TempDir() + "/short_sighted_sequence";
+    std::filesystem::remove_all(folder);
+    SynthConfig config = Small();
+    config.sensor.noise = NoiseModel::kKinect;
+    config.sensor.max_depth_m = 1.5;  // the wall is 2 m away
+    SyntheticSource source("two cups", TwoCups(), config);
+    ASSERT_TRUE(WriteSequence(source, folder, {}).ok());
+    const auto reference = ReadPly(folder + "/reference.ply");
+    ASSERT_TRUE(reference.ok()) << reference.message();
+    ASSERT_GT(reference.value().triangles.size(), 20u);
+    for (const auto& v : reference.value().vertices) EXPECT_LT(v.y(), 1.5f);
+}
+
 TEST(SequenceWriter, StopsWhenAskedAndLeavesAWholeFolder) {
     const std::string folder = testing::TempDir() + "/stopped_sequence";
     std::filesystem::remove_all(folder);

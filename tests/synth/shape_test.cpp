@@ -90,6 +90,8 @@ TEST(Shape, ChartsAndPointsAreInverseAndNormalsAreTheDistancesGradient) {
                 EXPECT_NEAR(SignedDistance(shape, p), 0, 1e-12);
                 const Vector3d normal = NormalOnChart(shape, chart, p);
                 EXPECT_NEAR(normal.norm(), 1, 1e-12);
+                EXPECT_NEAR(AlongNormal(shape, chart, p, Vector3d(1, 2, 3)),
+                            normal.dot(Vector3d(1, 2, 3)), 1e-12);
                 EXPECT_NEAR(SignedDistance(shape, p + 0.01 * normal), 0.01, 1e-9);
                 // u to the right and v down, seen from outside: u x v points inwards.
                 const double h = 1e-6;
