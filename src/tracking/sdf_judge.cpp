@@ -101,6 +101,9 @@ void SdfTracker::Config::Describe(ConfigParameters& p) {
     p.Add("intensity_scale", intensity_scale, {1e-3, 10.0}, "", "Huber scale of intensities");
     p.Add("depth_exponent", depth_exponent, {0.0, 4.0}, "",
           "a point's weight is (1 m / depth)^this: 4 is the inverse variance of structured light, 0 is [B14]");
+    p.Add("normalise", normalise,
+          "divide the field's distance by its gradient's length: distances measured along slanted rays are too long; "
+          "off is [B14]");
     p.Add("finest_step_px", finest_step_px, {1, 16}, "px",
           "the finest level takes every so-manieth pixel in both directions");
     p.Add("levels", levels, {1, 5}, "", "coarse to fine: each level doubles the step");

@@ -83,8 +83,12 @@ struct Sums {
     for (int c = 0; c < 8; ++c) corner[c] = xsimd::to_float(words[c] >> 16);
     const auto s = Trilinear(corner, fraction[0], fraction[1], fraction[2]);
     const Real to_m(a.truncation_m / kDistanceSteps), slope(a.truncation_m / (kDistanceSteps * a.voxel_size_m));
-    const Real residual = s.value * to_m;
-    const Real g[3] = {s.gx * slope, s.gy * slope, s.gz * slope};
+    // A distance measured along a slanted ray is too long, and so is its gradient: divide by the gradient's length.
+    Real steepness(1.0f);
+    if (a.normalise)
+        steepness = Real(1.0f) / xsimd::max(Real(1.0f), xsimd::sqrt(s.gx * s.gx + s.gy * s.gy + s.gz * s.gz) * slope);
+    const Real residual = s.value * to_m * steepness;
+    const Real g[3] = {s.gx * slope * steepness, s.gy * slope * steepness, s.gz * slope * steepness};
     const Real scale(a.distance_scale_m);
     const Real w = Masked(known, point_weight * HuberWeight(residual, scale));
     Real j[6];

@@ -28,6 +28,7 @@ struct SdfArguments {
     const float* weight;
     // The energy.
     float alpha;
+    bool normalise;  // divide distances by their gradient's length where it exceeds 1
     float gain, offset;
     float distance_scale_m, intensity_scale;  // Huber
     float inlier_distance_m;  // for SdfSumLayout::kInliers

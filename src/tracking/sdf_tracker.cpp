@@ -123,6 +123,7 @@ void SdfTracker::PrepareLevel(const TrackInput& input, int level, State& state) 
     a.intensity = points.intensity.data();
     a.weight = points.weight.data();
     a.alpha = static_cast<float>(state.alpha);
+    a.normalise = config_.normalise;
     a.distance_scale_m = static_cast<float>(config_.distance_scale_m);
     a.intensity_scale = static_cast<float>(config_.intensity_scale);
     a.inlier_distance_m = 0.5f * map.truncation_m;

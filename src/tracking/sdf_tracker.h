@@ -23,6 +23,7 @@ class SdfTracker : public Tracker {
         double distance_scale_m = 0.02;
         double intensity_scale = 0.1;
         double depth_exponent = 2.0;
+        bool normalise = true;
         int finest_step_px = 2;
         int levels = 3;
         int coarse_iterations = 20;
