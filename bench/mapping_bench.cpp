@@ -41,8 +41,8 @@ void MeshBlocks(benchmark::State& state) {
     }
     const double blocks = map.size() - 1;
     state.counters["blocks"] = blocks;
-    state.counters["us_per_block"] =
-        benchmark::Counter(blocks * static_cast<double>(state.iterations()) / 1e6,
+    state.counters["per_block"] =
+        benchmark::Counter(blocks * static_cast<double>(state.iterations()),
                            benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
     state.counters["mesh_bytes_per_block"] = static_cast<double>(mesher.bytes()) / blocks;
 }
@@ -84,8 +84,8 @@ void CastView(benchmark::State& state) {
     double hits = 0;
     for (std::size_t i = 0; i < view.depth_m.size(); ++i) hits += view.depth_m.data()[i] > 0;
     state.counters["hits"] = hits / pixels;
-    state.counters["ns_per_pixel"] =
-        benchmark::Counter(pixels * static_cast<double>(state.iterations()) / 1e9,
+    state.counters["per_pixel"] =
+        benchmark::Counter(pixels * static_cast<double>(state.iterations()),
                            benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
 BENCHMARK(CastView)
