@@ -1,5 +1,7 @@
 #include "run_text.h"
 
+#include <filesystem>
+
 namespace tessera {
 
 std::string AteText(const AteResult& ate) {
@@ -26,12 +28,14 @@ std::string RunText(const RunRequest& request, const RunSummary& s) {
         "MB\n",
         s.fps, median_ms, s.map.blocks, static_cast<double>(s.map.bytes) / kMegabyte, s.map.bytes_per_voxel,
         s.peak_rss_mb);
+    std::error_code ignored;  // an empty mesh has no picture
     for (const auto& [file, what] : {std::pair{"trajectory.txt", "camera path, TUM format"},
                                      {"mesh.ply", "coloured mesh"},
                                      {"preview.png", "picture of it"},
                                      {"timings.json", "time per stage"},
                                      {"run.json", "settings and figures of this run"}})
-        text += fmt::format("  {}/{}  {}\n", request.output_folder, file, what);
+        if (std::filesystem::exists(request.output_folder + "/" + file, ignored))
+            text += fmt::format("  {}/{}  {}\n", request.output_folder, file, what);
     return text;
 }
 

@@ -22,7 +22,7 @@ class Runner {
     Result<RunSummary> Run(const std::atomic<bool>& stop) {
         if (Status status = Open(); !status.ok()) return status;
         Status status = ReadFrames(stop);
-        if (status.ok() && summary_.counts.frames == summary_.counts.skipped)
+        if (status.ok() && !summary_.stopped && summary_.counts.frames == summary_.counts.skipped)
             status = Status::Error(request_.source + ": no frame could be read" +
                                    (summary_.last_reason.empty() ? "" : "; the last: " + summary_.last_reason));
         Status finished = Finish(status);
@@ -34,26 +34,30 @@ class Runner {
   private:
     Status Open() {
         if (Status status = config_.Validate(); !status.ok()) return status;
-        std::vector<std::string> pose_notes;
         if (!request_.poses_file.empty()) {
             Result<Trajectory> poses = ReadTrajectory(request_.poses_file);
             if (!poses.ok()) return poses.status();
             given_ = std::move(poses.value().poses);
-            pose_notes = std::move(poses.value().notes);
+            pose_notes_ = std::move(poses.value().notes);
         }
         Result<std::unique_ptr<FrameSource>> source = OpenSource(request_.source, config_);
         if (!source.ok()) return source.status();
         reader_ = std::make_unique<FrameReader>(std::move(source.value()), request_.selection, config_.read_ahead);
         summary_.source = reader_->info();
         pipeline_ = std::make_unique<Pipeline>(config_.pipeline, summary_.source.camera);
+        return Status::Ok();
+    }
+
+    // With the first frame and not before: a run that is refused says one line, and leaves the results of an earlier one.
+    Status Begin() {
+        begun_ = true;
         if (!request_.output_folder.empty()) {
             Result<std::unique_ptr<RunOutput>> output = RunOutput::Open(request_, config_, summary_.source);
             if (!output.ok()) return output.status();
             output_ = std::move(output.value());
         }
-        // Only now: a refused run says one line.
         if (observer_.on_open) observer_.on_open(summary_.source);
-        for (const std::string& note : pose_notes) Warn(note);
+        for (const std::string& note : pose_notes_) Warn(note);
         return Status::Ok();
     }
 
@@ -67,13 +71,13 @@ class Runner {
             if (summary_.stopped) break;
             const ReadResult read = reader_->Next(frame);
             if (read.status == ReadStatus::kEnd) break;
-            if (read.status == ReadStatus::kError) {
-                status = Status::Error(read.message);
-            } else if (read.status == ReadStatus::kSkip) {
+            if (read.status == ReadStatus::kError) status = Status::Error(read.message);
+            if (status.ok() && !begun_) status = Begin();
+            if (!status.ok()) break;
+            if (read.status == ReadStatus::kSkip)
                 Skip(read.message);
-            } else {
+            else
                 status = ProcessFrame(frame, frame_watch);
-            }
             if (observer_.on_frame) observer_.on_frame(summary_.counts, Total());
         }
         reader_->RequestStop();
@@ -160,8 +164,9 @@ class Runner {
         s.stages = times_.Summarise();
         const BlockMap& map = pipeline_->map();
         s.map = {map.size() - 1, map.bytes(), map.bytes_per_voxel()};
-        if (Result<AteResult> ate = EvaluateAte(truth_, estimate_, {.frames = s.counts.frames}); ate.ok())
-            s.ate = std::move(ate.value());
+        if (given_.empty())
+            if (Result<AteResult> ate = EvaluateAte(truth_, estimate_, {.frames = s.counts.frames}); ate.ok())
+                s.ate = std::move(ate.value());
         return output_ ? output_->Finish(s, mesh) : Status::Ok();
     }
 
@@ -181,6 +186,7 @@ class Runner {
     const RunConfig& config_;
     const RunObserver& observer_;
     std::vector<StampedPose> given_, truth_, estimate_;
+    std::vector<std::string> pose_notes_;
     std::unique_ptr<FrameReader> reader_;
     std::unique_ptr<Pipeline> pipeline_;
     std::unique_ptr<RunOutput> output_;
@@ -188,6 +194,7 @@ class Runner {
     RunSummary summary_;
     TrackStatus last_status_ = TrackStatus::kGood;
     bool last_degenerate_ = false;
+    bool begun_ = false;
 };
 
 }  // namespace

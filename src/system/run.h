@@ -49,7 +49,7 @@ struct RunSummary {
     double peak_rss_mb = 0;
     std::vector<std::pair<std::string, StageStatistics>> stages;
     MapStatistics map;
-    std::optional<AteResult> ate;  // against the source's own truth
+    std::optional<AteResult> ate;  // against the source's own truth; none at given poses
     std::string exit;              // "finished", "stopped", or "failed: ..."
     std::string last_reason;       // why the last lost frame was lost
     bool stopped = false;          // on request

@@ -157,6 +157,15 @@ TEST_F(Run, BadInputIsAnErrorThatNamesIt) {
     EXPECT_NE(Execute().message().find("mapping.truncation_m"), std::string::npos);
 }
 
+TEST_F(Run, ARefusedRunSaysOneThingAndLeavesEarlierResults) {
+    ASSERT_TRUE(Execute().ok());
+    const std::string mesh = ReadAll(Out("mesh.ply"));
+    request.selection.start = 1000;
+    observer.on_open = [](const SourceInfo&) { ADD_FAILURE() << "said something"; };
+    EXPECT_NE(Execute().message().find("1000"), std::string::npos);
+    EXPECT_TRUE(ReadAll(Out("mesh.ply")) == mesh);
+}
+
 TEST_F(Run, DepthsOutOfRangeAreNamedOnceAndLost) {
     config.pipeline.frame.min_depth_m = 50;
     config.pipeline.frame.max_depth_m = 60;
