@@ -37,7 +37,7 @@ TESSERA_HD bool HasIntensity(FieldWord w) { return (w & 0xffffu) != 0; }
 inline constexpr float kWeightSteps = 256.0f;
 
 // Colour: the intensity of the field word plus chroma, so nothing is stored twice. Bits 0-9 Cb, 10-19 Cr (each
-// 512 + 511 * chroma), 20-31 the colour's weight in 1/16, up to 255. Cb = (B - Y) / 1.772, Cr = (R - Y) / 1.402.
+// 512 + 1022 * chroma), 20-31 the colour's weight in 1/16, up to 255. Cb = (B - Y) / 1.772, Cr = (R - Y) / 1.402.
 using ColourWord = std::uint32_t;
 inline constexpr float kChromaSteps = 1022.0f;  // chroma runs over [-0.5, 0.5]
 inline constexpr float kColourWeightSteps = 16.0f;

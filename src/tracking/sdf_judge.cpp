@@ -73,6 +73,9 @@ void SdfTracker::Judge(const TrackInput& input, const SdfSums& sums, const SdfSt
         result.status = TrackStatus::kPoor;
         result.reason = fmt::format("degenerate: {} of 6 motions are not held by what is in view",
                                     step.held_directions);
+    } else if (result.inlier_fraction < config_.good_inlier_fraction) {
+        result.status = TrackStatus::kPoor;
+        result.reason = fmt::format("only {:.0f} % of the depth fits the map", 100 * result.inlier_fraction);
     } else {
         result.status = TrackStatus::kGood;
     }
@@ -119,6 +122,8 @@ void SdfTracker::Config::Describe(ConfigParameters& p) {
           "lost if a smaller share of the depth lies in the map");
     p.Add("min_inlier_fraction", min_inlier_fraction, {0.0, 1.0}, "",
           "lost if a smaller share of the known depth fits within half the truncation");
+    p.Add("good_inlier_fraction", good_inlier_fraction, {0.0, 1.0}, "",
+          "tracked, but not fused, if a smaller share fits");
     p.Add("max_jump_m", max_jump_m, {0.0, 100.0}, "m", "lost if the camera moved farther since the last frame");
     p.Add("max_jump_rad", max_jump_rad, {0.0, 3.2}, "rad", "lost if the camera turned more since the last frame");
     p.Section("shutter", [&](ConfigParameters& s) { shutter.Describe(s); });

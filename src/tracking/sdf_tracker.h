@@ -32,7 +32,8 @@ class SdfTracker : public Tracker {
         double brightness_prior = 0.05;
         double min_eigenvalue = 1e-4;
         double min_known_fraction = 0.1;
-        double min_inlier_fraction = 0.35;
+        double min_inlier_fraction = 0.2;
+        double good_inlier_fraction = 0.35;
         double max_jump_m = 0.3;
         double max_jump_rad = 0.5;
         ShutterEstimator::Config shutter;
