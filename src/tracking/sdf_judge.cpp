@@ -90,7 +90,7 @@ void SdfTracker::UpdateAlpha(const SdfPoints& points) {
     const double share = distance_variance_ > 0 ? 0.1 : 1.0;
     distance_variance_ += share * (distance - distance_variance_);
     intensity_variance_ += share * (intensity - intensity_variance_);
-    alpha_ = std::clamp(distance_variance_ / intensity_variance_, 0.01, 1.0);
+    alpha_ = std::clamp(distance_variance_ / intensity_variance_, config_.auto_alpha_min, config_.auto_alpha_max);
 }
 
 void SdfTracker::Config::Describe(ConfigParameters& p) {
@@ -99,6 +99,10 @@ void SdfTracker::Config::Describe(ConfigParameters& p) {
     p.Add("alpha", alpha, {0.0, 100.0}, "m^2",
           "photometric weight of [B14] eq. 8 (distances in metres, intensities in [0, 1]); 0 is geometry only; auto "
           "starts from it");
+    p.Add("auto_alpha_min", auto_alpha_min, {1e-4, 100.0}, "m^2", "auto: the least alpha");
+    p.Add("auto_alpha_max", auto_alpha_max, {1e-4, 100.0}, "m^2",
+          "auto: the largest alpha; where nothing has texture, small photometric residuals say little, and vignetting "
+          "would count as texture");
     p.Add("distance_scale_m", distance_scale_m, {1e-4, 1.0}, "m",
           "Huber scale of distances: larger residuals count linearly");
     p.Add("intensity_scale", intensity_scale, {1e-3, 10.0}, "", "Huber scale of intensities");

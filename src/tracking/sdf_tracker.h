@@ -18,8 +18,10 @@ class SdfTracker : public Tracker {
     enum class AlphaMode { kFixed, kAuto };
 
     struct Config {
-        AlphaMode alpha_mode = AlphaMode::kFixed;
+        AlphaMode alpha_mode = AlphaMode::kAuto;
         double alpha = 0.1;
+        double auto_alpha_min = 0.01;
+        double auto_alpha_max = 0.25;
         double distance_scale_m = 0.02;
         double intensity_scale = 0.1;
         double depth_exponent = 2.0;

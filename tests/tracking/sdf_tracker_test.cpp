@@ -50,6 +50,7 @@ struct World {
 
 SdfTracker::Config FineConfig(double alpha) {
     SdfTracker::Config config;
+    config.alpha_mode = SdfTracker::AlphaMode::kFixed;
     config.alpha = alpha;
     config.finest_step_px = 1;
     config.fine_iterations = 30;
