@@ -1,5 +1,5 @@
 // The convergence basin: from how far away the tracker finds the pose. Random starts around true
-// poses in two exact rooms; prints a Markdown table. Usage: basin [starts per column, default 200]
+// poses in exact rooms; prints a Markdown table. Usage: basin [starts per column, default 100]
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
@@ -12,14 +12,11 @@
 #include <vector>
 
 #include "bench_room.h"
-#include "synth/hash_random.h"
 #include "tracking/image_aligner.h"
 #include "tracking/sdf_tracker.h"
 
 namespace tessera::bench {
 namespace {
-
-using testing_support::BoxRoom;
 
 struct Offset {
     double move_m, turn_deg;
@@ -62,9 +59,10 @@ Eigen::Isometry3d Beside(const Eigen::Isometry3d& T_true, const Offset& offset, 
     return T;
 }
 
+template <class Room>
 class Basin {
   public:
-    explicit Basin(const BoxRoom& room) : room_(room) {
+    explicit Basin(const Room& room) : room_(room) {
         for (const double truncation_m : kTruncations_m)
             maps_.push_back(FusedMap(room, truncation_m, kMapViews));
         for (int i = 0; i < kTrueViews; ++i)
@@ -130,13 +128,14 @@ class Basin {
         return *maps_[truncation_m == kTruncations_m[0] ? 0 : 1];
     }
 
-    BoxRoom room_;
+    Room room_;
     std::vector<std::unique_ptr<BlockMap>> maps_;
     std::vector<PreparedFrame> frames_;
 };
 
-void PrintRoom(const char* name, const BoxRoom& room, int starts) {
-    const Basin basin(room);
+template <class Room>
+void PrintRoom(const char* name, const Room& room, int starts) {
+    const Basin<Room> basin(room);
     std::vector<std::array<Tally, kMethodCount>> columns;
     for (const Offset& offset : kOffsets) columns.push_back(basin.Run(offset, starts));
     for (std::size_t m = 0; m < kMethodCount; ++m) {
@@ -165,7 +164,7 @@ void PrintHeader() {
 }  // namespace tessera::bench
 
 int main(int argc, char** argv) {
-    const int starts = argc > 1 ? std::atoi(argv[1]) : 200;
+    const int starts = argc > 1 ? std::atoi(argv[1]) : 100;
     if (starts < 1) {
         fmt::print(stderr, "usage: basin [starts per column, at least 1]\n");
         return 2;
@@ -173,8 +172,9 @@ int main(int argc, char** argv) {
     using namespace tessera::bench;
     PrintHeader();
     PrintRoom("box with ball", RoomWithBall(), starts);
-    tessera::testing_support::BoxRoom wall;
-    wall.only_back_wall = true;
-    PrintRoom("textured wall", wall, starts);
+    PrintRoom("textured wall", NoiseWall(), starts);
+    tessera::testing_support::BoxRoom repeating;
+    repeating.only_back_wall = true;
+    PrintRoom("wall repeating at 25 cm", repeating, starts);
     return 0;
 }
