@@ -1,0 +1,180 @@
+// The convergence basin: from how far away the tracker finds the pose. Random starts around true
+// poses in exact rooms; prints a Markdown table. Usage: basin [starts per column, default 100]
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <iterator>
+#include <numbers>
+#include <vector>
+
+#include "bench_room.h"
+#include "tracking/image_aligner.h"
+#include "tracking/sdf_tracker.h"
+
+namespace tessera::bench {
+namespace {
+
+struct Offset {
+    double move_m, turn_deg;
+};
+constexpr Offset kOffsets[] = {{0.02, 1}, {0.04, 2}, {0.06, 4}, {0.08, 6}, {0.12, 8}};
+constexpr double kTruncations_m[] = {0.04, 0.10};
+constexpr int kMapViews = 10, kTrueViews = 4;
+constexpr double kFound_m = 0.005, kFound_rad = 0.005;
+
+// One way to track: which map, and whether the prealignment offers a second start.
+struct Method {
+    double truncation_m;
+    bool prealign;
+};
+constexpr Method kMethods[] = {{0.04, false}, {0.04, true}, {0.10, false}, {0.10, true}};
+constexpr std::size_t kMethodCount = std::size(kMethods);
+
+struct Outcome {
+    bool found = false;
+    bool misjudged = false;  // called good and is not
+};
+struct Tally {
+    int found = 0, misjudged = 0;
+};
+
+// Uniform on the sphere.
+Eigen::Vector3d Direction(std::uint64_t key) {
+    const double z = 2.0 * UniformFromBits(MixBits(key)) - 1.0;
+    const double angle = 2.0 * std::numbers::pi * UniformFromBits(MixBits(key + 1));
+    const double r = std::sqrt(1.0 - z * z);
+    return {r * std::cos(angle), r * std::sin(angle), z};
+}
+
+// T_true with its centre moved and its axes turned by exactly the offset.
+Eigen::Isometry3d Beside(const Eigen::Isometry3d& T_true, const Offset& offset, int start) {
+    const double turn_rad = offset.turn_deg * std::numbers::pi / 180.0;
+    Eigen::Isometry3d T = T_true;
+    T.linear() = T.linear() * Eigen::AngleAxisd(turn_rad, Direction(StreamKey(1, start)));
+    T.translation() += offset.move_m * Direction(StreamKey(2, start));
+    return T;
+}
+
+template <class Room>
+class Basin {
+  public:
+    explicit Basin(const Room& room) : room_(room) {
+        for (const double truncation_m : kTruncations_m)
+            maps_.push_back(FusedMap(room, truncation_m, kMapViews));
+        for (int i = 0; i < kTrueViews; ++i)
+            frames_.push_back(Prepared(room.Render(FullCamera(), TruePose(TrueView(i)))));
+    }
+
+    // The tallies of all methods over the same starts.
+    std::array<Tally, kMethodCount> Run(const Offset& offset, int starts) const {
+        std::vector<std::array<Outcome, kMethodCount>> outcomes(static_cast<std::size_t>(starts));
+        tbb::parallel_for(0, starts, [&](int start) {
+            // A thread that waits in one start must not begin another.
+            tbb::this_task_arena::isolate(
+                [&] { outcomes[static_cast<std::size_t>(start)] = RunStart(offset, start); });
+        });
+        std::array<Tally, kMethodCount> tallies{};
+        for (const auto& outcome : outcomes)
+            for (std::size_t m = 0; m < kMethodCount; ++m) {
+                tallies[m].found += outcome[m].found;
+                tallies[m].misjudged += outcome[m].misjudged;
+            }
+        return tallies;
+    }
+
+  private:
+    // Between fused views, so that no frame meets the map at a pose that made it.
+    static double TrueView(int i) { return 1.5 + 2 * i; }
+    static Eigen::Isometry3d TruePose(double view) {
+        const int before = static_cast<int>(view);
+        const Eigen::Isometry3d T = bench::TruePose(before);
+        return T * Se3Exp((view - before) * Se3Log(T.inverse() * bench::TruePose(before + 1)));
+    }
+
+    // The camera stood at the start when the last frame was taken, and is now at the true pose.
+    std::array<Outcome, kMethodCount> RunStart(const Offset& offset, int start) const {
+        const int view = start % kTrueViews;
+        const PreparedFrame& frame = frames_[static_cast<std::size_t>(view)];
+        const Eigen::Isometry3d T_true = TruePose(TrueView(view));
+        const Eigen::Isometry3d T_start = Beside(T_true, offset, start);
+        ImageAligner aligner({}, FullCamera());
+        const Eigen::Isometry3d standing = Eigen::Isometry3d::Identity();
+        aligner.Align(Prepared(room_.Render(FullCamera(), T_start)), standing);
+        const Eigen::Isometry3d T_aligned = T_start * aligner.Align(frame, standing);
+
+        std::array<Outcome, kMethodCount> outcomes;
+        for (std::size_t m = 0; m < kMethodCount; ++m) {
+            TrackInput input{.frame = frame,
+                             .map = MapOf(kMethods[m].truncation_m),
+                             .T_world_camera_starts = {T_start},
+                             .T_world_camera_last = T_start,
+                             .since_last_s = 1.0 / 30.0,
+                             .motion = {}};
+            if (kMethods[m].prealign) input.T_world_camera_starts.push_back(T_aligned);
+            const TrackResult result = SdfTracker({}, FullCamera()).Track(input);
+            const Eigen::Vector3d move = result.T_world_camera.translation() - T_true.translation();
+            outcomes[m].found =
+                move.norm() < kFound_m && RotationAngle(T_true, result.T_world_camera) < kFound_rad;
+            outcomes[m].misjudged = result.status == TrackStatus::kGood && !outcomes[m].found;
+        }
+        return outcomes;
+    }
+
+    const BlockMap& MapOf(double truncation_m) const {
+        return *maps_[truncation_m == kTruncations_m[0] ? 0 : 1];
+    }
+
+    Room room_;
+    std::vector<std::unique_ptr<BlockMap>> maps_;
+    std::vector<PreparedFrame> frames_;
+};
+
+template <class Room>
+void PrintRoom(const char* name, const Room& room, int starts) {
+    const Basin<Room> basin(room);
+    std::vector<std::array<Tally, kMethodCount>> columns;
+    for (const Offset& offset : kOffsets) columns.push_back(basin.Run(offset, starts));
+    for (std::size_t m = 0; m < kMethodCount; ++m) {
+        fmt::print("| {} | {:.0f} cm | {} |", name, 100 * kMethods[m].truncation_m,
+                   kMethods[m].prealign ? "yes" : "no");
+        int misjudged = 0;
+        for (const auto& column : columns) {
+            fmt::print(" {:.1f} |", 100.0 * column[m].found / starts);
+            misjudged += column[m].misjudged;
+        }
+        fmt::print(" {:.1f} |\n",
+                   100.0 * misjudged / (starts * static_cast<double>(columns.size())));
+    }
+    std::fflush(stdout);
+}
+
+void PrintHeader() {
+    fmt::print("| room | truncation | prealign |");
+    for (const Offset& o : kOffsets) fmt::print(" {:.0f} cm, {} deg |", 100 * o.move_m, o.turn_deg);
+    fmt::print(" good but wrong |\n| --- | --- | --- |");
+    for (std::size_t i = 0; i < std::size(kOffsets) + 1; ++i) fmt::print(" --- |");
+    fmt::print("\n");
+}
+
+}  // namespace
+}  // namespace tessera::bench
+
+int main(int argc, char** argv) {
+    const int starts = argc > 1 ? std::atoi(argv[1]) : 100;
+    if (starts < 1) {
+        fmt::print(stderr, "usage: basin [starts per column, at least 1]\n");
+        return 2;
+    }
+    using namespace tessera::bench;
+    PrintHeader();
+    PrintRoom("box with ball", RoomWithBall(), starts);
+    PrintRoom("textured wall", NoiseWall(), starts);
+    tessera::testing_support::BoxRoom repeating;
+    repeating.only_back_wall = true;
+    PrintRoom("wall repeating at 25 cm", repeating, starts);
+    return 0;
+}

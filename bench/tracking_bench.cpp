@@ -1,0 +1,149 @@
+// Tracking on 640 x 480 views of a room at 1 cm voxels and 4 cm truncation: the sums of one
+// Gauss-Newton step over every second pixel, a whole track, and the prealignment.
+#include <tbb/global_control.h>
+
+#include "bench_room.h"
+#include "repetitions.h"
+#include "tracking/image_aligner.h"
+#include "tracking/sdf_tracker.h"
+
+namespace tessera::bench {
+namespace {
+
+constexpr double kTruncation_m = 0.04;
+constexpr int kStep_px = 2;
+
+const BlockMap& RoomMap() {
+    static const std::unique_ptr<BlockMap> map = FusedMap(RoomWithBall(), kTruncation_m, 10);
+    return *map;
+}
+
+const PreparedFrame& RoomPrepared(int view) {
+    static const PreparedFrame prepared[2] = {
+        Prepared(RoomWithBall().Render(FullCamera(), TruePose(4))),
+        Prepared(RoomWithBall().Render(FullCamera(), TruePose(5)))};
+    return prepared[view];
+}
+
+// 1 cm and 9 mrad beside the true pose.
+Eigen::Isometry3d StartBeside(const Eigen::Isometry3d& T_world_camera) {
+    Vector6d twist;
+    twist << 0.005, -0.006, 0.004, 0.006, -0.005, 0.006;
+    return Se3Exp(twist) * T_world_camera;
+}
+
+SdfArguments ArgumentsFor(const SdfPoints& points, const Eigen::Isometry3d& T_world_camera,
+                          double alpha) {
+    const BlockMap::View map = RoomMap().view();
+    const SdfTracker::Config config;
+    SdfArguments a{};
+    a.field = map.field;
+    a.neighbours = map.neighbours;
+    a.table = map.table;
+    a.coords = map.coords;
+    a.table_mask = map.table_mask;
+    a.voxel_size_m = map.voxel_size_m;
+    a.truncation_m = map.truncation_m;
+    for (int i = 0; i < 3; ++i) {
+        for (int j = 0; j < 3; ++j)
+            a.rotation[3 * i + j] =
+                static_cast<float>(T_world_camera.linear()(i, j)) / map.voxel_size_m;
+        a.translation[i] = static_cast<float>(T_world_camera.translation()(i)) / map.voxel_size_m;
+    }
+    a.x = points.x.data();
+    a.y = points.y.data();
+    a.z = points.z.data();
+    a.intensity = points.intensity.data();
+    a.weight = points.weight.data();
+    a.alpha = static_cast<float>(alpha);
+    a.normalise = config.normalise;
+    a.gain = 1;
+    a.distance_scale_m = static_cast<float>(config.distance_scale_m);
+    a.intensity_scale = static_cast<float>(config.intensity_scale);
+    a.inlier_distance_m = 0.5f * map.truncation_m;
+    return a;
+}
+
+// One thread. The map is far larger than the caches of the core; the points run along image rows.
+void SumPoints(benchmark::State& state, VectorPath path, double alpha) {
+    const bool wide = path == VectorPath::kAvx2;
+    if (wide && !CpuHasAvx2()) return state.SkipWithError("no AVX2");
+    SdfPoints points;
+    points.Build(RoomPrepared(0), FullCamera(), {}, kStep_px, 2.0);
+    points.SampleIntensity(RoomPrepared(0), FullCamera(), {});
+    const SdfArguments a = ArgumentsFor(points, StartBeside(TruePose(4)), alpha);
+    SdfSums sums;
+    for (auto _ : state) {
+        sums = {};
+#ifdef TESSERA_HAVE_AVX2
+        if (wide) {
+            avx2::SumSdfPoints(a, 0, points.count(), sums.value);
+            continue;
+        }
+#endif
+        baseline::SumSdfPoints(a, 0, points.count(), sums.value);
+    }
+    const auto valid = static_cast<double>(points.valid());
+    state.counters["points"] = valid;
+    state.counters["known"] = sums[SdfSumLayout::kKnown] / valid;
+    state.counters["per_point"] = PerItem(state, valid);
+}
+void SumArguments(benchmark::internal::Benchmark* b) {
+    b->Unit(benchmark::kMillisecond);
+    TakeMinimum(b);
+}
+BENCHMARK_CAPTURE(SumPoints, baseline_geometric, VectorPath::kBaseline, 0.0)->Apply(SumArguments);
+BENCHMARK_CAPTURE(SumPoints, avx2_geometric, VectorPath::kAvx2, 0.0)->Apply(SumArguments);
+BENCHMARK_CAPTURE(SumPoints, baseline_photometric, VectorPath::kBaseline, 0.1)->Apply(SumArguments);
+BENCHMARK_CAPTURE(SumPoints, avx2_photometric, VectorPath::kAvx2, 0.1)->Apply(SumArguments);
+
+// From 1 cm and 9 mrad away, as after an imperfect prediction.
+void Track(benchmark::State& state, VectorPath path, double alpha) {
+    if (path == VectorPath::kAvx2 && !CpuHasAvx2()) return state.SkipWithError("no AVX2");
+    const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
+                                      static_cast<std::size_t>(state.range(0)));
+    SdfTracker::Config config;
+    config.alpha = alpha;
+    SdfTracker tracker(config, FullCamera(), path);
+    const Eigen::Isometry3d start = StartBeside(TruePose(4));
+    const TrackInput input{.frame = RoomPrepared(0),
+                           .map = RoomMap(),
+                           .T_world_camera_starts = {start},
+                           .T_world_camera_last = start,
+                           .since_last_s = 1.0 / 30.0,
+                           .motion = {}};
+    TrackResult result;
+    for (auto _ : state) {
+        tracker.Reset();
+        result = tracker.Track(input);
+    }
+    const Eigen::Isometry3d error = TruePose(4).inverse() * result.T_world_camera;
+    state.counters["iterations"] = result.iterations;
+    state.counters["error_mm"] = 1e3 * error.translation().norm();
+}
+void TrackArguments(benchmark::internal::Benchmark* b) {
+    b->ArgName("threads")->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime();
+    TakeMinimum(b);
+}
+BENCHMARK_CAPTURE(Track, baseline, VectorPath::kBaseline, 0.1)->Apply(TrackArguments);
+BENCHMARK_CAPTURE(Track, avx2, VectorPath::kAvx2, 0.1)->Apply(TrackArguments);
+BENCHMARK_CAPTURE(Track, avx2_geometric, VectorPath::kAvx2, 0.0)->Apply(TrackArguments);
+
+// Two views 0.13 s apart, in turn.
+void Align(benchmark::State& state) {
+    const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
+                                      static_cast<std::size_t>(state.range(0)));
+    ImageAligner aligner({}, FullCamera());
+    int view = 0;
+    aligner.Align(RoomPrepared(view), Eigen::Isometry3d::Identity());
+    for (auto _ : state) {
+        view = 1 - view;
+        benchmark::DoNotOptimize(aligner.Align(RoomPrepared(view), Eigen::Isometry3d::Identity()));
+    }
+}
+BENCHMARK(Align)->Apply(TrackArguments);
+
+}  // namespace
+}  // namespace tessera::bench
+
+BENCHMARK_MAIN();
