@@ -15,6 +15,7 @@ constexpr int kBand = 16;  // rows per task; fixed, so that sums have a fixed or
 
 struct DepthCounts {
     std::int64_t valid = 0, measured = 0;
+    std::int64_t pairs = 0, coherent = 0;  // of pixels side by side
     float nearest = 1e9f, farthest = 0;
 };
 
@@ -31,6 +32,11 @@ DepthCounts GateRows(const DepthImage& in, float low, float high, int first, int
             counts.measured += z > 0.0f;
             counts.nearest = std::min(counts.nearest, ok ? z : 1e9f);
             counts.farthest = std::max(counts.farthest, target[x]);
+        }
+        for (int x = 0; x + 1 < in.width(); x += 2) {
+            const bool both = target[x] > 0 && target[x + 1] > 0;
+            counts.pairs += both;
+            counts.coherent += both && std::abs(target[x] - target[x + 1]) < 0.05f * target[x];
         }
     }
     return counts;
@@ -85,6 +91,8 @@ void PreparedFrame::Config::Describe(ConfigParameters& p) {
     p.Add("intensity_blur_px", intensity_blur_px, {0, 4}, "px",
           "times that the intensity is smoothed with a 1-2-1 kernel; a voxel is wider than a pixel, so that "
           "unsmoothed intensity aliases");
+    p.Add("min_coherent_fraction", min_coherent_fraction, {0.0, 1.0}, "",
+          "a frame is noise, and not used, if a smaller share of neighbouring depths agree within 5 %");
 }
 
 Status PreparedFrame::Config::Validate() const {
@@ -107,11 +115,15 @@ void PrepareFrame(const Frame& frame, const PreparedFrame::Config& config, Prepa
     for (const DepthCounts& c : counts) {
         total.valid += c.valid;
         total.measured += c.measured;
+        total.pairs += c.pairs;
+        total.coherent += c.coherent;
         total.nearest = std::min(total.nearest, c.nearest);
         total.farthest = std::max(total.farthest, c.farthest);
     }
     p.valid_depth_pixels = total.valid;
     p.measured_pixels = total.measured;
+    p.coherent_fraction =
+        total.pairs > 0 ? static_cast<double>(total.coherent) / static_cast<double>(total.pairs) : 0.0;
     p.nearest_m = total.valid > 0 ? total.nearest : 0.0f;
     p.farthest_m = total.farthest;
 

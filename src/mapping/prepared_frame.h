@@ -14,6 +14,7 @@ struct PreparedFrame {
         double min_depth_m = 0.3;
         double max_depth_m = 5.0;
         int intensity_blur_px = 1;
+        double min_coherent_fraction = 0.5;
 
         void Describe(ConfigParameters& parameters);
         Status Validate() const;
@@ -24,6 +25,7 @@ struct PreparedFrame {
     Image<std::uint32_t> packed_colour;  // fusion_rows.h; Y is `intensity`
     std::int64_t valid_depth_pixels = 0;
     std::int64_t measured_pixels = 0;  // with any depth at all, in range or not
+    double coherent_fraction = 0;  // of neighbouring valid pixels, those within 5 % of each other
     float nearest_m = 0, farthest_m = 0;  // of the valid pixels
 
     bool has_colour() const { return !intensity.empty(); }

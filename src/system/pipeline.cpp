@@ -84,6 +84,9 @@ FrameReport Pipeline::Process(const Frame& frame, const std::optional<Eigen::Iso
         report.track.reason = prepared_.measured_pixels > 0
                                   ? "0 depth pixels in range: is depth_scale right?"
                                   : "0 depth pixels in the image";
+    } else if (prepared_.coherent_fraction < config_.frame.min_coherent_fraction) {
+        report.track.reason = fmt::format("the depth is noise: only {:.0f} % of neighbouring pixels agree",
+                                          100 * prepared_.coherent_fraction);
     } else if (given) {
         report.track.T_world_camera = *given;
         report.track.status = TrackStatus::kGood;

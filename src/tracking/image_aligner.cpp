@@ -13,7 +13,7 @@
 namespace tessera {
 namespace {
 
-constexpr int kReductions[] = {16, 8};  // 40 x 30 and 80 x 60 from 640 x 480
+constexpr int kWidths[] = {40, 80};     // 40 x 30 and 80 x 60 from 640 x 480
 constexpr int kRowsPerTile = 5;         // fixed, so that sums have a fixed order
 constexpr double kIntensityScale = 0.04, kDepthScale_m = 0.05, kMostDepthError_m = 0.3;
 constexpr double kPriorTurn_rad = 0.5, kPriorMove_m = 0.5;  // keeps what the images leave open
@@ -74,9 +74,9 @@ ImageAligner::ImageAligner(const Config& config, const PinholeCamera& camera) : 
 void ImageAligner::Clear() { has_last_ = false; }
 
 void ImageAligner::Reduce(const PreparedFrame& frame, std::vector<Level>& levels) const {
-    levels.resize(std::size(kReductions));
+    levels.resize(std::size(kWidths));
     for (std::size_t i = 0; i < levels.size(); ++i) {
-        const int n = kReductions[i];
+        const int n = std::max(1, camera_.width / kWidths[i]);
         Level& level = levels[i];
         PinholeCamera& c = level.camera;
         c.width = camera_.width / n;

@@ -1,0 +1,123 @@
+#include "system/pipeline.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <span>
+
+#include "support/box_room.h"
+
+namespace tessera {
+namespace {
+
+using testing_support::BoxRoom;
+using testing_support::SmallCamera;
+using testing_support::SmoothPath;
+
+PipelineConfig SmallConfig() {
+    PipelineConfig config;
+    config.map.voxel_size_m = 0.02;
+    config.map.truncation_m = 0.08;
+    config.sdf.finest_step_px = 1;
+    return config;
+}
+
+Frame RoomFrame(int i) {
+    BoxRoom room;
+    room.has_ball = true;
+    Frame frame = room.Render(SmallCamera(), SmoothPath(i), i / 30.0);
+    frame.index = i;
+    return frame;
+}
+
+void FillDepth(Frame& frame, std::uint32_t seed) {
+    for (float& z : std::span(frame.depth_m.data(), frame.depth_m.size())) {
+        seed = seed * 1664525u + 1013904223u;
+        z = 0.3f + static_cast<float>(seed >> 8) * (4.0f / (1 << 24));
+    }
+}
+
+TEST(Pipeline, FollowsASmoothPath) {
+    Pipeline pipeline(SmallConfig(), SmallCamera());
+    double worst_m = 0;
+    for (int i = 0; i < 40; ++i) {
+        const FrameReport report = pipeline.Process(RoomFrame(i));
+        ASSERT_EQ(report.track.status, TrackStatus::kGood) << i << ": " << report.track.reason;
+        EXPECT_TRUE(report.fused);
+        const Eigen::Isometry3d truth = SmoothPath(0).inverse() * SmoothPath(i);  // the first camera is the world
+        worst_m = std::max(worst_m, (truth.inverse() * report.track.T_world_camera).translation().norm());
+    }
+    EXPECT_LT(worst_m, 0.004);
+}
+
+// Each of these frames says why it is lost, leaves the map alone, and the next good one goes on.
+TEST(Pipeline, BadFramesAreLostWithAReasonAndHarmNothing) {
+    Pipeline pipeline(SmallConfig(), SmallCamera());
+    for (int i = 0; i < 10; ++i) pipeline.Process(RoomFrame(i));
+    const BlockId blocks = pipeline.map().size();
+    const auto expect_lost = [&](Frame frame, const char* reason) {
+        const FrameReport report = pipeline.Process(frame);
+        EXPECT_EQ(report.track.status, TrackStatus::kLost);
+        EXPECT_FALSE(report.fused);
+        EXPECT_NE(report.track.reason.find(reason), std::string::npos) << report.track.reason;
+        EXPECT_EQ(pipeline.map().size(), blocks);
+    };
+    Frame frame = RoomFrame(10);
+    frame.depth_m = DepthImage(160, 120, 0.0f);
+    expect_lost(frame, "0 depth pixels in the image");
+    frame.depth_m = DepthImage(160, 120, 65.535f);
+    expect_lost(frame, "depth_scale");
+    FillDepth(frame, 7);
+    expect_lost(frame, "noise");
+    frame.depth_m = DepthImage(160, 120, std::numeric_limits<float>::quiet_NaN());
+    expect_lost(frame, "0 depth pixels");
+    EXPECT_EQ(pipeline.Process(RoomFrame(12)).track.status, TrackStatus::kGood);
+}
+
+TEST(Pipeline, NoiseDoesNotBecomeTheWorld) {
+    Pipeline pipeline(SmallConfig(), SmallCamera());
+    Frame noise = RoomFrame(0);
+    FillDepth(noise, 3);
+    EXPECT_FALSE(pipeline.Process(noise).fused);
+    const FrameReport report = pipeline.Process(RoomFrame(1));
+    EXPECT_TRUE(report.first);
+    EXPECT_TRUE(report.fused);
+    EXPECT_TRUE(report.track.T_world_camera.isApprox(Eigen::Isometry3d::Identity()));
+}
+
+TEST(Pipeline, GivenPosesAreFusedAndNotTracked) {
+    Pipeline pipeline(SmallConfig(), SmallCamera());
+    for (int i = 0; i < 5; ++i) {
+        const FrameReport report = pipeline.Process(RoomFrame(i), SmoothPath(10 * i));
+        EXPECT_TRUE(report.fused);
+        EXPECT_EQ(report.track.iterations, 0);
+        EXPECT_TRUE(report.track.T_world_camera.isApprox(SmoothPath(10 * i)));
+    }
+}
+
+TEST(Pipeline, AFrameWithoutColourIsTrackedByItsShape) {
+    Pipeline pipeline(SmallConfig(), SmallCamera());
+    for (int i = 0; i < 10; ++i) {
+        Frame frame = RoomFrame(i);
+        if (i % 3 == 1) frame.colour = {};
+        ASSERT_EQ(pipeline.Process(frame).track.status, TrackStatus::kGood) << i;
+    }
+}
+
+TEST(MotionModel, ExpectsConstantVelocityAndForgetsItOverGaps) {
+    MotionModel model({});
+    EXPECT_TRUE(model.Predict(1.0).isApprox(Eigen::Isometry3d::Identity()));
+    Vector6d step;
+    step << 0.01, -0.02, 0.03, 0.1, 0.0, -0.1;
+    const Eigen::Isometry3d T0 = SmoothPath(7);
+    model.Add({0.0, T0});
+    EXPECT_TRUE(model.Predict(0.1).isApprox(T0));
+    model.Add({0.1, T0 * Se3Exp(step)});
+    EXPECT_TRUE(model.Predict(0.2).isApprox(T0 * Se3Exp(2 * step), 1e-9));
+    EXPECT_TRUE(model.Predict(0.15).isApprox(T0 * Se3Exp(1.5 * step), 1e-9));
+    EXPECT_TRUE(model.Predict(5.0).isApprox(T0 * Se3Exp(step), 1e-9));  // too long ago
+    EXPECT_EQ(model.SinceLast(5.0), 0);
+}
+
+}  // namespace
+}  // namespace tessera

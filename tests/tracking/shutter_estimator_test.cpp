@@ -1,0 +1,89 @@
+#include "tracking/shutter_estimator.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "support/box_room.h"
+
+namespace tessera {
+namespace {
+
+using testing_support::BoxRoom;
+using testing_support::SmallCamera;
+
+// A camera turning in a textured room, whose colour rows are each taken at their own time. The poses are known, so the
+// residuals come from the shutter alone.
+class Shutter : public testing::Test {
+  protected:
+    // The image of a camera whose colour comes `delay_s` late and is read out over `readout_s`.
+    Frame Render(const Eigen::Isometry3d& T, const Vector6d& twist, double delay_s, double readout_s) const {
+        Frame frame = room.Render(camera, T);
+        for (int v = 0; v < camera.height; ++v) {
+            const double time = delay_s + readout_s * (static_cast<double>(v) / camera.height - 0.5);
+            const Eigen::Isometry3d T_row = T * Se3Exp(twist * time);
+            for (int u = 0; u < camera.width; ++u) {
+                const Eigen::Vector3d ray = T_row.linear() * camera.Unproject(u, v, 1.0);
+                const double i = room.Intensity(T_row.translation() + room.Cast(T_row.translation(), ray) * ray);
+                const auto grey = static_cast<std::uint8_t>(255.0 * i + 0.5);
+                frame.colour(u, v) = {grey, grey, grey};
+            }
+        }
+        return frame;
+    }
+
+    void Learn(ShutterEstimator& estimator, double delay_s, double readout_s) const {
+        for (int i = 0; i < 40; ++i) {
+            Vector6d twist;
+            twist << 0.9 * std::sin(0.5 * i), 1.2 * std::cos(0.4 * i), 0.5 * std::sin(0.7 * i), 0.1, -0.1, 0.05;
+            const Eigen::Isometry3d T = testing_support::SmoothPath(5 * i);
+            PreparedFrame prepared;
+            PrepareFrame(Render(T, twist, delay_s, readout_s), {}, prepared);
+            FrameMotion motion;
+            motion.twist_per_s = twist;
+            motion.colour_delay_s = estimator.delay_s();
+            motion.colour_readout_s = estimator.readout_s();
+            SdfPoints points;
+            points.Build(prepared, camera, motion, 1, 2.0);
+            points.SampleIntensity(prepared, camera, motion);
+            std::vector<float> residuals(static_cast<std::size_t>(points.count()),
+                                         std::numeric_limits<float>::quiet_NaN());
+            for (std::size_t k = 0; k < residuals.size(); ++k)
+                if (points.weight[k] > 0 && points.intensity[k] >= 0)
+                    residuals[k] = static_cast<float>(room.Intensity(T * Eigen::Vector3d(points.x[k], points.y[k],
+                                                                                         points.z[k]))) -
+                                   points.intensity[k];
+            estimator.Update(prepared, points, residuals, motion, 1.0, 0.05);
+        }
+    }
+
+    BoxRoom room;
+    PinholeCamera camera = SmallCamera();
+};
+
+TEST_F(Shutter, LearnsARollingOne) {
+    ShutterEstimator estimator({}, camera);
+    Learn(estimator, 0.003, 0.02);
+    EXPECT_NEAR(estimator.delay_s(), 0.003, 0.0005);
+    EXPECT_NEAR(estimator.readout_s(), 0.02, 0.002);
+}
+
+TEST_F(Shutter, LearnsAGlobalOneAsZero) {
+    ShutterEstimator estimator({}, camera);
+    Learn(estimator, 0.0, 0.0);
+    EXPECT_NEAR(estimator.delay_s(), 0.0, 0.0003);
+    EXPECT_NEAR(estimator.readout_s(), 0.0, 0.001);
+}
+
+TEST_F(Shutter, StaysAtZeroWhenSwitchedOff) {
+    ShutterEstimator::Config config;
+    config.enabled = false;
+    ShutterEstimator estimator(config, camera);
+    Learn(estimator, 0.003, 0.02);
+    EXPECT_EQ(estimator.delay_s(), 0.0);
+    EXPECT_EQ(estimator.readout_s(), 0.0);
+}
+
+}  // namespace
+}  // namespace tessera
