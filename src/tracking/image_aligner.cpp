@@ -16,6 +16,7 @@ namespace {
 constexpr int kWidths[] = {40, 80};     // 40 x 30 and 80 x 60 from 640 x 480
 constexpr int kRowsPerTile = 5;         // fixed, so that sums have a fixed order
 constexpr double kIntensityScale = 0.04, kDepthScale_m = 0.05, kMostDepthError_m = 0.3;
+constexpr double kUsual = 1.3, kUsualShare = 0.1, kClearlyBetter = 0.7;
 constexpr double kPriorTurn_rad = 0.5, kPriorMove_m = 0.5;  // keeps what the images leave open
 
 using Vector7d = Eigen::Matrix<double, 7, 1>;
@@ -71,7 +72,10 @@ void ImageAligner::Config::Describe(ConfigParameters& p) {
 
 ImageAligner::ImageAligner(const Config& config, const PinholeCamera& camera) : config_(config), camera_(camera) {}
 
-void ImageAligner::Clear() { has_last_ = false; }
+void ImageAligner::Clear() {
+    has_last_ = false;
+    usual_score_ = 0;
+}
 
 void ImageAligner::Reduce(const PreparedFrame& frame, std::vector<Level>& levels) const {
     levels.resize(std::size(kWidths));
@@ -186,22 +190,25 @@ Eigen::Isometry3d ImageAligner::Align(const PreparedFrame& frame, const Eigen::I
     has_last_ = true;
     if (!ready) return T_last_current_guess;
 
-    double best_score = std::numeric_limits<double>::infinity();
-    Eigen::Isometry3d best = T_last_current_guess;
-    const auto consider = [&](const Eigen::Isometry3d& start) {
-        double score = 0;
-        const Eigen::Isometry3d refined = Refine(start, score);
-        if (score >= best_score) return;
-        best_score = score;
-        best = refined;
-    };
-    consider(T_last_current_guess);
+    double score = 0;
+    Eigen::Isometry3d best = Refine(T_last_current_guess, score);
+    if (score < kUsual * usual_score_) {
+        usual_score_ += kUsualShare * (score - usual_score_);
+        return best;
+    }
+    // Not as good as usual: look farther. A far start must be clearly better, or a pattern that repeats would do.
+    double best_score = score < std::numeric_limits<double>::infinity() ? kClearlyBetter * score : score;
     for (const Eigen::Vector3d& turn :
          SearchRotations(last_[0].intensity, current_[0].intensity, current_[0].camera, config_.starts)) {
         Vector6d twist;
         twist << turn, Eigen::Vector3d::Zero();
-        consider(Se3Exp(twist).inverse());
+        const Eigen::Isometry3d refined = Refine(Se3Exp(twist).inverse(), score);
+        if (score >= best_score) continue;
+        best_score = score;
+        best = refined;
     }
+    if (best_score < std::numeric_limits<double>::infinity())
+        usual_score_ = usual_score_ > 0 ? usual_score_ + kUsualShare * (best_score - usual_score_) : best_score;
     return best;
 }
 

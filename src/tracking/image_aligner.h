@@ -47,6 +47,7 @@ class ImageAligner {
     PinholeCamera camera_;
     std::vector<Level> last_, current_;  // coarse to fine
     bool has_last_ = false;
+    double usual_score_ = 0;  // of alignments so far, 0 before the first
 };
 
 }  // namespace tessera
