@@ -10,6 +10,7 @@ namespace tessera::TESSERA_VECTOR_NAMESPACE {
 
 using Real = xsimd::batch<float>;
 using Int = xsimd::batch<std::int32_t>;
+using Bits = xsimd::batch<std::uint32_t>;  // wraps; >> is logical
 using RealMask = xsimd::batch_bool<float>;
 inline constexpr int kLanes = static_cast<int>(Real::size);
 
@@ -42,10 +43,8 @@ inline constexpr int kLanes = static_cast<int>(Real::size);
 [[gnu::always_inline]] inline Int Select(const RealMask& m, const Int& a, const Int& b) {
     return xsimd::select(AsIntMask(m), a, b);
 }
-// Logical shift; >> on Int is arithmetic.
-[[gnu::always_inline]] inline Int ShiftRightLogical(const Int& v, int bits) {
-    return xsimd::bitwise_cast<Int>(xsimd::bitwise_cast<xsimd::batch<std::uint32_t>>(v) >> bits);
-}
+[[gnu::always_inline]] inline Int AsInt(const Bits& b) { return xsimd::bitwise_cast<Int>(b); }
+[[gnu::always_inline]] inline Bits AsBits(const Int& i) { return xsimd::bitwise_cast<Bits>(i); }
 // 0, 1, 2, ...
 [[gnu::always_inline]] inline Real LaneNumbers() {
     alignas(64) float numbers[kLanes];

@@ -5,13 +5,10 @@
 namespace tessera::TESSERA_VECTOR_NAMESPACE {
 namespace {
 
-using Bits = xsimd::batch<std::uint32_t>;
 constexpr int kStepsPerRow = kBlockSide / kLanes;
 static_assert(kBlockSide % kLanes == 0);
 
 [[gnu::always_inline]] inline Bits LoadBits(const std::uint32_t* p) { return Bits::load_unaligned(p); }
-[[gnu::always_inline]] inline Int AsInt(const Bits& b) { return xsimd::bitwise_cast<Int>(b); }
-[[gnu::always_inline]] inline Bits AsBits(const Int& i) { return xsimd::bitwise_cast<Bits>(i); }
 
 struct Point {
     Real x, y, z;

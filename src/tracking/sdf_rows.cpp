@@ -13,9 +13,9 @@ static_assert(kSdfPointPadding % kLanes == 0);
 
 // BlockHash of voxel.h for every lane.
 [[gnu::always_inline]] inline Int HashBlocks(const Int& x, const Int& y, const Int& z) {
-    Int h = (x * Int(73856093)) ^ (y * Int(19349669)) ^ (z * Int(83492791));
-    h = h ^ ShiftRightLogical(h, 15);
-    return ShiftRightLogical(h * Int(static_cast<std::int32_t>(2654435769u)), 4) ^ h;
+    Bits h = (AsBits(x) * Bits(73856093u)) ^ (AsBits(y) * Bits(19349669u)) ^ (AsBits(z) * Bits(83492791u));
+    h = h ^ (h >> 15);
+    return AsInt(((h * Bits(2654435769u)) >> 4) ^ h);
 }
 
 // BlockMap::Find for every wanted lane; kUnknownBlock elsewhere.

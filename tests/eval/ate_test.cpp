@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "eval/test_trajectories.h"
+#include "support/temp_folder.h"
 #include "io/file.h"
 
 namespace tessera {
@@ -88,7 +89,7 @@ TEST(Ate, TrackedFraction) {
 }
 
 TEST(Ate, FramesOfRunReadsTheTimingsBeside) {
-    const auto folder = std::filesystem::path(testing::TempDir()) / "frames_of_run";
+    const auto folder = std::filesystem::path(ProcessFolder());
     std::filesystem::create_directories(folder);
     const std::string trajectory = (folder / "trajectory.txt").string();
     const std::string timings = (folder / "timings.json").string();

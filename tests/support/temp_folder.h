@@ -28,4 +28,10 @@ class TempFolder {
     std::string path_;
 };
 
+// One for the whole test program, which ctest starts anew for every test.
+inline const std::string& ProcessFolder() {
+    static const TempFolder folder;
+    return folder.path();
+}
+
 }  // namespace tessera

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "io/trajectory.h"
+#include "support/temp_folder.h"
 
 namespace tessera {
 namespace {
@@ -42,7 +43,7 @@ class RecordedPath : public testing::Test {
                   {11.0, LookAt({0.2, -0.8, 1.1}, {0.3, 0, 1})}};
         ASSERT_TRUE(WriteTrajectory(file_, poses_).ok());
     }
-    std::string file_ = testing::TempDir() + "/recorded_path.txt";
+    std::string file_ = ProcessFolder() + "/recorded_path.txt";
     std::vector<StampedPose> poses_;
 };
 
@@ -71,7 +72,7 @@ TEST_F(RecordedPath, MovedToAStartKeepsItsRelativeMotion) {
 TEST(CameraPath, ErrorsNameTheFile) {
     EXPECT_NE(ReadCameraPath("/nowhere/path.txt").message().find("/nowhere/path.txt"),
               std::string::npos);
-    const std::string single = testing::TempDir() + "/single_pose.txt";
+    const std::string single = ProcessFolder() + "/single_pose.txt";
     ASSERT_TRUE(WriteTrajectory(single, {{1.0, Eigen::Isometry3d::Identity()}}).ok());
     EXPECT_EQ(ReadCameraPath(single).message(),
               single + ": needs at least two poses to move along");

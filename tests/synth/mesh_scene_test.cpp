@@ -10,6 +10,7 @@
 #include "synth/frame_renderer.h"
 #include "synth/hash_random.h"
 #include "synth/model_path.h"
+#include "support/temp_folder.h"
 
 namespace tessera {
 namespace {
@@ -26,7 +27,7 @@ class TexturedQuad : public testing::Test {
             for (int x = 0; x < 64; ++x)
                 image(x, y) = y < 16 ? (x < 32 ? Rgb8{250, 0, 0} : Rgb8{0, 250, 0})
                                      : (x < 32 ? Rgb8{0, 0, 250} : Rgb8{250, 250, 250});
-        const std::string folder = testing::TempDir();
+        const std::string folder = ProcessFolder();
         ASSERT_TRUE(WriteColourImage(folder + "/quad_picture.png", image).ok());
         std::ofstream(folder + "/quad.mtl")
             << "newmtl picture\nmap_Kd quad_picture.png\nnewmtl plain\nKd 1 0.5 0\n"

@@ -6,12 +6,13 @@
 #include <fstream>
 
 #include "synth/hash_random.h"
+#include "support/temp_folder.h"
 
 namespace tessera {
 namespace {
 
 std::string WriteFile(const std::string& name, const std::string& text) {
-    const std::string path = testing::TempDir() + "/" + name;
+    const std::string path = ProcessFolder() + "/" + name;
     std::ofstream(path, std::ios::binary) << text;
     return path;
 }

@@ -14,6 +14,7 @@
 #include "synth/furniture.h"
 #include "synth/paint.h"
 #include "synth/seen_objects.h"
+#include "support/temp_folder.h"
 
 namespace tessera {
 namespace {
@@ -51,7 +52,7 @@ std::string Slurp(const std::string& path) {
 class WrittenSequence : public testing::Test {
   protected:
     void SetUp() override {
-        folder_ = testing::TempDir() + "/written_sequence";
+        folder_ = ProcessFolder() + "/written_sequence";
         std::filesystem::remove_all(folder_);
         SyntheticSource source("two cups", TwoCups(), Small());
         const auto summary =
@@ -119,7 +120,7 @@ TEST_F(WrittenSequence, TheReferenceIsTheSeenPartOnTheSurface) {
 }
 
 TEST(SequenceWriter, TheReferenceLeavesOutWhatTheSensorCannotMeasure) {
-    const std::string folder = testing::TempDir() + "/short_sighted_sequence";
+    const std::string folder = ProcessFolder() + "/short_sighted_sequence";
     std::filesystem::remove_all(folder);
     SynthConfig config = Small();
     config.sensor.noise = NoiseModel::kKinect;
@@ -133,7 +134,7 @@ TEST(SequenceWriter, TheReferenceLeavesOutWhatTheSensorCannotMeasure) {
 }
 
 TEST(SequenceWriter, StopsWhenAskedAndLeavesAWholeFolder) {
-    const std::string folder = testing::TempDir() + "/stopped_sequence";
+    const std::string folder = ProcessFolder() + "/stopped_sequence";
     std::filesystem::remove_all(folder);
     SyntheticSource source("two cups", TwoCups(), Small());
     const auto summary =

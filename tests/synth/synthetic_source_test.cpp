@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "io/trajectory.h"
+#include "support/temp_folder.h"
 
 namespace tessera {
 namespace {
@@ -56,7 +57,7 @@ TEST(SyntheticSource, SeekGivesTheSameFrameAgain) {
 }
 
 TEST(SyntheticSource, ATrajectoryFileReplacesTheMotion) {
-    const std::string file = testing::TempDir() + "/source_path.txt";
+    const std::string file = ProcessFolder() + "/source_path.txt";
     const Eigen::Isometry3d a = LookAt({1, -1, 1}, {0, 0, 0.5}),
                             b = LookAt({1.2, -1, 1}, {0, 0, 0.5});
     ASSERT_TRUE(WriteTrajectory(file, {{5.0, a}, {5.2, b}}).ok());
