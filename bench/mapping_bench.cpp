@@ -79,7 +79,7 @@ void CastView(benchmark::State& state) {
     const PinholeCamera camera;
     RayCaster caster;
     PredictedView view;
-    for (auto _ : state) caster.Cast(RoomMap(), camera, T, .2f, 5.f, view);
+    for (auto _ : state) caster.Predict(RoomMap(), camera, T, .2f, 5.f, view);
     const double pixels = static_cast<double>(view.depth_m.size());
     double hits = 0;
     for (std::size_t i = 0; i < view.depth_m.size(); ++i) hits += view.depth_m.data()[i] > 0;

@@ -21,7 +21,9 @@ int Mesher::Update(const BlockMap& map, int budget_blocks) {
             is_pending_[id] = 0;
         }
     });
-    pending_.erase(pending_.begin(), pending_.begin() + static_cast<std::ptrdiff_t>(count));
+    const auto done = pending_.begin() + static_cast<std::ptrdiff_t>(count);
+    updated_.assign(pending_.begin(), done);
+    pending_.erase(pending_.begin(), done);
     return remaining();
 }
 
@@ -55,11 +57,12 @@ void Mesher::Clear() {
     seen_revision_.clear();
     is_pending_.clear();
     pending_.clear();
+    updated_.clear();
 }
 
 std::size_t Mesher::bytes() const {
     std::size_t total = meshes_.capacity() * (sizeof(meshes_[0]) + sizeof(std::uint32_t) + 1) +
-                        pending_.capacity() * sizeof(BlockId);
+                        (pending_.capacity() + updated_.capacity()) * sizeof(BlockId);
     for (const auto& mesh : meshes_)
         if (mesh) total += mesh->bytes();
     return total;

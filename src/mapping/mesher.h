@@ -5,6 +5,7 @@
 
 #include <limits>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "core/mesh.h"
@@ -36,6 +37,11 @@ class Mesher {
     // Forgets everything; to be called when the map was cleared or replaced.
     void Clear();
 
+    // What the last Update meshed, oldest first, for those who keep copies of the block meshes.
+    std::span<const BlockId> updated() const { return updated_; }
+    // By block id; null where there is no surface.
+    const std::vector<std::unique_ptr<const BlockMesh>>& block_meshes() const { return meshes_; }
+
     int remaining() const { return static_cast<int>(pending_.size()); }
     std::size_t bytes() const;  // memory of all block meshes
 
@@ -49,6 +55,7 @@ class Mesher {
     std::vector<std::uint32_t> seen_revision_;
     std::vector<std::uint8_t> is_pending_;
     std::vector<BlockId> pending_;  // to be meshed, oldest first
+    std::vector<BlockId> updated_;  // by the last Update
 };
 
 }  // namespace tessera

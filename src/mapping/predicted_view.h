@@ -1,11 +1,12 @@
-// What a camera at a given pose would see of the map: the tracker's model view, and the preview.
-// The ray caster fills it, and so can a rasteriser of the mesh.
+// What a camera at a given pose would see of the map, and the interface that makes it: the ray caster and the
+// rasteriser of the mesh both fill it, and trackers do not know which.
 #pragma once
 
 #include <Eigen/Geometry>
 
 #include "core/camera.h"
 #include "core/image.h"
+#include "mapping/block_map.h"
 
 namespace tessera {
 
@@ -18,6 +19,17 @@ struct PredictedView {
         normal_camera;       // unit, camera frame, out of the surface: towards the viewer
     ColourImage colour;      // mid grey where the surface has no colour
     Image<float> intensity;  // [0, 1]; -1 where the surface has none
+};
+
+// Owner thread only.
+class ViewPredictor {
+  public:
+    virtual ~ViewPredictor() = default;
+    // The first surface seen from the front by each pixel, between the two depths (metres along z, min > 0), into a
+    // view whose storage is used again. Nobody may write the map meanwhile.
+    virtual void Predict(const BlockMap& map, const PinholeCamera& camera,
+                         const Eigen::Isometry3d& T_world_camera, float min_depth_m,
+                         float max_depth_m, PredictedView& view) = 0;
 };
 
 }  // namespace tessera

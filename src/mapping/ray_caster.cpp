@@ -219,9 +219,9 @@ class TileCaster {
 
 }  // namespace
 
-void RayCaster::Cast(const BlockMap& map, const PinholeCamera& camera,
-                     const Eigen::Isometry3d& T_world_camera, float min_depth_m, float max_depth_m,
-                     PredictedView& view) {
+void RayCaster::Predict(const BlockMap& map, const PinholeCamera& camera,
+                        const Eigen::Isometry3d& T_world_camera, float min_depth_m,
+                        float max_depth_m, PredictedView& view) {
     view.camera = camera;
     view.T_world_camera = T_world_camera;
     view.depth_m.Resize(camera.width, camera.height);
@@ -233,14 +233,6 @@ void RayCaster::Cast(const BlockMap& map, const PinholeCamera& camera,
     tbb::parallel_for(0, ranges_.height, [&](int y) {
         for (int x = 0; x < ranges_.width; ++x) caster.Cast(x, y, ranges_);
     });
-}
-
-PredictedView RayCaster::Cast(const BlockMap& map, const PinholeCamera& camera,
-                              const Eigen::Isometry3d& T_world_camera, float min_depth_m,
-                              float max_depth_m) {
-    PredictedView view;
-    Cast(map, camera, T_world_camera, min_depth_m, max_depth_m, view);
-    return view;
 }
 
 }  // namespace tessera

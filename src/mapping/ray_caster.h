@@ -11,21 +11,14 @@
 
 namespace tessera {
 
-// Owner thread only; Cast works on all of TBB's threads and gives the same bytes for any number of
-// them. Nobody may write the map meanwhile.
-class RayCaster {
+// Works on all of TBB's threads and gives the same bytes for any number of them. Surface is where all
+// eight voxels around a point are known and the distance falls through zero; a fall over the whole
+// range at once is an occlusion's edge and passed through, as by the mesher.
+class RayCaster : public ViewPredictor {
   public:
-    // The first surface seen from the front on each pixel's ray, between the two depths (metres
-    // along z, min > 0). Surface is where all eight voxels around a point are known and the
-    // distance falls through zero; a fall over the whole range at once is an occlusion's edge and
-    // passed through, as by the mesher.
-    PredictedView Cast(const BlockMap& map, const PinholeCamera& camera,
-                       const Eigen::Isometry3d& T_world_camera, float min_depth_m,
-                       float max_depth_m);
-    // The same into a view whose storage is used again.
-    void Cast(const BlockMap& map, const PinholeCamera& camera,
-              const Eigen::Isometry3d& T_world_camera, float min_depth_m, float max_depth_m,
-              PredictedView& view);
+    void Predict(const BlockMap& map, const PinholeCamera& camera,
+                 const Eigen::Isometry3d& T_world_camera, float min_depth_m, float max_depth_m,
+                 PredictedView& view) override;
 
   private:
     RayRanges ranges_;

@@ -30,6 +30,13 @@ Eigen::Isometry3d LookAt(const Eigen::Vector3d& eye, const Eigen::Vector3d& targ
     return T;
 }
 
+PredictedView Cast(const BlockMap& map, const PinholeCamera& camera,
+                   const Eigen::Isometry3d& T_world_camera, float min_depth_m, float max_depth_m) {
+    PredictedView view;
+    RayCaster().Predict(map, camera, T_world_camera, min_depth_m, max_depth_m, view);
+    return view;
+}
+
 int CountHits(const PredictedView& view) {
     int hits = 0;
     for (std::size_t i = 0; i < view.depth_m.size(); ++i) hits += view.depth_m.data()[i] > 0;
@@ -53,13 +60,12 @@ TEST(RayCaster, SphereFromAllSides) {
     const Eigen::Vector3d centre(-.0311, .0202, -.0103);
     BlockMap map{BlockMap::Config{}};
     Fill(map, Sphere(centre, .3), {-6, -6, -6}, {5, 5, 5});
-    RayCaster caster;
     const PinholeCamera camera = SmallCamera();
     for (const Eigen::Vector3d& eye :
          {Eigen::Vector3d(1, .1, .2), Eigen::Vector3d(-.2, -1, .3), Eigen::Vector3d(.1, .2, -.9),
           Eigen::Vector3d(-.7, .6, .7)}) {
         const Eigen::Isometry3d T = LookAt(eye, centre);
-        const PredictedView view = caster.Cast(map, camera, T, .1f, 5.f);
+        const PredictedView view = Cast(map, camera, T, .1f, 5.f);
         int missed = 0, compared = 0;
         for (int v = 0; v < camera.height; ++v)
             for (int u = 0; u < camera.width; ++u) {
@@ -91,11 +97,10 @@ TEST(RayCaster, ObliquePlaneIsExact) {
     const Eigen::Vector3d normal = Eigen::Vector3d(.3, -.2, -1).normalized();
     BlockMap map{BlockMap::Config{}};
     Fill(map, Plane(normal, .013), {-14, -14, -8}, {13, 13, 7});
-    RayCaster caster;
     const PinholeCamera camera = SmallCamera();
     for (const Eigen::Vector3d& eye : {Eigen::Vector3d(0, 0, -1), Eigen::Vector3d(.6, .1, -.3)}) {
         const Eigen::Isometry3d T = LookAt(eye, Eigen::Vector3d(-.1, .05, 0));
-        const PredictedView view = caster.Cast(map, camera, T, .1f, 3.f);
+        const PredictedView view = Cast(map, camera, T, .1f, 3.f);
         int compared = 0;
         for (int v = 0; v < camera.height; ++v)
             for (int u = 0; u < camera.width; ++u) {
@@ -119,7 +124,7 @@ TEST(RayCaster, FarFromTheWorldsOrigin) {
     Fill(map, Sphere(centre, .2), {block.x - 4, block.y - 4, block.z - 4},
          {block.x + 4, block.y + 4, block.z + 4});
     const Eigen::Isometry3d T = LookAt(centre + Eigen::Vector3d(0, .1, -1), centre, 0);
-    const PredictedView view = RayCaster().Cast(map, SmallCamera(), T, .1f, 3.f);
+    const PredictedView view = Cast(map, SmallCamera(), T, .1f, 3.f);
     double cosine;
     for (int v = 50; v < 70; ++v)
         for (int u = 70; u < 90; ++u)
@@ -135,7 +140,7 @@ TEST(RayCaster, ColourAndIntensityAreInterpolated) {
     Fill(map, Sphere({0, 0, 0}, .3), {-6, -6, -6}, {5, 5, 5}, paint);
     const PinholeCamera camera = SmallCamera();
     const Eigen::Isometry3d T = LookAt({.5, .4, -.8}, {0, 0, 0});
-    const PredictedView view = RayCaster().Cast(map, camera, T, .1f, 3.f);
+    const PredictedView view = Cast(map, camera, T, .1f, 3.f);
     EXPECT_GT(CountHits(view), 3000);
     for (int v = 0; v < camera.height; ++v)
         for (int u = 0; u < camera.width; ++u) {
@@ -153,7 +158,7 @@ TEST(RayCaster, SurfaceWithoutColourSaysSo) {
     BlockMap map{BlockMap::Config{}};
     Fill(map, Sphere({0, 0, 0}, .3), {-6, -6, -6}, {5, 5, 5});
     const PredictedView view =
-        RayCaster().Cast(map, SmallCamera(), LookAt({0, 0, -1}, {0, 0, 0}), .1f, 3.f);
+        Cast(map, SmallCamera(), LookAt({0, 0, -1}, {0, 0, 0}), .1f, 3.f);
     ASSERT_GT(view.depth_m(80, 60), 0);
     EXPECT_EQ(view.intensity(80, 60), -1);
     EXPECT_EQ(view.colour(80, 60), (Rgb8{128, 128, 128}));
@@ -163,16 +168,16 @@ TEST(RayCaster, NothingToSee) {
     BlockMap map{BlockMap::Config{}};
     RayCaster caster;
     const PinholeCamera camera = SmallCamera();
-    PredictedView view = caster.Cast(map, camera, LookAt({0, 0, -1}, {0, 0, 0}), .1f, 3.f);
+    PredictedView view = Cast(map, camera, LookAt({0, 0, -1}, {0, 0, 0}), .1f, 3.f);
     EXPECT_EQ(CountHits(view), 0);
     Fill(map, Sphere({0, 0, 0}, .3), {-6, -6, -6}, {5, 5, 5});
-    caster.Cast(map, camera, LookAt({0, 0, -1}, {0, 0, 0}), .1f, 3.f, view);
+    caster.Predict(map, camera, LookAt({0, 0, -1}, {0, 0, 0}), .1f, 3.f, view);
     EXPECT_GT(CountHits(view), 3000);
-    caster.Cast(map, camera, LookAt({0, 0, -1}, {0, 0, -2}), .1f, 3.f, view);  // away from it
+    caster.Predict(map, camera, LookAt({0, 0, -1}, {0, 0, -2}), .1f, 3.f, view);  // away from it
     EXPECT_EQ(CountHits(view), 0);
-    caster.Cast(map, camera, LookAt({0, 0, -1}, {0, 0, 0}), .1f, .6f, view);  // too far
+    caster.Predict(map, camera, LookAt({0, 0, -1}, {0, 0, 0}), .1f, .6f, view);  // too far
     EXPECT_EQ(CountHits(view), 0);
-    caster.Cast(map, camera, LookAt({0, 0, 0}, {0, 0, 1}), .1f, 3.f,
+    caster.Predict(map, camera, LookAt({0, 0, 0}, {0, 0, 1}), .1f, 3.f,
                 view);  // from inside: the back
     EXPECT_EQ(CountHits(view), 0);
     for (std::size_t i = 0; i < view.depth_m.size(); ++i) {
@@ -188,15 +193,15 @@ TEST(RayCaster, NoSurfaceAtUnknownSpaceNorAtJumps) {
     BlockMap map{BlockMap::Config{}};
     Fill(map, Plane({0, 0, -1}, 0), {-4, -4, -1}, {3, 3, 0});
     const Eigen::Isometry3d T = LookAt({.01, .01, -1}, {0, 0, 0});
-    EXPECT_GT(CountHits(RayCaster().Cast(map, SmallCamera(), T, .1f, 3.f)), 2000);
+    EXPECT_GT(CountHits(Cast(map, SmallCamera(), T, .1f, 3.f)), 2000);
     for (BlockId id = 1; id < map.size(); ++id)
         for (int i = 0; i < kBlockVoxels; ++i)
             if (FieldDistance(map.field(id)[i]) <= 0) map.field(id)[i] = kUnknownField;
-    EXPECT_EQ(CountHits(RayCaster().Cast(map, SmallCamera(), T, .1f, 3.f)), 0);
+    EXPECT_EQ(CountHits(Cast(map, SmallCamera(), T, .1f, 3.f)), 0);
     for (BlockId id = 1; id < map.size(); ++id)
         for (int i = 0; i < kBlockVoxels; ++i)
             map.field(id)[i] = PackField(HasDistance(map.field(id)[i]) ? 1 : -1);
-    EXPECT_EQ(CountHits(RayCaster().Cast(map, SmallCamera(), T, .1f, 3.f)), 0);
+    EXPECT_EQ(CountHits(Cast(map, SmallCamera(), T, .1f, 3.f)), 0);
 }
 
 // The nearer surface wins although its band hides behind nothing; rays past its edge reach the
@@ -206,7 +211,7 @@ TEST(RayCaster, OccluderInFrontOfAWall) {
     Fill(map, Union(Sphere({0, 0, 0}, .1), Plane({0, 0, -1}, -.5)), {-12, -12, -2}, {11, 11, 7});
     const PinholeCamera camera = SmallCamera();
     const Eigen::Isometry3d T = LookAt({0, 0, -1}, {0, 0, 1}, 0);
-    const PredictedView view = RayCaster().Cast(map, camera, T, .1f, 3.f);
+    const PredictedView view = Cast(map, camera, T, .1f, 3.f);
     for (int v = 0; v < camera.height; ++v)
         for (int u = 0; u < camera.width; ++u) {
             double cosine = 1;
@@ -223,7 +228,7 @@ TEST(RayCaster, SameBytesForAnyNumberOfThreads) {
          [](const Eigen::Vector3d& p) { return Eigen::Vector3d(.5 + p.x(), .5, .5); });
     const auto with_threads = [&](std::size_t n) {
         const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, n);
-        return RayCaster().Cast(map, SmallCamera(), LookAt({.3, .5, -.8}, {0, 0, 0}), .1f, 3.f);
+        return Cast(map, SmallCamera(), LookAt({.3, .5, -.8}, {0, 0, 0}), .1f, 3.f);
     };
     const PredictedView one = with_threads(1), four = with_threads(4);
     EXPECT_TRUE(one.depth_m == four.depth_m);
