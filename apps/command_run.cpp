@@ -1,5 +1,6 @@
 // tessera run: a source becomes a trajectory, a mesh and their figures.
 #include <CLI/CLI.hpp>
+#include <charconv>
 #include <memory>
 
 #include "command.h"
@@ -24,16 +25,30 @@ struct Arguments {
 };
 
 Status RefuseWhatIsToCome(const Arguments& a) {
-    if (a.tracker == "icp" || a.tracker == "icp-rgb") return NotInThisVersion("--tracker " + a.tracker);
     if (a.device == "cuda") return NotInThisVersion("--device cuda");
     if (a.mode == "live") return NotInThisVersion("--mode live");
     if (a.labels != "none") return NotInThisVersion("--labels " + a.labels);
     if (a.loop_closure == "on") return NotInThisVersion("--loop-closure on");
-    if (!a.switches.empty()) return NotInThisVersion("--switch");
     if (!a.scan.empty()) return NotInThisVersion("--scan");
     if (!a.resume.empty()) return NotInThisVersion("--resume");
     if (a.view) return NotInThisVersion("--view");
     return Status::Ok();
+}
+
+// "FRAME:METHOD"
+Result<MethodSwitch> ParseSwitch(const std::string& text) {
+    const std::size_t colon = text.find(':');
+    MethodSwitch change;
+    const char* end = text.data() + std::min(colon, text.size());
+    const auto [rest, error] = std::from_chars(text.data(), end, change.frame);
+    const bool number = colon != std::string::npos && error == std::errc() && rest == end && change.frame >= 0;
+    for (const auto& [name, method] : TrackingMethodNames()) {
+        if (!number || text.substr(colon + 1) != name) continue;
+        change.method = method;
+        return change;
+    }
+    return Status::Error(fmt::format("--switch {}: expected FRAME:METHOD, such as 100:icp; methods: sdf, sdf-geometric, "
+                                     "icp, icp-rgb", text));
 }
 
 // The configuration, then the options that name a key of their own.
@@ -45,10 +60,10 @@ Status Configure(const Arguments& a, RunConfig& config) {
         if (Status status = parameters.Set("tracking.method", a.tracker); !status.ok()) return status;
     if (!a.alpha.empty()) {
         const bool automatic = a.alpha == "auto";
-        if (Status status = parameters.Set("tracking.sdf.alpha_mode", automatic ? "auto" : "fixed"); !status.ok())
+        if (Status status = parameters.Set("tracking.photometric.alpha_mode", automatic ? "auto" : "fixed"); !status.ok())
             return status;
         if (!automatic)
-            if (Status status = parameters.Set("tracking.sdf.alpha", a.alpha); !status.ok())
+            if (Status status = parameters.Set("tracking.photometric.alpha", a.alpha); !status.ok())
                 return Status::Error("--alpha: " + status.message());
     }
     if (a.threads >= 0) return parameters.Set("run.threads", std::to_string(a.threads));
@@ -59,9 +74,15 @@ int Run(const Arguments& a) {
     if (Status status = RefuseWhatIsToCome(a); !status.ok()) return Fail(status);
     RunConfig config;
     if (Status status = Configure(a, config); !status.ok()) return Fail(status);
+    RunRequest request = a.request;
+    for (const std::string& text : a.switches) {
+        const Result<MethodSwitch> change = ParseSwitch(text);
+        if (!change.ok()) return Fail(change.status());
+        request.switches.push_back(change.value());
+    }
     Result<RunSummary> result = [&] {
         Console console;
-        return ExecuteRun(a.request, config, console.Observer(), StopOnSignal());
+        return ExecuteRun(request, config, console.Observer(), StopOnSignal());
     }();
     if (!result.ok()) return Fail(result.status());
     const RunSummary& summary = result.value();
@@ -85,8 +106,6 @@ void AddOptionsToCome(CLI::App& command, Arguments& a) {
     add("--loop-closure", a.loop_closure, "Pose graph")->check(CLI::IsMember({"on", "off"}))->capture_default_str();
     add("--scan", a.scan, "Scan file to write")->type_name("FILE");
     add("--resume", a.resume, "Scan file to go on with")->type_name("FILE");
-    command.add_option("--switch", a.switches, "Change the tracking method at a frame; repeatable")
-        ->type_name("FRAME:METHOD")->allow_extra_args(false)->group(group);
     command.add_flag("--view", a.view, "Open a window")->group(group);
 }
 
@@ -104,7 +123,10 @@ void AddRunCommand(CLI::App& app, CommandContext& context) {
     a->config.AddTo(*command);
     command->add_option("--tracker", a->tracker, "Tracking method, as tracking.method (default sdf)")
         ->check(CLI::IsMember({"sdf", "sdf-geometric", "icp", "icp-rgb"}));
-    command->add_option("--alpha", a->alpha, "Weight of the photometric residual in m^2, or auto, as tracking.sdf.alpha")
+    command->add_option("--switch", a->switches,
+                        "From this frame on (its index as in frames.csv) another tracking method; repeatable")
+        ->type_name("FRAME:METHOD")->allow_extra_args(false);
+    command->add_option("--alpha", a->alpha, "Weight of the photometric residual in m^2, or auto, as tracking.photometric.alpha")
         ->type_name("A|auto");
     command->add_option("--start", a->request.selection.start, "First frame, counted from 0")
         ->check(CLI::NonNegativeNumber)->capture_default_str();

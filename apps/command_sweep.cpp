@@ -45,8 +45,8 @@ Result<Row> RunOne(const Arguments& a, const std::string& source, double alpha, 
     ConfigParameters parameters;
     config.Describe(parameters);
     if (Status status = a.config.Apply(parameters); !status.ok()) return status;
-    config.pipeline.sdf.alpha_mode = SdfTracker::AlphaMode::kFixed;
-    config.pipeline.sdf.alpha = alpha;
+    config.pipeline.trackers.photometric.alpha_mode = Photometry::AlphaMode::kFixed;
+    config.pipeline.trackers.photometric.alpha = alpha;
     RunRequest request;
     request.source = source;
     request.selection.count = a.frames;
@@ -109,7 +109,7 @@ void AddSweepCommand(CLI::App& app, CommandContext& context) {
     auto a = std::make_shared<Arguments>();
     CLI::App* sweep = app.add_subcommand("sweep", "Run sources again and again with another setting each time");
     sweep->require_subcommand(1);
-    CLI::App* alpha = sweep->add_subcommand("alpha", "Over the photometric weight, tracking.sdf.alpha, in m^2");
+    CLI::App* alpha = sweep->add_subcommand("alpha", "Over the photometric weight, tracking.photometric.alpha, in m^2");
     alpha->add_option("SOURCE", a->sources, "Folders or synthetic:NAME, with ground truth")->required();
     alpha->add_option("--values", a->values, "Both ends included")->type_name("FIRST:LAST:STEP")->capture_default_str();
     alpha->add_option("--out", a->out, "Folder for sweep.csv and sweep.json")->type_name("DIR");

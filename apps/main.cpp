@@ -62,6 +62,7 @@ int Main(int argc, char** argv) {
     AddEvalCommand(app, context);
     AddSynthCommand(app, context);
     AddSweepCommand(app, context);
+    AddInspectCommand(app, context);
     AddRenderCommand(app, context);
     AddInfoCommand(app, context);
     AddDoctorCommand(app, context);

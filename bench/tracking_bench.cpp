@@ -32,7 +32,7 @@ Eigen::Isometry3d StartBeside(const Eigen::Isometry3d& T_world_camera) {
     return Se3Exp(twist) * T_world_camera;
 }
 
-SdfArguments ArgumentsFor(const SdfPoints& points, const Eigen::Isometry3d& T_world_camera,
+SdfArguments ArgumentsFor(const FramePoints& points, const Eigen::Isometry3d& T_world_camera,
                           double alpha) {
     const BlockMap::View map = RoomMap().view();
     const SdfTracker::Config config;
@@ -59,7 +59,7 @@ SdfArguments ArgumentsFor(const SdfPoints& points, const Eigen::Isometry3d& T_wo
     a.normalise = config.normalise;
     a.gain = 1;
     a.distance_scale_m = static_cast<float>(config.distance_scale_m);
-    a.intensity_scale = static_cast<float>(config.intensity_scale);
+    a.intensity_scale = static_cast<float>(Photometry::Config().intensity_scale);
     a.inlier_distance_m = 0.5f * map.truncation_m;
     return a;
 }
@@ -68,11 +68,11 @@ SdfArguments ArgumentsFor(const SdfPoints& points, const Eigen::Isometry3d& T_wo
 void SumPoints(benchmark::State& state, VectorPath path, double alpha) {
     const bool wide = path == VectorPath::kAvx2;
     if (wide && !CpuHasAvx2()) return state.SkipWithError("no AVX2");
-    SdfPoints points;
+    FramePoints points;
     points.Build(RoomPrepared(0), FullCamera(), {}, kStep_px, 2.0);
     points.SampleIntensity(RoomPrepared(0), FullCamera(), {});
     const SdfArguments a = ArgumentsFor(points, StartBeside(TruePose(4)), alpha);
-    SdfSums sums;
+    PoseSums sums;
     for (auto _ : state) {
         sums = {};
 #ifdef TESSERA_HAVE_AVX2
@@ -85,7 +85,7 @@ void SumPoints(benchmark::State& state, VectorPath path, double alpha) {
     }
     const auto valid = static_cast<double>(points.valid());
     state.counters["points"] = valid;
-    state.counters["known"] = sums[SdfSumLayout::kKnown] / valid;
+    state.counters["known"] = sums[SumLayout::kKnown] / valid;
     state.counters["per_point"] = PerItem(state, valid);
 }
 void SumArguments(benchmark::internal::Benchmark* b) {
@@ -102,9 +102,11 @@ void Track(benchmark::State& state, VectorPath path, double alpha) {
     if (path == VectorPath::kAvx2 && !CpuHasAvx2()) return state.SkipWithError("no AVX2");
     const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
                                       static_cast<std::size_t>(state.range(0)));
-    SdfTracker::Config config;
+    Photometry::Config config;
+    config.alpha_mode = Photometry::AlphaMode::kFixed;
     config.alpha = alpha;
-    SdfTracker tracker(config, FullCamera(), path);
+    Photometry photometry(config, FullCamera());
+    SdfTracker tracker({}, FullCamera(), TrackJudge({}), &photometry, path);
     const Eigen::Isometry3d start = StartBeside(TruePose(4));
     const TrackInput input{.frame = RoomPrepared(0),
                            .map = RoomMap(),
@@ -114,7 +116,7 @@ void Track(benchmark::State& state, VectorPath path, double alpha) {
                            .motion = {}};
     TrackResult result;
     for (auto _ : state) {
-        tracker.Reset();
+        photometry.Reset();
         result = tracker.Track(input);
     }
     const Eigen::Isometry3d error = TruePose(4).inverse() * result.T_world_camera;

@@ -4,6 +4,12 @@
 
 namespace tessera {
 
+Eigen::Isometry3d Normalised(const Eigen::Isometry3d& T) {
+    Eigen::Isometry3d normalised = T;
+    normalised.linear() = Eigen::Quaterniond(T.linear()).normalized().toRotationMatrix();
+    return normalised;
+}
+
 Eigen::Matrix3d Skew(const Eigen::Vector3d& a) {
     Eigen::Matrix3d m;
     m << 0, -a.z(), a.y(), a.z(), 0, -a.x(), -a.y(), a.x(), 0;

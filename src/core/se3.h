@@ -16,6 +16,9 @@ Eigen::Isometry3d Se3Exp(const Vector6d& twist);
 // log: SE(3) -> se(3), rotation angle in [0, pi].
 Vector6d Se3Log(const Eigen::Isometry3d& T);
 
+// With its nearly orthonormal rotation made exactly so: products of many poses lose it, and an isometry's inverse doubles the error.
+Eigen::Isometry3d Normalised(const Eigen::Isometry3d& T);
+
 // Skew(a) * b == a x b.
 Eigen::Matrix3d Skew(const Eigen::Vector3d& a);
 

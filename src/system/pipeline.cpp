@@ -6,14 +6,6 @@
 
 namespace tessera {
 
-const char* ToString(TrackingMethod method) {
-    switch (method) {
-        case TrackingMethod::kSdf: return "sdf";
-        case TrackingMethod::kSdfGeometric: return "sdf-geometric";
-    }
-    return "?";
-}
-
 void ShutterConfig::Describe(ConfigParameters& p) {
     p.Add("colour_delay", colour_delay,
           "allow for the camera's motion between the depth and the colour image's time stamps");
@@ -29,13 +21,10 @@ void PipelineConfig::Describe(ConfigParameters& p) {
         fusion.Describe(s);
     });
     p.Section("tracking", [&](ConfigParameters& s) {
-        s.AddChoice("method", method,
-                    {{"sdf", TrackingMethod::kSdf}, {"sdf-geometric", TrackingMethod::kSdfGeometric}},
-                    "sdf uses distances and intensities ([B14]); sdf-geometric distances only ([B13])");
+        trackers.Describe(s);
         s.Section("shutter", [&](ConfigParameters& m) { shutter.Describe(m); });
         s.Section("motion", [&](ConfigParameters& m) { motion.Describe(m); });
         s.Section("prealign", [&](ConfigParameters& a) { prealign.Describe(a); });
-        s.Section("sdf", [&](ConfigParameters& t) { sdf.Describe(t); });
     });
 }
 
@@ -44,19 +33,6 @@ Status PipelineConfig::Validate() const {
     return map.Validate();
 }
 
-namespace {
-
-std::unique_ptr<Tracker> MakeTracker(const PipelineConfig& config, const PinholeCamera& camera) {
-    SdfTracker::Config sdf = config.sdf;
-    if (config.method == TrackingMethod::kSdfGeometric) {
-        sdf.alpha = 0;
-        sdf.alpha_mode = SdfTracker::AlphaMode::kFixed;
-    }
-    return std::make_unique<SdfTracker>(sdf, camera);
-}
-
-}  // namespace
-
 Pipeline::Pipeline(const PipelineConfig& config, const PinholeCamera& camera)
     : config_(config),
       camera_(camera),
@@ -64,12 +40,13 @@ Pipeline::Pipeline(const PipelineConfig& config, const PinholeCamera& camera)
       integrator_(config.fusion, camera),
       motion_(config.motion),
       aligner_(config.prealign, camera),
-      tracker_(MakeTracker(config, camera)) {}
+      trackers_(config.trackers, camera) {}
 
 FrameReport Pipeline::Process(const Frame& frame, const std::optional<Eigen::Isometry3d>& given) {
     FrameReport report;
     report.index = frame.index;
     report.stamp_s = frame.stamp_s;
+    report.method = trackers_.method();
 
     // 1. Gate the depth, split the colour.
     Stopwatch watch;
@@ -95,12 +72,13 @@ FrameReport Pipeline::Process(const Frame& frame, const std::optional<Eigen::Iso
         aligner_.Align(prepared_, Eigen::Isometry3d::Identity());
     } else {
         report.track = TrackFrame(frame);
+        report.warning = trackers_.TakeNote();
     }
     report.track_ms = watch.LapMs();
     if (report.tracked()) motion_.Add({frame.stamp_s, report.track.T_world_camera});
 
     // 3. Put it into the map, unless it would harm it.
-    if (report.track.status == TrackStatus::kGood) {
+    if (report.track.status == TrackStatus::kGood && (fusing_ || report.first)) {
         report.fusion = integrator_.Integrate(prepared_, FusionView(report.track), map_);
         report.fused = true;
         if (report.fusion.refused_blocks > 0)
@@ -116,7 +94,7 @@ TrackResult Pipeline::TrackFrame(const Frame& frame) {
     const Eigen::Isometry3d T_world_expected = motion_.Predict(frame.stamp_s);
     const Eigen::Isometry3d T_world_aligned =
         T_world_last * aligner_.Align(prepared_, T_world_last.inverse() * T_world_expected);
-    return tracker_->Track({.frame = prepared_,
+    return trackers_.Track({.frame = prepared_,
                             .map = map_,
                             .T_world_camera_starts = {T_world_expected, T_world_aligned},
                             .T_world_camera_last = T_world_last,

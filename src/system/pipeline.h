@@ -10,14 +10,10 @@
 #include "mapping/integrator.h"
 #include "mapping/prepared_frame.h"
 #include "system/motion_model.h"
+#include "system/tracking_method.h"
 #include "tracking/image_aligner.h"
-#include "tracking/sdf_tracker.h"
-#include "tracking/tracker.h"
 
 namespace tessera {
-
-enum class TrackingMethod { kSdf, kSdfGeometric };
-const char* ToString(TrackingMethod method);
 
 // When a frame's images and rows were taken.
 struct ShutterConfig {
@@ -34,9 +30,8 @@ struct PipelineConfig {
     Integrator::Config fusion;
     MotionModel::Config motion;
     ShutterConfig shutter;
-    TrackingMethod method = TrackingMethod::kSdf;
     ImageAligner::Config prealign;
-    SdfTracker::Config sdf;
+    TrackersConfig trackers;
 
     // Sections frame, mapping, tracking.
     void Describe(ConfigParameters& parameters);
@@ -47,6 +42,7 @@ struct PipelineConfig {
 struct FrameReport {
     std::int64_t index = 0;
     double stamp_s = 0;
+    TrackingMethod method = TrackingMethod::kSdf;
     TrackResult track;       // status good, with the given pose, when poses are given
     bool first = false;      // the frame that started the map
     bool fused = false;
@@ -66,6 +62,12 @@ class Pipeline {
     // frame's camera unless its pose is given.
     FrameReport Process(const Frame& frame, const std::optional<Eigen::Isometry3d>& given = std::nullopt);
 
+    // From the next frame on; pose, velocity, brightness and map stay.
+    void Select(TrackingMethod method) { trackers_.Select(method); }
+
+    // Off: frames are tracked, but the map stays as it is; but the first frame always starts it.
+    void SetFusing(bool on) { fusing_ = on; }
+
     const BlockMap& map() const { return map_; }
     const Integrator& integrator() const { return integrator_; }
 
@@ -80,8 +82,9 @@ class Pipeline {
     Integrator integrator_;
     MotionModel motion_;
     ImageAligner aligner_;
-    std::unique_ptr<Tracker> tracker_;
+    Trackers trackers_;
     PreparedFrame prepared_;
+    bool fusing_ = true;
 };
 
 }  // namespace tessera

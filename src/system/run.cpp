@@ -17,7 +17,9 @@ namespace {
 class Runner {
   public:
     Runner(const RunRequest& request, const RunConfig& config, const RunObserver& observer)
-        : request_(request), config_(config), observer_(observer) {}
+        : request_(request), config_(config), observer_(observer), switches_(request.switches) {
+        std::ranges::stable_sort(switches_, {}, &MethodSwitch::frame);
+    }
 
     Result<RunSummary> Run(const std::atomic<bool>& stop) {
         if (Status status = Open(); !status.ok()) return status;
@@ -101,6 +103,8 @@ class Runner {
     }
 
     FrameReport Process(const Frame& frame) {
+        for (; next_switch_ < switches_.size() && switches_[next_switch_].frame <= frame.index; ++next_switch_)
+            pipeline_->Select(switches_[next_switch_].method);
         if (given_.empty()) return pipeline_->Process(frame);
         if (const auto T_world_camera = InterpolatePose(given_, frame.stamp_s))
             return pipeline_->Process(frame, T_world_camera);
@@ -185,6 +189,8 @@ class Runner {
     const RunRequest& request_;
     const RunConfig& config_;
     const RunObserver& observer_;
+    std::vector<MethodSwitch> switches_;  // by frame
+    std::size_t next_switch_ = 0;
     std::vector<StampedPose> given_, truth_, estimate_;
     std::vector<std::string> pose_notes_;
     std::unique_ptr<FrameReader> reader_;

@@ -17,10 +17,17 @@
 
 namespace tessera {
 
+// From the first frame on whose index is not smaller.
+struct MethodSwitch {
+    std::int64_t frame = 0;
+    TrackingMethod method = TrackingMethod::kSdf;
+};
+
 struct RunRequest {
     std::string source;
     FrameSelection selection;
     std::string poses_file;     // TUM trajectory: fuse at its poses and do not track; empty = track
+    std::vector<MethodSwitch> switches;  // of one frame, the last counts
     std::string output_folder;  // empty = nothing is written and no mesh is made
     std::vector<std::string> command_line;  // as given, for run.json
 };

@@ -8,8 +8,8 @@
 namespace tessera::TESSERA_VECTOR_NAMESPACE {
 namespace {
 
-using L = SdfSumLayout;
-static_assert(kSdfPointPadding % kLanes == 0);
+using L = SumLayout;
+static_assert(kPointPadding % kLanes == 0);
 
 // BlockHash of voxel.h for every lane.
 [[gnu::always_inline]] inline Int HashBlocks(const Int& x, const Int& y, const Int& z) {

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "tracking/sdf_kernels.h"
+#include "tracking/normal_equations.h"
 
 namespace tessera {
 
@@ -20,7 +20,7 @@ struct SdfArguments {
     float rotation[9];
     float translation[3];
     std::int32_t origin_block[3];
-    // The points in the camera frame, padded to a multiple of kSdfPointPadding with weight 0.
+    // The points in the camera frame, padded to a multiple of kPointPadding with weight 0.
     const float* x;
     const float* y;
     const float* z;
@@ -31,15 +31,13 @@ struct SdfArguments {
     bool normalise;  // divide distances by their gradient's length where it exceeds 1
     float gain, offset;
     float distance_scale_m, intensity_scale;  // Huber
-    float inlier_distance_m;  // for SdfSumLayout::kInliers
+    float inlier_distance_m;  // for SumLayout::kInliers
     // If not null: residuals per point, NaN where unknown.
     float* distance_residual;
     float* intensity_residual;
 };
 
-inline constexpr int kSdfPointPadding = 8;
-
-// Adds the sums (SdfSumLayout) over points [first, last), both multiples of kSdfPointPadding, to sums[].
+// Adds the sums (SumLayout) over points [first, last), both multiples of kPointPadding, to sums[].
 namespace baseline {
 void SumSdfPoints(const SdfArguments& arguments, int first, int last, double* sums);
 }

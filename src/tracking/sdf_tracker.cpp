@@ -1,7 +1,5 @@
 #include "tracking/sdf_tracker.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,9 +7,7 @@
 namespace tessera {
 namespace {
 
-using L = SdfSumLayout;
-
-constexpr int kTile = 2048;  // points per partial sum; fixed, so that sums have a fixed order
+using L = SumLayout;
 
 // Copies a rigid motion with the voxel scale into the hot loop's arguments.
 void SetPose(const Eigen::Isometry3d& T_world_camera, const Eigen::Vector3d& origin_m, double voxel_m,
@@ -30,39 +26,33 @@ struct SdfTracker::State {
     Eigen::Isometry3d T_world_camera;
     FrameMotion motion;
     Eigen::Vector3d origin_m;
-    double gain, offset;
-    double alpha;
+    double gain = 1, offset = 0;
+    double alpha = 0;
     double scene_depth_m = 1;
     SdfArguments arguments{};
-    SdfSums sums;
-    SdfStep step;
+    PoseSums sums;
+    PoseStep step;
     int iterations = 0;
     bool failed = false;
 };
 
-SdfTracker::SdfTracker(const Config& config, const PinholeCamera& camera, VectorPath path)
+SdfTracker::SdfTracker(const Config& config, const PinholeCamera& camera, const TrackJudge& judge,
+                       Photometry* photometry, VectorPath path)
     : config_(config),
       camera_(camera),
+      judge_(judge),
+      photometry_(photometry),
       use_avx2_(path == VectorPath::kAvx2 || (path == VectorPath::kAuto && CpuHasAvx2())),
-      shutter_(config.shutter, camera),
-      points_(static_cast<std::size_t>(config.levels)) {
-    Reset();
-}
-
-void SdfTracker::Reset() {
-    alpha_ = config_.alpha;
-    gain_ = 1;
-    offset_ = 0;
-    shutter_.Reset();
-    distance_variance_ = intensity_variance_ = 0;
-}
+      points_(static_cast<std::size_t>(config.levels)) {}
 
 TrackResult SdfTracker::Track(const TrackInput& input) {
     State state;
     state.T_world_camera = input.T_world_camera_starts.front();
-    state.gain = gain_;
-    state.offset = offset_;
-    state.alpha = input.frame.has_colour() ? alpha_ : 0.0;
+    if (photometry_ != nullptr) {
+        state.gain = photometry_->gain();
+        state.offset = photometry_->offset();
+        if (input.frame.has_colour()) state.alpha = photometry_->alpha();
+    }
     for (int level = config_.levels - 1; level >= 0 && !state.failed; --level) {
         PrepareLevel(input, level, state);
         if (level == config_.levels - 1) ChooseStart(input, state);
@@ -76,26 +66,16 @@ TrackResult SdfTracker::Track(const TrackInput& input) {
     result.gain = state.gain;
     result.offset = state.offset;
     result.iterations = state.iterations;
-    Judge(input, state.sums, state.step, result);
-    if (result.status != TrackStatus::kLost) Learn(input, state, result);
+    judge_.Judge(input, points_[0].valid(), state.sums, state.step, result);
+    if (photometry_ != nullptr && result.status != TrackStatus::kLost)
+        photometry_->Learn(input.frame, points_[0], distance_residual_, intensity_residual_, result);
     return result;
-}
-
-// What one frame teaches about the camera and the residuals, for the frames to come.
-void SdfTracker::Learn(const TrackInput& input, const State& state, const TrackResult& result) {
-    gain_ = state.gain;
-    offset_ = state.offset;
-    if (state.alpha <= 0) return;
-    shutter_.Update(input.frame, points_[0], intensity_residual_, state.motion, state.gain, result.intensity_rms);
-    if (config_.alpha_mode == AlphaMode::kAuto) UpdateAlpha(points_[0]);
 }
 
 // Points, their intensities and the map as the hot loop takes them, for every (finest_step_px << level)-th pixel.
 void SdfTracker::PrepareLevel(const TrackInput& input, int level, State& state) {
-    SdfPoints& points = points_[static_cast<std::size_t>(level)];
-    state.motion = input.motion;
-    state.motion.colour_delay_s += shutter_.delay_s();
-    state.motion.colour_readout_s += shutter_.readout_s();
+    FramePoints& points = points_[static_cast<std::size_t>(level)];
+    state.motion = photometry_ != nullptr ? photometry_->Timed(input.motion) : input.motion;
     if (input.since_last_s > 0)  // the velocity of the last interval, as far as this level knows it
         state.motion.twist_per_s =
             Se3Log(input.T_world_camera_last.inverse() * state.T_world_camera) / input.since_last_s;
@@ -125,7 +105,7 @@ void SdfTracker::PrepareLevel(const TrackInput& input, int level, State& state) 
     a.alpha = static_cast<float>(state.alpha);
     a.normalise = config_.normalise;
     a.distance_scale_m = static_cast<float>(config_.distance_scale_m);
-    a.intensity_scale = static_cast<float>(config_.intensity_scale);
+    if (photometry_ != nullptr) a.intensity_scale = static_cast<float>(photometry_->config().intensity_scale);
     a.inlier_distance_m = 0.5f * map.truncation_m;
     if (level > 0) return;
     distance_residual_.resize(static_cast<std::size_t>(points.count()));
@@ -134,31 +114,31 @@ void SdfTracker::PrepareLevel(const TrackInput& input, int level, State& state) 
     a.intensity_residual = state.alpha > 0 ? intensity_residual_.data() : nullptr;
 }
 
-SdfSums SdfTracker::SumAt(const TrackInput& input, const SdfPoints& points, State& state) const {
+PoseSums SdfTracker::SumAt(const TrackInput& input, const FramePoints& points, State& state) const {
     SetPose(state.T_world_camera, state.origin_m, input.map.config().voxel_size_m, state.arguments);
     state.arguments.gain = static_cast<float>(state.gain);
     state.arguments.offset = static_cast<float>(state.offset);
-    return Sum(state.arguments, points);
+    return SumPoints(points.count(), [&](int first, int last, double* sums) {
+#ifdef TESSERA_HAVE_AVX2
+        if (use_avx2_) return avx2::SumSdfPoints(state.arguments, first, last, sums);
+#endif
+        baseline::SumSdfPoints(state.arguments, first, last, sums);
+    });
 }
 
-// The start with the least energy per weight on the coarsest level; points outside the known band count as badly
-// fitting, or a start that sees nothing of the map would win.
+// The start that fits best on the coarsest level.
 void SdfTracker::ChooseStart(const TrackInput& input, State& state) {
     if (state.failed || input.T_world_camera_starts.size() < 2) return;
-    const SdfPoints& points = points_.back();
+    const FramePoints& points = points_.back();
     double best = std::numeric_limits<double>::infinity();
     Eigen::Isometry3d T_best = state.T_world_camera;
     for (const Eigen::Isometry3d& start : input.T_world_camera_starts) {
         state.T_world_camera = start;
-        const SdfSums sums = SumAt(input, points, state);
-        const double scale2 = config_.distance_scale_m * config_.distance_scale_m;
-        const double unknown = 1.0 - sums[L::kKnown] / static_cast<double>(points.valid());
-        double energy = unknown * (1.0 + state.alpha);
-        if (sums[L::kDistanceWeight] > 0) energy += sums[L::kDistanceError] / (sums[L::kDistanceWeight] * scale2);
-        if (sums[L::kIntensityWeight] > 0)
-            energy += state.alpha * sums[L::kIntensityError] / (sums[L::kIntensityWeight] * scale2);
-        if (energy >= best) continue;
-        best = energy;
+        const PoseSums sums = SumAt(input, points, state);
+        const double misfit = Misfit(sums, sums[L::kKnown], static_cast<double>(points.valid()),
+                                     config_.distance_scale_m, state.alpha);
+        if (misfit >= best) continue;
+        best = misfit;
         T_best = start;
     }
     state.T_world_camera = T_best;
@@ -166,16 +146,17 @@ void SdfTracker::ChooseStart(const TrackInput& input, State& state) {
 
 // Gauss-Newton on [B14] eq. 11.
 void SdfTracker::RunLevel(const TrackInput& input, int level, State& state) {
-    const SdfPoints& points = points_[static_cast<std::size_t>(level)];
-    SdfSolverOptions options;
-    options.estimate_brightness = config_.brightness;
-    options.brightness_prior = config_.brightness_prior;
-    options.min_eigenvalue = config_.min_eigenvalue;
+    const FramePoints& points = points_[static_cast<std::size_t>(level)];
+    SolverOptions options;
+    options.estimate_brightness = photometry_ != nullptr && photometry_->config().brightness;
+    options.min_eigenvalue = judge_.min_eigenvalue();
     const int iterations = level == 0 ? config_.fine_iterations : config_.coarse_iterations;
     for (int i = 0; i < iterations; ++i) {
         state.sums = SumAt(input, points, state);
         ++state.iterations;
-        state.step = SolveSdfStep(state.sums, options, state.gain, state.offset,
+        if (options.estimate_brightness)
+            options.brightness_prior = photometry_->config().brightness_prior * state.sums[L::kBrightness + 2];
+        state.step = SolvePoseStep(state.sums, options, state.gain, state.offset,
                                   state.T_world_camera.translation() - state.origin_m, state.scene_depth_m);
         state.failed = !state.step.valid;
         if (state.failed) return;
@@ -189,23 +170,22 @@ void SdfTracker::RunLevel(const TrackInput& input, int level, State& state) {
         const double tolerance = level == 0 ? 1.0 : 4.0;
         if (turn < 5e-5 * tolerance && move < 5e-5 * tolerance) break;
     }
-    state.T_world_camera.linear() = Eigen::Quaterniond(state.T_world_camera.linear()).normalized().toRotationMatrix();
+    state.T_world_camera = Normalised(state.T_world_camera);
 }
 
-SdfSums SdfTracker::Sum(const SdfArguments& a, const SdfPoints& points) const {
-    const int tiles = (points.count() + kTile - 1) / kTile;
-    std::vector<SdfSums> partial(static_cast<std::size_t>(tiles));
-    tbb::parallel_for(0, tiles, [&](int tile) {
-        const int first = tile * kTile, last = std::min(points.count(), first + kTile);
-        double* sums = partial[static_cast<std::size_t>(tile)].value;
-#ifdef TESSERA_HAVE_AVX2
-        if (use_avx2_) return avx2::SumSdfPoints(a, first, last, sums);
-#endif
-        baseline::SumSdfPoints(a, first, last, sums);
-    });
-    SdfSums total;
-    for (const SdfSums& sums : partial) total += sums;
-    return total;
+void SdfTracker::Config::Describe(ConfigParameters& p) {
+    p.Add("distance_scale_m", distance_scale_m, {1e-4, 1.0}, "m",
+          "Huber scale of distances: larger residuals count linearly");
+    p.Add("depth_exponent", depth_exponent, {0.0, 4.0}, "",
+          "a point's weight is (1 m / depth)^this: 4 is the inverse variance of structured light, 0 is [B14]");
+    p.Add("normalise", normalise,
+          "divide the field's distance by its gradient's length: distances measured along slanted rays are too long; "
+          "off is [B14]");
+    p.Add("finest_step_px", finest_step_px, {1, 16}, "px",
+          "the finest level takes every so-manieth pixel in both directions");
+    p.Add("levels", levels, {1, 5}, "", "coarse to fine: each level doubles the step");
+    p.Add("coarse_iterations", coarse_iterations, {1, 100}, "", "most Gauss-Newton steps on each coarse level");
+    p.Add("fine_iterations", fine_iterations, {1, 100}, "", "most Gauss-Newton steps on the finest level");
 }
 
 }  // namespace tessera

@@ -37,7 +37,7 @@ void ShutterEstimator::Reset() {
 }
 
 // One Gauss-Newton step on all frames so far, of which only the newest has a gradient left: recursive least squares.
-void ShutterEstimator::Update(const PreparedFrame& frame, const SdfPoints& points,
+void ShutterEstimator::Update(const PreparedFrame& frame, const FramePoints& points,
                               const std::vector<float>& residuals, const FrameMotion& motion, double gain,
                               double residual_scale) {
     if (!config_.enabled || motion.twist_per_s.isZero() || residual_scale <= 0) return;

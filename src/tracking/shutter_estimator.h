@@ -10,7 +10,7 @@
 #include "core/config.h"
 #include "core/frame_motion.h"
 #include "mapping/prepared_frame.h"
-#include "tracking/sdf_points.h"
+#include "tracking/frame_points.h"
 
 namespace tessera {
 
@@ -28,7 +28,7 @@ class ShutterEstimator {
 
     // One tracked frame: its points, their photometric residuals (map minus gain times image minus offset; NaN where
     // unknown) and the motion they were sampled with. Owner thread only.
-    void Update(const PreparedFrame& frame, const SdfPoints& points, const std::vector<float>& residuals,
+    void Update(const PreparedFrame& frame, const FramePoints& points, const std::vector<float>& residuals,
                 const FrameMotion& motion, double gain, double residual_scale);
     void Reset();
 

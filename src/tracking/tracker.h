@@ -16,8 +16,8 @@ namespace tessera {
 struct TrackInput {
     const PreparedFrame& frame;
     const BlockMap& map;
-    // Where the camera may be: the motion model's expectation, perhaps others. A tracker starts from the one that fits
-    // best. Not empty.
+    // Where the camera may be: first the motion model's expectation, then perhaps others. A tracker starts from the one
+    // that fits best. Not empty.
     std::vector<Eigen::Isometry3d> T_world_camera_starts;
     Eigen::Isometry3d T_world_camera_last;   // where it was at the last tracked frame
     double since_last_s = 0;                 // 0 if there is no such frame
@@ -41,7 +41,8 @@ struct TrackResult {
     double inlier_fraction = 0;   // of the known points, those within half the truncation
     double distance_rms_m = 0;    // robustly weighted
     double intensity_rms = 0;     // [0, 1]; 0 without photometric term
-    double smallest_eigenvalue = 0;  // of the normalised Hessian (sdf_solver.h), 1/6 at best
+    double smallest_eigenvalue = 0;  // of the normalised Hessian (pose_solver.h), 1/6 at best
+    double innovation_m = 0, innovation_rad = 0;  // from the motion model's expectation
     double alpha = 0;             // photometric weight in use, [B14] eq. 8
     double gain = 1, offset = 0;  // map intensity = gain * image intensity + offset
     int iterations = 0;
@@ -52,8 +53,6 @@ class Tracker {
     virtual ~Tracker() = default;
     // Never throws; a lost track is a value. Owner thread only.
     virtual TrackResult Track(const TrackInput& input) = 0;
-    // Forgets brightness and weights, not the configuration.
-    virtual void Reset() = 0;
 };
 
 }  // namespace tessera

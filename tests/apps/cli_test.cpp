@@ -9,6 +9,8 @@
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <string>
+#include <vector>
 
 #include "io/trajectory.h"
 #include "support/temp_folder.h"
@@ -89,12 +91,42 @@ TEST_F(Cli, BadArgumentsAreOneLineAndExitCode2) {
 
 TEST_F(Cli, WhatIsToComeIsRefusedAndNeverIgnored) {
     for (const char* option : {"--view", "--labels model.onnx", "--loop-closure on", "--scan a.scan", "--resume a.scan",
-                               "--device cuda", "--mode live", "--tracker icp", "--tracker icp-rgb", "--switch 5:icp"})
+                               "--device cuda", "--mode live"})
         ExpectRefused(std::string("run synthetic:desk ") + option, "not in this version");
     ExpectRefused("run a.oni", "not in this version");
     ExpectRefused("view out", "not in this version");
     ExpectRefused("export out --mesh a.glb", "not in this version");
     ExpectRefused("eval labels a b", "not in this version");
+}
+
+TEST_F(Cli, SwitchNeedsAFrameAndAMethod) {
+    for (const char* value : {"icp", "5", "5:", ":icp", "-1:icp", "5:kinfu", "x:icp", "5:icp:sdf"})
+        ExpectRefused(SmallRun() + "--frames 3 --switch " + value, "--switch");
+}
+
+TEST_F(Cli, SwitchesTheTrackerBetweenTwoFrames) {
+    const std::string out = folder / "switched";
+    const Outcome run = Call(SmallRun() + "--frames 6 --switch 4:icp --switch 2:icp-rgb --out " + out);
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    std::ifstream csv(out + "/frames.csv");
+    std::vector<std::string> methods;
+    std::string line;
+    for (std::getline(csv, line); std::getline(csv, line);) {
+        const std::size_t second = line.find(',', line.find(',') + 1);
+        methods.push_back(line.substr(second + 1, line.find(',', second + 1) - second - 1));
+    }
+    EXPECT_EQ(methods, (std::vector<std::string>{"sdf", "sdf", "icp-rgb", "icp-rgb", "icp", "icp"}));
+}
+
+TEST_F(Cli, InspectDrawsAFrameAgainstTheMap) {
+    const std::string picture = folder / "frame.png";
+    const std::string arguments = SmallRun() + "--frame 3 --out " + picture;
+    const Outcome inspect = Call("inspect" + arguments.substr(arguments.find(' ')));
+    ASSERT_EQ(inspect.exit_code, 0) << inspect.err;
+    EXPECT_NE(inspect.out.find("frame 3 by sdf: good"), std::string::npos) << inspect.out;
+    EXPECT_TRUE(std::filesystem::exists(picture));
+    const Outcome beyond = Call("inspect synthetic:desk --frame 99999 --out " + picture + " --set synthetic.frames=2");
+    EXPECT_EQ(beyond.exit_code, 2);
 }
 
 TEST_F(Cli, RunsAndEvaluates) {

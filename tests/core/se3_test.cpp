@@ -109,6 +109,18 @@ TEST(Se3, IncrementsMultiplyFromTheLeft) {
     }
 }
 
+TEST(Se3, NormalisedIsRigidAndKeepsWhatIs) {
+    Vector6d twist;
+    twist << 0.3, -0.2, 0.5, 1, 2, 3;
+    const Eigen::Isometry3d T = Se3Exp(twist);
+    Eigen::Isometry3d worn = T;
+    worn.linear() *= 1.0001;
+    const Eigen::Isometry3d rigid = Normalised(worn);
+    EXPECT_LT((rigid.linear() * rigid.linear().transpose() - Eigen::Matrix3d::Identity()).norm(), 1e-14);
+    EXPECT_TRUE(rigid.isApprox(T, 1e-4));
+    EXPECT_TRUE(Normalised(T).isApprox(T, 1e-14));
+}
+
 TEST(Se3, RotationAngle) {
     Vector6d a = Vector6d::Zero(), b = Vector6d::Zero();
     a(1) = 0.2;

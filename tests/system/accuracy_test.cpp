@@ -40,7 +40,7 @@ RunSummary RunOn(const std::string& source, const std::string& out, std::int64_t
     request.selection.count = count;
     RunConfig config;
     config.threads = threads;
-    config.pipeline.method = method;
+    config.pipeline.trackers.method = method;
     const std::atomic<bool> stop{false};
     const auto run = ExecuteRun(request, config, {}, stop);
     EXPECT_TRUE(run.ok()) << run.message();

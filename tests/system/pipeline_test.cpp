@@ -18,7 +18,7 @@ PipelineConfig SmallConfig() {
     PipelineConfig config;
     config.map.voxel_size_m = 0.02;
     config.map.truncation_m = 0.08;
-    config.sdf.finest_step_px = 1;
+    config.trackers.sdf.finest_step_px = 1;
     return config;
 }
 

@@ -7,12 +7,12 @@
 #include "core/cpu.h"
 #include "mapping/block_map.h"
 #include "support/box_room.h"
-#include "tracking/sdf_solver.h"
+#include "tracking/pose_solver.h"
 
 namespace tessera {
 namespace {
 
-using L = SdfSumLayout;
+using L = SumLayout;
 
 // Fills every voxel of the blocks in a cube with a smooth field; leaves one block out and one voxel unknown.
 void Fill(BlockMap& map) {
@@ -54,8 +54,8 @@ struct Points {
 };
 
 // The same sums, slowly: one point at a time, one hash look-up per corner, in double.
-SdfSums SlowSums(const BlockMap& map, const Points& points, const SdfArguments& a) {
-    SdfSums sums;
+PoseSums SlowSums(const BlockMap& map, const Points& points, const SdfArguments& a) {
+    PoseSums sums;
     const auto word = [&](int x, int y, int z) {
         const BlockId id = map.Find({x >> 3, y >> 3, z >> 3});
         return map.field(id)[(x & 7) + 8 * (y & 7) + 64 * (z & 7)];
@@ -146,9 +146,9 @@ TEST_P(SdfRows, AgreeWithTheSlowSums) {
     a.distance_residual = distance_residual.data();
     a.intensity_residual = intensity_residual.data();
 
-    const SdfSums slow = SlowSums(map, points, a);
+    const PoseSums slow = SlowSums(map, points, a);
     ASSERT_GT(slow[L::kKnown], 1000);
-    const auto expect_equal = [&](const SdfSums& sums) {
+    const auto expect_equal = [&](const PoseSums& sums) {
         for (int k = 0; k < L::kCount; ++k)
             EXPECT_NEAR(sums[k], slow[k], 2e-4 * (1.0 + std::abs(slow[k]))) << "sum " << k;
         EXPECT_EQ(sums[L::kKnown], slow[L::kKnown]);
@@ -157,11 +157,11 @@ TEST_P(SdfRows, AgreeWithTheSlowSums) {
                                          [](float r) { return !std::isnan(r); });
         EXPECT_EQ(static_cast<double>(known), slow[L::kKnown]);
     };
-    SdfSums portable;
+    PoseSums portable;
     baseline::SumSdfPoints(a, 0, 4096, portable.value);
     expect_equal(portable);
     if (!CpuHasAvx2()) GTEST_SKIP() << "no AVX2 here: only the portable path was checked";
-    SdfSums vector;
+    PoseSums vector;
     avx2::SumSdfPoints(a, 0, 4096, vector.value);
     expect_equal(vector);
 }

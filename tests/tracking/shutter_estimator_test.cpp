@@ -44,7 +44,7 @@ class Shutter : public testing::Test {
             motion.twist_per_s = twist;
             motion.colour_delay_s = estimator.delay_s();
             motion.colour_readout_s = estimator.readout_s();
-            SdfPoints points;
+            FramePoints points;
             points.Build(prepared, camera, motion, 1, 2.0);
             points.SampleIntensity(prepared, camera, motion);
             std::vector<float> residuals(static_cast<std::size_t>(points.count()),

@@ -1,13 +1,17 @@
-#include "tracking/sdf_solver.h"
+#include "tracking/pose_solver.h"
+
+#include <tbb/parallel_for.h>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace tessera {
 namespace {
 
-using L = SdfSumLayout;
+using L = SumLayout;
 
 // Takes an increment about the camera with rotations in units of 1/depth to one about the local origin.
 Matrix6d FromNormalised(const Eigen::Vector3d& camera_local, double depth_m) {
@@ -19,9 +23,30 @@ Matrix6d FromNormalised(const Eigen::Vector3d& camera_local, double depth_m) {
 
 }  // namespace
 
-SdfSums& SdfSums::operator+=(const SdfSums& other) {
+PoseSums& PoseSums::operator+=(const PoseSums& other) {
     for (int i = 0; i < L::kCount; ++i) value[i] += other.value[i];
     return *this;
+}
+
+PoseSums SumPoints(int count, const std::function<void(int first, int last, double* sums)>& add) {
+    const int tiles = (count + kPointsPerTile - 1) / kPointsPerTile;
+    std::vector<PoseSums> partial(static_cast<std::size_t>(tiles));
+    tbb::parallel_for(0, tiles, [&](int tile) {
+        const int first = tile * kPointsPerTile;
+        add(first, std::min(count, first + kPointsPerTile), partial[static_cast<std::size_t>(tile)].value);
+    });
+    PoseSums total;
+    for (const PoseSums& sums : partial) total += sums;
+    return total;
+}
+
+double Misfit(const PoseSums& sums, double taking_part, double points, double distance_scale_m, double alpha) {
+    const double scale2 = distance_scale_m * distance_scale_m;
+    double misfit = (1.0 - taking_part / points) * (1.0 + alpha);
+    if (sums[L::kDistanceWeight] > 0) misfit += sums[L::kDistanceError] / (sums[L::kDistanceWeight] * scale2);
+    if (sums[L::kIntensityWeight] > 0)
+        misfit += alpha * sums[L::kIntensityError] / (sums[L::kIntensityWeight] * scale2);
+    return misfit;
 }
 
 Matrix6d NormalisedHessian(const Matrix6d& hessian, const Eigen::Vector3d& camera_local, double scene_depth_m) {
@@ -31,9 +56,9 @@ Matrix6d NormalisedHessian(const Matrix6d& hessian, const Eigen::Vector3d& camer
     return trace > 0 ? Matrix6d(N / trace) : Matrix6d::Zero();
 }
 
-SdfStep SolveSdfStep(const SdfSums& sums, const SdfSolverOptions& options, double gain, double offset,
+PoseStep SolvePoseStep(const PoseSums& sums, const SolverOptions& options, double gain, double offset,
                      const Eigen::Vector3d& camera_local, double scene_depth_m) {
-    SdfStep step;
+    PoseStep step;
     Matrix6d H;
     Vector6d g;
     int at = L::kHessian;
@@ -48,7 +73,7 @@ SdfStep SolveSdfStep(const SdfSums& sums, const SdfSolverOptions& options, doubl
     const bool brightness = options.estimate_brightness && sums[L::kBrightness + 2] > 0;
     if (brightness) {
         for (int i = 0; i < 6; ++i) B.row(i) << sums[L::kCoupling + 2 * i], sums[L::kCoupling + 2 * i + 1];
-        const double prior = options.brightness_prior * sums[L::kBrightness + 2];
+        const double prior = options.brightness_prior;
         C << sums[L::kBrightness] + prior, sums[L::kBrightness + 1], sums[L::kBrightness + 1],
             sums[L::kBrightness + 2] + prior;
         h << sums[L::kBrightnessGradient] + prior * (gain - 1.0), sums[L::kBrightnessGradient + 1] + prior * offset;
@@ -66,14 +91,17 @@ SdfStep SolveSdfStep(const SdfSums& sums, const SdfSolverOptions& options, doubl
     if (eigen.info() != Eigen::Success) return step;
     const Vector6d values = eigen.eigenvalues() / N.trace();
     step.smallest_eigenvalue = values(0);
+    const double damping = options.damping * N.trace();
     Vector6d projected = eigen.eigenvectors().transpose() * n;
     for (int i = 0; i < 6; ++i) {
         const bool hold = values(i) <= std::max(options.min_eigenvalue, 1e-12);
         step.held_directions += hold;
-        projected(i) = hold ? 0.0 : -projected(i) / eigen.eigenvalues()(i);
+        projected(i) = hold ? 0.0 : -projected(i) / (eigen.eigenvalues()(i) + damping);
     }
     step.increment = A * (eigen.eigenvectors() * projected);
+    step.predicted_decrease = -step.increment.dot(2.0 * g + H * step.increment);
     if (brightness) {
+        step.predicted_decrease += h.dot(C.inverse() * h);
         const Eigen::Vector2d change = C.inverse() * (-h - B.transpose() * step.increment);
         step.gain_change = change(0);
         step.offset_change = change(1);

@@ -11,8 +11,11 @@
 
 namespace tessera {
 
+// Arrays of points are padded to a multiple of this with points of weight 0.
+inline constexpr int kPointPadding = 8;
+
 // Sums over points. Symmetric matrices keep the upper triangle, row by row.
-struct SdfSumLayout {
+struct SumLayout {
     static constexpr int kHessian = 0;      // 21: pose x pose
     static constexpr int kGradient = 21;    // 6: pose x residual
     static constexpr int kCoupling = 27;    // 12: pose x (gain, offset)
@@ -25,7 +28,11 @@ struct SdfSumLayout {
     static constexpr int kKnown = 48;     // points with a known distance
     static constexpr int kInliers = 49;   // of these, with |r| below the inlier distance
     static constexpr int kColoured = 50;  // points with a known intensity
-    static constexpr int kCount = 51;
+    // Of methods that accept or reject steps: the robust energy over the residuals that exist here and at the pose
+    // before, and the energy that those had there.
+    static constexpr int kEnergy = 51;
+    static constexpr int kEnergyBefore = 52;
+    static constexpr int kCount = 53;
 };
 
 // Huber's weight: 1 up to the scale, then scale / |r|.
@@ -48,18 +55,18 @@ TESSERA_HD void PointJacobian(const F* p, const F* g, F* j) {
 // Adds w J J^T and w J r.
 template <class F>
 TESSERA_HD void AddPoseTerm(const F* j, const F& residual, const F& w, F* sums) {
-    int at = SdfSumLayout::kHessian;
+    int at = SumLayout::kHessian;
     for (int row = 0; row < 6; ++row) {
         const F wj = w * j[row];
         for (int column = row; column < 6; ++column, ++at) sums[at] = sums[at] + wj * j[column];
-        sums[SdfSumLayout::kGradient + row] = sums[SdfSumLayout::kGradient + row] + wj * residual;
+        sums[SumLayout::kGradient + row] = sums[SumLayout::kGradient + row] + wj * residual;
     }
 }
 
 // The brightness terms of the photometric residual r = field - (a * image + b): dr/da = -image, dr/db = -1.
 template <class F>
 TESSERA_HD void AddBrightnessTerm(const F* j, const F& residual, const F& image, const F& w, F* sums) {
-    using L = SdfSumLayout;
+    using L = SumLayout;
     const F wi = w * image;
     for (int row = 0; row < 6; ++row) {
         sums[L::kCoupling + 2 * row] = sums[L::kCoupling + 2 * row] - wi * j[row];

@@ -2,34 +2,47 @@
 // eliminated, and what the Hessian says about how well the scene holds the camera.
 #pragma once
 
+#include <functional>
+
 #include "core/se3.h"
-#include "tracking/sdf_kernels.h"
+#include "tracking/normal_equations.h"
 
 namespace tessera {
 
-struct SdfSums {
-    double value[SdfSumLayout::kCount] = {};
+struct PoseSums {
+    double value[SumLayout::kCount] = {};
 
-    SdfSums& operator+=(const SdfSums& other);
+    PoseSums& operator+=(const PoseSums& other);
     double operator[](int i) const { return value[i]; }
 };
 
-struct SdfStep {
+// Calls add(first, last, sums) for runs of at most kPointsPerTile points, on all threads, and adds up what they leave in
+// a fixed order: the same bytes for any number of threads.
+inline constexpr int kPointsPerTile = 2048;
+PoseSums SumPoints(int count, const std::function<void(int first, int last, double* sums)>& add);
+
+// How badly a start fits: robust mean squares over the squared scale, and a penalty for points that do not take part, or a
+// start that sees nothing of the map would win.
+double Misfit(const PoseSums& sums, double taking_part, double points, double distance_scale_m, double alpha);
+
+struct PoseStep {
     bool valid = false;         // false where the system is singular or not finite
     Vector6d increment;         // left increment about the local origin
     double gain_change = 0, offset_change = 0;
     double smallest_eigenvalue = 0;  // of the normalised Hessian, see NormalisedHessian
     int held_directions = 0;    // eigenvectors along which the step was set to zero
+    double predicted_decrease = 0;  // of the energy, if it were the quadratic that the step minimises
 };
 
-struct SdfSolverOptions {
+struct SolverOptions {
     bool estimate_brightness = true;
-    double brightness_prior = 0.05;   // weight of "gain 1, offset 0" per unit of photometric weight
+    double brightness_prior = 0;     // weight of "gain 1, offset 0"
     double min_eigenvalue = 0;       // directions below are held, not moved
+    double damping = 0;              // of Levenberg-Marquardt: added to the normalised Hessian's eigenvalues
 };
 
 // `gain` and `offset` are the present values, which the prior pulls at.
-SdfStep SolveSdfStep(const SdfSums& sums, const SdfSolverOptions& options, double gain, double offset,
+PoseStep SolvePoseStep(const PoseSums& sums, const SolverOptions& options, double gain, double offset,
                      const Eigen::Vector3d& camera_local, double scene_depth_m);
 
 // The pose's Hessian made comparable between scenes: increments about the camera, rotations scaled by the scene's

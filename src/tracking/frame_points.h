@@ -12,7 +12,7 @@
 
 namespace tessera {
 
-class SdfPoints {
+class FramePoints {
   public:
     // Points in the frame of the camera at the frame's instant, metres. Weight (1 m / z)^depth_exponent, at most that of
     // 0.5 m.
@@ -21,13 +21,19 @@ class SdfPoints {
     // Reads the intensity of each point where the colour camera saw it at its own time; -1 where it saw nothing.
     void SampleIntensity(const PreparedFrame& frame, const PinholeCamera& camera, const FrameMotion& motion);
 
-    int width() const { return width_; }    // slots per row, a multiple of kSdfPointPadding
+    // Normals of the measured surface in the camera frame, unit, towards the camera, from differences across radius_px
+    // pixels to each side ([D18] eq. 15 has radius 1, one-sided). A point without one, at a depth edge or a hole, loses
+    // its weight.
+    void EstimateNormals(const PreparedFrame& frame, const PinholeCamera& camera, int radius_px);
+
+    int width() const { return width_; }    // slots per row, a multiple of kPointPadding
     int height() const { return height_; }  // rows
     int count() const { return width_ * height_; }
     int ImageRow(int row) const { return row * step_ + step_ / 2; }
     std::int64_t valid() const { return valid_; }
 
     std::vector<float> x, y, z, intensity, weight;
+    std::vector<float> normal_x, normal_y, normal_z;  // of the last EstimateNormals
 
   private:
     int width_ = 0, height_ = 0, step_ = 1;

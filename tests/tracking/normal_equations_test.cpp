@@ -1,4 +1,4 @@
-#include "tracking/sdf_kernels.h"
+#include "tracking/normal_equations.h"
 
 #include <gtest/gtest.h>
 
@@ -56,7 +56,7 @@ TEST(HuberWeight, IsOneInsideAndFallsOutside) {
 
 // E(x) = w (r + J x)^2 / 2 for the brightness unknowns: the sums must be the gradient and Hessian of it.
 TEST(AddBrightnessTerm, MatchesThePhotometricResidual) {
-    using L = SdfSumLayout;
+    using L = SumLayout;
     const double j[6] = {0.1, -0.2, 0.3, 0.4, 0.5, -0.6};
     const double field = 0.7, image = 0.4, gain = 1.1, offset = 0.05, w = 2.0;
     const auto residual = [&](double a, double b) { return field - (a * image + b); };
@@ -78,7 +78,7 @@ TEST(AddBrightnessTerm, MatchesThePhotometricResidual) {
 }
 
 TEST(AddPoseTerm, SumsTheUpperTriangleRowByRow) {
-    using L = SdfSumLayout;
+    using L = SumLayout;
     const double j[6] = {1, 2, 3, 4, 5, 6};
     double sums[L::kCount] = {};
     AddPoseTerm(j, 0.5, 2.0, sums);

@@ -1,4 +1,4 @@
-#include "tracking/sdf_points.h"
+#include "tracking/frame_points.h"
 
 #include <tbb/parallel_for.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "tracking/sdf_rows.h"
+#include "tracking/normal_equations.h"
 
 namespace tessera {
 namespace {
@@ -25,14 +25,20 @@ float Sample(const Image<float>& image, float u, float v) {
     return top + fv * (bottom - top);
 }
 
+// Three measured depths in a row that may belong to one surface.
+bool Smooth(float before, float here, float after) {
+    constexpr float kBend = 0.03f;  // of the depth
+    return before > 0 && after > 0 && std::abs(before + after - 2 * here) < kBend * here;
+}
+
 }  // namespace
 
-void SdfPoints::Build(const PreparedFrame& frame, const PinholeCamera& camera, const FrameMotion& motion, int step,
+void FramePoints::Build(const PreparedFrame& frame, const PinholeCamera& camera, const FrameMotion& motion, int step,
                       double depth_exponent) {
     const DepthImage& depth = frame.depth_m;
     const int columns = (depth.width() + step - 1 - step / 2) / step;
     step_ = step;
-    width_ = (columns + kSdfPointPadding - 1) / kSdfPointPadding * kSdfPointPadding;
+    width_ = (columns + kPointPadding - 1) / kPointPadding * kPointPadding;
     height_ = (depth.height() + step - 1 - step / 2) / step;
     for (auto* values : {&x, &y, &z, &weight}) values->assign(static_cast<std::size_t>(count()), 0.0f);
     intensity.assign(static_cast<std::size_t>(count()), -1.0f);
@@ -61,7 +67,40 @@ void SdfPoints::Build(const PreparedFrame& frame, const PinholeCamera& camera, c
     valid_ = std::accumulate(valid.begin(), valid.end(), std::int64_t{0});
 }
 
-void SdfPoints::SampleIntensity(const PreparedFrame& frame, const PinholeCamera& camera,
+void FramePoints::EstimateNormals(const PreparedFrame& frame, const PinholeCamera& camera, int radius_px) {
+    for (auto* values : {&normal_x, &normal_y, &normal_z}) values->assign(static_cast<std::size_t>(count()), 0.0f);
+    const DepthImage& depth = frame.depth_m;
+    const auto fx = static_cast<float>(camera.fx), fy = static_cast<float>(camera.fy);
+    const auto cx = static_cast<float>(camera.cx), cy = static_cast<float>(camera.cy);
+    const auto at = [&](int u, int v) {
+        const float d = depth(u, v);
+        return Eigen::Vector3f((static_cast<float>(u) - cx) / fx * d, (static_cast<float>(v) - cy) / fy * d, d);
+    };
+    std::vector<std::int64_t> dropped(static_cast<std::size_t>(height_), 0);
+    tbb::parallel_for(0, height_, [&](int row) {
+        const int v = ImageRow(row), up = std::max(v - radius_px, 0), down = std::min(v + radius_px, depth.height() - 1);
+        for (int column = 0; column < width_; ++column) {
+            const std::size_t i = static_cast<std::size_t>(row) * static_cast<std::size_t>(width_) +
+                                  static_cast<std::size_t>(column);
+            if (weight[i] <= 0) continue;
+            const int u = column * step_ + step_ / 2;
+            const int left = std::max(u - radius_px, 0), right = std::min(u + radius_px, depth.width() - 1);
+            const float d = depth(u, v);
+            if (!Smooth(depth(left, v), d, depth(right, v)) || !Smooth(depth(u, up), d, depth(u, down))) {
+                weight[i] = 0;
+                ++dropped[static_cast<std::size_t>(row)];
+                continue;
+            }
+            const Eigen::Vector3f n = (at(u, down) - at(u, up)).cross(at(right, v) - at(left, v)).normalized();
+            normal_x[i] = n.x();
+            normal_y[i] = n.y();
+            normal_z[i] = n.z();
+        }
+    });
+    valid_ -= std::accumulate(dropped.begin(), dropped.end(), std::int64_t{0});
+}
+
+void FramePoints::SampleIntensity(const PreparedFrame& frame, const PinholeCamera& camera,
                                 const FrameMotion& motion) {
     if (!frame.has_colour()) return;
     const bool still = motion.twist_per_s.isZero();

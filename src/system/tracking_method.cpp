@@ -1,0 +1,61 @@
+#include "system/tracking_method.h"
+
+#include <utility>
+
+#include "mapping/ray_caster.h"
+
+namespace tessera {
+
+std::vector<std::pair<std::string, TrackingMethod>> TrackingMethodNames() {
+    return {{"sdf", TrackingMethod::kSdf},
+            {"sdf-geometric", TrackingMethod::kSdfGeometric},
+            {"icp", TrackingMethod::kIcp},
+            {"icp-rgb", TrackingMethod::kIcpRgb}};
+}
+
+const char* ToString(TrackingMethod method) {
+    switch (method) {
+        case TrackingMethod::kSdf: return "sdf";
+        case TrackingMethod::kSdfGeometric: return "sdf-geometric";
+        case TrackingMethod::kIcp: return "icp";
+        case TrackingMethod::kIcpRgb: return "icp-rgb";
+    }
+    return "?";
+}
+
+void TrackersConfig::Describe(ConfigParameters& p) {
+    p.AddChoice("method", method, TrackingMethodNames(),
+                "sdf uses distances and intensities in the field ([B14]); sdf-geometric distances only ([B13]); icp "
+                "aligns with a predicted view ([D18]); icp-rgb with its colours, too");
+    p.Section("judge", [&](ConfigParameters& s) { judge.Describe(s); });
+    p.Section("photometric", [&](ConfigParameters& s) { photometric.Describe(s); });
+    p.Section("sdf", [&](ConfigParameters& s) { sdf.Describe(s); });
+    p.Section("icp", [&](ConfigParameters& s) { icp.Describe(s); });
+}
+
+Trackers::Trackers(const TrackersConfig& config, const PinholeCamera& camera)
+    : config_(config), camera_(camera), method_(config.method), photometry_(config.photometric, camera) {}
+
+TrackResult Trackers::Track(const TrackInput& input) {
+    std::unique_ptr<Tracker>& tracker = trackers_[static_cast<std::size_t>(method_)];
+    if (!tracker) tracker = Make(method_);
+    return tracker->Track(input);
+}
+
+std::unique_ptr<ViewPredictor> MakePredictor(IcpTracker::Prediction prediction, std::string& note) {
+    if (prediction == IcpTracker::Prediction::kRaster) note = "not yet";
+    return std::make_unique<RayCaster>();
+}
+
+std::unique_ptr<Tracker> Trackers::Make(TrackingMethod method) {
+    const TrackJudge judge(config_.judge);
+    const bool colour = method == TrackingMethod::kSdf || method == TrackingMethod::kIcpRgb;
+    Photometry* photometry = colour ? &photometry_ : nullptr;
+    if (method == TrackingMethod::kSdf || method == TrackingMethod::kSdfGeometric)
+        return std::make_unique<SdfTracker>(config_.sdf, camera_, judge, photometry);
+    return std::make_unique<IcpTracker>(config_.icp, camera_, judge, photometry, MakePredictor(config_.icp.prediction, note_));
+}
+
+std::string Trackers::TakeNote() { return std::exchange(note_, {}); }
+
+}  // namespace tessera

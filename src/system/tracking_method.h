@@ -1,0 +1,61 @@
+// The methods by name, what they share, and how each is made: the one place that knows them all.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+
+#include "core/camera.h"
+#include "core/config.h"
+#include "tracking/icp_tracker.h"
+#include "tracking/photometry.h"
+#include "tracking/sdf_tracker.h"
+#include "tracking/track_judge.h"
+#include "tracking/tracker.h"
+
+namespace tessera {
+
+enum class TrackingMethod { kSdf, kSdfGeometric, kIcp, kIcpRgb };
+inline constexpr int kTrackingMethods = 4;
+const char* ToString(TrackingMethod method);
+// The names, in the order of the enumeration.
+std::vector<std::pair<std::string, TrackingMethod>> TrackingMethodNames();
+
+struct TrackersConfig {
+    TrackingMethod method = TrackingMethod::kSdf;
+    TrackJudge::Config judge;
+    Photometry::Config photometric;
+    SdfTracker::Config sdf;
+    IcpTracker::Config icp;
+
+    void Describe(ConfigParameters& parameters);
+};
+
+// The rasteriser where it is asked for and works here, else the ray caster; `note` says so in words if it steps in.
+std::unique_ptr<ViewPredictor> MakePredictor(IcpTracker::Prediction prediction, std::string& note);
+
+// All methods over one camera, switchable between two frames: brightness, photometric weight and shutter times are
+// theirs together. Owner thread only.
+class Trackers {
+  public:
+    Trackers(const TrackersConfig& config, const PinholeCamera& camera);
+
+    TrackingMethod method() const { return method_; }
+    void Select(TrackingMethod method) { method_ = method; }
+    // By the selected method; made when it is first needed, on the thread that tracks.
+    TrackResult Track(const TrackInput& input);
+    // What a person should know of how the methods came up, in words, once; mostly empty.
+    std::string TakeNote();
+
+  private:
+    std::unique_ptr<Tracker> Make(TrackingMethod method);
+
+    TrackersConfig config_;
+    PinholeCamera camera_;
+    TrackingMethod method_;
+    Photometry photometry_;
+    std::array<std::unique_ptr<Tracker>, kTrackingMethods> trackers_;
+    std::string note_;
+};
+
+}  // namespace tessera

@@ -1,0 +1,23 @@
+// The predicted view as the ICP tracker aligns with it: levels of half the size each.
+#pragma once
+
+#include <vector>
+
+#include "core/camera.h"
+#include "core/image.h"
+#include "mapping/predicted_view.h"
+
+namespace tessera {
+
+struct IcpModelLevel {
+    PinholeCamera camera;
+    DepthImage depth_m;  // 0 where nothing is
+    Image<Eigen::Vector3f> normal_camera;
+    Image<float> intensity;  // -1 where there is none, and beside jumps of the depth
+};
+
+// Level 0 is the view; each further one holds means of two by two pixels where these are one surface. Neighbours whose
+// depths differ by more than jump_m are not. Storage in `levels` is used again.
+void BuildIcpModel(const PredictedView& view, int count, float jump_m, std::vector<IcpModelLevel>& levels);
+
+}  // namespace tessera

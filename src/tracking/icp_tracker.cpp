@@ -1,0 +1,242 @@
+#include "tracking/icp_tracker.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace tessera {
+namespace {
+
+constexpr double kAnotherView_m = 0.15, kAnotherView_rad = 0.15;
+constexpr double kIntensityGateScales = 5.0;
+
+// The camera whose pixels are every step-th of `camera` in both directions.
+PinholeCamera Reduced(const PinholeCamera& camera, int step) {
+    PinholeCamera c = camera;
+    c.width /= step;
+    c.height /= step;
+    c.fx /= step;
+    c.fy /= step;
+    c.cx = (camera.cx - step / 2) / step;
+    c.cy = (camera.cy - step / 2) / step;
+    return c;
+}
+
+void SetPose(const Eigen::Isometry3d& T_view_camera, IcpArguments& a) {
+    for (int i = 0; i < 3; ++i) {
+        for (int j = 0; j < 3; ++j) a.rotation[3 * i + j] = static_cast<float>(T_view_camera.linear()(i, j));
+        a.translation[i] = static_cast<float>(T_view_camera.translation()(i));
+    }
+}
+
+void SetModel(const IcpModelLevel& model, IcpArguments& a) {
+    a.width = model.camera.width;
+    a.height = model.camera.height;
+    a.fx = static_cast<float>(model.camera.fx);
+    a.fy = static_cast<float>(model.camera.fy);
+    a.cx = static_cast<float>(model.camera.cx);
+    a.cy = static_cast<float>(model.camera.cy);
+    a.depth = model.depth_m.data();
+    a.normal = model.normal_camera.data()->data();
+    a.intensity = model.intensity.data();
+}
+
+}  // namespace
+
+void IcpTracker::SetResiduals(Residuals& target, const Residuals* before, IcpArguments& a) {
+    a.distance_residual = target.distance_m.data();
+    a.intensity_residual = target.intensity.data();
+    a.distance_before = before != nullptr ? before->distance_m.data() : nullptr;
+    a.intensity_before = before != nullptr ? before->intensity.data() : nullptr;
+}
+
+struct IcpTracker::State {
+    Eigen::Isometry3d T_view_camera = Eigen::Isometry3d::Identity();
+    FrameMotion motion;
+    double gain = 1, offset = 0;
+    double alpha = 0;
+    double scene_depth_m = 1;
+    IcpArguments arguments{};
+    SolverOptions options;
+    LevenbergMarquardt damping;
+    PoseSums sums;
+    PoseStep step;
+    int iterations = 0;
+    bool failed = false;
+};
+
+IcpTracker::IcpTracker(const Config& config, const PinholeCamera& camera, const TrackJudge& judge,
+                       Photometry* photometry, std::unique_ptr<ViewPredictor> predictor, VectorPath path)
+    : config_(config),
+      camera_(camera),
+      judge_(judge),
+      photometry_(photometry),
+      predictor_(std::move(predictor)),
+      use_avx2_(path == VectorPath::kAvx2 || (path == VectorPath::kAuto && CpuHasAvx2())),
+      points_(static_cast<std::size_t>(config.levels)) {}
+
+TrackResult IcpTracker::Track(const TrackInput& input) {
+    State state;
+    state.scene_depth_m = 0.5 * (input.frame.nearest_m + input.frame.farthest_m);
+    if (photometry_ != nullptr) {
+        state.gain = photometry_->gain();
+        state.offset = photometry_->offset();
+        if (input.frame.has_colour()) state.alpha = photometry_->alpha();
+    }
+    PredictAt(input, input.T_world_camera_starts.back(), state);
+    ChooseStart(input, state);
+    for (int level = config_.levels - 1; level >= 0 && !state.failed; --level) {
+        PrepareLevel(input, level, state);
+        if (!state.failed) RunLevel(level, state);
+    }
+
+    TrackResult result;
+    result.T_world_camera = Normalised(view_.T_world_camera * state.T_view_camera);
+    result.motion = state.motion;
+    result.alpha = state.alpha;
+    result.gain = state.gain;
+    result.offset = state.offset;
+    result.iterations = state.iterations;
+    judge_.Judge(input, points_[0].valid(), state.sums, state.step, result);
+    if (photometry_ != nullptr && result.status != TrackStatus::kLost)
+        photometry_->Learn(input.frame, points_[0], residuals_.distance_m, residuals_.intensity, result);
+    return result;
+}
+
+// The view that the frame is aligned with. The camera's pose is sought in its frame.
+void IcpTracker::PredictAt(const TrackInput& input, const Eigen::Isometry3d& T_world_view, State& state) {
+    constexpr float kNear_m = 0.1f, kMargin_m = 0.5f;
+    predictor_->Predict(input.map, Reduced(camera_, config_.finest_step_px), Normalised(T_world_view),
+                        std::max(kNear_m, 0.7f * input.frame.nearest_m - kMargin_m),
+                        1.2f * input.frame.farthest_m + kMargin_m, view_);
+    BuildIcpModel(view_, config_.levels, static_cast<float>(config_.distance_gate_m), model_);
+    state.T_view_camera.setIdentity();
+}
+
+// The start that fits best on the coarsest level. A view from elsewhere would show another part of the map, so
+// it is predicted again where the choice lies far from the first.
+void IcpTracker::ChooseStart(const TrackInput& input, State& state) {
+    const auto& starts = input.T_world_camera_starts;
+    if (starts.size() < 2) return;
+    PrepareLevel(input, config_.levels - 1, state);
+    if (state.failed) return;
+    SetResiduals(trial_residuals_, nullptr, state.arguments);
+    const FramePoints& points = points_.back();
+    const Eigen::Isometry3d T_view_world = view_.T_world_camera.inverse();
+    double best = std::numeric_limits<double>::infinity();
+    Eigen::Isometry3d T_best = state.T_view_camera;
+    for (const Eigen::Isometry3d& T_world_camera : starts) {
+        state.T_view_camera = Normalised(T_view_world * T_world_camera);
+        const PoseSums sums = SumAt(points, state);
+        const double misfit = Misfit(sums, sums[SumLayout::kInliers], static_cast<double>(points.valid()),
+                                     config_.distance_scale_m, state.alpha);
+        if (misfit >= best) continue;
+        best = misfit;
+        T_best = state.T_view_camera;
+    }
+    state.T_view_camera = T_best;
+    if (state.T_view_camera.translation().norm() < kAnotherView_m &&
+        RotationAngle(state.T_view_camera, Eigen::Isometry3d::Identity()) < kAnotherView_rad)
+        return;
+    PredictAt(input, view_.T_world_camera * state.T_view_camera, state);
+}
+
+void IcpTracker::PrepareLevel(const TrackInput& input, int level, State& state) {
+    FramePoints& points = points_[static_cast<std::size_t>(level)];
+    state.motion = photometry_ != nullptr ? photometry_->Timed(input.motion) : input.motion;
+    if (input.since_last_s > 0)  // the velocity of the last interval, as far as this level knows it
+        state.motion.twist_per_s =
+            Se3Log(input.T_world_camera_last.inverse() * view_.T_world_camera * state.T_view_camera) /
+            input.since_last_s;
+    points.Build(input.frame, camera_, state.motion, config_.finest_step_px << level, config_.depth_exponent);
+    points.EstimateNormals(input.frame, camera_, config_.normal_radius_px);
+    state.failed = points.valid() == 0;
+    if (state.alpha > 0) points.SampleIntensity(input.frame, camera_, state.motion);
+    IcpArguments& a = state.arguments;
+    a = {};
+    SetModel(model_[static_cast<std::size_t>(level)], a);
+    a.x = points.x.data();
+    a.y = points.y.data();
+    a.z = points.z.data();
+    a.normal_x = points.normal_x.data();
+    a.normal_y = points.normal_y.data();
+    a.normal_z = points.normal_z.data();
+    a.intensity_of_point = points.intensity.data();
+    a.weight = points.weight.data();
+    a.distance_gate_m = static_cast<float>(config_.distance_gate_m);
+    a.normal_gate_cosine = static_cast<float>(std::cos(config_.normal_gate_rad));
+    a.distance_scale_m = static_cast<float>(config_.distance_scale_m);
+    a.alpha = static_cast<float>(state.alpha);
+    if (photometry_ != nullptr) a.intensity_scale = static_cast<float>(photometry_->config().intensity_scale);
+    a.intensity_gate = static_cast<float>(kIntensityGateScales) * a.intensity_scale;
+    a.inlier_distance_m = static_cast<float>(0.5 * input.map.config().truncation_m);
+    for (Residuals* residuals : {&residuals_, &trial_residuals_}) {
+        residuals->distance_m.resize(static_cast<std::size_t>(points.count()));
+        residuals->intensity.resize(static_cast<std::size_t>(points.count()));
+    }
+}
+
+// At the state's pose and brightness.
+PoseSums IcpTracker::SumAt(const FramePoints& points, State& state) const {
+    SetPose(state.T_view_camera, state.arguments);
+    state.arguments.gain = static_cast<float>(state.gain);
+    state.arguments.offset = static_cast<float>(state.offset);
+    ++state.iterations;
+    return SumPoints(points.count(), [&](int first, int last, double* sums) {
+#ifdef TESSERA_HAVE_AVX2
+        if (use_avx2_) return avx2::SumIcpPoints(state.arguments, first, last, sums);
+#endif
+        baseline::SumIcpPoints(state.arguments, first, last, sums);
+    });
+}
+
+// Levenberg-Marquardt on [D18] eq. 25.
+void IcpTracker::RunLevel(int level, State& state) {
+    const FramePoints& points = points_[static_cast<std::size_t>(level)];
+    const int iterations = level == 0                    ? config_.fine_iterations
+                           : level == config_.levels - 1 ? config_.coarse_iterations
+                                                         : config_.middle_iterations;
+    SetResiduals(residuals_, nullptr, state.arguments);
+    state.sums = SumAt(points, state);
+    SolverOptions& options = state.options;
+    options.min_eigenvalue = judge_.min_eigenvalue();
+    options.estimate_brightness = photometry_ != nullptr && photometry_->config().brightness;
+    if (options.estimate_brightness)
+        options.brightness_prior = photometry_->config().brightness_prior * state.sums[SumLayout::kBrightness + 2];
+    state.damping = {};
+    const double tolerance = level == 0 ? 5e-5 : 2e-4;
+    for (int i = 0; i < iterations; ++i) {
+        options.damping = state.damping.damping();
+        state.step = SolvePoseStep(state.sums, options, state.gain, state.offset, state.T_view_camera.translation(),
+                                   state.scene_depth_m);
+        state.failed = !state.step.valid;
+        if (state.failed) return;
+        TakeStep(points, state);
+        if (state.step.increment.head<3>().norm() < tolerance && state.step.increment.tail<3>().norm() < tolerance)
+            break;
+    }
+    state.T_view_camera = Normalised(state.T_view_camera);
+}
+
+// Takes the step only if the energy falls and most points keep their partners.
+void IcpTracker::TakeStep(const FramePoints& points, State& state) {
+    State trial = state;
+    trial.T_view_camera = Se3Exp(state.step.increment) * state.T_view_camera;
+    trial.gain = std::clamp(state.gain + state.step.gain_change, 0.5, 2.0);
+    trial.offset = std::clamp(state.offset + state.step.offset_change, -0.3, 0.3);
+    SetResiduals(trial_residuals_, &residuals_, trial.arguments);
+    trial.sums = SumAt(points, trial);
+    const auto prior = [&](const State& s) {
+        return state.options.brightness_prior * ((s.gain - 1) * (s.gain - 1) + s.offset * s.offset);
+    };
+    const double fall = trial.sums[SumLayout::kEnergyBefore] + prior(state) - trial.sums[SumLayout::kEnergy] - prior(trial);
+    const bool keeps_partners = 2 * trial.sums[SumLayout::kInliers] >= state.sums[SumLayout::kInliers];
+    const bool accept = state.damping.Accept(keeps_partners ? fall : 0.0, state.step.predicted_decrease);
+    state.iterations = trial.iterations;
+    if (!accept) return;
+    trial.damping = state.damping;
+    state = trial;
+    std::swap(residuals_, trial_residuals_);
+}
+
+}  // namespace tessera

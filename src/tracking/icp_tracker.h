@@ -1,0 +1,73 @@
+// Tracks a frame against a predicted view of the map by coarse-to-fine point-to-plane ICP with projective association
+// and Levenberg-Marquardt ([D18] section 3.2), alone or with a photometric term against the predicted colours.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "core/cpu.h"
+#include "mapping/predicted_view.h"
+#include "tracking/frame_points.h"
+#include "tracking/icp_model.h"
+#include "tracking/icp_rows.h"
+#include "tracking/levenberg_marquardt.h"
+#include "tracking/photometry.h"
+#include "tracking/pose_solver.h"
+#include "tracking/track_judge.h"
+#include "tracking/tracker.h"
+
+namespace tessera {
+
+class IcpTracker : public Tracker {
+  public:
+    enum class Prediction { kRayCast, kRaster };
+
+    struct Config {
+        Prediction prediction = Prediction::kRayCast;
+        int finest_step_px = 2;
+        int levels = 3;
+        int coarse_iterations = 10;
+        int middle_iterations = 8;
+        int fine_iterations = 4;
+        double distance_gate_m = 0.1;
+        double normal_gate_rad = 0.8;
+        int normal_radius_px = 4;
+        double distance_scale_m = 0.02;
+        double depth_exponent = 2.0;
+
+        void Describe(ConfigParameters& parameters);
+    };
+
+    // `photometry` outlives the tracker; null tracks by geometry alone.
+    IcpTracker(const Config& config, const PinholeCamera& camera, const TrackJudge& judge, Photometry* photometry,
+               std::unique_ptr<ViewPredictor> predictor, VectorPath path = VectorPath::kAuto);
+
+    TrackResult Track(const TrackInput& input) override;
+
+  private:
+    struct State;  // of one call
+    struct Residuals {  // per point of a level
+        std::vector<float> distance_m, intensity;
+    };
+
+    void PredictAt(const TrackInput& input, const Eigen::Isometry3d& T_world_view, State& state);
+    void ChooseStart(const TrackInput& input, State& state);
+    void PrepareLevel(const TrackInput& input, int level, State& state);
+    void RunLevel(int level, State& state);
+    PoseSums SumAt(const FramePoints& points, State& state) const;
+    void TakeStep(const FramePoints& points, State& state);
+    static void SetResiduals(Residuals& target, const Residuals* before, IcpArguments& arguments);
+
+    Config config_;
+    PinholeCamera camera_;
+    TrackJudge judge_;
+    Photometry* photometry_;
+    std::unique_ptr<ViewPredictor> predictor_;
+    bool use_avx2_;
+    PredictedView view_;
+    std::vector<IcpModelLevel> model_;  // per level
+    std::vector<FramePoints> points_;   // per level
+    Residuals residuals_, trial_residuals_;
+};
+
+}  // namespace tessera

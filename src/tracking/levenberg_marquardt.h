@@ -1,0 +1,34 @@
+// Whether a step of Levenberg-Marquardt is taken and how the damping goes on: Nielsen's rule on the gain ratio, the
+// energy's fall over the predicted one.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+namespace tessera {
+
+class LevenbergMarquardt {
+  public:
+    double damping() const { return damping_; }  // SolverOptions::damping
+
+    // A step is taken only if the energy falls by it; the damping then eases with a good gain ratio, else it grows
+    // faster and faster.
+    bool Accept(double fall, double predicted_fall) {
+        if (!(fall > 0)) {
+            damping_ = std::max(damping_, kLeastAfterFailure) * growth_;
+            growth_ *= kGrowth;
+            return false;
+        }
+        const double ratio = fall / std::max(predicted_fall, 1e-30);
+        damping_ *= std::clamp(1 - std::pow(2 * ratio - 1, 3), 1.0 / 3.0, kGrowth);
+        growth_ = kGrowth;
+        return true;
+    }
+
+  private:
+    static constexpr double kFirst = 1e-6;  // close to Gauss-Newton, which mostly works
+    static constexpr double kLeastAfterFailure = 1e-4, kGrowth = 2.0;
+    double damping_ = kFirst, growth_ = kGrowth;
+};
+
+}  // namespace tessera

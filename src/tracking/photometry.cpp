@@ -1,0 +1,102 @@
+#include "tracking/photometry.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tessera {
+namespace {
+
+// Variance of the means of kBlock x kBlock neighbouring samples, times the samples per block: the variance of a
+// residual as it counts in a sum. For independent residuals it is their variance; errors that neighbours share
+// (depth deformation, calibration, blur) make it larger. The method of batch means.
+double BatchMeansVariance(const std::vector<float>& residuals, int width, int height) {
+    constexpr int kBlock = 16, kLeast = kBlock * kBlock / 2;
+    double sum = 0, sum2 = 0, samples = 0;
+    std::int64_t blocks = 0;
+    for (int by = 0; by + kBlock <= height; by += kBlock)
+        for (int bx = 0; bx + kBlock <= width; bx += kBlock) {
+            double total = 0;
+            int known = 0;
+            for (int y = by; y < by + kBlock; ++y)
+                for (int x = bx; x < bx + kBlock; ++x) {
+                    const float r = residuals[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                                              static_cast<std::size_t>(x)];
+                    if (std::isnan(r)) continue;
+                    total += r;
+                    ++known;
+                }
+            if (known < kLeast) continue;
+            const double mean = total / known;
+            sum += mean;
+            sum2 += mean * mean;
+            samples += known;
+            ++blocks;
+        }
+    if (blocks < 16) return 0;
+    const auto n = static_cast<double>(blocks);
+    return (sum2 / n - (sum / n) * (sum / n)) * (samples / n);
+}
+
+}  // namespace
+
+Photometry::Photometry(const Config& config, const PinholeCamera& camera)
+    : config_(config), shutter_(config.shutter, camera) {
+    Reset();
+}
+
+void Photometry::Reset() {
+    alpha_ = config_.alpha;
+    gain_ = 1;
+    offset_ = 0;
+    distance_variance_ = intensity_variance_ = 0;
+    shutter_.Reset();
+}
+
+FrameMotion Photometry::Timed(FrameMotion motion) const {
+    motion.colour_delay_s += shutter_.delay_s();
+    motion.colour_readout_s += shutter_.readout_s();
+    return motion;
+}
+
+void Photometry::Learn(const PreparedFrame& frame, const FramePoints& points,
+                       const std::vector<float>& distance_residual, const std::vector<float>& intensity_residual,
+                       const TrackResult& result) {
+    gain_ = result.gain;
+    offset_ = result.offset;
+    if (result.alpha <= 0) return;
+    shutter_.Update(frame, points, intensity_residual, result.motion, result.gain, result.intensity_rms);
+    if (config_.alpha_mode == AlphaMode::kAuto) UpdateAlpha(points, distance_residual, intensity_residual);
+}
+
+// Each residual's weight is the inverse of its variance as it counts in the sum, so alpha in [B14] eq. 8 is the ratio of
+// the two. Plain variances would say that the geometry knows ten times more than it does.
+void Photometry::UpdateAlpha(const FramePoints& points, const std::vector<float>& distance_residual,
+                             const std::vector<float>& intensity_residual) {
+    const double distance = BatchMeansVariance(distance_residual, points.width(), points.height());
+    const double intensity = BatchMeansVariance(intensity_residual, points.width(), points.height());
+    if (distance <= 0 || intensity <= 0) return;
+    const double share = distance_variance_ > 0 ? 0.1 : 1.0;
+    distance_variance_ += share * (distance - distance_variance_);
+    intensity_variance_ += share * (intensity - intensity_variance_);
+    alpha_ = std::clamp(distance_variance_ / intensity_variance_, config_.auto_alpha_min, config_.auto_alpha_max);
+}
+
+void Photometry::Config::Describe(ConfigParameters& p) {
+    p.AddChoice("alpha_mode", alpha_mode, {{"fixed", AlphaMode::kFixed}, {"auto", AlphaMode::kAuto}},
+                "fixed uses alpha; auto estimates it from the residuals of the frames so far");
+    p.Add("alpha", alpha, {0.0, 100.0}, "m^2",
+          "photometric weight of [B14] eq. 8 (distances in metres, intensities in [0, 1]); 0 is geometry only; auto "
+          "starts from it");
+    p.Add("auto_alpha_min", auto_alpha_min, {1e-4, 100.0}, "m^2", "auto: the least alpha");
+    p.Add("auto_alpha_max", auto_alpha_max, {1e-4, 100.0}, "m^2",
+          "auto: the largest alpha; where nothing has texture, small photometric residuals say little, and vignetting "
+          "would count as texture");
+    p.Add("intensity_scale", intensity_scale, {1e-3, 10.0}, "", "Huber scale of intensities");
+    p.Add("brightness", brightness,
+          "estimate gain and offset of every frame, so that auto-exposure does not bend the path");
+    p.Add("brightness_prior", brightness_prior, {0.0, 10.0}, "",
+          "pull of gain 1 and offset 0, per unit of photometric weight; raise it where exposure is fixed");
+    p.Section("shutter", [&](ConfigParameters& s) { shutter.Describe(s); });
+}
+
+}  // namespace tessera

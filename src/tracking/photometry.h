@@ -1,0 +1,59 @@
+// What the colour images teach from frame to frame, whatever method tracks: the photometric weight, the brightness of
+// the camera against the map, and when the colour image's rows were taken. One object serves all methods, so that a
+// switch between two frames loses nothing.
+#pragma once
+
+#include <vector>
+
+#include "core/camera.h"
+#include "core/config.h"
+#include "tracking/frame_points.h"
+#include "tracking/shutter_estimator.h"
+#include "tracking/tracker.h"
+
+namespace tessera {
+
+// Owner thread only.
+class Photometry {
+  public:
+    enum class AlphaMode { kFixed, kAuto };
+
+    struct Config {
+        AlphaMode alpha_mode = AlphaMode::kAuto;
+        double alpha = 0.1;
+        double auto_alpha_min = 0.01;
+        double auto_alpha_max = 0.25;
+        double intensity_scale = 0.1;
+        bool brightness = true;
+        double brightness_prior = 0.05;
+        ShutterEstimator::Config shutter;
+
+        void Describe(ConfigParameters& parameters);
+    };
+
+    Photometry(const Config& config, const PinholeCamera& camera);
+    // Forgets what was learnt, not the configuration.
+    void Reset();
+
+    const Config& config() const { return config_; }
+    double alpha() const { return alpha_; }  // in use, [B14] eq. 8
+    double gain() const { return gain_; }    // of the last tracked frame: map = gain * image + offset
+    double offset() const { return offset_; }
+    // The motion with the colour image's delay and read-out as learnt so far.
+    FrameMotion Timed(FrameMotion motion) const;
+
+    // One tracked frame: its finest points, their residuals (NaN where unknown) and the pose that was found.
+    void Learn(const PreparedFrame& frame, const FramePoints& points, const std::vector<float>& distance_residual,
+               const std::vector<float>& intensity_residual, const TrackResult& result);
+
+  private:
+    void UpdateAlpha(const FramePoints& points, const std::vector<float>& distance_residual,
+                     const std::vector<float>& intensity_residual);
+
+    Config config_;
+    double alpha_ = 0, gain_ = 1, offset_ = 0;
+    double distance_variance_ = 0, intensity_variance_ = 0;  // of tile means, smoothed over frames
+    ShutterEstimator shutter_;
+};
+
+}  // namespace tessera

@@ -1,0 +1,76 @@
+#include "tracking/track_judge.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tessera {
+
+using L = SumLayout;
+
+void TrackJudge::Judge(const TrackInput& input, std::int64_t points, const PoseSums& sums, const PoseStep& step,
+                       TrackResult& result) const {
+    const double known = sums[L::kKnown];
+    result.known_fraction = known / static_cast<double>(std::max<std::int64_t>(points, 1));
+    result.inlier_fraction = known > 0 ? sums[L::kInliers] / known : 0;
+    if (sums[L::kDistanceWeight] > 0)
+        result.distance_rms_m = std::sqrt(sums[L::kDistanceError] / sums[L::kDistanceWeight]);
+    if (sums[L::kIntensityWeight] > 0)
+        result.intensity_rms = std::sqrt(sums[L::kIntensityError] / sums[L::kIntensityWeight]);
+    result.smallest_eigenvalue = step.smallest_eigenvalue;
+    result.degenerate = step.held_directions > 0;
+    const Eigen::Isometry3d& T_world_expected = input.T_world_camera_starts.front();
+    result.innovation_m = (T_world_expected.inverse() * result.T_world_camera).translation().norm();
+    result.innovation_rad = RotationAngle(T_world_expected, result.T_world_camera);
+    result.status = Status(input, step, result);
+}
+
+TrackStatus TrackJudge::Status(const TrackInput& input, const PoseStep& step, TrackResult& result) const {
+    const auto because = [&](TrackStatus status, std::string reason) {
+        result.reason = std::move(reason);
+        return status;
+    };
+    constexpr TrackStatus kLost = TrackStatus::kLost, kPoor = TrackStatus::kPoor;
+    if (!step.valid) return because(kLost, "no depth where the map is known");
+    if (result.known_fraction < config_.min_known_fraction)
+        return because(kLost, fmt::format("only {:.0f} % of the depth lies in the map", 100 * result.known_fraction));
+    const std::string misfit = fmt::format("only {:.0f} % of the depth fits the map", 100 * result.inlier_fraction);
+    if (result.inlier_fraction < config_.min_inlier_fraction) return because(kLost, misfit);
+
+    const Eigen::Isometry3d jump = input.T_world_camera_last.inverse() * result.T_world_camera;
+    const double moved_m = jump.translation().norm();
+    const double turned_rad = RotationAngle(input.T_world_camera_last, result.T_world_camera);
+    if (input.since_last_s > 0 && (moved_m > config_.max_jump_m || turned_rad > config_.max_jump_rad))
+        return because(kLost, fmt::format("jumped by {:.2f} m and {:.2f} rad", moved_m, turned_rad));
+    if (result.degenerate)
+        return because(kPoor, fmt::format("degenerate: {} of 6 motions are not held by what is in view",
+                                          step.held_directions));
+    if (result.inlier_fraction < config_.good_inlier_fraction) return because(kPoor, misfit);
+    if (result.distance_rms_m > config_.good_distance_rms_m)
+        return because(kPoor, fmt::format("the depth is {:.1f} cm off the map", 100 * result.distance_rms_m));
+    if (result.innovation_m > config_.good_innovation_m || result.innovation_rad > config_.good_innovation_rad)
+        return because(kPoor, fmt::format("{:.2f} m and {:.2f} rad from where the motion led", result.innovation_m,
+                                          result.innovation_rad));
+    return TrackStatus::kGood;
+}
+
+void TrackJudge::Config::Describe(ConfigParameters& p) {
+    p.Add("min_eigenvalue", min_eigenvalue, {0.0, 0.1}, "",
+          "motions whose share of the normalised Hessian is smaller are held and the frame is called degenerate");
+    p.Add("min_known_fraction", min_known_fraction, {0.0, 1.0}, "",
+          "lost if a smaller share of the depth lies in the map");
+    p.Add("min_inlier_fraction", min_inlier_fraction, {0.0, 1.0}, "",
+          "lost if a smaller share of the known depth fits within half the truncation");
+    p.Add("good_inlier_fraction", good_inlier_fraction, {0.0, 1.0}, "",
+          "tracked, but not fused, if a smaller share fits");
+    p.Add("good_distance_rms_m", good_distance_rms_m, {0.0, 10.0}, "m",
+          "tracked, but not fused, if the robust residual of the depth is larger");
+    p.Add("max_jump_m", max_jump_m, {0.0, 100.0}, "m", "lost if the camera moved farther since the last frame");
+    p.Add("max_jump_rad", max_jump_rad, {0.0, 3.2}, "rad", "lost if the camera turned more since the last frame");
+    p.Add("good_innovation_m", good_innovation_m, {0.0, 100.0}, "m",
+          "tracked, but not fused, if the pose lies farther from the motion model's expectation");
+    p.Add("good_innovation_rad", good_innovation_rad, {0.0, 3.2}, "rad", "the same for the rotation");
+}
+
+}  // namespace tessera

@@ -1,0 +1,122 @@
+// What every tracking method must do alike.
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include "tracking_world.h"
+
+namespace tessera {
+namespace {
+
+using namespace testing_support;
+
+// No offset, then plus and minus each axis: 3 cm and 30 mrad, most of the band.
+std::vector<Vector6d> ThirteenStarts() {
+    std::vector<Vector6d> starts = {Vector6d::Zero()};
+    for (int axis = 0; axis < 6; ++axis)
+        for (const double sign : {-1.0, 1.0}) {
+            Vector6d twist = Vector6d::Zero();
+            twist(axis) = 0.03 * sign;
+            starts.push_back(twist);
+        }
+    return starts;
+}
+
+class EveryTracker : public testing::TestWithParam<std::string> {
+  protected:
+    bool colour() const { return GetParam() == "sdf" || GetParam() == "icp-rgb"; }
+};
+
+TEST_P(EveryTracker, ThirteenStartsComeBack) {
+    BoxRoom room;
+    room.has_ball = true;
+    const World world(room);
+    const Eigen::Isometry3d T_true = SmoothPath(20);
+    for (const Vector6d& offset : ThirteenStarts()) {
+        const TestTracker tracker = FineTracker(GetParam());
+        const TrackResult result = world.Track(*tracker, T_true, T_true * Se3Exp(offset));
+        ASSERT_EQ(result.status, TrackStatus::kGood) << result.reason;
+        const Eigen::Isometry3d error = T_true.inverse() * result.T_world_camera;
+        EXPECT_LT(error.translation().norm(), 0.0015) << offset.transpose();
+        EXPECT_LT(RotationAngle(T_true, result.T_world_camera), 0.0015) << offset.transpose();
+    }
+}
+
+// [B14]'s main claim: one textured plane holds all six motions with colour, three without.
+TEST_P(EveryTracker, PlaneIsHeldByItsTextureOnly) {
+    BoxRoom room;
+    room.only_back_wall = true;
+    const World world(room);
+    const Eigen::Isometry3d T_true = SmoothPath(20);
+    Vector6d offset;
+    offset << 0, 0, 0.02, 0.02, -0.02, 0.01;
+    const TestTracker tracker = FineTracker(GetParam());
+    const TrackResult result = world.Track(*tracker, T_true, T_true * Se3Exp(offset));
+    if (colour()) {
+        EXPECT_EQ(result.status, TrackStatus::kGood) << result.reason;
+        EXPECT_LT((T_true.inverse() * result.T_world_camera).translation().norm(), 0.002);
+    } else {
+        EXPECT_TRUE(result.degenerate);
+        EXPECT_EQ(result.status, TrackStatus::kPoor);
+        EXPECT_NE(result.reason.find("degenerate"), std::string::npos);
+    }
+}
+
+TEST_P(EveryTracker, BareRoomIsHeldByItsShape) {
+    BoxRoom room;
+    room.has_ball = true;
+    room.texture = 0;
+    const World world(room);
+    const Eigen::Isometry3d T_true = SmoothPath(20);
+    const TestTracker tracker = FineTracker(GetParam());
+    const TrackResult result = world.Track(*tracker, T_true, SmoothPath(19));
+    EXPECT_EQ(result.status, TrackStatus::kGood) << result.reason;
+    EXPECT_LT((T_true.inverse() * result.T_world_camera).translation().norm(), 0.002);
+}
+
+// A start whose rotation is not quite one (a product of many poses) must not feed its error into the next.
+TEST_P(EveryTracker, PosesStayRigid) {
+    BoxRoom room;
+    room.has_ball = true;
+    const World world(room);
+    const Eigen::Isometry3d T_true = SmoothPath(20);
+    Eigen::Isometry3d T_start = SmoothPath(19);
+    T_start.linear() *= 1.003;
+    const TestTracker tracker = FineTracker(GetParam());
+    const TrackResult result = world.Track(*tracker, T_true, T_start);
+    const Eigen::Matrix3d R = result.T_world_camera.linear();
+    EXPECT_LT((R * R.transpose() - Eigen::Matrix3d::Identity()).norm(), 1e-12);
+    EXPECT_LT((T_true.inverse() * result.T_world_camera).translation().norm(), 0.002);
+}
+
+TEST_P(EveryTracker, LosesWhatIsNotThere) {
+    const World world{BoxRoom()};
+    const TestTracker tracker = FineTracker(GetParam());
+    Eigen::Isometry3d T_elsewhere = Eigen::Isometry3d::Identity();
+    T_elsewhere.translation() << 50, 0, 0;
+    const TrackResult result = world.Track(*tracker, SmoothPath(20), T_elsewhere);
+    EXPECT_EQ(result.status, TrackStatus::kLost);
+    EXPECT_FALSE(result.reason.empty());
+}
+
+TEST_P(EveryTracker, ThreadsDoNotChangeABit) {
+    BoxRoom room;
+    room.has_ball = true;
+    const World world(room);
+    Eigen::Isometry3d poses[2];
+    for (int k = 0; k < 2; ++k) {
+        tbb::global_control threads(tbb::global_control::max_allowed_parallelism, k == 0 ? 1 : 4);
+        const TestTracker tracker = FineTracker(GetParam());
+        poses[k] = world.Track(*tracker, SmoothPath(20), SmoothPath(18)).T_world_camera;
+    }
+    EXPECT_EQ(poses[0].matrix(), poses[1].matrix());
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, EveryTracker, testing::Values("sdf", "sdf-geometric", "icp", "icp-rgb"),
+                         [](const auto& method) {
+                             std::string name = method.param;
+                             std::erase(name, '-');
+                             return name;
+                         });
+
+}  // namespace
+}  // namespace tessera
