@@ -5,6 +5,7 @@
 #include "bench_room.h"
 #include "mapping/visible_blocks.h"
 #include "repetitions.h"
+#include "scalar_kernels.h"
 
 namespace tessera::bench {
 namespace {
@@ -140,6 +141,86 @@ BENCHMARK_CAPTURE(Fuse, baseline, VectorPath::kBaseline, false)->Apply(FuseArgum
 BENCHMARK_CAPTURE(Fuse, avx2, VectorPath::kAvx2, false)->Apply(FuseArguments);
 BENCHMARK_CAPTURE(Fuse, baseline_moving, VectorPath::kBaseline, true)->Apply(FuseArguments);
 BENCHMARK_CAPTURE(Fuse, avx2_moving, VectorPath::kAvx2, true)->Apply(FuseArguments);
+
+using FuseKernel = void (*)(const FusionArguments&, const std::int32_t*, std::int32_t);
+
+// What Integrator makes of its default settings, for the room's frame and a camera that stands still.
+FusionArguments ArgumentsFor(BlockMap& map) {
+    const PreparedFrame& frame = RoomPrepared();
+    const Integrator::Config config;
+    FusionArguments a{};
+    a.field = map.field(0);
+    a.weight = map.weight(0);
+    a.colour = map.colour(0);
+    a.coords = map.view().coords;
+    a.depth_m = frame.depth_m.data();
+    a.packed_colour = frame.packed_colour.data();
+    a.width = FullCamera().width;
+    a.height = FullCamera().height;
+    a.fx = static_cast<float>(FullCamera().fx);
+    a.fy = static_cast<float>(FullCamera().fy);
+    a.cx = static_cast<float>(FullCamera().cx);
+    a.cy = static_cast<float>(FullCamera().cy);
+    a.frame = 1;
+    const Eigen::Isometry3d T_camera_world = TruePose(0).inverse();
+    for (int i = 0; i < 9; ++i) a.to_camera.rotation[i] = static_cast<float>(T_camera_world.linear()(i / 3, i % 3));
+    for (int i = 0; i < 3; ++i) a.to_camera.translation[i] = static_cast<float>(T_camera_world.translation()(i));
+    a.voxel_size_m = map.view().voxel_size_m;
+    a.truncation_m = map.view().truncation_m;
+    a.distance_weight = config.distance_weight;
+    a.colour_weighting = config.colour_weighting;
+    a.max_weight = static_cast<float>(config.max_weight);
+    a.max_colour_weight = static_cast<float>(config.max_colour_weight);
+    a.gain = a.frame_weight = a.frame_colour_weight = 1;
+    return a;
+}
+
+// Voxels of one update by two kernels that differ by more than rounding, which may choose the neighbouring pixel.
+std::int64_t DifferingVoxels(FuseKernel kernel, FuseKernel other, const std::vector<BlockId>& blocks) {
+    const std::unique_ptr<BlockMap> a = FusedMap(RoomWithBall(), kTruncation_m, 10),
+                                    b = FusedMap(RoomWithBall(), kTruncation_m, 10);
+    kernel(ArgumentsFor(*a), blocks.data(), static_cast<std::int32_t>(blocks.size()));
+    other(ArgumentsFor(*b), blocks.data(), static_cast<std::int32_t>(blocks.size()));
+    std::int64_t differing = 0;
+    for (const BlockId id : blocks)
+        for (int i = 0; i < kBlockVoxels; ++i) {
+            const FieldWord x = a->field(id)[i], y = b->field(id)[i];
+            differing += std::abs(FieldDistance(x) - FieldDistance(y)) > 1e-3f ||
+                         std::abs(FieldIntensity(x) - FieldIntensity(y)) > 1e-2f ||
+                         std::abs(a->weight(id)[i] - b->weight(id)[i]) > 1;
+        }
+    return differing;
+}
+
+// The kernel alone on one thread, the visible blocks given.
+void FuseVoxels(benchmark::State& state, FuseKernel kernel) {
+    VisibleBlocks visible;
+    const std::vector<BlockId>& blocks =
+        visible.Find(RoomMap(), FullCamera(), TruePose(0), RoomPrepared().depth_m, RoomPrepared().farthest_m);
+    const auto voxels = static_cast<double>(blocks.size() * kBlockVoxels);
+    if (static_cast<double>(DifferingVoxels(kernel, baseline::FuseBlocks, blocks)) > 1e-3 * voxels)
+        return state.SkipWithError("not the portable code's voxels");
+    FusionArguments a = ArgumentsFor(RoomMap());
+    for (auto _ : state) {
+        ++a.frame;
+        kernel(a, blocks.data(), static_cast<std::int32_t>(blocks.size()));
+    }
+    state.counters["blocks"] = static_cast<double>(blocks.size());
+    state.counters["per_voxel"] = PerItem(state, voxels);
+}
+void FuseVoxelsArguments(benchmark::internal::Benchmark* b) {
+    b->Unit(benchmark::kMillisecond);
+    TakeMinimum(b);
+}
+BENCHMARK_CAPTURE(FuseVoxels, scalar, FuseBlocksScalar)->Apply(FuseVoxelsArguments);
+BENCHMARK_CAPTURE(FuseVoxels, baseline, baseline::FuseBlocks)->Apply(FuseVoxelsArguments);
+#ifdef TESSERA_HAVE_AVX2
+void FuseVoxelsAvx2(benchmark::State& state) {
+    if (!CpuHasAvx2()) return state.SkipWithError("no AVX2");
+    FuseVoxels(state, avx2::FuseBlocks);
+}
+BENCHMARK(FuseVoxelsAvx2)->Apply(FuseVoxelsArguments);
+#endif
 
 }  // namespace
 }  // namespace tessera::bench

@@ -6,6 +6,8 @@
 #include "mapping/analytic_fields.h"
 #include "mapping/mesher.h"
 #include "mapping/ray_caster.h"
+#include "mapping/scalar_ray_walker.h"
+#include "repetitions.h"
 
 namespace tessera {
 namespace {
@@ -70,30 +72,43 @@ void AssembleMesh(benchmark::State& state) {
 }
 BENCHMARK(AssembleMesh)->Unit(benchmark::kMillisecond)->UseRealTime();
 
-void CastView(benchmark::State& state) {
-    const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
-                                      static_cast<std::size_t>(state.range(0)));
+Eigen::Isometry3d CastPose() {
     Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
     T.linear() = Eigen::AngleAxisd(.4, Eigen::Vector3d::UnitX()).toRotationMatrix();
     T.translation() = Eigen::Vector3d(0, .5, -1.2);
+    return T;
+}
+
+void CastView(benchmark::State& state, VectorPath path) {
+    if (path == VectorPath::kAvx2 && !CpuHasAvx2()) return state.SkipWithError("no AVX2");
+    const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
+                                      static_cast<std::size_t>(state.range(0)));
     const PinholeCamera camera;
-    RayCaster caster;
+    RayCaster caster(path);
     PredictedView view;
-    for (auto _ : state) caster.Predict(RoomMap(), camera, T, .2f, 5.f, view);
-    const double pixels = static_cast<double>(view.depth_m.size());
+    for (auto _ : state) caster.Predict(RoomMap(), camera, CastPose(), .2f, 5.f, view);
     double hits = 0;
     for (std::size_t i = 0; i < view.depth_m.size(); ++i) hits += view.depth_m.data()[i] > 0;
-    state.counters["hits"] = hits / pixels;
-    state.counters["per_pixel"] =
-        benchmark::Counter(pixels * static_cast<double>(state.iterations()),
-                           benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+    state.counters["hits"] = hits / static_cast<double>(view.depth_m.size());
+    state.counters["per_pixel"] = bench::PerItem(state, static_cast<double>(view.depth_m.size()));
 }
-BENCHMARK(CastView)
-    ->ArgName("threads")
-    ->Arg(1)
-    ->Arg(2)
-    ->Unit(benchmark::kMillisecond)
-    ->UseRealTime();
+void CastArguments(benchmark::internal::Benchmark* b) {
+    b->ArgName("threads")->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime();
+    bench::TakeMinimum(b);
+}
+BENCHMARK_CAPTURE(CastView, baseline, VectorPath::kBaseline)->Apply(CastArguments);
+BENCHMARK_CAPTURE(CastView, avx2, VectorPath::kAvx2)->Apply(CastArguments);
+
+// The same view by the tests' scalar walk, one ray after the other; it makes no colours.
+void CastViewScalar(benchmark::State& state) {
+    const PinholeCamera camera;
+    ScalarRayWalker walker(RoomMap(), camera, CastPose(), .2f, 5.f);
+    for (auto _ : state)
+        for (int v = 0; v < camera.height; ++v)
+            for (int u = 0; u < camera.width; ++u) benchmark::DoNotOptimize(walker.Cast(u, v));
+    state.counters["per_pixel"] = bench::PerItem(state, static_cast<double>(camera.width * camera.height));
+}
+BENCHMARK(CastViewScalar)->Unit(benchmark::kMillisecond)->Apply(bench::TakeMinimum);
 
 }  // namespace
 }  // namespace tessera

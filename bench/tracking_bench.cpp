@@ -4,6 +4,7 @@
 
 #include "bench_room.h"
 #include "repetitions.h"
+#include "scalar_kernels.h"
 #include "tracking/image_aligner.h"
 #include "tracking/sdf_tracker.h"
 
@@ -64,25 +65,23 @@ SdfArguments ArgumentsFor(const FramePoints& points, const Eigen::Isometry3d& T_
     return a;
 }
 
+using SumKernel = void (*)(const SdfArguments&, int, int, double*);
+
 // One thread. The map is far larger than the caches of the core; the points run along image rows.
-void SumPoints(benchmark::State& state, VectorPath path, double alpha) {
-    const bool wide = path == VectorPath::kAvx2;
-    if (wide && !CpuHasAvx2()) return state.SkipWithError("no AVX2");
+void SumPoints(benchmark::State& state, SumKernel kernel, double alpha) {
     FramePoints points;
     points.Build(RoomPrepared(0), FullCamera(), {}, kStep_px, 2.0);
     points.SampleIntensity(RoomPrepared(0), FullCamera(), {});
     const SdfArguments a = ArgumentsFor(points, StartBeside(TruePose(4)), alpha);
-    PoseSums sums;
+    PoseSums sums, expected;
+    baseline::SumSdfPoints(a, 0, points.count(), expected.value);
     for (auto _ : state) {
         sums = {};
-#ifdef TESSERA_HAVE_AVX2
-        if (wide) {
-            avx2::SumSdfPoints(a, 0, points.count(), sums.value);
-            continue;
-        }
-#endif
-        baseline::SumSdfPoints(a, 0, points.count(), sums.value);
+        kernel(a, 0, points.count(), sums.value);
     }
+    for (const int sum : {SumLayout::kDistanceError, SumLayout::kIntensityError, SumLayout::kHessian})
+        if (!(std::abs(sums[sum] - expected[sum]) <= 1e-3 * std::abs(expected[sum])))
+            return state.SkipWithError("not the portable code's sums");
     const auto valid = static_cast<double>(points.valid());
     state.counters["points"] = valid;
     state.counters["known"] = sums[SumLayout::kKnown] / valid;
@@ -92,10 +91,18 @@ void SumArguments(benchmark::internal::Benchmark* b) {
     b->Unit(benchmark::kMillisecond);
     TakeMinimum(b);
 }
-BENCHMARK_CAPTURE(SumPoints, baseline_geometric, VectorPath::kBaseline, 0.0)->Apply(SumArguments);
-BENCHMARK_CAPTURE(SumPoints, avx2_geometric, VectorPath::kAvx2, 0.0)->Apply(SumArguments);
-BENCHMARK_CAPTURE(SumPoints, baseline_photometric, VectorPath::kBaseline, 0.1)->Apply(SumArguments);
-BENCHMARK_CAPTURE(SumPoints, avx2_photometric, VectorPath::kAvx2, 0.1)->Apply(SumArguments);
+BENCHMARK_CAPTURE(SumPoints, scalar_geometric, SumSdfPointsScalar, 0.0)->Apply(SumArguments);
+BENCHMARK_CAPTURE(SumPoints, scalar_photometric, SumSdfPointsScalar, 0.1)->Apply(SumArguments);
+BENCHMARK_CAPTURE(SumPoints, baseline_geometric, baseline::SumSdfPoints, 0.0)->Apply(SumArguments);
+BENCHMARK_CAPTURE(SumPoints, baseline_photometric, baseline::SumSdfPoints, 0.1)->Apply(SumArguments);
+#ifdef TESSERA_HAVE_AVX2
+void SumPointsAvx2(benchmark::State& state, double alpha) {
+    if (!CpuHasAvx2()) return state.SkipWithError("no AVX2");
+    SumPoints(state, avx2::SumSdfPoints, alpha);
+}
+BENCHMARK_CAPTURE(SumPointsAvx2, geometric, 0.0)->Apply(SumArguments);
+BENCHMARK_CAPTURE(SumPointsAvx2, photometric, 0.1)->Apply(SumArguments);
+#endif
 
 // From 1 cm and 9 mrad away, as after an imperfect prediction.
 void Track(benchmark::State& state, VectorPath path, double alpha) {

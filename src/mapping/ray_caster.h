@@ -5,22 +5,30 @@
 #include <Eigen/Geometry>
 
 #include "core/camera.h"
+#include "core/cpu.h"
 #include "mapping/block_map.h"
 #include "mapping/predicted_view.h"
 #include "mapping/ray_ranges.h"
 
 namespace tessera {
 
+struct RayArguments;
+
 // Works on all of TBB's threads and gives the same bytes for any number of them. Surface is where all
 // eight voxels around a point are known and the distance falls through zero; a fall over the whole
 // range at once is an occlusion's edge and passed through, as by the mesher.
 class RayCaster : public ViewPredictor {
   public:
+    explicit RayCaster(VectorPath path = VectorPath::kAuto);
+
     void Predict(const BlockMap& map, const PinholeCamera& camera,
                  const Eigen::Isometry3d& T_world_camera, float min_depth_m, float max_depth_m,
                  PredictedView& view) override;
 
   private:
+    void CastRow(const RayArguments& arguments, int y) const;
+
+    bool use_avx2_;
     RayRanges ranges_;
 };
 

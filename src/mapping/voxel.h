@@ -8,6 +8,7 @@
 #include <cstdint>
 
 #include "core/host_device.h"
+#include "core/scalar_ops.h"
 
 namespace tessera {
 
@@ -48,19 +49,26 @@ TESSERA_HD float ColourWeight(ColourWord c) {
     return static_cast<float>(c >> 20) * (1.0f / kColourWeightSteps);
 }
 
-// Channel values in [0, 1], clamped.
+// Channel values in [0, 1], clamped, from an intensity in [0, 1] and chroma as a colour word counts it. A template on
+// the number type, shared by scalar and vector code.
+template <class F>
+TESSERA_HD void RgbFromParts(const F& intensity, const F& cb_steps, const F& cr_steps, F* rgb) {
+    const F cb = (cb_steps - F(512.0f)) * F(1.0f / kChromaSteps);
+    const F cr = (cr_steps - F(512.0f)) * F(1.0f / kChromaSteps);
+    rgb[0] = intensity + F(1.402f) * cr;
+    rgb[2] = intensity + F(1.772f) * cb;
+    rgb[1] = (intensity - F(0.299f) * rgb[0] - F(0.114f) * rgb[2]) * F(1.0f / 0.587f);
+    for (int c = 0; c < 3; ++c) rgb[c] = min(max(rgb[c], F(0.0f)), F(1.0f));
+}
+
 struct LinearRgb {
     float r, g, b;
 };
 TESSERA_HD LinearRgb ColourFromWords(FieldWord field, ColourWord colour) {
-    const float y = FieldIntensity(field);
-    const float cb = (static_cast<float>(colour & 1023u) - 512.0f) * (1.0f / kChromaSteps);
-    const float cr = (static_cast<float>((colour >> 10) & 1023u) - 512.0f) * (1.0f / kChromaSteps);
-    const float r = y + 1.402f * cr;
-    const float b = y + 1.772f * cb;
-    const float g = (y - 0.299f * r - 0.114f * b) * (1.0f / 0.587f);
-    const auto clamp = [](float v) { return v < 0.0f ? 0.0f : (v > 1.0f ? 1.0f : v); };
-    return {clamp(r), clamp(g), clamp(b)};
+    float rgb[3];
+    RgbFromParts(FieldIntensity(field), static_cast<float>(colour & 1023u), static_cast<float>((colour >> 10) & 1023u),
+                 rgb);
+    return {rgb[0], rgb[1], rgb[2]};
 }
 
 // Integer coordinate of a block; block (0, 0, 0) holds voxels 0..7 along each axis.

@@ -14,6 +14,10 @@
 namespace tessera {
 namespace {
 
+MapStatistics StatisticsOf(const BlockMap& map) {
+    return {map.size() - 1, map.bytes(), map.bytes_per_voxel()};
+}
+
 class Runner {
   public:
     Runner(const RunRequest& request, const RunConfig& config, const RunObserver& observer)
@@ -155,23 +159,31 @@ class Runner {
     Status Finish(const Status& outcome) {
         RunSummary& s = summary_;
         s.exit = !outcome.ok() ? "failed: " + outcome.message() : (s.stopped ? "stopped" : "finished");
-        TriangleMesh mesh;
-        if (output_) {
-            Stopwatch watch;
-            Mesher mesher(config_.meshing);
-            mesher.Update(pipeline_->map());
-            mesh = mesher.Assemble();
-            times_.Add("mesh", watch.LapMs());
-        }
+        s.map = StatisticsOf(pipeline_->map());
+        Status written = output_ ? WriteMesh() : Status::Ok();
         s.fps = s.wall_s > 0 ? static_cast<double>(s.counts.frames) / s.wall_s : 0;
         s.peak_rss_mb = MeasureProcess().peak_rss_mb;
         s.stages = times_.Summarise();
-        const BlockMap& map = pipeline_->map();
-        s.map = {map.size() - 1, map.bytes(), map.bytes_per_voxel()};
         if (given_.empty())
             if (Result<AteResult> ate = EvaluateAte(truth_, estimate_, {.frames = s.counts.frames}); ate.ok())
                 s.ate = std::move(ate.value());
-        return output_ ? output_->Finish(s, mesh) : Status::Ok();
+        if (Status status = output_ ? output_->Finish(s) : Status::Ok(); written.ok()) written = status;
+        return written;
+    }
+
+    // Ends the map and the source: they and the whole mesh need not fit into memory together.
+    Status WriteMesh() {
+        reader_.reset();
+        Stopwatch watch;
+        TriangleMesh mesh;
+        {
+            Mesher mesher(config_.meshing);
+            mesher.Update(pipeline_->map());
+            pipeline_.reset();
+            mesh = mesher.Assemble();
+        }
+        times_.Add("mesh", watch.LapMs());
+        return output_->WriteMesh(mesh);
     }
 
     std::int64_t Total() const {

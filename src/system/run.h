@@ -53,7 +53,7 @@ struct RunSummary {
     RunCounts counts;
     // From the first frame's request to the last frame's completion; the mesh and the files at the end are not in it.
     double wall_s = 0, cpu_s = 0, fps = 0;
-    double peak_rss_mb = 0;
+    double peak_rss_mb = 0;  // of the whole process, the mesh and its picture included
     std::vector<std::pair<std::string, StageStatistics>> stages;
     MapStatistics map;
     std::optional<AteResult> ate;  // against the source's own truth; none at given poses

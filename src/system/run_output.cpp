@@ -84,15 +84,19 @@ Status RunOutput::WritePicture(const TriangleMesh& mesh) const {
     return WriteColourImage(Path("preview.png"), RenderMesh(mesh, view.camera, view.T_world_camera, style));
 }
 
-Status RunOutput::Finish(const RunSummary& summary, const TriangleMesh& mesh) {
+Status RunOutput::WriteMesh(const TriangleMesh& mesh) const {
+    const Status status = WritePly(Path("mesh.ply"), mesh);
+    const Status picture = WritePicture(mesh);
+    return status.ok() ? picture : status;
+}
+
+Status RunOutput::Finish(const RunSummary& summary) {
     Status first;
     const auto keep_first = [&](const Status& status) {
         if (first.ok()) first = status;
     };
     keep_first(WriteTextFile(Path("timings.json"), TimingsJson(summary)));
     keep_first(WriteTextFile(Path("objects.json"), "[]\n"));
-    keep_first(WritePly(Path("mesh.ply"), mesh));
-    keep_first(WritePicture(mesh));
     keep_first(WriteTextFile(Path("run.json"), RunJson(request_, config_, summary)));
     return first;
 }

@@ -23,8 +23,11 @@ class RunOutput {
     // One line of frames.csv; one of trajectory.txt if the frame was tracked. Both reach the system before return.
     Status AddFrame(const FrameReport& report, double decode_ms, double frame_ms);
 
-    // mesh.ply and preview.png (where the mesh has triangles), objects.json, timings.json, run.json.
-    Status Finish(const RunSummary& summary, const TriangleMesh& mesh);
+    // mesh.ply, and preview.png where the mesh has triangles. The first error, but the other file is tried, too.
+    Status WriteMesh(const TriangleMesh& mesh) const;
+
+    // objects.json, timings.json, run.json; likewise.
+    Status Finish(const RunSummary& summary);
 
   private:
     struct FileCloser {

@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "core/vector_types.h"
-#include "mapping/voxel.h"
+#include "mapping/block_rows.h"
 
 namespace tessera::TESSERA_VECTOR_NAMESPACE {
 namespace {
@@ -11,55 +11,15 @@ namespace {
 using L = SumLayout;
 static_assert(kPointPadding % kLanes == 0);
 
-// BlockHash of voxel.h for every lane.
-[[gnu::always_inline]] inline Int HashBlocks(const Int& x, const Int& y, const Int& z) {
-    Bits h = (AsBits(x) * Bits(73856093u)) ^ (AsBits(y) * Bits(19349669u)) ^ (AsBits(z) * Bits(83492791u));
-    h = h ^ (h >> 15);
-    return AsInt(((h * Bits(2654435769u)) >> 4) ^ h);
-}
-
-// BlockMap::Find for every wanted lane; kUnknownBlock elsewhere.
-[[gnu::always_inline]] inline Int FindBlocks(const SdfArguments& a, const Int& x, const Int& y, const Int& z,
-                                             RealMask pending) {
-    const Int mask(static_cast<std::int32_t>(a.table_mask));
-    Int slot = HashBlocks(x, y, z) & mask;
-    Int found(0);
-    while (xsimd::any(pending)) {
-        const Int id = Gather(a.table, slot);
-        const Int at = id << 2;
-        const RealMask match = AsRealMask((Gather(a.coords, at) == x) & (Gather(a.coords + 1, at) == y) &
-                                          (Gather(a.coords + 2, at) == z));
-        found = Select(pending & match, id, found);
-        pending = pending & ~match & AsRealMask(id != Int(0));
-        slot = (slot + Int(1)) & mask;
-    }
-    return found;
-}
-
 // The words at the eight corners of the cells with lower voxel (x, y, z), local coordinates.
 [[gnu::always_inline]] inline void GatherCorners(const SdfArguments& a, const Int& x, const Int& y, const Int& z,
                                                  const RealMask& wanted, Int* words) {
     const Int block = FindBlocks(a, (x >> 3) + Int(a.origin_block[0]), (y >> 3) + Int(a.origin_block[1]),
                                  (z >> 3) + Int(a.origin_block[2]), wanted);
-    const Int seven(7);
-    const Int x0 = x & seven, y0 = y & seven, z0 = z & seven;
-    const Int x1 = x0 + Int(1), y1 = y0 + Int(1), z1 = z0 + Int(1);
-    // Where the upper corner leaves the block: its neighbour's slot bits, else 0.
-    const Int over_x = x1 >> 3, over_y = y1 >> 3, over_z = z1 >> 3;
-    const Int in_x[2] = {x0, x1 & seven};
-    const Int in_y[2] = {y0 << 3, (y1 & seven) << 3};
-    const Int in_z[2] = {z0 << 6, (z1 & seven) << 6};
-    const auto* field = reinterpret_cast<const std::int32_t*>(a.field);
-    const bool inside = !xsimd::any(AsRealMask((over_x | over_y | over_z) != Int(0)));
-    for (int c = 0; c < 8; ++c) {
-        const int bx = c & 1, by = c >> 1 & 1, bz = c >> 2;
-        Int owner = block;
-        if (!inside && c != 0) {
-            const Int slot = (bx ? over_x : Int(0)) | (by ? over_y << 1 : Int(0)) | (bz ? over_z << 2 : Int(0));
-            owner = Gather(a.neighbours, (block << 3) + slot);
-        }
-        words[c] = Gather(field, (owner << 9) + in_x[bx] + in_y[by] + in_z[bz]);
-    }
+    const Int voxel[3] = {x, y, z};
+    Int index[8];
+    CornerVoxels(a, block, voxel, index);
+    for (int c = 0; c < 8; ++c) words[c] = Gather(reinterpret_cast<const std::int32_t*>(a.field), index[c]);
 }
 
 struct Sums {

@@ -1,0 +1,133 @@
+// The ray caster's vector code against a scalar oracle and against itself, on a map that has everything: holes, missing
+// blocks, noise, surfaces with and without colour.
+#include "mapping/ray_rows.h"
+
+#include <gtest/gtest.h>
+
+#include "mapping/analytic_fields.h"
+#include "mapping/ray_caster.h"
+#include "mapping/scalar_ray_walker.h"
+
+namespace tessera {
+namespace {
+
+using namespace testing;
+
+constexpr float kNear_m = 0.1f, kFar_m = 4.f;
+constexpr float kTenthVoxel_m = 1e-3f;
+
+// Not a multiple of a tile or a vector in width.
+PinholeCamera OddCamera() {
+    return {205, 149, 190, 195, 101.5, 73.5};
+}
+
+// Noise of a quarter of a voxel, a voxel in 50 unknown, a block in 20 missing, half of the rest without colour.
+BlockMap& RoughMap() {
+    static BlockMap map{BlockMap::Config{}};
+    if (map.size() > 1) return map;
+    const Sdf room = Union(Union(Sphere({-.2, .1, .1}, .3), Box({.4, -.1, .2}, {.15, .3, .2})), Plane({0, 0, -1}, -.6));
+    const Paint paint = [](const Eigen::Vector3d& p) { return Eigen::Vector3d(.5 + .3 * p.x(), .5 - .3 * p.y(), .4); };
+    Fill(map, room, {-14, -14, -6}, {13, 13, 9}, paint);
+    std::uint32_t counter = 0;
+    for (BlockId id = 1; id < map.size(); ++id) {
+        const bool missing = Uniform(++counter) < .05, grey = Uniform(++counter) < .5;
+        for (int i = 0; i < kBlockVoxels; ++i) {
+            FieldWord& word = map.field(id)[i];
+            const double noise = .0025 / map.config().truncation_m * (2 * Uniform(++counter) - 1);
+            word = PackField(static_cast<double>(FieldDistance(word)) + noise,
+                             grey ? -1 : static_cast<double>(FieldIntensity(word)));
+            if (missing || Uniform(++counter) < .02) word = kUnknownField;
+        }
+    }
+    return map;
+}
+
+std::vector<Eigen::Isometry3d> Views() {
+    std::vector<Eigen::Isometry3d> views(4, Eigen::Isometry3d::Identity());
+    views[0].translation() = Eigen::Vector3d(.013, .027, -.9);
+    views[1].linear() = Eigen::AngleAxisd(.7, Eigen::Vector3d(.2, 1, .1).normalized()).toRotationMatrix();
+    views[1].translation() = Eigen::Vector3d(-.8, .1, -.5);
+    views[2].linear() = Eigen::AngleAxisd(-1.2, Eigen::Vector3d(1, .1, .2).normalized()).toRotationMatrix();
+    views[2].translation() = Eigen::Vector3d(.1, -1.1, .3);
+    views[3].translation() = Eigen::Vector3d(.1, -.2, -.35);  // straight on: rays parallel to axes, objects near
+    return views;
+}
+
+PredictedView Cast(const Eigen::Isometry3d& T_world_camera, VectorPath path) {
+    PredictedView view;
+    RayCaster(path).Predict(RoughMap(), OddCamera(), T_world_camera, kNear_m, kFar_m, view);
+    return view;
+}
+
+// Where a bracket's end falls within rounding of a voxel's border or of a step's end, the two may go on differently; so
+// few pixels may differ, by anything.
+constexpr double kMayDiffer = 1e-4;
+
+class RayRows : public ::testing::TestWithParam<VectorPath> {};
+
+TEST_P(RayRows, AgreesWithTheScalarWalk) {
+    if (GetParam() == VectorPath::kAvx2 && !CpuHasAvx2()) GTEST_SKIP() << "this machine has no AVX2";
+    const PinholeCamera camera = OddCamera();
+    int hits = 0, pixels = 0, differ = 0, coloured = 0;
+    for (const Eigen::Isometry3d& T : Views()) {
+        const PredictedView view = Cast(T, GetParam());
+        ScalarRayWalker oracle(RoughMap(), camera, T, kNear_m, kFar_m);
+        for (int v = 0; v < camera.height; ++v)
+            for (int u = 0; u < camera.width; ++u, ++pixels) {
+                const auto expected = oracle.Cast(u, v);
+                hits += expected.depth_m > 0;
+                if (!(std::abs(view.depth_m(u, v) - expected.depth_m) < 0.05f * kTenthVoxel_m) ||
+                    !((view.normal_camera(u, v) - expected.normal_camera).norm() < 1e-2f)) {
+                    ++differ;
+                    continue;
+                }
+                if (!expected.has_intensity) continue;
+                ++coloured;
+                ASSERT_NEAR(view.intensity(u, v), expected.intensity, 1e-4) << u << " " << v;
+            }
+    }
+    EXPECT_GT(hits, pixels / 3);
+    EXPECT_GT(coloured, hits / 10);
+    EXPECT_LT(differ, kMayDiffer * pixels) << "of " << pixels << ", " << hits << " hits";
+    RecordProperty("differ", differ);
+}
+
+INSTANTIATE_TEST_SUITE_P(Paths, RayRows, ::testing::Values(VectorPath::kBaseline, VectorPath::kAvx2),
+                         [](const auto& test) { return test.param == VectorPath::kAvx2 ? "Avx2" : "Baseline"; });
+
+TEST(RayRowsPaths, PortableAndAvx2Agree) {
+    if (!CpuHasAvx2()) GTEST_SKIP() << "this machine has no AVX2";
+    int pixels = 0, differ = 0, off_colour = 0;
+    for (const Eigen::Isometry3d& T : Views()) {
+        const PredictedView a = Cast(T, VectorPath::kBaseline), b = Cast(T, VectorPath::kAvx2);
+        for (std::size_t i = 0; i < a.depth_m.size(); ++i, ++pixels) {
+            if (!(std::abs(a.depth_m.data()[i] - b.depth_m.data()[i]) < 0.05f * kTenthVoxel_m)) {
+                ++differ;
+                continue;
+            }
+            const Rgb8 &ca = a.colour.data()[i], &cb = b.colour.data()[i];
+            off_colour += std::abs(ca.r - cb.r) > 1 || std::abs(ca.g - cb.g) > 1 || std::abs(ca.b - cb.b) > 1 ||
+                          std::abs(a.intensity.data()[i] - b.intensity.data()[i]) > 1e-3f;
+        }
+    }
+    EXPECT_LT(differ, kMayDiffer * pixels);
+    EXPECT_LT(off_colour, kMayDiffer * pixels);
+}
+
+// Axes of the camera along the world's: components of the rays' steps are exactly zero.
+TEST(RayRowsPaths, RaysParallelToAxes) {
+    BlockMap map{BlockMap::Config{}};
+    Fill(map, Plane({0, 0, -1}, -.53), {-6, -6, 2}, {5, 5, 9});
+    PinholeCamera camera{33, 17, 100, 100, 16, 8};
+    PredictedView view;
+    Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+    T.translation() = Eigen::Vector3d(0, 0, -.56);  // on a block's corner
+    for (const VectorPath path : {VectorPath::kBaseline, VectorPath::kAuto}) {
+        RayCaster(path).Predict(map, camera, T, kNear_m, kFar_m, view);
+        for (int v = 0; v < camera.height; ++v)
+            for (int u = 0; u < camera.width; ++u) ASSERT_NEAR(view.depth_m(u, v), 1.09, 1e-4) << u << " " << v;
+    }
+}
+
+}  // namespace
+}  // namespace tessera
