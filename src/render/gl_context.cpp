@@ -28,24 +28,19 @@ bool HasClientExtension(const char* name) {
 }
 
 // Mesa without any display server first, because it says nothing and needs nothing; then the devices, which is how
-// NVIDIA's driver is found; then whatever the system calls its default.
-std::vector<EGLDisplay> Displays() {
+// NVIDIA's driver is found.
+std::vector<EGLDisplay> WindowlessDisplays() {
     std::vector<EGLDisplay> displays;
-    const auto add = [&](EGLDisplay display) {
-        if (display != EGL_NO_DISPLAY) displays.push_back(display);
-    };
-    if (HasClientExtension("EGL_EXT_platform_base")) {
-        if (HasClientExtension("EGL_MESA_platform_surfaceless"))
-            add(eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr));
-        if (HasClientExtension("EGL_EXT_platform_device") && HasClientExtension("EGL_EXT_device_enumeration")) {
-            std::array<EGLDeviceEXT, 16> devices;
-            EGLint count = 0;
-            if (!eglQueryDevicesEXT(devices.size(), devices.data(), &count)) count = 0;
-            for (int i = 0; i < count; ++i)
-                add(eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, devices[static_cast<std::size_t>(i)], nullptr));
-        }
+    if (!HasClientExtension("EGL_EXT_platform_base")) return displays;
+    if (HasClientExtension("EGL_MESA_platform_surfaceless"))
+        displays.push_back(eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr));
+    if (HasClientExtension("EGL_EXT_platform_device") && HasClientExtension("EGL_EXT_device_enumeration")) {
+        std::array<EGLDeviceEXT, 16> devices;
+        EGLint count = 0;
+        if (!eglQueryDevicesEXT(devices.size(), devices.data(), &count)) count = 0;
+        for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i)
+            displays.push_back(eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, devices[i], nullptr));
     }
-    add(eglGetDisplay(EGL_DEFAULT_DISPLAY));
     return displays;
 }
 
@@ -53,24 +48,23 @@ std::vector<EGLDisplay> Displays() {
 
 Result<std::unique_ptr<GlContext>> GlContext::Create() {
     if (!HasLibraries()) return Status::Error(fmt::format("no EGL and OpenGL libraries here: {}", kInstall));
-    std::unique_ptr<GlContext> software;
-    std::string why = "no display";
-    for (const EGLDisplay display : Displays()) {
-        if (software && display == eglGetDisplay(EGL_DEFAULT_DISPLAY)) break;
+    std::unique_ptr<GlContext> found;
+    std::string why;  // of the first display, the likeliest
+    const auto try_display = [&](EGLDisplay display) {
         std::unique_ptr<GlContext> context(new GlContext(display));
-        if (const Status status = context->Initialise(); !status.ok()) {
-            why = status.message();
-        } else if (!context->is_software_) {
-            return context;
-        } else if (!software) {
-            software = std::move(context);
-        }
-    }
-    if (software) return software;
+        const Status status = context->Initialise();
+        if (!status.ok() && why.empty()) why = status.message();
+        if (status.ok() && (!found || found->is_software_)) found = std::move(context);
+    };
+    for (const EGLDisplay display : WindowlessDisplays())
+        if (!found || found->is_software_) try_display(display);
+    if (!found) try_display(eglGetDisplay(EGL_DEFAULT_DISPLAY));
+    if (found) return found;
     return Status::Error(fmt::format("no OpenGL 3.3 without a window here ({}): {}", why, kInstall));
 }
 
 Status GlContext::Initialise() {
+    if (display_ == EGL_NO_DISPLAY) return Status::Error("EGL has no driver");
     EGLint major = 0, minor = 0;
     if (!eglInitialize(display_, &major, &minor)) return Status::Error("EGL does not start");
     if (!epoxy_has_egl_extension(display_, "EGL_KHR_surfaceless_context") ||
