@@ -254,6 +254,19 @@ TEST_F(MeshRasteriserTest, AfterChangesTheSameAsAFreshOne) {
     EXPECT_LT(rasteriser_->bytes(), bytes + bytes / 3);
 }
 
+// What was uploaded before the buffers had to grow is still there.
+TEST_F(MeshRasteriserTest, TheMapGrows) {
+    BlockMap map{BlockMap::Config{}};
+    FillScene(map);
+    const Eigen::Isometry3d T = LookAt({.1, .2, -1}, {0, 0, .2});
+    const PredictedView before = Draw(map, SmallCamera(), T);
+    const std::size_t bytes = rasteriser_->bytes();
+    Fill(map, Plane({0, 0, -1}, -6), {-20, -20, 73}, {19, 19, 76}, nullptr, 2);
+    EXPECT_TRUE(SameBytes(Draw(map, SmallCamera(), T), before));
+    EXPECT_GT(rasteriser_->bytes(), 2 * bytes);
+    EXPECT_GT(CountHits(Draw(map, SmallCamera(), LookAt({0, 0, 5}, {0, 0, 6}))), 15000);
+}
+
 TEST_F(MeshRasteriserTest, AnotherOrClearedMapIsTakenUpFromScratch) {
     BlockMap first{BlockMap::Config{}};
     FillScene(first);
