@@ -16,7 +16,7 @@ namespace tessera {
 // The same bytes for any number of threads.
 class MeshRasteriser : public ViewPredictor {
   public:
-    // Of the last Predict. The mesh's parts are nested: upload includes no meshing, read_back waits for what is drawn.
+    // Of the last Predict. What is drawn may still be under way when draw_ms ends; read_back_ms waits for it.
     struct Timings {
         double mesh_ms = 0, upload_ms = 0, draw_ms = 0, read_back_ms = 0;
     };

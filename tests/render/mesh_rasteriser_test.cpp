@@ -1,13 +1,10 @@
 #include "render/mesh_rasteriser.h"
 
 #include <gtest/gtest.h>
-#include <tbb/global_control.h>
 
 #include <algorithm>
-#include <thread>
 
-#include "mapping/analytic_fields.h"
-#include "mapping/ray_caster.h"
+#include "render/rasteriser_fixture.h"
 
 namespace tessera {
 namespace {
@@ -16,65 +13,9 @@ using namespace testing;
 
 constexpr double kVoxel_m = .01;
 
-PinholeCamera SmallCamera() {
-    return {160, 120, 140, 145, 79.5, 60.5};
-}
-
-Eigen::Isometry3d LookAt(const Eigen::Vector3d& eye, const Eigen::Vector3d& target, double roll_rad = .3) {
-    Eigen::Matrix3d R;
-    R.col(2) = (target - eye).normalized();
-    R.col(0) = Eigen::Vector3d(.1, 1, .2).cross(R.col(2)).normalized();
-    R.col(1) = R.col(2).cross(R.col(0));
-    Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
-    T.linear() = R * Eigen::AngleAxisd(roll_rad, Eigen::Vector3d::UnitZ()).toRotationMatrix();
-    T.translation() = eye;
-    return T;
-}
-
-int CountHits(const PredictedView& view) {
-    return static_cast<int>(std::count_if(view.depth_m.data(), view.depth_m.data() + view.depth_m.size(),
-                                          [](float z) { return z > 0; }));
-}
-
-bool SameBytes(const PredictedView& a, const PredictedView& b) {
-    return a.depth_m == b.depth_m && a.normal_camera == b.normal_camera && a.colour == b.colour &&
-           a.intensity == b.intensity;
-}
-
 double Median(std::vector<double> values) {
     std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
     return values.at(values.size() / 2);
-}
-
-class MeshRasteriserTest : public ::testing::Test {
-  protected:
-    void SetUp() override {
-        rasteriser_ = Make();
-        if (!rasteriser_) GTEST_SKIP() << why_;
-    }
-    std::unique_ptr<MeshRasteriser> Make() {
-        auto made = MeshRasteriser::Create({});
-        if (made.ok()) return std::move(made.value());
-        why_ = made.message();
-        return nullptr;
-    }
-    PredictedView Draw(const BlockMap& map, const PinholeCamera& camera, const Eigen::Isometry3d& T,
-                       float min_depth_m = .1f, float max_depth_m = 5.f) {
-        PredictedView view;
-        rasteriser_->Predict(map, camera, T, min_depth_m, max_depth_m, view);
-        EXPECT_TRUE(rasteriser_->status().ok()) << rasteriser_->status().message();
-        return view;
-    }
-
-    std::unique_ptr<MeshRasteriser> rasteriser_;
-    std::string why_;
-};
-
-PredictedView Cast(const BlockMap& map, const PinholeCamera& camera, const Eigen::Isometry3d& T,
-                   float min_depth_m = .1f, float max_depth_m = 5.f) {
-    PredictedView view;
-    RayCaster().Predict(map, camera, T, min_depth_m, max_depth_m, view);
-    return view;
 }
 
 // Marching cubes meets a plane exactly: so must every pixel, with any intrinsics.
@@ -100,20 +41,6 @@ TEST_F(MeshRasteriserTest, ObliquePlaneIsExact) {
             }
         EXPECT_GT(compared, camera.width * camera.height / 2);
     }
-}
-
-double SceneDistance(const Eigen::Vector3d& p) {
-    static const Sdf kTorus = Torus({.3, -.1, 0}, .2, .07), kBall = Sphere({-.25, .2, .1}, .2);
-    return std::min({kTorus(p), kBall(p), .35 + .02 * std::sin(8 * p.x()) - p.z()});
-}
-
-// A scene without any symmetry, painted.
-void FillScene(BlockMap& map, std::uint32_t revision = 1) {
-    Fill(map, SceneDistance, {-9, -9, -4}, {8, 8, 5},
-         [](const Eigen::Vector3d& p) {
-             return Eigen::Vector3d(.5 + .4 * p.x(), .5 - .4 * p.y(), .5 + .3 * std::sin(20 * p.x() + 9 * p.y()));
-         },
-         revision);
 }
 
 // Whether the depth runs on smoothly around the pixel, by the ray cast view.
@@ -226,111 +153,6 @@ TEST_F(MeshRasteriserTest, FarFromTheWorldsOrigin) {
             const Eigen::Vector3d ray = T.linear() * SmallCamera().Unproject(u, v, 1);
             ASSERT_NEAR(view.depth_m(u, v), normal.dot(middle - T.translation()) / normal.dot(ray), 4e-5);
         }
-}
-
-// What changed is drawn as if everything were new, through the lower neighbours' copies of vertices too; and blocks
-// that are meshed over and over use the same memory.
-TEST_F(MeshRasteriserTest, AfterChangesTheSameAsAFreshOne) {
-    BlockMap map{BlockMap::Config{}};
-    FillScene(map);
-    const Eigen::Isometry3d T = LookAt({.1, .2, -1}, {0, 0, .2});
-    const PredictedView before = Draw(map, SmallCamera(), T);
-    std::size_t bytes = 0;
-    for (std::uint32_t revision = 2; revision < 40; ++revision) {
-        const Sdf ball = Sphere({.2 * std::sin(revision), .2 * std::cos(revision), 0}, .15);
-        for (BlockId id = 1; id < map.size(); ++id)
-            if (Uniform(static_cast<std::uint32_t>(id) * 64 + revision) < .3)
-                FillBlock(map, id, Union(SceneDistance, ball), nullptr, revision);
-        if (revision == 20) map.MarkChanged(map.Allocate({3, 3, -5}), revision);
-        const PredictedView changed = Draw(map, SmallCamera(), T);
-        EXPECT_FALSE(SameBytes(before, changed));
-        if (revision == 10) bytes = rasteriser_->bytes();
-        if (revision % 13 != 0) continue;
-        const auto fresh = Make();
-        PredictedView expected;
-        fresh->Predict(map, SmallCamera(), T, .1f, 5.f, expected);
-        EXPECT_TRUE(SameBytes(changed, expected)) << revision;
-    }
-    EXPECT_LT(rasteriser_->bytes(), bytes + bytes / 3);
-}
-
-// What was uploaded before the buffers had to grow is still there.
-TEST_F(MeshRasteriserTest, TheMapGrows) {
-    BlockMap map{BlockMap::Config{}};
-    FillScene(map);
-    const Eigen::Isometry3d T = LookAt({.1, .2, -1}, {0, 0, .2});
-    const PredictedView before = Draw(map, SmallCamera(), T);
-    const std::size_t bytes = rasteriser_->bytes();
-    Fill(map, Plane({0, 0, -1}, -6), {-20, -20, 73}, {19, 19, 76}, nullptr, 2);
-    EXPECT_TRUE(SameBytes(Draw(map, SmallCamera(), T), before));
-    EXPECT_GT(rasteriser_->bytes(), 2 * bytes);
-    EXPECT_GT(CountHits(Draw(map, SmallCamera(), LookAt({0, 0, 5}, {0, 0, 6}))), 15000);
-}
-
-TEST_F(MeshRasteriserTest, AnotherOrClearedMapIsTakenUpFromScratch) {
-    BlockMap first{BlockMap::Config{}};
-    FillScene(first);
-    const Eigen::Isometry3d T = LookAt({.1, .2, -1}, {0, 0, .2});
-    const PredictedView before = Draw(first, SmallCamera(), T);
-    BlockMap::Config coarse;
-    coarse.voxel_size_m = .02;
-    coarse.truncation_m = .08;
-    BlockMap second{coarse};
-    Fill(second, Sphere({0, 0, 0}, .3), {-3, -3, -3}, {2, 2, 2});
-    const PredictedView ball = Draw(second, SmallCamera(), T);
-    EXPECT_NEAR(CountHits(ball), CountHits(Cast(second, SmallCamera(), T)), 100);
-    EXPECT_TRUE(SameBytes(Draw(first, SmallCamera(), T), before));
-    first.Clear();
-    EXPECT_EQ(CountHits(Draw(first, SmallCamera(), T)), 0);
-    FillScene(first);  // the same blocks with the same revisions
-    EXPECT_TRUE(SameBytes(Draw(first, SmallCamera(), T), before));
-}
-
-TEST_F(MeshRasteriserTest, CamerasMayChangeTheirSizeOrBeTooLarge) {
-    BlockMap map{BlockMap::Config{}};
-    FillScene(map);
-    const Eigen::Isometry3d T = LookAt({.1, .2, -1}, {0, 0, .2});
-    const PredictedView small = Draw(map, SmallCamera(), T);
-    const PredictedView large = Draw(map, {321, 241, 280, 290, 159.5, 121.5}, T);
-    EXPECT_EQ(large.depth_m.width(), 321);
-    EXPECT_GT(CountHits(large), 3 * CountHits(small));
-    EXPECT_TRUE(SameBytes(Draw(map, SmallCamera(), T), small));
-    PredictedView nothing;
-    rasteriser_->Predict(map, {1 << 20, 1, 280, 290, 0, 0}, T, .1f, 5.f, nothing);
-    EXPECT_FALSE(rasteriser_->status().ok());
-    EXPECT_EQ(CountHits(nothing), 0);
-    EXPECT_TRUE(SameBytes(Draw(map, SmallCamera(), T), small));
-}
-
-TEST_F(MeshRasteriserTest, SameBytesForAnyNumberOfThreads) {
-    BlockMap map{BlockMap::Config{}};
-    FillScene(map);
-    const auto with_threads = [&](std::size_t n) {
-        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, n);
-        PredictedView view;
-        Make()->Predict(map, SmallCamera(), LookAt({.1, .2, -1}, {0, 0, .2}), .1f, 5.f, view);
-        return view;
-    };
-    EXPECT_TRUE(SameBytes(with_threads(1), with_threads(4)));
-}
-
-// The last one given back, two at a time, and used on another thread than it was made on.
-TEST_F(MeshRasteriserTest, ContextsComeAndGo) {
-    BlockMap map{BlockMap::Config{}};
-    FillScene(map);
-    const Eigen::Isometry3d T = LookAt({.1, .2, -1}, {0, 0, .2});
-    const PredictedView expected = Draw(map, SmallCamera(), T);
-    EXPECT_NE(rasteriser_->renderer().find("OpenGL"), std::string::npos);
-    for (int i = 0; i < 3; ++i) {
-        rasteriser_.reset();
-        rasteriser_ = Make();
-        ASSERT_TRUE(rasteriser_);
-        const auto other = Make();
-        PredictedView view;
-        std::thread([&] { other->Predict(map, SmallCamera(), T, .1f, 5.f, view); }).join();
-        EXPECT_TRUE(SameBytes(view, expected));
-        EXPECT_TRUE(SameBytes(Draw(map, SmallCamera(), T), expected));
-    }
 }
 
 }  // namespace
