@@ -68,13 +68,15 @@ void Rasterise(benchmark::State& state) {
     if (!rasteriser.ok()) return state.SkipWithError(rasteriser.message().c_str());
     Predict(state, *rasteriser.value(), state.range(0) != 0);
 }
-BENCHMARK(Rasterise)->ArgName("fusing")->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime()->Apply(TakeMinimum);
+BENCHMARK(Rasterise)->ArgName("fusing")->Arg(0)->Arg(1)
+    ->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime()->Apply(TakeMinimum);
 
 void RayCast(benchmark::State& state) {
     RayCaster caster;
     Predict(state, caster, state.range(0) != 0);
 }
-BENCHMARK(RayCast)->ArgName("fusing")->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime()->Apply(TakeMinimum);
+BENCHMARK(RayCast)->ArgName("fusing")->Arg(0)->Arg(1)
+    ->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime()->Apply(TakeMinimum);
 
 }  // namespace
 }  // namespace tessera::bench

@@ -153,7 +153,8 @@ int GlMeshStore::Draw(const Eigen::Matrix4d& clip_from_camera, const Eigen::Isom
     int drawn = 0;
     for (const auto& [sector, list] : draws_) {
         if (list.counts.empty()) continue;
-        const Eigen::Vector3d origin_voxels = Eigen::Vector3d(sector.x, sector.y, sector.z) * kSectorBlocks * kBlockSide;
+        const Eigen::Vector3d origin_voxels =
+            Eigen::Vector3d(sector.x, sector.y, sector.z) * kSectorBlocks * kBlockSide;
         Eigen::Isometry3d T_camera_sector = T_world_camera.inverse();
         T_camera_sector.translation() =
             T_camera_sector.linear() * (origin_voxels * voxel_size_m_ - T_world_camera.translation());

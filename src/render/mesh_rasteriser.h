@@ -11,8 +11,8 @@
 
 namespace tessera {
 
-// One thread at a time. Meshes and uploads only what has changed since its last view; so whoever writes the map must use
-// a new revision after each Predict (Integrator does). Another map, or one that was cleared, is taken up from scratch.
+// One thread at a time. Meshes and uploads only what has changed since its last view; so whoever writes the map must
+// use a new revision after each Predict (Integrator does). Another map, or one that was cleared, is taken up from scratch.
 // The same bytes for any number of threads.
 class MeshRasteriser : public ViewPredictor {
   public:

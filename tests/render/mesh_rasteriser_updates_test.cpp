@@ -37,8 +37,8 @@ TEST_F(MeshRasteriserTest, AfterChangesTheSameAsAFreshOne) {
     EXPECT_LT(rasteriser_->bytes(), bytes + bytes / 3);
 }
 
-// A vertex's normal may change although the lower neighbour, which draws it too, reads nothing that changed: that of the
-// edge from (0, 0, 7) upwards reads the changed block, (-1, 0, 0) does not.
+// A vertex's normal may change although the lower neighbour, which draws it too, reads nothing that changed: that of
+// the edge from (0, 0, 7) upwards reads the changed block, (-1, 0, 0) does not.
 TEST_F(MeshRasteriserTest, BorrowedVerticesFollowTheirOwners) {
     const Sdf plane = Plane({0, 0, -1}, -.075);
     BlockMap map{BlockMap::Config{}};

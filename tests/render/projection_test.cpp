@@ -29,7 +29,8 @@ TEST(Projection, MatrixAndDepthBufferAgree) {
     const PinholeCamera camera{160, 120, 140, 150, 70.25, 66.5};
     const Eigen::Matrix4d clip_from_camera = ClipFromCamera(camera, .2, 7);
     for (const double z : {.2, .5, 1., 3., 6.9999, 7.})
-        for (const Eigen::Vector2d& pixel : {Eigen::Vector2d(0, 0), Eigen::Vector2d(159, 7), Eigen::Vector2d(33.5, 119)}) {
+        for (const Eigen::Vector2d& pixel :
+             {Eigen::Vector2d(0, 0), Eigen::Vector2d(159, 7), Eigen::Vector2d(33.5, 119)}) {
             const Eigen::Vector3d p = camera.Unproject(pixel.x(), pixel.y(), z);
             const Eigen::Vector3d window = Window(camera, clip_from_camera * p.homogeneous());
             EXPECT_NEAR(window.x(), pixel.x() + .5, 1e-10);

@@ -1,5 +1,5 @@
-// What the rasteriser's tests share: cameras, a painted scene without symmetry, and the rasteriser itself, without which
-// they skip.
+// What the rasteriser's tests share: cameras, a painted scene without symmetry, and the rasteriser itself, without
+// which they skip.
 #pragma once
 
 #include <gtest/gtest.h>
