@@ -12,8 +12,8 @@
 namespace tessera {
 
 // One thread at a time. Meshes and uploads only what has changed since its last view; so whoever writes the map must
-// use a new revision after each Predict (Integrator does). Another map, or one that was cleared, is taken up from scratch.
-// The same bytes for any number of threads.
+// use a new revision after each Predict (Integrator does). Another map, or one that was cleared, is taken up from
+// scratch. The same bytes for any number of threads.
 class MeshRasteriser : public ViewPredictor {
   public:
     // Of the last Predict. What is drawn may still be under way when draw_ms ends; read_back_ms waits for it.
