@@ -8,6 +8,7 @@
 
 #include "command.h"
 #include "core/cpu.h"
+#include "render/gl_context.h"
 #include "system/run_config.h"
 
 namespace tessera {
@@ -25,6 +26,8 @@ int Doctor() {
     for (const Preset& preset : Presets()) presets += " " + preset.name;
     fmt::print("presets     {}\n", presets);
     fmt::print("sources      folders (TUM RGB-D, ICL-NUIM, 7-Scenes, camera.yaml), synthetic scenes\n");
+    const auto gl = GlContext::Create();
+    fmt::print("OpenGL       {}\n", gl.ok() ? gl.value()->renderer() : "off: " + gl.message());
     for (const char* off : {"CUDA        ", "cameras     ", ".oni, .klg  ", "window      ", "labels      ", "loop closure"})
         fmt::print("{} not in this version\n", off);
     return kExitDone;

@@ -17,6 +17,20 @@ find_path(DEFLATE_INCLUDE libdeflate.h REQUIRED)
 find_library(DEFLATE_LIBRARY deflate REQUIRED)
 find_path(READERWRITERQUEUE_INCLUDE readerwriterqueue/readerwriterqueue.h REQUIRED)
 
+# OpenGL without a window. epoxy loads EGL and OpenGL when the program runs, so the build needs only its headers and
+# EGL's.
+find_package(PkgConfig)
+if(PkgConfig_FOUND)
+    pkg_check_modules(EPOXY IMPORTED_TARGET epoxy>=1.5)
+    pkg_check_modules(EGL IMPORTED_TARGET egl)
+endif()
+if(EPOXY_FOUND AND EGL_FOUND)
+    set(TESSERA_GL ON)
+else()
+    set(TESSERA_GL OFF)
+    message(STATUS "tessera: rasterised predictions off (install pkg-config and libepoxy-dev)")
+endif()
+
 if(TESSERA_TESTS)
     find_package(GTest REQUIRED)
     include(GoogleTest)

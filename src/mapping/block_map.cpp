@@ -1,6 +1,7 @@
 #include "mapping/block_map.h"
 
 #include <algorithm>
+#include <atomic>
 
 namespace tessera {
 namespace {
@@ -8,6 +9,8 @@ namespace {
 // 2^22 blocks are 2^31 voxels: what a signed 32-bit gather index can reach. At 1 cm voxels that is 2147 cubic
 // metres of near-surface space, 21 GB: memory ends before the index does.
 constexpr std::size_t kMaxBlocks = std::size_t{1} << 22;
+
+std::atomic<std::uint64_t> last_identity = 0;
 
 std::uint32_t Hash(const BlockCoord& c) { return BlockHash(c.x, c.y, c.z); }
 
@@ -54,6 +57,7 @@ void BlockMap::Clear() {
     region_table_.assign(256, 0);
     regions_.clear();
     size_ = 1;
+    identity_ = ++last_identity;
     InitialiseBlock(kUnknownBlock, {kBlockLimit, kBlockLimit, kBlockLimit});
 }
 

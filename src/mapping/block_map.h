@@ -78,6 +78,10 @@ class BlockMap {
     std::size_t bytes() const;         // memory in use by blocks and their index
     double bytes_per_voxel() const;
 
+    // A number that no other map of this process has, and a new one after Clear: whoever keeps copies of the map's
+    // content tells by it that they are another map's.
+    std::uint64_t identity() const { return identity_; }
+
   private:
     static std::size_t Offset(BlockId id) { return static_cast<std::size_t>(id) * kBlockVoxels; }
     void InitialiseBlock(BlockId id, const BlockCoord& coord);
@@ -88,6 +92,7 @@ class BlockMap {
     Config config_;
     BlockId size_ = 1;
     std::size_t max_size_ = 0;
+    std::uint64_t identity_ = 0;
     VirtualArray<FieldWord> field_;
     VirtualArray<std::uint16_t> weight_;
     VirtualArray<ColourWord> colour_;

@@ -109,7 +109,8 @@ class VertexMaker {
         return {static_cast<std::uint16_t>(axis * kBlockVoxels + offset),
                 static_cast<std::uint16_t>(m * 65536 + 0.5f), EncodeNormal(normal),
                 MixColours(w1, map_.colour(blocks_[0])[offset], w2,
-                           map_.colour(next_block)[next_offset], m)};
+                           map_.colour(next_block)[next_offset], m),
+                static_cast<std::uint8_t>(HasIntensity(w1) || HasIntensity(w2))};
     }
 
   private:

@@ -34,6 +34,7 @@ struct BlockMesh {
         std::uint16_t fraction;              // of the way along the edge, in 1/65536; never 0
         std::array<std::int16_t, 2> normal;  // octahedral
         Rgb8 colour;
+        std::uint8_t has_colour;  // 0 or 1; without, colour is mid grey
     };
 
     BlockCoord coord;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <algorithm>
 
 #include "core/camera.h"
 #include "core/image.h"
@@ -19,6 +20,23 @@ struct PredictedView {
         normal_camera;       // unit, camera frame, out of the surface: towards the viewer
     ColourImage colour;      // mid grey where the surface has no colour
     Image<float> intensity;  // [0, 1]; -1 where the surface has none
+
+    // For a new view; the pixels are unspecified afterwards.
+    void Resize(const PinholeCamera& new_camera, const Eigen::Isometry3d& new_T_world_camera) {
+        camera = new_camera;
+        T_world_camera = new_T_world_camera;
+        depth_m.Resize(camera.width, camera.height);
+        normal_camera.Resize(camera.width, camera.height);
+        colour.Resize(camera.width, camera.height);
+        intensity.Resize(camera.width, camera.height);
+    }
+    // No surface anywhere.
+    void SetNothing() {
+        std::fill_n(depth_m.data(), depth_m.size(), 0.0f);
+        std::fill_n(normal_camera.data(), normal_camera.size(), Eigen::Vector3f(0, 0, 0));
+        std::fill_n(colour.data(), colour.size(), Rgb8{});
+        std::fill_n(intensity.data(), intensity.size(), 0.0f);
+    }
 };
 
 // Owner thread only.

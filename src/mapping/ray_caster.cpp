@@ -64,12 +64,7 @@ RayCaster::RayCaster(VectorPath path)
 void RayCaster::Predict(const BlockMap& map, const PinholeCamera& camera,
                         const Eigen::Isometry3d& T_world_camera, float min_depth_m,
                         float max_depth_m, PredictedView& view) {
-    view.camera = camera;
-    view.T_world_camera = T_world_camera;
-    view.depth_m.Resize(camera.width, camera.height);
-    view.normal_camera.Resize(camera.width, camera.height);
-    view.colour.Resize(camera.width, camera.height);
-    view.intensity.Resize(camera.width, camera.height);
+    view.Resize(camera, T_world_camera);
     ranges_.Build(map, camera, T_world_camera, min_depth_m, std::min(max_depth_m, FarthestDepth(map, camera)));
     const RayArguments arguments = ArgumentsFor(map, view);
     tbb::parallel_for(0, ranges_.height, [&](int y) { CastRow(arguments, y); });

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "mapping/ray_caster.h"
+#include "render/mesh_rasteriser.h"
 
 namespace tessera {
 
@@ -43,7 +44,11 @@ TrackResult Trackers::Track(const TrackInput& input) {
 }
 
 std::unique_ptr<ViewPredictor> MakePredictor(IcpTracker::Prediction prediction, std::string& note) {
-    if (prediction == IcpTracker::Prediction::kRaster) note = "not yet";
+    if (prediction == IcpTracker::Prediction::kRaster) {
+        Result<std::unique_ptr<MeshRasteriser>> rasteriser = MeshRasteriser::Create(MeshConfig());
+        if (rasteriser.ok()) return std::move(rasteriser.value());
+        note = "predicting by ray casting: " + rasteriser.status().message();
+    }
     return std::make_unique<RayCaster>();
 }
 

@@ -1,0 +1,174 @@
+#include "render/gl_mesh_store.h"
+
+#include <epoxy/gl.h>
+#include <tbb/parallel_for.h>
+
+#include <array>
+#include <cmath>
+
+namespace tessera {
+
+GlMeshStore::GlMeshStore() {
+    glGenVertexArrays(1, &vertex_array_);
+}
+
+GlMeshStore::~GlMeshStore() {
+    glDeleteVertexArrays(1, &vertex_array_);
+}
+
+void GlMeshStore::Clear() {
+    for (Piece& piece : pieces_) {
+        vertex_pool_.Free(piece.vertices);
+        index_pool_.Free(piece.indices);
+    }
+    pieces_.clear();
+    draws_.clear();
+    blocks_ = triangles_ = 0;
+}
+
+std::size_t GlMeshStore::bytes_used() const {
+    return vertex_pool_.used() * sizeof(GeometryVertex) + index_pool_.used() * sizeof(std::uint16_t);
+}
+
+void GlMeshStore::Update(const BlockMap& map, const Mesher& mesher) {
+    voxel_size_m_ = map.config().voxel_size_m;
+    pieces_.resize(mesher.block_meshes().size());
+    FindStale(map, mesher);
+    if (geometry_.size() < stale_.size()) geometry_.resize(stale_.size());
+    const auto& meshes = mesher.block_meshes();
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, stale_.size(), 16), [&](const auto& range) {
+        for (std::size_t i = range.begin(); i < range.end(); ++i) {
+            const BlockMesh* mesh = meshes[static_cast<std::size_t>(stale_[i])].get();
+            if (mesh)
+                geometry_[i].Build(*mesh, meshes);
+            else
+                geometry_[i].indices.clear();
+        }
+    });
+    for (std::size_t i = 0; i < stale_.size(); ++i) {
+        Piece& piece = pieces_[static_cast<std::size_t>(stale_[i])];
+        piece.coord = map.coord(stale_[i]);
+        Place(piece, geometry_[i]);
+    }
+    BindBuffers();
+    for (std::size_t i = 0; i < stale_.size(); ++i) {
+        const Piece& piece = pieces_[static_cast<std::size_t>(stale_[i])];
+        if (piece.index_count == 0) continue;
+        const auto& [vertices, indices] = geometry_[i];
+        vertex_buffer_.Write(piece.vertices.first * sizeof(vertices[0]), vertices.data(),
+                             vertices.size() * sizeof(vertices[0]));
+        index_buffer_.Write(piece.indices.first * sizeof(indices[0]), indices.data(),
+                            indices.size() * sizeof(indices[0]));
+    }
+}
+
+// What was meshed anew, and the lower neighbours, which hold copies of its vertices.
+void GlMeshStore::FindStale(const BlockMap& map, const Mesher& mesher) {
+    is_stale_.resize(pieces_.size(), 0);
+    stale_.clear();
+    const auto add = [&](BlockId id) {
+        if (id == kUnknownBlock || is_stale_[static_cast<std::size_t>(id)]) return;
+        is_stale_[static_cast<std::size_t>(id)] = 1;
+        stale_.push_back(id);
+    };
+    for (const BlockId id : mesher.updated()) {
+        add(id);
+        for (int slot = 1; slot < 8; ++slot)
+            if (const BlockId lower = map.neighbour(id, -(slot & 1), -(slot >> 1 & 1), -(slot >> 2));
+                mesher.block_meshes()[static_cast<std::size_t>(lower)])
+                add(lower);
+    }
+    for (const BlockId id : stale_) is_stale_[static_cast<std::size_t>(id)] = 0;
+}
+
+// Takes the ranges that the geometry needs, and gives back those that it no longer does.
+void GlMeshStore::Place(Piece& piece, const BlockGeometry& geometry) {
+    const auto index_count = static_cast<std::uint32_t>(geometry.indices.size());
+    const auto vertex_count = index_count == 0 ? 0u : static_cast<std::uint32_t>(geometry.vertices.size());
+    const auto place = [](RangePool& pool, RangePool::Range& range, std::uint32_t count) {
+        if (RangePool::Fits(range, count)) return;
+        pool.Free(range);
+        range = pool.Allocate(count);
+    };
+    place(vertex_pool_, piece.vertices, vertex_count);
+    place(index_pool_, piece.indices, index_count);
+    blocks_ += static_cast<std::size_t>(index_count != 0) - static_cast<std::size_t>(piece.index_count != 0);
+    triangles_ += index_count / 3 - static_cast<std::size_t>(piece.index_count) / 3;
+    piece.index_count = static_cast<std::int32_t>(index_count);
+}
+
+// Sees that the buffers are large enough, and that the vertex array knows their names.
+void GlMeshStore::BindBuffers() {
+    const bool moved = vertex_buffer_.Reserve(vertex_pool_.end() * sizeof(GeometryVertex));
+    if (!index_buffer_.Reserve(index_pool_.end() * sizeof(std::uint16_t)) && !moved) return;
+    glBindVertexArray(vertex_array_);
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, index_buffer_.name());
+    glBindBuffer(GL_ARRAY_BUFFER, vertex_buffer_.name());
+    const auto attribute = [](GLuint location, GLint size, GLenum type, GLboolean normalised, std::size_t offset) {
+        glEnableVertexAttribArray(location);
+        glVertexAttribPointer(location, size, type, normalised, sizeof(GeometryVertex),
+                              reinterpret_cast<const void*>(offset));
+    };
+    attribute(0, 3, GL_FLOAT, GL_FALSE, offsetof(GeometryVertex, position_voxels));
+    attribute(1, 2, GL_SHORT, GL_FALSE, offsetof(GeometryVertex, normal));
+    attribute(2, 4, GL_UNSIGNED_BYTE, GL_TRUE, offsetof(GeometryVertex, colour));
+    glBindVertexArray(0);
+}
+
+// A sphere around each block against the frustum's six sides, in voxels from the camera so that no precision is lost.
+void GlMeshStore::FillDrawLists(const Eigen::Matrix4d& clip_from_camera, const Eigen::Isometry3d& T_world_camera) {
+    Eigen::Matrix4d from_voxels = Eigen::Matrix4d::Identity();
+    from_voxels.topLeftCorner<3, 3>() = T_world_camera.linear().transpose() * voxel_size_m_;
+    const Eigen::Matrix4d clip = clip_from_camera * from_voxels;
+    std::array<Eigen::Vector4f, 6> sides;  // inside where not negative
+    for (int i = 0; i < 6; ++i) {
+        const Eigen::Vector4d side = clip.row(3) + (i & 1 ? -1 : 1) * clip.row(i / 2);
+        sides[static_cast<std::size_t>(i)] = (side / side.head<3>().norm()).cast<float>();
+    }
+    const Eigen::Vector3d camera_voxels = T_world_camera.translation() / voxel_size_m_;
+    constexpr float kRadius = 7;  // of eight cells' cube, rounded up
+    for (auto& [sector, list] : draws_) {
+        list.counts.clear();
+        list.base_vertices.clear();
+        list.offsets.clear();
+    }
+    for (const Piece& piece : pieces_) {
+        if (piece.index_count == 0) continue;
+        const Eigen::Vector3d middle(piece.coord.x * 8 + 4, piece.coord.y * 8 + 4, piece.coord.z * 8 + 4);
+        const Eigen::Vector3f p = (middle - camera_voxels).cast<float>();
+        bool outside = false;
+        for (const Eigen::Vector4f& side : sides) outside |= side.head<3>().dot(p) + side.w() < -kRadius;
+        if (outside) continue;
+        DrawList& list = draws_[SectorOf(piece.coord)];
+        list.counts.push_back(piece.index_count);
+        list.base_vertices.push_back(static_cast<std::int32_t>(piece.vertices.first));
+        list.offsets.push_back(reinterpret_cast<const void*>(piece.indices.first * sizeof(std::uint16_t)));
+    }
+}
+
+int GlMeshStore::Draw(const Eigen::Matrix4d& clip_from_camera, const Eigen::Isometry3d& T_world_camera,
+                      int clip_from_position) {
+    FillDrawLists(clip_from_camera, T_world_camera);
+    glBindVertexArray(vertex_array_);
+    int drawn = 0;
+    for (const auto& [sector, list] : draws_) {
+        if (list.counts.empty()) continue;
+        const Eigen::Vector3d origin_voxels =
+            Eigen::Vector3d(sector.x, sector.y, sector.z) * kSectorBlocks * kBlockSide;
+        Eigen::Isometry3d T_camera_sector = T_world_camera.inverse();
+        T_camera_sector.translation() =
+            T_camera_sector.linear() * (origin_voxels * voxel_size_m_ - T_world_camera.translation());
+        Eigen::Matrix4d from_voxels = T_camera_sector.matrix();
+        from_voxels.topLeftCorner<3, 3>() *= voxel_size_m_;
+        const Eigen::Matrix4f clip = (clip_from_camera * from_voxels).cast<float>();
+        glUniformMatrix4fv(clip_from_position, 1, GL_FALSE, clip.data());
+        const auto count = static_cast<GLsizei>(list.counts.size());
+        glMultiDrawElementsBaseVertex(GL_TRIANGLES, list.counts.data(), GL_UNSIGNED_SHORT, list.offsets.data(), count,
+                                      list.base_vertices.data());
+        drawn += count;
+    }
+    glBindVertexArray(0);
+    return drawn;
+}
+
+}  // namespace tessera

@@ -1,0 +1,44 @@
+// In place of everything that needs OpenGL, in a build without libepoxy: says so.
+#include "render/gl_context.h"
+#include "render/mesh_rasteriser.h"
+
+namespace tessera {
+namespace {
+
+Status Off() {
+    return Status::Error("this build has no OpenGL: install libepoxy-dev and build again");
+}
+
+}  // namespace
+
+Result<std::unique_ptr<GlContext>> GlContext::Create() {
+    return Off();
+}
+GlContext::~GlContext() = default;
+
+struct MeshRasteriser::Impl {};
+Result<std::unique_ptr<MeshRasteriser>> MeshRasteriser::Create(const MeshConfig&) {
+    return Off();
+}
+MeshRasteriser::~MeshRasteriser() = default;
+// Never called: there is no object.
+void MeshRasteriser::Predict(const BlockMap&, const PinholeCamera&, const Eigen::Isometry3d&, float, float,
+                             PredictedView& view) {
+    view.SetNothing();
+}
+const Status& MeshRasteriser::status() const {
+    static const Status status = Off();
+    return status;
+}
+const MeshRasteriser::Timings& MeshRasteriser::timings() const {
+    static const Timings timings;
+    return timings;
+}
+std::string MeshRasteriser::renderer() const {
+    return {};
+}
+std::size_t MeshRasteriser::bytes() const {
+    return 0;
+}
+
+}  // namespace tessera
