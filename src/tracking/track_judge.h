@@ -13,7 +13,7 @@ namespace tessera {
 class TrackJudge {
   public:
     struct Config {
-        double min_eigenvalue = 1e-4;
+        double min_eigenvalue = 5e-4;
         double min_known_fraction = 0.1;
         double min_inlier_fraction = 0.2;
         double good_inlier_fraction = 0.35;
