@@ -16,6 +16,7 @@ find_package(JPEG REQUIRED)
 find_path(DEFLATE_INCLUDE libdeflate.h REQUIRED)
 find_library(DEFLATE_LIBRARY deflate REQUIRED)
 find_path(READERWRITERQUEUE_INCLUDE readerwriterqueue/readerwriterqueue.h REQUIRED)
+find_path(CONCURRENTQUEUE_INCLUDE concurrentqueue/concurrentqueue.h REQUIRED)
 
 # OpenGL without a window. epoxy loads EGL and OpenGL when the program runs, so the build needs only its headers and
 # EGL's.

@@ -1,0 +1,92 @@
+// All that passes between a running system and a person's window: what there is to see goes out, what the person wants
+// comes in. Values over bounded queues; neither side ever waits for the other, and either may be gone.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/frame.h"
+#include "core/queue.h"
+#include "mapping/predicted_view.h"
+#include "render/block_geometry.h"
+#include "system/pipeline.h"
+#include "system/run.h"
+
+namespace tessera {
+
+// Blocks of the map's mesh that were made anew, to replace what the viewer has under the same ids.
+struct MeshUpdate {
+    struct Block {
+        BlockId id = 0;
+        BlockCoord coord;
+        BlockGeometry geometry;  // empty: no surface here (any more)
+    };
+    double voxel_size_m = 0;
+    bool clear = false;  // first forget all that came before
+    std::vector<Block> blocks;
+};
+
+// One frame as far as numbers go.
+struct FrameUpdate {
+    FrameReport report;
+    std::optional<Eigen::Isometry3d> T_world_camera_truth;  // in the map's world
+    double decode_ms = 0, mesh_ms = 0, latency_ms = 0;      // latency: from the frame's arrival to its pose
+    RunCounts counts;                                       // up to and with this frame
+    std::vector<std::pair<const char*, std::size_t>> queues;  // name and how many wait in it
+    MapStatistics map;
+};
+
+// Pictures of one frame; large, so only the newest is kept.
+struct ImageUpdate {
+    std::shared_ptr<const Frame> frame;           // never null
+    std::shared_ptr<const PredictedView> predicted;  // the map from the frame's pose, smaller; null unless wanted
+};
+
+// What a person may change while the system runs; sent whole, the newest counts, in force from the next frame on.
+struct ViewerSettings {
+    TrackingMethod method = TrackingMethod::kSdf;
+    bool auto_alpha = true;
+    double alpha = 0.03;         // m^2, unless auto_alpha
+    double max_depth_m = 5;      // farther measurements are left out
+    bool prealign = true;
+    bool fusing = true;          // off: track, but leave the map as it is
+    bool show_prediction = true; // fill ImageUpdate::predicted
+};
+
+// What a person asks for once.
+struct ViewerCommand {
+    enum class Kind {
+        kPause,     // no further frames until kResume
+        kResume,
+        kStep,      // one frame, then pause
+        kReset,     // an empty map and trajectory; the next frame is the new world
+        kSaveMesh,  // to `path` (.ply)
+        kRecord,    // keep the raw frames from now on, in `path`
+        kStopRecording,
+        kStop,      // end the run, everything saved
+    };
+    Kind kind = Kind::kPause;
+    std::string path;
+};
+
+// Made by the program, shared by the system's threads and the viewer's.
+struct ViewerLink {
+    Wake viewer, system;  // who sleeps on what
+
+    // System to viewer. Frames and messages: one thread pushes.
+    NewestQueue<FrameUpdate> frames{256, viewer};
+    NewestQueue<ImageUpdate> images{1, viewer};
+    FifoQueue<MeshUpdate> meshes{4, viewer};  // full: the changes wait at the mesher
+    NewestQueue<std::string> messages{64, viewer};  // as a person reads them on the console
+    std::atomic<bool> ended{false};                 // the run is over and its files are written
+
+    // Viewer to system.
+    NewestQueue<ViewerSettings> settings{1, system};
+    NewestQueue<ViewerCommand> commands{64, system};
+};
+
+}  // namespace tessera
