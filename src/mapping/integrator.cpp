@@ -51,6 +51,7 @@ void Integrator::Config::Describe(ConfigParameters& p) {
     p.Add("max_colour_weight", max_colour_weight, {1.0, kMaxWeight}, "", "the same for colour");
     p.Add("max_new_blocks", max_new_blocks, {100, 1000000}, "blocks",
           "most blocks that one frame may add; bounds what a garbage frame can cost");
+    p.Section("volume", [&](ConfigParameters& s) { volume.Describe(s); });
 }
 
 Integrator::Integrator(const Config& config, const PinholeCamera& camera, VectorPath path)
@@ -114,7 +115,8 @@ void Integrator::Allocate(const PreparedFrame& frame, const View& view, BlockMap
                                 const BlockCoord c{bx, by, bz};
                                 if (c == last) continue;
                                 last = c;
-                                if (map.Find(c) == kUnknownBlock && InLimits(c)) missing.push_back(c);
+                                if (map.Find(c) == kUnknownBlock && InLimits(c) && config_.volume.Meets(c, block_m))
+                                    missing.push_back(c);
                             }
                 }
             }

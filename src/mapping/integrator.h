@@ -11,6 +11,7 @@
 #include "core/frame_motion.h"
 #include "mapping/block_map.h"
 #include "mapping/fusion_kernels.h"
+#include "mapping/map_volume.h"
 #include "mapping/prepared_frame.h"
 #include "mapping/visible_blocks.h"
 
@@ -26,6 +27,7 @@ class Integrator {
         double max_weight = 128.0;
         double max_colour_weight = 64.0;
         int max_new_blocks = 60000;
+        MapVolume volume;
 
         void Describe(ConfigParameters& parameters);
     };

@@ -30,6 +30,7 @@ void PipelineConfig::Describe(ConfigParameters& p) {
 
 Status PipelineConfig::Validate() const {
     if (Status status = frame.Validate(); !status.ok()) return status;
+    if (Status status = fusion.volume.Validate(); !status.ok()) return status;
     return map.Validate();
 }
 

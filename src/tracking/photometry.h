@@ -20,9 +20,9 @@ class Photometry {
 
     struct Config {
         AlphaMode alpha_mode = AlphaMode::kAuto;
-        double alpha = 0.1;
-        double auto_alpha_min = 0.01;
-        double auto_alpha_max = 0.25;
+        double alpha = 0.05;
+        double auto_alpha_min = 0.003;
+        double auto_alpha_max = 0.05;
         double intensity_scale = 0.1;
         bool brightness = true;
         double brightness_prior = 0.05;
