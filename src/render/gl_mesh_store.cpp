@@ -7,6 +7,17 @@
 
 namespace tessera {
 
+void SetGeometryAttributes() {
+    const auto attribute = [](GLuint location, GLint size, GLenum type, GLboolean normalised, std::size_t offset) {
+        glEnableVertexAttribArray(location);
+        glVertexAttribPointer(location, size, type, normalised, sizeof(GeometryVertex),
+                              reinterpret_cast<const void*>(offset));
+    };
+    attribute(0, 3, GL_FLOAT, GL_FALSE, offsetof(GeometryVertex, position_voxels));
+    attribute(1, 2, GL_SHORT, GL_FALSE, offsetof(GeometryVertex, normal));
+    attribute(2, 4, GL_UNSIGNED_BYTE, GL_TRUE, offsetof(GeometryVertex, colour));
+}
+
 GlMeshStore::GlMeshStore() {
     glGenVertexArrays(1, &vertex_array_);
 }
@@ -72,14 +83,7 @@ void GlMeshStore::BindBuffers() {
     glBindVertexArray(vertex_array_);
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, index_buffer_.name());
     glBindBuffer(GL_ARRAY_BUFFER, vertex_buffer_.name());
-    const auto attribute = [](GLuint location, GLint size, GLenum type, GLboolean normalised, std::size_t offset) {
-        glEnableVertexAttribArray(location);
-        glVertexAttribPointer(location, size, type, normalised, sizeof(GeometryVertex),
-                              reinterpret_cast<const void*>(offset));
-    };
-    attribute(0, 3, GL_FLOAT, GL_FALSE, offsetof(GeometryVertex, position_voxels));
-    attribute(1, 2, GL_SHORT, GL_FALSE, offsetof(GeometryVertex, normal));
-    attribute(2, 4, GL_UNSIGNED_BYTE, GL_TRUE, offsetof(GeometryVertex, colour));
+    SetGeometryAttributes();
     glBindVertexArray(0);
 }
 

@@ -14,6 +14,9 @@
 
 namespace tessera {
 
+// Tells the vertex array in use that the bound array buffer holds GeometryVertex.
+void SetGeometryAttributes();
+
 // Owner thread only, with the same OpenGL context current in every call and when it is destroyed. A program that draws
 // it has the vertex attributes
 //   layout(location = 0) in vec3 position;  // voxels, to be multiplied by the uniform that Draw sets
