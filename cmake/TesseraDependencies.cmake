@@ -32,6 +32,18 @@ else()
     message(STATUS "tessera: rasterised predictions off (install pkg-config and libepoxy-dev)")
 endif()
 
+# The window: ImGui with its GLFW and OpenGL back ends, which Debian compiles into the library.
+if(PkgConfig_FOUND)
+    pkg_check_modules(IMGUI IMPORTED_TARGET imgui>=1.80)
+    pkg_check_modules(GLFW IMPORTED_TARGET glfw3>=3.3)
+endif()
+if(TESSERA_GL AND IMGUI_FOUND AND GLFW_FOUND)
+    set(TESSERA_WINDOW ON)
+else()
+    set(TESSERA_WINDOW OFF)
+    message(STATUS "tessera: window off (install pkg-config, libepoxy-dev, libimgui-dev and libglfw3-dev)")
+endif()
+
 if(TESSERA_TESTS)
     find_package(GTest REQUIRED)
     include(GoogleTest)

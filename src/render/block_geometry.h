@@ -37,4 +37,11 @@ struct BlockGeometry {
     void Build(const BlockMesh& mesh, const std::vector<std::unique_ptr<const BlockMesh>>& meshes);
 };
 
+// One block of the map's mesh, for whoever keeps a copy of it by block ids.
+struct GeometryBlock {
+    BlockId id = 0;
+    BlockCoord coord;
+    BlockGeometry geometry;  // empty: no surface here (any more)
+};
+
 }  // namespace tessera

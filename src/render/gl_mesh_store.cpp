@@ -1,12 +1,22 @@
 #include "render/gl_mesh_store.h"
 
 #include <epoxy/gl.h>
-#include <tbb/parallel_for.h>
 
 #include <array>
 #include <cmath>
 
 namespace tessera {
+
+void SetGeometryAttributes() {
+    const auto attribute = [](GLuint location, GLint size, GLenum type, GLboolean normalised, std::size_t offset) {
+        glEnableVertexAttribArray(location);
+        glVertexAttribPointer(location, size, type, normalised, sizeof(GeometryVertex),
+                              reinterpret_cast<const void*>(offset));
+    };
+    attribute(0, 3, GL_FLOAT, GL_FALSE, offsetof(GeometryVertex, position_voxels));
+    attribute(1, 2, GL_SHORT, GL_FALSE, offsetof(GeometryVertex, normal));
+    attribute(2, 4, GL_UNSIGNED_BYTE, GL_TRUE, offsetof(GeometryVertex, colour));
+}
 
 GlMeshStore::GlMeshStore() {
     glGenVertexArrays(1, &vertex_array_);
@@ -30,55 +40,24 @@ std::size_t GlMeshStore::bytes_used() const {
     return vertex_pool_.used() * sizeof(GeometryVertex) + index_pool_.used() * sizeof(std::uint16_t);
 }
 
-void GlMeshStore::Update(const BlockMap& map, const Mesher& mesher) {
-    voxel_size_m_ = map.config().voxel_size_m;
-    pieces_.resize(mesher.block_meshes().size());
-    FindStale(map, mesher);
-    if (geometry_.size() < stale_.size()) geometry_.resize(stale_.size());
-    const auto& meshes = mesher.block_meshes();
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, stale_.size(), 16), [&](const auto& range) {
-        for (std::size_t i = range.begin(); i < range.end(); ++i) {
-            const BlockMesh* mesh = meshes[static_cast<std::size_t>(stale_[i])].get();
-            if (mesh)
-                geometry_[i].Build(*mesh, meshes);
-            else
-                geometry_[i].indices.clear();
-        }
-    });
-    for (std::size_t i = 0; i < stale_.size(); ++i) {
-        Piece& piece = pieces_[static_cast<std::size_t>(stale_[i])];
-        piece.coord = map.coord(stale_[i]);
-        Place(piece, geometry_[i]);
+void GlMeshStore::Replace(double voxel_size_m, std::span<const GeometryBlock> blocks) {
+    voxel_size_m_ = voxel_size_m;
+    for (const GeometryBlock& block : blocks) {
+        const auto id = static_cast<std::size_t>(block.id);
+        if (id >= pieces_.size()) pieces_.resize(id + 1);
+        pieces_[id].coord = block.coord;
+        Place(pieces_[id], block.geometry);
     }
     BindBuffers();
-    for (std::size_t i = 0; i < stale_.size(); ++i) {
-        const Piece& piece = pieces_[static_cast<std::size_t>(stale_[i])];
+    for (const GeometryBlock& block : blocks) {
+        const Piece& piece = pieces_[static_cast<std::size_t>(block.id)];
         if (piece.index_count == 0) continue;
-        const auto& [vertices, indices] = geometry_[i];
+        const auto& [vertices, indices] = block.geometry;
         vertex_buffer_.Write(piece.vertices.first * sizeof(vertices[0]), vertices.data(),
                              vertices.size() * sizeof(vertices[0]));
         index_buffer_.Write(piece.indices.first * sizeof(indices[0]), indices.data(),
                             indices.size() * sizeof(indices[0]));
     }
-}
-
-// What was meshed anew, and the lower neighbours, which hold copies of its vertices.
-void GlMeshStore::FindStale(const BlockMap& map, const Mesher& mesher) {
-    is_stale_.resize(pieces_.size(), 0);
-    stale_.clear();
-    const auto add = [&](BlockId id) {
-        if (id == kUnknownBlock || is_stale_[static_cast<std::size_t>(id)]) return;
-        is_stale_[static_cast<std::size_t>(id)] = 1;
-        stale_.push_back(id);
-    };
-    for (const BlockId id : mesher.updated()) {
-        add(id);
-        for (int slot = 1; slot < 8; ++slot)
-            if (const BlockId lower = map.neighbour(id, -(slot & 1), -(slot >> 1 & 1), -(slot >> 2));
-                mesher.block_meshes()[static_cast<std::size_t>(lower)])
-                add(lower);
-    }
-    for (const BlockId id : stale_) is_stale_[static_cast<std::size_t>(id)] = 0;
 }
 
 // Takes the ranges that the geometry needs, and gives back those that it no longer does.
@@ -104,14 +83,7 @@ void GlMeshStore::BindBuffers() {
     glBindVertexArray(vertex_array_);
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, index_buffer_.name());
     glBindBuffer(GL_ARRAY_BUFFER, vertex_buffer_.name());
-    const auto attribute = [](GLuint location, GLint size, GLenum type, GLboolean normalised, std::size_t offset) {
-        glEnableVertexAttribArray(location);
-        glVertexAttribPointer(location, size, type, normalised, sizeof(GeometryVertex),
-                              reinterpret_cast<const void*>(offset));
-    };
-    attribute(0, 3, GL_FLOAT, GL_FALSE, offsetof(GeometryVertex, position_voxels));
-    attribute(1, 2, GL_SHORT, GL_FALSE, offsetof(GeometryVertex, normal));
-    attribute(2, 4, GL_UNSIGNED_BYTE, GL_TRUE, offsetof(GeometryVertex, colour));
+    SetGeometryAttributes();
     glBindVertexArray(0);
 }
 

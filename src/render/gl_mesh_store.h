@@ -1,18 +1,21 @@
-// The map's mesh on the graphics card, kept block by block as Mesher keeps it, for whoever draws it: the predicted view
+// The map's mesh on the graphics card, kept block by block, for whoever draws it: the predicted view
 // and a person's window. Knows no target and no shader.
 #pragma once
 
 #include <Eigen/Geometry>
 #include <cstdint>
 #include <map>
+#include <span>
 #include <vector>
 
-#include "mapping/mesher.h"
 #include "render/block_geometry.h"
 #include "render/gl_buffer.h"
 #include "render/range_pool.h"
 
 namespace tessera {
+
+// Tells the vertex array in use that the bound array buffer holds GeometryVertex.
+void SetGeometryAttributes();
 
 // Owner thread only, with the same OpenGL context current in every call and when it is destroyed. A program that draws
 // it has the vertex attributes
@@ -26,10 +29,10 @@ class GlMeshStore {
     GlMeshStore(const GlMeshStore&) = delete;
     GlMeshStore& operator=(const GlMeshStore&) = delete;
 
-    // Brings over what the mesher's last Update(map) meshed; to be called after each of them. Works on all of TBB's
-    // threads.
-    void Update(const BlockMap& map, const Mesher& mesher);
-    // Forgets the mesh, keeps the memory; to be called with Mesher::Clear.
+    // Puts these blocks in the place of what was there under their ids. The voxel size is the whole mesh's: another one
+    // only after Clear.
+    void Replace(double voxel_size_m, std::span<const GeometryBlock> blocks);
+    // Forgets the mesh, keeps the memory.
     void Clear();
 
     // Draws the blocks that may be in view with the program in use, triangles counter-clockwise seen from outside.
@@ -56,16 +59,12 @@ class GlMeshStore {
         std::vector<const void*> offsets;  // bytes in the index buffer
     };
 
-    void FindStale(const BlockMap& map, const Mesher& mesher);
     void Place(Piece& piece, const BlockGeometry& geometry);
     void BindBuffers();
     void FillDrawLists(const Eigen::Matrix4d& clip_from_camera, const Eigen::Isometry3d& T_world_camera);
 
     double voxel_size_m_ = 0;
     std::vector<Piece> pieces_;  // by block id
-    std::vector<BlockId> stale_;
-    std::vector<std::uint8_t> is_stale_;  // by block id
-    std::vector<BlockGeometry> geometry_;  // of stale_, kept for its storage
     std::size_t blocks_ = 0, triangles_ = 0;
 
     RangePool vertex_pool_, index_pool_;

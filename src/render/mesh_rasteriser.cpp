@@ -6,6 +6,7 @@
 
 #include "core/stopwatch.h"
 #include "mapping/mesher.h"
+#include "render/geometry_builder.h"
 #include "render/gl_context.h"
 #include "render/gl_mesh_store.h"
 #include "render/gl_program.h"
@@ -68,6 +69,7 @@ struct MeshRasteriser::Impl {
 
     std::unique_ptr<GlContext> context;
     Mesher mesher;
+    GeometryBuilder builder;
     std::uint64_t map_identity = 0;
     std::optional<GlProgram> program;
     int clip_from_position = -1, camera_from_world = -1;
@@ -99,7 +101,7 @@ void MeshRasteriser::Impl::TakeOver(const BlockMap& map) {
     Stopwatch watch;
     mesher.Update(map);
     timings.mesh_ms = watch.LapMs();
-    store->Update(map, mesher);
+    store->Replace(map.config().voxel_size_m, builder.Build(map, mesher));
     timings.upload_ms = watch.LapMs();
 }
 

@@ -2,6 +2,7 @@
 // comes in. Values over bounded queues; neither side ever waits for the other, and either may be gone.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -20,14 +21,9 @@ namespace tessera {
 
 // Blocks of the map's mesh that were made anew, to replace what the viewer has under the same ids.
 struct MeshUpdate {
-    struct Block {
-        BlockId id = 0;
-        BlockCoord coord;
-        BlockGeometry geometry;  // empty: no surface here (any more)
-    };
     double voxel_size_m = 0;
     bool clear = false;  // first forget all that came before
-    std::vector<Block> blocks;
+    std::vector<GeometryBlock> blocks;
 };
 
 // One frame as far as numbers go.
@@ -38,6 +34,7 @@ struct FrameUpdate {
     RunCounts counts;                                       // up to and with this frame
     std::vector<std::pair<const char*, std::size_t>> queues;  // name and how many wait in it
     MapStatistics map;
+    std::int64_t dropped = 0;                               // by a live source so far, because newer ones came
 };
 
 // Pictures of one frame; large, so only the newest is kept.

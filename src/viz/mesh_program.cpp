@@ -1,0 +1,73 @@
+#include "viz/mesh_program.h"
+
+#include <epoxy/gl.h>
+
+namespace tessera {
+namespace {
+
+constexpr const char* kVertexSource = R"(#version 330 core
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec2 normal;
+layout(location = 2) in vec4 colour;
+uniform mat4 clip_from_position;
+out vec3 normal_world;
+out vec4 weighted_colour;
+
+void main() {
+    gl_Position = clip_from_position * vec4(position, 1);
+    vec2 e = normal / 32767;
+    vec3 n = vec3(e, 1 - abs(e.x) - abs(e.y));
+    if (n.z < 0) n.xy = (1 - abs(e.yx)) * vec2(e.x < 0 ? -1 : 1, e.y < 0 ? -1 : 1);
+    normal_world = normalize(n);
+    weighted_colour = vec4(colour.rgb * colour.a, colour.a);
+}
+)";
+
+// One lamp at the viewer's left shoulder and a little light from the sky: enough for bare walls to show their shape.
+constexpr const char* kFragmentSource = R"(#version 330 core
+in vec3 normal_world;
+in vec4 weighted_colour;
+uniform mat3 world_from_camera;
+uniform vec4 intrinsics;  // fx, fy, cx, cy of OpenGL's pixel positions
+uniform vec3 up;
+uniform int shading;
+out vec4 pixel;
+
+void main() {
+    vec3 n = normal_world / max(length(normal_world), 1e-6);
+    vec3 ray = vec3((gl_FragCoord.xy - intrinsics.zw) / intrinsics.xy, 1);
+    vec3 to_lamp = world_from_camera * normalize(-normalize(ray) + vec3(-0.35, -0.45, 0));
+    float lamp = max(dot(n, to_lamp), 0), sky = 0.5 + 0.5 * dot(n, up);
+    vec3 grey = vec3(0.80, 0.81, 0.83) * (0.16 + 0.16 * sky) + vec3(0.60, 0.585, 0.56) * lamp;
+    if (shading == 0 && weighted_colour.a > 1e-3) {
+        vec3 rgb = weighted_colour.rgb / weighted_colour.a;
+        pixel = vec4(rgb * (0.62 + 0.12 * sky + 0.38 * lamp), 1);
+    } else if (shading == 2) {
+        pixel = vec4((0.5 + 0.5 * n) * (0.72 + 0.34 * lamp), 1);
+    } else {
+        pixel = vec4(grey, 1);
+    }
+}
+)";
+
+}  // namespace
+
+Result<MeshProgram> MeshProgram::Create() {
+    Result<GlProgram> program = GlProgram::Create(kVertexSource, kFragmentSource);
+    if (!program.ok()) return program.status();
+    return MeshProgram(std::move(program.value()));
+}
+
+void MeshProgram::Use(const PinholeCamera& camera, const Eigen::Isometry3d& T_world_camera, const Eigen::Vector3d& up,
+                      Shading shading) const {
+    program_.Use();
+    const Eigen::Matrix3f rotation = T_world_camera.linear().cast<float>();
+    const Eigen::Vector3f up_world = up.cast<float>();
+    glUniformMatrix3fv(program_.Location("world_from_camera"), 1, GL_FALSE, rotation.data());
+    glUniform4f(program_.Location("intrinsics"), static_cast<float>(camera.fx), static_cast<float>(camera.fy),
+                static_cast<float>(camera.cx + 0.5), static_cast<float>(camera.cy + 0.5));
+    glUniform3fv(program_.Location("up"), 1, up_world.data());
+    glUniform1i(program_.Location("shading"), static_cast<int>(shading));
+}
+
+}  // namespace tessera

@@ -1,0 +1,28 @@
+// How the 3D view shades the mesh. Made, used and destroyed with the OpenGL context current.
+#pragma once
+
+#include <Eigen/Geometry>
+
+#include "core/camera.h"
+#include "core/status.h"
+#include "render/gl_program.h"
+#include "viz/viewer_state.h"
+
+namespace tessera {
+
+class MeshProgram {
+  public:
+    static Result<MeshProgram> Create();
+
+    // Draws from now on for this camera; `up` is the world's, unit.
+    void Use(const PinholeCamera& camera, const Eigen::Isometry3d& T_world_camera, const Eigen::Vector3d& up,
+             Shading shading) const;
+    // For GlMeshStore::Draw.
+    int clip_from_position() const { return program_.Location("clip_from_position"); }
+
+  private:
+    explicit MeshProgram(GlProgram program) : program_(std::move(program)) {}
+    GlProgram program_;
+};
+
+}  // namespace tessera

@@ -1,0 +1,134 @@
+// What a person sets and asks for.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "viz/panels.h"
+#include "viz/widgets.h"
+
+namespace tessera {
+namespace {
+
+float WidthOf(int columns) {
+    const float gaps = static_cast<float>(columns - 1) * ImGui::GetStyle().ItemSpacing.x;
+    return (ImGui::GetContentRegionAvail().x - gaps) / static_cast<float>(columns);
+}
+
+void DrawMethods(ViewerState& state) {
+    struct Choice {
+        TrackingMethod method;
+        const char *label, *tip;
+    };
+    static constexpr Choice kChoices[] = {
+        {TrackingMethod::kSdf, "SDF + colour", "Distance field and intensities, [B14]  (1)"},
+        {TrackingMethod::kSdfGeometric, "SDF", "Distance field alone, [B13]  (2)"},
+        {TrackingMethod::kIcp, "ICP", "Point to plane against a predicted view, [D18]  (3)"},
+        {TrackingMethod::kIcpRgb, "ICP + colour", "The same with intensities  (4)"},
+    };
+    GroupTitle("TRACKING");
+    const float width = WidthOf(2);
+    for (const Choice& choice : kChoices) {
+        const std::string name = fmt::format("method.{}", ToString(choice.method));
+        if (MarkedButton(state.controls, name.c_str(), choice.label, width, state.settings.method == choice.method))
+            state.SelectMethod(choice.method);
+        Tip(choice.tip);
+        if (choice.method == TrackingMethod::kSdf || choice.method == TrackingMethod::kIcp) ImGui::SameLine();
+    }
+}
+
+void DrawSettings(ViewerState& state) {
+    ViewerSettings& settings = state.settings;
+    Controls& controls = state.controls;
+    const float label_width = Scaled(88);
+    bool changed = false;
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextUnformatted("Colour");
+    Tip("Weight of the photometric residual against the distances, alpha of [B14] eq. 8, in square metres");
+    ImGui::SameLine(label_width);
+    changed |= MarkedCheckbox(controls, "alpha.auto", "auto", settings.auto_alpha);
+    ImGui::SameLine();
+    double shown = settings.auto_alpha ? state.system.frame().report.track.alpha : settings.alpha;
+    ImGui::BeginDisabled(settings.auto_alpha);
+    if (MarkedSlider(controls, "alpha", shown, 0.0005, 2, "%.4f m\xC2\xB2", true) && !settings.auto_alpha) {
+        settings.alpha = shown;
+        changed = true;
+    }
+    ImGui::EndDisabled();
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextUnformatted("Max depth");
+    Tip("Farther measurements are left out");
+    ImGui::SameLine(label_width);
+    changed |= MarkedSlider(controls, "max_depth", settings.max_depth_m, 0.5, 10, "%.1f m");
+    if (ImGui::BeginTable("switches", 3, ImGuiTableFlags_SizingStretchProp)) {
+        ImGui::TableNextColumn();
+        changed |= MarkedCheckbox(controls, "fusing", "Fuse", settings.fusing);
+        Tip("Off: frames are tracked, but the map stays as it is");
+        ImGui::TableNextColumn();
+        changed |= MarkedCheckbox(controls, "prealign", "Prealign", settings.prealign);
+        Tip("Before tracking, turn the camera by the small images alone: for fast motion");
+        ImGui::TableNextColumn();
+        changed |= MarkedCheckbox(controls, "prediction", "Predict", settings.show_prediction);
+        Tip("Show what the map predicts, beside the measured images");
+        ImGui::EndTable();
+    }
+    if (changed) state.SendSettings();
+}
+
+void DrawCommands(ViewerState& state) {
+    Controls& controls = state.controls;
+    GroupTitle("RUN");
+    const float width = WidthOf(3);
+    ImGui::BeginDisabled(state.ended());
+    if (MarkedButton(controls, "pause", state.paused ? "Resume" : "Pause", width, state.paused)) state.TogglePause();
+    Tip("No further frames, or on again  (Space)");
+    ImGui::SameLine();
+    if (MarkedButton(controls, "step", "Step", width)) state.Step();
+    Tip("One frame, then pause  (S)");
+    ImGui::SameLine();
+    if (MarkedButton(controls, "reset", "Reset", width)) state.ask_reset = true;
+    Tip("An empty map and a new world, after a question  (R)");
+    if (MarkedButton(controls, "save_mesh", "Save mesh", width)) state.SaveMesh();
+    Tip("As .ply  (M)");
+    ImGui::SameLine();
+    if (MarkedButton(controls, "record", state.recording ? "Stop rec." : "Record", width, state.recording))
+        state.ToggleRecording();
+    Tip("Keep the raw frames from now on  (V)");
+    ImGui::SameLine();
+    ImGui::EndDisabled();
+    if (MarkedButton(controls, "screenshot", "Picture", width)) state.want_screenshot = true;
+    Tip("This window as .png  (P)");
+}
+
+}  // namespace
+
+void DrawControlsPanel(ViewerState& state) {
+    ImGui::BeginDisabled(state.ended());
+    DrawMethods(state);
+    DrawSettings(state);
+    ImGui::EndDisabled();
+    DrawCommands(state);
+}
+
+void DrawResetQuestion(ViewerState& state) {
+    if (!state.ask_reset) return;
+    const ImVec2 size = ImGui::GetIO().DisplaySize;
+    ImGui::SetNextWindowPos({size.x / 2, size.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
+    ImGui::OpenPopup("Reset");
+    if (!ImGui::BeginPopupModal("Reset", nullptr,
+                                ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoTitleBar))
+        return;
+    HeadingText("Start anew?");
+    ImGui::TextUnformatted("The map and the path of this run are forgotten.");
+    ImGui::Dummy({0, Scaled(4)});
+    const bool yes = MarkedButton(state.controls, "reset.confirm", "Reset", Scaled(120));
+    ImGui::SameLine();
+    const bool no = MarkedButton(state.controls, "reset.cancel", "Keep", Scaled(120));
+    if (yes) state.Reset();
+    if (yes || no) {
+        state.ask_reset = false;
+        ImGui::CloseCurrentPopup();
+    }
+    ImGui::EndPopup();
+}
+
+}  // namespace tessera

@@ -1,0 +1,69 @@
+// The keys and the pointer, listed.
+#include "viz/panels.h"
+#include "viz/widgets.h"
+
+namespace tessera {
+namespace {
+
+struct Line {
+    const char *keys, *meaning;
+};
+
+constexpr Line kLines[] = {
+    {"Drag", "turn the view around the point looked at"},
+    {"Shift or middle drag", "move the view"},
+    {"Wheel", "nearer, farther"},
+    {"Double click", "look at this point"},
+    {"F", "follow the sensor, or stay"},
+    {"A", "see all of the mesh"},
+    {"C", "shading: colour, grey, normal"},
+    {"W", "wireframe"},
+    {"D", "depth test"},
+    {"T", "ground truth"},
+    {"", ""},
+    {"Space", "pause, resume"},
+    {"S", "one frame, then pause"},
+    {"R", "reset, after a question"},
+    {"1 2 3 4", "SDF + colour, SDF, ICP, ICP + colour"},
+    {"M", "save the mesh"},
+    {"V", "record raw frames, stop recording"},
+    {"P", "picture of this window"},
+    {"H or F1", "this help"},
+    {"Q or Escape", "close; a running scan ends and is saved"},
+};
+
+}  // namespace
+
+void DrawHelp(ViewerState& state) {
+    if (!state.show_help) return;
+    const ImVec2 size = ImGui::GetIO().DisplaySize;
+    ImGui::SetNextWindowPos({size.x / 2, size.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, Scaled(8));
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {Scaled(20), Scaled(16)});
+    ImGui::PushStyleColor(ImGuiCol_WindowBg, ImGui::GetStyleColorVec4(ImGuiCol_PopupBg));
+    ImGui::Begin("help", nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings |
+                     ImGuiWindowFlags_NoNav);
+    HeadingText("Keys and pointer");
+    ImGui::Dummy({0, Scaled(2)});
+    if (ImGui::BeginTable("keys", 2, ImGuiTableFlags_SizingFixedFit)) {
+        for (const Line& line : kLines) {
+            ImGui::TableNextColumn();
+            ImGui::PushStyleColor(ImGuiCol_Text, palette::kAccent);
+            ImGui::TextUnformatted(line.keys);
+            ImGui::PopStyleColor();
+            ImGui::TableNextColumn();
+            ImGui::TextUnformatted(line.meaning);
+        }
+        ImGui::EndTable();
+    }
+    ImGui::Dummy({0, Scaled(4)});
+    if (MarkedButton(state.controls, "help.close", "Close", Scaled(100))) state.show_help = false;
+    const ImVec2 at = ImGui::GetWindowPos(), extent = ImGui::GetWindowSize();
+    state.controls.Mark("help.panel", {at.x, at.y, extent.x, extent.y});
+    ImGui::End();
+    ImGui::PopStyleColor();
+    ImGui::PopStyleVar(2);
+}
+
+}  // namespace tessera

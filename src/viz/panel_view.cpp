@@ -1,0 +1,99 @@
+// The 3D view: its picture, the pointer's work in it, and the few choices over it.
+#include <cmath>
+#include <cstdint>
+
+#include "viz/panels.h"
+#include "viz/widgets.h"
+
+namespace tessera {
+namespace {
+
+// The pointer turns, moves and zooms; a drag takes the camera from the sensor.
+void HandlePointer(ViewerState& state, SceneView& scene, const ControlRect& area) {
+    const ImGuiIO& io = ImGui::GetIO();
+    ViewCamera& camera = scene.camera();
+    const bool hovered = ImGui::IsItemHovered();
+    const bool left = ImGui::IsItemActive() && ImGui::IsMouseDragging(ImGuiMouseButton_Left, 1);
+    const bool middle = ImGui::IsItemActive() && ImGui::IsMouseDragging(ImGuiMouseButton_Middle, 1);
+    const bool moves = io.MouseDelta.x != 0 || io.MouseDelta.y != 0;
+    if ((left || middle) && moves) {
+        state.view.follow = false;
+        if (middle || io.KeyShift)
+            camera.Pan(io.MouseDelta.x, io.MouseDelta.y, area.height);
+        else
+            camera.Rotate(0.007 * io.MouseDelta.x, 0.007 * io.MouseDelta.y);
+    }
+    if (hovered && io.MouseWheel != 0) camera.Zoom(std::pow(0.88, io.MouseWheel));
+    if (hovered && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
+        const ImVec2 scale = io.DisplayFramebufferScale;
+        const auto x = static_cast<int>((io.MousePos.x - area.x) * scale.x);
+        const auto y = static_cast<int>((io.MousePos.y - area.y) * scale.y);
+        if (const auto point = scene.PointAt(x, y)) {
+            state.view.follow = false;
+            camera.LookAt(*point);
+        }
+    }
+}
+
+void DrawToolbar(ViewerState& state, const ControlRect& area) {
+    Controls& controls = state.controls;
+    ViewChoices& view = state.view;
+    ImGui::SetCursorScreenPos({area.x + Scaled(10), area.y + Scaled(10)});
+    ImGui::PushFont(SmallFont());
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {Scaled(4), Scaled(4)});
+    const auto button = [&](const char* name, const char* label, bool lit, const char* tip) {
+        const bool pressed = MarkedButton(controls, name, label, 0, lit);
+        Tip(tip);
+        ImGui::SameLine();
+        return pressed;
+    };
+    for (int i = 0; i < kShadings; ++i) {
+        const auto shading = static_cast<Shading>(i);
+        const std::string name = std::string("shading.") + ToString(shading);
+        if (button(name.c_str(), ToString(shading), view.shading == shading, "Shading  (C)")) view.shading = shading;
+    }
+    ImGui::Dummy({Scaled(6), 0});
+    ImGui::SameLine();
+    if (button("wireframe", "Wireframe", view.wireframe, "Triangles' edges only  (W)")) view.wireframe = !view.wireframe;
+    if (button("depth_test", "Depth test", view.depth_test, "Off: what is behind shows through  (D)"))
+        view.depth_test = !view.depth_test;
+    if (state.link && button("truth", "Truth", view.show_truth, "Path of the ground truth, white  (T)"))
+        view.show_truth = !view.show_truth;
+    ImGui::Dummy({Scaled(6), 0});
+    ImGui::SameLine();
+    if (state.link && button("follow", "Follow", view.follow, "Stay behind the sensor  (F)")) view.follow = !view.follow;
+    if (button("view_all", "All", false, "See all of the mesh  (A)")) state.want_view_all = true;
+    if (button("help", "Help", state.show_help, "Keys and pointer  (H)")) state.show_help = !state.show_help;
+    ImGui::PopStyleVar();
+    ImGui::PopFont();
+}
+
+}  // namespace
+
+void DrawViewPanel(ViewerState& state, SceneView& scene, const ViewPanelFrame& frame) {
+    const ControlRect& area = frame.area;
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
+    const Panel panel("view", area, ImGuiWindowFlags_NoScrollWithMouse);
+    ImGui::PopStyleVar();
+    ImGui::InvisibleButton("picture", {area.width, area.height},
+                           ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonMiddle);
+    ImGui::SetItemAllowOverlap();  // the buttons over it are reached
+    state.controls.MarkLast("view");
+    HandlePointer(state, scene, area);
+    if (state.want_view_all) {
+        state.view.follow = false;
+        state.want_view_all = false;
+        scene.ViewAll();
+    }
+    const ImVec2 scale = ImGui::GetIO().DisplayFramebufferScale;
+    const int width = std::max(static_cast<int>(area.width * scale.x), 1);
+    const int height = std::max(static_cast<int>(area.height * scale.y), 1);
+    scene.Draw(state, width, height, frame.may_redraw_mesh, frame.smooth);
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const ImVec2 from{area.x, area.y}, to{area.x + area.width, area.y + area.height};
+    list.AddRectFilledMultiColor(from, to, palette::kViewTop, palette::kViewTop, palette::kViewBottom, palette::kViewBottom);
+    list.AddImage(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(scene.texture())), from, to);
+    DrawToolbar(state, area);
+}
+
+}  // namespace tessera

@@ -1,0 +1,208 @@
+#include "viz/scene_view.h"
+
+#include <epoxy/gl.h>
+
+#include "render/gl_mesh_store.h"
+#include "render/gl_triangle_mesh.h"
+#include "render/mesh_picture.h"
+#include "render/projection.h"
+#include "viz/gl_lines.h"
+#include "viz/mesh_program.h"
+#include "viz/path_lines.h"
+#include "viz/scene_target.h"
+
+namespace tessera {
+namespace {
+
+constexpr double kNearM = 0.05, kFarM = 500;
+
+}  // namespace
+
+struct SceneView::Impl {
+    Impl(MeshProgram mesh_program, GlLineProgram line_program, bool software)
+        : is_software(software), program(std::move(mesh_program)), lines(std::move(line_program)) {}
+
+    struct Drawn {
+        Eigen::Isometry3d T_world_view = Eigen::Isometry3d::Identity();
+        int width = 0, height = 0;
+        ViewChoices choices;
+        bool smooth = false;
+    };
+    bool Moved(const ViewerState& state, int width, int height, bool is_smooth) const;
+    void DrawMesh(const ViewerState& state, const PinholeCamera& pinhole);
+    void DrawPaths(const ViewerState& state, const PinholeCamera& pinhole);
+
+    bool is_software;
+    MeshProgram program;
+    GlLineProgram lines;
+    GlMeshStore store;
+    GlTriangleMesh model;
+    PathLines paths;
+    SceneTarget target;
+    ViewCamera camera;
+    bool followed = false, changed = true;
+    Drawn drawn;
+
+    MeshUpdate pending;
+    std::size_t pending_done = 0;
+    Eigen::AlignedBox3d bounds;  // of the mesh, metres
+};
+
+Result<std::unique_ptr<SceneView>> SceneView::Create(bool is_software) {
+    Result<MeshProgram> mesh = MeshProgram::Create();
+    if (!mesh.ok()) return mesh.status();
+    Result<GlLineProgram> line = GlLineProgram::Create();
+    if (!line.ok()) return line.status();
+    return std::unique_ptr<SceneView>(new SceneView(
+        std::make_unique<Impl>(std::move(mesh.value()), std::move(line.value()), is_software)));
+}
+
+SceneView::SceneView(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+SceneView::~SceneView() = default;
+
+ViewCamera& SceneView::camera() {
+    return impl_->camera;
+}
+unsigned SceneView::texture() const {
+    return impl_->target.texture();
+}
+std::size_t SceneView::triangles() const {
+    return impl_->store.triangles() + impl_->model.triangles();
+}
+
+void SceneView::SetModel(const ViewedModel& model) {
+    impl_->model.Set(model.mesh);
+    impl_->paths.SetPath(model.path);
+    for (const Eigen::Vector3f& vertex : model.mesh.vertices) impl_->bounds.extend(vertex.cast<double>());
+    const MeshView view = ChooseView(model.mesh, model.path);
+    const Eigen::Vector3d up = std::abs(view.T_world_camera.linear()(2, 1)) > 0.5 &&
+                                       view.T_world_camera.linear()(2, 1) < 0
+                                   ? Eigen::Vector3d(0, 0, 1)
+                                   : Eigen::Vector3d(0, -1, 0);
+    impl_->camera.SetUp(up);
+    const Eigen::Vector3d eye = view.T_world_camera.translation(), forward = view.T_world_camera.linear().col(2);
+    const double ahead = std::max((impl_->bounds.center() - eye).dot(forward), 0.1);
+    impl_->camera.Place(eye, eye + ahead * forward);
+    impl_->changed = true;
+}
+
+bool SceneView::TakeMesh(ViewerLink& link, std::size_t most_bytes) {
+    Impl& s = *impl_;
+    std::size_t bytes = 0;
+    bool any = false;
+    while (bytes < most_bytes) {
+        if (s.pending_done == s.pending.blocks.size()) {
+            s.pending_done = 0;
+            s.pending.blocks.clear();
+            if (!link.meshes.TryPop(s.pending)) break;
+            if (s.pending.clear) {
+                s.store.Clear();
+                s.bounds.setEmpty();
+            }
+            any = true;
+        }
+        const std::size_t first = s.pending_done;
+        for (; s.pending_done < s.pending.blocks.size() && bytes < most_bytes; ++s.pending_done) {
+            const GeometryBlock& block = s.pending.blocks[s.pending_done];
+            bytes += block.geometry.vertices.size() * sizeof(GeometryVertex) + block.geometry.indices.size() * 2 + 64;
+            if (block.geometry.indices.empty()) continue;
+            const Eigen::Vector3d corner(block.coord.x, block.coord.y, block.coord.z);
+            s.bounds.extend(corner * kBlockSide * s.pending.voxel_size_m);
+            s.bounds.extend((corner + Eigen::Vector3d::Ones()) * kBlockSide * s.pending.voxel_size_m);
+        }
+        s.store.Replace(s.pending.voxel_size_m,
+                        std::span(s.pending.blocks).subspan(first, s.pending_done - first));
+        any = true;
+    }
+    s.changed |= any;
+    return any;
+}
+
+bool SceneView::Follow(const ViewerState& state, double since_s) {
+    if (!state.view.follow) {
+        impl_->followed = false;
+        return false;
+    }
+    if (!state.system.has_frame() || !state.system.frame().report.tracked()) return false;
+    const Eigen::Vector3d before = impl_->camera.eye();
+    impl_->camera.Follow(state.system.frame().report.track.T_world_camera, impl_->followed ? since_s : -1);
+    impl_->followed = true;
+    return (impl_->camera.eye() - before).norm() > 1e-3;
+}
+
+void SceneView::ViewAll() {
+    Impl& s = *impl_;
+    if (s.bounds.isEmpty()) return;
+    const Eigen::Vector3d from = s.camera.T_world_camera().linear().col(2);
+    s.camera.LookAt(s.bounds.center());
+    s.camera.Place(s.bounds.center() - from, s.bounds.center());
+    s.camera.Zoom(1.05 * s.bounds.diagonal().norm());
+    s.changed = true;
+}
+
+bool SceneView::Impl::Moved(const ViewerState& state, int width, int height, bool is_smooth) const {
+    const ViewChoices &a = state.view, &b = drawn.choices;
+    return !camera.T_world_camera().isApprox(drawn.T_world_view, 1e-7) || width != drawn.width ||
+           height != drawn.height || is_smooth != drawn.smooth || a.shading != b.shading ||
+           a.wireframe != b.wireframe || a.depth_test != b.depth_test || a.show_truth != b.show_truth;
+}
+
+void SceneView::Draw(const ViewerState& state, int width, int height, bool may_redraw_mesh, bool smooth) {
+    Impl& s = *impl_;
+    s.changed |= s.paths.Update(state);
+    if (!s.Moved(state, width, height, smooth) && !(s.changed && may_redraw_mesh)) return;
+    s.changed = false;
+    s.drawn = {s.camera.T_world_camera(), width, height, state.view, smooth};
+    const PinholeCamera pinhole = ViewCamera::Camera(width, height);
+    s.target.Begin(width, height, smooth || !s.is_software ? 4 : 1);
+    s.DrawMesh(state, pinhole);
+    s.DrawPaths(state, pinhole);
+    s.target.End();
+}
+
+void SceneView::Impl::DrawMesh(const ViewerState& state, const PinholeCamera& pinhole) {
+    if (state.view.depth_test) glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_LESS);
+    glEnable(GL_CULL_FACE);
+    glCullFace(GL_BACK);
+    glFrontFace(GL_CW);  // see ClipFromCamera
+    glDisable(GL_BLEND);
+    glDisable(GL_SCISSOR_TEST);
+    if (state.view.wireframe) glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
+    const Eigen::Isometry3d& T_world_view = drawn.T_world_view;
+    program.Use(pinhole, T_world_view, camera.up(), state.view.shading);
+    const Eigen::Matrix4d clip = ClipFromCamera(pinhole, kNearM, kFarM);
+    store.Draw(clip, T_world_view, program.clip_from_position());
+    model.Draw(clip, T_world_view, program.clip_from_position());
+    glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+    glDisable(GL_CULL_FACE);
+}
+
+// Once as far as they show, and once more, faintly, behind the surfaces.
+void SceneView::Impl::DrawPaths(const ViewerState& state, const PinholeCamera& pinhole) {
+    GlLineProgram::View view;
+    view.clip_from_world = ClipFromCamera(pinhole, kNearM, kFarM) * drawn.T_world_view.inverse().matrix();
+    view.width_px = pinhole.width;
+    view.height_px = pinhole.height;
+    glEnable(GL_BLEND);
+    glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    glEnable(GL_DEPTH_TEST);
+    glDepthMask(GL_FALSE);
+    for (const bool hidden : {true, false}) {
+        glDepthFunc(hidden ? GL_GREATER : GL_LEQUAL);
+        paths.Draw(lines, view, state.view.show_truth, hidden ? 0.22f : 1.0f);
+    }
+    glDepthMask(GL_TRUE);
+    glDepthFunc(GL_LESS);
+    glDisable(GL_DEPTH_TEST);
+    glDisable(GL_BLEND);
+}
+
+std::optional<Eigen::Vector3d> SceneView::PointAt(int x, int y) const {
+    const double buffer = impl_->target.DepthAt(x, y);
+    if (buffer >= 1) return std::nullopt;
+    const PinholeCamera pinhole = ViewCamera::Camera(impl_->drawn.width, impl_->drawn.height);
+    return impl_->drawn.T_world_view * pinhole.Unproject(x, y, DepthFromBuffer(buffer, kNearM, kFarM));
+}
+
+}  // namespace tessera

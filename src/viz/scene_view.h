@@ -1,0 +1,44 @@
+// The 3D view: mesh, paths and the sensor's outline, drawn into a picture. Made, used and destroyed with the OpenGL
+// context current.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "core/status.h"
+#include "viz/view_camera.h"
+#include "viz/viewer_state.h"
+
+namespace tessera {
+
+class SceneView {
+  public:
+    static Result<std::unique_ptr<SceneView>> Create(bool is_software);
+    ~SceneView();
+
+    // In place of a link's meshes.
+    void SetModel(const ViewedModel& model);
+    // Takes what the link has of the mesh, at most about `most_bytes` onto the card; the rest waits, at last in the
+    // mesher. True if anything came.
+    bool TakeMesh(ViewerLink& link, std::size_t most_bytes);
+    // Moves the camera behind the sensor as the choices say. True if it moved.
+    bool Follow(const ViewerState& state, double since_s);
+    // So that all of the mesh shows, from above its middle.
+    void ViewAll();
+
+    // Draws if anything differs from the last picture, and `may_redraw_mesh` or the camera moved.
+    void Draw(const ViewerState& state, int width, int height, bool may_redraw_mesh, bool smooth);
+    unsigned texture() const;
+
+    ViewCamera& camera();
+    // The surface's point at a pixel of the picture, world frame.
+    std::optional<Eigen::Vector3d> PointAt(int x, int y) const;
+    std::size_t triangles() const;
+
+  private:
+    struct Impl;
+    explicit SceneView(std::unique_ptr<Impl> impl);
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace tessera

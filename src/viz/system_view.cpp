@@ -1,0 +1,71 @@
+#include "viz/system_view.h"
+
+namespace tessera {
+
+bool SystemView::Take(ViewerLink& link, double now_s) {
+    bool any = false;
+    FrameUpdate frame;
+    while (link.frames.TryPop(frame)) {
+        Add(std::move(frame), now_s);
+        any = true;
+    }
+    while (link.images.TryPop(images_)) {
+        ++images_taken_;
+        any = true;
+    }
+    std::string message;
+    while (link.messages.TryPop(message)) {
+        Say(message);
+        any = true;
+    }
+    return any;
+}
+
+void SystemView::Say(const std::string& text) {
+    messages_.push_back(text);
+    if (messages_.size() > kMostMessages) messages_.pop_front();
+    ++messages_said_;
+}
+
+void SystemView::Add(FrameUpdate&& update, double now_s) {
+    const FrameReport& report = update.report;
+    if (report.first) {
+        path_.clear();
+        truth_.clear();
+        ++path_identity_;
+    }
+    const bool follows = has_frame_ && frame_.report.tracked() && !report.first;
+    if (report.tracked())
+        path_.push_back({report.track.T_world_camera.translation().cast<float>(), report.track.status, follows});
+    if (update.T_world_camera_truth)
+        truth_.push_back({update.T_world_camera_truth->translation().cast<float>(), TrackStatus::kGood,
+                          has_frame_ && frame_.T_world_camera_truth && !report.first});
+    frame_ = std::move(update);
+    has_frame_ = true;
+
+    arrivals_s_.push_back(now_s);
+    while (arrivals_s_.size() > 2 && now_s - arrivals_s_.front() > 3) arrivals_s_.pop_front();
+    const double span_s = now_s - arrivals_s_.front();
+    fps_ = span_s > 0 ? static_cast<double>(arrivals_s_.size() - 1) / span_s : 0;
+    AddToHistory();
+}
+
+void SystemView::AddToHistory() {
+    const FrameReport& report = frame_.report;
+    const auto add = [](Series& series, double value) { series.Add(static_cast<float>(value)); };
+    History& h = history_;
+    add(h.decode_ms, frame_.decode_ms);
+    add(h.prepare_ms, report.prepare_ms);
+    add(h.track_ms, report.track_ms);
+    add(h.fuse_ms, report.fusion.allocate_ms + report.fusion.fuse_ms);
+    add(h.mesh_ms, frame_.mesh_ms);
+    add(h.latency_ms, frame_.latency_ms);
+    // The first frame starts the map and is not measured against it.
+    add(h.inlier_percent, report.first ? 100 : 100 * report.track.inlier_fraction);
+    add(h.rms_mm, 1000 * report.track.distance_rms_m);
+    add(h.map_mb, static_cast<double>(frame_.map.bytes) / (1 << 20));
+    add(h.dropped, static_cast<double>(frame_.dropped));
+    for (const auto& [name, waiting] : frame_.queues) add(h.queued[name], static_cast<double>(waiting));
+}
+
+}  // namespace tessera

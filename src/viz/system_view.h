@@ -1,0 +1,62 @@
+// What the window knows of the running system: the newest of everything that came over the link, and its recent past.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "system/viewer_link.h"
+#include "viz/series.h"
+
+namespace tessera {
+
+// Owner thread only.
+class SystemView {
+  public:
+    struct PathPoint {
+        Eigen::Vector3f position_m;  // world
+        TrackStatus status = TrackStatus::kGood;
+        bool follows = false;  // the point before is the frame before: nothing was lost between
+    };
+    struct History {
+        Series decode_ms, prepare_ms, track_ms, fuse_ms, mesh_ms, latency_ms;
+        Series inlier_percent, rms_mm, map_mb, dropped;
+        std::map<std::string, Series> queued;  // by the queue's name
+    };
+    static constexpr std::size_t kMostMessages = 500;
+
+    // Takes frames, pictures and messages; meshes go to the 3D view. `now_s`: any steady clock. True if anything came.
+    bool Take(ViewerLink& link, double now_s);
+    // A message of the window's own.
+    void Say(const std::string& text);
+
+    bool has_frame() const { return has_frame_; }
+    const FrameUpdate& frame() const { return frame_; }
+    double fps() const { return fps_; }  // of the last seconds' frames
+    const std::vector<PathPoint>& path() const { return path_; }
+    const std::vector<PathPoint>& truth() const { return truth_; }
+    std::uint64_t path_identity() const { return path_identity_; }  // another one: the paths began anew
+    const ImageUpdate& images() const { return images_; }           // `frame` is null before the first
+    std::uint64_t images_taken() const { return images_taken_; }
+    const History& history() const { return history_; }
+    const std::deque<std::string>& messages() const { return messages_; }  // oldest first
+    std::uint64_t messages_said() const { return messages_said_; }
+
+  private:
+    void Add(FrameUpdate&& update, double now_s);
+    void AddToHistory();
+
+    FrameUpdate frame_;
+    bool has_frame_ = false;
+    double fps_ = 0;
+    std::deque<double> arrivals_s_;
+    std::vector<PathPoint> path_, truth_;
+    std::uint64_t path_identity_ = 1, images_taken_ = 0, messages_said_ = 0;
+    ImageUpdate images_;
+    History history_;
+    std::deque<std::string> messages_;
+};
+
+}  // namespace tessera

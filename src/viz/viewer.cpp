@@ -1,0 +1,192 @@
+#include "viz/viewer.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+
+#include "core/stopwatch.h"
+#include "io/image_io.h"
+#include "viz/panels.h"
+#include "viz/scene_view.h"
+#include "viz/viewer_state.h"
+#include "viz/widgets.h"
+#include "viz/window.h"
+
+namespace tessera {
+namespace {
+
+// After the last input or update, ImGui needs a few rounds until hovering and popups have settled.
+constexpr int kSettlingRounds = 3;
+// On a processor that the system needs as well: how often the mesh is drawn again while nobody moves the view.
+constexpr double kSoftwareMeshPeriodS = 0.25;
+
+struct Layout {
+    ControlRect left, view, plots, messages, images;
+};
+
+Layout LayOut(float width, float height, bool with_system) {
+    if (!with_system) return {.left = {}, .view = {0, 0, width, height}, .plots = {}, .messages = {}, .images = {}};
+    const float left = std::min(Scaled(292), 0.4f * width), right = std::min(Scaled(232), 0.3f * width);
+    const float plots = std::min(Scaled(152), 0.35f * height), messages = std::min(Scaled(64), 0.15f * height);
+    const float middle = std::max(width - left - right - 2, 1.0f), view = std::max(height - plots - messages - 2, 1.0f);
+    return {.left = {0, 0, left, height},
+            .view = {left + 1, 0, middle, view},
+            .plots = {left + 1, view + 1, middle, plots},
+            .messages = {left + 1, view + plots + 2, middle, messages},
+            .images = {width - right, 0, right, height}};
+}
+
+}  // namespace
+
+// Members are destroyed from below: the window, with its context, last.
+struct Viewer::Impl {
+    Impl(std::unique_ptr<Window> opened, ViewerLink* link, const ViewerOptions& options)
+        : window(std::move(opened)), state(link, options) {}
+
+    bool RunOnce();
+    void DrawFrame(bool smooth);
+    void DrawPanels(bool may_redraw_mesh, bool smooth);
+    void TakeScreenshot();
+    double FramePeriodS() const;
+
+    std::unique_ptr<Window> window;
+    ViewerState state;
+    std::unique_ptr<SceneView> scene;
+    ImagesPanel images;
+    Stopwatch clock;
+    double drawn_at_s = -1e9, mesh_drawn_at_s = -1e9, followed_at_s = 0;
+    int rounds_to_draw = kSettlingRounds;
+    bool sent_stop = false, ended_seen = false;
+};
+
+namespace {
+
+Result<std::unique_ptr<Window>> OpenWindow(const ViewerOptions& options) {
+    const std::string title = options.title.empty() ? "Tessera" : options.title + " - Tessera";
+    return Window::Open(title, options.width, options.height);
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Viewer>> Viewer::Open(ViewerLink& link, const ViewerOptions& options) {
+    Result<std::unique_ptr<Window>> window = OpenWindow(options);
+    if (!window.ok()) return window.status();
+    auto impl = std::make_unique<Impl>(std::move(window.value()), &link, options);
+    Result<std::unique_ptr<SceneView>> scene = SceneView::Create(impl->window->is_software());
+    if (!scene.ok()) return scene.status();
+    impl->scene = std::move(scene.value());
+    return std::unique_ptr<Viewer>(new Viewer(std::move(impl)));
+}
+
+Result<std::unique_ptr<Viewer>> Viewer::OpenModel(ViewedModel model, const ViewerOptions& options) {
+    Result<std::unique_ptr<Window>> window = OpenWindow(options);
+    if (!window.ok()) return window.status();
+    auto impl = std::make_unique<Impl>(std::move(window.value()), nullptr, options);
+    Result<std::unique_ptr<SceneView>> scene = SceneView::Create(impl->window->is_software());
+    if (!scene.ok()) return scene.status();
+    impl->scene = std::move(scene.value());
+    impl->state.view.follow = false;
+    if (model.mesh.colours.empty()) impl->state.view.shading = Shading::kGrey;
+    impl->scene->SetModel(model);
+    return std::unique_ptr<Viewer>(new Viewer(std::move(impl)));
+}
+
+Viewer::Viewer(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+Viewer::~Viewer() = default;
+
+void Viewer::Run() {
+    while (RunOnce()) {}
+}
+
+bool Viewer::RunOnce() {
+    return impl_->RunOnce();
+}
+
+std::optional<ControlRect> Viewer::FindControl(const std::string& name) const {
+    return impl_->state.controls.Find(name);
+}
+
+ColourImage Viewer::Picture() {
+    if (impl_->window->ShouldClose() || impl_->window->is_minimised()) return {};
+    for (int i = 0; i < kSettlingRounds; ++i) impl_->DrawFrame(true);
+    return impl_->window->Read();
+}
+
+double Viewer::Impl::FramePeriodS() const {
+    if (state.options.max_fps > 0) return 1 / state.options.max_fps;
+    return window->is_software() ? 1.0 / 15 : 1.0 / 60;
+}
+
+bool Viewer::Impl::RunOnce() {
+    if (window->WaitForInput(state.options.wait_s)) rounds_to_draw = kSettlingRounds;
+    const double now_s = clock.ElapsedMs() / 1000;
+    ViewerLink* const link = state.link;
+    if (link) {
+        if (state.system.Take(*link, now_s)) rounds_to_draw = std::max(rounds_to_draw, 1);
+        constexpr std::size_t kBytesPerRound = std::size_t{4} << 20;
+        if (scene->TakeMesh(*link, kBytesPerRound)) rounds_to_draw = std::max(rounds_to_draw, 1);
+        if (state.ended() && !ended_seen) rounds_to_draw = kSettlingRounds;
+        ended_seen = state.ended();
+    }
+    for (const Window::Key& key : window->TakeKeys()) {
+        if (!ImGui::GetIO().WantTextInput) state.OnKey(key.key, key.mods);
+        rounds_to_draw = kSettlingRounds;
+    }
+    if (scene->Follow(state, std::min(now_s - followed_at_s, 0.2))) rounds_to_draw = std::max(rounds_to_draw, 1);
+    followed_at_s = now_s;
+
+    if (state.close || window->ShouldClose() || (ended_seen && link && state.options.close_at_end)) {
+        if (link && !link->ended && !sent_stop) link->commands.Push({ViewerCommand::Kind::kStop, {}});
+        sent_stop = true;
+        return false;
+    }
+    if (rounds_to_draw > 0 && now_s - drawn_at_s >= FramePeriodS() && !window->is_minimised()) {
+        --rounds_to_draw;
+        drawn_at_s = now_s;
+        DrawFrame(false);
+        window->Show();
+    }
+    if (state.want_screenshot) TakeScreenshot();
+    return true;
+}
+
+void Viewer::Impl::DrawFrame(bool smooth) {
+    const double now_s = clock.ElapsedMs() / 1000;
+    const bool due = !window->is_software() || now_s - mesh_drawn_at_s >= kSoftwareMeshPeriodS;
+    if (due) mesh_drawn_at_s = now_s;
+    window->BeginFrame();
+    state.controls.BeginFrame();
+    DrawPanels(due || smooth, smooth);
+    window->EndFrame();
+}
+
+void Viewer::Impl::DrawPanels(bool may_redraw_mesh, bool smooth) {
+    const ImVec2 size = ImGui::GetIO().DisplaySize;
+    const Layout layout = LayOut(size.x, size.y, state.link != nullptr);
+    DrawViewPanel(state, *scene, {.area = layout.view, .may_redraw_mesh = may_redraw_mesh, .smooth = smooth});
+    if (state.link) {
+        {
+            const Panel left("left", layout.left);
+            DrawStatusPanel(state, *scene);
+            DrawControlsPanel(state);
+        }
+        images.Draw(state, layout.images);
+        DrawPlotsPanel(state, layout.plots);
+        DrawMessagesPanel(state, layout.messages);
+    }
+    DrawHelp(state);
+    DrawResetQuestion(state);
+}
+
+void Viewer::Impl::TakeScreenshot() {
+    state.want_screenshot = false;
+    if (window->is_minimised()) return;
+    DrawFrame(true);
+    const std::string path = state.NewFileName("scan", "png");
+    const Status status = WriteColourImage(path, window->Read());
+    state.system.Say(status.ok() ? "picture saved: " + path : status.message());
+    rounds_to_draw = kSettlingRounds;
+}
+
+}  // namespace tessera

@@ -1,0 +1,113 @@
+#include "viz/viewer_state.h"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <ctime>
+#include <filesystem>
+
+namespace tessera {
+
+const char* ToString(Shading shading) {
+    switch (shading) {
+        case Shading::kColour: return "Colour";
+        case Shading::kGrey: return "Grey";
+        case Shading::kNormal: return "Normal";
+    }
+    return "";
+}
+
+void ViewerState::Send(ViewerCommand::Kind kind, const std::string& path) {
+    if (!ended()) link->commands.Push({kind, path});
+}
+
+void ViewerState::SendSettings() {
+    if (!ended()) link->settings.Push(ViewerSettings(settings));
+}
+
+void ViewerState::SelectMethod(TrackingMethod method) {
+    if (method == settings.method) return;
+    settings.method = method;
+    SendSettings();
+}
+
+void ViewerState::TogglePause() {
+    if (ended()) return;
+    paused = !paused;
+    Send(paused ? ViewerCommand::Kind::kPause : ViewerCommand::Kind::kResume);
+}
+
+void ViewerState::Step() {
+    if (ended()) return;
+    paused = true;
+    Send(ViewerCommand::Kind::kStep);
+}
+
+void ViewerState::Reset() {
+    Send(ViewerCommand::Kind::kReset);
+}
+
+void ViewerState::SaveMesh() {
+    if (!ended()) Send(ViewerCommand::Kind::kSaveMesh, NewFileName("mesh", "ply"));
+}
+
+void ViewerState::ToggleRecording() {
+    if (ended()) return;
+    recording = !recording;
+    if (recording)
+        Send(ViewerCommand::Kind::kRecord, NewFileName("recording", ""));
+    else
+        Send(ViewerCommand::Kind::kStopRecording);
+}
+
+void ViewerState::CycleShading() {
+    view.shading = static_cast<Shading>((static_cast<int>(view.shading) + 1) % kShadings);
+}
+
+void ViewerState::OnKey(int key, int mods) {
+    if (mods & (GLFW_MOD_CONTROL | GLFW_MOD_ALT | GLFW_MOD_SUPER)) return;
+    switch (key) {
+        case GLFW_KEY_SPACE: return TogglePause();
+        case GLFW_KEY_S: return Step();
+        case GLFW_KEY_R: ask_reset = !ended(); return;
+        case GLFW_KEY_M: return SaveMesh();
+        case GLFW_KEY_V: return ToggleRecording();
+        case GLFW_KEY_P: want_screenshot = true; return;
+        case GLFW_KEY_1: return SelectMethod(TrackingMethod::kSdf);
+        case GLFW_KEY_2: return SelectMethod(TrackingMethod::kSdfGeometric);
+        case GLFW_KEY_3: return SelectMethod(TrackingMethod::kIcp);
+        case GLFW_KEY_4: return SelectMethod(TrackingMethod::kIcpRgb);
+        case GLFW_KEY_F: view.follow = !view.follow && link; return;
+        case GLFW_KEY_A: want_view_all = true; return;
+        case GLFW_KEY_C: return CycleShading();
+        case GLFW_KEY_W: view.wireframe = !view.wireframe; return;
+        case GLFW_KEY_D: view.depth_test = !view.depth_test; return;
+        case GLFW_KEY_T: view.show_truth = !view.show_truth; return;
+        case GLFW_KEY_H:
+        case GLFW_KEY_F1: show_help = !show_help; return;
+        case GLFW_KEY_ESCAPE:
+            if (show_help || ask_reset)
+                show_help = ask_reset = false;
+            else
+                close = true;
+            return;
+        case GLFW_KEY_Q: close = true; return;
+        default: return;
+    }
+}
+
+std::string ViewerState::NewFileName(const char* prefix, const char* extension) const {
+    namespace fs = std::filesystem;
+    std::error_code ignored;  // whoever writes the file says what is wrong
+    fs::create_directories(options.output_folder, ignored);
+    const std::string ending = *extension ? std::string(".") + extension : "";
+    const std::string stem = fmt::format("{}-{:%Y%m%d-%H%M%S}", prefix, fmt::localtime(std::time(nullptr)));
+    fs::path path = fs::path(options.output_folder) / (stem + ending);
+    for (int i = 2; fs::exists(path, ignored); ++i)
+        path = fs::path(options.output_folder) / fmt::format("{}-{}{}", stem, i, ending);
+    return path.string();
+}
+
+}  // namespace tessera

@@ -1,0 +1,56 @@
+// What the window's panels share: what they show, what the person has chosen, and what a control does. A button and its
+// key call the same function here.
+#pragma once
+
+#include <string>
+
+#include "viz/controls.h"
+#include "viz/system_view.h"
+#include "viz/viewer.h"
+
+namespace tessera {
+
+// More to come with the data for it: labels, weights.
+enum class Shading { kColour, kGrey, kNormal };
+inline constexpr int kShadings = 3;
+const char* ToString(Shading shading);
+
+struct ViewChoices {
+    Shading shading = Shading::kColour;
+    bool wireframe = false, depth_test = true, follow = true, show_truth = true;
+};
+
+// Owner thread only.
+struct ViewerState {
+    ViewerState(ViewerLink* to_system, const ViewerOptions& given)
+        : link(to_system), options(given), settings(given.settings) {}
+
+    ViewerLink* const link;  // null: a model without a system
+    const ViewerOptions options;
+    SystemView system;
+    Controls controls;
+    ViewChoices view;
+    ViewerSettings settings;  // as last sent
+    bool paused = false, recording = false;
+    bool ask_reset = false, show_help = false, close = false, want_screenshot = false, want_view_all = false;
+
+    bool ended() const { return !link || link->ended; }
+    // Settings are sent whole; to be called after a change of `settings`.
+    void SendSettings();
+    void SelectMethod(TrackingMethod method);
+    void TogglePause();
+    void Step();
+    void Reset();  // asked for and confirmed
+    void SaveMesh();
+    void ToggleRecording();
+    void CycleShading();
+    // The window's keys: GLFW_KEY_* and GLFW_MOD_*.
+    void OnKey(int key, int mods);
+    // "DIR/PREFIX-YYYYMMDD-HHMMSS.EXTENSION", with a number where that exists already; makes the folder.
+    std::string NewFileName(const char* prefix, const char* extension) const;
+
+  private:
+    void Send(ViewerCommand::Kind kind, const std::string& path = {});
+};
+
+}  // namespace tessera

@@ -1,0 +1,94 @@
+#include "viz/widgets.h"
+
+namespace tessera {
+
+void Controls::MarkLast(const std::string& name) {
+    const ImVec2 from = ImGui::GetItemRectMin(), size = ImGui::GetItemRectSize();
+    Mark(name, {from.x, from.y, size.x, size.y});
+}
+
+Panel::Panel(const char* name, const ControlRect& area, ImGuiWindowFlags more) {
+    ImGui::SetNextWindowPos({area.x, area.y});
+    ImGui::SetNextWindowSize({area.width, area.height});
+    ImGui::Begin(name, nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                     ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoNav | more);
+}
+
+Panel::~Panel() {
+    ImGui::End();
+}
+
+void SmallText(ImU32 colour, const std::string& text) {
+    ImGui::PushFont(SmallFont());
+    ImGui::PushStyleColor(ImGuiCol_Text, colour);
+    ImGui::TextUnformatted(text.c_str());
+    ImGui::PopStyleColor();
+    ImGui::PopFont();
+}
+
+void HeadingText(const char* text) {
+    ImGui::PushFont(HeadingFont());
+    ImGui::TextUnformatted(text);
+    ImGui::PopFont();
+}
+
+void GroupTitle(const char* text) {
+    ImGui::Dummy({0, Scaled(4)});
+    SmallText(palette::kDim, text);
+    ImGui::SameLine();
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float y = at.y + 0.55f * ImGui::GetTextLineHeight();
+    ImGui::GetWindowDrawList()->AddLine({at.x, y}, {at.x + ImGui::GetContentRegionAvail().x, y}, palette::kLine);
+    ImGui::NewLine();
+}
+
+void LabelledValue(const char* label, const std::string& value, ImU32 colour) {
+    ImGui::PushStyleColor(ImGuiCol_Text, palette::kDim);
+    ImGui::TextUnformatted(label);
+    ImGui::PopStyleColor();
+    const float width = ImGui::CalcTextSize(value.c_str()).x;
+    ImGui::SameLine(ImGui::GetCursorPosX() + ImGui::GetContentRegionAvail().x - width);
+    ImGui::PushStyleColor(ImGuiCol_Text, colour);
+    ImGui::TextUnformatted(value.c_str());
+    ImGui::PopStyleColor();
+}
+
+void Tip(const char* text) {
+    if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) ImGui::SetTooltip("%s", text);
+}
+
+bool MarkedButton(Controls& controls, const char* name, const char* label, float width, bool lit) {
+    if (lit) {
+        ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
+        ImGui::PushStyleColor(ImGuiCol_ButtonHovered, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
+    }
+    ImGui::PushID(name);
+    const bool pressed = ImGui::Button(label, {width, 0});
+    ImGui::PopID();
+    if (lit) ImGui::PopStyleColor(2);
+    controls.MarkLast(name);
+    return pressed;
+}
+
+bool MarkedCheckbox(Controls& controls, const char* name, const char* label, bool& value) {
+    ImGui::PushID(name);
+    const bool changed = ImGui::Checkbox(label, &value);
+    ImGui::PopID();
+    controls.MarkLast(name);
+    return changed;
+}
+
+bool MarkedSlider(Controls& controls, const char* name, double& value, double least, double most, const char* format,
+                  bool logarithmic) {
+    ImGui::PushID(name);
+    ImGui::SetNextItemWidth(-1);
+    const bool changed = ImGui::SliderScalar("##value", ImGuiDataType_Double, &value, &least, &most, format,
+                                             ImGuiSliderFlags_AlwaysClamp |
+                                                 (logarithmic ? ImGuiSliderFlags_Logarithmic : 0));
+    ImGui::PopID();
+    controls.MarkLast(name);
+    return changed;
+}
+
+}  // namespace tessera

@@ -1,0 +1,119 @@
+#include "viz/stepped_system.h"
+
+#include <fmt/format.h>
+
+#include "core/check.h"
+#include "core/stopwatch.h"
+#include "io/mesh_io.h"
+
+namespace tessera::testing_support {
+
+SteppedSystem::Config SteppedSystem::Small() {
+    Config config;
+    config.synthetic.camera = {160, 120, 131, 131, 79.5, 59.5};
+    config.pipeline.map.voxel_size_m = 0.04;
+    config.pipeline.map.truncation_m = 0.16;
+    return config;
+}
+
+SteppedSystem::SteppedSystem(ViewerLink& link, const Config& config) : link_(link), config_(config) {
+    auto source = OpenSynthetic(config.scene, config.synthetic);
+    TESSERA_CHECK(source.ok(), "{}", source.message());
+    source_ = std::move(source.value());
+    StartAnew();
+}
+
+void SteppedSystem::StartAnew() {
+    pipeline_ = std::make_unique<Pipeline>(config_.pipeline, source_->info().camera);
+    mesher_ = std::make_unique<Mesher>(MeshConfig{});
+    clear_ = true;
+    T_map_truth_.reset();
+}
+
+void SteppedSystem::Obey() {
+    ViewerSettings settings;
+    while (link_.settings.TryPop(settings)) {
+        settings_.push_back(settings);
+        wanted_ = settings;
+        pipeline_->Select(settings.method);
+        pipeline_->SetFusing(settings.fusing);
+    }
+    ViewerCommand command;
+    while (link_.commands.TryPop(command)) {
+        commands_.push_back(command);
+        using Kind = ViewerCommand::Kind;
+        if (command.kind == Kind::kPause || command.kind == Kind::kResume) paused_ = command.kind == Kind::kPause;
+        if (command.kind == Kind::kStep) paused_ = one_step_ = true;
+        if (command.kind == Kind::kReset) StartAnew();
+        if (command.kind == Kind::kStop) stopped_ = true;
+        if (command.kind == Kind::kSaveMesh) {
+            const Status status = WritePly(command.path, mesher_->Assemble());
+            link_.messages.Push(std::string(status.ok() ? "mesh saved: " + command.path : status.message()));
+        }
+    }
+}
+
+bool SteppedSystem::Step() {
+    Obey();
+    if (stopped_) return false;
+    if (paused_ && !one_step_) return true;
+    one_step_ = false;
+    auto frame = std::make_shared<Frame>();
+    for (int i = 0; i < config_.stride; ++i)
+        if (source_->Read(*frame).status != ReadStatus::kOk) return false;
+    ProcessFrame(std::move(frame));
+    return true;
+}
+
+void SteppedSystem::ProcessFrame(std::shared_ptr<const Frame> frame) {
+    FrameUpdate update;
+    Stopwatch watch;
+    update.report = pipeline_->Process(*frame);
+    update.latency_ms = watch.LapMs();
+    const FrameReport& report = update.report;
+    if (report.first && report.tracked() && frame->T_world_camera)
+        T_map_truth_ = report.track.T_world_camera * frame->T_world_camera->inverse();
+    if (T_map_truth_ && frame->T_world_camera) update.T_world_camera_truth = *T_map_truth_ * *frame->T_world_camera;
+    mesher_->Update(pipeline_->map());
+    SendMesh();
+    update.mesh_ms = watch.LapMs();
+    ++counts_.frames;
+    counts_.tracked += report.tracked();
+    counts_.fused += report.fused;
+    counts_.lost += !report.tracked();
+    counts_.poor += report.track.status == TrackStatus::kPoor;
+    update.counts = counts_;
+    update.queues = {{"frames", 0}, {"meshes", link_.meshes.size()}};
+    const BlockMap& map = pipeline_->map();
+    update.map = {map.size() - 1, map.bytes(), map.bytes_per_voxel()};
+    SendImages(frame, report);
+    if (report.first) link_.messages.Push(fmt::format("frame {}: the map begins here", report.index));
+    link_.frames.Push(std::move(update));
+}
+
+void SteppedSystem::SendMesh() {
+    MeshUpdate update;
+    update.voxel_size_m = config_.pipeline.map.voxel_size_m;
+    update.clear = clear_;
+    const auto blocks = builder_.Build(pipeline_->map(), *mesher_);
+    update.blocks.assign(std::make_move_iterator(blocks.begin()), std::make_move_iterator(blocks.end()));
+    clear_ = false;
+    const bool sent = link_.meshes.TryPush(std::move(update));
+    TESSERA_CHECK(sent, "the test must let the viewer take the meshes");
+}
+
+void SteppedSystem::SendImages(const std::shared_ptr<const Frame>& frame, const FrameReport& report) {
+    ImageUpdate images;
+    images.frame = frame;
+    if (wanted_.show_prediction && report.tracked()) {
+        PinholeCamera half = camera();
+        half.width /= 2, half.height /= 2, half.fx /= 2, half.fy /= 2;
+        half.cx = (half.cx + 0.5) / 2 - 0.5, half.cy = (half.cy + 0.5) / 2 - 0.5;
+        auto view = std::make_shared<PredictedView>();
+        caster_.Predict(pipeline_->map(), half, report.track.T_world_camera, 0.1f, 10.0f, *view);
+        images.predicted = std::move(view);
+    }
+    link_.images.Push(std::move(images));
+}
+
+}  // namespace tessera::testing_support

@@ -1,0 +1,61 @@
+// A system behind a viewer's link that a test steps by hand: the real pipeline and mesher on a synthetic scene, on the
+// test's own thread. Remembers every command and setting.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mapping/mesher.h"
+#include "mapping/ray_caster.h"
+#include "render/geometry_builder.h"
+#include "synth/synthetic_source.h"
+#include "system/viewer_link.h"
+
+namespace tessera::testing_support {
+
+class SteppedSystem {
+  public:
+    struct Config {
+        std::string scene = "room";
+        SynthConfig synthetic;
+        PipelineConfig pipeline;
+        int stride = 1;
+    };
+    // Quick: 160 x 120 pixels, 4 cm voxels.
+    static Config Small();
+
+    SteppedSystem(ViewerLink& link, const Config& config);
+
+    // Does what came over the link; then, unless paused, one frame. False at the scene's end or after kStop.
+    bool Step();
+
+    const PinholeCamera& camera() const { return source_->info().camera; }
+    std::int64_t frames() const { return counts_.frames; }
+    const std::vector<ViewerCommand>& commands() const { return commands_; }
+    const std::vector<ViewerSettings>& settings() const { return settings_; }
+
+  private:
+    void Obey();
+    void ProcessFrame(std::shared_ptr<const Frame> frame);
+    void SendImages(const std::shared_ptr<const Frame>& frame, const FrameReport& report);
+    void SendMesh();
+    void StartAnew();
+
+    ViewerLink& link_;
+    Config config_;
+    std::unique_ptr<SyntheticSource> source_;
+    std::unique_ptr<Pipeline> pipeline_;
+    std::unique_ptr<Mesher> mesher_;
+    GeometryBuilder builder_;
+    RayCaster caster_;
+    bool clear_ = true, paused_ = false, one_step_ = false, stopped_ = false;
+    RunCounts counts_;
+    std::optional<Eigen::Isometry3d> T_map_truth_;
+    ViewerSettings wanted_;
+    std::vector<ViewerCommand> commands_;
+    std::vector<ViewerSettings> settings_;
+};
+
+}  // namespace tessera::testing_support
