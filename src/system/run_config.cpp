@@ -5,7 +5,10 @@
 namespace tessera {
 
 void RunConfig::Describe(ConfigParameters& p) {
-    p.Section("source", [&](ConfigParameters& s) { source.Describe(s); });
+    p.Section("source", [&](ConfigParameters& s) {
+        source.Describe(s);
+        s.Section("openni", [&](ConfigParameters& camera) { openni.Describe(camera); });
+    });
     p.Section("synthetic", [&](ConfigParameters& s) { synthetic.Describe(s); });
     pipeline.Describe(p);
     p.Section("meshing", [&](ConfigParameters& s) { meshing.Describe(s); });
