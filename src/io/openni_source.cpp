@@ -48,7 +48,8 @@ class OpenniSource : public FrameSource {
           pairing_(config.max_pair_gap_s, about_.shortest_period_s),
           clock_(is_recording ? kLargestPause_s : kLargestJump_s),
           heard_depth_s_(Now_s()),
-          heard_colour_s_(heard_depth_s_) {
+          heard_colour_s_(heard_depth_s_),
+          prefix_(any_device ? "" : name + ": ") {
         info_.name = name;
         info_.kind = is_recording ? ".oni recording" : about_.name + " (OpenNI2 camera)";
         info_.camera = about_.camera;
@@ -111,7 +112,7 @@ class OpenniSource : public FrameSource {
         const bool is_depth = arrival.event == OpenniCamera::Event::kDepth;
         (is_depth ? heard_depth_s_ : heard_colour_s_) = now_s;
         const auto skip = [&](const std::string& why) {
-            return ReadResult{ReadStatus::kSkip, fmt::format("{}: {} image {}: {}", info_.name, is_depth ? "depth" : "colour",
+            return ReadResult{ReadStatus::kSkip, fmt::format("{}{} image {}: {}", prefix_, is_depth ? "depth" : "colour",
                                                              arrival.number, why)};
         };
         if (!arrival.fault.empty()) return skip(arrival.fault);
@@ -121,7 +122,7 @@ class OpenniSource : public FrameSource {
             return skip(fmt::format("its stamp of {} us is absurd", arrival.stamp_us));
         if (reading.was_reset) {
             pairing_.Clear();
-            message_ = info_.name + ": the camera's clock was set to another time; stamps go on from the last";
+            message_ = prefix_ + "the camera's clock was set to another time; stamps go on from the last";
         }
         if (is_depth)
             pairing_.AddDepth(reading.stamp_s, depth_);
@@ -144,15 +145,15 @@ class OpenniSource : public FrameSource {
         const std::int64_t alone = pairing_.depth_alone();
         if (alone < kManyAlone || alone_told_) return {};
         alone_told_ = true;
-        return fmt::format("{}: {} of the first {} depth images had no colour image within {:.0f} ms and were left out (do "
+        return fmt::format("{}{} of the first {} depth images had no colour image within {:.0f} ms and were left out (do "
                            "depth and colour come at different rates?)",
-                           info_.name, alone, alone + pairing_.pairs(), 1000 * config_.max_pair_gap_s);
+                           prefix_, alone, alone + pairing_.pairs(), 1000 * config_.max_pair_gap_s);
     }
 
     std::string Silence(double now_s) {
         silence_told_ = true;
         const bool no_depth = now_s - heard_depth_s_ >= kSilence_s, no_colour = now_s - heard_colour_s_ >= kSilence_s;
-        std::string text = fmt::format("{}: no {} for {:.1f} s", info_.name,
+        std::string text = fmt::format("{}no {} for {:.1f} s", prefix_,
                                        no_depth && no_colour ? "images" : no_depth ? "depth images" : "colour images",
                                        now_s - std::min(heard_depth_s_, heard_colour_s_));
         if (!camera_->about().frame_sync) return text;
@@ -164,8 +165,8 @@ class OpenniSource : public FrameSource {
         drained_ = true;
         const std::int64_t alone = pairing_.depth_alone();
         if (alone == 0) return {ReadStatus::kEnd, {}};
-        return {ReadStatus::kWait, fmt::format("{}: {} of {} depth images had no colour image within {:.0f} ms and were left out",
-                                               info_.name, alone, alone + pairing_.pairs(), 1000 * config_.max_pair_gap_s)};
+        return {ReadStatus::kWait, fmt::format("{}{} of {} depth images had no colour image within {:.0f} ms and were left out",
+                                               prefix_, alone, alone + pairing_.pairs(), 1000 * config_.max_pair_gap_s)};
     }
 
     ReadResult Unplug() {
@@ -173,7 +174,7 @@ class OpenniSource : public FrameSource {
         pairing_.Clear();
         const std::string recording =
             recording_path_.empty() ? "" : "; " + PartName(recording_path_, recording_part_) + " ends here";
-        return {ReadStatus::kWait, info_.name + ": camera unplugged, waiting for it" + recording};
+        return {ReadStatus::kWait, prefix_ + "camera unplugged, waiting for it" + recording};
     }
 
     // One try, at most a fraction of a second.
@@ -189,7 +190,7 @@ class OpenniSource : public FrameSource {
             about_.uri = about.uri;
             clock_.Restart();
             heard_depth_s_ = heard_colour_s_ = Now_s();
-            return {ReadStatus::kWait, info_.name + ": camera is back" + ContinueRecording()};
+            return {ReadStatus::kWait, prefix_ + "camera is back" + ContinueRecording()};
         }
         runtime_->WaitForChange(kBetweenTries_s);
         return {ReadStatus::kWait, {}};
@@ -217,6 +218,7 @@ class OpenniSource : public FrameSource {
     std::int64_t next_index_ = 0;
     bool ended_ = false, drained_ = false;  // no more images; no more pairs
     bool silence_told_ = false, alone_told_ = false;
+    const std::string prefix_;  // of messages
     std::string message_;
     std::string recording_path_;
     bool lossless_colour_ = true;

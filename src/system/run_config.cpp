@@ -12,6 +12,7 @@ void RunConfig::Describe(ConfigParameters& p) {
     p.Section("synthetic", [&](ConfigParameters& s) { synthetic.Describe(s); });
     pipeline.Describe(p);
     p.Section("meshing", [&](ConfigParameters& s) { meshing.Describe(s); });
+    p.Section("record", [&](ConfigParameters& s) { record.Describe(s); });
     p.Section("run", [&](ConfigParameters& s) {
         s.Add("threads", threads, {0, 256}, "",
               "threads of the parallel loops, 0 = one per core; results do not depend on it");
