@@ -8,11 +8,22 @@
 
 #include "command.h"
 #include "core/cpu.h"
+#include "io/openni_devices.h"
 #include "render/gl_context.h"
 #include "system/run_config.h"
 
 namespace tessera {
 namespace {
+
+void PrintCameras(const OpenniListing& listing) {
+    const std::string library = listing.built_in ? "OpenNI2 " + listing.version + ": " : "";
+    const std::string count = listing.devices.empty() ? "none" : std::to_string(listing.devices.size());
+    fmt::print("cameras      {}{}\n", library, listing.built_in ? count : listing.advice.front());
+    if (!listing.built_in) return;
+    for (const OpenniDevice& device : listing.devices)
+        fmt::print("             openni2:{}  {} {}\n", device.uri, device.vendor, device.name);
+    for (const std::string& line : listing.advice) fmt::print("             {}\n", line);
+}
 
 int Doctor() {
     const double memory_gb = static_cast<double>(sysconf(_SC_PHYS_PAGES)) *
@@ -25,10 +36,11 @@ int Doctor() {
     std::string presets;
     for (const Preset& preset : Presets()) presets += " " + preset.name;
     fmt::print("presets     {}\n", presets);
-    fmt::print("sources      folders (TUM RGB-D, ICL-NUIM, 7-Scenes, camera.yaml), synthetic scenes\n");
+    fmt::print("sources      folders (TUM RGB-D, ICL-NUIM, 7-Scenes, camera.yaml), .oni recordings, synthetic scenes\n");
     const auto gl = GlContext::Create();
     fmt::print("OpenGL       {}\n", gl.ok() ? gl.value()->renderer() : "off: " + gl.message());
-    for (const char* off : {"CUDA        ", "cameras     ", ".oni, .klg  ", "window      ", "labels      ", "loop closure"})
+    PrintCameras(ListOpenniDevices());
+    for (const char* off : {"CUDA        ", ".klg        ", "window      ", "labels      ", "loop closure"})
         fmt::print("{} not in this version\n", off);
     return kExitDone;
 }

@@ -30,10 +30,13 @@ void PrintSource(const SourceInfo& info) {
 void PrintFirstFrame(FrameSource& source) {
     Frame frame;
     ReadResult read;
+    constexpr int kMostWaits = 20;  // each at most half a second, of a camera that gives nothing
+    int waits = 0;
     do {
         read = source.Read(frame);
         if (!read.message.empty()) fmt::print("note: {}\n", read.message);
-    } while (read.status == ReadStatus::kSkip);
+        waits += read.status == ReadStatus::kWait;
+    } while (read.status == ReadStatus::kSkip || (read.status == ReadStatus::kWait && waits < kMostWaits));
     if (read.status != ReadStatus::kOk) return;
     std::vector<float> depths;
     for (std::size_t i = 0; i < frame.depth_m.size(); ++i)
@@ -66,7 +69,7 @@ int Info(const Arguments& a) {
 void AddInfoCommand(CLI::App& app, CommandContext& context) {
     auto a = std::make_shared<Arguments>();
     CLI::App* command = app.add_subcommand("info", "Say what a source holds");
-    command->add_option("SOURCE", a->source, "Folder or synthetic:NAME")->required();
+    command->add_option("SOURCE", a->source, "Folder, openni2:[URI], FILE.oni or synthetic:NAME")->required();
     a->config.AddTo(*command);
     command->callback([a, &context] { context.exit_code = Info(*a); });
 }

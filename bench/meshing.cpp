@@ -62,7 +62,7 @@ int Run(const std::string& source_path, std::int64_t frames, std::vector<BudgetR
     for (;;) {
         const ReadResult read = reader.Next(frame);
         if (read.status == ReadStatus::kEnd || read.status == ReadStatus::kError) break;
-        if (read.status == ReadStatus::kSkip || !pipeline.Process(frame).fused) continue;
+        if (read.status != ReadStatus::kOk || !pipeline.Process(frame).fused) continue;
         for (BudgetRun& run : runs) {
             const double before_ms = ThreadCpuMs();
             one_thread.execute([&] { run.mesher.Update(pipeline.map(), run.budget_blocks); });

@@ -44,6 +44,16 @@ else()
     message(STATUS "tessera: window off (install pkg-config, libepoxy-dev, libimgui-dev and libglfw3-dev)")
 endif()
 
+# Depth cameras (Kinect, Xtion) and .oni recordings.
+find_path(OPENNI2_INCLUDE OpenNI.h PATH_SUFFIXES openni2)
+find_library(OPENNI2_LIBRARY OpenNI2)
+if(OPENNI2_INCLUDE AND OPENNI2_LIBRARY)
+    set(TESSERA_OPENNI2 ON)
+else()
+    set(TESSERA_OPENNI2 OFF)
+    message(STATUS "tessera: OpenNI2 cameras and .oni recordings off (install libopenni2-dev)")
+endif()
+
 if(TESSERA_TESTS)
     find_package(GTest REQUIRED)
     include(GoogleTest)

@@ -71,4 +71,13 @@ Result<CameraCalibration> ReadCameraFile(const std::string& path) {
     return c;
 }
 
+std::string CameraFileText(const CameraCalibration& calibration) {
+    const PinholeCamera& p = calibration.pinhole;
+    const LensDistortion& d = calibration.distortion;
+    const std::string lens =
+        d.IsZero() ? "" : fmt::format("distortion: [{}, {}, {}, {}, {}]\n", d.k1, d.k2, d.p1, d.p2, d.k3);
+    return fmt::format("width: {}\nheight: {}\nfx: {}\nfy: {}\ncx: {}\ncy: {}\n{}depth_scale: {}\nfps: {}\n", p.width,
+                       p.height, p.fx, p.fy, p.cx, p.cy, lens, calibration.depth_scale, calibration.fps);
+}
+
 }  // namespace tessera

@@ -45,4 +45,7 @@ struct CameraCalibration {
 // taken as positive. Unknown keys, missing intrinsics and impossible values are errors that name file and key.
 Result<CameraCalibration> ReadCameraFile(const std::string& path);
 
+// The text of such a file, every value to its last bit.
+std::string CameraFileText(const CameraCalibration& calibration);
+
 }  // namespace tessera

@@ -18,7 +18,22 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string ErrorText(int error) {
+// Unique in this process and, by the process id, among all that write to the same folder.
+std::string TemporaryName(const std::string& target) {
+    static std::atomic<unsigned> counter{0};
+    return fmt::format("{}.{}-{}.tmp", target, getpid(), counter.fetch_add(1));
+}
+
+std::string BehindLinks(const std::string& path) {
+    std::error_code error;
+    if (!fs::is_symlink(path, error)) return path;
+    const fs::path target = fs::weakly_canonical(path, error);
+    return error ? path : target.string();
+}
+
+}  // namespace
+
+std::string WriteErrorText(int error) {
     switch (error) {
         case ENOSPC:
         case EDQUOT:
@@ -36,21 +51,6 @@ std::string ErrorText(int error) {
             return std::generic_category().message(error);
     }
 }
-
-// Unique in this process and, by the process id, among all that write to the same folder.
-std::string TemporaryName(const std::string& target) {
-    static std::atomic<unsigned> counter{0};
-    return fmt::format("{}.{}-{}.tmp", target, getpid(), counter.fetch_add(1));
-}
-
-std::string BehindLinks(const std::string& path) {
-    std::error_code error;
-    if (!fs::is_symlink(path, error)) return path;
-    const fs::path target = fs::weakly_canonical(path, error);
-    return error ? path : target.string();
-}
-
-}  // namespace
 
 AtomicFile::AtomicFile(const std::string& path) : path_(path), target_(BehindLinks(path)) {
     struct stat info {};
@@ -76,7 +76,7 @@ AtomicFile::~AtomicFile() {
 void AtomicFile::Fail(const char* what) {
     const int error = errno;
     if (!status_.ok()) return;
-    status_ = Status::Error(fmt::format("{}: {}: {}", path_, what, ErrorText(error)));
+    status_ = Status::Error(fmt::format("{}: {}: {}", path_, what, WriteErrorText(error)));
 }
 
 void AtomicFile::Close() {
@@ -95,9 +95,9 @@ void AtomicFile::Write(std::string_view bytes) {
     }
 }
 
-Status AtomicFile::Commit() {
+Status AtomicFile::Commit(Sync sync) {
     // Pipes and some devices know no sync: not an error of ours.
-    if (status_.ok() && fsync(file_) != 0 && errno != EINVAL && errno != EROFS)
+    if (status_.ok() && sync == Sync::kNow && fsync(file_) != 0 && errno != EINVAL && errno != EROFS)
         Fail("cannot be written");
     Close();
     if (status_.ok() && !temporary_.empty()) {
@@ -123,7 +123,7 @@ Status PrepareOutputFolder(const std::string& path) {
         return Status::Error(path + ": is a file; give a folder to write to");
     if (error)
         return Status::Error(
-            fmt::format("{}: the folder cannot be made: {}", path, ErrorText(error.value())));
+            fmt::format("{}: the folder cannot be made: {}", path, WriteErrorText(error.value())));
     const std::string probe = TemporaryName((fs::path(path) / "probe").string());
     const Status status = WriteTextFile(probe, std::string(4096, ' '));
     unlink(probe.c_str());
@@ -137,7 +137,7 @@ Result<std::string> ReadWholeFile(const std::string& path, std::size_t max_bytes
     const auto fail = [&](const std::string& why) { return Status::Error(path + ": " + why); };
     struct stat info {};
     if (stat(path.c_str(), &info) != 0)
-        return fail(errno == ENOENT ? "no such file" : "cannot be read: " + ErrorText(errno));
+        return fail(errno == ENOENT ? "no such file" : "cannot be read: " + WriteErrorText(errno));
     if (S_ISDIR(info.st_mode)) return fail("is a folder; give a file");
     const auto too_large = [&] { return fail(fmt::format("has more than {} bytes", max_bytes)); };
     const auto claimed = static_cast<std::size_t>(std::max<off_t>(info.st_size, 0));

@@ -9,19 +9,21 @@
 #include "core/camera.h"
 #include "core/frame.h"
 #include "core/se3.h"
+#include "core/status.h"
 
 namespace tessera {
 
 enum class ReadStatus {
     kOk,     // `frame` is filled
     kSkip,   // this frame is bad (message says why); the next Read gives the one after it
+    kWait,   // nothing yet: no frame, `frame` as it was; Read again (message, if any, is for a person)
     kEnd,    // no more frames
     kError,  // the source is broken for good (message says why)
 };
 
 struct ReadResult {
     ReadStatus status = ReadStatus::kOk;
-    std::string message;  // names the file and what is wrong; empty when kOk or kEnd
+    std::string message;  // names the file and what is wrong; empty when kOk or kEnd, mostly when kWait
 };
 
 struct SourceInfo {
@@ -30,6 +32,10 @@ struct SourceInfo {
     PinholeCamera camera;       // of the frames handed out (after rectification)
     std::int64_t frame_count = -1;  // pairs, -1 if not known beforehand
     double fps = 30;
+    // A device: its frames come at its own pace, and those that nobody takes in time are lost. Such a source returns from
+    // Read at least every half second, with kWait if there is no frame.
+    bool live = false;
+    double depth_units_per_m = 5000;  // what the source's own integer depth counts: exact steps of depth_m
     bool rectified = false;     // lens distortion was corrected
     bool has_truth = false;
     std::vector<std::string> notes;  // what a person should know: unpaired images, repeated stamps, ...
@@ -43,6 +49,10 @@ class FrameSource {
     virtual ReadResult Read(Frame& frame) = 0;
     // Jumps so that the next Read returns frame `index` of the source's list. Sources that cannot return false.
     virtual bool Seek(std::int64_t index) = 0;
+    // Has the source itself record everything that it gives into this .oni file, until its end; before the first Read.
+    // With `lossless_colour` off colours are JPEG, a tenth of the size; depth is always exact. Only OpenNI2 cameras can:
+    // others return an error that says what to do (a FrameRecorder records any source).
+    virtual Status RecordTo(const std::string& path, bool lossless_colour);
 };
 
 // Which part of a source to read.

@@ -41,6 +41,16 @@ Result<Image<std::uint16_t>> ReadDepthImage(const std::string& path) {
     return image;
 }
 
+void StoreDepth(const DepthImage& depth_m, double units_per_m, Image<std::uint16_t>& stored) {
+    stored.Resize(depth_m.width(), depth_m.height());
+    const float* from = depth_m.data();
+    std::uint16_t* to = stored.data();
+    for (std::size_t i = 0; i < stored.size(); ++i) {
+        const double value = static_cast<double>(from[i]) * units_per_m + 0.5;
+        to[i] = static_cast<std::uint16_t>(value >= 0.5 && value < 65536 ? static_cast<int>(value) : 0);
+    }
+}
+
 Status WriteColourImage(const std::string& path, const ColourImage& image) {
     cv::Mat bgr;
     if (!image.empty()) cv::cvtColor(Wrap(image, CV_8UC3), bgr, cv::COLOR_RGB2BGR);

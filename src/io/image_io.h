@@ -13,6 +13,10 @@ Result<ColourImage> ReadColourImage(const std::string& path);
 // 16-bit single-channel images only: an 8-bit or three-channel "depth" is refused by name. Raw values.
 Result<Image<std::uint16_t>> ReadDepthImage(const std::string& path);
 
+// Depth as integers of 1 / units_per_m metres, rounded; what is not finite, negative or over 65535 of them becomes 0, "no
+// measurement". `stored`: its storage is reused.
+void StoreDepth(const DepthImage& depth_m, double units_per_m, Image<std::uint16_t>& stored);
+
 Status WriteColourImage(const std::string& path, const ColourImage& image);  // by extension: .png, .jpg (quality 95)
 Status WriteDepthImage(const std::string& path, const Image<std::uint16_t>& image);
 Status WriteGreyImage(const std::string& path, const Image<std::uint8_t>& image);

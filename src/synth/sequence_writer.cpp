@@ -19,15 +19,6 @@ namespace {
 constexpr double kDepthScale = 5000;  // stored value per metre
 constexpr float kFarthestStored_m = static_cast<float>(65535 / kDepthScale);
 
-Image<std::uint16_t> StoredDepth(const DepthImage& depth_m) {
-    Image<std::uint16_t> stored(depth_m.width(), depth_m.height());
-    for (std::size_t i = 0; i < depth_m.size(); ++i) {
-        const double value = std::round(depth_m.data()[i] * kDepthScale);
-        stored.data()[i] = value <= 65535 ? static_cast<std::uint16_t>(value) : std::uint16_t{0};
-    }
-    return stored;
-}
-
 Status FirstError(std::initializer_list<Status> statuses) {
     for (const Status& status : statuses)
         if (!status.ok()) return status;
@@ -58,8 +49,6 @@ class Writer {
     TriangleMesh Reference() const { return source_.scene().PatchMesh(&seen_patches_); }
 
   private:
-    std::string CameraText() const;
-
     SyntheticSource& source_;
     std::string folder_;
     SeenObjects objects_;
@@ -70,10 +59,12 @@ class Writer {
 
 Status Writer::WriteImages(const Frame& frame, const RenderedView& truth) {
     const std::string file = fmt::format("/{:.6f}.png", frame.stamp_s);
+    Image<std::uint16_t> depth;
+    StoreDepth(frame.depth_m, kDepthScale, depth);
     std::array<Status, 4> done;
     tbb::parallel_invoke(
         [&] { done[0] = WriteColourImage(folder_ + "/rgb" + file, frame.colour); },
-        [&] { done[1] = WriteDepthImage(folder_ + "/depth" + file, StoredDepth(frame.depth_m)); },
+        [&] { done[1] = WriteDepthImage(folder_ + "/depth" + file, depth); },
         [&] { done[2] = WriteDepthImage(folder_ + "/labels" + file, truth.class_id); },
         [&] { done[3] = WriteDepthImage(folder_ + "/instances" + file, truth.instance); });
     return FirstError({done[0], done[1], done[2], done[3]});
@@ -93,18 +84,12 @@ void Writer::Remember(const Frame& frame, const RenderedView& truth) {
     depth_list_ += fmt::format("{0:.6f} depth/{0:.6f}.png\n", frame.stamp_s);
 }
 
-std::string Writer::CameraText() const {
-    const PinholeCamera& c = source_.info().camera;
-    return fmt::format(
-        "width: {}\nheight: {}\nfx: {}\nfy: {}\ncx: {}\ncy: {}\ndepth_scale: {}\nfps: {}\n",
-        c.width, c.height, c.fx, c.fy, c.cx, c.cy, kDepthScale, source_.info().fps);
-}
-
 Status Writer::WriteLists() const {
     const std::string header = "# timestamp filename\n";
+    const CameraCalibration camera{source_.info().camera, {}, kDepthScale, source_.info().fps};
     return FirstError({WriteTextFile(folder_ + "/rgb.txt", header + rgb_list_),
                        WriteTextFile(folder_ + "/depth.txt", header + depth_list_),
-                       WriteTextFile(folder_ + "/camera.yaml", CameraText()),
+                       WriteTextFile(folder_ + "/camera.yaml", CameraFileText(camera)),
                        WriteTrajectory(folder_ + "/groundtruth.txt", poses_),
                        WriteTextFile(folder_ + "/classes.txt", objects_.ClassesText()),
                        WriteTextFile(folder_ + "/objects.json", objects_.ObjectsJson()),

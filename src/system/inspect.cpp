@@ -19,7 +19,7 @@ Result<Inspection> InspectFrame(const std::string& name, const RunConfig& config
         if (read.status == ReadStatus::kEnd)
             return Status::Error(fmt::format("{}: has no frame {} (see frames.csv or tessera info)", name, index));
         if (read.status == ReadStatus::kError) return Status::Error(read.message);
-        if (read.status == ReadStatus::kSkip) continue;
+        if (read.status == ReadStatus::kSkip || read.status == ReadStatus::kWait) continue;
         if (frame.index > index) return Status::Error(fmt::format("{}: frame {} cannot be read", name, index));
         pipeline.SetFusing(frame.index < index);
         Inspection result;

@@ -78,6 +78,10 @@ class Runner {
             const ReadResult read = reader_->Next(frame);
             if (read.status == ReadStatus::kEnd) break;
             if (read.status == ReadStatus::kError) status = Status::Error(read.message);
+            if (read.status == ReadStatus::kWait) {
+                if (!read.message.empty()) Warn(read.message);
+                continue;
+            }
             if (status.ok() && !begun_) status = Begin();
             if (!status.ok()) break;
             if (read.status == ReadStatus::kSkip)

@@ -5,10 +5,14 @@
 namespace tessera {
 
 void RunConfig::Describe(ConfigParameters& p) {
-    p.Section("source", [&](ConfigParameters& s) { source.Describe(s); });
+    p.Section("source", [&](ConfigParameters& s) {
+        source.Describe(s);
+        s.Section("openni", [&](ConfigParameters& camera) { openni.Describe(camera); });
+    });
     p.Section("synthetic", [&](ConfigParameters& s) { synthetic.Describe(s); });
     pipeline.Describe(p);
     p.Section("meshing", [&](ConfigParameters& s) { meshing.Describe(s); });
+    p.Section("record", [&](ConfigParameters& s) { record.Describe(s); });
     p.Section("run", [&](ConfigParameters& s) {
         s.Add("threads", threads, {0, 256}, "",
               "threads of the parallel loops, 0 = one per core; results do not depend on it");

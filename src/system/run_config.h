@@ -6,6 +6,8 @@
 
 #include "core/config.h"
 #include "io/folder_source.h"
+#include "io/frame_recorder.h"
+#include "io/openni_config.h"
 #include "mapping/mesher.h"
 #include "synth/synthetic_source.h"
 #include "system/pipeline.h"
@@ -14,13 +16,15 @@ namespace tessera {
 
 struct RunConfig {
     FolderSourceConfig source;
+    OpenniConfig openni;
+    RecordConfig record;
     SynthConfig synthetic;
     PipelineConfig pipeline;
     MeshConfig meshing;
     int threads = 0;     // 0: as many as the machine has
     int read_ahead = 4;  // frames decoded ahead
 
-    // Sections source, synthetic, frame, mapping, tracking, meshing, run.
+    // Sections source (source.openni in it), synthetic, frame, mapping, tracking, meshing, record, run.
     void Describe(ConfigParameters& parameters);
     // Conditions between keys; the error names the key.
     Status Validate() const;

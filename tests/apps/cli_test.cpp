@@ -93,7 +93,7 @@ TEST_F(Cli, WhatIsToComeIsRefusedAndNeverIgnored) {
     for (const char* option : {"--view", "--labels model.onnx", "--loop-closure on", "--scan a.scan", "--resume a.scan",
                                "--device cuda", "--mode live"})
         ExpectRefused(std::string("run synthetic:desk ") + option, "not in this version");
-    ExpectRefused("run a.oni", "not in this version");
+    ExpectRefused("run a.klg", "not in this version");
     ExpectRefused("view out", "not in this version");
     ExpectRefused("export out --mesh a.glb", "not in this version");
     ExpectRefused("eval labels a b", "not in this version");

@@ -1,0 +1,68 @@
+// Records any source into a folder that every tool here reads again: TUM layout, as `tessera run FOLDER` takes it.
+//
+//   rgb/STAMP.jpg (or .png)  depth/STAMP.png  rgb.txt depth.txt camera.yaml  groundtruth.txt if the frames have truth
+//
+// Depth is 16-bit PNG in the source's own units: what is read back is what was given, bit for bit. One core, 640x480, on
+// a Kinect's images: 4.5 ms a frame with JPEG, 7 ms with PNG.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/config.h"
+#include "core/status.h"
+#include "io/frame_source.h"
+#include "io/growing_file.h"
+#include "io/png_encoder.h"
+
+namespace tessera {
+
+struct RecordConfig {
+    enum class Colour { kJpeg, kPng };
+    Colour colour = Colour::kJpeg;
+
+    void Describe(ConfigParameters& parameters);
+};
+
+// Owner thread only. After an error every further Add returns it.
+class FrameRecorder {
+  public:
+    // Makes the folder. Refuses one that holds a recording already, and one that cannot be written to.
+    static Result<std::unique_ptr<FrameRecorder>> Create(const std::string& folder, const SourceInfo& source,
+                                                         const RecordConfig& config = {});
+
+    // Writes the frame before it returns. Images are written beside their place and renamed, and listed only then: at any
+    // moment, also when the disk is full or the process is killed, the folder holds a readable recording of the frames
+    // before. Errors name the file, what is wrong, and how many frames are safe: a frame without colour, of another size,
+    // or with a stamp that does not increase by a microsecond; a file that cannot be written.
+    Status Add(const Frame& frame);
+
+    // Has the system put all of it on the disk. To be called once, at the end.
+    Status Finish();
+
+    std::int64_t frames() const { return frames_; }
+
+  private:
+    FrameRecorder(const std::string& folder, const SourceInfo& source, const RecordConfig& config)
+        : folder_(folder), source_(source), config_(config) {}
+    Status Start();
+    Status Check(const Frame& frame) const;
+    Status WriteImages(const Frame& frame, const std::string& colour_name, const std::string& depth_name);
+    Status List(const Frame& frame, const std::string& colour_name, const std::string& depth_name);
+    Status WriteImage(const std::string& name) const;
+
+    const std::string folder_;
+    const SourceInfo source_;
+    const RecordConfig config_;
+    GrowingFile colour_list_, depth_list_, truth_;
+    PngEncoder png_;
+    Image<std::uint16_t> depth_;      // storage, as the next
+    std::vector<std::uint8_t> file_;  // an encoded image
+    std::int64_t frames_ = 0;
+    double last_stamp_s_ = 0, last_colour_stamp_s_ = 0;
+    Status status_;  // the first error
+};
+
+}  // namespace tessera

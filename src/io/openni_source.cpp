@@ -1,0 +1,264 @@
+#include "io/openni_source.h"
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+
+#include "io/device_clock.h"
+#include "io/openni_camera.h"
+#include "io/stream_pairing.h"
+
+namespace tessera {
+namespace {
+
+constexpr const char* kPrefix = "openni2:";
+constexpr double kLongestRead_s = 0.4;
+constexpr double kSilence_s = 1.0;          // then a person is told
+constexpr double kEndOfFile_s = 4.0;        // a recording that gives nothing for so long has lost its end
+constexpr std::int64_t kManyAlone = 10;     // images without a partner, before it is worth a word
+constexpr double kLargestJump_s = 10, kLargestPause_s = 1e6;  // of a camera's, of a recording's stamps
+
+double Now_s() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+// The same device, or one of the same kind: after "@" the URI says where it was plugged in.
+bool IsReplacement(const std::string& uri, const std::string& lost) {
+    return uri == lost || (lost.find('@') != std::string::npos && uri.substr(0, uri.find('@')) == lost.substr(0, lost.find('@')));
+}
+
+// "scan.oni", "scan-2.oni", "scan-3.oni" ...
+std::string PartName(const std::string& path, int part) {
+    if (part <= 1) return path;
+    const std::filesystem::path p(path);
+    return (p.parent_path() / fmt::format("{}-{}{}", p.stem().string(), part, p.extension().string())).string();
+}
+
+class OpenniSource : public FrameSource {
+  public:
+    OpenniSource(const std::string& name, bool any_device, bool is_recording, std::shared_ptr<OpenniRuntime> runtime,
+                 std::unique_ptr<OpenniCamera> camera, const OpenniConfig& config)
+        : config_(config),
+          any_device_(any_device),
+          is_recording_(is_recording),
+          runtime_(std::move(runtime)),
+          camera_(std::move(camera)),
+          about_(camera_->about()),
+          pairing_(config.max_pair_gap_s, about_.shortest_period_s),
+          clock_(is_recording ? kLargestPause_s : kLargestJump_s),
+          heard_depth_s_(Now_s()),
+          heard_colour_s_(heard_depth_s_),
+          prefix_(any_device ? "" : name + ": ") {
+        info_.name = name;
+        info_.kind = is_recording ? ".oni recording" : about_.name + " (OpenNI2 camera)";
+        info_.camera = about_.camera;
+        info_.frame_count = about_.frame_count;
+        info_.fps = about_.fps;
+        info_.live = !is_recording || config.playback == OpenniConfig::Playback::kRecorded;
+        info_.depth_units_per_m = about_.depth_units_per_m;
+        info_.notes = about_.notes;
+    }
+
+    const SourceInfo& info() const override { return info_; }
+    bool Seek(std::int64_t) override { return false; }
+
+    Status RecordTo(const std::string& path, bool lossless_colour) override {
+        if (is_recording_) return FrameSource::RecordTo(path, lossless_colour);
+        if (!camera_) return Status::Error(path + ": the camera is unplugged");
+        recording_path_ = path;
+        lossless_colour_ = lossless_colour;
+        return camera_->Record(path, lossless_colour);
+    }
+
+    ReadResult Read(Frame& frame) override {
+        if (drained_) return {ReadStatus::kEnd, {}};
+        if (!camera_) return Reconnect();
+        for (const double deadline_s = Now_s() + kLongestRead_s;;) {
+            if (TakePair(frame)) return {};
+            if (ended_) return EndOfRecording();
+            if (camera_->WasUnplugged()) return Unplug();
+            const OpenniCamera::Arrival arrival = camera_->Wait(deadline_s - Now_s(), depth_, colour_);
+            const double now_s = Now_s();
+            if (arrival.event == OpenniCamera::Event::kEnd) {
+                ended_ = true;
+                pairing_.End();
+            } else if (arrival.event != OpenniCamera::Event::kNothing) {
+                if (ReadResult result = Take(arrival, now_s); result.status != ReadStatus::kOk) return result;
+            }
+            if (std::string trouble = Trouble(now_s); !trouble.empty()) return {ReadStatus::kWait, std::move(trouble)};
+            if (now_s >= deadline_s && !ended_) return {ReadStatus::kWait, {}};
+        }
+    }
+
+  private:
+    bool TakePair(Frame& frame) {
+        if (!pairing_.Next(pair_)) return false;
+        frame.index = next_index_++;
+        frame.stamp_s = pair_.depth_stamp_s;
+        frame.colour_stamp_s = pair_.colour_stamp_s;
+        frame.T_world_camera.reset();
+        std::swap(frame.colour, pair_.colour);
+        frame.depth_m.Resize(pair_.depth.width(), pair_.depth.height());
+        const auto units_per_metre = static_cast<float>(info_.depth_units_per_m);
+        const std::uint16_t* from = pair_.depth.data();
+        float* to = frame.depth_m.data();
+        for (std::size_t i = 0; i < pair_.depth.size(); ++i) to[i] = static_cast<float>(from[i]) / units_per_metre;
+        return true;
+    }
+
+    // Checks the image and hands it to the pairing; kSkip if it is unusable.
+    ReadResult Take(const OpenniCamera::Arrival& arrival, double now_s) {
+        const bool is_depth = arrival.event == OpenniCamera::Event::kDepth;
+        (is_depth ? heard_depth_s_ : heard_colour_s_) = now_s;
+        const auto skip = [&](const std::string& why) {
+            return ReadResult{ReadStatus::kSkip, fmt::format("{}{} image {}: {}", prefix_, is_depth ? "depth" : "colour",
+                                                             arrival.number, why)};
+        };
+        if (!arrival.fault.empty()) return skip(arrival.fault);
+        const DeviceClock::Reading reading = clock_.Read(is_depth ? 0 : 1, arrival.stamp_us, now_s);
+        if (reading.verdict == DeviceClock::Verdict::kBackwards) return skip("its stamp does not lie after the one before");
+        if (reading.verdict == DeviceClock::Verdict::kAbsurd)
+            return skip(fmt::format("its stamp of {} us is absurd", arrival.stamp_us));
+        if (reading.was_reset) {
+            pairing_.Clear();
+            message_ = prefix_ + "the camera's clock was set to another time; stamps go on from the last";
+        }
+        if (is_depth)
+            pairing_.AddDepth(reading.stamp_s, depth_);
+        else
+            pairing_.AddColour(reading.stamp_s, colour_);
+        return {};
+    }
+
+    // What a person should know now, each thing once; mostly nothing.
+    std::string Trouble(double now_s) {
+        if (!message_.empty()) return std::exchange(message_, {});
+        const double silence_s = now_s - std::min(heard_depth_s_, heard_colour_s_);
+        if (silence_s < kSilence_s) silence_told_ = false;
+        if (is_recording_ && silence_s > kEndOfFile_s) {
+            ended_ = true;
+            pairing_.End();
+            return {};
+        }
+        if (!is_recording_ && silence_s >= kSilence_s && !silence_told_) return Silence(now_s);
+        const std::int64_t alone = pairing_.depth_alone();
+        if (alone < kManyAlone || alone_told_) return {};
+        alone_told_ = true;
+        return fmt::format("{}{} of the first {} depth images had no colour image within {:.0f} ms and were left out (do "
+                           "depth and colour come at different rates?)",
+                           prefix_, alone, alone + pairing_.pairs(), 1000 * config_.max_pair_gap_s);
+    }
+
+    std::string Silence(double now_s) {
+        silence_told_ = true;
+        const bool no_depth = now_s - heard_depth_s_ >= kSilence_s, no_colour = now_s - heard_colour_s_ >= kSilence_s;
+        std::string text = fmt::format("{}no {} for {:.1f} s", prefix_,
+                                       no_depth && no_colour ? "images" : no_depth ? "depth images" : "colour images",
+                                       now_s - std::min(heard_depth_s_, heard_colour_s_));
+        if (!camera_->about().frame_sync) return text;
+        camera_->StopFrameSync();
+        return text + "; trying without frame sync";
+    }
+
+    ReadResult EndOfRecording() {
+        drained_ = true;
+        const std::int64_t alone = pairing_.depth_alone();
+        if (alone == 0) return {ReadStatus::kEnd, {}};
+        return {ReadStatus::kWait, fmt::format("{}{} of {} depth images had no colour image within {:.0f} ms and were left out",
+                                               prefix_, alone, alone + pairing_.pairs(), 1000 * config_.max_pair_gap_s)};
+    }
+
+    ReadResult Unplug() {
+        camera_.reset();
+        pairing_.Clear();
+        const std::string recording =
+            recording_path_.empty() ? "" : "; " + PartName(recording_path_, recording_part_) + " ends here";
+        return {ReadStatus::kWait, prefix_ + "camera unplugged, waiting for it" + recording};
+    }
+
+    // One try, at most a fraction of a second.
+    ReadResult Reconnect() {
+        constexpr double kBetweenTries_s = 0.2;
+        for (const OpenniDevice& device : runtime_->Devices()) {
+            if (!any_device_ && !IsReplacement(device.uri, about_.uri)) continue;
+            Result<std::unique_ptr<OpenniCamera>> opened = OpenniCamera::Open(runtime_, device.uri, false, config_);
+            if (!opened.ok()) continue;  // still starting, or another's
+            const OpenniCamera::About& about = opened.value()->about();
+            if (about.camera != about_.camera || about.depth_units_per_m != about_.depth_units_per_m) continue;
+            camera_ = std::move(opened.value());
+            about_.uri = about.uri;
+            clock_.Restart();
+            heard_depth_s_ = heard_colour_s_ = Now_s();
+            return {ReadStatus::kWait, prefix_ + "camera is back" + ContinueRecording()};
+        }
+        runtime_->WaitForChange(kBetweenTries_s);
+        return {ReadStatus::kWait, {}};
+    }
+
+    std::string ContinueRecording() {
+        if (recording_path_.empty()) return {};
+        const std::string path = PartName(recording_path_, ++recording_part_);
+        const Status status = camera_->Record(path, lossless_colour_);
+        return status.ok() ? "; recording goes on in " + path : "; recording stopped: " + status.message();
+    }
+
+    const OpenniConfig config_;
+    const bool any_device_, is_recording_;
+    std::shared_ptr<OpenniRuntime> runtime_;
+    std::unique_ptr<OpenniCamera> camera_;  // null while unplugged
+    OpenniCamera::About about_;             // of the present or last camera
+    SourceInfo info_;
+    StreamPairing pairing_;
+    DeviceClock clock_;
+    StreamPairing::Pair pair_;
+    Image<std::uint16_t> depth_;
+    ColourImage colour_;
+    double heard_depth_s_, heard_colour_s_;  // when an image of either stream came last
+    std::int64_t next_index_ = 0;
+    bool ended_ = false, drained_ = false;  // no more images; no more pairs
+    bool silence_told_ = false, alone_told_ = false;
+    const std::string prefix_;  // of messages
+    std::string message_;
+    std::string recording_path_;
+    bool lossless_colour_ = true;
+    int recording_part_ = 1;
+};
+
+// Whether the file begins as .oni files do.
+Status CheckRecording(const std::string& path) {
+    std::error_code ignored;
+    if (!std::filesystem::exists(path, ignored)) return Status::Error(path + ": no such file");
+    if (!std::filesystem::is_regular_file(path, ignored)) return Status::Error(path + ": is not a file");
+    char magic[4] = {};
+    std::ifstream file(path, std::ios::binary);
+    if (!file.read(magic, sizeof(magic)) || std::string(magic, 4) != "NI10")
+        return Status::Error(path + ": is no .oni recording (it does not begin with NI10)");
+    return Status::Ok();
+}
+
+}  // namespace
+
+Result<std::unique_ptr<FrameSource>> OpenOpenniSource(const std::string& name, const OpenniConfig& config) {
+    const bool is_recording = !name.starts_with(kPrefix);
+    std::string uri = is_recording ? name : name.substr(std::string(kPrefix).size());
+    if (is_recording)
+        if (Status status = CheckRecording(name); !status.ok()) return status;
+    Result<std::shared_ptr<OpenniRuntime>> runtime = OpenniRuntime::Acquire();
+    if (!runtime.ok()) return Status::Error(name + ": " + runtime.message());
+    const bool any_device = uri.empty();
+    if (!is_recording) {
+        const std::vector<OpenniDevice> devices = runtime.value()->Devices();
+        if (devices.empty())
+            return Status::Error(name + ": no camera found; is it plugged in, and may you use it? tessera doctor says more");
+        if (any_device) uri = devices.front().uri;
+        if (std::ranges::find(devices, uri, &OpenniDevice::uri) == devices.end())
+            return Status::Error(name + ": no such camera; tessera doctor lists them");
+    }
+    Result<std::unique_ptr<OpenniCamera>> camera = OpenniCamera::Open(runtime.value(), uri, is_recording, config);
+    if (!camera.ok()) return Status::Error(name + ": " + camera.message());
+    return std::unique_ptr<FrameSource>(std::make_unique<OpenniSource>(name, any_device, is_recording, runtime.value(),
+                                                                       std::move(camera.value()), config));
+}
+
+}  // namespace tessera

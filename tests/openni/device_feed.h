@@ -1,0 +1,36 @@
+// What a device of the test driver shows: frames by number, without end.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace tessera::test_device {
+
+struct FeedFrame {
+    std::uint64_t stamp_us = 0;
+    std::vector<std::uint16_t> depth_mm;  // width x height
+    std::vector<std::uint8_t> rgb;        // 3 x width x height
+};
+
+class DeviceFeed {
+  public:
+    virtual ~DeviceFeed() = default;
+    virtual int width() const = 0;
+    virtual int height() const = 0;
+    virtual double fx() const = 0;
+    virtual double fy() const = 0;
+    // Frame `number` >= 0, stamps strictly increasing with it.
+    virtual void Get(int number, FeedFrame& frame) = 0;
+};
+
+// The pattern of test_pattern.h at `rate_hz`, its first stamp 1 s.
+std::unique_ptr<DeviceFeed> MakePatternFeed(double rate_hz);
+
+// A TUM-layout folder (rgb.txt, depth.txt, camera.yaml) at its recorded pace, to and fro so that the motion stays
+// smooth: frames 0, 1, ..., n-1, n-2, ..., 1, 0, 1, ... Null, with a line on stderr, if it cannot be read. The first
+// `preload` frames are decoded at once, the others whenever they are shown.
+std::unique_ptr<DeviceFeed> MakeFolderFeed(const std::string& folder, int preload);
+
+}  // namespace tessera::test_device

@@ -1,0 +1,125 @@
+// .oni files: made by OpenNI2's recorder from the test device, read again.
+#include <filesystem>
+
+#include "io/temporary_folder.h"
+#include "openni/openni_fixture.h"
+
+namespace tessera {
+namespace {
+
+class OniRecording : public OpenniTest {
+  protected:
+    // So many frames of the device, as a file; closed when it returns.
+    static Log Record(const std::string& path, std::size_t frames, bool lossless) {
+        const auto source = Open();
+        if (!source) return {};
+        const Status status = source->RecordTo(path, lossless);
+        EXPECT_TRUE(status.ok()) << status.message();
+        return ReadFrames(*source, frames);
+    }
+};
+
+TEST_F(OniRecording, IsReadBackBitForBit) {
+    TemporaryFolder folder;
+    Set("PACE", "real");
+    const Log given = Record(folder.Path("a.oni"), 12, true);
+    const auto source = Open(folder.Path("a.oni"));
+    ASSERT_NE(source, nullptr);
+    EXPECT_EQ(source->info().kind, ".oni recording");
+    EXPECT_FALSE(source->info().live);
+    EXPECT_NEAR(source->info().camera.fx, 525, 1e-3);
+    EXPECT_GE(source->info().frame_count, 10);
+    const Log log = ReadFrames(*source, 1000);
+    EXPECT_TRUE(log.ended);
+    EXPECT_TRUE(log.skips.empty());
+    ASSERT_GE(log.frames.size(), 10u);
+    EXPECT_EQ(static_cast<std::int64_t>(log.frames.size()), source->info().frame_count);
+    ExpectIncreasingStamps(log.frames);
+    // The recorder starts its clock anew, and began a frame or two after the source: the first depth tells.
+    int first = 0;
+    while (first < 12 && Millimetres(log.frames[0]) != ExpectedDepth(first)) ++first;
+    ASSERT_LT(first, 12);
+    for (const Frame& frame : log.frames) {
+        EXPECT_EQ(Millimetres(frame), ExpectedDepth(first + NumberOf(frame, log.frames[0].stamp_s)));
+        EXPECT_EQ(frame.colour, ExpectedColour(first + NumberOf(frame, log.frames[0].stamp_s)));
+    }
+    Frame frame;
+    EXPECT_EQ(source->Read(frame).status, ReadStatus::kEnd);
+}
+
+TEST_F(OniRecording, PlaysAtTheRecordedPaceIfTold) {
+    TemporaryFolder folder;
+    Set("PACE", "real");
+    Record(folder.Path("a.oni"), 8, false);
+    OpenniConfig config;
+    config.playback = OpenniConfig::Playback::kRecorded;
+    const auto source = Open(folder.Path("a.oni"), config);
+    ASSERT_NE(source, nullptr);
+    EXPECT_TRUE(source->info().live);
+    const Log log = ReadFrames(*source, 1000);
+    EXPECT_TRUE(log.ended);
+    EXPECT_GE(log.frames.size(), 4u);
+}
+
+TEST_F(OniRecording, GoesOnInAnotherFileAfterUnplugging) {
+    TemporaryFolder folder;
+    Set("PACE", "real");
+    Set("VANISH_AT", 8);
+    Set("BACK_MS", 100);
+    const Log log = Record(folder.Path("a.oni"), 14, false);
+    ASSERT_EQ(log.messages.size(), 2u);
+    EXPECT_EQ(log.messages[0], "camera unplugged, waiting for it; " + folder.Path("a.oni") + " ends here");
+    EXPECT_EQ(log.messages[1], "camera is back; recording goes on in " + folder.Path("a-2.oni"));
+    for (const char* name : {"a.oni", "a-2.oni"}) {
+        const auto part = Open(folder.Path(name));
+        ASSERT_NE(part, nullptr);
+        EXPECT_GE(ReadFrames(*part, 1000).frames.size(), 3u) << name;
+    }
+}
+
+TEST_F(OniRecording, OnlyCamerasRecordThemselves) {
+    TemporaryFolder folder;
+    Set("PACE", "real");
+    Record(folder.Path("a.oni"), 5, false);
+    const auto source = Open(folder.Path("a.oni"));
+    ASSERT_NE(source, nullptr);
+    EXPECT_EQ(source->RecordTo("b.oni", true).message(),
+              "b.oni: only openni2: cameras record to .oni; give a folder's name to record this source");
+    EXPECT_FALSE(Open()->RecordTo("/no/such/folder/c.oni", true).ok());
+}
+
+TEST_F(OniRecording, AFileThatIsNoRecordingIsRefused) {
+    TemporaryFolder folder;
+    folder.WriteText("text.oni", "this is not a recording, but long enough to be read as the head of one ............");
+    folder.WriteText("empty.oni", "");
+    std::filesystem::create_directory(folder.Path("folder.oni"));
+    const auto message = [&](const char* name) { return OpenOpenniSource(folder.Path(name), {}).message(); };
+    EXPECT_EQ(message("none.oni"), folder.Path("none.oni") + ": no such file");
+    EXPECT_EQ(message("folder.oni"), folder.Path("folder.oni") + ": is not a file");
+    for (const char* name : {"text.oni", "empty.oni"})
+        EXPECT_NE(message(name).find("is no .oni recording"), std::string::npos) << message(name);
+}
+
+TEST_F(OniRecording, AFileThatIsCutOffIsRefusedOrReadAsFarAsItGoes) {
+    TemporaryFolder folder;
+    Set("PACE", "real");
+    Record(folder.Path("a.oni"), 6, false);
+    const auto size = std::filesystem::file_size(folder.Path("a.oni"));
+    for (const std::uintmax_t kept : {std::uintmax_t{20}, std::uintmax_t{300}, size / 2, size - 40}) {
+        const std::string path = folder.Path("cut.oni");
+        std::filesystem::copy_file(folder.Path("a.oni"), path, std::filesystem::copy_options::overwrite_existing);
+        std::filesystem::resize_file(path, kept);
+        const auto source = OpenOpenniSource(path, {});
+        if (!source.ok()) {
+            EXPECT_EQ(source.message().find(path + ": "), 0u) << source.message();
+            EXPECT_EQ(source.message().find('\n'), std::string::npos) << source.message();
+            continue;
+        }
+        const Log log = ReadFrames(*source.value(), 1000, 60);
+        EXPECT_TRUE(log.ended) << kept << " of " << size;
+        EXPECT_LE(log.frames.size(), 7u);
+    }
+}
+
+}  // namespace
+}  // namespace tessera

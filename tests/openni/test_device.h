@@ -1,0 +1,98 @@
+// A depth camera made of software: one device of the test driver, with its two streams.
+#pragma once
+
+#include <Driver/OniDriverAPI.h>
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <stop_token>
+#include <thread>
+
+#include "openni/device_feed.h"
+#include "openni/device_settings.h"
+
+namespace tessera::test_device {
+
+class TestDevice;
+
+class TestStream : public oni::driver::StreamBase {
+  public:
+    TestStream(TestDevice& device, bool depth);
+    OniStatus setProperty(int id, const void* data, int size) override;
+    OniStatus getProperty(int id, void* data, int* size) override;
+    OniBool isPropertySupported(int id) override;
+    OniStatus start() override;
+    void stop() override;
+
+    bool depth() const { return depth_; }
+    // Hands the image to the runtime if the stream runs.
+    void Give(const FeedFrame& frame, int number, std::uint64_t stamp_us, Fault fault);
+
+  private:
+    void Fill(const FeedFrame& frame, const OniVideoMode& mode, int number, Fault fault, OniFrame& image) const;
+
+    TestDevice& device_;
+    const bool depth_;
+    // Two, because the runtime asks for properties under a lock that it also takes when it is given a frame.
+    std::mutex giving_;  // of running_: after stop no frame is being given
+    bool running_ = false;
+    std::mutex mutex_;  // of what follows
+    OniVideoMode mode_;
+    OniBool mirror_ = TRUE, auto_exposure_ = TRUE, auto_white_balance_ = TRUE;
+};
+
+class TestDevice : public oni::driver::DeviceBase {
+  public:
+    // What the driver keeps while devices come and go.
+    struct Shared {
+        DeviceSettings settings;
+        std::unique_ptr<DeviceFeed> feed;
+        int next = 0;           // number of the next frame
+        bool vanished = false;  // it does so once
+        std::function<void(const std::string&)> log;
+    };
+
+    // `vanish` is called when the device disappears.
+    TestDevice(Shared& shared, std::function<void()> vanish);
+    ~TestDevice() override;
+
+    OniStatus getSensorInfoList(OniSensorInfo** sensors, int* count) override;
+    oni::driver::StreamBase* createStream(OniSensorType type) override;
+    void destroyStream(oni::driver::StreamBase* stream) override;
+    OniStatus setProperty(int id, const void* data, int size) override;
+    OniStatus getProperty(int id, void* data, int* size) override;
+    OniBool isPropertySupported(int id) override { return id == ONI_DEVICE_PROPERTY_IMAGE_REGISTRATION; }
+    OniBool isImageRegistrationModeSupported(OniImageRegistrationMode mode) override;
+    // The runtime calls it while someone waits for a frame: the pace "fast".
+    OniStatus tryManualTrigger() override;
+
+    Shared& shared() { return shared_; }
+    OniVideoMode Mode(bool depth, bool small) const;
+    void Started();
+
+  private:
+    void Run(const std::stop_token& stop);
+    // The next frame's images to the streams that run; false once the device has vanished.
+    bool Tick();
+
+    Shared& shared_;
+    std::function<void()> vanish_;
+    std::mutex mutex_;  // of the streams and of ticking
+    std::condition_variable_any wake_;
+    TestStream* depth_ = nullptr;
+    TestStream* colour_ = nullptr;
+    FeedFrame frame_;
+    std::uint64_t first_us_ = 0;  // the feed's stamp that is this device's second 1
+    bool ticked_ = false, gone_ = false;
+    std::chrono::steady_clock::time_point begin_, stalled_until_;
+    int registration_ = ONI_IMAGE_REGISTRATION_OFF;
+    OniVideoMode modes_[2][2];
+    OniSensorInfo sensors_[2];
+    std::jthread thread_;  // last: ends first
+};
+
+}  // namespace tessera::test_device
