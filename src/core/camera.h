@@ -23,6 +23,12 @@ struct PinholeCamera {
     Eigen::Vector3d Unproject(double u, double v, double z) const {
         return {(u - cx) / fx * z, (v - cy) / fy * z, z};
     }
+    // The camera whose pixels are every step-th of this one's in both directions: pixel (k, l) is (k step + step / 2,
+    // l step + step / 2), in whole numbers.
+    PinholeCamera Every(int step) const {
+        const int first = step / 2;
+        return {width / step, height / step, fx / step, fy / step, (cx - first) / step, (cy - first) / step};
+    }
     bool operator==(const PinholeCamera&) const = default;
 };
 

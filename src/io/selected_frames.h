@@ -12,6 +12,7 @@ class SelectedFrames {
   public:
     SelectedFrames(std::unique_ptr<FrameSource> source, const FrameSelection& selection);
 
+    FrameSource& source() { return *source_; }
     const SourceInfo& info() const { return source_->info(); }
     // The next selected frame. A frame that the source skips counts as one of selection.count, kWait is passed on and
     // does not.

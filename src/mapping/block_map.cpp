@@ -32,8 +32,9 @@ Status BlockMap::Config::Validate() const {
     return Status::Ok();
 }
 
-BlockMap::BlockMap(const Config& config)
+BlockMap::BlockMap(const Config& config, Layers layers)
     : config_(config),
+      layers_(layers),
       field_(kMaxBlocks * kBlockVoxels),
       weight_(kMaxBlocks * kBlockVoxels),
       colour_(kMaxBlocks * kBlockVoxels),
@@ -63,7 +64,7 @@ void BlockMap::Clear() {
 
 void BlockMap::InitialiseBlock(BlockId id, const BlockCoord& c) {
     std::fill_n(field(id), kBlockVoxels, kUnknownField);
-    std::fill_n(colour(id), kBlockVoxels, kNoColour);
+    if (layers_ == Layers::kAll || id == kUnknownBlock) std::fill_n(colour(id), kBlockVoxels, kNoColour);
     std::int32_t* coords = coords_.data() + 4 * static_cast<std::size_t>(id);
     coords[0] = c.x;
     coords[1] = c.y;
@@ -172,10 +173,10 @@ BlockMap::Region* BlockMap::FindOrAddRegion(const BlockCoord& region) {
 }
 
 std::size_t BlockMap::bytes() const {
-    constexpr std::size_t kPerBlock =
-        kBlockVoxels * (sizeof(FieldWord) + sizeof(std::uint16_t) + sizeof(ColourWord)) +
-        (8 + 4 + 1) * sizeof(std::int32_t) + sizeof(BlockId);
-    return static_cast<std::size_t>(size_) * kPerBlock + table_.size() * sizeof(std::int32_t) +
+    const std::size_t per_voxel =
+        sizeof(FieldWord) + (layers_ == Layers::kAll ? sizeof(std::uint16_t) + sizeof(ColourWord) : 0);
+    const std::size_t per_block = kBlockVoxels * per_voxel + (8 + 4 + 1) * sizeof(std::int32_t) + sizeof(BlockId);
+    return static_cast<std::size_t>(size_) * per_block + table_.size() * sizeof(std::int32_t) +
            regions_.size() * sizeof(Region) + region_table_.size() * sizeof(std::int32_t);
 }
 

@@ -40,7 +40,10 @@ class BlockMap {
         float voxel_size_m, truncation_m;
     };
 
-    explicit BlockMap(const Config& config);
+    // What a map keeps: a copy for a reader needs the field only; its weights are then zero and its colours grey.
+    enum class Layers { kAll, kFieldOnly };
+
+    explicit BlockMap(const Config& config, Layers layers = Layers::kAll);
 
     const Config& config() const { return config_; }
     View view() const;
@@ -63,7 +66,7 @@ class BlockMap {
     std::uint16_t* weight(BlockId id) { return weight_.data() + Offset(id); }
     const std::uint16_t* weight(BlockId id) const { return weight_.data() + Offset(id); }
     ColourWord* colour(BlockId id) { return colour_.data() + Offset(id); }
-    const ColourWord* colour(BlockId id) const { return colour_.data() + Offset(id); }
+    const ColourWord* colour(BlockId id) const { return colour_.data() + (layers_ == Layers::kAll ? Offset(id) : 0); }
 
     // Change tracking: the writer marks what it changed with its own increasing number.
     void MarkChanged(BlockId id, std::uint32_t revision) { revision_[static_cast<std::size_t>(id)] = revision; }
@@ -90,6 +93,7 @@ class BlockMap {
     void LinkNeighbours(BlockId id, const BlockCoord& coord);
 
     Config config_;
+    Layers layers_;
     BlockId size_ = 1;
     std::size_t max_size_ = 0;
     std::uint64_t identity_ = 0;

@@ -42,6 +42,7 @@ class Mesher {
     // By block id; null where there is no surface.
     const std::vector<std::unique_ptr<const BlockMesh>>& block_meshes() const { return meshes_; }
 
+    const Config& config() const { return config_; }
     int remaining() const { return static_cast<int>(pending_.size()); }
     std::size_t bytes() const;  // memory of all block meshes
 

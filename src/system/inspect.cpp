@@ -3,6 +3,7 @@
 #include "io/frame_reader.h"
 #include "render/view_picture.h"
 #include "system/open_source.h"
+#include "system/pipeline.h"
 
 namespace tessera {
 

@@ -7,6 +7,7 @@
 #include "core/image.h"
 #include "core/status.h"
 #include "system/run_config.h"
+#include "system/tracking_stage.h"
 
 namespace tessera {
 

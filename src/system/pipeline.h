@@ -1,90 +1,44 @@
-// A frame's life: prepare, track, judge, fuse. No thread of its own; whoever drives it may step it frame by frame.
+// A frame's life on one thread: track, then fuse. Whoever drives it may step it frame by frame; the threads of a live
+// system (live_engine.h) run the same two stages.
 #pragma once
 
-#include <memory>
 #include <optional>
-#include <string>
 
-#include "core/frame.h"
-#include "mapping/block_map.h"
-#include "mapping/integrator.h"
-#include "mapping/prepared_frame.h"
-#include "system/motion_model.h"
-#include "system/tracking_method.h"
-#include "tracking/image_aligner.h"
+#include "system/mapping_stage.h"
+#include "system/tracking_stage.h"
 
 namespace tessera {
 
-// When a frame's images and rows were taken.
-struct ShutterConfig {
-    bool colour_delay = true;
-    double depth_readout_s = 0;
-    double colour_readout_s = 0;
-
-    void Describe(ConfigParameters& parameters);
-};
-
-struct PipelineConfig {
-    PreparedFrame::Config frame;
-    BlockMap::Config map;
-    Integrator::Config fusion;
-    MotionModel::Config motion;
-    ShutterConfig shutter;
-    ImageAligner::Config prealign;
-    TrackersConfig trackers;
-
-    // Sections frame, mapping, tracking.
-    void Describe(ConfigParameters& parameters);
-    Status Validate() const;
-};
-
-// What became of one frame.
-struct FrameReport {
-    std::int64_t index = 0;
-    double stamp_s = 0;
-    TrackingMethod method = TrackingMethod::kSdf;
-    TrackResult track;       // status good, with the given pose, when poses are given
-    bool first = false;      // the frame that started the map
-    bool fused = false;
-    double valid_depth_fraction = 0;
-    std::string warning;     // what a person should know of this frame, in words; mostly empty
-    Integrator::Report fusion;
-    double prepare_ms = 0, track_ms = 0;
-
-    bool tracked() const { return track.status != TrackStatus::kLost; }
-};
-
+// Owner thread only.
 class Pipeline {
   public:
-    Pipeline(const PipelineConfig& config, const PinholeCamera& camera);
+    Pipeline(const PipelineConfig& config, const PinholeCamera& camera, const MeshConfig& meshing = {})
+        : tracking_(config, camera), mapping_(config, meshing, camera) {}
 
-    // Owner thread only. With a given pose the frame is fused there and not tracked. The world is the first fused
-    // frame's camera unless its pose is given.
-    FrameReport Process(const Frame& frame, const std::optional<Eigen::Isometry3d>& given = std::nullopt);
+    // With a given pose the frame is fused there and not tracked. The world is the first fused frame's camera unless its
+    // pose is given.
+    FrameReport Process(const Frame& frame, const std::optional<Eigen::Isometry3d>& given = std::nullopt) {
+        tracking_.Track(frame, mapping_.map(), given, tracked_);
+        mapping_.Fuse(tracked_);
+        return tracked_.report;
+    }
 
     // From the next frame on; pose, velocity, brightness and map stay.
-    void Select(TrackingMethod method) { trackers_.Select(method); }
+    void Select(TrackingMethod method) { tracking_.Select(method); }
+    void SetFusing(bool on) { tracking_.SetFusing(on); }
+    void Apply(const ViewerSettings& settings) { tracking_.Apply(settings); }
+    void Reset() {
+        tracking_.Reset();
+        mapping_.Reset();
+    }
 
-    // Off: frames are tracked, but the map stays as it is; but the first frame always starts it.
-    void SetFusing(bool on) { fusing_ = on; }
-
-    const BlockMap& map() const { return map_; }
-    const Integrator& integrator() const { return integrator_; }
+    const BlockMap& map() const { return mapping_.map(); }
+    MappingStage& mapping() { return mapping_; }
 
   private:
-    TrackResult TrackFrame(const Frame& frame);
-    FrameMotion ShutterOf(const Frame& frame) const;
-    Integrator::View FusionView(const TrackResult& track) const;
-
-    PipelineConfig config_;
-    PinholeCamera camera_;
-    BlockMap map_;
-    Integrator integrator_;
-    MotionModel motion_;
-    ImageAligner aligner_;
-    Trackers trackers_;
-    PreparedFrame prepared_;
-    bool fusing_ = true;
+    TrackingStage tracking_;
+    MappingStage mapping_;
+    TrackedFrame tracked_;
 };
 
 }  // namespace tessera

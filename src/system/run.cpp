@@ -6,28 +6,23 @@
 #include <algorithm>
 
 #include "core/stopwatch.h"
-#include "io/frame_reader.h"
 #include "io/trajectory.h"
+#include "system/live_engine.h"
+#include "system/lockstep_engine.h"
 #include "system/open_source.h"
 #include "system/run_output.h"
 
 namespace tessera {
 namespace {
 
-MapStatistics StatisticsOf(const BlockMap& map) {
-    return {map.size() - 1, map.bytes(), map.bytes_per_voxel()};
-}
-
 class Runner {
   public:
     Runner(const RunRequest& request, const RunConfig& config, const RunObserver& observer)
-        : request_(request), config_(config), observer_(observer), switches_(request.switches) {
-        std::ranges::stable_sort(switches_, {}, &MethodSwitch::frame);
-    }
+        : request_(request), config_(config), observer_(observer) {}
 
     Result<RunSummary> Run(const std::atomic<bool>& stop) {
-        if (Status status = Open(); !status.ok()) return status;
-        Status status = ReadFrames(stop);
+        if (Status status = Open(stop); !status.ok()) return status;
+        Status status = TakeOutcomes();
         if (status.ok() && !summary_.stopped && summary_.counts.frames == summary_.counts.skipped)
             status = Status::Error(request_.source + ": no frame could be read" +
                                    (summary_.last_reason.empty() ? "" : "; the last: " + summary_.last_reason));
@@ -38,89 +33,123 @@ class Runner {
     }
 
   private:
-    Status Open() {
+    Status Open(const std::atomic<bool>& stop) {
         if (Status status = config_.Validate(); !status.ok()) return status;
+        std::vector<StampedPose> given;
         if (!request_.poses_file.empty()) {
             Result<Trajectory> poses = ReadTrajectory(request_.poses_file);
             if (!poses.ok()) return poses.status();
-            given_ = std::move(poses.value().poses);
+            given = std::move(poses.value().poses);
             pose_notes_ = std::move(poses.value().notes);
         }
         Result<std::unique_ptr<FrameSource>> source = OpenSource(request_.source, config_);
         if (!source.ok()) return source.status();
-        reader_ = std::make_unique<FrameReader>(std::move(source.value()), request_.selection, config_.read_ahead);
-        summary_.source = reader_->info();
-        pipeline_ = std::make_unique<Pipeline>(config_.pipeline, summary_.source.camera);
+        summary_.source = source.value()->info();
+        EngineInput input{std::move(source.value()), request_.selection, config_,
+                          FramePlan(request_.switches, std::move(given), request_.poses_file), request_.record_path,
+                          request_.viewer, &stop};
+        if (request_.live)
+            engine_ = std::make_unique<LiveEngine>(std::move(input));
+        else
+            engine_ = std::make_unique<LockstepEngine>(std::move(input));
         return Status::Ok();
     }
 
     // With the first frame and not before: a run that is refused says one line, and leaves the results of an earlier one.
     Status Begin() {
         begun_ = true;
-        if (!request_.output_folder.empty()) {
-            Result<std::unique_ptr<RunOutput>> output = RunOutput::Open(request_, config_, summary_.source);
-            if (!output.ok()) return output.status();
-            output_ = std::move(output.value());
-        }
+        if (!request_.output_folder.empty())
+            if (Status status = OpenOutput(); !status.ok()) return status;
         if (observer_.on_open) observer_.on_open(summary_.source);
         for (const std::string& note : pose_notes_) Warn(note);
         return Status::Ok();
     }
 
-    Status ReadFrames(const std::atomic<bool>& stop) {
+    Status TakeOutcomes() {
         const double cpu_before_s = MeasureProcess().cpu_s;
-        Stopwatch whole, frame_watch;
-        Frame frame;
+        Stopwatch whole;
+        FrameOutcome outcome;
         Status status;
-        while (status.ok()) {
-            summary_.stopped = stop.load();
-            if (summary_.stopped) break;
-            const ReadResult read = reader_->Next(frame);
-            if (read.status == ReadStatus::kEnd) break;
-            if (read.status == ReadStatus::kError) status = Status::Error(read.message);
-            if (read.status == ReadStatus::kWait) {
-                if (!read.message.empty()) Warn(read.message);
-                continue;
-            }
-            if (status.ok() && !begun_) status = Begin();
-            if (!status.ok()) break;
-            if (read.status == ReadStatus::kSkip)
-                Skip(read.message);
-            else
-                status = ProcessFrame(frame, frame_watch);
+        while (status.ok() && engine_->Next(outcome)) {
+            if (!begun_) status = Begin();
+            if (status.ok()) status = Take(outcome);
             if (observer_.on_frame) observer_.on_frame(summary_.counts, Total());
         }
-        reader_->RequestStop();
+        if (status.ok()) status = engine_->status();
+        if (status.ok() && !begun_) status = Begin();
+        summary_.stopped = engine_->stopped();
         summary_.wall_s = whole.LapMs() / 1000;
         summary_.cpu_s = MeasureProcess().cpu_s - cpu_before_s;
         return status;
     }
 
-    Status ProcessFrame(const Frame& frame, Stopwatch& frame_watch) {
-        const FrameReport report = Process(frame);
-        Count(report);
-        if (frame.T_world_camera) truth_.push_back({frame.stamp_s, *frame.T_world_camera});
+    Status Take(const FrameOutcome& outcome) {
+        using Kind = FrameOutcome::Kind;
+        switch (outcome.kind) {
+            case Kind::kFrame: return TakeFrame(outcome);
+            case Kind::kSkipped: Skip(outcome.message); break;
+            case Kind::kDropped: ++summary_.counts.frames, ++summary_.counts.dropped; break;
+            case Kind::kMessage: Warn(outcome.message); break;
+            case Kind::kReset: return BeginAnew();
+        }
+        return Status::Ok();
+    }
+
+    Status TakeFrame(const FrameOutcome& outcome) {
+        const FrameReport& report = outcome.report;
+        Count(outcome);
+        if (outcome.T_world_camera_truth) truth_.push_back({report.stamp_s, *outcome.T_world_camera_truth});
         if (report.tracked()) estimate_.push_back({report.stamp_s, report.track.T_world_camera});
-        const double frame_ms = frame_watch.LapMs();
-        const double decode_ms = reader_->decode_ms();
-        for (const auto& [stage, ms] : {std::pair{"frame", frame_ms}, {"decode", decode_ms},
+        const double frame_ms = frame_watch_.LapMs();
+        AddTimes(outcome, frame_ms);
+        ShowFrame(outcome);
+        return output_ ? output_->AddFrame(report, outcome.decode_ms, frame_ms) : Status::Ok();
+    }
+
+    void AddTimes(const FrameOutcome& outcome, double frame_ms) {
+        const FrameReport& report = outcome.report;
+        for (const auto& [stage, ms] : {std::pair{"frame", frame_ms}, {"decode", outcome.decode_ms},
                                         {"prepare", report.prepare_ms}, {"track", report.track_ms},
                                         {"allocate", report.fusion.allocate_ms}, {"fuse", report.fusion.fuse_ms}})
             times_.Add(stage, ms);
-        return output_ ? output_->AddFrame(report, decode_ms, frame_ms) : Status::Ok();
+        if (request_.live) times_.Add("latency", outcome.latency_ms);
+        if (request_.viewer != nullptr) times_.Add("mesh_update", outcome.mesh_ms);
     }
 
-    FrameReport Process(const Frame& frame) {
-        for (; next_switch_ < switches_.size() && switches_[next_switch_].frame <= frame.index; ++next_switch_)
-            pipeline_->Select(switches_[next_switch_].method);
-        if (given_.empty()) return pipeline_->Process(frame);
-        if (const auto T_world_camera = InterpolatePose(given_, frame.stamp_s))
-            return pipeline_->Process(frame, T_world_camera);
-        FrameReport report;
-        report.index = frame.index;
-        report.stamp_s = frame.stamp_s;
-        report.track.reason = request_.poses_file + " has no pose near this time";
-        return report;
+    void ShowFrame(const FrameOutcome& outcome) {
+        if (request_.viewer == nullptr) return;
+        FrameUpdate update;
+        update.report = outcome.report;
+        if (outcome.T_world_camera_truth && !estimate_.empty() && !truth_.empty())
+            update.T_world_camera_truth = estimate_.front().T_world_camera *
+                                          truth_.front().T_world_camera.inverse() * *outcome.T_world_camera_truth;
+        update.decode_ms = outcome.decode_ms;
+        update.mesh_ms = outcome.mesh_ms;
+        update.latency_ms = outcome.latency_ms;
+        update.counts = summary_.counts;
+        update.dropped = summary_.counts.dropped;
+        update.queues = outcome.queues;
+        update.map = outcome.map;
+        request_.viewer->frames.Push(std::move(update));
+    }
+
+    // After a reset: the files, too, tell of the new world only.
+    Status BeginAnew() {
+        summary_.counts = {};
+        truth_.clear();
+        estimate_.clear();
+        times_ = {};
+        last_status_ = TrackStatus::kGood;
+        last_degenerate_ = false;
+        Warn("reset: the map and the path begin anew");
+        return output_ ? OpenOutput() : Status::Ok();
+    }
+
+    Status OpenOutput() {
+        Result<std::unique_ptr<RunOutput>> output = RunOutput::Open(request_, config_, summary_.source);
+        if (!output.ok()) return output.status();
+        output_ = std::move(output.value());
+        return Status::Ok();
     }
 
     void Skip(const std::string& message) {
@@ -130,11 +159,13 @@ class Runner {
         Warn("skipped: " + message);
     }
 
-    void Count(const FrameReport& report) {
+    void Count(const FrameOutcome& outcome) {
+        const FrameReport& report = outcome.report;
         RunCounts& n = summary_.counts;
         ++n.frames;
         n.tracked += report.tracked();
         n.fused += report.fused;
+        n.unfused += outcome.fusion_dropped;
         n.poor += report.track.status == TrackStatus::kPoor;
         n.lost += !report.tracked();
         n.degenerate += report.track.degenerate;
@@ -163,29 +194,21 @@ class Runner {
     Status Finish(const Status& outcome) {
         RunSummary& s = summary_;
         s.exit = !outcome.ok() ? "failed: " + outcome.message() : (s.stopped ? "stopped" : "finished");
-        s.map = StatisticsOf(pipeline_->map());
+        s.map = engine_->map_statistics();
         Status written = output_ ? WriteMesh() : Status::Ok();
         s.fps = s.wall_s > 0 ? static_cast<double>(s.counts.frames) / s.wall_s : 0;
         s.peak_rss_mb = MeasureProcess().peak_rss_mb;
         s.stages = times_.Summarise();
-        if (given_.empty())
+        if (request_.poses_file.empty())
             if (Result<AteResult> ate = EvaluateAte(truth_, estimate_, {.frames = s.counts.frames}); ate.ok())
                 s.ate = std::move(ate.value());
         if (Status status = output_ ? output_->Finish(s) : Status::Ok(); written.ok()) written = status;
         return written;
     }
 
-    // Ends the map and the source: they and the whole mesh need not fit into memory together.
     Status WriteMesh() {
-        reader_.reset();
         Stopwatch watch;
-        TriangleMesh mesh;
-        {
-            Mesher mesher(config_.meshing);
-            mesher.Update(pipeline_->map());
-            pipeline_.reset();
-            mesh = mesher.Assemble();
-        }
+        const TriangleMesh mesh = engine_->TakeMesh();
         times_.Add("mesh", watch.LapMs());
         return output_->WriteMesh(mesh);
     }
@@ -200,19 +223,18 @@ class Runner {
 
     void Warn(const std::string& text) {
         if (observer_.on_warning) observer_.on_warning(text);
+        if (request_.viewer != nullptr) request_.viewer->messages.Push(std::string(text));
     }
 
     const RunRequest& request_;
     const RunConfig& config_;
     const RunObserver& observer_;
-    std::vector<MethodSwitch> switches_;  // by frame
-    std::size_t next_switch_ = 0;
-    std::vector<StampedPose> given_, truth_, estimate_;
+    std::vector<StampedPose> truth_, estimate_;
     std::vector<std::string> pose_notes_;
-    std::unique_ptr<FrameReader> reader_;
-    std::unique_ptr<Pipeline> pipeline_;
+    std::unique_ptr<Engine> engine_;
     std::unique_ptr<RunOutput> output_;
     StageTimes times_;
+    Stopwatch frame_watch_;
     RunSummary summary_;
     TrackStatus last_status_ = TrackStatus::kGood;
     bool last_degenerate_ = false;
@@ -220,6 +242,10 @@ class Runner {
 };
 
 }  // namespace
+
+MapStatistics StatisticsOf(const BlockMap& map) {
+    return {map.size() - 1, map.bytes(), map.bytes_per_voxel()};
+}
 
 Result<RunSummary> ExecuteRun(const RunRequest& request, const RunConfig& config, const RunObserver& observer,
                               const std::atomic<bool>& stop) {

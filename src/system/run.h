@@ -23,8 +23,13 @@ struct MethodSwitch {
     TrackingMethod method = TrackingMethod::kSdf;
 };
 
+struct ViewerLink;
+
 struct RunRequest {
     std::string source;
+    bool live = false;  // the newest frame wins, stages on threads of their own; else lockstep: every frame, in order
+    std::string record_path;            // keep the raw frames there: a folder, or FILE.oni of an OpenNI2 camera
+    ViewerLink* viewer = nullptr;       // outlives the run
     FrameSelection selection;
     std::string poses_file;     // TUM trajectory: fuse at its poses and do not track; empty = track
     std::vector<MethodSwitch> switches;  // of one frame, the last counts
@@ -39,6 +44,8 @@ struct RunCounts {
     std::int64_t poor = 0;     // tracked, but too badly to be fused
     std::int64_t lost = 0;     // no pose
     std::int64_t skipped = 0;  // could not be read
+    std::int64_t dropped = 0;  // live: a newer one came before it was tracked
+    std::int64_t unfused = 0;  // live: tracked well, but mapping was busy
     std::int64_t degenerate = 0;  // the scene left some motion unconstrained
 };
 
@@ -47,6 +54,8 @@ struct MapStatistics {
     std::size_t bytes = 0;
     double bytes_per_voxel = 0;
 };
+
+MapStatistics StatisticsOf(const BlockMap& map);
 
 struct RunSummary {
     SourceInfo source;

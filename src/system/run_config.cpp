@@ -4,6 +4,18 @@
 
 namespace tessera {
 
+void LiveConfig::Describe(ConfigParameters& p) {
+    p.Add("queue_frames", queue_frames, {1, 30}, "frames",
+          "how many may wait to be tracked before the oldest is dropped; more bridges hiccups and adds delay");
+    p.Add("mesh_blocks", mesh_blocks, {1, 1000000}, "blocks",
+          "most blocks meshed again after a frame, for the window: about 5 us each on one core");
+    p.Add("playback_speed", playback_speed, {0.01, 1000.0}, "",
+          "recorded sources give their frames at this multiple of the recorded pace; cameras have their own");
+    p.Add("extra_tracking_ms", extra_tracking_ms, {0.0, 10000.0}, "ms",
+          "added to the tracking of each frame, to see what a slower machine would do");
+    p.Add("extra_mapping_ms", extra_mapping_ms, {0.0, 10000.0}, "ms", "the same for its fusion");
+}
+
 void RunConfig::Describe(ConfigParameters& p) {
     p.Section("source", [&](ConfigParameters& s) {
         source.Describe(s);
@@ -12,6 +24,7 @@ void RunConfig::Describe(ConfigParameters& p) {
     p.Section("synthetic", [&](ConfigParameters& s) { synthetic.Describe(s); });
     pipeline.Describe(p);
     p.Section("meshing", [&](ConfigParameters& s) { meshing.Describe(s); });
+    p.Section("live", [&](ConfigParameters& s) { live.Describe(s); });
     p.Section("record", [&](ConfigParameters& s) { record.Describe(s); });
     p.Section("run", [&](ConfigParameters& s) {
         s.Add("threads", threads, {0, 256}, "",

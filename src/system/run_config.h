@@ -10,9 +10,19 @@
 #include "io/openni_config.h"
 #include "mapping/mesher.h"
 #include "synth/synthetic_source.h"
-#include "system/pipeline.h"
+#include "system/pipeline_config.h"
 
 namespace tessera {
+
+// Of --mode live.
+struct LiveConfig {
+    int queue_frames = 2;
+    int mesh_blocks = 600;
+    double playback_speed = 1;
+    double extra_tracking_ms = 0, extra_mapping_ms = 0;
+
+    void Describe(ConfigParameters& parameters);
+};
 
 struct RunConfig {
     FolderSourceConfig source;
@@ -21,6 +31,7 @@ struct RunConfig {
     SynthConfig synthetic;
     PipelineConfig pipeline;
     MeshConfig meshing;
+    LiveConfig live;
     int threads = 0;     // 0: as many as the machine has
     int read_ahead = 4;  // frames decoded ahead
 

@@ -8,7 +8,7 @@
 
 #include "core/mesh.h"
 #include "core/status.h"
-#include "system/pipeline.h"
+#include "system/tracking_stage.h"
 #include "system/run.h"
 
 namespace tessera {

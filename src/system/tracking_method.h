@@ -44,6 +44,10 @@ class Trackers {
     void Select(TrackingMethod method) { method_ = method; }
     // By the selected method; made when it is first needed, on the thread that tracks.
     TrackResult Track(const TrackInput& input);
+    // In place of the configuration's: learnt from the frames, or this, in m^2.
+    void SetAlpha(bool automatic, double alpha) { photometry_.SetAlpha(automatic, alpha); }
+    // Forgets what was learnt, keeps the choices.
+    void Reset() { photometry_.Reset(); }
     // What a person should know of how the methods came up, in words, once; mostly empty.
     std::string TakeNote();
 

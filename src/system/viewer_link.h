@@ -13,18 +13,12 @@
 #include "core/frame.h"
 #include "core/queue.h"
 #include "mapping/predicted_view.h"
-#include "render/block_geometry.h"
-#include "system/pipeline.h"
+#include "system/mapping_stage.h"
 #include "system/run.h"
+#include "system/tracking_stage.h"
+#include "system/viewer_settings.h"
 
 namespace tessera {
-
-// Blocks of the map's mesh that were made anew, to replace what the viewer has under the same ids.
-struct MeshUpdate {
-    double voxel_size_m = 0;
-    bool clear = false;  // first forget all that came before
-    std::vector<GeometryBlock> blocks;
-};
 
 // One frame as far as numbers go.
 struct FrameUpdate {
@@ -41,17 +35,6 @@ struct FrameUpdate {
 struct ImageUpdate {
     std::shared_ptr<const Frame> frame;           // never null
     std::shared_ptr<const PredictedView> predicted;  // the map from the frame's pose, smaller; null unless wanted
-};
-
-// What a person may change while the system runs; sent whole, the newest counts, in force from the next frame on.
-struct ViewerSettings {
-    TrackingMethod method = TrackingMethod::kSdf;
-    bool auto_alpha = true;
-    double alpha = 0.03;         // m^2, unless auto_alpha
-    double max_depth_m = 5;      // farther measurements are left out
-    bool prealign = true;
-    bool fusing = true;          // off: track, but leave the map as it is
-    bool show_prediction = true; // fill ImageUpdate::predicted
 };
 
 // What a person asks for once.
@@ -82,7 +65,7 @@ struct ViewerLink {
     std::atomic<bool> ended{false};                 // the run is over and its files are written
 
     // Viewer to system.
-    NewestQueue<ViewerSettings> settings{1, system};
+    NewestQueue<ViewerSettings> settings{1, system};  // sent whole
     NewestQueue<ViewerCommand> commands{64, system};
 };
 

@@ -10,18 +10,6 @@ namespace {
 constexpr double kAnotherView_m = 0.15, kAnotherView_rad = 0.15;
 constexpr double kIntensityGateScales = 5.0;
 
-// The camera whose pixels are every step-th of `camera` in both directions.
-PinholeCamera Reduced(const PinholeCamera& camera, int step) {
-    PinholeCamera c = camera;
-    c.width /= step;
-    c.height /= step;
-    c.fx /= step;
-    c.fy /= step;
-    c.cx = (camera.cx - step / 2) / step;
-    c.cy = (camera.cy - step / 2) / step;
-    return c;
-}
-
 void SetPose(const Eigen::Isometry3d& T_view_camera, IcpArguments& a) {
     for (int i = 0; i < 3; ++i) {
         for (int j = 0; j < 3; ++j) a.rotation[3 * i + j] = static_cast<float>(T_view_camera.linear()(i, j));
@@ -106,7 +94,7 @@ TrackResult IcpTracker::Track(const TrackInput& input) {
 // The view that the frame is aligned with. The camera's pose is sought in its frame.
 void IcpTracker::PredictAt(const TrackInput& input, const Eigen::Isometry3d& T_world_view, State& state) {
     constexpr float kNear_m = 0.1f, kMargin_m = 0.5f;
-    predictor_->Predict(input.map, Reduced(camera_, config_.finest_step_px), Normalised(T_world_view),
+    predictor_->Predict(input.map, camera_.Every(config_.finest_step_px), Normalised(T_world_view),
                         std::max(kNear_m, 0.7f * input.frame.nearest_m - kMargin_m),
                         1.2f * input.frame.farthest_m + kMargin_m, view_);
     BuildIcpModel(view_, config_.levels, static_cast<float>(config_.distance_gate_m), model_);

@@ -28,6 +28,11 @@ class ImageAligner {
     // result is T_last_current; the guess itself if there is nothing to align. Owner thread only.
     Eigen::Isometry3d Align(const PreparedFrame& frame, const Eigen::Isometry3d& T_last_current_guess);
     void Clear();
+    // In place of the configuration's.
+    void Enable(bool on) {
+        config_.enabled = on;
+        if (!on) Clear();
+    }
 
   private:
     // One reduced image; intensity smoothed by averaging, depth sampled; -1 and 0 where missing.

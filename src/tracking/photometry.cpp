@@ -52,6 +52,13 @@ void Photometry::Reset() {
     shutter_.Reset();
 }
 
+void Photometry::SetAlpha(bool automatic, double alpha) {
+    config_.alpha_mode = automatic ? AlphaMode::kAuto : AlphaMode::kFixed;
+    if (automatic) return;
+    config_.alpha = alpha;
+    alpha_ = alpha;
+}
+
 FrameMotion Photometry::Timed(FrameMotion motion) const {
     motion.colour_delay_s += shutter_.delay_s();
     motion.colour_readout_s += shutter_.readout_s();

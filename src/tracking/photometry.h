@@ -34,6 +34,8 @@ class Photometry {
     Photometry(const Config& config, const PinholeCamera& camera);
     // Forgets what was learnt, not the configuration.
     void Reset();
+    // In place of the configuration's: learnt from here on, or fixed at `alpha`, in m^2.
+    void SetAlpha(bool automatic, double alpha);
 
     const Config& config() const { return config_; }
     double alpha() const { return alpha_; }  // in use, [B14] eq. 8

@@ -1,0 +1,20 @@
+// What both engines do the same way.
+#pragma once
+
+#include <string>
+
+#include "system/mapping_stage.h"
+#include "system/recorder_thread.h"
+
+namespace tessera {
+
+// A folder by the recorder's thread, FILE.oni by the source itself; before the source's first frame.
+Status StartRecording(const std::string& path, const RecordConfig& config, FrameSource& source, RecorderThread& recorder);
+
+// Writes the mesh as it is now; returns how that went, for a person.
+std::string SaveMesh(const MappingStage& mapping, const std::string& path);
+
+// Of a thread that waits for a person's next wish and for a signal that cannot wake it.
+void PauseBriefly();
+
+}  // namespace tessera

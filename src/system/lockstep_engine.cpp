@@ -1,0 +1,116 @@
+#include "system/lockstep_engine.h"
+
+#include "core/stopwatch.h"
+#include "io/mesh_io.h"
+
+namespace tessera {
+
+LockstepEngine::LockstepEngine(EngineInput input)
+    : config_(input.config),
+      plan_(std::move(input.plan)),
+      viewer_(input.viewer),
+      stop_(*input.stop),
+      control_(input.viewer),
+      source_(input.source->info()),
+      tracking_(config_.pipeline, source_.camera),
+      mapping_(config_.pipeline, config_.meshing, source_.camera),
+      feed_(input.viewer, config_.live.mesh_blocks),
+      recorder_(source_, config_.record, true) {
+    if (!input.record_path.empty()) status_ = StartRecording(input.record_path, config_.record, *input.source, recorder_);
+    if (!status_.ok()) return;
+    reader_ = std::make_unique<FrameReader>(std::move(input.source), input.selection, config_.read_ahead);
+}
+
+bool LockstepEngine::Next(FrameOutcome& outcome) {
+    outcome = {};
+    bool ended = !status_.ok();
+    while (!ended) {
+        if (ObeyViewer(outcome)) return true;
+        if (stopped_) break;
+        const ReadResult read = reader_->Next(frame_);
+        outcome.message = read.message;
+        switch (read.status) {
+            case ReadStatus::kOk: Process(outcome); return true;
+            case ReadStatus::kSkip: outcome.kind = FrameOutcome::Kind::kSkipped; return true;
+            case ReadStatus::kWait:
+                if (read.message.empty()) continue;
+                outcome.kind = FrameOutcome::Kind::kMessage;
+                return true;
+            case ReadStatus::kError: status_ = Status::Error(read.message); [[fallthrough]];
+            case ReadStatus::kEnd: ended = true;
+        }
+    }
+    if (reader_) reader_->RequestStop();
+    recorder_.Stop();
+    return TakeMessage(outcome);
+}
+
+// A frame's life.
+void LockstepEngine::Process(FrameOutcome& outcome) {
+    outcome.decode_ms = reader_->decode_ms();
+    recorder_.Add(frame_);
+    plan_.Track(frame_, mapping_.map(), tracking_, tracked_);
+    mapping_.Fuse(tracked_);
+    outcome.report = tracked_.report;
+    outcome.T_world_camera_truth = frame_.T_world_camera;
+    outcome.mesh_ms = feed_.Send(frame_, outcome.report, mapping_);
+    outcome.map = map_statistics();
+}
+
+bool LockstepEngine::TakeMessage(FrameOutcome& outcome) {
+    const auto message = recorder_.TakeMessage();
+    if (!message) return false;
+    outcome.kind = FrameOutcome::Kind::kMessage;
+    outcome.message = *message;
+    return true;
+}
+
+bool LockstepEngine::ObeyViewer(FrameOutcome& outcome) {
+    while (true) {
+        if (TakeMessage(outcome)) return true;
+        ViewerSettings settings;
+        if (viewer_ != nullptr && viewer_->settings.TryPop(settings)) {
+            tracking_.Apply(settings);
+            feed_.ShowPrediction(settings.show_prediction);
+        }
+        if (const auto command = control_.TakeCommand()) {
+            if (Obey(*command, outcome)) return true;
+            continue;
+        }
+        stopped_ = stopped_ || stop_.load();
+        if (stopped_ || control_.TakeTurn()) return false;
+        feed_.SendMesh(mapping_);
+        PauseBriefly();
+    }
+}
+
+bool LockstepEngine::Obey(const ViewerCommand& command, FrameOutcome& outcome) {
+    outcome.kind = FrameOutcome::Kind::kMessage;
+    switch (command.kind) {
+        case ViewerCommand::Kind::kReset:
+            tracking_.Reset();
+            mapping_.Reset();
+            feed_.SendMesh(mapping_);
+            outcome.kind = FrameOutcome::Kind::kReset;
+            return true;
+        case ViewerCommand::Kind::kSaveMesh:
+            outcome.message = SaveMesh(mapping_, command.path);
+            return true;
+        case ViewerCommand::Kind::kRecord:
+            if (Status status = recorder_.Start(command.path); !status.ok()) {
+                outcome.message = status.message();
+                return true;
+            }
+            return false;
+        case ViewerCommand::Kind::kStopRecording: recorder_.Stop(); return false;
+        case ViewerCommand::Kind::kStop: stopped_ = true; return false;
+        default: return false;
+    }
+}
+
+TriangleMesh LockstepEngine::TakeMesh() {
+    reader_.reset();
+    return mapping_.TakeMesh();
+}
+
+}  // namespace tessera

@@ -1,0 +1,47 @@
+// Every frame, each tracked against the map of all frames before it: the same bytes out on every run and for any number
+// of threads. Only decoding runs ahead.
+#pragma once
+
+#include "io/frame_reader.h"
+#include "system/engine.h"
+#include "system/engine_steps.h"
+#include "system/run_control.h"
+#include "system/viewer_feed.h"
+
+namespace tessera {
+
+class LockstepEngine : public Engine {
+  public:
+    explicit LockstepEngine(EngineInput input);
+
+    bool Next(FrameOutcome& outcome) override;
+    const Status& status() const override { return status_; }
+    bool stopped() const override { return stopped_; }
+    TriangleMesh TakeMesh() override;
+    MapStatistics map_statistics() const override { return StatisticsOf(mapping_.map()); }
+
+  private:
+    // Waits while paused. True if there is something to report.
+    bool ObeyViewer(FrameOutcome& outcome);
+    bool Obey(const ViewerCommand& command, FrameOutcome& outcome);
+    bool TakeMessage(FrameOutcome& outcome);
+    void Process(FrameOutcome& outcome);
+
+    RunConfig config_;
+    FramePlan plan_;
+    ViewerLink* viewer_;
+    const std::atomic<bool>& stop_;
+    RunControl control_;
+    SourceInfo source_;
+    TrackingStage tracking_;
+    MappingStage mapping_;
+    TrackedFrame tracked_;
+    ViewerFeed feed_;
+    RecorderThread recorder_;
+    std::unique_ptr<FrameReader> reader_;  // null once the mesh was taken
+    Frame frame_;
+    Status status_;
+    bool stopped_ = false;
+};
+
+}  // namespace tessera

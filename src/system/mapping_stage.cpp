@@ -1,0 +1,69 @@
+#include "system/mapping_stage.h"
+
+#include <fmt/format.h>
+
+#include "core/check.h"
+#include "mapping/ray_caster.h"
+
+namespace tessera {
+
+MappingStage::MappingStage(const PipelineConfig& config, const MeshConfig& meshing, const PinholeCamera& camera)
+    : config_(config),
+      camera_(camera),
+      map_(std::make_unique<BlockMap>(config.map)),
+      integrator_(config.fusion, camera),
+      mesher_(meshing) {}
+
+void MappingStage::Fuse(TrackedFrame& tracked) {
+    if (!tracked.to_fuse) return;
+    FrameReport& report = tracked.report;
+    report.fusion = integrator_.Integrate(tracked.prepared, tracked.view, *map_);
+    report.fused = true;
+    if (report.fusion.refused_blocks > 0)
+        report.warning =
+            fmt::format("{} of {} new blocks refused: mapping.max_new_blocks", report.fusion.refused_blocks,
+                        report.fusion.refused_blocks + report.fusion.new_blocks);
+}
+
+void MappingStage::CollectDelta(MapDelta& delta) {
+    tessera::CollectDelta(*map_, delta_size_, integrator_.changed_blocks(), integrator_.revision(), delta);
+    delta_size_ = map_->size();
+}
+
+int MappingStage::UpdateMesh(int budget_blocks, MeshUpdate& update) {
+    const int waiting = mesher_.Update(*map_, budget_blocks);
+    update.voxel_size_m = map_->config().voxel_size_m;
+    update.clear = std::exchange(mesh_cleared_, false);
+    const std::span<GeometryBlock> blocks = geometry_.Build(*map_, mesher_);
+    update.blocks.assign(std::make_move_iterator(blocks.begin()), std::make_move_iterator(blocks.end()));
+    return waiting;
+}
+
+TriangleMesh MappingStage::Mesh() const {
+    Mesher mesher(mesher_.config());
+    mesher.Update(*map_);
+    return mesher.Assemble();
+}
+
+TriangleMesh MappingStage::TakeMesh() {
+    mesher_.Update(*map_);
+    map_.reset();
+    TriangleMesh mesh = mesher_.Assemble();
+    mesher_.Clear();
+    return mesh;
+}
+
+void MappingStage::Predict(const Eigen::Isometry3d& T_world_camera, int step, PredictedView& view) const {
+    constexpr float kNear_m = 0.1f;
+    RayCaster().Predict(*map_, camera_.Every(step), T_world_camera, kNear_m,
+                        1.2f * static_cast<float>(config_.frame.max_depth_m), view);
+}
+
+void MappingStage::Reset() {
+    map_->Clear();
+    mesher_.Clear();
+    delta_size_ = 1;
+    mesh_cleared_ = true;
+}
+
+}  // namespace tessera

@@ -1,0 +1,57 @@
+// The second half of a frame's life: fuse it, mesh what changed, tell the tracker's copy and the viewer. The one owner
+// and writer of the map.
+#pragma once
+
+#include "mapping/map_delta.h"
+#include "mapping/mesher.h"
+#include "render/geometry_builder.h"
+#include "system/tracking_stage.h"
+
+namespace tessera {
+
+// Blocks of the map's mesh that were made anew, to replace what the viewer has under the same ids.
+struct MeshUpdate {
+    double voxel_size_m = 0;
+    bool clear = false;  // first forget all that came before
+    std::vector<GeometryBlock> blocks;
+};
+
+// Owner thread only.
+class MappingStage {
+  public:
+    MappingStage(const PipelineConfig& config, const MeshConfig& meshing, const PinholeCamera& camera);
+
+    // Puts the frame into the map, if it is to be, and reports that in it.
+    void Fuse(TrackedFrame& tracked);
+
+    // What the last Fuse changed, for a copy of the map's field. To be called after each Fuse that fused, or never.
+    void CollectDelta(MapDelta& delta);
+
+    // Meshes again at most `budget_blocks` of what has changed; returns how many wait. `update` takes them.
+    int UpdateMesh(int budget_blocks, MeshUpdate& update);
+
+    // The whole mesh up to the last frame fused, small pieces left out.
+    TriangleMesh Mesh() const;
+    // The same at the end: the map goes before the mesh is put together, so that both need not fit into memory.
+    TriangleMesh TakeMesh();
+
+    // The surface as the camera sees it from where it was, at 1/`step` of its resolution.
+    void Predict(const Eigen::Isometry3d& T_world_camera, int step, PredictedView& view) const;
+
+    // An empty map.
+    void Reset();
+
+    const BlockMap& map() const { return *map_; }
+
+  private:
+    PipelineConfig config_;
+    PinholeCamera camera_;
+    std::unique_ptr<BlockMap> map_;  // null once the mesh was taken
+    Integrator integrator_;
+    Mesher mesher_;
+    GeometryBuilder geometry_;
+    BlockId delta_size_ = 1;     // the map's size at the last CollectDelta
+    bool mesh_cleared_ = false;  // since the last UpdateMesh
+};
+
+}  // namespace tessera

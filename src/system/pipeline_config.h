@@ -1,0 +1,36 @@
+// The settings of all that a frame passes through: sections frame, mapping, tracking.
+#pragma once
+
+#include "core/config.h"
+#include "mapping/block_map.h"
+#include "mapping/integrator.h"
+#include "mapping/prepared_frame.h"
+#include "system/motion_model.h"
+#include "system/tracking_method.h"
+#include "tracking/image_aligner.h"
+
+namespace tessera {
+
+// When a frame's images and rows were taken.
+struct ShutterConfig {
+    bool colour_delay = true;
+    double depth_readout_s = 0;
+    double colour_readout_s = 0;
+
+    void Describe(ConfigParameters& parameters);
+};
+
+struct PipelineConfig {
+    PreparedFrame::Config frame;
+    BlockMap::Config map;
+    Integrator::Config fusion;
+    MotionModel::Config motion;
+    ShutterConfig shutter;
+    ImageAligner::Config prealign;
+    TrackersConfig trackers;
+
+    void Describe(ConfigParameters& parameters);
+    Status Validate() const;
+};
+
+}  // namespace tessera

@@ -1,0 +1,106 @@
+#include "system/tracking_stage.h"
+
+#include <fmt/format.h>
+
+#include "core/stopwatch.h"
+
+namespace tessera {
+namespace {
+
+Integrator::View FusionView(const TrackResult& track) {
+    Integrator::View view;
+    view.T_world_camera = track.T_world_camera;
+    view.motion = track.motion;
+    view.gain = static_cast<float>(track.gain);
+    view.offset = static_cast<float>(track.offset);
+    return view;
+}
+
+}  // namespace
+
+TrackingStage::TrackingStage(const PipelineConfig& config, const PinholeCamera& camera)
+    : config_(config),
+      camera_(camera),
+      motion_(config.motion),
+      aligner_(config.prealign, camera),
+      trackers_(config.trackers, camera) {}
+
+void TrackingStage::Track(const Frame& frame, const BlockMap& map, const std::optional<Eigen::Isometry3d>& given,
+                          TrackedFrame& tracked) {
+    PreparedFrame& prepared = tracked.prepared;
+    FrameReport& report = tracked.report;
+    report = {};
+    report.index = frame.index;
+    report.stamp_s = frame.stamp_s;
+    report.method = trackers_.method();
+
+    // 1. Gate the depth, split the colour.
+    Stopwatch watch;
+    PrepareFrame(frame, config_.frame, prepared);
+    report.prepare_ms = watch.LapMs();
+    report.valid_depth_fraction =
+        static_cast<double>(prepared.valid_depth_pixels) / static_cast<double>(frame.depth_m.size());
+
+    // 2. Where was the camera?
+    report.first = !motion_.last().has_value();
+    if (prepared.valid_depth_pixels == 0) {
+        report.track.reason = prepared.measured_pixels > 0 ? "0 depth pixels in range: is depth_scale right?"
+                                                           : "0 depth pixels in the image";
+    } else if (prepared.coherent_fraction < config_.frame.min_coherent_fraction) {
+        report.track.reason = fmt::format("the depth is noise: only {:.0f} % of neighbouring pixels agree",
+                                          100 * prepared.coherent_fraction);
+    } else if (given) {
+        report.track.T_world_camera = *given;
+        report.track.status = TrackStatus::kGood;
+    } else if (report.first) {
+        report.track.status = TrackStatus::kGood;  // the first camera is the world
+        aligner_.Align(prepared, Eigen::Isometry3d::Identity());
+    } else {
+        report.track = TrackFrame(frame, prepared, map);
+        report.warning = trackers_.TakeNote();
+    }
+    report.first = report.first && report.tracked();
+    report.track_ms = watch.LapMs();
+    if (report.tracked()) motion_.Add({frame.stamp_s, report.track.T_world_camera});
+
+    // 3. Would it harm the map?
+    tracked.to_fuse = report.track.status == TrackStatus::kGood && (fusing_ || report.first);
+    tracked.view = FusionView(report.track);
+}
+
+TrackResult TrackingStage::TrackFrame(const Frame& frame, const PreparedFrame& prepared, const BlockMap& map) {
+    const Eigen::Isometry3d& T_world_last = motion_.last()->T_world_camera;
+    const Eigen::Isometry3d T_world_expected = motion_.Predict(frame.stamp_s);
+    const Eigen::Isometry3d T_world_aligned =
+        T_world_last * aligner_.Align(prepared, T_world_last.inverse() * T_world_expected);
+    return trackers_.Track({.frame = prepared,
+                            .map = map,
+                            .T_world_camera_starts = {T_world_expected, T_world_aligned},
+                            .T_world_camera_last = T_world_last,
+                            .since_last_s = motion_.SinceLast(frame.stamp_s),
+                            .motion = ShutterOf(frame)});
+}
+
+FrameMotion TrackingStage::ShutterOf(const Frame& frame) const {
+    FrameMotion motion;
+    motion.colour_delay_s = config_.shutter.colour_delay ? frame.colour_stamp_s - frame.stamp_s : 0.0;
+    motion.depth_readout_s = config_.shutter.depth_readout_s;
+    motion.colour_readout_s = config_.shutter.colour_readout_s;
+    return motion;
+}
+
+void TrackingStage::Apply(const ViewerSettings& settings) {
+    trackers_.Select(settings.method);
+    trackers_.SetAlpha(settings.auto_alpha, settings.alpha);
+    config_.frame.max_depth_m = settings.max_depth_m;
+    aligner_.Enable(settings.prealign);
+    fusing_ = settings.fusing;
+}
+
+void TrackingStage::Reset() {
+    motion_.Clear();
+    aligner_.Clear();
+    trackers_.Reset();
+}
+
+}  // namespace tessera

@@ -1,0 +1,72 @@
+// The first half of a frame's life: prepare it, find where the camera was, judge that. Reads the map, never writes it.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "core/frame.h"
+#include "mapping/integrator.h"
+#include "mapping/prepared_frame.h"
+#include "system/motion_model.h"
+#include "system/pipeline_config.h"
+#include "system/viewer_settings.h"
+#include "tracking/image_aligner.h"
+
+namespace tessera {
+
+// What became of one frame.
+struct FrameReport {
+    std::int64_t index = 0;
+    double stamp_s = 0;
+    TrackingMethod method = TrackingMethod::kSdf;
+    TrackResult track;       // status good, with the given pose, when poses are given
+    bool first = false;      // the frame that started the map
+    bool fused = false;
+    double valid_depth_fraction = 0;
+    std::string warning;     // what a person should know of this frame, in words; mostly empty
+    Integrator::Report fusion;
+    double prepare_ms = 0, track_ms = 0;
+
+    bool tracked() const { return track.status != TrackStatus::kLost; }
+};
+
+// A frame between the two halves of its life, with all that fusion needs.
+struct TrackedFrame {
+    PreparedFrame prepared;
+    FrameReport report;
+    Integrator::View view;
+    bool to_fuse = false;
+};
+
+// Owner thread only.
+class TrackingStage {
+  public:
+    TrackingStage(const PipelineConfig& config, const PinholeCamera& camera);
+
+    // Into `tracked`, whose storage is used again. With a given pose the frame is not tracked. The world is the first
+    // frame's camera unless its pose is given; that frame is always to be fused, and must be in `map` when the next one
+    // comes. Nobody may write `map` meanwhile.
+    void Track(const Frame& frame, const BlockMap& map, const std::optional<Eigen::Isometry3d>& given,
+               TrackedFrame& tracked);
+
+    // From the next frame on; pose, velocity, brightness and map stay.
+    void Select(TrackingMethod method) { trackers_.Select(method); }
+    // Off: frames are tracked, but are not to be fused; the first always is.
+    void SetFusing(bool on) { fusing_ = on; }
+    void Apply(const ViewerSettings& settings);
+    // Forgets the camera's way, not the settings: the next frame is a new world's first.
+    void Reset();
+
+  private:
+    TrackResult TrackFrame(const Frame& frame, const PreparedFrame& prepared, const BlockMap& map);
+    FrameMotion ShutterOf(const Frame& frame) const;
+
+    PipelineConfig config_;
+    PinholeCamera camera_;
+    MotionModel motion_;
+    ImageAligner aligner_;
+    Trackers trackers_;
+    bool fusing_ = true;
+};
+
+}  // namespace tessera

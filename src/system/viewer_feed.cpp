@@ -1,0 +1,36 @@
+#include "system/viewer_feed.h"
+
+#include "core/stopwatch.h"
+
+namespace tessera {
+
+double ViewerFeed::Send(const Frame& frame, const FrameReport& report, MappingStage& mapping) {
+    if (viewer_ == nullptr) return 0;
+    SendImages(frame, report, mapping);
+    return SendMesh(mapping);
+}
+
+// While the window has not taken the meshes before, what changes waits in the mesher.
+double ViewerFeed::SendMesh(MappingStage& mapping) {
+    if (viewer_ == nullptr || viewer_->meshes.size() >= viewer_->meshes.capacity()) return 0;
+    Stopwatch watch;
+    MeshUpdate update;
+    mapping.UpdateMesh(mesh_blocks_, update);
+    if (update.clear || !update.blocks.empty()) viewer_->meshes.TryPush(std::move(update));
+    return watch.LapMs();
+}
+
+void ViewerFeed::SendImages(const Frame& frame, const FrameReport& report, const MappingStage& mapping) {
+    if (!viewer_->images.empty()) return;
+    ImageUpdate images;
+    images.frame = std::make_shared<Frame>(frame);
+    if (show_prediction_ && report.tracked()) {
+        constexpr int kStep = 4;
+        auto view = std::make_shared<PredictedView>();
+        mapping.Predict(report.track.T_world_camera, kStep, *view);
+        images.predicted = std::move(view);
+    }
+    viewer_->images.Push(std::move(images));
+}
+
+}  // namespace tessera
