@@ -10,6 +10,7 @@
 #include "viz/mesh_program.h"
 #include "viz/path_lines.h"
 #include "viz/scene_target.h"
+#include "viz/up_estimator.h"
 
 namespace tessera {
 namespace {
@@ -28,6 +29,7 @@ struct SceneView::Impl {
         ViewChoices choices;
         bool smooth = false;
     };
+    void StandUpright();
     bool Moved(const ViewerState& state, int width, int height, bool is_smooth) const;
     void DrawMesh(const ViewerState& state, const PinholeCamera& pinhole);
     void DrawPaths(const ViewerState& state, const PinholeCamera& pinhole);
@@ -40,6 +42,7 @@ struct SceneView::Impl {
     PathLines paths;
     SceneTarget target;
     ViewCamera camera;
+    UpEstimator up{{0, -1, 0}};
     bool followed = false, changed = true;
     Drawn drawn;
 
@@ -79,7 +82,9 @@ void SceneView::SetModel(const ViewedModel& model) {
                                        view.T_world_camera.linear()(2, 1) < 0
                                    ? Eigen::Vector3d(0, 0, 1)
                                    : Eigen::Vector3d(0, -1, 0);
-    impl_->camera.SetUp(up);
+    impl_->up = UpEstimator(up);
+    for (const Eigen::Vector3f& normal : model.mesh.normals) impl_->up.Add(normal);
+    impl_->camera.SetUp(impl_->up.Up().value_or(up));
     const Eigen::Vector3d eye = view.T_world_camera.translation(), forward = view.T_world_camera.linear().col(2);
     const double ahead = std::max((impl_->bounds.center() - eye).dot(forward), 0.1);
     impl_->camera.Place(eye, eye + ahead * forward);
@@ -98,6 +103,7 @@ bool SceneView::TakeMesh(ViewerLink& link, std::size_t most_bytes) {
             if (s.pending.clear) {
                 s.store.Clear();
                 s.bounds.setEmpty();
+                s.up.Clear();
             }
             any = true;
         }
@@ -106,6 +112,7 @@ bool SceneView::TakeMesh(ViewerLink& link, std::size_t most_bytes) {
             const GeometryBlock& block = s.pending.blocks[s.pending_done];
             bytes += block.geometry.vertices.size() * sizeof(GeometryVertex) + block.geometry.indices.size() * 2 + 64;
             if (block.geometry.indices.empty()) continue;
+            s.up.Add(block.geometry);
             const Eigen::Vector3d corner(block.coord.x, block.coord.y, block.coord.z);
             s.bounds.extend(corner * kBlockSide * s.pending.voxel_size_m);
             s.bounds.extend((corner + Eigen::Vector3d::Ones()) * kBlockSide * s.pending.voxel_size_m);
@@ -115,7 +122,14 @@ bool SceneView::TakeMesh(ViewerLink& link, std::size_t most_bytes) {
         any = true;
     }
     s.changed |= any;
+    if (any) s.StandUpright();
     return any;
+}
+
+// Not for every small change, which would be seen.
+void SceneView::Impl::StandUpright() {
+    const auto found = up.Up();
+    if (found && found->dot(camera.up()) < 0.9997) camera.SetUp(*found);
 }
 
 bool SceneView::Follow(const ViewerState& state, double since_s) {
