@@ -148,10 +148,7 @@ void SceneView::ViewAll() {
     Impl& s = *impl_;
     if (s.bounds.isEmpty()) return;
     const Eigen::Vector3d from = s.camera.T_world_camera().linear().col(2);
-    s.camera.LookAt(s.bounds.center());
-    s.camera.Place(s.bounds.center() - from, s.bounds.center());
-    s.camera.Zoom(1.05 * s.bounds.diagonal().norm());
-    s.changed = true;
+    s.camera.Place(s.bounds.center() - 0.76 * s.bounds.diagonal().norm() * from, s.bounds.center());
 }
 
 bool SceneView::Impl::Moved(const ViewerState& state, int width, int height, bool is_smooth) const {

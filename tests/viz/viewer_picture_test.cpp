@@ -55,7 +55,7 @@ TEST_F(ViewerPicture, AScreenshotIsSavedAndToldOf) {
     ASSERT_TRUE(picture.ok()) << picture.message();
     ASSERT_EQ(picture.value().width(), 1280);
     ASSERT_EQ(picture.value().height(), 720);
-    // The wood and the wallpaper: warm colours, which no part of the window's own has.
+    // The box room: warm colours, which no part of the window's own has.
     EXPECT_GT(Share(picture.value(), [](const Rgb8& c) { return c.r > c.b + 15 && c.r > 70; }), 0.05);
     Key(XK_p);
     EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_.path()), {}), 2);
@@ -122,6 +122,8 @@ TEST_F(ViewerPicture, ThePointerTurnsMovesAndZooms) {
     display_->Release(4);
     Rounds(3);
     expect_change("wheel");
+    Key(XK_a);
+    expect_change("all");
     for (int i = 0; i < 2; ++i) {
         display_->Press(1);
         Rounds(1);

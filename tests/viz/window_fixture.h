@@ -8,6 +8,7 @@
 #include <string>
 
 #include "support/temp_folder.h"
+#include "viz/box_room_source.h"
 #include "viz/stepped_system.h"
 #include "viz/viewer.h"
 #include "viz/virtual_display.h"
@@ -20,7 +21,10 @@ class WindowTest : public testing::Test {
         std::string why;
         display_ = VirtualDisplay::Start(why);
         if (!display_) GTEST_SKIP() << why;
-        system_ = std::make_unique<SteppedSystem>(link_, SteppedSystem::Small());
+        PipelineConfig config;
+        config.map.voxel_size_m = 0.04;
+        config.map.truncation_m = 0.16;
+        system_ = std::make_unique<SteppedSystem>(link_, std::make_unique<BoxRoomSource>(), config);
         ViewerOptions options;
         options.title = "test";
         options.output_folder = folder_.path();
