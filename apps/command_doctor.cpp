@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <cstdlib>
 #include <opencv2/core/version.hpp>
 
 #include "command.h"
@@ -13,6 +14,14 @@
 
 namespace tessera {
 namespace {
+
+const char* Window() {
+#ifndef TESSERA_HAVE_WINDOW
+    return "off: this build has no window: install libimgui-dev, libglfw3-dev and libepoxy-dev and build again";
+#else
+    return std::getenv("DISPLAY") || std::getenv("WAYLAND_DISPLAY") ? "on" : "no display: set DISPLAY";
+#endif
+}
 
 int Doctor() {
     const double memory_gb = static_cast<double>(sysconf(_SC_PHYS_PAGES)) *
@@ -28,7 +37,8 @@ int Doctor() {
     fmt::print("sources      folders (TUM RGB-D, ICL-NUIM, 7-Scenes, camera.yaml), synthetic scenes\n");
     const auto gl = GlContext::Create();
     fmt::print("OpenGL       {}\n", gl.ok() ? gl.value()->renderer() : "off: " + gl.message());
-    for (const char* off : {"CUDA        ", "cameras     ", ".oni, .klg  ", "window      ", "labels      ", "loop closure"})
+    fmt::print("window       {}\n", Window());
+    for (const char* off : {"CUDA        ", "cameras     ", ".oni, .klg  ", "labels      ", "loop closure"})
         fmt::print("{} not in this version\n", off);
     return kExitDone;
 }

@@ -78,10 +78,9 @@ void SceneView::SetModel(const ViewedModel& model) {
     impl_->paths.SetPath(model.path);
     for (const Eigen::Vector3f& vertex : model.mesh.vertices) impl_->bounds.extend(vertex.cast<double>());
     const MeshView view = ChooseView(model.mesh, model.path);
-    const Eigen::Vector3d up = std::abs(view.T_world_camera.linear()(2, 1)) > 0.5 &&
-                                       view.T_world_camera.linear()(2, 1) < 0
-                                   ? Eigen::Vector3d(0, 0, 1)
-                                   : Eigen::Vector3d(0, -1, 0);
+    // ChooseView took one of these two for up.
+    const Eigen::Vector3d down = view.T_world_camera.linear().col(1);
+    const Eigen::Vector3d up = -down.z() > down.y() ? Eigen::Vector3d(0, 0, 1) : Eigen::Vector3d(0, -1, 0);
     impl_->up = UpEstimator(up);
     for (const Eigen::Vector3f& normal : model.mesh.normals) impl_->up.Add(normal);
     impl_->camera.SetUp(impl_->up.Up().value_or(up));

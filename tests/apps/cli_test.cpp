@@ -56,7 +56,7 @@ class Cli : public testing::Test {
 
 TEST_F(Cli, HelpEverywhere) {
     for (const char* command : {"", "run", "eval", "eval ate", "eval rpe", "eval mesh", "synth", "sweep", "sweep alpha",
-                                "render", "info", "doctor", "config"})
+                                "render", "view", "info", "doctor", "config"})
         for (const char* flag : {" -h", " --help"}) {
             const Outcome outcome = Call(std::string(command) + flag);
             EXPECT_EQ(outcome.exit_code, 0) << command;
@@ -84,6 +84,9 @@ TEST_F(Cli, BadArgumentsAreOneLineAndExitCode2) {
     ExpectRefused("eval ate /no/reference.txt /no/estimate.txt", "/no/reference.txt");
     ExpectRefused("eval mesh /no/a.ply /no/b.ply", "/no/a.ply");
     ExpectRefused("render /no/a.ply --out a.png", "/no/a.ply");
+    ExpectRefused("view /no/such/run", "/no/such/run");
+    ExpectRefused("view synthetic:desk", "tessera run synthetic:desk --view");
+    ExpectRefused("view " + folder.path(), "mesh.ply");
     ExpectRefused("sweep alpha synthetic:desk --values 1:0:1", "--values");
     ExpectRefused("sweep alpha synthetic:desk --values 0:1:0", "--values");
     ExpectRefused("info /no/such/folder", "/no/such/folder");
@@ -94,7 +97,6 @@ TEST_F(Cli, WhatIsToComeIsRefusedAndNeverIgnored) {
                                "--device cuda", "--mode live"})
         ExpectRefused(std::string("run synthetic:desk ") + option, "not in this version");
     ExpectRefused("run a.oni", "not in this version");
-    ExpectRefused("view out", "not in this version");
     ExpectRefused("export out --mesh a.glb", "not in this version");
     ExpectRefused("eval labels a b", "not in this version");
 }
