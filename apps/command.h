@@ -34,6 +34,7 @@ void AddRenderCommand(CLI::App& app, CommandContext& context);
 void AddRunCommand(CLI::App& app, CommandContext& context);
 void AddSweepCommand(CLI::App& app, CommandContext& context);
 void AddSynthCommand(CLI::App& app, CommandContext& context);
+void AddViewCommand(CLI::App& app, CommandContext& context);
 
 // A command or value of the contract that is still to come: an error line, and never silently accepted.
 Status NotInThisVersion(const std::string& what);

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <cstdlib>
 #include <opencv2/core/version.hpp>
 
 #include "command.h"
@@ -25,6 +26,14 @@ void PrintCameras(const OpenniListing& listing) {
     for (const std::string& line : listing.advice) fmt::print("             {}\n", line);
 }
 
+const char* Window() {
+#ifndef TESSERA_HAVE_WINDOW
+    return "off: this build has no window: install libimgui-dev, libglfw3-dev and libepoxy-dev and build again";
+#else
+    return std::getenv("DISPLAY") || std::getenv("WAYLAND_DISPLAY") ? "on" : "no display: set DISPLAY";
+#endif
+}
+
 int Doctor() {
     const double memory_gb = static_cast<double>(sysconf(_SC_PHYS_PAGES)) *
                              static_cast<double>(sysconf(_SC_PAGE_SIZE)) / (1024.0 * 1024.0 * 1024.0);
@@ -40,7 +49,8 @@ int Doctor() {
     const auto gl = GlContext::Create();
     fmt::print("OpenGL       {}\n", gl.ok() ? gl.value()->renderer() : "off: " + gl.message());
     PrintCameras(ListOpenniDevices());
-    for (const char* off : {"CUDA        ", ".klg        ", "window      ", "labels      ", "loop closure"})
+    fmt::print("window       {}\n", Window());
+    for (const char* off : {"CUDA        ", ".klg        ", "labels      ", "loop closure"})
         fmt::print("{} not in this version\n", off);
     return kExitDone;
 }

@@ -27,7 +27,7 @@ int ExitCode(const Status& status) { return status.ok() ? kExitDone : Fail(statu
 namespace {
 
 void AddCommandsToCome(CLI::App& app, CommandContext& context) {
-    for (const char* name : {"view", "export"}) {
+    for (const char* name : {"export"}) {
         CLI::App* command = app.add_subcommand(name, "Not in this version")->group("Not in this version");
         command->allow_extras();
         command->callback([&context, name] { context.exit_code = Fail(NotInThisVersion(name)); });
@@ -64,6 +64,7 @@ int Main(int argc, char** argv) {
     AddSweepCommand(app, context);
     AddInspectCommand(app, context);
     AddRenderCommand(app, context);
+    AddViewCommand(app, context);
     AddInfoCommand(app, context);
     AddDoctorCommand(app, context);
     AddConfigCommand(app, context);

@@ -14,6 +14,11 @@ void OnConnectionLost(void*, void*) {
     lost = true;
 }
 
+// In place of the one that says so on the console and ends the process.
+int OnIoError(void*) {
+    return 0;
+}
+
 // A request that failed (a window that another program closed, say) harms nobody.
 int OnError(void*, void*) {
     return 0;
@@ -34,6 +39,7 @@ void SurviveLossOfDisplay() {
     if (!display) return;
     if (const auto set = Find<void (*)(void*, void (*)(void*, void*), void*)>("XSetIOErrorExitHandler"))
         set(display, OnConnectionLost, nullptr);
+    if (const auto set = Find<void* (*)(int (*)(void*))>("XSetIOErrorHandler")) set(OnIoError);
     if (const auto set = Find<void* (*)(int (*)(void*, void*))>("XSetErrorHandler")) set(OnError);
 }
 

@@ -72,7 +72,10 @@ void DrawImage(const char* title, const GlTexture& texture, const ImVec2& size, 
         list.AddText(SmallFont(), SmallFont()->FontSize, {at.x + (size.x - extent.x) / 2, at.y + (size.y - extent.y) / 2},
                      palette::kIdle, missing);
     }
-    DrawShadowed(list, {at.x + Scaled(6), at.y + Scaled(4)}, palette::kText, title);
+    const ImVec2 extent = SmallFont()->CalcTextSizeA(SmallFont()->FontSize, 1e4f, 0, title);
+    list.AddRectFilled(at, {at.x + extent.x + Scaled(14), at.y + extent.y + Scaled(6)}, IM_COL32(14, 16, 19, 190), Scaled(4),
+                       ImDrawFlags_RoundCornersTopLeft | ImDrawFlags_RoundCornersBottomRight);
+    list.AddText(SmallFont(), SmallFont()->FontSize, {at.x + Scaled(7), at.y + Scaled(3)}, palette::kText, title);
     ImGui::Dummy(size);
 }
 

@@ -4,16 +4,16 @@
 
 namespace tessera {
 
-void DrawMessagesPanel(const ViewerState& state, const ControlRect& area) {
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {Scaled(12), Scaled(4)});
-    const Panel panel("messages", area);
-    ImGui::PopStyleVar();
+void DrawMessagesPanel(const ViewerState& state) {
+    GroupTitle("MESSAGES");
     ImGui::BeginChild("lines", {0, 0}, false, ImGuiWindowFlags_NoNav);
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, Scaled(3)});
     const auto& messages = state.system.messages();
     if (messages.empty()) SmallText(palette::kIdle, "no messages yet");
+    ImGui::PushTextWrapPos(0);
     for (std::size_t i = 0; i < messages.size(); ++i)
         SmallText(i + 1 == messages.size() ? palette::kText : palette::kDim, messages[i]);
+    ImGui::PopTextWrapPos();
     // Unless the person has scrolled up to read.
     if (ImGui::GetScrollY() >= ImGui::GetScrollMaxY() - Scaled(20)) ImGui::SetScrollHereY(1);
     ImGui::PopStyleVar();

@@ -33,15 +33,15 @@ void DrawPlotsPanel(const ViewerState& state, const ControlRect& area) {
 
     const float gap_x = ImGui::GetStyle().ItemSpacing.x + Scaled(4), gap_y = ImGui::GetStyle().ItemSpacing.y;
     const ImVec2 room = ImGui::GetContentRegionAvail();
-    const ImVec2 wide{(room.x - gap_x) / 2, (room.y - gap_y) / 2};
-    const ImVec2 narrow{(wide.x - gap_x) / 2, wide.y};
+    const ImVec2 wide{0.57f * room.x, (room.y - gap_y) / 2};
+    const ImVec2 narrow{(room.x - wide.x - 2 * gap_x) / 2, wide.y};
     const auto next = [&] { ImGui::SameLine(0, gap_x); };
     DrawPlot("Time", "ms", stages, wide);
     next();
     DrawPlot("Inliers", "%", inliers, narrow, 100);
     next();
     DrawPlot("Distance rms", "mm", rms, narrow);
-    DrawPlot("Waiting", "", queues, wide);
+    DrawPlot("Queues", "", queues, wide);
     next();
     DrawPlot("Map", "MB", map, narrow);
     next();

@@ -17,19 +17,22 @@ void HandlePointer(ViewerState& state, SceneView& scene, const ControlRect& area
     const bool middle = ImGui::IsItemActive() && ImGui::IsMouseDragging(ImGuiMouseButton_Middle, 1);
     const bool moves = io.MouseDelta.x != 0 || io.MouseDelta.y != 0;
     if ((left || middle) && moves) {
-        state.view.follow = false;
+        state.view.follow = state.view.keep_all = false;
         if (middle || io.KeyShift)
             camera.Pan(io.MouseDelta.x, io.MouseDelta.y, area.height);
         else
             camera.Rotate(0.007 * io.MouseDelta.x, 0.007 * io.MouseDelta.y);
     }
-    if (hovered && io.MouseWheel != 0) camera.Zoom(std::pow(0.88, io.MouseWheel));
+    if (hovered && io.MouseWheel != 0) {
+        camera.Zoom(std::pow(0.88, io.MouseWheel));
+        state.view.keep_all = false;
+    }
     if (hovered && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
         const ImVec2 scale = io.DisplayFramebufferScale;
         const auto x = static_cast<int>((io.MousePos.x - area.x) * scale.x);
         const auto y = static_cast<int>((io.MousePos.y - area.y) * scale.y);
         if (const auto point = scene.PointAt(x, y)) {
-            state.view.follow = false;
+            state.view.follow = state.view.keep_all = false;
             camera.LookAt(*point);
         }
     }
@@ -61,8 +64,8 @@ void DrawToolbar(ViewerState& state, const ControlRect& area) {
         view.show_truth = !view.show_truth;
     ImGui::Dummy({Scaled(6), 0});
     ImGui::SameLine();
-    if (state.link && button("follow", "Follow", view.follow, "Stay behind the sensor  (F)")) view.follow = !view.follow;
-    if (button("view_all", "All", false, "See all of the mesh  (A)")) state.want_view_all = true;
+    if (state.link && button("follow", "Follow", view.follow, "Stay behind the sensor  (F)")) state.ToggleFollow();
+    if (button("view_all", "All", view.keep_all, "See all of the mesh, also as it grows  (A)")) state.ViewAll();
     if (button("help", "Help", state.show_help, "Keys and pointer  (H)")) state.show_help = !state.show_help;
     ImGui::PopStyleVar();
     ImGui::PopFont();
@@ -80,11 +83,7 @@ void DrawViewPanel(ViewerState& state, SceneView& scene, const ViewPanelFrame& f
     ImGui::SetItemAllowOverlap();  // the buttons over it are reached
     state.controls.MarkLast("view");
     HandlePointer(state, scene, area);
-    if (state.want_view_all) {
-        state.view.follow = false;
-        state.want_view_all = false;
-        scene.ViewAll();
-    }
+    if (state.view.keep_all) scene.ViewAll();
     const ImVec2 scale = ImGui::GetIO().DisplayFramebufferScale;
     const int width = std::max(static_cast<int>(area.width * scale.x), 1);
     const int height = std::max(static_cast<int>(area.height * scale.y), 1);

@@ -8,9 +8,9 @@
 namespace tessera {
 
 void DrawStatusPanel(ViewerState& state, const SceneView& scene);    // inside the left column
-void DrawControlsPanel(ViewerState& state);  // inside the left column
+void DrawControlsPanel(ViewerState& state);                          // inside the left column
+void DrawMessagesPanel(const ViewerState& state);                     // the left column's rest
 void DrawPlotsPanel(const ViewerState& state, const ControlRect& area);
-void DrawMessagesPanel(const ViewerState& state, const ControlRect& area);
 // Over everything, while wanted.
 void DrawHelp(ViewerState& state);
 void DrawResetQuestion(ViewerState& state);

@@ -11,8 +11,10 @@
 namespace tessera {
 namespace {
 
-std::string ValueText(float value) {
-    return value < 10 ? fmt::format("{:.1f}", value) : fmt::format("{:.0f}", value);
+std::string ValueText(float value, const char* unit) {
+    return *unit == 0 ? fmt::format("{:g}", value)
+           : value < 10  ? fmt::format("{:.1f}", value)
+                         : fmt::format("{:.0f}", value);
 }
 
 struct Frame {
@@ -31,22 +33,25 @@ void DrawCurve(ImDrawList& list, const Frame& frame, const Curve& curve, bool fi
     std::vector<ImVec2> points(curve.series->size());
     for (std::size_t i = 0; i < points.size(); ++i) points[i] = frame.At(*curve.series, i);
     const ImU32 shade = (curve.colour & ~IM_COL32_A_MASK) | (44u << IM_COL32_A_SHIFT);
+    const ImDrawListFlags flags = list.Flags;
+    list.Flags &= ~ImDrawListFlags_AntiAliasedFill;  // it would show the seams
     if (filled)
         for (std::size_t i = 1; i < points.size(); ++i)
             list.AddQuadFilled({points[i - 1].x, frame.to.y}, points[i - 1], points[i], {points[i].x, frame.to.y}, shade);
+    list.Flags = flags;
     list.AddPolyline(points.data(), static_cast<int>(points.size()), curve.colour, 0, Scaled(1.4f));
 }
 
 // Names and last values along the top, as far as there is room.
 void DrawLegend(ImDrawList& list, std::span<const Curve> curves, ImVec2 at, float right) {
     for (const Curve& curve : curves) {
-        const std::string text = fmt::format("{} {}", curve.name, ValueText(curve.series->last()));
+        const std::string text = fmt::format("{} {:.0f}", curve.name, curve.series->last());
         const float width = ImGui::CalcTextSize(text.c_str()).x;
         if (at.x + width + Scaled(10) > right) return;
         const float y = at.y + 0.5f * ImGui::GetTextLineHeight();
         list.AddRectFilled({at.x, y - Scaled(3)}, {at.x + Scaled(6), y + Scaled(3)}, curve.colour, Scaled(1));
         list.AddText({at.x + Scaled(10), at.y}, palette::kText, text.c_str());
-        at.x += width + Scaled(19);
+        at.x += width + Scaled(17);
     }
 }
 
@@ -59,7 +64,7 @@ void DrawTip(std::span<const Curve> curves, const Frame& frame, const char* unit
         const auto age = static_cast<std::size_t>(std::max(steps + 0.5f, 0.0f));
         if (age >= series.size()) continue;
         ImGui::TextUnformatted(
-            fmt::format("{} {} {}, {} frames ago", curve.name, ValueText(series[series.size() - 1 - age]), unit, age).c_str());
+            fmt::format("{} {} {}, {} frames ago", curve.name, ValueText(series[series.size() - 1 - age], unit), unit, age).c_str());
     }
     ImGui::EndTooltip();
 }
@@ -84,7 +89,7 @@ void DrawPlot(const char* title, const char* unit, std::span<const Curve> curves
     if (curves.size() > 1) {
         DrawLegend(list, curves, {at.x + title_width + Scaled(14), at.y}, right);
     } else if (!curves.empty()) {
-        const std::string value = fmt::format("{} {}", ValueText(curves[0].series->last()), unit);
+        const std::string value = fmt::format("{} {}", ValueText(curves[0].series->last(), unit), unit);
         list.AddText({right - ImGui::CalcTextSize(value.c_str()).x, at.y}, palette::kText, value.c_str());
     }
     list.AddRectFilled(frame.from, frame.to, IM_COL32(18, 20, 24, 255), Scaled(3));

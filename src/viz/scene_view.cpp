@@ -10,6 +10,7 @@
 #include "viz/mesh_program.h"
 #include "viz/path_lines.h"
 #include "viz/scene_target.h"
+#include "viz/up_estimator.h"
 
 namespace tessera {
 namespace {
@@ -28,6 +29,7 @@ struct SceneView::Impl {
         ViewChoices choices;
         bool smooth = false;
     };
+    void StandUpright();
     bool Moved(const ViewerState& state, int width, int height, bool is_smooth) const;
     void DrawMesh(const ViewerState& state, const PinholeCamera& pinhole);
     void DrawPaths(const ViewerState& state, const PinholeCamera& pinhole);
@@ -40,6 +42,7 @@ struct SceneView::Impl {
     PathLines paths;
     SceneTarget target;
     ViewCamera camera;
+    UpEstimator up{{0, -1, 0}};
     bool followed = false, changed = true;
     Drawn drawn;
 
@@ -75,11 +78,12 @@ void SceneView::SetModel(const ViewedModel& model) {
     impl_->paths.SetPath(model.path);
     for (const Eigen::Vector3f& vertex : model.mesh.vertices) impl_->bounds.extend(vertex.cast<double>());
     const MeshView view = ChooseView(model.mesh, model.path);
-    const Eigen::Vector3d up = std::abs(view.T_world_camera.linear()(2, 1)) > 0.5 &&
-                                       view.T_world_camera.linear()(2, 1) < 0
-                                   ? Eigen::Vector3d(0, 0, 1)
-                                   : Eigen::Vector3d(0, -1, 0);
-    impl_->camera.SetUp(up);
+    // ChooseView took one of these two for up.
+    const Eigen::Vector3d down = view.T_world_camera.linear().col(1);
+    const Eigen::Vector3d up = -down.z() > down.y() ? Eigen::Vector3d(0, 0, 1) : Eigen::Vector3d(0, -1, 0);
+    impl_->up = UpEstimator(up);
+    for (const Eigen::Vector3f& normal : model.mesh.normals) impl_->up.Add(normal);
+    impl_->camera.SetUp(impl_->up.Up().value_or(up));
     const Eigen::Vector3d eye = view.T_world_camera.translation(), forward = view.T_world_camera.linear().col(2);
     const double ahead = std::max((impl_->bounds.center() - eye).dot(forward), 0.1);
     impl_->camera.Place(eye, eye + ahead * forward);
@@ -98,6 +102,7 @@ bool SceneView::TakeMesh(ViewerLink& link, std::size_t most_bytes) {
             if (s.pending.clear) {
                 s.store.Clear();
                 s.bounds.setEmpty();
+                s.up.Clear();
             }
             any = true;
         }
@@ -106,6 +111,7 @@ bool SceneView::TakeMesh(ViewerLink& link, std::size_t most_bytes) {
             const GeometryBlock& block = s.pending.blocks[s.pending_done];
             bytes += block.geometry.vertices.size() * sizeof(GeometryVertex) + block.geometry.indices.size() * 2 + 64;
             if (block.geometry.indices.empty()) continue;
+            s.up.Add(block.geometry);
             const Eigen::Vector3d corner(block.coord.x, block.coord.y, block.coord.z);
             s.bounds.extend(corner * kBlockSide * s.pending.voxel_size_m);
             s.bounds.extend((corner + Eigen::Vector3d::Ones()) * kBlockSide * s.pending.voxel_size_m);
@@ -115,7 +121,14 @@ bool SceneView::TakeMesh(ViewerLink& link, std::size_t most_bytes) {
         any = true;
     }
     s.changed |= any;
+    if (any) s.StandUpright();
     return any;
+}
+
+// Not for every small change, which would be seen.
+void SceneView::Impl::StandUpright() {
+    const auto found = up.Up();
+    if (found && found->dot(camera.up()) < 0.9997) camera.SetUp(*found);
 }
 
 bool SceneView::Follow(const ViewerState& state, double since_s) {
@@ -134,10 +147,7 @@ void SceneView::ViewAll() {
     Impl& s = *impl_;
     if (s.bounds.isEmpty()) return;
     const Eigen::Vector3d from = s.camera.T_world_camera().linear().col(2);
-    s.camera.LookAt(s.bounds.center());
-    s.camera.Place(s.bounds.center() - from, s.bounds.center());
-    s.camera.Zoom(1.05 * s.bounds.diagonal().norm());
-    s.changed = true;
+    s.camera.Place(s.bounds.center() - 0.76 * s.bounds.diagonal().norm() * from, s.bounds.center());
 }
 
 bool SceneView::Impl::Moved(const ViewerState& state, int width, int height, bool is_smooth) const {

@@ -23,7 +23,7 @@ class SceneView {
     bool TakeMesh(ViewerLink& link, std::size_t most_bytes);
     // Moves the camera behind the sensor as the choices say. True if it moved.
     bool Follow(const ViewerState& state, double since_s);
-    // So that all of the mesh shows, from above its middle.
+    // So that all of the mesh shows, in the present direction.
     void ViewAll();
 
     // Draws if anything differs from the last picture, and `may_redraw_mesh` or the camera moved.

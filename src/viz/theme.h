@@ -19,6 +19,7 @@ inline constexpr ImU32 kWarning = IM_COL32(240, 184, 72, 255);
 inline constexpr ImU32 kBad = IM_COL32(235, 87, 87, 255);
 inline constexpr ImU32 kIdle = IM_COL32(120, 126, 136, 255);
 inline constexpr ImU32 kAccent = IM_COL32(84, 160, 255, 255);
+inline constexpr ImU32 kLit = IM_COL32(47, 102, 176, 255);  // a choice that is on
 inline constexpr ImU32 kText = IM_COL32(226, 229, 234, 255);
 inline constexpr ImU32 kDim = IM_COL32(142, 149, 160, 255);
 inline constexpr ImU32 kLine = IM_COL32(52, 57, 66, 255);

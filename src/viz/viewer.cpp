@@ -22,18 +22,17 @@ constexpr int kSettlingRounds = 3;
 constexpr double kSoftwareMeshPeriodS = 0.25;
 
 struct Layout {
-    ControlRect left, view, plots, messages, images;
+    ControlRect left, view, plots, images;
 };
 
 Layout LayOut(float width, float height, bool with_system) {
-    if (!with_system) return {.left = {}, .view = {0, 0, width, height}, .plots = {}, .messages = {}, .images = {}};
+    if (!with_system) return {.left = {}, .view = {0, 0, width, height}, .plots = {}, .images = {}};
     const float left = std::min(Scaled(292), 0.4f * width), right = std::min(Scaled(232), 0.3f * width);
-    const float plots = std::min(Scaled(152), 0.35f * height), messages = std::min(Scaled(64), 0.15f * height);
-    const float middle = std::max(width - left - right - 2, 1.0f), view = std::max(height - plots - messages - 2, 1.0f);
+    const float plots = std::min(Scaled(158), 0.35f * height);
+    const float middle = std::max(width - left - right - 2, 1.0f), view = std::max(height - plots - 1, 1.0f);
     return {.left = {0, 0, left, height},
             .view = {left + 1, 0, middle, view},
             .plots = {left + 1, view + 1, middle, plots},
-            .messages = {left + 1, view + plots + 2, middle, messages},
             .images = {width - right, 0, right, height}};
 }
 
@@ -170,10 +169,10 @@ void Viewer::Impl::DrawPanels(bool may_redraw_mesh, bool smooth) {
             const Panel left("left", layout.left);
             DrawStatusPanel(state, *scene);
             DrawControlsPanel(state);
+            DrawMessagesPanel(state);
         }
         images.Draw(state, layout.images);
         DrawPlotsPanel(state, layout.plots);
-        DrawMessagesPanel(state, layout.messages);
     }
     DrawHelp(state);
     DrawResetQuestion(state);

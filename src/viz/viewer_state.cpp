@@ -66,6 +66,16 @@ void ViewerState::CycleShading() {
     view.shading = static_cast<Shading>((static_cast<int>(view.shading) + 1) % kShadings);
 }
 
+void ViewerState::ToggleFollow() {
+    view.follow = !view.follow && link;
+    view.keep_all = false;
+}
+
+void ViewerState::ViewAll() {
+    view.follow = false;
+    view.keep_all = true;
+}
+
 void ViewerState::OnKey(int key, int mods) {
     if (mods & (GLFW_MOD_CONTROL | GLFW_MOD_ALT | GLFW_MOD_SUPER)) return;
     switch (key) {
@@ -79,8 +89,8 @@ void ViewerState::OnKey(int key, int mods) {
         case GLFW_KEY_2: return SelectMethod(TrackingMethod::kSdfGeometric);
         case GLFW_KEY_3: return SelectMethod(TrackingMethod::kIcp);
         case GLFW_KEY_4: return SelectMethod(TrackingMethod::kIcpRgb);
-        case GLFW_KEY_F: view.follow = !view.follow && link; return;
-        case GLFW_KEY_A: want_view_all = true; return;
+        case GLFW_KEY_F: return ToggleFollow();
+        case GLFW_KEY_A: return ViewAll();
         case GLFW_KEY_C: return CycleShading();
         case GLFW_KEY_W: view.wireframe = !view.wireframe; return;
         case GLFW_KEY_D: view.depth_test = !view.depth_test; return;

@@ -17,13 +17,17 @@ const char* ToString(Shading shading);
 
 struct ViewChoices {
     Shading shading = Shading::kColour;
+    bool keep_all = false;  // stay so far away that all of the mesh shows
     bool wireframe = false, depth_test = true, follow = true, show_truth = true;
 };
 
 // Owner thread only.
 struct ViewerState {
     ViewerState(ViewerLink* to_system, const ViewerOptions& given)
-        : link(to_system), options(given), settings(given.settings) {}
+        : link(to_system), options(given), settings(given.settings) {
+        view.follow = given.follow;
+        view.keep_all = !given.follow;
+    }
 
     ViewerLink* const link;  // null: a model without a system
     const ViewerOptions options;
@@ -32,7 +36,7 @@ struct ViewerState {
     ViewChoices view;
     ViewerSettings settings;  // as last sent
     bool paused = false, recording = false;
-    bool ask_reset = false, show_help = false, close = false, want_screenshot = false, want_view_all = false;
+    bool ask_reset = false, show_help = false, close = false, want_screenshot = false;
 
     bool ended() const { return !link || link->ended; }
     // Settings are sent whole; to be called after a change of `settings`.
@@ -44,6 +48,8 @@ struct ViewerState {
     void SaveMesh();
     void ToggleRecording();
     void CycleShading();
+    void ToggleFollow();
+    void ViewAll();
     // The window's keys: GLFW_KEY_* and GLFW_MOD_*.
     void OnKey(int key, int mods);
     // "DIR/PREFIX-YYYYMMDD-HHMMSS.EXTENSION", with a number where that exists already; makes the folder.

@@ -1,5 +1,7 @@
 #include "viz/widgets.h"
 
+#include <fmt/printf.h>
+
 namespace tessera {
 
 void Controls::MarkLast(const std::string& name) {
@@ -48,7 +50,8 @@ void LabelledValue(const char* label, const std::string& value, ImU32 colour) {
     ImGui::TextUnformatted(label);
     ImGui::PopStyleColor();
     const float width = ImGui::CalcTextSize(value.c_str()).x;
-    ImGui::SameLine(ImGui::GetCursorPosX() + ImGui::GetContentRegionAvail().x - width);
+    ImGui::SameLine(0, 0);
+    ImGui::SetCursorPosX(ImGui::GetCursorPosX() + ImGui::GetContentRegionAvail().x - width);
     ImGui::PushStyleColor(ImGuiCol_Text, colour);
     ImGui::TextUnformatted(value.c_str());
     ImGui::PopStyleColor();
@@ -60,8 +63,8 @@ void Tip(const char* text) {
 
 bool MarkedButton(Controls& controls, const char* name, const char* label, float width, bool lit) {
     if (lit) {
-        ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
-        ImGui::PushStyleColor(ImGuiCol_ButtonHovered, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
+        ImGui::PushStyleColor(ImGuiCol_Button, palette::kLit);
+        ImGui::PushStyleColor(ImGuiCol_ButtonHovered, palette::kLit);
     }
     ImGui::PushID(name);
     const bool pressed = ImGui::Button(label, {width, 0});
@@ -82,12 +85,22 @@ bool MarkedCheckbox(Controls& controls, const char* name, const char* label, boo
 bool MarkedSlider(Controls& controls, const char* name, double& value, double least, double most, const char* format,
                   bool logarithmic) {
     ImGui::PushID(name);
-    ImGui::SetNextItemWidth(-1);
-    const bool changed = ImGui::SliderScalar("##value", ImGuiDataType_Double, &value, &least, &most, format,
-                                             ImGuiSliderFlags_AlwaysClamp |
+    const float value_width = Scaled(72), right = ImGui::GetCursorPosX() + ImGui::GetContentRegionAvail().x;
+    ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - value_width);
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {Scaled(4), Scaled(2)});
+    const ImVec2 text_at{0, ImGui::GetCursorPosY()};
+    ImGui::SetCursorPosY(text_at.y + Scaled(2));
+    const bool changed = ImGui::SliderScalar("##value", ImGuiDataType_Double, &value, &least, &most, "",
+                                             ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_NoInput |
                                                  (logarithmic ? ImGuiSliderFlags_Logarithmic : 0));
-    ImGui::PopID();
+    ImGui::PopStyleVar();
     controls.MarkLast(name);
+    const std::string text = fmt::sprintf(format, value);
+    ImGui::SameLine(0, 0);
+    ImGui::SetCursorPos({right - ImGui::CalcTextSize(text.c_str()).x, text_at.y});
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextUnformatted(text.c_str());
+    ImGui::PopID();
     return changed;
 }
 

@@ -56,7 +56,7 @@ class Cli : public testing::Test {
 
 TEST_F(Cli, HelpEverywhere) {
     for (const char* command : {"", "run", "eval", "eval ate", "eval rpe", "eval mesh", "synth", "sweep", "sweep alpha",
-                                "render", "info", "doctor", "config"})
+                                "render", "view", "info", "doctor", "config"})
         for (const char* flag : {" -h", " --help"}) {
             const Outcome outcome = Call(std::string(command) + flag);
             EXPECT_EQ(outcome.exit_code, 0) << command;
@@ -84,17 +84,19 @@ TEST_F(Cli, BadArgumentsAreOneLineAndExitCode2) {
     ExpectRefused("eval ate /no/reference.txt /no/estimate.txt", "/no/reference.txt");
     ExpectRefused("eval mesh /no/a.ply /no/b.ply", "/no/a.ply");
     ExpectRefused("render /no/a.ply --out a.png", "/no/a.ply");
+    ExpectRefused("view /no/such/run", "/no/such/run");
+    ExpectRefused("view synthetic:desk", "tessera run synthetic:desk --view");
+    ExpectRefused("view " + folder.path(), "mesh.ply");
     ExpectRefused("sweep alpha synthetic:desk --values 1:0:1", "--values");
     ExpectRefused("sweep alpha synthetic:desk --values 0:1:0", "--values");
     ExpectRefused("info /no/such/folder", "/no/such/folder");
 }
 
 TEST_F(Cli, WhatIsToComeIsRefusedAndNeverIgnored) {
-    for (const char* option : {"--view", "--labels model.onnx", "--loop-closure on", "--scan a.scan", "--resume a.scan",
-                               "--device cuda", "--mode live"})
+    for (const char* option : {"--labels model.onnx", "--loop-closure on", "--scan a.scan", "--resume a.scan",
+                               "--device cuda"})
         ExpectRefused(std::string("run synthetic:desk ") + option, "not in this version");
     ExpectRefused("run a.klg", "not in this version");
-    ExpectRefused("view out", "not in this version");
     ExpectRefused("export out --mesh a.glb", "not in this version");
     ExpectRefused("eval labels a b", "not in this version");
 }

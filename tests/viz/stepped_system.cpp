@@ -8,23 +8,13 @@
 
 namespace tessera::testing_support {
 
-SteppedSystem::Config SteppedSystem::Small() {
-    Config config;
-    config.synthetic.camera = {160, 120, 131, 131, 79.5, 59.5};
-    config.pipeline.map.voxel_size_m = 0.04;
-    config.pipeline.map.truncation_m = 0.16;
-    return config;
-}
-
-SteppedSystem::SteppedSystem(ViewerLink& link, const Config& config) : link_(link), config_(config) {
-    auto source = OpenSynthetic(config.scene, config.synthetic);
-    TESSERA_CHECK(source.ok(), "{}", source.message());
-    source_ = std::move(source.value());
+SteppedSystem::SteppedSystem(ViewerLink& link, std::unique_ptr<FrameSource> source, const PipelineConfig& config)
+    : link_(link), config_(config), source_(std::move(source)) {
     StartAnew();
 }
 
 void SteppedSystem::StartAnew() {
-    pipeline_ = std::make_unique<Pipeline>(config_.pipeline, source_->info().camera);
+    pipeline_ = std::make_unique<Pipeline>(config_, source_->info().camera);
     mesher_ = std::make_unique<Mesher>(MeshConfig{});
     clear_ = true;
     T_map_truth_.reset();
@@ -59,8 +49,7 @@ bool SteppedSystem::Step() {
     if (paused_ && !one_step_) return true;
     one_step_ = false;
     auto frame = std::make_shared<Frame>();
-    for (int i = 0; i < config_.stride; ++i)
-        if (source_->Read(*frame).status != ReadStatus::kOk) return false;
+    if (source_->Read(*frame).status != ReadStatus::kOk) return false;
     ProcessFrame(std::move(frame));
     return true;
 }
@@ -93,7 +82,7 @@ void SteppedSystem::ProcessFrame(std::shared_ptr<const Frame> frame) {
 
 void SteppedSystem::SendMesh() {
     MeshUpdate update;
-    update.voxel_size_m = config_.pipeline.map.voxel_size_m;
+    update.voxel_size_m = config_.map.voxel_size_m;
     update.clear = clear_;
     const auto blocks = builder_.Build(pipeline_->map(), *mesher_);
     update.blocks.assign(std::make_move_iterator(blocks.begin()), std::make_move_iterator(blocks.end()));

@@ -1,5 +1,4 @@
-// A system behind a viewer's link that a test steps by hand: the real pipeline and mesher on a synthetic scene, on the
-// test's own thread. Remembers every command and setting.
+// A system behind a viewer's link that a test steps by hand: the real pipeline and mesher, on the test's own thread. Remembers every command and setting.
 #pragma once
 
 #include <memory>
@@ -7,28 +6,19 @@
 #include <string>
 #include <vector>
 
+#include "io/frame_source.h"
 #include "mapping/mesher.h"
 #include "mapping/ray_caster.h"
 #include "render/geometry_builder.h"
-#include "synth/synthetic_source.h"
 #include "system/viewer_link.h"
 
 namespace tessera::testing_support {
 
 class SteppedSystem {
   public:
-    struct Config {
-        std::string scene = "room";
-        SynthConfig synthetic;
-        PipelineConfig pipeline;
-        int stride = 1;
-    };
-    // Quick: 160 x 120 pixels, 4 cm voxels.
-    static Config Small();
+    SteppedSystem(ViewerLink& link, std::unique_ptr<FrameSource> source, const PipelineConfig& config);
 
-    SteppedSystem(ViewerLink& link, const Config& config);
-
-    // Does what came over the link; then, unless paused, one frame. False at the scene's end or after kStop.
+    // Does what came over the link; then, unless paused, one frame. False at the source's end or after kStop.
     bool Step();
 
     const PinholeCamera& camera() const { return source_->info().camera; }
@@ -44,8 +34,8 @@ class SteppedSystem {
     void StartAnew();
 
     ViewerLink& link_;
-    Config config_;
-    std::unique_ptr<SyntheticSource> source_;
+    PipelineConfig config_;
+    std::unique_ptr<FrameSource> source_;
     std::unique_ptr<Pipeline> pipeline_;
     std::unique_ptr<Mesher> mesher_;
     GeometryBuilder builder_;

@@ -6,23 +6,27 @@
 #include <string>
 
 #include "io/image_io.h"
+#include "synth/synthetic_source.h"
 #include "viz/stepped_system.h"
 #include "viz/viewer.h"
 
 namespace tessera {
 namespace {
 
-int MakePicture(const std::string& path, const std::string& scene, int frames) {
+int MakePicture(const std::string& path, const std::string& scene, int frames, bool follow) {
     ViewerLink link;
-    testing_support::SteppedSystem::Config config;
-    config.scene = scene;
-    config.pipeline.map.voxel_size_m = 0.015;
-    config.pipeline.map.truncation_m = 0.06;
-    testing_support::SteppedSystem system(link, config);
+    auto source = OpenSyntheticScene(scene, {});
+    if (!source.ok()) {
+        std::fprintf(stderr, "%s\n", source.message().c_str());
+        return 1;
+    }
+    PipelineConfig config;
+    testing_support::SteppedSystem system(link, std::move(source.value()), config);
     ViewerOptions options;
     options.title = "synthetic:" + scene;
     options.camera = system.camera();
-    options.truncation_m = config.pipeline.map.truncation_m;
+    options.truncation_m = config.map.truncation_m;
+    options.follow = follow;
     options.wait_s = 0;
     auto viewer = Viewer::Open(link, options);
     if (!viewer.ok()) {
@@ -45,5 +49,6 @@ int MakePicture(const std::string& path, const std::string& scene, int frames) {
 
 int main(int argc, char** argv) {
     if (argc < 2) return 2;
-    return tessera::MakePicture(argv[1], argc > 2 ? argv[2] : "room", argc > 3 ? std::atoi(argv[3]) : 200);
+    return tessera::MakePicture(argv[1], argc > 2 ? argv[2] : "room", argc > 3 ? std::atoi(argv[3]) : 200,
+                                argc > 4 && argv[4] == std::string("follow"));
 }

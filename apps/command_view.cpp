@@ -1,0 +1,89 @@
+// tessera view: a mesh, or a finished run's folder, in a window.
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+
+#include "command.h"
+#include "io/image_io.h"
+#include "io/mesh_io.h"
+#include "io/trajectory.h"
+#include "viz/viewer.h"
+
+namespace tessera {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Arguments {
+    std::string path, trajectory, screenshot;
+    int width = 1280, height = 720;
+};
+
+// What to read: the mesh, and the trajectory beside it where there is one.
+struct Files {
+    std::string mesh, trajectory;
+};
+
+Result<Files> FindFiles(const Arguments& a) {
+    std::error_code ignored;
+    Files files{a.path, a.trajectory};
+    if (a.path.starts_with("synthetic:") || a.path.starts_with("openni2:") || a.path.ends_with(".oni") ||
+        a.path.ends_with(".klg"))
+        return Status::Error(fmt::format("{}: is a source, not a result; use: tessera run {} --view", a.path, a.path));
+    if (!fs::exists(a.path, ignored)) return Status::Error(a.path + ": no such file or folder");
+    if (!fs::is_directory(a.path, ignored)) return files;
+    const fs::path folder = a.path;
+    files.mesh = (folder / "mesh.ply").string();
+    if (!fs::exists(files.mesh, ignored))
+        return Status::Error(fmt::format("{}: has no mesh.ply; a run's folder has one, and a source is seen by: tessera "
+                                         "run {} --view", a.path, a.path));
+    if (files.trajectory.empty() && fs::exists(folder / "trajectory.txt", ignored))
+        files.trajectory = (folder / "trajectory.txt").string();
+    return files;
+}
+
+Result<ViewedModel> Read(const Files& files) {
+    Result<TriangleMesh> mesh = ReadPly(files.mesh);
+    if (!mesh.ok()) return mesh.status();
+    if (mesh.value().triangles.empty()) return Status::Error(files.mesh + ": has no triangles");
+    ViewedModel model;
+    model.mesh = std::move(mesh.value());
+    if (files.trajectory.empty()) return model;
+    const Result<Trajectory> trajectory = ReadTrajectory(files.trajectory);
+    if (!trajectory.ok()) return trajectory.status();
+    for (const StampedPose& pose : trajectory.value().poses) model.path.push_back(pose.T_world_camera);
+    return model;
+}
+
+Status View(const Arguments& a) {
+    const Result<Files> files = FindFiles(a);
+    if (!files.ok()) return files.status();
+    Result<ViewedModel> model = Read(files.value());
+    if (!model.ok()) return model.status();
+    ViewerOptions options;
+    options.title = a.path;
+    options.width = a.width;
+    options.height = a.height;
+    Result<std::unique_ptr<Viewer>> viewer = Viewer::OpenModel(std::move(model.value()), options);
+    if (!viewer.ok()) return viewer.status();
+    if (!a.screenshot.empty()) return WriteColourImage(a.screenshot, viewer.value()->Picture());
+    viewer.value()->Run();
+    return Status::Ok();
+}
+
+}  // namespace
+
+void AddViewCommand(CLI::App& app, CommandContext& context) {
+    auto a = std::make_shared<Arguments>();
+    CLI::App* command = app.add_subcommand("view", "Look at a mesh in a window, with a run's path");
+    command->add_option("PATH", a->path, "PLY file, or a run's folder (mesh.ply, trajectory.txt)")->required();
+    command->add_option("--trajectory", a->trajectory, "TUM trajectory to draw, metres (default: the run's)")
+        ->type_name("FILE");
+    command->add_option("--screenshot", a->screenshot, "Draw once into this picture and leave; needs a display too")
+        ->type_name("FILE.png");
+    command->add_option("--width", a->width, "Window, pixels")->check(CLI::Range(320, 8192))->capture_default_str();
+    command->add_option("--height", a->height, "Window, pixels")->check(CLI::Range(240, 8192))->capture_default_str();
+    command->callback([a, &context] { context.exit_code = ExitCode(View(*a)); });
+}
+
+}  // namespace tessera

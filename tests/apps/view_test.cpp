@@ -1,0 +1,72 @@
+// tessera view, with and without a display.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+
+#include "io/image_io.h"
+#include "io/mesh_io.h"
+#include "io/trajectory.h"
+#include "support/temp_folder.h"
+#include "viz/virtual_display.h"
+
+namespace tessera {
+namespace {
+
+class View : public testing::Test {
+  protected:
+    // A run's folder: a red square, metres, and a path before it.
+    View() {
+        TriangleMesh mesh;
+        mesh.vertices = {{-1, -1, 3}, {1, -1, 3}, {1, 1, 3}, {-1, 1, 3}};
+        mesh.colours.assign(4, Rgb8{220, 40, 30});
+        mesh.triangles = {{0, 3, 1}, {1, 3, 2}};  // seen from the origin
+        EXPECT_TRUE(WritePly(folder_ / "mesh.ply", mesh).ok());
+        std::vector<StampedPose> poses(2);
+        poses[1].stamp_s = 1;
+        poses[1].T_world_camera.translation().x() = 0.3;
+        EXPECT_TRUE(WriteTrajectory(folder_ / "trajectory.txt", poses).ok());
+    }
+    int Call(const std::string& arguments) {
+        const std::string command = std::string(TESSERA_PROGRAM) + " view " + arguments + " 2>" + (folder_ / "stderr");
+        const int status = std::system(command.c_str());
+        std::stringstream text;
+        text << std::ifstream(folder_ / "stderr").rdbuf();
+        error_ = text.str();
+        return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    }
+    TempFolder folder_;
+    std::string error_;
+};
+
+TEST_F(View, AScreenshotShowsTheMesh) {
+    std::string why;
+    const auto display = testing_support::VirtualDisplay::Start(why);
+    if (!display) GTEST_SKIP() << why;
+    for (const std::string& path : {folder_.path(), folder_ / "mesh.ply"}) {
+        ASSERT_EQ(Call(path + " --screenshot " + (folder_ / "shot.png") + " --width 640 --height 480"), 0) << error_;
+        const auto picture = ReadColourImage(folder_ / "shot.png");
+        ASSERT_TRUE(picture.ok()) << picture.message();
+        ASSERT_EQ(picture.value().width(), 640);
+        ASSERT_EQ(picture.value().height(), 480);
+        int red = 0;
+        for (std::size_t i = 0; i < picture.value().size(); ++i) {
+            const Rgb8& c = picture.value().data()[i];
+            red += c.r > 120 && c.g < 80;
+        }
+        EXPECT_GT(red, 640 * 480 / 10);
+    }
+}
+
+TEST_F(View, WithoutADisplayItIsOneLine) {
+    unsetenv("DISPLAY");
+    unsetenv("WAYLAND_DISPLAY");
+    EXPECT_EQ(Call(folder_.path()), 2);
+    EXPECT_NE(error_.find("display"), std::string::npos) << error_;
+    EXPECT_EQ(std::count(error_.begin(), error_.end(), '\n'), 1) << error_;
+}
+
+}  // namespace
+}  // namespace tessera

@@ -1,0 +1,169 @@
+// Every control, clicked by a real pointer, and what the system is told.
+#include <X11/keysym.h>
+
+#include <filesystem>
+
+#include "io/image_io.h"
+#include "io/mesh_io.h"
+#include "viz/window_fixture.h"
+
+namespace tessera {
+namespace {
+
+using Kind = ViewerCommand::Kind;
+class ViewerControls : public testing_support::WindowTest {};
+
+TEST_F(ViewerControls, MethodsAreSelected) {
+    Frames(2);
+    for (const auto& [name, method] : {std::pair{"method.icp", TrackingMethod::kIcp},
+                                       {"method.sdf-geometric", TrackingMethod::kSdfGeometric},
+                                       {"method.icp-rgb", TrackingMethod::kIcpRgb},
+                                       {"method.sdf", TrackingMethod::kSdf}}) {
+        Click(name);
+        const ViewerSettings* settings = LastSettings();
+        ASSERT_TRUE(settings) << name;
+        EXPECT_EQ(settings->method, method) << name;
+    }
+    EXPECT_EQ(system_->settings().size(), 4u);
+}
+
+TEST_F(ViewerControls, AlphaIsAutomaticOrSet) {
+    Frames(2);
+    Click("alpha", 0.9f);  // greyed out
+    EXPECT_EQ(LastSettings(), nullptr);
+    Click("alpha.auto");
+    ASSERT_NE(LastSettings(), nullptr);
+    EXPECT_FALSE(LastSettings()->auto_alpha);
+    Click("alpha", 0.2f);
+    const double low = LastSettings()->alpha;
+    MoveTo("alpha", 0.2f);
+    display_->Press(1);
+    Rounds(2);
+    MoveTo("alpha", 0.8f);
+    display_->Release(1);
+    Rounds(3);
+    const double high = LastSettings()->alpha;
+    EXPECT_GT(low, 0.0005);
+    EXPECT_LT(high, 2);
+    EXPECT_GT(high, 20 * low);  // the scale is logarithmic
+    EXPECT_FALSE(LastSettings()->auto_alpha);
+}
+
+TEST_F(ViewerControls, SwitchesAndDepth) {
+    Frames(1);
+    Click("fusing");
+    ASSERT_NE(LastSettings(), nullptr);
+    EXPECT_FALSE(LastSettings()->fusing);
+    Click("prealign");
+    EXPECT_FALSE(LastSettings()->prealign);
+    Click("prediction");
+    EXPECT_FALSE(LastSettings()->show_prediction);
+    Click("max_depth", 0.1f);
+    EXPECT_LT(LastSettings()->max_depth_m, 2.5);
+    EXPECT_GT(LastSettings()->max_depth_m, 0.5);
+    Click("fusing");
+    EXPECT_TRUE(LastSettings()->fusing);
+    EXPECT_FALSE(LastSettings()->prealign);  // sent whole
+}
+
+TEST_F(ViewerControls, PauseStepAndResume) {
+    Frames(2);
+    Click("pause");
+    EXPECT_EQ(Commands(), std::vector{Kind::kPause});
+    const std::int64_t frames = system_->frames();
+    Commands();
+    EXPECT_EQ(system_->frames(), frames);
+    Click("step");
+    EXPECT_EQ(Commands(), (std::vector{Kind::kPause, Kind::kStep}));
+    Commands();
+    EXPECT_EQ(system_->frames(), frames + 1);
+    Click("pause");
+    EXPECT_EQ(Commands(), (std::vector{Kind::kPause, Kind::kStep, Kind::kResume}));
+    Commands();
+    EXPECT_EQ(system_->frames(), frames + 3);
+}
+
+TEST_F(ViewerControls, ResetIsAskedFor) {
+    Frames(3);
+    EXPECT_FALSE(viewer_->FindControl("reset.confirm"));
+    Click("reset");
+    EXPECT_TRUE(Commands().empty());
+    Click("reset.cancel");
+    EXPECT_TRUE(Commands().empty());
+    EXPECT_FALSE(viewer_->FindControl("reset.confirm"));
+    Key(XK_r);
+    Click("reset.confirm");
+    EXPECT_EQ(Commands(), std::vector{Kind::kReset});
+    EXPECT_FALSE(viewer_->FindControl("reset.confirm"));
+    Click("pause");  // nothing is in the way any more
+    EXPECT_EQ(Commands(), (std::vector{Kind::kReset, Kind::kPause}));
+}
+
+TEST_F(ViewerControls, TheMeshIsSaved) {
+    Frames(2);
+    Click("save_mesh");
+    ASSERT_EQ(Commands(), std::vector{Kind::kSaveMesh});
+    const std::string path = system_->commands().back().path;
+    EXPECT_EQ(std::filesystem::path(path).parent_path(), folder_.path());
+    EXPECT_EQ(std::filesystem::path(path).extension(), ".ply");
+    const auto mesh = ReadPly(path);
+    ASSERT_TRUE(mesh.ok()) << mesh.message();
+    EXPECT_GT(mesh.value().triangles.size(), 1000u);
+    Click("save_mesh");  // another name, also within the same second
+    Commands();
+    EXPECT_NE(system_->commands().back().path, path);
+}
+
+TEST_F(ViewerControls, RecordingBeginsAndEnds) {
+    Frames(1);
+    Click("record");
+    Click("record");
+    EXPECT_EQ(Commands(), (std::vector{Kind::kRecord, Kind::kStopRecording}));
+    EXPECT_NE(system_->commands()[0].path.find("recording-"), std::string::npos);
+}
+
+TEST_F(ViewerControls, KeysDoWhatButtonsDo) {
+    Frames(1);
+    MoveTo("view");  // without a window manager the keys go to the window under the pointer
+    for (const unsigned long key : {XK_space, XK_space, XK_s, XK_m, XK_v, XK_v}) Key(key);
+    EXPECT_EQ(Commands(), (std::vector{Kind::kPause, Kind::kResume, Kind::kStep, Kind::kSaveMesh, Kind::kRecord,
+                                       Kind::kStopRecording}));
+    for (const auto& [key, method] : {std::pair<unsigned long, TrackingMethod>{XK_2, TrackingMethod::kSdfGeometric},
+                                      {XK_3, TrackingMethod::kIcp},
+                                      {XK_4, TrackingMethod::kIcpRgb},
+                                      {XK_1, TrackingMethod::kSdf}}) {
+        Key(key);
+        ASSERT_NE(LastSettings(), nullptr);
+        EXPECT_EQ(LastSettings()->method, method);
+    }
+}
+
+TEST_F(ViewerControls, HelpComesAndGoes) {
+    MoveTo("view", 0.05f);
+    EXPECT_FALSE(viewer_->FindControl("help.panel"));
+    Key(XK_h);
+    EXPECT_TRUE(viewer_->FindControl("help.panel"));
+    Key(XK_Escape);
+    EXPECT_FALSE(viewer_->FindControl("help.panel"));
+    Click("help");
+    EXPECT_TRUE(viewer_->FindControl("help.panel"));
+    Click("help.close");
+    EXPECT_FALSE(viewer_->FindControl("help.panel"));
+}
+
+// Once the run is over there is nobody to tell.
+TEST_F(ViewerControls, AfterTheEndNothingIsSent) {
+    Frames(2);
+    link_.ended = true;
+    Rounds(4);
+    for (const char* name : {"pause", "step", "reset", "save_mesh", "record", "method.icp", "fusing"}) Click(name);
+    Key(XK_space);
+    EXPECT_TRUE(link_.commands.empty());
+    EXPECT_TRUE(link_.settings.empty());
+    EXPECT_FALSE(viewer_->FindControl("reset.confirm"));
+    Click("shading.Grey");
+    EXPECT_TRUE(viewer_->RunOnce());
+}
+
+}  // namespace
+}  // namespace tessera

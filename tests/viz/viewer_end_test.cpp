@@ -1,0 +1,99 @@
+// How a window ends: closed by the person, by the run's end, or with its display; and where there is none.
+#include <X11/keysym.h>
+
+#include <cstdlib>
+
+#include "viz/window_fixture.h"
+
+namespace tessera {
+namespace {
+
+using Kind = ViewerCommand::Kind;
+
+TEST(ViewerWithoutDisplay, SaysSoInOneLine) {
+    unsetenv("DISPLAY");
+    unsetenv("WAYLAND_DISPLAY");
+    ViewerLink link;
+    const auto viewer = Viewer::Open(link, {});
+    ASSERT_FALSE(viewer.ok());
+    EXPECT_EQ(viewer.message(), "no display: set DISPLAY or run without --view");
+    setenv("DISPLAY", ":987654", 1);
+    EXPECT_EQ(Viewer::Open(link, {}).message(), viewer.message());
+}
+
+class ViewerEnd : public testing_support::WindowTest {
+  protected:
+    bool StopWasSent() {
+        ViewerCommand command;
+        return link_.commands.TryPop(command) && command.kind == Kind::kStop && link_.commands.empty();
+    }
+};
+
+TEST_F(ViewerEnd, TheCloseButtonStopsTheRun) {
+    Frames(2);
+    // With the button down on the view and frames on their way.
+    MoveTo("view");
+    display_->Press(1);
+    Rounds(1);
+    ASSERT_TRUE(system_->Step());
+    ASSERT_TRUE(display_->AskToClose("test - Tessera"));
+    EXPECT_TRUE(Until([&] { return !viewer_->RunOnce(); }));
+    EXPECT_FALSE(viewer_->RunOnce());
+    EXPECT_TRUE(StopWasSent());
+    display_->Release(1);
+}
+
+TEST_F(ViewerEnd, SoDoesAKey) {
+    Frames(1);
+    MoveTo("view");
+    display_->PressKey(XK_q);
+    viewer_->Run();  // returns
+    EXPECT_TRUE(StopWasSent());
+}
+
+TEST_F(ViewerEnd, AnEndedRunStaysToBeLookedAt) {
+    Frames(1);
+    link_.ended = true;
+    Rounds(20);
+    ASSERT_TRUE(display_->AskToClose("test - Tessera"));
+    EXPECT_TRUE(Until([&] { return !viewer_->RunOnce(); }));
+    EXPECT_TRUE(link_.commands.empty());
+}
+
+TEST_F(ViewerEnd, ClosesAtTheEndIfAsked) {
+    viewer_.reset();
+    ViewerOptions options;
+    options.close_at_end = true;
+    options.wait_s = 0;
+    auto viewer = Viewer::Open(link_, options);
+    ASSERT_TRUE(viewer.ok()) << viewer.message();
+    EXPECT_TRUE(viewer.value()->RunOnce());
+    link_.ended = true;
+    EXPECT_FALSE(viewer.value()->RunOnce());
+    EXPECT_TRUE(link_.commands.empty());
+}
+
+// The server dies; the process must not.
+TEST_F(ViewerEnd, TheLossOfTheDisplayIsAClose) {
+    Frames(2);
+    display_->Kill();
+    EXPECT_TRUE(Until([&] { return !viewer_->RunOnce(); }));
+    EXPECT_TRUE(StopWasSent());
+    EXPECT_TRUE(viewer_->Picture().empty());
+    viewer_.reset();
+}
+
+TEST_F(ViewerEnd, OneAfterAnother) {
+    for (int i = 0; i < 3; ++i) {
+        viewer_.reset();
+        ViewerOptions options;
+        options.wait_s = 0;
+        auto viewer = Viewer::Open(link_, options);
+        ASSERT_TRUE(viewer.ok()) << viewer.message();
+        viewer_ = std::move(viewer.value());
+        Rounds(3);
+    }
+}
+
+}  // namespace
+}  // namespace tessera

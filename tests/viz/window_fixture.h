@@ -1,0 +1,103 @@
+// A window on a virtual display over a stepped system, and a person's hands.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "support/temp_folder.h"
+#include "viz/box_room_source.h"
+#include "viz/stepped_system.h"
+#include "viz/viewer.h"
+#include "viz/virtual_display.h"
+
+namespace tessera::testing_support {
+
+class WindowTest : public testing::Test {
+  protected:
+    void SetUp() override {
+        std::string why;
+        display_ = VirtualDisplay::Start(why);
+        if (!display_) GTEST_SKIP() << why;
+        PipelineConfig config;
+        config.map.voxel_size_m = 0.04;
+        config.map.truncation_m = 0.16;
+        system_ = std::make_unique<SteppedSystem>(link_, std::make_unique<BoxRoomSource>(), config);
+        ViewerOptions options;
+        options.title = "test";
+        options.output_folder = folder_.path();
+        options.camera = system_->camera();
+        options.truncation_m = 0.16;
+        options.wait_s = 0;
+        options.max_fps = 1e9;
+        auto viewer = Viewer::Open(link_, options);
+        ASSERT_TRUE(viewer.ok()) << viewer.message();
+        viewer_ = std::move(viewer.value());
+        Rounds(5);
+    }
+    void TearDown() override { viewer_.reset(); }
+
+    void Rounds(int n) {
+        for (int i = 0; i < n; ++i) ASSERT_TRUE(viewer_->RunOnce());
+    }
+    // Rounds of the window, of a bounded number, until the condition holds.
+    bool Until(const std::function<bool()>& condition, int most = 300) {
+        for (int i = 0; i < most && !condition(); ++i)
+            if (!viewer_->RunOnce()) return condition();
+        return condition();
+    }
+    // The system goes on by so many frames and the window shows them.
+    void Frames(int n) {
+        for (int i = 0; i < n; ++i) {
+            ASSERT_TRUE(system_->Step());
+            ASSERT_TRUE(Until([&] { return link_.meshes.empty() && link_.frames.empty(); }));
+        }
+        Rounds(3);
+    }
+    ControlRect Find(const std::string& name) {
+        const auto rect = viewer_->FindControl(name);
+        EXPECT_TRUE(rect) << "no control " << name;
+        return rect.value_or(ControlRect{});
+    }
+    // `along` in [0, 1] from the control's left edge.
+    void MoveTo(const std::string& name, float along = 0.5f) {
+        const ControlRect rect = Find(name);
+        display_->MoveTo(rect.x + along * rect.width, rect.y + rect.height / 2);
+        Rounds(3);
+    }
+    void Click(const std::string& name, float along = 0.5f) {
+        MoveTo(name, along);
+        display_->Press(1);
+        Rounds(2);
+        display_->Release(1);
+        Rounds(4);
+    }
+    void Key(unsigned long keysym) {
+        display_->PressKey(keysym);
+        display_->ReleaseKey(keysym);
+        Rounds(4);
+    }
+    // What the system was told, after one more step of it.
+    std::vector<ViewerCommand::Kind> Commands() {
+        system_->Step();
+        std::vector<ViewerCommand::Kind> kinds;
+        for (const ViewerCommand& command : system_->commands()) kinds.push_back(command.kind);
+        Until([&] { return link_.meshes.empty() && link_.frames.empty(); });
+        return kinds;
+    }
+    const ViewerSettings* LastSettings() {
+        system_->Step();
+        Until([&] { return link_.meshes.empty() && link_.frames.empty(); });
+        return system_->settings().empty() ? nullptr : &system_->settings().back();
+    }
+
+    TempFolder folder_;
+    ViewerLink link_;
+    std::unique_ptr<VirtualDisplay> display_;
+    std::unique_ptr<SteppedSystem> system_;
+    std::unique_ptr<Viewer> viewer_;
+};
+
+}  // namespace tessera::testing_support
