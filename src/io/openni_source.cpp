@@ -28,13 +28,6 @@ bool IsReplacement(const std::string& uri, const std::string& lost) {
     return uri == lost || (lost.find('@') != std::string::npos && uri.substr(0, uri.find('@')) == lost.substr(0, lost.find('@')));
 }
 
-// "scan.oni", "scan-2.oni", "scan-3.oni" ...
-std::string PartName(const std::string& path, int part) {
-    if (part <= 1) return path;
-    const std::filesystem::path p(path);
-    return (p.parent_path() / fmt::format("{}-{}{}", p.stem().string(), part, p.extension().string())).string();
-}
-
 class OpenniSource : public FrameSource {
   public:
     OpenniSource(const std::string& name, bool any_device, bool is_recording, std::shared_ptr<OpenniRuntime> runtime,
@@ -66,9 +59,9 @@ class OpenniSource : public FrameSource {
     Status RecordTo(const std::string& path, bool lossless_colour) override {
         if (is_recording_) return FrameSource::RecordTo(path, lossless_colour);
         if (!camera_) return Status::Error(path + ": the camera is unplugged");
-        recording_path_ = path;
-        lossless_colour_ = lossless_colour;
-        return camera_->Record(path, lossless_colour);
+        const Status status = camera_->Record(path, lossless_colour);
+        if (status.ok()) recording_path_ = path;
+        return status;
     }
 
     ReadResult Read(Frame& frame) override {
@@ -172,8 +165,9 @@ class OpenniSource : public FrameSource {
     ReadResult Unplug() {
         camera_.reset();
         pairing_.Clear();
-        const std::string recording =
-            recording_path_.empty() ? "" : "; " + PartName(recording_path_, recording_part_) + " ends here";
+        // The library cannot be trusted to begin a second recording: see openni_runtime.h.
+        const std::string recording = recording_path_.empty() ? "" : "; the recording " + recording_path_ + " ends here";
+        recording_path_.clear();
         return {ReadStatus::kWait, prefix_ + "camera unplugged, waiting for it" + recording};
     }
 
@@ -190,17 +184,10 @@ class OpenniSource : public FrameSource {
             about_.uri = about.uri;
             clock_.Restart();
             heard_depth_s_ = heard_colour_s_ = Now_s();
-            return {ReadStatus::kWait, prefix_ + "camera is back" + ContinueRecording()};
+            return {ReadStatus::kWait, prefix_ + "camera is back"};
         }
         runtime_->WaitForChange(kBetweenTries_s);
         return {ReadStatus::kWait, {}};
-    }
-
-    std::string ContinueRecording() {
-        if (recording_path_.empty()) return {};
-        const std::string path = PartName(recording_path_, ++recording_part_);
-        const Status status = camera_->Record(path, lossless_colour_);
-        return status.ok() ? "; recording goes on in " + path : "; recording stopped: " + status.message();
     }
 
     const OpenniConfig config_;
@@ -220,9 +207,7 @@ class OpenniSource : public FrameSource {
     bool silence_told_ = false, alone_told_ = false;
     const std::string prefix_;  // of messages
     std::string message_;
-    std::string recording_path_;
-    bool lossless_colour_ = true;
-    int recording_part_ = 1;
+    std::string recording_path_;  // empty: the camera does not record
 };
 
 // Whether the file begins as .oni files do.
