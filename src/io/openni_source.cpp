@@ -15,7 +15,8 @@ namespace {
 constexpr const char* kPrefix = "openni2:";
 constexpr double kLongestRead_s = 0.4;
 constexpr double kSilence_s = 1.0;          // then a person is told
-constexpr double kEndOfFile_s = 4.0;        // a recording that gives nothing for so long has lost its end
+// A recording that gives nothing for so long has lost its end; at the recorded pace there may be a pause in it.
+constexpr double kLostEnd_s = 1.5, kLostEndRecordedPace_s = 5;
 constexpr std::int64_t kManyAlone = 10;     // images without a partner, before it is worth a word
 constexpr double kLargestJump_s = 10, kLargestPause_s = 1e6;  // of a camera's, of a recording's stamps
 
@@ -129,10 +130,10 @@ class OpenniSource : public FrameSource {
         if (!message_.empty()) return std::exchange(message_, {});
         const double silence_s = now_s - std::min(heard_depth_s_, heard_colour_s_);
         if (silence_s < kSilence_s) silence_told_ = false;
-        if (is_recording_ && silence_s > kEndOfFile_s) {
+        if (is_recording_ && silence_s > (info_.live ? kLostEndRecordedPace_s : kLostEnd_s)) {
             ended_ = true;
             pairing_.End();
-            return {};
+            return prefix_ + "the recording has lost its end; what there is was read";
         }
         if (!is_recording_ && silence_s >= kSilence_s && !silence_told_) return Silence(now_s);
         const std::int64_t alone = pairing_.depth_alone();

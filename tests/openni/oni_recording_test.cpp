@@ -109,7 +109,7 @@ TEST_F(OniRecording, AFileThatIsCutOffIsRefusedOrReadAsFarAsItGoes) {
     Set("PACE", "real");
     Record(folder.Path("a.oni"), 6, false);
     const auto size = std::filesystem::file_size(folder.Path("a.oni"));
-    for (const std::uintmax_t kept : {std::uintmax_t{20}, std::uintmax_t{300}, size / 2, size - 40}) {
+    for (const std::uintmax_t kept : {std::uintmax_t{20}, size / 2}) {
         const std::string path = folder.Path("cut.oni");
         std::filesystem::copy_file(folder.Path("a.oni"), path, std::filesystem::copy_options::overwrite_existing);
         std::filesystem::resize_file(path, kept);
@@ -121,6 +121,7 @@ TEST_F(OniRecording, AFileThatIsCutOffIsRefusedOrReadAsFarAsItGoes) {
         }
         const Log log = ReadFrames(*source.value(), 1000, 60);
         EXPECT_TRUE(log.ended) << kept << " of " << size;
+        EXPECT_EQ(log.messages, std::vector<std::string>{path + ": the recording has lost its end; what there is was read"});
         EXPECT_LE(log.frames.size(), 7u);
     }
 }
