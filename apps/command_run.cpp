@@ -6,6 +6,7 @@
 #include "command.h"
 #include "config_options.h"
 #include "console.h"
+#include "run_in_window.h"
 #include "run_text.h"
 #include "stop_signal.h"
 #include "system/run.h"
@@ -26,12 +27,10 @@ struct Arguments {
 
 Status RefuseWhatIsToCome(const Arguments& a) {
     if (a.device == "cuda") return NotInThisVersion("--device cuda");
-    if (a.mode == "live") return NotInThisVersion("--mode live");
     if (a.labels != "none") return NotInThisVersion("--labels " + a.labels);
     if (a.loop_closure == "on") return NotInThisVersion("--loop-closure on");
     if (!a.scan.empty()) return NotInThisVersion("--scan");
     if (!a.resume.empty()) return NotInThisVersion("--resume");
-    if (a.view) return NotInThisVersion("--view");
     return Status::Ok();
 }
 
@@ -75,6 +74,7 @@ int Run(const Arguments& a) {
     RunConfig config;
     if (Status status = Configure(a, config); !status.ok()) return Fail(status);
     RunRequest request = a.request;
+    request.live = a.mode == "live";
     for (const std::string& text : a.switches) {
         const Result<MethodSwitch> change = ParseSwitch(text);
         if (!change.ok()) return Fail(change.status());
@@ -82,6 +82,7 @@ int Run(const Arguments& a) {
     }
     Result<RunSummary> result = [&] {
         Console console;
+        if (a.view) return ExecuteRunInWindow(request, config, console, StopOnSignal());
         return ExecuteRun(request, config, console.Observer(), StopOnSignal());
     }();
     if (!result.ok()) return Fail(result.status());
@@ -100,13 +101,10 @@ void AddOptionsToCome(CLI::App& command, Arguments& a) {
     };
     add("--device", a.device, "Where the kernels run; auto takes the processor")
         ->check(CLI::IsMember({"auto", "cpu", "cuda"}))->capture_default_str();
-    add("--mode", a.mode, "lockstep: every frame; live: the newest frame wins")
-        ->check(CLI::IsMember({"lockstep", "live"}))->capture_default_str();
     add("--labels", a.labels, "Object detector")->type_name("MODEL|DETECTIONS|none")->capture_default_str();
     add("--loop-closure", a.loop_closure, "Pose graph")->check(CLI::IsMember({"on", "off"}))->capture_default_str();
     add("--scan", a.scan, "Scan file to write")->type_name("FILE");
     add("--resume", a.resume, "Scan file to go on with")->type_name("FILE");
-    command.add_flag("--view", a.view, "Open a window")->group(group);
 }
 
 }  // namespace
@@ -140,6 +138,13 @@ void AddRunCommand(CLI::App& app, CommandContext& context) {
     command->add_option("--poses", a->request.poses_file,
                         "Fuse at the poses of this TUM trajectory (seconds, metres) and do not track")
         ->type_name("FILE");
+    command->add_option("--mode", a->mode,
+                        "lockstep: every frame, in order; live: the newest frame wins, at the camera's or the recorded pace")
+        ->check(CLI::IsMember({"lockstep", "live"}))->capture_default_str();
+    command->add_flag("--view", a->view, "Open a window; without a display the run goes on without");
+    command->add_option("--record", a->request.record_path,
+                        "Keep the raw frames in this new folder (TUM layout, depth exact), or FILE.oni of an OpenNI2 camera")
+        ->type_name("PATH");
     AddOptionsToCome(*command, *a);
     command->callback([a, &context] {
         a->request.command_line = context.arguments;

@@ -26,8 +26,8 @@ Status FirstError(std::initializer_list<Status> statuses) {
 
 void RecordConfig::Describe(ConfigParameters& p) {
     p.AddChoice("colour", colour, {{"jpeg", Colour::kJpeg}, {"png", Colour::kPng}},
-                "how recordings store colour: jpeg (quality 95, about 0.1 MB a frame) or png (exact, about 0.35 MB, half as "
-                "fast again); in .oni files jpeg or uncompressed; depth is always exact");
+                "how recordings store colour: jpeg (quality 95, about 0.1 MB a frame) or png (exact, about 0.35 MB and twice the "
+                "time); in .oni files jpeg or uncompressed; depth is always exact");
 }
 
 Result<std::unique_ptr<FrameRecorder>> FrameRecorder::Create(const std::string& folder, const SourceInfo& source,

@@ -49,7 +49,8 @@ class FrameSource {
     virtual ReadResult Read(Frame& frame) = 0;
     // Jumps so that the next Read returns frame `index` of the source's list. Sources that cannot return false.
     virtual bool Seek(std::int64_t index) = 0;
-    // Has the source itself record everything that it gives into this .oni file, until its end; before the first Read.
+    // Has the source itself record everything that it gives into this .oni file, until it ends or is
+    // unplugged; before the first Read.
     // With `lossless_colour` off colours are JPEG, a tenth of the size; depth is always exact. Only OpenNI2 cameras can:
     // others return an error that says what to do (a FrameRecorder records any source).
     virtual Status RecordTo(const std::string& path, bool lossless_colour);

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 
+#include "io/growing_file.h"
 #include "io/openni_setup.h"
 
 namespace tessera {
@@ -140,8 +142,12 @@ void OpenniCamera::StopFrameSync() {
 Status OpenniCamera::Record(const std::string& path, bool lossless_colour) {
     openni::Recorder& recorder = streams_->recorder;
     if (recorder.isValid()) return Status::Error(path + ": this camera is being recorded already");
+    std::error_code ignored;
+    if (std::filesystem::exists(path, ignored)) return Status::Error(path + ": exists already; give a new name");
+    // The library ends the process where it cannot open the file, so that is tried before.
+    if (GrowingFile probe; !probe.Open(path).ok()) return probe.Open(path);
     if (recorder.create(path.c_str()) != openni::STATUS_OK)
-        return Status::Error(path + ": cannot be written; is the folder there, writable and not full?");
+        return Status::Error(path + ": the recording cannot be started: " + OpenniErrorText());
     if (recorder.attach(streams_->depth, false) != openni::STATUS_OK ||
         recorder.attach(streams_->colour, !lossless_colour) != openni::STATUS_OK ||
         recorder.start() != openni::STATUS_OK) {

@@ -51,7 +51,7 @@ void AdviseOn(const UsbCamera& camera, const std::string& driver_folder, std::ve
         advice.push_back(HasUdevRules() ? "  you may not use it: unplug it and plug it in again, so that the udev rules apply"
                                         : "  you may not use it: udev rules are missing (package libopenni2-0); install, plug in again");
     else if (camera.needs_freenect && !HasDriver(driver_folder, "Freenect"))
-        advice.push_back("  needs the driver of libfreenect (package libfreenect0.5) linked into " + driver_folder);
+        advice.push_back("  needs libfreenect's OpenNI2 driver, which Debian does not have (docs/camera.md), in " + driver_folder);
     else
         advice.push_back("  it does not answer: does another program use it? else plug it in again, at another port");
 }

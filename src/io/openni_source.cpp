@@ -15,7 +15,8 @@ namespace {
 constexpr const char* kPrefix = "openni2:";
 constexpr double kLongestRead_s = 0.4;
 constexpr double kSilence_s = 1.0;          // then a person is told
-constexpr double kEndOfFile_s = 4.0;        // a recording that gives nothing for so long has lost its end
+// A recording that gives nothing for so long has lost its end; at the recorded pace there may be a pause in it.
+constexpr double kLostEnd_s = 1.5, kLostEndRecordedPace_s = 5;
 constexpr std::int64_t kManyAlone = 10;     // images without a partner, before it is worth a word
 constexpr double kLargestJump_s = 10, kLargestPause_s = 1e6;  // of a camera's, of a recording's stamps
 
@@ -26,13 +27,6 @@ double Now_s() {
 // The same device, or one of the same kind: after "@" the URI says where it was plugged in.
 bool IsReplacement(const std::string& uri, const std::string& lost) {
     return uri == lost || (lost.find('@') != std::string::npos && uri.substr(0, uri.find('@')) == lost.substr(0, lost.find('@')));
-}
-
-// "scan.oni", "scan-2.oni", "scan-3.oni" ...
-std::string PartName(const std::string& path, int part) {
-    if (part <= 1) return path;
-    const std::filesystem::path p(path);
-    return (p.parent_path() / fmt::format("{}-{}{}", p.stem().string(), part, p.extension().string())).string();
 }
 
 class OpenniSource : public FrameSource {
@@ -66,9 +60,9 @@ class OpenniSource : public FrameSource {
     Status RecordTo(const std::string& path, bool lossless_colour) override {
         if (is_recording_) return FrameSource::RecordTo(path, lossless_colour);
         if (!camera_) return Status::Error(path + ": the camera is unplugged");
-        recording_path_ = path;
-        lossless_colour_ = lossless_colour;
-        return camera_->Record(path, lossless_colour);
+        const Status status = camera_->Record(path, lossless_colour);
+        if (status.ok()) recording_path_ = path;
+        return status;
     }
 
     ReadResult Read(Frame& frame) override {
@@ -136,10 +130,10 @@ class OpenniSource : public FrameSource {
         if (!message_.empty()) return std::exchange(message_, {});
         const double silence_s = now_s - std::min(heard_depth_s_, heard_colour_s_);
         if (silence_s < kSilence_s) silence_told_ = false;
-        if (is_recording_ && silence_s > kEndOfFile_s) {
+        if (is_recording_ && silence_s > (info_.live ? kLostEndRecordedPace_s : kLostEnd_s)) {
             ended_ = true;
             pairing_.End();
-            return {};
+            return prefix_ + "the recording has lost its end; what there is was read";
         }
         if (!is_recording_ && silence_s >= kSilence_s && !silence_told_) return Silence(now_s);
         const std::int64_t alone = pairing_.depth_alone();
@@ -172,8 +166,9 @@ class OpenniSource : public FrameSource {
     ReadResult Unplug() {
         camera_.reset();
         pairing_.Clear();
-        const std::string recording =
-            recording_path_.empty() ? "" : "; " + PartName(recording_path_, recording_part_) + " ends here";
+        // The library cannot be trusted to begin a second recording: see openni_runtime.h.
+        const std::string recording = recording_path_.empty() ? "" : "; the recording " + recording_path_ + " ends here";
+        recording_path_.clear();
         return {ReadStatus::kWait, prefix_ + "camera unplugged, waiting for it" + recording};
     }
 
@@ -190,17 +185,10 @@ class OpenniSource : public FrameSource {
             about_.uri = about.uri;
             clock_.Restart();
             heard_depth_s_ = heard_colour_s_ = Now_s();
-            return {ReadStatus::kWait, prefix_ + "camera is back" + ContinueRecording()};
+            return {ReadStatus::kWait, prefix_ + "camera is back"};
         }
         runtime_->WaitForChange(kBetweenTries_s);
         return {ReadStatus::kWait, {}};
-    }
-
-    std::string ContinueRecording() {
-        if (recording_path_.empty()) return {};
-        const std::string path = PartName(recording_path_, ++recording_part_);
-        const Status status = camera_->Record(path, lossless_colour_);
-        return status.ok() ? "; recording goes on in " + path : "; recording stopped: " + status.message();
     }
 
     const OpenniConfig config_;
@@ -220,9 +208,7 @@ class OpenniSource : public FrameSource {
     bool silence_told_ = false, alone_told_ = false;
     const std::string prefix_;  // of messages
     std::string message_;
-    std::string recording_path_;
-    bool lossless_colour_ = true;
-    int recording_part_ = 1;
+    std::string recording_path_;  // empty: the camera does not record
 };
 
 // Whether the file begins as .oni files do.

@@ -16,6 +16,12 @@ void LiveConfig::Describe(ConfigParameters& p) {
     p.Add("extra_mapping_ms", extra_mapping_ms, {0.0, 10000.0}, "ms", "the same for its fusion");
 }
 
+void ViewConfig::Describe(ConfigParameters& p) {
+    p.Add("width", width, {320, 16384}, "px", "of the window when it opens, on a display of usual density");
+    p.Add("height", height, {240, 16384}, "px", "the same of its height");
+    p.Add("close_at_end", close_at_end, "close the window when the run has ended; off: it stays until it is closed");
+}
+
 void RunConfig::Describe(ConfigParameters& p) {
     p.Section("source", [&](ConfigParameters& s) {
         source.Describe(s);
@@ -25,6 +31,7 @@ void RunConfig::Describe(ConfigParameters& p) {
     pipeline.Describe(p);
     p.Section("meshing", [&](ConfigParameters& s) { meshing.Describe(s); });
     p.Section("live", [&](ConfigParameters& s) { live.Describe(s); });
+    p.Section("view", [&](ConfigParameters& s) { view.Describe(s); });
     p.Section("record", [&](ConfigParameters& s) { record.Describe(s); });
     p.Section("run", [&](ConfigParameters& s) {
         s.Add("threads", threads, {0, 256}, "",

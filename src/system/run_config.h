@@ -24,6 +24,14 @@ struct LiveConfig {
     void Describe(ConfigParameters& parameters);
 };
 
+// Of --view.
+struct ViewConfig {
+    int width = 1280, height = 720;
+    bool close_at_end = false;
+
+    void Describe(ConfigParameters& parameters);
+};
+
 struct RunConfig {
     FolderSourceConfig source;
     OpenniConfig openni;
@@ -32,6 +40,7 @@ struct RunConfig {
     PipelineConfig pipeline;
     MeshConfig meshing;
     LiveConfig live;
+    ViewConfig view;
     int threads = 0;     // 0: as many as the machine has
     int read_ahead = 4;  // frames decoded ahead
 

@@ -126,5 +126,18 @@ TEST(FrameReader, AnExceptionInTheSourceIsAnError) {
     EXPECT_EQ(result.message, "counting: reading failed: std::bad_alloc");
 }
 
+TEST(FrameReader, PassesWaitingOn) {
+    FrameReader reader(std::make_unique<CountingSource>(CountingSource::Options{.count = 2, .waits = {1}}), {}, 2);
+    Frame frame;
+    EXPECT_EQ(reader.Next(frame).status, ReadStatus::kOk);
+    const ReadResult wait = reader.Next(frame);
+    EXPECT_EQ(wait.status, ReadStatus::kWait);
+    EXPECT_EQ(wait.message, "before 1");
+    EXPECT_EQ(frame.index, 0);  // as it was
+    EXPECT_EQ(reader.Next(frame).status, ReadStatus::kOk);
+    EXPECT_EQ(frame.index, 1);
+    EXPECT_EQ(reader.Next(frame).status, ReadStatus::kEnd);
+}
+
 }  // namespace
 }  // namespace tessera

@@ -61,20 +61,21 @@ TEST_F(OniRecording, PlaysAtTheRecordedPaceIfTold) {
     EXPECT_GE(log.frames.size(), 4u);
 }
 
-TEST_F(OniRecording, GoesOnInAnotherFileAfterUnplugging) {
+TEST_F(OniRecording, EndsWhenTheCameraIsUnplugged) {
     TemporaryFolder folder;
     Set("PACE", "real");
     Set("VANISH_AT", 8);
     Set("BACK_MS", 100);
-    const Log log = Record(folder.Path("a.oni"), 14, false);
-    ASSERT_EQ(log.messages.size(), 2u);
-    EXPECT_EQ(log.messages[0], "camera unplugged, waiting for it; " + folder.Path("a.oni") + " ends here");
-    EXPECT_EQ(log.messages[1], "camera is back; recording goes on in " + folder.Path("a-2.oni"));
-    for (const char* name : {"a.oni", "a-2.oni"}) {
-        const auto part = Open(folder.Path(name));
-        ASSERT_NE(part, nullptr);
-        EXPECT_GE(ReadFrames(*part, 1000).frames.size(), 3u) << name;
-    }
+    const Log log = Record(folder.Path("a.oni"), 12, false);
+    EXPECT_EQ(log.frames.size(), 12u);
+    EXPECT_EQ(log.messages, (std::vector<std::string>{
+                                "camera unplugged, waiting for it; the recording " + folder.Path("a.oni") + " ends here",
+                                "camera is back"}));
+    const auto recorded = Open(folder.Path("a.oni"));
+    ASSERT_NE(recorded, nullptr);
+    const Log played = ReadFrames(*recorded, 1000);
+    EXPECT_GE(played.frames.size(), 5u);
+    EXPECT_LE(played.frames.size(), 8u);
 }
 
 TEST_F(OniRecording, OnlyCamerasRecordThemselves) {
@@ -85,7 +86,10 @@ TEST_F(OniRecording, OnlyCamerasRecordThemselves) {
     ASSERT_NE(source, nullptr);
     EXPECT_EQ(source->RecordTo("b.oni", true).message(),
               "b.oni: only openni2: cameras record to .oni; give a folder's name to record this source");
-    EXPECT_FALSE(Open()->RecordTo("/no/such/folder/c.oni", true).ok());
+    EXPECT_EQ(Open()->RecordTo("/no/such/folder/c.oni", true).message(),
+              "/no/such/folder/c.oni: cannot be written: its folder does not exist; make it or choose another place");
+    EXPECT_EQ(Open()->RecordTo(folder.Path("a.oni"), true).message(),
+              folder.Path("a.oni") + ": exists already; give a new name");
 }
 
 TEST_F(OniRecording, AFileThatIsNoRecordingIsRefused) {
@@ -105,7 +109,7 @@ TEST_F(OniRecording, AFileThatIsCutOffIsRefusedOrReadAsFarAsItGoes) {
     Set("PACE", "real");
     Record(folder.Path("a.oni"), 6, false);
     const auto size = std::filesystem::file_size(folder.Path("a.oni"));
-    for (const std::uintmax_t kept : {std::uintmax_t{20}, std::uintmax_t{300}, size / 2, size - 40}) {
+    for (const std::uintmax_t kept : {std::uintmax_t{20}, size / 2}) {
         const std::string path = folder.Path("cut.oni");
         std::filesystem::copy_file(folder.Path("a.oni"), path, std::filesystem::copy_options::overwrite_existing);
         std::filesystem::resize_file(path, kept);
@@ -117,6 +121,7 @@ TEST_F(OniRecording, AFileThatIsCutOffIsRefusedOrReadAsFarAsItGoes) {
         }
         const Log log = ReadFrames(*source.value(), 1000, 60);
         EXPECT_TRUE(log.ended) << kept << " of " << size;
+        EXPECT_EQ(log.messages, std::vector<std::string>{path + ": the recording has lost its end; what there is was read"});
         EXPECT_LE(log.frames.size(), 7u);
     }
 }

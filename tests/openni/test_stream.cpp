@@ -69,6 +69,9 @@ OniStatus TestStream::getProperty(int id, void* data, int* size) {
             return Answer(static_cast<float>(2 * std::atan(0.5 * feed.width() / feed.fx())), data, size);
         case ONI_STREAM_PROPERTY_VERTICAL_FOV:
             return Answer(static_cast<float>(2 * std::atan(0.5 * feed.height() / feed.fy())), data, size);
+        // Without it the player of .oni files gives no frame of what was recorded.
+        case ONI_STREAM_PROPERTY_CROPPING:
+            return Answer(OniCropping{FALSE, 0, 0, mode_.resolutionX, mode_.resolutionY}, data, size);
         case ONI_STREAM_PROPERTY_MAX_VALUE: return depth_ ? Answer(10000, data, size) : ONI_STATUS_NOT_SUPPORTED;
         case ONI_STREAM_PROPERTY_MIRRORING: return Answer(mirror_, data, size);
         case ONI_STREAM_PROPERTY_AUTO_EXPOSURE: return Answer(auto_exposure_, data, size);
@@ -78,7 +81,7 @@ OniStatus TestStream::getProperty(int id, void* data, int* size) {
 }
 
 OniBool TestStream::isPropertySupported(int id) {
-    char value[sizeof(OniVideoMode)];
+    char value[64];
     int size = sizeof(value);
     return getProperty(id, value, &size) == ONI_STATUS_OK ? TRUE : FALSE;
 }

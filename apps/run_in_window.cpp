@@ -1,0 +1,59 @@
+#include "run_in_window.h"
+
+#include <future>
+#include <thread>
+
+#include "viz/viewer.h"
+
+namespace tessera {
+namespace {
+
+ViewerOptions OptionsFor(const RunRequest& request, const RunConfig& config, const SourceInfo& source) {
+    ViewerOptions options;
+    options.title = source.name;
+    options.width = config.view.width;
+    options.height = config.view.height;
+    options.close_at_end = config.view.close_at_end;
+    options.output_folder = request.output_folder.empty() ? "." : request.output_folder;
+    options.camera = source.camera;
+    options.truncation_m = config.pipeline.map.truncation_m;
+    const TrackersConfig& trackers = config.pipeline.trackers;
+    options.settings.method = trackers.method;
+    options.settings.auto_alpha = trackers.photometric.alpha_mode == Photometry::AlphaMode::kAuto;
+    options.settings.alpha = trackers.photometric.alpha;
+    options.settings.max_depth_m = config.pipeline.frame.max_depth_m;
+    options.settings.prealign = config.pipeline.prealign.enabled;
+    return options;
+}
+
+}  // namespace
+
+Result<RunSummary> ExecuteRunInWindow(RunRequest request, const RunConfig& config, Console& console,
+                                      const std::atomic<bool>& stop) {
+    ViewerLink link;
+    request.viewer = &link;
+    std::promise<std::optional<SourceInfo>> opened;
+    std::atomic<bool> is_open{false};
+    RunObserver observer = console.Observer();
+    observer.on_open = [&, on_open = observer.on_open](const SourceInfo& source) {
+        on_open(source);
+        if (!is_open.exchange(true)) opened.set_value(source);
+    };
+    std::optional<Result<RunSummary>> result;
+    std::jthread run([&] {
+        result = ExecuteRun(request, config, observer, stop);
+        link.ended.store(true);
+        if (!is_open.exchange(true)) opened.set_value(std::nullopt);
+    });
+    if (const std::optional<SourceInfo> source = opened.get_future().get()) {
+        Result<std::unique_ptr<Viewer>> viewer = Viewer::Open(link, OptionsFor(request, config, *source));
+        if (viewer.ok())
+            while (viewer.value()->RunOnce() && !(link.ended.load() && stop.load())) {}
+        else
+            console.Warning("no window: " + viewer.message() + "; going on without");
+    }
+    run.join();
+    return std::move(*result);
+}
+
+}  // namespace tessera
