@@ -10,6 +10,7 @@
 #include "mapping/mesher.h"
 #include "mapping/ray_caster.h"
 #include "render/geometry_builder.h"
+#include "system/pipeline.h"
 #include "system/viewer_link.h"
 
 namespace tessera::testing_support {

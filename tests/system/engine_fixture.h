@@ -1,0 +1,84 @@
+// An engine on the exact little world, its outcomes counted.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "support/box_room_source.h"
+#include "system/live_engine.h"
+#include "system/lockstep_engine.h"
+#include "system/viewer_link.h"
+
+namespace tessera {
+
+class EngineTest : public testing::Test {
+  protected:
+    using Source = testing_support::BoxRoomSource;
+    using Kind = FrameOutcome::Kind;
+    using Command = ViewerCommand::Kind;
+
+    EngineTest() {
+        config.pipeline.map = {.voxel_size_m = 0.02, .truncation_m = 0.08};
+        config.pipeline.trackers.sdf.finest_step_px = 1;
+        config.live.playback_speed = 1000;
+    }
+
+    EngineInput Input(const Source::Options& options) {
+        EngineInput input;
+        input.source = std::make_unique<Source>(options);
+        input.config = config;
+        input.viewer = viewer;
+        input.stop = &stop;
+        return input;
+    }
+    void Make(bool live, const Source::Options& options) {
+        if (live)
+            engine = std::make_unique<LiveEngine>(Input(options));
+        else
+            engine = std::make_unique<LockstepEngine>(Input(options));
+    }
+
+    // The next outcome, also kept; false at the end.
+    bool Next() {
+        FrameOutcome outcome;
+        if (!engine->Next(outcome)) return false;
+        outcomes.push_back(std::move(outcome));
+        return true;
+    }
+    void TakeAll() {
+        while (Next()) {}
+    }
+    std::int64_t Count(Kind kind) const {
+        return std::ranges::count(outcomes, kind, &FrameOutcome::kind);
+    }
+    std::vector<const FrameReport*> Reports() const {
+        std::vector<const FrameReport*> reports;
+        for (const FrameOutcome& o : outcomes)
+            if (o.kind == Kind::kFrame) reports.push_back(&o.report);
+        return reports;
+    }
+    std::string Messages() const {
+        std::string all;
+        for (const FrameOutcome& o : outcomes) all += o.message + "\n";
+        return all;
+    }
+    void Ask(Command kind, const std::string& path = {}) { viewer->commands.Push({kind, path}); }
+
+    // Off the true pose, in the world of the first camera.
+    static double Error_m(const FrameReport& report, double speed = 1) {
+        const Eigen::Isometry3d truth = testing_support::SmoothPath(0, speed).inverse() *
+                                        testing_support::SmoothPath(static_cast<int>(report.index), speed);
+        return (truth.inverse() * report.track.T_world_camera).translation().norm();
+    }
+
+    RunConfig config;
+    ViewerLink* viewer = nullptr;
+    std::atomic<bool> stop{false};
+    std::unique_ptr<Engine> engine;
+    std::vector<FrameOutcome> outcomes;
+};
+
+}  // namespace tessera

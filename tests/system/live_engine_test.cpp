@@ -1,0 +1,173 @@
+#include "system/live_engine.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <future>
+#include <random>
+
+#include "support/temp_folder.h"
+#include "system/engine_fixture.h"
+
+namespace tessera {
+namespace {
+
+class Live : public EngineTest {};
+
+// A device that gives its next frame when the last one is through: nothing need be dropped.
+TEST_F(Live, EveryFrameIsAccountedForAndTrackedToTheMillimetre) {
+    config.live.queue_frames = 30;
+    Make(true, {.count = 30});
+    TakeAll();
+    EXPECT_TRUE(engine->status().ok());
+    EXPECT_FALSE(engine->stopped());
+    EXPECT_EQ(Count(Kind::kFrame) + Count(Kind::kDropped), 30);
+    const auto reports = Reports();
+    ASSERT_GT(reports.size(), 15u);
+    EXPECT_TRUE(reports.front()->first);
+    for (std::size_t i = 0; i < reports.size(); ++i) {
+        EXPECT_TRUE(reports[i]->tracked()) << reports[i]->track.reason;
+        EXPECT_LT(Error_m(*reports[i]), 0.004) << "frame " << reports[i]->index;
+        EXPECT_GT(reports[i]->index, i > 0 ? reports[i - 1]->index : -1);
+    }
+    EXPECT_GT(engine->map_statistics().blocks, 100);
+    EXPECT_GT(engine->TakeMesh().triangles.size(), 1000u);
+}
+
+// Mapping ten times slower than the camera: frames go on being tracked, most of them are not fused.
+TEST_F(Live, SlowMappingLeavesFramesUnfusedAndTracksThem) {
+    config.live.playback_speed = 1;
+    config.live.extra_mapping_ms = 330;
+    Make(true, {.count = 45, .speed = 0.3});
+    TakeAll();
+    std::int64_t unfused = 0, fused = 0;
+    for (const FrameOutcome& o : outcomes) {
+        if (o.kind != Kind::kFrame) continue;
+        unfused += o.fusion_dropped;
+        fused += o.report.fused;
+        EXPECT_TRUE(o.report.tracked()) << o.report.track.reason;
+        EXPECT_LT(Error_m(o.report, 0.3), 0.01) << "frame " << o.report.index;
+        for (const auto& [name, waiting] : o.queues) EXPECT_LE(waiting, 8u) << name;
+    }
+    EXPECT_GT(unfused, 10);
+    EXPECT_GT(fused, 2);
+}
+
+// Tracking ten times slower: frames are dropped, the newest are tracked, and the slow camera is not lost.
+TEST_F(Live, SlowTrackingDropsOldFramesAndKeepsThePose) {
+    config.live.playback_speed = 1;
+    config.live.extra_tracking_ms = 330;
+    config.pipeline.motion.max_gap_s = 1;
+    Make(true, {.count = 60, .speed = 0.3});
+    TakeAll();
+    EXPECT_EQ(Count(Kind::kFrame) + Count(Kind::kDropped), 60);
+    EXPECT_GT(Count(Kind::kDropped), 40);
+    ASSERT_GE(Reports().size(), 5u);
+    for (const FrameReport* report : Reports()) {
+        EXPECT_TRUE(report->tracked()) << report->track.reason;
+        EXPECT_LT(Error_m(*report, 0.3), 0.01) << "frame " << report->index;
+    }
+    EXPECT_GE(Reports().back()->index, 57);  // the newest, not the next in line
+}
+
+TEST_F(Live, BadFramesWaitsAndABrokenSourceAreTold) {
+    Make(true, {.before_read = [waited = false](std::int64_t i) mutable -> ReadResult {
+             if (i == 2) return {ReadStatus::kSkip, "torn"};
+             if (i == 4 && !std::exchange(waited, true)) return {ReadStatus::kWait, "camera unplugged"};
+             if (i == 6) return {ReadStatus::kError, "burnt"};
+             return {};
+         }});
+    TakeAll();
+    EXPECT_EQ(Count(Kind::kSkipped), 1);
+    EXPECT_EQ(Count(Kind::kMessage), 1);
+    EXPECT_EQ(Count(Kind::kFrame) + Count(Kind::kDropped), 5);
+    EXPECT_EQ(engine->status().message(), "burnt");
+    EXPECT_NE(Messages().find("torn\n"), std::string::npos);
+}
+
+TEST_F(Live, AStopEndsItSoonAndKeepsTheMap) {
+    Make(true, {});
+    while (Reports().size() < 3) ASSERT_TRUE(Next());
+    stop = true;
+    const auto asked = std::chrono::steady_clock::now();
+    TakeAll();
+    EXPECT_LT(std::chrono::steady_clock::now() - asked, std::chrono::seconds(2));
+    EXPECT_TRUE(engine->stopped());
+    EXPECT_GT(engine->map_statistics().blocks, 100);
+}
+
+TEST_F(Live, ItCanBeLetGoAtAnyMoment) {
+    Make(true, {});
+    ASSERT_TRUE(Next());
+    engine.reset();
+}
+
+TEST_F(Live, ViewerCommandsAreObeyed) {
+    ViewerLink link;
+    viewer = &link;
+    TempFolder folder;
+    Make(true, {.live = true});
+    while (Reports().size() < 4) ASSERT_TRUE(Next());
+    ViewerSettings settings;
+    settings.method = TrackingMethod::kIcp;
+    link.settings.Push(ViewerSettings(settings));
+    while (Reports().back()->method != TrackingMethod::kIcp) ASSERT_TRUE(Next());
+    EXPECT_TRUE(Reports().back()->tracked());
+    Ask(Command::kSaveMesh, folder / "now.ply");
+    while (Messages().find("saved ") == std::string::npos) ASSERT_TRUE(Next());
+    EXPECT_TRUE(std::filesystem::exists(folder / "now.ply"));
+    Ask(Command::kReset);
+    while (Count(Kind::kReset) == 0) ASSERT_TRUE(Next());
+    const std::size_t before = Reports().size();
+    while (Reports().size() < before + 3) ASSERT_TRUE(Next());
+    EXPECT_TRUE(Reports()[before]->first);
+    EXPECT_TRUE(Reports().back()->tracked());
+    EXPECT_LT(Reports()[before]->track.T_world_camera.translation().norm(), 1e-12);  // a new world
+    Ask(Command::kStop);
+    TakeAll();
+    EXPECT_TRUE(engine->stopped());
+}
+
+// Everything at random, with a window that takes what it is sent only now and then: for the sanitizers.
+TEST_F(Live, RandomCommandsDoNoHarm) {
+    ViewerLink link;
+    viewer = &link;
+    TempFolder folder;
+    config.live.playback_speed = 1;
+    config.pipeline.trackers.icp.prediction = IcpTracker::Prediction::kRayCast;
+    const char* seconds = std::getenv("TESSERA_SOAK_S");
+    const std::int64_t frames = 30 * (seconds != nullptr ? std::atoi(seconds) : 3);
+    Make(true, {.count = frames});
+    std::mt19937 random(7);
+    int saved = 0;
+    while (Next()) {
+        switch (random() % 12) {
+            case 0: Ask(Command::kReset); break;
+            case 1: Ask(Command::kSaveMesh, folder / fmt::format("{}.ply", saved++ % 3)); break;
+            case 2: Ask(Command::kPause), Ask(Command::kStep), Ask(Command::kResume); break;
+            case 3: Ask(Command::kRecord, folder / fmt::format("raw{}", saved++)); break;
+            case 4: Ask(Command::kStopRecording); break;
+            case 5: case 6: {
+                ViewerSettings settings;
+                settings.method = static_cast<TrackingMethod>(random() % kTrackingMethods);
+                settings.prealign = random() % 2 == 0;
+                settings.fusing = random() % 4 != 0;
+                link.settings.Push(std::move(settings));
+                break;
+            }
+            default: {
+                MeshUpdate meshes;
+                ImageUpdate images;
+                link.meshes.TryPop(meshes);
+                link.images.TryPop(images);
+            }
+        }
+        if (outcomes.size() > 1000) outcomes.clear();
+    }
+    EXPECT_TRUE(engine->status().ok());
+    engine->TakeMesh();
+}
+
+}  // namespace
+}  // namespace tessera
