@@ -28,7 +28,7 @@ class SteppedSystem {
 
   private:
     void Obey();
-    void ProcessFrame(std::shared_ptr<const Frame> frame);
+    void ProcessFrame(std::shared_ptr<const Frame> frame, double decode_ms);
     void SendImages(const std::shared_ptr<const Frame>& frame, const FrameReport& report);
     void SendMesh();
     void StartAnew();
