@@ -58,7 +58,8 @@ void DrawToolbar(ViewerState& state, const ControlRect& area) {
     }
     ImGui::Dummy({Scaled(6), 0});
     ImGui::SameLine();
-    if (button("wireframe", "Wireframe", view.wireframe, "Triangles' edges only  (W)")) view.wireframe = !view.wireframe;
+    if (button("wireframe", "Wireframe", view.wireframe, "Triangles' edges only  (W)"))
+        view.wireframe = !view.wireframe;
     if (button("depth_test", "Depth test", view.depth_test, "Off: what is behind shows through  (D)"))
         view.depth_test = !view.depth_test;
     if (state.link && button("truth", "Truth", view.show_truth, "Path of the ground truth, white  (T)"))
@@ -93,7 +94,8 @@ bool DrawViewPanel(ViewerState& state, SceneView& scene, const ViewPanelFrame& f
                                           .smooth = frame.smooth});
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const ImVec2 from{area.x, area.y}, to{area.x + area.width, area.y + area.height};
-    list.AddRectFilledMultiColor(from, to, palette::kViewTop, palette::kViewTop, palette::kViewBottom, palette::kViewBottom);
+    list.AddRectFilledMultiColor(from, to, palette::kViewTop, palette::kViewTop, palette::kViewBottom,
+                                 palette::kViewBottom);
     list.AddImage(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(scene.texture())), from, to);
     DrawToolbar(state, area);
     return drawn;

@@ -26,8 +26,8 @@ class SceneView {
     // So that all of the mesh shows, in the present direction.
     void ViewAll();
 
-    // Draws if anything differs from the last picture; what the person did (`by_hand`, a choice, the size) at once, what
-    // the system did only if `may_redraw`. True if it drew.
+    // Draws if anything differs from the last picture; what the person did (`by_hand`, a choice, the size) at once,
+    // what the system did only if `may_redraw`. True if it drew.
     struct Request {
         int width = 0, height = 0;  // pixels
         bool may_redraw = true, by_hand = false, smooth = false;

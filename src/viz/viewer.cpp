@@ -18,8 +18,8 @@ namespace {
 
 // After the last input or update, ImGui needs a few rounds until hovering and popups have settled.
 constexpr int kSettlingRounds = 3;
-// In software, on the processor that the system needs as well: while nobody moves the view it is drawn anew at most this
-// often, and never for more than this share of the time.
+// In software, on the processor that the system needs as well: while nobody moves the view it is drawn anew at most
+// this often, and never for more than this share of the time.
 constexpr double kSoftwareViewPeriodS = 0.25, kSoftwareShare = 0.1;
 
 struct Layout {

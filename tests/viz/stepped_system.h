@@ -1,4 +1,5 @@
-// A system behind a viewer's link that a test steps by hand: the real pipeline and mesher, on the test's own thread. Remembers every command and setting.
+// A system behind a viewer's link that a test steps by hand: the real pipeline and mesher, on the test's own thread.
+// Remembers every command and setting.
 #pragma once
 
 #include <memory>
