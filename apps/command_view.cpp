@@ -35,8 +35,8 @@ Result<Files> FindFiles(const Arguments& a) {
     const fs::path folder = a.path;
     files.mesh = (folder / "mesh.ply").string();
     if (!fs::exists(files.mesh, ignored))
-        return Status::Error(fmt::format("{}: has no mesh.ply; a run's folder has one, and a source is seen by: tessera "
-                                         "run {} --view", a.path, a.path));
+        return Status::Error(fmt::format("{}: has no mesh.ply; a run's folder has one, and a source is seen by: "
+                                         "tessera run {} --view", a.path, a.path));
     if (files.trajectory.empty() && fs::exists(folder / "trajectory.txt", ignored))
         files.trajectory = (folder / "trajectory.txt").string();
     return files;

@@ -13,7 +13,8 @@ Rgb8 Interpolate(std::span<const Rgb8> stops, float position) {
     const auto index = std::min(static_cast<std::size_t>(at), stops.size() - 2);
     const float part = at - static_cast<float>(index);
     const auto mix = [part](std::uint8_t a, std::uint8_t b) {
-        return static_cast<std::uint8_t>(std::lround((1 - part) * static_cast<float>(a) + part * static_cast<float>(b)));
+        const float value = (1 - part) * static_cast<float>(a) + part * static_cast<float>(b);
+        return static_cast<std::uint8_t>(std::lround(value));
     };
     const Rgb8 &a = stops[index], &b = stops[index + 1];
     return {mix(a.r, b.r), mix(a.g, b.g), mix(a.b, b.b)};
@@ -42,7 +43,8 @@ std::size_t Shade(float unit) {
 
 Rgb8 SequentialColour(float value) {
     static constexpr std::array<Rgb8, 7> kStops{
-        {{150, 20, 60}, {222, 82, 62}, {250, 165, 88}, {246, 228, 140}, {132, 205, 160}, {54, 142, 186}, {72, 62, 140}}};
+        {{150, 20, 60}, {222, 82, 62}, {250, 165, 88}, {246, 228, 140}, {132, 205, 160}, {54, 142, 186},
+         {72, 62, 140}}};
     return Interpolate(kStops, value);
 }
 

@@ -115,7 +115,8 @@ void DrawResetQuestion(ViewerState& state) {
     ImGui::SetNextWindowPos({size.x / 2, size.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
     ImGui::OpenPopup("Reset");
     if (!ImGui::BeginPopupModal("Reset", nullptr,
-                                ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoTitleBar))
+                                ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove |
+                                    ImGuiWindowFlags_NoTitleBar))
         return;
     HeadingText("Start anew?");
     ImGui::TextUnformatted("The map and the path of this run are forgotten.");

@@ -7,6 +7,7 @@ namespace {
 
 struct Line {
     const char *keys, *meaning;
+    bool of_a_run = false;  // nothing to do with a finished mesh
 };
 
 constexpr Line kLines[] = {
@@ -14,19 +15,19 @@ constexpr Line kLines[] = {
     {"Shift or middle drag", "move the view"},
     {"Wheel", "nearer, farther"},
     {"Double click", "look at this point"},
-    {"F", "follow the sensor, or stay"},
+    {"F", "follow the sensor, or stay", true},
     {"A", "see all of the mesh"},
     {"C", "shading: colour, grey, normal"},
     {"W", "wireframe"},
     {"D", "depth test"},
-    {"T", "ground truth"},
-    {"", ""},
-    {"Space", "pause, resume"},
-    {"S", "one frame, then pause"},
-    {"R", "reset, after a question"},
-    {"1 2 3 4", "SDF + colour, SDF, ICP, ICP + colour"},
-    {"M", "save the mesh"},
-    {"V", "record raw frames, stop recording"},
+    {"T", "ground truth", true},
+    {"", "", true},
+    {"Space", "pause, resume", true},
+    {"S", "one frame, then pause", true},
+    {"R", "reset, after a question", true},
+    {"1 2 3 4", "SDF + colour, SDF, ICP, ICP + colour", true},
+    {"M", "save the mesh", true},
+    {"V", "record raw frames, stop recording", true},
     {"P", "picture of this window"},
     {"H or F1", "this help"},
     {"Q or Escape", "close; a running scan ends and is saved"},
@@ -48,6 +49,7 @@ void DrawHelp(ViewerState& state) {
     ImGui::Dummy({0, Scaled(2)});
     if (ImGui::BeginTable("keys", 2, ImGuiTableFlags_SizingFixedFit)) {
         for (const Line& line : kLines) {
+            if (line.of_a_run && !state.link) continue;
             ImGui::TableNextColumn();
             ImGui::PushStyleColor(ImGuiCol_Text, palette::kAccent);
             ImGui::TextUnformatted(line.keys);

@@ -55,25 +55,28 @@ void DrawLegend(ImDrawList& list, const Legend& legend, const ImVec2& at, const 
     }
 }
 
-void DrawImage(const char* title, const GlTexture& texture, const ImVec2& size, const char* missing, const Legend& legend) {
+void DrawImage(const char* title, const GlTexture& texture, const ImVec2& size, const char* missing,
+               const Legend& legend) {
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const ImVec2 at = ImGui::GetCursorScreenPos(), to{at.x + size.x, at.y + size.y};
     list.AddRectFilled(at, to, IM_COL32(18, 20, 24, 255), Scaled(4));
     if (!texture.empty()) {
         // As large as fits, without distortion.
-        const float scale = std::min(size.x / static_cast<float>(texture.width()), size.y / static_cast<float>(texture.height()));
-        const ImVec2 part{scale * static_cast<float>(texture.width()), scale * static_cast<float>(texture.height())};
+        const auto width = static_cast<float>(texture.width()), height = static_cast<float>(texture.height());
+        const float scale = std::min(size.x / width, size.y / height);
+        const ImVec2 part{scale * width, scale * height};
         const ImVec2 from{at.x + (size.x - part.x) / 2, at.y + (size.y - part.y) / 2};
         list.AddImageRounded(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(texture.name())), from,
                              {from.x + part.x, from.y + part.y}, {0, 0}, {1, 1}, IM_COL32_WHITE, Scaled(4));
         if (legend.colour) DrawLegend(list, legend, at, size);
     } else {
         const ImVec2 extent = SmallFont()->CalcTextSizeA(SmallFont()->FontSize, 1e4f, 0, missing);
-        list.AddText(SmallFont(), SmallFont()->FontSize, {at.x + (size.x - extent.x) / 2, at.y + (size.y - extent.y) / 2},
-                     palette::kIdle, missing);
+        const ImVec2 from{at.x + (size.x - extent.x) / 2, at.y + (size.y - extent.y) / 2};
+        list.AddText(SmallFont(), SmallFont()->FontSize, from, palette::kIdle, missing);
     }
     const ImVec2 extent = SmallFont()->CalcTextSizeA(SmallFont()->FontSize, 1e4f, 0, title);
-    list.AddRectFilled(at, {at.x + extent.x + Scaled(14), at.y + extent.y + Scaled(6)}, IM_COL32(14, 16, 19, 190), Scaled(4),
+    const ImVec2 label_to{at.x + extent.x + Scaled(14), at.y + extent.y + Scaled(6)};
+    list.AddRectFilled(at, label_to, IM_COL32(14, 16, 19, 190), Scaled(4),
                        ImDrawFlags_RoundCornersTopLeft | ImDrawFlags_RoundCornersBottomRight);
     list.AddText(SmallFont(), SmallFont()->FontSize, {at.x + Scaled(7), at.y + Scaled(3)}, palette::kText, title);
     ImGui::Dummy(size);

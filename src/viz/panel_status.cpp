@@ -14,15 +14,18 @@ struct Light {
 
 Light LightOf(const ViewerState& state) {
     if (!state.system.has_frame())
-        return {palette::kIdle, state.ended() ? "Ended" : "Waiting", state.ended() ? "no frame came" : "for the first frame"};
+        return state.ended() ? Light{palette::kIdle, "Ended", "no frame came"}
+                             : Light{palette::kIdle, "Waiting", "for the first frame"};
     const FrameReport& report = state.system.frame().report;
     const TrackResult& track = report.track;
     if (track.status == TrackStatus::kLost) return {palette::kBad, "Lost", track.reason};
     if (track.status == TrackStatus::kPoor) return {palette::kWarning, "Poor, not fused", track.reason};
     if (track.degenerate)
-        return {palette::kWarning, "Degenerate", track.reason.empty() ? "the scene leaves some motion open" : track.reason};
+        return {palette::kWarning, "Degenerate",
+                track.reason.empty() ? "the scene leaves some motion open" : track.reason};
     if (report.first) return {palette::kGood, "Started", "the first frame is the world"};
-    return {palette::kGood, "Tracking", report.fused ? "well; the frame went into the map" : "well; the map stays as it is"};
+    return {palette::kGood, "Tracking",
+            report.fused ? "well; the frame went into the map" : "well; the map stays as it is"};
 }
 
 void DrawLight(const ViewerState& state) {

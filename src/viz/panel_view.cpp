@@ -8,8 +8,8 @@
 namespace tessera {
 namespace {
 
-// The pointer turns, moves and zooms; a drag takes the camera from the sensor.
-void HandlePointer(ViewerState& state, SceneView& scene, const ControlRect& area) {
+// The pointer turns, moves and zooms; a drag takes the camera from the sensor. True if it did anything.
+bool HandlePointer(ViewerState& state, SceneView& scene, const ControlRect& area) {
     const ImGuiIO& io = ImGui::GetIO();
     ViewCamera& camera = scene.camera();
     const bool hovered = ImGui::IsItemHovered();
@@ -36,6 +36,7 @@ void HandlePointer(ViewerState& state, SceneView& scene, const ControlRect& area
             camera.LookAt(*point);
         }
     }
+    return left || middle || (hovered && (io.MouseWheel != 0 || ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)));
 }
 
 void DrawToolbar(ViewerState& state, const ControlRect& area) {
@@ -57,7 +58,8 @@ void DrawToolbar(ViewerState& state, const ControlRect& area) {
     }
     ImGui::Dummy({Scaled(6), 0});
     ImGui::SameLine();
-    if (button("wireframe", "Wireframe", view.wireframe, "Triangles' edges only  (W)")) view.wireframe = !view.wireframe;
+    if (button("wireframe", "Wireframe", view.wireframe, "Triangles' edges only  (W)"))
+        view.wireframe = !view.wireframe;
     if (button("depth_test", "Depth test", view.depth_test, "Off: what is behind shows through  (D)"))
         view.depth_test = !view.depth_test;
     if (state.link && button("truth", "Truth", view.show_truth, "Path of the ground truth, white  (T)"))
@@ -73,7 +75,7 @@ void DrawToolbar(ViewerState& state, const ControlRect& area) {
 
 }  // namespace
 
-void DrawViewPanel(ViewerState& state, SceneView& scene, const ViewPanelFrame& frame) {
+bool DrawViewPanel(ViewerState& state, SceneView& scene, const ViewPanelFrame& frame) {
     const ControlRect& area = frame.area;
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
     const Panel panel("view", area, ImGuiWindowFlags_NoScrollWithMouse);
@@ -82,17 +84,21 @@ void DrawViewPanel(ViewerState& state, SceneView& scene, const ViewPanelFrame& f
                            ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonMiddle);
     ImGui::SetItemAllowOverlap();  // the buttons over it are reached
     state.controls.MarkLast("view");
-    HandlePointer(state, scene, area);
+    const bool by_hand = HandlePointer(state, scene, area);
     if (state.view.keep_all) scene.ViewAll();
     const ImVec2 scale = ImGui::GetIO().DisplayFramebufferScale;
-    const int width = std::max(static_cast<int>(area.width * scale.x), 1);
-    const int height = std::max(static_cast<int>(area.height * scale.y), 1);
-    scene.Draw(state, width, height, frame.may_redraw_mesh, frame.smooth);
+    const bool drawn = scene.Draw(state, {.width = std::max(static_cast<int>(area.width * scale.x), 1),
+                                          .height = std::max(static_cast<int>(area.height * scale.y), 1),
+                                          .may_redraw = frame.may_redraw,
+                                          .by_hand = by_hand,
+                                          .smooth = frame.smooth});
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const ImVec2 from{area.x, area.y}, to{area.x + area.width, area.y + area.height};
-    list.AddRectFilledMultiColor(from, to, palette::kViewTop, palette::kViewTop, palette::kViewBottom, palette::kViewBottom);
+    list.AddRectFilledMultiColor(from, to, palette::kViewTop, palette::kViewTop, palette::kViewBottom,
+                                 palette::kViewBottom);
     list.AddImage(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(scene.texture())), from, to);
     DrawToolbar(state, area);
+    return drawn;
 }
 
 }  // namespace tessera

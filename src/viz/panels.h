@@ -18,10 +18,11 @@ void DrawResetQuestion(ViewerState& state);
 // The 3D view and the pointer's work in it.
 struct ViewPanelFrame {
     ControlRect area;
-    bool may_redraw_mesh = true;
+    bool may_redraw = true;
     bool smooth = false;
 };
-void DrawViewPanel(ViewerState& state, SceneView& scene, const ViewPanelFrame& frame);
+// True if the 3D view was drawn anew.
+bool DrawViewPanel(ViewerState& state, SceneView& scene, const ViewPanelFrame& frame);
 
 // Measured and predicted images. Made, used and destroyed with the OpenGL context current.
 class ImagesPanel {

@@ -9,8 +9,8 @@ using Colour = std::array<std::uint8_t, 4>;
 constexpr Colour kNone{}, kTruth{235, 235, 235, 170}, kPath{84, 160, 255, 255};
 
 Colour ToColour(ImU32 packed) {
-    return {static_cast<std::uint8_t>(packed >> IM_COL32_R_SHIFT), static_cast<std::uint8_t>(packed >> IM_COL32_G_SHIFT),
-            static_cast<std::uint8_t>(packed >> IM_COL32_B_SHIFT), 255};
+    const auto byte = [packed](int shift) { return static_cast<std::uint8_t>(packed >> shift); };
+    return {byte(IM_COL32_R_SHIFT), byte(IM_COL32_G_SHIFT), byte(IM_COL32_B_SHIFT), 255};
 }
 
 LineVertex Vertex(const Eigen::Vector3f& p, const Colour& colour) {
@@ -23,7 +23,8 @@ void AppendNew(const std::vector<SystemView::PathPoint>& points, std::size_t don
     for (std::size_t i = done; i < points.size(); ++i) {
         const SystemView::PathPoint& point = points[i];
         if (!point.follows) vertices.push_back(Vertex(point.position_m, kNone));
-        vertices.push_back(Vertex(point.position_m, point.status == TrackStatus::kGood ? good : ToColour(palette::kWarning)));
+        const bool is_good = point.status == TrackStatus::kGood;
+        vertices.push_back(Vertex(point.position_m, is_good ? good : ToColour(palette::kWarning)));
     }
     if (!vertices.empty()) lines.Append(vertices);
 }
@@ -72,7 +73,8 @@ void PathLines::SetOutline(const Eigen::Isometry3d& T_world_camera, const Pinhol
     };
     const double right = camera.width, bottom = camera.height;
     const Eigen::Vector3f apex = T_world_camera.translation().cast<float>();
-    const std::array<Eigen::Vector3f, 4> corners{corner(0, 0), corner(right, 0), corner(right, bottom), corner(0, bottom)};
+    const std::array<Eigen::Vector3f, 4> corners{corner(0, 0), corner(right, 0), corner(right, bottom),
+                                                 corner(0, bottom)};
     std::vector<LineVertex> vertices;
     const auto line = [&](const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
         vertices.push_back(Vertex(a, colour));

@@ -37,7 +37,8 @@ void DrawCurve(ImDrawList& list, const Frame& frame, const Curve& curve, bool fi
     list.Flags &= ~ImDrawListFlags_AntiAliasedFill;  // it would show the seams
     if (filled)
         for (std::size_t i = 1; i < points.size(); ++i)
-            list.AddQuadFilled({points[i - 1].x, frame.to.y}, points[i - 1], points[i], {points[i].x, frame.to.y}, shade);
+            list.AddQuadFilled({points[i - 1].x, frame.to.y}, points[i - 1], points[i], {points[i].x, frame.to.y},
+                               shade);
     list.Flags = flags;
     list.AddPolyline(points.data(), static_cast<int>(points.size()), curve.colour, 0, Scaled(1.4f));
 }
@@ -63,8 +64,8 @@ void DrawTip(std::span<const Curve> curves, const Frame& frame, const char* unit
         const float steps = from_right * static_cast<float>(series.capacity() - 1);
         const auto age = static_cast<std::size_t>(std::max(steps + 0.5f, 0.0f));
         if (age >= series.size()) continue;
-        ImGui::TextUnformatted(
-            fmt::format("{} {} {}, {} frames ago", curve.name, ValueText(series[series.size() - 1 - age], unit), unit, age).c_str());
+        const std::string value = ValueText(series[series.size() - 1 - age], unit);
+        ImGui::TextUnformatted(fmt::format("{} {} {}, {} frames ago", curve.name, value, unit, age).c_str());
     }
     ImGui::EndTooltip();
 }

@@ -25,12 +25,11 @@ struct SceneView::Impl {
 
     struct Drawn {
         Eigen::Isometry3d T_world_view = Eigen::Isometry3d::Identity();
-        int width = 0, height = 0;
         ViewChoices choices;
-        bool smooth = false;
+        Request request;
     };
     void StandUpright();
-    bool Moved(const ViewerState& state, int width, int height, bool is_smooth) const;
+    bool ChosenAnew(const ViewerState& state, const Request& request) const;
     void DrawMesh(const ViewerState& state, const PinholeCamera& pinhole);
     void DrawPaths(const ViewerState& state, const PinholeCamera& pinhole);
 
@@ -147,27 +146,35 @@ void SceneView::ViewAll() {
     Impl& s = *impl_;
     if (s.bounds.isEmpty()) return;
     const Eigen::Vector3d from = s.camera.T_world_camera().linear().col(2);
-    s.camera.Place(s.bounds.center() - 0.76 * s.bounds.diagonal().norm() * from, s.bounds.center());
+    // Not for every block that is new, else the view would never stand still.
+    const double distance_m = 0.76 * s.bounds.diagonal().norm();
+    if ((s.camera.target() - s.bounds.center()).norm() < 0.03 * distance_m &&
+        std::abs(s.camera.distance_m() - distance_m) < 0.03 * distance_m)
+        return;
+    s.camera.Place(s.bounds.center() - distance_m * from, s.bounds.center());
 }
 
-bool SceneView::Impl::Moved(const ViewerState& state, int width, int height, bool is_smooth) const {
+bool SceneView::Impl::ChosenAnew(const ViewerState& state, const Request& request) const {
     const ViewChoices &a = state.view, &b = drawn.choices;
-    return !camera.T_world_camera().isApprox(drawn.T_world_view, 1e-7) || width != drawn.width ||
-           height != drawn.height || is_smooth != drawn.smooth || a.shading != b.shading ||
-           a.wireframe != b.wireframe || a.depth_test != b.depth_test || a.show_truth != b.show_truth;
+    return request.width != drawn.request.width || request.height != drawn.request.height ||
+           request.smooth != drawn.request.smooth || a.shading != b.shading || a.wireframe != b.wireframe ||
+           a.depth_test != b.depth_test || a.show_truth != b.show_truth;
 }
 
-void SceneView::Draw(const ViewerState& state, int width, int height, bool may_redraw_mesh, bool smooth) {
+bool SceneView::Draw(const ViewerState& state, const Request& request) {
     Impl& s = *impl_;
     s.changed |= s.paths.Update(state);
-    if (!s.Moved(state, width, height, smooth) && !(s.changed && may_redraw_mesh)) return;
+    const bool moved = !s.camera.T_world_camera().isApprox(s.drawn.T_world_view, 1e-7);
+    const bool at_once = request.may_redraw || (moved && request.by_hand);
+    if (!s.ChosenAnew(state, request) && !((moved || s.changed) && at_once)) return false;
     s.changed = false;
-    s.drawn = {s.camera.T_world_camera(), width, height, state.view, smooth};
-    const PinholeCamera pinhole = ViewCamera::Camera(width, height);
-    s.target.Begin(width, height, smooth || !s.is_software ? 4 : 1);
+    s.drawn = {s.camera.T_world_camera(), state.view, request};
+    const PinholeCamera pinhole = ViewCamera::Camera(request.width, request.height);
+    s.target.Begin(request.width, request.height, request.smooth || !s.is_software ? 4 : 1);
     s.DrawMesh(state, pinhole);
     s.DrawPaths(state, pinhole);
     s.target.End();
+    return true;
 }
 
 void SceneView::Impl::DrawMesh(const ViewerState& state, const PinholeCamera& pinhole) {
@@ -211,7 +218,7 @@ void SceneView::Impl::DrawPaths(const ViewerState& state, const PinholeCamera& p
 std::optional<Eigen::Vector3d> SceneView::PointAt(int x, int y) const {
     const double buffer = impl_->target.DepthAt(x, y);
     if (buffer >= 1) return std::nullopt;
-    const PinholeCamera pinhole = ViewCamera::Camera(impl_->drawn.width, impl_->drawn.height);
+    const PinholeCamera pinhole = ViewCamera::Camera(impl_->drawn.request.width, impl_->drawn.request.height);
     return impl_->drawn.T_world_view * pinhole.Unproject(x, y, DepthFromBuffer(buffer, kNearM, kFarM));
 }
 

@@ -26,8 +26,13 @@ class SceneView {
     // So that all of the mesh shows, in the present direction.
     void ViewAll();
 
-    // Draws if anything differs from the last picture, and `may_redraw_mesh` or the camera moved.
-    void Draw(const ViewerState& state, int width, int height, bool may_redraw_mesh, bool smooth);
+    // Draws if anything differs from the last picture; what the person did (`by_hand`, a choice, the size) at once,
+    // what the system did only if `may_redraw`. True if it drew.
+    struct Request {
+        int width = 0, height = 0;  // pixels
+        bool may_redraw = true, by_hand = false, smooth = false;
+    };
+    bool Draw(const ViewerState& state, const Request& request);
     unsigned texture() const;
 
     ViewCamera& camera();

@@ -5,7 +5,7 @@
 namespace tessera {
 namespace {
 
-constexpr float kCosReach = 0.766f, kSinReach = 0.643f;  // of 40 degrees
+constexpr float kCosReach = 0.602f, kSinReach = 0.799f;  // of 53 degrees
 constexpr double kLeastNormals = 500, kLeastShare = 0.08;
 
 Eigen::Vector3f FromOctahedral(const std::array<std::int16_t, 2>& packed) {
@@ -47,7 +47,12 @@ void UpEstimator::Add(const Eigen::Vector3f& normal_world) {
 }
 
 std::optional<Eigen::Vector3d> UpEstimator::Up() const {
+    // A wall lies as far from the rough direction as the floor when that is 45 degrees off: the nearer one counts more.
+    const auto weight = [&](const Bin& bin) {
+        return bin.count * std::pow(bin.sum.normalized().dot(rough_.cast<double>()), 4);
+    };
     Bin best;
+    double most = 0;
     for (int y = 1; y < kBins - 1; ++y)
         for (int x = 1; x < kBins - 1; ++x) {
             Bin around;
@@ -56,7 +61,9 @@ std::optional<Eigen::Vector3d> UpEstimator::Up() const {
                     around.sum += At(x + dx, y + dy).sum;
                     around.count += At(x + dx, y + dy).count;
                 }
-            if (around.count > best.count) best = around;
+            if (around.count == 0 || weight(around) <= most) continue;
+            most = weight(around);
+            best = around;
         }
     if (count_ < kLeastNormals || best.count < kLeastShare * count_) return std::nullopt;
     return best.sum.normalized();

@@ -12,7 +12,7 @@ namespace tessera {
 
 class UpEstimator {
   public:
-    // Looks for a direction within 40 degrees of `roughly_up` (any length but 0).
+    // Looks for a direction within 53 degrees of `roughly_up` (any length but 0).
     explicit UpEstimator(const Eigen::Vector3d& roughly_up);
 
     void Clear();

@@ -18,8 +18,9 @@ namespace {
 
 // After the last input or update, ImGui needs a few rounds until hovering and popups have settled.
 constexpr int kSettlingRounds = 3;
-// On a processor that the system needs as well: how often the mesh is drawn again while nobody moves the view.
-constexpr double kSoftwareMeshPeriodS = 0.25;
+// In software, on the processor that the system needs as well: while nobody moves the view it is drawn anew at most
+// this often, and never for more than this share of the time.
+constexpr double kSoftwareViewPeriodS = 0.25, kSoftwareShare = 0.1;
 
 struct Layout {
     ControlRect left, view, plots, images;
@@ -45,7 +46,8 @@ struct Viewer::Impl {
 
     bool RunOnce();
     void DrawFrame(bool smooth);
-    void DrawPanels(bool may_redraw_mesh, bool smooth);
+    bool DrawPanels(bool may_redraw, bool smooth);
+    bool MayRedrawView(double now_s) const;
     void TakeScreenshot();
     double FramePeriodS() const;
 
@@ -54,9 +56,10 @@ struct Viewer::Impl {
     std::unique_ptr<SceneView> scene;
     ImagesPanel images;
     Stopwatch clock;
-    double drawn_at_s = -1e9, mesh_drawn_at_s = -1e9, followed_at_s = 0;
+    double drawn_at_s = -1e9, view_drawn_at_s = -1e9, view_cost_s = 0, followed_at_s = 0;
     int rounds_to_draw = kSettlingRounds;
     bool sent_stop = false, ended_seen = false;
+    bool scene_waits = false;  // the last frame was drawn too soon for the 3D view
 };
 
 namespace {
@@ -145,25 +148,36 @@ bool Viewer::Impl::RunOnce() {
         drawn_at_s = now_s;
         DrawFrame(false);
         window->Show();
+    } else if (window->is_software() && scene_waits) {
+        rounds_to_draw = std::max(rounds_to_draw, MayRedrawView(now_s) ? 1 : 0);
     }
     if (state.want_screenshot) TakeScreenshot();
     return true;
 }
 
-void Viewer::Impl::DrawFrame(bool smooth) {
-    const double now_s = clock.ElapsedMs() / 1000;
-    const bool due = !window->is_software() || now_s - mesh_drawn_at_s >= kSoftwareMeshPeriodS;
-    if (due) mesh_drawn_at_s = now_s;
-    window->BeginFrame();
-    state.controls.BeginFrame();
-    DrawPanels(due || smooth, smooth);
-    window->EndFrame();
+bool Viewer::Impl::MayRedrawView(double now_s) const {
+    if (!window->is_software() || state.options.max_fps > 0) return true;
+    return now_s - view_drawn_at_s >= std::max(kSoftwareViewPeriodS, view_cost_s / kSoftwareShare);
 }
 
-void Viewer::Impl::DrawPanels(bool may_redraw_mesh, bool smooth) {
+void Viewer::Impl::DrawFrame(bool smooth) {
+    const double begin_s = clock.ElapsedMs() / 1000;
+    const bool may_redraw = smooth || MayRedrawView(begin_s);
+    window->BeginFrame();
+    state.controls.BeginFrame();
+    const bool drawn = DrawPanels(may_redraw, smooth);
+    window->EndFrame();
+    scene_waits = !may_redraw;
+    if (!drawn) return;
+    window->Finish();
+    view_drawn_at_s = clock.ElapsedMs() / 1000;
+    view_cost_s = view_drawn_at_s - begin_s;
+}
+
+bool Viewer::Impl::DrawPanels(bool may_redraw, bool smooth) {
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     const Layout layout = LayOut(size.x, size.y, state.link != nullptr);
-    DrawViewPanel(state, *scene, {.area = layout.view, .may_redraw_mesh = may_redraw_mesh, .smooth = smooth});
+    const bool drawn = DrawViewPanel(state, *scene, {.area = layout.view, .may_redraw = may_redraw, .smooth = smooth});
     if (state.link) {
         {
             const Panel left("left", layout.left);
@@ -176,6 +190,7 @@ void Viewer::Impl::DrawPanels(bool may_redraw_mesh, bool smooth) {
     }
     DrawHelp(state);
     DrawResetQuestion(state);
+    return drawn;
 }
 
 void Viewer::Impl::TakeScreenshot() {

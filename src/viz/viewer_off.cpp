@@ -5,7 +5,8 @@ namespace tessera {
 namespace {
 
 Status Off() {
-    return Status::Error("this build has no window: install libimgui-dev, libglfw3-dev and libepoxy-dev and build again");
+    return Status::Error("this build has no window: install libimgui-dev, libglfw3-dev and libepoxy-dev and build "
+                         "again");
 }
 
 }  // namespace

@@ -155,6 +155,10 @@ ColourImage Window::Read() const {
     return turned;
 }
 
+void Window::Finish() {
+    glFinish();
+}
+
 void Window::Show() {
     glfwSwapBuffers(window_);
 }

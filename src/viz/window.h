@@ -35,6 +35,8 @@ class Window {
     // Around everything that ImGui draws. Nothing is shown before Show.
     void BeginFrame();
     void EndFrame();
+    // Waits until it is drawn.
+    void Finish();
     // What EndFrame has drawn.
     ColourImage Read() const;
     void Show();

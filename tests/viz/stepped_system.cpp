@@ -49,16 +49,19 @@ bool SteppedSystem::Step() {
     if (paused_ && !one_step_) return true;
     one_step_ = false;
     auto frame = std::make_shared<Frame>();
+    Stopwatch watch;
     if (source_->Read(*frame).status != ReadStatus::kOk) return false;
-    ProcessFrame(std::move(frame));
+    ProcessFrame(std::move(frame), watch.LapMs());
     return true;
 }
 
-void SteppedSystem::ProcessFrame(std::shared_ptr<const Frame> frame) {
+void SteppedSystem::ProcessFrame(std::shared_ptr<const Frame> frame, double decode_ms) {
     FrameUpdate update;
+    update.decode_ms = decode_ms;
+    update.queues = {{"frames", 0}, {"meshes", link_.meshes.size()}};
     Stopwatch watch;
     update.report = pipeline_->Process(*frame);
-    update.latency_ms = watch.LapMs();
+    update.latency_ms = decode_ms + watch.LapMs();
     const FrameReport& report = update.report;
     if (report.first && report.tracked() && frame->T_world_camera)
         T_map_truth_ = report.track.T_world_camera * frame->T_world_camera->inverse();
@@ -72,7 +75,6 @@ void SteppedSystem::ProcessFrame(std::shared_ptr<const Frame> frame) {
     counts_.lost += !report.tracked();
     counts_.poor += report.track.status == TrackStatus::kPoor;
     update.counts = counts_;
-    update.queues = {{"frames", 0}, {"meshes", link_.meshes.size()}};
     const BlockMap& map = pipeline_->map();
     update.map = {map.size() - 1, map.bytes(), map.bytes_per_voxel()};
     SendImages(frame, report);

@@ -1,4 +1,5 @@
-// A system behind a viewer's link that a test steps by hand: the real pipeline and mesher, on the test's own thread. Remembers every command and setting.
+// A system behind a viewer's link that a test steps by hand: the real pipeline and mesher, on the test's own thread.
+// Remembers every command and setting.
 #pragma once
 
 #include <memory>
@@ -29,7 +30,7 @@ class SteppedSystem {
 
   private:
     void Obey();
-    void ProcessFrame(std::shared_ptr<const Frame> frame);
+    void ProcessFrame(std::shared_ptr<const Frame> frame, double decode_ms);
     void SendImages(const std::shared_ptr<const Frame>& frame, const FrameReport& report);
     void SendMesh();
     void StartAnew();

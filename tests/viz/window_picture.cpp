@@ -1,21 +1,22 @@
-// Makes docs/images/window.png: the window on a synthetic scan, half-way. Needs a display; under Xvfb:
-//   xvfb-run -a -s "-screen 0 1280x720x24" build/release/tests/viz/window_picture docs/images/window.png
-// Usage: window_picture PICTURE.png [SCENE] [FRAMES] [all|follow]
+// Makes docs/images/window.png: the window on a scan, half-way. Needs a display; under Xvfb:
+//   build/release/apps/tessera synth room --out /tmp/room
+//   xvfb-run -a -s "-screen 0 1280x720x24" build/release/tests/viz/window_picture docs/images/window.png /tmp/room 360
+// Usage: window_picture PICTURE.png [SOURCE] [FRAMES] [all|follow]
 #include <cstdio>
 #include <cstdlib>
 #include <string>
 
 #include "io/image_io.h"
-#include "synth/synthetic_source.h"
+#include "system/open_source.h"
 #include "viz/stepped_system.h"
 #include "viz/viewer.h"
 
 namespace tessera {
 namespace {
 
-int MakePicture(const std::string& path, const std::string& scene, int frames, bool follow) {
+int MakePicture(const std::string& path, const std::string& source_name, int frames, bool follow) {
     ViewerLink link;
-    auto source = OpenSyntheticScene(scene, {});
+    auto source = OpenSource(source_name, RunConfig{});
     if (!source.ok()) {
         std::fprintf(stderr, "%s\n", source.message().c_str());
         return 1;
@@ -23,7 +24,7 @@ int MakePicture(const std::string& path, const std::string& scene, int frames, b
     PipelineConfig config;
     testing_support::SteppedSystem system(link, std::move(source.value()), config);
     ViewerOptions options;
-    options.title = "synthetic:" + scene;
+    options.title = source_name;
     options.camera = system.camera();
     options.truncation_m = config.map.truncation_m;
     options.follow = follow;
@@ -49,6 +50,6 @@ int MakePicture(const std::string& path, const std::string& scene, int frames, b
 
 int main(int argc, char** argv) {
     if (argc < 2) return 2;
-    return tessera::MakePicture(argv[1], argc > 2 ? argv[2] : "room", argc > 3 ? std::atoi(argv[3]) : 200,
+    return tessera::MakePicture(argv[1], argc > 2 ? argv[2] : "synthetic:room", argc > 3 ? std::atoi(argv[3]) : 200,
                                 argc > 4 && argv[4] == std::string("follow"));
 }
