@@ -61,5 +61,14 @@ TEST_F(OpenniRun, TheListingNamesTheDevices) {
     EXPECT_NE(listing.driver_folder.find("tests/openni/runtime/OpenNI2/Drivers"), std::string::npos) << listing.driver_folder;
 }
 
+TEST_F(OpenniRun, WithoutADeviceThereIsAdvice) {
+    Set("COUNT", 0);
+    const OpenniListing listing = ListOpenniDevices();
+    EXPECT_TRUE(listing.built_in);
+    EXPECT_TRUE(listing.version.starts_with("2.")) << listing.version;
+    EXPECT_TRUE(listing.devices.empty());
+    EXPECT_FALSE(listing.advice.empty());
+}
+
 }  // namespace
 }  // namespace tessera
