@@ -18,6 +18,9 @@ std::string RunText(const RunRequest& request, const RunSummary& s) {
     const RunCounts& n = s.counts;
     std::string text = fmt::format("{}{}: {} frames, {} tracked, {} fused, {} lost, {} skipped\n", request.source,
                                    s.stopped ? " (stopped)" : "", n.frames, n.tracked, n.fused, n.lost, n.skipped);
+    if (request.live)
+        text += fmt::format("live: {} frames dropped for newer ones, {} tracked but not fused because mapping was busy\n", n.dropped,
+                            n.unfused);
     if (s.ate) text += AteText(*s.ate);
     double median_ms = 0;
     for (const auto& [stage, statistics] : s.stages)

@@ -73,6 +73,8 @@ std::string RunJson(const RunRequest& request, RunConfig config, const RunSummar
                    {"poor", n.poor},
                    {"lost", n.lost},
                    {"skipped", n.skipped},
+                   {"dropped", n.dropped},
+                   {"unfused", n.unfused},
                    {"degenerate", n.degenerate}}},
                  {"ate", nullptr}};
     if (summary.ate) json["ate"] = Json::parse(AteJson(*summary.ate), nullptr, false);
