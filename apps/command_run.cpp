@@ -87,7 +87,7 @@ int Run(const Arguments& a) {
     }();
     if (!result.ok()) return Fail(result.status());
     const RunSummary& summary = result.value();
-    fmt::print("{}", RunText(a.request, summary));
+    fmt::print("{}", RunText(request, summary));
     if (2 * summary.counts.tracked >= summary.counts.frames) return kExitDone;
     fmt::print(stderr, "tessera: only {} of {} frames tracked; the last reason: {}\n", summary.counts.tracked,
                summary.counts.frames, summary.last_reason);

@@ -55,6 +55,7 @@ void LiveEngine::ReadFrames() {
     while (!quit_.load() && !stopped_ && ReadFrame()) {
         while (const auto command = control_.TakeCommand()) Obey(*command);
         while (const auto message = recorder_.TakeMessage()) Tell(FrameOutcome::Kind::kMessage, *message);
+        if (viewer_ != nullptr) viewer_->recording.store(recorder_.recording());
         stopped_ = stopped_ || stop_.load();
     }
     recorder_.Stop();

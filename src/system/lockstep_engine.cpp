@@ -77,6 +77,7 @@ bool LockstepEngine::ObeyViewer(FrameOutcome& outcome) {
             if (Obey(*command, outcome)) return true;
             continue;
         }
+        if (viewer_ != nullptr) viewer_->recording.store(recorder_.recording());
         stopped_ = stopped_ || stop_.load();
         if (stopped_ || control_.TakeTurn()) return false;
         feed_.SendMesh(mapping_);

@@ -10,7 +10,8 @@ RecorderThread::RecorderThread(const SourceInfo& source, const RecordConfig& con
 RecorderThread::~RecorderThread() { Stop(); }
 
 Status RecorderThread::Start(const std::string& folder) {
-    if (recording()) return Status::Error(folder + ": not recorded: recording to " + folder_ + " is under way");
+    if (!recording()) Stop();
+    if (thread_.joinable()) return Status::Error(folder + ": not recorded: recording to " + folder_ + " is under way");
     Result<std::unique_ptr<FrameRecorder>> recorder = FrameRecorder::Create(folder, source_, config_);
     if (!recorder.ok()) return recorder.status();
     recorder_ = std::move(recorder.value());
@@ -24,7 +25,7 @@ Status RecorderThread::Start(const std::string& folder) {
 }
 
 void RecorderThread::Add(const Frame& frame) {
-    if (!recording() || failed_.load()) return;
+    if (!recording()) return;
     std::unique_ptr<Frame> copy = pool_.Take();
     *copy = frame;
     if (wait_when_full_) return adder_.Wait([&] { return failed_.load() || frames_.TryPush(std::move(copy)); });
@@ -51,7 +52,7 @@ void RecorderThread::WriteFrames() {
 }
 
 void RecorderThread::Stop() {
-    if (!recording()) return;
+    if (!thread_.joinable()) return;
     done_.store(true);
     writer_.Notify();
     thread_.join();

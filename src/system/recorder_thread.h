@@ -26,7 +26,7 @@ class RecorderThread {
     void Add(const Frame& frame);
     // Waits until all that was added is written.
     void Stop();
-    bool recording() const { return thread_.joinable(); }
+    bool recording() const { return thread_.joinable() && !failed_.load(); }
 
     // What a person should know, in order: where it goes, that it ended and why, how much is safe.
     std::optional<std::string> TakeMessage();

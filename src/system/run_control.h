@@ -19,9 +19,9 @@ class RunControl {
         while (viewer_ != nullptr && viewer_->commands.TryPop(command)) {
             using Kind = ViewerCommand::Kind;
             switch (command.kind) {
-                case Kind::kPause: paused_ = true; break;
-                case Kind::kResume: paused_ = false; break;
-                case Kind::kStep: paused_ = true, ++steps_; break;
+                case Kind::kPause: SetPaused(true); break;
+                case Kind::kResume: SetPaused(false); break;
+                case Kind::kStep: ++steps_, SetPaused(true); break;
                 default: return command;
             }
         }
@@ -38,6 +38,12 @@ class RunControl {
     }
 
   private:
+    void SetPaused(bool paused) {
+        paused_ = paused;
+        if (!paused) steps_ = 0;
+        viewer_->paused.store(paused);
+    }
+
     ViewerLink* viewer_;
     bool paused_ = false;
     int steps_ = 0;

@@ -63,6 +63,7 @@ struct ViewerLink {
     FifoQueue<MeshUpdate> meshes{4, viewer};  // full: the changes wait at the mesher
     NewestQueue<std::string> messages{64, viewer};  // as a person reads them on the console
     std::atomic<bool> ended{false};                 // the run is over and its files are written
+    std::atomic<bool> paused{false}, recording{false};  // as the system has obeyed
 
     // Viewer to system.
     NewestQueue<ViewerSettings> settings{1, system};  // sent whole

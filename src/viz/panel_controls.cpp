@@ -79,7 +79,7 @@ void DrawCommands(ViewerState& state) {
     GroupTitle("RUN");
     const float width = WidthOf(3);
     ImGui::BeginDisabled(state.ended());
-    if (MarkedButton(controls, "pause", state.paused ? "Resume" : "Pause", width, state.paused)) state.TogglePause();
+    if (MarkedButton(controls, "pause", state.paused() ? "Resume" : "Pause", width, state.paused())) state.TogglePause();
     Tip("No further frames, or on again  (Space)");
     ImGui::SameLine();
     if (MarkedButton(controls, "step", "Step", width)) state.Step();
@@ -90,7 +90,7 @@ void DrawCommands(ViewerState& state) {
     if (MarkedButton(controls, "save_mesh", "Save mesh", width)) state.SaveMesh();
     Tip("As .ply  (M)");
     ImGui::SameLine();
-    if (MarkedButton(controls, "record", state.recording ? "Stop rec." : "Record", width, state.recording))
+    if (MarkedButton(controls, "record", state.recording() ? "Stop rec." : "Record", width, state.recording()))
         state.ToggleRecording();
     Tip("Keep the raw frames from now on  (V)");
     ImGui::SameLine();

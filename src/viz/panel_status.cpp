@@ -38,12 +38,12 @@ void DrawLight(const ViewerState& state) {
     const ImVec2 centre{at.x + Scaled(22), at.y + Scaled(20)};
     list.AddCircleFilled(centre, Scaled(11), faded(60));
     list.AddCircleFilled(centre, Scaled(6.5f), light.colour);
-    const std::string note = state.ended() ? "ended" : state.paused ? "paused" : state.recording ? "recording" : "";
+    const std::string note = state.ended() ? "ended" : state.paused() ? "paused" : state.recording() ? "recording" : "";
     list.AddText(HeadingFont(), HeadingFont()->FontSize, {at.x + Scaled(42), at.y + Scaled(10)}, palette::kText,
                  light.title.c_str());
     const float note_width = SmallFont()->CalcTextSizeA(SmallFont()->FontSize, 1e4f, 0, note.c_str()).x;
     list.AddText(SmallFont(), SmallFont()->FontSize, {at.x + size.x - note_width - Scaled(10), at.y + Scaled(13)},
-                 state.recording && !state.paused ? palette::kBad : palette::kDim, note.c_str());
+                 state.recording() && !state.paused() ? palette::kBad : palette::kDim, note.c_str());
     const float wrap = size.x - Scaled(52);
     const ImVec4 clip{at.x, at.y, at.x + size.x, at.y + size.y};
     list.AddText(SmallFont(), SmallFont()->FontSize, {at.x + Scaled(42), at.y + Scaled(31)}, palette::kDim,

@@ -35,14 +35,11 @@ void ViewerState::SelectMethod(TrackingMethod method) {
 
 void ViewerState::TogglePause() {
     if (ended()) return;
-    paused = !paused;
-    Send(paused ? ViewerCommand::Kind::kPause : ViewerCommand::Kind::kResume);
+    Send(paused() ? ViewerCommand::Kind::kResume : ViewerCommand::Kind::kPause);
 }
 
 void ViewerState::Step() {
-    if (ended()) return;
-    paused = true;
-    Send(ViewerCommand::Kind::kStep);
+    if (!ended()) Send(ViewerCommand::Kind::kStep);
 }
 
 void ViewerState::Reset() {
@@ -55,11 +52,10 @@ void ViewerState::SaveMesh() {
 
 void ViewerState::ToggleRecording() {
     if (ended()) return;
-    recording = !recording;
-    if (recording)
-        Send(ViewerCommand::Kind::kRecord, NewFileName("recording", ""));
-    else
+    if (recording())
         Send(ViewerCommand::Kind::kStopRecording);
+    else
+        Send(ViewerCommand::Kind::kRecord, NewFileName("recording", ""));
 }
 
 void ViewerState::CycleShading() {

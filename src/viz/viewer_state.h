@@ -35,10 +35,11 @@ struct ViewerState {
     Controls controls;
     ViewChoices view;
     ViewerSettings settings;  // as last sent
-    bool paused = false, recording = false;
     bool ask_reset = false, show_help = false, close = false, want_screenshot = false;
 
     bool ended() const { return !link || link->ended; }
+    bool paused() const { return link && link->paused; }
+    bool recording() const { return link && link->recording; }
     // Settings are sent whole; to be called after a change of `settings`.
     void SendSettings();
     void SelectMethod(TrackingMethod method);

@@ -32,8 +32,8 @@ struct Outcome {
 
 class Cli : public testing::Test {
   protected:
-    Outcome Call(const std::string& arguments) const {
-        const std::string command = std::string(TESSERA_PROGRAM) + " " + arguments + " >" + (folder / "stdout") + " 2>" +
+    Outcome Call(const std::string& arguments, const std::string& within = {}) const {
+        const std::string command = within + TESSERA_PROGRAM + " " + arguments + " >" + (folder / "stdout") + " 2>" +
                                     (folder / "stderr") + " </dev/null";
         const int status = std::system(command.c_str());
         return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, ReadAll(folder / "stdout"), ReadAll(folder / "stderr")};
@@ -53,6 +53,34 @@ class Cli : public testing::Test {
     }
     TempFolder folder;
 };
+
+TEST_F(Cli, LiveRunsAndRecordsAndTheRecordingRunsAgain) {
+    const Outcome live = Call(SmallRun() + "--frames 12 --mode live --record " + (folder / "raw") + " --out " + (folder / "out"));
+    EXPECT_EQ(live.exit_code, 0) << live.err;
+    EXPECT_NE(live.out.find("live: "), std::string::npos) << live.out;
+    EXPECT_NE(live.err.find("recorded 12 frames in " + (folder / "raw")), std::string::npos) << live.err;
+    const Outcome again = Call("run " + (folder / "raw") + " --out " + (folder / "again"));
+    EXPECT_EQ(again.exit_code, 0) << again.err;
+    EXPECT_NE(again.out.find("12 frames, 12 tracked"), std::string::npos) << again.out;
+}
+
+TEST_F(Cli, WithoutADisplayViewSaysSoAndGoesOn) {
+    const Outcome outcome = Call(SmallRun() + "--frames 5 --view --out " + (folder / "out"), "env -u DISPLAY -u WAYLAND_DISPLAY ");
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_NE(outcome.err.find("going on without"), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.out.find("5 frames, 5 tracked"), std::string::npos) << outcome.out;
+}
+
+TEST_F(Cli, AWholeRunInAWindow) {
+    if (std::system("command -v xvfb-run >/dev/null") != 0) GTEST_SKIP() << "no xvfb-run: apt-get install xvfb";
+    for (const std::string mode : {"lockstep", "live"}) {
+        const Outcome outcome = Call(SmallRun() + "--frames 12 --view --set view.close_at_end=true --mode " + mode + " --out " +
+                                         (folder / mode), "xvfb-run -a ");
+        EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+        EXPECT_EQ(outcome.err.find("no window"), std::string::npos) << outcome.err;
+        EXPECT_FALSE(ReadAll(folder / (mode + "/mesh.ply")).empty());
+    }
+}
 
 TEST_F(Cli, HelpEverywhere) {
     for (const char* command : {"", "run", "eval", "eval ate", "eval rpe", "eval mesh", "synth", "sweep", "sweep alpha",

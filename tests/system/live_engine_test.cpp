@@ -86,6 +86,21 @@ TEST_F(Live, BadFramesWaitsAndABrokenSourceAreTold) {
     EXPECT_NE(Messages().find("torn\n"), std::string::npos);
 }
 
+// As where the disk is full: the recording ends with a line, the scan goes on.
+TEST_F(Live, ARecordingThatFailsEndsAloneAndIsTold) {
+    TempFolder folder;
+    EngineInput input = Input({.count = 20, .before_read = [&](std::int64_t i) -> ReadResult {
+                                   if (i == 5) std::filesystem::remove_all(folder / "raw");
+                                   return {};
+                               }});
+    input.config.live.queue_frames = 30;
+    input.record_path = folder / "raw";
+    engine = std::make_unique<LiveEngine>(std::move(input));
+    TakeAll();
+    EXPECT_EQ(Reports().size() + static_cast<std::size_t>(Count(Kind::kDropped)), 20u);
+    EXPECT_NE(Messages().find("recording ended: " + (folder / "raw")), std::string::npos) << Messages();
+}
+
 TEST_F(Live, AStopEndsItSoonAndKeepsTheMap) {
     Make(true, {});
     while (Reports().size() < 3) ASSERT_TRUE(Next());

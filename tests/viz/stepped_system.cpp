@@ -34,6 +34,9 @@ void SteppedSystem::Obey() {
         using Kind = ViewerCommand::Kind;
         if (command.kind == Kind::kPause || command.kind == Kind::kResume) paused_ = command.kind == Kind::kPause;
         if (command.kind == Kind::kStep) paused_ = one_step_ = true;
+        if (command.kind == Kind::kRecord || command.kind == Kind::kStopRecording)
+            link_.recording = command.kind == Kind::kRecord;
+        link_.paused = paused_;
         if (command.kind == Kind::kReset) StartAnew();
         if (command.kind == Kind::kStop) stopped_ = true;
         if (command.kind == Kind::kSaveMesh) {
