@@ -204,26 +204,31 @@ TEST_F(Cli, ADiskThatIsFullIsNamed) {
     EXPECT_TRUE(trajectory.ok()) << trajectory.message();
 }
 
-TEST_F(Cli, SigtermEndsARunWithEverythingWritten) {
-    const std::string out = folder / "o";
-    const pid_t child = fork();
-    ASSERT_GE(child, 0);
-    if (child == 0) {
-        (void)!freopen("/dev/null", "w", stdout);
-        const std::string command = std::string("exec ") + TESSERA_PROGRAM + " " + SmallRun() + "--out " + out;
-        execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
-        _exit(127);
+// SIGINT or SIGTERM ends a run within two seconds, with everything written.
+TEST_F(Cli, ASignalEndsTheRunWithEverythingWritten) {
+    for (const auto& [signal_number, mode] : {std::pair{SIGTERM, "lockstep"}, {SIGINT, "lockstep"}, {SIGTERM, "live"}, {SIGINT, "live"}}) {
+        const std::string out = folder / (mode + std::to_string(signal_number));
+        const pid_t child = fork();
+        ASSERT_GE(child, 0);
+        if (child == 0) {
+            (void)!freopen("/dev/null", "w", stdout);
+            (void)!freopen("/dev/null", "w", stderr);
+            const std::string command =
+                std::string("exec ") + TESSERA_PROGRAM + " " + SmallRun() + "--mode " + mode + " --out " + out;
+            execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
+            _exit(127);
+        }
+        // The second line of the trajectory says that frames are being tracked.
+        while (std::count_if(std::istreambuf_iterator<char>(std::ifstream(out + "/trajectory.txt").rdbuf()), {},
+                             [](char c) { return c == '\n'; }) < 3)
+            if (waitpid(child, nullptr, WNOHANG) != 0) FAIL() << "ended before it could be stopped";
+        kill(child, signal_number);
+        int status = 0;
+        ASSERT_EQ(waitpid(child, &status, 0), child);
+        EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << status;
+        EXPECT_NE(ReadAll(out + "/run.json").find("\"stopped\""), std::string::npos);
+        EXPECT_TRUE(std::filesystem::exists(out + "/mesh.ply"));
     }
-    // The second line of the trajectory says that frames are being tracked.
-    while (std::count_if(std::istreambuf_iterator<char>(std::ifstream(out + "/trajectory.txt").rdbuf()), {},
-                         [](char c) { return c == '\n'; }) < 3)
-        if (waitpid(child, nullptr, WNOHANG) != 0) FAIL() << "ended before it could be stopped";
-    kill(child, SIGTERM);
-    int status = 0;
-    ASSERT_EQ(waitpid(child, &status, 0), child);
-    EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << status;
-    EXPECT_NE(ReadAll(out + "/run.json").find("\"stopped\""), std::string::npos);
-    EXPECT_TRUE(std::filesystem::exists(out + "/mesh.ply"));
 }
 
 TEST_F(Cli, ConfigRoundTrips) {
