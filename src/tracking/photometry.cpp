@@ -37,6 +37,41 @@ double BatchMeansVariance(const std::vector<float>& residuals, int width, int he
     return (sum2 / n - (sum / n) * (sum / n)) * (samples / n);
 }
 
+// The same for a residual whose Jacobian changes from pixel to pixel: the variance of its score, residual times image
+// gradient over depth (what a sideways move changes), summed over kBlock x kBlock neighbours, over the sum of the squared
+// gradients. Errors at edges, where the gradient is large, count as they pull.
+double ScoreVariance(const std::vector<float>& residuals, const FramePoints& points) {
+    constexpr int kBlock = 16, kLeast = kBlock * kBlock / 2;
+    const int width = points.width(), height = points.height();
+    const auto at = [&](int x, int y) {
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+    };
+    double scores2 = 0, information = 0;
+    std::int64_t blocks = 0;
+    for (int by = 1; by + kBlock < height; by += kBlock)
+        for (int bx = 1; bx + kBlock < width; bx += kBlock) {
+            double score_u = 0, score_v = 0, gradients2 = 0;
+            int known = 0;
+            for (int y = by; y < by + kBlock; ++y)
+                for (int x = bx; x < bx + kBlock; ++x) {
+                    const float r = residuals[at(x, y)], z = points.z[at(x, y)];
+                    const float left = points.intensity[at(x - 1, y)], right = points.intensity[at(x + 1, y)];
+                    const float up = points.intensity[at(x, y - 1)], down = points.intensity[at(x, y + 1)];
+                    if (std::isnan(r) || z <= 0 || left < 0 || right < 0 || up < 0 || down < 0) continue;
+                    const double gu = (right - left) / z, gv = (down - up) / z;
+                    score_u += r * gu;
+                    score_v += r * gv;
+                    gradients2 += gu * gu + gv * gv;
+                    ++known;
+                }
+            if (known < kLeast) continue;
+            scores2 += score_u * score_u + score_v * score_v;
+            information += gradients2;
+            ++blocks;
+        }
+    return blocks < 16 || information <= 0 ? 0 : scores2 / information;
+}
+
 }  // namespace
 
 Photometry::Photometry(const Config& config, const PinholeCamera& camera)
@@ -80,7 +115,7 @@ void Photometry::Learn(const PreparedFrame& frame, const FramePoints& points,
 void Photometry::UpdateAlpha(const FramePoints& points, const std::vector<float>& distance_residual,
                              const std::vector<float>& intensity_residual) {
     const double distance = BatchMeansVariance(distance_residual, points.width(), points.height());
-    const double intensity = BatchMeansVariance(intensity_residual, points.width(), points.height());
+    const double intensity = ScoreVariance(intensity_residual, points);
     if (distance <= 0 || intensity <= 0) return;
     const double share = distance_variance_ > 0 ? 0.1 : 1.0;
     distance_variance_ += share * (distance - distance_variance_);

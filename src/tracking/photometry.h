@@ -54,7 +54,7 @@ class Photometry {
 
     Config config_;
     double alpha_ = 0, gain_ = 1, offset_ = 0;
-    double distance_variance_ = 0, intensity_variance_ = 0;  // of tile means, smoothed over frames
+    double distance_variance_ = 0, intensity_variance_ = 0;  // as they count in a sum, smoothed over frames
     ShutterEstimator shutter_;
 };
 
