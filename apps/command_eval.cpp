@@ -7,6 +7,7 @@
 #include "command.h"
 #include "eval/alignment.h"
 #include "eval/ate.h"
+#include "eval/label_scores.h"
 #include "eval/mesh_error.h"
 #include "eval/plot.h"
 #include "eval/rpe.h"
@@ -100,6 +101,13 @@ Status EvalMesh(const Arguments& a) {
     return a.picture.empty() ? Status::Ok() : PaintErrors(a.picture, mesh.value(), r);
 }
 
+Status EvalLabels(const Arguments& a) {
+    const Result<LabelScores> scores = EvaluateLabels(a.reference, a.estimate);
+    if (!scores.ok()) return scores.status();
+    fmt::print("{}", LabelScoresText(scores.value()));
+    return a.json.empty() ? Status::Ok() : WriteTextFile(a.json, LabelScoresJson(scores.value()));
+}
+
 CLI::App* AddEvaluation(CLI::App& eval, Arguments& a, const char* name, const char* text, const char* estimate) {
     CLI::App* command = eval.add_subcommand(name, text);
     command->add_option("REFERENCE", a.reference, "The truth")->required();
@@ -134,9 +142,12 @@ void AddEvalCommand(CLI::App& app, CommandContext& context) {
     mesh->add_option("--picture", a->picture, "Paint the errors onto the mesh")->type_name("FILE.png");
     mesh->callback([a, &context] { context.exit_code = ExitCode(EvalMesh(*a)); });
 
-    CLI::App* labels = eval->add_subcommand("labels", "Not in this version")->group("Not in this version");
-    labels->allow_extras();
-    labels->callback([&context] { context.exit_code = Fail(NotInThisVersion("eval labels")); });
+    CLI::App* labels = eval->add_subcommand("labels", "A run's labels against the true classes and instances of a sequence, as "
+                                            "tessera synth writes them; [D18] Table 4");
+    labels->add_option("SEQUENCE", a->reference, "Folder with labels/, instances/, classes.txt, groundtruth.txt")->required();
+    labels->add_option("RUN_DIR", a->estimate, "Folder of a run with --labels")->required();
+    labels->add_option("--json", a->json, "Write the figures here")->type_name("FILE");
+    labels->callback([a, &context] { context.exit_code = ExitCode(EvalLabels(*a)); });
 }
 
 }  // namespace tessera

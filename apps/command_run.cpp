@@ -27,7 +27,6 @@ struct Arguments {
 
 Status RefuseWhatIsToCome(const Arguments& a) {
     if (a.device == "cuda") return NotInThisVersion("--device cuda");
-    if (a.labels != "none") return NotInThisVersion("--labels " + a.labels);
     if (a.loop_closure == "on") return NotInThisVersion("--loop-closure on");
     if (!a.scan.empty()) return NotInThisVersion("--scan");
     if (!a.resume.empty()) return NotInThisVersion("--resume");
@@ -75,6 +74,7 @@ int Run(const Arguments& a) {
     if (Status status = Configure(a, config); !status.ok()) return Fail(status);
     RunRequest request = a.request;
     request.live = a.mode == "live";
+    if (a.labels != "none") request.labels = a.labels;
     for (const std::string& text : a.switches) {
         const Result<MethodSwitch> change = ParseSwitch(text);
         if (!change.ok()) return Fail(change.status());
@@ -101,7 +101,6 @@ void AddOptionsToCome(CLI::App& command, Arguments& a) {
     };
     add("--device", a.device, "Where the kernels run; auto takes the processor")
         ->check(CLI::IsMember({"auto", "cpu", "cuda"}))->capture_default_str();
-    add("--labels", a.labels, "Object detector")->type_name("MODEL|DETECTIONS|none")->capture_default_str();
     add("--loop-closure", a.loop_closure, "Pose graph")->check(CLI::IsMember({"on", "off"}))->capture_default_str();
     add("--scan", a.scan, "Scan file to write")->type_name("FILE");
     add("--resume", a.resume, "Scan file to go on with")->type_name("FILE");
@@ -141,6 +140,10 @@ void AddRunCommand(CLI::App& app, CommandContext& context) {
     command->add_option("--mode", a->mode,
                         "lockstep: every frame, in order; live: the newest frame wins, at the camera's or the recorded pace")
         ->check(CLI::IsMember({"lockstep", "live"}))->capture_default_str();
+    command->add_option("--labels", a->labels,
+                        "Label objects with this network (.onnx, or .cfg beside its .weights), file of detections, or synthetic: "
+                        "a synthetic: source's own truth")
+        ->type_name("MODEL|DETECTIONS|none")->capture_default_str();
     command->add_flag("--view", a->view, "Open a window; without a display the run goes on without");
     command->add_option("--record", a->request.record_path,
                         "Keep the raw frames in this new folder (TUM layout, depth exact), or FILE.oni of an OpenNI2 camera")

@@ -1,6 +1,8 @@
 #include "run_text.h"
 
 #include <filesystem>
+#include <map>
+#include <utility>
 
 namespace tessera {
 
@@ -12,6 +14,16 @@ std::string AteText(const AteResult& ate) {
         e.rmse, e.mean, e.median, e.max, ate.pairs.size(), 100 * ate.tracked_fraction);
     if (!ate.warning.empty()) text += "note: " + ate.warning + "\n";
     return text;
+}
+
+std::string LabelsText(const LabelSummary& labels) {
+    std::map<std::string, int> counts;
+    for (const MapObject& object : labels.objects) ++counts[object.class_name];
+    std::string text = fmt::format("labels: {} frames looked at, {} detections, {} objects", labels.frames, labels.detections,
+                                   labels.objects.size());
+    const char* separator = ": ";
+    for (const auto& [name, count] : counts) text += fmt::format("{}{} {}", std::exchange(separator, ", "), count, name);
+    return text + "\n";
 }
 
 std::string RunText(const RunRequest& request, const RunSummary& s) {
@@ -31,10 +43,12 @@ std::string RunText(const RunRequest& request, const RunSummary& s) {
         "MB\n",
         s.fps, median_ms, s.map.blocks, static_cast<double>(s.map.bytes) / kMegabyte, s.map.bytes_per_voxel,
         s.peak_rss_mb);
+    if (s.labels) text += LabelsText(*s.labels);
     std::error_code ignored;  // an empty mesh has no picture
     for (const auto& [file, what] : {std::pair{"trajectory.txt", "camera path, TUM format"},
                                      {"mesh.ply", "coloured mesh"},
                                      {"preview.png", "picture of it"},
+                                     {"detections.txt", "what the detector saw"},
                                      {"timings.json", "time per stage"},
                                      {"run.json", "settings and figures of this run"}})
         if (std::filesystem::exists(request.output_folder + "/" + file, ignored))

@@ -2,6 +2,13 @@
 # The core's dependencies are required; what is optional says here whether it is on.
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(OpenCV 4.5 REQUIRED COMPONENTS core imgproc imgcodecs calib3d)
+find_package(OpenCV 4.5 QUIET OPTIONAL_COMPONENTS dnn)
+if(TARGET opencv_dnn)
+    set(TESSERA_DNN ON)
+else()
+    set(TESSERA_DNN OFF)
+    message(STATUS "tessera: detection networks off (install libopencv-dnn-dev); detections files work without")
+endif()
 find_package(TBB REQUIRED)
 find_package(yaml-cpp REQUIRED)
 find_package(CLI11 REQUIRED)

@@ -10,10 +10,18 @@
 
 namespace tessera {
 
+// Of which kind of object a vertex is a part, and of which single one; 0 = none that is known.
+struct VertexLabel {
+    std::uint8_t class_id = 0;
+    std::uint16_t instance = 0;
+    bool operator==(const VertexLabel&) const = default;
+};
+
 struct TriangleMesh {
     std::vector<Eigen::Vector3f> vertices;  // metres
     std::vector<Eigen::Vector3f> normals;   // unit, out of the surface; empty or one per vertex
     std::vector<Rgb8> colours;              // empty or one per vertex
+    std::vector<VertexLabel> labels;        // empty or one per vertex
     std::vector<std::array<std::uint32_t, 3>> triangles;  // counter-clockwise seen from outside
 };
 

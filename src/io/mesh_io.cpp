@@ -19,7 +19,7 @@ constexpr std::size_t kMaxFileBytes = std::size_t{16} << 30;
 constexpr std::uint64_t kMaxIndex = std::numeric_limits<std::int32_t>::max();
 
 // Where a vertex property goes; kNone is skipped.
-enum Slot { kX, kY, kZ, kNx, kNy, kNz, kRed, kGreen, kBlue, kSlots, kNone = kSlots };
+enum Slot { kX, kY, kZ, kNx, kNy, kNz, kRed, kGreen, kBlue, kClass, kInstance, kSlots, kNone = kSlots };
 
 Slot SlotOf(std::string_view name) {
     // clang-format off
@@ -29,7 +29,8 @@ Slot SlotOf(std::string_view name) {
         {"normal_x", kNx}, {"normal_y", kNy}, {"normal_z", kNz},
         {"red", kRed}, {"green", kGreen}, {"blue", kBlue},
         {"r", kRed},   {"g", kGreen},     {"b", kBlue},
-        {"diffuse_red", kRed}, {"diffuse_green", kGreen}, {"diffuse_blue", kBlue}};
+        {"diffuse_red", kRed}, {"diffuse_green", kGreen}, {"diffuse_blue", kBlue},
+        {"class", kClass}, {"instance", kInstance}};
     // clang-format on
     for (const auto& [text, slot] : kNames)
         if (text == name) return slot;
@@ -44,6 +45,10 @@ double ColourScale(PlyType type) {
 
 std::uint8_t ToByte(double value) {
     return value > 0 ? static_cast<std::uint8_t>(std::lround(std::min(value, 255.0))) : 0;
+}
+
+std::uint16_t ToIndex(double value) {
+    return value > 0 ? static_cast<std::uint16_t>(std::lround(std::min(value, 65535.0))) : std::uint16_t{0};
 }
 
 // A normal as the mesh wants it: of unit length, zero if it cannot be.
@@ -70,7 +75,7 @@ Status ReadVertices(const PlyElement& element, Scalars& scalars, TriangleMesh& m
     for (const PlyProperty& property : element.properties) {
         slots.push_back(property.is_list ? kNone : SlotOf(property.name));
         has[slots.back()] = true;
-        if (slots.back() >= kRed) scale[slots.back()] = ColourScale(property.type);
+        if (slots.back() >= kRed && slots.back() <= kBlue) scale[slots.back()] = ColourScale(property.type);
     }
     if (!has[kX] || !has[kY] || !has[kZ]) return Status::Error("its vertices have no x, y, z");
     if (element.count > kMaxIndex) return Status::Error("has more than 2^31 vertices");
@@ -79,6 +84,8 @@ Status ReadVertices(const PlyElement& element, Scalars& scalars, TriangleMesh& m
     mesh.vertices.reserve(element.count);
     if (has_normals) mesh.normals.reserve(element.count);
     if (has_colours) mesh.colours.reserve(element.count);
+    const bool has_labels = has[kClass] && has[kInstance];
+    if (has_labels) mesh.labels.reserve(element.count);
 
     std::array<double, kSlots> v{};
     for (std::uint64_t i = 0; i < element.count && scalars.ok(); ++i) {
@@ -94,6 +101,7 @@ Status ReadVertices(const PlyElement& element, Scalars& scalars, TriangleMesh& m
         if (has_normals) mesh.normals.push_back(ToNormal(&v[kNx]));
         if (has_colours)
             mesh.colours.push_back({ToByte(v[kRed]), ToByte(v[kGreen]), ToByte(v[kBlue])});
+        if (has_labels) mesh.labels.push_back({ToByte(v[kClass]), ToIndex(v[kInstance])});
     }
     return Status::Ok();
 }

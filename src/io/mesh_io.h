@@ -8,7 +8,7 @@
 
 namespace tessera {
 
-// Vertices with normals and colours where the mesh has them. Written beside the target and renamed, so that an
+// Vertices with normals, colours and labels (class, instance) where the mesh has them. Written beside the target and renamed, so that an
 // existing file is never half overwritten.
 Status WritePly(const std::string& path, const TriangleMesh& mesh);
 

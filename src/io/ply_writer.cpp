@@ -42,6 +42,7 @@ std::string Header(const TriangleMesh& mesh) {
     if (!mesh.normals.empty()) text += "property float nx\nproperty float ny\nproperty float nz\n";
     if (!mesh.colours.empty())
         text += "property uchar red\nproperty uchar green\nproperty uchar blue\n";
+    if (!mesh.labels.empty()) text += "property uchar class\nproperty ushort instance\n";
     text += fmt::format("element face {}\n", mesh.triangles.size());
     text += "property list uchar int vertex_indices\nend_header\n";
     return text;
@@ -55,6 +56,8 @@ Status WritePly(const std::string& path, const TriangleMesh& mesh) {
                   mesh.normals.size(), count);
     TESSERA_CHECK(mesh.colours.empty() || mesh.colours.size() == count, "{} colours, {} vertices",
                   mesh.colours.size(), count);
+    TESSERA_CHECK(mesh.labels.empty() || mesh.labels.size() == count, "{} labels, {} vertices",
+                  mesh.labels.size(), count);
     if (count > std::numeric_limits<std::int32_t>::max())
         return Status::Error(path + ": a PLY file holds at most 2^31 vertices");
     AtomicFile file(path);
@@ -65,6 +68,9 @@ Status WritePly(const std::string& path, const TriangleMesh& mesh) {
             buffer.AddVector(mesh.vertices[i]);
             if (!mesh.normals.empty()) buffer.AddVector(mesh.normals[i]);
             if (!mesh.colours.empty()) buffer.Add(mesh.colours[i]);
+            if (mesh.labels.empty()) continue;
+            buffer.Add(mesh.labels[i].class_id);
+            buffer.Add(mesh.labels[i].instance);
         }
         for (const auto& triangle : mesh.triangles) {
             buffer.Add(std::uint8_t{3});

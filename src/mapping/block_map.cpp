@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <atomic>
 
+#include "core/check.h"
+
 namespace tessera {
 namespace {
 
@@ -51,6 +53,7 @@ void BlockMap::Clear() {
     field_.Clear();
     weight_.Clear();
     colour_.Clear();
+    if (labels_) labels_->Clear();
     neighbours_.Clear();
     coords_.Clear();
     revision_.Clear();
@@ -60,6 +63,12 @@ void BlockMap::Clear() {
     size_ = 1;
     identity_ = ++last_identity;
     InitialiseBlock(kUnknownBlock, {kBlockLimit, kBlockLimit, kBlockLimit});
+}
+
+void BlockMap::EnableLabels() {
+    TESSERA_CHECK(size_ == 1, "labels enabled in a map of {} blocks", size_);
+    labels_.emplace(kMaxBlocks * kBlockVoxels);
+    max_size_ = std::min(max_size_, labels_->max_size() / kBlockVoxels);
 }
 
 void BlockMap::InitialiseBlock(BlockId id, const BlockCoord& c) {
@@ -174,7 +183,8 @@ BlockMap::Region* BlockMap::FindOrAddRegion(const BlockCoord& region) {
 
 std::size_t BlockMap::bytes() const {
     const std::size_t per_voxel =
-        sizeof(FieldWord) + (layers_ == Layers::kAll ? sizeof(std::uint16_t) + sizeof(ColourWord) : 0);
+        sizeof(FieldWord) + (layers_ == Layers::kAll ? sizeof(std::uint16_t) + sizeof(ColourWord) : 0) +
+        (labels_ ? sizeof(VoxelLabel) : 0);
     const std::size_t per_block = kBlockVoxels * per_voxel + (8 + 4 + 1) * sizeof(std::int32_t) + sizeof(BlockId);
     return static_cast<std::size_t>(size_) * per_block + table_.size() * sizeof(std::int32_t) +
            regions_.size() * sizeof(Region) + region_table_.size() * sizeof(std::int32_t);

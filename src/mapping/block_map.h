@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "core/status.h"
 #include "mapping/virtual_array.h"
 #include "mapping/voxel.h"
+#include "mapping/voxel_label.h"
 
 namespace tessera {
 
@@ -68,6 +70,13 @@ class BlockMap {
     ColourWord* colour(BlockId id) { return colour_.data() + Offset(id); }
     const ColourWord* colour(BlockId id) const { return colour_.data() + (layers_ == Layers::kAll ? Offset(id) : 0); }
 
+    // The layer of labels exists from here on, and costs memory where it is written. To be called while the map is empty.
+    void EnableLabels();
+    bool has_labels() const { return labels_.has_value(); }
+    // Only with has_labels.
+    VoxelLabel* label(BlockId id) { return labels_->data() + Offset(id); }
+    const VoxelLabel* label(BlockId id) const { return labels_->data() + Offset(id); }
+
     // Change tracking: the writer marks what it changed with its own increasing number.
     void MarkChanged(BlockId id, std::uint32_t revision) { revision_[static_cast<std::size_t>(id)] = revision; }
     std::uint32_t revision(BlockId id) const { return revision_[static_cast<std::size_t>(id)]; }
@@ -100,6 +109,7 @@ class BlockMap {
     VirtualArray<FieldWord> field_;
     VirtualArray<std::uint16_t> weight_;
     VirtualArray<ColourWord> colour_;
+    std::optional<VirtualArray<VoxelLabel>> labels_;
     VirtualArray<std::int32_t> neighbours_;
     VirtualArray<std::int32_t> coords_;
     VirtualArray<std::uint32_t> revision_;

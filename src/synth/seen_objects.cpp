@@ -3,17 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "synth/hash_random.h"
+#include "synth/simulated_detector.h"
 
 namespace tessera {
 namespace {
-
-constexpr std::uint64_t kDetectorStream = 5;
-constexpr double kMissed = 0.10, kWrongClass = 0.03;
-constexpr double kProbability = 0.9, kProbabilityStd = 0.06;
-constexpr double kLeastShare = 400.0 / (640.0 * 480.0);  // of the image
 
 std::string WithoutBlanks(std::string name) {
     std::replace(name.begin(), name.end(), ' ', '_');
@@ -49,52 +45,17 @@ void Describe(const TriangleMesh& mesh, nlohmann::json& object) {
 SeenObjects::SeenObjects(const Scene& scene, std::uint64_t seed)
     : scene_(scene), seed_(seed), counts_(scene.instances().size()) {}
 
-std::vector<SeenObjects::Box> SeenObjects::BoxesOf(const RenderedView& view) const {
-    const int width = view.instance.width(), height = view.instance.height();
-    std::vector<Box> boxes(counts_.size(), Box{width, height, -1, -1, 0});
-    for (int y = 0; y < height; ++y) {
-        for (int x = 0; x < width; ++x) {
-            Box& box = boxes[view.instance(x, y)];
-            box.x_min = std::min(box.x_min, x);
-            box.y_min = std::min(box.y_min, y);
-            box.x_max = std::max(box.x_max, x);
-            box.y_max = std::max(box.y_max, y);
-            ++box.pixels;
-        }
-    }
-    return boxes;
-}
-
 void SeenObjects::Add(const RenderedView& view, std::int64_t frame, double stamp_s) {
-    const std::vector<Box> boxes = BoxesOf(view);
-    const double least = kLeastShare * static_cast<double>(view.instance.size());
+    const std::vector<InstanceBox> boxes = FindInstanceBoxes(view.instance, counts_.size());
     for (std::size_t i = 1; i < boxes.size(); ++i) {
         if (boxes[i].pixels == 0) continue;
         ++counts_[i].frames;
         counts_[i].max_pixels = std::max(counts_[i].max_pixels, boxes[i].pixels);
-        if (static_cast<double>(boxes[i].pixels) > least)
-            Detect(static_cast<int>(i), boxes[i], frame, stamp_s);
     }
-}
-
-void SeenObjects::Detect(int instance, const Box& box, std::int64_t frame, double stamp_s) {
-    std::uint64_t counter = StreamKey(seed_, kDetectorStream, static_cast<std::uint64_t>(frame)) +
-                            4 * static_cast<std::uint64_t>(instance);
-    if (UniformFromBits(MixBits(counter++)) < kMissed) return;
-    int class_id = scene_.instances()[instance].class_id;
-    const int class_count =
-        static_cast<int>(scene_.class_names().size()) - 1;  // without "unlabelled"
-    if (UniformFromBits(MixBits(counter++)) < kWrongClass && class_count > 1) {
-        const int step =
-            1 + static_cast<int>(UniformFromBits(MixBits(counter)) * (class_count - 1));
-        class_id = 1 + (class_id - 1 + step) % class_count;
-    }
-    ++counter;
-    const double p = std::clamp(kProbability + kProbabilityStd * GaussianFromBits(MixBits(counter)),
-                                0.05, 0.999);
-    detections_ += fmt::format("{:.6f} {} {:.3f} {} {} {} {}\n", stamp_s,
-                               WithoutBlanks(scene_.class_names()[class_id]), p, box.x_min,
-                               box.y_min, box.x_max, box.y_max);
+    for (const SimulatedDetection& d : SimulateDetections(scene_, boxes, view.instance.size(), seed_, frame))
+        detections_ += fmt::format("{:.6f} {} {:.3f} {} {} {} {}\n", stamp_s,
+                                   WithoutBlanks(scene_.class_names()[d.class_id]), d.probability, d.box.x_min, d.box.y_min,
+                                   d.box.x_max, d.box.y_max);
 }
 
 std::string SeenObjects::ClassesText() const {

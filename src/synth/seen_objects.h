@@ -25,13 +25,6 @@ class SeenObjects {
     std::string DetectionsText() const;  // detections.txt
 
   private:
-    struct Box {
-        int x_min, y_min, x_max, y_max;  // inclusive
-        std::int64_t pixels;
-    };
-    std::vector<Box> BoxesOf(const RenderedView& view) const;
-    void Detect(int instance, const Box& box, std::int64_t frame, double stamp_s);
-
     struct Count {
         std::int64_t frames = 0, max_pixels = 0;
     };

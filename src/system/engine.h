@@ -13,6 +13,7 @@
 #include "core/status.h"
 #include "io/frame_source.h"
 #include "system/frame_plan.h"
+#include "system/labelling_stage.h"
 #include "system/run.h"
 #include "system/tracking_stage.h"
 
@@ -34,6 +35,7 @@ struct FrameOutcome {
     bool fusion_dropped = false;                            // live: well tracked, but mapping was busy
     double decode_ms = 0, mesh_ms = 0, latency_ms = 0;      // latency: from the frame's arrival to its pose
     MapStatistics map;
+    std::optional<LabelReport> labels;  // of this frame, or live of an earlier one
     std::vector<std::pair<const char*, std::size_t>> queues;  // name and how many wait in it
 };
 
@@ -42,6 +44,7 @@ struct EngineInput {
     FrameSelection selection;
     RunConfig config;
     FramePlan plan;
+    Labelling labelling;           // without a detector nothing is labelled
     std::string record_path;       // empty = nothing is recorded
     ViewerLink* viewer = nullptr;  // outlives the engine
     const std::atomic<bool>* stop = nullptr;  // never null; outlives the engine
@@ -60,6 +63,7 @@ class Engine {
 
     // After Next gave false, once: the source and the map go, the whole mesh comes.
     virtual TriangleMesh TakeMesh() = 0;
+    virtual const std::vector<MapObject>& objects() const = 0;  // after TakeMesh; empty without labels
     virtual MapStatistics map_statistics() const = 0;  // before TakeMesh
 };
 

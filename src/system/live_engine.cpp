@@ -31,6 +31,12 @@ LiveEngine::LiveEngine(EngineInput input)
         mapping_done_.store(true);
         return;
     }
+    if (input.labelling.detector) {
+        mapping_.EnableLabels(config_.labels, input.labelling.classes);
+        labelling_ = std::make_unique<LabellingThread>(LabellingStage(std::move(input.labelling.detector),
+                                                                      std::move(input.labelling.classes), config_.labels),
+                                                       mapping_wake_);
+    }
     reading_thread_ = std::jthread([this] { ReadFrames(); });
     tracking_thread_ = std::jthread([this] { TrackFrames(); });
     mapping_thread_ = std::jthread([this] { MapFrames(); });
@@ -195,7 +201,10 @@ void LiveEngine::Hand(Task task) {
 
 void LiveEngine::MapFrames() {
     while (true) {
-        mapping_wake_.Wait([&] { return !tasks_.empty() || tracking_done_.load(); });
+        mapping_wake_.Wait([&] {
+            return !tasks_.empty() || tracking_done_.load() || (labelling_ && labelling_->has_answer());
+        });
+        if (labelling_) TakeLabels();
         Task task;
         if (tasks_.TryPop(task)) {
             tracking_wake_.Notify();
@@ -231,10 +240,31 @@ void LiveEngine::MapFrame(Task& task) {
     outcome.decode_ms = task.decode_ms;
     outcome.latency_ms = task.latency_ms;
     outcome.map = StatisticsOf(mapping_.map());
+    outcome.labels = std::exchange(labels_, std::nullopt);
     outcome.queues = {{"to tracking", new_frames_.size()}, {"to mapping", tasks_.size()}, {"to recorder", recorder_.waiting()}};
     outcomes_.Push(std::move(outcome));
+    if (labelling_ && tracked.report.fused) OfferToLabelling(task);
     frame_pool_.Give(std::move(task.frame));
     tracked_pool_.Give(std::move(task.tracked));
+}
+
+void LiveEngine::OfferToLabelling(Task& task) {
+    frame_pool_.Give(labelling_->Offer(
+        {std::move(task.frame), task.tracked->report.track.T_world_camera, mapped_world_}));
+}
+
+void LiveEngine::TakeLabels() {
+    LabellingThread::Answer answer;
+    while (labelling_->TryTake(answer)) {
+        if (!answer.message.empty()) Tell(FrameOutcome::Kind::kMessage, answer.message);
+        if (answer.message.empty() && answer.job.world == mapped_world_) {
+            Stopwatch watch;
+            answer.report.votes = mapping_.Label(answer.report.detections, answer.job.frame->depth_m, answer.job.T_world_camera);
+            answer.report.vote_ms = watch.LapMs();
+            labels_ = std::move(answer.report);
+        }
+        frame_pool_.Give(std::move(answer.job.frame));
+    }
 }
 
 // There is room: each news answers a frame that tracking handed over after it had taken all news before.

@@ -25,6 +25,7 @@ class LiveEngine : public Engine {
     const Status& status() const override { return status_; }
     bool stopped() const override { return stopped_; }
     TriangleMesh TakeMesh() override;
+    const std::vector<MapObject>& objects() const override { return mapping_.objects(); }
     MapStatistics map_statistics() const override { return StatisticsOf(mapping_.map()); }
 
   private:
@@ -65,6 +66,8 @@ class LiveEngine : public Engine {
     // Mapping's.
     void MapFrame(Task& task);
     void SendMapNews();
+    void OfferToLabelling(Task& task);
+    void TakeLabels();
     void ObeyInMapping(const ViewerCommand& command);
 
     const RunConfig config_;
@@ -90,11 +93,13 @@ class LiveEngine : public Engine {
     Pool<MapDelta> delta_pool_;
     static constexpr std::size_t kTasks = 8, kOutcomes = 4096;
     Wake tracking_wake_, mapping_wake_, outcome_wake_;
+    std::optional<LabelReport> labels_;  // mapping's: for the next outcome
     NewestQueue<NewFrame> new_frames_;                           // reading to tracking
     FifoQueue<ViewerCommand> commands_{16, tracking_wake_};      // reading to tracking
     FifoQueue<Task> tasks_{kTasks, mapping_wake_};               // tracking to mapping
     FifoQueue<MapNews> map_news_{kTasks + 2, tracking_wake_};    // mapping to tracking
     NewestQueue<FrameOutcome> outcomes_{kOutcomes, outcome_wake_};  // reading and mapping to the owner
+    std::unique_ptr<LabellingThread> labelling_;  // mapping's; null without labels
     std::atomic<bool> show_prediction_{true};
     std::atomic<bool> quit_{false}, reading_done_{false}, tracking_done_{false}, mapping_done_{false};
     std::jthread reading_thread_, tracking_thread_, mapping_thread_;

@@ -18,6 +18,11 @@ LockstepEngine::LockstepEngine(EngineInput input)
       recorder_(source_, config_.record, true) {
     if (!input.record_path.empty()) status_ = StartRecording(input.record_path, config_.record, *input.source, recorder_);
     if (!status_.ok()) return;
+    if (input.labelling.detector) {
+        mapping_.EnableLabels(config_.labels, input.labelling.classes);
+        labelling_ = std::make_unique<LabellingStage>(std::move(input.labelling.detector), std::move(input.labelling.classes),
+                                                      config_.labels);
+    }
     reader_ = std::make_unique<FrameReader>(std::move(input.source), input.selection, config_.read_ahead);
 }
 
@@ -51,14 +56,26 @@ void LockstepEngine::Process(FrameOutcome& outcome) {
     recorder_.Add(frame_);
     plan_.Track(frame_, mapping_.map(), tracking_, tracked_);
     mapping_.Fuse(tracked_);
+    if (labelling_ && tracked_.report.fused) Label(outcome);
     outcome.report = tracked_.report;
     outcome.T_world_camera_truth = frame_.T_world_camera;
     outcome.mesh_ms = feed_.Send(frame_, outcome.report, mapping_);
     outcome.map = map_statistics();
 }
 
+void LockstepEngine::Label(FrameOutcome& outcome) {
+    if (fused_frames_++ % config_.labels.stride != 0) return;
+    LabelReport report;
+    if (!labelling_->Detect(frame_, report, label_message_)) return;
+    Stopwatch watch;
+    report.votes = mapping_.Label(report.detections, frame_.depth_m, tracked_.report.track.T_world_camera);
+    report.vote_ms = watch.LapMs();
+    outcome.labels = std::move(report);
+}
+
 bool LockstepEngine::TakeMessage(FrameOutcome& outcome) {
-    const auto message = recorder_.TakeMessage();
+    std::optional<std::string> message = recorder_.TakeMessage();
+    if (!message && !label_message_.empty()) message = std::exchange(label_message_, {});
     if (!message) return false;
     outcome.kind = FrameOutcome::Kind::kMessage;
     outcome.message = *message;

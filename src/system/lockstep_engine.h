@@ -18,6 +18,7 @@ class LockstepEngine : public Engine {
     const Status& status() const override { return status_; }
     bool stopped() const override { return stopped_; }
     TriangleMesh TakeMesh() override;
+    const std::vector<MapObject>& objects() const override { return mapping_.objects(); }
     MapStatistics map_statistics() const override { return StatisticsOf(mapping_.map()); }
 
   private:
@@ -26,6 +27,7 @@ class LockstepEngine : public Engine {
     bool Obey(const ViewerCommand& command, FrameOutcome& outcome);
     bool TakeMessage(FrameOutcome& outcome);
     void Process(FrameOutcome& outcome);
+    void Label(FrameOutcome& outcome);
 
     RunConfig config_;
     FramePlan plan_;
@@ -38,6 +40,9 @@ class LockstepEngine : public Engine {
     TrackedFrame tracked_;
     ViewerFeed feed_;
     RecorderThread recorder_;
+    std::unique_ptr<LabellingStage> labelling_;  // null without labels
+    std::string label_message_;
+    std::int64_t fused_frames_ = 0;
     std::unique_ptr<FrameReader> reader_;  // null once the mesh was taken
     Frame frame_;
     Status status_;

@@ -25,6 +25,16 @@ void MappingStage::Fuse(TrackedFrame& tracked) {
                         report.fusion.refused_blocks + report.fusion.new_blocks);
 }
 
+void MappingStage::EnableLabels(const LabelConfig& config, LabelClasses classes) {
+    map_->EnableLabels();
+    labels_ = std::make_unique<LabelMapper>(config, std::move(classes), camera_);
+}
+
+VoteCount MappingStage::Label(std::span<const Detection> detections, const DepthImage& depth_m,
+                              const Eigen::Isometry3d& T_world_camera) {
+    return labels_->Label(detections, depth_m, T_world_camera, *map_);
+}
+
 void MappingStage::CollectDelta(MapDelta& delta) {
     tessera::CollectDelta(*map_, delta_size_, integrator_.changed_blocks(), integrator_.revision(), delta);
     delta_size_ = map_->size();
@@ -42,14 +52,21 @@ int MappingStage::UpdateMesh(int budget_blocks, MeshUpdate& update) {
 TriangleMesh MappingStage::Mesh() const {
     Mesher mesher(mesher_.config());
     mesher.Update(*map_);
-    return mesher.Assemble();
+    TriangleMesh mesh = mesher.Assemble();
+    if (labels_) labels_->LabelVertices(*map_, mesh);
+    return mesh;
 }
 
 TriangleMesh MappingStage::TakeMesh() {
     mesher_.Update(*map_);
-    map_.reset();
+    if (!labels_) map_.reset();
     TriangleMesh mesh = mesher_.Assemble();
     mesher_.Clear();
+    if (labels_) {
+        labels_->LabelVertices(*map_, mesh);
+        objects_ = labels_->Objects(mesh);
+        map_.reset();
+    }
     return mesh;
 }
 
@@ -62,6 +79,7 @@ void MappingStage::Predict(const Eigen::Isometry3d& T_world_camera, int step, Pr
 void MappingStage::Reset() {
     map_->Clear();
     mesher_.Clear();
+    if (labels_) labels_->Reset();
     delta_size_ = 1;
     mesh_cleared_ = true;
 }

@@ -5,6 +5,7 @@
 #include "mapping/map_delta.h"
 #include "mapping/mesher.h"
 #include "render/geometry_builder.h"
+#include "semantics/label_mapper.h"
 #include "system/tracking_stage.h"
 
 namespace tessera {
@@ -23,6 +24,13 @@ class MappingStage {
 
     // Puts the frame into the map, if it is to be, and reports that in it.
     void Fuse(TrackedFrame& tracked);
+
+    // The map holds labels from here on; before the first frame.
+    void EnableLabels(const LabelConfig& config, LabelClasses classes);
+    // Only with labels: votes detections into the map, with the pose and depth of the frame that was detected.
+    VoteCount Label(std::span<const Detection> detections, const DepthImage& depth_m, const Eigen::Isometry3d& T_world_camera);
+    // With labels: the objects of the mesh that TakeMesh gave, once it did.
+    const std::vector<MapObject>& objects() const { return objects_; }
 
     // What the last Fuse changed, for a copy of the map's field. To be called after each Fuse that fused, or never.
     void CollectDelta(MapDelta& delta);
@@ -50,6 +58,8 @@ class MappingStage {
     Integrator integrator_;
     Mesher mesher_;
     GeometryBuilder geometry_;
+    std::unique_ptr<LabelMapper> labels_;  // null without labels
+    std::vector<MapObject> objects_;
     BlockId delta_size_ = 1;     // the map's size at the last CollectDelta
     bool mesh_cleared_ = false;  // since the last UpdateMesh
 };

@@ -45,8 +45,16 @@ class Runner {
         Result<std::unique_ptr<FrameSource>> source = OpenSource(request_.source, config_);
         if (!source.ok()) return source.status();
         summary_.source = source.value()->info();
+        Labelling labelling;
+        if (!request_.labels.empty()) {
+            Result<Labelling> opened = OpenLabelling(request_.labels, request_.source, config_.synthetic, config_.labels);
+            if (!opened.ok()) return opened.status();
+            labelling = std::move(opened.value());
+            class_names_ = labelling.classes;
+            summary_.labels.emplace();
+        }
         EngineInput input{std::move(source.value()), request_.selection, config_,
-                          FramePlan(request_.switches, std::move(given), request_.poses_file), request_.record_path,
+                          FramePlan(request_.switches, std::move(given), request_.poses_file), std::move(labelling), request_.record_path,
                           request_.viewer, &stop};
         if (request_.live)
             engine_ = std::make_unique<LiveEngine>(std::move(input));
@@ -103,7 +111,18 @@ class Runner {
         const double frame_ms = frame_watch_.LapMs();
         AddTimes(outcome, frame_ms);
         ShowFrame(outcome);
+        if (outcome.labels)
+            if (Status status = TakeLabels(*outcome.labels); !status.ok()) return status;
         return output_ ? output_->AddFrame(report, outcome.decode_ms, frame_ms) : Status::Ok();
+    }
+
+    Status TakeLabels(const LabelReport& report) {
+        times_.Add("detect", report.detect_ms);
+        times_.Add("label", report.vote_ms);
+        ++summary_.labels->frames;
+        summary_.labels->detections += static_cast<std::int64_t>(report.detections.size());
+        summary_.labels->flips += report.votes.flips;
+        return output_ ? output_->AddDetections(report, class_names_) : Status::Ok();
     }
 
     void AddTimes(const FrameOutcome& outcome, double frame_ms) {
@@ -136,6 +155,7 @@ class Runner {
     // After a reset: the files, too, tell of the new world only.
     Status BeginAnew() {
         summary_.counts = {};
+        if (summary_.labels) summary_.labels.emplace();
         truth_.clear();
         estimate_.clear();
         times_ = {};
@@ -209,6 +229,7 @@ class Runner {
     Status WriteMesh() {
         Stopwatch watch;
         const TriangleMesh mesh = engine_->TakeMesh();
+        if (summary_.labels) summary_.labels->objects = engine_->objects();
         times_.Add("mesh", watch.LapMs());
         return output_->WriteMesh(mesh);
     }
@@ -231,6 +252,7 @@ class Runner {
     const RunObserver& observer_;
     std::vector<StampedPose> truth_, estimate_;
     std::vector<std::string> pose_notes_;
+    LabelClasses class_names_;
     std::unique_ptr<Engine> engine_;
     std::unique_ptr<RunOutput> output_;
     StageTimes times_;

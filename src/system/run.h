@@ -12,6 +12,7 @@
 #include "core/status.h"
 #include "eval/ate.h"
 #include "io/frame_source.h"
+#include "semantics/map_object.h"
 #include "system/run_config.h"
 #include "system/timings.h"
 
@@ -31,6 +32,7 @@ struct RunRequest {
     std::string record_path;            // keep the raw frames there: a folder, or FILE.oni of an OpenNI2 camera
     ViewerLink* viewer = nullptr;       // outlives the run
     FrameSelection selection;
+    std::string labels;         // a network, a detections file, or "synthetic"; empty = no labels
     std::string poses_file;     // TUM trajectory: fuse at its poses and do not track; empty = track
     std::vector<MethodSwitch> switches;  // of one frame, the last counts
     std::string output_folder;  // empty = nothing is written and no mesh is made
@@ -57,6 +59,13 @@ struct MapStatistics {
 
 MapStatistics StatisticsOf(const BlockMap& map);
 
+struct LabelSummary {
+    std::int64_t frames = 0;      // that were detected
+    std::int64_t detections = 0;  // of wanted classes and enough probability
+    std::int64_t flips = 0;       // settled voxels that changed their class
+    std::vector<MapObject> objects;
+};
+
 struct RunSummary {
     SourceInfo source;
     RunCounts counts;
@@ -65,6 +74,7 @@ struct RunSummary {
     double peak_rss_mb = 0;  // of the whole process, the mesh and its picture included
     std::vector<std::pair<std::string, StageStatistics>> stages;
     MapStatistics map;
+    std::optional<LabelSummary> labels;  // with labels only
     std::optional<AteResult> ate;  // against the source's own truth; none at given poses
     std::string exit;              // "finished", "stopped", or "failed: ..."
     std::string last_reason;       // why the last lost frame was lost

@@ -30,6 +30,7 @@ void RunConfig::Describe(ConfigParameters& p) {
     p.Section("synthetic", [&](ConfigParameters& s) { synthetic.Describe(s); });
     pipeline.Describe(p);
     p.Section("meshing", [&](ConfigParameters& s) { meshing.Describe(s); });
+    p.Section("labels", [&](ConfigParameters& s) { labels.Describe(s); });
     p.Section("live", [&](ConfigParameters& s) { live.Describe(s); });
     p.Section("view", [&](ConfigParameters& s) { view.Describe(s); });
     p.Section("record", [&](ConfigParameters& s) { record.Describe(s); });
@@ -44,6 +45,7 @@ void RunConfig::Describe(ConfigParameters& p) {
 Status RunConfig::Validate() const {
     if (Status status = source.Validate(); !status.ok()) return status;
     if (Status status = synthetic.Validate(); !status.ok()) return status;
+    if (Status status = labels.Validate(); !status.ok()) return status;
     return pipeline.Validate();
 }
 

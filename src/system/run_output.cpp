@@ -9,6 +9,7 @@
 #include "io/mesh_io.h"
 #include "io/trajectory.h"
 #include "render/mesh_picture.h"
+#include "semantics/detections_file.h"
 #include "system/run_report.h"
 
 namespace tessera {
@@ -41,7 +42,7 @@ Result<std::unique_ptr<RunOutput>> RunOutput::Open(const RunRequest& request, co
     if (Status status = PrepareOutputFolder(request.output_folder); !status.ok()) return status;
     std::unique_ptr<RunOutput> output(new RunOutput(request, config));
     std::error_code ignored;
-    for (const char* name : {"mesh.ply", "preview.png", "objects.json", "timings.json"})
+    for (const char* name : {"mesh.ply", "preview.png", "objects.json", "timings.json", "detections.txt"})
         std::filesystem::remove(output->Path(name), ignored);
     RunSummary unfinished;
     unfinished.source = source;
@@ -52,6 +53,12 @@ Result<std::unique_ptr<RunOutput>> RunOutput::Open(const RunRequest& request, co
                               output->trajectory_),
           output->OpenGrowing("frames.csv", kFramesHeader, output->frames_)})
         if (!status.ok()) return status;
+    if (!request.labels.empty())
+        if (Status status = output->OpenGrowing(
+                "detections.txt", "# stamp class probability xmin ymin xmax ymax; '# frame STAMP' before each frame looked at\n",
+                output->detections_);
+            !status.ok())
+            return status;
     return output;
 }
 
@@ -76,6 +83,13 @@ Status RunOutput::AddFrame(const FrameReport& report, double decode_ms, double f
     return Append("frames.csv", FrameLine(report, decode_ms, frame_ms), frames_);
 }
 
+Status RunOutput::AddDetections(const LabelReport& report, const LabelClasses& classes) {
+    std::string lines = fmt::format("# frame {:.6f}\n", report.colour_stamp_s);
+    for (const Detection& d : report.detections)
+        lines += DetectionLine(report.colour_stamp_s, classes.name(d.class_id), d) + "\n";
+    return Append("detections.txt", lines, detections_);
+}
+
 Status RunOutput::WritePicture(const TriangleMesh& mesh) const {
     if (mesh.triangles.empty()) return Status::Ok();
     const MeshView view = ChooseView(mesh, path_);
@@ -96,7 +110,7 @@ Status RunOutput::Finish(const RunSummary& summary) {
         if (first.ok()) first = status;
     };
     keep_first(WriteTextFile(Path("timings.json"), TimingsJson(summary)));
-    keep_first(WriteTextFile(Path("objects.json"), "[]\n"));
+    keep_first(WriteTextFile(Path("objects.json"), ObjectsJson(summary.labels ? summary.labels->objects : std::vector<MapObject>{})));
     keep_first(WriteTextFile(Path("run.json"), RunJson(request_, config_, summary)));
     return first;
 }

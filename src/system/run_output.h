@@ -8,6 +8,7 @@
 
 #include "core/mesh.h"
 #include "core/status.h"
+#include "system/labelling_stage.h"
 #include "system/tracking_stage.h"
 #include "system/run.h"
 
@@ -22,6 +23,9 @@ class RunOutput {
 
     // One line of frames.csv; one of trajectory.txt if the frame was tracked. Both reach the system before return.
     Status AddFrame(const FrameReport& report, double decode_ms, double frame_ms);
+
+    // The frame's lines in detections.txt, after a line that says that it was looked at.
+    Status AddDetections(const LabelReport& report, const LabelClasses& classes);
 
     // mesh.ply, and preview.png where the mesh has triangles. The first error, but the other file is tried, too.
     Status WriteMesh(const TriangleMesh& mesh) const;
@@ -44,7 +48,7 @@ class RunOutput {
 
     RunRequest request_;
     RunConfig config_;
-    File trajectory_, frames_;
+    File trajectory_, frames_, detections_;  // the last one with labels only
     std::vector<Eigen::Isometry3d> path_;  // T_world_camera of the tracked frames
 };
 

@@ -77,6 +77,12 @@ std::string RunJson(const RunRequest& request, RunConfig config, const RunSummar
                    {"unfused", n.unfused},
                    {"degenerate", n.degenerate}}},
                  {"ate", nullptr}};
+    if (summary.labels)
+        json["labels"] = {{"detector", request.labels},
+                          {"frames", summary.labels->frames},
+                          {"detections", summary.labels->detections},
+                          {"settled_flips", summary.labels->flips},
+                          {"objects", summary.labels->objects.size()}};
     if (summary.ate) json["ate"] = Json::parse(AteJson(*summary.ate), nullptr, false);
     json["configuration"] = ConfigurationJson(config);
     return Dump(json);

@@ -48,7 +48,7 @@ TEST(RunConfig, Bylow2014HasThePapersWeights) {
 TEST(RunConfig, AnUnknownPresetNamesTheKnownOnes) {
     ConfigParameters parameters;
     EXPECT_EQ(LoadPresetOrFile("bylow", parameters).message(),
-              "bylow: neither a file nor a preset (default, bylow2014, diaz2018)");
+              "bylow: neither a file nor a preset (default, bylow2014, diaz2018, labels)");
 }
 
 TEST(RunConfig, TheDocumentIsUpToDate) {

@@ -1,0 +1,314 @@
+#include "eval/label_scores.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+
+#include "eval/alignment.h"
+#include "eval/label_truth.h"
+#include "eval/mesh_error.h"
+#include "io/file.h"
+#include "io/mesh_io.h"
+#include "io/trajectory.h"
+
+namespace tessera {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t kLookedUpFrames = 100;  // of the truth, for the vertices
+constexpr double kSameBox = 0.5;
+constexpr double kStray = 0.005;
+
+struct RunDetection {
+    std::string name;
+    double probability = 0;
+    double x_min = 0, y_min = 0, x_max = 0, y_max = 0;
+};
+
+// What the run wrote; truth's class numbers stand for names from here on.
+struct RunLabels {
+    TriangleMesh mesh;  // in the truth's world
+    std::map<int, std::string> class_names;
+    std::map<double, std::vector<RunDetection>> frames;  // that were looked at
+    std::set<std::string> wanted;                        // classes that were looked for, as far as one can tell
+};
+
+Status ReadObjects(const std::string& path, RunLabels& run) {
+    const Result<std::string> text = ReadWholeFile(path, std::size_t{1} << 28);
+    if (!text.ok()) return text.status();
+    const Json json = Json::parse(text.value(), nullptr, false);
+    if (!json.is_array()) return Status::Error(path + ": is no list of objects");
+    for (const Json& object : json) {
+        if (!object.is_object() || !object.contains("class_id") || !object["class_id"].is_number_integer() ||
+            !object.contains("class") || !object["class"].is_string())
+            return Status::Error(path + ": an object has no class");
+        run.class_names[object["class_id"].get<int>()] = object["class"].get<std::string>();
+    }
+    return Status::Ok();
+}
+
+Status ReadDetections(const std::string& path, RunLabels& run) {
+    const Result<std::string> text = ReadWholeFile(path, std::size_t{1} << 30);
+    if (!text.ok()) return Status::Error(text.message() + "; was the run made with --labels?");
+    std::istringstream lines(text.value());
+    double frame = 0;
+    for (std::string line; std::getline(lines, line);) {
+        std::istringstream words(line);
+        if (line.starts_with("# frame ")) {
+            words.ignore(8);
+            if (words >> frame) run.frames[frame];
+            continue;
+        }
+        RunDetection d;
+        double stamp_s = 0;
+        if (line.starts_with('#') || !(words >> stamp_s >> d.name >> d.probability >> d.x_min >> d.y_min >> d.x_max >> d.y_max))
+            continue;
+        run.frames[stamp_s].push_back(d);
+        run.wanted.insert(d.name);
+    }
+    return run.frames.empty() ? Status::Error(path + ": tells of no frame") : Status::Ok();
+}
+
+Result<RunLabels> ReadRun(const std::string& folder, const LabelTruth& truth) {
+    RunLabels run;
+    if (Status status = ReadObjects(folder + "/objects.json", run); !status.ok()) return status;
+    if (Status status = ReadDetections(folder + "/detections.txt", run); !status.ok()) return status;
+    Result<TriangleMesh> mesh = ReadPly(folder + "/mesh.ply");
+    if (!mesh.ok()) return mesh.status();
+    if (mesh.value().labels.empty()) return Status::Error(folder + "/mesh.ply: has no labels; make the run with --labels");
+    const Result<Trajectory> path = ReadTrajectory(folder + "/trajectory.txt");
+    if (!path.ok()) return path.status();
+    const Result<Alignment> alignment = AlignTrajectories(truth.poses, path.value().poses);
+    if (!alignment.ok()) return Status::Error(folder + "/trajectory.txt: " + alignment.message());
+    run.mesh = TransformMesh(mesh.value(), alignment.value().T_reference_estimate);
+    run.mesh.labels = std::move(mesh.value().labels);
+    return run;
+}
+
+// ---- [D18] Table 4.
+
+struct TrueBox {
+    int class_id = 0, pixels = 0;
+    double x_min = 1e9, y_min = 1e9, x_max = -1, y_max = -1;
+};
+
+std::map<int, TrueBox> TrueBoxes(const TruthImages& images) {
+    std::map<int, TrueBox> boxes;
+    for (int y = 0; y < images.instance.height(); ++y)
+        for (int x = 0; x < images.instance.width(); ++x) {
+            if (images.instance(x, y) == 0) continue;
+            TrueBox& box = boxes[images.instance(x, y)];
+            box.class_id = images.class_id(x, y);
+            ++box.pixels;
+            box.x_min = std::min<double>(box.x_min, x), box.x_max = std::max<double>(box.x_max, x);
+            box.y_min = std::min<double>(box.y_min, y), box.y_max = std::max<double>(box.y_max, y);
+        }
+    return boxes;
+}
+
+double Overlap(const TrueBox& a, const RunDetection& b) {
+    const double width = std::min(a.x_max, b.x_max) - std::max(a.x_min, b.x_min) + 1;
+    const double height = std::min(a.y_max, b.y_max) - std::max(a.y_min, b.y_min) + 1;
+    if (width <= 0 || height <= 0) return 0;
+    const double areas = (a.x_max - a.x_min + 1) * (a.y_max - a.y_min + 1) + (b.x_max - b.x_min + 1) * (b.y_max - b.y_min + 1);
+    return width * height / (areas - width * height);
+}
+
+void CountDetections(const std::map<int, TrueBox>& boxes, const std::vector<RunDetection>& detections, const LabelTruth& truth,
+                     LabelScores& scores) {
+    const double least_pixels = 400.0 / (640 * 480) * truth.camera.width * truth.camera.height;
+    for (const auto& [instance, box] : boxes) {
+        const auto name = truth.class_names.find(box.class_id);
+        const auto score = name == truth.class_names.end() ? scores.classes.end() : scores.classes.find(name->second);
+        if (score == scores.classes.end() || box.pixels <= least_pixels) continue;
+        ++score->second.visible;
+        const auto best = std::ranges::max_element(detections, {}, [&](const RunDetection& d) { return Overlap(box, d); });
+        if (best == detections.end() || Overlap(box, *best) < kSameBox) continue;
+        ++score->second.detected;
+        score->second.correct += best->name == name->second;
+        score->second.probability_sum += best->probability;
+    }
+}
+
+Status ScoreDetections(const LabelTruth& truth, const RunLabels& run, LabelScores& scores) {
+    TruthImages images;
+    for (std::size_t i = 0; i < truth.poses.size(); ++i) {
+        const double stamp_s = truth.poses[i].stamp_s;
+        const auto near = run.frames.lower_bound(stamp_s - 0.002);
+        if (near == run.frames.end() || near->first > stamp_s + 0.002) continue;
+        if (Status status = ReadTruthImages(truth, i, images); !status.ok()) return status;
+        CountDetections(TrueBoxes(images), near->second, truth, scores);
+    }
+    return Status::Ok();
+}
+
+// ---- Vertices and instances.
+
+std::string NameOf(const std::map<int, std::string>& names, int id) {
+    const auto found = names.find(id);
+    return found == names.end() ? std::string() : found->second;
+}
+
+// Truth's name of a vertex, "" for background and classes that were not looked for.
+std::string TrueName(const LabelTruth& truth, const LabelScores& scores, int class_id) {
+    const std::string name = NameOf(truth.class_names, class_id);
+    return scores.classes.contains(name) ? name : std::string();
+}
+
+void ScoreVertices(const LabelTruth& truth, const RunLabels& run, const std::vector<VertexLabel>& labels,
+                   const std::vector<std::uint8_t>& seen, LabelScores& scores) {
+    std::int64_t right = 0, objects = 0, right_objects = 0;
+    for (std::size_t i = 0; i < labels.size(); ++i) {
+        if (seen[i] == 0) continue;
+        const std::string is = TrueName(truth, scores, labels[i].class_id), said = NameOf(run.class_names, run.mesh.labels[i].class_id);
+        ++scores.vertices;
+        right += is == said;
+        objects += !is.empty();
+        right_objects += !is.empty() && is == said;
+        if (!is.empty()) ++scores.classes[is].vertices;
+        if (!said.empty()) ++scores.classes[said].labelled;
+        if (!is.empty() && is == said) ++scores.classes[is].both;
+    }
+    scores.accuracy = static_cast<double>(right) / static_cast<double>(std::max<std::int64_t>(1, scores.vertices));
+    scores.object_accuracy = static_cast<double>(right_objects) / static_cast<double>(std::max<std::int64_t>(1, objects));
+    int present = 0;
+    for (const auto& [name, score] : scores.classes)
+        if (score.vertices > 0) scores.mean_iou += score.Iou(), ++present;
+    scores.mean_iou /= std::max(1, present);
+}
+
+using Points = std::vector<Eigen::Vector3d>;
+
+Eigen::AlignedBox3d TrimmedBox(Points points) {
+    Eigen::AlignedBox3d box;
+    const auto cut = static_cast<std::size_t>(kStray * static_cast<double>(points.size()));
+    for (int axis = 0; axis < 3; ++axis) {
+        std::ranges::sort(points, {}, [axis](const Eigen::Vector3d& p) { return p[axis]; });
+        box.min()[axis] = points[cut][axis];
+        box.max()[axis] = points[points.size() - 1 - cut][axis];
+    }
+    return box;
+}
+
+double BoxIou(const Eigen::AlignedBox3d& a, const Eigen::AlignedBox3d& b) {
+    const Eigen::AlignedBox3d both = a.intersection(b);
+    if (both.isEmpty()) return 0;
+    const double common = both.volume(), all = a.volume() + b.volume() - common;
+    return all > 0 ? common / all : 0;
+}
+
+Eigen::Vector3d MeanOf(const Points& points) {
+    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+    for (const Eigen::Vector3d& p : points) mean += p / static_cast<double>(points.size());
+    return mean;
+}
+
+struct InstancePoints {
+    std::map<int, Points> truth, found;
+    std::map<int, int> class_of_found;
+    std::map<std::pair<int, int>, std::int64_t> common;
+};
+
+InstancePoints Gather(const LabelTruth& truth, const RunLabels& run, const std::vector<VertexLabel>& labels,
+                      const std::vector<std::uint8_t>& seen, const LabelScores& scores) {
+    InstancePoints points;
+    for (std::size_t i = 0; i < labels.size(); ++i) {
+        if (seen[i] == 0) continue;
+        const Eigen::Vector3d p = run.mesh.vertices[i].cast<double>();
+        const int is = TrueName(truth, scores, labels[i].class_id).empty() ? 0 : labels[i].instance;
+        const int said = run.mesh.labels[i].instance;
+        if (is != 0) points.truth[is].push_back(p);
+        if (said != 0) points.found[said].push_back(p);
+        if (said != 0) points.class_of_found[said] = run.mesh.labels[i].class_id;
+        if (is != 0 && said != 0) ++points.common[{is, said}];
+    }
+    constexpr std::size_t kLeastVertices = 30;
+    std::erase_if(points.truth, [](const auto& entry) { return entry.second.size() < kLeastVertices; });
+    return points;
+}
+
+void ScoreInstances(const LabelTruth& truth, const RunLabels& run, const InstancePoints& points, LabelScores& scores) {
+    std::set<int> good_25, good_50;
+    int recalled_25 = 0, recalled_50 = 0, matched = 0;
+    for (const auto& [id, its] : points.truth) {
+        InstanceScore score;
+        score.truth = id;
+        score.class_name = TrueName(truth, scores, truth.class_of_instance.at(id));
+        std::int64_t most = 0;
+        for (const auto& [pair, count] : points.common)
+            if (pair.first == id && count > most) most = count, score.found = pair.second;
+        if (score.found != 0) {
+            const Points& found = points.found.at(score.found);
+            score.right_class = NameOf(run.class_names, points.class_of_found.at(score.found)) == score.class_name;
+            score.box_iou = BoxIou(TrimmedBox(its), TrimmedBox(found));
+            score.vertex_iou = static_cast<double>(most) / (static_cast<double>(its.size() + found.size()) - static_cast<double>(most));
+            score.centroid_error_m = (MeanOf(its) - MeanOf(found)).norm();
+            const bool is_25 = score.right_class && score.box_iou >= 0.25 && good_25.insert(score.found).second;
+            const bool is_50 = score.right_class && score.box_iou >= 0.5 && good_50.insert(score.found).second;
+            recalled_25 += is_25, recalled_50 += is_50;
+            scores.centroid_error_mean_m += score.centroid_error_m, ++matched;
+            scores.centroid_error_max_m = std::max(scores.centroid_error_max_m, score.centroid_error_m);
+        }
+        scores.instances.push_back(score);
+    }
+    scores.found_objects = static_cast<int>(points.found.size());
+    scores.centroid_error_mean_m /= std::max(1, matched);
+    const auto share = [](int part, std::size_t all) { return all > 0 ? part / static_cast<double>(all) : 0.0; };
+    scores.precision_25 = share(recalled_25, points.found.size()), scores.recall_25 = share(recalled_25, points.truth.size());
+    scores.precision_50 = share(recalled_50, points.found.size()), scores.recall_50 = share(recalled_50, points.truth.size());
+}
+
+}  // namespace
+
+Result<LabelScores> EvaluateLabels(const std::string& sequence, const std::string& run_folder) {
+    Result<LabelTruth> truth = ReadLabelTruth(sequence);
+    if (!truth.ok()) return truth.status();
+    const Result<RunLabels> run = ReadRun(run_folder, truth.value());
+    if (!run.ok()) return run.status();
+    LabelScores scores;
+    for (const std::string& name : run.value().wanted) scores.classes[name];
+    if (Status status = ScoreDetections(truth.value(), run.value(), scores); !status.ok()) return status;
+    std::vector<VertexLabel> labels;
+    std::vector<std::uint8_t> seen;
+    const std::size_t stride = std::max<std::size_t>(1, truth.value().poses.size() / kLookedUpFrames);
+    if (Status status = LookUpVertices(truth.value(), run.value().mesh, stride, labels, seen); !status.ok()) return status;
+    ScoreVertices(truth.value(), run.value(), labels, seen, scores);
+    ScoreInstances(truth.value(), run.value(), Gather(truth.value(), run.value(), labels, seen, scores), scores);
+    return scores;
+}
+
+std::string LabelScoresText(const LabelScores& s) {
+    std::string text = fmt::format("{:<16}{:>9}{:>8}{:>8}{:>7}{:>10}{:>7}\n", "class", "visible", "Pt %", "Pc %", "prob", "vertices", "IoU");
+    for (const auto& [name, c] : s.classes)
+        text += fmt::format("{:<16}{:>9}{:>8.1f}{:>8.1f}{:>7.2f}{:>10}{:>7.3f}\n", name, c.visible, 100 * c.Pt(), 100 * c.Pc(),
+                            c.Probability(), c.vertices, c.Iou());
+    text += fmt::format("vertices: {:.2f} % right of {}, {:.2f} % of those on objects; mean IoU {:.3f}\n", 100 * s.accuracy, s.vertices,
+                        100 * s.object_accuracy, s.mean_iou);
+    text += fmt::format("instances: {} true, {} found; precision {:.2f}, recall {:.2f} at 3D IoU 0.25; {:.2f}, {:.2f} at 0.5; centroid "
+                        "error mean {:.3f} m, max {:.3f}\n",
+                        s.instances.size(), s.found_objects, s.precision_25, s.recall_25, s.precision_50, s.recall_50,
+                        s.centroid_error_mean_m, s.centroid_error_max_m);
+    return text;
+}
+
+std::string LabelScoresJson(const LabelScores& s) {
+    Json classes = Json::object(), instances = Json::array();
+    for (const auto& [name, c] : s.classes)
+        classes[name] = {{"visible", c.visible}, {"pt", c.Pt()}, {"pc", c.Pc()}, {"probability", c.Probability()},
+                         {"vertices", c.vertices}, {"iou", c.Iou()}};
+    for (const InstanceScore& i : s.instances)
+        instances.push_back({{"truth", i.truth}, {"class", i.class_name}, {"found", i.found}, {"right_class", i.right_class},
+                             {"box_iou", i.box_iou}, {"vertex_iou", i.vertex_iou}, {"centroid_error_m", i.centroid_error_m}});
+    const Json json = {{"vertices", s.vertices}, {"accuracy", s.accuracy}, {"object_accuracy", s.object_accuracy},
+                       {"mean_iou", s.mean_iou}, {"found_objects", s.found_objects},
+                       {"precision_25", s.precision_25}, {"recall_25", s.recall_25},
+                       {"precision_50", s.precision_50}, {"recall_50", s.recall_50},
+                       {"centroid_error_mean_m", s.centroid_error_mean_m}, {"centroid_error_max_m", s.centroid_error_max_m},
+                       {"classes", classes}, {"instances", instances}};
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace tessera

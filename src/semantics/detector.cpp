@@ -1,0 +1,37 @@
+#include "semantics/detector.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tessera {
+
+float DetectionBox::Area() const {
+    const float width = x_max - x_min + 1, height = y_max - y_min + 1;
+    return width > 0 && height > 0 ? width * height : 0.0f;
+}
+
+float BoxOverlap(const DetectionBox& a, const DetectionBox& b) {
+    const DetectionBox both{std::max(a.x_min, b.x_min), std::max(a.y_min, b.y_min), std::min(a.x_max, b.x_max),
+                            std::min(a.y_max, b.y_max)};
+    const float common = both.Area(), all = a.Area() + b.Area() - common;
+    return all > 0 ? common / all : 0.0f;
+}
+
+PixelBox PixelsOf(const DetectionBox& box, int width, int height) {
+    const auto whole = [](float value, int end) {
+        return std::isfinite(value) ? static_cast<int>(std::lround(std::clamp(value, -1.0f, static_cast<float>(end)))) : 0;
+    };
+    PixelBox pixels{std::max(0, whole(box.x_min, width)), std::max(0, whole(box.y_min, height)),
+                    std::min(width, whole(box.x_max, width) + 1), std::min(height, whole(box.y_max, height) + 1)};
+    return pixels.empty() ? PixelBox{} : pixels;
+}
+
+void KeepWanted(const LabelClasses& classes, double min_probability, std::vector<Detection>& detections) {
+    for (Detection& detection : detections) detection.class_id = classes.IdOf(detection.name);
+    std::erase_if(detections, [&](const Detection& d) {
+        return d.class_id == 0 || !(d.probability >= static_cast<float>(min_probability));
+    });
+    std::ranges::stable_sort(detections, std::greater{}, &Detection::probability);
+}
+
+}  // namespace tessera

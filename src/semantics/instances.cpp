@@ -1,0 +1,173 @@
+#include "semantics/instances.h"
+
+#include <algorithm>
+#include <limits>
+#include <set>
+
+namespace tessera {
+namespace {
+
+constexpr int kLeastVisible = 20;       // sampled pixels; smaller views say nothing
+constexpr double kSameClassOverlap = 0.25, kOtherClassOverlap = 0.4;  // intersection over union, in the image
+constexpr double kContained = 0.5, kContainedShare = 0.2;
+constexpr double kSameBox = 0.3;        // intersection over union of 3D boxes
+constexpr double kFree = 0.5;           // more of a region held by others is busy
+constexpr double kCovers = 0.6;         // of both, for one detection to say that two are one
+constexpr int kTogether = 4;
+constexpr int kTrialFrames = 12;        // in view, before one that is not confirmed may be dropped
+constexpr double kClassShare = 0.5;     // of the votes, to be confirmed
+
+double BoxOverlap(const Eigen::AlignedBox3d& a, const Eigen::AlignedBox3d& b) {
+    const Eigen::AlignedBox3d both = a.intersection(b);
+    if (a.isEmpty() || b.isEmpty() || both.isEmpty()) return 0;
+    const double common = both.volume(), all = a.volume() + b.volume() - common;
+    return all > 0 ? common / all : 0;
+}
+
+int At(const std::map<InstanceId, int>& counts, InstanceId id) {
+    const auto found = counts.find(id);
+    return found == counts.end() ? 0 : found->second;
+}
+
+// How well a detection fits a known object; 0: not at all.
+double Fit(const ObservedObject& o, const InstanceRecord& record, int common, int visible, bool same_class) {
+    const double all = o.pixels + visible - common, overlap = all > 0 ? common / all : 0;
+    const double contained = static_cast<double>(common) / std::max(1, std::min(o.pixels, visible));
+    const double box = BoxOverlap(o.box, record.box);
+    if (!same_class) return overlap >= kOtherClassOverlap ? overlap : 0;
+    const bool part = contained >= kContained && (common >= kContainedShare * o.pixels || box >= kSameBox);
+    return overlap >= kSameClassOverlap || part ? 0.2 + overlap + 0.2 * box : 0;
+}
+
+}  // namespace
+
+InstanceId Instances::Resolve(InstanceId id) const {
+    while (records_[id].merged_into != 0) id = records_[id].merged_into;
+    return records_[id].dropped ? InstanceId{0} : id;
+}
+
+int Instances::ClassOf(InstanceId id) const {
+    const auto& votes = records_[id].class_votes;
+    const auto best = std::ranges::max_element(votes, {}, [](const auto& vote) { return vote.second; });
+    return best == votes.end() ? 0 : best->first;
+}
+
+double Instances::Probability(InstanceId id) const {
+    const InstanceRecord& r = records_[id];
+    const auto votes = r.class_votes.find(ClassOf(id));
+    return votes == r.class_votes.end() ? 0 : votes->second / std::max(1, r.observations);
+}
+
+std::vector<InstanceId> Instances::Match(const std::vector<ObservedObject>& observed, const std::map<InstanceId, int>& visible) {
+    std::vector<InstanceId> match(observed.size(), 0);
+    Assign(observed, visible, match);
+    const std::set<InstanceId> claimed(match.begin(), match.end());
+    for (std::size_t i = 0; i < observed.size(); ++i) {
+        if (match[i] != 0 || observed[i].pixels == 0) continue;
+        int busy = 0;  // held by what no other detection of this frame explains
+        for (const auto& [id, pixels] : observed[i].overlaps)
+            if (!claimed.contains(id) && ClassOf(id) == observed[i].class_id) busy += pixels;
+        if (busy < kFree * observed[i].pixels) match[i] = Add();
+    }
+    for (const auto& [id, pixels] : visible)
+        if (pixels >= kLeastVisible || std::ranges::find(match, id) != match.end()) ++records_[id].visible_frames;
+    for (std::size_t i = 0; i < observed.size(); ++i)
+        if (match[i] != 0) Update(match[i], observed[i]);
+    GatherEvidence(observed, visible, match);
+    for (InstanceId id = 1; id <= last(); ++id) Judge(id);
+    for (InstanceId& id : match) id = Resolve(id);
+    return match;
+}
+
+// Best fits first, one to one.
+void Instances::Assign(const std::vector<ObservedObject>& observed, const std::map<InstanceId, int>& visible,
+                       std::vector<InstanceId>& match) const {
+    struct Candidate {
+        double fit;
+        std::size_t detection;
+        InstanceId id;
+    };
+    std::vector<Candidate> candidates;
+    for (std::size_t i = 0; i < observed.size(); ++i)
+        for (const auto& [id, common] : observed[i].overlaps) {
+            const double fit = Fit(observed[i], records_[id], common, At(visible, id), ClassOf(id) == observed[i].class_id);
+            if (fit > 0) candidates.push_back({fit, i, id});
+        }
+    std::ranges::stable_sort(candidates, std::greater{}, &Candidate::fit);
+    std::set<InstanceId> taken;
+    for (const Candidate& c : candidates) {
+        if (match[c.detection] != 0 || taken.contains(c.id)) continue;
+        match[c.detection] = c.id;
+        taken.insert(c.id);
+    }
+}
+
+InstanceId Instances::Add() {
+    if (records_.size() > std::numeric_limits<InstanceId>::max()) return 0;
+    records_.emplace_back();
+    records_.back().visible_frames = 1;
+    return last();
+}
+
+void Instances::Update(InstanceId id, const ObservedObject& observed) {
+    InstanceRecord& r = records_[id];
+    r.class_votes[observed.class_id] += observed.probability;
+    ++r.class_counts[observed.class_id];
+    ++r.observations;
+    r.box.extend(observed.box);
+}
+
+// Confirmed once seen often enough; dropped if that does not happen while it is in view.
+void Instances::Judge(InstanceId id) {
+    InstanceRecord& r = records_[id];
+    if (r.public_id > 0 || r.dropped || r.merged_into != 0) return;
+    const double rate = static_cast<double>(r.observations) / std::max(1, r.visible_frames);
+    const auto count = r.class_counts.find(ClassOf(id));
+    const double share = count == r.class_counts.end() ? 0 : static_cast<double>(count->second) / r.observations;
+    if (r.observations >= config_.min_observations && rate >= config_.min_rate && share >= kClassShare)
+        r.public_id = ++last_public_;
+    else if (r.visible_frames >= kTrialFrames && rate < config_.min_rate)
+        r.dropped = true;
+}
+
+void Instances::GatherEvidence(const std::vector<ObservedObject>& observed, const std::map<InstanceId, int>& visible,
+                               const std::vector<InstanceId>& match) {
+    const auto key = [](InstanceId a, InstanceId b) { return std::pair(std::min(a, b), std::max(a, b)); };
+    std::set<std::pair<InstanceId, InstanceId>> together;
+    for (std::size_t i = 0; i < observed.size(); ++i) {
+        for (const auto& [id, common] : observed[i].overlaps) {
+            if (match[i] == 0 || id == match[i] || ClassOf(id) != ClassOf(match[i])) continue;
+            const auto covers = [&](InstanceId which) {
+                const int pixels = At(visible, which);
+                return pixels >= kLeastVisible && At(observed[i].overlaps, which) >= kCovers * pixels;
+            };
+            if (std::ranges::find(match, id) != match.end())
+                ++evidence_[key(id, match[i])].apart;
+            else if (covers(id) && covers(match[i]))
+                together.insert(key(id, match[i]));
+        }
+    }
+    for (const auto& pair : together) {
+        PairEvidence& e = evidence_[pair];
+        if (++e.together >= kTogether && e.together > e.apart) Join(pair.first, pair.second);
+    }
+}
+
+// The one with the smaller public number stays; else the older one.
+void Instances::Join(InstanceId a, InstanceId b) {
+    a = Resolve(a), b = Resolve(b);
+    if (a == b || a == 0 || b == 0) return;
+    const auto rank = [&](InstanceId id) {
+        return std::pair(records_[id].public_id > 0 ? records_[id].public_id : std::numeric_limits<int>::max(), id);
+    };
+    if (rank(b) < rank(a)) std::swap(a, b);
+    InstanceRecord &kept = records_[a], &gone = records_[b];
+    for (const auto& [class_id, votes] : gone.class_votes) kept.class_votes[class_id] += votes;
+    for (const auto& [class_id, count] : gone.class_counts) kept.class_counts[class_id] += count;
+    kept.observations += gone.observations;
+    kept.visible_frames = std::max(kept.visible_frames, gone.visible_frames);
+    kept.box.extend(gone.box);
+    gone.merged_into = a;
+}
+
+}  // namespace tessera

@@ -1,0 +1,129 @@
+#include "semantics/label_config.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <optional>
+#include <sstream>
+
+namespace tessera {
+namespace {
+
+using Pairs = std::vector<std::pair<std::string, std::string>>;
+
+// "a=b c" as pairs; the second of "c" is empty.
+Pairs SplitPairs(const std::string& text) {
+    Pairs pairs;
+    std::istringstream words(text);
+    for (std::string word; words >> word;) {
+        const std::size_t equals = word.find('=');
+        pairs.emplace_back(word.substr(0, equals), equals == std::string::npos ? "" : word.substr(equals + 1));
+    }
+    return pairs;
+}
+
+std::optional<Rgb8> ParseColour(const std::string& text) {
+    if (text.size() != 7 || text[0] != '#' || text.find_first_not_of("0123456789abcdefABCDEF", 1) != std::string::npos)
+        return std::nullopt;
+    const auto value = static_cast<std::uint32_t>(std::strtoul(text.c_str() + 1, nullptr, 16));
+    return Rgb8{static_cast<std::uint8_t>(value >> 16), static_cast<std::uint8_t>(value >> 8 & 255),
+                static_cast<std::uint8_t>(value & 255)};
+}
+
+std::string WithoutBlanks(std::string name) {
+    std::ranges::replace(name, ' ', '_');
+    return name;
+}
+
+}  // namespace
+
+Rgb8 DistinctColour(int n) {
+    constexpr double kGoldenTurn = 0.6180339887;
+    const double hue = 6 * std::fmod(0.02 + n * kGoldenTurn, 1.0);
+    const double low = n / 5 % 2 == 0 ? 0.22 : 0.42, high = n / 10 % 2 == 0 ? 0.95 : 0.75;
+    const auto channel = [&](double shift) {
+        const double k = std::fmod(shift + hue, 6.0);
+        const double part = std::clamp(std::min(k, 4 - k), 0.0, 1.0);
+        return static_cast<std::uint8_t>(std::lround(255 * (high - (high - low) * part)));
+    };
+    return {channel(5), channel(3), channel(1)};
+}
+
+void LabelConfig::Describe(ConfigParameters& p) {
+    p.Add("classes", classes,
+          "what is labelled: names, each perhaps with its colour (cup=#b146c2), separated by blanks (_ for those in a "
+          "name); all is every class of the detector");
+    p.Add("aliases", aliases, "detector's name=ours, separated by blanks");
+    p.Add("min_probability", min_probability, {0.0, 1.0}, "", "detections below it are left out; [D18] takes 0.5");
+    p.AddChoice<LabelRegion>("region", region, {{"segment", LabelRegion::kSegment}, {"mean-depth", LabelRegion::kMeanDepth}},
+                             "what of a box is the object: its own connected depth segment (or the model's mask), or all "
+                             "that is not deeper than the box's mean ([D18])");
+    p.Add("band_voxels", band_voxels, {0.9, 10.0}, "voxels", "voxels so near the surface get votes");
+    p.Add("min_observations", min_observations, {1, 1000}, "", "an object counts once it was detected so often");
+    p.Add("min_rate", min_rate, {0.0, 1.0}, "", "and in such a share of the detected frames that show it");
+    p.Add("stride", stride, {1, 1000}, "frames", "lockstep: detect in every so-manieth frame; live takes what the detector can do");
+    p.AddChoice<ModelFamily>("family", family, {{"auto", ModelFamily::kAuto}, {"yolox", ModelFamily::kYolox}, {"yolov5", ModelFamily::kYolov5}, {"yolov8", ModelFamily::kYolov8}, {"darknet", ModelFamily::kDarknet}},
+                             "of a network: how to read its outputs; auto tells by their shapes");
+    p.Add("names", names, "file with the network's class names, one a line; empty: COCO's 80");
+    p.Add("input_px", input_px, {0, 4096}, "px", "edge of the network's square input, a multiple of 32; 0 tries 416, 640 and 320");
+    p.Add("overlap", overlap, {0.0, 1.0}, "", "of two boxes of a class that overlap more (intersection over union), the less probable goes");
+    p.Add("synthetic_missed", synthetic_missed, {0.0, 1.0}, "", "share of detections that --labels synthetic leaves out");
+    p.Add("synthetic_wrong", synthetic_wrong, {0.0, 1.0}, "", "share to which --labels synthetic gives a wrong class");
+    p.Add("synthetic_seed", synthetic_seed, {0, 2147483647}, "", "which ones");
+}
+
+Status LabelConfig::Validate() const {
+    if (input_px % 32 != 0)
+        return Status::Error(fmt::format("labels.input_px: {} is not a multiple of 32", input_px));
+    const Result<LabelClasses> made = LabelClasses::Make(*this, {});
+    return made.status();
+}
+
+void LabelClasses::Add(const std::string& name, Rgb8 colour) {
+    ids_[name] = static_cast<int>(names_.size());
+    names_.push_back(name);
+    colours_.push_back(colour);
+}
+
+Result<LabelClasses> LabelClasses::Make(const LabelConfig& config, const std::vector<std::string>& known) {
+    LabelClasses made;
+    for (const auto& [from, to] : SplitPairs(config.aliases)) {
+        if (from.empty() || to.empty())
+            return Status::Error("labels.aliases: '" + from + "=" + to + "' is not NAME=NAME");
+        made.aliases_[from] = to;
+    }
+    const auto ours = [&](const std::string& name) {
+        const auto alias = made.aliases_.find(WithoutBlanks(name));
+        return alias == made.aliases_.end() ? WithoutBlanks(name) : alias->second;
+    };
+    Pairs wanted = SplitPairs(config.classes);
+    const bool all = std::ranges::any_of(wanted, [](const auto& entry) { return entry.first == "all"; });
+    std::erase_if(wanted, [](const auto& entry) { return entry.first == "all"; });
+    if (all)
+        for (const std::string& name : known)
+            if (std::ranges::none_of(wanted, [&](const auto& entry) { return entry.first == ours(name); }))
+                wanted.emplace_back(ours(name), "");
+    if (wanted.empty() && !all) return Status::Error("labels.classes: names no class");
+    for (const auto& [name, colour] : wanted) {
+        if (name.empty() || made.ids_.contains(name))
+            return Status::Error("labels.classes: '" + name + "' is empty or given twice");
+        const auto rgb = colour.empty() ? DistinctColour(made.count()) : ParseColour(colour);
+        if (!rgb) return Status::Error(fmt::format("labels.classes: {}={}: expected a colour as #rrggbb", name, colour));
+        made.Add(name, *rgb);
+    }
+    if (made.count() > kMost)
+        return Status::Error(fmt::format("labels.classes: {} classes, at most {}", made.count(), kMost));
+    if (!known.empty() && std::ranges::none_of(known, [&](const auto& name) { return made.IdOf(name) > 0; }))
+        return Status::Error(fmt::format("labels.classes: the detector knows none of them (it knows {}{}); set labels.classes or "
+                                         "labels.aliases, or labels.classes=all", known.front(), known.size() > 1 ? ", ..." : ""));
+    return made;
+}
+
+int LabelClasses::IdOf(const std::string& detector_name) const {
+    const std::string name = WithoutBlanks(detector_name);
+    const auto alias = aliases_.find(name);
+    const auto found = ids_.find(alias == aliases_.end() ? name : alias->second);
+    return found == ids_.end() ? 0 : found->second;
+}
+
+}  // namespace tessera

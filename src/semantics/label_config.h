@@ -1,0 +1,79 @@
+// What is to be found in the images, and how sure of it one must be: section `labels` of the configuration. Immutable
+// values once read; thread-safe to read.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/config.h"
+#include "core/image.h"
+#include "core/status.h"
+
+namespace tessera {
+
+// Which pixels of a detection's box belong to the object.
+enum class LabelRegion {
+    kSegment,    // its own connected depth segment (depth_segment.h), or the model's mask where it gives one
+    kMeanDepth,  // all that is not deeper than the box's mean depth: [D18] 3.3
+};
+
+// How a network's outputs are to be read (yolo_outputs.h).
+enum class ModelFamily { kAuto, kYolox, kYolov5, kYolov8, kDarknet };
+
+struct LabelConfig {
+    // "name" or "name=#rrggbb", separated by blanks; "all" is every class that the detector knows.
+    std::string classes = "computer=#e6403a laptop=#f5a623 keyboard=#3cb44b book=#4363d8 cup=#b146c2";
+    // "a detector's name=ours", separated by blanks.
+    std::string aliases = "tv=computer tvmonitor=computer monitor=computer";
+    double min_probability = 0.5;  // [D18] 3.3
+    LabelRegion region = LabelRegion::kSegment;
+    double band_voxels = 1.5;
+    int min_observations = 6;
+    double min_rate = 0.3;
+    int stride = 1;
+    // Of network detectors.
+    ModelFamily family = ModelFamily::kAuto;
+    std::string names;
+    int input_px = 0;
+    double overlap = 0.45;
+    // Of --labels synthetic.
+    double synthetic_missed = 0.1, synthetic_wrong = 0.03;
+    int synthetic_seed = 1;
+
+    void Describe(ConfigParameters& parameters);
+    // Errors name the key and what in it cannot be read.
+    Status Validate() const;
+};
+
+// The classes of one run, numbered from 1; 0 is "none of them".
+class LabelClasses {
+  public:
+    static constexpr int kMost = 250;
+
+    LabelClasses() = default;
+    // `known`: what the detector can say, for "all". An error names labels.classes, labels.aliases or the limit, or says
+    // that the detector knows none of the classes. An empty `known` is not checked.
+    static Result<LabelClasses> Make(const LabelConfig& config, const std::vector<std::string>& known);
+
+    // Blanks and "_" are the same; aliases are followed. 0 if the class is not wanted.
+    int IdOf(const std::string& detector_name) const;
+
+    int count() const { return static_cast<int>(names_.size()) - 1; }
+    const std::string& name(int id) const { return names_[static_cast<std::size_t>(id)]; }  // id in [0, count]
+    Rgb8 colour(int id) const { return colours_[static_cast<std::size_t>(id)]; }
+
+  private:
+    void Add(const std::string& name, Rgb8 colour);
+
+    std::vector<std::string> names_{""};
+    std::vector<Rgb8> colours_{Rgb8{90, 90, 90}};
+    std::map<std::string, int> ids_;
+    std::map<std::string, std::string> aliases_;
+};
+
+// Distinct for neighbouring numbers; the n-th is always the same.
+Rgb8 DistinctColour(int n);
+
+}  // namespace tessera

@@ -1,0 +1,146 @@
+#include "semantics/label_mapper.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tessera {
+namespace {
+
+constexpr int kSampling = 4;  // pixels, of the predicted view and of what is compared with it
+constexpr float kNear_m = 0.1f;
+constexpr float kTrim = 0.05f;  // of a detection's points on each side of each axis, for its box
+
+const VoxelLabel* VoxelAt(const BlockMap& map, const Eigen::Array3i& voxel) {
+    const BlockId id = map.Find({voxel.x() >> 3, voxel.y() >> 3, voxel.z() >> 3});
+    if (id == kUnknownBlock) return nullptr;
+    return map.label(id) + (voxel.x() & 7) + 8 * (voxel.y() & 7) + 64 * (voxel.z() & 7);
+}
+
+// The nearest voxel's label; where that has none, of the next one along the axis on which the point lies between two.
+VoxelLabel LabelNear(const BlockMap& map, const Eigen::Vector3d& p_world) {
+    const Eigen::Array3d at = p_world.array() / map.config().voxel_size_m;
+    const Eigen::Array3i nearest = at.round().cast<int>();
+    const VoxelLabel* label = VoxelAt(map, nearest);
+    if (label != nullptr && label->count[0] > 0) return *label;
+    int axis = 0;
+    const Eigen::Array3d rest = at - nearest.cast<double>();
+    rest.abs().maxCoeff(&axis);
+    Eigen::Array3i next = nearest;
+    next[axis] += rest[axis] > 0 ? 1 : -1;
+    label = VoxelAt(map, next);
+    return label != nullptr ? *label : VoxelLabel{};
+}
+
+Eigen::AlignedBox3d TrimmedBox(std::vector<Eigen::Vector3d>& points) {
+    Eigen::AlignedBox3d box;
+    if (points.empty()) return box;
+    const auto cut = static_cast<std::size_t>(kTrim * static_cast<float>(points.size()));
+    for (int axis = 0; axis < 3; ++axis) {
+        std::ranges::sort(points, {}, [axis](const Eigen::Vector3d& p) { return p[axis]; });
+        box.min()[axis] = points[cut][axis];
+        box.max()[axis] = points[points.size() - 1 - cut][axis];
+    }
+    return box;
+}
+
+Instances::Config InstanceConfig(const LabelConfig& config) { return {config.min_observations, config.min_rate}; }
+
+}  // namespace
+
+LabelMapper::LabelMapper(const LabelConfig& config, LabelClasses classes, const PinholeCamera& camera)
+    : config_(config), classes_(std::move(classes)), camera_(camera), instances_(InstanceConfig(config)) {}
+
+VoteCount LabelMapper::Label(std::span<const Detection> detections, const DepthImage& depth_m,
+                             const Eigen::Isometry3d& T_world_camera, BlockMap& map) {
+    // 1. What do the detections say of each pixel?
+    MakeLabelImage(depth_m, camera_, detections, config_.region, image_);
+    const float farthest_m = *std::max_element(depth_m.data(), depth_m.data() + depth_m.size());
+    // 2. What does the map say?
+    PredictInstances(T_world_camera, farthest_m, map);
+    std::map<InstanceId, int> visible;
+    for (std::size_t i = 0; i < predicted_.size(); ++i)
+        if (predicted_.data()[i] != 0) ++visible[predicted_.data()[i]];
+    // 3. Which is which?
+    const std::vector<InstanceId> match = instances_.Match(Observe(detections, depth_m, T_world_camera), visible);
+    // 4. Votes.
+    std::vector<Ballot> ballots(detections.size());
+    for (std::size_t i = 0; i < match.size(); ++i)
+        if (match[i] != 0) ballots[i] = {static_cast<std::uint8_t>(detections[i].class_id), match[i]};
+    return VoteLabels(image_, ballots, depth_m, camera_, T_world_camera, config_.band_voxels * map.config().voxel_size_m, map);
+}
+
+void LabelMapper::PredictInstances(const Eigen::Isometry3d& T_world_camera, float farthest_m, const BlockMap& map) {
+    const PinholeCamera camera = camera_.Every(kSampling);
+    ray_caster_.Predict(map, camera, T_world_camera, kNear_m, std::max(2 * kNear_m, 1.1f * farthest_m), view_);
+    predicted_.Resize(camera.width, camera.height);
+    tbb::parallel_for(0, camera.height, [&](int y) {
+        for (int x = 0; x < camera.width; ++x) {
+            const float z = view_.depth_m(x, y);
+            predicted_(x, y) = z > 0 ? instances_.Resolve(LabelNear(map, T_world_camera * camera.Unproject(x, y, z)).instance)
+                                     : InstanceId{0};
+        }
+    });
+}
+
+std::vector<ObservedObject> LabelMapper::Observe(std::span<const Detection> detections, const DepthImage& depth_m,
+                                                 const Eigen::Isometry3d& T_world_camera) const {
+    std::vector<ObservedObject> observed(std::min(detections.size(), LabelImage::kMostDetections));
+    std::vector<std::vector<Eigen::Vector3d>> points(observed.size());
+    for (int y = 0; y < predicted_.height(); ++y)
+        for (int x = 0; x < predicted_.width(); ++x) {
+            const int u = x * kSampling + kSampling / 2, v = y * kSampling + kSampling / 2;
+            const std::uint8_t label = image_.detection(u, v);
+            if (label == 0 || label == LabelImage::kBesideObjects || depth_m(u, v) <= 0) continue;
+            ObservedObject& o = observed[label - 1u];
+            ++o.pixels;
+            if (predicted_(x, y) != 0) ++o.overlaps[predicted_(x, y)];
+            points[label - 1u].push_back(T_world_camera * camera_.Unproject(u, v, depth_m(u, v)));
+        }
+    for (std::size_t i = 0; i < observed.size(); ++i) {
+        observed[i].class_id = detections[i].class_id;
+        observed[i].probability = detections[i].probability;
+        observed[i].box = TrimmedBox(points[i]);
+    }
+    return observed;
+}
+
+VertexLabel LabelMapper::LabelOf(const VoxelLabel& voxel) const {
+    if (ClassOf(voxel) == 0) return {};
+    if (voxel.instance == 0) return {ClassOf(voxel), 0};
+    const InstanceId id = instances_.Resolve(voxel.instance);
+    if (!instances_.confirmed(id)) return {};
+    return {static_cast<std::uint8_t>(instances_.ClassOf(id)), static_cast<std::uint16_t>(instances_.record(id).public_id)};
+}
+
+void LabelMapper::LabelVertices(const BlockMap& map, TriangleMesh& mesh) const {
+    mesh.labels.resize(mesh.vertices.size());
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, mesh.vertices.size(), 4096), [&](const auto& range) {
+        for (std::size_t i = range.begin(); i < range.end(); ++i)
+            mesh.labels[i] = LabelOf(LabelNear(map, mesh.vertices[i].cast<double>()));
+    });
+}
+
+std::vector<MapObject> LabelMapper::Objects(const TriangleMesh& labelled) const {
+    std::vector<MapObject> objects;
+    for (InstanceId id = 1; id <= instances_.last() && id != 0; ++id) {
+        if (!instances_.confirmed(id) || instances_.Resolve(id) != id) continue;
+        MapObject object;
+        object.id = instances_.record(id).public_id;
+        object.class_id = instances_.ClassOf(id);
+        object.class_name = classes_.name(object.class_id);
+        object.colour = classes_.colour(object.class_id);
+        object.probability = instances_.Probability(id);
+        object.observations = instances_.record(id).observations;
+        objects.push_back(std::move(object));
+    }
+    tbb::parallel_for(std::size_t{0}, objects.size(), [&](std::size_t i) { MeasureObject(labelled, objects[i]); });
+    std::erase_if(objects, [](const MapObject& o) { return o.vertices == 0; });
+    std::ranges::sort(objects, {}, &MapObject::id);
+    return objects;
+}
+
+void LabelMapper::Reset() { instances_ = Instances(InstanceConfig(config_)); }
+
+}  // namespace tessera

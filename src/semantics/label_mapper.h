@@ -1,0 +1,52 @@
+// Labels of a map: takes detections with the pose and depth of their frame, votes them into the voxels, keeps the
+// instances apart, and labels the mesh at the end.
+#pragma once
+
+#include <span>
+
+#include "mapping/ray_caster.h"
+#include "semantics/instances.h"
+#include "semantics/label_votes.h"
+#include "semantics/map_object.h"
+
+namespace tessera {
+
+// The map's owner thread only.
+class LabelMapper {
+  public:
+    LabelMapper(const LabelConfig& config, LabelClasses classes, const PinholeCamera& camera);
+
+    // `detections` as KeepWanted leaves them, of the frame with this depth and pose; the frame need not be the last one
+    // fused. The map has labels.
+    VoteCount Label(std::span<const Detection> detections, const DepthImage& depth_m, const Eigen::Isometry3d& T_world_camera,
+                    BlockMap& map);
+
+    // Gives each vertex the label of the voxel it lies at: the class of its confirmed instance, else its own; nothing where
+    // the instance is not confirmed. VertexLabel::instance is the public number.
+    void LabelVertices(const BlockMap& map, TriangleMesh& mesh) const;
+
+    // The confirmed objects that the labelled mesh shows, by number.
+    std::vector<MapObject> Objects(const TriangleMesh& labelled) const;
+
+    const LabelClasses& classes() const { return classes_; }
+    const Instances& instances() const { return instances_; }
+    // Everything forgotten: a new map.
+    void Reset();
+
+  private:
+    void PredictInstances(const Eigen::Isometry3d& T_world_camera, float farthest_m, const BlockMap& map);
+    std::vector<ObservedObject> Observe(std::span<const Detection> detections, const DepthImage& depth_m,
+                                        const Eigen::Isometry3d& T_world_camera) const;
+    VertexLabel LabelOf(const VoxelLabel& voxel) const;
+
+    LabelConfig config_;
+    LabelClasses classes_;
+    PinholeCamera camera_;
+    RayCaster ray_caster_;
+    PredictedView view_;
+    Image<InstanceId> predicted_;
+    LabelImage image_;
+    Instances instances_;
+};
+
+}  // namespace tessera

@@ -1,0 +1,33 @@
+// Detections become votes of voxels ([D18] eq. 1): from the pose and depth of the frame that was detected, however late the
+// detector answered.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <span>
+#include <vector>
+
+#include "core/camera.h"
+#include "mapping/block_map.h"
+#include "semantics/label_image.h"
+
+namespace tessera {
+
+// What a detection's pixels vote for.
+struct Ballot {
+    std::uint8_t class_id = 0;   // 0: no vote
+    std::uint16_t instance = 0;  // 0: against whatever there is
+};
+
+struct VoteCount {
+    std::int64_t voxels = 0;  // that got a vote
+    std::int64_t flips = 0;   // settled voxels that changed their class (voxel_label.h)
+};
+
+// One vote for each voxel whose stored distance is at most `band_m` from the surface and that the frame sees: it projects
+// to a pixel with a label and measured depth within the map's truncation. `ballots`: one a detection; pixels beside
+// objects vote for the background. The map must have labels; no voxel is made. Uses all cores (TBB), the same result for
+// any number. The map's owner only.
+VoteCount VoteLabels(const LabelImage& labels, std::span<const Ballot> ballots, const DepthImage& depth_m,
+                     const PinholeCamera& camera, const Eigen::Isometry3d& T_world_camera, double band_m, BlockMap& map);
+
+}  // namespace tessera

@@ -1,0 +1,110 @@
+#include "semantics/map_object.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+namespace tessera {
+namespace {
+
+constexpr double kStray = 0.005;
+constexpr int kAngles = 30;  // tried over a quarter turn
+
+using Points = std::vector<Eigen::Vector3d>;
+
+Eigen::AlignedBox3d TrimmedBox(const Points& points, const Eigen::Matrix3d& R_box_world) {
+    Eigen::AlignedBox3d box;
+    std::vector<double> values(points.size());
+    const auto low = static_cast<std::ptrdiff_t>(kStray * static_cast<double>(points.size()));
+    for (int axis = 0; axis < 3; ++axis) {
+        for (std::size_t i = 0; i < points.size(); ++i) values[i] = R_box_world.row(axis).dot(points[i]);
+        std::nth_element(values.begin(), values.begin() + low, values.end());
+        box.min()[axis] = values[static_cast<std::size_t>(low)];
+        std::nth_element(values.begin(), values.end() - 1 - low, values.end());
+        box.max()[axis] = *(values.end() - 1 - low);
+    }
+    return box;
+}
+
+Eigen::Matrix3d PrincipalAxes(const Points& points) {
+    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+    for (const Eigen::Vector3d& p : points) mean += p / static_cast<double>(points.size());
+    Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
+    for (const Eigen::Vector3d& p : points) second += (p - mean) * (p - mean).transpose();
+    Eigen::Matrix3d axes = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(second).eigenvectors();
+    if (axes.determinant() < 0) axes.col(0) *= -1;
+    return axes.transpose();
+}
+
+// The smallest box found by turning the principal axes about each of themselves.
+void FitOrientedBox(const Points& points, MapObject& object) {
+    const Eigen::Matrix3d principal = PrincipalAxes(points);
+    double least = std::numeric_limits<double>::max();
+    for (int about = 0; about < 3; ++about)
+        for (int step = 0; step < kAngles; ++step) {
+            const double angle = step * std::numbers::pi / 2 / kAngles;
+            const Eigen::Matrix3d R = Eigen::AngleAxisd(angle, Eigen::Vector3d::Unit(about)).toRotationMatrix() * principal;
+            const Eigen::AlignedBox3d box = TrimmedBox(points, R);
+            const double volume = (box.sizes().array() + 1e-4).prod();
+            if (volume >= least) continue;
+            least = volume;
+            object.T_world_oriented.linear() = R.transpose();
+            object.T_world_oriented.translation() = R.transpose() * box.center();
+            object.oriented_size = box.sizes();
+        }
+}
+
+nlohmann::ordered_json Rounded(const Eigen::Vector3d& v) {
+    const auto to_tenth_mm = [](double m) { return std::round(m * 1e4) / 1e4; };
+    return {to_tenth_mm(v.x()), to_tenth_mm(v.y()), to_tenth_mm(v.z())};
+}
+
+}  // namespace
+
+void MeasureObject(const TriangleMesh& mesh, MapObject& object) {
+    const auto is_its = [&](std::uint32_t v) { return mesh.labels[v].instance == object.id; };
+    Points points;
+    for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v)
+        if (is_its(v)) points.push_back(mesh.vertices[v].cast<double>());
+    object.vertices = static_cast<std::int64_t>(points.size());
+    if (points.empty()) return;
+    Eigen::Vector3d moment = Eigen::Vector3d::Zero(), mean = Eigen::Vector3d::Zero();
+    double area = 0;
+    for (const auto& [ia, ib, ic] : mesh.triangles) {
+        if (!is_its(ia) || !is_its(ib) || !is_its(ic)) continue;
+        const Eigen::Vector3d a = mesh.vertices[ia].cast<double>(), b = mesh.vertices[ib].cast<double>(),
+                              c = mesh.vertices[ic].cast<double>();
+        const double part = (b - a).cross(c - a).norm();
+        moment += part * (a + b + c) / 3;
+        area += part;
+    }
+    for (const Eigen::Vector3d& p : points) mean += p / static_cast<double>(points.size());
+    object.centroid = area > 0 ? Eigen::Vector3d(moment / area) : mean;
+    object.box = TrimmedBox(points, Eigen::Matrix3d::Identity());
+    FitOrientedBox(points, object);
+}
+
+std::string ObjectsJson(const std::vector<MapObject>& objects) {
+    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    for (const MapObject& o : objects) {
+        const Eigen::Quaterniond q(o.T_world_oriented.linear());
+        list.push_back({{"id", o.id},
+                        {"class", o.class_name},
+                        {"class_id", o.class_id},
+                        {"colour", fmt::format("#{:02x}{:02x}{:02x}", o.colour.r, o.colour.g, o.colour.b)},
+                        {"probability", std::round(o.probability * 1e4) / 1e4},
+                        {"observations", o.observations},
+                        {"vertices", o.vertices},
+                        {"centroid", Rounded(o.centroid)},
+                        {"aabb_min", Rounded(o.box.min())},
+                        {"aabb_max", Rounded(o.box.max())},
+                        {"obb_centre", Rounded(o.T_world_oriented.translation())},
+                        {"obb_size", Rounded(o.oriented_size)},
+                        {"obb_quaternion_xyzw", {q.x(), q.y(), q.z(), q.w()}}});
+    }
+    return list.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace tessera

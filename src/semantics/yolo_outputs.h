@@ -1,0 +1,54 @@
+// What the outputs of detection networks mean: which family they are of, by their shapes, and the boxes in them. Plain
+// arrays, no library's types. Pure functions, thread-safe.
+//
+// S is the edge of the square input in pixels, A = (S/8)^2 + (S/16)^2 + (S/32)^2 the cells of the three strides, C the
+// number of classes.
+//   YOLOX    1 x A x (5 + C)    centre and size counted in cells of their stride, sizes as logarithms
+//   YOLOv5   1 x 3A x (5 + C)   centre and size in input pixels
+//   YOLOv8   1 x (4 + C) x A    the same, channels first; with masks (4 + C + 32) and a second output 1 x 32 x S/4 x S/4
+//   Darknet  several N x (5 + C), relative to the input's size
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/status.h"
+#include "semantics/detector.h"
+
+namespace tessera {
+
+struct OutputArray {
+    std::vector<int> shape;
+    const float* data = nullptr;  // row-major
+};
+
+struct YoloLayout {
+    ModelFamily family = ModelFamily::kAuto;  // never kAuto once recognised
+    int input_px = 0;
+    int classes = 0;
+    int mask_coefficients = 0;  // 0: no masks
+    int boxes_output = 0, masks_output = -1;  // indices
+};
+
+// `family` other than kAuto: only that one is tried. The error lists the shapes.
+Result<YoloLayout> RecogniseOutputs(const std::vector<OutputArray>& outputs, int input_px, ModelFamily family);
+
+// One box in input pixels, ends as distances (not inclusive pixels).
+struct RawDetection {
+    int class_index = 0;
+    float probability = 0;
+    float x_min = 0, y_min = 0, x_max = 0, y_max = 0;
+    std::vector<float> mask_coefficients;
+};
+
+// Those of at least `min_probability` > 0, numbers that are not finite left out, in the outputs' order.
+std::vector<RawDetection> DecodeOutputs(const YoloLayout& layout, const std::vector<OutputArray>& outputs,
+                                        float min_probability);
+
+// Of boxes of one class that overlap more than `overlap`, only the most probable stays; sorted by falling probability.
+void SuppressOverlaps(float overlap, std::vector<RawDetection>& detections);
+
+// The model's mask at input pixel (x, y): 1 inside.
+bool MaskAt(const YoloLayout& layout, const std::vector<OutputArray>& outputs, const RawDetection& detection, float x, float y);
+
+}  // namespace tessera

@@ -1,0 +1,65 @@
+#include "system/labelling_stage.h"
+
+#include <exception>
+
+#include "core/stopwatch.h"
+
+namespace tessera {
+
+bool LabellingStage::Detect(const Frame& frame, LabelReport& report, std::string& message) {
+    message.clear();
+    if (broken_) return false;
+    Stopwatch watch;
+    const auto detect = [&]() -> Result<std::vector<Detection>> {
+        try {
+            return detector_->Detect(frame);
+        } catch (const std::exception& error) {  // a detector that breaks its word must not end the run
+            return Status::Error(error.what());
+        }
+    };
+    Result<std::vector<Detection>> found = detect();
+    if (!found.ok()) {
+        broken_ = true;
+        message = "labelling stops, the run goes on: " + found.message();
+        return false;
+    }
+    report = {};
+    report.stamp_s = frame.stamp_s;
+    report.colour_stamp_s = frame.colour_stamp_s;
+    report.detections = std::move(found.value());
+    KeepWanted(classes_, config_.min_probability, report.detections);
+    report.detect_ms = watch.LapMs();
+    return true;
+}
+
+LabellingThread::LabellingThread(LabellingStage stage, Wake& mapping)
+    : stage_(std::move(stage)), answers_(2, mapping), thread_([this] { Work(); }) {}
+
+LabellingThread::~LabellingThread() {
+    stop_.store(true);
+    wake_.Notify();
+}
+
+std::unique_ptr<Frame> LabellingThread::Offer(Job job) {
+    if (broken_.load()) return std::move(job.frame);
+    auto dropped = jobs_.Push(std::move(job));
+    return dropped ? std::move(dropped->frame) : nullptr;
+}
+
+bool LabellingThread::TryTake(Answer& answer) {
+    if (!answers_.TryPop(answer)) return false;
+    wake_.Notify();
+    return true;
+}
+
+void LabellingThread::Work() {
+    while (!stop_.load()) {
+        wake_.Wait([&] { return !jobs_.empty() || stop_.load(); });
+        Answer answer;
+        if (stop_.load() || !jobs_.TryPop(answer.job)) continue;
+        if (!stage_.Detect(*answer.job.frame, answer.report, answer.message)) broken_.store(true);
+        wake_.Wait([&] { return answers_.TryPush(std::move(answer)) || stop_.load(); });
+    }
+}
+
+}  // namespace tessera

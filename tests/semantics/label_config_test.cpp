@@ -1,0 +1,58 @@
+#include "semantics/label_config.h"
+
+#include <gtest/gtest.h>
+
+namespace tessera {
+namespace {
+
+TEST(LabelClasses, ThePapersFiveAndTheAlias) {
+    const auto classes = LabelClasses::Make({}, {});
+    ASSERT_TRUE(classes.ok()) << classes.message();
+    EXPECT_EQ(classes.value().count(), 5);
+    EXPECT_EQ(classes.value().name(1), "computer");
+    EXPECT_EQ(classes.value().IdOf("cup"), 5);
+    EXPECT_EQ(classes.value().IdOf("tv"), 1);
+    EXPECT_EQ(classes.value().IdOf("person"), 0);
+    EXPECT_EQ(classes.value().colour(1), (Rgb8{0xe6, 0x40, 0x3a}));
+}
+
+TEST(LabelClasses, AllIsWhatTheDetectorKnowsAliasesJoined) {
+    LabelConfig config;
+    config.classes = "all cup=#010203";
+    const auto classes = LabelClasses::Make(config, {"cell phone", "tv", "computer"});
+    ASSERT_TRUE(classes.ok()) << classes.message();
+    EXPECT_EQ(classes.value().count(), 3);  // cup, cell_phone, computer
+    EXPECT_EQ(classes.value().IdOf("cell_phone"), classes.value().IdOf("cell phone"));
+    EXPECT_EQ(classes.value().IdOf("tv"), classes.value().IdOf("computer"));
+    EXPECT_EQ(classes.value().colour(classes.value().IdOf("cup")), (Rgb8{1, 2, 3}));
+}
+
+TEST(LabelClasses, ErrorsNameTheKey) {
+    const auto error = [](const std::string& classes, const std::string& aliases, const std::vector<std::string>& known = {}) {
+        LabelConfig config;
+        config.classes = classes;
+        config.aliases = aliases;
+        return LabelClasses::Make(config, known).message();
+    };
+    EXPECT_NE(error("", "").find("labels.classes"), std::string::npos);
+    EXPECT_NE(error("cup cup", "").find("'cup' is empty or given twice"), std::string::npos);
+    EXPECT_NE(error("cup=red", "").find("#rrggbb"), std::string::npos);
+    EXPECT_NE(error("cup", "tv").find("labels.aliases"), std::string::npos);
+    EXPECT_NE(error("cup", "", {"dog", "cat"}).find("knows none of them (it knows dog, ...)"), std::string::npos);
+}
+
+TEST(DistinctColour, TheFirstTwentyDiffer) {
+    for (int a = 0; a < 20; ++a)
+        for (int b = 0; b < a; ++b) EXPECT_FALSE(DistinctColour(a) == DistinctColour(b)) << a << " " << b;
+}
+
+TEST(LabelConfig, InputMustFitTheStrides) {
+    LabelConfig config;
+    config.input_px = 100;
+    EXPECT_NE(config.Validate().message().find("labels.input_px"), std::string::npos);
+    config.input_px = 416;
+    EXPECT_TRUE(config.Validate().ok());
+}
+
+}  // namespace
+}  // namespace tessera
