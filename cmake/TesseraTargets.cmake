@@ -54,9 +54,10 @@ endfunction()
 # All unit test programs: what a sanitizer build needs.
 add_custom_target(tessera_unit_tests)
 
-# tessera_test(NAME SOURCES... LINK libs... LABEL unit|data|slow): one GoogleTest program, one ctest entry per test.
+# tessera_test(NAME SOURCES... LINK libs... LABEL unit|data|slow [SERIAL]): one GoogleTest program, one ctest entry per
+# test. SERIAL: no other test runs beside it, for those that look at a clock.
 function(tessera_test name)
-    cmake_parse_arguments(ARG "" "LABEL" "SOURCES;LINK" ${ARGN})
+    cmake_parse_arguments(ARG "SERIAL" "LABEL" "SOURCES;LINK" ${ARGN})
     if(NOT ARG_LABEL)
         set(ARG_LABEL unit)
     endif()
@@ -70,5 +71,5 @@ function(tessera_test name)
     if(ARG_LABEL STREQUAL unit)
         add_dependencies(tessera_unit_tests ${name})
     endif()
-    gtest_discover_tests(${name} NO_PRETTY_VALUES DISCOVERY_TIMEOUT 60 PROPERTIES LABELS ${ARG_LABEL} TIMEOUT 900)
+    gtest_discover_tests(${name} NO_PRETTY_VALUES DISCOVERY_TIMEOUT 60 PROPERTIES LABELS ${ARG_LABEL} TIMEOUT 900 RUN_SERIAL ${ARG_SERIAL})
 endfunction()

@@ -121,6 +121,7 @@ double Viewer::Impl::FramePeriodS() const {
 }
 
 bool Viewer::Impl::RunOnce() {
+    ImGui::GetIO().MouseDoubleClickTime = static_cast<float>(state.options.double_click_s);
     if (window->WaitForInput(state.options.wait_s)) rounds_to_draw = kSettlingRounds;
     const double now_s = clock.ElapsedMs() / 1000;
     ViewerLink* const link = state.link;

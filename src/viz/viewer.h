@@ -24,6 +24,7 @@ struct ViewerOptions {
     bool follow = true;                // the sensor at first; else all of the mesh, until the person turns the view
     bool close_at_end = false;         // with ViewerLink::ended; else the person closes
     double wait_s = 1.0 / 30;          // how long RunOnce may sleep when there is nothing to do
+    double double_click_s = 0.3;       // at most so long between the two clicks
     double max_fps = 0;                // of drawing; 0: 60 on a graphics card, 15 in software
 };
 

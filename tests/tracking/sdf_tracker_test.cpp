@@ -57,7 +57,9 @@ TEST(SdfTracker, AutoAlphaGrowsWhenNeighboursShareDistanceErrors) {
     room.has_ball = true;
     const World world(room);
     const auto settle = [&](double bump_m) {
-        const TestTracker tracker = FineSdf({});
+        Photometry::Config config;
+        config.auto_alpha_max = 100;
+        const TestTracker tracker = FineSdf(config);
         Frame frame = world.room.Render(world.camera, SmoothPath(20));
         for (int v = 0; v < frame.depth_m.height(); ++v)
             for (int u = 0; u < frame.depth_m.width(); ++u)

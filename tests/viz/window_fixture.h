@@ -32,6 +32,7 @@ class WindowTest : public testing::Test {
         options.truncation_m = 0.16;
         options.wait_s = 0;
         options.max_fps = 1e9;
+        options.double_click_s = 1e3;  // however slow the machine is
         auto viewer = Viewer::Open(link_, options);
         ASSERT_TRUE(viewer.ok()) << viewer.message();
         viewer_ = std::move(viewer.value());
