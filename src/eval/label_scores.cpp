@@ -225,8 +225,8 @@ InstancePoints Gather(const LabelTruth& truth, const RunLabels& run, const std::
         if (said != 0) points.class_of_found[said] = run.mesh.labels[i].class_id;
         if (is != 0 && said != 0) ++points.common[{is, said}];
     }
-    constexpr std::size_t kLeastVertices = 30;
-    std::erase_if(points.truth, [](const auto& entry) { return entry.second.size() < kLeastVertices; });
+    const std::size_t least = 30;  // vertices of a true object
+    std::erase_if(points.truth, [&](const auto& entry) { return entry.second.size() < least; });
     return points;
 }
 

@@ -34,10 +34,11 @@ struct Piece {
 // The window's pixels that lie in no plane, in pieces: the piece's number + 1, 0 = none.
 class Pieces {
   public:
-    Pieces(const DepthImage& depth_m, const PinholeCamera& camera, const PixelBox& box, const PixelBox& window)
+    Pieces(const DepthImage& depth_m, const PinholeCamera& camera, const PixelBox& box, const PixelBox& window,
+           std::span<const PixelBox> others)
         : depth_m_(depth_m), box_(box), window_(window), number_(window.width(), window.height(), 0),
           free_(window.width(), window.height(), 0) {
-        const std::vector<Plane> planes = FindRingPlanes(depth_m, camera, box, window);
+        const std::vector<Plane> planes = FindRingPlanes(depth_m, camera, box, window, others);
         for (int y = 0; y < window.height(); ++y)
             for (int x = 0; x < window.width(); ++x) free_(x, y) = IsFree(camera, planes, x, y);
         for (int y = 0; y < window.height(); ++y)
@@ -145,9 +146,10 @@ void SegmentByMeanDepth(const DepthImage& depth_m, const PixelBox& box, Image<st
         }
 }
 
-void SegmentByDepth(const DepthImage& depth_m, const PinholeCamera& camera, const PixelBox& box, Image<std::uint8_t>& mask) {
+void SegmentByDepth(const DepthImage& depth_m, const PinholeCamera& camera, const PixelBox& box,
+                    std::span<const PixelBox> others, Image<std::uint8_t>& mask) {
     mask.Resize(box.width(), box.height());
-    const Pieces pieces(depth_m, camera, box, Grown(box, depth_m));
+    const Pieces pieces(depth_m, camera, box, Grown(box, depth_m), others);
     const bool flat = static_cast<float>(pieces.free_inside()) < kFlatShare * static_cast<float>(box.width() * box.height());
     const std::vector<std::uint8_t> chosen = ChoosePieces(pieces.pieces());
     for (int y = 0; y < box.height(); ++y)

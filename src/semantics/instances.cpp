@@ -15,6 +15,7 @@ constexpr double kFree = 0.5;           // more of a region held by others is bu
 constexpr double kCovers = 0.6;         // of both, for one detection to say that two are one
 constexpr int kTogether = 4;
 constexpr int kTrialFrames = 12;        // in view, before one that is not confirmed may be dropped
+constexpr double kHeldShare = 0.3;     // of a detection's pixels shown by the map
 constexpr double kClassShare = 0.5;     // of the votes, to be confirmed
 
 double BoxOverlap(const Eigen::AlignedBox3d& a, const Eigen::AlignedBox3d& b) {
@@ -72,7 +73,7 @@ std::vector<InstanceId> Instances::Match(const std::vector<ObservedObject>& obse
     for (const auto& [id, pixels] : visible)
         if (pixels >= kLeastVisible || std::ranges::find(match, id) != match.end()) ++records_[id].visible_frames;
     for (std::size_t i = 0; i < observed.size(); ++i)
-        if (match[i] != 0) Update(match[i], observed[i]);
+        if (match[i] != 0) Update(match[i], observed[i], At(visible, match[i]));
     GatherEvidence(observed, visible, match);
     for (InstanceId id = 1; id <= last(); ++id) Judge(id);
     for (InstanceId& id : match) id = Resolve(id);
@@ -109,11 +110,12 @@ InstanceId Instances::Add() {
     return last();
 }
 
-void Instances::Update(InstanceId id, const ObservedObject& observed) {
+void Instances::Update(InstanceId id, const ObservedObject& observed, int visible) {
     InstanceRecord& r = records_[id];
     r.class_votes[observed.class_id] += observed.probability;
     ++r.class_counts[observed.class_id];
     ++r.observations;
+    r.held += visible >= kHeldShare * observed.pixels;
     r.box.extend(observed.box);
 }
 
@@ -124,7 +126,7 @@ void Instances::Judge(InstanceId id) {
     const double rate = static_cast<double>(r.observations) / std::max(1, r.visible_frames);
     const auto count = r.class_counts.find(ClassOf(id));
     const double share = count == r.class_counts.end() ? 0 : static_cast<double>(count->second) / r.observations;
-    if (r.observations >= config_.min_observations && rate >= config_.min_rate && share >= kClassShare)
+    if (r.observations >= config_.min_observations && rate >= config_.min_rate && share >= kClassShare && 2 * r.held >= r.observations)
         r.public_id = ++last_public_;
     else if (r.visible_frames >= kTrialFrames && rate < config_.min_rate)
         r.dropped = true;

@@ -31,6 +31,7 @@ struct InstanceRecord {
     std::map<int, double> class_votes;     // sums of probabilities
     std::map<int, int> class_counts;
     int observations = 0, visible_frames = 0;
+    int held = 0;                          // observations in which the map showed it there already
     int public_id = 0;                     // from 1 on; 0 while not confirmed
     InstanceId merged_into = 0;
     bool dropped = false;
@@ -68,7 +69,7 @@ class Instances {
     void Assign(const std::vector<ObservedObject>& observed, const std::map<InstanceId, int>& visible,
                 std::vector<InstanceId>& match) const;
     InstanceId Add();
-    void Update(InstanceId id, const ObservedObject& observed);
+    void Update(InstanceId id, const ObservedObject& observed, int visible);
     void Judge(InstanceId id);
     void GatherEvidence(const std::vector<ObservedObject>& observed, const std::map<InstanceId, int>& visible,
                         const std::vector<InstanceId>& match);

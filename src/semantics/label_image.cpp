@@ -18,15 +18,27 @@ bool IsSecondOpinion(std::span<const Detection> detections, std::size_t i) {
     });
 }
 
-void FindObject(const DepthImage& depth_m, const PinholeCamera& camera, const Detection& detection, const PixelBox& box,
-                LabelRegion region, Image<std::uint8_t>& mask) {
+// The other boxes that do not hold most of this one: an object's support may well be an object.
+std::vector<PixelBox> Neighbours(const std::vector<PixelBox>& boxes, const PixelBox& box) {
+    std::vector<PixelBox> neighbours;
+    for (const PixelBox& other : boxes) {
+        const int width = std::min(box.x_end, other.x_end) - std::max(box.x_begin, other.x_begin);
+        const int height = std::min(box.y_end, other.y_end) - std::max(box.y_begin, other.y_begin);
+        const bool holds = width > 0 && height > 0 && 2 * width * height > box.width() * box.height();
+        if (!other.empty() && !holds) neighbours.push_back(other);
+    }
+    return neighbours;
+}
+
+void FindObject(const DepthImage& depth_m, const PinholeCamera& camera, const Detection& detection,
+                const std::vector<PixelBox>& boxes, const PixelBox& box, LabelRegion region, Image<std::uint8_t>& mask) {
     const bool has_mask = detection.mask.width() == box.width() && detection.mask.height() == box.height();
     if (region == LabelRegion::kMeanDepth)
         SegmentByMeanDepth(depth_m, box, mask);
     else if (has_mask)
         mask = detection.mask;
     else
-        SegmentByDepth(depth_m, camera, box, mask);
+        SegmentByDepth(depth_m, camera, box, Neighbours(boxes, box), mask);
 }
 
 }  // namespace
@@ -37,10 +49,10 @@ void MakeLabelImage(const DepthImage& depth_m, const PinholeCamera& camera, std:
     const std::size_t count = std::min(detections.size(), LabelImage::kMostDetections);
     std::vector<PixelBox> boxes(count);
     std::vector<Image<std::uint8_t>> masks(count);
+    for (std::size_t i = 0; i < count; ++i)
+        if (!IsSecondOpinion(detections, i)) boxes[i] = PixelsOf(detections[i].box, depth_m.width(), depth_m.height());
     tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
-        if (IsSecondOpinion(detections, i)) return;
-        boxes[i] = PixelsOf(detections[i].box, depth_m.width(), depth_m.height());
-        if (!boxes[i].empty()) FindObject(depth_m, camera, detections[i], boxes[i], region, masks[i]);
+        if (!boxes[i].empty()) FindObject(depth_m, camera, detections[i], boxes, boxes[i], region, masks[i]);
     });
     std::vector<std::size_t> order(count);
     std::iota(order.begin(), order.end(), std::size_t{0});

@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace tessera {
 namespace {
 
 constexpr int kSampling = 4;  // pixels, of the predicted view and of what is compared with it
+constexpr double kLeastArea_m2 = 0.0015;
 constexpr float kNear_m = 0.1f;
 constexpr float kTrim = 0.05f;  // of a detection's points on each side of each axis, for its box
 
@@ -122,7 +124,7 @@ void LabelMapper::LabelVertices(const BlockMap& map, TriangleMesh& mesh) const {
     });
 }
 
-std::vector<MapObject> LabelMapper::Objects(const TriangleMesh& labelled) const {
+std::vector<MapObject> LabelMapper::Objects(double voxel_size_m, TriangleMesh& labelled) const {
     std::vector<MapObject> objects;
     for (InstanceId id = 1; id <= instances_.last() && id != 0; ++id) {
         if (!instances_.confirmed(id) || instances_.Resolve(id) != id) continue;
@@ -136,7 +138,12 @@ std::vector<MapObject> LabelMapper::Objects(const TriangleMesh& labelled) const 
         objects.push_back(std::move(object));
     }
     tbb::parallel_for(std::size_t{0}, objects.size(), [&](std::size_t i) { MeasureObject(labelled, objects[i]); });
-    std::erase_if(objects, [](const MapObject& o) { return o.vertices == 0; });
+    std::set<int> remains;
+    for (const MapObject& o : objects)
+        if (static_cast<double>(o.vertices) * voxel_size_m * voxel_size_m < kLeastArea_m2) remains.insert(o.id);
+    std::erase_if(objects, [&](const MapObject& o) { return remains.contains(o.id); });
+    for (VertexLabel& label : labelled.labels)
+        if (remains.contains(label.instance)) label = {};
     std::ranges::sort(objects, {}, &MapObject::id);
     return objects;
 }

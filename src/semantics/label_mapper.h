@@ -25,8 +25,9 @@ class LabelMapper {
     // the instance is not confirmed. VertexLabel::instance is the public number.
     void LabelVertices(const BlockMap& map, TriangleMesh& mesh) const;
 
-    // The confirmed objects that the labelled mesh shows, by number.
-    std::vector<MapObject> Objects(const TriangleMesh& labelled) const;
+    // The confirmed objects that the labelled mesh shows, by number. Remains of less than 15 square centimetres are none, and
+    // lose their label.
+    std::vector<MapObject> Objects(double voxel_size_m, TriangleMesh& labelled) const;
 
     const LabelClasses& classes() const { return classes_; }
     const Instances& instances() const { return instances_; }

@@ -13,21 +13,39 @@ constexpr std::size_t kMostPoints = 900;
 constexpr int kMostPlanes = 3, kTrials = 80;
 constexpr float kLeastShare = 0.125f;
 constexpr std::size_t kLeastPoints = 30;
+constexpr float kSideShare = 0.25f;  // of a side's points, for the side to show the plane
+constexpr float kMost = 0.5f;
 
 using Points = std::vector<Eigen::Vector3f>;
 
+bool Contains(const PixelBox& box, int x, int y) { return x >= box.x_begin && x < box.x_end && y >= box.y_begin && y < box.y_end; }
+
+// Above, below, left, right of the box.
+int SideOf(const PixelBox& box, int x, int y) {
+    if (x >= box.x_begin && x < box.x_end) return y < box.y_begin ? 0 : 1;
+    return x < box.x_begin ? 2 : 3;
+}
+
+struct Ring {
+    Points points;
+    std::vector<int> sides;  // of each point
+};
+
 bool LiesIn(const Plane& plane, const Eigen::Vector3f& p) { return std::abs(plane.n.dot(p) - plane.d) < PlaneTolerance_m(p.z()); }
 
-Points RingPoints(const DepthImage& depth_m, const PinholeCamera& camera, const PixelBox& box, const PixelBox& window) {
+Ring RingPoints(const DepthImage& depth_m, const PinholeCamera& camera, const PixelBox& box, const PixelBox& window,
+                std::span<const PixelBox> others) {
     const double area = static_cast<double>(window.width()) * window.height() - static_cast<double>(box.width()) * box.height();
     const int step = std::max(1, static_cast<int>(std::sqrt(area / static_cast<double>(kMostPoints))));
-    Points points;
+    Ring ring;
     for (int y = window.y_begin; y < window.y_end; y += step)
         for (int x = window.x_begin; x < window.x_end; x += step) {
-            const bool inside = x >= box.x_begin && x < box.x_end && y >= box.y_begin && y < box.y_end;
-            if (!inside && depth_m(x, y) > 0) points.push_back(camera.Unproject(x, y, depth_m(x, y)).cast<float>());
+            if (Contains(box, x, y) || depth_m(x, y) <= 0) continue;
+            if (std::ranges::any_of(others, [&](const PixelBox& other) { return Contains(other, x, y); })) continue;
+            ring.points.push_back(camera.Unproject(x, y, depth_m(x, y)).cast<float>());
+            ring.sides.push_back(SideOf(box, x, y));
         }
-    return points;
+    return ring;
 }
 
 std::size_t CountIn(const Plane& plane, const Points& points) {
@@ -79,20 +97,35 @@ Plane BestPlane(const Points& points, std::uint32_t& random) {
     return most > 0 ? Refined(Refined(best, points), points) : best;
 }
 
+bool CarriesOrBacks(const Plane& plane, const Ring& ring) {
+    float all[4] = {}, in[4] = {}, total = 0;
+    for (std::size_t i = 0; i < ring.points.size(); ++i) {
+        const auto side = static_cast<std::size_t>(ring.sides[i]);
+        ++all[side];
+        if (LiesIn(plane, ring.points[i])) ++in[side], ++total;
+    }
+    int sides = 0;
+    for (std::size_t s = 0; s < 4; ++s) sides += all[s] > 0 && in[s] >= kSideShare * all[s];
+    return sides >= 2 || total >= kMost * static_cast<float>(ring.points.size());
+}
+
 }  // namespace
 
 std::vector<Plane> FindRingPlanes(const DepthImage& depth_m, const PinholeCamera& camera, const PixelBox& box,
-                                  const PixelBox& window) {
-    Points points = RingPoints(depth_m, camera, box, window);
+                                  const PixelBox& window, std::span<const PixelBox> others) {
+    const Ring ring = RingPoints(depth_m, camera, box, window, others);
+    Points points = ring.points;
     const std::size_t least =
         std::max(kLeastPoints, static_cast<std::size_t>(kLeastShare * static_cast<float>(points.size())));
     std::vector<Plane> planes;
     std::uint32_t random = 1;
-    while (static_cast<int>(planes.size()) < kMostPlanes && points.size() >= least) {
+    int tried = 0;
+    while (tried < kMostPlanes && points.size() >= least) {
         const Plane plane = BestPlane(points, random);
         if (CountIn(plane, points) < least) break;
         std::erase_if(points, [&](const auto& p) { return LiesIn(plane, p); });
-        planes.push_back(plane);
+        if (CarriesOrBacks(plane, ring)) planes.push_back(plane);
+        ++tried;
     }
     return planes;
 }

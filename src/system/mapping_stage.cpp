@@ -64,7 +64,7 @@ TriangleMesh MappingStage::TakeMesh() {
     mesher_.Clear();
     if (labels_) {
         labels_->LabelVertices(*map_, mesh);
-        objects_ = labels_->Objects(mesh);
+        objects_ = labels_->Objects(map_->config().voxel_size_m, mesh);
         map_.reset();
     }
     return mesh;
