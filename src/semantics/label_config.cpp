@@ -69,7 +69,7 @@ void LabelConfig::Describe(ConfigParameters& p) {
     p.Add("overlap", overlap, {0.0, 1.0}, "", "of two boxes of a class that overlap more (intersection over union), the less probable goes");
     p.Add("synthetic_missed", synthetic_missed, {0.0, 1.0}, "", "share of detections that --labels synthetic leaves out");
     p.Add("synthetic_wrong", synthetic_wrong, {0.0, 1.0}, "", "share to which --labels synthetic gives a wrong class");
-    p.Add("synthetic_seed", synthetic_seed, {0, 2147483647}, "", "which ones");
+    p.Add("synthetic_seed", synthetic_seed, {0, 2147483647}, "", "which detections these are: another seed, other ones");
 }
 
 Status LabelConfig::Validate() const {
