@@ -24,8 +24,8 @@ inline constexpr int kSettledVotes = 8;
 inline constexpr int kLeastVotes = 2;  // for a voxel to have a class
 
 // One vote. Counters stop at 255; there a vote for the first takes one from the second, so that old mistakes fade. A third
-// class wears the second out before it takes its place. True if a settled voxel changed its class by it ([D18] 4.3: that
-// should not happen).
+// class wears the second out before it takes its place. True if a settled voxel went from one kind of object to another by it
+// ([D18] 4.3: that should not happen).
 TESSERA_HD bool VoteForClass(std::uint8_t class_id, VoxelLabel& v) {
     bool flipped = false;
     if (v.count[0] == 0 || v.class_id[0] == class_id) {
@@ -38,7 +38,7 @@ TESSERA_HD bool VoteForClass(std::uint8_t class_id, VoxelLabel& v) {
         v.class_id[1] = class_id;
         if (v.count[1] < 255) ++v.count[1];
         if (v.count[1] > v.count[0]) {
-            flipped = v.settled != 0 && v.settled == v.class_id[0];
+            flipped = v.settled == v.class_id[0] && v.settled != kBackgroundClass && v.class_id[1] != kBackgroundClass;
             const std::uint8_t old_class = v.class_id[0], old_count = v.count[0];
             v.class_id[0] = v.class_id[1];
             v.count[0] = v.count[1];

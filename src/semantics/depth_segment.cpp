@@ -12,7 +12,8 @@ constexpr float kRing = 0.15f;        // the ring's width as a share of the box'
 constexpr int kLeastRing_px = 8;
 constexpr float kFlatShare = 0.04f;   // less of the box off the planes: the object is flat
 constexpr float kInsideShare = 0.7f;  // of a further piece that belongs to the object
-constexpr float kSameDepth_m = 0.03f;
+constexpr float kSameDepth_m = 0.03f;   // to be a piece of the object, at least;
+constexpr float kDepthShare = 0.25f;    // large objects: this share of the box's width
 
 PixelBox Grown(const PixelBox& box, const DepthImage& depth_m) {
     const int ring = std::max(kLeastRing_px, static_cast<int>(kRing * static_cast<float>(std::max(box.width(), box.height()))));
@@ -110,7 +111,7 @@ float InsideShare(const Piece& piece) {
 }
 
 // Which pieces are the object, by number.
-std::vector<std::uint8_t> ChoosePieces(const std::vector<Piece>& pieces) {
+std::vector<std::uint8_t> ChoosePieces(const std::vector<Piece>& pieces, float width_per_depth) {
     std::vector<std::uint8_t> chosen(pieces.size() + 1, 0);
     std::size_t main = 0;
     float best = 0;
@@ -119,8 +120,9 @@ std::vector<std::uint8_t> ChoosePieces(const std::vector<Piece>& pieces) {
         if (score > best) best = score, main = i;
     }
     if (best <= 0) return chosen;
-    const float near_m = Quantile(pieces[main].depths_m, 0.05f) - kSameDepth_m;
-    const float far_m = Quantile(pieces[main].depths_m, 0.95f) + kSameDepth_m;
+    const float around_m = std::max(kSameDepth_m, kDepthShare * width_per_depth * Quantile(pieces[main].depths_m, 0.5f));
+    const float near_m = Quantile(pieces[main].depths_m, 0.05f) - around_m;
+    const float far_m = Quantile(pieces[main].depths_m, 0.95f) + around_m;
     for (std::size_t i = 0; i < pieces.size(); ++i) {
         if (pieces[i].inside == 0) continue;
         const float middle_m = Quantile(pieces[i].depths_m, 0.5f);
@@ -151,7 +153,8 @@ void SegmentByDepth(const DepthImage& depth_m, const PinholeCamera& camera, cons
     mask.Resize(box.width(), box.height());
     const Pieces pieces(depth_m, camera, box, Grown(box, depth_m), others);
     const bool flat = static_cast<float>(pieces.free_inside()) < kFlatShare * static_cast<float>(box.width() * box.height());
-    const std::vector<std::uint8_t> chosen = ChoosePieces(pieces.pieces());
+    const std::vector<std::uint8_t> chosen =
+        ChoosePieces(pieces.pieces(), static_cast<float>(box.width() / camera.fx));
     for (int y = 0; y < box.height(); ++y)
         for (int x = 0; x < box.width(); ++x) {
             const int u = x + box.x_begin, v = y + box.y_begin;

@@ -1,0 +1,137 @@
+// A box on a table, seen at a slant, with exact and with noisy depth.
+#include "semantics/depth_segment.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "semantics/label_votes.h"
+
+namespace tessera {
+namespace {
+
+const PinholeCamera kCamera{160, 120, 131.0, 131.0, 79.5, 59.5};
+
+struct View {
+    DepthImage depth_m{160, 120, 0.0f};
+    Image<std::uint8_t> object{160, 120, 0};
+    PixelBox box{160, 120, 0, 0};
+};
+
+// The camera looks down at 45 degrees onto the plane y' = 0.7 (y' down); a box of 20 x 10 x 20 cm stands on it. With
+// `behind`, a wall far behind the table.
+View TableAndBox(double noise_m) {
+    View view;
+    std::mt19937 random(3);
+    std::normal_distribution<double> noise(0, 1);
+    const Eigen::Matrix3d R = Eigen::AngleAxisd(-M_PI / 4, Eigen::Vector3d::UnitX()).toRotationMatrix();  // camera to world
+    const Eigen::Vector3d low(-0.1, 0.6, 0.6), high(0.1, 0.7, 0.8);
+    for (int y = 0; y < 120; ++y)
+        for (int x = 0; x < 160; ++x) {
+            const Eigen::Vector3d ray = R * kCamera.Unproject(x, y, 1);
+            double t = 1e9;
+            if (ray.y() > 0) t = 0.7 / ray.y();
+            const Eigen::Array3d a = low.array() / ray.array(), b = high.array() / ray.array();
+            const double enter = a.min(b).maxCoeff(), leave = a.max(b).minCoeff();
+            const bool hit = enter < leave && enter > 0 && enter < t - 1e-9;
+            if (hit) t = enter;
+            if (t > 5) continue;
+            view.depth_m(x, y) = static_cast<float>(t + noise_m * noise(random));
+            view.object(x, y) = hit;
+            if (!hit) continue;
+            view.box = {std::min(view.box.x_begin, x), std::min(view.box.y_begin, y), std::max(view.box.x_end, x + 1),
+                        std::max(view.box.y_end, y + 1)};
+        }
+    return view;
+}
+
+double Iou(const View& view, const Image<std::uint8_t>& mask) {
+    int both = 0, any = 0;
+    for (int y = 0; y < view.box.height(); ++y)
+        for (int x = 0; x < view.box.width(); ++x) {
+            const bool is = view.object(x + view.box.x_begin, y + view.box.y_begin) != 0, said = mask(x, y) != 0;
+            both += is && said, any += is || said;
+        }
+    return both / static_cast<double>(any);
+}
+
+TEST(DepthSegment, TheTableIsLeftOut) {
+    for (const double noise_m : {0.0, 0.001}) {
+        const View view = TableAndBox(noise_m);
+        ASSERT_GT(view.box.width(), 20);
+        Image<std::uint8_t> mask;
+        SegmentByDepth(view.depth_m, kCamera, view.box, {}, mask);
+        EXPECT_GT(Iou(view, mask), 0.88) << noise_m;
+        const double segment = Iou(view, mask);
+        SegmentByMeanDepth(view.depth_m, view.box, mask);
+        EXPECT_GT(segment, Iou(view, mask) + 0.1) << noise_m;  // the paper's rule
+    }
+}
+
+TEST(DepthSegment, WhatIsFlatOnItsSupportIsTheWholeBox) {
+    View view;
+    std::fill_n(view.depth_m.data(), view.depth_m.size(), 1.0f);
+    view.box = {50, 40, 90, 80};
+    Image<std::uint8_t> mask;
+    SegmentByDepth(view.depth_m, kCamera, view.box, {}, mask);
+    EXPECT_EQ(std::count(mask.data(), mask.data() + mask.size(), 1), 1600);
+}
+
+TEST(DepthSegment, NothingMeasuredIsNothing) {
+    DepthImage empty(160, 120, 0.0f);
+    Image<std::uint8_t> mask;
+    SegmentByDepth(empty, kCamera, {0, 0, 160, 120}, {}, mask);
+    EXPECT_EQ(std::count(mask.data(), mask.data() + mask.size(), 1), 0);
+    SegmentByMeanDepth(empty, {150, 110, 160, 120}, mask);
+    EXPECT_EQ(std::count(mask.data(), mask.data() + mask.size(), 1), 0);
+}
+
+TEST(MeanDepth, DeeperThanTheMeanIsBackground) {
+    DepthImage depth(4, 1);
+    depth(0, 0) = 1, depth(1, 0) = 2, depth(2, 0) = 0, depth(3, 0) = 6;  // mean 3
+    Image<std::uint8_t> mask;
+    SegmentByMeanDepth(depth, {0, 0, 4, 1}, mask);
+    EXPECT_EQ(mask(0, 0), 1);
+    EXPECT_EQ(mask(1, 0), 1);
+    EXPECT_EQ(mask(2, 0), 0);
+    EXPECT_EQ(mask(3, 0), 0);
+}
+
+// A wall at 1 m through voxels of 1 cm: exactly those within the band get one vote each.
+TEST(VoteLabels, OnlyTheBandAroundTheSurface) {
+    BlockMap map({.voxel_size_m = 0.01, .truncation_m = 0.04});
+    map.EnableLabels();
+    for (int bx = -2; bx < 2; ++bx)
+        for (int by = -2; by < 2; ++by)
+            for (int bz = 11; bz < 14; ++bz) {
+                const BlockId id = map.Allocate({bx, by, bz});
+                for (int i = 0; i < kBlockVoxels; ++i) {
+                    const double distance = std::clamp(1.0 - 0.01 * (8 * bz + (i >> 6)), -0.04, 0.04);
+                    map.field(id)[i] = static_cast<std::uint32_t>(static_cast<std::uint16_t>(std::lround(distance / 0.04 * 32767))) << 16;
+                }
+            }
+    DepthImage depth(160, 120, 1.0f);
+    LabelImage labels{Image<std::uint8_t>(160, 120, 0)};
+    for (int y = 50; y < 70; ++y)
+        for (int x = 70; x < 90; ++x) labels.detection(x, y) = 1;
+    const Ballot ballot{5, 3};
+    const VoteCount count = VoteLabels(labels, {&ballot, 1}, depth, kCamera, Eigen::Isometry3d::Identity(), 0.0151, map);
+    std::int64_t voxels = 0;
+    for (BlockId id = 1; id < map.size(); ++id)
+        for (int i = 0; i < kBlockVoxels; ++i) {
+            const VoxelLabel& v = map.label(id)[i];
+            const BlockCoord c = map.coord(id);
+            const int z = 8 * c.z + (i >> 6);
+            const Eigen::Vector2d pixel = kCamera.Project(0.01 * Eigen::Vector3d(8.0 * c.x + (i & 7), 8.0 * c.y + (i >> 3 & 7), z));
+            const long px = std::lround(pixel.x()), py = std::lround(pixel.y());
+            const bool expected = std::abs(z - 100) <= 1 && px >= 70 && px < 90 && py >= 50 && py < 70;
+            EXPECT_EQ(v.count[0], expected) << z << " " << px << " " << py;
+            EXPECT_EQ(v.instance, expected ? 3 : 0);
+            voxels += expected;
+        }
+    EXPECT_EQ(count.voxels, voxels);
+    EXPECT_GT(voxels, 500);
+}
+
+}  // namespace
+}  // namespace tessera

@@ -1,0 +1,93 @@
+#include "semantics/instances.h"
+
+#include <gtest/gtest.h>
+
+namespace tessera {
+namespace {
+
+const Eigen::AlignedBox3d kBox(Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(1, 1, 1));
+
+ObservedObject Seen(int class_id, std::map<InstanceId, int> overlaps = {}, int pixels = 100) {
+    return {class_id, 0.9f, pixels, std::move(overlaps), kBox};
+}
+
+// One object seen until it is confirmed.
+InstanceId Confirmed(Instances& instances, int class_id) {
+    const InstanceId id = instances.Match({Seen(class_id)}, {})[0];
+    for (int i = 0; i < 12; ++i) instances.Match({Seen(class_id, {{id, 90}})}, {{id, 95}});
+    return id;
+}
+
+TEST(Instances, NewThenUpdatedThenConfirmed) {
+    Instances instances({.min_observations = 3, .min_rate = 0.3});
+    const InstanceId id = instances.Match({Seen(5)}, {})[0];
+    EXPECT_NE(id, 0);
+    EXPECT_FALSE(instances.confirmed(id));
+    for (int i = 0; i < 2; ++i) EXPECT_EQ(instances.Match({Seen(5, {{id, 90}})}, {{id, 95}})[0], id);
+    EXPECT_TRUE(instances.confirmed(id));
+    EXPECT_EQ(instances.record(id).public_id, 1);
+    EXPECT_EQ(instances.record(id).observations, 3);
+    EXPECT_NEAR(instances.Probability(id), 0.9, 1e-6);
+}
+
+TEST(Instances, TwoOfAClassStayApart) {
+    Instances instances({.min_observations = 3, .min_rate = 0.3});
+    const auto both = instances.Match({Seen(5), Seen(5)}, {});
+    EXPECT_NE(both[0], both[1]);
+    for (int i = 0; i < 9; ++i)
+        EXPECT_EQ(instances.Match({Seen(5, {{both[1], 80}, {both[0], 5}}), Seen(5, {{both[0], 85}})}, {{both[0], 90}, {both[1], 90}}),
+                  (std::vector<InstanceId>{both[1], both[0]}));
+    EXPECT_EQ(instances.record(both[0]).public_id + instances.record(both[1]).public_id, 3);
+}
+
+TEST(Instances, AWrongClassIsAVoteAndNotAnotherObject) {
+    Instances instances({});
+    const InstanceId id = Confirmed(instances, 5);
+    EXPECT_EQ(instances.Match({Seen(4, {{id, 90}})}, {{id, 95}})[0], id);
+    EXPECT_EQ(instances.ClassOf(id), 5);
+    EXPECT_EQ(instances.last(), id);
+    for (int i = 0; i < 20; ++i) instances.Match({Seen(4, {{id, 90}})}, {{id, 95}});
+    EXPECT_EQ(instances.ClassOf(id), 4);  // more votes in the end
+    EXPECT_EQ(instances.record(id).public_id, 1);
+}
+
+TEST(Instances, ABusyRegionThatFitsNothingSaysNothing) {
+    Instances instances({});
+    const InstanceId a = Confirmed(instances, 5), b = Confirmed(instances, 5);
+    // Half on one, half on another large object of its class: neither of them nor a new one.
+    EXPECT_EQ(instances.Match({Seen(5, {{a, 35}, {b, 30}})}, {{a, 1000}, {b, 1000}})[0], 0);
+}
+
+TEST(Instances, WhatIsSeldomSeenIsDropped) {
+    Instances instances({});
+    const InstanceId id = instances.Match({Seen(5)}, {})[0];
+    for (int i = 0; i < 12; ++i) instances.Match({}, {{id, 95}});
+    EXPECT_EQ(instances.Resolve(id), 0);
+    const InstanceId kept = Confirmed(instances, 5);
+    for (int i = 0; i < 100; ++i) instances.Match({}, {{kept, 95}});
+    EXPECT_EQ(instances.Resolve(kept), kept);  // confirmed is confirmed
+}
+
+TEST(Instances, TwoThatAreOneAreJoinedUnderTheOlderNumber) {
+    Instances instances({});
+    const InstanceId a = Confirmed(instances, 5), b = Confirmed(instances, 5);
+    ASSERT_NE(a, b);
+    EXPECT_EQ(instances.record(b).public_id, 2);
+    for (int i = 0; i < 4; ++i) instances.Match({Seen(5, {{a, 50}, {b, 48}})}, {{a, 55}, {b, 55}});
+    EXPECT_EQ(instances.Resolve(b), a);
+    EXPECT_EQ(instances.record(a).public_id, 1);
+    EXPECT_EQ(instances.record(a).observations, 30);
+}
+
+TEST(Instances, DetectionsApartSpeakAgainstJoining) {
+    Instances instances({});
+    const InstanceId a = Confirmed(instances, 5), b = Confirmed(instances, 5);
+    for (int i = 0; i < 20; ++i) {
+        instances.Match({Seen(5, {{a, 50}, {b, 10}}), Seen(5, {{b, 50}})}, {{a, 55}, {b, 55}});
+        if (i % 3 == 0) instances.Match({Seen(5, {{a, 50}, {b, 48}})}, {{a, 55}, {b, 55}});
+    }
+    EXPECT_EQ(instances.Resolve(b), b);
+}
+
+}  // namespace
+}  // namespace tessera
