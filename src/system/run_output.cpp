@@ -76,6 +76,13 @@ Status RunOutput::AddFrame(const FrameReport& report, double decode_ms, double f
     return Append("frames.csv", FrameLine(report, decode_ms, frame_ms), frames_);
 }
 
+Status RunOutput::ReplacePath(const std::vector<StampedPose>& path) {
+    path_.clear();
+    for (const StampedPose& pose : path) path_.push_back(pose.T_world_camera);
+    trajectory_.reset();
+    return WriteTrajectory(Path("trajectory.txt"), path);
+}
+
 Status RunOutput::WritePicture(const TriangleMesh& mesh) const {
     if (mesh.triangles.empty()) return Status::Ok();
     const MeshView view = ChooseView(mesh, path_);

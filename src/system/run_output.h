@@ -23,6 +23,9 @@ class RunOutput {
     // One line of frames.csv; one of trajectory.txt if the frame was tracked. Both reach the system before return.
     Status AddFrame(const FrameReport& report, double decode_ms, double frame_ms);
 
+    // trajectory.txt anew, from poses that are known better now; whole or not at all.
+    Status ReplacePath(const std::vector<StampedPose>& path);
+
     // mesh.ply, and preview.png where the mesh has triangles. The first error, but the other file is tried, too.
     Status WriteMesh(const TriangleMesh& mesh) const;
 
