@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <optional>
 #include <span>
 
 #include "mapping/integrator.h"
@@ -31,8 +32,18 @@ struct NearFrame {
     Eigen::Isometry3d T_keyframe_camera = Eigen::Isometry3d::Identity();
 };
 
+// A frame that is to be placed beside an old keyframe.
+struct FreshFrame {
+    const PreparedFrame& prepared;
+    FrameMotion motion;                    // while it was taken
+    Eigen::Isometry3d T_old_new_features;  // where the features put it
+    std::optional<Eigen::Isometry3d> T_old_new_expected;  // where it is thought to be; nothing of a lost camera
+};
+
 struct FieldVerdict {
     bool accepted = false;
+    // Where it was expected the frame fits about as well: tracking against the map has closed this loop by itself.
+    bool closed_before = false;
     Eigen::Isometry3d T_old_new = Eigen::Isometry3d::Identity();
     std::string reason;  // in words, unless accepted
 };
@@ -42,15 +53,14 @@ class FieldCheck {
   public:
     FieldCheck(const FieldSettings& settings, const LoopConfig& config);
 
-    // `old_frames`: the old keyframe's own first, then others near it. `new_frames`: others near the new one, may be
-    // empty. `T_old_new`: the features' guess.
-    FieldVerdict Check(std::span<const NearFrame> old_frames, const PreparedFrame& fresh,
-                       std::span<const NearFrame> new_frames, const Eigen::Isometry3d& T_old_new, FrameStore& store);
+    // `old_frames`: the old keyframe's own first, then others near it.
+    FieldVerdict Check(std::span<const NearFrame> old_frames, const FreshFrame& fresh, FrameStore& store);
 
   private:
-    void Fuse(std::span<const NearFrame> frames, FrameStore& store);
+    void FuseOld(std::span<const NearFrame> frames, FrameStore& store);
     void Load(const StoredFrame& stored, FrameStore& store);
-    TrackResult Track(const PreparedFrame& frame, const Eigen::Isometry3d& T_field_camera);
+    TrackResult Track(const PreparedFrame& frame, const FrameMotion& motion, const Eigen::Isometry3d& T_field_camera);
+    double ShareThatFits(const PreparedFrame& frame, const Eigen::Isometry3d& T_field_camera) const;
     std::string Fault(const TrackResult& track) const;
 
     FieldSettings settings_;

@@ -36,7 +36,7 @@ std::string LoopCloser::Add(const Frame& frame, const PreparedFrame& prepared, c
     if (!fused) return news;
     if (Status stored = store_.Add(frame, last.id, keyframe, T_keyframe_camera, view); !stored.ok()) return stored.message();
     if (keyframe) {
-        news = SeekLoop(last, prepared);
+        news = SeekLoop(last, prepared, view.motion);
         index_.Add(last.id, last.features.descriptors);
     }
     return news;
@@ -69,19 +69,22 @@ void LoopCloser::LinkWithLast(int id, int from) {
                       trust * (0.002 + 0.01 * std::min(1.0, b.turned_rad - keyframes_[id - 1].turned_rad)), false});
 }
 
-std::string LoopCloser::SeekLoop(const Keyframe& fresh, const PreparedFrame& prepared) {
+std::string LoopCloser::SeekLoop(const Keyframe& fresh, const PreparedFrame& prepared, const FrameMotion& motion) {
     const auto candidates = index_.Query(fresh.features.descriptors, fresh.id - config_.min_gap, config_.candidates,
                                          config_.min_votes);
     for (const PlaceIndex::Candidate& candidate : candidates) {
         const Keyframe& old = keyframes_[candidate.keyframe];
-        if (const auto T_old_new = verifier_.VerifyLoop(keyframes_, old, fresh, prepared, store_))
-            return CloseLoop(old, fresh, *T_old_new);
+        const FieldVerdict verdict = verifier_.VerifyLoop(keyframes_, old, fresh, prepared, motion, store_);
+        if (verdict.accepted) return CloseLoop(old, fresh, verdict);
     }
     return {};
 }
 
-std::string LoopCloser::CloseLoop(const Keyframe& old, const Keyframe& fresh, const Eigen::Isometry3d& T_old_new) {
-    constexpr double kSigma_m = 0.005, kSigma_rad = 0.003;
+// A loop that tracking has closed by itself is kept as it is: the whole map knows better than two frames.
+std::string LoopCloser::CloseLoop(const Keyframe& old, const Keyframe& fresh, const FieldVerdict& verdict) {
+    constexpr double kSigma_m = 0.01, kSigma_rad = 0.005;
+    const Eigen::Isometry3d T_old_new =
+        verdict.closed_before ? Normalised(old.T_map_camera.inverse() * fresh.T_map_camera) : verdict.T_old_new;
     edges_.push_back({old.id, fresh.id, T_old_new, kSigma_m, kSigma_rad, true});
     ++loops_;
     const Drift drift = DriftOf(old, fresh, T_old_new, config_.max_drift);
@@ -165,15 +168,15 @@ std::optional<Eigen::Isometry3d> LoopCloser::Relocalise(const PreparedFrame& fra
                    RotationAngle(*found, T_guess) > kApart_rad;
         };
         if (found && !apart()) continue;
-        const auto T_old_new = verifier_.VerifyPlace(keyframes_, old, frame, match.T_old_new, store_);
-        if (!T_old_new) continue;
+        const FieldVerdict verdict = verifier_.VerifyPlace(keyframes_, old, frame, match.T_old_new, store_);
+        if (!verdict.accepted) continue;
         if (found) {
             note = fmt::format("this could be at frame {} or at frame {}", keyframes_[*relocalised_at_].frame_index,
                                old.frame_index);
             relocalised_at_.reset();
             return std::nullopt;
         }
-        found = Normalised(old.T_map_camera * *T_old_new);
+        found = Normalised(old.T_map_camera * verdict.T_old_new);
         relocalised_at_ = old.id;
         note = fmt::format("found again, at frame {}", old.frame_index);
     }

@@ -54,8 +54,8 @@ class LoopCloser {
 
     std::string AddKeyframe(const Frame& frame, const PreparedFrame& prepared, const TrackResult& track);
     void LinkWithLast(int id, int from);
-    std::string SeekLoop(const Keyframe& fresh, const PreparedFrame& prepared);
-    std::string CloseLoop(const Keyframe& old, const Keyframe& fresh, const Eigen::Isometry3d& T_old_new);
+    std::string SeekLoop(const Keyframe& fresh, const PreparedFrame& prepared, const FrameMotion& motion);
+    std::string CloseLoop(const Keyframe& old, const Keyframe& fresh, const FieldVerdict& verdict);
     double FarthestOff_m() const;
     void Optimise();
     bool BeginRebuild(double tolerance_m);

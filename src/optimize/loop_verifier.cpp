@@ -17,34 +17,29 @@ Drift DriftOf(const Keyframe& old, const Keyframe& fresh, const Eigen::Isometry3
     return drift;
 }
 
-std::optional<Eigen::Isometry3d> LoopVerifier::VerifyLoop(const Keyframes& keyframes, const Keyframe& old,
-                                                          const Keyframe& fresh, const PreparedFrame& prepared,
-                                                          FrameStore& store) {
+FieldVerdict LoopVerifier::VerifyLoop(const Keyframes& keyframes, const Keyframe& old, const Keyframe& fresh,
+                                      const PreparedFrame& prepared, const FrameMotion& motion, FrameStore& store) {
+    FieldVerdict refused;
     const FeatureMatch match = MatchFeatures(old.features, fresh.features, config_);
-    if (!match.accepted) {
-        reason_ = fmt::format("{} features fit, spread over {:.2f} m", match.inliers, match.spread_m);
-        return std::nullopt;
-    }
     const Drift drift = DriftOf(old, fresh, match.T_old_new, config_.max_drift);
-    if (!drift.possible) {
-        reason_ = fmt::format("it would take a drift of {:.2f} m and {:.2f} rad", drift.off_m, drift.off_rad);
-        return std::nullopt;
-    }
-    return VerifyPlace(keyframes, old, prepared, match.T_old_new, store);
+    if (!match.accepted)
+        refused.reason = fmt::format("{} features fit, spread over {:.2f} m", match.inliers, match.spread_m);
+    else if (!drift.possible)
+        refused.reason = fmt::format("it would take a drift of {:.2f} m and {:.2f} rad", drift.off_m, drift.off_rad);
+    if (!refused.reason.empty()) return refused;
+    const Eigen::Isometry3d T_old_new_expected = old.T_map_camera.inverse() * fresh.T_map_camera;
+    return field_.Check(FramesNear(keyframes, old.id, store), {prepared, motion, match.T_old_new, T_old_new_expected},
+                        store);
 }
 
-std::optional<Eigen::Isometry3d> LoopVerifier::VerifyPlace(const Keyframes& keyframes, const Keyframe& old,
-                                                           const PreparedFrame& fresh, const Eigen::Isometry3d& T_old_new,
-                                                           FrameStore& store) {
-    const FieldVerdict verdict = field_.Check(FramesNear(keyframes, old.id, store), fresh, {}, T_old_new, store);
-    reason_ = verdict.reason;
-    if (!verdict.accepted) return std::nullopt;
-    return verdict.T_old_new;
+FieldVerdict LoopVerifier::VerifyPlace(const Keyframes& keyframes, const Keyframe& old, const PreparedFrame& fresh,
+                                       const Eigen::Isometry3d& T_old_new, FrameStore& store) {
+    return field_.Check(FramesNear(keyframes, old.id, store), {fresh, {}, T_old_new, std::nullopt}, store);
 }
 
 // The keyframe's own frame first, then others of it and of its two neighbours, evenly.
 std::vector<NearFrame> LoopVerifier::FramesNear(const Keyframes& keyframes, int keyframe, const FrameStore& store) const {
-    constexpr std::size_t kMost = 8;
+    constexpr std::size_t kMost = 4;
     const std::vector<StoredFrame>& all = store.frames();
     std::vector<NearFrame> near(1), others;
     const Eigen::Isometry3d T_keyframe_world = keyframes[keyframe].T_map_camera.inverse();
