@@ -33,7 +33,7 @@ std::vector<std::pair<int, int>> MatchDescriptors(std::span<const Descriptor> ol
     std::vector<std::pair<int, int>> pairs;
     for (std::size_t i = 0; i < old.size(); ++i) {
         const Nearest& nearest = of_old[i];
-        if (nearest.index < 0 || nearest.distance > kMaxDistance || nearest.distance > kRatio * nearest.second) continue;
+        if (nearest.index < 0 || nearest.distance > kMaxDistance || nearest.distance >= kRatio * nearest.second) continue;
         if (of_fresh[static_cast<std::size_t>(nearest.index)].index == static_cast<int>(i))
             pairs.emplace_back(static_cast<int>(i), nearest.index);
     }

@@ -59,6 +59,9 @@ Result<PoseGraphReport> OptimisePoses(std::span<const PoseEdge> edges, std::vect
 
     ceres::Solver::Options options;
     options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
+    // SuiteSparse would bring a BLAS whose threads are not ours to count.
+    if (ceres::IsSparseLinearAlgebraLibraryTypeAvailable(ceres::EIGEN_SPARSE))
+        options.sparse_linear_algebra_library_type = ceres::EIGEN_SPARSE;
     options.max_num_iterations = kMaxIterations;
     options.num_threads = 1;
     options.logging_type = ceres::SILENT;

@@ -93,7 +93,7 @@ TEST_F(Cli, BadArgumentsAreOneLineAndExitCode2) {
 }
 
 TEST_F(Cli, WhatIsToComeIsRefusedAndNeverIgnored) {
-    for (const char* option : {"--labels model.onnx", "--loop-closure on", "--scan a.scan", "--resume a.scan",
+    for (const char* option : {"--labels model.onnx", "--scan a.scan", "--resume a.scan",
                                "--device cuda"})
         ExpectRefused(std::string("run synthetic:desk ") + option, "not in this version");
     ExpectRefused("run a.klg", "not in this version");
