@@ -28,7 +28,7 @@ std::string LoopCloser::Add(const Frame& frame, const PreparedFrame& prepared, c
     const Eigen::Isometry3d& T_map_camera = track.T_world_camera;
     keyframes_.Follow(T_map_camera);
     const bool keyframe = fused && (relocalised_at_ || keyframes_.Wanted(prepared, T_map_camera));
-    if (keyframe) news = AddKeyframe(frame, prepared, track);
+    if (keyframe) AddKeyframe(frame, prepared, track);
     if (keyframes_.empty()) return news;
     const Keyframe& last = keyframes_.last();
     const Eigen::Isometry3d T_keyframe_camera = Normalised(last.T_map_camera.inverse() * T_map_camera);
@@ -42,14 +42,14 @@ std::string LoopCloser::Add(const Frame& frame, const PreparedFrame& prepared, c
     return news;
 }
 
-std::string LoopCloser::AddKeyframe(const Frame& frame, const PreparedFrame& prepared, const TrackResult& track) {
+void LoopCloser::AddKeyframe(const Frame& frame, const PreparedFrame& prepared, const TrackResult& track) {
     const bool first = keyframes_.empty();
     Keyframe& fresh = keyframes_.Add(frame.index, frame.stamp_s, prepared, track);
     if (!first) {
         const int from = relocalised_at_.value_or(fresh.id - 1);
         fresh.T_world_camera = Normalised(keyframes_[from].T_world_camera * keyframes_[from].T_map_camera.inverse() *
                                           fresh.T_map_camera);
-        LinkWithLast(fresh.id, from);
+        Link(from, fresh.id);
     }
     relocalised_at_.reset();
     if (rebuild_) {
@@ -57,16 +57,15 @@ std::string LoopCloser::AddKeyframe(const Frame& frame, const PreparedFrame& pre
         rebuild_->AddKeyframe(Normalised(rebuild_->T_world_keyframe()[static_cast<std::size_t>(from)] *
                                          keyframes_[from].T_map_camera.inverse() * fresh.T_map_camera));
     }
-    return {};
 }
 
-void LoopCloser::LinkWithLast(int id, int from) {
-    const Keyframe &a = keyframes_[from], &b = keyframes_[id];
+void LoopCloser::Link(int from, int to) {
+    const Keyframe &a = keyframes_[from], &b = keyframes_[to], &before = keyframes_[to - 1];
     // What tracking against the map loses on the way: a little for each keyframe, and a share of the way.
     const double trust = b.inlier_fraction < config_.min_fit ? 2.0 : 1.0;
-    edges_.push_back({from, id, Normalised(a.T_map_camera.inverse() * b.T_map_camera),
-                      trust * (0.002 + 0.01 * std::min(1.0, b.way_m - keyframes_[id - 1].way_m)),
-                      trust * (0.002 + 0.01 * std::min(1.0, b.turned_rad - keyframes_[id - 1].turned_rad)), false});
+    edges_.push_back({from, to, Normalised(a.T_map_camera.inverse() * b.T_map_camera),
+                      trust * (0.002 + 0.01 * std::min(1.0, b.way_m - before.way_m)),
+                      trust * (0.002 + 0.01 * std::min(1.0, b.turned_rad - before.turned_rad)), false});
 }
 
 std::string LoopCloser::SeekLoop(const Keyframe& fresh, const PreparedFrame& prepared, const FrameMotion& motion) {

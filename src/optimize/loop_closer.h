@@ -52,8 +52,8 @@ class LoopCloser {
         Eigen::Isometry3d T_keyframe_camera;
     };
 
-    std::string AddKeyframe(const Frame& frame, const PreparedFrame& prepared, const TrackResult& track);
-    void LinkWithLast(int id, int from);
+    void AddKeyframe(const Frame& frame, const PreparedFrame& prepared, const TrackResult& track);
+    void Link(int from, int to);
     std::string SeekLoop(const Keyframe& fresh, const PreparedFrame& prepared, const FrameMotion& motion);
     std::string CloseLoop(const Keyframe& old, const Keyframe& fresh, const FieldVerdict& verdict);
     double FarthestOff_m() const;

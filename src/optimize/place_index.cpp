@@ -68,10 +68,4 @@ std::vector<PlaceIndex::Candidate> PlaceIndex::Query(std::span<const Descriptor>
     return best;
 }
 
-std::size_t PlaceIndex::bytes() const {
-    std::size_t features = 0;
-    for (const auto& d : descriptors_) features += d.size();
-    return features * (sizeof(Descriptor) + kTables * sizeof(Entry)) + buckets_.size() * 64;
-}
-
 }  // namespace tessera

@@ -28,7 +28,6 @@ class PlaceIndex {
     // The `count` keyframes below `end` with the most votes, and at least `min_votes`; most votes first, of equal ones
     // the older first.
     std::vector<Candidate> Query(std::span<const Descriptor> descriptors, int end, int count, int min_votes) const;
-    std::size_t bytes() const;
 
   private:
     struct Entry {
