@@ -89,7 +89,7 @@ std::string LoopCloser::CloseLoop(const Keyframe& old, const Keyframe& fresh, co
     const Drift drift = DriftOf(old, fresh, T_old_new, config_.max_drift);
     if (drift.off_m < config_.min_correction_m && drift.off_rad < config_.min_correction_m) return {};
     corrected_ = true;
-    Optimise();
+    if (Status solved = Optimise(); !solved.ok()) return solved.message();
     return fmt::format("loop closed with frame {}: {:.1f} cm and {:.1f} degrees off", old.frame_index, 100 * drift.off_m,
                        drift.off_rad * 57.29578);
 }
@@ -106,11 +106,13 @@ double LoopCloser::FarthestOff_m() const {
     return farthest;
 }
 
-void LoopCloser::Optimise() {
+// On error the keyframes stay where they are.
+Status LoopCloser::Optimise() {
     std::vector<Eigen::Isometry3d> poses;
     for (int i = 0; i < keyframes_.size(); ++i) poses.push_back(keyframes_[i].T_world_camera);
-    if (!OptimisePoses(edges_, poses).ok()) return;  // the poses stay
+    if (const auto report = OptimisePoses(edges_, poses); !report.ok()) return report.status();
     for (int i = 0; i < keyframes_.size(); ++i) keyframes_[i].T_world_camera = poses[static_cast<std::size_t>(i)];
+    return Status::Ok();
 }
 
 // True if one is under way, or if the map is off by more than the tolerance.
@@ -144,8 +146,8 @@ std::optional<LoopCloser::Correction> LoopCloser::StepRebuild(int frames) {
 
 std::optional<LoopCloser::Correction> LoopCloser::Finish() {
     if (!corrected_) return std::nullopt;
-    Optimise();
     std::optional<Correction> last;
+    static_cast<void>(Optimise());  // if it fails, what was corrected before holds
     while (BeginRebuild(settings_.map.voxel_size_m / 10)) last = StepRebuild(std::numeric_limits<int>::max());
     return last;
 }

@@ -57,7 +57,7 @@ class LoopCloser {
     std::string SeekLoop(const Keyframe& fresh, const PreparedFrame& prepared, const FrameMotion& motion);
     std::string CloseLoop(const Keyframe& old, const Keyframe& fresh, const FieldVerdict& verdict);
     double FarthestOff_m() const;
-    void Optimise();
+    Status Optimise();
     bool BeginRebuild(double tolerance_m);
     std::optional<Correction> StepRebuild(int frames);
 

@@ -37,8 +37,9 @@ bool LoopStage::FitsWell(const TrackResult& track) const {
 void LoopStage::AfterTracking(const Frame& frame, const BlockMap& map, TrackingStage& tracking, TrackedFrame& tracked) {
     FrameReport& report = tracked.report;
     lost_ms_ = 0;
-    lost_ = lost_ || !report.tracked();
-    if (!lost_ || report.first || closer_.keyframes().empty()) {
+    // Before the first keyframe there is nothing to lose.
+    lost_ = (lost_ || !report.tracked()) && !report.first && !closer_.keyframes().empty();
+    if (!lost_) {
         if (report.tracked()) last_tracked_s_ = frame.stamp_s;
         return;
     }

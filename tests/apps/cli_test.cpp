@@ -101,6 +101,13 @@ TEST_F(Cli, WhatIsToComeIsRefusedAndNeverIgnored) {
     ExpectRefused("eval labels a b", "not in this version");
 }
 
+TEST_F(Cli, LoopClosureIsRefusedWhereItCannotBe) {
+    ExpectRefused("run synthetic:desk --loop-closure on --mode live", "--loop-closure on");
+    const std::string poses = folder / "poses.txt";
+    std::ofstream(poses) << "0 0 0 0 0 0 0 1\n";
+    ExpectRefused("run synthetic:desk --loop-closure on --poses " + poses, "--loop-closure on");
+}
+
 TEST_F(Cli, SwitchNeedsAFrameAndAMethod) {
     for (const char* value : {"icp", "5", "5:", ":icp", "-1:icp", "5:kinfu", "x:icp", "5:icp:sdf"})
         ExpectRefused(SmallRun() + "--frames 3 --switch " + value, "--switch");
