@@ -10,6 +10,7 @@
 #include "command.h"
 #include "core/cpu.h"
 #include "io/openni_devices.h"
+#include "optimize/pose_graph.h"
 #include "render/gl_context.h"
 #include "system/run_config.h"
 
@@ -50,7 +51,8 @@ int Doctor() {
     fmt::print("OpenGL       {}\n", gl.ok() ? gl.value()->renderer() : "off: " + gl.message());
     PrintCameras(ListOpenniDevices());
     fmt::print("window       {}\n", Window());
-    for (const char* off : {"CUDA        ", ".klg        ", "labels      ", "loop closure"})
+    fmt::print("loop closure {}\n", PoseGraphAvailable() ? "on request" : "off: install libceres-dev and build again");
+    for (const char* off : {"CUDA        ", ".klg        ", "labels      "})
         fmt::print("{} not in this version\n", off);
     return kExitDone;
 }

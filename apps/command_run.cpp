@@ -17,17 +17,16 @@ namespace {
 struct Arguments {
     RunRequest request;
     ConfigOptions config;
-    std::string tracker, alpha;
+    std::string tracker, alpha, loop_closure;
     int threads = -1;
     // Of features to come: only the values that mean "without" are taken.
-    std::string device = "auto", mode = "lockstep", labels = "none", loop_closure = "off", scan, resume;
+    std::string device = "auto", mode = "lockstep", labels = "none", scan, resume;
     std::vector<std::string> switches;
     bool view = false;
 };
 
 Status RefuseWhatIsToCome(const Arguments& a) {
     if (a.device == "cuda") return NotInThisVersion("--device cuda");
-    if (a.loop_closure == "on") return NotInThisVersion("--loop-closure on");
     if (!a.scan.empty()) return NotInThisVersion("--scan");
     if (!a.resume.empty()) return NotInThisVersion("--resume");
     return Status::Ok();
@@ -64,6 +63,9 @@ Status Configure(const Arguments& a, RunConfig& config) {
             if (Status status = parameters.Set("tracking.photometric.alpha", a.alpha); !status.ok())
                 return Status::Error("--alpha: " + status.message());
     }
+    if (!a.loop_closure.empty())
+        if (Status status = parameters.Set("loops.enabled", a.loop_closure == "on" ? "true" : "false"); !status.ok())
+            return status;
     if (a.threads >= 0) return parameters.Set("run.threads", std::to_string(a.threads));
     return Status::Ok();
 }
@@ -101,7 +103,6 @@ void AddOptionsToCome(CLI::App& command, Arguments& a) {
     };
     add("--device", a.device, "Where the kernels run; auto takes the processor")
         ->check(CLI::IsMember({"auto", "cpu", "cuda"}))->capture_default_str();
-    add("--loop-closure", a.loop_closure, "Pose graph")->check(CLI::IsMember({"on", "off"}))->capture_default_str();
     add("--scan", a.scan, "Scan file to write")->type_name("FILE");
     add("--resume", a.resume, "Scan file to go on with")->type_name("FILE");
 }
@@ -144,6 +145,10 @@ void AddRunCommand(CLI::App& app, CommandContext& context) {
                         "Label objects with this network (.onnx, or .cfg beside its .weights), file of detections, or synthetic: "
                         "a synthetic: source's own truth")
         ->type_name("MODEL|DETECTIONS|none")->capture_default_str();
+    command->add_option("--loop-closure", a->loop_closure,
+                        "Correct path and map where the camera comes back, and find the place again after a loss; as "
+                        "loops.enabled (default off)")
+        ->check(CLI::IsMember({"on", "off"}));
     command->add_flag("--view", a->view, "Open a window; without a display the run goes on without");
     command->add_option("--record", a->request.record_path,
                         "Keep the raw frames in this new folder (TUM layout, depth exact), or FILE.oni of an OpenNI2 camera")

@@ -1,7 +1,7 @@
 # Everything comes from Debian 12's packages (scripts/packages.txt lists them); nothing is fetched.
 # The core's dependencies are required; what is optional says here whether it is on.
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
-find_package(OpenCV 4.5 REQUIRED COMPONENTS core imgproc imgcodecs calib3d)
+find_package(OpenCV 4.5 REQUIRED COMPONENTS core imgproc imgcodecs calib3d features2d)
 find_package(OpenCV 4.5 QUIET OPTIONAL_COMPONENTS dnn)
 if(TARGET opencv_dnn)
     set(TESSERA_DNN ON)
@@ -62,6 +62,15 @@ elseif(OPENNI2_INCLUDE AND OPENNI2_LIBRARY)
 else()
     set(TESSERA_OPENNI2 OFF)
     message(STATUS "tessera: OpenNI2 cameras and .oni recordings off (install libopenni2-dev)")
+endif()
+
+# The pose graph. Ceres' own package file looks for what it was built with, so it may fail where Ceres itself lies.
+find_package(Ceres 2.1 QUIET)
+if(Ceres_FOUND)
+    set(TESSERA_CERES ON)
+else()
+    set(TESSERA_CERES OFF)
+    message(STATUS "tessera: loop closure off (install libceres-dev)")
 endif()
 
 if(TESSERA_TESTS)

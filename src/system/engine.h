@@ -34,6 +34,7 @@ struct FrameOutcome {
     std::optional<Eigen::Isometry3d> T_world_camera_truth;  // in the source's world
     bool fusion_dropped = false;                            // live: well tracked, but mapping was busy
     double decode_ms = 0, mesh_ms = 0, latency_ms = 0;      // latency: from the frame's arrival to its pose
+    double loops_ms = 0;                                    // keyframes, loops, the corrected map; 0 without
     MapStatistics map;
     std::optional<LabelReport> labels;  // of this frame, or live of an earlier one
     std::vector<std::pair<const char*, std::size_t>> queues;  // name and how many wait in it
@@ -65,6 +66,8 @@ class Engine {
     virtual TriangleMesh TakeMesh() = 0;
     virtual const std::vector<MapObject>& objects() const = 0;  // after TakeMesh; empty without labels
     virtual MapStatistics map_statistics() const = 0;  // before TakeMesh
+    // After Next gave false: the tracked frames' poses as they are known at the end; empty: as they were given.
+    virtual std::vector<StampedPose> CorrectedPath() const { return {}; }
 };
 
 }  // namespace tessera

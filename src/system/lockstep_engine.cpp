@@ -16,6 +16,7 @@ LockstepEngine::LockstepEngine(EngineInput input)
       mapping_(config_.pipeline, config_.meshing, source_.camera),
       feed_(input.viewer, config_.live.mesh_blocks),
       recorder_(source_, config_.record, true) {
+    if (config_.loops.enabled) loops_.emplace(config_.loops, config_.pipeline, source_);
     if (!input.record_path.empty()) status_ = StartRecording(input.record_path, config_.record, *input.source, recorder_);
     if (!status_.ok()) return;
     if (input.labelling.detector) {
@@ -47,6 +48,7 @@ bool LockstepEngine::Next(FrameOutcome& outcome) {
     }
     if (reader_) reader_->RequestStop();
     recorder_.Stop();
+    if (loops_) loops_->Finish(mapping_);
     return TakeMessage(outcome);
 }
 
@@ -55,8 +57,10 @@ void LockstepEngine::Process(FrameOutcome& outcome) {
     outcome.decode_ms = reader_->decode_ms();
     recorder_.Add(frame_);
     plan_.Track(frame_, mapping_.map(), tracking_, tracked_);
+    if (loops_) loops_->AfterTracking(frame_, mapping_.map(), tracking_, tracked_);
     mapping_.Fuse(tracked_);
     if (labelling_ && tracked_.report.fused) Label(outcome);
+    if (loops_) outcome.loops_ms = loops_->AfterFusion(frame_, tracked_, tracking_, mapping_);
     outcome.report = tracked_.report;
     outcome.T_world_camera_truth = frame_.T_world_camera;
     outcome.mesh_ms = feed_.Send(frame_, outcome.report, mapping_);
@@ -108,6 +112,7 @@ bool LockstepEngine::Obey(const ViewerCommand& command, FrameOutcome& outcome) {
         case ViewerCommand::Kind::kReset:
             tracking_.Reset();
             mapping_.Reset();
+            if (loops_) loops_.emplace(config_.loops, config_.pipeline, source_);
             feed_.SendMesh(mapping_);
             outcome.kind = FrameOutcome::Kind::kReset;
             return true;
@@ -124,6 +129,10 @@ bool LockstepEngine::Obey(const ViewerCommand& command, FrameOutcome& outcome) {
         case ViewerCommand::Kind::kStop: stopped_ = true; return false;
         default: return false;
     }
+}
+
+std::vector<StampedPose> LockstepEngine::CorrectedPath() const {
+    return loops_ ? loops_->Path() : std::vector<StampedPose>();
 }
 
 TriangleMesh LockstepEngine::TakeMesh() {

@@ -5,6 +5,7 @@
 #include "io/frame_reader.h"
 #include "system/engine.h"
 #include "system/engine_steps.h"
+#include "system/loop_stage.h"
 #include "system/run_control.h"
 #include "system/viewer_feed.h"
 
@@ -19,6 +20,7 @@ class LockstepEngine : public Engine {
     bool stopped() const override { return stopped_; }
     TriangleMesh TakeMesh() override;
     const std::vector<MapObject>& objects() const override { return mapping_.objects(); }
+    std::vector<StampedPose> CorrectedPath() const override;
     MapStatistics map_statistics() const override { return StatisticsOf(mapping_.map()); }
 
   private:
@@ -37,6 +39,7 @@ class LockstepEngine : public Engine {
     SourceInfo source_;
     TrackingStage tracking_;
     MappingStage mapping_;
+    std::optional<LoopStage> loops_;  // if they are to be closed
     TrackedFrame tracked_;
     ViewerFeed feed_;
     RecorderThread recorder_;

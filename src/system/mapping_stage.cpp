@@ -76,6 +76,14 @@ void MappingStage::Predict(const Eigen::Isometry3d& T_world_camera, int step, Pr
                         1.2f * static_cast<float>(config_.frame.max_depth_m), view);
 }
 
+// Its blocks' revisions count its frames, no more than were ever fused here: the next revision is new to all of them.
+void MappingStage::Replace(std::unique_ptr<BlockMap> map) {
+    map_ = std::move(map);
+    mesher_.Clear();
+    delta_size_ = 1;
+    mesh_cleared_ = true;
+}
+
 void MappingStage::Reset() {
     map_->Clear();
     mesher_.Clear();

@@ -46,6 +46,9 @@ class MappingStage {
     // The surface as the camera sees it from where it was, at 1/`step` of its resolution.
     void Predict(const Eigen::Isometry3d& T_world_camera, int step, PredictedView& view) const;
 
+    // In place of the map so far: one that was fused from the same frames elsewhere.
+    void Replace(std::unique_ptr<BlockMap> map);
+
     // An empty map.
     void Reset();
 

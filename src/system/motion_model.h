@@ -27,6 +27,10 @@ class MotionModel {
     Eigen::Isometry3d Predict(double stamp_s) const;
     void Add(const StampedPose& pose);
     void Clear();
+    // The world was moved: the camera's velocity is its own and stays.
+    void Move(const Eigen::Isometry3d& T_new_old) {
+        if (last_) last_->T_world_camera = Normalised(T_new_old * last_->T_world_camera);
+    }
 
   private:
     Config config_;

@@ -7,6 +7,7 @@
 
 #include "core/stopwatch.h"
 #include "io/trajectory.h"
+#include "optimize/pose_graph.h"
 #include "system/live_engine.h"
 #include "system/lockstep_engine.h"
 #include "system/open_source.h"
@@ -35,6 +36,7 @@ class Runner {
   private:
     Status Open(const std::atomic<bool>& stop) {
         if (Status status = config_.Validate(); !status.ok()) return status;
+        if (Status status = CheckLoops(); !status.ok()) return status;
         std::vector<StampedPose> given;
         if (!request_.poses_file.empty()) {
             Result<Trajectory> poses = ReadTrajectory(request_.poses_file);
@@ -60,6 +62,17 @@ class Runner {
             engine_ = std::make_unique<LiveEngine>(std::move(input));
         else
             engine_ = std::make_unique<LockstepEngine>(std::move(input));
+        return Status::Ok();
+    }
+
+    Status CheckLoops() const {
+        if (!config_.loops.enabled) return Status::Ok();
+        if (!PoseGraphAvailable())
+            return Status::Error("--loop-closure on: this build has no pose graph; install libceres-dev and build again");
+        if (request_.live)
+            return Status::Error("--loop-closure on: not yet in --mode live; leave one of the two out");
+        if (!request_.poses_file.empty())
+            return Status::Error("--loop-closure on: with --poses the poses are given; leave one of the two out");
         return Status::Ok();
     }
 
@@ -132,6 +145,7 @@ class Runner {
                                         {"allocate", report.fusion.allocate_ms}, {"fuse", report.fusion.fuse_ms}})
             times_.Add(stage, ms);
         if (request_.live) times_.Add("latency", outcome.latency_ms);
+        if (config_.loops.enabled) times_.Add("loops", outcome.loops_ms);
         if (request_.viewer != nullptr) times_.Add("mesh_update", outcome.mesh_ms);
     }
 
@@ -215,7 +229,8 @@ class Runner {
         RunSummary& s = summary_;
         s.exit = !outcome.ok() ? "failed: " + outcome.message() : (s.stopped ? "stopped" : "finished");
         s.map = engine_->map_statistics();
-        Status written = output_ ? WriteMesh() : Status::Ok();
+        Status written = Correct();
+        if (Status mesh = output_ ? WriteMesh() : Status::Ok(); written.ok()) written = mesh;
         s.fps = s.wall_s > 0 ? static_cast<double>(s.counts.frames) / s.wall_s : 0;
         s.peak_rss_mb = MeasureProcess().peak_rss_mb;
         s.stages = times_.Summarise();
@@ -224,6 +239,14 @@ class Runner {
                 s.ate = std::move(ate.value());
         if (Status status = output_ ? output_->Finish(s) : Status::Ok(); written.ok()) written = status;
         return written;
+    }
+
+    // The poses as they are known at the end.
+    Status Correct() {
+        std::vector<StampedPose> path = engine_->CorrectedPath();
+        if (path.empty()) return Status::Ok();
+        estimate_ = std::move(path);
+        return output_ ? output_->ReplacePath(estimate_) : Status::Ok();
     }
 
     Status WriteMesh() {

@@ -9,6 +9,7 @@
 #include "io/frame_recorder.h"
 #include "io/openni_config.h"
 #include "mapping/mesher.h"
+#include "optimize/loop_config.h"
 #include "semantics/label_config.h"
 #include "synth/synthetic_source.h"
 #include "system/pipeline_config.h"
@@ -41,12 +42,13 @@ struct RunConfig {
     PipelineConfig pipeline;
     MeshConfig meshing;
     LabelConfig labels;
+    LoopConfig loops;
     LiveConfig live;
     ViewConfig view;
     int threads = 0;     // 0: as many as the machine has
     int read_ahead = 4;  // frames decoded ahead
 
-    // Sections source (source.openni in it), synthetic, frame, mapping, tracking, meshing, labels, live, view, record, run.
+    // Sections source (source.openni in it), synthetic, frame, mapping, tracking, meshing, labels, loops, live, view, record, run.
     void Describe(ConfigParameters& parameters);
     // Conditions between keys; the error names the key.
     Status Validate() const;

@@ -90,6 +90,13 @@ Status RunOutput::AddDetections(const LabelReport& report, const LabelClasses& c
     return Append("detections.txt", lines, detections_);
 }
 
+Status RunOutput::ReplacePath(const std::vector<StampedPose>& path) {
+    path_.clear();
+    for (const StampedPose& pose : path) path_.push_back(pose.T_world_camera);
+    trajectory_.reset();
+    return WriteTrajectory(Path("trajectory.txt"), path);
+}
+
 Status RunOutput::WritePicture(const TriangleMesh& mesh) const {
     if (mesh.triangles.empty()) return Status::Ok();
     const MeshView view = ChooseView(mesh, path_);

@@ -26,6 +26,8 @@ class RunOutput {
 
     // The frame's lines in detections.txt, after a line that says that it was looked at.
     Status AddDetections(const LabelReport& report, const LabelClasses& classes);
+    // trajectory.txt anew, from poses that are known better now; whole or not at all.
+    Status ReplacePath(const std::vector<StampedPose>& path);
 
     // mesh.ply, and preview.png where the mesh has triangles. The first error, but the other file is tried, too.
     Status WriteMesh(const TriangleMesh& mesh) const;

@@ -22,6 +22,7 @@ TrackingStage::TrackingStage(const PipelineConfig& config, const PinholeCamera& 
     : config_(config),
       camera_(camera),
       motion_(config.motion),
+      motion_before_(config.motion),
       aligner_(config.prealign, camera),
       trackers_(config.trackers, camera) {}
 
@@ -42,6 +43,7 @@ void TrackingStage::Track(const Frame& frame, const BlockMap& map, const std::op
         static_cast<double>(prepared.valid_depth_pixels) / static_cast<double>(frame.depth_m.size());
 
     // 2. Where was the camera?
+    motion_before_ = motion_;
     report.first = !motion_.last().has_value();
     if (prepared.valid_depth_pixels == 0) {
         report.track.reason = prepared.measured_pixels > 0 ? "0 depth pixels in range: is depth_scale right?"
@@ -67,6 +69,34 @@ void TrackingStage::Track(const Frame& frame, const BlockMap& map, const std::op
     tracked.to_fuse = report.track.status == TrackStatus::kGood && (fusing_ || report.first);
     tracked.view = FusionView(report.track);
 }
+
+bool TrackingStage::TrackFrom(const Frame& frame, const BlockMap& map, const Eigen::Isometry3d& T_world_camera,
+                              TrackedFrame& tracked) {
+    Stopwatch watch;
+    TrackResult track = trackers_.Track({.frame = tracked.prepared,
+                                         .map = map,
+                                         .T_world_camera_starts = {T_world_camera},
+                                         .T_world_camera_last = T_world_camera,
+                                         .since_last_s = 0,
+                                         .motion = ShutterOf(frame)});
+    tracked.report.track_ms += watch.LapMs();
+    if (track.status != TrackStatus::kGood) return false;
+    tracked.report.track = std::move(track);
+    motion_.Clear();
+    motion_.Add({frame.stamp_s, tracked.report.track.T_world_camera});
+    tracked.to_fuse = fusing_;
+    tracked.view = FusionView(tracked.report.track);
+    return true;
+}
+
+void TrackingStage::Disbelieve(const std::string& reason, TrackedFrame& tracked) {
+    motion_ = motion_before_;
+    tracked.report.track.status = TrackStatus::kLost;
+    tracked.report.track.reason = reason;
+    tracked.to_fuse = false;
+}
+
+void TrackingStage::Move(const Eigen::Isometry3d& T_new_old) { motion_.Move(T_new_old); }
 
 TrackResult TrackingStage::TrackFrame(const Frame& frame, const PreparedFrame& prepared, const BlockMap& map) {
     const Eigen::Isometry3d& T_world_last = motion_.last()->T_world_camera;

@@ -49,6 +49,14 @@ class TrackingStage {
     void Track(const Frame& frame, const BlockMap& map, const std::optional<Eigen::Isometry3d>& given,
                TrackedFrame& tracked);
 
+    // Tracks the frame given last once more, from another place; only if it then fits well is its result taken, and true
+    // returned.
+    bool TrackFrom(const Frame& frame, const BlockMap& map, const Eigen::Isometry3d& T_world_camera, TrackedFrame& tracked);
+    // The pose of the frame given last is not to be believed: it is lost.
+    void Disbelieve(const std::string& reason, TrackedFrame& tracked);
+    // The map was moved, the camera with it.
+    void Move(const Eigen::Isometry3d& T_new_old);
+
     // From the next frame on; pose, velocity, brightness and map stay.
     void Select(TrackingMethod method) { trackers_.Select(method); }
     // Off: frames are tracked, but are not to be fused; the first always is.
@@ -63,7 +71,7 @@ class TrackingStage {
 
     PipelineConfig config_;
     PinholeCamera camera_;
-    MotionModel motion_;
+    MotionModel motion_, motion_before_;  // after and before the last frame
     ImageAligner aligner_;
     Trackers trackers_;
     bool fusing_ = true;

@@ -121,11 +121,18 @@ TEST_F(Cli, BadArgumentsAreOneLineAndExitCode2) {
 }
 
 TEST_F(Cli, WhatIsToComeIsRefusedAndNeverIgnored) {
-    for (const char* option : {"--loop-closure on", "--scan a.scan", "--resume a.scan",
+    for (const char* option : {"--scan a.scan", "--resume a.scan",
                                "--device cuda"})
         ExpectRefused(std::string("run synthetic:desk ") + option, "not in this version");
     ExpectRefused("run a.klg", "not in this version");
     ExpectRefused("export out --mesh a.glb", "not in this version");
+}
+
+TEST_F(Cli, LoopClosureIsRefusedWhereItCannotBe) {
+    ExpectRefused("run synthetic:desk --loop-closure on --mode live", "--loop-closure on");
+    const std::string poses = folder / "poses.txt";
+    std::ofstream(poses) << "0 0 0 0 0 0 0 1\n";
+    ExpectRefused("run synthetic:desk --loop-closure on --poses " + poses, "--loop-closure on");
 }
 
 TEST_F(Cli, SwitchNeedsAFrameAndAMethod) {

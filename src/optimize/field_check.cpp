@@ -1,0 +1,105 @@
+#include "optimize/field_check.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "mapping/field_sampler.h"
+
+namespace tessera {
+
+FieldCheck::FieldCheck(const FieldSettings& settings, const LoopConfig& config)
+    : settings_(settings),
+      config_(config),
+      map_(settings.map),
+      integrator_(settings.fusion, settings.camera),
+      photometry_(settings.photometric, settings.camera),
+      tracker_(settings.tracker, settings.camera, TrackJudge(settings.judge), &photometry_) {}
+
+FieldVerdict FieldCheck::Check(std::span<const NearFrame> old_frames, const FreshFrame& fresh, FrameStore& store) {
+    constexpr double kAsWell = 0.9;
+    FieldVerdict verdict;
+    FuseOld(old_frames, store);
+    const TrackResult forward = Track(fresh.prepared, fresh.motion, fresh.T_old_new_features);
+    verdict.T_old_new = forward.T_world_camera;
+    if (verdict.reason = Fault(forward); !verdict.reason.empty()) return verdict;
+    verdict.closed_before =
+        fresh.T_old_new_expected && ShareThatFits(fresh.prepared, *fresh.T_old_new_expected) >=
+                                        kAsWell * ShareThatFits(fresh.prepared, forward.T_world_camera);
+
+    map_.Clear();
+    Integrator::View view;
+    view.motion = fresh.motion;
+    integrator_.Integrate(fresh.prepared, view, map_);
+    const StoredFrame& old = *old_frames.front().stored;
+    Load(old, store);
+    const TrackResult backward = Track(prepared_, old.view.motion, forward.T_world_camera.inverse());
+    if (verdict.reason = Fault(backward); !verdict.reason.empty()) {
+        verdict.reason = "seen from the other side, " + verdict.reason;
+        return verdict;
+    }
+    const Eigen::Isometry3d disagreement = forward.T_world_camera * backward.T_world_camera;
+    const double off_m = disagreement.translation().norm();
+    const double off_rad = RotationAngle(disagreement, Eigen::Isometry3d::Identity());
+    verdict.accepted = off_m <= config_.max_disagreement_m && off_rad <= config_.max_disagreement_m;
+    if (!verdict.accepted)
+        verdict.reason = fmt::format("the two sides disagree by {:.3f} m and {:.3f} rad", off_m, off_rad);
+    return verdict;
+}
+
+void FieldCheck::Load(const StoredFrame& stored, FrameStore& store) {
+    const Status loaded = store.Load(stored, frame_);
+    TESSERA_CHECK(loaded.ok(), "a frame that was stored cannot be read back: {}", loaded.message());
+    PrepareFrame(frame_, settings_.preparation, prepared_);
+}
+
+void FieldCheck::FuseOld(std::span<const NearFrame> frames, FrameStore& store) {
+    map_.Clear();
+    for (const NearFrame& frame : frames) {
+        Load(*frame.stored, store);
+        Integrator::View view = frame.stored->view;
+        view.T_world_camera = frame.T_keyframe_camera;
+        integrator_.Integrate(prepared_, view, map_);
+    }
+}
+
+TrackResult FieldCheck::Track(const PreparedFrame& frame, const FrameMotion& motion,
+                              const Eigen::Isometry3d& T_field_camera) {
+    photometry_.Reset();
+    return tracker_.Track({.frame = frame,
+                           .map = map_,
+                           .T_world_camera_starts = {T_field_camera},
+                           .T_world_camera_last = T_field_camera,
+                           .since_last_s = 0,
+                           .motion = motion});
+}
+
+// Of the points that the field knows, those within half the truncation of its surface.
+double FieldCheck::ShareThatFits(const PreparedFrame& frame, const Eigen::Isometry3d& T_field_camera) const {
+    constexpr int kStep = 8;
+    FieldSampler sampler(map_.view(), BlockCoord{0, 0, 0});
+    const double per_voxel = 1 / settings_.map.voxel_size_m;
+    int known = 0, fit = 0;
+    for (int y = kStep / 2; y < frame.depth_m.height(); y += kStep)
+        for (int x = kStep / 2; x < frame.depth_m.width(); x += kStep) {
+            const float z = frame.depth_m(x, y);
+            if (z <= 0) continue;
+            const Eigen::Vector3f p = ((T_field_camera * settings_.camera.Unproject(x, y, z)) * per_voxel).cast<float>();
+            const FieldSample sample = sampler.Sample<false>(sampler.Locate(p.x(), p.y(), p.z()));
+            if (!sample.has_distance) continue;
+            ++known;
+            fit += std::abs(sample.distance.value) < 0.5 * settings_.map.truncation_m;
+        }
+    return known > 0 ? static_cast<double>(fit) / known : 0;
+}
+
+std::string FieldCheck::Fault(const TrackResult& track) const {
+    if (track.status != TrackStatus::kGood) return track.reason;
+    if (track.known_fraction < config_.min_known_fraction)
+        return fmt::format("only {:.0f} % of the depth lies in the field", 100 * track.known_fraction);
+    if (track.inlier_fraction < config_.min_fit)
+        return fmt::format("only {:.0f} % of the depth fits the field", 100 * track.inlier_fraction);
+    return {};
+}
+
+}  // namespace tessera

@@ -1,0 +1,60 @@
+#include "optimize/frame_store.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "io/jpeg_decoder.h"
+#include "io/jpeg_encoder.h"
+
+namespace tessera {
+namespace {
+
+constexpr int kJpegQuality = 92, kMaxSide_px = 65500;
+
+}  // namespace
+
+Status FrameStore::Add(const Frame& frame, int keyframe, bool is_keyframe, const Eigen::Isometry3d& T_keyframe_camera,
+                       const Integrator::View& view) {
+    const std::int64_t ordinal = next_ordinal_++;
+    if (!is_keyframe && ordinal % stride_ != 0) return Status::Ok();
+    StoredFrame stored{ordinal, keyframe, is_keyframe, T_keyframe_camera, view, {}, {}};
+    raw_depth_.Resize(frame.depth_m.width(), frame.depth_m.height());
+    const float units = static_cast<float>(depth_units_per_m_);
+    std::transform(frame.depth_m.data(), frame.depth_m.data() + frame.depth_m.size(), raw_depth_.data(), [&](float z) {
+        return static_cast<std::uint16_t>(z * units < 65535.0f ? std::lround(std::max(z, 0.0f) * units) : 0);
+    });
+    encoder_.EncodeDepth(raw_depth_, stored.depth_png);
+    stored.depth_png.shrink_to_fit();
+    if (!frame.colour.empty())
+        if (Status status = EncodeJpeg(frame.colour, kJpegQuality, stored.colour_jpeg); !status.ok()) return status;
+    stored.colour_jpeg.shrink_to_fit();
+    bytes_ += stored.bytes();
+    frames_.push_back(std::move(stored));
+    while (bytes_ > limit_bytes_ && stride_ < (1 << 20)) Thin();
+    return Status::Ok();
+}
+
+void FrameStore::Thin() {
+    stride_ *= 2;
+    std::erase_if(frames_, [&](const StoredFrame& f) { return !f.is_keyframe && f.ordinal % stride_ != 0; });
+    bytes_ = 0;
+    for (const StoredFrame& f : frames_) bytes_ += f.bytes();
+}
+
+Status FrameStore::Load(const StoredFrame& stored, Frame& frame) {
+    frame.index = stored.ordinal;
+    const auto header = ReadPngHeader(stored.depth_png);
+    TESSERA_CHECK(header.has_value(), "a stored depth image without header");
+    if (Status status = decoder_.DecodeDepth(stored.depth_png, *header, raw_depth_); !status.ok()) return status;
+    frame.depth_m.Resize(raw_depth_.width(), raw_depth_.height());
+    const float metres = static_cast<float>(1 / depth_units_per_m_);
+    std::transform(raw_depth_.data(), raw_depth_.data() + raw_depth_.size(), frame.depth_m.data(),
+                   [&](std::uint16_t raw) { return static_cast<float>(raw) * metres; });
+    if (stored.colour_jpeg.empty()) {
+        frame.colour = {};
+        return Status::Ok();
+    }
+    return DecodeJpeg(stored.colour_jpeg, kMaxSide_px, frame.colour);
+}
+
+}  // namespace tessera

@@ -1,0 +1,195 @@
+#include "optimize/loop_closer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "core/se3.h"
+
+namespace tessera {
+namespace {
+
+std::size_t Bytes(double megabytes) { return static_cast<std::size_t>(megabytes * 1e6); }
+
+}  // namespace
+
+LoopCloser::LoopCloser(const LoopConfig& config, const FieldSettings& settings, double depth_units_per_m)
+    : config_(config),
+      settings_(settings),
+      keyframes_(settings.camera, config.max_overlap, config.max_features),
+      store_(Bytes(config.memory_limit_mb), depth_units_per_m),
+      verifier_(settings, config) {}
+
+std::string LoopCloser::Add(const Frame& frame, const PreparedFrame& prepared, const TrackResult& track,
+                            const Integrator::View& view, bool fused) {
+    std::string news;
+    const Eigen::Isometry3d& T_map_camera = track.T_world_camera;
+    keyframes_.Follow(T_map_camera);
+    const bool keyframe = fused && (relocalised_at_ || keyframes_.Wanted(prepared, T_map_camera));
+    if (keyframe) AddKeyframe(frame, prepared, track);
+    if (keyframes_.empty()) return news;
+    const Keyframe& last = keyframes_.last();
+    const Eigen::Isometry3d T_keyframe_camera = Normalised(last.T_map_camera.inverse() * T_map_camera);
+    passages_.push_back({frame.stamp_s, last.id, T_keyframe_camera});
+    if (!fused) return news;
+    if (Status stored = store_.Add(frame, last.id, keyframe, T_keyframe_camera, view); !stored.ok()) return stored.message();
+    if (keyframe) {
+        news = SeekLoop(last, prepared, view.motion);
+        index_.Add(last.id, last.features.descriptors);
+    }
+    return news;
+}
+
+void LoopCloser::AddKeyframe(const Frame& frame, const PreparedFrame& prepared, const TrackResult& track) {
+    const bool first = keyframes_.empty();
+    Keyframe& fresh = keyframes_.Add(frame.index, frame.stamp_s, prepared, track);
+    if (!first) {
+        const int from = relocalised_at_.value_or(fresh.id - 1);
+        fresh.T_world_camera = Normalised(keyframes_[from].T_world_camera * keyframes_[from].T_map_camera.inverse() *
+                                          fresh.T_map_camera);
+        Link(from, fresh.id);
+    }
+    relocalised_at_.reset();
+    if (rebuild_) {
+        const int from = std::max(fresh.id - 1, 0);
+        rebuild_->AddKeyframe(Normalised(rebuild_->T_world_keyframe()[static_cast<std::size_t>(from)] *
+                                         keyframes_[from].T_map_camera.inverse() * fresh.T_map_camera));
+    }
+}
+
+void LoopCloser::Link(int from, int to) {
+    const Keyframe &a = keyframes_[from], &b = keyframes_[to], &before = keyframes_[to - 1];
+    // What tracking against the map loses on the way: a little for each keyframe, and a share of the way.
+    const double trust = b.inlier_fraction < config_.min_fit ? 2.0 : 1.0;
+    edges_.push_back({from, to, Normalised(a.T_map_camera.inverse() * b.T_map_camera),
+                      trust * (0.002 + 0.01 * std::min(1.0, b.way_m - before.way_m)),
+                      trust * (0.002 + 0.01 * std::min(1.0, b.turned_rad - before.turned_rad)), false});
+}
+
+std::string LoopCloser::SeekLoop(const Keyframe& fresh, const PreparedFrame& prepared, const FrameMotion& motion) {
+    const auto candidates = index_.Query(fresh.features.descriptors, fresh.id - config_.min_gap, config_.candidates,
+                                         config_.min_votes);
+    for (const PlaceIndex::Candidate& candidate : candidates) {
+        const Keyframe& old = keyframes_[candidate.keyframe];
+        const FieldVerdict verdict = verifier_.VerifyLoop(keyframes_, old, fresh, prepared, motion, store_);
+        if (verdict.accepted) return CloseLoop(old, fresh, verdict);
+    }
+    return {};
+}
+
+// A loop that tracking has closed by itself is kept as it is: the whole map knows better than two frames.
+std::string LoopCloser::CloseLoop(const Keyframe& old, const Keyframe& fresh, const FieldVerdict& verdict) {
+    constexpr double kSigma_m = 0.01, kSigma_rad = 0.005;
+    const Eigen::Isometry3d T_old_new =
+        verdict.closed_before ? Normalised(old.T_map_camera.inverse() * fresh.T_map_camera) : verdict.T_old_new;
+    edges_.push_back({old.id, fresh.id, T_old_new, kSigma_m, kSigma_rad, true});
+    ++loops_;
+    const Drift drift = DriftOf(old, fresh, T_old_new, config_.max_drift);
+    if (drift.off_m < config_.min_correction_m && drift.off_rad < config_.min_correction_m) return {};
+    corrected_ = true;
+    if (Status solved = Optimise(); !solved.ok()) return solved.message();
+    return fmt::format("loop closed with frame {}: {:.1f} cm and {:.1f} degrees off", old.frame_index, 100 * drift.off_m,
+                       drift.off_rad * 57.29578);
+}
+
+// Of any point half a view away, between the map and the pose graph.
+double LoopCloser::FarthestOff_m() const {
+    constexpr double kReach_m = 2.0;
+    double farthest = 0;
+    for (int i = 0; i < keyframes_.size(); ++i) {
+        const Keyframe& k = keyframes_[i];
+        farthest = std::max(farthest, (k.T_map_camera.translation() - k.T_world_camera.translation()).norm() +
+                                          kReach_m * RotationAngle(k.T_map_camera, k.T_world_camera));
+    }
+    return farthest;
+}
+
+// On error the keyframes stay where they are.
+Status LoopCloser::Optimise() {
+    std::vector<Eigen::Isometry3d> poses;
+    for (int i = 0; i < keyframes_.size(); ++i) poses.push_back(keyframes_[i].T_world_camera);
+    if (const auto report = OptimisePoses(edges_, poses); !report.ok()) return report.status();
+    for (int i = 0; i < keyframes_.size(); ++i) keyframes_[i].T_world_camera = poses[static_cast<std::size_t>(i)];
+    return Status::Ok();
+}
+
+// True if one is under way, or if the map is off by more than the tolerance.
+bool LoopCloser::BeginRebuild(double tolerance_m) {
+    if (rebuild_) return true;
+    if (!corrected_ || FarthestOff_m() < tolerance_m) return false;
+    std::vector<Eigen::Isometry3d> poses;
+    for (int i = 0; i < keyframes_.size(); ++i) poses.push_back(keyframes_[i].T_world_camera);
+    rebuild_ = std::make_unique<MapRebuild>(settings_.map, settings_.fusion, settings_.preparation, settings_.camera,
+                                            std::move(poses));
+    return true;
+}
+
+std::optional<LoopCloser::Correction> LoopCloser::Step() {
+    if (!BeginRebuild(settings_.map.voxel_size_m / 2)) return std::nullopt;
+    return StepRebuild(config_.rebuild_frames);
+}
+
+std::optional<LoopCloser::Correction> LoopCloser::StepRebuild(int frames) {
+    if (!rebuild_->Step(store_, frames)) return std::nullopt;
+    Correction correction;
+    correction.map = rebuild_->Take();
+    correction.T_new_old =
+        Normalised(rebuild_->T_world_keyframe().back() * keyframes_.last().T_map_camera.inverse());
+    for (int i = 0; i < keyframes_.size(); ++i)
+        keyframes_[i].T_map_camera = rebuild_->T_world_keyframe()[static_cast<std::size_t>(i)];
+    keyframes_.Move(correction.T_new_old);
+    rebuild_.reset();
+    return correction;
+}
+
+std::optional<LoopCloser::Correction> LoopCloser::Finish() {
+    if (!corrected_) return std::nullopt;
+    std::optional<Correction> last;
+    static_cast<void>(Optimise());  // if it fails, what was corrected before holds
+    while (BeginRebuild(settings_.map.voxel_size_m / 10)) last = StepRebuild(std::numeric_limits<int>::max());
+    return last;
+}
+
+std::optional<Eigen::Isometry3d> LoopCloser::Relocalise(const PreparedFrame& frame, std::string& note) {
+    constexpr double kApart_m = 0.3, kApart_rad = 0.3;
+    constexpr int kManyCandidates = 4;  // times as many as for a loop: nothing else tells where the camera is
+    const Features features = ExtractFeatures(frame, settings_.camera, config_.max_features);
+    std::optional<Eigen::Isometry3d> found;
+    relocalised_at_.reset();
+    for (const auto& candidate : index_.Query(features.descriptors, keyframes_.size(),
+                                              kManyCandidates * config_.candidates, config_.min_votes)) {
+        const Keyframe& old = keyframes_[candidate.keyframe];
+        const FeatureMatch match = MatchFeatures(old.features, features, config_);
+        if (!match.accepted) continue;
+        const Eigen::Isometry3d T_guess = old.T_map_camera * match.T_old_new;
+        const auto apart = [&] {
+            return (found->translation() - T_guess.translation()).norm() > kApart_m ||
+                   RotationAngle(*found, T_guess) > kApart_rad;
+        };
+        if (found && !apart()) continue;
+        const FieldVerdict verdict = verifier_.VerifyPlace(keyframes_, old, frame, match.T_old_new, store_);
+        if (!verdict.accepted) continue;
+        if (found) {
+            note = fmt::format("this could be at frame {} or at frame {}", keyframes_[*relocalised_at_].frame_index,
+                               old.frame_index);
+            relocalised_at_.reset();
+            return std::nullopt;
+        }
+        found = Normalised(old.T_map_camera * verdict.T_old_new);
+        relocalised_at_ = old.id;
+        note = fmt::format("found again, at frame {}", old.frame_index);
+    }
+    if (found) keyframes_.Jump();
+    return found;
+}
+
+std::vector<StampedPose> LoopCloser::Path() const {
+    std::vector<StampedPose> path;
+    for (const Passage& p : passages_)
+        path.push_back({p.stamp_s, Normalised(keyframes_[p.keyframe].T_world_camera * p.T_keyframe_camera)});
+    return path;
+}
+
+}  // namespace tessera

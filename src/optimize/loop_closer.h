@@ -1,0 +1,78 @@
+// Global consistency: keyframes, loops between them, where they belong by the pose graph, and the map made again there; and
+// the place of a camera that was lost. Reads frames as they are tracked and fused; never touches the map in use, but hands
+// out a corrected one when it is ready.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "optimize/keyframes.h"
+#include "optimize/loop_verifier.h"
+#include "optimize/map_rebuild.h"
+#include "optimize/place_index.h"
+#include "optimize/pose_graph.h"
+
+namespace tessera {
+
+// Owner thread only. The same result for any number of threads.
+class LoopCloser {
+  public:
+    // In place of the map so far; poses of cameras in it are to be moved likewise: T_new = T_new_old * T_old.
+    struct Correction {
+        std::unique_ptr<BlockMap> map;
+        Eigen::Isometry3d T_new_old = Eigen::Isometry3d::Identity();
+    };
+
+    LoopCloser(const LoopConfig& config, const FieldSettings& settings, double depth_units_per_m);
+
+    // Every tracked frame, after its fusion, if it was fused. Returns what a person should know, mostly empty.
+    std::string Add(const Frame& frame, const PreparedFrame& prepared, const TrackResult& track,
+                    const Integrator::View& view, bool fused);
+    // T_map_camera of a frame whose camera is lost; nothing if it was not here before, or if it could be at two places.
+    // `note` says what was found.
+    std::optional<Eigen::Isometry3d> Relocalise(const PreparedFrame& frame, std::string& note);
+    // To be called after each frame: works on the corrected map within the frame's budget.
+    std::optional<Correction> Step();
+    // At the end: whatever is still to be corrected.
+    std::optional<Correction> Finish();
+
+    // The frames' poses as they are known now, in order.
+    std::vector<StampedPose> Path() const;
+    const Keyframes& keyframes() const { return keyframes_; }
+    const std::vector<PoseEdge>& edges() const { return edges_; }
+    int loops() const { return loops_; }
+    const FrameStore& store() const { return store_; }
+
+  private:
+    struct Passage {  // a tracked frame
+        double stamp_s = 0;
+        int keyframe = 0;
+        Eigen::Isometry3d T_keyframe_camera;
+    };
+
+    void AddKeyframe(const Frame& frame, const PreparedFrame& prepared, const TrackResult& track);
+    void Link(int from, int to);
+    std::string SeekLoop(const Keyframe& fresh, const PreparedFrame& prepared, const FrameMotion& motion);
+    std::string CloseLoop(const Keyframe& old, const Keyframe& fresh, const FieldVerdict& verdict);
+    double FarthestOff_m() const;
+    Status Optimise();
+    bool BeginRebuild(double tolerance_m);
+    std::optional<Correction> StepRebuild(int frames);
+
+    LoopConfig config_;
+    FieldSettings settings_;
+    Keyframes keyframes_;
+    PlaceIndex index_;
+    FrameStore store_;
+    LoopVerifier verifier_;
+    std::vector<PoseEdge> edges_;
+    std::vector<Passage> passages_;
+    std::unique_ptr<MapRebuild> rebuild_;  // null when the map is right
+    std::optional<int> relocalised_at_;    // the keyframe that the next one hangs on
+    int loops_ = 0;
+    bool corrected_ = false;               // some loop was worth it
+};
+
+}  // namespace tessera

@@ -1,0 +1,28 @@
+// Settings of loop closure and relocalisation.
+#pragma once
+
+#include "core/config.h"
+
+namespace tessera {
+
+struct LoopConfig {
+    bool enabled = false;
+    double max_overlap = 0.8;
+    int max_features = 800;
+    double memory_limit_mb = 1500;
+    int min_gap = 8;
+    int candidates = 6;
+    int min_votes = 10;
+    int min_inliers = 18;
+    double min_spread_m = 0.12;
+    double min_known_fraction = 0.35;
+    double min_fit = 0.6;
+    double max_disagreement_m = 0.03;
+    double max_drift = 0.05;
+    double min_correction_m = 0.02;
+    int rebuild_frames = 20;
+
+    void Describe(ConfigParameters& parameters);
+};
+
+}  // namespace tessera

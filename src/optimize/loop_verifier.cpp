@@ -1,0 +1,64 @@
+#include "optimize/loop_verifier.h"
+
+#include <algorithm>
+
+#include "core/se3.h"
+
+namespace tessera {
+
+Drift DriftOf(const Keyframe& old, const Keyframe& fresh, const Eigen::Isometry3d& T_old_new, double max_drift) {
+    constexpr double kAlways = 0.15;  // metres and radians
+    const Eigen::Isometry3d T_old_estimate = old.T_world_camera.inverse() * fresh.T_world_camera;
+    Drift drift;
+    drift.off_m = (T_old_estimate.translation() - T_old_new.translation()).norm();
+    drift.off_rad = RotationAngle(T_old_estimate, T_old_new);
+    drift.possible = drift.off_m <= kAlways + max_drift * (fresh.way_m - old.way_m) &&
+                     drift.off_rad <= kAlways + max_drift * (fresh.turned_rad - old.turned_rad);
+    return drift;
+}
+
+FieldVerdict LoopVerifier::VerifyLoop(const Keyframes& keyframes, const Keyframe& old, const Keyframe& fresh,
+                                      const PreparedFrame& prepared, const FrameMotion& motion, FrameStore& store) {
+    FieldVerdict refused;
+    const FeatureMatch match = MatchFeatures(old.features, fresh.features, config_);
+    const Drift drift = DriftOf(old, fresh, match.T_old_new, config_.max_drift);
+    if (!match.accepted)
+        refused.reason = fmt::format("{} features fit, spread over {:.2f} m", match.inliers, match.spread_m);
+    else if (!drift.possible)
+        refused.reason = fmt::format("it would take a drift of {:.2f} m and {:.2f} rad", drift.off_m, drift.off_rad);
+    if (!refused.reason.empty()) return refused;
+    const Eigen::Isometry3d T_old_new_expected = old.T_map_camera.inverse() * fresh.T_map_camera;
+    return field_.Check(FramesNear(keyframes, old.id, store), {prepared, motion, match.T_old_new, T_old_new_expected},
+                        store);
+}
+
+FieldVerdict LoopVerifier::VerifyPlace(const Keyframes& keyframes, const Keyframe& old, const PreparedFrame& fresh,
+                                       const Eigen::Isometry3d& T_old_new, FrameStore& store) {
+    return field_.Check(FramesNear(keyframes, old.id, store), {fresh, {}, T_old_new, std::nullopt}, store);
+}
+
+// The keyframe's own frame first, then others of it and of its two neighbours, evenly.
+std::vector<NearFrame> LoopVerifier::FramesNear(const Keyframes& keyframes, int keyframe, const FrameStore& store) const {
+    constexpr std::size_t kMost = 4;
+    const std::vector<StoredFrame>& all = store.frames();
+    std::vector<NearFrame> near(1), others;
+    const Eigen::Isometry3d T_keyframe_world = keyframes[keyframe].T_map_camera.inverse();
+    auto frame = std::ranges::lower_bound(all, keyframe - 1, {}, &StoredFrame::keyframe);
+    for (; frame != all.end() && frame->keyframe <= keyframe + 1; ++frame) {
+        const bool own = frame->keyframe == keyframe && frame->is_keyframe;
+        const Eigen::Isometry3d T_keyframe_camera =
+            T_keyframe_world * keyframes[frame->keyframe].T_map_camera * frame->T_keyframe_camera;
+        // A loss may lie between two keyframes.
+        if (T_keyframe_camera.translation().norm() > 0.5) continue;
+        if (own)
+            near.front() = {&*frame, T_keyframe_camera};
+        else
+            others.push_back({&*frame, T_keyframe_camera});
+    }
+    TESSERA_CHECK(near.front().stored != nullptr, "keyframe {} has no stored frame", keyframe);
+    const std::size_t step = std::max<std::size_t>(1, (others.size() + kMost - 1) / kMost);
+    for (std::size_t i = 0; i < others.size(); i += step) near.push_back(others[i]);
+    return near;
+}
+
+}  // namespace tessera

@@ -1,0 +1,24 @@
+#include "optimize/map_rebuild.h"
+
+#include <algorithm>
+
+#include "core/check.h"
+
+namespace tessera {
+
+bool MapRebuild::Step(FrameStore& store, int frames) {
+    const std::vector<StoredFrame>& stored = store.frames();
+    auto next = std::ranges::lower_bound(stored, next_ordinal_, {}, &StoredFrame::ordinal);
+    for (int i = 0; i < frames && next != stored.end(); ++i, ++next) {
+        const Status loaded = store.Load(*next, frame_);
+        TESSERA_CHECK(loaded.ok(), "a frame that was stored cannot be read back: {}", loaded.message());
+        PrepareFrame(frame_, preparation_, prepared_);
+        Integrator::View view = next->view;
+        view.T_world_camera = T_world_keyframe_[static_cast<std::size_t>(next->keyframe)] * next->T_keyframe_camera;
+        integrator_.Integrate(prepared_, view, *map_);
+        next_ordinal_ = next->ordinal + 1;
+    }
+    return next == stored.end();
+}
+
+}  // namespace tessera

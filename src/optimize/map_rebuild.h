@@ -1,0 +1,41 @@
+// The map made again from the stored frames, with their keyframes where they belong now, a few frames at a time while the
+// old map is still in use. The result is by construction a fresh fusion with the new poses.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "mapping/integrator.h"
+#include "optimize/frame_store.h"
+
+namespace tessera {
+
+// Owner thread only.
+class MapRebuild {
+  public:
+    // `T_world_keyframe` by keyframe; those that come later are to be added.
+    MapRebuild(const BlockMap::Config& map, const Integrator::Config& fusion, const PreparedFrame::Config& preparation,
+               const PinholeCamera& camera, std::vector<Eigen::Isometry3d> T_world_keyframe)
+        : map_(std::make_unique<BlockMap>(map)),
+          integrator_(fusion, camera),
+          preparation_(preparation),
+          T_world_keyframe_(std::move(T_world_keyframe)) {}
+
+    void AddKeyframe(const Eigen::Isometry3d& T_world_keyframe) { T_world_keyframe_.push_back(T_world_keyframe); }
+    const std::vector<Eigen::Isometry3d>& T_world_keyframe() const { return T_world_keyframe_; }
+
+    // Fuses at most `frames` more. True: none is left, the map may be taken.
+    bool Step(FrameStore& store, int frames);
+    std::unique_ptr<BlockMap> Take() { return std::move(map_); }
+
+  private:
+    std::unique_ptr<BlockMap> map_;
+    Integrator integrator_;
+    PreparedFrame::Config preparation_;
+    std::vector<Eigen::Isometry3d> T_world_keyframe_;
+    std::int64_t next_ordinal_ = 0;
+    Frame frame_;
+    PreparedFrame prepared_;
+};
+
+}  // namespace tessera

@@ -1,0 +1,14 @@
+// In place of the pose graph in a build without Ceres: says so.
+#include "optimize/pose_graph.h"
+
+namespace tessera {
+
+bool PoseGraphAvailable() { return false; }
+
+Result<PoseGraphReport> OptimisePoses(std::span<const PoseEdge>, std::vector<Eigen::Isometry3d>&) {
+    return Status::Error("this build has no pose graph: install libceres-dev and build again");
+}
+
+double EdgeJacobianError(const PoseEdge&, const Eigen::Isometry3d&, const Eigen::Isometry3d&) { return 0; }
+
+}  // namespace tessera

@@ -1,0 +1,94 @@
+#include "optimize/frame_store.h"
+
+#include <gtest/gtest.h>
+
+#include "optimize/map_rebuild.h"
+#include "support/box_room.h"
+
+namespace tessera {
+namespace {
+
+using testing_support::BoxRoom;
+using testing_support::SmallCamera;
+using testing_support::SmoothPath;
+
+Frame FrameAt(int i, bool colour = true) {
+    Frame frame = BoxRoom().Render(SmallCamera(), SmoothPath(i), i / 30.0);
+    for (std::size_t p = 0; p < frame.depth_m.size(); ++p)
+        frame.depth_m.data()[p] = std::round(frame.depth_m.data()[p] * 5000) / 5000;
+    if (!colour) frame.colour = {};
+    return frame;
+}
+
+TEST(FrameStore, GivesDepthBackExactlyAndColourNearly) {
+    FrameStore store(100000000, 5000);
+    Frame frame = FrameAt(0);
+    frame.depth_m(3, 4) = 0;
+    Integrator::View view;
+    view.gain = 1.25f;
+    ASSERT_TRUE(store.Add(frame, 2, true, Eigen::Isometry3d::Identity(), view).ok());
+    ASSERT_EQ(store.frames().size(), 1u);
+    EXPECT_EQ(store.frames()[0].keyframe, 2);
+    EXPECT_EQ(store.frames()[0].view.gain, 1.25f);
+    Frame back;
+    ASSERT_TRUE(store.Load(store.frames()[0], back).ok());
+    for (std::size_t i = 0; i < frame.depth_m.size(); ++i)
+        ASSERT_NEAR(back.depth_m.data()[i], frame.depth_m.data()[i], 1e-6);
+    double off = 0;
+    for (std::size_t i = 0; i < frame.colour.size(); ++i)
+        off += std::abs(back.colour.data()[i].g - frame.colour.data()[i].g);
+    EXPECT_LT(off / static_cast<double>(frame.colour.size()), 2.0);
+}
+
+TEST(FrameStore, OverItsLimitKeepsKeyframesAndAnEvenShareOfTheRest) {
+    FrameStore unlimited(100000000, 5000);
+    for (int i = 0; i < 8; ++i)
+        ASSERT_TRUE(unlimited.Add(FrameAt(i), 0, i == 0, Eigen::Isometry3d::Identity(), {}).ok());
+    FrameStore store(unlimited.bytes() / 2, 5000);
+    for (int i = 0; i < 32; ++i)
+        ASSERT_TRUE(store.Add(FrameAt(i), 0, i == 0 || i == 5, Eigen::Isometry3d::Identity(), {}).ok());
+    EXPECT_LE(store.bytes(), unlimited.bytes() / 2);
+    EXPECT_GT(store.stride(), 4);
+    EXPECT_EQ(store.next_ordinal(), 32);
+    std::vector<std::int64_t> ordinals;
+    for (const StoredFrame& f : store.frames()) ordinals.push_back(f.ordinal);
+    EXPECT_EQ(std::ranges::count(ordinals, 5), 1);
+    for (const std::int64_t o : ordinals) EXPECT_TRUE(o == 5 || o % store.stride() == 0) << o;
+}
+
+// A map made in steps from the store is bit for bit what fusing the same frames at the new poses gives.
+TEST(MapRebuild, EqualsAFreshFusion) {
+    const BlockMap::Config config{.voxel_size_m = 0.04, .truncation_m = 0.16};
+    const Eigen::Isometry3d moved = Se3Exp((Vector6d() << 0.02, 0.1, 0, 0.3, 0, -0.1).finished());
+    FrameStore store(100000000, 5000);
+    BlockMap fresh(config);
+    Integrator integrator({}, SmallCamera());
+    MapRebuild rebuild(config, {}, {}, SmallCamera(), {moved});
+    for (int i = 0; i < 6; ++i) {
+        const Frame frame = FrameAt(i, false);
+        const Eigen::Isometry3d T = SmoothPath(0).inverse() * SmoothPath(i);
+        if (i == 4) {  // a keyframe that comes while the map is being made
+            EXPECT_FALSE(rebuild.Step(store, 3));
+            rebuild.AddKeyframe(moved * moved);
+        }
+        ASSERT_TRUE(store.Add(frame, i < 4 ? 0 : 1, i == 0 || i == 4, T, {}).ok());
+        PreparedFrame prepared;
+        Frame stored;
+        ASSERT_TRUE(store.Load(store.frames().back(), stored).ok());
+        PrepareFrame(stored, {}, prepared);
+        Integrator::View view;
+        view.T_world_camera = (i < 4 ? moved : moved * moved) * T;
+        integrator.Integrate(prepared, view, fresh);
+    }
+    EXPECT_FALSE(rebuild.Step(store, 2));
+    EXPECT_TRUE(rebuild.Step(store, 2));
+    const std::unique_ptr<BlockMap> map = rebuild.Take();
+    ASSERT_EQ(map->size(), fresh.size());
+    for (BlockId id = 1; id < fresh.size(); ++id) {
+        ASSERT_TRUE(std::equal(fresh.field(id), fresh.field(id) + kBlockVoxels, map->field(id)));
+        ASSERT_TRUE(std::equal(fresh.weight(id), fresh.weight(id) + kBlockVoxels, map->weight(id)));
+    }
+}
+
+}  // namespace
+}  // namespace tessera

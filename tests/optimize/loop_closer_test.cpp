@@ -1,0 +1,170 @@
+// Whole walks through a rendered room with a Kinect's noise.
+#include "optimize/loop_closer.h"
+
+#include <tbb/global_control.h>
+
+#include <algorithm>
+
+#include "optimize/room_walk.h"
+
+namespace tessera {
+namespace {
+
+using testing_support::RoomCamera;
+using testing_support::RoomWalk;
+using testing_support::Walker;
+
+// Once around, and a little on, every sixth frame.
+std::vector<Frame> Round() { return RoomWalk(0, 120, 6); }
+
+// What odometry gets wrong between two frames: 1.5 mm and 0.05 degrees, always to the same side.
+Eigen::Isometry3d Bias() { return Se3Exp((Vector6d() << 0, 0.0009, 0, 0.0015, 0, 0).finished()); }
+
+void WalkWithDrift(const std::vector<Frame>& frames, Walker& walker) {
+    for (std::size_t i = 0; i < frames.size(); ++i)
+        walker.Go(frames[i], i == 0 ? Eigen::Isometry3d::Identity()
+                                    : frames[i - 1].T_world_camera->inverse() * *frames[i].T_world_camera * Bias());
+}
+
+double EndError_m(const std::vector<Frame>& frames, const std::vector<StampedPose>& path) {
+    return (path.back().T_world_camera.translation() - frames.back().T_world_camera->translation()).norm();
+}
+
+TEST(LoopCloser, TakesAFifthOrLessOfTheDriftToTheEndAndTheMapFollows) {
+    if (!PoseGraphAvailable()) GTEST_SKIP() << "this build has no Ceres: install libceres-dev";
+    const std::vector<Frame> frames = Round();
+    LoopConfig off;
+    off.min_votes = 1000;  // no candidate, no loop
+    Walker without(off), with(LoopConfig{});
+    WalkWithDrift(frames, without);
+    WalkWithDrift(frames, with);
+    with.Take(with.closer.Finish());
+    const double before_m = EndError_m(frames, without.closer.Path()), after_m = EndError_m(frames, with.closer.Path());
+    RecordProperty("before_mm", std::to_string(1000 * before_m));
+    RecordProperty("after_mm", std::to_string(1000 * after_m));
+    std::cout << "end-point error " << 1000 * before_m << " mm without, " << 1000 * after_m << " mm with; "
+              << with.closer.loops() << " loops, " << with.closer.keyframes().size() << " keyframes\n" << with.all_news;
+    EXPECT_GT(before_m, 0.07);
+    EXPECT_LE(after_m, before_m / 5);
+    EXPECT_GE(with.corrections, 1);
+    EXPECT_EQ(without.corrections, 0);
+
+    // The map against a fresh fusion of the frames as they came, at the final poses.
+    BlockMap fresh(with.settings.map);
+    Integrator integrator(with.settings.fusion, RoomCamera());
+    const std::vector<StampedPose> path = with.closer.Path();
+    ASSERT_EQ(path.size(), frames.size());
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+        PreparedFrame prepared;
+        PrepareFrame(frames[i], with.settings.preparation, prepared);
+        Integrator::View view;
+        view.T_world_camera = path[i].T_world_camera;
+        integrator.Integrate(prepared, view, fresh);
+    }
+    std::vector<float> off_voxels;
+    const float voxels = static_cast<float>(with.settings.map.truncation_m / with.settings.map.voxel_size_m);
+    for (BlockId id = 1; id < fresh.size(); ++id) {
+        const BlockId other = with.map->Find(fresh.coord(id));
+        for (int v = 0; v < kBlockVoxels && other != kUnknownBlock; ++v)
+            if (HasDistance(fresh.field(id)[v]) && HasDistance(with.map->field(other)[v]) &&
+                std::abs(FieldDistance(fresh.field(id)[v])) < 0.5f)
+                off_voxels.push_back(
+                    voxels * std::abs(FieldDistance(fresh.field(id)[v]) - FieldDistance(with.map->field(other)[v])));
+    }
+    ASSERT_GT(off_voxels.size(), 10000u);
+    std::ranges::sort(off_voxels);
+    const float p95 = off_voxels[off_voxels.size() * 95 / 100];
+    std::cout << "map against a fresh fusion: 95th percentile " << p95 << " voxels\n";
+    EXPECT_LE(p95, 0.5f);
+}
+
+TEST(LoopCloser, CorrectsToTheSameBytesForAnyNumberOfThreads) {
+    if (!PoseGraphAvailable()) GTEST_SKIP() << "this build has no Ceres: install libceres-dev";
+    const std::vector<Frame> frames = Round();
+    std::vector<StampedPose> paths[2];
+    for (const int threads : {1, 3}) {
+        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+        Walker walker(LoopConfig{});
+        WalkWithDrift(frames, walker);
+        EXPECT_GE(walker.corrections, 1);
+        paths[threads / 2] = walker.closer.Path();
+    }
+    ASSERT_EQ(paths[0].size(), paths[1].size());
+    for (std::size_t i = 0; i < paths[0].size(); ++i)
+        EXPECT_EQ(paths[0][i].T_world_camera.matrix(), paths[1][i].T_world_camera.matrix()) << i;
+}
+
+// Loops between keyframes that lie in different rooms, 6 m apart.
+int FalseLoops(const LoopCloser& closer) {
+    return static_cast<int>(std::ranges::count_if(closer.edges(), [&](const PoseEdge& edge) {
+        const Eigen::Isometry3d &a = closer.keyframes()[edge.from].T_map_camera, &b = closer.keyframes()[edge.to].T_map_camera;
+        return edge.loop && (a.translation() - b.translation()).norm() > 3;
+    }));
+}
+
+// The second room is the first one again, picture by picture: only the way between them tells them apart.
+TEST(LoopCloser, TwoIdenticalRoomsAreNotOne) {
+    const std::vector<Frame> frames = RoomWalk(0, 20, 6);
+    for (const double max_drift : {0.05, 10.0}) {
+        LoopConfig config;
+        config.max_drift = max_drift;
+        config.min_gap = 2;
+        Walker walker(config);
+        for (int room = 0; room < 2; ++room)
+            for (std::size_t i = 0; i < frames.size(); ++i)
+                walker.Go(frames[i], i > 0 ? frames[i - 1].T_world_camera->inverse() * *frames[i].T_world_camera
+                                     : room == 0 ? Eigen::Isometry3d::Identity()
+                                                 : frames.back().T_world_camera->inverse() * Eigen::Translation3d(6, 0, 0));
+        if (max_drift < 1)
+            EXPECT_EQ(FalseLoops(walker.closer), 0) << walker.all_news;
+        else
+            EXPECT_GT(FalseLoops(walker.closer) + walker.corrections, 0) << "without the gate the test must fail";
+        if (max_drift > 1) continue;
+        // A camera that was lost could be in either.
+        PreparedFrame prepared;
+        PrepareFrame(frames[8], walker.settings.preparation, prepared);
+        std::string note;
+        EXPECT_FALSE(walker.closer.Relocalise(prepared, note).has_value());
+        EXPECT_NE(note.find("could be"), std::string::npos) << note;
+    }
+}
+
+TEST(LoopCloser, FindsALostCameraToTheCentimetreAndRefusesAnUnknownPlace) {
+    const std::vector<Frame> seen = RoomWalk(0, 30, 6);
+    Walker walker(LoopConfig{});
+    for (std::size_t i = 0; i < seen.size(); ++i)
+        walker.Go(seen[i], i == 0 ? Eigen::Isometry3d::Identity()
+                                  : seen[i - 1].T_world_camera->inverse() * *seen[i].T_world_camera);
+    std::string note;
+    PreparedFrame prepared;
+    int found = 0;
+    for (const Frame& frame : RoomWalk(15, 5, 24)) {
+        PrepareFrame(frame, walker.settings.preparation, prepared);
+        const auto T_map_camera = walker.closer.Relocalise(prepared, note);
+        if (!T_map_camera) continue;
+        ++found;
+        EXPECT_LT((T_map_camera->translation() - frame.T_world_camera->translation()).norm(), 0.015) << frame.index;
+    }
+    EXPECT_GE(found, 4);
+    for (const Frame& frame : RoomWalk(360, 5, 24)) {  // the other side of the room
+        PrepareFrame(frame, walker.settings.preparation, prepared);
+        EXPECT_FALSE(walker.closer.Relocalise(prepared, note).has_value()) << frame.index;
+    }
+}
+
+TEST(DriftOf, GrowsWithTheWay) {
+    Keyframe old, fresh;
+    fresh.T_world_camera = Eigen::Translation3d(1, 0, 0);
+    fresh.way_m = 10;
+    const Eigen::Isometry3d measured(Eigen::Translation3d(0.4, 0, 0));
+    EXPECT_DOUBLE_EQ(DriftOf(old, fresh, measured, 0.05).off_m, 0.6);
+    EXPECT_TRUE(DriftOf(old, fresh, measured, 0.05).possible);   // 0.15 + 0.05 * 10
+    EXPECT_FALSE(DriftOf(old, fresh, measured, 0.04).possible);
+    const Eigen::Isometry3d turned = measured * Eigen::AngleAxisd(0.2, Eigen::Vector3d::UnitX());
+    EXPECT_FALSE(DriftOf(old, fresh, turned, 0.05).possible);
+    fresh.turned_rad = 2;
+    EXPECT_TRUE(DriftOf(old, fresh, turned, 0.05).possible);
+}
+
+}  // namespace
+}  // namespace tessera

@@ -1,0 +1,87 @@
+// A walk through the furnished room: frames with their true poses in the first camera's world, rendered once.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <vector>
+
+#include "optimize/loop_closer.h"
+#include "synth/synthetic_source.h"
+
+namespace tessera::testing_support {
+
+inline PinholeCamera RoomCamera() { return {320, 240, 262.5, 262.5, 159.5, 119.5}; }
+
+// Every `step`-th of the walk's 720 frames, from `first`; truth in the world of the whole walk's first camera.
+inline std::vector<Frame> RoomWalk(int first, int count, int step) {
+    SynthConfig config;
+    config.camera = RoomCamera();
+    config.sensor.noise = NoiseModel::kKinect;
+    static const auto source = OpenSynthetic("room", config);
+    EXPECT_TRUE(source.ok());
+    static std::map<int, Frame> rendered;
+    const auto read = [&](int index) {
+        if (!rendered.contains(index)) {
+            source.value()->Seek(index);
+            source.value()->Read(rendered[index]);
+        }
+        return rendered[index];
+    };
+    const Eigen::Isometry3d T_camera_world = read(0).T_world_camera->inverse();
+    std::vector<Frame> frames;
+    for (int i = 0; i < count; ++i) {
+        Frame frame = read(first + i * step);
+        frame.T_world_camera = Normalised(T_camera_world * *frame.T_world_camera);
+        frames.push_back(std::move(frame));
+    }
+    return frames;
+}
+
+inline FieldSettings RoomSettings() {
+    FieldSettings settings;
+    settings.camera = RoomCamera();
+    settings.map = {.voxel_size_m = 0.02, .truncation_m = 0.08};
+    settings.tracker.finest_step_px = 1;
+    return settings;
+}
+
+// Frames at given poses into a LoopCloser and a map, as the system does it, and the map corrected when it says so.
+struct Walker {
+    explicit Walker(const LoopConfig& config)
+        : closer(config, settings, 5000), map(std::make_unique<BlockMap>(settings.map)),
+          integrator(settings.fusion, settings.camera) {}
+
+    // The camera moves on by `T_last_camera`, as its odometry has it.
+    void Go(const Frame& frame, const Eigen::Isometry3d& T_last_camera) {
+        T_map_camera = Normalised(T_map_camera * T_last_camera);
+        PreparedFrame prepared;
+        PrepareFrame(frame, settings.preparation, prepared);
+        Integrator::View view;
+        view.T_world_camera = T_map_camera;
+        integrator.Integrate(prepared, view, *map);
+        TrackResult track;
+        track.T_world_camera = T_map_camera;
+        track.status = TrackStatus::kGood;
+        track.inlier_fraction = 1;
+        const std::string news = closer.Add(frame, prepared, track, view, true);
+        if (!news.empty()) all_news += std::to_string(frame.index) + ": " + news + "\n";
+        Take(closer.Step());
+    }
+    void Take(std::optional<LoopCloser::Correction> correction) {
+        if (!correction) return;
+        map = std::move(correction->map);
+        T_map_camera = Normalised(correction->T_new_old * T_map_camera);
+        ++corrections;
+    }
+
+    FieldSettings settings = RoomSettings();
+    LoopCloser closer;
+    std::unique_ptr<BlockMap> map;
+    Integrator integrator;
+    Eigen::Isometry3d T_map_camera = Eigen::Isometry3d::Identity();
+    std::string all_news;
+    int corrections = 0;
+};
+
+}  // namespace tessera::testing_support
