@@ -71,6 +71,12 @@ Integrator::Report Integrator::Integrate(const PreparedFrame& frame, const View&
     return report;
 }
 
+void Integrator::MarkAllChanged(BlockMap& map) {
+    ++revision_;
+    changed_ = &none_;
+    for (BlockId id = 1; id < map.size(); ++id) map.MarkChanged(id, revision_);
+}
+
 // Walks each depth ray through the band around its measurement ([B14] III-C1). A margin of one and a half voxels
 // around the walk adds the neighbours whose voxels the tracker's interpolation needs.
 void Integrator::Allocate(const PreparedFrame& frame, const View& view, BlockMap& map, Report& report) {

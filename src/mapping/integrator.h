@@ -55,6 +55,8 @@ class Integrator {
     const std::vector<BlockId>& changed_blocks() const { return *changed_; }
     // Counts the integrations; blocks changed by the n-th carry BlockMap::revision n.
     std::uint32_t revision() const { return revision_; }
+    // The map was changed otherwise: all its blocks carry a revision of their own from here on.
+    void MarkAllChanged(BlockMap& map);
 
   private:
     void Allocate(const PreparedFrame& frame, const View& view, BlockMap& map, Report& report);

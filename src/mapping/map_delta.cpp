@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <cstring>
+#include <limits>
 
 #include "core/check.h"
 
@@ -37,6 +38,17 @@ void CollectDelta(const BlockMap& map, BlockId first_new, std::span<const BlockI
     ForEachChanged(changed.size(), [&](std::size_t i) {
         std::memcpy(delta.field.data() + i * kBlockVoxels, map.field(changed[i]), kFieldBytes);
     });
+}
+
+std::unique_ptr<BlockMap> CopyField(const BlockMap& map) {
+    constexpr std::uint32_t kNoDeltas = std::numeric_limits<std::uint32_t>::max();
+    auto copy = std::make_unique<BlockMap>(map.config(), BlockMap::Layers::kFieldOnly);
+    for (BlockId id = 1; id < map.size(); ++id) {
+        copy->Allocate(map.coord(id));
+        std::memcpy(copy->field(id), map.field(id), kFieldBytes);
+        copy->MarkChanged(id, kNoDeltas);
+    }
+    return copy;
 }
 
 void ApplyDelta(const MapDelta& delta, BlockMap& copy) {

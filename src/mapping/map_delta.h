@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -24,6 +25,9 @@ struct MapDelta {
 // `first_new`: the map's size when the last delta was taken. Storage is used again. Nobody may write the map meanwhile.
 void CollectDelta(const BlockMap& map, BlockId first_new, std::span<const BlockId> changed, std::uint32_t revision,
                   MapDelta& delta);
+
+// The whole field at once, under the same ids.
+std::unique_ptr<BlockMap> CopyField(const BlockMap& map);
 
 // Brings `copy` up to date; deltas are to be applied in the order in which they were taken, each once, from an empty
 // map on.

@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "core/frame.h"
@@ -12,6 +13,7 @@
 #include "io/png_decoder.h"
 #include "io/png_encoder.h"
 #include "mapping/integrator.h"
+#include "semantics/detector.h"
 
 namespace tessera {
 
@@ -22,6 +24,8 @@ struct StoredFrame {
     Eigen::Isometry3d T_keyframe_camera = Eigen::Isometry3d::Identity();
     Integrator::View view;     // as it was fused, but for the pose
     std::vector<std::uint8_t> depth_png, colour_jpeg;  // the latter empty without colour
+    std::int64_t frame_index = 0;
+    std::optional<std::vector<Detection>> detections;  // as they were voted into the map; nothing if it was not looked at
 
     std::size_t bytes() const { return sizeof(StoredFrame) + depth_png.capacity() + colour_jpeg.capacity(); }
 };
@@ -37,6 +41,8 @@ class FrameStore {
     // `T_keyframe_camera` is the identity for the keyframe's own frame. Errors: what the encoder refuses.
     Status Add(const Frame& frame, int keyframe, bool is_keyframe, const Eigen::Isometry3d& T_keyframe_camera,
                const Integrator::View& view);
+    // To a frame added before, if it is still there.
+    void AddDetections(std::int64_t frame_index, std::vector<Detection> detections);
     // Index (the ordinal), colour and depth, into storage that is used again; the rest of `frame` stays.
     Status Load(const StoredFrame& stored, Frame& frame);
 

@@ -15,9 +15,11 @@ std::size_t Bytes(double megabytes) { return static_cast<std::size_t>(megabytes 
 
 }  // namespace
 
-LoopCloser::LoopCloser(const LoopConfig& config, const FieldSettings& settings, double depth_units_per_m)
+LoopCloser::LoopCloser(const LoopConfig& config, const FieldSettings& settings, double depth_units_per_m,
+                       std::optional<Labels> labels)
     : config_(config),
       settings_(settings),
+      labels_(std::move(labels)),
       keyframes_(settings.camera, config.max_overlap, config.max_features),
       store_(Bytes(config.memory_limit_mb), depth_units_per_m),
       verifier_(settings, config) {}
@@ -31,15 +33,25 @@ std::string LoopCloser::Add(const Frame& frame, const PreparedFrame& prepared, c
     if (keyframe) AddKeyframe(frame, prepared, track);
     if (keyframes_.empty()) return news;
     const Keyframe& last = keyframes_.last();
-    const Eigen::Isometry3d T_keyframe_camera = Normalised(last.T_map_camera.inverse() * T_map_camera);
-    passages_.push_back({frame.stamp_s, last.id, T_keyframe_camera});
+    AddPassage(frame.stamp_s, T_map_camera);
     if (!fused) return news;
-    if (Status stored = store_.Add(frame, last.id, keyframe, T_keyframe_camera, view); !stored.ok()) return stored.message();
+    if (Status stored = store_.Add(frame, last.id, keyframe, passages_.back().T_keyframe_camera, view); !stored.ok())
+        return stored.message();
     if (keyframe) {
         news = SeekLoop(last, prepared, view.motion);
         index_.Add(last.id, last.features.descriptors);
     }
     return news;
+}
+
+void LoopCloser::Pass(double stamp_s, const Eigen::Isometry3d& T_map_camera) {
+    keyframes_.Follow(T_map_camera);
+    if (!keyframes_.empty()) AddPassage(stamp_s, T_map_camera);
+}
+
+void LoopCloser::AddPassage(double stamp_s, const Eigen::Isometry3d& T_map_camera) {
+    const Keyframe& last = keyframes_.last();
+    passages_.push_back({stamp_s, last.id, Normalised(last.T_map_camera.inverse() * T_map_camera)});
 }
 
 void LoopCloser::AddKeyframe(const Frame& frame, const PreparedFrame& prepared, const TrackResult& track) {
@@ -112,6 +124,7 @@ Status LoopCloser::Optimise() {
     for (int i = 0; i < keyframes_.size(); ++i) poses.push_back(keyframes_[i].T_world_camera);
     if (const auto report = OptimisePoses(edges_, poses); !report.ok()) return report.status();
     for (int i = 0; i < keyframes_.size(); ++i) keyframes_[i].T_world_camera = poses[static_cast<std::size_t>(i)];
+    rebuild_considered_ = false;
     return Status::Ok();
 }
 
@@ -121,26 +134,30 @@ bool LoopCloser::BeginRebuild(double tolerance_m) {
     if (!corrected_ || FarthestOff_m() < tolerance_m) return false;
     std::vector<Eigen::Isometry3d> poses;
     for (int i = 0; i < keyframes_.size(); ++i) poses.push_back(keyframes_[i].T_world_camera);
-    rebuild_ = std::make_unique<MapRebuild>(settings_.map, settings_.fusion, settings_.preparation, settings_.camera,
-                                            std::move(poses));
+    std::unique_ptr<LabelMapper> labels;
+    if (labels_) labels = std::make_unique<LabelMapper>(labels_->config, labels_->classes, settings_.camera);
+    rebuild_ = std::make_unique<MapRebuild>(settings_, std::move(poses), std::move(labels));
     return true;
 }
 
-std::optional<LoopCloser::Correction> LoopCloser::Step() {
+std::optional<LoopCloser::Correction> LoopCloser::Step(int frames) {
+    rebuild_considered_ = true;
     if (!BeginRebuild(settings_.map.voxel_size_m / 2)) return std::nullopt;
-    return StepRebuild(config_.rebuild_frames);
+    return StepRebuild(frames);
 }
 
 std::optional<LoopCloser::Correction> LoopCloser::StepRebuild(int frames) {
     if (!rebuild_->Step(store_, frames)) return std::nullopt;
     Correction correction;
-    correction.map = rebuild_->Take();
+    correction.map = rebuild_->TakeMap();
+    correction.labels = rebuild_->TakeLabels();
     correction.T_new_old =
         Normalised(rebuild_->T_world_keyframe().back() * keyframes_.last().T_map_camera.inverse());
     for (int i = 0; i < keyframes_.size(); ++i)
         keyframes_[i].T_map_camera = rebuild_->T_world_keyframe()[static_cast<std::size_t>(i)];
     keyframes_.Move(correction.T_new_old);
     rebuild_.reset();
+    rebuild_considered_ = false;
     return correction;
 }
 

@@ -22,19 +22,35 @@ class LoopCloser {
     // In place of the map so far; poses of cameras in it are to be moved likewise: T_new = T_new_old * T_old.
     struct Correction {
         std::unique_ptr<BlockMap> map;
+        std::unique_ptr<LabelMapper> labels;  // of the map, where labels are kept
         Eigen::Isometry3d T_new_old = Eigen::Isometry3d::Identity();
     };
 
-    LoopCloser(const LoopConfig& config, const FieldSettings& settings, double depth_units_per_m);
+    // Whether objects are labelled, and as what.
+    struct Labels {
+        LabelConfig config;
+        LabelClasses classes;
+    };
+
+    LoopCloser(const LoopConfig& config, const FieldSettings& settings, double depth_units_per_m,
+               std::optional<Labels> labels = std::nullopt);
 
     // Every tracked frame, after its fusion, if it was fused. Returns what a person should know, mostly empty.
     std::string Add(const Frame& frame, const PreparedFrame& prepared, const TrackResult& track,
                     const Integrator::View& view, bool fused);
+    // What was seen in a frame that was added, whenever it is known.
+    void AddDetections(std::int64_t frame_index, std::vector<Detection> detections) {
+        store_.AddDetections(frame_index, std::move(detections));
+    }
+    // A tracked frame of which nothing but the pose is kept.
+    void Pass(double stamp_s, const Eigen::Isometry3d& T_map_camera);
     // T_map_camera of a frame whose camera is lost; nothing if it was not here before, or if it could be at two places.
     // `note` says what was found.
     std::optional<Eigen::Isometry3d> Relocalise(const PreparedFrame& frame, std::string& note);
-    // To be called after each frame: works on the corrected map within the frame's budget.
-    std::optional<Correction> Step();
+    // Works on the corrected map: fuses at most so many stored frames into it.
+    std::optional<Correction> Step(int frames);
+    // Whether Step has anything to do.
+    bool HasWork() const { return rebuild_ != nullptr || !rebuild_considered_; }
     // At the end: whatever is still to be corrected.
     std::optional<Correction> Finish();
 
@@ -54,6 +70,7 @@ class LoopCloser {
 
     void AddKeyframe(const Frame& frame, const PreparedFrame& prepared, const TrackResult& track);
     void Link(int from, int to);
+    void AddPassage(double stamp_s, const Eigen::Isometry3d& T_map_camera);
     std::string SeekLoop(const Keyframe& fresh, const PreparedFrame& prepared, const FrameMotion& motion);
     std::string CloseLoop(const Keyframe& old, const Keyframe& fresh, const FieldVerdict& verdict);
     double FarthestOff_m() const;
@@ -63,6 +80,7 @@ class LoopCloser {
 
     LoopConfig config_;
     FieldSettings settings_;
+    std::optional<Labels> labels_;
     Keyframes keyframes_;
     PlaceIndex index_;
     FrameStore store_;
@@ -73,6 +91,7 @@ class LoopCloser {
     std::optional<int> relocalised_at_;    // the keyframe that the next one hangs on
     int loops_ = 0;
     bool corrected_ = false;               // some loop was worth it
+    bool rebuild_considered_ = true;       // since the keyframes moved last
 };
 
 }  // namespace tessera

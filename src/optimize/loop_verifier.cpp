@@ -28,8 +28,20 @@ FieldVerdict LoopVerifier::VerifyLoop(const Keyframes& keyframes, const Keyframe
         refused.reason = fmt::format("it would take a drift of {:.2f} m and {:.2f} rad", drift.off_m, drift.off_rad);
     if (!refused.reason.empty()) return refused;
     const Eigen::Isometry3d T_old_new_expected = old.T_map_camera.inverse() * fresh.T_map_camera;
+    if (NothingToCorrect(match.T_old_new, T_old_new_expected)) {
+        FieldVerdict closed;
+        closed.accepted = closed.closed_before = true;
+        closed.T_old_new = T_old_new_expected;
+        return closed;
+    }
     return field_.Check(FramesNear(keyframes, old.id, store), {prepared, motion, match.T_old_new, T_old_new_expected},
                         store);
+}
+
+// Features and map agree so well that the field, which costs a hundred times as much, could not move anything.
+bool LoopVerifier::NothingToCorrect(const Eigen::Isometry3d& T_measured, const Eigen::Isometry3d& T_expected) const {
+    return (T_measured.translation() - T_expected.translation()).norm() < config_.min_correction_m &&
+           RotationAngle(T_measured, T_expected) < config_.min_correction_m;
 }
 
 FieldVerdict LoopVerifier::VerifyPlace(const Keyframes& keyframes, const Keyframe& old, const PreparedFrame& fresh,

@@ -30,6 +30,7 @@ class LoopVerifier {
                              const Eigen::Isometry3d& T_old_new, FrameStore& store);
 
   private:
+    bool NothingToCorrect(const Eigen::Isometry3d& T_measured, const Eigen::Isometry3d& T_expected) const;
     std::vector<NearFrame> FramesNear(const Keyframes& keyframes, int keyframe, const FrameStore& store) const;
 
     LoopConfig config_;

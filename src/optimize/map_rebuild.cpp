@@ -6,6 +6,16 @@
 
 namespace tessera {
 
+MapRebuild::MapRebuild(const FieldSettings& settings, std::vector<Eigen::Isometry3d> T_world_keyframe,
+                       std::unique_ptr<LabelMapper> labels)
+    : map_(std::make_unique<BlockMap>(settings.map)),
+      integrator_(settings.fusion, settings.camera),
+      preparation_(settings.preparation),
+      T_world_keyframe_(std::move(T_world_keyframe)),
+      labels_(std::move(labels)) {
+    if (labels_) map_->EnableLabels();
+}
+
 bool MapRebuild::Step(FrameStore& store, int frames) {
     const std::vector<StoredFrame>& stored = store.frames();
     auto next = std::ranges::lower_bound(stored, next_ordinal_, {}, &StoredFrame::ordinal);
@@ -16,6 +26,7 @@ bool MapRebuild::Step(FrameStore& store, int frames) {
         Integrator::View view = next->view;
         view.T_world_camera = T_world_keyframe_[static_cast<std::size_t>(next->keyframe)] * next->T_keyframe_camera;
         integrator_.Integrate(prepared_, view, *map_);
+        if (labels_ && next->detections) labels_->Label(*next->detections, frame_.depth_m, view.T_world_camera, *map_);
         next_ordinal_ = next->ordinal + 1;
     }
     return next == stored.end();

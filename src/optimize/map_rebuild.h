@@ -6,7 +6,9 @@
 #include <vector>
 
 #include "mapping/integrator.h"
+#include "optimize/field_check.h"
 #include "optimize/frame_store.h"
+#include "semantics/label_mapper.h"
 
 namespace tessera {
 
@@ -14,25 +16,24 @@ namespace tessera {
 class MapRebuild {
   public:
     // `T_world_keyframe` by keyframe; those that come later are to be added.
-    MapRebuild(const BlockMap::Config& map, const Integrator::Config& fusion, const PreparedFrame::Config& preparation,
-               const PinholeCamera& camera, std::vector<Eigen::Isometry3d> T_world_keyframe)
-        : map_(std::make_unique<BlockMap>(map)),
-          integrator_(fusion, camera),
-          preparation_(preparation),
-          T_world_keyframe_(std::move(T_world_keyframe)) {}
+    // With `labels`, a new one, the frames' detections are voted in, too.
+    MapRebuild(const FieldSettings& settings, std::vector<Eigen::Isometry3d> T_world_keyframe,
+               std::unique_ptr<LabelMapper> labels);
 
     void AddKeyframe(const Eigen::Isometry3d& T_world_keyframe) { T_world_keyframe_.push_back(T_world_keyframe); }
     const std::vector<Eigen::Isometry3d>& T_world_keyframe() const { return T_world_keyframe_; }
 
     // Fuses at most `frames` more. True: none is left, the map may be taken.
     bool Step(FrameStore& store, int frames);
-    std::unique_ptr<BlockMap> Take() { return std::move(map_); }
+    std::unique_ptr<BlockMap> TakeMap() { return std::move(map_); }
+    std::unique_ptr<LabelMapper> TakeLabels() { return std::move(labels_); }
 
   private:
     std::unique_ptr<BlockMap> map_;
     Integrator integrator_;
     PreparedFrame::Config preparation_;
     std::vector<Eigen::Isometry3d> T_world_keyframe_;
+    std::unique_ptr<LabelMapper> labels_;
     std::int64_t next_ordinal_ = 0;
     Frame frame_;
     PreparedFrame prepared_;

@@ -12,6 +12,7 @@
 #include "core/queue.h"
 #include "semantics/label_votes.h"
 #include "semantics/open_detector.h"
+#include "system/map_version.h"
 
 namespace tessera {
 
@@ -42,11 +43,11 @@ class LabellingStage {
 // One thread, the mapping's, offers and takes.
 class LabellingThread {
   public:
-    // A frame whose pose is known, and on which of the worlds since the start (resets begin new ones) it was.
+    // A frame whose pose is known, and in which map.
     struct Job {
         std::unique_ptr<Frame> frame;
         Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity();
-        int world = 0;
+        MapVersion map;
     };
     struct Answer {
         Job job;

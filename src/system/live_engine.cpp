@@ -2,17 +2,18 @@
 
 #include "core/check.h"
 #include "core/stopwatch.h"
+#include "system/loop_stage.h"
 
 namespace tessera {
 namespace {
 
 using Milliseconds = std::chrono::duration<double, std::milli>;
 
-void Dawdle(double ms) {
+}  // namespace
+
+void WaitFor(double ms) {
     if (ms > 0) std::this_thread::sleep_for(Milliseconds(ms));
 }
-
-}  // namespace
 
 LiveEngine::LiveEngine(EngineInput input)
     : config_(input.config),
@@ -31,6 +32,7 @@ LiveEngine::LiveEngine(EngineInput input)
         mapping_done_.store(true);
         return;
     }
+    if (config_.loops.enabled) BeginLoops(input.labelling);
     if (input.labelling.detector) {
         mapping_.EnableLabels(config_.labels, input.labelling.classes);
         labelling_ = std::make_unique<LabellingThread>(LabellingStage(std::move(input.labelling.detector),
@@ -40,6 +42,14 @@ LiveEngine::LiveEngine(EngineInput input)
     reading_thread_ = std::jthread([this] { ReadFrames(); });
     tracking_thread_ = std::jthread([this] { TrackFrames(); });
     mapping_thread_ = std::jthread([this] { MapFrames(); });
+}
+
+void LiveEngine::BeginLoops(const Labelling& labelling) {
+    LoopThread::Settings settings{config_.loops, FieldSettingsOf(config_.pipeline, source_.camera), source_.depth_units_per_m,
+                                  std::nullopt};
+    if (labelling.detector) settings.labels = LoopCloser::Labels{config_.labels, labelling.classes};
+    loops_ = std::make_unique<LoopThread>(std::move(settings),
+                                          LoopThread::Surroundings{frame_pool_, tracked_pool_, mapping_wake_, tracking_wake_});
 }
 
 LiveEngine::~LiveEngine() { quit_.store(true); }  // reading ends, then tracking, then mapping: each empties its queue
@@ -110,7 +120,7 @@ void LiveEngine::WaitUntilDue(double stamp_s) {
     if (first_stamp_s_) {
         const double wait_ms = 1000 * (stamp_s - *first_stamp_s_) / config_.live.playback_speed -
                                Milliseconds(now - first_time_).count();
-        if (std::abs(wait_ms) < 1000 * kAfterAll_s) return Dawdle(wait_ms);
+        if (std::abs(wait_ms) < 1000 * kAfterAll_s) return WaitFor(wait_ms);
     }
     first_stamp_s_ = stamp_s;
     first_time_ = now;
@@ -135,154 +145,6 @@ void LiveEngine::Tell(FrameOutcome::Kind kind, const std::string& message) {
     outcome.kind = kind;
     outcome.message = message;
     outcomes_.Push(std::move(outcome));
-}
-
-// ---- Tracking: newest frames and the map's news -> tasks.
-
-void LiveEngine::TrackFrames() {
-    BlockMap copy(config_.pipeline.map, BlockMap::Layers::kFieldOnly);
-    TrackingStage stage(config_.pipeline, source_.camera);
-    while (true) {
-        tracking_wake_.Wait([&] { return !commands_.empty() || !new_frames_.empty() || reading_done_.load(); });
-        ViewerCommand command;
-        NewFrame item;
-        if (commands_.TryPop(command)) {
-            if (command.kind == ViewerCommand::Kind::kReset) {
-                ++world_;
-                stage.Reset();
-                copy.Clear();
-            }
-            Task task;
-            task.command = command;
-            Hand(std::move(task));
-        } else if (new_frames_.TryPop(item)) {
-            TrackFrame(std::move(item), copy, stage);
-        } else if (reading_done_.load() && new_frames_.empty() && commands_.empty()) {
-            break;
-        }
-    }
-    tracking_done_.store(true);
-    mapping_wake_.Notify();
-}
-
-void LiveEngine::TrackFrame(NewFrame item, BlockMap& copy, TrackingStage& stage) {
-    ViewerSettings settings;
-    if (viewer_ != nullptr && viewer_->settings.TryPop(settings)) {
-        stage.Apply(settings);
-        show_prediction_.store(settings.show_prediction);
-    }
-    TakeMapNews(copy);
-    Task task;
-    task.tracked = tracked_pool_.Take();
-    plan_.Track(*item.frame, copy, stage, *task.tracked);
-    Dawdle(config_.live.extra_tracking_ms);
-    task.frame = std::move(item.frame);
-    task.decode_ms = item.decode_ms;
-    task.latency_ms = Milliseconds(Clock::now() - item.arrival).count();
-    const bool first = task.tracked->report.first;
-    Hand(std::move(task));
-    if (first) tracking_wake_.Wait([&] { return !map_news_.empty(); });  // the next frame needs a map
-}
-
-void LiveEngine::TakeMapNews(BlockMap& copy) {
-    MapNews news;
-    while (map_news_.TryPop(news)) {
-        if (news.world == world_) ApplyDelta(*news.delta, copy);
-        delta_pool_.Give(std::move(news.delta));
-    }
-}
-
-// Waits where mapping is far behind: it then leaves frames unfused until it has caught up.
-void LiveEngine::Hand(Task task) {
-    tracking_wake_.Wait([&] { return tasks_.TryPush(std::move(task)); });
-}
-
-// ---- Mapping: tasks -> the map, its news, meshes, outcomes.
-
-void LiveEngine::MapFrames() {
-    while (true) {
-        mapping_wake_.Wait([&] {
-            return !tasks_.empty() || tracking_done_.load() || (labelling_ && labelling_->has_answer());
-        });
-        if (labelling_) TakeLabels();
-        Task task;
-        if (tasks_.TryPop(task)) {
-            tracking_wake_.Notify();
-            if (task.tracked)
-                MapFrame(task);
-            else
-                ObeyInMapping(task.command);
-        } else if (tracking_done_.load() && tasks_.empty()) {
-            break;
-        }
-    }
-    mapping_done_.store(true);
-    outcome_wake_.Notify();
-}
-
-void LiveEngine::MapFrame(Task& task) {
-    constexpr std::size_t kBehind = 2;
-    TrackedFrame& tracked = *task.tracked;
-    FrameOutcome outcome;
-    if (tasks_.size() >= kBehind && tracked.to_fuse && !tracked.report.first) {
-        tracked.to_fuse = false;
-        outcome.fusion_dropped = true;
-    }
-    mapping_.Fuse(tracked);
-    if (tracked.report.fused) {
-        SendMapNews();
-        Dawdle(config_.live.extra_mapping_ms);
-    }
-    feed_.ShowPrediction(show_prediction_.load());
-    outcome.mesh_ms = feed_.Send(*task.frame, tracked.report, mapping_);
-    outcome.report = tracked.report;
-    outcome.T_world_camera_truth = task.frame->T_world_camera;
-    outcome.decode_ms = task.decode_ms;
-    outcome.latency_ms = task.latency_ms;
-    outcome.map = StatisticsOf(mapping_.map());
-    outcome.labels = std::exchange(labels_, std::nullopt);
-    outcome.queues = {{"to tracking", new_frames_.size()}, {"to mapping", tasks_.size()}, {"to recorder", recorder_.waiting()}};
-    outcomes_.Push(std::move(outcome));
-    if (labelling_ && tracked.report.fused) OfferToLabelling(task);
-    frame_pool_.Give(std::move(task.frame));
-    tracked_pool_.Give(std::move(task.tracked));
-}
-
-void LiveEngine::OfferToLabelling(Task& task) {
-    frame_pool_.Give(labelling_->Offer(
-        {std::move(task.frame), task.tracked->report.track.T_world_camera, mapped_world_}));
-}
-
-void LiveEngine::TakeLabels() {
-    LabellingThread::Answer answer;
-    while (labelling_->TryTake(answer)) {
-        if (!answer.message.empty()) Tell(FrameOutcome::Kind::kMessage, answer.message);
-        if (answer.message.empty() && answer.job.world == mapped_world_) {
-            Stopwatch watch;
-            answer.report.votes = mapping_.Label(answer.report.detections, answer.job.frame->depth_m, answer.job.T_world_camera);
-            answer.report.vote_ms = watch.LapMs();
-            labels_ = std::move(answer.report);
-        }
-        frame_pool_.Give(std::move(answer.job.frame));
-    }
-}
-
-// There is room: each news answers a frame that tracking handed over after it had taken all news before.
-void LiveEngine::SendMapNews() {
-    MapNews news{delta_pool_.Take(), mapped_world_};
-    mapping_.CollectDelta(*news.delta);
-    TESSERA_CHECK(map_news_.TryPush(std::move(news)), "more news of the map than frames");
-}
-
-void LiveEngine::ObeyInMapping(const ViewerCommand& command) {
-    if (command.kind == ViewerCommand::Kind::kReset) {
-        ++mapped_world_;
-        mapping_.Reset();
-        Tell(FrameOutcome::Kind::kReset, {});
-    } else if (command.kind == ViewerCommand::Kind::kSaveMesh) {
-        Tell(FrameOutcome::Kind::kMessage, SaveMesh(mapping_, command.path));
-    }
-    feed_.SendMesh(mapping_);
 }
 
 }  // namespace tessera

@@ -11,10 +11,15 @@
 #include "mapping/map_delta.h"
 #include "system/engine.h"
 #include "system/engine_steps.h"
+#include "system/loop_thread.h"
+#include "system/lost_camera.h"
 #include "system/run_control.h"
 #include "system/viewer_feed.h"
 
 namespace tessera {
+
+// Where a source or a test is to be slow.
+void WaitFor(double ms);
 
 class LiveEngine : public Engine {
   public:
@@ -27,6 +32,7 @@ class LiveEngine : public Engine {
     TriangleMesh TakeMesh() override;
     const std::vector<MapObject>& objects() const override { return mapping_.objects(); }
     MapStatistics map_statistics() const override { return StatisticsOf(mapping_.map()); }
+    std::vector<StampedPose> CorrectedPath() const override { return loops_ ? loops_->Path() : std::vector<StampedPose>(); }
 
   private:
     using Clock = std::chrono::steady_clock;
@@ -41,15 +47,33 @@ class LiveEngine : public Engine {
         std::unique_ptr<TrackedFrame> tracked;
         std::unique_ptr<Frame> frame;
         double decode_ms = 0, latency_ms = 0;
+        int corrections = 0;  // of the map that it was tracked in
         ViewerCommand command;
     };
-    // What a fused frame changed; `world` counts the resets before it.
+    // What a fused frame changed, or a corrected map's whole field; `world` counts the resets before it.
     struct MapNews {
         std::unique_ptr<MapDelta> delta;
         int world = 0;
+        std::unique_ptr<BlockMap> field;
+        Eigen::Isometry3d T_new_old = Eigen::Isometry3d::Identity();  // with `field`
+    };
+    // What the tracking thread works with.
+    struct TrackingState {
+        TrackingState(const RunConfig& config, const PinholeCamera& camera)
+            : stage(config.pipeline, camera),
+              field(std::make_unique<BlockMap>(config.pipeline.map, BlockMap::Layers::kFieldOnly)),
+              lost(config.loops, config.pipeline.motion.max_gap_s) {}
+
+        TrackingStage stage;
+        std::unique_ptr<BlockMap> field;  // a copy of the map's
+        MapVersion version;               // of that copy
+        LostCamera lost;
+        bool asked = false;  // where a lost camera is
     };
 
-    // A frame's life, a function a thread.
+    void BeginLoops(const Labelling& labelling);
+
+    // A frame's life, a function a thread: live_engine.cpp, live_tracking.cpp, live_mapping.cpp.
     void ReadFrames();
     void TrackFrames();
     void MapFrames();
@@ -60,14 +84,21 @@ class LiveEngine : public Engine {
     void WaitUntilDue(double stamp_s);
     void Tell(FrameOutcome::Kind kind, const std::string& message);
     // Tracking's.
-    void TrackFrame(NewFrame item, BlockMap& copy, TrackingStage& stage);
-    void TakeMapNews(BlockMap& copy);
+    void TrackFrame(NewFrame item, TrackingState& state);
+    void TakeMapNews(TrackingState& state);
+    void ResetTracking(TrackingState& state);
+    void HearWhereItIs(double stamp_s, TrackingState& state);
+    void CheckIfLost(TrackedFrame& tracked, TrackingState& state);
     void Hand(Task task);
     // Mapping's.
     void MapFrame(Task& task);
     void SendMapNews();
-    void OfferToLabelling(Task& task);
+    void Offer(Task& task);
     void TakeLabels();
+    bool CorrectionFits() const;
+    void TakeCorrection();
+    void EndLoops();
+    void TellLoopNews();
     void ObeyInMapping(const ViewerCommand& command);
 
     const RunConfig config_;
@@ -85,21 +116,22 @@ class LiveEngine : public Engine {
     bool stopped_ = false;         // the same
     std::optional<double> first_stamp_s_;  // reading's
     Clock::time_point first_time_;
-    int world_ = 0;                // tracking's
     int mapped_world_ = 0;         // mapping's
+    std::vector<Eigen::Isometry3d> corrections_;  // mapping's: of this world's map, T_new_old each
 
     Pool<Frame> frame_pool_;
     Pool<TrackedFrame> tracked_pool_;
     Pool<MapDelta> delta_pool_;
-    static constexpr std::size_t kTasks = 8, kOutcomes = 4096;
+    static constexpr std::size_t kTasks = 8, kCorrections = 3, kOutcomes = 4096;
     Wake tracking_wake_, mapping_wake_, outcome_wake_;
     std::optional<LabelReport> labels_;  // mapping's: for the next outcome
     NewestQueue<NewFrame> new_frames_;                           // reading to tracking
     FifoQueue<ViewerCommand> commands_{16, tracking_wake_};      // reading to tracking
     FifoQueue<Task> tasks_{kTasks, mapping_wake_};               // tracking to mapping
-    FifoQueue<MapNews> map_news_{kTasks + 2, tracking_wake_};    // mapping to tracking
+    FifoQueue<MapNews> map_news_{kTasks + 2 + kCorrections, tracking_wake_};  // mapping to tracking
     NewestQueue<FrameOutcome> outcomes_{kOutcomes, outcome_wake_};  // reading and mapping to the owner
     std::unique_ptr<LabellingThread> labelling_;  // mapping's; null without labels
+    std::unique_ptr<LoopThread> loops_;           // mapping's and tracking's; null without loop closure
     std::atomic<bool> show_prediction_{true};
     std::atomic<bool> quit_{false}, reading_done_{false}, tracking_done_{false}, mapping_done_{false};
     std::jthread reading_thread_, tracking_thread_, mapping_thread_;

@@ -16,14 +16,15 @@ LockstepEngine::LockstepEngine(EngineInput input)
       mapping_(config_.pipeline, config_.meshing, source_.camera),
       feed_(input.viewer, config_.live.mesh_blocks),
       recorder_(source_, config_.record, true) {
-    if (config_.loops.enabled) loops_.emplace(config_.loops, config_.pipeline, source_);
     if (!input.record_path.empty()) status_ = StartRecording(input.record_path, config_.record, *input.source, recorder_);
     if (!status_.ok()) return;
     if (input.labelling.detector) {
         mapping_.EnableLabels(config_.labels, input.labelling.classes);
+        loop_labels_ = LoopCloser::Labels{config_.labels, input.labelling.classes};
         labelling_ = std::make_unique<LabellingStage>(std::move(input.labelling.detector), std::move(input.labelling.classes),
                                                       config_.labels);
     }
+    BeginLoops();
     reader_ = std::make_unique<FrameReader>(std::move(input.source), input.selection, config_.read_ahead);
 }
 
@@ -60,7 +61,7 @@ void LockstepEngine::Process(FrameOutcome& outcome) {
     if (loops_) loops_->AfterTracking(frame_, mapping_.map(), tracking_, tracked_);
     mapping_.Fuse(tracked_);
     if (labelling_ && tracked_.report.fused) Label(outcome);
-    if (loops_) outcome.loops_ms = loops_->AfterFusion(frame_, tracked_, tracking_, mapping_);
+    if (loops_) outcome.loops_ms = loops_->AfterFusion(frame_, tracked_, outcome.labels, tracking_, mapping_);
     outcome.report = tracked_.report;
     outcome.T_world_camera_truth = frame_.T_world_camera;
     outcome.mesh_ms = feed_.Send(frame_, outcome.report, mapping_);
@@ -75,6 +76,10 @@ void LockstepEngine::Label(FrameOutcome& outcome) {
     report.votes = mapping_.Label(report.detections, frame_.depth_m, tracked_.report.track.T_world_camera);
     report.vote_ms = watch.LapMs();
     outcome.labels = std::move(report);
+}
+
+void LockstepEngine::BeginLoops() {
+    if (config_.loops.enabled) loops_.emplace(config_.loops, config_.pipeline, source_, loop_labels_);
 }
 
 bool LockstepEngine::TakeMessage(FrameOutcome& outcome) {
@@ -112,7 +117,7 @@ bool LockstepEngine::Obey(const ViewerCommand& command, FrameOutcome& outcome) {
         case ViewerCommand::Kind::kReset:
             tracking_.Reset();
             mapping_.Reset();
-            if (loops_) loops_.emplace(config_.loops, config_.pipeline, source_);
+            BeginLoops();
             feed_.SendMesh(mapping_);
             outcome.kind = FrameOutcome::Kind::kReset;
             return true;

@@ -27,6 +27,7 @@ class LockstepEngine : public Engine {
     // Waits while paused. True if there is something to report.
     bool ObeyViewer(FrameOutcome& outcome);
     bool Obey(const ViewerCommand& command, FrameOutcome& outcome);
+    void BeginLoops();
     bool TakeMessage(FrameOutcome& outcome);
     void Process(FrameOutcome& outcome);
     void Label(FrameOutcome& outcome);
@@ -40,6 +41,7 @@ class LockstepEngine : public Engine {
     TrackingStage tracking_;
     MappingStage mapping_;
     std::optional<LoopStage> loops_;  // if they are to be closed
+    std::optional<LoopCloser::Labels> loop_labels_;
     TrackedFrame tracked_;
     ViewerFeed feed_;
     RecorderThread recorder_;

@@ -5,7 +5,14 @@
 namespace tessera {
 namespace {
 
-FieldSettings SettingsOf(const PipelineConfig& pipeline, const PinholeCamera& camera) {
+void AddNote(const std::string& note, std::string& warning) {
+    if (note.empty()) return;
+    warning += (warning.empty() ? "" : "; ") + note;
+}
+
+}  // namespace
+
+FieldSettings FieldSettingsOf(const PipelineConfig& pipeline, const PinholeCamera& camera) {
     FieldSettings settings;
     settings.camera = camera;
     settings.map = pipeline.map;
@@ -17,58 +24,36 @@ FieldSettings SettingsOf(const PipelineConfig& pipeline, const PinholeCamera& ca
     return settings;
 }
 
-void AddNote(const std::string& note, std::string& warning) {
-    if (note.empty()) return;
-    warning += (warning.empty() ? "" : "; ") + note;
-}
-
-}  // namespace
-
-LoopStage::LoopStage(const LoopConfig& config, const PipelineConfig& pipeline, const SourceInfo& source)
+LoopStage::LoopStage(const LoopConfig& config, const PipelineConfig& pipeline, const SourceInfo& source,
+                     std::optional<LoopCloser::Labels> labels)
     : config_(config),
-      max_gap_s_(pipeline.motion.max_gap_s),
-      closer_(config, SettingsOf(pipeline, source.camera), source.depth_units_per_m) {}
-
-bool LoopStage::FitsWell(const TrackResult& track) const {
-    return track.status == TrackStatus::kGood && track.inlier_fraction >= config_.min_fit &&
-           track.known_fraction >= config_.min_known_fraction;
-}
+      camera_(config, pipeline.motion.max_gap_s),
+      closer_(config, FieldSettingsOf(pipeline, source.camera), source.depth_units_per_m, std::move(labels)) {}
 
 void LoopStage::AfterTracking(const Frame& frame, const BlockMap& map, TrackingStage& tracking, TrackedFrame& tracked) {
-    FrameReport& report = tracked.report;
     lost_ms_ = 0;
-    // Before the first keyframe there is nothing to lose.
-    lost_ = (lost_ || !report.tracked()) && !report.first && !closer_.keyframes().empty();
-    if (!lost_) {
-        if (report.tracked()) last_tracked_s_ = frame.stamp_s;
-        return;
-    }
-    const bool lately = frame.stamp_s - last_tracked_s_ <= max_gap_s_;
-    bool found = FitsWell(report.track) && (lately || !tracked.prepared.has_colour());
-    if (!found && tracked.prepared.valid_depth_pixels > 0) {
+    if (camera_.Judge(tracked) != LostCamera::Verdict::kLost) return;
+    FrameReport& report = tracked.report;
+    if (tracked.prepared.valid_depth_pixels > 0) {
         Stopwatch watch;
         std::string note;
         const auto T_map_camera = closer_.Relocalise(tracked.prepared, note);
         lost_ms_ = watch.LapMs();
-        found = T_map_camera && tracking.TrackFrom(frame, map, *T_map_camera, tracked);
         AddNote(note, report.warning);
+        if (T_map_camera && tracking.TrackFrom(frame, map, *T_map_camera, tracked)) return camera_.Found(frame.stamp_s);
     }
-    if (found) {
-        lost_ = false;
-        last_tracked_s_ = frame.stamp_s;
-    } else if (report.tracked()) {
-        tracking.Disbelieve("nothing confirms that the camera is where it seems to be after the loss", tracked);
-    }
+    if (report.tracked()) tracking.Disbelieve(kNotBelieved, tracked);
 }
 
-double LoopStage::AfterFusion(const Frame& frame, TrackedFrame& tracked, TrackingStage& tracking,
-                              MappingStage& mapping) {
+double LoopStage::AfterFusion(const Frame& frame, TrackedFrame& tracked, const std::optional<LabelReport>& labels,
+                              TrackingStage& tracking, MappingStage& mapping) {
     Stopwatch watch;
     FrameReport& report = tracked.report;
     if (report.tracked())
         AddNote(closer_.Add(frame, tracked.prepared, report.track, tracked.view, report.fused), report.warning);
-    if (auto correction = closer_.Step()) {
-        mapping.Replace(std::move(correction->map));
+    if (labels) closer_.AddDetections(frame.index, labels->detections);
+    if (auto correction = closer_.Step(config_.rebuild_frames)) {
+        mapping.Replace(std::move(correction->map), std::move(correction->labels));
         tracking.Move(correction->T_new_old);
         AddNote("map corrected", report.warning);
     }
@@ -77,7 +62,7 @@ double LoopStage::AfterFusion(const Frame& frame, TrackedFrame& tracked, Trackin
 
 void LoopStage::Finish(MappingStage& mapping) {
     if (std::exchange(finished_, true)) return;
-    if (auto correction = closer_.Finish()) mapping.Replace(std::move(correction->map));
+    if (auto correction = closer_.Finish()) mapping.Replace(std::move(correction->map), std::move(correction->labels));
 }
 
 }  // namespace tessera

@@ -4,22 +4,29 @@
 
 #include "io/frame_source.h"
 #include "optimize/loop_closer.h"
+#include "system/labelling_stage.h"
+#include "system/lost_camera.h"
 #include "system/mapping_stage.h"
 #include "system/tracking_stage.h"
 
 namespace tessera {
 
+// How the small fields that loops are checked in are made: as the map itself.
+FieldSettings FieldSettingsOf(const PipelineConfig& pipeline, const PinholeCamera& camera);
+
 // Owner thread only: the one that tracks and fuses.
 class LoopStage {
   public:
-    LoopStage(const LoopConfig& config, const PipelineConfig& pipeline, const SourceInfo& source);
+    LoopStage(const LoopConfig& config, const PipelineConfig& pipeline, const SourceInfo& source,
+              std::optional<LoopCloser::Labels> labels);
 
     // A lost camera is looked for among the places it has seen. After a loss only a pose that fits well, or that the place
     // confirms, counts.
     void AfterTracking(const Frame& frame, const BlockMap& map, TrackingStage& tracking, TrackedFrame& tracked);
     // Keyframes and loops; puts the corrected map in place when it is ready. Returns the milliseconds that it took, what
     // AfterTracking took included.
-    double AfterFusion(const Frame& frame, TrackedFrame& tracked, TrackingStage& tracking, MappingStage& mapping);
+    double AfterFusion(const Frame& frame, TrackedFrame& tracked, const std::optional<LabelReport>& labels,
+                       TrackingStage& tracking, MappingStage& mapping);
     // No more frames: whatever is still to be corrected. Once.
     void Finish(MappingStage& mapping);
 
@@ -27,13 +34,10 @@ class LoopStage {
     const LoopCloser& closer() const { return closer_; }
 
   private:
-    bool FitsWell(const TrackResult& track) const;
-
     LoopConfig config_;
-    double max_gap_s_;
+    LostCamera camera_;
     LoopCloser closer_;
-    bool lost_ = false, finished_ = false;
-    double last_tracked_s_ = 0;
+    bool finished_ = false;
     double lost_ms_ = 0;  // of the present frame
 };
 

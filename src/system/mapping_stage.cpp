@@ -76,11 +76,12 @@ void MappingStage::Predict(const Eigen::Isometry3d& T_world_camera, int step, Pr
                         1.2f * static_cast<float>(config_.frame.max_depth_m), view);
 }
 
-// Its blocks' revisions count its frames, no more than were ever fused here: the next revision is new to all of them.
-void MappingStage::Replace(std::unique_ptr<BlockMap> map) {
+void MappingStage::Replace(std::unique_ptr<BlockMap> map, std::unique_ptr<LabelMapper> labels) {
     map_ = std::move(map);
+    labels_ = std::move(labels);
+    integrator_.MarkAllChanged(*map_);
     mesher_.Clear();
-    delta_size_ = 1;
+    delta_size_ = map_->size();
     mesh_cleared_ = true;
 }
 

@@ -46,8 +46,9 @@ class MappingStage {
     // The surface as the camera sees it from where it was, at 1/`step` of its resolution.
     void Predict(const Eigen::Isometry3d& T_world_camera, int step, PredictedView& view) const;
 
-    // In place of the map so far: one that was fused from the same frames elsewhere.
-    void Replace(std::unique_ptr<BlockMap> map);
+    // In place of the map so far: one that was fused from the same frames elsewhere. `labels`: of that map, if this one
+    // has any. Whoever follows it by deltas needs a copy of the new field first.
+    void Replace(std::unique_ptr<BlockMap> map, std::unique_ptr<LabelMapper> labels);
 
     // An empty map.
     void Reset();

@@ -69,8 +69,6 @@ class Runner {
         if (!config_.loops.enabled) return Status::Ok();
         if (!PoseGraphAvailable())
             return Status::Error("--loop-closure on: this build has no pose graph; install libceres-dev and build again");
-        if (request_.live)
-            return Status::Error("--loop-closure on: not yet in --mode live; leave one of the two out");
         if (!request_.poses_file.empty())
             return Status::Error("--loop-closure on: with --poses the poses are given; leave one of the two out");
         return Status::Ok();
@@ -145,7 +143,7 @@ class Runner {
                                         {"allocate", report.fusion.allocate_ms}, {"fuse", report.fusion.fuse_ms}})
             times_.Add(stage, ms);
         if (request_.live) times_.Add("latency", outcome.latency_ms);
-        if (config_.loops.enabled) times_.Add("loops", outcome.loops_ms);
+        if (config_.loops.enabled && !request_.live) times_.Add("loops", outcome.loops_ms);
         if (request_.viewer != nullptr) times_.Add("mesh_update", outcome.mesh_ms);
     }
 

@@ -96,6 +96,11 @@ void TrackingStage::Disbelieve(const std::string& reason, TrackedFrame& tracked)
     tracked.to_fuse = false;
 }
 
+void TrackingStage::Relocate(const StampedPose& pose) {
+    motion_.Clear();
+    motion_.Add(pose);
+}
+
 void TrackingStage::Move(const Eigen::Isometry3d& T_new_old) { motion_.Move(T_new_old); }
 
 TrackResult TrackingStage::TrackFrame(const Frame& frame, const PreparedFrame& prepared, const BlockMap& map) {

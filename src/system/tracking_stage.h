@@ -54,6 +54,8 @@ class TrackingStage {
     bool TrackFrom(const Frame& frame, const BlockMap& map, const Eigen::Isometry3d& T_world_camera, TrackedFrame& tracked);
     // The pose of the frame given last is not to be believed: it is lost.
     void Disbelieve(const std::string& reason, TrackedFrame& tracked);
+    // The camera was lost, and was found to have been here at that time.
+    void Relocate(const StampedPose& pose);
     // The map was moved, the camera with it.
     void Move(const Eigen::Isometry3d& T_new_old);
 

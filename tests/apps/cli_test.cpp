@@ -129,7 +129,6 @@ TEST_F(Cli, WhatIsToComeIsRefusedAndNeverIgnored) {
 }
 
 TEST_F(Cli, LoopClosureIsRefusedWhereItCannotBe) {
-    ExpectRefused("run synthetic:desk --loop-closure on --mode live", "--loop-closure on");
     const std::string poses = folder / "poses.txt";
     std::ofstream(poses) << "0 0 0 0 0 0 0 1\n";
     ExpectRefused("run synthetic:desk --loop-closure on --poses " + poses, "--loop-closure on");

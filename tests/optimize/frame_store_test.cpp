@@ -14,6 +14,7 @@ using testing_support::SmoothPath;
 
 Frame FrameAt(int i, bool colour = true) {
     Frame frame = BoxRoom().Render(SmallCamera(), SmoothPath(i), i / 30.0);
+    frame.index = i;
     for (std::size_t p = 0; p < frame.depth_m.size(); ++p)
         frame.depth_m.data()[p] = std::round(frame.depth_m.data()[p] * 5000) / 5000;
     if (!colour) frame.colour = {};
@@ -56,14 +57,21 @@ TEST(FrameStore, OverItsLimitKeepsKeyframesAndAnEvenShareOfTheRest) {
     for (const std::int64_t o : ordinals) EXPECT_TRUE(o == 5 || o % store.stride() == 0) << o;
 }
 
-// A map made in steps from the store is bit for bit what fusing the same frames at the new poses gives.
+// A map made in steps from the store is bit for bit what fusing the same frames at the new poses gives, labels included.
 TEST(MapRebuild, EqualsAFreshFusion) {
     const BlockMap::Config config{.voxel_size_m = 0.04, .truncation_m = 0.16};
     const Eigen::Isometry3d moved = Se3Exp((Vector6d() << 0.02, 0.1, 0, 0.3, 0, -0.1).finished());
     FrameStore store(100000000, 5000);
+    const auto labeller = [] { return std::make_unique<LabelMapper>(LabelConfig{}, LabelClasses{}, SmallCamera()); };
+    const std::vector<Detection> detections{{"cup", 1, 0.9f, {10, 10, 50, 40}, {}}};
     BlockMap fresh(config);
+    fresh.EnableLabels();
+    const auto fresh_labels = labeller();
     Integrator integrator({}, SmallCamera());
-    MapRebuild rebuild(config, {}, {}, SmallCamera(), {moved});
+    FieldSettings settings;
+    settings.camera = SmallCamera();
+    settings.map = config;
+    MapRebuild rebuild(settings, {moved}, labeller());
     for (int i = 0; i < 6; ++i) {
         const Frame frame = FrameAt(i, false);
         const Eigen::Isometry3d T = SmoothPath(0).inverse() * SmoothPath(i);
@@ -79,15 +87,24 @@ TEST(MapRebuild, EqualsAFreshFusion) {
         Integrator::View view;
         view.T_world_camera = (i < 4 ? moved : moved * moved) * T;
         integrator.Integrate(prepared, view, fresh);
+        if (i % 4 != 0) continue;
+        store.AddDetections(i, detections);
+        fresh_labels->Label(detections, stored.depth_m, view.T_world_camera, fresh);
     }
     EXPECT_FALSE(rebuild.Step(store, 2));
     EXPECT_TRUE(rebuild.Step(store, 2));
-    const std::unique_ptr<BlockMap> map = rebuild.Take();
+    const std::unique_ptr<BlockMap> map = rebuild.TakeMap();
+    int labelled = 0;
     ASSERT_EQ(map->size(), fresh.size());
     for (BlockId id = 1; id < fresh.size(); ++id) {
         ASSERT_TRUE(std::equal(fresh.field(id), fresh.field(id) + kBlockVoxels, map->field(id)));
         ASSERT_TRUE(std::equal(fresh.weight(id), fresh.weight(id) + kBlockVoxels, map->weight(id)));
+        for (int v = 0; v < kBlockVoxels; ++v) {
+            ASSERT_EQ(fresh.label(id)[v].count[0], map->label(id)[v].count[0]);
+            labelled += map->label(id)[v].count[0] > 0;
+        }
     }
+    EXPECT_GT(labelled, 0);
 }
 
 }  // namespace

@@ -66,7 +66,7 @@ struct Walker {
         track.inlier_fraction = 1;
         const std::string news = closer.Add(frame, prepared, track, view, true);
         if (!news.empty()) all_news += std::to_string(frame.index) + ": " + news + "\n";
-        Take(closer.Step());
+        Take(closer.Step(LoopConfig{}.rebuild_frames));
     }
     void Take(std::optional<LoopCloser::Correction> correction) {
         if (!correction) return;

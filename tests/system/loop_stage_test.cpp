@@ -3,46 +3,15 @@
 
 #include <tbb/global_control.h>
 
-#include "optimize/room_walk.h"
+#include "system/frame_list.h"
 #include "system/lockstep_engine.h"
 
 namespace tessera {
 namespace {
 
-using testing_support::RoomCamera;
+using testing_support::Blank;
+using testing_support::FrameList;
 using testing_support::RoomWalk;
-
-class Frames : public FrameSource {
-  public:
-    explicit Frames(std::vector<Frame> frames) : frames_(std::move(frames)) {
-        info_.name = "frames";
-        info_.camera = RoomCamera();
-        for (std::size_t i = 0; i < frames_.size(); ++i) {
-            frames_[i].index = static_cast<std::int64_t>(i);
-            frames_[i].stamp_s = frames_[i].colour_stamp_s = static_cast<double>(i) / 30;
-        }
-    }
-    const SourceInfo& info() const override { return info_; }
-    ReadResult Read(Frame& frame) override {
-        if (next_ == frames_.size()) return {ReadStatus::kEnd, {}};
-        frame = frames_[next_++];
-        return {};
-    }
-    bool Seek(std::int64_t) override { return false; }
-    Status RecordTo(const std::string&, bool) override { return Status::Error("no"); }
-
-  private:
-    std::vector<Frame> frames_;
-    SourceInfo info_;
-    std::size_t next_ = 0;
-};
-
-Frame Blank() {
-    Frame frame;
-    frame.colour = ColourImage(320, 240);
-    frame.depth_m = DepthImage(320, 240, 0.0f);
-    return frame;
-}
 
 struct Outcome {
     std::vector<FrameReport> reports;
@@ -57,7 +26,7 @@ Outcome RunFrames(const std::vector<Frame>& frames, bool loops = true) {
     config.pipeline.trackers.sdf.finest_step_px = 1;
     const std::atomic<bool> stop{false};
     EngineInput input;
-    input.source = std::make_unique<Frames>(frames);
+    input.source = std::make_unique<FrameList>(frames);
     input.config = config;
     input.stop = &stop;
     LockstepEngine engine(std::move(input));

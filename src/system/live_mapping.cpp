@@ -1,0 +1,148 @@
+// LiveEngine's mapping thread: tasks -> the map, its news, meshes, outcomes.
+#include "core/check.h"
+#include "core/stopwatch.h"
+#include "system/live_engine.h"
+
+namespace tessera {
+
+void LiveEngine::MapFrames() {
+    while (true) {
+        mapping_wake_.Wait([&] {
+            return !tasks_.empty() || tracking_done_.load() || (labelling_ && labelling_->has_answer()) || CorrectionFits();
+        });
+        if (labelling_) TakeLabels();
+        if (CorrectionFits()) TakeCorrection();
+        TellLoopNews();
+        Task task;
+        if (tasks_.TryPop(task)) {
+            tracking_wake_.Notify();
+            if (task.tracked)
+                MapFrame(task);
+            else
+                ObeyInMapping(task.command);
+        } else if (tracking_done_.load() && tasks_.empty()) {
+            break;
+        }
+    }
+    if (loops_) EndLoops();
+    mapping_done_.store(true);
+    outcome_wake_.Notify();
+}
+
+void LiveEngine::MapFrame(Task& task) {
+    constexpr std::size_t kBehind = 2;
+    TrackedFrame& tracked = *task.tracked;
+    FrameOutcome outcome;
+    if (tasks_.size() >= kBehind && tracked.to_fuse && !tracked.report.first) {
+        tracked.to_fuse = false;
+        outcome.fusion_dropped = true;
+    }
+    Carry(corrections_, task.corrections, tracked.report.track.T_world_camera);
+    Carry(corrections_, task.corrections, tracked.view.T_world_camera);
+    mapping_.Fuse(tracked);
+    if (tracked.report.fused) {
+        SendMapNews();
+        WaitFor(config_.live.extra_mapping_ms);
+    }
+    feed_.ShowPrediction(show_prediction_.load());
+    outcome.mesh_ms = feed_.Send(*task.frame, tracked.report, mapping_);
+    outcome.report = tracked.report;
+    outcome.T_world_camera_truth = task.frame->T_world_camera;
+    outcome.decode_ms = task.decode_ms;
+    outcome.latency_ms = task.latency_ms;
+    outcome.map = StatisticsOf(mapping_.map());
+    outcome.labels = std::exchange(labels_, std::nullopt);
+    outcome.queues = {{"to tracking", new_frames_.size()}, {"to mapping", tasks_.size()}, {"to recorder", recorder_.waiting()}};
+    if (loops_) outcome.queues.emplace_back("to loops", loops_->waiting());
+    outcomes_.Push(std::move(outcome));
+    Offer(task);
+}
+
+// What else is to be done with a frame once it is in the map: objects and loops are found in it, at leisure.
+void LiveEngine::Offer(Task& task) {
+    const FrameReport& report = task.tracked->report;
+    const MapVersion version{mapped_world_, static_cast<int>(corrections_.size())};
+    if (labelling_ && report.fused) {
+        std::unique_ptr<Frame> frame = frame_pool_.Take();
+        if (loops_)
+            *frame = *task.frame;
+        else
+            std::swap(frame, task.frame);
+        frame_pool_.Give(labelling_->Offer({std::move(frame), report.track.T_world_camera, version}));
+    }
+    if (loops_ && report.tracked()) loops_->Offer(std::move(task.tracked), std::move(task.frame), version);
+    frame_pool_.Give(std::move(task.frame));
+    tracked_pool_.Give(std::move(task.tracked));
+}
+
+void LiveEngine::TakeLabels() {
+    LabellingThread::Answer answer;
+    while (labelling_->TryTake(answer)) {
+        LabellingThread::Job& job = answer.job;
+        if (!answer.message.empty()) Tell(FrameOutcome::Kind::kMessage, answer.message);
+        if (answer.message.empty() && job.map.world == mapped_world_) {
+            Stopwatch watch;
+            Carry(corrections_, job.map.corrections, job.T_world_camera);
+            answer.report.votes = mapping_.Label(answer.report.detections, job.frame->depth_m, job.T_world_camera);
+            answer.report.vote_ms = watch.LapMs();
+            if (loops_) loops_->OfferDetections(job.frame->index, answer.report.detections, job.map);
+            labels_ = std::move(answer.report);
+        }
+        frame_pool_.Give(std::move(job.frame));
+    }
+}
+
+// There is room: each news answers a frame that tracking handed over after it had taken all news before; corrections have
+// room of their own (CorrectionFits).
+void LiveEngine::SendMapNews() {
+    MapNews news{delta_pool_.Take(), mapped_world_, nullptr};
+    mapping_.CollectDelta(*news.delta);
+    TESSERA_CHECK(map_news_.TryPush(std::move(news)), "more news of the map than frames");
+}
+
+bool LiveEngine::CorrectionFits() const {
+    return loops_ && loops_->has_correction() && map_news_.size() < kCorrections;
+}
+
+// The map in its new place, for mapping and for tracking.
+void LiveEngine::TakeCorrection() {
+    LoopThread::Correction correction;
+    if (!loops_->TryTake(correction) || correction.world != mapped_world_) return;
+    mapping_.Replace(std::move(correction.change.map), std::move(correction.change.labels));
+    corrections_.push_back(correction.change.T_new_old);
+    MapNews news{nullptr, mapped_world_, std::move(correction.field), correction.change.T_new_old};
+    TESSERA_CHECK(map_news_.TryPush(std::move(news)), "more corrections than there is room for");
+    Tell(FrameOutcome::Kind::kMessage, "map corrected");
+    feed_.SendMesh(mapping_);
+}
+
+// The run is at its end: what is still to be corrected is waited for.
+void LiveEngine::EndLoops() {
+    if (quit_.load()) return;
+    loops_->Finish();
+    LoopThread::Correction correction;
+    while (loops_->TryTake(correction))
+        if (correction.world == mapped_world_)
+            mapping_.Replace(std::move(correction.change.map), std::move(correction.change.labels));
+    TellLoopNews();
+}
+
+void LiveEngine::TellLoopNews() {
+    std::string news;
+    while (loops_ && loops_->TryTakeNews(news)) Tell(FrameOutcome::Kind::kMessage, news);
+}
+
+void LiveEngine::ObeyInMapping(const ViewerCommand& command) {
+    if (command.kind == ViewerCommand::Kind::kReset) {
+        ++mapped_world_;
+        corrections_.clear();
+        mapping_.Reset();
+        if (loops_) loops_->Reset({mapped_world_, 0});
+        Tell(FrameOutcome::Kind::kReset, {});
+    } else if (command.kind == ViewerCommand::Kind::kSaveMesh) {
+        Tell(FrameOutcome::Kind::kMessage, SaveMesh(mapping_, command.path));
+    }
+    feed_.SendMesh(mapping_);
+}
+
+}  // namespace tessera

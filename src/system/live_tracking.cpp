@@ -1,0 +1,100 @@
+// LiveEngine's tracking thread: newest frames and the map's news -> tasks.
+#include "core/stopwatch.h"
+#include "system/live_engine.h"
+
+namespace tessera {
+namespace {
+
+using Milliseconds = std::chrono::duration<double, std::milli>;
+
+}  // namespace
+
+void LiveEngine::TrackFrames() {
+    TrackingState state(config_, source_.camera);
+    while (true) {
+        tracking_wake_.Wait([&] { return !commands_.empty() || !new_frames_.empty() || reading_done_.load(); });
+        ViewerCommand command;
+        NewFrame item;
+        if (commands_.TryPop(command)) {
+            if (command.kind == ViewerCommand::Kind::kReset) ResetTracking(state);
+            Task task;
+            task.command = command;
+            Hand(std::move(task));
+        } else if (new_frames_.TryPop(item)) {
+            TrackFrame(std::move(item), state);
+        } else if (reading_done_.load() && new_frames_.empty() && commands_.empty()) {
+            break;
+        }
+    }
+    tracking_done_.store(true);
+    mapping_wake_.Notify();
+}
+
+void LiveEngine::ResetTracking(TrackingState& state) {
+    state.version = {state.version.world + 1, 0};
+    state.stage.Reset();
+    state.field->Clear();
+    state.lost = LostCamera(config_.loops, config_.pipeline.motion.max_gap_s);
+}
+
+void LiveEngine::TrackFrame(NewFrame item, TrackingState& state) {
+    ViewerSettings settings;
+    if (viewer_ != nullptr && viewer_->settings.TryPop(settings)) {
+        state.stage.Apply(settings);
+        show_prediction_.store(settings.show_prediction);
+    }
+    TakeMapNews(state);
+    Task task;
+    task.tracked = tracked_pool_.Take();
+    if (loops_) HearWhereItIs(item.frame->stamp_s, state);
+    plan_.Track(*item.frame, *state.field, state.stage, *task.tracked);
+    if (loops_) CheckIfLost(*task.tracked, state);
+    WaitFor(config_.live.extra_tracking_ms);
+    task.frame = std::move(item.frame);
+    task.decode_ms = item.decode_ms;
+    task.latency_ms = Milliseconds(Clock::now() - item.arrival).count();
+    task.corrections = state.version.corrections;
+    const bool first = task.tracked->report.first;
+    Hand(std::move(task));
+    if (first) tracking_wake_.Wait([&] { return !map_news_.empty(); });  // the next frame needs a map
+}
+
+void LiveEngine::TakeMapNews(TrackingState& state) {
+    MapNews news;
+    while (map_news_.TryPop(news)) {
+        const bool ours = news.world == state.version.world;
+        if (ours && news.field) {
+            state.field = std::move(news.field);
+            state.stage.Move(news.T_new_old);
+            ++state.version.corrections;
+        } else if (ours) {
+            ApplyDelta(*news.delta, *state.field);
+        }
+        delta_pool_.Give(std::move(news.delta));
+    }
+}
+
+void LiveEngine::HearWhereItIs(double stamp_s, TrackingState& state) {
+    LoopThread::Answer answer;
+    if (!loops_->TryTake(answer)) return;
+    state.asked = false;
+    if (!answer.T_world_camera || answer.map != state.version) return;
+    Tell(FrameOutcome::Kind::kMessage, answer.note);
+    state.stage.Relocate({answer.stamp_s, *answer.T_world_camera});
+    state.lost.Seen(stamp_s);
+}
+
+void LiveEngine::CheckIfLost(TrackedFrame& tracked, TrackingState& state) {
+    if (state.lost.Judge(tracked) != LostCamera::Verdict::kLost) return;
+    if (tracked.report.tracked()) state.stage.Disbelieve(kNotBelieved, tracked);
+    if (state.asked || tracked.prepared.valid_depth_pixels == 0) return;
+    auto copy = std::make_unique<PreparedFrame>(tracked.prepared);
+    state.asked = loops_->Ask({state.version, tracked.report.stamp_s, std::move(copy)});
+}
+
+// Waits where mapping is far behind: it then leaves frames unfused until it has caught up.
+void LiveEngine::Hand(Task task) {
+    tracking_wake_.Wait([&] { return tasks_.TryPush(std::move(task)); });
+}
+
+}  // namespace tessera

@@ -1,0 +1,158 @@
+#include "system/loop_thread.h"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+#include <tbb/task_arena.h>
+#include <unistd.h>
+
+#include "core/check.h"
+#include "mapping/map_delta.h"
+
+namespace tessera {
+namespace {
+
+// Of this thread only (Linux). Its parallel loops run on it alone: no worker is kept from tracking and mapping.
+void StandBack() {
+    constexpr int kNice = 10;
+    setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNice);
+}
+
+}  // namespace
+
+LoopThread::LoopThread(Settings settings, Surroundings surroundings)
+    : settings_(std::move(settings)),
+      around_(surroundings),
+      answers_(2, around_.tracking),
+      corrections_(kCorrections + 1, around_.mapping),
+      news_(64, around_.mapping) {
+    BeginWorld(0);
+    thread_ = std::jthread([this] {
+        StandBack();
+        tbb::task_arena(1).execute([this] { Work(); });
+    });
+}
+
+LoopThread::~LoopThread() {
+    stop_.store(true);
+    wake_.Notify();
+}
+
+// ---- Mapping's.
+
+void LoopThread::Offer(std::unique_ptr<TrackedFrame> tracked, std::unique_ptr<Frame> frame, MapVersion map) {
+    Job job;
+    job.map = map;
+    job.stamp_s = tracked->report.stamp_s;
+    job.T_world_camera = tracked->report.track.T_world_camera;
+    const bool whole = tracked->report.fused && whole_.load() < kWhole;
+    if (whole) {
+        whole_.fetch_add(1);
+        job.tracked = std::move(tracked);
+        job.frame = std::move(frame);
+    }
+    if (!jobs_.TryPush(std::move(job))) {
+        if (whole) whole_.fetch_sub(1);
+        tracked = std::move(job.tracked);
+        frame = std::move(job.frame);
+    }
+    around_.tracked_frames.Give(std::move(tracked));
+    around_.frames.Give(std::move(frame));
+}
+
+void LoopThread::OfferDetections(std::int64_t frame_index, std::vector<Detection> detections, MapVersion map) {
+    Job job;
+    job.kind = Job::Kind::kDetections;
+    job.map = map;
+    job.frame_index = frame_index;
+    job.detections = std::move(detections);
+    jobs_.TryPush(std::move(job));
+}
+
+void LoopThread::Reset(MapVersion map) {
+    Job job;
+    job.kind = Job::Kind::kReset;
+    job.map = map;
+    around_.mapping.Wait([&] { return jobs_.TryPush(std::move(job)); });
+}
+
+bool LoopThread::TryTake(Correction& correction) {
+    if (!corrections_.TryPop(correction)) return false;
+    wake_.Notify();
+    return true;
+}
+
+void LoopThread::Finish() {
+    finish_.store(true);
+    wake_.Notify();
+    thread_.join();
+}
+
+// ---- The thread's own.
+
+void LoopThread::Work() {
+    constexpr int kFramesAtOnce = 2;  // of a map that is made again: so long a question waits
+    while (true) {
+        wake_.Wait([&] {
+            return stop_.load() || finish_.load() || !questions_.empty() || !jobs_.empty() || MayCorrect();
+        });
+        Question question;
+        Job job;
+        if (stop_.load()) return;
+        if (questions_.TryPop(question)) {
+            Reply(question);
+        } else if (jobs_.TryPop(job)) {
+            around_.mapping.Notify();
+            Do(job);
+        } else if (finish_.load()) {
+            if (auto change = closer_->Finish()) HandOver(std::move(*change));
+            return;
+        } else if (auto change = closer_->Step(kFramesAtOnce)) {
+            HandOver(std::move(*change));
+        }
+    }
+}
+
+void LoopThread::BeginWorld(int world) {
+    world_ = world;
+    history_.clear();
+    closer_ = std::make_unique<LoopCloser>(settings_.loops, settings_.field, settings_.depth_units_per_m, settings_.labels);
+}
+
+void LoopThread::Do(Job& job) {
+    switch (job.kind) {
+        case Job::Kind::kReset: return BeginWorld(job.map.world);
+        case Job::Kind::kDetections: return closer_->AddDetections(job.frame_index, std::move(job.detections));
+        case Job::Kind::kFrame: return AddFrame(job);
+    }
+}
+
+void LoopThread::AddFrame(Job& job) {
+    Carry(history_, job.map.corrections, job.T_world_camera);
+    if (!job.tracked) return closer_->Pass(job.stamp_s, job.T_world_camera);
+    TrackedFrame& tracked = *job.tracked;
+    tracked.report.track.T_world_camera = tracked.view.T_world_camera = job.T_world_camera;
+    const std::string news = closer_->Add(*job.frame, tracked.prepared, tracked.report.track, tracked.view, true);
+    if (!news.empty()) news_.Push(fmt::format("frame {}: {}", job.frame->index, news));
+    whole_.fetch_sub(1);
+    around_.tracked_frames.Give(std::move(job.tracked));
+    around_.frames.Give(std::move(job.frame));
+}
+
+void LoopThread::Reply(Question& question) {
+    Answer answer;
+    answer.map = question.map;
+    answer.stamp_s = question.stamp_s;
+    // A question from before the last reset or correction is of no use any more.
+    if (question.map == MapVersion{world_, static_cast<int>(history_.size())})
+        answer.T_world_camera = closer_->Relocalise(*question.frame, answer.note);
+    TESSERA_CHECK(answers_.TryPush(std::move(answer)), "more answers than questions");
+}
+
+void LoopThread::HandOver(LoopCloser::Correction change) {
+    history_.push_back(change.T_new_old);
+    Correction correction{world_, std::move(change), nullptr};
+    correction.field = CopyField(*correction.change.map);
+    TESSERA_CHECK(corrections_.TryPush(std::move(correction)), "more corrections than there is room for");
+}
+
+}  // namespace tessera

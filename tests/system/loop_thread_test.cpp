@@ -1,0 +1,148 @@
+// Loop closure beside a live run: what the thread makes of a walk that drifts, and a camera that is lost in mid-run.
+#include "system/loop_thread.h"
+
+#include "system/frame_list.h"
+#include "system/live_engine.h"
+
+namespace tessera {
+namespace {
+
+using testing_support::Blank;
+using testing_support::FrameList;
+using testing_support::RoomCamera;
+using testing_support::RoomSettings;
+using testing_support::RoomWalk;
+
+// Mapping's side of the thread: poses that drift, in whatever map there is by then.
+class LoopThreadTest : public testing::Test {
+  protected:
+    void Go(const Frame& frame, const Eigen::Isometry3d& T_last_camera) {
+        T_map_camera = Normalised(T_map_camera * T_last_camera);
+        auto tracked = tracked_frames.Take();
+        PrepareFrame(frame, settings.preparation, tracked->prepared);
+        tracked->report = {};
+        tracked->report.stamp_s = frame.stamp_s;
+        tracked->report.fused = true;
+        tracked->report.track.T_world_camera = tracked->view.T_world_camera = T_map_camera;
+        tracked->report.track.status = TrackStatus::kGood;
+        tracked->report.track.inlier_fraction = 1;
+        auto copy = frames.Take();
+        *copy = frame;
+        thread.Offer(std::move(tracked), std::move(copy), {0, corrections});
+        // The thread may be slow: frames that wait are not to pile up in a test that wants all of them.
+        mapping.Wait([&] { return thread.waiting() < 8; });
+        TakeCorrections();
+    }
+    void TakeCorrections() {
+        LoopThread::Correction correction;
+        while (thread.TryTake(correction)) {
+            ASSERT_EQ(correction.world, 0);
+            ASSERT_EQ(correction.field->size(), correction.change.map->size());
+            T_map_camera = Normalised(correction.change.T_new_old * T_map_camera);
+            ++corrections;
+        }
+    }
+
+    FieldSettings settings = RoomSettings();
+    Wake mapping, tracking;
+    Pool<Frame> frames;
+    Pool<TrackedFrame> tracked_frames;
+    LoopThread thread{{LoopConfig{}, settings, 5000, std::nullopt}, {frames, tracked_frames, mapping, tracking}};
+    Eigen::Isometry3d T_map_camera = Eigen::Isometry3d::Identity();
+    int corrections = 0;
+};
+
+TEST_F(LoopThreadTest, CorrectsAWalkThatDrifts) {
+    if (!PoseGraphAvailable()) GTEST_SKIP() << "this build has no Ceres: install libceres-dev";
+    const std::vector<Frame> walk = RoomWalk(0, 120, 6);
+    const Eigen::Isometry3d bias = Se3Exp((Vector6d() << 0, 0.0009, 0, 0.0015, 0, 0).finished());
+    Eigen::Isometry3d T_drifted = Eigen::Isometry3d::Identity();
+    for (std::size_t i = 0; i < walk.size(); ++i) {
+        const Eigen::Isometry3d step =
+            i == 0 ? T_drifted : walk[i - 1].T_world_camera->inverse() * *walk[i].T_world_camera * bias;
+        T_drifted = T_drifted * step;
+        Go(walk[i], step);
+    }
+    thread.Finish();
+    TakeCorrections();
+    EXPECT_GE(corrections, 1);
+    const std::vector<StampedPose> path = thread.Path();
+    ASSERT_EQ(path.size(), walk.size());
+    const Eigen::Vector3d truth = walk.back().T_world_camera->translation();
+    const double before_m = (T_drifted.translation() - truth).norm();
+    EXPECT_GT(before_m, 0.07);
+    EXPECT_LT((path.back().T_world_camera.translation() - truth).norm(), before_m / 5);
+    std::string news;
+    EXPECT_TRUE(thread.TryTakeNews(news));
+    EXPECT_NE(news.find("loop closed"), std::string::npos) << news;
+}
+
+TEST_F(LoopThreadTest, AResetForgetsAllAndAnOldQuestionHasNoAnswer) {
+    const std::vector<Frame> walk = RoomWalk(0, 4, 6);  // the first is a keyframe
+    for (std::size_t i = 0; i < walk.size(); ++i)
+        Go(walk[i], i == 0 ? Eigen::Isometry3d::Identity()
+                           : walk[i - 1].T_world_camera->inverse() * *walk[i].T_world_camera);
+    mapping.Wait([&] { return thread.waiting() == 0; });
+    const auto ask = [&](MapVersion version) {
+        auto prepared = std::make_unique<PreparedFrame>();
+        PrepareFrame(walk[0], settings.preparation, *prepared);
+        EXPECT_TRUE(thread.Ask({version, 1.5, std::move(prepared)}));
+        LoopThread::Answer answer;
+        tracking.Wait([&] { return thread.TryTake(answer); });
+        return answer;
+    };
+    const LoopThread::Answer here = ask({0, 0});
+    ASSERT_TRUE(here.T_world_camera.has_value());
+    EXPECT_LT((here.T_world_camera->translation() - walk[0].T_world_camera->translation()).norm(), 0.02);
+    EXPECT_EQ(here.stamp_s, 1.5);
+    thread.Reset({1, 0});
+    mapping.Wait([&] { return thread.waiting() == 0; });
+    EXPECT_FALSE(ask({0, 0}).T_world_camera.has_value());
+    EXPECT_FALSE(ask({1, 0}).T_world_camera.has_value());  // it has seen nothing yet
+    thread.Finish();
+    EXPECT_TRUE(thread.Path().empty());
+}
+
+TEST(Carry, AppliesWhatCameSince) {
+    const std::vector<Eigen::Isometry3d> corrections{Eigen::Isometry3d(Eigen::Translation3d(1, 0, 0)),
+                                                     Eigen::Isometry3d(Eigen::Translation3d(0, 2, 0))};
+    for (const auto& [from, expected] : {std::pair{0, Eigen::Vector3d(1, 2, 0)}, {1, {0, 2, 0}}, {2, {0, 0, 0}}}) {
+        Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+        Carry(corrections, from, pose);
+        EXPECT_EQ(pose.translation(), expected) << from;
+    }
+}
+
+// 2 s of a walk, 1.5 s of nothing, then a view of the beginning, held until it is known.
+TEST(LiveEngineWithLoops, FindsAKidnappedCamera) {
+    std::vector<Frame> frames = RoomWalk(0, 60, 3);
+    frames.insert(frames.end(), 45, Blank());
+    const Frame again = RoomWalk(31, 1, 1).front();
+    frames.insert(frames.end(), 1800, again);
+    std::atomic<bool> stop{false};
+    EngineInput input;
+    input.source = std::make_unique<FrameList>(std::move(frames));
+    input.config.loops.enabled = true;
+    input.config.pipeline.map = {.voxel_size_m = 0.02, .truncation_m = 0.08};
+    input.config.pipeline.trackers.sdf.finest_step_px = 1;
+    input.stop = &stop;
+    LiveEngine engine(std::move(input));
+    FrameOutcome outcome;
+    double error_m = 1;
+    while (engine.Next(outcome)) {
+        const FrameReport& report = outcome.report;
+        if (outcome.kind != FrameOutcome::Kind::kFrame || report.index < 60) continue;
+        if (report.index < 105) {
+            EXPECT_FALSE(report.fused) << report.index;
+            continue;
+        }
+        if (!report.tracked()) continue;
+        error_m = (report.track.T_world_camera.translation() - again.T_world_camera->translation()).norm();
+        stop.store(true);
+    }
+    EXPECT_LT(error_m, 0.02);
+    EXPECT_FALSE(engine.CorrectedPath().empty());
+}
+
+}  // namespace
+}  // namespace tessera
