@@ -8,9 +8,10 @@
 namespace tessera {
 namespace {
 
-constexpr std::array<std::pair<const char*, StagedScene (*)()>, 6> kScenes = {{
+constexpr std::array<std::pair<const char*, StagedScene (*)()>, 7> kScenes = {{
     {"desk", MakeDesk},
     {"room", MakeRoom},
+    {"flat", MakeFlat},
     {"corridor", MakeCorridor},
     {"floor", MakeFloor},
     {"corner", MakeCorner},

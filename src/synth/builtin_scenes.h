@@ -17,20 +17,23 @@ struct StagedScene {
     std::string description;
 };
 
-// desk, room, corridor, floor, corner, wall: in the order to present them.
+// desk, room, flat, corridor, floor, corner, wall: in the order to present them.
 std::vector<std::string> BuiltinSceneNames();
 
 // World frame: z up, the floor at z = 0. An unknown name is an error that lists the known ones.
-//   desk      a desk in a room's corner: two monitors, keyboard, laptop, books, cups. 10 s, 2 m of
-//   way. room      5 m x 4 m, furnished; one turn that ends where it began. 24 s. corridor  40 m
-//   long with doors, pillars, posters and chairs; walked from end to end. 88 s. floor     patterned
-//   floor only: texture without structure. 10 s. corner    three bare bright walls: structure
-//   without texture. 10 s. wall      one bare wall: neither. 10 s.
+//   desk      a desk in a room's corner: two monitors, keyboard, laptop, books, cups. 10 s, 2 m of way.
+//   room      5 m x 4 m, furnished; one turn that ends where it began. 24 s.
+//   flat      two furnished rooms of 7 m x 6 m, joined by two doorways; once around, 30 m. 80 s.
+//   corridor  40 m long with doors, pillars, posters and chairs; walked from end to end. 88 s.
+//   floor     patterned floor only: texture without structure. 10 s.
+//   corner    three bare bright walls: structure without texture. 10 s.
+//   wall      one bare wall: neither. 10 s.
 Result<StagedScene> MakeBuiltinScene(const std::string& name);
 
 // The single builders, for the table in builtin_scenes.cpp.
 StagedScene MakeDesk();
 StagedScene MakeRoom();
+StagedScene MakeFlat();
 StagedScene MakeCorridor();
 StagedScene MakeFloor();
 StagedScene MakeCorner();

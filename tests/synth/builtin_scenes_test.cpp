@@ -12,7 +12,7 @@ TEST(BuiltinScenes, AnUnknownNameListsTheKnownOnes) {
     const auto scene = MakeBuiltinScene("kitchen");
     ASSERT_FALSE(scene.ok());
     EXPECT_EQ(scene.message(),
-              "'kitchen' is no built-in scene; there are desk, room, corridor, floor, corner, "
+              "'kitchen' is no built-in scene; there are desk, room, flat, corridor, floor, corner, "
               "wall, or give an .obj "
               "file");
 }
@@ -33,7 +33,7 @@ TEST(BuiltinScenes, TheDeskHasItsObjects) {
 
 // A hand's motion: its speed, and that it stays outside of things.
 TEST(BuiltinScenes, MotionsAreSmoothAndKeepClearOfTheScene) {
-    for (const char* name : {"desk", "floor", "corner", "wall", "corridor"}) {
+    for (const char* name : {"desk", "floor", "corner", "wall", "corridor", "flat"}) {
         const auto staged = MakeBuiltinScene(name);
         ASSERT_TRUE(staged.ok());
         const CameraPath& path = staged.value().path;
