@@ -74,7 +74,9 @@ void LoopCloser::AddKeyframe(const Frame& frame, const PreparedFrame& prepared, 
 void LoopCloser::Link(int from, int to) {
     const Keyframe &a = keyframes_[from], &b = keyframes_[to], &before = keyframes_[to - 1];
     // What tracking against the map loses on the way: a little for each keyframe, and a share of the way.
-    const double trust = b.inlier_fraction < config_.min_fit ? 2.0 : 1.0;
+    // While a map is in use that is known to hold a place twice, tracking may jump from the one to the other.
+    constexpr double kTwice = 10.0;
+    const double trust = (b.inlier_fraction < config_.min_fit ? 2.0 : 1.0) * (rebuild_ ? kTwice : 1.0);
     edges_.push_back({from, to, Normalised(a.T_map_camera.inverse() * b.T_map_camera),
                       trust * (0.002 + 0.01 * std::min(1.0, b.way_m - before.way_m)),
                       trust * (0.002 + 0.01 * std::min(1.0, b.turned_rad - before.turned_rad)), false});

@@ -37,7 +37,7 @@ bool PoseGraphAvailable() { return true; }
 
 Result<PoseGraphReport> OptimisePoses(std::span<const PoseEdge> edges, std::vector<Eigen::Isometry3d>& T_world_camera) {
     constexpr int kMaxIterations = 50;
-    constexpr double kLoopLoss = 3.0;  // standard deviations at which a loop begins to count less
+    constexpr double kLoss = 3.0;  // standard deviations at which an edge begins to count less
     std::vector<Node> nodes(T_world_camera.begin(), T_world_camera.end());
     std::vector<bool> used(nodes.size(), false);
     ceres::Problem problem;
@@ -45,7 +45,7 @@ Result<PoseGraphReport> OptimisePoses(std::span<const PoseEdge> edges, std::vect
         TESSERA_CHECK(std::min(edge.from, edge.to) >= 0 && std::max(edge.from, edge.to) < static_cast<int>(nodes.size()),
                       "an edge from {} to {} among {} poses", edge.from, edge.to, nodes.size());
         const auto from = static_cast<std::size_t>(edge.from), to = static_cast<std::size_t>(edge.to);
-        problem.AddResidualBlock(new EdgeCost(new EdgeFunctor{edge}), edge.loop ? new ceres::CauchyLoss(kLoopLoss) : nullptr,
+        problem.AddResidualBlock(new EdgeCost(new EdgeFunctor{edge}), new ceres::CauchyLoss(kLoss),
                                  nodes[from].q.coeffs().data(), nodes[from].t.data(), nodes[to].q.coeffs().data(),
                                  nodes[to].t.data());
         used[from] = used[to] = true;

@@ -15,7 +15,7 @@ struct PoseEdge {
     int from = 0, to = 0;
     Eigen::Isometry3d T_from_to = Eigen::Isometry3d::Identity();
     double sigma_m = 0.01, sigma_rad = 0.01;  // standard deviation along and about each axis
-    bool loop = false;                        // may be wrong: gets the robust loss
+    bool loop = false;                        // not from tracking one after the other
 };
 
 // The residual of one edge in standard deviations: rotation (twice the vector part of the error's quaternion), then
@@ -30,8 +30,9 @@ struct PoseGraphReport {
 // Whether this build has Ceres.
 bool PoseGraphAvailable();
 
-// Moves the poses so that the edges are met best. Pose 0 stays. Loops are under a Cauchy loss: a wrong one that slipped
-// through pulls little. One thread, so the result is the same on every run. An error where Ceres is missing or finds no
+// Moves the poses so that the edges are met best. Pose 0 stays. All are under a Cauchy loss: a wrong loop that slipped
+// through pulls little, and where the camera came back with drift, tracking jumps from the new surface to the old one, a
+// motion that never was. One thread, so the result is the same on every run. An error where Ceres is missing or finds no
 // usable solution; the poses are then as they were.
 Result<PoseGraphReport> OptimisePoses(std::span<const PoseEdge> edges, std::vector<Eigen::Isometry3d>& T_world_camera);
 
