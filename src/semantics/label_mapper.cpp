@@ -109,8 +109,7 @@ std::vector<ObservedObject> LabelMapper::Observe(std::span<const Detection> dete
 }
 
 VertexLabel LabelMapper::LabelOf(const VoxelLabel& voxel) const {
-    if (ClassOf(voxel) == 0) return {};
-    if (voxel.instance == 0) return {ClassOf(voxel), 0};
+    if (ClassOf(voxel) == 0 || voxel.instance == 0) return {};
     const InstanceId id = instances_.Resolve(voxel.instance);
     if (!instances_.confirmed(id)) return {};
     return {static_cast<std::uint8_t>(instances_.ClassOf(id)), static_cast<std::uint16_t>(instances_.record(id).public_id)};
