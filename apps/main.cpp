@@ -64,6 +64,7 @@ int Main(int argc, char** argv) {
     AddSweepCommand(app, context);
     AddInspectCommand(app, context);
     AddRenderCommand(app, context);
+    AddObjectsCommand(app, context);
     AddViewCommand(app, context);
     AddInfoCommand(app, context);
     AddDoctorCommand(app, context);

@@ -1,5 +1,6 @@
 #include "run_text.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <utility>
@@ -16,10 +17,11 @@ std::string AteText(const AteResult& ate) {
     return text;
 }
 
-std::string LabelsText(const LabelSummary& labels) {
+std::string LabelsText(const LabelSummary& labels, double wall_s) {
     std::map<std::string, int> counts;
     for (const MapObject& object : labels.objects) ++counts[object.class_name];
-    std::string text = fmt::format("labels: {} frames looked at, {} detections, {} objects", labels.frames, labels.detections,
+    std::string text = fmt::format("labels: {} frames looked at ({:.1f} a second), {} detections, {} objects", labels.frames,
+                                   static_cast<double>(labels.frames) / std::max(wall_s, 1e-9), labels.detections,
                                    labels.objects.size());
     const char* separator = ": ";
     for (const auto& [name, count] : counts) text += fmt::format("{}{} {}", std::exchange(separator, ", "), count, name);
@@ -43,11 +45,12 @@ std::string RunText(const RunRequest& request, const RunSummary& s) {
         "MB\n",
         s.fps, median_ms, s.map.blocks, static_cast<double>(s.map.bytes) / kMegabyte, s.map.bytes_per_voxel,
         s.peak_rss_mb);
-    if (s.labels) text += LabelsText(*s.labels);
+    if (s.labels) text += LabelsText(*s.labels, s.wall_s);
     std::error_code ignored;  // an empty mesh has no picture
     for (const auto& [file, what] : {std::pair{"trajectory.txt", "camera path, TUM format"},
                                      {"mesh.ply", "coloured mesh"},
                                      {"preview.png", "picture of it"},
+                                     {"objects.json", "what there is, with boxes"},
                                      {"detections.txt", "what the detector saw"},
                                      {"timings.json", "time per stage"},
                                      {"run.json", "settings and figures of this run"}})

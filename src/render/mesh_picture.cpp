@@ -109,6 +109,7 @@ ColourImage RenderMesh(const TriangleMesh& mesh, const PinholeCamera& camera,
         for (int y = rows.begin(); y != rows.end(); ++y) render_row(y);
     });
     DrawPath(camera, T_world_camera, style, image);
+    DrawBoxes(camera, T_world_camera, style, image);
     return image;
 }
 

@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "core/camera.h"
@@ -11,6 +12,14 @@
 #include "core/mesh.h"
 
 namespace tessera {
+
+// A box with its name, drawn over a picture.
+struct NamedBox {
+    Eigen::Isometry3d T_world_box = Eigen::Isometry3d::Identity();  // its centre and axes
+    Eigen::Vector3d size = Eigen::Vector3d::Zero();                 // metres
+    std::string name;                                               // may be empty
+    Rgb8 colour;
+};
 
 struct RenderStyle {
     enum class Shading {
@@ -28,6 +37,7 @@ struct RenderStyle {
     std::vector<Eigen::Isometry3d> path;
     Rgb8 path_colour{214, 72, 32};
     double frustum_m = 0;  // the outlines' depth; 0 chooses it by the picture
+    std::vector<NamedBox> boxes;  // drawn over the picture, edges whole, with their names
 };
 
 // The mesh as `camera` at T_world_camera sees it, 2 x 2 samples per pixel, no near or far limit.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
@@ -30,6 +32,21 @@ class Pen {
         cv::Point a = Pixel(p), b = Pixel(q);
         cv::line(canvas_, a, b, {double(colour.r), double(colour.g), double(colour.b)}, thickness_,
                  cv::LINE_AA, kSubpixelBits);
+    }
+
+    // Above `p_world`, on a plate of that colour; nothing behind the camera.
+    void Write(const Eigen::Vector3d& p_world, const std::string& text, const Rgb8& colour) {
+        const Eigen::Vector3d p = T_camera_world_ * p_world;
+        if (!(p.z() > kNear_m)) return;
+        const double scale = 0.45 * std::max(1.0, camera_.width / 1280.0);
+        int below = 0;
+        const cv::Size size = cv::getTextSize(text, cv::FONT_HERSHEY_SIMPLEX, scale, thickness_, &below);
+        const cv::Point middle = Pixel(p);
+        const cv::Point at((middle.x >> kSubpixelBits) - size.width / 2, (middle.y >> kSubpixelBits) - below - 3);
+        const bool dark = 0.299 * colour.r + 0.587 * colour.g + 0.114 * colour.b < 140;
+        cv::rectangle(canvas_, {at.x - 3, at.y - size.height - 3}, {at.x + size.width + 3, at.y + below + 1},
+                      {double(colour.r), double(colour.g), double(colour.b)}, cv::FILLED);
+        cv::putText(canvas_, text, at, cv::FONT_HERSHEY_SIMPLEX, scale, cv::Scalar::all(dark ? 255 : 0), thickness_, cv::LINE_AA);
     }
 
   private:
@@ -74,7 +91,39 @@ double FrustumDepth(const PinholeCamera& camera, const Eigen::Isometry3d& T_worl
     return 0.035 * distance_m * camera.width / camera.fx;
 }
 
+Eigen::Vector3d Corner(const NamedBox& box, int i) {
+    const Eigen::Vector3d sign((i & 1) != 0 ? 0.5 : -0.5, (i & 2) != 0 ? 0.5 : -0.5, (i & 4) != 0 ? 0.5 : -0.5);
+    return box.T_world_box * sign.cwiseProduct(box.size);
+}
+
+// Over the box's middle, as high in the picture as its highest corner.
+Eigen::Vector3d NamePlace(const NamedBox& box, const Eigen::Isometry3d& T_world_camera) {
+    const Eigen::Vector3d middle = T_world_camera.inverse() * box.T_world_box.translation();
+    double highest = std::numeric_limits<double>::max();
+    for (int i = 0; i < 8; ++i) {
+        const Eigen::Vector3d p = T_world_camera.inverse() * Corner(box, i);
+        if (p.z() > kNear_m) highest = std::min(highest, p.y() / p.z());
+    }
+    return T_world_camera * Eigen::Vector3d(middle.x(), highest * middle.z(), middle.z());
+}
+
 }  // namespace
+
+void DrawBoxes(const PinholeCamera& camera, const Eigen::Isometry3d& T_world_camera,
+               const RenderStyle& style, ColourImage& image) {
+    std::vector<const NamedBox*> far_first;
+    for (const NamedBox& box : style.boxes) far_first.push_back(&box);
+    std::ranges::stable_sort(far_first, std::greater{}, [&](const NamedBox* box) {
+        return (T_world_camera.inverse() * box->T_world_box.translation()).z();
+    });
+    Pen pen(camera, T_world_camera, image);
+    for (const NamedBox* box : far_first)
+        for (int i = 0; i < 8; ++i)
+            for (const int axis : {1, 2, 4})
+                if ((i & axis) == 0) pen.Line(Corner(*box, i), Corner(*box, i | axis), box->colour);
+    for (const NamedBox* box : far_first)
+        if (!box->name.empty()) pen.Write(NamePlace(*box, T_world_camera), box->name, box->colour);
+}
 
 void DrawPath(const PinholeCamera& camera, const Eigen::Isometry3d& T_world_camera,
               const RenderStyle& style, ColourImage& image) {

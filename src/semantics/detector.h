@@ -46,6 +46,8 @@ class Detector {
     // What there is in the frame's colour image, of all classes and probabilities. An error ends its use: the network
     // broke, or the frame has no colour. Never throws.
     virtual Result<std::vector<Detection>> Detect(const Frame& frame) = 0;
+    // From now on it works beside something more urgent: on the calling thread only, as far as it can choose.
+    virtual void WorkInBackground() {}
     // All that it may say; empty if that is not known beforehand.
     virtual const std::vector<std::string>& class_names() const = 0;
 };

@@ -35,6 +35,8 @@ class DnnDetector : public Detector {
     Status SetNames(std::vector<std::string> names);
 
     Result<std::vector<Detection>> Detect(const Frame& frame) override;
+    // OpenCV has one number of threads for the whole process; nothing else here needs them while frames come.
+    void WorkInBackground() override { cv::setNumThreads(1); }
     const std::vector<std::string>& class_names() const override { return names_; }
 
   private:

@@ -13,9 +13,10 @@ constexpr double kContained = 0.5, kContainedShare = 0.2;
 constexpr double kSameBox = 0.3;        // intersection over union of 3D boxes
 constexpr double kFree = 0.5;           // more of a region held by others is busy
 constexpr double kCovers = 0.6;         // of both, for one detection to say that two are one
-constexpr int kTogether = 4;
+constexpr int kTogether = 8;            // times said, and twice as often as the contrary
 constexpr int kTrialFrames = 12;        // in view, before one that is not confirmed may be dropped
 constexpr double kHeldShare = 0.3;     // of a detection's pixels shown by the map
+constexpr double kStandingShare = 0.5;  // of the rate asked for
 constexpr double kClassShare = 0.5;     // of the votes, to be confirmed
 
 double BoxOverlap(const Eigen::AlignedBox3d& a, const Eigen::AlignedBox3d& b) {
@@ -57,6 +58,11 @@ double Instances::Probability(InstanceId id) const {
     const InstanceRecord& r = records_[id];
     const auto votes = r.class_votes.find(ClassOf(id));
     return votes == r.class_votes.end() ? 0 : votes->second / std::max(1, r.observations);
+}
+
+bool Instances::stands(InstanceId id) const {
+    if (!confirmed(id)) return false;
+    return records_[id].observations >= kStandingShare * config_.min_rate * records_[id].visible_frames;
 }
 
 std::vector<InstanceId> Instances::Match(const std::vector<ObservedObject>& observed, const std::map<InstanceId, int>& visible) {
@@ -151,7 +157,7 @@ void Instances::GatherEvidence(const std::vector<ObservedObject>& observed, cons
     }
     for (const auto& pair : together) {
         PairEvidence& e = evidence_[pair];
-        if (++e.together >= kTogether && e.together > e.apart) Join(pair.first, pair.second);
+        if (++e.together >= kTogether && e.together > 2 * e.apart) Join(pair.first, pair.second);
     }
 }
 

@@ -55,6 +55,9 @@ class Instances {
     InstanceId Resolve(InstanceId id) const;
     const InstanceRecord& record(InstanceId id) const { return records_[id]; }  // of a resolved one, not 0
     bool confirmed(InstanceId id) const { return id != 0 && records_[id].public_id > 0; }
+    // Confirmed, and seen since in at least half of that rate: what was once confirmed by a run of mistakes is withheld,
+    // though it keeps its number.
+    bool stands(InstanceId id) const;
     // The class with the most votes; ties go to the smaller number.
     int ClassOf(InstanceId id) const;
     // Mean probability of the detections that gave it that class, times their share.

@@ -109,10 +109,9 @@ std::vector<ObservedObject> LabelMapper::Observe(std::span<const Detection> dete
 }
 
 VertexLabel LabelMapper::LabelOf(const VoxelLabel& voxel) const {
-    if (ClassOf(voxel) == 0) return {};
-    if (voxel.instance == 0) return {ClassOf(voxel), 0};
+    if (ClassOf(voxel) == 0 || voxel.instance == 0) return {};
     const InstanceId id = instances_.Resolve(voxel.instance);
-    if (!instances_.confirmed(id)) return {};
+    if (!instances_.stands(id)) return {};
     return {static_cast<std::uint8_t>(instances_.ClassOf(id)), static_cast<std::uint16_t>(instances_.record(id).public_id)};
 }
 
@@ -127,7 +126,7 @@ void LabelMapper::LabelVertices(const BlockMap& map, TriangleMesh& mesh) const {
 std::vector<MapObject> LabelMapper::Objects(double voxel_size_m, TriangleMesh& labelled) const {
     std::vector<MapObject> objects;
     for (InstanceId id = 1; id <= instances_.last() && id != 0; ++id) {
-        if (!instances_.confirmed(id) || instances_.Resolve(id) != id) continue;
+        if (instances_.Resolve(id) != id || !instances_.stands(id)) continue;
         MapObject object;
         object.id = instances_.record(id).public_id;
         object.class_id = instances_.ClassOf(id);

@@ -1,5 +1,8 @@
 #include "system/labelling_stage.h"
 
+#include <sys/resource.h>
+#include <unistd.h>
+
 #include <exception>
 
 #include "core/stopwatch.h"
@@ -32,6 +35,13 @@ bool LabellingStage::Detect(const Frame& frame, LabelReport& report, std::string
     return true;
 }
 
+void LabellingStage::WorkInBackground() {
+    constexpr int kNice = 10;
+    // Linux: of this thread alone. Where it is refused the thread is as urgent as the others.
+    static_cast<void>(setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNice));
+    detector_->WorkInBackground();
+}
+
 LabellingThread::LabellingThread(LabellingStage stage, Wake& mapping)
     : stage_(std::move(stage)), answers_(2, mapping), thread_([this] { Work(); }) {}
 
@@ -53,6 +63,7 @@ bool LabellingThread::TryTake(Answer& answer) {
 }
 
 void LabellingThread::Work() {
+    stage_.WorkInBackground();
     while (!stop_.load()) {
         wake_.Wait([&] { return !jobs_.empty() || stop_.load(); });
         Answer answer;

@@ -32,6 +32,8 @@ class LabellingStage {
 
     // False once the detector broke: `message` says so the first time and is empty later.
     bool Detect(const Frame& frame, LabelReport& report, std::string& message);
+    // On the thread that will detect, beside tracking: one thread only, and behind the others where cores are short.
+    void WorkInBackground();
 
   private:
     std::unique_ptr<Detector> detector_;

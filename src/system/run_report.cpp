@@ -80,6 +80,7 @@ std::string RunJson(const RunRequest& request, RunConfig config, const RunSummar
     if (summary.labels)
         json["labels"] = {{"detector", request.labels},
                           {"frames", summary.labels->frames},
+                          {"frames_per_s", summary.wall_s > 0 ? static_cast<double>(summary.labels->frames) / summary.wall_s : 0.0},
                           {"detections", summary.labels->detections},
                           {"settled_flips", summary.labels->flips},
                           {"objects", summary.labels->objects.size()}};

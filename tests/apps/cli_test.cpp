@@ -84,13 +84,35 @@ TEST_F(Cli, AWholeRunInAWindow) {
 
 TEST_F(Cli, HelpEverywhere) {
     for (const char* command : {"", "run", "eval", "eval ate", "eval rpe", "eval mesh", "synth", "sweep", "sweep alpha",
-                                "render", "view", "info", "doctor", "config"})
+                                "render", "objects", "view", "info", "doctor", "config"})
         for (const char* flag : {" -h", " --help"}) {
             const Outcome outcome = Call(std::string(command) + flag);
             EXPECT_EQ(outcome.exit_code, 0) << command;
             EXPECT_NE(outcome.out.find("--help"), std::string::npos) << command;
         }
     EXPECT_EQ(Call("--version").out.rfind("tessera ", 0), 0u);
+}
+
+// Before the run starts: nothing is written.
+TEST_F(Cli, LabelsThatCannotBeAreRefused) {
+    const auto refused = [&](const std::string& name, const std::string& content, const std::string& named) {
+        std::ofstream(folder / name) << content;
+        ExpectRefused("run synthetic:desk --out " + (folder / "o") + " --labels " + (folder / name), named);
+    };
+    ExpectRefused("run synthetic:desk --out " + (folder / "o") + " --labels /no/such.txt", "/no/such.txt");
+    refused("empty.txt", "", "empty.txt");
+    refused("five.txt", "1000 cup 0.9 1 1\n", "five.txt:1: ");
+    refused("nan.txt", "1000 cup 0.9 1 1 5 5\n1000 cup nan 1 1 5 5\n", "nan.txt:2: ");
+    refused("turned.txt", "1000 cup 0.9 5 5 1 1\n", "turned.txt:1: ");
+    refused("cut.onnx", "\x08\x07\x3a\x70", "cut.onnx");
+    refused("a.cfg", "[net]\n", "a.weights");
+    EXPECT_FALSE(std::filesystem::exists(folder / "o"));
+}
+
+TEST_F(Cli, AMeshWithoutLabelsIsNotShownByLabel) {
+    ASSERT_EQ(Call(SmallRun() + "--frames 3 --out " + (folder / "o")).exit_code, 0);
+    ExpectRefused("render " + (folder / "o/mesh.ply") + " --shading label --out " + (folder / "p.png"), "has no labels");
+    ExpectRefused("objects " + (folder / "o") + " --out " + (folder / "parts"), "has no labels");
 }
 
 TEST_F(Cli, BadArgumentsAreOneLineAndExitCode2) {
@@ -112,6 +134,7 @@ TEST_F(Cli, BadArgumentsAreOneLineAndExitCode2) {
     ExpectRefused("eval ate /no/reference.txt /no/estimate.txt", "/no/reference.txt");
     ExpectRefused("eval mesh /no/a.ply /no/b.ply", "/no/a.ply");
     ExpectRefused("render /no/a.ply --out a.png", "/no/a.ply");
+    ExpectRefused("objects /no/such/run --out " + (folder / "o"), "/no/such/run/objects.json");
     ExpectRefused("view /no/such/run", "/no/such/run");
     ExpectRefused("view synthetic:desk", "tessera run synthetic:desk --view");
     ExpectRefused("view " + folder.path(), "mesh.ply");

@@ -57,6 +57,44 @@ TEST_F(DnnDetectorTest, FindsTheDesksThings) {
     EXPECT_FALSE(detector.value()->Detect(frame).ok());
 }
 
+// A field of a protocol buffer: bytes, or a number.
+std::string Field(int number, const std::string& bytes) {
+    std::string text;
+    text.push_back(static_cast<char>(number << 3 | 2));
+    text.push_back(static_cast<char>(bytes.size()));
+    return text.append(bytes);
+}
+std::string Field(int number, int value) {
+    std::string text(1, static_cast<char>(number << 3));
+    for (; value > 127; value >>= 7) text += static_cast<char>(value | 128);
+    return text + static_cast<char>(value);
+}
+
+// ONNX: one Relu, whose output has its input's shape.
+std::string ReluNetwork(int side) {
+    const auto value = [&](const std::string& name) {
+        std::string shape;
+        for (const int size : {1, 3, side, side}) shape += Field(1, Field(1, size));
+        return Field(1, name) + Field(2, Field(1, Field(1, 1) + Field(2, shape)));
+    };
+    const std::string node = Field(1, "x") + Field(2, "y") + Field(4, "Relu");
+    const std::string graph = Field(1, node) + Field(2, "g") + Field(11, value("x")) + Field(12, value("y"));
+    return Field(1, 7) + Field(7, graph) + Field(8, Field(1, "") + Field(2, 11));
+}
+
+TEST(UnknownNetwork, IsOneLineWithItsShapes) {
+    if (!HasDnn()) GTEST_SKIP() << "this build has no networks";
+    TempFolder folder;
+    std::ofstream(folder / "relu.onnx", std::ios::binary) << ReluNetwork(64);
+    LabelConfig config;
+    config.input_px = 64;
+    const auto detector = OpenDnnDetector(folder / "relu.onnx", config);
+    ASSERT_FALSE(detector.ok());
+    EXPECT_NE(detector.message().find("1x3x64x64"), std::string::npos) << detector.message();
+    EXPECT_NE(detector.message().find("labels.family"), std::string::npos) << detector.message();
+    EXPECT_EQ(detector.message().find('\n'), std::string::npos) << detector.message();
+}
+
 TEST_F(DnnDetectorTest, WhatIsNoNetworkIsOneLine) {
     TempFolder folder;
     const std::string model = ReadWholeFile(kModel, 1 << 28).value();

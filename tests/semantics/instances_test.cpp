@@ -65,7 +65,11 @@ TEST(Instances, WhatIsSeldomSeenIsDropped) {
     EXPECT_EQ(instances.Resolve(id), 0);
     const InstanceId kept = Confirmed(instances, 5);
     for (int i = 0; i < 100; ++i) instances.Match({}, {{kept, 95}});
-    EXPECT_EQ(instances.Resolve(kept), kept);  // confirmed is confirmed
+    EXPECT_EQ(instances.Resolve(kept), kept);  // confirmed is confirmed,
+    EXPECT_FALSE(instances.stands(kept));      // but not shown
+    for (int i = 0; i < 30; ++i) instances.Match({Seen(5, {{kept, 90}})}, {{kept, 95}});
+    EXPECT_TRUE(instances.stands(kept));
+    EXPECT_EQ(instances.record(kept).public_id, 1);
 }
 
 TEST(Instances, TwoThatAreOneAreJoinedUnderTheOlderNumber) {
@@ -73,10 +77,14 @@ TEST(Instances, TwoThatAreOneAreJoinedUnderTheOlderNumber) {
     const InstanceId a = Confirmed(instances, 5), b = Confirmed(instances, 5);
     ASSERT_NE(a, b);
     EXPECT_EQ(instances.record(b).public_id, 2);
-    for (int i = 0; i < 4; ++i) instances.Match({Seen(5, {{a, 50}, {b, 48}})}, {{a, 55}, {b, 55}});
+    const int before = instances.record(a).observations + instances.record(b).observations;
+    for (int i = 0; i < 8; ++i) {
+        EXPECT_EQ(instances.Resolve(b), b) << i;
+        instances.Match({Seen(5, {{a, 50}, {b, 48}})}, {{a, 55}, {b, 55}});
+    }
     EXPECT_EQ(instances.Resolve(b), a);
     EXPECT_EQ(instances.record(a).public_id, 1);
-    EXPECT_EQ(instances.record(a).observations, 30);
+    EXPECT_EQ(instances.record(a).observations, before + 8);
 }
 
 TEST(Instances, DetectionsApartSpeakAgainstJoining) {

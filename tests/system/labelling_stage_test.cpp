@@ -1,0 +1,100 @@
+#include "system/labelling_stage.h"
+
+#include <stdexcept>
+
+#include "system/engine_fixture.h"
+
+namespace tessera {
+namespace {
+
+// Answers for a while, then breaks, with an error or against its word with an exception.
+class BreakingDetector : public Detector {
+  public:
+    BreakingDetector(int good, bool throws) : good_(good), throws_(throws) {}
+    Result<std::vector<Detection>> Detect(const Frame&) override {
+        if (good_-- > 0) {
+            Detection sure, doubtful, other;
+            sure.name = doubtful.name = "cup", other.name = "dog";
+            sure.probability = other.probability = 0.9f, doubtful.probability = 0.3f;
+            sure.box = doubtful.box = other.box = {20, 20, 60, 60};
+            return std::vector<Detection>{doubtful, sure, other};
+        }
+        if (throws_) throw std::runtime_error("the network fell over");
+        return Status::Error("the network fell over");
+    }
+    const std::vector<std::string>& class_names() const override { return names_; }
+
+  private:
+    int good_;
+    bool throws_;
+    std::vector<std::string> names_{"cup", "dog"};
+};
+
+Labelling Breaking(int good, bool throws) {
+    LabelConfig config;
+    config.classes = "cup";
+    auto detector = std::make_unique<BreakingDetector>(good, throws);
+    LabelClasses classes = LabelClasses::Make(config, detector->class_names()).value();
+    return {std::move(detector), std::move(classes)};
+}
+
+class LabellingStageTest : public EngineTest, public testing::WithParamInterface<bool> {
+  protected:
+    void MakeLabelling(bool live, int good) {
+        EngineInput input = Input({.count = 20});
+        input.labelling = Breaking(good, GetParam());
+        if (live)
+            engine = std::make_unique<LiveEngine>(std::move(input));
+        else
+            engine = std::make_unique<LockstepEngine>(std::move(input));
+    }
+    int TimesSaid() const {
+        int times = 0;
+        for (const FrameOutcome& o : outcomes) times += o.message.find("the network fell over") != std::string::npos;
+        return times;
+    }
+    std::int64_t Labelled() const {
+        return std::ranges::count_if(outcomes, [](const FrameOutcome& o) { return o.labels.has_value(); });
+    }
+};
+
+TEST_P(LabellingStageTest, SaysOnceThatTheDetectorBroke) {
+    Labelling labelling = Breaking(1, GetParam());
+    LabellingStage stage(std::move(labelling.detector), std::move(labelling.classes), {});
+    LabelReport report;
+    std::string message;
+    EXPECT_TRUE(stage.Detect({}, report, message));
+    ASSERT_EQ(report.detections.size(), 1u);  // wanted and probable
+    EXPECT_EQ(report.detections[0].class_id, 1);
+    EXPECT_TRUE(message.empty());
+    EXPECT_FALSE(stage.Detect({}, report, message));
+    EXPECT_NE(message.find("labelling stops"), std::string::npos) << message;
+    EXPECT_FALSE(stage.Detect({}, report, message));
+    EXPECT_TRUE(message.empty());
+}
+
+TEST_P(LabellingStageTest, InLockstepTheScanGoesOn) {
+    MakeLabelling(false, 3);
+    TakeAll();
+    EXPECT_TRUE(engine->status().ok());
+    EXPECT_EQ(Count(Kind::kFrame), 20);
+    for (const FrameReport* report : Reports()) EXPECT_TRUE(report->tracked());
+    EXPECT_EQ(Labelled(), 3);
+    EXPECT_EQ(TimesSaid(), 1);
+}
+
+TEST_P(LabellingStageTest, LiveTheScanGoesOn) {
+    config.live.queue_frames = 30;
+    MakeLabelling(true, 0);
+    TakeAll();
+    EXPECT_TRUE(engine->status().ok());
+    EXPECT_EQ(Count(Kind::kFrame) + Count(Kind::kDropped), 20);
+    EXPECT_EQ(Labelled(), 0);
+    EXPECT_LE(TimesSaid(), 1);  // none if the end comes before the answer
+    EXPECT_GT(engine->TakeMesh().triangles.size(), 1000u);
+}
+
+INSTANTIATE_TEST_SUITE_P(ByErrorAndByException, LabellingStageTest, testing::Bool());
+
+}  // namespace
+}  // namespace tessera

@@ -1,0 +1,144 @@
+// Labels end to end against per-pixel truth: a built-in scene, and a rendered sequence with its detections file, each with
+// the mistakes as given and with 20 % wrong and 30 % missed.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <random>
+#include <set>
+#include <sstream>
+
+#include "eval/label_scores.h"
+#include "support/temp_folder.h"
+#include "synth/sequence_writer.h"
+#include "system/run.h"
+
+namespace tessera {
+namespace {
+
+struct Mistakes {
+    double missed, wrong, least_accuracy;
+};
+constexpr Mistakes kGiven{0.1, 0.03, 0.95}, kHard{0.3, 0.2, 0.9};
+
+class LabelsTest : public testing::Test {
+  protected:
+    // Labels the source; the scores against `truth`.
+    LabelScores Score(const std::string& source, const std::string& labels, const std::string& truth) {
+        RunRequest request;
+        request.source = source;
+        request.labels = labels;
+        request.output_folder = folder / "run";
+        const std::atomic<bool> stop{false};
+        const auto run = ExecuteRun(request, config, {}, stop);
+        EXPECT_TRUE(run.ok()) << run.message();
+        if (!run.ok()) return {};
+        flips = run.value().labels->flips;
+        const auto scores = EvaluateLabels(truth, request.output_folder);
+        EXPECT_TRUE(scores.ok()) << scores.message();
+        return scores.ok() ? scores.value() : LabelScores{};
+    }
+    TempFolder folder;
+    RunConfig config;
+    std::int64_t flips = 0;
+};
+
+class SyntheticDesk : public LabelsTest, public testing::WithParamInterface<Mistakes> {};
+
+// Two of the desk's books lie in a stack, each two or three voxels thick, and may be taken for one: 10 of 11 are asked for.
+TEST_P(SyntheticDesk, IsLabelledDespiteMistakes) {
+    config.synthetic.frames = 60;
+    config.synthetic.fps = 6;  // the whole of the scene's motion
+    config.synthetic.camera.width = 320, config.synthetic.camera.height = 240;
+    config.synthetic.camera.fx = config.synthetic.camera.fy = 262;
+    config.synthetic.camera.cx = 159.5, config.synthetic.camera.cy = 119.5;
+    auto source = OpenSynthetic("synthetic:desk", config.synthetic);
+    ASSERT_TRUE(source.ok()) << source.message();
+    ASSERT_TRUE(WriteSequence(*source.value(), folder / "truth", {}).ok());
+    config.labels.synthetic_missed = GetParam().missed;
+    config.labels.synthetic_wrong = GetParam().wrong;
+    const LabelScores scores = Score("synthetic:desk", "synthetic", folder / "truth");
+    EXPECT_GT(scores.accuracy, GetParam().least_accuracy) << LabelScoresText(scores);
+    EXPECT_EQ(scores.instances.size(), 11u);
+    EXPECT_LE(scores.found_objects, 11);
+    std::set<int> found;
+    for (const InstanceScore& i : scores.instances)
+        if (i.right_class) found.insert(i.found);
+    EXPECT_GE(found.size(), 10u) << LabelScoresText(scores);
+    EXPECT_LT(scores.centroid_error_mean_m, 0.05) << LabelScoresText(scores);
+}
+
+INSTANTIATE_TEST_SUITE_P(GivenAndHard, SyntheticDesk, testing::Values(kGiven, kHard));
+
+std::string Sequence() {
+    const char* data = std::getenv("TESSERA_DATA");
+    return (data != nullptr ? std::string(data) : std::string(TESSERA_SOURCE_DIR) + "/../shared/data") + "/house_desk";
+}
+
+// The file with further mistakes; the same on every machine.
+void MakeMistakes(const std::string& from, const std::string& to, const Mistakes& mistakes) {
+    std::ifstream in(from);
+    std::vector<std::vector<std::string>> lines;
+    std::set<std::string> known;
+    for (std::string line; std::getline(in, line);) {
+        std::istringstream words(line);
+        std::vector<std::string> fields(std::istream_iterator<std::string>(words), {});
+        if (fields.size() != 7 || fields[0] == "#") continue;
+        known.insert(fields[1]);
+        lines.push_back(std::move(fields));
+    }
+    const std::vector<std::string> names(known.begin(), known.end());
+    std::mt19937 random(1);
+    const auto share = [&] { return static_cast<double>(random()) / 4294967296.0; };
+    std::ofstream out(to);
+    for (auto& fields : lines) {
+        const double missed = share(), wrong = share(), which = share();
+        if (missed < mistakes.missed) continue;
+        if (wrong < mistakes.wrong) fields[1] = names[static_cast<std::size_t>(which * static_cast<double>(names.size()))];
+        for (const std::string& field : fields) out << field << ' ';
+        out << '\n';
+    }
+}
+
+class HouseDesk : public LabelsTest {
+  protected:
+    void SetUp() override {
+        if (!std::filesystem::exists(Sequence()))
+            GTEST_SKIP() << Sequence() << " is absent: set TESSERA_DATA to a folder that holds house_desk";
+    }
+    void ExpectWell(const LabelScores& scores, double least_accuracy) {
+        EXPECT_GT(scores.accuracy, least_accuracy) << LabelScoresText(scores);
+        EXPECT_GT(scores.mean_iou, 0.75) << LabelScoresText(scores);
+        EXPECT_EQ(scores.instances.size(), 3u);
+        EXPECT_LE(scores.found_objects, 3);
+        EXPECT_EQ(scores.precision_25, 1.0) << LabelScoresText(scores);
+        EXPECT_LT(scores.centroid_error_max_m, 0.05) << LabelScoresText(scores);
+        EXPECT_EQ(flips, 0);
+    }
+};
+
+TEST_F(HouseDesk, DetectionsAsGiven) {
+    const LabelScores scores = Score(Sequence(), Sequence() + "/detections.txt", Sequence());
+    ExpectWell(scores, 0.99);
+    EXPECT_EQ(scores.recall_25, 1.0) << LabelScoresText(scores);
+}
+
+// Wrong "books" leave nothing behind: the surroundings of the true ones stay without a label. Two books that touch may then
+// be taken for one.
+TEST_F(HouseDesk, AFifthWrongAndAThirdMissed) {
+    MakeMistakes(Sequence() + "/detections.txt", folder / "hard.txt", kHard);
+    const LabelScores scores = Score(Sequence(), folder / "hard.txt", Sequence());
+    ExpectWell(scores, 0.98);
+    EXPECT_GE(scores.found_objects, 2);
+}
+
+TEST_F(HouseDesk, TheSegmentRuleBeatsTheMeanDepth) {
+    const LabelScores segment = Score(Sequence(), Sequence() + "/detections.txt", Sequence());
+    config.labels.region = LabelRegion::kMeanDepth;
+    const LabelScores mean_depth = Score(Sequence(), Sequence() + "/detections.txt", Sequence());
+    EXPECT_GT(segment.mean_iou, mean_depth.mean_iou + 0.3);
+}
+
+}  // namespace
+}  // namespace tessera
