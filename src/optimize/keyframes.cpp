@@ -10,6 +10,7 @@ constexpr int kReduction = 16;
 }  // namespace
 
 double ViewOverlap(const DepthImage& depth_m, const PinholeCamera& view, const Eigen::Isometry3d& T_other_this) {
+    constexpr double kMaxScale = 1.2;
     int points = 0, seen = 0;
     for (int y = 0; y < depth_m.height(); ++y)
         for (int x = 0; x < depth_m.width(); ++x) {
@@ -17,7 +18,7 @@ double ViewOverlap(const DepthImage& depth_m, const PinholeCamera& view, const E
             if (z <= 0) continue;
             ++points;
             const Eigen::Vector3d p_other = T_other_this * view.Unproject(x, y, z);
-            if (p_other.z() <= 0) continue;
+            if (p_other.z() < z / kMaxScale || p_other.z() > z * kMaxScale) continue;
             const Eigen::Vector2d uv = view.Project(p_other);
             seen += uv.x() >= -0.5 && uv.x() < view.width - 0.5 && uv.y() >= -0.5 && uv.y() < view.height - 0.5;
         }

@@ -12,7 +12,8 @@
 namespace tessera {
 
 // Of the points of `depth_m` (of the camera `view`), the share that the same camera sees in its image from where
-// T_other_this puts it. 0 if there are none. Thread-safe.
+// T_other_this puts it, at most a fifth larger or smaller: walking straight ahead, too, one sees new things. 0 if there are
+// none. Thread-safe.
 double ViewOverlap(const DepthImage& depth_m, const PinholeCamera& view, const Eigen::Isometry3d& T_other_this);
 
 // The nearest pixel of every step-th, for ViewOverlap.

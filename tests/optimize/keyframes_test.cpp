@@ -33,6 +33,8 @@ TEST(ViewOverlap, OfAWallIsWhatTheStepLeaves) {
     EXPECT_DOUBLE_EQ(ViewOverlap(depth, view, Shift(0.5)), 0.75);
     EXPECT_DOUBLE_EQ(ViewOverlap(depth, view, Shift(0, -1)), 0.5);
     EXPECT_DOUBLE_EQ(ViewOverlap(depth, view, Shift(0, 0, -3)), 0.0);  // behind the other
+    EXPECT_DOUBLE_EQ(ViewOverlap(depth, view, Shift(0, 0, 0.3)), 1.0);  // 2.3 m instead of 2
+    EXPECT_DOUBLE_EQ(ViewOverlap(depth, view, Shift(0, 0, 0.5)), 0.0);  // the same, but much smaller
     EXPECT_DOUBLE_EQ(ViewOverlap(DepthImage(16, 16, 0.0f), view, Shift(0)), 0.0);
 }
 
