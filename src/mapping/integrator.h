@@ -55,6 +55,8 @@ class Integrator {
     const std::vector<BlockId>& changed_blocks() const { return *changed_; }
     // Counts the integrations; blocks changed by the n-th carry BlockMap::revision n.
     std::uint32_t revision() const { return revision_; }
+    // Goes on after that many, in a map that they made.
+    void SetRevision(std::uint32_t revision) { revision_ = revision; }
 
   private:
     void Allocate(const PreparedFrame& frame, const View& view, BlockMap& map, Report& report);

@@ -17,7 +17,7 @@ Status FrameStore::Add(const Frame& frame, int keyframe, bool is_keyframe, const
                        const Integrator::View& view) {
     const std::int64_t ordinal = next_ordinal_++;
     if (!is_keyframe && ordinal % stride_ != 0) return Status::Ok();
-    StoredFrame stored{ordinal, keyframe, is_keyframe, T_keyframe_camera, view, {}, {}};
+    StoredFrame stored{ordinal, keyframe, is_keyframe, T_keyframe_camera, view, frame.stamp_s, frame.colour_stamp_s, {}, {}};
     raw_depth_.Resize(frame.depth_m.width(), frame.depth_m.height());
     const float units = static_cast<float>(depth_units_per_m_);
     std::transform(frame.depth_m.data(), frame.depth_m.data() + frame.depth_m.size(), raw_depth_.data(), [&](float z) {
@@ -32,6 +32,13 @@ Status FrameStore::Add(const Frame& frame, int keyframe, bool is_keyframe, const
     frames_.push_back(std::move(stored));
     while (bytes_ > limit_bytes_ && stride_ < (1 << 20)) Thin();
     return Status::Ok();
+}
+
+void FrameStore::Resume(std::vector<StoredFrame> frames, std::int64_t next_ordinal) {
+    frames_ = std::move(frames);
+    next_ordinal_ = next_ordinal;
+    for (const StoredFrame& f : frames_) bytes_ += f.bytes();
+    while (bytes_ > limit_bytes_ && stride_ < (1 << 20)) Thin();
 }
 
 void FrameStore::Thin() {

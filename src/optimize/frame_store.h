@@ -21,6 +21,7 @@ struct StoredFrame {
     bool is_keyframe = false;  // the keyframe's own: never thinned out
     Eigen::Isometry3d T_keyframe_camera = Eigen::Isometry3d::Identity();
     Integrator::View view;     // as it was fused, but for the pose
+    double stamp_s = 0, colour_stamp_s = 0;
     std::vector<std::uint8_t> depth_png, colour_jpeg;  // the latter empty without colour
 
     std::size_t bytes() const { return sizeof(StoredFrame) + depth_png.capacity() + colour_jpeg.capacity(); }
@@ -37,6 +38,8 @@ class FrameStore {
     // `T_keyframe_camera` is the identity for the keyframe's own frame. Errors: what the encoder refuses.
     Status Add(const Frame& frame, int keyframe, bool is_keyframe, const Eigen::Isometry3d& T_keyframe_camera,
                const Integrator::View& view);
+    // Before the first Add: goes on with frames of an earlier one, by increasing ordinal.
+    void Resume(std::vector<StoredFrame> frames, std::int64_t next_ordinal);
     // Index (the ordinal), colour and depth, into storage that is used again; the rest of `frame` stays.
     Status Load(const StoredFrame& stored, Frame& frame);
 

@@ -22,6 +22,16 @@ LoopCloser::LoopCloser(const LoopConfig& config, const FieldSettings& settings, 
       store_(Bytes(config.memory_limit_mb), depth_units_per_m),
       verifier_(settings, config) {}
 
+void LoopCloser::Resume(Memory memory) {
+    keyframes_.Resume(std::move(memory.keyframes));
+    for (int i = 0; i < keyframes_.size(); ++i) index_.Add(i, keyframes_[i].features.descriptors);
+    edges_ = std::move(memory.edges);
+    passages_ = std::move(memory.passages);
+    store_.Resume(std::move(memory.frames), memory.next_ordinal);
+    loops_ = memory.loops;
+    corrected_ = memory.corrected;
+}
+
 std::string LoopCloser::Add(const Frame& frame, const PreparedFrame& prepared, const TrackResult& track,
                             const Integrator::View& view, bool fused) {
     std::string news;

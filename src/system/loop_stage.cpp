@@ -1,5 +1,8 @@
 #include "system/loop_stage.h"
 
+#include <cmath>
+#include <utility>
+
 #include "core/stopwatch.h"
 
 namespace tessera {
@@ -29,6 +32,12 @@ LoopStage::LoopStage(const LoopConfig& config, const PipelineConfig& pipeline, c
       max_gap_s_(pipeline.motion.max_gap_s),
       closer_(config, SettingsOf(pipeline, source.camera), source.depth_units_per_m) {}
 
+void LoopStage::Resume(LoopCloser::Memory memory, double last_stamp_s) {
+    closer_.Resume(std::move(memory));
+    last_tracked_s_ = last_stamp_s;
+    resumed_ = true;
+}
+
 bool LoopStage::FitsWell(const TrackResult& track) const {
     return track.status == TrackStatus::kGood && track.inlier_fraction >= config_.min_fit &&
            track.known_fraction >= config_.min_known_fraction;
@@ -37,6 +46,7 @@ bool LoopStage::FitsWell(const TrackResult& track) const {
 void LoopStage::AfterTracking(const Frame& frame, const BlockMap& map, TrackingStage& tracking, TrackedFrame& tracked) {
     FrameReport& report = tracked.report;
     lost_ms_ = 0;
+    if (std::exchange(resumed_, false)) lost_ = std::abs(frame.stamp_s - last_tracked_s_) > max_gap_s_;
     // Before the first keyframe there is nothing to lose.
     lost_ = (lost_ || !report.tracked()) && !report.first && !closer_.keyframes().empty();
     if (!lost_) {

@@ -14,6 +14,10 @@ class LoopStage {
   public:
     LoopStage(const LoopConfig& config, const PipelineConfig& pipeline, const SourceInfo& source);
 
+    // Before the first frame: goes on with an earlier run's loops. Unless the first frame follows soon after `last_stamp_s`, the
+    // camera counts as lost.
+    void Resume(LoopCloser::Memory memory, double last_stamp_s);
+
     // A lost camera is looked for among the places it has seen. After a loss only a pose that fits well, or that the place
     // confirms, counts.
     void AfterTracking(const Frame& frame, const BlockMap& map, TrackingStage& tracking, TrackedFrame& tracked);
@@ -32,7 +36,7 @@ class LoopStage {
     LoopConfig config_;
     double max_gap_s_;
     LoopCloser closer_;
-    bool lost_ = false, finished_ = false;
+    bool lost_ = false, finished_ = false, resumed_ = false;
     double last_tracked_s_ = 0;
     double lost_ms_ = 0;  // of the present frame
 };

@@ -84,6 +84,11 @@ void MappingStage::Replace(std::unique_ptr<BlockMap> map) {
     mesh_cleared_ = true;
 }
 
+void MappingStage::Resume(std::unique_ptr<BlockMap> map, std::uint32_t fused_frames) {
+    Replace(std::move(map));
+    integrator_.SetRevision(fused_frames);
+}
+
 void MappingStage::Reset() {
     map_->Clear();
     mesher_.Clear();

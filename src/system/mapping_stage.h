@@ -32,6 +32,11 @@ class MappingStage {
     // With labels: the objects of the mesh that TakeMesh gave, once it did.
     const std::vector<MapObject>& objects() const { return objects_; }
 
+    bool has_labels() const { return labels_ != nullptr; }
+    // Only with labels: what is known of objects besides the voxels. False: of other classes, or no such state.
+    void SaveLabels(StateWriter& state) const { labels_->SaveState(state); }
+    bool LoadLabels(StateReader& state) { return labels_->LoadState(state); }
+
     // What the last Fuse changed, for a copy of the map's field. To be called after each Fuse that fused, or never.
     void CollectDelta(MapDelta& delta);
 
@@ -48,6 +53,10 @@ class MappingStage {
 
     // In place of the map so far: one that was fused from the same frames elsewhere.
     void Replace(std::unique_ptr<BlockMap> map);
+
+    // Before the first frame: goes on with a map that so many fused frames made.
+    void Resume(std::unique_ptr<BlockMap> map, std::uint32_t fused_frames);
+    std::uint32_t fused_frames() const { return integrator_.revision(); }
 
     // An empty map.
     void Reset();

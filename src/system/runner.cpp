@@ -8,13 +8,14 @@
 #include "system/live_engine.h"
 #include "system/lockstep_engine.h"
 #include "system/open_source.h"
+#include "system/scan_plan.h"
 
 namespace tessera {
 
 Result<RunSummary> Runner::Run(const std::atomic<bool>& stop) {
     if (Status status = Open(stop); !status.ok()) return status;
     Status status = TakeOutcomes();
-    if (status.ok() && !summary_.stopped && summary_.counts.frames == summary_.counts.skipped)
+    if (status.ok() && !summary_.stopped && frames_before_ == 0 && summary_.counts.frames == summary_.counts.skipped)
         status = Status::Error(request_.source + ": no frame could be read" +
                                (summary_.last_reason.empty() ? "" : "; the last: " + summary_.last_reason));
     Status finished = Finish(status);
@@ -44,14 +45,32 @@ Status Runner::Open(const std::atomic<bool>& stop) {
         class_names_ = labelling.classes;
         summary_.labels.emplace();
     }
-    EngineInput input{std::move(source.value()), request_.selection, config_,
-                      FramePlan(request_.switches, std::move(given), request_.poses_file), std::move(labelling), request_.record_path,
+    Result<ScanPlan> scan = OpenScan();
+    if (!scan.ok()) return scan.status();
+    EngineInput input{std::move(source.value()), selection_, config_,
+                      FramePlan(request_.switches, std::move(given), request_.poses_file), std::move(scan.value()),
+                      std::move(labelling), request_.record_path,
                       request_.viewer, &stop};
     if (request_.live)
         engine_ = std::make_unique<LiveEngine>(std::move(input));
     else
         engine_ = std::make_unique<LockstepEngine>(std::move(input));
     return Status::Ok();
+}
+
+Result<ScanPlan> Runner::OpenScan() {
+    if (request_.scan_file.empty()) return ScanPlan();
+    if (!request_.poses_file.empty() && request_.resume)
+        return Status::Error("--resume: with --poses the poses are given; leave one of the two out");
+    if (!request_.resume) return BeginScan(request_.scan_file, summary_.source, config_);
+    Result<ScanPlan> plan = ResumeScan(request_.scan_file, summary_.source, config_, !request_.labels.empty());
+    if (!plan.ok()) return plan;
+    const ScanContent& scan = *plan.value().resumed;
+    selection_ = RestOf(request_.selection, summary_.source, scan);
+    estimate_ = scan.Path();
+    truth_ = scan.Truth();
+    frames_before_ = static_cast<std::int64_t>(scan.path.size());
+    return plan;
 }
 
 Status Runner::CheckLoops() const {
@@ -79,7 +98,7 @@ Status Runner::OpenOutput() {
     Result<std::unique_ptr<RunOutput>> output = RunOutput::Open(request_, config_, summary_.source);
     if (!output.ok()) return output.status();
     output_ = std::move(output.value());
-    return Status::Ok();
+    return output_->AddPath(estimate_);
 }
 
 Status Runner::Finish(const Status& outcome) {
@@ -92,7 +111,7 @@ Status Runner::Finish(const Status& outcome) {
     s.peak_rss_mb = MeasureProcess().peak_rss_mb;
     s.stages = times_.Summarise();
     if (request_.poses_file.empty())
-        if (Result<AteResult> ate = EvaluateAte(truth_, estimate_, {.frames = s.counts.frames}); ate.ok())
+        if (Result<AteResult> ate = EvaluateAte(truth_, estimate_, {.frames = frames_before_ + s.counts.frames}); ate.ok())
             s.ate = std::move(ate.value());
     if (Status status = output_ ? output_->Finish(s) : Status::Ok(); written.ok()) written = status;
     return written;
@@ -115,7 +134,7 @@ Status Runner::WriteMesh() {
 }
 
 std::int64_t Runner::Total() const {
-    const FrameSelection& selection = request_.selection;
+    const FrameSelection& selection = selection_;
     const std::int64_t all = summary_.source.frame_count;
     if (all < 0) return selection.count;
     const std::int64_t total = std::max<std::int64_t>(0, (all - selection.start + selection.stride - 1) / selection.stride);

@@ -13,12 +13,13 @@ namespace tessera {
 class Runner {
   public:
     Runner(const RunRequest& request, const RunConfig& config, const RunObserver& observer)
-        : request_(request), config_(config), observer_(observer) {}
+        : request_(request), config_(config), observer_(observer), selection_(request.selection) {}
 
     Result<RunSummary> Run(const std::atomic<bool>& stop);
 
   private:
     Status Open(const std::atomic<bool>& stop);
+    Result<ScanPlan> OpenScan();
     Status CheckLoops() const;
     // With the first frame and not before: a run that is refused says one line, and leaves the results of an earlier one.
     Status Begin();
@@ -47,6 +48,8 @@ class Runner {
     const RunRequest& request_;
     const RunConfig& config_;
     const RunObserver& observer_;
+    FrameSelection selection_;  // what is still to be read: less than was asked for where a scan is resumed
+    std::int64_t frames_before_ = 0;  // that a resumed scan has
     std::vector<StampedPose> truth_, estimate_;
     std::vector<std::string> pose_notes_;
     LabelClasses class_names_;

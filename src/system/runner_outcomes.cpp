@@ -64,6 +64,7 @@ void Runner::AddTimes(const FrameOutcome& outcome, double frame_ms) {
                                     {"allocate", report.fusion.allocate_ms}, {"fuse", report.fusion.fuse_ms}})
         times_.Add(stage, ms);
     if (request_.live) times_.Add("latency", outcome.latency_ms);
+    if (!request_.scan_file.empty()) times_.Add("scan", outcome.scan_ms);
     if (config_.loops.enabled) times_.Add("loops", outcome.loops_ms);
     if (request_.viewer != nullptr) times_.Add("mesh_update", outcome.mesh_ms);
 }
@@ -89,6 +90,7 @@ void Runner::ShowFrame(const FrameOutcome& outcome) {
 Status Runner::BeginAnew() {
     summary_.counts = {};
     if (summary_.labels) summary_.labels.emplace();
+    frames_before_ = 0;
     truth_.clear();
     estimate_.clear();
     times_ = {};
