@@ -51,7 +51,7 @@ void FrameStore::Thin() {
 Status FrameStore::Load(const StoredFrame& stored, Frame& frame) {
     frame.index = stored.ordinal;
     const auto header = ReadPngHeader(stored.depth_png);
-    TESSERA_CHECK(header.has_value(), "a stored depth image without header");
+    if (!header) return Status::Error("a stored depth image is none");
     if (Status status = decoder_.DecodeDepth(stored.depth_png, *header, raw_depth_); !status.ok()) return status;
     frame.depth_m.Resize(raw_depth_.width(), raw_depth_.height());
     const float metres = static_cast<float>(1 / depth_units_per_m_);

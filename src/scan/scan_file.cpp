@@ -81,8 +81,8 @@ Result<std::unique_ptr<ScanFile>> ScanFile::Create(const std::string& path, std:
         std::unique_ptr<ScanFile> file(new ScanFile());
         file->database_ = std::move(database.value());
         // Pages that hold several blocks and need no overflow pages for one.
-        std::string sql = fmt::format("PRAGMA page_size=16384; PRAGMA application_id={}; PRAGMA user_version={}; ",
-                                      kScanApplicationId, kScanVersion);
+        std::string sql = fmt::format("PRAGMA page_size={}; PRAGMA application_id={}; PRAGMA user_version={}; ",
+                                      kScanPageBytes, kScanApplicationId, kScanVersion);
         for (const ScanTable table : kScanTables) sql += TableSql(table) + "; ";
         Status made = file->database_->Execute(sql);
         if (made.ok()) made = file->PrepareToWrite();
@@ -90,6 +90,8 @@ Result<std::unique_ptr<ScanFile>> ScanFile::Create(const std::string& path, std:
         if (made.ok()) {
             file->next_.checkpoint = 0;
             made = file->Put(ScanTable::kMeta, 0, meta);
+            // Once more on another page, for repair.
+            if (made.ok()) made = file->Put(ScanTable::kState, static_cast<std::int64_t>(ScanStateKey::kMetaCopy), meta);
         }
         if (made.ok()) made = file->Commit(false);
         if (!made.ok()) {

@@ -13,6 +13,7 @@ namespace tessera {
 
 inline constexpr std::int32_t kScanApplicationId = 0x54455353;  // "TESS", in the file's header
 inline constexpr int kScanVersion = 1;                          // a change that an older program would read wrongly counts it up
+inline constexpr std::size_t kScanPageBytes = 16384;
 inline constexpr std::size_t kMaxRowBytes = std::size_t{64} << 20;  // no sound row is larger
 
 enum class ScanTable : std::uint8_t { kMeta = 1, kBlocks, kPath, kFrames, kKeyframes, kPoses, kState };
@@ -23,7 +24,7 @@ const char* ToString(ScanTable table);  // its name in the file
 inline std::size_t IndexOf(ScanTable table) { return static_cast<std::size_t>(table) - 1; }
 
 // Keys of ScanTable::kState; kMeta has the key 0 only.
-enum class ScanStateKey : std::int64_t { kSeal, kProgress, kTracking, kLoops, kLabels };
+enum class ScanStateKey : std::int64_t { kSeal, kProgress, kTracking, kLoops, kLabels, kMetaCopy };
 
 // `data` is the reader's and valid until its next row.
 struct ScanRow {

@@ -27,7 +27,7 @@ Status ScanWriter::Write(const ScanCheckpoint& checkpoint) {
 Status ScanWriter::PutRows(const ScanCheckpoint& c) {
     if (c.clear_all)
         for (const ScanTable table : kScanTables)
-            if (table != ScanTable::kMeta)
+            if (table != ScanTable::kMeta && table != ScanTable::kState)
                 if (Status status = file_->Clear(table); !status.ok()) return status;
     if (c.clear_blocks && !c.clear_all)
         if (Status status = file_->Clear(ScanTable::kBlocks); !status.ok()) return status;
@@ -50,7 +50,7 @@ Status ScanWriter::PutRows(const ScanCheckpoint& c) {
         if (Status status = file_->Put(ScanTable::kPoses, number, poses.Encode()); !status.ok()) return status;
     if (Status status = PutState(ScanStateKey::kProgress, c.progress.Encode()); !status.ok()) return status;
     if (Status status = PutState(ScanStateKey::kTracking, c.tracking); !status.ok()) return status;
-    if (!c.labels.empty())
+    if (!c.labels.empty() || c.clear_all)
         if (Status status = PutState(ScanStateKey::kLabels, c.labels); !status.ok()) return status;
     return c.loops ? PutState(ScanStateKey::kLoops, c.loops->Encode()) : Status::Ok();
 }

@@ -24,6 +24,7 @@ LiveEngine::LiveEngine(EngineInput input)
       recorder_(frames_.info(), config_.record, false),
       source_(frames_.info()),
       mapping_(config_.pipeline, config_.meshing, source_.camera),
+      gate_(config_.loops, config_.pipeline.motion.max_gap_s),
       feed_(input.viewer, config_.live.mesh_blocks),
       new_frames_(static_cast<std::size_t>(config_.live.queue_frames), tracking_wake_) {
     if (!input.record_path.empty()) status_ = StartRecording(input.record_path, config_.record, frames_.source(), recorder_);
@@ -37,9 +38,29 @@ LiveEngine::LiveEngine(EngineInput input)
                                                                       std::move(input.labelling.classes), config_.labels),
                                                        mapping_wake_);
     }
+    if (input.scan.file) status_ = StartScan(std::move(input.scan));
+    if (!status_.ok()) {
+        mapping_done_.store(true);
+        return;
+    }
     reading_thread_ = std::jthread([this] { ReadFrames(); });
     tracking_thread_ = std::jthread([this] { TrackFrames(); });
     mapping_thread_ = std::jthread([this] { MapFrames(); });
+}
+
+// Before the threads: a resumed scan's map is the first news of the map.
+Status LiveEngine::StartScan(ScanPlan plan) {
+    if (plan.resumed) {
+        saved_tracking_ = plan.resumed->tracking;
+        saved_pose_ = plan.resumed->LastPose();
+    }
+    scan_.emplace(std::move(plan), config_.scan, false);
+    if (Status status = scan_->Resume(mapping_, nullptr); !status.ok()) return status;
+    if (mapping_.map().size() == 1) return Status::Ok();
+    MapNews whole{delta_pool_.Take(), 0};
+    mapping_.CollectWhole(*whole.delta);
+    TESSERA_CHECK(map_news_.TryPush(std::move(whole)), "no room for the first news of the map");
+    return Status::Ok();
 }
 
 LiveEngine::~LiveEngine() { quit_.store(true); }  // reading ends, then tracking, then mapping: each empties its queue
@@ -142,6 +163,7 @@ void LiveEngine::Tell(FrameOutcome::Kind kind, const std::string& message) {
 void LiveEngine::TrackFrames() {
     BlockMap copy(config_.pipeline.map, BlockMap::Layers::kFieldOnly);
     TrackingStage stage(config_.pipeline, source_.camera);
+    gate_.Begin(saved_tracking_, saved_pose_, true, stage);
     while (true) {
         tracking_wake_.Wait([&] { return !commands_.empty() || !new_frames_.empty() || reading_done_.load(); });
         ViewerCommand command;
@@ -150,6 +172,7 @@ void LiveEngine::TrackFrames() {
             if (command.kind == ViewerCommand::Kind::kReset) {
                 ++world_;
                 stage.Reset();
+                gate_.Open();
                 copy.Clear();
             }
             Task task;
@@ -175,6 +198,8 @@ void LiveEngine::TrackFrame(NewFrame item, BlockMap& copy, TrackingStage& stage)
     Task task;
     task.tracked = tracked_pool_.Take();
     plan_.Track(*item.frame, copy, stage, *task.tracked);
+    gate_.AfterTracking(*item.frame, stage, *task.tracked);
+    SaveTracking(stage, *task.tracked);
     Dawdle(config_.live.extra_tracking_ms);
     task.frame = std::move(item.frame);
     task.decode_ms = item.decode_ms;
@@ -182,6 +207,14 @@ void LiveEngine::TrackFrame(NewFrame item, BlockMap& copy, TrackingStage& stage)
     const bool first = task.tracked->report.first;
     Hand(std::move(task));
     if (first) tracking_wake_.Wait([&] { return !map_news_.empty(); });  // the next frame needs a map
+}
+
+// With the frame, so that a checkpoint after it holds the state after it.
+void LiveEngine::SaveTracking(const TrackingStage& stage, TrackedFrame& tracked) const {
+    tracked.tracking_state.clear();
+    if (!scan_) return;
+    StateWriter state(tracked.tracking_state);
+    stage.SaveState(state);
 }
 
 void LiveEngine::TakeMapNews(BlockMap& copy) {
@@ -216,8 +249,18 @@ void LiveEngine::MapFrames() {
             break;
         }
     }
+    if (scan_) {
+        scan_->Finish(mapping_, nullptr);
+        while (const auto message = scan_->TakeMessage()) Tell(FrameOutcome::Kind::kMessage, *message);
+    }
     mapping_done_.store(true);
     outcome_wake_.Notify();
+}
+
+void LiveEngine::Save(const Task& task, FrameOutcome& outcome) {
+    scan_->AfterFrame(*task.frame, *task.tracked, mapping_, nullptr, 0);
+    outcome.scan_ms = scan_->last_ms();
+    while (const auto message = scan_->TakeMessage()) Tell(FrameOutcome::Kind::kMessage, *message);
 }
 
 void LiveEngine::MapFrame(Task& task) {
@@ -235,13 +278,14 @@ void LiveEngine::MapFrame(Task& task) {
     }
     feed_.ShowPrediction(show_prediction_.load());
     outcome.mesh_ms = feed_.Send(*task.frame, tracked.report, mapping_);
+    if (scan_) Save(task, outcome);
     outcome.report = tracked.report;
     outcome.T_world_camera_truth = task.frame->T_world_camera;
     outcome.decode_ms = task.decode_ms;
     outcome.latency_ms = task.latency_ms;
     outcome.map = StatisticsOf(mapping_.map());
     outcome.labels = std::exchange(labels_, std::nullopt);
-    outcome.queues = {{"to tracking", new_frames_.size()}, {"to mapping", tasks_.size()}, {"to recorder", recorder_.waiting()}};
+    outcome.queues = {{"to tracking", new_frames_.size()}, {"to mapping", tasks_.size()}, {"to recorder", recorder_.waiting()}, {"to scan", scan_ ? scan_->waiting() : 0}};
     outcomes_.Push(std::move(outcome));
     if (labelling_ && tracked.report.fused) OfferToLabelling(task);
     frame_pool_.Give(std::move(task.frame));
@@ -261,6 +305,7 @@ void LiveEngine::TakeLabels() {
             Stopwatch watch;
             answer.report.votes = mapping_.Label(answer.report.detections, answer.job.frame->depth_m, answer.job.T_world_camera);
             answer.report.vote_ms = watch.LapMs();
+            if (scan_) scan_->Touch(answer.report.votes.blocks);
             labels_ = std::move(answer.report);
         }
         frame_pool_.Give(std::move(answer.job.frame));
@@ -278,6 +323,7 @@ void LiveEngine::ObeyInMapping(const ViewerCommand& command) {
     if (command.kind == ViewerCommand::Kind::kReset) {
         ++mapped_world_;
         mapping_.Reset();
+        if (scan_) scan_->Reset();
         Tell(FrameOutcome::Kind::kReset, {});
     } else if (command.kind == ViewerCommand::Kind::kSaveMesh) {
         Tell(FrameOutcome::Kind::kMessage, SaveMesh(mapping_, command.path));

@@ -11,7 +11,9 @@
 #include "mapping/map_delta.h"
 #include "system/engine.h"
 #include "system/engine_steps.h"
+#include "system/resume_gate.h"
 #include "system/run_control.h"
+#include "system/scan_stage.h"
 #include "system/viewer_feed.h"
 
 namespace tessera {
@@ -62,10 +64,13 @@ class LiveEngine : public Engine {
     // Tracking's.
     void TrackFrame(NewFrame item, BlockMap& copy, TrackingStage& stage);
     void TakeMapNews(BlockMap& copy);
+    void SaveTracking(const TrackingStage& stage, TrackedFrame& tracked) const;
     void Hand(Task task);
     // Mapping's.
     void MapFrame(Task& task);
     void SendMapNews();
+    Status StartScan(ScanPlan plan);
+    void Save(const Task& task, FrameOutcome& outcome);
     void OfferToLabelling(Task& task);
     void TakeLabels();
     void ObeyInMapping(const ViewerCommand& command);
@@ -80,6 +85,10 @@ class LiveEngine : public Engine {
     RecorderThread recorder_;      // reading's
     const SourceInfo source_;
     MappingStage mapping_;         // mapping's; the owner's once it has ended
+    std::optional<ScanStage> scan_;  // mapping's; if it is to be saved
+    ResumeGate gate_;              // tracking's
+    Bytes saved_tracking_;         // tracking's, of a resumed scan
+    std::optional<StampedPose> saved_pose_;  // the same
     ViewerFeed feed_;              // mapping's
     Status status_;                // reading's; the owner's once all have ended
     bool stopped_ = false;         // the same

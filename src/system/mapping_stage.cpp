@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <numeric>
+
 #include "core/check.h"
 #include "mapping/ray_caster.h"
 
@@ -37,6 +39,13 @@ VoteCount MappingStage::Label(std::span<const Detection> detections, const Depth
 
 void MappingStage::CollectDelta(MapDelta& delta) {
     tessera::CollectDelta(*map_, delta_size_, integrator_.changed_blocks(), integrator_.revision(), delta);
+    delta_size_ = map_->size();
+}
+
+void MappingStage::CollectWhole(MapDelta& delta) {
+    std::vector<BlockId> all(static_cast<std::size_t>(map_->size()) - 1);
+    std::iota(all.begin(), all.end(), BlockId{1});
+    tessera::CollectDelta(*map_, 1, all, integrator_.revision(), delta);
     delta_size_ = map_->size();
 }
 

@@ -40,6 +40,9 @@ class MappingStage {
     // What the last Fuse changed, for a copy of the map's field. To be called after each Fuse that fused, or never.
     void CollectDelta(MapDelta& delta);
 
+    // All of the map, for a copy that is empty.
+    void CollectWhole(MapDelta& delta);
+
     // Meshes again at most `budget_blocks` of what has changed; returns how many wait. `update` takes them.
     int UpdateMesh(int budget_blocks, MeshUpdate& update);
 

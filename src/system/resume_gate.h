@@ -16,6 +16,8 @@ class ResumeGate {
     // The next frame is the first after one at that time. `tracking` is a saved state of the tracking stage; where it is none,
     // the stage starts at the last pose. Without a last pose it starts a new world, and there is no gate.
     void Begin(std::span<const std::uint8_t> saved, const std::optional<StampedPose>& last, bool gated, TrackingStage& tracking);
+    // A new world: there is no gate.
+    void Open() { closed_ = false; }
     // After each frame's tracking.
     void AfterTracking(const Frame& frame, TrackingStage& tracking, TrackedFrame& tracked);
 

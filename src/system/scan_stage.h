@@ -38,6 +38,7 @@ class ScanStage {
     void Finish(const MappingStage& mapping, const LoopStage* loops);
 
     std::optional<std::string> TakeMessage();
+    std::size_t waiting() const { return thread_.waiting(); }
     double last_ms() const { return last_ms_; }  // that AfterFrame took last
 
   private:
