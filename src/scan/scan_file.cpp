@@ -27,6 +27,13 @@ bool Exists(const std::string& path) {
     return std::filesystem::exists(path, ignored);
 }
 
+void Sync(const std::string& path) {
+    const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    if (file < 0) return;
+    ::fsync(file);
+    ::close(file);
+}
+
 // Why the file cannot be a scan, by its first bytes; empty if it can.
 std::string WhyNoScan(const std::string& path) {
     std::error_code ignored;
@@ -81,7 +88,7 @@ Result<std::unique_ptr<ScanFile>> ScanFile::Create(const std::string& path, std:
         std::unique_ptr<ScanFile> file(new ScanFile());
         file->database_ = std::move(database.value());
         // Pages that hold several blocks and need no overflow pages for one.
-        std::string sql = fmt::format("PRAGMA page_size={}; PRAGMA application_id={}; PRAGMA user_version={}; ",
+        std::string sql = fmt::format("PRAGMA synchronous=OFF; PRAGMA page_size={}; PRAGMA application_id={}; PRAGMA user_version={}; ",
                                       kScanPageBytes, kScanApplicationId, kScanVersion);
         for (const ScanTable table : kScanTables) sql += TableSql(table) + "; ";
         Status made = file->database_->Execute(sql);
@@ -100,6 +107,7 @@ Result<std::unique_ptr<ScanFile>> ScanFile::Create(const std::string& path, std:
             return made;
         }
     }
+    Sync(unfinished);
     if (std::rename(unfinished.c_str(), path.c_str()) != 0)
         return Status::Error(fmt::format("{}: cannot be made: {}", path, std::strerror(errno)));
     return OpenToWrite(path);

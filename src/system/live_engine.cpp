@@ -24,7 +24,7 @@ LiveEngine::LiveEngine(EngineInput input)
       recorder_(frames_.info(), config_.record, false),
       source_(frames_.info()),
       mapping_(config_.pipeline, config_.meshing, source_.camera),
-      gate_(config_.loops, config_.pipeline.motion.max_gap_s),
+      gate_(config_.pipeline.motion.max_gap_s),
       feed_(input.viewer, config_.live.mesh_blocks),
       new_frames_(static_cast<std::size_t>(config_.live.queue_frames), tracking_wake_) {
     if (!input.record_path.empty()) status_ = StartRecording(input.record_path, config_.record, frames_.source(), recorder_);

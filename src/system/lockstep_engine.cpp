@@ -14,7 +14,7 @@ LockstepEngine::LockstepEngine(EngineInput input)
       source_(input.source->info()),
       tracking_(config_.pipeline, source_.camera),
       mapping_(config_.pipeline, config_.meshing, source_.camera),
-      gate_(config_.loops, config_.pipeline.motion.max_gap_s),
+      gate_(config_.pipeline.motion.max_gap_s),
       feed_(input.viewer, config_.live.mesh_blocks),
       recorder_(source_, config_.record, true) {
     if (config_.loops.enabled) loops_.emplace(config_.loops, config_.pipeline, source_);

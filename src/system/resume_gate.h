@@ -2,7 +2,6 @@
 // saw last, and until it is found there nothing is believed, so that nothing is fused in a wrong place.
 #pragma once
 
-#include "optimize/loop_config.h"
 #include "system/tracking_stage.h"
 
 namespace tessera {
@@ -10,8 +9,7 @@ namespace tessera {
 // The tracking stage's owner thread only.
 class ResumeGate {
   public:
-    // `config`: min_fit and min_known_fraction say what counts as found.
-    ResumeGate(const LoopConfig& config, double max_gap_s) : config_(config), max_gap_s_(max_gap_s) {}
+    explicit ResumeGate(double max_gap_s) : max_gap_s_(max_gap_s) {}
 
     // The next frame is the first after one at that time. `tracking` is a saved state of the tracking stage; where it is none,
     // the stage starts at the last pose. Without a last pose it starts a new world, and there is no gate.
@@ -22,10 +20,12 @@ class ResumeGate {
     void AfterTracking(const Frame& frame, TrackingStage& tracking, TrackedFrame& tracked);
 
   private:
-    LoopConfig config_;
+    bool IsThere(const TrackResult& track) const;
+
     double max_gap_s_;
     bool closed_ = false, first_ = false;
     double last_stamp_s_ = 0;
+    Eigen::Isometry3d T_world_last_ = Eigen::Isometry3d::Identity();
 };
 
 }  // namespace tessera

@@ -10,6 +10,23 @@ namespace {
 
 using namespace testing_support;
 
+// In place, and put right again: nothing is slower than writing a file a thousand times.
+class WrongByte {
+  public:
+    WrongByte(const std::string& path, std::size_t at, char wrong, char right)
+        : file_(path, std::ios::in | std::ios::out | std::ios::binary), at_(at), right_(right) {
+        Put(wrong);
+    }
+    ~WrongByte() { Put(right_); }
+
+  private:
+    void Put(char byte) { file_.seekp(static_cast<std::streamoff>(at_)).put(byte).flush(); }
+
+    std::fstream file_;
+    std::size_t at_;
+    char right_;
+};
+
 class ScanDamage : public testing::Test {
   protected:
     ScanDamage() : owned(WriteSmallScan(folder / "a.scan")), map(*owned), whole(ReadBytes(folder / "a.scan")) {
@@ -58,16 +75,15 @@ class ScanDamage : public testing::Test {
 
 TEST_F(ScanDamage, AThousandBitFlips) {
     std::mt19937 random(20240901);
+    WriteBytes(folder / "b.scan", whole);
     int refused = 0, repaired = 0;
     std::int64_t blocks = 0;
     for (int i = 0; i < 1000; ++i) {
-        std::string bytes = whole;
-        const std::size_t at = random() % bytes.size();
-        bytes[at] = static_cast<char>(bytes[at] ^ (1 << random() % 8));
-        WriteBytes(folder / "b.scan", bytes);
+        const std::size_t at = random() % whole.size();
+        const WrongByte wrong(folder / "b.scan", at, static_cast<char>(whole[at] ^ (1 << random() % 8)), whole[at]);
         const bool read = ReadIsRightOrRefused(folder / "b.scan");
         refused += !read;
-        if (i % 10 != 0) continue;
+        if (i % 50 != 0) continue;
         ++repaired;
         blocks += ExpectSoundRepair(folder / "b.scan");
     }
@@ -76,10 +92,9 @@ TEST_F(ScanDamage, AThousandBitFlips) {
 }
 
 TEST_F(ScanDamage, EveryByteOfTheHeaderAndTheFirstPages) {
+    WriteBytes(folder / "b.scan", whole);
     for (std::size_t at = 0; at < 200; ++at) {
-        std::string bytes = whole;
-        bytes[at] = static_cast<char>(~bytes[at]);
-        WriteBytes(folder / "b.scan", bytes);
+        const WrongByte wrong(folder / "b.scan", at, static_cast<char>(~whole[at]), whole[at]);
         ReadIsRightOrRefused(folder / "b.scan");
     }
 }
@@ -87,10 +102,10 @@ TEST_F(ScanDamage, EveryByteOfTheHeaderAndTheFirstPages) {
 TEST_F(ScanDamage, Truncations) {
     std::mt19937 random(7);
     std::int64_t most = 0;
-    for (int i = 0; i < 100; ++i) {
+    for (int i = 0; i < 40; ++i) {
         WriteBytes(folder / "b.scan", whole.substr(0, random() % whole.size()));
         ReadIsRightOrRefused(folder / "b.scan");
-        most = std::max(most, ExpectSoundRepair(folder / "b.scan"));
+        if (i % 4 == 0) most = std::max(most, ExpectSoundRepair(folder / "b.scan"));
     }
     EXPECT_GT(most, 20);
 }
