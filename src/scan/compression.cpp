@@ -19,7 +19,7 @@ Compressor::Compressor() : contexts_(std::make_unique<Contexts>()) {}
 Compressor::~Compressor() = default;
 
 void Compressor::Compress(std::span<const std::uint8_t> content, std::vector<std::uint8_t>& out) {
-    constexpr int kLevel = 1;
+    constexpr int kLevel = -5;  // half the time of level 1, a seventh larger
     const std::size_t begin = out.size();
     out.resize(begin + ZSTD_compressBound(content.size()));
     const std::size_t size = ZSTD_compressCCtx(contexts_->compress.get(), out.data() + begin, out.size() - begin,

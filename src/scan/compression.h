@@ -16,7 +16,7 @@ class Compressor {
     Compressor(const Compressor&) = delete;
     Compressor& operator=(const Compressor&) = delete;
 
-    // Appends `content`, compressed at zstd's first level, to `out`.
+    // Appends `content`, compressed by zstd's fast mode, to `out`.
     void Compress(std::span<const std::uint8_t> content, std::vector<std::uint8_t>& out);
     // Fills `content` exactly; false if the bytes are not what Compress makes of so many.
     bool Decompress(std::span<const std::uint8_t> bytes, std::span<std::uint8_t> content);

@@ -165,7 +165,9 @@ bool PageWalk::GatherOverflow(std::uint32_t number, bool journal, std::size_t si
         if (image == kNoPage) return false;
         const std::span<const std::uint8_t> page = Page(images_[image]);
         const std::size_t take = std::min(size - payload_.size(), kPage - 4);
-        payload_.insert(payload_.end(), page.begin() + 4, page.begin() + 4 + static_cast<std::ptrdiff_t>(take));
+        const std::size_t at = payload_.size();
+        payload_.resize(at + take);
+        std::memcpy(payload_.data() + at, page.data() + 4, take);
         number = BigEndian(page.data(), 4);
     }
     return true;

@@ -41,7 +41,7 @@ class ScanFile {
     // No scan, a newer version, or a header or schema that is not sound: refused. Two runs cannot write into one file.
     static Result<std::unique_ptr<ScanFile>> OpenToRead(const std::string& path);
     static Result<std::unique_ptr<ScanFile>> OpenToWrite(const std::string& path);
-    ~ScanFile();  // what was not committed is not there
+    ~ScanFile();  // what was not committed is not there; a new file without a checkpoint but its first goes
     ScanFile(const ScanFile&) = delete;
     ScanFile& operator=(const ScanFile&) = delete;
 
@@ -76,6 +76,7 @@ class ScanFile {
     Status Abandon(const std::string& doing);
     Status Failed(const std::string& doing) const;
 
+    bool fresh_ = false;  // made by Create
     int lock_ = -1;  // the file, held so that nobody else writes; outlives the database (closing it drops SQLite's locks)
     std::unique_ptr<Database> database_;
     ScanSeal seal_, next_;  // as committed, and as it will be

@@ -1,5 +1,7 @@
 #include "scan/scan_writer.h"
 
+#include <algorithm>
+
 #include "io/image_io.h"
 #include "io/jpeg_encoder.h"
 
@@ -31,9 +33,12 @@ Status ScanWriter::PutRows(const ScanCheckpoint& c) {
                 if (Status status = file_->Clear(table); !status.ok()) return status;
     if (c.clear_blocks && !c.clear_all)
         if (Status status = file_->Clear(ScanTable::kBlocks); !status.ok()) return status;
-    for (std::size_t i = 0; i < c.blocks.ids.size(); ++i)
-        if (Status status = file_->Put(ScanTable::kBlocks, BlockKey(c.blocks.coords[i]), codec_.Encode(c.blocks, i)); !status.ok())
-            return status;
+    // By their keys, so that each page is touched once.
+    order_.clear();
+    for (std::size_t i = 0; i < c.blocks.ids.size(); ++i) order_.emplace_back(BlockKey(c.blocks.coords[i]), i);
+    std::ranges::sort(order_);
+    for (const auto& [block_key, i] : order_)
+        if (Status status = file_->Put(ScanTable::kBlocks, block_key, codec_.Encode(c.blocks, i)); !status.ok()) return status;
     std::int64_t key = c.first_path;
     for (const PathRecord& record : c.path)
         if (Status status = file_->Put(ScanTable::kPath, key++, record.Encode()); !status.ok()) return status;

@@ -136,6 +136,7 @@ bool LockstepEngine::Obey(const ViewerCommand& command, FrameOutcome& outcome) {
     switch (command.kind) {
         case ViewerCommand::Kind::kReset:
             tracking_.Reset();
+            gate_.Open();
             mapping_.Reset();
             if (loops_) loops_.emplace(config_.loops, config_.pipeline, source_);
             if (scan_) scan_->Reset();

@@ -13,6 +13,9 @@ namespace tessera {
 // them. Takes the map.
 Result<TriangleMesh> MeshOfScan(ScanContent& scan);
 
+// The same of a file; `path`, if not null, gets the poses.
+Result<TriangleMesh> MeshOfScanFile(const std::string& scan_path, std::vector<Eigen::Isometry3d>* path);
+
 // The stored raw frames as a new folder (TUM layout). An error if there are none; it says how to keep them.
 Status ExportFrames(const std::string& scan_path, const std::string& folder);
 

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <filesystem>
 #include <utility>
 
 #include "core/stopwatch.h"
@@ -32,7 +31,7 @@ ScanStage::ScanStage(ScanPlan plan, const ScanConfig& config, bool wait)
     : config_(config),
       wait_(wait),
       path_(plan.file->path()),
-      fresh_(!plan.resumed),
+      saved_(plan.resumed.has_value()),
       resumed_(std::move(plan.resumed)),
       thread_(std::make_unique<ScanWriter>(std::move(plan.file), plan.depth_units_per_m)),
       pending_(thread_.Take()) {}
@@ -139,6 +138,7 @@ void ScanStage::Checkpoint(const MappingStage& mapping, const LoopStage* loops, 
     pending_->finished = finished;
     last_stamp_s_ = progress_.last_stamp_s;
     last_time_ = Clock::now();
+    saved_ = true;
     thread_.Write(std::move(pending_));
     pending_ = thread_.Take();
 }
@@ -197,13 +197,8 @@ void ScanStage::Reset() {
 
 void ScanStage::Finish(const MappingStage& mapping, const LoopStage* loops) {
     if (std::exchange(finished_, true)) return;
-    if (!thread_.failed() && (progress_.frames > 0 || !fresh_)) {
-        if (progress_.frames == 0) pending_->clear_all = true;
-        Checkpoint(mapping, loops, true);
-    }
+    if (!thread_.failed() && (progress_.frames > 0 || saved_)) Checkpoint(mapping, loops, true);
     thread_.Stop();
-    std::error_code ignored;
-    if (fresh_ && progress_.frames == 0) std::filesystem::remove(path_, ignored);
 }
 
 }  // namespace tessera

@@ -34,7 +34,7 @@ class ScanStage {
     void Touch(std::span<const BlockId> blocks);
     // The map and the path begin anew.
     void Reset();
-    // The last checkpoint, waited for. Once; a new file in which there is nothing goes. `finished`: the run came to its end.
+    // The last checkpoint, waited for. Once; a new file in which there is nothing goes.
     void Finish(const MappingStage& mapping, const LoopStage* loops);
 
     std::optional<std::string> TakeMessage();
@@ -55,7 +55,7 @@ class ScanStage {
     ScanConfig config_;
     const bool wait_;
     const std::string path_;
-    const bool fresh_;        // begun by this run
+    bool saved_;              // there is something in the file
     std::optional<ScanContent> resumed_;  // until it is put into the stages
     ScanThread thread_;
     std::unique_ptr<ScanCheckpoint> pending_;
