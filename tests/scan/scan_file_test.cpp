@@ -85,6 +85,23 @@ TEST(ScanFile, AMissingAnOldAndAStrangeRowAreFound) {
     }
 }
 
+// A write that the disk lost: each row is sound by itself, but one is of an earlier checkpoint. Only the seal knows.
+TEST(ScanFile, ARowOfAnEarlierCheckpointIsFound) {
+    TempFolder folder;
+    WriteSmallScan(folder / "old.scan", 12, 1);
+    WriteSmallScan(folder / "a.scan", 12, 3);
+    {
+        auto database = Database::Open(folder / "a.scan", Database::Access::kWrite);
+        ASSERT_TRUE(database.ok());
+        ASSERT_TRUE(database.value()->Execute("ATTACH '" + (folder / "old.scan") + "' AS old").ok());
+        const std::string key = std::to_string(BlockKey(CoordOfBlock(0)));
+        ASSERT_TRUE(database.value()->Execute("REPLACE INTO main.blocks SELECT * FROM old.blocks WHERE key = " + key).ok());
+    }
+    const auto scan = ReadScan(folder / "a.scan", {});
+    ASSERT_FALSE(scan.ok());
+    EXPECT_NE(scan.message().find("some are old"), std::string::npos) << scan.message();
+}
+
 TEST(ScanFile, WhatIsNoScanIsRefusedInOneLine) {
     TempFolder folder;
     WriteSmallScan(folder / "a.scan");
