@@ -12,6 +12,7 @@
 #include "io/openni_devices.h"
 #include "optimize/pose_graph.h"
 #include "render/gl_context.h"
+#include "scan/database.h"
 #include "system/run_config.h"
 
 namespace tessera {
@@ -46,12 +47,13 @@ int Doctor() {
     std::string presets;
     for (const Preset& preset : Presets()) presets += " " + preset.name;
     fmt::print("presets     {}\n", presets);
-    fmt::print("sources      folders (TUM RGB-D, ICL-NUIM, 7-Scenes, camera.yaml), .oni recordings, synthetic scenes\n");
+    fmt::print("sources      folders (TUM RGB-D, ICL-NUIM, 7-Scenes, camera.yaml), .oni recordings, scan files, synthetic scenes\n");
     const auto gl = GlContext::Create();
     fmt::print("OpenGL       {}\n", gl.ok() ? gl.value()->renderer() : "off: " + gl.message());
     PrintCameras(ListOpenniDevices());
     fmt::print("window       {}\n", Window());
     fmt::print("loop closure {}\n", PoseGraphAvailable() ? "on request" : "off: install libceres-dev and build again");
+    fmt::print("scan files   {}\n", ScanAvailable() ? "on" : std::string("off: ") + kScanUnavailable);
     for (const char* off : {"CUDA        ", ".klg        ", "labels      "})
         fmt::print("{} not in this version\n", off);
     return kExitDone;

@@ -6,6 +6,7 @@
 #include "command.h"
 #include "config_options.h"
 #include "system/open_source.h"
+#include "system/scan_export.h"
 
 namespace tessera {
 namespace {
@@ -57,6 +58,12 @@ int Info(const Arguments& a) {
     ConfigParameters parameters;
     config.Describe(parameters);
     if (Status status = a.config.Apply(parameters); !status.ok()) return Fail(status);
+    if (a.source.ends_with(".scan")) {
+        const Result<std::string> text = DescribeScan(a.source);
+        if (!text.ok()) return Fail(text.status());
+        fmt::print("{}", text.value());
+        return kExitDone;
+    }
     Result<std::unique_ptr<FrameSource>> source = OpenSource(a.source, config);
     if (!source.ok()) return Fail(source.status());
     PrintSource(source.value()->info());
@@ -68,8 +75,8 @@ int Info(const Arguments& a) {
 
 void AddInfoCommand(CLI::App& app, CommandContext& context) {
     auto a = std::make_shared<Arguments>();
-    CLI::App* command = app.add_subcommand("info", "Say what a source holds");
-    command->add_option("SOURCE", a->source, "Folder, openni2:[URI], FILE.oni or synthetic:NAME")->required();
+    CLI::App* command = app.add_subcommand("info", "Say what a source, or a scan file, holds");
+    command->add_option("SOURCE", a->source, "Folder, openni2:[URI], FILE.oni, FILE.scan or synthetic:NAME")->required();
     a->config.AddTo(*command);
     command->callback([a, &context] { context.exit_code = Info(*a); });
 }

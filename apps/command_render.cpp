@@ -9,6 +9,7 @@
 #include "io/trajectory.h"
 #include "render/mesh_picture.h"
 #include "semantics/objects_file.h"
+#include "system/scan_export.h"
 
 namespace tessera {
 namespace {
@@ -67,7 +68,7 @@ MeshView ViewOfPose(const Arguments& a, const Eigen::Isometry3d& T_world_camera)
 }
 
 Status Render(const Arguments& a) {
-    Result<TriangleMesh> mesh = ReadPly(a.mesh);
+    Result<TriangleMesh> mesh = a.mesh.ends_with(".scan") ? MeshOfScanFile(a.mesh, nullptr) : ReadPly(a.mesh);
     if (!mesh.ok()) return mesh.status();
     if (mesh.value().triangles.empty()) return Status::Error(a.mesh + ": has no triangles");
     RenderStyle style;
@@ -95,7 +96,7 @@ Status Render(const Arguments& a) {
 void AddRenderCommand(CLI::App& app, CommandContext& context) {
     auto a = std::make_shared<Arguments>();
     CLI::App* command = app.add_subcommand("render", "Draw a mesh; the view is chosen so that all of it shows");
-    command->add_option("MESH", a->mesh, "PLY file")->required();
+    command->add_option("MESH", a->mesh, "PLY file, or FILE.scan")->required();
     command->add_option("--out", a->out, "Picture to write, .png or .jpg")->required()->type_name("PICTURE.png");
     command->add_option("--trajectory", a->trajectory, "Draw this path too, and look from behind its cameras")
         ->type_name("FILE");

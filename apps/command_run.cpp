@@ -10,6 +10,7 @@
 #include "run_text.h"
 #include "stop_signal.h"
 #include "system/run.h"
+#include "system/scan_plan.h"
 
 namespace tessera {
 namespace {
@@ -27,8 +28,6 @@ struct Arguments {
 
 Status RefuseWhatIsToCome(const Arguments& a) {
     if (a.device == "cuda") return NotInThisVersion("--device cuda");
-    if (!a.scan.empty()) return NotInThisVersion("--scan");
-    if (!a.resume.empty()) return NotInThisVersion("--resume");
     return Status::Ok();
 }
 
@@ -52,6 +51,8 @@ Result<MethodSwitch> ParseSwitch(const std::string& text) {
 Status Configure(const Arguments& a, RunConfig& config) {
     ConfigParameters parameters;
     config.Describe(parameters);
+    if (!a.resume.empty())
+        if (Status status = TakeScanKeys(a.resume, parameters); !status.ok()) return status;
     if (Status status = a.config.Apply(parameters); !status.ok()) return status;
     if (!a.tracker.empty())
         if (Status status = parameters.Set("tracking.method", a.tracker); !status.ok()) return status;
@@ -66,8 +67,9 @@ Status Configure(const Arguments& a, RunConfig& config) {
     if (!a.loop_closure.empty())
         if (Status status = parameters.Set("loops.enabled", a.loop_closure == "on" ? "true" : "false"); !status.ok())
             return status;
-    if (a.threads >= 0) return parameters.Set("run.threads", std::to_string(a.threads));
-    return Status::Ok();
+    if (a.threads >= 0)
+        if (Status status = parameters.Set("run.threads", std::to_string(a.threads)); !status.ok()) return status;
+    return a.resume.empty() ? Status::Ok() : CheckScanKeys(a.resume, parameters);
 }
 
 int Run(const Arguments& a) {
@@ -76,6 +78,8 @@ int Run(const Arguments& a) {
     if (Status status = Configure(a, config); !status.ok()) return Fail(status);
     RunRequest request = a.request;
     request.live = a.mode == "live";
+    request.resume = !a.resume.empty();
+    request.scan_file = request.resume ? a.resume : a.scan;
     if (a.labels != "none") request.labels = a.labels;
     for (const std::string& text : a.switches) {
         const Result<MethodSwitch> change = ParseSwitch(text);
@@ -103,8 +107,6 @@ void AddOptionsToCome(CLI::App& command, Arguments& a) {
     };
     add("--device", a.device, "Where the kernels run; auto takes the processor")
         ->check(CLI::IsMember({"auto", "cpu", "cuda"}))->capture_default_str();
-    add("--scan", a.scan, "Scan file to write")->type_name("FILE");
-    add("--resume", a.resume, "Scan file to go on with")->type_name("FILE");
 }
 
 }  // namespace
@@ -115,7 +117,7 @@ void AddRunCommand(CLI::App& app, CommandContext& context) {
     CLI::App* command = app.add_subcommand("run", "Track and fuse a source: trajectory, mesh, picture, timings");
     command->add_option("SOURCE", a->request.source,
                         "Folder (TUM RGB-D, ICL-NUIM, 7-Scenes, or images with a camera.yaml), openni2: (a depth camera; "
-                        "openni2:URI for a certain one), FILE.oni, or synthetic:NAME (desk, room, flat, corridor, floor, corner, "
+                        "openni2:URI for a certain one), FILE.oni, FILE.scan (the frames that a scan keeps), or synthetic:NAME (desk, room, flat, corridor, floor, corner, "
                         "wall)")->required();
     command->add_option("--out", a->request.output_folder, "Folder for the results")
         ->type_name("DIR")->capture_default_str();
@@ -153,6 +155,11 @@ void AddRunCommand(CLI::App& app, CommandContext& context) {
     command->add_option("--record", a->request.record_path,
                         "Keep the raw frames in this new folder (TUM layout, depth exact), or FILE.oni of an OpenNI2 camera")
         ->type_name("PATH");
+    CLI::Option* scan = command->add_option("--scan", a->scan,
+        "Save the scan as it goes into this new file: killed at any moment it has lost at most the last second")->type_name("FILE");
+    command->add_option("--resume", a->resume,
+        "Go on with a scan that was saved, and save into it; voxel size and truncation are the scan's; frames of the same "
+        "recording that it has are left out")->type_name("FILE")->excludes(scan);
     AddOptionsToCome(*command, *a);
     command->callback([a, &context] {
         a->request.command_line = context.arguments;

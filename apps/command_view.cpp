@@ -7,6 +7,7 @@
 #include "io/image_io.h"
 #include "io/mesh_io.h"
 #include "io/trajectory.h"
+#include "system/scan_export.h"
 #include "viz/viewer.h"
 
 namespace tessera {
@@ -43,10 +44,12 @@ Result<Files> FindFiles(const Arguments& a) {
 }
 
 Result<ViewedModel> Read(const Files& files) {
-    Result<TriangleMesh> mesh = ReadPly(files.mesh);
+    ViewedModel model;
+    const bool scan = files.mesh.ends_with(".scan");
+    Result<TriangleMesh> mesh =
+        scan ? MeshOfScanFile(files.mesh, files.trajectory.empty() ? &model.path : nullptr) : ReadPly(files.mesh);
     if (!mesh.ok()) return mesh.status();
     if (mesh.value().triangles.empty()) return Status::Error(files.mesh + ": has no triangles");
-    ViewedModel model;
     model.mesh = std::move(mesh.value());
     if (files.trajectory.empty()) return model;
     const Result<Trajectory> trajectory = ReadTrajectory(files.trajectory);
@@ -76,7 +79,7 @@ Status View(const Arguments& a) {
 void AddViewCommand(CLI::App& app, CommandContext& context) {
     auto a = std::make_shared<Arguments>();
     CLI::App* command = app.add_subcommand("view", "Look at a mesh in a window, with a run's path");
-    command->add_option("PATH", a->path, "PLY file, or a run's folder (mesh.ply, trajectory.txt)")->required();
+    command->add_option("PATH", a->path, "PLY file, a run's folder (mesh.ply, trajectory.txt), or FILE.scan")->required();
     command->add_option("--trajectory", a->trajectory, "TUM trajectory to draw, metres (default: the run's)")
         ->type_name("FILE");
     command->add_option("--screenshot", a->screenshot, "Draw once into this picture and leave; needs a display too")

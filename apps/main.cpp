@@ -26,14 +26,6 @@ int ExitCode(const Status& status) { return status.ok() ? kExitDone : Fail(statu
 
 namespace {
 
-void AddCommandsToCome(CLI::App& app, CommandContext& context) {
-    for (const char* name : {"export"}) {
-        CLI::App* command = app.add_subcommand(name, "Not in this version")->group("Not in this version");
-        command->allow_extras();
-        command->callback([&context, name] { context.exit_code = Fail(NotInThisVersion(name)); });
-    }
-}
-
 int ReportParseError(const CLI::App& app, const CLI::ParseError& error) {
     if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) return app.exit(error);
     // CLI11 says only that a command is missing.
@@ -66,10 +58,11 @@ int Main(int argc, char** argv) {
     AddRenderCommand(app, context);
     AddObjectsCommand(app, context);
     AddViewCommand(app, context);
+    AddExportCommand(app, context);
+    AddScanCommand(app, context);
     AddInfoCommand(app, context);
     AddDoctorCommand(app, context);
     AddConfigCommand(app, context);
-    AddCommandsToCome(app, context);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

@@ -73,6 +73,18 @@ else()
     message(STATUS "tessera: loop closure off (install libceres-dev)")
 endif()
 
+# Scan files.
+if(PkgConfig_FOUND)
+    pkg_check_modules(SQLITE IMPORTED_TARGET sqlite3>=3.34)
+    pkg_check_modules(ZSTD IMPORTED_TARGET libzstd>=1.4)
+endif()
+if(SQLITE_FOUND AND ZSTD_FOUND)
+    set(TESSERA_SCAN ON)
+else()
+    set(TESSERA_SCAN OFF)
+    message(STATUS "tessera: scan files off (install pkg-config, libsqlite3-dev and libzstd-dev)")
+endif()
+
 if(TESSERA_TESTS)
     find_package(GTest REQUIRED)
     include(GoogleTest)

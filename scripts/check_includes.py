@@ -8,7 +8,7 @@ import pathlib
 import re
 import sys
 
-ORDER = [["core"], ["io", "mapping"], ["synth", "render"], ["tracking", "semantics", "eval"], ["optimize"],
+ORDER = [["core"], ["io", "mapping"], ["synth", "render"], ["tracking", "semantics", "eval"], ["optimize"], ["scan"],
          ["system"], ["viz"], ["apps"]]
 RANK = {folder: rank for rank, folders in enumerate(ORDER) for folder in folders}
 SUFFIXES = {".h", ".cpp", ".cu", ".cuh", ".inl"}

@@ -57,6 +57,8 @@ class Integrator {
     std::uint32_t revision() const { return revision_; }
     // The map was changed otherwise: all its blocks carry a revision of their own from here on.
     void MarkAllChanged(BlockMap& map);
+    // Goes on after that many, in a map that they made.
+    void SetRevision(std::uint32_t revision) { revision_ = revision; }
 
   private:
     void Allocate(const PreparedFrame& frame, const View& view, BlockMap& map, Report& report);

@@ -17,7 +17,7 @@ Status FrameStore::Add(const Frame& frame, int keyframe, bool is_keyframe, const
                        const Integrator::View& view) {
     const std::int64_t ordinal = next_ordinal_++;
     if (!is_keyframe && ordinal % stride_ != 0) return Status::Ok();
-    StoredFrame stored{ordinal, keyframe, is_keyframe, T_keyframe_camera, view, {}, {}, frame.index, std::nullopt};
+    StoredFrame stored{ordinal, keyframe, is_keyframe, T_keyframe_camera, view, frame.stamp_s, frame.colour_stamp_s, {}, {}, frame.index, std::nullopt};
     raw_depth_.Resize(frame.depth_m.width(), frame.depth_m.height());
     const float units = static_cast<float>(depth_units_per_m_);
     std::transform(frame.depth_m.data(), frame.depth_m.data() + frame.depth_m.size(), raw_depth_.data(), [&](float z) {
@@ -39,6 +39,13 @@ void FrameStore::AddDetections(std::int64_t frame_index, std::vector<Detection> 
     if (frame != frames_.end() && frame->frame_index == frame_index) frame->detections = std::move(detections);
 }
 
+void FrameStore::Resume(std::vector<StoredFrame> frames, std::int64_t next_ordinal) {
+    frames_ = std::move(frames);
+    next_ordinal_ = next_ordinal;
+    for (const StoredFrame& f : frames_) bytes_ += f.bytes();
+    while (bytes_ > limit_bytes_ && stride_ < (1 << 20)) Thin();
+}
+
 void FrameStore::Thin() {
     stride_ *= 2;
     std::erase_if(frames_, [&](const StoredFrame& f) { return !f.is_keyframe && f.ordinal % stride_ != 0; });
@@ -49,7 +56,7 @@ void FrameStore::Thin() {
 Status FrameStore::Load(const StoredFrame& stored, Frame& frame) {
     frame.index = stored.ordinal;
     const auto header = ReadPngHeader(stored.depth_png);
-    TESSERA_CHECK(header.has_value(), "a stored depth image without header");
+    if (!header) return Status::Error("a stored depth image is none");
     if (Status status = decoder_.DecodeDepth(stored.depth_png, *header, raw_depth_); !status.ok()) return status;
     frame.depth_m.Resize(raw_depth_.width(), raw_depth_.height());
     const float metres = static_cast<float>(1 / depth_units_per_m_);

@@ -23,6 +23,7 @@ struct StoredFrame {
     bool is_keyframe = false;  // the keyframe's own: never thinned out
     Eigen::Isometry3d T_keyframe_camera = Eigen::Isometry3d::Identity();
     Integrator::View view;     // as it was fused, but for the pose
+    double stamp_s = 0, colour_stamp_s = 0;
     std::vector<std::uint8_t> depth_png, colour_jpeg;  // the latter empty without colour
     std::int64_t frame_index = 0;
     std::optional<std::vector<Detection>> detections;  // as they were voted into the map; nothing if it was not looked at
@@ -43,6 +44,8 @@ class FrameStore {
                const Integrator::View& view);
     // To a frame added before, if it is still there.
     void AddDetections(std::int64_t frame_index, std::vector<Detection> detections);
+    // Before the first Add: goes on with frames of an earlier one, by increasing ordinal.
+    void Resume(std::vector<StoredFrame> frames, std::int64_t next_ordinal);
     // Index (the ordinal), colour and depth, into storage that is used again; the rest of `frame` stays.
     Status Load(const StoredFrame& stored, Frame& frame);
 

@@ -10,6 +10,8 @@
 
 namespace tessera {
 
+inline constexpr int kKeyframeReduction = 16;  // of Keyframe::depth_m, against the image
+
 struct Keyframe {
     int id = 0;                  // position in the list of all
     std::int64_t frame_index = 0;

@@ -3,11 +3,6 @@
 #include "core/se3.h"
 
 namespace tessera {
-namespace {
-
-constexpr int kReduction = 16;
-
-}  // namespace
 
 double ViewOverlap(const DepthImage& depth_m, const PinholeCamera& view, const Eigen::Isometry3d& T_other_this) {
     constexpr double kMaxScale = 1.2;
@@ -43,8 +38,8 @@ void Keyframes::Follow(const Eigen::Isometry3d& T_map_camera) {
 
 bool Keyframes::Wanted(const PreparedFrame& frame, const Eigen::Isometry3d& T_map_camera) const {
     if (keyframes_.empty()) return true;
-    const DepthImage depth = ReducedDepth(frame.depth_m, kReduction);
-    return ViewOverlap(depth, camera_.Every(kReduction), last().T_map_camera.inverse() * T_map_camera) < max_overlap_;
+    const DepthImage depth = ReducedDepth(frame.depth_m, kKeyframeReduction);
+    return ViewOverlap(depth, camera_.Every(kKeyframeReduction), last().T_map_camera.inverse() * T_map_camera) < max_overlap_;
 }
 
 Keyframe& Keyframes::Add(std::int64_t frame_index, double stamp_s, const PreparedFrame& frame, const TrackResult& track) {
@@ -58,12 +53,21 @@ Keyframe& Keyframes::Add(std::int64_t frame_index, double stamp_s, const Prepare
         next.T_world_camera =
             Normalised(last().T_world_camera * last().T_map_camera.inverse() * next.T_map_camera);
     next.features = ExtractFeatures(frame, camera_, max_features_);
-    next.view = camera_.Every(kReduction);
-    next.depth_m = ReducedDepth(frame.depth_m, kReduction);
+    next.view = camera_.Every(kKeyframeReduction);
+    next.depth_m = ReducedDepth(frame.depth_m, kKeyframeReduction);
     next.way_m = way_m_;
     next.turned_rad = turned_rad_;
     next.inlier_fraction = track.inlier_fraction;
     return keyframes_.emplace_back(std::move(next));
+}
+
+void Keyframes::Resume(std::vector<Keyframe> keyframes) {
+    keyframes_ = std::move(keyframes);
+    if (keyframes_.empty()) return;
+    way_m_ = last().way_m;
+    turned_rad_ = last().turned_rad;
+    T_map_last_ = last().T_map_camera;
+    followed_ = true;
 }
 
 }  // namespace tessera

@@ -35,6 +35,9 @@ class Keyframes {
     // The map was moved, the last pose with it: the way goes on from there.
     void Move(const Eigen::Isometry3d& T_new_old) { T_map_last_ = T_new_old * T_map_last_; }
 
+    // Before the first: goes on after keyframes of an earlier run; the way goes on from the last one.
+    void Resume(std::vector<Keyframe> keyframes);
+
     // What lies between the last frame and the next is no way that was gone.
     void Jump() { followed_ = false; }
 

@@ -24,6 +24,23 @@ LoopCloser::LoopCloser(const LoopConfig& config, const FieldSettings& settings, 
       store_(Bytes(config.memory_limit_mb), depth_units_per_m),
       verifier_(settings, config) {}
 
+void LoopCloser::Resume(Memory memory) {
+    keyframes_.Resume(std::move(memory.keyframes));
+    for (int i = 0; i < keyframes_.size(); ++i) index_.Add(i, keyframes_[i].features.descriptors);
+    edges_ = std::move(memory.edges);
+    passages_ = std::move(memory.passages);
+    // Detections of classes that this run does not have.
+    for (StoredFrame& frame : memory.frames)
+        if (frame.detections)
+            std::erase_if(*frame.detections, [&](const Detection& d) {
+                return !labels_ || d.class_id < 1 || d.class_id > labels_->classes.count();
+            });
+    store_.Resume(std::move(memory.frames), memory.next_ordinal);
+    loops_ = memory.loops;
+    corrected_ = memory.corrected;
+    rebuild_considered_ = false;
+}
+
 std::string LoopCloser::Add(const Frame& frame, const PreparedFrame& prepared, const TrackResult& track,
                             const Integrator::View& view, bool fused) {
     std::string news;

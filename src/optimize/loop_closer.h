@@ -26,6 +26,22 @@ class LoopCloser {
         Eigen::Isometry3d T_new_old = Eigen::Isometry3d::Identity();
     };
 
+    struct Passage {  // a tracked frame
+        double stamp_s = 0;
+        int keyframe = 0;
+        Eigen::Isometry3d T_keyframe_camera;
+    };
+    // What it takes to go on in another process.
+    struct Memory {
+        std::vector<Keyframe> keyframes;
+        std::vector<PoseEdge> edges;
+        std::vector<Passage> passages;
+        std::vector<StoredFrame> frames;  // by increasing ordinal
+        std::int64_t next_ordinal = 0;
+        int loops = 0;
+        bool corrected = false;
+    };
+
     // Whether objects are labelled, and as what.
     struct Labels {
         LabelConfig config;
@@ -34,6 +50,9 @@ class LoopCloser {
 
     LoopCloser(const LoopConfig& config, const FieldSettings& settings, double depth_units_per_m,
                std::optional<Labels> labels = std::nullopt);
+
+    // Before the first Add. A corrected map that was being made then is begun again.
+    void Resume(Memory memory);
 
     // Every tracked frame, after its fusion, if it was fused. Returns what a person should know, mostly empty.
     std::string Add(const Frame& frame, const PreparedFrame& prepared, const TrackResult& track,
@@ -58,16 +77,12 @@ class LoopCloser {
     std::vector<StampedPose> Path() const;
     const Keyframes& keyframes() const { return keyframes_; }
     const std::vector<PoseEdge>& edges() const { return edges_; }
+    const std::vector<Passage>& passages() const { return passages_; }
     int loops() const { return loops_; }
+    bool corrected() const { return corrected_; }
     const FrameStore& store() const { return store_; }
 
   private:
-    struct Passage {  // a tracked frame
-        double stamp_s = 0;
-        int keyframe = 0;
-        Eigen::Isometry3d T_keyframe_camera;
-    };
-
     void AddKeyframe(const Frame& frame, const PreparedFrame& prepared, const TrackResult& track);
     void Link(int from, int to);
     void AddPassage(double stamp_s, const Eigen::Isometry3d& T_map_camera);

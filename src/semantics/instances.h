@@ -13,6 +13,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/state_stream.h"
+
 namespace tessera {
 
 // Internal number of an object, 0 = none; what voxels hold. Never used twice, until there are 65535.
@@ -62,6 +64,8 @@ class Instances {
     int ClassOf(InstanceId id) const;
     // Mean probability of the detections that gave it that class, times their share.
     double Probability(InstanceId id) const;
+    void SaveState(StateWriter& state) const;
+    bool LoadState(StateReader& state);
     InstanceId last() const { return static_cast<InstanceId>(records_.size() - 1); }
 
   private:

@@ -149,4 +149,19 @@ std::vector<MapObject> LabelMapper::Objects(double voxel_size_m, TriangleMesh& l
 
 void LabelMapper::Reset() { instances_ = Instances(InstanceConfig(config_)); }
 
+void LabelMapper::SaveState(StateWriter& state) const {
+    state.Put(classes_.count());
+    for (int id = 1; id <= classes_.count(); ++id) state.Put(classes_.name(id));
+    instances_.SaveState(state);
+}
+
+bool LabelMapper::LoadState(StateReader& state) {
+    int count = 0;
+    std::string name;
+    if (!state.Get(count) || count != classes_.count()) return false;
+    for (int id = 1; id <= count; ++id)
+        if (!state.Get(name) || name != classes_.name(id)) return false;
+    return instances_.LoadState(state);
+}
+
 }  // namespace tessera

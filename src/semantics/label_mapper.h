@@ -33,6 +33,9 @@ class LabelMapper {
     const Instances& instances() const { return instances_; }
     // Everything forgotten: a new map.
     void Reset();
+    // The classes by name, and the instances. LoadState is false if the classes are others.
+    void SaveState(StateWriter& state) const;
+    bool LoadState(StateReader& state);
 
   private:
     void PredictInstances(const Eigen::Isometry3d& T_world_camera, float farthest_m, const BlockMap& map);

@@ -101,7 +101,7 @@ VoteCount VoteLabels(const LabelImage& labels, std::span<const Ballot> ballots, 
             flips += count.flips;
         }
     });
-    return {voxels, flips};
+    return {voxels, flips, blocks};
 }
 
 }  // namespace tessera

@@ -21,6 +21,7 @@ struct Ballot {
 struct VoteCount {
     std::int64_t voxels = 0;  // that got a vote
     std::int64_t flips = 0;   // settled voxels that changed their class (voxel_label.h)
+    std::vector<BlockId> blocks = {};  // that may have got votes
 };
 
 // One vote for each voxel whose stored distance is at most `band_m` from the surface and that the frame sees: it projects

@@ -15,6 +15,7 @@
 #include "system/frame_plan.h"
 #include "system/labelling_stage.h"
 #include "system/run.h"
+#include "system/scan_plan.h"
 #include "system/tracking_stage.h"
 
 namespace tessera {
@@ -34,6 +35,7 @@ struct FrameOutcome {
     std::optional<Eigen::Isometry3d> T_world_camera_truth;  // in the source's world
     bool fusion_dropped = false;                            // live: well tracked, but mapping was busy
     double decode_ms = 0, mesh_ms = 0, latency_ms = 0;      // latency: from the frame's arrival to its pose
+    double scan_ms = 0;                                     // making checkpoints, not writing them
     double loops_ms = 0;                                    // keyframes, loops, the corrected map; 0 without
     MapStatistics map;
     std::optional<LabelReport> labels;  // of this frame, or live of an earlier one
@@ -45,6 +47,7 @@ struct EngineInput {
     FrameSelection selection;
     RunConfig config;
     FramePlan plan;
+    ScanPlan scan;                 // without a file nothing is saved
     Labelling labelling;           // without a detector nothing is labelled
     std::string record_path;       // empty = nothing is recorded
     ViewerLink* viewer = nullptr;  // outlives the engine

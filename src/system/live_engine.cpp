@@ -25,6 +25,7 @@ LiveEngine::LiveEngine(EngineInput input)
       recorder_(frames_.info(), config_.record, false),
       source_(frames_.info()),
       mapping_(config_.pipeline, config_.meshing, source_.camera),
+      gate_(config_.pipeline.motion.max_gap_s),
       feed_(input.viewer, config_.live.mesh_blocks),
       new_frames_(static_cast<std::size_t>(config_.live.queue_frames), tracking_wake_) {
     if (!input.record_path.empty()) status_ = StartRecording(input.record_path, config_.record, frames_.source(), recorder_);
@@ -39,6 +40,11 @@ LiveEngine::LiveEngine(EngineInput input)
                                                                       std::move(input.labelling.classes), config_.labels),
                                                        mapping_wake_);
     }
+    if (input.scan.file) status_ = BeginScan(std::move(input.scan));
+    if (!status_.ok()) {
+        mapping_done_.store(true);
+        return;
+    }
     reading_thread_ = std::jthread([this] { ReadFrames(); });
     tracking_thread_ = std::jthread([this] { TrackFrames(); });
     mapping_thread_ = std::jthread([this] { MapFrames(); });
@@ -50,6 +56,21 @@ void LiveEngine::BeginLoops(const Labelling& labelling) {
     if (labelling.detector) settings.labels = LoopCloser::Labels{config_.labels, labelling.classes};
     loops_ = std::make_unique<LoopThread>(std::move(settings),
                                           LoopThread::Surroundings{frame_pool_, tracked_pool_, mapping_wake_, tracking_wake_});
+}
+
+// Before the threads: a resumed scan's map is the first news of the map.
+Status LiveEngine::BeginScan(ScanPlan plan) {
+    if (plan.resumed) {
+        saved_tracking_ = plan.resumed->tracking;
+        saved_pose_ = plan.resumed->LastPose();
+    }
+    scan_.emplace(std::move(plan), config_.scan, false);
+    if (Status status = scan_->Resume(mapping_, nullptr); !status.ok()) return status;
+    if (mapping_.map().size() == 1) return Status::Ok();
+    MapNews whole{delta_pool_.Take(), 0, nullptr};
+    mapping_.CollectWhole(*whole.delta);
+    TESSERA_CHECK(map_news_.TryPush(std::move(whole)), "no room for the first news of the map");
+    return Status::Ok();
 }
 
 LiveEngine::~LiveEngine() { quit_.store(true); }  // reading ends, then tracking, then mapping: each empties its queue

@@ -13,7 +13,9 @@
 #include "system/engine_steps.h"
 #include "system/loop_thread.h"
 #include "system/lost_camera.h"
+#include "system/resume_gate.h"
 #include "system/run_control.h"
+#include "system/scan_stage.h"
 #include "system/viewer_feed.h"
 
 namespace tessera {
@@ -72,6 +74,7 @@ class LiveEngine : public Engine {
     };
 
     void BeginLoops(const Labelling& labelling);
+    Status BeginScan(ScanPlan plan);
 
     // A frame's life, a function a thread: live_engine.cpp, live_tracking.cpp, live_mapping.cpp.
     void ReadFrames();
@@ -89,10 +92,12 @@ class LiveEngine : public Engine {
     void ResetTracking(TrackingState& state);
     void HearWhereItIs(double stamp_s, TrackingState& state);
     void CheckIfLost(TrackedFrame& tracked, TrackingState& state);
+    void SaveTracking(const TrackingStage& stage, TrackedFrame& tracked) const;
     void Hand(Task task);
     // Mapping's.
     void MapFrame(Task& task);
     void SendMapNews();
+    void Save(const Task& task, FrameOutcome& outcome);
     void Offer(Task& task);
     void TakeLabels();
     bool CorrectionFits() const;
@@ -111,6 +116,10 @@ class LiveEngine : public Engine {
     RecorderThread recorder_;      // reading's
     const SourceInfo source_;
     MappingStage mapping_;         // mapping's; the owner's once it has ended
+    std::optional<ScanStage> scan_;  // mapping's; if it is to be saved
+    ResumeGate gate_;              // tracking's
+    Bytes saved_tracking_;         // tracking's, of a resumed scan
+    std::optional<StampedPose> saved_pose_;  // the same
     ViewerFeed feed_;              // mapping's
     Status status_;                // reading's; the owner's once all have ended
     bool stopped_ = false;         // the same

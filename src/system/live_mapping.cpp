@@ -25,6 +25,10 @@ void LiveEngine::MapFrames() {
         }
     }
     if (loops_) EndLoops();
+    if (scan_) {
+        scan_->Finish(mapping_, nullptr);
+        while (const auto message = scan_->TakeMessage()) Tell(FrameOutcome::Kind::kMessage, *message);
+    }
     mapping_done_.store(true);
     outcome_wake_.Notify();
 }
@@ -46,6 +50,7 @@ void LiveEngine::MapFrame(Task& task) {
     }
     feed_.ShowPrediction(show_prediction_.load());
     outcome.mesh_ms = feed_.Send(*task.frame, tracked.report, mapping_);
+    if (scan_) Save(task, outcome);
     outcome.report = tracked.report;
     outcome.T_world_camera_truth = task.frame->T_world_camera;
     outcome.decode_ms = task.decode_ms;
@@ -54,8 +59,15 @@ void LiveEngine::MapFrame(Task& task) {
     outcome.labels = std::exchange(labels_, std::nullopt);
     outcome.queues = {{"to tracking", new_frames_.size()}, {"to mapping", tasks_.size()}, {"to recorder", recorder_.waiting()}};
     if (loops_) outcome.queues.emplace_back("to loops", loops_->waiting());
+    if (scan_) outcome.queues.emplace_back("to scan", scan_->waiting());
     outcomes_.Push(std::move(outcome));
     Offer(task);
+}
+
+void LiveEngine::Save(const Task& task, FrameOutcome& outcome) {
+    scan_->AfterFrame(*task.frame, *task.tracked, mapping_, nullptr, 0);
+    outcome.scan_ms = scan_->last_ms();
+    while (const auto message = scan_->TakeMessage()) Tell(FrameOutcome::Kind::kMessage, *message);
 }
 
 // What else is to be done with a frame once it is in the map: objects and loops are found in it, at leisure.
@@ -85,6 +97,7 @@ void LiveEngine::TakeLabels() {
             Carry(corrections_, job.map.corrections, job.T_world_camera);
             answer.report.votes = mapping_.Label(answer.report.detections, job.frame->depth_m, job.T_world_camera);
             answer.report.vote_ms = watch.LapMs();
+            if (scan_) scan_->Touch(answer.report.votes.blocks);
             if (loops_) loops_->OfferDetections(job.frame->index, answer.report.detections, job.map);
             labels_ = std::move(answer.report);
         }
@@ -138,6 +151,7 @@ void LiveEngine::ObeyInMapping(const ViewerCommand& command) {
         corrections_.clear();
         mapping_.Reset();
         if (loops_) loops_->Reset({mapped_world_, 0});
+        if (scan_) scan_->Reset();
         Tell(FrameOutcome::Kind::kReset, {});
     } else if (command.kind == ViewerCommand::Kind::kSaveMesh) {
         Tell(FrameOutcome::Kind::kMessage, SaveMesh(mapping_, command.path));

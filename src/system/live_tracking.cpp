@@ -11,6 +11,7 @@ using Milliseconds = std::chrono::duration<double, std::milli>;
 
 void LiveEngine::TrackFrames() {
     TrackingState state(config_, source_.camera);
+    gate_.Begin(saved_tracking_, saved_pose_, true, state.stage);
     while (true) {
         tracking_wake_.Wait([&] { return !commands_.empty() || !new_frames_.empty() || reading_done_.load(); });
         ViewerCommand command;
@@ -33,6 +34,7 @@ void LiveEngine::TrackFrames() {
 void LiveEngine::ResetTracking(TrackingState& state) {
     state.version = {state.version.world + 1, 0};
     state.stage.Reset();
+    gate_.Open();
     state.field->Clear();
     state.lost = LostCamera(config_.loops, config_.pipeline.motion.max_gap_s);
 }
@@ -48,7 +50,9 @@ void LiveEngine::TrackFrame(NewFrame item, TrackingState& state) {
     task.tracked = tracked_pool_.Take();
     if (loops_) HearWhereItIs(item.frame->stamp_s, state);
     plan_.Track(*item.frame, *state.field, state.stage, *task.tracked);
+    gate_.AfterTracking(*item.frame, state.stage, *task.tracked);
     if (loops_) CheckIfLost(*task.tracked, state);
+    SaveTracking(state.stage, *task.tracked);
     WaitFor(config_.live.extra_tracking_ms);
     task.frame = std::move(item.frame);
     task.decode_ms = item.decode_ms;
@@ -57,6 +61,14 @@ void LiveEngine::TrackFrame(NewFrame item, TrackingState& state) {
     const bool first = task.tracked->report.first;
     Hand(std::move(task));
     if (first) tracking_wake_.Wait([&] { return !map_news_.empty(); });  // the next frame needs a map
+}
+
+// With the frame, so that a checkpoint after it holds the state after it.
+void LiveEngine::SaveTracking(const TrackingStage& stage, TrackedFrame& tracked) const {
+    tracked.tracking_state.clear();
+    if (!scan_) return;
+    StateWriter state(tracked.tracking_state);
+    stage.SaveState(state);
 }
 
 void LiveEngine::TakeMapNews(TrackingState& state) {

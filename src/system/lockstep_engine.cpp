@@ -14,6 +14,7 @@ LockstepEngine::LockstepEngine(EngineInput input)
       source_(input.source->info()),
       tracking_(config_.pipeline, source_.camera),
       mapping_(config_.pipeline, config_.meshing, source_.camera),
+      gate_(config_.pipeline.motion.max_gap_s),
       feed_(input.viewer, config_.live.mesh_blocks),
       recorder_(source_, config_.record, true) {
     if (!input.record_path.empty()) status_ = StartRecording(input.record_path, config_.record, *input.source, recorder_);
@@ -25,7 +26,18 @@ LockstepEngine::LockstepEngine(EngineInput input)
                                                       config_.labels);
     }
     BeginLoops();
+    if (input.scan.file) status_ = StartScan(std::move(input.scan));
     reader_ = std::make_unique<FrameReader>(std::move(input.source), input.selection, config_.read_ahead);
+}
+
+Status LockstepEngine::StartScan(ScanPlan plan) {
+    LoopStage* loops = loops_ ? &*loops_ : nullptr;
+    if (plan.resumed) {
+        gate_.Begin(plan.resumed->tracking, plan.resumed->LastPose(), loops == nullptr, tracking_);
+        fused_frames_ = plan.resumed->progress.labelled_frames;
+    }
+    scan_.emplace(std::move(plan), config_.scan, true);
+    return scan_->Resume(mapping_, loops);
 }
 
 bool LockstepEngine::Next(FrameOutcome& outcome) {
@@ -50,6 +62,7 @@ bool LockstepEngine::Next(FrameOutcome& outcome) {
     if (reader_) reader_->RequestStop();
     recorder_.Stop();
     if (loops_) loops_->Finish(mapping_);
+    if (scan_) scan_->Finish(mapping_, loops_ ? &*loops_ : nullptr);
     return TakeMessage(outcome);
 }
 
@@ -58,14 +71,24 @@ void LockstepEngine::Process(FrameOutcome& outcome) {
     outcome.decode_ms = reader_->decode_ms();
     recorder_.Add(frame_);
     plan_.Track(frame_, mapping_.map(), tracking_, tracked_);
+    gate_.AfterTracking(frame_, tracking_, tracked_);
     if (loops_) loops_->AfterTracking(frame_, mapping_.map(), tracking_, tracked_);
     mapping_.Fuse(tracked_);
     if (labelling_ && tracked_.report.fused) Label(outcome);
     if (loops_) outcome.loops_ms = loops_->AfterFusion(frame_, tracked_, outcome.labels, tracking_, mapping_);
+    if (scan_) Save(outcome);
     outcome.report = tracked_.report;
     outcome.T_world_camera_truth = frame_.T_world_camera;
     outcome.mesh_ms = feed_.Send(frame_, outcome.report, mapping_);
     outcome.map = map_statistics();
+}
+
+void LockstepEngine::Save(FrameOutcome& outcome) {
+    tracked_.tracking_state.clear();
+    StateWriter state(tracked_.tracking_state);
+    tracking_.SaveState(state);
+    scan_->AfterFrame(frame_, tracked_, mapping_, loops_ ? &*loops_ : nullptr, fused_frames_);
+    outcome.scan_ms = scan_->last_ms();
 }
 
 void LockstepEngine::Label(FrameOutcome& outcome) {
@@ -75,6 +98,7 @@ void LockstepEngine::Label(FrameOutcome& outcome) {
     Stopwatch watch;
     report.votes = mapping_.Label(report.detections, frame_.depth_m, tracked_.report.track.T_world_camera);
     report.vote_ms = watch.LapMs();
+    if (scan_) scan_->Touch(report.votes.blocks);
     outcome.labels = std::move(report);
 }
 
@@ -85,6 +109,7 @@ void LockstepEngine::BeginLoops() {
 bool LockstepEngine::TakeMessage(FrameOutcome& outcome) {
     std::optional<std::string> message = recorder_.TakeMessage();
     if (!message && !label_message_.empty()) message = std::exchange(label_message_, {});
+    if (!message && scan_) message = scan_->TakeMessage();
     if (!message) return false;
     outcome.kind = FrameOutcome::Kind::kMessage;
     outcome.message = *message;
@@ -116,8 +141,10 @@ bool LockstepEngine::Obey(const ViewerCommand& command, FrameOutcome& outcome) {
     switch (command.kind) {
         case ViewerCommand::Kind::kReset:
             tracking_.Reset();
+            gate_.Open();
             mapping_.Reset();
             BeginLoops();
+            if (scan_) scan_->Reset();
             feed_.SendMesh(mapping_);
             outcome.kind = FrameOutcome::Kind::kReset;
             return true;

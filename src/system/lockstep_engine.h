@@ -6,7 +6,9 @@
 #include "system/engine.h"
 #include "system/engine_steps.h"
 #include "system/loop_stage.h"
+#include "system/resume_gate.h"
 #include "system/run_control.h"
+#include "system/scan_stage.h"
 #include "system/viewer_feed.h"
 
 namespace tessera {
@@ -31,6 +33,8 @@ class LockstepEngine : public Engine {
     bool TakeMessage(FrameOutcome& outcome);
     void Process(FrameOutcome& outcome);
     void Label(FrameOutcome& outcome);
+    Status StartScan(ScanPlan plan);
+    void Save(FrameOutcome& outcome);
 
     RunConfig config_;
     FramePlan plan_;
@@ -42,6 +46,8 @@ class LockstepEngine : public Engine {
     MappingStage mapping_;
     std::optional<LoopStage> loops_;  // if they are to be closed
     std::optional<LoopCloser::Labels> loop_labels_;
+    std::optional<ScanStage> scan_;   // if it is to be saved
+    ResumeGate gate_;
     TrackedFrame tracked_;
     ViewerFeed feed_;
     RecorderThread recorder_;

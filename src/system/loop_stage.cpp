@@ -1,5 +1,8 @@
 #include "system/loop_stage.h"
 
+#include <cmath>
+#include <utility>
+
 #include "core/stopwatch.h"
 
 namespace tessera {
@@ -29,6 +32,11 @@ LoopStage::LoopStage(const LoopConfig& config, const PipelineConfig& pipeline, c
     : config_(config),
       camera_(config, pipeline.motion.max_gap_s),
       closer_(config, FieldSettingsOf(pipeline, source.camera), source.depth_units_per_m, std::move(labels)) {}
+
+void LoopStage::Resume(LoopCloser::Memory memory, double last_stamp_s) {
+    closer_.Resume(std::move(memory));
+    camera_.Resume(last_stamp_s);
+}
 
 void LoopStage::AfterTracking(const Frame& frame, const BlockMap& map, TrackingStage& tracking, TrackedFrame& tracked) {
     lost_ms_ = 0;

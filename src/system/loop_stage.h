@@ -20,6 +20,10 @@ class LoopStage {
     LoopStage(const LoopConfig& config, const PipelineConfig& pipeline, const SourceInfo& source,
               std::optional<LoopCloser::Labels> labels);
 
+    // Before the first frame: goes on with an earlier run's loops. Unless the first frame follows soon after `last_stamp_s`, the
+    // camera counts as lost.
+    void Resume(LoopCloser::Memory memory, double last_stamp_s);
+
     // A lost camera is looked for among the places it has seen. After a loss only a pose that fits well, or that the place
     // confirms, counts.
     void AfterTracking(const Frame& frame, const BlockMap& map, TrackingStage& tracking, TrackedFrame& tracked);

@@ -2,6 +2,9 @@
 // the camera can be anywhere; it must have been found by its looks, or have come back where it was lost.
 #pragma once
 
+#include <cmath>
+#include <utility>
+
 #include "optimize/loop_config.h"
 #include "system/tracking_stage.h"
 
@@ -19,6 +22,7 @@ class LostCamera {
     Verdict Judge(const TrackedFrame& tracked) {
         const FrameReport& report = tracked.report;
         started_ = started_ || report.first;
+        if (std::exchange(resumed_, false)) lost_ = std::abs(report.stamp_s - last_seen_s_) > max_gap_s_;
         lost_ = (lost_ || !report.tracked()) && started_ && !report.first;
         if (!lost_) {
             if (report.tracked()) last_seen_s_ = report.stamp_s;
@@ -28,6 +32,12 @@ class LostCamera {
         if (!FitsWell(report.track) || !(lately || !tracked.prepared.has_colour())) return Verdict::kLost;
         Found(report.stamp_s);
         return Verdict::kFoundAgain;
+    }
+
+    // An earlier scan goes on: unless the next frame follows soon on this time, the camera counts as lost.
+    void Resume(double last_seen_s) {
+        last_seen_s_ = last_seen_s;
+        started_ = resumed_ = true;
     }
 
     // It was found otherwise, and tracked there.
@@ -47,7 +57,7 @@ class LostCamera {
     LoopConfig config_;
     double max_gap_s_;
     double last_seen_s_ = 0;
-    bool started_ = false, lost_ = false;
+    bool started_ = false, lost_ = false, resumed_ = false;
 };
 
 inline constexpr const char* kNotBelieved = "nothing confirms that the camera is where it seems to be after the loss";

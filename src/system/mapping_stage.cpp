@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <numeric>
+
 #include "core/check.h"
 #include "mapping/ray_caster.h"
 
@@ -37,6 +39,13 @@ VoteCount MappingStage::Label(std::span<const Detection> detections, const Depth
 
 void MappingStage::CollectDelta(MapDelta& delta) {
     tessera::CollectDelta(*map_, delta_size_, integrator_.changed_blocks(), integrator_.revision(), delta);
+    delta_size_ = map_->size();
+}
+
+void MappingStage::CollectWhole(MapDelta& delta) {
+    std::vector<BlockId> all(static_cast<std::size_t>(map_->size()) - 1);
+    std::iota(all.begin(), all.end(), BlockId{1});
+    tessera::CollectDelta(*map_, 1, all, integrator_.revision(), delta);
     delta_size_ = map_->size();
 }
 
@@ -77,12 +86,21 @@ void MappingStage::Predict(const Eigen::Isometry3d& T_world_camera, int step, Pr
 }
 
 void MappingStage::Replace(std::unique_ptr<BlockMap> map, std::unique_ptr<LabelMapper> labels) {
-    map_ = std::move(map);
+    Place(std::move(map));
     labels_ = std::move(labels);
     integrator_.MarkAllChanged(*map_);
+}
+
+void MappingStage::Place(std::unique_ptr<BlockMap> map) {
+    map_ = std::move(map);
     mesher_.Clear();
     delta_size_ = map_->size();
     mesh_cleared_ = true;
+}
+
+void MappingStage::Resume(std::unique_ptr<BlockMap> map, std::uint32_t fused_frames) {
+    Place(std::move(map));
+    integrator_.SetRevision(fused_frames);
 }
 
 void MappingStage::Reset() {

@@ -32,8 +32,16 @@ class MappingStage {
     // With labels: the objects of the mesh that TakeMesh gave, once it did.
     const std::vector<MapObject>& objects() const { return objects_; }
 
+    bool has_labels() const { return labels_ != nullptr; }
+    // Only with labels: what is known of objects besides the voxels. False: of other classes, or no such state.
+    void SaveLabels(StateWriter& state) const { labels_->SaveState(state); }
+    bool LoadLabels(StateReader& state) { return labels_->LoadState(state); }
+
     // What the last Fuse changed, for a copy of the map's field. To be called after each Fuse that fused, or never.
     void CollectDelta(MapDelta& delta);
+
+    // All of the map, for a copy that is empty.
+    void CollectWhole(MapDelta& delta);
 
     // Meshes again at most `budget_blocks` of what has changed; returns how many wait. `update` takes them.
     int UpdateMesh(int budget_blocks, MeshUpdate& update);
@@ -50,12 +58,18 @@ class MappingStage {
     // has any. Whoever follows it by deltas needs a copy of the new field first.
     void Replace(std::unique_ptr<BlockMap> map, std::unique_ptr<LabelMapper> labels);
 
+    // Before the first frame: goes on with a map that so many fused frames made.
+    void Resume(std::unique_ptr<BlockMap> map, std::uint32_t fused_frames);
+    std::uint32_t fused_frames() const { return integrator_.revision(); }
+
     // An empty map.
     void Reset();
 
     const BlockMap& map() const { return *map_; }
 
   private:
+    void Place(std::unique_ptr<BlockMap> map);
+
     PipelineConfig config_;
     PinholeCamera camera_;
     std::unique_ptr<BlockMap> map_;  // null once the mesh was taken

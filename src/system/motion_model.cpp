@@ -35,4 +35,23 @@ void MotionModel::Clear() {
     velocity_.reset();
 }
 
+void MotionModel::SaveState(StateWriter& state) const {
+    state.Put(last_.has_value());
+    if (last_) {
+        state.Put(last_->stamp_s);
+        state.Put(last_->T_world_camera);
+    }
+    state.Put(velocity_);
+}
+
+bool MotionModel::LoadState(StateReader& state) {
+    bool has_last = false;
+    if (!state.Get(has_last)) return false;
+    if (has_last) {
+        last_.emplace();
+        if (!state.Get(last_->stamp_s) || !state.Get(last_->T_world_camera)) return false;
+    }
+    return state.Get(velocity_);
+}
+
 }  // namespace tessera

@@ -5,6 +5,7 @@
 
 #include "core/config.h"
 #include "core/se3.h"
+#include "core/state_stream.h"
 
 namespace tessera {
 
@@ -27,6 +28,8 @@ class MotionModel {
     Eigen::Isometry3d Predict(double stamp_s) const;
     void Add(const StampedPose& pose);
     void Clear();
+    void SaveState(StateWriter& state) const;
+    bool LoadState(StateReader& state);
     // The world was moved: the camera's velocity is its own and stays.
     void Move(const Eigen::Isometry3d& T_new_old) {
         if (last_) last_->T_world_camera = Normalised(T_new_old * last_->T_world_camera);

@@ -3,15 +3,15 @@
 #include <filesystem>
 
 #include "io/openni_source.h"
+#include "scan/scan_source.h"
 
 namespace tessera {
 
 Result<std::unique_ptr<FrameSource>> OpenSource(const std::string& name, const RunConfig& config) {
     if (name.starts_with("synthetic:")) return OpenSyntheticScene(name, config.synthetic);
     if (name.starts_with("openni2:") || name.ends_with(".oni")) return OpenOpenniSource(name, config.openni);
-    for (const char* end : {".klg", ".scan"})
-        if (name.ends_with(end))
-            return Status::Error(fmt::format("{}: {} files: not in this version", name, end));
+    if (name.ends_with(".scan")) return ScanSource::Open(name);
+    if (name.ends_with(".klg")) return Status::Error(name + ": .klg files: not in this version");
     std::error_code ignored;
     if (!std::filesystem::exists(name, ignored))
         return Status::Error(name + ": no such folder (a source is a folder, FILE.oni, openni2: or synthetic:NAME)");

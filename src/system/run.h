@@ -33,6 +33,8 @@ struct RunRequest {
     ViewerLink* viewer = nullptr;       // outlives the run
     FrameSelection selection;
     std::string labels;         // a network, a detections file, or "synthetic"; empty = no labels
+    std::string scan_file;      // written as the run goes; empty = none
+    bool resume = false;        // scan_file is there and gone on with; else it is made
     std::string poses_file;     // TUM trajectory: fuse at its poses and do not track; empty = track
     std::vector<MethodSwitch> switches;  // of one frame, the last counts
     std::string output_folder;  // empty = nothing is written and no mesh is made

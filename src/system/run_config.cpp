@@ -32,6 +32,7 @@ void RunConfig::Describe(ConfigParameters& p) {
     p.Section("meshing", [&](ConfigParameters& s) { meshing.Describe(s); });
     p.Section("labels", [&](ConfigParameters& s) { labels.Describe(s); });
     p.Section("loops", [&](ConfigParameters& s) { loops.Describe(s); });
+    p.Section("scan", [&](ConfigParameters& s) { scan.Describe(s); });
     p.Section("live", [&](ConfigParameters& s) { live.Describe(s); });
     p.Section("view", [&](ConfigParameters& s) { view.Describe(s); });
     p.Section("record", [&](ConfigParameters& s) { record.Describe(s); });

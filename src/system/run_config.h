@@ -13,6 +13,7 @@
 #include "semantics/label_config.h"
 #include "synth/synthetic_source.h"
 #include "system/pipeline_config.h"
+#include "system/scan_config.h"
 
 namespace tessera {
 
@@ -43,12 +44,13 @@ struct RunConfig {
     MeshConfig meshing;
     LabelConfig labels;
     LoopConfig loops;
+    ScanConfig scan;
     LiveConfig live;
     ViewConfig view;
     int threads = 0;     // 0: as many as the machine has
     int read_ahead = 4;  // frames decoded ahead
 
-    // Sections source (source.openni in it), synthetic, frame, mapping, tracking, meshing, labels, loops, live, view, record, run.
+    // Sections source (source.openni in it), synthetic, frame, mapping, tracking, meshing, labels, loops, scan, live, view, record, run.
     void Describe(ConfigParameters& parameters);
     // Conditions between keys; the error names the key.
     Status Validate() const;

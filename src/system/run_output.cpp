@@ -90,6 +90,15 @@ Status RunOutput::AddDetections(const LabelReport& report, const LabelClasses& c
     return Append("detections.txt", lines, detections_);
 }
 
+Status RunOutput::AddPath(const std::vector<StampedPose>& path) {
+    std::string lines;
+    for (const StampedPose& pose : path) {
+        path_.push_back(pose.T_world_camera);
+        lines += TrajectoryLine(pose) + "\n";
+    }
+    return lines.empty() ? Status::Ok() : Append("trajectory.txt", lines, trajectory_);
+}
+
 Status RunOutput::ReplacePath(const std::vector<StampedPose>& path) {
     path_.clear();
     for (const StampedPose& pose : path) path_.push_back(pose.T_world_camera);

@@ -26,6 +26,8 @@ class RunOutput {
 
     // The frame's lines in detections.txt, after a line that says that it was looked at.
     Status AddDetections(const LabelReport& report, const LabelClasses& classes);
+    // Lines of trajectory.txt of frames that were tracked before this run.
+    Status AddPath(const std::vector<StampedPose>& path);
     // trajectory.txt anew, from poses that are known better now; whole or not at all.
     Status ReplacePath(const std::vector<StampedPose>& path);
 

@@ -48,6 +48,9 @@ class Trackers {
     void SetAlpha(bool automatic, double alpha) { photometry_.SetAlpha(automatic, alpha); }
     // Forgets what was learnt, keeps the choices.
     void Reset() { photometry_.Reset(); }
+    // What was learnt.
+    void SaveState(StateWriter& state) const { photometry_.SaveState(state); }
+    bool LoadState(StateReader& state) { return photometry_.LoadState(state); }
     // What a person should know of how the methods came up, in words, once; mostly empty.
     std::string TakeNote();
 

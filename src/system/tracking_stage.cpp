@@ -138,4 +138,21 @@ void TrackingStage::Reset() {
     trackers_.Reset();
 }
 
+void TrackingStage::StartAt(const StampedPose& last) {
+    Reset();
+    motion_.Add(last);
+}
+
+void TrackingStage::SaveState(StateWriter& state) const {
+    motion_.SaveState(state);
+    aligner_.SaveState(state);
+    trackers_.SaveState(state);
+}
+
+bool TrackingStage::LoadState(StateReader& state) {
+    if (motion_.LoadState(state) && aligner_.LoadState(state) && trackers_.LoadState(state)) return true;
+    Reset();
+    return false;
+}
+
 }  // namespace tessera

@@ -36,6 +36,7 @@ struct TrackedFrame {
     FrameReport report;
     Integrator::View view;
     bool to_fuse = false;
+    std::vector<std::uint8_t> tracking_state;  // TrackingStage::SaveState after this frame, while a scan is written
 };
 
 // Owner thread only.
@@ -66,6 +67,13 @@ class TrackingStage {
     void Apply(const ViewerSettings& settings);
     // Forgets the camera's way, not the settings: the next frame is a new world's first.
     void Reset();
+
+    // All that the next frame's pose depends on besides the map and the settings: where the camera was and how it moved, what
+    // colour has taught, the last frame's reduced images. False: the bytes are no such state, and the camera's way is forgotten.
+    void SaveState(StateWriter& state) const;
+    bool LoadState(StateReader& state);
+    // As if the last frame had been tracked there, and nothing more were known of the way.
+    void StartAt(const StampedPose& last);
 
   private:
     TrackResult TrackFrame(const Frame& frame, const PreparedFrame& prepared, const BlockMap& map);

@@ -77,18 +77,49 @@ void ImageAligner::Clear() {
     usual_score_ = 0;
 }
 
+PinholeCamera ImageAligner::ReducedCamera(int width) const {
+    const int n = std::max(1, camera_.width / width);
+    return {camera_.width / n,  camera_.height / n,         camera_.fx / n,
+            camera_.fy / n,     (camera_.cx + 0.5) / n - 0.5, (camera_.cy + 0.5) / n - 0.5};
+}
+
+void ImageAligner::SaveState(StateWriter& state) const {
+    state.Put(has_last_);
+    state.Put(usual_score_);
+    if (!has_last_) return;
+    for (const Level& level : current_) {
+        state.PutArray(std::span<const float>(level.intensity.data(), level.intensity.size()));
+        state.PutArray(std::span<const float>(level.depth_m.data(), level.depth_m.size()));
+    }
+}
+
+bool ImageAligner::LoadState(StateReader& state) {
+    Clear();
+    bool has_last = false;
+    if (!state.Get(has_last) || !state.Get(usual_score_)) return false;
+    if (!has_last) return true;
+    current_.resize(std::size(kWidths));
+    std::vector<float> pixels;
+    for (std::size_t i = 0; i < current_.size(); ++i) {
+        Level& level = current_[i];
+        level.camera = ReducedCamera(kWidths[i]);
+        for (Image<float>* image : {&level.intensity, &level.depth_m}) {
+            image->Resize(level.camera.width, level.camera.height);
+            if (!state.GetArray(pixels) || pixels.size() != image->size()) return false;
+            std::copy(pixels.begin(), pixels.end(), image->data());
+        }
+    }
+    has_last_ = true;
+    return true;
+}
+
 void ImageAligner::Reduce(const PreparedFrame& frame, std::vector<Level>& levels) const {
     levels.resize(std::size(kWidths));
     for (std::size_t i = 0; i < levels.size(); ++i) {
-        const int n = std::max(1, camera_.width / kWidths[i]);
         Level& level = levels[i];
-        PinholeCamera& c = level.camera;
-        c.width = camera_.width / n;
-        c.height = camera_.height / n;
-        c.fx = camera_.fx / n;
-        c.fy = camera_.fy / n;
-        c.cx = (camera_.cx + 0.5) / n - 0.5;
-        c.cy = (camera_.cy + 0.5) / n - 0.5;
+        level.camera = ReducedCamera(kWidths[i]);
+        const PinholeCamera& c = level.camera;
+        const int n = camera_.width / c.width;
         level.depth_m.Resize(c.width, c.height);
         level.intensity.Resize(c.width, c.height);
         tbb::parallel_for(0, c.height, [&](int y) {

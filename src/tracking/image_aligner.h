@@ -8,6 +8,7 @@
 
 #include "core/camera.h"
 #include "core/config.h"
+#include "core/state_stream.h"
 #include "mapping/prepared_frame.h"
 
 namespace tessera {
@@ -28,6 +29,9 @@ class ImageAligner {
     // result is T_last_current; the guess itself if there is nothing to align. Owner thread only.
     Eigen::Isometry3d Align(const PreparedFrame& frame, const Eigen::Isometry3d& T_last_current_guess);
     void Clear();
+    // The last frame, reduced; 48 KB at 4:3.
+    void SaveState(StateWriter& state) const;
+    bool LoadState(StateReader& state);
     // In place of the configuration's.
     void Enable(bool on) {
         config_.enabled = on;
@@ -43,6 +47,7 @@ class ImageAligner {
     };
     struct System;  // normal equations
 
+    PinholeCamera ReducedCamera(int width) const;
     void Reduce(const PreparedFrame& frame, std::vector<Level>& levels) const;
     Eigen::Isometry3d Refine(const Eigen::Isometry3d& T_last_current, double& score) const;
     System Linearise(const Level& last, const Level& current, const Eigen::Isometry3d& T_current_last,

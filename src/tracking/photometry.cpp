@@ -94,6 +94,17 @@ void Photometry::SetAlpha(bool automatic, double alpha) {
     alpha_ = alpha;
 }
 
+void Photometry::SaveState(StateWriter& state) const {
+    for (const double value : {alpha_, gain_, offset_, distance_variance_, intensity_variance_}) state.Put(value);
+    shutter_.SaveState(state);
+}
+
+bool Photometry::LoadState(StateReader& state) {
+    for (double* value : {&alpha_, &gain_, &offset_, &distance_variance_, &intensity_variance_})
+        if (!state.Get(*value) || !std::isfinite(*value)) return false;
+    return shutter_.LoadState(state);
+}
+
 FrameMotion Photometry::Timed(FrameMotion motion) const {
     motion.colour_delay_s += shutter_.delay_s();
     motion.colour_readout_s += shutter_.readout_s();

@@ -34,6 +34,8 @@ class Photometry {
     Photometry(const Config& config, const PinholeCamera& camera);
     // Forgets what was learnt, not the configuration.
     void Reset();
+    void SaveState(StateWriter& state) const;
+    bool LoadState(StateReader& state);
     // In place of the configuration's: learnt from here on, or fixed at `alpha`, in m^2.
     void SetAlpha(bool automatic, double alpha);
 

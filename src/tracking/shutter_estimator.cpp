@@ -36,6 +36,13 @@ void ShutterEstimator::Reset() {
                        .asDiagonal();
 }
 
+void ShutterEstimator::SaveState(StateWriter& state) const {
+    state.Put(estimate_);
+    state.Put(information_);
+}
+
+bool ShutterEstimator::LoadState(StateReader& state) { return state.Get(estimate_) && state.Get(information_); }
+
 // One Gauss-Newton step on all frames so far, of which only the newest has a gradient left: recursive least squares.
 void ShutterEstimator::Update(const PreparedFrame& frame, const FramePoints& points,
                               const std::vector<float>& residuals, const FrameMotion& motion, double gain,

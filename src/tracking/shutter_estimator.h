@@ -9,6 +9,7 @@
 #include "core/camera.h"
 #include "core/config.h"
 #include "core/frame_motion.h"
+#include "core/state_stream.h"
 #include "mapping/prepared_frame.h"
 #include "tracking/frame_points.h"
 
@@ -31,6 +32,8 @@ class ShutterEstimator {
     void Update(const PreparedFrame& frame, const FramePoints& points, const std::vector<float>& residuals,
                 const FrameMotion& motion, double gain, double residual_scale);
     void Reset();
+    void SaveState(StateWriter& state) const;
+    bool LoadState(StateReader& state);
 
     double delay_s() const { return estimate_(0); }    // to add to the time stamps' difference
     double readout_s() const { return estimate_(1); }  // of the whole colour image

@@ -144,11 +144,36 @@ TEST_F(Cli, BadArgumentsAreOneLineAndExitCode2) {
 }
 
 TEST_F(Cli, WhatIsToComeIsRefusedAndNeverIgnored) {
-    for (const char* option : {"--scan a.scan", "--resume a.scan",
-                               "--device cuda"})
-        ExpectRefused(std::string("run synthetic:desk ") + option, "not in this version");
+    ExpectRefused("run synthetic:desk --device cuda", "not in this version");
     ExpectRefused("run a.klg", "not in this version");
     ExpectRefused("export out --mesh a.glb", "not in this version");
+}
+
+TEST_F(Cli, AScanIsSavedLookedAtGoneOnWithHandedOutAndRepaired) {
+    const std::string scan = folder / "a.scan";
+    EXPECT_EQ(Call(SmallRun() + "--frames 12 --out " + (folder / "first") + " --scan " + scan).exit_code, 0);
+    ExpectRefused(SmallRun() + "--frames 12 --out " + (folder / "x") + " --scan " + scan, "--resume");
+    ExpectRefused(SmallRun() + "--set mapping.voxel_size_m=0.05 --resume " + scan, "mapping.voxel_size_m");
+    ExpectRefused(SmallRun() + "--loop-closure on --resume " + scan, "loops.enabled");
+    const Outcome info = Call("info " + scan);
+    EXPECT_EQ(info.exit_code, 0) << info.err;
+    EXPECT_NE(info.out.find("complete"), std::string::npos) << info.out;
+    EXPECT_NE(info.out.find("12 frames, 12 tracked"), std::string::npos) << info.out;
+    const Outcome resumed = Call(SmallRun() + "--frames 20 --out " + (folder / "second") + " --resume " + scan);
+    EXPECT_NE(resumed.out.find("8 frames, 8 tracked"), std::string::npos) << resumed.out << resumed.err;
+    EXPECT_EQ(ReadTrajectory(folder / "second/trajectory.txt").value().poses.size(), 20u);
+    EXPECT_EQ(Call("export " + scan + " --mesh " + (folder / "m.ply") + " --trajectory " + (folder / "t.txt")).exit_code, 0);
+    EXPECT_EQ(ReadAll(folder / "m.ply"), ReadAll(folder / "second/mesh.ply"));
+    EXPECT_EQ(ReadTrajectory(folder / "t.txt").value().poses.size(), 20u);
+    ExpectRefused("export " + scan + " --frames " + (folder / "raw"), "scan.frames=all");
+    ExpectRefused("run " + scan, "scan.frames=all");
+    ExpectRefused("info " + (folder / "m.ply") + ".scan", "no such file");
+    std::filesystem::resize_file(scan, std::filesystem::file_size(scan) / 2);
+    ExpectRefused("info " + scan, "tessera scan repair");
+    const Outcome repaired = Call("scan repair " + scan + " --out " + (folder / "b.scan"));
+    EXPECT_EQ(repaired.exit_code, 0) << repaired.err;
+    EXPECT_NE(repaired.out.find("lost:"), std::string::npos) << repaired.out;
+    EXPECT_EQ(Call("info " + (folder / "b.scan")).exit_code, 0);
 }
 
 TEST_F(Cli, LoopClosureIsRefusedWhereItCannotBe) {

@@ -97,5 +97,28 @@ TEST(Instances, DetectionsApartSpeakAgainstJoining) {
     EXPECT_EQ(instances.Resolve(b), b);
 }
 
+TEST(Instances, GoOnFromASavedState) {
+    Instances instances({});
+    const InstanceId a = Confirmed(instances, 5);
+    instances.Match({Seen(4), Seen(5, {{a, 90}})}, {{a, 95}});
+    std::vector<std::uint8_t> bytes;
+    StateWriter writer(bytes);
+    instances.SaveState(writer);
+    Instances resumed({});
+    StateReader reader(bytes);
+    ASSERT_TRUE(resumed.LoadState(reader));
+    for (int i = 0; i < 8; ++i) {
+        const std::vector<ObservedObject> seen{Seen(5, {{a, 90}}), Seen(4, {{InstanceId(a + 1), 80}})};
+        const std::map<InstanceId, int> visible{{a, 95}, {InstanceId(a + 1), 90}};
+        EXPECT_EQ(resumed.Match(seen, visible), instances.Match(seen, visible));
+    }
+    EXPECT_EQ(resumed.last(), instances.last());
+    EXPECT_EQ(resumed.record(InstanceId(a + 1)).public_id, 2);
+    for (std::size_t size = 0; size < bytes.size(); ++size) {
+        StateReader cut(std::span<const std::uint8_t>(bytes).first(size));
+        EXPECT_FALSE(Instances({}).LoadState(cut)) << size;
+    }
+}
+
 }  // namespace
 }  // namespace tessera

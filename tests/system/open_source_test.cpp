@@ -24,8 +24,8 @@ TEST(OpenSource, WhatIsWrongIsNamed) {
     EXPECT_NE(message(folder / "file.txt").find("is a file"), std::string::npos);
     EXPECT_NE(message("synthetic:dsk").find("desk"), std::string::npos) << message("synthetic:dsk");
     EXPECT_NE(message(folder.path()).find(folder.path()), std::string::npos);  // an empty folder
-    for (const char* later : {"a.klg", "a.scan"})
-        EXPECT_NE(message(later).find("not in this version"), std::string::npos) << later;
+    EXPECT_NE(message("a.klg").find("not in this version"), std::string::npos);
+    EXPECT_NE(message("a.scan").find("a.scan"), std::string::npos) << message("a.scan");
 }
 
 }  // namespace

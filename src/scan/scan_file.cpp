@@ -1,0 +1,169 @@
+#include "scan/scan_file.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+namespace tessera {
+namespace {
+
+constexpr std::int64_t kSealKey = static_cast<std::int64_t>(ScanStateKey::kSeal);
+
+std::string TableSql(ScanTable table) {
+    return fmt::format("CREATE TABLE {} (key INTEGER PRIMARY KEY, epoch INTEGER NOT NULL, checkpoint INTEGER NOT NULL, "
+                       "data BLOB NOT NULL, checksum INTEGER NOT NULL)", ToString(table));
+}
+
+bool Exists(const std::string& path) {
+    std::error_code ignored;
+    return std::filesystem::exists(path, ignored);
+}
+
+void Sync(const std::string& path) {
+    const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    if (file < 0) return;
+    ::fsync(file);
+    ::close(file);
+}
+
+// Why the file cannot be a scan, by its first bytes; empty if it can.
+std::string WhyNoScan(const std::string& path) {
+    std::error_code ignored;
+    if (!Exists(path)) return "no such file";
+    if (std::filesystem::is_directory(path, ignored)) return "is a folder, not a scan";
+    std::ifstream file(path, std::ios::binary);
+    char magic[16] = {};
+    if (!file.read(magic, sizeof(magic))) return "is not a scan (too short)";
+    return std::memcmp(magic, "SQLite format 3", 16) == 0 ? "" : "is not a scan";
+}
+
+}  // namespace
+
+Status DamagedScan(const std::string& path, const std::string& why) {
+    return Status::Error(fmt::format("{}: damaged ({}); what is sound is recovered by: tessera scan repair {} --out NEW.scan",
+                                     path, why, path));
+}
+
+Result<std::unique_ptr<ScanFile>> ScanFile::Create(const std::string& path, std::span<const std::uint8_t> meta) {
+    if (Exists(path)) return Status::Error(path + ": exists already; go on with it by --resume, or choose another name");
+    const std::string unfinished = path + ".new";
+    std::error_code ignored;
+    std::filesystem::remove(unfinished, ignored);
+    {
+        Result<std::unique_ptr<Database>> database = Database::Open(unfinished, Database::Access::kCreate);
+        if (!database.ok()) return database.status();
+        std::unique_ptr<ScanFile> file(new ScanFile());
+        file->database_ = std::move(database.value());
+        // Pages that hold several blocks and need no overflow pages for one.
+        std::string sql = fmt::format("PRAGMA synchronous=OFF; PRAGMA page_size={}; PRAGMA application_id={}; PRAGMA user_version={}; ",
+                                      kScanPageBytes, kScanApplicationId, kScanVersion);
+        for (const ScanTable table : kScanTables) sql += TableSql(table) + "; ";
+        Status made = file->database_->Execute(sql);
+        if (made.ok()) made = file->PrepareToWrite();
+        if (made.ok()) made = file->Begin();
+        if (made.ok()) {
+            file->next_.checkpoint = 0;
+            made = file->Put(ScanTable::kMeta, 0, meta);
+            // Once more on another page, for repair.
+            if (made.ok()) made = file->Put(ScanTable::kState, static_cast<std::int64_t>(ScanStateKey::kMetaCopy), meta);
+        }
+        if (made.ok()) made = file->Commit(false);
+        if (!made.ok()) {
+            file.reset();
+            std::filesystem::remove(unfinished, ignored);
+            return made;
+        }
+    }
+    Sync(unfinished);
+    if (std::rename(unfinished.c_str(), path.c_str()) != 0)
+        return Status::Error(fmt::format("{}: cannot be made: {}", path, std::strerror(errno)));
+    Result<std::unique_ptr<ScanFile>> made = OpenToWrite(path);
+    if (made.ok()) made.value()->fresh_ = true;
+    return made;
+}
+
+Result<std::unique_ptr<ScanFile>> ScanFile::OpenToRead(const std::string& path) {
+    if (!ScanAvailable()) return Status::Error(path + ": " + kScanUnavailable);
+    if (const std::string why = WhyNoScan(path); !why.empty()) return Status::Error(path + ": " + why);
+    std::unique_ptr<ScanFile> file(new ScanFile());
+    Result<std::unique_ptr<Database>> database = Database::Open(path, Database::Access::kRead);
+    if (!database.ok()) return database.status();
+    file->database_ = std::move(database.value());
+    // One state of the file for all that is read, also while another process goes on writing it.
+    if (Status begun = file->database_->Execute("BEGIN"); !begun.ok()) return begun;
+    if (Status status = file->CheckHeader(); !status.ok()) return status;
+    if (Status status = file->LoadSeal(); !status.ok()) return status;
+    return file;
+}
+
+Result<std::unique_ptr<ScanFile>> ScanFile::OpenToWrite(const std::string& path) {
+    if (!ScanAvailable()) return Status::Error(path + ": " + kScanUnavailable);
+    if (const std::string why = WhyNoScan(path); !why.empty()) return Status::Error(path + ": " + why);
+    std::unique_ptr<ScanFile> file(new ScanFile());
+    if (Status locked = file->Lock(path); !locked.ok()) return locked;
+    Result<std::unique_ptr<Database>> database = Database::Open(path, Database::Access::kWrite);
+    if (!database.ok()) return database.status();
+    file->database_ = std::move(database.value());
+    if (Status status = file->CheckHeader(); !status.ok()) return status;
+    if (Status status = file->database_->Execute("PRAGMA journal_mode=WAL; PRAGMA synchronous=NORMAL; "
+                                                 "PRAGMA journal_size_limit=67108864; PRAGMA cache_size=-65536;");
+        !status.ok())
+        return status;
+    if (Status status = file->LoadSeal(); !status.ok()) return status;
+    if (Status status = file->PrepareToWrite(); !status.ok()) return status;
+    return file;
+}
+
+ScanFile::~ScanFile() {
+    statements_ = {};
+    std::error_code ignored;
+    const std::string empty = fresh_ && seal_.checkpoint == 0 ? path() : "";
+    database_.reset();
+    if (!empty.empty()) std::filesystem::remove(empty, ignored);
+    if (lock_ >= 0) ::close(lock_);
+}
+
+Status ScanFile::Lock(const std::string& path) {
+    lock_ = ::open(path.c_str(), O_RDWR | O_CLOEXEC);
+    if (lock_ < 0) return Status::Error(fmt::format("{}: cannot be written: {}", path, std::strerror(errno)));
+    if (::flock(lock_, LOCK_EX | LOCK_NB) != 0)
+        return Status::Error(path + ": another run is writing into it; wait for its end, or choose another file");
+    return Status::Ok();
+}
+
+// A file that is no scan of a version that this program reads is refused before anything is believed of it.
+Status ScanFile::CheckHeader() {
+    const Result<std::int64_t> application = database_->Number("PRAGMA application_id");
+    if (!application.ok()) return Failed("header");
+    if (application.value() != kScanApplicationId) return Status::Error(path() + ": is not a scan (another program's database)");
+    const Result<std::int64_t> version = database_->Number("PRAGMA user_version");
+    if (!version.ok()) return Failed("header");
+    if (version.value() > kScanVersion)
+        return Status::Error(fmt::format("{}: is of format version {}, this program reads up to {}; use a newer tessera (or, if "
+                                         "the file is damaged: tessera scan repair {} --out NEW.scan)",
+                                         path(), version.value(), kScanVersion, path()));
+    if (version.value() < 1) return DamagedScan(path(), "no format version");
+    std::string tables;
+    for (const ScanTable table : kScanTables) tables += fmt::format(" OR sql = '{}'", TableSql(table));
+    const Result<std::int64_t> known = database_->Number("SELECT count(*) FROM sqlite_schema WHERE 0" + tables);
+    const Result<std::int64_t> all = database_->Number("SELECT count(*) FROM sqlite_schema");
+    if (!known.ok() || !all.ok()) return Failed("tables");
+    if (known.value() != static_cast<std::int64_t>(kScanTableCount) || all.value() != known.value())
+        return DamagedScan(path(), "tables");
+    return Status::Ok();
+}
+
+Status ScanFile::LoadSeal() {
+    Result<std::vector<std::uint8_t>> bytes = ReadOne(ScanTable::kState, kSealKey);
+    if (!bytes.ok()) return bytes.status();
+    if (!ScanSeal::Decode(bytes.value(), seal_)) return DamagedScan(path(), "no seal");
+    return Status::Ok();
+}
+
+}  // namespace tessera

@@ -1,0 +1,168 @@
+// A scan file's rows: reading them checked, writing them in checkpoints.
+#include <fmt/format.h>
+
+#include "core/state_stream.h"
+#include "scan/scan_file.h"
+
+namespace tessera {
+namespace {
+
+constexpr std::int64_t kSealKey = static_cast<std::int64_t>(ScanStateKey::kSeal);
+
+}  // namespace
+
+std::vector<std::uint8_t> ScanSeal::Encode() const {
+    std::vector<std::uint8_t> bytes;
+    StateWriter state(bytes);
+    state.Put(checkpoint);
+    state.Put(finished);
+    for (const Table& table : tables) {
+        state.Put(table.epoch);
+        state.Put(table.rows);
+        state.Put(table.checksums);
+    }
+    return bytes;
+}
+
+bool ScanSeal::Decode(std::span<const std::uint8_t> bytes, ScanSeal& seal) {
+    StateReader state(bytes);
+    state.Get(seal.checkpoint);
+    state.Get(seal.finished);
+    for (Table& table : seal.tables) {
+        state.Get(table.epoch);
+        state.Get(table.rows);
+        state.Get(table.checksums);
+    }
+    return state.at_end();
+}
+
+Status ScanFile::Failed(const std::string& doing) const {
+    if (database_->damaged()) return DamagedScan(path(), doing);
+    return database_->Error(doing + " cannot be read");
+}
+
+Status ScanFile::Read(ScanTable table, const std::function<Status(const ScanRow&)>& take) {
+    const char* name = ToString(table);
+    Result<DatabaseStatement> select =
+        database_->Prepare(fmt::format("SELECT key, epoch, checkpoint, data, checksum FROM {} ORDER BY key", name));
+    if (!select.ok()) return Failed(name);
+    DatabaseStatement& rows = select.value();
+    ScanSeal::Table found;
+    const ScanSeal::Table& sealed = seal_.tables[IndexOf(table)];
+    std::int64_t last = 0;
+    bool first = true;
+    int step = rows.Step();
+    for (; step == kStepRow; step = rows.Step()) {
+        const ScanRow row{table, rows.Number(0), rows.Number(1), rows.Number(2), rows.Bytes(3)};
+        const std::uint64_t checksum = ChecksumOf(row);
+        if (checksum != static_cast<std::uint64_t>(rows.Number(4)) || (!first && row.key <= last))
+            return DamagedScan(path(), fmt::format("{} {}", name, row.key));
+        first = false;
+        last = row.key;
+        if (table == ScanTable::kState && row.key == kSealKey) continue;
+        ++found.rows;
+        found.checksums += checksum;
+        if (row.epoch != sealed.epoch || row.checkpoint > seal_.checkpoint || found.rows > sealed.rows)
+            return DamagedScan(path(), fmt::format("{} {} is of another time", name, row.key));
+        if (Status status = take(row); !status.ok()) return status;
+    }
+    if (step != kStepDone) return Failed(name);
+    if (found.rows != sealed.rows)
+        return DamagedScan(path(), fmt::format("{} of {} {} missing", sealed.rows - found.rows, sealed.rows, name));
+    if (found.checksums != sealed.checksums) return DamagedScan(path(), fmt::format("{}: some are old", name));
+    return Status::Ok();
+}
+
+Result<std::vector<std::uint8_t>> ScanFile::ReadOne(ScanTable table, std::int64_t key) {
+    const char* name = ToString(table);
+    Result<DatabaseStatement> select =
+        database_->Prepare(fmt::format("SELECT key, epoch, checkpoint, data, checksum FROM {} WHERE key = ?", name));
+    if (!select.ok()) return Failed(name);
+    DatabaseStatement& found = select.value();
+    found.Bind(1, key);
+    const int step = found.Step();
+    if (step == kStepDone) return std::vector<std::uint8_t>();
+    if (step != kStepRow) return Failed(name);
+    const ScanRow row{table, found.Number(0), found.Number(1), found.Number(2), found.Bytes(3)};
+    if (row.key != key || ChecksumOf(row) != static_cast<std::uint64_t>(found.Number(4)))
+        return DamagedScan(path(), fmt::format("{} {}", name, key));
+    return std::vector<std::uint8_t>(row.data.begin(), row.data.end());
+}
+
+Status ScanFile::PrepareToWrite() {
+    for (const ScanTable table : kScanTables) {
+        const char* name = ToString(table);
+        Result<DatabaseStatement> find = database_->Prepare(fmt::format("SELECT checksum FROM {} WHERE key = ?", name));
+        Result<DatabaseStatement> replace =
+            database_->Prepare(fmt::format("REPLACE INTO {} VALUES (?, ?, ?, ?, ?)", name));
+        if (!find.ok() || !replace.ok()) return Failed(name);
+        statements_[IndexOf(table)] = {std::move(find.value()), std::move(replace.value())};
+    }
+    return Status::Ok();
+}
+
+Status ScanFile::Begin() {
+    next_ = seal_;
+    ++next_.checkpoint;
+    return database_->Execute("BEGIN IMMEDIATE");
+}
+
+Status ScanFile::Put(ScanTable table, std::int64_t key, std::span<const std::uint8_t> data) {
+    Statements& statements = statements_[IndexOf(table)];
+    ScanSeal::Table& sealed = next_.tables[IndexOf(table)];
+    const ScanRow row{table, key, sealed.epoch, next_.checkpoint, data};
+    const bool counted = table != ScanTable::kState || key != kSealKey;
+    statements.find.Bind(1, key);
+    const int found = statements.find.Step();
+    if (counted && found == kStepRow) {
+        --sealed.rows;
+        sealed.checksums -= static_cast<std::uint64_t>(statements.find.Number(0));
+    }
+    statements.find.Reset();
+    if (found != kStepRow && found != kStepDone) return Abandon("cannot be written");
+    const std::uint64_t checksum = ChecksumOf(row);
+    if (counted) {
+        ++sealed.rows;
+        sealed.checksums += checksum;
+    }
+    statements.replace.Bind(1, key);
+    statements.replace.Bind(2, row.epoch);
+    statements.replace.Bind(3, row.checkpoint);
+    statements.replace.Bind(4, data);
+    statements.replace.Bind(5, static_cast<std::int64_t>(checksum));
+    const int step = statements.replace.Step();
+    if (step != kStepDone) return Abandon("cannot be written");
+    statements.replace.Reset();
+    return Status::Ok();
+}
+
+Status ScanFile::Clear(ScanTable table) {
+    ScanSeal::Table& sealed = next_.tables[IndexOf(table)];
+    sealed = {sealed.epoch + 1, 0, 0};
+    if (Status status = database_->Execute(fmt::format("DELETE FROM {}", ToString(table))); !status.ok())
+        return Abandon("cannot be written");
+    return Status::Ok();
+}
+
+Status ScanFile::Commit(bool finished) {
+    next_.finished = finished;
+    const std::vector<std::uint8_t> seal = next_.Encode();
+    if (Status status = Put(ScanTable::kState, kSealKey, seal); !status.ok()) return status;
+    if (Status status = database_->Execute("COMMIT"); !status.ok()) return Abandon("cannot be written");
+    seal_ = next_;
+    return Status::Ok();
+}
+
+Status ScanFile::Abandon(const std::string& doing) {
+    const Status error = database_->Error(doing);
+    for (Statements& statements : statements_) {
+        statements.find.Reset();
+        statements.replace.Reset();
+    }
+    static_cast<void>(database_->Execute("ROLLBACK"));  // where the library has rolled back itself there is nothing to do
+    return error;
+}
+
+void ScanFile::Close() { static_cast<void>(database_->Execute("PRAGMA wal_checkpoint(TRUNCATE); PRAGMA journal_mode=DELETE;")); }
+
+}  // namespace tessera

@@ -1,0 +1,226 @@
+#include "scan/scan_repair.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+#include <map>
+#include <optional>
+
+#include "scan/block_codec.h"
+#include "scan/page_walk.h"
+#include "scan/scan_file.h"
+#include "scan/scan_records.h"
+
+namespace tessera {
+namespace {
+
+class Repair {
+  public:
+    Repair(std::unique_ptr<PageWalk> walk, const std::string& path, const std::string& out)
+        : walk_(std::move(walk)), path_(path), out_(out) {}
+
+    Result<RepairReport> Run() {
+        Index();
+        if (!FindMeta()) return Status::Error(path_ + ": nothing can be recovered: what the scan was made with is lost");
+        if (found_[IndexOf(ScanTable::kBlocks)].empty() && found_[IndexOf(ScanTable::kPath)].empty())
+            return Status::Error(path_ + ": nothing can be recovered: no block and no pose is sound");
+        JudgeLoops();
+        Result<std::unique_ptr<ScanFile>> file = ScanFile::Create(out_, meta_.Encode());
+        if (!file.ok()) return file.status();
+        file_ = std::move(file.value());
+        if (Status status = file_->Begin(); !status.ok()) return status;
+        for (const auto& copy : {&Repair::CopyBlocks, &Repair::CopyPath, &Repair::CopyKeyframes, &Repair::CopyFrames, &Repair::CopyState})
+            if (Status status = (this->*copy)(); !status.ok()) return status;
+        if (Status status = file_->Commit(false); !status.ok()) return status;
+        file_->Close();
+        return std::move(report_);
+    }
+
+  private:
+    struct Found {
+        std::int64_t epoch, checkpoint;
+        PageWalk::Place place;
+    };
+    using Rows = std::map<std::int64_t, Found>;
+
+    Rows& rows(ScanTable table) { return found_[IndexOf(table)]; }
+
+    // The newest of each row; rows of an earlier epoch than the newest are remains.
+    void Index() {
+        std::array<std::int64_t, kScanTableCount> epochs{};
+        walk_->ForEach([&](const ScanRow& row, const PageWalk::Place& place) {
+            std::int64_t& epoch = epochs[IndexOf(row.table)];
+            if (row.epoch < epoch) return;
+            if (row.epoch > epoch) rows(row.table).clear();
+            epoch = row.epoch;
+            const auto [at, fresh] = rows(row.table).try_emplace(row.key, Found{row.epoch, row.checkpoint, place});
+            if (!fresh && at->second.checkpoint <= row.checkpoint) at->second = {row.epoch, row.checkpoint, place};
+        });
+        ScanRow row;
+        if (Load(ScanTable::kState, static_cast<std::int64_t>(ScanStateKey::kSeal), row)) {
+            ScanSeal seal;
+            if (ScanSeal::Decode(row.data, seal)) seal_ = seal;
+        }
+        if (!seal_) report_.lost.push_back("how much there was");
+        for (const ScanTable table : {ScanTable::kBlocks, ScanTable::kPath, ScanTable::kFrames, ScanTable::kKeyframes}) {
+            if (!seal_) continue;
+            const ScanSeal::Table& sealed = seal_->tables[IndexOf(table)];
+            if (epochs[IndexOf(table)] < sealed.epoch) rows(table).clear();  // emptied since
+            const auto missing = sealed.rows - static_cast<std::int64_t>(rows(table).size());
+            if (missing > 0) report_.lost.push_back(fmt::format("{} of {} {}", missing, sealed.rows, ToString(table)));
+        }
+    }
+
+    // Valid until the next Load.
+    bool Load(ScanTable table, std::int64_t key, ScanRow& row) {
+        const auto found = rows(table).find(key);
+        return found != rows(table).end() && walk_->Load(found->second.place, row);
+    }
+
+    bool FindMeta() {
+        ScanRow row;
+        return (Load(ScanTable::kMeta, 0, row) && meta_.Decode(row.data)) ||
+               (Load(ScanTable::kState, static_cast<std::int64_t>(ScanStateKey::kMetaCopy), row) && meta_.Decode(row.data));
+    }
+
+    // Loop closure can go on only from all keyframes; else the path is written without them.
+    void JudgeLoops() {
+        ScanRow row;
+        const std::size_t count = rows(ScanTable::kPoses).size();
+        bool whole = meta_.loops && Load(ScanTable::kState, static_cast<std::int64_t>(ScanStateKey::kLoops), row) &&
+                     loops_.Decode(row.data) && rows(ScanTable::kKeyframes).size() == count;
+        Keyframe keyframe;
+        for (const auto& [key, place] : rows(ScanTable::kPoses)) {
+            KeyframePoses poses;
+            if (Load(ScanTable::kPoses, key, row) && poses.Decode(row.data)) poses_[key] = poses;
+            whole = whole && Load(ScanTable::kKeyframes, key, row) && DecodeKeyframe(row.data, meta_.camera, keyframe);
+        }
+        for (const PoseEdge& edge : loops_.edges)
+            whole = whole && edge.from >= 0 && edge.to >= 0 && edge.from != edge.to &&
+                    std::max(edge.from, edge.to) < static_cast<int>(count);
+        whole = whole && poses_.size() == count && (count == 0 || poses_.rbegin()->first == static_cast<std::int64_t>(count) - 1);
+        if (meta_.loops && !whole) report_.lost.push_back("keyframes or loops: the scan goes on without loop closure");
+        meta_.loops = whole;
+    }
+
+    // Numbered anew, without gaps, in the order that they had.
+    Status CopyBlocks() {
+        std::vector<std::pair<BlockId, std::int64_t>> order;
+        ScanRow row;
+        for (const auto& [key, place] : rows(ScanTable::kBlocks))
+            if (Load(ScanTable::kBlocks, key, row) && BlockCodec::IdOf(row.data) && key >= 0)
+                order.emplace_back(*BlockCodec::IdOf(row.data), key);
+        std::ranges::sort(order);
+        BlockId next = 1;
+        for (const auto& [id, key] : order) {
+            Load(ScanTable::kBlocks, key, row);
+            Bytes data(row.data.begin(), row.data.end());
+            std::memcpy(data.data(), &next, sizeof(next));
+            ++next;
+            if (Status status = file_->Put(ScanTable::kBlocks, key, data); !status.ok()) return status;
+        }
+        report_.blocks = next - 1;
+        return Status::Ok();
+    }
+
+    Status CopyPath() {
+        ScanRow row;
+        std::int64_t unplaced = 0;
+        for (const auto& [key, place] : rows(ScanTable::kPath)) {
+            PathRecord record;
+            if (!Load(ScanTable::kPath, key, row) || !record.Decode(row.data)) continue;
+            if (record.keyframe >= 0 && !meta_.loops) {
+                const auto poses = poses_.find(record.keyframe);
+                if (poses == poses_.end()) {
+                    ++unplaced;
+                    continue;
+                }
+                record.T_reference_camera = Normalised(poses->second.T_world_camera * record.T_reference_camera);
+                record.keyframe = -1;
+            }
+            if (record.keyframe >= static_cast<int>(poses_.size())) continue;
+            new_key_[key] = report_.path;
+            last_ = record;
+            if (Status status = file_->Put(ScanTable::kPath, report_.path++, record.Encode()); !status.ok()) return status;
+        }
+        if (unplaced > 0) report_.lost.push_back(fmt::format("{} poses whose keyframe is lost", unplaced));
+        return Status::Ok();
+    }
+
+    Status CopyKeyframes() {
+        ScanRow row;
+        if (!meta_.loops) return Status::Ok();
+        for (const auto& [key, poses] : poses_) {
+            if (!Load(ScanTable::kKeyframes, key, row)) continue;
+            if (Status status = file_->Put(ScanTable::kKeyframes, key, row.data); !status.ok()) return status;
+            if (Status status = file_->Put(ScanTable::kPoses, key, poses.Encode()); !status.ok()) return status;
+            ++report_.keyframes;
+        }
+        return Status::Ok();
+    }
+
+    Status CopyFrames() {
+        ScanRow row;
+        for (const auto& [key, place] : rows(ScanTable::kFrames)) {
+            FrameRecord record;
+            if (!new_key_.contains(key) || !Load(ScanTable::kFrames, key, row) || !record.Decode(row.data)) continue;
+            if (!meta_.loops) record.in_store = false;
+            if (record.in_store && record.stored.keyframe >= static_cast<int>(poses_.size())) continue;
+            if (Status status = file_->Put(ScanTable::kFrames, new_key_[key], record.Encode()); !status.ok()) return status;
+            ++report_.frames;
+        }
+        return Status::Ok();
+    }
+
+    Status CopyState() {
+        ScanRow row;
+        ScanProgress progress;
+        const auto load = [&](ScanStateKey key) { return Load(ScanTable::kState, static_cast<std::int64_t>(key), row); };
+        if (!load(ScanStateKey::kProgress) || !progress.Decode(row.data)) {
+            report_.lost.push_back("the progress");
+            progress = {};
+            progress.fused_frames = static_cast<std::uint32_t>(std::max<std::int64_t>(1, report_.path));
+            if (last_) {
+                progress.last_index = last_->index;
+                progress.last_stamp_s = last_->stamp_s;
+            }
+        }
+        progress.frames = report_.path;
+        const auto put = [&](ScanStateKey key, std::span<const std::uint8_t> data) {
+            return file_->Put(ScanTable::kState, static_cast<std::int64_t>(key), data);
+        };
+        if (Status status = put(ScanStateKey::kProgress, progress.Encode()); !status.ok()) return status;
+        for (const ScanStateKey key : {ScanStateKey::kTracking, ScanStateKey::kLabels})
+            if (load(key)) {
+                const Bytes data(row.data.begin(), row.data.end());
+                if (Status status = put(key, data); !status.ok()) return status;
+            } else if (key == ScanStateKey::kTracking) {
+                report_.lost.push_back("the camera's motion at the end");
+            }
+        return meta_.loops ? put(ScanStateKey::kLoops, loops_.Encode()) : Status::Ok();
+    }
+
+    std::unique_ptr<PageWalk> walk_;
+    std::string path_, out_;
+    std::unique_ptr<ScanFile> file_;
+    RepairReport report_;
+    std::array<Rows, kScanTableCount> found_;
+    std::optional<ScanSeal> seal_;
+    ScanMeta meta_;
+    LoopProgress loops_;
+    std::map<std::int64_t, KeyframePoses> poses_;
+    std::map<std::int64_t, std::int64_t> new_key_;  // of the path
+    std::optional<PathRecord> last_;
+};
+
+}  // namespace
+
+Result<RepairReport> RepairScan(const std::string& path, const std::string& out) {
+    if (!ScanAvailable()) return Status::Error(path + ": " + kScanUnavailable);
+    Result<std::unique_ptr<PageWalk>> walk = PageWalk::Open(path);
+    if (!walk.ok()) return walk.status();
+    return Repair(std::move(walk.value()), path, out).Run();
+}
+
+}  // namespace tessera

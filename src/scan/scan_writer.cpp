@@ -1,0 +1,80 @@
+#include "scan/scan_writer.h"
+
+#include <algorithm>
+
+#include "io/image_io.h"
+#include "io/jpeg_encoder.h"
+
+namespace tessera {
+
+void ScanCheckpoint::Clear() {
+    clear_all = clear_blocks = finished = false;
+    first_path = 0;
+    path.clear();
+    frames.clear();
+    raw_frames.clear();
+    keyframes.clear();
+    poses.clear();
+    tracking.clear();
+    labels.clear();
+    loops.reset();
+}
+
+Status ScanWriter::Write(const ScanCheckpoint& checkpoint) {
+    if (Status status = file_->Begin(); !status.ok()) return status;
+    if (Status status = PutRows(checkpoint); !status.ok()) return status;
+    return file_->Commit(checkpoint.finished);
+}
+
+Status ScanWriter::PutRows(const ScanCheckpoint& c) {
+    if (c.clear_all)
+        for (const ScanTable table : kScanTables)
+            if (table != ScanTable::kMeta && table != ScanTable::kState)
+                if (Status status = file_->Clear(table); !status.ok()) return status;
+    if (c.clear_blocks && !c.clear_all)
+        if (Status status = file_->Clear(ScanTable::kBlocks); !status.ok()) return status;
+    // By their keys, so that each page is touched once.
+    order_.clear();
+    for (std::size_t i = 0; i < c.blocks.ids.size(); ++i) order_.emplace_back(BlockKey(c.blocks.coords[i]), i);
+    std::ranges::sort(order_);
+    for (const auto& [block_key, i] : order_)
+        if (Status status = file_->Put(ScanTable::kBlocks, block_key, codec_.Encode(c.blocks, i)); !status.ok()) return status;
+    std::int64_t key = c.first_path;
+    for (const PathRecord& record : c.path)
+        if (Status status = file_->Put(ScanTable::kPath, key++, record.Encode()); !status.ok()) return status;
+    for (const auto& [number, record] : c.frames)
+        if (Status status = file_->Put(ScanTable::kFrames, number, record.Encode()); !status.ok()) return status;
+    for (const auto& [number, frame] : c.raw_frames) {
+        const Result<FrameRecord> record = Compress(*frame);
+        if (!record.ok()) continue;  // an image that no encoder takes is left out; the scan does not hang on it
+        if (Status status = file_->Put(ScanTable::kFrames, number, record.value().Encode()); !status.ok()) return status;
+    }
+    for (const Keyframe& keyframe : c.keyframes)
+        if (Status status = file_->Put(ScanTable::kKeyframes, keyframe.id, EncodeKeyframe(keyframe)); !status.ok()) return status;
+    for (const auto& [number, poses] : c.poses)
+        if (Status status = file_->Put(ScanTable::kPoses, number, poses.Encode()); !status.ok()) return status;
+    if (Status status = PutState(ScanStateKey::kProgress, c.progress.Encode()); !status.ok()) return status;
+    if (Status status = PutState(ScanStateKey::kTracking, c.tracking); !status.ok()) return status;
+    if (!c.labels.empty() || c.clear_all)
+        if (Status status = PutState(ScanStateKey::kLabels, c.labels); !status.ok()) return status;
+    return c.loops ? PutState(ScanStateKey::kLoops, c.loops->Encode()) : Status::Ok();
+}
+
+Status ScanWriter::PutState(ScanStateKey key, const Bytes& bytes) {
+    return file_->Put(ScanTable::kState, static_cast<std::int64_t>(key), bytes);
+}
+
+Result<FrameRecord> ScanWriter::Compress(const Frame& frame) {
+    constexpr int kJpegQuality = 92;
+    FrameRecord record;
+    record.index = frame.index;
+    record.stamp_s = frame.stamp_s;
+    record.colour_stamp_s = frame.colour_stamp_s;
+    StoreDepth(frame.depth_m, depth_units_per_m_, raw_depth_);
+    png_.EncodeDepth(raw_depth_, record.stored.depth_png);
+    if (!frame.colour.empty())
+        if (Status status = EncodeJpeg(frame.colour, kJpegQuality, record.stored.colour_jpeg); !status.ok()) return status;
+    return record;
+}
+
+}  // namespace tessera

@@ -1,0 +1,149 @@
+// A run's beginning and end.
+#include "system/runner.h"
+
+#include <algorithm>
+
+#include "io/trajectory.h"
+#include "optimize/pose_graph.h"
+#include "system/live_engine.h"
+#include "system/lockstep_engine.h"
+#include "system/open_source.h"
+#include "system/scan_plan.h"
+
+namespace tessera {
+
+Result<RunSummary> Runner::Run(const std::atomic<bool>& stop) {
+    if (Status status = Open(stop); !status.ok()) return status;
+    Status status = TakeOutcomes();
+    if (status.ok() && !summary_.stopped && frames_before_ == 0 && summary_.counts.frames == summary_.counts.skipped)
+        status = Status::Error(request_.source + ": no frame could be read" +
+                               (summary_.last_reason.empty() ? "" : "; the last: " + summary_.last_reason));
+    Status finished = Finish(status);
+    if (!status.ok()) return status;
+    if (!finished.ok()) return finished;
+    return std::move(summary_);
+}
+
+Status Runner::Open(const std::atomic<bool>& stop) {
+    if (Status status = config_.Validate(); !status.ok()) return status;
+    if (Status status = CheckLoops(); !status.ok()) return status;
+    std::vector<StampedPose> given;
+    if (!request_.poses_file.empty()) {
+        Result<Trajectory> poses = ReadTrajectory(request_.poses_file);
+        if (!poses.ok()) return poses.status();
+        given = std::move(poses.value().poses);
+        pose_notes_ = std::move(poses.value().notes);
+    }
+    Result<std::unique_ptr<FrameSource>> source = OpenSource(request_.source, config_);
+    if (!source.ok()) return source.status();
+    summary_.source = source.value()->info();
+    Labelling labelling;
+    if (!request_.labels.empty()) {
+        Result<Labelling> opened = OpenLabelling(request_.labels, request_.source, config_.synthetic, config_.labels);
+        if (!opened.ok()) return opened.status();
+        labelling = std::move(opened.value());
+        class_names_ = labelling.classes;
+        summary_.labels.emplace();
+    }
+    Result<ScanPlan> scan = OpenScan();
+    if (!scan.ok()) return scan.status();
+    EngineInput input{std::move(source.value()), selection_, config_,
+                      FramePlan(request_.switches, std::move(given), request_.poses_file), std::move(scan.value()),
+                      std::move(labelling), request_.record_path,
+                      request_.viewer, &stop};
+    if (request_.live)
+        engine_ = std::make_unique<LiveEngine>(std::move(input));
+    else
+        engine_ = std::make_unique<LockstepEngine>(std::move(input));
+    return Status::Ok();
+}
+
+Result<ScanPlan> Runner::OpenScan() {
+    if (request_.scan_file.empty()) return ScanPlan();
+    if (!request_.poses_file.empty() && request_.resume)
+        return Status::Error("--resume: with --poses the poses are given; leave one of the two out");
+    if (!request_.resume) return BeginScan(request_.scan_file, summary_.source, config_);
+    Result<ScanPlan> plan = ResumeScan(request_.scan_file, summary_.source, config_, !request_.labels.empty());
+    if (!plan.ok()) return plan;
+    const ScanContent& scan = *plan.value().resumed;
+    selection_ = RestOf(request_.selection, summary_.source, scan);
+    estimate_ = scan.Path();
+    truth_ = scan.Truth();
+    frames_before_ = static_cast<std::int64_t>(scan.path.size());
+    return plan;
+}
+
+Status Runner::CheckLoops() const {
+    if (!config_.loops.enabled) return Status::Ok();
+    if (!PoseGraphAvailable())
+        return Status::Error("--loop-closure on: this build has no pose graph; install libceres-dev and build again");
+    if (request_.live && !request_.scan_file.empty())
+        return Status::Error("--loop-closure on: not yet with --scan or --resume in --mode live; leave one of them out");
+    if (!request_.poses_file.empty())
+        return Status::Error("--loop-closure on: with --poses the poses are given; leave one of the two out");
+    return Status::Ok();
+}
+
+// With the first frame and not before: a run that is refused says one line, and leaves the results of an earlier one.
+Status Runner::Begin() {
+    begun_ = true;
+    if (!request_.output_folder.empty())
+        if (Status status = OpenOutput(); !status.ok()) return status;
+    if (observer_.on_open) observer_.on_open(summary_.source);
+    for (const std::string& note : pose_notes_) Warn(note);
+    return Status::Ok();
+}
+
+Status Runner::OpenOutput() {
+    Result<std::unique_ptr<RunOutput>> output = RunOutput::Open(request_, config_, summary_.source);
+    if (!output.ok()) return output.status();
+    output_ = std::move(output.value());
+    return output_->AddPath(estimate_);
+}
+
+Status Runner::Finish(const Status& outcome) {
+    RunSummary& s = summary_;
+    s.exit = !outcome.ok() ? "failed: " + outcome.message() : (s.stopped ? "stopped" : "finished");
+    s.map = engine_->map_statistics();
+    Status written = Correct();
+    if (Status mesh = output_ ? WriteMesh() : Status::Ok(); written.ok()) written = mesh;
+    s.fps = s.wall_s > 0 ? static_cast<double>(s.counts.frames) / s.wall_s : 0;
+    s.peak_rss_mb = MeasureProcess().peak_rss_mb;
+    s.stages = times_.Summarise();
+    if (request_.poses_file.empty())
+        if (Result<AteResult> ate = EvaluateAte(truth_, estimate_, {.frames = frames_before_ + s.counts.frames}); ate.ok())
+            s.ate = std::move(ate.value());
+    if (Status status = output_ ? output_->Finish(s) : Status::Ok(); written.ok()) written = status;
+    return written;
+}
+
+// The poses as they are known at the end.
+Status Runner::Correct() {
+    std::vector<StampedPose> path = engine_->CorrectedPath();
+    if (path.empty()) return Status::Ok();
+    estimate_ = std::move(path);
+    return output_ ? output_->ReplacePath(estimate_) : Status::Ok();
+}
+
+Status Runner::WriteMesh() {
+    Stopwatch watch;
+    const TriangleMesh mesh = engine_->TakeMesh();
+    if (summary_.labels) summary_.labels->objects = engine_->objects();
+    times_.Add("mesh", watch.LapMs());
+    return output_->WriteMesh(mesh);
+}
+
+std::int64_t Runner::Total() const {
+    const FrameSelection& selection = selection_;
+    const std::int64_t all = summary_.source.frame_count;
+    if (all < 0) return selection.count;
+    const std::int64_t total = std::max<std::int64_t>(0, (all - selection.start + selection.stride - 1) / selection.stride);
+    return selection.count < 0 ? total : std::min(total, selection.count);
+}
+
+void Runner::Warn(const std::string& text) {
+    if (observer_.on_warning) observer_.on_warning(text);
+    if (request_.viewer != nullptr) request_.viewer->messages.Push(std::string(text));
+}
+
+}  // namespace tessera

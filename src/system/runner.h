@@ -1,0 +1,66 @@
+// One run under way: opens what it needs, takes what the engine gives, keeps count, leaves the files. run.h is its face.
+#pragma once
+
+#include "core/stopwatch.h"
+#include "system/engine.h"
+#include "system/run.h"
+#include "system/run_output.h"
+#include "system/viewer_link.h"
+
+namespace tessera {
+
+// Owner thread only; runs once. What it is given outlives it.
+class Runner {
+  public:
+    Runner(const RunRequest& request, const RunConfig& config, const RunObserver& observer)
+        : request_(request), config_(config), observer_(observer), selection_(request.selection) {}
+
+    Result<RunSummary> Run(const std::atomic<bool>& stop);
+
+  private:
+    Status Open(const std::atomic<bool>& stop);
+    Result<ScanPlan> OpenScan();
+    Status CheckLoops() const;
+    // With the first frame and not before: a run that is refused says one line, and leaves the results of an earlier one.
+    Status Begin();
+
+    Status TakeOutcomes();
+    Status Take(const FrameOutcome& outcome);
+    Status TakeFrame(const FrameOutcome& outcome);
+    Status TakeLabels(const LabelReport& report);
+    void AddTimes(const FrameOutcome& outcome, double frame_ms);
+    void ShowFrame(const FrameOutcome& outcome);
+    // After a reset: the files, too, tell of the new world only.
+    Status BeginAnew();
+    Status OpenOutput();
+    void Skip(const std::string& message);
+    void Count(const FrameOutcome& outcome);
+    // A thousand lost frames in a row are one message, not a thousand.
+    void SayWhenItChanges(const FrameReport& report);
+
+    Status Finish(const Status& outcome);
+    // The poses as they are known at the end.
+    Status Correct();
+    Status WriteMesh();
+    std::int64_t Total() const;
+    void Warn(const std::string& text);
+
+    const RunRequest& request_;
+    const RunConfig& config_;
+    const RunObserver& observer_;
+    FrameSelection selection_;  // what is still to be read: less than was asked for where a scan is resumed
+    std::int64_t frames_before_ = 0;  // that a resumed scan has
+    std::vector<StampedPose> truth_, estimate_;
+    std::vector<std::string> pose_notes_;
+    LabelClasses class_names_;
+    std::unique_ptr<Engine> engine_;
+    std::unique_ptr<RunOutput> output_;
+    StageTimes times_;
+    Stopwatch frame_watch_;
+    RunSummary summary_;
+    TrackStatus last_status_ = TrackStatus::kGood;
+    bool last_degenerate_ = false;
+    bool begun_ = false;
+};
+
+}  // namespace tessera

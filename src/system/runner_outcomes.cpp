@@ -1,0 +1,142 @@
+// What a run does with each thing that the engine tells it.
+#include <fmt/format.h>
+
+#include "system/runner.h"
+
+namespace tessera {
+
+Status Runner::TakeOutcomes() {
+    const double cpu_before_s = MeasureProcess().cpu_s;
+    Stopwatch whole;
+    FrameOutcome outcome;
+    Status status;
+    while (status.ok() && engine_->Next(outcome)) {
+        if (!begun_) status = Begin();
+        if (status.ok()) status = Take(outcome);
+        if (observer_.on_frame) observer_.on_frame(summary_.counts, Total());
+    }
+    if (status.ok()) status = engine_->status();
+    if (status.ok() && !begun_) status = Begin();
+    summary_.stopped = engine_->stopped();
+    summary_.wall_s = whole.LapMs() / 1000;
+    summary_.cpu_s = MeasureProcess().cpu_s - cpu_before_s;
+    return status;
+}
+
+Status Runner::Take(const FrameOutcome& outcome) {
+    using Kind = FrameOutcome::Kind;
+    switch (outcome.kind) {
+        case Kind::kFrame: return TakeFrame(outcome);
+        case Kind::kSkipped: Skip(outcome.message); break;
+        case Kind::kDropped: ++summary_.counts.frames, ++summary_.counts.dropped; break;
+        case Kind::kMessage: Warn(outcome.message); break;
+        case Kind::kReset: return BeginAnew();
+    }
+    return Status::Ok();
+}
+
+Status Runner::TakeFrame(const FrameOutcome& outcome) {
+    const FrameReport& report = outcome.report;
+    Count(outcome);
+    if (outcome.T_world_camera_truth) truth_.push_back({report.stamp_s, *outcome.T_world_camera_truth});
+    if (report.tracked()) estimate_.push_back({report.stamp_s, report.track.T_world_camera});
+    const double frame_ms = frame_watch_.LapMs();
+    AddTimes(outcome, frame_ms);
+    ShowFrame(outcome);
+    if (outcome.labels)
+        if (Status status = TakeLabels(*outcome.labels); !status.ok()) return status;
+    return output_ ? output_->AddFrame(report, outcome.decode_ms, frame_ms) : Status::Ok();
+}
+
+Status Runner::TakeLabels(const LabelReport& report) {
+    times_.Add("detect", report.detect_ms);
+    times_.Add("label", report.vote_ms);
+    ++summary_.labels->frames;
+    summary_.labels->detections += static_cast<std::int64_t>(report.detections.size());
+    summary_.labels->flips += report.votes.flips;
+    return output_ ? output_->AddDetections(report, class_names_) : Status::Ok();
+}
+
+void Runner::AddTimes(const FrameOutcome& outcome, double frame_ms) {
+    const FrameReport& report = outcome.report;
+    for (const auto& [stage, ms] : {std::pair{"frame", frame_ms}, {"decode", outcome.decode_ms},
+                                    {"prepare", report.prepare_ms}, {"track", report.track_ms},
+                                    {"allocate", report.fusion.allocate_ms}, {"fuse", report.fusion.fuse_ms}})
+        times_.Add(stage, ms);
+    if (request_.live) times_.Add("latency", outcome.latency_ms);
+    if (!request_.scan_file.empty()) times_.Add("scan", outcome.scan_ms);
+    if (config_.loops.enabled && !request_.live) times_.Add("loops", outcome.loops_ms);
+    if (request_.viewer != nullptr) times_.Add("mesh_update", outcome.mesh_ms);
+}
+
+void Runner::ShowFrame(const FrameOutcome& outcome) {
+    if (request_.viewer == nullptr) return;
+    FrameUpdate update;
+    update.report = outcome.report;
+    if (outcome.T_world_camera_truth && !estimate_.empty() && !truth_.empty())
+        update.T_world_camera_truth = estimate_.front().T_world_camera *
+                                      truth_.front().T_world_camera.inverse() * *outcome.T_world_camera_truth;
+    update.decode_ms = outcome.decode_ms;
+    update.mesh_ms = outcome.mesh_ms;
+    update.latency_ms = outcome.latency_ms;
+    update.counts = summary_.counts;
+    update.dropped = summary_.counts.dropped;
+    update.queues = outcome.queues;
+    update.map = outcome.map;
+    request_.viewer->frames.Push(std::move(update));
+}
+
+// After a reset: the files, too, tell of the new world only.
+Status Runner::BeginAnew() {
+    summary_.counts = {};
+    if (summary_.labels) summary_.labels.emplace();
+    frames_before_ = 0;
+    truth_.clear();
+    estimate_.clear();
+    times_ = {};
+    last_status_ = TrackStatus::kGood;
+    last_degenerate_ = false;
+    Warn("reset: the map and the path begin anew");
+    return output_ ? OpenOutput() : Status::Ok();
+}
+
+void Runner::Skip(const std::string& message) {
+    ++summary_.counts.frames;
+    ++summary_.counts.skipped;
+    summary_.last_reason = message;
+    Warn("skipped: " + message);
+}
+
+void Runner::Count(const FrameOutcome& outcome) {
+    const FrameReport& report = outcome.report;
+    RunCounts& n = summary_.counts;
+    ++n.frames;
+    n.tracked += report.tracked();
+    n.fused += report.fused;
+    n.unfused += outcome.fusion_dropped;
+    n.poor += report.track.status == TrackStatus::kPoor;
+    n.lost += !report.tracked();
+    n.degenerate += report.track.degenerate;
+    if (!report.tracked()) summary_.last_reason = report.track.reason;
+    if (!report.warning.empty()) Warn(fmt::format("frame {}: {}", report.index, report.warning));
+    SayWhenItChanges(report);
+}
+
+// A thousand lost frames in a row are one message, not a thousand.
+void Runner::SayWhenItChanges(const FrameReport& report) {
+    const TrackResult& t = report.track;
+    if (t.status != last_status_ || t.degenerate != last_degenerate_) {
+        const std::string reason = t.reason.empty() ? "" : ": " + t.reason;
+        if (t.status != TrackStatus::kGood)
+            Warn(fmt::format("frame {}: {}{}", report.index,
+                             t.status == TrackStatus::kLost ? "lost" : "tracked badly, not fused", reason));
+        else if (t.degenerate)
+            Warn(fmt::format("frame {}: degenerate, the scene leaves some motion open{}", report.index, reason));
+        else
+            Warn(fmt::format("frame {}: tracking well again", report.index));
+    }
+    last_status_ = t.status;
+    last_degenerate_ = t.degenerate;
+}
+
+}  // namespace tessera

@@ -1,0 +1,198 @@
+// Runs that are saved and gone on with, on the exact little world.
+#include "system/scan_stage.h"
+
+#include "support/temp_folder.h"
+#include "system/engine_fixture.h"
+#include "system/open_source.h"
+#include "system/scan_export.h"
+
+namespace tessera {
+namespace {
+
+using testing_support::BoxRoomSource;
+using testing_support::SmoothPath;
+
+class Scan : public EngineTest {
+  protected:
+    // The engine runs to its end; the mesh that it would write.
+    TriangleMesh Run(bool live, ScanPlan plan, const Source::Options& options, std::int64_t start = 0) {
+        EngineInput input = Input(options);
+        input.scan = std::move(plan);
+        input.selection.start = start;
+        outcomes.clear();
+        if (live)
+            engine = std::make_unique<LiveEngine>(std::move(input));
+        else
+            engine = std::make_unique<LockstepEngine>(std::move(input));
+        TakeAll();
+        EXPECT_TRUE(engine->status().ok()) << engine->status().message();
+        return engine->TakeMesh();
+    }
+    ScanPlan New() {
+        Result<ScanPlan> plan = BeginScan(path, BoxRoomSource().info(), config);
+        EXPECT_TRUE(plan.ok()) << plan.message();
+        return std::move(plan.value());
+    }
+    ScanPlan Again() {
+        Result<ScanPlan> plan = ResumeScan(path, BoxRoomSource().info(), config, false);
+        EXPECT_TRUE(plan.ok()) << plan.message();
+        return std::move(plan.value());
+    }
+    ScanContent Content() {
+        Result<ScanContent> scan = ReadScan(path, {.map = true, .frames = true});
+        EXPECT_TRUE(scan.ok()) << scan.message();
+        return std::move(scan.value());
+    }
+    static void ExpectSame(const TriangleMesh& a, const TriangleMesh& b) {
+        EXPECT_EQ(a.vertices, b.vertices);
+        EXPECT_EQ(a.colours, b.colours);
+        EXPECT_EQ(a.triangles, b.triangles);
+    }
+
+    TempFolder folder;
+    std::string path = folder / "a.scan";
+};
+
+TEST_F(Scan, SavingChangesNothingAndTheFileHoldsTheSameMesh) {
+    const TriangleMesh alone = Run(false, {}, {.count = 24});
+    config.scan.interval_s = 0.1;
+    ExpectSame(Run(false, New(), {.count = 24}), alone);
+    ScanContent scan = Content();
+    EXPECT_TRUE(scan.finished);
+    EXPECT_EQ(scan.path.size(), 24u);
+    EXPECT_EQ(scan.progress.last_index, 23);
+    const Result<TriangleMesh> mesh = MeshOfScan(scan);
+    ASSERT_TRUE(mesh.ok()) << mesh.message();
+    ExpectSame(mesh.value(), alone);
+}
+
+// Byte for byte: map, poses, motion, brightness and shutter go on as if nothing had been.
+TEST_F(Scan, AResumedRunIsTheUnbrokenOne) {
+    const TriangleMesh unbroken = Run(false, {}, {.count = 40});
+    const auto expected = std::move(outcomes);
+    Run(false, New(), {.count = 17});
+    ScanPlan plan = Again();
+    const FrameSelection rest = RestOf({}, BoxRoomSource({.count = 40}).info(), *plan.resumed);
+    EXPECT_EQ(rest.start, 17);
+    ExpectSame(Run(false, std::move(plan), {.count = 40}, rest.start), unbroken);
+    ASSERT_EQ(Reports().size(), 23u);
+    for (std::size_t i = 0; i < 23; ++i)
+        EXPECT_EQ(Reports()[i]->track.T_world_camera.matrix(), expected[17 + i].report.track.T_world_camera.matrix()) << i;
+    EXPECT_EQ(Content().path.size(), 40u);
+}
+
+TEST_F(Scan, LiveASavedScanIsGoneOnWith) {
+    const double speed = 1;
+    config.live.playback_speed = 1;
+    Run(true, New(), {.count = 20, .speed = speed});
+    const ScanContent first = Content();
+    ASSERT_GT(first.path.size(), 5u);
+    EXPECT_TRUE(first.finished);
+    Run(true, Again(), {.count = 40, .speed = speed}, first.progress.last_index + 1);
+    ASSERT_FALSE(Reports().empty());
+    for (const FrameReport* report : Reports()) {
+        EXPECT_FALSE(report->first);
+        ASSERT_TRUE(report->tracked()) << report->index << " " << report->track.reason;
+        EXPECT_LT(Error_m(*report, speed), 0.01) << report->index;
+    }
+    EXPECT_EQ(Content().path.size(), first.path.size() + Reports().size());
+}
+
+// After a gap nothing is believed but what fits well; the map does not change until then.
+TEST_F(Scan, AfterAGapTheCameraIsFoundWhereTheScanEndedAndNowhereElse) {
+    Run(false, New(), {.count = 20});
+    const BlockId blocks = Content().map->size();
+    // 13 s later, some turned and moved views, and then one near the last.
+    Run(false, Again(), {.count = 420, .speed = 6}, 400);
+    const auto tracked = std::ranges::count_if(Reports(), [](const FrameReport* report) { return report->tracked(); });
+    EXPECT_FALSE(Reports().front()->tracked());
+    EXPECT_LE(tracked, 10);
+    for (const FrameReport* report : Reports())
+        EXPECT_TRUE(!report->tracked() || Error_m(*report, 6) < 0.005) << report->index << " " << Error_m(*report, 6);
+    EXPECT_TRUE(tracked > 0 || Content().map->size() == blocks);
+    // Back where it ended: frame 19's view, at once.
+    config.scan.interval_s = 0.1;
+    Run(false, Again(), {.count = 30}, 15);
+    ASSERT_FALSE(Reports().empty());
+    EXPECT_TRUE(Reports().back()->fused);
+    EXPECT_LT(Error_m(*Reports().back()), 0.01);
+}
+
+TEST_F(Scan, AllFramesCanBeKeptAndReplayed) {
+    config.scan.frames = ScanConfig::Frames::kAll;
+    Run(false, New(), {.count = 8});
+    const auto replay = OpenSource(path, config);
+    ASSERT_TRUE(replay.ok()) << replay.message();
+    BoxRoomSource original({.count = 8});
+    EXPECT_EQ(replay.value()->info().frame_count, 8);
+    Frame expected, actual;
+    for (int i = 0; i < 8; ++i) {
+        original.Read(expected);
+        ASSERT_EQ(replay.value()->Read(actual).status, ReadStatus::kOk);
+        EXPECT_EQ(actual.stamp_s, expected.stamp_s);
+        EXPECT_TRUE(actual.T_world_camera->isApprox(*expected.T_world_camera));
+        for (std::size_t k = 0; k < actual.depth_m.size(); ++k)
+            ASSERT_NEAR(actual.depth_m.data()[k], expected.depth_m.data()[k], 0.5 / 5000 + 1e-6);
+    }
+    EXPECT_EQ(replay.value()->Read(actual).status, ReadStatus::kEnd);
+}
+
+TEST_F(Scan, WithoutFramesThereIsNothingToReplay) {
+    Run(false, New(), {.count = 4});
+    const auto replay = OpenSource(path, config);
+    ASSERT_FALSE(replay.ok());
+    EXPECT_NE(replay.message().find("scan.frames=all"), std::string::npos) << replay.message();
+}
+
+TEST_F(Scan, AResetBeginsTheFileAnew) {
+    ViewerLink link;
+    viewer = &link;
+    EngineInput input = Input({.count = 12});
+    input.scan = New();
+    engine = std::make_unique<LockstepEngine>(std::move(input));
+    for (int i = 0; i < 7; ++i) ASSERT_TRUE(Next());
+    Ask(Command::kReset);
+    TakeAll();
+    EXPECT_EQ(Content().path.size(), 5u);
+    EXPECT_EQ(Content().progress.frames, 5);
+}
+
+TEST_F(Scan, WhatContradictsTheFileIsRefusedByItsKey) {
+    Run(false, New(), {.count = 4});
+    ConfigParameters parameters;
+    RunConfig other;
+    other.Describe(parameters);
+    ASSERT_TRUE(TakeScanKeys(path, parameters).ok());
+    EXPECT_EQ(other.pipeline.map.voxel_size_m, 0.02);
+    EXPECT_TRUE(CheckScanKeys(path, parameters).ok());
+    ASSERT_TRUE(parameters.Set("mapping.voxel_size_m", "0.01").ok());
+    const Status refused = CheckScanKeys(path, parameters);
+    ASSERT_FALSE(refused.ok());
+    EXPECT_EQ(refused.message().find("mapping.voxel_size_m"), 0u) << refused.message();
+}
+
+TEST_F(Scan, OfTheSameRecordingOnlyTheRestIsRead) {
+    ScanContent scan;
+    scan.meta.source_name = "box room";
+    scan.progress.last_index = 17;
+    SourceInfo info;
+    info.name = "box room";
+    info.frame_count = 40;
+    const auto rest = [&](const FrameSelection& s) {
+        const FrameSelection r = RestOf(s, info, scan);
+        return std::array{r.start, r.count, r.stride};
+    };
+    using Rest = std::array<std::int64_t, 3>;
+    EXPECT_EQ(rest({}), (Rest{18, -1, 1}));
+    EXPECT_EQ(rest({0, 25, 1}), (Rest{18, 7, 1}));
+    EXPECT_EQ(rest({1, -1, 4}), (Rest{21, -1, 4}));
+    EXPECT_EQ(rest({30, -1, 1}), (Rest{30, -1, 1}));
+    EXPECT_EQ(rest({0, 10, 1})[1], 0);
+    info.frame_count = 18;
+    EXPECT_EQ(rest({})[1], 0);
+    info.name = "another";
+    EXPECT_EQ(rest({}), (Rest{0, -1, 1}));
+}
+
+}  // namespace
+}  // namespace tessera
