@@ -90,17 +90,23 @@ VoteCount VoteInBlock(const Voting& v, BlockId id, BlockMap& map) {
 }  // namespace
 
 VoteCount VoteLabels(const LabelImage& labels, std::span<const Ballot> ballots, const DepthImage& depth_m,
-                     const PinholeCamera& camera, const Eigen::Isometry3d& T_world_camera, double band_m, BlockMap& map) {
+                     const PinholeCamera& camera, const Eigen::Isometry3d& T_world_camera, double band_m, BlockMap& map,
+                     std::vector<BlockId>& voted) {
     const Voting voting{labels, ballots, depth_m, camera, T_world_camera.inverse(), band_m};
     const std::vector<BlockId> blocks = BlocksOf(voting, T_world_camera, map);
+    std::vector<std::uint8_t> got_votes(blocks.size());
     std::atomic<std::int64_t> voxels = 0, flips = 0;
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, blocks.size(), 16), [&](const auto& range) {
         for (std::size_t i = range.begin(); i < range.end(); ++i) {
             const VoteCount count = VoteInBlock(voting, blocks[i], map);
             voxels += count.voxels;
             flips += count.flips;
+            got_votes[i] = count.voxels > 0;
         }
     });
+    voted.clear();
+    for (std::size_t i = 0; i < blocks.size(); ++i)
+        if (got_votes[i]) voted.push_back(blocks[i]);
     return {voxels, flips};
 }
 

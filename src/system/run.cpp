@@ -12,6 +12,7 @@
 #include "system/lockstep_engine.h"
 #include "system/open_source.h"
 #include "system/run_output.h"
+#include "system/run_window.h"
 
 namespace tessera {
 namespace {
@@ -19,7 +20,7 @@ namespace {
 class Runner {
   public:
     Runner(const RunRequest& request, const RunConfig& config, const RunObserver& observer)
-        : request_(request), config_(config), observer_(observer) {}
+        : request_(request), config_(config), observer_(observer), window_(request.viewer) {}
 
     Result<RunSummary> Run(const std::atomic<bool>& stop) {
         if (Status status = Open(stop); !status.ok()) return status;
@@ -109,6 +110,7 @@ class Runner {
             case Kind::kSkipped: Skip(outcome.message); break;
             case Kind::kDropped: ++summary_.counts.frames, ++summary_.counts.dropped; break;
             case Kind::kMessage: Warn(outcome.message); break;
+            case Kind::kLabelsEnd: Warn(outcome.message), window_.EndLabels(); break;
             case Kind::kReset: return BeginAnew();
         }
         return Status::Ok();
@@ -121,7 +123,7 @@ class Runner {
         if (report.tracked()) estimate_.push_back({report.stamp_s, report.track.T_world_camera});
         const double frame_ms = frame_watch_.LapMs();
         AddTimes(outcome, frame_ms);
-        ShowFrame(outcome);
+        window_.Show(outcome, summary_.counts, TruthOf(outcome));
         if (outcome.labels)
             if (Status status = TakeLabels(*outcome.labels); !status.ok()) return status;
         return output_ ? output_->AddFrame(report, outcome.decode_ms, frame_ms) : Status::Ok();
@@ -133,6 +135,7 @@ class Runner {
         ++summary_.labels->frames;
         summary_.labels->detections += static_cast<std::int64_t>(report.detections.size());
         summary_.labels->flips += report.votes.flips;
+        window_.Show(report, class_names_);
         return output_ ? output_->AddDetections(report, class_names_) : Status::Ok();
     }
 
@@ -147,21 +150,10 @@ class Runner {
         if (request_.viewer != nullptr) times_.Add("mesh_update", outcome.mesh_ms);
     }
 
-    void ShowFrame(const FrameOutcome& outcome) {
-        if (request_.viewer == nullptr) return;
-        FrameUpdate update;
-        update.report = outcome.report;
-        if (outcome.T_world_camera_truth && !estimate_.empty() && !truth_.empty())
-            update.T_world_camera_truth = estimate_.front().T_world_camera *
-                                          truth_.front().T_world_camera.inverse() * *outcome.T_world_camera_truth;
-        update.decode_ms = outcome.decode_ms;
-        update.mesh_ms = outcome.mesh_ms;
-        update.latency_ms = outcome.latency_ms;
-        update.counts = summary_.counts;
-        update.dropped = summary_.counts.dropped;
-        update.queues = outcome.queues;
-        update.map = outcome.map;
-        request_.viewer->frames.Push(std::move(update));
+    // The source's truth in the map's world.
+    std::optional<Eigen::Isometry3d> TruthOf(const FrameOutcome& outcome) const {
+        if (!outcome.T_world_camera_truth || estimate_.empty() || truth_.empty()) return std::nullopt;
+        return estimate_.front().T_world_camera * truth_.front().T_world_camera.inverse() * *outcome.T_world_camera_truth;
     }
 
     // After a reset: the files, too, tell of the new world only.
@@ -251,6 +243,7 @@ class Runner {
         Stopwatch watch;
         const TriangleMesh mesh = engine_->TakeMesh();
         if (summary_.labels) summary_.labels->objects = engine_->objects();
+        if (summary_.labels) window_.ShowObjects(engine_->objects());
         times_.Add("mesh", watch.LapMs());
         return output_->WriteMesh(mesh);
     }
@@ -265,12 +258,13 @@ class Runner {
 
     void Warn(const std::string& text) {
         if (observer_.on_warning) observer_.on_warning(text);
-        if (request_.viewer != nullptr) request_.viewer->messages.Push(std::string(text));
+        window_.Say(text);
     }
 
     const RunRequest& request_;
     const RunConfig& config_;
     const RunObserver& observer_;
+    RunWindow window_;
     std::vector<StampedPose> truth_, estimate_;
     std::vector<std::string> pose_notes_;
     LabelClasses class_names_;

@@ -115,8 +115,10 @@ TEST(VoteLabels, OnlyTheBandAroundTheSurface) {
     for (int y = 50; y < 70; ++y)
         for (int x = 70; x < 90; ++x) labels.detection(x, y) = 1;
     const Ballot ballot{5, 3};
-    const VoteCount count = VoteLabels(labels, {&ballot, 1}, depth, kCamera, Eigen::Isometry3d::Identity(), 0.0151, map);
+    std::vector<BlockId> voted{7};
+    const VoteCount count = VoteLabels(labels, {&ballot, 1}, depth, kCamera, Eigen::Isometry3d::Identity(), 0.0151, map, voted);
     std::int64_t voxels = 0;
+    std::vector<BlockId> expected_blocks;
     for (BlockId id = 1; id < map.size(); ++id)
         for (int i = 0; i < kBlockVoxels; ++i) {
             const VoxelLabel& v = map.label(id)[i];
@@ -128,7 +130,9 @@ TEST(VoteLabels, OnlyTheBandAroundTheSurface) {
             EXPECT_EQ(v.count[0], expected) << z << " " << px << " " << py;
             EXPECT_EQ(v.instance, expected ? 3 : 0);
             voxels += expected;
+            if (expected && (expected_blocks.empty() || expected_blocks.back() != id)) expected_blocks.push_back(id);
         }
+    EXPECT_EQ(voted, expected_blocks);
     EXPECT_EQ(count.voxels, voxels);
     EXPECT_GT(voxels, 500);
 }
