@@ -13,19 +13,46 @@ ImU32 Packed(const Rgb8& c, unsigned alpha = 255) {
     return IM_COL32(c.r, c.g, c.b, alpha);
 }
 
-// Text on a plate with the colour's mark at its left; `at` is the lower left corner.
-void DrawPlate(ImDrawList& list, const ImVec2& at, const Rgb8& colour, const std::string& text, float opacity, bool lit) {
-    ImFont* const font = SmallFont();
-    const ImVec2 extent = font->CalcTextSizeA(font->FontSize, 1e4f, 0, text.c_str());
-    const auto alpha = [&](float full) { return static_cast<unsigned>(full * opacity); };
-    const float mark = Scaled(4), pad = Scaled(5), height = extent.y + Scaled(4);
-    const ImVec2 from{at.x, at.y - height}, to{at.x + mark + extent.x + 2 * pad, at.y};
-    list.AddRectFilled(from, to, IM_COL32(14, 16, 19, alpha(215)), Scaled(3));
-    list.AddRectFilled(from, {from.x + mark, to.y}, Packed(colour, alpha(255)), Scaled(3), ImDrawFlags_RoundCornersLeft);
-    if (lit) list.AddRect(from, to, IM_COL32(255, 255, 255, alpha(220)), Scaled(3));
-    list.AddText(font, font->FontSize, {from.x + mark + pad, from.y + Scaled(2)},
-                 (palette::kText & ~IM_COL32_A_MASK) | (alpha(255) << IM_COL32_A_SHIFT), text.c_str());
-}
+// Names on small plates with the colour's mark at their left, none over another: a later one goes up until it is free.
+class NamePlates {
+  public:
+    NamePlates(ImDrawList& list, float opacity) : list_(list), opacity_(opacity) {}
+
+    // `at` is the lower left corner.
+    void Draw(const ImVec2& at, const Rgb8& colour, const std::string& text, bool lit) {
+        ImFont* const font = SmallFont();
+        const ImVec2 extent = font->CalcTextSizeA(font->FontSize, 1e4f, 0, text.c_str());
+        const float mark = Scaled(4), pad = Scaled(4), height = extent.y + Scaled(3);
+        const ImVec4 plate = FreePlace({at.x, at.y - height, at.x + mark + extent.x + 2 * pad, at.y});
+        const ImVec2 from{plate.x, plate.y}, to{plate.z, plate.w};
+        const auto alpha = [&](float full) { return static_cast<unsigned>(full * opacity_); };
+        list_.AddRectFilled(from, to, IM_COL32(14, 16, 19, alpha(215)), Scaled(3));
+        list_.AddRectFilled(from, {from.x + mark, to.y}, Packed(colour, alpha(255)), Scaled(3), ImDrawFlags_RoundCornersLeft);
+        if (lit) list_.AddRect(from, to, IM_COL32(255, 255, 255, alpha(220)), Scaled(3));
+        list_.AddText(font, font->FontSize, {from.x + mark + pad, from.y + Scaled(1)},
+                      (palette::kText & ~IM_COL32_A_MASK) | (alpha(255) << IM_COL32_A_SHIFT), text.c_str());
+    }
+
+  private:
+    ImVec4 FreePlace(ImVec4 plate) {
+        const float height = plate.w - plate.y;
+        const auto in_the_way = [&](const ImVec4& other) {
+            return plate.x < other.z && other.x < plate.z && plate.y < other.w && other.y < plate.w;
+        };
+        // Each move is past one of the plates, so that this ends.
+        for (auto other = std::ranges::find_if(drawn_, in_the_way); other != drawn_.end();
+             other = std::ranges::find_if(drawn_, in_the_way)) {
+            plate.w = other->y - 1;
+            plate.y = plate.w - height;
+        }
+        drawn_.push_back(plate);
+        return plate;
+    }
+
+    ImDrawList& list_;
+    float opacity_;
+    std::vector<ImVec4> drawn_;
+};
 
 void DrawDetector(const ViewerState& state) {
     const SystemView& system = state.system;
@@ -47,7 +74,7 @@ void DrawRow(ViewerState& state, SceneView& scene, const MapObject& object) {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
     const std::string name = fmt::format("object.{}", object.id);
-    if (ImGui::Selectable(fmt::format("    {} {}##{}", object.id, object.class_name, name).c_str(),
+    if (ImGui::Selectable(fmt::format("      {} {}##{}", object.id, object.class_name, name).c_str(),
                           state.selected_object == object.id, ImGuiSelectableFlags_SpanAllColumns)) {
         state.selected_object = object.id;
         state.view.follow = state.view.keep_all = false;
@@ -88,7 +115,7 @@ void DrawObjectsPanel(ViewerState& state, SceneView& scene) {
     ImGui::PopFont();
 }
 
-// Farther ones first, so that the nearest is read best.
+// Nearer ones first: they get the place that they want.
 void DrawObjectNames(const ViewerState& state, const SceneView& scene, const ControlRect& area) {
     if (!state.view.show_objects) return;
     struct Name {
@@ -98,14 +125,15 @@ void DrawObjectNames(const ViewerState& state, const SceneView& scene, const Con
     std::vector<Name> names;
     for (const MapObject& object : state.system.objects())
         if (const auto pixel = scene.PixelOf(object.T_world_oriented.translation())) names.push_back({*pixel, &object});
-    std::ranges::stable_sort(names, std::greater{}, [](const Name& name) { return name.pixel.z(); });
+    std::ranges::stable_sort(names, {}, [](const Name& name) { return name.pixel.z(); });
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const ImVec2 scale = ImGui::GetIO().DisplayFramebufferScale;
     list.PushClipRect({area.x, area.y}, {area.x + area.width, area.y + area.height}, true);
+    NamePlates plates(list, 1);
     for (const auto& [pixel, object] : names) {
         const ImVec2 at{area.x + static_cast<float>(pixel.x()) / scale.x, area.y + static_cast<float>(pixel.y()) / scale.y};
-        DrawPlate(list, at, object->colour, fmt::format("{} {}", object->class_name, object->id), 1,
-                  object->id == state.selected_object);
+        plates.Draw(at, object->colour, fmt::format("{} {}", object->class_name, object->id),
+                    object->id == state.selected_object);
     }
     list.PopClipRect();
 }
@@ -128,9 +156,9 @@ void DrawDetections(const ViewerState& state, const ImVec2& from, const ImVec2& 
         const ImVec2 high{from.x + x_scale * (shown.box.x_max + 1), from.y + y_scale * (shown.box.y_max + 1)};
         list.AddRect(low, high, Packed(shown.colour, static_cast<unsigned>(255 * opacity)), Scaled(2), 0, Scaled(1.5f));
     }
+    NamePlates plates(list, opacity);
     for (const LabelUpdate::Shown& shown : labels.detections)
-        DrawPlate(list, {from.x + x_scale * shown.box.x_min, from.y + y_scale * shown.box.y_min}, shown.colour, shown.name,
-                  opacity, false);
+        plates.Draw({from.x + x_scale * shown.box.x_min, from.y + y_scale * shown.box.y_min}, shown.colour, shown.name, false);
     list.PopClipRect();
 }
 
