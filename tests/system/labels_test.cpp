@@ -54,22 +54,28 @@ class LabelsTest : public testing::Test {
         std::vector<MapObject> objects;
         while (link.objects.TryPop(objects)) told.push_back(std::move(objects));
     }
-    // What was once told of under a number is at the same place ever after, unless it went for good.
+    // What was once told of under a number is at the same place ever after, unless it went for good; then no new number
+    // stands there.
     void ExpectConstantNumbers() const {
         ASSERT_GE(told.size(), 2u);
-        std::map<int, Eigen::Vector3d> places;
+        const auto distance_m = [](const MapObject& a, const MapObject& b) { return (a.centroid - b.centroid).norm(); };
+        std::map<int, MapObject> places;
         std::set<int> gone;
         for (const auto& objects : told) {
             std::set<int> here;
             for (const MapObject& o : objects) {
                 here.insert(o.id);
                 EXPECT_FALSE(gone.contains(o.id)) << o.id;
-                const auto [place, is_new] = places.try_emplace(o.id, o.centroid);
-                EXPECT_LT((place->second - o.centroid).norm(), 0.12) << "object " << o.id;
-                place->second = o.centroid;
+                const auto [place, is_new] = places.try_emplace(o.id, o);
+                EXPECT_LT(distance_m(place->second, o), 0.12) << "object " << o.id;
+                place->second = o;
             }
-            for (const auto& [id, place] : places)
+            for (const auto& [id, object] : places)
                 if (!here.contains(id)) gone.insert(id);
+            for (const MapObject& o : objects)
+                for (const int id : gone)
+                    EXPECT_FALSE(id < o.id && places[id].class_id == o.class_id && distance_m(places[id], o) < 0.03)
+                        << "object " << id << " became " << o.id;
         }
         EXPECT_FALSE(told.back().empty());
     }

@@ -10,15 +10,17 @@
 namespace tessera {
 namespace {
 
-// Sees one thing on the wall: for a while it takes it for a cup, then for ever for a book.
+// Sees one thing on the wall: for a while it takes it for a cup, then for ever for a book, of which it sees the left half.
 class FickleDetector : public Detector {
   public:
     Result<std::vector<Detection>> Detect(const Frame& frame) override {
         Detection d;
-        d.name = seen_++ < kCups ? "cup" : "book";
+        const bool cup = seen_++ < kCups;
+        d.name = cup ? "cup" : "book";
         d.probability = 0.9f;
-        d.box = {30, 20, 89, 69};
-        d.mask = Image<std::uint8_t>(60, 50, 1);
+        const int width = cup ? 60 : 34;
+        d.box = {30, 20, 29.0f + static_cast<float>(width), 69};
+        d.mask = Image<std::uint8_t>(width, 50, 1);
         EXPECT_GE(frame.colour.width(), 90);
         return std::vector<Detection>{d};
     }
@@ -90,7 +92,7 @@ class ViewerFeedTest : public EngineTest {
     std::vector<std::vector<MapObject>> sent;
 };
 
-// The object is confirmed, then changes its class, with parts of it out of view: what was sent block by block is at any
+// The object is confirmed, then changes its class, while one half gets no votes: what was sent block by block is at any
 // time what the whole mesh says.
 TEST_F(ViewerFeedTest, ColoursByLabelAreThoseOfTheMesh) {
     MakeLabelled(30);
