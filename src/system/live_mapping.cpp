@@ -91,7 +91,7 @@ void LiveEngine::TakeLabels() {
     LabellingThread::Answer answer;
     while (labelling_->TryTake(answer)) {
         LabellingThread::Job& job = answer.job;
-        if (!answer.message.empty()) Tell(FrameOutcome::Kind::kMessage, answer.message);
+        if (!answer.message.empty()) Tell(FrameOutcome::Kind::kLabelsEnd, answer.message);
         if (answer.message.empty() && job.map.world == mapped_world_) {
             Stopwatch watch;
             Carry(corrections_, job.map.corrections, job.T_world_camera);

@@ -1,7 +1,5 @@
 #include "system/viewer_feed.h"
 
-#include "core/stopwatch.h"
-
 namespace tessera {
 
 double ViewerFeed::Send(const Frame& frame, const FrameReport& report, MappingStage& mapping) {
@@ -17,7 +15,18 @@ double ViewerFeed::SendMesh(MappingStage& mapping) {
     MeshUpdate update;
     mapping.UpdateMesh(mesh_blocks_, update);
     if (update.clear || !update.blocks.empty()) viewer_->meshes.TryPush(std::move(update));
+    SendObjects(mapping);
     return watch.LapMs();
+}
+
+// A person needs them twice a second at most.
+void ViewerFeed::SendObjects(const MappingStage& mapping) {
+    constexpr double kPeriodMs = 500;
+    if (mapping.labels_revision() == objects_revision_ || !viewer_->objects.empty()) return;
+    if (since_objects_ && since_objects_->ElapsedMs() < kPeriodMs) return;
+    objects_revision_ = mapping.labels_revision();
+    viewer_->objects.Push(mapping.MeasureObjects());
+    since_objects_.emplace();
 }
 
 void ViewerFeed::SendImages(const Frame& frame, const FrameReport& report, const MappingStage& mapping) {

@@ -1,7 +1,8 @@
-// Feeds the window from the thread that owns the map: meshes and pictures, as fast as the window takes them and no
-// faster.
+// Feeds the window from the thread that owns the map: meshes, objects and pictures, as fast as the window takes them and
+// no faster.
 #pragma once
 
+#include "core/stopwatch.h"
 #include "system/mapping_stage.h"
 #include "system/viewer_link.h"
 
@@ -18,15 +19,18 @@ class ViewerFeed {
     // Whether pictures of the map are wanted along with the frame.
     void ShowPrediction(bool on) { show_prediction_ = on; }
 
-    // What changed since, also without a frame.
+    // What changed since, of mesh and objects, also without a frame.
     double SendMesh(MappingStage& mapping);
 
   private:
+    void SendObjects(const MappingStage& mapping);
     void SendImages(const Frame& frame, const FrameReport& report, const MappingStage& mapping);
 
     ViewerLink* viewer_;
     int mesh_blocks_;
     bool show_prediction_ = true;
+    std::uint64_t objects_revision_ = 0;  // of the labels, when objects were last sent
+    std::optional<Stopwatch> since_objects_;
 };
 
 }  // namespace tessera

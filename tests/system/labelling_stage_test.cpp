@@ -81,6 +81,7 @@ TEST_P(LabellingStageTest, InLockstepTheScanGoesOn) {
     for (const FrameReport* report : Reports()) EXPECT_TRUE(report->tracked());
     EXPECT_EQ(Labelled(), 3);
     EXPECT_EQ(TimesSaid(), 1);
+    EXPECT_EQ(Count(Kind::kLabelsEnd), 1);
 }
 
 TEST_P(LabellingStageTest, LiveTheScanGoesOn) {
