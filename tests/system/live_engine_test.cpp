@@ -92,7 +92,7 @@ TEST_F(Live, BadFramesWaitsAndABrokenSourceAreTold) {
 TEST_F(Live, ARecordingThatFailsEndsAloneAndIsTold) {
     TempFolder folder;
     EngineInput input = Input({.count = 20, .before_read = [&](std::int64_t i) -> ReadResult {
-                                   if (i == 5) std::filesystem::remove_all(folder / "raw");
+                                   if (i == 5) std::filesystem::rename(folder / "raw", folder / "gone");
                                    return {};
                                }});
     input.config.live.queue_frames = 30;
