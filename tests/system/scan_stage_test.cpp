@@ -84,6 +84,7 @@ TEST_F(Scan, AResumedRunIsTheUnbrokenOne) {
 TEST_F(Scan, LiveASavedScanIsGoneOnWith) {
     const double speed = 1;
     config.live.playback_speed = 1;
+    config.live.queue_frames = 30;  // no frame is dropped, however slow the machine
     Run(true, New(), {.count = 20, .speed = speed});
     const ScanContent first = Content();
     ASSERT_GT(first.path.size(), 5u);
