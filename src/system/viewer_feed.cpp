@@ -1,9 +1,14 @@
 #include "system/viewer_feed.h"
 
+#include <cmath>
+
+#include "core/stopwatch.h"
+
 namespace tessera {
 
 double ViewerFeed::Send(const Frame& frame, const FrameReport& report, MappingStage& mapping) {
     if (viewer_ == nullptr) return 0;
+    stamp_s_ = frame.stamp_s;
     SendImages(frame, report, mapping);
     return SendMesh(mapping);
 }
@@ -19,14 +24,14 @@ double ViewerFeed::SendMesh(MappingStage& mapping) {
     return watch.LapMs();
 }
 
-// A person needs them twice a second at most.
+// A person needs them twice a second at most; by the frames' stamps, so that lockstep sends the same on every run.
 void ViewerFeed::SendObjects(const MappingStage& mapping) {
-    constexpr double kPeriodMs = 500;
+    constexpr double kPeriod_s = 0.5;
     if (mapping.labels_revision() == objects_revision_ || !viewer_->objects.empty()) return;
-    if (since_objects_ && since_objects_->ElapsedMs() < kPeriodMs) return;
+    if (objects_stamp_s_ && std::abs(stamp_s_ - *objects_stamp_s_) < kPeriod_s) return;
     objects_revision_ = mapping.labels_revision();
     viewer_->objects.Push(mapping.MeasureObjects());
-    since_objects_.emplace();
+    objects_stamp_s_ = stamp_s_;
 }
 
 void ViewerFeed::SendImages(const Frame& frame, const FrameReport& report, const MappingStage& mapping) {

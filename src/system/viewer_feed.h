@@ -2,7 +2,6 @@
 // no faster.
 #pragma once
 
-#include "core/stopwatch.h"
 #include "system/mapping_stage.h"
 #include "system/viewer_link.h"
 
@@ -30,7 +29,8 @@ class ViewerFeed {
     int mesh_blocks_;
     bool show_prediction_ = true;
     std::uint64_t objects_revision_ = 0;  // of the labels, when objects were last sent
-    std::optional<Stopwatch> since_objects_;
+    double stamp_s_ = 0;                  // of the last frame
+    std::optional<double> objects_stamp_s_;  // when objects were last sent
 };
 
 }  // namespace tessera

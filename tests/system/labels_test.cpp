@@ -67,10 +67,7 @@ class LabelsTest : public testing::Test {
                 here.insert(o.id);
                 EXPECT_FALSE(gone.contains(o.id)) << o.id;
                 const auto [place, is_new] = places.try_emplace(o.id, o);
-                // How much of an object came into view between two messages depends on the machine's speed: its middle may
-                // move by half its length, and no more.
-                const double length_m = std::max(o.oriented_size.maxCoeff(), place->second.oriented_size.maxCoeff());
-                EXPECT_LT(distance_m(place->second, o), std::max(0.12, length_m / 2)) << "object " << o.id;
+                EXPECT_LT(distance_m(place->second, o), 0.12) << "object " << o.id;
                 place->second = o;
             }
             for (const auto& [id, object] : places)
