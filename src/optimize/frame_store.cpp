@@ -36,14 +36,20 @@ Status FrameStore::Add(const Frame& frame, int keyframe, bool is_keyframe, const
     return Status::Ok();
 }
 
+const StoredFrame* FrameStore::Find(std::int64_t frame_index) const {
+    const auto own = std::ranges::lower_bound(frames_, first_own_, {}, &StoredFrame::ordinal);
+    const auto frame = std::ranges::lower_bound(own, frames_.end(), frame_index, {}, &StoredFrame::frame_index);
+    return frame != frames_.end() && frame->frame_index == frame_index ? &*frame : nullptr;
+}
+
 void FrameStore::AddDetections(std::int64_t frame_index, std::vector<Detection> detections) {
-    const auto frame = std::ranges::lower_bound(frames_, frame_index, {}, &StoredFrame::frame_index);
-    if (frame != frames_.end() && frame->frame_index == frame_index) frame->detections = std::move(detections);
+    if (const StoredFrame* frame = Find(frame_index))
+        frames_[static_cast<std::size_t>(frame - frames_.data())].detections = std::move(detections);
 }
 
 void FrameStore::Resume(std::vector<StoredFrame> frames, std::int64_t next_ordinal) {
     frames_ = std::move(frames);
-    next_ordinal_ = next_ordinal;
+    next_ordinal_ = first_own_ = next_ordinal;
     for (const StoredFrame& f : frames_) bytes_ += f.bytes();
     while (bytes_ > limit_bytes_ && stride_ < (1 << 20)) Thin();
 }

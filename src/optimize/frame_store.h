@@ -42,13 +42,15 @@ class FrameStore {
     // `T_keyframe_camera` is the identity for the keyframe's own frame. Errors: what the encoder refuses.
     Status Add(const Frame& frame, int keyframe, bool is_keyframe, const Eigen::Isometry3d& T_keyframe_camera,
                const Integrator::View& view);
-    // To a frame added before, if it is still there.
+    // To a frame added before, by this process, if it is still there.
     void AddDetections(std::int64_t frame_index, std::vector<Detection> detections);
     // Before the first Add: goes on with frames of an earlier one, by increasing ordinal.
     void Resume(std::vector<StoredFrame> frames, std::int64_t next_ordinal);
     // Index (the ordinal), colour and depth, into storage that is used again; the rest of `frame` stays.
     Status Load(const StoredFrame& stored, Frame& frame);
 
+    // A frame added by this process, by its index; null if it is not kept.
+    const StoredFrame* Find(std::int64_t frame_index) const;
     // By increasing ordinal.
     const std::vector<StoredFrame>& frames() const { return frames_; }
     std::int64_t next_ordinal() const { return next_ordinal_; }
@@ -66,6 +68,7 @@ class FrameStore {
     std::size_t limit_bytes_, bytes_ = 0;
     double depth_units_per_m_;
     std::int64_t next_ordinal_ = 0;
+    std::int64_t first_own_ = 0;  // ordinal: what is before it was resumed; a source may count anew
     int stride_ = 1;
     std::vector<StoredFrame> frames_;
     PngEncoder encoder_;

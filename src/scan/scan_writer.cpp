@@ -9,7 +9,6 @@ namespace tessera {
 
 void ScanCheckpoint::Clear() {
     clear_all = clear_blocks = finished = false;
-    first_path = 0;
     path.clear();
     frames.clear();
     raw_frames.clear();
@@ -39,9 +38,8 @@ Status ScanWriter::PutRows(const ScanCheckpoint& c) {
     std::ranges::sort(order_);
     for (const auto& [block_key, i] : order_)
         if (Status status = file_->Put(ScanTable::kBlocks, block_key, codec_.Encode(c.blocks, i)); !status.ok()) return status;
-    std::int64_t key = c.first_path;
-    for (const PathRecord& record : c.path)
-        if (Status status = file_->Put(ScanTable::kPath, key++, record.Encode()); !status.ok()) return status;
+    for (const auto& [number, record] : c.path)
+        if (Status status = file_->Put(ScanTable::kPath, number, record.Encode()); !status.ok()) return status;
     for (const auto& [number, record] : c.frames)
         if (Status status = file_->Put(ScanTable::kFrames, number, record.Encode()); !status.ok()) return status;
     for (const auto& [number, frame] : c.raw_frames) {

@@ -17,10 +17,9 @@ struct ScanCheckpoint {
     bool clear_all = false;     // a new world: nothing that was written before holds
     bool clear_blocks = false;  // another map: `blocks` are all of it
     BlockCopies blocks;
-    std::int64_t first_path = 0;
-    std::vector<PathRecord> path;
+    std::vector<std::pair<std::int64_t, PathRecord>> path;  // new ones, and those whose place is known better now
     std::vector<std::pair<std::int64_t, FrameRecord>> frames;
-    std::vector<std::pair<std::int64_t, std::unique_ptr<Frame>>> raw_frames;  // to be compressed by the writer
+    std::vector<std::pair<std::int64_t, std::unique_ptr<Frame>>> raw_frames;  // to be compressed by the writer; not also in `frames`
     std::vector<Keyframe> keyframes;  // new ones
     std::vector<std::pair<int, KeyframePoses>> poses;
     ScanProgress progress;

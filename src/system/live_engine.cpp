@@ -33,8 +33,9 @@ LiveEngine::LiveEngine(EngineInput input)
         mapping_done_.store(true);
         return;
     }
-    if (config_.loops.enabled) BeginLoops(input.labelling);
+    std::optional<LoopCloser::Labels> labels;
     if (input.labelling.detector) {
+        labels = LoopCloser::Labels{config_.labels, input.labelling.classes};
         mapping_.EnableLabels(config_.labels, input.labelling.classes);
         labelling_ = std::make_unique<LabellingThread>(LabellingStage(std::move(input.labelling.detector),
                                                                       std::move(input.labelling.classes), config_.labels),
@@ -45,15 +46,16 @@ LiveEngine::LiveEngine(EngineInput input)
         mapping_done_.store(true);
         return;
     }
+    if (config_.loops.enabled) BeginLoops(std::move(labels));
     reading_thread_ = std::jthread([this] { ReadFrames(); });
     tracking_thread_ = std::jthread([this] { TrackFrames(); });
     mapping_thread_ = std::jthread([this] { MapFrames(); });
 }
 
-void LiveEngine::BeginLoops(const Labelling& labelling) {
+void LiveEngine::BeginLoops(std::optional<LoopCloser::Labels> labels) {
     LoopThread::Settings settings{config_.loops, FieldSettingsOf(config_.pipeline, source_.camera), source_.depth_units_per_m,
-                                  std::nullopt};
-    if (labelling.detector) settings.labels = LoopCloser::Labels{config_.labels, labelling.classes};
+                                  std::move(labels), scan_.has_value(), std::nullopt};
+    if (scan_) settings.resumed = scan_->TakeLoops();
     loops_ = std::make_unique<LoopThread>(std::move(settings),
                                           LoopThread::Surroundings{frame_pool_, tracked_pool_, mapping_wake_, tracking_wake_});
 }
@@ -63,9 +65,10 @@ Status LiveEngine::BeginScan(ScanPlan plan) {
     if (plan.resumed) {
         saved_tracking_ = plan.resumed->tracking;
         saved_pose_ = plan.resumed->LastPose();
+        saved_stamp_s_ = plan.resumed->progress.last_stamp_s;
     }
-    scan_.emplace(std::move(plan), config_.scan, false);
-    if (Status status = scan_->Resume(mapping_, nullptr); !status.ok()) return status;
+    scan_.emplace(std::move(plan), config_.scan, false, config_.loops.enabled);
+    if (Status status = scan_->Resume(mapping_); !status.ok()) return status;
     if (mapping_.map().size() == 1) return Status::Ok();
     MapNews whole{delta_pool_.Take(), 0, nullptr};
     mapping_.CollectWhole(*whole.delta);

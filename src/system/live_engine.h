@@ -73,7 +73,7 @@ class LiveEngine : public Engine {
         bool asked = false;  // where a lost camera is
     };
 
-    void BeginLoops(const Labelling& labelling);
+    void BeginLoops(std::optional<LoopCloser::Labels> labels);
     Status BeginScan(ScanPlan plan);
 
     // A frame's life, a function a thread: live_engine.cpp, live_tracking.cpp, live_mapping.cpp.
@@ -100,8 +100,9 @@ class LiveEngine : public Engine {
     void Save(const Task& task, FrameOutcome& outcome);
     void Offer(Task& task);
     void TakeLabels();
-    bool CorrectionFits() const;
-    void TakeCorrection();
+    bool UpdateFits() const;
+    void TakeLoops();
+    void TakeUpdate(LoopThread::Update update, bool last);
     void EndLoops();
     void TellLoopNews();
     void ObeyInMapping(const ViewerCommand& command);
@@ -120,6 +121,7 @@ class LiveEngine : public Engine {
     ResumeGate gate_;              // tracking's
     Bytes saved_tracking_;         // tracking's, of a resumed scan
     std::optional<StampedPose> saved_pose_;  // the same
+    std::optional<double> saved_stamp_s_;    // the same: of its last frame
     ViewerFeed feed_;              // mapping's
     Status status_;                // reading's; the owner's once all have ended
     bool stopped_ = false;         // the same

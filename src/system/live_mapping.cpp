@@ -8,11 +8,10 @@ namespace tessera {
 void LiveEngine::MapFrames() {
     while (true) {
         mapping_wake_.Wait([&] {
-            return !tasks_.empty() || tracking_done_.load() || (labelling_ && labelling_->has_answer()) || CorrectionFits();
+            return !tasks_.empty() || tracking_done_.load() || (labelling_ && labelling_->has_answer()) || UpdateFits();
         });
         if (labelling_) TakeLabels();
-        if (CorrectionFits()) TakeCorrection();
-        TellLoopNews();
+        if (loops_) TakeLoops();
         Task task;
         if (tasks_.TryPop(task)) {
             tracking_wake_.Notify();
@@ -26,7 +25,7 @@ void LiveEngine::MapFrames() {
     }
     if (loops_) EndLoops();
     if (scan_) {
-        scan_->Finish(mapping_, nullptr);
+        scan_->Finish(mapping_);
         while (const auto message = scan_->TakeMessage()) Tell(FrameOutcome::Kind::kMessage, *message);
     }
     mapping_done_.store(true);
@@ -65,8 +64,10 @@ void LiveEngine::MapFrame(Task& task) {
 }
 
 void LiveEngine::Save(const Task& task, FrameOutcome& outcome) {
-    scan_->AfterFrame(*task.frame, *task.tracked, mapping_, nullptr, 0);
-    outcome.scan_ms = scan_->last_ms();
+    Stopwatch watch;
+    scan_->AddFrame(*task.frame, *task.tracked, 0);
+    scan_->SaveIfDue(mapping_);
+    outcome.scan_ms = watch.LapMs();
     while (const auto message = scan_->TakeMessage()) Tell(FrameOutcome::Kind::kMessage, *message);
 }
 
@@ -107,43 +108,52 @@ void LiveEngine::TakeLabels() {
 }
 
 // There is room: each news answers a frame that tracking handed over after it had taken all news before; corrections have
-// room of their own (CorrectionFits).
+// room of their own (UpdateFits).
 void LiveEngine::SendMapNews() {
     MapNews news{delta_pool_.Take(), mapped_world_, nullptr};
     mapping_.CollectDelta(*news.delta);
     TESSERA_CHECK(map_news_.TryPush(std::move(news)), "more news of the map than frames");
 }
 
-bool LiveEngine::CorrectionFits() const {
-    return loops_ && loops_->has_correction() && map_news_.size() < kCorrections;
+bool LiveEngine::UpdateFits() const {
+    return loops_ && loops_->has_update() && map_news_.size() < kCorrections;
 }
 
-// The map in its new place, for mapping and for tracking.
-void LiveEngine::TakeCorrection() {
-    LoopThread::Correction correction;
-    if (!loops_->TryTake(correction) || correction.world != mapped_world_) return;
-    mapping_.Replace(std::move(correction.change.map), std::move(correction.change.labels));
-    corrections_.push_back(correction.change.T_new_old);
-    MapNews news{nullptr, mapped_world_, std::move(correction.field), correction.change.T_new_old};
-    TESSERA_CHECK(map_news_.TryPush(std::move(news)), "more corrections than there is room for");
-    Tell(FrameOutcome::Kind::kMessage, "map corrected");
-    feed_.SendMesh(mapping_);
+void LiveEngine::TakeLoops() {
+    LoopThread::Update update;
+    while (UpdateFits() && loops_->TryTake(update)) TakeUpdate(std::move(update), false);
+    TellLoopNews();
+}
+
+// The map in its new place, for mapping, for tracking unless it has ended, and for the scan.
+void LiveEngine::TakeUpdate(LoopThread::Update update, bool last) {
+    if (update.world != mapped_world_) return;
+    if (update.correction) {
+        const Eigen::Isometry3d& T_new_old = update.correction->T_new_old;
+        mapping_.Replace(std::move(update.correction->map), std::move(update.correction->labels));
+        corrections_.push_back(T_new_old);
+        if (scan_) scan_->Move(T_new_old);
+        if (!last)
+            TESSERA_CHECK(map_news_.TryPush({nullptr, mapped_world_, std::move(update.field), T_new_old}),
+                          "more corrections than there is room for");
+        Tell(FrameOutcome::Kind::kMessage, "map corrected");
+        feed_.SendMesh(mapping_);
+    }
+    if (scan_) scan_->AddLoops(std::move(update.news));
 }
 
 // The run is at its end: what is still to be corrected is waited for.
 void LiveEngine::EndLoops() {
     if (quit_.load()) return;
     loops_->Finish();
-    LoopThread::Correction correction;
-    while (loops_->TryTake(correction))
-        if (correction.world == mapped_world_)
-            mapping_.Replace(std::move(correction.change.map), std::move(correction.change.labels));
+    LoopThread::Update update;
+    while (loops_->TryTake(update)) TakeUpdate(std::move(update), true);
     TellLoopNews();
 }
 
 void LiveEngine::TellLoopNews() {
     std::string news;
-    while (loops_ && loops_->TryTakeNews(news)) Tell(FrameOutcome::Kind::kMessage, news);
+    while (loops_->TryTakeNews(news)) Tell(FrameOutcome::Kind::kMessage, news);
 }
 
 void LiveEngine::ObeyInMapping(const ViewerCommand& command) {

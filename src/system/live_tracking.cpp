@@ -11,7 +11,8 @@ using Milliseconds = std::chrono::duration<double, std::milli>;
 
 void LiveEngine::TrackFrames() {
     TrackingState state(config_, source_.camera);
-    gate_.Begin(saved_tracking_, saved_pose_, true, state.stage);
+    gate_.Begin(saved_tracking_, saved_pose_, loops_ == nullptr, state.stage);
+    if (saved_stamp_s_) state.lost.Resume(*saved_stamp_s_);
     while (true) {
         tracking_wake_.Wait([&] { return !commands_.empty() || !new_frames_.empty() || reading_done_.load(); });
         ViewerCommand command;

@@ -31,13 +31,16 @@ LockstepEngine::LockstepEngine(EngineInput input)
 }
 
 Status LockstepEngine::StartScan(ScanPlan plan) {
-    LoopStage* loops = loops_ ? &*loops_ : nullptr;
+    double last_stamp_s = 0;
     if (plan.resumed) {
-        gate_.Begin(plan.resumed->tracking, plan.resumed->LastPose(), loops == nullptr, tracking_);
+        gate_.Begin(plan.resumed->tracking, plan.resumed->LastPose(), !loops_, tracking_);
         fused_frames_ = plan.resumed->progress.labelled_frames;
+        last_stamp_s = plan.resumed->progress.last_stamp_s;
     }
-    scan_.emplace(std::move(plan), config_.scan, true);
-    return scan_->Resume(mapping_, loops);
+    scan_.emplace(std::move(plan), config_.scan, true, loops_.has_value());
+    if (Status status = scan_->Resume(mapping_); !status.ok()) return status;
+    if (auto memory = scan_->TakeLoops(); memory && loops_) loops_->Resume(std::move(*memory), last_stamp_s);
+    return Status::Ok();
 }
 
 bool LockstepEngine::Next(FrameOutcome& outcome) {
@@ -62,7 +65,8 @@ bool LockstepEngine::Next(FrameOutcome& outcome) {
     if (reader_) reader_->RequestStop();
     recorder_.Stop();
     if (loops_) loops_->Finish(mapping_);
-    if (scan_) scan_->Finish(mapping_, loops_ ? &*loops_ : nullptr);
+    if (scan_ && loops_) scan_->AddLoops(loops_->TakeNews());
+    if (scan_) scan_->Finish(mapping_);
     return TakeMessage(outcome);
 }
 
@@ -84,11 +88,14 @@ void LockstepEngine::Process(FrameOutcome& outcome) {
 }
 
 void LockstepEngine::Save(FrameOutcome& outcome) {
+    Stopwatch watch;
     tracked_.tracking_state.clear();
     StateWriter state(tracked_.tracking_state);
     tracking_.SaveState(state);
-    scan_->AfterFrame(frame_, tracked_, mapping_, loops_ ? &*loops_ : nullptr, fused_frames_);
-    outcome.scan_ms = scan_->last_ms();
+    scan_->AddFrame(frame_, tracked_, fused_frames_);
+    if (loops_) scan_->AddLoops(loops_->TakeNews());
+    scan_->SaveIfDue(mapping_);
+    outcome.scan_ms = watch.LapMs();
 }
 
 void LockstepEngine::Label(FrameOutcome& outcome) {

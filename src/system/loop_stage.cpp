@@ -35,6 +35,7 @@ LoopStage::LoopStage(const LoopConfig& config, const PipelineConfig& pipeline, c
 
 void LoopStage::Resume(LoopCloser::Memory memory, double last_stamp_s) {
     closer_.Resume(std::move(memory));
+    journal_.Begin(closer_);
     camera_.Resume(last_stamp_s);
 }
 

@@ -5,6 +5,7 @@
 #include "io/frame_source.h"
 #include "optimize/loop_closer.h"
 #include "system/labelling_stage.h"
+#include "system/loop_journal.h"
 #include "system/lost_camera.h"
 #include "system/mapping_stage.h"
 #include "system/tracking_stage.h"
@@ -35,12 +36,14 @@ class LoopStage {
     void Finish(MappingStage& mapping);
 
     std::vector<StampedPose> Path() const { return closer_.Path(); }
-    const LoopCloser& closer() const { return closer_; }
+    // For a scan file.
+    LoopNews TakeNews() { return journal_.Take(closer_); }
 
   private:
     LoopConfig config_;
     LostCamera camera_;
     LoopCloser closer_;
+    LoopJournal journal_;
     bool finished_ = false;
     double lost_ms_ = 0;  // of the present frame
 };

@@ -5,6 +5,8 @@
 #include <tbb/task_arena.h>
 #include <unistd.h>
 
+#include <utility>
+
 #include "core/check.h"
 #include "mapping/map_delta.h"
 
@@ -23,9 +25,13 @@ LoopThread::LoopThread(Settings settings, Surroundings surroundings)
     : settings_(std::move(settings)),
       around_(surroundings),
       answers_(2, around_.tracking),
-      corrections_(kCorrections + 1, around_.mapping),
+      updates_(kUpdates, around_.mapping),
       news_(64, around_.mapping) {
     BeginWorld(0);
+    if (auto memory = std::exchange(settings_.resumed, std::nullopt)) {
+        closer_->Resume(std::move(*memory));
+        journal_.Begin(*closer_);
+    }
     thread_ = std::jthread([this] {
         StandBack();
         tbb::task_arena(1).execute([this] { Work(); });
@@ -75,8 +81,8 @@ void LoopThread::Reset(MapVersion map) {
     around_.mapping.Wait([&] { return jobs_.TryPush(std::move(job)); });
 }
 
-bool LoopThread::TryTake(Correction& correction) {
-    if (!corrections_.TryPop(correction)) return false;
+bool LoopThread::TryTake(Update& update) {
+    if (!updates_.TryPop(update)) return false;
     wake_.Notify();
     return true;
 }
@@ -103,8 +109,12 @@ void LoopThread::Work() {
         } else if (jobs_.TryPop(job)) {
             around_.mapping.Notify();
             Do(job);
+            Tell();
         } else if (finish_.load()) {
-            if (auto change = closer_->Finish()) HandOver(std::move(*change));
+            if (auto change = closer_->Finish())
+                HandOver(std::move(*change));
+            else if (settings_.saved)
+                Push({world_, std::nullopt, nullptr, journal_.Take(*closer_)});
             return;
         } else if (auto change = closer_->Step(kFramesAtOnce)) {
             HandOver(std::move(*change));
@@ -116,12 +126,15 @@ void LoopThread::BeginWorld(int world) {
     world_ = world;
     history_.clear();
     closer_ = std::make_unique<LoopCloser>(settings_.loops, settings_.field, settings_.depth_units_per_m, settings_.labels);
+    journal_.Begin(*closer_);
 }
 
 void LoopThread::Do(Job& job) {
     switch (job.kind) {
         case Job::Kind::kReset: return BeginWorld(job.map.world);
-        case Job::Kind::kDetections: return closer_->AddDetections(job.frame_index, std::move(job.detections));
+        case Job::Kind::kDetections:
+            closer_->AddDetections(job.frame_index, std::move(job.detections));
+            return journal_.Touch(job.frame_index);
         case Job::Kind::kFrame: return AddFrame(job);
     }
 }
@@ -148,11 +161,20 @@ void LoopThread::Reply(Question& question) {
     TESSERA_CHECK(answers_.TryPush(std::move(answer)), "more answers than questions");
 }
 
+// What there is no room for is told later, together with what comes then.
+void LoopThread::Tell() {
+    if (settings_.saved && updates_.size() < kUpdates - kCorrections - 1)
+        Push({world_, std::nullopt, nullptr, journal_.Take(*closer_)});
+}
+
+void LoopThread::Push(Update update) { TESSERA_CHECK(updates_.TryPush(std::move(update)), "more updates than there is room for"); }
+
 void LoopThread::HandOver(LoopCloser::Correction change) {
     history_.push_back(change.T_new_old);
-    Correction correction{world_, std::move(change), nullptr};
-    correction.field = CopyField(*correction.change.map);
-    TESSERA_CHECK(corrections_.TryPush(std::move(correction)), "more corrections than there is room for");
+    Update update{world_, std::move(change), nullptr, {}};
+    update.field = CopyField(*update.correction->map);
+    if (settings_.saved) update.news = journal_.Take(*closer_);
+    Push(std::move(update));
 }
 
 }  // namespace tessera

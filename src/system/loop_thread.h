@@ -7,7 +7,7 @@
 
 #include "core/pool.h"
 #include "core/queue.h"
-#include "optimize/loop_closer.h"
+#include "system/loop_journal.h"
 #include "system/map_version.h"
 #include "system/tracking_stage.h"
 
@@ -20,11 +20,15 @@ class LoopThread {
         FieldSettings field;
         double depth_units_per_m = 5000;
         std::optional<LoopCloser::Labels> labels;
+        bool saved = false;                          // updates carry news, for a scan file
+        std::optional<LoopCloser::Memory> resumed;   // of an earlier scan that goes on
     };
-    struct Correction {
-        int world = 0;  // of the map that it replaces
-        LoopCloser::Correction change;
-        std::unique_ptr<BlockMap> field;  // the same map once more, for tracking: Layers::kFieldOnly
+    // In this order they hold: news speak of the map as it is after the corrections before them and with them.
+    struct Update {
+        int world = 0;
+        std::optional<LoopCloser::Correction> correction;
+        std::unique_ptr<BlockMap> field;  // the corrected map once more, for tracking: Layers::kFieldOnly
+        LoopNews news;
     };
     // A lost camera's frame, and the answer: its pose, or nothing.
     struct Question {
@@ -56,9 +60,9 @@ class LoopThread {
     void OfferDetections(std::int64_t frame_index, std::vector<Detection> detections, MapVersion map);
     // Waits where very many jobs wait.
     void Reset(MapVersion map);
-    bool has_correction() const { return !corrections_.empty(); }
-    bool TryTake(Correction& correction);
-    // No more frames: waits until all is corrected. What is left comes as a last Correction.
+    bool has_update() const { return !updates_.empty(); }
+    bool TryTake(Update& update);
+    // No more frames: waits until all is corrected. What is left comes as updates.
     void Finish();
     // After Finish: the tracked frames' poses as they are known.
     std::vector<StampedPose> Path() const { return closer_->Path(); }
@@ -86,26 +90,29 @@ class LoopThread {
 
     void Work();
     void BeginWorld(int world);
-    bool MayCorrect() const { return closer_->HasWork() && corrections_.size() < kCorrections; }
+    bool MayCorrect() const { return closer_->HasWork() && updates_.size() < kUpdates - kCorrections; }
     void Do(Job& job);
     void AddFrame(Job& job);
     void Reply(Question& question);
+    void Tell();
+    void Push(Update update);
     void HandOver(LoopCloser::Correction change);
 
     Settings settings_;
     Surroundings around_;
-    static constexpr std::size_t kJobs = 4096, kCorrections = 2;
+    static constexpr std::size_t kJobs = 4096, kUpdates = 8, kCorrections = 3;  // the last places are for corrections only
     static constexpr int kWhole = 16;  // frames that wait with their images, some 6 MB each
     Wake wake_;
     std::atomic<int> whole_{0};
     FifoQueue<Job> jobs_{kJobs, wake_};
     FifoQueue<Question> questions_{1, wake_};
     FifoQueue<Answer> answers_;
-    FifoQueue<Correction> corrections_;
+    FifoQueue<Update> updates_;
     NewestQueue<std::string> news_;
     std::atomic<bool> finish_{false}, stop_{false};
     // The thread's own; the caller's after Finish.
     std::unique_ptr<LoopCloser> closer_;
+    LoopJournal journal_;
     int world_ = 0;
     std::vector<Eigen::Isometry3d> history_;  // corrections of this world
     std::jthread thread_;                     // last: ends before what it uses

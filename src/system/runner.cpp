@@ -77,8 +77,6 @@ Status Runner::CheckLoops() const {
     if (!config_.loops.enabled) return Status::Ok();
     if (!PoseGraphAvailable())
         return Status::Error("--loop-closure on: this build has no pose graph; install libceres-dev and build again");
-    if (request_.live && !request_.scan_file.empty())
-        return Status::Error("--loop-closure on: not yet with --scan or --resume in --mode live; leave one of them out");
     if (!request_.poses_file.empty())
         return Status::Error("--loop-closure on: with --poses the poses are given; leave one of the two out");
     return Status::Ok();

@@ -2,21 +2,30 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
-#include "core/stopwatch.h"
 
 namespace tessera {
 namespace {
 
+// Frames that loop closure had not come to are where the map had them.
 LoopCloser::Memory LoopMemory(ScanContent& scan) {
     LoopCloser::Memory memory;
     memory.keyframes = std::move(scan.keyframes);
     memory.edges = std::move(scan.loops.edges);
-    for (const PathRecord& record : scan.path)
-        if (record.tracked() && record.keyframe >= 0)
+    for (const PathRecord& record : scan.path) {
+        if (!record.tracked() || memory.keyframes.empty()) continue;
+        if (record.keyframe >= 0) {
             memory.passages.push_back({record.stamp_s, record.keyframe, record.T_reference_camera});
+        } else if (!memory.passages.empty()) {
+            const int last = memory.passages.back().keyframe;
+            const Eigen::Isometry3d& T_map_keyframe = memory.keyframes[static_cast<std::size_t>(last)].T_map_camera;
+            memory.passages.push_back({record.stamp_s, last, Normalised(T_map_keyframe.inverse() * record.T_reference_camera)});
+        }
+    }
     for (FrameRecord& frame : scan.frames)
         if (frame.in_store) memory.frames.push_back(std::move(frame.stored));
     memory.next_ordinal = scan.loops.next_ordinal;
@@ -25,20 +34,32 @@ LoopCloser::Memory LoopMemory(ScanContent& scan) {
     return memory;
 }
 
+PathRecord RecordOf(const Frame& frame, const TrackedFrame& tracked) {
+    PathRecord record;
+    record.index = frame.index;
+    record.stamp_s = frame.stamp_s;
+    record.status = tracked.report.track.status;
+    record.fused = tracked.report.fused;
+    record.T_world_camera_truth = frame.T_world_camera;
+    if (record.tracked()) record.T_reference_camera = tracked.report.track.T_world_camera;
+    return record;
+}
+
 }  // namespace
 
-ScanStage::ScanStage(ScanPlan plan, const ScanConfig& config, bool wait)
+ScanStage::ScanStage(ScanPlan plan, const ScanConfig& config, bool wait, bool loops)
     : config_(config),
       wait_(wait),
       path_(plan.file->path()),
       saved_(plan.resumed.has_value()),
       resumed_(std::move(plan.resumed)),
       thread_(std::make_unique<ScanWriter>(std::move(plan.file), plan.depth_units_per_m)),
-      pending_(thread_.Take()) {}
+      pending_(thread_.Take()),
+      path_log_(loops) {}
 
 ScanStage::~ScanStage() = default;
 
-Status ScanStage::Resume(MappingStage& mapping, LoopStage* loops) {
+Status ScanStage::Resume(MappingStage& mapping) {
     if (!resumed_) return Status::Ok();
     ScanContent& scan = *resumed_;
     progress_ = scan.progress;
@@ -49,28 +70,32 @@ Status ScanStage::Resume(MappingStage& mapping, LoopStage* loops) {
     if (!scan.labels.empty() && !mapping.LoadLabels(labels))
         return Status::Error(path_ + ": its labels are of other classes; give the same --labels and labels.classes as when it was "
                                      "begun");
-    for (const Keyframe& keyframe : scan.keyframes) sent_poses_.push_back({keyframe.T_map_camera, keyframe.T_world_camera});
-    next_ordinal_ = scan.loops.next_ordinal;
-    if (loops != nullptr) loops->Resume(LoopMemory(scan), scan.progress.last_stamp_s);
+    loops_ = LoopMemory(scan);
     resumed_.reset();
     return Status::Ok();
 }
 
-void ScanStage::AfterFrame(const Frame& frame, const TrackedFrame& tracked, const MappingStage& mapping,
-                           const LoopStage* loops, std::int64_t labelled_frames) {
+void ScanStage::AddFrame(const Frame& frame, const TrackedFrame& tracked, std::int64_t labelled_frames) {
     if (thread_.failed()) return;
-    Stopwatch watch;
-    if (pending_->path.empty()) pending_->first_path = progress_.frames;
-    pending_->path.push_back(RecordOf(frame, tracked, loops));
-    if (loops != nullptr) AddStored(*loops);
+    path_log_.Add(progress_.frames, RecordOf(frame, tracked), *pending_);
     if (config_.frames == ScanConfig::Frames::kAll) AddRaw(frame);
     ++progress_.frames;
     progress_.labelled_frames = labelled_frames;
     progress_.last_index = frame.index;
     progress_.last_stamp_s = frame.stamp_s;
     pending_->tracking = tracked.tracking_state;
-    if (Due(frame.stamp_s)) Checkpoint(mapping, loops, false);
-    last_ms_ = watch.LapMs();
+}
+
+void ScanStage::AddLoops(LoopNews news) {
+    if (thread_.failed()) return;
+    path_log_.Place(news, *pending_);
+    std::ranges::move(news.keyframes, std::back_inserter(pending_->keyframes));
+    std::ranges::move(news.poses, std::back_inserter(pending_->poses));
+    pending_->loops = std::move(news.progress);
+}
+
+void ScanStage::SaveIfDue(const MappingStage& mapping) {
+    if (!thread_.failed() && Due(progress_.last_stamp_s)) Checkpoint(mapping, false);
 }
 
 bool ScanStage::Due(double stamp_s) const {
@@ -80,38 +105,9 @@ bool ScanStage::Due(double stamp_s) const {
     return longer_s >= config_.interval_s && (thread_.idle() || (wait_ && longer_s >= 2 * config_.interval_s));
 }
 
-PathRecord ScanStage::RecordOf(const Frame& frame, const TrackedFrame& tracked, const LoopStage* loops) const {
-    PathRecord record;
-    record.index = frame.index;
-    record.stamp_s = frame.stamp_s;
-    record.status = tracked.report.track.status;
-    record.fused = tracked.report.fused;
-    record.T_world_camera_truth = frame.T_world_camera;
-    if (!record.tracked()) return record;
-    record.T_reference_camera = tracked.report.track.T_world_camera;
-    if (loops == nullptr || loops->closer().passages().empty()) return record;
-    const LoopCloser::Passage& passage = loops->closer().passages().back();
-    if (passage.stamp_s != frame.stamp_s) return record;
-    record.keyframe = passage.keyframe;
-    record.T_reference_camera = passage.T_keyframe_camera;
-    return record;
-}
-
-// What loop closure has just stored.
-void ScanStage::AddStored(const LoopStage& loops) {
-    const FrameStore& store = loops.closer().store();
-    if (store.next_ordinal() == next_ordinal_) return;
-    next_ordinal_ = store.next_ordinal();
-    if (store.frames().empty() || store.frames().back().ordinal != next_ordinal_ - 1) return;
-    const StoredFrame& stored = store.frames().back();
-    FrameRecord record{pending_->path.back().index, stored.stamp_s, stored.colour_stamp_s, true, stored};
-    pending_->frames.emplace_back(progress_.frames, std::move(record));
-}
-
 // A copy, compressed by the writer. Where that is far behind frames are left out: memory is bounded.
 void ScanStage::AddRaw(const Frame& frame) {
     constexpr std::size_t kMostRaw = 90;
-    if (!pending_->frames.empty() && pending_->frames.back().first == progress_.frames) return;
     if (wait_ || pending_->raw_frames.size() < kMostRaw) {
         pending_->raw_frames.emplace_back(progress_.frames, std::make_unique<Frame>(frame));
     } else if (!std::exchange(left_out_, true)) {
@@ -124,10 +120,10 @@ std::optional<std::string> ScanStage::TakeMessage() {
     return thread_.TakeMessage();
 }
 
-void ScanStage::Checkpoint(const MappingStage& mapping, const LoopStage* loops, bool finished) {
+void ScanStage::Checkpoint(const MappingStage& mapping, bool finished) {
     thread_.WaitUntilIdle();
+    path_log_.AddWaiting(*pending_);
     AddBlocks(mapping);
-    if (loops != nullptr) AddLoops(loops->closer());
     progress_.fused_frames = mapping.fused_frames();
     progress_.labels = mapping.has_labels();
     if (progress_.labels) {
@@ -168,36 +164,18 @@ void ScanStage::Touch(std::span<const BlockId> blocks) {
         if (static_cast<std::size_t>(id) < seen_revision_.size()) seen_revision_[static_cast<std::size_t>(id)] = kNever;
 }
 
-void ScanStage::AddLoops(const LoopCloser& closer) {
-    const Keyframes& keyframes = closer.keyframes();
-    for (int id = 0; id < keyframes.size(); ++id) {
-        const KeyframePoses poses{keyframes[id].T_map_camera, keyframes[id].T_world_camera};
-        const auto at = static_cast<std::size_t>(id);
-        if (at == sent_poses_.size()) {
-            pending_->keyframes.push_back(keyframes[id]);
-            sent_poses_.emplace_back();
-        } else if (sent_poses_[at] == poses) {
-            continue;
-        }
-        sent_poses_[at] = poses;
-        pending_->poses.emplace_back(id, poses);
-    }
-    pending_->loops = LoopProgress{closer.edges(), closer.store().next_ordinal(), closer.loops(), closer.corrected()};
-}
-
 void ScanStage::Reset() {
     pending_->Clear();
     pending_->clear_all = true;
     progress_ = {};
     map_identity_ = 0;
-    sent_poses_.clear();
-    next_ordinal_ = 0;
+    path_log_.Clear();
     last_stamp_s_.reset();
 }
 
-void ScanStage::Finish(const MappingStage& mapping, const LoopStage* loops) {
+void ScanStage::Finish(const MappingStage& mapping) {
     if (std::exchange(finished_, true)) return;
-    if (!thread_.failed() && (progress_.frames > 0 || saved_)) Checkpoint(mapping, loops, true);
+    if (!thread_.failed() && (progress_.frames > 0 || saved_)) Checkpoint(mapping, true);
     thread_.Stop();
 }
 

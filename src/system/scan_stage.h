@@ -8,9 +8,10 @@
 #include <vector>
 
 #include "scan/scan_thread.h"
-#include "system/loop_stage.h"
 #include "system/mapping_stage.h"
+#include "system/path_log.h"
 #include "system/scan_plan.h"
+#include "system/tracking_stage.h"
 
 namespace tessera {
 
@@ -18,58 +19,60 @@ namespace tessera {
 class ScanStage {
   public:
     // With a file. `wait`: where the writer is late by more than an interval it is waited for; else the checkpoint is put off,
-    // and what has changed gathers.
-    ScanStage(ScanPlan plan, const ScanConfig& config, bool wait);
+    // and what has changed gathers. `loops`: with loop closure.
+    ScanStage(ScanPlan plan, const ScanConfig& config, bool wait, bool loops);
     ~ScanStage();
 
-    // Puts what a resumed file holds into map, labels and, where not null, loops; before the first frame. Does nothing for a
-    // new one. Errors name the file.
-    Status Resume(MappingStage& mapping, LoopStage* loops);
+    // Puts what a resumed file holds into map and labels; before the first frame. Does nothing for a new one. Errors name the
+    // file.
+    Status Resume(MappingStage& mapping);
+    // What loop closure goes on with, after Resume; nothing for a new file.
+    std::optional<LoopCloser::Memory> TakeLoops() { return std::exchange(loops_, std::nullopt); }
 
-    // After each frame's fusion, labels and loops, with TrackedFrame::tracking_state; `labelled_frames` were offered to the
-    // detector so far. `loops` null: without.
-    void AfterFrame(const Frame& frame, const TrackedFrame& tracked, const MappingStage& mapping, const LoopStage* loops,
-                    std::int64_t labelled_frames);
+    // A frame after its fusion and labels, with TrackedFrame::tracking_state; `labelled_frames` were offered to the detector so
+    // far.
+    void AddFrame(const Frame& frame, const TrackedFrame& tracked, std::int64_t labelled_frames);
+    // What loop closure made of it, or of frames before.
+    void AddLoops(LoopNews news);
+    // After a correction of the map, which moved cameras in it.
+    void Move(const Eigen::Isometry3d& T_new_old) { path_log_.Move(T_new_old); }
+    // A checkpoint, if it is time.
+    void SaveIfDue(const MappingStage& mapping);
     // Blocks whose labels have changed, which does not count as a change of the block.
     void Touch(std::span<const BlockId> blocks);
     // The map and the path begin anew.
     void Reset();
     // The last checkpoint, waited for. Once; a new file in which there is nothing goes.
-    void Finish(const MappingStage& mapping, const LoopStage* loops);
+    void Finish(const MappingStage& mapping);
 
     std::optional<std::string> TakeMessage();
     std::size_t waiting() const { return thread_.waiting(); }
-    double last_ms() const { return last_ms_; }  // that AfterFrame took last
 
   private:
     using Clock = std::chrono::steady_clock;
 
     bool Due(double stamp_s) const;
     void AddRaw(const Frame& frame);
-    void AddStored(const LoopStage& loops);
-    PathRecord RecordOf(const Frame& frame, const TrackedFrame& tracked, const LoopStage* loops) const;
-    void Checkpoint(const MappingStage& mapping, const LoopStage* loops, bool finished);
+    void Checkpoint(const MappingStage& mapping, bool finished);
     void AddBlocks(const MappingStage& mapping);
-    void AddLoops(const LoopCloser& closer);
 
     ScanConfig config_;
     const bool wait_;
     const std::string path_;
     bool saved_;              // there is something in the file
     std::optional<ScanContent> resumed_;  // until it is put into the stages
+    std::optional<LoopCloser::Memory> loops_;
     ScanThread thread_;
     std::unique_ptr<ScanCheckpoint> pending_;
     ScanProgress progress_;
+    PathLog path_log_;
     std::uint64_t map_identity_ = 0;              // of the map that the file has
     std::vector<std::uint32_t> seen_revision_;    // by block: as the file has it
     std::vector<BlockId> changed_;
-    std::vector<KeyframePoses> sent_poses_;       // by keyframe
-    std::int64_t next_ordinal_ = 0;               // of the loops' frame store
     bool left_out_ = false;                       // some raw frames, the writer being late
     std::optional<std::string> message_;
     std::optional<double> last_stamp_s_;          // of the last checkpoint
     Clock::time_point last_time_;
-    double last_ms_ = 0;
     bool finished_ = false;
 };
 

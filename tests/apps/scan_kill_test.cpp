@@ -75,6 +75,11 @@ class KilledScan : public testing::Test {
         return text.str();
     }
 
+    void MakeSequence() const {
+        ASSERT_EQ(Call({"synth", "desk", "--out", sequence, "--frames", std::to_string(kFrames), "--noise", "kinect", "--set",
+                        "synthetic.width=320", "--set", "synthetic.height=240", "--set", "synthetic.fx=262.5", "--set",
+                        "synthetic.fy=262.5", "--set", "synthetic.cx=159.5", "--set", "synthetic.cy=119.5"}), 0) << Log();
+    }
     void KillAndResume(const std::string& loops, int times);
 
     TempFolder folder;
@@ -82,9 +87,7 @@ class KilledScan : public testing::Test {
 };
 
 void KilledScan::KillAndResume(const std::string& loops, int times) {
-    ASSERT_EQ(Call({"synth", "desk", "--out", sequence, "--frames", std::to_string(kFrames), "--noise", "kinect", "--set",
-                    "synthetic.width=320", "--set", "synthetic.height=240", "--set", "synthetic.fx=262.5", "--set",
-                    "synthetic.fy=262.5", "--set", "synthetic.cx=159.5", "--set", "synthetic.cy=119.5"}), 0) << Log();
+    MakeSequence();
     const Clock::time_point begin = Clock::now();
     ASSERT_EQ(Call(Arguments(folder / "whole", {"--loop-closure", loops})), 0) << Log();
     const double run_s = Seconds(Clock::now() - begin);
@@ -114,6 +117,32 @@ void KilledScan::KillAndResume(const std::string& loops, int times) {
 TEST_F(KilledScan, TwentyTimesNothingIsLostButTheLastSecond) { KillAndResume("off", 20); }
 
 TEST_F(KilledScan, WithLoopClosure) { KillAndResume("on", 5); }
+
+// Which frames a live run drops, its threads decide: it is as accurate as a run without interruption can be.
+TEST_F(KilledScan, LiveWithLoopClosure) {
+    MakeSequence();
+    const std::vector<std::string> live{"--mode", "live", "--loop-closure", "on"};
+    for (const double kill_s : {2.3, 3.1, 4.6}) {
+        const std::string scan = folder / "live.scan", out = folder / "live";
+        std::vector<std::string> more = live;
+        more.insert(more.end(), {"--scan", scan});
+        const pid_t child = Start(Arguments(out, more));
+        std::this_thread::sleep_for(std::chrono::duration<double>(kill_s));
+        kill(child, SIGKILL);
+        waitpid(child, nullptr, 0);
+        const int tracked = LinesOf(out + "/trajectory.txt");
+        if (!std::filesystem::exists(scan)) continue;
+        const auto content = ReadScan(scan, {.map = true, .frames = true});
+        ASSERT_TRUE(content.ok()) << content.message();
+        EXPECT_GE(static_cast<int>(content.value().path.size()), tracked - 30) << "killed after " << kill_s << " s";
+        more = live;
+        more.insert(more.end(), {"--resume", scan});
+        ASSERT_EQ(Call(Arguments(folder / "resumed", more)), 0) << Log();
+        EXPECT_LE(Ate(folder / "resumed"), 0.01) << "killed after " << kill_s << " s";
+        EXPECT_GE(LinesOf(folder / "resumed/trajectory.txt"), tracked - 30);
+        std::filesystem::remove(scan);
+    }
+}
 
 }  // namespace
 }  // namespace tessera

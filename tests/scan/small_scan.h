@@ -61,8 +61,7 @@ inline std::unique_ptr<BlockMap> WriteSmallScan(const std::string& path, int blo
         if (c > 0) changed.push_back(1);
         for (const BlockId id : changed) FillBlock(map, id, static_cast<std::uint32_t>(1000 * c + id));
         checkpoint.blocks.Copy(map, changed);
-        checkpoint.first_path = 10 * c;
-        for (int i = 0; i < 10; ++i) checkpoint.path.push_back(RecordOfFrame(10 * c + i));
+        for (int i = 0; i < 10; ++i) checkpoint.path.emplace_back(10 * c + i, RecordOfFrame(10 * c + i));
         checkpoint.progress = {10 * (c + 1), static_cast<std::uint32_t>(10 * (c + 1)), 0, 10 * c + 9, (10 * c + 9) / 30.0, false};
         checkpoint.tracking = Bytes(500, static_cast<std::uint8_t>(c));
         checkpoint.finished = c == checkpoints - 1;

@@ -1,6 +1,8 @@
 // Loop closure beside a live run: what the thread makes of a walk that drifts, and a camera that is lost in mid-run.
 #include "system/loop_thread.h"
 
+#include <map>
+
 #include "system/frame_list.h"
 #include "system/live_engine.h"
 
@@ -34,20 +36,36 @@ class LoopThreadTest : public testing::Test {
         TakeCorrections();
     }
     void TakeCorrections() {
-        LoopThread::Correction correction;
-        while (thread.TryTake(correction)) {
-            ASSERT_EQ(correction.world, 0);
-            ASSERT_EQ(correction.field->size(), correction.change.map->size());
-            T_map_camera = Normalised(correction.change.T_new_old * T_map_camera);
+        LoopThread::Update update;
+        while (thread.TryTake(update)) {
+            ASSERT_EQ(update.world, 0);
+            Keep(update.news);
+            if (!update.correction) continue;
+            ASSERT_EQ(update.field->size(), update.correction->map->size());
+            T_map_camera = Normalised(update.correction->T_new_old * T_map_camera);
             ++corrections;
         }
+    }
+    // As a scan file keeps it.
+    void Keep(const LoopNews& news) {
+        passages.insert(passages.end(), news.passages.begin(), news.passages.end());
+        for (const auto& [id, pose] : news.poses) poses[id] = pose;
+        for (const StoredFrame& frame : news.frames) stored[frame.ordinal] = frame;
+        keyframes += news.keyframes.size();
+        progress = news.progress;
     }
 
     FieldSettings settings = RoomSettings();
     Wake mapping, tracking;
     Pool<Frame> frames;
     Pool<TrackedFrame> tracked_frames;
-    LoopThread thread{{LoopConfig{}, settings, 5000, std::nullopt}, {frames, tracked_frames, mapping, tracking}};
+    LoopThread thread{{LoopConfig{}, settings, 5000, std::nullopt, true, std::nullopt},
+                      {frames, tracked_frames, mapping, tracking}};
+    std::vector<LoopCloser::Passage> passages;
+    std::map<int, KeyframePoses> poses;
+    std::map<std::int64_t, StoredFrame> stored;
+    std::size_t keyframes = 0;
+    LoopProgress progress;
     Eigen::Isometry3d T_map_camera = Eigen::Isometry3d::Identity();
     int corrections = 0;
 };
@@ -72,6 +90,17 @@ TEST_F(LoopThreadTest, CorrectsAWalkThatDrifts) {
     const double before_m = (T_drifted.translation() - truth).norm();
     EXPECT_GT(before_m, 0.07);
     EXPECT_LT((path.back().T_world_camera.translation() - truth).norm(), before_m / 5);
+    // The news say all of it, moved keyframes included.
+    ASSERT_EQ(passages.size(), path.size());
+    EXPECT_EQ(poses.size(), keyframes);
+    for (std::size_t i = 0; i < path.size(); ++i) {
+        const Eigen::Isometry3d T_world_camera =
+            Normalised(poses.at(passages[i].keyframe).T_world_camera * passages[i].T_keyframe_camera);
+        EXPECT_EQ(T_world_camera.matrix(), path[i].T_world_camera.matrix()) << i;
+    }
+    EXPECT_EQ(stored.size(), walk.size());
+    EXPECT_GE(progress.loops, 1);
+    EXPECT_EQ(progress.next_ordinal, static_cast<std::int64_t>(walk.size()));
     std::string news;
     EXPECT_TRUE(thread.TryTakeNews(news));
     EXPECT_NE(news.find("loop closed"), std::string::npos) << news;

@@ -3,6 +3,7 @@
 
 #include "support/temp_folder.h"
 #include "system/frame_list.h"
+#include "system/live_engine.h"
 #include "system/lockstep_engine.h"
 
 namespace tessera {
@@ -11,9 +12,12 @@ namespace {
 using testing_support::FrameList;
 using testing_support::RoomWalk;
 
-class ScanLoops : public testing::Test {
+// In lockstep, and live.
+class ScanLoops : public testing::TestWithParam<bool> {
   protected:
     ScanLoops() {
+        config.live.queue_frames = 100;  // no frame is dropped, however slow the machine
+        config.live.playback_speed = 2;
         config.loops.enabled = true;
         config.pipeline.map = {.voxel_size_m = 0.02, .truncation_m = 0.08};
         config.pipeline.trackers.sdf.finest_step_px = 1;
@@ -27,49 +31,74 @@ class ScanLoops : public testing::Test {
                                        : BeginScan(path, input.source->info(), config);
         EXPECT_TRUE(plan.ok()) << plan.message();
         input.scan = std::move(plan.value());
-        LockstepEngine engine(std::move(input));
+        std::unique_ptr<Engine> engine;
+        if (GetParam())
+            engine = std::make_unique<LiveEngine>(std::move(input));
+        else
+            engine = std::make_unique<LockstepEngine>(std::move(input));
         FrameOutcome outcome;
         std::vector<FrameReport> reports;
-        while (engine.Next(outcome))
-            if (outcome.kind == FrameOutcome::Kind::kFrame) reports.push_back(outcome.report);
-        EXPECT_TRUE(engine.status().ok()) << engine.status().message();
-        corrected = engine.CorrectedPath();
+        while (engine->Next(outcome)) {
+            if (outcome.kind != FrameOutcome::Kind::kFrame) continue;
+            reports.push_back(outcome.report);
+            if (stop_when_tracked && outcome.report.tracked()) stop.store(true);
+            if (reports.size() == look_after) early = ReadScan(path, {.map = true, .frames = true});
+        }
+        EXPECT_TRUE(engine->status().ok()) << engine->status().message();
+        corrected = engine->CorrectedPath();
         return reports;
     }
 
     RunConfig config;
-    const std::atomic<bool> stop{false};
+    std::atomic<bool> stop{false};
+    bool stop_when_tracked = false;
     TempFolder folder;
     std::string path = folder / "a.scan";
     std::vector<StampedPose> corrected;
+    std::size_t look_after = 0;  // frames: then the file is read while it is written
+    Result<ScanContent> early = Status::Error("not read");
 };
 
-TEST_F(ScanLoops, KeyframesFramesAndLoopsComeBackAndALostCameraIsFoundByThem) {
+TEST_P(ScanLoops, KeyframesFramesAndLoopsComeBackAndALostCameraIsFoundByThem) {
     const std::vector<Frame> walk = RoomWalk(0, 60, 3);
+    config.scan.interval_s = 0.1;
+    look_after = 40;
     Run(walk, 0, false);
+    // Whatever moment a crash may leave: all of the path, and what loop closure had come to.
+    ASSERT_TRUE(early.ok()) << early.message();
+    EXPECT_GT(early.value().path.size(), 10u);
+    EXPECT_GT(early.value().keyframes.size(), 1u);
+    EXPECT_GT(early.value().frames.size(), 5u);
+    for (const PathRecord& record : early.value().path) EXPECT_TRUE(record.tracked()) << record.index;
     const std::vector<StampedPose> before = corrected;
     Result<ScanContent> scan = ReadScan(path, {.map = false, .frames = true});
     ASSERT_TRUE(scan.ok()) << scan.message();
     EXPECT_GT(scan.value().keyframes.size(), 3u);
     EXPECT_EQ(scan.value().loops.edges.size() >= scan.value().keyframes.size() - 1, true);
-    EXPECT_EQ(scan.value().frames.size(), 60u);
+    EXPECT_EQ(scan.value().path.size(), 60u);
+    EXPECT_EQ(scan.value().frames.size(), GetParam() ? scan.value().loops.next_ordinal : 60);
+    EXPECT_GT(scan.value().frames.size(), 20u);
     const std::vector<StampedPose> stored = scan.value().Path();
     ASSERT_EQ(stored.size(), before.size());
     for (std::size_t i = 0; i < stored.size(); ++i)
         EXPECT_EQ(stored[i].T_world_camera.matrix(), before[i].T_world_camera.matrix()) << i;
-    // Ten seconds later the camera sees what it saw at the beginning, not at the end.
-    const std::vector<Frame> again = RoomWalk(21, 10, 1);
+    // Ten seconds later the camera sees what it saw at the beginning, not at the end. Live it is held there until it is found.
+    const std::vector<Frame> again = GetParam() ? std::vector<Frame>(1800, RoomWalk(21, 1, 1).front()) : RoomWalk(21, 10, 1);
+    stop_when_tracked = GetParam();
     const std::vector<FrameReport> reports = Run(again, 12, true);
-    ASSERT_EQ(reports.size(), again.size());
-    EXPECT_TRUE(reports[0].tracked()) << reports[0].track.reason;
+    EXPECT_TRUE(GetParam() || reports[0].tracked()) << reports[0].track.reason;
+    EXPECT_TRUE(reports.back().tracked()) << reports.back().track.reason;
+    std::size_t tracked = 0;
     for (std::size_t i = 0; i < reports.size(); ++i) {
+        if (!reports[i].tracked()) continue;
+        ++tracked;
         const Eigen::Isometry3d off = again[i].T_world_camera->inverse() * reports[i].track.T_world_camera;
         EXPECT_LT(off.translation().norm(), 0.02) << i;
     }
-    EXPECT_EQ(corrected.size(), before.size() + reports.size());  // the path of the whole scan
+    EXPECT_EQ(corrected.size(), before.size() + tracked);  // the path of the whole scan
 }
 
-TEST_F(ScanLoops, WhereNothingWasSeenTheCameraStaysLostAndTheMapAsItWas) {
+TEST_P(ScanLoops, WhereNothingWasSeenTheCameraStaysLostAndTheMapAsItWas) {
     Run(RoomWalk(0, 20, 2), 0, false);
     const Result<ScanContent> before = ReadScan(path, {});
     const std::vector<FrameReport> reports = Run(RoomWalk(360, 5, 2), 12, true);
@@ -80,6 +109,8 @@ TEST_F(ScanLoops, WhereNothingWasSeenTheCameraStaysLostAndTheMapAsItWas) {
     for (BlockId id = 1; id < after.value().map->size(); ++id)
         ASSERT_EQ(std::memcmp(after.value().map->field(id), before.value().map->field(id), kBlockVoxels * sizeof(FieldWord)), 0);
 }
+
+INSTANTIATE_TEST_SUITE_P(LockstepAndLive, ScanLoops, testing::Bool());
 
 }  // namespace
 }  // namespace tessera

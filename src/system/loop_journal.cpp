@@ -1,0 +1,44 @@
+#include "system/loop_journal.h"
+
+#include <algorithm>
+
+namespace tessera {
+
+void LoopJournal::Begin(const LoopCloser& closer) {
+    passages_ = closer.passages().size();
+    next_ordinal_ = closer.store().next_ordinal();
+    touched_.clear();
+    poses_.clear();
+    const Keyframes& keyframes = closer.keyframes();
+    for (int id = 0; id < keyframes.size(); ++id) poses_.push_back({keyframes[id].T_map_camera, keyframes[id].T_world_camera});
+}
+
+LoopNews LoopJournal::Take(const LoopCloser& closer) {
+    LoopNews news;
+    news.passages.assign(closer.passages().begin() + static_cast<std::ptrdiff_t>(passages_), closer.passages().end());
+    passages_ = closer.passages().size();
+    for (const std::int64_t index : std::exchange(touched_, {}))
+        if (const StoredFrame* frame = closer.store().Find(index); frame != nullptr && frame->ordinal < next_ordinal_)
+            news.frames.push_back(*frame);
+    const std::vector<StoredFrame>& frames = closer.store().frames();
+    const auto first_new = std::ranges::lower_bound(frames, next_ordinal_, {}, &StoredFrame::ordinal);
+    news.frames.insert(news.frames.end(), first_new, frames.end());
+    next_ordinal_ = closer.store().next_ordinal();
+    const Keyframes& keyframes = closer.keyframes();
+    for (int id = 0; id < keyframes.size(); ++id) {
+        const KeyframePoses poses{keyframes[id].T_map_camera, keyframes[id].T_world_camera};
+        const auto at = static_cast<std::size_t>(id);
+        if (at == poses_.size()) {
+            news.keyframes.push_back(keyframes[id]);
+            poses_.emplace_back();
+        } else if (poses_[at] == poses) {
+            continue;
+        }
+        poses_[at] = poses;
+        news.poses.emplace_back(id, poses);
+    }
+    news.progress = {closer.edges(), closer.store().next_ordinal(), closer.loops(), closer.corrected()};
+    return news;
+}
+
+}  // namespace tessera
