@@ -41,7 +41,7 @@ LiveEngine::LiveEngine(EngineInput input)
                                                                       std::move(input.labelling.classes), config_.labels),
                                                        mapping_wake_);
     }
-    if (input.scan.file) status_ = BeginScan(std::move(input.scan));
+    if (input.scan.file) status_ = StartScan(std::move(input.scan));
     if (!status_.ok()) {
         mapping_done_.store(true);
         return;
@@ -61,13 +61,14 @@ void LiveEngine::BeginLoops(std::optional<LoopCloser::Labels> labels) {
 }
 
 // Before the threads: a resumed scan's map is the first news of the map.
-Status LiveEngine::BeginScan(ScanPlan plan) {
+Status LiveEngine::StartScan(ScanPlan plan) {
     if (plan.resumed) {
         saved_tracking_ = plan.resumed->tracking;
         saved_pose_ = plan.resumed->LastPose();
         saved_stamp_s_ = plan.resumed->progress.last_stamp_s;
     }
     scan_.emplace(std::move(plan), config_.scan, false, config_.loops.enabled);
+    saving_.store(true);
     if (Status status = scan_->Resume(mapping_); !status.ok()) return status;
     if (mapping_.map().size() == 1) return Status::Ok();
     MapNews whole{delta_pool_.Take(), 0, nullptr};

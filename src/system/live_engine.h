@@ -74,7 +74,7 @@ class LiveEngine : public Engine {
     };
 
     void BeginLoops(std::optional<LoopCloser::Labels> labels);
-    Status BeginScan(ScanPlan plan);
+    Status StartScan(ScanPlan plan);
 
     // A frame's life, a function a thread: live_engine.cpp, live_tracking.cpp, live_mapping.cpp.
     void ReadFrames();
@@ -98,6 +98,7 @@ class LiveEngine : public Engine {
     void MapFrame(Task& task);
     void SendMapNews();
     void Save(const Task& task, FrameOutcome& outcome);
+    std::string SaveScan(const std::string& path);
     void Offer(Task& task);
     void TakeLabels();
     bool UpdateFits() const;
@@ -118,6 +119,8 @@ class LiveEngine : public Engine {
     const SourceInfo source_;
     MappingStage mapping_;         // mapping's; the owner's once it has ended
     std::optional<ScanStage> scan_;  // mapping's; if it is to be saved
+    std::vector<PathRecord> past_;   // mapping's, with a window: for a scan that is saved from some time on
+    std::atomic<bool> saving_{false};  // there is a scan: tracking tells its state
     ResumeGate gate_;              // tracking's
     Bytes saved_tracking_;         // tracking's, of a resumed scan
     std::optional<StampedPose> saved_pose_;  // the same

@@ -49,7 +49,10 @@ void LiveEngine::MapFrame(Task& task) {
     }
     feed_.ShowPrediction(show_prediction_.load());
     outcome.mesh_ms = feed_.Send(*task.frame, tracked.report, mapping_);
-    if (scan_) Save(task, outcome);
+    if (scan_)
+        Save(task, outcome);
+    else if (viewer_ != nullptr)
+        past_.push_back(RecordOf(*task.frame, tracked));
     outcome.report = tracked.report;
     outcome.T_world_camera_truth = task.frame->T_world_camera;
     outcome.decode_ms = task.decode_ms;
@@ -69,6 +72,17 @@ void LiveEngine::Save(const Task& task, FrameOutcome& outcome) {
     scan_->SaveIfDue(mapping_);
     outcome.scan_ms = watch.LapMs();
     while (const auto message = scan_->TakeMessage()) Tell(FrameOutcome::Kind::kMessage, *message);
+}
+
+std::string LiveEngine::SaveScan(const std::string& path) {
+    if (scan_) return "the scan is being saved already: " + scan_->path();
+    Result<ScanPlan> plan = BeginScan(path, source_, config_);
+    if (!plan.ok()) return plan.message();
+    scan_.emplace(std::move(plan.value()), config_.scan, false, loops_ != nullptr);
+    scan_->AddPast(std::exchange(past_, {}));
+    if (loops_) loops_->BeginNews();
+    saving_.store(true);
+    return "scan saved, and from now on as it goes: " + path;
 }
 
 // What else is to be done with a frame once it is in the map: objects and loops are found in it, at leisure.
@@ -164,9 +178,12 @@ void LiveEngine::ObeyInMapping(const ViewerCommand& command) {
         mapping_.Reset();
         if (loops_) loops_->Reset({mapped_world_, 0});
         if (scan_) scan_->Reset();
+        past_.clear();
         Tell(FrameOutcome::Kind::kReset, {});
     } else if (command.kind == ViewerCommand::Kind::kSaveMesh) {
         Tell(FrameOutcome::Kind::kMessage, SaveMesh(mapping_, command.path));
+    } else if (command.kind == ViewerCommand::Kind::kSaveScan) {
+        Tell(FrameOutcome::Kind::kMessage, SaveScan(command.path));
     }
     feed_.SendMesh(mapping_);
 }

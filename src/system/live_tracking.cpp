@@ -67,7 +67,7 @@ void LiveEngine::TrackFrame(NewFrame item, TrackingState& state) {
 // With the frame, so that a checkpoint after it holds the state after it.
 void LiveEngine::SaveTracking(const TrackingStage& stage, TrackedFrame& tracked) const {
     tracked.tracking_state.clear();
-    if (!scan_) return;
+    if (!saving_.load()) return;
     StateWriter state(tracked.tracking_state);
     stage.SaveState(state);
 }

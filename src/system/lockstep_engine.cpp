@@ -80,11 +80,23 @@ void LockstepEngine::Process(FrameOutcome& outcome) {
     mapping_.Fuse(tracked_);
     if (labelling_ && tracked_.report.fused) Label(outcome);
     if (loops_) outcome.loops_ms = loops_->AfterFusion(frame_, tracked_, outcome.labels, tracking_, mapping_);
-    if (scan_) Save(outcome);
+    if (scan_)
+        Save(outcome);
+    else if (viewer_ != nullptr)
+        past_.push_back(RecordOf(frame_, tracked_));
     outcome.report = tracked_.report;
     outcome.T_world_camera_truth = frame_.T_world_camera;
     outcome.mesh_ms = feed_.Send(frame_, outcome.report, mapping_);
     outcome.map = map_statistics();
+}
+
+std::string LockstepEngine::SaveScan(const std::string& path) {
+    if (scan_) return "the scan is being saved already: " + scan_->path();
+    Result<ScanPlan> plan = BeginScan(path, source_, config_);
+    if (!plan.ok()) return plan.message();
+    scan_.emplace(std::move(plan.value()), config_.scan, true, loops_.has_value());
+    scan_->AddPast(std::exchange(past_, {}));
+    return "scan saved, and from now on as it goes: " + path;
 }
 
 void LockstepEngine::Save(FrameOutcome& outcome) {
@@ -156,11 +168,15 @@ bool LockstepEngine::Obey(const ViewerCommand& command, FrameOutcome& outcome) {
             mapping_.Reset();
             BeginLoops();
             if (scan_) scan_->Reset();
+            past_.clear();
             feed_.SendMesh(mapping_);
             outcome.kind = FrameOutcome::Kind::kReset;
             return true;
         case ViewerCommand::Kind::kSaveMesh:
             outcome.message = SaveMesh(mapping_, command.path);
+            return true;
+        case ViewerCommand::Kind::kSaveScan:
+            outcome.message = SaveScan(command.path);
             return true;
         case ViewerCommand::Kind::kRecord:
             if (Status status = recorder_.Start(command.path); !status.ok()) {

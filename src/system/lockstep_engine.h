@@ -34,6 +34,7 @@ class LockstepEngine : public Engine {
     void Process(FrameOutcome& outcome);
     void Label(FrameOutcome& outcome);
     Status StartScan(ScanPlan plan);
+    std::string SaveScan(const std::string& path);
     void Save(FrameOutcome& outcome);
 
     RunConfig config_;
@@ -47,6 +48,7 @@ class LockstepEngine : public Engine {
     std::optional<LoopStage> loops_;  // if they are to be closed
     std::optional<LoopCloser::Labels> loop_labels_;
     std::optional<ScanStage> scan_;   // if it is to be saved
+    std::vector<PathRecord> past_;    // with a window: for a scan that is saved from some time on
     ResumeGate gate_;
     TrackedFrame tracked_;
     ViewerFeed feed_;

@@ -13,7 +13,7 @@ void LoopJournal::Begin(const LoopCloser& closer) {
     for (int id = 0; id < keyframes.size(); ++id) poses_.push_back({keyframes[id].T_map_camera, keyframes[id].T_world_camera});
 }
 
-LoopNews LoopJournal::Take(const LoopCloser& closer) {
+LoopNews LoopJournal::Take(const LoopCloser& closer, std::size_t most_frames) {
     LoopNews news;
     news.passages.assign(closer.passages().begin() + static_cast<std::ptrdiff_t>(passages_), closer.passages().end());
     passages_ = closer.passages().size();
@@ -22,8 +22,9 @@ LoopNews LoopJournal::Take(const LoopCloser& closer) {
             news.frames.push_back(*frame);
     const std::vector<StoredFrame>& frames = closer.store().frames();
     const auto first_new = std::ranges::lower_bound(frames, next_ordinal_, {}, &StoredFrame::ordinal);
-    news.frames.insert(news.frames.end(), first_new, frames.end());
-    next_ordinal_ = closer.store().next_ordinal();
+    const auto count = std::min(most_frames, static_cast<std::size_t>(frames.end() - first_new));
+    news.frames.insert(news.frames.end(), first_new, first_new + static_cast<std::ptrdiff_t>(count));
+    if (count > 0) next_ordinal_ = news.frames.back().ordinal + 1;
     const Keyframes& keyframes = closer.keyframes();
     for (int id = 0; id < keyframes.size(); ++id) {
         const KeyframePoses poses{keyframes[id].T_map_camera, keyframes[id].T_world_camera};

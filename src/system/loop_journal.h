@@ -18,14 +18,15 @@ struct LoopNews {
     LoopProgress progress;
 };
 
-// Owner thread only: the closer's.
+// Owner thread only: the closer's. The first news are of all that the closer knows.
 class LoopJournal {
   public:
-    // All that the closer knows now is known. Before the first Take, and whenever there is another closer.
+    // All that the closer knows now is known.
     void Begin(const LoopCloser& closer);
     // A frame of which something became known later.
     void Touch(std::int64_t frame_index) { touched_.push_back(frame_index); }
-    LoopNews Take(const LoopCloser& closer);
+    // At most so many new frames; the others come with later news.
+    LoopNews Take(const LoopCloser& closer, std::size_t most_frames = 4);
 
   private:
     std::size_t passages_ = 0;

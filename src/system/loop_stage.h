@@ -37,7 +37,7 @@ class LoopStage {
 
     std::vector<StampedPose> Path() const { return closer_.Path(); }
     // For a scan file.
-    LoopNews TakeNews() { return journal_.Take(closer_); }
+    LoopNews TakeNews() { return finished_ ? journal_.Take(closer_, closer_.store().frames().size()) : journal_.Take(closer_); }
 
   private:
     LoopConfig config_;

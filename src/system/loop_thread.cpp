@@ -26,7 +26,8 @@ LoopThread::LoopThread(Settings settings, Surroundings surroundings)
       around_(surroundings),
       answers_(2, around_.tracking),
       updates_(kUpdates, around_.mapping),
-      news_(64, around_.mapping) {
+      news_(64, around_.mapping),
+      saved_(settings_.saved) {
     BeginWorld(0);
     if (auto memory = std::exchange(settings_.resumed, std::nullopt)) {
         closer_->Resume(std::move(*memory));
@@ -113,8 +114,7 @@ void LoopThread::Work() {
         } else if (finish_.load()) {
             if (auto change = closer_->Finish())
                 HandOver(std::move(*change));
-            else if (settings_.saved)
-                Push({world_, std::nullopt, nullptr, journal_.Take(*closer_)});
+            if (saved_.load()) Push({world_, std::nullopt, nullptr, journal_.Take(*closer_, closer_->store().frames().size())});
             return;
         } else if (auto change = closer_->Step(kFramesAtOnce)) {
             HandOver(std::move(*change));
@@ -163,7 +163,7 @@ void LoopThread::Reply(Question& question) {
 
 // What there is no room for is told later, together with what comes then.
 void LoopThread::Tell() {
-    if (settings_.saved && updates_.size() < kUpdates - kCorrections - 1)
+    if (saved_.load() && updates_.size() < kUpdates - kCorrections - 1)
         Push({world_, std::nullopt, nullptr, journal_.Take(*closer_)});
 }
 
@@ -173,7 +173,7 @@ void LoopThread::HandOver(LoopCloser::Correction change) {
     history_.push_back(change.T_new_old);
     Update update{world_, std::move(change), nullptr, {}};
     update.field = CopyField(*update.correction->map);
-    if (settings_.saved) update.news = journal_.Take(*closer_);
+    if (saved_.load()) update.news = journal_.Take(*closer_);
     Push(std::move(update));
 }
 

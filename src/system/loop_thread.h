@@ -20,7 +20,7 @@ class LoopThread {
         FieldSettings field;
         double depth_units_per_m = 5000;
         std::optional<LoopCloser::Labels> labels;
-        bool saved = false;                          // updates carry news, for a scan file
+        bool saved = false;                          // updates carry news, for a scan file; else from BeginNews on
         std::optional<LoopCloser::Memory> resumed;   // of an earlier scan that goes on
     };
     // In this order they hold: news speak of the map as it is after the corrections before them and with them.
@@ -60,6 +60,8 @@ class LoopThread {
     void OfferDetections(std::int64_t frame_index, std::vector<Detection> detections, MapVersion map);
     // Waits where very many jobs wait.
     void Reset(MapVersion map);
+    // From now on updates carry news, the next ones of all so far.
+    void BeginNews() { saved_.store(true); }
     bool has_update() const { return !updates_.empty(); }
     bool TryTake(Update& update);
     // No more frames: waits until all is corrected. What is left comes as updates.
@@ -109,7 +111,7 @@ class LoopThread {
     FifoQueue<Answer> answers_;
     FifoQueue<Update> updates_;
     NewestQueue<std::string> news_;
-    std::atomic<bool> finish_{false}, stop_{false};
+    std::atomic<bool> finish_{false}, stop_{false}, saved_;
     // The thread's own; the caller's after Finish.
     std::unique_ptr<LoopCloser> closer_;
     LoopJournal journal_;

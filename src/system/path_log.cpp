@@ -4,6 +4,17 @@
 
 namespace tessera {
 
+PathRecord RecordOf(const Frame& frame, const TrackedFrame& tracked) {
+    PathRecord record;
+    record.index = frame.index;
+    record.stamp_s = frame.stamp_s;
+    record.status = tracked.report.track.status;
+    record.fused = tracked.report.fused;
+    record.T_world_camera_truth = frame.T_world_camera;
+    if (record.tracked()) record.T_reference_camera = tracked.report.track.T_world_camera;
+    return record;
+}
+
 void PathLog::Add(std::int64_t number, const PathRecord& record, ScanCheckpoint& into) {
     if (loops_ && record.tracked())
         waiting_.emplace_back(number, record);

@@ -6,8 +6,12 @@
 
 #include "scan/scan_writer.h"
 #include "system/loop_journal.h"
+#include "system/tracking_stage.h"
 
 namespace tessera {
+
+// As the map has it.
+PathRecord RecordOf(const Frame& frame, const TrackedFrame& tracked);
 
 // Owner thread only: the map's.
 class PathLog {

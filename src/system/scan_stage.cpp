@@ -34,17 +34,6 @@ LoopCloser::Memory LoopMemory(ScanContent& scan) {
     return memory;
 }
 
-PathRecord RecordOf(const Frame& frame, const TrackedFrame& tracked) {
-    PathRecord record;
-    record.index = frame.index;
-    record.stamp_s = frame.stamp_s;
-    record.status = tracked.report.track.status;
-    record.fused = tracked.report.fused;
-    record.T_world_camera_truth = frame.T_world_camera;
-    if (record.tracked()) record.T_reference_camera = tracked.report.track.T_world_camera;
-    return record;
-}
-
 }  // namespace
 
 ScanStage::ScanStage(ScanPlan plan, const ScanConfig& config, bool wait, bool loops)
@@ -84,6 +73,14 @@ void ScanStage::AddFrame(const Frame& frame, const TrackedFrame& tracked, std::i
     progress_.last_index = frame.index;
     progress_.last_stamp_s = frame.stamp_s;
     pending_->tracking = tracked.tracking_state;
+}
+
+void ScanStage::AddPast(const std::vector<PathRecord>& path) {
+    for (const PathRecord& record : path) {
+        path_log_.Add(progress_.frames++, record, *pending_);
+        progress_.last_index = record.index;
+        progress_.last_stamp_s = record.stamp_s;
+    }
 }
 
 void ScanStage::AddLoops(LoopNews news) {

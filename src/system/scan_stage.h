@@ -11,7 +11,6 @@
 #include "system/mapping_stage.h"
 #include "system/path_log.h"
 #include "system/scan_plan.h"
-#include "system/tracking_stage.h"
 
 namespace tessera {
 
@@ -29,6 +28,8 @@ class ScanStage {
     // What loop closure goes on with, after Resume; nothing for a new file.
     std::optional<LoopCloser::Memory> TakeLoops() { return std::exchange(loops_, std::nullopt); }
 
+    // With a new file in the midst of a run: the frames so far, before the first AddFrame.
+    void AddPast(const std::vector<PathRecord>& path);
     // A frame after its fusion and labels, with TrackedFrame::tracking_state; `labelled_frames` were offered to the detector so
     // far.
     void AddFrame(const Frame& frame, const TrackedFrame& tracked, std::int64_t labelled_frames);
@@ -47,6 +48,7 @@ class ScanStage {
 
     std::optional<std::string> TakeMessage();
     std::size_t waiting() const { return thread_.waiting(); }
+    const std::string& path() const { return path_; }
 
   private:
     using Clock = std::chrono::steady_clock;

@@ -61,6 +61,7 @@ struct ViewerCommand {
         kStep,      // one frame, then pause
         kReset,     // an empty map and trajectory; the next frame is the new world
         kSaveMesh,  // to `path` (.ply)
+        kSaveScan,  // to `path` (.scan): all so far, and from now on as it goes
         kRecord,    // keep the raw frames from now on, in `path`
         kStopRecording,
         kStop,      // end the run, everything saved

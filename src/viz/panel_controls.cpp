@@ -77,25 +77,28 @@ void DrawSettings(ViewerState& state) {
 void DrawCommands(ViewerState& state) {
     Controls& controls = state.controls;
     GroupTitle("RUN");
-    const float width = WidthOf(3);
+    const float narrow = WidthOf(4), wide = WidthOf(3);
     ImGui::BeginDisabled(state.ended());
-    if (MarkedButton(controls, "pause", state.paused() ? "Resume" : "Pause", width, state.paused())) state.TogglePause();
+    if (MarkedButton(controls, "pause", state.paused() ? "Resume" : "Pause", narrow, state.paused())) state.TogglePause();
     Tip("No further frames, or on again  (Space)");
     ImGui::SameLine();
-    if (MarkedButton(controls, "step", "Step", width)) state.Step();
+    if (MarkedButton(controls, "step", "Step", narrow)) state.Step();
     Tip("One frame, then pause  (S)");
     ImGui::SameLine();
-    if (MarkedButton(controls, "reset", "Reset", width)) state.ask_reset = true;
+    if (MarkedButton(controls, "reset", "Reset", narrow)) state.ask_reset = true;
     Tip("An empty map and a new world, after a question  (R)");
-    if (MarkedButton(controls, "save_mesh", "Save mesh", width)) state.SaveMesh();
-    Tip("As .ply  (M)");
     ImGui::SameLine();
-    if (MarkedButton(controls, "record", state.recording() ? "Stop rec." : "Record", width, state.recording()))
+    if (MarkedButton(controls, "record", state.recording() ? "Stop rec." : "Record", narrow, state.recording()))
         state.ToggleRecording();
     Tip("Keep the raw frames from now on  (V)");
+    if (MarkedButton(controls, "save_mesh", "Save mesh", wide)) state.SaveMesh();
+    Tip("As .ply  (M)");
+    ImGui::SameLine();
+    if (MarkedButton(controls, "save_scan", "Save scan", wide)) state.SaveScan();
+    Tip("All so far, and from now on as it goes: a .scan that can be gone on with  (K)");
     ImGui::SameLine();
     ImGui::EndDisabled();
-    if (MarkedButton(controls, "screenshot", "Picture", width)) state.want_screenshot = true;
+    if (MarkedButton(controls, "screenshot", "Picture", wide)) state.want_screenshot = true;
     Tip("This window as .png  (P)");
 }
 

@@ -28,6 +28,7 @@ constexpr Line kLines[] = {
     {"R", "reset, after a question", true},
     {"1 2 3 4", "SDF + colour, SDF, ICP, ICP + colour", true},
     {"M", "save the mesh", true},
+    {"K", "save the scan", true},
     {"V", "record raw frames, stop recording", true},
     {"P", "picture of this window"},
     {"H or F1", "this help"},

@@ -52,6 +52,10 @@ void ViewerState::SaveMesh() {
     if (!ended()) Send(ViewerCommand::Kind::kSaveMesh, NewFileName("mesh", "ply"));
 }
 
+void ViewerState::SaveScan() {
+    if (!ended()) Send(ViewerCommand::Kind::kSaveScan, NewFileName("saved", "scan"));
+}
+
 void ViewerState::ToggleRecording() {
     if (ended()) return;
     if (recording())
@@ -90,6 +94,7 @@ void ViewerState::OnKey(int key, int mods) {
         case GLFW_KEY_S: return Step();
         case GLFW_KEY_R: ask_reset = !ended(); return;
         case GLFW_KEY_M: return SaveMesh();
+        case GLFW_KEY_K: return SaveScan();
         case GLFW_KEY_V: return ToggleRecording();
         case GLFW_KEY_P: want_screenshot = true; return;
         case GLFW_KEY_1: return SelectMethod(TrackingMethod::kSdf);

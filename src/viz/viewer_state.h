@@ -48,6 +48,7 @@ struct ViewerState {
     void Step();
     void Reset();  // asked for and confirmed
     void SaveMesh();
+    void SaveScan();
     void ToggleRecording();
     void CycleShading();  // over those that there is something to show for
     bool CanShade(Shading shading) const;

@@ -166,6 +166,7 @@ TEST_F(Live, RandomCommandsDoNoHarm) {
             case 2: Ask(Command::kPause), Ask(Command::kStep), Ask(Command::kResume); break;
             case 3: Ask(Command::kRecord, folder / fmt::format("raw{}", saved++)); break;
             case 4: Ask(Command::kStopRecording); break;
+            case 7: Ask(Command::kSaveScan, folder / "random.scan"); break;
             case 5: case 6: {
                 ViewerSettings settings;
                 settings.method = static_cast<TrackingMethod>(random() % kTrackingMethods);

@@ -90,6 +90,50 @@ TEST_P(ResumedScan, IsTheUnbrokenOne) {
 
 INSTANTIATE_TEST_SUITE_P(CheckpointsInterval, ResumedScan, testing::Values(0.0, 1.0));
 
+// Asked for after some frames: as if it had been saved from the first one on.
+TEST_F(Scan, SavedFromTheMiddleOnItIsTheWholeScan) {
+    Run(false, New(), {.count = 24});
+    ScanContent whole = Content();
+    path = folder / "b.scan";
+    ViewerLink link;
+    viewer = &link;
+    Ask(Command::kPause);
+    for (int i = 0; i < 9; ++i) Ask(Command::kStep);
+    Ask(Command::kSaveScan, path);
+    Ask(Command::kSaveScan, folder / "c.scan");
+    Ask(Command::kResume);
+    Run(false, {}, {.count = 24});
+    EXPECT_NE(Messages().find("scan saved"), std::string::npos) << Messages();
+    EXPECT_NE(Messages().find("is being saved already"), std::string::npos) << Messages();
+    EXPECT_FALSE(std::filesystem::exists(folder / "c.scan"));
+    ScanContent middle = Content();
+    ExpectSame(MeshOfScan(middle).value(), MeshOfScan(whole).value());
+    ASSERT_EQ(middle.path.size(), 24u);
+    for (std::size_t i = 0; i < 24; ++i) EXPECT_EQ(middle.path[i].Encode(), whole.path[i].Encode()) << i;
+    EXPECT_EQ(middle.tracking, whole.tracking);
+    EXPECT_EQ(middle.progress.Encode(), whole.progress.Encode());
+}
+
+TEST_F(Scan, LiveItIsSavedWhenAPersonAsksForIt) {
+    ViewerLink link;
+    viewer = &link;
+    config.live.queue_frames = 30;
+    EngineInput input = Input({.live = true});
+    engine = std::make_unique<LiveEngine>(std::move(input));
+    while (Reports().size() < 6) ASSERT_TRUE(Next());
+    Ask(Command::kSaveScan, path);
+    while (Messages().find("scan saved") == std::string::npos) ASSERT_TRUE(Next());
+    const std::size_t before = Reports().size();
+    while (Reports().size() < before + 6) ASSERT_TRUE(Next());
+    Ask(Command::kStop);
+    TakeAll();
+    const TriangleMesh mesh = engine->TakeMesh();
+    ScanContent scan = Content();
+    EXPECT_EQ(scan.path.size(), Reports().size());
+    EXPECT_FALSE(scan.tracking.empty());
+    ExpectSame(MeshOfScan(scan).value(), mesh);
+}
+
 TEST_F(Scan, LiveASavedScanIsGoneOnWith) {
     const double speed = 1;
     config.live.playback_speed = 1;

@@ -114,6 +114,15 @@ TEST_F(ViewerControls, TheMeshIsSaved) {
     EXPECT_NE(system_->commands().back().path, path);
 }
 
+TEST_F(ViewerControls, TheScanIsSavedUnderANewName) {
+    Frames(2);
+    Click("save_scan");
+    ASSERT_EQ(Commands(), std::vector{Kind::kSaveScan});
+    const std::filesystem::path path = system_->commands().back().path;
+    EXPECT_EQ(path.parent_path(), folder_.path());
+    EXPECT_EQ(path.extension(), ".scan");
+}
+
 TEST_F(ViewerControls, RecordingBeginsAndEnds) {
     Frames(1);
     Click("record");
@@ -126,12 +135,12 @@ TEST_F(ViewerControls, RecordingBeginsAndEnds) {
 TEST_F(ViewerControls, KeysDoWhatButtonsDo) {
     Frames(1);
     MoveTo("view");  // without a window manager the keys go to the window under the pointer
-    for (const unsigned long key : {XK_space, XK_space, XK_s, XK_m, XK_v, XK_v}) {
+    for (const unsigned long key : {XK_space, XK_space, XK_s, XK_m, XK_k, XK_v, XK_v}) {
         Key(key);
         system_->Step();  // what a key does next may depend on what the system has done
     }
-    EXPECT_EQ(Commands(), (std::vector{Kind::kPause, Kind::kResume, Kind::kStep, Kind::kSaveMesh, Kind::kRecord,
-                                       Kind::kStopRecording}));
+    EXPECT_EQ(Commands(), (std::vector{Kind::kPause, Kind::kResume, Kind::kStep, Kind::kSaveMesh, Kind::kSaveScan,
+                                       Kind::kRecord, Kind::kStopRecording}));
     for (const auto& [key, method] : {std::pair<unsigned long, TrackingMethod>{XK_2, TrackingMethod::kSdfGeometric},
                                       {XK_3, TrackingMethod::kIcp},
                                       {XK_4, TrackingMethod::kIcpRgb},
