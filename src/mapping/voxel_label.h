@@ -7,7 +7,7 @@
 
 namespace tessera {
 
-// [D18] eq. 1: the two classes with the most votes, the first at least as many as the second; all zero: none yet. Also
+// [D18] eq. 1: the two classes with the most votes, the first the one that counts; all zero: none yet. Also
 // the instance most voted for.
 struct VoxelLabel {
     std::uint8_t class_id[2];
@@ -20,12 +20,12 @@ static_assert(sizeof(VoxelLabel) == 8);
 
 // Seen beside an object, in a detection's box: a class of its own among the votes.
 inline constexpr std::uint8_t kBackgroundClass = 255;
-inline constexpr int kSettledVotes = 8;
+inline constexpr int kSettledVotes = 8, kSettledRatio = 2;
 inline constexpr int kLeastVotes = 2;  // for a voxel to have a class
 
-// One vote. Counters stop at 255; there a vote for the first takes one from the second, so that old mistakes fade. A third
-// class wears the second out before it takes its place. True if a settled voxel went from one kind of object to another by it
-// ([D18] 4.3: that should not happen).
+// One vote. Counters stop at 255; there a vote for the one takes from the other, so that old mistakes fade. A third class
+// wears the second out before it takes its place. A settled voxel goes from one kind of object to another only for twice as
+// many votes, as it took to settle. True if it did by this vote ([D18] 4.3: that should not happen).
 TESSERA_HD bool VoteForClass(std::uint8_t class_id, VoxelLabel& v) {
     bool flipped = false;
     if (v.count[0] == 0 || v.class_id[0] == class_id) {
@@ -36,9 +36,13 @@ TESSERA_HD bool VoteForClass(std::uint8_t class_id, VoxelLabel& v) {
             --v.count[1];
     } else if (v.count[1] == 0 || v.class_id[1] == class_id) {
         v.class_id[1] = class_id;
-        if (v.count[1] < 255) ++v.count[1];
-        if (v.count[1] > v.count[0]) {
-            flipped = v.settled == v.class_id[0] && v.settled != kBackgroundClass && v.class_id[1] != kBackgroundClass;
+        if (v.count[1] < 255)
+            ++v.count[1];
+        else
+            --v.count[0];
+        const bool settled = v.settled == v.class_id[0] && v.settled != kBackgroundClass && v.class_id[1] != kBackgroundClass;
+        if (v.count[1] > (settled ? kSettledRatio : 1) * v.count[0]) {
+            flipped = settled;
             const std::uint8_t old_class = v.class_id[0], old_count = v.count[0];
             v.class_id[0] = v.class_id[1];
             v.count[0] = v.count[1];
@@ -48,7 +52,7 @@ TESSERA_HD bool VoteForClass(std::uint8_t class_id, VoxelLabel& v) {
     } else {
         --v.count[1];
     }
-    if (v.count[0] >= kSettledVotes && v.count[0] >= 2 * v.count[1]) v.settled = v.class_id[0];
+    if (v.count[0] >= kSettledVotes && v.count[0] >= kSettledRatio * v.count[1]) v.settled = v.class_id[0];
     return flipped;
 }
 

@@ -20,13 +20,23 @@ namespace tessera {
 // Internal number of an object, 0 = none; what voxels hold. Never used twice, until there are 65535.
 using InstanceId = std::uint16_t;
 
-// One detection as the map sees it. Pixels are counted on one sampling grid for all.
+// One detection as the map sees it. Pixels are counted on one sampling grid for all; what several detections claim counts for
+// each.
 struct ObservedObject {
     int class_id = 0;
     float probability = 0;
     int pixels = 0;
     std::map<InstanceId, int> overlaps;  // pixels where the map shows that instance
     Eigen::AlignedBox3d box;             // of its points, world frame, metres
+    Eigen::AlignedBox2d image_box = {};  // the detector's, pixels
+    int own_pixels = 0;                  // of `pixels`, those that no other detection before it claims
+};
+
+// What the predicted view shows of an instance.
+struct VisibleObject {
+    VisibleObject(int pixels_ = 0, const Eigen::AlignedBox2d& image_box_ = {}) : pixels(pixels_), image_box(image_box_) {}
+    int pixels;
+    Eigen::AlignedBox2d image_box;  // around them but for strays, pixels
 };
 
 struct InstanceRecord {
@@ -51,7 +61,12 @@ class Instances {
 
     // One detected frame. `visible`: sampled pixels of each instance in the predicted view. Returns the instance of each
     // detection, 0 if it says nothing of any.
-    std::vector<InstanceId> Match(const std::vector<ObservedObject>& observed, const std::map<InstanceId, int>& visible);
+    std::vector<InstanceId> Match(const std::vector<ObservedObject>& observed, const std::map<InstanceId, VisibleObject>& visible);
+
+    // The instances of its class that the detection holds nearly whole and that none of the frame's detections is of: missed
+    // ones, before or upon it. `match` as Match returns it.
+    std::vector<InstanceId> Covered(const ObservedObject& observed, const std::map<InstanceId, VisibleObject>& visible,
+                                    const std::vector<InstanceId>& match) const;
 
     // Follows merges; 0 for those that turned out to be nothing.
     InstanceId Resolve(InstanceId id) const;
@@ -73,12 +88,13 @@ class Instances {
         int together = 0, apart = 0;
     };
 
-    void Assign(const std::vector<ObservedObject>& observed, const std::map<InstanceId, int>& visible,
+    void Assign(const std::vector<ObservedObject>& observed, const std::map<InstanceId, VisibleObject>& visible,
                 std::vector<InstanceId>& match) const;
     InstanceId Add();
     void Update(InstanceId id, const ObservedObject& observed, int visible);
     void Judge(InstanceId id);
-    void GatherEvidence(const std::vector<ObservedObject>& observed, const std::map<InstanceId, int>& visible,
+    bool Covers(const ObservedObject& observed, const std::map<InstanceId, VisibleObject>& visible, InstanceId id) const;
+    void GatherEvidence(const std::vector<ObservedObject>& observed, const std::map<InstanceId, VisibleObject>& visible,
                         const std::vector<InstanceId>& match);
     void Join(InstanceId a, InstanceId b);
 

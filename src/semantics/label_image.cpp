@@ -45,7 +45,7 @@ void FindObject(const DepthImage& depth_m, const PinholeCamera& camera, const De
 
 void MakeLabelImage(const DepthImage& depth_m, const PinholeCamera& camera, std::span<const Detection> detections,
                     LabelRegion region, LabelImage& labels) {
-    labels.detection = Image<std::uint8_t>(depth_m.width(), depth_m.height(), 0);
+    labels.detection = labels.second = Image<std::uint8_t>(depth_m.width(), depth_m.height(), 0);
     const std::size_t count = std::min(detections.size(), LabelImage::kMostDetections);
     std::vector<PixelBox> boxes(count);
     std::vector<Image<std::uint8_t>> masks(count);
@@ -60,11 +60,14 @@ void MakeLabelImage(const DepthImage& depth_m, const PinholeCamera& camera, std:
     for (const std::size_t i : order)
         for (int y = 0; y < boxes[i].height(); ++y)
             for (int x = 0; x < boxes[i].width(); ++x) {
-                std::uint8_t& pixel = labels.detection(x + boxes[i].x_begin, y + boxes[i].y_begin);
-                if (masks[i](x, y) != 0)
+                const int u = x + boxes[i].x_begin, v = y + boxes[i].y_begin;
+                std::uint8_t& pixel = labels.detection(u, v);
+                if (masks[i](x, y) != 0) {
+                    if (pixel != LabelImage::kBesideObjects) labels.second(u, v) = pixel;
                     pixel = static_cast<std::uint8_t>(i + 1);
-                else if (pixel == 0)
+                } else if (pixel == 0) {
                     pixel = LabelImage::kBesideObjects;
+                }
             }
 }
 

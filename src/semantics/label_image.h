@@ -14,6 +14,7 @@ struct LabelImage {
     static constexpr std::uint8_t kBesideObjects = 255;
     static constexpr std::size_t kMostDetections = 254;  // the most probable ones are taken
     Image<std::uint8_t> detection;
+    Image<std::uint8_t> second;  // of a pixel that two detections claim, the number of the larger one; else 0
 };
 
 // Where boxes overlap, the smaller one's object is before or upon the larger one's. Of two classes given to nearly the same

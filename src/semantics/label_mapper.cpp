@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 
@@ -11,9 +12,10 @@
 namespace tessera {
 namespace {
 
-constexpr int kSampling = 4;  // pixels, of the predicted view and of what is compared with it
+constexpr int kSampledColumns = 160;  // at least, of the predicted view and of what is compared with it
 constexpr double kLeastArea_m2 = 0.0015;
 constexpr float kNear_m = 0.1f;
+constexpr float kStray = 0.02f;  // of an instance's pixels on each side, for its outline
 constexpr float kTrim = 0.05f;  // of a detection's points on each side of each axis, for its box
 
 const VoxelLabel* VoxelAt(const BlockMap& map, const Eigen::Array3i& voxel) {
@@ -54,7 +56,7 @@ Instances::Config InstanceConfig(const LabelConfig& config) { return {config.min
 }  // namespace
 
 LabelMapper::LabelMapper(const LabelConfig& config, LabelClasses classes, const PinholeCamera& camera)
-    : config_(config), classes_(std::move(classes)), camera_(camera), instances_(InstanceConfig(config)) {}
+    : config_(config), classes_(std::move(classes)), camera_(camera), step_px_(std::max(1, camera.width / kSampledColumns)), instances_(InstanceConfig(config)) {}
 
 VoteCount LabelMapper::Label(std::span<const Detection> detections, const DepthImage& depth_m,
                              const Eigen::Isometry3d& T_world_camera, BlockMap& map) {
@@ -63,24 +65,27 @@ VoteCount LabelMapper::Label(std::span<const Detection> detections, const DepthI
     const float farthest_m = *std::max_element(depth_m.data(), depth_m.data() + depth_m.size());
     // 2. What does the map say?
     PredictInstances(T_world_camera, farthest_m, map);
-    std::map<InstanceId, int> visible;
-    for (std::size_t i = 0; i < predicted_.size(); ++i)
-        if (predicted_.data()[i] != 0) ++visible[predicted_.data()[i]];
+    const std::map<InstanceId, VisibleObject> visible = Visible();
     // 3. Which is which?
-    const std::vector<InstanceId> match = instances_.Match(Observe(detections, depth_m, T_world_camera), visible);
+    const std::vector<ObservedObject> observed = Observe(detections, depth_m, T_world_camera);
+    const std::vector<InstanceId> match = instances_.Match(observed, visible);
     // 4. Votes.
     std::vector<Ballot> ballots(detections.size());
     for (std::size_t i = 0; i < match.size(); ++i)
-        if (match[i] != 0) ballots[i] = {static_cast<std::uint8_t>(detections[i].class_id), match[i]};
+        if (match[i] != 0)
+            ballots[i] = {static_cast<std::uint8_t>(detections[i].class_id), match[i], visible.contains(match[i]),
+                          instances_.Covered(observed[i], visible, match)};
+    std::vector<InstanceId> joined(static_cast<std::size_t>(instances_.last()) + 1, 0);
+    for (std::size_t id = 1; id < joined.size(); ++id) joined[id] = instances_.Resolve(static_cast<InstanceId>(id));
     const double band_m = config_.band_voxels * map.config().voxel_size_m;
-    VoteCount count = VoteLabels(image_, ballots, depth_m, camera_, T_world_camera, band_m, map);
+    VoteCount count = VoteLabels(image_, ballots, joined, depth_m, camera_, T_world_camera, band_m, map);
     KnowBlocks(map);
     for (const BlockId id : count.blocks) votes_[static_cast<std::size_t>(id)] = Votes::kNew;
     return count;
 }
 
 void LabelMapper::PredictInstances(const Eigen::Isometry3d& T_world_camera, float farthest_m, const BlockMap& map) {
-    const PinholeCamera camera = camera_.Every(kSampling);
+    const PinholeCamera camera = camera_.Every(step_px_);
     ray_caster_.Predict(map, camera, T_world_camera, kNear_m, std::max(2 * kNear_m, 1.1f * farthest_m), view_);
     predicted_.Resize(camera.width, camera.height);
     tbb::parallel_for(0, camera.height, [&](int y) {
@@ -92,24 +97,52 @@ void LabelMapper::PredictInstances(const Eigen::Isometry3d& T_world_camera, floa
     });
 }
 
+std::map<InstanceId, VisibleObject> LabelMapper::Visible() const {
+    std::map<InstanceId, std::array<std::vector<int>, 2>> places;
+    for (int y = 0; y < predicted_.height(); ++y)
+        for (int x = 0; x < predicted_.width(); ++x) {
+            if (predicted_(x, y) == 0) continue;
+            auto& place = places[predicted_(x, y)];
+            place[0].push_back(x);
+            place[1].push_back(y);
+        }
+    std::map<InstanceId, VisibleObject> visible;
+    for (auto& [id, place] : places) {
+        VisibleObject& seen = visible[id];
+        seen.pixels = static_cast<int>(place[0].size());
+        const auto cut = static_cast<std::size_t>(kStray * static_cast<float>(place[0].size()));
+        for (std::size_t axis = 0; axis < 2; ++axis) {
+            std::ranges::sort(place[axis]);
+            seen.image_box.min()[static_cast<int>(axis)] = step_px_ * place[axis][cut];
+            seen.image_box.max()[static_cast<int>(axis)] = step_px_ * (place[axis][place[axis].size() - 1 - cut] + 1);
+        }
+    }
+    return visible;
+}
+
 std::vector<ObservedObject> LabelMapper::Observe(std::span<const Detection> detections, const DepthImage& depth_m,
                                                  const Eigen::Isometry3d& T_world_camera) const {
     std::vector<ObservedObject> observed(std::min(detections.size(), LabelImage::kMostDetections));
     std::vector<std::vector<Eigen::Vector3d>> points(observed.size());
     for (int y = 0; y < predicted_.height(); ++y)
         for (int x = 0; x < predicted_.width(); ++x) {
-            const int u = x * kSampling + kSampling / 2, v = y * kSampling + kSampling / 2;
-            const std::uint8_t label = image_.detection(u, v);
-            if (label == 0 || label == LabelImage::kBesideObjects || depth_m(u, v) <= 0) continue;
-            ObservedObject& o = observed[label - 1u];
-            ++o.pixels;
-            if (predicted_(x, y) != 0) ++o.overlaps[predicted_(x, y)];
-            points[label - 1u].push_back(T_world_camera * camera_.Unproject(u, v, depth_m(u, v)));
+            const int u = x * step_px_ + step_px_ / 2, v = y * step_px_ + step_px_ / 2;
+            if (depth_m(u, v) <= 0) continue;
+            for (const std::uint8_t label : {image_.detection(u, v), image_.second(u, v)}) {
+                if (label == 0 || label == LabelImage::kBesideObjects) continue;
+                ObservedObject& o = observed[label - 1u];
+                ++o.pixels;
+                o.own_pixels += label == image_.detection(u, v);
+                if (predicted_(x, y) != 0) ++o.overlaps[predicted_(x, y)];
+                points[label - 1u].push_back(T_world_camera * camera_.Unproject(u, v, depth_m(u, v)));
+            }
         }
     for (std::size_t i = 0; i < observed.size(); ++i) {
         observed[i].class_id = detections[i].class_id;
         observed[i].probability = detections[i].probability;
         observed[i].box = TrimmedBox(points[i]);
+        const DetectionBox& box = detections[i].box;
+        observed[i].image_box = {Eigen::Vector2d(box.x_min, box.y_min), Eigen::Vector2d(box.x_max + 1, box.y_max + 1)};
     }
     return observed;
 }

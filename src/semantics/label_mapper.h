@@ -56,6 +56,7 @@ class LabelMapper {
   private:
     void KnowBlocks(const BlockMap& map);
     void PredictInstances(const Eigen::Isometry3d& T_world_camera, float farthest_m, const BlockMap& map);
+    std::map<InstanceId, VisibleObject> Visible() const;
     std::vector<ObservedObject> Observe(std::span<const Detection> detections, const DepthImage& depth_m,
                                         const Eigen::Isometry3d& T_world_camera) const;
     VertexLabel LabelOf(const VoxelLabel& voxel) const;
@@ -64,6 +65,7 @@ class LabelMapper {
     LabelConfig config_;
     LabelClasses classes_;
     PinholeCamera camera_;
+    int step_px_;  // of the sampled views
     RayCaster ray_caster_;
     PredictedView view_;
     Image<InstanceId> predicted_;

@@ -9,19 +9,44 @@
 namespace tessera {
 namespace {
 
+constexpr int kApartWeight = 3;  // votes of a detection against another one's instance: they are seen to be two
+
 struct Voting {
     const LabelImage& labels;
     std::span<const Ballot> ballots;
+    std::span<const std::uint16_t> joined;
     const DepthImage& depth_m;
     const PinholeCamera& camera;
     Eigen::Isometry3d T_camera_world;
     double band_m;
 
-    Ballot BallotOf(std::uint8_t label) const {
-        if (label == LabelImage::kBesideObjects) return {kBackgroundClass, 0};
-        return ballots[label - 1u];
+    std::uint16_t HolderOf(const VoxelLabel& voxel) const { return voxel.instance < joined.size() ? joined[voxel.instance] : 0; }
+    bool IsDetected(std::uint16_t instance) const {
+        return std::ranges::any_of(ballots, [&](const Ballot& ballot) { return ballot.instance == instance; });
     }
 };
+
+struct Claims {
+    std::uint8_t first = 0, second = 0;
+};
+
+// One pixel's vote for one voxel.
+struct Vote {
+    std::uint8_t class_id = 0;
+    std::uint16_t instance = 0;
+    int weight = 0;  // of the vote for the instance
+};
+
+Vote VoteOf(const Voting& v, const Claims& claims, const VoxelLabel& voxel) {
+    if (claims.first == LabelImage::kBesideObjects) return {kBackgroundClass, 0, 1};
+    const Ballot* ballot = &v.ballots[claims.first - 1u];
+    const std::uint16_t holder = v.HolderOf(voxel);
+    if (holder == 0 || holder == ballot->instance || ballot->instance == 0) return {ballot->class_id, ballot->instance, 1};
+    if (claims.second != 0 && ballot->shown && v.ballots[claims.second - 1u].instance == holder)
+        return {v.ballots[claims.second - 1u].class_id, holder, 1};
+    if (std::ranges::find(ballot->covered, holder) != ballot->covered.end()) return {};
+    return {ballot->class_id, ballot->instance, v.IsDetected(holder) ? kApartWeight : 1};
+}
 
 // Blocks of the map around the labelled pixels' surface, each once, increasing.
 std::vector<BlockId> BlocksOf(const Voting& v, const Eigen::Isometry3d& T_world_camera, const BlockMap& map) {
@@ -55,16 +80,19 @@ std::vector<BlockId> BlocksOf(const Voting& v, const Eigen::Isometry3d& T_world_
     return all;
 }
 
-// The label of the pixel that sees the point, 0 if none does.
-std::uint8_t LabelAt(const Voting& v, const Eigen::Vector3d& p_camera, double truncation_m) {
-    if (p_camera.z() < 0.01) return 0;
+// What the pixel that sees the point says; nothing if none does.
+Claims ClaimsAt(const Voting& v, const Eigen::Vector3d& p_camera, double truncation_m) {
+    if (p_camera.z() < 0.01) return {};
     const Eigen::Vector2d pixel = v.camera.Project(p_camera);
-    if (!(std::abs(pixel.x()) < 1e6) || !(std::abs(pixel.y()) < 1e6)) return 0;
+    if (!(std::abs(pixel.x()) < 1e6) || !(std::abs(pixel.y()) < 1e6)) return {};
     const int x = static_cast<int>(std::lround(pixel.x())), y = static_cast<int>(std::lround(pixel.y()));
-    if (!v.depth_m.Contains(x, y)) return 0;
+    if (!v.depth_m.Contains(x, y)) return {};
     const double z = v.depth_m(x, y);
-    return z > 0 && std::abs(z - p_camera.z()) <= truncation_m ? v.labels.detection(x, y) : std::uint8_t{0};
+    if (z <= 0 || std::abs(z - p_camera.z()) > truncation_m) return {};
+    return {v.labels.detection(x, y), v.labels.second(x, y)};
 }
+
+bool IsSettledOnObject(const VoxelLabel& voxel) { return voxel.settled != 0 && voxel.settled != kBackgroundClass; }
 
 VoteCount VoteInBlock(const Voting& v, BlockId id, BlockMap& map) {
     VoteCount count;
@@ -75,13 +103,15 @@ VoteCount VoteInBlock(const Voting& v, BlockId id, BlockMap& map) {
     for (int i = 0; i < kBlockVoxels; ++i) {
         if (!HasDistance(field[i]) || std::abs(FieldDistance(field[i])) > band) continue;
         const Eigen::Vector3d voxel(8.0 * c.x + (i & 7), 8.0 * c.y + (i >> 3 & 7), 8.0 * c.z + (i >> 6));
-        const std::uint8_t label = LabelAt(v, v.T_camera_world * (voxel * voxel_m), truncation_m);
-        if (label == 0) continue;
-        const Ballot ballot = v.BallotOf(label);
-        if (ballot.class_id == 0) continue;
+        const Claims claims = ClaimsAt(v, v.T_camera_world * (voxel * voxel_m), truncation_m);
+        if (claims.first == 0) continue;
         VoxelLabel& voxel_label = map.label(id)[i];
-        count.flips += VoteForClass(ballot.class_id, voxel_label);
-        VoteForInstance(ballot.instance, voxel_label);
+        const Vote vote = VoteOf(v, claims, voxel_label);
+        if (vote.class_id == 0) continue;
+        const bool was_settled = IsSettledOnObject(voxel_label);
+        count.flips += VoteForClass(vote.class_id, voxel_label);
+        count.settled += !was_settled && IsSettledOnObject(voxel_label);
+        for (int k = 0; k < vote.weight; ++k) VoteForInstance(vote.instance, voxel_label);
         ++count.voxels;
     }
     return count;
@@ -89,21 +119,23 @@ VoteCount VoteInBlock(const Voting& v, BlockId id, BlockMap& map) {
 
 }  // namespace
 
-VoteCount VoteLabels(const LabelImage& labels, std::span<const Ballot> ballots, const DepthImage& depth_m,
-                     const PinholeCamera& camera, const Eigen::Isometry3d& T_world_camera, double band_m, BlockMap& map) {
-    const Voting voting{labels, ballots, depth_m, camera, T_world_camera.inverse(), band_m};
+VoteCount VoteLabels(const LabelImage& labels, std::span<const Ballot> ballots, std::span<const std::uint16_t> joined,
+                     const DepthImage& depth_m, const PinholeCamera& camera, const Eigen::Isometry3d& T_world_camera,
+                     double band_m, BlockMap& map) {
+    const Voting voting{labels, ballots, joined, depth_m, camera, T_world_camera.inverse(), band_m};
     const std::vector<BlockId> blocks = BlocksOf(voting, T_world_camera, map);
     std::vector<std::uint8_t> got_votes(blocks.size());
-    std::atomic<std::int64_t> voxels = 0, flips = 0;
+    std::atomic<std::int64_t> voxels = 0, flips = 0, settled = 0;
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, blocks.size(), 16), [&](const auto& range) {
         for (std::size_t i = range.begin(); i < range.end(); ++i) {
             const VoteCount count = VoteInBlock(voting, blocks[i], map);
             voxels += count.voxels;
             flips += count.flips;
+            settled += count.settled;
             got_votes[i] = count.voxels > 0;
         }
     });
-    VoteCount count{voxels, flips, {}};
+    VoteCount count{voxels, flips, settled, {}};
     for (std::size_t i = 0; i < blocks.size(); ++i)
         if (got_votes[i]) count.blocks.push_back(blocks[i]);
     return count;

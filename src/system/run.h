@@ -65,6 +65,7 @@ struct LabelSummary {
     std::int64_t frames = 0;      // that were detected
     std::int64_t detections = 0;  // of wanted classes and enough probability
     std::int64_t flips = 0;       // settled voxels that changed their class
+    std::int64_t settled = 0;     // voxels that settled on an object's class
     std::vector<MapObject> objects;
 };
 

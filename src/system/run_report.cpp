@@ -82,6 +82,7 @@ std::string RunJson(const RunRequest& request, RunConfig config, const RunSummar
                           {"frames", summary.labels->frames},
                           {"frames_per_s", summary.wall_s > 0 ? static_cast<double>(summary.labels->frames) / summary.wall_s : 0.0},
                           {"detections", summary.labels->detections},
+                          {"settled_voxels", summary.labels->settled},
                           {"settled_flips", summary.labels->flips},
                           {"objects", summary.labels->objects.size()}};
     if (summary.ate) json["ate"] = Json::parse(AteJson(*summary.ate), nullptr, false);

@@ -55,6 +55,7 @@ Status Runner::TakeLabels(const LabelReport& report) {
     ++summary_.labels->frames;
     summary_.labels->detections += static_cast<std::int64_t>(report.detections.size());
     summary_.labels->flips += report.votes.flips;
+    summary_.labels->settled += report.votes.settled;
     window_.Show(report, class_names_);
     return output_ ? output_->AddDetections(report, class_names_) : Status::Ok();
 }

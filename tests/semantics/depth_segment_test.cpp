@@ -97,9 +97,10 @@ TEST(MeanDepth, DeeperThanTheMeanIsBackground) {
     EXPECT_EQ(mask(3, 0), 0);
 }
 
-// A wall at 1 m through voxels of 1 cm: exactly those within the band get one vote each.
-TEST(VoteLabels, OnlyTheBandAroundTheSurface) {
-    BlockMap map({.voxel_size_m = 0.01, .truncation_m = 0.04});
+const BlockMap::Config kVoxels{.voxel_size_m = 0.01, .truncation_m = 0.04};
+
+// A wall at 1 m.
+void MakeWall(BlockMap& map) {
     map.EnableLabels();
     for (int bx = -2; bx < 2; ++bx)
         for (int by = -2; by < 2; ++by)
@@ -110,12 +111,20 @@ TEST(VoteLabels, OnlyTheBandAroundTheSurface) {
                     map.field(id)[i] = static_cast<std::uint32_t>(static_cast<std::uint16_t>(std::lround(distance / 0.04 * 32767))) << 16;
                 }
             }
+}
+
+const Image<std::uint8_t> kNothing(160, 120, 0);
+
+// Exactly the voxels within the band get one vote each.
+TEST(VoteLabels, OnlyTheBandAroundTheSurface) {
+    BlockMap map(kVoxels);
+    MakeWall(map);
     DepthImage depth(160, 120, 1.0f);
-    LabelImage labels{Image<std::uint8_t>(160, 120, 0)};
+    LabelImage labels{kNothing, kNothing};
     for (int y = 50; y < 70; ++y)
         for (int x = 70; x < 90; ++x) labels.detection(x, y) = 1;
     const Ballot ballot{5, 3};
-    const VoteCount count = VoteLabels(labels, {&ballot, 1}, depth, kCamera, Eigen::Isometry3d::Identity(), 0.0151, map);
+    const VoteCount count = VoteLabels(labels, {&ballot, 1}, {}, depth, kCamera, Eigen::Isometry3d::Identity(), 0.0151, map);
     std::int64_t voxels = 0;
     std::vector<BlockId> expected_blocks;
     for (BlockId id = 1; id < map.size(); ++id)
@@ -134,6 +143,36 @@ TEST(VoteLabels, OnlyTheBandAroundTheSurface) {
     EXPECT_EQ(count.blocks, expected_blocks);
     EXPECT_EQ(count.voxels, voxels);
     EXPECT_GT(voxels, 500);
+}
+
+// The instance of a voxel in the middle after each of these frames: first claim and second claim of all pixels, two ballots.
+TEST(VoteLabels, AVoxelsHolderCounts) {
+    BlockMap map(kVoxels);
+    MakeWall(map);
+    const DepthImage depth(160, 120, 1.0f);
+    const std::vector<std::uint16_t> joined{0, 1, 2, 3};
+    const BlockId block = map.Find({0, 0, 12});
+    const VoxelLabel& voxel = map.label(block)[4 * 64];
+    const auto vote = [&](int times, std::uint8_t first, std::uint8_t second, const std::vector<Ballot>& ballots) {
+        const LabelImage labels{Image<std::uint8_t>(160, 120, first), Image<std::uint8_t>(160, 120, second)};
+        for (int i = 0; i < times; ++i)
+            VoteLabels(labels, ballots, joined, depth, kCamera, Eigen::Isometry3d::Identity(), 0.0151, map);
+        return voxel.instance;
+    };
+    EXPECT_EQ(vote(6, 1, 0, {{5, 1}, {5, 2}}), 1);
+    // Claimed by 2, which covers the undetected 1: nothing changes.
+    EXPECT_EQ(vote(20, 2, 0, {{}, {5, 2, true, {1}}}), 1);
+    EXPECT_EQ(voxel.instance_count, 6);
+    EXPECT_EQ(voxel.count[0], 6);
+    // Claimed by both: by the one that holds it, if the other one has voxels of its own.
+    EXPECT_EQ(vote(20, 2, 1, {{5, 1, true}, {5, 2, true}}), 1);
+    EXPECT_EQ(voxel.instance_count, 26);
+    // Claimed by 2 alone, while 1 is seen elsewhere: three votes at once. 1 not seen at all: one.
+    EXPECT_EQ(vote(8, 2, 0, {{5, 1, true}, {5, 2, true}}), 1);
+    EXPECT_EQ(voxel.instance_count, 2);
+    EXPECT_EQ(vote(1, 2, 0, {{}, {5, 2, true}}), 1);
+    EXPECT_EQ(vote(1, 2, 0, {{}, {5, 2, true}}), 0);
+    EXPECT_EQ(vote(1, 2, 1, {{5, 1, true}, {5, 2}}), 2);
 }
 
 }  // namespace

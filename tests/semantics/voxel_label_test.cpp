@@ -44,8 +44,12 @@ TEST(VoxelLabel, CountersSaturateAndTheSecondThenFades) {
     EXPECT_EQ(v.count[1], 20);
     VoteForClass(1, v);
     EXPECT_EQ(v.count[1], 19);
-    for (int i = 0; i < 1000; ++i) VoteForClass(2, v);
-    EXPECT_EQ(v.class_id[0], 1);  // 255 to 255: not more
+    for (int i = 0; i < 236 + 127; ++i) VoteForClass(2, v);
+    EXPECT_EQ(v.class_id[0], 1);
+    EXPECT_EQ(v.count[0], 128);
+    EXPECT_EQ(v.count[1], 255);
+    VoteForClass(2, v);  // twice as many
+    EXPECT_EQ(v.class_id[0], 2);
 }
 
 TEST(VoxelLabel, AFifthOfWrongVotesFlipsNothingSettled) {
@@ -58,9 +62,15 @@ TEST(VoxelLabel, AFifthOfWrongVotesFlipsNothingSettled) {
     }
     EXPECT_EQ(flips, 0);
     std::vector<std::uint8_t> turned(20, 1);  // the count itself works: another class for good
-    turned.insert(turned.end(), 30, 2);
-    After(turned, &flips);
+    turned.insert(turned.end(), 40, 2);
+    EXPECT_EQ(After(turned, &flips).class_id[0], 1);
+    EXPECT_EQ(flips, 0);
+    turned.push_back(2);
+    EXPECT_EQ(After(turned, &flips).class_id[0], 2);
     EXPECT_EQ(flips, 1);
+    turned.assign(20, 1);  // background is told from objects by majority
+    turned.insert(turned.end(), 21, kBackgroundClass);
+    EXPECT_EQ(ClassOf(After(turned)), 0);
 }
 
 TEST(VoxelLabel, InstancesByMajority) {

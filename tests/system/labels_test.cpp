@@ -21,8 +21,9 @@ namespace {
 
 struct Mistakes {
     double missed, wrong, least_accuracy;
+    std::size_t least_objects;  // of the synthetic desk's 11
 };
-constexpr Mistakes kGiven{0.1, 0.03, 0.95}, kHard{0.3, 0.2, 0.9};
+constexpr Mistakes kGiven{0.1, 0.03, 0.95, 11}, kHard{0.3, 0.2, 0.9, 10};
 
 class LabelsTest : public testing::Test {
   protected:
@@ -90,7 +91,7 @@ class LabelsTest : public testing::Test {
 
 class SyntheticDesk : public LabelsTest, public testing::WithParamInterface<Mistakes> {};
 
-// Two of the desk's books lie in a stack, each two or three voxels thick, and may be taken for one: 10 of 11 are asked for.
+// The desk has a stack of three books, each two or three voxels thick: with a third missed and so few frames, 10 of 11 will do.
 TEST_P(SyntheticDesk, IsLabelledDespiteMistakes) {
     config.synthetic.frames = 60;
     config.synthetic.fps = 6;  // the whole of the scene's motion
@@ -110,7 +111,7 @@ TEST_P(SyntheticDesk, IsLabelledDespiteMistakes) {
     std::set<int> found;
     for (const InstanceScore& i : scores.instances)
         if (i.right_class) found.insert(i.found);
-    EXPECT_GE(found.size(), 10u) << LabelScoresText(scores);
+    EXPECT_GE(found.size(), GetParam().least_objects) << LabelScoresText(scores);
     EXPECT_LT(scores.centroid_error_mean_m, 0.05) << LabelScoresText(scores);
     ExpectConstantNumbers();
 }
@@ -170,13 +171,14 @@ TEST_F(HouseDesk, DetectionsAsGiven) {
     EXPECT_EQ(scores.recall_25, 1.0) << LabelScoresText(scores);
 }
 
-// Wrong "books" leave nothing behind: the surroundings of the true ones stay without a label. Two books that touch may then
-// be taken for one.
+// Wrong "books" leave nothing behind: the surroundings of the true ones stay without a label. Two of the books lie one upon
+// the other.
 TEST_F(HouseDesk, AFifthWrongAndAThirdMissed) {
     MakeMistakes(Sequence() + "/detections.txt", folder / "hard.txt", kHard);
     const LabelScores scores = Score(Sequence(), folder / "hard.txt", Sequence());
     ExpectWell(scores, 0.98);
-    EXPECT_GE(scores.found_objects, 2);
+    EXPECT_EQ(scores.found_objects, 3);
+    EXPECT_EQ(scores.recall_25, 1.0) << LabelScoresText(scores);
 }
 
 TEST_F(HouseDesk, TheSegmentRuleBeatsTheMeanDepth) {

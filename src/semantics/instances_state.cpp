@@ -1,0 +1,73 @@
+#include <algorithm>
+#include <vector>
+
+#include "semantics/instances.h"
+
+namespace tessera {
+
+void Instances::SaveState(StateWriter& state) const {
+    state.Put(static_cast<std::uint64_t>(records_.size()));
+    for (const InstanceRecord& r : records_) {
+        state.Put(static_cast<std::uint64_t>(r.class_votes.size()));
+        for (const auto& [id, sum] : r.class_votes) {
+            state.Put(id);
+            state.Put(sum);
+            state.Put(r.class_counts.contains(id) ? r.class_counts.at(id) : 0);
+        }
+        for (const int value : {r.observations, r.visible_frames, r.held, r.public_id}) state.Put(value);
+        state.Put(r.merged_into);
+        state.Put(r.dropped);
+        state.Put(r.box.isEmpty());
+        if (r.box.isEmpty()) continue;
+        state.Put(r.box.min());
+        state.Put(r.box.max());
+    }
+    state.Put(static_cast<std::uint64_t>(evidence_.size()));
+    for (const auto& [pair, evidence] : evidence_) {
+        state.Put(pair.first);
+        state.Put(pair.second);
+        state.Put(evidence.together);
+        state.Put(evidence.apart);
+    }
+    state.Put(last_public_);
+}
+
+bool Instances::LoadState(StateReader& state) {
+    std::uint64_t count = 0, votes = 0;
+    if (!state.Get(count) || count < 1 || count > 65536) return false;
+    std::vector<InstanceRecord> records;
+    for (std::uint64_t i = 0; i < count; ++i) {
+        InstanceRecord& r = records.emplace_back();
+        state.Get(votes);
+        for (; state.ok() && votes > 0; --votes) {
+            int id = 0, seen = 0;
+            double sum = 0;
+            if (!state.Get(id) || !state.Get(sum) || !state.Get(seen)) return false;
+            r.class_votes[id] = sum;
+            r.class_counts[id] = seen;
+        }
+        for (int* value : {&r.observations, &r.visible_frames, &r.held, &r.public_id}) state.Get(*value);
+        state.Get(r.merged_into);
+        state.Get(r.dropped);
+        bool empty = true;
+        state.Get(empty);
+        if (!empty && (!state.Get(r.box.min()) || !state.Get(r.box.max()))) return false;
+        // Merges go to older instances, so that following them ends.
+        if (!state.ok() || r.merged_into >= std::max<std::uint64_t>(i, 1)) return false;
+    }
+    std::map<std::pair<InstanceId, InstanceId>, PairEvidence> evidence;
+    state.Get(count);
+    for (; state.ok() && count > 0; --count) {
+        std::pair<InstanceId, InstanceId> pair;
+        PairEvidence found;
+        if (!state.Get(pair.first) || !state.Get(pair.second) || !state.Get(found.together) || !state.Get(found.apart)) return false;
+        if (pair.first >= records.size() || pair.second >= records.size()) return false;
+        evidence[pair] = found;
+    }
+    if (!state.Get(last_public_) || !state.at_end()) return false;
+    records_ = std::move(records);
+    evidence_ = std::move(evidence);
+    return true;
+}
+
+}  // namespace tessera
