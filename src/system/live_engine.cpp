@@ -33,6 +33,7 @@ LiveEngine::LiveEngine(EngineInput input)
         mapping_done_.store(true);
         return;
     }
+    mapping_.KeepDeltas();
     if (config_.loops.enabled) BeginLoops(input.labelling);
     if (input.labelling.detector) {
         mapping_.EnableLabels(config_.labels, input.labelling.classes);

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <numeric>
-
 #include "core/check.h"
 #include "mapping/ray_caster.h"
 
@@ -21,6 +19,8 @@ void MappingStage::Fuse(TrackedFrame& tracked) {
     FrameReport& report = tracked.report;
     report.fusion = integrator_.Integrate(tracked.prepared, tracked.view, *map_);
     report.fused = true;
+    if (keep_deltas_)
+        for (const BlockId id : integrator_.added_blocks()) block_changes_.push_back({id, false, map_->coord(id)});
     if (report.fusion.refused_blocks > 0)
         report.warning =
             fmt::format("{} of {} new blocks refused: mapping.max_new_blocks", report.fusion.refused_blocks,
@@ -38,15 +38,13 @@ VoteCount MappingStage::Label(std::span<const Detection> detections, const Depth
 }
 
 void MappingStage::CollectDelta(MapDelta& delta) {
-    tessera::CollectDelta(*map_, delta_size_, integrator_.changed_blocks(), integrator_.revision(), delta);
-    delta_size_ = map_->size();
+    tessera::CollectDelta(*map_, block_changes_, integrator_.changed_blocks(), integrator_.revision(), delta);
+    block_changes_.clear();
 }
 
 void MappingStage::CollectWhole(MapDelta& delta) {
-    std::vector<BlockId> all(static_cast<std::size_t>(map_->size()) - 1);
-    std::iota(all.begin(), all.end(), BlockId{1});
-    tessera::CollectDelta(*map_, 1, all, integrator_.revision(), delta);
-    delta_size_ = map_->size();
+    tessera::CollectWhole(*map_, integrator_.revision(), delta);
+    block_changes_.clear();
 }
 
 int MappingStage::UpdateMesh(int budget_blocks, MeshUpdate& update) {
@@ -94,7 +92,7 @@ void MappingStage::Replace(std::unique_ptr<BlockMap> map, std::unique_ptr<LabelM
 void MappingStage::Place(std::unique_ptr<BlockMap> map) {
     map_ = std::move(map);
     mesher_.Clear();
-    delta_size_ = map_->size();
+    block_changes_.clear();
     mesh_cleared_ = true;
 }
 
@@ -107,7 +105,7 @@ void MappingStage::Reset() {
     map_->Clear();
     mesher_.Clear();
     if (labels_) labels_->Reset();
-    delta_size_ = 1;
+    block_changes_.clear();
     mesh_cleared_ = true;
 }
 

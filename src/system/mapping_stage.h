@@ -37,7 +37,9 @@ class MappingStage {
     void SaveLabels(StateWriter& state) const { labels_->SaveState(state); }
     bool LoadLabels(StateReader& state) { return labels_->LoadState(state); }
 
-    // What the last Fuse changed, for a copy of the map's field. To be called after each Fuse that fused, or never.
+    // Deltas are asked for from here on; before the first frame.
+    void KeepDeltas() { keep_deltas_ = true; }
+    // What changed since the last one, for a copy of the map's field; to be called after each Fuse that fused.
     void CollectDelta(MapDelta& delta);
 
     // All of the map, for a copy that is empty.
@@ -78,7 +80,8 @@ class MappingStage {
     GeometryBuilder geometry_;
     std::unique_ptr<LabelMapper> labels_;  // null without labels
     std::vector<MapObject> objects_;
-    BlockId delta_size_ = 1;     // the map's size at the last CollectDelta
+    bool keep_deltas_ = false;
+    std::vector<BlockChange> block_changes_;  // since the last CollectDelta
     bool mesh_cleared_ = false;  // since the last UpdateMesh
 };
 
