@@ -1,0 +1,50 @@
+#include "scan/sector_reader.h"
+
+#include <fmt/format.h>
+
+#include "scan/scan_file.h"
+
+namespace tessera {
+
+Result<std::unique_ptr<SectorReader>> SectorReader::Open(const std::string& path) {
+    Result<std::unique_ptr<Database>> database = Database::Open(path, Database::Access::kRead);
+    if (!database.ok()) return database.status();
+    Result<DatabaseStatement> select = database.value()->Prepare(
+        "SELECT key, epoch, checkpoint, data, checksum FROM blocks WHERE key BETWEEN ? AND ? ORDER BY key");
+    if (!select.ok()) return select.status();
+    return std::unique_ptr<SectorReader>(new SectorReader(std::move(database.value()), std::move(select.value())));
+}
+
+Status SectorReader::Read(std::int64_t sector_key, BlockCopies& blocks) {
+    blocks.Clear();
+    select_.Bind(1, sector_key);
+    select_.Bind(2, sector_key + kSectorKeys - 1);
+    Status status = Status::Ok();
+    int step = select_.Step();
+    for (; step == kStepRow && status.ok(); step = select_.Step()) {
+        const ScanRow row{ScanTable::kBlocks, select_.Number(0), select_.Number(1), select_.Number(2), select_.Bytes(3)};
+        if (ChecksumOf(row) != static_cast<std::uint64_t>(select_.Number(4)) || SectorKeyOf(row.key) != sector_key ||
+            !codec_.Decode(row.data, CoordOfKey(row.key), blocks))
+            status = DamagedScan(path(), fmt::format("block {}", row.key));
+    }
+    if (status.ok() && step != kStepDone)
+        status = database_->damaged() ? DamagedScan(path(), "blocks") : database_->Error("cannot be read");
+    select_.Reset();  // ends the read, so that the writer may fold its journal
+    return status;
+}
+
+Result<std::vector<std::pair<std::int64_t, std::int32_t>>> SectorReader::Sectors() {
+    Result<DatabaseStatement> keys = database_->Prepare("SELECT key FROM blocks ORDER BY key");
+    if (!keys.ok()) return keys.status();
+    std::vector<std::pair<std::int64_t, std::int32_t>> sectors;
+    int step = keys.value().Step();
+    for (; step == kStepRow; step = keys.value().Step()) {
+        const std::int64_t sector = SectorKeyOf(keys.value().Number(0));
+        if (sectors.empty() || sectors.back().first != sector) sectors.emplace_back(sector, 0);
+        ++sectors.back().second;
+    }
+    if (step != kStepDone) return DamagedScan(path(), "blocks");
+    return sectors;
+}
+
+}  // namespace tessera
