@@ -67,6 +67,7 @@ Status LiveEngine::BeginScan(ScanPlan plan) {
     }
     scan_.emplace(std::move(plan), config_.scan, false);
     if (Status status = scan_->Resume(mapping_, nullptr); !status.ok()) return status;
+    if (Status status = StartPaging(config_.pipeline, source_.camera, scan_->path(), false, paging_); !status.ok()) return status;
     if (mapping_.map().size() == 1) return Status::Ok();
     MapNews whole{delta_pool_.Take(), 0, nullptr};
     mapping_.CollectWhole(*whole.delta);
@@ -84,7 +85,9 @@ bool LiveEngine::Next(FrameOutcome& outcome) {
 
 TriangleMesh LiveEngine::TakeMesh() {
     TESSERA_CHECK(mapping_done_.load(), "the mesh is taken before the end");
-    return mapping_.TakeMesh();
+    if (!paging_ || !paging_->any_away()) return mapping_.TakeMesh();
+    paging_.reset();
+    return mapping_.TakeStoredMesh(scan_->path(), status_);
 }
 
 // ---- Reading: source -> newest frames.

@@ -15,6 +15,7 @@
 #include "system/lost_camera.h"
 #include "system/resume_gate.h"
 #include "system/run_control.h"
+#include "system/paging_stage.h"
 #include "system/scan_stage.h"
 #include "system/viewer_feed.h"
 
@@ -96,6 +97,7 @@ class LiveEngine : public Engine {
     void Hand(Task task);
     // Mapping's.
     void MapFrame(Task& task);
+    void Page(TrackedFrame& tracked, FrameOutcome& outcome);
     void SendMapNews();
     void Save(const Task& task, FrameOutcome& outcome);
     void Offer(Task& task);
@@ -117,6 +119,7 @@ class LiveEngine : public Engine {
     const SourceInfo source_;
     MappingStage mapping_;         // mapping's; the owner's once it has ended
     std::optional<ScanStage> scan_;  // mapping's; if it is to be saved
+    std::unique_ptr<PagingStage> paging_;  // mapping's; null without a memory limit
     ResumeGate gate_;              // tracking's
     Bytes saved_tracking_;         // tracking's, of a resumed scan
     std::optional<StampedPose> saved_pose_;  // the same

@@ -43,14 +43,14 @@ void LiveEngine::MapFrame(Task& task) {
     }
     Carry(corrections_, task.corrections, tracked.report.track.T_world_camera);
     Carry(corrections_, task.corrections, tracked.view.T_world_camera);
+    if (paging_) Page(tracked, outcome);
     mapping_.Fuse(tracked);
-    if (tracked.report.fused) {
-        SendMapNews();
-        WaitFor(config_.live.extra_mapping_ms);
-    }
+    if (tracked.report.fused || mapping_.has_delta()) SendMapNews();
+    if (tracked.report.fused) WaitFor(config_.live.extra_mapping_ms);
     feed_.ShowPrediction(show_prediction_.load());
     outcome.mesh_ms = feed_.Send(*task.frame, tracked.report, mapping_);
     if (scan_) Save(task, outcome);
+    if (paging_) paging_->Release(mapping_, *scan_);
     outcome.report = tracked.report;
     outcome.T_world_camera_truth = task.frame->T_world_camera;
     outcome.decode_ms = task.decode_ms;
@@ -62,6 +62,16 @@ void LiveEngine::MapFrame(Task& task) {
     if (scan_) outcome.queues.emplace_back("to scan", scan_->waiting());
     outcomes_.Push(std::move(outcome));
     Offer(task);
+}
+
+// What of the map is away comes back; a frame that sees what is not yet there is not fused: no block may be there twice.
+void LiveEngine::Page(TrackedFrame& tracked, FrameOutcome& outcome) {
+    paging_->BeginFrame(mapping_, *scan_);
+    if (tracked.report.tracked() && !paging_->Bring(tracked.report.track.T_world_camera, mapping_, *scan_) && tracked.to_fuse) {
+        tracked.to_fuse = false;
+        outcome.fusion_dropped = true;
+    }
+    if (const auto message = paging_->TakeMessage()) Tell(FrameOutcome::Kind::kMessage, *message);
 }
 
 void LiveEngine::Save(const Task& task, FrameOutcome& outcome) {
@@ -152,6 +162,7 @@ void LiveEngine::ObeyInMapping(const ViewerCommand& command) {
         mapping_.Reset();
         if (loops_) loops_->Reset({mapped_world_, 0});
         if (scan_) scan_->Reset();
+        if (paging_) paging_->Reset();
         Tell(FrameOutcome::Kind::kReset, {});
     } else if (command.kind == ViewerCommand::Kind::kSaveMesh) {
         Tell(FrameOutcome::Kind::kMessage, SaveMesh(mapping_, command.path));

@@ -37,13 +37,18 @@ Status LockstepEngine::StartScan(ScanPlan plan) {
         fused_frames_ = plan.resumed->progress.labelled_frames;
     }
     scan_.emplace(std::move(plan), config_.scan, true);
-    return scan_->Resume(mapping_, loops);
+    if (Status status = scan_->Resume(mapping_, loops); !status.ok()) return status;
+    return StartPaging(config_.pipeline, source_.camera, scan_->path(), true, paging_);
 }
 
 bool LockstepEngine::Next(FrameOutcome& outcome) {
     outcome = {};
     bool ended = !status_.ok();
     while (!ended) {
+        if (paging_ && !paging_->status().ok()) {
+            status_ = paging_->status();
+            break;
+        }
         if (ObeyViewer(outcome)) return true;
         if (stopped_) break;
         const ReadResult read = reader_->Next(frame_);
@@ -70,13 +75,16 @@ bool LockstepEngine::Next(FrameOutcome& outcome) {
 void LockstepEngine::Process(FrameOutcome& outcome) {
     outcome.decode_ms = reader_->decode_ms();
     recorder_.Add(frame_);
+    if (paging_) paging_->BeginFrame(mapping_, *scan_);
     plan_.Track(frame_, mapping_.map(), tracking_, tracked_);
     gate_.AfterTracking(frame_, tracking_, tracked_);
+    if (paging_ && tracked_.to_fuse) paging_->Bring(tracked_.view.T_world_camera, mapping_, *scan_);
     if (loops_) loops_->AfterTracking(frame_, mapping_.map(), tracking_, tracked_);
     mapping_.Fuse(tracked_);
     if (labelling_ && tracked_.report.fused) Label(outcome);
     if (loops_) outcome.loops_ms = loops_->AfterFusion(frame_, tracked_, outcome.labels, tracking_, mapping_);
     if (scan_) Save(outcome);
+    if (paging_) paging_->Release(mapping_, *scan_);
     outcome.report = tracked_.report;
     outcome.T_world_camera_truth = frame_.T_world_camera;
     outcome.mesh_ms = feed_.Send(frame_, outcome.report, mapping_);
@@ -110,6 +118,7 @@ bool LockstepEngine::TakeMessage(FrameOutcome& outcome) {
     std::optional<std::string> message = recorder_.TakeMessage();
     if (!message && !label_message_.empty()) message = std::exchange(label_message_, {});
     if (!message && scan_) message = scan_->TakeMessage();
+    if (!message && paging_) message = paging_->TakeMessage();
     if (!message) return false;
     outcome.kind = FrameOutcome::Kind::kMessage;
     outcome.message = *message;
@@ -145,6 +154,7 @@ bool LockstepEngine::Obey(const ViewerCommand& command, FrameOutcome& outcome) {
             mapping_.Reset();
             BeginLoops();
             if (scan_) scan_->Reset();
+            if (paging_) paging_->Reset();
             feed_.SendMesh(mapping_);
             outcome.kind = FrameOutcome::Kind::kReset;
             return true;
@@ -169,7 +179,9 @@ std::vector<StampedPose> LockstepEngine::CorrectedPath() const {
 
 TriangleMesh LockstepEngine::TakeMesh() {
     reader_.reset();
-    return mapping_.TakeMesh();
+    if (!paging_ || !paging_->any_away()) return mapping_.TakeMesh();
+    paging_.reset();
+    return mapping_.TakeStoredMesh(scan_->path(), status_);
 }
 
 }  // namespace tessera

@@ -8,6 +8,7 @@
 #include "system/loop_stage.h"
 #include "system/resume_gate.h"
 #include "system/run_control.h"
+#include "system/paging_stage.h"
 #include "system/scan_stage.h"
 #include "system/viewer_feed.h"
 
@@ -47,6 +48,7 @@ class LockstepEngine : public Engine {
     std::optional<LoopStage> loops_;  // if they are to be closed
     std::optional<LoopCloser::Labels> loop_labels_;
     std::optional<ScanStage> scan_;   // if it is to be saved
+    std::unique_ptr<PagingStage> paging_;  // null without a memory limit
     ResumeGate gate_;
     TrackedFrame tracked_;
     ViewerFeed feed_;

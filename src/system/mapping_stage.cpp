@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "core/check.h"
 #include "mapping/ray_caster.h"
+#include "scan/stored_mesh.h"
 
 namespace tessera {
 
@@ -19,8 +22,10 @@ void MappingStage::Fuse(TrackedFrame& tracked) {
     FrameReport& report = tracked.report;
     report.fusion = integrator_.Integrate(tracked.prepared, tracked.view, *map_);
     report.fused = true;
-    if (keep_deltas_)
+    if (keep_deltas_) {
         for (const BlockId id : integrator_.added_blocks()) block_changes_.push_back({id, false, map_->coord(id)});
+        changed_.insert(changed_.end(), integrator_.changed_blocks().begin(), integrator_.changed_blocks().end());
+    }
     if (report.fusion.refused_blocks > 0)
         report.warning =
             fmt::format("{} of {} new blocks refused: mapping.max_new_blocks", report.fusion.refused_blocks,
@@ -38,13 +43,41 @@ VoteCount MappingStage::Label(std::span<const Detection> detections, const Depth
 }
 
 void MappingStage::CollectDelta(MapDelta& delta) {
-    tessera::CollectDelta(*map_, block_changes_, integrator_.changed_blocks(), integrator_.revision(), delta);
+    std::ranges::sort(changed_);
+    changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());
+    std::erase_if(changed_, [this](BlockId id) { return map_->IsFree(id); });
+    tessera::CollectDelta(*map_, block_changes_, changed_, integrator_.revision(), delta);
+    ForgetDelta();
+}
+
+void MappingStage::Release(std::span<const BlockId> blocks) {
+    for (const BlockId id : blocks) {
+        if (keep_deltas_) block_changes_.push_back({id, true, map_->coord(id)});
+        map_->Release(id);
+    }
+}
+
+void MappingStage::Return(const BlockCopies& blocks, std::vector<BlockId>& ids) {
+    ids.clear();
+    for (std::size_t i = 0; i < blocks.size(); ++i) {
+        const BlockId id = map_->Allocate(blocks.coords[i], blocks.numbers[i]);
+        TESSERA_CHECK(id != kUnknownBlock, "no room for a block that was here before");
+        blocks.Put(i, *map_, id);
+        map_->MarkChanged(id, integrator_.revision());
+        ids.push_back(id);
+        if (keep_deltas_) block_changes_.push_back({id, false, blocks.coords[i]});
+    }
+    if (keep_deltas_) changed_.insert(changed_.end(), ids.begin(), ids.end());
+}
+
+void MappingStage::ForgetDelta() {
     block_changes_.clear();
+    changed_.clear();
 }
 
 void MappingStage::CollectWhole(MapDelta& delta) {
     tessera::CollectWhole(*map_, integrator_.revision(), delta);
-    block_changes_.clear();
+    ForgetDelta();
 }
 
 int MappingStage::UpdateMesh(int budget_blocks, MeshUpdate& update) {
@@ -77,6 +110,15 @@ TriangleMesh MappingStage::TakeMesh() {
     return mesh;
 }
 
+TriangleMesh MappingStage::TakeStoredMesh(const std::string& scan_path, Status& status) {
+    map_.reset();
+    mesher_.Clear();
+    Result<TriangleMesh> mesh = MeshOfStoredMap(scan_path, config_.map, mesher_.config());
+    if (mesh.ok()) return std::move(mesh.value());
+    status = mesh.status();
+    return {};
+}
+
 void MappingStage::Predict(const Eigen::Isometry3d& T_world_camera, int step, PredictedView& view) const {
     constexpr float kNear_m = 0.1f;
     RayCaster().Predict(*map_, camera_.Every(step), T_world_camera, kNear_m,
@@ -92,7 +134,7 @@ void MappingStage::Replace(std::unique_ptr<BlockMap> map, std::unique_ptr<LabelM
 void MappingStage::Place(std::unique_ptr<BlockMap> map) {
     map_ = std::move(map);
     mesher_.Clear();
-    block_changes_.clear();
+    ForgetDelta();
     mesh_cleared_ = true;
 }
 
@@ -105,7 +147,7 @@ void MappingStage::Reset() {
     map_->Clear();
     mesher_.Clear();
     if (labels_) labels_->Reset();
-    block_changes_.clear();
+    ForgetDelta();
     mesh_cleared_ = true;
 }
 

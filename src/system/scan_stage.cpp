@@ -10,6 +10,8 @@
 namespace tessera {
 namespace {
 
+constexpr std::uint32_t kNever = ~0u;  // no block's revision: to be saved
+
 LoopCloser::Memory LoopMemory(ScanContent& scan) {
     LoopCloser::Memory memory;
     memory.keyframes = std::move(scan.keyframes);
@@ -150,12 +152,11 @@ void ScanStage::AddBlocks(const MappingStage& mapping) {
         map_identity_ = map.identity();
         seen_revision_.clear();
     }
-    const auto known = static_cast<BlockId>(seen_revision_.size());
-    seen_revision_.resize(static_cast<std::size_t>(map.size()), 0);
+    seen_revision_.resize(static_cast<std::size_t>(map.size()), kNever);
     changed_.clear();
     for (BlockId id = 1; id < map.size(); ++id) {
         std::uint32_t& seen = seen_revision_[static_cast<std::size_t>(id)];
-        if (id < known && map.revision(id) == seen) continue;
+        if (map.IsFree(id) || map.revision(id) == seen) continue;
         seen = map.revision(id);
         changed_.push_back(id);
     }
@@ -163,9 +164,22 @@ void ScanStage::AddBlocks(const MappingStage& mapping) {
 }
 
 void ScanStage::Touch(std::span<const BlockId> blocks) {
-    constexpr std::uint32_t kNever = ~0u;
     for (const BlockId id : blocks)
         if (static_cast<std::size_t>(id) < seen_revision_.size()) seen_revision_[static_cast<std::size_t>(id)] = kNever;
+}
+
+bool ScanStage::Settle(const MappingStage& mapping, bool checkpoint) {
+    if (checkpoint && !thread_.failed()) Checkpoint(mapping, nullptr, false);
+    thread_.WaitUntilIdle();
+    return !thread_.failed();
+}
+
+// Their ids may be other blocks' soon.
+void ScanStage::Released(std::span<const BlockId> blocks) { Touch(blocks); }
+
+void ScanStage::Returned(const BlockMap& map, std::span<const BlockId> blocks) {
+    seen_revision_.resize(std::max(seen_revision_.size(), static_cast<std::size_t>(map.size())), kNever);
+    for (const BlockId id : blocks) seen_revision_[static_cast<std::size_t>(id)] = map.revision(id);
 }
 
 void ScanStage::AddLoops(const LoopCloser& closer) {

@@ -1,4 +1,4 @@
-#include "scan/sector_reader.h"
+#include "scan/cube_reader.h"
 
 #include <fmt/format.h>
 
@@ -6,24 +6,24 @@
 
 namespace tessera {
 
-Result<std::unique_ptr<SectorReader>> SectorReader::Open(const std::string& path) {
+Result<std::unique_ptr<CubeReader>> CubeReader::Open(const std::string& path) {
     Result<std::unique_ptr<Database>> database = Database::Open(path, Database::Access::kRead);
     if (!database.ok()) return database.status();
     Result<DatabaseStatement> select = database.value()->Prepare(
         "SELECT key, epoch, checkpoint, data, checksum FROM blocks WHERE key BETWEEN ? AND ? ORDER BY key");
     if (!select.ok()) return select.status();
-    return std::unique_ptr<SectorReader>(new SectorReader(std::move(database.value()), std::move(select.value())));
+    return std::unique_ptr<CubeReader>(new CubeReader(std::move(database.value()), std::move(select.value())));
 }
 
-Status SectorReader::Read(std::int64_t sector_key, BlockCopies& blocks) {
+Status CubeReader::Read(std::int64_t cube_key, BlockCopies& blocks) {
     blocks.Clear();
-    select_.Bind(1, sector_key);
-    select_.Bind(2, sector_key + kSectorKeys - 1);
+    select_.Bind(1, cube_key);
+    select_.Bind(2, cube_key + kCubeKeys - 1);
     Status status = Status::Ok();
     int step = select_.Step();
     for (; step == kStepRow && status.ok(); step = select_.Step()) {
         const ScanRow row{ScanTable::kBlocks, select_.Number(0), select_.Number(1), select_.Number(2), select_.Bytes(3)};
-        if (ChecksumOf(row) != static_cast<std::uint64_t>(select_.Number(4)) || SectorKeyOf(row.key) != sector_key ||
+        if (ChecksumOf(row) != static_cast<std::uint64_t>(select_.Number(4)) || CubeKeyOf(row.key) != cube_key ||
             !codec_.Decode(row.data, CoordOfKey(row.key), blocks))
             status = DamagedScan(path(), fmt::format("block {}", row.key));
     }
@@ -33,18 +33,18 @@ Status SectorReader::Read(std::int64_t sector_key, BlockCopies& blocks) {
     return status;
 }
 
-Result<std::vector<std::pair<std::int64_t, std::int32_t>>> SectorReader::Sectors() {
+Result<std::vector<std::pair<std::int64_t, std::int32_t>>> CubeReader::Cubes() {
     Result<DatabaseStatement> keys = database_->Prepare("SELECT key FROM blocks ORDER BY key");
     if (!keys.ok()) return keys.status();
-    std::vector<std::pair<std::int64_t, std::int32_t>> sectors;
+    std::vector<std::pair<std::int64_t, std::int32_t>> cubes;
     int step = keys.value().Step();
     for (; step == kStepRow; step = keys.value().Step()) {
-        const std::int64_t sector = SectorKeyOf(keys.value().Number(0));
-        if (sectors.empty() || sectors.back().first != sector) sectors.emplace_back(sector, 0);
-        ++sectors.back().second;
+        const std::int64_t cube = CubeKeyOf(keys.value().Number(0));
+        if (cubes.empty() || cubes.back().first != cube) cubes.emplace_back(cube, 0);
+        ++cubes.back().second;
     }
     if (step != kStepDone) return DamagedScan(path(), "blocks");
-    return sectors;
+    return cubes;
 }
 
 }  // namespace tessera
