@@ -88,9 +88,9 @@ std::unique_ptr<const BlockMesh> MeshByNumber(const BlockMap& map, BlockId id, d
     return numbered;
 }
 
-}  // namespace
-
-Result<TriangleMesh> MeshOfStoredMap(const std::string& path, const BlockMap::Config& config, const MeshConfig& meshing) {
+// Every block's, by number.
+Result<std::vector<std::unique_ptr<const BlockMesh>>> MeshCubes(const std::string& path, const BlockMap::Config& config,
+                                                                double min_weight) {
     Result<std::unique_ptr<CubeReader>> reader = CubeReader::Open(path);
     if (!reader.ok()) return reader.status();
     CubeWindow window(*reader.value(), config);
@@ -105,11 +105,18 @@ Result<TriangleMesh> MeshOfStoredMap(const std::string& path, const BlockMap::Co
             meshes.resize(std::max(meshes.size(), static_cast<std::size_t>(number) + 1));
         }
         tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t i) {
-            meshes[static_cast<std::size_t>(window.map().number(blocks[i]))] =
-                MeshByNumber(window.map(), blocks[i], meshing.min_weight);
+            meshes[static_cast<std::size_t>(window.map().number(blocks[i]))] = MeshByNumber(window.map(), blocks[i], min_weight);
         });
     }
-    return AssembleMesh(meshes, config.voxel_size_m, meshing.min_component_triangles);
+    return meshes;
+}
+
+}  // namespace
+
+Result<TriangleMesh> MeshOfStoredMap(const std::string& path, const BlockMap::Config& config, const MeshConfig& meshing) {
+    const auto meshes = MeshCubes(path, config, meshing.min_weight);
+    if (!meshes.ok()) return meshes.status();
+    return AssembleMesh(meshes.value(), config.voxel_size_m, meshing.min_component_triangles);
 }
 
 }  // namespace tessera

@@ -25,6 +25,7 @@ void LiveEngine::MapFrames() {
         }
     }
     if (loops_) EndLoops();
+    if (paging_) paging_->Close();
     if (scan_) {
         scan_->Finish(mapping_, nullptr);
         while (const auto message = scan_->TakeMessage()) Tell(FrameOutcome::Kind::kMessage, *message);

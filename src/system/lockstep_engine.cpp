@@ -67,6 +67,7 @@ bool LockstepEngine::Next(FrameOutcome& outcome) {
     if (reader_) reader_->RequestStop();
     recorder_.Stop();
     if (loops_) loops_->Finish(mapping_);
+    if (paging_) paging_->Close();
     if (scan_) scan_->Finish(mapping_, loops_ ? &*loops_ : nullptr);
     return TakeMessage(outcome);
 }
@@ -180,8 +181,9 @@ std::vector<StampedPose> LockstepEngine::CorrectedPath() const {
 TriangleMesh LockstepEngine::TakeMesh() {
     reader_.reset();
     if (!paging_ || !paging_->any_away()) return mapping_.TakeMesh();
-    paging_.reset();
-    return mapping_.TakeStoredMesh(scan_->path(), status_);
+    const std::string path = scan_->path();
+    scan_.reset();  // what it keeps for checkpoints would have to fit beside the mesh
+    return mapping_.TakeStoredMesh(path, status_);
 }
 
 }  // namespace tessera

@@ -186,7 +186,7 @@ void PagingStage::Release(MappingStage& mapping, ScanStage& scan) {
 }
 
 void PagingStage::Reset() {
-    while (pager_->under_way() > 0) pager_->Give(pager_->Take());
+    while (pager_ && pager_->under_way() > 0) pager_->Give(pager_->Take());
     away_.clear();
     asked_.clear();
     wanted_.clear();

@@ -32,6 +32,8 @@ class PagingStage {
     void Release(MappingStage& mapping, ScanStage& scan);
     // An empty map.
     void Reset();
+    // The end: nothing comes any more, the file is the writer's alone.
+    void Close() { pager_.reset(); }
 
     bool any_away() const { return !away_.empty(); }
     const Status& status() const { return status_; }  // an error: what was away cannot be read back

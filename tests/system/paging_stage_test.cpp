@@ -2,6 +2,7 @@
 #include "system/paging_stage.h"
 
 #include <cstdio>
+#include <filesystem>
 #include <numbers>
 
 #include "support/temp_folder.h"
@@ -112,6 +113,7 @@ TEST_F(Paging, ALimitChangesNothingButTheMemory) {
     EXPECT_LT(2 * MostBlocks(), blocks);
     for (const FrameOutcome& o : outcomes) EXPECT_LT(static_cast<double>(o.map.bytes), 1e6 * kLimit_mb);
     EXPECT_EQ(Messages().find("memory_limit"), std::string::npos);
+    EXPECT_FALSE(std::filesystem::exists(path + "-wal")) << "the file is one again";
 
     {
         const Result<ScanContent> scan = ReadScan(path, {});
