@@ -7,6 +7,7 @@
 #include "io/image_io.h"
 #include "io/mesh_io.h"
 #include "io/trajectory.h"
+#include "semantics/objects_file.h"
 #include "system/scan_export.h"
 #include "viz/viewer.h"
 
@@ -22,12 +23,12 @@ struct Arguments {
 
 // What to read: the mesh, and the trajectory beside it where there is one.
 struct Files {
-    std::string mesh, trajectory;
+    std::string mesh, trajectory, objects;
 };
 
 Result<Files> FindFiles(const Arguments& a) {
     std::error_code ignored;
-    Files files{a.path, a.trajectory};
+    Files files{a.path, a.trajectory, {}};
     if (a.path.starts_with("synthetic:") || a.path.starts_with("openni2:") || a.path.ends_with(".oni") ||
         a.path.ends_with(".klg"))
         return Status::Error(fmt::format("{}: is a source, not a result; use: tessera run {} --view", a.path, a.path));
@@ -40,6 +41,7 @@ Result<Files> FindFiles(const Arguments& a) {
                                          "tessera run {} --view", a.path, a.path));
     if (files.trajectory.empty() && fs::exists(folder / "trajectory.txt", ignored))
         files.trajectory = (folder / "trajectory.txt").string();
+    if (fs::exists(folder / "objects.json", ignored)) files.objects = (folder / "objects.json").string();
     return files;
 }
 
@@ -51,6 +53,11 @@ Result<ViewedModel> Read(const Files& files) {
     if (!mesh.ok()) return mesh.status();
     if (mesh.value().triangles.empty()) return Status::Error(files.mesh + ": has no triangles");
     model.mesh = std::move(mesh.value());
+    if (!files.objects.empty()) {
+        Result<std::vector<MapObject>> objects = ReadObjects(files.objects);
+        if (!objects.ok()) return objects.status();
+        model.objects = std::move(objects.value());
+    }
     if (files.trajectory.empty()) return model;
     const Result<Trajectory> trajectory = ReadTrajectory(files.trajectory);
     if (!trajectory.ok()) return trajectory.status();

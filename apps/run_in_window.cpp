@@ -18,6 +18,7 @@ ViewerOptions OptionsFor(const RunRequest& request, const RunConfig& config, con
     options.camera = source.camera;
     options.truncation_m = config.pipeline.map.truncation_m;
     const TrackersConfig& trackers = config.pipeline.trackers;
+    options.labelled = !request.labels.empty();
     options.settings.method = trackers.method;
     options.settings.auto_alpha = trackers.photometric.alpha_mode == Photometry::AlphaMode::kAuto;
     options.settings.alpha = trackers.photometric.alpha;

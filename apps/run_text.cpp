@@ -50,7 +50,7 @@ std::string RunText(const RunRequest& request, const RunSummary& s) {
     for (const auto& [file, what] : {std::pair{"trajectory.txt", "camera path, TUM format"},
                                      {"mesh.ply", "coloured mesh"},
                                      {"preview.png", "picture of it"},
-                                     {"objects.json", "what there is, with boxes"},
+                                     {"objects.json", "labelled objects, with boxes"},
                                      {"detections.txt", "what the detector saw"},
                                      {"timings.json", "time per stage"},
                                      {"run.json", "settings and figures of this run"}})

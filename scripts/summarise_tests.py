@@ -8,16 +8,18 @@ import os
 import sys
 import xml.etree.ElementTree as ET
 
+LAST_CHARACTERS = 2000  # of a failed test's output
+
 
 def read_stage(path):
-    """Returns (passed, failed names, skipped names) of one JUnit file."""
-    passed, failed, skipped = 0, [], []
+    """Returns (passed, {failed name: the end of its output}, skipped names) of one JUnit file."""
+    passed, failed, skipped = 0, {}, []
     for case in ET.parse(path).getroot().iter("testcase"):
         status = case.get("status")
         if case.find("skipped") is not None or status == "disabled":
             skipped.append(case.get("name"))
         elif case.find("failure") is not None or status != "run":
-            failed.append(case.get("name"))
+            failed[case.get("name")] = (case.findtext("system-out") or "")[-LAST_CHARACTERS:]
         else:
             passed += 1
     return passed, failed, skipped
@@ -30,13 +32,15 @@ def main(stages):
         try:
             stage_passed, stage_failed, stage_skipped = read_stage(stage + ".xml")
         except (OSError, ET.ParseError):
-            stage_passed, stage_failed, stage_skipped = 0, ["the stage did not build or run"], []
+            stage_passed, stage_failed, stage_skipped = 0, {"the stage did not build or run": ""}, []
         if not (stage_passed or stage_failed or stage_skipped):
-            stage_failed = ["the stage ran no test"]
+            stage_failed = {"the stage ran no test": ""}
         print(f"{name}: {stage_passed} passed, {len(stage_failed)} failed, {len(stage_skipped)} skipped")
-        for what, names in (("failed", stage_failed), ("skipped", stage_skipped)):
-            for test in names:
-                print(f"  {what}: {test}")
+        for test, output in stage_failed.items():
+            print(output)
+            print(f"  failed: {test}")
+        for test in stage_skipped:
+            print(f"  skipped: {test}")
         passed += stage_passed
         failed += len(stage_failed)
         skipped += len(stage_skipped)

@@ -32,7 +32,10 @@ FieldVerdict FieldCheck::Check(std::span<const NearFrame> old_frames, const Fres
     view.motion = fresh.motion;
     integrator_.Integrate(fresh.prepared, view, map_);
     const StoredFrame& old = *old_frames.front().stored;
-    Load(old, store);
+    if (!Load(old, store)) {
+        verdict.reason = "the old keyframe's images are damaged";
+        return verdict;
+    }
     const TrackResult backward = Track(prepared_, old.view.motion, forward.T_world_camera.inverse());
     if (verdict.reason = Fault(backward); !verdict.reason.empty()) {
         verdict.reason = "seen from the other side, " + verdict.reason;
@@ -47,16 +50,14 @@ FieldVerdict FieldCheck::Check(std::span<const NearFrame> old_frames, const Fres
     return verdict;
 }
 
-void FieldCheck::Load(const StoredFrame& stored, FrameStore& store) {
-    const Status loaded = store.Load(stored, frame_);
-    TESSERA_CHECK(loaded.ok(), "a frame that was stored cannot be read back: {}", loaded.message());
-    PrepareFrame(frame_, settings_.preparation, prepared_);
+bool FieldCheck::Load(const StoredFrame& stored, FrameStore& store) {
+    return store.LoadPrepared(stored, settings_.camera, settings_.preparation, frame_, prepared_).ok();
 }
 
 void FieldCheck::FuseOld(std::span<const NearFrame> frames, FrameStore& store) {
     map_.Clear();
     for (const NearFrame& frame : frames) {
-        Load(*frame.stored, store);
+        if (!Load(*frame.stored, store)) continue;
         Integrator::View view = frame.stored->view;
         view.T_world_camera = frame.T_keyframe_camera;
         integrator_.Integrate(prepared_, view, map_);

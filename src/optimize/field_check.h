@@ -58,7 +58,7 @@ class FieldCheck {
 
   private:
     void FuseOld(std::span<const NearFrame> frames, FrameStore& store);
-    void Load(const StoredFrame& stored, FrameStore& store);
+    bool Load(const StoredFrame& stored, FrameStore& store);  // false: it is damaged
     TrackResult Track(const PreparedFrame& frame, const FrameMotion& motion, const Eigen::Isometry3d& T_field_camera);
     double ShareThatFits(const PreparedFrame& frame, const Eigen::Isometry3d& T_field_camera) const;
     std::string Fault(const TrackResult& track) const;

@@ -1,5 +1,7 @@
 #include "optimize/frame_store.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -67,6 +69,16 @@ Status FrameStore::Load(const StoredFrame& stored, Frame& frame) {
         return Status::Ok();
     }
     return DecodeJpeg(stored.colour_jpeg, kMaxSide_px, frame.colour);
+}
+
+Status FrameStore::LoadPrepared(const StoredFrame& stored, const PinholeCamera& camera,
+                                const PreparedFrame::Config& preparation, Frame& frame, PreparedFrame& prepared) {
+    if (Status status = Load(stored, frame); !status.ok()) return status;
+    const auto fits = [&](const auto& image) { return image.width() == camera.width && image.height() == camera.height; };
+    if (!fits(frame.depth_m) || (!frame.colour.empty() && !fits(frame.colour)))
+        return Status::Error(fmt::format("stored frame {}: its images are not of the camera's size", stored.ordinal));
+    PrepareFrame(frame, preparation, prepared);
+    return Status::Ok();
 }
 
 }  // namespace tessera

@@ -55,6 +55,11 @@ class FrameStore {
     std::size_t bytes() const { return bytes_; }
     int stride() const { return stride_; }  // of the ordinals kept: 1 until the limit was reached
 
+    // The same made ready for tracking and fusion. Frames of an earlier process may be damaged: errors are what the decoders
+    // refuse, and images of another size than the camera's.
+    Status LoadPrepared(const StoredFrame& stored, const PinholeCamera& camera, const PreparedFrame::Config& preparation,
+                        Frame& frame, PreparedFrame& prepared);
+
   private:
     void Thin();
 

@@ -38,7 +38,7 @@ void LoopCloser::Resume(Memory memory) {
     store_.Resume(std::move(memory.frames), memory.next_ordinal);
     loops_ = memory.loops;
     corrected_ = memory.corrected;
-    rebuild_considered_ = false;
+    moved_ = true;
 }
 
 std::string LoopCloser::Add(const Frame& frame, const PreparedFrame& prepared, const TrackResult& track,
@@ -143,7 +143,7 @@ Status LoopCloser::Optimise() {
     for (int i = 0; i < keyframes_.size(); ++i) poses.push_back(keyframes_[i].T_world_camera);
     if (const auto report = OptimisePoses(edges_, poses); !report.ok()) return report.status();
     for (int i = 0; i < keyframes_.size(); ++i) keyframes_[i].T_world_camera = poses[static_cast<std::size_t>(i)];
-    rebuild_considered_ = false;
+    moved_ = true;
     return Status::Ok();
 }
 
@@ -160,7 +160,7 @@ bool LoopCloser::BeginRebuild(double tolerance_m) {
 }
 
 std::optional<LoopCloser::Correction> LoopCloser::Step(int frames) {
-    rebuild_considered_ = true;
+    moved_ = false;
     if (!BeginRebuild(settings_.map.voxel_size_m / 2)) return std::nullopt;
     return StepRebuild(frames);
 }
@@ -176,7 +176,7 @@ std::optional<LoopCloser::Correction> LoopCloser::StepRebuild(int frames) {
         keyframes_[i].T_map_camera = rebuild_->T_world_keyframe()[static_cast<std::size_t>(i)];
     keyframes_.Move(correction.T_new_old);
     rebuild_.reset();
-    rebuild_considered_ = false;
+    moved_ = true;
     return correction;
 }
 

@@ -69,7 +69,7 @@ class LoopCloser {
     // Works on the corrected map: fuses at most so many stored frames into it.
     std::optional<Correction> Step(int frames);
     // Whether Step has anything to do.
-    bool HasWork() const { return rebuild_ != nullptr || !rebuild_considered_; }
+    bool HasWork() const { return rebuild_ != nullptr || moved_; }
     // At the end: whatever is still to be corrected.
     std::optional<Correction> Finish();
 
@@ -106,7 +106,7 @@ class LoopCloser {
     std::optional<int> relocalised_at_;    // the keyframe that the next one hangs on
     int loops_ = 0;
     bool corrected_ = false;               // some loop was worth it
-    bool rebuild_considered_ = true;       // since the keyframes moved last
+    bool moved_ = false;                   // keyframes, since Step looked last
 };
 
 }  // namespace tessera

@@ -31,6 +31,7 @@ class MapRebuild {
   private:
     std::unique_ptr<BlockMap> map_;
     Integrator integrator_;
+    PinholeCamera camera_;
     PreparedFrame::Config preparation_;
     std::vector<Eigen::Isometry3d> T_world_keyframe_;
     std::unique_ptr<LabelMapper> labels_;

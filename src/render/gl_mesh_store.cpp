@@ -16,6 +16,7 @@ void SetGeometryAttributes() {
     attribute(0, 3, GL_FLOAT, GL_FALSE, offsetof(GeometryVertex, position_voxels));
     attribute(1, 2, GL_SHORT, GL_FALSE, offsetof(GeometryVertex, normal));
     attribute(2, 4, GL_UNSIGNED_BYTE, GL_TRUE, offsetof(GeometryVertex, colour));
+    attribute(3, 4, GL_UNSIGNED_BYTE, GL_TRUE, offsetof(GeometryVertex, mark));
 }
 
 GlMeshStore::GlMeshStore() {

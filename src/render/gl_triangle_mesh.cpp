@@ -45,14 +45,15 @@ GlTriangleMesh::~GlTriangleMesh() {
     glDeleteVertexArrays(1, &vertex_array_);
 }
 
-void GlTriangleMesh::Set(const TriangleMesh& mesh) {
+void GlTriangleMesh::Set(const TriangleMesh& mesh, std::span<const Rgb8> label_colours) {
     const auto normals = mesh.normals.empty() ? MeanNormals(mesh) : mesh.normals;
     std::vector<GeometryVertex> vertices(mesh.vertices.size());
     for (std::size_t i = 0; i < vertices.size(); ++i) {
         const Eigen::Vector3f& p = mesh.vertices[i];
         const bool has_colour = !mesh.colours.empty();
         vertices[i] = {{p.x(), p.y(), p.z()}, Octahedral(normals[i]), has_colour ? mesh.colours[i] : Rgb8{},
-                       static_cast<std::uint8_t>(has_colour ? 255 : 0)};
+                       static_cast<std::uint8_t>(has_colour ? 255 : 0),
+                       {label_colours.empty() ? Rgb8{} : label_colours[i], 0}};
     }
     indices_ = 3 * mesh.triangles.size();
     vertex_buffer_.Reserve(vertices.size() * sizeof(vertices[0]));

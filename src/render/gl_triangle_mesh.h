@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <span>
 
 #include "core/mesh.h"
 #include "render/gl_buffer.h"
@@ -16,8 +17,9 @@ class GlTriangleMesh {
     GlTriangleMesh(const GlTriangleMesh&) = delete;
     GlTriangleMesh& operator=(const GlTriangleMesh&) = delete;
 
-    // Replaces what was there. Without normals the vertices get the mean of their triangles'.
-    void Set(const TriangleMesh& mesh);
+    // Replaces what was there. Without normals the vertices get the mean of their triangles'. `label_colours`:
+    // VertexMark's, one per vertex or none.
+    void Set(const TriangleMesh& mesh, std::span<const Rgb8> label_colours = {});
     // With the attributes of GlMeshStore, positions in metres.
     void Draw(const Eigen::Matrix4d& clip_from_camera, const Eigen::Isometry3d& T_world_camera,
               int clip_from_position) const;

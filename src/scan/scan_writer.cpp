@@ -54,9 +54,9 @@ Status ScanWriter::PutRows(const ScanCheckpoint& c) {
     for (const auto& [number, poses] : c.poses)
         if (Status status = file_->Put(ScanTable::kPoses, number, poses.Encode()); !status.ok()) return status;
     if (Status status = PutState(ScanStateKey::kProgress, c.progress.Encode()); !status.ok()) return status;
-    if (Status status = PutState(ScanStateKey::kTracking, c.tracking); !status.ok()) return status;
-    if (!c.labels.empty() || c.clear_all)
-        if (Status status = PutState(ScanStateKey::kLabels, c.labels); !status.ok()) return status;
+    for (const auto& [state_key, bytes] : {std::pair{ScanStateKey::kTracking, &c.tracking}, {ScanStateKey::kLabels, &c.labels}})
+        if (!bytes->empty() || c.clear_all)
+            if (Status status = PutState(state_key, *bytes); !status.ok()) return status;
     return c.loops ? PutState(ScanStateKey::kLoops, c.loops->Encode()) : Status::Ok();
 }
 

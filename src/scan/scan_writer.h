@@ -24,7 +24,7 @@ struct ScanCheckpoint {
     std::vector<Keyframe> keyframes;  // new ones
     std::vector<std::pair<int, KeyframePoses>> poses;
     ScanProgress progress;
-    Bytes tracking, labels;           // labels empty: there are none
+    Bytes tracking, labels;           // empty: as the file has it
     std::optional<LoopProgress> loops;
     bool finished = false;
 

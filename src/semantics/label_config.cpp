@@ -62,6 +62,9 @@ void LabelConfig::Describe(ConfigParameters& p) {
     p.Add("min_observations", min_observations, {1, 1000}, "", "an object counts once it was detected so often");
     p.Add("min_rate", min_rate, {0.0, 1.0}, "", "and in such a share of the detected frames that show it");
     p.Add("stride", stride, {1, 1000}, "frames", "lockstep: detect in every so-manieth frame; live takes what the detector can do");
+    p.Add("max_rate_hz", max_rate_hz, {0.1, 1000.0}, "1/s",
+          "live: at most so many frames a second are detected in, so that tracking keeps its processor; raise it on a machine "
+          "with cores to spare");
     p.AddChoice<ModelFamily>("family", family, {{"auto", ModelFamily::kAuto}, {"yolox", ModelFamily::kYolox}, {"yolov5", ModelFamily::kYolov5}, {"yolov8", ModelFamily::kYolov8}, {"darknet", ModelFamily::kDarknet}},
                              "of a network: how to read its outputs; auto tells by their shapes");
     p.Add("names", names, "file with the network's class names, one a line; empty: COCO's 80");

@@ -33,6 +33,7 @@ struct LabelConfig {
     int min_observations = 6;
     double min_rate = 0.3;
     int stride = 1;
+    double max_rate_hz = 3;
     // Of network detectors.
     ModelFamily family = ModelFamily::kAuto;
     std::string names;

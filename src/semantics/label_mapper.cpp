@@ -6,6 +6,8 @@
 #include <cmath>
 #include <set>
 
+#include "semantics/objects_file.h"
+
 namespace tessera {
 namespace {
 
@@ -70,7 +72,11 @@ VoteCount LabelMapper::Label(std::span<const Detection> detections, const DepthI
     std::vector<Ballot> ballots(detections.size());
     for (std::size_t i = 0; i < match.size(); ++i)
         if (match[i] != 0) ballots[i] = {static_cast<std::uint8_t>(detections[i].class_id), match[i]};
-    return VoteLabels(image_, ballots, depth_m, camera_, T_world_camera, config_.band_voxels * map.config().voxel_size_m, map);
+    const double band_m = config_.band_voxels * map.config().voxel_size_m;
+    VoteCount count = VoteLabels(image_, ballots, depth_m, camera_, T_world_camera, band_m, map);
+    KnowBlocks(map);
+    for (const BlockId id : count.blocks) votes_[static_cast<std::size_t>(id)] = Votes::kNew;
+    return count;
 }
 
 void LabelMapper::PredictInstances(const Eigen::Isometry3d& T_world_camera, float farthest_m, const BlockMap& map) {
@@ -109,8 +115,12 @@ std::vector<ObservedObject> LabelMapper::Observe(std::span<const Detection> dete
 }
 
 VertexLabel LabelMapper::LabelOf(const VoxelLabel& voxel) const {
-    if (ClassOf(voxel) == 0 || voxel.instance == 0) return {};
-    const InstanceId id = instances_.Resolve(voxel.instance);
+    return ClassOf(voxel) == 0 ? VertexLabel{} : LabelOfInstance(voxel.instance);
+}
+
+VertexLabel LabelMapper::LabelOfInstance(InstanceId voted_for) const {
+    if (voted_for == 0) return {};
+    const InstanceId id = instances_.Resolve(voted_for);
     if (!instances_.stands(id)) return {};
     return {static_cast<std::uint8_t>(instances_.ClassOf(id)), static_cast<std::uint16_t>(instances_.record(id).public_id)};
 }
@@ -121,6 +131,58 @@ void LabelMapper::LabelVertices(const BlockMap& map, TriangleMesh& mesh) const {
         for (std::size_t i = range.begin(); i < range.end(); ++i)
             mesh.labels[i] = LabelOf(LabelNear(map, mesh.vertices[i].cast<double>()));
     });
+}
+
+VertexLabel LabelMapper::LabelOf(const BlockMap& map, const BlockMesh& owner, const BlockMesh::Vertex& vertex) const {
+    return LabelOf(LabelNear(map, VertexPosition(owner, vertex, map.config().voxel_size_m).cast<double>()));
+}
+
+Rgb8 LabelMapper::ColourOf(const BlockMap& map, const BlockMesh& owner, const BlockMesh::Vertex& vertex) const {
+    if (const int class_id = LabelOf(map, owner, vertex).class_id; class_id != 0) return classes_.colour(class_id);
+    return vertex.has_colour ? NoCategoryColour(vertex.colour) : kNoSceneColour;
+}
+
+// After LoadState any block may have votes.
+void LabelMapper::KnowBlocks(const BlockMap& map) {
+    votes_.resize(static_cast<std::size_t>(map.size()), std::exchange(loaded_, false) ? Votes::kNew : Votes::kNone);
+}
+
+std::vector<BlockId> LabelMapper::TakeRelabelled(const BlockMap& map) {
+    KnowBlocks(map);
+    std::vector<std::uint8_t> changed(static_cast<std::size_t>(instances_.last()) + 1, 0);
+    shown_.resize(changed.size());
+    bool any_changed = false;
+    for (std::size_t id = 1; id < changed.size(); ++id) {
+        const VertexLabel label = LabelOfInstance(static_cast<InstanceId>(id));
+        changed[id] = label != shown_[id];
+        any_changed |= changed[id] != 0;
+        shown_[id] = label;
+    }
+    const auto holds_changed = [&](const VoxelLabel& voxel) { return changed[voxel.instance] != 0; };
+    std::vector<BlockId> relabelled;
+    for (std::size_t i = 0; i < votes_.size(); ++i) {
+        if (votes_[i] == Votes::kNone) continue;
+        const VoxelLabel* voxels = map.label(static_cast<BlockId>(i));
+        if (votes_[i] == Votes::kNew || (any_changed && std::any_of(voxels, voxels + kBlockVoxels, holds_changed)))
+            relabelled.push_back(static_cast<BlockId>(i));
+        votes_[i] = Votes::kTold;
+    }
+    return relabelled;
+}
+
+TriangleMesh LabelMapper::LabelledVertices(const BlockMap& map,
+                                           const std::vector<std::unique_ptr<const BlockMesh>>& meshes) const {
+    TriangleMesh labelled;
+    for (std::size_t i = 0; i < std::min(votes_.size(), meshes.size()); ++i) {
+        if (votes_[i] == Votes::kNone || !meshes[i]) continue;
+        for (const BlockMesh::Vertex& vertex : meshes[i]->vertices) {
+            const VertexLabel label = LabelOf(map, *meshes[i], vertex);
+            if (label.instance == 0) continue;
+            labelled.vertices.push_back(VertexPosition(*meshes[i], vertex, map.config().voxel_size_m));
+            labelled.labels.push_back(label);
+        }
+    }
+    return labelled;
 }
 
 std::vector<MapObject> LabelMapper::Objects(double voxel_size_m, TriangleMesh& labelled) const {
@@ -147,7 +209,11 @@ std::vector<MapObject> LabelMapper::Objects(double voxel_size_m, TriangleMesh& l
     return objects;
 }
 
-void LabelMapper::Reset() { instances_ = Instances(InstanceConfig(config_)); }
+void LabelMapper::Reset() {
+    instances_ = Instances(InstanceConfig(config_));
+    votes_.clear();
+    shown_.clear();
+}
 
 void LabelMapper::SaveState(StateWriter& state) const {
     state.Put(classes_.count());
@@ -161,6 +227,7 @@ bool LabelMapper::LoadState(StateReader& state) {
     if (!state.Get(count) || count != classes_.count()) return false;
     for (int id = 1; id <= count; ++id)
         if (!state.Get(name) || name != classes_.name(id)) return false;
+    loaded_ = true;
     return instances_.LoadState(state);
 }
 

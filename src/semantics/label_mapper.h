@@ -2,8 +2,11 @@
 // instances apart, and labels the mesh at the end.
 #pragma once
 
+#include <memory>
 #include <span>
+#include <vector>
 
+#include "mapping/block_mesh.h"
 #include "mapping/ray_caster.h"
 #include "semantics/instances.h"
 #include "semantics/label_votes.h"
@@ -25,6 +28,19 @@ class LabelMapper {
     // the instance is not confirmed. VertexLabel::instance is the public number.
     void LabelVertices(const BlockMap& map, TriangleMesh& mesh) const;
 
+    // The same of one vertex of a block's mesh, and the colour of that class; without one a grey as bright as the scene.
+    // Thread-safe while nobody labels.
+    VertexLabel LabelOf(const BlockMap& map, const BlockMesh& owner, const BlockMesh::Vertex& vertex) const;
+    Rgb8 ColourOf(const BlockMap& map, const BlockMesh& owner, const BlockMesh::Vertex& vertex) const;
+
+    // The blocks with voxels whose label may show differently than at the last call: voted into since, or of an instance
+    // that has since been confirmed, joined, withheld or has changed its class. Increasing.
+    std::vector<BlockId> TakeRelabelled(const BlockMap& map);
+
+    // The vertices with a label of blocks that were ever voted into, and no triangles: what Objects needs for a look at an
+    // unfinished map. `meshes` by block id, as Mesher keeps them.
+    TriangleMesh LabelledVertices(const BlockMap& map, const std::vector<std::unique_ptr<const BlockMesh>>& meshes) const;
+
     // The confirmed objects that the labelled mesh shows, by number. Remains of less than 15 square centimetres are none, and
     // lose their label.
     std::vector<MapObject> Objects(double voxel_size_m, TriangleMesh& labelled) const;
@@ -38,10 +54,12 @@ class LabelMapper {
     bool LoadState(StateReader& state);
 
   private:
+    void KnowBlocks(const BlockMap& map);
     void PredictInstances(const Eigen::Isometry3d& T_world_camera, float farthest_m, const BlockMap& map);
     std::vector<ObservedObject> Observe(std::span<const Detection> detections, const DepthImage& depth_m,
                                         const Eigen::Isometry3d& T_world_camera) const;
     VertexLabel LabelOf(const VoxelLabel& voxel) const;
+    VertexLabel LabelOfInstance(InstanceId id) const;
 
     LabelConfig config_;
     LabelClasses classes_;
@@ -51,6 +69,10 @@ class LabelMapper {
     Image<InstanceId> predicted_;
     LabelImage image_;
     Instances instances_;
+    enum class Votes : std::uint8_t { kNone, kTold, kNew };
+    std::vector<Votes> votes_;         // by block id
+    std::vector<VertexLabel> shown_;   // by InstanceId, as told by the last TakeRelabelled
+    bool loaded_ = false;              // by LoadState, and nothing known of the blocks yet
 };
 
 }  // namespace tessera

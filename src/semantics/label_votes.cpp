@@ -93,15 +93,20 @@ VoteCount VoteLabels(const LabelImage& labels, std::span<const Ballot> ballots, 
                      const PinholeCamera& camera, const Eigen::Isometry3d& T_world_camera, double band_m, BlockMap& map) {
     const Voting voting{labels, ballots, depth_m, camera, T_world_camera.inverse(), band_m};
     const std::vector<BlockId> blocks = BlocksOf(voting, T_world_camera, map);
+    std::vector<std::uint8_t> got_votes(blocks.size());
     std::atomic<std::int64_t> voxels = 0, flips = 0;
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, blocks.size(), 16), [&](const auto& range) {
         for (std::size_t i = range.begin(); i < range.end(); ++i) {
             const VoteCount count = VoteInBlock(voting, blocks[i], map);
             voxels += count.voxels;
             flips += count.flips;
+            got_votes[i] = count.voxels > 0;
         }
     });
-    return {voxels, flips, blocks};
+    VoteCount count{voxels, flips, {}};
+    for (std::size_t i = 0; i < blocks.size(); ++i)
+        if (got_votes[i]) count.blocks.push_back(blocks[i]);
+    return count;
 }
 
 }  // namespace tessera

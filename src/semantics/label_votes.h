@@ -21,13 +21,12 @@ struct Ballot {
 struct VoteCount {
     std::int64_t voxels = 0;  // that got a vote
     std::int64_t flips = 0;   // settled voxels that changed their class (voxel_label.h)
-    std::vector<BlockId> blocks = {};  // that may have got votes
+    std::vector<BlockId> blocks = {};  // of those voxels, increasing
 };
 
 // One vote for each voxel whose stored distance is at most `band_m` from the surface and that the frame sees: it projects
 // to a pixel with a label and measured depth within the map's truncation. `ballots`: one a detection; pixels beside
-// objects vote for the background. The map must have labels; no voxel is made. Uses all cores (TBB), the same result for
-// any number. The map's owner only.
+// objects vote for the background. The map must have labels; no voxel is made. Uses all cores (TBB), the same result for any number. The map's owner only.
 VoteCount VoteLabels(const LabelImage& labels, std::span<const Ballot> ballots, const DepthImage& depth_m,
                      const PinholeCamera& camera, const Eigen::Isometry3d& T_world_camera, double band_m, BlockMap& map);
 

@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kStray = 0.005;
 constexpr int kAngles = 30;  // tried over a quarter turn
+constexpr std::size_t kTried = 1000;  // points that the trials look at; the box chosen holds all
 
 using Points = std::vector<Eigen::Vector3d>;
 
@@ -41,19 +42,24 @@ Eigen::Matrix3d PrincipalAxes(const Points& points) {
 // The smallest box found by turning the principal axes about each of themselves.
 void FitOrientedBox(const Points& points, MapObject& object) {
     const Eigen::Matrix3d principal = PrincipalAxes(points);
+    Points some;
+    for (std::size_t i = 0; i < points.size(); i += (points.size() + kTried - 1) / kTried) some.push_back(points[i]);
     double least = std::numeric_limits<double>::max();
+    Eigen::Matrix3d R_best = principal;
     for (int about = 0; about < 3; ++about)
         for (int step = 0; step < kAngles; ++step) {
             const double angle = step * std::numbers::pi / 2 / kAngles;
             const Eigen::Matrix3d R = Eigen::AngleAxisd(angle, Eigen::Vector3d::Unit(about)).toRotationMatrix() * principal;
-            const Eigen::AlignedBox3d box = TrimmedBox(points, R);
+            const Eigen::AlignedBox3d box = TrimmedBox(some, R);
             const double volume = (box.sizes().array() + 1e-4).prod();
             if (volume >= least) continue;
             least = volume;
-            object.T_world_oriented.linear() = R.transpose();
-            object.T_world_oriented.translation() = R.transpose() * box.center();
-            object.oriented_size = box.sizes();
+            R_best = R;
         }
+    const Eigen::AlignedBox3d box = TrimmedBox(points, R_best);
+    object.T_world_oriented.linear() = R_best.transpose();
+    object.T_world_oriented.translation() = R_best.transpose() * box.center();
+    object.oriented_size = box.sizes();
 }
 
 nlohmann::ordered_json Rounded(const Eigen::Vector3d& v) {

@@ -38,13 +38,13 @@ MapObject ToObject(const Json& json) {
     return o;
 }
 
-Rgb8 PaleGrey(const Rgb8& c) {
-    const double luma = 0.299 * c.r + 0.587 * c.g + 0.114 * c.b;
+}  // namespace
+
+Rgb8 NoCategoryColour(const Rgb8& scene) {
+    const double luma = 0.299 * scene.r + 0.587 * scene.g + 0.114 * scene.b;
     const auto grey = static_cast<std::uint8_t>(std::lround(70 + 0.55 * luma));
     return {grey, grey, grey};
 }
-
-}  // namespace
 
 Result<std::vector<MapObject>> ReadObjects(const std::string& path) {
     const Result<std::string> text = ReadWholeFile(path, std::size_t{1} << 28);
@@ -63,13 +63,13 @@ Result<std::vector<MapObject>> ReadObjects(const std::string& path) {
 std::vector<Rgb8> CategoryColours(const TriangleMesh& labelled, const std::vector<MapObject>& objects) {
     std::map<int, Rgb8> of_class;
     for (const MapObject& o : objects) of_class[o.class_id] = o.colour;
-    std::vector<Rgb8> colours(labelled.vertices.size(), Rgb8{200, 200, 200});
+    std::vector<Rgb8> colours(labelled.vertices.size(), kNoSceneColour);
     for (std::size_t i = 0; i < colours.size(); ++i) {
         const int class_id = i < labelled.labels.size() ? labelled.labels[i].class_id : 0;
         if (class_id != 0)
             colours[i] = of_class.try_emplace(class_id, DistinctColour(class_id)).first->second;
         else if (!labelled.colours.empty())
-            colours[i] = PaleGrey(labelled.colours[i]);
+            colours[i] = NoCategoryColour(labelled.colours[i]);
     }
     return colours;
 }

@@ -13,6 +13,10 @@ Result<std::vector<MapObject>> ReadObjects(const std::string& path);
 // is not among them), the others a pale grey of the scene's brightness.
 std::vector<Rgb8> CategoryColours(const TriangleMesh& labelled, const std::vector<MapObject>& objects);
 
+// What a vertex without a class looks like among such: a pale grey as bright as the scene is there.
+Rgb8 NoCategoryColour(const Rgb8& scene);
+inline constexpr Rgb8 kNoSceneColour{200, 200, 200};  // of one that has no colour either
+
 // The triangles of which all corners are that instance's, with their vertices; empty if there are none.
 TriangleMesh ExtractInstance(const TriangleMesh& labelled, int id);
 

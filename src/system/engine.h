@@ -27,6 +27,7 @@ struct FrameOutcome {
         kSkipped,  // could not be read: `message`
         kDropped,  // live: a newer one came before it was tracked
         kMessage,  // for a person
+        kLabelsEnd,  // the detector broke: `message`
         kReset,    // the map and the path begin anew
     };
     Kind kind = Kind::kFrame;

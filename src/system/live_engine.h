@@ -129,6 +129,7 @@ class LiveEngine : public Engine {
     std::optional<double> first_stamp_s_;  // reading's
     Clock::time_point first_time_;
     int mapped_world_ = 0;         // mapping's
+    double next_detection_s_ = 0;  // mapping's
     std::vector<Eigen::Isometry3d> corrections_;  // mapping's: of this world's map, T_new_old each
 
     Pool<Frame> frame_pool_;

@@ -85,7 +85,8 @@ void LiveEngine::Save(const Task& task, FrameOutcome& outcome) {
 void LiveEngine::Offer(Task& task) {
     const FrameReport& report = task.tracked->report;
     const MapVersion version{mapped_world_, static_cast<int>(corrections_.size())};
-    if (labelling_ && report.fused) {
+    if (labelling_ && report.fused && report.stamp_s >= next_detection_s_) {
+        next_detection_s_ = report.stamp_s + 1 / config_.labels.max_rate_hz;
         std::unique_ptr<Frame> frame = frame_pool_.Take();
         if (loops_)
             *frame = *task.frame;
@@ -102,7 +103,7 @@ void LiveEngine::TakeLabels() {
     LabellingThread::Answer answer;
     while (labelling_->TryTake(answer)) {
         LabellingThread::Job& job = answer.job;
-        if (!answer.message.empty()) Tell(FrameOutcome::Kind::kMessage, answer.message);
+        if (!answer.message.empty()) Tell(FrameOutcome::Kind::kLabelsEnd, answer.message);
         if (answer.message.empty() && job.map.world == mapped_world_) {
             Stopwatch watch;
             Carry(corrections_, job.map.corrections, job.T_world_camera);
@@ -160,6 +161,7 @@ void LiveEngine::ObeyInMapping(const ViewerCommand& command) {
     if (command.kind == ViewerCommand::Kind::kReset) {
         ++mapped_world_;
         corrections_.clear();
+        next_detection_s_ = 0;
         mapping_.Reset();
         if (loops_) loops_->Reset({mapped_world_, 0});
         if (scan_) scan_->Reset();

@@ -117,12 +117,16 @@ void LockstepEngine::BeginLoops() {
 
 bool LockstepEngine::TakeMessage(FrameOutcome& outcome) {
     std::optional<std::string> message = recorder_.TakeMessage();
-    if (!message && !label_message_.empty()) message = std::exchange(label_message_, {});
     if (!message && scan_) message = scan_->TakeMessage();
     if (!message && paging_) message = paging_->TakeMessage();
-    if (!message) return false;
-    outcome.kind = FrameOutcome::Kind::kMessage;
-    outcome.message = *message;
+    if (message) {
+        outcome.kind = FrameOutcome::Kind::kMessage;
+        outcome.message = std::move(*message);
+        return true;
+    }
+    if (label_message_.empty()) return false;
+    outcome.kind = FrameOutcome::Kind::kLabelsEnd;
+    outcome.message = std::exchange(label_message_, {});
     return true;
 }
 

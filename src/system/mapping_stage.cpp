@@ -6,6 +6,7 @@
 
 #include "core/check.h"
 #include "mapping/ray_caster.h"
+#include "render/vertex_weight.h"
 #include "scan/stored_mesh.h"
 
 namespace tessera {
@@ -39,6 +40,7 @@ void MappingStage::EnableLabels(const LabelConfig& config, LabelClasses classes)
 
 VoteCount MappingStage::Label(std::span<const Detection> detections, const DepthImage& depth_m,
                               const Eigen::Isometry3d& T_world_camera) {
+    ++labels_revision_;
     return labels_->Label(detections, depth_m, T_world_camera, *map_);
 }
 
@@ -84,9 +86,20 @@ int MappingStage::UpdateMesh(int budget_blocks, MeshUpdate& update) {
     const int waiting = mesher_.Update(*map_, budget_blocks);
     update.voxel_size_m = map_->config().voxel_size_m;
     update.clear = std::exchange(mesh_cleared_, false);
-    const std::span<GeometryBlock> blocks = geometry_.Build(*map_, mesher_);
+    if (labels_) geometry_.MarkAgain(labels_->TakeRelabelled(*map_));
+    const auto mark = [this](const BlockMesh& owner, const BlockMesh::Vertex& vertex) {
+        return VertexMark{labels_ ? labels_->ColourOf(*map_, owner, vertex) : Rgb8{},
+                          WeightStep(VertexWeight(*map_, owner, vertex))};
+    };
+    const std::span<GeometryBlock> blocks = geometry_.Build(*map_, mesher_, mark);
     update.blocks.assign(std::make_move_iterator(blocks.begin()), std::make_move_iterator(blocks.end()));
     return waiting;
+}
+
+std::vector<MapObject> MappingStage::MeasureObjects() const {
+    if (!labels_) return {};
+    TriangleMesh labelled = labels_->LabelledVertices(*map_, mesher_.block_meshes());
+    return labels_->Objects(map_->config().voxel_size_m, labelled);
 }
 
 TriangleMesh MappingStage::Mesh() const {
@@ -134,6 +147,8 @@ void MappingStage::Replace(std::unique_ptr<BlockMap> map, std::unique_ptr<LabelM
 void MappingStage::Place(std::unique_ptr<BlockMap> map) {
     map_ = std::move(map);
     mesher_.Clear();
+    geometry_.Clear();
+    if (labels_) ++labels_revision_;
     ForgetDelta();
     mesh_cleared_ = true;
 }
@@ -146,7 +161,11 @@ void MappingStage::Resume(std::unique_ptr<BlockMap> map, std::uint32_t fused_fra
 void MappingStage::Reset() {
     map_->Clear();
     mesher_.Clear();
-    if (labels_) labels_->Reset();
+    geometry_.Clear();
+    if (labels_) {
+        labels_->Reset();
+        ++labels_revision_;
+    }
     ForgetDelta();
     mesh_cleared_ = true;
 }

@@ -32,6 +32,10 @@ class MappingStage {
     VoteCount Label(std::span<const Detection> detections, const DepthImage& depth_m, const Eigen::Isometry3d& T_world_camera);
     // With labels: the objects of the mesh that TakeMesh gave, once it did.
     const std::vector<MapObject>& objects() const { return objects_; }
+    // With labels: the objects as far as they are known and meshed now; else none. Costs some milliseconds.
+    std::vector<MapObject> MeasureObjects() const;
+    // Another number whenever labels may have changed; 0 before the first, and always without labels.
+    std::uint64_t labels_revision() const { return labels_revision_; }
 
     bool has_labels() const { return labels_ != nullptr; }
     // Only with labels: what is known of objects besides the voxels. False: of other classes, or no such state.
@@ -90,6 +94,7 @@ class MappingStage {
     GeometryBuilder geometry_;
     std::unique_ptr<LabelMapper> labels_;  // null without labels
     std::vector<MapObject> objects_;
+    std::uint64_t labels_revision_ = 0;
     bool keep_deltas_ = false;
     std::vector<BlockChange> block_changes_;  // since the last CollectDelta
     std::vector<BlockId> changed_;            // the same: their field

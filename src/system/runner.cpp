@@ -141,6 +141,7 @@ Status Runner::WriteMesh() {
     const TriangleMesh mesh = engine_->TakeMesh();
     if (sound && !engine_->status().ok()) return engine_->status();
     if (summary_.labels) summary_.labels->objects = engine_->objects();
+    if (summary_.labels) window_.ShowObjects(engine_->objects());
     times_.Add("mesh", watch.LapMs());
     return output_->WriteMesh(mesh);
 }
@@ -155,7 +156,7 @@ std::int64_t Runner::Total() const {
 
 void Runner::Warn(const std::string& text) {
     if (observer_.on_warning) observer_.on_warning(text);
-    if (request_.viewer != nullptr) request_.viewer->messages.Push(std::string(text));
+    window_.Say(text);
 }
 
 }  // namespace tessera

@@ -5,7 +5,7 @@
 #include "system/engine.h"
 #include "system/run.h"
 #include "system/run_output.h"
-#include "system/viewer_link.h"
+#include "system/run_window.h"
 
 namespace tessera {
 
@@ -13,7 +13,7 @@ namespace tessera {
 class Runner {
   public:
     Runner(const RunRequest& request, const RunConfig& config, const RunObserver& observer)
-        : request_(request), config_(config), observer_(observer), selection_(request.selection) {}
+        : request_(request), config_(config), observer_(observer), selection_(request.selection), window_(request.viewer) {}
 
     Result<RunSummary> Run(const std::atomic<bool>& stop);
 
@@ -30,7 +30,8 @@ class Runner {
     Status TakeFrame(const FrameOutcome& outcome);
     Status TakeLabels(const LabelReport& report);
     void AddTimes(const FrameOutcome& outcome, double frame_ms);
-    void ShowFrame(const FrameOutcome& outcome);
+    // The source's truth in the map's world.
+    std::optional<Eigen::Isometry3d> TruthOf(const FrameOutcome& outcome) const;
     // After a reset: the files, too, tell of the new world only.
     Status BeginAnew();
     Status OpenOutput();
@@ -51,6 +52,7 @@ class Runner {
     const RunObserver& observer_;
     FrameSelection selection_;  // what is still to be read: less than was asked for where a scan is resumed
     std::int64_t frames_before_ = 0;  // that a resumed scan has
+    RunWindow window_;
     std::vector<StampedPose> truth_, estimate_;
     std::vector<std::string> pose_notes_;
     LabelClasses class_names_;

@@ -30,6 +30,7 @@ Status Runner::Take(const FrameOutcome& outcome) {
         case Kind::kSkipped: Skip(outcome.message); break;
         case Kind::kDropped: ++summary_.counts.frames, ++summary_.counts.dropped; break;
         case Kind::kMessage: Warn(outcome.message); break;
+        case Kind::kLabelsEnd: Warn(outcome.message), window_.EndLabels(); break;
         case Kind::kReset: return BeginAnew();
     }
     return Status::Ok();
@@ -42,7 +43,7 @@ Status Runner::TakeFrame(const FrameOutcome& outcome) {
     if (report.tracked()) estimate_.push_back({report.stamp_s, report.track.T_world_camera});
     const double frame_ms = frame_watch_.LapMs();
     AddTimes(outcome, frame_ms);
-    ShowFrame(outcome);
+    window_.Show(outcome, summary_.counts, TruthOf(outcome));
     if (outcome.labels)
         if (Status status = TakeLabels(*outcome.labels); !status.ok()) return status;
     return output_ ? output_->AddFrame(report, outcome.decode_ms, frame_ms) : Status::Ok();
@@ -54,6 +55,7 @@ Status Runner::TakeLabels(const LabelReport& report) {
     ++summary_.labels->frames;
     summary_.labels->detections += static_cast<std::int64_t>(report.detections.size());
     summary_.labels->flips += report.votes.flips;
+    window_.Show(report, class_names_);
     return output_ ? output_->AddDetections(report, class_names_) : Status::Ok();
 }
 
@@ -69,21 +71,9 @@ void Runner::AddTimes(const FrameOutcome& outcome, double frame_ms) {
     if (request_.viewer != nullptr) times_.Add("mesh_update", outcome.mesh_ms);
 }
 
-void Runner::ShowFrame(const FrameOutcome& outcome) {
-    if (request_.viewer == nullptr) return;
-    FrameUpdate update;
-    update.report = outcome.report;
-    if (outcome.T_world_camera_truth && !estimate_.empty() && !truth_.empty())
-        update.T_world_camera_truth = estimate_.front().T_world_camera *
-                                      truth_.front().T_world_camera.inverse() * *outcome.T_world_camera_truth;
-    update.decode_ms = outcome.decode_ms;
-    update.mesh_ms = outcome.mesh_ms;
-    update.latency_ms = outcome.latency_ms;
-    update.counts = summary_.counts;
-    update.dropped = summary_.counts.dropped;
-    update.queues = outcome.queues;
-    update.map = outcome.map;
-    request_.viewer->frames.Push(std::move(update));
+std::optional<Eigen::Isometry3d> Runner::TruthOf(const FrameOutcome& outcome) const {
+    if (!outcome.T_world_camera_truth || estimate_.empty() || truth_.empty()) return std::nullopt;
+    return estimate_.front().T_world_camera * truth_.front().T_world_camera.inverse() * *outcome.T_world_camera_truth;
 }
 
 // After a reset: the files, too, tell of the new world only.

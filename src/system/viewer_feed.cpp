@@ -1,11 +1,14 @@
 #include "system/viewer_feed.h"
 
+#include <cmath>
+
 #include "core/stopwatch.h"
 
 namespace tessera {
 
 double ViewerFeed::Send(const Frame& frame, const FrameReport& report, MappingStage& mapping) {
     if (viewer_ == nullptr) return 0;
+    stamp_s_ = frame.stamp_s;
     SendImages(frame, report, mapping);
     return SendMesh(mapping);
 }
@@ -17,7 +20,18 @@ double ViewerFeed::SendMesh(MappingStage& mapping) {
     MeshUpdate update;
     mapping.UpdateMesh(mesh_blocks_, update);
     if (update.clear || !update.blocks.empty()) viewer_->meshes.TryPush(std::move(update));
+    SendObjects(mapping);
     return watch.LapMs();
+}
+
+// A person needs them twice a second at most; by the frames' stamps, so that lockstep sends the same on every run.
+void ViewerFeed::SendObjects(const MappingStage& mapping) {
+    constexpr double kPeriod_s = 0.5;
+    if (mapping.labels_revision() == objects_revision_ || !viewer_->objects.empty()) return;
+    if (objects_stamp_s_ && std::abs(stamp_s_ - *objects_stamp_s_) < kPeriod_s) return;
+    objects_revision_ = mapping.labels_revision();
+    viewer_->objects.Push(mapping.MeasureObjects());
+    objects_stamp_s_ = stamp_s_;
 }
 
 void ViewerFeed::SendImages(const Frame& frame, const FrameReport& report, const MappingStage& mapping) {

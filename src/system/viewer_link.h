@@ -13,6 +13,8 @@
 #include "core/frame.h"
 #include "core/queue.h"
 #include "mapping/predicted_view.h"
+#include "semantics/detector.h"
+#include "semantics/map_object.h"
 #include "system/mapping_stage.h"
 #include "system/run.h"
 #include "system/tracking_stage.h"
@@ -35,6 +37,20 @@ struct FrameUpdate {
 struct ImageUpdate {
     std::shared_ptr<const Frame> frame;           // never null
     std::shared_ptr<const PredictedView> predicted;  // the map from the frame's pose, smaller; null unless wanted
+};
+
+// What the detector said of one frame.
+struct LabelUpdate {
+    struct Shown {
+        DetectionBox box;  // pixels of the frame's colour image
+        std::string name;
+        float probability = 0;
+        Rgb8 colour;       // of its class
+    };
+    double stamp_s = 0;    // the frame's
+    double detect_ms = 0;
+    std::vector<Shown> detections;
+    bool stopped = false;  // the detector broke and labelling is over; a message says why
 };
 
 // What a person asks for once.
@@ -61,6 +77,8 @@ struct ViewerLink {
     NewestQueue<FrameUpdate> frames{256, viewer};
     NewestQueue<ImageUpdate> images{1, viewer};
     FifoQueue<MeshUpdate> meshes{4, viewer};  // full: the changes wait at the mesher
+    NewestQueue<LabelUpdate> labels{64, viewer};                     // the thread that pushes frames
+    NewestQueue<std::vector<MapObject>> objects{1, viewer};  // all that there are, by number: the map's owner; at the end the other
     NewestQueue<std::string> messages{64, viewer};  // as a person reads them on the console
     std::atomic<bool> ended{false};                 // the run is over and its files are written
     std::atomic<bool> paused{false}, recording{false};  // as the system has obeyed

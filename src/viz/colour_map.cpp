@@ -41,6 +41,11 @@ std::size_t Shade(float unit) {
 
 }  // namespace
 
+const std::array<Rgb8, kWeightStops> kWeightColours{
+    {{44, 24, 84}, {58, 84, 152}, {34, 148, 144}, {126, 200, 88}, {250, 228, 96}}};
+
+Rgb8 WeightColour(float value) { return Interpolate(kWeightColours, value); }
+
 Rgb8 SequentialColour(float value) {
     static constexpr std::array<Rgb8, 7> kStops{
         {{150, 20, 60}, {222, 82, 62}, {250, 165, 88}, {246, 228, 140}, {132, 205, 160}, {54, 142, 186},

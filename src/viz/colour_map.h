@@ -1,6 +1,8 @@
 // False colours of the image panels and their legends. Pure functions, thread-safe.
 #pragma once
 
+#include <array>
+
 #include "core/camera.h"
 #include "core/frame.h"
 #include "core/image.h"
@@ -12,6 +14,11 @@ namespace tessera {
 Rgb8 SequentialColour(float value);
 // From red (-1) over white (0) to blue (1); outside as at its ends.
 Rgb8 DivergingColour(float value);
+// From dark (0) to light (1), for weights (WeightStep / 255); outside as at its ends. Between the stops, which are evenly
+// spaced, it runs straight.
+inline constexpr int kWeightStops = 5;
+extern const std::array<Rgb8, kWeightStops> kWeightColours;
+Rgb8 WeightColour(float value);
 // Where there is nothing to show.
 inline constexpr Rgb8 kNothingShown{38, 41, 47};
 

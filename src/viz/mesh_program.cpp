@@ -2,6 +2,8 @@
 
 #include <epoxy/gl.h>
 
+#include "viz/colour_map.h"
+
 namespace tessera {
 namespace {
 
@@ -9,9 +11,11 @@ constexpr const char* kVertexSource = R"(#version 330 core
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec2 normal;
 layout(location = 2) in vec4 colour;
+layout(location = 3) in vec4 mark;  // VertexMark
 uniform mat4 clip_from_position;
 out vec3 normal_world;
 out vec4 weighted_colour;
+out vec4 marked;
 
 void main() {
     gl_Position = clip_from_position * vec4(position, 1);
@@ -20,6 +24,7 @@ void main() {
     if (n.z < 0) n.xy = (1 - abs(e.yx)) * vec2(e.x < 0 ? -1 : 1, e.y < 0 ? -1 : 1);
     normal_world = normalize(n);
     weighted_colour = vec4(colour.rgb * colour.a, colour.a);
+    marked = mark;
 }
 )";
 
@@ -27,11 +32,19 @@ void main() {
 constexpr const char* kFragmentSource = R"(#version 330 core
 in vec3 normal_world;
 in vec4 weighted_colour;
+in vec4 marked;
 uniform mat3 world_from_camera;
 uniform vec4 intrinsics;  // fx, fy, cx, cy of OpenGL's pixel positions
 uniform vec3 up;
-uniform int shading;
+uniform int shading;       // Shading's numbers
+uniform vec3 weight_colours[5];
 out vec4 pixel;
+
+vec3 weight_colour(float weight) {
+    float at = clamp(weight, 0, 1) * 4;
+    int stop = min(int(at), 3);
+    return mix(weight_colours[stop], weight_colours[stop + 1], at - stop);
+}
 
 void main() {
     vec3 n = normal_world / max(length(normal_world), 1e-6);
@@ -42,7 +55,11 @@ void main() {
     if (shading == 0 && weighted_colour.a > 1e-3) {
         vec3 rgb = weighted_colour.rgb / weighted_colour.a;
         pixel = vec4(rgb * (0.62 + 0.12 * sky + 0.38 * lamp), 1);
+    } else if (shading == 1) {
+        pixel = vec4(marked.rgb * (0.5 + 0.14 * sky + 0.42 * lamp), 1);
     } else if (shading == 2) {
+        pixel = vec4(weight_colour(marked.a) * (0.62 + 0.12 * sky + 0.34 * lamp), 1);
+    } else if (shading == 4) {
         pixel = vec4((0.5 + 0.5 * n) * (0.72 + 0.34 * lamp), 1);
     } else {
         pixel = vec4(grey, 1);
@@ -68,6 +85,15 @@ void MeshProgram::Use(const PinholeCamera& camera, const Eigen::Isometry3d& T_wo
                 static_cast<float>(camera.cx + 0.5), static_cast<float>(camera.cy + 0.5));
     glUniform3fv(program_.Location("up"), 1, up_world.data());
     glUniform1i(program_.Location("shading"), static_cast<int>(shading));
+    static_assert(kWeightStops == 5, "the shader's array");
+    std::array<float, 3 * kWeightStops> stops;
+    for (std::size_t i = 0; i < kWeightColours.size(); ++i) {
+        const Rgb8& c = kWeightColours[i];
+        stops[3 * i] = static_cast<float>(c.r) / 255;
+        stops[3 * i + 1] = static_cast<float>(c.g) / 255;
+        stops[3 * i + 2] = static_cast<float>(c.b) / 255;
+    }
+    glUniform3fv(program_.Location("weight_colours"), kWeightStops, stops.data());
 }
 
 }  // namespace tessera

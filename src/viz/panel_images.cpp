@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "viz/colour_map.h"
+#include "viz/legend.h"
 #include "viz/panels.h"
 #include "viz/widgets.h"
 
@@ -16,49 +17,12 @@ int StepFor(int width) {
     return std::max(1, (width + kTexturePx - 1) / kTexturePx);
 }
 
-ImU32 Packed(const Rgb8& c) {
-    return IM_COL32(c.r, c.g, c.b, 255);
-}
-
-void DrawShadowed(ImDrawList& list, const ImVec2& at, ImU32 colour, const std::string& text) {
-    const float size = SmallFont()->FontSize;
-    list.AddText(SmallFont(), size, {at.x + 1, at.y + 1}, IM_COL32(0, 0, 0, 210), text.c_str());
-    list.AddText(SmallFont(), size, at, colour, text.c_str());
-}
-
-struct Legend {
-    Rgb8 (*colour)(float) = nullptr;
-    float from = 0, to = 1;  // of the colour map
-    std::string first, last;
-};
-
-// A bar along the lower edge with its ends' values.
-void DrawLegend(ImDrawList& list, const Legend& legend, const ImVec2& at, const ImVec2& size) {
-    const auto width = [](const std::string& text) {
-        return SmallFont()->CalcTextSizeA(SmallFont()->FontSize, 1e4f, 0, text.c_str()).x;
-    };
-    const float y = at.y + size.y - Scaled(17);
-    list.AddRectFilledMultiColor({at.x, y - Scaled(8)}, {at.x + size.x, at.y + size.y}, 0, 0, IM_COL32(0, 0, 0, 190),
-                                 IM_COL32(0, 0, 0, 190));
-    DrawShadowed(list, {at.x + Scaled(6), y}, palette::kText, legend.first);
-    DrawShadowed(list, {at.x + size.x - width(legend.last) - Scaled(6), y}, palette::kText, legend.last);
-    const float left = at.x + Scaled(12) + width(legend.first), right = at.x + size.x - Scaled(12) - width(legend.last);
-    constexpr int kPieces = 24;
-    for (int i = 0; i < kPieces; ++i) {
-        const auto position = [&](int k) { return static_cast<float>(k) / kPieces; };
-        const auto colour = [&](int k) {
-            return Packed(legend.colour(legend.from + position(k) * (legend.to - legend.from)));
-        };
-        const ImU32 a = colour(i), b = colour(i + 1);
-        list.AddRectFilledMultiColor({left + position(i) * (right - left), y + Scaled(4)},
-                                     {left + position(i + 1) * (right - left), y + Scaled(10)}, a, b, b, a);
-    }
-}
-
-void DrawImage(const char* title, const GlTexture& texture, const ImVec2& size, const char* missing,
+// Where the image was drawn; empty without one.
+ImVec4 DrawImage(const char* title, const GlTexture& texture, const ImVec2& size, const char* missing,
                const Legend& legend) {
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const ImVec2 at = ImGui::GetCursorScreenPos(), to{at.x + size.x, at.y + size.y};
+    ImVec4 drawn{};
     list.AddRectFilled(at, to, IM_COL32(18, 20, 24, 255), Scaled(4));
     if (!texture.empty()) {
         // As large as fits, without distortion.
@@ -68,6 +32,7 @@ void DrawImage(const char* title, const GlTexture& texture, const ImVec2& size, 
         const ImVec2 from{at.x + (size.x - part.x) / 2, at.y + (size.y - part.y) / 2};
         list.AddImageRounded(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(texture.name())), from,
                              {from.x + part.x, from.y + part.y}, {0, 0}, {1, 1}, IM_COL32_WHITE, Scaled(4));
+        drawn = {from.x, from.y, from.x + part.x, from.y + part.y};
         if (legend.colour) DrawLegend(list, legend, at, size);
     } else {
         const ImVec2 extent = SmallFont()->CalcTextSizeA(SmallFont()->FontSize, 1e4f, 0, missing);
@@ -80,6 +45,7 @@ void DrawImage(const char* title, const GlTexture& texture, const ImVec2& size, 
                        ImDrawFlags_RoundCornersTopLeft | ImDrawFlags_RoundCornersBottomRight);
     list.AddText(SmallFont(), SmallFont()->FontSize, {at.x + Scaled(7), at.y + Scaled(3)}, palette::kText, title);
     ImGui::Dummy(size);
+    return drawn;
 }
 
 }  // namespace
@@ -116,7 +82,9 @@ void ImagesPanel::Draw(ViewerState& state, const ControlRect& area) {
     const Legend depth{SequentialColour, 0, 1, "0", fmt::format("{:.1f} m", state.settings.max_depth_m)};
     const std::string reach = fmt::format("{:.0f} mm", 1000 * state.options.truncation_m);
     const Legend difference{DivergingColour, -1, 1, "-" + reach, "+" + reach};
-    DrawImage("Colour", colour_, {width, height}, state.system.images().frame ? "no colour" : waiting, {});
+    const ImVec4 colour =
+        DrawImage("Colour", colour_, {width, height}, state.system.images().frame ? "no colour" : waiting, {});
+    DrawDetections(state, {colour.x, colour.y}, {colour.z, colour.w});
     DrawImage("Depth", depth_, {width, height}, waiting, depth);
     DrawImage("Predicted depth", predicted_, {width, height}, unpredicted, depth);
     DrawImage("Measured minus predicted", residual_, {width, height}, unpredicted, difference);

@@ -1,7 +1,10 @@
 // The 3D view: its picture, the pointer's work in it, and the few choices over it.
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
+#include "viz/colour_map.h"
+#include "viz/legend.h"
 #include "viz/panels.h"
 #include "viz/widgets.h"
 
@@ -53,6 +56,7 @@ void DrawToolbar(ViewerState& state, const ControlRect& area) {
     };
     for (int i = 0; i < kShadings; ++i) {
         const auto shading = static_cast<Shading>(i);
+        if (!state.CanShade(shading)) continue;
         const std::string name = std::string("shading.") + ToString(shading);
         if (button(name.c_str(), ToString(shading), view.shading == shading, "Shading  (C)")) view.shading = shading;
     }
@@ -62,6 +66,8 @@ void DrawToolbar(ViewerState& state, const ControlRect& area) {
         view.wireframe = !view.wireframe;
     if (button("depth_test", "Depth test", view.depth_test, "Off: what is behind shows through  (D)"))
         view.depth_test = !view.depth_test;
+    if (state.options.labelled && button("objects", "Objects", view.show_objects, "Their boxes and names  (B)"))
+        view.show_objects = !view.show_objects;
     if (state.link && button("truth", "Truth", view.show_truth, "Path of the ground truth, white  (T)"))
         view.show_truth = !view.show_truth;
     ImGui::Dummy({Scaled(6), 0});
@@ -97,6 +103,10 @@ bool DrawViewPanel(ViewerState& state, SceneView& scene, const ViewPanelFrame& f
     list.AddRectFilledMultiColor(from, to, palette::kViewTop, palette::kViewTop, palette::kViewBottom,
                                  palette::kViewBottom);
     list.AddImage(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(scene.texture())), from, to);
+    DrawObjectNames(state, scene, area);
+    if (state.view.shading == Shading::kWeight)
+        DrawLegend(list, {WeightColour, 0, 1, "weight 0", "255, logarithmic"},
+                   {area.x, area.y + area.height - Scaled(34)}, {std::min(Scaled(360), area.width), Scaled(34)});
     DrawToolbar(state, area);
     return drawn;
 }

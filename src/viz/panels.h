@@ -1,6 +1,8 @@
 // The window's parts, each in a file of its own (panel_*.cpp). Inside an ImGui frame; they read and change the state.
 #pragma once
 
+#include <imgui.h>
+
 #include "viz/gl_texture.h"
 #include "viz/scene_view.h"
 #include "viz/viewer_state.h"
@@ -9,11 +11,17 @@ namespace tessera {
 
 void DrawStatusPanel(ViewerState& state, const SceneView& scene);    // inside the left column
 void DrawControlsPanel(ViewerState& state);                          // inside the left column
+void DrawObjectsPanel(ViewerState& state, SceneView& scene);         // inside the left column; a click looks at one
 void DrawMessagesPanel(const ViewerState& state);                     // the left column's rest
 void DrawPlotsPanel(const ViewerState& state, const ControlRect& area);
 // Over everything, while wanted.
 void DrawHelp(ViewerState& state);
 void DrawResetQuestion(ViewerState& state);
+
+// Boxes that a detector gave, over a picture of the image at `from` to `to`.
+void DrawDetections(const ViewerState& state, const ImVec2& from, const ImVec2& to);
+// The objects' names over the 3D view, whose picture fills `area`.
+void DrawObjectNames(const ViewerState& state, const SceneView& scene, const ControlRect& area);
 
 // The 3D view and the pointer's work in it.
 struct ViewPanelFrame {

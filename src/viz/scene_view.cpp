@@ -6,8 +6,10 @@
 #include "render/gl_triangle_mesh.h"
 #include "render/mesh_picture.h"
 #include "render/projection.h"
+#include "semantics/objects_file.h"
 #include "viz/gl_lines.h"
 #include "viz/mesh_program.h"
+#include "viz/object_boxes.h"
 #include "viz/path_lines.h"
 #include "viz/scene_target.h"
 #include "viz/up_estimator.h"
@@ -39,6 +41,7 @@ struct SceneView::Impl {
     GlMeshStore store;
     GlTriangleMesh model;
     PathLines paths;
+    ObjectBoxes boxes;
     SceneTarget target;
     ViewCamera camera;
     UpEstimator up{{0, -1, 0}};
@@ -73,7 +76,8 @@ std::size_t SceneView::triangles() const {
 }
 
 void SceneView::SetModel(const ViewedModel& model) {
-    impl_->model.Set(model.mesh);
+    impl_->model.Set(model.mesh, model.mesh.labels.empty() ? std::vector<Rgb8>()
+                                                           : CategoryColours(model.mesh, model.objects));
     impl_->paths.SetPath(model.path);
     for (const Eigen::Vector3f& vertex : model.mesh.vertices) impl_->bounds.extend(vertex.cast<double>());
     const MeshView view = ChooseView(model.mesh, model.path);
@@ -158,12 +162,14 @@ bool SceneView::Impl::ChosenAnew(const ViewerState& state, const Request& reques
     const ViewChoices &a = state.view, &b = drawn.choices;
     return request.width != drawn.request.width || request.height != drawn.request.height ||
            request.smooth != drawn.request.smooth || a.shading != b.shading || a.wireframe != b.wireframe ||
-           a.depth_test != b.depth_test || a.show_truth != b.show_truth;
+           a.depth_test != b.depth_test || a.show_truth != b.show_truth ||
+           a.show_objects != b.show_objects;
 }
 
 bool SceneView::Draw(const ViewerState& state, const Request& request) {
     Impl& s = *impl_;
     s.changed |= s.paths.Update(state);
+    s.changed |= s.boxes.Update(state);
     const bool moved = !s.camera.T_world_camera().isApprox(s.drawn.T_world_view, 1e-7);
     const bool at_once = request.may_redraw || (moved && request.by_hand);
     if (!s.ChosenAnew(state, request) && !((moved || s.changed) && at_once)) return false;
@@ -208,6 +214,7 @@ void SceneView::Impl::DrawPaths(const ViewerState& state, const PinholeCamera& p
     for (const bool hidden : {true, false}) {
         glDepthFunc(hidden ? GL_GREATER : GL_LEQUAL);
         paths.Draw(lines, view, state.view.show_truth, hidden ? 0.22f : 1.0f);
+        if (state.view.show_objects) boxes.Draw(lines, view, hidden ? 0.3f : 1.0f);
     }
     glDepthMask(GL_TRUE);
     glDepthFunc(GL_LESS);
@@ -220,6 +227,13 @@ std::optional<Eigen::Vector3d> SceneView::PointAt(int x, int y) const {
     if (buffer >= 1) return std::nullopt;
     const PinholeCamera pinhole = ViewCamera::Camera(impl_->drawn.request.width, impl_->drawn.request.height);
     return impl_->drawn.T_world_view * pinhole.Unproject(x, y, DepthFromBuffer(buffer, kNearM, kFarM));
+}
+
+std::optional<Eigen::Vector3d> SceneView::PixelOf(const Eigen::Vector3d& p_world) const {
+    const Eigen::Vector3d p = impl_->drawn.T_world_view.inverse() * p_world;
+    if (p.z() < kNearM) return std::nullopt;
+    const Eigen::Vector2d pixel = ViewCamera::Camera(impl_->drawn.request.width, impl_->drawn.request.height).Project(p);
+    return Eigen::Vector3d(pixel.x(), pixel.y(), p.z());
 }
 
 }  // namespace tessera

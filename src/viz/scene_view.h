@@ -38,6 +38,9 @@ class SceneView {
     ViewCamera& camera();
     // The surface's point at a pixel of the picture, world frame.
     std::optional<Eigen::Vector3d> PointAt(int x, int y) const;
+    // The pixel of the picture where a point of the world frame shows, whatever is before it, and its depth in metres;
+    // nothing if it is behind the camera.
+    std::optional<Eigen::Vector3d> PixelOf(const Eigen::Vector3d& p_world) const;
     std::size_t triangles() const;
 
   private:

@@ -1,6 +1,17 @@
 #include "viz/system_view.h"
 
 namespace tessera {
+namespace {
+
+// Adds now_s to the arrivals of the last `keep_s` seconds, at least two; how many a second that makes.
+double RateWith(double now_s, double keep_s, std::deque<double>& arrivals_s) {
+    arrivals_s.push_back(now_s);
+    while (arrivals_s.size() > 2 && now_s - arrivals_s.front() > keep_s) arrivals_s.pop_front();
+    const double span_s = now_s - arrivals_s.front();
+    return span_s > 0 ? static_cast<double>(arrivals_s.size() - 1) / span_s : 0;
+}
+
+}  // namespace
 
 bool SystemView::Take(ViewerLink& link, double now_s) {
     bool any = false;
@@ -13,12 +24,34 @@ bool SystemView::Take(ViewerLink& link, double now_s) {
         ++images_taken_;
         any = true;
     }
+    any |= TakeLabels(link, now_s);
     std::string message;
     while (link.messages.TryPop(message)) {
         Say(message);
         any = true;
     }
     return any;
+}
+
+bool SystemView::TakeLabels(ViewerLink& link, double now_s) {
+    bool any = false;
+    LabelUpdate labels;
+    while (link.labels.TryPop(labels)) {
+        if (!labels.stopped) detections_per_s_ = RateWith(now_s, 5, detected_s_);
+        labels_ = std::move(labels);
+        any = true;
+    }
+    std::vector<MapObject> objects;
+    while (link.objects.TryPop(objects)) {
+        SetObjects(std::move(objects));
+        any = true;
+    }
+    return any;
+}
+
+void SystemView::SetObjects(std::vector<MapObject> objects) {
+    objects_ = std::move(objects);
+    ++objects_taken_;
 }
 
 void SystemView::Say(const std::string& text) {
@@ -33,6 +66,8 @@ void SystemView::Add(FrameUpdate&& update, double now_s) {
         path_.clear();
         truth_.clear();
         ++path_identity_;
+        SetObjects({});
+        labels_.detections.clear();
     }
     const bool follows = has_frame_ && frame_.report.tracked() && !report.first;
     if (report.tracked())
@@ -43,10 +78,7 @@ void SystemView::Add(FrameUpdate&& update, double now_s) {
     frame_ = std::move(update);
     has_frame_ = true;
 
-    arrivals_s_.push_back(now_s);
-    while (arrivals_s_.size() > 2 && now_s - arrivals_s_.front() > 3) arrivals_s_.pop_front();
-    const double span_s = now_s - arrivals_s_.front();
-    fps_ = span_s > 0 ? static_cast<double>(arrivals_s_.size() - 1) / span_s : 0;
+    fps_ = RateWith(now_s, 3, arrivals_s_);
     AddToHistory();
 }
 

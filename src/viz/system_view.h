@@ -29,6 +29,8 @@ class SystemView {
 
     // Takes frames, pictures and messages; meshes go to the 3D view. `now_s`: any steady clock. True if anything came.
     bool Take(ViewerLink& link, double now_s);
+    // In place of a link's.
+    void SetObjects(std::vector<MapObject> objects);
     // A message of the window's own.
     void Say(const std::string& text);
 
@@ -40,11 +42,16 @@ class SystemView {
     std::uint64_t path_identity() const { return path_identity_; }  // another one: the paths began anew
     const ImageUpdate& images() const { return images_; }           // `frame` is null before the first
     std::uint64_t images_taken() const { return images_taken_; }
+    const std::vector<MapObject>& objects() const { return objects_; }  // by number
+    std::uint64_t objects_taken() const { return objects_taken_; }
+    const LabelUpdate& labels() const { return labels_; }  // the newest detections
+    double detections_per_s() const { return detections_per_s_; }  // frames detected, of the last seconds; 0: not known yet
     const History& history() const { return history_; }
     const std::deque<std::string>& messages() const { return messages_; }  // oldest first
     std::uint64_t messages_said() const { return messages_said_; }
 
   private:
+    bool TakeLabels(ViewerLink& link, double now_s);
     void Add(FrameUpdate&& update, double now_s);
     void AddToHistory();
 
@@ -55,6 +62,11 @@ class SystemView {
     std::vector<PathPoint> path_, truth_;
     std::uint64_t path_identity_ = 1, images_taken_ = 0, messages_said_ = 0;
     ImageUpdate images_;
+    LabelUpdate labels_;
+    std::vector<MapObject> objects_;
+    std::uint64_t objects_taken_ = 0;
+    std::deque<double> detected_s_;
+    double detections_per_s_ = 0;
     History history_;
     std::deque<std::string> messages_;
 };

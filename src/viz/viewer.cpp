@@ -84,13 +84,16 @@ Result<std::unique_ptr<Viewer>> Viewer::Open(ViewerLink& link, const ViewerOptio
 Result<std::unique_ptr<Viewer>> Viewer::OpenModel(ViewedModel model, const ViewerOptions& options) {
     Result<std::unique_ptr<Window>> window = OpenWindow(options);
     if (!window.ok()) return window.status();
-    auto impl = std::make_unique<Impl>(std::move(window.value()), nullptr, options);
+    ViewerOptions with_labels = options;
+    with_labels.labelled = !model.mesh.labels.empty();
+    auto impl = std::make_unique<Impl>(std::move(window.value()), nullptr, with_labels);
     Result<std::unique_ptr<SceneView>> scene = SceneView::Create(impl->window->is_software());
     if (!scene.ok()) return scene.status();
     impl->scene = std::move(scene.value());
     impl->state.view.follow = false;
     if (model.mesh.colours.empty()) impl->state.view.shading = Shading::kGrey;
     impl->scene->SetModel(model);
+    impl->state.system.SetObjects(std::move(model.objects));
     return std::unique_ptr<Viewer>(new Viewer(std::move(impl)));
 }
 
@@ -184,6 +187,7 @@ bool Viewer::Impl::DrawPanels(bool may_redraw, bool smooth) {
             const Panel left("left", layout.left);
             DrawStatusPanel(state, *scene);
             DrawControlsPanel(state);
+            DrawObjectsPanel(state, *scene);
             DrawMessagesPanel(state);
         }
         images.Draw(state, layout.images);

@@ -14,13 +14,24 @@
 
 namespace tessera {
 
+// Of the mesh.
+enum class Shading {
+    kColour,  // the scene's
+    kLabel,   // by the objects' classes
+    kWeight,  // how often it was measured
+    kGrey,
+    kNormal,
+};
+
 struct ViewerOptions {
     std::string title;                 // of what is scanned or shown
     int width = 1280, height = 720;    // of the window at first, in pixels of a display of usual density
     std::string output_folder = ".";   // for screenshots, saved meshes and recordings; made when first needed
     PinholeCamera camera;              // of the frames
     double truncation_m = 0.04;        // the map's: the residual's colours reach so far
+    bool labelled = false;             // whether there is a detector, or a model's mesh has labels
     ViewerSettings settings;           // in force when the window opens
+    Shading shading = Shading::kColour;  // at first
     bool follow = true;                // the sensor at first; else all of the mesh, until the person turns the view
     bool close_at_end = false;         // with ViewerLink::ended; else the person closes
     double wait_s = 1.0 / 30;          // how long RunOnce may sleep when there is nothing to do
@@ -32,6 +43,7 @@ struct ViewerOptions {
 struct ViewedModel {
     TriangleMesh mesh;
     std::vector<Eigen::Isometry3d> path;  // T_world_camera of a run; may be empty
+    std::vector<MapObject> objects;       // of its labels; may be empty
 };
 
 // Of a control in the window, in pixels from its top left corner.

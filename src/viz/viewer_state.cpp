@@ -13,6 +13,8 @@ namespace tessera {
 const char* ToString(Shading shading) {
     switch (shading) {
         case Shading::kColour: return "Colour";
+        case Shading::kLabel: return "Label";
+        case Shading::kWeight: return "Weight";
         case Shading::kGrey: return "Grey";
         case Shading::kNormal: return "Normal";
     }
@@ -59,7 +61,16 @@ void ViewerState::ToggleRecording() {
 }
 
 void ViewerState::CycleShading() {
-    view.shading = static_cast<Shading>((static_cast<int>(view.shading) + 1) % kShadings);
+    do view.shading = static_cast<Shading>((static_cast<int>(view.shading) + 1) % kShadings);
+    while (!CanShade(view.shading));
+}
+
+bool ViewerState::CanShade(Shading shading) const {
+    switch (shading) {
+        case Shading::kLabel: return options.labelled;
+        case Shading::kWeight: return link != nullptr;
+        default: return true;
+    }
 }
 
 void ViewerState::ToggleFollow() {
@@ -90,6 +101,7 @@ void ViewerState::OnKey(int key, int mods) {
         case GLFW_KEY_C: return CycleShading();
         case GLFW_KEY_W: view.wireframe = !view.wireframe; return;
         case GLFW_KEY_D: view.depth_test = !view.depth_test; return;
+        case GLFW_KEY_B: view.show_objects = !view.show_objects; return;
         case GLFW_KEY_T: view.show_truth = !view.show_truth; return;
         case GLFW_KEY_H:
         case GLFW_KEY_F1: show_help = !show_help; return;

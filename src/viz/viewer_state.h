@@ -10,21 +10,21 @@
 
 namespace tessera {
 
-// More to come with the data for it: labels, weights.
-enum class Shading { kColour, kGrey, kNormal };
-inline constexpr int kShadings = 3;
+inline constexpr int kShadings = 5;
 const char* ToString(Shading shading);
 
 struct ViewChoices {
     Shading shading = Shading::kColour;
     bool keep_all = false;  // stay so far away that all of the mesh shows
     bool wireframe = false, depth_test = true, follow = true, show_truth = true;
+    bool show_objects = true;  // their boxes and names
 };
 
 // Owner thread only.
 struct ViewerState {
     ViewerState(ViewerLink* to_system, const ViewerOptions& given)
         : link(to_system), options(given), settings(given.settings) {
+        view.shading = given.shading;
         view.follow = given.follow;
         view.keep_all = !given.follow;
     }
@@ -35,6 +35,7 @@ struct ViewerState {
     Controls controls;
     ViewChoices view;
     ViewerSettings settings;  // as last sent
+    int selected_object = 0;  // MapObject::id; 0: none
     bool ask_reset = false, show_help = false, close = false, want_screenshot = false;
 
     bool ended() const { return !link || link->ended; }
@@ -48,7 +49,8 @@ struct ViewerState {
     void Reset();  // asked for and confirmed
     void SaveMesh();
     void ToggleRecording();
-    void CycleShading();
+    void CycleShading();  // over those that there is something to show for
+    bool CanShade(Shading shading) const;
     void ToggleFollow();
     void ViewAll();
     // The window's keys: GLFW_KEY_* and GLFW_MOD_*.

@@ -99,6 +99,27 @@ TEST(MapDelta, ACopyFollowsBlocksThatGoAndComeBack) {
     }
 }
 
+TEST(CopyField, IsTheWholeFieldUnderTheSameIdsAndNewToWhoeverLooks) {
+    MovingMap world;
+    for (int i = 0; i < 3; ++i) world.Fuse(i);
+    const std::unique_ptr<BlockMap> copy = CopyField(world.map);
+    ASSERT_EQ(copy->size(), world.map.size());
+    for (BlockId id = 1; id < world.map.size(); ++id) {
+        ASSERT_EQ(copy->coord(id), world.map.coord(id));
+        ASSERT_EQ(copy->Find(world.map.coord(id)), id);
+        ASSERT_EQ(std::memcmp(copy->field(id), world.map.field(id), kBlockVoxels * sizeof(FieldWord)), 0) << id;
+        ASSERT_NE(copy->revision(id), 0u);
+    }
+    // The next delta goes on from there.
+    world.came_and_went.clear();
+    world.Fuse(3);
+    MapDelta delta;
+    CollectDelta(world.map, world.came_and_went, world.integrator.changed_blocks(), world.integrator.revision(), delta);
+    ApplyDelta(delta, *copy);
+    for (BlockId id = 1; id < world.map.size(); ++id)
+        ASSERT_EQ(std::memcmp(copy->field(id), world.map.field(id), kBlockVoxels * sizeof(FieldWord)), 0) << id;
+}
+
 // Whoever keeps what it made from the copy up to date by revisions sees every change.
 TEST(MapDelta, AMeshOfTheCopyFollowsIt) {
     MovingMap world;

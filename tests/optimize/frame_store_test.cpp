@@ -57,6 +57,35 @@ TEST(FrameStore, OverItsLimitKeepsKeyframesAndAnEvenShareOfTheRest) {
     for (const std::int64_t o : ordinals) EXPECT_TRUE(o == 5 || o % store.stride() == 0) << o;
 }
 
+// Frames of an earlier process may be damaged: said, and the map is made of the others.
+TEST(FrameStore, DamagedFramesAreRefusedAndLeftOutOfAMap) {
+    FrameStore whole(100000000, 5000);
+    for (int i = 0; i < 4; ++i)
+        ASSERT_TRUE(whole.Add(FrameAt(i), 0, i == 0, SmoothPath(0).inverse() * SmoothPath(i), {}).ok());
+    std::vector<StoredFrame> frames = whole.frames();
+    frames[1].depth_png.resize(frames[1].depth_png.size() / 2);
+    frames[2].colour_jpeg.assign(30, 7);
+    FrameStore damaged(100000000, 5000), sound(100000000, 5000);
+    sound.Resume({frames[0], frames[3]}, 4);
+    damaged.Resume(std::move(frames), 4);
+    FieldSettings settings;
+    settings.camera = SmallCamera();
+    settings.map = {.voxel_size_m = 0.04, .truncation_m = 0.16};
+    Frame frame;
+    PreparedFrame prepared;
+    for (const int i : {1, 2})
+        EXPECT_FALSE(damaged.LoadPrepared(damaged.frames()[static_cast<std::size_t>(i)], settings.camera, {}, frame, prepared).ok());
+    EXPECT_TRUE(damaged.LoadPrepared(damaged.frames()[3], settings.camera, {}, frame, prepared).ok());
+    EXPECT_FALSE(damaged.LoadPrepared(damaged.frames()[3], settings.camera.Every(2), {}, frame, prepared).ok());
+    MapRebuild with(settings, {Eigen::Isometry3d::Identity()}, nullptr), without(settings, {Eigen::Isometry3d::Identity()}, nullptr);
+    ASSERT_TRUE(with.Step(damaged, 10));
+    ASSERT_TRUE(without.Step(sound, 10));
+    const auto a = with.TakeMap(), b = without.TakeMap();
+    ASSERT_EQ(a->size(), b->size());
+    for (BlockId id = 1; id < a->size(); ++id)
+        ASSERT_TRUE(std::equal(a->weight(id), a->weight(id) + kBlockVoxels, b->weight(id))) << id;
+}
+
 // A map made in steps from the store is bit for bit what fusing the same frames at the new poses gives, labels included.
 TEST(MapRebuild, EqualsAFreshFusion) {
     const BlockMap::Config config{.voxel_size_m = 0.04, .truncation_m = 0.16};

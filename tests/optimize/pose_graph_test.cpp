@@ -70,6 +70,23 @@ TEST_F(Square, AWrongLoopAmongRightOnesPullsLittle) {
     EXPECT_LT((poses[4].translation() - truth[4].translation()).norm(), 0.01);
 }
 
+// Where the camera came back with drift, tracking jumps from the new surface to the old one; loops on both sides of the jump
+// tell that it did not move.
+TEST_F(Square, AJumpOfTrackingAmongLoopsIsNoMotion) {
+    constexpr int kPoses = 20, kJump = 10;
+    edges.clear();
+    truth.assign(1, truth[0]);
+    for (int i = 1; i < kPoses; ++i) truth.push_back(truth.back() * Pose(0, 0, 0.02, 0.1, 0, 0));
+    for (int i = 0; i + 1 < kPoses; ++i) {
+        const Eigen::Isometry3d jump = i == kJump ? Pose(0, 0, 0, 0, 0.06, 0) : Eigen::Isometry3d::Identity();
+        edges.push_back({i, i + 1, truth[i].inverse() * truth[i + 1] * jump, 0.003, 0.003, false});
+    }
+    for (int i = kJump - 3; i <= kJump + 4; ++i) edges.push_back({0, i, truth[0].inverse() * truth[i], 0.01, 0.005, true});
+    auto poses = truth;
+    ASSERT_TRUE(OptimisePoses(edges, poses).ok());
+    for (int i = 0; i < kPoses; ++i) EXPECT_LT((poses[i].translation() - truth[i].translation()).norm(), 0.015) << i;
+}
+
 TEST_F(Square, NothingToDoWithoutEdges) {
     auto poses = drifted;
     ASSERT_TRUE(OptimisePoses({}, poses).ok());

@@ -64,9 +64,10 @@ class Style(Tree):
 class Summary(Tree):
     def test_counts_and_missing_stages(self):
         self.write("s.xml", '<testsuite><testcase name="a" status="run"/>'
-                            '<testcase name="b" status="fail"><failure/></testcase>'
+                            '<testcase name="b" status="fail"><failure/>'
+                            '<system-out>why</system-out></testcase>'
                             '<testcase name="c" status="notrun"><skipped/></testcase></testsuite>')
-        self.assertEqual(summarise_tests.read_stage(self.root / "s.xml"), (1, ["b"], ["c"]))
+        self.assertEqual(summarise_tests.read_stage(self.root / "s.xml"), (1, {"b": "why"}, ["c"]))
         self.assertEqual(summarise_tests.main([str(self.root / "absent")]), 1)
 
 

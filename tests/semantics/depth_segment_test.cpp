@@ -117,6 +117,7 @@ TEST(VoteLabels, OnlyTheBandAroundTheSurface) {
     const Ballot ballot{5, 3};
     const VoteCount count = VoteLabels(labels, {&ballot, 1}, depth, kCamera, Eigen::Isometry3d::Identity(), 0.0151, map);
     std::int64_t voxels = 0;
+    std::vector<BlockId> expected_blocks;
     for (BlockId id = 1; id < map.size(); ++id)
         for (int i = 0; i < kBlockVoxels; ++i) {
             const VoxelLabel& v = map.label(id)[i];
@@ -128,7 +129,9 @@ TEST(VoteLabels, OnlyTheBandAroundTheSurface) {
             EXPECT_EQ(v.count[0], expected) << z << " " << px << " " << py;
             EXPECT_EQ(v.instance, expected ? 3 : 0);
             voxels += expected;
+            if (expected && (expected_blocks.empty() || expected_blocks.back() != id)) expected_blocks.push_back(id);
         }
+    EXPECT_EQ(count.blocks, expected_blocks);
     EXPECT_EQ(count.voxels, voxels);
     EXPECT_GT(voxels, 500);
 }

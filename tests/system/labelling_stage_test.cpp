@@ -81,6 +81,7 @@ TEST_P(LabellingStageTest, InLockstepTheScanGoesOn) {
     for (const FrameReport* report : Reports()) EXPECT_TRUE(report->tracked());
     EXPECT_EQ(Labelled(), 3);
     EXPECT_EQ(TimesSaid(), 1);
+    EXPECT_EQ(Count(Kind::kLabelsEnd), 1);
 }
 
 TEST_P(LabellingStageTest, LiveTheScanGoesOn) {
@@ -92,6 +93,17 @@ TEST_P(LabellingStageTest, LiveTheScanGoesOn) {
     EXPECT_EQ(Labelled(), 0);
     EXPECT_LE(TimesSaid(), 1);  // none if the end comes before the answer
     EXPECT_GT(engine->TakeMesh().triangles.size(), 1000u);
+}
+
+// 20 frames are two thirds of a second by their stamps, however fast they come.
+TEST_P(LabellingStageTest, LiveOnlySoManyFramesASecondAreDetectedIn) {
+    config.live.queue_frames = 30;
+    config.labels.max_rate_hz = 2;
+    config.live.playback_speed = 1;
+    MakeLabelling(true, 1000);
+    TakeAll();
+    EXPECT_GE(Labelled(), 1);
+    EXPECT_LE(Labelled(), 2);
 }
 
 INSTANTIATE_TEST_SUITE_P(ByErrorAndByException, LabellingStageTest, testing::Bool());

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <random>
 #include <set>
 #include <sstream>
@@ -13,6 +14,7 @@
 #include "support/temp_folder.h"
 #include "synth/sequence_writer.h"
 #include "system/run.h"
+#include "system/viewer_link.h"
 
 namespace tessera {
 namespace {
@@ -31,7 +33,13 @@ class LabelsTest : public testing::Test {
         request.labels = labels;
         request.output_folder = folder / "run";
         const std::atomic<bool> stop{false};
-        const auto run = ExecuteRun(request, config, {}, stop);
+        RunObserver observer;
+        if (watch) {
+            request.viewer = &link;
+            observer.on_frame = [&](const RunCounts&, std::int64_t) { Watch(); };
+        }
+        const auto run = ExecuteRun(request, config, observer, stop);
+        if (watch) Watch();
         EXPECT_TRUE(run.ok()) << run.message();
         if (!run.ok()) return {};
         flips = run.value().labels->flips;
@@ -39,8 +47,44 @@ class LabelsTest : public testing::Test {
         EXPECT_TRUE(scores.ok()) << scores.message();
         return scores.ok() ? scores.value() : LabelScores{};
     }
+    // As a window would.
+    void Watch() {
+        MeshUpdate mesh;
+        while (link.meshes.TryPop(mesh)) {}
+        std::vector<MapObject> objects;
+        while (link.objects.TryPop(objects)) told.push_back(std::move(objects));
+    }
+    // What was once told of under a number is at the same place ever after, unless it went for good; then no new number
+    // stands there.
+    void ExpectConstantNumbers() const {
+        ASSERT_GE(told.size(), 2u);
+        const auto distance_m = [](const MapObject& a, const MapObject& b) { return (a.centroid - b.centroid).norm(); };
+        std::map<int, MapObject> places;
+        std::set<int> gone;
+        for (const auto& objects : told) {
+            std::set<int> here;
+            for (const MapObject& o : objects) {
+                here.insert(o.id);
+                EXPECT_FALSE(gone.contains(o.id)) << o.id;
+                const auto [place, is_new] = places.try_emplace(o.id, o);
+                EXPECT_LT(distance_m(place->second, o), 0.12) << "object " << o.id;
+                place->second = o;
+            }
+            for (const auto& [id, object] : places)
+                if (!here.contains(id)) gone.insert(id);
+            for (const MapObject& o : objects)
+                for (const int id : gone)
+                    EXPECT_FALSE(id < o.id && places[id].class_id == o.class_id && distance_m(places[id], o) < 0.03)
+                        << "object " << id << " became " << o.id;
+        }
+        EXPECT_FALSE(told.back().empty());
+    }
+
     TempFolder folder;
     RunConfig config;
+    ViewerLink link;
+    bool watch = false;
+    std::vector<std::vector<MapObject>> told;
     std::int64_t flips = 0;
 };
 
@@ -58,6 +102,7 @@ TEST_P(SyntheticDesk, IsLabelledDespiteMistakes) {
     ASSERT_TRUE(WriteSequence(*source.value(), folder / "truth", {}).ok());
     config.labels.synthetic_missed = GetParam().missed;
     config.labels.synthetic_wrong = GetParam().wrong;
+    watch = true;
     const LabelScores scores = Score("synthetic:desk", "synthetic", folder / "truth");
     EXPECT_GT(scores.accuracy, GetParam().least_accuracy) << LabelScoresText(scores);
     EXPECT_EQ(scores.instances.size(), 11u);
@@ -67,6 +112,7 @@ TEST_P(SyntheticDesk, IsLabelledDespiteMistakes) {
         if (i.right_class) found.insert(i.found);
     EXPECT_GE(found.size(), 10u) << LabelScoresText(scores);
     EXPECT_LT(scores.centroid_error_mean_m, 0.05) << LabelScoresText(scores);
+    ExpectConstantNumbers();
 }
 
 INSTANTIATE_TEST_SUITE_P(GivenAndHard, SyntheticDesk, testing::Values(kGiven, kHard));

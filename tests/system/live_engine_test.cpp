@@ -39,6 +39,7 @@ TEST_F(Live, EveryFrameIsAccountedForAndTrackedToTheMillimetre) {
 TEST_F(Live, SlowMappingLeavesFramesUnfusedAndTracksThem) {
     config.live.playback_speed = 1;
     config.live.extra_mapping_ms = 330;
+    config.live.queue_frames = 45;  // every frame is tracked, however slow the machine
     Make(true, {.count = 45, .speed = 0.3});
     TakeAll();
     std::int64_t unfused = 0, fused = 0;
@@ -48,10 +49,10 @@ TEST_F(Live, SlowMappingLeavesFramesUnfusedAndTracksThem) {
         fused += o.report.fused;
         EXPECT_TRUE(o.report.tracked()) << o.report.track.reason;
         EXPECT_LT(Error_m(o.report, 0.3), 0.01) << "frame " << o.report.index;
-        for (const auto& [name, waiting] : o.queues) EXPECT_LE(waiting, 8u) << name;
+        for (const auto& [name, waiting] : o.queues) EXPECT_TRUE(waiting <= 8 || std::string_view(name) == "to tracking") << name;
     }
-    EXPECT_GT(unfused + Count(Kind::kDropped), 10);  // on a slow machine tracking cannot keep up either
-    EXPECT_GT(unfused, 0);
+    EXPECT_EQ(Count(Kind::kFrame), 45);
+    EXPECT_GT(unfused, 10);
     EXPECT_GT(fused, 1);
     EXPECT_LT(fused, 20);
 }
@@ -92,7 +93,7 @@ TEST_F(Live, BadFramesWaitsAndABrokenSourceAreTold) {
 TEST_F(Live, ARecordingThatFailsEndsAloneAndIsTold) {
     TempFolder folder;
     EngineInput input = Input({.count = 20, .before_read = [&](std::int64_t i) -> ReadResult {
-                                   if (i == 5) std::filesystem::remove_all(folder / "raw");
+                                   if (i == 5) std::filesystem::rename(folder / "raw", folder / "gone");
                                    return {};
                                }});
     input.config.live.queue_frames = 30;

@@ -123,6 +123,7 @@ TEST(LiveEngineWithLoops, FindsAKidnappedCamera) {
     EngineInput input;
     input.source = std::make_unique<FrameList>(std::move(frames));
     input.config.loops.enabled = true;
+    input.config.live.queue_frames = 30;  // however slow the machine, the walk is seen whole
     input.config.pipeline.map = {.voxel_size_m = 0.02, .truncation_m = 0.08};
     input.config.pipeline.trackers.sdf.finest_step_px = 1;
     input.stop = &stop;

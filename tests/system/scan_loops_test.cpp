@@ -1,39 +1,15 @@
 // Scans with loop closure that are saved and gone on with, in a rendered room with a Kinect's noise.
 #include <cstring>
 
-#include "optimize/room_walk.h"
 #include "support/temp_folder.h"
+#include "system/frame_list.h"
 #include "system/lockstep_engine.h"
 
 namespace tessera {
 namespace {
 
-using testing_support::RoomCamera;
+using testing_support::FrameList;
 using testing_support::RoomWalk;
-
-class Frames : public FrameSource {
-  public:
-    Frames(std::vector<Frame> frames, double first_stamp_s) : frames_(std::move(frames)) {
-        info_.name = "room";
-        info_.camera = RoomCamera();
-        for (std::size_t i = 0; i < frames_.size(); ++i) {
-            frames_[i].index = static_cast<std::int64_t>(i);
-            frames_[i].stamp_s = frames_[i].colour_stamp_s = first_stamp_s + static_cast<double>(i) / 30;
-        }
-    }
-    const SourceInfo& info() const override { return info_; }
-    ReadResult Read(Frame& frame) override {
-        if (next_ == frames_.size()) return {ReadStatus::kEnd, {}};
-        frame = frames_[next_++];
-        return {};
-    }
-    bool Seek(std::int64_t) override { return false; }
-
-  private:
-    std::vector<Frame> frames_;
-    SourceInfo info_;
-    std::size_t next_ = 0;
-};
 
 class ScanLoops : public testing::Test {
   protected:
@@ -44,7 +20,7 @@ class ScanLoops : public testing::Test {
     }
     std::vector<FrameReport> Run(const std::vector<Frame>& frames, double first_stamp_s, bool resume) {
         EngineInput input;
-        input.source = std::make_unique<Frames>(frames, first_stamp_s);
+        input.source = std::make_unique<FrameList>(frames, first_stamp_s);
         input.config = config;
         input.stop = &stop;
         Result<ScanPlan> plan = resume ? ResumeScan(path, input.source->info(), config, false)

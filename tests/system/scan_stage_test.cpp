@@ -66,11 +66,18 @@ TEST_F(Scan, SavingChangesNothingAndTheFileHoldsTheSameMesh) {
     ExpectSame(mesh.value(), alone);
 }
 
-// Byte for byte: map, poses, motion, brightness and shutter go on as if nothing had been.
-TEST_F(Scan, AResumedRunIsTheUnbrokenOne) {
+// Byte for byte: map, poses, motion, brightness and shutter go on as if nothing had been. With an interval of 0 the last
+// frame's checkpoint comes before the end's, which has nothing new to say.
+class ResumedScan : public Scan, public testing::WithParamInterface<double> {};
+
+TEST_P(ResumedScan, IsTheUnbrokenOne) {
     const TriangleMesh unbroken = Run(false, {}, {.count = 40});
     const auto expected = std::move(outcomes);
+    config.scan.interval_s = GetParam();
     Run(false, New(), {.count = 17});
+    stop = true;
+    Run(false, Again(), {.count = 40}, 17);  // stopped before its first frame
+    stop = false;
     ScanPlan plan = Again();
     const FrameSelection rest = RestOf({}, BoxRoomSource({.count = 40}).info(), *plan.resumed);
     EXPECT_EQ(rest.start, 17);
@@ -81,9 +88,12 @@ TEST_F(Scan, AResumedRunIsTheUnbrokenOne) {
     EXPECT_EQ(Content().path.size(), 40u);
 }
 
+INSTANTIATE_TEST_SUITE_P(CheckpointsInterval, ResumedScan, testing::Values(0.0, 1.0));
+
 TEST_F(Scan, LiveASavedScanIsGoneOnWith) {
     const double speed = 1;
     config.live.playback_speed = 1;
+    config.live.queue_frames = 30;  // no frame is dropped, however slow the machine
     Run(true, New(), {.count = 20, .speed = speed});
     const ScanContent first = Content();
     ASSERT_GT(first.path.size(), 5u);

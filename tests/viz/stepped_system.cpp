@@ -5,6 +5,7 @@
 #include "core/check.h"
 #include "core/stopwatch.h"
 #include "io/mesh_io.h"
+#include "render/vertex_weight.h"
 
 namespace tessera::testing_support {
 
@@ -89,7 +90,11 @@ void SteppedSystem::SendMesh() {
     MeshUpdate update;
     update.voxel_size_m = config_.map.voxel_size_m;
     update.clear = clear_;
-    const auto blocks = builder_.Build(pipeline_->map(), *mesher_);
+    const BlockMap& map = pipeline_->map();
+    const auto mark = [&](const BlockMesh& owner, const BlockMesh::Vertex& vertex) {
+        return VertexMark{owner.coord.x < 0 ? kLeftLabel : kNoLabel, WeightStep(VertexWeight(map, owner, vertex))};
+    };
+    const auto blocks = builder_.Build(map, *mesher_, mark);
     update.blocks.assign(std::make_move_iterator(blocks.begin()), std::make_move_iterator(blocks.end()));
     clear_ = false;
     const bool sent = link_.meshes.TryPush(std::move(update));

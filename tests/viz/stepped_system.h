@@ -16,6 +16,9 @@
 
 namespace tessera::testing_support {
 
+// Colours by label: of the world's left half (x < 0), and of the rest.
+inline constexpr Rgb8 kLeftLabel{240, 20, 30}, kNoLabel{150, 150, 150};
+
 class SteppedSystem {
   public:
     SteppedSystem(ViewerLink& link, std::unique_ptr<FrameSource> source, const PipelineConfig& config);

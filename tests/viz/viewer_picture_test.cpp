@@ -66,7 +66,16 @@ TEST_F(ViewerPicture, ShadingByButtonAndKey) {
     const auto coloured = [&] {
         return Share(viewer_->Picture(), [](const Rgb8& c) { return !IsBackground(c) && Spread(c) > 40; });
     };
-    const double colour = coloured();
+    const auto red = [&] {
+        return Share(viewer_->Picture(), [](const Rgb8& c) { return c.r > 90 && c.r > 3 * c.g && c.r > 3 * c.b; });
+    };
+    const double colour = coloured(), red_of_scene = red();
+    Click("shading.Label");  // half of the room has one
+    const double labelled = red();
+    EXPECT_GT(labelled, red_of_scene + 0.05);
+    Click("shading.Weight");  // seen once or twice: of the dark end
+    EXPECT_LT(red(), 0.01);
+    EXPECT_GT(Share(viewer_->Picture(), [](const Rgb8& c) { return c.b > c.r + 20 && c.b > 60; }), 0.15);
     Click("shading.Grey");
     const double grey = coloured();
     Click("shading.Normal");
@@ -76,6 +85,72 @@ TEST_F(ViewerPicture, ShadingByButtonAndKey) {
     EXPECT_GT(normal, 2 * grey + 0.05);
     Key(XK_c);
     EXPECT_NEAR(coloured(), colour, 0.01);
+}
+
+constexpr Rgb8 kMagenta{255, 0, 255};
+bool IsMagenta(const Rgb8& c) { return c.r > 150 && c.b > 150 && c.g < 90; }
+
+// Its box and name show; a click in the list brings it to the middle, another shading keeps it, the key hides it.
+TEST_F(ViewerPicture, AnObjectIsListedBoxedAndLookedAt) {
+    Frames(3);
+    const auto magenta = [&] { return Share(viewer_->Picture(), IsMagenta); };
+    EXPECT_EQ(magenta(), 0);
+    EXPECT_FALSE(viewer_->FindControl("object.7"));
+    MapObject object;
+    object.id = 7;
+    object.class_name = "cup";
+    object.colour = kMagenta;
+    object.probability = 0.8;
+    object.observations = 9;
+    object.centroid = {0.3, 0.2, 1.2};
+    object.T_world_oriented.translation() = object.centroid;
+    object.oriented_size = {0.2, 0.2, 0.2};
+    link_.objects.Push({object});
+    Rounds(4);
+    EXPECT_GT(magenta(), 0);
+    Click("object.7");
+    const ColourImage picture = viewer_->Picture();
+    const ControlRect view = Find("view");
+    Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+    int count = 0;
+    for (int y = static_cast<int>(view.y) + 60; y < static_cast<int>(view.y + view.height); ++y)
+        for (int x = static_cast<int>(view.x); x < static_cast<int>(view.x + view.width); ++x)
+            if (IsMagenta(picture(x, y))) mean += Eigen::Vector2d(x, y), ++count;
+    ASSERT_GT(count, 50);
+    EXPECT_NEAR(mean.x() / count, view.x + view.width / 2, 15);
+    EXPECT_NEAR(mean.y() / count, view.y + view.height / 2, 15);
+    MoveTo("view", 0.05f);
+    Key(XK_b);
+    EXPECT_EQ(magenta(), 0);
+    Key(XK_b);
+    link_.objects.Push({});
+    Rounds(4);
+    EXPECT_EQ(magenta(), 0);
+    EXPECT_FALSE(viewer_->FindControl("object.7"));
+}
+
+// Over the image of their frame; an old answer is not shown over a new image.
+TEST_F(ViewerPicture, DetectionsShowOverTheImage) {
+    Frames(2);
+    const auto magenta = [&] {
+        const ColourImage picture = viewer_->Picture();
+        const ControlRect view = Find("view");
+        int count = 0;
+        for (int y = 0; y < 170; ++y)
+            for (int x = static_cast<int>(view.x + view.width) + 1; x < picture.width(); ++x) count += IsMagenta(picture(x, y));
+        return count;
+    };
+    EXPECT_EQ(magenta(), 0);
+    LabelUpdate update;
+    update.stamp_s = 1.0 / 30;
+    update.detections.push_back({{20, 20, 60, 60}, "cup", 0.9f, kMagenta});
+    link_.labels.Push(LabelUpdate(update));
+    Rounds(4);
+    EXPECT_GT(magenta(), 100);
+    update.stamp_s = -10;
+    link_.labels.Push(LabelUpdate(update));
+    Rounds(4);
+    EXPECT_EQ(magenta(), 0);
 }
 
 TEST_F(ViewerPicture, WireframeShowsThrough) {

@@ -30,6 +30,7 @@ class WindowTest : public testing::Test {
         options.output_folder = folder_.path();
         options.camera = system_->camera();
         options.truncation_m = 0.16;
+        options.labelled = true;
         options.wait_s = 0;
         options.max_fps = 1e9;
         options.double_click_s = 1e3;  // however slow the machine is

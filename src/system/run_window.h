@@ -1,0 +1,29 @@
+// What the thread that runs tells a window, besides what the map's owner does (viewer_feed.h).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "system/engine.h"
+#include "system/viewer_link.h"
+
+namespace tessera {
+
+// Owner thread only: the one that takes an engine's outcomes. Without a window (null) nothing happens.
+class RunWindow {
+  public:
+    explicit RunWindow(ViewerLink* viewer) : viewer_(viewer) {}
+
+    // `counts`: up to and with this frame. `T_world_camera_truth`: in the map's world, if it is known.
+    void Show(const FrameOutcome& outcome, const RunCounts& counts, const std::optional<Eigen::Isometry3d>& T_world_camera_truth);
+    void Show(const LabelReport& report, const LabelClasses& classes);
+    void EndLabels();
+    // At the end, when the map's owner has stopped.
+    void ShowObjects(const std::vector<MapObject>& objects);
+    void Say(const std::string& text);
+
+  private:
+    ViewerLink* viewer_;
+};
+
+}  // namespace tessera

@@ -1,0 +1,165 @@
+// What the detector finds and what objects stand in the map: a list, names over the 3D view, boxes over the image.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "viz/panels.h"
+#include "viz/widgets.h"
+
+namespace tessera {
+namespace {
+
+ImU32 Packed(const Rgb8& c, unsigned alpha = 255) {
+    return IM_COL32(c.r, c.g, c.b, alpha);
+}
+
+// Names on small plates with the colour's mark at their left, none over another: a later one goes up until it is free.
+class NamePlates {
+  public:
+    NamePlates(ImDrawList& list, float opacity) : list_(list), opacity_(opacity) {}
+
+    // `at` is the lower left corner.
+    void Draw(const ImVec2& at, const Rgb8& colour, const std::string& text, bool lit) {
+        ImFont* const font = SmallFont();
+        const ImVec2 extent = font->CalcTextSizeA(font->FontSize, 1e4f, 0, text.c_str());
+        const float mark = Scaled(4), pad = Scaled(4), height = extent.y + Scaled(3);
+        const ImVec4 plate = FreePlace({at.x, at.y - height, at.x + mark + extent.x + 2 * pad, at.y});
+        const ImVec2 from{plate.x, plate.y}, to{plate.z, plate.w};
+        const auto alpha = [&](float full) { return static_cast<unsigned>(full * opacity_); };
+        list_.AddRectFilled(from, to, IM_COL32(14, 16, 19, alpha(215)), Scaled(3));
+        list_.AddRectFilled(from, {from.x + mark, to.y}, Packed(colour, alpha(255)), Scaled(3), ImDrawFlags_RoundCornersLeft);
+        if (lit) list_.AddRect(from, to, IM_COL32(255, 255, 255, alpha(220)), Scaled(3));
+        list_.AddText(font, font->FontSize, {from.x + mark + pad, from.y + Scaled(1)},
+                      (palette::kText & ~IM_COL32_A_MASK) | (alpha(255) << IM_COL32_A_SHIFT), text.c_str());
+    }
+
+  private:
+    ImVec4 FreePlace(ImVec4 plate) {
+        const float height = plate.w - plate.y;
+        const auto in_the_way = [&](const ImVec4& other) {
+            return plate.x < other.z && other.x < plate.z && plate.y < other.w && other.y < plate.w;
+        };
+        // Each move is past one of the plates, so that this ends.
+        for (auto other = std::ranges::find_if(drawn_, in_the_way); other != drawn_.end();
+             other = std::ranges::find_if(drawn_, in_the_way)) {
+            plate.w = other->y - 1;
+            plate.y = plate.w - height;
+        }
+        drawn_.push_back(plate);
+        return plate;
+    }
+
+    ImDrawList& list_;
+    float opacity_;
+    std::vector<ImVec4> drawn_;
+};
+
+void DrawDetector(const ViewerState& state) {
+    const SystemView& system = state.system;
+    ImGui::PushFont(SmallFont());
+    if (!state.options.labelled)
+        LabelledValue("Detector", "off: run with --labels", palette::kDim);
+    else if (system.labels().stopped)
+        LabelledValue("Detector", "broken: see the messages", palette::kBad);
+    else if (system.detections_per_s() <= 0)
+        LabelledValue("Detector", state.ended() ? "ended" : "waiting for its first answers", palette::kDim);
+    else
+        LabelledValue("Detector", fmt::format("{:.1f} images/s, {:.0f} ms each", system.detections_per_s(),
+                                              system.labels().detect_ms));
+    ImGui::PopFont();
+}
+
+// One line: colour, number and class, probability, observations.
+void DrawRow(ViewerState& state, SceneView& scene, const MapObject& object) {
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    const std::string name = fmt::format("object.{}", object.id);
+    if (ImGui::Selectable(fmt::format("      {} {}##{}", object.id, object.class_name, name).c_str(),
+                          state.selected_object == object.id, ImGuiSelectableFlags_SpanAllColumns)) {
+        state.selected_object = object.id;
+        state.view.follow = state.view.keep_all = false;
+        scene.camera().LookAt(object.centroid);
+    }
+    state.controls.MarkLast(name);
+    Tip("Look at it");
+    const ImVec2 at = ImGui::GetItemRectMin(), to = ImGui::GetItemRectMax();
+    const float middle = (at.y + to.y) / 2;
+    ImGui::GetWindowDrawList()->AddRectFilled({at.x + Scaled(3), middle - Scaled(4)}, {at.x + Scaled(11), middle + Scaled(4)},
+                                              Packed(object.colour), Scaled(2));
+    ImGui::TableNextColumn();
+    ImGui::Text("%.0f %%", 100 * object.probability);
+    ImGui::TableNextColumn();
+    ImGui::Text("%d x", object.observations);
+}
+
+}  // namespace
+
+void DrawObjectsPanel(ViewerState& state, SceneView& scene) {
+    GroupTitle("OBJECTS");
+    DrawDetector(state);
+    state.controls.MarkLast("detector");
+    const auto& objects = state.system.objects();
+    if (objects.empty()) return;
+    // At most half of what is left: the rest is the messages'.
+    ImGui::PushFont(SmallFont());
+    const float row = ImGui::GetTextLineHeight() + 2 * ImGui::GetStyle().CellPadding.y;
+    const float height = std::min(static_cast<float>(objects.size()) * row + Scaled(2),
+                                  std::max(0.5f * ImGui::GetContentRegionAvail().y, 3 * row));
+    if (ImGui::BeginTable("objects", 3, ImGuiTableFlags_ScrollY, {0, height})) {
+        ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthStretch);
+        ImGui::TableSetupColumn("probability", ImGuiTableColumnFlags_WidthFixed, Scaled(40));
+        ImGui::TableSetupColumn("observations", ImGuiTableColumnFlags_WidthFixed, Scaled(44));
+        for (const MapObject& object : objects) DrawRow(state, scene, object);
+        ImGui::EndTable();
+    }
+    ImGui::PopFont();
+}
+
+// Nearer ones first: they get the place that they want.
+void DrawObjectNames(const ViewerState& state, const SceneView& scene, const ControlRect& area) {
+    if (!state.view.show_objects) return;
+    struct Name {
+        Eigen::Vector3d pixel;
+        const MapObject* object;
+    };
+    std::vector<Name> names;
+    for (const MapObject& object : state.system.objects())
+        if (const auto pixel = scene.PixelOf(object.T_world_oriented.translation())) names.push_back({*pixel, &object});
+    std::ranges::stable_sort(names, {}, [](const Name& name) { return name.pixel.z(); });
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const ImVec2 scale = ImGui::GetIO().DisplayFramebufferScale;
+    list.PushClipRect({area.x, area.y}, {area.x + area.width, area.y + area.height}, true);
+    NamePlates plates(list, 1);
+    for (const auto& [pixel, object] : names) {
+        const ImVec2 at{area.x + static_cast<float>(pixel.x()) / scale.x, area.y + static_cast<float>(pixel.y()) / scale.y};
+        plates.Draw(at, object->colour, fmt::format("{} {}", object->class_name, object->id),
+                    object->id == state.selected_object);
+    }
+    list.PopClipRect();
+}
+
+// They fade as the image goes on: a detector is late.
+void DrawDetections(const ViewerState& state, const ImVec2& from, const ImVec2& to) {
+    constexpr double kShown_s = 1.5;
+    const LabelUpdate& labels = state.system.labels();
+    const ImageUpdate& images = state.system.images();
+    if (!state.view.show_objects || !images.frame || images.frame->colour.empty()) return;
+    const double age = std::abs(images.frame->stamp_s - labels.stamp_s) / kShown_s;
+    if (age >= 1) return;
+    const auto opacity = static_cast<float>(1 - age);
+    const float x_scale = (to.x - from.x) / static_cast<float>(images.frame->colour.width());
+    const float y_scale = (to.y - from.y) / static_cast<float>(images.frame->colour.height());
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.PushClipRect(from, to, true);
+    for (const LabelUpdate::Shown& shown : labels.detections) {
+        const ImVec2 low{from.x + x_scale * shown.box.x_min, from.y + y_scale * shown.box.y_min};
+        const ImVec2 high{from.x + x_scale * (shown.box.x_max + 1), from.y + y_scale * (shown.box.y_max + 1)};
+        list.AddRect(low, high, Packed(shown.colour, static_cast<unsigned>(255 * opacity)), Scaled(2), 0, Scaled(1.5f));
+    }
+    NamePlates plates(list, opacity);
+    for (const LabelUpdate::Shown& shown : labels.detections)
+        plates.Draw({from.x + x_scale * shown.box.x_min, from.y + y_scale * shown.box.y_min}, shown.colour, shown.name, false);
+    list.PopClipRect();
+}
+
+}  // namespace tessera

@@ -1,0 +1,108 @@
+#include "semantics/label_mapper.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "mapping/analytic_fields.h"
+#include "mapping/mesher.h"
+#include "semantics/objects_file.h"
+
+namespace tessera {
+namespace {
+
+const PinholeCamera kCamera{.width = 160, .height = 120, .fx = 130, .fy = 130, .cx = 79.5, .cy = 59.5};
+constexpr Rgb8 kCup{1, 200, 3}, kBook{4, 5, 220};
+
+// A wall at 1 m that nobody measures again, and a detector's word on it.
+class LabelMapperTest : public ::testing::Test {
+  protected:
+    LabelMapperTest() {
+        config.classes = "cup=#01c803 book=#0405dc";
+        map.EnableLabels();
+        testing::Fill(map, testing::Plane({0, 0, -1}, -1.003), {-6, -5, 11}, {6, 5, 13});
+        mesher.Update(map);
+        mapper = std::make_unique<LabelMapper>(config, LabelClasses::Make(config, {"cup", "book"}).value(), kCamera);
+    }
+    void Label(int class_id, int width) {
+        Detection d;
+        d.class_id = class_id;
+        d.probability = 0.9f;
+        d.box = {40, 30, 39.0f + static_cast<float>(width), 89};
+        d.mask = Image<std::uint8_t>(width, 60, 1);
+        mapper->Label({&d, 1}, depth, Eigen::Isometry3d::Identity(), map);
+    }
+    std::vector<Rgb8> ColoursOf(BlockId id) const {
+        std::vector<Rgb8> colours;
+        if (const auto& mesh = mesher.block_meshes()[static_cast<std::size_t>(id)])
+            for (const auto& vertex : mesh->vertices) colours.push_back(mapper->ColourOf(map, *mesh, vertex));
+        return colours;
+    }
+    // Renews what TakeRelabelled names, and expects all else to be as it was.
+    std::size_t Renew() {
+        const std::vector<BlockId> relabelled = mapper->TakeRelabelled(map);
+        for (const BlockId id : relabelled)
+            for (const BlockId owner : {id, map.neighbour(id, -1, 0, 0), map.neighbour(id, 0, -1, 0), map.neighbour(id, 0, 0, -1)})
+                kept[owner] = ColoursOf(owner);
+        for (BlockId id = 1; id < map.size(); ++id)
+            if (const auto now = ColoursOf(id); kept.contains(id) || std::ranges::count(now, kNoSceneColour) != std::ssize(now)) {
+                EXPECT_EQ(kept[id], now) << "block " << id;
+            }
+        return relabelled.size();
+    }
+    std::int64_t CountOf(const Rgb8& colour) const {
+        std::int64_t n = 0;
+        for (const auto& [id, colours] : kept) n += std::ranges::count(colours, colour);
+        return n;
+    }
+
+    LabelConfig config;
+    BlockMap map{{.voxel_size_m = 0.01, .truncation_m = 0.04}};
+    Mesher mesher{{0, 0}};
+    DepthImage depth{160, 120, 1.003f};
+    std::unique_ptr<LabelMapper> mapper;
+    std::map<BlockId, std::vector<Rgb8>> kept;
+};
+
+TEST_F(LabelMapperTest, WhatShowsDifferentlyIsNamedAlsoWhereNobodyVoted) {
+    EXPECT_EQ(Renew(), 0u);
+    std::size_t whole = 0;
+    for (int i = 0; i < 10; ++i) {
+        Label(1, 80);
+        whole = Renew();
+        EXPECT_EQ(CountOf(kCup) > 0, i + 1 >= config.min_observations) << i;
+    }
+    EXPECT_EQ(Renew(), 0u);  // nothing was said since
+    EXPECT_GT(CountOf(kCup), 2500);  // 80 x 60 pixels of 7.7 mm
+    std::size_t most = 0, least = whole;
+    for (int i = 0; i < 15; ++i) {
+        Label(2, 50);  // votes for the left part only
+        const std::size_t named = Renew();
+        most = std::max(most, named), least = std::min(least, named);
+    }
+    EXPECT_EQ(CountOf(kCup), 0);  // the right part is of the same object
+    EXPECT_GT(CountOf(kBook), 2500);
+    EXPECT_LT(least, whole);
+    EXPECT_EQ(most, whole);  // when it became a book
+}
+
+TEST_F(LabelMapperTest, LabelledVerticesAreThoseOfTheObject) {
+    for (int i = 0; i < 10; ++i) Label(1, 80);
+    Renew();
+    TriangleMesh labelled = mapper->LabelledVertices(map, mesher.block_meshes());
+    EXPECT_EQ(std::ssize(labelled.vertices), CountOf(kCup));
+    const auto objects = mapper->Objects(0.01, labelled);
+    ASSERT_EQ(objects.size(), 1u);
+    EXPECT_EQ(objects[0].observations, 10);
+    EXPECT_EQ(objects[0].vertices, CountOf(kCup));
+    // The middle of pixels 40 to 119 and 30 to 89.
+    EXPECT_NEAR(objects[0].centroid.x(), 0, 0.006);
+    EXPECT_NEAR(objects[0].centroid.y(), 0, 0.006);
+    EXPECT_NEAR(objects[0].centroid.z(), 1.003, 1e-4);
+    mapper->Reset();
+    EXPECT_TRUE(mapper->LabelledVertices(map, mesher.block_meshes()).vertices.empty());
+    EXPECT_TRUE(mapper->TakeRelabelled(map).empty());
+}
+
+}  // namespace
+}  // namespace tessera
