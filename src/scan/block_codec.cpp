@@ -66,7 +66,7 @@ void BlockCopies::Append(const BlockCoord& coord, std::int32_t number, bool with
     field.resize(voxels);
     weight.resize(voxels);
     colour.resize(voxels);
-    if (with_labels) labels.resize(voxels);
+    if (with_labels || !labels.empty()) labels.resize(voxels);
 }
 
 void BlockCopies::Put(std::size_t index, BlockMap& map, BlockId id) const {

@@ -2,9 +2,17 @@
 
 #include <fmt/format.h>
 
+#include <limits>
+
 #include "scan/scan_file.h"
 
 namespace tessera {
+namespace {
+
+// One more must be a number, too.
+bool IsNumber(std::int32_t number) { return number >= 1 && number < std::numeric_limits<std::int32_t>::max(); }
+
+}  // namespace
 
 Result<std::unique_ptr<CubeReader>> CubeReader::Open(const std::string& path) {
     Result<std::unique_ptr<Database>> database = Database::Open(path, Database::Access::kRead);
@@ -24,7 +32,7 @@ Status CubeReader::Read(std::int64_t cube_key, BlockCopies& blocks) {
     for (; step == kStepRow && status.ok(); step = select_.Step()) {
         const ScanRow row{ScanTable::kBlocks, select_.Number(0), select_.Number(1), select_.Number(2), select_.Bytes(3)};
         if (ChecksumOf(row) != static_cast<std::uint64_t>(select_.Number(4)) || CubeKeyOf(row.key) != cube_key ||
-            !codec_.Decode(row.data, CoordOfKey(row.key), blocks))
+            !codec_.Decode(row.data, CoordOfKey(row.key), blocks) || !IsNumber(blocks.numbers.back()))
             status = DamagedScan(path(), fmt::format("block {}", row.key));
     }
     if (status.ok() && step != kStepDone)
@@ -40,6 +48,7 @@ Result<std::vector<std::pair<std::int64_t, std::int32_t>>> CubeReader::Cubes() {
     int step = keys.value().Step();
     for (; step == kStepRow; step = keys.value().Step()) {
         const std::int64_t cube = CubeKeyOf(keys.value().Number(0));
+        if (cube < 0) return DamagedScan(path(), "blocks");
         if (cubes.empty() || cubes.back().first != cube) cubes.emplace_back(cube, 0);
         ++cubes.back().second;
     }

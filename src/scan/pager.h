@@ -21,7 +21,7 @@ struct StoredCube {
 class Pager {
   public:
     // That may be asked for and not yet taken.
-    static constexpr std::size_t kMostAsked = 32;
+    static constexpr std::size_t kMostAsked = 16;
 
     explicit Pager(std::unique_ptr<CubeReader> reader);
     ~Pager();  // after the cube at hand, joins

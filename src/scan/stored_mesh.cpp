@@ -25,9 +25,12 @@ class CubeWindow {
         for (const auto& [key, blocks] : cubes.value()) {
             order_.push_back(key);
             cubes_[key].stored = blocks;
+            count_ += blocks;
         }
         return Status::Ok();
     }
+    // Of all cubes' blocks: their numbers run from 1 to it.
+    std::int64_t count() const { return count_; }
     const std::vector<std::int64_t>& order() const { return order_; }
     const std::vector<BlockId>& blocks(std::int64_t key) const { return cubes_.at(key).ids; }
 
@@ -76,6 +79,7 @@ class CubeWindow {
     BlockMap map_;
     std::unordered_map<std::int64_t, Cube> cubes_;
     std::vector<std::int64_t> order_;
+    std::int64_t count_ = 0;
     BlockCopies copies_;
 };
 
@@ -95,14 +99,15 @@ Result<std::vector<std::unique_ptr<const BlockMesh>>> MeshCubes(const std::strin
     if (!reader.ok()) return reader.status();
     CubeWindow window(*reader.value(), config);
     if (Status status = window.Index(); !status.ok()) return status;
-    std::vector<std::unique_ptr<const BlockMesh>> meshes(1);
+    std::vector<std::unique_ptr<const BlockMesh>> meshes(static_cast<std::size_t>(window.count()) + 1);
+    std::vector<bool> there(meshes.size());
     for (const std::int64_t key : window.order()) {
         if (Status status = window.MoveTo(key); !status.ok()) return status;
         const std::vector<BlockId>& blocks = window.blocks(key);
         for (const BlockId id : blocks) {
-            const std::int32_t number = window.map().number(id);
-            if (number < 1) return DamagedScan(path, fmt::format("block {}", number));
-            meshes.resize(std::max(meshes.size(), static_cast<std::size_t>(number) + 1));
+            const auto number = static_cast<std::size_t>(window.map().number(id));
+            if (number >= meshes.size() || there[number]) return DamagedScan(path, fmt::format("block number {}", number));
+            there[number] = true;
         }
         tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t i) {
             meshes[static_cast<std::size_t>(window.map().number(blocks[i]))] = MeshByNumber(window.map(), blocks[i], min_weight);

@@ -23,6 +23,19 @@ std::string SaveMesh(const MappingStage& mapping, const std::string& path) {
     return fmt::format("saved {}: {} triangles", path, mesh.triangles.size());
 }
 
+TriangleMesh TakeFinalMesh(MappingStage& mapping, std::optional<ScanStage>& scan, PagingStage* paging, Status& status) {
+    if (paging == nullptr || !paging->paged()) return mapping.TakeMesh();
+    if (scan->failed()) {
+        const Status returned = paging->ReturnAll(mapping, *scan);
+        if (returned.ok()) return mapping.TakeMesh();
+        if (status.ok()) status = returned;
+        return {};
+    }
+    const std::string path = scan->path();
+    scan.reset();  // what it keeps for checkpoints would have to fit beside the mesh
+    return mapping.TakeStoredMesh(path, status);
+}
+
 void PauseBriefly() { std::this_thread::sleep_for(std::chrono::milliseconds(10)); }
 
 }  // namespace tessera

@@ -85,10 +85,7 @@ bool LiveEngine::Next(FrameOutcome& outcome) {
 
 TriangleMesh LiveEngine::TakeMesh() {
     TESSERA_CHECK(mapping_done_.load(), "the mesh is taken before the end");
-    if (!paging_ || !paging_->any_away()) return mapping_.TakeMesh();
-    const std::string path = scan_->path();
-    scan_.reset();  // what it keeps for checkpoints would have to fit beside the mesh
-    return mapping_.TakeStoredMesh(path, status_);
+    return TakeFinalMesh(mapping_, scan_, paging_.get(), status_);
 }
 
 // ---- Reading: source -> newest frames.

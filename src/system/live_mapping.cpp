@@ -25,7 +25,10 @@ void LiveEngine::MapFrames() {
         }
     }
     if (loops_) EndLoops();
-    if (paging_) paging_->Close();
+    if (paging_) {
+        paging_->Close();
+        if (const auto message = paging_->TakeMessage()) Tell(FrameOutcome::Kind::kMessage, *message);
+    }
     if (scan_) {
         scan_->Finish(mapping_, nullptr);
         while (const auto message = scan_->TakeMessage()) Tell(FrameOutcome::Kind::kMessage, *message);
@@ -65,13 +68,10 @@ void LiveEngine::MapFrame(Task& task) {
     Offer(task);
 }
 
-// What of the map is away comes back; a frame that sees what is not yet there is not fused: no block may be there twice.
+// What of the map is away comes back.
 void LiveEngine::Page(TrackedFrame& tracked, FrameOutcome& outcome) {
     paging_->BeginFrame(mapping_, *scan_);
-    if (tracked.report.tracked() && !paging_->Bring(tracked.report.track.T_world_camera, mapping_, *scan_) && tracked.to_fuse) {
-        tracked.to_fuse = false;
-        outcome.fusion_dropped = true;
-    }
+    if (paging_->AfterTracking(tracked, mapping_, *scan_)) outcome.fusion_dropped = true;
     if (const auto message = paging_->TakeMessage()) Tell(FrameOutcome::Kind::kMessage, *message);
 }
 
@@ -168,7 +168,7 @@ void LiveEngine::ObeyInMapping(const ViewerCommand& command) {
         if (paging_) paging_->Reset();
         Tell(FrameOutcome::Kind::kReset, {});
     } else if (command.kind == ViewerCommand::Kind::kSaveMesh) {
-        Tell(FrameOutcome::Kind::kMessage, SaveMesh(mapping_, command.path));
+        Tell(FrameOutcome::Kind::kMessage, SaveMesh(mapping_, command.path) + (paging_ ? paging_->Lacking(*scan_) : ""));
     }
     feed_.SendMesh(mapping_);
 }

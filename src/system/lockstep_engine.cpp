@@ -45,10 +45,6 @@ bool LockstepEngine::Next(FrameOutcome& outcome) {
     outcome = {};
     bool ended = !status_.ok();
     while (!ended) {
-        if (paging_ && !paging_->status().ok()) {
-            status_ = paging_->status();
-            break;
-        }
         if (ObeyViewer(outcome)) return true;
         if (stopped_) break;
         const ReadResult read = reader_->Next(frame_);
@@ -79,7 +75,7 @@ void LockstepEngine::Process(FrameOutcome& outcome) {
     if (paging_) paging_->BeginFrame(mapping_, *scan_);
     plan_.Track(frame_, mapping_.map(), tracking_, tracked_);
     gate_.AfterTracking(frame_, tracking_, tracked_);
-    if (paging_ && tracked_.to_fuse) paging_->Bring(tracked_.view.T_world_camera, mapping_, *scan_);
+    if (paging_) outcome.fusion_dropped = paging_->AfterTracking(tracked_, mapping_, *scan_);
     if (loops_) loops_->AfterTracking(frame_, mapping_.map(), tracking_, tracked_);
     mapping_.Fuse(tracked_);
     if (labelling_ && tracked_.report.fused) Label(outcome);
@@ -164,7 +160,7 @@ bool LockstepEngine::Obey(const ViewerCommand& command, FrameOutcome& outcome) {
             outcome.kind = FrameOutcome::Kind::kReset;
             return true;
         case ViewerCommand::Kind::kSaveMesh:
-            outcome.message = SaveMesh(mapping_, command.path);
+            outcome.message = SaveMesh(mapping_, command.path) + (paging_ ? paging_->Lacking(*scan_) : "");
             return true;
         case ViewerCommand::Kind::kRecord:
             if (Status status = recorder_.Start(command.path); !status.ok()) {
@@ -184,10 +180,7 @@ std::vector<StampedPose> LockstepEngine::CorrectedPath() const {
 
 TriangleMesh LockstepEngine::TakeMesh() {
     reader_.reset();
-    if (!paging_ || !paging_->any_away()) return mapping_.TakeMesh();
-    const std::string path = scan_->path();
-    scan_.reset();  // what it keeps for checkpoints would have to fit beside the mesh
-    return mapping_.TakeStoredMesh(path, status_);
+    return TakeFinalMesh(mapping_, scan_, paging_.get(), status_);
 }
 
 }  // namespace tessera

@@ -62,6 +62,7 @@ void MappingStage::Release(std::span<const BlockId> blocks) {
 void MappingStage::Return(const BlockCopies& blocks, std::vector<BlockId>& ids) {
     ids.clear();
     for (std::size_t i = 0; i < blocks.size(); ++i) {
+        TESSERA_CHECK(map_->Find(blocks.coords[i]) == kUnknownBlock, "a block came back that is there");
         const BlockId id = map_->Allocate(blocks.coords[i], blocks.numbers[i]);
         TESSERA_CHECK(id != kUnknownBlock, "no room for a block that was here before");
         blocks.Put(i, *map_, id);

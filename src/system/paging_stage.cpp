@@ -6,6 +6,8 @@
 #include <cmath>
 #include <tuple>
 
+#include "scan/scan_file.h"
+
 namespace tessera {
 namespace {
 
@@ -15,14 +17,19 @@ constexpr double kRefill = 0.9;    // of the limit, that a release goes down to
 constexpr std::int64_t kFrames = 8;  // after which a cube that was asked for is put in, lockstep
 constexpr std::size_t kMostPerFrame = 8;  // cubes that live puts in
 
-// How far from the camera fusion and tracking may read.
-double ReachOf(const PipelineConfig& config, const PinholeCamera& camera) {
-    constexpr double kMargin_m = 0.3;  // tracking tries poses around the one that it finds
+// Fusion reads and writes so far around what is measured, and tracking around that.
+double MarginOf(const BlockMap::Config& map) {
+    constexpr double kPoses_m = 0.3;  // tracking tries poses around the one that it finds
+    return map.truncation_m + 2 * kBlockSide * map.voxel_size_m + kPoses_m;
+}
+
+// How far the camera measures.
+double RangeOf(const PipelineConfig& config, const PinholeCamera& camera) {
     double corner_m = 0;
     for (const double u : {-0.5, camera.width - 0.5})
         for (const double v : {-0.5, camera.height - 0.5})
             corner_m = std::max(corner_m, camera.Unproject(u, v, config.frame.max_depth_m).norm());
-    return corner_m + config.map.truncation_m + 2 * kBlockSide * config.map.voxel_size_m + kMargin_m;
+    return corner_m;
 }
 
 }  // namespace
@@ -36,7 +43,8 @@ void PagingConfig::Describe(ConfigParameters& p) {
 PagingStage::PagingStage(const PipelineConfig& config, const PinholeCamera& camera, std::unique_ptr<Pager> pager, bool wait)
     : limit_bytes_(config.paging.memory_limit_mb * 1e6),
       cube_m_(kCubeBlocks * kBlockSide * config.map.voxel_size_m),
-      reach_m_(ReachOf(config, camera)),
+      margin_m_(MarginOf(config.map)),
+      reach_m_(RangeOf(config, camera) + margin_m_),
       wait_(wait),
       pager_(std::move(pager)) {}
 
@@ -56,27 +64,37 @@ double PagingStage::Outside(const BlockCoord& cube) const {
     const Eigen::Vector3d high = low.array() + cube_m_;
     const double away_m = (camera - camera.cwiseMax(low).cwiseMin(high)).norm();
     const double ahead_m = T_world_camera_->linear().col(2).dot(0.5 * (low + high) - camera) + 0.866 * cube_m_;
-    return std::max(away_m - reach_m_, -ahead_m - 0.3);
+    return std::max(away_m - reach_m_, -ahead_m - margin_m_);
 }
 
-// What is near and away, whether asked for or not.
+// What is near and away, and not asked for.
 void PagingStage::Plan() {
+    constexpr double kLimit = kBlockLimit / kCubeBlocks;
     wanted_.clear();
     for (Asked& asked : asked_) asked.outside_m = Outside(CubeOfKey(asked.key));
     if (away_.size() == asked_.size()) return;
     const Eigen::Array3d camera = T_world_camera_->translation();
-    const Eigen::Array3i first = ((camera - reach_m_ - kAhead_m) / cube_m_).floor().cast<int>();
-    const Eigen::Array3i last = ((camera + reach_m_ + kAhead_m) / cube_m_).floor().cast<int>();
-    for (int z = first.z(); z <= last.z(); ++z)
-        for (int y = first.y(); y <= last.y(); ++y)
-            for (int x = first.x(); x <= last.x(); ++x) {
-                const double outside_m = Outside({x, y, z});
-                if (outside_m > kAhead_m) continue;
-                const std::int64_t key = CubeKey({x, y, z});
-                if (!away_.contains(key) || std::ranges::find(asked_, key, &Asked::key) != asked_.end()) continue;
-                wanted_.push_back({key, outside_m, 0});
-            }
+    const auto cube_of = [&](double offset_m) -> Eigen::Array3d {
+        return ((camera + offset_m) / cube_m_).floor().max(-kLimit).min(kLimit - 1);
+    };
+    const Eigen::Array3d first = cube_of(-reach_m_ - kAhead_m), last = cube_of(reach_m_ + kAhead_m);
+    if ((last - first + 1).prod() < static_cast<double>(away_.size())) {
+        const Eigen::Array3i low = first.cast<int>(), high = last.cast<int>();
+        for (int z = low.z(); z <= high.z(); ++z)
+            for (int y = low.y(); y <= high.y(); ++y)
+                for (int x = low.x(); x <= high.x(); ++x) Want({x, y, z});
+    } else {
+        for (const auto& [key, blocks] : away_) Want(CubeOfKey(key));
+    }
     std::ranges::sort(wanted_, {}, [](const Asked& a) { return std::pair(a.outside_m, a.key); });
+}
+
+void PagingStage::Want(const BlockCoord& cube) {
+    const double outside_m = Outside(cube);
+    if (outside_m > kAhead_m) return;
+    const std::int64_t key = CubeKey(cube);
+    if (!away_.contains(key) || std::ranges::find(asked_, key, &Asked::key) != asked_.end()) return;
+    wanted_.push_back({key, outside_m, 0});
 }
 
 void PagingStage::Ask() {
@@ -88,28 +106,39 @@ void PagingStage::Ask() {
     }
 }
 
-bool PagingStage::NeedsOneOf(const std::deque<Asked>& cubes) const {
-    return std::ranges::any_of(cubes, [](const Asked& asked) { return asked.outside_m <= 0; });
+// Something that is to come is in what the camera may see, or at most so far outside.
+bool PagingStage::Needs(double further_m) const {
+    const auto needed = [&](const Asked& cube) { return cube.outside_m <= further_m; };
+    return std::ranges::any_of(asked_, needed) || std::ranges::any_of(wanted_, needed);
 }
 
+// The next camera is as far from the last one as that was from the one before, about: tracking starts there.
 void PagingStage::BeginFrame(MappingStage& mapping, ScanStage& scan) {
     ++frame_;
-    if (T_world_camera_) Bring(*T_world_camera_, mapping, scan);
+    if (T_world_camera_) Bring(std::min(step_m_, kAhead_m), mapping, scan);
 }
 
-bool PagingStage::Bring(const Eigen::Isometry3d& T_world_camera, MappingStage& mapping, ScanStage& scan) {
+bool PagingStage::AfterTracking(TrackedFrame& tracked, MappingStage& mapping, ScanStage& scan) {
+    if (!tracked.report.tracked() && !tracked.to_fuse) return false;
+    const Eigen::Isometry3d& T_world_camera = tracked.report.track.T_world_camera;
+    if (T_world_camera_) step_m_ = (T_world_camera.translation() - T_world_camera_->translation()).norm();
     T_world_camera_ = T_world_camera;
-    if (away_.empty() || !status_.ok()) return status_.ok();
-    Plan();
-    Ask();
-    TakeWhatCame(mapping, scan);
-    return status_.ok() && !NeedsOneOf(asked_) && !NeedsOneOf(wanted_);
+    return !Bring(0, mapping, scan) && std::exchange(tracked.to_fuse, false);
 }
 
-void PagingStage::TakeWhatCame(MappingStage& mapping, ScanStage& scan) {
+// False: part of what the camera may see is not there.
+bool PagingStage::Bring(double further_m, MappingStage& mapping, ScanStage& scan) {
+    if (!away_.empty()) {
+        Plan();
+        Ask();
+        TakeWhatCame(further_m, mapping, scan);
+    }
+    return !Needs(0) && std::ranges::none_of(lost_, [&](std::int64_t key) { return Outside(CubeOfKey(key)) <= 0; });
+}
+
+void PagingStage::TakeWhatCame(double further_m, MappingStage& mapping, ScanStage& scan) {
     for (std::size_t taken = 0; !asked_.empty() && (wait_ || taken < kMostPerFrame); ++taken) {
-        const bool needed = NeedsOneOf(asked_) || NeedsOneOf(wanted_);
-        if (wait_ && !needed && frame_ - asked_.front().frame < kFrames) return;
+        if (wait_ && !Needs(further_m) && frame_ - asked_.front().frame < kFrames) return;
         std::unique_ptr<StoredCube> cube = wait_ ? pager_->Take() : pager_->TryTake();
         if (!cube) return;
         asked_.pop_front();
@@ -119,16 +148,18 @@ void PagingStage::TakeWhatCame(MappingStage& mapping, ScanStage& scan) {
     }
 }
 
+// A cube that cannot be read back leaves a hole into which nothing may be fused; the rest of the scan goes on.
 void PagingStage::Put(const StoredCube& cube, MappingStage& mapping, ScanStage& scan) {
     const auto expected = away_.extract(cube.key);
-    if (!cube.status.ok())
-        status_ = cube.status;
-    else if (expected.mapped() != static_cast<std::int32_t>(cube.blocks.size()))
-        status_ = Status::Error(fmt::format("{}: {} of {} blocks that left memory are there; the scan is damaged", scan.path(),
-                                            cube.blocks.size(), expected.mapped()));
-    if (!status_.ok()) return;
-    mapping.Return(cube.blocks, ids_);
-    scan.Returned(mapping.map(), ids_);
+    if (cube.status.ok() && expected.mapped() == static_cast<std::int32_t>(cube.blocks.size())) {
+        mapping.Return(cube.blocks, ids_);
+        scan.Returned(mapping.map(), ids_);
+        return;
+    }
+    lost_.push_back(cube.key);
+    if (std::exchange(told_lost_, true)) return;
+    const Status status = cube.status.ok() ? DamagedScan(scan.path(), "blocks that left memory are missing") : cube.status;
+    message_ = status.message() + "; frames that see this part of the map are tracked, but not fused";
 }
 
 // All cubes that may go, the farthest first.
@@ -154,28 +185,37 @@ bool PagingStage::AllSaved(const Candidate& candidate, const BlockMap& map, cons
                        [&](const auto& block) { return scan.Has(map, block.second); });
 }
 
-void PagingStage::Release(MappingStage& mapping, ScanStage& scan) {
-    const BlockMap& map = mapping.map();
+// As many as are to go, of those that may; says so if they are too few.
+std::vector<PagingStage::Candidate> PagingStage::ChooseLeaving(const BlockMap& map, const ScanStage& scan) {
     const auto bytes = static_cast<double>(map.bytes());
-    if (bytes <= limit_bytes_ || !T_world_camera_ || scan.failed() || (!wait_ && !scan.idle())) return;
     const double block_bytes = bytes / static_cast<double>(map.count() + 1);
-    double excess_bytes = bytes - kRefill * limit_bytes_;
+    double rest_bytes = bytes, least_bytes = bytes;  // with those that leave gone, and with all that may
     std::vector<Candidate> leaving;
     for (const Candidate& candidate : Farthest(map)) {
-        if (excess_bytes <= 0) break;
-        if (!wait_ && !AllSaved(candidate, map, scan)) continue;
-        excess_bytes -= block_bytes * static_cast<double>(candidate.last - candidate.first);
+        const double candidate_bytes = block_bytes * static_cast<double>(candidate.last - candidate.first);
+        least_bytes -= candidate_bytes;
+        if (rest_bytes <= kRefill * limit_bytes_ || (!wait_ && !AllSaved(candidate, map, scan))) continue;
+        rest_bytes -= candidate_bytes;
         leaving.push_back(candidate);
     }
-    if (wait_ && excess_bytes > (1 - kRefill) * limit_bytes_ && !std::exchange(told_, true))
+    if (least_bytes > limit_bytes_ && !std::exchange(told_small_, true))
         message_ = fmt::format("mapping.memory_limit_mb: {:.0f} MB are too few for what the camera may see from one place, {:.0f} MB; "
                                "raise it, or lower frame.max_depth_m",
-                               limit_bytes_ / 1e6, (excess_bytes + kRefill * limit_bytes_) / 1e6);
+                               limit_bytes_ / 1e6, least_bytes / 1e6);
+    return leaving;
+}
+
+void PagingStage::Release(MappingStage& mapping, ScanStage& scan) {
+    const BlockMap& map = mapping.map();
+    if (static_cast<double>(map.bytes()) <= limit_bytes_ || !T_world_camera_) return;
+    if ((!wait_ && !scan.idle()) || scan.failed()) return;  // in this order: a checkpoint that failed is no longer under way
+    const std::vector<Candidate> leaving = ChooseLeaving(map, scan);
     if (leaving.empty()) return;
     if (wait_) {
         const bool saved = std::ranges::all_of(leaving, [&](const Candidate& c) { return AllSaved(c, map, scan); });
         if (!scan.Settle(mapping, !saved)) return;
     }
+    paged_ = true;
     for (const Candidate& c : leaving) {
         ids_.clear();
         for (std::size_t i = c.first; i < c.last; ++i) ids_.push_back(resident_[i].second);
@@ -185,11 +225,34 @@ void PagingStage::Release(MappingStage& mapping, ScanStage& scan) {
     }
 }
 
+Status PagingStage::ReturnAll(MappingStage& mapping, ScanStage& scan) {
+    Result<std::unique_ptr<CubeReader>> reader = CubeReader::Open(scan.path());
+    if (!reader.ok()) return reader.status();
+    std::vector<std::int64_t> keys;
+    for (const auto& [key, blocks] : away_) keys.push_back(key);
+    std::ranges::sort(keys);
+    StoredCube cube;
+    for (const std::int64_t key : keys) {
+        cube.key = key;
+        cube.status = reader.value()->Read(key, cube.blocks);
+        Put(cube, mapping, scan);
+    }
+    return lost_.empty() ? Status::Ok() : DamagedScan(scan.path(), "blocks that left memory cannot be read back");
+}
+
+std::string PagingStage::Lacking(const ScanStage& scan) const {
+    if (away_.empty() && lost_.empty()) return {};
+    return fmt::format("; without what is in {} only: `tessera export` has all", scan.path());
+}
+
 void PagingStage::Reset() {
     while (pager_ && pager_->under_way() > 0) pager_->Give(pager_->Take());
     away_.clear();
     asked_.clear();
     wanted_.clear();
+    lost_.clear();
+    paged_ = false;
+    step_m_ = 0;
     T_world_camera_.reset();
 }
 

@@ -26,8 +26,9 @@ class PagingStage {
 
     // A new frame, of a camera about where it was last: asks for what comes near, takes what has come.
     void BeginFrame(MappingStage& mapping, ScanStage& scan);
-    // The same for where the camera is. False: part of what it may see is still away.
-    bool Bring(const Eigen::Isometry3d& T_world_camera, MappingStage& mapping, ScanStage& scan);
+    // The same for where the frame's camera was found to be. Where part of what it may see is not there, the frame is not to
+    // be fused any more: no block may be there twice. True: so it was.
+    bool AfterTracking(TrackedFrame& tracked, MappingStage& mapping, ScanStage& scan);
     // At the frame's end, what changed in it handed to `scan`: brings the map below its limit if it is above.
     void Release(MappingStage& mapping, ScanStage& scan);
     // An empty map.
@@ -35,8 +36,13 @@ class PagingStage {
     // The end: nothing comes any more, the file is the writer's alone.
     void Close() { pager_.reset(); }
 
-    bool any_away() const { return !away_.empty(); }
-    const Status& status() const { return status_; }  // an error: what was away cannot be read back
+    // After Close, where the file takes nothing any more: all that is away, whatever the limit.
+    Status ReturnAll(MappingStage& mapping, ScanStage& scan);
+
+    // Some blocks left the map, or did and came back: their ids are not in the order of their numbers.
+    bool paged() const { return paged_; }
+    // What a mesh of the map lacks, for a person; empty if nothing.
+    std::string Lacking(const ScanStage& scan) const;
     std::optional<std::string> TakeMessage() { return std::exchange(message_, std::nullopt); }
 
   private:
@@ -53,26 +59,32 @@ class PagingStage {
     };
 
     double Outside(const BlockCoord& cube) const;
+    bool Bring(double further_m, MappingStage& mapping, ScanStage& scan);
     void Plan();
+    void Want(const BlockCoord& cube);
     void Ask();
-    bool NeedsOneOf(const std::deque<Asked>& cubes) const;
-    void TakeWhatCame(MappingStage& mapping, ScanStage& scan);
+    bool Needs(double further_m) const;
+    void TakeWhatCame(double further_m, MappingStage& mapping, ScanStage& scan);
     void Put(const StoredCube& cube, MappingStage& mapping, ScanStage& scan);
     std::vector<Candidate> Farthest(const BlockMap& map);
+    std::vector<Candidate> ChooseLeaving(const BlockMap& map, const ScanStage& scan);
     bool AllSaved(const Candidate& candidate, const BlockMap& map, const ScanStage& scan) const;
 
-    const double limit_bytes_, cube_m_, reach_m_;
+    const double limit_bytes_, cube_m_;
+    const double margin_m_;  // around what the camera sees
+    const double reach_m_;   // from the camera, the margin included
     const bool wait_;
     std::unique_ptr<Pager> pager_;
     std::unordered_map<std::int64_t, std::int32_t> away_;  // cube key to number of blocks
     std::deque<Asked> asked_, wanted_;                     // under way in order; to be asked for, the nearest first
+    std::vector<std::int64_t> lost_;                       // cubes that cannot be read back
     std::optional<Eigen::Isometry3d> T_world_camera_;      // last known
+    double step_m_ = 0;                                    // between the last two
     std::vector<std::pair<BlockCoord, BlockId>> resident_;
     std::vector<BlockId> ids_;
     std::int64_t frame_ = 0;
-    bool told_ = false;
+    bool paged_ = false, told_small_ = false, told_lost_ = false;
     std::optional<std::string> message_;
-    Status status_;
 };
 
 // Where the configuration has a memory limit: a stage for the map that is being saved to `scan_path`.

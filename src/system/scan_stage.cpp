@@ -204,6 +204,7 @@ void ScanStage::Reset() {
     pending_->clear_all = true;
     progress_ = {};
     map_identity_ = 0;
+    seen_revision_.clear();
     sent_poses_.clear();
     next_ordinal_ = 0;
     last_stamp_s_.reset();

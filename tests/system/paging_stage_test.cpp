@@ -64,7 +64,7 @@ class Paging : public EngineTest {
         config.scan.interval_s = 0.1;
     }
 
-    TriangleMesh Run(bool live, double limit_mb) {
+    void Start(bool live, double limit_mb) {
         config.pipeline.paging.memory_limit_mb = limit_mb;
         EngineInput input = Input({});
         input.source = std::make_unique<HallSource>();
@@ -81,12 +81,19 @@ class Paging : public EngineTest {
             engine = std::make_unique<LiveEngine>(std::move(input));
         else
             engine = std::make_unique<LockstepEngine>(std::move(input));
+    }
+    TriangleMesh Run(bool live, double limit_mb) {
+        Start(live, limit_mb);
         TakeAll();
         EXPECT_TRUE(engine->status().ok()) << engine->status().message();
         resident = engine->map_statistics().blocks;
         TriangleMesh mesh = engine->TakeMesh();
         EXPECT_TRUE(engine->status().ok()) << engine->status().message();
         return mesh;
+    }
+    // So many frames from now.
+    void TakeFrames(int count) {
+        for (std::int64_t end = Count(Kind::kFrame) + count; Count(Kind::kFrame) < end;) ASSERT_TRUE(Next());
     }
     std::int64_t MostBlocks() const {
         std::int64_t most = 0;
@@ -146,6 +153,89 @@ TEST_F(Paging, ALimitThatIsTooSmallIsSaidOnce) {
     const std::size_t at = said.find("mapping.memory_limit_mb: 1 MB are too few");
     ASSERT_NE(at, std::string::npos) << said;
     EXPECT_EQ(said.find("memory_limit_mb", at + 20), std::string::npos);
+}
+
+// What lies between 2 and 4 m of the hall is damaged while it is away.
+TEST_F(Paging, WhatCannotBeReadBackIsSaidOnceAndNothingIsFusedThere) {
+    Start(false, 24);
+    TakeFrames(kSteps + kTurn);
+    {
+        auto reader = CubeReader::Open(path);
+        ASSERT_TRUE(reader.ok());
+        auto database = Database::Open(path, Database::Access::kWrite);
+        ASSERT_TRUE(database.ok());
+        const double cube_m = kCubeBlocks * kBlockSide * config.pipeline.map.voxel_size_m;
+        const auto cubes = reader.value()->Cubes();
+        ASSERT_TRUE(cubes.ok());
+        for (const auto& [key, blocks] : cubes.value()) {
+            const double z_m = CubeOfKey(key).z * cube_m;
+            if (z_m < 2 || z_m > 4) continue;
+            const std::string keys = std::to_string(key) + " AND " + std::to_string(key + kCubeKeys - 1);
+            ASSERT_TRUE(database.value()->Execute("UPDATE blocks SET checksum = checksum + 1 WHERE key BETWEEN " + keys).ok());
+        }
+    }
+    TakeAll();
+    EXPECT_TRUE(engine->status().ok()) << engine->status().message();
+    const std::string said = Messages();
+    const std::size_t at = said.find("tessera scan repair");
+    ASSERT_NE(at, std::string::npos) << said;
+    EXPECT_NE(said.find("not fused"), std::string::npos);
+    EXPECT_EQ(said.find("tessera scan repair", at + 1), std::string::npos);
+    int not_fused = 0;
+    for (const FrameOutcome& o : outcomes) {
+        if (o.kind != Kind::kFrame) continue;
+        const double z_m = WalkPose(static_cast<int>(o.report.index)).translation().z();
+        const bool back = o.report.index >= kSteps + kTurn;
+        not_fused += !o.report.fused;
+        EXPECT_EQ(o.report.fused, !o.fusion_dropped);
+        const bool far = !back || z_m > 8, within = back && z_m > 3 && z_m < 5;
+        EXPECT_TRUE(o.report.fused || !far) << o.report.index;
+        EXPECT_FALSE(o.report.fused && within) << o.report.index;
+    }
+    EXPECT_GT(not_fused, 5);
+    EXPECT_TRUE(engine->TakeMesh().triangles.empty());
+    EXPECT_NE(engine->status().message().find("tessera scan repair"), std::string::npos) << engine->status().message();
+}
+
+TEST_F(Paging, AnEmptyMapBeginsWhileCubesAreUnderWay) {
+    ViewerLink link;
+    viewer = &link;
+    Start(false, 24);
+    TakeFrames(kSteps + kTurn + 5);
+    Ask(Command::kReset);
+    TakeAll();
+    EXPECT_TRUE(engine->status().ok()) << engine->status().message();
+    EXPECT_EQ(Count(Kind::kReset), 1);
+    EXPECT_EQ(Messages().find("scan repair"), std::string::npos) << Messages();
+    const TriangleMesh mesh = engine->TakeMesh();
+    ASSERT_GT(mesh.triangles.size(), 50000u);
+    const BoxRoom hall = Hall();
+    for (const Eigen::Vector3f& v : mesh.vertices) ASSERT_LT(std::abs(hall.SignedDistance(v.cast<double>())), 0.02) << v.transpose();
+}
+
+TEST_F(Paging, LiveCanBeLeftAtAnyTime) {
+    for (const int frames : {1, kSteps, kSteps + kTurn + 10}) {
+        Start(true, 24);
+        for (int i = 0; i < frames && Next(); ++i) {}
+        engine.reset();
+        std::remove(path.c_str());
+    }
+}
+
+// As of a full disk.
+TEST_F(Paging, AFileThatTakesNothingAnyMoreCostsMemoryButNoMap) {
+    const TriangleMesh whole = Run(false, 0);
+    Start(false, 24);
+    TakeFrames(kSteps);
+    auto database = Database::Open(path, Database::Access::kWrite);
+    ASSERT_TRUE(database.value()->Execute("BEGIN IMMEDIATE").ok());
+    TakeAll();
+    EXPECT_TRUE(engine->status().ok()) << engine->status().message();
+    EXPECT_NE(Messages().find("no longer saved"), std::string::npos);
+    const TriangleMesh mesh = engine->TakeMesh();
+    EXPECT_TRUE(engine->status().ok()) << engine->status().message();
+    EXPECT_EQ(mesh.vertices.size(), whole.vertices.size());
+    EXPECT_EQ(mesh.triangles.size(), whole.triangles.size());
 }
 
 }  // namespace
