@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "io/mesh_io.h"
+#include "system/timings.h"
 
 namespace tessera {
 
@@ -33,6 +34,7 @@ TriangleMesh TakeFinalMesh(MappingStage& mapping, std::optional<ScanStage>& scan
     }
     const std::string path = scan->path();
     scan.reset();  // what it keeps for checkpoints would have to fit beside the mesh
+    ReturnFreeMemory();
     return mapping.TakeStoredMesh(path, status);
 }
 

@@ -138,12 +138,12 @@ Status Runner::Correct() {
 Status Runner::WriteMesh() {
     Stopwatch watch;
     const bool sound = engine_->status().ok();
-    const TriangleMesh mesh = engine_->TakeMesh();
+    TriangleMesh mesh = engine_->TakeMesh();
     if (sound && !engine_->status().ok()) return engine_->status();
     if (summary_.labels) summary_.labels->objects = engine_->objects();
     if (summary_.labels) window_.ShowObjects(engine_->objects());
     times_.Add("mesh", watch.LapMs());
-    return output_->WriteMesh(mesh);
+    return output_->WriteMesh(std::move(mesh));
 }
 
 std::int64_t Runner::Total() const {

@@ -128,6 +128,8 @@ std::optional<std::string> ScanStage::TakeMessage() {
 
 void ScanStage::Checkpoint(const MappingStage& mapping, const LoopStage* loops, bool finished) {
     thread_.WaitUntilIdle();
+    std::unique_ptr<ScanCheckpoint> next = thread_.Take();
+    std::swap(pending_->blocks, next->blocks);  // the one just written had room for blocks: the only large part needs to be there once
     AddBlocks(mapping);
     if (loops != nullptr) AddLoops(loops->closer());
     progress_.fused_frames = mapping.fused_frames();
@@ -142,7 +144,7 @@ void ScanStage::Checkpoint(const MappingStage& mapping, const LoopStage* loops, 
     last_time_ = Clock::now();
     saved_ = true;
     thread_.Write(std::move(pending_));
-    pending_ = thread_.Take();
+    pending_ = std::move(next);
 }
 
 void ScanStage::AddBlocks(const MappingStage& mapping) {
