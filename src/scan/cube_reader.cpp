@@ -23,6 +23,11 @@ Result<std::unique_ptr<CubeReader>> CubeReader::Open(const std::string& path) {
     return std::unique_ptr<CubeReader>(new CubeReader(std::move(database.value()), std::move(select.value())));
 }
 
+// A disk that does not answer is not a file that is damaged.
+Status CubeReader::ReadError() const {
+    return database_->damaged() ? DamagedScan(path(), "blocks") : database_->Error("cannot be read");
+}
+
 Status CubeReader::Read(std::int64_t cube_key, BlockCopies& blocks) {
     blocks.Clear();
     select_.Bind(1, cube_key);
@@ -35,8 +40,7 @@ Status CubeReader::Read(std::int64_t cube_key, BlockCopies& blocks) {
             !codec_.Decode(row.data, CoordOfKey(row.key), blocks) || !IsNumber(blocks.numbers.back()))
             status = DamagedScan(path(), fmt::format("block {}", row.key));
     }
-    if (status.ok() && step != kStepDone)
-        status = database_->damaged() ? DamagedScan(path(), "blocks") : database_->Error("cannot be read");
+    if (status.ok() && step != kStepDone) status = ReadError();
     select_.Reset();  // ends the read, so that the writer may fold its journal
     return status;
 }
@@ -52,7 +56,7 @@ Result<std::vector<std::pair<std::int64_t, std::int32_t>>> CubeReader::Cubes() {
         if (cubes.empty() || cubes.back().first != cube) cubes.emplace_back(cube, 0);
         ++cubes.back().second;
     }
-    if (step != kStepDone) return DamagedScan(path(), "blocks");
+    if (step != kStepDone) return ReadError();
     return cubes;
 }
 

@@ -28,6 +28,8 @@ class CubeReader {
     CubeReader(std::unique_ptr<Database> database, DatabaseStatement select)
         : database_(std::move(database)), select_(std::move(select)) {}
 
+    Status ReadError() const;
+
     std::unique_ptr<Database> database_;
     DatabaseStatement select_;
     BlockCodec codec_;

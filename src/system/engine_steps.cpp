@@ -24,6 +24,15 @@ std::string SaveMesh(const MappingStage& mapping, const std::string& path) {
     return fmt::format("saved {}: {} triangles", path, mesh.triangles.size());
 }
 
+Status StartPaging(const PipelineConfig& config, const PinholeCamera& camera, const std::string& scan_path, bool wait,
+                   std::unique_ptr<PagingStage>& paging) {
+    if (!config.paging.enabled()) return Status::Ok();
+    Result<std::unique_ptr<CubeReader>> reader = CubeReader::Open(scan_path);
+    if (!reader.ok()) return reader.status();
+    paging = std::make_unique<PagingStage>(config, camera, std::make_unique<Pager>(std::move(reader.value())), wait);
+    return Status::Ok();
+}
+
 TriangleMesh TakeFinalMesh(MappingStage& mapping, std::optional<ScanStage>& scan, PagingStage* paging, Status& status) {
     if (paging == nullptr || !paging->paged()) return mapping.TakeMesh();
     if (scan->failed()) {

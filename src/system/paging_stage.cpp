@@ -34,12 +34,6 @@ double RangeOf(const PipelineConfig& config, const PinholeCamera& camera) {
 
 }  // namespace
 
-void PagingConfig::Describe(ConfigParameters& p) {
-    p.Add("memory_limit_mb", memory_limit_mb, {0.0, 1e6}, "MB",
-          "most memory of the map's blocks, 0 = no limit: what is far from the camera goes to the file of --scan and comes back "
-          "before it is seen; what the camera may see from one place must fit");
-}
-
 PagingStage::PagingStage(const PipelineConfig& config, const PinholeCamera& camera, std::unique_ptr<Pager> pager, bool wait)
     : limit_bytes_(config.paging.memory_limit_mb * 1e6),
       cube_m_(kCubeBlocks * kBlockSide * config.map.voxel_size_m),
@@ -47,15 +41,6 @@ PagingStage::PagingStage(const PipelineConfig& config, const PinholeCamera& came
       reach_m_(RangeOf(config, camera) + margin_m_),
       wait_(wait),
       pager_(std::move(pager)) {}
-
-Status StartPaging(const PipelineConfig& config, const PinholeCamera& camera, const std::string& scan_path, bool wait,
-                   std::unique_ptr<PagingStage>& paging) {
-    if (!config.paging.enabled()) return Status::Ok();
-    Result<std::unique_ptr<CubeReader>> reader = CubeReader::Open(scan_path);
-    if (!reader.ok()) return reader.status();
-    paging = std::make_unique<PagingStage>(config, camera, std::make_unique<Pager>(std::move(reader.value())), wait);
-    return Status::Ok();
-}
 
 // How far a cube is from the half ball that the camera may read; at most 0: it is in it.
 double PagingStage::Outside(const BlockCoord& cube) const {

@@ -87,8 +87,4 @@ class PagingStage {
     std::optional<std::string> message_;
 };
 
-// Where the configuration has a memory limit: a stage for the map that is being saved to `scan_path`.
-Status StartPaging(const PipelineConfig& config, const PinholeCamera& camera, const std::string& scan_path, bool wait,
-                   std::unique_ptr<PagingStage>& paging);
-
 }  // namespace tessera
