@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <atomic>
+#include <functional>
 
 #include "core/check.h"
+#include "mapping/hash_slots.h"
 
 namespace tessera {
 namespace {
@@ -58,11 +60,12 @@ void BlockMap::Clear() {
     coords_.Clear();
     revision_.Clear();
     table_.assign(1024, 0);
-    region_table_.assign(256, 0);
-    regions_.clear();
+    regions_.Clear();
+    free_.clear();
     size_ = 1;
+    next_number_ = 1;
     identity_ = ++last_identity;
-    InitialiseBlock(kUnknownBlock, {kBlockLimit, kBlockLimit, kBlockLimit});
+    InitialiseBlock(kUnknownBlock, {kBlockLimit, kBlockLimit, kBlockLimit}, 0);
 }
 
 void BlockMap::EnableLabels() {
@@ -71,13 +74,14 @@ void BlockMap::EnableLabels() {
     max_size_ = std::min(max_size_, labels_->max_size() / kBlockVoxels);
 }
 
-void BlockMap::InitialiseBlock(BlockId id, const BlockCoord& c) {
+void BlockMap::InitialiseBlock(BlockId id, const BlockCoord& c, std::int32_t number) {
     std::fill_n(field(id), kBlockVoxels, kUnknownField);
     if (layers_ == Layers::kAll || id == kUnknownBlock) std::fill_n(colour(id), kBlockVoxels, kNoColour);
     std::int32_t* coords = coords_.data() + 4 * static_cast<std::size_t>(id);
     coords[0] = c.x;
     coords[1] = c.y;
     coords[2] = c.z;
+    coords[3] = number;
 }
 
 BlockMap::View BlockMap::view() const {
@@ -103,17 +107,46 @@ BlockId BlockMap::Find(const BlockCoord& c) const {
     }
 }
 
-BlockId BlockMap::Allocate(const BlockCoord& c) {
+BlockId BlockMap::Allocate(const BlockCoord& c, std::int32_t number) {
     if (!InLimits(c)) return kUnknownBlock;
     if (const BlockId id = Find(c); id != kUnknownBlock) return id;
-    if (static_cast<std::size_t>(size_) >= max_size_) return kUnknownBlock;
-    if (2 * static_cast<std::size_t>(size_) >= table_.size()) GrowTable();
-    const BlockId id = size_++;
-    InitialiseBlock(id, c);
+    const BlockId id = TakeId();
+    if (id == kUnknownBlock) return id;
+    next_number_ = std::max(next_number_, number + 1);
+    InitialiseBlock(id, c, number);
     InsertIntoTable(id);
     LinkNeighbours(id, c);
-    FindOrAddRegion(RegionOf(c))->blocks.push_back(id);
+    regions_.Add(id, RegionOf(c));
     return id;
+}
+
+BlockId BlockMap::TakeId() {
+    if (!free_.empty()) {
+        std::ranges::pop_heap(free_, std::greater());
+        const BlockId id = free_.back();
+        free_.pop_back();
+        return id;
+    }
+    if (static_cast<std::size_t>(size_) >= max_size_) return kUnknownBlock;
+    if (2 * static_cast<std::size_t>(size_) >= table_.size()) GrowTable();
+    return size_++;
+}
+
+void BlockMap::Release(BlockId id) {
+    TESSERA_CHECK(id > kUnknownBlock && id < size_ && !IsFree(id), "block {} of {} released", id, size_);
+    const BlockCoord c = coord(id);
+    const std::uint32_t mask = static_cast<std::uint32_t>(table_.size() - 1);
+    std::uint32_t slot = Hash(c) & mask;
+    while (table_[slot] != id) slot = (slot + 1) & mask;
+    EraseSlot(table_, slot, [this](std::int32_t other) { return Hash(coord(other)); });
+    regions_.Remove(id, RegionOf(c));
+    UnlinkNeighbours(id, c);
+    InitialiseBlock(id, {kBlockLimit, kBlockLimit, kBlockLimit}, 0);
+    if (layers_ == Layers::kAll) std::fill_n(weight(id), kBlockVoxels, std::uint16_t{0});
+    if (labels_) std::fill_n(label(id), kBlockVoxels, VoxelLabel{});
+    revision_[static_cast<std::size_t>(id)] = 0;
+    free_.push_back(id);
+    std::ranges::push_heap(free_, std::greater());
 }
 
 void BlockMap::InsertIntoTable(BlockId id) {
@@ -125,7 +158,8 @@ void BlockMap::InsertIntoTable(BlockId id) {
 
 void BlockMap::GrowTable() {
     table_.assign(2 * table_.size(), 0);
-    for (BlockId id = 1; id < size_; ++id) InsertIntoTable(id);
+    for (BlockId id = 1; id < size_; ++id)
+        if (!IsFree(id)) InsertIntoTable(id);
 }
 
 // Enters the new block at every block that has it as a positive neighbour, and its own eight.
@@ -135,6 +169,15 @@ void BlockMap::LinkNeighbours(BlockId id, const BlockCoord& c) {
         neighbours_[8 * static_cast<std::size_t>(id) + slot] = Find({c.x + dx, c.y + dy, c.z + dz});
         if (const BlockId before = Find({c.x - dx, c.y - dy, c.z - dz}); before != kUnknownBlock)
             neighbours_[8 * static_cast<std::size_t>(before) + slot] = id;
+    }
+}
+
+void BlockMap::UnlinkNeighbours(BlockId id, const BlockCoord& c) {
+    for (int slot = 0; slot < 8; ++slot) {
+        const int dx = slot & 1, dy = slot >> 1 & 1, dz = slot >> 2;
+        neighbours_[8 * static_cast<std::size_t>(id) + slot] = kUnknownBlock;
+        if (const BlockId before = Find({c.x - dx, c.y - dy, c.z - dz}); before != kUnknownBlock)
+            neighbours_[8 * static_cast<std::size_t>(before) + slot] = kUnknownBlock;
     }
 }
 
@@ -148,50 +191,17 @@ BlockCoord BlockMap::RegionOf(const BlockCoord& block) {
     return {block.x >> kShift, block.y >> kShift, block.z >> kShift};
 }
 
-std::int32_t BlockMap::FindRegion(const BlockCoord& region) const {
-    const std::uint32_t mask = static_cast<std::uint32_t>(region_table_.size() - 1);
-    for (std::uint32_t slot = Hash(region) & mask;; slot = (slot + 1) & mask) {
-        const std::int32_t index = region_table_[slot] - 1;
-        if (index < 0 || regions_[static_cast<std::size_t>(index)].coord == region) return index;
-    }
-}
-
-std::span<const BlockId> BlockMap::BlocksInRegion(const BlockCoord& region) const {
-    const std::int32_t index = FindRegion(region);
-    if (index < 0) return {};
-    return regions_[static_cast<std::size_t>(index)].blocks;
-}
-
-BlockMap::Region* BlockMap::FindOrAddRegion(const BlockCoord& region) {
-    if (const std::int32_t index = FindRegion(region); index >= 0)
-        return &regions_[static_cast<std::size_t>(index)];
-    regions_.push_back({region, {}});
-    const auto insert = [this](std::size_t index) {
-        const std::uint32_t mask = static_cast<std::uint32_t>(region_table_.size() - 1);
-        std::uint32_t slot = Hash(regions_[index].coord) & mask;
-        while (region_table_[slot] != 0) slot = (slot + 1) & mask;
-        region_table_[slot] = static_cast<std::int32_t>(index) + 1;
-    };
-    if (2 * regions_.size() >= region_table_.size()) {
-        region_table_.assign(2 * region_table_.size(), 0);
-        for (std::size_t i = 0; i < regions_.size(); ++i) insert(i);
-    } else {
-        insert(regions_.size() - 1);
-    }
-    return &regions_.back();
-}
-
 std::size_t BlockMap::bytes() const {
     const std::size_t per_voxel =
         sizeof(FieldWord) + (layers_ == Layers::kAll ? sizeof(std::uint16_t) + sizeof(ColourWord) : 0) +
         (labels_ ? sizeof(VoxelLabel) : 0);
     const std::size_t per_block = kBlockVoxels * per_voxel + (8 + 4 + 1) * sizeof(std::int32_t) + sizeof(BlockId);
-    return static_cast<std::size_t>(size_) * per_block + table_.size() * sizeof(std::int32_t) +
-           regions_.size() * sizeof(Region) + region_table_.size() * sizeof(std::int32_t);
+    return static_cast<std::size_t>(count() + 1) * per_block + table_.size() * sizeof(std::int32_t) +
+           regions_.bytes();
 }
 
 double BlockMap::bytes_per_voxel() const {
-    return static_cast<double>(bytes()) / (static_cast<double>(size_) * kBlockVoxels);
+    return static_cast<double>(bytes()) / (static_cast<double>(count() + 1) * kBlockVoxels);
 }
 
 }  // namespace tessera

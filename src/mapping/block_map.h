@@ -10,6 +10,7 @@
 
 #include "core/config.h"
 #include "core/status.h"
+#include "mapping/block_regions.h"
 #include "mapping/virtual_array.h"
 #include "mapping/voxel.h"
 #include "mapping/voxel_label.h"
@@ -32,12 +33,12 @@ class BlockMap {
         Status Validate() const;
     };
 
-    // Everything that a kernel needs to read the map; valid until the next Allocate or Clear.
+    // Everything that a kernel needs to read the map; valid until the next Allocate, Release or Clear.
     struct View {
         const FieldWord* field;           // [blocks * 512]
         const std::int32_t* neighbours;   // [blocks * 8]: at offsets (x, y, z) = bits 0, 1, 2 of the slot
         const std::int32_t* table;        // hash slots, each a BlockId, 0 = empty
-        const std::int32_t* coords;       // [blocks * 4]: x, y, z, unused
+        const std::int32_t* coords;       // [blocks * 4]: x, y, z, number
         std::uint32_t table_mask;
         float voxel_size_m, truncation_m;
     };
@@ -50,16 +51,30 @@ class BlockMap {
     const Config& config() const { return config_; }
     View view() const;
 
-    // Number of ids in use, block 0 included: ids run from 0 to size() - 1, in order of allocation.
+    // Ids run from 0 to size() - 1; those between that were released are free. Without Release: in order of allocation.
     BlockId size() const { return size_; }
     std::size_t max_size() const { return max_size_; }
+    bool IsFree(BlockId id) const { return neighbours_[8 * static_cast<std::size_t>(id)] != id; }
+    // Blocks that are there, block 0 not counted.
+    std::int64_t count() const { return size_ - 1 - static_cast<std::int64_t>(free_.size()); }
 
     BlockId Find(const BlockCoord& coord) const;
     // The block, made if it is not there; kUnknownBlock if the map is full or the coordinate out of limits.
-    BlockId Allocate(const BlockCoord& coord);
+    // Of the ids that are free the lowest is taken.
+    BlockId Allocate(const BlockCoord& coord) { return Allocate(coord, next_number_); }
+    // A block that was released comes back under the number that it had.
+    BlockId Allocate(const BlockCoord& coord, std::int32_t number);
+    // The block goes: unknown to all, its id free. Not block 0.
+    void Release(BlockId id);
     void Clear();
 
     BlockCoord coord(BlockId id) const;
+    // Counts blocks from 1 on in the order of their first allocation: unlike the id the same whatever was released
+    // meanwhile. Without Release it is the id.
+    std::int32_t number(BlockId id) const { return coords_[4 * static_cast<std::size_t>(id) + 3]; }
+    // Blocks allocated from here on carry numbers from this one on: those below are known to be released ones'.
+    void SetNextNumber(std::int32_t number) { next_number_ = number; }
+    std::int32_t next_number() const { return next_number_; }
     BlockId neighbour(BlockId id, int dx, int dy, int dz) const;  // each in {-1, 0, 1}; a hash look-up
 
     // One block's voxels, kBlockVoxels of each.
@@ -82,10 +97,10 @@ class BlockMap {
     std::uint32_t revision(BlockId id) const { return revision_[static_cast<std::size_t>(id)]; }
 
     // Regions of 4 x 4 x 4 blocks: a view looks its blocks up through them, so that the cost of a frame follows
-    // what is in view, not the size of the map. The span is valid until the next Allocate or Clear.
+    // what is in view, not the size of the map. The span is valid until the next Allocate, Release or Clear.
     static constexpr int kRegionBlocks = 4;
     static BlockCoord RegionOf(const BlockCoord& block);
-    std::span<const BlockId> BlocksInRegion(const BlockCoord& region) const;
+    std::span<const BlockId> BlocksInRegion(const BlockCoord& region) const { return regions_.Blocks(region); }
 
     std::size_t bytes() const;         // memory in use by blocks and their index
     double bytes_per_voxel() const;
@@ -96,14 +111,18 @@ class BlockMap {
 
   private:
     static std::size_t Offset(BlockId id) { return static_cast<std::size_t>(id) * kBlockVoxels; }
-    void InitialiseBlock(BlockId id, const BlockCoord& coord);
+    void InitialiseBlock(BlockId id, const BlockCoord& coord, std::int32_t number);
     void InsertIntoTable(BlockId id);
     void GrowTable();
     void LinkNeighbours(BlockId id, const BlockCoord& coord);
+    void UnlinkNeighbours(BlockId id, const BlockCoord& coord);
+    BlockId TakeId();
 
     Config config_;
     Layers layers_;
     BlockId size_ = 1;
+    std::int32_t next_number_ = 1;
+    std::vector<BlockId> free_;  // a heap, the lowest first
     std::size_t max_size_ = 0;
     std::uint64_t identity_ = 0;
     VirtualArray<FieldWord> field_;
@@ -114,16 +133,7 @@ class BlockMap {
     VirtualArray<std::int32_t> coords_;
     VirtualArray<std::uint32_t> revision_;
     std::vector<std::int32_t> table_;
-
-    // Regions: a second, coarser hash; each region lists its at most 64 blocks.
-    struct Region {
-        BlockCoord coord;
-        std::vector<BlockId> blocks;
-    };
-    std::vector<std::int32_t> region_table_;  // index + 1, 0 = empty
-    std::vector<Region> regions_;
-    Region* FindOrAddRegion(const BlockCoord& region);
-    std::int32_t FindRegion(const BlockCoord& region) const;
+    BlockRegions regions_;
 };
 
 }  // namespace tessera

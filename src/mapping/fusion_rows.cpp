@@ -138,7 +138,8 @@ struct Voxels {
     return xsimd::to_float(Int::load_aligned(steps)) * Real(1.0f / kWeightSteps);
 }
 
-[[gnu::always_inline]] inline void FuseVoxels(const FusionArguments& a, const Point& instant, std::size_t at) {
+[[gnu::always_inline]] inline void FuseVoxels(const FusionArguments& a, const Point& instant, std::size_t at,
+                                              std::uint32_t seed) {
     RealMask inside;
     Point p = instant;
     Real row_time(0.0f);
@@ -155,7 +156,7 @@ struct Voxels {
     Voxels v{LoadBits(a.field + at), LoadWeights(a.weight + at), LoadBits(a.colour + at)};
     // Weights below the stored resolution would be lost.
     const Real weight = xsimd::max(WeightOf(a, distance, xsimd::max(depth, Real(0.05f))), Real(1.0f / kWeightSteps));
-    const Bits address = Bits(static_cast<std::uint32_t>(at)) + AsBits(xsimd::to_int(LaneNumbers()));
+    const Bits address = Bits(seed) + AsBits(xsimd::to_int(LaneNumbers()));
     const Bits dither = DitherBits(address, a.frame);
     FuseDistance(a, update, distance, weight, dither, v);
     v.field.store_unaligned(a.field + at);
@@ -186,14 +187,15 @@ void FuseBlocks(const FusionArguments& a, const std::int32_t* blocks, std::int32
         const std::int32_t* c = a.coords + 4 * static_cast<std::size_t>(blocks[b]);
         const float vx = static_cast<float>(c[0] * kBlockSide - a.origin[0]);
         std::size_t at = static_cast<std::size_t>(blocks[b]) * kBlockVoxels;
+        std::uint32_t seed = static_cast<std::uint32_t>(c[3]) * kBlockVoxels;
         for (int z = 0; z < kBlockSide; ++z) {
             const float vz = static_cast<float>(c[2] * kBlockSide + z - a.origin[2]);
             for (int y = 0; y < kBlockSide; ++y) {
                 const float vy = static_cast<float>(c[1] * kBlockSide + y - a.origin[1]);
                 const Row row(a.to_camera, a.voxel_size_m, vx, vy, vz);
-                for (int step = 0; step < kStepsPerRow; ++step, at += kLanes) {
+                for (int step = 0; step < kStepsPerRow; ++step, at += kLanes, seed += kLanes) {
                     const Real x = lanes + Real(static_cast<float>(step * kLanes));
-                    FuseVoxels(a, row.At(x), at);
+                    FuseVoxels(a, row.At(x), at, seed);
                 }
             }
         }

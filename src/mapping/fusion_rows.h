@@ -19,7 +19,7 @@ struct FusionArguments {
     FieldWord* field;
     std::uint16_t* weight;
     ColourWord* colour;
-    const std::int32_t* coords;  // 4 per block
+    const std::int32_t* coords;  // 4 per block, the last its number
     // The frame. Depth in metres, 0 = none. Packed colour: see PackColour; null if the frame has none.
     const float* depth_m;
     const std::uint32_t* packed_colour;

@@ -63,6 +63,7 @@ Integrator::Integrator(const Config& config, const PinholeCamera& camera, Vector
 Integrator::Report Integrator::Integrate(const PreparedFrame& frame, const View& view, BlockMap& map) {
     Report report;
     ++revision_;
+    added_.clear();
     Stopwatch watch;
     Allocate(frame, view, map, report);
     report.allocate_ms = watch.LapMs();
@@ -74,7 +75,8 @@ Integrator::Report Integrator::Integrate(const PreparedFrame& frame, const View&
 void Integrator::MarkAllChanged(BlockMap& map) {
     ++revision_;
     changed_ = &none_;
-    for (BlockId id = 1; id < map.size(); ++id) map.MarkChanged(id, revision_);
+    for (BlockId id = 1; id < map.size(); ++id)
+        if (!map.IsFree(id)) map.MarkChanged(id, revision_);
 }
 
 // Walks each depth ray through the band around its measurement ([B14] III-C1). A margin of one and a half voxels
@@ -136,7 +138,10 @@ void Integrator::Allocate(const PreparedFrame& frame, const View& view, BlockMap
     new_blocks_.erase(std::unique(new_blocks_.begin(), new_blocks_.end()), new_blocks_.end());
     const auto wanted = static_cast<std::int64_t>(new_blocks_.size());
     for (const BlockCoord& c : new_blocks_) {
-        if (report.new_blocks >= config_.max_new_blocks || map.Allocate(c) == kUnknownBlock) break;
+        if (report.new_blocks >= config_.max_new_blocks) break;
+        const BlockId id = map.Allocate(c);
+        if (id == kUnknownBlock) break;
+        added_.push_back(id);
         ++report.new_blocks;
     }
     report.refused_blocks = wanted - report.new_blocks;

@@ -53,6 +53,8 @@ class Integrator {
     Report Integrate(const PreparedFrame& frame, const View& view, BlockMap& map);
     // The ids that the last call changed, increasing.
     const std::vector<BlockId>& changed_blocks() const { return *changed_; }
+    // The blocks that it added, in order.
+    const std::vector<BlockId>& added_blocks() const { return added_; }
     // Counts the integrations; blocks changed by the n-th carry BlockMap::revision n.
     std::uint32_t revision() const { return revision_; }
     // The map was changed otherwise: all its blocks carry a revision of their own from here on.
@@ -71,6 +73,7 @@ class Integrator {
     VisibleBlocks visible_;
     std::vector<std::vector<BlockCoord>> missing_;  // per band of rows
     std::vector<BlockCoord> new_blocks_;
+    std::vector<BlockId> added_;
     const std::vector<BlockId>* changed_;
     std::vector<BlockId> none_;
 };

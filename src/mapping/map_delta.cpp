@@ -23,16 +23,14 @@ void ForEachChanged(std::size_t count, const Copy& copy) {
 }  // namespace
 
 std::size_t MapDelta::bytes() const {
-    return new_blocks.capacity() * sizeof(BlockCoord) + changed.capacity() * sizeof(BlockId) +
+    return blocks.capacity() * sizeof(BlockChange) + changed.capacity() * sizeof(BlockId) +
            field.capacity() * sizeof(FieldWord);
 }
 
-void CollectDelta(const BlockMap& map, BlockId first_new, std::span<const BlockId> changed, std::uint32_t revision,
-                  MapDelta& delta) {
+void CollectDelta(const BlockMap& map, std::span<const BlockChange> blocks, std::span<const BlockId> changed,
+                  std::uint32_t revision, MapDelta& delta) {
     delta.revision = revision;
-    delta.first_new = first_new;
-    delta.new_blocks.clear();
-    for (BlockId id = first_new; id < map.size(); ++id) delta.new_blocks.push_back(map.coord(id));
+    delta.blocks.assign(blocks.begin(), blocks.end());
     delta.changed.assign(changed.begin(), changed.end());
     delta.field.resize(changed.size() * kBlockVoxels);
     ForEachChanged(changed.size(), [&](std::size_t i) {
@@ -40,8 +38,20 @@ void CollectDelta(const BlockMap& map, BlockId first_new, std::span<const BlockI
     });
 }
 
+void CollectWhole(const BlockMap& map, std::uint32_t revision, MapDelta& delta) {
+    TESSERA_CHECK(map.count() == map.size() - 1, "{} blocks under {} ids", map.count(), map.size());
+    std::vector<BlockChange> blocks;
+    std::vector<BlockId> all;
+    for (BlockId id = 1; id < map.size(); ++id) {
+        blocks.push_back({id, false, map.coord(id)});
+        all.push_back(id);
+    }
+    CollectDelta(map, blocks, all, revision, delta);
+}
+
 std::unique_ptr<BlockMap> CopyField(const BlockMap& map) {
     constexpr std::uint32_t kNoDeltas = std::numeric_limits<std::uint32_t>::max();
+    TESSERA_CHECK(map.count() == map.size() - 1, "{} blocks under {} ids", map.count(), map.size());
     auto copy = std::make_unique<BlockMap>(map.config(), BlockMap::Layers::kFieldOnly);
     for (BlockId id = 1; id < map.size(); ++id) {
         copy->Allocate(map.coord(id));
@@ -52,12 +62,11 @@ std::unique_ptr<BlockMap> CopyField(const BlockMap& map) {
 }
 
 void ApplyDelta(const MapDelta& delta, BlockMap& copy) {
-    TESSERA_CHECK(delta.first_new == copy.size(), "a delta from block {} on for a copy of {} blocks", delta.first_new,
-                  copy.size());
-    for (const BlockCoord& c : delta.new_blocks) copy.Allocate(c);
-    TESSERA_CHECK(copy.size() == delta.first_new + static_cast<BlockId>(delta.new_blocks.size()),
-                  "the copy has {} blocks after a delta that ends with {}", copy.size(),
-                  delta.first_new + static_cast<BlockId>(delta.new_blocks.size()));
+    for (const BlockChange& change : delta.blocks) {
+        const BlockId id = change.released ? copy.Find(change.coord) : copy.Allocate(change.coord);
+        TESSERA_CHECK(id == change.id, "block {} of the map is {} in the copy", change.id, id);
+        if (change.released) copy.Release(id);
+    }
     ForEachChanged(delta.changed.size(), [&](std::size_t i) {
         std::memcpy(copy.field(delta.changed[i]), delta.field.data() + i * kBlockVoxels, kFieldBytes);
         copy.MarkChanged(delta.changed[i], delta.revision);

@@ -11,22 +11,31 @@
 
 namespace tessera {
 
-// The field of changed blocks and the coordinates of new ones; weights and colours stay with the map's owner.
+// One block that came or went; a map in which the same ones came and went in the same order gives it the same id.
+struct BlockChange {
+    BlockId id = kUnknownBlock;
+    bool released = false;
+    BlockCoord coord;
+};
+
+// The field of changed blocks, and which blocks came and went; weights and colours stay with the map's owner.
 struct MapDelta {
     std::uint32_t revision = 0;
-    BlockId first_new = 1;                // new blocks have the ids from here on, in this order
-    std::vector<BlockCoord> new_blocks;
+    std::vector<BlockChange> blocks;      // in order
     std::vector<BlockId> changed;         // whose field follows, new blocks included
     std::vector<FieldWord> field;         // kBlockVoxels for each of them
 
     std::size_t bytes() const;
 };
 
-// `first_new`: the map's size when the last delta was taken. Storage is used again. Nobody may write the map meanwhile.
-void CollectDelta(const BlockMap& map, BlockId first_new, std::span<const BlockId> changed, std::uint32_t revision,
-                  MapDelta& delta);
+// `blocks`: what came and went since the last delta was taken. Storage is used again. Nobody may write the map meanwhile.
+void CollectDelta(const BlockMap& map, std::span<const BlockChange> blocks, std::span<const BlockId> changed,
+                  std::uint32_t revision, MapDelta& delta);
 
-// The whole field at once, under the same ids.
+// All of a map from which nothing was released yet, for a copy that is empty.
+void CollectWhole(const BlockMap& map, std::uint32_t revision, MapDelta& delta);
+
+// The whole field at once, under the same ids; of a map from which nothing was released.
 std::unique_ptr<BlockMap> CopyField(const BlockMap& map);
 
 // Brings `copy` up to date; deltas are to be applied in the order in which they were taken, each once, from an empty

@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "core/check.h"
 #include "mapping/mesh_assembly.h"
@@ -17,7 +18,7 @@ int Mesher::Update(const BlockMap& map, int budget_blocks) {
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 8), [&](const auto& range) {
         for (std::size_t i = range.begin(); i < range.end(); ++i) {
             const std::size_t id = static_cast<std::size_t>(pending_[i]);
-            meshes_[id] = MeshBlock(map, pending_[i], config_.min_weight);
+            meshes_[id] = map.IsFree(pending_[i]) ? nullptr : MeshBlock(map, pending_[i], config_.min_weight);
             is_pending_[id] = 0;
         }
     });
@@ -27,24 +28,37 @@ int Mesher::Update(const BlockMap& map, int budget_blocks) {
     return remaining();
 }
 
-// Appends to pending_ every block that reads one whose revision is new.
+// Appends to pending_ every block that reads one whose revision is new, and what is another block by now or none.
 void Mesher::FindChanged(const BlockMap& map) {
     const std::size_t size = static_cast<std::size_t>(map.size());
     TESSERA_CHECK(size >= meshes_.size(), "the map shrank from {} to {} blocks without Clear",
                   meshes_.size(), size);
     meshes_.resize(size);
     seen_revision_.resize(size, 0);
+    seen_number_.resize(size, 0);
     is_pending_.resize(size, 0);
     for (BlockId id = 1; id < map.size(); ++id) {
+        const auto at = static_cast<std::size_t>(id);
         const std::uint32_t revision = map.revision(id);
-        if (revision == seen_revision_[static_cast<std::size_t>(id)]) continue;
-        seen_revision_[static_cast<std::size_t>(id)] = revision;
-        for (const auto& [dx, dy, dz] : kMeshReadOffsets) {
-            const BlockId reader = map.neighbour(id, -dx, -dy, -dz);
-            if (reader == kUnknownBlock || is_pending_[static_cast<std::size_t>(reader)]) continue;
-            is_pending_[static_cast<std::size_t>(reader)] = 1;
-            pending_.push_back(reader);
+        const bool same = seen_number_[at] == map.number(id);
+        if (same && revision == seen_revision_[at]) continue;
+        // Whoever refers to vertices of the block that was here would find another's.
+        if (!same && meshes_[at]) {
+            AddReaders(map, meshes_[at]->coord);
+            if (!std::exchange(is_pending_[at], std::uint8_t{1})) pending_.push_back(id);
         }
+        seen_number_[at] = map.number(id);
+        seen_revision_[at] = revision;
+        if (!map.IsFree(id)) AddReaders(map, map.coord(id));
+    }
+}
+
+void Mesher::AddReaders(const BlockMap& map, const BlockCoord& block) {
+    for (const auto& [dx, dy, dz] : kMeshReadOffsets) {
+        const BlockId reader = map.Find({block.x - dx, block.y - dy, block.z - dz});
+        if (reader == kUnknownBlock || is_pending_[static_cast<std::size_t>(reader)]) continue;
+        is_pending_[static_cast<std::size_t>(reader)] = 1;
+        pending_.push_back(reader);
     }
 }
 
@@ -55,13 +69,14 @@ TriangleMesh Mesher::Assemble() const {
 void Mesher::Clear() {
     meshes_.clear();
     seen_revision_.clear();
+    seen_number_.clear();
     is_pending_.clear();
     pending_.clear();
     updated_.clear();
 }
 
 std::size_t Mesher::bytes() const {
-    std::size_t total = meshes_.capacity() * (sizeof(meshes_[0]) + sizeof(std::uint32_t) + 1) +
+    std::size_t total = meshes_.capacity() * (sizeof(meshes_[0]) + 2 * sizeof(std::uint32_t) + 1) +
                         (pending_.capacity() + updated_.capacity()) * sizeof(BlockId);
     for (const auto& mesh : meshes_)
         if (mesh) total += mesh->bytes();

@@ -25,8 +25,8 @@ class Mesher {
     // Meshes again the blocks whose result may have changed since the last call: those that read a
     // block (kMeshReadOffsets) whose BlockMap::revision differs from the one last seen. So whoever
     // writes the map must use a new revision after each Update. At most `budget_blocks` are done,
-    // oldest first; returns how many remain. Nobody may write the map meanwhile. Between calls the
-    // map may only grow, else Clear first.
+    // oldest first; returns how many remain. Nobody may write the map meanwhile. Blocks may come and
+    // go between calls; Clear when it is another map.
     int Update(const BlockMap& map, int budget_blocks = kNoLimit);
 
     // The whole mesh, with normals and colours. Vertices are shared across blocks, ordered by block
@@ -48,12 +48,14 @@ class Mesher {
 
   private:
     void FindChanged(const BlockMap& map);
+    void AddReaders(const BlockMap& map, const BlockCoord& block);
 
     Config config_;
     double voxel_size_m_ = 0;
     // By block id.
     std::vector<std::unique_ptr<const BlockMesh>> meshes_;  // null: no surface
     std::vector<std::uint32_t> seen_revision_;
+    std::vector<std::int32_t> seen_number_;  // BlockMap::number: an id may be another block's by now
     std::vector<std::uint8_t> is_pending_;
     std::vector<BlockId> pending_;  // to be meshed, oldest first
     std::vector<BlockId> updated_;  // by the last Update

@@ -87,7 +87,8 @@ void RayRanges::Build(const BlockMap& map, const PinholeCamera& camera,
                 for (int x = box.low.x(); x <= box.high.x(); ++x)
                     for (const BlockId id : map.BlocksInRegion({x, y, z})) add_block(id);
     } else {
-        for (BlockId id = 1; id < map.size(); ++id) add_block(id);
+        for (BlockId id = 1; id < map.size(); ++id)
+            if (!map.IsFree(id)) add_block(id);
     }
 }
 

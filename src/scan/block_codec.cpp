@@ -8,7 +8,7 @@
 namespace tessera {
 namespace {
 
-constexpr std::size_t kIdBytes = sizeof(BlockId);
+constexpr std::size_t kNumberBytes = sizeof(std::int32_t);
 constexpr std::size_t kLayerBytes = kBlockVoxels * (sizeof(FieldWord) + sizeof(std::uint16_t) + sizeof(ColourWord));
 constexpr std::size_t kLabelBytes = kBlockVoxels * sizeof(VoxelLabel);
 
@@ -30,25 +30,26 @@ const std::uint8_t* FromPlanes(const std::uint8_t* in, T* values) {
 }
 
 std::size_t ContentBytes(std::span<const std::uint8_t> row) {
-    if (row.size() <= kIdBytes) return 0;
-    const std::uint64_t size = Compressor::ContentSize(row.subspan(kIdBytes));
+    if (row.size() <= kNumberBytes) return 0;
+    const std::uint64_t size = Compressor::ContentSize(row.subspan(kNumberBytes));
     return size == kLayerBytes || size == kLayerBytes + kLabelBytes ? static_cast<std::size_t>(size) : 0;
 }
 
 }  // namespace
 
 void BlockCopies::Copy(const BlockMap& map, std::span<const BlockId> blocks) {
-    ids.assign(blocks.begin(), blocks.end());
-    coords.resize(ids.size());
-    const std::size_t voxels = ids.size() * kBlockVoxels;
+    numbers.resize(blocks.size());
+    coords.resize(blocks.size());
+    const std::size_t voxels = blocks.size() * kBlockVoxels;
     field.resize(voxels);
     weight.resize(voxels);
     colour.resize(voxels);
     labels.resize(map.has_labels() ? voxels : 0);
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, ids.size(), 64), [&](const auto& range) {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, blocks.size(), 64), [&](const auto& range) {
         for (std::size_t i = range.begin(); i < range.end(); ++i) {
-            const BlockId id = ids[i];
+            const BlockId id = blocks[i];
             const std::size_t at = i * kBlockVoxels;
+            numbers[i] = map.number(id);
             coords[i] = map.coord(id);
             std::copy_n(map.field(id), kBlockVoxels, field.data() + at);
             std::copy_n(map.weight(id), kBlockVoxels, weight.data() + at);
@@ -58,6 +59,33 @@ void BlockCopies::Copy(const BlockMap& map, std::span<const BlockId> blocks) {
     });
 }
 
+void BlockCopies::Append(const BlockCoord& coord, std::int32_t number, bool with_labels) {
+    numbers.push_back(number);
+    coords.push_back(coord);
+    const std::size_t voxels = numbers.size() * kBlockVoxels;
+    field.resize(voxels);
+    weight.resize(voxels);
+    colour.resize(voxels);
+    if (with_labels || !labels.empty()) labels.resize(voxels);
+}
+
+void BlockCopies::Put(std::size_t index, BlockMap& map, BlockId id) const {
+    const std::size_t at = index * kBlockVoxels;
+    std::copy_n(field.data() + at, kBlockVoxels, map.field(id));
+    std::copy_n(weight.data() + at, kBlockVoxels, map.weight(id));
+    std::copy_n(colour.data() + at, kBlockVoxels, map.colour(id));
+    if (map.has_labels() && !labels.empty()) std::copy_n(labels.data() + at, kBlockVoxels, map.label(id));
+}
+
+void BlockCopies::Clear() {
+    numbers.clear();
+    coords.clear();
+    field.clear();
+    weight.clear();
+    colour.clear();
+    labels.clear();
+}
+
 const std::vector<std::uint8_t>& BlockCodec::Encode(const BlockCopies& copies, std::size_t index) {
     const std::size_t at = index * kBlockVoxels;
     content_.resize(kLayerBytes + (copies.labels.empty() ? 0 : kLabelBytes));
@@ -65,26 +93,43 @@ const std::vector<std::uint8_t>& BlockCodec::Encode(const BlockCopies& copies, s
     out = ToPlanes(copies.weight.data() + at, out);
     out = ToPlanes(copies.colour.data() + at, out);
     if (!copies.labels.empty()) ToPlanes(copies.labels.data() + at, out);
-    row_.resize(kIdBytes);
-    std::memcpy(row_.data(), &copies.ids[index], kIdBytes);
+    row_.resize(kNumberBytes);
+    std::memcpy(row_.data(), &copies.numbers[index], kNumberBytes);
     compressor_.Compress(content_, row_);
     return row_;
 }
 
-std::optional<BlockId> BlockCodec::IdOf(std::span<const std::uint8_t> row) {
+std::optional<std::int32_t> BlockCodec::NumberOf(std::span<const std::uint8_t> row) {
     if (ContentBytes(row) == 0) return std::nullopt;
-    BlockId id;
-    std::memcpy(&id, row.data(), kIdBytes);
-    return id;
+    std::int32_t number;
+    std::memcpy(&number, row.data(), kNumberBytes);
+    return number;
+}
+
+bool BlockCodec::Unpack(std::span<const std::uint8_t> row) {
+    content_.resize(ContentBytes(row));
+    return !content_.empty() && compressor_.Decompress(row.subspan(kNumberBytes), content_);
 }
 
 bool BlockCodec::Decode(std::span<const std::uint8_t> row, BlockMap& map, BlockId id) {
-    content_.resize(ContentBytes(row));
-    if (content_.empty() || !compressor_.Decompress(row.subspan(kIdBytes), content_)) return false;
+    if (!Unpack(row)) return false;
     const std::uint8_t* in = FromPlanes(content_.data(), map.field(id));
     in = FromPlanes(in, map.weight(id));
     in = FromPlanes(in, map.colour(id));
     if (map.has_labels() && content_.size() == kLayerBytes + kLabelBytes) FromPlanes(in, map.label(id));
+    return true;
+}
+
+bool BlockCodec::Decode(std::span<const std::uint8_t> row, const BlockCoord& coord, BlockCopies& copies) {
+    const std::optional<std::int32_t> number = NumberOf(row);
+    if (!number || !Unpack(row)) return false;
+    const std::size_t at = copies.size() * kBlockVoxels;
+    const bool labels = content_.size() == kLayerBytes + kLabelBytes;
+    copies.Append(coord, *number, labels);
+    const std::uint8_t* in = FromPlanes(content_.data(), copies.field.data() + at);
+    in = FromPlanes(in, copies.weight.data() + at);
+    in = FromPlanes(in, copies.colour.data() + at);
+    if (labels) FromPlanes(in, copies.labels.data() + at);
     return true;
 }
 

@@ -18,9 +18,9 @@ Result<std::vector<BlockCoord>> ReadBlockOrder(ScanFile& file) {
     const auto count = static_cast<std::size_t>(file.seal().tables[IndexOf(ScanTable::kBlocks)].rows);
     std::vector<std::pair<BlockId, BlockCoord>> blocks;
     Status read = file.Read(ScanTable::kBlocks, [&](const ScanRow& row) {
-        const std::optional<BlockId> id = BlockCodec::IdOf(row.data);
-        if (!id || row.key < 0) return DamagedScan(file.path(), fmt::format("block {}", row.key));
-        blocks.emplace_back(*id, CoordOfKey(row.key));
+        const std::optional<std::int32_t> number = BlockCodec::NumberOf(row.data);
+        if (!number || row.key < 0) return DamagedScan(file.path(), fmt::format("block {}", row.key));
+        blocks.emplace_back(*number, CoordOfKey(row.key));
         return Status::Ok();
     });
     if (!read.ok()) return read;

@@ -112,7 +112,7 @@ Result<std::unique_ptr<ScanFile>> ScanFile::OpenToWrite(const std::string& path)
     file->database_ = std::move(database.value());
     if (Status status = file->CheckHeader(); !status.ok()) return status;
     if (Status status = file->database_->Execute("PRAGMA journal_mode=WAL; PRAGMA synchronous=NORMAL; "
-                                                 "PRAGMA journal_size_limit=67108864; PRAGMA cache_size=-65536;");
+                                                 "PRAGMA journal_size_limit=67108864; PRAGMA cache_size=-16384;");
         !status.ok())
         return status;
     if (Status status = file->LoadSeal(); !status.ok()) return status;

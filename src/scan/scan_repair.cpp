@@ -109,8 +109,8 @@ class Repair {
         std::vector<std::pair<BlockId, std::int64_t>> order;
         ScanRow row;
         for (const auto& [key, place] : rows(ScanTable::kBlocks))
-            if (Load(ScanTable::kBlocks, key, row) && BlockCodec::IdOf(row.data) && key >= 0)
-                order.emplace_back(*BlockCodec::IdOf(row.data), key);
+            if (Load(ScanTable::kBlocks, key, row) && BlockCodec::NumberOf(row.data) && key >= 0)
+                order.emplace_back(*BlockCodec::NumberOf(row.data), key);
         std::ranges::sort(order);
         BlockId next = 1;
         for (const auto& [id, key] : order) {

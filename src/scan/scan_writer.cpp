@@ -34,7 +34,7 @@ Status ScanWriter::PutRows(const ScanCheckpoint& c) {
         if (Status status = file_->Clear(ScanTable::kBlocks); !status.ok()) return status;
     // By their keys, so that each page is touched once.
     order_.clear();
-    for (std::size_t i = 0; i < c.blocks.ids.size(); ++i) order_.emplace_back(BlockKey(c.blocks.coords[i]), i);
+    for (std::size_t i = 0; i < c.blocks.size(); ++i) order_.emplace_back(BlockKey(c.blocks.coords[i]), i);
     std::ranges::sort(order_);
     for (const auto& [block_key, i] : order_)
         if (Status status = file_->Put(ScanTable::kBlocks, block_key, codec_.Encode(c.blocks, i)); !status.ok()) return status;

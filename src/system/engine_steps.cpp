@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "io/mesh_io.h"
+#include "system/timings.h"
 
 namespace tessera {
 
@@ -21,6 +22,29 @@ std::string SaveMesh(const MappingStage& mapping, const std::string& path) {
     const Status status = WritePly(path, mesh);
     if (!status.ok()) return status.message();
     return fmt::format("saved {}: {} triangles", path, mesh.triangles.size());
+}
+
+Status StartPaging(const PipelineConfig& config, const PinholeCamera& camera, const std::string& scan_path, bool wait,
+                   std::unique_ptr<PagingStage>& paging) {
+    if (!config.paging.enabled()) return Status::Ok();
+    Result<std::unique_ptr<CubeReader>> reader = CubeReader::Open(scan_path);
+    if (!reader.ok()) return reader.status();
+    paging = std::make_unique<PagingStage>(config, camera, std::make_unique<Pager>(std::move(reader.value())), wait);
+    return Status::Ok();
+}
+
+TriangleMesh TakeFinalMesh(MappingStage& mapping, std::optional<ScanStage>& scan, PagingStage* paging, Status& status) {
+    if (paging == nullptr || !paging->paged()) return mapping.TakeMesh();
+    if (scan->failed()) {
+        const Status returned = paging->ReturnAll(mapping, *scan);
+        if (returned.ok()) return mapping.TakeMesh();
+        if (status.ok()) status = returned;
+        return {};
+    }
+    const std::string path = scan->path();
+    scan.reset();  // what it keeps for checkpoints would have to fit beside the mesh
+    ReturnFreeMemory();
+    return mapping.TakeStoredMesh(path, status);
 }
 
 void PauseBriefly() { std::this_thread::sleep_for(std::chrono::milliseconds(10)); }

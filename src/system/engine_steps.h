@@ -1,9 +1,11 @@
 // What both engines do the same way.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "system/mapping_stage.h"
+#include "system/paging_stage.h"
 #include "system/recorder_thread.h"
 
 namespace tessera {
@@ -13,6 +15,14 @@ Status StartRecording(const std::string& path, const RecordConfig& config, Frame
 
 // Writes the mesh as it is now; returns how that went, for a person.
 std::string SaveMesh(const MappingStage& mapping, const std::string& path);
+
+// Where the configuration has a memory limit: a stage for the map that is being saved to `scan_path`.
+Status StartPaging(const PipelineConfig& config, const PinholeCamera& camera, const std::string& scan_path, bool wait,
+                   std::unique_ptr<PagingStage>& paging);
+
+// At the end, after ScanStage::Finish: of the map, wherever it is. `scan` and the map go; `paging` may be null. An error goes to
+// `status`, the mesh is then empty.
+TriangleMesh TakeFinalMesh(MappingStage& mapping, std::optional<ScanStage>& scan, PagingStage* paging, Status& status);
 
 // Of a thread that waits for a person's next wish and for a signal that cannot wake it.
 void PauseBriefly();

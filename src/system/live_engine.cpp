@@ -33,6 +33,7 @@ LiveEngine::LiveEngine(EngineInput input)
         mapping_done_.store(true);
         return;
     }
+    mapping_.KeepDeltas();
     std::optional<LoopCloser::Labels> labels;
     if (input.labelling.detector) {
         labels = LoopCloser::Labels{config_.labels, input.labelling.classes};
@@ -70,6 +71,7 @@ Status LiveEngine::StartScan(ScanPlan plan) {
     scan_.emplace(std::move(plan), config_.scan, false, config_.loops.enabled);
     saving_.store(true);
     if (Status status = scan_->Resume(mapping_); !status.ok()) return status;
+    if (Status status = StartPaging(config_.pipeline, source_.camera, scan_->path(), false, paging_); !status.ok()) return status;
     if (mapping_.map().size() == 1) return Status::Ok();
     MapNews whole{delta_pool_.Take(), 0, nullptr};
     mapping_.CollectWhole(*whole.delta);
@@ -87,7 +89,7 @@ bool LiveEngine::Next(FrameOutcome& outcome) {
 
 TriangleMesh LiveEngine::TakeMesh() {
     TESSERA_CHECK(mapping_done_.load(), "the mesh is taken before the end");
-    return mapping_.TakeMesh();
+    return TakeFinalMesh(mapping_, scan_, paging_.get(), status_);
 }
 
 // ---- Reading: source -> newest frames.

@@ -15,6 +15,7 @@
 #include "system/lost_camera.h"
 #include "system/resume_gate.h"
 #include "system/run_control.h"
+#include "system/paging_stage.h"
 #include "system/scan_stage.h"
 #include "system/viewer_feed.h"
 
@@ -96,6 +97,7 @@ class LiveEngine : public Engine {
     void Hand(Task task);
     // Mapping's.
     void MapFrame(Task& task);
+    void Page(TrackedFrame& tracked, FrameOutcome& outcome);
     void SendMapNews();
     void Save(const Task& task, FrameOutcome& outcome);
     std::string SaveScan(const std::string& path);
@@ -121,6 +123,7 @@ class LiveEngine : public Engine {
     std::optional<ScanStage> scan_;  // mapping's; if it is to be saved
     std::vector<PathRecord> past_;   // mapping's, with a window: for a scan that is saved from some time on
     std::atomic<bool> saving_{false};  // there is a scan: tracking tells its state
+    std::unique_ptr<PagingStage> paging_;  // mapping's; null without a memory limit
     ResumeGate gate_;              // tracking's
     Bytes saved_tracking_;         // tracking's, of a resumed scan
     std::optional<StampedPose> saved_pose_;  // the same

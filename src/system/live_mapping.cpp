@@ -24,6 +24,10 @@ void LiveEngine::MapFrames() {
         }
     }
     if (loops_) EndLoops();
+    if (paging_) {
+        paging_->Close();
+        if (const auto message = paging_->TakeMessage()) Tell(FrameOutcome::Kind::kMessage, *message);
+    }
     if (scan_) {
         scan_->Finish(mapping_);
         while (const auto message = scan_->TakeMessage()) Tell(FrameOutcome::Kind::kMessage, *message);
@@ -42,17 +46,17 @@ void LiveEngine::MapFrame(Task& task) {
     }
     Carry(corrections_, task.corrections, tracked.report.track.T_world_camera);
     Carry(corrections_, task.corrections, tracked.view.T_world_camera);
+    if (paging_) Page(tracked, outcome);
     mapping_.Fuse(tracked);
-    if (tracked.report.fused) {
-        SendMapNews();
-        WaitFor(config_.live.extra_mapping_ms);
-    }
+    if (tracked.report.fused || mapping_.has_delta()) SendMapNews();
+    if (tracked.report.fused) WaitFor(config_.live.extra_mapping_ms);
     feed_.ShowPrediction(show_prediction_.load());
     outcome.mesh_ms = feed_.Send(*task.frame, tracked.report, mapping_);
     if (scan_)
         Save(task, outcome);
     else if (viewer_ != nullptr)
         past_.push_back(RecordOf(*task.frame, tracked));
+    if (paging_) paging_->Release(mapping_, *scan_);
     outcome.report = tracked.report;
     outcome.T_world_camera_truth = task.frame->T_world_camera;
     outcome.decode_ms = task.decode_ms;
@@ -64,6 +68,13 @@ void LiveEngine::MapFrame(Task& task) {
     if (scan_) outcome.queues.emplace_back("to scan", scan_->waiting());
     outcomes_.Push(std::move(outcome));
     Offer(task);
+}
+
+// What of the map is away comes back.
+void LiveEngine::Page(TrackedFrame& tracked, FrameOutcome& outcome) {
+    paging_->BeginFrame(mapping_, *scan_);
+    if (paging_->AfterTracking(tracked, mapping_, *scan_)) outcome.fusion_dropped = true;
+    if (const auto message = paging_->TakeMessage()) Tell(FrameOutcome::Kind::kMessage, *message);
 }
 
 void LiveEngine::Save(const Task& task, FrameOutcome& outcome) {
@@ -179,9 +190,10 @@ void LiveEngine::ObeyInMapping(const ViewerCommand& command) {
         if (loops_) loops_->Reset({mapped_world_, 0});
         if (scan_) scan_->Reset();
         past_.clear();
+        if (paging_) paging_->Reset();
         Tell(FrameOutcome::Kind::kReset, {});
     } else if (command.kind == ViewerCommand::Kind::kSaveMesh) {
-        Tell(FrameOutcome::Kind::kMessage, SaveMesh(mapping_, command.path));
+        Tell(FrameOutcome::Kind::kMessage, SaveMesh(mapping_, command.path) + (paging_ ? paging_->Lacking(*scan_) : ""));
     } else if (command.kind == ViewerCommand::Kind::kSaveScan) {
         Tell(FrameOutcome::Kind::kMessage, SaveScan(command.path));
     }

@@ -40,7 +40,7 @@ Status LockstepEngine::StartScan(ScanPlan plan) {
     scan_.emplace(std::move(plan), config_.scan, true, loops_.has_value());
     if (Status status = scan_->Resume(mapping_); !status.ok()) return status;
     if (auto memory = scan_->TakeLoops(); memory && loops_) loops_->Resume(std::move(*memory), last_stamp_s);
-    return Status::Ok();
+    return StartPaging(config_.pipeline, source_.camera, scan_->path(), true, paging_);
 }
 
 bool LockstepEngine::Next(FrameOutcome& outcome) {
@@ -65,6 +65,7 @@ bool LockstepEngine::Next(FrameOutcome& outcome) {
     if (reader_) reader_->RequestStop();
     recorder_.Stop();
     if (loops_) loops_->Finish(mapping_);
+    if (paging_) paging_->Close();
     if (scan_ && loops_) scan_->AddLoops(loops_->TakeNews());
     if (scan_) scan_->Finish(mapping_);
     return TakeMessage(outcome);
@@ -74,8 +75,10 @@ bool LockstepEngine::Next(FrameOutcome& outcome) {
 void LockstepEngine::Process(FrameOutcome& outcome) {
     outcome.decode_ms = reader_->decode_ms();
     recorder_.Add(frame_);
+    if (paging_) paging_->BeginFrame(mapping_, *scan_);
     plan_.Track(frame_, mapping_.map(), tracking_, tracked_);
     gate_.AfterTracking(frame_, tracking_, tracked_);
+    if (paging_) outcome.fusion_dropped = paging_->AfterTracking(tracked_, mapping_, *scan_);
     if (loops_) loops_->AfterTracking(frame_, mapping_.map(), tracking_, tracked_);
     mapping_.Fuse(tracked_);
     if (labelling_ && tracked_.report.fused) Label(outcome);
@@ -84,6 +87,7 @@ void LockstepEngine::Process(FrameOutcome& outcome) {
         Save(outcome);
     else if (viewer_ != nullptr)
         past_.push_back(RecordOf(frame_, tracked_));
+    if (paging_) paging_->Release(mapping_, *scan_);
     outcome.report = tracked_.report;
     outcome.T_world_camera_truth = frame_.T_world_camera;
     outcome.mesh_ms = feed_.Send(frame_, outcome.report, mapping_);
@@ -128,6 +132,7 @@ void LockstepEngine::BeginLoops() {
 bool LockstepEngine::TakeMessage(FrameOutcome& outcome) {
     std::optional<std::string> message = recorder_.TakeMessage();
     if (!message && scan_) message = scan_->TakeMessage();
+    if (!message && paging_) message = paging_->TakeMessage();
     if (message) {
         outcome.kind = FrameOutcome::Kind::kMessage;
         outcome.message = std::move(*message);
@@ -169,11 +174,12 @@ bool LockstepEngine::Obey(const ViewerCommand& command, FrameOutcome& outcome) {
             BeginLoops();
             if (scan_) scan_->Reset();
             past_.clear();
+            if (paging_) paging_->Reset();
             feed_.SendMesh(mapping_);
             outcome.kind = FrameOutcome::Kind::kReset;
             return true;
         case ViewerCommand::Kind::kSaveMesh:
-            outcome.message = SaveMesh(mapping_, command.path);
+            outcome.message = SaveMesh(mapping_, command.path) + (paging_ ? paging_->Lacking(*scan_) : "");
             return true;
         case ViewerCommand::Kind::kSaveScan:
             outcome.message = SaveScan(command.path);
@@ -196,7 +202,7 @@ std::vector<StampedPose> LockstepEngine::CorrectedPath() const {
 
 TriangleMesh LockstepEngine::TakeMesh() {
     reader_.reset();
-    return mapping_.TakeMesh();
+    return TakeFinalMesh(mapping_, scan_, paging_.get(), status_);
 }
 
 }  // namespace tessera

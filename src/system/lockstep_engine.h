@@ -8,6 +8,7 @@
 #include "system/loop_stage.h"
 #include "system/resume_gate.h"
 #include "system/run_control.h"
+#include "system/paging_stage.h"
 #include "system/scan_stage.h"
 #include "system/viewer_feed.h"
 
@@ -49,6 +50,7 @@ class LockstepEngine : public Engine {
     std::optional<LoopCloser::Labels> loop_labels_;
     std::optional<ScanStage> scan_;   // if it is to be saved
     std::vector<PathRecord> past_;    // with a window: for a scan that is saved from some time on
+    std::unique_ptr<PagingStage> paging_;  // null without a memory limit
     ResumeGate gate_;
     TrackedFrame tracked_;
     ViewerFeed feed_;

@@ -2,11 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <numeric>
+#include <algorithm>
 
 #include "core/check.h"
 #include "mapping/ray_caster.h"
 #include "render/vertex_weight.h"
+#include "scan/stored_mesh.h"
 
 namespace tessera {
 
@@ -22,6 +23,10 @@ void MappingStage::Fuse(TrackedFrame& tracked) {
     FrameReport& report = tracked.report;
     report.fusion = integrator_.Integrate(tracked.prepared, tracked.view, *map_);
     report.fused = true;
+    if (keep_deltas_) {
+        for (const BlockId id : integrator_.added_blocks()) block_changes_.push_back({id, false, map_->coord(id)});
+        changed_.insert(changed_.end(), integrator_.changed_blocks().begin(), integrator_.changed_blocks().end());
+    }
     if (report.fusion.refused_blocks > 0)
         report.warning =
             fmt::format("{} of {} new blocks refused: mapping.max_new_blocks", report.fusion.refused_blocks,
@@ -40,15 +45,42 @@ VoteCount MappingStage::Label(std::span<const Detection> detections, const Depth
 }
 
 void MappingStage::CollectDelta(MapDelta& delta) {
-    tessera::CollectDelta(*map_, delta_size_, integrator_.changed_blocks(), integrator_.revision(), delta);
-    delta_size_ = map_->size();
+    std::ranges::sort(changed_);
+    changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());
+    std::erase_if(changed_, [this](BlockId id) { return map_->IsFree(id); });
+    tessera::CollectDelta(*map_, block_changes_, changed_, integrator_.revision(), delta);
+    ForgetDelta();
+}
+
+void MappingStage::Release(std::span<const BlockId> blocks) {
+    for (const BlockId id : blocks) {
+        if (keep_deltas_) block_changes_.push_back({id, true, map_->coord(id)});
+        map_->Release(id);
+    }
+}
+
+void MappingStage::Return(const BlockCopies& blocks, std::vector<BlockId>& ids) {
+    ids.clear();
+    for (std::size_t i = 0; i < blocks.size(); ++i) {
+        TESSERA_CHECK(map_->Find(blocks.coords[i]) == kUnknownBlock, "a block came back that is there");
+        const BlockId id = map_->Allocate(blocks.coords[i], blocks.numbers[i]);
+        TESSERA_CHECK(id != kUnknownBlock, "no room for a block that was here before");
+        blocks.Put(i, *map_, id);
+        map_->MarkChanged(id, integrator_.revision());
+        ids.push_back(id);
+        if (keep_deltas_) block_changes_.push_back({id, false, blocks.coords[i]});
+    }
+    if (keep_deltas_) changed_.insert(changed_.end(), ids.begin(), ids.end());
+}
+
+void MappingStage::ForgetDelta() {
+    block_changes_.clear();
+    changed_.clear();
 }
 
 void MappingStage::CollectWhole(MapDelta& delta) {
-    std::vector<BlockId> all(static_cast<std::size_t>(map_->size()) - 1);
-    std::iota(all.begin(), all.end(), BlockId{1});
-    tessera::CollectDelta(*map_, 1, all, integrator_.revision(), delta);
-    delta_size_ = map_->size();
+    tessera::CollectWhole(*map_, integrator_.revision(), delta);
+    ForgetDelta();
 }
 
 int MappingStage::UpdateMesh(int budget_blocks, MeshUpdate& update) {
@@ -92,6 +124,15 @@ TriangleMesh MappingStage::TakeMesh() {
     return mesh;
 }
 
+TriangleMesh MappingStage::TakeStoredMesh(const std::string& scan_path, Status& status) {
+    map_.reset();
+    mesher_.Clear();
+    Result<TriangleMesh> mesh = MeshOfStoredMap(scan_path, config_.map, mesher_.config());
+    if (mesh.ok()) return std::move(mesh.value());
+    status = mesh.status();
+    return {};
+}
+
 void MappingStage::Predict(const Eigen::Isometry3d& T_world_camera, int step, PredictedView& view) const {
     constexpr float kNear_m = 0.1f;
     RayCaster().Predict(*map_, camera_.Every(step), T_world_camera, kNear_m,
@@ -109,7 +150,7 @@ void MappingStage::Place(std::unique_ptr<BlockMap> map) {
     mesher_.Clear();
     geometry_.Clear();
     if (labels_) ++labels_revision_;
-    delta_size_ = map_->size();
+    ForgetDelta();
     mesh_cleared_ = true;
 }
 
@@ -126,7 +167,7 @@ void MappingStage::Reset() {
         labels_->Reset();
         ++labels_revision_;
     }
-    delta_size_ = 1;
+    ForgetDelta();
     mesh_cleared_ = true;
 }
 

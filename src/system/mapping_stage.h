@@ -5,6 +5,7 @@
 #include "mapping/map_delta.h"
 #include "mapping/mesher.h"
 #include "render/geometry_builder.h"
+#include "scan/block_codec.h"
 #include "semantics/label_mapper.h"
 #include "system/tracking_stage.h"
 
@@ -41,8 +42,15 @@ class MappingStage {
     void SaveLabels(StateWriter& state) const { labels_->SaveState(state); }
     bool LoadLabels(StateReader& state) { return labels_->LoadState(state); }
 
-    // What the last Fuse changed, for a copy of the map's field. To be called after each Fuse that fused, or never.
+    // Deltas are asked for from here on; before the first frame.
+    void KeepDeltas() { keep_deltas_ = true; }
+    // What changed since the last one, for a copy of the map's field; to be called after each Fuse, Release and Return.
     void CollectDelta(MapDelta& delta);
+    bool has_delta() const { return !changed_.empty() || !block_changes_.empty(); }
+
+    // Blocks leave memory, and come back as they were under the ids that `ids` then has.
+    void Release(std::span<const BlockId> blocks);
+    void Return(const BlockCopies& blocks, std::vector<BlockId>& ids);
 
     // All of the map, for a copy that is empty.
     void CollectWhole(MapDelta& delta);
@@ -54,6 +62,9 @@ class MappingStage {
     TriangleMesh Mesh() const;
     // The same at the end: the map goes before the mesh is put together, so that both need not fit into memory.
     TriangleMesh TakeMesh();
+    // The same where part of the map is in the scan file only, and all of it there. Without labels. An error goes to `status`,
+    // the mesh is then empty.
+    TriangleMesh TakeStoredMesh(const std::string& scan_path, Status& status);
 
     // The surface as the camera sees it from where it was, at 1/`step` of its resolution.
     void Predict(const Eigen::Isometry3d& T_world_camera, int step, PredictedView& view) const;
@@ -73,6 +84,7 @@ class MappingStage {
 
   private:
     void Place(std::unique_ptr<BlockMap> map);
+    void ForgetDelta();
 
     PipelineConfig config_;
     PinholeCamera camera_;
@@ -83,7 +95,9 @@ class MappingStage {
     std::unique_ptr<LabelMapper> labels_;  // null without labels
     std::vector<MapObject> objects_;
     std::uint64_t labels_revision_ = 0;
-    BlockId delta_size_ = 1;     // the map's size at the last CollectDelta
+    bool keep_deltas_ = false;
+    std::vector<BlockChange> block_changes_;  // since the last CollectDelta
+    std::vector<BlockId> changed_;            // the same: their field
     bool mesh_cleared_ = false;  // since the last UpdateMesh
 };
 

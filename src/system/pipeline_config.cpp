@@ -15,6 +15,7 @@ void PipelineConfig::Describe(ConfigParameters& p) {
     p.Section("mapping", [&](ConfigParameters& s) {
         map.Describe(s);
         fusion.Describe(s);
+        paging.Describe(s);
     });
     p.Section("tracking", [&](ConfigParameters& s) {
         trackers.Describe(s);

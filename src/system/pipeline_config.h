@@ -6,6 +6,7 @@
 #include "mapping/integrator.h"
 #include "mapping/prepared_frame.h"
 #include "system/motion_model.h"
+#include "system/paging_config.h"
 #include "system/tracking_method.h"
 #include "tracking/image_aligner.h"
 
@@ -24,6 +25,7 @@ struct PipelineConfig {
     PreparedFrame::Config frame;
     BlockMap::Config map;
     Integrator::Config fusion;
+    PagingConfig paging;
     MotionModel::Config motion;
     ShutterConfig shutter;
     ImageAligner::Config prealign;

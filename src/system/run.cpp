@@ -8,7 +8,7 @@
 namespace tessera {
 
 MapStatistics StatisticsOf(const BlockMap& map) {
-    return {map.size() - 1, map.bytes(), map.bytes_per_voxel()};
+    return {map.count(), map.bytes(), map.bytes_per_voxel()};
 }
 
 Result<RunSummary> ExecuteRun(const RunRequest& request, const RunConfig& config, const RunObserver& observer,

@@ -8,6 +8,7 @@
 #include "io/image_io.h"
 #include "io/mesh_io.h"
 #include "io/trajectory.h"
+#include "render/coarse_mesh.h"
 #include "render/mesh_picture.h"
 #include "semantics/detections_file.h"
 #include "system/run_report.h"
@@ -114,8 +115,10 @@ Status RunOutput::WritePicture(const TriangleMesh& mesh) const {
     return WriteColourImage(Path("preview.png"), RenderMesh(mesh, view.camera, view.T_world_camera, style));
 }
 
-Status RunOutput::WriteMesh(const TriangleMesh& mesh) const {
+Status RunOutput::WriteMesh(TriangleMesh mesh) const {
+    constexpr std::size_t kMostInPicture = 2'000'000;  // more than it has pixels; rays cost some 100 bytes a triangle
     const Status status = WritePly(Path("mesh.ply"), mesh);
+    if (mesh.triangles.size() > kMostInPicture) mesh = CoarseMeshOf(mesh, kMostInPicture / 2);
     const Status picture = WritePicture(mesh);
     return status.ok() ? picture : status;
 }

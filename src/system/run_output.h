@@ -31,8 +31,9 @@ class RunOutput {
     // trajectory.txt anew, from poses that are known better now; whole or not at all.
     Status ReplacePath(const std::vector<StampedPose>& path);
 
-    // mesh.ply, and preview.png where the mesh has triangles. The first error, but the other file is tried, too.
-    Status WriteMesh(const TriangleMesh& mesh) const;
+    // mesh.ply, and preview.png where the mesh has triangles: of a large one coarsened, and the mesh itself gone by then. The first
+    // error, but the other file is tried, too.
+    Status WriteMesh(TriangleMesh mesh) const;
 
     // objects.json, timings.json, run.json; likewise.
     Status Finish(const RunSummary& summary);

@@ -27,6 +27,7 @@ Result<RunSummary> Runner::Run(const std::atomic<bool>& stop) {
 Status Runner::Open(const std::atomic<bool>& stop) {
     if (Status status = config_.Validate(); !status.ok()) return status;
     if (Status status = CheckLoops(); !status.ok()) return status;
+    if (Status status = CheckPaging(); !status.ok()) return status;
     std::vector<StampedPose> given;
     if (!request_.poses_file.empty()) {
         Result<Trajectory> poses = ReadTrajectory(request_.poses_file);
@@ -82,6 +83,15 @@ Status Runner::CheckLoops() const {
     return Status::Ok();
 }
 
+Status Runner::CheckPaging() const {
+    if (!config_.pipeline.paging.enabled()) return Status::Ok();
+    const std::string key = "mapping.memory_limit_mb: ";
+    if (request_.scan_file.empty()) return Status::Error(key + "what leaves memory goes to the scan file; give --scan FILE");
+    if (config_.loops.enabled) return Status::Error(key + "not yet with --loop-closure on; leave one of the two out");
+    if (!request_.labels.empty()) return Status::Error(key + "not yet with --labels; leave one of the two out");
+    return Status::Ok();
+}
+
 // With the first frame and not before: a run that is refused says one line, and leaves the results of an earlier one.
 Status Runner::Begin() {
     begun_ = true;
@@ -125,11 +135,13 @@ Status Runner::Correct() {
 
 Status Runner::WriteMesh() {
     Stopwatch watch;
-    const TriangleMesh mesh = engine_->TakeMesh();
+    const bool sound = engine_->status().ok();
+    TriangleMesh mesh = engine_->TakeMesh();
+    if (sound && !engine_->status().ok()) return engine_->status();
     if (summary_.labels) summary_.labels->objects = engine_->objects();
     if (summary_.labels) window_.ShowObjects(engine_->objects());
     times_.Add("mesh", watch.LapMs());
-    return output_->WriteMesh(mesh);
+    return output_->WriteMesh(std::move(mesh));
 }
 
 std::int64_t Runner::Total() const {

@@ -39,7 +39,7 @@ std::string MapText(const ScanContent& scan) {
     const Eigen::Vector3d extent_m =
         box.isEmpty() ? Eigen::Vector3d::Zero()
                       : Eigen::Vector3d((box.sizes().array() + 1).cast<double>() * kBlockSide * scan.meta.voxel_size_m);
-    return fmt::format("map: {} blocks, {:.1f} x {:.1f} x {:.1f} m, voxels of {:g} m, truncation {:g} m{}\n", map.size() - 1,
+    return fmt::format("map: {} blocks, {:.1f} x {:.1f} x {:.1f} m, voxels of {:g} m, truncation {:g} m{}\n", map.count(),
                        extent_m.x(), extent_m.y(), extent_m.z(), scan.meta.voxel_size_m, scan.meta.truncation_m,
                        scan.progress.labels ? ", with labels" : "");
 }

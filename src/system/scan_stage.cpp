@@ -11,6 +11,8 @@
 namespace tessera {
 namespace {
 
+constexpr std::uint32_t kNever = ~0u;  // no block's revision: to be saved
+
 // Frames that loop closure had not come to are where the map had them.
 LoopCloser::Memory LoopMemory(ScanContent& scan) {
     LoopCloser::Memory memory;
@@ -120,6 +122,8 @@ std::optional<std::string> ScanStage::TakeMessage() {
 void ScanStage::Checkpoint(const MappingStage& mapping, bool finished) {
     thread_.WaitUntilIdle();
     path_log_.AddWaiting(*pending_);
+    std::unique_ptr<ScanCheckpoint> next = thread_.Take();
+    std::swap(pending_->blocks, next->blocks);  // the one just written had room for blocks: the only large part needs to be there once
     AddBlocks(mapping);
     progress_.fused_frames = mapping.fused_frames();
     progress_.labels = mapping.has_labels();
@@ -133,7 +137,7 @@ void ScanStage::Checkpoint(const MappingStage& mapping, bool finished) {
     last_time_ = Clock::now();
     saved_ = true;
     thread_.Write(std::move(pending_));
-    pending_ = thread_.Take();
+    pending_ = std::move(next);
 }
 
 void ScanStage::AddBlocks(const MappingStage& mapping) {
@@ -143,12 +147,11 @@ void ScanStage::AddBlocks(const MappingStage& mapping) {
         map_identity_ = map.identity();
         seen_revision_.clear();
     }
-    const auto known = static_cast<BlockId>(seen_revision_.size());
-    seen_revision_.resize(static_cast<std::size_t>(map.size()), 0);
+    seen_revision_.resize(static_cast<std::size_t>(map.size()), kNever);
     changed_.clear();
     for (BlockId id = 1; id < map.size(); ++id) {
         std::uint32_t& seen = seen_revision_[static_cast<std::size_t>(id)];
-        if (id < known && map.revision(id) == seen) continue;
+        if (map.IsFree(id) || map.revision(id) == seen) continue;
         seen = map.revision(id);
         changed_.push_back(id);
     }
@@ -156,9 +159,22 @@ void ScanStage::AddBlocks(const MappingStage& mapping) {
 }
 
 void ScanStage::Touch(std::span<const BlockId> blocks) {
-    constexpr std::uint32_t kNever = ~0u;
     for (const BlockId id : blocks)
         if (static_cast<std::size_t>(id) < seen_revision_.size()) seen_revision_[static_cast<std::size_t>(id)] = kNever;
+}
+
+bool ScanStage::Settle(const MappingStage& mapping, bool checkpoint) {
+    if (checkpoint && !thread_.failed()) Checkpoint(mapping, false);
+    thread_.WaitUntilIdle();
+    return !thread_.failed();
+}
+
+// Their ids may be other blocks' soon.
+void ScanStage::Released(std::span<const BlockId> blocks) { Touch(blocks); }
+
+void ScanStage::Returned(const BlockMap& map, std::span<const BlockId> blocks) {
+    seen_revision_.resize(std::max(seen_revision_.size(), static_cast<std::size_t>(map.size())), kNever);
+    for (const BlockId id : blocks) seen_revision_[static_cast<std::size_t>(id)] = map.revision(id);
 }
 
 void ScanStage::Reset() {
@@ -166,6 +182,7 @@ void ScanStage::Reset() {
     pending_->clear_all = true;
     progress_ = {};
     map_identity_ = 0;
+    seen_revision_.clear();
     path_log_.Clear();
     last_stamp_s_.reset();
 }

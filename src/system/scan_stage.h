@@ -41,6 +41,19 @@ class ScanStage {
     void SaveIfDue(const MappingStage& mapping);
     // Blocks whose labels have changed, which does not count as a change of the block.
     void Touch(std::span<const BlockId> blocks);
+    // The file holds the block as it is, or a checkpoint that is under way.
+    bool Has(const BlockMap& map, BlockId id) const {
+        return static_cast<std::size_t>(id) < seen_revision_.size() && seen_revision_[static_cast<std::size_t>(id)] == map.revision(id);
+    }
+    // All checkpoints are in the file.
+    bool idle() const { return thread_.idle(); }
+    bool failed() const { return thread_.failed(); }
+    // Waits until they are; `checkpoint`: one more of what has changed since. False: the file takes nothing any more.
+    bool Settle(const MappingStage& mapping, bool checkpoint);
+    // Blocks that left the map and are in the file, and those that came back from it.
+    void Released(std::span<const BlockId> blocks);
+    void Returned(const BlockMap& map, std::span<const BlockId> blocks);
+    const std::string& path() const { return path_; }
     // The map and the path begin anew.
     void Reset();
     // The last checkpoint, waited for. Once; a new file in which there is nothing goes.
@@ -48,7 +61,6 @@ class ScanStage {
 
     std::optional<std::string> TakeMessage();
     std::size_t waiting() const { return thread_.waiting(); }
-    const std::string& path() const { return path_; }
 
   private:
     using Clock = std::chrono::steady_clock;

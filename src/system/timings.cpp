@@ -1,5 +1,6 @@
 #include "system/timings.h"
 
+#include <malloc.h>
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -44,6 +45,12 @@ ProcessUsage MeasureProcess() {
     };
     return {seconds(usage.ru_utime) + seconds(usage.ru_stime),
             static_cast<double>(usage.ru_maxrss) / 1024.0};
+}
+
+void ReturnFreeMemory() {
+#ifdef __GLIBC__
+    malloc_trim(0);
+#endif
 }
 
 }  // namespace tessera

@@ -33,4 +33,8 @@ struct ProcessUsage {
 };
 ProcessUsage MeasureProcess();
 
+// What was freed goes back to the system now, as far as the allocator can: before something large is made that need not stand
+// beside it. Costs some milliseconds. Thread-safe.
+void ReturnFreeMemory();
+
 }  // namespace tessera

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
 
 #include "mapping/analytic_fields.h"
@@ -120,6 +121,89 @@ TEST(BlockMap, ClearForgetsEverything) {
         ASSERT_EQ(map.field(id)[i], kUnknownField);
         ASSERT_EQ(map.weight(id)[i], 0);
     }
+}
+
+// Everything that can be asked of a map, against a list of what should be in it.
+void ExpectExactly(const std::map<BlockCoord, std::int32_t>& numbers, const BlockMap& map) {
+    ASSERT_EQ(map.count(), static_cast<std::int64_t>(numbers.size()));
+    BlockId there = 0;
+    for (BlockId id = 1; id < map.size(); ++id) {
+        if (map.IsFree(id)) {
+            ASSERT_EQ(map.revision(id), 0u);
+            for (int slot = 0; slot < 8; ++slot) ASSERT_EQ(map.view().neighbours[8 * id + slot], kUnknownBlock);
+            continue;
+        }
+        ++there;
+        const BlockCoord c = map.coord(id);
+        ASSERT_EQ(map.Find(c), id);
+        ASSERT_EQ(numbers.at(c), map.number(id));
+        for (int slot = 0; slot < 8; ++slot) {
+            const BlockCoord other{c.x + (slot & 1), c.y + (slot >> 1 & 1), c.z + (slot >> 2)};
+            const BlockId neighbour = map.view().neighbours[8 * id + slot];
+            ASSERT_EQ(neighbour != kUnknownBlock, numbers.count(other) == 1);
+            if (neighbour != kUnknownBlock) {
+                ASSERT_EQ(map.coord(neighbour), other);
+            }
+        }
+        ASSERT_EQ(std::ranges::count(map.BlocksInRegion(BlockMap::RegionOf(c)), id), 1);
+    }
+    ASSERT_EQ(there, map.count());
+}
+
+TEST(BlockMap, ReleasedBlocksAreGoneAndTheirIdsUsedAgain) {
+    BlockMap map{BlockMap::Config{}};
+    map.EnableLabels();
+    std::map<BlockCoord, std::int32_t> numbers;
+    std::int32_t allocated = 0;
+    BlockId largest = 0;
+    for (std::uint32_t i = 0; i < 40000; ++i) {
+        const BlockCoord c = RandomCoord(i, i % 3 ? 9 : 14);
+        const bool grow = i / 5000 % 2 == 0;  // by turns more come than go, and more go
+        if (const BlockId id = map.Find(c); id != kUnknownBlock && Mix(i) % 4 >= (grow ? 3u : 0u)) {
+            map.Release(id);
+            numbers.erase(c);
+            ASSERT_EQ(map.Find(c), kUnknownBlock);
+        } else if (id == kUnknownBlock && (grow || i % 8 == 0)) {
+            const BlockId added = map.Allocate(c);
+            numbers[c] = ++allocated;
+            for (int v = 0; v < kBlockVoxels; ++v) {
+                ASSERT_EQ(map.field(added)[v], kUnknownField);
+                ASSERT_EQ(map.weight(added)[v], 0);
+                ASSERT_EQ(map.colour(added)[v], kNoColour);
+                ASSERT_EQ(map.label(added)[v].count[0], 0);
+            }
+            std::fill_n(map.field(added), kBlockVoxels, 7u);
+            std::fill_n(map.weight(added), kBlockVoxels, std::uint16_t{7});
+            std::fill_n(map.colour(added), kBlockVoxels, 7u);
+            map.label(added)[3].count[0] = 7;
+            map.MarkChanged(added, i + 1);
+            largest = std::max(largest, added);
+        }
+        if (i % 2500 == 2499) ExpectExactly(numbers, map);
+    }
+    EXPECT_GT(numbers.size(), 500u);
+    EXPECT_EQ(map.size(), largest + 1);
+    EXPECT_LT(3 * map.size(), 2 * allocated) << "ids are used again";
+    while (!numbers.empty()) {
+        map.Release(map.Find(numbers.begin()->first));
+        numbers.erase(numbers.begin());
+    }
+    ExpectExactly(numbers, map);
+    EXPECT_EQ(map.Allocate({1, 2, 3}), 1) << "the lowest first";
+}
+
+TEST(BlockMap, AReleasedBlockComesBackUnderItsNumber) {
+    BlockMap map{BlockMap::Config{}};
+    for (int i = 0; i < 5; ++i) EXPECT_EQ(map.number(map.Allocate({i, 0, 0})), i + 1);
+    map.Release(map.Find({1, 0, 0}));
+    map.Release(map.Find({3, 0, 0}));
+    EXPECT_EQ(map.number(map.Allocate({9, 0, 0})), 6);
+    const BlockId back = map.Allocate({1, 0, 0}, 2);
+    EXPECT_EQ(back, 4);
+    EXPECT_EQ(map.number(back), 2);
+    EXPECT_EQ(map.next_number(), 7);
+    map.SetNextNumber(100);
+    EXPECT_EQ(map.number(map.Allocate({10, 0, 0})), 100);
 }
 
 TEST(BlockMap, RegionsListTheirBlocks) {

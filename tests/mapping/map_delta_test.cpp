@@ -19,7 +19,8 @@ struct MovingMap {
     BlockMap map{{.voxel_size_m = 0.02, .truncation_m = 0.08}};
     BlockMap copy{map.config(), BlockMap::Layers::kFieldOnly};
     Integrator integrator{{}, camera};
-    BlockId told = 1;
+    std::vector<BlockChange> came_and_went;
+    std::vector<BlockId> back;  // blocks that were away: their field is news, too
 
     void Fuse(int i) {
         BoxRoom room;
@@ -30,11 +31,26 @@ struct MovingMap {
         Integrator::View view;
         view.T_world_camera = T_world_camera;
         integrator.Integrate(prepared, view, map);
+        for (const BlockId id : integrator.added_blocks()) came_and_went.push_back({id, false, map.coord(id)});
+    }
+    void Release(BlockId id) {
+        came_and_went.push_back({id, true, map.coord(id)});
+        map.Release(id);
+    }
+    void Return(const BlockCoord& coord, FieldWord word) {
+        const BlockId id = map.Allocate(coord);
+        std::fill_n(map.field(id), kBlockVoxels, word);
+        map.MarkChanged(id, integrator.revision());
+        came_and_went.push_back({id, false, coord});
+        back.push_back(id);
     }
     void Tell() {
         MapDelta delta;
-        CollectDelta(map, told, integrator.changed_blocks(), integrator.revision(), delta);
-        told = map.size();
+        std::vector<BlockId> changed = integrator.changed_blocks();
+        changed.insert(changed.end(), back.begin(), back.end());
+        CollectDelta(map, came_and_went, changed, integrator.revision(), delta);
+        came_and_went.clear();
+        back.clear();
         ApplyDelta(delta, copy);
     }
 };
@@ -57,6 +73,32 @@ TEST(MapDelta, TheCopyIsTheMapsFieldWordForWord) {
     EXPECT_LT(world.copy.bytes(), 0.6 * static_cast<double>(world.map.bytes()));
 }
 
+TEST(MapDelta, ACopyFollowsBlocksThatGoAndComeBack) {
+    MovingMap world;
+    for (int i = 0; i < 6; ++i) {
+        world.Fuse(i);
+        world.Tell();
+        std::vector<BlockCoord> away;
+        for (BlockId id = 1 + i; id < world.map.size(); id += 3) {
+            if (world.map.IsFree(id)) continue;
+            away.push_back(world.map.coord(id));
+            world.Release(id);
+        }
+        for (std::size_t j = 0; j < away.size(); j += 4) world.Return(away[away.size() - 1 - j], 11u + static_cast<FieldWord>(j));
+        world.Release(world.map.Find(away[away.size() - 1]));
+        ASSERT_LT(world.map.count(), world.map.size() - 1);
+    }
+    world.Fuse(6);
+    world.Tell();
+    ASSERT_EQ(world.copy.size(), world.map.size());
+    ASSERT_EQ(world.copy.count(), world.map.count());
+    for (BlockId id = 0; id < world.map.size(); ++id) {
+        ASSERT_EQ(world.copy.IsFree(id), world.map.IsFree(id));
+        ASSERT_EQ(world.copy.coord(id), world.map.coord(id));
+        ASSERT_EQ(std::memcmp(world.copy.field(id), world.map.field(id), kBlockVoxels * sizeof(FieldWord)), 0) << id;
+    }
+}
+
 TEST(CopyField, IsTheWholeFieldUnderTheSameIdsAndNewToWhoeverLooks) {
     MovingMap world;
     for (int i = 0; i < 3; ++i) world.Fuse(i);
@@ -69,10 +111,10 @@ TEST(CopyField, IsTheWholeFieldUnderTheSameIdsAndNewToWhoeverLooks) {
         ASSERT_NE(copy->revision(id), 0u);
     }
     // The next delta goes on from there.
-    const BlockId told = world.map.size();
+    world.came_and_went.clear();
     world.Fuse(3);
     MapDelta delta;
-    CollectDelta(world.map, told, world.integrator.changed_blocks(), world.integrator.revision(), delta);
+    CollectDelta(world.map, world.came_and_went, world.integrator.changed_blocks(), world.integrator.revision(), delta);
     ApplyDelta(delta, *copy);
     for (BlockId id = 1; id < world.map.size(); ++id)
         ASSERT_EQ(std::memcmp(copy->field(id), world.map.field(id), kBlockVoxels * sizeof(FieldWord)), 0) << id;

@@ -17,7 +17,7 @@ class ScanLoops : public testing::TestWithParam<bool> {
   protected:
     ScanLoops() {
         config.live.queue_frames = 100;  // no frame is dropped, however slow the machine
-        config.live.playback_speed = 2;
+        config.live.playback_speed = 1;
         config.loops.enabled = true;
         config.pipeline.map = {.voxel_size_m = 0.02, .truncation_m = 0.08};
         config.pipeline.trackers.sdf.finest_step_px = 1;
@@ -82,8 +82,9 @@ TEST_P(ScanLoops, KeyframesFramesAndLoopsComeBackAndALostCameraIsFoundByThem) {
     ASSERT_EQ(stored.size(), before.size());
     for (std::size_t i = 0; i < stored.size(); ++i)
         EXPECT_EQ(stored[i].T_world_camera.matrix(), before[i].T_world_camera.matrix()) << i;
-    // Ten seconds later the camera sees what it saw at the beginning, not at the end. Live it is held there until it is found.
-    const std::vector<Frame> again = GetParam() ? std::vector<Frame>(1800, RoomWalk(21, 1, 1).front()) : RoomWalk(21, 10, 1);
+    // Ten seconds later the camera sees what it saw at the beginning, not at the end. Live it is held there until it is found,
+    // beside the first keyframe: of the later frames a slow machine may not have kept the images.
+    const std::vector<Frame> again = GetParam() ? std::vector<Frame>(1800, RoomWalk(2, 1, 1).front()) : RoomWalk(21, 10, 1);
     stop_when_tracked = GetParam();
     const std::vector<FrameReport> reports = Run(again, 12, true);
     EXPECT_TRUE(GetParam() || reports[0].tracked()) << reports[0].track.reason;

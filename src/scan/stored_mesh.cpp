@@ -1,0 +1,127 @@
+#include "scan/stored_mesh.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <unordered_map>
+
+#include "mapping/mesh_assembly.h"
+#include "scan/cube_reader.h"
+#include "scan/scan_file.h"
+
+namespace tessera {
+namespace {
+
+// Cubes of the file in a map, around the one that is being meshed.
+class CubeWindow {
+  public:
+    CubeWindow(CubeReader& reader, const BlockMap::Config& config) : reader_(reader), map_(config) {}
+
+    const BlockMap& map() const { return map_; }
+
+    Status Index() {
+        Result<std::vector<std::pair<std::int64_t, std::int32_t>>> cubes = reader_.Cubes();
+        if (!cubes.ok()) return cubes.status();
+        for (const auto& [key, blocks] : cubes.value()) {
+            order_.push_back(key);
+            cubes_[key].stored = blocks;
+            count_ += blocks;
+        }
+        return Status::Ok();
+    }
+    // Of all cubes' blocks: their numbers run from 1 to it.
+    std::int64_t count() const { return count_; }
+    const std::vector<std::int64_t>& order() const { return order_; }
+    const std::vector<BlockId>& blocks(std::int64_t key) const { return cubes_.at(key).ids; }
+
+    // The cube and all around it are there, whole.
+    Status MoveTo(std::int64_t key) {
+        constexpr std::int64_t kMostBlocks = 20000;  // 100 MB; what is behind is read again at most a few times
+        const BlockCoord at = CubeOfKey(key);
+        if (map_.count() > kMostBlocks) Leave(at);
+        for (int z = -1; z <= 1; ++z)
+            for (int y = -1; y <= 1; ++y)
+                for (int x = -1; x <= 1; ++x) {
+                    const auto cube = cubes_.find(CubeKey({at.x + x, at.y + y, at.z + z}));
+                    if (cube == cubes_.end() || !cube->second.ids.empty()) continue;
+                    if (Status status = Load(cube->first, cube->second); !status.ok()) return status;
+                }
+        return Status::Ok();
+    }
+
+  private:
+    struct Cube {
+        std::int32_t stored = 0;
+        std::vector<BlockId> ids;  // empty: not in the map
+    };
+
+    Status Load(std::int64_t key, Cube& cube) {
+        if (Status status = reader_.Read(key, copies_); !status.ok()) return status;
+        if (static_cast<std::int32_t>(copies_.size()) != cube.stored) return DamagedScan(reader_.path(), "blocks");
+        for (std::size_t i = 0; i < copies_.size(); ++i) {
+            const BlockId id = map_.Allocate(copies_.coords[i], copies_.numbers[i]);
+            copies_.Put(i, map_, id);
+            cube.ids.push_back(id);
+        }
+        return Status::Ok();
+    }
+
+    void Leave(const BlockCoord& at) {
+        for (auto& [key, cube] : cubes_) {
+            const BlockCoord c = CubeOfKey(key);
+            if (std::max({std::abs(c.x - at.x), std::abs(c.y - at.y), std::abs(c.z - at.z)}) <= 1) continue;
+            for (const BlockId id : cube.ids) map_.Release(id);
+            cube.ids.clear();
+        }
+    }
+
+    CubeReader& reader_;
+    BlockMap map_;
+    std::unordered_map<std::int64_t, Cube> cubes_;
+    std::vector<std::int64_t> order_;
+    std::int64_t count_ = 0;
+    BlockCopies copies_;
+};
+
+// As of a map whose blocks' ids are their numbers.
+std::unique_ptr<const BlockMesh> MeshByNumber(const BlockMap& map, BlockId id, double min_weight) {
+    const std::unique_ptr<const BlockMesh> mesh = MeshBlock(map, id, min_weight);
+    if (!mesh) return nullptr;
+    auto numbered = std::make_unique<BlockMesh>(*mesh);
+    for (BlockId& block : numbered->blocks) block = map.number(block);
+    return numbered;
+}
+
+// Every block's, by number.
+Result<std::vector<std::unique_ptr<const BlockMesh>>> MeshCubes(const std::string& path, const BlockMap::Config& config,
+                                                                double min_weight) {
+    Result<std::unique_ptr<CubeReader>> reader = CubeReader::Open(path);
+    if (!reader.ok()) return reader.status();
+    CubeWindow window(*reader.value(), config);
+    if (Status status = window.Index(); !status.ok()) return status;
+    std::vector<std::unique_ptr<const BlockMesh>> meshes(static_cast<std::size_t>(window.count()) + 1);
+    std::vector<bool> there(meshes.size());
+    for (const std::int64_t key : window.order()) {
+        if (Status status = window.MoveTo(key); !status.ok()) return status;
+        const std::vector<BlockId>& blocks = window.blocks(key);
+        for (const BlockId id : blocks) {
+            const auto number = static_cast<std::size_t>(window.map().number(id));
+            if (number >= meshes.size() || there[number]) return DamagedScan(path, fmt::format("block number {}", number));
+            there[number] = true;
+        }
+        tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t i) {
+            meshes[static_cast<std::size_t>(window.map().number(blocks[i]))] = MeshByNumber(window.map(), blocks[i], min_weight);
+        });
+    }
+    return meshes;
+}
+
+}  // namespace
+
+Result<TriangleMesh> MeshOfStoredMap(const std::string& path, const BlockMap::Config& config, const MeshConfig& meshing) {
+    const auto meshes = MeshCubes(path, config, meshing.min_weight);
+    if (!meshes.ok()) return meshes.status();
+    return AssembleMesh(meshes.value(), config.voxel_size_m, meshing.min_component_triangles);
+}
+
+}  // namespace tessera

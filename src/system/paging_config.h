@@ -1,0 +1,15 @@
+// How much of the map may be in memory at a time.
+#pragma once
+
+#include "core/config.h"
+
+namespace tessera {
+
+struct PagingConfig {
+    double memory_limit_mb = 0;  // 0: no limit
+
+    bool enabled() const { return memory_limit_mb > 0; }
+    void Describe(ConfigParameters& parameters);
+};
+
+}  // namespace tessera

@@ -1,0 +1,243 @@
+// Maps larger than their memory limit, on the exact little world.
+#include "system/paging_stage.h"
+
+#include <cstdio>
+#include <filesystem>
+#include <numbers>
+
+#include "support/temp_folder.h"
+#include "system/engine_fixture.h"
+#include "system/scan_export.h"
+
+namespace tessera {
+namespace {
+
+using testing_support::BoxRoom;
+using testing_support::BoxRoomSource;
+
+constexpr int kSteps = 45, kTurn = 8, kFrames = 2 * kSteps + kTurn;
+
+// Along a hall of 21 m, around, and back.
+Eigen::Isometry3d WalkPose(int i) {
+    const int forth = std::min(i, kSteps), back = std::max(0, i - kSteps - kTurn);
+    const double turned = std::numbers::pi * std::clamp(i - kSteps, 0, kTurn) / kTurn;
+    Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity();
+    T_world_camera.translation().z() = 0.4 * (forth - back);
+    T_world_camera.linear() = Eigen::AngleAxisd(turned, Eigen::Vector3d::UnitY()).toRotationMatrix();
+    return T_world_camera;
+}
+
+BoxRoom Hall() {
+    BoxRoom room;
+    room.low = {-1.0, -0.8, -1.0};
+    room.high = {0.9, 0.7, 20.0};
+    return room;
+}
+
+class HallSource : public FrameSource {
+  public:
+    HallSource() {
+        info_ = BoxRoomSource({.count = kFrames}).info();
+    }
+    const SourceInfo& info() const override { return info_; }
+    ReadResult Read(Frame& frame) override {
+        if (next_ == kFrames) return {ReadStatus::kEnd, {}};
+        frame = room_.Render(info_.camera, WalkPose(next_), next_ / 30.0);
+        frame.index = next_++;
+        return {};
+    }
+    bool Seek(std::int64_t index) override {
+        next_ = static_cast<int>(index);
+        return true;
+    }
+
+  private:
+    SourceInfo info_;
+    BoxRoom room_ = Hall();
+    int next_ = 0;
+};
+
+class Paging : public EngineTest {
+  protected:
+    Paging() {
+        config.pipeline.frame.max_depth_m = 2.0;
+        config.scan.interval_s = 0.1;
+    }
+
+    void Start(bool live, double limit_mb) {
+        config.pipeline.paging.memory_limit_mb = limit_mb;
+        EngineInput input = Input({});
+        input.source = std::make_unique<HallSource>();
+        std::vector<StampedPose> poses;
+        for (int i = 0; i < kFrames; ++i) poses.push_back({i / 30.0, WalkPose(i)});
+        input.plan = FramePlan({}, std::move(poses), "poses");
+        if (limit_mb > 0) {
+            Result<ScanPlan> plan = BeginScan(path, BoxRoomSource().info(), config);
+            EXPECT_TRUE(plan.ok()) << plan.message();
+            input.scan = std::move(plan.value());
+        }
+        outcomes.clear();
+        if (live)
+            engine = std::make_unique<LiveEngine>(std::move(input));
+        else
+            engine = std::make_unique<LockstepEngine>(std::move(input));
+    }
+    TriangleMesh Run(bool live, double limit_mb) {
+        Start(live, limit_mb);
+        TakeAll();
+        EXPECT_TRUE(engine->status().ok()) << engine->status().message();
+        resident = engine->map_statistics().blocks;
+        TriangleMesh mesh = engine->TakeMesh();
+        EXPECT_TRUE(engine->status().ok()) << engine->status().message();
+        return mesh;
+    }
+    // So many frames from now.
+    void TakeFrames(int count) {
+        for (std::int64_t end = Count(Kind::kFrame) + count; Count(Kind::kFrame) < end;) ASSERT_TRUE(Next());
+    }
+    std::int64_t MostBlocks() const {
+        std::int64_t most = 0;
+        for (const FrameOutcome& o : outcomes) most = std::max(most, o.map.blocks);
+        return most;
+    }
+
+    TempFolder folder;
+    std::string path = folder / "a.scan";
+    std::int64_t resident = 0;
+};
+
+TEST_F(Paging, ALimitChangesNothingButTheMemory) {
+    const TriangleMesh whole = Run(false, 0);
+    const std::int64_t blocks = resident;
+    const auto expected = std::move(outcomes);
+    constexpr double kLimit_mb = 24;
+    const TriangleMesh mesh = Run(false, kLimit_mb);
+    ASSERT_GT(whole.triangles.size(), 100000u);
+    EXPECT_EQ(mesh.vertices, whole.vertices);
+    EXPECT_EQ(mesh.normals, whole.normals);
+    EXPECT_EQ(mesh.colours, whole.colours);
+    EXPECT_EQ(mesh.triangles, whole.triangles);
+    EXPECT_LT(2 * MostBlocks(), blocks);
+    for (const FrameOutcome& o : outcomes) EXPECT_LT(static_cast<double>(o.map.bytes), 1e6 * kLimit_mb);
+    EXPECT_EQ(Messages().find("memory_limit"), std::string::npos);
+    EXPECT_FALSE(std::filesystem::exists(path + "-wal")) << "the file is one again";
+
+    {
+        const Result<ScanContent> scan = ReadScan(path, {});
+        ASSERT_TRUE(scan.ok()) << scan.message();
+        EXPECT_EQ(scan.value().map->count(), blocks) << "the file has all of it";
+    }
+    // What comes and goes when hangs on nothing but the frames.
+    ASSERT_EQ(std::remove(path.c_str()), 0);
+    const auto first = std::move(outcomes);
+    Run(false, kLimit_mb);
+    ASSERT_EQ(outcomes.size(), first.size());
+    for (std::size_t i = 0; i < first.size(); ++i) EXPECT_EQ(outcomes[i].map.blocks, first[i].map.blocks) << i;
+}
+
+// Frames are dropped and some are not fused, but no block is there twice or lost.
+TEST_F(Paging, LiveKeepsTheLimitAndTheMap) {
+    config.live.playback_speed = 0.4;
+    config.live.queue_frames = kFrames;  // every frame is tracked, however slow the machine
+    const TriangleMesh mesh = Run(true, 24);
+    const Result<ScanContent> scan = ReadScan(path, {});
+    ASSERT_TRUE(scan.ok()) << scan.message();
+    EXPECT_GT(scan.value().map->count(), 3 * resident / 2);
+    ASSERT_GT(mesh.triangles.size(), 100000u);
+    const BoxRoom hall = Hall();
+    for (const Eigen::Vector3f& v : mesh.vertices) ASSERT_LT(std::abs(hall.SignedDistance(v.cast<double>())), 0.02) << v.transpose();
+}
+
+TEST_F(Paging, ALimitThatIsTooSmallIsSaidOnce) {
+    Run(false, 1);
+    const std::string said = Messages();
+    const std::size_t at = said.find("mapping.memory_limit_mb: 1 MB are too few");
+    ASSERT_NE(at, std::string::npos) << said;
+    EXPECT_EQ(said.find("memory_limit_mb", at + 20), std::string::npos);
+}
+
+// What lies between 2 and 4 m of the hall is damaged while it is away.
+TEST_F(Paging, WhatCannotBeReadBackIsSaidOnceAndNothingIsFusedThere) {
+    Start(false, 24);
+    TakeFrames(kSteps + kTurn);
+    {
+        auto reader = CubeReader::Open(path);
+        ASSERT_TRUE(reader.ok());
+        auto database = Database::Open(path, Database::Access::kWrite);
+        ASSERT_TRUE(database.ok());
+        const double cube_m = kCubeBlocks * kBlockSide * config.pipeline.map.voxel_size_m;
+        const auto cubes = reader.value()->Cubes();
+        ASSERT_TRUE(cubes.ok());
+        for (const auto& [key, blocks] : cubes.value()) {
+            const double z_m = CubeOfKey(key).z * cube_m;
+            if (z_m < 2 || z_m > 4) continue;
+            const std::string keys = std::to_string(key) + " AND " + std::to_string(key + kCubeKeys - 1);
+            ASSERT_TRUE(database.value()->Execute("UPDATE blocks SET checksum = checksum + 1 WHERE key BETWEEN " + keys).ok());
+        }
+    }
+    TakeAll();
+    EXPECT_TRUE(engine->status().ok()) << engine->status().message();
+    const std::string said = Messages();
+    const std::size_t at = said.find("tessera scan repair");
+    ASSERT_NE(at, std::string::npos) << said;
+    EXPECT_NE(said.find("not fused"), std::string::npos);
+    EXPECT_EQ(said.find("tessera scan repair", at + 1), std::string::npos);
+    int not_fused = 0;
+    for (const FrameOutcome& o : outcomes) {
+        if (o.kind != Kind::kFrame) continue;
+        const double z_m = WalkPose(static_cast<int>(o.report.index)).translation().z();
+        const bool back = o.report.index >= kSteps + kTurn;
+        not_fused += !o.report.fused;
+        EXPECT_EQ(o.report.fused, !o.fusion_dropped);
+        const bool far = !back || z_m > 8, within = back && z_m > 3 && z_m < 5;
+        EXPECT_TRUE(o.report.fused || !far) << o.report.index;
+        EXPECT_FALSE(o.report.fused && within) << o.report.index;
+    }
+    EXPECT_GT(not_fused, 5);
+    EXPECT_TRUE(engine->TakeMesh().triangles.empty());
+    EXPECT_NE(engine->status().message().find("tessera scan repair"), std::string::npos) << engine->status().message();
+}
+
+TEST_F(Paging, AnEmptyMapBeginsWhileCubesAreUnderWay) {
+    ViewerLink link;
+    viewer = &link;
+    Start(false, 24);
+    TakeFrames(kSteps + kTurn + 5);
+    Ask(Command::kReset);
+    TakeAll();
+    EXPECT_TRUE(engine->status().ok()) << engine->status().message();
+    EXPECT_EQ(Count(Kind::kReset), 1);
+    EXPECT_EQ(Messages().find("scan repair"), std::string::npos) << Messages();
+    const TriangleMesh mesh = engine->TakeMesh();
+    ASSERT_GT(mesh.triangles.size(), 50000u);
+    const BoxRoom hall = Hall();
+    for (const Eigen::Vector3f& v : mesh.vertices) ASSERT_LT(std::abs(hall.SignedDistance(v.cast<double>())), 0.02) << v.transpose();
+}
+
+TEST_F(Paging, LiveCanBeLeftAtAnyTime) {
+    for (const int frames : {1, kSteps, kSteps + kTurn + 10}) {
+        Start(true, 24);
+        for (int i = 0; i < frames && Next(); ++i) {}
+        engine.reset();
+        std::remove(path.c_str());
+    }
+}
+
+// As of a full disk.
+TEST_F(Paging, AFileThatTakesNothingAnyMoreCostsMemoryButNoMap) {
+    const TriangleMesh whole = Run(false, 0);
+    Start(false, 24);
+    TakeFrames(kSteps);
+    auto database = Database::Open(path, Database::Access::kWrite);
+    ASSERT_TRUE(database.value()->Execute("BEGIN IMMEDIATE").ok());
+    TakeAll();
+    EXPECT_TRUE(engine->status().ok()) << engine->status().message();
+    EXPECT_NE(Messages().find("no longer saved"), std::string::npos);
+    const TriangleMesh mesh = engine->TakeMesh();
+    EXPECT_TRUE(engine->status().ok()) << engine->status().message();
+    EXPECT_EQ(mesh.vertices.size(), whole.vertices.size());
+    EXPECT_EQ(mesh.triangles.size(), whole.triangles.size());
+}
+
+}  // namespace
+}  // namespace tessera
