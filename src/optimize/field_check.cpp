@@ -41,6 +41,7 @@ FieldVerdict FieldCheck::Check(std::span<const NearFrame> old_frames, const Fres
         verdict.reason = "seen from the other side, " + verdict.reason;
         return verdict;
     }
+    verdict.explained = std::min(forward.known_fraction * forward.inlier_fraction, backward.known_fraction * backward.inlier_fraction);
     const Eigen::Isometry3d disagreement = forward.T_world_camera * backward.T_world_camera;
     const double off_m = disagreement.translation().norm();
     const double off_rad = RotationAngle(disagreement, Eigen::Isometry3d::Identity());

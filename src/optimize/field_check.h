@@ -44,6 +44,7 @@ struct FieldVerdict {
     bool accepted = false;
     // Where it was expected the frame fits about as well: tracking against the map has closed this loop by itself.
     bool closed_before = false;
+    double explained = 0;  // of each side's depth, the share that lies on the other's surface: the smaller one
     Eigen::Isometry3d T_old_new = Eigen::Isometry3d::Identity();
     std::string reason;  // in words, unless accepted
 };

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <utility>
 
@@ -188,11 +189,17 @@ std::optional<LoopCloser::Correction> LoopCloser::Finish() {
     return last;
 }
 
+// Of several places the one that explains the view, if it does so far better than any other.
 std::optional<Eigen::Isometry3d> LoopCloser::Relocalise(const PreparedFrame& frame, std::string& note) {
-    constexpr double kApart_m = 0.3, kApart_rad = 0.3;
+    constexpr double kApart_m = 0.3, kApart_rad = 0.3, kAsWell = 0.6;
     constexpr int kManyCandidates = 4;  // times as many as for a loop: nothing else tells where the camera is
+    struct Place {
+        int keyframe = 0;
+        Eigen::Isometry3d T_map_camera;
+        double explained = 0;
+    };
     const Features features = ExtractFeatures(frame, settings_.camera, config_.max_features);
-    std::optional<Eigen::Isometry3d> found;
+    std::vector<Place> places;
     relocalised_at_.reset();
     for (const auto& candidate : index_.Query(features.descriptors, keyframes_.size(),
                                               kManyCandidates * config_.candidates, config_.min_votes)) {
@@ -200,25 +207,26 @@ std::optional<Eigen::Isometry3d> LoopCloser::Relocalise(const PreparedFrame& fra
         const FeatureMatch match = MatchFeatures(old.features, features, config_);
         if (!match.accepted) continue;
         const Eigen::Isometry3d T_guess = old.T_map_camera * match.T_old_new;
-        const auto apart = [&] {
-            return (found->translation() - T_guess.translation()).norm() > kApart_m ||
-                   RotationAngle(*found, T_guess) > kApart_rad;
+        const auto same = [&](const Place& place) {
+            return (place.T_map_camera.translation() - T_guess.translation()).norm() <= kApart_m &&
+                   RotationAngle(place.T_map_camera, T_guess) <= kApart_rad;
         };
-        if (found && !apart()) continue;
+        if (std::ranges::any_of(places, same)) continue;
         const FieldVerdict verdict = verifier_.VerifyPlace(keyframes_, old, frame, match.T_old_new, store_);
-        if (!verdict.accepted) continue;
-        if (found) {
-            note = fmt::format("this could be at frame {} or at frame {}", keyframes_[*relocalised_at_].frame_index,
-                               old.frame_index);
-            relocalised_at_.reset();
-            return std::nullopt;
-        }
-        found = Normalised(old.T_map_camera * verdict.T_old_new);
-        relocalised_at_ = old.id;
-        note = fmt::format("found again, at frame {}", old.frame_index);
+        if (verdict.accepted) places.push_back({old.id, Normalised(old.T_map_camera * verdict.T_old_new), verdict.explained});
     }
-    if (found) keyframes_.Jump();
-    return found;
+    if (places.empty()) return std::nullopt;
+    std::ranges::stable_sort(places, std::greater{}, &Place::explained);
+    const Place& best = places.front();
+    if (places.size() > 1 && places[1].explained >= kAsWell * best.explained) {
+        note = fmt::format("this could be at frame {} or at frame {}", keyframes_[best.keyframe].frame_index,
+                           keyframes_[places[1].keyframe].frame_index);
+        return std::nullopt;
+    }
+    relocalised_at_ = best.keyframe;
+    note = fmt::format("found again, at frame {}", keyframes_[best.keyframe].frame_index);
+    keyframes_.Jump();
+    return best.T_map_camera;
 }
 
 std::vector<StampedPose> LoopCloser::Path() const {

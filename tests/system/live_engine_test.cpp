@@ -54,7 +54,6 @@ TEST_F(Live, SlowMappingLeavesFramesUnfusedAndTracksThem) {
     EXPECT_EQ(Count(Kind::kFrame), 45);
     EXPECT_GT(unfused, 10);
     EXPECT_GT(fused, 1);
-    EXPECT_LT(fused, 20);
 }
 
 // Tracking ten times slower: frames are dropped, the newest are tracked, and the slow camera is not lost.
