@@ -48,6 +48,10 @@ class FrameStore {
     void Resume(std::vector<StoredFrame> frames, std::int64_t next_ordinal);
     // Index (the ordinal), colour and depth, into storage that is used again; the rest of `frame` stays.
     Status Load(const StoredFrame& stored, Frame& frame);
+    // The same made ready for tracking and fusion. Frames of an earlier process may be damaged: errors are what the decoders
+    // refuse, and images of another size than the camera's.
+    Status LoadPrepared(const StoredFrame& stored, const PinholeCamera& camera, const PreparedFrame::Config& preparation,
+                        Frame& frame, PreparedFrame& prepared);
 
     // A frame added by this process, by its index; null if it is not kept.
     const StoredFrame* Find(std::int64_t frame_index) const;
@@ -56,11 +60,6 @@ class FrameStore {
     std::int64_t next_ordinal() const { return next_ordinal_; }
     std::size_t bytes() const { return bytes_; }
     int stride() const { return stride_; }  // of the ordinals kept: 1 until the limit was reached
-
-    // The same made ready for tracking and fusion. Frames of an earlier process may be damaged: errors are what the decoders
-    // refuse, and images of another size than the camera's.
-    Status LoadPrepared(const StoredFrame& stored, const PinholeCamera& camera, const PreparedFrame::Config& preparation,
-                        Frame& frame, PreparedFrame& prepared);
 
   private:
     void Thin();

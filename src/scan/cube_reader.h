@@ -16,7 +16,8 @@ class CubeReader {
     // A file that this process writes, or has read before: its header is not looked at again.
     static Result<std::unique_ptr<CubeReader>> Open(const std::string& path);
 
-    // All blocks of a cube, by increasing key; perhaps none; their numbers are at least 1. An error names the file, `blocks` is then of no use.
+    // All blocks of a cube, by increasing key; perhaps none; their numbers are at least 1. An error names the file, `blocks` is
+    // then of no use.
     Status Read(std::int64_t cube_key, BlockCopies& blocks);
 
     // The keys of all cubes that have blocks, increasing, with how many.

@@ -34,9 +34,8 @@ struct ObservedObject {
 
 // What the predicted view shows of an instance.
 struct VisibleObject {
-    VisibleObject(int pixels_ = 0, const Eigen::AlignedBox2d& image_box_ = {}) : pixels(pixels_), image_box(image_box_) {}
-    int pixels;
-    Eigen::AlignedBox2d image_box;  // around them but for strays, pixels
+    int pixels = 0;
+    Eigen::AlignedBox2d image_box = {};  // around them but for strays, pixels
 };
 
 struct InstanceRecord {
@@ -63,8 +62,8 @@ class Instances {
     // detection, 0 if it says nothing of any.
     std::vector<InstanceId> Match(const std::vector<ObservedObject>& observed, const std::map<InstanceId, VisibleObject>& visible);
 
-    // The instances of its class that the detection holds nearly whole and that none of the frame's detections is of: missed
-    // ones, before or upon it. `match` as Match returns it.
+    // The instances that the detection holds nearly whole and that none of the frame's detections is of: missed ones, before or
+    // upon it; of other classes only those that stand. `match` as Match returns it.
     std::vector<InstanceId> Covered(const ObservedObject& observed, const std::map<InstanceId, VisibleObject>& visible,
                                     const std::vector<InstanceId>& match) const;
 

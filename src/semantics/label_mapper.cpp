@@ -56,7 +56,11 @@ Instances::Config InstanceConfig(const LabelConfig& config) { return {config.min
 }  // namespace
 
 LabelMapper::LabelMapper(const LabelConfig& config, LabelClasses classes, const PinholeCamera& camera)
-    : config_(config), classes_(std::move(classes)), camera_(camera), step_px_(std::max(1, camera.width / kSampledColumns)), instances_(InstanceConfig(config)) {}
+    : config_(config),
+      classes_(std::move(classes)),
+      camera_(camera),
+      step_px_(std::max(1, camera.width / kSampledColumns)),
+      instances_(InstanceConfig(config)) {}
 
 VoteCount LabelMapper::Label(std::span<const Detection> detections, const DepthImage& depth_m,
                              const Eigen::Isometry3d& T_world_camera, BlockMap& map) {

@@ -24,6 +24,16 @@ std::string SaveMesh(const MappingStage& mapping, const std::string& path) {
     return fmt::format("saved {}: {} triangles", path, mesh.triangles.size());
 }
 
+std::string SaveScan(const std::string& path, const SourceInfo& source, const RunConfig& config, bool wait,
+                     std::vector<PathRecord>& past, std::optional<ScanStage>& scan) {
+    if (scan) return "the scan is being saved already: " + scan->path();
+    Result<ScanPlan> plan = BeginScan(path, source, config);
+    if (!plan.ok()) return plan.message();
+    scan.emplace(std::move(plan.value()), config.scan, wait, config.loops.enabled);
+    scan->AddPast(std::exchange(past, {}));
+    return "scan saved, and from now on as it goes: " + path;
+}
+
 Status StartPaging(const PipelineConfig& config, const PinholeCamera& camera, const std::string& scan_path, bool wait,
                    std::unique_ptr<PagingStage>& paging) {
     if (!config.paging.enabled()) return Status::Ok();

@@ -16,6 +16,11 @@ Status StartRecording(const std::string& path, const RecordConfig& config, Frame
 // Writes the mesh as it is now; returns how that went, for a person.
 std::string SaveMesh(const MappingStage& mapping, const std::string& path);
 
+// A scan file in the midst of a run, `past` its frames so far: from now on there is a `scan`, unless there was one. Returns how
+// that went, for a person.
+std::string SaveScan(const std::string& path, const SourceInfo& source, const RunConfig& config, bool wait,
+                     std::vector<PathRecord>& past, std::optional<ScanStage>& scan);
+
 // Where the configuration has a memory limit: a stage for the map that is being saved to `scan_path`.
 Status StartPaging(const PipelineConfig& config, const PinholeCamera& camera, const std::string& scan_path, bool wait,
                    std::unique_ptr<PagingStage>& paging);

@@ -100,7 +100,6 @@ class LiveEngine : public Engine {
     void Page(TrackedFrame& tracked, FrameOutcome& outcome);
     void SendMapNews();
     void Save(const Task& task, FrameOutcome& outcome);
-    std::string SaveScan(const std::string& path);
     void Offer(Task& task);
     void TakeLabels();
     bool UpdateFits() const;

@@ -85,17 +85,6 @@ void LiveEngine::Save(const Task& task, FrameOutcome& outcome) {
     while (const auto message = scan_->TakeMessage()) Tell(FrameOutcome::Kind::kMessage, *message);
 }
 
-std::string LiveEngine::SaveScan(const std::string& path) {
-    if (scan_) return "the scan is being saved already: " + scan_->path();
-    Result<ScanPlan> plan = BeginScan(path, source_, config_);
-    if (!plan.ok()) return plan.message();
-    scan_.emplace(std::move(plan.value()), config_.scan, false, loops_ != nullptr);
-    scan_->AddPast(std::exchange(past_, {}));
-    if (loops_) loops_->BeginNews();
-    saving_.store(true);
-    return "scan saved, and from now on as it goes: " + path;
-}
-
 // What else is to be done with a frame once it is in the map: objects and loops are found in it, at leisure.
 void LiveEngine::Offer(Task& task) {
     const FrameReport& report = task.tracked->report;
@@ -195,7 +184,8 @@ void LiveEngine::ObeyInMapping(const ViewerCommand& command) {
     } else if (command.kind == ViewerCommand::Kind::kSaveMesh) {
         Tell(FrameOutcome::Kind::kMessage, SaveMesh(mapping_, command.path) + (paging_ ? paging_->Lacking(*scan_) : ""));
     } else if (command.kind == ViewerCommand::Kind::kSaveScan) {
-        Tell(FrameOutcome::Kind::kMessage, SaveScan(command.path));
+        Tell(FrameOutcome::Kind::kMessage, SaveScan(command.path, source_, config_, false, past_, scan_));
+        if (scan_ && !saving_.exchange(true) && loops_) loops_->BeginNews();
     }
     feed_.SendMesh(mapping_);
 }

@@ -94,15 +94,6 @@ void LockstepEngine::Process(FrameOutcome& outcome) {
     outcome.map = map_statistics();
 }
 
-std::string LockstepEngine::SaveScan(const std::string& path) {
-    if (scan_) return "the scan is being saved already: " + scan_->path();
-    Result<ScanPlan> plan = BeginScan(path, source_, config_);
-    if (!plan.ok()) return plan.message();
-    scan_.emplace(std::move(plan.value()), config_.scan, true, loops_.has_value());
-    scan_->AddPast(std::exchange(past_, {}));
-    return "scan saved, and from now on as it goes: " + path;
-}
-
 void LockstepEngine::Save(FrameOutcome& outcome) {
     Stopwatch watch;
     tracked_.tracking_state.clear();
@@ -182,7 +173,7 @@ bool LockstepEngine::Obey(const ViewerCommand& command, FrameOutcome& outcome) {
             outcome.message = SaveMesh(mapping_, command.path) + (paging_ ? paging_->Lacking(*scan_) : "");
             return true;
         case ViewerCommand::Kind::kSaveScan:
-            outcome.message = SaveScan(command.path);
+            outcome.message = SaveScan(command.path, source_, config_, true, past_, scan_);
             return true;
         case ViewerCommand::Kind::kRecord:
             if (Status status = recorder_.Start(command.path); !status.ok()) {

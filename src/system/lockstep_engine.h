@@ -35,7 +35,6 @@ class LockstepEngine : public Engine {
     void Process(FrameOutcome& outcome);
     void Label(FrameOutcome& outcome);
     Status StartScan(ScanPlan plan);
-    std::string SaveScan(const std::string& path);
     void Save(FrameOutcome& outcome);
 
     RunConfig config_;

@@ -17,7 +17,7 @@ InstanceId Confirmed(Instances& instances, int class_id) {
     seen.box.translate(Eigen::Vector3d(2.0 * instances.last(), 0, 0));
     const InstanceId id = instances.Match({seen}, {})[0];
     seen.overlaps = {{id, 90}};
-    for (int i = 0; i < 12; ++i) instances.Match({seen}, {{id, 95}});
+    for (int i = 0; i < 12; ++i) instances.Match({seen}, {{id, {95}}});
     return id;
 }
 
@@ -26,7 +26,7 @@ TEST(Instances, NewThenUpdatedThenConfirmed) {
     const InstanceId id = instances.Match({Seen(5)}, {})[0];
     EXPECT_NE(id, 0);
     EXPECT_FALSE(instances.confirmed(id));
-    for (int i = 0; i < 2; ++i) EXPECT_EQ(instances.Match({Seen(5, {{id, 90}})}, {{id, 95}})[0], id);
+    for (int i = 0; i < 2; ++i) EXPECT_EQ(instances.Match({Seen(5, {{id, 90}})}, {{id, {95}}})[0], id);
     EXPECT_TRUE(instances.confirmed(id));
     EXPECT_EQ(instances.record(id).public_id, 1);
     EXPECT_EQ(instances.record(id).observations, 3);
@@ -38,7 +38,7 @@ TEST(Instances, TwoOfAClassStayApart) {
     const auto both = instances.Match({Seen(5), Seen(5)}, {});
     EXPECT_NE(both[0], both[1]);
     for (int i = 0; i < 9; ++i)
-        EXPECT_EQ(instances.Match({Seen(5, {{both[1], 80}, {both[0], 5}}), Seen(5, {{both[0], 85}})}, {{both[0], 90}, {both[1], 90}}),
+        EXPECT_EQ(instances.Match({Seen(5, {{both[1], 80}, {both[0], 5}}), Seen(5, {{both[0], 85}})}, {{both[0], {90}}, {both[1], {90}}}),
                   (std::vector<InstanceId>{both[1], both[0]}));
     EXPECT_EQ(instances.record(both[0]).public_id + instances.record(both[1]).public_id, 3);
 }
@@ -46,10 +46,10 @@ TEST(Instances, TwoOfAClassStayApart) {
 TEST(Instances, AWrongClassIsAVoteAndNotAnotherObject) {
     Instances instances({});
     const InstanceId id = Confirmed(instances, 5);
-    EXPECT_EQ(instances.Match({Seen(4, {{id, 90}})}, {{id, 95}})[0], id);
+    EXPECT_EQ(instances.Match({Seen(4, {{id, 90}})}, {{id, {95}}})[0], id);
     EXPECT_EQ(instances.ClassOf(id), 5);
     EXPECT_EQ(instances.last(), id);
-    for (int i = 0; i < 20; ++i) instances.Match({Seen(4, {{id, 90}})}, {{id, 95}});
+    for (int i = 0; i < 20; ++i) instances.Match({Seen(4, {{id, 90}})}, {{id, {95}}});
     EXPECT_EQ(instances.ClassOf(id), 4);  // more votes in the end
     EXPECT_EQ(instances.record(id).public_id, 1);
 }
@@ -58,19 +58,19 @@ TEST(Instances, ABusyRegionThatFitsNothingSaysNothing) {
     Instances instances({});
     const InstanceId a = Confirmed(instances, 5), b = Confirmed(instances, 5);
     // Half on one, half on another large object of its class: neither of them nor a new one.
-    EXPECT_EQ(instances.Match({Seen(5, {{a, 35}, {b, 30}})}, {{a, 1000}, {b, 1000}})[0], 0);
+    EXPECT_EQ(instances.Match({Seen(5, {{a, 35}, {b, 30}})}, {{a, {1000}}, {b, {1000}}})[0], 0);
 }
 
 TEST(Instances, WhatIsSeldomSeenIsDropped) {
     Instances instances({});
     const InstanceId id = instances.Match({Seen(5)}, {})[0];
-    for (int i = 0; i < 12; ++i) instances.Match({}, {{id, 95}});
+    for (int i = 0; i < 12; ++i) instances.Match({}, {{id, {95}}});
     EXPECT_EQ(instances.Resolve(id), 0);
     const InstanceId kept = Confirmed(instances, 5);
-    for (int i = 0; i < 100; ++i) instances.Match({}, {{kept, 95}});
+    for (int i = 0; i < 100; ++i) instances.Match({}, {{kept, {95}}});
     EXPECT_EQ(instances.Resolve(kept), kept);  // confirmed is confirmed,
     EXPECT_FALSE(instances.stands(kept));      // but not shown
-    for (int i = 0; i < 30; ++i) instances.Match({Seen(5, {{kept, 90}})}, {{kept, 95}});
+    for (int i = 0; i < 30; ++i) instances.Match({Seen(5, {{kept, 90}})}, {{kept, {95}}});
     EXPECT_TRUE(instances.stands(kept));
     EXPECT_EQ(instances.record(kept).public_id, 1);
 }
@@ -83,7 +83,7 @@ TEST(Instances, TwoThatAreOneAreJoinedUnderTheOlderNumber) {
     const int before = instances.record(a).observations + instances.record(b).observations;
     for (int i = 0; i < 12; ++i) {
         EXPECT_EQ(instances.Resolve(b), b) << i;
-        instances.Match({Seen(5, {{a, 50}, {b, 48}})}, {{a, 55}, {b, 55}});
+        instances.Match({Seen(5, {{a, 50}, {b, 48}})}, {{a, {55}}, {b, {55}}});
     }
     EXPECT_EQ(instances.Resolve(b), a);
     EXPECT_EQ(instances.record(a).public_id, 1);
@@ -94,8 +94,8 @@ TEST(Instances, DetectionsApartSpeakAgainstJoining) {
     Instances instances({});
     const InstanceId a = Confirmed(instances, 5), b = Confirmed(instances, 5);
     for (int i = 0; i < 20; ++i) {
-        instances.Match({Seen(5, {{a, 50}, {b, 10}}), Seen(5, {{b, 50}})}, {{a, 55}, {b, 55}});
-        if (i % 3 == 0) instances.Match({Seen(5, {{a, 50}, {b, 48}})}, {{a, 55}, {b, 55}});
+        instances.Match({Seen(5, {{a, 50}, {b, 10}}), Seen(5, {{b, 50}})}, {{a, {55}}, {b, {55}}});
+        if (i % 3 == 0) instances.Match({Seen(5, {{a, 50}, {b, 48}})}, {{a, {55}}, {b, {55}}});
     }
     EXPECT_EQ(instances.Resolve(b), b);
 }
@@ -128,17 +128,17 @@ TEST(Instances, WhatTheMapDoesNotShowYetIsKnownByItsPlace) {
     const InstanceId a = Confirmed(instances, 5);
     ObservedObject beside = Seen(5, {{a, 50}}, 60);
     beside.box = {Eigen::Vector3d(3, 0, 0), Eigen::Vector3d(4, 1, 1)};
-    const InstanceId b = instances.Match({Seen(5, {{a, 90}}), beside}, {{a, 150}})[1];
+    const InstanceId b = instances.Match({Seen(5, {{a, 90}}), beside}, {{a, {150}}})[1];
     ASSERT_NE(b, a);
-    for (int i = 0; i < 3; ++i) EXPECT_EQ(instances.Match({Seen(5, {{a, 90}}), beside}, {{a, 150}})[1], b);
+    for (int i = 0; i < 3; ++i) EXPECT_EQ(instances.Match({Seen(5, {{a, 90}}), beside}, {{a, {150}}})[1], b);
     beside.box.translate(Eigen::Vector3d(3, 0, 0));
-    EXPECT_NE(instances.Match({Seen(5, {{a, 90}}), beside}, {{a, 150}})[1], b);
+    EXPECT_NE(instances.Match({Seen(5, {{a, 90}}), beside}, {{a, {150}}})[1], b);
 }
 
 TEST(Instances, GoOnFromASavedState) {
     Instances instances({});
     const InstanceId a = Confirmed(instances, 5);
-    instances.Match({Seen(4), Seen(5, {{a, 90}})}, {{a, 95}});
+    instances.Match({Seen(4), Seen(5, {{a, 90}})}, {{a, {95}}});
     std::vector<std::uint8_t> bytes;
     StateWriter writer(bytes);
     instances.SaveState(writer);
@@ -147,7 +147,7 @@ TEST(Instances, GoOnFromASavedState) {
     ASSERT_TRUE(resumed.LoadState(reader));
     for (int i = 0; i < 8; ++i) {
         const std::vector<ObservedObject> seen{Seen(5, {{a, 90}}), Seen(4, {{InstanceId(a + 1), 80}})};
-        const std::map<InstanceId, VisibleObject> visible{{a, 95}, {InstanceId(a + 1), 90}};
+        const std::map<InstanceId, VisibleObject> visible{{a, {95}}, {InstanceId(a + 1), {90}}};
         EXPECT_EQ(resumed.Match(seen, visible), instances.Match(seen, visible));
     }
     EXPECT_EQ(resumed.last(), instances.last());

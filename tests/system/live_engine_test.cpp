@@ -38,8 +38,8 @@ TEST_F(Live, EveryFrameIsAccountedForAndTrackedToTheMillimetre) {
 // Mapping ten times slower than the camera: frames go on being tracked, most of them are not fused.
 TEST_F(Live, SlowMappingLeavesFramesUnfusedAndTracksThem) {
     config.live.playback_speed = 1;
-    config.live.extra_mapping_ms = 330;
-    config.live.queue_frames = 45;  // every frame is tracked, however slow the machine
+    config.live.extra_mapping_ms = 660;  // tracking is faster on a slow machine, too
+    config.live.queue_frames = 45;       // every frame is tracked there
     Make(true, {.count = 45, .speed = 0.3});
     TakeAll();
     std::int64_t unfused = 0, fused = 0;
@@ -49,11 +49,13 @@ TEST_F(Live, SlowMappingLeavesFramesUnfusedAndTracksThem) {
         fused += o.report.fused;
         EXPECT_TRUE(o.report.tracked()) << o.report.track.reason;
         EXPECT_LT(Error_m(o.report, 0.3), 0.01) << "frame " << o.report.index;
-        for (const auto& [name, waiting] : o.queues) EXPECT_TRUE(waiting <= 8 || std::string_view(name) == "to tracking") << name;
+        for (const auto& [name, waiting] : o.queues)
+            EXPECT_LE(waiting, std::string_view(name) == "to tracking" ? 45u : 8u) << name;
     }
     EXPECT_EQ(Count(Kind::kFrame), 45);
     EXPECT_GT(unfused, 10);
     EXPECT_GT(fused, 1);
+    EXPECT_LT(fused, 20);
 }
 
 // Tracking ten times slower: frames are dropped, the newest are tracked, and the slow camera is not lost.

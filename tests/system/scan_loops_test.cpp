@@ -88,7 +88,11 @@ TEST_P(ScanLoops, KeyframesFramesAndLoopsComeBackAndALostCameraIsFoundByThem) {
     const std::vector<Frame> again = GetParam() ? std::vector<Frame>(300, RoomWalk(2, 1, 1).front()) : RoomWalk(21, 10, 1);
     stop_when_tracked = GetParam();
     const std::vector<FrameReport> reports = Run(again, 12, true);
-    EXPECT_TRUE(GetParam() || reports[0].tracked()) << reports[0].track.reason;
+    if (!GetParam()) {
+        ASSERT_EQ(reports.size(), again.size());
+        EXPECT_TRUE(reports[0].tracked()) << reports[0].track.reason;
+        EXPECT_EQ(corrected.size(), before.size() + reports.size());
+    }
     EXPECT_TRUE(reports.back().tracked()) << reports.back().track.reason;
     std::size_t tracked = 0;
     for (std::size_t i = 0; i < reports.size(); ++i) {
