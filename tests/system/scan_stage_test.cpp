@@ -97,12 +97,12 @@ TEST_F(Scan, SavedFromTheMiddleOnItIsTheWholeScan) {
     path = folder / "b.scan";
     ViewerLink link;
     viewer = &link;
-    Ask(Command::kPause);
-    for (int i = 0; i < 9; ++i) Ask(Command::kStep);
+    outcomes.clear();
+    Make(false, {.count = 24});
+    while (Reports().size() < 9) ASSERT_TRUE(Next());
     Ask(Command::kSaveScan, path);
     Ask(Command::kSaveScan, folder / "c.scan");
-    Ask(Command::kResume);
-    Run(false, {}, {.count = 24});
+    TakeAll();
     EXPECT_NE(Messages().find("scan saved"), std::string::npos) << Messages();
     EXPECT_NE(Messages().find("is being saved already"), std::string::npos) << Messages();
     EXPECT_FALSE(std::filesystem::exists(folder / "c.scan"));
