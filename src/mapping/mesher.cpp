@@ -36,6 +36,7 @@ void Mesher::FindChanged(const BlockMap& map) {
     meshes_.resize(size);
     seen_revision_.resize(size, 0);
     seen_number_.resize(size, 0);
+    seen_coord_.resize(size);
     is_pending_.resize(size, 0);
     for (BlockId id = 1; id < map.size(); ++id) {
         const auto at = static_cast<std::size_t>(id);
@@ -43,11 +44,12 @@ void Mesher::FindChanged(const BlockMap& map) {
         const bool same = seen_number_[at] == map.number(id);
         if (same && revision == seen_revision_[at]) continue;
         // Whoever refers to vertices of the block that was here would find another's.
-        if (!same && meshes_[at]) {
-            AddReaders(map, meshes_[at]->coord);
+        if (!same && seen_number_[at] != 0) {
+            AddReaders(map, seen_coord_[at]);
             if (!std::exchange(is_pending_[at], std::uint8_t{1})) pending_.push_back(id);
         }
         seen_number_[at] = map.number(id);
+        seen_coord_[at] = map.coord(id);
         seen_revision_[at] = revision;
         if (!map.IsFree(id)) AddReaders(map, map.coord(id));
     }
@@ -70,13 +72,14 @@ void Mesher::Clear() {
     meshes_.clear();
     seen_revision_.clear();
     seen_number_.clear();
+    seen_coord_.clear();
     is_pending_.clear();
     pending_.clear();
     updated_.clear();
 }
 
 std::size_t Mesher::bytes() const {
-    std::size_t total = meshes_.capacity() * (sizeof(meshes_[0]) + 2 * sizeof(std::uint32_t) + 1) +
+    std::size_t total = meshes_.capacity() * (sizeof(meshes_[0]) + 2 * sizeof(std::uint32_t) + sizeof(BlockCoord) + 1) +
                         (pending_.capacity() + updated_.capacity()) * sizeof(BlockId);
     for (const auto& mesh : meshes_)
         if (mesh) total += mesh->bytes();

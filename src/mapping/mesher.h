@@ -56,6 +56,7 @@ class Mesher {
     std::vector<std::unique_ptr<const BlockMesh>> meshes_;  // null: no surface
     std::vector<std::uint32_t> seen_revision_;
     std::vector<std::int32_t> seen_number_;  // BlockMap::number: an id may be another block's by now
+    std::vector<BlockCoord> seen_coord_;
     std::vector<std::uint8_t> is_pending_;
     std::vector<BlockId> pending_;  // to be meshed, oldest first
     std::vector<BlockId> updated_;  // by the last Update

@@ -36,8 +36,8 @@ TEST(Mesher, ChangeReachesTheReadersOnly) {
     EXPECT_EQ(mesher.Update(map, 0), kMeshReads);
 }
 
-// Random edits of single voxels, whole blocks and new blocks: whatever changed where, the
-// incremental mesh has the bytes of one made from scratch.
+// Random edits of single voxels, whole blocks, new blocks and blocks that go: whatever changed where, the incremental mesh
+// has the bytes of one made from scratch.
 TEST(Mesher, IncrementalEqualsFromScratch) {
     BlockMap map{BlockMap::Config{}};
     Mesher::Config config;
@@ -53,12 +53,14 @@ TEST(Mesher, IncrementalEqualsFromScratch) {
         return Eigen::Vector3d(Eigen::Vector3d::NullaryExpr([&](auto) { return uniform(); }));
     };
     for (std::uint32_t revision = 1; revision <= 300; ++revision) {
-        const BlockId id = map.Allocate({random(3) - 2, random(3) - 2, random(3) - 2});
-        if (revision <= 27 || random(4) == 0) {
+        const BlockCoord coord{random(3) - 2, random(3) - 2, random(3) - 2};
+        const bool is_new = map.Find(coord) == kUnknownBlock;
+        const BlockId id = map.Allocate(coord);
+        if (is_new || random(4) == 0) {
             const double z = .1 * uniform();
             FillBlock(map, id, Plane(Eigen::Vector3d(1, 2, 3).normalized(), z), paint, revision);
         }
-        for (int edit = 0; edit < 8; ++edit) {
+        for (int edit = 8 * random(2); edit < 8; ++edit) {
             const int corner = 7 * random(2) + 56 * random(2) + 448 * random(2);
             const int offset = random(2) ? corner : random(kBlockVoxels);
             const double distance = 2 * uniform() - 1;
@@ -67,6 +69,8 @@ TEST(Mesher, IncrementalEqualsFromScratch) {
             map.colour(id)[offset] = PackColour(paint({}));
         }
         map.MarkChanged(id, revision);
+        const BlockId gone = map.Find({random(3) - 2, random(3) - 2, random(3) - 2});
+        if (revision > 100 && gone != kUnknownBlock && random(8) == 0) map.Release(gone);
         if (random(3) == 0) continue;  // several changes at once
         incremental.Update(map);
         Mesher scratch(config);
@@ -93,6 +97,22 @@ TEST(Mesher, BudgetSpreadsTheWorkAndEndsAtTheSameMesh) {
             for (const std::uint32_t v : t) ASSERT_LT(v, part.vertices.size());
     }
     EXPECT_TRUE(SameBytes(mesher.Assemble(), MeshOf(map, config.min_component_triangles)));
+}
+
+// The surface lies between the last voxels of one block and the first of the other, whose own cells have none.
+TEST(Mesher, ABlockWithoutSurfaceThatGoesTakesItsNeighboursSurfaceAlong) {
+    BlockMap map{BlockMap::Config{}};
+    Fill(map, Plane({1, 0, 0}, 7.5 * map.config().voxel_size_m), {0, 0, 0}, {1, 0, 0});
+    Mesher::Config config;
+    config.min_component_triangles = 0;
+    Mesher mesher(config);
+    mesher.Update(map);
+    const BlockId other = map.Find({1, 0, 0});
+    ASSERT_EQ(mesher.block_meshes()[static_cast<std::size_t>(other)], nullptr);
+    EXPECT_EQ(mesher.Assemble().triangles.size(), 2u * 7 * 7);
+    map.Release(other);
+    mesher.Update(map);
+    EXPECT_TRUE(mesher.Assemble().triangles.empty());
 }
 
 // A neighbour meshed at another time may lack a vertex: the triangle is left out, nothing else.
