@@ -21,11 +21,12 @@ static_assert(sizeof(VoxelLabel) == 8);
 // Seen beside an object, in a detection's box: a class of its own among the votes.
 inline constexpr std::uint8_t kBackgroundClass = 255;
 inline constexpr int kSettledVotes = 8, kSettledRatio = 2;
+inline constexpr int kFlipRatio = 8;  // of two, a hundredth of the voxels where objects touch flip; the objects are the same
 inline constexpr int kLeastVotes = 2;  // for a voxel to have a class
 
 // One vote. Counters stop at 255; there a vote for the one takes from the other, so that old mistakes fade. A third class
-// wears the second out before it takes its place. A settled voxel goes from one kind of object to another only for twice as
-// many votes, as it took to settle. True if it did by this vote ([D18] 4.3: that should not happen).
+// wears the second out before it takes its place. A settled voxel goes from one kind of object to another only for kFlipRatio
+// times as many votes. True if it did by this vote ([D18] 4.3: that should not happen).
 TESSERA_HD bool VoteForClass(std::uint8_t class_id, VoxelLabel& v) {
     bool flipped = false;
     if (v.count[0] == 0 || v.class_id[0] == class_id) {
@@ -41,7 +42,7 @@ TESSERA_HD bool VoteForClass(std::uint8_t class_id, VoxelLabel& v) {
         else
             --v.count[0];
         const bool settled = v.settled == v.class_id[0] && v.settled != kBackgroundClass && v.class_id[1] != kBackgroundClass;
-        if (v.count[1] > (settled ? kSettledRatio : 1) * v.count[0]) {
+        if (v.count[1] > (settled ? kFlipRatio : 1) * v.count[0]) {
             flipped = settled;
             const std::uint8_t old_class = v.class_id[0], old_count = v.count[0];
             v.class_id[0] = v.class_id[1];

@@ -65,6 +65,10 @@ double Instances::Probability(InstanceId id) const {
     return votes == r.class_votes.end() ? 0 : votes->second / std::max(1, r.observations);
 }
 
+double Instances::SeenArea_m2(InstanceId id) const {
+    return records_[id].area_m2 / std::max(1, records_[id].observations);
+}
+
 bool Instances::stands(InstanceId id) const {
     if (!confirmed(id)) return false;
     return records_[id].observations >= kStandingShare * config_.min_rate * records_[id].visible_frames;
@@ -133,6 +137,8 @@ void Instances::Update(InstanceId id, const ObservedObject& observed, int visibl
     ++r.observations;
     r.held += visible >= kHeldShare * observed.own_pixels;
     r.box.extend(observed.box);
+    r.area_m2 += observed.area_m2;
+    AddMarks({observed.mark}, r);
 }
 
 // Confirmed once seen often enough; dropped if that does not happen while it is in view.
@@ -143,7 +149,7 @@ void Instances::Judge(InstanceId id) {
     const auto count = r.class_counts.find(ClassOf(id));
     const double share = count == r.class_counts.end() ? 0 : static_cast<double>(count->second) / r.observations;
     if (r.observations >= config_.min_observations && rate >= config_.min_rate && share >= kClassShare && 2 * r.held >= r.observations)
-        r.public_id = ++last_public_;
+        r.public_id = r.number_before > 0 ? r.number_before : ++last_public_;
     else if (r.visible_frames >= kTrialFrames && rate < config_.min_rate)
         r.dropped = true;
 }
@@ -195,6 +201,8 @@ void Instances::Join(InstanceId a, InstanceId b) {
     kept.observations += gone.observations;
     kept.visible_frames = std::max(kept.visible_frames, gone.visible_frames);
     kept.box.extend(gone.box);
+    kept.area_m2 += gone.area_m2;
+    AddMarks(gone.marks, kept);
     gone.merged_into = a;
 }
 

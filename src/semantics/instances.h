@@ -30,6 +30,8 @@ struct ObservedObject {
     Eigen::AlignedBox3d box;             // of its points, world frame, metres
     Eigen::AlignedBox2d image_box = {};  // the detector's, pixels
     int own_pixels = 0;                  // of `pixels`, those that no other detection before it claims
+    double area_m2 = 0;                  // of those seen face on
+    std::uint64_t mark = 0;              // tells this detection from all others
 };
 
 // What the predicted view shows of an instance.
@@ -47,6 +49,9 @@ struct InstanceRecord {
     InstanceId merged_into = 0;
     bool dropped = false;
     Eigen::AlignedBox3d box;               // of all its detections' points
+    double area_m2 = 0;                    // sum over its observations
+    std::vector<std::uint64_t> marks;      // the smallest of its detections', increasing: a sample, whatever the order
+    int number_before = 0;                 // by KeepNumbersOf: public_id once confirmed
 };
 
 // Owner thread only.
@@ -74,6 +79,11 @@ class Instances {
     // Confirmed, and seen since in at least half of that rate: what was once confirmed by a run of mistakes is withheld,
     // though it keeps its number.
     bool stands(InstanceId id) const;
+    // Mean area that its detections saw of it, square metres.
+    double SeenArea_m2(InstanceId id) const;
+    // For instances made again of (part of) the same detections, for a corrected map: an object that they share the most
+    // detections with hands its number on, the others have new ones.
+    void KeepNumbersOf(const Instances& before);
     // The class with the most votes; ties go to the smaller number.
     int ClassOf(InstanceId id) const;
     // Mean probability of the detections that gave it that class, times their share.
@@ -96,6 +106,7 @@ class Instances {
     void GatherEvidence(const std::vector<ObservedObject>& observed, const std::map<InstanceId, VisibleObject>& visible,
                         const std::vector<InstanceId>& match);
     void Join(InstanceId a, InstanceId b);
+    static void AddMarks(const std::vector<std::uint64_t>& marks, InstanceRecord& record);
 
     Config config_;
     std::vector<InstanceRecord> records_{1};

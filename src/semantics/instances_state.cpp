@@ -14,7 +14,10 @@ void Instances::SaveState(StateWriter& state) const {
             state.Put(sum);
             state.Put(r.class_counts.contains(id) ? r.class_counts.at(id) : 0);
         }
-        for (const int value : {r.observations, r.visible_frames, r.held, r.public_id}) state.Put(value);
+        for (const int value : {r.observations, r.visible_frames, r.held, r.public_id, r.number_before}) state.Put(value);
+        state.Put(r.area_m2);
+        state.Put(static_cast<std::uint64_t>(r.marks.size()));
+        for (const std::uint64_t mark : r.marks) state.Put(mark);
         state.Put(r.merged_into);
         state.Put(r.dropped);
         state.Put(r.box.isEmpty());
@@ -46,7 +49,11 @@ bool Instances::LoadState(StateReader& state) {
             r.class_votes[id] = sum;
             r.class_counts[id] = seen;
         }
-        for (int* value : {&r.observations, &r.visible_frames, &r.held, &r.public_id}) state.Get(*value);
+        for (int* value : {&r.observations, &r.visible_frames, &r.held, &r.public_id, &r.number_before}) state.Get(*value);
+        state.Get(r.area_m2);
+        std::uint64_t marks = 0;
+        state.Get(marks);
+        for (; state.ok() && marks > 0; --marks) state.Get(r.marks.emplace_back());
         state.Get(r.merged_into);
         state.Get(r.dropped);
         bool empty = true;

@@ -4,40 +4,19 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <set>
 
-#include "semantics/objects_file.h"
+#include "semantics/label_near.h"
 
 namespace tessera {
 namespace {
 
 constexpr int kSampledColumns = 160;  // at least, of the predicted view and of what is compared with it
-constexpr double kLeastArea_m2 = 0.0015;
 constexpr float kNear_m = 0.1f;
 constexpr float kStray = 0.02f;  // of an instance's pixels on each side, for its outline
 constexpr float kTrim = 0.05f;  // of a detection's points on each side of each axis, for its box
-
-const VoxelLabel* VoxelAt(const BlockMap& map, const Eigen::Array3i& voxel) {
-    const BlockId id = map.Find({voxel.x() >> 3, voxel.y() >> 3, voxel.z() >> 3});
-    if (id == kUnknownBlock) return nullptr;
-    return map.label(id) + (voxel.x() & 7) + 8 * (voxel.y() & 7) + 64 * (voxel.z() & 7);
-}
-
-// The nearest voxel's label; where that has none, of the next one along the axis on which the point lies between two.
-VoxelLabel LabelNear(const BlockMap& map, const Eigen::Vector3d& p_world) {
-    const Eigen::Array3d at = p_world.array() / map.config().voxel_size_m;
-    const Eigen::Array3i nearest = at.round().cast<int>();
-    const VoxelLabel* label = VoxelAt(map, nearest);
-    if (label != nullptr && label->count[0] > 0) return *label;
-    int axis = 0;
-    const Eigen::Array3d rest = at - nearest.cast<double>();
-    rest.abs().maxCoeff(&axis);
-    Eigen::Array3i next = nearest;
-    next[axis] += rest[axis] > 0 ? 1 : -1;
-    label = VoxelAt(map, next);
-    return label != nullptr ? *label : VoxelLabel{};
-}
 
 Eigen::AlignedBox3d TrimmedBox(std::vector<Eigen::Vector3d>& points) {
     Eigen::AlignedBox3d box;
@@ -49,6 +28,16 @@ Eigen::AlignedBox3d TrimmedBox(std::vector<Eigen::Vector3d>& points) {
         box.max()[axis] = points[points.size() - 1 - cut][axis];
     }
     return box;
+}
+
+// Of what was detected, not of where: the same in whatever map it is looked at again.
+std::uint64_t MarkOf(const Detection& d) {
+    std::uint64_t mark = static_cast<std::uint64_t>(d.class_id);
+    for (const float value : {d.probability, d.box.x_min, d.box.y_min, d.box.x_max, d.box.y_max}) {
+        mark = (mark ^ std::bit_cast<std::uint32_t>(value)) * 0x9e3779b97f4a7c15u;
+        mark ^= mark >> 29;
+    }
+    return mark;
 }
 
 Instances::Config InstanceConfig(const LabelConfig& config) { return {config.min_observations, config.min_rate}; }
@@ -128,6 +117,7 @@ std::vector<ObservedObject> LabelMapper::Observe(std::span<const Detection> dete
                                                  const Eigen::Isometry3d& T_world_camera) const {
     std::vector<ObservedObject> observed(std::min(detections.size(), LabelImage::kMostDetections));
     std::vector<std::vector<Eigen::Vector3d>> points(observed.size());
+    const double pixel_m2 = step_px_ * step_px_ / (camera_.fx * camera_.fy);  // at 1 m
     for (int y = 0; y < predicted_.height(); ++y)
         for (int x = 0; x < predicted_.width(); ++x) {
             const int u = x * step_px_ + step_px_ / 2, v = y * step_px_ + step_px_ / 2;
@@ -136,6 +126,7 @@ std::vector<ObservedObject> LabelMapper::Observe(std::span<const Detection> dete
                 if (label == 0 || label == LabelImage::kBesideObjects) continue;
                 ObservedObject& o = observed[label - 1u];
                 ++o.pixels;
+                o.area_m2 += pixel_m2 * depth_m(u, v) * depth_m(u, v);
                 o.own_pixels += label == image_.detection(u, v);
                 if (predicted_(x, y) != 0) ++o.overlaps[predicted_(x, y)];
                 points[label - 1u].push_back(T_world_camera * camera_.Unproject(u, v, depth_m(u, v)));
@@ -144,106 +135,12 @@ std::vector<ObservedObject> LabelMapper::Observe(std::span<const Detection> dete
     for (std::size_t i = 0; i < observed.size(); ++i) {
         observed[i].class_id = detections[i].class_id;
         observed[i].probability = detections[i].probability;
+        observed[i].mark = MarkOf(detections[i]);
         observed[i].box = TrimmedBox(points[i]);
         const DetectionBox& box = detections[i].box;
         observed[i].image_box = {Eigen::Vector2d(box.x_min, box.y_min), Eigen::Vector2d(box.x_max + 1, box.y_max + 1)};
     }
     return observed;
-}
-
-VertexLabel LabelMapper::LabelOf(const VoxelLabel& voxel) const {
-    return ClassOf(voxel) == 0 ? VertexLabel{} : LabelOfInstance(voxel.instance);
-}
-
-VertexLabel LabelMapper::LabelOfInstance(InstanceId voted_for) const {
-    if (voted_for == 0) return {};
-    const InstanceId id = instances_.Resolve(voted_for);
-    if (!instances_.stands(id)) return {};
-    return {static_cast<std::uint8_t>(instances_.ClassOf(id)), static_cast<std::uint16_t>(instances_.record(id).public_id)};
-}
-
-void LabelMapper::LabelVertices(const BlockMap& map, TriangleMesh& mesh) const {
-    mesh.labels.resize(mesh.vertices.size());
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, mesh.vertices.size(), 4096), [&](const auto& range) {
-        for (std::size_t i = range.begin(); i < range.end(); ++i)
-            mesh.labels[i] = LabelOf(LabelNear(map, mesh.vertices[i].cast<double>()));
-    });
-}
-
-VertexLabel LabelMapper::LabelOf(const BlockMap& map, const BlockMesh& owner, const BlockMesh::Vertex& vertex) const {
-    return LabelOf(LabelNear(map, VertexPosition(owner, vertex, map.config().voxel_size_m).cast<double>()));
-}
-
-Rgb8 LabelMapper::ColourOf(const BlockMap& map, const BlockMesh& owner, const BlockMesh::Vertex& vertex) const {
-    if (const int class_id = LabelOf(map, owner, vertex).class_id; class_id != 0) return classes_.colour(class_id);
-    return vertex.has_colour ? NoCategoryColour(vertex.colour) : kNoSceneColour;
-}
-
-// After LoadState any block may have votes.
-void LabelMapper::KnowBlocks(const BlockMap& map) {
-    votes_.resize(static_cast<std::size_t>(map.size()), std::exchange(loaded_, false) ? Votes::kNew : Votes::kNone);
-}
-
-std::vector<BlockId> LabelMapper::TakeRelabelled(const BlockMap& map) {
-    KnowBlocks(map);
-    std::vector<std::uint8_t> changed(static_cast<std::size_t>(instances_.last()) + 1, 0);
-    shown_.resize(changed.size());
-    bool any_changed = false;
-    for (std::size_t id = 1; id < changed.size(); ++id) {
-        const VertexLabel label = LabelOfInstance(static_cast<InstanceId>(id));
-        changed[id] = label != shown_[id];
-        any_changed |= changed[id] != 0;
-        shown_[id] = label;
-    }
-    const auto holds_changed = [&](const VoxelLabel& voxel) { return changed[voxel.instance] != 0; };
-    std::vector<BlockId> relabelled;
-    for (std::size_t i = 0; i < votes_.size(); ++i) {
-        if (votes_[i] == Votes::kNone) continue;
-        const VoxelLabel* voxels = map.label(static_cast<BlockId>(i));
-        if (votes_[i] == Votes::kNew || (any_changed && std::any_of(voxels, voxels + kBlockVoxels, holds_changed)))
-            relabelled.push_back(static_cast<BlockId>(i));
-        votes_[i] = Votes::kTold;
-    }
-    return relabelled;
-}
-
-TriangleMesh LabelMapper::LabelledVertices(const BlockMap& map,
-                                           const std::vector<std::unique_ptr<const BlockMesh>>& meshes) const {
-    TriangleMesh labelled;
-    for (std::size_t i = 0; i < std::min(votes_.size(), meshes.size()); ++i) {
-        if (votes_[i] == Votes::kNone || !meshes[i]) continue;
-        for (const BlockMesh::Vertex& vertex : meshes[i]->vertices) {
-            const VertexLabel label = LabelOf(map, *meshes[i], vertex);
-            if (label.instance == 0) continue;
-            labelled.vertices.push_back(VertexPosition(*meshes[i], vertex, map.config().voxel_size_m));
-            labelled.labels.push_back(label);
-        }
-    }
-    return labelled;
-}
-
-std::vector<MapObject> LabelMapper::Objects(double voxel_size_m, TriangleMesh& labelled) const {
-    std::vector<MapObject> objects;
-    for (InstanceId id = 1; id <= instances_.last() && id != 0; ++id) {
-        if (instances_.Resolve(id) != id || !instances_.stands(id)) continue;
-        MapObject object;
-        object.id = instances_.record(id).public_id;
-        object.class_id = instances_.ClassOf(id);
-        object.class_name = classes_.name(object.class_id);
-        object.colour = classes_.colour(object.class_id);
-        object.probability = instances_.Probability(id);
-        object.observations = instances_.record(id).observations;
-        objects.push_back(std::move(object));
-    }
-    tbb::parallel_for(std::size_t{0}, objects.size(), [&](std::size_t i) { MeasureObject(labelled, objects[i]); });
-    std::set<int> remains;
-    for (const MapObject& o : objects)
-        if (static_cast<double>(o.vertices) * voxel_size_m * voxel_size_m < kLeastArea_m2) remains.insert(o.id);
-    std::erase_if(objects, [&](const MapObject& o) { return remains.contains(o.id); });
-    for (VertexLabel& label : labelled.labels)
-        if (remains.contains(label.instance)) label = {};
-    std::ranges::sort(objects, {}, &MapObject::id);
-    return objects;
 }
 
 void LabelMapper::Reset() {

@@ -41,12 +41,14 @@ class LabelMapper {
     // unfinished map. `meshes` by block id, as Mesher keeps them.
     TriangleMesh LabelledVertices(const BlockMap& map, const std::vector<std::unique_ptr<const BlockMesh>>& meshes) const;
 
-    // The confirmed objects that the labelled mesh shows, by number. Remains of less than 15 square centimetres are none, and
-    // lose their label.
+    // The confirmed objects that the labelled mesh shows, by number. Remains of less than 15 square centimetres, or of a tenth
+    // of what its detections saw of it, are none, and lose their label.
     std::vector<MapObject> Objects(double voxel_size_m, TriangleMesh& labelled) const;
 
     const LabelClasses& classes() const { return classes_; }
     const Instances& instances() const { return instances_; }
+    // For one that labelled a corrected map with the same detections: its objects have the numbers that they had.
+    void KeepNumbersOf(const LabelMapper& before) { instances_.KeepNumbersOf(before.instances_); }
     // Everything forgotten: a new map.
     void Reset();
     // The classes by name, and the instances. LoadState is false if the classes are others.

@@ -141,6 +141,7 @@ void MappingStage::Predict(const Eigen::Isometry3d& T_world_camera, int step, Pr
 
 void MappingStage::Replace(std::unique_ptr<BlockMap> map, std::unique_ptr<LabelMapper> labels) {
     Place(std::move(map));
+    if (labels && labels_) labels->KeepNumbersOf(*labels_);
     labels_ = std::move(labels);
     integrator_.MarkAllChanged(*map_);
 }

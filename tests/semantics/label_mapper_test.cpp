@@ -104,5 +104,21 @@ TEST_F(LabelMapperTest, LabelledVerticesAreThoseOfTheObject) {
     EXPECT_TRUE(mapper->TakeRelabelled(map).empty());
 }
 
+// Others' votes may leave so little of a false object.
+TEST_F(LabelMapperTest, ATenthOfWhatWasSeenIsNoObject) {
+    for (int i = 0; i < 10; ++i) Label(1, 80);
+    const TriangleMesh whole = mapper->LabelledVertices(map, mesher.block_meshes());
+    const auto objects_of = [&](double share) {
+        TriangleMesh part = whole;
+        const auto left = static_cast<std::size_t>(share * static_cast<double>(whole.vertices.size()));
+        for (std::size_t i = left; i < part.labels.size(); ++i) part.labels[i] = {};
+        const std::size_t objects = mapper->Objects(0.01, part).size();
+        EXPECT_EQ(part.labels[0].instance != 0, objects == 1);
+        return objects;
+    };
+    EXPECT_EQ(objects_of(0.15), 1u);
+    EXPECT_EQ(objects_of(0.07), 0u);  // 200 square centimetres
+}
+
 }  // namespace
 }  // namespace tessera

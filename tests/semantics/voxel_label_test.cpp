@@ -44,11 +44,11 @@ TEST(VoxelLabel, CountersSaturateAndTheSecondThenFades) {
     EXPECT_EQ(v.count[1], 20);
     VoteForClass(1, v);
     EXPECT_EQ(v.count[1], 19);
-    for (int i = 0; i < 236 + 127; ++i) VoteForClass(2, v);
+    for (int i = 0; i < 236 + 223; ++i) VoteForClass(2, v);
     EXPECT_EQ(v.class_id[0], 1);
-    EXPECT_EQ(v.count[0], 128);
+    EXPECT_EQ(v.count[0], 32);
     EXPECT_EQ(v.count[1], 255);
-    VoteForClass(2, v);  // twice as many
+    VoteForClass(2, v);  // eight times as many
     EXPECT_EQ(v.class_id[0], 2);
 }
 
@@ -62,7 +62,7 @@ TEST(VoxelLabel, AFifthOfWrongVotesFlipsNothingSettled) {
     }
     EXPECT_EQ(flips, 0);
     std::vector<std::uint8_t> turned(20, 1);  // the count itself works: another class for good
-    turned.insert(turned.end(), 40, 2);
+    turned.insert(turned.end(), 160, 2);
     EXPECT_EQ(After(turned, &flips).class_id[0], 1);
     EXPECT_EQ(flips, 0);
     turned.push_back(2);

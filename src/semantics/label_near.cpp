@@ -1,0 +1,28 @@
+#include "semantics/label_near.h"
+
+namespace tessera {
+namespace {
+
+const VoxelLabel* VoxelAt(const BlockMap& map, const Eigen::Array3i& voxel) {
+    const BlockId id = map.Find({voxel.x() >> 3, voxel.y() >> 3, voxel.z() >> 3});
+    if (id == kUnknownBlock) return nullptr;
+    return map.label(id) + (voxel.x() & 7) + 8 * (voxel.y() & 7) + 64 * (voxel.z() & 7);
+}
+
+}  // namespace
+
+VoxelLabel LabelNear(const BlockMap& map, const Eigen::Vector3d& p_world) {
+    const Eigen::Array3d at = p_world.array() / map.config().voxel_size_m;
+    const Eigen::Array3i nearest = at.round().cast<int>();
+    const VoxelLabel* label = VoxelAt(map, nearest);
+    if (label != nullptr && label->count[0] > 0) return *label;
+    int axis = 0;
+    const Eigen::Array3d rest = at - nearest.cast<double>();
+    rest.abs().maxCoeff(&axis);
+    Eigen::Array3i next = nearest;
+    next[axis] += rest[axis] > 0 ? 1 : -1;
+    label = VoxelAt(map, next);
+    return label != nullptr ? *label : VoxelLabel{};
+}
+
+}  // namespace tessera

@@ -1,0 +1,64 @@
+#include "system/mapping_stage.h"
+
+#include <gtest/gtest.h>
+
+#include "mapping/analytic_fields.h"
+
+namespace tessera {
+namespace {
+
+const PinholeCamera kCamera{.width = 160, .height = 120, .fx = 130, .fy = 130, .cx = 79.5, .cy = 59.5};
+
+Detection Seen(int class_id, float left) {
+    Detection d;
+    d.class_id = class_id;
+    d.probability = 0.9f;
+    d.box = {left, 30, left + 39, 89};
+    d.mask = Image<std::uint8_t>(40, 60, 1);
+    return d;
+}
+
+std::unique_ptr<BlockMap> Wall() {
+    auto map = std::make_unique<BlockMap>(BlockMap::Config{.voxel_size_m = 0.01, .truncation_m = 0.04});
+    map->EnableLabels();
+    testing::Fill(*map, testing::Plane({0, 0, -1}, -1.003), {-8, -5, 11}, {8, 5, 13});
+    return map;
+}
+
+// By class name.
+std::map<std::string, int> Numbers(MappingStage& mapping) {
+    MeshUpdate update;
+    mapping.UpdateMesh(Mesher::kNoLimit, update);
+    std::map<std::string, int> numbers;
+    for (const MapObject& object : mapping.MeasureObjects()) numbers[object.class_name] = object.id;
+    return numbers;
+}
+
+// The corrected map meets the objects in another order.
+TEST(MappingStage, ObjectsKeepTheirNumbersInACorrectedMap) {
+    LabelConfig config;
+    config.classes = "cup book";
+    const LabelClasses classes = LabelClasses::Make(config, {"cup", "book"}).value();
+    const DepthImage depth(160, 120, 1.003f);
+    const Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+    const Detection cup = Seen(1, 20), book = Seen(2, 100);
+    PipelineConfig pipeline;
+    pipeline.map = {.voxel_size_m = 0.01, .truncation_m = 0.04};
+    MappingStage mapping(pipeline, {0, 0}, kCamera);
+    mapping.EnableLabels(config, classes);
+    mapping.Replace(Wall(), std::make_unique<LabelMapper>(config, classes, kCamera));
+    for (int i = 0; i < 10; ++i) mapping.Label({&cup, 1}, depth, pose);
+    for (int i = 0; i < 10; ++i) mapping.Label({&book, 1}, depth, pose);
+    const std::map<std::string, int> before = Numbers(mapping);
+    ASSERT_EQ(before, (std::map<std::string, int>{{"cup", 1}, {"book", 2}}));
+
+    auto labels = std::make_unique<LabelMapper>(config, classes, kCamera);
+    std::unique_ptr<BlockMap> corrected = Wall();
+    for (const Detection& d : {book, cup})
+        for (int i = 0; i < 10; ++i) labels->Label({&d, 1}, depth, pose, *corrected);
+    mapping.Replace(std::move(corrected), std::move(labels));
+    EXPECT_EQ(Numbers(mapping), before);
+}
+
+}  // namespace
+}  // namespace tessera
