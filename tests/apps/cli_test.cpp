@@ -146,7 +146,12 @@ TEST_F(Cli, BadArgumentsAreOneLineAndExitCode2) {
 TEST_F(Cli, WhatIsToComeIsRefusedAndNeverIgnored) {
     ExpectRefused("run synthetic:desk --device cuda", "not in this version");
     ExpectRefused("run a.klg", "not in this version");
-    ExpectRefused("export out --mesh a.glb", "not in this version");
+}
+
+TEST_F(Cli, ExportRefusesWhatItCannotWrite) {
+    ExpectRefused("export out", "nothing to export");
+    ExpectRefused("export out --mesh a.stl", "--mesh a.stl: a mesh is written as .ply, .obj, .glb");
+    ExpectRefused("export /no/such.scan --mesh a.glb", "/no/such.scan");
 }
 
 TEST_F(Cli, AScanIsSavedLookedAtGoneOnWithHandedOutAndRepaired) {
