@@ -1,5 +1,6 @@
 // Binary glTF 2.0: a header, a chunk of JSON and a chunk of bytes
 // (https://registry.khronos.org/glTF/specs/2.0/glTF-2.0.html, section 4).
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
