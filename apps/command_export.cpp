@@ -5,6 +5,7 @@
 
 #include "command.h"
 #include "export/colmap_writer.h"
+#include "export/image_set.h"
 #include "export/transforms_json.h"
 #include "export/vdb_writer.h"
 #include "io/mesh_io.h"
@@ -24,7 +25,8 @@ struct Arguments {
     bool NeedsMesh() const { return !mesh.empty() || !cloud.empty() || !colmap.empty() || WantsTransforms(); }
     bool NeedsPath() const { return !trajectory.empty() || !kitti.empty(); }
     // What only a scan file has.
-    bool NeedsScan() const { return !grid.empty() || !frames.empty() || !colmap.empty(); }
+    bool NeedsScan() const { return !grid.empty() || NeedsFrames(); }
+    bool NeedsFrames() const { return !frames.empty() || !colmap.empty(); }
 };
 
 // What is asked for, of either kind of input.
@@ -34,6 +36,8 @@ struct Content {
 };
 
 Result<Content> FromScan(const Arguments& a) {
+    if (a.NeedsFrames())  // before anything is written
+        if (const auto frames = PosedFrames::Open(a.input); !frames.ok()) return frames.status();
     Result<ScanContent> scan = ReadScan(a.input, {.map = a.NeedsMesh() || !a.grid.empty()});
     if (!scan.ok()) return scan.status();
     Content content;
@@ -119,7 +123,7 @@ void AddExportCommand(CLI::App& app, CommandContext& context) {
         "The raw frames that a scan holds: a new folder (TUM layout), or FILE.json for nerfstudio and instant-ngp, with images/ and "
         "depth/ beside it",
         "DIR|FILE.json");
-    add("--colmap", a->colmap, "The same with poses and points as a COLMAP model, and images/ in it", "DIR");
+    add("--colmap", a->colmap, "The raw frames with their poses, and points of the mesh, as a COLMAP model (text); images/ in it", "DIR");
     command->callback([a, &context] { context.exit_code = ExitCode(Export(*a)); });
 }
 

@@ -52,8 +52,9 @@ TEST_F(Export, OfARunItWritesMeshCloudAndPathAndNamesWhatItLacks) {
     for (const char* option : {" --grid g.vdb", " --frames new", " --frames t.json", " --colmap new"}) ExpectRefused(from + option, "FILE.scan");
     for (const char* option : {" --frames ", " --colmap "}) {
         const std::string json = option == std::string(" --frames ") ? "t.json" : "cm";
-        ExpectRefused("export " + (folder / "a.scan") + option + (folder / json), "scan.frames=all");
+        ExpectRefused("export " + (folder / "a.scan") + " --mesh " + (folder / "m.glb") + option + (folder / json), "scan.frames=all");
     }
+    EXPECT_FALSE(std::filesystem::exists(folder / "m.glb"));
 }
 
 TEST_F(Export, RefusesWhatItCannotWrite) {
