@@ -1,5 +1,6 @@
 #include "export/vdb_writer.h"
 
+#include <fmt/format.h>
 #include <openvdb/io/Stream.h>
 #include <openvdb/openvdb.h>
 
@@ -8,19 +9,46 @@
 #include <new>
 #include <ostream>
 #include <streambuf>
+#include <utility>
 #include <vector>
 
 #include "io/file.h"
+#include "scan/checksum.h"
 
 namespace tessera {
 namespace {
 
 static_assert(openvdb::FloatTree::LeafNodeType::DIM == kBlockSide, "a block becomes a leaf");
 
-// A stream into a file that appears whole or not at all.
+constexpr std::size_t kIdOffset = 21;  // behind the magic number, three version numbers and a flag
+constexpr std::size_t kIdBytes = 36;
+
+template <class T>
+std::uint64_t Checksum(const T* values, std::size_t count, std::uint64_t before) {
+    return Crc64({reinterpret_cast<const std::uint8_t*>(values), count * sizeof(T)}, before);
+}
+
+// OpenVDB gives every file a random identity. This one follows from the map, so that the same map gives the same bytes.
+std::string FileId(const BlockMap& map) {
+    std::uint64_t shape = 0, paint = 0;
+    for (const double value : {map.config().voxel_size_m, map.config().truncation_m}) shape = Checksum(&value, 1, shape);
+    for (BlockId id = 1; id < map.size(); ++id) {
+        if (map.IsFree(id)) continue;
+        const BlockCoord coord = map.coord(id);
+        shape = Checksum(&coord, 1, shape);
+        shape = Checksum(map.field(id), kBlockVoxels, shape);
+        paint = Checksum(map.colour(id), kBlockVoxels, paint);
+    }
+    return fmt::format("{:08x}-{:04x}-{:04x}-{:04x}-{:012x}", shape >> 32, shape >> 16 & 0xffff, shape & 0xffff, paint >> 48,
+                       paint & 0xffffffffffff);
+}
+
+// A stream into a file that appears whole or not at all, and that carries `id` as its identity.
 class AtomicBuffer : public std::streambuf {
   public:
-    explicit AtomicBuffer(AtomicFile& file) : file_(file), bytes_(1 << 20) { setp(bytes_.data(), bytes_.data() + bytes_.size()); }
+    AtomicBuffer(AtomicFile& file, const std::string& id) : file_(file), id_(id), bytes_(1 << 20) {
+        setp(bytes_.data(), bytes_.data() + bytes_.size());
+    }
 
   protected:
     int_type overflow(int_type c) override {
@@ -29,14 +57,18 @@ class AtomicBuffer : public std::streambuf {
         return traits_type::not_eof(c);
     }
     int sync() override {
-        file_.Write({pbase(), static_cast<std::size_t>(pptr() - pbase())});
+        const auto count = static_cast<std::size_t>(pptr() - pbase());
+        if (!std::exchange(begun_, true) && count >= kIdOffset + kIdBytes) id_.copy(pbase() + kIdOffset, kIdBytes);
+        file_.Write({pbase(), count});
         setp(bytes_.data(), bytes_.data() + bytes_.size());
         return 0;
     }
 
   private:
     AtomicFile& file_;
+    const std::string id_;
     std::vector<char> bytes_;
+    bool begun_ = false;
 };
 
 bool InBand(FieldWord word) { return HasDistance(word) && std::abs(FieldDistance(word)) < 1; }
@@ -96,7 +128,7 @@ Status Write(const std::string& path, const BlockMap& map) {
     for (BlockId id = 1; id < map.size(); ++id)
         if (!map.IsFree(id)) leaves.Add(map, id);
     AtomicFile file(path);
-    AtomicBuffer buffer(file);
+    AtomicBuffer buffer(file, FileId(map));
     std::ostream stream(&buffer);
     openvdb::io::Stream(stream).write(openvdb::GridCPtrVec{surface, colour});
     stream.flush();

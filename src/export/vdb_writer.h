@@ -18,7 +18,7 @@ inline constexpr const char* kVdbUnavailable = "not in this build: install libop
 //            what was measured and lies within the truncation. What was never seen is background, so the band has a back
 //            side too: a mesh of the zero level is a shell as thick as the truncation.
 //   Cd       vec3s: linear colour, 0 to 1, of the same voxels where they have one.
-// Takes about 8 KB of memory a block of the map. Written beside the target and renamed. Errors: writing, memory, no OpenVDB.
+// The same map gives the same bytes. Takes about 8 KB of memory a block of the map. Written beside the target and renamed. Errors: writing, memory, no OpenVDB.
 Status WriteVdb(const std::string& path, const BlockMap& map);
 
 }  // namespace tessera

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "io/file.h"
 #include "mapping/analytic_fields.h"
 #include "support/temp_folder.h"
 
@@ -98,6 +99,25 @@ TEST_F(VdbWriter, WhatWasNeverSeenIsBackground) {
     map.Release(block);
     ASSERT_TRUE(WriteVdb(path, map).ok());
     EXPECT_FALSE(openvdb::gridPtrCast<openvdb::FloatGrid>(Read("surface"))->tree().isValueOn(origin.offsetBy(1, 2, 3)));
+}
+
+// OpenVDB itself tells files apart by an identity that it draws at random.
+TEST_F(VdbWriter, TheSameMapGivesTheSameBytesAndAnotherAnotherIdentity) {
+    ASSERT_TRUE(WriteVdb(path, map).ok());
+    ASSERT_TRUE(WriteVdb(folder / "again.vdb", map).ok());
+    map.field(1)[7] = testing::PackField(0.25);
+    ASSERT_TRUE(WriteVdb(folder / "other.vdb", map).ok());
+    const auto bytes = [](const std::string& file) { return ReadWholeFile(file, std::size_t{1} << 28).value(); };
+    EXPECT_TRUE(bytes(path) == bytes(folder / "again.vdb"));
+    openvdb::initialize();
+    std::string identities[2];
+    for (const bool other : {false, true}) {
+        openvdb::io::File file(other ? folder / "other.vdb" : path);
+        file.open();
+        identities[other] = file.getUniqueTag();
+    }
+    EXPECT_EQ(identities[0], bytes(path).substr(21, 36));
+    EXPECT_NE(identities[0], identities[1]);
 }
 
 TEST_F(VdbWriter, VdbPrintListsBothGrids) {
