@@ -38,8 +38,9 @@ const char* Window() {
 }
 
 void PrintExports() {
-    fmt::print("exports      meshes .ply .obj .glb, point clouds, paths (TUM, KITTI), images for nerfstudio and COLMAP{}\n",
-               VdbAvailable() ? ", volumes .vdb" : "");
+    const char* volumes = VdbAvailable() ? ", volumes .vdb" : "";
+    fmt::print("exports      meshes .ply .obj .glb, point clouds, paths (TUM, KITTI), {}{}\n",
+               "images for nerfstudio and COLMAP", volumes);
     if (!VdbAvailable()) fmt::print("             .vdb {}\n", kVdbUnavailable);
 }
 

@@ -69,11 +69,14 @@ Result<Content> FromRun(const Arguments& a) {
 // Before anything is read or written.
 Status Check(const Arguments& a, bool is_run) {
     if (!a.NeedsMesh() && !a.NeedsPath() && !a.NeedsScan())
-        return Status::Error("nothing to export; give --mesh, --cloud, --grid, --trajectory, --kitti, --frames or --colmap");
+        return Status::Error(
+            "nothing to export; give --mesh, --cloud, --grid, --trajectory, --kitti, --frames or --colmap");
     if (is_run && a.NeedsScan())
-        return Status::Error(a.input + ": a run's folder has no map and no raw frames; --grid, --frames and --colmap take a FILE.scan");
+        return Status::Error(
+            a.input + ": a run's folder has no map and no raw frames; --grid, --frames and --colmap take a FILE.scan");
     if (!a.mesh.empty())
-        if (const Result<MeshFormat> format = MeshFormatOf(a.mesh); !format.ok()) return Status::Error("--mesh " + format.message());
+        if (const Result<MeshFormat> format = MeshFormatOf(a.mesh); !format.ok())
+            return Status::Error("--mesh " + format.message());
     if (!a.cloud.empty() && fs::path(a.cloud).extension() != ".ply")
         return Status::Error("--cloud " + a.cloud + ": a point cloud is written as .ply; give this extension");
     if (!a.grid.empty() && fs::path(a.grid).extension() != ".vdb")
@@ -109,7 +112,8 @@ Status Export(const Arguments& a) {
 
 void AddExportCommand(CLI::App& app, CommandContext& context) {
     auto a = std::make_shared<Arguments>();
-    CLI::App* command = app.add_subcommand("export", "Write a scan file's or a run's mesh, map, path or raw frames as other files");
+    CLI::App* command =
+        app.add_subcommand("export", "Write a scan file's or a run's mesh, map, path or raw frames as other files");
     const auto add = [&](const char* name, std::string& value, const char* what, const char* type) {
         command->add_option(name, value, what)->type_name(type);
     };
@@ -120,10 +124,11 @@ void AddExportCommand(CLI::App& app, CommandContext& context) {
     add("--trajectory", a->trajectory, "Camera path, TUM format", "FILE");
     add("--kitti", a->kitti, "Camera path, KITTI format; its stamps go to FILE.times", "FILE");
     add("--frames", a->frames,
-        "The raw frames that a scan holds: a new folder (TUM layout), or FILE.json for nerfstudio and instant-ngp, with images/ and "
-        "depth/ beside it",
+        "The raw frames that a scan holds: a new folder (TUM layout), or FILE.json for nerfstudio and instant-ngp, "
+        "with images/ and depth/ beside it",
         "DIR|FILE.json");
-    add("--colmap", a->colmap, "The raw frames with their poses, and points of the mesh, as a COLMAP model (text); images/ in it", "DIR");
+    add("--colmap", a->colmap,
+        "The raw frames with their poses, and points of the mesh, as a COLMAP model (text); images/ in it", "DIR");
     command->callback([a, &context] { context.exit_code = ExitCode(Export(*a)); });
 }
 

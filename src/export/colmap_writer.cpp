@@ -11,8 +11,8 @@ namespace tessera {
 namespace {
 
 std::string CamerasText(const PinholeCamera& c) {
-    return fmt::format("# CAMERA_ID MODEL WIDTH HEIGHT fx fy cx cy\n1 PINHOLE {} {} {:.9g} {:.9g} {:.9g} {:.9g}\n", c.width, c.height,
-                       c.fx, c.fy, c.cx + 0.5, c.cy + 0.5);
+    return fmt::format("# CAMERA_ID MODEL WIDTH HEIGHT fx fy cx cy\n1 PINHOLE {} {} {:.9g} {:.9g} {:.9g} {:.9g}\n",
+                       c.width, c.height, c.fx, c.fy, c.cx + 0.5, c.cy + 0.5);
 }
 
 // Two lines, the second for points seen in the image, of which we name none.
@@ -22,8 +22,8 @@ std::string ImageLines(std::size_t id, const Eigen::Isometry3d& T_world_camera, 
     q.normalize();
     if (q.w() < 0) q.coeffs() = -q.coeffs();
     const Eigen::Vector3d t = T_camera_world.translation();
-    return fmt::format("{} {:.12f} {:.12f} {:.12f} {:.12f} {:.9f} {:.9f} {:.9f} 1 {}\n\n", id, q.w(), q.x(), q.y(), q.z(), t.x(), t.y(),
-                       t.z(), file_name);
+    return fmt::format("{} {:.12f} {:.12f} {:.12f} {:.12f} {:.9f} {:.9f} {:.9f} 1 {}\n\n", id, q.w(), q.x(), q.y(),
+                       q.z(), t.x(), t.y(), t.z(), file_name);
 }
 
 std::string PointsText(const TriangleMesh& mesh) {
@@ -52,7 +52,8 @@ Status WriteColmap(const std::string& scan_path, const TriangleMesh& mesh, const
     });
     if (!written.ok()) return written;
     if (Status status = WriteTextFile(folder + "/points3D.txt", PointsText(mesh)); !status.ok()) return status;
-    if (Status status = WriteTextFile(folder + "/cameras.txt", CamerasText(frames.value()->camera())); !status.ok()) return status;
+    if (Status status = WriteTextFile(folder + "/cameras.txt", CamerasText(frames.value()->camera())); !status.ok())
+        return status;
     return WriteTextFile(folder + "/images.txt", images);
 }
 

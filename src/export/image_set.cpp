@@ -34,7 +34,8 @@ Status PosedFrames::ForEach(const std::function<Status(const PosedFrame&)>& take
     });
     if (!read.ok()) return read;
     if (taken == 0)
-        return Status::Error(file_->path() + ": none of its raw frames has both a pose and colour; scan again with a colour camera");
+        return Status::Error(file_->path() +
+                             ": none of its raw frames has both a pose and colour; scan again with a colour camera");
     return Status::Ok();
 }
 

@@ -1,5 +1,5 @@
-// What the sets of posed images for other programs have in common: a scan's raw frames with their poses, folders for them,
-// and some points of the surface to begin with.
+// What the sets of posed images for other programs have in common: a scan's raw frames with their poses, folders for
+// them, and some points of the surface to begin with.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -21,8 +21,8 @@ struct PosedFrame {
     StoredFrame stored;  // its images, as files
 };
 
-// Owner thread only. Errors name the file; for a scan without raw frames, or without any that has a pose and colour, they say how
-// to keep them.
+// Owner thread only. Errors name the file; for a scan without raw frames, or without any that has a pose and colour,
+// they say how to keep them.
 class PosedFrames {
   public:
     static Result<std::unique_ptr<PosedFrames>> Open(const std::string& scan_path);

@@ -79,7 +79,8 @@ Status WriteFrames(PosedFrames& frames, const std::string& folder, Json& list) {
         if (Status status = depth.Write(frame.stored, folder + depth_name); !status.ok())
             return Status::Error("frame " + frame.name + ": " + status.message());
         const Eigen::Isometry3d T = ZUpFromWorld() * frame.T_world_camera * T_opencv_opengl;
-        list.push_back({{"file_path", colour_name}, {"depth_file_path", depth_name}, {"transform_matrix", Rows(T.matrix(), 4)}});
+        list.push_back(
+            {{"file_path", colour_name}, {"depth_file_path", depth_name}, {"transform_matrix", Rows(T.matrix(), 4)}});
         return Status::Ok();
     });
 }

@@ -31,7 +31,8 @@ std::uint64_t Checksum(const T* values, std::size_t count, std::uint64_t before)
 // OpenVDB gives every file a random identity. This one follows from the map, so that the same map gives the same bytes.
 std::string FileId(const BlockMap& map) {
     std::uint64_t shape = 0, paint = 0;
-    for (const double value : {map.config().voxel_size_m, map.config().truncation_m}) shape = Checksum(&value, 1, shape);
+    for (const double value : {map.config().voxel_size_m, map.config().truncation_m})
+        shape = Checksum(&value, 1, shape);
     for (BlockId id = 1; id < map.size(); ++id) {
         if (map.IsFree(id)) continue;
         const BlockCoord coord = map.coord(id);
@@ -39,8 +40,8 @@ std::string FileId(const BlockMap& map) {
         shape = Checksum(map.field(id), kBlockVoxels, shape);
         paint = Checksum(map.colour(id), kBlockVoxels, paint);
     }
-    return fmt::format("{:08x}-{:04x}-{:04x}-{:04x}-{:012x}", shape >> 32, shape >> 16 & 0xffff, shape & 0xffff, paint >> 48,
-                       paint & 0xffffffffffff);
+    return fmt::format("{:08x}-{:04x}-{:04x}-{:04x}-{:012x}", shape >> 32, shape >> 16 & 0xffff, shape & 0xffff,
+                       paint >> 48, paint & 0xffffffffffff);
 }
 
 // A stream into a file that appears whole or not at all, and that carries `id` as its identity.
@@ -71,10 +72,14 @@ class AtomicBuffer : public std::streambuf {
     bool begun_ = false;
 };
 
-bool InBand(FieldWord word) { return HasDistance(word) && std::abs(FieldDistance(word)) < 1; }
+bool InBand(FieldWord word) {
+    return HasDistance(word) && std::abs(FieldDistance(word)) < 1;
+}
 
 // IEC 61966-2-1.
-float LinearOfSrgb(float s) { return s <= 0.04045f ? s / 12.92f : std::pow((s + 0.055f) / 1.055f, 2.4f); }
+float LinearOfSrgb(float s) {
+    return s <= 0.04045f ? s / 12.92f : std::pow((s + 0.055f) / 1.055f, 2.4f);
+}
 
 // One block into a leaf of each grid.
 class LeafWriter {
@@ -137,7 +142,9 @@ Status Write(const std::string& path, const BlockMap& map) {
 
 }  // namespace
 
-bool VdbAvailable() { return true; }
+bool VdbAvailable() {
+    return true;
+}
 
 Status WriteVdb(const std::string& path, const BlockMap& map) {
     try {

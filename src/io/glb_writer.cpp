@@ -15,7 +15,8 @@ namespace tessera {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "glTF files are little endian");
-static_assert(sizeof(Eigen::Vector3f) == 12 && sizeof(std::array<std::uint32_t, 3>) == 12, "written as they lie in memory");
+static_assert(sizeof(Eigen::Vector3f) == 12 && sizeof(std::array<std::uint32_t, 3>) == 12,
+              "written as they lie in memory");
 
 constexpr std::uint32_t kMagic = 0x46546c67, kVersion = 2, kJsonChunk = 0x4e4f534a, kBinaryChunk = 0x004e4942;
 constexpr int kFloat = 5126, kUnsignedShort = 5123, kUnsignedInt = 5125, kArrayBuffer = 34962, kElementBuffer = 34963;
@@ -79,12 +80,14 @@ nlohmann::json Describe(const TriangleMesh& mesh, Arrays& arrays) {
     nlohmann::json attributes;
     attributes["POSITION"] = arrays.Add(count, 12 * count, kArrayBuffer, PositionAccessor(mesh));
     if (!mesh.normals.empty())
-        attributes["NORMAL"] = arrays.Add(count, 12 * count, kArrayBuffer, {{"componentType", kFloat}, {"type", "VEC3"}});
+        attributes["NORMAL"] =
+            arrays.Add(count, 12 * count, kArrayBuffer, {{"componentType", kFloat}, {"type", "VEC3"}});
     if (!mesh.colours.empty())
         attributes["COLOR_0"] = arrays.Add(count, sizeof(Colour16) * count, kArrayBuffer,
                                            {{"componentType", kUnsignedShort}, {"type", "VEC4"}, {"normalized", true}});
     const std::size_t corners = 3 * mesh.triangles.size();
-    const int indices = arrays.Add(corners, 4 * corners, kElementBuffer, {{"componentType", kUnsignedInt}, {"type", "SCALAR"}});
+    const int indices =
+        arrays.Add(corners, 4 * corners, kElementBuffer, {{"componentType", kUnsignedInt}, {"type", "SCALAR"}});
     return {{"attributes", attributes}, {"indices", indices}, {"material", 0}, {"mode", 4}};
 }
 
@@ -139,9 +142,12 @@ void WriteArrays(AtomicFile& file, const TriangleMesh& mesh) {
 
 Status WriteGlb(const std::string& path, const TriangleMesh& mesh) {
     const std::size_t count = mesh.vertices.size();
-    TESSERA_CHECK(mesh.normals.empty() || mesh.normals.size() == count, "{} normals, {} vertices", mesh.normals.size(), count);
-    TESSERA_CHECK(mesh.colours.empty() || mesh.colours.size() == count, "{} colours, {} vertices", mesh.colours.size(), count);
-    if (mesh.triangles.empty()) return Status::Error(path + ": the mesh is empty, which glTF cannot say; write it as .ply");
+    TESSERA_CHECK(mesh.normals.empty() || mesh.normals.size() == count, "{} normals, {} vertices", mesh.normals.size(),
+                  count);
+    TESSERA_CHECK(mesh.colours.empty() || mesh.colours.size() == count, "{} colours, {} vertices", mesh.colours.size(),
+                  count);
+    if (mesh.triangles.empty())
+        return Status::Error(path + ": the mesh is empty, which glTF cannot say; write it as .ply");
     std::size_t binary_bytes = 0;
     const std::string json = Json(mesh, binary_bytes);
     const std::size_t bytes = 12 + 8 + json.size() + 8 + binary_bytes;

@@ -42,10 +42,11 @@ void AddVertices(const TriangleMesh& mesh, LineBuffer& lines) {
             continue;
         }
         const Rgb8& c = mesh.colours[i];
-        lines.Add(FMT_COMPILE("v {:.6f} {:.6f} {:.6f} {:.4f} {:.4f} {:.4f}\n"), v.x(), v.y(), v.z(), c.r / 255.0, c.g / 255.0,
-                  c.b / 255.0);
+        lines.Add(FMT_COMPILE("v {:.6f} {:.6f} {:.6f} {:.4f} {:.4f} {:.4f}\n"), v.x(), v.y(), v.z(), c.r / 255.0,
+                  c.g / 255.0, c.b / 255.0);
     }
-    for (const Eigen::Vector3f& n : mesh.normals) lines.Add(FMT_COMPILE("vn {:.4f} {:.4f} {:.4f}\n"), n.x(), n.y(), n.z());
+    for (const Eigen::Vector3f& n : mesh.normals)
+        lines.Add(FMT_COMPILE("vn {:.4f} {:.4f} {:.4f}\n"), n.x(), n.y(), n.z());
 }
 
 // Counted from 1.
@@ -63,8 +64,10 @@ void AddFaces(const TriangleMesh& mesh, LineBuffer& lines) {
 
 Status WriteObj(const std::string& path, const TriangleMesh& mesh) {
     const std::size_t count = mesh.vertices.size();
-    TESSERA_CHECK(mesh.normals.empty() || mesh.normals.size() == count, "{} normals, {} vertices", mesh.normals.size(), count);
-    TESSERA_CHECK(mesh.colours.empty() || mesh.colours.size() == count, "{} colours, {} vertices", mesh.colours.size(), count);
+    TESSERA_CHECK(mesh.normals.empty() || mesh.normals.size() == count, "{} normals, {} vertices", mesh.normals.size(),
+                  count);
+    TESSERA_CHECK(mesh.colours.empty() || mesh.colours.size() == count, "{} colours, {} vertices", mesh.colours.size(),
+                  count);
     AtomicFile file(path);
     {
         LineBuffer lines(file);

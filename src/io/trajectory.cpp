@@ -166,7 +166,8 @@ Status WriteKittiPoses(const std::string& path, const std::vector<StampedPose>& 
     for (const StampedPose& pose : poses) {
         for (int row = 0; row < 3; ++row)
             for (int column = 0; column < 4; ++column)
-                lines += fmt::format("{:.9f}{}", pose.T_world_camera(row, column), row == 2 && column == 3 ? '\n' : ' ');
+                lines += fmt::format("{:.9f} ", pose.T_world_camera(row, column));
+        lines.back() = '\n';
         times += fmt::format("{:.6f}\n", pose.stamp_s);
     }
     if (Status status = WriteTextFile(path, lines); !status.ok()) return status;

@@ -28,7 +28,8 @@ TEST(Colmap, EveryPixelIsWhereTheFilesSay) {
     WritePosedScan(folder / "a.scan");
     const Status status = WriteColmap(folder / "a.scan", PointsOfTheRoom(3000), folder / "set");
     ASSERT_TRUE(status.ok()) << status.message();
-    const std::vector<std::string> cameras = Lines(folder / "set/cameras.txt"), images = Lines(folder / "set/images.txt");
+    const std::vector<std::string> cameras = Lines(folder / "set/cameras.txt"),
+                                   images = Lines(folder / "set/images.txt");
     ASSERT_EQ(cameras.size(), 1u);
     std::stringstream camera(cameras[0]);
     std::string model;
@@ -74,7 +75,8 @@ TEST(Colmap, PointsAreTheMeshsInTheWorld) {
         ASSERT_LT((p - mesh.vertices[i].cast<double>()).norm(), 1e-6);
         ASSERT_TRUE(r == mesh.colours[i].r && g == mesh.colours[i].g && b == mesh.colours[i].b) << points[i];
     }
-    EXPECT_NE(WriteColmap(folder / "a.scan", mesh, folder / "set").message().find("holds files already"), std::string::npos);
+    EXPECT_NE(WriteColmap(folder / "a.scan", mesh, folder / "set").message().find("holds files already"),
+              std::string::npos);
 }
 
 }  // namespace

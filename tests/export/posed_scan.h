@@ -16,7 +16,9 @@ inline BoxRoom PosedRoom() {
     return room;
 }
 
-inline Eigen::Isometry3d PosedCamera(int frame) { return SmoothPath(20 * frame); }
+inline Eigen::Isometry3d PosedCamera(int frame) {
+    return SmoothPath(20 * frame);
+}
 
 // Of different channels.
 inline Rgb8 Warm(std::uint8_t grey) {
@@ -40,7 +42,8 @@ inline void WritePosedScan(const std::string& path, bool with_frames = true) {
         checkpoint.path.emplace_back(i, record);
         if (!with_frames) continue;
         auto frame = std::make_unique<Frame>(PosedRoom().Render(SmallCamera(), PosedCamera(i), record.stamp_s));
-        for (std::size_t k = 0; k < frame->colour.size(); ++k) frame->colour.data()[k] = Warm(frame->colour.data()[k].r);
+        for (std::size_t k = 0; k < frame->colour.size(); ++k)
+            frame->colour.data()[k] = Warm(frame->colour.data()[k].r);
         checkpoint.raw_frames.emplace_back(i, std::move(frame));
     }
     checkpoint.progress = {kPosedFrames, 0, 0, kPosedFrames - 1, 20 * (kPosedFrames - 1) / 30.0, false};
@@ -73,7 +76,8 @@ inline TriangleMesh PointsOfTheRoom(int count) {
 
 // Two images of one smooth pattern, one of them a JPEG.
 inline void ExpectSimilar(const Rgb8& a, const Rgb8& b, int u, int v) {
-    for (const int difference : {a.r - b.r, a.g - b.g, a.b - b.b}) ASSERT_LE(std::abs(difference), 12) << u << ", " << v;
+    for (const int difference : {a.r - b.r, a.g - b.g, a.b - b.b})
+        ASSERT_LE(std::abs(difference), 12) << u << ", " << v;
 }
 
 }  // namespace tessera::testing_support

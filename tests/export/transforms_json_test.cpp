@@ -24,7 +24,8 @@ class Transforms : public testing::Test {
     Eigen::Vector3d Project(const nlohmann::json& frame, const Eigen::Vector3d& p) const {
         Eigen::Matrix4d T;
         for (int r = 0; r < 4; ++r)
-            for (int c = 0; c < 4; ++c) T(r, c) = frame["transform_matrix"][static_cast<std::size_t>(r)][static_cast<std::size_t>(c)];
+            for (int c = 0; c < 4; ++c)
+                T(r, c) = frame["transform_matrix"][static_cast<std::size_t>(r)][static_cast<std::size_t>(c)];
         const Eigen::Vector4d q = T.inverse() * p.homogeneous();  // x right, y up, z back
         const double ahead = -q.z();
         return {Number("cx") + Number("fl_x") * q.x() / ahead, Number("cy") - Number("fl_y") * q.y() / ahead, ahead};
@@ -68,10 +69,12 @@ TEST_F(Transforms, PointsLieInTheFilesWorldAndAppliedTransformLeadsBack) {
     ASSERT_EQ(points.value().vertices.size(), 5000u);
     Eigen::Matrix<double, 3, 4> T_file_world;
     for (int r = 0; r < 3; ++r)
-        for (int c = 0; c < 4; ++c) T_file_world(r, c) = json["applied_transform"][static_cast<std::size_t>(r)][static_cast<std::size_t>(c)];
+        for (int c = 0; c < 4; ++c)
+            T_file_world(r, c) = json["applied_transform"][static_cast<std::size_t>(r)][static_cast<std::size_t>(c)];
     EXPECT_EQ(T_file_world.col(3).norm(), 0);
     for (std::size_t i = 0; i < 5000; ++i) {
-        const Eigen::Vector3d p = points.value().vertices[i].cast<double>(), world = T_file_world.leftCols<3>().transpose() * p;
+        const Eigen::Vector3d p = points.value().vertices[i].cast<double>(),
+                              world = T_file_world.leftCols<3>().transpose() * p;
         ASSERT_LT((p - Turned(world)).norm(), 1e-9);
         ASSERT_LT(std::abs(PosedRoom().SignedDistance(world)), 1e-5) << i;
     }

@@ -15,9 +15,13 @@ namespace {
 
 constexpr double kVoxel_m = 0.02, kTruncation_m = 0.05;
 
-Eigen::Vector3d Paint(const Eigen::Vector3d& p) { return {0.5 + 0.4 * p.x(), 0.5 - 0.3 * p.y(), 0.4 + 0.5 * p.z()}; }
+Eigen::Vector3d Paint(const Eigen::Vector3d& p) {
+    return {0.5 + 0.4 * p.x(), 0.5 - 0.3 * p.y(), 0.4 + 0.5 * p.z()};
+}
 
-double Linear(double s) { return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4); }
+double Linear(double s) {
+    return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
+}
 
 class VdbWriter : public ::testing::Test {
   protected:

@@ -90,7 +90,8 @@ TEST(MeshWriters, GlbHoldsTheArraysBitForBit) {
     ASSERT_TRUE(WriteGlb(folder / "a.glb", mesh).ok());
     const Glb glb = TakeApart(Bytes(folder / "a.glb"));
     EXPECT_EQ(glb.json["buffers"][0]["byteLength"].get<std::size_t>(), glb.binary.size());
-    const auto positions = glb.Values<float>(glb.Attribute("POSITION"), 3), normals = glb.Values<float>(glb.Attribute("NORMAL"), 3);
+    const auto positions = glb.Values<float>(glb.Attribute("POSITION"), 3),
+               normals = glb.Values<float>(glb.Attribute("NORMAL"), 3);
     const auto indices = glb.Values<std::uint32_t>(glb.json["meshes"][0]["primitives"][0]["indices"].get<int>(), 1);
     ASSERT_EQ(positions.size(), 12u);
     ASSERT_EQ(indices.size(), 12u);
@@ -120,7 +121,8 @@ TEST(MeshWriters, GlbColoursAreLinearAndComeBackExactly) {
     TriangleMesh mesh;
     for (std::size_t i = 0; i < 300000; ++i) {
         mesh.vertices.push_back({static_cast<float>(i), 0, 0});
-        mesh.colours.push_back({static_cast<std::uint8_t>(i % 256), static_cast<std::uint8_t>((i + 1) % 256), static_cast<std::uint8_t>(i / 256 % 256)});
+        mesh.colours.push_back({static_cast<std::uint8_t>(i % 256), static_cast<std::uint8_t>((i + 1) % 256),
+                                static_cast<std::uint8_t>(i / 256 % 256)});
     }
     mesh.triangles = {{0, 1, 2}};
     const TempFolder folder;
@@ -134,7 +136,9 @@ TEST(MeshWriters, GlbColoursAreLinearAndComeBackExactly) {
     ASSERT_EQ(colours.size(), 4 * mesh.colours.size());
     for (std::size_t i = 0; i < mesh.colours.size(); ++i) {
         const Rgb8& c = mesh.colours[i];
-        ASSERT_TRUE(srgb(4 * i) == c.r && srgb(4 * i + 1) == c.g && srgb(4 * i + 2) == c.b && colours[4 * i + 3] == 65535) << i;
+        ASSERT_TRUE(srgb(4 * i) == c.r && srgb(4 * i + 1) == c.g && srgb(4 * i + 2) == c.b &&
+                    colours[4 * i + 3] == 65535)
+            << i;
     }
     EXPECT_NEAR(colours[4 * 128] / 65535.0, 0.2158605, 1e-5);  // sRGB 128
 }
@@ -153,11 +157,13 @@ TEST(MeshWriters, GlbIsReadByTinyGltf) {
     EXPECT_EQ(error + warning, "");
     const tinygltf::Primitive& primitive = model.meshes.at(0).primitives.at(0);
     EXPECT_EQ(primitive.mode, TINYGLTF_MODE_TRIANGLES);
-    EXPECT_EQ(model.accessors.at(static_cast<std::size_t>(primitive.attributes.at("COLOR_0"))).count, mesh.colours.size());
+    EXPECT_EQ(model.accessors.at(static_cast<std::size_t>(primitive.attributes.at("COLOR_0"))).count,
+              mesh.colours.size());
     const tinygltf::Accessor& indices = model.accessors.at(static_cast<std::size_t>(primitive.indices));
     EXPECT_EQ(indices.count, 3 * mesh.triangles.size());
     const tinygltf::BufferView& view = model.bufferViews.at(static_cast<std::size_t>(indices.bufferView));
-    EXPECT_EQ(std::memcmp(model.buffers.at(0).data.data() + view.byteOffset, mesh.triangles.data(), view.byteLength), 0);
+    EXPECT_EQ(std::memcmp(model.buffers.at(0).data.data() + view.byteOffset, mesh.triangles.data(), view.byteLength),
+              0);
     EXPECT_EQ(model.materials.at(0).pbrMetallicRoughness.metallicFactor, 0);
 #endif
 }
@@ -189,7 +195,8 @@ TEST(MeshWriters, TheExtensionChoosesAndAnUnknownOneIsRefusedByName) {
     for (const char* name : {"a.stl", "a", "obj"}) {
         const Result<MeshFormat> none = MeshFormatOf(name);
         ASSERT_FALSE(none.ok()) << name;
-        EXPECT_EQ(none.message(), std::string(name) + ": a mesh is written as .ply, .obj, .glb; give one of these extensions");
+        EXPECT_EQ(none.message(),
+                  std::string(name) + ": a mesh is written as .ply, .obj, .glb; give one of these extensions");
     }
 }
 

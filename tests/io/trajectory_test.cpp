@@ -69,7 +69,8 @@ TEST(Trajectory, LineHasFixedDecimalsAndOneQuaternionSign) {
 TEST(Trajectory, KittiLinesAreThreeRowsAndTheStampsLieBeside) {
     const Eigen::Quaterniond quarter(Eigen::AngleAxisd(M_PI / 2, Eigen::Vector3d::UnitZ()));
     const std::string path = TestPath();
-    ASSERT_TRUE(WriteKittiPoses(path, {Pose(12.25, {1, -2, 0.125}, quarter), Pose(12.5, {0, 0, 3}, Eigen::Quaterniond::Identity())}).ok());
+    const Eigen::Quaterniond identity = Eigen::Quaterniond::Identity();
+    ASSERT_TRUE(WriteKittiPoses(path, {Pose(12.25, {1, -2, 0.125}, quarter), Pose(12.5, {0, 0, 3}, identity)}).ok());
     EXPECT_EQ(ReadWholeFile(path + ".times", 1000).value(), "12.250000\n12.500000\n");
     const std::string text = ReadWholeFile(path, 1000).value();
     std::stringstream numbers(text);
