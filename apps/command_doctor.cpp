@@ -9,6 +9,7 @@
 
 #include "command.h"
 #include "core/cpu.h"
+#include "export/vdb_writer.h"
 #include "io/openni_devices.h"
 #include "optimize/pose_graph.h"
 #include "render/gl_context.h"
@@ -36,6 +37,13 @@ const char* Window() {
 #endif
 }
 
+void PrintExports() {
+    const char* volumes = VdbAvailable() ? ", volumes .vdb" : "";
+    fmt::print("exports      meshes .ply .obj .glb, point clouds, paths (TUM, KITTI), {}{}\n",
+               "images for nerfstudio and COLMAP", volumes);
+    if (!VdbAvailable()) fmt::print("             .vdb {}\n", kVdbUnavailable);
+}
+
 int Doctor() {
     const double memory_gb = static_cast<double>(sysconf(_SC_PHYS_PAGES)) *
                              static_cast<double>(sysconf(_SC_PAGE_SIZE)) / (1024.0 * 1024.0 * 1024.0);
@@ -54,6 +62,7 @@ int Doctor() {
     fmt::print("window       {}\n", Window());
     fmt::print("loop closure {}\n", PoseGraphAvailable() ? "on request" : "off: install libceres-dev and build again");
     fmt::print("scan files   {}\n", ScanAvailable() ? "on" : std::string("off: ") + kScanUnavailable);
+    PrintExports();
     for (const char* off : {"CUDA        ", ".klg        ", "labels      "})
         fmt::print("{} not in this version\n", off);
     return kExitDone;

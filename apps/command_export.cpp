@@ -4,7 +4,12 @@
 #include <memory>
 
 #include "command.h"
+#include "export/colmap_writer.h"
+#include "export/image_set.h"
+#include "export/transforms_json.h"
+#include "export/vdb_writer.h"
 #include "io/mesh_io.h"
+#include "io/mesh_writers.h"
 #include "io/trajectory.h"
 #include "system/scan_export.h"
 
@@ -14,24 +19,15 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Arguments {
-    std::string input, mesh, trajectory, frames;
-};
+    std::string input, mesh, cloud, grid, trajectory, kitti, frames, colmap;
 
-// What can be written, by the file's extension: a new format is one more line.
-struct MeshFormat {
-    const char* extension;
-    Status (*write)(const std::string& path, const TriangleMesh& mesh);
+    bool WantsTransforms() const { return fs::path(frames).extension() == ".json"; }
+    bool NeedsMesh() const { return !mesh.empty() || !cloud.empty() || !colmap.empty() || WantsTransforms(); }
+    bool NeedsPath() const { return !trajectory.empty() || !kitti.empty(); }
+    // What only a scan file has.
+    bool NeedsScan() const { return !grid.empty() || NeedsFrames(); }
+    bool NeedsFrames() const { return !frames.empty() || !colmap.empty(); }
 };
-constexpr MeshFormat kMeshFormats[] = {{".ply", WritePly}};
-
-Result<MeshFormat> FormatOf(const std::string& path) {
-    std::string known;
-    for (const MeshFormat& format : kMeshFormats) {
-        if (fs::path(path).extension() == format.extension) return format;
-        known += (known.empty() ? "" : ", ") + std::string(format.extension);
-    }
-    return Status::Error(fmt::format("--mesh {}: not in this version; a mesh is written as {}", path, known));
-}
 
 // What is asked for, of either kind of input.
 struct Content {
@@ -40,11 +36,15 @@ struct Content {
 };
 
 Result<Content> FromScan(const Arguments& a) {
-    Result<ScanContent> scan = ReadScan(a.input, {.map = !a.mesh.empty()});
+    if (a.NeedsFrames())  // before anything is written
+        if (const auto frames = PosedFrames::Open(a.input); !frames.ok()) return frames.status();
+    Result<ScanContent> scan = ReadScan(a.input, {.map = a.NeedsMesh() || !a.grid.empty()});
     if (!scan.ok()) return scan.status();
     Content content;
     content.path = scan.value().Path();
-    if (a.mesh.empty()) return content;
+    if (!a.grid.empty())
+        if (Status status = WriteVdb(a.grid, *scan.value().map); !status.ok()) return status;
+    if (!a.NeedsMesh()) return content;
     Result<TriangleMesh> mesh = MeshOfScan(scan.value());
     if (!mesh.ok()) return mesh.status();
     content.mesh = std::move(mesh.value());
@@ -53,13 +53,12 @@ Result<Content> FromScan(const Arguments& a) {
 
 Result<Content> FromRun(const Arguments& a) {
     Content content;
-    if (!a.frames.empty()) return Status::Error(a.input + ": a run's folder has no raw frames; a scan file may have");
-    if (!a.mesh.empty()) {
+    if (a.NeedsMesh()) {
         Result<TriangleMesh> mesh = ReadPly(a.input + "/mesh.ply");
         if (!mesh.ok()) return mesh.status();
         content.mesh = std::move(mesh.value());
     }
-    if (!a.trajectory.empty()) {
+    if (a.NeedsPath()) {
         Result<Trajectory> trajectory = ReadTrajectory(a.input + "/trajectory.txt");
         if (!trajectory.ok()) return trajectory.status();
         content.path = std::move(trajectory.value().poses);
@@ -67,35 +66,69 @@ Result<Content> FromRun(const Arguments& a) {
     return content;
 }
 
-Status Export(const Arguments& a) {
-    if (a.mesh.empty() && a.trajectory.empty() && a.frames.empty())
-        return Status::Error("nothing to export; give --mesh, --trajectory or --frames");
-    std::optional<MeshFormat> format;
-    if (!a.mesh.empty()) {
-        const Result<MeshFormat> chosen = FormatOf(a.mesh);
-        if (!chosen.ok()) return chosen.status();
-        format = chosen.value();
-    }
-    std::error_code ignored;
-    const bool folder = fs::is_directory(a.input, ignored);
-    const Result<Content> content = folder ? FromRun(a) : FromScan(a);
-    if (!content.ok()) return content.status();
-    if (format)
-        if (Status status = format->write(a.mesh, content.value().mesh); !status.ok()) return status;
+// Before anything is read or written.
+Status Check(const Arguments& a, bool is_run) {
+    if (!a.NeedsMesh() && !a.NeedsPath() && !a.NeedsScan())
+        return Status::Error(
+            "nothing to export; give --mesh, --cloud, --grid, --trajectory, --kitti, --frames or --colmap");
+    if (is_run && a.NeedsScan())
+        return Status::Error(
+            a.input + ": a run's folder has no map and no raw frames; --grid, --frames and --colmap take a FILE.scan");
+    if (!a.mesh.empty())
+        if (const Result<MeshFormat> format = MeshFormatOf(a.mesh); !format.ok())
+            return Status::Error("--mesh " + format.message());
+    if (!a.cloud.empty() && fs::path(a.cloud).extension() != ".ply")
+        return Status::Error("--cloud " + a.cloud + ": a point cloud is written as .ply; give this extension");
+    if (!a.grid.empty() && fs::path(a.grid).extension() != ".vdb")
+        return Status::Error("--grid " + a.grid + ": a volume is written as .vdb; give this extension");
+    if (!a.grid.empty() && !VdbAvailable()) return Status::Error("--grid " + a.grid + ": .vdb is " + kVdbUnavailable);
+    return Status::Ok();
+}
+
+Status Write(const Arguments& a, const Content& content) {
+    if (!a.mesh.empty())
+        if (Status status = MeshFormatOf(a.mesh).value().write(a.mesh, content.mesh); !status.ok()) return status;
+    if (!a.cloud.empty())
+        if (Status status = WritePlyCloud(a.cloud, content.mesh); !status.ok()) return status;
     if (!a.trajectory.empty())
-        if (Status status = WriteTrajectory(a.trajectory, content.value().path); !status.ok()) return status;
+        if (Status status = WriteTrajectory(a.trajectory, content.path); !status.ok()) return status;
+    if (!a.kitti.empty())
+        if (Status status = WriteKittiPoses(a.kitti, content.path); !status.ok()) return status;
+    if (!a.colmap.empty())
+        if (Status status = WriteColmap(a.input, content.mesh, a.colmap); !status.ok()) return status;
+    if (a.WantsTransforms()) return WriteTransforms(a.input, content.mesh, a.frames);
     return a.frames.empty() ? Status::Ok() : ExportFrames(a.input, a.frames);
+}
+
+Status Export(const Arguments& a) {
+    std::error_code ignored;
+    const bool is_run = fs::is_directory(a.input, ignored);
+    if (Status status = Check(a, is_run); !status.ok()) return status;
+    const Result<Content> content = is_run ? FromRun(a) : FromScan(a);
+    return content.ok() ? Write(a, content.value()) : content.status();
 }
 
 }  // namespace
 
 void AddExportCommand(CLI::App& app, CommandContext& context) {
     auto a = std::make_shared<Arguments>();
-    CLI::App* command = app.add_subcommand("export", "Write a scan file's or a run's mesh, path or raw frames as other files");
-    command->add_option("INPUT", a->input, "FILE.scan, or a run's folder")->required();
-    command->add_option("--mesh", a->mesh, "Coloured mesh, metres; by extension: .ply")->type_name("FILE");
-    command->add_option("--trajectory", a->trajectory, "Camera path, TUM format")->type_name("FILE");
-    command->add_option("--frames", a->frames, "New folder for the raw frames that a scan holds, TUM layout")->type_name("DIR");
+    CLI::App* command =
+        app.add_subcommand("export", "Write a scan file's or a run's mesh, map, path or raw frames as other files");
+    const auto add = [&](const char* name, std::string& value, const char* what, const char* type) {
+        command->add_option(name, value, what)->type_name(type);
+    };
+    command->add_option("INPUT", a->input, "FILE.scan, or a run's folder (mesh, cloud and path only)")->required();
+    add("--mesh", a->mesh, "Coloured mesh, metres; by extension: .ply, .obj, .glb", "FILE");
+    add("--cloud", a->cloud, "The mesh's vertices as a point cloud, .ply", "FILE");
+    add("--grid", a->grid, "Signed distance (metres) and colour as OpenVDB grids, .vdb", "FILE");
+    add("--trajectory", a->trajectory, "Camera path, TUM format", "FILE");
+    add("--kitti", a->kitti, "Camera path, KITTI format; its stamps go to FILE.times", "FILE");
+    add("--frames", a->frames,
+        "The raw frames that a scan holds: a new folder (TUM layout), or FILE.json for nerfstudio and instant-ngp, "
+        "with images/ and depth/ beside it",
+        "DIR|FILE.json");
+    add("--colmap", a->colmap,
+        "The raw frames with their poses, and points of the mesh, as a COLMAP model (text); images/ in it", "DIR");
     command->callback([a, &context] { context.exit_code = ExitCode(Export(*a)); });
 }
 

@@ -9,7 +9,7 @@ import re
 import sys
 
 ORDER = [["core"], ["io", "mapping"], ["synth", "render"], ["tracking", "semantics", "eval"], ["optimize"], ["scan"],
-         ["system"], ["viz"], ["apps"]]
+         ["export"], ["system"], ["viz"], ["apps"]]
 RANK = {folder: rank for rank, folders in enumerate(ORDER) for folder in folders}
 SUFFIXES = {".h", ".cpp", ".cu", ".cuh", ".inl"}
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]')

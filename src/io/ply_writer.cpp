@@ -4,6 +4,7 @@
 
 #include "io/file.h"
 #include "io/mesh_io.h"
+#include "io/mesh_writers.h"
 
 namespace tessera {
 namespace {
@@ -35,7 +36,9 @@ class BinaryBuffer {
     std::string bytes_;
 };
 
-std::string Header(const TriangleMesh& mesh) {
+enum class Content { kMesh, kPoints };
+
+std::string Header(const TriangleMesh& mesh, Content content) {
     std::string text = "ply\nformat binary_little_endian 1.0\ncomment made by tessera, metres\n";
     text += fmt::format("element vertex {}\n", mesh.vertices.size());
     text += "property float x\nproperty float y\nproperty float z\n";
@@ -43,14 +46,12 @@ std::string Header(const TriangleMesh& mesh) {
     if (!mesh.colours.empty())
         text += "property uchar red\nproperty uchar green\nproperty uchar blue\n";
     if (!mesh.labels.empty()) text += "property uchar class\nproperty ushort instance\n";
-    text += fmt::format("element face {}\n", mesh.triangles.size());
-    text += "property list uchar int vertex_indices\nend_header\n";
-    return text;
+    if (content == Content::kMesh)
+        text += fmt::format("element face {}\nproperty list uchar int vertex_indices\n", mesh.triangles.size());
+    return text + "end_header\n";
 }
 
-}  // namespace
-
-Status WritePly(const std::string& path, const TriangleMesh& mesh) {
+Status Write(const std::string& path, const TriangleMesh& mesh, Content content) {
     const std::size_t count = mesh.vertices.size();
     TESSERA_CHECK(mesh.normals.empty() || mesh.normals.size() == count, "{} normals, {} vertices",
                   mesh.normals.size(), count);
@@ -61,7 +62,7 @@ Status WritePly(const std::string& path, const TriangleMesh& mesh) {
     if (count > std::numeric_limits<std::int32_t>::max())
         return Status::Error(path + ": a PLY file holds at most 2^31 vertices");
     AtomicFile file(path);
-    file.Write(Header(mesh));
+    file.Write(Header(mesh, content));
     {
         BinaryBuffer buffer(file);
         for (std::size_t i = 0; i < count; ++i) {
@@ -72,12 +73,19 @@ Status WritePly(const std::string& path, const TriangleMesh& mesh) {
             buffer.Add(mesh.labels[i].class_id);
             buffer.Add(mesh.labels[i].instance);
         }
-        for (const auto& triangle : mesh.triangles) {
-            buffer.Add(std::uint8_t{3});
-            buffer.Add(triangle);
-        }
+        if (content == Content::kMesh)
+            for (const auto& triangle : mesh.triangles) {
+                buffer.Add(std::uint8_t{3});
+                buffer.Add(triangle);
+            }
     }
     return file.Commit();
 }
+
+}  // namespace
+
+Status WritePly(const std::string& path, const TriangleMesh& mesh) { return Write(path, mesh, Content::kMesh); }
+
+Status WritePlyCloud(const std::string& path, const TriangleMesh& mesh) { return Write(path, mesh, Content::kPoints); }
 
 }  // namespace tessera

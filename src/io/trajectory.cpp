@@ -161,6 +161,19 @@ Status WriteTrajectory(const std::string& path, const std::vector<StampedPose>& 
     return WriteTextFile(path, text);
 }
 
+Status WriteKittiPoses(const std::string& path, const std::vector<StampedPose>& poses) {
+    std::string lines, times;
+    for (const StampedPose& pose : poses) {
+        for (int row = 0; row < 3; ++row)
+            for (int column = 0; column < 4; ++column)
+                lines += fmt::format("{:.9f} ", pose.T_world_camera(row, column));
+        lines.back() = '\n';
+        times += fmt::format("{:.6f}\n", pose.stamp_s);
+    }
+    if (Status status = WriteTextFile(path, lines); !status.ok()) return status;
+    return WriteTextFile(path + ".times", times);
+}
+
 std::optional<Eigen::Isometry3d> InterpolatePose(const std::vector<StampedPose>& poses,
                                                  double stamp_s, double max_gap_s) {
     const auto after = std::lower_bound(

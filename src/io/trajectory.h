@@ -22,7 +22,11 @@ Result<Trajectory> ReadTrajectory(const std::string& path);
 
 Status WriteTrajectory(const std::string& path, const std::vector<StampedPose>& poses);
 
-// One line of such a file, without newline: stamps with 6 decimals, translations and quaternions with 9.
+// As KITTI's odometry benchmark has them: per pose the first three rows of T_world_camera, twelve numbers, row by row.
+// Such files have no stamps: those go, one a line, into a second file of that name with ".times" appended.
+Status WriteKittiPoses(const std::string& path, const std::vector<StampedPose>& poses);
+
+// One line of a TUM file, without newline: stamps with 6 decimals, translations and quaternions with 9.
 std::string TrajectoryLine(const StampedPose& pose);
 
 // The pose at `stamp_s`, interpolated between its neighbours (slerp, linear); nothing if outside or if the gap

@@ -124,15 +124,17 @@ Result<ScanMeta> ReadMeta(ScanFile& file) {
 
 }  // namespace
 
+std::optional<Eigen::Isometry3d> ScanContent::PoseOf(const PathRecord& record) const {
+    if (!record.tracked()) return std::nullopt;
+    const Eigen::Isometry3d& T = record.T_reference_camera;
+    if (record.keyframe < 0) return T;
+    return Normalised(keyframes[static_cast<std::size_t>(record.keyframe)].T_world_camera * T);
+}
+
 std::vector<StampedPose> ScanContent::Path() const {
     std::vector<StampedPose> poses;
-    for (const PathRecord& record : path) {
-        if (!record.tracked()) continue;
-        const Eigen::Isometry3d& T = record.T_reference_camera;
-        poses.push_back({record.stamp_s, record.keyframe < 0
-                                             ? T
-                                             : Normalised(keyframes[static_cast<std::size_t>(record.keyframe)].T_world_camera * T)});
-    }
+    for (const PathRecord& record : path)
+        if (const std::optional<Eigen::Isometry3d> T = PoseOf(record)) poses.push_back({record.stamp_s, *T});
     return poses;
 }
 

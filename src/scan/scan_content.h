@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,7 +24,9 @@ struct ScanContent {
     LoopProgress loops;
     Bytes tracking, labels;              // TrackingStage's and LabelMapper's states, as they gave them; perhaps empty
 
-    // T_world_camera of the tracked frames as it is known now, and the source's truth where it has one.
+    // T_world_camera of one of the path's frames as it is known now; nothing if it was not tracked.
+    std::optional<Eigen::Isometry3d> PoseOf(const PathRecord& record) const;
+    // The same of all tracked frames, and the source's truth where it has one.
     std::vector<StampedPose> Path() const;
     std::vector<StampedPose> Truth() const;
     // Where the last tracked frame's camera was in the map as it is here; nothing if no frame was tracked.

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <sstream>
+
 #include "io/file.h"
 
 namespace tessera {
@@ -61,6 +64,23 @@ TEST(Trajectory, LineHasFixedDecimalsAndOneQuaternionSign) {
     EXPECT_EQ(TrajectoryLine(Pose(12.25, {1, -2, 0.125}, q)),
               "12.250000 1.000000000 -2.000000000 0.125000000 -0.500000000 -0.500000000 "
               "-0.500000000 0.500000000");
+}
+
+TEST(Trajectory, KittiLinesAreThreeRowsAndTheStampsLieBeside) {
+    const Eigen::Quaterniond quarter(Eigen::AngleAxisd(M_PI / 2, Eigen::Vector3d::UnitZ()));
+    const std::string path = TestPath();
+    const Eigen::Quaterniond identity = Eigen::Quaterniond::Identity();
+    ASSERT_TRUE(WriteKittiPoses(path, {Pose(12.25, {1, -2, 0.125}, quarter), Pose(12.5, {0, 0, 3}, identity)}).ok());
+    EXPECT_EQ(ReadWholeFile(path + ".times", 1000).value(), "12.250000\n12.500000\n");
+    const std::string text = ReadWholeFile(path, 1000).value();
+    std::stringstream numbers(text);
+    const double expected[] = {0, -1, 0, 1, 1, 0, 0, -2, 0, 0, 1, 0.125, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 3};
+    for (const double e : expected) {
+        double value = 9;
+        numbers >> value;
+        EXPECT_NEAR(value, e, 1e-9);
+    }
+    EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 2);
 }
 
 TEST(Trajectory, TakesCrlfCommentsTabsCommasAndByteOrderMark) {

@@ -11,7 +11,7 @@ namespace tessera {
 
 class TempFolder {
   public:
-    TempFolder() : path_(testing::TempDir() + "tessera_XXXXXX") {
+    TempFolder() : path_(::testing::TempDir() + "tessera_XXXXXX") {
         if (mkdtemp(path_.data()) == nullptr) ADD_FAILURE() << "no temporary folder " << path_;
     }
     ~TempFolder() {

@@ -1,0 +1,111 @@
+#include "export/transforms_json.h"
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "export/image_set.h"
+#include "io/file.h"
+#include "io/image_io.h"
+#include "io/mesh_writers.h"
+#include "io/png_encoder.h"
+
+namespace tessera {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double kDepthUnitsPerMetre = 1000;  // what nerfstudio takes without being told
+
+Json Rows(const Eigen::Matrix4d& T, int rows) {
+    Json all = Json::array();
+    for (int r = 0; r < rows; ++r) all.push_back({T(r, 0), T(r, 1), T(r, 2), T(r, 3)});
+    return all;
+}
+
+Json Head(const PinholeCamera& camera) {
+    return {{"camera_model", "OPENCV"},
+            {"w", camera.width},
+            {"h", camera.height},
+            {"fl_x", camera.fx},
+            {"fl_y", camera.fy},
+            {"cx", camera.cx + 0.5},
+            {"cy", camera.cy + 0.5},
+            {"k1", 0.0},
+            {"k2", 0.0},
+            {"p1", 0.0},
+            {"p2", 0.0},
+            {"aabb_scale", 16},
+            {"integer_depth_scale", 1 / kDepthUnitsPerMetre},
+            {"applied_transform", Rows(ZUpFromWorld().matrix(), 3)},
+            {"ply_file_path", "points.ply"}};
+}
+
+// Depth as other programs expect it.
+class DepthFiles {
+  public:
+    DepthFiles(const PinholeCamera& camera, double units_per_m) : camera_(camera), decoder_(0, units_per_m) {}
+
+    Status Write(const StoredFrame& stored, const std::string& path) {
+        if (Status status = decoder_.Load(stored, frame_); !status.ok()) return status;
+        if (frame_.depth_m.width() != camera_.width || frame_.depth_m.height() != camera_.height)
+            return Status::Error("is not of the camera's size");
+        StoreDepth(frame_.depth_m, kDepthUnitsPerMetre, depth_mm_);
+        encoder_.EncodeDepth(depth_mm_, file_);
+        return WriteImageFile(path, file_);
+    }
+
+  private:
+    const PinholeCamera camera_;
+    FrameStore decoder_;  // holds no frame
+    Frame frame_;
+    Image<std::uint16_t> depth_mm_;
+    PngEncoder encoder_;
+    std::vector<std::uint8_t> file_;
+};
+
+Status WritePoints(const TriangleMesh& mesh, const std::string& path) {
+    TriangleMesh points = SamplePoints(mesh, kSeedPoints);
+    const Eigen::Isometry3f T = ZUpFromWorld().cast<float>();
+    for (Eigen::Vector3f& p : points.vertices) p = T * p;
+    return WritePlyCloud(path, points);
+}
+
+Status WriteFrames(PosedFrames& frames, const std::string& folder, Json& list) {
+    DepthFiles depth(frames.camera(), frames.depth_units_per_m());
+    const Eigen::Isometry3d T_opencv_opengl(Eigen::DiagonalMatrix<double, 3>(1, -1, -1).toDenseMatrix());
+    return frames.ForEach([&](const PosedFrame& frame) {
+        const std::string colour_name = "images/" + frame.name + ".jpg", depth_name = "depth/" + frame.name + ".png";
+        if (Status status = WriteImageFile(folder + colour_name, frame.stored.colour_jpeg); !status.ok()) return status;
+        if (Status status = depth.Write(frame.stored, folder + depth_name); !status.ok())
+            return Status::Error("frame " + frame.name + ": " + status.message());
+        const Eigen::Isometry3d T = ZUpFromWorld() * frame.T_world_camera * T_opencv_opengl;
+        list.push_back(
+            {{"file_path", colour_name}, {"depth_file_path", depth_name}, {"transform_matrix", Rows(T.matrix(), 4)}});
+        return Status::Ok();
+    });
+}
+
+}  // namespace
+
+Eigen::Isometry3d ZUpFromWorld() {
+    Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+    T.linear() << 1, 0, 0, 0, 0, 1, 0, -1, 0;
+    return T;
+}
+
+Status WriteTransforms(const std::string& scan_path, const TriangleMesh& mesh, const std::string& json_path) {
+    Result<std::unique_ptr<PosedFrames>> frames = PosedFrames::Open(scan_path);
+    if (!frames.ok()) return frames.status();
+    const std::string parent = std::filesystem::path(json_path).parent_path();
+    const std::string folder = parent.empty() ? "./" : parent + "/";
+    for (const char* name : {"images", "depth"})
+        if (Status status = MakeImageFolder(folder + name); !status.ok()) return status;
+    Json json = Head(frames.value()->camera());
+    Json list = Json::array();
+    if (Status status = WriteFrames(*frames.value(), folder, list); !status.ok()) return status;
+    json["frames"] = std::move(list);
+    if (Status status = WritePoints(mesh, folder + "points.ply"); !status.ok()) return status;
+    return WriteTextFile(json_path, json.dump(1) + "\n");
+}
+
+}  // namespace tessera

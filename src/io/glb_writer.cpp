@@ -1,0 +1,164 @@
+// Binary glTF 2.0: a header, a chunk of JSON and a chunk of bytes
+// (https://registry.khronos.org/glTF/specs/2.0/glTF-2.0.html, section 4).
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "core/check.h"
+#include "io/file.h"
+#include "io/mesh_writers.h"
+
+namespace tessera {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "glTF files are little endian");
+static_assert(sizeof(Eigen::Vector3f) == 12 && sizeof(std::array<std::uint32_t, 3>) == 12,
+              "written as they lie in memory");
+
+constexpr std::uint32_t kMagic = 0x46546c67, kVersion = 2, kJsonChunk = 0x4e4f534a, kBinaryChunk = 0x004e4942;
+constexpr int kFloat = 5126, kUnsignedShort = 5123, kUnsignedInt = 5125, kArrayBuffer = 34962, kElementBuffer = 34963;
+constexpr std::size_t kColoursAtOnce = 1 << 17;
+
+using Colour16 = std::array<std::uint16_t, 4>;  // with alpha, so that each lies at a multiple of four bytes
+
+template <class T>
+std::string_view BytesOf(const std::vector<T>& values, std::size_t count) {
+    return {reinterpret_cast<const char*>(values.data()), count * sizeof(T)};
+}
+
+// IEC 61966-2-1, in steps of 1 / 65535.
+std::array<std::uint16_t, 256> LinearOfSrgb() {
+    std::array<std::uint16_t, 256> table{};
+    for (std::size_t i = 0; i < table.size(); ++i) {
+        const double s = static_cast<double>(i) / 255.0;
+        const double linear = s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
+        table[i] = static_cast<std::uint16_t>(std::lround(65535.0 * linear));
+    }
+    return table;
+}
+
+// What the JSON says of one array: its place in the binary chunk, and how it is read.
+class Arrays {
+  public:
+    // The accessor's number.
+    int Add(std::size_t count, std::size_t bytes, int target, nlohmann::json accessor) {
+        const auto number = static_cast<int>(views_.size());
+        views_.push_back({{"buffer", 0}, {"byteOffset", bytes_}, {"byteLength", bytes}, {"target", target}});
+        accessor["bufferView"] = number;
+        accessor["count"] = count;
+        accessors_.push_back(std::move(accessor));
+        bytes_ += bytes;
+        return number;
+    }
+    std::size_t bytes() const { return bytes_; }
+    const nlohmann::json& views() const { return views_; }
+    const nlohmann::json& accessors() const { return accessors_; }
+
+  private:
+    nlohmann::json views_ = nlohmann::json::array(), accessors_ = nlohmann::json::array();
+    std::size_t bytes_ = 0;
+};
+
+nlohmann::json PositionAccessor(const TriangleMesh& mesh) {
+    Eigen::Vector3f low = mesh.vertices.front(), high = low;
+    for (const Eigen::Vector3f& v : mesh.vertices) {
+        low = low.cwiseMin(v);
+        high = high.cwiseMax(v);
+    }
+    return {{"componentType", kFloat},
+            {"type", "VEC3"},
+            {"min", {low.x(), low.y(), low.z()}},
+            {"max", {high.x(), high.y(), high.z()}}};
+}
+
+// In the order in which WriteArrays writes them.
+nlohmann::json Describe(const TriangleMesh& mesh, Arrays& arrays) {
+    const std::size_t count = mesh.vertices.size();
+    nlohmann::json attributes;
+    attributes["POSITION"] = arrays.Add(count, 12 * count, kArrayBuffer, PositionAccessor(mesh));
+    if (!mesh.normals.empty())
+        attributes["NORMAL"] =
+            arrays.Add(count, 12 * count, kArrayBuffer, {{"componentType", kFloat}, {"type", "VEC3"}});
+    if (!mesh.colours.empty())
+        attributes["COLOR_0"] = arrays.Add(count, sizeof(Colour16) * count, kArrayBuffer,
+                                           {{"componentType", kUnsignedShort}, {"type", "VEC4"}, {"normalized", true}});
+    const std::size_t corners = 3 * mesh.triangles.size();
+    const int indices =
+        arrays.Add(corners, 4 * corners, kElementBuffer, {{"componentType", kUnsignedInt}, {"type", "SCALAR"}});
+    return {{"attributes", attributes}, {"indices", indices}, {"material", 0}, {"mode", 4}};
+}
+
+std::string Json(const TriangleMesh& mesh, std::size_t& binary_bytes) {
+    Arrays arrays;
+    const nlohmann::json primitive = Describe(mesh, arrays);
+    binary_bytes = arrays.bytes();
+    const nlohmann::json surface = {{"name", "scanned surface"},
+                                    {"pbrMetallicRoughness", {{"metallicFactor", 0.0}, {"roughnessFactor", 1.0}}}};
+    const nlohmann::json node = {{"name", "scan"}, {"mesh", 0}, {"rotation", {1.0, 0.0, 0.0, 0.0}}};
+    const nlohmann::json file = {{"asset", {{"version", "2.0"}, {"generator", "tessera"}}},
+                                 {"scene", 0},
+                                 {"scenes", {{{"nodes", {0}}}}},
+                                 {"nodes", {node}},
+                                 {"materials", {surface}},
+                                 {"meshes", {{{"primitives", {primitive}}}}},
+                                 {"buffers", {{{"byteLength", binary_bytes}}}},
+                                 {"bufferViews", arrays.views()},
+                                 {"accessors", arrays.accessors()}};
+    std::string text = file.dump();
+    text.resize((text.size() + 3) / 4 * 4, ' ');
+    return text;
+}
+
+void WriteNumbers(AtomicFile& file, std::initializer_list<std::size_t> numbers) {
+    std::vector<std::uint32_t> words;
+    for (const std::size_t number : numbers) words.push_back(static_cast<std::uint32_t>(number));
+    file.Write(BytesOf(words, words.size()));
+}
+
+void WriteColours(AtomicFile& file, const std::vector<Rgb8>& colours) {
+    const std::array<std::uint16_t, 256> linear = LinearOfSrgb();
+    std::vector<Colour16> piece;
+    piece.reserve(std::min(colours.size(), kColoursAtOnce));
+    for (std::size_t i = 0; i < colours.size(); ++i) {
+        const Rgb8& c = colours[i];
+        piece.push_back({linear[c.r], linear[c.g], linear[c.b], 65535});
+        if (piece.size() < kColoursAtOnce && i + 1 < colours.size()) continue;
+        file.Write(BytesOf(piece, piece.size()));
+        piece.clear();
+    }
+}
+
+void WriteArrays(AtomicFile& file, const TriangleMesh& mesh) {
+    file.Write(BytesOf(mesh.vertices, mesh.vertices.size()));
+    file.Write(BytesOf(mesh.normals, mesh.normals.size()));
+    WriteColours(file, mesh.colours);
+    file.Write(BytesOf(mesh.triangles, mesh.triangles.size()));
+}
+
+}  // namespace
+
+Status WriteGlb(const std::string& path, const TriangleMesh& mesh) {
+    const std::size_t count = mesh.vertices.size();
+    TESSERA_CHECK(mesh.normals.empty() || mesh.normals.size() == count, "{} normals, {} vertices", mesh.normals.size(),
+                  count);
+    TESSERA_CHECK(mesh.colours.empty() || mesh.colours.size() == count, "{} colours, {} vertices", mesh.colours.size(),
+                  count);
+    if (mesh.triangles.empty())
+        return Status::Error(path + ": the mesh is empty, which glTF cannot say; write it as .ply");
+    std::size_t binary_bytes = 0;
+    const std::string json = Json(mesh, binary_bytes);
+    const std::size_t bytes = 12 + 8 + json.size() + 8 + binary_bytes;
+    if (bytes > std::numeric_limits<std::uint32_t>::max())
+        return Status::Error(path + ": the mesh takes more than the 4 GiB of a glTF file; write it as .ply");
+    AtomicFile file(path);
+    WriteNumbers(file, {kMagic, kVersion, bytes, json.size(), kJsonChunk});
+    file.Write(json);
+    WriteNumbers(file, {binary_bytes, kBinaryChunk});
+    WriteArrays(file, mesh);
+    return file.Commit();
+}
+
+}  // namespace tessera

@@ -1,0 +1,26 @@
+#include "io/mesh_writers.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "io/mesh_io.h"
+
+namespace tessera {
+namespace {
+
+constexpr MeshFormat kFormats[] = {{".ply", WritePly}, {".obj", WriteObj}, {".glb", WriteGlb}};
+
+}  // namespace
+
+Result<MeshFormat> MeshFormatOf(const std::string& path) {
+    const std::string extension = std::filesystem::path(path).extension();
+    std::string known;
+    for (const MeshFormat& format : kFormats) {
+        if (extension == format.extension) return format;
+        known += (known.empty() ? "" : ", ") + std::string(format.extension);
+    }
+    return Status::Error(fmt::format("{}: a mesh is written as {}; give one of these extensions", path, known));
+}
+
+}  // namespace tessera

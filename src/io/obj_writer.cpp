@@ -1,0 +1,81 @@
+#include <fmt/compile.h>
+#include <fmt/format.h>
+
+#include <iterator>
+
+#include "core/check.h"
+#include "io/file.h"
+#include "io/mesh_writers.h"
+
+namespace tessera {
+namespace {
+
+constexpr std::size_t kBufferBytes = 1 << 20;
+constexpr std::size_t kLineBytes = 256;  // more than any line takes
+
+// Collects lines and hands them on in large pieces.
+class LineBuffer {
+  public:
+    explicit LineBuffer(AtomicFile& file) : file_(file) { text_.reserve(kBufferBytes + kLineBytes); }
+    ~LineBuffer() { file_.Write(text_); }
+    LineBuffer(const LineBuffer&) = delete;
+    LineBuffer& operator=(const LineBuffer&) = delete;
+
+    template <class Format, class... Values>
+    void Add(const Format& format, const Values&... values) {
+        fmt::format_to(std::back_inserter(text_), format, values...);
+        if (text_.size() < kBufferBytes) return;
+        file_.Write(text_);
+        text_.clear();
+    }
+
+  private:
+    AtomicFile& file_;
+    std::string text_;
+};
+
+void AddVertices(const TriangleMesh& mesh, LineBuffer& lines) {
+    for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+        const Eigen::Vector3f& v = mesh.vertices[i];
+        if (mesh.colours.empty()) {
+            lines.Add(FMT_COMPILE("v {:.6f} {:.6f} {:.6f}\n"), v.x(), v.y(), v.z());
+            continue;
+        }
+        const Rgb8& c = mesh.colours[i];
+        lines.Add(FMT_COMPILE("v {:.6f} {:.6f} {:.6f} {:.4f} {:.4f} {:.4f}\n"), v.x(), v.y(), v.z(), c.r / 255.0,
+                  c.g / 255.0, c.b / 255.0);
+    }
+    for (const Eigen::Vector3f& n : mesh.normals)
+        lines.Add(FMT_COMPILE("vn {:.4f} {:.4f} {:.4f}\n"), n.x(), n.y(), n.z());
+}
+
+// Counted from 1.
+void AddFaces(const TriangleMesh& mesh, LineBuffer& lines) {
+    for (const auto& [a, b, c] : mesh.triangles) {
+        const std::uint64_t i = std::uint64_t{a} + 1, j = std::uint64_t{b} + 1, k = std::uint64_t{c} + 1;
+        if (mesh.normals.empty())
+            lines.Add(FMT_COMPILE("f {} {} {}\n"), i, j, k);
+        else
+            lines.Add(FMT_COMPILE("f {}//{} {}//{} {}//{}\n"), i, i, j, j, k, k);
+    }
+}
+
+}  // namespace
+
+Status WriteObj(const std::string& path, const TriangleMesh& mesh) {
+    const std::size_t count = mesh.vertices.size();
+    TESSERA_CHECK(mesh.normals.empty() || mesh.normals.size() == count, "{} normals, {} vertices", mesh.normals.size(),
+                  count);
+    TESSERA_CHECK(mesh.colours.empty() || mesh.colours.size() == count, "{} colours, {} vertices", mesh.colours.size(),
+                  count);
+    AtomicFile file(path);
+    {
+        LineBuffer lines(file);
+        lines.Add(FMT_COMPILE("# made by tessera, metres; {} vertices, {} triangles\n"), count, mesh.triangles.size());
+        AddVertices(mesh, lines);
+        AddFaces(mesh, lines);
+    }
+    return file.Commit();
+}
+
+}  // namespace tessera

@@ -1,0 +1,210 @@
+#include "io/mesh_writers.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#ifdef TESSERA_HAVE_TINYGLTF
+#include <tiny_gltf.h>
+#endif
+
+#include "io/file.h"
+#include "io/mesh_io.h"
+#include "support/temp_folder.h"
+
+namespace tessera {
+namespace {
+
+TriangleMesh Tetrahedron() {
+    TriangleMesh mesh;
+    mesh.vertices = {{0, 0, 0}, {1, 0, 0.25f}, {0, -2.5f, 0}, {0, 0, -3}};
+    mesh.normals = {{0, 0, 1}, {1, 0, 0}, {0, 1, 0}, {0.6f, 0, 0.8f}};
+    mesh.colours = {{0, 51, 255}, {255, 128, 7}, {9, 8, 7}, {1, 1, 1}};
+    mesh.labels = {{1, 2}, {0, 0}, {3, 400}, {0, 0}};
+    mesh.triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
+    return mesh;
+}
+
+std::string Bytes(const std::string& path) {
+    const Result<std::string> bytes = ReadWholeFile(path, std::size_t{1} << 28);
+    EXPECT_TRUE(bytes.ok()) << bytes.message();
+    return bytes.ok() ? bytes.value() : "";
+}
+
+// A glTF file taken apart by hand.
+struct Glb {
+    nlohmann::json json;
+    std::string binary;
+
+    template <class T>
+    std::vector<T> Values(int accessor, std::size_t columns) const {
+        const nlohmann::json& a = json["accessors"][static_cast<std::size_t>(accessor)];
+        const nlohmann::json& view = json["bufferViews"][a["bufferView"].get<std::size_t>()];
+        std::vector<T> values(a["count"].get<std::size_t>() * columns);
+        EXPECT_EQ(view["byteLength"].get<std::size_t>(), values.size() * sizeof(T));
+        EXPECT_EQ(view["byteOffset"].get<std::size_t>() % 4, 0u);
+        std::memcpy(values.data(), binary.data() + view["byteOffset"].get<std::size_t>(), values.size() * sizeof(T));
+        return values;
+    }
+    int Attribute(const char* name) const { return json["meshes"][0]["primitives"][0]["attributes"][name].get<int>(); }
+};
+
+Glb TakeApart(const std::string& bytes) {
+    std::array<std::uint32_t, 5> head{};
+    std::memcpy(head.data(), bytes.data(), sizeof(head));
+    EXPECT_EQ(bytes.substr(0, 4), "glTF");
+    EXPECT_EQ(head[1], 2u);
+    EXPECT_EQ(head[2], bytes.size());
+    EXPECT_EQ(head[3] % 4, 0u);
+    EXPECT_EQ(bytes.substr(16, 4), "JSON");
+    EXPECT_EQ(bytes.substr(24 + head[3], 4), std::string("BIN\0", 4));
+    return {nlohmann::json::parse(bytes.substr(20, head[3])), bytes.substr(28 + head[3])};
+}
+
+TEST(MeshWriters, ObjIsTheTextThatReadersKnow) {
+    TriangleMesh mesh = Tetrahedron();
+    mesh.triangles.resize(1);
+    const TempFolder folder;
+    ASSERT_TRUE(WriteObj(folder / "a.obj", mesh).ok());
+    EXPECT_EQ(Bytes(folder / "a.obj"),
+              "# made by tessera, metres; 4 vertices, 1 triangles\n"
+              "v 0.000000 0.000000 0.000000 0.0000 0.2000 1.0000\n"
+              "v 1.000000 0.000000 0.250000 1.0000 0.5020 0.0275\n"
+              "v 0.000000 -2.500000 0.000000 0.0353 0.0314 0.0275\n"
+              "v 0.000000 0.000000 -3.000000 0.0039 0.0039 0.0039\n"
+              "vn 0.0000 0.0000 1.0000\nvn 1.0000 0.0000 0.0000\nvn 0.0000 1.0000 0.0000\nvn 0.6000 0.0000 0.8000\n"
+              "f 1//1 3//3 2//2\n");
+    mesh.colours.clear();
+    mesh.normals.clear();
+    ASSERT_TRUE(WriteObj(folder / "a.obj", mesh).ok());
+    EXPECT_NE(Bytes(folder / "a.obj").find("v 1.000000 0.000000 0.250000\n"), std::string::npos);
+    EXPECT_NE(Bytes(folder / "a.obj").find("\nf 1 3 2\n"), std::string::npos);
+}
+
+TEST(MeshWriters, GlbHoldsTheArraysBitForBit) {
+    const TriangleMesh mesh = Tetrahedron();
+    const TempFolder folder;
+    ASSERT_TRUE(WriteGlb(folder / "a.glb", mesh).ok());
+    const Glb glb = TakeApart(Bytes(folder / "a.glb"));
+    EXPECT_EQ(glb.json["buffers"][0]["byteLength"].get<std::size_t>(), glb.binary.size());
+    const auto positions = glb.Values<float>(glb.Attribute("POSITION"), 3),
+               normals = glb.Values<float>(glb.Attribute("NORMAL"), 3);
+    const auto indices = glb.Values<std::uint32_t>(glb.json["meshes"][0]["primitives"][0]["indices"].get<int>(), 1);
+    ASSERT_EQ(positions.size(), 12u);
+    ASSERT_EQ(indices.size(), 12u);
+    for (std::size_t i = 0; i < 12; ++i) {
+        EXPECT_EQ(positions[i], mesh.vertices[i / 3][static_cast<int>(i % 3)]) << i;
+        EXPECT_EQ(normals[i], mesh.normals[i / 3][static_cast<int>(i % 3)]) << i;
+        EXPECT_EQ(indices[i], mesh.triangles[i / 3][i % 3]) << i;
+    }
+    const nlohmann::json& accessor = glb.json["accessors"][static_cast<std::size_t>(glb.Attribute("POSITION"))];
+    EXPECT_EQ(accessor["min"], nlohmann::json({0.0, -2.5, -3.0}));
+    EXPECT_EQ(accessor["max"], nlohmann::json({1.0, 0.0, 0.25}));
+}
+
+// Camera up is up in a viewer, and what lies before the camera lies before the viewer, who looks along -z.
+TEST(MeshWriters, GlbStandsUpright) {
+    const TempFolder folder;
+    ASSERT_TRUE(WriteGlb(folder / "a.glb", Tetrahedron()).ok());
+    const auto q = TakeApart(Bytes(folder / "a.glb")).json["nodes"][0]["rotation"].get<std::vector<double>>();
+    const Eigen::Quaterniond R_viewer_world(q[3], q[0], q[1], q[2]);
+    EXPECT_LT((R_viewer_world * Eigen::Vector3d(0, -1, 0) - Eigen::Vector3d(0, 1, 0)).norm(), 1e-12);
+    EXPECT_LT((R_viewer_world * Eigen::Vector3d(0, 0, 1) - Eigen::Vector3d(0, 0, -1)).norm(), 1e-12);
+    EXPECT_LT((R_viewer_world * Eigen::Vector3d(1, 0, 0) - Eigen::Vector3d(1, 0, 0)).norm(), 1e-12);
+}
+
+// More colours than are converted at once, so that every value comes from every piece; the inverse is the standard's.
+TEST(MeshWriters, GlbColoursAreLinearAndComeBackExactly) {
+    TriangleMesh mesh;
+    for (std::size_t i = 0; i < 300000; ++i) {
+        mesh.vertices.push_back({static_cast<float>(i), 0, 0});
+        mesh.colours.push_back({static_cast<std::uint8_t>(i % 256), static_cast<std::uint8_t>((i + 1) % 256),
+                                static_cast<std::uint8_t>(i / 256 % 256)});
+    }
+    mesh.triangles = {{0, 1, 2}};
+    const TempFolder folder;
+    ASSERT_TRUE(WriteGlb(folder / "a.glb", mesh).ok());
+    const Glb glb = TakeApart(Bytes(folder / "a.glb"));
+    const auto colours = glb.Values<std::uint16_t>(glb.Attribute("COLOR_0"), 4);
+    const auto srgb = [&](std::size_t i) {
+        const double linear = colours[i] / 65535.0;
+        return std::lround(255 * (linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055));
+    };
+    ASSERT_EQ(colours.size(), 4 * mesh.colours.size());
+    for (std::size_t i = 0; i < mesh.colours.size(); ++i) {
+        const Rgb8& c = mesh.colours[i];
+        ASSERT_TRUE(srgb(4 * i) == c.r && srgb(4 * i + 1) == c.g && srgb(4 * i + 2) == c.b &&
+                    colours[4 * i + 3] == 65535)
+            << i;
+    }
+    EXPECT_NEAR(colours[4 * 128] / 65535.0, 0.2158605, 1e-5);  // sRGB 128
+}
+
+TEST(MeshWriters, GlbIsReadByTinyGltf) {
+#ifndef TESSERA_HAVE_TINYGLTF
+    GTEST_SKIP() << "needs libtinygltf-dev";
+#else
+    const TriangleMesh mesh = Tetrahedron();
+    const TempFolder folder;
+    ASSERT_TRUE(WriteGlb(folder / "a.glb", mesh).ok());
+    tinygltf::TinyGLTF reader;
+    tinygltf::Model model;
+    std::string error, warning;
+    ASSERT_TRUE(reader.LoadBinaryFromFile(&model, &error, &warning, folder / "a.glb")) << error;
+    EXPECT_EQ(error + warning, "");
+    const tinygltf::Primitive& primitive = model.meshes.at(0).primitives.at(0);
+    EXPECT_EQ(primitive.mode, TINYGLTF_MODE_TRIANGLES);
+    EXPECT_EQ(model.accessors.at(static_cast<std::size_t>(primitive.attributes.at("COLOR_0"))).count,
+              mesh.colours.size());
+    const tinygltf::Accessor& indices = model.accessors.at(static_cast<std::size_t>(primitive.indices));
+    EXPECT_EQ(indices.count, 3 * mesh.triangles.size());
+    const tinygltf::BufferView& view = model.bufferViews.at(static_cast<std::size_t>(indices.bufferView));
+    EXPECT_EQ(std::memcmp(model.buffers.at(0).data.data() + view.byteOffset, mesh.triangles.data(), view.byteLength),
+              0);
+    EXPECT_EQ(model.materials.at(0).pbrMetallicRoughness.metallicFactor, 0);
+#endif
+}
+
+TEST(MeshWriters, AnEmptyMeshIsNoGlb) {
+    const TempFolder folder;
+    const Status status = WriteGlb(folder / "a.glb", {});
+    EXPECT_NE(status.message().find("a.glb: the mesh is empty"), std::string::npos) << status.message();
+    EXPECT_FALSE(std::filesystem::exists(folder / "a.glb"));
+}
+
+TEST(MeshWriters, ACloudIsTheVerticesAndNothingElse) {
+    const TriangleMesh mesh = Tetrahedron();
+    const TempFolder folder;
+    ASSERT_TRUE(WritePlyCloud(folder / "a.ply", mesh).ok());
+    const Result<TriangleMesh> back = ReadPly(folder / "a.ply");
+    ASSERT_TRUE(back.ok()) << back.message();
+    EXPECT_EQ(back.value().vertices, mesh.vertices);
+    EXPECT_EQ(back.value().normals, mesh.normals);
+    EXPECT_EQ(back.value().colours, mesh.colours);
+    EXPECT_EQ(back.value().labels, mesh.labels);
+    EXPECT_TRUE(back.value().triangles.empty());
+    EXPECT_EQ(Bytes(folder / "a.ply").find("face"), std::string::npos);
+}
+
+TEST(MeshWriters, TheExtensionChoosesAndAnUnknownOneIsRefusedByName) {
+    for (const char* name : {"a.ply", "b.obj", "folder.obj/c.glb"}) EXPECT_TRUE(MeshFormatOf(name).ok()) << name;
+    EXPECT_TRUE(MeshFormatOf("a.obj").value().write == WriteObj);
+    for (const char* name : {"a.stl", "a", "obj"}) {
+        const Result<MeshFormat> none = MeshFormatOf(name);
+        ASSERT_FALSE(none.ok()) << name;
+        EXPECT_EQ(none.message(),
+                  std::string(name) + ": a mesh is written as .ply, .obj, .glb; give one of these extensions");
+    }
+}
+
+TEST(MeshWriters, AFullDiskIsAnError) {
+    if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "needs /dev/full (Linux)";
+    for (const auto write : {WriteObj, WriteGlb, WritePlyCloud})
+        EXPECT_NE(write("/dev/full", Tetrahedron()).message().find("no space"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace tessera
