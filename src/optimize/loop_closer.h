@@ -70,8 +70,8 @@ class LoopCloser {
     std::optional<Correction> Step(int frames);
     // Whether Step has anything to do.
     bool HasWork() const { return rebuild_ != nullptr || moved_; }
-    // At the end: whatever is still to be corrected.
-    std::optional<Correction> Finish();
+    // At the end: whatever is still to be corrected; the calibration, if it is to be refined: `note` says what was found.
+    std::optional<Correction> Finish(std::string& note);
 
     // The frames' poses as they are known now, in order.
     std::vector<StampedPose> Path() const;
@@ -90,6 +90,7 @@ class LoopCloser {
     std::string CloseLoop(const Keyframe& old, const Keyframe& fresh, const FieldVerdict& verdict);
     double FarthestOff_m() const;
     Status Optimise();
+    bool Calibrate(std::string& note);
     bool BeginRebuild(double tolerance_m);
     std::optional<Correction> StepRebuild(int frames);
 

@@ -56,6 +56,7 @@ class LockstepEngine : public Engine {
     RecorderThread recorder_;
     std::unique_ptr<LabellingStage> labelling_;  // null without labels
     std::string label_message_;
+    std::optional<std::string> loops_message_;
     std::int64_t fused_frames_ = 0;
     std::unique_ptr<FrameReader> reader_;  // null once the mesh was taken
     Frame frame_;
