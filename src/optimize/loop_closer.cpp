@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "core/se3.h"
-#include "optimize/self_calibration.h"
 
 namespace tessera {
 namespace {
@@ -149,43 +148,6 @@ Status LoopCloser::Optimise() {
     return Status::Ok();
 }
 
-// From the keyframes' own frames: those that follow each other, every second, and loops. Frames that come after are not
-// expected: features and the field's checks go on with the calibration that was given.
-bool LoopCloser::Calibrate(std::string& note) {
-    std::vector<CalibrationView> views;
-    Frame frame;
-    for (const StoredFrame& stored : store_.frames()) {
-        if (!stored.is_keyframe) continue;
-        if (Status status = store_.Load(stored, frame); !status.ok()) {
-            note = "calibration: " + status.message();
-            return false;
-        }
-        views.emplace_back(frame.depth_m);
-    }
-    if (static_cast<int>(views.size()) != keyframes_.size()) {
-        note = "calibration: frames of some keyframes are missing";
-        return false;
-    }
-    constexpr double kNothing = 1e3;  // standard deviation of what is not known
-    std::vector<PoseEdge> edges = edges_;
-    std::vector<Eigen::Isometry3d> poses;
-    for (int i = 0; i < keyframes_.size(); ++i) {
-        poses.push_back(keyframes_[i].T_world_camera);
-        if (i >= 2) edges.push_back({i - 2, i, Normalised(poses[i - 2].inverse() * poses[i]), kNothing, kNothing, false});
-    }
-    const auto report = RefineCalibration(settings_.camera, views, edges, poses);
-    if (!report.ok()) {
-        note = report.message();
-        return false;
-    }
-    note = CalibrationText(settings_.camera, report.value());
-    for (int i = 0; i < keyframes_.size(); ++i) keyframes_[i].T_world_camera = poses[static_cast<std::size_t>(i)];
-    settings_.camera = Corrected(settings_.camera, report.value().calibration);
-    settings_.preparation.disparity_offset_per_m = report.value().calibration.disparity_offset_per_m;
-    corrected_ = true;
-    return true;
-}
-
 // True if one is under way, or if the map is off by more than the tolerance.
 bool LoopCloser::BeginRebuild(double tolerance_m) {
     if (rebuild_) return true;
@@ -222,10 +184,16 @@ std::optional<LoopCloser::Correction> LoopCloser::StepRebuild(int frames) {
 std::optional<LoopCloser::Correction> LoopCloser::Finish(std::string& note) {
     std::optional<Correction> last;
     if (corrected_) static_cast<void>(Optimise());  // if it fails, what was corrected before holds
-    if (config_.refine_calibration && Calibrate(note)) {
-        rebuild_.reset();
-        BeginRebuild(-1);
-        last = StepRebuild(std::numeric_limits<int>::max());
+    if (config_.refine_calibration && !keyframes_.empty()) {
+        const FieldSettings given = settings_;
+        const Status status = Calibrate();
+        note = status.ok() ? CalibrationText(given.camera, given.preparation.disparity_offset_per_m, *calibration_)
+                           : status.message();
+        if (calibration_ && calibration_->shown) {
+            rebuild_.reset();
+            BeginRebuild(-1);
+            last = StepRebuild(std::numeric_limits<int>::max());
+        }
     }
     if (!corrected_) return last;
     while (BeginRebuild(settings_.map.voxel_size_m / 10)) last = StepRebuild(std::numeric_limits<int>::max());

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "optimize/calibration_report.h"
+#include "optimize/calibration_view.h"
 #include "optimize/keyframes.h"
 #include "optimize/loop_verifier.h"
 #include "optimize/map_rebuild.h"
@@ -81,6 +83,8 @@ class LoopCloser {
     int loops() const { return loops_; }
     bool corrected() const { return corrected_; }
     const FrameStore& store() const { return store_; }
+    // After Finish, where the calibration was to be refined and enough was seen for an estimate.
+    const std::optional<CalibrationReport>& calibration() const { return calibration_; }
 
   private:
     void AddKeyframe(const Frame& frame, const PreparedFrame& prepared, const TrackResult& track);
@@ -90,7 +94,8 @@ class LoopCloser {
     std::string CloseLoop(const Keyframe& old, const Keyframe& fresh, const FieldVerdict& verdict);
     double FarthestOff_m() const;
     Status Optimise();
-    bool Calibrate(std::string& note);
+    Status LoadViews(std::vector<CalibrationView>& views);
+    Status Calibrate();
     bool BeginRebuild(double tolerance_m);
     std::optional<Correction> StepRebuild(int frames);
 
@@ -107,6 +112,7 @@ class LoopCloser {
     std::optional<int> relocalised_at_;    // the keyframe that the next one hangs on
     int loops_ = 0;
     bool corrected_ = false;               // some loop was worth it
+    std::optional<CalibrationReport> calibration_;
     bool moved_ = false;                   // keyframes, since Step looked last
 };
 

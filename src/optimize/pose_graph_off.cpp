@@ -1,6 +1,6 @@
 // In place of the pose graph in a build without Ceres: says so.
+#include "optimize/calibration_solver.h"
 #include "optimize/pose_graph.h"
-#include "optimize/self_calibration.h"
 
 namespace tessera {
 
@@ -12,8 +12,8 @@ Result<PoseGraphReport> OptimisePoses(std::span<const PoseEdge>, std::vector<Eig
 
 double EdgeJacobianError(const PoseEdge&, const Eigen::Isometry3d&, const Eigen::Isometry3d&) { return 0; }
 
-Result<CalibrationReport> RefineCalibration(const PinholeCamera&, const std::vector<CalibrationView>&, std::span<const PoseEdge>,
-                                            std::vector<Eigen::Isometry3d>&) {
+Result<CalibrationEstimate> SolveCalibration(const CalibrationProblem&, const std::vector<Eigen::Isometry3d>&,
+                                             const CalibrationMask&) {
     return Status::Error("this build cannot calibrate: install libceres-dev and build again");
 }
 

@@ -24,6 +24,7 @@ class LockstepEngine : public Engine {
     TriangleMesh TakeMesh() override;
     const std::vector<MapObject>& objects() const override { return mapping_.objects(); }
     std::vector<StampedPose> CorrectedPath() const override;
+    std::optional<CalibrationReport> calibration() const override { return loops_ ? loops_->calibration() : std::nullopt; }
     MapStatistics map_statistics() const override { return StatisticsOf(mapping_.map()); }
 
   private:

@@ -36,6 +36,7 @@ class LoopStage {
     std::string Finish(MappingStage& mapping);
 
     std::vector<StampedPose> Path() const { return closer_.Path(); }
+    const std::optional<CalibrationReport>& calibration() const { return closer_.calibration(); }
     // For a scan file.
     LoopNews TakeNews() { return finished_ ? journal_.Take(closer_, closer_.store().frames().size()) : journal_.Take(closer_); }
 

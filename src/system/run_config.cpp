@@ -34,8 +34,8 @@ void RunConfig::Describe(ConfigParameters& p) {
     p.Section("loops", [&](ConfigParameters& s) { loops.Describe(s); });
     p.Section("calibration", [&](ConfigParameters& s) {
         s.Add("refine", loops.refine_calibration,
-              "at the end, find focal length and disparity offset from the keyframes, and make the map again with them; needs "
-              "--loop-closure on");
+              "at the end, find focal length and disparity offset from the keyframes and, where the scan shows that they are "
+              "off, make the map again with them; needs --loop-closure on");
     });
     p.Section("scan", [&](ConfigParameters& s) { scan.Describe(s); });
     p.Section("live", [&](ConfigParameters& s) { live.Describe(s); });
