@@ -1,5 +1,6 @@
 #include "optimize/calibration_pairs.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -68,6 +69,16 @@ std::optional<PlanePair> PairFinder::Find(const DepthImage& from, const DepthIma
                      std::hypot(Sigma_m(z_from), Sigma_m(z_to)), *normal};
 }
 
+// Whether surfaces face in enough different ways to hold two views against each other in every direction. Where one plane is all
+// there is, what tracking said of the poses would decide about the calibration.
+bool HoldsTheViews(std::span<const PlanePair> pairs) {
+    constexpr double kLeastShare = 0.02;  // of the normals' squares, in the direction that the fewest face
+    Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+    for (const PlanePair& p : pairs) squares += p.normal * p.normal.transpose();
+    const double least = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(squares, Eigen::EigenvaluesOnly).eigenvalues()(0);
+    return least >= kLeastShare * static_cast<double>(pairs.size());
+}
+
 }  // namespace
 
 std::vector<PlanePair> FindPlanePairs(const PinholeCamera& camera, const std::vector<CalibrationView>& views,
@@ -89,8 +100,10 @@ std::vector<PlanePair> FindPlanePairs(const PinholeCamera& camera, const std::ve
                 }
     };
     for (const PoseEdge& edge : edges) {
+        const std::size_t first = pairs.size();
         one_way(edge.from, edge.to);
         one_way(edge.to, edge.from);
+        if (!HoldsTheViews(std::span(pairs).subspan(first))) pairs.resize(first);
     }
     return pairs;
 }

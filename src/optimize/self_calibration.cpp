@@ -10,7 +10,7 @@ namespace {
 using U = CalibrationUnknowns;
 
 bool Shown(const CalibrationEstimate& estimate, U::Index which) {
-    constexpr double kSigmas = 3;
+    constexpr double kSigmas = 5;  // of jackknives over few parts, whose tails are wide
     constexpr double kMost[] = {0.1, 0.03};  // of which depth cameras are off; further is another fault
     const double value = std::abs(estimate.unknowns.values[which]);
     return value > kSigmas * estimate.sigma[which] && value < kMost[which];

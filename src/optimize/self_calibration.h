@@ -14,7 +14,7 @@
 namespace tessera {
 
 // `edges`: which views are to be compared, and what is known of their poses, T_world_camera, without it. An estimate is
-// `shown` where it is further than three of its standard deviations (Deviations, calibration_fit.h) from the given value; the
+// `shown` where it is further than five of its standard deviations (Deviations, calibration_fit.h) from the given value; the
 // disparity offset, which a scan shows less well and which can make up for other errors, is left at its value where it is not
 // shown. Moves the poses along if shown; the first view stays. An error where too little is seen twice or where Ceres is
 // missing; the poses are then as they were. One thread: the same result on every run.
