@@ -19,13 +19,13 @@ struct DepthCounts {
     float nearest = 1e9f, farthest = 0;
 };
 
-DepthCounts GateRows(const DepthImage& in, float low, float high, int first, int last, DepthImage& out) {
+DepthCounts GateRows(const DepthImage& in, float offset, float low, float high, int first, int last, DepthImage& out) {
     DepthCounts counts;
     for (int y = first; y < last; ++y) {
         const float* source = in.row(y);
         float* target = out.row(y);
         for (int x = 0; x < in.width(); ++x) {
-            const float z = source[x];
+            const float z = source[x] / (1.0f + offset * source[x]);
             const bool ok = z >= low && z <= high;  // false for NaN
             target[x] = ok ? z : 0.0f;
             counts.valid += ok;
@@ -93,6 +93,8 @@ void PreparedFrame::Config::Describe(ConfigParameters& p) {
           "unsmoothed intensity aliases");
     p.Add("min_coherent_fraction", min_coherent_fraction, {0.0, 1.0}, "",
           "a frame is noise, and not used, if a smaller share of neighbouring depths agree within 5 %");
+    p.Add("disparity_offset_per_m", disparity_offset_per_m, {-0.1, 0.1}, "1/m",
+          "depths become z / (1 + offset z): what calibration.refine finds of a triangulating sensor's error");
 }
 
 Status PreparedFrame::Config::Validate() const {
@@ -108,7 +110,7 @@ void PrepareFrame(const Frame& frame, const PreparedFrame::Config& config, Prepa
     std::vector<DepthCounts> counts(static_cast<std::size_t>((height + kBand - 1) / kBand));
     ForBands(height, [&](int band, int first, int last) {
         counts[static_cast<std::size_t>(band)] =
-            GateRows(frame.depth_m, static_cast<float>(config.min_depth_m),
+            GateRows(frame.depth_m, static_cast<float>(config.disparity_offset_per_m), static_cast<float>(config.min_depth_m),
                      static_cast<float>(config.max_depth_m), first, last, p.depth_m);
     });
     DepthCounts total;

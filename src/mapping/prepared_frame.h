@@ -15,6 +15,7 @@ struct PreparedFrame {
         double max_depth_m = 5.0;
         int intensity_blur_px = 1;
         double min_coherent_fraction = 0.5;
+        double disparity_offset_per_m = 0;
 
         void Describe(ConfigParameters& parameters);
         Status Validate() const;

@@ -181,10 +181,21 @@ std::optional<LoopCloser::Correction> LoopCloser::StepRebuild(int frames) {
     return correction;
 }
 
-std::optional<LoopCloser::Correction> LoopCloser::Finish() {
-    if (!corrected_) return std::nullopt;
+std::optional<LoopCloser::Correction> LoopCloser::Finish(std::string& note) {
     std::optional<Correction> last;
-    static_cast<void>(Optimise());  // if it fails, what was corrected before holds
+    if (corrected_) static_cast<void>(Optimise());  // if it fails, what was corrected before holds
+    if (config_.refine_calibration && !keyframes_.empty()) {
+        const FieldSettings given = settings_;
+        const Status status = Calibrate();
+        note = status.ok() ? CalibrationText(given.camera, given.preparation.disparity_offset_per_m, *calibration_)
+                           : status.message();
+        if (calibration_ && calibration_->shown) {
+            rebuild_.reset();
+            BeginRebuild(-1);
+            last = StepRebuild(std::numeric_limits<int>::max());
+        }
+    }
+    if (!corrected_) return last;
     while (BeginRebuild(settings_.map.voxel_size_m / 10)) last = StepRebuild(std::numeric_limits<int>::max());
     return last;
 }

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "optimize/calibration_report.h"
+#include "optimize/calibration_view.h"
 #include "optimize/keyframes.h"
 #include "optimize/loop_verifier.h"
 #include "optimize/map_rebuild.h"
@@ -70,8 +72,8 @@ class LoopCloser {
     std::optional<Correction> Step(int frames);
     // Whether Step has anything to do.
     bool HasWork() const { return rebuild_ != nullptr || moved_; }
-    // At the end: whatever is still to be corrected.
-    std::optional<Correction> Finish();
+    // At the end: whatever is still to be corrected; the calibration, if it is to be refined: `note` says what was found.
+    std::optional<Correction> Finish(std::string& note);
 
     // The frames' poses as they are known now, in order.
     std::vector<StampedPose> Path() const;
@@ -81,6 +83,8 @@ class LoopCloser {
     int loops() const { return loops_; }
     bool corrected() const { return corrected_; }
     const FrameStore& store() const { return store_; }
+    // After Finish, where the calibration was to be refined and enough was seen for an estimate.
+    const std::optional<CalibrationReport>& calibration() const { return calibration_; }
 
   private:
     void AddKeyframe(const Frame& frame, const PreparedFrame& prepared, const TrackResult& track);
@@ -90,6 +94,8 @@ class LoopCloser {
     std::string CloseLoop(const Keyframe& old, const Keyframe& fresh, const FieldVerdict& verdict);
     double FarthestOff_m() const;
     Status Optimise();
+    Status LoadViews(std::vector<CalibrationView>& views);
+    Status Calibrate();
     bool BeginRebuild(double tolerance_m);
     std::optional<Correction> StepRebuild(int frames);
 
@@ -106,6 +112,7 @@ class LoopCloser {
     std::optional<int> relocalised_at_;    // the keyframe that the next one hangs on
     int loops_ = 0;
     bool corrected_ = false;               // some loop was worth it
+    std::optional<CalibrationReport> calibration_;
     bool moved_ = false;                   // keyframes, since Step looked last
 };
 

@@ -21,6 +21,7 @@ struct LoopConfig {
     double max_drift = 0.05;
     double min_correction_m = 0.02;
     int rebuild_frames = 20;
+    bool refine_calibration = false;  // key calibration.refine
 
     void Describe(ConfigParameters& parameters);
 };

@@ -6,6 +6,7 @@
 
 #include "core/check.h"
 #include "optimize/pose_graph_residual.h"
+#include "optimize/pose_node.h"
 
 namespace tessera {
 namespace {
@@ -22,15 +23,6 @@ struct EdgeFunctor {
 
 using EdgeCost = ceres::AutoDiffCostFunction<EdgeFunctor, 6, 4, 3, 4, 3>;
 
-// A pose as Ceres holds it.
-struct Node {
-    Eigen::Quaterniond q;
-    Eigen::Vector3d t;
-
-    explicit Node(const Eigen::Isometry3d& T) : q(T.linear()), t(T.translation()) {}
-    Eigen::Isometry3d Pose() const { return Normalised(Eigen::Translation3d(t) * q.normalized()); }
-};
-
 }  // namespace
 
 bool PoseGraphAvailable() { return true; }
@@ -38,7 +30,7 @@ bool PoseGraphAvailable() { return true; }
 Result<PoseGraphReport> OptimisePoses(std::span<const PoseEdge> edges, std::vector<Eigen::Isometry3d>& T_world_camera) {
     constexpr int kMaxIterations = 50;
     constexpr double kLoss = 3.0;  // standard deviations at which an edge begins to count less
-    std::vector<Node> nodes(T_world_camera.begin(), T_world_camera.end());
+    std::vector<PoseNode> nodes(T_world_camera.begin(), T_world_camera.end());
     std::vector<bool> used(nodes.size(), false);
     ceres::Problem problem;
     for (const PoseEdge& edge : edges) {
@@ -76,7 +68,7 @@ Result<PoseGraphReport> OptimisePoses(std::span<const PoseEdge> edges, std::vect
 
 double EdgeJacobianError(const PoseEdge& edge, const Eigen::Isometry3d& T_world_from, const Eigen::Isometry3d& T_world_to) {
     constexpr double kStep = 1e-6;
-    Node from(T_world_from), to(T_world_to);
+    PoseNode from(T_world_from), to(T_world_to);
     double* blocks[] = {from.q.coeffs().data(), from.t.data(), to.q.coeffs().data(), to.t.data()};
     const int sizes[] = {4, 3, 4, 3};
     double jacobian[4][24];

@@ -1,4 +1,5 @@
 // In place of the pose graph in a build without Ceres: says so.
+#include "optimize/calibration_solver.h"
 #include "optimize/pose_graph.h"
 
 namespace tessera {
@@ -10,5 +11,10 @@ Result<PoseGraphReport> OptimisePoses(std::span<const PoseEdge>, std::vector<Eig
 }
 
 double EdgeJacobianError(const PoseEdge&, const Eigen::Isometry3d&, const Eigen::Isometry3d&) { return 0; }
+
+Result<CalibrationEstimate> SolveCalibration(const CalibrationProblem&, const std::vector<Eigen::Isometry3d>&,
+                                             const CalibrationMask&) {
+    return Status::Error("this build cannot calibrate: install libceres-dev and build again");
+}
 
 }  // namespace tessera

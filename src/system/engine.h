@@ -72,6 +72,8 @@ class Engine {
     virtual MapStatistics map_statistics() const = 0;  // before TakeMesh
     // After Next gave false: the tracked frames' poses as they are known at the end; empty: as they were given.
     virtual std::vector<StampedPose> CorrectedPath() const { return {}; }
+    // The same of the calibration; nothing where it was not to be refined, or where too little was seen for an estimate.
+    virtual std::optional<CalibrationReport> calibration() const { return std::nullopt; }
 };
 
 }  // namespace tessera

@@ -27,6 +27,8 @@ std::string SaveMesh(const MappingStage& mapping, const std::string& path) {
 std::string SaveScan(const std::string& path, const SourceInfo& source, const RunConfig& config, bool wait,
                      std::vector<PathRecord>& past, std::optional<ScanStage>& scan) {
     if (scan) return "the scan is being saved already: " + scan->path();
+    if (config.loops.refine_calibration)
+        return "no scan is saved: with calibration.refine its frames would be of two calibrations";
     Result<ScanPlan> plan = BeginScan(path, source, config);
     if (!plan.ok()) return plan.message();
     scan.emplace(std::move(plan.value()), config.scan, wait, config.loops.enabled);

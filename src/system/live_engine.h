@@ -36,6 +36,7 @@ class LiveEngine : public Engine {
     const std::vector<MapObject>& objects() const override { return mapping_.objects(); }
     MapStatistics map_statistics() const override { return StatisticsOf(mapping_.map()); }
     std::vector<StampedPose> CorrectedPath() const override { return loops_ ? loops_->Path() : std::vector<StampedPose>(); }
+    std::optional<CalibrationReport> calibration() const override { return loops_ ? loops_->calibration() : std::nullopt; }
 
   private:
     using Clock = std::chrono::steady_clock;

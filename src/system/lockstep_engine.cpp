@@ -64,7 +64,8 @@ bool LockstepEngine::Next(FrameOutcome& outcome) {
     }
     if (reader_) reader_->RequestStop();
     recorder_.Stop();
-    if (loops_) loops_->Finish(mapping_);
+    if (loops_)
+        if (std::string note = loops_->Finish(mapping_); !note.empty()) loops_message_ = std::move(note);
     if (paging_) paging_->Close();
     if (scan_ && loops_) scan_->AddLoops(loops_->TakeNews());
     if (scan_) scan_->Finish(mapping_);
@@ -124,6 +125,7 @@ bool LockstepEngine::TakeMessage(FrameOutcome& outcome) {
     std::optional<std::string> message = recorder_.TakeMessage();
     if (!message && scan_) message = scan_->TakeMessage();
     if (!message && paging_) message = paging_->TakeMessage();
+    if (!message) message = std::exchange(loops_message_, std::nullopt);
     if (message) {
         outcome.kind = FrameOutcome::Kind::kMessage;
         outcome.message = std::move(*message);

@@ -24,6 +24,7 @@ class LockstepEngine : public Engine {
     TriangleMesh TakeMesh() override;
     const std::vector<MapObject>& objects() const override { return mapping_.objects(); }
     std::vector<StampedPose> CorrectedPath() const override;
+    std::optional<CalibrationReport> calibration() const override { return loops_ ? loops_->calibration() : std::nullopt; }
     MapStatistics map_statistics() const override { return StatisticsOf(mapping_.map()); }
 
   private:
@@ -56,6 +57,7 @@ class LockstepEngine : public Engine {
     RecorderThread recorder_;
     std::unique_ptr<LabellingStage> labelling_;  // null without labels
     std::string label_message_;
+    std::optional<std::string> loops_message_;
     std::int64_t fused_frames_ = 0;
     std::unique_ptr<FrameReader> reader_;  // null once the mesh was taken
     Frame frame_;

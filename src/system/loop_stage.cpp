@@ -69,9 +69,11 @@ double LoopStage::AfterFusion(const Frame& frame, TrackedFrame& tracked, const s
     return lost_ms_ + watch.LapMs();
 }
 
-void LoopStage::Finish(MappingStage& mapping) {
-    if (std::exchange(finished_, true)) return;
-    if (auto correction = closer_.Finish()) mapping.Replace(std::move(correction->map), std::move(correction->labels));
+std::string LoopStage::Finish(MappingStage& mapping) {
+    std::string note;
+    if (std::exchange(finished_, true)) return note;
+    if (auto correction = closer_.Finish(note)) mapping.Replace(std::move(correction->map), std::move(correction->labels));
+    return note;
 }
 
 }  // namespace tessera

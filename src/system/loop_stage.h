@@ -32,10 +32,11 @@ class LoopStage {
     // AfterTracking took included.
     double AfterFusion(const Frame& frame, TrackedFrame& tracked, const std::optional<LabelReport>& labels,
                        TrackingStage& tracking, MappingStage& mapping);
-    // No more frames: whatever is still to be corrected. Once.
-    void Finish(MappingStage& mapping);
+    // No more frames: whatever is still to be corrected. Once. Returns what a person should know, mostly empty.
+    std::string Finish(MappingStage& mapping);
 
     std::vector<StampedPose> Path() const { return closer_.Path(); }
+    const std::optional<CalibrationReport>& calibration() const { return closer_.calibration(); }
     // For a scan file.
     LoopNews TakeNews() { return finished_ ? journal_.Take(closer_, closer_.store().frames().size()) : journal_.Take(closer_); }
 

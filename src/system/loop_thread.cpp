@@ -112,8 +112,9 @@ void LoopThread::Work() {
             Do(job);
             Tell();
         } else if (finish_.load()) {
-            if (auto change = closer_->Finish())
-                HandOver(std::move(*change));
+            std::string note;
+            if (auto change = closer_->Finish(note)) HandOver(std::move(*change));
+            if (!note.empty()) news_.Push(std::move(note));
             if (saved_.load()) Push({world_, std::nullopt, nullptr, journal_.Take(*closer_, closer_->store().frames().size())});
             return;
         } else if (auto change = closer_->Step(kFramesAtOnce)) {

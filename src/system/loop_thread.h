@@ -66,8 +66,9 @@ class LoopThread {
     bool TryTake(Update& update);
     // No more frames: waits until all is corrected. What is left comes as updates.
     void Finish();
-    // After Finish: the tracked frames' poses as they are known.
+    // After Finish: the tracked frames' poses as they are known, and what was found of the calibration.
     std::vector<StampedPose> Path() const { return closer_->Path(); }
+    const std::optional<CalibrationReport>& calibration() const { return closer_->calibration(); }
     // For a person.
     bool TryTakeNews(std::string& news) { return news_.TryPop(news); }
     std::size_t waiting() const { return jobs_.size(); }

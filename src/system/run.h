@@ -12,6 +12,7 @@
 #include "core/status.h"
 #include "eval/ate.h"
 #include "io/frame_source.h"
+#include "optimize/calibration_report.h"
 #include "semantics/map_object.h"
 #include "system/run_config.h"
 #include "system/timings.h"
@@ -78,6 +79,7 @@ struct RunSummary {
     std::vector<std::pair<std::string, StageStatistics>> stages;
     MapStatistics map;
     std::optional<LabelSummary> labels;  // with labels only
+    std::optional<CalibrationReport> calibration;  // with calibration.refine, where enough was seen for an estimate
     std::optional<AteResult> ate;  // against the source's own truth; none at given poses
     std::string exit;              // "finished", "stopped", or "failed: ..."
     std::string last_reason;       // why the last lost frame was lost

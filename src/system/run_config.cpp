@@ -32,6 +32,11 @@ void RunConfig::Describe(ConfigParameters& p) {
     p.Section("meshing", [&](ConfigParameters& s) { meshing.Describe(s); });
     p.Section("labels", [&](ConfigParameters& s) { labels.Describe(s); });
     p.Section("loops", [&](ConfigParameters& s) { loops.Describe(s); });
+    p.Section("calibration", [&](ConfigParameters& s) {
+        s.Add("refine", loops.refine_calibration,
+              "at the end, find focal length and disparity offset from the keyframes and, where the scan shows that they are "
+              "off, make the map again with them; needs --loop-closure on");
+    });
     p.Section("scan", [&](ConfigParameters& s) { scan.Describe(s); });
     p.Section("live", [&](ConfigParameters& s) { live.Describe(s); });
     p.Section("view", [&](ConfigParameters& s) { view.Describe(s); });

@@ -36,6 +36,20 @@ Json SourceJson(const SourceInfo& source) {
             {"notes", source.notes}};
 }
 
+// Focal lengths as found, used or not; the source's are those that were given.
+Json CalibrationJson(const PinholeCamera& given, double offset_before_per_m, const CalibrationReport& report) {
+    const PinholeCamera found = Corrected(given, report.calibration);
+    return {{"used", report.shown},
+            {"fx", found.fx},
+            {"fy", found.fy},
+            {"focal_sigma", report.focal_sigma},
+            {"disparity_offset_per_m", offset_before_per_m + report.calibration.disparity_offset_per_m},
+            {"disparity_offset_sigma_per_m", report.offset_sigma_per_m},
+            {"points", report.points},
+            {"apart_before_mm", 1000 * report.rms_before_m},
+            {"apart_mm", 1000 * report.rms_after_m}};
+}
+
 }  // namespace
 
 std::string TimingsJson(const RunSummary& summary) {
@@ -85,6 +99,9 @@ std::string RunJson(const RunRequest& request, RunConfig config, const RunSummar
                           {"settled_voxels", summary.labels->settled},
                           {"settled_flips", summary.labels->flips},
                           {"objects", summary.labels->objects.size()}};
+    if (summary.calibration)
+        json["calibration"] = CalibrationJson(summary.source.camera, config.pipeline.frame.disparity_offset_per_m,
+                                              *summary.calibration);
     if (summary.ate) json["ate"] = Json::parse(AteJson(*summary.ate), nullptr, false);
     json["configuration"] = ConfigurationJson(config);
     return Dump(json);

@@ -75,6 +75,11 @@ Result<ScanPlan> Runner::OpenScan() {
 }
 
 Status Runner::CheckLoops() const {
+    const bool refine = config_.loops.refine_calibration;
+    if (refine && !config_.loops.enabled) return Status::Error("calibration.refine: needs --loop-closure on");
+    if (refine && !request_.scan_file.empty())
+        return Status::Error("calibration.refine: not with --scan or --resume, whose frames are of one calibration; run once "
+                             "to find it, and scan with what it says");
     if (!config_.loops.enabled) return Status::Ok();
     if (!PoseGraphAvailable())
         return Status::Error("--loop-closure on: this build has no pose graph; install libceres-dev and build again");
@@ -125,8 +130,9 @@ Status Runner::Finish(const Status& outcome) {
     return written;
 }
 
-// The poses as they are known at the end.
+// The poses, and the calibration, as they are known at the end.
 Status Runner::Correct() {
+    summary_.calibration = engine_->calibration();
     std::vector<StampedPose> path = engine_->CorrectedPath();
     if (path.empty()) return Status::Ok();
     estimate_ = std::move(path);

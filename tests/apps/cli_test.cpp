@@ -133,6 +133,9 @@ TEST_F(Cli, LoopClosureIsRefusedWhereItCannotBe) {
     const std::string poses = folder / "poses.txt";
     std::ofstream(poses) << "0 0 0 0 0 0 0 1\n";
     ExpectRefused("run synthetic:desk --loop-closure on --poses " + poses, "--loop-closure on");
+    const std::string refine = "run synthetic:desk --set calibration.refine=true --out " + (folder / "refine");
+    ExpectRefused(refine, "needs --loop-closure on");
+    ExpectRefused(refine + " --loop-closure on --scan " + (folder / "c.scan"), "not with --scan");
 }
 
 TEST_F(Cli, SwitchNeedsAFrameAndAMethod) {
