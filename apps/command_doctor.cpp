@@ -14,6 +14,7 @@
 #include "optimize/pose_graph.h"
 #include "render/gl_context.h"
 #include "scan/database.h"
+#include "semantics/dnn_detector.h"
 #include "system/run_config.h"
 
 namespace tessera {
@@ -55,7 +56,7 @@ int Doctor() {
     std::string presets;
     for (const Preset& preset : Presets()) presets += " " + preset.name;
     fmt::print("presets     {}\n", presets);
-    fmt::print("sources      folders (TUM RGB-D, ICL-NUIM, 7-Scenes, camera.yaml), .oni recordings, scan files, synthetic scenes\n");
+    fmt::print("sources      folders (TUM RGB-D, ICL-NUIM, 7-Scenes, camera.yaml), .oni recordings, .klg logs, scan files, synthetic scenes\n");
     const auto gl = GlContext::Create();
     fmt::print("OpenGL       {}\n", gl.ok() ? gl.value()->renderer() : "off: " + gl.message());
     PrintCameras(ListOpenniDevices());
@@ -63,8 +64,8 @@ int Doctor() {
     fmt::print("loop closure {}\n", PoseGraphAvailable() ? "on request" : "off: install libceres-dev and build again");
     fmt::print("scan files   {}\n", ScanAvailable() ? "on" : std::string("off: ") + kScanUnavailable);
     PrintExports();
-    for (const char* off : {"CUDA        ", ".klg        ", "labels      "})
-        fmt::print("{} not in this version\n", off);
+    fmt::print("labels       {}\n", HasDnn() ? "networks (.onnx, Darknet), detections files" : "detections files; networks need OpenCV's dnn module");
+    fmt::print("CUDA         not in this version\n");
     return kExitDone;
 }
 

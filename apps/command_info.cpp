@@ -76,7 +76,7 @@ int Info(const Arguments& a) {
 void AddInfoCommand(CLI::App& app, CommandContext& context) {
     auto a = std::make_shared<Arguments>();
     CLI::App* command = app.add_subcommand("info", "Say what a source, or a scan file, holds");
-    command->add_option("SOURCE", a->source, "Folder, openni2:[URI], FILE.oni, FILE.scan or synthetic:NAME")->required();
+    command->add_option("SOURCE", a->source, "Folder, openni2:[URI], FILE.oni, FILE.klg, FILE.scan or synthetic:NAME")->required();
     a->config.AddTo(*command);
     command->callback([a, &context] { context.exit_code = Info(*a); });
 }

@@ -15,6 +15,7 @@ struct FolderSourceConfig {
     double max_pair_gap_s = 0.02;  // colour and depth at least this far apart in time are no pair
     bool rectify = true;           // correct the lens distortion that camera.yaml gives
     double depth_scale = 0;        // stored depth value of one metre; 0 = as the camera file says
+    bool swap_red_blue = false;    // of .klg logs
 
     void Describe(ConfigParameters& parameters);
     Status Validate() const;

@@ -99,7 +99,6 @@ TEST_F(Cli, BadArgumentsAreOneLineAndExitCode2) {
 
 TEST_F(Cli, WhatIsToComeIsRefusedAndNeverIgnored) {
     ExpectRefused("run synthetic:desk --device cuda", "not in this version");
-    ExpectRefused("run a.klg", "not in this version");
 }
 
 TEST_F(Cli, AScanIsSavedLookedAtGoneOnWithHandedOutAndRepaired) {

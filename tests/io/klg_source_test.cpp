@@ -1,0 +1,171 @@
+#include "io/klg_source.h"
+
+#include <gtest/gtest.h>
+#include <libdeflate.h>
+
+#include <cstring>
+
+#include "io/jpeg_encoder.h"
+#include "io/temporary_folder.h"
+
+namespace tessera {
+namespace {
+
+constexpr const char* kCamera = "width: 32\nheight: 24\nfx: 30\nfy: 31\ncx: 15.5\ncy: 11.5\ndepth_scale: 1000\n";
+constexpr Rgb8 kColour{200, 100, 20};
+
+template <typename Number>
+void Put(std::string& bytes, Number number) {
+    bytes.append(reinterpret_cast<const char*>(&number), sizeof(number));
+}
+
+std::string Zlib(const std::string& bytes) {
+    libdeflate_compressor* compressor = libdeflate_alloc_compressor(6);
+    std::string packed(libdeflate_zlib_compress_bound(compressor, bytes.size()), '\0');
+    packed.resize(libdeflate_zlib_compress(compressor, bytes.data(), bytes.size(), packed.data(), packed.size()));
+    libdeflate_free_compressor(compressor);
+    return packed;
+}
+
+std::string Depth(int metres) {
+    std::string depth;
+    for (int i = 0; i < 32 * 24; ++i) Put(depth, static_cast<std::uint16_t>(1000 * metres + i % 32));
+    return depth;
+}
+
+std::string Colour() {
+    std::string colour;
+    for (int i = 0; i < 32 * 24; ++i) Put(colour, kColour);
+    return colour;
+}
+
+std::string Jpeg(int width) {
+    std::vector<std::uint8_t> file;
+    const ColourImage image(width, 24, kColour);
+    EXPECT_TRUE(EncodeJpeg(image, 95, file).ok());
+    return {file.begin(), file.end()};
+}
+
+std::string FrameOf(std::int64_t stamp_us, const std::string& depth, const std::string& colour) {
+    std::string bytes;
+    Put(bytes, stamp_us);
+    Put(bytes, static_cast<std::int32_t>(depth.size()));
+    Put(bytes, static_cast<std::int32_t>(colour.size()));
+    return bytes + depth + colour;
+}
+
+class Klg : public ::testing::Test {
+  protected:
+    Klg() { folder.WriteText("camera.yaml", kCamera); }
+
+    void Write(std::int32_t count, const std::string& frames) {
+        std::string bytes;
+        Put(bytes, count);
+        folder.WriteText("a.klg", bytes + frames);
+    }
+    Result<std::unique_ptr<FrameSource>> Open() { return OpenKlgSource(folder.path() + "/a.klg", config); }
+
+    TemporaryFolder folder;
+    FolderSourceConfig config;
+    Frame frame;
+};
+
+TEST_F(Klg, DepthAndColourRawAndPacked) {
+    Write(4, FrameOf(1'500'000, Depth(1), Colour()) + FrameOf(1'600'000, Zlib(Depth(2)), Jpeg(32)) +
+                 FrameOf(1'700'000, Depth(3), "") + FrameOf(1'800'000, Zlib(Depth(4)), Colour()));
+    const auto source = Open();
+    ASSERT_TRUE(source.ok()) << source.message();
+    FrameSource& klg = *source.value();
+    EXPECT_EQ(klg.info().frame_count, 4);
+    EXPECT_TRUE(klg.info().notes.empty());
+    EXPECT_EQ(klg.info().camera.fx, 30);
+    for (int i = 0; i < 4; ++i) {
+        ASSERT_EQ(klg.Read(frame).status, ReadStatus::kOk) << i;
+        EXPECT_EQ(frame.index, i);
+        EXPECT_DOUBLE_EQ(frame.stamp_s, 1.5 + 0.1 * i);
+        EXPECT_FLOAT_EQ(frame.depth_m(7, 20), static_cast<float>(i) + 1.007f);
+        ASSERT_EQ(frame.colour.width(), i == 2 ? 0 : 32);
+        if (i == 2) continue;
+        EXPECT_NEAR(frame.colour(5, 5).r, kColour.r, i == 1 ? 3 : 0);
+        EXPECT_NEAR(frame.colour(5, 5).b, kColour.b, i == 1 ? 3 : 0);
+    }
+    EXPECT_EQ(klg.Read(frame).status, ReadStatus::kEnd);
+    EXPECT_TRUE(klg.Seek(1));
+    ASSERT_EQ(klg.Read(frame).status, ReadStatus::kOk);
+    EXPECT_FLOAT_EQ(frame.depth_m(0, 0), 2);
+}
+
+TEST_F(Klg, RedAndBlueSwappedOnRequest) {
+    config.swap_red_blue = true;
+    Write(1, FrameOf(1, Depth(1), Colour()));
+    const auto source = Open();
+    ASSERT_EQ(source.value()->Read(frame).status, ReadStatus::kOk);
+    EXPECT_EQ(frame.colour(3, 3).r, kColour.b);
+    EXPECT_EQ(frame.colour(3, 3).b, kColour.r);
+}
+
+TEST_F(Klg, WhatWasCutOffOrDoesNotGrowIsNoted) {
+    const std::string frames = FrameOf(10, Depth(1), "") + FrameOf(10, Depth(2), "") + FrameOf(20, Depth(3), "");
+    for (const std::size_t missing : {std::size_t{1}, std::size_t{1500}, Depth(3).size() + 5}) {
+        Write(3, frames.substr(0, frames.size() - missing));
+        const auto source = Open();
+        ASSERT_TRUE(source.ok()) << source.message();
+        EXPECT_EQ(source.value()->info().frame_count, 1);
+        ASSERT_EQ(source.value()->info().notes.size(), 2u);
+        EXPECT_NE(source.value()->info().notes[0].find("2 of its 3"), std::string::npos);
+        EXPECT_NE(source.value()->info().notes[1].find("1 of 2"), std::string::npos);
+    }
+}
+
+TEST_F(Klg, ADamagedFrameIsSkippedAlone) {
+    std::string packed = Zlib(Depth(2));
+    packed[packed.size() / 2] = static_cast<char>(packed[packed.size() / 2] ^ 0x55);
+    Write(4, FrameOf(1, Depth(1), "") + FrameOf(2, packed, "") + FrameOf(3, Depth(1), "no JPEG") + FrameOf(4, Depth(1), Jpeg(40)));
+    const auto source = Open();
+    ASSERT_TRUE(source.ok());
+    EXPECT_EQ(source.value()->Read(frame).status, ReadStatus::kOk);
+    for (const char* what : {"frame 1: depth is damaged", "frame 2: colour", "frame 3: colour has 40 x 24"}) {
+        const ReadResult result = source.value()->Read(frame);
+        EXPECT_EQ(result.status, ReadStatus::kSkip);
+        EXPECT_NE(result.message.find(what), std::string::npos) << result.message;
+    }
+}
+
+TEST_F(Klg, WhatIsNoLogIsRefusedByName) {
+    const auto refused = [&](const std::string& what) {
+        const auto source = Open();
+        EXPECT_FALSE(source.ok());
+        EXPECT_NE(source.message().find("a.klg"), std::string::npos) << source.message();
+        EXPECT_NE(source.message().find(what), std::string::npos) << source.message();
+    };
+    refused("no such file");
+    folder.WriteText("a.klg", "ab");
+    refused("is no .klg log");
+    Write(-1, "");
+    refused("is no .klg log");
+    Write(2'000'000'000, FrameOf(1, Depth(1), "").substr(0, 100));  // nothing is allocated for what it claims
+    refused("no whole frame");
+    std::string huge;
+    Put(huge, std::int64_t{1});
+    Put(huge, std::int32_t{-7});
+    Put(huge, std::int32_t{0});
+    Write(1, huge);
+    refused("frame 0 has -7 bytes");
+    folder.WriteText("camera.yaml", "width: 64\nheight: 48\nfx: 30\nfy: 31\ncx: 15.5\ncy: 11.5\n");
+    Write(1, FrameOf(1, Depth(1), ""));
+    refused("64 x 48");
+}
+
+TEST_F(Klg, WithoutACameraFileTheUsualOneIsAssumedAndNoted) {
+    std::filesystem::remove(folder.Path("camera.yaml"));
+    Write(1, FrameOf(1, std::string(std::size_t{640} * 480 * 2, '\1'), ""));
+    const auto source = Open();
+    ASSERT_TRUE(source.ok()) << source.message();
+    EXPECT_EQ(source.value()->info().camera.fx, 528);
+    ASSERT_EQ(source.value()->info().notes.size(), 1u);
+    ASSERT_EQ(source.value()->Read(frame).status, ReadStatus::kOk);
+    EXPECT_FLOAT_EQ(frame.depth_m(639, 479), 0.257f);
+}
+
+}  // namespace
+}  // namespace tessera
