@@ -13,8 +13,9 @@ std::string ShapeOf(const py::array& array) { return py::str(array.attr("shape")
 
 template <class Element>
 void CheckType(const py::array& array, const char* name, const char* expected, const char* hint) {
-    if (!py::isinstance<py::array_t<Element>>(array))
-        throw py::type_error(fmt::format("{}: {} expected, not {}{}", name, expected, std::string(py::str(array.dtype())), hint));
+    if (py::isinstance<py::array_t<Element>>(array)) return;
+    const std::string type = py::str(array.dtype());
+    throw py::type_error(fmt::format("{}: {} expected, not {}{}", name, expected, type, hint));
 }
 
 void CheckShape(const py::array& array, const std::vector<py::ssize_t>& shape, const char* name) {
@@ -29,7 +30,8 @@ Eigen::Isometry3d RigidFrom(const double (&m)[4][4], py::ssize_t index) {
         for (int c = 0; c < 4; ++c) T.matrix()(r, c) = m[r][c];
     const Eigen::Matrix3d R = T.linear();
     const bool rigid = T.matrix().allFinite() && T.matrix().row(3) == Eigen::RowVector4d(0, 0, 0, 1) &&
-                       (R * R.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() < 1e-3 && R.determinant() > 0;
+                       (R * R.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() < 1e-3 &&
+                       R.determinant() > 0;
     if (!rigid) throw std::invalid_argument(fmt::format("T_world_camera[{}]: not a rotation and a translation", index));
     return T;
 }
@@ -37,7 +39,7 @@ Eigen::Isometry3d RigidFrom(const double (&m)[4][4], py::ssize_t index) {
 }  // namespace
 
 DepthImage DepthFrom(const py::array& depth_m, int width, int height) {
-    CheckType<float>(depth_m, "depth_m", "float32 in metres", "; for a camera's millimetres: depth.astype('float32') / 1000");
+    CheckType<float>(depth_m, "depth_m", "float32 in metres", "; of millimetres: depth.astype('float32') / 1000");
     CheckShape(depth_m, {height, width}, "depth_m");
     const auto values = py::array_t<float>(depth_m).unchecked<2>();
     DepthImage image(width, height);

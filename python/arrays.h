@@ -1,10 +1,11 @@
-// Between NumPy arrays and the images, poses and lists of the libraries. In: one copy, element types and shapes checked.
-// Out: views of memory that an owner keeps alive, or small copies.
+// Between NumPy arrays and the images, poses and lists of the libraries. In: one copy, element types and shapes
+// checked. Out: views of memory that an owner keeps alive, or small copies.
 #pragma once
 
 #include <pybind11/numpy.h>
 
 #include <Eigen/Geometry>
+#include <array>
 #include <vector>
 
 #include "core/image.h"
@@ -29,9 +30,9 @@ std::vector<StampedPose> PosesFrom(const pybind11::array& stamps_s, const pybind
 template <class Element, class Item>
 pybind11::array ViewOf(const std::vector<Item>& items, pybind11::ssize_t columns, const pybind11::object& owner) {
     static_assert(sizeof(Item) % sizeof(Element) == 0);
-    const auto rows = static_cast<pybind11::ssize_t>(items.size());
-    return pybind11::array(pybind11::dtype::of<Element>(), {rows, columns}, {static_cast<pybind11::ssize_t>(sizeof(Item)),
-                           static_cast<pybind11::ssize_t>(sizeof(Element))}, items.data(), owner);
+    const std::array<pybind11::ssize_t, 2> shape{static_cast<pybind11::ssize_t>(items.size()), columns};
+    const std::array<pybind11::ssize_t, 2> strides{sizeof(Item), sizeof(Element)};
+    return pybind11::array(pybind11::dtype::of<Element>(), shape, strides, items.data(), owner);
 }
 
 }  // namespace tessera::python

@@ -11,8 +11,8 @@ namespace tessera::python {
 namespace py = pybind11;
 
 void BindEvaluation(py::module_& module) {
-    module.def("evaluate_ate", [](const Trajectory& reference, const Trajectory& estimate, std::optional<std::int64_t> frames,
-                                  double max_difference_s) {
+    module.def("evaluate_ate", [](const Trajectory& reference, const Trajectory& estimate,
+                                  std::optional<std::int64_t> frames, double max_difference_s) {
         const AteOptions options{.max_difference_s = max_difference_s, .frames = frames};
         return FromJson(AteJson(ValueOrBadInput(EvaluateAte(reference.poses, estimate.poses, options))));
     }, py::arg("reference"), py::arg("estimate"), py::arg("frames") = py::none(),

@@ -77,8 +77,8 @@ void BindCamera(py::module_& module) {
         .def_readonly("cy", &PinholeCamera::cy)
         .def(py::self == py::self)
         .def("__repr__", [](const PinholeCamera& c) {
-            return fmt::format("tessera.Camera(width={}, height={}, fx={}, fy={}, cx={}, cy={})", c.width, c.height, c.fx, c.fy,
-                               c.cx, c.cy);
+            return fmt::format("tessera.Camera(width={}, height={}, fx={}, fy={}, cx={}, cy={})", c.width, c.height,
+                               c.fx, c.fy, c.cx, c.cy);
         });
 }
 

@@ -29,13 +29,17 @@ void BindObject(py::module_& module) {
         .def_readonly("class_name", &MapObject::class_name)
         .def_readonly("probability", &MapObject::probability)
         .def_readonly("observations", &MapObject::observations)
-        .def_property_readonly("colour", [](const MapObject& o) { return py::make_tuple(o.colour.r, o.colour.g, o.colour.b); })
+        .def_property_readonly("colour", [](const MapObject& o) {
+            return py::make_tuple(o.colour.r, o.colour.g, o.colour.b);
+        })
         .def_property_readonly("centroid", [](const MapObject& o) { return VectorOf(o.centroid); })
         .def_property_readonly("box_min", [](const MapObject& o) { return VectorOf(o.box.min()); })
         .def_property_readonly("box_max", [](const MapObject& o) { return VectorOf(o.box.max()); })
         .def_property_readonly("T_world_oriented", [](const MapObject& o) { return MatrixOf(o.T_world_oriented); })
         .def_property_readonly("oriented_size", [](const MapObject& o) { return VectorOf(o.oriented_size); })
-        .def("__repr__", [](const MapObject& o) { return fmt::format("<tessera.MapObject {}: {}>", o.id, o.class_name); });
+        .def("__repr__", [](const MapObject& o) {
+            return fmt::format("<tessera.MapObject {}: {}>", o.id, o.class_name);
+        });
 }
 
 }  // namespace
@@ -53,14 +57,15 @@ void BindMesh(py::module_& module) {
                  const py::gil_scoped_release release;
                  ThrowIfBroken(WritePly(path.string(), mesh));
              }, py::arg("path"))
-        .def("__repr__", [](const TriangleMesh& mesh) {
-            return fmt::format("<tessera.Mesh: {} vertices, {} triangles>", mesh.vertices.size(), mesh.triangles.size());
+        .def("__repr__", [](const TriangleMesh& m) {
+            return fmt::format("<tessera.Mesh: {} vertices, {} triangles>", m.vertices.size(), m.triangles.size());
         });
     module.def("read_mesh", [](const Path& path) {
         const py::gil_scoped_release release;
         return std::make_shared<TriangleMesh>(ValueOrBadInput(ReadPly(path.string())));
     }, py::arg("path"));
-    module.def("read_objects", [](const Path& path) { return ValueOrBadInput(ReadObjects(path.string())); }, py::arg("path"));
+    module.def("read_objects", [](const Path& path) { return ValueOrBadInput(ReadObjects(path.string())); },
+               py::arg("path"));
 }
 
 }  // namespace tessera::python

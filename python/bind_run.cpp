@@ -61,7 +61,8 @@ void BindRun(py::module_& module) {
         })
         .def_readonly("warnings", &RunResult::warnings)
         .def("__repr__", [](const RunResult& r) {
-            return fmt::format("<tessera.RunResult: {} of {} frames tracked>", r.summary.counts.tracked, r.summary.counts.frames);
+            const RunCounts& counts = r.summary.counts;
+            return fmt::format("<tessera.RunResult: {} of {} frames tracked>", counts.tracked, counts.frames);
         });
     module.def("run", &Run, py::arg("source"), py::arg("out") = py::none(), py::arg("config") = py::none(),
                py::arg("settings") = py::none(), py::arg("labels") = py::none(), py::arg("start") = 0,

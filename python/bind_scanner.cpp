@@ -47,7 +47,8 @@ void BindFrameResult(py::module_& module) {
         .def_property_readonly("milliseconds", [](const FrameResult& r) { return r.frame_ms; })
         .def_readonly("messages", &FrameResult::messages)
         .def("__repr__", [](const FrameResult& r) {
-            return fmt::format("<tessera.FrameResult {}: {}, {:.1f} ms>", r.report.index, ToString(r.report.track.status),
+            const FrameReport& report = r.report;
+            return fmt::format("<tessera.FrameResult {}: {}, {:.1f} ms>", report.index, ToString(report.track.status),
                                r.frame_ms);
         });
 }
@@ -58,8 +59,8 @@ void BindScanner(py::module_& module) {
     const auto unlocked = py::call_guard<py::gil_scoped_release>();
     BindFrameResult(module);
     py::class_<Scanner>(module, "Scanner")
-        .def(py::init(&MakeScanner), py::arg("camera"), py::arg("config") = py::none(), py::arg("settings") = py::none(),
-             py::arg("labels") = py::none())
+        .def(py::init(&MakeScanner), py::arg("camera"), py::arg("config") = py::none(),
+             py::arg("settings") = py::none(), py::arg("labels") = py::none())
         .def_property_readonly("camera", &Scanner::camera)
         .def("track", &Track, py::arg("depth_m"), py::arg("colour").none(true), py::arg("stamp_s"),
              py::arg("colour_stamp_s") = py::none())

@@ -1,4 +1,4 @@
-// Trajectories, and how far one lies from another: see bind_evaluation.cpp.
+// Trajectories; how far one lies from another: bind_evaluation.cpp.
 #include <pybind11/stl.h>
 
 #include "arrays.h"
@@ -39,10 +39,13 @@ void BindTrajectory(py::module_& module) {
         .def_property_readonly("stamps_s", &Stamps)
         .def_property_readonly("T_world_camera", &Matrices)
         .def_readonly("notes", &Trajectory::notes)
-        .def("write", [](const Trajectory& t, const Path& path) { ThrowIfBroken(WriteTrajectory(path.string(), t.poses)); },
-             py::arg("path"))
+        .def("write", [](const Trajectory& t, const Path& path) {
+                 ThrowIfBroken(WriteTrajectory(path.string(), t.poses));
+             }, py::arg("path"))
         .def("__len__", [](const Trajectory& t) { return t.poses.size(); })
-        .def("__repr__", [](const Trajectory& t) { return fmt::format("<tessera.Trajectory: {} poses>", t.poses.size()); });
+        .def("__repr__", [](const Trajectory& t) {
+            return fmt::format("<tessera.Trajectory: {} poses>", t.poses.size());
+        });
     module.def("read_trajectory", [](const Path& path) { return ValueOrBadInput(ReadTrajectory(path.string())); },
                py::arg("path"));
 }

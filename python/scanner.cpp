@@ -30,7 +30,8 @@ Scanner::Scanner(const PinholeCamera& camera, const RunConfig& config, const std
     input.source = std::make_unique<FeedSource>(feed_, InfoOf(camera));
     input.config = config;
     input.stop = &stop_;
-    if (!labels.empty()) input.labelling = ValueOrBadInput(OpenLabelling(labels, "arrays", config.synthetic, config.labels));
+    if (!labels.empty())
+        input.labelling = ValueOrBadInput(OpenLabelling(labels, "arrays", config.synthetic, config.labels));
     if (config.threads > 0) {
         thread_limit_.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(config.threads));
         arena_.emplace(config.threads);
@@ -101,7 +102,7 @@ std::vector<std::string> Scanner::Finish() {
 
 std::vector<MapObject> Scanner::Objects() const {
     const std::lock_guard lock(mutex_);
-    if (!final_mesh_) throw std::runtime_error("Scanner.objects: they are measured on the final mesh; call finish() first");
+    if (!final_mesh_) throw std::runtime_error("Scanner.objects: they are of the final mesh; call finish() first");
     return engine_->objects();
 }
 

@@ -23,8 +23,8 @@ struct FrameResult {
     std::vector<std::string> messages;  // for a person; mostly empty
 };
 
-// Thread-safe: calls wait for one another. Throws std::invalid_argument for what the caller gave, std::runtime_error for
-// what broke and for calls that come too early or too late. Nothing here touches Python.
+// Thread-safe: calls wait for one another. Throws std::invalid_argument for what the caller gave, std::runtime_error
+// for what broke and for calls that come too early or too late. Nothing here touches Python.
 class Scanner {
   public:
     // `labels`: a network or a file of detections; empty = no labels.
@@ -35,7 +35,7 @@ class Scanner {
 
     const PinholeCamera& camera() const { return camera_; }
 
-    // Tracks and fuses. Images are of the camera's size, or the colour image is empty; stamps grow. `index` is set here.
+    // Tracks and fuses. Images are of the camera's size, or colour is empty; stamps grow. `index` is set here.
     FrameResult Track(Frame frame);
 
     // As far as it is known: before Finish as the frames were tracked, after it as they were corrected.

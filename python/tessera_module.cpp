@@ -1,5 +1,5 @@
-// The module tessera._tessera; what a person sees is the package around it (tessera/__init__.py, documented and typed in
-// tessera/__init__.pyi).
+// The module tessera._tessera. What a person sees is the package around it: tessera/__init__.py, documented and typed
+// in tessera/__init__.pyi.
 #include "bindings.h"
 
 namespace tessera::python {

@@ -138,9 +138,9 @@ class Scanner:
 
     def __init__(self, camera: Camera, config: Optional[Path] = None, settings: Optional[Settings] = None,
                  labels: Optional[Path] = None) -> None:
-        """`config`: a preset ("default", "bylow2014", "diaz2018", "labels") or a YAML file, as --config. `settings`: keys of
-        docs/configuration.md, as --set. `labels`: a network or a file of detections, as --labels. ValueError for what
-        the program refuses, in the same words."""
+        """`config`: a preset ("default", "bylow2014", "diaz2018", "labels") or a YAML file, as --config. `settings`:
+        keys of docs/configuration.md, as --set. `labels`: a network or a file of detections, as --labels. ValueError
+        for what the program refuses, in the same words."""
     @property
     def camera(self) -> Camera: ...
     def track(self, depth_m: NDArray[np.float32], colour: Optional[NDArray[np.uint8]], stamp_s: float,
@@ -227,8 +227,8 @@ def frames(source: Path, config: Optional[Path] = None, settings: Optional[Setti
 
 def run(source: Path, out: Optional[Path] = None, config: Optional[Path] = None, settings: Optional[Settings] = None,
         labels: Optional[Path] = None, start: int = 0, frames: Optional[int] = None, stride: int = 1) -> RunResult:
-    """As `tessera run SOURCE --out OUT`: the same files in `out` (docs/outputs.md); None writes nothing. Control-C ends the
-    run after the present frame, its files whole, and then raises KeyboardInterrupt."""
+    """As `tessera run SOURCE --out OUT`: the same files in `out` (docs/outputs.md); None writes nothing. Control-C ends
+    the run after the present frame, its files whole, and then raises KeyboardInterrupt."""
 
 def read_mesh(path: Path) -> Mesh:
     """A PLY file."""
@@ -241,8 +241,8 @@ def read_objects(path: Path) -> List[MapObject]:
 
 def evaluate_ate(reference: Trajectory, estimate: Trajectory, frames: Optional[int] = None,
                  max_difference_s: float = 0.02) -> Dict[str, Union[float, int, str]]:
-    """Absolute trajectory error after one rigid alignment: the keys of `tessera eval ate --json`. `frames`: how many the run
-    was given, for "tracked_fraction"."""
+    """Absolute trajectory error after one rigid alignment: the keys of `tessera eval ate --json`. `frames`: how many
+    the run was given, for "tracked_fraction"."""
 
 def evaluate_rpe(reference: Trajectory, estimate: Trajectory, delta_s: float = 1.0) -> Dict[str, float]:
     """Relative pose error over `delta_s`: the keys of `tessera eval rpe --json`."""

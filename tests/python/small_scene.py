@@ -1,6 +1,8 @@
 """A scene of few small frames, and a folder that goes away: what the tests of the Python module share."""
 import functools
+import os
 import pathlib
+import subprocess
 import sys
 import tempfile
 import unittest
@@ -36,6 +38,11 @@ def scan(frames, **more_settings):
     """A Scanner that has tracked all of these frames, and its results."""
     scanner = tessera.Scanner(CAMERA, settings={**SETTINGS, **more_settings})
     return scanner, [scanner.track(f.depth_m, f.colour, f.stamp_s, f.colour_stamp_s) for f in frames]
+
+
+def call_program(*arguments, settings):
+    sets = [word for key, value in settings.items() for word in ("--set", f"{key}={str(value).lower()}")]
+    subprocess.run([os.environ["TESSERA_PROGRAM"], *arguments, *sets], check=True, capture_output=True)
 
 
 class InFolder(unittest.TestCase):

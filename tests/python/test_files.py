@@ -1,13 +1,11 @@
 """Files, sources, whole runs and figures through the Python module."""
 import json
-import os
-import subprocess
 import unittest
 import warnings
 
 import numpy as np
 
-from small_scene import CAMERA, SETTINGS, SOURCE, InFolder, open_small, scan, small_frames, tessera
+from small_scene import CAMERA, SETTINGS, SOURCE, InFolder, call_program, open_small, scan, small_frames, tessera
 
 
 def line_path(step_m):
@@ -30,8 +28,9 @@ class Trajectories(InFolder):
 
     def test_what_is_no_trajectory(self):
         stamps, poses = np.arange(3.0), np.tile(np.eye(4), (3, 1, 1))
+        not_rigid = r"T_world_camera\[0\]"
         for words, bad in [("shape", (stamps, poses[:2])), (r"stamps_s\[1\]", (np.zeros(3), poses)),
-                           (r"T_world_camera\[0\]", (stamps, 2 * poses)), (r"T_world_camera\[0\]", (stamps, np.nan * poses))]:
+                           (not_rigid, (stamps, 2 * poses)), (not_rigid, (stamps, np.nan * poses))]:
             with self.assertRaisesRegex(ValueError, words):
                 tessera.Trajectory(*bad)
         with self.assertRaisesRegex(TypeError, "float64"):
@@ -73,7 +72,8 @@ class Meshes(InFolder):
     def test_labels_of_a_file(self):
         (self.folder / "labels.ply").write_text(
             "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
-            "property uchar class\nproperty ushort instance\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+            "property uchar class\nproperty ushort instance\nelement face 1\n"
+            "property list uchar int vertex_indices\nend_header\n"
             "0 0 0 1 300\n1 0 0 2 301\n0 1 0 0 0\n3 0 1 2\n")
         labels = tessera.read_mesh(self.folder / "labels.ply").labels
         self.assertEqual(labels["class_id"].tolist(), [1, 2, 0])
@@ -118,9 +118,7 @@ class Sources(InFolder):
 
     def test_a_bad_image_is_a_warning_and_the_loop_goes_on(self):
         recorded = self.folder / "recorded"
-        sets = [word for key, value in SETTINGS.items() for word in ("--set", f"{key}={value}")]
-        subprocess.run([os.environ["TESSERA_PROGRAM"], "synth", "desk", "--out", recorded, "--frames", "3", *sets], check=True,
-                       capture_output=True)
+        call_program("synth", "desk", "--out", recorded, "--frames", "3", settings=SETTINGS)
         bad = sorted((recorded / "depth").iterdir())[1]
         bad.write_bytes(bad.read_bytes()[:100])
         with warnings.catch_warnings(record=True) as caught:
