@@ -5,25 +5,33 @@ looks along +z, x right, y down; `p_world = T_world_camera @ p_camera`. Metres, 
 gave is a ValueError or a TypeError that says what to do; what breaks later (a source, a full disk) is a RuntimeError.
 Everything is documented and typed in __init__.pyi beside this file, and on one page in docs/python.md.
 """
-from ._tessera import (
-    Camera,
-    Frame,
-    FrameResult,
-    Frames,
-    MapObject,
-    Mesh,
-    RunResult,
-    Scanner,
-    Trajectory,
-    __version__,
-    evaluate_ate,
-    evaluate_rpe,
-    frames,
-    read_mesh,
-    read_objects,
-    read_trajectory,
-    run,
-)
+try:
+    from ._tessera import (
+        Camera,
+        Frame,
+        FrameResult,
+        Frames,
+        MapObject,
+        Mesh,
+        RunResult,
+        Scanner,
+        Trajectory,
+        __version__,
+        evaluate_ate,
+        evaluate_rpe,
+        frames,
+        read_mesh,
+        read_objects,
+        read_trajectory,
+        run,
+    )
+except ImportError as error:
+    import pathlib
+    import sys
+
+    built = ", ".join(path.name for path in pathlib.Path(__file__).parent.glob("_tessera*"))
+    raise ImportError(f"tessera needs NumPy and the Python that it was built for ({built or 'not built'}); this is "
+                      f"{sys.executable}, {sys.version.split()[0]}: {error}") from error
 
 __all__ = [
     "Camera", "Frame", "FrameResult", "Frames", "MapObject", "Mesh", "RunResult", "Scanner", "Trajectory",
