@@ -22,12 +22,22 @@ if(TESSERA_SANITIZE)
     target_link_options(tessera_options INTERFACE -fsanitize=${TESSERA_SANITIZE})
 endif()
 
+# What the Python module is linked from. Hidden symbols keep position-independent code as fast as a program's own: calls
+# and inlining within a library stay as they are.
+function(tessera_for_python target)
+    if(TESSERA_PYTHON)
+        set_target_properties(${target} PROPERTIES
+            POSITION_INDEPENDENT_CODE ON CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
+    endif()
+endfunction()
+
 # tessera_library(NAME SOURCES... LINK libs...): one library per folder under src/.
 function(tessera_library name)
     cmake_parse_arguments(ARG "" "" "SOURCES;LINK;PRIVATE_LINK" ${ARGN})
     add_library(${name} STATIC ${ARG_SOURCES})
     target_include_directories(${name} PUBLIC ${CMAKE_SOURCE_DIR}/src)
     target_link_libraries(${name} PUBLIC ${ARG_LINK} PRIVATE ${ARG_PRIVATE_LINK} tessera_options)
+    tessera_for_python(${name})
 endfunction()
 
 # tessera_vector_source(LIBRARY FILE): compiles FILE once more for AVX2. Such a file includes no Eigen and
@@ -40,6 +50,7 @@ function(tessera_vector_source library file)
         target_include_directories(${unit} PRIVATE ${CMAKE_SOURCE_DIR}/src)
         target_compile_definitions(${unit} PRIVATE TESSERA_VECTOR_NAMESPACE=${arch})
         target_link_libraries(${unit} PRIVATE tessera_options)
+        tessera_for_python(${unit})
         if(arch STREQUAL avx2)
             if(NOT CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
                 continue()

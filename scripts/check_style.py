@@ -10,7 +10,7 @@ import sys
 
 WARN_LINES = 250
 FAIL_LINES = 500
-FOLDERS = ["src", "apps", "tests", "bench", "cuda", "scripts", "cmake"]
+FOLDERS = ["src", "apps", "python", "tests", "bench", "cuda", "scripts", "cmake"]
 SUFFIXES = {".h", ".cpp", ".cu", ".cuh", ".py", ".sh", ".cmake"}
 HEAVY = re.compile(r'^\s*#\s*include\s*[<"](opencv2|yaml-cpp|nlohmann|spdlog|CLI|embree3)/')
 

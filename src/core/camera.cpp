@@ -9,26 +9,31 @@
 namespace tessera {
 namespace {
 
-Status CheckPlausible(const std::string& path, const CameraCalibration& c) {
-    const PinholeCamera& p = c.pinhole;
-    const auto bad = [&](const char* key, double value) {
-        return Status::Error(fmt::format("{}: {}: {} is not plausible", path, key, value));
-    };
-    for (const auto& [key, value] : std::map<const char*, double>{{"fx", p.fx}, {"fy", p.fy}})
-        if (!(value > 1.0 && value < 1e5)) return bad(key, value);
-    if (p.width < 16 || p.width > 8192) return bad("width", p.width);
-    if (p.height < 16 || p.height > 8192) return bad("height", p.height);
-    if (!(std::abs(p.cx) < 2.0 * p.width)) return bad("cx", p.cx);
-    if (!(std::abs(p.cy) < 2.0 * p.height)) return bad("cy", p.cy);
+Status NotPlausible(const char* key, double value) {
+    return Status::Error(fmt::format("{}: {} is not plausible", key, value));
+}
+
+Status CheckPlausible(const CameraCalibration& c) {
+    if (Status status = CheckPlausible(c.pinhole); !status.ok()) return status;
     const LensDistortion& d = c.distortion;
     for (const double k : {d.k1, d.k2, d.p1, d.p2, d.k3})
-        if (!std::isfinite(k)) return bad("distortion", k);
-    if (!(c.depth_scale > 0 && c.depth_scale < 1e7)) return bad("depth_scale", c.depth_scale);
-    if (!(c.fps > 0 && c.fps < 1e4)) return bad("fps", c.fps);
+        if (!std::isfinite(k)) return NotPlausible("distortion", k);
+    if (!(c.depth_scale > 0 && c.depth_scale < 1e7)) return NotPlausible("depth_scale", c.depth_scale);
+    if (!(c.fps > 0 && c.fps < 1e4)) return NotPlausible("fps", c.fps);
     return Status::Ok();
 }
 
 }  // namespace
+
+Status CheckPlausible(const PinholeCamera& p) {
+    for (const auto& [key, value] : std::map<const char*, double>{{"fx", p.fx}, {"fy", p.fy}})
+        if (!(value > 1.0 && value < 1e5)) return NotPlausible(key, value);
+    if (p.width < 16 || p.width > 8192) return NotPlausible("width", p.width);
+    if (p.height < 16 || p.height > 8192) return NotPlausible("height", p.height);
+    if (!(std::abs(p.cx) < 2.0 * p.width)) return NotPlausible("cx", p.cx);
+    if (!(std::abs(p.cy) < 2.0 * p.height)) return NotPlausible("cy", p.cy);
+    return Status::Ok();
+}
 
 Result<CameraCalibration> ReadCameraFile(const std::string& path) {
     CameraCalibration c;
@@ -67,7 +72,7 @@ Result<CameraCalibration> ReadCameraFile(const std::string& path) {
     }
     if (!missing.empty()) return Status::Error(fmt::format("{}: '{}' is missing", path, *missing.begin()));
     p.fy = std::abs(p.fy);  // ICL-NUIM writes the y axis upwards in its intrinsics, but not in its images
-    if (Status status = CheckPlausible(path, c); !status.ok()) return status;
+    if (Status status = CheckPlausible(c); !status.ok()) return Status::Error(path + ": " + status.message());
     return c;
 }
 

@@ -32,6 +32,9 @@ struct PinholeCamera {
     bool operator==(const PinholeCamera&) const = default;
 };
 
+// Values that no depth camera has are errors: "fx: 0 is not plausible".
+Status CheckPlausible(const PinholeCamera& camera);
+
 // Brown-Conrady coefficients in OpenCV's order; all zero means an ideal lens.
 struct LensDistortion {
     double k1 = 0, k2 = 0, p1 = 0, p2 = 0, k3 = 0;

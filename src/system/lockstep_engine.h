@@ -26,6 +26,8 @@ class LockstepEngine : public Engine {
     std::vector<StampedPose> CorrectedPath() const override;
     std::optional<CalibrationReport> calibration() const override { return loops_ ? loops_->calibration() : std::nullopt; }
     MapStatistics map_statistics() const override { return StatisticsOf(mapping_.map()); }
+    // The map as it is between two calls of Next; before TakeMesh.
+    const MappingStage& mapping() const { return mapping_; }
 
   private:
     // Waits while paused. True if there is something to report.

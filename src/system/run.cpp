@@ -3,9 +3,42 @@
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
+#include "optimize/pose_graph.h"
 #include "system/runner.h"
 
 namespace tessera {
+namespace {
+
+Status CheckLoops(const RunRequest& request, const RunConfig& config) {
+    const bool refine = config.loops.refine_calibration;
+    if (refine && !config.loops.enabled) return Status::Error("calibration.refine: needs --loop-closure on");
+    if (refine && !request.scan_file.empty())
+        return Status::Error("calibration.refine: not with --scan or --resume, whose frames are of one calibration; run once "
+                             "to find it, and scan with what it says");
+    if (!config.loops.enabled) return Status::Ok();
+    if (!PoseGraphAvailable())
+        return Status::Error("--loop-closure on: this build has no pose graph; install libceres-dev and build again");
+    if (!request.poses_file.empty())
+        return Status::Error("--loop-closure on: with --poses the poses are given; leave one of the two out");
+    return Status::Ok();
+}
+
+Status CheckPaging(const RunRequest& request, const RunConfig& config) {
+    if (!config.pipeline.paging.enabled()) return Status::Ok();
+    const std::string key = "mapping.memory_limit_mb: ";
+    if (request.scan_file.empty()) return Status::Error(key + "what leaves memory goes to the scan file; give --scan FILE");
+    if (config.loops.enabled) return Status::Error(key + "not yet with --loop-closure on; leave one of the two out");
+    if (!request.labels.empty()) return Status::Error(key + "not yet with --labels; leave one of the two out");
+    return Status::Ok();
+}
+
+}  // namespace
+
+Status CheckRun(const RunRequest& request, const RunConfig& config) {
+    for (const Status& status : {config.Validate(), CheckLoops(request, config), CheckPaging(request, config)})
+        if (!status.ok()) return status;
+    return Status::Ok();
+}
 
 MapStatistics StatisticsOf(const BlockMap& map) {
     return {map.count(), map.bytes(), map.bytes_per_voxel()};

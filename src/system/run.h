@@ -86,6 +86,9 @@ struct RunSummary {
     bool stopped = false;          // on request
 };
 
+// What cannot go together, or needs a part that this build lacks; the error says what to leave out or to install.
+Status CheckRun(const RunRequest& request, const RunConfig& config);
+
 // Called on the thread that runs. Members may be empty.
 struct RunObserver {
     std::function<void(const SourceInfo&)> on_open;

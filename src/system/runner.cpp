@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "io/trajectory.h"
-#include "optimize/pose_graph.h"
 #include "system/live_engine.h"
 #include "system/lockstep_engine.h"
 #include "system/open_source.h"
@@ -25,9 +24,7 @@ Result<RunSummary> Runner::Run(const std::atomic<bool>& stop) {
 }
 
 Status Runner::Open(const std::atomic<bool>& stop) {
-    if (Status status = config_.Validate(); !status.ok()) return status;
-    if (Status status = CheckLoops(); !status.ok()) return status;
-    if (Status status = CheckPaging(); !status.ok()) return status;
+    if (Status status = CheckRun(request_, config_); !status.ok()) return status;
     std::vector<StampedPose> given;
     if (!request_.poses_file.empty()) {
         Result<Trajectory> poses = ReadTrajectory(request_.poses_file);
@@ -72,29 +69,6 @@ Result<ScanPlan> Runner::OpenScan() {
     truth_ = scan.Truth();
     frames_before_ = static_cast<std::int64_t>(scan.path.size());
     return plan;
-}
-
-Status Runner::CheckLoops() const {
-    const bool refine = config_.loops.refine_calibration;
-    if (refine && !config_.loops.enabled) return Status::Error("calibration.refine: needs --loop-closure on");
-    if (refine && !request_.scan_file.empty())
-        return Status::Error("calibration.refine: not with --scan or --resume, whose frames are of one calibration; run once "
-                             "to find it, and scan with what it says");
-    if (!config_.loops.enabled) return Status::Ok();
-    if (!PoseGraphAvailable())
-        return Status::Error("--loop-closure on: this build has no pose graph; install libceres-dev and build again");
-    if (!request_.poses_file.empty())
-        return Status::Error("--loop-closure on: with --poses the poses are given; leave one of the two out");
-    return Status::Ok();
-}
-
-Status Runner::CheckPaging() const {
-    if (!config_.pipeline.paging.enabled()) return Status::Ok();
-    const std::string key = "mapping.memory_limit_mb: ";
-    if (request_.scan_file.empty()) return Status::Error(key + "what leaves memory goes to the scan file; give --scan FILE");
-    if (config_.loops.enabled) return Status::Error(key + "not yet with --loop-closure on; leave one of the two out");
-    if (!request_.labels.empty()) return Status::Error(key + "not yet with --labels; leave one of the two out");
-    return Status::Ok();
 }
 
 // With the first frame and not before: a run that is refused says one line, and leaves the results of an earlier one.

@@ -20,8 +20,6 @@ class Runner {
   private:
     Status Open(const std::atomic<bool>& stop);
     Result<ScanPlan> OpenScan();
-    Status CheckLoops() const;
-    Status CheckPaging() const;
     // With the first frame and not before: a run that is refused says one line, and leaves the results of an earlier one.
     Status Begin();
 

@@ -1,0 +1,24 @@
+// One function per topic; each adds its classes and functions to the module.
+#pragma once
+
+#include <pybind11/pybind11.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <filesystem>
+#include <string>
+
+namespace tessera::python {
+
+using Path = std::filesystem::path;  // str or os.PathLike
+
+void BindMesh(pybind11::module_& module);
+void BindTrajectory(pybind11::module_& module);
+void BindEvaluation(pybind11::module_& module);
+void BindFrames(pybind11::module_& module);   // Camera, Frame, Frames
+void BindScanner(pybind11::module_& module);  // after BindFrames
+void BindRun(pybind11::module_& module);
+
+// A JSON text as Python's own dict or list: keys and figures are those that the program writes, stated in one place.
+pybind11::object FromJson(const std::string& json);
+
+}  // namespace tessera::python

@@ -1,0 +1,41 @@
+// Frames that a program hands in one by one, as a source that an engine reads.
+#pragma once
+
+#include <atomic>
+#include <memory>
+
+#include "core/queue.h"
+#include "io/frame_source.h"
+
+namespace tessera::python {
+
+// Between the thread that hands frames in and the one that reads the source.
+class FrameFeed {
+  public:
+    // One thread at a time. A frame that waits already must have been read.
+    void Push(Frame frame);
+    // No more frames: a reader that waits gets the end. Any thread.
+    void Close();
+    // Waits. False: closed, and no frame is left. The reading thread only.
+    bool Pop(Frame& frame);
+
+  private:
+    Wake wake_;
+    FifoQueue<Frame> frames_{1, wake_};
+    std::atomic<bool> closed_{false};
+};
+
+class FeedSource : public FrameSource {
+  public:
+    FeedSource(std::shared_ptr<FrameFeed> feed, SourceInfo info) : feed_(std::move(feed)), info_(std::move(info)) {}
+
+    const SourceInfo& info() const override { return info_; }
+    ReadResult Read(Frame& frame) override;
+    bool Seek(std::int64_t) override { return false; }
+
+  private:
+    std::shared_ptr<FrameFeed> feed_;
+    SourceInfo info_;
+};
+
+}  // namespace tessera::python
