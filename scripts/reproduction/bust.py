@@ -1,11 +1,11 @@
-"""A bust made by code, for [D18] table 3: blended spheres, so that nothing of anyone else's is shipped. Deterministic."""
+"""A bust made by code, for [D18] table 3: blended spheres, so that nothing of anyone else's is shipped."""
 import math
 
 # (centre x, y, z, radius) in metres, z up, the face towards -y.
 BALLS = [(0.00, 0.02, 1.02, 0.20), (0.00, -0.03, 0.93, 0.16), (0.00, -0.10, 0.86, 0.09), (0.00, -0.20, 0.98, 0.045),
          (0.00, -0.22, 0.94, 0.05), (0.08, -0.16, 1.06, 0.05), (-0.08, -0.16, 1.06, 0.05), (0.19, 0.03, 0.98, 0.05),
          (-0.19, 0.03, 0.98, 0.05), (0.00, 0.04, 0.72, 0.13), (0.00, 0.05, 0.45, 0.24), (0.26, 0.05, 0.45, 0.17),
-         (-0.26, 0.05, 0.45, 0.17), (0.12, -0.03, 0.30, 0.20), (-0.12, -0.03, 0.30, 0.20)]
+         (-0.26, 0.05, 0.45, 0.17), (0.00, 0.03, 0.26, 0.22)]
 HEART = (0.0, 0.03, 0.62)  # the surface is seen whole from here: one distance for each direction
 BLEND_M = 0.05             # width over which two spheres flow into one another
 REACH_M = 0.9

@@ -17,7 +17,8 @@ def alphas(bench):
 def table1_rows(bench):
     """(name in the paper or the folder's, sequence, the paper's figures or None) of all that is at hand."""
     rows = [(name, find(bench, name), values) for name, values in B14_TABLE1.items()]
-    return [row for row in rows if row[1]] + [(extra.name, extra, None) for extra in others(bench)]
+    rows = [row for row in rows if row[1]] + [(extra.name, extra, None) for extra in others(bench)]
+    return [row for row in rows if not bench.only or row[1].name in bench.only]
 
 
 def alpha_job(bench, sequence, setting, alpha):
@@ -26,7 +27,7 @@ def alpha_job(bench, sequence, setting, alpha):
 
 def settings(bench):
     """The paper's settings cost four times a frame's time: --preset chooses."""
-    return [bench.preset] if getattr(bench, "preset", None) else list(SETTINGS)
+    return [bench.preset] if bench.preset else list(SETTINGS)
 
 
 def table1_jobs(bench):
@@ -61,9 +62,9 @@ def table1(bench):
          ["sequence", "measured on", "settings", "[B14] best", "ours, best alpha", "ratio", "ours, worst alpha",
           "ours, auto", "auto / best"], summary),
         ("All values.", ["sequence", "settings", *(f"α = {a}" for a in alphas(bench))], detail)]
-    missing = [name for name in B14_TABLE1 if not find(bench, name)]
+    missing = [name for name in B14_TABLE1 if name not in {row[0] for row in table1_rows(bench)}]
     if missing:
-        document.notes.append("Without a sequence or stand-in: " + ", ".join(missing) + ".")
+        document.notes.append("Not measured here: " + ", ".join(missing) + ".")
     document.protocol = [
         "`--tracker sdf --alpha A` on every frame. Settings `bylow2014`: config/bylow2014.yaml, the paper's equations; "
         "`default`: our defaults, in which lens, shutter, brightness and robust weights are ours, and alpha's unit is the "

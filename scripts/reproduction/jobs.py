@@ -21,10 +21,12 @@ class JobFailed(Exception):
 
 @dataclasses.dataclass(frozen=True)
 class Job:
-    """`name` is the folder below OUT/jobs; `arguments` follow the word tessera; `needs` are finished before."""
+    """`name` is the folder below OUT/jobs; `arguments` follow the word tessera; `needs` are finished before;
+    `inputs` are files whose content counts as part of the command."""
     name: str
     arguments: tuple
     needs: tuple = ()
+    inputs: tuple = ()
 
 
 class Workbench:
@@ -36,6 +38,7 @@ class Workbench:
         self.out = pathlib.Path(out).resolve()
         self.tum = pathlib.Path(tum).resolve() if tum else None
         self.quick = quick
+        self.preset, self.only = None, ()  # of b14-table1: one of its settings, some of its sequences
         self.log = log
         self.version = self._version()
 
@@ -55,7 +58,8 @@ class Workbench:
         return words.replace(str(self.out), "$OUT")
 
     def key(self, job):
-        parts = [self.shown(job), self.version, *(self.key(need) for need in job.needs)]
+        parts = [self.shown(job), self.version, *(self.key(need) for need in job.needs),
+                 *(hashlib.sha256(pathlib.Path(file).read_bytes()).hexdigest() for file in job.inputs)]
         return hashlib.sha256("\n".join(parts).encode()).hexdigest()
 
     def is_done(self, job):

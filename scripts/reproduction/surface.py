@@ -79,10 +79,10 @@ def write_scan(bench, target):
 
 def scan(bench, name):
     """The job that renders the model along one of the two trajectories, and its sequence's folder."""
-    folder = bench.folder(f"data/bust_{name}")
-    arguments = ("synth", str(bench.out / "model/bust.obj"), "--trajectory", str(bench.out / f"model/{name}.txt"), "--out",
-                 str(folder / "sequence"))
-    return Job(f"data/bust_{name}", arguments), folder / "sequence"
+    sequence = bench.folder(f"data/bust_{name}") / "sequence"
+    model, path = str(bench.out / "model/bust.obj"), str(bench.out / f"model/{name}.txt")
+    arguments = ("synth", model, "--trajectory", path, "--out", str(sequence))
+    return Job(f"data/bust_{name}", arguments, inputs=(model, path)), sequence
 
 
 def measured(bench, name, label, options, known):
