@@ -1,0 +1,110 @@
+"""One job is one call of tessera with a folder of its own. Its done-file holds a key of the command line, of the program
+and of the jobs that it needs, so that a second call reuses what is finished and repeats what has changed.
+"""
+import dataclasses
+import hashlib
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import time
+
+DONE = "done.json"
+ENDED_LOST = 3  # tessera's exit code where less than half of the frames were tracked: a result, not an error
+
+
+class JobFailed(Exception):
+    """tessera refused a job; the text is its own line and the command."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Job:
+    """`name` is the folder below OUT/jobs; `arguments` follow the word tessera; `needs` are finished before;
+    `inputs` are files whose content counts as part of the command."""
+    name: str
+    arguments: tuple
+    needs: tuple = ()
+    inputs: tuple = ()
+
+
+class Workbench:
+    """Runs jobs of one tessera into one folder. Owner thread only; several processes may share the folder as long as
+    no two run the same job."""
+
+    def __init__(self, tessera, out, tum=None, quick=False, log=sys.stderr):
+        self.tessera = pathlib.Path(tessera).resolve()
+        self.out = pathlib.Path(out).resolve()
+        self.tum = pathlib.Path(tum).resolve() if tum else None
+        self.quick = quick
+        self.preset, self.only = None, ()  # of b14-table1: one of its settings, some of its sequences
+        self.log = log
+        self.version = self._version()
+
+    def _version(self):
+        """The program's own version and the start of its file's sha256: a build from changed sources is another one."""
+        text = subprocess.run([self.tessera, "--version"], capture_output=True, text=True, check=True).stdout.strip()
+        return f"{text}, sha256 {hashlib.sha256(self.tessera.read_bytes()).hexdigest()[:12]}"
+
+    def folder(self, name):
+        return self.out / "jobs" / name
+
+    def shown(self, job):
+        """The command as a reader types it: no path of this machine, $OUT for --out and $TUM for --tum."""
+        words = " ".join(["tessera", *job.arguments])
+        if self.tum:
+            words = words.replace(str(self.tum), "$TUM")
+        return words.replace(str(self.out), "$OUT")
+
+    def key(self, job):
+        parts = [self.shown(job), self.version, *(self.key(need) for need in job.needs),
+                 *(hashlib.sha256(pathlib.Path(file).read_bytes()).hexdigest() for file in job.inputs)]
+        return hashlib.sha256("\n".join(parts).encode()).hexdigest()
+
+    def is_done(self, job):
+        return self.record(job).get("key") == self.key(job)
+
+    def record(self, job):
+        """What the done-file says: key, command, exit_code, seconds, load (busy processes before, without us)."""
+        try:
+            return json.loads((self.folder(job.name) / DONE).read_text())
+        except (OSError, ValueError):
+            return {}
+
+    def run(self, job):
+        """Runs what `job` needs, then the job, unless they are done. Returns its folder; raises JobFailed."""
+        for need in job.needs:
+            self.run(need)
+        folder = self.folder(job.name)
+        if self.is_done(job):
+            return folder
+        shutil.rmtree(folder, ignore_errors=True)
+        folder.mkdir(parents=True)
+        load, start = os.getloadavg()[0], time.monotonic()
+        print(f"{job.name} ...", end="", flush=True, file=self.log)
+        ended = subprocess.run([self.tessera, *job.arguments], capture_output=True, text=True, check=False)
+        seconds = time.monotonic() - start
+        (folder / "log.txt").write_text(ended.stdout + ended.stderr)
+        print(f" {seconds:.0f} s", file=self.log)
+        if ended.returncode not in (0, ENDED_LOST):
+            last = (ended.stderr.strip().splitlines() or [f"ended with {ended.returncode}"])[-1]
+            raise JobFailed(f"{last}\n  in: {self.shown(job)}")
+        record = {"key": self.key(job), "command": self.shown(job), "exit_code": ended.returncode,
+                  "seconds": round(seconds, 1), "load": round(load, 2)}
+        (folder / (DONE + ".part")).write_text(json.dumps(record, indent=1))
+        os.replace(folder / (DONE + ".part"), folder / DONE)
+        return folder
+
+    def read(self, job, file):
+        """A JSON file that the finished job left."""
+        return json.loads((self.run(job) / file).read_text())
+
+
+def with_needs(jobs):
+    """`jobs` and all that they need, each once, needed ones first."""
+    found = {}
+    for job in jobs:
+        for one in (*with_needs(job.needs), job):
+            found.setdefault(one.name, one)
+    return list(found.values())
