@@ -43,6 +43,7 @@ Scanner::~Scanner() { feed_->Close(); }  // else the engine would wait for its r
 
 void Scanner::Check(const Frame& frame) const {
     if (final_mesh_) throw std::runtime_error("Scanner.track: the scan is finished; make another Scanner");
+    ThrowIfBroken(engine_->status());
     if (!std::isfinite(frame.stamp_s) || !std::isfinite(frame.colour_stamp_s))
         throw std::invalid_argument("stamp_s: seconds expected, not nan or inf");
     if (frames_ > 0 && frame.stamp_s <= last_stamp_s_)
@@ -71,7 +72,8 @@ FrameResult Scanner::Track(Frame frame) {
         result.frame_ms = watch.LapMs();
         return result;
     }
-    throw std::runtime_error("Scanner.track: " + engine_->status().message());
+    ThrowIfBroken(engine_->status());
+    throw std::runtime_error("Scanner.track: the scan came to an end");
 }
 
 std::vector<StampedPose> Scanner::Path() const {

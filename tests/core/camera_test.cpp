@@ -27,6 +27,13 @@ TEST(Camera, ProjectsWhatItUnprojects) {
     EXPECT_EQ(camera.Project({0, 0, 3}), Eigen::Vector2d(319.5, 239.5));
 }
 
+TEST(Camera, ImplausibleValuesAreNamed) {
+    EXPECT_TRUE(CheckPlausible(PinholeCamera{}).ok());
+    EXPECT_EQ(CheckPlausible(PinholeCamera{.fx = 0}).message(), "fx: 0 is not plausible");
+    EXPECT_EQ(CheckPlausible(PinholeCamera{.width = 8}).message(), "width: 8 is not plausible");
+    EXPECT_EQ(CheckPlausible(PinholeCamera{.cy = -960}).message(), "cy: -960 is not plausible");
+}
+
 TEST(CameraFile, ReadsEveryKey) {
     const auto camera = ReadText(std::string("width: 320\nheight: 240\n") + kIntrinsics +
                                  "distortion: [0.1, -0.2, 0.003, -0.004, 0.5]\ndepth_scale: 1000\nfps: 25\n");
