@@ -1,5 +1,5 @@
-"""One job is one call of tessera with a folder of its own. Its done-file holds a key of the command line, of the program
-and of the jobs that it needs, so that a second call reuses what is finished and repeats what has changed.
+"""One job is one call of tessera with a folder of its own. Its done-file holds a key of the command line, of the
+program and of the jobs that it needs, so that a second call reuses what is finished and repeats what has changed.
 """
 import dataclasses
 import hashlib
