@@ -110,7 +110,7 @@ def low_structure(bench):
     rows.insert(2, ["[B14], alpha 0", "–", *(number(B14_TABLE1[name][0], 3) for name, _ in sequences[1:])])
     document.tables = [("", header, rows)]
     document.notes = [STAND_IN_NOTE, "Without structure and texture no method can know the pose: the right answer is "
-                      "to say so and to fuse nothing. An ATE there is that of a camera taken to stand still."]
+                      "to say so and to fuse nothing. The ATE there ranks nothing."]
     document.protocol = [ATE_PROTOCOL, "Default settings but for the method and alpha; 1 cm voxels."]
     document.commands = commands(bench, jobs)
     return document

@@ -8,7 +8,7 @@ class Run:
     def __init__(self, bench, job):
         self.folder = bench.run(job)
         self.json = bench.read(job, "run.json")
-        self.load = bench.record(job).get("load", 0.0)
+        self.busy_cores = bench.record(job).get("busy_cores", 0.0)
         counts = self.json["counts"]
         self.frames, self.degenerate = counts["frames"], counts["degenerate"]
         self.tracked = counts["tracked"] / max(1, counts["frames"])
