@@ -2,8 +2,8 @@
 # Fetches TUM RGB-D sequences (CC BY 4.0, Sturm et al. 2012) from their makers and unpacks them. Goes on where a broken
 # download ended; a sequence's folder appears only when it is whole.
 #   scripts/fetch_tum.sh SEQUENCE... [--to DIR] [--from ADDRESS]      into DIR (default: tum)
-# SEQUENCE: rgbd_dataset_freiburg1_desk, freiburg1_desk or fr1/desk. ADDRESS, or TESSERA_TUM_URL, is another place of the
-# same folders freiburg1/ to freiburg3/, such as file:///media/tum. TESSERA_TUM_SUMS is another list of checksums.
+# SEQUENCE: rgbd_dataset_freiburg1_desk, freiburg1_desk or fr1/desk. ADDRESS, or TESSERA_TUM_URL, is another place of
+# the same folders freiburg1/ to freiburg3/, such as file:///media/tum. TESSERA_TUM_SUMS is another list of checksums.
 set -euo pipefail
 
 address=${TESSERA_TUM_URL:-https://cvg.cit.tum.de/rgbd/dataset}

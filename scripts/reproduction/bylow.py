@@ -1,4 +1,4 @@
-"""[B14] table I and figures 6 and 7, and its claim about scenes without structure or texture with all of our trackers."""
+"""[B14] table I and figures 6 and 7, and its claim about scenes without structure or texture with all trackers."""
 from . import plots
 from .document import Document, number, ratio
 from .figures import ATE_PROTOCOL, STAND_IN_NOTE, Run, used
@@ -22,7 +22,8 @@ def table1_rows(bench):
 
 
 def alpha_job(bench, sequence, setting, alpha):
-    return run(bench, sequence, f"{setting}_alpha_{alpha}", *SETTINGS[setting], "--tracker", "sdf", "--alpha", str(alpha))
+    options = (*SETTINGS[setting], "--tracker", "sdf", "--alpha", str(alpha))
+    return run(bench, sequence, f"{setting}_alpha_{alpha}", *options)
 
 
 def settings(bench):
@@ -40,8 +41,8 @@ def table1_jobs(bench):
 
 
 def table1(bench):
-    document = Document("[B14] Table I: ATE against the photometric weight alpha", "ATE RMSE in metres. The paper's best "
-                        "and worst alpha are over its eleven values; \"auto\" is our default, which is told no alpha.")
+    document = Document("[B14] Table I: ATE against the photometric weight alpha", "ATE RMSE in metres. The paper's "
+                        "best and worst alpha are over its eleven values; \"auto\" is our default, told none.")
     document.notes = [STAND_IN_NOTE, ATE_PROTOCOL]
     summary, curves, detail = [], [], []
     for name, sequence, paper in table1_rows(bench):
@@ -56,7 +57,8 @@ def table1(bench):
             detail.append([name, setting, *(r.ate_cell() for r in runs)])
             curves.append((f"{sequence.name}, {setting}", alphas(bench), [r.ate_m for r in runs]))
         if paper:
-            detail.append([name, "the paper, its sequence", *(number(paper[ALPHAS.index(a)], 3) for a in alphas(bench))])
+            printed = [number(paper[ALPHAS.index(a)], 3) for a in alphas(bench)]
+            detail.append([name, "the paper, its sequence", *printed])
     document.tables = [
         ("Best alpha of each. Best and worst count runs that tracked over 95 % of the frames.",
          ["sequence", "measured on", "settings", "[B14] best", "ours, best alpha", "ratio", "ours, worst alpha",
@@ -67,8 +69,8 @@ def table1(bench):
         document.notes.append("Not measured here: " + ", ".join(missing) + ".")
     document.protocol = [
         "`--tracker sdf --alpha A` on every frame. Settings `bylow2014`: config/bylow2014.yaml, the paper's equations; "
-        "`default`: our defaults, in which lens, shutter, brightness and robust weights are ours, and alpha's unit is the "
-        "same (m² per squared intensity in [0, 1]).",
+        "`default`: our defaults, in which lens, shutter, brightness and robust weights are ours, and alpha's unit is "
+        "the same (m² per squared intensity in [0, 1]).",
         "`fr3` sequences come as near and far; the paper does not say which, near is taken where both are there."]
     document.pictures = plots.curves(bench.out / "b14-table1.png", "alpha", "ATE RMSE [m]", curves, log=True)
     document.commands = commands(bench, table1_jobs(bench))
@@ -107,8 +109,8 @@ def low_structure(bench):
     rows.insert(1, ["[B14], best alpha", "–", *(number(min(B14_TABLE1[name]), 3) for name, _ in sequences[1:])])
     rows.insert(2, ["[B14], alpha 0", "–", *(number(B14_TABLE1[name][0], 3) for name, _ in sequences[1:])])
     document.tables = [("", header, rows)]
-    document.notes = [STAND_IN_NOTE, "Without structure and texture no method can know the pose: the right answer is to "
-                      "say so and to fuse nothing. An ATE there is that of a camera taken to stand still."]
+    document.notes = [STAND_IN_NOTE, "Without structure and texture no method can know the pose: the right answer is "
+                      "to say so and to fuse nothing. The ATE there ranks nothing."]
     document.protocol = [ATE_PROTOCOL, "Default settings but for the method and alpha; 1 cm voxels."]
     document.commands = commands(bench, jobs)
     return document
@@ -130,7 +132,8 @@ def figures(bench):
             file = f"b14-figure{figure}-{scene}-{method}.png"
             (bench.out / file).write_bytes((bench.folder(jobs[-1].name) / "picture.png").read_bytes())
             document.pictures.append((file, f"Figure {figure}: {scene}, {rows[-1][2]}"))
-    document.tables = [("", ["figure", "scene", "tracked with", "ATE [m]", "frames lost", "degenerate, not fused"], rows)]
+    header = ["figure", "scene", "tracked with", "ATE [m]", "frames lost", "degenerate, not fused"]
+    document.tables = [("", header, rows)]
     document.notes = ["The paper's recordings are not public: built-in scenes of ours stand in (a corridor of 40 m, a "
                       "patterned floor), with exact truth. The paper gives no figures for these, only pictures."]
     document.protocol = [ATE_PROTOCOL, "The corridor at every 4th frame: four times the speed of walking."]

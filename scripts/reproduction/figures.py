@@ -8,7 +8,7 @@ class Run:
     def __init__(self, bench, job):
         self.folder = bench.run(job)
         self.json = bench.read(job, "run.json")
-        self.load = bench.record(job).get("load", 0.0)
+        self.busy_cores = bench.record(job).get("busy_cores", 0.0)
         counts = self.json["counts"]
         self.frames, self.degenerate = counts["frames"], counts["degenerate"]
         self.tracked = counts["tracked"] / max(1, counts["frames"])
@@ -22,10 +22,11 @@ class Run:
 
 def used(sequence):
     """A table's cell about the data."""
-    return sequence.kind if sequence.is_papers else f"{sequence.kind} (stand-in)"
+    return f"{sequence.kind} (stand-in)" if sequence.needs else sequence.kind
 
 
-STAND_IN_NOTE = ("A stand-in is another scene than the paper's, so its ratio only says whether the order of size is the "
-                 "paper's. With the TUM RGB-D sequence in `--tum` the same row is measured on that.")
-ATE_PROTOCOL = ("ATE RMSE in metres, SE(3) alignment without scale, pairs within 0.02 s, all tracked frames; lockstep, so "
-                "every frame and the same figures on every run and for any number of threads; no loop closure unless said.")
+STAND_IN_NOTE = ("A stand-in is another scene than the paper's, so its ratio only says whether the order of size is "
+                 "the paper's. With the TUM RGB-D sequence in `--tum` the same row is measured on that.")
+ATE_PROTOCOL = ("ATE RMSE in metres, SE(3) alignment without scale, pairs within 0.02 s, all tracked frames; lockstep, "
+                "so every frame and the same figures on every run and for any number of threads; no loop closure "
+                "unless said.")

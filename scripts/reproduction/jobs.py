@@ -1,5 +1,5 @@
-"""One job is one call of tessera with a folder of its own. Its done-file holds a key of the command line, of the program
-and of the jobs that it needs, so that a second call reuses what is finished and repeats what has changed.
+"""One job is one call of tessera with a folder of its own. Its done-file holds a key of the command line, of the
+program and of the jobs that it needs, so that a second call reuses what is finished and repeats what has changed.
 """
 import dataclasses
 import hashlib
@@ -66,7 +66,7 @@ class Workbench:
         return self.record(job).get("key") == self.key(job)
 
     def record(self, job):
-        """What the done-file says: key, command, exit_code, seconds, load (busy processes before, without us)."""
+        """What the done-file says: key, command, exit_code, seconds, busy_cores (others', just before)."""
         try:
             return json.loads((self.folder(job.name) / DONE).read_text())
         except (OSError, ValueError):
@@ -81,7 +81,7 @@ class Workbench:
             return folder
         shutil.rmtree(folder, ignore_errors=True)
         folder.mkdir(parents=True)
-        load, start = os.getloadavg()[0], time.monotonic()
+        busy, start = busy_cores(), time.monotonic()
         print(f"{job.name} ...", end="", flush=True, file=self.log)
         ended = subprocess.run([self.tessera, *job.arguments], capture_output=True, text=True, check=False)
         seconds = time.monotonic() - start
@@ -91,7 +91,7 @@ class Workbench:
             last = (ended.stderr.strip().splitlines() or [f"ended with {ended.returncode}"])[-1]
             raise JobFailed(f"{last}\n  in: {self.shown(job)}")
         record = {"key": self.key(job), "command": self.shown(job), "exit_code": ended.returncode,
-                  "seconds": round(seconds, 1), "load": round(load, 2)}
+                  "seconds": round(seconds, 1), "busy_cores": round(busy, 2)}
         (folder / (DONE + ".part")).write_text(json.dumps(record, indent=1))
         os.replace(folder / (DONE + ".part"), folder / DONE)
         return folder
@@ -99,6 +99,20 @@ class Workbench:
     def read(self, job, file):
         """A JSON file that the finished job left."""
         return json.loads((self.run(job) / file).read_text())
+
+
+def busy_cores(window_s=0.3):
+    """How many cores others use now: nothing of ours runs while this looks. 0 where the system does not tell."""
+    def idle_and_all():
+        ticks = [int(word) for word in pathlib.Path("/proc/stat").read_text().split("\n", 1)[0].split()[1:9]]
+        return ticks[3] + ticks[4], sum(ticks)
+    try:
+        idle, total = idle_and_all()
+        time.sleep(window_s)
+        idle_after, total_after = idle_and_all()
+    except (OSError, ValueError, IndexError):
+        return 0.0
+    return (os.cpu_count() or 1) * (1 - (idle_after - idle) / max(1, total_after - total))
 
 
 def with_needs(jobs):

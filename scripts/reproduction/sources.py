@@ -1,4 +1,4 @@
-"""Sequences by the papers' names: TUM RGB-D folders where --tum has them, else synthetic ones made by `tessera synth`."""
+"""Sequences by the papers' names: TUM RGB-D folders where --tum has them, else ones made by `tessera synth`."""
 import dataclasses
 
 from .jobs import Job
@@ -9,11 +9,11 @@ QUICK_FRAMES = 40
 
 @dataclasses.dataclass(frozen=True)
 class Sequence:
-    """`kind` says in a table's cell what it is; `options` select frames; `needs` makes it."""
+    """`kind` says in a table's cell what it is; `options` select frames; `needs` makes it, if it is
+    one of ours."""
     name: str
     path: str
     kind: str
-    is_papers: bool = False
     options: tuple = ()
     needs: tuple = ()
 
@@ -47,7 +47,7 @@ def find(bench, name):
     """The sequence of a paper's row: TUM's, else its stand-in, else None."""
     for folder in FOLDERS.get(name, []):
         if bench.tum and (bench.tum / folder).is_dir():
-            return Sequence(folder, str(bench.tum / folder), folder, True, frames(bench))
+            return Sequence(folder, str(bench.tum / folder), folder, frames(bench))
     if name not in STAND_INS:
         return None
     scene, noise, options = STAND_INS[name]
@@ -62,7 +62,7 @@ def others(bench):
     if not bench.tum:
         return []
     known = {folder for folders in FOLDERS.values() for folder in folders}
-    return [Sequence(path.name, str(path), path.name, False, frames(bench)) for path in sorted(bench.tum.iterdir())
+    return [Sequence(path.name, str(path), path.name, frames(bench)) for path in sorted(bench.tum.iterdir())
             if path.name not in known
             and all((path / file).is_file() for file in ("rgb.txt", "depth.txt", "groundtruth.txt"))]
 

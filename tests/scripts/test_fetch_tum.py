@@ -83,7 +83,8 @@ class FetchTum(unittest.TestCase):
         self.assertFalse((self.to / NAME).exists())
 
     def test_missing_and_misnamed(self):
-        for name, expected in (("fr1/none", "cannot be fetched"), ("../etc", "no name of a TUM"), ("--fast", "no such option")):
+        for name, expected in (("fr1/none", "cannot be fetched"), ("../etc", "no name of a TUM"),
+                               ("--fast", "no such option")):
             done = self.fetch(name)
             self.assertEqual(done.returncode, 2, name)
             self.assertIn(expected, done.stderr)

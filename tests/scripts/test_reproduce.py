@@ -1,5 +1,5 @@
-"""scripts/reproduce: the Markdown of canned figures, the own ATE against `tessera eval ate`, job reuse, the model of [D18]
-table 3, and one table from end to end on a few frames. Usage: test_reproduce.py TESSERA
+"""scripts/reproduce: the Markdown of canned figures, the own ATE against `tessera eval ate`, job reuse, the model of
+[D18] table 3, and one table from end to end on a few frames. Usage: test_reproduce.py TESSERA
 """
 import io
 import json
@@ -42,7 +42,8 @@ class Markdown(unittest.TestCase):
         text = one.markdown("tessera 1")
         self.assertIn("Cap.\n\n| a | paper | ours | ratio |\n| --- | --- | --- | --- |\n"
                       "| x | 0.200 | 0.1000 | 0.50 |\n| y | – | – | – |\n", text)
-        for part in ("# T\n", "![F](f.png)", "- n\n", "## Protocol\n\n- p\n", "    tessera run X\n", "Versions: tessera 1;"):
+        for part in ("# T\n", "![F](f.png)", "- n\n", "## Protocol\n\n- p\n", "    tessera run X\n",
+                     "Versions: tessera 1;"):
             self.assertIn(part, text)
 
     def test_row_of_another_length_is_refused(self):
@@ -74,8 +75,8 @@ class Trajectories(Folder):
     def test_same_as_tessera(self):
         ours = trajectories.ate(*self.walk(noise=0.03))
         out = self.root / "ate.json"
-        subprocess.run([TESSERA, "eval", "ate", self.root / "true.txt", self.root / "ours.txt", "--json", out], check=True,
-                       capture_output=True)
+        subprocess.run([TESSERA, "eval", "ate", self.root / "true.txt", self.root / "ours.txt", "--json", out],
+                       check=True, capture_output=True)
         theirs = json.loads(out.read_text())
         self.assertEqual(len(ours), theirs["pairs"])
         self.assertAlmostEqual(trajectories.rms(ours), theirs["ate_rmse_m"], delta=1e-6)
@@ -156,8 +157,8 @@ class EndToEnd(Folder):
 
     def test_bad_input_is_one_line(self):
         for options, expected in ((["--tum", "/nowhere"], "--tum /nowhere"), (["--job", "none"], "--job none")):
-            done = subprocess.run([sys.executable, ROOT / "scripts/reproduce", "b14-table1", "--tessera", TESSERA, "--out",
-                                   self.root, *options], capture_output=True, text=True, check=False)
+            done = subprocess.run([sys.executable, ROOT / "scripts/reproduce", "b14-table1", "--tessera", TESSERA,
+                                   "--out", self.root, *options], capture_output=True, text=True, check=False)
             self.assertEqual(done.returncode, 2)
             self.assertIn(expected, done.stderr)
             self.assertEqual(len(done.stderr.strip().splitlines()), 1)
