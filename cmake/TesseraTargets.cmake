@@ -20,6 +20,8 @@ if(TESSERA_SANITIZE)
     target_compile_options(tessera_options INTERFACE -fsanitize=${TESSERA_SANITIZE}
         -fno-omit-frame-pointer -fno-sanitize-recover=all)
     target_link_options(tessera_options INTERFACE -fsanitize=${TESSERA_SANITIZE})
+    # As without a sanitizer: else Eigen's out-of-line functions allocate here and Ceres' static library frees otherwise.
+    target_compile_definitions(tessera_options INTERFACE EIGEN_MALLOC_ALREADY_ALIGNED=1)
 endif()
 
 # What the Python module is linked from. Hidden symbols keep position-independent code as fast as a program's own: calls
