@@ -39,9 +39,6 @@ void AddSweepCommand(CLI::App& app, CommandContext& context);
 void AddSynthCommand(CLI::App& app, CommandContext& context);
 void AddViewCommand(CLI::App& app, CommandContext& context);
 
-// A command or value of the contract that is still to come: an error line, and never silently accepted.
-Status NotInThisVersion(const std::string& what);
-
 // Prints the error as one line on stderr; returns kExitBadInput.
 int Fail(const Status& error);
 // kExitDone, or Fail.

@@ -9,6 +9,7 @@
 
 #include "command.h"
 #include "core/cpu.h"
+#include "cuda/open_device.h"
 #include "export/vdb_writer.h"
 #include "io/openni_devices.h"
 #include "optimize/pose_graph.h"
@@ -65,7 +66,7 @@ int Doctor() {
     fmt::print("scan files   {}\n", ScanAvailable() ? "on" : std::string("off: ") + kScanUnavailable);
     PrintExports();
     fmt::print("labels       {}\n", HasDnn() ? "networks (.onnx, Darknet), detections files" : "detections files; networks need OpenCV's dnn module");
-    fmt::print("CUDA         not in this version\n");
+    fmt::print("CUDA         {}\n", DescribeGpus());
     return kExitDone;
 }
 

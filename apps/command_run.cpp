@@ -6,6 +6,7 @@
 #include "command.h"
 #include "config_options.h"
 #include "console.h"
+#include "cuda/open_device.h"
 #include "run_in_window.h"
 #include "run_text.h"
 #include "stop_signal.h"
@@ -20,16 +21,10 @@ struct Arguments {
     ConfigOptions config;
     std::string tracker, alpha, loop_closure;
     int threads = -1;
-    // Of features to come: only the values that mean "without" are taken.
     std::string device = "auto", mode = "lockstep", labels = "none", scan, resume;
     std::vector<std::string> switches;
     bool view = false;
 };
-
-Status RefuseWhatIsToCome(const Arguments& a) {
-    if (a.device == "cuda") return NotInThisVersion("--device cuda");
-    return Status::Ok();
-}
 
 // "FRAME:METHOD"
 Result<MethodSwitch> ParseSwitch(const std::string& text) {
@@ -73,10 +68,16 @@ Status Configure(const Arguments& a, RunConfig& config) {
 }
 
 int Run(const Arguments& a) {
-    if (Status status = RefuseWhatIsToCome(a); !status.ok()) return Fail(status);
     RunConfig config;
     if (Status status = Configure(a, config); !status.ok()) return Fail(status);
+    std::unique_ptr<Device> device;
+    if (a.device == "cuda") {  // until it has run on a GPU, auto is the processor
+        Result<std::unique_ptr<Device>> opened = OpenGpu(config.pipeline.device);
+        if (!opened.ok()) return Fail(opened.status());
+        device = std::move(opened.value());
+    }
     RunRequest request = a.request;
+    request.device = device.get();
     request.live = a.mode == "live";
     request.resume = !a.resume.empty();
     request.scan_file = request.resume ? a.resume : a.scan;
@@ -98,15 +99,6 @@ int Run(const Arguments& a) {
     fmt::print(stderr, "tessera: only {} of {} frames tracked; the last reason: {}\n", summary.counts.tracked,
                summary.counts.frames, summary.last_reason);
     return kExitMostlyLost;
-}
-
-void AddOptionsToCome(CLI::App& command, Arguments& a) {
-    const std::string group = "For later versions (only the defaults are taken)";
-    const auto add = [&](const char* name, std::string& value, const char* text) {
-        return command.add_option(name, value, text)->group(group);
-    };
-    add("--device", a.device, "Where the kernels run; auto takes the processor")
-        ->check(CLI::IsMember({"auto", "cpu", "cuda"}))->capture_default_str();
 }
 
 }  // namespace
@@ -160,7 +152,10 @@ void AddRunCommand(CLI::App& app, CommandContext& context) {
     command->add_option("--resume", a->resume,
         "Go on with a scan that was saved, and save into it; voxel size and truncation are the scan's; frames of the same "
         "recording that it has are left out")->type_name("FILE")->excludes(scan);
-    AddOptionsToCome(*command, *a);
+    command->add_option("--device", a->device,
+                        "Where map and tracking are calculated: auto takes the processor; cuda the first NVIDIA GPU, an experiment "
+                        "that has not yet run on one")
+        ->check(CLI::IsMember({"auto", "cpu", "cuda"}))->capture_default_str();
     command->callback([a, &context] {
         a->request.command_line = context.arguments;
         context.exit_code = Run(*a);

@@ -13,8 +13,6 @@
 
 namespace tessera {
 
-Status NotInThisVersion(const std::string& what) { return Status::Error(what + ": not in this version"); }
-
 int Fail(const Status& error) {
     std::string line = error.message();
     std::replace(line.begin(), line.end(), '\n', ' ');

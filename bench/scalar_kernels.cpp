@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "mapping/field_sampler.h"
+#include "mapping/fusion_kernels.h"
 
 namespace tessera::bench {
 namespace {

@@ -9,7 +9,7 @@ import re
 import sys
 
 ORDER = [["core"], ["io", "mapping"], ["synth", "render"], ["tracking", "semantics", "eval"], ["optimize"], ["scan"],
-         ["export"], ["system"], ["viz"], ["apps"]]
+         ["export"], ["system"], ["viz", "cuda"], ["apps"]]
 RANK = {folder: rank for rank, folders in enumerate(ORDER) for folder in folders}
 SUFFIXES = {".h", ".cpp", ".cu", ".cuh", ".inl"}
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]')
@@ -18,13 +18,13 @@ INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]')
 def folder_of(path, root):
     """The ranked folder that a file lies in, or None."""
     parts = path.relative_to(root).parts
-    if parts[0] == "apps":
-        return "apps"
+    if parts[0] in ("apps", "cuda"):
+        return parts[0]
     return parts[1] if len(parts) > 2 else None
 
 
 def offences(root):
-    for path in sorted([*(root / "src").rglob("*"), *(root / "apps").rglob("*")]):
+    for path in sorted([*(root / "src").rglob("*"), *(root / "apps").rglob("*"), *(root / "cuda").rglob("*")]):
         if path.suffix not in SUFFIXES:
             continue
         here = folder_of(path, root)

@@ -2,91 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
-#include <set>
-#include <sstream>
 
-#include "eval/alignment.h"
+#include "eval/label_run.h"
 #include "eval/label_truth.h"
-#include "eval/mesh_error.h"
-#include "io/file.h"
-#include "io/mesh_io.h"
-#include "io/trajectory.h"
 
 namespace tessera {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 constexpr std::size_t kLookedUpFrames = 100;  // of the truth, for the vertices
 constexpr double kSameBox = 0.5;
 constexpr double kStray = 0.005;
-
-struct RunDetection {
-    std::string name;
-    double probability = 0;
-    double x_min = 0, y_min = 0, x_max = 0, y_max = 0;
-};
-
-// What the run wrote; truth's class numbers stand for names from here on.
-struct RunLabels {
-    TriangleMesh mesh;  // in the truth's world
-    std::map<int, std::string> class_names;
-    std::map<double, std::vector<RunDetection>> frames;  // that were looked at
-    std::set<std::string> wanted;                        // classes that were looked for, as far as one can tell
-};
-
-Status ReadObjects(const std::string& path, RunLabels& run) {
-    const Result<std::string> text = ReadWholeFile(path, std::size_t{1} << 28);
-    if (!text.ok()) return text.status();
-    const Json json = Json::parse(text.value(), nullptr, false);
-    if (!json.is_array()) return Status::Error(path + ": is no list of objects");
-    for (const Json& object : json) {
-        if (!object.is_object() || !object.contains("class_id") || !object["class_id"].is_number_integer() ||
-            !object.contains("class") || !object["class"].is_string())
-            return Status::Error(path + ": an object has no class");
-        run.class_names[object["class_id"].get<int>()] = object["class"].get<std::string>();
-    }
-    return Status::Ok();
-}
-
-Status ReadDetections(const std::string& path, RunLabels& run) {
-    const Result<std::string> text = ReadWholeFile(path, std::size_t{1} << 30);
-    if (!text.ok()) return Status::Error(text.message() + "; was the run made with --labels?");
-    std::istringstream lines(text.value());
-    double frame = 0;
-    for (std::string line; std::getline(lines, line);) {
-        std::istringstream words(line);
-        if (line.starts_with("# frame ")) {
-            words.ignore(8);
-            if (words >> frame) run.frames[frame];
-            continue;
-        }
-        RunDetection d;
-        double stamp_s = 0;
-        if (line.starts_with('#') || !(words >> stamp_s >> d.name >> d.probability >> d.x_min >> d.y_min >> d.x_max >> d.y_max))
-            continue;
-        run.frames[stamp_s].push_back(d);
-        run.wanted.insert(d.name);
-    }
-    return run.frames.empty() ? Status::Error(path + ": tells of no frame") : Status::Ok();
-}
-
-Result<RunLabels> ReadRun(const std::string& folder, const LabelTruth& truth) {
-    RunLabels run;
-    if (Status status = ReadObjects(folder + "/objects.json", run); !status.ok()) return status;
-    if (Status status = ReadDetections(folder + "/detections.txt", run); !status.ok()) return status;
-    Result<TriangleMesh> mesh = ReadPly(folder + "/mesh.ply");
-    if (!mesh.ok()) return mesh.status();
-    if (mesh.value().labels.empty()) return Status::Error(folder + "/mesh.ply: has no labels; make the run with --labels");
-    const Result<Trajectory> path = ReadTrajectory(folder + "/trajectory.txt");
-    if (!path.ok()) return path.status();
-    const Result<Alignment> alignment = AlignTrajectories(truth.poses, path.value().poses);
-    if (!alignment.ok()) return Status::Error(folder + "/trajectory.txt: " + alignment.message());
-    run.mesh = TransformMesh(mesh.value(), alignment.value().T_reference_estimate);
-    run.mesh.labels = std::move(mesh.value().labels);
-    return run;
-}
 
 // ---- [D18] Table 4.
 
@@ -266,7 +191,7 @@ void ScoreInstances(const LabelTruth& truth, const RunLabels& run, const Instanc
 Result<LabelScores> EvaluateLabels(const std::string& sequence, const std::string& run_folder) {
     Result<LabelTruth> truth = ReadLabelTruth(sequence);
     if (!truth.ok()) return truth.status();
-    const Result<RunLabels> run = ReadRun(run_folder, truth.value());
+    const Result<RunLabels> run = ReadLabelRun(run_folder, truth.value());
     if (!run.ok()) return run.status();
     LabelScores scores;
     for (const std::string& name : run.value().wanted) scores.classes[name];
@@ -278,37 +203,6 @@ Result<LabelScores> EvaluateLabels(const std::string& sequence, const std::strin
     ScoreVertices(truth.value(), run.value(), labels, seen, scores);
     ScoreInstances(truth.value(), run.value(), Gather(truth.value(), run.value(), labels, seen, scores), scores);
     return scores;
-}
-
-std::string LabelScoresText(const LabelScores& s) {
-    std::string text = fmt::format("{:<16}{:>9}{:>8}{:>8}{:>7}{:>10}{:>7}\n", "class", "visible", "Pt %", "Pc %", "prob", "vertices", "IoU");
-    for (const auto& [name, c] : s.classes)
-        text += fmt::format("{:<16}{:>9}{:>8.1f}{:>8.1f}{:>7.2f}{:>10}{:>7.3f}\n", name, c.visible, 100 * c.Pt(), 100 * c.Pc(),
-                            c.Probability(), c.vertices, c.Iou());
-    text += fmt::format("vertices: {:.2f} % right of {}, {:.2f} % of those on objects; mean IoU {:.3f}\n", 100 * s.accuracy, s.vertices,
-                        100 * s.object_accuracy, s.mean_iou);
-    text += fmt::format("instances: {} true, {} found; precision {:.2f}, recall {:.2f} at 3D IoU 0.25; {:.2f}, {:.2f} at 0.5; centroid "
-                        "error mean {:.3f} m, max {:.3f}\n",
-                        s.instances.size(), s.found_objects, s.precision_25, s.recall_25, s.precision_50, s.recall_50,
-                        s.centroid_error_mean_m, s.centroid_error_max_m);
-    return text;
-}
-
-std::string LabelScoresJson(const LabelScores& s) {
-    Json classes = Json::object(), instances = Json::array();
-    for (const auto& [name, c] : s.classes)
-        classes[name] = {{"visible", c.visible}, {"pt", c.Pt()}, {"pc", c.Pc()}, {"probability", c.Probability()},
-                         {"vertices", c.vertices}, {"iou", c.Iou()}};
-    for (const InstanceScore& i : s.instances)
-        instances.push_back({{"truth", i.truth}, {"class", i.class_name}, {"found", i.found}, {"right_class", i.right_class},
-                             {"box_iou", i.box_iou}, {"vertex_iou", i.vertex_iou}, {"centroid_error_m", i.centroid_error_m}});
-    const Json json = {{"vertices", s.vertices}, {"accuracy", s.accuracy}, {"object_accuracy", s.object_accuracy},
-                       {"mean_iou", s.mean_iou}, {"found_objects", s.found_objects},
-                       {"precision_25", s.precision_25}, {"recall_25", s.recall_25},
-                       {"precision_50", s.precision_50}, {"recall_50", s.recall_50},
-                       {"centroid_error_mean_m", s.centroid_error_mean_m}, {"centroid_error_max_m", s.centroid_error_max_m},
-                       {"classes", classes}, {"instances", instances}};
-    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace tessera

@@ -41,11 +41,7 @@ class FolderSource : public FrameSource {
         frame.stamp_s = listed.depth_stamp_s;
         frame.colour_stamp_s = listed.colour_stamp_s;
         frame.T_world_camera = listed.T_world_camera;
-        rectifier_.Depth(depth_, frame.depth_m);
-        if (rectifier_.active())
-            rectifier_.Colour(colour_, frame.colour);
-        else
-            std::swap(frame.colour, colour_);
+        rectifier_.Fill(depth_, colour_, frame);
         return {};
     }
 

@@ -7,7 +7,6 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "core/check.h"
 #include "io/file.h"
 #include "io/mesh_writers.h"
 
@@ -141,11 +140,7 @@ void WriteArrays(AtomicFile& file, const TriangleMesh& mesh) {
 }  // namespace
 
 Status WriteGlb(const std::string& path, const TriangleMesh& mesh) {
-    const std::size_t count = mesh.vertices.size();
-    TESSERA_CHECK(mesh.normals.empty() || mesh.normals.size() == count, "{} normals, {} vertices", mesh.normals.size(),
-                  count);
-    TESSERA_CHECK(mesh.colours.empty() || mesh.colours.size() == count, "{} colours, {} vertices", mesh.colours.size(),
-                  count);
+    CheckVertexProperties(mesh);
     if (mesh.triangles.empty())
         return Status::Error(path + ": the mesh is empty, which glTF cannot say; write it as .ply");
     std::size_t binary_bytes = 0;

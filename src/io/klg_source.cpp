@@ -104,11 +104,7 @@ class KlgSource : public FrameSource {
         frame.index = static_cast<std::int64_t>(index);
         frame.stamp_s = frame.colour_stamp_s = static_cast<double>(entries_[index].stamp_us) * 1e-6;
         frame.T_world_camera.reset();
-        rectifier_.Depth(depth_, frame.depth_m);
-        if (rectifier_.active() && colour_.size() > 0)
-            rectifier_.Colour(colour_, frame.colour);
-        else
-            std::swap(frame.colour, colour_);
+        rectifier_.Fill(depth_, colour_, frame);
         return {};
     }
 

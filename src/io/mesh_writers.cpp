@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <utility>
 
+#include "core/check.h"
 #include "io/mesh_io.h"
 
 namespace tessera {
@@ -12,6 +14,13 @@ namespace {
 constexpr MeshFormat kFormats[] = {{".ply", WritePly}, {".obj", WriteObj}, {".glb", WriteGlb}};
 
 }  // namespace
+
+void CheckVertexProperties(const TriangleMesh& mesh) {
+    const std::size_t count = mesh.vertices.size();
+    for (const auto& [name, size] : {std::pair("normals", mesh.normals.size()), std::pair("colours", mesh.colours.size()),
+                                     std::pair("labels", mesh.labels.size())})
+        TESSERA_CHECK(size == 0 || size == count, "{} {}, {} vertices", size, name, count);
+}
 
 Result<MeshFormat> MeshFormatOf(const std::string& path) {
     const std::string extension = std::filesystem::path(path).extension();

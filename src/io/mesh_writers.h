@@ -10,6 +10,9 @@
 
 namespace tessera {
 
+// Stops the program where a property is neither empty nor one per vertex: what every writer relies on.
+void CheckVertexProperties(const TriangleMesh& mesh);
+
 struct MeshFormat {
     const char* extension;
     Status (*write)(const std::string& path, const TriangleMesh& mesh);

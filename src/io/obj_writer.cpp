@@ -3,7 +3,6 @@
 
 #include <iterator>
 
-#include "core/check.h"
 #include "io/file.h"
 #include "io/mesh_writers.h"
 
@@ -63,15 +62,11 @@ void AddFaces(const TriangleMesh& mesh, LineBuffer& lines) {
 }  // namespace
 
 Status WriteObj(const std::string& path, const TriangleMesh& mesh) {
-    const std::size_t count = mesh.vertices.size();
-    TESSERA_CHECK(mesh.normals.empty() || mesh.normals.size() == count, "{} normals, {} vertices", mesh.normals.size(),
-                  count);
-    TESSERA_CHECK(mesh.colours.empty() || mesh.colours.size() == count, "{} colours, {} vertices", mesh.colours.size(),
-                  count);
+    CheckVertexProperties(mesh);
     AtomicFile file(path);
     {
         LineBuffer lines(file);
-        lines.Add(FMT_COMPILE("# made by tessera, metres; {} vertices, {} triangles\n"), count, mesh.triangles.size());
+        lines.Add(FMT_COMPILE("# made by tessera, metres; {} vertices, {} triangles\n"), mesh.vertices.size(), mesh.triangles.size());
         AddVertices(mesh, lines);
         AddFaces(mesh, lines);
     }

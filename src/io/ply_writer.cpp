@@ -53,12 +53,7 @@ std::string Header(const TriangleMesh& mesh, Content content) {
 
 Status Write(const std::string& path, const TriangleMesh& mesh, Content content) {
     const std::size_t count = mesh.vertices.size();
-    TESSERA_CHECK(mesh.normals.empty() || mesh.normals.size() == count, "{} normals, {} vertices",
-                  mesh.normals.size(), count);
-    TESSERA_CHECK(mesh.colours.empty() || mesh.colours.size() == count, "{} colours, {} vertices",
-                  mesh.colours.size(), count);
-    TESSERA_CHECK(mesh.labels.empty() || mesh.labels.size() == count, "{} labels, {} vertices",
-                  mesh.labels.size(), count);
+    CheckVertexProperties(mesh);
     if (count > std::numeric_limits<std::int32_t>::max())
         return Status::Error(path + ": a PLY file holds at most 2^31 vertices");
     AtomicFile file(path);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
+#include <utility>
 
 namespace tessera {
 namespace {
@@ -81,6 +82,14 @@ void Rectifier::Depth(const Image<std::uint16_t>& raw, DepthImage& depth_m) cons
     const std::int32_t* source = depth_source_.data();
     for (std::size_t i = 0; i < depth_source_.size(); ++i)
         to[i] = source[i] < 0 ? 0.0f : metres(from[source[i]]);
+}
+
+void Rectifier::Fill(const Image<std::uint16_t>& raw_depth, ColourImage& raw_colour, Frame& frame) const {
+    Depth(raw_depth, frame.depth_m);
+    if (active() && raw_colour.size() > 0)
+        Colour(raw_colour, frame.colour);
+    else
+        std::swap(frame.colour, raw_colour);
 }
 
 }  // namespace tessera

@@ -112,12 +112,29 @@ BlockId BlockMap::Allocate(const BlockCoord& c, std::int32_t number) {
     if (const BlockId id = Find(c); id != kUnknownBlock) return id;
     const BlockId id = TakeId();
     if (id == kUnknownBlock) return id;
+    Enter(id, c, number);
+    return id;
+}
+
+void BlockMap::Enter(BlockId id, const BlockCoord& c, std::int32_t number) {
     next_number_ = std::max(next_number_, number + 1);
     InitialiseBlock(id, c, number);
     InsertIntoTable(id);
     LinkNeighbours(id, c);
     regions_.Add(id, RegionOf(c));
-    return id;
+}
+
+void BlockMap::AllocateAs(BlockId id, const BlockCoord& c) {
+    TESSERA_CHECK(id >= size_ && static_cast<std::size_t>(id) < max_size_ && InLimits(c) && Find(c) == kUnknownBlock,
+                  "block {} of {} allocated", id, size_);
+    for (; size_ < id; ++size_) {
+        InitialiseBlock(size_, {kBlockLimit, kBlockLimit, kBlockLimit}, 0);
+        free_.push_back(size_);
+        std::ranges::push_heap(free_, std::greater());
+    }
+    ++size_;
+    while (2 * static_cast<std::size_t>(size_) > table_.size()) GrowTable();
+    Enter(id, c, next_number_);
 }
 
 BlockId BlockMap::TakeId() {

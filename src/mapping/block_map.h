@@ -64,6 +64,8 @@ class BlockMap {
     BlockId Allocate(const BlockCoord& coord) { return Allocate(coord, next_number_); }
     // A block that was released comes back under the number that it had.
     BlockId Allocate(const BlockCoord& coord, std::int32_t number);
+    // A new block under an id that is not smaller than size(); the ids skipped are free. For a map with the same ids as another.
+    void AllocateAs(BlockId id, const BlockCoord& coord);
     // The block goes: unknown to all, its id free. Not block 0.
     void Release(BlockId id);
     void Clear();
@@ -112,6 +114,7 @@ class BlockMap {
   private:
     static std::size_t Offset(BlockId id) { return static_cast<std::size_t>(id) * kBlockVoxels; }
     void InitialiseBlock(BlockId id, const BlockCoord& coord, std::int32_t number);
+    void Enter(BlockId id, const BlockCoord& coord, std::int32_t number);
     void InsertIntoTable(BlockId id);
     void GrowTable();
     void LinkNeighbours(BlockId id, const BlockCoord& coord);

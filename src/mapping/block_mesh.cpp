@@ -7,17 +7,15 @@
 
 #include "mapping/cell_bits.h"
 #include "mapping/marching_cubes_tables.h"
+#include "mapping/mesh_kernels.h"
 
 namespace tessera {
 namespace {
 
-// ---- The block's field with an apron of one voxel below and two above, so that gradients need no
-// look-ups.
+// ---- The block's field with its apron, so that gradients need no look-ups.
 
 class LocalField {
   public:
-    static constexpr int kStride[3] = {1, 11, 121};
-
     LocalField(const BlockMap& map, BlockId id) {
         BlockId ids[3][3][3] = {};  // [z][y][x]; what is not read stays unknown
         for (const auto& [dx, dy, dz] : kMeshReadOffsets)
@@ -33,55 +31,13 @@ class LocalField {
             }
     }
 
-    static int Index(int x, int y, int z) { return x + 1 + 11 * (y + 1) + 121 * (z + 1); }
-    FieldWord operator[](int index) const { return words_[index]; }
-
-    // In truncations per voxel: central differences, one-sided or zero where neighbours are
-    // unknown.
-    Eigen::Vector3f Gradient(int index) const {
-        return {Slope(index, kStride[0]), Slope(index, kStride[1]), Slope(index, kStride[2])};
-    }
+    ApronField view() const { return {words_}; }
 
   private:
-    float Slope(int index, int stride) const {
-        const FieldWord here = words_[index];
-        FieldWord before = words_[index - stride], after = words_[index + stride];
-        const bool both = HasDistance(before) && HasDistance(after);
-        if (!HasDistance(before)) before = here;
-        if (!HasDistance(after)) after = here;
-        return (FieldDistance(after) - FieldDistance(before)) * (both ? 0.5f : 1.0f);
-    }
-
-    FieldWord words_[11 * 11 * 11];
+    FieldWord words_[ApronField::kWords];
 };
 
 // ---- Vertices.
-
-std::array<std::int16_t, 2> EncodeNormal(const Eigen::Vector3f& n) {
-    const Eigen::Vector3f p = n / n.lpNorm<1>();
-    float u = p.x(), v = p.y();
-    if (p.z() < 0) {
-        u = std::copysign(1 - std::abs(p.y()), p.x());
-        v = std::copysign(1 - std::abs(p.x()), p.y());
-    }
-    const auto steps = [](float c) {
-        return static_cast<std::int16_t>(c * 32767 + std::copysign(0.5f, c));
-    };
-    return {steps(u), steps(v)};
-}
-
-std::uint8_t ToByte(float value) {
-    return static_cast<std::uint8_t>(value * 255.0f + 0.5f);
-}
-
-// [D18] eq. 10; where one end has no colour, the other's; where none has, grey.
-Rgb8 MixColours(FieldWord w1, ColourWord c1, FieldWord w2, ColourWord c2, float m) {
-    if (!HasIntensity(w1) && !HasIntensity(w2)) return {128, 128, 128};
-    const LinearRgb a = HasIntensity(w1) ? ColourFromWords(w1, c1) : ColourFromWords(w2, c2);
-    const LinearRgb b = HasIntensity(w2) ? ColourFromWords(w2, c2) : a;
-    return {ToByte(a.r + m * (b.r - a.r)), ToByte(a.g + m * (b.g - a.g)),
-            ToByte(a.b + m * (b.b - a.b))};
-}
 
 class VertexMaker {
   public:
@@ -89,28 +45,15 @@ class VertexMaker {
         : map_(map), blocks_(blocks), field_(map, id) {}
 
     BlockMesh::Vertex Make(int axis, int x, int y, int z) const {
-        const int i1 = LocalField::Index(x, y, z), i2 = i1 + LocalField::kStride[axis];
-        const FieldWord w1 = field_[i1], w2 = field_[i2];
-        const float d1 = FieldDistance(w1), d2 = FieldDistance(w2);
-        // [D18] eq. 9, kept off the ends: a voxel at exactly zero would make triangles without
-        // area.
-        constexpr float kMargin = 1e-3f;
-        const float m = std::clamp(d1 / (d1 - d2), kMargin, 1 - kMargin);
-
-        Eigen::Vector3f normal = (1 - m) * field_.Gradient(i1) + m * field_.Gradient(i2);
-        if (normal.squaredNorm() < 1e-12f)
-            normal = Eigen::Vector3f::Unit(axis) * (d2 > d1 ? 1.0f : -1.0f);
-
         const int offset = x + 8 * y + 64 * z;
         int next[3] = {x, y, z};
         const bool leaves = ++next[axis] == kBlockSide;
         const BlockId next_block = blocks_[leaves ? 1 << axis : 0];
         const int next_offset = (next[0] & 7) + 8 * (next[1] & 7) + 64 * (next[2] & 7);
-        return {static_cast<std::uint16_t>(axis * kBlockVoxels + offset),
-                static_cast<std::uint16_t>(m * 65536 + 0.5f), EncodeNormal(normal),
-                MixColours(w1, map_.colour(blocks_[0])[offset], w2,
-                           map_.colour(next_block)[next_offset], m),
-                static_cast<std::uint8_t>(HasIntensity(w1) || HasIntensity(w2))};
+        const EdgeVertex v = VertexOnEdge(field_.view(), axis, x, y, z, map_.colour(blocks_[0])[offset],
+                                          map_.colour(next_block)[next_offset]);
+        return {static_cast<std::uint16_t>(axis * kBlockVoxels + offset), v.fraction, {v.normal[0], v.normal[1]},
+                v.colour, v.has_colour};
     }
 
   private:

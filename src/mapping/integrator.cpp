@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/stopwatch.h"
+#include "mapping/allocation_kernels.h"
 #include "mapping/fusion_rows.h"
 
 namespace tessera {
@@ -20,15 +21,6 @@ VoxelToCamera MakeVoxelToCamera(const Eigen::Isometry3d& T_camera_world, const E
         out.translation[i] = static_cast<float>(t[i]);
     }
     return out;
-}
-
-// A measurement that none of its neighbours confirms within 5 % is noise, not a surface to spend memory on.
-bool HasSupport(const DepthImage& depth, int x, int y, int step) {
-    const float z = depth(x, y), tolerance = 0.05f * z;
-    const int left = std::max(x - step / 2, 0), right = std::min(x + step / 2, depth.width() - 1);
-    const int top = std::max(y - step / 2, 0), bottom = std::min(y + step / 2, depth.height() - 1);
-    const auto near = [&](float other) { return std::abs(other - z) < tolerance; };
-    return near(depth(left, y)) + near(depth(right, y)) + near(depth(x, top)) + near(depth(x, bottom)) >= 2;
 }
 
 }  // namespace
@@ -57,8 +49,33 @@ void Integrator::Config::Describe(ConfigParameters& p) {
 Integrator::Integrator(const Config& config, const PinholeCamera& camera, VectorPath path)
     : config_(config),
       camera_(camera),
-      use_avx2_(path == VectorPath::kAvx2 || (path == VectorPath::kAuto && CpuHasAvx2())),
-      changed_(&none_) {}
+      changed_(&none_),
+      use_avx2_(path == VectorPath::kAvx2 || (path == VectorPath::kAuto && CpuHasAvx2())) {}
+
+BandWalk MakeBandWalk(const PreparedFrame& frame, const PinholeCamera& camera, const Eigen::Isometry3d& T_world_camera,
+                      const BlockMap::Config& map) {
+    const double block_m = map.voxel_size_m * kBlockSide;
+    BandWalk walk{};
+    walk.depth_m = frame.depth_m.data();
+    walk.width = frame.depth_m.width();
+    walk.height = frame.depth_m.height();
+    // Rays at most half a block apart at the farthest depth.
+    walk.step = std::clamp(static_cast<int>(0.5 * block_m * camera.fx / std::max(frame.farthest_m, 0.1f)), 1, 8);
+    walk.walk_steps = static_cast<int>(std::ceil(4.0 * map.truncation_m / block_m));
+    walk.fx = camera.fx;
+    walk.fy = camera.fy;
+    walk.cx = camera.cx;
+    walk.cy = camera.cy;
+    walk.truncation_m = static_cast<float>(map.truncation_m);
+    const Eigen::Matrix3f R = T_world_camera.linear().cast<float>() / static_cast<float>(block_m);
+    const Eigen::Vector3d t = T_world_camera.translation() / block_m;
+    for (int i = 0; i < 3; ++i) {
+        for (int j = 0; j < 3; ++j) walk.rotation[3 * i + j] = R(i, j);
+        walk.block[i] = static_cast<std::int32_t>(std::floor(t[i]));
+        walk.part[i] = static_cast<float>(t[i] - std::floor(t[i]));
+    }
+    return walk;
+}
 
 Integrator::Report Integrator::Integrate(const PreparedFrame& frame, const View& view, BlockMap& map) {
     Report report;
@@ -79,55 +96,24 @@ void Integrator::MarkAllChanged(BlockMap& map) {
         if (!map.IsFree(id)) map.MarkChanged(id, revision_);
 }
 
-// Walks each depth ray through the band around its measurement ([B14] III-C1). A margin of one and a half voxels
-// around the walk adds the neighbours whose voxels the tracker's interpolation needs.
 void Integrator::Allocate(const PreparedFrame& frame, const View& view, BlockMap& map, Report& report) {
-    const DepthImage& depth = frame.depth_m;
-    const double voxel_m = map.config().voxel_size_m, block_m = voxel_m * kBlockSide;
-    const double truncation_m = map.config().truncation_m;
-    // Rays at most half a block apart at the farthest depth.
-    const int step = std::clamp(
-        static_cast<int>(0.5 * block_m * camera_.fx / std::max(frame.farthest_m, 0.1f)), 1, 8);
-    const int walk_steps = static_cast<int>(std::ceil(4.0 * truncation_m / block_m));
-    const int rows = (depth.height() + step - 1) / step;
+    const BandWalk walk = MakeBandWalk(frame, camera_, view.T_world_camera, map.config());
+    const WorldBox box = config_.volume.box();
+    const double block_m = map.config().voxel_size_m * kBlockSide;
     constexpr int kRowsPerBand = 4;
-    const int bands = (rows + kRowsPerBand - 1) / kRowsPerBand;
+    const int bands = (walk.rows() + kRowsPerBand - 1) / kRowsPerBand;
     missing_.resize(static_cast<std::size_t>(bands));
-    const Eigen::Matrix3f R = view.T_world_camera.linear().cast<float>() / static_cast<float>(block_m);
-    const Eigen::Vector3d t = view.T_world_camera.translation() / block_m;
-    const Eigen::Vector3d t_floor = t.array().floor();
-    const Eigen::Vector3f t_part = (t - t_floor).cast<float>();  // single precision stays fine far from the origin
-    const Eigen::Vector3i t_block = t_floor.cast<int>();
-    const float margin = 1.5f / kBlockSide;
-
     tbb::parallel_for(0, bands, [&](int band) {
         std::vector<BlockCoord>& missing = missing_[static_cast<std::size_t>(band)];
         missing.clear();
         BlockCoord last{kBlockLimit, 0, 0};
-        const int y_end = std::min(depth.height(), (band + 1) * kRowsPerBand * step);
-        for (int y = band * kRowsPerBand * step; y < y_end; y += step)
-            for (int x = 0; x < depth.width(); x += step) {
-                const float z = depth(x, y);
-                if (z <= 0 || !HasSupport(depth, x, y, std::max(step, 2))) continue;
-                const Eigen::Vector3f ray(static_cast<float>((x - camera_.cx) / camera_.fx),
-                                          static_cast<float>((y - camera_.cy) / camera_.fy), 1.0f);
-                for (int i = 0; i <= walk_steps; ++i) {
-                    const float along =
-                        z + static_cast<float>(truncation_m) * (2.0f * static_cast<float>(i) / static_cast<float>(walk_steps) - 1.0f);
-                    const Eigen::Vector3f p = R * (ray * along) + t_part;
-                    const Eigen::Array3i low = (p.array() - margin).floor().cast<int>() + t_block.array();
-                    const Eigen::Array3i high = (p.array() + margin).floor().cast<int>() + t_block.array();
-                    for (int bz = low.z(); bz <= high.z(); ++bz)
-                        for (int by = low.y(); by <= high.y(); ++by)
-                            for (int bx = low.x(); bx <= high.x(); ++bx) {
-                                const BlockCoord c{bx, by, bz};
-                                if (c == last) continue;
-                                last = c;
-                                if (map.Find(c) == kUnknownBlock && InLimits(c) && config_.volume.Meets(c, block_m))
-                                    missing.push_back(c);
-                            }
-                }
-            }
+        const auto visit = [&](const BlockCoord& c) {
+            if (c == last) return;
+            last = c;
+            if (map.Find(c) == kUnknownBlock && InLimits(c) && Meets(box, c, block_m)) missing.push_back(c);
+        };
+        for (int row = band * kRowsPerBand; row < std::min(walk.rows(), (band + 1) * kRowsPerBand); ++row)
+            for (int column = 0; column < walk.columns(); ++column) WalkRay(walk, column, row, visit);
         std::sort(missing.begin(), missing.end());
         missing.erase(std::unique(missing.begin(), missing.end()), missing.end());
     });
@@ -140,37 +126,29 @@ void Integrator::Allocate(const PreparedFrame& frame, const View& view, BlockMap
     for (const BlockCoord& c : new_blocks_) {
         if (report.new_blocks >= config_.max_new_blocks) break;
         const BlockId id = map.Allocate(c);
-        if (id == kUnknownBlock) break;
+        report.map_full = id == kUnknownBlock;
+        if (report.map_full) break;
         added_.push_back(id);
         ++report.new_blocks;
     }
     report.refused_blocks = wanted - report.new_blocks;
 }
 
-void Integrator::Fuse(const PreparedFrame& frame, const View& view, BlockMap& map, Report& report) {
-    changed_ = &none_;
-    if (frame.valid_depth_pixels == 0) return;
-    const std::vector<BlockId>& blocks =
-        visible_.Find(map, camera_, view.T_world_camera, frame.depth_m, frame.farthest_m);
-    const double voxel_m = map.config().voxel_size_m;
+FusionArguments MakeFusionArguments(const PreparedFrame& frame, const Integrator::View& view, const PinholeCamera& camera,
+                                    const Integrator::Config& config, const BlockMap::Config& map, std::uint32_t revision) {
+    const double voxel_m = map.voxel_size_m;
     // Coordinates relative to a voxel near the camera: single precision is then as fine far from the world's origin.
     const Eigen::Vector3d origin = (view.T_world_camera.translation() / voxel_m).array().round();
     const Eigen::Isometry3d T_camera_world = view.T_world_camera.inverse();
 
     FusionArguments a{};
-    a.field = map.field(0);
-    a.weight = map.weight(0);
-    a.colour = map.colour(0);
-    a.coords = map.view().coords;
-    a.depth_m = frame.depth_m.data();
-    a.packed_colour = frame.has_colour() ? frame.packed_colour.data() : nullptr;
     a.width = frame.depth_m.width();
     a.height = frame.depth_m.height();
-    a.fx = static_cast<float>(camera_.fx);
-    a.fy = static_cast<float>(camera_.fy);
-    a.cx = static_cast<float>(camera_.cx);
-    a.cy = static_cast<float>(camera_.cy);
-    a.frame = revision_;
+    a.fx = static_cast<float>(camera.fx);
+    a.fy = static_cast<float>(camera.fy);
+    a.cx = static_cast<float>(camera.cx);
+    a.cy = static_cast<float>(camera.cy);
+    a.frame = revision;
     a.to_camera = MakeVoxelToCamera(T_camera_world, origin * voxel_m);
     for (int i = 0; i < 6; ++i) a.twist_per_s[i] = static_cast<float>(view.motion.twist_per_s(i));
     a.colour_delay_s = static_cast<float>(view.motion.colour_delay_s);
@@ -179,18 +157,32 @@ void Integrator::Fuse(const PreparedFrame& frame, const View& view, BlockMap& ma
     a.moving = !view.motion.twist_per_s.isZero();
     for (int i = 0; i < 3; ++i) a.origin[i] = static_cast<std::int32_t>(origin[i]);
     a.voxel_size_m = static_cast<float>(voxel_m);
-    a.truncation_m = static_cast<float>(map.config().truncation_m);
-    a.distance_weight = config_.distance_weight;
-    a.colour_weighting = config_.colour_weighting;
-    a.epsilon_m = static_cast<float>(config_.epsilon_m);
-    a.sigma = static_cast<float>(config_.sigma);
-    a.max_weight = static_cast<float>(config_.max_weight);
-    a.max_colour_weight = static_cast<float>(config_.max_colour_weight);
+    a.truncation_m = static_cast<float>(map.truncation_m);
+    a.distance_weight = config.distance_weight;
+    a.colour_weighting = config.colour_weighting;
+    a.epsilon_m = static_cast<float>(config.epsilon_m);
+    a.sigma = static_cast<float>(config.sigma);
+    a.max_weight = static_cast<float>(config.max_weight);
+    a.max_colour_weight = static_cast<float>(config.max_colour_weight);
     a.gain = view.gain;
     a.offset = view.offset;
     a.frame_weight = view.weight;
     a.frame_colour_weight = view.colour_weight;
+    return a;
+}
 
+void Integrator::Fuse(const PreparedFrame& frame, const View& view, BlockMap& map, Report& report) {
+    changed_ = &none_;
+    if (frame.valid_depth_pixels == 0) return;
+    const std::vector<BlockId>& blocks =
+        visible_.Find(map, camera_, view.T_world_camera, frame.depth_m, frame.farthest_m);
+    FusionArguments a = MakeFusionArguments(frame, view, camera_, config_, map.config(), revision_);
+    a.field = map.field(0);
+    a.weight = map.weight(0);
+    a.colour = map.colour(0);
+    a.coords = map.view().coords;
+    a.depth_m = frame.depth_m.data();
+    a.packed_colour = frame.has_colour() ? frame.packed_colour.data() : nullptr;
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, blocks.size(), 64), [&](const auto& range) {
         const auto count = static_cast<std::int32_t>(range.size());
 #ifdef TESSERA_HAVE_AVX2

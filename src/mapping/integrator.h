@@ -4,13 +4,15 @@
 
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "core/camera.h"
 #include "core/cpu.h"
 #include "core/frame_motion.h"
+#include "mapping/allocation_kernels.h"
 #include "mapping/block_map.h"
-#include "mapping/fusion_kernels.h"
+#include "mapping/fusion_arguments.h"
 #include "mapping/map_volume.h"
 #include "mapping/prepared_frame.h"
 #include "mapping/visible_blocks.h"
@@ -44,11 +46,13 @@ class Integrator {
     struct Report {
         std::int64_t new_blocks = 0;
         std::int64_t refused_blocks = 0;  // beyond max_new_blocks or the map's end
+        bool map_full = false;            // the map's end
         std::int64_t fused_blocks = 0;
         double allocate_ms = 0, fuse_ms = 0;
     };
 
     Integrator(const Config& config, const PinholeCamera& camera, VectorPath path = VectorPath::kAuto);
+    virtual ~Integrator() = default;
 
     Report Integrate(const PreparedFrame& frame, const View& view, BlockMap& map);
     // The ids that the last call changed, increasing.
@@ -61,21 +65,36 @@ class Integrator {
     void MarkAllChanged(BlockMap& map);
     // Goes on after that many, in a map that they made.
     void SetRevision(std::uint32_t revision) { revision_ = revision; }
+    // Where a device keeps the voxels: `map` gets those that changed. Its blocks, without their voxels, are always those of the
+    // last Integrate.
+    virtual void Bring(BlockMap&) {}
+    // What map_full means, in words.
+    virtual std::string limit() const { return "the map is full"; }
 
-  private:
-    void Allocate(const PreparedFrame& frame, const View& view, BlockMap& map, Report& report);
-    void Fuse(const PreparedFrame& frame, const View& view, BlockMap& map, Report& report);
+  protected:
+    virtual void Allocate(const PreparedFrame& frame, const View& view, BlockMap& map, Report& report);
+    virtual void Fuse(const PreparedFrame& frame, const View& view, BlockMap& map, Report& report);
 
     Config config_;
     PinholeCamera camera_;
-    bool use_avx2_;
     std::uint32_t revision_ = 0;
-    VisibleBlocks visible_;
-    std::vector<std::vector<BlockCoord>> missing_;  // per band of rows
-    std::vector<BlockCoord> new_blocks_;
     std::vector<BlockId> added_;
     const std::vector<BlockId>* changed_;
     std::vector<BlockId> none_;
+
+  private:
+    bool use_avx2_;
+    VisibleBlocks visible_;
+    std::vector<std::vector<BlockCoord>> missing_;  // per band of rows
+    std::vector<BlockCoord> new_blocks_;
 };
+
+// What WalkRay needs of a frame taken from there.
+BandWalk MakeBandWalk(const PreparedFrame& frame, const PinholeCamera& camera, const Eigen::Isometry3d& T_world_camera,
+                      const BlockMap::Config& map);
+
+// What fusion needs of a frame and its view; the map's layers and the images are the caller's to enter.
+FusionArguments MakeFusionArguments(const PreparedFrame& frame, const Integrator::View& view, const PinholeCamera& camera,
+                                    const Integrator::Config& config, const BlockMap::Config& map, std::uint32_t revision);
 
 }  // namespace tessera

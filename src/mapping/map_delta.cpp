@@ -51,10 +51,10 @@ void CollectWhole(const BlockMap& map, std::uint32_t revision, MapDelta& delta) 
 
 std::unique_ptr<BlockMap> CopyField(const BlockMap& map) {
     constexpr std::uint32_t kNoDeltas = std::numeric_limits<std::uint32_t>::max();
-    TESSERA_CHECK(map.count() == map.size() - 1, "{} blocks under {} ids", map.count(), map.size());
     auto copy = std::make_unique<BlockMap>(map.config(), BlockMap::Layers::kFieldOnly);
     for (BlockId id = 1; id < map.size(); ++id) {
-        copy->Allocate(map.coord(id));
+        if (map.IsFree(id)) continue;
+        copy->AllocateAs(id, map.coord(id));
         std::memcpy(copy->field(id), map.field(id), kFieldBytes);
         copy->MarkChanged(id, kNoDeltas);
     }

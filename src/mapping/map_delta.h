@@ -35,7 +35,7 @@ void CollectDelta(const BlockMap& map, std::span<const BlockChange> blocks, std:
 // All of a map from which nothing was released yet, for a copy that is empty.
 void CollectWhole(const BlockMap& map, std::uint32_t revision, MapDelta& delta);
 
-// The whole field at once, under the same ids; of a map from which nothing was released.
+// The whole field at once, under the same ids.
 std::unique_ptr<BlockMap> CopyField(const BlockMap& map);
 
 // Brings `copy` up to date; deltas are to be applied in the order in which they were taken, each once, from an empty

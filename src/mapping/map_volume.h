@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/config.h"
-#include "mapping/voxel.h"
+#include "mapping/allocation_kernels.h"
 
 namespace tessera {
 
@@ -16,14 +16,9 @@ struct MapVolume {
     // The error names the axis whose maximum is not above its minimum.
     Status Validate() const;
 
+    WorldBox box() const { return {bounded, {min_x_m, min_y_m, min_z_m}, {max_x_m, max_y_m, max_z_m}}; }
     // Whether some of the block lies inside.
-    bool Meets(const BlockCoord& block, double block_m) const {
-        const auto overlap = [&](std::int32_t index, double low, double high) {
-            return index * block_m < high && (index + 1) * block_m > low;
-        };
-        return !bounded || (overlap(block.x, min_x_m, max_x_m) && overlap(block.y, min_y_m, max_y_m) &&
-                            overlap(block.z, min_z_m, max_z_m));
-    }
+    bool Meets(const BlockCoord& block, double block_m) const { return tessera::Meets(box(), block, block_m); }
 };
 
 }  // namespace tessera

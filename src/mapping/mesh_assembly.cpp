@@ -113,7 +113,8 @@ std::vector<std::uint32_t> Compact(Triangles& triangles, std::size_t vertices,
 
 }  // namespace
 
-TriangleMesh AssembleMesh(const Blocks& blocks, double voxel_size_m, int min_component_triangles) {
+TriangleMesh AssembleMesh(const Blocks& blocks, double voxel_size_m, int min_component_triangles,
+                          const BlockVertexLabels& labels) {
     const FirstIndices first(blocks);
     const std::size_t vertices = first.vertex.back();
     TriangleMesh mesh;
@@ -124,6 +125,7 @@ TriangleMesh AssembleMesh(const Blocks& blocks, double voxel_size_m, int min_com
     mesh.vertices.resize(used);
     mesh.normals.resize(used);
     mesh.colours.resize(used);
+    mesh.labels.resize(labels.empty() ? 0 : used);
     ForEachBlock(blocks, [&](std::size_t id, const BlockMesh& block) {
         for (std::size_t i = 0; i < block.vertices.size(); ++i) {
             const std::uint32_t v = index[first.vertex[id] + i];
@@ -131,6 +133,7 @@ TriangleMesh AssembleMesh(const Blocks& blocks, double voxel_size_m, int min_com
             mesh.vertices[v] = VertexPosition(block, block.vertices[i], voxel_size_m);
             mesh.normals[v] = VertexNormal(block.vertices[i]);
             mesh.colours[v] = block.vertices[i].colour;
+            if (!labels.empty() && !labels[id].empty()) mesh.labels[v] = labels[id][i];
         }
     });
     return mesh;

@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "mapping/fusion_rows.h"
+#include "mapping/frame_kernels.h"
 
 namespace tessera {
 namespace {
@@ -25,8 +25,8 @@ DepthCounts GateRows(const DepthImage& in, float offset, float low, float high, 
         const float* source = in.row(y);
         float* target = out.row(y);
         for (int x = 0; x < in.width(); ++x) {
-            const float z = source[x] / (1.0f + offset * source[x]);
-            const bool ok = z >= low && z <= high;  // false for NaN
+            const float z = CorrectedDepth(source[x], offset);
+            const bool ok = InRange(z, low, high);
             target[x] = ok ? z : 0.0f;
             counts.valid += ok;
             counts.measured += z > 0.0f;
@@ -36,43 +36,29 @@ DepthCounts GateRows(const DepthImage& in, float offset, float low, float high, 
         for (int x = 0; x + 1 < in.width(); x += 2) {
             const bool both = target[x] > 0 && target[x + 1] > 0;
             counts.pairs += both;
-            counts.coherent += both && std::abs(target[x] - target[x + 1]) < 0.05f * target[x];
+            counts.coherent += both && Coherent(target[x], target[x + 1]);
         }
     }
     return counts;
 }
 
-// Luma of ITU-R BT.601, the weights of [B14] eq. 7.
 void LumaRow(const Rgb8* in, float* out, int width) {
-    for (int x = 0; x < width; ++x)
-        out[x] = (0.299f * in[x].r + 0.587f * in[x].g + 0.114f * in[x].b) * (1.0f / 255.0f);
+    for (int x = 0; x < width; ++x) out[x] = Luma255(in[x]) * (1.0f / 255.0f);
 }
 
-// Binomial 1-2-1 in both directions; the border repeats.
 void Smooth(const Image<float>& in, int first, int last, Image<float>& out) {
     const int width = in.width();
     for (int y = first; y < last; ++y) {
-        const float* above = in.row(std::max(y - 1, 0));
-        const float* here = in.row(y);
-        const float* below = in.row(std::min(y + 1, in.height() - 1));
+        const RowsAround rows{in.row(std::max(y - 1, 0)), in.row(y), in.row(std::min(y + 1, in.height() - 1))};
         float* target = out.row(y);
-        const auto column = [&](int x) { return above[x] + 2.0f * here[x] + below[x]; };
-        target[0] = (3.0f * column(0) + column(1)) * (1.0f / 16.0f);
-        for (int x = 1; x + 1 < width; ++x)
-            target[x] = (column(x - 1) + 2.0f * column(x) + column(x + 1)) * (1.0f / 16.0f);
-        target[width - 1] = (column(width - 2) + 3.0f * column(width - 1)) * (1.0f / 16.0f);
+        target[0] = SmoothAt(rows, 0, width);
+        for (int x = 1; x + 1 < width; ++x) target[x] = SmoothInside(rows, x);
+        target[width - 1] = SmoothAt(rows, width - 1, width);
     }
 }
 
 void PackRow(const Rgb8* colour, const float* luma, std::uint32_t* out, int width) {
-    for (int x = 0; x < width; ++x) {
-        const float y = (0.299f * colour[x].r + 0.587f * colour[x].g + 0.114f * colour[x].b);
-        const float cb = (colour[x].b - y) * (1.0f / 1.772f);
-        const float cr = (colour[x].r - y) * (1.0f / 1.402f);
-        out[x] = static_cast<std::uint32_t>(luma[x] * 65535.0f + 0.5f) |
-                 static_cast<std::uint32_t>(cb + 128.5f) << 16 |
-                 static_cast<std::uint32_t>(cr + 128.5f) << 24;
-    }
+    for (int x = 0; x < width; ++x) out[x] = PackColour(colour[x], luma[x]);
 }
 
 template <class Work>

@@ -23,7 +23,7 @@ struct PreparedFrame {
 
     DepthImage depth_m;                // 0 where missing or out of range
     Image<float> intensity;            // [0, 1], smoothed; empty if the frame has no colour
-    Image<std::uint32_t> packed_colour;  // fusion_rows.h; Y is `intensity`
+    Image<std::uint32_t> packed_colour;  // fusion_arguments.h; Y is `intensity`
     std::int64_t valid_depth_pixels = 0;
     std::int64_t measured_pixels = 0;  // with any depth at all, in range or not
     double coherent_fraction = 0;  // of neighbouring valid pixels, those within 5 % of each other

@@ -14,7 +14,18 @@ void CopyRowMajor(const Eigen::Matrix3d& matrix, float* out) {
     for (int i = 0; i < 9; ++i) out[i] = static_cast<float>(matrix(i / 3, i % 3));
 }
 
-RayArguments ArgumentsFor(const BlockMap& map, PredictedView& view) {
+// The depth at which the picture's corners leave the vector code's reach.
+float FarthestDepth(const BlockMap& map, const PinholeCamera& camera) {
+    const double reach_m = (kRayReachBlocks - 1) * kBlockSide * map.config().voxel_size_m;
+    double longest = 1;  // ray of unit depth
+    for (const int u : {0, camera.width - 1})
+        for (const int v : {0, camera.height - 1}) longest = std::max(longest, camera.Unproject(u, v, 1).norm());
+    return static_cast<float>(reach_m / longest);
+}
+
+}  // namespace
+
+RayArguments RayArgumentsFor(const BlockMap& map, PredictedView& view) {
     const BlockMap::View m = map.view();
     RayArguments a{};
     a.field = m.field;
@@ -47,17 +58,6 @@ RayArguments ArgumentsFor(const BlockMap& map, PredictedView& view) {
     return a;
 }
 
-// The depth at which the picture's corners leave the vector code's reach.
-float FarthestDepth(const BlockMap& map, const PinholeCamera& camera) {
-    const double reach_m = (kRayReachBlocks - 1) * kBlockSide * map.config().voxel_size_m;
-    double longest = 1;  // ray of unit depth
-    for (const int u : {0, camera.width - 1})
-        for (const int v : {0, camera.height - 1}) longest = std::max(longest, camera.Unproject(u, v, 1).norm());
-    return static_cast<float>(reach_m / longest);
-}
-
-}  // namespace
-
 RayCaster::RayCaster(VectorPath path)
     : use_avx2_(path == VectorPath::kAvx2 || (path == VectorPath::kAuto && CpuHasAvx2())) {}
 
@@ -66,7 +66,7 @@ void RayCaster::Predict(const BlockMap& map, const PinholeCamera& camera,
                         float max_depth_m, PredictedView& view) {
     view.Resize(camera, T_world_camera);
     ranges_.Build(map, camera, T_world_camera, min_depth_m, std::min(max_depth_m, FarthestDepth(map, camera)));
-    const RayArguments arguments = ArgumentsFor(map, view);
+    const RayArguments arguments = RayArgumentsFor(map, view);
     tbb::parallel_for(0, ranges_.height, [&](int y) { CastRow(arguments, y); });
 }
 

@@ -14,6 +14,9 @@ namespace tessera {
 
 struct RayArguments;
 
+// What the kernels need to fill `view`, whose size, camera and pose are set, from the map. Points into both.
+RayArguments RayArgumentsFor(const BlockMap& map, PredictedView& view);
+
 // Works on all of TBB's threads and gives the same bytes for any number of them. Surface is where all
 // eight voxels around a point are known and the distance falls through zero; a fall over the whole
 // range at once is an occlusion's edge and passed through, as by the mesher.

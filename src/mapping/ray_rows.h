@@ -4,42 +4,11 @@
 
 #include <cstdint>
 
-#include "mapping/voxel.h"
+#include "mapping/ray_arguments.h"
 
 namespace tessera {
 
-struct RayArguments {
-    // The map (BlockMap::View), and its colours.
-    const FieldWord* field;
-    const ColourWord* colour;
-    const std::int32_t* neighbours;
-    const std::int32_t* table;
-    const std::int32_t* coords;
-    std::uint32_t table_mask;
-    float voxel_size_m, truncation_m;
-    // The camera. p_local [voxels from origin_block's first voxel] = voxel_from_camera * p_camera [m] + start.
-    float fx, fy, cx, cy;
-    float voxel_from_camera[9];  // row-major
-    float start[3];
-    std::int32_t origin_block[3];
-    float camera_from_world[9];  // rotation, row-major
-    // The images to write, width x height; PredictedView says what they hold.
-    std::int32_t width, height;
-    float* depth_m;
-    float* normal_camera;  // 3 a pixel
-    std::uint8_t* rgb;     // 3 a pixel
-    float* intensity;
-};
-
-// Pixels [u_begin, u_end) x [v_begin, v_end), and the depths between which their rays are walked.
-struct RayTile {
-    std::int32_t u_begin, u_end, v_begin, v_end;
-    float first_m, last_m;
-};
-
-// Rays must end within so many blocks of the origin along each axis: at 1 mm voxels 32 m.
-inline constexpr std::int32_t kRayReachBlocks = 4096;
-
+// Casts `count` tiles.
 namespace baseline {
 void CastTiles(const RayArguments& arguments, const RayTile* tiles, std::int32_t count);
 }

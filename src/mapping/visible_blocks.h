@@ -8,17 +8,21 @@
 #include "core/camera.h"
 #include "core/image.h"
 #include "mapping/block_map.h"
+#include "mapping/visibility_kernels.h"
 
 namespace tessera {
 
-// Nearest and farthest valid depth of each 16 x 16 pixel tile; (1e9, 0) where a tile has none.
 struct DepthTiles {
-    static constexpr int kTilePx = 16;
     int width = 0, height = 0;
-    std::vector<float> nearest_m, farthest_m;
+    std::vector<float> farthest_m;
 
     void Build(const DepthImage& depth_m);
+    DepthTileView view() const { return {farthest_m.data(), width, height}; }
 };
+
+// What a camera there sees of a map of these blocks, up to `far_m`.
+ViewCone MakeViewCone(const PinholeCamera& camera, const Eigen::Isometry3d& T_world_camera, double far_m,
+                      const BlockMap::Config& map);
 
 // Block ids in increasing order. Owner thread only; runs TBB inside.
 class VisibleBlocks {
@@ -29,7 +33,6 @@ class VisibleBlocks {
 
   private:
     DepthTiles tiles_;
-    std::vector<BlockCoord> regions_;
     std::vector<BlockId> candidates_;
     std::vector<char> keep_;
     std::vector<BlockId> visible_;

@@ -90,13 +90,16 @@ TESSERA_HD bool InLimits(const BlockCoord& c) {
            c.z >= -kBlockLimit && c.z < kBlockLimit;
 }
 
-// Position in the hash table before masking. Unsigned arithmetic wraps.
+// Position in the hash table before masking. Unsigned arithmetic wraps; a template on the number type, shared by scalar
+// and vector code.
+template <class U>
+TESSERA_HD U HashBits(const U& x, const U& y, const U& z) {
+    U h = (x * U(73856093u)) ^ (y * U(19349669u)) ^ (z * U(83492791u));
+    h = h ^ (h >> 15);
+    return ((h * U(2654435769u)) >> 4) ^ h;
+}
 TESSERA_HD std::uint32_t BlockHash(std::int32_t x, std::int32_t y, std::int32_t z) {
-    std::uint32_t h = static_cast<std::uint32_t>(x) * 73856093u ^
-                      static_cast<std::uint32_t>(y) * 19349669u ^
-                      static_cast<std::uint32_t>(z) * 83492791u;
-    h ^= h >> 15;
-    return h * 2654435769u >> 4 ^ h;
+    return HashBits(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), static_cast<std::uint32_t>(z));
 }
 
 }  // namespace tessera

@@ -21,7 +21,7 @@ static_assert(sizeof(VoxelLabel) == 8);
 // Seen beside an object, in a detection's box: a class of its own among the votes.
 inline constexpr std::uint8_t kBackgroundClass = 255;
 inline constexpr int kSettledVotes = 16, kSettledRatio = 2;
-inline constexpr int kFlipRatio = 8;  // of two, a hundredth of the voxels where objects touch flip; the objects are the same
+inline constexpr int kFlipRatio = 8;  // with 2, a hundredth of a cluttered desk's voxels flip, where objects touch
 inline constexpr int kLeastVotes = 2;  // for a voxel to have a class
 
 // One vote. Counters stop at 255; there a vote for the one takes from the other, so that old mistakes fade. A third class

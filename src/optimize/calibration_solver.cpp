@@ -6,6 +6,7 @@
 
 #include "optimize/pose_graph_residual.h"
 #include "optimize/pose_node.h"
+#include "optimize/solver_options.h"
 
 namespace tessera {
 namespace {
@@ -124,16 +125,8 @@ double Solver::Rms_m() const {
 
 Status Solve(ceres::Problem& problem) {
     constexpr int kIterations = 5;  // pairs are found anew after them
-    ceres::Solver::Options options;
-    options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
-    // SuiteSparse would bring a BLAS whose threads are not ours to count.
-    if (ceres::IsSparseLinearAlgebraLibraryTypeAvailable(ceres::EIGEN_SPARSE))
-        options.sparse_linear_algebra_library_type = ceres::EIGEN_SPARSE;
-    options.max_num_iterations = kIterations;
-    options.num_threads = 1;
-    options.logging_type = ceres::SILENT;
     ceres::Solver::Summary summary;
-    ceres::Solve(options, &problem, &summary);
+    ceres::Solve(SparseSolverOptions(kIterations), &problem, &summary);
     return summary.IsSolutionUsable() ? Status::Ok() : Status::Error("calibration: " + summary.message);
 }
 

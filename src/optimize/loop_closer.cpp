@@ -17,10 +17,11 @@ std::size_t Bytes(double megabytes) { return static_cast<std::size_t>(megabytes 
 }  // namespace
 
 LoopCloser::LoopCloser(const LoopConfig& config, const FieldSettings& settings, double depth_units_per_m,
-                       std::optional<Labels> labels)
+                       std::optional<Labels> labels, MakePager make_pager)
     : config_(config),
       settings_(settings),
       labels_(std::move(labels)),
+      make_pager_(std::move(make_pager)),
       keyframes_(settings.camera, config.max_overlap, config.max_features),
       store_(Bytes(config.memory_limit_mb), depth_units_per_m),
       verifier_(settings, config) {}
@@ -151,12 +152,22 @@ Status LoopCloser::Optimise() {
 // True if one is under way, or if the map is off by more than the tolerance.
 bool LoopCloser::BeginRebuild(double tolerance_m) {
     if (rebuild_) return true;
-    if (!corrected_ || FarthestOff_m() < tolerance_m) return false;
+    if (broken_ || !corrected_ || FarthestOff_m() < tolerance_m) return false;
+    std::unique_ptr<MapPager> pager;
+    if (make_pager_) {
+        Result<std::unique_ptr<MapPager>> made = make_pager_();
+        if (!made.ok()) {
+            GiveUp(made.status());
+            return false;
+        }
+        pager = std::move(made.value());
+    }
     std::vector<Eigen::Isometry3d> poses;
     for (int i = 0; i < keyframes_.size(); ++i) poses.push_back(keyframes_[i].T_world_camera);
     std::unique_ptr<LabelMapper> labels;
-    if (labels_) labels = std::make_unique<LabelMapper>(labels_->config, labels_->classes, settings_.camera);
-    rebuild_ = std::make_unique<MapRebuild>(settings_, std::move(poses), std::move(labels));
+    if (labels_) labels = std::make_unique<LabelMapper>(labels_->config, labels_->classes, settings_.camera,
+                                                        static_cast<float>(settings_.preparation.max_depth_m));
+    rebuild_ = std::make_unique<MapRebuild>(settings_, std::move(poses), std::move(labels), std::move(pager));
     return true;
 }
 
@@ -167,10 +178,13 @@ std::optional<LoopCloser::Correction> LoopCloser::Step(int frames) {
 }
 
 std::optional<LoopCloser::Correction> LoopCloser::StepRebuild(int frames) {
-    if (!rebuild_->Step(store_, frames)) return std::nullopt;
+    const Result<bool> done = rebuild_->Step(store_, frames);
+    if (!done.ok()) GiveUp(done.status());
+    if (!done.ok() || !done.value()) return std::nullopt;
     Correction correction;
     correction.map = rebuild_->TakeMap();
     correction.labels = rebuild_->TakeLabels();
+    correction.pager = rebuild_->TakePager();
     correction.T_new_old =
         Normalised(rebuild_->T_world_keyframe().back() * keyframes_.last().T_map_camera.inverse());
     for (int i = 0; i < keyframes_.size(); ++i)
@@ -179,6 +193,12 @@ std::optional<LoopCloser::Correction> LoopCloser::StepRebuild(int frames) {
     rebuild_.reset();
     moved_ = true;
     return correction;
+}
+
+void LoopCloser::GiveUp(const Status& why) {
+    rebuild_.reset();
+    broken_ = true;
+    trouble_ = "the map is no longer corrected, the path is: " + why.message();
 }
 
 std::optional<LoopCloser::Correction> LoopCloser::Finish(std::string& note) {
@@ -191,12 +211,12 @@ std::optional<LoopCloser::Correction> LoopCloser::Finish(std::string& note) {
                            : status.message();
         if (calibration_ && calibration_->shown) {
             rebuild_.reset();
-            BeginRebuild(-1);
-            last = StepRebuild(std::numeric_limits<int>::max());
+            if (BeginRebuild(-1)) last = StepRebuild(std::numeric_limits<int>::max());
         }
     }
     if (!corrected_) return last;
-    while (BeginRebuild(settings_.map.voxel_size_m / 10)) last = StepRebuild(std::numeric_limits<int>::max());
+    while (BeginRebuild(settings_.map.voxel_size_m / 10))
+        if (auto next = StepRebuild(std::numeric_limits<int>::max())) last = std::move(next);
     return last;
 }
 

@@ -3,9 +3,11 @@
 // out a corrected one when it is ready.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "optimize/calibration_report.h"
@@ -25,6 +27,7 @@ class LoopCloser {
     struct Correction {
         std::unique_ptr<BlockMap> map;
         std::unique_ptr<LabelMapper> labels;  // of the map, where labels are kept
+        std::unique_ptr<MapPager> pager;      // the one that was made for the map, where they are; it has all of it
         Eigen::Isometry3d T_new_old = Eigen::Isometry3d::Identity();
     };
 
@@ -50,8 +53,10 @@ class LoopCloser {
         LabelClasses classes;
     };
 
+    // `make_pager`: for each corrected map one that keeps it within a memory limit; empty: there is none.
+    using MakePager = std::function<Result<std::unique_ptr<MapPager>>()>;
     LoopCloser(const LoopConfig& config, const FieldSettings& settings, double depth_units_per_m,
-               std::optional<Labels> labels = std::nullopt);
+               std::optional<Labels> labels = std::nullopt, MakePager make_pager = {});
 
     // Before the first Add. A corrected map that was being made then is begun again.
     void Resume(Memory memory);
@@ -72,6 +77,8 @@ class LoopCloser {
     std::optional<Correction> Step(int frames);
     // Whether Step has anything to do.
     bool HasWork() const { return rebuild_ != nullptr || moved_; }
+    // Why the map is no longer corrected, for a person; mostly empty, and said once.
+    std::string TakeTrouble() { return std::exchange(trouble_, {}); }
     // At the end: whatever is still to be corrected; the calibration, if it is to be refined: `note` says what was found.
     std::optional<Correction> Finish(std::string& note);
 
@@ -98,10 +105,12 @@ class LoopCloser {
     Status Calibrate();
     bool BeginRebuild(double tolerance_m);
     std::optional<Correction> StepRebuild(int frames);
+    void GiveUp(const Status& why);
 
     LoopConfig config_;
     FieldSettings settings_;
     std::optional<Labels> labels_;
+    MakePager make_pager_;
     Keyframes keyframes_;
     PlaceIndex index_;
     FrameStore store_;
@@ -113,6 +122,8 @@ class LoopCloser {
     int loops_ = 0;
     bool corrected_ = false;               // some loop was worth it
     std::optional<CalibrationReport> calibration_;
+    bool broken_ = false;                  // no further map can be made
+    std::string trouble_;
     bool moved_ = false;                   // keyframes, since Step looked last
 };
 

@@ -8,6 +8,7 @@
 #include "mapping/integrator.h"
 #include "optimize/field_check.h"
 #include "optimize/frame_store.h"
+#include "optimize/map_pager.h"
 #include "semantics/label_mapper.h"
 
 namespace tessera {
@@ -16,25 +17,29 @@ namespace tessera {
 class MapRebuild {
   public:
     // `T_world_keyframe` by keyframe; those that come later are to be added.
-    // With `labels`, a new one, the frames' detections are voted in, too.
+    // With `labels`, a new one, the frames' detections are voted in, too. With `pager` part of the map is with it.
     MapRebuild(const FieldSettings& settings, std::vector<Eigen::Isometry3d> T_world_keyframe,
-               std::unique_ptr<LabelMapper> labels);
+               std::unique_ptr<LabelMapper> labels, std::unique_ptr<MapPager> pager = nullptr);
 
     void AddKeyframe(const Eigen::Isometry3d& T_world_keyframe) { T_world_keyframe_.push_back(T_world_keyframe); }
     const std::vector<Eigen::Isometry3d>& T_world_keyframe() const { return T_world_keyframe_; }
 
-    // Fuses at most `frames` more. True: none is left, the map may be taken.
-    bool Step(FrameStore& store, int frames);
+    // Fuses at most `frames` more. True: none is left, the map may be taken. After an error, the pager's, it is of no use.
+    Result<bool> Step(FrameStore& store, int frames);
     std::unique_ptr<BlockMap> TakeMap() { return std::move(map_); }
     std::unique_ptr<LabelMapper> TakeLabels() { return std::move(labels_); }
+    std::unique_ptr<MapPager> TakePager() { return std::move(pager_); }
 
   private:
+    Status Fuse(const StoredFrame& stored);
+
     std::unique_ptr<BlockMap> map_;
     Integrator integrator_;
     PinholeCamera camera_;
     PreparedFrame::Config preparation_;
     std::vector<Eigen::Isometry3d> T_world_keyframe_;
     std::unique_ptr<LabelMapper> labels_;
+    std::unique_ptr<MapPager> pager_;
     std::int64_t next_ordinal_ = 0;
     Frame frame_;
     PreparedFrame prepared_;

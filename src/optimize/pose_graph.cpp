@@ -7,6 +7,7 @@
 #include "core/check.h"
 #include "optimize/pose_graph_residual.h"
 #include "optimize/pose_node.h"
+#include "optimize/solver_options.h"
 
 namespace tessera {
 namespace {
@@ -49,14 +50,7 @@ Result<PoseGraphReport> OptimisePoses(std::span<const PoseEdge> edges, std::vect
     problem.SetParameterBlockConstant(nodes[fixed].q.coeffs().data());
     problem.SetParameterBlockConstant(nodes[fixed].t.data());
 
-    ceres::Solver::Options options;
-    options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
-    // SuiteSparse would bring a BLAS whose threads are not ours to count.
-    if (ceres::IsSparseLinearAlgebraLibraryTypeAvailable(ceres::EIGEN_SPARSE))
-        options.sparse_linear_algebra_library_type = ceres::EIGEN_SPARSE;
-    options.max_num_iterations = kMaxIterations;
-    options.num_threads = 1;
-    options.logging_type = ceres::SILENT;
+    ceres::Solver::Options options = SparseSolverOptions(kMaxIterations);
     options.function_tolerance = 1e-9;
     ceres::Solver::Summary summary;
     ceres::Solve(options, &problem, &summary);

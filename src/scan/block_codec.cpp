@@ -35,16 +35,26 @@ std::size_t ContentBytes(std::span<const std::uint8_t> row) {
     return size == kLayerBytes || size == kLayerBytes + kLabelBytes ? static_cast<std::size_t>(size) : 0;
 }
 
+// Growing a vector keeps its elements beside their copies and rounds up to twice the size; here nothing is to be kept.
+template <class T>
+void Fit(std::size_t count, std::vector<T>& values) {
+    if (count > values.capacity()) {
+        values = std::vector<T>();
+        values.reserve(count);
+    }
+    values.resize(count);
+}
+
 }  // namespace
 
 void BlockCopies::Copy(const BlockMap& map, std::span<const BlockId> blocks) {
-    numbers.resize(blocks.size());
-    coords.resize(blocks.size());
     const std::size_t voxels = blocks.size() * kBlockVoxels;
-    field.resize(voxels);
-    weight.resize(voxels);
-    colour.resize(voxels);
-    labels.resize(map.has_labels() ? voxels : 0);
+    Fit(blocks.size(), numbers);
+    Fit(blocks.size(), coords);
+    Fit(voxels, field);
+    Fit(voxels, weight);
+    Fit(voxels, colour);
+    Fit(map.has_labels() ? voxels : 0, labels);
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, blocks.size(), 64), [&](const auto& range) {
         for (std::size_t i = range.begin(); i < range.end(); ++i) {
             const BlockId id = blocks[i];

@@ -60,6 +60,8 @@ class ScanFile {
     // All rows go; those that come are of a new epoch.
     Status Clear(ScanTable table);
     Status Commit(bool finished);
+    // The file is as it was before Begin.
+    void Rollback();
     // The file is one again, without journal beside it. At the end of writing, once.
     void Close();
 

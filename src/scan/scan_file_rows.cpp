@@ -155,12 +155,16 @@ Status ScanFile::Commit(bool finished) {
 
 Status ScanFile::Abandon(const std::string& doing) {
     const Status error = database_->Error(doing);
+    Rollback();
+    return error;
+}
+
+void ScanFile::Rollback() {
     for (Statements& statements : statements_) {
         statements.find.Reset();
         statements.replace.Reset();
     }
     static_cast<void>(database_->Execute("ROLLBACK"));  // where the library has rolled back itself there is nothing to do
-    return error;
 }
 
 void ScanFile::Close() { static_cast<void>(database_->Execute("PRAGMA wal_checkpoint(TRUNCATE); PRAGMA journal_mode=DELETE;")); }

@@ -16,6 +16,7 @@ void ScanCheckpoint::Clear() {
     poses.clear();
     tracking.clear();
     labels.clear();
+    stored.reset();
     loops.reset();
 }
 
@@ -32,6 +33,15 @@ Status ScanWriter::PutRows(const ScanCheckpoint& c) {
                 if (Status status = file_->Clear(table); !status.ok()) return status;
     if (c.clear_blocks && !c.clear_all)
         if (Status status = file_->Clear(ScanTable::kBlocks); !status.ok()) return status;
+    if (c.stored) {
+        const auto put = [this](std::int64_t key, std::span<const std::uint8_t> data) {
+            return file_->Put(ScanTable::kBlocks, key, data);
+        };
+        if (Status status = c.stored->ForEachRow(put); !status.ok()) {
+            file_->Rollback();
+            return status;
+        }
+    }
     // By their keys, so that each page is touched once.
     order_.clear();
     for (std::size_t i = 0; i < c.blocks.size(); ++i) order_.emplace_back(BlockKey(c.blocks.coords[i]), i);

@@ -7,6 +7,7 @@
 #include "core/frame.h"
 #include "io/png_encoder.h"
 #include "scan/block_codec.h"
+#include "scan/cube_scratch.h"
 #include "scan/scan_file.h"
 #include "scan/scan_records.h"
 
@@ -15,7 +16,8 @@ namespace tessera {
 // As a message: nothing in it belongs to anyone else. Keys are those of the rows.
 struct ScanCheckpoint {
     bool clear_all = false;     // a new world: nothing that was written before holds
-    bool clear_blocks = false;  // another map: `blocks` are all of it
+    bool clear_blocks = false;  // another map: `stored` and `blocks` are all of it
+    std::shared_ptr<const CubeScratch> stored;  // mostly null; `blocks` are newer
     BlockCopies blocks;
     std::vector<std::pair<std::int64_t, PathRecord>> path;  // new ones, and those whose place is known better now
     std::vector<std::pair<std::int64_t, FrameRecord>> frames;

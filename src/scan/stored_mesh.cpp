@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <unordered_map>
 
 #include "mapping/mesh_assembly.h"
@@ -15,7 +16,9 @@ namespace {
 // Cubes of the file in a map, around the one that is being meshed.
 class CubeWindow {
   public:
-    CubeWindow(CubeReader& reader, const BlockMap::Config& config) : reader_(reader), map_(config) {}
+    CubeWindow(CubeReader& reader, const BlockMap::Config& config, bool labels) : reader_(reader), map_(config) {
+        if (labels) map_.EnableLabels();
+    }
 
     const BlockMap& map() const { return map_; }
 
@@ -83,45 +86,58 @@ class CubeWindow {
     BlockCopies copies_;
 };
 
+// Every block's, by number.
+struct CubeMeshes {
+    std::vector<std::unique_ptr<const BlockMesh>> meshes;
+    BlockVertexLabels labels;
+};
+
 // As of a map whose blocks' ids are their numbers.
-std::unique_ptr<const BlockMesh> MeshByNumber(const BlockMap& map, BlockId id, double min_weight) {
+void MeshByNumber(const BlockMap& map, BlockId id, double min_weight, const StoredVertexLabel& label, CubeMeshes& out) {
     const std::unique_ptr<const BlockMesh> mesh = MeshBlock(map, id, min_weight);
-    if (!mesh) return nullptr;
+    if (!mesh) return;
+    const auto number = static_cast<std::size_t>(map.number(id));
+    if (label) {
+        std::vector<VertexLabel> labels;
+        for (const BlockMesh::Vertex& vertex : mesh->vertices) labels.push_back(label(map, *mesh, vertex));
+        if (std::ranges::any_of(labels, [](const VertexLabel& l) { return l != VertexLabel{}; })) out.labels[number] = std::move(labels);
+    }
     auto numbered = std::make_unique<BlockMesh>(*mesh);
     for (BlockId& block : numbered->blocks) block = map.number(block);
-    return numbered;
+    out.meshes[number] = std::move(numbered);
 }
 
-// Every block's, by number.
-Result<std::vector<std::unique_ptr<const BlockMesh>>> MeshCubes(const std::string& path, const BlockMap::Config& config,
-                                                                double min_weight) {
+Result<CubeMeshes> MeshCubes(const std::string& path, const BlockMap::Config& config, double min_weight,
+                             const StoredVertexLabel& label) {
     Result<std::unique_ptr<CubeReader>> reader = CubeReader::Open(path);
     if (!reader.ok()) return reader.status();
-    CubeWindow window(*reader.value(), config);
+    CubeWindow window(*reader.value(), config, static_cast<bool>(label));
     if (Status status = window.Index(); !status.ok()) return status;
-    std::vector<std::unique_ptr<const BlockMesh>> meshes(static_cast<std::size_t>(window.count()) + 1);
-    std::vector<bool> there(meshes.size());
+    CubeMeshes all;
+    all.meshes.resize(static_cast<std::size_t>(window.count()) + 1);
+    if (label) all.labels.resize(all.meshes.size());
+    std::vector<bool> there(all.meshes.size());
     for (const std::int64_t key : window.order()) {
         if (Status status = window.MoveTo(key); !status.ok()) return status;
         const std::vector<BlockId>& blocks = window.blocks(key);
         for (const BlockId id : blocks) {
             const auto number = static_cast<std::size_t>(window.map().number(id));
-            if (number >= meshes.size() || there[number]) return DamagedScan(path, fmt::format("block number {}", number));
+            if (number >= there.size() || there[number]) return DamagedScan(path, fmt::format("block number {}", number));
             there[number] = true;
         }
-        tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t i) {
-            meshes[static_cast<std::size_t>(window.map().number(blocks[i]))] = MeshByNumber(window.map(), blocks[i], min_weight);
-        });
+        tbb::parallel_for(std::size_t{0}, blocks.size(),
+                          [&](std::size_t i) { MeshByNumber(window.map(), blocks[i], min_weight, label, all); });
     }
-    return meshes;
+    return all;
 }
 
 }  // namespace
 
-Result<TriangleMesh> MeshOfStoredMap(const std::string& path, const BlockMap::Config& config, const MeshConfig& meshing) {
-    const auto meshes = MeshCubes(path, config, meshing.min_weight);
-    if (!meshes.ok()) return meshes.status();
-    return AssembleMesh(meshes.value(), config.voxel_size_m, meshing.min_component_triangles);
+Result<TriangleMesh> MeshOfStoredMap(const std::string& path, const BlockMap::Config& config, const MeshConfig& meshing,
+                                     const StoredVertexLabel& label) {
+    const Result<CubeMeshes> cubes = MeshCubes(path, config, meshing.min_weight, label);
+    if (!cubes.ok()) return cubes.status();
+    return AssembleMesh(cubes.value().meshes, config.voxel_size_m, meshing.min_component_triangles, cubes.value().labels);
 }
 
 }  // namespace tessera

@@ -203,6 +203,7 @@ void Instances::Join(InstanceId a, InstanceId b) {
     kept.box.extend(gone.box);
     kept.area_m2 += gone.area_m2;
     AddMarks(gone.marks, kept);
+    if (kept.number_before == 0) kept.number_before = gone.number_before;
     gone.merged_into = a;
 }
 

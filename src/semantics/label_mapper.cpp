@@ -44,20 +44,22 @@ Instances::Config InstanceConfig(const LabelConfig& config) { return {config.min
 
 }  // namespace
 
-LabelMapper::LabelMapper(const LabelConfig& config, LabelClasses classes, const PinholeCamera& camera)
+LabelMapper::LabelMapper(const LabelConfig& config, LabelClasses classes, const PinholeCamera& camera, float max_depth_m)
     : config_(config),
       classes_(std::move(classes)),
       camera_(camera),
+      max_depth_m_(max_depth_m),
       step_px_(std::max(1, camera.width / kSampledColumns)),
       instances_(InstanceConfig(config)) {}
 
-VoteCount LabelMapper::Label(std::span<const Detection> detections, const DepthImage& depth_m,
+VoteCount LabelMapper::Label(std::span<const Detection> detections, const DepthImage& measured_m,
                              const Eigen::Isometry3d& T_world_camera, BlockMap& map) {
+    const float farthest_m = *std::max_element(measured_m.data(), measured_m.data() + measured_m.size());
+    const DepthImage& depth_m = WithinReach(measured_m, farthest_m);
     // 1. What do the detections say of each pixel?
     MakeLabelImage(depth_m, camera_, detections, config_.region, image_);
-    const float farthest_m = *std::max_element(depth_m.data(), depth_m.data() + depth_m.size());
     // 2. What does the map say?
-    PredictInstances(T_world_camera, farthest_m, map);
+    PredictInstances(T_world_camera, std::min(1.1f * farthest_m, max_depth_m_), map);
     const std::map<InstanceId, VisibleObject> visible = Visible();
     // 3. Which is which?
     const std::vector<ObservedObject> observed = Observe(detections, depth_m, T_world_camera);
@@ -77,9 +79,16 @@ VoteCount LabelMapper::Label(std::span<const Detection> detections, const DepthI
     return count;
 }
 
+const DepthImage& LabelMapper::WithinReach(const DepthImage& depth_m, float farthest_m) {
+    if (!(farthest_m > max_depth_m_)) return depth_m;
+    near_m_ = depth_m;
+    std::replace_if(near_m_.data(), near_m_.data() + near_m_.size(), [this](float z) { return z > max_depth_m_; }, 0.0f);
+    return near_m_;
+}
+
 void LabelMapper::PredictInstances(const Eigen::Isometry3d& T_world_camera, float farthest_m, const BlockMap& map) {
     const PinholeCamera camera = camera_.Every(step_px_);
-    ray_caster_.Predict(map, camera, T_world_camera, kNear_m, std::max(2 * kNear_m, 1.1f * farthest_m), view_);
+    ray_caster_.Predict(map, camera, T_world_camera, kNear_m, std::max(2 * kNear_m, farthest_m), view_);
     predicted_.Resize(camera.width, camera.height);
     tbb::parallel_for(0, camera.height, [&](int y) {
         for (int x = 0; x < camera.width; ++x) {
@@ -147,6 +156,7 @@ void LabelMapper::Reset() {
     instances_ = Instances(InstanceConfig(config_));
     votes_.clear();
     shown_.clear();
+    away_.clear();
 }
 
 void LabelMapper::SaveState(StateWriter& state) const {

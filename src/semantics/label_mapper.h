@@ -2,6 +2,8 @@
 // instances apart, and labels the mesh at the end.
 #pragma once
 
+#include <limits>
+#include <map>
 #include <memory>
 #include <span>
 #include <vector>
@@ -17,7 +19,9 @@ namespace tessera {
 // The map's owner thread only.
 class LabelMapper {
   public:
-    LabelMapper(const LabelConfig& config, LabelClasses classes, const PinholeCamera& camera);
+    // What is farther than `max_depth_m` is not looked at: it is not fused either, and need not be in memory.
+    LabelMapper(const LabelConfig& config, LabelClasses classes, const PinholeCamera& camera,
+                float max_depth_m = std::numeric_limits<float>::max());
 
     // `detections` as KeepWanted leaves them, of the frame with this depth and pose; the frame need not be the last one
     // fused. The map has labels.
@@ -37,9 +41,15 @@ class LabelMapper {
     // that has since been confirmed, joined, withheld or has changed its class. Increasing.
     std::vector<BlockId> TakeRelabelled(const BlockMap& map);
 
-    // The vertices with a label of blocks that were ever voted into, and no triangles: what Objects needs for a look at an
-    // unfinished map. `meshes` by block id, as Mesher keeps them.
+    // The vertices with a label of blocks that were ever voted into, those that left memory included, and no triangles: what
+    // Objects needs for a look at an unfinished map. `meshes` by block id, as Mesher keeps them.
     TriangleMesh LabelledVertices(const BlockMap& map, const std::vector<std::unique_ptr<const BlockMesh>>& meshes) const;
+
+    // Blocks are about to leave memory: what LabelledVertices gives of them is kept. `meshes` likewise.
+    void Leave(const BlockMap& map, std::span<const BlockId> blocks, const std::vector<std::unique_ptr<const BlockMesh>>& meshes);
+    // They came back, perhaps under other ids; and they were meshed again.
+    void Return(const BlockMap& map, std::span<const BlockId> blocks);
+    void Meshed(const BlockMap& map, std::span<const BlockId> blocks);
 
     // The confirmed objects that the labelled mesh shows, by number. Remains of less than 15 square centimetres, or of a tenth
     // of what its detections saw of it, are none, and lose their label.
@@ -56,6 +66,12 @@ class LabelMapper {
     bool LoadState(StateReader& state);
 
   private:
+    struct LabelledVertex {
+        Eigen::Vector3f p_world;
+        InstanceId voted_for = 0;
+    };
+
+    const DepthImage& WithinReach(const DepthImage& depth_m, float farthest_m);
     void KnowBlocks(const BlockMap& map);
     void PredictInstances(const Eigen::Isometry3d& T_world_camera, float farthest_m, const BlockMap& map);
     std::map<InstanceId, VisibleObject> Visible() const;
@@ -67,15 +83,18 @@ class LabelMapper {
     LabelConfig config_;
     LabelClasses classes_;
     PinholeCamera camera_;
+    float max_depth_m_;
     int step_px_;  // of the sampled views
     RayCaster ray_caster_;
     PredictedView view_;
     Image<InstanceId> predicted_;
     LabelImage image_;
+    DepthImage near_m_;  // the frame's depth, where part of it is too far
     Instances instances_;
     enum class Votes : std::uint8_t { kNone, kTold, kNew };
     std::vector<Votes> votes_;         // by block id
     std::vector<VertexLabel> shown_;   // by InstanceId, as told by the last TakeRelabelled
+    std::map<BlockCoord, std::vector<LabelledVertex>> away_;  // of blocks that left and were not meshed since
     bool loaded_ = false;              // by LoadState, and nothing known of the blocks yet
 };
 

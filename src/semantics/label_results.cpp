@@ -86,7 +86,45 @@ TriangleMesh LabelMapper::LabelledVertices(const BlockMap& map,
             labelled.labels.push_back(label);
         }
     }
+    for (const auto& [coord, vertices] : away_)
+        for (const LabelledVertex& vertex : vertices) {
+            const VertexLabel label = LabelOfInstance(vertex.voted_for);
+            if (label.instance == 0) continue;
+            labelled.vertices.push_back(vertex.p_world);
+            labelled.labels.push_back(label);
+        }
     return labelled;
+}
+
+void LabelMapper::Leave(const BlockMap& map, std::span<const BlockId> blocks,
+                        const std::vector<std::unique_ptr<const BlockMesh>>& meshes) {
+    KnowBlocks(map);
+    for (const BlockId id : blocks) {
+        const auto at = static_cast<std::size_t>(id);
+        if (std::exchange(votes_[at], Votes::kNone) == Votes::kNone) continue;
+        if (at >= meshes.size() || !meshes[at] || !(meshes[at]->coord == map.coord(id))) continue;
+        std::vector<LabelledVertex> vertices;
+        for (const BlockMesh::Vertex& vertex : meshes[at]->vertices) {
+            const Eigen::Vector3f p_world = VertexPosition(*meshes[at], vertex, map.config().voxel_size_m);
+            const VoxelLabel voxel = LabelNear(map, p_world.cast<double>());
+            if (ClassOf(voxel) != 0 && voxel.instance != 0) vertices.push_back({p_world, voxel.instance});
+        }
+        if (!vertices.empty()) away_[map.coord(id)] = std::move(vertices);
+    }
+}
+
+void LabelMapper::Return(const BlockMap& map, std::span<const BlockId> blocks) {
+    KnowBlocks(map);
+    for (const BlockId id : blocks) {
+        const VoxelLabel* voxels = map.label(id);
+        const bool voted = std::any_of(voxels, voxels + kBlockVoxels, [](const VoxelLabel& v) { return v.count[0] > 0; });
+        votes_[static_cast<std::size_t>(id)] = voted ? Votes::kNew : Votes::kNone;
+    }
+}
+
+void LabelMapper::Meshed(const BlockMap& map, std::span<const BlockId> blocks) {
+    if (away_.empty()) return;
+    for (const BlockId id : blocks) away_.erase(map.coord(id));
 }
 
 std::vector<MapObject> LabelMapper::Objects(double voxel_size_m, TriangleMesh& labelled) const {

@@ -45,6 +45,12 @@ Status StartPaging(const PipelineConfig& config, const PinholeCamera& camera, co
     return Status::Ok();
 }
 
+void PutInPlace(LoopCloser::Correction correction, MappingStage& mapping, std::optional<ScanStage>& scan, PagingStage* paging) {
+    mapping.Replace(std::move(correction.map), std::move(correction.labels));
+    if (paging == nullptr) return;
+    paging->Replaced(correction.T_new_old, static_cast<const RebuildPaging&>(*correction.pager), mapping, *scan);
+}
+
 TriangleMesh TakeFinalMesh(MappingStage& mapping, std::optional<ScanStage>& scan, PagingStage* paging, Status& status) {
     if (paging == nullptr || !paging->paged()) return mapping.TakeMesh();
     if (scan->failed()) {

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "optimize/loop_closer.h"
 #include "system/mapping_stage.h"
 #include "system/paging_stage.h"
 #include "system/recorder_thread.h"
@@ -24,6 +25,9 @@ std::string SaveScan(const std::string& path, const SourceInfo& source, const Ru
 // Where the configuration has a memory limit: a stage for the map that is being saved to `scan_path`.
 Status StartPaging(const PipelineConfig& config, const PinholeCamera& camera, const std::string& scan_path, bool wait,
                    std::unique_ptr<PagingStage>& paging);
+
+// A corrected map in place of the one so far, wherever parts of it are. `paging` may be null.
+void PutInPlace(LoopCloser::Correction correction, MappingStage& mapping, std::optional<ScanStage>& scan, PagingStage* paging);
 
 // At the end, after ScanStage::Finish: of the map, wherever it is. `scan` and the map go; `paging` may be null. An error goes to
 // `status`, the mesh is then empty.

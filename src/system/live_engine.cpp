@@ -56,7 +56,10 @@ LiveEngine::LiveEngine(EngineInput input)
 void LiveEngine::BeginLoops(std::optional<LoopCloser::Labels> labels) {
     LoopThread::Settings settings{config_.loops, FieldSettingsOf(config_.pipeline, source_.camera), source_.depth_units_per_m,
                                   std::move(labels), scan_.has_value(), std::nullopt};
-    if (scan_) settings.resumed = scan_->TakeLoops();
+    if (scan_) {
+        settings.resumed = scan_->TakeLoops();
+        settings.make_pager = RebuildPagers(config_.pipeline, source_.camera, scan_->path());
+    }
     loops_ = std::make_unique<LoopThread>(std::move(settings),
                                           LoopThread::Surroundings{frame_pool_, tracked_pool_, mapping_wake_, tracking_wake_});
 }

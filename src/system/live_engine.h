@@ -52,6 +52,7 @@ class LiveEngine : public Engine {
         std::unique_ptr<Frame> frame;
         double decode_ms = 0, latency_ms = 0;
         int corrections = 0;  // of the map that it was tracked in
+        std::optional<Eigen::Isometry3d> T_found_camera;  // where a lost camera was found to be, in that map
         ViewerCommand command;
     };
     // What a fused frame changed, or a corrected map's whole field; `world` counts the resets before it.
@@ -92,13 +93,13 @@ class LiveEngine : public Engine {
     void TrackFrame(NewFrame item, TrackingState& state);
     void TakeMapNews(TrackingState& state);
     void ResetTracking(TrackingState& state);
-    void HearWhereItIs(double stamp_s, TrackingState& state);
+    std::optional<Eigen::Isometry3d> HearWhereItIs(double stamp_s, TrackingState& state);
     void CheckIfLost(TrackedFrame& tracked, TrackingState& state);
     void SaveTracking(const TrackingStage& stage, TrackedFrame& tracked) const;
     void Hand(Task task);
     // Mapping's.
     void MapFrame(Task& task);
-    void Page(TrackedFrame& tracked, FrameOutcome& outcome);
+    void Page(Task& task, FrameOutcome& outcome);
     void SendMapNews();
     void Save(const Task& task, FrameOutcome& outcome);
     void Offer(Task& task);

@@ -46,7 +46,7 @@ void LiveEngine::MapFrame(Task& task) {
     }
     Carry(corrections_, task.corrections, tracked.report.track.T_world_camera);
     Carry(corrections_, task.corrections, tracked.view.T_world_camera);
-    if (paging_) Page(tracked, outcome);
+    if (paging_) Page(task, outcome);
     mapping_.Fuse(tracked);
     if (tracked.report.fused || mapping_.has_delta()) SendMapNews();
     if (tracked.report.fused) WaitFor(config_.live.extra_mapping_ms);
@@ -70,10 +70,15 @@ void LiveEngine::MapFrame(Task& task) {
     Offer(task);
 }
 
-// What of the map is away comes back.
-void LiveEngine::Page(TrackedFrame& tracked, FrameOutcome& outcome) {
+// What of the map is away comes back. A lost camera that was found where the map is away is tracked there once it has come, when
+// it is found again.
+void LiveEngine::Page(Task& task, FrameOutcome& outcome) {
+    if (task.T_found_camera) {
+        Carry(corrections_, task.corrections, *task.T_found_camera);
+        paging_->Expect(*task.T_found_camera);
+    }
     paging_->BeginFrame(mapping_, *scan_);
-    if (paging_->AfterTracking(tracked, mapping_, *scan_)) outcome.fusion_dropped = true;
+    if (paging_->AfterTracking(*task.tracked, mapping_, *scan_)) outcome.fusion_dropped = true;
     if (const auto message = paging_->TakeMessage()) Tell(FrameOutcome::Kind::kMessage, *message);
 }
 
@@ -96,7 +101,10 @@ void LiveEngine::Offer(Task& task) {
             *frame = *task.frame;
         else
             std::swap(frame, task.frame);
-        frame_pool_.Give(labelling_->Offer({std::move(frame), report.track.T_world_camera, version}));
+        const Frame* offered = frame.get();
+        std::unique_ptr<Frame> needless = labelling_->Offer({std::move(frame), report.track.T_world_camera, version});
+        if (paging_ && needless.get() != offered) paging_->Hold(report.index, report.track.T_world_camera);
+        frame_pool_.Give(std::move(needless));
     }
     if (loops_ && report.tracked()) loops_->Offer(std::move(task.tracked), std::move(task.frame), version);
     frame_pool_.Give(std::move(task.frame));
@@ -107,6 +115,7 @@ void LiveEngine::TakeLabels() {
     LabellingThread::Answer answer;
     while (labelling_->TryTake(answer)) {
         LabellingThread::Job& job = answer.job;
+        if (paging_ && job.map.world == mapped_world_) paging_->LetGo(job.frame->index);
         if (!answer.message.empty()) Tell(FrameOutcome::Kind::kLabelsEnd, answer.message);
         if (answer.message.empty() && job.map.world == mapped_world_) {
             Stopwatch watch;
@@ -143,8 +152,8 @@ void LiveEngine::TakeLoops() {
 void LiveEngine::TakeUpdate(LoopThread::Update update, bool last) {
     if (update.world != mapped_world_) return;
     if (update.correction) {
-        const Eigen::Isometry3d& T_new_old = update.correction->T_new_old;
-        mapping_.Replace(std::move(update.correction->map), std::move(update.correction->labels));
+        const Eigen::Isometry3d T_new_old = update.correction->T_new_old;
+        PutInPlace(std::move(*update.correction), mapping_, scan_, paging_.get());
         corrections_.push_back(T_new_old);
         if (scan_) scan_->Move(T_new_old);
         if (!last)

@@ -49,7 +49,7 @@ void LiveEngine::TrackFrame(NewFrame item, TrackingState& state) {
     TakeMapNews(state);
     Task task;
     task.tracked = tracked_pool_.Take();
-    if (loops_) HearWhereItIs(item.frame->stamp_s, state);
+    if (loops_) task.T_found_camera = HearWhereItIs(item.frame->stamp_s, state);
     plan_.Track(*item.frame, *state.field, state.stage, *task.tracked);
     gate_.AfterTracking(*item.frame, state.stage, *task.tracked);
     if (loops_) CheckIfLost(*task.tracked, state);
@@ -87,14 +87,15 @@ void LiveEngine::TakeMapNews(TrackingState& state) {
     }
 }
 
-void LiveEngine::HearWhereItIs(double stamp_s, TrackingState& state) {
+std::optional<Eigen::Isometry3d> LiveEngine::HearWhereItIs(double stamp_s, TrackingState& state) {
     LoopThread::Answer answer;
-    if (!loops_->TryTake(answer)) return;
+    if (!loops_->TryTake(answer)) return std::nullopt;
     state.asked = false;
-    if (!answer.T_world_camera || answer.map != state.version) return;
+    if (!answer.T_world_camera || answer.map != state.version) return std::nullopt;
     Tell(FrameOutcome::Kind::kMessage, answer.note);
     state.stage.Relocate({answer.stamp_s, *answer.T_world_camera});
     state.lost.Seen(stamp_s);
+    return answer.T_world_camera;
 }
 
 void LiveEngine::CheckIfLost(TrackedFrame& tracked, TrackingState& state) {

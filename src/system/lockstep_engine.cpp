@@ -12,8 +12,8 @@ LockstepEngine::LockstepEngine(EngineInput input)
       stop_(*input.stop),
       control_(input.viewer),
       source_(input.source->info()),
-      tracking_(config_.pipeline, source_.camera),
-      mapping_(config_.pipeline, config_.meshing, source_.camera),
+      tracking_(config_.pipeline, source_.camera, input.device),
+      mapping_(config_.pipeline, config_.meshing, source_.camera, input.device),
       gate_(config_.pipeline.motion.max_gap_s),
       feed_(input.viewer, config_.live.mesh_blocks),
       recorder_(source_, config_.record, true) {
@@ -25,6 +25,7 @@ LockstepEngine::LockstepEngine(EngineInput input)
         labelling_ = std::make_unique<LabellingStage>(std::move(input.labelling.detector), std::move(input.labelling.classes),
                                                       config_.labels);
     }
+    if (input.scan.file) scan_path_ = input.scan.file->path();
     BeginLoops();
     if (input.scan.file) status_ = StartScan(std::move(input.scan));
     reader_ = std::make_unique<FrameReader>(std::move(input.source), input.selection, config_.read_ahead);
@@ -65,7 +66,7 @@ bool LockstepEngine::Next(FrameOutcome& outcome) {
     if (reader_) reader_->RequestStop();
     recorder_.Stop();
     if (loops_)
-        if (std::string note = loops_->Finish(mapping_); !note.empty()) loops_message_ = std::move(note);
+        if (std::string note = loops_->Finish([this](auto correction) { PutMap(std::move(correction)); }); !note.empty()) loops_message_ = std::move(note);
     if (paging_) paging_->Close();
     if (scan_ && loops_) scan_->AddLoops(loops_->TakeNews());
     if (scan_) scan_->Finish(mapping_);
@@ -77,13 +78,18 @@ void LockstepEngine::Process(FrameOutcome& outcome) {
     outcome.decode_ms = reader_->decode_ms();
     recorder_.Add(frame_);
     if (paging_) paging_->BeginFrame(mapping_, *scan_);
-    plan_.Track(frame_, mapping_.map(), tracking_, tracked_);
+    plan_.Track(frame_, tracking_.reads_map() ? mapping_.map() : mapping_.blocks(), tracking_, tracked_);
     gate_.AfterTracking(frame_, tracking_, tracked_);
+    if (loops_)
+        loops_->AfterTracking(frame_, mapping_.map(), tracking_, tracked_, [this](const Eigen::Isometry3d& T_world_camera) {
+            if (paging_) paging_->BringAround(T_world_camera, mapping_, *scan_);
+        });
     if (paging_) outcome.fusion_dropped = paging_->AfterTracking(tracked_, mapping_, *scan_);
-    if (loops_) loops_->AfterTracking(frame_, mapping_.map(), tracking_, tracked_);
     mapping_.Fuse(tracked_);
     if (labelling_ && tracked_.report.fused) Label(outcome);
-    if (loops_) outcome.loops_ms = loops_->AfterFusion(frame_, tracked_, outcome.labels, tracking_, mapping_);
+    if (loops_)
+        outcome.loops_ms = loops_->AfterFusion(frame_, tracked_, outcome.labels, tracking_,
+                                               [this](auto correction) { PutMap(std::move(correction)); });
     if (scan_)
         Save(outcome);
     else if (viewer_ != nullptr)
@@ -118,7 +124,13 @@ void LockstepEngine::Label(FrameOutcome& outcome) {
 }
 
 void LockstepEngine::BeginLoops() {
-    if (config_.loops.enabled) loops_.emplace(config_.loops, config_.pipeline, source_, loop_labels_);
+    if (config_.loops.enabled)
+        loops_.emplace(config_.loops, config_.pipeline, source_, loop_labels_,
+                       RebuildPagers(config_.pipeline, source_.camera, scan_path_));
+}
+
+void LockstepEngine::PutMap(LoopCloser::Correction correction) {
+    PutInPlace(std::move(correction), mapping_, scan_, paging_.get());
 }
 
 bool LockstepEngine::TakeMessage(FrameOutcome& outcome) {

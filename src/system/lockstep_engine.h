@@ -25,7 +25,7 @@ class LockstepEngine : public Engine {
     const std::vector<MapObject>& objects() const override { return mapping_.objects(); }
     std::vector<StampedPose> CorrectedPath() const override;
     std::optional<CalibrationReport> calibration() const override { return loops_ ? loops_->calibration() : std::nullopt; }
-    MapStatistics map_statistics() const override { return StatisticsOf(mapping_.map()); }
+    MapStatistics map_statistics() const override { return StatisticsOf(mapping_.blocks()); }
     // The map as it is between two calls of Next; before TakeMesh.
     const MappingStage& mapping() const { return mapping_; }
 
@@ -34,6 +34,7 @@ class LockstepEngine : public Engine {
     bool ObeyViewer(FrameOutcome& outcome);
     bool Obey(const ViewerCommand& command, FrameOutcome& outcome);
     void BeginLoops();
+    void PutMap(LoopCloser::Correction correction);
     bool TakeMessage(FrameOutcome& outcome);
     void Process(FrameOutcome& outcome);
     void Label(FrameOutcome& outcome);
@@ -51,6 +52,7 @@ class LockstepEngine : public Engine {
     std::optional<LoopStage> loops_;  // if they are to be closed
     std::optional<LoopCloser::Labels> loop_labels_;
     std::optional<ScanStage> scan_;   // if it is to be saved
+    std::string scan_path_;           // the same from the beginning; else empty
     std::vector<PathRecord> past_;    // with a window: for a scan that is saved from some time on
     std::unique_ptr<PagingStage> paging_;  // null without a memory limit
     ResumeGate gate_;

@@ -115,18 +115,21 @@ void LoopThread::Work() {
             std::string note;
             if (auto change = closer_->Finish(note)) HandOver(std::move(*change));
             if (!note.empty()) news_.Push(std::move(note));
+            if (std::string trouble = closer_->TakeTrouble(); !trouble.empty()) news_.Push(std::move(trouble));
             if (saved_.load()) Push({world_, std::nullopt, nullptr, journal_.Take(*closer_, closer_->store().frames().size())});
             return;
         } else if (auto change = closer_->Step(kFramesAtOnce)) {
             HandOver(std::move(*change));
         }
+        if (std::string trouble = closer_->TakeTrouble(); !trouble.empty()) news_.Push(std::move(trouble));
     }
 }
 
 void LoopThread::BeginWorld(int world) {
     world_ = world;
     history_.clear();
-    closer_ = std::make_unique<LoopCloser>(settings_.loops, settings_.field, settings_.depth_units_per_m, settings_.labels);
+    closer_ = std::make_unique<LoopCloser>(settings_.loops, settings_.field, settings_.depth_units_per_m, settings_.labels,
+                                           settings_.make_pager);
     journal_.Begin(*closer_);
 }
 

@@ -22,6 +22,7 @@ class LoopThread {
         std::optional<LoopCloser::Labels> labels;
         bool saved = false;                          // updates carry news, for a scan file; else from BeginNews on
         std::optional<LoopCloser::Memory> resumed;   // of an earlier scan that goes on
+        LoopCloser::MakePager make_pager = {};
     };
     // In this order they hold: news speak of the map as it is after the corrections before them and with them.
     struct Update {

@@ -11,36 +11,43 @@
 
 namespace tessera {
 
-MappingStage::MappingStage(const PipelineConfig& config, const MeshConfig& meshing, const PinholeCamera& camera)
+MappingStage::MappingStage(const PipelineConfig& config, const MeshConfig& meshing, const PinholeCamera& camera, Device* device)
     : config_(config),
       camera_(camera),
       map_(std::make_unique<BlockMap>(config.map)),
-      integrator_(config.fusion, camera),
+      integrator_(device != nullptr ? device->MakeIntegrator(config.fusion, camera)
+                                    : std::make_unique<Integrator>(config.fusion, camera)),
       mesher_(meshing) {}
 
 void MappingStage::Fuse(TrackedFrame& tracked) {
     if (!tracked.to_fuse) return;
     FrameReport& report = tracked.report;
-    report.fusion = integrator_.Integrate(tracked.prepared, tracked.view, *map_);
+    report.fusion = integrator_->Integrate(tracked.prepared, tracked.view, *map_);
     report.fused = true;
     if (keep_deltas_) {
-        for (const BlockId id : integrator_.added_blocks()) block_changes_.push_back({id, false, map_->coord(id)});
-        changed_.insert(changed_.end(), integrator_.changed_blocks().begin(), integrator_.changed_blocks().end());
+        for (const BlockId id : integrator_->added_blocks()) block_changes_.push_back({id, false, map_->coord(id)});
+        changed_.insert(changed_.end(), integrator_->changed_blocks().begin(), integrator_->changed_blocks().end());
     }
     if (report.fusion.refused_blocks > 0)
-        report.warning =
-            fmt::format("{} of {} new blocks refused: mapping.max_new_blocks", report.fusion.refused_blocks,
-                        report.fusion.refused_blocks + report.fusion.new_blocks);
+        report.warning = fmt::format("{} of {} new blocks refused: {}", report.fusion.refused_blocks,
+                                     report.fusion.refused_blocks + report.fusion.new_blocks,
+                                     report.fusion.map_full ? integrator_->limit() : "mapping.max_new_blocks");
+}
+
+const BlockMap& MappingStage::map() const {
+    integrator_->Bring(*map_);
+    return *map_;
 }
 
 void MappingStage::EnableLabels(const LabelConfig& config, LabelClasses classes) {
     map_->EnableLabels();
-    labels_ = std::make_unique<LabelMapper>(config, std::move(classes), camera_);
+    labels_ = std::make_unique<LabelMapper>(config, std::move(classes), camera_, static_cast<float>(config_.frame.max_depth_m));
 }
 
 VoteCount MappingStage::Label(std::span<const Detection> detections, const DepthImage& depth_m,
                               const Eigen::Isometry3d& T_world_camera) {
     ++labels_revision_;
+    integrator_->Bring(*map_);
     return labels_->Label(detections, depth_m, T_world_camera, *map_);
 }
 
@@ -48,11 +55,12 @@ void MappingStage::CollectDelta(MapDelta& delta) {
     std::ranges::sort(changed_);
     changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());
     std::erase_if(changed_, [this](BlockId id) { return map_->IsFree(id); });
-    tessera::CollectDelta(*map_, block_changes_, changed_, integrator_.revision(), delta);
+    tessera::CollectDelta(map(), block_changes_, changed_, integrator_->revision(), delta);
     ForgetDelta();
 }
 
 void MappingStage::Release(std::span<const BlockId> blocks) {
+    if (labels_) labels_->Leave(*map_, blocks, mesher_.block_meshes());
     for (const BlockId id : blocks) {
         if (keep_deltas_) block_changes_.push_back({id, true, map_->coord(id)});
         map_->Release(id);
@@ -66,11 +74,12 @@ void MappingStage::Return(const BlockCopies& blocks, std::vector<BlockId>& ids) 
         const BlockId id = map_->Allocate(blocks.coords[i], blocks.numbers[i]);
         TESSERA_CHECK(id != kUnknownBlock, "no room for a block that was here before");
         blocks.Put(i, *map_, id);
-        map_->MarkChanged(id, integrator_.revision());
+        map_->MarkChanged(id, integrator_->revision());
         ids.push_back(id);
         if (keep_deltas_) block_changes_.push_back({id, false, blocks.coords[i]});
     }
     if (keep_deltas_) changed_.insert(changed_.end(), ids.begin(), ids.end());
+    if (labels_) labels_->Return(*map_, ids);
 }
 
 void MappingStage::ForgetDelta() {
@@ -79,14 +88,15 @@ void MappingStage::ForgetDelta() {
 }
 
 void MappingStage::CollectWhole(MapDelta& delta) {
-    tessera::CollectWhole(*map_, integrator_.revision(), delta);
+    tessera::CollectWhole(map(), integrator_->revision(), delta);
     ForgetDelta();
 }
 
 int MappingStage::UpdateMesh(int budget_blocks, MeshUpdate& update) {
-    const int waiting = mesher_.Update(*map_, budget_blocks);
+    const int waiting = mesher_.Update(map(), budget_blocks);
     update.voxel_size_m = map_->config().voxel_size_m;
     update.clear = std::exchange(mesh_cleared_, false);
+    if (labels_) labels_->Meshed(*map_, mesher_.updated());
     if (labels_) geometry_.MarkAgain(labels_->TakeRelabelled(*map_));
     const auto mark = [this](const BlockMesh& owner, const BlockMesh::Vertex& vertex) {
         return VertexMark{labels_ ? labels_->ColourOf(*map_, owner, vertex) : Rgb8{},
@@ -105,14 +115,14 @@ std::vector<MapObject> MappingStage::MeasureObjects() const {
 
 TriangleMesh MappingStage::Mesh() const {
     Mesher mesher(mesher_.config());
-    mesher.Update(*map_);
+    mesher.Update(map());
     TriangleMesh mesh = mesher.Assemble();
     if (labels_) labels_->LabelVertices(*map_, mesh);
     return mesh;
 }
 
 TriangleMesh MappingStage::TakeMesh() {
-    mesher_.Update(*map_);
+    mesher_.Update(map());
     if (!labels_) map_.reset();
     TriangleMesh mesh = mesher_.Assemble();
     mesher_.Clear();
@@ -127,15 +137,23 @@ TriangleMesh MappingStage::TakeMesh() {
 TriangleMesh MappingStage::TakeStoredMesh(const std::string& scan_path, Status& status) {
     map_.reset();
     mesher_.Clear();
-    Result<TriangleMesh> mesh = MeshOfStoredMap(scan_path, config_.map, mesher_.config());
-    if (mesh.ok()) return std::move(mesh.value());
-    status = mesh.status();
-    return {};
+    StoredVertexLabel label;
+    if (labels_)
+        label = [this](const BlockMap& map, const BlockMesh& owner, const BlockMesh::Vertex& vertex) {
+            return labels_->LabelOf(map, owner, vertex);
+        };
+    Result<TriangleMesh> mesh = MeshOfStoredMap(scan_path, config_.map, mesher_.config(), label);
+    if (!mesh.ok()) {
+        status = mesh.status();
+        return {};
+    }
+    if (labels_) objects_ = labels_->Objects(config_.map.voxel_size_m, mesh.value());
+    return std::move(mesh.value());
 }
 
 void MappingStage::Predict(const Eigen::Isometry3d& T_world_camera, int step, PredictedView& view) const {
     constexpr float kNear_m = 0.1f;
-    RayCaster().Predict(*map_, camera_.Every(step), T_world_camera, kNear_m,
+    RayCaster().Predict(map(), camera_.Every(step), T_world_camera, kNear_m,
                         1.2f * static_cast<float>(config_.frame.max_depth_m), view);
 }
 
@@ -143,7 +161,7 @@ void MappingStage::Replace(std::unique_ptr<BlockMap> map, std::unique_ptr<LabelM
     Place(std::move(map));
     if (labels && labels_) labels->KeepNumbersOf(*labels_);
     labels_ = std::move(labels);
-    integrator_.MarkAllChanged(*map_);
+    integrator_->MarkAllChanged(*map_);
 }
 
 void MappingStage::Place(std::unique_ptr<BlockMap> map) {
@@ -157,7 +175,7 @@ void MappingStage::Place(std::unique_ptr<BlockMap> map) {
 
 void MappingStage::Resume(std::unique_ptr<BlockMap> map, std::uint32_t fused_frames) {
     Place(std::move(map));
-    integrator_.SetRevision(fused_frames);
+    integrator_->SetRevision(fused_frames);
 }
 
 void MappingStage::Reset() {

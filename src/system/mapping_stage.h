@@ -21,7 +21,8 @@ struct MeshUpdate {
 // Owner thread only.
 class MappingStage {
   public:
-    MappingStage(const PipelineConfig& config, const MeshConfig& meshing, const PinholeCamera& camera);
+    // `device` outlives the stage; null: all on the processor.
+    MappingStage(const PipelineConfig& config, const MeshConfig& meshing, const PinholeCamera& camera, Device* device = nullptr);
 
     // Puts the frame into the map, if it is to be, and reports that in it.
     void Fuse(TrackedFrame& tracked);
@@ -62,8 +63,8 @@ class MappingStage {
     TriangleMesh Mesh() const;
     // The same at the end: the map goes before the mesh is put together, so that both need not fit into memory.
     TriangleMesh TakeMesh();
-    // The same where part of the map is in the scan file only, and all of it there. Without labels. An error goes to `status`,
-    // the mesh is then empty.
+    // The same where part of the map is in the scan file only, and all of it there. An error goes to `status`, the mesh is then
+    // empty.
     TriangleMesh TakeStoredMesh(const std::string& scan_path, Status& status);
 
     // The surface as the camera sees it from where it was, at 1/`step` of its resolution.
@@ -75,12 +76,15 @@ class MappingStage {
 
     // Before the first frame: goes on with a map that so many fused frames made.
     void Resume(std::unique_ptr<BlockMap> map, std::uint32_t fused_frames);
-    std::uint32_t fused_frames() const { return integrator_.revision(); }
+    std::uint32_t fused_frames() const { return integrator_->revision(); }
 
     // An empty map.
     void Reset();
 
-    const BlockMap& map() const { return *map_; }
+    // With a device it is asked for the voxels that changed.
+    const BlockMap& map() const;
+    // The same without: the blocks and their ids hold, their voxels may be on the device only.
+    const BlockMap& blocks() const { return *map_; }
 
   private:
     void Place(std::unique_ptr<BlockMap> map);
@@ -89,7 +93,7 @@ class MappingStage {
     PipelineConfig config_;
     PinholeCamera camera_;
     std::unique_ptr<BlockMap> map_;  // null once the mesh was taken
-    Integrator integrator_;
+    std::unique_ptr<Integrator> integrator_;
     Mesher mesher_;
     GeometryBuilder geometry_;
     std::unique_ptr<LabelMapper> labels_;  // null without labels

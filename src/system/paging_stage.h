@@ -12,8 +12,10 @@
 
 #include "scan/pager.h"
 #include "system/mapping_stage.h"
+#include "system/rebuild_paging.h"
 #include "system/paging_config.h"
 #include "system/scan_stage.h"
+#include "system/viewed_cubes.h"
 
 namespace tessera {
 
@@ -31,6 +33,17 @@ class PagingStage {
     bool AfterTracking(TrackedFrame& tracked, MappingStage& mapping, ScanStage& scan);
     // At the frame's end, what changed in it handed to `scan`: brings the map below its limit if it is above.
     void Release(MappingStage& mapping, ScanStage& scan);
+    // What a fused frame's camera saw stays until LetGo, however far the camera goes: something of that frame is still to come.
+    void Hold(std::int64_t frame, const Eigen::Isometry3d& T_world_camera) { held_.push_back({frame, T_world_camera}); }
+    // Of that frame and those before it nothing comes any more.
+    void LetGo(std::int64_t frame);
+    // A corrected map is in place of the one so far, made with the pager (a RebuildPaging): what of it is away is where that has
+    // put it, until the file has it.
+    void Replaced(const Eigen::Isometry3d& T_new_old, const RebuildPaging& pager, MappingStage& mapping, ScanStage& scan);
+    // What a camera may see from there comes, and the camera is thought to be where it was: it may soon be tracked there. Lockstep.
+    void BringAround(const Eigen::Isometry3d& T_world_camera, MappingStage& mapping, ScanStage& scan);
+    // Live: it comes in the next frames, and stays for some seconds.
+    void Expect(const Eigen::Isometry3d& T_world_camera) { expected_ = {frame_ + kExpectFrames, T_world_camera}; }
     // An empty map.
     void Reset();
     // The end: nothing comes any more, the file is the writer's alone.
@@ -51,14 +64,18 @@ class PagingStage {
         double outside_m = 0;   // as last seen
         std::int64_t frame = 0;  // that it was asked for in
     };
-    // A cube of the map, its blocks among `resident_`.
-    struct Candidate {
-        double outside_m = 0;
-        BlockCoord cube;
-        std::size_t first = 0, last = 0;
+    struct Held {
+        std::int64_t frame = 0;
+        Eigen::Isometry3d T_world_camera;
     };
 
+    static constexpr std::int64_t kExpectFrames = 150;
+
     double Outside(const BlockCoord& cube) const;
+    bool IsExpected(const BlockCoord& cube) const;
+    void Drain();
+    bool AwaitReplaced(MappingStage& mapping, ScanStage& scan);
+    void ReturnFromStore(MappingStage& mapping, ScanStage& scan);
     bool Bring(double further_m, MappingStage& mapping, ScanStage& scan);
     void Plan();
     void Want(const BlockCoord& cube);
@@ -66,13 +83,12 @@ class PagingStage {
     bool Needs(double further_m) const;
     void TakeWhatCame(double further_m, MappingStage& mapping, ScanStage& scan);
     void Put(const StoredCube& cube, MappingStage& mapping, ScanStage& scan);
-    std::vector<Candidate> Farthest(const BlockMap& map);
-    std::vector<Candidate> ChooseLeaving(const BlockMap& map, const ScanStage& scan);
-    bool AllSaved(const Candidate& candidate, const BlockMap& map, const ScanStage& scan) const;
+    std::vector<ResidentCubes::Cube> ChooseLeaving(const BlockMap& map, const ScanStage& scan);
+    bool AllSaved(const ResidentCubes::Cube& cube, const BlockMap& map, const ScanStage& scan) const;
+    bool IsHeld(const BlockCoord& cube) const;
 
-    const double limit_bytes_, cube_m_;
-    const double margin_m_;  // around what the camera sees
-    const double reach_m_;   // from the camera, the margin included
+    const double limit_bytes_;
+    const ViewedCubes viewed_;
     const bool wait_;
     std::unique_ptr<Pager> pager_;
     std::unordered_map<std::int64_t, std::int32_t> away_;  // cube key to number of blocks
@@ -80,7 +96,10 @@ class PagingStage {
     std::vector<std::int64_t> lost_;                       // cubes that cannot be read back
     std::optional<Eigen::Isometry3d> T_world_camera_;      // last known
     double step_m_ = 0;                                    // between the last two
-    std::vector<std::pair<BlockCoord, BlockId>> resident_;
+    std::shared_ptr<const CubeScratch> store_;             // of a map that the file does not have yet; else null
+    std::optional<Held> expected_;                         // until that frame
+    std::deque<Held> held_;                                // by increasing frame
+    ResidentCubes resident_;
     std::vector<BlockId> ids_;
     std::int64_t frame_ = 0;
     bool paged_ = false, told_small_ = false, told_lost_ = false;

@@ -12,13 +12,13 @@ namespace tessera {
 // Owner thread only.
 class Pipeline {
   public:
-    Pipeline(const PipelineConfig& config, const PinholeCamera& camera, const MeshConfig& meshing = {})
-        : tracking_(config, camera), mapping_(config, meshing, camera) {}
+    Pipeline(const PipelineConfig& config, const PinholeCamera& camera, const MeshConfig& meshing = {}, Device* device = nullptr)
+        : tracking_(config, camera, device), mapping_(config, meshing, camera, device) {}
 
     // With a given pose the frame is fused there and not tracked. The world is the first fused frame's camera unless its
     // pose is given.
     FrameReport Process(const Frame& frame, const std::optional<Eigen::Isometry3d>& given = std::nullopt) {
-        tracking_.Track(frame, mapping_.map(), given, tracked_);
+        tracking_.Track(frame, tracking_.reads_map() ? mapping_.map() : mapping_.blocks(), given, tracked_);
         mapping_.Fuse(tracked_);
         return tracked_.report;
     }

@@ -10,12 +10,19 @@ void ShutterConfig::Describe(ConfigParameters& p) {
     p.Add("colour_readout_s", colour_readout_s, {-0.1, 0.1}, "s", "the same of the colour image");
 }
 
+void DeviceConfig::Describe(ConfigParameters& p) {
+    p.Add("device_memory_mb", memory_mb, {0.0, 1e6}, "MB",
+          "most memory that --device cuda takes on the GPU, 0 = nine tenths of what is free when it starts; while the map grows "
+          "there, its largest layer is there twice");
+}
+
 void PipelineConfig::Describe(ConfigParameters& p) {
     p.Section("frame", [&](ConfigParameters& s) { frame.Describe(s); });
     p.Section("mapping", [&](ConfigParameters& s) {
         map.Describe(s);
         fusion.Describe(s);
         paging.Describe(s);
+        device.Describe(s);
     });
     p.Section("tracking", [&](ConfigParameters& s) {
         trackers.Describe(s);

@@ -5,6 +5,7 @@
 #include "mapping/block_map.h"
 #include "mapping/integrator.h"
 #include "mapping/prepared_frame.h"
+#include "system/device.h"
 #include "system/motion_model.h"
 #include "system/paging_config.h"
 #include "system/tracking_method.h"
@@ -26,6 +27,7 @@ struct PipelineConfig {
     BlockMap::Config map;
     Integrator::Config fusion;
     PagingConfig paging;
+    DeviceConfig device;
     MotionModel::Config motion;
     ShutterConfig shutter;
     ImageAligner::Config prealign;

@@ -27,15 +27,21 @@ Status CheckPaging(const RunRequest& request, const RunConfig& config) {
     if (!config.pipeline.paging.enabled()) return Status::Ok();
     const std::string key = "mapping.memory_limit_mb: ";
     if (request.scan_file.empty()) return Status::Error(key + "what leaves memory goes to the scan file; give --scan FILE");
-    if (config.loops.enabled) return Status::Error(key + "not yet with --loop-closure on; leave one of the two out");
-    if (!request.labels.empty()) return Status::Error(key + "not yet with --labels; leave one of the two out");
+    return Status::Ok();
+}
+
+Status CheckDevice(const RunRequest& request, const RunConfig& config) {
+    if (request.device == nullptr) return Status::Ok();
+    if (request.live) return Status::Error("--device cuda: not yet with --mode live; leave one of the two out");
+    if (config.pipeline.paging.enabled())
+        return Status::Error("--device cuda: not yet with mapping.memory_limit_mb; leave one of the two out");
     return Status::Ok();
 }
 
 }  // namespace
 
 Status CheckRun(const RunRequest& request, const RunConfig& config) {
-    for (const Status& status : {config.Validate(), CheckLoops(request, config), CheckPaging(request, config)})
+    for (const Status& status : {config.Validate(), CheckLoops(request, config), CheckPaging(request, config), CheckDevice(request, config)})
         if (!status.ok()) return status;
     return Status::Ok();
 }

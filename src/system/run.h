@@ -25,6 +25,7 @@ struct MethodSwitch {
     TrackingMethod method = TrackingMethod::kSdf;
 };
 
+class Device;
 struct ViewerLink;
 
 struct RunRequest {
@@ -39,6 +40,7 @@ struct RunRequest {
     std::string poses_file;     // TUM trajectory: fuse at its poses and do not track; empty = track
     std::vector<MethodSwitch> switches;  // of one frame, the last counts
     std::string output_folder;  // empty = nothing is written and no mesh is made
+    Device* device = nullptr;   // in the processor's place; outlives the run
     std::vector<std::string> command_line;  // as given, for run.json
 };
 

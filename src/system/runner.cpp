@@ -48,7 +48,7 @@ Status Runner::Open(const std::atomic<bool>& stop) {
     EngineInput input{std::move(source.value()), selection_, config_,
                       FramePlan(request_.switches, std::move(given), request_.poses_file), std::move(scan.value()),
                       std::move(labelling), request_.record_path,
-                      request_.viewer, &stop};
+                      request_.viewer, request_.device, &stop};
     if (request_.live)
         engine_ = std::make_unique<LiveEngine>(std::move(input));
     else

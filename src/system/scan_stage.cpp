@@ -158,6 +158,15 @@ void ScanStage::AddBlocks(const MappingStage& mapping) {
     pending_->blocks.Copy(map, changed_);
 }
 
+void ScanStage::Replaced(const BlockMap& map, std::shared_ptr<const CubeScratch> store) {
+    pending_->clear_blocks = true;
+    pending_->stored = std::move(store);
+    map_identity_ = map.identity();
+    seen_revision_.clear();
+    for (BlockId id = 0; id < map.size(); ++id) seen_revision_.push_back(map.revision(id));
+    last_stamp_s_.reset();
+}
+
 void ScanStage::Touch(std::span<const BlockId> blocks) {
     for (const BlockId id : blocks)
         if (static_cast<std::size_t>(id) < seen_revision_.size()) seen_revision_[static_cast<std::size_t>(id)] = kNever;

@@ -33,6 +33,10 @@ class ScanStage {
     // A frame after its fusion and labels, with TrackedFrame::tracking_state; `labelled_frames` were offered to the detector so
     // far.
     void AddFrame(const Frame& frame, const TrackedFrame& tracked, std::int64_t labelled_frames);
+    // Another map, whole in `store` as it is now, is in place of the one so far: the next checkpoint is of it.
+    void Replaced(const BlockMap& map, std::shared_ptr<const CubeScratch> store);
+    // That checkpoint is in the file.
+    bool HasReplaced() const { return !pending_->stored && thread_.idle() && !thread_.failed(); }
     // What loop closure made of it, or of frames before.
     void AddLoops(LoopNews news);
     // After a correction of the map, which moved cameras in it.

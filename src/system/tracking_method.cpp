@@ -34,8 +34,8 @@ void TrackersConfig::Describe(ConfigParameters& p) {
     p.Section("icp", [&](ConfigParameters& s) { icp.Describe(s); });
 }
 
-Trackers::Trackers(const TrackersConfig& config, const PinholeCamera& camera)
-    : config_(config), camera_(camera), method_(config.method), photometry_(config.photometric, camera) {}
+Trackers::Trackers(const TrackersConfig& config, const PinholeCamera& camera, SdfSums* device)
+    : config_(config), camera_(camera), device_(device), method_(config.method), photometry_(config.photometric, camera) {}
 
 TrackResult Trackers::Track(const TrackInput& input) {
     std::unique_ptr<Tracker>& tracker = trackers_[static_cast<std::size_t>(method_)];
@@ -57,7 +57,7 @@ std::unique_ptr<Tracker> Trackers::Make(TrackingMethod method) {
     const bool colour = method == TrackingMethod::kSdf || method == TrackingMethod::kIcpRgb;
     Photometry* photometry = colour ? &photometry_ : nullptr;
     if (method == TrackingMethod::kSdf || method == TrackingMethod::kSdfGeometric)
-        return std::make_unique<SdfTracker>(config_.sdf, camera_, judge, photometry);
+        return std::make_unique<SdfTracker>(config_.sdf, camera_, judge, photometry, VectorPath::kAuto, device_);
     return std::make_unique<IcpTracker>(config_.icp, camera_, judge, photometry, MakePredictor(config_.icp.prediction, note_));
 }
 

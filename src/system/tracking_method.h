@@ -38,10 +38,13 @@ std::unique_ptr<ViewPredictor> MakePredictor(IcpTracker::Prediction prediction, 
 // theirs together. Owner thread only.
 class Trackers {
   public:
-    Trackers(const TrackersConfig& config, const PinholeCamera& camera);
+    // `device` outlives them; null: all on the processor.
+    Trackers(const TrackersConfig& config, const PinholeCamera& camera, SdfSums* device = nullptr);
 
     TrackingMethod method() const { return method_; }
     void Select(TrackingMethod method) { method_ = method; }
+    // Whether the selected method reads the voxels of TrackInput::map, not only the device's.
+    bool reads_map() const { return device_ == nullptr || method_ == TrackingMethod::kIcp || method_ == TrackingMethod::kIcpRgb; }
     // By the selected method; made when it is first needed, on the thread that tracks.
     TrackResult Track(const TrackInput& input);
     // In place of the configuration's: learnt from the frames, or this, in m^2.
@@ -59,6 +62,7 @@ class Trackers {
 
     TrackersConfig config_;
     PinholeCamera camera_;
+    SdfSums* device_;
     TrackingMethod method_;
     Photometry photometry_;
     std::array<std::unique_ptr<Tracker>, kTrackingMethods> trackers_;

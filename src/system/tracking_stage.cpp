@@ -18,13 +18,13 @@ Integrator::View FusionView(const TrackResult& track) {
 
 }  // namespace
 
-TrackingStage::TrackingStage(const PipelineConfig& config, const PinholeCamera& camera)
+TrackingStage::TrackingStage(const PipelineConfig& config, const PinholeCamera& camera, Device* device)
     : config_(config),
       camera_(camera),
       motion_(config.motion),
       motion_before_(config.motion),
       aligner_(config.prealign, camera),
-      trackers_(config.trackers, camera) {}
+      trackers_(config.trackers, camera, device != nullptr ? &device->sdf_sums() : nullptr) {}
 
 void TrackingStage::Track(const Frame& frame, const BlockMap& map, const std::optional<Eigen::Isometry3d>& given,
                           TrackedFrame& tracked) {

@@ -7,6 +7,7 @@
 #include "core/frame.h"
 #include "mapping/integrator.h"
 #include "mapping/prepared_frame.h"
+#include "system/device.h"
 #include "system/motion_model.h"
 #include "system/pipeline_config.h"
 #include "system/viewer_settings.h"
@@ -42,7 +43,8 @@ struct TrackedFrame {
 // Owner thread only.
 class TrackingStage {
   public:
-    TrackingStage(const PipelineConfig& config, const PinholeCamera& camera);
+    // `device` outlives the stage; null: all on the processor.
+    TrackingStage(const PipelineConfig& config, const PinholeCamera& camera, Device* device = nullptr);
 
     // Into `tracked`, whose storage is used again. With a given pose the frame is not tracked. The world is the first
     // frame's camera unless its pose is given; that frame is always to be fused, and must be in `map` when the next one
@@ -59,6 +61,9 @@ class TrackingStage {
     void Relocate(const StampedPose& pose);
     // The map was moved, the camera with it.
     void Move(const Eigen::Isometry3d& T_new_old);
+
+    // Whether Track reads the voxels of `map`, not only the device's.
+    bool reads_map() const { return trackers_.reads_map(); }
 
     // From the next frame on; pose, velocity, brightness and map stay.
     void Select(TrackingMethod method) { trackers_.Select(method); }

@@ -2,12 +2,14 @@
 
 #include <tbb/parallel_for.h>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
+#include "tracking/model_kernels.h"
 
 namespace tessera {
 namespace {
+
+ModelImages ImagesOf(const DepthImage& depth_m, const Image<Eigen::Vector3f>& normal, const Image<float>& intensity) {
+    return {depth_m.data(), normal.data()->data(), intensity.data(), depth_m.width(), depth_m.height()};
+}
 
 void TakeView(const PredictedView& view, float jump_m, IcpModelLevel& level) {
     level.camera = view.camera;
@@ -15,16 +17,10 @@ void TakeView(const PredictedView& view, float jump_m, IcpModelLevel& level) {
     level.normal_camera = view.normal_camera;
     const int width = view.camera.width, height = view.camera.height;
     level.intensity.Resize(width, height);
-    const auto jumps = [&](float here, float there) { return there <= 0 || std::abs(there - here) > jump_m; };
+    const ModelImages images = ImagesOf(view.depth_m, view.normal_camera, view.intensity);
     tbb::parallel_for(0, height, [&](int y) {
-        for (int x = 0; x < width; ++x) {
-            const float z = view.depth_m(x, y);
-            const bool edge = z <= 0 || (x > 0 && jumps(z, view.depth_m(x - 1, y))) ||
-                              (x + 1 < width && jumps(z, view.depth_m(x + 1, y))) ||
-                              (y > 0 && jumps(z, view.depth_m(x, y - 1))) ||
-                              (y + 1 < height && jumps(z, view.depth_m(x, y + 1)));
-            level.intensity(x, y) = edge ? -1.0f : view.intensity(x, y);
-        }
+        for (int x = 0; x < width; ++x)
+            level.intensity(x, y) = images.AtEdge(x, y, jump_m) ? -1.0f : view.intensity(x, y);
     });
 }
 
@@ -41,22 +37,13 @@ void Halve(const IcpModelLevel& fine, float jump_m, IcpModelLevel& coarse) {
     coarse.depth_m.Resize(c.width, c.height);
     coarse.normal_camera.Resize(c.width, c.height);
     coarse.intensity.Resize(c.width, c.height);
+    const ModelImages images = ImagesOf(fine.depth_m, fine.normal_camera, fine.intensity);
     tbb::parallel_for(0, c.height, [&](int y) {
         for (int x = 0; x < c.width; ++x) {
-            const auto four = [&](const auto& image) {
-                return std::array{image(2 * x, 2 * y), image(2 * x + 1, 2 * y), image(2 * x, 2 * y + 1),
-                                  image(2 * x + 1, 2 * y + 1)};
-            };
-            const auto depth = four(fine.depth_m);
-            const auto [nearest, farthest] = std::minmax_element(depth.begin(), depth.end());
-            const bool surface = *nearest > 0 && *farthest - *nearest < jump_m;
-            coarse.depth_m(x, y) = surface ? (depth[0] + depth[1] + depth[2] + depth[3]) / 4 : 0.0f;
-            const auto normal = four(fine.normal_camera);
-            coarse.normal_camera(x, y).setZero();
-            if (surface) coarse.normal_camera(x, y) = (normal[0] + normal[1] + normal[2] + normal[3]).normalized();
-            const auto value = four(fine.intensity);
-            const bool coloured = surface && *std::min_element(value.begin(), value.end()) >= 0;
-            coarse.intensity(x, y) = coloured ? (value[0] + value[1] + value[2] + value[3]) / 4 : -1.0f;
+            const ModelPixel pixel = images.Halved(x, y, jump_m);
+            coarse.depth_m(x, y) = pixel.depth_m;
+            coarse.normal_camera(x, y) = Eigen::Vector3f(pixel.normal[0], pixel.normal[1], pixel.normal[2]);
+            coarse.intensity(x, y) = pixel.intensity;
         }
     });
 }

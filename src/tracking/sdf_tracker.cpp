@@ -37,12 +37,13 @@ struct SdfTracker::State {
 };
 
 SdfTracker::SdfTracker(const Config& config, const PinholeCamera& camera, const TrackJudge& judge,
-                       Photometry* photometry, VectorPath path)
+                       Photometry* photometry, VectorPath path, SdfSums* device)
     : config_(config),
       camera_(camera),
       judge_(judge),
       photometry_(photometry),
       use_avx2_(path == VectorPath::kAvx2 || (path == VectorPath::kAuto && CpuHasAvx2())),
+      device_(device),
       points_(static_cast<std::size_t>(config.levels)) {}
 
 TrackResult SdfTracker::Track(const TrackInput& input) {
@@ -58,6 +59,8 @@ TrackResult SdfTracker::Track(const TrackInput& input) {
         if (level == config_.levels - 1) ChooseStart(input, state);
         if (!state.failed) RunLevel(input, level, state);
     }
+
+    if (device_ != nullptr && !state.failed) device_->TakeResiduals(distance_residual_, intensity_residual_);
 
     TrackResult result;
     result.T_world_camera = state.T_world_camera;
@@ -82,6 +85,7 @@ void SdfTracker::PrepareLevel(const TrackInput& input, int level, State& state) 
     points.Build(input.frame, camera_, state.motion, config_.finest_step_px << level, config_.depth_exponent);
     state.failed = points.valid() == 0;
     if (state.alpha > 0) points.SampleIntensity(input.frame, camera_, state.motion);
+    if (device_ != nullptr) device_->SetPoints(input.map, points);
     const BlockMap::View map = input.map.view();
     const double block_m = input.map.config().voxel_size_m * kBlockSide;
     const Eigen::Vector3d origin_block = (state.T_world_camera.translation() / block_m).array().floor();
@@ -118,6 +122,7 @@ PoseSums SdfTracker::SumAt(const TrackInput& input, const FramePoints& points, S
     SetPose(state.T_world_camera, state.origin_m, input.map.config().voxel_size_m, state.arguments);
     state.arguments.gain = static_cast<float>(state.gain);
     state.arguments.offset = static_cast<float>(state.offset);
+    if (device_ != nullptr) return device_->Sum(state.arguments);
     return SumPoints(points.count(), [&](int first, int last, double* sums) {
 #ifdef TESSERA_HAVE_AVX2
         if (use_avx2_) return avx2::SumSdfPoints(state.arguments, first, last, sums);

@@ -8,6 +8,7 @@
 #include "tracking/frame_points.h"
 #include "tracking/photometry.h"
 #include "tracking/sdf_rows.h"
+#include "tracking/sdf_sums.h"
 #include "tracking/pose_solver.h"
 #include "tracking/track_judge.h"
 #include "tracking/tracker.h"
@@ -28,9 +29,9 @@ class SdfTracker : public Tracker {
         void Describe(ConfigParameters& parameters);
     };
 
-    // `photometry` outlives the tracker; null tracks by geometry alone.
+    // `photometry` outlives the tracker; null tracks by geometry alone. `device`, too: null sums here.
     SdfTracker(const Config& config, const PinholeCamera& camera, const TrackJudge& judge, Photometry* photometry,
-               VectorPath path = VectorPath::kAuto);
+               VectorPath path = VectorPath::kAuto, SdfSums* device = nullptr);
 
     TrackResult Track(const TrackInput& input) override;
 
@@ -47,6 +48,7 @@ class SdfTracker : public Tracker {
     TrackJudge judge_;
     Photometry* photometry_;
     bool use_avx2_;
+    SdfSums* device_;
     std::vector<FramePoints> points_;  // per level
     std::vector<float> distance_residual_, intensity_residual_;
 };

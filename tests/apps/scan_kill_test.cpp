@@ -96,6 +96,7 @@ void KilledScan::KillAndResume(const std::string& loops, int times) {
     for (int i = 0; i < times; ++i) {
         const std::string scan = folder / (std::to_string(i) + ".scan"), out = folder / "killed";
         const double kill_s = run_s * (0.1 + 0.9 * std::uniform_real_distribution<double>()(random));
+        std::filesystem::remove_all(out);  // or the trajectory of the run before counts as this one's
         const Clock::time_point start = Clock::now();
         const pid_t child = Start(Arguments(out, {"--scan", scan, "--loop-closure", loops}));
         std::this_thread::sleep_until(start + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(kill_s)));
@@ -126,6 +127,7 @@ TEST_F(KilledScan, LiveWithLoopClosure) {
         const std::string scan = folder / "live.scan", out = folder / "live";
         std::vector<std::string> more = live;
         more.insert(more.end(), {"--scan", scan});
+        std::filesystem::remove_all(out);
         const pid_t child = Start(Arguments(out, more));
         std::this_thread::sleep_for(std::chrono::duration<double>(kill_s));
         kill(child, SIGKILL);

@@ -4,8 +4,12 @@
 
 #include <gtest/gtest.h>
 
+#include <cstring>
+
+#include "core/scalar_lanes.h"
 #include "mapping/analytic_fields.h"
 #include "mapping/ray_caster.h"
+#include "mapping/ray_kernels.h"
 #include "mapping/scalar_ray_walker.h"
 
 namespace tessera {
@@ -112,6 +116,32 @@ TEST(RayRowsPaths, PortableAndAvx2Agree) {
     }
     EXPECT_LT(differ, kMayDiffer * pixels);
     EXPECT_LT(off_colour, kMayDiffer * pixels);
+}
+
+template <class T>
+bool SameBytes(const Image<T>& a, const Image<T>& b) {
+    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
+}
+
+// The kernels of the portable vectors, one pixel at a time and without their cache of blocks.
+TEST(RayRowsPaths, PortableIsTheKernelsOneByOne) {
+    using Kernels = RayKernels<ScalarLanes, HashedBlocks<ScalarLanes>>;
+    const PinholeCamera camera = OddCamera();
+    const RayTile tile{0, camera.width, 0, camera.height, kNear_m, kFar_m};
+    for (const Eigen::Isometry3d& T : Views()) {
+        PredictedView a, b;
+        a.Resize(camera, T);
+        b.Resize(camera, T);
+        baseline::CastTiles(RayArgumentsFor(RoughMap(), a), &tile, 1);
+        const RayArguments arguments = RayArgumentsFor(RoughMap(), b);
+        Kernels::Walker walker(arguments);
+        for (int v = 0; v < camera.height; ++v)
+            for (int u = 0; u < camera.width; ++u) Kernels::CastPixels(arguments, walker, tile, u, v);
+        EXPECT_TRUE(SameBytes(a.depth_m, b.depth_m));
+        EXPECT_TRUE(SameBytes(a.normal_camera, b.normal_camera));
+        EXPECT_TRUE(SameBytes(a.colour, b.colour));
+        EXPECT_TRUE(SameBytes(a.intensity, b.intensity));
+    }
 }
 
 // Axes of the camera along the world's: components of the rays' steps are exactly zero.

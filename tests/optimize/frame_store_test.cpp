@@ -78,8 +78,8 @@ TEST(FrameStore, DamagedFramesAreRefusedAndLeftOutOfAMap) {
     EXPECT_TRUE(damaged.LoadPrepared(damaged.frames()[3], settings.camera, {}, frame, prepared).ok());
     EXPECT_FALSE(damaged.LoadPrepared(damaged.frames()[3], settings.camera.Every(2), {}, frame, prepared).ok());
     MapRebuild with(settings, {Eigen::Isometry3d::Identity()}, nullptr), without(settings, {Eigen::Isometry3d::Identity()}, nullptr);
-    ASSERT_TRUE(with.Step(damaged, 10));
-    ASSERT_TRUE(without.Step(sound, 10));
+    ASSERT_TRUE(with.Step(damaged, 10).value());
+    ASSERT_TRUE(without.Step(sound, 10).value());
     const auto a = with.TakeMap(), b = without.TakeMap();
     ASSERT_EQ(a->size(), b->size());
     for (BlockId id = 1; id < a->size(); ++id)
@@ -105,7 +105,7 @@ TEST(MapRebuild, EqualsAFreshFusion) {
         const Frame frame = FrameAt(i, false);
         const Eigen::Isometry3d T = SmoothPath(0).inverse() * SmoothPath(i);
         if (i == 4) {  // a keyframe that comes while the map is being made
-            EXPECT_FALSE(rebuild.Step(store, 3));
+            EXPECT_FALSE(rebuild.Step(store, 3).value());
             rebuild.AddKeyframe(moved * moved);
         }
         ASSERT_TRUE(store.Add(frame, i < 4 ? 0 : 1, i == 0 || i == 4, T, {}).ok());
@@ -120,8 +120,8 @@ TEST(MapRebuild, EqualsAFreshFusion) {
         store.AddDetections(i, detections);
         fresh_labels->Label(detections, stored.depth_m, view.T_world_camera, fresh);
     }
-    EXPECT_FALSE(rebuild.Step(store, 2));
-    EXPECT_TRUE(rebuild.Step(store, 2));
+    EXPECT_FALSE(rebuild.Step(store, 2).value());
+    EXPECT_TRUE(rebuild.Step(store, 2).value());
     const std::unique_ptr<BlockMap> map = rebuild.TakeMap();
     int labelled = 0;
     ASSERT_EQ(map->size(), fresh.size());

@@ -2,26 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
+#include "semantics/observed_objects.h"
 
 namespace tessera {
 namespace {
-
-const Eigen::AlignedBox3d kBox(Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(1, 1, 1));
-
-ObservedObject Seen(int class_id, std::map<InstanceId, int> overlaps = {}, int pixels = 100) {
-    return {class_id, 0.9f, pixels, std::move(overlaps), kBox, {}, pixels};
-}
-
-// One object seen until it is confirmed, at a place of its own.
-InstanceId Confirmed(Instances& instances, int class_id) {
-    ObservedObject seen = Seen(class_id);
-    seen.box.translate(Eigen::Vector3d(2.0 * instances.last(), 0, 0));
-    const InstanceId id = instances.Match({seen}, {})[0];
-    seen.overlaps = {{id, 90}};
-    for (int i = 0; i < 12; ++i) instances.Match({seen}, {{id, {95}}});
-    return id;
-}
 
 TEST(Instances, NewThenUpdatedThenConfirmed) {
     Instances instances({.min_observations = 3, .min_rate = 0.3});
@@ -158,62 +142,6 @@ TEST(Instances, GoOnFromASavedState) {
         StateReader cut(std::span<const std::uint8_t>(bytes).first(size));
         EXPECT_FALSE(Instances({}).LoadState(cut)) << size;
     }
-}
-
-// Two objects seen one after the other, each detection with a mark of its own.
-Instances TwoObjects(const std::vector<std::uint64_t>& first, const std::vector<std::uint64_t>& second, bool swapped) {
-    Instances instances({.min_observations = 3, .min_rate = 0.3});
-    std::vector<std::pair<std::uint64_t, bool>> detections;
-    for (const std::uint64_t mark : first) detections.emplace_back(mark, false);
-    for (const std::uint64_t mark : second) detections.emplace_back(mark, true);
-    if (swapped) std::ranges::reverse(detections);
-    InstanceId known[2] = {0, 0};
-    for (const auto& [mark, is_second] : detections) {
-        InstanceId& id = known[is_second];
-        ObservedObject seen = Seen(is_second ? 6 : 5, id == 0 ? std::map<InstanceId, int>{} : std::map<InstanceId, int>{{id, 90}});
-        seen.box.translate(Eigen::Vector3d(is_second ? 5 : 0, 0, 0));
-        seen.mark = mark;
-        id = instances.Match({seen}, id == 0 ? std::map<InstanceId, VisibleObject>{} : std::map<InstanceId, VisibleObject>{{id, {95}}})[0];
-    }
-    return instances;
-}
-
-int NumberOfClass(const Instances& instances, int class_id) {
-    for (InstanceId id = 1; id <= instances.last(); ++id)
-        if (instances.ClassOf(id) == class_id) return instances.record(id).public_id;
-    return 0;
-}
-
-TEST(Instances, MadeAgainOfPartOfTheDetectionsTheyKeepTheirNumbers) {
-    std::vector<std::uint64_t> first, second, some_first, some_second;
-    for (std::uint64_t i = 1; i <= 400; ++i) {
-        (i % 3 != 0 ? first : second).push_back(i * 0x9e3779b97f4a7c15u);
-        if (i % 8 < 2) (i % 3 != 0 ? some_first : some_second).push_back(i * 0x9e3779b97f4a7c15u);
-    }
-    const Instances before = TwoObjects(first, second, false);
-    ASSERT_EQ(NumberOfClass(before, 5), 1);
-    ASSERT_EQ(NumberOfClass(before, 6), 2);
-    Instances after = TwoObjects(some_first, some_second, true);
-    ASSERT_EQ(NumberOfClass(after, 5), 2);
-    after.KeepNumbersOf(before);
-    EXPECT_EQ(NumberOfClass(after, 5), 1);
-    EXPECT_EQ(NumberOfClass(after, 6), 2);
-    EXPECT_EQ(after.record(Confirmed(after, 7)).public_id, 3);
-}
-
-TEST(Instances, OneThatIsConfirmedLaterStillGetsItsNumber) {
-    std::vector<std::uint64_t> marks{10, 20, 30, 40, 50};
-    const Instances before = TwoObjects({1, 2, 3}, marks, false);
-    ASSERT_EQ(NumberOfClass(before, 6), 2);
-    Instances after = TwoObjects({}, {10, 20}, false);
-    after.KeepNumbersOf(before);
-    EXPECT_EQ(NumberOfClass(after, 6), 0);
-    ObservedObject seen = Seen(6, {{1, 90}});
-    after.Match({seen}, {{1, {95}}});
-    EXPECT_EQ(NumberOfClass(after, 6), 2);
-    Instances strangers = TwoObjects({}, {11, 21, 31}, false);
-    strangers.KeepNumbersOf(before);
-    EXPECT_EQ(NumberOfClass(strangers, 6), 3);  // 1 and 2 were others
 }
 
 }  // namespace

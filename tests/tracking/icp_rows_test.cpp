@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "core/cpu.h"
 #include "core/se3.h"
+#include "tracking/icp_kernels.h"
+#include "tracking/one_by_one.h"
 #include "tracking/pose_solver.h"
 
 namespace tessera {
@@ -190,6 +193,21 @@ TEST_P(IcpRows, AgreeWithTheSlowSums) {
                                             [](float r) { return !std::isnan(r); });
         EXPECT_GT(slow[L::kKnown], partners);
     }
+}
+
+// Every lane of the vectors does what the kernels do one point at a time: the same residuals to the bit, sums apart
+// only by the order of additions.
+TEST_P(IcpRows, AreTheKernelsOneByOne) {
+    Scene scene, other;
+    scene.a.alpha = other.a.alpha = GetParam();
+    PoseSums portable, one_by_one;
+    baseline::SumIcpPoints(scene.a, 0, Scene::kPoints, portable.value);
+    testing_support::SumOneByOne<IcpKernels<ScalarLanes>>(other.a, Scene::kPoints, one_by_one.value);
+    const std::size_t bytes = Scene::kPoints * sizeof(float);
+    EXPECT_EQ(std::memcmp(scene.distance_residual.data(), other.distance_residual.data(), bytes), 0);
+    EXPECT_EQ(std::memcmp(scene.intensity_residual.data(), other.intensity_residual.data(), bytes), 0);
+    for (int k = 0; k < L::kCount; ++k)
+        EXPECT_NEAR(one_by_one[k], portable[k], 1e-5 * (1.0 + std::abs(portable[k]))) << "sum " << k;
 }
 
 INSTANTIATE_TEST_SUITE_P(Alpha, IcpRows, testing::Values(0.0f, 0.1f));

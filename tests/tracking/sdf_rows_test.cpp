@@ -3,11 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstring>
 
 #include "core/cpu.h"
 #include "mapping/block_map.h"
 #include "support/box_room.h"
+#include "tracking/one_by_one.h"
 #include "tracking/pose_solver.h"
+#include "tracking/sdf_kernels.h"
 
 namespace tessera {
 namespace {
@@ -160,6 +163,15 @@ TEST_P(SdfRows, AgreeWithTheSlowSums) {
     PoseSums portable;
     baseline::SumSdfPoints(a, 0, 4096, portable.value);
     expect_equal(portable);
+    const std::vector<float> portable_distance = distance_residual, portable_intensity = intensity_residual;
+    PoseSums one_by_one;
+    testing_support::SumOneByOne<SdfKernels<ScalarLanes>>(a, 4096, one_by_one.value);
+    expect_equal(one_by_one);
+    // The same residuals to the bit; sums are only added up in another order.
+    EXPECT_EQ(std::memcmp(portable_distance.data(), distance_residual.data(), 4096 * sizeof(float)), 0);
+    if (a.alpha > 0) {
+        EXPECT_EQ(std::memcmp(portable_intensity.data(), intensity_residual.data(), 4096 * sizeof(float)), 0);
+    }
     if (!CpuHasAvx2()) GTEST_SKIP() << "no AVX2 here: only the portable path was checked";
     PoseSums vector;
     avx2::SumSdfPoints(a, 0, 4096, vector.value);

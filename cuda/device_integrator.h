@@ -1,0 +1,29 @@
+// Integrator on the device. Made by DevicePipeline.
+#pragma once
+
+#include "cuda/device_pipeline.h"
+
+namespace tessera::TESSERA_DEVICE {
+
+// Owner thread only.
+class DeviceIntegrator : public Integrator {
+  public:
+    DeviceIntegrator(DevicePipeline& device, const Config& config, const PinholeCamera& camera);
+
+    void Bring(BlockMap& map) override;
+    std::string limit() const override;
+
+  protected:
+    void Allocate(const PreparedFrame& frame, const View& view, BlockMap& map, Report& report) override;
+    void Fuse(const PreparedFrame& frame, const View& view, BlockMap& map, Report& report) override;
+
+  private:
+    DevicePipeline& device_;
+    bool uploaded_ = false;  // the frame of this call, and the map is mirrored
+    std::uint32_t brought_revision_ = 0;
+    std::uint64_t brought_map_ = 0;  // of which identity
+    std::vector<BlockId> changed_ids_;
+    BlockVoxels voxels_;
+};
+
+}  // namespace tessera::TESSERA_DEVICE

@@ -1,0 +1,109 @@
+// The map on the device: BlockMap's pool, hash and neighbours (src/mapping/block_map.h) under the same ids with the same
+// content. What it lacks: labels, released blocks, and numbers other than the ids.
+#pragma once
+
+#include <vector>
+
+#include "cuda/device.h"
+#include "mapping/allocation_kernels.h"
+#include "mapping/visibility_kernels.h"
+
+namespace tessera::TESSERA_DEVICE {
+
+// For kernels; named as BlockMap::View, so that the kernels of src/ take it. Valid until the map grows.
+struct DeviceMapView {
+    FieldWord* field;
+    std::uint16_t* weight;
+    ColourWord* colour;
+    std::int32_t* neighbours;
+    std::int32_t* coords;
+    std::uint32_t* revision;
+    std::int32_t* table;
+    std::uint32_t table_mask;
+    float voxel_size_m, truncation_m;
+};
+
+// Voxels in the computer's memory: kBlockVoxels of each for every id.
+struct BlockVoxels {
+    std::vector<std::int32_t> ids;
+    std::vector<FieldWord> field;
+    std::vector<std::uint16_t> weight;
+    std::vector<ColourWord> colour;
+};
+
+// Owner thread only. `memory` and `stream` outlive it.
+class DeviceMap {
+  public:
+    DeviceMap(double voxel_size_m, double truncation_m, DeviceMemory& memory, Stream& stream);
+
+    // False: the device has no room for even an empty map.
+    [[nodiscard]] bool Clear();
+    // The content of a map from which nothing was released: `size` blocks with the unknown one, 4 coords for each. False: no
+    // room; the map is then empty.
+    [[nodiscard]] bool Load(std::int32_t size, const std::int32_t* coords, const FieldWord* field, const std::uint16_t* weight,
+                            const ColourWord* colour);
+
+    struct Growth {
+        std::vector<BlockCoord> added;  // under the ids from the old size() on
+        std::int64_t wanted = 0;        // added or not
+        bool full = false;              // the memory's limit was in the way
+    };
+    // Adds the blocks that the image calls for and the map has not, in the order of their coordinates, as Integrator does.
+    // `walk.depth_m` is on the device.
+    Growth Allocate(const BandWalk& walk, const WorldBox& box, int max_new_blocks);
+
+    // The ids of the blocks that the image may change, increasing, as VisibleBlocks finds them: they stay on the device,
+    // valid until the next call. `tiles` is on the device.
+    int FindVisible(const DepthTileView& tiles, const ViewCone& cone);
+    const std::int32_t* visible() const { return visible_.data(); }
+
+    // Copies the blocks whose revision is `first` or later, by parts: calls take(voxels) for each.
+    template <class Take>
+    void DownloadSince(std::uint32_t first, BlockVoxels& voxels, const Take& take) {
+        const int count = SelectSince(first);
+        for (int begin = 0; begin < count; begin += kBlocksPerPart) {
+            DownloadPart(begin, std::min(count - begin, kBlocksPerPart), voxels);
+            take(voxels);
+        }
+    }
+
+    DeviceMapView view();
+    std::int32_t size() const { return size_; }  // with the unknown block
+    double voxel_size_m() const { return voxel_size_m_; }
+
+    static constexpr int kBlocksPerPart = 1024;
+
+  private:
+    [[nodiscard]] bool Reserve(std::int32_t blocks);
+    [[nodiscard]] bool GrowTo(std::int32_t blocks);
+    [[nodiscard]] bool GrowTable(std::int32_t blocks);
+    bool MarkWanted(const BandWalk& walk, const WorldBox& box, int& wanted);
+    void AddBlocks(int count);
+    int SelectSince(std::uint32_t first);
+    int Select(DeviceBuffer<std::int32_t>& ids);
+    void DownloadPart(int begin, int count, BlockVoxels& voxels);
+
+    double voxel_size_m_, truncation_m_;
+    DeviceMemory& memory_;
+    Stream& stream_;
+    std::int32_t size_ = 0;
+    bool full_ = false;  // it cannot grow: not asked for again before Clear
+    DeviceBuffer<FieldWord> field_;
+    DeviceBuffer<std::uint16_t> weight_;
+    DeviceBuffer<ColourWord> colour_;
+    DeviceBuffer<std::int32_t> neighbours_, coords_;
+    DeviceBuffer<std::uint32_t> revision_;
+    DeviceBuffer<std::int32_t> table_;
+    std::size_t table_slots_ = 0;
+    // Of passing use.
+    DeviceSorter sorter_;
+    DeviceBuffer<std::uint64_t> wanted_set_, wanted_, sorted_;
+    DeviceBuffer<std::int32_t> count_;
+    DeviceBuffer<std::uint8_t> keep_;
+    DeviceBuffer<std::int32_t> visible_, selected_;
+    DeviceBuffer<FieldWord> part_field_;
+    DeviceBuffer<std::uint16_t> part_weight_;
+    DeviceBuffer<ColourWord> part_colour_;
+};
+
+}  // namespace tessera::TESSERA_DEVICE

@@ -1,0 +1,51 @@
+// The backend as the stages of src/system see it: an Integrator that allocates and fuses on the device, and the SDF tracker's
+// sums there. Both work on one map, which mirrors the stage's BlockMap: the blocks are in both at once, the voxels come over
+// when somebody asks (Integrator::Bring).
+#pragma once
+
+#include "cuda/device_map.h"
+#include "system/device.h"
+
+namespace tessera::TESSERA_DEVICE {
+
+// Owner thread only, with all that it makes.
+class DevicePipeline : public Device, public SdfSums {
+  public:
+    // `limit_bytes`: of the device's memory, all counted.
+    DevicePipeline(std::string name, std::size_t limit_bytes);
+
+    std::string name() const override { return name_; }
+    std::unique_ptr<Integrator> MakeIntegrator(const Integrator::Config& config, const PinholeCamera& camera) override;
+    SdfSums& sdf_sums() override { return *this; }
+
+    void SetPoints(const BlockMap& map, const FramePoints& points) override;
+    PoseSums Sum(const SdfArguments& arguments) override;
+    void TakeResiduals(std::vector<float>& distance, std::vector<float>& intensity) override;
+
+    std::size_t limit_bytes() const { return memory_.limit_bytes(); }
+
+  private:
+    friend class DeviceIntegrator;
+
+    // The device's map becomes that one's copy, if it is not yet: by BlockMap::identity. Null: no room.
+    DeviceMap* MirrorOf(const BlockMap& map);
+    // The frame's images on the device. False: no room.
+    [[nodiscard]] bool Upload(const PreparedFrame& frame);
+    [[nodiscard]] bool ReservePoints(int count);
+
+    std::string name_;
+    Stream stream_;
+    DeviceMemory memory_;
+    std::unique_ptr<DeviceMap> map_;
+    std::uint64_t mirrored_ = 0;  // the map's identity; 0 = none
+    DeviceBuffer<float> depth_m_;
+    DeviceBuffer<std::uint32_t> packed_colour_;
+    DeviceBuffer<float> tiles_;
+    int points_ = 0;
+    DeviceBuffer<float> x_, y_, z_, intensity_, weight_;
+    DeviceBuffer<float> distance_residual_, intensity_residual_;
+    DeviceBuffer<double> sum_tiles_, sums_;
+    bool has_distance_residual_ = false, has_intensity_residual_ = false;
+};
+
+}  // namespace tessera::TESSERA_DEVICE

@@ -1,0 +1,19 @@
+// The GPUs of this machine, as the CUDA runtime lists them.
+#pragma once
+
+#include <cstddef>
+
+namespace tessera::TESSERA_DEVICE::backend {
+
+struct Gpu {
+    char name[256];
+    int major, minor;  // compute capability
+    std::size_t free_bytes, total_bytes;
+};
+
+// How many; `reason` says in the runtime's words why there are none.
+int CountGpus(const char*& reason);
+// Makes it the present one, and looks at it. False: it cannot be used, `reason` says why.
+bool UseGpu(int index, Gpu& gpu, const char*& reason);
+
+}  // namespace tessera::TESSERA_DEVICE::backend

@@ -1,0 +1,82 @@
+// Whether one image may change a block. Host-device: plain functions on plain types, shared by the CPU code and CUDA.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "core/scalar_ops.h"
+#include "mapping/voxel.h"
+
+namespace tessera {
+
+// The farthest valid depth of each 16 x 16 pixel tile, 0 where a tile has none.
+inline constexpr int kDepthTilePx = 16;
+struct DepthTileView {
+    const float* farthest_m;
+    std::int32_t width, height;  // tiles
+};
+
+TESSERA_HD float FarthestOfTile(const float* depth_m, std::int32_t width, std::int32_t height, std::int32_t tile_x,
+                                std::int32_t tile_y) {
+    float farthest = 0.0f;
+    for (std::int32_t y = tile_y * kDepthTilePx; y < (tile_y + 1) * kDepthTilePx && y < height; ++y)
+        for (std::int32_t x = tile_x * kDepthTilePx; x < (tile_x + 1) * kDepthTilePx && x < width; ++x)
+            farthest = max(farthest, depth_m[static_cast<std::int64_t>(y) * width + x]);
+    return farthest;
+}
+
+// The camera's view as a cone of four planes through its centre, in the camera frame.
+struct ViewCone {
+    double fx, fy, cx, cy;
+    double rotation[9], translation[3];  // T_camera_world, row-major
+    double planes[4][3];                 // inward unit normals
+    double far_m;
+    double voxel_size_m, truncation_m;
+    std::int32_t first_region[3], last_region[3];  // the box of regions (BlockMap::RegionOf) around the cone
+
+    TESSERA_HD_MEMBER void ToCamera(const double* p_world, double* p_camera) const {
+        for (int i = 0; i < 3; ++i) {
+            const double* r = rotation + 3 * i;
+            p_camera[i] = r[0] * p_world[0] + r[1] * p_world[1] + r[2] * p_world[2] + translation[i];
+        }
+    }
+
+    // A ball in the camera frame.
+    TESSERA_HD_MEMBER bool MayContain(const double* centre, double radius_m) const {
+        bool inside = centre[2] >= -radius_m && centre[2] <= far_m + radius_m;
+        for (const auto& n : planes) inside &= n[0] * centre[0] + n[1] * centre[1] + n[2] * centre[2] > -radius_m;
+        return inside;
+    }
+};
+
+// Whether a ball in the camera frame may hold voxels in front of, or just behind, what the tiles it covers measured.
+TESSERA_HD bool MayChange(const DepthTileView& tiles, const ViewCone& cone, const double* c, double radius_m) {
+    if (c[2] < 2 * radius_m) return true;  // too near to bound its image
+    const double reach = radius_m / (c[2] - radius_m);  // bounds the ball's image, in units of focal lengths
+    const double u = c[0] / c[2] * cone.fx + cone.cx, v = c[1] / c[2] * cone.fy + cone.cy;
+    const double slant = 1.0 + std::sqrt(c[0] * c[0] + c[1] * c[1]) / c[2];
+    const double ru = reach * slant * cone.fx + 1, rv = reach * slant * cone.fy + 1;
+    const auto tile = [](double pixel, std::int32_t count) {
+        const double at = std::floor(pixel / kDepthTilePx);
+        return at < 0 ? 0 : (at < count ? static_cast<std::int32_t>(at) : count - 1);
+    };
+    const double near_z = c[2] - radius_m - cone.truncation_m;
+    const std::int32_t last_x = tile(u + ru, tiles.width), last_y = tile(v + rv, tiles.height);
+    for (std::int32_t ty = tile(v - rv, tiles.height); ty <= last_y; ++ty)
+        for (std::int32_t tx = tile(u - ru, tiles.width); tx <= last_x; ++tx)
+            if (tiles.farthest_m[ty * tiles.width + tx] > near_z) return true;
+    return false;
+}
+
+// Whether the block's voxels may be changed: by the ball around their centres.
+TESSERA_HD bool MayChangeBlock(const DepthTileView& tiles, const ViewCone& cone, const BlockCoord& block) {
+    const double p_world[3] = {(block.x * kBlockSide + 3.5) * cone.voxel_size_m,
+                               (block.y * kBlockSide + 3.5) * cone.voxel_size_m,
+                               (block.z * kBlockSide + 3.5) * cone.voxel_size_m};
+    const double radius_m = 3.5 * 1.7321 * cone.voxel_size_m;
+    double centre[3];
+    cone.ToCamera(p_world, centre);
+    return cone.MayContain(centre, radius_m) && MayChange(tiles, cone, centre, radius_m);
+}
+
+}  // namespace tessera

@@ -1,0 +1,149 @@
+#include "scan/cube_scratch.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+
+#include "io/file.h"
+#include "scan/checksum.h"
+
+namespace tessera {
+namespace {
+
+// Before each row.
+struct RowHead {
+    std::int64_t key = 0;
+    std::uint64_t bytes = 0;
+};
+
+bool WriteAll(int file, const std::uint8_t* bytes, std::size_t count, std::uint64_t offset) {
+    while (count > 0) {
+        const ssize_t written = ::pwrite(file, bytes, count, static_cast<off_t>(offset));
+        if (written < 0 && errno == EINTR) continue;
+        if (written <= 0) return false;
+        bytes += written;
+        count -= static_cast<std::size_t>(written);
+        offset += static_cast<std::uint64_t>(written);
+    }
+    return true;
+}
+
+bool ReadAll(int file, std::uint8_t* bytes, std::size_t count, std::uint64_t offset) {
+    while (count > 0) {
+        const ssize_t got = ::pread(file, bytes, count, static_cast<off_t>(offset));
+        if (got < 0 && errno == EINTR) continue;
+        if (got == 0) errno = EIO;  // it is shorter than it was written
+        if (got <= 0) return false;
+        bytes += got;
+        count -= static_cast<std::size_t>(got);
+        offset += static_cast<std::uint64_t>(got);
+    }
+    return true;
+}
+
+}  // namespace
+
+Result<std::shared_ptr<CubeScratch>> CubeScratch::Create(const std::string& beside_path) {
+    std::string name = beside_path + ".XXXXXX";
+    const int file = ::mkostemp(name.data(), O_CLOEXEC);
+    if (file < 0) return Status::Error(fmt::format("{}: no file can be made beside it: {}", beside_path, WriteErrorText(errno)));
+    ::unlink(name.c_str());
+    return std::shared_ptr<CubeScratch>(new CubeScratch(file, beside_path));
+}
+
+CubeScratch::~CubeScratch() { ::close(file_); }
+
+Status CubeScratch::Error(const std::string& doing, int error) const {
+    return Status::Error(fmt::format("{}: the file for a map that is made again {}: {}", path_, doing, WriteErrorText(error)));
+}
+
+// The smallest gap that it fits into, else at the end.
+CubeScratch::Place CubeScratch::Room(std::uint64_t bytes) {
+    constexpr std::uint64_t kStep = 16384;
+    Place place;
+    place.bytes = bytes;
+    place.room = (bytes + kStep - 1) / kStep * kStep;
+    const auto gap = free_.lower_bound(place.room);
+    if (gap == free_.end()) {
+        place.offset = end_;
+        end_ += place.room;
+        return place;
+    }
+    place.offset = gap->second;
+    const std::uint64_t rest = gap->first - place.room;
+    free_.erase(gap);
+    if (rest > 0) free_.emplace(rest, place.offset + place.room);
+    return place;
+}
+
+Status CubeScratch::Put(std::int64_t cube_key, const BlockCopies& blocks) {
+    std::vector<std::pair<std::int64_t, std::size_t>> order;
+    for (std::size_t i = 0; i < blocks.size(); ++i) order.emplace_back(BlockKey(blocks.coords[i]), i);
+    std::ranges::sort(order);
+    rows_.clear();
+    for (const auto& [key, i] : order) {
+        const std::vector<std::uint8_t>& row = codec_.Encode(blocks, i);
+        const RowHead head{key, row.size()};
+        const auto* bytes = reinterpret_cast<const std::uint8_t*>(&head);
+        rows_.insert(rows_.end(), bytes, bytes + sizeof(head));
+        rows_.insert(rows_.end(), row.begin(), row.end());
+    }
+    if (const auto before = places_.find(cube_key); before != places_.end()) {
+        free_.emplace(before->second.room, before->second.offset);
+        places_.erase(before);
+    }
+    Place place = Room(rows_.size());
+    place.blocks = static_cast<std::int32_t>(blocks.size());
+    place.checksum = Crc64(rows_);
+    if (!WriteAll(file_, rows_.data(), rows_.size(), place.offset)) return Error("cannot be written", errno);
+    places_[cube_key] = place;
+    return Status::Ok();
+}
+
+Status CubeScratch::ReadRows(const Place& place, std::vector<std::uint8_t>& rows, const TakeRow& take) const {
+    rows.resize(place.bytes);
+    if (!ReadAll(file_, rows.data(), rows.size(), place.offset)) return Error("cannot be read", errno);
+    if (Crc64(rows) != place.checksum) return Error("was damaged", EIO);
+    for (std::size_t at = 0; at < rows.size();) {
+        RowHead head;
+        std::memcpy(&head, rows.data() + at, sizeof(head));
+        at += sizeof(head);
+        if (Status status = take(head.key, std::span(rows).subspan(at, head.bytes)); !status.ok()) return status;
+        at += head.bytes;
+    }
+    return Status::Ok();
+}
+
+Status CubeScratch::Read(std::int64_t cube_key, BlockCopies& blocks) const {
+    blocks.Clear();
+    std::vector<std::uint8_t> rows;
+    BlockCodec codec;
+    return ReadRows(places_.at(cube_key), rows, [&](std::int64_t key, std::span<const std::uint8_t> data) {
+        return codec.Decode(data, CoordOfKey(key), blocks) ? Status::Ok() : Error("was damaged", EIO);
+    });
+}
+
+std::map<std::int64_t, std::int32_t> CubeScratch::Cubes() const {
+    std::map<std::int64_t, std::int32_t> cubes;
+    for (const auto& [key, place] : places_) cubes[key] = place.blocks;
+    return cubes;
+}
+
+std::int32_t CubeScratch::Count(std::int64_t cube_key) const {
+    const auto place = places_.find(cube_key);
+    return place == places_.end() ? 0 : place->second.blocks;
+}
+
+Status CubeScratch::ForEachRow(const TakeRow& take) const {
+    std::vector<std::uint8_t> rows;
+    for (const auto& [key, place] : places_)
+        if (Status status = ReadRows(place, rows, take); !status.ok()) return status;
+    return Status::Ok();
+}
+
+}  // namespace tessera

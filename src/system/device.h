@@ -1,0 +1,31 @@
+// A GPU that keeps the map and does the work over its voxels and over a frame's points, in the processor's place.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "core/config.h"
+#include "mapping/integrator.h"
+#include "tracking/sdf_sums.h"
+
+namespace tessera {
+
+struct DeviceConfig {
+    double memory_mb = 0;
+
+    void Describe(ConfigParameters& parameters);
+};
+
+// Owner thread only, with all that it makes.
+class Device {
+  public:
+    virtual ~Device() = default;
+
+    virtual std::string name() const = 0;
+    // Fuses there. The device outlives it.
+    virtual std::unique_ptr<Integrator> MakeIntegrator(const Integrator::Config& config, const PinholeCamera& camera) = 0;
+    // Sums over the map that the integrator fuses into.
+    virtual SdfSums& sdf_sums() = 0;
+};
+
+}  // namespace tessera

@@ -1,0 +1,90 @@
+// What FramePoints makes of a pixel: its point at the frame's instant, weight, normal, and the intensity that the
+// colour camera saw there. Host-device, shared by the CPU and CUDA. Camera frame, metres.
+#pragma once
+
+#include <cmath>
+
+#include "core/scalar_ops.h"
+
+namespace tessera {
+
+struct CameraPoint {
+    float x, y, z;
+};
+
+// x / z (or y / z) of the ray through a pixel's column (or row), [B14] eq. 1.
+TESSERA_HD float RaySlope(int pixel, double centre_px, double focal_px) {
+    return static_cast<float>((pixel - centre_px) / focal_px);
+}
+
+// A point of the camera time_s after the frame's instant, in the camera at that instant: to first order
+// p + time (omega x p + velocity). -time_s is the way back. `twist_per_s`: FrameMotion's, (rotation, translation).
+TESSERA_HD CameraPoint Moved(const CameraPoint& p, const float* twist_per_s, float time_s) {
+    const float* w = twist_per_s;
+    return {p.x + time_s * (w[1] * p.z - w[2] * p.y + w[3]), p.y + time_s * (w[2] * p.x - w[0] * p.z + w[4]),
+            p.z + time_s * (w[0] * p.y - w[1] * p.x + w[5])};
+}
+
+// z^exponent, z in metres, at most that of 0.5 m.
+TESSERA_HD float PointWeight(float z_m, float exponent) {
+    return exponent == -2.0f ? 1.0f / max(z_m * z_m, 0.25f) : std::pow(max(z_m, 0.5f), exponent);
+}
+
+// Three measured depths in a row that may belong to one surface.
+TESSERA_HD bool OneSurface(float before, float here, float after) {
+    constexpr float kBend = 0.03f;  // of the depth
+    return before > 0 && after > 0 && abs(before + after - 2 * here) < kBend * here;
+}
+
+// An image of depths or intensities, row by row, and its camera.
+struct PinholeImage {
+    const float* pixels;
+    int width, height;
+    float fx, fy, cx, cy;
+
+    TESSERA_HD_MEMBER float At(int u, int v) const { return pixels[v * width + u]; }
+    TESSERA_HD_MEMBER CameraPoint PointAt(int u, int v) const {
+        const float d = At(u, v);
+        return {(static_cast<float>(u) - cx) / fx * d, (static_cast<float>(v) - cy) / fy * d, d};
+    }
+    // Bilinear; -1 outside.
+    TESSERA_HD_MEMBER float Between(float u, float v) const {
+        if (!(u >= 0 && v >= 0 && u < static_cast<float>(width - 1) && v < static_cast<float>(height - 1)))
+            return -1.0f;
+        const int x = static_cast<int>(u), y = static_cast<int>(v);
+        const float fu = u - static_cast<float>(x), fv = v - static_cast<float>(y);
+        const float* above = pixels + y * width + x;
+        const float* below = above + width;
+        const float top = above[0] + fu * (above[1] - above[0]);
+        const float bottom = below[0] + fu * (below[1] - below[0]);
+        return top + fv * (bottom - top);
+    }
+};
+
+// The normal of the depth image's surface at (u, v), unit, towards the camera, from differences across radius_px pixels
+// to each side ([D18] eq. 15). False where it has none: at a depth edge, beside a hole.
+TESSERA_HD bool NormalAt(const PinholeImage& depth, int u, int v, int radius_px, CameraPoint& normal) {
+    const int left = u > radius_px ? u - radius_px : 0, up = v > radius_px ? v - radius_px : 0;
+    const int right = u + radius_px < depth.width ? u + radius_px : depth.width - 1;
+    const int down = v + radius_px < depth.height ? v + radius_px : depth.height - 1;
+    const float d = depth.At(u, v);
+    if (!OneSurface(depth.At(left, v), d, depth.At(right, v)) || !OneSurface(depth.At(u, up), d, depth.At(u, down)))
+        return false;
+    const CameraPoint low = depth.PointAt(u, down), high = depth.PointAt(u, up);
+    const CameraPoint east = depth.PointAt(right, v), west = depth.PointAt(left, v);
+    const CameraPoint a{low.x - high.x, low.y - high.y, low.z - high.z};
+    const CameraPoint b{east.x - west.x, east.y - west.y, east.z - west.z};
+    const CameraPoint n{a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+    const float length2 = n.x * n.x + (n.y * n.y + n.z * n.z);
+    const float length = length2 > 0 ? std::sqrt(length2) : 1.0f;
+    normal = {n.x / length, n.y / length, n.z / length};
+    return true;
+}
+
+// What the image shows where a point falls; -1 where it shows nothing.
+TESSERA_HD float SampleAtPoint(const PinholeImage& image, const CameraPoint& p) {
+    if (!(p.z > 0.05f)) return -1.0f;
+    return image.Between(p.x / p.z * image.fx + image.cx, p.y / p.z * image.fy + image.cy);
+}
+
+}  // namespace tessera

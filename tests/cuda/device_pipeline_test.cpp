@@ -1,0 +1,195 @@
+#include "cuda/device_pipeline.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "cuda/desk_frames.h"
+#include "cuda/same_map.h"
+#include "system/pipeline.h"
+
+namespace tessera::serial {
+namespace {
+
+using testing_support::DeskCamera;
+using testing_support::DeskFrame;
+using testing_support::DeskFrames;
+using testing_support::ExpectSameMap;
+
+constexpr std::size_t kPlenty = std::size_t{1} << 30;
+
+Integrator::View Moving(const DeskFrame& frame) {
+    Integrator::View view;
+    view.T_world_camera = frame.T_world_camera;
+    view.motion.twist_per_s << 0.1, -0.2, 0.05, 0.2, 0.1, -0.1;
+    view.motion.colour_delay_s = 0.01;
+    view.motion.depth_readout_s = view.motion.colour_readout_s = 0.02;
+    view.gain = 1.05f;
+    view.offset = -0.02f;
+    return view;
+}
+
+TEST(DeviceIntegrator, FusesTheBytesOfThePortablePath) {
+    const BlockMap::Config config;
+    BlockMap expected(config), map(config);
+    Integrator integrator({}, DeskCamera(), VectorPath::kBaseline);
+    DevicePipeline device("serial", kPlenty);
+    const std::unique_ptr<Integrator> on_device = device.MakeIntegrator({}, DeskCamera());
+    for (std::size_t i = 0; i < DeskFrames().size(); ++i) {
+        const DeskFrame& frame = DeskFrames()[i];
+        const Integrator::Report a = integrator.Integrate(frame.prepared, Moving(frame), expected);
+        const Integrator::Report b = on_device->Integrate(frame.prepared, Moving(frame), map);
+        ASSERT_EQ(a.new_blocks, b.new_blocks);
+        ASSERT_EQ(a.refused_blocks, b.refused_blocks);
+        ASSERT_EQ(a.fused_blocks, b.fused_blocks);
+        EXPECT_EQ(integrator.changed_blocks(), on_device->changed_blocks());
+        EXPECT_EQ(integrator.added_blocks(), on_device->added_blocks());
+        if (i % 7 == 6) on_device->Bring(map);  // now and then, and what changes after it later
+    }
+    on_device->Bring(map);
+    ExpectSameMap(map, expected);
+}
+
+TEST(DeviceIntegrator, GoesOnWithAMapThatWasMadeElsewhere) {
+    const BlockMap::Config config;
+    BlockMap expected(config), map(config);
+    Integrator first({}, DeskCamera(), VectorPath::kBaseline), same({}, DeskCamera(), VectorPath::kBaseline);
+    DevicePipeline device("serial", kPlenty);
+    const std::unique_ptr<Integrator> on_device = device.MakeIntegrator({}, DeskCamera());
+    on_device->SetRevision(5);
+    for (std::size_t i = 0; i < 10; ++i) {
+        const DeskFrame& frame = DeskFrames()[i];
+        same.Integrate(frame.prepared, Moving(frame), expected);
+        (i < 5 ? first : *on_device).Integrate(frame.prepared, Moving(frame), map);
+    }
+    on_device->Bring(map);
+    ExpectSameMap(map, expected);
+}
+
+// The same points, map and pose: the device adds up in another order, single precision in lanes.
+TEST(DevicePipeline, SumsAreTheProcessorsWithinRounding) {
+    BlockMap map{BlockMap::Config()};
+    Integrator integrator({}, DeskCamera());
+    for (std::size_t i = 0; i < 5; ++i) integrator.Integrate(DeskFrames()[i].prepared, Moving(DeskFrames()[i]), map);
+    const PreparedFrame& frame = DeskFrames()[5].prepared;
+    FramePoints points;
+    points.Build(frame, DeskCamera(), {}, 2, 2.0);
+    points.SampleIntensity(frame, DeskCamera(), {});
+    const BlockMap::View view = map.view();
+    SdfArguments a{};
+    a.field = view.field;
+    a.neighbours = view.neighbours;
+    a.table = view.table;
+    a.coords = view.coords;
+    a.table_mask = view.table_mask;
+    a.voxel_size_m = view.voxel_size_m;
+    a.truncation_m = view.truncation_m;
+    for (int i = 0; i < 3; ++i) a.rotation[4 * i] = 1 / view.voxel_size_m;
+    a.x = points.x.data();
+    a.y = points.y.data();
+    a.z = points.z.data();
+    a.intensity = points.intensity.data();
+    a.weight = points.weight.data();
+    a.alpha = 0.05f;
+    a.normalise = true;
+    a.gain = 1;
+    a.distance_scale_m = 0.02f;
+    a.intensity_scale = 0.1f;
+    a.inlier_distance_m = 0.02f;
+    std::vector<float> distance(static_cast<std::size_t>(points.count())), intensity = distance;
+    a.distance_residual = distance.data();
+    a.intensity_residual = intensity.data();
+    const PoseSums expected =
+        SumPoints(points.count(), [&](int begin, int end, double* sums) { baseline::SumSdfPoints(a, begin, end, sums); });
+    DevicePipeline device("serial", kPlenty);
+    device.SetPoints(map, points);
+    const PoseSums sums = device.Sum(a);
+    EXPECT_GT(expected[SumLayout::kKnown], 1000);
+    EXPECT_EQ(sums[SumLayout::kKnown], expected[SumLayout::kKnown]);
+    EXPECT_EQ(sums[SumLayout::kColoured], expected[SumLayout::kColoured]);
+    EXPECT_EQ(sums[SumLayout::kInliers], expected[SumLayout::kInliers]);
+    // Of a sum of signed terms the bound is of the square root of its diagonal's: here of the largest of its kind.
+    double largest = 0;
+    for (int i = 0; i < SumLayout::kGradient; ++i) largest = std::max(largest, expected[i]);
+    for (int i = 0; i < SumLayout::kCount; ++i)
+        EXPECT_NEAR(sums[i], expected[i], 1e-6 * std::max(largest, std::abs(expected[i]))) << i;
+    std::vector<float> device_distance(distance.size()), device_intensity(intensity.size());
+    device.TakeResiduals(device_distance, device_intensity);
+    EXPECT_EQ(std::memcmp(device_distance.data(), distance.data(), 4 * distance.size()), 0);
+    EXPECT_EQ(std::memcmp(device_intensity.data(), intensity.data(), 4 * intensity.size()), 0);
+}
+
+// One frame after the other against the same map, from the same start: only the order of summation differs.
+TEST(DevicePipeline, TracksAsThePortablePathDoes) {
+    BlockMap map{BlockMap::Config()};
+    Integrator integrator({}, DeskCamera());
+    DevicePipeline device("serial", kPlenty);
+    const TrackJudge judge({});
+    Photometry photometry({}, DeskCamera()), device_photometry({}, DeskCamera());
+    SdfTracker expected({}, DeskCamera(), judge, &photometry, VectorPath::kBaseline);
+    SdfTracker tracker({}, DeskCamera(), judge, &device_photometry, VectorPath::kBaseline, &device);
+    for (std::size_t i = 0; i < 8; ++i) integrator.Integrate(DeskFrames()[i].prepared, Moving(DeskFrames()[i]), map);
+    for (std::size_t i = 8; i < 14; ++i) {
+        const Eigen::Isometry3d& last = DeskFrames()[i - 1].T_world_camera;
+        const TrackInput input{DeskFrames()[i].prepared, map, {last}, last, 1.0 / 30, {}};
+        const TrackResult a = expected.Track(input), b = tracker.Track(input);
+        ASSERT_EQ(b.status, TrackStatus::kGood) << b.reason;
+        EXPECT_EQ(a.iterations, b.iterations);
+        const Eigen::Isometry3d difference = a.T_world_camera.inverse() * b.T_world_camera;
+        EXPECT_LT(difference.translation().norm(), 2e-6) << i;
+        EXPECT_LT(Se3Log(difference).head<3>().norm(), 2e-6) << i;
+        EXPECT_NEAR(a.known_fraction, b.known_fraction, 1e-3);
+        EXPECT_NEAR(a.intensity_rms, b.intensity_rms, 1e-5);
+    }
+}
+
+struct DeskRun {
+    std::vector<FrameReport> reports;
+    std::unique_ptr<BlockMap> map;  // its field
+};
+
+DeskRun RunDesk(Device* device) {
+    DeskRun run;
+    Pipeline pipeline({}, DeskCamera(), {}, device);
+    for (const DeskFrame& frame : DeskFrames()) run.reports.push_back(pipeline.Process(frame.frame));
+    run.map = CopyField(pipeline.map());
+    return run;
+}
+
+// The processor's run is of its vector path, which rounds otherwise; and each stops where a step is below 0.05 mm.
+TEST(DevicePipeline, TracksAndFusesAsTheProcessorDoes) {
+    const DeskRun expected = RunDesk(nullptr);
+    DevicePipeline device("serial", kPlenty);
+    const DeskRun run = RunDesk(&device);
+    for (std::size_t i = 0; i < run.reports.size(); ++i) {
+        ASSERT_TRUE(run.reports[i].fused) << i;
+        const Eigen::Isometry3d difference = expected.reports[i].track.T_world_camera.inverse() * run.reports[i].track.T_world_camera;
+        EXPECT_LT(difference.translation().norm(), 3e-4) << i;
+        EXPECT_LT(Se3Log(difference).head<3>().norm(), 2e-4) << i;
+    }
+    EXPECT_NEAR(run.map->size(), expected.map->size(), 0.01 * expected.map->size());
+}
+
+TEST(DevicePipeline, TwoRunsGiveTheSameBytes) {
+    DevicePipeline first("serial", kPlenty), second("serial", kPlenty);
+    const DeskRun a = RunDesk(&first), b = RunDesk(&second);
+    for (std::size_t i = 0; i < a.reports.size(); ++i)
+        EXPECT_EQ(a.reports[i].track.T_world_camera.matrix(), b.reports[i].track.T_world_camera.matrix()) << i;
+    ASSERT_EQ(a.map->size(), b.map->size());
+    EXPECT_EQ(std::memcmp(a.map->field(0), b.map->field(0), static_cast<std::size_t>(a.map->size()) * kBlockVoxels * 4), 0);
+}
+
+TEST(DevicePipeline, SaysInOneLineThatItsMemoryIsFullAndGoesOn) {
+    DevicePipeline device("serial", std::size_t{16} << 20);
+    const DeskRun run = RunDesk(&device);
+    std::string warning;
+    for (const FrameReport& report : run.reports)
+        if (!report.warning.empty()) warning = report.warning;
+    EXPECT_NE(warning.find("16 MB"), std::string::npos) << warning;
+    EXPECT_NE(warning.find("mapping.device_memory_mb"), std::string::npos) << warning;
+    EXPECT_GT(run.map->size(), 500);
+    EXPECT_TRUE(run.reports.back().tracked());
+}
+
+}  // namespace
+}  // namespace tessera::serial

@@ -1,0 +1,53 @@
+// What needs a GPU. Without one, or without the backend, every test here skips and says so.
+#include <gtest/gtest.h>
+
+#include "cuda/desk_frames.h"
+#include "cuda/open_device.h"
+#include "cuda/same_map.h"
+#include "system/pipeline.h"
+
+namespace tessera {
+namespace {
+
+using testing_support::DeskCamera;
+using testing_support::DeskFrame;
+using testing_support::DeskFrames;
+
+class Gpu : public testing::Test {
+  protected:
+    void SetUp() override {
+        Result<std::unique_ptr<Device>> opened = OpenGpu({});
+        if (!opened.ok()) GTEST_SKIP() << opened.message();
+        device_ = std::move(opened.value());
+    }
+
+    std::unique_ptr<Device> device_;
+};
+
+TEST_F(Gpu, FusesTheBytesOfThePortablePath) {
+    BlockMap expected{BlockMap::Config()}, map{BlockMap::Config()};
+    Integrator integrator({}, DeskCamera(), VectorPath::kBaseline);
+    const std::unique_ptr<Integrator> on_device = device_->MakeIntegrator({}, DeskCamera());
+    for (const DeskFrame& frame : DeskFrames()) {
+        Integrator::View view;
+        view.T_world_camera = frame.T_world_camera;
+        integrator.Integrate(frame.prepared, view, expected);
+        on_device->Integrate(frame.prepared, view, map);
+    }
+    on_device->Bring(map);
+    testing_support::ExpectSameMap(map, expected);
+}
+
+// As DevicePipeline.TracksAndFusesAsTheProcessorDoes.
+TEST_F(Gpu, TracksAsTheProcessorDoes) {
+    Pipeline expected({}, DeskCamera()), pipeline({}, DeskCamera(), {}, device_.get());
+    for (const DeskFrame& frame : DeskFrames()) {
+        const Eigen::Isometry3d difference = expected.Process(frame.frame).track.T_world_camera.inverse() *
+                                             pipeline.Process(frame.frame).track.T_world_camera;
+        EXPECT_LT(difference.translation().norm(), 3e-4);
+        EXPECT_LT(Se3Log(difference).head<3>().norm(), 2e-4);
+    }
+}
+
+}  // namespace
+}  // namespace tessera
