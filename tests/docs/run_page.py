@@ -1,62 +1,95 @@
-"""Runs the commands of a page of the documentation, as printed and in order, in an empty folder.
+"""Runs the commands of a page of the documentation, as printed and in order, in a folder that stands for a fresh clone.
 
-Usage: run_page.py PAGE.md TESSERA [--with NAME=VALUE]... [--first COMMAND]... [--skip REGEX]
+Usage: run_page.py PAGE.md TESSERA [--with TEXT=VALUE]... [--first COMMAND]... [--skip REGEX]
 
-Commands are the indented lines that begin with "tessera ". The page's placeholders (SOURCE, ...) take the values of --with;
---first makes what the page takes for granted; --skip names what needs a camera, a network or a window. Fails at the first
-command that does not exit with 0, if a file that it was told to write is not there, or if --skip skips nothing.
+Commands are the indented lines that begin as one (COMMAND below), a line that ends in "\\" with the next, and the blocks
+of Python. The page's placeholders (SOURCE, ...) take the values of --with; --first makes what the page takes for granted;
+--skip names what needs a camera, a network or a window. Fails at the first command that does not exit with 0, if a file
+that it was told to write is not there, or if --skip skips nothing.
 """
 import argparse
 import os
+import pathlib
 import re
 import shlex
 import subprocess
 import sys
 import tempfile
 
-WRITTEN_AFTER = ("--out", "--picture", "--mesh", "--cloud", "--grid", "--trajectory", "--kitti", "--frames", "--colmap", "--scan")
+COMMAND = re.compile(r"    (?=(?:tessera|export|\./run|ninja|snakemake|[A-Z_]+=\S+|(?:build/|scripts/|bench/|/usr/bin/)\S+) )")
+WRITTEN_AFTER = ("--out", "--picture", "--mesh", "--cloud", "--grid", "--trajectory", "--kitti", "--frames", "--colmap", "--scan",
+                 "--record")
+CLONE = pathlib.Path(__file__).resolve().parents[2]
 
 
 def parse():
     parser = argparse.ArgumentParser()
     parser.add_argument("page")
     parser.add_argument("tessera")
-    parser.add_argument("--with", dest="values", metavar="NAME=VALUE", action="append", default=[])
+    parser.add_argument("--with", dest="values", metavar="TEXT=VALUE", action="append", default=[])
     parser.add_argument("--first", metavar="COMMAND", action="append", default=[])
     parser.add_argument("--skip", metavar="REGEX")
     return parser.parse_args()
 
 
+def printed(page):
+    """The page's commands and Python blocks, in order; a block begins with its line ```python."""
+    text = re.sub(r" *\\\n +", " ", pathlib.Path(page).read_text(encoding="utf-8"))
+    lines = iter(text.splitlines())
+    for line in lines:
+        if line == "```python":
+            block = [line]
+            while (line := next(lines)) != "```":
+                block.append(line)
+            yield "\n".join(block)
+        elif COMMAND.match(line):
+            yield line.strip()
+
+
 def commands_of(page, options):
-    """The page's commands, placeholders filled in; those to skip left out."""
-    with open(page, encoding="utf-8") as lines:
-        printed = [line.strip() for line in lines if line.startswith("    tessera ")]
-    kept = [line for line in printed if not (options.skip and re.search(options.skip, line))]
-    if not kept or (options.skip and len(kept) == len(printed)):
-        sys.exit(f"{page}: {len(printed)} commands, {len(printed) - len(kept)} skipped")
+    """What of it is to be run, placeholders filled in."""
+    found = list(printed(page))
+    kept = [line for line in found if not (options.skip and re.search(options.skip, line))]
+    if not kept or (options.skip and len(kept) == len(found)):
+        sys.exit(f"{page}: {len(found)} commands, {len(found) - len(kept)} skipped")
     for setting in options.values:
         name, value = setting.split("=", 1)
-        kept = [re.sub(rf"\b{name}\b", lambda _, value=value: value, line) for line in kept]
+        kept = [re.sub(rf"\b{re.escape(name)}\b", lambda _, value=value: value, line) for line in kept]
     return kept
 
 
 def written(words):
     """What a command's options say that it writes. `--frames 20` is a number of frames."""
     return [value for option, value in zip(words, words[1:])
-            if option in WRITTEN_AFTER and words[1] != "eval" and not value.isdigit()]
+            if option in WRITTEN_AFTER and "eval" not in words and not value.isdigit()]
+
+
+def lay_out(folder, tessera):
+    """The clone's parts under their names, `build/release` being the build that TESSERA is of."""
+    for part in CLONE.iterdir():
+        if part.name in ("bench", "config", "python", "scripts"):
+            (folder / part.name).symlink_to(part)
+    (folder / "build").mkdir()
+    (folder / "build/release").symlink_to(tessera.parents[1])
 
 
 def main():
     options = parse()
-    environment = dict(os.environ)
-    environment["PATH"] = os.path.dirname(os.path.abspath(options.tessera)) + os.pathsep + environment["PATH"]
+    tessera = pathlib.Path(options.tessera).resolve()
+    environment = {**os.environ, "PATH": f"{tessera.parent}{os.pathsep}{os.environ['PATH']}"}
     with tempfile.TemporaryDirectory() as folder:
+        lay_out(pathlib.Path(folder), tessera)
         for command in options.first + commands_of(options.page, options):
-            words = shlex.split(command, comments=True)
+            if command.startswith("export "):
+                name, value = command.removeprefix("export ").split("=", 1)
+                environment[name] = value.replace("$PWD", folder)
+                continue
+            block = command.removeprefix("```python\n")
+            words = ["/usr/bin/python3", "-c", block] if block != command else ["bash", "-c", command]
             done = subprocess.run(words, cwd=folder, env=environment, capture_output=True, text=True)
             if done.returncode != 0:
                 sys.exit(f"{options.page}: `{command}` exits with {done.returncode}:\n{done.stdout}{done.stderr}")
-            for path in written(words):
+            for path in written(shlex.split(command, comments=True)) if block == command else []:
                 if not os.path.exists(os.path.join(folder, path)):
                     sys.exit(f"{options.page}: `{command}` wrote no {path}")
             print(f"ok  {command}", flush=True)
