@@ -35,21 +35,14 @@ Eigen::Isometry3d StartBeside(const Eigen::Isometry3d& T_world_camera) {
 
 SdfArguments ArgumentsFor(const FramePoints& points, const Eigen::Isometry3d& T_world_camera,
                           double alpha) {
-    const BlockMap::View map = RoomMap().view();
     const SdfTracker::Config config;
     SdfArguments a{};
-    a.field = map.field;
-    a.neighbours = map.neighbours;
-    a.table = map.table;
-    a.coords = map.coords;
-    a.table_mask = map.table_mask;
-    a.voxel_size_m = map.voxel_size_m;
-    a.truncation_m = map.truncation_m;
+    static_cast<BlockMapView&>(a) = RoomMap().view();
     for (int i = 0; i < 3; ++i) {
         for (int j = 0; j < 3; ++j)
             a.rotation[3 * i + j] =
-                static_cast<float>(T_world_camera.linear()(i, j)) / map.voxel_size_m;
-        a.translation[i] = static_cast<float>(T_world_camera.translation()(i)) / map.voxel_size_m;
+                static_cast<float>(T_world_camera.linear()(i, j)) / a.voxel_size_m;
+        a.translation[i] = static_cast<float>(T_world_camera.translation()(i)) / a.voxel_size_m;
     }
     a.x = points.x.data();
     a.y = points.y.data();
@@ -61,7 +54,7 @@ SdfArguments ArgumentsFor(const FramePoints& points, const Eigen::Isometry3d& T_
     a.gain = 1;
     a.distance_scale_m = static_cast<float>(config.distance_scale_m);
     a.intensity_scale = static_cast<float>(Photometry::Config().intensity_scale);
-    a.inlier_distance_m = 0.5f * map.truncation_m;
+    a.inlier_distance_m = 0.5f * a.truncation_m;
     return a;
 }
 

@@ -6,11 +6,12 @@
 
 #include "cuda/device.h"
 #include "mapping/allocation_kernels.h"
+#include "mapping/block_map_view.h"
 #include "mapping/visibility_kernels.h"
 
 namespace tessera::TESSERA_DEVICE {
 
-// For kernels; named as BlockMap::View, so that the kernels of src/ take it. Valid until the map grows.
+// What kernels write. Valid until the map grows.
 struct DeviceMapView {
     FieldWord* field;
     std::uint16_t* weight;
@@ -21,6 +22,9 @@ struct DeviceMapView {
     std::int32_t* table;
     std::uint32_t table_mask;
     float voxel_size_m, truncation_m;
+
+    // What the kernels of src/ read.
+    BlockMapView readable() const { return {field, neighbours, table, coords, table_mask, voxel_size_m, truncation_m}; }
 };
 
 // Voxels in the computer's memory: kBlockVoxels of each for every id.

@@ -76,13 +76,8 @@ void DevicePipeline::SetPoints(const BlockMap& map, const FramePoints& points) {
 PoseSums DevicePipeline::Sum(const SdfArguments& arguments) {
     PoseSums sums;
     if (points_ == 0) return sums;
-    const DeviceMapView map = map_->view();
     SdfArguments a = arguments;
-    a.field = map.field;
-    a.neighbours = map.neighbours;
-    a.table = map.table;
-    a.coords = map.coords;
-    a.table_mask = map.table_mask;
+    static_cast<BlockMapView&>(a) = map_->view().readable();
     a.x = x_.data();
     a.y = y_.data();
     a.z = z_.data();

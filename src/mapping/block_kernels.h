@@ -1,5 +1,5 @@
 // Reading the map by lanes of points (scalar_lanes.h): which block each lies in, and where the eight voxels around it
-// are. For the CPU's vectors and CUDA alike. `Map` is BlockMap::View or any struct with the same plain pointers.
+// are. For the CPU's vectors and CUDA alike. `Map` is BlockMapView or any struct with the same plain pointers.
 #pragma once
 
 #include "mapping/voxel.h"

@@ -84,7 +84,7 @@ void BlockMap::InitialiseBlock(BlockId id, const BlockCoord& c, std::int32_t num
     coords[3] = number;
 }
 
-BlockMap::View BlockMap::view() const {
+BlockMapView BlockMap::view() const {
     return {field_.data(),
             neighbours_.data(),
             table_.data(),

@@ -10,6 +10,7 @@
 
 #include "core/config.h"
 #include "core/status.h"
+#include "mapping/block_map_view.h"
 #include "mapping/block_regions.h"
 #include "mapping/virtual_array.h"
 #include "mapping/voxel.h"
@@ -33,23 +34,14 @@ class BlockMap {
         Status Validate() const;
     };
 
-    // Everything that a kernel needs to read the map; valid until the next Allocate, Release or Clear.
-    struct View {
-        const FieldWord* field;           // [blocks * 512]
-        const std::int32_t* neighbours;   // [blocks * 8]: at offsets (x, y, z) = bits 0, 1, 2 of the slot
-        const std::int32_t* table;        // hash slots, each a BlockId, 0 = empty
-        const std::int32_t* coords;       // [blocks * 4]: x, y, z, number
-        std::uint32_t table_mask;
-        float voxel_size_m, truncation_m;
-    };
-
     // What a map keeps: a copy for a reader needs the field only; its weights are then zero and its colours grey.
     enum class Layers { kAll, kFieldOnly };
 
     explicit BlockMap(const Config& config, Layers layers = Layers::kAll);
 
     const Config& config() const { return config_; }
-    View view() const;
+    // Valid until the next Allocate, Release or Clear.
+    BlockMapView view() const;
 
     // Ids run from 0 to size() - 1; those between that were released are free. Without Release: in order of allocation.
     BlockId size() const { return size_; }

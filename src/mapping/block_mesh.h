@@ -24,7 +24,7 @@ struct MeshConfig {
 // neighbours. A vertex belongs to the block of the lower end of its edge, so that each exists once.
 struct BlockMesh {
     // Edge axis * 512 + o runs from the block's voxel o to the next voxel along `axis`.
-    // A triangle's corner: neighbour slot (as in BlockMap::View) << kSlotShift | edge in that
+    // A triangle's corner: neighbour slot (as in BlockMapView) << kSlotShift | edge in that
     // block.
     static constexpr int kSlotShift = 11;
     using VertexRef = std::uint16_t;

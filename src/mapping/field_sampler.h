@@ -1,5 +1,5 @@
 // The map's field at any point: distance and intensity with their analytic gradients. Scalar,
-// host-device; the formula is trilinear.h's, which the vector code shares. Reads BlockMap::View, or
+// host-device; the formula is trilinear.h's, which the vector code shares. Reads BlockMapView, or
 // any struct with the same plain pointers.
 //
 // One look-up finds the block of a cell's lowest corner; the other seven corners lie in it or in

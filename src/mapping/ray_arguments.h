@@ -4,19 +4,12 @@
 
 #include <cstdint>
 
-#include "mapping/voxel.h"
+#include "mapping/block_map_view.h"
 
 namespace tessera {
 
-struct RayArguments {
-    // The map (BlockMap::View), and its colours.
-    const FieldWord* field;
-    const ColourWord* colour;
-    const std::int32_t* neighbours;
-    const std::int32_t* table;
-    const std::int32_t* coords;
-    std::uint32_t table_mask;
-    float voxel_size_m, truncation_m;
+struct RayArguments : BlockMapView {
+    const ColourWord* colour;  // the map's
     // The camera. p_local [voxels from origin_block's first voxel] = voxel_from_camera * p_camera [m] + start.
     float fx, fy, cx, cy;
     float voxel_from_camera[9];  // row-major

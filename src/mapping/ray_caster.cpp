@@ -26,16 +26,9 @@ float FarthestDepth(const BlockMap& map, const PinholeCamera& camera) {
 }  // namespace
 
 RayArguments RayArgumentsFor(const BlockMap& map, PredictedView& view) {
-    const BlockMap::View m = map.view();
     RayArguments a{};
-    a.field = m.field;
+    static_cast<BlockMapView&>(a) = map.view();
     a.colour = map.colour(0);
-    a.neighbours = m.neighbours;
-    a.table = m.table;
-    a.coords = m.coords;
-    a.table_mask = m.table_mask;
-    a.voxel_size_m = m.voxel_size_m;
-    a.truncation_m = m.truncation_m;
     a.fx = static_cast<float>(view.camera.fx);
     a.fy = static_cast<float>(view.camera.fy);
     a.cx = static_cast<float>(view.camera.cx);

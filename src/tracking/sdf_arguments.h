@@ -4,16 +4,11 @@
 
 #include <cstdint>
 
+#include "mapping/block_map_view.h"
+
 namespace tessera {
 
-struct SdfArguments {
-    // The map (BlockMap::View).
-    const std::uint32_t* field;
-    const std::int32_t* neighbours;
-    const std::int32_t* table;
-    const std::int32_t* coords;
-    std::uint32_t table_mask;
-    float voxel_size_m, truncation_m;
+struct SdfArguments : BlockMapView {
     // p_local [voxels] = rotation * p_camera [m] + translation; O is origin_block's first voxel.
     float rotation[9];
     float translation[3];

@@ -47,7 +47,7 @@ struct Rig {
 // Serial devices' memory is the computer's.
 void ExpectSameIndex(DeviceMap& device, const BlockMap& map) {
     const DeviceMapView view = device.view();
-    const BlockMap::View expected = map.view();
+    const BlockMapView expected = map.view();
     ASSERT_EQ(device.size(), map.size());
     for (BlockId id = 0; id < map.size(); ++id) {
         for (int i = 0; i < 4; ++i) ASSERT_EQ(view.coords[4 * id + i], expected.coords[4 * id + i]) << id;

@@ -75,16 +75,9 @@ TEST(DevicePipeline, SumsAreTheProcessorsWithinRounding) {
     FramePoints points;
     points.Build(frame, DeskCamera(), {}, 2, 2.0);
     points.SampleIntensity(frame, DeskCamera(), {});
-    const BlockMap::View view = map.view();
     SdfArguments a{};
-    a.field = view.field;
-    a.neighbours = view.neighbours;
-    a.table = view.table;
-    a.coords = view.coords;
-    a.table_mask = view.table_mask;
-    a.voxel_size_m = view.voxel_size_m;
-    a.truncation_m = view.truncation_m;
-    for (int i = 0; i < 3; ++i) a.rotation[4 * i] = 1 / view.voxel_size_m;
+    static_cast<BlockMapView&>(a) = map.view();
+    for (int i = 0; i < 3; ++i) a.rotation[4 * i] = 1 / a.voxel_size_m;
     a.x = points.x.data();
     a.y = points.y.data();
     a.z = points.z.data();

@@ -8,7 +8,7 @@ namespace tessera {
 namespace {
 
 using namespace testing;
-using Sampler = FieldSampler<BlockMap::View>;
+using Sampler = FieldSampler<BlockMapView>;
 
 // Blocks of random distances and intensities on both sides of zero; one is missing.
 class FieldSamplerTest : public ::testing::Test {
@@ -159,7 +159,7 @@ TEST_F(FieldSamplerTest, FindBlockIsTheMapsFind) {
     for (int i = 0; i < 3000; ++i)
         map_.Allocate({static_cast<int>(Random() * 40) - 20, static_cast<int>(Random() * 40) - 20,
                        static_cast<int>(Random() * 40) - 20});
-    const BlockMap::View view = map_.view();
+    const BlockMapView view = map_.view();
     for (int z = -21; z <= 21; ++z)
         for (int y = -21; y <= 21; ++y)
             for (int x = -21; x <= 21; ++x)

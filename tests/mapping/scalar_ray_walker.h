@@ -125,7 +125,7 @@ class ScalarRayWalker {
     }
 
     PinholeCamera camera_;
-    FieldSampler<BlockMap::View> sampler_;
+    FieldSampler<BlockMapView> sampler_;
     RayRanges ranges_;
     Eigen::Vector3f start_, step_ = Eigen::Vector3f::Zero();
     Eigen::Matrix3f voxel_from_camera_, camera_from_world_;

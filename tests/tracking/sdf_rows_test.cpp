@@ -118,14 +118,7 @@ TEST_P(SdfRows, AgreeWithTheSlowSums) {
     Fill(map);
     const Points points(4096);
     SdfArguments a{};
-    const BlockMap::View view = map.view();
-    a.field = view.field;
-    a.neighbours = view.neighbours;
-    a.table = view.table;
-    a.coords = view.coords;
-    a.table_mask = view.table_mask;
-    a.voxel_size_m = view.voxel_size_m;
-    a.truncation_m = view.truncation_m;
+    static_cast<BlockMapView&>(a) = map.view();
     Vector6d twist;
     twist << 0.3, -0.2, 0.5, 0, 0, 0;
     const Eigen::Matrix3d R = Se3Exp(twist).linear() / 0.01;
