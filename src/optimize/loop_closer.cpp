@@ -127,14 +127,13 @@ std::string LoopCloser::CloseLoop(const Keyframe& old, const Keyframe& fresh, co
                        drift.off_rad * 57.29578);
 }
 
-// Of any point half a view away, between the map and the pose graph.
-double LoopCloser::FarthestOff_m() const {
+// Of any point half a view away, between a map made with these poses of the keyframes and the pose graph.
+double LoopCloser::FarthestOff_m(const std::vector<Eigen::Isometry3d>& T_map_keyframe) const {
     constexpr double kReach_m = 2.0;
     double farthest = 0;
     for (int i = 0; i < keyframes_.size(); ++i) {
-        const Keyframe& k = keyframes_[i];
-        farthest = std::max(farthest, (k.T_map_camera.translation() - k.T_world_camera.translation()).norm() +
-                                          kReach_m * RotationAngle(k.T_map_camera, k.T_world_camera));
+        const Eigen::Isometry3d &map = T_map_keyframe[static_cast<std::size_t>(i)], &graph = keyframes_[i].T_world_camera;
+        farthest = std::max(farthest, (map.translation() - graph.translation()).norm() + kReach_m * RotationAngle(map, graph));
     }
     return farthest;
 }
@@ -152,7 +151,13 @@ Status LoopCloser::Optimise() {
 // True if one is under way, or if the map is off by more than the tolerance.
 bool LoopCloser::BeginRebuild(double tolerance_m) {
     if (rebuild_) return true;
-    if (broken_ || !corrected_ || FarthestOff_m() < tolerance_m) return false;
+    if (broken_ || !corrected_) return false;
+    std::vector<Eigen::Isometry3d> map, graph;
+    for (int i = 0; i < keyframes_.size(); ++i) {
+        map.push_back(keyframes_[i].T_map_camera);
+        graph.push_back(keyframes_[i].T_world_camera);
+    }
+    if (FarthestOff_m(map) < tolerance_m) return false;
     std::unique_ptr<MapPager> pager;
     if (make_pager_) {
         Result<std::unique_ptr<MapPager>> made = make_pager_();
@@ -162,12 +167,10 @@ bool LoopCloser::BeginRebuild(double tolerance_m) {
         }
         pager = std::move(made.value());
     }
-    std::vector<Eigen::Isometry3d> poses;
-    for (int i = 0; i < keyframes_.size(); ++i) poses.push_back(keyframes_[i].T_world_camera);
     std::unique_ptr<LabelMapper> labels;
     if (labels_) labels = std::make_unique<LabelMapper>(labels_->config, labels_->classes, settings_.camera,
                                                         static_cast<float>(settings_.preparation.max_depth_m));
-    rebuild_ = std::make_unique<MapRebuild>(settings_, std::move(poses), std::move(labels), std::move(pager));
+    rebuild_ = std::make_unique<MapRebuild>(settings_, std::move(graph), std::move(labels), std::move(pager));
     return true;
 }
 
@@ -215,7 +218,9 @@ std::optional<LoopCloser::Correction> LoopCloser::Finish(std::string& note) {
         }
     }
     if (!corrected_) return last;
-    while (BeginRebuild(settings_.map.voxel_size_m / 10))
+    const double tolerance_m = settings_.map.voxel_size_m / 10;
+    if (rebuild_ && FarthestOff_m(rebuild_->T_world_keyframe()) >= tolerance_m) rebuild_.reset();  // of a path that is no more
+    while (BeginRebuild(tolerance_m))
         if (auto next = StepRebuild(std::numeric_limits<int>::max())) last = std::move(next);
     return last;
 }

@@ -99,7 +99,7 @@ class LoopCloser {
     void AddPassage(double stamp_s, const Eigen::Isometry3d& T_map_camera);
     std::string SeekLoop(const Keyframe& fresh, const PreparedFrame& prepared, const FrameMotion& motion);
     std::string CloseLoop(const Keyframe& old, const Keyframe& fresh, const FieldVerdict& verdict);
-    double FarthestOff_m() const;
+    double FarthestOff_m(const std::vector<Eigen::Isometry3d>& T_map_keyframe) const;
     Status Optimise();
     Status LoadViews(std::vector<CalibrationView>& views);
     Status Calibrate();

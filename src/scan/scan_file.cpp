@@ -25,6 +25,12 @@ bool Exists(const std::string& path) {
     return std::filesystem::exists(path, ignored);
 }
 
+bool HasContent(const std::string& path) {
+    std::error_code error;
+    const auto bytes = std::filesystem::file_size(path, error);
+    return !error && bytes > 0;
+}
+
 void Sync(const std::string& path) {
     const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
     if (file < 0) return;
@@ -52,9 +58,12 @@ Status DamagedScan(const std::string& path, const std::string& why) {
 
 Result<std::unique_ptr<ScanFile>> ScanFile::Create(const std::string& path, std::span<const std::uint8_t> meta) {
     if (Exists(path)) return Status::Error(path + ": exists already; go on with it by --resume, or choose another name");
+    // SQLite would take it for the new file's.
+    if (const std::string journal = path + "-wal"; HasContent(journal))
+        return Status::Error(journal + ": is the journal of a scan that is not here any more; put it back beside its file, or remove it");
     const std::string unfinished = path + ".new";
     std::error_code ignored;
-    std::filesystem::remove(unfinished, ignored);
+    for (const char* ending : {"", "-wal", "-shm"}) std::filesystem::remove(unfinished + ending, ignored);
     {
         Result<std::unique_ptr<Database>> database = Database::Open(unfinished, Database::Access::kCreate);
         if (!database.ok()) return database.status();

@@ -35,8 +35,8 @@ Status DamagedScan(const std::string& path, const std::string& why);
 // Owner thread only. Errors name the file, what is wrong and what to do.
 class ScanFile {
   public:
-    // A new file with one checkpoint, number 0: `meta` and nothing else. Refused where there is a file already. It appears at
-    // `path` whole or not at all.
+    // A new file with one checkpoint, number 0: `meta` and nothing else. Refused where there is a file already, or the journal of
+    // one. It appears at `path` whole or not at all.
     static Result<std::unique_ptr<ScanFile>> Create(const std::string& path, std::span<const std::uint8_t> meta);
     // No scan, a newer version, or a header or schema that is not sound: refused. Two runs cannot write into one file.
     static Result<std::unique_ptr<ScanFile>> OpenToRead(const std::string& path);

@@ -168,10 +168,9 @@ void LiveEngine::TakeUpdate(LoopThread::Update update, bool last) {
 // The run is at its end: what is still to be corrected is waited for.
 void LiveEngine::EndLoops() {
     if (quit_.load()) return;
-    loops_->Finish();
+    loops_->Finish([this](const std::string& news) { Tell(FrameOutcome::Kind::kMessage, news); });
     LoopThread::Update update;
     while (loops_->TryTake(update)) TakeUpdate(std::move(update), true);
-    TellLoopNews();
 }
 
 void LiveEngine::TellLoopNews() {

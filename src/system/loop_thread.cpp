@@ -36,6 +36,9 @@ LoopThread::LoopThread(Settings settings, Surroundings surroundings)
     thread_ = std::jthread([this] {
         StandBack();
         tbb::task_arena(1).execute([this] { Work(); });
+        if (!stop_.load()) Conclude();
+        ended_.store(true);
+        around_.mapping.Notify();
     });
 }
 
@@ -88,9 +91,16 @@ bool LoopThread::TryTake(Update& update) {
     return true;
 }
 
-void LoopThread::Finish() {
+void LoopThread::Finish(const std::function<void(const std::string&)>& tell) {
     finish_.store(true);
     wake_.Notify();
+    std::string news;
+    while (true) {
+        around_.mapping.Wait([this] { return ended_.load() || !news_.empty(); });
+        const bool ended = ended_.load();
+        while (news_.TryPop(news)) tell(news);
+        if (ended) break;
+    }
     thread_.join();
 }
 
@@ -112,17 +122,24 @@ void LoopThread::Work() {
             Do(job);
             Tell();
         } else if (finish_.load()) {
-            std::string note;
-            if (auto change = closer_->Finish(note)) HandOver(std::move(*change));
-            if (!note.empty()) news_.Push(std::move(note));
-            if (std::string trouble = closer_->TakeTrouble(); !trouble.empty()) news_.Push(std::move(trouble));
-            if (saved_.load()) Push({world_, std::nullopt, nullptr, journal_.Take(*closer_, closer_->store().frames().size())});
             return;
         } else if (auto change = closer_->Step(kFramesAtOnce)) {
             HandOver(std::move(*change));
         }
         if (std::string trouble = closer_->TakeTrouble(); !trouble.empty()) news_.Push(std::move(trouble));
     }
+}
+
+// At the run's end nobody else works any more: on all cores.
+void LoopThread::Conclude() {
+    if (closer_->corrected())
+        news_.Push(fmt::format("the corrected path is gone over once more; where that moves the map, {} frames are fused again",
+                               closer_->store().frames().size()));
+    std::string note;
+    if (auto change = closer_->Finish(note)) HandOver(std::move(*change));
+    if (!note.empty()) news_.Push(std::move(note));
+    if (std::string trouble = closer_->TakeTrouble(); !trouble.empty()) news_.Push(std::move(trouble));
+    if (saved_.load()) Push({world_, std::nullopt, nullptr, journal_.Take(*closer_, closer_->store().frames().size())});
 }
 
 void LoopThread::BeginWorld(int world) {

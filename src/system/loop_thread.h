@@ -3,6 +3,7 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
 #include <thread>
 
 #include "core/pool.h"
@@ -65,8 +66,8 @@ class LoopThread {
     void BeginNews() { saved_.store(true); }
     bool has_update() const { return !updates_.empty(); }
     bool TryTake(Update& update);
-    // No more frames: waits until all is corrected. What is left comes as updates.
-    void Finish();
+    // No more frames: waits until all is corrected, and tells meanwhile what a person should know. What is left comes as updates.
+    void Finish(const std::function<void(const std::string&)>& tell);
     // After Finish: the tracked frames' poses as they are known, and what was found of the calibration.
     std::vector<StampedPose> Path() const { return closer_->Path(); }
     const std::optional<CalibrationReport>& calibration() const { return closer_->calibration(); }
@@ -93,6 +94,7 @@ class LoopThread {
     };
 
     void Work();
+    void Conclude();
     void BeginWorld(int world);
     bool MayCorrect() const { return closer_->HasWork() && updates_.size() < kUpdates - kCorrections; }
     void Do(Job& job);
@@ -113,7 +115,7 @@ class LoopThread {
     FifoQueue<Answer> answers_;
     FifoQueue<Update> updates_;
     NewestQueue<std::string> news_;
-    std::atomic<bool> finish_{false}, stop_{false}, saved_;
+    std::atomic<bool> finish_{false}, stop_{false}, ended_{false}, saved_;
     // The thread's own; the caller's after Finish.
     std::unique_ptr<LoopCloser> closer_;
     LoopJournal journal_;

@@ -34,6 +34,19 @@ TEST(ScanFile, AnExistingFileIsNeverOverwritten) {
     EXPECT_EQ(ReadBytes(folder / "a.scan"), "mine");
 }
 
+// A killed run's file was removed, or moved, without its journal: SQLite would play that into the new file.
+TEST(ScanFile, TheJournalOfAFileThatIsGoneIsNotTakenForTheNewOnes) {
+    TempFolder folder;
+    WriteBytes(folder / "a.scan-wal", "of another");
+    const auto file = ScanFile::Create(folder / "a.scan", SmallMeta().Encode());
+    ASSERT_FALSE(file.ok());
+    EXPECT_NE(file.message().find("a.scan-wal: is the journal"), std::string::npos) << file.message();
+    EXPECT_EQ(ReadBytes(folder / "a.scan-wal"), "of another");
+    EXPECT_FALSE(std::filesystem::exists(folder / "a.scan"));
+    std::filesystem::remove(folder / "a.scan-wal");
+    EXPECT_TRUE(ScanFile::Create(folder / "a.scan", SmallMeta().Encode()).ok());
+}
+
 TEST(ScanFile, TwoRunsCannotWriteIntoOne) {
     TempFolder folder;
     const auto first = ScanFile::Create(folder / "a.scan", SmallMeta().Encode());
