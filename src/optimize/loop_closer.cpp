@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <functional>
-#include <limits>
 #include <utility>
 
 #include "core/se3.h"
@@ -48,8 +47,12 @@ std::string LoopCloser::Add(const Frame& frame, const PreparedFrame& prepared, c
     std::string news;
     const Eigen::Isometry3d& T_map_camera = track.T_world_camera;
     keyframes_.Follow(T_map_camera);
-    const bool keyframe = fused && (relocalised_at_ || keyframes_.Wanted(prepared, T_map_camera));
-    if (keyframe) AddKeyframe(frame, prepared, track);
+    // In a map that is known to hold places twice, or that has just been replaced, tracking may jump from one surface to the
+    // other. What comes then hangs on a new keyframe, and that on where the camera was expected.
+    const std::optional<Eigen::Isometry3d> expected = jumps_.Follow(T_map_camera);
+    const bool jumped = expected && (rebuild_ || swapped_) && !relocalised_at_;
+    const bool keyframe = fused && (relocalised_at_ || jumped || keyframes_.Wanted(prepared, T_map_camera));
+    if (keyframe) AddKeyframe(frame, prepared, track, jumped ? *expected : T_map_camera);
     if (keyframes_.empty()) return news;
     const Keyframe& last = keyframes_.last();
     AddPassage(frame.stamp_s, T_map_camera);
@@ -59,12 +62,18 @@ std::string LoopCloser::Add(const Frame& frame, const PreparedFrame& prepared, c
     if (keyframe) {
         news = SeekLoop(last, prepared, view.motion);
         index_.Add(last.id, last.features.descriptors);
+        if (rebuild_ && last.id > 0) {
+            // As the graph has it, which a loop may just have told better than tracking.
+            const Keyframe& before = keyframes_[last.id - 1];
+            rebuild_->AddKeyframe(Normalised(rebuild_->T_world_keyframe().back() * before.T_world_camera.inverse() * last.T_world_camera));
+        }
     }
     return news;
 }
 
 void LoopCloser::Pass(double stamp_s, const Eigen::Isometry3d& T_map_camera) {
     keyframes_.Follow(T_map_camera);
+    jumps_.Follow(T_map_camera);
     if (!keyframes_.empty()) AddPassage(stamp_s, T_map_camera);
 }
 
@@ -73,30 +82,26 @@ void LoopCloser::AddPassage(double stamp_s, const Eigen::Isometry3d& T_map_camer
     passages_.push_back({stamp_s, last.id, Normalised(last.T_map_camera.inverse() * T_map_camera)});
 }
 
-void LoopCloser::AddKeyframe(const Frame& frame, const PreparedFrame& prepared, const TrackResult& track) {
+void LoopCloser::AddKeyframe(const Frame& frame, const PreparedFrame& prepared, const TrackResult& track,
+                             const Eigen::Isometry3d& T_map_expected) {
     const bool first = keyframes_.empty();
     Keyframe& fresh = keyframes_.Add(frame.index, frame.stamp_s, prepared, track);
     if (!first) {
         const int from = relocalised_at_.value_or(fresh.id - 1);
         fresh.T_world_camera = Normalised(keyframes_[from].T_world_camera * keyframes_[from].T_map_camera.inverse() *
-                                          fresh.T_map_camera);
-        Link(from, fresh.id);
+                                          T_map_expected);
+        Link(from, fresh.id, T_map_expected);
     }
     relocalised_at_.reset();
-    if (rebuild_) {
-        const int from = std::max(fresh.id - 1, 0);
-        rebuild_->AddKeyframe(Normalised(rebuild_->T_world_keyframe()[static_cast<std::size_t>(from)] *
-                                         keyframes_[from].T_map_camera.inverse() * fresh.T_map_camera));
-    }
+    swapped_ = false;
 }
 
-void LoopCloser::Link(int from, int to) {
+void LoopCloser::Link(int from, int to, const Eigen::Isometry3d& T_map_to) {
     const Keyframe &a = keyframes_[from], &b = keyframes_[to], &before = keyframes_[to - 1];
     // What tracking against the map loses on the way: a little for each keyframe, and a share of the way.
-    // While a map is in use that is known to hold a place twice, tracking may jump from the one to the other.
-    constexpr double kTwice = 10.0;
-    const double trust = (b.inlier_fraction < config_.min_fit ? 2.0 : 1.0) * (rebuild_ ? kTwice : 1.0);
-    edges_.push_back({from, to, Normalised(a.T_map_camera.inverse() * b.T_map_camera),
+    constexpr double kTwice = 10.0;  // where it may have jumped
+    const double trust = (b.inlier_fraction < config_.min_fit ? 2.0 : 1.0) * (rebuild_ || swapped_ ? kTwice : 1.0);
+    edges_.push_back({from, to, Normalised(a.T_map_camera.inverse() * T_map_to),
                       trust * (0.002 + 0.01 * std::min(1.0, b.way_m - before.way_m)),
                       trust * (0.002 + 0.01 * std::min(1.0, b.turned_rad - before.turned_rad)), false});
 }
@@ -127,17 +132,6 @@ std::string LoopCloser::CloseLoop(const Keyframe& old, const Keyframe& fresh, co
                        drift.off_rad * 57.29578);
 }
 
-// Of any point half a view away, between a map made with these poses of the keyframes and the pose graph.
-double LoopCloser::FarthestOff_m(const std::vector<Eigen::Isometry3d>& T_map_keyframe) const {
-    constexpr double kReach_m = 2.0;
-    double farthest = 0;
-    for (int i = 0; i < keyframes_.size(); ++i) {
-        const Eigen::Isometry3d &map = T_map_keyframe[static_cast<std::size_t>(i)], &graph = keyframes_[i].T_world_camera;
-        farthest = std::max(farthest, (map.translation() - graph.translation()).norm() + kReach_m * RotationAngle(map, graph));
-    }
-    return farthest;
-}
-
 // On error the keyframes stay where they are.
 Status LoopCloser::Optimise() {
     std::vector<Eigen::Isometry3d> poses;
@@ -146,83 +140,6 @@ Status LoopCloser::Optimise() {
     for (int i = 0; i < keyframes_.size(); ++i) keyframes_[i].T_world_camera = poses[static_cast<std::size_t>(i)];
     moved_ = true;
     return Status::Ok();
-}
-
-// True if one is under way, or if the map is off by more than the tolerance.
-bool LoopCloser::BeginRebuild(double tolerance_m) {
-    if (rebuild_) return true;
-    if (broken_ || !corrected_) return false;
-    std::vector<Eigen::Isometry3d> map, graph;
-    for (int i = 0; i < keyframes_.size(); ++i) {
-        map.push_back(keyframes_[i].T_map_camera);
-        graph.push_back(keyframes_[i].T_world_camera);
-    }
-    if (FarthestOff_m(map) < tolerance_m) return false;
-    std::unique_ptr<MapPager> pager;
-    if (make_pager_) {
-        Result<std::unique_ptr<MapPager>> made = make_pager_();
-        if (!made.ok()) {
-            GiveUp(made.status());
-            return false;
-        }
-        pager = std::move(made.value());
-    }
-    std::unique_ptr<LabelMapper> labels;
-    if (labels_) labels = std::make_unique<LabelMapper>(labels_->config, labels_->classes, settings_.camera,
-                                                        static_cast<float>(settings_.preparation.max_depth_m));
-    rebuild_ = std::make_unique<MapRebuild>(settings_, std::move(graph), std::move(labels), std::move(pager));
-    return true;
-}
-
-std::optional<LoopCloser::Correction> LoopCloser::Step(int frames) {
-    moved_ = false;
-    if (!BeginRebuild(settings_.map.voxel_size_m / 2)) return std::nullopt;
-    return StepRebuild(frames);
-}
-
-std::optional<LoopCloser::Correction> LoopCloser::StepRebuild(int frames) {
-    const Result<bool> done = rebuild_->Step(store_, frames);
-    if (!done.ok()) GiveUp(done.status());
-    if (!done.ok() || !done.value()) return std::nullopt;
-    Correction correction;
-    correction.map = rebuild_->TakeMap();
-    correction.labels = rebuild_->TakeLabels();
-    correction.pager = rebuild_->TakePager();
-    correction.T_new_old =
-        Normalised(rebuild_->T_world_keyframe().back() * keyframes_.last().T_map_camera.inverse());
-    for (int i = 0; i < keyframes_.size(); ++i)
-        keyframes_[i].T_map_camera = rebuild_->T_world_keyframe()[static_cast<std::size_t>(i)];
-    keyframes_.Move(correction.T_new_old);
-    rebuild_.reset();
-    moved_ = true;
-    return correction;
-}
-
-void LoopCloser::GiveUp(const Status& why) {
-    rebuild_.reset();
-    broken_ = true;
-    trouble_ = "the map is no longer corrected, the path is: " + why.message();
-}
-
-std::optional<LoopCloser::Correction> LoopCloser::Finish(std::string& note) {
-    std::optional<Correction> last;
-    if (corrected_) static_cast<void>(Optimise());  // if it fails, what was corrected before holds
-    if (config_.refine_calibration && !keyframes_.empty()) {
-        const FieldSettings given = settings_;
-        const Status status = Calibrate();
-        note = status.ok() ? CalibrationText(given.camera, given.preparation.disparity_offset_per_m, *calibration_)
-                           : status.message();
-        if (calibration_ && calibration_->shown) {
-            rebuild_.reset();
-            if (BeginRebuild(-1)) last = StepRebuild(std::numeric_limits<int>::max());
-        }
-    }
-    if (!corrected_) return last;
-    const double tolerance_m = settings_.map.voxel_size_m / 10;
-    if (rebuild_ && FarthestOff_m(rebuild_->T_world_keyframe()) >= tolerance_m) rebuild_.reset();  // of a path that is no more
-    while (BeginRebuild(tolerance_m))
-        if (auto next = StepRebuild(std::numeric_limits<int>::max())) last = std::move(next);
-    return last;
 }
 
 // Of several places the one that explains the view, if it does so far better than any other.
@@ -262,6 +179,7 @@ std::optional<Eigen::Isometry3d> LoopCloser::Relocalise(const PreparedFrame& fra
     relocalised_at_ = best.keyframe;
     note = fmt::format("found again, at frame {}", keyframes_[best.keyframe].frame_index);
     keyframes_.Jump();
+    jumps_.Reset();
     return best.T_map_camera;
 }
 

@@ -12,6 +12,7 @@
 
 #include "optimize/calibration_report.h"
 #include "optimize/calibration_view.h"
+#include "optimize/jump_detector.h"
 #include "optimize/keyframes.h"
 #include "optimize/loop_verifier.h"
 #include "optimize/map_rebuild.h"
@@ -94,8 +95,9 @@ class LoopCloser {
     const std::optional<CalibrationReport>& calibration() const { return calibration_; }
 
   private:
-    void AddKeyframe(const Frame& frame, const PreparedFrame& prepared, const TrackResult& track);
-    void Link(int from, int to);
+    void AddKeyframe(const Frame& frame, const PreparedFrame& prepared, const TrackResult& track,
+                     const Eigen::Isometry3d& T_map_expected);
+    void Link(int from, int to, const Eigen::Isometry3d& T_map_to);
     void AddPassage(double stamp_s, const Eigen::Isometry3d& T_map_camera);
     std::string SeekLoop(const Keyframe& fresh, const PreparedFrame& prepared, const FrameMotion& motion);
     std::string CloseLoop(const Keyframe& old, const Keyframe& fresh, const FieldVerdict& verdict);
@@ -112,6 +114,7 @@ class LoopCloser {
     std::optional<Labels> labels_;
     MakePager make_pager_;
     Keyframes keyframes_;
+    JumpDetector jumps_;
     PlaceIndex index_;
     FrameStore store_;
     LoopVerifier verifier_;
@@ -125,6 +128,7 @@ class LoopCloser {
     bool broken_ = false;                  // no further map can be made
     std::string trouble_;
     bool moved_ = false;                   // keyframes, since Step looked last
+    bool swapped_ = false;                 // the map, since the last keyframe
 };
 
 }  // namespace tessera

@@ -80,6 +80,28 @@ TEST(LoopCloser, TakesAFifthOrLessOfTheDriftToTheEndAndTheMapFollows) {
     EXPECT_LE(p95, 0.5f);
 }
 
+// In a map that holds a place twice tracking slips from the one surface to the other.
+TEST(LoopCloser, AJumpWhileTheMapIsMadeAgainIsNoMotion) {
+    if (!PoseGraphAvailable()) GTEST_SKIP() << "this build has no Ceres: install libceres-dev";
+    const std::vector<Frame> frames = Round();
+    Walker walker(LoopConfig{});
+    std::size_t jumped = 0;
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+        Eigen::Isometry3d step = Eigen::Isometry3d::Identity();
+        if (i > 0) step = frames[i - 1].T_world_camera->inverse() * *frames[i].T_world_camera * Bias();
+        if (jumped == 0 && walker.closer.HasWork()) {
+            step = step * Eigen::Translation3d(0.08, 0, 0);
+            jumped = i;
+        }
+        walker.Go(frames[i], step);
+    }
+    ASSERT_GT(jumped, 0u);
+    const std::vector<StampedPose> path = walker.closer.Path();
+    const Eigen::Isometry3d went = path[jumped - 1].T_world_camera.inverse() * path[jumped].T_world_camera;
+    const Eigen::Isometry3d true_step = frames[jumped - 1].T_world_camera->inverse() * *frames[jumped].T_world_camera;
+    EXPECT_LT((went.translation() - true_step.translation()).norm(), 0.03);
+}
+
 TEST(LoopCloser, CorrectsToTheSameBytesForAnyNumberOfThreads) {
     if (!PoseGraphAvailable()) GTEST_SKIP() << "this build has no Ceres: install libceres-dev";
     const std::vector<Frame> frames = Round();

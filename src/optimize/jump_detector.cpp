@@ -1,0 +1,29 @@
+#include "optimize/jump_detector.h"
+
+#include <algorithm>
+
+#include "core/se3.h"
+
+namespace tessera {
+
+std::optional<Eigen::Isometry3d> JumpDetector::Follow(const Eigen::Isometry3d& T_map_camera) {
+    constexpr double kLeast_m = 0.02, kLeast_rad = 0.015;
+    constexpr double kTimes = 6, kShare = 0.1;
+    std::optional<Eigen::Isometry3d> expected;
+    if (followed_ == 2) {
+        const Eigen::Isometry3d T_map_expected = Normalised(T_map_last_ * T_before_last_);
+        const double off_m = (T_map_camera.translation() - T_map_expected.translation()).norm();
+        const double off_rad = RotationAngle(T_map_expected, T_map_camera);
+        if (off_m > std::max(kLeast_m, kTimes * usual_m_) || off_rad > std::max(kLeast_rad, kTimes * usual_rad_))
+            expected = T_map_expected;
+        // A jump is not usual, but what comes again and again is.
+        usual_m_ += kShare * (std::min(off_m, kLeast_m + 2 * usual_m_) - usual_m_);
+        usual_rad_ += kShare * (std::min(off_rad, kLeast_rad + 2 * usual_rad_) - usual_rad_);
+    }
+    if (followed_ > 0) T_before_last_ = Normalised(T_map_last_.inverse() * T_map_camera);
+    followed_ = expected ? 1 : std::min(followed_ + 1, 2);
+    T_map_last_ = T_map_camera;
+    return expected;
+}
+
+}  // namespace tessera

@@ -1,0 +1,100 @@
+// LoopCloser's corrected maps: when one is made, step by step, and what is done at a run's end.
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "core/se3.h"
+#include "optimize/loop_closer.h"
+
+namespace tessera {
+
+// Of any point half a view away, between a map made with these poses of the keyframes and the pose graph.
+double LoopCloser::FarthestOff_m(const std::vector<Eigen::Isometry3d>& T_map_keyframe) const {
+    constexpr double kReach_m = 2.0;
+    double farthest = 0;
+    for (int i = 0; i < keyframes_.size(); ++i) {
+        const Eigen::Isometry3d &map = T_map_keyframe[static_cast<std::size_t>(i)], &graph = keyframes_[i].T_world_camera;
+        farthest = std::max(farthest, (map.translation() - graph.translation()).norm() + kReach_m * RotationAngle(map, graph));
+    }
+    return farthest;
+}
+
+// True if one is under way, or if the map is off by more than the tolerance.
+bool LoopCloser::BeginRebuild(double tolerance_m) {
+    if (rebuild_) return true;
+    if (broken_ || !corrected_) return false;
+    std::vector<Eigen::Isometry3d> map, graph;
+    for (int i = 0; i < keyframes_.size(); ++i) {
+        map.push_back(keyframes_[i].T_map_camera);
+        graph.push_back(keyframes_[i].T_world_camera);
+    }
+    if (FarthestOff_m(map) < tolerance_m) return false;
+    std::unique_ptr<MapPager> pager;
+    if (make_pager_) {
+        Result<std::unique_ptr<MapPager>> made = make_pager_();
+        if (!made.ok()) {
+            GiveUp(made.status());
+            return false;
+        }
+        pager = std::move(made.value());
+    }
+    std::unique_ptr<LabelMapper> labels;
+    if (labels_) labels = std::make_unique<LabelMapper>(labels_->config, labels_->classes, settings_.camera,
+                                                        static_cast<float>(settings_.preparation.max_depth_m));
+    rebuild_ = std::make_unique<MapRebuild>(settings_, std::move(graph), std::move(labels), std::move(pager));
+    return true;
+}
+
+std::optional<LoopCloser::Correction> LoopCloser::Step(int frames) {
+    moved_ = false;
+    if (!BeginRebuild(settings_.map.voxel_size_m / 2)) return std::nullopt;
+    return StepRebuild(frames);
+}
+
+std::optional<LoopCloser::Correction> LoopCloser::StepRebuild(int frames) {
+    const Result<bool> done = rebuild_->Step(store_, frames);
+    if (!done.ok()) GiveUp(done.status());
+    if (!done.ok() || !done.value()) return std::nullopt;
+    Correction correction;
+    correction.map = rebuild_->TakeMap();
+    correction.labels = rebuild_->TakeLabels();
+    correction.pager = rebuild_->TakePager();
+    correction.T_new_old =
+        Normalised(rebuild_->T_world_keyframe().back() * keyframes_.last().T_map_camera.inverse());
+    for (int i = 0; i < keyframes_.size(); ++i)
+        keyframes_[i].T_map_camera = rebuild_->T_world_keyframe()[static_cast<std::size_t>(i)];
+    keyframes_.Move(correction.T_new_old);
+    jumps_.Move(correction.T_new_old);
+    rebuild_.reset();
+    moved_ = swapped_ = true;
+    return correction;
+}
+
+void LoopCloser::GiveUp(const Status& why) {
+    rebuild_.reset();
+    broken_ = true;
+    trouble_ = "the map is no longer corrected, the path is: " + why.message();
+}
+
+std::optional<LoopCloser::Correction> LoopCloser::Finish(std::string& note) {
+    std::optional<Correction> last;
+    if (corrected_) static_cast<void>(Optimise());  // if it fails, what was corrected before holds
+    if (config_.refine_calibration && !keyframes_.empty()) {
+        const FieldSettings given = settings_;
+        const Status status = Calibrate();
+        note = status.ok() ? CalibrationText(given.camera, given.preparation.disparity_offset_per_m, *calibration_)
+                           : status.message();
+        if (calibration_ && calibration_->shown) {
+            rebuild_.reset();
+            if (BeginRebuild(-1)) last = StepRebuild(std::numeric_limits<int>::max());
+        }
+    }
+    if (!corrected_) return last;
+    const double tolerance_m = settings_.map.voxel_size_m / 10;
+    if (rebuild_ && FarthestOff_m(rebuild_->T_world_keyframe()) >= tolerance_m) rebuild_.reset();  // of a path that is no more
+    while (BeginRebuild(tolerance_m))
+        if (auto next = StepRebuild(std::numeric_limits<int>::max())) last = std::move(next);
+    return last;
+}
+
+}  // namespace tessera

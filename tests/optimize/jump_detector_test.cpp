@@ -1,0 +1,46 @@
+#include "optimize/jump_detector.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "core/se3.h"
+
+namespace tessera {
+namespace {
+
+Eigen::Isometry3d At(double x) { return Eigen::Isometry3d(Eigen::Translation3d(x, 0, 0)); }
+
+TEST(JumpDetector, KnowsASlipFromAStep) {
+    JumpDetector detector;
+    for (int i = 0; i < 20; ++i) EXPECT_FALSE(detector.Follow(At(0.03 * i))) << i;
+    const auto expected = detector.Follow(At(0.03 * 20 + 0.05));
+    ASSERT_TRUE(expected);
+    EXPECT_TRUE(expected->isApprox(At(0.03 * 20), 1e-12));
+    for (int i = 21; i < 30; ++i) EXPECT_FALSE(detector.Follow(At(0.03 * i + 0.05))) << i;
+}
+
+TEST(JumpDetector, AMovedMapIsNoJumpAndALossIsNone) {
+    JumpDetector detector;
+    for (int i = 0; i < 5; ++i) detector.Follow(At(0.01 * i));
+    detector.Move(At(1));
+    EXPECT_FALSE(detector.Follow(At(1.05)));
+    detector.Reset();
+    EXPECT_FALSE(detector.Follow(At(7)));
+    EXPECT_FALSE(detector.Follow(At(7.01)));
+}
+
+TEST(JumpDetector, AShakyHandIsTakenAsItIs) {
+    JumpDetector detector;
+    std::mt19937 random(1);
+    std::normal_distribution<double> shake(0, 0.03);
+    int jumps = 0;
+    for (int i = 0; i < 200; ++i) {
+        const bool jump = detector.Follow(Se3Exp((Vector6d() << shake(random), shake(random), 0, 0, 0, shake(random)).finished())).has_value();
+        jumps += jump && i >= 60;  // once it is known
+    }
+    EXPECT_EQ(jumps, 0);
+}
+
+}  // namespace
+}  // namespace tessera
