@@ -1,4 +1,8 @@
 // Maps that are corrected under a memory limit: a rendered room with a Kinect's noise, at poses that drift until loops are closed.
+#include <sys/resource.h>
+
+#include <csignal>
+
 #include "optimize/pose_graph.h"
 #include "support/temp_folder.h"
 #include "system/frame_list.h"
@@ -150,6 +154,44 @@ TEST_F(PagingLoops, ACorrectedMapIsTheSameWithALimit) {
     ExpectSame(exported.value(), whole);
     // Less than what the camera may see from one place: all else leaves at once, and comes back at the end of the tour.
     ExpectSame(Run(walk, false, 20), whole);
+}
+
+// As of a full disk, from where the first loop is found: neither the scan nor the corrected map can be written.
+TEST_F(PagingLoops, AFullDiskWhileTheMapIsMadeAgainLeavesTheMapAndCorrectsThePath) {
+    const std::vector<Frame> walk = Tour();
+    config.loops.enabled = false;
+    const TriangleMesh whole = Run(walk, false, 0);
+    config.loops.enabled = true;
+    Start(walk, false, kLimit_mb);
+    std::signal(SIGXFSZ, SIG_IGN);
+    rlimit before{};
+    ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
+    bool full = false;
+    while (Next()) {
+        if (full || said.find("loop closed") == std::string::npos) continue;
+        full = true;
+        const rlimit little{1 << 16, before.rlim_max};  // room for SQLite's index of its journal, which it had before
+        ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &little), 0);
+    }
+    ASSERT_TRUE(full) << said;
+    EXPECT_TRUE(engine->status().ok()) << engine->status().message();
+    const auto path_found = engine->CorrectedPath();
+    const TriangleMesh mesh = engine->TakeMesh();
+    ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &before), 0);
+    EXPECT_TRUE(engine->status().ok()) << engine->status().message();
+    const std::string given_up = "the map is no longer corrected, the path is";
+    const std::size_t at = said.find(given_up);
+    ASSERT_NE(at, std::string::npos) << said;
+    EXPECT_EQ(said.find(given_up, at + 1), std::string::npos) << said;
+    EXPECT_NE(said.find("no longer saved"), std::string::npos) << said;
+    EXPECT_EQ(corrections, 0);
+    EXPECT_EQ(mesh.vertices.size(), whole.vertices.size());
+    EXPECT_EQ(mesh.triangles.size(), whole.triangles.size());
+    const auto off_m = [&](const Eigen::Isometry3d& T_world_camera) {
+        const Eigen::Isometry3d truth = walk.front().T_world_camera->inverse() * *walk.back().T_world_camera;
+        return (T_world_camera.translation() - truth.translation()).norm();
+    };
+    EXPECT_LT(off_m(path_found.back().T_world_camera), 0.5 * off_m(Drifted(walk).back().T_world_camera));
 }
 
 // Which frames are fused hangs on the threads; what there is in the end is whole.
