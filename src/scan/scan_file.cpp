@@ -83,6 +83,8 @@ Result<std::unique_ptr<ScanFile>> ScanFile::Create(const std::string& path, std:
             if (made.ok()) made = file->Put(ScanTable::kState, static_cast<std::int64_t>(ScanStateKey::kMetaCopy), meta);
         }
         if (made.ok()) made = file->Commit(false);
+        // Not only once it has its name: who is killed while SQLite changes this leaves a file that cannot be opened to read.
+        if (made.ok()) made = file->database_->Execute("PRAGMA journal_mode=WAL");
         if (!made.ok()) {
             file.reset();
             std::filesystem::remove(unfinished, ignored);

@@ -151,6 +151,25 @@ TEST_F(KilledScan, WithAThirdOfTheMapAway) {
     EXPECT_LT(3 * BlocksOf("whole"), 2 * BlocksOf("unlimited"));
 }
 
+// From the moment on at which the file has its name.
+TEST_F(KilledScan, AsSoonAsTheFileIsThere) {
+    frames = 2;
+    sequence = "synthetic:corner";
+    options = {"--set", "synthetic.width=64", "--set", "synthetic.height=48"};
+    for (int i = 0; i < 30; ++i) {
+        const std::string scan = folder / (std::to_string(i) + ".scan");
+        const pid_t child = Start(Arguments(folder / "killed", {"--scan", scan}));
+        const Clock::time_point latest = Clock::now() + std::chrono::seconds(60);
+        while (!std::filesystem::exists(scan) && Clock::now() < latest) std::this_thread::yield();
+        const Clock::time_point there = Clock::now();
+        while (Clock::now() < there + std::chrono::microseconds(50 * (i % 20))) std::this_thread::yield();
+        kill(child, SIGKILL);
+        waitpid(child, nullptr, 0);
+        const auto content = ReadScan(scan, {.map = true, .frames = true});
+        ASSERT_TRUE(content.ok()) << content.message();
+    }
+}
+
 // Which frames a live run drops, its threads decide: it is as accurate as a run without interruption can be.
 TEST_F(KilledScan, LiveWithLoopClosure) {
     MakeSequence("desk", frames);
