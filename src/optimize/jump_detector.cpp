@@ -7,8 +7,9 @@
 namespace tessera {
 
 std::optional<Eigen::Isometry3d> JumpDetector::Follow(const Eigen::Isometry3d& T_map_camera) {
-    constexpr double kLeast_m = 0.02, kLeast_rad = 0.015;
-    constexpr double kTimes = 6, kShare = 0.1;
+    constexpr double kLeast_m = 0.02, kLeast_rad = 0.015;  // of no calm hand, from one frame to the next
+    constexpr double kTimes = 6;                           // what was usual lately: of no shaky one
+    constexpr double kShare = 0.1;                         // of the newest frame in what is usual
     std::optional<Eigen::Isometry3d> expected;
     if (followed_ == 2) {
         const Eigen::Isometry3d T_map_expected = Normalised(T_map_last_ * T_before_last_);

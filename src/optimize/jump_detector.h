@@ -19,7 +19,7 @@ class JumpDetector {
 
   private:
     Eigen::Isometry3d T_map_last_ = Eigen::Isometry3d::Identity(), T_before_last_ = Eigen::Isometry3d::Identity();
-    int followed_ = 0;                      // frames since the last break, at most 2
+    int followed_ = 0;                    // frames since the last break, at most 2
     double usual_m_ = 0, usual_rad_ = 0;  // off the expected pose, smoothed over frames
 };
 

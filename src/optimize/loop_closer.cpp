@@ -57,18 +57,17 @@ std::string LoopCloser::Add(const Frame& frame, const PreparedFrame& prepared, c
     const Keyframe& last = keyframes_.last();
     AddPassage(frame.stamp_s, T_map_camera);
     if (!fused) return news;
-    if (Status stored = store_.Add(frame, last.id, keyframe, passages_.back().T_keyframe_camera, view); !stored.ok())
-        return stored.message();
-    if (keyframe) {
+    const Status stored = store_.Add(frame, last.id, keyframe, passages_.back().T_keyframe_camera, view);
+    if (keyframe && stored.ok()) {
         news = SeekLoop(last, prepared, view.motion);
         index_.Add(last.id, last.features.descriptors);
-        if (rebuild_ && last.id > 0) {
-            // As the graph has it, which a loop may just have told better than tracking.
-            const Keyframe& before = keyframes_[last.id - 1];
-            rebuild_->AddKeyframe(Normalised(rebuild_->T_world_keyframe().back() * before.T_world_camera.inverse() * last.T_world_camera));
-        }
     }
-    return news;
+    if (keyframe && rebuild_) {
+        // As the graph has it, which a loop may just have told better than tracking.
+        const Keyframe& before = keyframes_[last.id - 1];
+        rebuild_->AddKeyframe(Normalised(rebuild_->T_world_keyframe().back() * before.T_world_camera.inverse() * last.T_world_camera));
+    }
+    return stored.ok() ? news : stored.message();
 }
 
 void LoopCloser::Pass(double stamp_s, const Eigen::Isometry3d& T_map_camera) {

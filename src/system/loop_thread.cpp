@@ -126,7 +126,7 @@ void LoopThread::Work() {
         } else if (auto change = closer_->Step(kFramesAtOnce)) {
             HandOver(std::move(*change));
         }
-        if (std::string trouble = closer_->TakeTrouble(); !trouble.empty()) news_.Push(std::move(trouble));
+        TellTrouble();
     }
 }
 
@@ -138,7 +138,7 @@ void LoopThread::Conclude() {
     std::string note;
     if (auto change = closer_->Finish(note)) HandOver(std::move(*change));
     if (!note.empty()) news_.Push(std::move(note));
-    if (std::string trouble = closer_->TakeTrouble(); !trouble.empty()) news_.Push(std::move(trouble));
+    TellTrouble();
     if (saved_.load()) Push({world_, std::nullopt, nullptr, journal_.Take(*closer_, closer_->store().frames().size())});
 }
 
@@ -180,6 +180,10 @@ void LoopThread::Reply(Question& question) {
     if (question.map == MapVersion{world_, static_cast<int>(history_.size())})
         answer.T_world_camera = closer_->Relocalise(*question.frame, answer.note);
     TESSERA_CHECK(answers_.TryPush(std::move(answer)), "more answers than questions");
+}
+
+void LoopThread::TellTrouble() {
+    if (std::string trouble = closer_->TakeTrouble(); !trouble.empty()) news_.Push(std::move(trouble));
 }
 
 // What there is no room for is told later, together with what comes then.

@@ -101,6 +101,7 @@ class LoopThread {
     void AddFrame(Job& job);
     void Reply(Question& question);
     void Tell();
+    void TellTrouble();
     void Push(Update update);
     void HandOver(LoopCloser::Correction change);
 
