@@ -39,18 +39,20 @@ double BatchMeansVariance(const std::vector<float>& residuals, int width, int he
 
 // The same for a residual whose Jacobian changes from pixel to pixel: the variance of its score, residual times image
 // gradient over depth (what a sideways move changes), summed over kBlock x kBlock neighbours, over the sum of the squared
-// gradients. Errors at edges, where the gradient is large, count as they pull.
-double ScoreVariance(const std::vector<float>& residuals, const FramePoints& points) {
+// gradients. Errors at edges, where the gradient is large, count as they pull. What a whole tile is wrong by together
+// (`shading_error`, intensities in [0, 1]) is added: it hardly pulls where texture has gradients of all signs, and a lot
+// where the only gradient is shading, which residuals against a map of the same shading do not show.
+double ScoreVariance(const std::vector<float>& residuals, const FramePoints& points, double shading_error) {
     constexpr int kBlock = 16, kLeast = kBlock * kBlock / 2;
     const int width = points.width(), height = points.height();
     const auto at = [&](int x, int y) {
         return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
     };
-    double scores2 = 0, information = 0;
+    double scores2 = 0, shading_scores2 = 0, information = 0;
     std::int64_t blocks = 0;
     for (int by = 1; by + kBlock < height; by += kBlock)
         for (int bx = 1; bx + kBlock < width; bx += kBlock) {
-            double score_u = 0, score_v = 0, gradients2 = 0;
+            double score_u = 0, score_v = 0, sum_u = 0, sum_v = 0, gradients2 = 0;
             int known = 0;
             for (int y = by; y < by + kBlock; ++y)
                 for (int x = bx; x < bx + kBlock; ++x) {
@@ -61,15 +63,19 @@ double ScoreVariance(const std::vector<float>& residuals, const FramePoints& poi
                     const double gu = (right - left) / z, gv = (down - up) / z;
                     score_u += r * gu;
                     score_v += r * gv;
+                    sum_u += gu;
+                    sum_v += gv;
                     gradients2 += gu * gu + gv * gv;
                     ++known;
                 }
             if (known < kLeast) continue;
             scores2 += score_u * score_u + score_v * score_v;
+            shading_scores2 += sum_u * sum_u + sum_v * sum_v;
             information += gradients2;
             ++blocks;
         }
-    return blocks < 16 || information <= 0 ? 0 : scores2 / information;
+    if (blocks < 16 || information <= 0) return 0;
+    return (scores2 + shading_error * shading_error * shading_scores2) / information;
 }
 
 }  // namespace
@@ -126,7 +132,7 @@ void Photometry::Learn(const PreparedFrame& frame, const FramePoints& points,
 void Photometry::UpdateAlpha(const FramePoints& points, const std::vector<float>& distance_residual,
                              const std::vector<float>& intensity_residual) {
     const double distance = BatchMeansVariance(distance_residual, points.width(), points.height());
-    const double intensity = ScoreVariance(intensity_residual, points);
+    const double intensity = ScoreVariance(intensity_residual, points, config_.shading_error);
     if (distance <= 0 || intensity <= 0) return;
     const double share = distance_variance_ > 0 ? 0.1 : 1.0;
     distance_variance_ += share * (distance - distance_variance_);
@@ -142,8 +148,10 @@ void Photometry::Config::Describe(ConfigParameters& p) {
           "starts from it");
     p.Add("auto_alpha_min", auto_alpha_min, {1e-4, 100.0}, "m^2", "auto: the least alpha");
     p.Add("auto_alpha_max", auto_alpha_max, {1e-4, 100.0}, "m^2",
-          "auto: the largest alpha; where nothing has texture, small photometric residuals say little, and vignetting "
-          "would count as texture");
+          "auto: the largest alpha; raise it where depth is much worse than a Kinect's");
+    p.Add("shading_error", shading_error, {0.0, 1.0}, "",
+          "auto: what intensities are taken to be wrong by over whole image regions (vignetting, moving light, exposure); "
+          "lowers alpha where shading is the only texture");
     p.Add("intensity_scale", intensity_scale, {1e-3, 10.0}, "", "Huber scale of intensities");
     p.Add("brightness", brightness,
           "estimate gain and offset of every frame, so that auto-exposure does not bend the path");

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <random>
 
 #include "support/box_room.h"
@@ -22,6 +23,7 @@ class LearntAlpha : public testing::Test {
         intensity_ = distance_;
         config_.auto_alpha_min = 1e-4;
         config_.auto_alpha_max = 100;
+        config_.shading_error = 0;
         std::normal_distribution<float> noise;
         for (float& r : distance_) r = 0.002f * noise(random_);
         for (float& r : intensity_) r = 0.02f * noise(random_);
@@ -70,6 +72,21 @@ TEST_F(LearntAlpha, ErrorsAlongTheGradientLowerIt) {
                                                        : points_.intensity[i - 1] - points_.intensity[i + 1];
         }
     EXPECT_LT(Learn(), 0.3 * before);
+}
+
+// The same gradient everywhere, up and down by turns or only up: what a tile is wrong by together cancels, or counts 256 times.
+TEST_F(LearntAlpha, ShadingErrorLowersItWhereShadingIsTheOnlyTexture) {
+    config_.shading_error = 0.02;
+    config_.auto_alpha_min = 1e-6;
+    const auto learn_from = [&](const auto& intensity_of) {
+        for (int i = 0; i < points_.count(); ++i) {
+            points_.z[static_cast<std::size_t>(i)] = 1;
+            points_.intensity[static_cast<std::size_t>(i)] = 0.001f * static_cast<float>(intensity_of(i % points_.width()));
+        }
+        return Learn();
+    };
+    EXPECT_NEAR(learn_from([](int x) { return std::abs(x % 16 - 8); }), 4e-6 / 4e-4, 0.003);
+    EXPECT_NEAR(learn_from([](int x) { return x; }), 4e-6 / (4e-4 + 256 * 4e-4), 5e-6);
 }
 
 TEST_F(LearntAlpha, StaysWithinItsBoundsAndWhereItIsFixed) {
