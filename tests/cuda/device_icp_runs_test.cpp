@@ -1,4 +1,4 @@
-// The ICP trackers and whole runs with them on the serial device.
+// Whole runs with the ICP trackers on the serial device.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,7 +15,6 @@ namespace {
 using testing_support::DeskCamera;
 using testing_support::DeskFrame;
 using testing_support::DeskFrames;
-using testing_support::FusedDesk;
 using testing_support::PortableDevice;
 
 constexpr std::size_t kPlenty = std::size_t{1} << 30;
@@ -34,34 +33,6 @@ INSTANTIATE_TEST_SUITE_P(DeviceIcp, ByMethod,
                          [](const auto& test) {
                              return test.param == TrackingMethod::kIcp ? "Icp" : "IcpRgb";
                          });
-
-// One frame after the other against the same map, from the same starts: only the order of summation
-// differs.
-TEST_P(ByMethod, TracksAsThePortablePathDoes) {
-    BlockMap map{BlockMap::Config()};
-    FusedDesk(8, map);
-    DevicePipeline device("serial", kPlenty);
-    const TrackJudge judge({});
-    Photometry photometry({}, DeskCamera()), device_photometry({}, DeskCamera());
-    IcpTracker expected({}, DeskCamera(), judge, colour() ? &photometry : nullptr,
-                        std::make_unique<RayCaster>(VectorPath::kBaseline), VectorPath::kBaseline);
-    IcpTracker tracker({}, DeskCamera(), judge, colour() ? &device_photometry : nullptr, nullptr,
-                       VectorPath::kBaseline, &device.icp_sums());
-    for (std::size_t i = 8; i < 14; ++i) {
-        const Eigen::Isometry3d& last = DeskFrames()[i - 1].T_world_camera;
-        const Eigen::Isometry3d away = last * Eigen::Translation3d(0.02, 0.01, -0.02);
-        const TrackInput input{DeskFrames()[i].prepared, map, {away, last}, last, 1.0 / 30, {}};
-        const TrackResult a = expected.Track(input), b = tracker.Track(input);
-        ASSERT_EQ(b.status, TrackStatus::kGood) << b.reason;
-        EXPECT_EQ(a.iterations, b.iterations);
-        const Eigen::Isometry3d difference = a.T_world_camera.inverse() * b.T_world_camera;
-        EXPECT_LT(difference.translation().norm(), 2e-6) << i;
-        EXPECT_LT(Se3Log(difference).head<3>().norm(), 2e-6) << i;
-        EXPECT_NEAR(a.known_fraction, b.known_fraction, 1e-3);
-        EXPECT_NEAR(a.intensity_rms, b.intensity_rms, 1e-5);
-        EXPECT_EQ(a.intensity_rms > 0, colour());
-    }
-}
 
 struct DeskRun {
     std::vector<FrameReport> reports;
@@ -128,19 +99,6 @@ TEST_P(ByMethod, TracksAgainstAViewThatTheProcessorPredicted) {
     ExpectSamePath(run, RunDesk(config, &portable), 20, colour() ? 1.5e-3 : 1e-4,
                    colour() ? 2e-3 : 1e-4);
     EXPECT_TRUE(HasVoxels(*run.blocks));
-}
-
-TEST_P(ByMethod, IsLostWhereTheModelHasNoRoom) {
-    BlockMap map{BlockMap::Config()};
-    FusedDesk(3, map);
-    DevicePipeline device("serial", std::size_t{1} << 20);
-    Photometry photometry({}, DeskCamera());
-    IcpTracker tracker({}, DeskCamera(), TrackJudge({}), colour() ? &photometry : nullptr, nullptr,
-                       VectorPath::kAuto, &device.icp_sums());
-    const Eigen::Isometry3d& last = DeskFrames()[2].T_world_camera;
-    const TrackResult result =
-        tracker.Track({DeskFrames()[3].prepared, map, {last, last}, last, 1.0 / 30, {}});
-    EXPECT_EQ(result.status, TrackStatus::kLost);
 }
 
 // The window's picture, while the voxels are on the device only.

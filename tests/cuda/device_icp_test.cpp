@@ -2,12 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 
 #include "cuda/desk_frames.h"
 #include "cuda/device_pipeline.h"
 #include "mapping/ray_caster.h"
 #include "tracking/icp_rows.h"
+#include "tracking/icp_tracker.h"
 
 namespace tessera::serial {
 namespace {
@@ -177,6 +179,54 @@ TEST(DeviceIcp, AModelOfTheProcessorGivesTheSameSums) {
         EXPECT_GT(x[SumLayout::kInliers], 0.5 * static_cast<double>(points.valid())) << level;
         EXPECT_EQ(std::memcmp(x.value, y.value, sizeof x.value), 0) << level;
     }
+}
+
+struct IcpTrackers : testing::TestWithParam<bool> {
+    bool colour() const { return GetParam(); }
+};
+
+INSTANTIATE_TEST_SUITE_P(DeviceIcp, IcpTrackers, testing::Bool(),
+                         [](const auto& test) { return test.param ? "IcpRgb" : "Icp"; });
+
+// One frame after the other against the same map, from the same starts: only the order of summation
+// differs.
+TEST_P(IcpTrackers, TracksAsThePortablePathDoes) {
+    BlockMap map{BlockMap::Config()};
+    FusedDesk(8, map);
+    DevicePipeline device("serial", kPlenty);
+    const TrackJudge judge({});
+    Photometry photometry({}, DeskCamera()), device_photometry({}, DeskCamera());
+    IcpTracker expected({}, DeskCamera(), judge, colour() ? &photometry : nullptr,
+                        std::make_unique<RayCaster>(VectorPath::kBaseline), VectorPath::kBaseline);
+    IcpTracker tracker({}, DeskCamera(), judge, colour() ? &device_photometry : nullptr, nullptr,
+                       VectorPath::kBaseline, &device.icp_sums());
+    for (std::size_t i = 8; i < 14; ++i) {
+        const Eigen::Isometry3d& last = DeskFrames()[i - 1].T_world_camera;
+        const Eigen::Isometry3d away = last * Eigen::Translation3d(0.02, 0.01, -0.02);
+        const TrackInput input{DeskFrames()[i].prepared, map, {away, last}, last, 1.0 / 30, {}};
+        const TrackResult a = expected.Track(input), b = tracker.Track(input);
+        ASSERT_EQ(b.status, TrackStatus::kGood) << b.reason;
+        EXPECT_EQ(a.iterations, b.iterations);
+        const Eigen::Isometry3d difference = a.T_world_camera.inverse() * b.T_world_camera;
+        EXPECT_LT(difference.translation().norm(), 2e-6) << i;
+        EXPECT_LT(Se3Log(difference).head<3>().norm(), 2e-6) << i;
+        EXPECT_NEAR(a.known_fraction, b.known_fraction, 1e-3);
+        EXPECT_NEAR(a.intensity_rms, b.intensity_rms, 1e-5);
+        EXPECT_EQ(a.intensity_rms > 0, colour());
+    }
+}
+
+TEST_P(IcpTrackers, IsLostWhereTheModelHasNoRoom) {
+    BlockMap map{BlockMap::Config()};
+    FusedDesk(3, map);
+    DevicePipeline device("serial", std::size_t{1} << 20);
+    Photometry photometry({}, DeskCamera());
+    IcpTracker tracker({}, DeskCamera(), TrackJudge({}), colour() ? &photometry : nullptr, nullptr,
+                       VectorPath::kAuto, &device.icp_sums());
+    const Eigen::Isometry3d& last = DeskFrames()[2].T_world_camera;
+    const TrackResult result =
+        tracker.Track({DeskFrames()[3].prepared, map, {last, last}, last, 1.0 / 30, {}});
+    EXPECT_EQ(result.status, TrackStatus::kLost);
 }
 
 }  // namespace
