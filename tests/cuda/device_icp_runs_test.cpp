@@ -8,6 +8,7 @@
 #include "cuda/portable_device.h"
 #include "mapping/ray_caster.h"
 #include "system/pipeline.h"
+#include "system/run.h"
 
 namespace tessera::serial {
 namespace {
@@ -99,6 +100,24 @@ TEST_P(ByMethod, TracksAgainstAViewThatTheProcessorPredicted) {
     ExpectSamePath(run, RunDesk(config, &portable), 20, colour() ? 1.5e-3 : 1e-4,
                    colour() ? 2e-3 : 1e-4);
     EXPECT_TRUE(HasVoxels(*run.blocks));
+}
+
+// The frame of the switch is the first that reads the processor's voxels.
+TEST_P(ByMethod, ASwitchToAViewOfTheProcessorBringsTheVoxelsFirst) {
+    DevicePipeline device("serial", kPlenty);
+    RunRequest request;
+    request.source = "synthetic:desk";
+    request.selection.count = 5;
+    request.switches = {{3, GetParam()}};
+    request.device = &device;
+    RunConfig config;
+    config.synthetic.camera = DeskCamera();
+    config.pipeline.trackers.icp.prediction = IcpTracker::Prediction::kRaster;
+    const std::atomic<bool> stop{false};
+    const auto run = ExecuteRun(request, config, {}, stop);
+    ASSERT_TRUE(run.ok()) << run.message();
+    EXPECT_EQ(run.value().counts.frames, 5);
+    EXPECT_EQ(run.value().counts.tracked, 5) << run.value().last_reason;
 }
 
 // The window's picture, while the voxels are on the device only.
