@@ -123,6 +123,22 @@ TESSERA_HD T AtomicAdd(T* at, T value) {
 #endif
 }
 
+// The lesser, or the larger, of `value` and what is there stays there. Both must be at least 0: their bits then sort as they do.
+TESSERA_HD void AtomicMin(float* at, float value) {
+#ifdef __CUDA_ARCH__
+    atomicMin(reinterpret_cast<int*>(at), __float_as_int(value));
+#else
+    *at = std::min(*at, value);
+#endif
+}
+TESSERA_HD void AtomicMax(float* at, float value) {
+#ifdef __CUDA_ARCH__
+    atomicMax(reinterpret_cast<int*>(at), __float_as_int(value));
+#else
+    *at = std::max(*at, value);
+#endif
+}
+
 // Puts `value` where `expected` is.
 template <class T>
 TESSERA_HD T AtomicSwapIf(T* at, T expected, T value) {

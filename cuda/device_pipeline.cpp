@@ -22,7 +22,9 @@ DevicePipeline::DevicePipeline(std::string name, std::size_t limit_bytes)
       distance_residual_(memory_),
       intensity_residual_(memory_),
       sum_tiles_(memory_),
-      sums_(memory_) {}
+      sums_(memory_),
+      views_(*this),
+      icp_(*this) {}
 
 std::unique_ptr<Integrator> DevicePipeline::MakeIntegrator(const Integrator::Config& config, const PinholeCamera& camera) {
     return std::make_unique<DeviceIntegrator>(*this, config, camera);

@@ -1,9 +1,11 @@
-// The backend as the stages of src/system see it: an Integrator that allocates and fuses on the device, and the SDF tracker's
-// sums there. Both work on one map, which mirrors the stage's BlockMap: the blocks are in both at once, the voxels come over
-// when somebody asks (Integrator::Bring).
+// The backend as the stages of src/system see it: an Integrator that allocates and fuses on the device, the trackers' sums and
+// the predicted views there. All work on one map, which mirrors the stage's BlockMap: the blocks are in both at once, the
+// voxels come over when somebody asks (Integrator::Bring).
 #pragma once
 
+#include "cuda/device_icp.h"
 #include "cuda/device_map.h"
+#include "cuda/device_views.h"
 #include "system/device.h"
 
 namespace tessera::TESSERA_DEVICE {
@@ -17,6 +19,8 @@ class DevicePipeline : public Device, public SdfSums {
     std::string name() const override { return name_; }
     std::unique_ptr<Integrator> MakeIntegrator(const Integrator::Config& config, const PinholeCamera& camera) override;
     SdfSums& sdf_sums() override { return *this; }
+    IcpSums& icp_sums() override { return icp_; }
+    ViewPredictor& views() override { return views_; }
 
     void SetPoints(const BlockMap& map, const FramePoints& points) override;
     PoseSums Sum(const SdfArguments& arguments) override;
@@ -26,6 +30,8 @@ class DevicePipeline : public Device, public SdfSums {
 
   private:
     friend class DeviceIntegrator;
+    friend class DeviceViews;
+    friend class DeviceIcp;
 
     // The device's map becomes that one's copy, if it is not yet: by BlockMap::identity. Null: no room.
     DeviceMap* MirrorOf(const BlockMap& map);
@@ -46,6 +52,8 @@ class DevicePipeline : public Device, public SdfSums {
     DeviceBuffer<float> distance_residual_, intensity_residual_;
     DeviceBuffer<double> sum_tiles_, sums_;
     bool has_distance_residual_ = false, has_intensity_residual_ = false;
+    DeviceViews views_;
+    DeviceIcp icp_;
 };
 
 }  // namespace tessera::TESSERA_DEVICE

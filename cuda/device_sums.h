@@ -1,7 +1,8 @@
-// The tracker's normal equations on the device, with the formulas of tracking/sdf_kernels.h.
+// The trackers' normal equations on the device, with the formulas of tracking/sdf_kernels.h and icp_kernels.h.
 #pragma once
 
 #include "cuda/device.h"
+#include "tracking/icp_arguments.h"
 #include "tracking/sdf_arguments.h"
 
 namespace tessera::TESSERA_DEVICE {
@@ -12,5 +13,6 @@ std::size_t TilesOfPoints(int points);
 // The sums (SumLayout) over the points, to sums[]: the same bytes on every run. All arrays, those of the arguments too, are on
 // the device.
 void SumSdfPoints(Stream& stream, const SdfArguments& arguments, int points, double* tiles, double* sums);
+void SumIcpPoints(Stream& stream, const IcpArguments& arguments, int points, double* tiles, double* sums);
 
 }  // namespace tessera::TESSERA_DEVICE

@@ -14,6 +14,12 @@ namespace tessera {
 
 struct RayArguments;
 
+// Rays must not be walked beyond this depth, where the picture's corners leave the vector code's reach (kRayReachBlocks).
+float FarthestRayDepth(const BlockMap::Config& map, const PinholeCamera& camera);
+
+// What the kernels need of a view taken from there; the map's layers and the images are the caller's to enter.
+RayArguments MakeRayArguments(const BlockMap::Config& map, const PinholeCamera& camera, const Eigen::Isometry3d& T_world_camera);
+
 // What the kernels need to fill `view`, whose size, camera and pose are set, from the map. Points into both.
 RayArguments RayArgumentsFor(const BlockMap& map, PredictedView& view);
 

@@ -7,19 +7,22 @@
 
 #include "core/camera.h"
 #include "mapping/block_map.h"
+#include "mapping/range_kernels.h"
 
 namespace tessera {
 
-// Depths along z per tile of pixels; first > last where no block is in the way.
-struct RayRanges {
-    static constexpr int kTilePx = 8;
-    struct Range {
-        float first_m, last_m;
-    };
-    int width = 0, height = 0;  // tiles
-    std::vector<Range> ranges;  // row by row
+// What ReachOf needs of a view of the map. Only blocks between the two depths count, and the ranges
+// are cut to them.
+RangeArguments MakeRangeArguments(const BlockMap& map, const PinholeCamera& camera,
+                                  const Eigen::Isometry3d& T_world_camera, float min_depth_m,
+                                  float max_depth_m);
 
-    // Only blocks between the two depths count, and the ranges are cut to them.
+// One range per tile of kRayTilePx pixels.
+struct RayRanges {
+    int width = 0, height = 0;     // tiles
+    std::vector<RayRange> ranges;  // row by row
+
+    // As MakeRangeArguments.
     void Build(const BlockMap& map, const PinholeCamera& camera,
                const Eigen::Isometry3d& T_world_camera, float min_depth_m, float max_depth_m);
 };

@@ -1,4 +1,5 @@
-// A GPU that keeps the map and does the work over its voxels and over a frame's points, in the processor's place.
+// A GPU that keeps the map and does the work over its voxels, over rays through it and over a frame's points, in the
+// processor's place.
 #pragma once
 
 #include <memory>
@@ -6,6 +7,8 @@
 
 #include "core/config.h"
 #include "mapping/integrator.h"
+#include "mapping/predicted_view.h"
+#include "tracking/icp_sums.h"
 #include "tracking/sdf_sums.h"
 
 namespace tessera {
@@ -26,6 +29,10 @@ class Device {
     virtual std::unique_ptr<Integrator> MakeIntegrator(const Integrator::Config& config, const PinholeCamera& camera) = 0;
     // Sums over the map that the integrator fuses into.
     virtual SdfSums& sdf_sums() = 0;
+    // The same of views of that map.
+    virtual IcpSums& icp_sums() = 0;
+    // Casts rays there, as RayCaster does; where there is no room nothing is seen.
+    virtual ViewPredictor& views() = 0;
 };
 
 }  // namespace tessera

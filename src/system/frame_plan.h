@@ -17,6 +17,8 @@ class FramePlan {
     // `poses` empty: track. `poses_file` is for messages.
     FramePlan(std::vector<MethodSwitch> switches, std::vector<StampedPose> poses, const std::string& poses_file);
 
+    // Selects the frame's method; before Track, and before anybody asks whether that method reads the map.
+    void Select(const Frame& frame, TrackingStage& stage);
     // TrackingStage::Track by the plan. Frames are to come in the source's order.
     void Track(const Frame& frame, const BlockMap& map, TrackingStage& stage, TrackedFrame& tracked);
 

@@ -50,6 +50,7 @@ void LiveEngine::TrackFrame(NewFrame item, TrackingState& state) {
     Task task;
     task.tracked = tracked_pool_.Take();
     if (loops_) task.T_found_camera = HearWhereItIs(item.frame->stamp_s, state);
+    plan_.Select(*item.frame, state.stage);
     plan_.Track(*item.frame, *state.field, state.stage, *task.tracked);
     gate_.AfterTracking(*item.frame, state.stage, *task.tracked);
     if (loops_) CheckIfLost(*task.tracked, state);

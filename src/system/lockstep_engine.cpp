@@ -78,6 +78,7 @@ void LockstepEngine::Process(FrameOutcome& outcome) {
     outcome.decode_ms = reader_->decode_ms();
     recorder_.Add(frame_);
     if (paging_) paging_->BeginFrame(mapping_, *scan_);
+    plan_.Select(frame_, tracking_);
     plan_.Track(frame_, tracking_.reads_map() ? mapping_.map() : mapping_.blocks(), tracking_, tracked_);
     gate_.AfterTracking(frame_, tracking_, tracked_);
     if (loops_)

@@ -17,6 +17,7 @@ MappingStage::MappingStage(const PipelineConfig& config, const MeshConfig& meshi
       map_(std::make_unique<BlockMap>(config.map)),
       integrator_(device != nullptr ? device->MakeIntegrator(config.fusion, camera)
                                     : std::make_unique<Integrator>(config.fusion, camera)),
+      device_views_(device != nullptr ? &device->views() : nullptr),
       mesher_(meshing) {}
 
 void MappingStage::Fuse(TrackedFrame& tracked) {
@@ -153,8 +154,9 @@ TriangleMesh MappingStage::TakeStoredMesh(const std::string& scan_path, Status& 
 
 void MappingStage::Predict(const Eigen::Isometry3d& T_world_camera, int step, PredictedView& view) const {
     constexpr float kNear_m = 0.1f;
-    RayCaster().Predict(map(), camera_.Every(step), T_world_camera, kNear_m,
-                        1.2f * static_cast<float>(config_.frame.max_depth_m), view);
+    const float far_m = 1.2f * static_cast<float>(config_.frame.max_depth_m);
+    if (device_views_ != nullptr) return device_views_->Predict(*map_, camera_.Every(step), T_world_camera, kNear_m, far_m, view);
+    RayCaster().Predict(*map_, camera_.Every(step), T_world_camera, kNear_m, far_m, view);
 }
 
 void MappingStage::Replace(std::unique_ptr<BlockMap> map, std::unique_ptr<LabelMapper> labels) {

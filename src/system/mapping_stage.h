@@ -94,6 +94,7 @@ class MappingStage {
     PinholeCamera camera_;
     std::unique_ptr<BlockMap> map_;  // null once the mesh was taken
     std::unique_ptr<Integrator> integrator_;
+    ViewPredictor* device_views_;  // null: views are cast here
     Mesher mesher_;
     GeometryBuilder geometry_;
     std::unique_ptr<LabelMapper> labels_;  // null without labels

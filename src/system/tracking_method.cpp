@@ -34,8 +34,13 @@ void TrackersConfig::Describe(ConfigParameters& p) {
     p.Section("icp", [&](ConfigParameters& s) { icp.Describe(s); });
 }
 
-Trackers::Trackers(const TrackersConfig& config, const PinholeCamera& camera, SdfSums* device)
+Trackers::Trackers(const TrackersConfig& config, const PinholeCamera& camera, Device* device)
     : config_(config), camera_(camera), device_(device), method_(config.method), photometry_(config.photometric, camera) {}
+
+bool Trackers::reads_map() const {
+    const bool icp = method_ == TrackingMethod::kIcp || method_ == TrackingMethod::kIcpRgb;
+    return device_ == nullptr || (icp && config_.icp.prediction == IcpTracker::Prediction::kRaster);
+}
 
 TrackResult Trackers::Track(const TrackInput& input) {
     std::unique_ptr<Tracker>& tracker = trackers_[static_cast<std::size_t>(method_)];
@@ -57,8 +62,13 @@ std::unique_ptr<Tracker> Trackers::Make(TrackingMethod method) {
     const bool colour = method == TrackingMethod::kSdf || method == TrackingMethod::kIcpRgb;
     Photometry* photometry = colour ? &photometry_ : nullptr;
     if (method == TrackingMethod::kSdf || method == TrackingMethod::kSdfGeometric)
-        return std::make_unique<SdfTracker>(config_.sdf, camera_, judge, photometry, VectorPath::kAuto, device_);
-    return std::make_unique<IcpTracker>(config_.icp, camera_, judge, photometry, MakePredictor(config_.icp.prediction, note_));
+        return std::make_unique<SdfTracker>(config_.sdf, camera_, judge, photometry, VectorPath::kAuto,
+                                            device_ != nullptr ? &device_->sdf_sums() : nullptr);
+    std::unique_ptr<ViewPredictor> predictor;  // none where a device casts the rays itself
+    if (device_ == nullptr || config_.icp.prediction == IcpTracker::Prediction::kRaster)
+        predictor = MakePredictor(config_.icp.prediction, note_);
+    return std::make_unique<IcpTracker>(config_.icp, camera_, judge, photometry, std::move(predictor), VectorPath::kAuto,
+                                        device_ != nullptr ? &device_->icp_sums() : nullptr);
 }
 
 std::string Trackers::TakeNote() { return std::exchange(note_, {}); }

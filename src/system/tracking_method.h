@@ -7,6 +7,7 @@
 
 #include "core/camera.h"
 #include "core/config.h"
+#include "system/device.h"
 #include "tracking/icp_tracker.h"
 #include "tracking/photometry.h"
 #include "tracking/sdf_tracker.h"
@@ -39,12 +40,12 @@ std::unique_ptr<ViewPredictor> MakePredictor(IcpTracker::Prediction prediction, 
 class Trackers {
   public:
     // `device` outlives them; null: all on the processor.
-    Trackers(const TrackersConfig& config, const PinholeCamera& camera, SdfSums* device = nullptr);
+    Trackers(const TrackersConfig& config, const PinholeCamera& camera, Device* device = nullptr);
 
     TrackingMethod method() const { return method_; }
     void Select(TrackingMethod method) { method_ = method; }
     // Whether the selected method reads the voxels of TrackInput::map, not only the device's.
-    bool reads_map() const { return device_ == nullptr || method_ == TrackingMethod::kIcp || method_ == TrackingMethod::kIcpRgb; }
+    bool reads_map() const;
     // By the selected method; made when it is first needed, on the thread that tracks.
     TrackResult Track(const TrackInput& input);
     // In place of the configuration's: learnt from the frames, or this, in m^2.
@@ -62,7 +63,7 @@ class Trackers {
 
     TrackersConfig config_;
     PinholeCamera camera_;
-    SdfSums* device_;
+    Device* device_;
     TrackingMethod method_;
     Photometry photometry_;
     std::array<std::unique_ptr<Tracker>, kTrackingMethods> trackers_;

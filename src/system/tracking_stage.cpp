@@ -24,7 +24,7 @@ TrackingStage::TrackingStage(const PipelineConfig& config, const PinholeCamera& 
       motion_(config.motion),
       motion_before_(config.motion),
       aligner_(config.prealign, camera),
-      trackers_(config.trackers, camera, device != nullptr ? &device->sdf_sums() : nullptr) {}
+      trackers_(config.trackers, camera, device) {}
 
 void TrackingStage::Track(const Frame& frame, const BlockMap& map, const std::optional<Eigen::Isometry3d>& given,
                           TrackedFrame& tracked) {

@@ -20,20 +20,12 @@ void TakeView(const PredictedView& view, float jump_m, IcpModelLevel& level) {
     const ModelImages images = ImagesOf(view.depth_m, view.normal_camera, view.intensity);
     tbb::parallel_for(0, height, [&](int y) {
         for (int x = 0; x < width; ++x)
-            level.intensity(x, y) = images.AtEdge(x, y, jump_m) ? -1.0f : view.intensity(x, y);
+            level.intensity(x, y) = images.TrustedIntensity(x, y, jump_m);
     });
 }
 
 void Halve(const IcpModelLevel& fine, float jump_m, IcpModelLevel& coarse) {
-    PinholeCamera& c = coarse.camera;
-    c = fine.camera;
-    c.width /= 2;
-    c.height /= 2;
-    c.fx /= 2;
-    c.fy /= 2;
-    // Pixel i of the coarse level lies between the pixels 2 i and 2 i + 1 of the fine one.
-    c.cx = (fine.camera.cx - 0.5) / 2;
-    c.cy = (fine.camera.cy - 0.5) / 2;
+    const PinholeCamera c = coarse.camera = HalfOf(fine.camera);
     coarse.depth_m.Resize(c.width, c.height);
     coarse.normal_camera.Resize(c.width, c.height);
     coarse.intensity.Resize(c.width, c.height);
@@ -49,6 +41,10 @@ void Halve(const IcpModelLevel& fine, float jump_m, IcpModelLevel& coarse) {
 }
 
 }  // namespace
+
+PinholeCamera HalfOf(const PinholeCamera& fine) {
+    return {fine.width / 2, fine.height / 2, fine.fx / 2, fine.fy / 2, (fine.cx - 0.5) / 2, (fine.cy - 0.5) / 2};
+}
 
 void BuildIcpModel(const PredictedView& view, int count, float jump_m, std::vector<IcpModelLevel>& levels) {
     levels.resize(static_cast<std::size_t>(count));

@@ -17,6 +17,7 @@ void SetPose(const Eigen::Isometry3d& T_view_camera, IcpArguments& a) {
     }
 }
 
+// Its images are empty where a device has them.
 void SetModel(const IcpModelLevel& model, IcpArguments& a) {
     a.width = model.camera.width;
     a.height = model.camera.height;
@@ -25,18 +26,11 @@ void SetModel(const IcpModelLevel& model, IcpArguments& a) {
     a.cx = static_cast<float>(model.camera.cx);
     a.cy = static_cast<float>(model.camera.cy);
     a.depth = model.depth_m.data();
-    a.normal = model.normal_camera.data()->data();
+    a.normal = model.normal_camera.empty() ? nullptr : model.normal_camera.data()->data();
     a.intensity = model.intensity.data();
 }
 
 }  // namespace
-
-void IcpTracker::SetResiduals(Residuals& target, const Residuals* before, IcpArguments& a) {
-    a.distance_residual = target.distance_m.data();
-    a.intensity_residual = target.intensity.data();
-    a.distance_before = before != nullptr ? before->distance_m.data() : nullptr;
-    a.intensity_before = before != nullptr ? before->intensity.data() : nullptr;
-}
 
 struct IcpTracker::State {
     Eigen::Isometry3d T_view_camera = Eigen::Isometry3d::Identity();
@@ -54,13 +48,15 @@ struct IcpTracker::State {
 };
 
 IcpTracker::IcpTracker(const Config& config, const PinholeCamera& camera, const TrackJudge& judge,
-                       Photometry* photometry, std::unique_ptr<ViewPredictor> predictor, VectorPath path)
+                       Photometry* photometry, std::unique_ptr<ViewPredictor> predictor, VectorPath path,
+                       IcpSums* device)
     : config_(config),
       camera_(camera),
       judge_(judge),
       photometry_(photometry),
       predictor_(std::move(predictor)),
       use_avx2_(path == VectorPath::kAvx2 || (path == VectorPath::kAuto && CpuHasAvx2())),
+      device_(device),
       points_(static_cast<std::size_t>(config.levels)) {}
 
 TrackResult IcpTracker::Track(const TrackInput& input) {
@@ -78,6 +74,9 @@ TrackResult IcpTracker::Track(const TrackInput& input) {
         if (!state.failed) RunLevel(level, state);
     }
 
+    if (device_ != nullptr && photometry_ != nullptr && !state.failed)
+        device_->TakeResiduals(residuals_.distance_m, residuals_.intensity);
+
     TrackResult result;
     result.T_world_camera = Normalised(view_.T_world_camera * state.T_view_camera);
     result.motion = state.motion;
@@ -94,11 +93,21 @@ TrackResult IcpTracker::Track(const TrackInput& input) {
 // The view that the frame is aligned with. The camera's pose is sought in its frame.
 void IcpTracker::PredictAt(const TrackInput& input, const Eigen::Isometry3d& T_world_view, State& state) {
     constexpr float kNear_m = 0.1f, kMargin_m = 0.5f;
-    predictor_->Predict(input.map, camera_.Every(config_.finest_step_px), Normalised(T_world_view),
-                        std::max(kNear_m, 0.7f * input.frame.nearest_m - kMargin_m),
-                        1.2f * input.frame.farthest_m + kMargin_m, view_);
-    BuildIcpModel(view_, config_.levels, static_cast<float>(config_.distance_gate_m), model_);
+    const float near_m = std::max(kNear_m, 0.7f * input.frame.nearest_m - kMargin_m);
+    const float far_m = 1.2f * input.frame.farthest_m + kMargin_m, jump_m = static_cast<float>(config_.distance_gate_m);
+    const PinholeCamera camera = camera_.Every(config_.finest_step_px);
     state.T_view_camera.setIdentity();
+    if (predictor_ != nullptr) {
+        predictor_->Predict(input.map, camera, Normalised(T_world_view), near_m, far_m, view_);
+        BuildIcpModel(view_, config_.levels, jump_m, model_);
+        if (device_ != nullptr) device_->SetModel(model_);
+        return;
+    }
+    view_.camera = camera;
+    view_.T_world_camera = Normalised(T_world_view);
+    model_.resize(points_.size());
+    for (std::size_t i = 0; i < model_.size(); ++i) model_[i].camera = i == 0 ? camera : HalfOf(model_[i - 1].camera);
+    device_->Predict(input.map, camera, view_.T_world_camera, near_m, far_m, config_.levels, jump_m);
 }
 
 // The start that fits best on the coarsest level. A view from elsewhere would show another part of the map, so
@@ -108,14 +117,13 @@ void IcpTracker::ChooseStart(const TrackInput& input, State& state) {
     if (starts.size() < 2) return;
     PrepareLevel(input, config_.levels - 1, state);
     if (state.failed) return;
-    SetResiduals(trial_residuals_, nullptr, state.arguments);
     const FramePoints& points = points_.back();
     const Eigen::Isometry3d T_view_world = view_.T_world_camera.inverse();
     double best = std::numeric_limits<double>::infinity();
     Eigen::Isometry3d T_best = state.T_view_camera;
     for (const Eigen::Isometry3d& T_world_camera : starts) {
         state.T_view_camera = Normalised(T_view_world * T_world_camera);
-        const PoseSums sums = SumAt(points, state);
+        const PoseSums sums = SumAt(points, Compare::kWithNothing, state);
         const double misfit = Misfit(sums, sums[SumLayout::kInliers], static_cast<double>(points.valid()),
                                      config_.distance_scale_m, state.alpha);
         if (misfit >= best) continue;
@@ -142,6 +150,7 @@ void IcpTracker::PrepareLevel(const TrackInput& input, int level, State& state) 
     if (state.alpha > 0) points.SampleIntensity(input.frame, camera_, state.motion);
     IcpArguments& a = state.arguments;
     a = {};
+    if (device_ != nullptr) device_->SetPoints(points, level);
     SetModel(model_[static_cast<std::size_t>(level)], a);
     a.x = points.x.data();
     a.y = points.y.data();
@@ -165,17 +174,29 @@ void IcpTracker::PrepareLevel(const TrackInput& input, int level, State& state) 
 }
 
 // At the state's pose and brightness.
-PoseSums IcpTracker::SumAt(const FramePoints& points, State& state) const {
-    SetPose(state.T_view_camera, state.arguments);
-    state.arguments.gain = static_cast<float>(state.gain);
-    state.arguments.offset = static_cast<float>(state.offset);
+PoseSums IcpTracker::SumAt(const FramePoints& points, Compare compare, State& state) {
+    IcpArguments& a = state.arguments;
+    SetPose(state.T_view_camera, a);
+    a.gain = static_cast<float>(state.gain);
+    a.offset = static_cast<float>(state.offset);
+    a.distance_residual = trial_residuals_.distance_m.data();
+    a.intensity_residual = trial_residuals_.intensity.data();
+    a.distance_before = compare == Compare::kWithKept ? residuals_.distance_m.data() : nullptr;
+    a.intensity_before = compare == Compare::kWithKept ? residuals_.intensity.data() : nullptr;
     ++state.iterations;
+    if (device_ != nullptr) return device_->Sum(a);
     return SumPoints(points.count(), [&](int first, int last, double* sums) {
 #ifdef TESSERA_HAVE_AVX2
-        if (use_avx2_) return avx2::SumIcpPoints(state.arguments, first, last, sums);
+        if (use_avx2_) return avx2::SumIcpPoints(a, first, last, sums);
 #endif
-        baseline::SumIcpPoints(state.arguments, first, last, sums);
+        baseline::SumIcpPoints(a, first, last, sums);
     });
+}
+
+// The last sum's.
+void IcpTracker::KeepResiduals() {
+    if (device_ != nullptr) return device_->KeepResiduals();
+    std::swap(residuals_, trial_residuals_);
 }
 
 // Levenberg-Marquardt on [D18] eq. 25.
@@ -184,8 +205,8 @@ void IcpTracker::RunLevel(int level, State& state) {
     const int iterations = level == 0                    ? config_.fine_iterations
                            : level == config_.levels - 1 ? config_.coarse_iterations
                                                          : config_.middle_iterations;
-    SetResiduals(residuals_, nullptr, state.arguments);
-    state.sums = SumAt(points, state);
+    state.sums = SumAt(points, Compare::kWithNothing, state);
+    KeepResiduals();
     SolverOptions& options = state.options;
     options.min_eigenvalue = judge_.min_eigenvalue();
     options.estimate_brightness = photometry_ != nullptr && photometry_->config().brightness;
@@ -212,8 +233,7 @@ void IcpTracker::TakeStep(const FramePoints& points, State& state) {
     trial.T_view_camera = Se3Exp(state.step.increment) * state.T_view_camera;
     trial.gain = std::clamp(state.gain + state.step.gain_change, 0.5, 2.0);
     trial.offset = std::clamp(state.offset + state.step.offset_change, -0.3, 0.3);
-    SetResiduals(trial_residuals_, &residuals_, trial.arguments);
-    trial.sums = SumAt(points, trial);
+    trial.sums = SumAt(points, Compare::kWithKept, trial);
     const auto prior = [&](const State& s) {
         return state.options.brightness_prior * ((s.gain - 1) * (s.gain - 1) + s.offset * s.offset);
     };
@@ -224,7 +244,7 @@ void IcpTracker::TakeStep(const FramePoints& points, State& state) {
     if (!accept) return;
     trial.damping = state.damping;
     state = trial;
-    std::swap(residuals_, trial_residuals_);
+    KeepResiduals();
 }
 
 }  // namespace tessera

@@ -10,6 +10,7 @@
 #include "tracking/frame_points.h"
 #include "tracking/icp_model.h"
 #include "tracking/icp_rows.h"
+#include "tracking/icp_sums.h"
 #include "tracking/levenberg_marquardt.h"
 #include "tracking/photometry.h"
 #include "tracking/pose_solver.h"
@@ -38,9 +39,10 @@ class IcpTracker : public Tracker {
         void Describe(ConfigParameters& parameters);
     };
 
-    // `photometry` outlives the tracker; null tracks by geometry alone.
+    // `photometry` outlives the tracker; null tracks by geometry alone. `device`, too: null sums here. `predictor` may be null
+    // where there is a device, which then predicts.
     IcpTracker(const Config& config, const PinholeCamera& camera, const TrackJudge& judge, Photometry* photometry,
-               std::unique_ptr<ViewPredictor> predictor, VectorPath path = VectorPath::kAuto);
+               std::unique_ptr<ViewPredictor> predictor, VectorPath path = VectorPath::kAuto, IcpSums* device = nullptr);
 
     TrackResult Track(const TrackInput& input) override;
 
@@ -54,9 +56,10 @@ class IcpTracker : public Tracker {
     void ChooseStart(const TrackInput& input, State& state);
     void PrepareLevel(const TrackInput& input, int level, State& state);
     void RunLevel(int level, State& state);
-    PoseSums SumAt(const FramePoints& points, State& state) const;
+    enum class Compare { kWithNothing, kWithKept };  // energies, with those of the residuals
+    PoseSums SumAt(const FramePoints& points, Compare compare, State& state);
+    void KeepResiduals();
     void TakeStep(const FramePoints& points, State& state);
-    static void SetResiduals(Residuals& target, const Residuals* before, IcpArguments& arguments);
 
     Config config_;
     PinholeCamera camera_;
@@ -64,10 +67,11 @@ class IcpTracker : public Tracker {
     Photometry* photometry_;
     std::unique_ptr<ViewPredictor> predictor_;
     bool use_avx2_;
-    PredictedView view_;
+    IcpSums* device_;
+    PredictedView view_;                // with a device that predicts: camera and pose only, as the model's levels
     std::vector<IcpModelLevel> model_;  // per level
     std::vector<FramePoints> points_;   // per level
-    Residuals residuals_, trial_residuals_;
+    Residuals residuals_, trial_residuals_;  // those kept, and the last sum's
 };
 
 }  // namespace tessera

@@ -29,6 +29,11 @@ struct ModelImages {
                (y > 0 && Jumps(z, here[-width], jump_m)) || (y + 1 < height && Jumps(z, here[width], jump_m));
     }
 
+    // The intensity where it is to be trusted, else -1.
+    TESSERA_HD_MEMBER float TrustedIntensity(int x, int y, float jump_m) const {
+        return AtEdge(x, y, jump_m) ? -1.0f : intensity[y * width + x];
+    }
+
     // The pixel (x, y) of an image of half the size: the mean of four, where they are of one surface.
     TESSERA_HD_MEMBER ModelPixel Halved(int x, int y, float jump_m) const {
         const int first = 2 * y * width + 2 * x;

@@ -3,8 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <vector>
 
+#include "mapping/integrator.h"
+#include "mapping/predicted_view.h"
 #include "mapping/prepared_frame.h"
 #include "synth/synthetic_source.h"
 
@@ -33,6 +36,30 @@ inline const std::vector<DeskFrame>& DeskFrames() {
         return made;
     }();
     return frames;
+}
+
+// The first so many frames at their true poses, by the portable path.
+inline void FusedDesk(std::size_t frames, BlockMap& map) {
+    Integrator integrator({}, DeskCamera(), VectorPath::kBaseline);
+    for (std::size_t i = 0; i < frames; ++i) {
+        Integrator::View view;
+        view.T_world_camera = DeskFrames()[i].T_world_camera;
+        integrator.Integrate(DeskFrames()[i].prepared, view, map);
+    }
+}
+
+template <class Pixel>
+bool SameBytes(const Image<Pixel>& a, const Image<Pixel>& b) {
+    return a.width() == b.width() && a.height() == b.height() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Pixel)) == 0;
+}
+
+inline void ExpectSameView(const PredictedView& view, const PredictedView& expected) {
+    EXPECT_EQ(view.camera, expected.camera);
+    EXPECT_EQ(view.T_world_camera.matrix(), expected.T_world_camera.matrix());
+    EXPECT_TRUE(SameBytes(view.depth_m, expected.depth_m));
+    EXPECT_TRUE(SameBytes(view.normal_camera, expected.normal_camera));
+    EXPECT_TRUE(SameBytes(view.colour, expected.colour));
+    EXPECT_TRUE(SameBytes(view.intensity, expected.intensity));
 }
 
 }  // namespace tessera::testing_support

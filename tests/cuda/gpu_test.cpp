@@ -3,7 +3,9 @@
 
 #include "cuda/desk_frames.h"
 #include "cuda/open_device.h"
+#include "cuda/portable_device.h"
 #include "cuda/same_map.h"
+#include "mapping/ray_caster.h"
 #include "system/pipeline.h"
 
 namespace tessera {
@@ -38,6 +40,18 @@ TEST_F(Gpu, FusesTheBytesOfThePortablePath) {
     testing_support::ExpectSameMap(map, expected);
 }
 
+TEST_F(Gpu, CastsTheBytesOfThePortablePath) {
+    BlockMap map{BlockMap::Config()};
+    testing_support::FusedDesk(10, map);
+    RayCaster caster(VectorPath::kBaseline);
+    PredictedView expected, view;
+    for (const DeskFrame& frame : DeskFrames()) {
+        caster.Predict(map, DeskCamera(), frame.T_world_camera, 0.1f, 6.0f, expected);
+        device_->views().Predict(map, DeskCamera(), frame.T_world_camera, 0.1f, 6.0f, view);
+        testing_support::ExpectSameView(view, expected);
+    }
+}
+
 // As DevicePipeline.TracksAndFusesAsTheProcessorDoes.
 TEST_F(Gpu, TracksAsTheProcessorDoes) {
     Pipeline expected({}, DeskCamera()), pipeline({}, DeskCamera(), {}, device_.get());
@@ -46,6 +60,22 @@ TEST_F(Gpu, TracksAsTheProcessorDoes) {
                                              pipeline.Process(frame.frame).track.T_world_camera;
         EXPECT_LT(difference.translation().norm(), 3e-4);
         EXPECT_LT(Se3Log(difference).head<3>().norm(), 2e-4);
+    }
+}
+
+// As ByMethod.TracksAndFusesAsThePortablePathDoesAndBringsNoVoxel.
+TEST_F(Gpu, TracksByIcpAsThePortablePathDoes) {
+    for (const TrackingMethod method : {TrackingMethod::kIcp, TrackingMethod::kIcpRgb}) {
+        PipelineConfig config;
+        config.trackers.method = method;
+        testing_support::PortableDevice portable;
+        Pipeline expected(config, DeskCamera(), {}, &portable), pipeline(config, DeskCamera(), {}, device_.get());
+        for (const DeskFrame& frame : DeskFrames()) {
+            const Eigen::Isometry3d difference = expected.Process(frame.frame).track.T_world_camera.inverse() *
+                                                 pipeline.Process(frame.frame).track.T_world_camera;
+            EXPECT_LT(difference.translation().norm(), 1.5e-3);
+            EXPECT_LT(Se3Log(difference).head<3>().norm(), 2e-3);
+        }
     }
 }
 

@@ -36,7 +36,7 @@ class ScalarRayWalker {
 
     // The first surface seen from the front by pixel (u, v).
     Hit Cast(int u, int v) {
-        constexpr int kTile = RayRanges::kTilePx;
+        constexpr int kTile = kRayTilePx;
         const auto [first_m, last_m] = ranges_.ranges[static_cast<std::size_t>(v / kTile * ranges_.width + u / kTile)];
         step_ = voxel_from_camera_ * camera_.Unproject(u, v, 1).cast<float>();
         metres_per_voxel_ = 1 / step_.norm();

@@ -1,0 +1,122 @@
+#include "cuda/device_icp.h"
+
+#include "cuda/device_pipeline.h"
+#include "cuda/device_rays.h"
+#include "cuda/device_sums.h"
+
+namespace tessera::TESSERA_DEVICE {
+namespace {
+
+constexpr std::size_t kPointFloats = 8, kModelFloats = 5;  // of a point, of a pixel
+
+}  // namespace
+
+DeviceIcp::DeviceIcp(DevicePipeline& device)
+    : device_(device),
+      model_pixels_(device.memory_),
+      point_arrays_(device.memory_),
+      residuals_(device.memory_),
+      sum_tiles_(device.memory_),
+      sums_(device.memory_) {}
+
+bool DeviceIcp::ReserveModel(const PinholeCamera& finest, int levels) {
+    model_.clear();
+    pixels_ = static_cast<std::size_t>(finest.width) * static_cast<std::size_t>(finest.height);
+    return model_pixels_.ReserveScratch(device_.stream_,
+                                        kModelFloats * pixels_ * static_cast<std::size_t>(levels));
+}
+
+DeviceIcp::Images DeviceIcp::ImagesOf(int level) {
+    float* at = model_pixels_.data() + kModelFloats * pixels_ * static_cast<std::size_t>(level);
+    return {at, at + pixels_, at + 4 * pixels_};
+}
+
+void DeviceIcp::Predict(const BlockMap& map, const PinholeCamera& camera,
+                        const Eigen::Isometry3d& T_world_camera, float min_depth_m,
+                        float max_depth_m, int levels, float jump_m) {
+    if (!ReserveModel(camera, levels) ||
+        !device_.views_.Cast(map, camera, T_world_camera, min_depth_m, max_depth_m))
+        return;
+    ModelImages finest = device_.views_.images();
+    TrustIntensities(device_.stream_, finest, jump_m, ImagesOf(0).intensity);
+    finest.intensity = ImagesOf(0).intensity;
+    model_.push_back(finest);
+    for (int i = 1; i < levels; ++i) {
+        const ModelImages fine = model_.back();
+        const auto [depth_m, normal, intensity] = ImagesOf(i);
+        HalveModel(device_.stream_, fine, jump_m, depth_m, normal, intensity);
+        model_.push_back({depth_m, normal, intensity, fine.width / 2, fine.height / 2});
+    }
+}
+
+void DeviceIcp::SetModel(const std::vector<IcpModelLevel>& levels) {
+    if (!ReserveModel(levels.front().camera, static_cast<int>(levels.size()))) return;
+    for (const IcpModelLevel& level : levels) {
+        const auto [depth_m, normal, intensity] = ImagesOf(static_cast<int>(model_.size()));
+        const std::size_t bytes = level.depth_m.size() * sizeof(float);
+        device_.stream_.Upload(depth_m, level.depth_m.data(), bytes);
+        device_.stream_.Upload(normal, level.normal_camera.data(), 3 * bytes);
+        device_.stream_.Upload(intensity, level.intensity.data(), bytes);
+        model_.push_back({depth_m, normal, intensity, level.camera.width, level.camera.height});
+    }
+}
+
+void DeviceIcp::SetPoints(const FramePoints& points, int level) {
+    level_ = static_cast<std::size_t>(level);
+    points_ = points.count();
+    has_intensities_ = false;
+    Stream& stream = device_.stream_;
+    const auto count = static_cast<std::size_t>(points_);
+    if (!point_arrays_.ReserveScratch(stream, kPointFloats * count) ||
+        !residuals_.ReserveScratch(stream, 4 * count) ||
+        !sum_tiles_.ReserveScratch(stream, TilesOfPoints(points_)) ||
+        !sums_.Reserve(stream, SumLayout::kCount, 0)) {
+        points_ = 0;
+        return;
+    }
+    float* to = point_arrays_.data();
+    for (const auto* from : {&points.x, &points.y, &points.z, &points.normal_x, &points.normal_y,
+                             &points.normal_z, &points.intensity, &points.weight}) {
+        stream.Upload(to, from->data(), count * sizeof(float));
+        to += count;
+    }
+}
+
+PoseSums DeviceIcp::Sum(const IcpArguments& arguments) {
+    PoseSums sums;
+    if (points_ == 0 || model_.empty()) return sums;
+    IcpArguments a = arguments;
+    const ModelImages& model = model_[level_];
+    a.depth = model.depth_m;
+    a.normal = model.normal;
+    a.intensity = model.intensity;
+    const float* from = point_arrays_.data();
+    for (const float** array : {&a.x, &a.y, &a.z, &a.normal_x, &a.normal_y, &a.normal_z,
+                                &a.intensity_of_point, &a.weight}) {
+        *array = from;
+        from += points_;
+    }
+    a.distance_residual = Residuals(1 - kept_, 0);
+    a.intensity_residual = Residuals(1 - kept_, 1);
+    const bool compare = arguments.distance_before != nullptr;
+    a.distance_before = compare ? Residuals(kept_, 0) : nullptr;
+    a.intensity_before = compare ? Residuals(kept_, 1) : nullptr;
+    has_intensities_ = a.alpha > 0;
+    SumIcpPoints(device_.stream_, a, points_, sum_tiles_.data(), sums_.data());
+    device_.stream_.Download(sums.value, sums_.data(), sizeof sums.value);
+    device_.stream_.Wait();
+    return sums;
+}
+
+void DeviceIcp::KeepResiduals() {
+    kept_ = 1 - kept_;
+}
+
+void DeviceIcp::TakeResiduals(std::vector<float>& distance, std::vector<float>& intensity) {
+    const std::size_t bytes = static_cast<std::size_t>(points_) * sizeof(float);
+    device_.stream_.Download(distance.data(), Residuals(kept_, 0), bytes);
+    if (has_intensities_) device_.stream_.Download(intensity.data(), Residuals(kept_, 1), bytes);
+    device_.stream_.Wait();
+}
+
+}  // namespace tessera::TESSERA_DEVICE

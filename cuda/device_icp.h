@@ -1,0 +1,53 @@
+// The ICP tracker's model and sums on the device. Made by DevicePipeline.
+#pragma once
+
+#include "cuda/device.h"
+#include "tracking/icp_sums.h"
+#include "tracking/model_kernels.h"
+
+namespace tessera::TESSERA_DEVICE {
+
+class DevicePipeline;
+
+// Owner thread only. What has no room on the device is not there: the sums are empty, and the frame
+// is lost.
+class DeviceIcp : public IcpSums {
+  public:
+    explicit DeviceIcp(DevicePipeline& device);
+
+    void Predict(const BlockMap& map, const PinholeCamera& camera,
+                 const Eigen::Isometry3d& T_world_camera, float min_depth_m, float max_depth_m,
+                 int levels, float jump_m) override;
+    void SetModel(const std::vector<IcpModelLevel>& levels) override;
+    void SetPoints(const FramePoints& points, int level) override;
+    PoseSums Sum(const IcpArguments& arguments) override;
+    void KeepResiduals() override;
+    void TakeResiduals(std::vector<float>& distance, std::vector<float>& intensity) override;
+
+    // The model's levels, their images on the device.
+    const std::vector<ModelImages>& model() const { return model_; }
+
+  private:
+    // Room for the images of so many levels, the finest of that size; ImagesOf says where each
+    // level's are.
+    [[nodiscard]] bool ReserveModel(const PinholeCamera& finest, int levels);
+    struct Images {
+        float *depth_m, *normal, *intensity;
+    };
+    Images ImagesOf(int level);
+    float* Residuals(int set, int kind) { return residuals_.data() + (2 * set + kind) * points_; }
+
+    DevicePipeline& device_;
+    std::vector<ModelImages> model_;  // per level; empty where there is no room
+    std::size_t pixels_ = 0;          // of its finest level
+    std::size_t level_ = 0;           // the points'
+    int points_ = 0;
+    DeviceBuffer<float> model_pixels_;
+    DeviceBuffer<float> point_arrays_;  // one after the other, points_ of each
+    DeviceBuffer<float> residuals_;     // the same: two sets of distances and intensities
+    int kept_ = 0;                      // which set; the other is the last sum's
+    bool has_intensities_ = false;
+    DeviceBuffer<double> sum_tiles_, sums_;
+};
+
+}  // namespace tessera::TESSERA_DEVICE

@@ -1,0 +1,29 @@
+// Views of the map by ray casting on the device, and the ICP tracker's model made of them, with the
+// formulas of mapping/range_kernels.h, mapping/ray_kernels.h and tracking/model_kernels.h.
+#pragma once
+
+#include "cuda/device.h"
+#include "mapping/range_kernels.h"
+#include "mapping/ray_arguments.h"
+#include "tracking/model_kernels.h"
+
+namespace tessera::TESSERA_DEVICE {
+
+// All arrays, those of the arguments too, are on the device.
+
+// RayRanges of a view of `blocks` blocks with the unknown one, at these coordinates
+// (BlockMapView::coords): one range per tile.
+void FindRayRanges(Stream& stream, const RangeArguments& arguments, const std::int32_t* coords,
+                   std::int32_t blocks, RayRange* ranges);
+
+// What every pixel shows, to the images of the arguments.
+void CastRays(Stream& stream, const RayArguments& arguments, const RayRange* ranges);
+
+// ModelImages::TrustedIntensity of every pixel.
+void TrustIntensities(Stream& stream, const ModelImages& view, float jump_m, float* intensity);
+
+// ModelImages::Halved of every pixel of an image of half the size, to these images of that size.
+void HalveModel(Stream& stream, const ModelImages& fine, float jump_m, float* depth_m,
+                float* normal, float* intensity);
+
+}  // namespace tessera::TESSERA_DEVICE

@@ -1,0 +1,233 @@
+#include "cuda/device_icp.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+
+#include "cuda/desk_frames.h"
+#include "cuda/device_pipeline.h"
+#include "mapping/ray_caster.h"
+#include "tracking/icp_rows.h"
+#include "tracking/icp_tracker.h"
+
+namespace tessera::serial {
+namespace {
+
+using testing_support::DeskCamera;
+using testing_support::DeskFrames;
+using testing_support::FusedDesk;
+
+constexpr std::size_t kPlenty = std::size_t{1} << 30;
+constexpr float kNear_m = 0.3f, kFar_m = 5.0f, kJump_m = 0.1f;
+constexpr int kLevels = 3;
+
+// The view of the desk's sixth frame from where the fifth was, and the points of the sixth.
+struct Rig {
+    Rig() {
+        FusedDesk(5, map);
+        PredictedView view;
+        RayCaster(VectorPath::kBaseline).Predict(map, camera, T_world_view, kNear_m, kFar_m, view);
+        BuildIcpModel(view, kLevels, kJump_m, model);
+        const PreparedFrame& frame = DeskFrames()[5].prepared;
+        points.Build(frame, DeskCamera(), {}, 2, 2.0);
+        points.EstimateNormals(frame, DeskCamera(), 4);
+        points.SampleIntensity(frame, DeskCamera(), {});
+        distance.resize(static_cast<std::size_t>(points.count()));
+        intensity = kept_distance = kept_intensity = distance;
+    }
+
+    // At a pose that is so far off.
+    IcpArguments ArgumentsAt(float moved_m, bool compare) {
+        const IcpModelLevel& level = model[0];
+        IcpArguments a{};
+        a.width = level.camera.width;
+        a.height = level.camera.height;
+        a.fx = static_cast<float>(level.camera.fx);
+        a.fy = static_cast<float>(level.camera.fy);
+        a.cx = static_cast<float>(level.camera.cx);
+        a.cy = static_cast<float>(level.camera.cy);
+        a.depth = level.depth_m.data();
+        a.normal = level.normal_camera.data()->data();
+        a.intensity = level.intensity.data();
+        for (int i = 0; i < 3; ++i) a.rotation[4 * i] = 1;
+        a.translation[0] = moved_m;
+        a.x = points.x.data();
+        a.y = points.y.data();
+        a.z = points.z.data();
+        a.normal_x = points.normal_x.data();
+        a.normal_y = points.normal_y.data();
+        a.normal_z = points.normal_z.data();
+        a.intensity_of_point = points.intensity.data();
+        a.weight = points.weight.data();
+        a.distance_gate_m = 0.1f;
+        a.normal_gate_cosine = 0.7f;
+        a.distance_scale_m = 0.02f;
+        a.intensity_scale = 0.1f;
+        a.intensity_gate = 0.5f;
+        a.alpha = 0.05f;
+        a.gain = 1.02f;
+        a.offset = -0.01f;
+        a.inlier_distance_m = 0.02f;
+        a.distance_residual = distance.data();
+        a.intensity_residual = intensity.data();
+        a.distance_before = compare ? kept_distance.data() : nullptr;
+        a.intensity_before = compare ? kept_intensity.data() : nullptr;
+        return a;
+    }
+
+    PoseSums Expected(const IcpArguments& a) const {
+        return SumPoints(points.count(), [&](int begin, int end, double* sums) {
+            baseline::SumIcpPoints(a, begin, end, sums);
+        });
+    }
+
+    PinholeCamera camera = DeskCamera().Every(2);
+    Eigen::Isometry3d T_world_view = DeskFrames()[4].T_world_camera;
+    BlockMap map{BlockMap::Config()};
+    std::vector<IcpModelLevel> model;
+    FramePoints points;
+    std::vector<float> distance, intensity, kept_distance, kept_intensity;
+};
+
+TEST(DeviceIcp, ModelIsTheProcessorsToTheBit) {
+    const Rig rig;
+    DevicePipeline device("serial", kPlenty);
+    DeviceIcp icp(device);
+    icp.Predict(rig.map, rig.camera, rig.T_world_view, kNear_m, kFar_m, kLevels, kJump_m);
+    ASSERT_EQ(icp.model().size(), rig.model.size());
+    for (std::size_t i = 0; i < rig.model.size(); ++i) {
+        const ModelImages& level = icp.model()[i];
+        const IcpModelLevel& expected = rig.model[i];
+        ASSERT_EQ(level.width, expected.camera.width);
+        ASSERT_EQ(level.height, expected.camera.height);
+        const std::size_t bytes = expected.depth_m.size() * sizeof(float);
+        EXPECT_EQ(std::memcmp(level.depth_m, expected.depth_m.data(), bytes), 0) << i;
+        EXPECT_EQ(std::memcmp(level.normal, expected.normal_camera.data(), 3 * bytes), 0) << i;
+        EXPECT_EQ(std::memcmp(level.intensity, expected.intensity.data(), bytes), 0) << i;
+        const float* begin = expected.intensity.data();  // some are to be trusted, some are not
+        const auto untrusted = std::count(begin, begin + expected.intensity.size(), -1.0f);
+        EXPECT_GT(untrusted, 50) << i;
+        EXPECT_LT(untrusted, 0.75 * static_cast<double>(expected.intensity.size())) << i;
+    }
+}
+
+// As DevicePipeline.SumsAreTheProcessorsWithinRounding.
+void ExpectNear(const PoseSums& sums, const PoseSums& expected) {
+    for (const int count : {SumLayout::kKnown, SumLayout::kInliers, SumLayout::kColoured}) {
+        EXPECT_GT(expected[count], 1000);
+        EXPECT_EQ(sums[count], expected[count]);
+    }
+    double largest = 0;
+    for (int i = 0; i < SumLayout::kGradient; ++i) largest = std::max(largest, expected[i]);
+    for (int i = 0; i < SumLayout::kCount; ++i)
+        EXPECT_NEAR(sums[i], expected[i], 1e-6 * std::max(largest, std::abs(expected[i]))) << i;
+    for (const int energy : {SumLayout::kEnergy, SumLayout::kEnergyBefore})
+        EXPECT_NEAR(sums[energy], expected[energy], 1e-6 * expected[energy]);
+}
+
+// The same points, model and pose, alone and against the residuals of another pose.
+TEST(DeviceIcp, SumsAreTheProcessorsWithinRounding) {
+    Rig rig;
+    DevicePipeline device("serial", kPlenty);
+    DeviceIcp icp(device);
+    icp.Predict(rig.map, rig.camera, rig.T_world_view, kNear_m, kFar_m, kLevels, kJump_m);
+    icp.SetPoints(rig.points, 0);
+    const PoseSums first = rig.Expected(rig.ArgumentsAt(0.004f, false));
+    EXPECT_EQ(first[SumLayout::kEnergyBefore], 0);
+    ExpectNear(icp.Sum(rig.ArgumentsAt(0.004f, false)), first);
+    std::swap(rig.distance, rig.kept_distance);
+    std::swap(rig.intensity, rig.kept_intensity);
+    icp.KeepResiduals();
+    const PoseSums second = rig.Expected(rig.ArgumentsAt(0, true));
+    EXPECT_GT(std::abs(second[SumLayout::kEnergyBefore] - second[SumLayout::kEnergy]),
+              1e-3 * second[SumLayout::kEnergy]);
+    for (int i = 0; i < 2; ++i)
+        ExpectNear(icp.Sum(rig.ArgumentsAt(0, true)), second);  // what is not kept changes nothing
+
+    std::vector<float> distance(rig.distance.size()), intensity(rig.intensity.size());
+    icp.TakeResiduals(distance, intensity);  // those kept
+    const std::size_t bytes = distance.size() * sizeof(float);
+    EXPECT_EQ(std::memcmp(distance.data(), rig.kept_distance.data(), bytes), 0);
+    EXPECT_EQ(std::memcmp(intensity.data(), rig.kept_intensity.data(), bytes), 0);
+    icp.KeepResiduals();
+    icp.TakeResiduals(distance, intensity);
+    EXPECT_EQ(std::memcmp(distance.data(), rig.distance.data(), bytes), 0);
+    EXPECT_EQ(std::memcmp(intensity.data(), rig.intensity.data(), bytes), 0);
+}
+
+TEST(DeviceIcp, AModelOfTheProcessorGivesTheSameSums) {
+    Rig rig;
+    DevicePipeline device("serial", kPlenty), other("serial", kPlenty);
+    DeviceIcp predicted(device), uploaded(other);
+    predicted.Predict(rig.map, rig.camera, rig.T_world_view, kNear_m, kFar_m, kLevels, kJump_m);
+    uploaded.SetModel(rig.model);
+    for (int level = 0; level < kLevels; ++level) {
+        FramePoints points;
+        points.Build(DeskFrames()[5].prepared, DeskCamera(), {}, 2 << level, 2.0);
+        points.EstimateNormals(DeskFrames()[5].prepared, DeskCamera(), 4);
+        IcpArguments a = rig.ArgumentsAt(0, false);
+        const PinholeCamera& camera = rig.model[static_cast<std::size_t>(level)].camera;
+        a.width = camera.width;
+        a.height = camera.height;
+        a.fx = static_cast<float>(camera.fx);
+        a.fy = static_cast<float>(camera.fy);
+        a.cx = static_cast<float>(camera.cx);
+        a.cy = static_cast<float>(camera.cy);
+        for (DeviceIcp* icp : {&predicted, &uploaded}) icp->SetPoints(points, level);
+        const PoseSums x = predicted.Sum(a), y = uploaded.Sum(a);
+        EXPECT_GT(x[SumLayout::kInliers], 0.5 * static_cast<double>(points.valid())) << level;
+        EXPECT_EQ(std::memcmp(x.value, y.value, sizeof x.value), 0) << level;
+    }
+}
+
+struct IcpTrackers : testing::TestWithParam<bool> {
+    bool colour() const { return GetParam(); }
+};
+
+INSTANTIATE_TEST_SUITE_P(DeviceIcp, IcpTrackers, testing::Bool(),
+                         [](const auto& test) { return test.param ? "IcpRgb" : "Icp"; });
+
+// One frame after the other against the same map, from the same starts: only the order of summation
+// differs.
+TEST_P(IcpTrackers, TracksAsThePortablePathDoes) {
+    BlockMap map{BlockMap::Config()};
+    FusedDesk(8, map);
+    DevicePipeline device("serial", kPlenty);
+    const TrackJudge judge({});
+    Photometry photometry({}, DeskCamera()), device_photometry({}, DeskCamera());
+    IcpTracker expected({}, DeskCamera(), judge, colour() ? &photometry : nullptr,
+                        std::make_unique<RayCaster>(VectorPath::kBaseline), VectorPath::kBaseline);
+    IcpTracker tracker({}, DeskCamera(), judge, colour() ? &device_photometry : nullptr, nullptr,
+                       VectorPath::kBaseline, &device.icp_sums());
+    for (std::size_t i = 8; i < 14; ++i) {
+        const Eigen::Isometry3d& last = DeskFrames()[i - 1].T_world_camera;
+        const Eigen::Isometry3d away = last * Eigen::Translation3d(0.02, 0.01, -0.02);
+        const TrackInput input{DeskFrames()[i].prepared, map, {away, last}, last, 1.0 / 30, {}};
+        const TrackResult a = expected.Track(input), b = tracker.Track(input);
+        ASSERT_EQ(b.status, TrackStatus::kGood) << b.reason;
+        EXPECT_EQ(a.iterations, b.iterations);
+        const Eigen::Isometry3d difference = a.T_world_camera.inverse() * b.T_world_camera;
+        EXPECT_LT(difference.translation().norm(), 2e-6) << i;
+        EXPECT_LT(Se3Log(difference).head<3>().norm(), 2e-6) << i;
+        EXPECT_NEAR(a.known_fraction, b.known_fraction, 1e-3);
+        EXPECT_NEAR(a.intensity_rms, b.intensity_rms, 1e-5);
+        EXPECT_EQ(a.intensity_rms > 0, colour());
+    }
+}
+
+TEST_P(IcpTrackers, IsLostWhereTheModelHasNoRoom) {
+    BlockMap map{BlockMap::Config()};
+    FusedDesk(3, map);
+    DevicePipeline device("serial", std::size_t{1} << 20);
+    Photometry photometry({}, DeskCamera());
+    IcpTracker tracker({}, DeskCamera(), TrackJudge({}), colour() ? &photometry : nullptr, nullptr,
+                       VectorPath::kAuto, &device.icp_sums());
+    const Eigen::Isometry3d& last = DeskFrames()[2].T_world_camera;
+    const TrackResult result =
+        tracker.Track({DeskFrames()[3].prepared, map, {last, last}, last, 1.0 / 30, {}});
+    EXPECT_EQ(result.status, TrackStatus::kLost);
+}
+
+}  // namespace
+}  // namespace tessera::serial
