@@ -4,6 +4,7 @@
 
 #include "core/check.h"
 #include "cuda/device_integrator.h"
+#include "cuda/device_mesher.h"
 #include "cuda/device_sums.h"
 
 namespace tessera::TESSERA_DEVICE {
@@ -27,6 +28,8 @@ DevicePipeline::DevicePipeline(std::string name, std::size_t limit_bytes)
 std::unique_ptr<Integrator> DevicePipeline::MakeIntegrator(const Integrator::Config& config, const PinholeCamera& camera) {
     return std::make_unique<DeviceIntegrator>(*this, config, camera);
 }
+
+std::unique_ptr<BlockMesher> DevicePipeline::MakeBlockMesher() { return std::make_unique<DeviceMesher>(*this); }
 
 DeviceMap* DevicePipeline::MirrorOf(const BlockMap& map) {
     if (map_ && mirrored_ == map.identity()) return map_.get();

@@ -1,5 +1,5 @@
-// The backend as the stages of src/system see it: an Integrator that allocates and fuses on the device, and the SDF tracker's
-// sums there. Both work on one map, which mirrors the stage's BlockMap: the blocks are in both at once, the voxels come over
+// The backend as the stages of src/system see it: an Integrator that allocates and fuses on the device, a BlockMesher, and the
+// SDF tracker's sums there. All work on one map, which mirrors the stage's BlockMap: the blocks are in both at once, the voxels come over
 // when somebody asks (Integrator::Bring).
 #pragma once
 
@@ -16,6 +16,7 @@ class DevicePipeline : public Device, public SdfSums {
 
     std::string name() const override { return name_; }
     std::unique_ptr<Integrator> MakeIntegrator(const Integrator::Config& config, const PinholeCamera& camera) override;
+    std::unique_ptr<BlockMesher> MakeBlockMesher() override;
     SdfSums& sdf_sums() override { return *this; }
 
     void SetPoints(const BlockMap& map, const FramePoints& points) override;
@@ -23,9 +24,11 @@ class DevicePipeline : public Device, public SdfSums {
     void TakeResiduals(std::vector<float>& distance, std::vector<float>& intensity) override;
 
     std::size_t limit_bytes() const { return memory_.limit_bytes(); }
+    std::size_t used_bytes() const { return memory_.used_bytes(); }
 
   private:
     friend class DeviceIntegrator;
+    friend class DeviceMesher;
 
     // The device's map becomes that one's copy, if it is not yet: by BlockMap::identity. Null: no room.
     DeviceMap* MirrorOf(const BlockMap& map);
