@@ -4,6 +4,7 @@
 #pragma once
 
 #include "cuda/device_map.h"
+#include "cuda/device_points.h"
 #include "system/device.h"
 
 namespace tessera::TESSERA_DEVICE {
@@ -19,8 +20,9 @@ class DevicePipeline : public Device, public SdfSums {
     std::unique_ptr<BlockMesher> MakeBlockMesher() override;
     SdfSums& sdf_sums() override { return *this; }
 
-    void SetPoints(const BlockMap& map, const FramePoints& points) override;
+    std::int64_t SetPoints(const BlockMap& map, const PreparedFrame& frame, const PointArguments& points) override;
     PoseSums Sum(const SdfArguments& arguments) override;
+    void TakePoints(FramePoints& points) override;
     void TakeResiduals(std::vector<float>& distance, std::vector<float>& intensity) override;
 
     std::size_t limit_bytes() const { return memory_.limit_bytes(); }
@@ -32,9 +34,9 @@ class DevicePipeline : public Device, public SdfSums {
 
     // The device's map becomes that one's copy, if it is not yet: by BlockMap::identity. Null: no room.
     DeviceMap* MirrorOf(const BlockMap& map);
-    // The frame's images on the device. False: no room.
-    [[nodiscard]] bool Upload(const PreparedFrame& frame);
-    [[nodiscard]] bool ReservePoints(int count);
+    // The frame's images on the device, where they are not yet; that of the intensities only with `intensities`. False: no room.
+    [[nodiscard]] bool Upload(const PreparedFrame& frame, bool intensities);
+    [[nodiscard]] bool ReserveSums(int points);
 
     std::string name_;
     Stream stream_;
@@ -44,8 +46,9 @@ class DevicePipeline : public Device, public SdfSums {
     DeviceBuffer<float> depth_m_;
     DeviceBuffer<std::uint32_t> packed_colour_;
     DeviceBuffer<float> tiles_;
-    int points_ = 0;
-    DeviceBuffer<float> x_, y_, z_, intensity_, weight_;
+    DeviceBuffer<float> intensity_;
+    std::uint64_t uploaded_ = 0, uploaded_intensity_ = 0;  // whose: PreparedFrame::identity
+    DevicePoints points_;
     DeviceBuffer<float> distance_residual_, intensity_residual_;
     DeviceBuffer<double> sum_tiles_, sums_;
     bool has_distance_residual_ = false, has_intensity_residual_ = false;
