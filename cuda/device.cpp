@@ -89,4 +89,11 @@ bool DeviceSorter::SelectIndices(Stream& stream, const std::uint8_t* keep, int c
     return true;
 }
 
+bool DeviceSorter::SumBefore(Stream& stream, const std::int32_t* counts, int count, std::int32_t* sums) {
+    const std::size_t bytes = backend::SumBefore(counts, count, sums, nullptr, 0, stream.handle());
+    if (!scratch_.ReserveScratch(stream, bytes)) return false;
+    backend::SumBefore(counts, count, sums, scratch_.data(), bytes, stream.handle());
+    return true;
+}
+
 }  // namespace tessera::TESSERA_DEVICE

@@ -1,5 +1,6 @@
-// What the map and the pipeline need of a device: its memory, a stream of commands, sorting and selecting. Loops over items
-// are in device_loops.h. No CUDA type is in here: whoever is compiled by g++ includes it, too. Owner thread only.
+// What the map and the pipeline need of a device: its memory, a stream of commands, sorting, selecting and running sums.
+// Loops over items are in device_loops.h. No CUDA type is in here: whoever is compiled by g++ includes it, too. Owner thread
+// only.
 #pragma once
 
 #include <algorithm>
@@ -108,7 +109,7 @@ class DeviceBuffer {
     std::size_t capacity_ = 0;
 };
 
-// Sorting and selecting, with their passing storage. False: no room on the device.
+// Sorting, selecting and running sums, with their passing storage. False: no room on the device.
 class DeviceSorter {
   public:
     explicit DeviceSorter(DeviceMemory& memory) : scratch_(memory) {}
@@ -118,6 +119,8 @@ class DeviceSorter {
     // Writes the indices i with keep[i] != 0 in increasing order, and how many there are.
     [[nodiscard]] bool SelectIndices(Stream& stream, const std::uint8_t* keep, int count, std::int32_t* indices,
                                      std::int32_t* selected);
+    // sums[i] = counts[0] + ... + counts[i - 1], for i < count.
+    [[nodiscard]] bool SumBefore(Stream& stream, const std::int32_t* counts, int count, std::int32_t* sums);
 
   private:
     DeviceBuffer<std::byte> scratch_;

@@ -31,5 +31,8 @@ std::size_t SortKeys(const std::uint64_t* keys, std::uint64_t* sorted, int count
 // Writes the indices i with keep[i] != 0 in increasing order, and how many there are. `scratch` as above.
 std::size_t SelectIndices(const std::uint8_t* keep, int count, std::int32_t* indices, std::int32_t* selected, void* scratch,
                           std::size_t scratch_bytes, void* stream);
+// sums[i] = counts[0] + ... + counts[i - 1]. `scratch` as above.
+std::size_t SumBefore(const std::int32_t* counts, int count, std::int32_t* sums, void* scratch, std::size_t scratch_bytes,
+                      void* stream);
 
 }  // namespace tessera::TESSERA_DEVICE::backend

@@ -4,6 +4,7 @@
 #include <thrust/iterator/counting_iterator.h>
 
 #include <cub/device/device_radix_sort.cuh>
+#include <cub/device/device_scan.cuh>
 #include <cub/device/device_select.cuh>
 
 #include "cuda/cuda_check.h"
@@ -58,6 +59,13 @@ std::size_t SelectIndices(const std::uint8_t* keep, int count, std::int32_t* ind
                           std::size_t scratch_bytes, void* stream) {
     TESSERA_CUDA_CHECK(cub::DeviceSelect::Flagged(scratch, scratch_bytes, thrust::counting_iterator<std::int32_t>(0), keep,
                                                   indices, selected, count, static_cast<cudaStream_t>(stream)));
+    return scratch_bytes;
+}
+
+std::size_t SumBefore(const std::int32_t* counts, int count, std::int32_t* sums, void* scratch, std::size_t scratch_bytes,
+                      void* stream) {
+    TESSERA_CUDA_CHECK(
+        cub::DeviceScan::ExclusiveSum(scratch, scratch_bytes, counts, sums, count, static_cast<cudaStream_t>(stream)));
     return scratch_bytes;
 }
 

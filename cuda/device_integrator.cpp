@@ -18,7 +18,7 @@ std::string DeviceIntegrator::limit() const {
 
 void DeviceIntegrator::Allocate(const PreparedFrame& frame, const View& view, BlockMap& map, Report& report) {
     DeviceMap* mirror = device_.MirrorOf(map);
-    uploaded_ = mirror != nullptr && device_.Upload(frame);
+    uploaded_ = mirror != nullptr && device_.Upload(frame, false);
     report.map_full = !uploaded_;
     if (!uploaded_) {
         report.refused_blocks = 1;  // nobody knows how many it would be

@@ -4,6 +4,7 @@
 
 #include "core/check.h"
 #include "cuda/device_integrator.h"
+#include "cuda/device_mesher.h"
 #include "cuda/device_sums.h"
 
 namespace tessera::TESSERA_DEVICE {
@@ -14,11 +15,8 @@ DevicePipeline::DevicePipeline(std::string name, std::size_t limit_bytes)
       depth_m_(memory_),
       packed_colour_(memory_),
       tiles_(memory_),
-      x_(memory_),
-      y_(memory_),
-      z_(memory_),
       intensity_(memory_),
-      weight_(memory_),
+      points_(memory_, stream_),
       distance_residual_(memory_),
       intensity_residual_(memory_),
       sum_tiles_(memory_),
@@ -30,6 +28,8 @@ std::unique_ptr<Integrator> DevicePipeline::MakeIntegrator(const Integrator::Con
     return std::make_unique<DeviceIntegrator>(*this, config, camera);
 }
 
+std::unique_ptr<BlockMesher> DevicePipeline::MakeBlockMesher() { return std::make_unique<DeviceMesher>(*this); }
+
 DeviceMap* DevicePipeline::MirrorOf(const BlockMap& map) {
     if (map_ && mirrored_ == map.identity()) return map_.get();
     TESSERA_CHECK(map.count() == map.size() - 1, "{} blocks under {} ids", map.count(), map.size());
@@ -40,63 +40,77 @@ DeviceMap* DevicePipeline::MirrorOf(const BlockMap& map) {
     return map_.get();
 }
 
-bool DevicePipeline::Upload(const PreparedFrame& frame) {
+bool DevicePipeline::Upload(const PreparedFrame& frame, bool intensities) {
     const std::size_t pixels = frame.depth_m.size();
     if (!depth_m_.ReserveScratch(stream_, pixels) || !packed_colour_.ReserveScratch(stream_, pixels) ||
-        !tiles_.ReserveScratch(stream_, pixels))
+        !tiles_.ReserveScratch(stream_, pixels) || (intensities && !intensity_.ReserveScratch(stream_, pixels))) {
+        uploaded_ = uploaded_intensity_ = 0;  // what grew lost its content
         return false;
-    stream_.Upload(depth_m_.data(), frame.depth_m.data(), pixels * sizeof(float));
-    if (frame.has_colour()) stream_.Upload(packed_colour_.data(), frame.packed_colour.data(), pixels * sizeof(std::uint32_t));
+    }
+    if (uploaded_ != frame.identity) {
+        stream_.Upload(depth_m_.data(), frame.depth_m.data(), pixels * sizeof(float));
+        if (frame.has_colour())
+            stream_.Upload(packed_colour_.data(), frame.packed_colour.data(), pixels * sizeof(std::uint32_t));
+        uploaded_ = frame.identity;
+    }
+    if (intensities && uploaded_intensity_ != frame.identity) {
+        stream_.Upload(intensity_.data(), frame.intensity.data(), pixels * sizeof(float));
+        uploaded_intensity_ = frame.identity;
+    }
     return true;
 }
 
-bool DevicePipeline::ReservePoints(int count) {
-    const auto points = static_cast<std::size_t>(count);
-    bool room = sums_.Reserve(stream_, SumLayout::kCount, 0) && sum_tiles_.ReserveScratch(stream_, TilesOfPoints(count));
-    for (auto* buffer : {&x_, &y_, &z_, &intensity_, &weight_, &distance_residual_, &intensity_residual_})
-        room = room && buffer->ReserveScratch(stream_, points);
-    return room;
+bool DevicePipeline::ReserveSums(int points) {
+    const auto count = static_cast<std::size_t>(points);
+    return sums_.Reserve(stream_, SumLayout::kCount, 0) && sum_tiles_.ReserveScratch(stream_, TilesOfPoints(points)) &&
+           distance_residual_.ReserveScratch(stream_, count) && intensity_residual_.ReserveScratch(stream_, count);
 }
 
-void DevicePipeline::SetPoints(const BlockMap& map, const FramePoints& points) {
-    points_ = points.count();
+std::int64_t DevicePipeline::SetPoints(const BlockMap& map, const PreparedFrame& frame, const PointArguments& points) {
     has_distance_residual_ = has_intensity_residual_ = false;
-    if (MirrorOf(map) == nullptr || !ReservePoints(points_)) {
-        points_ = 0;  // what has no room is not tracked: the sums are empty, and the frame is lost
-        return;
-    }
-    const auto upload = [this](DeviceBuffer<float>& to, const std::vector<float>& from) {
-        stream_.Upload(to.data(), from.data(), from.size() * sizeof(float));
-    };
-    upload(x_, points.x);
-    upload(y_, points.y);
-    upload(z_, points.z);
-    upload(intensity_, points.intensity);
-    upload(weight_, points.weight);
+    points_.Clear();
+    PointArguments a = points;
+    const bool intensities = a.intensity.pixels != nullptr;
+    // What has no room is not tracked: there are no points, and the frame is lost.
+    if (MirrorOf(map) == nullptr || !Upload(frame, intensities) || !ReserveSums(a.width * a.height)) return 0;
+    a.depth.pixels = depth_m_.data();
+    if (intensities) a.intensity.pixels = intensity_.data();
+    std::int64_t valid = 0;
+    return points_.Build(a, valid) ? valid : 0;
 }
 
 PoseSums DevicePipeline::Sum(const SdfArguments& arguments) {
     PoseSums sums;
-    if (points_ == 0) return sums;
+    if (points_.count() == 0) return sums;
     SdfArguments a = arguments;
     static_cast<BlockMapView&>(a) = map_->view().readable();
-    a.x = x_.data();
-    a.y = y_.data();
-    a.z = z_.data();
-    a.intensity = intensity_.data();
-    a.weight = weight_.data();
+    a.x = points_.x();
+    a.y = points_.y();
+    a.z = points_.z();
+    a.intensity = points_.intensity();
+    a.weight = points_.weight();
     has_distance_residual_ = a.distance_residual != nullptr;
     has_intensity_residual_ = a.intensity_residual != nullptr;
     if (has_distance_residual_) a.distance_residual = distance_residual_.data();
     if (has_intensity_residual_) a.intensity_residual = intensity_residual_.data();
-    SumSdfPoints(stream_, a, points_, sum_tiles_.data(), sums_.data());
+    SumSdfPoints(stream_, a, points_.count(), sum_tiles_.data(), sums_.data());
     stream_.Download(sums.value, sums_.data(), sizeof sums.value);
     stream_.Wait();
     return sums;
 }
 
+void DevicePipeline::TakePoints(FramePoints& points) {
+    const auto bytes = static_cast<std::size_t>(points_.count()) * sizeof(float);
+    stream_.Download(points.x.data(), points_.x(), bytes);
+    stream_.Download(points.y.data(), points_.y(), bytes);
+    stream_.Download(points.z.data(), points_.z(), bytes);
+    stream_.Download(points.intensity.data(), points_.intensity(), bytes);
+    stream_.Download(points.weight.data(), points_.weight(), bytes);
+    stream_.Wait();
+}
+
 void DevicePipeline::TakeResiduals(std::vector<float>& distance, std::vector<float>& intensity) {
-    const std::size_t bytes = static_cast<std::size_t>(points_) * sizeof(float);
+    const std::size_t bytes = static_cast<std::size_t>(points_.count()) * sizeof(float);
     if (has_distance_residual_) stream_.Download(distance.data(), distance_residual_.data(), bytes);
     if (has_intensity_residual_) stream_.Download(intensity.data(), intensity_residual_.data(), bytes);
     stream_.Wait();

@@ -1,10 +1,11 @@
-// The backend as the stages of src/system see it: an Integrator that allocates and fuses on the device, the trackers' sums and
-// the predicted views there. All work on one map, which mirrors the stage's BlockMap: the blocks are in both at once, the
+// The backend as the stages of src/system see it: an Integrator that allocates and fuses on the device, a BlockMesher, the trackers'
+// sums and the predicted views there. All work on one map, which mirrors the stage's BlockMap: the blocks are in both at once, the
 // voxels come over when somebody asks (Integrator::Bring).
 #pragma once
 
 #include "cuda/device_icp.h"
 #include "cuda/device_map.h"
+#include "cuda/device_points.h"
 #include "cuda/device_views.h"
 #include "system/device.h"
 
@@ -18,26 +19,30 @@ class DevicePipeline : public Device, public SdfSums {
 
     std::string name() const override { return name_; }
     std::unique_ptr<Integrator> MakeIntegrator(const Integrator::Config& config, const PinholeCamera& camera) override;
+    std::unique_ptr<BlockMesher> MakeBlockMesher() override;
     SdfSums& sdf_sums() override { return *this; }
     IcpSums& icp_sums() override { return icp_; }
     ViewPredictor& views() override { return views_; }
 
-    void SetPoints(const BlockMap& map, const FramePoints& points) override;
+    std::int64_t SetPoints(const BlockMap& map, const PreparedFrame& frame, const PointArguments& points) override;
     PoseSums Sum(const SdfArguments& arguments) override;
+    void TakePoints(FramePoints& points) override;
     void TakeResiduals(std::vector<float>& distance, std::vector<float>& intensity) override;
 
     std::size_t limit_bytes() const { return memory_.limit_bytes(); }
+    std::size_t used_bytes() const { return memory_.used_bytes(); }
 
   private:
     friend class DeviceIntegrator;
     friend class DeviceViews;
     friend class DeviceIcp;
+    friend class DeviceMesher;
 
     // The device's map becomes that one's copy, if it is not yet: by BlockMap::identity. Null: no room.
     DeviceMap* MirrorOf(const BlockMap& map);
-    // The frame's images on the device. False: no room.
-    [[nodiscard]] bool Upload(const PreparedFrame& frame);
-    [[nodiscard]] bool ReservePoints(int count);
+    // The frame's images on the device, where they are not yet; that of the intensities only with `intensities`. False: no room.
+    [[nodiscard]] bool Upload(const PreparedFrame& frame, bool intensities);
+    [[nodiscard]] bool ReserveSums(int points);
 
     std::string name_;
     Stream stream_;
@@ -47,8 +52,9 @@ class DevicePipeline : public Device, public SdfSums {
     DeviceBuffer<float> depth_m_;
     DeviceBuffer<std::uint32_t> packed_colour_;
     DeviceBuffer<float> tiles_;
-    int points_ = 0;
-    DeviceBuffer<float> x_, y_, z_, intensity_, weight_;
+    DeviceBuffer<float> intensity_;
+    std::uint64_t uploaded_ = 0, uploaded_intensity_ = 0;  // whose: PreparedFrame::identity
+    DevicePoints points_;
     DeviceBuffer<float> distance_residual_, intensity_residual_;
     DeviceBuffer<double> sum_tiles_, sums_;
     bool has_distance_residual_ = false, has_intensity_residual_ = false;

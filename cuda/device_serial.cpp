@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
+#include <numeric>
 
 #include "cuda/device_backend.h"
 
@@ -30,6 +31,11 @@ std::size_t SelectIndices(const std::uint8_t* keep, int count, std::int32_t* ind
     *selected = 0;
     for (std::int32_t i = 0; i < count; ++i)
         if (keep[i] != 0) indices[(*selected)++] = i;
+    return 1;
+}
+
+std::size_t SumBefore(const std::int32_t* counts, int count, std::int32_t* sums, void* scratch, std::size_t, void*) {
+    if (scratch != nullptr) std::exclusive_scan(counts, counts + count, sums, std::int32_t{0});
     return 1;
 }
 

@@ -2,6 +2,7 @@
 // own time stamps, and a rolling shutter reads the rows one after another. To first order in time.
 #pragma once
 
+#include "core/row_time.h"
 #include "core/se3.h"
 
 namespace tessera {
@@ -14,8 +15,8 @@ struct FrameMotion {
     double colour_readout_s = 0;
 
     // Seconds between the frame's instant (the middle row of the depth image) and a row.
-    double DepthTime(double row, int height) const { return depth_readout_s * (row / height - 0.5); }
-    double ColourTime(double row, int height) const { return colour_delay_s + colour_readout_s * (row / height - 0.5); }
+    double DepthTime(double row, int height) const { return RowTime(depth_readout_s, row, height); }
+    double ColourTime(double row, int height) const { return colour_delay_s + RowTime(colour_readout_s, row, height); }
 };
 
 }  // namespace tessera

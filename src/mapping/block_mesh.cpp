@@ -7,7 +7,6 @@
 
 #include "mapping/cell_bits.h"
 #include "mapping/marching_cubes_tables.h"
-#include "mapping/mesh_kernels.h"
 
 namespace tessera {
 namespace {
@@ -45,15 +44,9 @@ class VertexMaker {
         : map_(map), blocks_(blocks), field_(map, id) {}
 
     BlockMesh::Vertex Make(int axis, int x, int y, int z) const {
-        const int offset = x + 8 * y + 64 * z;
-        int next[3] = {x, y, z};
-        const bool leaves = ++next[axis] == kBlockSide;
-        const BlockId next_block = blocks_[leaves ? 1 << axis : 0];
-        const int next_offset = (next[0] & 7) + 8 * (next[1] & 7) + 64 * (next[2] & 7);
-        const EdgeVertex v = VertexOnEdge(field_.view(), axis, x, y, z, map_.colour(blocks_[0])[offset],
-                                          map_.colour(next_block)[next_offset]);
-        return {static_cast<std::uint16_t>(axis * kBlockVoxels + offset), v.fraction, {v.normal[0], v.normal[1]},
-                v.colour, v.has_colour};
+        const VoxelPlace next = PlaceOf(x + (axis == 0), y + (axis == 1), z + (axis == 2));
+        return VertexOnEdge(field_.view(), axis, x, y, z, map_.colour(blocks_[0])[PlaceOf(x, y, z).offset],
+                            map_.colour(blocks_[next.slot])[next.offset]);
     }
 
   private:
@@ -62,38 +55,27 @@ class VertexMaker {
     LocalField field_;
 };
 
-void MakeVertices(const BlockMap& map, BlockId id, const CellBits& bits, BlockMesh& mesh) {
+void MakeVertices(const BlockMap& map, BlockId id, const CellRows& rows, BlockMesh& mesh) {
     const VertexMaker maker(map, id, mesh.blocks);
     for (int axis = 0; axis < 3; ++axis)
         for (int z = 0; z < kBlockSide; ++z)
             for (int y = 0; y < kBlockSide; ++y)
-                for (std::uint32_t row = bits.CrossedEdges(axis, y, z); row != 0; row &= row - 1)
+                for (std::uint32_t row = rows.CrossedEdges(axis, y, z); row != 0; row &= row - 1)
                     mesh.vertices.push_back(maker.Make(axis, std::countr_zero(row), y, z));
 }
 
 // ---- Triangles.
 
-BlockMesh::VertexRef RefOf(int cube_edge, int x, int y, int z) {
-    const CubeEdge e = CubeEdgeAt(cube_edge);
-    x += e.corner & 1;
-    y += e.corner >> 1 & 1;
-    z += e.corner >> 2;
-    const int slot = x >> 3 | y >> 3 << 1 | z >> 3 << 2;
-    const int edge = e.axis * kBlockVoxels + (x & 7) + 8 * (y & 7) + 64 * (z & 7);
-    return static_cast<BlockMesh::VertexRef>(slot << BlockMesh::kSlotShift | edge);
-}
-
-void MakeTriangles(const CellBits& bits, BlockMesh& mesh) {
+void MakeTriangles(const CellRows& rows, BlockMesh& mesh) {
     const auto& cases = CubeCases();
     for (int z = 0; z < kBlockSide; ++z)
         for (int y = 0; y < kBlockSide; ++y)
-            for (std::uint32_t row = bits.SurfaceCells(y, z); row != 0; row &= row - 1) {
+            for (std::uint32_t row = rows.SurfaceCells(y, z); row != 0; row &= row - 1) {
                 const int x = std::countr_zero(row);
-                const CubeCase& cell = cases[bits.Configuration(x, y, z)];
+                const CubeCase& cell = cases[rows.Configuration(x, y, z)];
                 for (int t = 0; t < cell.triangle_count; ++t) {
                     const auto& [a, b, c] = cell.triangles[t];
-                    mesh.triangles.push_back(
-                        {RefOf(a, x, y, z), RefOf(b, x, y, z), RefOf(c, x, y, z)});
+                    mesh.triangles.push_back({VertexRefOf(a, x, y, z), VertexRefOf(b, x, y, z), VertexRefOf(c, x, y, z)});
                 }
             }
 }
@@ -103,10 +85,8 @@ constexpr auto FindReadOffsets() {
     std::size_t count = 0;
     for (int z = -1; z <= 1; ++z)
         for (int y = -1; y <= 1; ++y)
-            for (int x = -1; x <= 1; ++x) {
-                const int below = (x < 0) + (y < 0) + (z < 0), above = (x > 0) + (y > 0) + (z > 0);
-                if (below == 0 || (below == 1 && above <= 1)) offsets[count++] = {x, y, z};
-            }
+            for (int x = -1; x <= 1; ++x)
+                if (ReadByMesh(x, y, z)) offsets[count++] = {x, y, z};
     return offsets;
 }
 
@@ -124,19 +104,21 @@ void MeshConfig::Describe(ConfigParameters& p) {
           "more removes larger floating specks");
 }
 
+int MinWeightSteps(double min_weight) { return static_cast<int>(std::ceil(min_weight * kWeightSteps)); }
+
 std::unique_ptr<const BlockMesh> MeshBlock(const BlockMap& map, BlockId id, double min_weight) {
     // Kept between calls for its storage: the result is a copy that is no larger than it needs to
     // be.
     thread_local BlockMesh scratch;
     std::copy_n(map.view().neighbours + 8 * static_cast<std::size_t>(id), 8,
                 scratch.blocks.begin());
-    const CellBits bits(map, scratch.blocks, min_weight);
+    const CellBits bits(map, scratch.blocks, MinWeightSteps(min_weight));
     if (!bits.HasBothSigns()) return nullptr;
     scratch.coord = map.coord(id);
     scratch.vertices.clear();
     scratch.triangles.clear();
-    MakeVertices(map, id, bits, scratch);
-    MakeTriangles(bits, scratch);
+    MakeVertices(map, id, bits.view(), scratch);
+    MakeTriangles(bits.view(), scratch);
     if (scratch.vertices.empty() && scratch.triangles.empty()) return nullptr;
     return std::make_unique<BlockMesh>(scratch);
 }

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "core/config.h"
-#include "core/image.h"
 #include "mapping/block_map.h"
+#include "mapping/mesh_kernels.h"
 
 namespace tessera {
 
@@ -23,19 +23,9 @@ struct MeshConfig {
 // A cell belongs to the block of its lowest corner; its other corners may lie in the seven positive
 // neighbours. A vertex belongs to the block of the lower end of its edge, so that each exists once.
 struct BlockMesh {
-    // Edge axis * 512 + o runs from the block's voxel o to the next voxel along `axis`.
-    // A triangle's corner: neighbour slot (as in BlockMapView) << kSlotShift | edge in that
-    // block.
-    static constexpr int kSlotShift = 11;
-    using VertexRef = std::uint16_t;
-
-    struct Vertex {
-        std::uint16_t edge;
-        std::uint16_t fraction;              // of the way along the edge, in 1/65536; never 0
-        std::array<std::int16_t, 2> normal;  // octahedral
-        Rgb8 colour;
-        std::uint8_t has_colour;  // 0 or 1; without, colour is mid grey
-    };
+    static constexpr int kSlotShift = kMeshSlotShift;
+    using VertexRef = MeshVertexRef;
+    using Vertex = MeshVertex;
 
     BlockCoord coord;
     std::array<BlockId, 8> blocks{};  // by slot, this one first
@@ -53,11 +43,12 @@ Eigen::Vector3f VertexPosition(const BlockMesh& mesh, const BlockMesh::Vertex& v
 // Unit, out of the surface (towards positive distance).
 Eigen::Vector3f VertexNormal(const BlockMesh::Vertex& vertex);
 
-// The blocks whose voxels a block's mesh is made from, as offsets: itself and the positive
-// neighbours (corners of cells), and those one step further along an axis (gradients at the
-// vertices' ends).
+// The blocks whose voxels a block's mesh is made from, as offsets: those that are ReadByMesh.
 inline constexpr int kMeshReads = 17;
 extern const std::array<std::array<int, 3>, kMeshReads> kMeshReadOffsets;
+
+// The weight that a voxel must have at least, as CellFlags counts it.
+int MinWeightSteps(double min_weight);
 
 // Meshes one block. Only cells whose corners all have a distance and enough weight take part, and
 // not those that hold both ends of the distance's range: there the field jumps from free space to

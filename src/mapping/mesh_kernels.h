@@ -1,11 +1,14 @@
-// The vertices of marching cubes, one edge at a time. Host-device, shared by the CPU and CUDA.
+// The vertices of marching cubes, one edge at a time, and what their triangles refer to them by. Host-device, shared by the
+// CPU and CUDA.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 
 #include "core/image.h"
-#include "mapping/voxel.h"
+#include "mapping/cell_kernels.h"
+#include "mapping/marching_cubes_tables.h"
 
 namespace tessera {
 
@@ -31,13 +34,32 @@ struct ApronField {
     }
 };
 
-// What BlockMesh::Vertex says of a vertex besides its edge.
-struct EdgeVertex {
-    std::uint16_t fraction;
-    std::int16_t normal[2];
+// Whether a block's mesh is made from voxels of the block at this offset, each in {-1, 0, 1}: of its own, of the positive
+// neighbours (corners of cells), and of those one step further along an axis (gradients at the vertices' ends).
+TESSERA_HD constexpr bool ReadByMesh(int dx, int dy, int dz) {
+    const int below = (dx < 0) + (dy < 0) + (dz < 0), above = (dx > 0) + (dy > 0) + (dz > 0);
+    return below == 0 || (below == 1 && above <= 1);
+}
+
+// Edge axis * 512 + o of a block runs from its voxel o to the next voxel along `axis`.
+struct MeshVertex {
+    std::uint16_t edge;
+    std::uint16_t fraction;              // of the way along the edge, in 1/65536; never 0
+    std::array<std::int16_t, 2> normal;  // octahedral
     Rgb8 colour;
-    std::uint8_t has_colour;
+    std::uint8_t has_colour;  // 0 or 1; without, colour is mid grey
 };
+
+// A triangle's corner: neighbour slot (as in BlockMapView) << kMeshSlotShift | edge in that block.
+using MeshVertexRef = std::uint16_t;
+inline constexpr int kMeshSlotShift = 11;
+
+// Of the vertex on a cube's edge, for the block's cell at (x, y, z).
+TESSERA_HD MeshVertexRef VertexRefOf(int cube_edge, int x, int y, int z) {
+    const CubeEdge e = CubeEdgeAt(cube_edge);
+    const VoxelPlace at = PlaceOf(x + (e.corner & 1), y + (e.corner >> 1 & 1), z + (e.corner >> 2));
+    return static_cast<MeshVertexRef>(at.slot << kMeshSlotShift | (e.axis * kBlockVoxels + at.offset));
+}
 
 // Octahedral, from a vector of any length but 0; VertexNormal undoes it.
 TESSERA_HD void EncodeNormal(const float* n, std::int16_t* code) {
@@ -60,7 +82,7 @@ TESSERA_HD Rgb8 MixColours(FieldWord w1, ColourWord c1, FieldWord w2, ColourWord
 
 // The vertex on the edge from the block's voxel (x, y, z) along `axis`, whose ends lie on both sides of the surface;
 // c1 and c2 are their colours.
-TESSERA_HD EdgeVertex VertexOnEdge(const ApronField& field, int axis, int x, int y, int z, ColourWord c1,
+TESSERA_HD MeshVertex VertexOnEdge(const ApronField& field, int axis, int x, int y, int z, ColourWord c1,
                                    ColourWord c2) {
     const int i1 = ApronField::Index(x, y, z), i2 = i1 + ApronField::Stride(axis);
     const FieldWord w1 = field.words[i1], w2 = field.words[i2];
@@ -72,9 +94,10 @@ TESSERA_HD EdgeVertex VertexOnEdge(const ApronField& field, int axis, int x, int
     for (int k = 0; k < 3; ++k) n[k] = (1 - m) * field.Slope(i1, k) + m * field.Slope(i2, k);
     if (n[0] * n[0] + (n[1] * n[1] + n[2] * n[2]) < 1e-12f)
         for (int k = 0; k < 3; ++k) n[k] = k != axis ? 0.0f : d2 > d1 ? 1.0f : -1.0f;
-    EdgeVertex v;
+    MeshVertex v;
+    v.edge = static_cast<std::uint16_t>(axis * kBlockVoxels + PlaceOf(x, y, z).offset);
     v.fraction = static_cast<std::uint16_t>(m * 65536 + 0.5f);
-    EncodeNormal(n, v.normal);
+    EncodeNormal(n, v.normal.data());
     v.colour = MixColours(w1, c1, w2, c2, m);
     v.has_colour = HasIntensity(w1) || HasIntensity(w2);
     return v;

@@ -10,22 +10,27 @@
 
 namespace tessera {
 
-int Mesher::Update(const BlockMap& map, int budget_blocks) {
+int Mesher::Update(const BlockMap& map, int budget_blocks, BlockMesher* device) {
     voxel_size_m_ = map.config().voxel_size_m;
     FindChanged(map);
-    const std::size_t count =
-        std::min(pending_.size(), static_cast<std::size_t>(std::max(budget_blocks, 0)));
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 8), [&](const auto& range) {
-        for (std::size_t i = range.begin(); i < range.end(); ++i) {
-            const std::size_t id = static_cast<std::size_t>(pending_[i]);
-            meshes_[id] = map.IsFree(pending_[i]) ? nullptr : MeshBlock(map, pending_[i], config_.min_weight);
-            is_pending_[id] = 0;
-        }
-    });
+    std::size_t count = std::min(pending_.size(), static_cast<std::size_t>(std::max(budget_blocks, 0)));
+    if (device == nullptr)
+        MeshHere(map, {pending_.data(), count});
+    else if (!device->MeshBlocks(map, {pending_.data(), count}, config_.min_weight, meshes_))
+        count = 0;
     const auto done = pending_.begin() + static_cast<std::ptrdiff_t>(count);
     updated_.assign(pending_.begin(), done);
     pending_.erase(pending_.begin(), done);
+    for (const BlockId id : updated_) is_pending_[static_cast<std::size_t>(id)] = 0;
     return remaining();
+}
+
+void Mesher::MeshHere(const BlockMap& map, std::span<const BlockId> blocks) {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, blocks.size(), 8), [&](const auto& range) {
+        for (std::size_t i = range.begin(); i < range.end(); ++i)
+            meshes_[static_cast<std::size_t>(blocks[i])] =
+                map.IsFree(blocks[i]) ? nullptr : MeshBlock(map, blocks[i], config_.min_weight);
+    });
 }
 
 // Appends to pending_ every block that reads one whose revision is new, and what is another block by now or none.

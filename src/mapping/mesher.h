@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/mesh.h"
-#include "mapping/block_mesh.h"
+#include "mapping/block_mesher.h"
 
 namespace tessera {
 
@@ -26,8 +26,9 @@ class Mesher {
     // block (kMeshReadOffsets) whose BlockMap::revision differs from the one last seen. So whoever
     // writes the map must use a new revision after each Update. At most `budget_blocks` are done,
     // oldest first; returns how many remain. Nobody may write the map meanwhile. Blocks may come and
-    // go between calls; Clear when it is another map.
-    int Update(const BlockMap& map, int budget_blocks = kNoLimit);
+    // go between calls; Clear when it is another map. With `device` that one meshes, in a map whose blocks do not go; where
+    // it has no room none is done.
+    int Update(const BlockMap& map, int budget_blocks = kNoLimit, BlockMesher* device = nullptr);
 
     // The whole mesh, with normals and colours. Vertices are shared across blocks, ordered by block
     // id and edge; only those that a triangle uses. While blocks remain to be done there may be
@@ -39,21 +40,21 @@ class Mesher {
 
     // What the last Update meshed, oldest first, for those who keep copies of the block meshes.
     std::span<const BlockId> updated() const { return updated_; }
-    // By block id; null where there is no surface.
-    const std::vector<std::unique_ptr<const BlockMesh>>& block_meshes() const { return meshes_; }
+    const BlockMeshes& block_meshes() const { return meshes_; }
 
     const Config& config() const { return config_; }
     int remaining() const { return static_cast<int>(pending_.size()); }
     std::size_t bytes() const;  // memory of all block meshes
 
   private:
+    void MeshHere(const BlockMap& map, std::span<const BlockId> blocks);
     void FindChanged(const BlockMap& map);
     void AddReaders(const BlockMap& map, const BlockCoord& block);
 
     Config config_;
     double voxel_size_m_ = 0;
     // By block id.
-    std::vector<std::unique_ptr<const BlockMesh>> meshes_;  // null: no surface
+    BlockMeshes meshes_;
     std::vector<std::uint32_t> seen_revision_;
     std::vector<std::int32_t> seen_number_;  // BlockMap::number: an id may be another block's by now
     std::vector<BlockCoord> seen_coord_;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 
 #include "mapping/frame_kernels.h"
@@ -91,6 +92,8 @@ Status PreparedFrame::Config::Validate() const {
 }
 
 void PrepareFrame(const Frame& frame, const PreparedFrame::Config& config, PreparedFrame& p) {
+    static std::atomic<std::uint64_t> last_identity = 0;
+    p.identity = ++last_identity;
     const int width = frame.depth_m.width(), height = frame.depth_m.height();
     p.depth_m.Resize(width, height);
     std::vector<DepthCounts> counts(static_cast<std::size_t>((height + kBand - 1) / kBand));

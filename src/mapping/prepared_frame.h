@@ -28,6 +28,8 @@ struct PreparedFrame {
     std::int64_t measured_pixels = 0;  // with any depth at all, in range or not
     double coherent_fraction = 0;  // of neighbouring valid pixels, those within 5 % of each other
     float nearest_m = 0, farthest_m = 0;  // of the valid pixels
+    // Another number for each PrepareFrame of this process: whoever keeps copies of the images tells by it whose they are.
+    std::uint64_t identity = 0;
 
     bool has_colour() const { return !intensity.empty(); }
 };

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/config.h"
+#include "mapping/block_mesher.h"
 #include "mapping/integrator.h"
 #include "mapping/predicted_view.h"
 #include "tracking/icp_sums.h"
@@ -27,6 +28,8 @@ class Device {
     virtual std::string name() const = 0;
     // Fuses there. The device outlives it.
     virtual std::unique_ptr<Integrator> MakeIntegrator(const Integrator::Config& config, const PinholeCamera& camera) = 0;
+    // Meshes the map that the integrator fuses into there. The device outlives it. Null: the processor meshes.
+    virtual std::unique_ptr<BlockMesher> MakeBlockMesher() = 0;
     // Sums over the map that the integrator fuses into.
     virtual SdfSums& sdf_sums() = 0;
     // The same of views of that map.

@@ -69,6 +69,7 @@ class Engine {
 
     // After Next gave false, once: the source and the map go, the whole mesh comes.
     virtual TriangleMesh TakeMesh() = 0;
+    virtual std::string mesh_warning() const { return {}; }     // after TakeMesh; mostly empty
     virtual const std::vector<MapObject>& objects() const = 0;  // after TakeMesh; empty without labels
     virtual MapStatistics map_statistics() const = 0;  // before TakeMesh
     // After Next gave false: the tracked frames' poses as they are known at the end; empty: as they were given.

@@ -22,6 +22,7 @@ class LockstepEngine : public Engine {
     const Status& status() const override { return status_; }
     bool stopped() const override { return stopped_; }
     TriangleMesh TakeMesh() override;
+    std::string mesh_warning() const override { return mapping_.mesh_warning(); }
     const std::vector<MapObject>& objects() const override { return mapping_.objects(); }
     std::vector<StampedPose> CorrectedPath() const override;
     std::optional<CalibrationReport> calibration() const override { return loops_ ? loops_->calibration() : std::nullopt; }

@@ -18,6 +18,7 @@ MappingStage::MappingStage(const PipelineConfig& config, const MeshConfig& meshi
       integrator_(device != nullptr ? device->MakeIntegrator(config.fusion, camera)
                                     : std::make_unique<Integrator>(config.fusion, camera)),
       device_views_(device != nullptr ? &device->views() : nullptr),
+      device_mesher_(device != nullptr ? device->MakeBlockMesher() : nullptr),
       mesher_(meshing) {}
 
 void MappingStage::Fuse(TrackedFrame& tracked) {
@@ -93,8 +94,22 @@ void MappingStage::CollectWhole(MapDelta& delta) {
     ForgetDelta();
 }
 
+int MappingStage::UpdateMesher(Mesher& mesher, int budget_blocks) const {
+    if (device_mesher_) {
+        const int waiting = mesher.Update(*map_, budget_blocks, device_mesher_.get());
+        if (waiting == 0 || budget_blocks <= 0 || !mesher.updated().empty()) return waiting;
+        device_refused_ = true;
+    }
+    return mesher.Update(map(), budget_blocks);
+}
+
+std::string MappingStage::mesh_warning() const {
+    return device_refused_ ? "meshed on the processor: " + integrator_->limit() : "";
+}
+
 int MappingStage::UpdateMesh(int budget_blocks, MeshUpdate& update) {
-    const int waiting = mesher_.Update(map(), budget_blocks);
+    integrator_->Bring(*map_);  // the marks are made of voxels
+    const int waiting = UpdateMesher(mesher_, budget_blocks);
     update.voxel_size_m = map_->config().voxel_size_m;
     update.clear = std::exchange(mesh_cleared_, false);
     if (labels_) labels_->Meshed(*map_, mesher_.updated());
@@ -116,14 +131,14 @@ std::vector<MapObject> MappingStage::MeasureObjects() const {
 
 TriangleMesh MappingStage::Mesh() const {
     Mesher mesher(mesher_.config());
-    mesher.Update(map());
+    UpdateMesher(mesher, Mesher::kNoLimit);
     TriangleMesh mesh = mesher.Assemble();
     if (labels_) labels_->LabelVertices(*map_, mesh);
     return mesh;
 }
 
 TriangleMesh MappingStage::TakeMesh() {
-    mesher_.Update(map());
+    UpdateMesher(mesher_, Mesher::kNoLimit);
     if (!labels_) map_.reset();
     TriangleMesh mesh = mesher_.Assemble();
     mesher_.Clear();

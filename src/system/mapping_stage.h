@@ -63,6 +63,8 @@ class MappingStage {
     TriangleMesh Mesh() const;
     // The same at the end: the map goes before the mesh is put together, so that both need not fit into memory.
     TriangleMesh TakeMesh();
+    // What a person should know of the meshes made since, in words; mostly empty.
+    std::string mesh_warning() const;
     // The same where part of the map is in the scan file only, and all of it there. An error goes to `status`, the mesh is then
     // empty.
     TriangleMesh TakeStoredMesh(const std::string& scan_path, Status& status);
@@ -87,6 +89,8 @@ class MappingStage {
     const BlockMap& blocks() const { return *map_; }
 
   private:
+    // On the device where there is one with room for it; else the voxels are brought here.
+    int UpdateMesher(Mesher& mesher, int budget_blocks) const;
     void Place(std::unique_ptr<BlockMap> map);
     void ForgetDelta();
 
@@ -95,6 +99,8 @@ class MappingStage {
     std::unique_ptr<BlockMap> map_;  // null once the mesh was taken
     std::unique_ptr<Integrator> integrator_;
     ViewPredictor* device_views_;  // null: views are cast here
+    std::unique_ptr<BlockMesher> device_mesher_;  // null without a device
+    mutable bool device_refused_ = false;         // to mesh: no room
     Mesher mesher_;
     GeometryBuilder geometry_;
     std::unique_ptr<LabelMapper> labels_;  // null without labels

@@ -7,7 +7,6 @@
 #include <numeric>
 
 #include "tracking/normal_equations.h"
-#include "tracking/point_kernels.h"
 
 namespace tessera {
 namespace {
@@ -19,32 +18,56 @@ PinholeImage WithCamera(const Image<float>& image, const PinholeCamera& camera) 
 
 }  // namespace
 
+PointArguments MakePointArguments(const PreparedFrame& frame, const PinholeCamera& camera, const FrameMotion& motion, int step,
+                                  double depth_exponent, bool intensities) {
+    const DepthImage& depth = frame.depth_m;
+    const auto sampled = [step](int pixels) { return (pixels + step - 1 - step / 2) / step; };
+    PointArguments a{};
+    a.depth = WithCamera(depth, camera);
+    if (intensities && frame.has_colour()) a.intensity = WithCamera(frame.intensity, camera);
+    a.fx = camera.fx;
+    a.fy = camera.fy;
+    a.cx = camera.cx;
+    a.cy = camera.cy;
+    a.step = step;
+    a.width = (sampled(depth.width()) + kPointPadding - 1) / kPointPadding * kPointPadding;
+    a.height = sampled(depth.height());
+    a.depth_exponent = static_cast<float>(-depth_exponent);
+    for (int i = 0; i < 6; ++i) a.twist_per_s[i] = static_cast<float>(motion.twist_per_s(i));
+    a.still = motion.twist_per_s.isZero();
+    a.depth_readout_s = motion.depth_readout_s;
+    a.colour_delay_s = motion.colour_delay_s;
+    a.colour_readout_s = motion.colour_readout_s;
+    return a;
+}
+
+void FramePoints::Lay(const PointArguments& a, std::int64_t valid) {
+    step_ = a.step;
+    width_ = a.width;
+    height_ = a.height;
+    valid_ = valid;
+    for (auto* values : {&x, &y, &z, &weight, &intensity}) values->resize(static_cast<std::size_t>(count()));
+}
+
 void FramePoints::Build(const PreparedFrame& frame, const PinholeCamera& camera, const FrameMotion& motion, int step,
                       double depth_exponent) {
-    const DepthImage& depth = frame.depth_m;
-    const int columns = (depth.width() + step - 1 - step / 2) / step;
-    step_ = step;
-    width_ = (columns + kPointPadding - 1) / kPointPadding * kPointPadding;
-    height_ = (depth.height() + step - 1 - step / 2) / step;
+    const PointArguments a = MakePointArguments(frame, camera, motion, step, depth_exponent, false);
+    Lay(a, 0);
     for (auto* values : {&x, &y, &z, &weight}) values->assign(static_cast<std::size_t>(count()), 0.0f);
     intensity.assign(static_cast<std::size_t>(count()), -1.0f);
     std::vector<std::int64_t> valid(static_cast<std::size_t>(height_), 0);
-    const Eigen::Matrix<float, 6, 1> twist = motion.twist_per_s.cast<float>();
-    const auto exponent = static_cast<float>(-depth_exponent);
     tbb::parallel_for(0, height_, [&](int row) {
-        const int v = ImageRow(row);
-        const float ray_y = RaySlope(v, camera.cy, camera.fy);
-        const float* line = depth.row(v);
-        const auto time = static_cast<float>(motion.DepthTime(v, depth.height()));
+        const PointRow r = RowOfPoints(a, row);
+        const float* line = frame.depth_m.row(r.v);
         std::size_t at = static_cast<std::size_t>(row) * static_cast<std::size_t>(width_);
-        for (int u = step / 2; u < depth.width(); u += step, ++at) {
+        for (int u = step / 2; u < a.depth.width; u += step, ++at) {
             const float d = line[u];
             if (d <= 0) continue;
-            const CameraPoint p = Moved({RaySlope(u, camera.cx, camera.fx) * d, ray_y * d, d}, twist.data(), time);
+            const CameraPoint p = PointOfPixel(a, r, u, d);
             x[at] = p.x;
             y[at] = p.y;
             z[at] = p.z;
-            weight[at] = PointWeight(d, exponent);
+            weight[at] = PointWeight(d, a.depth_exponent);
             ++valid[static_cast<std::size_t>(row)];
         }
     });
@@ -77,22 +100,12 @@ void FramePoints::EstimateNormals(const PreparedFrame& frame, const PinholeCamer
 void FramePoints::SampleIntensity(const PreparedFrame& frame, const PinholeCamera& camera,
                                 const FrameMotion& motion) {
     if (!frame.has_colour()) return;
-    const bool still = motion.twist_per_s.isZero();
-    const Eigen::Matrix<float, 6, 1> twist = motion.twist_per_s.cast<float>();
-    const PinholeImage image = WithCamera(frame.intensity, camera);
+    const PointArguments a = MakePointArguments(frame, camera, motion, step_, 0, true);
     tbb::parallel_for(0, height_, [&](int row) {
-        const std::size_t begin = static_cast<std::size_t>(row) * static_cast<std::size_t>(width_);
-        const int v = ImageRow(row);
-        const auto time = static_cast<float>(motion.ColourTime(v, frame.depth_m.height()));
-        for (int column = 0; column < width_; ++column) {
-            const std::size_t i = begin + static_cast<std::size_t>(column);
-            if (weight[i] <= 0) continue;
-            if (still) {
-                intensity[i] = frame.intensity(column * step_ + step_ / 2, v);
-                continue;
-            }
-            intensity[i] = SampleAtPoint(image, Moved({x[i], y[i], z[i]}, twist.data(), -time));
-        }
+        const PointRow r = RowOfPoints(a, row);
+        std::size_t i = static_cast<std::size_t>(row) * static_cast<std::size_t>(width_);
+        for (int column = 0; column < width_; ++column, ++i)
+            if (weight[i] > 0) intensity[i] = IntensityOfPoint(a, r, column * step_ + step_ / 2, {x[i], y[i], z[i]});
     });
 }
 

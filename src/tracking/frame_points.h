@@ -9,8 +9,13 @@
 #include "core/camera.h"
 #include "core/frame_motion.h"
 #include "mapping/prepared_frame.h"
+#include "tracking/point_kernels.h"
 
 namespace tessera {
+
+// Every step-th pixel's; intensities only if they are to be read and the frame has any. The images stay the frame's.
+PointArguments MakePointArguments(const PreparedFrame& frame, const PinholeCamera& camera, const FrameMotion& motion, int step,
+                                  double depth_exponent, bool intensities);
 
 class FramePoints {
   public:
@@ -20,6 +25,9 @@ class FramePoints {
                double depth_exponent);
     // Reads the intensity of each point where the colour camera saw it at its own time; -1 where it saw nothing.
     void SampleIntensity(const PreparedFrame& frame, const PinholeCamera& camera, const FrameMotion& motion);
+
+    // The slots alone, for whoever fills them elsewhere; `valid` of them have a point. What the arrays hold is unspecified.
+    void Lay(const PointArguments& arguments, std::int64_t valid);
 
     // Normals of the measured surface in the camera frame, unit, towards the camera, from differences across radius_px
     // pixels to each side ([D18] eq. 15 has radius 1, one-sided). A point without one, at a depth edge or a hole, loses

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "core/row_time.h"
 #include "core/scalar_ops.h"
 
 namespace tessera {
@@ -85,6 +86,41 @@ TESSERA_HD bool NormalAt(const PinholeImage& depth, int u, int v, int radius_px,
 TESSERA_HD float SampleAtPoint(const PinholeImage& image, const CameraPoint& p) {
     if (!(p.z > 0.05f)) return -1.0f;
     return image.Between(p.x / p.z * image.fx + image.cx, p.y / p.z * image.fy + image.cy);
+}
+
+// Which points of a frame: those of every `step`-th pixel in both directions, in slots row by row.
+struct PointArguments {
+    PinholeImage depth;        // metres, 0 = none
+    PinholeImage intensity;    // as large; `pixels` null: not to be read
+    double fx, fy, cx, cy;
+    int step;
+    int width, height;         // slots per row, some of them to the right of the image, and rows
+    float depth_exponent;      // PointWeight's
+    float twist_per_s[6];      // FrameMotion's, with its times
+    bool still;                // the twist is zero
+    double depth_readout_s, colour_delay_s, colour_readout_s;
+};
+
+// What the points of one row share.
+struct PointRow {
+    int v;  // of the image
+    float slope_y;
+    float depth_time_s, colour_time_s;
+};
+TESSERA_HD PointRow RowOfPoints(const PointArguments& a, int row) {
+    const int v = row * a.step + a.step / 2;
+    return {v, RaySlope(v, a.cy, a.fy), static_cast<float>(RowTime(a.depth_readout_s, v, a.depth.height)),
+            static_cast<float>(a.colour_delay_s + RowTime(a.colour_readout_s, v, a.depth.height))};
+}
+
+// The point that the pixel in column u measured at this depth, at the frame's instant.
+TESSERA_HD CameraPoint PointOfPixel(const PointArguments& a, const PointRow& row, int u, float depth_m) {
+    return Moved({RaySlope(u, a.cx, a.fx) * depth_m, row.slope_y * depth_m, depth_m}, a.twist_per_s, row.depth_time_s);
+}
+
+// What the colour camera saw of that point at its own time; -1: nothing.
+TESSERA_HD float IntensityOfPoint(const PointArguments& a, const PointRow& row, int u, const CameraPoint& p) {
+    return a.still ? a.intensity.At(u, row.v) : SampleAtPoint(a.intensity, Moved(p, a.twist_per_s, -row.colour_time_s));
 }
 
 }  // namespace tessera

@@ -15,10 +15,13 @@ class SdfSums {
   public:
     virtual ~SdfSums() = default;
 
-    // The points that the next calls of Sum go over, in this map.
-    virtual void SetPoints(const BlockMap& map, const FramePoints& points) = 0;
+    // The points that the next calls of Sum go over, in this map: those of MakePointArguments' `points` of this frame, in
+    // FramePoints' slots and with its bytes. How many have a weight; 0 also where there is no room for them.
+    virtual std::int64_t SetPoints(const BlockMap& map, const PreparedFrame& frame, const PointArguments& points) = 0;
     // What SumSdfPoints gives over all of them. Of the arguments the map's and the points' arrays are not read.
     virtual PoseSums Sum(const SdfArguments& arguments) = 0;
+    // Those points, but not their normals, to what Lay has made for them.
+    virtual void TakePoints(FramePoints& points) = 0;
     // Residuals per point at the last Sum whose arguments asked for them, NaN where unknown; intensities only if it did for those.
     virtual void TakeResiduals(std::vector<float>& distance, std::vector<float>& intensity) = 0;
 };

@@ -60,7 +60,10 @@ TrackResult SdfTracker::Track(const TrackInput& input) {
         if (!state.failed) RunLevel(input, level, state);
     }
 
-    if (device_ != nullptr && !state.failed) device_->TakeResiduals(distance_residual_, intensity_residual_);
+    if (device_ != nullptr && !state.failed) {
+        if (photometry_ != nullptr) device_->TakePoints(points_[0]);
+        device_->TakeResiduals(distance_residual_, intensity_residual_);
+    }
 
     TrackResult result;
     result.T_world_camera = state.T_world_camera;
@@ -75,6 +78,20 @@ TrackResult SdfTracker::Track(const TrackInput& input) {
     return result;
 }
 
+// Where there are none the level cannot be tracked; a device may have had no room for them.
+void SdfTracker::MakePoints(const TrackInput& input, int step, FramePoints& points, State& state) const {
+    if (device_ != nullptr) {
+        const PointArguments a =
+            MakePointArguments(input.frame, camera_, state.motion, step, config_.depth_exponent, state.alpha > 0);
+        points.Lay(a, device_->SetPoints(input.map, input.frame, a));
+        if (points.valid() == 0) state.step.valid = false;
+    } else {
+        points.Build(input.frame, camera_, state.motion, step, config_.depth_exponent);
+        if (state.alpha > 0) points.SampleIntensity(input.frame, camera_, state.motion);
+    }
+    state.failed = points.valid() == 0;
+}
+
 // Points, their intensities and the map as the hot loop takes them, for every (finest_step_px << level)-th pixel.
 void SdfTracker::PrepareLevel(const TrackInput& input, int level, State& state) {
     FramePoints& points = points_[static_cast<std::size_t>(level)];
@@ -82,10 +99,7 @@ void SdfTracker::PrepareLevel(const TrackInput& input, int level, State& state) 
     if (input.since_last_s > 0)  // the velocity of the last interval, as far as this level knows it
         state.motion.twist_per_s =
             Se3Log(input.T_world_camera_last.inverse() * state.T_world_camera) / input.since_last_s;
-    points.Build(input.frame, camera_, state.motion, config_.finest_step_px << level, config_.depth_exponent);
-    state.failed = points.valid() == 0;
-    if (state.alpha > 0) points.SampleIntensity(input.frame, camera_, state.motion);
-    if (device_ != nullptr) device_->SetPoints(input.map, points);
+    MakePoints(input, config_.finest_step_px << level, points, state);
     const double block_m = input.map.config().voxel_size_m * kBlockSide;
     const Eigen::Vector3d origin_block = (state.T_world_camera.translation() / block_m).array().floor();
     state.origin_m = origin_block * block_m;

@@ -38,6 +38,7 @@ class SdfTracker : public Tracker {
   private:
     struct State;  // of one call
 
+    void MakePoints(const TrackInput& input, int step, FramePoints& points, State& state) const;
     void PrepareLevel(const TrackInput& input, int level, State& state);
     void ChooseStart(const TrackInput& input, State& state);
     void RunLevel(const TrackInput& input, int level, State& state);

@@ -95,7 +95,7 @@ TEST(DevicePipeline, SumsAreTheProcessorsWithinRounding) {
     const PoseSums expected =
         SumPoints(points.count(), [&](int begin, int end, double* sums) { baseline::SumSdfPoints(a, begin, end, sums); });
     DevicePipeline device("serial", kPlenty);
-    device.SetPoints(map, points);
+    EXPECT_EQ(device.SetPoints(map, frame, MakePointArguments(frame, DeskCamera(), {}, 2, 2.0, true)), points.valid());
     const PoseSums sums = device.Sum(a);
     EXPECT_GT(expected[SumLayout::kKnown], 1000);
     EXPECT_EQ(sums[SumLayout::kKnown], expected[SumLayout::kKnown]);

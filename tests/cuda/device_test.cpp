@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <numeric>
 
 namespace tessera::serial {
@@ -75,6 +76,21 @@ TEST(DeviceSorter, SortsKeysAndSelectsIndices) {
     EXPECT_TRUE(back[0] == 0 && back[1] == 4 && back[2] == 5 && back[3] == std::uint64_t{1} << 63);
     EXPECT_EQ(count, 3);
     EXPECT_TRUE(at[0] == 1 && at[1] == 2 && at[2] == 4);
+}
+
+TEST(DeviceSorter, SumsWhatIsBefore) {
+    DeviceMemory memory(1 << 20);
+    Stream stream;
+    DeviceBuffer<std::int32_t> counts(memory), sums(memory);
+    ASSERT_TRUE(counts.Reserve(stream, 5, 0) && sums.Reserve(stream, 5, 0));
+    const std::int32_t given[5] = {3, 0, 7, 1, 0};
+    stream.Upload(counts.data(), given, sizeof given);
+    DeviceSorter sorter(memory);
+    ASSERT_TRUE(sorter.SumBefore(stream, counts.data(), 5, sums.data()));
+    std::array<std::int32_t, 5> back;
+    stream.Download(back.data(), sums.data(), sizeof back);
+    stream.Wait();
+    EXPECT_EQ(back, (std::array<std::int32_t, 5>{0, 3, 3, 10, 11}));
 }
 
 }  // namespace

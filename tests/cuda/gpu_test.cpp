@@ -1,10 +1,13 @@
 // What needs a GPU. Without one, or without the backend, every test here skips and says so.
 #include <gtest/gtest.h>
 
+#include <numeric>
+
 #include "cuda/desk_frames.h"
 #include "cuda/open_device.h"
 #include "cuda/portable_device.h"
 #include "cuda/same_map.h"
+#include "cuda/same_mesh.h"
 #include "mapping/ray_caster.h"
 #include "system/pipeline.h"
 
@@ -50,6 +53,17 @@ TEST_F(Gpu, CastsTheBytesOfThePortablePath) {
         device_->views().Predict(map, DeskCamera(), frame.T_world_camera, 0.1f, 6.0f, view);
         testing_support::ExpectSameView(view, expected);
     }
+}
+
+TEST_F(Gpu, MeshesTheBytesOfTheProcessor) {
+    Pipeline pipeline({}, DeskCamera(), {}, device_.get());
+    for (const DeskFrame& frame : DeskFrames()) pipeline.Process(frame.frame, frame.T_world_camera);
+    const BlockMap& map = pipeline.map();
+    std::vector<BlockId> blocks(static_cast<std::size_t>(map.size() - 1));
+    std::iota(blocks.begin(), blocks.end(), 1);
+    BlockMeshes meshes(static_cast<std::size_t>(map.size()));
+    ASSERT_TRUE(device_->MakeBlockMesher()->MeshBlocks(map, blocks, 0, meshes));
+    EXPECT_GT(testing_support::ExpectMeshesOf(map, blocks, 0, meshes), 5000u);
 }
 
 // As DevicePipeline.TracksAndFusesAsTheProcessorDoes.

@@ -15,6 +15,7 @@ class PortableDevice : public Device, public IcpSums {
                                                const PinholeCamera& camera) override {
         return std::make_unique<Integrator>(config, camera, VectorPath::kBaseline);
     }
+    std::unique_ptr<BlockMesher> MakeBlockMesher() override { return nullptr; }
     SdfSums& sdf_sums() override { std::abort(); }
     IcpSums& icp_sums() override { return *this; }
     ViewPredictor& views() override { return caster_; }

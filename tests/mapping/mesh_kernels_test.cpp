@@ -25,15 +25,11 @@ std::vector<FieldWord> Slanted() {
     return words;
 }
 
-Eigen::Vector3f NormalOf(const EdgeVertex& v) {
-    return VertexNormal(BlockMesh::Vertex{0, v.fraction, {v.normal[0], v.normal[1]}, v.colour, v.has_colour});
-}
-
 TEST(MeshKernels, VertexLiesAtTheZeroWithTheGradientsNormal) {
     const std::vector<FieldWord> words = Slanted();
-    const EdgeVertex v = VertexOnEdge({words.data()}, 0, 2, 2, 3, kNoColour, kNoColour);
+    const MeshVertex v = VertexOnEdge({words.data()}, 0, 2, 2, 3, kNoColour, kNoColour);
     EXPECT_NEAR(v.fraction, 0.25 * 65536, 40);
-    EXPECT_LT((NormalOf(v) - Eigen::Vector3f(1, 2, 0).normalized()).norm(), 1e-3f);
+    EXPECT_LT((VertexNormal(v) - Eigen::Vector3f(1, 2, 0).normalized()).norm(), 1e-3f);
     EXPECT_EQ(v.has_colour, 1);
     EXPECT_EQ(v.colour, (Rgb8{128, 128, 128}));
 }
@@ -43,8 +39,8 @@ TEST(MeshKernels, GradientsAreOneSidedBesideTheUnknown) {
     for (const int x : {1, 4}) words[ApronField::Index(x, 2, 3)] = kUnknownField;
     for (const int y : {1, 3})
         for (const int x : {2, 3}) words[ApronField::Index(x, y, 3)] = kUnknownField;
-    const EdgeVertex v = VertexOnEdge({words.data()}, 0, 2, 2, 3, kNoColour, kNoColour);
-    EXPECT_LT((NormalOf(v) - Eigen::Vector3f(1, 0, 0)).norm(), 1e-3f) << "nothing is known of y";
+    const MeshVertex v = VertexOnEdge({words.data()}, 0, 2, 2, 3, kNoColour, kNoColour);
+    EXPECT_LT((VertexNormal(v) - Eigen::Vector3f(1, 0, 0)).norm(), 1e-3f) << "nothing is known of y";
 }
 
 TEST(MeshKernels, ColourIsTheOtherEndsWhereOneHasNone) {
@@ -60,10 +56,10 @@ TEST(MeshKernels, NormalsSurviveTheirCode) {
         for (const float y : {-0.5f, 0.0f, 0.8f})
             for (const float z : {-1.0f, -0.2f, 0.3f}) {
                 const float n[3] = {3 * x, 3 * y, 3 * z};
-                EdgeVertex v{};
-                EncodeNormal(n, v.normal);
+                MeshVertex v{};
+                EncodeNormal(n, v.normal.data());
                 const Eigen::Vector3f expected = Eigen::Vector3f(x, y, z).normalized();
-                EXPECT_LT((NormalOf(v) - expected).norm(), 2e-4f) << expected.transpose();
+                EXPECT_LT((VertexNormal(v) - expected).norm(), 2e-4f) << expected.transpose();
             }
 }
 

@@ -1,0 +1,37 @@
+// Block meshes, byte by byte.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <span>
+
+#include "mapping/block_mesher.h"
+
+namespace tessera::testing_support {
+
+static_assert(sizeof(MeshVertex) == 12, "else it has bytes that nobody writes");
+
+// Those of the blocks are MeshBlock's, all others null. How many triangles they have.
+inline std::size_t ExpectMeshesOf(const BlockMap& map, std::span<const BlockId> blocks, double min_weight,
+                                  const BlockMeshes& meshes) {
+    std::size_t triangles = 0;
+    for (BlockId id = 0; id < map.size(); ++id) {
+        const BlockMesh* mesh = meshes[static_cast<std::size_t>(id)].get();
+        std::unique_ptr<const BlockMesh> expected;
+        if (std::find(blocks.begin(), blocks.end(), id) != blocks.end()) expected = MeshBlock(map, id, min_weight);
+        EXPECT_EQ(mesh == nullptr, expected == nullptr) << "block " << id;
+        if (mesh == nullptr || expected == nullptr) continue;
+        EXPECT_EQ(mesh->coord, expected->coord) << "block " << id;
+        EXPECT_EQ(mesh->blocks, expected->blocks) << "block " << id;
+        EXPECT_EQ(mesh->triangles, expected->triangles) << "block " << id;
+        EXPECT_EQ(mesh->vertices.size(), expected->vertices.size()) << "block " << id;
+        if (mesh->vertices.size() != expected->vertices.size()) continue;
+        EXPECT_EQ(std::memcmp(mesh->vertices.data(), expected->vertices.data(), mesh->vertices.size() * sizeof(MeshVertex)), 0)
+            << "block " << id;
+        triangles += mesh->triangles.size();
+    }
+    return triangles;
+}
+
+}  // namespace tessera::testing_support
