@@ -22,7 +22,7 @@ class Photometry {
         AlphaMode alpha_mode = AlphaMode::kAuto;
         double alpha = 0.05;
         double auto_alpha_min = 0.003;
-        double auto_alpha_max = 0.15;
+        double auto_alpha_max = 0.08;
         double shading_error = 0.02;
         double intensity_scale = 0.1;
         bool brightness = true;
