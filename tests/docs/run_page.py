@@ -16,7 +16,7 @@ import subprocess
 import sys
 import tempfile
 
-COMMAND = re.compile(r"    (?=(?:tessera|export|\./run|ninja|snakemake|[A-Z_]+=\S+|(?:build/|scripts/|bench/|/usr/bin/)\S+) )")
+COMMAND = re.compile(r"    (?=(?:tessera|export|\./run|ninja|snakemake|[A-Z_]+=\S+|(?:build/|scripts/|bench/|/usr/bin/)\S+)(?: |$))")
 WRITTEN_AFTER = ("--out", "--picture", "--mesh", "--cloud", "--grid", "--trajectory", "--kitti", "--frames", "--colmap", "--scan",
                  "--record")
 CLONE = pathlib.Path(__file__).resolve().parents[2]
