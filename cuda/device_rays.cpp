@@ -23,12 +23,11 @@ struct WidenRanges {
     RayRange* ranges;
 
     TESSERA_HD_MEMBER void operator()(int i) const {
-        constexpr int kRegionShift = 2;  // BlockMap::RegionOf
-        const std::int32_t* c = coords + 4 * static_cast<std::int64_t>(i + 1);
+        const std::int32_t* at = coords + 4 * static_cast<std::int64_t>(i + 1);
+        const BlockCoord c{at[0], at[1], at[2]};
         BlockReach reach;
-        if (!arguments.Counts({c[0] >> kRegionShift, c[1] >> kRegionShift, c[2] >> kRegionShift}) ||
-            !ReachOf(arguments, {c[0], c[1], c[2]}, reach))
-            return;
+        const bool counts = arguments.all_regions || arguments.regions.Has(RegionOf(c));
+        if (!counts || !ReachOf(arguments, c, reach)) return;
         for (int y = reach.lines.first; y <= reach.lines.last; ++y)
             for (int x = reach.columns.first; x <= reach.columns.last; ++x) {
                 RayRange& range = ranges[y * arguments.width + x];

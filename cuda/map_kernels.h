@@ -134,12 +134,8 @@ struct FlagVisible {
     std::uint8_t* keep;
 
     TESSERA_HD_MEMBER void operator()(int id) const {
-        constexpr int kRegionShift = 2;  // BlockMap::RegionOf
         const BlockCoord c = CoordAt(map, id);
-        const std::int32_t region[3] = {c.x >> kRegionShift, c.y >> kRegionShift, c.z >> kRegionShift};
-        bool seen = id != 0;
-        for (int k = 0; k < 3; ++k) seen &= region[k] >= cone.first_region[k] && region[k] <= cone.last_region[k];
-        keep[id] = seen && MayChangeBlock(tiles, cone, c);
+        keep[id] = id != 0 && cone.regions.Has(RegionOf(c)) && MayChangeBlock(tiles, cone, c);
     }
 };
 

@@ -203,11 +203,6 @@ BlockId BlockMap::neighbour(BlockId id, int dx, int dy, int dz) const {
     return Find({c.x + dx, c.y + dy, c.z + dz});
 }
 
-BlockCoord BlockMap::RegionOf(const BlockCoord& block) {
-    constexpr int kShift = 2;  // log2(kRegionBlocks); arithmetic shift is floor
-    return {block.x >> kShift, block.y >> kShift, block.z >> kShift};
-}
-
 std::size_t BlockMap::bytes() const {
     const std::size_t per_voxel =
         sizeof(FieldWord) + (layers_ == Layers::kAll ? sizeof(std::uint16_t) + sizeof(ColourWord) : 0) +

@@ -90,10 +90,8 @@ class BlockMap {
     void MarkChanged(BlockId id, std::uint32_t revision) { revision_[static_cast<std::size_t>(id)] = revision; }
     std::uint32_t revision(BlockId id) const { return revision_[static_cast<std::size_t>(id)]; }
 
-    // Regions of 4 x 4 x 4 blocks: a view looks its blocks up through them, so that the cost of a frame follows
-    // what is in view, not the size of the map. The span is valid until the next Allocate, Release or Clear.
-    static constexpr int kRegionBlocks = 4;
-    static BlockCoord RegionOf(const BlockCoord& block);
+    // The blocks of a region (RegionOf), so that the cost of a frame follows what is in view, not the size of the map. The span is
+    // valid until the next Allocate, Release or Clear.
     std::span<const BlockId> BlocksInRegion(const BlockCoord& region) const { return regions_.Blocks(region); }
 
     std::size_t bytes() const;         // memory in use by blocks and their index

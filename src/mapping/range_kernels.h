@@ -26,15 +26,8 @@ struct RangeArguments {
     float fx, fy, cx, cy;
     float min_depth_m, max_depth_m;
     std::int32_t width, height;  // tiles
-    bool all_regions;  // else only blocks of these (BlockMap::RegionOf), both ends included:
-    std::int32_t first_region[3], last_region[3];
-
-    TESSERA_HD_MEMBER bool Counts(const BlockCoord& region) const {
-        const std::int32_t at[3] = {region.x, region.y, region.z};
-        bool inside = true;
-        for (int k = 0; k < 3; ++k) inside &= at[k] >= first_region[k] && at[k] <= last_region[k];
-        return all_regions || inside;
-    }
+    bool all_regions;  // else only blocks of these:
+    RegionBox regions;
 };
 
 // Tiles first..last along one image axis.

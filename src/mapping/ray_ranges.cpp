@@ -6,18 +6,17 @@
 namespace tessera {
 namespace {
 
-struct RegionBox {
-    Eigen::Vector3i low, high;  // both included
-    std::int64_t count() const {
-        return (high - low).cast<std::int64_t>().array().operator+(1).prod();
-    }
-};
+std::int64_t CountOf(const RegionBox& box) {
+    std::int64_t count = 1;
+    for (int i = 0; i < 3; ++i) count *= std::int64_t{box.last[i]} - box.first[i] + 1;
+    return count;
+}
 
 // Around the pyramid of what the camera sees up to a depth, half a block wider than it.
 RegionBox RegionsInView(const BlockMap& map, const PinholeCamera& camera,
                         const Eigen::Isometry3d& T_world_camera, double max_depth_m) {
     const double block_m = map.config().voxel_size_m * kBlockSide,
-                 region_m = block_m * BlockMap::kRegionBlocks;
+                 region_m = block_m * kRegionBlocks;
     Eigen::AlignedBox3d box(T_world_camera.translation());
     for (const double x : {-1.0, static_cast<double>(camera.width)})
         for (const double y : {-1.0, static_cast<double>(camera.height)}) {
@@ -25,9 +24,12 @@ RegionBox RegionsInView(const BlockMap& map, const PinholeCamera& camera,
                                       1.0);
             box.extend(T_world_camera * (ray * (max_depth_m + block_m)));
         }
-    const Eigen::Vector3d margin = Eigen::Vector3d::Constant(block_m);
-    return {((box.min() - margin) / region_m).array().floor().cast<int>(),
-            ((box.max() + margin) / region_m).array().floor().cast<int>()};
+    RegionBox regions;
+    for (int i = 0; i < 3; ++i) {
+        regions.first[i] = static_cast<std::int32_t>(std::floor((box.min()[i] - block_m) / region_m));
+        regions.last[i] = static_cast<std::int32_t>(std::floor((box.max()[i] + block_m) / region_m));
+    }
+    return regions;
 }
 
 }  // namespace
@@ -53,12 +55,8 @@ RangeArguments MakeRangeArguments(const BlockMap& map, const PinholeCamera& came
     a.width = (camera.width + kRayTilePx - 1) / kRayTilePx;
     a.height = (camera.height + kRayTilePx - 1) / kRayTilePx;
     // Whichever is less to look at: the regions that the view's pyramid may touch, or all blocks.
-    const RegionBox box = RegionsInView(map, camera, T_world_camera, max_depth_m);
-    a.all_regions = box.count() >= map.size();
-    for (int i = 0; i < 3; ++i) {
-        a.first_region[i] = box.low[i];
-        a.last_region[i] = box.high[i];
-    }
+    a.regions = RegionsInView(map, camera, T_world_camera, max_depth_m);
+    a.all_regions = CountOf(a.regions) >= map.size();
     return a;
 }
 
@@ -85,9 +83,9 @@ void RayRanges::Build(const BlockMap& map, const PinholeCamera& camera,
             if (!map.IsFree(id)) add_block(id);
         return;
     }
-    for (int z = a.first_region[2]; z <= a.last_region[2]; ++z)
-        for (int y = a.first_region[1]; y <= a.last_region[1]; ++y)
-            for (int x = a.first_region[0]; x <= a.last_region[0]; ++x)
+    for (int z = a.regions.first[2]; z <= a.regions.last[2]; ++z)
+        for (int y = a.regions.first[1]; y <= a.regions.last[1]; ++y)
+            for (int x = a.regions.first[0]; x <= a.regions.last[0]; ++x)
                 for (const BlockId id : map.BlocksInRegion({x, y, z})) add_block(id);
 }
 

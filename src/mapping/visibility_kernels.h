@@ -32,7 +32,7 @@ struct ViewCone {
     double planes[4][3];                 // inward unit normals
     double far_m;
     double voxel_size_m, truncation_m;
-    std::int32_t first_region[3], last_region[3];  // the box of regions (BlockMap::RegionOf) around the cone
+    RegionBox regions;                   // around the cone
 
     TESSERA_HD_MEMBER void ToCamera(const double* p_world, double* p_camera) const {
         for (int i = 0; i < 3; ++i) {

@@ -20,7 +20,7 @@ void DepthTiles::Build(const DepthImage& depth) {
 
 ViewCone MakeViewCone(const PinholeCamera& camera, const Eigen::Isometry3d& T_world_camera, double far_m,
                       const BlockMap::Config& map) {
-    ViewCone cone{camera.fx, camera.fy, camera.cx, camera.cy, {}, {}, {}, far_m, map.voxel_size_m, map.truncation_m, {}, {}};
+    ViewCone cone{camera.fx, camera.fy, camera.cx, camera.cy, {}, {}, {}, far_m, map.voxel_size_m, map.truncation_m, {}};
     const Eigen::Isometry3d T_camera_world = T_world_camera.inverse();
     for (int i = 0; i < 3; ++i) {
         for (int j = 0; j < 3; ++j) cone.rotation[3 * i + j] = T_camera_world.linear()(i, j);
@@ -33,7 +33,7 @@ ViewCone MakeViewCone(const PinholeCamera& camera, const Eigen::Isometry3d& T_wo
         for (int i = 0; i < 3; ++i) cone.planes[plane][i] = inward[plane].normalized()[i];
 
     // Regions in the box around the frustum.
-    const double region_m = map.voxel_size_m * kBlockSide * BlockMap::kRegionBlocks;
+    const double region_m = map.voxel_size_m * kBlockSide * kRegionBlocks;
     Eigen::Vector3d low = T_world_camera.translation(), high = low;
     for (const double u : {-0.5, camera.width - 0.5})
         for (const double v : {-0.5, camera.height - 0.5}) {
@@ -42,8 +42,8 @@ ViewCone MakeViewCone(const PinholeCamera& camera, const Eigen::Isometry3d& T_wo
             high = high.cwiseMax(corner);
         }
     for (int i = 0; i < 3; ++i) {
-        cone.first_region[i] = static_cast<std::int32_t>(std::floor(low[i] / region_m)) - 1;
-        cone.last_region[i] = static_cast<std::int32_t>(std::floor(high[i] / region_m));
+        cone.regions.first[i] = static_cast<std::int32_t>(std::floor(low[i] / region_m)) - 1;
+        cone.regions.last[i] = static_cast<std::int32_t>(std::floor(high[i] / region_m));
     }
     return cone;
 }
@@ -53,11 +53,11 @@ const std::vector<BlockId>& VisibleBlocks::Find(const BlockMap& map, const Pinho
                                                 const DepthImage& depth_m, float farthest_m) {
     tiles_.Build(depth_m);
     const ViewCone cone = MakeViewCone(camera, T_world_camera, farthest_m + map.config().truncation_m, map.config());
-    const double region_m = map.config().voxel_size_m * kBlockSide * BlockMap::kRegionBlocks;
+    const double region_m = map.config().voxel_size_m * kBlockSide * kRegionBlocks;
     candidates_.clear();
-    for (int z = cone.first_region[2]; z <= cone.last_region[2]; ++z)
-        for (int y = cone.first_region[1]; y <= cone.last_region[1]; ++y)
-            for (int x = cone.first_region[0]; x <= cone.last_region[0]; ++x) {
+    for (int z = cone.regions.first[2]; z <= cone.regions.last[2]; ++z)
+        for (int y = cone.regions.first[1]; y <= cone.regions.last[1]; ++y)
+            for (int x = cone.regions.first[0]; x <= cone.regions.last[0]; ++x) {
                 const double p_world[3] = {(x + 0.5) * region_m, (y + 0.5) * region_m, (z + 0.5) * region_m};
                 double centre[3];
                 cone.ToCamera(p_world, centre);

@@ -90,6 +90,25 @@ TESSERA_HD bool InLimits(const BlockCoord& c) {
            c.z >= -kBlockLimit && c.z < kBlockLimit;
 }
 
+// Regions of so many blocks to each side: a view looks its blocks up through them.
+inline constexpr int kRegionShift = 2, kRegionBlocks = 1 << kRegionShift;
+// The region that a block is in.
+TESSERA_HD BlockCoord RegionOf(const BlockCoord& block) {
+    return {block.x >> kRegionShift, block.y >> kRegionShift, block.z >> kRegionShift};  // an arithmetic shift is floor
+}
+
+// Regions from `first` to `last` along each axis, both included.
+struct RegionBox {
+    std::int32_t first[3], last[3];
+
+    TESSERA_HD_MEMBER bool Has(const BlockCoord& region) const {
+        const std::int32_t at[3] = {region.x, region.y, region.z};
+        bool inside = true;
+        for (int k = 0; k < 3; ++k) inside &= at[k] >= first[k] && at[k] <= last[k];
+        return inside;
+    }
+};
+
 // Position in the hash table before masking. Unsigned arithmetic wraps; a template on the number type, shared by scalar
 // and vector code.
 template <class U>

@@ -98,8 +98,8 @@ class MappingStage {
     PinholeCamera camera_;
     std::unique_ptr<BlockMap> map_;  // null once the mesh was taken
     std::unique_ptr<Integrator> integrator_;
-    ViewPredictor* device_views_;  // null: views are cast here
-    std::unique_ptr<BlockMesher> device_mesher_;  // null without a device
+    ViewPredictor* device_views_;                 // null: views are cast here
+    std::unique_ptr<BlockMesher> device_mesher_;  // null: blocks are meshed here
     mutable bool device_refused_ = false;         // to mesh: no room
     Mesher mesher_;
     GeometryBuilder geometry_;

@@ -148,7 +148,7 @@ void Photometry::Config::Describe(ConfigParameters& p) {
           "starts from it");
     p.Add("auto_alpha_min", auto_alpha_min, {1e-4, 100.0}, "m^2", "auto: the least alpha");
     p.Add("auto_alpha_max", auto_alpha_max, {1e-4, 100.0}, "m^2",
-          "auto: the largest alpha; from some 0.1 on colour begins to carry blurred frames away (fr1 rpy)");
+          "auto: the largest alpha; with 0.15 sdf is better on fr1 rpy, and icp-rgb depends more on how its view is predicted");
     p.Add("shading_error", shading_error, {0.0, 1.0}, "",
           "auto: what intensities are taken to be wrong by over whole image regions (vignetting, moving light, exposure); "
           "lowers alpha where shading is the only texture");

@@ -90,14 +90,14 @@ TESSERA_HD float SampleAtPoint(const PinholeImage& image, const CameraPoint& p) 
 
 // Which points of a frame: those of every `step`-th pixel in both directions, in slots row by row.
 struct PointArguments {
-    PinholeImage depth;        // metres, 0 = none
-    PinholeImage intensity;    // as large; `pixels` null: not to be read
-    double fx, fy, cx, cy;
+    PinholeImage depth;      // metres, 0 = none
+    PinholeImage intensity;  // as large; `pixels` null: not to be read
+    double fx, fy, cx, cy;   // of the same camera, for RaySlope
     int step;
-    int width, height;         // slots per row, some of them to the right of the image, and rows
-    float depth_exponent;      // PointWeight's
-    float twist_per_s[6];      // FrameMotion's, with its times
-    bool still;                // the twist is zero
+    int width, height;     // slots per row, some of them to the right of the image, and rows
+    float depth_exponent;  // PointWeight's
+    float twist_per_s[6];  // FrameMotion's, with its times
+    bool still;            // the twist is zero
     double depth_readout_s, colour_delay_s, colour_readout_s;
 };
 

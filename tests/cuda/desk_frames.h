@@ -10,6 +10,7 @@
 #include "mapping/predicted_view.h"
 #include "mapping/prepared_frame.h"
 #include "synth/synthetic_source.h"
+#include "tracking/tracker.h"
 
 namespace tessera::testing_support {
 
@@ -46,6 +47,17 @@ inline void FusedDesk(std::size_t frames, BlockMap& map) {
         view.T_world_camera = DeskFrames()[i].T_world_camera;
         integrator.Integrate(DeskFrames()[i].prepared, view, map);
     }
+}
+
+// Of one frame and the same map, where only the order of summation differs.
+inline void ExpectSameTrack(const TrackResult& track, const TrackResult& expected, std::size_t frame) {
+    EXPECT_EQ(track.status, TrackStatus::kGood) << track.reason;
+    EXPECT_EQ(track.iterations, expected.iterations);
+    const Eigen::Isometry3d difference = expected.T_world_camera.inverse() * track.T_world_camera;
+    EXPECT_LT(difference.translation().norm(), 2e-6) << frame;
+    EXPECT_LT(Se3Log(difference).head<3>().norm(), 2e-6) << frame;
+    EXPECT_NEAR(track.known_fraction, expected.known_fraction, 1e-3);
+    EXPECT_NEAR(track.intensity_rms, expected.intensity_rms, 1e-5);
 }
 
 template <class Pixel>

@@ -145,7 +145,7 @@ void ExpectExactly(const std::map<BlockCoord, std::int32_t>& numbers, const Bloc
                 ASSERT_EQ(map.coord(neighbour), other);
             }
         }
-        ASSERT_EQ(std::ranges::count(map.BlocksInRegion(BlockMap::RegionOf(c)), id), 1);
+        ASSERT_EQ(std::ranges::count(map.BlocksInRegion(RegionOf(c)), id), 1);
     }
     ASSERT_EQ(there, map.count());
 }
@@ -215,11 +215,11 @@ TEST(BlockMap, RegionsListTheirBlocks) {
             for (int x = -9; x <= 8; ++x)
                 for (const BlockId id : map.BlocksInRegion({x, y, z})) {
                     ++listed;
-                    ASSERT_EQ(BlockMap::RegionOf(map.coord(id)), (BlockCoord{x, y, z}));
+                    ASSERT_EQ(RegionOf(map.coord(id)), (BlockCoord{x, y, z}));
                 }
     EXPECT_EQ(listed, static_cast<std::size_t>(map.size() - 1));
-    EXPECT_EQ(BlockMap::RegionOf({-1, -4, -5}), (BlockCoord{-1, -1, -2}));
-    EXPECT_EQ(BlockMap::RegionOf({0, 3, 4}), (BlockCoord{0, 0, 1}));
+    EXPECT_EQ(RegionOf({-1, -4, -5}), (BlockCoord{-1, -1, -2}));
+    EXPECT_EQ(RegionOf({0, 3, 4}), (BlockCoord{0, 0, 1}));
 }
 
 TEST(BlockMap, ConfigWantsABandOfTwoVoxels) {

@@ -102,6 +102,30 @@ TEST(LoopCloser, AJumpWhileTheMapIsMadeAgainIsNoMotion) {
     EXPECT_LT((went.translation() - true_step.translation()).norm(), 0.03);
 }
 
+// A picture that is too wide for a JPEG; its keyframes hang on those of the map that is made again all the same.
+TEST(LoopCloser, FramesThatCannotBeStoredWhileTheMapIsMadeAgainAreTold) {
+    if (!PoseGraphAvailable()) GTEST_SKIP() << "this build has no Ceres: install libceres-dev";
+    const std::vector<Frame> frames = Round();
+    Walker walker(LoopConfig{});
+    int keyframes_lost = 0;
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+        Eigen::Isometry3d step = Eigen::Isometry3d::Identity();
+        if (i > 0) step = frames[i - 1].T_world_camera->inverse() * *frames[i].T_world_camera * Bias();
+        Frame wide = frames[i];
+        wide.colour.Resize(70000, 1);
+        const bool lost = walker.closer.HasWork();
+        const int before = walker.closer.keyframes().size();
+        walker.Go(frames[i], step, lost ? &wide : nullptr);
+        if (lost) keyframes_lost += walker.closer.keyframes().size() - before;
+    }
+    EXPECT_GT(keyframes_lost, 0);
+    EXPECT_NE(walker.all_news.find("cannot be made a JPEG"), std::string::npos) << walker.all_news;
+    std::string note;
+    walker.Take(walker.closer.Finish(note));
+    EXPECT_EQ(walker.closer.Path().size(), frames.size());
+    EXPECT_LT(EndError_m(frames, walker.closer.Path()), 0.07);
+}
+
 TEST(LoopCloser, CorrectsToTheSameBytesForAnyNumberOfThreads) {
     if (!PoseGraphAvailable()) GTEST_SKIP() << "this build has no Ceres: install libceres-dev";
     const std::vector<Frame> frames = Round();

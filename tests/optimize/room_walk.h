@@ -52,8 +52,8 @@ struct Walker {
         : closer(config, settings, 5000), map(std::make_unique<BlockMap>(settings.map)),
           integrator(settings.fusion, settings.camera) {}
 
-    // The camera moves on by `T_last_camera`, as its odometry has it.
-    void Go(const Frame& frame, const Eigen::Isometry3d& T_last_camera) {
+    // The camera moves on by `T_last_camera`, as its odometry has it. `stored`: what is given to be stored, if not the frame.
+    void Go(const Frame& frame, const Eigen::Isometry3d& T_last_camera, const Frame* stored = nullptr) {
         T_map_camera = Normalised(T_map_camera * T_last_camera);
         PreparedFrame prepared;
         PrepareFrame(frame, settings.preparation, prepared);
@@ -64,7 +64,7 @@ struct Walker {
         track.T_world_camera = T_map_camera;
         track.status = TrackStatus::kGood;
         track.inlier_fraction = 1;
-        const std::string news = closer.Add(frame, prepared, track, view, true);
+        const std::string news = closer.Add(stored != nullptr ? *stored : frame, prepared, track, view, true);
         if (!news.empty()) all_news += std::to_string(frame.index) + ": " + news + "\n";
         Take(closer.Step(LoopConfig{}.rebuild_frames));
     }
