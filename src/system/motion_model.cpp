@@ -1,11 +1,15 @@
 #include "system/motion_model.h"
 
+#include <cmath>
+
 namespace tessera {
 
 void MotionModel::Config::Describe(ConfigParameters& p) {
     p.Add("constant_velocity", constant_velocity,
           "start each frame where constant velocity would have it; off starts at the last pose ([B14], [D18])");
     p.Add("max_gap_s", max_gap_s, {0.0, 60.0}, "s", "velocity is forgotten over longer gaps");
+    p.Add("come_to_rest_s", come_to_rest_s, {0.0, 60.0}, "s",
+          "in degenerate frames the velocity falls to 37 % within this time, or motions that nothing shows would go on for ever");
 }
 
 double MotionModel::SinceLast(double stamp_s) const {
@@ -21,18 +25,21 @@ Eigen::Isometry3d MotionModel::Predict(double stamp_s) const {
     return last_->T_world_camera * Se3Exp(*velocity_ * gap_s);
 }
 
-void MotionModel::Add(const StampedPose& pose) {
+void MotionModel::Add(const StampedPose& pose, bool degenerate) {
     const double gap_s = SinceLast(pose.stamp_s);
     if (gap_s > 0)
         velocity_ = Se3Log(last_->T_world_camera.inverse() * pose.T_world_camera) / gap_s;
     else
         velocity_.reset();
+    if (degenerate && velocity_) *velocity_ *= config_.come_to_rest_s > 0 ? std::exp(-gap_s / config_.come_to_rest_s) : 0.0;
     last_ = pose;
+    degenerate_ = degenerate;
 }
 
 void MotionModel::Clear() {
     last_.reset();
     velocity_.reset();
+    degenerate_ = false;
 }
 
 void MotionModel::SaveState(StateWriter& state) const {
@@ -42,6 +49,7 @@ void MotionModel::SaveState(StateWriter& state) const {
         state.Put(last_->T_world_camera);
     }
     state.Put(velocity_);
+    state.Put(degenerate_);
 }
 
 bool MotionModel::LoadState(StateReader& state) {
@@ -51,7 +59,7 @@ bool MotionModel::LoadState(StateReader& state) {
         last_.emplace();
         if (!state.Get(last_->stamp_s) || !state.Get(last_->T_world_camera)) return false;
     }
-    return state.Get(velocity_);
+    return state.Get(velocity_) && state.Get(degenerate_);
 }
 
 }  // namespace tessera

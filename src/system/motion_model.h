@@ -14,6 +14,7 @@ class MotionModel {
     struct Config {
         bool constant_velocity = true;
         double max_gap_s = 0.5;
+        double come_to_rest_s = 0.2;
 
         void Describe(ConfigParameters& parameters);
     };
@@ -22,11 +23,13 @@ class MotionModel {
 
     // The last tracked pose; nothing before the first.
     const std::optional<StampedPose>& last() const { return last_; }
+    bool degenerate() const { return degenerate_; }  // of the last pose, see Add
     // Seconds since then; 0 if there is none, or if it is too long ago to say anything about velocity.
     double SinceLast(double stamp_s) const;
     // The pose expected at a time; the last pose, or identity, where there is nothing to go by.
     Eigen::Isometry3d Predict(double stamp_s) const;
-    void Add(const StampedPose& pose);
+    // `degenerate`: the scene left some motion unconstrained; what is not seen any more is taken to come to rest.
+    void Add(const StampedPose& pose, bool degenerate = false);
     void Clear();
     void SaveState(StateWriter& state) const;
     bool LoadState(StateReader& state);
@@ -39,6 +42,7 @@ class MotionModel {
     Config config_;
     std::optional<StampedPose> last_;
     std::optional<Vector6d> velocity_;  // body twist per second
+    bool degenerate_ = false;
 };
 
 }  // namespace tessera

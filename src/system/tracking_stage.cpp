@@ -63,7 +63,7 @@ void TrackingStage::Track(const Frame& frame, const BlockMap& map, const std::op
     }
     report.first = report.first && report.tracked();
     report.track_ms = watch.LapMs();
-    if (report.tracked()) motion_.Add({frame.stamp_s, report.track.T_world_camera});
+    if (report.tracked()) motion_.Add({frame.stamp_s, report.track.T_world_camera}, report.track.degenerate);
 
     // 3. Would it harm the map?
     tracked.to_fuse = report.track.status == TrackStatus::kGood && (fusing_ || report.first);
@@ -113,7 +113,8 @@ TrackResult TrackingStage::TrackFrame(const Frame& frame, const PreparedFrame& p
                             .T_world_camera_starts = {T_world_expected, T_world_aligned},
                             .T_world_camera_last = T_world_last,
                             .since_last_s = motion_.SinceLast(frame.stamp_s),
-                            .motion = ShutterOf(frame)});
+                            .motion = ShutterOf(frame),
+                            .last_degenerate = motion_.degenerate()});
 }
 
 FrameMotion TrackingStage::ShutterOf(const Frame& frame) const {

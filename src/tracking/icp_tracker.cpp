@@ -62,6 +62,7 @@ IcpTracker::IcpTracker(const Config& config, const PinholeCamera& camera, const 
 TrackResult IcpTracker::Track(const TrackInput& input) {
     State state;
     state.scene_depth_m = 0.5 * (input.frame.nearest_m + input.frame.farthest_m);
+    state.options.last_degenerate = input.last_degenerate;
     if (photometry_ != nullptr) {
         state.gain = photometry_->gain();
         state.offset = photometry_->offset();
@@ -77,8 +78,10 @@ TrackResult IcpTracker::Track(const TrackInput& input) {
     if (device_ != nullptr && photometry_ != nullptr && !state.failed)
         device_->TakeResiduals(residuals_.distance_m, residuals_.intensity);
 
+    const Eigen::Isometry3d T_view_expected = view_.T_world_camera.inverse() * input.T_world_camera_starts.back();
     TrackResult result;
-    result.T_world_camera = Normalised(view_.T_world_camera * state.T_view_camera);
+    result.T_world_camera =
+        Normalised(view_.T_world_camera * WithHeldAsExpected(state.step, state.T_view_camera, T_view_expected));
     result.motion = state.motion;
     result.alpha = state.alpha;
     result.gain = state.gain;

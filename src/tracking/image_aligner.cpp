@@ -2,7 +2,7 @@
 
 #include <tbb/parallel_for.h>
 
-#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -17,7 +17,7 @@ constexpr int kWidths[] = {40, 80};     // 40 x 30 and 80 x 60 from 640 x 480
 constexpr int kRowsPerTile = 5;         // fixed, so that sums have a fixed order
 constexpr double kIntensityScale = 0.04, kDepthScale_m = 0.05, kMostDepthError_m = 0.3;
 constexpr double kUsual = 1.3, kUsualShare = 0.1, kClearlyBetter = 0.7;
-constexpr double kPriorTurn_rad = 0.5, kPriorMove_m = 0.5;  // keeps what the images leave open
+constexpr double kHeld_m[] = {0.01, 0.005};  // per level; motions that the images tell less well are left as guessed
 
 using Vector7d = Eigen::Matrix<double, 7, 1>;
 using Matrix7d = Eigen::Matrix<double, 7, 7>;
@@ -49,6 +49,23 @@ struct ImageAligner::System {
 
     double error = 0;   // sum of min((r / scale)^2, 4)
     double samples = 0;
+
+    // The Gauss-Newton step, its seventh the offset's.
+    Vector7d Step(double scene_depth_m, double held_m) const {
+        const double c = std::max(H(6, 6), 1e-9);
+        const Vector6d b = H.block<6, 1>(0, 6);
+        Vector6d to_metres = Vector6d::Ones();
+        to_metres.head<3>() /= std::max(scene_depth_m, 0.1);
+        const Matrix6d N = to_metres.asDiagonal() * (H.topLeftCorner<6, 6>() - b * b.transpose() / c) * to_metres.asDiagonal();
+        const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(N);
+        Vector6d along = eigen.eigenvectors().transpose() * to_metres.asDiagonal() * (g.head<6>() - b * g(6) / c);
+        for (int i = 0; i < 6; ++i)
+            along(i) = eigen.eigenvalues()(i) * held_m * held_m < 1 ? 0.0 : -along(i) / eigen.eigenvalues()(i);
+        Vector7d step;
+        step.head<6>() = to_metres.asDiagonal() * eigen.eigenvectors() * along;
+        step(6) = -(g(6) + b.dot(step.head<6>())) / c;
+        return step;
+    }
 
     // A robust mean; few samples mean little overlap, which is no merit.
     double Score() const {
@@ -191,17 +208,13 @@ ImageAligner::System ImageAligner::Linearise(const Level& last, const Level& cur
 
 // Gauss-Newton, coarse to fine, from one start; `score` is the mean robust error of the last linearisation.
 Eigen::Isometry3d ImageAligner::Refine(const Eigen::Isometry3d& T_last_current, double& score) const {
-    Vector7d prior;
-    prior << Eigen::Vector3d::Constant(1.0 / (kPriorTurn_rad * kPriorTurn_rad)),
-        Eigen::Vector3d::Constant(1.0 / (kPriorMove_m * kPriorMove_m)), 100.0;
     Eigen::Isometry3d T_current_last = T_last_current.inverse();
     double offset = 0;
     for (std::size_t level = 0; level < last_.size(); ++level)
         for (int i = 0; i < config_.iterations; ++i) {
-            System system = Linearise(last_[level], current_[level], T_current_last, offset);
+            const System system = Linearise(last_[level], current_[level], T_current_last, offset);
             score = system.Score();
-            system.H.diagonal() += prior;
-            const Vector7d step = system.H.ldlt().solve(-system.g);
+            const Vector7d step = system.Step(scene_depth_m_, kHeld_m[level]);
             if (!step.allFinite()) {
                 score = std::numeric_limits<double>::infinity();
                 return T_last_current;
@@ -221,6 +234,7 @@ Eigen::Isometry3d ImageAligner::Align(const PreparedFrame& frame, const Eigen::I
     has_last_ = true;
     if (!ready) return T_last_current_guess;
 
+    scene_depth_m_ = 0.5 * (frame.nearest_m + frame.farthest_m);
     double score = 0;
     Eigen::Isometry3d best = Refine(T_last_current_guess, score);
     if (score < kUsual * usual_score_) {

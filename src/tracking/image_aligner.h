@@ -57,6 +57,7 @@ class ImageAligner {
     PinholeCamera camera_;
     std::vector<Level> last_, current_;  // coarse to fine
     bool has_last_ = false;
+    double scene_depth_m_ = 0;
     double usual_score_ = 0;  // of alignments so far, 0 before the first
 };
 

@@ -122,7 +122,7 @@ void Photometry::Learn(const PreparedFrame& frame, const FramePoints& points,
                        const TrackResult& result) {
     gain_ = result.gain;
     offset_ = result.offset;
-    if (result.alpha <= 0) return;
+    if (result.alpha <= 0 || result.degenerate) return;  // where the pose is not held, it explains what it should not
     shutter_.Update(frame, points, intensity_residual, result.motion, result.gain, result.intensity_rms);
     if (config_.alpha_mode == AlphaMode::kAuto) UpdateAlpha(points, distance_residual, intensity_residual);
 }

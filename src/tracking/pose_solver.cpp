@@ -13,6 +13,8 @@ namespace {
 
 using L = SumLayout;
 
+constexpr double kClearlyHeld = 3.0;  // a scene that left a motion open holds it again from so many times the least eigenvalue on
+
 // Takes an increment about the camera with rotations in units of 1/depth to one about the local origin.
 Matrix6d FromNormalised(const Eigen::Vector3d& camera_local, double depth_m) {
     Matrix6d A = Matrix6d::Identity();
@@ -93,12 +95,18 @@ PoseStep SolvePoseStep(const PoseSums& sums, const SolverOptions& options, doubl
     step.smallest_eigenvalue = values(0);
     const double damping = options.damping * N.trace();
     Vector6d projected = eigen.eigenvectors().transpose() * n;
+    Vector6d held = Vector6d::Zero();
+    // Where one motion is open noise makes what little holds the others, too.
+    const bool open = options.last_degenerate || values(0) <= options.min_eigenvalue;
+    const double least = std::max((open ? kClearlyHeld : 1.0) * options.min_eigenvalue, 1e-12);
     for (int i = 0; i < 6; ++i) {
-        const bool hold = values(i) <= std::max(options.min_eigenvalue, 1e-12);
+        const bool hold = values(i) <= least;
         step.held_directions += hold;
+        held(i) = hold;
         projected(i) = hold ? 0.0 : -projected(i) / (eigen.eigenvalues()(i) + damping);
     }
     step.increment = A * (eigen.eigenvectors() * projected);
+    step.held = A * eigen.eigenvectors() * held.asDiagonal() * eigen.eigenvectors().transpose() * A.inverse();
     step.predicted_decrease = -step.increment.dot(2.0 * g + H * step.increment);
     if (brightness) {
         step.predicted_decrease += h.dot(C.inverse() * h);
@@ -108,6 +116,13 @@ PoseStep SolvePoseStep(const PoseSums& sums, const SolverOptions& options, doubl
     }
     step.valid = step.increment.allFinite();
     return step;
+}
+
+Eigen::Isometry3d WithHeldAsExpected(const PoseStep& step, const Eigen::Isometry3d& T_local_camera,
+                                     const Eigen::Isometry3d& T_local_camera_expected) {
+    if (step.held_directions == 0) return T_local_camera;
+    const Vector6d astray = step.held * Se3Log(T_local_camera * T_local_camera_expected.inverse());
+    return Normalised(Se3Exp(-astray) * T_local_camera);
 }
 
 }  // namespace tessera

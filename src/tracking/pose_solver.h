@@ -31,6 +31,7 @@ struct PoseStep {
     double gain_change = 0, offset_change = 0;
     double smallest_eigenvalue = 0;  // of the normalised Hessian, see NormalisedHessian
     int held_directions = 0;    // eigenvectors along which the step was set to zero
+    Matrix6d held;              // takes an increment's part along them
     double predicted_decrease = 0;  // of the energy, if it were the quadratic that the step minimises
 };
 
@@ -38,12 +39,18 @@ struct SolverOptions {
     bool estimate_brightness = true;
     double brightness_prior = 0;     // weight of "gain 1, offset 0"
     double min_eigenvalue = 0;       // directions below are held, not moved
+    bool last_degenerate = false;    // TrackInput's
     double damping = 0;              // of Levenberg-Marquardt: added to the normalised Hessian's eigenvalues
 };
 
 // `gain` and `offset` are the present values, which the prior pulls at.
 PoseStep SolvePoseStep(const PoseSums& sums, const SolverOptions& options, double gain, double offset,
                      const Eigen::Vector3d& camera_local, double scene_depth_m);
+
+// The pose that the steps found, but along the directions that the last one held, where only noise and the choice of the
+// start have moved it: there it is as expected. Both take the camera to the frame that the increments are in.
+Eigen::Isometry3d WithHeldAsExpected(const PoseStep& step, const Eigen::Isometry3d& T_local_camera,
+                                     const Eigen::Isometry3d& T_local_camera_expected);
 
 // The pose's Hessian made comparable between scenes: increments about the camera, rotations scaled by the scene's
 // depth so that both halves are metres, divided by its trace. Its eigenvalues sum to 1.

@@ -65,8 +65,10 @@ TrackResult SdfTracker::Track(const TrackInput& input) {
         device_->TakeResiduals(distance_residual_, intensity_residual_);
     }
 
+    const Eigen::Translation3d to_local(-state.origin_m);
     TrackResult result;
-    result.T_world_camera = state.T_world_camera;
+    result.T_world_camera = to_local.inverse() * WithHeldAsExpected(state.step, to_local * state.T_world_camera,
+                                                                    to_local * input.T_world_camera_starts.back());
     result.motion = state.motion;
     result.alpha = state.alpha;
     result.gain = state.gain;
@@ -162,6 +164,7 @@ void SdfTracker::RunLevel(const TrackInput& input, int level, State& state) {
     SolverOptions options;
     options.estimate_brightness = photometry_ != nullptr && photometry_->config().brightness;
     options.min_eigenvalue = judge_.min_eigenvalue();
+    options.last_degenerate = input.last_degenerate;
     const int iterations = level == 0 ? config_.fine_iterations : config_.coarse_iterations;
     for (int i = 0; i < iterations; ++i) {
         state.sums = SumAt(input, points, state);

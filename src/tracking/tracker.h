@@ -17,11 +17,12 @@ struct TrackInput {
     const PreparedFrame& frame;
     const BlockMap& map;
     // Where the camera may be: first the motion model's expectation, then perhaps others. A tracker starts from the one
-    // that fits best. Not empty.
+    // that fits best; along motions that the map does not hold the camera is where the last one has it. Not empty.
     std::vector<Eigen::Isometry3d> T_world_camera_starts;
     Eigen::Isometry3d T_world_camera_last;   // where it was at the last tracked frame
     double since_last_s = 0;                 // 0 if there is no such frame
     FrameMotion motion;                      // delays and read-out times; the twist is the tracker's to fill
+    bool last_degenerate = false;            // the last frame left some motion unconstrained
 };
 
 enum class TrackStatus {

@@ -119,5 +119,23 @@ TEST(MotionModel, ExpectsConstantVelocityAndForgetsItOverGaps) {
     EXPECT_EQ(model.SinceLast(5.0), 0);
 }
 
+TEST(MotionModel, MotionsThatNothingShowsComeToRest) {
+    MotionModel::Config config;
+    MotionModel model(config);
+    Vector6d velocity;
+    velocity << 0, 0, 0.1, 0.5, 0, 0;
+    model.Add({0.0, Eigen::Isometry3d::Identity()});
+    model.Add({0.1, Se3Exp(0.1 * velocity)});
+    EXPECT_FALSE(model.degenerate());
+    for (int i = 1; i <= 10; ++i) {
+        const double stamp_s = 0.1 + 0.1 * i * config.come_to_rest_s;
+        model.Add({stamp_s, model.Predict(stamp_s)}, true);
+        EXPECT_TRUE(model.degenerate());
+    }
+    const Vector6d left =
+        Se3Log(model.last()->T_world_camera.inverse() * model.Predict(0.2 + config.come_to_rest_s)) / 0.1;
+    EXPECT_LT((left - velocity * std::exp(-1.0)).norm(), 1e-3 * velocity.norm());
+}
+
 }  // namespace
 }  // namespace tessera

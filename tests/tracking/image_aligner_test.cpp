@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include "core/se3.h"
 #include "support/box_room.h"
 #include "tracking/image_search.h"
@@ -30,6 +32,31 @@ TEST(ImageAligner, FindsAFastMotionFromRest) {
     const Eigen::Isometry3d T = aligner.Align(Prepare(room.Render(FullCamera(), T_true)), Eigen::Isometry3d::Identity());
     EXPECT_LT((T_true.inverse() * T).translation().norm(), 0.015);
     EXPECT_LT(RotationAngle(T_true, T), 0.01);
+}
+
+// What a wall's noise says about motion along it is not worth as much as the guess.
+TEST(ImageAligner, AlongABareWallKeepsTheGuess) {
+    BoxRoom room;
+    room.only_back_wall = true;
+    room.texture = 0;
+    std::mt19937 random(5);
+    std::normal_distribution<float> noise;
+    const auto noisy = [&](const Eigen::Isometry3d& T_world_camera) {
+        PreparedFrame prepared = Prepare(room.Render(FullCamera(), T_world_camera));
+        for (std::size_t i = 0; i < prepared.depth_m.size(); ++i) {
+            prepared.depth_m.data()[i] += 0.003f * noise(random);
+            prepared.intensity.data()[i] += 0.01f * noise(random);
+        }
+        return prepared;
+    };
+    ImageAligner aligner({}, FullCamera());
+    aligner.Align(noisy(Eigen::Isometry3d::Identity()), Eigen::Isometry3d::Identity());
+    const Eigen::Isometry3d guess(Eigen::Translation3d(0.03, -0.02, 0.04)), T_true(Eigen::Translation3d(0, 0, 0.01));
+    const Eigen::Isometry3d T = aligner.Align(noisy(T_true), guess);
+    EXPECT_NEAR(T.translation().x(), 0.03, 0.002);
+    EXPECT_NEAR(T.translation().y(), -0.02, 0.002);
+    EXPECT_NEAR(T.translation().z(), 0.01, 0.005);
+    EXPECT_LT(RotationAngle(T, T_true), 0.005);
 }
 
 TEST(ImageAligner, WithoutAnythingToAlignReturnsTheGuess) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <optional>
 #include <random>
 
 #include "support/box_room.h"
@@ -29,11 +30,14 @@ class LearntAlpha : public testing::Test {
         for (float& r : intensity_) r = 0.02f * noise(random_);
     }
     double Learn() {
-        Photometry photometry(config_, camera_);
+        photometry_.emplace(config_, camera_);
         TrackResult result;
-        result.alpha = photometry.alpha();
-        photometry.Learn(frame_, points_, distance_, intensity_, result);
-        return photometry.alpha();
+        result.degenerate = degenerate_;
+        result.alpha = photometry_->alpha();
+        result.intensity_rms = 0.02;
+        result.motion.twist_per_s << 0, 0.5, 0, 0, 0, 0;
+        photometry_->Learn(frame_, points_, distance_, intensity_, result);
+        return photometry_->alpha();
     }
 
     PinholeCamera camera_ = {320, 240, 262.0, 262.0, 159.5, 119.5};
@@ -42,12 +46,25 @@ class LearntAlpha : public testing::Test {
     FramePoints points_;
     std::mt19937 random_{3};
     Photometry::Config config_;
+    std::optional<Photometry> photometry_;
+    bool degenerate_ = false;
     std::vector<float> distance_, intensity_;
 };
 
 // Independent errors: the ratio of the plain variances, 4e-6 m^2 / 4e-4.
 TEST_F(LearntAlpha, IsTheRatioOfTheVariances) {
     EXPECT_NEAR(Learn(), 0.01, 0.002);
+}
+
+// An explanation of what a pose that is not held got wrong.
+TEST_F(LearntAlpha, NothingIsLearntFromDegenerateFrames) {
+    config_.alpha = 0.3;
+    degenerate_ = true;
+    EXPECT_EQ(Learn(), 0.3);
+    EXPECT_EQ(photometry_->Timed({}).colour_delay_s, 0);
+    degenerate_ = false;
+    EXPECT_NE(Learn(), 0.3);
+    EXPECT_NE(photometry_->Timed({}).colour_delay_s, 0);
 }
 
 // Errors that neighbours share count more the more neighbours share them; here 16 x 16 do.

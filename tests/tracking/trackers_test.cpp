@@ -61,6 +61,34 @@ TEST_P(EveryTracker, PlaneIsHeldByItsTextureOnly) {
     }
 }
 
+// Along a bare wall the camera is where the last start has it, whichever start was chosen; across it where the map has it.
+TEST_P(EveryTracker, WhatNothingShowsIsAsExpected) {
+    BoxRoom room;
+    room.only_back_wall = true;
+    room.texture = 0;
+    const World world(room);
+    const Eigen::Isometry3d T_true = SmoothPath(20);
+    const auto beside = [&](double x, double y, double z, double roll) {
+        return Eigen::Isometry3d(Eigen::Translation3d(x, y, z) * T_true * Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitZ()));
+    };
+    const Eigen::Isometry3d T_expected = beside(0.03, -0.02, 0.02, 0.02);
+    const TestTracker tracker = FineTracker(GetParam());
+    const PreparedFrame frame = Prepare(room.Render(world.camera, T_true));
+    const TrackResult result = (*tracker).Track({.frame = frame,
+                                                 .map = world.map,
+                                                 .T_world_camera_starts = {beside(-0.02, 0.03, 0, -0.03), T_expected},
+                                                 .T_world_camera_last = T_true,
+                                                 .since_last_s = 1.0 / 30,
+                                                 .motion = {},
+                                                 .last_degenerate = true});
+    EXPECT_TRUE(result.degenerate);
+    const Eigen::Vector3d along = result.T_world_camera.translation() - T_expected.translation();
+    EXPECT_LT(along.head<2>().norm(), 1e-3);
+    EXPECT_NEAR(result.T_world_camera.translation().z(), T_true.translation().z(), 1e-3);
+    const Eigen::Matrix3d turn = T_expected.linear().transpose() * result.T_world_camera.linear();
+    EXPECT_NEAR(std::atan2(turn(1, 0), turn(0, 0)), 0, 1e-3);
+}
+
 TEST_P(EveryTracker, BareRoomIsHeldByItsShape) {
     BoxRoom room;
     room.has_ball = true;
