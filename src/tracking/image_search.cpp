@@ -9,7 +9,7 @@
 namespace tessera {
 namespace {
 
-constexpr int kReach_px = 5;  // at 40 x 30 and a Kinect's focal length 1.75 degrees each
+constexpr int kReach_px = 9;  // at 40 x 30 and a Kinect's focal length 1.75 degrees each, 16 in all
 constexpr int kShifts = 2 * kReach_px + 1;
 constexpr std::array<double, 3> kRolls_rad = {0.0, -0.1, 0.1};
 constexpr double kLeastOverlap = 0.4;

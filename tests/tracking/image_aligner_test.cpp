@@ -21,11 +21,12 @@ PreparedFrame Prepare(const Frame& frame) {
     return prepared;
 }
 
-TEST(ImageAligner, FindsAFastMotionFromRest) {
+class FromRest : public testing::TestWithParam<Vector6d> {};
+
+TEST_P(FromRest, AFastMotionIsFound) {
     BoxRoom room;
     room.has_ball = true;
-    Vector6d twist;
-    twist << 0.06, -0.09, 0.05, 0.05, -0.03, 0.04;  // 6.6 degrees and 7 cm between two frames
+    const Vector6d twist = GetParam();
     ImageAligner aligner({}, FullCamera());
     aligner.Align(Prepare(room.Render(FullCamera(), Eigen::Isometry3d::Identity())), Eigen::Isometry3d::Identity());
     const Eigen::Isometry3d T_true = Se3Exp(twist);
@@ -33,6 +34,11 @@ TEST(ImageAligner, FindsAFastMotionFromRest) {
     EXPECT_LT((T_true.inverse() * T).translation().norm(), 0.015);
     EXPECT_LT(RotationAngle(T_true, T), 0.01);
 }
+Vector6d Twist(double a, double b, double c, double d, double e, double f) { return (Vector6d() << a, b, c, d, e, f).finished(); }
+INSTANTIATE_TEST_SUITE_P(ImageAligner, FromRest,
+                         testing::Values(Twist(0.06, -0.09, 0.05, 0.05, -0.03, 0.04),  // 6.6 degrees and 7 cm between two frames
+                                         Twist(0.01, 0.25, 0.02, 0.05, -0.02, 0.01),   // 14 degrees, as at 400 a second
+                                         Twist(0.01, -0.25, 0.02, -0.05, 0.02, 0.01)));
 
 // What a wall's noise says about motion along it is not worth as much as the guess.
 TEST(ImageAligner, AlongABareWallKeepsTheGuess) {
