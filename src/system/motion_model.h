@@ -14,7 +14,7 @@ class MotionModel {
     struct Config {
         bool constant_velocity = true;
         double max_gap_s = 0.5;
-        double come_to_rest_s = 0.2;
+        double come_to_rest_s = 0.4;
 
         void Describe(ConfigParameters& parameters);
     };

@@ -17,7 +17,7 @@ constexpr int kWidths[] = {40, 80};     // 40 x 30 and 80 x 60 from 640 x 480
 constexpr int kRowsPerTile = 5;         // fixed, so that sums have a fixed order
 constexpr double kIntensityScale = 0.04, kDepthScale_m = 0.05, kMostDepthError_m = 0.3;
 constexpr double kUsual = 1.3, kUsualShare = 0.1, kClearlyBetter = 0.7;
-constexpr double kHeld_m[] = {0.01, 0.005};  // per level; motions that the images tell less well are left as guessed
+constexpr double kHeld_m[] = {0.02, 0.01};  // per level; motions that the images tell less well are left as guessed
 
 using Vector7d = Eigen::Matrix<double, 7, 1>;
 using Matrix7d = Eigen::Matrix<double, 7, 7>;

@@ -50,8 +50,8 @@ TEST(ImageAligner, AlongABareWallKeepsTheGuess) {
     const auto noisy = [&](const Eigen::Isometry3d& T_world_camera) {
         PreparedFrame prepared = Prepare(room.Render(FullCamera(), T_world_camera));
         for (std::size_t i = 0; i < prepared.depth_m.size(); ++i) {
-            prepared.depth_m.data()[i] += 0.003f * noise(random);
-            prepared.intensity.data()[i] += 0.01f * noise(random);
+            prepared.depth_m.data()[i] += 0.0015f * noise(random);
+            prepared.intensity.data()[i] += 0.005f * noise(random);
         }
         return prepared;
     };
