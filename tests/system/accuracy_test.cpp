@@ -75,6 +75,16 @@ TEST_F(Recorded, Freiburg1RpyIsTrackedToTwoCentimetres) {
     EXPECT_LE(run.map.bytes_per_voxel, 12.0);
 }
 
+// Six frames a second; the camera turns by up to 22 degrees between two.
+TEST_F(Recorded, Freiburg1RpyIsTrackedAtAFifthOfItsRate) {
+    ASSERT_NO_FATAL_FAILURE(Need("tum_fr1_rpy"));
+    if (IsSkipped()) return;
+    const RunSummary run = RunOn(sequence, folder / "out", 5);
+    EXPECT_EQ(run.counts.tracked, run.counts.frames);
+    ASSERT_TRUE(run.ate.has_value());
+    EXPECT_LE(run.ate->error_m.rmse, 0.022);
+}
+
 struct House {
     const char* name;
     double ate_m;
