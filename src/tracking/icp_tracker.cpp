@@ -50,13 +50,8 @@ struct IcpTracker::State {
 IcpTracker::IcpTracker(const Config& config, const PinholeCamera& camera, const TrackJudge& judge,
                        Photometry* photometry, std::unique_ptr<ViewPredictor> predictor, VectorPath path,
                        IcpSums* device)
-    : config_(config),
-      camera_(camera),
-      judge_(judge),
-      photometry_(photometry),
-      predictor_(std::move(predictor)),
-      use_avx2_(path == VectorPath::kAvx2 || (path == VectorPath::kAuto && CpuHasAvx2())),
-      device_(device),
+    : config_(config), camera_(camera), judge_(judge), photometry_(photometry), predictor_(std::move(predictor)),
+      use_avx2_(path == VectorPath::kAvx2 || (path == VectorPath::kAuto && CpuHasAvx2())), device_(device),
       points_(static_cast<std::size_t>(config.levels)) {}
 
 TrackResult IcpTracker::Track(const TrackInput& input) {
@@ -80,8 +75,7 @@ TrackResult IcpTracker::Track(const TrackInput& input) {
 
     const Eigen::Isometry3d T_view_expected = view_.T_world_camera.inverse() * input.T_world_camera_starts.back();
     TrackResult result;
-    result.T_world_camera =
-        Normalised(view_.T_world_camera * WithHeldAsExpected(state.step, state.T_view_camera, T_view_expected));
+    result.T_world_camera = Normalised(view_.T_world_camera * WithHeldAsExpected(state.step, state.T_view_camera, T_view_expected));
     result.motion = state.motion;
     result.alpha = state.alpha;
     result.gain = state.gain;

@@ -2,13 +2,13 @@
 
 #include <tbb/parallel_for.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "core/se3.h"
 #include "tracking/image_search.h"
+#include "tracking/image_system.h"
 
 namespace tessera {
 namespace {
@@ -18,9 +18,6 @@ constexpr int kRowsPerTile = 5;         // fixed, so that sums have a fixed orde
 constexpr double kIntensityScale = 0.04, kDepthScale_m = 0.05, kMostDepthError_m = 0.3;
 constexpr double kUsual = 1.3, kUsualShare = 0.1, kClearlyBetter = 0.7;
 constexpr double kHeld_m[] = {0.02, 0.01};  // per level; motions that the images tell less well are left as guessed
-
-using Vector7d = Eigen::Matrix<double, 7, 1>;
-using Matrix7d = Eigen::Matrix<double, 7, 7>;
 
 struct Sample {
     float value, gx, gy;
@@ -39,47 +36,7 @@ bool Interpolate(const Image<float>& image, double u, double v, float least, Sam
     return true;
 }
 
-double Huber(double residual, double scale) { return scale / std::max(std::abs(residual), scale); }
-
 }  // namespace
-
-struct ImageAligner::System {
-    Matrix7d H = Matrix7d::Zero();
-    Vector7d g = Vector7d::Zero();
-
-    double error = 0;   // sum of min((r / scale)^2, 4)
-    double samples = 0;
-
-    // The Gauss-Newton step, its seventh the offset's.
-    Vector7d Step(double scene_depth_m, double held_m) const {
-        const double c = std::max(H(6, 6), 1e-9);
-        const Vector6d b = H.block<6, 1>(0, 6);
-        Vector6d to_metres = Vector6d::Ones();
-        to_metres.head<3>() /= std::max(scene_depth_m, 0.1);
-        const Matrix6d N = to_metres.asDiagonal() * (H.topLeftCorner<6, 6>() - b * b.transpose() / c) * to_metres.asDiagonal();
-        const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(N);
-        Vector6d along = eigen.eigenvectors().transpose() * to_metres.asDiagonal() * (g.head<6>() - b * g(6) / c);
-        for (int i = 0; i < 6; ++i)
-            along(i) = eigen.eigenvalues()(i) * held_m * held_m < 1 ? 0.0 : -along(i) / eigen.eigenvalues()(i);
-        Vector7d step;
-        step.head<6>() = to_metres.asDiagonal() * eigen.eigenvectors() * along;
-        step(6) = -(g(6) + b.dot(step.head<6>())) / c;
-        return step;
-    }
-
-    // A robust mean; few samples mean little overlap, which is no merit.
-    double Score() const {
-        return samples > 100 ? error / samples + 200.0 / samples : std::numeric_limits<double>::infinity();
-    }
-
-    void Add(const Vector7d& j, double residual, double scale) {
-        const double w = Huber(residual, scale) / (scale * scale);
-        error += std::min(residual * residual / (scale * scale), 4.0);
-        samples += 1;
-        H.noalias() += w * j * j.transpose();
-        g.noalias() += w * residual * j;
-    }
-};
 
 void ImageAligner::Config::Describe(ConfigParameters& p) {
     p.Add("enabled", enabled, "find a second start for the tracker from the frame before: helps fast motion");
@@ -157,13 +114,13 @@ void ImageAligner::Reduce(const PreparedFrame& frame, std::vector<Level>& levels
 
 // Residuals of the last frame's points in the current images; increments multiply T_current_last from the left. The
 // seventh unknown is an offset of the intensity.
-ImageAligner::System ImageAligner::Linearise(const Level& last, const Level& current,
+ImageSystem ImageAligner::Linearise(const Level& last, const Level& current,
                                              const Eigen::Isometry3d& T_current_last, double offset) const {
     const PinholeCamera& c = current.camera;
     const int tiles = (last.camera.height + kRowsPerTile - 1) / kRowsPerTile;
-    std::vector<System> partial(static_cast<std::size_t>(tiles));
+    std::vector<ImageSystem> partial(static_cast<std::size_t>(tiles));
     tbb::parallel_for(0, tiles, [&](int tile) {
-        System& system = partial[static_cast<std::size_t>(tile)];
+        ImageSystem& system = partial[static_cast<std::size_t>(tile)];
         const int y_end = std::min(last.camera.height, (tile + 1) * kRowsPerTile);
         for (int y = tile * kRowsPerTile; y < y_end; ++y)
             for (int x = 0; x < last.camera.width; ++x) {
@@ -196,8 +153,8 @@ ImageAligner::System ImageAligner::Linearise(const Level& last, const Level& cur
                 }
             }
     });
-    System total;
-    for (const System& system : partial) {
+    ImageSystem total;
+    for (const ImageSystem& system : partial) {
         total.H += system.H;
         total.g += system.g;
         total.error += system.error;
@@ -212,7 +169,7 @@ Eigen::Isometry3d ImageAligner::Refine(const Eigen::Isometry3d& T_last_current, 
     double offset = 0;
     for (std::size_t level = 0; level < last_.size(); ++level)
         for (int i = 0; i < config_.iterations; ++i) {
-            const System system = Linearise(last_[level], current_[level], T_current_last, offset);
+            const ImageSystem system = Linearise(last_[level], current_[level], T_current_last, offset);
             score = system.Score();
             const Vector7d step = system.Step(scene_depth_m_, kHeld_m[level]);
             if (!step.allFinite()) {

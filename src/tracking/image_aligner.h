@@ -13,6 +13,8 @@
 
 namespace tessera {
 
+struct ImageSystem;
+
 class ImageAligner {
   public:
     struct Config {
@@ -45,12 +47,11 @@ class ImageAligner {
         Image<float> intensity;
         DepthImage depth_m;
     };
-    struct System;  // normal equations
 
     PinholeCamera ReducedCamera(int width) const;
     void Reduce(const PreparedFrame& frame, std::vector<Level>& levels) const;
     Eigen::Isometry3d Refine(const Eigen::Isometry3d& T_last_current, double& score) const;
-    System Linearise(const Level& last, const Level& current, const Eigen::Isometry3d& T_current_last,
+    ImageSystem Linearise(const Level& last, const Level& current, const Eigen::Isometry3d& T_current_last,
                      double offset) const;
 
     Config config_;
