@@ -13,7 +13,9 @@ namespace {
 
 using L = SumLayout;
 
-constexpr double kClearlyHeld = 3.0;  // a scene that left a motion open holds it again from so many times the least eigenvalue on
+// Times the least eigenvalue: where the last frame left a motion open this one holds it from here on; and where one is open, noise
+// makes what little holds the others, so they are held by the scene from here on only.
+constexpr double kHeldAgain = 1.5, kClearlyHeld = 3.0;
 
 // Takes an increment about the camera with rotations in units of 1/depth to one about the local origin.
 Matrix6d FromNormalised(const Eigen::Vector3d& camera_local, double depth_m) {
@@ -96,11 +98,10 @@ PoseStep SolvePoseStep(const PoseSums& sums, const SolverOptions& options, doubl
     const double damping = options.damping * N.trace();
     Vector6d projected = eigen.eigenvectors().transpose() * n;
     Vector6d held = Vector6d::Zero();
-    // Where one motion is open noise makes what little holds the others, too.
-    const bool open = options.last_degenerate || values(0) <= options.min_eigenvalue;
-    const double least = std::max((open ? kClearlyHeld : 1.0) * options.min_eigenvalue, 1e-12);
+    const double least = std::max(options.min_eigenvalue, 1e-12);
+    const bool open = values(0) <= (options.last_degenerate ? kHeldAgain : 1.0) * least;
     for (int i = 0; i < 6; ++i) {
-        const bool hold = values(i) <= least;
+        const bool hold = open && values(i) <= kClearlyHeld * least;
         step.held_directions += hold;
         held(i) = hold;
         projected(i) = hold ? 0.0 : -projected(i) / (eigen.eigenvalues()(i) + damping);
