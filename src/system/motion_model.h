@@ -1,4 +1,5 @@
-// Where the camera is expected next: constant body velocity over the last two tracked frames.
+// Where the camera is expected next: constant body velocity over the last two tracked frames, which comes to rest while frames
+// are degenerate.
 #pragma once
 
 #include <optional>

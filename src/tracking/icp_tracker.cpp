@@ -7,6 +7,7 @@
 namespace tessera {
 namespace {
 
+constexpr double kLeastFall = 1e-6;  // of the energy, as predicted: less is converged, and whether it falls is left to rounding
 constexpr double kAnotherView_m = 0.15, kAnotherView_rad = 0.15;
 constexpr double kIntensityGateScales = 5.0;
 
@@ -217,6 +218,7 @@ void IcpTracker::RunLevel(int level, State& state) {
                                    state.scene_depth_m);
         state.failed = !state.step.valid;
         if (state.failed) return;
+        if (state.step.predicted_decrease < kLeastFall * state.sums[SumLayout::kEnergy]) break;
         TakeStep(points, state);
         if (state.step.increment.head<3>().norm() < tolerance && state.step.increment.tail<3>().norm() < tolerance)
             break;

@@ -107,7 +107,8 @@ PoseStep SolvePoseStep(const PoseSums& sums, const SolverOptions& options, doubl
         projected(i) = hold ? 0.0 : -projected(i) / (eigen.eigenvalues()(i) + damping);
     }
     step.increment = A * (eigen.eigenvectors() * projected);
-    step.held = A * eigen.eigenvectors() * held.asDiagonal() * eigen.eigenvectors().transpose() * A.inverse();
+    if (step.held_directions > 0)
+        step.held = A * eigen.eigenvectors() * held.asDiagonal() * eigen.eigenvectors().transpose() * A.inverse();
     step.predicted_decrease = -step.increment.dot(2.0 * g + H * step.increment);
     if (brightness) {
         step.predicted_decrease += h.dot(C.inverse() * h);

@@ -31,7 +31,7 @@ struct PoseStep {
     double gain_change = 0, offset_change = 0;
     double smallest_eigenvalue = 0;  // of the normalised Hessian, see NormalisedHessian
     int held_directions = 0;    // eigenvectors along which the step was set to zero
-    Matrix6d held;              // takes an increment's part along them
+    Matrix6d held;              // takes an increment's part along them; not set where there are none
     double predicted_decrease = 0;  // of the energy, if it were the quadratic that the step minimises
 };
 
