@@ -78,7 +78,7 @@ float WeightOf(const FusionArguments& a, float distance, float depth) {
     float weight = a.frame_weight;
     if (a.distance_weight == DistanceWeight::kDepthNoise) weight /= depth * depth;
     if (a.distance_weight == DistanceWeight::kLinearExp)
-        weight *= LinearExpWeight(distance, a.epsilon_m, a.sigma, [](float v) { return std::exp(v); });
+        weight *= LinearExpWeight(distance, a.epsilon_m, a.sigma);
     return std::max(weight, 1.0f / kWeightSteps);
 }
 

@@ -12,10 +12,11 @@ if(CCACHE)
     set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE})
 endif()
 
-# Warnings and sanitizers, private to our own targets. -Wrestrict is wrong about std::string in g++ 12.
+# Warnings and sanitizers, private to our own targets. -Wrestrict is wrong about std::string in g++ 12. No fused
+# multiply-adds: the same bytes with and without vectors, on every processor and on a GPU.
 add_library(tessera_options INTERFACE)
 target_compile_options(tessera_options INTERFACE -Wall -Wextra -Wshadow -Wconversion
-    -Wno-sign-conversion -Wno-restrict $<$<BOOL:${TESSERA_WERROR}>:-Werror>)
+    -Wno-sign-conversion -Wno-restrict -ffp-contract=off $<$<BOOL:${TESSERA_WERROR}>:-Werror>)
 if(TESSERA_SANITIZE)
     target_compile_options(tessera_options INTERFACE -fsanitize=${TESSERA_SANITIZE}
         -fno-omit-frame-pointer -fno-sanitize-recover=all)
@@ -42,7 +43,7 @@ function(tessera_library name)
     tessera_for_python(${name})
 endfunction()
 
-# tessera_vector_source(LIBRARY FILE): compiles FILE once more for AVX2. Such a file includes no Eigen and
+# tessera_vector_source(LIBRARY FILE): compiles FILE once more for AVX2 (not for FMA, see above). Such a file includes no Eigen and
 # exports one function in namespace tessera::TESSERA_VECTOR_NAMESPACE; the caller picks at run time.
 function(tessera_vector_source library file)
     get_filename_component(stem ${file} NAME_WE)
@@ -57,7 +58,7 @@ function(tessera_vector_source library file)
             if(NOT CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
                 continue()
             endif()
-            target_compile_options(${unit} PRIVATE -mavx2 -mfma)
+            target_compile_options(${unit} PRIVATE -mavx2)
             target_compile_definitions(${library} PRIVATE TESSERA_HAVE_AVX2)
         endif()
         target_sources(${library} PRIVATE $<TARGET_OBJECTS:${unit}>)

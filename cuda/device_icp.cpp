@@ -7,14 +7,14 @@
 namespace tessera::TESSERA_DEVICE {
 namespace {
 
-constexpr std::size_t kPointFloats = 8, kModelFloats = 5;  // of a point, of a pixel
+constexpr std::size_t kModelFloats = 5;  // of a pixel
 
 }  // namespace
 
 DeviceIcp::DeviceIcp(DevicePipeline& device)
     : device_(device),
+      points_(device.memory_, device.stream_),
       model_pixels_(device.memory_),
-      point_arrays_(device.memory_),
       residuals_(device.memory_),
       sum_tiles_(device.memory_),
       sums_(device.memory_) {}
@@ -61,48 +61,43 @@ void DeviceIcp::SetModel(const std::vector<IcpModelLevel>& levels) {
     }
 }
 
-void DeviceIcp::SetPoints(const FramePoints& points, int level) {
+std::int64_t DeviceIcp::SetPoints(const PreparedFrame& frame, const PointArguments& points, int level) {
     level_ = static_cast<std::size_t>(level);
-    points_ = points.count();
     has_intensities_ = false;
+    points_.Clear();
     Stream& stream = device_.stream_;
-    const auto count = static_cast<std::size_t>(points_);
-    if (!point_arrays_.ReserveScratch(stream, kPointFloats * count) ||
-        !residuals_.ReserveScratch(stream, 4 * count) ||
-        !sum_tiles_.ReserveScratch(stream, TilesOfPoints(points_)) ||
-        !sums_.Reserve(stream, SumLayout::kCount, 0)) {
-        points_ = 0;
-        return;
-    }
-    float* to = point_arrays_.data();
-    for (const auto* from : {&points.x, &points.y, &points.z, &points.normal_x, &points.normal_y,
-                             &points.normal_z, &points.intensity, &points.weight}) {
-        stream.Upload(to, from->data(), count * sizeof(float));
-        to += count;
-    }
+    const int count = points.width * points.height;
+    if (!residuals_.ReserveScratch(stream, 4 * static_cast<std::size_t>(count)) ||
+        !sum_tiles_.ReserveScratch(stream, TilesOfPoints(count)) || !sums_.Reserve(stream, SumLayout::kCount, 0))
+        return 0;
+    return device_.MakePoints(frame, points, points_);
 }
+
+void DeviceIcp::TakePoints(FramePoints& points) { device_.Download(points_, points); }
 
 PoseSums DeviceIcp::Sum(const IcpArguments& arguments) {
     PoseSums sums;
-    if (points_ == 0 || model_.empty()) return sums;
+    if (points_.count() == 0 || model_.empty()) return sums;
     IcpArguments a = arguments;
     const ModelImages& model = model_[level_];
     a.depth = model.depth_m;
     a.normal = model.normal;
     a.intensity = model.intensity;
-    const float* from = point_arrays_.data();
-    for (const float** array : {&a.x, &a.y, &a.z, &a.normal_x, &a.normal_y, &a.normal_z,
-                                &a.intensity_of_point, &a.weight}) {
-        *array = from;
-        from += points_;
-    }
+    a.x = points_.x();
+    a.y = points_.y();
+    a.z = points_.z();
+    a.normal_x = points_.normal_x();
+    a.normal_y = points_.normal_y();
+    a.normal_z = points_.normal_z();
+    a.intensity_of_point = points_.intensity();
+    a.weight = points_.weight();
     a.distance_residual = Residuals(1 - kept_, 0);
     a.intensity_residual = Residuals(1 - kept_, 1);
     const bool compare = arguments.distance_before != nullptr;
     a.distance_before = compare ? Residuals(kept_, 0) : nullptr;
     a.intensity_before = compare ? Residuals(kept_, 1) : nullptr;
     has_intensities_ = a.alpha > 0;
-    SumIcpPoints(device_.stream_, a, points_, sum_tiles_.data(), sums_.data());
+    SumIcpPoints(device_.stream_, a, points_.count(), sum_tiles_.data(), sums_.data());
     device_.stream_.Download(sums.value, sums_.data(), sizeof sums.value);
     device_.stream_.Wait();
     return sums;
@@ -113,7 +108,7 @@ void DeviceIcp::KeepResiduals() {
 }
 
 void DeviceIcp::TakeResiduals(std::vector<float>& distance, std::vector<float>& intensity) {
-    const std::size_t bytes = static_cast<std::size_t>(points_) * sizeof(float);
+    const std::size_t bytes = static_cast<std::size_t>(points_.count()) * sizeof(float);
     device_.stream_.Download(distance.data(), Residuals(kept_, 0), bytes);
     if (has_intensities_) device_.stream_.Download(intensity.data(), Residuals(kept_, 1), bytes);
     device_.stream_.Wait();

@@ -1,7 +1,7 @@
 // The ICP tracker's model and sums on the device. Made by DevicePipeline.
 #pragma once
 
-#include "cuda/device.h"
+#include "cuda/device_points.h"
 #include "tracking/icp_sums.h"
 #include "tracking/model_kernels.h"
 
@@ -19,7 +19,8 @@ class DeviceIcp : public IcpSums {
                  const Eigen::Isometry3d& T_world_camera, float min_depth_m, float max_depth_m,
                  int levels, float jump_m) override;
     void SetModel(const std::vector<IcpModelLevel>& levels) override;
-    void SetPoints(const FramePoints& points, int level) override;
+    std::int64_t SetPoints(const PreparedFrame& frame, const PointArguments& points, int level) override;
+    void TakePoints(FramePoints& points) override;
     PoseSums Sum(const IcpArguments& arguments) override;
     void KeepResiduals() override;
     void TakeResiduals(std::vector<float>& distance, std::vector<float>& intensity) override;
@@ -35,16 +36,15 @@ class DeviceIcp : public IcpSums {
         float *depth_m, *normal, *intensity;
     };
     Images ImagesOf(int level);
-    float* Residuals(int set, int kind) { return residuals_.data() + (2 * set + kind) * points_; }
+    float* Residuals(int set, int kind) { return residuals_.data() + (2 * set + kind) * points_.count(); }
 
     DevicePipeline& device_;
     std::vector<ModelImages> model_;  // per level; empty where there is no room
     std::size_t pixels_ = 0;          // of its finest level
     std::size_t level_ = 0;           // the points'
-    int points_ = 0;
+    DevicePoints points_;
     DeviceBuffer<float> model_pixels_;
-    DeviceBuffer<float> point_arrays_;  // one after the other, points_ of each
-    DeviceBuffer<float> residuals_;     // the same: two sets of distances and intensities
+    DeviceBuffer<float> residuals_;  // two sets of distances and intensities, one array after the other
     int kept_ = 0;                      // which set; the other is the last sum's
     bool has_intensities_ = false;
     DeviceBuffer<double> sum_tiles_, sums_;

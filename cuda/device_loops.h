@@ -3,6 +3,8 @@
 #pragma once
 
 #include "core/host_device.h"
+#include "core/scalar_lanes.h"
+#include "core/tile_sums.h"
 #include "cuda/device.h"
 
 #ifdef __CUDACC__
@@ -11,13 +13,12 @@
 
 namespace tessera::TESSERA_DEVICE {
 
-// Sums are taken in tiles of this many lanes, each of which adds this many items: item = tile * kTileItems + step * kTileLanes
-// + lane. Warps of 32 lanes are added as a tree, then the warps, then the tiles, each in its order: the same bytes on every
-// run, and on every device.
-inline constexpr int kTileLanes = 128, kTileSteps = 4, kTileItems = kTileLanes * kTileSteps;
-inline constexpr int kWarpLanes = 32, kTileWarps = kTileLanes / kWarpLanes;
-
 inline int TileCount(int items) { return (items + kTileItems - 1) / kTileItems; }
+inline int RunCount(int items) { return (items + kRunItems - 1) / kRunItems; }
+// Doubles that SumTiles needs on its way.
+inline std::size_t TileRoom(int items, int sums) {
+    return static_cast<std::size_t>(TileCount(items) + RunCount(items)) * static_cast<std::size_t>(sums);
+}
 
 #ifdef __CUDACC__
 
@@ -29,36 +30,43 @@ __global__ void ForEach(int count, Body body) {
     if (i < count) body(i);
 }
 
+// A warp for each tile. Lane i adds what kTileSteps items have, then takes part in the tree.
+inline constexpr int kTilesPerBlock = 4;
 template <int kSums, class Body>
-__global__ void __launch_bounds__(kTileLanes) SumTile(int count, Body body, double* tiles) {
-    const int lane = static_cast<int>(threadIdx.x), tile = static_cast<int>(blockIdx.x);
+__global__ void __launch_bounds__(kTileLanes * kTilesPerBlock) SumTile(int count, Body body, double* tiles) {
+    const int lane = static_cast<int>(threadIdx.x) % kTileLanes;
+    const int tile = static_cast<int>(blockIdx.x) * kTilesPerBlock + static_cast<int>(threadIdx.x) / kTileLanes;
+    if (tile * kTileItems >= count) return;  // the whole warp
     float sums[kSums] = {};
     for (int step = 0; step < kTileSteps; ++step) {
         const int item = tile * kTileItems + step * kTileLanes + lane;
         if (item < count) body(item, sums);
     }
-    __shared__ float warps[kTileWarps][kSums];
 #pragma unroll
     for (int k = 0; k < kSums; ++k) {
         float sum = sums[k];
 #pragma unroll
-        for (int stride = kWarpLanes / 2; stride > 0; stride /= 2) sum += __shfl_down_sync(0xffffffffu, sum, stride);
-        if (lane % kWarpLanes == 0) warps[lane / kWarpLanes][k] = sum;
-    }
-    __syncthreads();
-    for (int k = lane; k < kSums; k += kTileLanes) {
-        double sum = 0;
-        for (int warp = 0; warp < kTileWarps; ++warp) sum += warps[warp][k];
-        tiles[tile * kSums + k] = sum;
+        for (int half = kTileLanes / 2; half > 0; half /= 2) sum += __shfl_down_sync(0xffffffffu, sum, half);
+        if (lane == 0) tiles[tile * kSums + k] = sum;
     }
 }
 
+// One block: a thread for each sum of a run, then one for each sum. Runs go behind the tiles.
+inline constexpr int kAddThreads = 1024;
 template <int kSums>
-__global__ void AddTiles(int count, const double* tiles, double* sums) {
+__global__ void __launch_bounds__(kAddThreads) AddRuns(int tile_count, int run_count, double* tiles, double* sums) {
+    double* runs = tiles + tile_count * kSums;
+    for (int i = static_cast<int>(threadIdx.x); i < run_count * kSums; i += kAddThreads) {
+        const int run = i / kSums, k = i % kSums;
+        double sum = 0;
+        for (int tile = run * kRunTiles; tile < min((run + 1) * kRunTiles, tile_count); ++tile) sum += tiles[tile * kSums + k];
+        runs[i] = sum;
+    }
+    __syncthreads();
     const int k = static_cast<int>(threadIdx.x);
     if (k >= kSums) return;
     double sum = 0;
-    for (int tile = 0; tile < count; ++tile) sum += tiles[tile * kSums + k];
+    for (int run = 0; run < run_count; ++run) sum += runs[run * kSums + k];
     sums[k] = sum;
 }
 
@@ -73,14 +81,14 @@ void ForEach(Stream& stream, int count, const Body& body) {
     TESSERA_CUDA_CHECK(cudaGetLastError());
 }
 
-// body(i, sums) adds what item i has to sums[0] to sums[kSums - 1]. `tiles`: room for TileCount(count) * kSums; `sums`: for
-// kSums. Both on the device.
+// body(i, sums) adds what item i has to sums[0] to sums[kSums - 1], in the order of core/tile_sums.h. `tiles`: TileRoom(count, kSums);
+// `sums`: room for kSums. Both on the device.
 template <int kSums, class Body>
 void SumTiles(Stream& stream, int count, const Body& body, double* tiles, double* sums) {
     const auto handle = static_cast<cudaStream_t>(stream.handle());
-    if (count > 0) loops::SumTile<kSums><<<TileCount(count), kTileLanes, 0, handle>>>(count, body, tiles);
-    constexpr int kThreads = (kSums + kWarpLanes - 1) / kWarpLanes * kWarpLanes;
-    loops::AddTiles<kSums><<<1, kThreads, 0, handle>>>(TileCount(count), tiles, sums);
+    const int tile_count = TileCount(count), blocks = (tile_count + loops::kTilesPerBlock - 1) / loops::kTilesPerBlock;
+    if (blocks > 0) loops::SumTile<kSums><<<blocks, kTileLanes * loops::kTilesPerBlock, 0, handle>>>(count, body, tiles);
+    loops::AddRuns<kSums><<<1, loops::kAddThreads, 0, handle>>>(tile_count, RunCount(count), tiles, sums);
     TESSERA_CUDA_CHECK(cudaGetLastError());
 }
 
@@ -94,20 +102,10 @@ void ForEach(Stream&, int count, const Body& body) {
 template <int kSums, class Body>
 void SumTiles(Stream&, int count, const Body& body, double*, double* sums) {
     std::fill_n(sums, kSums, 0.0);
-    for (int tile = 0; tile < TileCount(count); ++tile) {
-        float lanes[kTileLanes][kSums] = {};
-        for (int step = 0; step < kTileSteps; ++step)
-            for (int lane = 0; lane < kTileLanes; ++lane)
-                if (const int item = tile * kTileItems + step * kTileLanes + lane; item < count) body(item, lanes[lane]);
-        double tile_sums[kSums] = {};
-        for (int warp = 0; warp < kTileWarps; ++warp) {
-            auto* lane = lanes + warp * kWarpLanes;
-            for (int stride = kWarpLanes / 2; stride > 0; stride /= 2)
-                for (int i = 0; i < stride; ++i)
-                    for (int k = 0; k < kSums; ++k) lane[i][k] += lane[i + stride][k];
-            for (int k = 0; k < kSums; ++k) tile_sums[k] += lane[0][k];
-        }
-        for (int k = 0; k < kSums; ++k) sums[k] += tile_sums[k];
+    for (int first = 0; first < count; first += kRunItems) {
+        double run[kSums] = {};
+        AddTiles<ScalarLanes, kSums>(first, std::min(first + kRunItems, count), body, run);
+        for (int k = 0; k < kSums; ++k) sums[k] += run[k];
     }
 }
 

@@ -69,14 +69,18 @@ bool DevicePipeline::ReserveSums(int points) {
 std::int64_t DevicePipeline::SetPoints(const BlockMap& map, const PreparedFrame& frame, const PointArguments& points) {
     has_distance_residual_ = has_intensity_residual_ = false;
     points_.Clear();
-    PointArguments a = points;
-    const bool intensities = a.intensity.pixels != nullptr;
     // What has no room is not tracked: there are no points, and the frame is lost.
-    if (MirrorOf(map) == nullptr || !Upload(frame, intensities) || !ReserveSums(a.width * a.height)) return 0;
+    if (MirrorOf(map) == nullptr || !ReserveSums(points.width * points.height)) return 0;
+    return MakePoints(frame, points, points_);
+}
+
+std::int64_t DevicePipeline::MakePoints(const PreparedFrame& frame, const PointArguments& arguments, DevicePoints& points) {
+    const bool intensities = arguments.intensity.pixels != nullptr;
+    if (!Upload(frame, intensities)) return 0;
+    PointArguments a = arguments;
     a.depth.pixels = depth_m_.data();
     if (intensities) a.intensity.pixels = intensity_.data();
-    std::int64_t valid = 0;
-    return points_.Build(a, valid) ? valid : 0;
+    return points.Build(a);
 }
 
 PoseSums DevicePipeline::Sum(const SdfArguments& arguments) {
@@ -99,13 +103,13 @@ PoseSums DevicePipeline::Sum(const SdfArguments& arguments) {
     return sums;
 }
 
-void DevicePipeline::TakePoints(FramePoints& points) {
-    const auto bytes = static_cast<std::size_t>(points_.count()) * sizeof(float);
-    stream_.Download(points.x.data(), points_.x(), bytes);
-    stream_.Download(points.y.data(), points_.y(), bytes);
-    stream_.Download(points.z.data(), points_.z(), bytes);
-    stream_.Download(points.intensity.data(), points_.intensity(), bytes);
-    stream_.Download(points.weight.data(), points_.weight(), bytes);
+void DevicePipeline::Download(const DevicePoints& from, FramePoints& points) {
+    const auto bytes = static_cast<std::size_t>(from.count()) * sizeof(float);
+    stream_.Download(points.x.data(), from.x(), bytes);
+    stream_.Download(points.y.data(), from.y(), bytes);
+    stream_.Download(points.z.data(), from.z(), bytes);
+    stream_.Download(points.intensity.data(), from.intensity(), bytes);
+    stream_.Download(points.weight.data(), from.weight(), bytes);
     stream_.Wait();
 }
 

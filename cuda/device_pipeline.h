@@ -26,7 +26,7 @@ class DevicePipeline : public Device, public SdfSums {
 
     std::int64_t SetPoints(const BlockMap& map, const PreparedFrame& frame, const PointArguments& points) override;
     PoseSums Sum(const SdfArguments& arguments) override;
-    void TakePoints(FramePoints& points) override;
+    void TakePoints(FramePoints& points) override { Download(points_, points); }
     void TakeResiduals(std::vector<float>& distance, std::vector<float>& intensity) override;
 
     std::size_t limit_bytes() const { return memory_.limit_bytes(); }
@@ -42,6 +42,10 @@ class DevicePipeline : public Device, public SdfSums {
     DeviceMap* MirrorOf(const BlockMap& map);
     // The frame's images on the device, where they are not yet; that of the intensities only with `intensities`. False: no room.
     [[nodiscard]] bool Upload(const PreparedFrame& frame, bool intensities);
+    // The frame's points on the device, as DevicePoints::Build.
+    [[nodiscard]] std::int64_t MakePoints(const PreparedFrame& frame, const PointArguments& arguments, DevicePoints& points);
+    // All but the normals, to what Lay has made for them.
+    void Download(const DevicePoints& from, FramePoints& points);
     [[nodiscard]] bool ReserveSums(int points);
 
     std::string name_;

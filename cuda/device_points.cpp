@@ -9,18 +9,25 @@ namespace point_bodies {
 // Per slot; counts those with a point.
 struct MakePoint {
     PointArguments arguments;
-    float *x, *y, *z, *intensity, *weight;
+    float *x, *y, *z, *intensity, *weight, *normal_x, *normal_y, *normal_z;
 
     TESSERA_HD_MEMBER void operator()(int i, float* sums) const {
         const PointArguments& a = arguments;
         const PointRow row = RowOfPoints(a, i / a.width);
         const int u = i % a.width * a.step + a.step / 2;
         const float d = u < a.depth.width ? a.depth.At(u, row.v) : 0.0f;
-        const bool valid = d > 0;
-        const CameraPoint p = valid ? PointOfPixel(a, row, u, d) : CameraPoint{0, 0, 0};
+        const CameraPoint p = d > 0 ? PointOfPixel(a, row, u, d) : CameraPoint{0, 0, 0};
         x[i] = p.x;
         y[i] = p.y;
         z[i] = p.z;
+        bool valid = d > 0;
+        if (a.normal_radius_px > 0) {
+            CameraPoint n{0, 0, 0};
+            valid = valid && NormalAt(a.depth, u, row.v, a.normal_radius_px, n);
+            normal_x[i] = n.x;
+            normal_y[i] = n.y;
+            normal_z[i] = n.z;
+        }
         weight[i] = valid ? PointWeight(d, a.depth_exponent) : 0.0f;
         intensity[i] = valid && a.intensity.pixels != nullptr ? IntensityOfPoint(a, row, u, p) : -1.0f;
         if (valid) sums[0] += 1.0f;
@@ -30,28 +37,37 @@ struct MakePoint {
 }  // namespace point_bodies
 
 DevicePoints::DevicePoints(DeviceMemory& memory, Stream& stream)
-    : stream_(stream), x_(memory), y_(memory), z_(memory), intensity_(memory), weight_(memory), tiles_(memory), valid_(memory) {}
+    : stream_(stream),
+      x_(memory),
+      y_(memory),
+      z_(memory),
+      intensity_(memory),
+      weight_(memory),
+      normals_(memory),
+      tiles_(memory),
+      valid_(memory) {}
 
-bool DevicePoints::Reserve(std::size_t points) {
-    bool room = valid_.Reserve(stream_, 1, 0) && tiles_.ReserveScratch(stream_, TileCount(static_cast<int>(points)));
+bool DevicePoints::Reserve(std::size_t points, bool normals) {
+    bool room = valid_.Reserve(stream_, 1, 0) && tiles_.ReserveScratch(stream_, TileRoom(static_cast<int>(points), 1));
     for (auto* buffer : {&x_, &y_, &z_, &intensity_, &weight_}) room = room && buffer->ReserveScratch(stream_, points);
-    return room;
+    return room && (!normals || normals_.ReserveScratch(stream_, 3 * points));
 }
 
-bool DevicePoints::Build(const PointArguments& a, std::int64_t& valid) {
-    count_ = 0;
-    valid = 0;
+std::int64_t DevicePoints::Build(const PointArguments& a) {
     const int count = a.width * a.height;
-    if (!Reserve(static_cast<std::size_t>(count))) return false;
-    SumTiles<1>(stream_, count,
-                point_bodies::MakePoint{a, x_.data(), y_.data(), z_.data(), intensity_.data(), weight_.data()}, tiles_.data(),
-                valid_.data());
-    double counted = 0;
-    stream_.Download(&counted, valid_.data(), sizeof counted);
-    stream_.Wait();
-    valid = static_cast<std::int64_t>(counted);
+    const bool normals = a.normal_radius_px > 0;
+    count_ = 0;
+    if (!Reserve(static_cast<std::size_t>(count), normals)) return 0;
     count_ = count;
-    return true;
+    float* n = normals_.data();
+    SumTiles<1>(stream_, count,
+                point_bodies::MakePoint{a, x_.data(), y_.data(), z_.data(), intensity_.data(), weight_.data(), n,
+                                        normals ? n + count : nullptr, normals ? n + 2 * count : nullptr},
+                tiles_.data(), valid_.data());
+    double valid = 0;
+    stream_.Download(&valid, valid_.data(), sizeof valid);
+    stream_.Wait();
+    return static_cast<std::int64_t>(valid);
 }
 
 }  // namespace tessera::TESSERA_DEVICE

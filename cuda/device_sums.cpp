@@ -24,7 +24,7 @@ struct AddIcpPoint {
 
 }  // namespace sum_bodies
 
-std::size_t TilesOfPoints(int points) { return static_cast<std::size_t>(TileCount(points)) * SumLayout::kCount; }
+std::size_t TilesOfPoints(int points) { return TileRoom(points, SumLayout::kCount); }
 
 void SumSdfPoints(Stream& stream, const SdfArguments& arguments, int points, double* tiles, double* sums) {
     SumTiles<SumLayout::kCount>(stream, points, sum_bodies::AddSdfPoint{arguments}, tiles, sums);

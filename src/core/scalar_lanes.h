@@ -54,7 +54,9 @@ struct ScalarLanes {
     TESSERA_HD_MEMBER static Real Abs(Real v) { return std::fabs(v); }
     TESSERA_HD_MEMBER static Real Floor(Real v) { return std::floor(v); }
     TESSERA_HD_MEMBER static Real Sqrt(Real v) { return std::sqrt(v); }
-    TESSERA_HD_MEMBER static Real Exp(Real v) { return std::exp(v); }
+
+    // Of all lanes, as a tree: the upper half is added to the lower half, until one is left.
+    TESSERA_HD_MEMBER static float Sum(Real v) { return v; }
 
     // Each lane's number: 0, 1, 2, ...
     TESSERA_HD_MEMBER static Real Numbers() { return 0.0f; }

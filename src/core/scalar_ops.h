@@ -2,13 +2,15 @@
 // names come from their own library by argument-dependent look-up, hence the lower case.
 #pragma once
 
+#include <cmath>
+
 #include "core/host_device.h"
 
 namespace tessera {
 
 TESSERA_HD float max(float a, float b) { return a > b ? a : b; }
 TESSERA_HD float min(float a, float b) { return a < b ? a : b; }
-TESSERA_HD float abs(float a) { return a < 0.0f ? -a : a; }
+TESSERA_HD float abs(float a) { return std::fabs(a); }
 TESSERA_HD float select(bool condition, float a, float b) { return condition ? a : b; }
 
 }  // namespace tessera

@@ -70,7 +70,20 @@ struct VectorLanes {
     TESSERA_HD_MEMBER static Real Abs(const Real& v) { return xsimd::abs(v); }
     TESSERA_HD_MEMBER static Real Floor(const Real& v) { return xsimd::floor(v); }
     TESSERA_HD_MEMBER static Real Sqrt(const Real& v) { return xsimd::sqrt(v); }
-    TESSERA_HD_MEMBER static Real Exp(const Real& v) { return xsimd::exp(v); }
+
+    TESSERA_HD_MEMBER static float Sum(const Real& v) {
+#ifdef __AVX2__
+        const __m128 four = _mm_add_ps(_mm256_castps256_ps128(v), _mm256_extractf128_ps(v, 1));
+        const __m128 two = _mm_add_ps(four, _mm_movehl_ps(four, four));
+        return _mm_cvtss_f32(_mm_add_ss(two, _mm_shuffle_ps(two, two, 1)));
+#else
+        alignas(64) float lanes[kCount];
+        v.store_aligned(lanes);
+        for (int half = kCount / 2; half > 0; half /= 2)
+            for (int i = 0; i < half; ++i) lanes[i] += lanes[i + half];
+        return lanes[0];
+#endif
+    }
 
     TESSERA_HD_MEMBER static Real Numbers() {
         alignas(64) float numbers[kCount];

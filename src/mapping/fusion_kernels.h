@@ -11,13 +11,25 @@
 
 namespace tessera {
 
+// e^v for v <= 0, by the same few roundings whatever F is: to 1e-6, and below e^-10 to 3e-9. (e^(v / 16))^16, by the
+// series.
+template <class F>
+TESSERA_HD F ExpOfNegative(F v) {
+    constexpr float kFactorials[] = {5040, 720, 120, 24, 6, 2, 1, 1};
+    const F t = max(v, F(-20.0f)) * F(1.0f / 16.0f);
+    F e(1.0f / kFactorials[0]);
+    for (int i = 1; i < 8; ++i) e = e * t + F(1.0f / kFactorials[i]);
+    for (int i = 0; i < 4; ++i) e = e * e;
+    return e;
+}
+
 // [B14] eq. 13 with d = z_voxel - z_measured = -signed_distance: 1 up to epsilon behind the surface, then
-// exp(-sigma (d - epsilon)^2). `exponential` is the caller's exp for F. The cut at delta is the caller's.
-template <class F, class Exp>
-TESSERA_HD F LinearExpWeight(F signed_distance_m, float epsilon_m, float sigma, Exp exponential) {
+// exp(-sigma (d - epsilon)^2). The cut at delta is the caller's.
+template <class F>
+TESSERA_HD F LinearExpWeight(F signed_distance_m, float epsilon_m, float sigma) {
     const F behind = F(0.0f) - signed_distance_m - F(epsilon_m);
     const F beyond = max(behind, F(0.0f));
-    return exponential(F(-sigma) * beyond * beyond);
+    return ExpOfNegative(F(-sigma) * beyond * beyond);
 }
 
 // [B14] eq. 14, [D18] eq. 5 and 6: the weighted running average.
@@ -162,8 +174,7 @@ class FusionKernels {
         switch (a.distance_weight) {
             case DistanceWeight::kDepthNoise: return Real(a.frame_weight) / (depth * depth);
             case DistanceWeight::kLinearExp:
-                return Real(a.frame_weight) * LinearExpWeight(distance, a.epsilon_m, a.sigma,
-                                                              [](const Real& v) { return V::Exp(v); });
+                return Real(a.frame_weight) * LinearExpWeight(distance, a.epsilon_m, a.sigma);
             case DistanceWeight::kConstant: break;
         }
         return Real(a.frame_weight);

@@ -52,4 +52,16 @@ void BuildIcpModel(const PredictedView& view, int count, float jump_m, std::vect
     for (std::size_t i = 1; i < levels.size(); ++i) Halve(levels[i - 1], jump_m, levels[i]);
 }
 
+void SetModel(const IcpModelLevel& model, IcpArguments& a) {
+    a.width = model.camera.width;
+    a.height = model.camera.height;
+    a.fx = static_cast<float>(model.camera.fx);
+    a.fy = static_cast<float>(model.camera.fy);
+    a.cx = static_cast<float>(model.camera.cx);
+    a.cy = static_cast<float>(model.camera.cy);
+    a.depth = model.depth_m.data();
+    a.normal = model.normal_camera.empty() ? nullptr : model.normal_camera.data()->data();
+    a.intensity = model.intensity.data();
+}
+
 }  // namespace tessera

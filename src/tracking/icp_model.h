@@ -6,6 +6,7 @@
 #include "core/camera.h"
 #include "core/image.h"
 #include "mapping/predicted_view.h"
+#include "tracking/icp_arguments.h"
 
 namespace tessera {
 
@@ -22,5 +23,8 @@ PinholeCamera HalfOf(const PinholeCamera& fine);
 // Level 0 is the view; each further one holds means of two by two pixels where these are one surface. Neighbours whose
 // depths differ by more than jump_m are not. Storage in `levels` is used again.
 void BuildIcpModel(const PredictedView& view, int count, float jump_m, std::vector<IcpModelLevel>& levels);
+
+// As the sums take it; its images are empty where a device has them.
+void SetModel(const IcpModelLevel& model, IcpArguments& arguments);
 
 }  // namespace tessera

@@ -1,5 +1,6 @@
 #include "tracking/icp_rows.h"
 
+#include "core/tile_sums.h"
 #include "core/vector_lanes.h"
 #include "tracking/icp_kernels.h"
 
@@ -7,10 +8,8 @@ namespace tessera::TESSERA_VECTOR_NAMESPACE {
 
 void SumIcpPoints(const IcpArguments& a, int first, int last, double* sums) {
     static_assert(kPointPadding % VectorLanes::kCount == 0);
-    VectorLanes::Real lanes[SumLayout::kCount];
-    for (VectorLanes::Real& value : lanes) value = VectorLanes::Real(0.0f);
-    for (int i = first; i < last; i += VectorLanes::kCount) IcpKernels<VectorLanes>::AddPoints(a, i, lanes);
-    for (int k = 0; k < SumLayout::kCount; ++k) sums[k] += static_cast<double>(xsimd::hadd(lanes[k]));
+    const auto add = [&](int i, VectorLanes::Real* lanes) { IcpKernels<VectorLanes>::AddPoints(a, i, lanes); };
+    AddTiles<VectorLanes, SumLayout::kCount>(first, last, add, sums);
 }
 
 }  // namespace tessera::TESSERA_VECTOR_NAMESPACE

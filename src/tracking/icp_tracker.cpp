@@ -18,19 +18,6 @@ void SetPose(const Eigen::Isometry3d& T_view_camera, IcpArguments& a) {
     }
 }
 
-// Its images are empty where a device has them.
-void SetModel(const IcpModelLevel& model, IcpArguments& a) {
-    a.width = model.camera.width;
-    a.height = model.camera.height;
-    a.fx = static_cast<float>(model.camera.fx);
-    a.fy = static_cast<float>(model.camera.fy);
-    a.cx = static_cast<float>(model.camera.cx);
-    a.cy = static_cast<float>(model.camera.cy);
-    a.depth = model.depth_m.data();
-    a.normal = model.normal_camera.empty() ? nullptr : model.normal_camera.data()->data();
-    a.intensity = model.intensity.data();
-}
-
 }  // namespace
 
 struct IcpTracker::State {
@@ -71,8 +58,10 @@ TrackResult IcpTracker::Track(const TrackInput& input) {
         if (!state.failed) RunLevel(level, state);
     }
 
-    if (device_ != nullptr && photometry_ != nullptr && !state.failed)
+    if (device_ != nullptr && photometry_ != nullptr && !state.failed) {
+        device_->TakePoints(points_[0]);
         device_->TakeResiduals(residuals_.distance_m, residuals_.intensity);
+    }
 
     const Eigen::Isometry3d T_view_expected = view_.T_world_camera.inverse() * input.T_world_camera_starts.back();
     TrackResult result;
@@ -142,13 +131,19 @@ void IcpTracker::PrepareLevel(const TrackInput& input, int level, State& state) 
         state.motion.twist_per_s =
             Se3Log(input.T_world_camera_last.inverse() * view_.T_world_camera * state.T_view_camera) /
             input.since_last_s;
-    points.Build(input.frame, camera_, state.motion, config_.finest_step_px << level, config_.depth_exponent);
-    points.EstimateNormals(input.frame, camera_, config_.normal_radius_px);
+    const int step = config_.finest_step_px << level;
+    if (device_ != nullptr) {
+        PointArguments a = MakePointArguments(input.frame, camera_, state.motion, step, config_.depth_exponent, state.alpha > 0);
+        a.normal_radius_px = config_.normal_radius_px;
+        points.Lay(a, device_->SetPoints(input.frame, a, level));
+    } else {
+        points.Build(input.frame, camera_, state.motion, step, config_.depth_exponent);
+        points.EstimateNormals(input.frame, camera_, config_.normal_radius_px);
+        if (state.alpha > 0) points.SampleIntensity(input.frame, camera_, state.motion);
+    }
     state.failed = points.valid() == 0;
-    if (state.alpha > 0) points.SampleIntensity(input.frame, camera_, state.motion);
     IcpArguments& a = state.arguments;
     a = {};
-    if (device_ != nullptr) device_->SetPoints(points, level);
     SetModel(model_[static_cast<std::size_t>(level)], a);
     a.x = points.x.data();
     a.y = points.y.data();

@@ -96,6 +96,7 @@ struct PointArguments {
     int step;
     int width, height;     // slots per row, some of them to the right of the image, and rows
     float depth_exponent;  // PointWeight's
+    int normal_radius_px;  // NormalAt's; 0: no normals
     float twist_per_s[6];  // FrameMotion's, with its times
     bool still;            // the twist is zero
     double depth_readout_s, colour_delay_s, colour_readout_s;

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <vector>
 
+#include "core/tile_sums.h"
+
 namespace tessera {
 namespace {
 
@@ -33,11 +35,11 @@ PoseSums& PoseSums::operator+=(const PoseSums& other) {
 }
 
 PoseSums SumPoints(int count, const std::function<void(int first, int last, double* sums)>& add) {
-    const int tiles = (count + kPointsPerTile - 1) / kPointsPerTile;
-    std::vector<PoseSums> partial(static_cast<std::size_t>(tiles));
-    tbb::parallel_for(0, tiles, [&](int tile) {
-        const int first = tile * kPointsPerTile;
-        add(first, std::min(count, first + kPointsPerTile), partial[static_cast<std::size_t>(tile)].value);
+    const int runs = (count + kRunItems - 1) / kRunItems;
+    std::vector<PoseSums> partial(static_cast<std::size_t>(runs));
+    tbb::parallel_for(0, runs, [&](int run) {
+        const int first = run * kRunItems;
+        add(first, std::min(count, first + kRunItems), partial[static_cast<std::size_t>(run)].value);
     });
     PoseSums total;
     for (const PoseSums& sums : partial) total += sums;

@@ -16,9 +16,8 @@ struct PoseSums {
     double operator[](int i) const { return value[i]; }
 };
 
-// Calls add(first, last, sums) for runs of at most kPointsPerTile points, on all threads, and adds up what they leave in
-// a fixed order: the same bytes for any number of threads.
-inline constexpr int kPointsPerTile = 2048;
+// Calls add(first, last, sums) for runs of at most kRunItems points (core/tile_sums.h), on all threads, and adds up what they
+// leave in their order: the same bytes for any number of threads.
 PoseSums SumPoints(int count, const std::function<void(int first, int last, double* sums)>& add);
 
 // How badly a start fits: robust mean squares over the squared scale, and a penalty for points that do not take part, or a

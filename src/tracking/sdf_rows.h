@@ -7,7 +7,8 @@
 
 namespace tessera {
 
-// Adds the sums (SumLayout) over points [first, last), both multiples of kPointPadding, to sums[].
+// Adds the sums (SumLayout) over points [first, last), from a multiple of kTileItems to one of kPointPadding, to sums[]. The
+// same bytes on either path.
 namespace baseline {
 void SumSdfPoints(const SdfArguments& arguments, int first, int last, double* sums);
 }

@@ -17,7 +17,7 @@ struct LaneInputs {
     std::uint32_t index[kLaneInputs];  // into the arrays above
 };
 
-enum RealOperation { kMin, kMax, kAbs, kFloor, kSqrt, kExp, kToReal, kSelect, kGather, kNumbers, kRealOperations };
+enum RealOperation { kMin, kMax, kAbs, kFloor, kSqrt, kToReal, kSelect, kGather, kNumbers, kRealOperations };
 enum BitsOperation {
     kToInt, kIntMin, kIntMax, kIntSelect, kIntShift, kBitsShift, kIntGather, kBitsGather, kWiden, kNot, kAndOr,
     kIntMask, kAny, kBitsOperations
@@ -50,7 +50,6 @@ TESSERA_HD void ApplyLaneOperations(const LaneInputs& in, LaneResults& out) {
         real(kAbs, V::Abs(a));
         real(kFloor, V::Floor(a));
         real(kSqrt, V::Sqrt(a));
-        real(kExp, V::Exp(a));
         real(kToReal, V::ToReal(i));
         real(kSelect, V::Select(less, a, b));
         real(kGather, V::Gather(in.a, index));

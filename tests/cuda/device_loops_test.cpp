@@ -34,19 +34,21 @@ TEST(SumTiles, IsTheSumForAnyCount) {
     }
 }
 
-// 2^24 + 1 is no float: lanes, then warps, then tiles, in double from the warps on.
+// 2^24 + 1 is no float: what is added to 2^24 in single precision is lost, what in double is not.
 TEST(SumTiles, AddsInTheStatedOrder) {
     Stream stream;
-    std::vector<float> values(kTileItems, 0.0f);
-    double sums[3];
-    values[0] = 16777216.0f;
-    values[kWarpLanes] = 1.0f;  // another warp of the same tile: not lost
-    SumTiles<3>(stream, kTileItems, AddPowers{values.data()}, nullptr, sums);
-    EXPECT_EQ(sums[1], 16777217.0);
-    values[kWarpLanes] = 0.0f;
-    values[1] = 1.0f;  // the same warp: lost
-    SumTiles<3>(stream, kTileItems, AddPowers{values.data()}, nullptr, sums);
-    EXPECT_EQ(sums[1], 16777216.0);
+    const auto sum = [&](int large, int small) {
+        std::vector<float> values(2 * kRunItems, 0.0f);
+        values[static_cast<std::size_t>(large)] = 16777216.0f;
+        values[static_cast<std::size_t>(small)] = 1.0f;
+        double sums[3];
+        SumTiles<3>(stream, 2 * kRunItems, AddPowers{values.data()}, nullptr, sums);
+        return sums[1];
+    };
+    EXPECT_EQ(sum(0, 1), 16777216.0);           // another lane of the tile
+    EXPECT_EQ(sum(0, kTileLanes), 16777216.0);  // the same lane
+    EXPECT_EQ(sum(0, kTileItems), 16777217.0);  // another tile
+    EXPECT_EQ(sum(0, kRunItems), 16777217.0);   // another run
 }
 
 TEST(Atomics, ReturnWhatWasThere) {

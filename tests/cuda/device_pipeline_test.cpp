@@ -6,7 +6,7 @@
 
 #include "cuda/desk_frames.h"
 #include "cuda/same_map.h"
-#include "system/pipeline.h"
+#include "tracking/sdf_tracker.h"
 
 namespace tessera::serial {
 namespace {
@@ -29,10 +29,10 @@ Integrator::View Moving(const DeskFrame& frame) {
     return view;
 }
 
-TEST(DeviceIntegrator, FusesTheBytesOfThePortablePath) {
+TEST(DeviceIntegrator, FusesTheBytesOfTheProcessor) {
     const BlockMap::Config config;
     BlockMap expected(config), map(config);
-    Integrator integrator({}, DeskCamera(), VectorPath::kBaseline);
+    Integrator integrator({}, DeskCamera());
     DevicePipeline device("serial", kPlenty);
     const std::unique_ptr<Integrator> on_device = device.MakeIntegrator({}, DeskCamera());
     for (std::size_t i = 0; i < DeskFrames().size(); ++i) {
@@ -53,7 +53,7 @@ TEST(DeviceIntegrator, FusesTheBytesOfThePortablePath) {
 TEST(DeviceIntegrator, GoesOnWithAMapThatWasMadeElsewhere) {
     const BlockMap::Config config;
     BlockMap expected(config), map(config);
-    Integrator first({}, DeskCamera(), VectorPath::kBaseline), same({}, DeskCamera(), VectorPath::kBaseline);
+    Integrator first({}, DeskCamera()), same({}, DeskCamera());
     DevicePipeline device("serial", kPlenty);
     const std::unique_ptr<Integrator> on_device = device.MakeIntegrator({}, DeskCamera());
     on_device->SetRevision(5);
@@ -66,8 +66,8 @@ TEST(DeviceIntegrator, GoesOnWithAMapThatWasMadeElsewhere) {
     ExpectSameMap(map, expected);
 }
 
-// The same points, map and pose: the device adds up in another order, single precision in lanes.
-TEST(DevicePipeline, SumsAreTheProcessorsWithinRounding) {
+// The same points, map and pose.
+TEST(DevicePipeline, SumsAreTheProcessorsToTheBit) {
     BlockMap map{BlockMap::Config()};
     Integrator integrator({}, DeskCamera());
     for (std::size_t i = 0; i < 5; ++i) integrator.Integrate(DeskFrames()[i].prepared, Moving(DeskFrames()[i]), map);
@@ -98,29 +98,23 @@ TEST(DevicePipeline, SumsAreTheProcessorsWithinRounding) {
     EXPECT_EQ(device.SetPoints(map, frame, MakePointArguments(frame, DeskCamera(), {}, 2, 2.0, true)), points.valid());
     const PoseSums sums = device.Sum(a);
     EXPECT_GT(expected[SumLayout::kKnown], 1000);
-    EXPECT_EQ(sums[SumLayout::kKnown], expected[SumLayout::kKnown]);
-    EXPECT_EQ(sums[SumLayout::kColoured], expected[SumLayout::kColoured]);
-    EXPECT_EQ(sums[SumLayout::kInliers], expected[SumLayout::kInliers]);
-    // Of a sum of signed terms the bound is of the square root of its diagonal's: here of the largest of its kind.
-    double largest = 0;
-    for (int i = 0; i < SumLayout::kGradient; ++i) largest = std::max(largest, expected[i]);
-    for (int i = 0; i < SumLayout::kCount; ++i)
-        EXPECT_NEAR(sums[i], expected[i], 1e-6 * std::max(largest, std::abs(expected[i]))) << i;
+    EXPECT_GT(expected[SumLayout::kColoured], 1000);
+    EXPECT_EQ(std::memcmp(sums.value, expected.value, sizeof sums.value), 0);
     std::vector<float> device_distance(distance.size()), device_intensity(intensity.size());
     device.TakeResiduals(device_distance, device_intensity);
     EXPECT_EQ(std::memcmp(device_distance.data(), distance.data(), 4 * distance.size()), 0);
     EXPECT_EQ(std::memcmp(device_intensity.data(), intensity.data(), 4 * intensity.size()), 0);
 }
 
-// One frame after the other against the same map, from the same start: only the order of summation differs.
-TEST(DevicePipeline, TracksAsThePortablePathDoes) {
+// One frame after the other against the same map, from the same start.
+TEST(DevicePipeline, TracksAsTheProcessorDoes) {
     BlockMap map{BlockMap::Config()};
     Integrator integrator({}, DeskCamera());
     DevicePipeline device("serial", kPlenty);
     const TrackJudge judge({});
     Photometry photometry({}, DeskCamera()), device_photometry({}, DeskCamera());
-    SdfTracker expected({}, DeskCamera(), judge, &photometry, VectorPath::kBaseline);
-    SdfTracker tracker({}, DeskCamera(), judge, &device_photometry, VectorPath::kBaseline, &device);
+    SdfTracker expected({}, DeskCamera(), judge, &photometry);
+    SdfTracker tracker({}, DeskCamera(), judge, &device_photometry, VectorPath::kAuto, &device);
     for (std::size_t i = 0; i < 8; ++i) integrator.Integrate(DeskFrames()[i].prepared, Moving(DeskFrames()[i]), map);
     for (std::size_t i = 8; i < 14; ++i) {
         const Eigen::Isometry3d& last = DeskFrames()[i - 1].T_world_camera;
@@ -128,54 +122,6 @@ TEST(DevicePipeline, TracksAsThePortablePathDoes) {
         const TrackResult a = expected.Track(input);
         testing_support::ExpectSameTrack(tracker.Track(input), a, i);
     }
-}
-
-struct DeskRun {
-    std::vector<FrameReport> reports;
-    std::unique_ptr<BlockMap> map;  // its field
-};
-
-DeskRun RunDesk(Device* device) {
-    DeskRun run;
-    Pipeline pipeline({}, DeskCamera(), {}, device);
-    for (const DeskFrame& frame : DeskFrames()) run.reports.push_back(pipeline.Process(frame.frame));
-    run.map = CopyField(pipeline.map());
-    return run;
-}
-
-// The processor's run is of its vector path, which rounds otherwise; and each stops where a step is below 0.05 mm.
-TEST(DevicePipeline, TracksAndFusesAsTheProcessorDoes) {
-    const DeskRun expected = RunDesk(nullptr);
-    DevicePipeline device("serial", kPlenty);
-    const DeskRun run = RunDesk(&device);
-    for (std::size_t i = 0; i < run.reports.size(); ++i) {
-        ASSERT_TRUE(run.reports[i].fused) << i;
-        const Eigen::Isometry3d difference = expected.reports[i].track.T_world_camera.inverse() * run.reports[i].track.T_world_camera;
-        EXPECT_LT(difference.translation().norm(), 3e-4) << i;
-        EXPECT_LT(Se3Log(difference).head<3>().norm(), 2e-4) << i;
-    }
-    EXPECT_NEAR(run.map->size(), expected.map->size(), 0.01 * expected.map->size());
-}
-
-TEST(DevicePipeline, TwoRunsGiveTheSameBytes) {
-    DevicePipeline first("serial", kPlenty), second("serial", kPlenty);
-    const DeskRun a = RunDesk(&first), b = RunDesk(&second);
-    for (std::size_t i = 0; i < a.reports.size(); ++i)
-        EXPECT_EQ(a.reports[i].track.T_world_camera.matrix(), b.reports[i].track.T_world_camera.matrix()) << i;
-    ASSERT_EQ(a.map->size(), b.map->size());
-    EXPECT_EQ(std::memcmp(a.map->field(0), b.map->field(0), static_cast<std::size_t>(a.map->size()) * kBlockVoxels * 4), 0);
-}
-
-TEST(DevicePipeline, SaysInOneLineThatItsMemoryIsFullAndGoesOn) {
-    DevicePipeline device("serial", std::size_t{16} << 20);
-    const DeskRun run = RunDesk(&device);
-    std::string warning;
-    for (const FrameReport& report : run.reports)
-        if (!report.warning.empty()) warning = report.warning;
-    EXPECT_NE(warning.find("16 MB"), std::string::npos) << warning;
-    EXPECT_NE(warning.find("mapping.device_memory_mb"), std::string::npos) << warning;
-    EXPECT_GT(run.map->size(), 500);
-    EXPECT_TRUE(run.reports.back().tracked());
 }
 
 }  // namespace

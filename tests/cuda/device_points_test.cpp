@@ -21,28 +21,41 @@ FrameMotion Moving() {
     return motion;
 }
 
-// What SetPoints and TakePoints give is what FramePoints makes.
-void ExpectSamePoints(DevicePipeline& device, const PreparedFrame& frame, const PinholeCamera& camera, const FrameMotion& motion,
-                      int step, double depth_exponent, bool intensities) {
-    const BlockMap map{BlockMap::Config()};
-    FramePoints expected, points;
-    expected.Build(frame, camera, motion, step, depth_exponent);
-    if (intensities) expected.SampleIntensity(frame, camera, motion);
-    const PointArguments a = MakePointArguments(frame, camera, motion, step, depth_exponent, intensities);
-    points.Lay(a, device.SetPoints(map, frame, a));
-    device.TakePoints(points);
+bool Same(const std::vector<float>& values, const std::vector<float>& others) {
+    return values.size() == others.size() && std::memcmp(values.data(), others.data(), 4 * values.size()) == 0;
+}
+
+void ExpectSame(const FramePoints& points, const FramePoints& expected) {
     EXPECT_EQ(points.valid(), expected.valid());
     ASSERT_EQ(points.width(), expected.width());
     ASSERT_EQ(points.height(), expected.height());
     EXPECT_EQ(points.ImageRow(3), expected.ImageRow(3));
-    const auto same = [](const std::vector<float>& values, const std::vector<float>& others) {
-        return values.size() == others.size() && std::memcmp(values.data(), others.data(), 4 * values.size()) == 0;
-    };
-    EXPECT_TRUE(same(points.x, expected.x));
-    EXPECT_TRUE(same(points.y, expected.y));
-    EXPECT_TRUE(same(points.z, expected.z));
-    EXPECT_TRUE(same(points.weight, expected.weight));
-    EXPECT_TRUE(same(points.intensity, expected.intensity));
+    EXPECT_TRUE(Same(points.x, expected.x));
+    EXPECT_TRUE(Same(points.y, expected.y));
+    EXPECT_TRUE(Same(points.z, expected.z));
+    EXPECT_TRUE(Same(points.weight, expected.weight));
+    EXPECT_TRUE(Same(points.intensity, expected.intensity));
+}
+
+// What SetPoints and TakePoints give is what FramePoints makes, without normals and with them.
+void ExpectSamePoints(DevicePipeline& device, const PreparedFrame& frame, const PinholeCamera& camera, const FrameMotion& motion,
+                      int step, double depth_exponent, bool intensities) {
+    const BlockMap map{BlockMap::Config()};
+    PointArguments a = MakePointArguments(frame, camera, motion, step, depth_exponent, intensities);
+    FramePoints expected, points;
+    expected.Build(frame, camera, motion, step, depth_exponent);
+    if (intensities) expected.SampleIntensity(frame, camera, motion);
+    points.Lay(a, device.SetPoints(map, frame, a));
+    device.TakePoints(points);
+    ExpectSame(points, expected);
+
+    a.normal_radius_px = 2;
+    expected.Build(frame, camera, motion, step, depth_exponent);
+    expected.EstimateNormals(frame, camera, a.normal_radius_px);
+    if (intensities) expected.SampleIntensity(frame, camera, motion);
+    points.Lay(a, device.icp_sums().SetPoints(frame, a, 0));
+    device.icp_sums().TakePoints(points);
+    ExpectSame(points, expected);
 }
 
 TEST(DevicePoints, AreTheBytesOfFramePoints) {

@@ -77,12 +77,12 @@ int CountHits(const PredictedView& view) {
         std::count_if(begin, begin + view.depth_m.size(), [](float d) { return d > 0; }));
 }
 
-TEST(DeviceViews, AreTheBytesOfThePortablePath) {
+TEST(DeviceViews, AreTheBytesOfTheProcessor) {
     BlockMap map{BlockMap::Config()};
     FusedDesk(10, map);
     DevicePipeline device("serial", kPlenty);
     DeviceViews views(device);
-    RayCaster caster(VectorPath::kBaseline);
+    RayCaster caster;
     PredictedView expected, view;
     for (const PinholeCamera& camera :
          {DeskCamera(), DeskCamera().Every(2), PinholeCamera{157, 117, 131, 133, 70.5, 61.5}}) {

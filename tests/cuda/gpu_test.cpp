@@ -3,13 +3,10 @@
 
 #include <numeric>
 
-#include "cuda/desk_frames.h"
+#include "cuda/desk_run.h"
 #include "cuda/open_device.h"
-#include "cuda/portable_device.h"
-#include "cuda/same_map.h"
 #include "cuda/same_mesh.h"
 #include "mapping/ray_caster.h"
-#include "system/pipeline.h"
 
 namespace tessera {
 namespace {
@@ -29,9 +26,9 @@ class Gpu : public testing::Test {
     std::unique_ptr<Device> device_;
 };
 
-TEST_F(Gpu, FusesTheBytesOfThePortablePath) {
+TEST_F(Gpu, FusesTheBytesOfTheProcessor) {
     BlockMap expected{BlockMap::Config()}, map{BlockMap::Config()};
-    Integrator integrator({}, DeskCamera(), VectorPath::kBaseline);
+    Integrator integrator({}, DeskCamera());
     const std::unique_ptr<Integrator> on_device = device_->MakeIntegrator({}, DeskCamera());
     for (const DeskFrame& frame : DeskFrames()) {
         Integrator::View view;
@@ -43,10 +40,10 @@ TEST_F(Gpu, FusesTheBytesOfThePortablePath) {
     testing_support::ExpectSameMap(map, expected);
 }
 
-TEST_F(Gpu, CastsTheBytesOfThePortablePath) {
+TEST_F(Gpu, CastsTheBytesOfTheProcessor) {
     BlockMap map{BlockMap::Config()};
     testing_support::FusedDesk(10, map);
-    RayCaster caster(VectorPath::kBaseline);
+    RayCaster caster;
     PredictedView expected, view;
     for (const DeskFrame& frame : DeskFrames()) {
         caster.Predict(map, DeskCamera(), frame.T_world_camera, 0.1f, 6.0f, expected);
@@ -66,30 +63,13 @@ TEST_F(Gpu, MeshesTheBytesOfTheProcessor) {
     EXPECT_GT(testing_support::ExpectMeshesOf(map, blocks, 0, meshes), 5000u);
 }
 
-// As DevicePipeline.TracksAndFusesAsTheProcessorDoes.
-TEST_F(Gpu, TracksAsTheProcessorDoes) {
-    Pipeline expected({}, DeskCamera()), pipeline({}, DeskCamera(), {}, device_.get());
-    for (const DeskFrame& frame : DeskFrames()) {
-        const Eigen::Isometry3d difference = expected.Process(frame.frame).track.T_world_camera.inverse() *
-                                             pipeline.Process(frame.frame).track.T_world_camera;
-        EXPECT_LT(difference.translation().norm(), 3e-4);
-        EXPECT_LT(Se3Log(difference).head<3>().norm(), 2e-4);
-    }
-}
-
-// As ByMethod.TracksAndFusesAsThePortablePathDoesAndBringsNoVoxel.
-TEST_F(Gpu, TracksByIcpAsThePortablePathDoes) {
-    for (const TrackingMethod method : {TrackingMethod::kIcp, TrackingMethod::kIcpRgb}) {
+TEST_F(Gpu, WholeRunsAreTheProcessors) {
+    for (const TrackingMethod method :
+         {TrackingMethod::kSdf, TrackingMethod::kSdfGeometric, TrackingMethod::kIcp, TrackingMethod::kIcpRgb}) {
         PipelineConfig config;
         config.trackers.method = method;
-        testing_support::PortableDevice portable;
-        Pipeline expected(config, DeskCamera(), {}, &portable), pipeline(config, DeskCamera(), {}, device_.get());
-        for (const DeskFrame& frame : DeskFrames()) {
-            const Eigen::Isometry3d difference = expected.Process(frame.frame).track.T_world_camera.inverse() *
-                                                 pipeline.Process(frame.frame).track.T_world_camera;
-            EXPECT_LT(difference.translation().norm(), 1.5e-3);
-            EXPECT_LT(Se3Log(difference).head<3>().norm(), 2e-3);
-        }
+        testing_support::DeskRun expected(config, nullptr), run(config, device_.get());
+        testing_support::ExpectSameRun(run, expected);
     }
 }
 

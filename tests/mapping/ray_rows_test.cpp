@@ -99,40 +99,23 @@ TEST_P(RayRows, AgreesWithTheScalarWalk) {
 INSTANTIATE_TEST_SUITE_P(Paths, RayRows, ::testing::Values(VectorPath::kBaseline, VectorPath::kAvx2),
                          [](const auto& test) { return test.param == VectorPath::kAvx2 ? "Avx2" : "Baseline"; });
 
-TEST(RayRowsPaths, PortableAndAvx2Agree) {
-    if (!CpuHasAvx2()) GTEST_SKIP() << "this machine has no AVX2";
-    int pixels = 0, differ = 0, off_colour = 0;
-    for (const Eigen::Isometry3d& T : Views()) {
-        const PredictedView a = Cast(T, VectorPath::kBaseline), b = Cast(T, VectorPath::kAvx2);
-        for (std::size_t i = 0; i < a.depth_m.size(); ++i, ++pixels) {
-            if (!(std::abs(a.depth_m.data()[i] - b.depth_m.data()[i]) < 0.05f * kTenthVoxel_m)) {
-                ++differ;
-                continue;
-            }
-            const Rgb8 &ca = a.colour.data()[i], &cb = b.colour.data()[i];
-            off_colour += std::abs(ca.r - cb.r) > 1 || std::abs(ca.g - cb.g) > 1 || std::abs(ca.b - cb.b) > 1 ||
-                          std::abs(a.intensity.data()[i] - b.intensity.data()[i]) > 1e-3f;
-        }
-    }
-    EXPECT_LT(differ, kMayDiffer * pixels);
-    EXPECT_LT(off_colour, kMayDiffer * pixels);
-}
-
 template <class T>
 bool SameBytes(const Image<T>& a, const Image<T>& b) {
     return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
 }
 
-// The kernels of the portable vectors, one pixel at a time and without their cache of blocks.
-TEST(RayRowsPaths, PortableIsTheKernelsOneByOne) {
+// The kernels one pixel at a time and without the vectors' cache of blocks: the same bytes.
+TEST_P(RayRows, AreTheKernelsOneByOne) {
+    if (GetParam() == VectorPath::kAvx2 && !CpuHasAvx2()) GTEST_SKIP() << "this machine has no AVX2";
     using Kernels = RayKernels<ScalarLanes, HashedBlocks<ScalarLanes>>;
     const PinholeCamera camera = OddCamera();
     const RayTile tile{0, camera.width, 0, camera.height, kNear_m, kFar_m};
+    const auto cast = GetParam() == VectorPath::kAvx2 ? avx2::CastTiles : baseline::CastTiles;
     for (const Eigen::Isometry3d& T : Views()) {
         PredictedView a, b;
         a.Resize(camera, T);
         b.Resize(camera, T);
-        baseline::CastTiles(RayArgumentsFor(RoughMap(), a), &tile, 1);
+        cast(RayArgumentsFor(RoughMap(), a), &tile, 1);
         const RayArguments arguments = RayArgumentsFor(RoughMap(), b);
         Kernels::Walker walker(arguments);
         for (int v = 0; v < camera.height; ++v)

@@ -1,22 +1,17 @@
 // The trackers' sums by their kernels one point at a time: what vectors and CUDA must agree with.
 #pragma once
 
-#include <algorithm>
-
 #include "core/scalar_lanes.h"
+#include "core/tile_sums.h"
 #include "tracking/normal_equations.h"
 
 namespace tessera::testing_support {
 
-// Kernels: SdfKernels<ScalarLanes> or IcpKernels<ScalarLanes>. In short runs, so that floats keep their digits.
+// Kernels: SdfKernels<ScalarLanes> or IcpKernels<ScalarLanes>.
 template <class Kernels, class Arguments>
-void SumOneByOne(const Arguments& a, int count, double* sums) {
-    constexpr int kRun = 64;
-    for (int first = 0; first < count; first += kRun) {
-        float run[SumLayout::kCount] = {};
-        for (int i = first; i < std::min(first + kRun, count); ++i) Kernels::AddPoints(a, i, run);
-        for (int k = 0; k < SumLayout::kCount; ++k) sums[k] += static_cast<double>(run[k]);
-    }
+void SumOneByOne(const Arguments& a, int first, int last, double* sums) {
+    const auto add = [&](int i, float* lanes) { Kernels::AddPoints(a, i, lanes); };
+    AddTiles<ScalarLanes, SumLayout::kCount>(first, last, add, sums);
 }
 
 }  // namespace tessera::testing_support

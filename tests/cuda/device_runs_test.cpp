@@ -1,0 +1,122 @@
+// Whole runs on the serial device: the processor's, to the bit.
+#include <gtest/gtest.h>
+
+#include "cuda/desk_run.h"
+#include "cuda/device_pipeline.h"
+#include "mapping/ray_caster.h"
+#include "system/run.h"
+
+namespace tessera::serial {
+namespace {
+
+using testing_support::DeskCamera;
+using testing_support::DeskFrames;
+using testing_support::DeskRun;
+using testing_support::ExpectSameRun;
+
+constexpr std::size_t kPlenty = std::size_t{1} << 30;
+
+struct ByMethod : testing::TestWithParam<TrackingMethod> {
+    PipelineConfig Config() const {
+        PipelineConfig config;
+        config.trackers.method = GetParam();
+        return config;
+    }
+};
+
+std::string NameOf(const testing::TestParamInfo<TrackingMethod>& test) {
+    switch (test.param) {
+        case TrackingMethod::kSdf: return "Sdf";
+        case TrackingMethod::kSdfGeometric: return "SdfGeometric";
+        case TrackingMethod::kIcp: return "Icp";
+        case TrackingMethod::kIcpRgb: break;
+    }
+    return "IcpRgb";
+}
+
+INSTANTIATE_TEST_SUITE_P(DeviceRuns, ByMethod,
+                         testing::Values(TrackingMethod::kSdf, TrackingMethod::kSdfGeometric, TrackingMethod::kIcp,
+                                         TrackingMethod::kIcpRgb),
+                         NameOf);
+
+TEST_P(ByMethod, IsTheProcessorsAndBringsNoVoxel) {
+    DeskRun expected(Config(), nullptr);
+    DevicePipeline device("serial", kPlenty);
+    DeskRun run(Config(), &device);
+    EXPECT_TRUE(expected.HasVoxels());
+    EXPECT_FALSE(run.HasVoxels());
+    ExpectSameRun(run, expected);
+}
+
+struct ByIcp : ByMethod {};
+
+INSTANTIATE_TEST_SUITE_P(DeviceRuns, ByIcp, testing::Values(TrackingMethod::kIcp, TrackingMethod::kIcpRgb),
+                         NameOf);
+
+// Without OpenGL the processor's ray caster steps in: predicted there in any case.
+TEST_P(ByIcp, IsTheProcessorsAgainstAViewThatThatPredicted) {
+    PipelineConfig config = Config();
+    config.trackers.icp.prediction = IcpTracker::Prediction::kRaster;
+    DeskRun expected(config, nullptr);
+    DevicePipeline device("serial", kPlenty);
+    DeskRun run(config, &device);
+    EXPECT_TRUE(run.HasVoxels());
+    ExpectSameRun(run, expected);
+}
+
+// The frame of the switch is the first that reads the processor's voxels.
+TEST_P(ByIcp, ASwitchToAViewOfTheProcessorBringsTheVoxelsFirst) {
+    DevicePipeline device("serial", kPlenty);
+    RunRequest request;
+    request.source = "synthetic:desk";
+    request.selection.count = 5;
+    request.switches = {{3, GetParam()}};
+    request.device = &device;
+    RunConfig config;
+    config.synthetic.camera = DeskCamera();
+    config.pipeline.trackers.icp.prediction = IcpTracker::Prediction::kRaster;
+    const std::atomic<bool> stop{false};
+    const auto run = ExecuteRun(request, config, {}, stop);
+    ASSERT_TRUE(run.ok()) << run.message();
+    EXPECT_EQ(run.value().counts.frames, 5);
+    EXPECT_EQ(run.value().counts.tracked, 5) << run.value().last_reason;
+}
+
+// [B14]'s settings: their weights fall off as an exponential.
+TEST(DeviceRuns, IsTheProcessorsWithOtherWeights) {
+    PipelineConfig config;
+    config.fusion.distance_weight = DistanceWeight::kLinearExp;
+    config.fusion.colour_weighting = ColourWeighting::kCosine;
+    DeskRun expected(config, nullptr);
+    DevicePipeline device("serial", kPlenty);
+    DeskRun run(config, &device);
+    ExpectSameRun(run, expected);
+}
+
+TEST(DeviceRuns, SaysInOneLineThatItsMemoryIsFullAndGoesOn) {
+    DevicePipeline device("serial", std::size_t{16} << 20);
+    DeskRun run({}, &device);
+    std::string warning;
+    for (const FrameReport& report : run.reports)
+        if (!report.warning.empty()) warning = report.warning;
+    EXPECT_NE(warning.find("16 MB"), std::string::npos) << warning;
+    EXPECT_NE(warning.find("mapping.device_memory_mb"), std::string::npos) << warning;
+    EXPECT_GT(run.pipeline.map().size(), 500);
+    EXPECT_TRUE(run.reports.back().tracked());
+}
+
+// The window's picture, while the voxels are on the device only.
+TEST(DeviceRuns, TheWindowsViewBringsNoVoxel) {
+    PipelineConfig config;
+    DevicePipeline device("serial", kPlenty);
+    DeskRun run(config, &device);
+    PredictedView view, expected;
+    run.pipeline.mapping().Predict(DeskFrames()[2].T_world_camera, 4, view);
+    EXPECT_FALSE(run.HasVoxels());
+    const float far_m = 1.2f * static_cast<float>(config.frame.max_depth_m);
+    RayCaster().Predict(run.pipeline.map(), DeskCamera().Every(4), DeskFrames()[2].T_world_camera, 0.1f, far_m, expected);
+    testing_support::ExpectSameView(view, expected);
+}
+
+}  // namespace
+}  // namespace tessera::serial
