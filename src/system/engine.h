@@ -52,7 +52,7 @@ struct EngineInput {
     Labelling labelling;           // without a detector nothing is labelled
     std::string record_path;       // empty = nothing is recorded
     ViewerLink* viewer = nullptr;  // outlives the engine
-    Device* device = nullptr;      // lockstep only: in the processor's place; outlives the engine
+    Device* device = nullptr;      // in the processor's place; outlives the engine
     const std::atomic<bool>* stop = nullptr;  // never null; outlives the engine
 };
 

@@ -17,6 +17,7 @@ void WaitFor(double ms) {
 
 LiveEngine::LiveEngine(EngineInput input)
     : config_(input.config),
+      device_(input.device),
       plan_(std::move(input.plan)),
       viewer_(input.viewer),
       stop_(*input.stop),
@@ -24,16 +25,17 @@ LiveEngine::LiveEngine(EngineInput input)
       control_(input.viewer),
       recorder_(frames_.info(), config_.record, false),
       source_(frames_.info()),
-      mapping_(config_.pipeline, config_.meshing, source_.camera),
+      mapping_(config_.pipeline, config_.meshing, source_.camera, device_),
       gate_(config_.pipeline.motion.max_gap_s),
       feed_(input.viewer, config_.live.mesh_blocks),
+      mapping_wake_(device_ != nullptr ? tracking_wake_ : own_mapping_wake_),
       new_frames_(static_cast<std::size_t>(config_.live.queue_frames), tracking_wake_) {
     if (!input.record_path.empty()) status_ = StartRecording(input.record_path, config_.record, frames_.source(), recorder_);
     if (!status_.ok()) {
         mapping_done_.store(true);
         return;
     }
-    mapping_.KeepDeltas();
+    if (device_ == nullptr) mapping_.KeepDeltas();
     std::optional<LoopCloser::Labels> labels;
     if (input.labelling.detector) {
         labels = LoopCloser::Labels{config_.labels, input.labelling.classes};
@@ -50,7 +52,7 @@ LiveEngine::LiveEngine(EngineInput input)
     if (config_.loops.enabled) BeginLoops(std::move(labels));
     reading_thread_ = std::jthread([this] { ReadFrames(); });
     tracking_thread_ = std::jthread([this] { TrackFrames(); });
-    mapping_thread_ = std::jthread([this] { MapFrames(); });
+    if (device_ == nullptr) mapping_thread_ = std::jthread([this] { MapFrames(); });
 }
 
 void LiveEngine::BeginLoops(std::optional<LoopCloser::Labels> labels) {
@@ -75,7 +77,7 @@ Status LiveEngine::StartScan(ScanPlan plan) {
     saving_.store(true);
     if (Status status = scan_->Resume(mapping_); !status.ok()) return status;
     if (Status status = StartPaging(config_.pipeline, source_.camera, scan_->path(), false, paging_); !status.ok()) return status;
-    if (mapping_.map().size() == 1) return Status::Ok();
+    if (device_ != nullptr || mapping_.map().size() == 1) return Status::Ok();
     MapNews whole{delta_pool_.Take(), 0, nullptr};
     mapping_.CollectWhole(*whole.delta);
     TESSERA_CHECK(map_news_.TryPush(std::move(whole)), "no room for the first news of the map");

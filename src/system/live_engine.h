@@ -1,5 +1,6 @@
 // The camera never waits: reading, tracking and mapping on a thread each, over bounded lock-free queues; the newest frame
-// wins and what is dropped is counted. docs/threads.md has every queue's capacity and policy.
+// wins and what is dropped is counted. With a device, whose commands one thread gives, tracking's thread maps too, each frame
+// before the next is tracked. docs/threads.md has every queue's capacity and policy.
 #pragma once
 
 #include <chrono>
@@ -34,7 +35,8 @@ class LiveEngine : public Engine {
     bool stopped() const override { return stopped_; }
     TriangleMesh TakeMesh() override;
     const std::vector<MapObject>& objects() const override { return mapping_.objects(); }
-    MapStatistics map_statistics() const override { return StatisticsOf(mapping_.map()); }
+    std::string mesh_warning() const override { return mapping_.mesh_warning(); }
+    MapStatistics map_statistics() const override { return StatisticsOf(mapping_.blocks()); }
     std::vector<StampedPose> CorrectedPath() const override { return loops_ ? loops_->Path() : std::vector<StampedPose>(); }
     std::optional<CalibrationReport> calibration() const override { return loops_ ? loops_->calibration() : std::nullopt; }
 
@@ -64,13 +66,13 @@ class LiveEngine : public Engine {
     };
     // What the tracking thread works with.
     struct TrackingState {
-        TrackingState(const RunConfig& config, const PinholeCamera& camera)
-            : stage(config.pipeline, camera),
+        TrackingState(const RunConfig& config, const PinholeCamera& camera, Device* device)
+            : stage(config.pipeline, camera, device),
               field(std::make_unique<BlockMap>(config.pipeline.map, BlockMap::Layers::kFieldOnly)),
               lost(config.loops, config.pipeline.motion.max_gap_s) {}
 
         TrackingStage stage;
-        std::unique_ptr<BlockMap> field;  // a copy of the map's
+        std::unique_ptr<BlockMap> field;  // a copy of the map's; not used with a device
         MapVersion version;               // of that copy
         LostCamera lost;
         bool asked = false;  // where a lost camera is
@@ -91,6 +93,7 @@ class LiveEngine : public Engine {
     void Tell(FrameOutcome::Kind kind, const std::string& message);
     // Tracking's.
     void TrackFrame(NewFrame item, TrackingState& state);
+    const BlockMap& MapToTrackIn(const TrackingState& state) const;
     void TakeMapNews(TrackingState& state);
     void ResetTracking(TrackingState& state);
     std::optional<Eigen::Isometry3d> HearWhereItIs(double stamp_s, TrackingState& state);
@@ -98,6 +101,9 @@ class LiveEngine : public Engine {
     void SaveTracking(const TrackingStage& stage, TrackedFrame& tracked) const;
     void Hand(Task task);
     // Mapping's.
+    bool HasAnswers() const;
+    bool MapNext();
+    void EndMapping();
     void MapFrame(Task& task);
     void Page(Task& task, FrameOutcome& outcome);
     void SendMapNews();
@@ -112,6 +118,7 @@ class LiveEngine : public Engine {
     void ObeyInMapping(const ViewerCommand& command);
 
     const RunConfig config_;
+    Device* const device_;  // null without; then tracking's, and all that is mapping's with it
     FramePlan plan_;  // tracking's
     ViewerLink* const viewer_;
     const std::atomic<bool>& stop_;
@@ -142,7 +149,8 @@ class LiveEngine : public Engine {
     Pool<TrackedFrame> tracked_pool_;
     Pool<MapDelta> delta_pool_;
     static constexpr std::size_t kTasks = 8, kCorrections = 3, kOutcomes = 4096;
-    Wake tracking_wake_, mapping_wake_, outcome_wake_;
+    Wake tracking_wake_, own_mapping_wake_, outcome_wake_;
+    Wake& mapping_wake_;
     std::optional<LabelReport> labels_;  // mapping's: for the next outcome
     NewestQueue<NewFrame> new_frames_;                           // reading to tracking
     FifoQueue<ViewerCommand> commands_{16, tracking_wake_};      // reading to tracking

@@ -7,22 +7,29 @@ namespace tessera {
 
 void LiveEngine::MapFrames() {
     while (true) {
-        mapping_wake_.Wait([&] {
-            return !tasks_.empty() || tracking_done_.load() || (labelling_ && labelling_->has_answer()) || UpdateFits();
-        });
-        if (labelling_) TakeLabels();
-        if (loops_) TakeLoops();
-        Task task;
-        if (tasks_.TryPop(task)) {
-            tracking_wake_.Notify();
-            if (task.tracked)
-                MapFrame(task);
-            else
-                ObeyInMapping(task.command);
-        } else if (tracking_done_.load() && tasks_.empty()) {
-            break;
-        }
+        mapping_wake_.Wait([&] { return !tasks_.empty() || tracking_done_.load() || HasAnswers(); });
+        if (!MapNext() && tracking_done_.load() && tasks_.empty()) break;
     }
+    EndMapping();
+}
+
+bool LiveEngine::HasAnswers() const { return (labelling_ && labelling_->has_answer()) || UpdateFits(); }
+
+// What other threads have found, then a task. False: there was none.
+bool LiveEngine::MapNext() {
+    if (labelling_) TakeLabels();
+    if (loops_) TakeLoops();
+    Task task;
+    if (!tasks_.TryPop(task)) return false;
+    tracking_wake_.Notify();
+    if (task.tracked)
+        MapFrame(task);
+    else
+        ObeyInMapping(task.command);
+    return true;
+}
+
+void LiveEngine::EndMapping() {
     if (loops_) EndLoops();
     if (paging_) {
         paging_->Close();
@@ -48,7 +55,7 @@ void LiveEngine::MapFrame(Task& task) {
     Carry(corrections_, task.corrections, tracked.view.T_world_camera);
     if (paging_) Page(task, outcome);
     mapping_.Fuse(tracked);
-    if (tracked.report.fused || mapping_.has_delta()) SendMapNews();
+    if (device_ == nullptr && (tracked.report.fused || mapping_.has_delta())) SendMapNews();
     if (tracked.report.fused) WaitFor(config_.live.extra_mapping_ms);
     feed_.ShowPrediction(show_prediction_.load());
     outcome.mesh_ms = feed_.Send(*task.frame, tracked.report, mapping_);
@@ -61,7 +68,7 @@ void LiveEngine::MapFrame(Task& task) {
     outcome.T_world_camera_truth = task.frame->T_world_camera;
     outcome.decode_ms = task.decode_ms;
     outcome.latency_ms = task.latency_ms;
-    outcome.map = StatisticsOf(mapping_.map());
+    outcome.map = map_statistics();
     outcome.labels = std::exchange(labels_, std::nullopt);
     outcome.queues = {{"to tracking", new_frames_.size()}, {"to mapping", tasks_.size()}, {"to recorder", recorder_.waiting()}};
     if (loops_) outcome.queues.emplace_back("to loops", loops_->waiting());

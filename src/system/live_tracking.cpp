@@ -10,11 +10,14 @@ using Milliseconds = std::chrono::duration<double, std::milli>;
 }  // namespace
 
 void LiveEngine::TrackFrames() {
-    TrackingState state(config_, source_.camera);
+    TrackingState state(config_, source_.camera, device_);
     gate_.Begin(saved_tracking_, saved_pose_, loops_ == nullptr, state.stage);
     if (saved_stamp_s_) state.lost.Resume(*saved_stamp_s_);
     while (true) {
-        tracking_wake_.Wait([&] { return !commands_.empty() || !new_frames_.empty() || reading_done_.load(); });
+        tracking_wake_.Wait([&] {
+            return !commands_.empty() || !new_frames_.empty() || reading_done_.load() || (device_ != nullptr && HasAnswers());
+        });
+        if (device_ != nullptr) MapNext();
         ViewerCommand command;
         NewFrame item;
         if (commands_.TryPop(command)) {
@@ -29,6 +32,7 @@ void LiveEngine::TrackFrames() {
         }
     }
     tracking_done_.store(true);
+    if (device_ != nullptr) return EndMapping();
     mapping_wake_.Notify();
 }
 
@@ -51,7 +55,7 @@ void LiveEngine::TrackFrame(NewFrame item, TrackingState& state) {
     task.tracked = tracked_pool_.Take();
     if (loops_) task.T_found_camera = HearWhereItIs(item.frame->stamp_s, state);
     plan_.Select(*item.frame, state.stage);
-    plan_.Track(*item.frame, *state.field, state.stage, *task.tracked);
+    plan_.Track(*item.frame, MapToTrackIn(state), state.stage, *task.tracked);
     gate_.AfterTracking(*item.frame, state.stage, *task.tracked);
     if (loops_) CheckIfLost(*task.tracked, state);
     SaveTracking(state.stage, *task.tracked);
@@ -62,7 +66,12 @@ void LiveEngine::TrackFrame(NewFrame item, TrackingState& state) {
     task.corrections = state.version.corrections;
     const bool first = task.tracked->report.first;
     Hand(std::move(task));
-    if (first) tracking_wake_.Wait([&] { return !map_news_.empty(); });  // the next frame needs a map
+    if (first && device_ == nullptr) tracking_wake_.Wait([&] { return !map_news_.empty(); });  // the next frame needs a map
+}
+
+const BlockMap& LiveEngine::MapToTrackIn(const TrackingState& state) const {
+    if (device_ == nullptr) return *state.field;
+    return state.stage.reads_map() ? mapping_.map() : mapping_.blocks();
 }
 
 // With the frame, so that a checkpoint after it holds the state after it.
@@ -110,6 +119,7 @@ void LiveEngine::CheckIfLost(TrackedFrame& tracked, TrackingState& state) {
 // Waits where mapping is far behind: it then leaves frames unfused until it has caught up.
 void LiveEngine::Hand(Task task) {
     tracking_wake_.Wait([&] { return tasks_.TryPush(std::move(task)); });
+    if (device_ != nullptr) MapNext();
 }
 
 }  // namespace tessera

@@ -32,7 +32,6 @@ Status CheckPaging(const RunRequest& request, const RunConfig& config) {
 
 Status CheckDevice(const RunRequest& request, const RunConfig& config) {
     if (request.device == nullptr) return Status::Ok();
-    if (request.live) return Status::Error("--device cuda: not yet with --mode live; leave one of the two out");
     if (config.pipeline.paging.enabled())
         return Status::Error("--device cuda: not yet with mapping.memory_limit_mb; leave one of the two out");
     return Status::Ok();

@@ -1,0 +1,99 @@
+// Live on the serial device: one thread tracks and maps.
+#include <fmt/format.h>
+
+#include <random>
+
+#include "cuda/desk_frames.h"
+#include "cuda/device_pipeline.h"
+#include "support/temp_folder.h"
+#include "system/engine_fixture.h"
+
+namespace tessera::serial {
+namespace {
+
+class DeviceLive : public EngineTest {
+  protected:
+    DeviceLive() { config.live.queue_frames = 30; }
+    void MakeOnDevice(const Source::Options& options) {
+        EngineInput input = Input(options);
+        input.device = &device;
+        engine = std::make_unique<LiveEngine>(std::move(input));
+    }
+
+    DevicePipeline device{"serial", std::size_t{1} << 30};
+};
+
+// Where no frame is dropped it is the processor's run frame by frame, to the bit.
+TEST_F(DeviceLive, IsTheLockstepRunWhereNoFrameIsDropped) {
+    Make(false, {.count = 30});
+    TakeAll();
+    const std::vector<FrameOutcome> expected = std::exchange(outcomes, {});
+    const TriangleMesh expected_mesh = engine->TakeMesh();
+    MakeOnDevice({.count = 30});
+    TakeAll();
+    ASSERT_EQ(outcomes.size(), expected.size());
+    EXPECT_EQ(Count(Kind::kFrame), 30);
+    for (std::size_t i = 0; i < outcomes.size(); ++i) {
+        EXPECT_TRUE(outcomes[i].report.fused) << i;
+        testing_support::ExpectSameTrack(outcomes[i].report.track, expected[i].report.track, i);
+        EXPECT_EQ(outcomes[i].map.blocks, expected[i].map.blocks);
+    }
+    const TriangleMesh mesh = engine->TakeMesh();
+    EXPECT_GT(mesh.triangles.size(), 1000u);
+    EXPECT_EQ(mesh.vertices, expected_mesh.vertices);
+    EXPECT_EQ(mesh.triangles, expected_mesh.triangles);
+}
+
+TEST_F(DeviceLive, SlowWorkDropsOldFramesAndKeepsThePose) {
+    config.live.playback_speed = 1;
+    config.live.queue_frames = 2;
+    config.live.extra_tracking_ms = 330;
+    config.pipeline.motion.max_gap_s = 2;
+    MakeOnDevice({.count = 60, .speed = 0.3});
+    TakeAll();
+    EXPECT_EQ(Count(Kind::kFrame) + Count(Kind::kDropped), 60);
+    EXPECT_GT(Count(Kind::kDropped), 40);
+    for (const FrameReport* report : Reports()) {
+        EXPECT_TRUE(report->fused) << report->track.reason;
+        EXPECT_LT(Error_m(*report, 0.3), 0.01) << "frame " << report->index;
+    }
+}
+
+// Everything at random, as Live.RandomCommandsDoNoHarm: for the sanitizers.
+TEST_F(DeviceLive, RandomCommandsDoNoHarm) {
+    ViewerLink link;
+    viewer = &link;
+    TempFolder folder;
+    config.live.playback_speed = 1;
+    config.pipeline.trackers.icp.prediction = IcpTracker::Prediction::kRayCast;
+    config.loops.enabled = true;
+    MakeOnDevice({.count = 90});
+    std::mt19937 random(7);
+    while (Next()) {
+        switch (random() % 8) {
+            case 0: Ask(Command::kReset); break;
+            case 1: Ask(Command::kSaveMesh, folder / fmt::format("{}.ply", random() % 3)); break;
+            case 2: Ask(Command::kPause), Ask(Command::kStep), Ask(Command::kResume); break;
+            case 3: Ask(Command::kSaveScan, folder / "random.scan"); break;
+            case 4: {
+                ViewerSettings settings;
+                settings.method = static_cast<TrackingMethod>(random() % kTrackingMethods);
+                settings.fusing = random() % 4 != 0;
+                link.settings.Push(std::move(settings));
+                break;
+            }
+            default: {
+                MeshUpdate meshes;
+                ImageUpdate images;
+                link.meshes.TryPop(meshes);
+                link.images.TryPop(images);
+            }
+        }
+        if (outcomes.size() > 1000) outcomes.clear();
+    }
+    EXPECT_TRUE(engine->status().ok()) << engine->status().message();
+    engine->TakeMesh();
+}
+
+}  // namespace
+}  // namespace tessera::serial
