@@ -43,8 +43,8 @@ function(tessera_library name)
     tessera_for_python(${name})
 endfunction()
 
-# tessera_vector_source(LIBRARY FILE): compiles FILE once more for AVX2 (not for FMA, see above). Such a file includes no Eigen and
-# exports one function in namespace tessera::TESSERA_VECTOR_NAMESPACE; the caller picks at run time.
+# tessera_vector_source(LIBRARY FILE): compiles FILE once more for AVX2 (not for FMA, see above). Such a file includes no
+# Eigen and exports one function in namespace tessera::TESSERA_VECTOR_NAMESPACE; the caller picks at run time.
 function(tessera_vector_source library file)
     get_filename_component(stem ${file} NAME_WE)
     foreach(arch baseline avx2)

@@ -58,8 +58,9 @@ __global__ void __launch_bounds__(kAddThreads) AddRuns(int tile_count, int run_c
     double* runs = tiles + tile_count * kSums;
     for (int i = static_cast<int>(threadIdx.x); i < run_count * kSums; i += kAddThreads) {
         const int run = i / kSums, k = i % kSums;
+        const int first = run * kRunTiles, last = first + kRunTiles < tile_count ? first + kRunTiles : tile_count;
         double sum = 0;
-        for (int tile = run * kRunTiles; tile < min((run + 1) * kRunTiles, tile_count); ++tile) sum += tiles[tile * kSums + k];
+        for (int tile = first; tile < last; ++tile) sum += tiles[tile * kSums + k];
         runs[i] = sum;
     }
     __syncthreads();
@@ -81,8 +82,8 @@ void ForEach(Stream& stream, int count, const Body& body) {
     TESSERA_CUDA_CHECK(cudaGetLastError());
 }
 
-// body(i, sums) adds what item i has to sums[0] to sums[kSums - 1], in the order of core/tile_sums.h. `tiles`: TileRoom(count, kSums);
-// `sums`: room for kSums. Both on the device.
+// body(i, sums) adds what item i has to sums[0] to sums[kSums - 1], in the order of core/tile_sums.h. Both on the device: `tiles`
+// has room for TileRoom(count, kSums), `sums` for kSums.
 template <int kSums, class Body>
 void SumTiles(Stream& stream, int count, const Body& body, double* tiles, double* sums) {
     const auto handle = static_cast<cudaStream_t>(stream.handle());

@@ -4,7 +4,7 @@ namespace tessera {
 
 bool CpuHasAvx2() {
 #if defined(__x86_64__)
-    static const bool kHas = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+    static const bool kHas = __builtin_cpu_supports("avx2");
     return kHas;
 #else
     return false;

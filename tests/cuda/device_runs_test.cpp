@@ -54,7 +54,7 @@ INSTANTIATE_TEST_SUITE_P(DeviceRuns, ByIcp, testing::Values(TrackingMethod::kIcp
                          NameOf);
 
 // Without OpenGL the processor's ray caster steps in: predicted there in any case.
-TEST_P(ByIcp, IsTheProcessorsAgainstAViewThatThatPredicted) {
+TEST_P(ByIcp, IsTheProcessorsOnViewsThatTheProcessorDrew) {
     PipelineConfig config = Config();
     config.trackers.icp.prediction = IcpTracker::Prediction::kRaster;
     DeskRun expected(config, nullptr);
