@@ -9,14 +9,16 @@ namespace tessera::TESSERA_DEVICE {
 
 namespace fusion_bodies {
 
-// Per tile.
-struct BuildTile {
+// Per row of the image and column of tiles. The largest depth does not depend on the order.
+struct WidenTile {
     const float* depth_m;
-    std::int32_t width, height, tiles_per_row;
+    std::int32_t width, tiles_per_row;
     float* tiles;
 
     TESSERA_HD_MEMBER void operator()(int i) const {
-        tiles[i] = FarthestOfTile(depth_m, width, height, i % tiles_per_row, i / tiles_per_row);
+        const std::int32_t tile_x = i % tiles_per_row, y = i / tiles_per_row;
+        const float* row = depth_m + static_cast<std::int64_t>(y) * width;
+        AtomicMax(tiles + y / kDepthTilePx * tiles_per_row + tile_x, FarthestOfTileRow(row, width, tile_x));
     }
 };
 
@@ -46,7 +48,8 @@ struct MarkRevision {
 
 void BuildDepthTiles(Stream& stream, const float* depth_m, std::int32_t width, std::int32_t height, float* tiles) {
     const std::int32_t columns = (width + kDepthTilePx - 1) / kDepthTilePx, rows = (height + kDepthTilePx - 1) / kDepthTilePx;
-    ForEach(stream, columns * rows, fusion_bodies::BuildTile{depth_m, width, height, columns, tiles});
+    stream.Fill(tiles, 0, static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows) * sizeof(float));
+    ForEach(stream, columns * height, fusion_bodies::WidenTile{depth_m, width, columns, tiles});
 }
 
 void FuseBlocks(Stream& stream, const FusionArguments& arguments, const std::int32_t* blocks, std::int32_t count,

@@ -6,7 +6,7 @@
 
 namespace tessera::TESSERA_DEVICE {
 
-// FarthestOfTile for every tile of an image on the device.
+// The farthest depth of every tile (visibility_kernels.h) of an image on the device.
 void BuildDepthTiles(Stream& stream, const float* depth_m, std::int32_t width, std::int32_t height, float* tiles);
 
 // Updates `count` blocks listed at `blocks`, and gives them a revision. All arrays, those of the arguments too, are on the

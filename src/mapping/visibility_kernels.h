@@ -16,12 +16,11 @@ struct DepthTileView {
     std::int32_t width, height;  // tiles
 };
 
-TESSERA_HD float FarthestOfTile(const float* depth_m, std::int32_t width, std::int32_t height, std::int32_t tile_x,
-                                std::int32_t tile_y) {
+// Of the pixels of a row of the image that are in that column of tiles: a tile's is the farthest of its rows.
+TESSERA_HD float FarthestOfTileRow(const float* row, std::int32_t width, std::int32_t tile_x) {
     float farthest = 0.0f;
-    for (std::int32_t y = tile_y * kDepthTilePx; y < (tile_y + 1) * kDepthTilePx && y < height; ++y)
-        for (std::int32_t x = tile_x * kDepthTilePx; x < (tile_x + 1) * kDepthTilePx && x < width; ++x)
-            farthest = max(farthest, depth_m[static_cast<std::int64_t>(y) * width + x]);
+    for (std::int32_t x = tile_x * kDepthTilePx; x < (tile_x + 1) * kDepthTilePx && x < width; ++x)
+        farthest = max(farthest, row[x]);
     return farthest;
 }
 

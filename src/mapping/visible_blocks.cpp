@@ -13,8 +13,11 @@ void DepthTiles::Build(const DepthImage& depth) {
     height = (depth.height() + kDepthTilePx - 1) / kDepthTilePx;
     farthest_m.resize(static_cast<std::size_t>(width * height));
     tbb::parallel_for(0, height, [&](int y) {
-        for (int x = 0; x < width; ++x)
-            farthest_m[static_cast<std::size_t>(y * width + x)] = FarthestOfTile(depth.data(), depth.width(), depth.height(), x, y);
+        for (int x = 0; x < width; ++x) {
+            float& farthest = farthest_m[static_cast<std::size_t>(y * width + x)] = 0;
+            for (int row = y * kDepthTilePx; row < std::min((y + 1) * kDepthTilePx, depth.height()); ++row)
+                farthest = std::max(farthest, FarthestOfTileRow(depth.row(row), depth.width(), x));
+        }
     });
 }
 
