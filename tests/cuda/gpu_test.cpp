@@ -5,6 +5,7 @@
 
 #include "cuda/desk_run.h"
 #include "cuda/open_device.h"
+#include "cuda/recorded_run.h"
 #include "cuda/same_mesh.h"
 #include "mapping/ray_caster.h"
 
@@ -71,6 +72,12 @@ TEST_F(Gpu, WholeRunsAreTheProcessors) {
         testing_support::DeskRun expected(config, nullptr), run(config, device_.get());
         testing_support::ExpectSameRun(run, expected);
     }
+}
+
+TEST_F(Gpu, ARecordingIsTheProcessorsRun) {
+    if (!std::filesystem::exists(testing_support::RecordingFolder())) GTEST_SKIP() << testing_support::HowToGetTheRecording();
+    for (const TrackingMethod method : {TrackingMethod::kSdf, TrackingMethod::kIcpRgb})
+        testing_support::ExpectTheProcessorsRun(method, *device_);
 }
 
 }  // namespace

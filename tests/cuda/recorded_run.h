@@ -1,0 +1,65 @@
+// A recording at full size on a device: the processor's results, byte for byte.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "support/temp_folder.h"
+#include "system/run.h"
+
+namespace tessera::testing_support {
+
+// Where TUM's fr1 rpy should be.
+inline std::string RecordingFolder() {
+    const char* data = std::getenv("TESSERA_DATA");
+    return (data != nullptr ? data : std::string(TESSERA_SOURCE_DIR) + "/../shared/data") + "/tum_fr1_rpy";
+}
+
+inline std::string HowToGetTheRecording() {
+    return RecordingFolder() + " is absent: set TESSERA_DATA to a folder that holds TUM's fr1 rpy under the name tum_fr1_rpy";
+}
+
+// More frames than the few that are tried each time: TESSERA_DEVICE_FRAMES, -1 = all.
+inline std::int64_t RecordedFrames() {
+    const char* frames = std::getenv("TESSERA_DEVICE_FRAMES");
+    return frames != nullptr ? std::atoll(frames) : 12;
+}
+
+// The trajectory and the mesh that a run over the recording leaves. `device` null: the processor's.
+inline std::array<std::string, 2> RecordedRun(TrackingMethod method, Device* device) {
+    const TempFolder folder;
+    RunRequest request;
+    request.source = RecordingFolder();
+    request.output_folder = folder.path();
+    request.selection.count = RecordedFrames();
+    request.device = device;
+    RunConfig config;
+    config.pipeline.trackers.method = method;
+    const std::atomic<bool> stop{false};
+    const auto run = ExecuteRun(request, config, {}, stop);
+    EXPECT_TRUE(run.ok()) << run.message();
+    if (run.ok()) {
+        EXPECT_GT(run.value().counts.tracked, 10);
+    }
+    std::array<std::string, 2> results;
+    for (std::size_t i = 0; i < results.size(); ++i) {
+        std::ifstream file(folder / (i == 0 ? "trajectory.txt" : "mesh.ply"), std::ios::binary);
+        std::stringstream content;
+        content << file.rdbuf();
+        results[i] = content.str();
+        EXPECT_FALSE(results[i].empty());
+    }
+    return results;
+}
+
+inline void ExpectTheProcessorsRun(TrackingMethod method, Device& device) {
+    const auto expected = RecordedRun(method, nullptr), results = RecordedRun(method, &device);
+    EXPECT_TRUE(results[0] == expected[0]) << "another trajectory";
+    EXPECT_TRUE(results[1] == expected[1]) << "another mesh";
+}
+
+}  // namespace tessera::testing_support
