@@ -7,6 +7,7 @@
 #include "cuda/device_pipeline.h"
 #include "support/temp_folder.h"
 #include "system/engine_fixture.h"
+#include "system/run.h"
 
 namespace tessera::serial {
 namespace {
@@ -93,6 +94,30 @@ TEST_F(DeviceLive, RandomCommandsDoNoHarm) {
     }
     EXPECT_TRUE(engine->status().ok()) << engine->status().message();
     engine->TakeMesh();
+}
+
+// Detections are looked for on another thread and voted into the map that the device has.
+TEST(DeviceLiveRun, LabelsWhatItScans) {
+    DevicePipeline device("serial", std::size_t{1} << 30);
+    const TempFolder folder;
+    RunRequest request;
+    request.source = "synthetic:desk";
+    request.selection.count = 20;
+    request.live = true;
+    request.labels = "synthetic";
+    request.output_folder = folder.path();
+    request.device = &device;
+    RunConfig config;
+    config.synthetic.camera = testing_support::DeskCamera();
+    config.live.queue_frames = 20;
+    config.labels.max_rate_hz = 1000;
+    config.labels.min_observations = 1;
+    const std::atomic<bool> stop{false};
+    const auto run = ExecuteRun(request, config, {}, stop);
+    ASSERT_TRUE(run.ok()) << run.message();
+    EXPECT_EQ(run.value().counts.tracked, 20) << run.value().last_reason;
+    EXPECT_GT(run.value().labels->detections, 0);
+    EXPECT_GT(run.value().labels->objects.size(), 0u);
 }
 
 }  // namespace
