@@ -45,7 +45,7 @@ class DeviceIcp : public IcpSums {
     DevicePoints points_;
     DeviceBuffer<float> model_pixels_;
     DeviceBuffer<float> residuals_;  // two sets of distances and intensities, one array after the other
-    int kept_ = 0;                      // which set; the other is the last sum's
+    int kept_ = 0;                   // which set; the other is the last sum's
     bool has_intensities_ = false;
     DeviceBuffer<double> sum_tiles_, sums_;
 };

@@ -47,15 +47,7 @@ struct Rig {
     IcpArguments ArgumentsAt(float moved_m, bool compare, std::size_t level_of_model = 0) {
         const IcpModelLevel& level = model[level_of_model];
         IcpArguments a{};
-        a.width = level.camera.width;
-        a.height = level.camera.height;
-        a.fx = static_cast<float>(level.camera.fx);
-        a.fy = static_cast<float>(level.camera.fy);
-        a.cx = static_cast<float>(level.camera.cx);
-        a.cy = static_cast<float>(level.camera.cy);
-        a.depth = level.depth_m.data();
-        a.normal = level.normal_camera.data()->data();
-        a.intensity = level.intensity.data();
+        SetModel(level, a);
         for (int i = 0; i < 3; ++i) a.rotation[4 * i] = 1;
         a.translation[0] = moved_m;
         a.x = points.x.data();

@@ -1,11 +1,6 @@
 // Live on the serial device: one thread tracks and maps.
-#include <fmt/format.h>
-
-#include <random>
-
 #include "cuda/desk_frames.h"
 #include "cuda/device_pipeline.h"
-#include "support/temp_folder.h"
 #include "system/engine_fixture.h"
 #include "system/run.h"
 
@@ -69,29 +64,7 @@ TEST_F(DeviceLive, RandomCommandsDoNoHarm) {
     config.pipeline.trackers.icp.prediction = IcpTracker::Prediction::kRayCast;
     config.loops.enabled = true;
     MakeOnDevice({.count = 90});
-    std::mt19937 random(7);
-    while (Next()) {
-        switch (random() % 8) {
-            case 0: Ask(Command::kReset); break;
-            case 1: Ask(Command::kSaveMesh, folder / fmt::format("{}.ply", random() % 3)); break;
-            case 2: Ask(Command::kPause), Ask(Command::kStep), Ask(Command::kResume); break;
-            case 3: Ask(Command::kSaveScan, folder / "random.scan"); break;
-            case 4: {
-                ViewerSettings settings;
-                settings.method = static_cast<TrackingMethod>(random() % kTrackingMethods);
-                settings.fusing = random() % 4 != 0;
-                link.settings.Push(std::move(settings));
-                break;
-            }
-            default: {
-                MeshUpdate meshes;
-                ImageUpdate images;
-                link.meshes.TryPop(meshes);
-                link.images.TryPop(images);
-            }
-        }
-        if (outcomes.size() > 1000) outcomes.clear();
-    }
+    AskAtRandomToTheEnd(folder);
     EXPECT_TRUE(engine->status().ok()) << engine->status().message();
     engine->TakeMesh();
 }

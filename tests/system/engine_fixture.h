@@ -1,13 +1,16 @@
 // An engine on the exact little world, its outcomes counted.
 #pragma once
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <memory>
+#include <random>
 #include <string>
 #include <vector>
 
 #include "support/box_room_source.h"
+#include "support/temp_folder.h"
 #include "system/live_engine.h"
 #include "system/lockstep_engine.h"
 #include "system/viewer_link.h"
@@ -66,6 +69,37 @@ class EngineTest : public testing::Test {
         return all;
     }
     void Ask(Command kind, const std::string& path = {}) { viewer->commands.Push({kind, path}); }
+
+    // Everything that a person can ask for but a stop, with a window that takes what it is sent only now and then.
+    void AskAtRandomToTheEnd(const TempFolder& folder) {
+        std::mt19937 random(7);
+        int saved = 0;
+        while (Next()) {
+            switch (random() % 12) {
+                case 0: Ask(Command::kReset); break;
+                case 1: Ask(Command::kSaveMesh, folder / fmt::format("{}.ply", saved++ % 3)); break;
+                case 2: Ask(Command::kPause), Ask(Command::kStep), Ask(Command::kResume); break;
+                case 3: Ask(Command::kRecord, folder / fmt::format("raw{}", saved++)); break;
+                case 4: Ask(Command::kStopRecording); break;
+                case 7: Ask(Command::kSaveScan, folder / "random.scan"); break;
+                case 5: case 6: {
+                    ViewerSettings settings;
+                    settings.method = static_cast<TrackingMethod>(random() % kTrackingMethods);
+                    settings.prealign = random() % 2 == 0;
+                    settings.fusing = random() % 4 != 0;
+                    viewer->settings.Push(std::move(settings));
+                    break;
+                }
+                default: {
+                    MeshUpdate meshes;
+                    ImageUpdate images;
+                    viewer->meshes.TryPop(meshes);
+                    viewer->images.TryPop(images);
+                }
+            }
+            if (outcomes.size() > 1000) outcomes.clear();
+        }
+    }
 
     // Off the true pose, in the world of the first camera.
     static double Error_m(const FrameReport& report, double speed = 1) {

@@ -1,11 +1,8 @@
 #include "system/live_engine.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <filesystem>
 #include <future>
-#include <random>
 
 #include "support/temp_folder.h"
 #include "system/engine_fixture.h"
@@ -158,33 +155,7 @@ TEST_F(Live, RandomCommandsDoNoHarm) {
     const char* seconds = std::getenv("TESSERA_SOAK_S");
     const std::int64_t frames = 30 * (seconds != nullptr ? std::atoi(seconds) : 3);
     Make(true, {.count = frames});
-    std::mt19937 random(7);
-    int saved = 0;
-    while (Next()) {
-        switch (random() % 12) {
-            case 0: Ask(Command::kReset); break;
-            case 1: Ask(Command::kSaveMesh, folder / fmt::format("{}.ply", saved++ % 3)); break;
-            case 2: Ask(Command::kPause), Ask(Command::kStep), Ask(Command::kResume); break;
-            case 3: Ask(Command::kRecord, folder / fmt::format("raw{}", saved++)); break;
-            case 4: Ask(Command::kStopRecording); break;
-            case 7: Ask(Command::kSaveScan, folder / "random.scan"); break;
-            case 5: case 6: {
-                ViewerSettings settings;
-                settings.method = static_cast<TrackingMethod>(random() % kTrackingMethods);
-                settings.prealign = random() % 2 == 0;
-                settings.fusing = random() % 4 != 0;
-                link.settings.Push(std::move(settings));
-                break;
-            }
-            default: {
-                MeshUpdate meshes;
-                ImageUpdate images;
-                link.meshes.TryPop(meshes);
-                link.images.TryPop(images);
-            }
-        }
-        if (outcomes.size() > 1000) outcomes.clear();
-    }
+    AskAtRandomToTheEnd(folder);
     EXPECT_TRUE(engine->status().ok());
     engine->TakeMesh();
 }
