@@ -127,7 +127,7 @@ class Basin {
     }
 
     static TrackResult TrackWith(const std::string& method, const TrackInput& input) {
-        Photometry photometry({}, FullCamera());
+        Photometry photometry({});
         Photometry* colour = method == "sdf" || method == "icp-rgb" ? &photometry : nullptr;
         const TrackJudge judge(JudgeConfig());
         if (method.starts_with("sdf")) return SdfTracker({}, FullCamera(), judge, colour).Track(input);

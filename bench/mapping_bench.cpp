@@ -12,7 +12,7 @@
 namespace tessera {
 namespace {
 
-using namespace testing;
+using namespace testing_support;
 
 double Room(const Eigen::Vector3d& p) {
     static const Sdf kBox = Box({.5, .3, .1}, {.2, .3, .15}), kSphere = Sphere({-.5, -.2, 0}, .3);

@@ -105,7 +105,7 @@ void Track(benchmark::State& state, VectorPath path, double alpha) {
     Photometry::Config config;
     config.alpha_mode = Photometry::AlphaMode::kFixed;
     config.alpha = alpha;
-    Photometry photometry(config, FullCamera());
+    Photometry photometry(config);
     SdfTracker tracker({}, FullCamera(), TrackJudge({}), &photometry, path);
     const Eigen::Isometry3d start = StartBeside(TruePose(4));
     const TrackInput input{.frame = RoomPrepared(0),

@@ -107,6 +107,10 @@ void DeviceIcp::KeepResiduals() {
     kept_ = 1 - kept_;
 }
 
+ResidualSums DeviceIcp::SumResiduals(const ResidualArguments& arguments) {
+    return device_.SumResidualsOf(arguments, points_, Residuals(kept_, 0), Residuals(kept_, 1));
+}
+
 void DeviceIcp::TakeResiduals(std::vector<float>& distance, std::vector<float>& intensity) {
     const std::size_t bytes = static_cast<std::size_t>(points_.count()) * sizeof(float);
     device_.stream_.Download(distance.data(), Residuals(kept_, 0), bytes);

@@ -20,10 +20,13 @@ class DeviceIcp : public IcpSums {
                  int levels, float jump_m) override;
     void SetModel(const std::vector<IcpModelLevel>& levels) override;
     std::int64_t SetPoints(const PreparedFrame& frame, const PointArguments& points, int level) override;
-    void TakePoints(FramePoints& points) override;
     PoseSums Sum(const IcpArguments& arguments) override;
     void KeepResiduals() override;
-    void TakeResiduals(std::vector<float>& distance, std::vector<float>& intensity) override;
+    ResidualSums SumResiduals(const ResidualArguments& arguments) override;
+
+    // As DevicePipeline's; the kept residuals.
+    void TakePoints(FramePoints& points);
+    void TakeResiduals(std::vector<float>& distance, std::vector<float>& intensity);
 
     // The model's levels, their images on the device.
     const std::vector<ModelImages>& model() const { return model_; }

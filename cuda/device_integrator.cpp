@@ -18,7 +18,7 @@ std::string DeviceIntegrator::limit() const {
 
 void DeviceIntegrator::Allocate(const PreparedFrame& frame, const View& view, BlockMap& map, Report& report) {
     DeviceMap* mirror = device_.MirrorOf(map);
-    uploaded_ = mirror != nullptr && device_.Upload(frame, false);
+    uploaded_ = mirror != nullptr && device_.frame_.Upload(frame);
     report.map_full = !uploaded_;
     if (!uploaded_) {
         report.refused_blocks = 1;  // nobody knows how many it would be
@@ -29,7 +29,7 @@ void DeviceIntegrator::Allocate(const PreparedFrame& frame, const View& view, Bl
         brought_revision_ = revision_ - 1;
     }
     BandWalk walk = MakeBandWalk(frame, camera_, view.T_world_camera, map.config());
-    walk.depth_m = device_.depth_m_.data();
+    walk.depth_m = device_.frame_.depth_m();
     const DeviceMap::Growth growth = mirror->Allocate(walk, config_.volume.box(), config_.max_new_blocks);
     for (const BlockCoord& coord : growth.added) {
         const BlockId id = map.Allocate(coord);
@@ -47,8 +47,8 @@ void DeviceIntegrator::Fuse(const PreparedFrame& frame, const View& view, BlockM
     if (!uploaded_ || frame.valid_depth_pixels == 0) return;
     DeviceMap& mirror = *device_.MirrorOf(map);
     FusionArguments a = MakeFusionArguments(frame, view, camera_, config_, map.config(), revision_);
-    BuildDepthTiles(device_.stream_, device_.depth_m_.data(), a.width, a.height, device_.tiles_.data());
-    const DepthTileView tiles{device_.tiles_.data(), (a.width + kDepthTilePx - 1) / kDepthTilePx,
+    BuildDepthTiles(device_.stream_, device_.frame_.depth_m(), a.width, a.height, device_.frame_.tiles());
+    const DepthTileView tiles{device_.frame_.tiles(), (a.width + kDepthTilePx - 1) / kDepthTilePx,
                               (a.height + kDepthTilePx - 1) / kDepthTilePx};
     const int count = mirror.FindVisible(tiles, MakeViewCone(camera_, view.T_world_camera,
                                                              frame.farthest_m + map.config().truncation_m, map.config()));
@@ -57,8 +57,8 @@ void DeviceIntegrator::Fuse(const PreparedFrame& frame, const View& view, BlockM
     a.weight = layers.weight;
     a.colour = layers.colour;
     a.coords = layers.coords;
-    a.depth_m = device_.depth_m_.data();
-    a.packed_colour = frame.has_colour() ? device_.packed_colour_.data() : nullptr;
+    a.depth_m = device_.frame_.depth_m();
+    a.packed_colour = frame.has_colour ? device_.frame_.packed_colour() : nullptr;
     FuseBlocks(device_.stream_, a, mirror.visible(), count, layers.revision, revision_);
     changed_ids_.resize(static_cast<std::size_t>(count));
     device_.stream_.Download(changed_ids_.data(), mirror.visible(), changed_ids_.size() * sizeof(BlockId));

@@ -12,17 +12,19 @@ namespace tessera::TESSERA_DEVICE {
 DevicePipeline::DevicePipeline(std::string name, std::size_t limit_bytes)
     : name_(std::move(name)),
       memory_(limit_bytes),
-      depth_m_(memory_),
-      packed_colour_(memory_),
-      tiles_(memory_),
-      intensity_(memory_),
+      frame_(memory_, stream_),
       points_(memory_, stream_),
+      residual_sums_(memory_, stream_),
       distance_residual_(memory_),
       intensity_residual_(memory_),
       sum_tiles_(memory_),
       sums_(memory_),
       views_(*this),
       icp_(*this) {}
+
+void DevicePipeline::Prepare(const Frame& frame, const PreparedFrame::Config& config, bool bring, PreparedFrame& prepared) {
+    if (!frame_.Prepare(frame, config, bring, prepared)) PrepareFrame(frame, config, prepared);
+}
 
 std::unique_ptr<Integrator> DevicePipeline::MakeIntegrator(const Integrator::Config& config, const PinholeCamera& camera) {
     return std::make_unique<DeviceIntegrator>(*this, config, camera);
@@ -40,26 +42,6 @@ DeviceMap* DevicePipeline::MirrorOf(const BlockMap& map) {
     return map_.get();
 }
 
-bool DevicePipeline::Upload(const PreparedFrame& frame, bool intensities) {
-    const std::size_t pixels = frame.depth_m.size();
-    if (!depth_m_.ReserveScratch(stream_, pixels) || !packed_colour_.ReserveScratch(stream_, pixels) ||
-        !tiles_.ReserveScratch(stream_, pixels) || (intensities && !intensity_.ReserveScratch(stream_, pixels))) {
-        uploaded_ = uploaded_intensity_ = 0;  // what grew lost its content
-        return false;
-    }
-    if (uploaded_ != frame.identity) {
-        stream_.Upload(depth_m_.data(), frame.depth_m.data(), pixels * sizeof(float));
-        if (frame.has_colour())
-            stream_.Upload(packed_colour_.data(), frame.packed_colour.data(), pixels * sizeof(std::uint32_t));
-        uploaded_ = frame.identity;
-    }
-    if (intensities && uploaded_intensity_ != frame.identity) {
-        stream_.Upload(intensity_.data(), frame.intensity.data(), pixels * sizeof(float));
-        uploaded_intensity_ = frame.identity;
-    }
-    return true;
-}
-
 bool DevicePipeline::ReserveSums(int points) {
     const auto count = static_cast<std::size_t>(points);
     return sums_.Reserve(stream_, SumLayout::kCount, 0) && sum_tiles_.ReserveScratch(stream_, TilesOfPoints(points)) &&
@@ -75,11 +57,10 @@ std::int64_t DevicePipeline::SetPoints(const BlockMap& map, const PreparedFrame&
 }
 
 std::int64_t DevicePipeline::MakePoints(const PreparedFrame& frame, const PointArguments& arguments, DevicePoints& points) {
-    const bool intensities = arguments.intensity.pixels != nullptr;
-    if (!Upload(frame, intensities)) return 0;
+    if (!frame_.Upload(frame) || !residual_sums_.Reserve(arguments.width, arguments.height)) return 0;
     PointArguments a = arguments;
-    a.depth.pixels = depth_m_.data();
-    if (intensities) a.intensity.pixels = intensity_.data();
+    a.depth.pixels = frame_.depth_m();
+    if (a.intensity.width > 0) a.intensity.pixels = frame_.intensity();
     return points.Build(a);
 }
 
@@ -99,6 +80,32 @@ PoseSums DevicePipeline::Sum(const SdfArguments& arguments) {
     if (has_intensity_residual_) a.intensity_residual = intensity_residual_.data();
     SumSdfPoints(stream_, a, points_.count(), sum_tiles_.data(), sums_.data());
     stream_.Download(sums.value, sums_.data(), sizeof sums.value);
+    stream_.Wait();
+    return sums;
+}
+
+ResidualSums DevicePipeline::SumResiduals(const ResidualArguments& arguments) {
+    return SumResidualsOf(arguments, points_, distance_residual_.data(), intensity_residual_.data());
+}
+
+ResidualSums DevicePipeline::SumResidualsOf(ResidualArguments a, const DevicePoints& points, const float* distance_residual,
+                                            const float* intensity_residual) {
+    ResidualSums sums;
+    if (points.count() == 0) return sums;
+    a.x = points.x();
+    a.y = points.y();
+    a.z = points.z();
+    a.intensity = points.intensity();
+    a.weight = points.weight();
+    a.distance_residual = distance_residual;
+    a.intensity_residual = intensity_residual;
+    a.image = frame_.intensity();
+    // One after the other they use the same room: the stream keeps their order.
+    if (a.wants_alpha) {
+        residual_sums_.Sum<DistanceSums>(a, sums.distances);
+        residual_sums_.Sum<ScoreSums>(a, sums.scores);
+    }
+    if (a.wants_shutter) residual_sums_.Sum<ShutterSums>(a, sums.shutter);
     stream_.Wait();
     return sums;
 }

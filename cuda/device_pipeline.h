@@ -3,9 +3,11 @@
 // voxels come over when somebody asks (Integrator::Bring).
 #pragma once
 
+#include "cuda/device_frame.h"
 #include "cuda/device_icp.h"
 #include "cuda/device_map.h"
 #include "cuda/device_points.h"
+#include "cuda/device_residuals.h"
 #include "cuda/device_views.h"
 #include "system/device.h"
 
@@ -18,16 +20,20 @@ class DevicePipeline : public Device, public SdfSums {
     DevicePipeline(std::string name, std::size_t limit_bytes);
 
     std::string name() const override { return name_; }
+    void Prepare(const Frame& frame, const PreparedFrame::Config& config, bool bring, PreparedFrame& prepared) override;
     std::unique_ptr<Integrator> MakeIntegrator(const Integrator::Config& config, const PinholeCamera& camera) override;
     std::unique_ptr<BlockMesher> MakeBlockMesher() override;
     SdfSums& sdf_sums() override { return *this; }
-    IcpSums& icp_sums() override { return icp_; }
+    DeviceIcp& icp_sums() override { return icp_; }
     ViewPredictor& views() override { return views_; }
 
     std::int64_t SetPoints(const BlockMap& map, const PreparedFrame& frame, const PointArguments& points) override;
     PoseSums Sum(const SdfArguments& arguments) override;
-    void TakePoints(FramePoints& points) override { Download(points_, points); }
-    void TakeResiduals(std::vector<float>& distance, std::vector<float>& intensity) override;
+    ResidualSums SumResiduals(const ResidualArguments& arguments) override;
+
+    // For who looks into it: the points without their normals, to what Lay has made for them, and the last Sum's residuals.
+    void TakePoints(FramePoints& points) { Download(points_, points); }
+    void TakeResiduals(std::vector<float>& distance, std::vector<float>& intensity);
 
     std::size_t limit_bytes() const { return memory_.limit_bytes(); }
     std::size_t used_bytes() const { return memory_.used_bytes(); }
@@ -40,10 +46,11 @@ class DevicePipeline : public Device, public SdfSums {
 
     // The device's map becomes that one's copy, if it is not yet: by BlockMap::identity. Null: no room.
     DeviceMap* MirrorOf(const BlockMap& map);
-    // The frame's images on the device, where they are not yet; that of the intensities only with `intensities`. False: no room.
-    [[nodiscard]] bool Upload(const PreparedFrame& frame, bool intensities);
     // The frame's points on the device, as DevicePoints::Build.
     [[nodiscard]] std::int64_t MakePoints(const PreparedFrame& frame, const PointArguments& arguments, DevicePoints& points);
+    // Of those points and residuals, which are there, of the frame that is there.
+    [[nodiscard]] ResidualSums SumResidualsOf(ResidualArguments arguments, const DevicePoints& points,
+                                              const float* distance_residual, const float* intensity_residual);
     // All but the normals, to what Lay has made for them.
     void Download(const DevicePoints& from, FramePoints& points);
     [[nodiscard]] bool ReserveSums(int points);
@@ -53,12 +60,9 @@ class DevicePipeline : public Device, public SdfSums {
     DeviceMemory memory_;
     std::unique_ptr<DeviceMap> map_;
     std::uint64_t mirrored_ = 0;  // the map's identity; 0 = none
-    DeviceBuffer<float> depth_m_;
-    DeviceBuffer<std::uint32_t> packed_colour_;
-    DeviceBuffer<float> tiles_;
-    DeviceBuffer<float> intensity_;
-    std::uint64_t uploaded_ = 0, uploaded_intensity_ = 0;  // whose: PreparedFrame::identity
+    DeviceFrame frame_;
     DevicePoints points_;
+    DeviceResiduals residual_sums_;
     DeviceBuffer<float> distance_residual_, intensity_residual_;
     DeviceBuffer<double> sum_tiles_, sums_;
     bool has_distance_residual_ = false, has_intensity_residual_ = false;

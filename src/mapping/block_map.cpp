@@ -16,8 +16,6 @@ constexpr std::size_t kMaxBlocks = std::size_t{1} << 22;
 
 std::atomic<std::uint64_t> last_identity = 0;
 
-std::uint32_t Hash(const BlockCoord& c) { return BlockHash(c.x, c.y, c.z); }
-
 }  // namespace
 
 void BlockMap::Config::Describe(ConfigParameters& p) {
@@ -101,7 +99,7 @@ BlockCoord BlockMap::coord(BlockId id) const {
 
 BlockId BlockMap::Find(const BlockCoord& c) const {
     const std::uint32_t mask = static_cast<std::uint32_t>(table_.size() - 1);
-    for (std::uint32_t slot = Hash(c) & mask;; slot = (slot + 1) & mask) {
+    for (std::uint32_t slot = BlockHash(c) & mask;; slot = (slot + 1) & mask) {
         const BlockId id = table_[slot];
         if (id == kUnknownBlock || coord(id) == c) return id;
     }
@@ -153,9 +151,9 @@ void BlockMap::Release(BlockId id) {
     TESSERA_CHECK(id > kUnknownBlock && id < size_ && !IsFree(id), "block {} of {} released", id, size_);
     const BlockCoord c = coord(id);
     const std::uint32_t mask = static_cast<std::uint32_t>(table_.size() - 1);
-    std::uint32_t slot = Hash(c) & mask;
+    std::uint32_t slot = BlockHash(c) & mask;
     while (table_[slot] != id) slot = (slot + 1) & mask;
-    EraseSlot(table_, slot, [this](std::int32_t other) { return Hash(coord(other)); });
+    EraseSlot(table_, slot, [this](std::int32_t other) { return BlockHash(coord(other)); });
     regions_.Remove(id, RegionOf(c));
     UnlinkNeighbours(id, c);
     InitialiseBlock(id, {kBlockLimit, kBlockLimit, kBlockLimit}, 0);
@@ -168,7 +166,7 @@ void BlockMap::Release(BlockId id) {
 
 void BlockMap::InsertIntoTable(BlockId id) {
     const std::uint32_t mask = static_cast<std::uint32_t>(table_.size() - 1);
-    std::uint32_t slot = Hash(coord(id)) & mask;
+    std::uint32_t slot = BlockHash(coord(id)) & mask;
     while (table_[slot] != 0) slot = (slot + 1) & mask;
     table_[slot] = id;
 }

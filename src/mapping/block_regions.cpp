@@ -9,8 +9,6 @@ namespace {
 
 constexpr std::size_t kFirstSlots = 256;
 
-std::uint32_t Hash(const BlockCoord& c) { return BlockHash(c.x, c.y, c.z); }
-
 }  // namespace
 
 void BlockRegions::Clear() {
@@ -21,7 +19,7 @@ void BlockRegions::Clear() {
 // Where the region is in the table, or the empty slot where it would be.
 std::uint32_t BlockRegions::SlotOf(const BlockCoord& region) const {
     const std::uint32_t mask = static_cast<std::uint32_t>(table_.size() - 1);
-    for (std::uint32_t slot = Hash(region) & mask;; slot = (slot + 1) & mask) {
+    for (std::uint32_t slot = BlockHash(region) & mask;; slot = (slot + 1) & mask) {
         const std::int32_t index = table_[slot] - 1;
         if (index < 0 || regions_[static_cast<std::size_t>(index)].coord == region) return slot;
     }
@@ -59,7 +57,8 @@ void BlockRegions::Remove(std::int32_t block, const BlockCoord& region) {
     const std::uint32_t last_slot = SlotOf(regions_.back().coord);
     std::swap(regions_[index], regions_.back());
     table_[last_slot] = static_cast<std::int32_t>(index) + 1;
-    EraseSlot(table_, slot, [this](std::int32_t entry) { return Hash(regions_[static_cast<std::size_t>(entry) - 1].coord); });
+    EraseSlot(table_, slot,
+              [this](std::int32_t entry) { return BlockHash(regions_[static_cast<std::size_t>(entry) - 1].coord); });
     regions_.pop_back();
 }
 

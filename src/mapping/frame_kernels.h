@@ -37,8 +37,21 @@ TESSERA_HD std::uint32_t PackColour(const Rgb8& colour, float luma) {
 struct RowsAround {
     const float *above, *here, *below;
 
+    // Of row y of `image`.
+    TESSERA_HD_MEMBER static RowsAround Of(const float* image, int width, int height, int y) {
+        const float* here = image + static_cast<std::int64_t>(y) * width;
+        return {y > 0 ? here - width : here, here, y + 1 < height ? here + width : here};
+    }
     TESSERA_HD_MEMBER float Column(int x) const { return above[x] + 2.0f * here[x] + below[x]; }
 };
+
+// Mean of the n x n pixels from (x n, y n) on.
+TESSERA_HD float MeanOfTile(const float* image, int width, int n, int x, int y) {
+    float sum = 0;
+    for (int v = y * n; v < (y + 1) * n; ++v)
+        for (int u = x * n; u < (x + 1) * n; ++u) sum += image[static_cast<std::int64_t>(v) * width + u];
+    return sum / static_cast<float>(n * n);
+}
 
 // Binomial 1-2-1 in both directions, anywhere but in the first and the last column.
 TESSERA_HD float SmoothInside(const RowsAround& rows, int x) {

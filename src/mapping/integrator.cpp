@@ -57,8 +57,8 @@ BandWalk MakeBandWalk(const PreparedFrame& frame, const PinholeCamera& camera, c
     const double block_m = map.voxel_size_m * kBlockSide;
     BandWalk walk{};
     walk.depth_m = frame.depth_m.data();
-    walk.width = frame.depth_m.width();
-    walk.height = frame.depth_m.height();
+    walk.width = frame.width;
+    walk.height = frame.height;
     // Rays at most half a block apart at the farthest depth.
     walk.step = std::clamp(static_cast<int>(0.5 * block_m * camera.fx / std::max(frame.farthest_m, 0.1f)), 1, 8);
     walk.walk_steps = static_cast<int>(std::ceil(4.0 * map.truncation_m / block_m));
@@ -142,8 +142,8 @@ FusionArguments MakeFusionArguments(const PreparedFrame& frame, const Integrator
     const Eigen::Isometry3d T_camera_world = view.T_world_camera.inverse();
 
     FusionArguments a{};
-    a.width = frame.depth_m.width();
-    a.height = frame.depth_m.height();
+    a.width = frame.width;
+    a.height = frame.height;
     a.fx = static_cast<float>(camera.fx);
     a.fy = static_cast<float>(camera.fy);
     a.cx = static_cast<float>(camera.cx);
@@ -182,7 +182,7 @@ void Integrator::Fuse(const PreparedFrame& frame, const View& view, BlockMap& ma
     a.colour = map.colour(0);
     a.coords = map.view().coords;
     a.depth_m = frame.depth_m.data();
-    a.packed_colour = frame.has_colour() ? frame.packed_colour.data() : nullptr;
+    a.packed_colour = frame.has_colour ? frame.packed_colour.data() : nullptr;
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, blocks.size(), 64), [&](const auto& range) {
         const auto count = static_cast<std::int32_t>(range.size());
 #ifdef TESSERA_HAVE_AVX2

@@ -14,14 +14,10 @@ namespace {
 
 constexpr int kBand = 16;  // rows per task; fixed, so that sums have a fixed order
 
-struct DepthCounts {
-    std::int64_t valid = 0, measured = 0;
-    std::int64_t pairs = 0, coherent = 0;  // of pixels side by side
-    float nearest = 1e9f, farthest = 0;
-};
+constexpr int kReducedWidths[] = {40, 80};  // 40 x 30 and 80 x 60 from 640 x 480
 
-DepthCounts GateRows(const DepthImage& in, float offset, float low, float high, int first, int last, DepthImage& out) {
-    DepthCounts counts;
+FrameCounts GateRows(const DepthImage& in, float offset, float low, float high, int first, int last, DepthImage& out) {
+    FrameCounts counts;
     for (int y = first; y < last; ++y) {
         const float* source = in.row(y);
         float* target = out.row(y);
@@ -31,8 +27,8 @@ DepthCounts GateRows(const DepthImage& in, float offset, float low, float high, 
             target[x] = ok ? z : 0.0f;
             counts.valid += ok;
             counts.measured += z > 0.0f;
-            counts.nearest = std::min(counts.nearest, ok ? z : 1e9f);
-            counts.farthest = std::max(counts.farthest, target[x]);
+            counts.nearest_m = std::min(counts.nearest_m, ok ? z : 1e9f);
+            counts.farthest_m = std::max(counts.farthest_m, target[x]);
         }
         for (int x = 0; x + 1 < in.width(); x += 2) {
             const bool both = target[x] > 0 && target[x + 1] > 0;
@@ -50,7 +46,7 @@ void LumaRow(const Rgb8* in, float* out, int width) {
 void Smooth(const Image<float>& in, int first, int last, Image<float>& out) {
     const int width = in.width();
     for (int y = first; y < last; ++y) {
-        const RowsAround rows{in.row(std::max(y - 1, 0)), in.row(y), in.row(std::min(y + 1, in.height() - 1))};
+        const RowsAround rows = RowsAround::Of(in.data(), width, in.height(), y);
         float* target = out.row(y);
         target[0] = SmoothAt(rows, 0, width);
         for (int x = 1; x + 1 < width; ++x) target[x] = SmoothInside(rows, x);
@@ -62,10 +58,41 @@ void PackRow(const Rgb8* colour, const float* luma, std::uint32_t* out, int widt
     for (int x = 0; x < width; ++x) out[x] = PackColour(colour[x], luma[x]);
 }
 
+void Reduce(const PreparedFrame& p, std::size_t level, PreparedFrame::Reduced& out) {
+    const int n = ReductionOf(p.width, p.height, level), width = p.width / n, height = p.height / n;
+    out.depth_m.Resize(width, height);
+    out.intensity.Resize(width, height);
+    tbb::parallel_for(0, height, [&](int y) {
+        for (int x = 0; x < width; ++x) {
+            out.depth_m(x, y) = p.depth_m(x * n + n / 2, y * n + n / 2);
+            out.intensity(x, y) = p.has_colour ? MeanOfTile(p.intensity.data(), p.width, n, x, y) : -1.0f;
+        }
+    });
+}
+
 template <class Work>
 void ForBands(int height, const Work& work) {
     tbb::parallel_for(0, (height + kBand - 1) / kBand, [&](int band) {
         work(band, band * kBand, std::min(height, (band + 1) * kBand));
+    });
+}
+
+// To `intensity` and `packed_colour`.
+void SplitColour(const ColourImage& colour, int blur_px, PreparedFrame& p) {
+    const int width = p.width, height = p.height;
+    p.intensity.Resize(width, height);
+    p.packed_colour.Resize(width, height);
+    ForBands(height, [&](int, int first, int last) {
+        for (int y = first; y < last; ++y) LumaRow(colour.row(y), p.intensity.row(y), width);
+    });
+    Image<float> smoothed;
+    for (int pass = 0; pass < blur_px; ++pass) {
+        smoothed.Resize(width, height);
+        ForBands(height, [&](int, int first, int last) { Smooth(p.intensity, first, last, smoothed); });
+        std::swap(smoothed, p.intensity);
+    }
+    ForBands(height, [&](int, int first, int last) {
+        for (int y = first; y < last; ++y) PackRow(colour.row(y), p.intensity.row(y), p.packed_colour.row(y), width);
     });
 }
 
@@ -91,53 +118,49 @@ Status PreparedFrame::Config::Validate() const {
     return Status::Ok();
 }
 
-void PrepareFrame(const Frame& frame, const PreparedFrame::Config& config, PreparedFrame& p) {
+int ReductionOf(int width, int height, std::size_t level) {
+    return std::max(1, std::min(width / kReducedWidths[level], height / 2));
+}
+
+void SetFacts(const Frame& frame, const FrameCounts& counts, PreparedFrame& p) {
     static std::atomic<std::uint64_t> last_identity = 0;
     p.identity = ++last_identity;
+    p.width = frame.depth_m.width();
+    p.height = frame.depth_m.height();
+    p.has_colour = !frame.colour.empty();
+    p.valid_depth_pixels = counts.valid;
+    p.measured_pixels = counts.measured;
+    p.coherent_fraction = counts.pairs > 0 ? static_cast<double>(counts.coherent) / static_cast<double>(counts.pairs) : 0.0;
+    p.nearest_m = counts.valid > 0 ? counts.nearest_m : 0.0f;
+    p.farthest_m = counts.farthest_m;
+}
+
+void PrepareFrame(const Frame& frame, const PreparedFrame::Config& config, PreparedFrame& p) {
     const int width = frame.depth_m.width(), height = frame.depth_m.height();
     p.depth_m.Resize(width, height);
-    std::vector<DepthCounts> counts(static_cast<std::size_t>((height + kBand - 1) / kBand));
+    std::vector<FrameCounts> counts(static_cast<std::size_t>((height + kBand - 1) / kBand));
     ForBands(height, [&](int band, int first, int last) {
         counts[static_cast<std::size_t>(band)] =
             GateRows(frame.depth_m, static_cast<float>(config.disparity_offset_per_m), static_cast<float>(config.min_depth_m),
                      static_cast<float>(config.max_depth_m), first, last, p.depth_m);
     });
-    DepthCounts total;
-    for (const DepthCounts& c : counts) {
+    FrameCounts total;
+    for (const FrameCounts& c : counts) {
         total.valid += c.valid;
         total.measured += c.measured;
         total.pairs += c.pairs;
         total.coherent += c.coherent;
-        total.nearest = std::min(total.nearest, c.nearest);
-        total.farthest = std::max(total.farthest, c.farthest);
+        total.nearest_m = std::min(total.nearest_m, c.nearest_m);
+        total.farthest_m = std::max(total.farthest_m, c.farthest_m);
     }
-    p.valid_depth_pixels = total.valid;
-    p.measured_pixels = total.measured;
-    p.coherent_fraction =
-        total.pairs > 0 ? static_cast<double>(total.coherent) / static_cast<double>(total.pairs) : 0.0;
-    p.nearest_m = total.valid > 0 ? total.nearest : 0.0f;
-    p.farthest_m = total.farthest;
-
-    if (frame.colour.empty()) {
+    SetFacts(frame, total, p);
+    if (p.has_colour) {
+        SplitColour(frame.colour, config.intensity_blur_px, p);
+    } else {
         p.intensity = {};
         p.packed_colour = {};
-        return;
     }
-    p.intensity.Resize(width, height);
-    p.packed_colour.Resize(width, height);
-    ForBands(height, [&](int, int first, int last) {
-        for (int y = first; y < last; ++y) LumaRow(frame.colour.row(y), p.intensity.row(y), width);
-    });
-    Image<float> smoothed;
-    for (int pass = 0; pass < config.intensity_blur_px; ++pass) {
-        smoothed.Resize(width, height);
-        ForBands(height, [&](int, int first, int last) { Smooth(p.intensity, first, last, smoothed); });
-        std::swap(smoothed, p.intensity);
-    }
-    ForBands(height, [&](int, int first, int last) {
-        for (int y = first; y < last; ++y)
-            PackRow(frame.colour.row(y), p.intensity.row(y), p.packed_colour.row(y), width);
-    });
+    for (std::size_t level = 0; level < p.reduced.size(); ++level) Reduce(p, level, p.reduced[level]);
 }
 
 }  // namespace tessera

@@ -120,5 +120,6 @@ TESSERA_HD U HashBits(const U& x, const U& y, const U& z) {
 TESSERA_HD std::uint32_t BlockHash(std::int32_t x, std::int32_t y, std::int32_t z) {
     return HashBits(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), static_cast<std::uint32_t>(z));
 }
+TESSERA_HD std::uint32_t BlockHash(const BlockCoord& c) { return BlockHash(c.x, c.y, c.z); }
 
 }  // namespace tessera

@@ -1,5 +1,5 @@
-// A GPU that keeps the map and does the work over its voxels, over rays through it and over a frame's points, in the
-// processor's place.
+// A GPU that keeps the map and does the work over its voxels, over rays through it and over a frame's pixels and points, in
+// the processor's place.
 #pragma once
 
 #include <memory>
@@ -9,6 +9,7 @@
 #include "mapping/block_mesher.h"
 #include "mapping/integrator.h"
 #include "mapping/predicted_view.h"
+#include "mapping/prepared_frame.h"
 #include "tracking/icp_sums.h"
 #include "tracking/sdf_sums.h"
 
@@ -26,6 +27,8 @@ class Device {
     virtual ~Device() = default;
 
     virtual std::string name() const = 0;
+    // As PrepareFrame, but the images stay there, apart from the reduced ones, unless `bring`.
+    virtual void Prepare(const Frame& frame, const PreparedFrame::Config& config, bool bring, PreparedFrame& prepared) = 0;
     // Fuses there. The device outlives it.
     virtual std::unique_ptr<Integrator> MakeIntegrator(const Integrator::Config& config, const PinholeCamera& camera) = 0;
     // Meshes the map that the integrator fuses into there. The device outlives it. Null: the processor meshes.

@@ -11,6 +11,7 @@ using Milliseconds = std::chrono::duration<double, std::milli>;
 
 void LiveEngine::TrackFrames() {
     TrackingState state(config_, source_.camera, device_);
+    if (loops_) state.stage.BringImages();
     gate_.Begin(saved_tracking_, saved_pose_, loops_ == nullptr, state.stage);
     if (saved_stamp_s_) state.lost.Resume(*saved_stamp_s_);
     while (true) {

@@ -125,9 +125,10 @@ void LockstepEngine::Label(FrameOutcome& outcome) {
 }
 
 void LockstepEngine::BeginLoops() {
-    if (config_.loops.enabled)
-        loops_.emplace(config_.loops, config_.pipeline, source_, loop_labels_,
-                       RebuildPagers(config_.pipeline, source_.camera, scan_path_));
+    if (!config_.loops.enabled) return;
+    tracking_.BringImages();
+    loops_.emplace(config_.loops, config_.pipeline, source_, loop_labels_,
+                   RebuildPagers(config_.pipeline, source_.camera, scan_path_));
 }
 
 void LockstepEngine::PutMap(LoopCloser::Correction correction) {

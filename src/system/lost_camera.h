@@ -29,7 +29,7 @@ class LostCamera {
             return Verdict::kTracking;
         }
         const bool lately = report.stamp_s - last_seen_s_ <= max_gap_s_;
-        if (!FitsWell(report.track) || !(lately || !tracked.prepared.has_colour())) return Verdict::kLost;
+        if (!FitsWell(report.track) || !(lately || !tracked.prepared.has_colour)) return Verdict::kLost;
         Found(report.stamp_s);
         return Verdict::kFoundAgain;
     }

@@ -35,7 +35,7 @@ void TrackersConfig::Describe(ConfigParameters& p) {
 }
 
 Trackers::Trackers(const TrackersConfig& config, const PinholeCamera& camera, Device* device)
-    : config_(config), camera_(camera), device_(device), method_(config.method), photometry_(config.photometric, camera) {}
+    : config_(config), camera_(camera), device_(device), method_(config.method), photometry_(config.photometric) {}
 
 bool Trackers::reads_map() const {
     const bool icp = method_ == TrackingMethod::kIcp || method_ == TrackingMethod::kIcpRgb;

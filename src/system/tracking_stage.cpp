@@ -24,7 +24,8 @@ TrackingStage::TrackingStage(const PipelineConfig& config, const PinholeCamera& 
       motion_(config.motion),
       motion_before_(config.motion),
       aligner_(config.prealign, camera),
-      trackers_(config.trackers, camera, device) {}
+      trackers_(config.trackers, camera, device),
+      device_(device) {}
 
 void TrackingStage::Track(const Frame& frame, const BlockMap& map, const std::optional<Eigen::Isometry3d>& given,
                           TrackedFrame& tracked) {
@@ -37,7 +38,11 @@ void TrackingStage::Track(const Frame& frame, const BlockMap& map, const std::op
 
     // 1. Gate the depth, split the colour.
     Stopwatch watch;
-    PrepareFrame(frame, config_.frame, prepared);
+    if (device_ != nullptr) {
+        device_->Prepare(frame, config_.frame, bring_images_, prepared);
+    } else {
+        PrepareFrame(frame, config_.frame, prepared);
+    }
     report.prepare_ms = watch.LapMs();
     report.valid_depth_fraction =
         static_cast<double>(prepared.valid_depth_pixels) / static_cast<double>(frame.depth_m.size());

@@ -67,6 +67,8 @@ class TrackingStage {
 
     // From the next frame on; pose, velocity, brightness and map stay.
     void Select(TrackingMethod method) { trackers_.Select(method); }
+    // With a device: frames' images are wanted on the processor, too.
+    void BringImages() { bring_images_ = true; }
     // Off: frames are tracked, but are not to be fused; the first always is.
     void SetFusing(bool on) { fusing_ = on; }
     void Apply(const ViewerSettings& settings);
@@ -89,7 +91,8 @@ class TrackingStage {
     MotionModel motion_, motion_before_;  // after and before the last frame
     ImageAligner aligner_;
     Trackers trackers_;
-    bool fusing_ = true;
+    Device* device_;
+    bool fusing_ = true, bring_images_ = false;
 };
 
 }  // namespace tessera

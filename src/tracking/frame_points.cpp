@@ -11,8 +11,9 @@
 namespace tessera {
 namespace {
 
-PinholeImage WithCamera(const Image<float>& image, const PinholeCamera& camera) {
-    return {image.data(), image.width(), image.height(), static_cast<float>(camera.fx), static_cast<float>(camera.fy),
+// One of the frame's images, which may be on a device only.
+PinholeImage WithCamera(const Image<float>& image, const PreparedFrame& frame, const PinholeCamera& camera) {
+    return {image.data(), frame.width, frame.height, static_cast<float>(camera.fx), static_cast<float>(camera.fy),
             static_cast<float>(camera.cx), static_cast<float>(camera.cy)};
 }
 
@@ -20,18 +21,17 @@ PinholeImage WithCamera(const Image<float>& image, const PinholeCamera& camera) 
 
 PointArguments MakePointArguments(const PreparedFrame& frame, const PinholeCamera& camera, const FrameMotion& motion, int step,
                                   double depth_exponent, bool intensities) {
-    const DepthImage& depth = frame.depth_m;
     const auto sampled = [step](int pixels) { return (pixels + step - 1 - step / 2) / step; };
     PointArguments a{};
-    a.depth = WithCamera(depth, camera);
-    if (intensities && frame.has_colour()) a.intensity = WithCamera(frame.intensity, camera);
+    a.depth = WithCamera(frame.depth_m, frame, camera);
+    if (intensities && frame.has_colour) a.intensity = WithCamera(frame.intensity, frame, camera);
     a.fx = camera.fx;
     a.fy = camera.fy;
     a.cx = camera.cx;
     a.cy = camera.cy;
     a.step = step;
-    a.width = (sampled(depth.width()) + kPointPadding - 1) / kPointPadding * kPointPadding;
-    a.height = sampled(depth.height());
+    a.width = (sampled(frame.width) + kPointPadding - 1) / kPointPadding * kPointPadding;
+    a.height = sampled(frame.height);
     a.depth_exponent = static_cast<float>(-depth_exponent);
     for (int i = 0; i < 6; ++i) a.twist_per_s[i] = static_cast<float>(motion.twist_per_s(i));
     a.still = motion.twist_per_s.isZero();
@@ -76,7 +76,7 @@ void FramePoints::Build(const PreparedFrame& frame, const PinholeCamera& camera,
 
 void FramePoints::EstimateNormals(const PreparedFrame& frame, const PinholeCamera& camera, int radius_px) {
     for (auto* values : {&normal_x, &normal_y, &normal_z}) values->assign(static_cast<std::size_t>(count()), 0.0f);
-    const PinholeImage depth = WithCamera(frame.depth_m, camera);
+    const PinholeImage depth = WithCamera(frame.depth_m, frame, camera);
     std::vector<std::int64_t> dropped(static_cast<std::size_t>(height_), 0);
     tbb::parallel_for(0, height_, [&](int row) {
         for (int column = 0; column < width_; ++column) {
@@ -99,7 +99,7 @@ void FramePoints::EstimateNormals(const PreparedFrame& frame, const PinholeCamer
 
 void FramePoints::SampleIntensity(const PreparedFrame& frame, const PinholeCamera& camera,
                                 const FrameMotion& motion) {
-    if (!frame.has_colour()) return;
+    if (!frame.has_colour) return;
     const PointArguments a = MakePointArguments(frame, camera, motion, step_, 0, true);
     tbb::parallel_for(0, height_, [&](int row) {
         const PointRow r = RowOfPoints(a, row);

@@ -38,6 +38,7 @@ class FramePoints {
     int height() const { return height_; }  // rows
     int count() const { return width_ * height_; }
     int ImageRow(int row) const { return row * step_ + step_ / 2; }
+    int step() const { return step_; }
     std::int64_t valid() const { return valid_; }
 
     std::vector<float> x, y, z, intensity, weight;

@@ -2,26 +2,16 @@
 // numbers, for the CPU's vector code and CUDA alike.
 #pragma once
 
+#include "tracking/view_arguments.h"
+
 namespace tessera {
 
-struct IcpArguments {
-    // The predicted view, row by row, and its camera, in whose frame the pose is sought.
-    int width, height;
-    float fx, fy, cx, cy;
-    const float* depth;      // metres along z, 0 where nothing is
-    const float* normal;     // three a pixel, unit
-    const float* intensity;  // < 0 where there is none or where the depth jumps
-    // p_view [m] = rotation * p_camera [m] + translation.
-    float rotation[9];
-    float translation[3];
-    // The points in the camera frame, metres, padded to a multiple of kPointPadding with weight 0.
-    const float* x;
-    const float* y;
-    const float* z;
+struct IcpArguments : ViewArguments {  // the image is the predicted view
+    const float* normal;  // three a pixel, unit
+    // Of the points; weight 0: no point.
     const float* normal_x;
     const float* normal_y;
     const float* normal_z;
-    const float* intensity_of_point;  // < 0 where there is none
     const float* weight;
     // The energy.
     float distance_gate_m, normal_gate_cosine;

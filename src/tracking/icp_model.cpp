@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include "tracking/model_kernels.h"
+#include "tracking/set_view.h"
 
 namespace tessera {
 namespace {
@@ -53,12 +54,7 @@ void BuildIcpModel(const PredictedView& view, int count, float jump_m, std::vect
 }
 
 void SetModel(const IcpModelLevel& model, IcpArguments& a) {
-    a.width = model.camera.width;
-    a.height = model.camera.height;
-    a.fx = static_cast<float>(model.camera.fx);
-    a.fy = static_cast<float>(model.camera.fy);
-    a.cx = static_cast<float>(model.camera.cx);
-    a.cy = static_cast<float>(model.camera.cy);
+    SetCamera(model.camera, a);
     a.depth = model.depth_m.data();
     a.normal = model.normal_camera.empty() ? nullptr : model.normal_camera.data()->data();
     a.intensity = model.intensity.data();

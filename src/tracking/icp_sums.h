@@ -10,6 +10,7 @@
 #include "tracking/icp_arguments.h"
 #include "tracking/icp_model.h"
 #include "tracking/pose_solver.h"
+#include "tracking/residual_sums.h"
 
 namespace tessera {
 
@@ -30,15 +31,14 @@ class IcpSums {
     // them: those of MakePointArguments' `points` of this frame with normals, in FramePoints' slots
     // and with its bytes. How many have a weight; 0 also where there is no room. Nothing is kept yet.
     virtual std::int64_t SetPoints(const PreparedFrame& frame, const PointArguments& points, int level) = 0;
-    // Those points, but not their normals, to what Lay has made for them.
-    virtual void TakePoints(FramePoints& points) = 0;
     // What SumIcpPoints gives over all of them. Of the arguments no arrays are read; the energies
     // are compared with the kept residuals where distance_before is not null.
     virtual PoseSums Sum(const IcpArguments& arguments) = 0;
     // The last Sum's residuals are those to compare with from here on.
     virtual void KeepResiduals() = 0;
-    // The kept residuals per point, NaN where there is none; intensities only if alpha was not 0.
-    virtual void TakeResiduals(std::vector<float>& distance, std::vector<float>& intensity) = 0;
+    // What SumResiduals gives of the points, the kept residuals and the frame. Of the arguments no
+    // arrays are read.
+    virtual ResidualSums SumResiduals(const ResidualArguments& arguments) = 0;
 };
 
 }  // namespace tessera

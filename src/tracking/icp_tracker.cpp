@@ -4,19 +4,14 @@
 #include <cmath>
 #include <limits>
 
+#include "tracking/set_view.h"
+
 namespace tessera {
 namespace {
 
 constexpr double kLeastFall = 1e-6;  // of the energy, as predicted: less is converged, and whether it falls is left to rounding
 constexpr double kAnotherView_m = 0.15, kAnotherView_rad = 0.15;
 constexpr double kIntensityGateScales = 5.0;
-
-void SetPose(const Eigen::Isometry3d& T_view_camera, IcpArguments& a) {
-    for (int i = 0; i < 3; ++i) {
-        for (int j = 0; j < 3; ++j) a.rotation[3 * i + j] = static_cast<float>(T_view_camera.linear()(i, j));
-        a.translation[i] = static_cast<float>(T_view_camera.translation()(i));
-    }
-}
 
 }  // namespace
 
@@ -49,18 +44,13 @@ TrackResult IcpTracker::Track(const TrackInput& input) {
     if (photometry_ != nullptr) {
         state.gain = photometry_->gain();
         state.offset = photometry_->offset();
-        if (input.frame.has_colour()) state.alpha = photometry_->alpha();
+        if (input.frame.has_colour) state.alpha = photometry_->alpha();
     }
     PredictAt(input, input.T_world_camera_starts.back(), state);
     ChooseStart(input, state);
     for (int level = config_.levels - 1; level >= 0 && !state.failed; --level) {
         PrepareLevel(input, level, state);
         if (!state.failed) RunLevel(level, state);
-    }
-
-    if (device_ != nullptr && photometry_ != nullptr && !state.failed) {
-        device_->TakePoints(points_[0]);
-        device_->TakeResiduals(residuals_.distance_m, residuals_.intensity);
     }
 
     const Eigen::Isometry3d T_view_expected = view_.T_world_camera.inverse() * input.T_world_camera_starts.back();
@@ -73,7 +63,9 @@ TrackResult IcpTracker::Track(const TrackInput& input) {
     result.iterations = state.iterations;
     judge_.Judge(input, points_[0].valid(), state.sums, state.step, result);
     if (photometry_ != nullptr && result.status != TrackStatus::kLost)
-        photometry_->Learn(input.frame, points_[0], residuals_.distance_m, residuals_.intensity, result);
+        photometry_->Learn(result,
+                           MakeResidualArguments(input.frame, camera_, points_[0], residuals_.distance_m, residuals_.intensity),
+                           [this](const ResidualArguments& a) { return device_ != nullptr ? device_->SumResiduals(a) : SumResiduals(a); });
     return result;
 }
 

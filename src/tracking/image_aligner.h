@@ -4,16 +4,19 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <array>
+#include <tuple>
 #include <vector>
 
 #include "core/camera.h"
 #include "core/config.h"
+#include "core/cpu.h"
 #include "core/state_stream.h"
 #include "mapping/prepared_frame.h"
 
 namespace tessera {
 
-struct ImageSystem;
+class ImageSystem;
 
 class ImageAligner {
   public:
@@ -25,7 +28,7 @@ class ImageAligner {
         void Describe(ConfigParameters& parameters);
     };
 
-    ImageAligner(const Config& config, const PinholeCamera& camera);
+    ImageAligner(const Config& config, const PinholeCamera& camera, VectorPath path = VectorPath::kAuto);
 
     // Takes `frame` as the newest and aligns it with the one given before. `T_last_current_guess` is where to start. The
     // result is T_last_current; the guess itself if there is nothing to align. Owner thread only.
@@ -41,22 +44,22 @@ class ImageAligner {
     }
 
   private:
-    // One reduced image; intensity smoothed by averaging, depth sampled; -1 and 0 where missing.
-    struct Level {
+    // One reduced image, and AlignArguments' points of it.
+    struct Level : PreparedFrame::Reduced {
         PinholeCamera camera;
-        Image<float> intensity;
-        DepthImage depth_m;
+        std::vector<float> x, y, z, intensity_of_point;
     };
+    using Levels = std::array<Level, std::tuple_size_v<decltype(PreparedFrame::reduced)>>;  // coarse to fine
 
-    PinholeCamera ReducedCamera(int width) const;
-    void Reduce(const PreparedFrame& frame, std::vector<Level>& levels) const;
+    PinholeCamera ReducedCamera(std::size_t level) const;
+    static void MakePoints(Level& level);
     Eigen::Isometry3d Refine(const Eigen::Isometry3d& T_last_current, double& score) const;
-    ImageSystem Linearise(const Level& last, const Level& current, const Eigen::Isometry3d& T_current_last,
-                     double offset) const;
+    ImageSystem Linearise(const Level& last, const Level& current, const Eigen::Isometry3d& T_current_last, double offset) const;
 
     Config config_;
     PinholeCamera camera_;
-    std::vector<Level> last_, current_;  // coarse to fine
+    bool use_avx2_;
+    Levels last_, current_;
     bool has_last_ = false;
     double scene_depth_m_ = 0;
     double usual_score_ = 0;  // of alignments so far, 0 before the first

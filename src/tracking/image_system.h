@@ -1,56 +1,59 @@
-// The normal equations of aligning one reduced image with another: six motions and an offset of the intensity. Eigenvalues of the
-// Hessian are inverse variances for errors as large as the residuals' scales.
+// The normal equations of aligning one reduced image with another, made of AlignKernels' sums: six motions and an offset of the
+// intensity. Eigenvalues of the Hessian are inverse variances for errors as large as the residuals' scales.
 #pragma once
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "core/se3.h"
+#include "tracking/pose_solver.h"
 
 namespace tessera {
 
-using Vector7d = Eigen::Matrix<double, 7, 1>;
-using Matrix7d = Eigen::Matrix<double, 7, 7>;
+class ImageSystem {
+  public:
+    explicit ImageSystem(const PoseSums& sums) : error_(sums[L::kDistanceError]), residuals_(sums[L::kKnown]) {
+        int at = L::kHessian;
+        for (int row = 0; row < 6; ++row) {
+            for (int column = row; column < 6; ++column, ++at) H_(row, column) = H_(column, row) = sums[at];
+            g_(row) = sums[L::kGradient + row];
+            by_offset_(row) = sums[L::kCoupling + 2 * row + 1];
+        }
+        offset_H_ = std::max(sums[L::kBrightness + 2], 1e-9);
+        offset_g_ = sums[L::kBrightnessGradient + 1];
+    }
 
-struct ImageSystem {
-    Matrix7d H = Matrix7d::Zero();
-    Vector7d g = Vector7d::Zero();
-
-    double error = 0;   // sum of min((r / scale)^2, 4)
-    double samples = 0;
-
+    struct Step {
+        Vector6d twist;
+        double offset;
+    };
     // The Gauss-Newton step. Along motions of the camera that are known less well than to `held_m`, a turn counting by how far it
     // moves what is `scene_depth_m` away, it is zero.
-    Vector7d Step(double scene_depth_m, double held_m) const {
-        const double c = std::max(H(6, 6), 1e-9);
-        const Vector6d b = H.block<6, 1>(0, 6);
+    Step Solve(double scene_depth_m, double held_m) const {
         Vector6d to_metres = Vector6d::Ones();
         to_metres.head<3>() /= std::max(scene_depth_m, 0.1);
-        const Matrix6d N = to_metres.asDiagonal() * (H.topLeftCorner<6, 6>() - b * b.transpose() / c) * to_metres.asDiagonal();
+        const Matrix6d N = to_metres.asDiagonal() * (H_ - by_offset_ * by_offset_.transpose() / offset_H_) * to_metres.asDiagonal();
         const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(N);
-        Vector6d along = eigen.eigenvectors().transpose() * to_metres.asDiagonal() * (g.head<6>() - b * g(6) / c);
+        Vector6d along = eigen.eigenvectors().transpose() * to_metres.asDiagonal() * (g_ - by_offset_ * offset_g_ / offset_H_);
         for (int i = 0; i < 6; ++i)
             along(i) = eigen.eigenvalues()(i) * held_m * held_m < 1 ? 0.0 : -along(i) / eigen.eigenvalues()(i);
-        Vector7d step;
-        step.head<6>() = to_metres.asDiagonal() * eigen.eigenvectors() * along;
-        step(6) = -(g(6) + b.dot(step.head<6>())) / c;
-        return step;
+        const Vector6d twist = to_metres.asDiagonal() * eigen.eigenvectors() * along;
+        return {twist, -(offset_g_ + by_offset_.dot(twist)) / offset_H_};
     }
 
-    // A robust mean; few samples mean little overlap, which is no merit.
+    // A robust mean; few residuals mean little overlap, which is no merit.
     double Score() const {
-        return samples > 100 ? error / samples + 200.0 / samples : std::numeric_limits<double>::infinity();
+        return residuals_ > 100 ? error_ / residuals_ + 200.0 / residuals_ : std::numeric_limits<double>::infinity();
     }
 
-    void Add(const Vector7d& j, double residual, double scale) {
-        const double w = scale / std::max(std::abs(residual), scale) / (scale * scale);
-        error += std::min(residual * residual / (scale * scale), 4.0);
-        samples += 1;
-        H.noalias() += w * j * j.transpose();
-        g.noalias() += w * residual * j;
-    }
+  private:
+    using L = SumLayout;
+
+    Matrix6d H_;
+    Vector6d g_, by_offset_;
+    double offset_H_, offset_g_;
+    double error_, residuals_;
 };
 
 }  // namespace tessera

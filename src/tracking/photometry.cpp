@@ -6,84 +6,48 @@
 namespace tessera {
 namespace {
 
-// Variance of the means of kBlock x kBlock neighbouring samples, times the samples per block: the variance of a
+constexpr int kLeastKnown = kResidualBlock * kResidualBlock / 2, kLeastBlocks = 16;
+
+// Variance of the means of blocks of neighbouring samples (DistanceSums), times the samples per block: the variance of a
 // residual as it counts in a sum. For independent residuals it is their variance; errors that neighbours share
 // (depth deformation, calibration, blur) make it larger. The method of batch means.
-double BatchMeansVariance(const std::vector<float>& residuals, int width, int height) {
-    constexpr int kBlock = 16, kLeast = kBlock * kBlock / 2;
-    double sum = 0, sum2 = 0, samples = 0;
-    std::int64_t blocks = 0;
-    for (int by = 0; by + kBlock <= height; by += kBlock)
-        for (int bx = 0; bx + kBlock <= width; bx += kBlock) {
-            double total = 0;
-            int known = 0;
-            for (int y = by; y < by + kBlock; ++y)
-                for (int x = bx; x < bx + kBlock; ++x) {
-                    const float r = residuals[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
-                                              static_cast<std::size_t>(x)];
-                    if (std::isnan(r)) continue;
-                    total += r;
-                    ++known;
-                }
-            if (known < kLeast) continue;
-            const double mean = total / known;
-            sum += mean;
-            sum2 += mean * mean;
-            samples += known;
-            ++blocks;
-        }
-    if (blocks < 16) return 0;
-    const auto n = static_cast<double>(blocks);
-    return (sum2 / n - (sum / n) * (sum / n)) * (samples / n);
+double BatchMeansVariance(const std::vector<double>& sums) {
+    double sum = 0, sum2 = 0, samples = 0, blocks = 0;
+    for (std::size_t at = 0; at < sums.size(); at += DistanceSums::kSums) {
+        const double known = sums[at + 1];
+        if (known < kLeastKnown) continue;
+        const double mean = sums[at] / known;
+        sum += mean;
+        sum2 += mean * mean;
+        samples += known;
+        ++blocks;
+    }
+    if (blocks < kLeastBlocks) return 0;
+    return (sum2 / blocks - (sum / blocks) * (sum / blocks)) * (samples / blocks);
 }
 
-// The same for a residual whose Jacobian changes from pixel to pixel: the variance of its score, residual times image
-// gradient over depth (what a sideways move changes), summed over kBlock x kBlock neighbours, over the sum of the squared
+// The same for a residual whose Jacobian changes from pixel to pixel (ScoreSums): the variance of its score, residual times
+// image gradient over depth, summed over a block's neighbours, over the sum of the squared
 // gradients. Errors at edges, where the gradient is large, count as they pull. What a whole tile is wrong by together
 // (`shading_error`, intensities in [0, 1]) is added: it hardly pulls where texture has gradients of all signs, and a lot
 // where the only gradient is shading, which residuals against a map of the same shading do not show.
-double ScoreVariance(const std::vector<float>& residuals, const FramePoints& points, double shading_error) {
-    constexpr int kBlock = 16, kLeast = kBlock * kBlock / 2;
-    const int width = points.width(), height = points.height();
-    const auto at = [&](int x, int y) {
-        return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
-    };
-    double scores2 = 0, shading_scores2 = 0, information = 0;
-    std::int64_t blocks = 0;
-    for (int by = 1; by + kBlock < height; by += kBlock)
-        for (int bx = 1; bx + kBlock < width; bx += kBlock) {
-            double score_u = 0, score_v = 0, sum_u = 0, sum_v = 0, gradients2 = 0;
-            int known = 0;
-            for (int y = by; y < by + kBlock; ++y)
-                for (int x = bx; x < bx + kBlock; ++x) {
-                    const float r = residuals[at(x, y)], z = points.z[at(x, y)];
-                    const float left = points.intensity[at(x - 1, y)], right = points.intensity[at(x + 1, y)];
-                    const float up = points.intensity[at(x, y - 1)], down = points.intensity[at(x, y + 1)];
-                    if (std::isnan(r) || z <= 0 || left < 0 || right < 0 || up < 0 || down < 0) continue;
-                    const double gu = (right - left) / z, gv = (down - up) / z;
-                    score_u += r * gu;
-                    score_v += r * gv;
-                    sum_u += gu;
-                    sum_v += gv;
-                    gradients2 += gu * gu + gv * gv;
-                    ++known;
-                }
-            if (known < kLeast) continue;
-            scores2 += score_u * score_u + score_v * score_v;
-            shading_scores2 += sum_u * sum_u + sum_v * sum_v;
-            information += gradients2;
-            ++blocks;
-        }
-    if (blocks < 16 || information <= 0) return 0;
+double ScoreVariance(const std::vector<double>& sums, double shading_error) {
+    double scores2 = 0, shading_scores2 = 0, information = 0, blocks = 0;
+    for (std::size_t at = 0; at < sums.size(); at += ScoreSums::kSums) {
+        const double* s = sums.data() + at;
+        if (s[5] < kLeastKnown) continue;
+        scores2 += s[0] * s[0] + s[1] * s[1];
+        shading_scores2 += s[2] * s[2] + s[3] * s[3];
+        information += s[4];
+        ++blocks;
+    }
+    if (blocks < kLeastBlocks || information <= 0) return 0;
     return (scores2 + shading_error * shading_error * shading_scores2) / information;
 }
 
 }  // namespace
 
-Photometry::Photometry(const Config& config, const PinholeCamera& camera)
-    : config_(config), shutter_(config.shutter, camera) {
-    Reset();
-}
+Photometry::Photometry(const Config& config) : config_(config), shutter_(config.shutter) { Reset(); }
 
 void Photometry::Reset() {
     alpha_ = config_.alpha;
@@ -117,22 +81,29 @@ FrameMotion Photometry::Timed(FrameMotion motion) const {
     return motion;
 }
 
-void Photometry::Learn(const PreparedFrame& frame, const FramePoints& points,
-                       const std::vector<float>& distance_residual, const std::vector<float>& intensity_residual,
-                       const TrackResult& result) {
+void Photometry::Learn(const TrackResult& result, ResidualArguments a,
+                       const std::function<ResidualSums(const ResidualArguments&)>& sum) {
     gain_ = result.gain;
     offset_ = result.offset;
     if (result.alpha <= 0 || result.degenerate) return;  // where the pose is not held, it explains what it should not
-    shutter_.Update(frame, points, intensity_residual, result.motion, result.gain, result.intensity_rms);
-    if (config_.alpha_mode == AlphaMode::kAuto) UpdateAlpha(points, distance_residual, intensity_residual);
+    a.wants_shutter = shutter_.Wants(result.motion, result.intensity_rms);
+    a.wants_alpha = config_.alpha_mode == AlphaMode::kAuto;
+    if (!a.wants_shutter && !a.wants_alpha) return;
+    for (int i = 0; i < 6; ++i) a.twist_per_s[i] = result.motion.twist_per_s(i);
+    a.colour_delay_s = result.motion.colour_delay_s;
+    a.colour_readout_s = result.motion.colour_readout_s;
+    a.gain = result.gain;
+    a.residual_scale = result.intensity_rms;
+    const ResidualSums sums = sum(a);
+    if (a.wants_shutter) shutter_.Update(sums.shutter, result.intensity_rms);
+    if (a.wants_alpha) UpdateAlpha(sums);
 }
 
 // Each residual's weight is the inverse of its variance as it counts in the sum, so alpha in [B14] eq. 8 is the ratio of
 // the two. Plain variances would say that the geometry knows ten times more than it does.
-void Photometry::UpdateAlpha(const FramePoints& points, const std::vector<float>& distance_residual,
-                             const std::vector<float>& intensity_residual) {
-    const double distance = BatchMeansVariance(distance_residual, points.width(), points.height());
-    const double intensity = ScoreVariance(intensity_residual, points, config_.shading_error);
+void Photometry::UpdateAlpha(const ResidualSums& sums) {
+    const double distance = BatchMeansVariance(sums.distances);
+    const double intensity = ScoreVariance(sums.scores, config_.shading_error);
     if (distance <= 0 || intensity <= 0) return;
     const double share = distance_variance_ > 0 ? 0.1 : 1.0;
     distance_variance_ += share * (distance - distance_variance_);

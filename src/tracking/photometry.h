@@ -3,11 +3,10 @@
 // switch between two frames loses nothing.
 #pragma once
 
-#include <vector>
+#include <functional>
 
-#include "core/camera.h"
 #include "core/config.h"
-#include "tracking/frame_points.h"
+#include "tracking/residual_sums.h"
 #include "tracking/shutter_estimator.h"
 #include "tracking/tracker.h"
 
@@ -32,7 +31,7 @@ class Photometry {
         void Describe(ConfigParameters& parameters);
     };
 
-    Photometry(const Config& config, const PinholeCamera& camera);
+    explicit Photometry(const Config& config);
     // Forgets what was learnt, not the configuration.
     void Reset();
     void SaveState(StateWriter& state) const;
@@ -47,13 +46,13 @@ class Photometry {
     // The motion with the colour image's delay and read-out as learnt so far.
     FrameMotion Timed(FrameMotion motion) const;
 
-    // One tracked frame: its finest points, their residuals (NaN where unknown) and the pose that was found.
-    void Learn(const PreparedFrame& frame, const FramePoints& points, const std::vector<float>& distance_residual,
-               const std::vector<float>& intensity_residual, const TrackResult& result);
+    // One tracked frame: the pose that was found, the residuals of its finest points, and who sums them (SumResiduals, or a
+    // device that has them; then the arrays are not read).
+    void Learn(const TrackResult& result, ResidualArguments residuals,
+               const std::function<ResidualSums(const ResidualArguments&)>& sum);
 
   private:
-    void UpdateAlpha(const FramePoints& points, const std::vector<float>& distance_residual,
-                     const std::vector<float>& intensity_residual);
+    void UpdateAlpha(const ResidualSums& sums);
 
     Config config_;
     double alpha_ = 0, gain_ = 1, offset_ = 0;

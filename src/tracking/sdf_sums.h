@@ -1,11 +1,10 @@
 // Where the SDF tracker's sums over points are taken, if not by the processor: on a device that keeps the map.
 #pragma once
 
-#include <vector>
-
 #include "mapping/block_map.h"
 #include "tracking/frame_points.h"
 #include "tracking/pose_solver.h"
+#include "tracking/residual_sums.h"
 #include "tracking/sdf_rows.h"
 
 namespace tessera {
@@ -20,10 +19,9 @@ class SdfSums {
     virtual std::int64_t SetPoints(const BlockMap& map, const PreparedFrame& frame, const PointArguments& points) = 0;
     // What SumSdfPoints gives over all of them. Of the arguments the map's and the points' arrays are not read.
     virtual PoseSums Sum(const SdfArguments& arguments) = 0;
-    // Those points, but not their normals, to what Lay has made for them.
-    virtual void TakePoints(FramePoints& points) = 0;
-    // Residuals per point at the last Sum whose arguments asked for them, NaN where unknown; intensities only if it did for those.
-    virtual void TakeResiduals(std::vector<float>& distance, std::vector<float>& intensity) = 0;
+    // What SumResiduals gives of those points, their residuals at the last Sum, whose arguments asked for them, and the frame.
+    // Of the arguments no arrays are read.
+    virtual ResidualSums SumResiduals(const ResidualArguments& arguments) = 0;
 };
 
 }  // namespace tessera

@@ -10,8 +10,8 @@ namespace {
 using L = SumLayout;
 
 // Copies a rigid motion with the voxel scale into the hot loop's arguments.
-void SetPose(const Eigen::Isometry3d& T_world_camera, const Eigen::Vector3d& origin_m, double voxel_m,
-             SdfArguments& a) {
+void SetSdfPose(const Eigen::Isometry3d& T_world_camera, const Eigen::Vector3d& origin_m, double voxel_m,
+                SdfArguments& a) {
     const Eigen::Vector3d t = (T_world_camera.translation() - origin_m) / voxel_m;
     for (int i = 0; i < 3; ++i) {
         for (int j = 0; j < 3; ++j)
@@ -52,17 +52,12 @@ TrackResult SdfTracker::Track(const TrackInput& input) {
     if (photometry_ != nullptr) {
         state.gain = photometry_->gain();
         state.offset = photometry_->offset();
-        if (input.frame.has_colour()) state.alpha = photometry_->alpha();
+        if (input.frame.has_colour) state.alpha = photometry_->alpha();
     }
     for (int level = config_.levels - 1; level >= 0 && !state.failed; --level) {
         PrepareLevel(input, level, state);
         if (level == config_.levels - 1) ChooseStart(input, state);
         if (!state.failed) RunLevel(input, level, state);
-    }
-
-    if (device_ != nullptr && !state.failed) {
-        if (photometry_ != nullptr) device_->TakePoints(points_[0]);
-        device_->TakeResiduals(distance_residual_, intensity_residual_);
     }
 
     const Eigen::Translation3d to_local(-state.origin_m);
@@ -76,7 +71,9 @@ TrackResult SdfTracker::Track(const TrackInput& input) {
     result.iterations = state.iterations;
     judge_.Judge(input, points_[0].valid(), state.sums, state.step, result);
     if (photometry_ != nullptr && result.status != TrackStatus::kLost)
-        photometry_->Learn(input.frame, points_[0], distance_residual_, intensity_residual_, result);
+        photometry_->Learn(result,
+                           MakeResidualArguments(input.frame, camera_, points_[0], distance_residual_, intensity_residual_),
+                           [this](const ResidualArguments& a) { return device_ != nullptr ? device_->SumResiduals(a) : SumResiduals(a); });
     return result;
 }
 
@@ -128,7 +125,7 @@ void SdfTracker::PrepareLevel(const TrackInput& input, int level, State& state) 
 }
 
 PoseSums SdfTracker::SumAt(const TrackInput& input, const FramePoints& points, State& state) const {
-    SetPose(state.T_world_camera, state.origin_m, input.map.config().voxel_size_m, state.arguments);
+    SetSdfPose(state.T_world_camera, state.origin_m, input.map.config().voxel_size_m, state.arguments);
     state.arguments.gain = static_cast<float>(state.gain);
     state.arguments.offset = static_cast<float>(state.offset);
     if (device_ != nullptr) return device_->Sum(state.arguments);

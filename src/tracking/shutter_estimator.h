@@ -6,12 +6,10 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "core/camera.h"
 #include "core/config.h"
 #include "core/frame_motion.h"
 #include "core/state_stream.h"
-#include "mapping/prepared_frame.h"
-#include "tracking/frame_points.h"
+#include "tracking/residual_kernels.h"
 
 namespace tessera {
 
@@ -25,12 +23,13 @@ class ShutterEstimator {
         void Describe(ConfigParameters& parameters);
     };
 
-    ShutterEstimator(const Config& config, const PinholeCamera& camera) : config_(config), camera_(camera) { Reset(); }
+    explicit ShutterEstimator(const Config& config) : config_(config) { Reset(); }
 
-    // One tracked frame: its points, their photometric residuals (map minus gain times image minus offset; NaN where
-    // unknown) and the motion they were sampled with. Owner thread only.
-    void Update(const PreparedFrame& frame, const FramePoints& points, const std::vector<float>& residuals,
-                const FrameMotion& motion, double gain, double residual_scale);
+    // Whether a frame with this motion, and photometric residuals of this size, has something to tell.
+    bool Wants(const FrameMotion& motion, double residual_scale) const;
+    // One tracked frame: ShutterSums (residual_kernels.h) of its residuals, map minus gain times image minus offset. Owner
+    // thread only.
+    void Update(const std::vector<double>& sums, double residual_scale);
     void Reset();
     void SaveState(StateWriter& state) const;
     bool LoadState(StateReader& state);
@@ -40,7 +39,6 @@ class ShutterEstimator {
 
   private:
     Config config_;
-    PinholeCamera camera_;
     Eigen::Vector2d estimate_;
     Eigen::Matrix2d information_;
 };

@@ -2,7 +2,7 @@
 
 #include "core/vector_lanes.h"
 
-namespace tessera::testing::TESSERA_VECTOR_NAMESPACE {
+namespace tessera::testing_support::TESSERA_VECTOR_NAMESPACE {
 
 int ApplyLanes(const LaneInputs& in, LaneResults& out) {
     using Lanes = ::tessera::TESSERA_VECTOR_NAMESPACE::VectorLanes;
@@ -11,4 +11,4 @@ int ApplyLanes(const LaneInputs& in, LaneResults& out) {
     return Lanes::kCount;
 }
 
-}  // namespace tessera::testing::TESSERA_VECTOR_NAMESPACE
+}  // namespace tessera::testing_support::TESSERA_VECTOR_NAMESPACE

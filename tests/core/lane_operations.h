@@ -6,7 +6,7 @@
 
 #include "core/host_device.h"
 
-namespace tessera::testing {
+namespace tessera::testing_support {
 
 inline constexpr int kLaneInputs = 1024;  // a multiple of any vector's width
 

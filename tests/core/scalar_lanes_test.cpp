@@ -14,7 +14,7 @@
 namespace tessera {
 namespace {
 
-using namespace testing;
+using namespace testing_support;
 using S = ScalarLanes;
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN(), kInfinity = std::numeric_limits<float>::infinity();

@@ -14,6 +14,9 @@
 
 namespace tessera::testing_support {
 
+// What a device may take: more than the desk needs.
+inline constexpr std::size_t kPlenty = std::size_t{1} << 30;
+
 inline PinholeCamera DeskCamera() { return {160, 120, 131.25, 131.25, 79.5, 59.5}; }
 
 struct DeskFrame {

@@ -10,6 +10,7 @@
 #include "mapping/ray_caster.h"
 #include "tracking/icp_rows.h"
 #include "tracking/icp_tracker.h"
+#include "tracking/set_view.h"
 
 namespace tessera::serial {
 namespace {
@@ -17,14 +18,14 @@ namespace {
 using testing_support::DeskCamera;
 using testing_support::DeskFrames;
 using testing_support::FusedDesk;
+using testing_support::kPlenty;
 
-constexpr std::size_t kPlenty = std::size_t{1} << 30;
 constexpr float kNear_m = 0.3f, kFar_m = 5.0f, kJump_m = 0.1f;
 constexpr int kLevels = 3;
 
 // The view of the desk's sixth frame from where the fifth was, and the points of the sixth.
-struct Rig {
-    Rig() {
+struct IcpRig {
+    IcpRig() {
         FusedDesk(5, map);
         PredictedView view;
         RayCaster().Predict(map, camera, T_world_view, kNear_m, kFar_m, view);
@@ -48,8 +49,7 @@ struct Rig {
         const IcpModelLevel& level = model[level_of_model];
         IcpArguments a{};
         SetModel(level, a);
-        for (int i = 0; i < 3; ++i) a.rotation[4 * i] = 1;
-        a.translation[0] = moved_m;
+        SetPose(Eigen::Isometry3d(Eigen::Translation3d(moved_m, 0, 0)), a);
         a.x = points.x.data();
         a.y = points.y.data();
         a.z = points.z.data();
@@ -89,7 +89,7 @@ struct Rig {
 };
 
 TEST(DeviceIcp, ModelIsTheProcessorsToTheBit) {
-    const Rig rig;
+    const IcpRig rig;
     DevicePipeline device("serial", kPlenty);
     DeviceIcp icp(device);
     icp.Predict(rig.map, rig.camera, rig.T_world_view, kNear_m, kFar_m, kLevels, kJump_m);
@@ -110,21 +110,21 @@ TEST(DeviceIcp, ModelIsTheProcessorsToTheBit) {
     }
 }
 
-void ExpectSame(const PoseSums& sums, const PoseSums& expected) {
+void ExpectSameSums(const PoseSums& sums, const PoseSums& expected) {
     for (const int count : {SumLayout::kKnown, SumLayout::kInliers, SumLayout::kColoured}) EXPECT_GT(expected[count], 1000);
     EXPECT_EQ(std::memcmp(sums.value, expected.value, sizeof sums.value), 0);
 }
 
 // The same points, model and pose, alone and against the residuals of another pose.
 TEST(DeviceIcp, SumsAreTheProcessorsToTheBit) {
-    Rig rig;
+    IcpRig rig;
     DevicePipeline device("serial", kPlenty);
     DeviceIcp icp(device);
     icp.Predict(rig.map, rig.camera, rig.T_world_view, kNear_m, kFar_m, kLevels, kJump_m);
     EXPECT_EQ(icp.SetPoints(DeskFrames()[5].prepared, rig.PointsOf(0), 0), rig.points.valid());
     const PoseSums first = rig.Expected(rig.ArgumentsAt(0.004f, false));
     EXPECT_EQ(first[SumLayout::kEnergyBefore], 0);
-    ExpectSame(icp.Sum(rig.ArgumentsAt(0.004f, false)), first);
+    ExpectSameSums(icp.Sum(rig.ArgumentsAt(0.004f, false)), first);
     std::swap(rig.distance, rig.kept_distance);
     std::swap(rig.intensity, rig.kept_intensity);
     icp.KeepResiduals();
@@ -132,7 +132,7 @@ TEST(DeviceIcp, SumsAreTheProcessorsToTheBit) {
     EXPECT_GT(std::abs(second[SumLayout::kEnergyBefore] - second[SumLayout::kEnergy]),
               1e-3 * second[SumLayout::kEnergy]);
     for (int i = 0; i < 2; ++i)
-        ExpectSame(icp.Sum(rig.ArgumentsAt(0, true)), second);  // what is not kept changes nothing
+        ExpectSameSums(icp.Sum(rig.ArgumentsAt(0, true)), second);  // what is not kept changes nothing
 
     std::vector<float> distance(rig.distance.size()), intensity(rig.intensity.size());
     icp.TakeResiduals(distance, intensity);  // those kept
@@ -146,7 +146,7 @@ TEST(DeviceIcp, SumsAreTheProcessorsToTheBit) {
 }
 
 TEST(DeviceIcp, AModelOfTheProcessorGivesTheSameSums) {
-    Rig rig;
+    IcpRig rig;
     DevicePipeline device("serial", kPlenty), other("serial", kPlenty);
     DeviceIcp predicted(device), uploaded(other);
     predicted.Predict(rig.map, rig.camera, rig.T_world_view, kNear_m, kFar_m, kLevels, kJump_m);
@@ -175,7 +175,7 @@ TEST_P(IcpTrackers, TracksAsTheProcessorDoes) {
     FusedDesk(8, map);
     DevicePipeline device("serial", kPlenty);
     const TrackJudge judge({});
-    Photometry photometry({}, DeskCamera()), device_photometry({}, DeskCamera());
+    Photometry photometry({}), device_photometry({});
     IcpTracker expected({}, DeskCamera(), judge, colour() ? &photometry : nullptr,
                         std::make_unique<RayCaster>());
     IcpTracker tracker({}, DeskCamera(), judge, colour() ? &device_photometry : nullptr, nullptr,
@@ -194,7 +194,7 @@ TEST_P(IcpTrackers, IsLostWhereTheModelHasNoRoom) {
     BlockMap map{BlockMap::Config()};
     FusedDesk(3, map);
     DevicePipeline device("serial", std::size_t{1} << 20);
-    Photometry photometry({}, DeskCamera());
+    Photometry photometry({});
     IcpTracker tracker({}, DeskCamera(), TrackJudge({}), colour() ? &photometry : nullptr, nullptr,
                        VectorPath::kAuto, &device.icp_sums());
     const Eigen::Isometry3d& last = DeskFrames()[2].T_world_camera;

@@ -12,8 +12,8 @@ namespace {
 using testing_support::DeskCamera;
 using testing_support::DeskFrame;
 using testing_support::DeskFrames;
+using testing_support::kPlenty;
 
-constexpr std::size_t kPlenty = std::size_t{1} << 30;
 const BlockMap::Config kMap{.voxel_size_m = 0.01, .truncation_m = 0.04};
 
 Integrator::View At(const DeskFrame& frame) {
@@ -23,8 +23,8 @@ Integrator::View At(const DeskFrame& frame) {
 }
 
 // A device with a map, and room for one frame's depth.
-struct Rig {
-    explicit Rig(std::size_t limit_bytes = kPlenty)
+struct MapRig {
+    explicit MapRig(std::size_t limit_bytes = kPlenty)
         : memory(limit_bytes), depth(memory), tiles(memory), map(kMap.voxel_size_m, kMap.truncation_m, memory, stream) {
         EXPECT_TRUE(map.Clear());
     }
@@ -59,7 +59,7 @@ void ExpectSameIndex(DeviceMap& device, const BlockMap& map) {
 TEST(DeviceMap, AllocatesAsTheIntegratorDoes) {
     BlockMap map(kMap);
     Integrator integrator({}, DeskCamera());
-    Rig rig;
+    MapRig rig;
     for (const DeskFrame& frame : DeskFrames()) {
         integrator.Integrate(frame.prepared, At(frame), map);
         const DeviceMap::Growth growth = rig.Allocate(frame);
@@ -75,7 +75,7 @@ TEST(DeviceMap, AllocatesAsTheIntegratorDoes) {
 TEST(DeviceMap, SeesTheBlocksThatTheIntegratorSees) {
     BlockMap map(kMap);
     Integrator integrator({}, DeskCamera());
-    Rig rig;
+    MapRig rig;
     for (const DeskFrame& frame : DeskFrames()) {
         integrator.Integrate(frame.prepared, At(frame), map);
         rig.Allocate(frame);
@@ -95,7 +95,7 @@ TEST(DeviceMap, TakesTheFirstInOrderWhereAFrameWantsTooMany) {
     config.max_new_blocks = 500;
     BlockMap map(kMap);
     Integrator integrator(config, DeskCamera());
-    Rig rig;
+    MapRig rig;
     for (int i = 0; i < 3; ++i) {
         const DeskFrame& frame = DeskFrames()[static_cast<std::size_t>(i)];
         const Integrator::Report report = integrator.Integrate(frame.prepared, At(frame), map);
@@ -108,7 +108,7 @@ TEST(DeviceMap, TakesTheFirstInOrderWhereAFrameWantsTooMany) {
 }
 
 TEST(DeviceMap, GrowsWithinItsLimitAndSaysWhereItEnds) {
-    Rig rig(std::size_t{14} << 20);
+    MapRig rig(std::size_t{14} << 20);
     std::int32_t size = 1;
     bool full = false;
     for (const DeskFrame& frame : DeskFrames()) {
@@ -135,7 +135,7 @@ TEST(DeviceMap, GrowthAndDownloadLoseNoVoxel) {
         integrator.Integrate(frame.prepared, At(frame), map);
     };
     for (int i = 0; i < 3; ++i) fuse(i);
-    Rig rig;
+    MapRig rig;
     ASSERT_TRUE(rig.map.Load(map.size(), map.view().coords, map.field(0), map.weight(0), map.colour(0)));
     ExpectSameIndex(rig.map, map);
     const std::int32_t before = rig.map.size();

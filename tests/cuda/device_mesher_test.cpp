@@ -18,8 +18,13 @@ using testing_support::DeskCamera;
 using testing_support::DeskFrame;
 using testing_support::DeskFrames;
 using testing_support::ExpectMeshesOf;
-
-constexpr std::size_t kPlenty = std::size_t{1} << 30;
+using testing_support::kPlenty;
+using testing_support::MeshOf;
+using testing_support::Mix;
+using testing_support::PackColour;
+using testing_support::PackField;
+using testing_support::SameBytes;
+using testing_support::Uniform;
 
 std::vector<BlockId> AllBlocks(const BlockMap& map) {
     std::vector<BlockId> ids(static_cast<std::size_t>(map.size() - 1));
@@ -32,15 +37,15 @@ std::unique_ptr<const BlockMap> Noise(const BlockCoord& low, int side) {
     auto noise = std::make_unique<BlockMap>(BlockMap::Config{});
     BlockMap& map = *noise;
     std::uint32_t counter = 0;
-    const auto random = [&](unsigned n) { return static_cast<int>(testing::Mix(++counter) % n); };
+    const auto random = [&](unsigned n) { return static_cast<int>(Mix(++counter) % n); };
     for (int i = 0; i < side * side * side; ++i) {
         const BlockId id = map.Allocate({low.x + i % side, low.y + i / side % side, low.z + i / side / side});
         for (int v = 0; v < kBlockVoxels; ++v) {
-            const double distance = random(20) ? 0.9 * (2 * testing::Uniform(++counter) - 1) : random(2) ? 1.0 : -1.0;
-            const double intensity = random(4) ? testing::Uniform(++counter) : -1;
-            map.field(id)[v] = random(30) ? testing::PackField(distance, intensity) : kUnknownField;
+            const double distance = random(20) ? 0.9 * (2 * Uniform(++counter) - 1) : random(2) ? 1.0 : -1.0;
+            const double intensity = random(4) ? Uniform(++counter) : -1;
+            map.field(id)[v] = random(30) ? PackField(distance, intensity) : kUnknownField;
             map.weight(id)[v] = static_cast<std::uint16_t>(random(30) ? 512 : 100);
-            map.colour(id)[v] = testing::PackColour({testing::Uniform(counter), testing::Uniform(counter + 1), 0.3});
+            map.colour(id)[v] = PackColour({Uniform(counter), Uniform(counter + 1), 0.3});
         }
     }
     return noise;
@@ -139,11 +144,11 @@ TEST(DeviceMesher, TakesFewerBlocksAtOnceWhereMemoryIsShortAndRefusesWhereThereI
         EXPECT_EQ(refused.Update(map, Mesher::kNoLimit, mesher.get()), map.size() - 1);
         EXPECT_TRUE(refused.updated().empty());
         EXPECT_EQ(refused.Update(map), 0);  // nothing was forgotten
-        EXPECT_TRUE(testing::SameBytes(refused.Assemble(), testing::MeshOf(map, refused.config().min_component_triangles)));
+        EXPECT_TRUE(SameBytes(refused.Assemble(), MeshOf(map, refused.config().min_component_triangles)));
     }
 }
 
-TriangleMesh MeshHere(const BlockMap& map) { return testing::MeshOf(map, MeshConfig().min_component_triangles); }
+TriangleMesh MeshHere(const BlockMap& map) { return MeshOf(map, MeshConfig().min_component_triangles); }
 
 // Of what the device fused; nobody asks for the voxels.
 TEST(MappingStage, MeshesOnTheDeviceWithoutItsVoxels) {
@@ -162,9 +167,9 @@ TEST(MappingStage, MeshesOnTheDeviceWithoutItsVoxels) {
     for (BlockId id = 1; id < blocks.size(); ++id)
         ASSERT_TRUE(std::all_of(blocks.field(id), blocks.field(id) + kBlockVoxels, [](FieldWord w) { return w == kUnknownField; }));
     const TriangleMesh expected = MeshHere(mapping.map());  // now they come over
-    EXPECT_TRUE(testing::SameBytes(mesh, expected));
-    EXPECT_TRUE(testing::SameBytes(as_it_goes.Assemble(), expected));
-    EXPECT_TRUE(testing::SameBytes(mapping.TakeMesh(), expected));
+    EXPECT_TRUE(SameBytes(mesh, expected));
+    EXPECT_TRUE(SameBytes(as_it_goes.Assemble(), expected));
+    EXPECT_TRUE(SameBytes(mapping.TakeMesh(), expected));
     EXPECT_EQ(mapping.mesh_warning(), "");
 }
 
@@ -172,13 +177,13 @@ TEST(MappingStage, MeshesOnTheDeviceWithoutItsVoxels) {
 TEST(MappingStage, MeshesHereWhereTheDeviceHasNoRoomAndSaysSo) {
     int refused = 0;
     constexpr std::size_t kHalfMega = std::size_t{1} << 19;
-    for (std::size_t limit = 27 * kHalfMega; limit < 30 * kHalfMega; limit += kHalfMega) {
+    for (std::size_t limit = 28 * kHalfMega; limit < 31 * kHalfMega; limit += kHalfMega) {
         DevicePipeline device("serial", limit);
         Pipeline pipeline({}, DeskCamera(), {}, &device);
         for (const DeskFrame& frame : DeskFrames()) pipeline.Process(frame.frame);
         const TriangleMesh mesh = pipeline.mapping().Mesh();
         const std::string warning = pipeline.mapping().mesh_warning();
-        EXPECT_TRUE(testing::SameBytes(mesh, MeshHere(pipeline.map()))) << limit;
+        EXPECT_TRUE(SameBytes(mesh, MeshHere(pipeline.map()))) << limit;
         EXPECT_GT(mesh.triangles.size(), 1000u);
         if (warning.empty()) continue;
         ++refused;

@@ -15,10 +15,9 @@ using testing_support::DeskCamera;
 using testing_support::DeskFrame;
 using testing_support::DeskFrames;
 using testing_support::ExpectSameMap;
+using testing_support::kPlenty;
 
-constexpr std::size_t kPlenty = std::size_t{1} << 30;
-
-Integrator::View Moving(const DeskFrame& frame) {
+Integrator::View MovingView(const DeskFrame& frame) {
     Integrator::View view;
     view.T_world_camera = frame.T_world_camera;
     view.motion.twist_per_s << 0.1, -0.2, 0.05, 0.2, 0.1, -0.1;
@@ -37,8 +36,8 @@ TEST(DeviceIntegrator, FusesTheBytesOfTheProcessor) {
     const std::unique_ptr<Integrator> on_device = device.MakeIntegrator({}, DeskCamera());
     for (std::size_t i = 0; i < DeskFrames().size(); ++i) {
         const DeskFrame& frame = DeskFrames()[i];
-        const Integrator::Report a = integrator.Integrate(frame.prepared, Moving(frame), expected);
-        const Integrator::Report b = on_device->Integrate(frame.prepared, Moving(frame), map);
+        const Integrator::Report a = integrator.Integrate(frame.prepared, MovingView(frame), expected);
+        const Integrator::Report b = on_device->Integrate(frame.prepared, MovingView(frame), map);
         ASSERT_EQ(a.new_blocks, b.new_blocks);
         ASSERT_EQ(a.refused_blocks, b.refused_blocks);
         ASSERT_EQ(a.fused_blocks, b.fused_blocks);
@@ -59,8 +58,8 @@ TEST(DeviceIntegrator, GoesOnWithAMapThatWasMadeElsewhere) {
     on_device->SetRevision(5);
     for (std::size_t i = 0; i < 10; ++i) {
         const DeskFrame& frame = DeskFrames()[i];
-        same.Integrate(frame.prepared, Moving(frame), expected);
-        (i < 5 ? first : *on_device).Integrate(frame.prepared, Moving(frame), map);
+        same.Integrate(frame.prepared, MovingView(frame), expected);
+        (i < 5 ? first : *on_device).Integrate(frame.prepared, MovingView(frame), map);
     }
     on_device->Bring(map);
     ExpectSameMap(map, expected);
@@ -70,7 +69,7 @@ TEST(DeviceIntegrator, GoesOnWithAMapThatWasMadeElsewhere) {
 TEST(DevicePipeline, SumsAreTheProcessorsToTheBit) {
     BlockMap map{BlockMap::Config()};
     Integrator integrator({}, DeskCamera());
-    for (std::size_t i = 0; i < 5; ++i) integrator.Integrate(DeskFrames()[i].prepared, Moving(DeskFrames()[i]), map);
+    for (std::size_t i = 0; i < 5; ++i) integrator.Integrate(DeskFrames()[i].prepared, MovingView(DeskFrames()[i]), map);
     const PreparedFrame& frame = DeskFrames()[5].prepared;
     FramePoints points;
     points.Build(frame, DeskCamera(), {}, 2, 2.0);
@@ -104,6 +103,21 @@ TEST(DevicePipeline, SumsAreTheProcessorsToTheBit) {
     device.TakeResiduals(device_distance, device_intensity);
     EXPECT_EQ(std::memcmp(device_distance.data(), distance.data(), 4 * distance.size()), 0);
     EXPECT_EQ(std::memcmp(device_intensity.data(), intensity.data(), 4 * intensity.size()), 0);
+
+    ResidualArguments residuals = MakeResidualArguments(frame, DeskCamera(), points, distance, intensity);
+    residuals.wants_alpha = residuals.wants_shutter = true;
+    for (int i = 0; i < 6; ++i) residuals.twist_per_s[i] = 0.1 * (i - 2);
+    residuals.colour_delay_s = residuals.colour_readout_s = 0.01;
+    residuals.gain = 1.1;
+    residuals.residual_scale = 0.05;
+    const ResidualSums learnt = SumResiduals(residuals), there = device.SumResiduals(residuals);
+    EXPECT_EQ(there.distances, learnt.distances);
+    EXPECT_EQ(there.scores, learnt.scores);
+    EXPECT_EQ(there.shutter, learnt.shutter);
+    EXPECT_EQ(learnt.distances.size(), 2u * 5 * 3);
+    EXPECT_EQ(learnt.scores.size(), 6u * 4 * 3);
+    EXPECT_EQ(learnt.shutter.size(), 5u * 20);
+    EXPECT_GT(learnt.shutter[5 * 10], 0);
 }
 
 // One frame after the other against the same map, from the same start.
@@ -112,10 +126,10 @@ TEST(DevicePipeline, TracksAsTheProcessorDoes) {
     Integrator integrator({}, DeskCamera());
     DevicePipeline device("serial", kPlenty);
     const TrackJudge judge({});
-    Photometry photometry({}, DeskCamera()), device_photometry({}, DeskCamera());
+    Photometry photometry({}), device_photometry({});
     SdfTracker expected({}, DeskCamera(), judge, &photometry);
     SdfTracker tracker({}, DeskCamera(), judge, &device_photometry, VectorPath::kAuto, &device);
-    for (std::size_t i = 0; i < 8; ++i) integrator.Integrate(DeskFrames()[i].prepared, Moving(DeskFrames()[i]), map);
+    for (std::size_t i = 0; i < 8; ++i) integrator.Integrate(DeskFrames()[i].prepared, MovingView(DeskFrames()[i]), map);
     for (std::size_t i = 8; i < 14; ++i) {
         const Eigen::Isometry3d& last = DeskFrames()[i - 1].T_world_camera;
         const TrackInput input{DeskFrames()[i].prepared, map, {last}, last, 1.0 / 30, {}};

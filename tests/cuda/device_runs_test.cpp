@@ -13,8 +13,7 @@ using testing_support::DeskCamera;
 using testing_support::DeskFrames;
 using testing_support::DeskRun;
 using testing_support::ExpectSameRun;
-
-constexpr std::size_t kPlenty = std::size_t{1} << 30;
+using testing_support::kPlenty;
 
 struct ByMethod : testing::TestWithParam<TrackingMethod> {
     PipelineConfig Config() const {

@@ -19,8 +19,7 @@ using testing_support::DeskFrame;
 using testing_support::DeskFrames;
 using testing_support::ExpectSameView;
 using testing_support::FusedDesk;
-
-constexpr std::size_t kPlenty = std::size_t{1} << 30;
+using testing_support::kPlenty;
 
 // Serial devices' memory is the computer's.
 void ExpectSameRanges(const BlockMap& map, const PinholeCamera& camera,

@@ -25,7 +25,7 @@ double Linear(double s) {
 
 class VdbWriter : public ::testing::Test {
   protected:
-    VdbWriter() { testing::Fill(map, sdf, {-4, -4, -4}, {4, 4, 4}, Paint); }
+    VdbWriter() { testing_support::Fill(map, sdf, {-4, -4, -4}, {4, 4, 4}, Paint); }
 
     // The file's grids, by name.
     openvdb::GridBase::Ptr Read(const std::string& name) const {
@@ -35,7 +35,7 @@ class VdbWriter : public ::testing::Test {
         return file.readGrid(name);
     }
 
-    const testing::Sdf sdf = testing::Sphere({-0.05, 0.02, 0.11}, 0.3);
+    const testing_support::Sdf sdf = testing_support::Sphere({-0.05, 0.02, 0.11}, 0.3);
     BlockMap map{BlockMap::Config{.voxel_size_m = kVoxel_m, .truncation_m = kTruncation_m}};
     TempFolder folder;
     const std::string path = folder / "a.vdb";
@@ -93,7 +93,7 @@ TEST_F(VdbWriter, WhatWasNeverSeenIsBackground) {
     const BlockCoord c = map.coord(block);
     for (int i = 0; i < kBlockVoxels; ++i)
         if (i != 1 + 8 * 2 + 64 * 3) map.field(block)[i] = kUnknownField;
-    map.field(block)[1 + 8 * 2 + 64 * 3] = testing::PackField(-0.5);
+    map.field(block)[1 + 8 * 2 + 64 * 3] = testing_support::PackField(-0.5);
     ASSERT_TRUE(WriteVdb(path, map).ok());
     const auto grid = openvdb::gridPtrCast<openvdb::FloatGrid>(Read("surface"));
     const openvdb::Coord origin(8 * c.x, 8 * c.y, 8 * c.z);
@@ -109,7 +109,7 @@ TEST_F(VdbWriter, WhatWasNeverSeenIsBackground) {
 TEST_F(VdbWriter, TheSameMapGivesTheSameBytesAndAnotherAnotherIdentity) {
     ASSERT_TRUE(WriteVdb(path, map).ok());
     ASSERT_TRUE(WriteVdb(folder / "again.vdb", map).ok());
-    map.field(1)[7] = testing::PackField(0.25);
+    map.field(1)[7] = testing_support::PackField(0.25);
     ASSERT_TRUE(WriteVdb(folder / "other.vdb", map).ok());
     const auto bytes = [](const std::string& file) { return ReadWholeFile(file, std::size_t{1} << 28).value(); };
     EXPECT_TRUE(bytes(path) == bytes(folder / "again.vdb"));

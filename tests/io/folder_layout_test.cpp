@@ -7,8 +7,7 @@
 namespace tessera {
 namespace {
 
-constexpr const char* kCamera =
-    "width: 32\nheight: 24\nfx: 30\nfy: 31\ncx: 15.5\ncy: 11.5\ndepth_scale: 1000\nfps: 10\n";
+const std::string kTenHertzCamera = std::string(kSmallCamera) + "fps: 10\n";
 
 Result<FolderLayout> Read(const TemporaryFolder& folder) {
     return ReadFolderLayout(folder.path(), 0.02);
@@ -30,7 +29,7 @@ bool HasNote(const FolderLayout& layout, const std::string& part) {
 TEST(ReadFolderLayout, RecognisesTumListsAndTheirCameraFile) {
     TemporaryFolder folder("rgbd_dataset_freiburg1_rpy");  // camera.yaml comes before the name
     WriteTumLists(folder);
-    folder.WriteText("camera.yaml", kCamera);
+    folder.WriteText("camera.yaml", kTenHertzCamera);
     const auto layout = Read(folder);
     ASSERT_TRUE(layout.ok()) << layout.message();
     EXPECT_EQ(layout.value().kind, "TUM RGB-D folder");
@@ -80,7 +79,7 @@ TEST(ReadFolderLayout, AssociationsWithTimesNeedACamera) {
     folder.WriteText("depth/0.png", "");
     folder.WriteText("rgb/0.png", "");
     EXPECT_NE(Read(folder).message().find("camera.yaml: no such file"), std::string::npos);
-    folder.WriteText("camera.yaml", kCamera);
+    folder.WriteText("camera.yaml", kTenHertzCamera);
     ASSERT_TRUE(Read(folder).ok()) << Read(folder).message();
     EXPECT_EQ(Read(folder).value().kind, "TUM RGB-D folder");
 }
@@ -103,7 +102,7 @@ TEST(ReadFolderLayout, PairsAnyFolderWithACameraByName) {
     for (const char* name : {"depth/5.png", "depth/6.png", "colour/5.jpg", "colour/6.jpg"})
         folder.WriteText(name, "");
     EXPECT_NE(Read(folder).message().find("camera.yaml: no such file"), std::string::npos);
-    folder.WriteText("camera.yaml", kCamera);
+    folder.WriteText("camera.yaml", kTenHertzCamera);
     const auto layout = Read(folder);
     ASSERT_TRUE(layout.ok()) << layout.message();
     EXPECT_EQ(layout.value().kind, "image folder");
@@ -131,7 +130,7 @@ TEST(ReadFolderLayout, SaysWhatIsWrongWithTheFolder) {
 TEST(ReadFolderLayout, NotesSingleAbsentFilesAndRefusesWhenAllAreAbsent) {
     TemporaryFolder folder;
     WriteTumLists(folder);
-    folder.WriteText("camera.yaml", kCamera);
+    folder.WriteText("camera.yaml", kTenHertzCamera);
     std::filesystem::remove(folder.Path("rgb/2.png"));
     const auto layout = Read(folder);
     ASSERT_TRUE(layout.ok()) << layout.message();

@@ -9,9 +9,6 @@
 namespace tessera {
 namespace {
 
-constexpr const char* kCamera =
-    "width: 32\nheight: 24\nfx: 30\nfy: 31\ncx: 15.5\ncy: 11.5\ndepth_scale: 1000\n";
-
 // `count` frames of 32 x 24; frame i is (i + 1) metres away and has the red value 10 i.
 void WriteSequence(const TemporaryFolder& folder, int count) {
     std::string depth_list, colour_list;
@@ -24,7 +21,7 @@ void WriteSequence(const TemporaryFolder& folder, int count) {
     }
     folder.WriteText("depth.txt", depth_list);
     folder.WriteText("rgb.txt", colour_list);
-    folder.WriteText("camera.yaml", kCamera);
+    folder.WriteText("camera.yaml", kSmallCamera);
 }
 
 std::unique_ptr<FrameSource> Open(const TemporaryFolder& folder,
@@ -77,7 +74,7 @@ TEST(FolderSource, Seeks) {
 TEST(FolderSource, CorrectsTheLensUnlessToldNotTo) {
     TemporaryFolder folder;
     WriteSequence(folder, 1);
-    folder.WriteText("camera.yaml", std::string(kCamera) + "distortion: [0.5, 0, 0, 0]\n");
+    folder.WriteText("camera.yaml", std::string(kSmallCamera) + "distortion: [0.5, 0, 0, 0]\n");
     Frame frame;
     auto source = Open(folder);
     EXPECT_TRUE(source->info().rectified);

@@ -11,7 +11,6 @@
 namespace tessera {
 namespace {
 
-constexpr const char* kCamera = "width: 32\nheight: 24\nfx: 30\nfy: 31\ncx: 15.5\ncy: 11.5\ndepth_scale: 1000\n";
 constexpr Rgb8 kColour{200, 100, 20};
 
 template <typename Number>
@@ -56,7 +55,7 @@ std::string FrameOf(std::int64_t stamp_us, const std::string& depth, const std::
 
 class Klg : public ::testing::Test {
   protected:
-    Klg() { folder.WriteText("camera.yaml", kCamera); }
+    Klg() { folder.WriteText("camera.yaml", kSmallCamera); }
 
     void Write(std::int32_t count, const std::string& frames) {
         std::string bytes;

@@ -11,13 +11,13 @@ namespace tessera {
 namespace {
 
 // Tests run side by side: each has a file of its own.
-std::string TestPath() {
+std::string MeshPath() {
     return testing::TempDir() + "mesh_io_" +
            testing::UnitTest::GetInstance()->current_test_info()->name() + ".ply";
 }
 
 Result<TriangleMesh> ReadBytes(const std::string& bytes) {
-    const std::string path = TestPath();
+    const std::string path = MeshPath();
     EXPECT_TRUE(WriteTextFile(path, bytes).ok());
     return ReadPly(path);
 }
@@ -49,7 +49,7 @@ TEST(MeshIo, RoundTripKeepsEveryBit) {
             TriangleMesh mesh = Tetrahedron();
             if (!with_normals) mesh.normals.clear();
             if (!with_colours) mesh.colours.clear();
-            const std::string path = TestPath();
+            const std::string path = MeshPath();
             ASSERT_TRUE(WritePly(path, mesh).ok());
             const auto back = ReadPly(path);
             ASSERT_TRUE(back.ok()) << back.message();
@@ -61,7 +61,7 @@ TEST(MeshIo, RoundTripKeepsEveryBit) {
 }
 
 TEST(MeshIo, EmptyMeshRoundTrip) {
-    const std::string path = TestPath();
+    const std::string path = MeshPath();
     ASSERT_TRUE(WritePly(path, {}).ok());
     const auto back = ReadPly(path);
     ASSERT_TRUE(back.ok()) << back.message();
@@ -71,7 +71,7 @@ TEST(MeshIo, EmptyMeshRoundTrip) {
 TEST(MeshIo, LargerThanTheWriteBuffer) {
     TriangleMesh mesh;
     for (int i = 0; i < 200000; ++i) mesh.vertices.push_back({static_cast<float>(i), 0, 1});
-    const std::string path = TestPath();
+    const std::string path = MeshPath();
     ASSERT_TRUE(WritePly(path, mesh).ok());
     const auto back = ReadPly(path);
     ASSERT_TRUE(back.ok()) << back.message();
@@ -191,7 +191,7 @@ TEST(MeshIo, DamagedFilesAreErrorsThatNameTheFile) {
     for (const std::string& file : files) {
         const auto result = ReadBytes(file);
         ASSERT_FALSE(result.ok()) << file.substr(0, 200);
-        EXPECT_NE(result.message().find(TestPath() + ": "), std::string::npos);
+        EXPECT_NE(result.message().find(MeshPath() + ": "), std::string::npos);
         EXPECT_LT(result.message().size(), 300u);
     }
     EXPECT_FALSE(ReadPly(testing::TempDir()).ok());
@@ -199,8 +199,8 @@ TEST(MeshIo, DamagedFilesAreErrorsThatNameTheFile) {
 }
 
 TEST(MeshIo, EveryPrefixOfAFileIsAnErrorAndNoCrash) {
-    ASSERT_TRUE(WritePly(TestPath(), Tetrahedron()).ok());
-    const std::string whole = ReadWholeFile(TestPath(), 1 << 20).value();
+    ASSERT_TRUE(WritePly(MeshPath(), Tetrahedron()).ok());
+    const std::string whole = ReadWholeFile(MeshPath(), 1 << 20).value();
     for (std::size_t bytes = 0; bytes < whole.size(); ++bytes)
         EXPECT_FALSE(ReadBytes(whole.substr(0, bytes)).ok()) << bytes;
     EXPECT_TRUE(ReadBytes(whole).ok());

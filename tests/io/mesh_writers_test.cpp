@@ -18,7 +18,7 @@
 namespace tessera {
 namespace {
 
-TriangleMesh Tetrahedron() {
+TriangleMesh LabelledTetrahedron() {
     TriangleMesh mesh;
     mesh.vertices = {{0, 0, 0}, {1, 0, 0.25f}, {0, -2.5f, 0}, {0, 0, -3}};
     mesh.normals = {{0, 0, 1}, {1, 0, 0}, {0, 1, 0}, {0.6f, 0, 0.8f}};
@@ -28,7 +28,7 @@ TriangleMesh Tetrahedron() {
     return mesh;
 }
 
-std::string Bytes(const std::string& path) {
+std::string FileBytes(const std::string& path) {
     const Result<std::string> bytes = ReadWholeFile(path, std::size_t{1} << 28);
     EXPECT_TRUE(bytes.ok()) << bytes.message();
     return bytes.ok() ? bytes.value() : "";
@@ -65,11 +65,11 @@ Glb TakeApart(const std::string& bytes) {
 }
 
 TEST(MeshWriters, ObjIsTheTextThatReadersKnow) {
-    TriangleMesh mesh = Tetrahedron();
+    TriangleMesh mesh = LabelledTetrahedron();
     mesh.triangles.resize(1);
     const TempFolder folder;
     ASSERT_TRUE(WriteObj(folder / "a.obj", mesh).ok());
-    EXPECT_EQ(Bytes(folder / "a.obj"),
+    EXPECT_EQ(FileBytes(folder / "a.obj"),
               "# made by tessera, metres; 4 vertices, 1 triangles\n"
               "v 0.000000 0.000000 0.000000 0.0000 0.2000 1.0000\n"
               "v 1.000000 0.000000 0.250000 1.0000 0.5020 0.0275\n"
@@ -80,15 +80,15 @@ TEST(MeshWriters, ObjIsTheTextThatReadersKnow) {
     mesh.colours.clear();
     mesh.normals.clear();
     ASSERT_TRUE(WriteObj(folder / "a.obj", mesh).ok());
-    EXPECT_NE(Bytes(folder / "a.obj").find("v 1.000000 0.000000 0.250000\n"), std::string::npos);
-    EXPECT_NE(Bytes(folder / "a.obj").find("\nf 1 3 2\n"), std::string::npos);
+    EXPECT_NE(FileBytes(folder / "a.obj").find("v 1.000000 0.000000 0.250000\n"), std::string::npos);
+    EXPECT_NE(FileBytes(folder / "a.obj").find("\nf 1 3 2\n"), std::string::npos);
 }
 
 TEST(MeshWriters, GlbHoldsTheArraysBitForBit) {
-    const TriangleMesh mesh = Tetrahedron();
+    const TriangleMesh mesh = LabelledTetrahedron();
     const TempFolder folder;
     ASSERT_TRUE(WriteGlb(folder / "a.glb", mesh).ok());
-    const Glb glb = TakeApart(Bytes(folder / "a.glb"));
+    const Glb glb = TakeApart(FileBytes(folder / "a.glb"));
     EXPECT_EQ(glb.json["buffers"][0]["byteLength"].get<std::size_t>(), glb.binary.size());
     const auto positions = glb.Values<float>(glb.Attribute("POSITION"), 3),
                normals = glb.Values<float>(glb.Attribute("NORMAL"), 3);
@@ -108,8 +108,8 @@ TEST(MeshWriters, GlbHoldsTheArraysBitForBit) {
 // Camera up is up in a viewer, and what lies before the camera lies before the viewer, who looks along -z.
 TEST(MeshWriters, GlbStandsUpright) {
     const TempFolder folder;
-    ASSERT_TRUE(WriteGlb(folder / "a.glb", Tetrahedron()).ok());
-    const auto q = TakeApart(Bytes(folder / "a.glb")).json["nodes"][0]["rotation"].get<std::vector<double>>();
+    ASSERT_TRUE(WriteGlb(folder / "a.glb", LabelledTetrahedron()).ok());
+    const auto q = TakeApart(FileBytes(folder / "a.glb")).json["nodes"][0]["rotation"].get<std::vector<double>>();
     const Eigen::Quaterniond R_viewer_world(q[3], q[0], q[1], q[2]);
     EXPECT_LT((R_viewer_world * Eigen::Vector3d(0, -1, 0) - Eigen::Vector3d(0, 1, 0)).norm(), 1e-12);
     EXPECT_LT((R_viewer_world * Eigen::Vector3d(0, 0, 1) - Eigen::Vector3d(0, 0, -1)).norm(), 1e-12);
@@ -127,7 +127,7 @@ TEST(MeshWriters, GlbColoursAreLinearAndComeBackExactly) {
     mesh.triangles = {{0, 1, 2}};
     const TempFolder folder;
     ASSERT_TRUE(WriteGlb(folder / "a.glb", mesh).ok());
-    const Glb glb = TakeApart(Bytes(folder / "a.glb"));
+    const Glb glb = TakeApart(FileBytes(folder / "a.glb"));
     const auto colours = glb.Values<std::uint16_t>(glb.Attribute("COLOR_0"), 4);
     const auto srgb = [&](std::size_t i) {
         const double linear = colours[i] / 65535.0;
@@ -147,7 +147,7 @@ TEST(MeshWriters, GlbIsReadByTinyGltf) {
 #ifndef TESSERA_HAVE_TINYGLTF
     GTEST_SKIP() << "needs libtinygltf-dev";
 #else
-    const TriangleMesh mesh = Tetrahedron();
+    const TriangleMesh mesh = LabelledTetrahedron();
     const TempFolder folder;
     ASSERT_TRUE(WriteGlb(folder / "a.glb", mesh).ok());
     tinygltf::TinyGLTF reader;
@@ -176,7 +176,7 @@ TEST(MeshWriters, AnEmptyMeshIsNoGlb) {
 }
 
 TEST(MeshWriters, ACloudIsTheVerticesAndNothingElse) {
-    const TriangleMesh mesh = Tetrahedron();
+    const TriangleMesh mesh = LabelledTetrahedron();
     const TempFolder folder;
     ASSERT_TRUE(WritePlyCloud(folder / "a.ply", mesh).ok());
     const Result<TriangleMesh> back = ReadPly(folder / "a.ply");
@@ -186,7 +186,7 @@ TEST(MeshWriters, ACloudIsTheVerticesAndNothingElse) {
     EXPECT_EQ(back.value().colours, mesh.colours);
     EXPECT_EQ(back.value().labels, mesh.labels);
     EXPECT_TRUE(back.value().triangles.empty());
-    EXPECT_EQ(Bytes(folder / "a.ply").find("face"), std::string::npos);
+    EXPECT_EQ(FileBytes(folder / "a.ply").find("face"), std::string::npos);
 }
 
 TEST(MeshWriters, TheExtensionChoosesAndAnUnknownOneIsRefusedByName) {
@@ -203,7 +203,7 @@ TEST(MeshWriters, TheExtensionChoosesAndAnUnknownOneIsRefusedByName) {
 TEST(MeshWriters, AFullDiskIsAnError) {
     if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "needs /dev/full (Linux)";
     for (const auto write : {WriteObj, WriteGlb, WritePlyCloud})
-        EXPECT_NE(write("/dev/full", Tetrahedron()).message().find("no space"), std::string::npos);
+        EXPECT_NE(write("/dev/full", LabelledTetrahedron()).message().find("no space"), std::string::npos);
 }
 
 }  // namespace

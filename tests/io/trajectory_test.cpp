@@ -11,13 +11,13 @@ namespace tessera {
 namespace {
 
 // Tests run side by side: each has a file of its own.
-std::string TestPath() {
+std::string TrajectoryPath() {
     return testing::TempDir() + "trajectory_" +
            testing::UnitTest::GetInstance()->current_test_info()->name() + ".txt";
 }
 
 Result<Trajectory> ReadText(const std::string& text) {
-    const std::string path = TestPath();
+    const std::string path = TrajectoryPath();
     EXPECT_TRUE(WriteTextFile(path, text).ok());
     return ReadTrajectory(path);
 }
@@ -46,7 +46,7 @@ TEST(Trajectory, RoundTrip) {
     for (int i = 0; i < 20; ++i)
         poses.push_back(Pose(1305031102.175304 + 0.033 * i, {0.1 * i, -0.2, 3.0},
                              Eigen::Quaterniond(std::cos(i), std::sin(i), 0.3, -0.2).normalized()));
-    const std::string path = TestPath();
+    const std::string path = TrajectoryPath();
     ASSERT_TRUE(WriteTrajectory(path, poses).ok());
     const auto result = ReadTrajectory(path);
     ASSERT_TRUE(result.ok()) << result.message();
@@ -68,7 +68,7 @@ TEST(Trajectory, LineHasFixedDecimalsAndOneQuaternionSign) {
 
 TEST(Trajectory, KittiLinesAreThreeRowsAndTheStampsLieBeside) {
     const Eigen::Quaterniond quarter(Eigen::AngleAxisd(M_PI / 2, Eigen::Vector3d::UnitZ()));
-    const std::string path = TestPath();
+    const std::string path = TrajectoryPath();
     const Eigen::Quaterniond identity = Eigen::Quaterniond::Identity();
     ASSERT_TRUE(WriteKittiPoses(path, {Pose(12.25, {1, -2, 0.125}, quarter), Pose(12.5, {0, 0, 3}, identity)}).ok());
     EXPECT_EQ(ReadWholeFile(path + ".times", 1000).value(), "12.250000\n12.500000\n");
@@ -146,7 +146,7 @@ TEST(Trajectory, ALineCutOffAtTheEndIsSkipped) {
 TEST(Trajectory, ErrorsNameFileAndLine) {
     const auto words = ReadText("1 0 0 0 0 0 0 1\nstamp x y z\n");
     ASSERT_FALSE(words.ok());
-    EXPECT_NE(words.message().find(TestPath() + ":2: 'stamp' is no number"), std::string::npos)
+    EXPECT_NE(words.message().find(TrajectoryPath() + ":2: 'stamp' is no number"), std::string::npos)
         << words.message();
     EXPECT_NE(ReadText("").message().find("no pose in it"), std::string::npos);
     EXPECT_NE(ReadText("# only\n").message().find("no pose in it"), std::string::npos);

@@ -9,7 +9,7 @@
 
 #include "mapping/block_map.h"
 
-namespace tessera::testing {
+namespace tessera::testing_support {
 
 // Signed distance in metres of a world point, positive outside.
 using Sdf = std::function<double(const Eigen::Vector3d&)>;

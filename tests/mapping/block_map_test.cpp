@@ -11,7 +11,7 @@
 namespace tessera {
 namespace {
 
-using testing::Mix;
+using testing_support::Mix;
 
 BlockCoord RandomCoord(std::uint32_t counter, int range) {
     const auto one = [&](std::uint32_t i) {

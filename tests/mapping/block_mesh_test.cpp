@@ -8,7 +8,7 @@
 namespace tessera {
 namespace {
 
-using namespace testing;
+using namespace testing_support;
 
 TEST(BlockMesh, SphereIsWatertightWithRightAreaAndVolume) {
     const double r = 0.3;

@@ -7,7 +7,7 @@
 namespace tessera {
 namespace {
 
-using namespace testing;
+using namespace testing_support;
 using Sampler = FieldSampler<BlockMapView>;
 
 // Blocks of random distances and intensities on both sides of zero; one is missing.

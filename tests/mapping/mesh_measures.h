@@ -10,7 +10,7 @@
 #include "mapping/analytic_fields.h"
 #include "mapping/mesher.h"
 
-namespace tessera::testing {
+namespace tessera::testing_support {
 
 // How often each directed side of a triangle occurs.
 inline std::map<std::pair<std::uint32_t, std::uint32_t>, int> DirectedEdges(

@@ -9,7 +9,7 @@
 namespace tessera {
 namespace {
 
-using namespace testing;
+using namespace testing_support;
 
 TEST(Mesher, SmallComponentsAreLeftOut) {
     BlockMap map{BlockMap::Config{}};

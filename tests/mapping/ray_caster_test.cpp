@@ -8,7 +8,7 @@
 namespace tessera {
 namespace {
 
-using namespace testing;
+using namespace testing_support;
 
 // 1 cm voxels: a tenth of a voxel is a millimetre.
 constexpr double kTenthVoxel = 1e-3;

@@ -15,7 +15,7 @@
 namespace tessera {
 namespace {
 
-using namespace testing;
+using namespace testing_support;
 
 constexpr float kNear_m = 0.1f, kFar_m = 4.f;
 constexpr float kTenthVoxel_m = 1e-3f;
@@ -57,7 +57,7 @@ std::vector<Eigen::Isometry3d> Views() {
     return views;
 }
 
-PredictedView Cast(const Eigen::Isometry3d& T_world_camera, VectorPath path) {
+PredictedView CastOnPath(const Eigen::Isometry3d& T_world_camera, VectorPath path) {
     PredictedView view;
     RayCaster(path).Predict(RoughMap(), OddCamera(), T_world_camera, kNear_m, kFar_m, view);
     return view;
@@ -74,7 +74,7 @@ TEST_P(RayRows, AgreesWithTheScalarWalk) {
     const PinholeCamera camera = OddCamera();
     int hits = 0, pixels = 0, differ = 0, coloured = 0;
     for (const Eigen::Isometry3d& T : Views()) {
-        const PredictedView view = Cast(T, GetParam());
+        const PredictedView view = CastOnPath(T, GetParam());
         ScalarRayWalker oracle(RoughMap(), camera, T, kNear_m, kFar_m);
         for (int v = 0; v < camera.height; ++v)
             for (int u = 0; u < camera.width; ++u, ++pixels) {

@@ -9,7 +9,7 @@
 #include "mapping/field_sampler.h"
 #include "mapping/ray_ranges.h"
 
-namespace tessera::testing {
+namespace tessera::testing_support {
 
 class ScalarRayWalker {
   public:

@@ -7,7 +7,7 @@
 namespace tessera {
 namespace {
 
-using testing::PackColour;
+using testing_support::PackColour;
 
 TEST(Voxel, DistanceBits) {
     EXPECT_EQ(FieldDistance(0x7fff0000u), 1.0f);
@@ -44,10 +44,10 @@ TEST(Voxel, ColourOfKnownWords) {
 TEST(Voxel, ColourSurvivesPacking) {
     for (int i = 0; i < 1000; ++i) {
         const auto counter = static_cast<std::uint32_t>(3 * i);
-        const Eigen::Vector3d rgb(testing::Uniform(counter), testing::Uniform(counter + 1),
-                                  testing::Uniform(counter + 2));
+        const Eigen::Vector3d rgb(testing_support::Uniform(counter), testing_support::Uniform(counter + 1),
+                                  testing_support::Uniform(counter + 2));
         const LinearRgb back =
-            ColourFromWords(testing::PackField(0, testing::Luma(rgb)), PackColour(rgb));
+            ColourFromWords(testing_support::PackField(0, testing_support::Luma(rgb)), PackColour(rgb));
         ASSERT_NEAR(back.r, rgb.x(), 1.0 / 1022);
         ASSERT_NEAR(back.g, rgb.y(), 1.0 / 1022);
         ASSERT_NEAR(back.b, rgb.z(), 1.0 / 1022);

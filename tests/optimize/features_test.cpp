@@ -8,8 +8,9 @@ namespace tessera {
 namespace {
 
 // A dark square on a bright plane one metre away: corners at known points.
-PreparedFrame Square(float depth_m) {
+PreparedFrame SquarePicture(float depth_m) {
     PreparedFrame frame;
+    frame.has_colour = true;
     frame.intensity = Image<float>(160, 120, 0.9f);
     for (int y = 40; y < 80; ++y)
         for (int x = 60; x < 100; ++x) frame.intensity(x, y) = 0.1f;
@@ -19,7 +20,7 @@ PreparedFrame Square(float depth_m) {
 
 TEST(Features, LieAtTheCornersWithTheirDepth) {
     const PinholeCamera camera = testing_support::SmallCamera();
-    const Features features = ExtractFeatures(Square(1.0f), camera, 50);
+    const Features features = ExtractFeatures(SquarePicture(1.0f), camera, 50);
     ASSERT_GT(features.size(), 3u);
     ASSERT_EQ(features.descriptors.size(), features.p_camera.size());
     for (const Eigen::Vector3f& p : features.p_camera) {
@@ -32,9 +33,9 @@ TEST(Features, LieAtTheCornersWithTheirDepth) {
 }
 
 TEST(Features, NoneWithoutDepthOrColour) {
-    EXPECT_EQ(ExtractFeatures(Square(0.0f), testing_support::SmallCamera(), 50).size(), 0u);
-    PreparedFrame grey = Square(1.0f);
-    grey.intensity = {};
+    EXPECT_EQ(ExtractFeatures(SquarePicture(0.0f), testing_support::SmallCamera(), 50).size(), 0u);
+    PreparedFrame grey = SquarePicture(1.0f);
+    grey.has_colour = false;
     EXPECT_EQ(ExtractFeatures(grey, testing_support::SmallCamera(), 50).size(), 0u);
 }
 

@@ -19,7 +19,7 @@ PreparedFrame Wall(float depth_m) {
     return frame;
 }
 
-TrackResult At(const Eigen::Isometry3d& T) {
+TrackResult TrackedAt(const Eigen::Isometry3d& T) {
     TrackResult track;
     track.T_world_camera = T;
     return track;
@@ -52,7 +52,7 @@ TEST(ReducedDepth, TakesTheMiddlePixelOfEachCell) {
 TEST(Keyframes, OneIsWantedWhereTheLastHasLeftThePicture) {
     Keyframes keyframes(Wide(), 0.7, 10);
     EXPECT_TRUE(keyframes.Wanted(Wall(2), Shift(0)));
-    keyframes.Add(0, 0, Wall(2), At(Shift(0)));
+    keyframes.Add(0, 0, Wall(2), TrackedAt(Shift(0)));
     EXPECT_FALSE(keyframes.Wanted(Wall(2), Shift(0.5)));
     EXPECT_TRUE(keyframes.Wanted(Wall(2), Shift(0.8)));
     EXPECT_TRUE(keyframes.Wanted(Wall(2), Eigen::Isometry3d(Eigen::AngleAxisd(kHalfAngle_rad, Eigen::Vector3d::UnitY()))));
@@ -61,7 +61,7 @@ TEST(Keyframes, OneIsWantedWhereTheLastHasLeftThePicture) {
 TEST(Keyframes, CountTheWayAndFollowThePoseGraph) {
     Keyframes keyframes(Wide(), 0.7, 10);
     keyframes.Follow(Shift(0));
-    keyframes.Add(0, 0, Wall(2), At(Shift(0)));
+    keyframes.Add(0, 0, Wall(2), TrackedAt(Shift(0)));
     keyframes.last().T_world_camera = Shift(0, 10);
     keyframes.Follow(Shift(1));
     keyframes.Follow(Shift(0));
@@ -69,7 +69,7 @@ TEST(Keyframes, CountTheWayAndFollowThePoseGraph) {
     keyframes.Follow(Shift(5));
     const Eigen::Isometry3d turned = Shift(5) * Eigen::AngleAxisd(0.25, Eigen::Vector3d::UnitZ());
     keyframes.Follow(turned);
-    const Keyframe& second = keyframes.Add(7, 1.5, Wall(2), At(turned));
+    const Keyframe& second = keyframes.Add(7, 1.5, Wall(2), TrackedAt(turned));
     EXPECT_EQ(second.id, 1);
     EXPECT_EQ(second.frame_index, 7);
     EXPECT_DOUBLE_EQ(second.way_m, 2);  // the jump is no way

@@ -8,7 +8,7 @@
 namespace tessera {
 namespace {
 
-using namespace testing;
+using namespace testing_support;
 
 Eigen::Vector3d WorldPosition(const GeometryVertex& vertex, const BlockCoord& block) {
     const BlockCoord sector = SectorOf(block);

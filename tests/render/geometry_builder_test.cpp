@@ -10,7 +10,7 @@
 namespace tessera {
 namespace {
 
-using namespace testing;
+using namespace testing_support;
 
 // A sphere over many blocks, of every octant.
 class GeometryBuilderTest : public ::testing::Test {

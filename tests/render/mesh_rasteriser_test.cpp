@@ -9,7 +9,7 @@
 namespace tessera {
 namespace {
 
-using namespace testing;
+using namespace testing_support;
 
 constexpr double kVoxel_m = .01;
 

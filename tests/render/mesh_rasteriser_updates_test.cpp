@@ -10,7 +10,7 @@
 namespace tessera {
 namespace {
 
-using namespace testing;
+using namespace testing_support;
 
 // What changed is drawn as if everything were new; and blocks that are meshed over and over use the same memory.
 TEST_F(MeshRasteriserTest, AfterChangesTheSameAsAFreshOne) {

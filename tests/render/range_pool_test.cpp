@@ -40,7 +40,7 @@ TEST(RangePool, ReusesWhatWasGivenBack) {
     for (int round = 0; round < 200; ++round) {
         for (RangePool::Range& range : ranges) {
             pool.Free(range);
-            range = pool.Allocate(testing::Mix(++counter) % 300);
+            range = pool.Allocate(testing_support::Mix(++counter) % 300);
         }
         if (round == 100) end_halfway = pool.end();
     }

@@ -12,7 +12,7 @@
 #include "mapping/ray_caster.h"
 #include "render/mesh_rasteriser.h"
 
-namespace tessera::testing {
+namespace tessera::testing_support {
 
 inline PinholeCamera SmallCamera() {
     return {160, 120, 140, 145, 79.5, 60.5};

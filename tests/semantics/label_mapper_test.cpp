@@ -11,7 +11,7 @@
 namespace tessera {
 namespace {
 
-const PinholeCamera kCamera{.width = 160, .height = 120, .fx = 130, .fy = 130, .cx = 79.5, .cy = 59.5};
+const PinholeCamera kMapperCamera{.width = 160, .height = 120, .fx = 130, .fy = 130, .cx = 79.5, .cy = 59.5};
 constexpr Rgb8 kCup{1, 200, 3}, kBook{4, 5, 220};
 
 // A wall at 1 m that nobody measures again, and a detector's word on it.
@@ -20,9 +20,9 @@ class LabelMapperTest : public ::testing::Test {
     LabelMapperTest() {
         config.classes = "cup=#01c803 book=#0405dc";
         map.EnableLabels();
-        testing::Fill(map, testing::Plane({0, 0, -1}, -1.003), {-6, -5, 11}, {6, 5, 13});
+        testing_support::Fill(map, testing_support::Plane({0, 0, -1}, -1.003), {-6, -5, 11}, {6, 5, 13});
         mesher.Update(map);
-        mapper = std::make_unique<LabelMapper>(config, LabelClasses::Make(config, {"cup", "book"}).value(), kCamera);
+        mapper = std::make_unique<LabelMapper>(config, LabelClasses::Make(config, {"cup", "book"}).value(), kMapperCamera);
     }
     void Label(int class_id, int width) {
         Detection d;

@@ -10,7 +10,7 @@
 namespace tessera {
 namespace {
 
-const PinholeCamera kCamera{160, 120, 131, 131, 79.5, 59.5};
+const PinholeCamera kSensorCamera{160, 120, 131, 131, 79.5, 59.5};
 
 RenderedView FilledView(float depth, float slope = 0, float grey = 128) {
     RenderedView view;
@@ -30,7 +30,7 @@ SensorModel::Config Kinect() {
 }
 
 TEST(SensorModel, NoneGivesTheTruth) {
-    const SensorModel model({}, kCamera, 1);
+    const SensorModel model({}, kSensorCamera, 1);
     const RenderedView view = FilledView(7.5f);
     DepthImage depth;
     ColourImage colour;
@@ -45,7 +45,7 @@ TEST(SensorModel, NoneGivesTheTruth) {
 // evenly.
 TEST(SensorModel, DepthNoiseGrowsWithTheSquareOfDepth) {
     const SensorModel::Config config = Kinect();
-    const SensorModel model(config, kCamera, 7);
+    const SensorModel model(config, kSensorCamera, 7);
     const double disparity_std =
         std::hypot(config.disparity_std_px, config.disparity_step_px / std::sqrt(12.0));
     for (const float z : {0.6f, 1.0f, 2.0f, 4.0f}) {
@@ -72,7 +72,7 @@ TEST(SensorModel, DepthNoiseGrowsWithTheSquareOfDepth) {
 }
 
 TEST(SensorModel, DisparityComesInSteps) {
-    const SensorModel model(Kinect(), kCamera, 7);
+    const SensorModel model(Kinect(), kSensorCamera, 7);
     DepthImage depth;
     model.SenseDepth(FilledView(1.5f, 1e-3f), 0, depth);
     int count = 0;
@@ -86,7 +86,7 @@ TEST(SensorModel, DisparityComesInSteps) {
 }
 
 TEST(SensorModel, NoDepthTooNearTooFarOrTooFlat) {
-    const SensorModel model(Kinect(), kCamera, 7);
+    const SensorModel model(Kinect(), kSensorCamera, 7);
     const auto measured = [&](const RenderedView& view) {
         DepthImage depth;
         model.SenseDepth(view, 0, depth);
@@ -106,7 +106,7 @@ TEST(SensorModel, NoDepthTooNearTooFarOrTooFlat) {
 TEST(SensorModel, TheProjectorsShadowFallsOnTheRightOfNearThings) {
     SensorModel::Config config = Kinect();
     config.edge_dropout = config.lateral_std_px = 0;
-    const SensorModel model(config, kCamera, 7);
+    const SensorModel model(config, kSensorCamera, 7);
     RenderedView view = FilledView(2.0f);
     for (int y = 0; y < 120; ++y)
         for (int x = 40; x < 60; ++x) view.depth_m(x, y) = 1.0f;
@@ -122,7 +122,7 @@ TEST(SensorModel, ColourNoiseHasItsStrengthAndTheGainStaysInItsBounds) {
     config.vignetting = config.exposure_drift = 0;
     config.colour_noise = 4;
     ColourImage colour;
-    SensorModel(config, kCamera, 5).SenseColour(FilledView(1, 0, 60), 3, 0, colour);
+    SensorModel(config, kSensorCamera, 5).SenseColour(FilledView(1, 0, 60), 3, 0, colour);
     double sum = 0, sum2 = 0;
     for (std::size_t i = 0; i < colour.size(); ++i) {
         sum += colour.data()[i].g;
@@ -134,7 +134,7 @@ TEST(SensorModel, ColourNoiseHasItsStrengthAndTheGainStaysInItsBounds) {
     EXPECT_NEAR(std, std::hypot(wanted, 1 / std::sqrt(12.0)), 0.1);
 
     config.exposure_drift = 0.15;
-    const SensorModel drifting(config, kCamera, 5);
+    const SensorModel drifting(config, kSensorCamera, 5);
     double low = 2, high = 0;
     for (double t = 0; t < 60; t += 0.1) {
         low = std::min(low, drifting.Gain(t));
@@ -151,7 +151,7 @@ TEST(SensorModel, IsAFunctionOfSeedAndFrameAlone) {
     const auto sense = [&](std::uint64_t seed, std::int64_t frame, std::size_t threads) {
         tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
         std::pair<DepthImage, ColourImage> images;
-        const SensorModel model(Kinect(), kCamera, seed);
+        const SensorModel model(Kinect(), kSensorCamera, seed);
         model.SenseDepth(view, frame, images.first);
         model.SenseColour(view, frame, 0.5, images.second);
         return images;

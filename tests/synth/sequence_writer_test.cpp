@@ -36,7 +36,7 @@ StagedScene TwoCups() {
     return staged;
 }
 
-SynthConfig Small() {
+SynthConfig SmallSequence() {
     SynthConfig config;
     config.camera = {80, 60, 65, 65, 39.5, 29.5};
     config.frames = 5;
@@ -54,7 +54,7 @@ class WrittenSequence : public testing::Test {
     void SetUp() override {
         folder_ = ProcessFolder() + "/written_sequence";
         std::filesystem::remove_all(folder_);
-        SyntheticSource source("two cups", TwoCups(), Small());
+        SyntheticSource source("two cups", TwoCups(), SmallSequence());
         const auto summary =
             WriteSequence(source, folder_, [this](std::int64_t done, std::int64_t total) {
                 EXPECT_EQ(total, 5);
@@ -71,7 +71,7 @@ class WrittenSequence : public testing::Test {
 
 TEST_F(WrittenSequence, HoldsTheFramesAsTheSourceGivesThem) {
     EXPECT_EQ(progress_, 5);
-    SyntheticSource source("two cups", TwoCups(), Small());
+    SyntheticSource source("two cups", TwoCups(), SmallSequence());
     Frame frame;
     RenderedView truth;
     ASSERT_TRUE(source.Seek(2));
@@ -88,7 +88,7 @@ TEST_F(WrittenSequence, HoldsTheFramesAsTheSourceGivesThem) {
     ASSERT_TRUE(poses.ok());
     ASSERT_EQ(poses.value().poses.size(), 5u);
     EXPECT_TRUE(poses.value().poses[2].T_world_camera.isApprox(*frame.T_world_camera, 1e-6));
-    EXPECT_EQ(ReadCameraFile(folder_ + "/camera.yaml").value().pinhole, Small().camera);
+    EXPECT_EQ(ReadCameraFile(folder_ + "/camera.yaml").value().pinhole, SmallSequence().camera);
     EXPECT_NE(Slurp(folder_ + "/rgb.txt").find("\n1000.066667 rgb/1000.066667.png\n"),
               std::string::npos);
     EXPECT_NE(Slurp(folder_ + "/depth.txt").find("\n1000.133333 depth/1000.133333.png\n"),
@@ -122,7 +122,7 @@ TEST_F(WrittenSequence, TheReferenceIsTheSeenPartOnTheSurface) {
 TEST(SequenceWriter, TheReferenceLeavesOutWhatTheSensorCannotMeasure) {
     const std::string folder = ProcessFolder() + "/short_sighted_sequence";
     std::filesystem::remove_all(folder);
-    SynthConfig config = Small();
+    SynthConfig config = SmallSequence();
     config.sensor.noise = NoiseModel::kKinect;
     config.sensor.max_depth_m = 1.5;  // the wall is 2 m away
     SyntheticSource source("two cups", TwoCups(), config);
@@ -136,7 +136,7 @@ TEST(SequenceWriter, TheReferenceLeavesOutWhatTheSensorCannotMeasure) {
 TEST(SequenceWriter, StopsWhenAskedAndLeavesAWholeFolder) {
     const std::string folder = ProcessFolder() + "/stopped_sequence";
     std::filesystem::remove_all(folder);
-    SyntheticSource source("two cups", TwoCups(), Small());
+    SyntheticSource source("two cups", TwoCups(), SmallSequence());
     const auto summary =
         WriteSequence(source, folder, [](std::int64_t done, std::int64_t) { return done < 2; });
     ASSERT_TRUE(summary.ok()) << summary.message();
@@ -145,7 +145,7 @@ TEST(SequenceWriter, StopsWhenAskedAndLeavesAWholeFolder) {
 }
 
 TEST(SequenceWriter, AFolderThatCannotBeMadeIsAnError) {
-    SyntheticSource source("two cups", TwoCups(), Small());
+    SyntheticSource source("two cups", TwoCups(), SmallSequence());
     const auto summary = WriteSequence(source, "/proc/nowhere", {});
     ASSERT_FALSE(summary.ok());
     EXPECT_NE(summary.message().find("/proc/nowhere"), std::string::npos);

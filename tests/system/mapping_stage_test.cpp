@@ -21,7 +21,7 @@ Detection Seen(int class_id, float left) {
 std::unique_ptr<BlockMap> Wall() {
     auto map = std::make_unique<BlockMap>(BlockMap::Config{.voxel_size_m = 0.01, .truncation_m = 0.04});
     map->EnableLabels();
-    testing::Fill(*map, testing::Plane({0, 0, -1}, -1.003), {-8, -5, 11}, {8, 5, 13});
+    testing_support::Fill(*map, testing_support::Plane({0, 0, -1}, -1.003), {-8, -5, 11}, {8, 5, 13});
     return map;
 }
 

@@ -20,15 +20,15 @@ constexpr double kLimit_mb = 55;  // all of it are 80
 
 // Once around through two rooms, and on in the first one.
 std::vector<Frame> Tour() {
-    constexpr int kFrames = 120, kStep = 18;
+    constexpr int kTourFrames = 120, kTourStep = 18;
     SynthConfig config;
     config.camera = RoomCamera();
     config.sensor.noise = NoiseModel::kKinect;
     const auto source = OpenSynthetic("flat", config);
     EXPECT_TRUE(source.ok());
     static std::vector<Frame> frames;
-    for (int i = static_cast<int>(frames.size()); i < kFrames; ++i) {
-        source.value()->Seek(i * kStep);
+    for (int i = static_cast<int>(frames.size()); i < kTourFrames; ++i) {
+        source.value()->Seek(i * kTourStep);
         source.value()->Read(frames.emplace_back());
     }
     return frames;

@@ -22,7 +22,7 @@ class OffCamera : public FrameList {
     SourceInfo info_;
 };
 
-struct Outcome {
+struct RoomOutcome {
     double ate_m = 0;
     std::optional<CalibrationReport> calibration;
     std::string messages;
@@ -45,10 +45,10 @@ EngineInput InputOf(double focal_scale, bool refine) {
     return input;
 }
 
-Outcome RunRoom(double focal_scale, bool refine) {
+RoomOutcome RunRoom(double focal_scale, bool refine) {
     LockstepEngine engine(InputOf(focal_scale, refine));
     const std::vector<Frame>& frames = Frames();
-    Outcome outcome;
+    RoomOutcome outcome;
     FrameOutcome frame;
     while (engine.Next(frame))
         if (frame.kind == FrameOutcome::Kind::kMessage) outcome.messages += frame.message + "\n";
@@ -64,7 +64,7 @@ Outcome RunRoom(double focal_scale, bool refine) {
 
 TEST(SelfCalibrationRun, AFocalLengthThatIsOffIsFoundAndThePathFollows) {
     if (!PoseGraphAvailable()) GTEST_SKIP() << "this build has no Ceres: install libceres-dev";
-    const Outcome before = RunRoom(0.97, false), after = RunRoom(0.97, true);
+    const RoomOutcome before = RunRoom(0.97, false), after = RunRoom(0.97, true);
     EXPECT_FALSE(before.calibration);
     ASSERT_TRUE(after.calibration);
     std::cout << after.messages << "ATE " << 1000 * before.ate_m << " -> " << 1000 * after.ate_m << " mm\n";
@@ -76,7 +76,7 @@ TEST(SelfCalibrationRun, AFocalLengthThatIsOffIsFoundAndThePathFollows) {
 
 TEST(SelfCalibrationRun, AGoodOneStaysAndTheMapIsTheSameByteForByte) {
     if (!PoseGraphAvailable()) GTEST_SKIP() << "this build has no Ceres: install libceres-dev";
-    const Outcome before = RunRoom(1, false), after = RunRoom(1, true);
+    const RoomOutcome before = RunRoom(1, false), after = RunRoom(1, true);
     ASSERT_TRUE(after.calibration) << after.messages;
     EXPECT_FALSE(after.calibration->shown) << after.messages;
     EXPECT_EQ(after.ate_m, before.ate_m);

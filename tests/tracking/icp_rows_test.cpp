@@ -11,6 +11,7 @@
 #include "tracking/icp_kernels.h"
 #include "tracking/one_by_one.h"
 #include "tracking/pose_solver.h"
+#include "tracking/set_view.h"
 
 namespace tessera {
 namespace {
@@ -52,12 +53,7 @@ struct Scene {
         }
         distance_residual.resize(kPoints);
         intensity_residual.resize(kPoints);
-        a.width = kWidth;
-        a.height = kHeight;
-        a.fx = 38.0f;
-        a.fy = 39.0f;
-        a.cx = 18.5f;
-        a.cy = 15.25f;
+        SetCamera({kWidth, kHeight, 38, 39, 18.5, 15.25}, a);
         a.depth = depth.data();
         a.normal = normal.data();
         a.intensity = intensity.data();
@@ -81,21 +77,14 @@ struct Scene {
         a.intensity_residual = intensity_residual.data();
         Vector6d twist;
         twist << 0.01, -0.02, 0.03, 0.02, 0.01, -0.01;
-        SetPose(Se3Exp(twist));
-    }
-
-    void SetPose(const Eigen::Isometry3d& T) {
-        for (int i = 0; i < 3; ++i) {
-            for (int j = 0; j < 3; ++j) a.rotation[3 * i + j] = static_cast<float>(T.linear()(i, j));
-            a.translation[i] = static_cast<float>(T.translation()(i));
-        }
+        SetPose(Se3Exp(twist), a);
     }
 };
 
 // The same sums, slowly: one point at a time, in double.
-class SlowSums {
+class SlowIcpSums {
   public:
-    explicit SlowSums(const Scene& scene) : s_(scene), a_(scene.a) {
+    explicit SlowIcpSums(const Scene& scene) : s_(scene), a_(scene.a) {
         for (int i = 0; i < Scene::kPoints; ++i)
             if (s_.weight[static_cast<std::size_t>(i)] > 0) AddPoint(static_cast<std::size_t>(i));
     }
@@ -181,7 +170,7 @@ class IcpRows : public testing::TestWithParam<float> {};
 TEST_P(IcpRows, AgreeWithTheSlowSums) {
     Scene scene;
     scene.a.alpha = GetParam();
-    const PoseSums slow = SlowSums(scene).sums;
+    const PoseSums slow = SlowIcpSums(scene).sums;
     ASSERT_GT(slow[L::kInliers], 100);
     ASSERT_EQ(slow[L::kColoured] > 100, GetParam() > 0);
     for (const SumFunction sum : Paths()) {
@@ -227,7 +216,7 @@ TEST(IcpRows, EnergiesOfTwoPosesAreOverTheSamePoints) {
         there.a.alpha = 0.1f;
         Vector6d twist;
         twist << 0.02, 0.01, 0, 0.03, -0.02, 0.02;
-        there.SetPose(Se3Exp(twist));
+        SetPose(Se3Exp(twist), there.a);
         there.a.distance_before = here.distance_residual.data();
         there.a.intensity_before = here.intensity_residual.data();
         PoseSums sums;

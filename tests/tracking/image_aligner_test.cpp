@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 
 #include "core/se3.h"
@@ -48,12 +49,14 @@ TEST(ImageAligner, AlongABareWallKeepsTheGuess) {
     std::mt19937 random(5);
     std::normal_distribution<float> noise;
     const auto noisy = [&](const Eigen::Isometry3d& T_world_camera) {
-        PreparedFrame prepared = Prepare(room.Render(FullCamera(), T_world_camera));
-        for (std::size_t i = 0; i < prepared.depth_m.size(); ++i) {
-            prepared.depth_m.data()[i] += 0.0015f * noise(random);
-            prepared.intensity.data()[i] += 0.005f * noise(random);
+        Frame frame = room.Render(FullCamera(), T_world_camera);
+        for (std::size_t i = 0; i < frame.depth_m.size(); ++i) {
+            frame.depth_m.data()[i] += 0.0015f * noise(random);
+            const float grey = static_cast<float>(frame.colour.data()[i].g) + 3.4f * noise(random);
+            const auto level = static_cast<std::uint8_t>(std::clamp(grey, 0.0f, 255.0f));
+            frame.colour.data()[i] = {level, level, level};
         }
-        return prepared;
+        return Prepare(frame);
     };
     ImageAligner aligner({}, FullCamera());
     aligner.Align(noisy(Eigen::Isometry3d::Identity()), Eigen::Isometry3d::Identity());
@@ -73,6 +76,18 @@ TEST(ImageAligner, WithoutAnythingToAlignReturnsTheGuess) {
     ImageAligner aligner({}, FullCamera());
     EXPECT_TRUE(aligner.Align(Prepare(frame), guess).isApprox(guess));
     EXPECT_TRUE(aligner.Align(Prepare(frame), guess).isApprox(guess, 1e-6));
+}
+
+// A strip has few rows to reduce: two are left, or there is nothing to read between.
+TEST(ImageAligner, AStripIsAlignedWithinItsImage) {
+    const PinholeCamera camera{1024, 32, 800, 800, 511.5, 15.5};
+    BoxRoom room;
+    const Frame frame = room.Render(camera, Eigen::Isometry3d::Identity());
+    const PreparedFrame prepared = Prepare(frame);
+    for (const PreparedFrame::Reduced& reduced : prepared.reduced) EXPECT_EQ(reduced.depth_m.height(), 2);
+    ImageAligner aligner({}, camera);
+    aligner.Align(prepared, Eigen::Isometry3d::Identity());
+    EXPECT_TRUE(aligner.Align(prepared, Eigen::Isometry3d::Identity()).isApprox(Eigen::Isometry3d::Identity(), 1e-6));
 }
 
 TEST(ImageSearch, FindsAShiftToThePixelAndItsSign) {

@@ -30,13 +30,13 @@ class LearntAlpha : public testing::Test {
         for (float& r : intensity_) r = 0.02f * noise(random_);
     }
     double Learn() {
-        photometry_.emplace(config_, camera_);
+        photometry_.emplace(config_);
         TrackResult result;
         result.degenerate = degenerate_;
         result.alpha = photometry_->alpha();
         result.intensity_rms = 0.02;
         result.motion.twist_per_s << 0, 0.5, 0, 0, 0, 0;
-        photometry_->Learn(frame_, points_, distance_, intensity_, result);
+        photometry_->Learn(result, MakeResidualArguments(frame_, camera_, points_, distance_, intensity_), SumResiduals);
         return photometry_->alpha();
     }
 
@@ -114,7 +114,7 @@ TEST_F(LearntAlpha, StaysWithinItsBoundsAndWhereItIsFixed) {
     EXPECT_DOUBLE_EQ(Learn(), 0.001);
     config_.alpha_mode = Photometry::AlphaMode::kFixed;
     EXPECT_DOUBLE_EQ(Learn(), config_.alpha);
-    Photometry photometry(config_, camera_);
+    Photometry photometry(config_);
     photometry.SetAlpha(false, 0.25);
     EXPECT_DOUBLE_EQ(photometry.alpha(), 0.25);
 }

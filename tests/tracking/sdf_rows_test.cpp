@@ -57,7 +57,7 @@ struct Points {
 };
 
 // The same sums, slowly: one point at a time, one hash look-up per corner, in double.
-PoseSums SlowSums(const BlockMap& map, const Points& points, const SdfArguments& a) {
+PoseSums SlowSdfSums(const BlockMap& map, const Points& points, const SdfArguments& a) {
     PoseSums sums;
     const auto word = [&](int x, int y, int z) {
         const BlockId id = map.Find({x >> 3, y >> 3, z >> 3});
@@ -142,7 +142,7 @@ TEST_P(SdfRows, AgreeWithTheSlowSums) {
     a.distance_residual = distance_residual.data();
     a.intensity_residual = intensity_residual.data();
 
-    const PoseSums slow = SlowSums(map, points, a);
+    const PoseSums slow = SlowSdfSums(map, points, a);
     ASSERT_GT(slow[L::kKnown], 1000);
     const auto expect_equal = [&](const PoseSums& sums) {
         for (int k = 0; k < L::kCount; ++k)

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "support/box_room.h"
+#include "tracking/residual_sums.h"
 
 namespace tessera {
 namespace {
@@ -54,7 +55,15 @@ class Shutter : public testing::Test {
                     residuals[k] = static_cast<float>(room.Intensity(T * Eigen::Vector3d(points.x[k], points.y[k],
                                                                                          points.z[k]))) -
                                    points.intensity[k];
-            estimator.Update(prepared, points, residuals, motion, 1.0, 0.05);
+            if (!estimator.Wants(motion, 0.05)) continue;
+            ResidualArguments a = MakeResidualArguments(prepared, camera, points, {}, residuals);
+            for (int k = 0; k < 6; ++k) a.twist_per_s[k] = motion.twist_per_s(k);
+            a.colour_delay_s = motion.colour_delay_s;
+            a.colour_readout_s = motion.colour_readout_s;
+            a.gain = 1.0;
+            a.residual_scale = 0.05;
+            a.wants_shutter = true;
+            estimator.Update(SumResiduals(a).shutter, 0.05);
         }
     }
 
@@ -63,14 +72,14 @@ class Shutter : public testing::Test {
 };
 
 TEST_F(Shutter, LearnsARollingOne) {
-    ShutterEstimator estimator({}, camera);
+    ShutterEstimator estimator({});
     Learn(estimator, 0.003, 0.02);
     EXPECT_NEAR(estimator.delay_s(), 0.003, 0.0005);
     EXPECT_NEAR(estimator.readout_s(), 0.02, 0.002);
 }
 
 TEST_F(Shutter, LearnsAGlobalOneAsZero) {
-    ShutterEstimator estimator({}, camera);
+    ShutterEstimator estimator({});
     Learn(estimator, 0.0, 0.0);
     EXPECT_NEAR(estimator.delay_s(), 0.0, 0.0003);
     EXPECT_NEAR(estimator.readout_s(), 0.0, 0.001);
@@ -79,7 +88,7 @@ TEST_F(Shutter, LearnsAGlobalOneAsZero) {
 TEST_F(Shutter, StaysAtZeroWhenSwitchedOff) {
     ShutterEstimator::Config config;
     config.enabled = false;
-    ShutterEstimator estimator(config, camera);
+    ShutterEstimator estimator(config);
     Learn(estimator, 0.003, 0.02);
     EXPECT_EQ(estimator.delay_s(), 0.0);
     EXPECT_EQ(estimator.readout_s(), 0.0);

@@ -69,7 +69,7 @@ inline TestTracker FineSdf(const Photometry::Config& photometric) {
     config.finest_step_px = 1;
     config.fine_iterations = 30;
     TestTracker t;
-    t.photometry = std::make_unique<Photometry>(photometric, SmallCamera());
+    t.photometry = std::make_unique<Photometry>(photometric);
     t.tracker = std::make_unique<SdfTracker>(config, SmallCamera(), TrackJudge({}), t.photometry.get());
     return t;
 }
@@ -81,7 +81,7 @@ inline TestTracker FineIcp(const Photometry::Config& photometric, bool colour = 
     config.levels = 2;
     config.fine_iterations = 30;
     TestTracker t;
-    t.photometry = std::make_unique<Photometry>(photometric, SmallCamera());
+    t.photometry = std::make_unique<Photometry>(photometric);
     t.tracker = std::make_unique<IcpTracker>(config, SmallCamera(), TrackJudge({}),
                                              colour ? t.photometry.get() : nullptr, std::move(predictor));
     return t;

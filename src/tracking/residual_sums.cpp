@@ -1,0 +1,58 @@
+#include "tracking/residual_sums.h"
+
+#include <tbb/parallel_for.h>
+
+namespace tessera {
+namespace {
+
+template <class Kind>
+std::vector<double> SumKind(const ResidualArguments& a) {
+    std::vector<double> sums(static_cast<std::size_t>(Kind::Groups(a) * Kind::kSums), 0.0);
+    tbb::parallel_for(0, Kind::Groups(a), [&](int group) {
+        double* total = sums.data() + group * Kind::kSums;
+        for (int part = 0; part < Kind::Parts(a); ++part) {
+            double of_part[Kind::kSums] = {};
+            Kind::Add(a, group, part, of_part);
+            for (int k = 0; k < Kind::kSums; ++k) total[k] += of_part[k];
+        }
+    });
+    return sums;
+}
+
+}  // namespace
+
+ResidualArguments MakeResidualArguments(const PreparedFrame& frame, const PinholeCamera& camera, const FramePoints& points,
+                                        const std::vector<float>& distance_residual,
+                                        const std::vector<float>& intensity_residual) {
+    ResidualArguments a{};
+    a.width = points.width();
+    a.height = points.height();
+    a.step = points.step();
+    a.x = points.x.data();
+    a.y = points.y.data();
+    a.z = points.z.data();
+    a.intensity = points.intensity.data();
+    a.weight = points.weight.data();
+    a.distance_residual = distance_residual.data();
+    a.intensity_residual = intensity_residual.data();
+    a.image = frame.intensity.data();
+    a.image_width = frame.width;
+    a.image_height = frame.height;
+    a.fx = camera.fx;
+    a.fy = camera.fy;
+    a.cx = camera.cx;
+    a.cy = camera.cy;
+    return a;
+}
+
+ResidualSums SumResiduals(const ResidualArguments& a) {
+    ResidualSums sums;
+    if (a.wants_alpha) {
+        sums.distances = SumKind<DistanceSums>(a);
+        sums.scores = SumKind<ScoreSums>(a);
+    }
+    if (a.wants_shutter) sums.shutter = SumKind<ShutterSums>(a);
+    return sums;
+}
+
+}  // namespace tessera
