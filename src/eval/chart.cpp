@@ -9,7 +9,7 @@
 namespace tessera {
 namespace {
 
-constexpr Rgb8 kInk{50, 54, 60}, kGrid{228, 231, 235};
+constexpr Rgb8 kGrid{228, 231, 235};
 constexpr int kSubpixelBits = 4;
 
 cv::Scalar ToScalar(const Rgb8& c) {

@@ -16,6 +16,8 @@ namespace tessera {
 
 // Drawn this many times larger and scaled down at the end: smooth lines and letters.
 inline constexpr int kChartOversampling = 2;
+// Of texts and frames.
+inline constexpr Rgb8 kInk{50, 54, 60};
 
 // Text with its left (centre, right: align -1, 0, 1) end of the base line at `at`, final pixels.
 void DrawText(cv::Mat& canvas, const std::string& text, const Eigen::Vector2d& at, double height_px,

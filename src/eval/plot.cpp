@@ -15,8 +15,7 @@ namespace tessera {
 namespace {
 
 constexpr int kWidth = 1280, kHeight = 960;
-constexpr Rgb8 kInk{50, 54, 60}, kReference{60, 64, 70}, kEstimate{31, 111, 214},
-    kError{232, 140, 120};
+constexpr Rgb8 kReference{60, 64, 70}, kEstimate{31, 111, 214}, kError{232, 140, 120};
 constexpr Rgb8 kRmse{190, 60, 40};
 
 ColourImage ScaledDown(const cv::Mat& canvas, int width, int height) {

@@ -14,8 +14,6 @@
 namespace tessera {
 namespace {
 
-constexpr int kJpegQuality = 95;
-
 Status FirstError(std::initializer_list<Status> statuses) {
     for (const Status& status : statuses)
         if (!status.ok()) return status;
@@ -90,7 +88,7 @@ Status FrameRecorder::Check(const Frame& frame) const {
 Status FrameRecorder::WriteImages(const Frame& frame, const std::string& colour_name, const std::string& depth_name) {
     if (config_.colour == RecordConfig::Colour::kPng)
         png_.EncodeColour(frame.colour, file_);
-    else if (Status status = EncodeJpeg(frame.colour, kJpegQuality, file_); !status.ok())
+    else if (Status status = EncodeJpeg(frame.colour, kFineJpegQuality, file_); !status.ok())
         return Status::Error(folder_ + "/" + colour_name + ": " + status.message());
     if (Status status = WriteImage(colour_name); !status.ok()) return status;
     StoreDepth(frame.depth_m, source_.depth_units_per_m, depth_);

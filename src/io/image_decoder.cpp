@@ -11,7 +11,7 @@
 namespace tessera {
 namespace {
 
-constexpr std::size_t kMaxFileBytes = std::size_t{512} << 20;
+constexpr std::size_t kMaxImageBytes = std::size_t{512} << 20;
 
 Status CheckSize(int width, int height) {
     if (width <= ImageDecoder::kMaxSide_px && height <= ImageDecoder::kMaxSide_px)
@@ -51,12 +51,12 @@ Status Named(const std::string& path, const std::function<Status()>& decode) {
 }  // namespace
 
 Status ImageDecoder::ReadColour(const std::string& path, ColourImage& image) {
-    if (Status status = ReadFileBytes(path, kMaxFileBytes, file_); !status.ok()) return status;
+    if (Status status = ReadFileBytes(path, kMaxImageBytes, file_); !status.ok()) return status;
     return Named(path, [&] { return DecodeColour(image); });
 }
 
 Status ImageDecoder::ReadDepth(const std::string& path, Image<std::uint16_t>& image) {
-    if (Status status = ReadFileBytes(path, kMaxFileBytes, file_); !status.ok()) return status;
+    if (Status status = ReadFileBytes(path, kMaxImageBytes, file_); !status.ok()) return status;
     return Named(path, [&] { return DecodeDepth(image); });
 }
 

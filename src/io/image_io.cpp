@@ -4,11 +4,10 @@
 #include <opencv2/imgproc.hpp>
 
 #include "io/image_decoder.h"
+#include "io/jpeg_encoder.h"
 
 namespace tessera {
 namespace {
-
-constexpr int kJpegQuality = 95;
 
 // OpenCV's matrices have no const view of foreign pixels; what is wrapped here is only read.
 template <class T>
@@ -16,10 +15,10 @@ cv::Mat Wrap(const Image<T>& image, int type) {
     return {image.height(), image.width(), type, const_cast<T*>(image.data())};
 }
 
-Status Write(const std::string& path, const cv::Mat& pixels) {
+Status WritePixels(const std::string& path, const cv::Mat& pixels) {
     if (pixels.empty()) return Status::Error(path + ": there are no pixels to write");
     try {
-        if (cv::imwrite(path, pixels, {cv::IMWRITE_JPEG_QUALITY, kJpegQuality}))
+        if (cv::imwrite(path, pixels, {cv::IMWRITE_JPEG_QUALITY, kFineJpegQuality}))
             return Status::Ok();
     } catch (const cv::Exception&) {  // the extension is unknown
         return Status::Error(path + ": is no image format that can be written; use .png");
@@ -54,15 +53,15 @@ void StoreDepth(const DepthImage& depth_m, double units_per_m, Image<std::uint16
 Status WriteColourImage(const std::string& path, const ColourImage& image) {
     cv::Mat bgr;
     if (!image.empty()) cv::cvtColor(Wrap(image, CV_8UC3), bgr, cv::COLOR_RGB2BGR);
-    return Write(path, bgr);
+    return WritePixels(path, bgr);
 }
 
 Status WriteDepthImage(const std::string& path, const Image<std::uint16_t>& image) {
-    return Write(path, Wrap(image, CV_16UC1));
+    return WritePixels(path, Wrap(image, CV_16UC1));
 }
 
 Status WriteGreyImage(const std::string& path, const Image<std::uint8_t>& image) {
-    return Write(path, Wrap(image, CV_8UC1));
+    return WritePixels(path, Wrap(image, CV_8UC1));
 }
 
 }  // namespace tessera

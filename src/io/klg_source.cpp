@@ -64,7 +64,7 @@ Result<Index> ReadIndex(const std::string& path, std::istream& file, std::uint64
     return index;
 }
 
-Result<CameraCalibration> FindCamera(const std::string& path, std::vector<std::string>& notes) {
+Result<CameraCalibration> FindKlgCamera(const std::string& path, std::vector<std::string>& notes) {
     const fs::path file = fs::path(path).parent_path() / "camera.yaml";
     std::error_code ignored;
     if (fs::exists(file, ignored)) return ReadCameraFile(file.string());
@@ -186,7 +186,7 @@ Result<std::unique_ptr<FrameSource>> OpenKlgSource(const std::string& path, cons
     if (error || !file) return Status::Error(path + ": cannot be read");
     Result<Index> index = ReadIndex(path, file, file_bytes);
     if (!index.ok()) return index.status();
-    Result<CameraCalibration> calibration = FindCamera(path, index.value().notes);
+    Result<CameraCalibration> calibration = FindKlgCamera(path, index.value().notes);
     if (!calibration.ok()) return calibration.status();
     if (config.depth_scale > 0) calibration.value().depth_scale = config.depth_scale;
     auto source = std::make_unique<KlgSource>(path, std::move(file), std::move(index.value()), calibration.value(), config);

@@ -15,7 +15,7 @@
 namespace tessera {
 namespace {
 
-constexpr std::size_t kMaxFileBytes = std::size_t{16} << 30;
+constexpr std::size_t kMaxMeshBytes = std::size_t{16} << 30;
 constexpr std::uint64_t kMaxIndex = std::numeric_limits<std::int32_t>::max();
 
 // Where a vertex property goes; kNone is skipped.
@@ -177,7 +177,7 @@ Status ParsePly(std::string_view file, TriangleMesh& mesh) {
 }  // namespace
 
 Result<TriangleMesh> ReadPly(const std::string& path) {
-    const Result<std::string> file = ReadWholeFile(path, kMaxFileBytes);
+    const Result<std::string> file = ReadWholeFile(path, kMaxMeshBytes);
     if (!file.ok()) return file.status();
     TriangleMesh mesh;
     try {

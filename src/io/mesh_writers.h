@@ -3,12 +3,16 @@
 // docs/exports.md says what opens them.
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 #include "core/mesh.h"
 #include "core/status.h"
 
 namespace tessera {
+
+// What a writer collects before it hands it on to the file.
+inline constexpr std::size_t kMeshPieceBytes = std::size_t{1} << 20;
 
 // Stops the program where a property is neither empty nor one per vertex: what every writer relies on.
 void CheckVertexProperties(const TriangleMesh& mesh);

@@ -9,13 +9,12 @@
 namespace tessera {
 namespace {
 
-constexpr std::size_t kBufferBytes = 1 << 20;
 constexpr std::size_t kLineBytes = 256;  // more than any line takes
 
 // Collects lines and hands them on in large pieces.
 class LineBuffer {
   public:
-    explicit LineBuffer(AtomicFile& file) : file_(file) { text_.reserve(kBufferBytes + kLineBytes); }
+    explicit LineBuffer(AtomicFile& file) : file_(file) { text_.reserve(kMeshPieceBytes + kLineBytes); }
     ~LineBuffer() { file_.Write(text_); }
     LineBuffer(const LineBuffer&) = delete;
     LineBuffer& operator=(const LineBuffer&) = delete;
@@ -23,7 +22,7 @@ class LineBuffer {
     template <class Format, class... Values>
     void Add(const Format& format, const Values&... values) {
         fmt::format_to(std::back_inserter(text_), format, values...);
-        if (text_.size() < kBufferBytes) return;
+        if (text_.size() < kMeshPieceBytes) return;
         file_.Write(text_);
         text_.clear();
     }

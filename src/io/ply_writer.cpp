@@ -9,12 +9,10 @@
 namespace tessera {
 namespace {
 
-constexpr std::size_t kBufferBytes = 1 << 20;
-
 // Collects small values and hands them on in large pieces.
 class BinaryBuffer {
   public:
-    explicit BinaryBuffer(AtomicFile& file) : file_(file) { bytes_.reserve(kBufferBytes + 64); }
+    explicit BinaryBuffer(AtomicFile& file) : file_(file) { bytes_.reserve(kMeshPieceBytes + 64); }
     ~BinaryBuffer() { file_.Write(bytes_); }
     BinaryBuffer(const BinaryBuffer&) = delete;
     BinaryBuffer& operator=(const BinaryBuffer&) = delete;
@@ -23,7 +21,7 @@ class BinaryBuffer {
     void Add(const T& value) {
         static_assert(std::endian::native == std::endian::little, "PLY files are little endian");
         bytes_.append(reinterpret_cast<const char*>(&value), sizeof(T));
-        if (bytes_.size() < kBufferBytes) return;
+        if (bytes_.size() < kMeshPieceBytes) return;
         file_.Write(bytes_);
         bytes_.clear();
     }
@@ -51,7 +49,7 @@ std::string Header(const TriangleMesh& mesh, Content content) {
     return text + "end_header\n";
 }
 
-Status Write(const std::string& path, const TriangleMesh& mesh, Content content) {
+Status WriteVertices(const std::string& path, const TriangleMesh& mesh, Content content) {
     const std::size_t count = mesh.vertices.size();
     CheckVertexProperties(mesh);
     if (count > std::numeric_limits<std::int32_t>::max())
@@ -79,8 +77,8 @@ Status Write(const std::string& path, const TriangleMesh& mesh, Content content)
 
 }  // namespace
 
-Status WritePly(const std::string& path, const TriangleMesh& mesh) { return Write(path, mesh, Content::kMesh); }
+Status WritePly(const std::string& path, const TriangleMesh& mesh) { return WriteVertices(path, mesh, Content::kMesh); }
 
-Status WritePlyCloud(const std::string& path, const TriangleMesh& mesh) { return Write(path, mesh, Content::kPoints); }
+Status WritePlyCloud(const std::string& path, const TriangleMesh& mesh) { return WriteVertices(path, mesh, Content::kPoints); }
 
 }  // namespace tessera

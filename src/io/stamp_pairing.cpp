@@ -9,7 +9,7 @@
 namespace tessera {
 namespace {
 
-constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+constexpr std::size_t kNoItem = std::numeric_limits<std::size_t>::max();
 
 // Both lists merged by time, as a doubly linked list from which paired images are taken out.
 struct Item {
@@ -29,9 +29,9 @@ std::vector<Item> Merge(std::span<const double> depth, std::span<const double> c
         const std::size_t index = is_depth ? d++ : c++;
         const std::size_t at = items.size();
         items.push_back({is_depth ? depth[index] : colour[index], is_depth, index,
-                         at == 0 ? kNone : at - 1, at + 1, false});
+                         at == 0 ? kNoItem : at - 1, at + 1, false});
     }
-    if (!items.empty()) items.back().after = kNone;
+    if (!items.empty()) items.back().after = kNoItem;
     return items;
 }
 
@@ -56,7 +56,7 @@ std::vector<StampPair> PairNearest(std::span<const double> depth_stamps_s,
     std::vector<Item> items = Merge(depth_stamps_s, colour_stamps_s);
     std::priority_queue<Candidate, std::vector<Candidate>, std::greater<>> candidates;
     const auto consider = [&](std::size_t first, std::size_t second) {
-        if (first == kNone || second == kNone || items[first].is_depth == items[second].is_depth)
+        if (first == kNoItem || second == kNoItem || items[first].is_depth == items[second].is_depth)
             return;
         const Item& depth = items[items[first].is_depth ? first : second];
         const Item& colour = items[items[first].is_depth ? second : first];
@@ -76,8 +76,8 @@ std::vector<StampPair> PairNearest(std::span<const double> depth_stamps_s,
         first.taken = second.taken = true;
         pairs.push_back({first.is_depth ? first.index : second.index,
                          first.is_depth ? second.index : first.index});
-        if (first.before != kNone) items[first.before].after = second.after;
-        if (second.after != kNone) items[second.after].before = first.before;
+        if (first.before != kNoItem) items[first.before].after = second.after;
+        if (second.after != kNoItem) items[second.after].before = first.before;
         consider(first.before, second.after);
     }
     std::sort(pairs.begin(), pairs.end(),

@@ -11,7 +11,7 @@
 namespace tessera {
 namespace {
 
-constexpr std::size_t kMaxFileBytes = std::size_t{256} << 20;  // a day at 30 Hz
+constexpr std::size_t kMaxTrajectoryBytes = std::size_t{256} << 20;  // a day at 30 Hz
 constexpr std::size_t kMaxNotes = 50;
 constexpr double kMaxCoordinate_m = 1e6;
 constexpr std::size_t kColumns = 8;
@@ -108,7 +108,7 @@ void SortAndDropRepeated(std::vector<NumberedPose>& poses, Notes& notes, Traject
 }  // namespace
 
 Result<Trajectory> ReadTrajectory(const std::string& path) {
-    const Result<std::string> text = ReadWholeFile(path, kMaxFileBytes);
+    const Result<std::string> text = ReadWholeFile(path, kMaxTrajectoryBytes);
     if (!text.ok()) return text.status();
     std::string_view rest = text.value();
     if (rest.starts_with("\xef\xbb\xbf")) rest.remove_prefix(3);  // a byte order mark

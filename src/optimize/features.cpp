@@ -25,7 +25,7 @@ float DepthAround(const DepthImage& depth, int x, int y) {
 
 Features ExtractFeatures(const PreparedFrame& frame, const PinholeCamera& camera, int max_features) {
     Features features;
-    if (!frame.has_colour()) return features;
+    if (!frame.has_colour) return features;
     cv::Mat grey(frame.intensity.height(), frame.intensity.width(), CV_8U);
     for (std::size_t i = 0; i < frame.intensity.size(); ++i)
         grey.data[i] = static_cast<std::uint8_t>(std::lround(255 * std::clamp(frame.intensity.data()[i], 0.0f, 1.0f)));

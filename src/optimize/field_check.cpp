@@ -13,7 +13,7 @@ FieldCheck::FieldCheck(const FieldSettings& settings, const LoopConfig& config)
       config_(config),
       map_(settings.map),
       integrator_(settings.fusion, settings.camera),
-      photometry_(settings.photometric, settings.camera),
+      photometry_(settings.photometric),
       tracker_(settings.tracker, settings.camera, TrackJudge(settings.judge), &photometry_) {}
 
 FieldVerdict FieldCheck::Check(std::span<const NearFrame> old_frames, const FreshFrame& fresh, FrameStore& store) {

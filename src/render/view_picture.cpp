@@ -10,7 +10,7 @@ namespace tessera {
 namespace {
 
 constexpr float kFullDepth_m = 0.05f, kFullIntensity = 0.25f;
-constexpr Rgb8 kMissing{150, 150, 150};
+constexpr Rgb8 kMissingColour{150, 150, 150};
 
 // Rec. 601, as the map's luma.
 float Luma(const Rgb8& c) {
@@ -73,7 +73,7 @@ ColourImage ViewPicture(const Frame& frame, const PredictedView& view, double ga
     for (int v = 0; v < height; ++v)
         for (int u = 0; u < width; ++u) {
             const float measured = frame.depth_m(u, v), predicted = view.depth_m(u, v);
-            depth_error(u, v) = intensity_error(u, v) = kMissing;
+            depth_error(u, v) = intensity_error(u, v) = kMissingColour;
             if (measured > 0) {
                 nearest_m = std::min(nearest_m, measured);
                 farthest_m = std::max(farthest_m, measured);

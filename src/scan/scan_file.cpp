@@ -13,8 +13,6 @@
 namespace tessera {
 namespace {
 
-constexpr std::int64_t kSealKey = static_cast<std::int64_t>(ScanStateKey::kSeal);
-
 std::string TableSql(ScanTable table) {
     return fmt::format("CREATE TABLE {} (key INTEGER PRIMARY KEY, epoch INTEGER NOT NULL, checkpoint INTEGER NOT NULL, "
                        "data BLOB NOT NULL, checksum INTEGER NOT NULL)", ToString(table));

@@ -5,11 +5,6 @@
 #include "scan/scan_file.h"
 
 namespace tessera {
-namespace {
-
-constexpr std::int64_t kSealKey = static_cast<std::int64_t>(ScanStateKey::kSeal);
-
-}  // namespace
 
 std::vector<std::uint8_t> ScanSeal::Encode() const {
     std::vector<std::uint8_t> bytes;

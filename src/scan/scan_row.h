@@ -25,6 +25,7 @@ inline std::size_t IndexOf(ScanTable table) { return static_cast<std::size_t>(ta
 
 // Keys of ScanTable::kState; kMeta has the key 0 only.
 enum class ScanStateKey : std::int64_t { kSeal, kProgress, kTracking, kLoops, kLabels, kMetaCopy };
+inline constexpr std::int64_t kSealKey = static_cast<std::int64_t>(ScanStateKey::kSeal);
 
 // `data` is the reader's and valid until its next row.
 struct ScanRow {

@@ -10,7 +10,7 @@ namespace {
 constexpr int kLeastVisible = 20;       // sampled pixels; smaller views say nothing
 constexpr double kSameClassOverlap = 0.25, kOtherClassOverlap = 0.4;  // intersection over union, in the image
 constexpr double kContained = 0.5, kContainedShare = 0.2;
-constexpr double kSameBox = 0.3;        // intersection over union of 3D boxes
+constexpr double kSameSpace = 0.3;      // intersection over union of 3D boxes
 constexpr double kSameUnseen = 0.4;
 constexpr double kFree = 0.5;           // more of a region held by others is busy
 constexpr double kCovers = 0.6;         // of both, for one detection to say that two are one
@@ -22,7 +22,7 @@ constexpr double kStandingShare = 0.5;  // of the rate asked for
 constexpr double kClassShare = 0.5;     // of the votes, to be confirmed
 
 template <typename Box>
-double BoxOverlap(const Box& a, const Box& b) {
+double IntersectionOverUnion(const Box& a, const Box& b) {
     const Box both = a.intersection(b);
     if (a.isEmpty() || b.isEmpty() || both.isEmpty()) return 0;
     const double common = both.volume(), all = a.volume() + b.volume() - common;
@@ -39,10 +39,10 @@ Value At(const std::map<InstanceId, Value>& values, InstanceId id) {
 // outline in the image is the detector's box fits better, whatever the segment has taken along.
 double Fit(const ObservedObject& o, const InstanceRecord& record, int common, const VisibleObject& visible, bool same_class) {
     const double all = o.pixels + visible.pixels - common, overlap = all > 0 ? common / all : 0;
-    const double image = BoxOverlap(o.image_box, visible.image_box), space = BoxOverlap(o.box, record.box);
+    const double image = IntersectionOverUnion(o.image_box, visible.image_box), space = IntersectionOverUnion(o.box, record.box);
     if (!same_class) return overlap >= kOtherClassOverlap ? overlap + image : 0;
     const double contained = static_cast<double>(common) / std::max(1, std::min(o.pixels, visible.pixels));
-    const bool part = contained >= kContained && (common >= kContainedShare * o.pixels || space >= kSameBox);
+    const bool part = contained >= kContained && (common >= kContainedShare * o.pixels || space >= kSameSpace);
     return overlap >= kSameClassOverlap || part ? 0.2 + overlap + image + 0.2 * space : 0;
 }
 
@@ -107,7 +107,7 @@ void Instances::Assign(const std::vector<ObservedObject>& observed, const std::m
     for (std::size_t i = 0; i < observed.size(); ++i) {
         for (InstanceId id = 1; id <= last(); ++id)  // what another's votes still hide
             if (!visible.contains(id) && Resolve(id) == id && ClassOf(id) == observed[i].class_id)
-                if (const double space = BoxOverlap(observed[i].box, records_[id].box); space >= kSameUnseen)
+                if (const double space = IntersectionOverUnion(observed[i].box, records_[id].box); space >= kSameUnseen)
                     candidates.push_back({0.1 * space, i, id});
         for (const auto& [id, common] : observed[i].overlaps) {
             const double fit = Fit(observed[i], records_[id], common, At(visible, id), ClassOf(id) == observed[i].class_id);

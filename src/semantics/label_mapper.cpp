@@ -15,10 +15,10 @@ namespace {
 
 constexpr int kSampledColumns = 160;  // at least, of the predicted view and of what is compared with it
 constexpr float kNear_m = 0.1f;
-constexpr float kStray = 0.02f;  // of an instance's pixels on each side, for its outline
+constexpr float kStrayShare = 0.02f;  // of an instance's pixels on each side, for its outline
 constexpr float kTrim = 0.05f;  // of a detection's points on each side of each axis, for its box
 
-Eigen::AlignedBox3d TrimmedBox(std::vector<Eigen::Vector3d>& points) {
+Eigen::AlignedBox3d BoxWithoutStrays(std::vector<Eigen::Vector3d>& points) {
     Eigen::AlignedBox3d box;
     if (points.empty()) return box;
     const auto cut = static_cast<std::size_t>(kTrim * static_cast<float>(points.size()));
@@ -112,7 +112,7 @@ std::map<InstanceId, VisibleObject> LabelMapper::Visible() const {
     for (auto& [id, place] : places) {
         VisibleObject& seen = visible[id];
         seen.pixels = static_cast<int>(place[0].size());
-        const auto cut = static_cast<std::size_t>(kStray * static_cast<float>(place[0].size()));
+        const auto cut = static_cast<std::size_t>(kStrayShare * static_cast<float>(place[0].size()));
         for (std::size_t axis = 0; axis < 2; ++axis) {
             std::ranges::sort(place[axis]);
             seen.image_box.min()[static_cast<int>(axis)] = step_px_ * place[axis][cut];
@@ -145,7 +145,7 @@ std::vector<ObservedObject> LabelMapper::Observe(std::span<const Detection> dete
         observed[i].class_id = detections[i].class_id;
         observed[i].probability = detections[i].probability;
         observed[i].mark = MarkOf(detections[i]);
-        observed[i].box = TrimmedBox(points[i]);
+        observed[i].box = BoxWithoutStrays(points[i]);
         const DetectionBox& box = detections[i].box;
         observed[i].image_box = {Eigen::Vector2d(box.x_min, box.y_min), Eigen::Vector2d(box.x_max + 1, box.y_max + 1)};
     }

@@ -14,7 +14,7 @@ namespace {
 
 // An object's surface in the map: less is what others left of a mistake.
 constexpr double kLeastArea_m2 = 0.0015;
-constexpr double kLeastShare = 0.1;  // of what its detections saw of it, in the mean
+constexpr double kLeastSeenShare = 0.1;  // of what its detections saw of it, in the mean
 
 }  // namespace
 
@@ -140,7 +140,7 @@ std::vector<MapObject> LabelMapper::Objects(double voxel_size_m, TriangleMesh& l
         object.probability = instances_.Probability(id);
         object.observations = instances_.record(id).observations;
         objects.push_back(std::move(object));
-        least_m2[objects.back().id] = std::max(kLeastArea_m2, kLeastShare * instances_.SeenArea_m2(id));
+        least_m2[objects.back().id] = std::max(kLeastArea_m2, kLeastSeenShare * instances_.SeenArea_m2(id));
     }
     tbb::parallel_for(std::size_t{0}, objects.size(), [&](std::size_t i) { MeasureObject(labelled, objects[i]); });
     std::set<int> remains;

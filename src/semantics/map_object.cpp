@@ -13,9 +13,9 @@ constexpr double kStray = 0.005;
 constexpr int kAngles = 30;  // tried over a quarter turn
 constexpr std::size_t kTried = 1000;  // points that the trials look at; the box chosen holds all
 
-using Points = std::vector<Eigen::Vector3d>;
+using WorldPoints = std::vector<Eigen::Vector3d>;
 
-Eigen::AlignedBox3d TrimmedBox(const Points& points, const Eigen::Matrix3d& R_box_world) {
+Eigen::AlignedBox3d TrimmedBox(const WorldPoints& points, const Eigen::Matrix3d& R_box_world) {
     Eigen::AlignedBox3d box;
     std::vector<double> values(points.size());
     const auto low = static_cast<std::ptrdiff_t>(kStray * static_cast<double>(points.size()));
@@ -29,7 +29,7 @@ Eigen::AlignedBox3d TrimmedBox(const Points& points, const Eigen::Matrix3d& R_bo
     return box;
 }
 
-Eigen::Matrix3d PrincipalAxes(const Points& points) {
+Eigen::Matrix3d PrincipalAxes(const WorldPoints& points) {
     Eigen::Vector3d mean = Eigen::Vector3d::Zero();
     for (const Eigen::Vector3d& p : points) mean += p / static_cast<double>(points.size());
     Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
@@ -40,9 +40,9 @@ Eigen::Matrix3d PrincipalAxes(const Points& points) {
 }
 
 // The smallest box found by turning the principal axes about each of themselves.
-void FitOrientedBox(const Points& points, MapObject& object) {
+void FitOrientedBox(const WorldPoints& points, MapObject& object) {
     const Eigen::Matrix3d principal = PrincipalAxes(points);
-    Points some;
+    WorldPoints some;
     for (std::size_t i = 0; i < points.size(); i += (points.size() + kTried - 1) / kTried) some.push_back(points[i]);
     double least = std::numeric_limits<double>::max();
     Eigen::Matrix3d R_best = principal;
@@ -71,7 +71,7 @@ nlohmann::ordered_json Rounded(const Eigen::Vector3d& v) {
 
 void MeasureObject(const TriangleMesh& mesh, MapObject& object) {
     const auto is_its = [&](std::uint32_t v) { return mesh.labels[v].instance == object.id; };
-    Points points;
+    WorldPoints points;
     for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v)
         if (is_its(v)) points.push_back(mesh.vertices[v].cast<double>());
     object.vertices = static_cast<std::int64_t>(points.size());

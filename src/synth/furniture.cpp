@@ -9,7 +9,7 @@ namespace {
 
 using Eigen::Vector3d;
 constexpr double kDegree = std::numbers::pi / 180;
-constexpr int kFront = 2, kTop = 5, kBottom = 4;  // box charts
+constexpr int kFrontChart = 2, kTopChart = 5, kBottomChart = 4;  // box charts
 
 Eigen::Isometry3d Move(const Eigen::Isometry3d& T, double x, double y, double z) {
     return T * Eigen::Translation3d(x, y, z);
@@ -62,14 +62,14 @@ void Furnisher::Monitor(const Eigen::Isometry3d& T, const std::string& name, std
     Box(T, {0, 0.02, 0}, {0.24, 0.18, 0.016}, plastic);
     Box(T, {0, 0.05, 0.016}, {0.06, 0.03, 0.20}, plastic);
     const int panel = Box(T, {0, 0.015, 0.11}, {0.53, 0.035, 0.32}, plastic);
-    scene_.SetPaint(panel, kFront, Fit(PaintScreen(848, 512, seed)));
+    scene_.SetPaint(panel, kFrontChart, Fit(PaintScreen(848, 512, seed)));
     scene_.BeginInstance("", "");
 }
 
 void Furnisher::Keyboard(const Eigen::Isometry3d& T, const std::string& name) {
     scene_.BeginInstance(name, "keyboard");
     const int body = Box(T, {0, 0, 0}, {0.45, 0.16, 0.022}, Flat({52, 52, 56}));
-    scene_.SetPaint(body, kTop, Fit(PaintKeyboard({52, 52, 56}, {205, 204, 198}, 900, 320, 5)));
+    scene_.SetPaint(body, kTopChart, Fit(PaintKeyboard({52, 52, 56}, {205, 204, 198}, 900, 320, 5)));
     scene_.BeginInstance("", "");
 }
 
@@ -81,11 +81,11 @@ void Furnisher::Laptop(const Eigen::Isometry3d& T, const std::string& name, std:
     ColourImage top(680, 480, Rgb8{168, 170, 176});
     std::copy_n(deck.data(), deck.size(), top.row(24));
     for (int y = 330; y < 450; ++y) std::fill_n(top.row(y) + 240, 200, Rgb8{140, 142, 150});
-    scene_.SetPaint(base, kTop, Fit(top));
+    scene_.SetPaint(base, kTopChart, Fit(top));
     Eigen::Isometry3d hinge = Move(T, 0, 0.115, 0.018);
     hinge.rotate(Eigen::AngleAxisd(-18 * kDegree, Vector3d::UnitX()));
     const int lid = Box(hinge, {0, 0, 0}, {0.34, 0.010, 0.225}, metal);
-    scene_.SetPaint(lid, kFront, Fit(PaintScreen(680, 450, seed)));
+    scene_.SetPaint(lid, kFrontChart, Fit(PaintScreen(680, 450, seed)));
     scene_.BeginInstance("", "");
 }
 
@@ -110,10 +110,10 @@ void Furnisher::Book(const Eigen::Isometry3d& T, const std::string& name, const 
     const std::uint64_t seed = colour.r * 65536u + colour.g * 256u + colour.b;
     const int book =
         Box(T, {0, 0, 0}, size, Fit(PaintLeaves(pixels(size.x()), pixels(size.z()), seed)));
-    scene_.SetPaint(book, kTop,
+    scene_.SetPaint(book, kTopChart,
                     Fit(PaintBookCover(name, colour, pixels(size.x()), pixels(size.y()), seed)));
-    scene_.SetPaint(book, kBottom, Flat(colour));
-    scene_.SetPaint(book, kFront,
+    scene_.SetPaint(book, kBottomChart, Flat(colour));
+    scene_.SetPaint(book, kFrontChart,
                     Fit(PaintBookSpine(name, colour, pixels(size.x()), pixels(size.z()))));
     scene_.BeginInstance("", "");
 }
@@ -182,7 +182,7 @@ void Furnisher::Poster(const Eigen::Isometry3d& T_world_wall, double x, double z
     const int sheet =
         Box(T_world_wall, {x, -0.006, z - height / 2}, {width, 0.012, height}, Flat({70, 56, 44}));
     const auto pixels = [](double metres) { return static_cast<int>(metres * 900); };
-    scene_.SetPaint(sheet, kFront, Fit(PaintPoster(caption, pixels(width), pixels(height), seed)));
+    scene_.SetPaint(sheet, kFrontChart, Fit(PaintPoster(caption, pixels(width), pixels(height), seed)));
 }
 
 void Furnisher::Door(const Eigen::Isometry3d& T_world_wall, double x, const std::string& plate,
@@ -192,7 +192,7 @@ void Furnisher::Door(const Eigen::Isometry3d& T_world_wall, double x, const std:
         Box(T_world_wall, {x + side, -0.04, 0}, {0.08, 0.08, 2.08}, frame);
     Box(T_world_wall, {x, -0.04, 2.0}, {0.9, 0.08, 0.08}, frame);
     const int leaf = Box(T_world_wall, {x, -0.01, 0}, {0.9, 0.02, 2.0}, Flat(colour));
-    scene_.SetPaint(leaf, kFront, Fit(PaintDoor(colour, plate, 450, 1000)));
+    scene_.SetPaint(leaf, kFrontChart, Fit(PaintDoor(colour, plate, 450, 1000)));
 }
 
 void Furnisher::Shell(const Vector3d& size, const Paint& floor, const Paint& ceiling,

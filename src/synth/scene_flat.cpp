@@ -10,7 +10,6 @@ namespace tessera {
 namespace {
 
 constexpr double kLength = 14, kWidth = 6, kHeight = 2.6, kWall = 7;  // metres; the wall between the rooms in the middle
-constexpr double kPi = std::numbers::pi;
 
 void BuildPartition(Furnisher& add, const Paint& wall) {
     const double doors[][2] = {{0.8, 1.8}, {4.2, 5.2}};
@@ -23,7 +22,7 @@ void BuildPartition(Furnisher& add, const Paint& wall) {
     add.Box(StandAt(kWall, (from + kWidth) / 2, 0), {0, 0, 0}, {0.16, kWidth - from, kHeight}, wall);
 }
 
-void FurnishWalls(Furnisher& add) {
+void FurnishFlatWalls(Furnisher& add) {
     const Eigen::Isometry3d north = StandAt(0, kWidth, 0), south = StandAt(0, 0, 0, 180);
     const Eigen::Isometry3d west = StandAt(0, 0, 0, 90), east = StandAt(kLength, 0, 0, -90);
     const Eigen::Isometry3d left_of_wall = StandAt(kWall - 0.08, 0, 0, -90), right_of_wall = StandAt(kWall + 0.08, 0, 0, 90);
@@ -85,7 +84,7 @@ struct RingPoint {
 };
 RingPoint AlongRing(double way_m) {
     constexpr double kLeft = 2.1, kRight = 11.9, kFront = 1.3, kBack = 4.7, kTurn = 1.2;
-    constexpr double kLong = kRight - kLeft - 2 * kTurn, kShort = kBack - kFront - 2 * kTurn, kArc = kPi / 2 * kTurn;
+    constexpr double kLong = kRight - kLeft - 2 * kTurn, kShort = kBack - kFront - 2 * kTurn, kArc = std::numbers::pi / 2 * kTurn;
     const double ring = 2 * (kLong + kShort) + 4 * kArc;
     double s = std::fmod(std::fmod(way_m, ring) + ring, ring);
     const double lengths[] = {kLong, kShort, kLong, kShort};
@@ -114,7 +113,7 @@ StagedScene MakeFlat() {
     add.Shell({kLength, kWidth, kHeight}, add.Repeat(PaintWood({150, 112, 76}, 8, 1024, 502), 1.6),
               add.Repeat(PaintTiles({222, 222, 218}, {190, 190, 188}, 4, 512, 503), 2.4), wall);
     BuildPartition(add, wall);
-    FurnishWalls(add);
+    FurnishFlatWalls(add);
     FurnishFirstRoom(add);
     FurnishSecondRoom(add);
     Lighting lighting;

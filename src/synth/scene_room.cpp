@@ -10,9 +10,7 @@
 namespace tessera {
 namespace {
 
-constexpr double kTwoPi = 2 * std::numbers::pi;
-
-void FurnishWalls(Furnisher& add) {
+void FurnishRoomWalls(Furnisher& add) {
     const Eigen::Isometry3d north = StandAt(0, 4, 0), south = StandAt(0, 0, 0, 180);
     const Eigen::Isometry3d west = StandAt(0, 0, 0, 90), east = StandAt(5, 0, 0, -90);
     add.Poster(north, 1.2, 1.7, 0.9, 0.65, "Ridge walk", 61);
@@ -91,7 +89,7 @@ StagedScene MakeRoom() {
     add.Shell({5, 4, 2.6}, add.Repeat(PaintWood({152, 112, 74}, 8, 1024, 81), 1.6),
               add.Repeat(PaintNoise({226, 224, 216}, 22, 512, 82), 2.0),
               add.Repeat(PaintStripes({212, 200, 176}, {182, 172, 150}, 1024, 83), 1.6));
-    FurnishWalls(add);
+    FurnishRoomWalls(add);
     FurnishRoom(add);
     Lighting lighting;
     lighting.lights = {
@@ -103,7 +101,7 @@ StagedScene MakeRoom() {
     staged.description = "a furnished room of 5 m x 4 m, one closed turn";
     staged.path.duration_s = 24;
     staged.path.T_world_camera = [](double t) {
-        const double a = kTwoPi * t / 24;
+        const double a = 2 * std::numbers::pi * t / 24;
         // Around the middle, looking across it and outwards, up and down a little.
         const Eigen::Vector3d eye(2.45 - 0.75 * std::cos(a), 2.0 - 0.55 * std::sin(a),
                                   1.45 + 0.08 * std::sin(3 * a));
@@ -138,7 +136,7 @@ StagedScene MakeCorridor() {
         // be made.
         const double lap = std::abs(std::remainder(t, 2 * kDuration)) / kDuration;
         const Eigen::Vector3d eye(1.0 + kWalk * lap, kWidth / 2 + 0.25 * std::sin(0.31 * t),
-                                  1.45 + 0.03 * std::sin(kTwoPi * 0.45 * t));
+                                  1.45 + 0.03 * std::sin(2 * std::numbers::pi * 0.45 * t));
         const double yaw = 0.42 * std::sin(0.45 * t), pitch = -0.16 + 0.08 * std::sin(0.37 * t + 1);
         const Eigen::Vector3d ahead(std::cos(yaw), std::sin(yaw), pitch);
         return Eigen::Isometry3d(LookAt(eye, eye + ahead) * Tremor(t));

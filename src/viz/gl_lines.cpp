@@ -8,7 +8,7 @@ namespace tessera {
 namespace {
 
 // Both ends are cut at the near plane before the division, so that a line that passes the viewer stays straight.
-constexpr const char* kVertexSource = R"(#version 330 core
+constexpr const char* kLineVertexSource = R"(#version 330 core
 layout(location = 0) in vec3 start;
 layout(location = 1) in vec4 start_colour;
 layout(location = 2) in vec3 end;
@@ -36,7 +36,7 @@ void main() {
 }
 )";
 
-constexpr const char* kFragmentSource = R"(#version 330 core
+constexpr const char* kLineFragmentSource = R"(#version 330 core
 in vec4 colour;
 out vec4 pixel;
 void main() { pixel = colour; }
@@ -76,7 +76,7 @@ void GlLines::Bind(bool connected) {
 }
 
 Result<GlLineProgram> GlLineProgram::Create() {
-    Result<GlProgram> program = GlProgram::Create(kVertexSource, kFragmentSource);
+    Result<GlProgram> program = GlProgram::Create(kLineVertexSource, kLineFragmentSource);
     if (!program.ok()) return program.status();
     return GlLineProgram(std::move(program.value()));
 }

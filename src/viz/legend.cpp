@@ -5,10 +5,6 @@
 namespace tessera {
 namespace {
 
-ImU32 Packed(const Rgb8& c) {
-    return IM_COL32(c.r, c.g, c.b, 255);
-}
-
 void DrawShadowed(ImDrawList& list, const ImVec2& at, ImU32 colour, const std::string& text) {
     const float size = SmallFont()->FontSize;
     list.AddText(SmallFont(), size, {at.x + 1, at.y + 1}, IM_COL32(0, 0, 0, 210), text.c_str());

@@ -7,7 +7,7 @@
 namespace tessera {
 namespace {
 
-constexpr const char* kVertexSource = R"(#version 330 core
+constexpr const char* kMeshVertexSource = R"(#version 330 core
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec2 normal;
 layout(location = 2) in vec4 colour;
@@ -29,7 +29,7 @@ void main() {
 )";
 
 // One lamp at the viewer's left shoulder and a little light from the sky: enough for bare walls to show their shape.
-constexpr const char* kFragmentSource = R"(#version 330 core
+constexpr const char* kMeshFragmentSource = R"(#version 330 core
 in vec3 normal_world;
 in vec4 weighted_colour;
 in vec4 marked;
@@ -70,7 +70,7 @@ void main() {
 }  // namespace
 
 Result<MeshProgram> MeshProgram::Create() {
-    Result<GlProgram> program = GlProgram::Create(kVertexSource, kFragmentSource);
+    Result<GlProgram> program = GlProgram::Create(kMeshVertexSource, kMeshFragmentSource);
     if (!program.ok()) return program.status();
     return MeshProgram(std::move(program.value()));
 }

@@ -9,10 +9,6 @@
 namespace tessera {
 namespace {
 
-ImU32 Packed(const Rgb8& c, unsigned alpha = 255) {
-    return IM_COL32(c.r, c.g, c.b, alpha);
-}
-
 // Names on small plates with the colour's mark at their left, none over another: a later one goes up until it is free.
 class NamePlates {
   public:

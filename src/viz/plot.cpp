@@ -17,7 +17,7 @@ std::string ValueText(float value, const char* unit) {
                          : fmt::format("{:.0f}", value);
 }
 
-struct Frame {
+struct PlotFrame {
     ImVec2 from, to;
     float end = 1;
 
@@ -29,7 +29,7 @@ struct Frame {
     }
 };
 
-void DrawCurve(ImDrawList& list, const Frame& frame, const Curve& curve, bool filled) {
+void DrawCurve(ImDrawList& list, const PlotFrame& frame, const Curve& curve, bool filled) {
     std::vector<ImVec2> points(curve.series->size());
     for (std::size_t i = 0; i < points.size(); ++i) points[i] = frame.At(*curve.series, i);
     const ImU32 shade = (curve.colour & ~IM_COL32_A_MASK) | (44u << IM_COL32_A_SHIFT);
@@ -44,7 +44,7 @@ void DrawCurve(ImDrawList& list, const Frame& frame, const Curve& curve, bool fi
 }
 
 // Names and last values along the top, as far as there is room.
-void DrawLegend(ImDrawList& list, std::span<const Curve> curves, ImVec2 at, float right) {
+void DrawCurveNames(ImDrawList& list, std::span<const Curve> curves, ImVec2 at, float right) {
     for (const Curve& curve : curves) {
         const std::string text = fmt::format("{} {:.0f}", curve.name, curve.series->last());
         const float width = ImGui::CalcTextSize(text.c_str()).x;
@@ -56,7 +56,7 @@ void DrawLegend(ImDrawList& list, std::span<const Curve> curves, ImVec2 at, floa
     }
 }
 
-void DrawTip(std::span<const Curve> curves, const Frame& frame, const char* unit) {
+void DrawTip(std::span<const Curve> curves, const PlotFrame& frame, const char* unit) {
     const float from_right = (frame.to.x - ImGui::GetIO().MousePos.x) / (frame.to.x - frame.from.x);
     ImGui::BeginTooltip();
     for (const Curve& curve : curves) {
@@ -79,7 +79,7 @@ void DrawPlot(const char* title, const char* unit, std::span<const Curve> curves
     const bool hovered = ImGui::IsItemHovered();
     ImGui::PushFont(SmallFont());
     const float line = ImGui::GetTextLineHeight(), right = at.x + size.x;
-    Frame frame{{at.x, at.y + line + Scaled(6)}, {right, at.y + size.y}, axis_end};
+    PlotFrame frame{{at.x, at.y + line + Scaled(6)}, {right, at.y + size.y}, axis_end};
     if (axis_end <= 0) {
         float most = 0;
         for (const Curve& curve : curves) most = std::max(most, curve.series->max());
@@ -88,7 +88,7 @@ void DrawPlot(const char* title, const char* unit, std::span<const Curve> curves
     list.AddText(at, palette::kDim, title);
     const float title_width = ImGui::CalcTextSize(title).x;
     if (curves.size() > 1) {
-        DrawLegend(list, curves, {at.x + title_width + Scaled(14), at.y}, right);
+        DrawCurveNames(list, curves, {at.x + title_width + Scaled(14), at.y}, right);
     } else if (!curves.empty()) {
         const std::string value = fmt::format("{} {}", ValueText(curves[0].series->last(), unit), unit);
         list.AddText({right - ImGui::CalcTextSize(value.c_str()).x, at.y}, palette::kText, value.c_str());

@@ -3,12 +3,17 @@
 
 #include <imgui.h>
 
+#include "core/image.h"
+
 namespace tessera {
 
 // Sets ImGui's style and fonts, sizes times `scale`. After ImGui::CreateContext.
 void ApplyTheme(float scale);
 // Sizes of this program are given for a display of usual density.
 float Scaled(float size);
+
+// As ImGui draws it; alpha up to 255.
+inline ImU32 Packed(const Rgb8& c, unsigned alpha = 255) { return IM_COL32(c.r, c.g, c.b, alpha); }
 
 ImFont* SmallFont();
 ImFont* HeadingFont();
