@@ -1,6 +1,6 @@
-// The few calls that a device answers, as plain functions: device_cuda.cu asks the CUDA runtime, device_serial.cpp does
-// them at once in the computer's own memory. Everything else in this folder is written once, on top of these, and compiled
-// for both: TESSERA_DEVICE is `cuda` or `serial`.
+// The few calls that a device answers, as plain functions: device_cuda.cu asks the CUDA runtime, device_host.cpp does
+// them in the computer's own memory. Everything else in this folder is written once, on top of these, and compiled
+// for both: TESSERA_DEVICE is `cuda` or `host`.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,8 @@
 // Loops over items and sums over them, for bodies that are plain structs with TESSERA_HD_MEMBER operator(). Included only by
-// sources that nvcc compiles for a GPU and g++ for the serial device.
+// sources that nvcc compiles for a GPU and g++ for the host device.
 #pragma once
+
+#include <atomic>
 
 #include "core/host_device.h"
 #include "core/scalar_lanes.h"
@@ -9,6 +11,8 @@
 
 #ifdef __CUDACC__
 #include "cuda/cuda_check.h"
+#else
+#include "cuda/device_host.h"
 #endif
 
 namespace tessera::TESSERA_DEVICE {
@@ -96,18 +100,28 @@ void SumTiles(Stream& stream, int count, const Body& body, double* tiles, double
 #else
 
 template <class Body>
-void ForEach(Stream&, int count, const Body& body) {
-    for (int i = 0; i < count; ++i) body(i);
+void ForEach(Stream& stream, int count, const Body& body) {
+    constexpr int kPiece = 512;
+    backend::Enqueue(stream.handle(), [count, body] {
+        backend::InAnyOrder((count + kPiece - 1) / kPiece, [&](int piece) {
+            const int first = piece * kPiece;
+            for (int i = std::min(first + kPiece, count) - 1; i >= first; --i) body(i);
+        });
+    });
 }
 
 template <int kSums, class Body>
-void SumTiles(Stream&, int count, const Body& body, double*, double* sums) {
-    std::fill_n(sums, kSums, 0.0);
-    for (int first = 0; first < count; first += kRunItems) {
-        double run[kSums] = {};
-        AddTiles<ScalarLanes, kSums>(first, std::min(first + kRunItems, count), body, run);
-        for (int k = 0; k < kSums; ++k) sums[k] += run[k];
-    }
+void SumTiles(Stream& stream, int count, const Body& body, double* tiles, double* sums) {
+    backend::Enqueue(stream.handle(), [=] {
+        double* runs = tiles + TileCount(count) * kSums;
+        backend::InAnyOrder(RunCount(count), [&](int run) {
+            const int first = run * kRunItems;
+            std::fill_n(runs + run * kSums, kSums, 0.0);
+            AddTiles<ScalarLanes, kSums>(first, std::min(first + kRunItems, count), body, runs + run * kSums);
+        });
+        std::fill_n(sums, kSums, 0.0);
+        for (int i = 0; i < RunCount(count) * kSums; ++i) sums[i % kSums] += runs[i];
+    });
 }
 
 #endif
@@ -118,7 +132,7 @@ TESSERA_HD T AtomicAdd(T* at, T value) {
 #ifdef __CUDA_ARCH__
     return atomicAdd(at, value);
 #else
-    return std::exchange(*at, static_cast<T>(*at + value));
+    return std::atomic_ref(*at).fetch_add(value);
 #endif
 }
 
@@ -127,14 +141,18 @@ TESSERA_HD void AtomicMin(float* at, float value) {
 #ifdef __CUDA_ARCH__
     atomicMin(reinterpret_cast<int*>(at), __float_as_int(value));
 #else
-    *at = std::min(*at, value);
+    const std::atomic_ref shared(*at);
+    for (float before = shared; value < before && !shared.compare_exchange_weak(before, value);) {
+    }
 #endif
 }
 TESSERA_HD void AtomicMax(float* at, float value) {
 #ifdef __CUDA_ARCH__
     atomicMax(reinterpret_cast<int*>(at), __float_as_int(value));
 #else
-    *at = std::max(*at, value);
+    const std::atomic_ref shared(*at);
+    for (float before = shared; value > before && !shared.compare_exchange_weak(before, value);) {
+    }
 #endif
 }
 
@@ -145,9 +163,8 @@ TESSERA_HD T AtomicSwapIf(T* at, T expected, T value) {
     using Word = std::conditional_t<sizeof(T) == 8, unsigned long long, T>;
     return static_cast<T>(atomicCAS(reinterpret_cast<Word*>(at), static_cast<Word>(expected), static_cast<Word>(value)));
 #else
-    const T before = *at;
-    if (before == expected) *at = value;
-    return before;
+    std::atomic_ref(*at).compare_exchange_strong(expected, value);
+    return expected;
 #endif
 }
 

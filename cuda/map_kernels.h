@@ -46,7 +46,7 @@ struct KeySet {
         if (at < capacity)
             list[at] = key;
         else
-            *missed = 1;
+            AtomicAdd(missed, 1);
     }
 };
 

@@ -9,7 +9,7 @@
 #include "cuda/desk_frames.h"
 #include "cuda/device_pipeline.h"
 
-namespace tessera::serial {
+namespace tessera::host {
 namespace {
 
 using testing_support::DeskFrames;
@@ -67,7 +67,7 @@ Frame AnyFrame(int width, int height, bool colour, std::uint32_t seed) {
 }
 
 TEST(DeviceFrame, IsTheBytesOfThePreparedFrame) {
-    DevicePipeline device("serial", std::size_t{1} << 30);
+    DevicePipeline device("host", std::size_t{1} << 30);
     PreparedFrame made, expected;
     std::uint32_t seed = 0;
     for (const auto& [width, height] : {std::pair(160, 120), std::pair(641, 37), std::pair(64, 48), std::pair(16, 16)})
@@ -109,6 +109,7 @@ TEST(DeviceFrame, IsThereWhenItWasMadeThere) {
 
     const PreparedFrame& other = DeskFrames()[7].prepared;
     ASSERT_TRUE(on_device.Upload(other));
+    stream.Wait();
     EXPECT_EQ(std::memcmp(on_device.depth_m(), other.depth_m.data(), 4 * other.depth_m.size()), 0);
     EXPECT_FALSE(on_device.Upload(made)) << "its images are nowhere any more";
     EXPECT_FALSE(on_device.Upload(PreparedFrame())) << "no frame";
@@ -116,11 +117,11 @@ TEST(DeviceFrame, IsThereWhenItWasMadeThere) {
 
 // Where there is no room the processor does it.
 TEST(DeviceFrame, IsMadeByTheProcessorWhereThereIsNoRoom) {
-    DevicePipeline device("serial", std::size_t{64} << 10);
+    DevicePipeline device("host", std::size_t{64} << 10);
     PreparedFrame made;
     device.Prepare(DeskFrames()[3].frame, {}, false, made);
     ExpectSameFrame(made, DeskFrames()[3].prepared);
 }
 
 }  // namespace
-}  // namespace tessera::serial
+}  // namespace tessera::host

@@ -12,7 +12,7 @@
 #include "tracking/icp_tracker.h"
 #include "tracking/set_view.h"
 
-namespace tessera::serial {
+namespace tessera::host {
 namespace {
 
 using testing_support::DeskCamera;
@@ -90,9 +90,10 @@ struct IcpRig {
 
 TEST(DeviceIcp, ModelIsTheProcessorsToTheBit) {
     const IcpRig rig;
-    DevicePipeline device("serial", kPlenty);
+    DevicePipeline device("host", kPlenty);
     DeviceIcp icp(device);
     icp.Predict(rig.map, rig.camera, rig.T_world_view, kNear_m, kFar_m, kLevels, kJump_m);
+    EXPECT_GT(icp.SetPoints(DeskFrames()[5].prepared, rig.PointsOf(0), 0), 0);  // waits for the model, too
     ASSERT_EQ(icp.model().size(), rig.model.size());
     for (std::size_t i = 0; i < rig.model.size(); ++i) {
         const ModelImages& level = icp.model()[i];
@@ -118,7 +119,7 @@ void ExpectSameSums(const PoseSums& sums, const PoseSums& expected) {
 // The same points, model and pose, alone and against the residuals of another pose.
 TEST(DeviceIcp, SumsAreTheProcessorsToTheBit) {
     IcpRig rig;
-    DevicePipeline device("serial", kPlenty);
+    DevicePipeline device("host", kPlenty);
     DeviceIcp icp(device);
     icp.Predict(rig.map, rig.camera, rig.T_world_view, kNear_m, kFar_m, kLevels, kJump_m);
     EXPECT_EQ(icp.SetPoints(DeskFrames()[5].prepared, rig.PointsOf(0), 0), rig.points.valid());
@@ -147,7 +148,7 @@ TEST(DeviceIcp, SumsAreTheProcessorsToTheBit) {
 
 TEST(DeviceIcp, AModelOfTheProcessorGivesTheSameSums) {
     IcpRig rig;
-    DevicePipeline device("serial", kPlenty), other("serial", kPlenty);
+    DevicePipeline device("host", kPlenty), other("host", kPlenty);
     DeviceIcp predicted(device), uploaded(other);
     predicted.Predict(rig.map, rig.camera, rig.T_world_view, kNear_m, kFar_m, kLevels, kJump_m);
     uploaded.SetModel(rig.model);
@@ -173,7 +174,7 @@ INSTANTIATE_TEST_SUITE_P(DeviceIcp, IcpTrackers, testing::Bool(),
 TEST_P(IcpTrackers, TracksAsTheProcessorDoes) {
     BlockMap map{BlockMap::Config()};
     FusedDesk(8, map);
-    DevicePipeline device("serial", kPlenty);
+    DevicePipeline device("host", kPlenty);
     const TrackJudge judge({});
     Photometry photometry({}), device_photometry({});
     IcpTracker expected({}, DeskCamera(), judge, colour() ? &photometry : nullptr,
@@ -193,7 +194,7 @@ TEST_P(IcpTrackers, TracksAsTheProcessorDoes) {
 TEST_P(IcpTrackers, IsLostWhereTheModelHasNoRoom) {
     BlockMap map{BlockMap::Config()};
     FusedDesk(3, map);
-    DevicePipeline device("serial", std::size_t{1} << 20);
+    DevicePipeline device("host", std::size_t{1} << 20);
     Photometry photometry({});
     IcpTracker tracker({}, DeskCamera(), TrackJudge({}), colour() ? &photometry : nullptr, nullptr,
                        VectorPath::kAuto, &device.icp_sums());
@@ -204,4 +205,4 @@ TEST_P(IcpTrackers, IsLostWhereTheModelHasNoRoom) {
 }
 
 }  // namespace
-}  // namespace tessera::serial
+}  // namespace tessera::host

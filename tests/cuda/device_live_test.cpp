@@ -1,10 +1,10 @@
-// Live on the serial device: one thread tracks and maps.
+// Live on the host device: one thread tracks and maps.
 #include "cuda/desk_frames.h"
 #include "cuda/device_pipeline.h"
 #include "system/engine_fixture.h"
 #include "system/run.h"
 
-namespace tessera::serial {
+namespace tessera::host {
 namespace {
 
 class DeviceLive : public EngineTest {
@@ -16,7 +16,7 @@ class DeviceLive : public EngineTest {
         engine = std::make_unique<LiveEngine>(std::move(input));
     }
 
-    DevicePipeline device{"serial", std::size_t{1} << 30};
+    DevicePipeline device{"host", std::size_t{1} << 30};
 };
 
 // Where no frame is dropped it is the processor's run frame by frame, to the bit.
@@ -71,7 +71,7 @@ TEST_F(DeviceLive, RandomCommandsDoNoHarm) {
 
 // Detections are looked for on another thread and voted into the map that the device has.
 TEST(DeviceLiveRun, LabelsWhatItScans) {
-    DevicePipeline device("serial", std::size_t{1} << 30);
+    DevicePipeline device("host", std::size_t{1} << 30);
     const TempFolder folder;
     RunRequest request;
     request.source = "synthetic:desk";
@@ -94,4 +94,4 @@ TEST(DeviceLiveRun, LabelsWhatItScans) {
 }
 
 }  // namespace
-}  // namespace tessera::serial
+}  // namespace tessera::host

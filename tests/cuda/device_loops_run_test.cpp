@@ -1,10 +1,10 @@
-// Loop closure beside the serial device: what it needs of the frames comes back.
+// Loop closure beside the host device: what it needs of the frames comes back.
 #include "cuda/desk_frames.h"
 #include "cuda/device_pipeline.h"
 #include "system/frame_list.h"
 #include "system/lockstep_engine.h"
 
-namespace tessera::serial {
+namespace tessera::host {
 namespace {
 
 using namespace testing_support;
@@ -31,7 +31,7 @@ TEST(DeviceLoops, AKidnappedCameraIsFoundAsByTheProcessor) {
     frames.insert(frames.end(), 45, Blank());
     for (const Frame& frame : RoomWalk(31, 20, 1)) frames.push_back(frame);
     const std::vector<FrameReport> expected = RunFrames(frames, nullptr);
-    DevicePipeline device("serial", kPlenty);
+    DevicePipeline device("host", kPlenty);
     const std::vector<FrameReport> reports = RunFrames(frames, &device);
     ASSERT_EQ(reports.size(), frames.size());
     for (std::size_t i = 0; i < frames.size(); ++i) ExpectSameTrack(reports[i].track, expected[i].track, i);
@@ -40,4 +40,4 @@ TEST(DeviceLoops, AKidnappedCameraIsFoundAsByTheProcessor) {
 }
 
 }  // namespace
-}  // namespace tessera::serial
+}  // namespace tessera::host

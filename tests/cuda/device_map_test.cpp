@@ -6,7 +6,7 @@
 #include "cuda/map_kernels.h"
 #include "mapping/integrator.h"
 
-namespace tessera::serial {
+namespace tessera::host {
 namespace {
 
 using testing_support::DeskCamera;
@@ -44,8 +44,10 @@ struct MapRig {
     DeviceMap map;
 };
 
-// Serial devices' memory is the computer's.
-void ExpectSameIndex(DeviceMap& device, const BlockMap& map) {
+// The device's memory is the computer's.
+void ExpectSameIndex(MapRig& rig, const BlockMap& map) {
+    DeviceMap& device = rig.map;
+    rig.stream.Wait();
     const DeviceMapView view = device.view();
     const BlockMapView expected = map.view();
     ASSERT_EQ(device.size(), map.size());
@@ -69,7 +71,7 @@ TEST(DeviceMap, AllocatesAsTheIntegratorDoes) {
         EXPECT_FALSE(growth.full);
     }
     EXPECT_GT(map.size(), 1500);
-    ExpectSameIndex(rig.map, map);
+    ExpectSameIndex(rig, map);
 }
 
 TEST(DeviceMap, SeesTheBlocksThatTheIntegratorSees) {
@@ -104,7 +106,7 @@ TEST(DeviceMap, TakesTheFirstInOrderWhereAFrameWantsTooMany) {
         EXPECT_EQ(growth.wanted, report.new_blocks + report.refused_blocks);
         EXPECT_FALSE(growth.full);
     }
-    ExpectSameIndex(rig.map, map);
+    ExpectSameIndex(rig, map);
 }
 
 TEST(DeviceMap, GrowsWithinItsLimitAndSaysWhereItEnds) {
@@ -137,7 +139,7 @@ TEST(DeviceMap, GrowthAndDownloadLoseNoVoxel) {
     for (int i = 0; i < 3; ++i) fuse(i);
     MapRig rig;
     ASSERT_TRUE(rig.map.Load(map.size(), map.view().coords, map.field(0), map.weight(0), map.colour(0)));
-    ExpectSameIndex(rig.map, map);
+    ExpectSameIndex(rig, map);
     const std::int32_t before = rig.map.size();
     for (int turn = 1; turn <= 6; ++turn) {  // the camera turns: new blocks until the pool has grown
         DeskFrame turned = DeskFrames()[0];
@@ -172,4 +174,4 @@ TEST(DeviceMap, KeysSortAsCoordinatesDo) {
 }
 
 }  // namespace
-}  // namespace tessera::serial
+}  // namespace tessera::host

@@ -11,7 +11,7 @@
 #include "mapping/mesh_measures.h"
 #include "system/pipeline.h"
 
-namespace tessera::serial {
+namespace tessera::host {
 namespace {
 
 using testing_support::DeskCamera;
@@ -52,7 +52,7 @@ std::unique_ptr<const BlockMap> Noise(const BlockCoord& low, int side) {
 }
 
 void ExpectDeviceMeshes(const BlockMap& map, const std::vector<BlockId>& blocks, double min_weight, std::size_t least_triangles) {
-    DevicePipeline device("serial", kPlenty);
+    DevicePipeline device("host", kPlenty);
     const std::unique_ptr<BlockMesher> mesher = device.MakeBlockMesher();
     BlockMeshes meshes(static_cast<std::size_t>(map.size()));
     ASSERT_TRUE(mesher->MeshBlocks(map, blocks, min_weight, meshes));
@@ -93,7 +93,7 @@ TEST(DeviceMesher, MakesTheBytesAtTheEndsOfTheWorld) {
 }
 
 TEST(DeviceMesher, AnEmptyMapIsAnEmptyMesh) {
-    DevicePipeline device("serial", kPlenty);
+    DevicePipeline device("host", kPlenty);
     const std::unique_ptr<BlockMesher> mesher = device.MakeBlockMesher();
     const BlockMap map{BlockMap::Config()};
     BlockMeshes meshes(1);
@@ -109,7 +109,7 @@ TEST(DeviceMesher, AnEmptyMapIsAnEmptyMesh) {
 // A block that has no surface any more loses its mesh.
 TEST(DeviceMesher, TakesTheMeshAwayWhereThereIsNoSurface) {
     const std::unique_ptr<const BlockMap> map = Noise({0, 0, 0}, 1);
-    DevicePipeline device("serial", kPlenty);
+    DevicePipeline device("host", kPlenty);
     const std::unique_ptr<BlockMesher> mesher = device.MakeBlockMesher();
     BlockMeshes meshes(2);
     meshes[1] = std::make_unique<BlockMesh>();
@@ -122,7 +122,7 @@ TEST(DeviceMesher, TakesFewerBlocksAtOnceWhereMemoryIsShortAndRefusesWhereThereI
     const std::unique_ptr<const BlockMap> noise = Noise({0, 0, 0}, 10);
     const BlockMap& map = *noise;
     const std::vector<BlockId> blocks = AllBlocks(map);
-    DevicePipeline probe("serial", kPlenty);
+    DevicePipeline probe("host", kPlenty);
     const std::unique_ptr<BlockMesher> probing = probe.MakeBlockMesher();
     BlockMeshes meshes(static_cast<std::size_t>(map.size()));
     ASSERT_TRUE(probing->MeshBlocks(map, {blocks.data(), 1}, 0, meshes));
@@ -131,12 +131,12 @@ TEST(DeviceMesher, TakesFewerBlocksAtOnceWhereMemoryIsShortAndRefusesWhereThereI
     const std::size_t of_meshing = probe.used_bytes() - of_map;
     EXPECT_GT(of_meshing, std::size_t{10} << 20);
 
-    DevicePipeline shorter("serial", of_map + of_meshing / 4);
+    DevicePipeline shorter("host", of_map + of_meshing / 4);
     meshes = BlockMeshes(meshes.size());
     ASSERT_TRUE(shorter.MakeBlockMesher()->MeshBlocks(map, blocks, 0, meshes));
     ExpectMeshesOf(map, blocks, 0, meshes);
 
-    DevicePipeline full("serial", of_map + (std::size_t{64} << 10)), tiny("serial", std::size_t{1} << 20);
+    DevicePipeline full("host", of_map + (std::size_t{64} << 10)), tiny("host", std::size_t{1} << 20);
     for (DevicePipeline* device : {&full, &tiny}) {
         const std::unique_ptr<BlockMesher> mesher = device->MakeBlockMesher();
         EXPECT_FALSE(mesher->MeshBlocks(map, blocks, 0, meshes));
@@ -152,7 +152,7 @@ TriangleMesh MeshHere(const BlockMap& map) { return MeshOf(map, MeshConfig().min
 
 // Of what the device fused; nobody asks for the voxels.
 TEST(MappingStage, MeshesOnTheDeviceWithoutItsVoxels) {
-    DevicePipeline device("serial", kPlenty);
+    DevicePipeline device("host", kPlenty);
     Pipeline pipeline({}, DeskCamera(), {}, &device);
     Mesher as_it_goes({});
     const std::unique_ptr<BlockMesher> mesher = device.MakeBlockMesher();
@@ -178,7 +178,7 @@ TEST(MappingStage, MeshesHereWhereTheDeviceHasNoRoomAndSaysSo) {
     int refused = 0;
     constexpr std::size_t kHalfMega = std::size_t{1} << 19;
     for (std::size_t limit = 28 * kHalfMega; limit < 31 * kHalfMega; limit += kHalfMega) {
-        DevicePipeline device("serial", limit);
+        DevicePipeline device("host", limit);
         Pipeline pipeline({}, DeskCamera(), {}, &device);
         for (const DeskFrame& frame : DeskFrames()) pipeline.Process(frame.frame);
         const TriangleMesh mesh = pipeline.mapping().Mesh();
@@ -195,4 +195,4 @@ TEST(MappingStage, MeshesHereWhereTheDeviceHasNoRoomAndSaysSo) {
 }
 
 }  // namespace
-}  // namespace tessera::serial
+}  // namespace tessera::host

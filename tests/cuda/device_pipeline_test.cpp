@@ -8,7 +8,7 @@
 #include "cuda/same_map.h"
 #include "tracking/sdf_tracker.h"
 
-namespace tessera::serial {
+namespace tessera::host {
 namespace {
 
 using testing_support::DeskCamera;
@@ -32,7 +32,7 @@ TEST(DeviceIntegrator, FusesTheBytesOfTheProcessor) {
     const BlockMap::Config config;
     BlockMap expected(config), map(config);
     Integrator integrator({}, DeskCamera());
-    DevicePipeline device("serial", kPlenty);
+    DevicePipeline device("host", kPlenty);
     const std::unique_ptr<Integrator> on_device = device.MakeIntegrator({}, DeskCamera());
     for (std::size_t i = 0; i < DeskFrames().size(); ++i) {
         const DeskFrame& frame = DeskFrames()[i];
@@ -53,7 +53,7 @@ TEST(DeviceIntegrator, GoesOnWithAMapThatWasMadeElsewhere) {
     const BlockMap::Config config;
     BlockMap expected(config), map(config);
     Integrator first({}, DeskCamera()), same({}, DeskCamera());
-    DevicePipeline device("serial", kPlenty);
+    DevicePipeline device("host", kPlenty);
     const std::unique_ptr<Integrator> on_device = device.MakeIntegrator({}, DeskCamera());
     on_device->SetRevision(5);
     for (std::size_t i = 0; i < 10; ++i) {
@@ -93,7 +93,7 @@ TEST(DevicePipeline, SumsAreTheProcessorsToTheBit) {
     a.intensity_residual = intensity.data();
     const PoseSums expected =
         SumPoints(points.count(), [&](int begin, int end, double* sums) { baseline::SumSdfPoints(a, begin, end, sums); });
-    DevicePipeline device("serial", kPlenty);
+    DevicePipeline device("host", kPlenty);
     EXPECT_EQ(device.SetPoints(map, frame, MakePointArguments(frame, DeskCamera(), {}, 2, 2.0, true)), points.valid());
     const PoseSums sums = device.Sum(a);
     EXPECT_GT(expected[SumLayout::kKnown], 1000);
@@ -124,7 +124,7 @@ TEST(DevicePipeline, SumsAreTheProcessorsToTheBit) {
 TEST(DevicePipeline, TracksAsTheProcessorDoes) {
     BlockMap map{BlockMap::Config()};
     Integrator integrator({}, DeskCamera());
-    DevicePipeline device("serial", kPlenty);
+    DevicePipeline device("host", kPlenty);
     const TrackJudge judge({});
     Photometry photometry({}), device_photometry({});
     SdfTracker expected({}, DeskCamera(), judge, &photometry);
@@ -139,4 +139,4 @@ TEST(DevicePipeline, TracksAsTheProcessorDoes) {
 }
 
 }  // namespace
-}  // namespace tessera::serial
+}  // namespace tessera::host

@@ -7,7 +7,7 @@
 #include "cuda/desk_frames.h"
 #include "cuda/device_pipeline.h"
 
-namespace tessera::serial {
+namespace tessera::host {
 namespace {
 
 using testing_support::DeskCamera;
@@ -59,7 +59,7 @@ void ExpectSamePoints(DevicePipeline& device, const PreparedFrame& frame, const 
 }
 
 TEST(DevicePoints, AreTheBytesOfFramePoints) {
-    DevicePipeline device("serial", std::size_t{1} << 30);
+    DevicePipeline device("host", std::size_t{1} << 30);
     std::size_t i = 0;
     for (const int step : {1, 2, 3, 8})
         for (const FrameMotion& motion : {FrameMotion(), Moving()})
@@ -73,7 +73,7 @@ TEST(DevicePoints, AreTheBytesOfFramePoints) {
 
 // Sizes that no step divides, with slots beside the image; larger frames than before, and smaller ones; none valid.
 TEST(DevicePoints, OfImagesOfAnySize) {
-    DevicePipeline device("serial", std::size_t{1} << 30);
+    DevicePipeline device("host", std::size_t{1} << 30);
     for (const auto& [width, height] : {std::pair(61, 47), std::pair(83, 31), std::pair(5, 4)}) {
         Frame frame;
         frame.depth_m = DepthImage(width, height);
@@ -102,7 +102,7 @@ TEST(DevicePoints, AreNoneWhereThereIsNoRoom) {
     const PointArguments a = MakePointArguments(frame, DeskCamera(), {}, 1, 2.0, true);
     std::size_t none = 0, all = 0;
     for (std::size_t limit = std::size_t{10} << 20; limit < std::size_t{15} << 20; limit += std::size_t{1} << 16) {
-        DevicePipeline device("serial", limit);
+        DevicePipeline device("host", limit);
         const std::int64_t valid = device.SetPoints(map, frame, a);
         none += valid == 0;
         all += valid == frame.valid_depth_pixels;
@@ -114,4 +114,4 @@ TEST(DevicePoints, AreNoneWhereThereIsNoRoom) {
 }
 
 }  // namespace
-}  // namespace tessera::serial
+}  // namespace tessera::host

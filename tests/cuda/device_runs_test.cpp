@@ -1,4 +1,4 @@
-// Whole runs on the serial device: the processor's, to the bit.
+// Whole runs on the host device: the processor's, to the bit.
 #include <gtest/gtest.h>
 
 #include "cuda/desk_run.h"
@@ -6,7 +6,7 @@
 #include "mapping/ray_caster.h"
 #include "system/run.h"
 
-namespace tessera::serial {
+namespace tessera::host {
 namespace {
 
 using testing_support::DeskCamera;
@@ -40,7 +40,7 @@ INSTANTIATE_TEST_SUITE_P(DeviceRuns, ByMethod,
 
 TEST_P(ByMethod, IsTheProcessorsAndBringsNoVoxel) {
     DeskRun expected(Config(), nullptr);
-    DevicePipeline device("serial", kPlenty);
+    DevicePipeline device("host", kPlenty);
     DeskRun run(Config(), &device);
     EXPECT_TRUE(expected.HasVoxels());
     EXPECT_FALSE(run.HasVoxels());
@@ -57,7 +57,7 @@ TEST_P(ByIcp, IsTheProcessorsOnViewsThatTheProcessorDrew) {
     PipelineConfig config = Config();
     config.trackers.icp.prediction = IcpTracker::Prediction::kRaster;
     DeskRun expected(config, nullptr);
-    DevicePipeline device("serial", kPlenty);
+    DevicePipeline device("host", kPlenty);
     DeskRun run(config, &device);
     EXPECT_TRUE(run.HasVoxels());
     ExpectSameRun(run, expected);
@@ -65,7 +65,7 @@ TEST_P(ByIcp, IsTheProcessorsOnViewsThatTheProcessorDrew) {
 
 // The frame of the switch is the first that reads the processor's voxels.
 TEST_P(ByIcp, ASwitchToAViewOfTheProcessorBringsTheVoxelsFirst) {
-    DevicePipeline device("serial", kPlenty);
+    DevicePipeline device("host", kPlenty);
     RunRequest request;
     request.source = "synthetic:desk";
     request.selection.count = 5;
@@ -87,13 +87,13 @@ TEST(DeviceRuns, IsTheProcessorsWithOtherWeights) {
     config.fusion.distance_weight = DistanceWeight::kLinearExp;
     config.fusion.colour_weighting = ColourWeighting::kCosine;
     DeskRun expected(config, nullptr);
-    DevicePipeline device("serial", kPlenty);
+    DevicePipeline device("host", kPlenty);
     DeskRun run(config, &device);
     ExpectSameRun(run, expected);
 }
 
 TEST(DeviceRuns, SaysInOneLineThatItsMemoryIsFullAndGoesOn) {
-    DevicePipeline device("serial", std::size_t{16} << 20);
+    DevicePipeline device("host", std::size_t{16} << 20);
     DeskRun run({}, &device);
     std::string warning;
     for (const FrameReport& report : run.reports)
@@ -107,7 +107,7 @@ TEST(DeviceRuns, SaysInOneLineThatItsMemoryIsFullAndGoesOn) {
 // The window's picture, while the voxels are on the device only.
 TEST(DeviceRuns, TheWindowsViewBringsNoVoxel) {
     PipelineConfig config;
-    DevicePipeline device("serial", kPlenty);
+    DevicePipeline device("host", kPlenty);
     DeskRun run(config, &device);
     PredictedView view, expected;
     run.pipeline.mapping().Predict(DeskFrames()[2].T_world_camera, 4, view);
@@ -118,4 +118,4 @@ TEST(DeviceRuns, TheWindowsViewBringsNoVoxel) {
 }
 
 }  // namespace
-}  // namespace tessera::serial
+}  // namespace tessera::host

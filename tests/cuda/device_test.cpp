@@ -5,7 +5,7 @@
 #include <array>
 #include <numeric>
 
-namespace tessera::serial {
+namespace tessera::host {
 namespace {
 
 TEST(DeviceMemory, CountsAndKeepsItsLimit) {
@@ -94,4 +94,4 @@ TEST(DeviceSorter, SumsWhatIsBefore) {
 }
 
 }  // namespace
-}  // namespace tessera::serial
+}  // namespace tessera::host

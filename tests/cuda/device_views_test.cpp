@@ -11,7 +11,7 @@
 #include "mapping/integrator.h"
 #include "mapping/ray_caster.h"
 
-namespace tessera::serial {
+namespace tessera::host {
 namespace {
 
 using testing_support::DeskCamera;
@@ -21,7 +21,7 @@ using testing_support::ExpectSameView;
 using testing_support::FusedDesk;
 using testing_support::kPlenty;
 
-// Serial devices' memory is the computer's.
+// The device's memory is the computer's.
 void ExpectSameRanges(const BlockMap& map, const PinholeCamera& camera,
                       const Eigen::Isometry3d& T_world_camera, float min_depth_m, float max_depth_m,
                       bool all_regions) {
@@ -34,6 +34,7 @@ void ExpectSameRanges(const BlockMap& map, const PinholeCamera& camera,
     ASSERT_EQ(ranges.size(), static_cast<std::size_t>(a.width * a.height));
     Stream stream;
     FindRayRanges(stream, a, map.view().coords, map.size(), ranges.data());
+    stream.Wait();
     EXPECT_EQ(std::memcmp(ranges.data(), expected.ranges.data(), ranges.size() * sizeof(RayRange)),
               0);
 }
@@ -79,7 +80,7 @@ int CountHits(const PredictedView& view) {
 TEST(DeviceViews, AreTheBytesOfTheProcessor) {
     BlockMap map{BlockMap::Config()};
     FusedDesk(10, map);
-    DevicePipeline device("serial", kPlenty);
+    DevicePipeline device("host", kPlenty);
     DeviceViews views(device);
     RayCaster caster;
     PredictedView expected, view;
@@ -106,7 +107,7 @@ TEST(DeviceViews, AreTheBytesOfTheProcessor) {
 TEST(DeviceViews, ShowNothingWhereThereIsNoRoom) {
     BlockMap map{BlockMap::Config()};
     FusedDesk(1, map);
-    DevicePipeline device("serial", std::size_t{1} << 20);
+    DevicePipeline device("host", std::size_t{1} << 20);
     PredictedView view;
     device.views().Predict(map, DeskCamera(), DeskFrames()[0].T_world_camera, 0.1f, 6.0f, view);
     ASSERT_EQ(view.depth_m.size(), 160u * 120u);
@@ -114,4 +115,4 @@ TEST(DeviceViews, ShowNothingWhereThereIsNoRoom) {
 }
 
 }  // namespace
-}  // namespace tessera::serial
+}  // namespace tessera::host
