@@ -45,7 +45,7 @@ Result<Row> RunOne(const Arguments& a, const std::string& source, double alpha, 
     ConfigParameters parameters;
     config.Describe(parameters);
     if (Status status = a.config.Apply(parameters); !status.ok()) return status;
-    config.pipeline.trackers.photometric.alpha_mode = Photometry::AlphaMode::kFixed;
+    config.pipeline.trackers.photometric.alpha_mode = ResidualModel::AlphaMode::kFixed;
     config.pipeline.trackers.photometric.alpha = alpha;
     RunRequest request;
     request.source = source;

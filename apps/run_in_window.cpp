@@ -20,7 +20,7 @@ ViewerOptions OptionsFor(const RunRequest& request, const RunConfig& config, con
     const TrackersConfig& trackers = config.pipeline.trackers;
     options.labelled = !request.labels.empty();
     options.settings.method = trackers.method;
-    options.settings.auto_alpha = trackers.photometric.alpha_mode == Photometry::AlphaMode::kAuto;
+    options.settings.auto_alpha = trackers.photometric.alpha_mode == ResidualModel::AlphaMode::kAuto;
     options.settings.alpha = trackers.photometric.alpha;
     options.settings.max_depth_m = config.pipeline.frame.max_depth_m;
     options.settings.prealign = config.pipeline.prealign.enabled;

@@ -127,11 +127,11 @@ class Basin {
     }
 
     static TrackResult TrackWith(const std::string& method, const TrackInput& input) {
-        Photometry photometry({});
-        Photometry* colour = method == "sdf" || method == "icp-rgb" ? &photometry : nullptr;
+        ResidualModel model({});
+        const bool colour = method == "sdf" || method == "icp-rgb";
         const TrackJudge judge(JudgeConfig());
-        if (method.starts_with("sdf")) return SdfTracker({}, FullCamera(), judge, colour).Track(input);
-        return IcpTracker({}, FullCamera(), judge, colour, std::make_unique<RayCaster>()).Track(input);
+        if (method.starts_with("sdf")) return SdfTracker({}, FullCamera(), judge, model, colour).Track(input);
+        return IcpTracker({}, FullCamera(), judge, model, colour, std::make_unique<RayCaster>()).Track(input);
     }
 
     // Offsets are not to be refused for being large.

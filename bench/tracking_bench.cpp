@@ -34,7 +34,7 @@ Eigen::Isometry3d StartBeside(const Eigen::Isometry3d& T_world_camera) {
 }
 
 SdfArguments ArgumentsFor(const FramePoints& points, const Eigen::Isometry3d& T_world_camera,
-                          double alpha) {
+                          bool use_intensity) {
     const SdfTracker::Config config;
     SdfArguments a{};
     static_cast<BlockMapView&>(a) = RoomMap().view();
@@ -49,11 +49,11 @@ SdfArguments ArgumentsFor(const FramePoints& points, const Eigen::Isometry3d& T_
     a.z = points.z.data();
     a.intensity = points.intensity.data();
     a.weight = points.weight.data();
-    a.alpha = static_cast<float>(alpha);
+    a.use_intensity = use_intensity;
     a.normalise = config.normalise;
     a.gain = 1;
     a.distance_scale_m = static_cast<float>(config.distance_scale_m);
-    a.intensity_scale = static_cast<float>(Photometry::Config().intensity_scale);
+    a.intensity_scale = static_cast<float>(ResidualModel::Config().intensity_scale);
     a.inlier_distance_m = 0.5f * a.truncation_m;
     return a;
 }
@@ -61,11 +61,11 @@ SdfArguments ArgumentsFor(const FramePoints& points, const Eigen::Isometry3d& T_
 using SumKernel = void (*)(const SdfArguments&, int, int, double*);
 
 // One thread. The map is far larger than the caches of the core; the points run along image rows.
-void SumPoints(benchmark::State& state, SumKernel kernel, double alpha) {
+void SumPoints(benchmark::State& state, SumKernel kernel, bool use_intensity) {
     FramePoints points;
     points.Build(RoomPrepared(0), FullCamera(), {}, kStep_px, 2.0);
     points.SampleIntensity(RoomPrepared(0), FullCamera(), {});
-    const SdfArguments a = ArgumentsFor(points, StartBeside(TruePose(4)), alpha);
+    const SdfArguments a = ArgumentsFor(points, StartBeside(TruePose(4)), use_intensity);
     PoseSums sums, expected;
     baseline::SumSdfPoints(a, 0, points.count(), expected.value);
     for (auto _ : state) {
@@ -84,17 +84,17 @@ void SumArguments(benchmark::internal::Benchmark* b) {
     b->Unit(benchmark::kMillisecond);
     TakeMinimum(b);
 }
-BENCHMARK_CAPTURE(SumPoints, scalar_geometric, SumSdfPointsScalar, 0.0)->Apply(SumArguments);
-BENCHMARK_CAPTURE(SumPoints, scalar_photometric, SumSdfPointsScalar, 0.1)->Apply(SumArguments);
-BENCHMARK_CAPTURE(SumPoints, baseline_geometric, baseline::SumSdfPoints, 0.0)->Apply(SumArguments);
-BENCHMARK_CAPTURE(SumPoints, baseline_photometric, baseline::SumSdfPoints, 0.1)->Apply(SumArguments);
+BENCHMARK_CAPTURE(SumPoints, scalar_geometric, SumSdfPointsScalar, false)->Apply(SumArguments);
+BENCHMARK_CAPTURE(SumPoints, scalar_photometric, SumSdfPointsScalar, true)->Apply(SumArguments);
+BENCHMARK_CAPTURE(SumPoints, baseline_geometric, baseline::SumSdfPoints, false)->Apply(SumArguments);
+BENCHMARK_CAPTURE(SumPoints, baseline_photometric, baseline::SumSdfPoints, true)->Apply(SumArguments);
 #ifdef TESSERA_HAVE_AVX2
-void SumPointsAvx2(benchmark::State& state, double alpha) {
+void SumPointsAvx2(benchmark::State& state, bool use_intensity) {
     if (!CpuHasAvx2()) return state.SkipWithError("no AVX2");
-    SumPoints(state, avx2::SumSdfPoints, alpha);
+    SumPoints(state, avx2::SumSdfPoints, use_intensity);
 }
-BENCHMARK_CAPTURE(SumPointsAvx2, geometric, 0.0)->Apply(SumArguments);
-BENCHMARK_CAPTURE(SumPointsAvx2, photometric, 0.1)->Apply(SumArguments);
+BENCHMARK_CAPTURE(SumPointsAvx2, geometric, false)->Apply(SumArguments);
+BENCHMARK_CAPTURE(SumPointsAvx2, photometric, true)->Apply(SumArguments);
 #endif
 
 // From 1 cm and 9 mrad away, as after an imperfect prediction.
@@ -102,11 +102,11 @@ void Track(benchmark::State& state, VectorPath path, double alpha) {
     if (path == VectorPath::kAvx2 && !CpuHasAvx2()) return state.SkipWithError("no AVX2");
     const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
                                       static_cast<std::size_t>(state.range(0)));
-    Photometry::Config config;
-    config.alpha_mode = Photometry::AlphaMode::kFixed;
+    ResidualModel::Config config;
+    config.alpha_mode = ResidualModel::AlphaMode::kFixed;
     config.alpha = alpha;
-    Photometry photometry(config);
-    SdfTracker tracker({}, FullCamera(), TrackJudge({}), &photometry, path);
+    ResidualModel model(config);
+    SdfTracker tracker({}, FullCamera(), TrackJudge({}), model, true, path);
     const Eigen::Isometry3d start = StartBeside(TruePose(4));
     const TrackInput input{.frame = RoomPrepared(0),
                            .map = RoomMap(),
@@ -116,7 +116,7 @@ void Track(benchmark::State& state, VectorPath path, double alpha) {
                            .motion = {}};
     TrackResult result;
     for (auto _ : state) {
-        photometry.Reset();
+        model.Reset();
         result = tracker.Track(input);
     }
     const Eigen::Isometry3d error = TruePose(4).inverse() * result.T_world_camera;

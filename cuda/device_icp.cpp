@@ -67,7 +67,7 @@ std::int64_t DeviceIcp::SetPoints(const PreparedFrame& frame, const PointArgumen
     points_.Clear();
     Stream& stream = device_.stream_;
     const int count = points.width * points.height;
-    if (!residuals_.ReserveScratch(stream, 4 * static_cast<std::size_t>(count)) ||
+    if (!residuals_.ReserveScratch(stream, 2 * kPointResiduals * static_cast<std::size_t>(count)) ||
         !sum_tiles_.ReserveScratch(stream, TilesOfPoints(count)) || !sums_.Reserve(stream, SumLayout::kCount, 0))
         return 0;
     return device_.MakePoints(frame, points, points_);
@@ -93,6 +93,7 @@ PoseSums DeviceIcp::Sum(const IcpArguments& arguments) {
     a.weight = points_.weight();
     a.distance_residual = Residuals(1 - kept_, 0);
     a.intensity_residual = Residuals(1 - kept_, 1);
+    for (int k = 0; k < 3; ++k) a.gradient[k] = Residuals(1 - kept_, 2 + k);
     const bool compare = arguments.distance_before != nullptr;
     a.distance_before = compare ? Residuals(kept_, 0) : nullptr;
     a.intensity_before = compare ? Residuals(kept_, 1) : nullptr;
@@ -108,7 +109,7 @@ void DeviceIcp::KeepResiduals() {
 }
 
 ResidualSums DeviceIcp::SumResiduals(const ResidualArguments& arguments) {
-    return device_.SumResidualsOf(arguments, points_, Residuals(kept_, 0), Residuals(kept_, 1));
+    return device_.SumResidualsOf(arguments, points_, Residuals(kept_, 0));
 }
 
 void DeviceIcp::TakeResiduals(std::vector<float>& distance, std::vector<float>& intensity) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cuda/device_points.h"
+#include "cuda/device_residuals.h"
 #include "tracking/icp_sums.h"
 #include "tracking/model_kernels.h"
 
@@ -39,7 +40,7 @@ class DeviceIcp : public IcpSums {
         float *depth_m, *normal, *intensity;
     };
     Images ImagesOf(int level);
-    float* Residuals(int set, int kind) { return residuals_.data() + (2 * set + kind) * points_.count(); }
+    float* Residuals(int set, int kind) { return residuals_.data() + (kPointResiduals * set + kind) * points_.count(); }
 
     DevicePipeline& device_;
     std::vector<ModelImages> model_;  // per level; empty where there is no room
@@ -47,7 +48,7 @@ class DeviceIcp : public IcpSums {
     std::size_t level_ = 0;           // the points'
     DevicePoints points_;
     DeviceBuffer<float> model_pixels_;
-    DeviceBuffer<float> residuals_;  // two sets of distances and intensities, one array after the other
+    DeviceBuffer<float> residuals_;  // two sets of PointResiduals, one array after the other
     int kept_ = 0;                   // which set; the other is the last sum's
     bool has_intensities_ = false;
     DeviceBuffer<double> sum_tiles_, sums_;

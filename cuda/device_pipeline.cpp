@@ -15,8 +15,7 @@ DevicePipeline::DevicePipeline(std::string name, std::size_t limit_bytes)
       frame_(memory_, stream_),
       points_(memory_, stream_),
       residual_sums_(memory_, stream_),
-      distance_residual_(memory_),
-      intensity_residual_(memory_),
+      residuals_(memory_),
       sum_tiles_(memory_),
       sums_(memory_),
       views_(*this),
@@ -45,7 +44,7 @@ DeviceMap* DevicePipeline::MirrorOf(const BlockMap& map) {
 bool DevicePipeline::ReserveSums(int points) {
     const auto count = static_cast<std::size_t>(points);
     return sums_.Reserve(stream_, SumLayout::kCount, 0) && sum_tiles_.ReserveScratch(stream_, TilesOfPoints(points)) &&
-           distance_residual_.ReserveScratch(stream_, count) && intensity_residual_.ReserveScratch(stream_, count);
+           residuals_.ReserveScratch(stream_, kPointResiduals * count);
 }
 
 std::int64_t DevicePipeline::SetPoints(const BlockMap& map, const PreparedFrame& frame, const PointArguments& points) {
@@ -76,8 +75,12 @@ PoseSums DevicePipeline::Sum(const SdfArguments& arguments) {
     a.weight = points_.weight();
     has_distance_residual_ = a.distance_residual != nullptr;
     has_intensity_residual_ = a.intensity_residual != nullptr;
-    if (has_distance_residual_) a.distance_residual = distance_residual_.data();
-    if (has_intensity_residual_) a.intensity_residual = intensity_residual_.data();
+    float* const residuals = residuals_.data();
+    if (has_distance_residual_) {
+        a.distance_residual = residuals;
+        for (int k = 0; k < 3; ++k) a.gradient[k] = residuals + (2 + k) * points_.count();
+    }
+    if (has_intensity_residual_) a.intensity_residual = residuals + points_.count();
     SumSdfPoints(stream_, a, points_.count(), sum_tiles_.data(), sums_.data());
     stream_.Download(sums.value, sums_.data(), sizeof sums.value);
     stream_.Wait();
@@ -85,11 +88,10 @@ PoseSums DevicePipeline::Sum(const SdfArguments& arguments) {
 }
 
 ResidualSums DevicePipeline::SumResiduals(const ResidualArguments& arguments) {
-    return SumResidualsOf(arguments, points_, distance_residual_.data(), intensity_residual_.data());
+    return SumResidualsOf(arguments, points_, residuals_.data());
 }
 
-ResidualSums DevicePipeline::SumResidualsOf(ResidualArguments a, const DevicePoints& points, const float* distance_residual,
-                                            const float* intensity_residual) {
+ResidualSums DevicePipeline::SumResidualsOf(ResidualArguments a, const DevicePoints& points, const float* residuals) {
     ResidualSums sums;
     if (points.count() == 0) return sums;
     a.x = points.x();
@@ -97,14 +99,13 @@ ResidualSums DevicePipeline::SumResidualsOf(ResidualArguments a, const DevicePoi
     a.z = points.z();
     a.intensity = points.intensity();
     a.weight = points.weight();
-    a.distance_residual = distance_residual;
-    a.intensity_residual = intensity_residual;
+    a.distance_residual = residuals;
+    a.intensity_residual = residuals + points.count();
+    for (int k = 0; k < 3; ++k) a.gradient[k] = residuals + (2 + k) * points.count();
     a.image = frame_.intensity();
     // One after the other they use the same room: the stream keeps their order.
-    if (a.wants_alpha) {
-        residual_sums_.Sum<DistanceSums>(a, sums.distances);
-        residual_sums_.Sum<ScoreSums>(a, sums.scores);
-    }
+    residual_sums_.Sum<DistanceSums>(a, sums.distances);
+    if (a.has_intensity) residual_sums_.Sum<ScoreSums>(a, sums.scores);
     if (a.wants_shutter) residual_sums_.Sum<ShutterSums>(a, sums.shutter);
     stream_.Wait();
     return sums;
@@ -122,8 +123,8 @@ void DevicePipeline::Download(const DevicePoints& from, FramePoints& points) {
 
 void DevicePipeline::TakeResiduals(std::vector<float>& distance, std::vector<float>& intensity) {
     const std::size_t bytes = static_cast<std::size_t>(points_.count()) * sizeof(float);
-    if (has_distance_residual_) stream_.Download(distance.data(), distance_residual_.data(), bytes);
-    if (has_intensity_residual_) stream_.Download(intensity.data(), intensity_residual_.data(), bytes);
+    if (has_distance_residual_) stream_.Download(distance.data(), residuals_.data(), bytes);
+    if (has_intensity_residual_) stream_.Download(intensity.data(), residuals_.data() + points_.count(), bytes);
     stream_.Wait();
 }
 

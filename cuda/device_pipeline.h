@@ -48,9 +48,9 @@ class DevicePipeline : public Device, public SdfSums {
     DeviceMap* MirrorOf(const BlockMap& map);
     // The frame's points on the device, as DevicePoints::Build.
     [[nodiscard]] std::int64_t MakePoints(const PreparedFrame& frame, const PointArguments& arguments, DevicePoints& points);
-    // Of those points and residuals, which are there, of the frame that is there.
+    // Of those points and residuals (PointResiduals, one array after the other), which are there, of the frame that is there.
     [[nodiscard]] ResidualSums SumResidualsOf(ResidualArguments arguments, const DevicePoints& points,
-                                              const float* distance_residual, const float* intensity_residual);
+                                              const float* residuals);
     // All but the normals, to what Lay has made for them.
     void Download(const DevicePoints& from, FramePoints& points);
     [[nodiscard]] bool ReserveSums(int points);
@@ -63,7 +63,7 @@ class DevicePipeline : public Device, public SdfSums {
     DeviceFrame frame_;
     DevicePoints points_;
     DeviceResiduals residual_sums_;
-    DeviceBuffer<float> distance_residual_, intensity_residual_;
+    DeviceBuffer<float> residuals_;  // PointResiduals, one array after the other
     DeviceBuffer<double> sum_tiles_, sums_;
     bool has_distance_residual_ = false, has_intensity_residual_ = false;
     DeviceViews views_;

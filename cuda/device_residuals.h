@@ -8,6 +8,8 @@
 
 namespace tessera::TESSERA_DEVICE {
 
+inline constexpr int kPointResiduals = 5;  // arrays of PointResiduals
+
 // Owner thread only; `memory` and `stream` outlive it.
 class DeviceResiduals {
   public:

@@ -13,8 +13,8 @@ FieldCheck::FieldCheck(const FieldSettings& settings, const LoopConfig& config)
       config_(config),
       map_(settings.map),
       integrator_(settings.fusion, settings.camera),
-      photometry_(settings.photometric),
-      tracker_(settings.tracker, settings.camera, TrackJudge(settings.judge), &photometry_) {}
+      model_(settings.photometric),
+      tracker_(settings.tracker, settings.camera, TrackJudge(settings.judge), model_, true) {}
 
 FieldVerdict FieldCheck::Check(std::span<const NearFrame> old_frames, const FreshFrame& fresh, FrameStore& store) {
     constexpr double kAsWell = 0.9;
@@ -67,7 +67,7 @@ void FieldCheck::FuseOld(std::span<const NearFrame> frames, FrameStore& store) {
 
 TrackResult FieldCheck::Track(const PreparedFrame& frame, const FrameMotion& motion,
                               const Eigen::Isometry3d& T_field_camera) {
-    photometry_.Reset();
+    model_.Reset();
     return tracker_.Track({.frame = frame,
                            .map = map_,
                            .T_world_camera_starts = {T_field_camera},
@@ -97,6 +97,7 @@ double FieldCheck::ShareThatFits(const PreparedFrame& frame, const Eigen::Isomet
 
 std::string FieldCheck::Fault(const TrackResult& track) const {
     if (track.status != TrackStatus::kGood) return track.reason;
+    if (track.degenerate) return fmt::format("some motion is only known to {:.0f} mm", 1000 * track.uncertainty_m);
     if (track.known_fraction < config_.min_known_fraction)
         return fmt::format("only {:.0f} % of the depth lies in the field", 100 * track.known_fraction);
     if (track.inlier_fraction < config_.min_fit)

@@ -10,7 +10,7 @@
 #include "mapping/integrator.h"
 #include "optimize/frame_store.h"
 #include "optimize/loop_config.h"
-#include "tracking/photometry.h"
+#include "tracking/residual_model.h"
 #include "tracking/sdf_tracker.h"
 
 namespace tessera {
@@ -22,7 +22,7 @@ struct FieldSettings {
     Integrator::Config fusion;
     PreparedFrame::Config preparation;
     SdfTracker::Config tracker;
-    Photometry::Config photometric;
+    ResidualModel::Config photometric;
     TrackJudge::Config judge;
 };
 
@@ -68,7 +68,7 @@ class FieldCheck {
     LoopConfig config_;
     BlockMap map_;
     Integrator integrator_;
-    Photometry photometry_;
+    ResidualModel model_;
     SdfTracker tracker_;
     Frame frame_;
     PreparedFrame prepared_;

@@ -35,7 +35,7 @@ void TrackersConfig::Describe(ConfigParameters& p) {
 }
 
 Trackers::Trackers(const TrackersConfig& config, const PinholeCamera& camera, Device* device)
-    : config_(config), camera_(camera), device_(device), method_(config.method), photometry_(config.photometric) {}
+    : config_(config), camera_(camera), device_(device), method_(config.method), model_(config.photometric) {}
 
 bool Trackers::reads_map() const {
     const bool icp = method_ == TrackingMethod::kIcp || method_ == TrackingMethod::kIcpRgb;
@@ -60,14 +60,13 @@ std::unique_ptr<ViewPredictor> MakePredictor(IcpTracker::Prediction prediction, 
 std::unique_ptr<Tracker> Trackers::Make(TrackingMethod method) {
     const TrackJudge judge(config_.judge);
     const bool colour = method == TrackingMethod::kSdf || method == TrackingMethod::kIcpRgb;
-    Photometry* photometry = colour ? &photometry_ : nullptr;
     if (method == TrackingMethod::kSdf || method == TrackingMethod::kSdfGeometric)
-        return std::make_unique<SdfTracker>(config_.sdf, camera_, judge, photometry, VectorPath::kAuto,
+        return std::make_unique<SdfTracker>(config_.sdf, camera_, judge, model_, colour, VectorPath::kAuto,
                                             device_ != nullptr ? &device_->sdf_sums() : nullptr);
     std::unique_ptr<ViewPredictor> predictor;  // none where a device casts the rays itself
     if (device_ == nullptr || config_.icp.prediction == IcpTracker::Prediction::kRaster)
         predictor = MakePredictor(config_.icp.prediction, note_);
-    return std::make_unique<IcpTracker>(config_.icp, camera_, judge, photometry, std::move(predictor), VectorPath::kAuto,
+    return std::make_unique<IcpTracker>(config_.icp, camera_, judge, model_, colour, std::move(predictor), VectorPath::kAuto,
                                         device_ != nullptr ? &device_->icp_sums() : nullptr);
 }
 

@@ -9,7 +9,7 @@
 #include "core/config.h"
 #include "system/device.h"
 #include "tracking/icp_tracker.h"
-#include "tracking/photometry.h"
+#include "tracking/residual_model.h"
 #include "tracking/sdf_tracker.h"
 #include "tracking/track_judge.h"
 #include "tracking/tracker.h"
@@ -25,7 +25,7 @@ std::vector<std::pair<std::string, TrackingMethod>> TrackingMethodNames();
 struct TrackersConfig {
     TrackingMethod method = TrackingMethod::kSdf;
     TrackJudge::Config judge;
-    Photometry::Config photometric;
+    ResidualModel::Config photometric;
     SdfTracker::Config sdf;
     IcpTracker::Config icp;
 
@@ -35,8 +35,7 @@ struct TrackersConfig {
 // The rasteriser where it is asked for and works here, else the ray caster; `note` says so in words if it steps in.
 std::unique_ptr<ViewPredictor> MakePredictor(IcpTracker::Prediction prediction, std::string& note);
 
-// All methods over one camera, switchable between two frames: brightness, photometric weight and shutter times are
-// theirs together. Owner thread only.
+// All methods over one camera, switchable between two frames: what residuals teach is theirs together. Owner thread only.
 class Trackers {
   public:
     // `device` outlives them; null: all on the processor.
@@ -49,12 +48,12 @@ class Trackers {
     // By the selected method; made when it is first needed, on the thread that tracks.
     TrackResult Track(const TrackInput& input);
     // In place of the configuration's: learnt from the frames, or this, in m^2.
-    void SetAlpha(bool automatic, double alpha) { photometry_.SetAlpha(automatic, alpha); }
+    void SetAlpha(bool automatic, double alpha) { model_.SetAlpha(automatic, alpha); }
     // Forgets what was learnt, keeps the choices.
-    void Reset() { photometry_.Reset(); }
+    void Reset() { model_.Reset(); }
     // What was learnt.
-    void SaveState(StateWriter& state) const { photometry_.SaveState(state); }
-    bool LoadState(StateReader& state) { return photometry_.LoadState(state); }
+    void SaveState(StateWriter& state) const { model_.SaveState(state); }
+    bool LoadState(StateReader& state) { return model_.LoadState(state); }
     // What a person should know of how the methods came up, in words, once; mostly empty.
     std::string TakeNote();
 
@@ -65,7 +64,7 @@ class Trackers {
     PinholeCamera camera_;
     Device* device_;
     TrackingMethod method_;
-    Photometry photometry_;
+    ResidualModel model_;
     std::array<std::unique_ptr<Tracker>, kTrackingMethods> trackers_;
     std::string note_;
 };

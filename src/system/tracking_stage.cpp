@@ -118,8 +118,7 @@ TrackResult TrackingStage::TrackFrame(const Frame& frame, const PreparedFrame& p
                             .T_world_camera_starts = {T_world_expected, T_world_aligned},
                             .T_world_camera_last = T_world_last,
                             .since_last_s = motion_.SinceLast(frame.stamp_s),
-                            .motion = ShutterOf(frame),
-                            .last_degenerate = motion_.degenerate()});
+                            .motion = ShutterOf(frame)});
 }
 
 FrameMotion TrackingStage::ShutterOf(const Frame& frame) const {

@@ -23,6 +23,7 @@ struct IcpArguments : ViewArguments {  // the image is the predicted view
     // Residuals per point, NaN where there is none: those here, and (null at first) those at the pose before.
     float* distance_residual;
     float* intensity_residual;
+    float* gradient[3];  // of the distances: the partner's normal
     const float* distance_before;
     const float* intensity_before;
 };

@@ -78,7 +78,8 @@ class IcpKernels {
         const Real w = Masked(matched, weight * HuberWeight(residual, scale));
         Real j[6];
         PointJacobian(q.p, n, j);
-        AddPoseTerm(j, residual, w, sums);
+        AddPoseTerm(j, residual, w, sums + L::kDistance);
+        for (int k = 0; k < 3; ++k) V::Store(n[k], a.gradient[k] + i);
         Add(sums, L::kDistanceError, w * residual * residual);
         Add(sums, L::kDistanceWeight, w);
         Add(sums, L::kKnown, Masked(known, Real(1.0f)));
@@ -98,12 +99,11 @@ class IcpKernels {
         const Mask valid = counts && matched && (s.least >= Real(0.0f)) && (V::Abs(raw) < gate);
         const Real residual = Masked(valid, raw);
         const Real w = Masked(valid, weight * HuberWeight(residual, scale));
-        const Real weighted = w * Real(a.alpha);
         Real g[3], j[6];
         ImageGradientInSpace(q.p, Real(a.fx), Real(a.fy), s.du, s.dv, g);
         PointJacobian(q.p, g, j);
-        AddPoseTerm(j, residual, weighted, sums);
-        AddBrightnessTerm(j, residual, image, weighted, sums);
+        AddPoseTerm(j, residual, w, sums + L::kIntensity);
+        AddBrightnessTerm(j, residual, image, w, sums);
         Add(sums, L::kIntensityError, w * residual * residual);
         Add(sums, L::kIntensityWeight, w);
         Add(sums, L::kColoured, Masked(valid, Real(1.0f)));

@@ -31,20 +31,19 @@ struct IcpTracker::State {
 };
 
 IcpTracker::IcpTracker(const Config& config, const PinholeCamera& camera, const TrackJudge& judge,
-                       Photometry* photometry, std::unique_ptr<ViewPredictor> predictor, VectorPath path,
-                       IcpSums* device)
-    : config_(config), camera_(camera), judge_(judge), photometry_(photometry), predictor_(std::move(predictor)),
-      use_avx2_(path == VectorPath::kAvx2 || (path == VectorPath::kAuto && CpuHasAvx2())), device_(device),
+                       ResidualModel& model, bool use_colour, std::unique_ptr<ViewPredictor> predictor,
+                       VectorPath path, IcpSums* device)
+    : config_(config), camera_(camera), judge_(judge), residual_model_(model), use_colour_(use_colour),
+      predictor_(std::move(predictor)), use_avx2_(path == VectorPath::kAvx2 || (path == VectorPath::kAuto && CpuHasAvx2())), device_(device),
       points_(static_cast<std::size_t>(config.levels)) {}
 
 TrackResult IcpTracker::Track(const TrackInput& input) {
     State state;
     state.scene_depth_m = 0.5 * (input.frame.nearest_m + input.frame.farthest_m);
-    state.options.last_degenerate = input.last_degenerate;
-    if (photometry_ != nullptr) {
-        state.gain = photometry_->gain();
-        state.offset = photometry_->offset();
-        if (input.frame.has_colour) state.alpha = photometry_->alpha();
+    if (use_colour_) {
+        state.gain = residual_model_.gain();
+        state.offset = residual_model_.offset();
+        if (input.frame.has_colour) state.alpha = residual_model_.alpha();
     }
     PredictAt(input, input.T_world_camera_starts.back(), state);
     ChooseStart(input, state);
@@ -52,21 +51,22 @@ TrackResult IcpTracker::Track(const TrackInput& input) {
         PrepareLevel(input, level, state);
         if (!state.failed) RunLevel(level, state);
     }
-
-    const Eigen::Isometry3d T_view_expected = view_.T_world_camera.inverse() * input.T_world_camera_starts.back();
-    TrackResult result;
-    result.T_world_camera = Normalised(view_.T_world_camera * WithHeldAsExpected(state.step, state.T_view_camera, T_view_expected));
-    result.motion = state.motion;
-    result.alpha = state.alpha;
-    result.gain = state.gain;
-    result.offset = state.offset;
-    result.iterations = state.iterations;
-    judge_.Judge(input, points_[0].valid(), state.sums, state.step, result);
-    if (photometry_ != nullptr && result.status != TrackStatus::kLost)
-        photometry_->Learn(result,
-                           MakeResidualArguments(input.frame, camera_, points_[0], residuals_.distance_m, residuals_.intensity),
-                           [this](const ResidualArguments& a) { return device_ != nullptr ? device_->SumResiduals(a) : SumResiduals(a); });
-    return result;
+    return Conclude(input,
+                    {.T_world_local = view_.T_world_camera,
+                     .T_local_camera = state.T_view_camera,
+                     .scene_depth_m = state.scene_depth_m,
+                     .motion = state.motion,
+                     .alpha = state.alpha,
+                     .gain = state.gain,
+                     .offset = state.offset,
+                     .iterations = state.iterations,
+                     .sums = state.sums,
+                     .options = state.options,
+                     .points = points_[0].valid(),
+                     .valid = state.step.valid},
+                    MakeResidualArguments(input.frame, camera_, points_[0], residuals_),
+                    [this](const ResidualArguments& a) { return device_ != nullptr ? device_->SumResiduals(a) : SumResiduals(a); },
+                    config_.distance_scale_m, judge_, residual_model_);
 }
 
 // The view that the frame is aligned with. The camera's pose is sought in its frame.
@@ -118,7 +118,7 @@ void IcpTracker::ChooseStart(const TrackInput& input, State& state) {
 
 void IcpTracker::PrepareLevel(const TrackInput& input, int level, State& state) {
     FramePoints& points = points_[static_cast<std::size_t>(level)];
-    state.motion = photometry_ != nullptr ? photometry_->Timed(input.motion) : input.motion;
+    state.motion = use_colour_ ? residual_model_.Timed(input.motion) : input.motion;
     if (input.since_last_s > 0)  // the velocity of the last interval, as far as this level knows it
         state.motion.twist_per_s =
             Se3Log(input.T_world_camera_last.inverse() * view_.T_world_camera * state.T_view_camera) /
@@ -149,13 +149,10 @@ void IcpTracker::PrepareLevel(const TrackInput& input, int level, State& state) 
     a.normal_gate_cosine = static_cast<float>(std::cos(config_.normal_gate_rad));
     a.distance_scale_m = static_cast<float>(config_.distance_scale_m);
     a.alpha = static_cast<float>(state.alpha);
-    if (photometry_ != nullptr) a.intensity_scale = static_cast<float>(photometry_->config().intensity_scale);
+    a.intensity_scale = static_cast<float>(residual_model_.config().intensity_scale);
     a.intensity_gate = static_cast<float>(kIntensityGateScales) * a.intensity_scale;
     a.inlier_distance_m = static_cast<float>(0.5 * input.map.config().truncation_m);
-    for (Residuals* residuals : {&residuals_, &trial_residuals_}) {
-        residuals->distance_m.resize(static_cast<std::size_t>(points.count()));
-        residuals->intensity.resize(static_cast<std::size_t>(points.count()));
-    }
+    for (PointResiduals* residuals : {&residuals_, &trial_residuals_}) residuals->Resize(points.count());
 }
 
 // At the state's pose and brightness.
@@ -166,6 +163,7 @@ PoseSums IcpTracker::SumAt(const FramePoints& points, Compare compare, State& st
     a.offset = static_cast<float>(state.offset);
     a.distance_residual = trial_residuals_.distance_m.data();
     a.intensity_residual = trial_residuals_.intensity.data();
+    for (std::size_t k = 0; k < 3; ++k) a.gradient[k] = trial_residuals_.gradient[k].data();
     a.distance_before = compare == Compare::kWithKept ? residuals_.distance_m.data() : nullptr;
     a.intensity_before = compare == Compare::kWithKept ? residuals_.intensity.data() : nullptr;
     ++state.iterations;
@@ -193,10 +191,10 @@ void IcpTracker::RunLevel(int level, State& state) {
     state.sums = SumAt(points, Compare::kWithNothing, state);
     KeepResiduals();
     SolverOptions& options = state.options;
-    options.min_eigenvalue = judge_.min_eigenvalue();
-    options.estimate_brightness = photometry_ != nullptr && photometry_->config().brightness;
-    if (options.estimate_brightness)
-        options.brightness_prior = photometry_->config().brightness_prior * state.sums[SumLayout::kBrightness + 2];
+    options.alpha = state.alpha;
+    options.least_damping = LeastDamping(residual_model_.scales(), judge_.expected_within_m(), level);
+    options.estimate_brightness = state.alpha > 0 && residual_model_.config().brightness;
+    options.brightness_prior = residual_model_.config().brightness_prior * state.sums[SumLayout::kBrightness + 2];
     state.damping = {};
     const double tolerance = level == 0 ? 5e-5 : 2e-4;
     for (int i = 0; i < iterations; ++i) {
@@ -221,7 +219,7 @@ void IcpTracker::TakeStep(const FramePoints& points, State& state) {
     trial.offset = std::clamp(state.offset + state.step.offset_change, -0.3, 0.3);
     trial.sums = SumAt(points, Compare::kWithKept, trial);
     const auto prior = [&](const State& s) {
-        return state.options.brightness_prior * ((s.gain - 1) * (s.gain - 1) + s.offset * s.offset);
+        return state.alpha * state.options.brightness_prior * ((s.gain - 1) * (s.gain - 1) + s.offset * s.offset);
     };
     const double fall = trial.sums[SumLayout::kEnergyBefore] + prior(state) - trial.sums[SumLayout::kEnergy] - prior(trial);
     const bool keeps_partners = 2 * trial.sums[SumLayout::kInliers] >= state.sums[SumLayout::kInliers];

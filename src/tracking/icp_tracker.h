@@ -7,14 +7,12 @@
 
 #include "core/cpu.h"
 #include "mapping/predicted_view.h"
+#include "tracking/conclude.h"
 #include "tracking/frame_points.h"
 #include "tracking/icp_model.h"
 #include "tracking/icp_rows.h"
 #include "tracking/icp_sums.h"
 #include "tracking/levenberg_marquardt.h"
-#include "tracking/photometry.h"
-#include "tracking/pose_solver.h"
-#include "tracking/track_judge.h"
 #include "tracking/tracker.h"
 
 namespace tessera {
@@ -39,18 +37,15 @@ class IcpTracker : public Tracker {
         void Describe(ConfigParameters& parameters);
     };
 
-    // `photometry` outlives the tracker; null tracks by geometry alone. `device`, too: null sums here. `predictor` may be null
-    // where there is a device, which then predicts.
-    IcpTracker(const Config& config, const PinholeCamera& camera, const TrackJudge& judge, Photometry* photometry,
+    // `model` outlives the tracker. Without `use_colour` it tracks by geometry alone. `device` outlives it, too; null sums here.
+    // `predictor` may be null where there is a device, which then predicts.
+    IcpTracker(const Config& config, const PinholeCamera& camera, const TrackJudge& judge, ResidualModel& model, bool use_colour,
                std::unique_ptr<ViewPredictor> predictor, VectorPath path = VectorPath::kAuto, IcpSums* device = nullptr);
 
     TrackResult Track(const TrackInput& input) override;
 
   private:
     struct State;  // of one call
-    struct Residuals {  // per point of a level
-        std::vector<float> distance_m, intensity;
-    };
 
     void PredictAt(const TrackInput& input, const Eigen::Isometry3d& T_world_view, State& state);
     void ChooseStart(const TrackInput& input, State& state);
@@ -64,14 +59,15 @@ class IcpTracker : public Tracker {
     Config config_;
     PinholeCamera camera_;
     TrackJudge judge_;
-    Photometry* photometry_;
+    ResidualModel& residual_model_;
+    bool use_colour_;
     std::unique_ptr<ViewPredictor> predictor_;
     bool use_avx2_;
     IcpSums* device_;
     PredictedView view_;                // with a device that predicts: camera and pose only, as the model's levels
     std::vector<IcpModelLevel> model_;  // per level
     std::vector<FramePoints> points_;   // per level
-    Residuals residuals_, trial_residuals_;  // those kept, and the last sum's
+    PointResiduals residuals_, trial_residuals_;  // of a level: those kept, and the last sum's
 };
 
 }  // namespace tessera

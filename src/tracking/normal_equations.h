@@ -14,25 +14,28 @@ namespace tessera {
 // Arrays of points are padded to a multiple of this with points of weight 0.
 inline constexpr int kPointPadding = 8;
 
-// Sums over points. Symmetric matrices keep the upper triangle, row by row.
+// Sums over points. Symmetric matrices keep the upper triangle, row by row. Distances and intensities are summed apart, and
+// without alpha: what each of them knows about the pose does not depend on how the two are weighed.
 struct SumLayout {
-    static constexpr int kHessian = 0;      // 21: pose x pose
-    static constexpr int kGradient = 21;    // 6: pose x residual
-    static constexpr int kCoupling = 27;    // 12: pose x (gain, offset)
-    static constexpr int kBrightness = 39;  // 3: gain^2, gain offset, offset^2
-    static constexpr int kBrightnessGradient = 42;  // 2
-    static constexpr int kDistanceError = 44;   // sum of w r^2, distance, m^2
-    static constexpr int kIntensityError = 45;  // the same for intensity, without alpha
-    static constexpr int kDistanceWeight = 46;  // sum of w
-    static constexpr int kIntensityWeight = 47;
-    static constexpr int kKnown = 48;     // points with a known distance
-    static constexpr int kInliers = 49;   // of these, with |r| below the inlier distance
-    static constexpr int kColoured = 50;  // points with a known intensity
-    // Of methods that accept or reject steps: the robust energy over the residuals that exist here and at the pose
-    // before, and the energy that those had there.
-    static constexpr int kEnergy = 51;
-    static constexpr int kEnergyBefore = 52;
-    static constexpr int kCount = 53;
+    // A pose term, at kDistance and at kIntensity: pose x pose (21), then pose x residual (6).
+    static constexpr int kHessian = 0, kGradient = 21, kPoseTerm = 27;
+    static constexpr int kDistance = 0;
+    static constexpr int kIntensity = kPoseTerm;
+    static constexpr int kCoupling = 54;    // 12: pose x (gain, offset)
+    static constexpr int kBrightness = 66;  // 3: gain^2, gain offset, offset^2
+    static constexpr int kBrightnessGradient = 69;  // 2
+    static constexpr int kDistanceError = 71;   // sum of w r^2, distance, m^2
+    static constexpr int kIntensityError = 72;  // the same for intensity
+    static constexpr int kDistanceWeight = 73;  // sum of w
+    static constexpr int kIntensityWeight = 74;
+    static constexpr int kKnown = 75;     // points with a known distance
+    static constexpr int kInliers = 76;   // of these, with |r| below the inlier distance
+    static constexpr int kColoured = 77;  // points with a known intensity
+    // Of methods that accept or reject steps: the robust energy ([B14] eq. 8, with alpha) over the residuals that exist here and
+    // at the pose before, and the energy that those had there.
+    static constexpr int kEnergy = 78;
+    static constexpr int kEnergyBefore = 79;
+    static constexpr int kCount = 80;
 };
 
 // Huber's weight: 1 up to the scale, then scale / |r|.
@@ -52,14 +55,14 @@ TESSERA_HD void PointJacobian(const F* p, const F* g, F* j) {
     j[5] = g[2];
 }
 
-// Adds w J J^T and w J r.
+// Adds w J J^T and w J r to a pose term.
 template <class F>
-TESSERA_HD void AddPoseTerm(const F* j, const F& residual, const F& w, F* sums) {
+TESSERA_HD void AddPoseTerm(const F* j, const F& residual, const F& w, F* term) {
     int at = SumLayout::kHessian;
     for (int row = 0; row < 6; ++row) {
         const F wj = w * j[row];
-        for (int column = row; column < 6; ++column, ++at) sums[at] = sums[at] + wj * j[column];
-        sums[SumLayout::kGradient + row] = sums[SumLayout::kGradient + row] + wj * residual;
+        for (int column = row; column < 6; ++column, ++at) term[at] = term[at] + wj * j[column];
+        term[SumLayout::kGradient + row] = term[SumLayout::kGradient + row] + wj * residual;
     }
 }
 

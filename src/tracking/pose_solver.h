@@ -1,5 +1,4 @@
-// From the sums over all points to a step: the Gauss-Newton solution of [B14] eq. 11 with the frame's brightness
-// eliminated, and what the Hessian says about how well the scene holds the camera.
+// From the sums over all points to a step: the Gauss-Newton solution of [B14] eq. 11 with the frame's brightness eliminated.
 #pragma once
 
 #include <functional>
@@ -28,31 +27,39 @@ struct PoseStep {
     bool valid = false;         // false where the system is singular or not finite
     Vector6d increment;         // left increment about the local origin
     double gain_change = 0, offset_change = 0;
-    double smallest_eigenvalue = 0;  // of the normalised Hessian, see NormalisedHessian
-    int held_directions = 0;    // eigenvectors along which the step was set to zero
-    Matrix6d held;              // takes an increment's part along them; not set where there are none
     double predicted_decrease = 0;  // of the energy, if it were the quadratic that the step minimises
 };
 
 struct SolverOptions {
+    double alpha = 0;                // of [B14] eq. 8
     bool estimate_brightness = true;
-    double brightness_prior = 0;     // weight of "gain 1, offset 0"
-    double min_eigenvalue = 0;       // directions below are held, not moved
-    bool last_degenerate = false;    // TrackInput's
-    double damping = 0;              // of Levenberg-Marquardt: added to the normalised Hessian's eigenvalues
+    double brightness_prior = 0;     // weight of "gain 1, offset 0", as intensities are weighted
+    double damping = 0;              // of Levenberg-Marquardt: added to the normalised Hessian's eigenvalues, as a share of the trace
+    double least_damping = 0;        // added likewise, per square metre: motions that nothing shows do not run away
 };
 
 // `gain` and `offset` are the present values, which the prior pulls at.
 PoseStep SolvePoseStep(const PoseSums& sums, const SolverOptions& options, double gain, double offset,
-                     const Eigen::Vector3d& camera_local, double scene_depth_m);
+                       const Eigen::Vector3d& camera_local, double scene_depth_m);
 
-// The pose that the steps found, but along the directions that the last one held, where only noise and the choice of the
-// start have moved it: there it is as expected. Both take the camera to the frame that the increments are in.
-Eigen::Isometry3d WithHeldAsExpected(const PoseStep& step, const Eigen::Isometry3d& T_local_camera,
-                                     const Eigen::Isometry3d& T_local_camera_expected);
+// The intensities' Hessian of the pose, without alpha, the frame's brightness eliminated by its Schur complement, so that it takes
+// from the pose what it explains. Positive semidefinite.
+Matrix6d IntensityHessian(const PoseSums& sums, double brightness_prior);
 
-// The pose's Hessian made comparable between scenes: increments about the camera, rotations scaled by the scene's
-// depth so that both halves are metres, divided by its trace. Its eigenvalues sum to 1.
-Matrix6d NormalisedHessian(const Matrix6d& hessian_local, const Eigen::Vector3d& camera_local, double scene_depth_m);
+// Hessian and gradient of one kind of residuals, of increments about the local origin, without alpha.
+struct PoseTerm {
+    Matrix6d H;
+    Vector6d g;
+
+    // Of increments about the camera with rotations in units of 1 / depth, so that both halves are metres.
+    PoseTerm Normalised(const Eigen::Vector3d& camera_local, double scene_depth_m) const;
+};
+PoseTerm DistanceTerm(const PoseSums& sums);
+// The frame's brightness is eliminated by its Schur complement, so that it takes from the pose what it explains, unless it is not
+// estimated. Positive semidefinite.
+PoseTerm IntensityTerm(const PoseSums& sums, const SolverOptions& options, double gain, double offset);
+
+// Takes an increment about the camera with rotations in units of 1 / depth to one about the local origin.
+Matrix6d FromNormalised(const Eigen::Vector3d& camera_local, double scene_depth_m);
 
 }  // namespace tessera

@@ -1,4 +1,4 @@
-// What Photometry learns from a frame's residuals, as sums over neighbourhoods of its finest points. Each kind of sums is a struct:
+// What a frame's residuals teach, as sums over neighbourhoods of its finest points. Each kind of sums is a struct:
 // kSums sums for each of Groups(a), added up over Parts(a) in their order. Host-device, shared by the CPU and CUDA; in double.
 #pragma once
 
@@ -14,59 +14,89 @@ struct ResidualArguments {
     int width, height, step;
     const float *x, *y, *z, *intensity, *weight;
     const float *distance_residual, *intensity_residual;
+    const float* gradient[3];  // of the distances
     // The frame's intensities and the camera.
     const float* image;
     int image_width, image_height;
     double fx, fy, cx, cy;
+    double rotation[9];  // from the camera's axes to those of the gradients, row by row
+    double distance_scale_m, intensity_scale;  // Huber's, of the sums that found the pose
     // FrameMotion of the points, the frame's gain, and Huber's scale of the shutter's sums.
     double twist_per_s[6];
     double colour_delay_s, colour_readout_s;
     double gain, residual_scale;
-    bool wants_alpha, wants_shutter;  // which sums
+    bool has_intensity, wants_shutter;  // which sums
 
     TESSERA_HD_MEMBER int At(int column, int row) const { return row * width + column; }
+    // A side of the patches that DistanceSums are of, in points: a fortieth of the image, whatever its resolution. Two by two of
+    // them are a block, over which errors are taken to be shared.
+    TESSERA_HD_MEMBER int Patch() const { return width >= 80 ? (width + 20) / 40 : 2; }
+    TESSERA_HD_MEMBER double HuberedWeight(int i, double residual, double scale) const {
+        const double size = std::fabs(residual);
+        return size > scale ? weight[i] * (scale / size) : weight[i];
+    }
 };
 
-inline constexpr int kResidualBlock = 16;  // a block of points, a side
-
-// Distances of a block: their sum, how many are known.
+// Of a patch, the four of a block one after the other: weights, weight times Jacobian, and its score, weight times Jacobian times
+// distance. Jacobians are for increments about the camera in the axes of the gradients (rotation, translation).
 struct DistanceSums {
-    static constexpr int kSums = 2;
-    TESSERA_HD_MEMBER static int Columns(const ResidualArguments& a) { return a.width / kResidualBlock; }
-    TESSERA_HD_MEMBER static int Groups(const ResidualArguments& a) { return Columns(a) * (a.height / kResidualBlock); }
-    TESSERA_HD_MEMBER static int Parts(const ResidualArguments&) { return kResidualBlock; }
+    static constexpr int kSums = 13, kJacobian = 1, kScore = 7;
+    TESSERA_HD_MEMBER static int Columns(const ResidualArguments& a) { return a.width / (2 * a.Patch()); }  // of blocks
+    TESSERA_HD_MEMBER static int Groups(const ResidualArguments& a) { return 4 * Columns(a) * (a.height / (2 * a.Patch())); }
+    TESSERA_HD_MEMBER static int Parts(const ResidualArguments& a) { return a.Patch(); }
     TESSERA_HD_MEMBER static void Add(const ResidualArguments& a, int group, int part, double* sums) {
-        const int x = group % Columns(a) * kResidualBlock, y = group / Columns(a) * kResidualBlock + part;
-        for (int i = 0; i < kResidualBlock; ++i) {
-            const float r = a.distance_residual[a.At(x + i, y)];
+        const int block = group / 4, x0 = (2 * (block % Columns(a)) + group % 2) * a.Patch();
+        const int y = (2 * (block / Columns(a)) + group % 4 / 2) * a.Patch() + part;
+        for (int i = a.At(x0, y); i < a.At(x0 + a.Patch(), y); ++i) {
+            const double r = a.distance_residual[i];
             if (std::isnan(r)) continue;
-            sums[0] += r;
-            sums[1] += 1;
+            const double w = a.HuberedWeight(i, r, a.distance_scale_m);
+            double p[3], g[3];
+            for (int k = 0; k < 3; ++k) {
+                const double* row = a.rotation + 3 * k;
+                p[k] = row[0] * a.x[i] + row[1] * a.y[i] + row[2] * a.z[i];
+                g[k] = a.gradient[k][i];
+            }
+            const double j[6] = {p[1] * g[2] - p[2] * g[1], p[2] * g[0] - p[0] * g[2], p[0] * g[1] - p[1] * g[0], g[0], g[1], g[2]};
+            sums[0] += w;
+            for (int k = 0; k < 6; ++k) {
+                sums[kJacobian + k] += w * j[k];
+                sums[kScore + k] += w * j[k] * r;
+            }
         }
     }
 };
 
-// Intensities of a block, with the image's gradient over depth (what a sideways move changes): residual times gradient, both
-// directions; the gradients; their squares; how many are known.
+// Intensities of a block, with the image's gradient over depth (what a sideways move changes): weighted residual times gradient,
+// both directions; the gradients; their squares; the gradient's product with the map's, at the same points, and the map's square.
 struct ScoreSums {
-    static constexpr int kSums = 6;
-    TESSERA_HD_MEMBER static int Columns(const ResidualArguments& a) { return (a.width - 2) / kResidualBlock; }
-    TESSERA_HD_MEMBER static int Groups(const ResidualArguments& a) { return Columns(a) * ((a.height - 2) / kResidualBlock); }
-    TESSERA_HD_MEMBER static int Parts(const ResidualArguments&) { return kResidualBlock; }
+    static constexpr int kSums = 7;
+    TESSERA_HD_MEMBER static int Side(const ResidualArguments& a) { return 2 * a.Patch(); }
+    TESSERA_HD_MEMBER static int Columns(const ResidualArguments& a) { return (a.width - 2) / Side(a); }
+    TESSERA_HD_MEMBER static int Groups(const ResidualArguments& a) { return Columns(a) * ((a.height - 2) / Side(a)); }
+    TESSERA_HD_MEMBER static int Parts(const ResidualArguments& a) { return Side(a); }
     TESSERA_HD_MEMBER static void Add(const ResidualArguments& a, int group, int part, double* sums) {
-        const int x0 = 1 + group % Columns(a) * kResidualBlock, y = 1 + group / Columns(a) * kResidualBlock + part;
-        for (int x = x0; x < x0 + kResidualBlock; ++x) {
-            const float r = a.intensity_residual[a.At(x, y)], z = a.z[a.At(x, y)];
-            const float left = a.intensity[a.At(x - 1, y)], right = a.intensity[a.At(x + 1, y)];
-            const float up = a.intensity[a.At(x, y - 1)], down = a.intensity[a.At(x, y + 1)];
-            if (std::isnan(r) || z <= 0 || left < 0 || right < 0 || up < 0 || down < 0) continue;
-            const double gu = (right - left) / z, gv = (down - up) / z;
-            sums[0] += r * gu;
-            sums[1] += r * gv;
-            sums[2] += gu;
-            sums[3] += gv;
-            sums[4] += gu * gu + gv * gv;
-            sums[5] += 1;
+        const int x0 = 1 + group % Columns(a) * Side(a), y = 1 + group / Columns(a) * Side(a) + part;
+        for (int i = a.At(x0, y); i < a.At(x0 + Side(a), y); ++i) {
+            const int left = i - 1, right = i + 1, up = i - a.width, down = i + a.width;
+            const double r = a.intensity_residual[i], z = a.z[i];
+            if (std::isnan(r) || z <= 0 || a.intensity[left] < 0 || a.intensity[right] < 0 || a.intensity[up] < 0 || a.intensity[down] < 0)
+                continue;
+            const double w = a.HuberedWeight(i, r, a.intensity_scale);
+            const double gu = a.gain * (a.intensity[right] - a.intensity[left]) / z;
+            const double gv = a.gain * (a.intensity[down] - a.intensity[up]) / z;
+            sums[0] += w * r * gu;
+            sums[1] += w * r * gv;
+            sums[2] += w * gu;
+            sums[3] += w * gv;
+            sums[4] += w * (gu * gu + gv * gv);
+            // The map's intensity is residual + gain * image + offset.
+            const double mu = gu + (static_cast<double>(a.intensity_residual[right]) - a.intensity_residual[left]) / z;
+            const double mv = gv + (static_cast<double>(a.intensity_residual[down]) - a.intensity_residual[up]) / z;
+            const double map2 = mu * mu + mv * mv;
+            if (std::isnan(map2)) continue;
+            sums[5] += w * (gu * mu + gv * mv);
+            sums[6] += w * map2;
         }
     }
 };
@@ -107,8 +137,7 @@ struct ShutterSums {
         const double flow_v = a.fy * (velocity[1] - q[1] / q[2] * velocity[2]) / q[2];
         const double slope = -a.gain * (du * flow_u + dv * flow_v);  // d(residual)/d(time)
         const double j[2] = {slope, slope * share};
-        const double size = std::fabs(residual);
-        const double w = size > a.residual_scale ? a.weight[i] * (a.residual_scale / size) : a.weight[i];
+        const double w = a.HuberedWeight(i, residual, a.residual_scale);
         sums[0] += w * j[0] * j[0];
         sums[1] += w * j[0] * j[1];
         sums[2] += w * j[1] * j[1];

@@ -21,9 +21,14 @@ std::vector<double> SumKind(const ResidualArguments& a) {
 
 }  // namespace
 
+void PointResiduals::Resize(int points) {
+    distance_m.resize(static_cast<std::size_t>(points));
+    intensity.resize(static_cast<std::size_t>(points));
+    for (auto& values : gradient) values.resize(static_cast<std::size_t>(points));
+}
+
 ResidualArguments MakeResidualArguments(const PreparedFrame& frame, const PinholeCamera& camera, const FramePoints& points,
-                                        const std::vector<float>& distance_residual,
-                                        const std::vector<float>& intensity_residual) {
+                                        const PointResiduals& residuals) {
     ResidualArguments a{};
     a.width = points.width();
     a.height = points.height();
@@ -33,8 +38,9 @@ ResidualArguments MakeResidualArguments(const PreparedFrame& frame, const Pinhol
     a.z = points.z.data();
     a.intensity = points.intensity.data();
     a.weight = points.weight.data();
-    a.distance_residual = distance_residual.data();
-    a.intensity_residual = intensity_residual.data();
+    a.distance_residual = residuals.distance_m.data();
+    a.intensity_residual = residuals.intensity.data();
+    for (std::size_t k = 0; k < 3; ++k) a.gradient[k] = residuals.gradient[k].data();
     a.image = frame.intensity.data();
     a.image_width = frame.width;
     a.image_height = frame.height;
@@ -47,10 +53,8 @@ ResidualArguments MakeResidualArguments(const PreparedFrame& frame, const Pinhol
 
 ResidualSums SumResiduals(const ResidualArguments& a) {
     ResidualSums sums;
-    if (a.wants_alpha) {
-        sums.distances = SumKind<DistanceSums>(a);
-        sums.scores = SumKind<ScoreSums>(a);
-    }
+    sums.distances = SumKind<DistanceSums>(a);
+    if (a.has_intensity) sums.scores = SumKind<ScoreSums>(a);
     if (a.wants_shutter) sums.shutter = SumKind<ShutterSums>(a);
     return sums;
 }

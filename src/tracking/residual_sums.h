@@ -1,6 +1,7 @@
-// The sums of residual_kernels.h over a frame's finest points.
+// The residuals of a frame's finest points, and the sums of residual_kernels.h over them.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "core/camera.h"
@@ -10,15 +11,23 @@
 
 namespace tessera {
 
+// One number per point; NaN where there is none. Gradients are those of the distances.
+struct PointResiduals {
+    std::vector<float> distance_m, intensity;
+    std::array<std::vector<float>, 3> gradient;
+
+    void Resize(int points);
+};
+
 // One group after another; empty where not asked for.
 struct ResidualSums {
     std::vector<double> distances, scores, shutter;
 };
 
-// Of these points and their residuals. Nothing is asked for yet. The arrays stay the caller's.
+// Of these points and their residuals. What the pose says, and which sums are wanted, is the caller's to enter. The arrays stay
+// whose they were.
 ResidualArguments MakeResidualArguments(const PreparedFrame& frame, const PinholeCamera& camera, const FramePoints& points,
-                                        const std::vector<float>& distance_residual,
-                                        const std::vector<float>& intensity_residual);
+                                        const PointResiduals& residuals);
 
 // On all threads, the same bytes for any number of them.
 ResidualSums SumResiduals(const ResidualArguments& arguments);

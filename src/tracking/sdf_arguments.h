@@ -19,15 +19,16 @@ struct SdfArguments : BlockMapView {
     const float* z;
     const float* intensity;  // < 0 where there is none
     const float* weight;
-    // The energy.
-    float alpha;
+    // The residuals.
+    bool use_intensity;
     bool normalise;  // divide distances by their gradient's length where it exceeds 1
     float gain, offset;
     float distance_scale_m, intensity_scale;  // Huber
     float inlier_distance_m;  // for SumLayout::kInliers
-    // If not null: residuals per point, NaN where unknown.
+    // If not null: residuals per point, NaN where unknown; with distances their gradients in the axes of the local coordinates.
     float* distance_residual;
     float* intensity_residual;
+    float* gradient[3];
 };
 
 }  // namespace tessera

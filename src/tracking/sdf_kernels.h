@@ -44,7 +44,7 @@ class SdfKernels {
             return;
         }
         AddDistance(a, i, p, fraction, words, known, weight, sums);
-        if (a.alpha > 0.0f) AddIntensity(a, i, p, fraction, words, known, weight, sums);
+        if (a.use_intensity) AddIntensity(a, i, p, fraction, words, known, weight, sums);
     }
 
   private:
@@ -86,13 +86,15 @@ class SdfKernels {
         const Real w = Masked(known, point_weight * HuberWeight(residual, scale));
         Real j[6];
         PointJacobian(p, g, j);
-        AddPoseTerm(j, residual, w, sums);
+        AddPoseTerm(j, residual, w, sums + L::kDistance);
         Add(sums, L::kDistanceError, w * residual * residual);
         Add(sums, L::kDistanceWeight, w);
         const Mask counted = known && (point_weight > Real(0.0f));
         Add(sums, L::kKnown, Masked(counted, Real(1.0f)));
         Add(sums, L::kInliers, Masked(counted && (V::Abs(residual) < Real(a.inlier_distance_m)), Real(1.0f)));
         StoreResidual(a.distance_residual, i, counted, residual);
+        if (a.distance_residual == nullptr) return;
+        for (int k = 0; k < 3; ++k) V::Store(g[k], a.gradient[k] + i);
     }
 
     // The photometric half: r = psi_I(p) - (gain * image + offset).
@@ -112,11 +114,10 @@ class SdfKernels {
             const Real residual = (s.value - Real(1.0f)) * to_one - (Real(a.gain) * image + Real(a.offset));
             const Real g[3] = {s.gx * slope, s.gy * slope, s.gz * slope};
             const Real w = Masked(known, point_weight * HuberWeight(residual, Real(a.intensity_scale)));
-            const Real weighted = w * Real(a.alpha);
             Real j[6];
             PointJacobian(p, g, j);
-            AddPoseTerm(j, residual, weighted, sums);
-            AddBrightnessTerm(j, residual, image, weighted, sums);
+            AddPoseTerm(j, residual, w, sums + L::kIntensity);
+            AddBrightnessTerm(j, residual, image, w, sums);
             Add(sums, L::kIntensityError, w * residual * residual);
             Add(sums, L::kIntensityWeight, w);
             Add(sums, L::kColoured, Masked(known, Real(1.0f)));

@@ -31,17 +31,19 @@ struct SdfTracker::State {
     double scene_depth_m = 1;
     SdfArguments arguments{};
     PoseSums sums;
+    SolverOptions options;
     PoseStep step;
     int iterations = 0;
     bool failed = false;
 };
 
 SdfTracker::SdfTracker(const Config& config, const PinholeCamera& camera, const TrackJudge& judge,
-                       Photometry* photometry, VectorPath path, SdfSums* device)
+                       ResidualModel& model, bool use_colour, VectorPath path, SdfSums* device)
     : config_(config),
       camera_(camera),
       judge_(judge),
-      photometry_(photometry),
+      residual_model_(model),
+      use_colour_(use_colour),
       use_avx2_(path == VectorPath::kAvx2 || (path == VectorPath::kAuto && CpuHasAvx2())),
       device_(device),
       points_(static_cast<std::size_t>(config.levels)) {}
@@ -49,32 +51,33 @@ SdfTracker::SdfTracker(const Config& config, const PinholeCamera& camera, const 
 TrackResult SdfTracker::Track(const TrackInput& input) {
     State state;
     state.T_world_camera = input.T_world_camera_starts.front();
-    if (photometry_ != nullptr) {
-        state.gain = photometry_->gain();
-        state.offset = photometry_->offset();
-        if (input.frame.has_colour) state.alpha = photometry_->alpha();
+    if (use_colour_) {
+        state.gain = residual_model_.gain();
+        state.offset = residual_model_.offset();
+        if (input.frame.has_colour) state.alpha = residual_model_.alpha();
     }
     for (int level = config_.levels - 1; level >= 0 && !state.failed; --level) {
         PrepareLevel(input, level, state);
         if (level == config_.levels - 1) ChooseStart(input, state);
         if (!state.failed) RunLevel(input, level, state);
     }
-
-    const Eigen::Translation3d to_local(-state.origin_m);
-    TrackResult result;
-    result.T_world_camera = to_local.inverse() * WithHeldAsExpected(state.step, to_local * state.T_world_camera,
-                                                                    to_local * input.T_world_camera_starts.back());
-    result.motion = state.motion;
-    result.alpha = state.alpha;
-    result.gain = state.gain;
-    result.offset = state.offset;
-    result.iterations = state.iterations;
-    judge_.Judge(input, points_[0].valid(), state.sums, state.step, result);
-    if (photometry_ != nullptr && result.status != TrackStatus::kLost)
-        photometry_->Learn(result,
-                           MakeResidualArguments(input.frame, camera_, points_[0], distance_residual_, intensity_residual_),
-                           [this](const ResidualArguments& a) { return device_ != nullptr ? device_->SumResiduals(a) : SumResiduals(a); });
-    return result;
+    const Eigen::Isometry3d T_world_local(Eigen::Translation3d(state.origin_m));
+    return Conclude(input,
+                    {.T_world_local = T_world_local,
+                     .T_local_camera = T_world_local.inverse() * state.T_world_camera,
+                     .scene_depth_m = state.scene_depth_m,
+                     .motion = state.motion,
+                     .alpha = state.alpha,
+                     .gain = state.gain,
+                     .offset = state.offset,
+                     .iterations = state.iterations,
+                     .sums = state.sums,
+                     .options = state.options,
+                     .points = points_[0].valid(),
+                     .valid = state.step.valid},
+                    MakeResidualArguments(input.frame, camera_, points_[0], residuals_),
+                    [this](const ResidualArguments& a) { return device_ != nullptr ? device_->SumResiduals(a) : SumResiduals(a); },
+                    config_.distance_scale_m, judge_, residual_model_);
 }
 
 // Where there are none the level cannot be tracked; a device may have had no room for them.
@@ -94,7 +97,7 @@ void SdfTracker::MakePoints(const TrackInput& input, int step, FramePoints& poin
 // Points, their intensities and the map as the hot loop takes them, for every (finest_step_px << level)-th pixel.
 void SdfTracker::PrepareLevel(const TrackInput& input, int level, State& state) {
     FramePoints& points = points_[static_cast<std::size_t>(level)];
-    state.motion = photometry_ != nullptr ? photometry_->Timed(input.motion) : input.motion;
+    state.motion = use_colour_ ? residual_model_.Timed(input.motion) : input.motion;
     if (input.since_last_s > 0)  // the velocity of the last interval, as far as this level knows it
         state.motion.twist_per_s =
             Se3Log(input.T_world_camera_last.inverse() * state.T_world_camera) / input.since_last_s;
@@ -112,16 +115,16 @@ void SdfTracker::PrepareLevel(const TrackInput& input, int level, State& state) 
     a.z = points.z.data();
     a.intensity = points.intensity.data();
     a.weight = points.weight.data();
-    a.alpha = static_cast<float>(state.alpha);
+    a.use_intensity = state.alpha > 0;
     a.normalise = config_.normalise;
     a.distance_scale_m = static_cast<float>(config_.distance_scale_m);
-    if (photometry_ != nullptr) a.intensity_scale = static_cast<float>(photometry_->config().intensity_scale);
+    a.intensity_scale = static_cast<float>(residual_model_.config().intensity_scale);
     a.inlier_distance_m = 0.5f * a.truncation_m;
     if (level > 0) return;
-    distance_residual_.resize(static_cast<std::size_t>(points.count()));
-    intensity_residual_.resize(static_cast<std::size_t>(points.count()));
-    a.distance_residual = distance_residual_.data();
-    a.intensity_residual = state.alpha > 0 ? intensity_residual_.data() : nullptr;
+    residuals_.Resize(points.count());
+    a.distance_residual = residuals_.distance_m.data();
+    a.intensity_residual = state.alpha > 0 ? residuals_.intensity.data() : nullptr;
+    for (std::size_t k = 0; k < 3; ++k) a.gradient[k] = residuals_.gradient[k].data();
 }
 
 PoseSums SdfTracker::SumAt(const TrackInput& input, const FramePoints& points, State& state) const {
@@ -158,16 +161,15 @@ void SdfTracker::ChooseStart(const TrackInput& input, State& state) {
 // Gauss-Newton on [B14] eq. 11.
 void SdfTracker::RunLevel(const TrackInput& input, int level, State& state) {
     const FramePoints& points = points_[static_cast<std::size_t>(level)];
-    SolverOptions options;
-    options.estimate_brightness = photometry_ != nullptr && photometry_->config().brightness;
-    options.min_eigenvalue = judge_.min_eigenvalue();
-    options.last_degenerate = input.last_degenerate;
+    SolverOptions& options = state.options;
+    options.alpha = state.alpha;
+    options.estimate_brightness = state.alpha > 0 && residual_model_.config().brightness;
+    options.least_damping = LeastDamping(residual_model_.scales(), judge_.expected_within_m(), level);
     const int iterations = level == 0 ? config_.fine_iterations : config_.coarse_iterations;
     for (int i = 0; i < iterations; ++i) {
         state.sums = SumAt(input, points, state);
         ++state.iterations;
-        if (options.estimate_brightness)
-            options.brightness_prior = photometry_->config().brightness_prior * state.sums[L::kBrightness + 2];
+        options.brightness_prior = residual_model_.config().brightness_prior * state.sums[L::kBrightness + 2];
         state.step = SolvePoseStep(state.sums, options, state.gain, state.offset,
                                   state.T_world_camera.translation() - state.origin_m, state.scene_depth_m);
         state.failed = !state.step.valid;

@@ -6,11 +6,9 @@
 
 #include "core/cpu.h"
 #include "tracking/frame_points.h"
-#include "tracking/photometry.h"
+#include "tracking/conclude.h"
 #include "tracking/sdf_rows.h"
 #include "tracking/sdf_sums.h"
-#include "tracking/pose_solver.h"
-#include "tracking/track_judge.h"
 #include "tracking/tracker.h"
 
 namespace tessera {
@@ -29,8 +27,8 @@ class SdfTracker : public Tracker {
         void Describe(ConfigParameters& parameters);
     };
 
-    // `photometry` outlives the tracker; null tracks by geometry alone. `device`, too: null sums here.
-    SdfTracker(const Config& config, const PinholeCamera& camera, const TrackJudge& judge, Photometry* photometry,
+    // `model` outlives the tracker. Without `use_colour` it tracks by geometry alone. `device` outlives it, too; null sums here.
+    SdfTracker(const Config& config, const PinholeCamera& camera, const TrackJudge& judge, ResidualModel& model, bool use_colour,
                VectorPath path = VectorPath::kAuto, SdfSums* device = nullptr);
 
     TrackResult Track(const TrackInput& input) override;
@@ -47,11 +45,12 @@ class SdfTracker : public Tracker {
     Config config_;
     PinholeCamera camera_;
     TrackJudge judge_;
-    Photometry* photometry_;
+    ResidualModel& residual_model_;
+    bool use_colour_;
     bool use_avx2_;
     SdfSums* device_;
     std::vector<FramePoints> points_;  // per level
-    std::vector<float> distance_residual_, intensity_residual_;
+    PointResiduals residuals_;  // of the finest level
 };
 
 }  // namespace tessera

@@ -7,10 +7,17 @@
 
 namespace tessera {
 
+namespace {
+
 using L = SumLayout;
 
-void TrackJudge::Judge(const TrackInput& input, std::int64_t points, const PoseSums& sums, const PoseStep& step,
-                       TrackResult& result) const {
+std::string Misfit(const TrackResult& result) {
+    return fmt::format("only {:.0f} % of the depth fits the map", 100 * result.inlier_fraction);
+}
+
+}  // namespace
+
+bool TrackJudge::Fits(std::int64_t points, const PoseSums& sums, TrackResult& result) const {
     const double known = sums[L::kKnown];
     result.known_fraction = known / static_cast<double>(std::max<std::int64_t>(points, 1));
     result.inlier_fraction = known > 0 ? sums[L::kInliers] / known : 0;
@@ -18,35 +25,36 @@ void TrackJudge::Judge(const TrackInput& input, std::int64_t points, const PoseS
         result.distance_rms_m = std::sqrt(sums[L::kDistanceError] / sums[L::kDistanceWeight]);
     if (sums[L::kIntensityWeight] > 0)
         result.intensity_rms = std::sqrt(sums[L::kIntensityError] / sums[L::kIntensityWeight]);
-    result.smallest_eigenvalue = step.smallest_eigenvalue;
-    result.degenerate = step.held_directions > 0;
+    result.status = TrackStatus::kLost;
+    if (known <= 0)
+        result.reason = "no depth where the map is known";
+    else if (result.known_fraction < config_.min_known_fraction)
+        result.reason = fmt::format("only {:.0f} % of the depth lies in the map", 100 * result.known_fraction);
+    else if (result.inlier_fraction < config_.min_inlier_fraction)
+        result.reason = Misfit(result);
+    return result.reason.empty();
+}
+
+void TrackJudge::Judge(const TrackInput& input, TrackResult& result) const {
+    result.degenerate = result.uncertainty_m > config_.degenerate_voxels * input.map.config().voxel_size_m;
     const Eigen::Isometry3d& T_world_expected = input.T_world_camera_starts.front();
     result.innovation_m = (T_world_expected.inverse() * result.T_world_camera).translation().norm();
     result.innovation_rad = RotationAngle(T_world_expected, result.T_world_camera);
-    result.status = Status(input, step, result);
+    result.status = Status(input, result);
 }
 
-TrackStatus TrackJudge::Status(const TrackInput& input, const PoseStep& step, TrackResult& result) const {
+TrackStatus TrackJudge::Status(const TrackInput& input, TrackResult& result) const {
     const auto because = [&](TrackStatus status, std::string reason) {
         result.reason = std::move(reason);
         return status;
     };
-    constexpr TrackStatus kLost = TrackStatus::kLost, kPoor = TrackStatus::kPoor;
-    if (!step.valid) return because(kLost, "no depth where the map is known");
-    if (result.known_fraction < config_.min_known_fraction)
-        return because(kLost, fmt::format("only {:.0f} % of the depth lies in the map", 100 * result.known_fraction));
-    const std::string misfit = fmt::format("only {:.0f} % of the depth fits the map", 100 * result.inlier_fraction);
-    if (result.inlier_fraction < config_.min_inlier_fraction) return because(kLost, misfit);
-
+    constexpr TrackStatus kPoor = TrackStatus::kPoor;
     const Eigen::Isometry3d jump = input.T_world_camera_last.inverse() * result.T_world_camera;
     const double moved_m = jump.translation().norm();
     const double turned_rad = RotationAngle(input.T_world_camera_last, result.T_world_camera);
     if (input.since_last_s > 0 && (moved_m > config_.max_jump_m || turned_rad > config_.max_jump_rad))
-        return because(kLost, fmt::format("jumped by {:.2f} m and {:.2f} rad", moved_m, turned_rad));
-    if (result.degenerate)
-        return because(kPoor, fmt::format("degenerate: {} of 6 motions are not held by what is in view",
-                                          step.held_directions));
-    if (result.inlier_fraction < config_.good_inlier_fraction) return because(kPoor, misfit);
+        return because(TrackStatus::kLost, fmt::format("jumped by {:.2f} m and {:.2f} rad", moved_m, turned_rad));
+    if (result.inlier_fraction < config_.good_inlier_fraction) return because(kPoor, Misfit(result));
     if (result.distance_rms_m > config_.good_distance_rms_m)
         return because(kPoor, fmt::format("the depth is {:.1f} cm off the map", 100 * result.distance_rms_m));
     if (result.innovation_m > config_.good_innovation_m || result.innovation_rad > config_.good_innovation_rad)
@@ -56,8 +64,11 @@ TrackStatus TrackJudge::Status(const TrackInput& input, const PoseStep& step, Tr
 }
 
 void TrackJudge::Config::Describe(ConfigParameters& p) {
-    p.Add("min_eigenvalue", min_eigenvalue, {0.0, 0.1}, "",
-          "motions whose share of the normalised Hessian is smaller are held and the frame is called degenerate");
+    p.Add("degenerate_voxels", degenerate_voxels, {0.0, 100.0}, "voxels",
+          "a frame is called degenerate if some motion's standard deviation at the scene's depth is larger");
+    p.Add("expected_within_m", expected_within_m, {0.0, 1.0}, "m",
+          "standard deviation of the pose that prealignment and motion model expect: a motion that the frame knows less well "
+          "follows them; 0: no motion does");
     p.Add("min_known_fraction", min_known_fraction, {0.0, 1.0}, "",
           "lost if a smaller share of the depth lies in the map");
     p.Add("min_inlier_fraction", min_inlier_fraction, {0.0, 1.0}, "",

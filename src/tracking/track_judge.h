@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "core/config.h"
-#include "tracking/pose_solver.h"
+#include "tracking/pose_information.h"
 #include "tracking/tracker.h"
 
 namespace tessera {
@@ -13,7 +13,8 @@ namespace tessera {
 class TrackJudge {
   public:
     struct Config {
-        double min_eigenvalue = 5e-4;
+        double degenerate_voxels = 0.5;
+        double expected_within_m = 0.01;
         double min_known_fraction = 0.1;
         double min_inlier_fraction = 0.2;
         double good_inlier_fraction = 0.35;
@@ -28,16 +29,17 @@ class TrackJudge {
 
     explicit TrackJudge(const Config& config) : config_(config) {}
 
-    // Fills the figures, the status and the reason of a result whose pose is set. `sums` and `step` are the finest
-    // level's last, `points` how many points had depth there.
-    void Judge(const TrackInput& input, std::int64_t points, const PoseSums& sums, const PoseStep& step,
-               TrackResult& result) const;
+    // Fills how well the frame fits the map. `sums` are the finest level's last, `points` how many points had depth there. False,
+    // with status and reason: it is lost.
+    bool Fits(std::int64_t points, const PoseSums& sums, TrackResult& result) const;
+    // Fills status, reason and what else is to be said of a result that fits, whose pose and uncertainty are set.
+    void Judge(const TrackInput& input, TrackResult& result) const;
 
-    // Motions whose share of the normalised Hessian is smaller are held by the solver.
-    double min_eigenvalue() const { return config_.min_eigenvalue; }
+    // Standard deviation of the pose that is expected before a frame is looked at; 0: nothing is expected.
+    double expected_within_m() const { return config_.expected_within_m; }
 
   private:
-    TrackStatus Status(const TrackInput& input, const PoseStep& step, TrackResult& result) const;
+    TrackStatus Status(const TrackInput& input, TrackResult& result) const;
 
     Config config_;
 };

@@ -17,12 +17,11 @@ struct TrackInput {
     const PreparedFrame& frame;
     const BlockMap& map;
     // Where the camera may be: first the motion model's expectation, then perhaps others. A tracker starts from the one
-    // that fits best; along motions that the map does not hold the camera is where the last one has it. Not empty.
+    // that fits best; along motions that the frame does not know the camera is where the last one has it. Not empty.
     std::vector<Eigen::Isometry3d> T_world_camera_starts;
     Eigen::Isometry3d T_world_camera_last;   // where it was at the last tracked frame
     double since_last_s = 0;                 // 0 if there is no such frame
     FrameMotion motion;                      // delays and read-out times; the twist is the tracker's to fill
-    bool last_degenerate = false;            // the last frame left some motion unconstrained
 };
 
 enum class TrackStatus {
@@ -37,12 +36,12 @@ struct TrackResult {
     FrameMotion motion;           // while the frame was taken
     TrackStatus status = TrackStatus::kLost;
     std::string reason;           // in words, unless good
-    bool degenerate = false;      // the scene leaves some motion unconstrained
+    bool degenerate = false;      // some motion is known less well than TrackJudge asks; it may still be good to fuse
     double known_fraction = 0;    // of the points, those that lie where the map knows the distance
     double inlier_fraction = 0;   // of the known points, those within half the truncation
     double distance_rms_m = 0;    // robustly weighted
     double intensity_rms = 0;     // [0, 1]; 0 without photometric term
-    double smallest_eigenvalue = 0;  // of the normalised Hessian (pose_solver.h), 1/6 at best
+    double uncertainty_m = 0;     // standard deviation of the motion that is known least, a turn counting at the scene's depth
     double innovation_m = 0, innovation_rad = 0;  // from the motion model's expectation
     double alpha = 0;             // photometric weight in use, [B14] eq. 8
     double gain = 1, offset = 0;  // map intensity = gain * image intensity + offset

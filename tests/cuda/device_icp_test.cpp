@@ -69,6 +69,8 @@ struct IcpRig {
         a.inlier_distance_m = 0.02f;
         a.distance_residual = distance.data();
         a.intensity_residual = intensity.data();
+        for (auto& values : gradient) values.resize(distance.size());
+        for (std::size_t k = 0; k < 3; ++k) a.gradient[k] = gradient[k].data();
         a.distance_before = compare ? kept_distance.data() : nullptr;
         a.intensity_before = compare ? kept_intensity.data() : nullptr;
         return a;
@@ -85,7 +87,7 @@ struct IcpRig {
     BlockMap map{BlockMap::Config()};
     std::vector<IcpModelLevel> model;
     FramePoints points;
-    std::vector<float> distance, intensity, kept_distance, kept_intensity;
+    std::vector<float> distance, intensity, kept_distance, kept_intensity, gradient[3];
 };
 
 TEST(DeviceIcp, ModelIsTheProcessorsToTheBit) {
@@ -176,10 +178,10 @@ TEST_P(IcpTrackers, TracksAsTheProcessorDoes) {
     FusedDesk(8, map);
     DevicePipeline device("host", kPlenty);
     const TrackJudge judge({});
-    Photometry photometry({}), device_photometry({});
-    IcpTracker expected({}, DeskCamera(), judge, colour() ? &photometry : nullptr,
+    ResidualModel model({}), device_model({});
+    IcpTracker expected({}, DeskCamera(), judge, model, colour(),
                         std::make_unique<RayCaster>());
-    IcpTracker tracker({}, DeskCamera(), judge, colour() ? &device_photometry : nullptr, nullptr,
+    IcpTracker tracker({}, DeskCamera(), judge, device_model, colour(), nullptr,
                        VectorPath::kAuto, &device.icp_sums());
     for (std::size_t i = 8; i < 14; ++i) {
         const Eigen::Isometry3d& last = DeskFrames()[i - 1].T_world_camera;
@@ -195,8 +197,8 @@ TEST_P(IcpTrackers, IsLostWhereTheModelHasNoRoom) {
     BlockMap map{BlockMap::Config()};
     FusedDesk(3, map);
     DevicePipeline device("host", std::size_t{1} << 20);
-    Photometry photometry({});
-    IcpTracker tracker({}, DeskCamera(), TrackJudge({}), colour() ? &photometry : nullptr, nullptr,
+    ResidualModel model({});
+    IcpTracker tracker({}, DeskCamera(), TrackJudge({}), model, colour(), nullptr,
                        VectorPath::kAuto, &device.icp_sums());
     const Eigen::Isometry3d& last = DeskFrames()[2].T_world_camera;
     const TrackResult result =

@@ -82,15 +82,17 @@ TEST(DevicePipeline, SumsAreTheProcessorsToTheBit) {
     a.z = points.z.data();
     a.intensity = points.intensity.data();
     a.weight = points.weight.data();
-    a.alpha = 0.05f;
+    a.use_intensity = true;
     a.normalise = true;
     a.gain = 1;
     a.distance_scale_m = 0.02f;
     a.intensity_scale = 0.1f;
     a.inlier_distance_m = 0.02f;
-    std::vector<float> distance(static_cast<std::size_t>(points.count())), intensity = distance;
-    a.distance_residual = distance.data();
-    a.intensity_residual = intensity.data();
+    PointResiduals found;
+    found.Resize(points.count());
+    a.distance_residual = found.distance_m.data();
+    a.intensity_residual = found.intensity.data();
+    for (std::size_t k = 0; k < 3; ++k) a.gradient[k] = found.gradient[k].data();
     const PoseSums expected =
         SumPoints(points.count(), [&](int begin, int end, double* sums) { baseline::SumSdfPoints(a, begin, end, sums); });
     DevicePipeline device("host", kPlenty);
@@ -99,23 +101,26 @@ TEST(DevicePipeline, SumsAreTheProcessorsToTheBit) {
     EXPECT_GT(expected[SumLayout::kKnown], 1000);
     EXPECT_GT(expected[SumLayout::kColoured], 1000);
     EXPECT_EQ(std::memcmp(sums.value, expected.value, sizeof sums.value), 0);
-    std::vector<float> device_distance(distance.size()), device_intensity(intensity.size());
+    std::vector<float> device_distance(found.distance_m.size()), device_intensity(found.intensity.size());
     device.TakeResiduals(device_distance, device_intensity);
-    EXPECT_EQ(std::memcmp(device_distance.data(), distance.data(), 4 * distance.size()), 0);
-    EXPECT_EQ(std::memcmp(device_intensity.data(), intensity.data(), 4 * intensity.size()), 0);
+    EXPECT_EQ(std::memcmp(device_distance.data(), found.distance_m.data(), 4 * device_distance.size()), 0);
+    EXPECT_EQ(std::memcmp(device_intensity.data(), found.intensity.data(), 4 * device_intensity.size()), 0);
 
-    ResidualArguments residuals = MakeResidualArguments(frame, DeskCamera(), points, distance, intensity);
-    residuals.wants_alpha = residuals.wants_shutter = true;
+    ResidualArguments residuals = MakeResidualArguments(frame, DeskCamera(), points, found);
+    residuals.has_intensity = residuals.wants_shutter = true;
     for (int i = 0; i < 6; ++i) residuals.twist_per_s[i] = 0.1 * (i - 2);
     residuals.colour_delay_s = residuals.colour_readout_s = 0.01;
     residuals.gain = 1.1;
     residuals.residual_scale = 0.05;
+    residuals.distance_scale_m = 0.01;
+    residuals.intensity_scale = 0.05;
+    for (int i = 0; i < 9; ++i) residuals.rotation[i] = 0.2 * (i % 4) - 0.1;
     const ResidualSums learnt = SumResiduals(residuals), there = device.SumResiduals(residuals);
     EXPECT_EQ(there.distances, learnt.distances);
     EXPECT_EQ(there.scores, learnt.scores);
     EXPECT_EQ(there.shutter, learnt.shutter);
-    EXPECT_EQ(learnt.distances.size(), 2u * 5 * 3);
-    EXPECT_EQ(learnt.scores.size(), 6u * 4 * 3);
+    EXPECT_EQ(learnt.distances.size(), 13u * 4 * 10 * 7);
+    EXPECT_EQ(learnt.scores.size(), 7u * 9 * 7);
     EXPECT_EQ(learnt.shutter.size(), 5u * 20);
     EXPECT_GT(learnt.shutter[5 * 10], 0);
 }
@@ -126,9 +131,9 @@ TEST(DevicePipeline, TracksAsTheProcessorDoes) {
     Integrator integrator({}, DeskCamera());
     DevicePipeline device("host", kPlenty);
     const TrackJudge judge({});
-    Photometry photometry({}), device_photometry({});
-    SdfTracker expected({}, DeskCamera(), judge, &photometry);
-    SdfTracker tracker({}, DeskCamera(), judge, &device_photometry, VectorPath::kAuto, &device);
+    ResidualModel model({}), device_model({});
+    SdfTracker expected({}, DeskCamera(), judge, model, true);
+    SdfTracker tracker({}, DeskCamera(), judge, device_model, true, VectorPath::kAuto, &device);
     for (std::size_t i = 0; i < 8; ++i) integrator.Integrate(DeskFrames()[i].prepared, MovingView(DeskFrames()[i]), map);
     for (std::size_t i = 8; i < 14; ++i) {
         const Eigen::Isometry3d& last = DeskFrames()[i - 1].T_world_camera;

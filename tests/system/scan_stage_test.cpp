@@ -155,7 +155,7 @@ TEST_F(Scan, LiveASavedScanIsGoneOnWith) {
 // After a gap nothing is believed but what fits well; the map does not change until then.
 TEST_F(Scan, AfterAGapTheCameraIsFoundWhereTheScanEndedAndNowhereElse) {
     // With this weight of colour the tracker settles in a wrong place at first, which the gate has to refuse.
-    config.pipeline.trackers.photometric.alpha_mode = Photometry::AlphaMode::kFixed;
+    config.pipeline.trackers.photometric.alpha_mode = ResidualModel::AlphaMode::kFixed;
     config.pipeline.trackers.photometric.alpha = 0.05;
     Run(false, New(), {.count = 20});
     const BlockId blocks = Content().map->size();

@@ -27,7 +27,7 @@ float Random(std::uint32_t& state) {
 struct Scene {
     static constexpr int kWidth = 40, kHeight = 30, kPoints = 2048;
     std::vector<float> depth, normal, intensity;
-    std::vector<float> x, y, z, nx, ny, nz, image, weight, distance_residual, intensity_residual;
+    std::vector<float> x, y, z, nx, ny, nz, image, weight, distance_residual, intensity_residual, gradient[3];
     IcpArguments a{};
 
     Scene() {
@@ -52,6 +52,7 @@ struct Scene {
             weight.push_back(i % 5 == 0 ? 0.0f : 0.5f + Random(state));
         }
         distance_residual.resize(kPoints);
+        for (auto& values : gradient) values.resize(kPoints);
         intensity_residual.resize(kPoints);
         SetCamera({kWidth, kHeight, 38, 39, 18.5, 15.25}, a);
         a.depth = depth.data();
@@ -75,6 +76,7 @@ struct Scene {
         a.inlier_distance_m = 0.02f;
         a.distance_residual = distance_residual.data();
         a.intensity_residual = intensity_residual.data();
+        for (std::size_t k = 0; k < 3; ++k) a.gradient[k] = gradient[k].data();
         Vector6d twist;
         twist << 0.01, -0.02, 0.03, 0.02, 0.01, -0.01;
         SetPose(Se3Exp(twist), a);
@@ -114,7 +116,7 @@ class SlowIcpSums {
         if ((p - surface).norm() >= a_.distance_gate_m || normal.dot(n) <= a_.normal_gate_cosine) return;
         const double r = n.dot(p - surface);
         sums.value[L::kInliers] += std::abs(r) < a_.inlier_distance_m;
-        Add(p, n, r, s_.weight[i], a_.distance_scale_m, L::kDistanceError, L::kDistanceWeight, 1.0);
+        Add(p, n, r, s_.weight[i], a_.distance_scale_m, L::kDistanceError, L::kDistanceWeight, 1.0, L::kDistance);
         if (a_.alpha <= 0 || s_.image[i] < 0) return;
         AddIntensity(i, p, u, v);
     }
@@ -133,19 +135,19 @@ class SlowIcpSums {
         ImageGradientInSpace<double>(point, a_.fx, a_.fy, s.du, s.dv, g);
         sums.value[L::kColoured] += 1;
         const double w = Add(p, {g[0], g[1], g[2]}, r, s_.weight[i], a_.intensity_scale, L::kIntensityError,
-                             L::kIntensityWeight, a_.alpha);
+                             L::kIntensityWeight, a_.alpha, L::kIntensity);
         double j[6];
         PointJacobian(point, g, j);
-        AddBrightnessTerm(j, r, double(s_.image[i]), a_.alpha * w, sums.value);
+        AddBrightnessTerm(j, r, double(s_.image[i]), w, sums.value);
     }
 
     double Add(const Eigen::Vector3d& p, const Eigen::Vector3d& g, double r, double weight, double scale, int error,
-               int total, double share) {
+               int total, double share, int term) {
         const double point[3] = {p.x(), p.y(), p.z()}, gradient[3] = {g.x(), g.y(), g.z()};
         double j[6];
         PointJacobian(point, gradient, j);
         const double w = weight * std::min(1.0, scale / std::abs(r));
-        AddPoseTerm(j, r, share * w, sums.value);
+        AddPoseTerm(j, r, w, sums.value + term);
         sums.value[error] += w * r * r;
         sums.value[total] += w;
         const double size = std::abs(r);

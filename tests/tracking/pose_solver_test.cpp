@@ -1,4 +1,4 @@
-// Which motions a step leaves alone, and what becomes of the pose along them.
+// The step from the sums, and what keeps it small where nothing holds it.
 #include "tracking/pose_solver.h"
 
 #include <gtest/gtest.h>
@@ -8,45 +8,62 @@ namespace {
 
 using L = SumLayout;
 
-// Of a camera at the local origin, 1 m from what it sees, so that the normalised Hessian is diag(h) over its trace.
-PoseSums Sums(const Vector6d& h, const Vector6d& g) {
-    PoseSums sums;
-    for (int i = 0, at = 0; i < 6; ++i) {
-        for (int j = i; j < 6; ++j, ++at) sums.value[L::kHessian + at] = i == j ? h(i) : 0.0;
-        sums.value[L::kGradient + i] = g(i);
+void SetTerm(const Vector6d& h, const Vector6d& g, int term, PoseSums& sums) {
+    for (int i = 0, at = term + L::kHessian; i < 6; ++i) {
+        for (int j = i; j < 6; ++j, ++at) sums.value[at] = i == j ? h(i) : 0.0;
+        sums.value[term + L::kGradient + i] = g(i);
     }
-    return sums;
-}
-
-PoseStep Solve(const Vector6d& h, bool last_degenerate) {
-    SolverOptions options;
-    options.estimate_brightness = false;
-    options.min_eigenvalue = 1e-3;
-    options.last_degenerate = last_degenerate;
-    return SolvePoseStep(Sums(h, -0.01 * h), options, 1, 0, Eigen::Vector3d::Zero(), 1.0);
 }
 
 Vector6d V(double a, double b, double c, double d, double e, double f) { return (Vector6d() << a, b, c, d, e, f).finished(); }
 
-TEST(PoseSolver, HoldsWhatTheSceneLeavesOpen) {
-    // Shares of the trace: one of 1.2e-3 is enough, unless another is below 1e-3 or the last frame's was.
-    EXPECT_EQ(Solve(V(1, 1, 1, 1, 0.006, 1), false).held_directions, 0);
-    EXPECT_EQ(Solve(V(1, 1, 1, 1, 0.006, 1), true).held_directions, 1);
-    EXPECT_EQ(Solve(V(1, 1, 1, 1, 0.012, 1), true).held_directions, 0);
-    EXPECT_EQ(Solve(V(1, 1, 1, 0.006, 0.012, 1), true).held_directions, 2);
-    const PoseStep step = Solve(V(1, 1, 1, 0.001, 0.01, 1), false);
-    EXPECT_EQ(step.held_directions, 2);
-    EXPECT_LT((step.increment - V(0.01, 0.01, 0.01, 0, 0, 0.01)).norm(), 1e-12);
-    EXPECT_FALSE(Solve(Vector6d::Zero(), false).valid);
+PoseStep Solve(const PoseSums& sums, double alpha, double least_damping) {
+    SolverOptions options;
+    options.alpha = alpha;
+    options.least_damping = least_damping;
+    options.estimate_brightness = false;
+    return SolvePoseStep(sums, options, 1, 0, Eigen::Vector3d::Zero(), 1.0);
 }
 
-TEST(PoseSolver, AlongHeldDirectionsThePoseIsAsExpected) {
-    const Eigen::Isometry3d found = Se3Exp(V(0.3, -0.2, 0.1, 1, 2, 3));
-    const Vector6d away = V(0.004, -0.003, 0.002, 0.01, 0.02, -0.03);
-    const Eigen::Isometry3d expected = Se3Exp(-away) * found;
-    EXPECT_TRUE(WithHeldAsExpected(Solve(V(1, 1, 1, 1, 1, 1), false), found, expected).isApprox(found, 1e-15));
-    const Eigen::Isometry3d T = WithHeldAsExpected(Solve(V(1, 1, 1, 1e-6, 1e-6, 1), false), found, expected);
-    EXPECT_LT((Se3Log(T * expected.inverse()) - V(0.004, -0.003, 0.002, 0, 0, -0.03)).norm(), 1e-4);
+// Distances ask for 1 cm along x, intensities for 3 cm; alpha weighs them.
+TEST(PoseSolver, WeighsTheTwoKindsByAlpha) {
+    const Vector6d ones = Vector6d::Ones(), h_c = 2 * ones;
+    PoseSums sums;
+    SetTerm(ones, -0.01 * V(0, 0, 0, 1, 0, 0), L::kDistance, sums);
+    SetTerm(h_c, -0.03 * 2 * V(0, 0, 0, 1, 0, 0), L::kIntensity, sums);
+    for (const double alpha : {0.0, 0.5, 10.0}) {
+        const PoseStep step = Solve(sums, alpha, 0);
+        ASSERT_TRUE(step.valid);
+        EXPECT_NEAR(step.increment(3), (0.01 + 2 * alpha * 0.03) / (1 + 2 * alpha), 1e-9) << alpha;
+    }
+}
+
+TEST(PoseSolver, WhatNothingShowsDoesNotRunAway) {
+    PoseSums sums;
+    SetTerm(V(1, 1, 1, 1, 1, 1e-8), -0.01 * V(0, 0, 0, 1, 1, 1e-5), L::kDistance, sums);
+    EXPECT_GT(Solve(sums, 0, 0).increment(5), 1);
+    const PoseStep step = Solve(sums, 0, 1e-3);
+    EXPECT_LT(std::abs(step.increment(5)), 1e-3);
+    EXPECT_NEAR(step.increment(3), 0.01, 2e-5);
+    EXPECT_FALSE(Solve(PoseSums(), 0, 1e-3).valid);
+}
+
+// Brightness takes its share: a pose gradient that gain and offset explain alone moves nothing.
+TEST(PoseSolver, BrightnessIsEliminated) {
+    PoseSums sums;
+    SetTerm(Vector6d::Ones(), Vector6d::Zero(), L::kDistance, sums);
+    SetTerm(Vector6d::Ones(), V(0, 0, 0, 0.05, 0, 0), L::kIntensity, sums);
+    sums.value[L::kCoupling + 2 * 3 + 1] = 0.5;  // x with the offset
+    sums.value[L::kBrightness] = sums.value[L::kBrightness + 2] = 1;
+    sums.value[L::kBrightnessGradient + 1] = 0.1;  // 0.05 = 0.5 * 0.1
+    SolverOptions options;
+    options.alpha = 1;
+    const PoseStep step = SolvePoseStep(sums, options, 1, 0, Eigen::Vector3d::Zero(), 1.0);
+    EXPECT_LT(step.increment.norm(), 1e-12);
+    EXPECT_NEAR(step.offset_change, -0.1, 1e-12);
+    const PoseTerm term = IntensityTerm(sums, options, 1, 0);
+    EXPECT_NEAR(term.H(3, 3), 1 - 0.25, 1e-12);
+    EXPECT_NEAR(term.g(3), 0, 1e-12);
 }
 
 }  // namespace

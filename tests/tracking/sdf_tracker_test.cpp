@@ -21,7 +21,7 @@ TEST(SdfTracker, ExposureChangeIsExplainedByBrightness) {
         c.r = c.g = c.b = static_cast<std::uint8_t>(0.8 * c.r + 10.0 + 0.5);
     }
     const PreparedFrame prepared = Prepare(frame);
-    Photometry::Config config = FixedAlpha(0.3);
+    ResidualModel::Config config = FixedAlpha(0.3);
     config.brightness_prior = 1e-3;
     const TestTracker tracker = FineSdf(config);
     const TrackResult result = world.Track(*tracker, prepared, SmoothPath(19), SmoothPath(19));
@@ -57,7 +57,7 @@ TEST(SdfTracker, AutoAlphaGrowsWhenNeighboursShareDistanceErrors) {
     room.has_ball = true;
     const World world(room);
     const auto settle = [&](double bump_m) {
-        Photometry::Config config;
+        ResidualModel::Config config;
         config.auto_alpha_max = 100;
         const TestTracker tracker = FineSdf(config);
         Frame frame = world.room.Render(world.camera, SmoothPath(20));

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -48,15 +49,17 @@ class Shutter : public testing::Test {
             FramePoints points;
             points.Build(prepared, camera, motion, 1, 2.0);
             points.SampleIntensity(prepared, camera, motion);
-            std::vector<float> residuals(static_cast<std::size_t>(points.count()),
-                                         std::numeric_limits<float>::quiet_NaN());
-            for (std::size_t k = 0; k < residuals.size(); ++k)
+            PointResiduals residuals;
+            residuals.Resize(points.count());
+            std::ranges::fill(residuals.distance_m, std::numeric_limits<float>::quiet_NaN());
+            std::ranges::fill(residuals.intensity, std::numeric_limits<float>::quiet_NaN());
+            for (std::size_t k = 0; k < residuals.intensity.size(); ++k)
                 if (points.weight[k] > 0 && points.intensity[k] >= 0)
-                    residuals[k] = static_cast<float>(room.Intensity(T * Eigen::Vector3d(points.x[k], points.y[k],
+                    residuals.intensity[k] = static_cast<float>(room.Intensity(T * Eigen::Vector3d(points.x[k], points.y[k],
                                                                                          points.z[k]))) -
                                    points.intensity[k];
             if (!estimator.Wants(motion, 0.05)) continue;
-            ResidualArguments a = MakeResidualArguments(prepared, camera, points, {}, residuals);
+            ResidualArguments a = MakeResidualArguments(prepared, camera, points, residuals);
             for (int k = 0; k < 6; ++k) a.twist_per_s[k] = motion.twist_per_s(k);
             a.colour_delay_s = motion.colour_delay_s;
             a.colour_readout_s = motion.colour_readout_s;

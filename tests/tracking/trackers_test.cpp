@@ -56,8 +56,7 @@ TEST_P(EveryTracker, PlaneIsHeldByItsTextureOnly) {
         EXPECT_LT((T_true.inverse() * result.T_world_camera).translation().norm(), 0.002);
     } else {
         EXPECT_TRUE(result.degenerate);
-        EXPECT_EQ(result.status, TrackStatus::kPoor);
-        EXPECT_NE(result.reason.find("degenerate"), std::string::npos);
+        EXPECT_EQ(result.status, TrackStatus::kGood) << "depth fits: fusing it changes nothing of the wall";
     }
 }
 
@@ -79,8 +78,7 @@ TEST_P(EveryTracker, WhatNothingShowsIsAsExpected) {
                                                  .T_world_camera_starts = {beside(-0.02, 0.03, 0, -0.03), T_expected},
                                                  .T_world_camera_last = T_true,
                                                  .since_last_s = 1.0 / 30,
-                                                 .motion = {},
-                                                 .last_degenerate = true});
+                                                 .motion = {}});
     EXPECT_TRUE(result.degenerate);
     const Eigen::Vector3d along = result.T_world_camera.translation() - T_expected.translation();
     EXPECT_LT(along.head<2>().norm(), 1e-3);

@@ -51,39 +51,39 @@ struct World {
 
 // A tracker and the state that it shares with others.
 struct TestTracker {
-    std::unique_ptr<Photometry> photometry;
+    std::unique_ptr<ResidualModel> model;
     std::unique_ptr<Tracker> tracker;
     Tracker& operator*() const { return *tracker; }
 };
 
-inline Photometry::Config FixedAlpha(double alpha) {
-    Photometry::Config config;
-    config.alpha_mode = Photometry::AlphaMode::kFixed;
+inline ResidualModel::Config FixedAlpha(double alpha) {
+    ResidualModel::Config config;
+    config.alpha_mode = ResidualModel::AlphaMode::kFixed;
     config.alpha = alpha;
     return config;
 }
 
 // Every pixel, until it has converged.
-inline TestTracker FineSdf(const Photometry::Config& photometric) {
+inline TestTracker FineSdf(const ResidualModel::Config& photometric) {
     SdfTracker::Config config;
     config.finest_step_px = 1;
     config.fine_iterations = 30;
     TestTracker t;
-    t.photometry = std::make_unique<Photometry>(photometric);
-    t.tracker = std::make_unique<SdfTracker>(config, SmallCamera(), TrackJudge({}), t.photometry.get());
+    t.model = std::make_unique<ResidualModel>(photometric);
+    t.tracker = std::make_unique<SdfTracker>(config, SmallCamera(), TrackJudge({}), *t.model, true);
     return t;
 }
 
-inline TestTracker FineIcp(const Photometry::Config& photometric, bool colour = true,
+inline TestTracker FineIcp(const ResidualModel::Config& photometric, bool colour = true,
                            std::unique_ptr<ViewPredictor> predictor = std::make_unique<RayCaster>()) {
     IcpTracker::Config config;
     config.finest_step_px = 1;
     config.levels = 2;
     config.fine_iterations = 30;
     TestTracker t;
-    t.photometry = std::make_unique<Photometry>(photometric);
+    t.model = std::make_unique<ResidualModel>(photometric);
     t.tracker = std::make_unique<IcpTracker>(config, SmallCamera(), TrackJudge({}),
-                                             colour ? t.photometry.get() : nullptr, std::move(predictor));
+                                             *t.model, colour, std::move(predictor));
     return t;
 }
 

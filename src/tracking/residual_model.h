@@ -1,0 +1,80 @@
+// What the residuals teach from frame to frame, whatever method tracks: how large the errors of distances and intensities are,
+// and so how the two are weighed; the brightness of the camera against the map; when the colour image's rows were taken. One
+// object serves all methods, so that a switch between two frames loses nothing. docs/information.md has the derivation.
+#pragma once
+
+#include "core/config.h"
+#include "tracking/pose_solver.h"
+#include "tracking/residual_sums.h"
+#include "tracking/shutter_estimator.h"
+#include "tracking/tracker.h"
+
+namespace tessera {
+
+// Variances of residuals of weight 1 as they count in a sum over many points: neighbours err together, so they are larger than
+// the scatter of single residuals.
+struct ResidualScales {
+    double distance_m2 = 0;  // 0: not known yet
+    double intensity = 0;    // the same
+    double texture = 1;      // share of the map's image gradients that the frame confirms; the rest is noise
+    double alpha = 0;        // ratio of the two, what they disagree about shared out between them; 0: not known yet
+};
+
+// What one frame says about them.
+struct ResidualEvidence {
+    const ResidualArguments& arguments;
+    const ResidualSums& sums;  // of them
+    const PoseTerm &distances, &intensities;  // at the pose that was found, Normalised to this depth
+    double scene_depth_m, voxel_size_m;
+};
+
+// Owner thread only.
+class ResidualModel {
+  public:
+    enum class AlphaMode { kFixed, kAuto };
+
+    struct Config {
+        AlphaMode alpha_mode = AlphaMode::kAuto;
+        double alpha = 0.02;
+        double shading_error = 0.02;
+        double surface_error_voxels = 0.1;
+        double auto_alpha_max = 0.1;
+        double intensity_scale = 0.1;
+        bool brightness = true;
+        double brightness_prior = 0.05;
+        ShutterEstimator::Config shutter;
+
+        void Describe(ConfigParameters& parameters);
+    };
+
+    explicit ResidualModel(const Config& config);
+    // Forgets what was learnt, not the configuration.
+    void Reset();
+    void SaveState(StateWriter& state) const;
+    bool LoadState(StateReader& state);
+    // In place of the configuration's: learnt from here on, or fixed at `alpha`, in m^2.
+    void SetAlpha(bool automatic, double alpha);
+
+    const Config& config() const { return config_; }
+    const ResidualScales& scales() const { return scales_; }  // smoothed over frames
+    double alpha() const;                    // in use, [B14] eq. 8
+    double gain() const { return gain_; }    // of the last tracked frame: map = gain * image + offset
+    double offset() const { return offset_; }
+    // The motion with the colour image's delay and read-out as learnt so far.
+    FrameMotion Timed(FrameMotion motion) const;
+
+    // Whether a frame with this motion and intensity residuals has something to tell about the shutter.
+    bool WantsShutter(const FrameMotion& motion, double intensity_rms) const { return shutter_.Wants(motion, intensity_rms); }
+    // From any frame that fits the map.
+    void LearnScales(const ResidualEvidence& evidence);
+    // From a tracked frame. Where the pose is `degenerate` it explains what it should not, and the shutter is left alone.
+    void LearnColour(const TrackResult& result, const ResidualSums& sums);
+
+  private:
+    Config config_;
+    double gain_ = 1, offset_ = 0;
+    ResidualScales scales_;
+    ShutterEstimator shutter_;
+};
+
+}  // namespace tessera

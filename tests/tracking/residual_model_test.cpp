@@ -1,0 +1,169 @@
+#include "tracking/residual_model.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <optional>
+#include <random>
+
+#include "support/box_room.h"
+#include "tracking/pose_information.h"
+
+namespace tessera {
+namespace {
+
+using namespace testing_support;
+
+// What is learnt from residuals of a textured room, bounds out of the way. All points see all motions: gradients turn about.
+class LearntScales : public testing::Test {
+  protected:
+    LearntScales() {
+        PrepareFrame(room_.Render(camera_, Eigen::Isometry3d::Identity()), {}, frame_);
+        points_.Build(frame_, camera_, {}, 1, 0.0);
+        points_.SampleIntensity(frame_, camera_, {});
+        residuals_.Resize(points_.count());
+        config_.auto_alpha_max = 100;
+        config_.shading_error = config_.surface_error_voxels = 0;
+        std::normal_distribution<float> noise;
+        for (float& r : residuals_.distance_m) r = 0.002f * noise(random_);
+        for (float& r : residuals_.intensity) r = 0.02f * noise(random_);
+        for (auto& values : residuals_.gradient)
+            for (int y = 0; y < points_.height(); ++y)
+                for (int x = 0; x < points_.width(); ++x) values[Index(x, y)] = static_cast<float>(std::sin(0.03 * x + 0.05 * y + double(&values - residuals_.gradient.data())));
+        distances_.H = intensities_.H = Matrix6d::Identity();
+        distances_.g = intensities_.g = Vector6d::Zero();
+    }
+    std::size_t Index(int x, int y) const { return static_cast<std::size_t>(y * points_.width() + x); }
+
+    ResidualSums Sums() {
+        arguments_ = MakeResidualArguments(frame_, camera_, points_, residuals_);
+        arguments_.gain = 1;
+        arguments_.distance_scale_m = arguments_.intensity_scale = 10;
+        arguments_.rotation[0] = arguments_.rotation[4] = arguments_.rotation[8] = 1;
+        arguments_.has_intensity = true;
+        return SumResiduals(arguments_);
+    }
+    const ResidualScales& Learn() {
+        model_.emplace(config_);
+        const ResidualSums sums = Sums();
+        model_->LearnScales({arguments_, sums, distances_, intensities_, 2.0, 0.01});
+        return model_->scales();
+    }
+
+    PinholeCamera camera_ = {320, 240, 262.0, 262.0, 159.5, 119.5};
+    BoxRoom room_;
+    PreparedFrame frame_;
+    FramePoints points_;
+    std::mt19937 random_{3};
+    ResidualModel::Config config_;
+    std::optional<ResidualModel> model_;
+    ResidualArguments arguments_{};
+    PointResiduals residuals_;
+    PoseTerm distances_, intensities_;
+};
+
+// Independent errors: the plain variances, 4e-6 m^2 and 4e-4, and their ratio.
+TEST_F(LearntScales, AreTheVariancesOfIndependentErrors) {
+    const ResidualScales scales = Learn();
+    EXPECT_NEAR(scales.distance_m2, 4e-6, 1.5e-6);
+    EXPECT_NEAR(scales.intensity, 4e-4, 2e-4);
+    EXPECT_NEAR(model_->alpha(), 0.01, 0.007);
+}
+
+// Errors that neighbours share count more the more neighbours share them; here 32 x 32 do, about half a region across.
+TEST_F(LearntScales, GrowWithErrorsThatNeighboursShare) {
+    const double alone = Learn().distance_m2;
+    std::normal_distribution<float> noise;
+    float shared[8][10];
+    for (auto& row : shared)
+        for (float& s : row) s = 0.002f * noise(random_);
+    for (int y = 0; y < points_.height(); ++y)
+        for (int x = 0; x < points_.width(); ++x) residuals_.distance_m[Index(x, y)] += shared[y / 32][x / 32];
+    EXPECT_GT(Learn().distance_m2, 50 * alone);
+}
+
+// As where edges are blurred or displaced: the errors pull all one way at each edge, though their sum is zero.
+TEST_F(LearntScales, ErrorsAlongTheImageGradientCountAsTheyPull) {
+    const double before = Learn().intensity;
+    for (int y = 0; y < points_.height(); ++y)
+        for (int x = 1; x + 1 < points_.width(); ++x)
+            residuals_.intensity[Index(x, y)] += (y / 16 + x / 16) % 2 == 0 ? points_.intensity[Index(x + 1, y)] - points_.intensity[Index(x - 1, y)]
+                                                                           : points_.intensity[Index(x - 1, y)] - points_.intensity[Index(x + 1, y)];
+    EXPECT_GT(Learn().intensity, 3 * before);
+}
+
+// The same gradient everywhere, up and down by turns or only up: what a block is wrong by together cancels, or counts 256 times.
+TEST_F(LearntScales, ShadingErrorCountsWhereShadingIsTheOnlyTexture) {
+    config_.shading_error = 0.02;
+    std::ranges::fill(residuals_.intensity, 0.0f);
+    residuals_.intensity[Index(3, 3)] = 1e-3f;  // some error
+    const auto learn_from = [&](const auto& intensity_of) {
+        for (int i = 0; i < points_.count(); ++i) {
+            points_.z[static_cast<std::size_t>(i)] = 1;
+            points_.intensity[static_cast<std::size_t>(i)] = 0.001f * static_cast<float>(intensity_of(i % points_.width()));
+        }
+        return Learn().intensity;
+    };
+    EXPECT_LT(learn_from([](int x) { return std::abs(x % 16 - 8); }), 2e-3);
+    EXPECT_NEAR(learn_from([](int x) { return x; }), 256 * 4e-4, 2e-3);
+}
+
+// The map is the image and noise of its own: half of its gradients' square.
+TEST_F(LearntScales, NoiseInTheMapIsNoTexture) {
+    std::normal_distribution<float> noise;
+    for (float& i : points_.intensity) i = 0.5f + 0.05f * noise(random_);
+    std::ranges::fill(residuals_.intensity, 0.0f);
+    residuals_.intensity[Index(3, 3)] = 1e-3f;
+    EXPECT_NEAR(Learn().texture, 1, 0.01);
+    for (float& r : residuals_.intensity) r = 0.05f * noise(random_);
+    EXPECT_NEAR(Learn().texture, 0.5, 0.05);
+    for (int i = 0; i < points_.count(); ++i)  // a map that shows nothing of the image
+        residuals_.intensity[static_cast<std::size_t>(i)] = 0.05f * noise(random_) - (points_.intensity[static_cast<std::size_t>(i)] - 0.5f);
+    EXPECT_LT(Learn().texture, 0.05);
+}
+
+// What the two kinds disagree about raises the variance of the one that gives way.
+TEST_F(LearntScales, DisagreementIsSharedOut) {
+    const double agreed = (Learn(), model_->alpha());
+    distances_.H *= 1e3;  // they lead
+    distances_.g = -distances_.H * Vector6d::Constant(0.05);
+    EXPECT_LT((Learn(), model_->alpha()), 0.5 * agreed);
+    distances_.H = Matrix6d::Identity();
+    distances_.g.setZero();
+    intensities_.H *= 1e6;
+    intensities_.g = -intensities_.H * Vector6d::Constant(0.05);
+    EXPECT_GT((Learn(), model_->alpha()), 2 * agreed);
+}
+
+TEST_F(LearntScales, AlphaStaysWithinItsBoundAndWhereItIsFixed) {
+    config_.auto_alpha_max = 0.001;
+    Learn();
+    EXPECT_DOUBLE_EQ(model_->alpha(), 0.001);
+    config_.alpha_mode = ResidualModel::AlphaMode::kFixed;
+    Learn();
+    EXPECT_DOUBLE_EQ(model_->alpha(), config_.alpha);
+    model_->SetAlpha(false, 0.25);
+    EXPECT_DOUBLE_EQ(model_->alpha(), 0.25);
+}
+
+// Where the pose is not held, it explains what it should not.
+TEST_F(LearntScales, DegenerateFramesTeachNothingAboutTheShutter) {
+    ResidualSums sums = Sums();
+    arguments_.wants_shutter = true;
+    arguments_.residual_scale = 0.02;
+    arguments_.twist_per_s[1] = 0.5;
+    sums.shutter = SumResiduals(arguments_).shutter;
+    TrackResult result;
+    result.intensity_rms = 0.02;
+    model_.emplace(config_);
+    result.degenerate = true;
+    model_->LearnColour(result, sums);
+    EXPECT_EQ(model_->Timed({}).colour_delay_s, 0);
+    result.degenerate = false;
+    model_->LearnColour(result, sums);
+    EXPECT_NE(model_->Timed({}).colour_delay_s, 0);
+}
+
+}  // namespace
+}  // namespace tessera
