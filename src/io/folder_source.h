@@ -19,7 +19,7 @@ struct FolderSourceConfig {
     double depth_scale = 0;        // stored depth value of one metre; 0 = as the camera file says
     bool swap_red_blue = false;    // of .klg logs
     // In place of what the camera file says; no key, the program's own. Its size counts for nothing, the lens's distortion stays.
-    std::optional<PinholeCamera> camera;
+    std::optional<PinholeCamera> camera = std::nullopt;
 
     void Describe(ConfigParameters& parameters);
     Status Validate() const;

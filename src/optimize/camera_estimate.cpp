@@ -10,7 +10,7 @@ namespace {
 // On recordings whose camera is known, estimates lie up to five of their deviations off, and up to 1 % (docs/calibration.md):
 // errors that a recording has everywhere are in no scatter.
 constexpr double kDeviations = 6;
-constexpr double kFocalFloor = 0.01, kCentreFloor = 0.006;  // of the focal length, of the width
+constexpr double kFocalFloor = 0.0125, kCentreFloor = 0.006;  // of the focal length, of the width
 constexpr double kUsefulFocal = 0.02;                       // of the focal length: sigma
 
 bool Beyond(double difference_px, double sigma_px, double floor_px) {

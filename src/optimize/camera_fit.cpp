@@ -82,6 +82,8 @@ class Fit {
     }
     const CameraUnknowns& unknowns() const { return unknowns_; }
     void Set(const CameraUnknowns& unknowns) { unknowns_ = unknowns; }
+    // So that misfits can be compared.
+    void HoldScales() { hold_scales_ = true; }
 
     // At the last linearisation.
     Vector Deviations() const {
@@ -174,9 +176,6 @@ class Fit {
     Matrix hessian_ = Matrix::Zero(), before_ = Matrix::Zero();
     Vector gradient_ = Vector::Zero();
     bool hold_scales_ = false;
-
-  public:
-    void HoldScales() { hold_scales_ = true; }
 };
 
 }  // namespace

@@ -6,10 +6,11 @@
 namespace tessera {
 namespace {
 
-constexpr std::size_t kMostPairs = 60;
+constexpr std::size_t kMostPairs = 100;
 constexpr int kMostOfView = 4;
 constexpr double kLeastTurn_rad = 0.035, kMostTurn_rad = 0.45;
-constexpr double kLeastOverlap = 0.5;
+constexpr double kLeastOverlap = 0.6;
+constexpr double kParallax = 0.15;  // radians of turn that as much parallax costs: its depths err
 
 struct Candidate {
     int from, to;
@@ -57,7 +58,7 @@ std::vector<CameraPair> ChoosePairs(const std::vector<CameraView>& views, const 
             const Overlap overlap = OverlapOf(views[static_cast<std::size_t>(from)], camera, T_to_from);
             if (overlap.share < kLeastOverlap) continue;
             const double parallax = T_to_from.translation().norm() * overlap.inverse_depth;
-            candidates.push_back({from, to, turn * std::sqrt(overlap.share) - parallax});
+            candidates.push_back({from, to, turn * std::sqrt(overlap.share) - kParallax * parallax});
         }
     std::stable_sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) { return a.merit > b.merit; });
     std::vector<int> used(views.size(), 0);
