@@ -7,7 +7,7 @@
 namespace tessera {
 namespace {
 
-// On recordings whose camera is known, estimates lie up to five of their deviations off, and up to 1 % (docs/calibration.md):
+// On recordings whose camera is known, estimates lie up to five of their deviations off, most within 1 % (docs/calibration.md):
 // errors that a recording has everywhere are in no scatter.
 constexpr double kDeviations = 6;
 constexpr double kFocalFloor = 0.0125, kCentreFloor = 0.006;  // of the focal length, of the width
