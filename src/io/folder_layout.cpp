@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 
 #include "io/folder_truth.h"
 #include "io/image_lists.h"
@@ -78,27 +79,40 @@ bool IsIclFolder(const fs::path& folder, Layout layout) {
     return images.ok() && StampsAreFrameNumbers(images.value().pairs);
 }
 
-Result<CameraCalibration> FindCamera(const fs::path& folder, const std::string& published,
-                                     std::vector<std::string>& notes) {
+// TUM's lists name the recording in a comment, whatever the folder is called now: "# file: 'rgbd_dataset_freiburg1_rpy.bag'".
+std::string BagName(const fs::path& folder) {
+    constexpr std::size_t kLongest = 1000;
+    std::ifstream list(folder / "rgb.txt");
+    std::string line;
+    for (int i = 0; i < 2 && std::getline(list, line); ++i)
+        if (line.size() < kLongest && line.starts_with('#') && line.find("rgbd_dataset_") != std::string::npos) return line;
+    return {};
+}
+
+std::string PublishedName(const fs::path& folder, const std::string& by_layout) {
+    for (const std::string& text : {FolderName(folder), BagName(folder)})
+        for (const char* tum : {"freiburg1", "freiburg2", "freiburg3"})
+            if (text.find(tum) != std::string::npos) return tum;
+    return by_layout;
+}
+
+// Nothing where nobody says what camera it was.
+Result<std::optional<CameraCalibration>> FindCamera(const fs::path& folder, const std::string& published,
+                                                    std::vector<std::string>& notes) {
     const fs::path file = folder / "camera.yaml";
-    if (Exists(file)) return ReadCameraFile(file.string());
-    std::string name = published;
-    for (const char* tum : {"freiburg1", "freiburg2", "freiburg3"})
-        if (FolderName(folder).find(tum) != std::string::npos) name = tum;
-    if (const auto camera = PublishedCamera(name)) {
+    if (Exists(file)) {
+        const Result<CameraCalibration> read = ReadCameraFile(file.string());
+        if (!read.ok()) return read.status();
+        return std::optional(read.value());
+    }
+    const std::string name = PublishedName(folder, published);
+    std::optional<CameraCalibration> camera = PublishedCamera(name);
+    if (camera)
         notes.push_back(
             fmt::format("no camera.yaml: the published values of {} are used; put a camera.yaml "
                         "there if it is another camera",
                         name));
-        return *camera;
-    }
-    return Status::Error(
-        fmt::format("{}: no such file; write width, height, fx, fy, cx, cy (pixels) and "
-                    "depth_scale (stored depth value of one "
-                    "metre, e.g. 5000 or 1000), one 'key: value' a line, and 'distortion: [k1, k2, "
-                    "p1, p2, k3]' if the lens is not "
-                    "corrected",
-                    file.string()));
+    return camera;
 }
 
 Result<ImagePairs> ReadPairs(const fs::path& folder, Layout layout, double fps,
@@ -171,7 +185,8 @@ Result<FolderLayout> ReadFolderLayout(const std::string& path, double max_pair_g
     const std::string published = Characterise(folder, layout.value(), result);
     const auto calibration = FindCamera(folder, published, result.notes);
     if (!calibration.ok()) return calibration.status();
-    result.calibration = calibration.value();
+    result.camera_known = calibration.value().has_value();
+    result.calibration = calibration.value().value_or(CameraCalibration());
 
     const auto images = ReadPairs(folder, layout.value(), result.calibration.fps, max_pair_gap_s);
     if (!images.ok()) return images.status();

@@ -21,6 +21,7 @@ struct FolderFrame {
 struct FolderLayout {
     std::string kind;  // "TUM RGB-D folder", "ICL-NUIM folder", "7-Scenes sequence", "image folder"
     CameraCalibration calibration;
+    bool camera_known = true;         // false: nobody says; the calibration is empty but for its frame rate
     std::uint16_t invalid_depth = 0;  // a stored value that means "no measurement", beside 0
     std::vector<FolderFrame> frames;  // strictly increasing depth stamps, at least one
     std::vector<std::string> notes;   // what a person should know
@@ -37,7 +38,8 @@ struct FolderLayout {
 //   used as it is: colours lie up to some centimetres beside their surface.
 // - a folder with camera.yaml and subfolders depth/ and rgb/ (colour/, color/, image/, images/),
 // paired by name. The camera: camera.yaml; else the published values that the folder's name
-// (freiburg1, 2, 3) or layout gives; else an error. Ground truth: groundtruth.txt, or the layout's
+// (freiburg1, 2, 3), the bag's name in rgb.txt's second line or the layout gives; else unknown
+// (nominal_camera.h). Ground truth: groundtruth.txt, or the layout's
 // own; one that cannot be used is noted. Files that the lists name and that are absent are noted,
 // all absent is an error.
 Result<FolderLayout> ReadFolderLayout(const std::string& folder, double max_pair_gap_s);

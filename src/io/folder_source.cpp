@@ -4,6 +4,7 @@
 
 #include "io/folder_layout.h"
 #include "io/image_decoder.h"
+#include "io/nominal_camera.h"
 #include "io/rectifier.h"
 
 namespace tessera {
@@ -17,6 +18,7 @@ class FolderSource : public FrameSource {
         info_.name = path;
         info_.kind = layout_.kind;
         info_.camera = layout_.calibration.pinhole;
+        info_.camera_known = layout_.camera_known;
         info_.frame_count = static_cast<std::int64_t>(layout_.frames.size());
         info_.fps = layout_.calibration.fps;
         info_.depth_units_per_m = layout_.calibration.depth_scale;
@@ -121,7 +123,11 @@ Result<std::unique_ptr<FrameSource>> OpenFolderSource(const std::string& path,
     if (Status status = config.Validate(); !status.ok()) return status;
     Result<FolderLayout> layout = ReadFolderLayout(path, config.max_pair_gap_s);
     if (!layout.ok()) return layout.status();
-    if (config.depth_scale > 0) layout.value().calibration.depth_scale = config.depth_scale;
+    if (!layout.value().camera_known)
+        if (Status status = AssumeCamera(layout.value()); !status.ok()) return status;
+    CameraCalibration& calibration = layout.value().calibration;
+    if (config.depth_scale > 0) calibration.depth_scale = config.depth_scale;
+    if (config.camera) calibration.pinhole = WithSizeOf(calibration.pinhole, *config.camera);
     auto source = std::make_unique<FolderSource>(path, std::move(layout.value()), config);
     if (Status status = source->Probe(); !status.ok()) return status;
     return std::unique_ptr<FrameSource>(std::move(source));

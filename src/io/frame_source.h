@@ -30,6 +30,7 @@ struct SourceInfo {
     std::string name;           // as the user gave it
     std::string kind;           // "TUM folder", "synthetic scene", ...
     PinholeCamera camera;       // of the frames handed out (after rectification)
+    bool camera_known = true;   // false: nobody says what camera it was, `camera` is a guess
     std::int64_t frame_count = -1;  // pairs, -1 if not known beforehand
     double fps = 30;
     // A device: its frames come at its own pace, and those that nobody takes in time are lost. Such a source returns from

@@ -11,6 +11,7 @@
 
 #include "io/image_decoder.h"
 #include "io/jpeg_decoder.h"
+#include "io/nominal_camera.h"
 #include "io/rectifier.h"
 
 namespace tessera {
@@ -189,6 +190,7 @@ Result<std::unique_ptr<FrameSource>> OpenKlgSource(const std::string& path, cons
     Result<CameraCalibration> calibration = FindKlgCamera(path, index.value().notes);
     if (!calibration.ok()) return calibration.status();
     if (config.depth_scale > 0) calibration.value().depth_scale = config.depth_scale;
+    if (config.camera) calibration.value().pinhole = WithSizeOf(calibration.value().pinhole, *config.camera);
     auto source = std::make_unique<KlgSource>(path, std::move(file), std::move(index.value()), calibration.value(), config);
     if (Status status = source->Probe(); !status.ok()) return status;
     return std::unique_ptr<FrameSource>(std::move(source));

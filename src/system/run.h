@@ -13,6 +13,7 @@
 #include "eval/ate.h"
 #include "io/frame_source.h"
 #include "optimize/calibration_report.h"
+#include "optimize/camera_estimate.h"
 #include "semantics/map_object.h"
 #include "system/run_config.h"
 #include "system/timings.h"
@@ -82,6 +83,7 @@ struct RunSummary {
     MapStatistics map;
     std::optional<LabelSummary> labels;  // with labels only
     std::optional<CalibrationReport> calibration;  // with calibration.refine, where enough was seen for an estimate
+    std::optional<CameraReport> camera;  // with calibration.check, of recordings that show their camera
     std::optional<AteResult> ate;  // against the source's own truth; none at given poses
     std::string exit;              // "finished", "stopped", or "failed: ..."
     std::string last_reason;       // why the last lost frame was lost

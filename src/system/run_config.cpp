@@ -33,6 +33,9 @@ void RunConfig::Describe(ConfigParameters& p) {
     p.Section("labels", [&](ConfigParameters& s) { labels.Describe(s); });
     p.Section("loops", [&](ConfigParameters& s) { loops.Describe(s); });
     p.Section("calibration", [&](ConfigParameters& s) {
+        s.Add("check", check_camera,
+              "before a recording is run, find its focal length and centre from its first 8 seconds: a camera.yaml that they "
+              "contradict is said and corrected for the run, a missing one made up for; off: what is given counts");
         s.Add("refine", loops.refine_calibration,
               "at the end, find focal length and disparity offset from the keyframes and, where the scan shows that they are "
               "off, make the map again with them; needs --loop-closure on");

@@ -47,6 +47,7 @@ struct RunConfig {
     ScanConfig scan;
     LiveConfig live;
     ViewConfig view;
+    bool check_camera = true;  // key calibration.check
     int threads = 0;     // 0: as many as the machine has
     int read_ahead = 4;  // frames decoded ahead
 

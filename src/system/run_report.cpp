@@ -50,6 +50,20 @@ Json CalibrationJson(const PinholeCamera& given, double offset_before_per_m, con
             {"apart_mm", 1000 * report.rms_after_m}};
 }
 
+// What the recording says; "source" has what was used.
+Json CameraJson(const CameraReport& report) {
+    const CameraEstimate& e = report.estimate;
+    return {{"known", report.known},
+            {"used", report.used},
+            {"given", {{"fx", e.given.fx}, {"fy", e.given.fy}, {"cx", e.given.cx}, {"cy", e.given.cy}}},
+            {"found", {{"fx", e.found.fx}, {"fy", e.found.fy}, {"cx", e.found.cx}, {"cy", e.found.cy}}},
+            {"sigma_px", {{"fx", e.focal_sigma_px}, {"cx", e.centre_x_sigma_px}, {"cy", e.centre_y_sigma_px}}},
+            {"readout_ms", 1000 * e.readout_s},
+            {"misfit_given", e.misfit_given},
+            {"misfit_found", e.misfit_found},
+            {"pairs", e.pairs}};
+}
+
 }  // namespace
 
 std::string TimingsJson(const RunSummary& summary) {
@@ -102,6 +116,7 @@ std::string RunJson(const RunRequest& request, RunConfig config, const RunSummar
     if (summary.calibration)
         json["calibration"] = CalibrationJson(summary.source.camera, config.pipeline.frame.disparity_offset_per_m,
                                               *summary.calibration);
+    if (summary.camera) json["camera_estimate"] = CameraJson(*summary.camera);
     if (summary.ate) json["ate"] = Json::parse(AteJson(*summary.ate), nullptr, false);
     json["configuration"] = ConfigurationJson(config);
     return Dump(json);

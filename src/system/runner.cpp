@@ -6,8 +6,8 @@
 #include "io/trajectory.h"
 #include "system/live_engine.h"
 #include "system/lockstep_engine.h"
-#include "system/open_source.h"
 #include "system/scan_plan.h"
+#include "system/source_camera.h"
 
 namespace tessera {
 
@@ -32,9 +32,12 @@ Status Runner::Open(const std::atomic<bool>& stop) {
         given = std::move(poses.value().poses);
         pose_notes_ = std::move(poses.value().notes);
     }
-    Result<std::unique_ptr<FrameSource>> source = OpenSource(request_.source, config_);
-    if (!source.ok()) return source.status();
-    summary_.source = source.value()->info();
+    Result<CheckedSource> checked = OpenCheckedSource(request_, config_);
+    if (!checked.ok()) return checked.status();
+    std::unique_ptr<FrameSource> source = std::move(checked.value().source);
+    summary_.source = source->info();
+    summary_.camera = checked.value().camera;
+    camera_notes_ = std::move(checked.value().messages);
     Labelling labelling;
     if (!request_.labels.empty()) {
         Result<Labelling> opened = OpenLabelling(request_.labels, request_.source, config_.synthetic, config_.labels);
@@ -45,7 +48,7 @@ Status Runner::Open(const std::atomic<bool>& stop) {
     }
     Result<ScanPlan> scan = OpenScan();
     if (!scan.ok()) return scan.status();
-    EngineInput input{std::move(source.value()), selection_, config_,
+    EngineInput input{std::move(source), selection_, config_,
                       FramePlan(request_.switches, std::move(given), request_.poses_file), std::move(scan.value()),
                       std::move(labelling), request_.record_path,
                       request_.viewer, request_.device, &stop};
@@ -77,6 +80,7 @@ Status Runner::Begin() {
     if (!request_.output_folder.empty())
         if (Status status = OpenOutput(); !status.ok()) return status;
     if (observer_.on_open) observer_.on_open(summary_.source);
+    for (const std::string& note : camera_notes_) Warn(note);
     for (const std::string& note : pose_notes_) Warn(note);
     return Status::Ok();
 }

@@ -52,7 +52,7 @@ class Runner {
     std::int64_t frames_before_ = 0;  // that a resumed scan has
     RunWindow window_;
     std::vector<StampedPose> truth_, estimate_;
-    std::vector<std::string> pose_notes_;
+    std::vector<std::string> camera_notes_, pose_notes_;
     LabelClasses class_names_;
     std::unique_ptr<Engine> engine_;
     std::unique_ptr<RunOutput> output_;

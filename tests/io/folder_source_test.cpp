@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include <limits>
 
 #include "io/temporary_folder.h"
@@ -159,6 +161,33 @@ TEST(FolderSource, IsRefusedWhereNoFrameIsUsable) {
     EXPECT_EQ(
         OpenFolderSource(folder.path(), {}).message().find(folder.Path("camera.yaml") + ": fx"),
         0u);
+}
+
+// 60 degrees across; TUM's depths are whole millimetres times five.
+TEST(FolderSource, AssumesACameraWhereNobodyGaveOne) {
+    for (const auto& [value, unit] : {std::pair<std::uint16_t, double>{1501, 1000}, {1500, 5000}, {7502, 5000}}) {
+        TemporaryFolder folder;
+        WriteSequence(folder, 3);
+        std::filesystem::remove(folder.Path("camera.yaml"));
+        for (int i = 0; i < 3; ++i) folder.WriteDepth("depth/" + std::to_string(i) + ".png", 32, 24, value);
+        const auto source = OpenFolderSource(folder.path(), {});
+        ASSERT_TRUE(source.ok()) << source.message();
+        const SourceInfo& info = source.value()->info();
+        EXPECT_FALSE(info.camera_known);
+        EXPECT_NEAR(info.camera.fx, 16 * std::sqrt(3.0), 1e-9);
+        EXPECT_EQ(info.camera.cx, 15.5);
+        EXPECT_EQ(info.depth_units_per_m, unit);
+    }
+}
+
+TEST(FolderSource, TakesTheProgramsCameraInPlaceOfTheFiles) {
+    TemporaryFolder folder;
+    WriteSequence(folder, 1);
+    FolderSourceConfig config;
+    config.camera = PinholeCamera{1, 1, 40, 41, 15, 11};
+    const auto source = OpenFolderSource(folder.path(), config);
+    ASSERT_TRUE(source.ok()) << source.message();
+    EXPECT_EQ(source.value()->info().camera, (PinholeCamera{32, 24, 40, 41, 15, 11}));
 }
 
 TEST(FolderSourceConfig, DescribesItself) {

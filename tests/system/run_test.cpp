@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -48,6 +49,23 @@ class Run : public testing::Test {
     std::vector<std::string> warnings;
     std::atomic<bool> stop{false};
 };
+
+TEST_F(Run, GoesOnWithoutACameraAndSaysWhatItAssumes) {
+    request.record_path = folder / "raw";
+    ASSERT_TRUE(Execute().ok());
+    fs::remove(folder / "raw/camera.yaml");
+    request.record_path.clear();
+    request.source = folder / "raw";
+    warnings.clear();
+    const auto run = Execute();
+    ASSERT_TRUE(run.ok()) << run.message();
+    EXPECT_EQ(run.value().counts.frames, 6);
+    EXPECT_FALSE(run.value().source.camera_known);
+    EXPECT_NEAR(run.value().source.camera.fx, 80 * std::sqrt(3.0), 1e-9);
+    ASSERT_FALSE(warnings.empty());
+    EXPECT_EQ(warnings.front(), "no camera.yaml, and this recording does not show the focal length: a field of view of 60 degrees is "
+                                "assumed, fx 138.6");
+}
 
 TEST_F(Run, LeavesEveryFileOfTheContract) {
     const auto run = Execute();

@@ -1,0 +1,73 @@
+#include "io/nominal_camera.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "io/image_decoder.h"
+
+namespace tessera {
+namespace {
+
+constexpr double kFieldOfView_rad = std::numbers::pi / 3;
+constexpr double kMillimetres = 1000, kTum = 5000;  // stored values of one metre that are in use
+constexpr double kUsual_m = 1.5;                    // the middle depth of a room
+constexpr double kNearest_m = 0.3, kFarthest_m = 8;
+
+// The middle one, 0 if there are none.
+double MiddleValue(std::vector<std::uint16_t>& values) {
+    if (values.empty()) return 0;
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+// TUM's files hold whole millimetres times five. Otherwise the unit that makes it more of a room.
+double UnitOf(const std::vector<std::uint16_t>& values, double middle) {
+    if (middle <= 0) return kMillimetres;
+    const bool fives = std::all_of(values.begin(), values.end(), [](std::uint16_t value) { return value % 5 == 0; });
+    if (fives && middle >= kNearest_m * kTum && middle <= kFarthest_m * kTum) return kTum;
+    const auto unusual = [&](double unit) { return std::abs(std::log(middle / unit / kUsual_m)); };
+    return unusual(kTum) < unusual(kMillimetres) ? kTum : kMillimetres;
+}
+
+}  // namespace
+
+Status AssumeCamera(FolderLayout& layout) {
+    constexpr std::size_t kProbes = 5, kEvery = 7;
+    ImageDecoder decoder;
+    Image<std::uint16_t> depth;
+    std::vector<std::uint16_t> values;
+    Status first;
+    PinholeCamera camera{.width = 0};
+    const std::size_t count = layout.frames.size(), probes = std::min(kProbes, count);
+    for (std::size_t i = 0; i < probes; ++i) {
+        if (Status status = decoder.ReadDepth(layout.frames[i * count / probes].depth_path, depth); !status.ok()) {
+            if (first.ok()) first = std::move(status);
+            continue;
+        }
+        if (camera.width == 0) camera.width = depth.width(), camera.height = depth.height();
+        for (std::size_t k = 0; k < depth.size(); k += kEvery)
+            if (const std::uint16_t value = depth.data()[k]; value != 0 && value != layout.invalid_depth) values.push_back(value);
+    }
+    if (camera.width == 0) return first;
+    camera.fx = camera.fy = 0.5 * camera.width / std::tan(0.5 * kFieldOfView_rad);
+    camera.cx = 0.5 * (camera.width - 1);
+    camera.cy = 0.5 * (camera.height - 1);
+    const double middle = MiddleValue(values), unit = UnitOf(values, middle);
+    layout.calibration.pinhole = camera;
+    layout.calibration.depth_scale = unit;
+    layout.notes.push_back(fmt::format("no camera.yaml: depth_scale {:.0f} is assumed, which makes the middle depth {:.2f} m; if it is "
+                                       "another, set source.depth_scale",
+                                       unit, middle / unit));
+    return Status::Ok();
+}
+
+PinholeCamera WithSizeOf(const PinholeCamera& sized, const PinholeCamera& values) {
+    PinholeCamera camera = values;
+    camera.width = sized.width;
+    camera.height = sized.height;
+    return camera;
+}
+
+}  // namespace tessera

@@ -1,0 +1,112 @@
+#include "optimize/camera_pair.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tessera {
+namespace {
+
+constexpr double kNearestPoint_m = 0.1, kOccluded = 0.1;  // depths that differ by more than this part are of other surfaces
+constexpr double kLeastScale = 0.003;
+
+// Linear between four pixels.
+struct Sample {
+    double value, du, dv;
+    float least;
+};
+Sample SampleAt(const Image<float>& image, double u, double v) {
+    const int u0 = static_cast<int>(u), v0 = static_cast<int>(v);
+    const double fu = u - u0, fv = v - v0;
+    const float *top = image.row(v0) + u0, *bottom = image.row(v0 + 1) + u0;
+    const double above = top[0] + fu * (top[1] - top[0]), below = bottom[0] + fu * (bottom[1] - bottom[0]);
+    return {above + fv * (below - above), (1 - fv) * (top[1] - top[0]) + fv * (bottom[1] - bottom[0]), below - above,
+            std::min(std::min(top[0], top[1]), std::min(bottom[0], bottom[1]))};
+}
+
+// How a point moves in the camera's frame per second, for a camera that moves with `velocity`, at a row's part of the readout.
+Eigen::Vector3d RowMotion(const Vector6d& velocity, double row, const Eigen::Vector3d& p) {
+    return row * (velocity.head<3>().cross(p) + velocity.tail<3>());
+}
+
+}  // namespace
+
+PinholeCamera CameraUnknowns::Applied(const PinholeCamera& given) const {
+    PinholeCamera camera = given;
+    camera.fx *= std::exp(log_focal);
+    camera.fy *= std::exp(log_focal);
+    camera.cx += centre_x * given.width;
+    camera.cy += centre_y * given.width;
+    return camera;
+}
+
+void CameraUnknowns::Add(const Eigen::Matrix<double, kCount, 1>& step) {
+    log_focal += step(0);
+    centre_x += step(1);
+    centre_y += step(2);
+    readout_s += step(3);
+}
+
+bool EvaluatePoint(const CameraViewPoint& point, const CameraView::Level& to, const PinholeCamera& camera, const CameraPair& pair,
+                   double readout_s, CameraPairResidual& residual) {
+    const PinholeCamera& c = camera;
+    Eigen::Vector3d p = c.Unproject(point.u, point.v, point.depth_m);
+    const Eigen::Vector3d moved_from = RowMotion(pair.velocity_from, static_cast<double>(point.v) / c.height - 0.5, p);
+    p += readout_s * moved_from;
+    Eigen::Vector3d q = pair.T_to_from * p;
+    if (q.z() < kNearestPoint_m) return false;
+    const double row = c.Project(q).y() / c.height - 0.5;
+    if (std::abs(row) > 1) return false;
+    const Eigen::Vector3d moved_to = RowMotion(pair.velocity_to, row, q);
+    q -= readout_s * moved_to;
+    if (q.z() < kNearestPoint_m) return false;
+    const Eigen::Vector2d pixel = c.Project(q);
+    if (!(pixel.x() >= 1 && pixel.y() >= 1 && pixel.x() < c.width - 2 && pixel.y() < c.height - 2)) return false;
+    const Sample depth = SampleAt(to.depth_m, pixel.x(), pixel.y());
+    if (depth.least <= 0 || std::abs(depth.value - q.z()) > kOccluded * q.z()) return false;
+    const Sample seen = SampleAt(to.intensity, pixel.x(), pixel.y());
+    residual.value = seen.value - (1 + pair.gain) * point.intensity - pair.offset;
+
+    const double inverse_z = 1 / q.z(), x = pixel.x() - c.cx, y = pixel.y() - c.cy;
+    const Eigen::Vector3d by_q(seen.du * c.fx * inverse_z, seen.dv * c.fy * inverse_z, -(seen.du * x + seen.dv * y) * inverse_z);
+    const Eigen::Vector3d by_p = pair.T_to_from.linear().transpose() * by_q;
+    auto& j = residual.jacobian;
+    j.head<3>() = q.cross(by_q);
+    j.segment<3>(3) = by_q;
+    j(6) = -point.intensity;
+    j(7) = -1;
+    j(8) = seen.du * x + seen.dv * y - by_p.x() * p.x() - by_p.y() * p.y();
+    j(9) = (seen.du - by_p.x() * point.depth_m / c.fx) * c.width;
+    j(10) = (seen.dv - by_p.y() * point.depth_m / c.fy) * c.width;
+    j(11) = by_p.dot(moved_from) - by_q.dot(moved_to);
+    return true;
+}
+
+CameraPairSums SumPair(const CameraView& from, const CameraView& to, int level, const PinholeCamera& camera,
+                       const CameraUnknowns& unknowns, const CameraPair& pair) {
+    const auto at = static_cast<std::size_t>(level);
+    const CameraView::Level& seen = to.levels[at];
+    const PinholeCamera reduced = Averaged(unknowns.Applied(camera), seen.reduction);
+    CameraPairSums sums;
+    std::vector<double> sizes;
+    CameraPairResidual residual;
+    for (const CameraViewPoint& point : from.levels[at].points) {
+        ++sums.points;
+        if (!EvaluatePoint(point, seen, reduced, pair, unknowns.readout_s, residual)) continue;
+        ++sums.used;
+        sizes.push_back(std::abs(residual.value));
+        // Student's t with few degrees of freedom: what moved, shone or was hidden says little.
+        const double in_scales = residual.value / pair.scale, size = 0.25 * in_scales * in_scales;
+        const double weight = 1 / ((1 + size) * pair.scale * pair.scale);
+        sums.error += std::log1p(size);
+        sums.hessian.selfadjointView<Eigen::Upper>().rankUpdate(residual.jacobian, weight);
+        sums.gradient[point.region] += residual.jacobian * (weight * residual.value);
+    }
+    sums.hessian.triangularView<Eigen::Lower>() = sums.hessian.transpose();
+    if (sizes.empty()) return sums;
+    const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+    std::nth_element(sizes.begin(), middle, sizes.end());
+    sums.scale = std::max(1.4826 * *middle, kLeastScale);
+    return sums;
+}
+
+}  // namespace tessera

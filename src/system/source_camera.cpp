@@ -1,0 +1,164 @@
+#include "system/source_camera.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "io/frame_reader.h"
+#include "optimize/camera_estimator.h"
+#include "scan/scan_content.h"
+#include "system/open_source.h"
+
+namespace tessera {
+namespace {
+
+constexpr double kWindow_s = 8, kEvery_s = 0.1, kShortest_s = 0.06;
+constexpr int kLeastViews = 12;
+constexpr std::int64_t kMostFrames = 100000;
+constexpr double kOtherCamera = 0.25;  // of the focal length: a scan of another camera than this
+
+bool IsRecording(const std::string& name) { return !name.starts_with("synthetic:") && !name.starts_with("openni2:") && !name.ends_with(".scan"); }
+
+// With `camera` in place of the one that is given with the recording.
+Result<std::unique_ptr<FrameSource>> OpenWith(const std::string& name, RunConfig config, const std::optional<PinholeCamera>& camera) {
+    if (camera) {
+        config.source.camera = camera;
+        config.openni.fx = camera->fx;
+        config.openni.fy = camera->fy;
+        config.openni.cx = camera->cx;
+        config.openni.cy = camera->cy;
+    }
+    return OpenSource(name, config);
+}
+
+// How many frames of the source make a tenth of a second, by the stamps of its first.
+std::int64_t StrideOf(FrameSource& source, std::int64_t start) {
+    constexpr int kProbes = 3;
+    constexpr double kMost = 10;
+    if (start > 0 && !source.Seek(start)) return 1;
+    double shortest_s = kEvery_s;
+    std::optional<double> last_s;
+    Frame frame;
+    for (int i = 0; i < kProbes; ++i) {
+        if (source.Read(frame).status != ReadStatus::kOk) continue;
+        if (last_s && frame.stamp_s > *last_s) shortest_s = std::min(shortest_s, frame.stamp_s - *last_s);
+        last_s = frame.stamp_s;
+    }
+    return source.Seek(start) ? static_cast<std::int64_t>(std::clamp(std::round(kEvery_s / shortest_s), 1.0, kMost)) : 1;
+}
+
+// Part of a selection, in frames of the source; nothing where that is too little to see.
+std::optional<FrameSelection> PartToSee(FrameSource& source, const FrameSelection& selection) {
+    const std::int64_t all = source.info().frame_count;
+    if (selection.start < 0 || selection.stride < 1 || (all >= 0 && selection.start >= all)) return std::nullopt;
+    std::int64_t frames = all < 0 ? -1 : all - selection.start;
+    if (selection.count >= 0) {
+        const std::int64_t asked = selection.count > kMostFrames ? kMostFrames : selection.count * std::min(selection.stride, kMostFrames);
+        frames = frames < 0 ? asked : std::min(frames, asked);
+    }
+    if (frames >= 0 && frames < kLeastViews) return std::nullopt;
+    const std::int64_t stride = StrideOf(source, selection.start);
+    return FrameSelection{selection.start, frames < 0 ? -1 : (frames + stride - 1) / stride, stride};
+}
+
+// The source is used up. Nothing where it has too little to see.
+std::optional<CameraEstimate> EstimateFrom(std::unique_ptr<FrameSource> source, const FrameSelection& selection) {
+    const std::optional<FrameSelection> part = PartToSee(*source, selection);
+    if (!part) return std::nullopt;
+    const SourceInfo info = source->info();
+    CameraEstimator estimator(info.camera);
+    FrameReader reader(std::move(source), *part);
+    Frame frame;
+    std::optional<double> first_s, last_s;
+    while (true) {
+        const ReadResult read = reader.Next(frame);
+        if (read.status == ReadStatus::kEnd || read.status == ReadStatus::kError) break;
+        if (read.status != ReadStatus::kOk) continue;
+        if (!first_s) first_s = frame.stamp_s;
+        if (frame.stamp_s > *first_s + kWindow_s) break;
+        if (last_s && frame.stamp_s < *last_s + kShortest_s) continue;
+        last_s = frame.stamp_s;
+        estimator.Add(frame);
+    }
+    return estimator.frames() < kLeastViews ? std::nullopt : estimator.Estimate();
+}
+
+// The scan's own camera, where the source's is nearly that.
+std::optional<PinholeCamera> CameraOfScan(const std::string& path, const PinholeCamera& given) {
+    const Result<ScanMeta> meta = ReadScanMeta(path);
+    if (!meta.ok()) return std::nullopt;
+    const PinholeCamera& was = meta.value().camera;
+    if (was == given || was.width != given.width || was.height != given.height) return std::nullopt;
+    if (std::abs(was.fx / given.fx - 1) > kOtherCamera) return std::nullopt;
+    return was;
+}
+
+std::string GivenBy(const std::string& name) { return name.ends_with(".oni") ? "the device" : "camera.yaml"; }
+
+void Describe(const SourceInfo& given, const std::optional<CameraReport>& report, std::vector<std::string>& messages) {
+    const std::string assumed = fmt::format("a field of view of 60 degrees is assumed, fx {:.1f}", given.camera.fx);
+    if (!report) {
+        if (!given.camera_known) messages.push_back("no camera.yaml, and this recording does not show the focal length: " + assumed);
+        return;
+    }
+    const CameraEstimate& e = report->estimate;
+    if (!given.camera_known)
+        messages.push_back(fmt::format("no camera.yaml: this recording says fx {:.1f} +- {:.1f}{}", e.found.fx, e.focal_sigma_px,
+                                       report->used ? ", which is used; put a camera.yaml there if you know better"
+                                                    : ", too little to go by: " + assumed));
+    else if (report->used)
+        messages.push_back(EstimateText(e, GivenBy(given.name)) + ": that is used");
+}
+
+// Looks at the source and, where it shows another camera, once more through that one.
+Result<std::optional<PinholeCamera>> FindCamera(const RunRequest& request, const RunConfig& config, std::unique_ptr<FrameSource> source,
+                                                std::optional<CameraReport>& report) {
+    const SourceInfo given = source->info();
+    std::optional<CameraEstimate> first = EstimateFrom(std::move(source), request.selection);
+    const auto to_use = [&](const CameraEstimate& estimate) -> std::optional<PinholeCamera> {
+        const bool used = given.camera_known ? estimate.shown() : estimate.useful();
+        report = CameraReport{estimate, given.camera_known, used};
+        return used ? std::optional(CameraToUse(estimate, given.camera_known)) : std::nullopt;
+    };
+    if (!first) return std::optional<PinholeCamera>();
+    std::optional<PinholeCamera> camera = to_use(*first);
+    if (!camera) return camera;
+    Result<std::unique_ptr<FrameSource>> again = OpenWith(request.source, config, camera);
+    if (!again.ok()) return again.status();
+    std::optional<CameraEstimate> second = EstimateFrom(std::move(again.value()), request.selection);
+    if (!second) return camera;
+    second->given = given.camera;
+    second->misfit_given = first->misfit_given;
+    return to_use(*second);
+}
+
+}  // namespace
+
+Result<CheckedSource> OpenCheckedSource(const RunRequest& request, const RunConfig& config) {
+    CheckedSource checked;
+    Result<std::unique_ptr<FrameSource>> opened = OpenSource(request.source, config);
+    if (!opened.ok()) return opened.status();
+    const SourceInfo given = opened.value()->info();
+    if (!config.check_camera || given.live || !IsRecording(request.source)) {
+        checked.source = std::move(opened.value());
+        return checked;
+    }
+    std::optional<PinholeCamera> camera;
+    if (request.resume) {
+        camera = CameraOfScan(request.scan_file, given.camera);
+        if (camera)
+            checked.messages.push_back(fmt::format("{} says fx {:.1f}; the scan was made with {:.1f}, which is kept",
+                                                   GivenBy(given.name), given.camera.fx, camera->fx));
+    } else {
+        Result<std::optional<PinholeCamera>> found = FindCamera(request, config, std::move(opened.value()), checked.camera);
+        if (!found.ok()) return found.status();
+        camera = found.value();
+        Describe(given, checked.camera, checked.messages);
+    }
+    opened = OpenWith(request.source, config, camera);
+    if (!opened.ok()) return opened.status();
+    checked.source = std::move(opened.value());
+    return checked;
+}
+
+}  // namespace tessera
