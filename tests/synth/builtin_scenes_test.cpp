@@ -13,7 +13,7 @@ TEST(BuiltinScenes, AnUnknownNameListsTheKnownOnes) {
     ASSERT_FALSE(scene.ok());
     EXPECT_EQ(scene.message(),
               "'kitchen' is no built-in scene; there are desk, room, flat, corridor, floor, corner, "
-              "wall, or give an .obj "
+              "wall, people, chair, door, or give an .obj "
               "file");
 }
 
