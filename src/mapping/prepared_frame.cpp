@@ -58,15 +58,20 @@ void PackRow(const Rgb8* colour, const float* luma, std::uint32_t* out, int widt
     for (int x = 0; x < width; ++x) out[x] = PackColour(colour[x], luma[x]);
 }
 
+void ReduceDepth(const PreparedFrame& p, std::size_t level, DepthImage& out) {
+    const int n = ReductionOf(p.width, p.height, level);
+    out.Resize(p.width / n, p.height / n);
+    for (int y = 0; y < out.height(); ++y)
+        for (int x = 0; x < out.width(); ++x) out(x, y) = p.depth_m(x * n + n / 2, y * n + n / 2);
+}
+
 void Reduce(const PreparedFrame& p, std::size_t level, PreparedFrame::Reduced& out) {
     const int n = ReductionOf(p.width, p.height, level), width = p.width / n, height = p.height / n;
-    out.depth_m.Resize(width, height);
+    ReduceDepth(p, level, out.depth_m);
     out.intensity.Resize(width, height);
     tbb::parallel_for(0, height, [&](int y) {
-        for (int x = 0; x < width; ++x) {
-            out.depth_m(x, y) = p.depth_m(x * n + n / 2, y * n + n / 2);
+        for (int x = 0; x < width; ++x)
             out.intensity(x, y) = p.has_colour ? MeanOfTile(p.intensity.data(), p.width, n, x, y) : -1.0f;
-        }
     });
 }
 
@@ -133,9 +138,13 @@ void SetFacts(const Frame& frame, const FrameCounts& counts, PreparedFrame& p) {
     p.coherent_fraction = counts.pairs > 0 ? static_cast<double>(counts.coherent) / static_cast<double>(counts.pairs) : 0.0;
     p.nearest_m = counts.valid > 0 ? counts.nearest_m : 0.0f;
     p.farthest_m = counts.farthest_m;
+    p.moving.reset();
+    p.gone_m.Resize(0, 0);
 }
 
-void PrepareFrame(const Frame& frame, const PreparedFrame::Config& config, PreparedFrame& p) {
+namespace {
+
+void PrepareDepth(const Frame& frame, const PreparedFrame::Config& config, PreparedFrame& p) {
     const int width = frame.depth_m.width(), height = frame.depth_m.height();
     p.depth_m.Resize(width, height);
     std::vector<FrameCounts> counts(static_cast<std::size_t>((height + kBand - 1) / kBand));
@@ -154,6 +163,27 @@ void PrepareFrame(const Frame& frame, const PreparedFrame::Config& config, Prepa
         total.farthest_m = std::max(total.farthest_m, c.farthest_m);
     }
     SetFacts(frame, total, p);
+}
+
+}  // namespace
+
+void HideMoving(const Frame& without_moving, const PreparedFrame::Config& config, PreparedFrame& p) {
+    PrepareDepth(without_moving, config, p);
+    for (std::size_t level = 0; level < p.reduced.size(); ++level) ReduceDepth(p, level, p.reduced[level].depth_m);
+}
+
+void SetMoving(std::shared_ptr<const MovingMask> moving, PreparedFrame& p) {
+    p.moving = std::move(moving);
+    if (p.moving->gone_tiles == 0) return;
+    p.gone_m.Resize(p.width, p.height);
+    tbb::parallel_for(0, p.height, [&](int y) {
+        const float* gone = p.moving->gone_m.row(p.moving->TileY(y));
+        for (int x = 0; x < p.width; ++x) p.gone_m(x, y) = gone[p.moving->TileX(x)];
+    });
+}
+
+void PrepareFrame(const Frame& frame, const PreparedFrame::Config& config, PreparedFrame& p) {
+    PrepareDepth(frame, config, p);
     if (p.has_colour) {
         SplitColour(frame.colour, config.intensity_blur_px, p);
     } else {

@@ -75,7 +75,7 @@ StagedScene MakePeople() {
     auto scene = std::make_unique<AnalyticScene>();
     Furnisher add(*scene);
     AddRoom(add);
-    const auto near = [](double t) { return 1.25 + 0.35 * std::sin(0.71 * t + 0.4); };
+    const auto near = [](double t) { return 1.05 + 0.3 * std::sin(0.71 * t + 0.4); };
     const auto far = [](double t) { return 1.75 + 0.35 * std::sin(0.47 * t); };
     AddWalker(*scene, "person 1", BeforeTheCamera(near, [](double t) { return -0.85 * std::cos(0.83 * t); }),
               {170, 60, 60}, {50, 60, 96}, 701);

@@ -24,6 +24,7 @@ TrackingStage::TrackingStage(const PipelineConfig& config, const PinholeCamera& 
       motion_(config.motion),
       motion_before_(config.motion),
       aligner_(config.prealign, camera),
+      moving_(config.moving, camera),
       trackers_(config.trackers, camera, device),
       device_(device) {}
 
@@ -70,9 +71,32 @@ void TrackingStage::Track(const Frame& frame, const BlockMap& map, const std::op
     report.track_ms = watch.LapMs();
     if (report.tracked()) motion_.Add({frame.stamp_s, report.track.T_world_camera}, report.track.degenerate);
 
-    // 3. Would it harm the map?
+    // 3. What moves is no part of the map.
+    if (config_.moving.enabled && report.track.status == TrackStatus::kGood) LeaveOutMoving(frame, map, tracked);
+    report.moving_ms = watch.LapMs();
+
+    // 4. Would it harm the map?
     tracked.to_fuse = report.track.status == TrackStatus::kGood && (fusing_ || report.first);
     tracked.view = FusionView(report.track);
+}
+
+void TrackingStage::LeaveOutMoving(const Frame& frame, const BlockMap& map, TrackedFrame& tracked) {
+    ViewPredictor& predictor = device_ != nullptr ? device_->views() : caster_;
+    tracked.report.moving = moving_.Find({.depth_m = frame.depth_m,
+                                          .disparity_offset_per_m = static_cast<float>(config_.frame.disparity_offset_per_m),
+                                          .farthest_m = static_cast<float>(config_.frame.max_depth_m),
+                                          .stamp_s = frame.stamp_s,
+                                          .T_world_camera = tracked.report.track.T_world_camera},
+                                         map, predictor);
+    if (!tracked.report.moving) return;
+    if (tracked.report.moving->moving_tiles > 0) {
+        const Frame rest = WithoutMoving(*tracked.report.moving, frame);
+        if (device_ != nullptr)
+            device_->Prepare(rest, config_.frame, bring_images_, tracked.prepared);
+        else
+            HideMoving(rest, config_.frame, tracked.prepared);
+    }
+    SetMoving(tracked.report.moving, tracked.prepared);
 }
 
 bool TrackingStage::TrackFrom(const Frame& frame, const BlockMap& map, const Eigen::Isometry3d& T_world_camera,
@@ -88,6 +112,7 @@ bool TrackingStage::TrackFrom(const Frame& frame, const BlockMap& map, const Eig
     if (track.status != TrackStatus::kGood) return false;
     tracked.report.track = std::move(track);
     motion_.Clear();
+    moving_.Clear();
     motion_.Add({frame.stamp_s, tracked.report.track.T_world_camera});
     tracked.to_fuse = fusing_;
     tracked.view = FusionView(tracked.report.track);
@@ -96,6 +121,7 @@ bool TrackingStage::TrackFrom(const Frame& frame, const BlockMap& map, const Eig
 
 void TrackingStage::Disbelieve(const std::string& reason, TrackedFrame& tracked) {
     motion_ = motion_before_;
+    moving_.Clear();
     tracked.report.track.status = TrackStatus::kLost;
     tracked.report.track.reason = reason;
     tracked.to_fuse = false;
@@ -103,10 +129,14 @@ void TrackingStage::Disbelieve(const std::string& reason, TrackedFrame& tracked)
 
 void TrackingStage::Relocate(const StampedPose& pose) {
     motion_.Clear();
+    moving_.Clear();
     motion_.Add(pose);
 }
 
-void TrackingStage::Move(const Eigen::Isometry3d& T_new_old) { motion_.Move(T_new_old); }
+void TrackingStage::Move(const Eigen::Isometry3d& T_new_old) {
+    motion_.Move(T_new_old);
+    moving_.Move(T_new_old);
+}
 
 TrackResult TrackingStage::TrackFrame(const Frame& frame, const PreparedFrame& prepared, const BlockMap& map) {
     const Eigen::Isometry3d& T_world_last = motion_.last()->T_world_camera;
@@ -140,6 +170,7 @@ void TrackingStage::Apply(const ViewerSettings& settings) {
 
 void TrackingStage::Reset() {
     motion_.Clear();
+    moving_.Clear();
     aligner_.Clear();
     trackers_.Reset();
 }
