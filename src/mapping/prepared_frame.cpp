@@ -167,8 +167,8 @@ void PrepareDepth(const Frame& frame, const PreparedFrame::Config& config, Prepa
 
 }  // namespace
 
-void HideMoving(const Frame& without_moving, const PreparedFrame::Config& config, PreparedFrame& p) {
-    PrepareDepth(without_moving, config, p);
+void PrepareDepthAgain(const Frame& frame, const PreparedFrame::Config& config, PreparedFrame& p) {
+    PrepareDepth(frame, config, p);
     for (std::size_t level = 0; level < p.reduced.size(); ++level) ReduceDepth(p, level, p.reduced[level].depth_m);
 }
 

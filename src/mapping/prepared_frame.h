@@ -55,8 +55,8 @@ int ReductionOf(int width, int height, std::size_t level);
 // Reuses the storage of `prepared`.
 void PrepareFrame(const Frame& frame, const PreparedFrame::Config& config, PreparedFrame& prepared);
 
-// Once more without the depth of what moves: as PrepareFrame of WithoutMoving(frame), whose colour is prepared already.
-void HideMoving(const Frame& without_moving, const PreparedFrame::Config& config, PreparedFrame& prepared);
+// As PrepareFrame, for another depth of a frame whose colour is prepared already.
+void PrepareDepthAgain(const Frame& frame, const PreparedFrame::Config& config, PreparedFrame& prepared);
 // Enters a mask into a frame that was prepared without the depth of what moves.
 void SetMoving(std::shared_ptr<const MovingMask> moving, PreparedFrame& prepared);
 

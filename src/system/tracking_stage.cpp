@@ -48,8 +48,9 @@ void TrackingStage::Track(const Frame& frame, const BlockMap& map, const std::op
     report.valid_depth_fraction =
         static_cast<double>(prepared.valid_depth_pixels) / static_cast<double>(frame.depth_m.size());
 
-    // 2. Where was the camera?
+    // 2. Where was the camera? What moved a moment ago does not say.
     motion_before_ = motion_;
+    const bool hidden = !given && HideExpected(frame, prepared);
     report.first = !motion_.last().has_value();
     if (prepared.valid_depth_pixels == 0) {
         report.track.reason = prepared.measured_pixels > 0 ? "0 depth pixels in range: is depth_scale right?"
@@ -72,7 +73,7 @@ void TrackingStage::Track(const Frame& frame, const BlockMap& map, const std::op
     if (report.tracked()) motion_.Add({frame.stamp_s, report.track.T_world_camera}, report.track.degenerate);
 
     // 3. What moves is no part of the map.
-    if (config_.moving.enabled && report.track.status == TrackStatus::kGood) LeaveOutMoving(frame, map, tracked);
+    LeaveOutMoving(frame, map, hidden, tracked);
     report.moving_ms = watch.LapMs();
 
     // 4. Would it harm the map?
@@ -80,23 +81,33 @@ void TrackingStage::Track(const Frame& frame, const BlockMap& map, const std::op
     tracked.view = FusionView(report.track);
 }
 
-void TrackingStage::LeaveOutMoving(const Frame& frame, const BlockMap& map, TrackedFrame& tracked) {
+void TrackingStage::PrepareAgain(const Frame& frame, PreparedFrame& prepared) {
+    if (device_ != nullptr)
+        device_->Prepare(frame, config_.frame, bring_images_, prepared);
+    else
+        PrepareDepthAgain(frame, config_.frame, prepared);
+}
+
+bool TrackingStage::HideExpected(const Frame& frame, PreparedFrame& prepared) {
+    if (!config_.moving.enabled || !motion_.last()) return false;
+    const auto expected = moving_.Expect(frame.stamp_s, motion_.Predict(frame.stamp_s));
+    if (expected) PrepareAgain(WithoutMoving(*expected, frame), prepared);
+    return expected != nullptr;
+}
+
+void TrackingStage::LeaveOutMoving(const Frame& frame, const BlockMap& map, bool hidden, TrackedFrame& tracked) {
     ViewPredictor& predictor = device_ != nullptr ? device_->views() : caster_;
-    tracked.report.moving = moving_.Find({.depth_m = frame.depth_m,
-                                          .disparity_offset_per_m = static_cast<float>(config_.frame.disparity_offset_per_m),
-                                          .farthest_m = static_cast<float>(config_.frame.max_depth_m),
-                                          .stamp_s = frame.stamp_s,
-                                          .T_world_camera = tracked.report.track.T_world_camera},
-                                         map, predictor);
-    if (!tracked.report.moving) return;
-    if (tracked.report.moving->moving_tiles > 0) {
-        const Frame rest = WithoutMoving(*tracked.report.moving, frame);
-        if (device_ != nullptr)
-            device_->Prepare(rest, config_.frame, bring_images_, tracked.prepared);
-        else
-            HideMoving(rest, config_.frame, tracked.prepared);
-    }
-    SetMoving(tracked.report.moving, tracked.prepared);
+    const FrameReport& report = tracked.report;
+    if (config_.moving.enabled && report.track.status == TrackStatus::kGood)
+        tracked.report.moving = moving_.Find({.depth_m = frame.depth_m,
+                                              .disparity_offset_per_m = static_cast<float>(config_.frame.disparity_offset_per_m),
+                                              .farthest_m = static_cast<float>(config_.frame.max_depth_m),
+                                              .stamp_s = frame.stamp_s,
+                                              .T_world_camera = report.track.T_world_camera},
+                                             map, predictor);
+    const bool moves = report.moving && report.moving->moving_tiles > 0;
+    if (moves || hidden) PrepareAgain(moves ? WithoutMoving(*report.moving, frame) : frame, tracked.prepared);
+    if (report.moving) SetMoving(report.moving, tracked.prepared);
 }
 
 bool TrackingStage::TrackFrom(const Frame& frame, const BlockMap& map, const Eigen::Isometry3d& T_world_camera,

@@ -88,7 +88,9 @@ class TrackingStage {
 
   private:
     TrackResult TrackFrame(const Frame& frame, const PreparedFrame& prepared, const BlockMap& map);
-    void LeaveOutMoving(const Frame& frame, const BlockMap& map, TrackedFrame& tracked);
+    bool HideExpected(const Frame& frame, PreparedFrame& prepared);
+    void LeaveOutMoving(const Frame& frame, const BlockMap& map, bool hidden, TrackedFrame& tracked);
+    void PrepareAgain(const Frame& frame, PreparedFrame& prepared);
     FrameMotion ShutterOf(const Frame& frame) const;
 
     PipelineConfig config_;

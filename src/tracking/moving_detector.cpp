@@ -13,12 +13,13 @@ namespace tessera {
 namespace {
 
 using Marks = Image<std::uint8_t>;
-constexpr int kTileColumns = 160;      // about so many
-constexpr int kAges = 3;               // moments that a frame is compared with
-constexpr double kShares[kAges] = {0.2, 0.5, 1.0};  // their ages, of the window
+constexpr int kTileColumns = 128;      // about so many
+constexpr int kAges = 2;               // moments that a frame is compared with
+constexpr double kShares[kAges] = {0.3, 1.0};  // their ages, of the window
 constexpr double kSpacing = 0.1;       // of remembered moments, of the window
 constexpr double kImageTime_s = 0.015; // an image is spread over about so much: blur, rolling shutter, stamps
-constexpr int kGrow = 12, kMoreAround = 2, kGoneAround = 2;  // tiles
+constexpr double kBody_m = 0.6;        // what hangs together reaches so far
+constexpr int kAround = 2, kExpectedAround = 3;  // tiles
 
 void Join(const Marks& more, Marks& marks) {
     std::transform(more.data(), more.data() + more.size(), marks.data(), marks.data(),
@@ -32,6 +33,7 @@ std::int64_t CountOf(const Marks& marks) { return std::count_if(marks.data(), ma
 // Tiles of the frame: where something has come, and where something was.
 struct MovingDetector::Changes {
     Marks came, left;
+    Marks there;  // where a surface was seen a while ago, too
 };
 
 MovingDetector::MovingDetector(const Config& config, const PinholeCamera& camera)
@@ -58,17 +60,18 @@ std::shared_ptr<const MovingMask> MovingDetector::Find(const Input& input, const
     Changes changes;
     const bool changed = FindChanges(changes);
     Remember();
+    found_.reset();
     if (!changed) return nullptr;
     constexpr float kNearest_m = 0.1f;
     predictor.Predict(map, camera_, input.T_world_camera, kNearest_m, 1.2f * input.farthest_m, predicted_);
-    return Judge(changes, predicted_.depth_m);
+    return found_ = Judge(changes, predicted_.depth_m);
 }
 
 void MovingDetector::Remember() {
     if (past_.empty() || now_.stamp_s - past_.back().stamp_s >= kSpacing * config_.window_s) past_.push_back(now_);
 }
 
-bool MovingDetector::FindChanges(Changes& changes) const {
+std::vector<const TileView*> MovingDetector::Moments() const {
     std::vector<const TileView*> moments;
     for (const double share : kShares) {
         const TileView* found = nullptr;  // the youngest that is old enough, or the oldest
@@ -76,6 +79,11 @@ bool MovingDetector::FindChanges(Changes& changes) const {
             if (found == nullptr || view.stamp_s <= now_.stamp_s - share * config_.window_s + 1e-4) found = &view;
         if (found != nullptr && (moments.empty() || moments.back() != found)) moments.push_back(found);
     }
+    return moments;
+}
+
+bool MovingDetector::FindChanges(Changes& changes) const {
+    const std::vector<const TileView*> moments = Moments();
     std::array<Changes, kAges> parts;
     tbb::parallel_for(std::size_t{0}, moments.size(), [&](std::size_t i) {
         Changes& part = parts[i];
@@ -88,7 +96,10 @@ bool MovingDetector::FindChanges(Changes& changes) const {
         Join(parts[i].came, changes.came);
         Join(parts[i].left, changes.left);
     }
-    return HasCore(changes.came) || HasCore(changes.left);
+    if (!HasCore(changes.came) && !HasCore(changes.left)) return false;
+    changes.there = Marks(camera_.width, camera_.height);
+    MarkSame(now_, *moments.back(), camera_, margin_, changes.there);
+    return true;
 }
 
 std::shared_ptr<const MovingMask> MovingDetector::Judge(const Changes& changes, const DepthImage& predicted_m) const {
@@ -108,7 +119,7 @@ std::shared_ptr<const MovingMask> MovingDetector::Judge(const Changes& changes, 
             const bool before = map > 0 && depth + margin_(map) < nearest_m(x, y);
             if (before) mask->moving(x, y) = 1;
             if (before && changes.left(x, y) != 0) seeds(x, y) = 1;
-            growing(x, y) = map <= 0 || depth + 0.3f * margin_(map) < nearest_m(x, y);
+            growing(x, y) = changes.there(x, y) == 0;
             gone(x, y) = map > 0 && farthest_m(x, y) + margin_(depth) < now_.near_m(x, y);
             if (map <= 0 || mask->moving(x, y) != 0 || changes.left(x, y) != 0) continue;
             ++known;
@@ -118,21 +129,34 @@ std::shared_ptr<const MovingMask> MovingDetector::Judge(const Changes& changes, 
     if (static_cast<double>(fitting) < config_.min_fitting_fraction * static_cast<double>(known)) return nullptr;
     const RegionRule rule{config_.min_area_m2, config_.min_changed_fraction};
     KeepRegions(now_.depth_m, seeds, camera_, rule, mask->moving);
-    GrowRegions(now_.depth_m, growing, kGrow, mask->moving);
+    GrowRegions(now_.depth_m, growing, camera_, kBody_m, mask->moving);
     KeepRegions(now_.depth_m, changes.left, camera_, rule, gone);
     mask->moving_tiles = CountOf(mask->moving);
     mask->gone_tiles = CountOf(gone);
     if (mask->moving_tiles + mask->gone_tiles == 0) return nullptr;
-    Dilate(kMoreAround, mask->moving);
-    Dilate(kGoneAround, gone);
+    Dilate(kAround, mask->moving);
+    Dilate(kAround, gone);
     mask->moving_tiles = CountOf(mask->moving);
     mask->gone_m.Resize(width, height);
     for (std::size_t i = 0; i < gone.size(); ++i) mask->gone_m.data()[i] = gone.data()[i] != 0 ? now_.near_m.data()[i] : 0.0f;
     return mask;
 }
 
+std::shared_ptr<const MovingMask> MovingDetector::Expect(double stamp_s, const Eigen::Isometry3d& T_world_camera) const {
+    constexpr double kLongest_s = 0.2;  // between two frames
+    if (!found_ || found_->moving_tiles == 0 || std::abs(stamp_s - now_.stamp_s) > kLongest_s) return nullptr;
+    auto mask = std::make_shared<MovingMask>();
+    mask->step = step_;
+    mask->moving = Marks(camera_.width, camera_.height);
+    MarkMoved(now_, found_->moving, T_world_camera, camera_, mask->moving);
+    Dilate(kExpectedAround, mask->moving);
+    mask->moving_tiles = CountOf(mask->moving);
+    return mask;
+}
+
 void MovingDetector::Move(const Eigen::Isometry3d& T_new_old) {
     for (TileView& view : past_) view.T_world_camera = T_new_old * view.T_world_camera;
+    now_.T_world_camera = T_new_old * now_.T_world_camera;
 }
 
 void MovingDetector::Config::Describe(ConfigParameters& p) {

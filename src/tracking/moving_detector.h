@@ -41,15 +41,23 @@ class MovingDetector {
     // Null: nothing moves, and nothing of the map has gone. The map is asked, by `predictor`, only where two moments differ.
     std::shared_ptr<const MovingMask> Find(const Input& input, const BlockMap& map, ViewPredictor& predictor);
 
+    // What was found to move in the frame before, where a camera there would see it, and somewhat around: not to be tracked on.
+    // Null: nothing.
+    std::shared_ptr<const MovingMask> Expect(double stamp_s, const Eigen::Isometry3d& T_world_camera) const;
+
     // The map was moved, the camera with it.
     void Move(const Eigen::Isometry3d& T_new_old);
     // Forgets the last second: where the camera is now says nothing of where it was.
-    void Clear() { past_.clear(); }
+    void Clear() {
+        past_.clear();
+        found_.reset();
+    }
 
   private:
     struct Changes;
     int ReachOf(const Input& input) const;
     bool FindChanges(Changes& changes) const;
+    std::vector<const TileView*> Moments() const;
     void Remember();
     std::shared_ptr<const MovingMask> Judge(const Changes& changes, const DepthImage& predicted_m) const;
 
@@ -59,6 +67,7 @@ class MovingDetector {
     PinholeCamera camera_;        // the tiles'
     TileView now_;
     std::deque<TileView> past_;   // oldest first
+    std::shared_ptr<const MovingMask> found_;  // in now_
     PredictedView predicted_;
 };
 

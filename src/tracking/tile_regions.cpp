@@ -63,20 +63,24 @@ void KeepRegions(const DepthImage& depth_m, const Marks& seeds, const PinholeCam
                    [](std::uint8_t m) { return static_cast<std::uint8_t>(m == kKept); });
 }
 
-void GrowRegions(const DepthImage& depth_m, const Marks& allowed, int steps, Marks& marks) {
-    std::vector<std::pair<int, int>> front, next;
+void GrowRegions(const DepthImage& depth_m, const Marks& allowed, const PinholeCamera& camera, double reach_m, Marks& marks) {
+    struct Tile {
+        int x, y;
+        double way_m;
+    };
+    std::vector<Tile> tiles;  // the nearest to the regions first, by and large
     for (int y = 0; y < marks.height(); ++y)
         for (int x = 0; x < marks.width(); ++x)
-            if (marks(x, y) != 0) front.emplace_back(x, y);
-    for (int step = 0; step < steps; ++step) {
-        next.clear();
-        for (const auto& [x, y] : front)
-            ForNeighbours(marks, x, y, [&](int u, int v) {
-                if (marks(u, v) != 0 || allowed(u, v) == 0 || !Continuous(depth_m(x, y), depth_m(u, v))) return;
-                marks(u, v) = 1;
-                next.emplace_back(u, v);
-            });
-        front.swap(next);
+            if (marks(x, y) != 0) tiles.push_back({x, y, 0});
+    for (std::size_t i = 0; i < tiles.size(); ++i) {
+        const Tile from = tiles[i];
+        const double way_m = from.way_m + depth_m(from.x, from.y) / camera.fx;
+        if (way_m > reach_m) continue;
+        ForNeighbours(marks, from.x, from.y, [&](int u, int v) {
+            if (marks(u, v) != 0 || allowed(u, v) == 0 || !Continuous(depth_m(from.x, from.y), depth_m(u, v))) return;
+            marks(u, v) = 1;
+            tiles.push_back({u, v, way_m});
+        });
     }
 }
 

@@ -24,8 +24,9 @@ bool HasCore(const Image<std::uint8_t>& marks);
 void KeepRegions(const DepthImage& depth_m, const Image<std::uint8_t>& seeds, const PinholeCamera& camera, const RegionRule& rule,
                  Image<std::uint8_t>& marks);
 
-// Marks neighbours of marked tiles that `allowed` marks and whose depths differ little, `steps` times.
-void GrowRegions(const DepthImage& depth_m, const Image<std::uint8_t>& allowed, int steps, Image<std::uint8_t>& marks);
+// Marks neighbours of marked tiles, and theirs, that `allowed` marks and whose depths differ little: about as far as `reach_m`.
+void GrowRegions(const DepthImage& depth_m, const Image<std::uint8_t>& allowed, const PinholeCamera& camera, double reach_m,
+                 Image<std::uint8_t>& marks);
 
 // Marks all within `reach` tiles of a marked one.
 void Dilate(int reach, Image<std::uint8_t>& marks);

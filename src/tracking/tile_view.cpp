@@ -48,6 +48,30 @@ void BestAround(const DepthImage& tiles, int reach, DepthImage& out, float none,
     }
 }
 
+// Visits each tile (x, y) of `from` that has depth and whose point a camera there sees: its depth there, and in which tile.
+template <class Visit>
+void ForSeen(const TileView& from, const Eigen::Isometry3d& T_world_camera, const PinholeCamera& camera, const Visit& visit) {
+    const Eigen::Isometry3f T = (T_world_camera.inverse() * from.T_world_camera).cast<float>();
+    const Eigen::Matrix3f R = T.linear();
+    const Eigen::Vector3f t = T.translation();
+    const auto fx = static_cast<float>(camera.fx), fy = static_cast<float>(camera.fy);
+    const auto cx = static_cast<float>(camera.cx), cy = static_cast<float>(camera.cy);
+    const int width = from.depth_m.width(), height = from.depth_m.height();
+    constexpr float kNearest_m = 0.1f;
+    for (int y = 0; y < height; ++y) {
+        const Eigen::Vector3f row = R.col(1) * ((static_cast<float>(y) - cy) / fy) + R.col(2);
+        for (int x = 0; x < width; ++x) {
+            const float depth = from.depth_m(x, y);
+            if (depth <= 0) continue;
+            const Eigen::Vector3f p = depth * (R.col(0) * ((static_cast<float>(x) - cx) / fx) + row) + t;
+            if (p.z() < kNearest_m) continue;
+            const float u = p.x() / p.z() * fx + cx + 0.5f, v = p.y() / p.z() * fy + cy + 0.5f;
+            if (u >= 0 && v >= 0 && u < static_cast<float>(width) && v < static_cast<float>(height))
+                visit(x, y, p.z(), static_cast<int>(u), static_cast<int>(v));
+        }
+    }
+}
+
 }  // namespace
 
 void MakeTiles(const DepthImage& depth_m, int step, float disparity_offset_per_m, DepthImage& tiles) {
@@ -70,28 +94,27 @@ void FarthestAround(const DepthImage& tiles, int reach, DepthImage& farthest) {
 
 void MarkFree(const TileView& from, const TileView& to, const PinholeCamera& camera, const DepthMargin& margin,
               Image<std::uint8_t>* of_from, Image<std::uint8_t>* of_to) {
-    const Eigen::Isometry3f T_to_from = (to.T_world_camera.inverse() * from.T_world_camera).cast<float>();
-    const Eigen::Matrix3f R = T_to_from.linear();
-    const Eigen::Vector3f t = T_to_from.translation();
-    const auto fx = static_cast<float>(camera.fx), fy = static_cast<float>(camera.fy);
-    const auto cx = static_cast<float>(camera.cx), cy = static_cast<float>(camera.cy);
-    const int width = from.depth_m.width(), height = from.depth_m.height();
-    for (int y = 0; y < height; ++y) {
-        const Eigen::Vector3f row = R.col(1) * ((static_cast<float>(y) - cy) / fy) + R.col(2);
-        for (int x = 0; x < width; ++x) {
-            const float depth = from.depth_m(x, y);
-            if (depth <= 0) continue;
-            const Eigen::Vector3f p = depth * (R.col(0) * ((static_cast<float>(x) - cx) / fx) + row) + t;
-            if (p.z() < 0.1f) continue;
-            const float u = p.x() / p.z() * fx + cx + 0.5f, v = p.y() / p.z() * fy + cy + 0.5f;
-            if (!(u >= 0 && v >= 0 && u < static_cast<float>(width) && v < static_cast<float>(height))) continue;
-            const int k = static_cast<int>(u), l = static_cast<int>(v);
-            const float seen = to.near_m(k, l);
-            if (seen <= p.z() + margin(seen)) continue;
-            if (of_from != nullptr) (*of_from)(x, y) = 1;
-            if (of_to != nullptr) (*of_to)(k, l) = 1;
-        }
-    }
+    ForSeen(from, to.T_world_camera, camera, [&](int x, int y, float depth_m, int k, int l) {
+        const float seen = to.near_m(k, l);
+        if (seen <= depth_m + margin(seen)) return;
+        if (of_from != nullptr) (*of_from)(x, y) = 1;
+        if (of_to != nullptr) (*of_to)(k, l) = 1;
+    });
+}
+
+void MarkSame(const TileView& from, const TileView& to, const PinholeCamera& camera, const DepthMargin& margin,
+              Image<std::uint8_t>& of_from) {
+    ForSeen(from, to.T_world_camera, camera, [&](int x, int y, float depth_m, int k, int l) {
+        const float nearest = to.near_m(k, l), there = to.depth_m(k, l), off = margin(depth_m);
+        if (there > 0 && nearest - off <= depth_m && depth_m <= there + off) of_from(x, y) = 1;
+    });
+}
+
+void MarkMoved(const TileView& from, const Image<std::uint8_t>& marked, const Eigen::Isometry3d& T_world_camera,
+               const PinholeCamera& camera, Image<std::uint8_t>& moved) {
+    ForSeen(from, T_world_camera, camera, [&](int x, int y, float, int k, int l) {
+        if (marked(x, y) != 0) moved(k, l) = 1;
+    });
 }
 
 }  // namespace tessera

@@ -33,5 +33,11 @@ void FarthestAround(const DepthImage& tiles, int reach, DepthImage& farthest);
 // it, in the other. `camera` is the tiles'. Marks stay where they are set.
 void MarkFree(const TileView& from, const TileView& to, const PinholeCamera& camera, const DepthMargin& margin,
               Image<std::uint8_t>* of_from, Image<std::uint8_t>* of_to);
+// Marks each tile of `from` at whose point `to` saw a surface, too.
+void MarkSame(const TileView& from, const TileView& to, const PinholeCamera& camera, const DepthMargin& margin,
+              Image<std::uint8_t>& of_from);
+// Where the marked tiles of `from` are for a camera there, in an image of the same size.
+void MarkMoved(const TileView& from, const Image<std::uint8_t>& marked, const Eigen::Isometry3d& T_world_camera,
+               const PinholeCamera& camera, Image<std::uint8_t>& moved);
 
 }  // namespace tessera
