@@ -5,159 +5,286 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <deque>
+#include <optional>
 
 #include "core/se3.h"
 #include "tracking/tile_regions.h"
+#include "tracking/tile_view.h"
 
 namespace tessera {
 namespace {
 
 using Marks = Image<std::uint8_t>;
 constexpr int kTileColumns = 128;      // about so many
-constexpr int kAges = 2;               // moments that a frame is compared with
-constexpr double kShares[kAges] = {0.3, 1.0};  // their ages, of the window
-constexpr double kSpacing = 0.1;       // of remembered moments, of the window
+constexpr double kAges[] = {0.3, 1.0}; // of the moments that a frame is compared with, in windows
+constexpr double kOld = 0.8;           // the same: what stood there so long ago stands still
+constexpr double kSpacing = 0.1;       // the same: of remembered moments
+constexpr double kCarry = 0.5;         // the same: what moved is believed to move on so long
 constexpr double kImageTime_s = 0.015; // an image is spread over about so much: blur, rolling shutter, stamps
+constexpr double kJerk_m = 0.03, kJerk_rad = 0.015;  // between two frames' motions: one of the poses is off
 constexpr double kBody_m = 0.6;        // what hangs together reaches so far
-constexpr int kAround = 2, kExpectedAround = 3;  // tiles
+constexpr float kNearest_m = 0.1f;
+constexpr int kAround = 2, kExpectedAround = 3, kBeside = 4;  // tiles
+
+bool Marked(std::uint8_t mark) { return mark != 0; }
+std::int64_t CountOf(const Marks& marks) { return std::count_if(marks.data(), marks.data() + marks.size(), Marked); }
 
 void Join(const Marks& more, Marks& marks) {
-    std::transform(more.data(), more.data() + more.size(), marks.data(), marks.data(),
-                   [](std::uint8_t a, std::uint8_t b) { return static_cast<std::uint8_t>(a | b); });
+    for (std::size_t i = 0; i < marks.size(); ++i) marks.data()[i] |= more.data()[i];
 }
 
-std::int64_t CountOf(const Marks& marks) { return std::count_if(marks.data(), marks.data() + marks.size(), [](auto m) { return m != 0; }); }
+// What differs between a frame and the moments before.
+struct Changes {
+    Marks came;          // stands in what was free space
+    DepthImage left_m;   // how far what left had been, where it had been
+    Marks there;         // stands where a surface was seen a window ago
+    bool any = false;
+};
+
+// What the frame and the map's view say about each tile.
+struct Evidence {
+    Marks candidates;  // may move
+    Marks seeds;       // of them, those that changed
+    Marks growing;     // hang together with what moves, if they touch it
+    Marks gone;        // the map's surface is seen through
+    bool fits = false; // the rest fits the map
+};
 
 }  // namespace
 
-// Tiles of the frame: where something has come, and where something was.
-struct MovingDetector::Changes {
-    Marks came, left;
-    Marks there;  // where a surface was seen a while ago, too
+struct MovingDetector::Memory {
+    TileView now;
+    std::deque<TileView> past;           // oldest first
+    Marks moving;                        // in `now`; empty: nothing
+    double evidence_s = -1e9;            // when something last was seen to move
+    std::optional<Eigen::Isometry3d> step;  // the camera's, from the frame before to `now`
 };
 
-MovingDetector::MovingDetector(const Config& config, const PinholeCamera& camera)
-    : config_(config),
-      margin_{static_cast<float>(config.margin_m), static_cast<float>(config.margin_per_m)},
-      step_(std::max(1, static_cast<int>(std::lround(static_cast<double>(camera.width) / kTileColumns)))),
-      camera_(camera.Every(step_)) {}
+// One frame against what is remembered.
+class MovingDetector::Moments {
+  public:
+    Moments(const Config& config, const PinholeCamera& camera, Memory& memory)
+        : config_(config),
+          camera_(camera),
+          margin_{static_cast<float>(config.margin_m), static_cast<float>(config.margin_per_m)},
+          memory_(memory) {}
+
+    void Take(const Input& input, int step);
+    Changes Compare() const;
+    // What moved in the frame before and is still there, going by its depth.
+    void CarryOver(const Changes& changes, Marks& carried) const;
+    Evidence Weigh(const Changes& changes, const DepthImage& predicted_m) const;
+    void Decide(const Changes& changes, Evidence& evidence);
+
+  private:
+    std::vector<const TileView*> ToCompare() const;
+    int Reach(double turned_rad, double since_s) const;
+
+    const Config& config_;
+    const PinholeCamera& camera_;
+    DepthMargin margin_;
+    Memory& memory_;
+    DepthImage carried_m_;
+};
 
 // Tiles that an edge may have shifted by while the image was taken.
-int MovingDetector::ReachOf(const Input& input) const {
-    if (past_.empty()) return 1;
-    const double since_s = std::max(input.stamp_s - past_.back().stamp_s, 1e-3);
-    const double turned = RotationAngle(past_.back().T_world_camera, input.T_world_camera);
-    return 1 + std::min(6, static_cast<int>(turned / since_s * kImageTime_s * camera_.fx + 0.5));
+int MovingDetector::Moments::Reach(double turned_rad, double since_s) const {
+    return 1 + std::min(6, static_cast<int>(turned_rad / since_s * kImageTime_s * camera_.fx + 0.5));
 }
 
-std::shared_ptr<const MovingMask> MovingDetector::Find(const Input& input, const BlockMap& map, ViewPredictor& predictor) {
-    if (!past_.empty() && input.stamp_s <= past_.back().stamp_s) past_.clear();
-    while (!past_.empty() && past_.front().stamp_s < input.stamp_s - 1.1 * config_.window_s) past_.pop_front();
-    now_.T_world_camera = input.T_world_camera;
-    now_.stamp_s = input.stamp_s;
-    MakeTiles(input.depth_m, step_, input.disparity_offset_per_m, now_.depth_m);
-    NearestAround(now_.depth_m, ReachOf(input), now_.near_m);
-    Changes changes;
-    const bool changed = FindChanges(changes);
-    Remember();
-    found_.reset();
-    if (!changed) return nullptr;
-    constexpr float kNearest_m = 0.1f;
-    predictor.Predict(map, camera_, input.T_world_camera, kNearest_m, 1.2f * input.farthest_m, predicted_);
-    return found_ = Judge(changes, predicted_.depth_m);
+void MovingDetector::Moments::Take(const Input& input, int step) {
+    Memory& m = memory_;
+    const double since_s = input.stamp_s - m.now.stamp_s;
+    const bool follows = !m.now.depth_m.empty() && since_s > 0 && since_s < config_.window_s;
+    if (!follows) {
+        m.past.clear();
+        m.step.reset();
+        m.moving = {};
+    }
+    int reach = 1;
+    if (follows) {
+        const Eigen::Isometry3d moved = m.now.T_world_camera.inverse() * input.T_world_camera;
+        reach = Reach(RotationAngle(m.now.T_world_camera, input.T_world_camera), since_s);
+        // A pose that is off makes all the world move.
+        const Eigen::Isometry3d jerk = m.step ? Eigen::Isometry3d(m.step->inverse() * moved) : Eigen::Isometry3d::Identity();
+        if (jerk.translation().norm() > kJerk_m || RotationAngle(Eigen::Isometry3d::Identity(), jerk) > kJerk_rad) m.past.clear();
+        m.step = moved;
+        if (!m.moving.empty()) {
+            carried_m_ = DepthImage(camera_.width, camera_.height);
+            Carry(m.now, m.moving, input.T_world_camera, camera_, carried_m_);
+        }
+    }
+    m.now.T_world_camera = input.T_world_camera;
+    m.now.stamp_s = input.stamp_s;
+    MakeTiles(input.depth_m, step, input.disparity_offset_per_m, m.now.depth_m);
+    NearestAround(m.now.depth_m, reach, m.now.near_m);
+    while (!m.past.empty() && m.past.front().stamp_s < input.stamp_s - 1.1 * config_.window_s) m.past.pop_front();
 }
 
-void MovingDetector::Remember() {
-    if (past_.empty() || now_.stamp_s - past_.back().stamp_s >= kSpacing * config_.window_s) past_.push_back(now_);
-}
-
-std::vector<const TileView*> MovingDetector::Moments() const {
+std::vector<const TileView*> MovingDetector::Moments::ToCompare() const {
     std::vector<const TileView*> moments;
-    for (const double share : kShares) {
+    for (const double age : kAges) {
         const TileView* found = nullptr;  // the youngest that is old enough, or the oldest
-        for (const TileView& view : past_)
-            if (found == nullptr || view.stamp_s <= now_.stamp_s - share * config_.window_s + 1e-4) found = &view;
+        for (const TileView& view : memory_.past)
+            if (found == nullptr || view.stamp_s <= memory_.now.stamp_s - age * config_.window_s + 1e-4) found = &view;
         if (found != nullptr && (moments.empty() || moments.back() != found)) moments.push_back(found);
     }
     return moments;
 }
 
-bool MovingDetector::FindChanges(Changes& changes) const {
-    const std::vector<const TileView*> moments = Moments();
-    std::array<Changes, kAges> parts;
-    tbb::parallel_for(std::size_t{0}, moments.size(), [&](std::size_t i) {
-        Changes& part = parts[i];
-        part.came = part.left = Marks(camera_.width, camera_.height);
-        MarkFree(now_, *moments[i], camera_, margin_, &part.came, nullptr);
-        MarkFree(*moments[i], now_, camera_, margin_, nullptr, &part.left);
+Changes MovingDetector::Moments::Compare() const {
+    const TileView& now = memory_.now;
+    const std::vector<const TileView*> moments = ToCompare();
+    std::array<Changes, std::size(kAges)> parts;
+    tbb::parallel_for(std::size_t{0}, 2 * moments.size(), [&](std::size_t i) {
+        Changes& part = parts[i / 2];
+        if (i % 2 == 0) {
+            part.came = Marks(camera_.width, camera_.height);
+            MarkFree(now, *moments[i / 2], camera_, margin_, part.came);
+        } else {
+            part.left_m = DepthImage(camera_.width, camera_.height);
+            FindLeft(*moments[i / 2], now, camera_, margin_, part.left_m);
+        }
     });
-    changes.came = changes.left = Marks(camera_.width, camera_.height);
+    Changes changes;
+    changes.came = changes.there = Marks(camera_.width, camera_.height);
+    changes.left_m = DepthImage(camera_.width, camera_.height);
+    Marks left = changes.came;
     for (std::size_t i = 0; i < moments.size(); ++i) {
         Join(parts[i].came, changes.came);
-        Join(parts[i].left, changes.left);
+        for (std::size_t at = 0; at < left.size(); ++at) {
+            const float left_m = parts[i].left_m.data()[at];
+            if (left_m <= 0) continue;
+            left.data()[at] = 1;
+            changes.left_m.data()[at] = left_m;  // the oldest moment's
+        }
     }
-    if (!HasCore(changes.came) && !HasCore(changes.left)) return false;
-    changes.there = Marks(camera_.width, camera_.height);
-    MarkSame(now_, *moments.back(), camera_, margin_, changes.there);
-    return true;
+    changes.any = HasCore(changes.came) || HasCore(left);
+    const bool old = !moments.empty() && now.stamp_s - moments.back()->stamp_s >= kOld * config_.window_s;
+    if (old && (changes.any || !carried_m_.empty())) MarkSame(now, *moments.back(), camera_, margin_, changes.there);
+    // Noise leaves in specks, a thing as a region.
+    KeepRegions(changes.left_m, left, camera_, {config_.min_area_m2, 0}, left);
+    for (std::size_t at = 0; at < left.size(); ++at)
+        if (left.data()[at] == 0) changes.left_m.data()[at] = 0;
+    return changes;
 }
 
-std::shared_ptr<const MovingMask> MovingDetector::Judge(const Changes& changes, const DepthImage& predicted_m) const {
+void MovingDetector::Moments::CarryOver(const Changes& changes, Marks& carried) const {
+    carried = Marks(camera_.width, camera_.height);
+    if (carried_m_.empty() || memory_.now.stamp_s - memory_.evidence_s > kCarry * config_.window_s) return;
+    MarkBeside(memory_.now.depth_m, carried_m_, 1, carried);
+    for (std::size_t i = 0; i < carried.size(); ++i)
+        if (changes.there.data()[i] != 0) carried.data()[i] = 0;
+}
+
+Evidence MovingDetector::Moments::Weigh(const Changes& changes, const DepthImage& predicted_m) const {
     const int width = camera_.width, height = camera_.height;
+    const TileView& now = memory_.now;
     DepthImage nearest_m, farthest_m;
     NearestAround(predicted_m, 1, nearest_m);
     FarthestAround(predicted_m, 1, farthest_m);
-    auto mask = std::make_shared<MovingMask>();
-    mask->step = step_;
-    mask->moving = changes.came;
-    Marks seeds = changes.came, growing(width, height), gone(width, height);
+    Evidence e;
+    e.seeds = changes.came;
+    MarkBeside(now.depth_m, changes.left_m, kBeside, e.seeds);
+    e.candidates = e.seeds;
+    e.growing = e.gone = Marks(width, height);
     std::int64_t known = 0, fitting = 0;
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {
-            const float depth = now_.depth_m(x, y), map = predicted_m(x, y);
+            const float depth = now.depth_m(x, y), map = predicted_m(x, y);
             if (depth <= 0) continue;
-            const bool before = map > 0 && depth + margin_(map) < nearest_m(x, y);
-            if (before) mask->moving(x, y) = 1;
-            if (before && changes.left(x, y) != 0) seeds(x, y) = 1;
-            growing(x, y) = changes.there(x, y) == 0;
-            gone(x, y) = map > 0 && farthest_m(x, y) + margin_(depth) < now_.near_m(x, y);
-            if (map <= 0 || mask->moving(x, y) != 0 || changes.left(x, y) != 0) continue;
+            e.growing(x, y) = changes.there(x, y) == 0;
+            if (map <= 0) continue;
+            const float off = margin_(std::max(depth, map)), nearest = nearest_m(x, y), farthest = farthest_m(x, y);
+            const bool left = changes.left_m(x, y) > 0, before = depth + off < nearest;
+            if (before) e.candidates(x, y) = 1;
+            if (before && left) e.seeds(x, y) = 1;
+            e.gone(x, y) = left && farthest + off < now.near_m(x, y);
+            if (e.candidates(x, y) != 0 || left) continue;
             ++known;
-            fitting += std::abs(depth - map) <= margin_(depth) || (nearest_m(x, y) - margin_(depth) <= depth && depth <= farthest_m(x, y) + margin_(depth));
+            fitting += nearest - off <= depth && depth <= farthest + off;
         }
     // Where the rest does not fit the map either, it is the camera that is elsewhere.
-    if (static_cast<double>(fitting) < config_.min_fitting_fraction * static_cast<double>(known)) return nullptr;
+    e.fits = static_cast<double>(fitting) >= config_.min_fitting_fraction * static_cast<double>(known);
+    return e;
+}
+
+void MovingDetector::Moments::Decide(const Changes& changes, Evidence& e) {
+    Memory& m = memory_;
+    const DepthImage& depth_m = m.now.depth_m;
     const RegionRule rule{config_.min_area_m2, config_.min_changed_fraction};
-    KeepRegions(now_.depth_m, seeds, camera_, rule, mask->moving);
-    GrowRegions(now_.depth_m, growing, camera_, kBody_m, mask->moving);
-    KeepRegions(now_.depth_m, changes.left, camera_, rule, gone);
-    mask->moving_tiles = CountOf(mask->moving);
-    mask->gone_tiles = CountOf(gone);
-    if (mask->moving_tiles + mask->gone_tiles == 0) return nullptr;
-    Dilate(kAround, mask->moving);
-    Dilate(kAround, gone);
-    mask->moving_tiles = CountOf(mask->moving);
-    mask->gone_m.Resize(width, height);
-    for (std::size_t i = 0; i < gone.size(); ++i) mask->gone_m.data()[i] = gone.data()[i] != 0 ? now_.near_m.data()[i] : 0.0f;
+    Marks carried;
+    CarryOver(changes, carried);
+    KeepRegions(depth_m, e.seeds, camera_, rule, e.candidates);
+    if (CountOf(e.candidates) > 0) m.evidence_s = m.now.stamp_s;
+    Join(carried, e.candidates);
+    GrowRegions(depth_m, e.growing, camera_, kBody_m, e.candidates);
+    m.moving = e.candidates;
+}
+
+MovingDetector::MovingDetector(const Config& config, const PinholeCamera& camera)
+    : config_(config),
+      step_(std::max(1, static_cast<int>(std::lround(static_cast<double>(camera.width) / kTileColumns)))),
+      camera_(camera.Every(step_)),
+      memory_(std::make_unique<Memory>()) {}
+
+MovingDetector::~MovingDetector() = default;
+
+std::shared_ptr<const MovingMask> MovingDetector::Find(const Input& input, const BlockMap& map, ViewPredictor& predictor) {
+    Memory& m = *memory_;
+    const bool moved_before = !m.moving.empty();
+    Moments moments(config_, camera_, m);
+    moments.Take(input, step_);
+    const Changes changes = moments.Compare();
+    if (m.past.empty() || m.now.stamp_s - m.past.back().stamp_s >= kSpacing * config_.window_s) m.past.push_back(m.now);
+    std::shared_ptr<MovingMask> mask;
+    if (changes.any || moved_before) {
+        PredictedView view;
+        predictor.Predict(map, camera_, input.T_world_camera, kNearest_m, 1.2f * input.farthest_m, view);
+        Evidence evidence = moments.Weigh(changes, view.depth_m);
+        if (!evidence.fits) {
+            evidence.candidates = evidence.seeds = evidence.gone = Marks(camera_.width, camera_.height);
+        }
+        moments.Decide(changes, evidence);
+        mask = std::make_shared<MovingMask>();
+        mask->step = step_;
+        mask->moving = m.moving;
+        Dilate(kAround, mask->moving);
+        mask->moving_tiles = CountOf(mask->moving);
+        KeepRegions(m.now.depth_m, evidence.gone, camera_, {config_.min_area_m2, 0}, evidence.gone);
+        mask->gone_tiles = CountOf(evidence.gone);
+        Dilate(kAround, evidence.gone);
+        mask->gone_m = DepthImage(camera_.width, camera_.height);
+        for (std::size_t i = 0; i < mask->gone_m.size(); ++i)
+            if (evidence.gone.data()[i] != 0) mask->gone_m.data()[i] = m.now.near_m.data()[i];
+    }
+    if (!mask || mask->moving_tiles == 0) m.moving = {};
+    if (!mask || mask->moving_tiles + mask->gone_tiles == 0) return nullptr;
     return mask;
 }
 
 std::shared_ptr<const MovingMask> MovingDetector::Expect(double stamp_s, const Eigen::Isometry3d& T_world_camera) const {
     constexpr double kLongest_s = 0.2;  // between two frames
-    if (!found_ || found_->moving_tiles == 0 || std::abs(stamp_s - now_.stamp_s) > kLongest_s) return nullptr;
+    const Memory& m = *memory_;
+    if (m.moving.empty() || std::abs(stamp_s - m.now.stamp_s) > kLongest_s) return nullptr;
+    DepthImage carried_m(camera_.width, camera_.height);
+    Carry(m.now, m.moving, T_world_camera, camera_, carried_m);
     auto mask = std::make_shared<MovingMask>();
     mask->step = step_;
     mask->moving = Marks(camera_.width, camera_.height);
-    MarkMoved(now_, found_->moving, T_world_camera, camera_, mask->moving);
+    for (std::size_t i = 0; i < mask->moving.size(); ++i) mask->moving.data()[i] = carried_m.data()[i] > 0;
     Dilate(kExpectedAround, mask->moving);
     mask->moving_tiles = CountOf(mask->moving);
     return mask;
 }
 
 void MovingDetector::Move(const Eigen::Isometry3d& T_new_old) {
-    for (TileView& view : past_) view.T_world_camera = T_new_old * view.T_world_camera;
-    now_.T_world_camera = T_new_old * now_.T_world_camera;
+    for (TileView& view : memory_->past) view.T_world_camera = T_new_old * view.T_world_camera;
+    memory_->now.T_world_camera = T_new_old * memory_->now.T_world_camera;
 }
+
+void MovingDetector::Clear() { *memory_ = {}; }
 
 void MovingDetector::Config::Describe(ConfigParameters& p) {
     p.Add("enabled", enabled, "people and other moving things are neither tracked on nor fused (docs/moving.md)");

@@ -2,17 +2,15 @@
 // hangs together with it before the map's surface. docs/moving.md has the rule and its reasons.
 #pragma once
 
-#include <deque>
 #include <memory>
 
 #include "core/config.h"
 #include "mapping/moving_mask.h"
 #include "mapping/predicted_view.h"
-#include "tracking/tile_view.h"
 
 namespace tessera {
 
-// Owner thread only.
+// Owner thread only; TBB inside, the same result for any number of threads.
 class MovingDetector {
   public:
     struct Config {
@@ -37,10 +35,10 @@ class MovingDetector {
     };
 
     MovingDetector(const Config& config, const PinholeCamera& camera);
+    ~MovingDetector();
 
     // Null: nothing moves, and nothing of the map has gone. The map is asked, by `predictor`, only where two moments differ.
     std::shared_ptr<const MovingMask> Find(const Input& input, const BlockMap& map, ViewPredictor& predictor);
-
     // What was found to move in the frame before, where a camera there would see it, and somewhat around: not to be tracked on.
     // Null: nothing.
     std::shared_ptr<const MovingMask> Expect(double stamp_s, const Eigen::Isometry3d& T_world_camera) const;
@@ -48,27 +46,16 @@ class MovingDetector {
     // The map was moved, the camera with it.
     void Move(const Eigen::Isometry3d& T_new_old);
     // Forgets the last second: where the camera is now says nothing of where it was.
-    void Clear() {
-        past_.clear();
-        found_.reset();
-    }
+    void Clear();
 
   private:
-    struct Changes;
-    int ReachOf(const Input& input) const;
-    bool FindChanges(Changes& changes) const;
-    std::vector<const TileView*> Moments() const;
-    void Remember();
-    std::shared_ptr<const MovingMask> Judge(const Changes& changes, const DepthImage& predicted_m) const;
+    class Moments;
+    struct Memory;
 
     Config config_;
-    DepthMargin margin_;
     int step_;
-    PinholeCamera camera_;        // the tiles'
-    TileView now_;
-    std::deque<TileView> past_;   // oldest first
-    std::shared_ptr<const MovingMask> found_;  // in now_
-    PredictedView predicted_;
+    PinholeCamera camera_;  // the tiles'
+    std::unique_ptr<Memory> memory_;
 };
 
 }  // namespace tessera

@@ -84,6 +84,16 @@ void GrowRegions(const DepthImage& depth_m, const Marks& allowed, const PinholeC
     }
 }
 
+void MarkBeside(const DepthImage& depth_m, const DepthImage& other_m, int reach, Marks& marks) {
+    for (int y = 0; y < other_m.height(); ++y)
+        for (int x = 0; x < other_m.width(); ++x) {
+            if (other_m(x, y) <= 0) continue;
+            for (int v = std::max(y - reach, 0); v <= std::min(y + reach, other_m.height() - 1); ++v)
+                for (int u = std::max(x - reach, 0); u <= std::min(x + reach, other_m.width() - 1); ++u)
+                    if (Continuous(other_m(x, y), depth_m(u, v))) marks(u, v) = 1;
+        }
+}
+
 void Dilate(int reach, Marks& marks) {
     for (int step = 0; step < reach; ++step) {
         const Marks before = marks;

@@ -28,6 +28,9 @@ void KeepRegions(const DepthImage& depth_m, const Image<std::uint8_t>& seeds, co
 void GrowRegions(const DepthImage& depth_m, const Image<std::uint8_t>& allowed, const PinholeCamera& camera, double reach_m,
                  Image<std::uint8_t>& marks);
 
+// Marks tiles at most `reach` from where `other_m` has much the same depth, not 0.
+void MarkBeside(const DepthImage& depth_m, const DepthImage& other_m, int reach, Image<std::uint8_t>& marks);
+
 // Marks all within `reach` tiles of a marked one.
 void Dilate(int reach, Image<std::uint8_t>& marks);
 

@@ -93,12 +93,10 @@ void FarthestAround(const DepthImage& tiles, int reach, DepthImage& farthest) {
 }
 
 void MarkFree(const TileView& from, const TileView& to, const PinholeCamera& camera, const DepthMargin& margin,
-              Image<std::uint8_t>* of_from, Image<std::uint8_t>* of_to) {
+              Image<std::uint8_t>& of_from) {
     ForSeen(from, to.T_world_camera, camera, [&](int x, int y, float depth_m, int k, int l) {
         const float seen = to.near_m(k, l);
-        if (seen <= depth_m + margin(seen)) return;
-        if (of_from != nullptr) (*of_from)(x, y) = 1;
-        if (of_to != nullptr) (*of_to)(k, l) = 1;
+        if (seen > depth_m + margin(seen)) of_from(x, y) = 1;
     });
 }
 
@@ -110,10 +108,18 @@ void MarkSame(const TileView& from, const TileView& to, const PinholeCamera& cam
     });
 }
 
-void MarkMoved(const TileView& from, const Image<std::uint8_t>& marked, const Eigen::Isometry3d& T_world_camera,
-               const PinholeCamera& camera, Image<std::uint8_t>& moved) {
-    ForSeen(from, T_world_camera, camera, [&](int x, int y, float, int k, int l) {
-        if (marked(x, y) != 0) moved(k, l) = 1;
+void FindLeft(const TileView& past, const TileView& now, const PinholeCamera& camera, const DepthMargin& margin, DepthImage& left_m) {
+    ForSeen(past, now.T_world_camera, camera, [&](int, int, float depth_m, int k, int l) {
+        const float seen = now.near_m(k, l);
+        if (seen <= depth_m + margin(seen)) return;
+        if (left_m(k, l) <= 0 || depth_m < left_m(k, l)) left_m(k, l) = depth_m;
+    });
+}
+
+void Carry(const TileView& from, const Image<std::uint8_t>& marked, const Eigen::Isometry3d& T_world_camera,
+           const PinholeCamera& camera, DepthImage& carried_m) {
+    ForSeen(from, T_world_camera, camera, [&](int x, int y, float depth_m, int k, int l) {
+        if (marked(x, y) != 0) carried_m(k, l) = depth_m;
     });
 }
 

@@ -29,15 +29,17 @@ void NearestAround(const DepthImage& tiles, int reach, DepthImage& nearest);
 // The same for the farthest.
 void FarthestAround(const DepthImage& tiles, int reach, DepthImage& farthest);
 
-// Marks each tile of `from` whose point lies in the free space that `to` saw, in `from`'s image, and the tile of `to` that saw
-// it, in the other. `camera` is the tiles'. Marks stay where they are set.
+// Marks each tile of `from` whose point lies in the free space that `to` saw. `camera` is the tiles'. Here as below, images have
+// the tiles' size, and marks stay where they are set.
 void MarkFree(const TileView& from, const TileView& to, const PinholeCamera& camera, const DepthMargin& margin,
-              Image<std::uint8_t>* of_from, Image<std::uint8_t>* of_to);
+              Image<std::uint8_t>& of_from);
+// For each tile of `now`: the depth, from there, of the nearest surface that `past` saw in what is free space now.
+void FindLeft(const TileView& past, const TileView& now, const PinholeCamera& camera, const DepthMargin& margin, DepthImage& left_m);
 // Marks each tile of `from` at whose point `to` saw a surface, too.
 void MarkSame(const TileView& from, const TileView& to, const PinholeCamera& camera, const DepthMargin& margin,
               Image<std::uint8_t>& of_from);
-// Where the marked tiles of `from` are for a camera there, in an image of the same size.
-void MarkMoved(const TileView& from, const Image<std::uint8_t>& marked, const Eigen::Isometry3d& T_world_camera,
-               const PinholeCamera& camera, Image<std::uint8_t>& moved);
+// Where a camera there sees the points of marked tiles of `from`: their depths; the others stay.
+void Carry(const TileView& from, const Image<std::uint8_t>& marked, const Eigen::Isometry3d& T_world_camera,
+           const PinholeCamera& camera, DepthImage& carried_m);
 
 }  // namespace tessera
