@@ -126,7 +126,7 @@ bool DeviceFrame::Prepare(const Frame& frame, const PreparedFrame::Config& confi
     counts.coherent = static_cast<std::int64_t>(sums[GatedPixels::kCoherent]);
     counts.nearest_m = *std::min_element(extremes, extremes + kParts);
     counts.farthest_m = *std::max_element(extremes + kParts, extremes + 2 * kParts);
-    SetFacts(frame, counts, p);
+    SetFacts(p.width, p.height, colour, counts, p);
     identity_ = p.identity;
     return true;
 }

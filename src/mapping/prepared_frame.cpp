@@ -127,12 +127,12 @@ int ReductionOf(int width, int height, std::size_t level) {
     return std::max(1, std::min(width / kReducedWidths[level], height / 2));
 }
 
-void SetFacts(const Frame& frame, const FrameCounts& counts, PreparedFrame& p) {
+void SetFacts(int width, int height, bool has_colour, const FrameCounts& counts, PreparedFrame& p) {
     static std::atomic<std::uint64_t> last_identity = 0;
     p.identity = ++last_identity;
-    p.width = frame.depth_m.width();
-    p.height = frame.depth_m.height();
-    p.has_colour = !frame.colour.empty();
+    p.width = width;
+    p.height = height;
+    p.has_colour = has_colour;
     p.valid_depth_pixels = counts.valid;
     p.measured_pixels = counts.measured;
     p.coherent_fraction = counts.pairs > 0 ? static_cast<double>(counts.coherent) / static_cast<double>(counts.pairs) : 0.0;
@@ -144,13 +144,13 @@ void SetFacts(const Frame& frame, const FrameCounts& counts, PreparedFrame& p) {
 
 namespace {
 
-void PrepareDepth(const Frame& frame, const PreparedFrame::Config& config, PreparedFrame& p) {
-    const int width = frame.depth_m.width(), height = frame.depth_m.height();
+void PrepareDepth(const DepthImage& raw_m, bool has_colour, const PreparedFrame::Config& config, PreparedFrame& p) {
+    const int width = raw_m.width(), height = raw_m.height();
     p.depth_m.Resize(width, height);
     std::vector<FrameCounts> counts(static_cast<std::size_t>((height + kBand - 1) / kBand));
     ForBands(height, [&](int band, int first, int last) {
         counts[static_cast<std::size_t>(band)] =
-            GateRows(frame.depth_m, static_cast<float>(config.disparity_offset_per_m), static_cast<float>(config.min_depth_m),
+            GateRows(raw_m, static_cast<float>(config.disparity_offset_per_m), static_cast<float>(config.min_depth_m),
                      static_cast<float>(config.max_depth_m), first, last, p.depth_m);
     });
     FrameCounts total;
@@ -162,13 +162,13 @@ void PrepareDepth(const Frame& frame, const PreparedFrame::Config& config, Prepa
         total.nearest_m = std::min(total.nearest_m, c.nearest_m);
         total.farthest_m = std::max(total.farthest_m, c.farthest_m);
     }
-    SetFacts(frame, total, p);
+    SetFacts(raw_m.width(), raw_m.height(), has_colour, total, p);
 }
 
 }  // namespace
 
-void PrepareDepthAgain(const Frame& frame, const PreparedFrame::Config& config, PreparedFrame& p) {
-    PrepareDepth(frame, config, p);
+void PrepareDepthAgain(const DepthImage& depth_m, const PreparedFrame::Config& config, PreparedFrame& p) {
+    PrepareDepth(depth_m, p.has_colour, config, p);
     for (std::size_t level = 0; level < p.reduced.size(); ++level) ReduceDepth(p, level, p.reduced[level].depth_m);
 }
 
@@ -183,7 +183,7 @@ void SetMoving(std::shared_ptr<const MovingMask> moving, PreparedFrame& p) {
 }
 
 void PrepareFrame(const Frame& frame, const PreparedFrame::Config& config, PreparedFrame& p) {
-    PrepareDepth(frame, config, p);
+    PrepareDepth(frame.depth_m, !frame.colour.empty(), config, p);
     if (p.has_colour) {
         SplitColour(frame.colour, config.intensity_blur_px, p);
     } else {

@@ -56,7 +56,7 @@ int ReductionOf(int width, int height, std::size_t level);
 void PrepareFrame(const Frame& frame, const PreparedFrame::Config& config, PreparedFrame& prepared);
 
 // As PrepareFrame, for another depth of a frame whose colour is prepared already.
-void PrepareDepthAgain(const Frame& frame, const PreparedFrame::Config& config, PreparedFrame& prepared);
+void PrepareDepthAgain(const DepthImage& depth_m, const PreparedFrame::Config& config, PreparedFrame& prepared);
 // Enters a mask into a frame that was prepared without the depth of what moves.
 void SetMoving(std::shared_ptr<const MovingMask> moving, PreparedFrame& prepared);
 
@@ -67,6 +67,6 @@ struct FrameCounts {
     float nearest_m = 1e9f, farthest_m = 0;
 };
 // Size, colour or none, counts and a new identity; nothing moves.
-void SetFacts(const Frame& frame, const FrameCounts& counts, PreparedFrame& prepared);
+void SetFacts(int width, int height, bool has_colour, const FrameCounts& counts, PreparedFrame& prepared);
 
 }  // namespace tessera

@@ -79,7 +79,7 @@ StagedScene MakePeople() {
     const auto far = [](double t) { return 1.75 + 0.35 * std::sin(0.47 * t); };
     AddWalker(*scene, "person 1", BeforeTheCamera(near, [](double t) { return -0.85 * std::cos(0.83 * t); }),
               {170, 60, 60}, {50, 60, 96}, 701);
-    const Walk second = BeforeTheCamera(far, [](double t) { return 0.9 * std::cos(0.61 * t); });
+    const Walk second = BeforeTheCamera(far, [](double t) { return -1.1 * std::cos(0.61 * t); });
     AddWalker(*scene, "person 2", [second](double t) { return second(WithAStop(t)); }, {60, 120, 90}, {70, 66, 60}, 711);
     CameraPath path;
     path.duration_s = kTurn_s;

@@ -81,17 +81,20 @@ void TrackingStage::Track(const Frame& frame, const BlockMap& map, const std::op
     tracked.view = FusionView(report.track);
 }
 
-void TrackingStage::PrepareAgain(const Frame& frame, PreparedFrame& prepared) {
-    if (device_ != nullptr)
-        device_->Prepare(frame, config_.frame, bring_images_, prepared);
-    else
-        PrepareDepthAgain(frame, config_.frame, prepared);
+void TrackingStage::PrepareAgain(const Frame& frame, const MovingMask* mask, PreparedFrame& prepared) {
+    if (device_ != nullptr) {
+        device_->Prepare(mask != nullptr ? WithoutMoving(*mask, frame) : frame, config_.frame, bring_images_, prepared);
+        return;
+    }
+    DepthImage depth_m = frame.depth_m;
+    if (mask != nullptr) HideMoving(*mask, depth_m);
+    PrepareDepthAgain(depth_m, config_.frame, prepared);
 }
 
 bool TrackingStage::HideExpected(const Frame& frame, PreparedFrame& prepared) {
     if (!config_.moving.enabled || !motion_.last()) return false;
     const auto expected = moving_.Expect(frame.stamp_s, motion_.Predict(frame.stamp_s));
-    if (expected) PrepareAgain(WithoutMoving(*expected, frame), prepared);
+    if (expected) PrepareAgain(frame, expected.get(), prepared);
     return expected != nullptr;
 }
 
@@ -106,7 +109,7 @@ void TrackingStage::LeaveOutMoving(const Frame& frame, const BlockMap& map, bool
                                               .T_world_camera = report.track.T_world_camera},
                                              map, predictor);
     const bool moves = report.moving && report.moving->moving_tiles > 0;
-    if (moves || hidden) PrepareAgain(moves ? WithoutMoving(*report.moving, frame) : frame, tracked.prepared);
+    if (moves || hidden) PrepareAgain(frame, moves ? report.moving.get() : nullptr, tracked.prepared);
     if (report.moving) SetMoving(report.moving, tracked.prepared);
 }
 

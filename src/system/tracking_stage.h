@@ -90,7 +90,7 @@ class TrackingStage {
     TrackResult TrackFrame(const Frame& frame, const PreparedFrame& prepared, const BlockMap& map);
     bool HideExpected(const Frame& frame, PreparedFrame& prepared);
     void LeaveOutMoving(const Frame& frame, const BlockMap& map, bool hidden, TrackedFrame& tracked);
-    void PrepareAgain(const Frame& frame, PreparedFrame& prepared);
+    void PrepareAgain(const Frame& frame, const MovingMask* mask, PreparedFrame& prepared);
     FrameMotion ShutterOf(const Frame& frame) const;
 
     PipelineConfig config_;

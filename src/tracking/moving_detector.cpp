@@ -57,6 +57,7 @@ struct MovingDetector::Memory {
     TileView now;
     std::deque<TileView> past;           // oldest first
     Marks moving;                        // in `now`; empty: nothing
+    Marks core;                          // of it, what is known by itself, not by what it hangs together with
     double evidence_s = -1e9;            // when something last was seen to move
     std::optional<Eigen::Isometry3d> step;  // the camera's, from the frame before to `now`
 };
@@ -100,7 +101,7 @@ void MovingDetector::Moments::Take(const Input& input, int step) {
     if (!follows) {
         m.past.clear();
         m.step.reset();
-        m.moving = {};
+        m.moving = m.core = {};
     }
     int reach = 1;
     if (follows) {
@@ -110,9 +111,9 @@ void MovingDetector::Moments::Take(const Input& input, int step) {
         const Eigen::Isometry3d jerk = m.step ? Eigen::Isometry3d(m.step->inverse() * moved) : Eigen::Isometry3d::Identity();
         if (jerk.translation().norm() > kJerk_m || RotationAngle(Eigen::Isometry3d::Identity(), jerk) > kJerk_rad) m.past.clear();
         m.step = moved;
-        if (!m.moving.empty()) {
+        if (!m.core.empty()) {
             carried_m_ = DepthImage(camera_.width, camera_.height);
-            Carry(m.now, m.moving, input.T_world_camera, camera_, carried_m_);
+            Carry(m.now, m.core, input.T_world_camera, camera_, carried_m_);
         }
     }
     m.now.T_world_camera = input.T_world_camera;
@@ -219,6 +220,7 @@ void MovingDetector::Moments::Decide(const Changes& changes, Evidence& e) {
     KeepRegions(depth_m, e.seeds, camera_, rule, e.candidates);
     if (CountOf(e.candidates) > 0) m.evidence_s = m.now.stamp_s;
     Join(carried, e.candidates);
+    m.core = e.candidates;
     GrowRegions(depth_m, e.growing, camera_, kBody_m, e.candidates);
     m.moving = e.candidates;
 }
@@ -259,7 +261,7 @@ std::shared_ptr<const MovingMask> MovingDetector::Find(const Input& input, const
         for (std::size_t i = 0; i < mask->gone_m.size(); ++i)
             if (evidence.gone.data()[i] != 0) mask->gone_m.data()[i] = m.now.near_m.data()[i];
     }
-    if (!mask || mask->moving_tiles == 0) m.moving = {};
+    if (!mask || mask->moving_tiles == 0) m.moving = m.core = {};
     if (!mask || mask->moving_tiles + mask->gone_tiles == 0) return nullptr;
     return mask;
 }
