@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <deque>
-#include <optional>
 
 #include "core/se3.h"
 #include "tracking/tile_regions.h"
@@ -20,9 +19,7 @@ constexpr int kTileColumns = 128;      // about so many
 constexpr double kAges[] = {0.3, 1.0}; // of the moments that a frame is compared with, in windows
 constexpr double kOld = 0.8;           // the same: what stood there so long ago stands still
 constexpr double kSpacing = 0.1;       // the same: of remembered moments
-constexpr double kCarry = 0.5;         // the same: what moved is believed to move on so long
 constexpr double kImageTime_s = 0.015; // an image is spread over about so much: blur, rolling shutter, stamps
-constexpr double kJerk_m = 0.03, kJerk_rad = 0.015;  // between two frames' motions: one of the poses is off
 constexpr double kBody_m = 0.6;        // what hangs together reaches so far
 constexpr float kNearest_m = 0.1f;
 constexpr int kAround = 2, kExpectedAround = 3, kBeside = 4;  // tiles
@@ -57,9 +54,6 @@ struct MovingDetector::Memory {
     TileView now;
     std::deque<TileView> past;           // oldest first
     Marks moving;                        // in `now`; empty: nothing
-    Marks core;                          // of it, what is known by itself, not by what it hangs together with
-    double evidence_s = -1e9;            // when something last was seen to move
-    std::optional<Eigen::Isometry3d> step;  // the camera's, from the frame before to `now`
 };
 
 // One frame against what is remembered.
@@ -73,10 +67,8 @@ class MovingDetector::Moments {
 
     void Take(const Input& input, int step);
     Changes Compare() const;
-    // What moved in the frame before and is still there, going by its depth.
-    void CarryOver(const Changes& changes, Marks& carried) const;
     Evidence Weigh(const Changes& changes, const DepthImage& predicted_m) const;
-    void Decide(const Changes& changes, Evidence& evidence);
+    void Decide(Evidence& evidence);
 
   private:
     std::vector<const TileView*> ToCompare() const;
@@ -86,7 +78,6 @@ class MovingDetector::Moments {
     const PinholeCamera& camera_;
     DepthMargin margin_;
     Memory& memory_;
-    DepthImage carried_m_;
 };
 
 // Tiles that an edge may have shifted by while the image was taken.
@@ -100,22 +91,9 @@ void MovingDetector::Moments::Take(const Input& input, int step) {
     const bool follows = !m.now.depth_m.empty() && since_s > 0 && since_s < config_.window_s;
     if (!follows) {
         m.past.clear();
-        m.step.reset();
-        m.moving = m.core = {};
+        m.moving = {};
     }
-    int reach = 1;
-    if (follows) {
-        const Eigen::Isometry3d moved = m.now.T_world_camera.inverse() * input.T_world_camera;
-        reach = Reach(RotationAngle(m.now.T_world_camera, input.T_world_camera), since_s);
-        // A pose that is off makes all the world move.
-        const Eigen::Isometry3d jerk = m.step ? Eigen::Isometry3d(m.step->inverse() * moved) : Eigen::Isometry3d::Identity();
-        if (jerk.translation().norm() > kJerk_m || RotationAngle(Eigen::Isometry3d::Identity(), jerk) > kJerk_rad) m.past.clear();
-        m.step = moved;
-        if (!m.core.empty()) {
-            carried_m_ = DepthImage(camera_.width, camera_.height);
-            Carry(m.now, m.core, input.T_world_camera, camera_, carried_m_);
-        }
-    }
+    const int reach = follows ? Reach(RotationAngle(m.now.T_world_camera, input.T_world_camera), since_s) : 1;
     m.now.T_world_camera = input.T_world_camera;
     m.now.stamp_s = input.stamp_s;
     MakeTiles(input.depth_m, step, input.disparity_offset_per_m, m.now.depth_m);
@@ -163,20 +141,12 @@ Changes MovingDetector::Moments::Compare() const {
     }
     changes.any = HasCore(changes.came) || HasCore(left);
     const bool old = !moments.empty() && now.stamp_s - moments.back()->stamp_s >= kOld * config_.window_s;
-    if (old && (changes.any || !carried_m_.empty())) MarkSame(now, *moments.back(), camera_, margin_, changes.there);
+    if (old && changes.any) MarkSame(now, *moments.back(), camera_, margin_, changes.there);
     // Noise leaves in specks, a thing as a region.
     KeepRegions(changes.left_m, left, camera_, {config_.min_area_m2, 0}, left);
     for (std::size_t at = 0; at < left.size(); ++at)
         if (left.data()[at] == 0) changes.left_m.data()[at] = 0;
     return changes;
-}
-
-void MovingDetector::Moments::CarryOver(const Changes& changes, Marks& carried) const {
-    carried = Marks(camera_.width, camera_.height);
-    if (carried_m_.empty() || memory_.now.stamp_s - memory_.evidence_s > kCarry * config_.window_s) return;
-    MarkBeside(memory_.now.depth_m, carried_m_, 1, carried);
-    for (std::size_t i = 0; i < carried.size(); ++i)
-        if (changes.there.data()[i] != 0) carried.data()[i] = 0;
 }
 
 Evidence MovingDetector::Moments::Weigh(const Changes& changes, const DepthImage& predicted_m) const {
@@ -211,18 +181,11 @@ Evidence MovingDetector::Moments::Weigh(const Changes& changes, const DepthImage
     return e;
 }
 
-void MovingDetector::Moments::Decide(const Changes& changes, Evidence& e) {
-    Memory& m = memory_;
-    const DepthImage& depth_m = m.now.depth_m;
-    const RegionRule rule{config_.min_area_m2, config_.min_changed_fraction};
-    Marks carried;
-    CarryOver(changes, carried);
-    KeepRegions(depth_m, e.seeds, camera_, rule, e.candidates);
-    if (CountOf(e.candidates) > 0) m.evidence_s = m.now.stamp_s;
-    Join(carried, e.candidates);
-    m.core = e.candidates;
+void MovingDetector::Moments::Decide(Evidence& e) {
+    const DepthImage& depth_m = memory_.now.depth_m;
+    KeepRegions(depth_m, e.seeds, camera_, {config_.min_area_m2, config_.min_changed_fraction}, e.candidates);
     GrowRegions(depth_m, e.growing, camera_, kBody_m, e.candidates);
-    m.moving = e.candidates;
+    memory_.moving = e.candidates;
 }
 
 MovingDetector::MovingDetector(const Config& config, const PinholeCamera& camera)
@@ -235,20 +198,17 @@ MovingDetector::~MovingDetector() = default;
 
 std::shared_ptr<const MovingMask> MovingDetector::Find(const Input& input, const BlockMap& map, ViewPredictor& predictor) {
     Memory& m = *memory_;
-    const bool moved_before = !m.moving.empty();
     Moments moments(config_, camera_, m);
     moments.Take(input, step_);
     const Changes changes = moments.Compare();
     if (m.past.empty() || m.now.stamp_s - m.past.back().stamp_s >= kSpacing * config_.window_s) m.past.push_back(m.now);
     std::shared_ptr<MovingMask> mask;
-    if (changes.any || moved_before) {
+    if (changes.any) {
         PredictedView view;
         predictor.Predict(map, camera_, input.T_world_camera, kNearest_m, 1.2f * input.farthest_m, view);
         Evidence evidence = moments.Weigh(changes, view.depth_m);
-        if (!evidence.fits) {
-            evidence.candidates = evidence.seeds = evidence.gone = Marks(camera_.width, camera_.height);
-        }
-        moments.Decide(changes, evidence);
+        if (!evidence.fits) evidence.candidates = evidence.seeds = evidence.gone = Marks(camera_.width, camera_.height);
+        moments.Decide(evidence);
         mask = std::make_shared<MovingMask>();
         mask->step = step_;
         mask->moving = m.moving;
@@ -261,7 +221,7 @@ std::shared_ptr<const MovingMask> MovingDetector::Find(const Input& input, const
         for (std::size_t i = 0; i < mask->gone_m.size(); ++i)
             if (evidence.gone.data()[i] != 0) mask->gone_m.data()[i] = m.now.near_m.data()[i];
     }
-    if (!mask || mask->moving_tiles == 0) m.moving = m.core = {};
+    if (!mask || mask->moving_tiles == 0) m.moving = {};
     if (!mask || mask->moving_tiles + mask->gone_tiles == 0) return nullptr;
     return mask;
 }

@@ -28,7 +28,7 @@ DepthImage View(const Box& box) {
     return depth_m;
 }
 
-// The map is the wall, and perhaps a box. The camera stands.
+// The map is the wall, and perhaps a box; of the camera's places only the one along its axis counts.
 class WallAndBox : public ViewPredictor {
   public:
     Box box;
@@ -36,6 +36,8 @@ class WallAndBox : public ViewPredictor {
                  PredictedView& view) override {
         view.Resize(camera, T_world_camera);
         view.depth_m = View(box);
+        const auto ahead_m = static_cast<float>(T_world_camera.translation().z());
+        for (std::size_t i = 0; i < view.depth_m.size(); ++i) view.depth_m.data()[i] -= ahead_m;
     }
 };
 
