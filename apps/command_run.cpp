@@ -110,7 +110,7 @@ void AddRunCommand(CLI::App& app, CommandContext& context) {
     command->add_option("SOURCE", a->request.source,
                         "Folder (TUM RGB-D, ICL-NUIM, 7-Scenes, or images with a camera.yaml), openni2: (a depth camera; "
                         "openni2:URI for a certain one), FILE.oni, FILE.klg, FILE.scan (the frames that a scan keeps), or synthetic:NAME (desk, room, flat, corridor, floor, corner, "
-                        "wall)")->required();
+                        "wall, people, chair, door)")->required();
     command->add_option("--out", a->request.output_folder, "Folder for the results")
         ->type_name("DIR")->capture_default_str();
     a->config.AddTo(*command);

@@ -24,7 +24,7 @@ void AddDistance(const SdfArguments& a, const Point& point, const ValueAndGradie
     const float w = point.weight * HuberWeight(residual, a.distance_scale_m);
     float j[6];
     PointJacobian(point.p, g, j);
-    AddPoseTerm(j, residual, w, sums);
+    AddPoseTerm(j, residual, w, sums + L::kDistance);
     sums[L::kDistanceError] += w * residual * residual;
     sums[L::kDistanceWeight] += w;
     sums[L::kKnown] += 1.0f;
@@ -34,11 +34,11 @@ void AddDistance(const SdfArguments& a, const Point& point, const ValueAndGradie
 void AddIntensity(const SdfArguments& a, const Point& point, const ValueAndGradient<float>& s, float* sums) {
     const float residual = s.value - (a.gain * point.image + a.offset);
     const float g[3] = {s.gx, s.gy, s.gz};
-    const float w = point.weight * HuberWeight(residual, a.intensity_scale), weighted = w * a.alpha;
+    const float w = point.weight * HuberWeight(residual, a.intensity_scale);
     float j[6];
     PointJacobian(point.p, g, j);
-    AddPoseTerm(j, residual, weighted, sums);
-    AddBrightnessTerm(j, residual, point.image, weighted, sums);
+    AddPoseTerm(j, residual, w, sums + L::kIntensity);
+    AddBrightnessTerm(j, residual, point.image, w, sums);
     sums[L::kIntensityError] += w * residual * residual;
     sums[L::kIntensityWeight] += w;
     sums[L::kColoured] += 1.0f;
@@ -140,7 +140,7 @@ void SumSdfPointsScalar(const SdfArguments& a, int first, int last, double* sums
     for (int i = first; i < last; i += kRun) {
         float run[L::kCount] = {};
         const int end = std::min(i + kRun, last);
-        a.alpha > 0.0f ? SumPoints<true>(a, i, end, run) : SumPoints<false>(a, i, end, run);
+        a.use_intensity ? SumPoints<true>(a, i, end, run) : SumPoints<false>(a, i, end, run);
         for (int k = 0; k < L::kCount; ++k) sums[k] += static_cast<double>(run[k]);
     }
 }

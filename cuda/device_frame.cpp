@@ -11,6 +11,7 @@ DeviceFrame::DeviceFrame(DeviceMemory& memory, Stream& stream)
       depth_m_(memory),
       intensity_(memory),
       tiles_(memory),
+      gone_m_(memory),
       packed_colour_(memory),
       raw_depth_m_(memory),
       rough_(memory),
@@ -37,6 +38,13 @@ bool DeviceFrame::Upload(const PreparedFrame& frame) {
     }
     identity_ = frame.identity;
     return true;
+}
+
+const float* DeviceFrame::UploadGone(const PreparedFrame& frame) {
+    const std::size_t pixels = frame.gone_m.size();
+    if (pixels == 0 || !gone_m_.ReserveScratch(stream_, pixels)) return nullptr;
+    stream_.Upload(gone_m_.data(), frame.gone_m.data(), pixels * sizeof(float));
+    return gone_m_.data();
 }
 
 void DeviceFrame::Gate(const Frame& frame, const PreparedFrame::Config& config) {
@@ -118,7 +126,7 @@ bool DeviceFrame::Prepare(const Frame& frame, const PreparedFrame::Config& confi
     counts.coherent = static_cast<std::int64_t>(sums[GatedPixels::kCoherent]);
     counts.nearest_m = *std::min_element(extremes, extremes + kParts);
     counts.farthest_m = *std::max_element(extremes + kParts, extremes + 2 * kParts);
-    SetFacts(frame, counts, p);
+    SetFacts(p.width, p.height, colour, counts, p);
     identity_ = p.identity;
     return true;
 }

@@ -17,6 +17,9 @@ class DeviceFrame {
     // Copies what is not here yet. False: no room, or the images are nowhere any more.
     [[nodiscard]] bool Upload(const PreparedFrame& frame);
 
+    // PreparedFrame::gone_m there; null without one, or without room.
+    [[nodiscard]] const float* UploadGone(const PreparedFrame& frame);
+
     // Images on the device, of the frame of the last call.
     const float* depth_m() const { return depth_m_.data(); }
     const float* intensity() const { return intensity_.data(); }
@@ -32,7 +35,7 @@ class DeviceFrame {
     void Reduce(PreparedFrame& prepared);
 
     Stream& stream_;
-    DeviceBuffer<float> depth_m_, intensity_, tiles_;
+    DeviceBuffer<float> depth_m_, intensity_, tiles_, gone_m_;
     DeviceBuffer<std::uint32_t> packed_colour_;
     std::uint64_t identity_ = 0;  // whose images these are: PreparedFrame::identity
     // On the way there.

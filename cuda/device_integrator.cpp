@@ -59,6 +59,7 @@ void DeviceIntegrator::Fuse(const PreparedFrame& frame, const View& view, BlockM
     a.coords = layers.coords;
     a.depth_m = device_.frame_.depth_m();
     a.packed_colour = frame.has_colour ? device_.frame_.packed_colour() : nullptr;
+    a.gone_m = device_.frame_.UploadGone(frame);
     FuseBlocks(device_.stream_, a, mirror.visible(), count, layers.revision, revision_);
     changed_ids_.resize(static_cast<std::size_t>(count));
     device_.stream_.Download(changed_ids_.data(), mirror.visible(), changed_ids_.size() * sizeof(BlockId));

@@ -34,6 +34,7 @@ struct FusionArguments {
     // The frame. Depth in metres, 0 = none. Packed colour: see PackColour; null if the frame has none.
     const float* depth_m;
     const std::uint32_t* packed_colour;
+    const float* gone_m;  // the map's surface before this depth is gone, 0 = none is; null if nowhere
     std::int32_t width, height;
     float fx, fy, cx, cy;
     std::uint32_t frame;  // seeds the dither

@@ -51,6 +51,10 @@ TESSERA_HD U DitherBits(U address, std::uint32_t frame) {
     return h ^ (h >> 16);
 }
 
+// Share of its weight that a voxel before a surface that is gone keeps with each frame: full weight is as nothing after half a
+// second.
+inline constexpr float kKeptOfGone = 0.6f;
+
 // Fusion of lanes V of neighbouring voxels.
 template <class V>
 class FusionKernels {
@@ -105,6 +109,11 @@ class FusionKernels {
         std::uint16_t* weight_steps = a.weight + row.at + x;
         ColourWord* colour = a.colour + row.at + x;
         Voxels v{V::Load(field), V::ToReal(V::Load(weight_steps)) * Real(1.0f / kWeightSteps), V::Load(colour)};
+        // Where a surface is known to be gone, what made it is forgotten soon.
+        if (a.gone_m != nullptr) {
+            const Mask gone = update && (V::Gather(a.gone_m, pixel) - p.z > Real(a.truncation_m));
+            v.weight = V::Select(gone, v.weight * Real(kKeptOfGone), v.weight);
+        }
         // Weights below the stored resolution would be lost.
         const Real weight = V::Max(WeightOf(a, distance, V::Max(depth, Real(0.05f))), Real(1.0f / kWeightSteps));
         const Bits address = Bits(row.seed + static_cast<std::uint32_t>(x)) + V::AsBits(V::ToInt(V::Numbers()));

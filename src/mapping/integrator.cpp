@@ -183,6 +183,7 @@ void Integrator::Fuse(const PreparedFrame& frame, const View& view, BlockMap& ma
     a.coords = map.view().coords;
     a.depth_m = frame.depth_m.data();
     a.packed_colour = frame.has_colour ? frame.packed_colour.data() : nullptr;
+    a.gone_m = frame.gone_m.empty() ? nullptr : frame.gone_m.data();
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, blocks.size(), 64), [&](const auto& range) {
         const auto count = static_cast<std::int32_t>(range.size());
 #ifdef TESSERA_HAVE_AVX2

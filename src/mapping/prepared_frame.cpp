@@ -58,15 +58,20 @@ void PackRow(const Rgb8* colour, const float* luma, std::uint32_t* out, int widt
     for (int x = 0; x < width; ++x) out[x] = PackColour(colour[x], luma[x]);
 }
 
+void ReduceDepth(const PreparedFrame& p, std::size_t level, DepthImage& out) {
+    const int n = ReductionOf(p.width, p.height, level);
+    out.Resize(p.width / n, p.height / n);
+    for (int y = 0; y < out.height(); ++y)
+        for (int x = 0; x < out.width(); ++x) out(x, y) = p.depth_m(x * n + n / 2, y * n + n / 2);
+}
+
 void Reduce(const PreparedFrame& p, std::size_t level, PreparedFrame::Reduced& out) {
     const int n = ReductionOf(p.width, p.height, level), width = p.width / n, height = p.height / n;
-    out.depth_m.Resize(width, height);
+    ReduceDepth(p, level, out.depth_m);
     out.intensity.Resize(width, height);
     tbb::parallel_for(0, height, [&](int y) {
-        for (int x = 0; x < width; ++x) {
-            out.depth_m(x, y) = p.depth_m(x * n + n / 2, y * n + n / 2);
+        for (int x = 0; x < width; ++x)
             out.intensity(x, y) = p.has_colour ? MeanOfTile(p.intensity.data(), p.width, n, x, y) : -1.0f;
-        }
     });
 }
 
@@ -122,26 +127,30 @@ int ReductionOf(int width, int height, std::size_t level) {
     return std::max(1, std::min(width / kReducedWidths[level], height / 2));
 }
 
-void SetFacts(const Frame& frame, const FrameCounts& counts, PreparedFrame& p) {
+void SetFacts(int width, int height, bool has_colour, const FrameCounts& counts, PreparedFrame& p) {
     static std::atomic<std::uint64_t> last_identity = 0;
     p.identity = ++last_identity;
-    p.width = frame.depth_m.width();
-    p.height = frame.depth_m.height();
-    p.has_colour = !frame.colour.empty();
+    p.width = width;
+    p.height = height;
+    p.has_colour = has_colour;
     p.valid_depth_pixels = counts.valid;
     p.measured_pixels = counts.measured;
     p.coherent_fraction = counts.pairs > 0 ? static_cast<double>(counts.coherent) / static_cast<double>(counts.pairs) : 0.0;
     p.nearest_m = counts.valid > 0 ? counts.nearest_m : 0.0f;
     p.farthest_m = counts.farthest_m;
+    p.moving.reset();
+    p.gone_m.Resize(0, 0);
 }
 
-void PrepareFrame(const Frame& frame, const PreparedFrame::Config& config, PreparedFrame& p) {
-    const int width = frame.depth_m.width(), height = frame.depth_m.height();
+namespace {
+
+void PrepareDepth(const DepthImage& raw_m, bool has_colour, const PreparedFrame::Config& config, PreparedFrame& p) {
+    const int width = raw_m.width(), height = raw_m.height();
     p.depth_m.Resize(width, height);
     std::vector<FrameCounts> counts(static_cast<std::size_t>((height + kBand - 1) / kBand));
     ForBands(height, [&](int band, int first, int last) {
         counts[static_cast<std::size_t>(band)] =
-            GateRows(frame.depth_m, static_cast<float>(config.disparity_offset_per_m), static_cast<float>(config.min_depth_m),
+            GateRows(raw_m, static_cast<float>(config.disparity_offset_per_m), static_cast<float>(config.min_depth_m),
                      static_cast<float>(config.max_depth_m), first, last, p.depth_m);
     });
     FrameCounts total;
@@ -153,7 +162,28 @@ void PrepareFrame(const Frame& frame, const PreparedFrame::Config& config, Prepa
         total.nearest_m = std::min(total.nearest_m, c.nearest_m);
         total.farthest_m = std::max(total.farthest_m, c.farthest_m);
     }
-    SetFacts(frame, total, p);
+    SetFacts(raw_m.width(), raw_m.height(), has_colour, total, p);
+}
+
+}  // namespace
+
+void PrepareDepthAgain(const DepthImage& depth_m, const PreparedFrame::Config& config, PreparedFrame& p) {
+    PrepareDepth(depth_m, p.has_colour, config, p);
+    for (std::size_t level = 0; level < p.reduced.size(); ++level) ReduceDepth(p, level, p.reduced[level].depth_m);
+}
+
+void SetMoving(std::shared_ptr<const MovingMask> moving, PreparedFrame& p) {
+    p.moving = std::move(moving);
+    if (p.moving->gone_tiles == 0) return;
+    p.gone_m.Resize(p.width, p.height);
+    tbb::parallel_for(0, p.height, [&](int y) {
+        const float* gone = p.moving->gone_m.row(p.moving->TileY(y));
+        for (int x = 0; x < p.width; ++x) p.gone_m(x, y) = gone[p.moving->TileX(x)];
+    });
+}
+
+void PrepareFrame(const Frame& frame, const PreparedFrame::Config& config, PreparedFrame& p) {
+    PrepareDepth(frame.depth_m, !frame.colour.empty(), config, p);
     if (p.has_colour) {
         SplitColour(frame.colour, config.intensity_blur_px, p);
     } else {

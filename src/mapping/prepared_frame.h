@@ -3,10 +3,12 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 
 #include "core/camera.h"
 #include "core/config.h"
 #include "core/frame.h"
+#include "mapping/moving_mask.h"
 
 namespace tessera {
 
@@ -39,6 +41,9 @@ struct PreparedFrame {
     std::int64_t measured_pixels = 0;  // with any depth at all, in range or not
     double coherent_fraction = 0;  // of neighbouring valid pixels, those within 5 % of each other
     float nearest_m = 0, farthest_m = 0;  // of the valid pixels
+    // What moves has no depth above; null: nothing does. The map's surface before gone_m, of the image's size, is gone; empty: none is.
+    std::shared_ptr<const MovingMask> moving;
+    DepthImage gone_m;
     // Another number for each PrepareFrame of this process: whoever keeps copies of the images tells by it whose they are.
     std::uint64_t identity = 0;
 };
@@ -50,13 +55,18 @@ int ReductionOf(int width, int height, std::size_t level);
 // Reuses the storage of `prepared`.
 void PrepareFrame(const Frame& frame, const PreparedFrame::Config& config, PreparedFrame& prepared);
 
+// As PrepareFrame, for another depth of a frame whose colour is prepared already.
+void PrepareDepthAgain(const DepthImage& depth_m, const PreparedFrame::Config& config, PreparedFrame& prepared);
+// Enters a mask into a frame that was prepared without the depth of what moves.
+void SetMoving(std::shared_ptr<const MovingMask> moving, PreparedFrame& prepared);
+
 // What it leaves besides images, of a frame's pixels.
 struct FrameCounts {
     std::int64_t valid = 0, measured = 0;
     std::int64_t pairs = 0, coherent = 0;  // of pixels side by side
     float nearest_m = 1e9f, farthest_m = 0;
 };
-// Size, colour or none, counts and a new identity.
-void SetFacts(const Frame& frame, const FrameCounts& counts, PreparedFrame& prepared);
+// Size, colour or none, counts and a new identity; nothing moves.
+void SetFacts(int width, int height, bool has_colour, const FrameCounts& counts, PreparedFrame& prepared);
 
 }  // namespace tessera

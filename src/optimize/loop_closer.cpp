@@ -57,7 +57,7 @@ std::string LoopCloser::Add(const Frame& frame, const PreparedFrame& prepared, c
     const Keyframe& last = keyframes_.last();
     AddPassage(frame.stamp_s, T_map_camera);
     if (!fused) return news;
-    const Status stored = store_.Add(frame, last.id, keyframe, passages_.back().T_keyframe_camera, view);
+    const Status stored = store_.Add(prepared.moving ? WithoutMoving(*prepared.moving, frame) : frame, last.id, keyframe, passages_.back().T_keyframe_camera, view);
     if (keyframe && stored.ok()) {
         news = SeekLoop(last, prepared, view.motion);
         index_.Add(last.id, last.features.descriptors);

@@ -63,7 +63,7 @@ class Sheet {
 
 }  // namespace
 
-ColourImage ViewPicture(const Frame& frame, const PredictedView& view, double gain, double offset) {
+ColourImage ViewPicture(const Frame& frame, const PredictedView& view, double gain, double offset, const MovingMask* moving) {
     const int width = frame.depth_m.width(), height = frame.depth_m.height();
     TESSERA_CHECK(view.depth_m.width() == width && view.depth_m.height() == height, "view of {} x {}, frame of {} x {}",
                   view.depth_m.width(), view.depth_m.height(), width, height);
@@ -85,7 +85,9 @@ ColourImage ViewPicture(const Frame& frame, const PredictedView& view, double ga
             intensity_error(u, v) = Signed((view.intensity(u, v) - image) / kFullIntensity);
         }
     Sheet sheet(width, height);
-    sheet.Put(0, 0, "measured colour", colour);
+    ColourImage measured = colour;
+    if (moving != nullptr) TintMoving(*moving, 1, measured);
+    sheet.Put(0, 0, moving != nullptr ? "measured colour, magenta: moves" : "measured colour", measured);
     sheet.Put(1, 0, "measured depth", DepthPicture(frame.depth_m, nearest_m, farthest_m));
     sheet.Put(2, 0, "depth: red before the map, blue behind, full at 5 cm", depth_error);
     sheet.Put(0, 1, "predicted colour", view.colour);

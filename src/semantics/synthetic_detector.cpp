@@ -16,7 +16,7 @@ class SyntheticDetector : public Detector {
     Result<std::vector<Detection>> Detect(const Frame& frame) override {
         if (!frame.T_world_camera) return Status::Error("--labels synthetic: the frame has no true pose");
         const Scene& scene = source_->scene();
-        const Image<std::uint16_t> instances = CastInstances(scene, source_->info().camera, *frame.T_world_camera);
+        const Image<std::uint16_t> instances = CastInstances(scene, source_->info().camera, *frame.T_world_camera, frame.stamp_s - kFirstStamp_s);
         std::vector<Detection> detections;
         for (const SimulatedDetection& d :
              SimulateDetections(scene, FindInstanceBoxes(instances, scene.instances().size()), instances.size(),

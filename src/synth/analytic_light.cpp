@@ -96,6 +96,7 @@ AnalyticScene::Occluders AnalyticScene::FindOccluders(const Lighting& lighting, 
     Occluders occluders;
     occluders.to_light.resize(lighting.lights.size());
     for (const Part& part : parts_) {
+        if (part.motion >= 0) continue;
         if (flat && Support(part.shape, centre, normal) < kLiftOff) continue;  // behind the face
         const Eigen::Vector3d p = part.shape.T_world_shape.translation();
         if ((p - centre).norm() < part.radius_m + radius + kSkyReach)
@@ -174,18 +175,20 @@ void AnalyticScene::BakeChart(const Lighting& lighting, std::size_t part, int ch
 void AnalyticScene::Finish(const Lighting& lighting) {
     tbb::parallel_for(std::size_t{0}, parts_.size(), [&](std::size_t part) {
         for (int i = 0; i < ChartCount(parts_[part].shape.kind); ++i) {
-            if (lighting.baked) {
+            if (lighting.baked && parts_[part].motion < 0)
                 BakeChart(lighting, part, i);
-                continue;
-            }
-            const Shape& shape = parts_[part].shape;
-            const Eigen::Vector2d centre = 0.5 * ChartSize(shape, i);
-            const Eigen::Vector3d normal = shape.T_world_shape.linear() *
-                                           NormalOnChart(shape, i, PointOnChart(shape, i, centre));
-            const Eigen::Vector3d sun = Eigen::Vector3d(0.45, -0.55, 0.7).normalized();
-            parts_[part].charts[i].light = {static_cast<float>(0.75 + 0.25 * normal.dot(sun))};
+            else
+                LightEvenly(parts_[part], i);
         }
     });
+}
+
+void AnalyticScene::LightEvenly(Part& part, int chart) {
+    const Eigen::Vector2d centre = 0.5 * ChartSize(part.shape, chart);
+    const Eigen::Vector3d normal = part.shape.T_world_shape.linear() *
+                                   NormalOnChart(part.shape, chart, PointOnChart(part.shape, chart, centre));
+    const Eigen::Vector3d sun = Eigen::Vector3d(0.45, -0.55, 0.7).normalized();
+    part.charts[chart].light = {static_cast<float>(0.75 + 0.25 * normal.dot(sun))};
 }
 
 // Bilinear, continued beyond the border.

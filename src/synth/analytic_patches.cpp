@@ -56,11 +56,12 @@ void AnalyticScene::LayPatches(Part& part) {
             if (i > 0) chart.patch_rows = FlatCells(radius);
         }
         chart.first_patch = patch_count_;
-        patch_count_ += static_cast<std::int64_t>(chart.patch_columns) * chart.patch_rows;
+        if (part.motion < 0) patch_count_ += static_cast<std::int64_t>(chart.patch_columns) * chart.patch_rows;
     }
 }
 
 std::int64_t AnalyticScene::PatchOf(const SurfaceHit& hit) const {
+    if (parts_[hit.part].motion >= 0) return -1;
     const Shape& shape = parts_[hit.part].shape;
     const Chart& chart = parts_[hit.part].charts[hit.chart];
     const Eigen::Vector2d size = ChartSize(shape, hit.chart);
@@ -79,7 +80,8 @@ std::int64_t AnalyticScene::PatchOf(const SurfaceHit& hit) const {
 
 TriangleMesh AnalyticScene::PatchMesh(const std::vector<bool>* keep) const {
     TriangleMesh mesh;
-    for (const Part& part : parts_) AppendPatches(part, keep, mesh);
+    for (const Part& part : parts_)
+        if (part.motion < 0) AppendPatches(part, keep, mesh);
     return mesh;
 }
 
@@ -127,8 +129,9 @@ void AnalyticScene::AppendChart(const Shape& shape, int number, const Chart& cha
 
 void AnalyticScene::AppendPatches(const Part& part, const std::vector<bool>* keep,
                                   TriangleMesh& mesh) const {
-    for (int i = 0; i < ChartCount(part.shape.kind); ++i)
-        AppendChart(part.shape, i, part.charts[i], keep, mesh);
+    Shape shape = part.shape;
+    if (part.motion >= 0) shape.T_world_shape = motions_[part.motion](0) * shape.T_world_shape;
+    for (int i = 0; i < ChartCount(shape.kind); ++i) AppendChart(shape, i, part.charts[i], keep, mesh);
 }
 
 }  // namespace tessera

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/check.h"
 
@@ -22,14 +23,20 @@ void AnalyticScene::BeginInstance(const std::string& name, const std::string& cl
     current_instance_ = static_cast<int>(instances_.size()) - 1;
 }
 
+void AnalyticScene::BeginMotion(Motion motion) {
+    current_motion_ = motion ? static_cast<int>(motions_.size()) : -1;
+    if (motion) motions_.push_back(std::move(motion));
+}
+
 int AnalyticScene::AddShape(const Shape& shape, const Paint& paint) {
     Part part;
     part.shape = shape;
     part.T_shape_world = shape.T_world_shape.inverse();
     part.radius_m = shape.half_size_m.norm();
     part.instance = current_instance_;
+    part.motion = current_motion_;
     LayPatches(part);
-    for (int corner = 0; corner < 8; ++corner) {
+    for (int corner = 0; corner < 8 && part.motion < 0; ++corner) {
         const Eigen::Vector3d sign((corner & 1) ? 1 : -1, (corner & 2) ? 1 : -1,
                                    (corner & 4) ? 1 : -1);
         bounds_.extend(shape.T_world_shape * shape.half_size_m.cwiseProduct(sign));
@@ -60,6 +67,7 @@ SurfaceHit AnalyticScene::CastRay(const Eigen::Vector3d& origin,
     SurfaceHit best;
     for (std::size_t i = 0; i < parts_.size(); ++i) {
         const Part& part = parts_[i];
+        if (part.motion >= 0) continue;
         const Eigen::Vector3d to_centre = part.shape.T_world_shape.translation() - origin;
         const double along = to_centre.dot(direction);
         if (to_centre.squaredNorm() - along * along / length2 > part.radius_m * part.radius_m)
@@ -96,6 +104,16 @@ RgbF AnalyticScene::Colour(const SurfaceHit& hit, float footprint_m) const {
     return {colour.r * light, colour.g * light, colour.b * light};
 }
 
+Mobility AnalyticScene::MobilityOf(const SurfaceHit& hit, double time_s) const {
+    const Part& part = parts_[hit.part];
+    if (part.motion < 0) return Mobility::kStatic;
+    constexpr double kStep_s = 1.0 / 60, kStill_m = 1e-4;
+    const Motion& motion = motions_[part.motion];
+    const Eigen::Vector3d& centre = part.shape.T_world_shape.translation();
+    const Eigen::Vector3d way = motion(time_s + kStep_s) * centre - motion(time_s - kStep_s) * centre;
+    return way.norm() > kStill_m ? Mobility::kMoving : Mobility::kResting;
+}
+
 int AnalyticScene::InstanceOf(const SurfaceHit& hit) const {
     return parts_[hit.part].instance;
 }
@@ -103,8 +121,8 @@ int AnalyticScene::InstanceOf(const SurfaceHit& hit) const {
 std::optional<double> AnalyticScene::SignedDistance(const Eigen::Vector3d& p_world) const {
     double nearest = std::numeric_limits<double>::infinity();
     for (const Part& part : parts_)
-        nearest =
-            std::min(nearest, tessera::SignedDistance(part.shape, part.T_shape_world * p_world));
+        if (part.motion < 0)
+            nearest = std::min(nearest, tessera::SignedDistance(part.shape, part.T_shape_world * p_world));
     return nearest;
 }
 

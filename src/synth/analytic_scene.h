@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -36,18 +37,26 @@ struct Lighting {
 
 class AnalyticScene : public Scene {
   public:
+    // T(t) moves what is added at its place to where it is t seconds after the start. A function of continuous time, any
+    // value; thread-safe.
+    using Motion = std::function<Eigen::Isometry3d(double time_s)>;
+
     int AddTexture(const ColourImage& image, Texture::Wrap wrap = Texture::Wrap::kRepeat);
     // Later parts belong to it. Class names are made as they come; an empty one means the
     // surroundings.
     void BeginInstance(const std::string& name, const std::string& class_name);
+    // Later parts move like that, until the next call; an empty one: they do not. They are lit evenly and cast no shadows.
+    void BeginMotion(Motion motion);
     // Returns the part's number, for SetPaint. Every chart gets `paint`.
     int AddShape(const Shape& shape, const Paint& paint);
     void SetPaint(int part, int chart, const Paint& paint);
     // Bakes the light (deterministic) and ends the building.
     void Finish(const Lighting& lighting);
 
-    std::unique_ptr<ViewCaster> View(const PinholeCamera& camera,
-                                     const Eigen::Isometry3d& T_world_camera) const override;
+    std::unique_ptr<ViewCaster> View(const PinholeCamera& camera, const Eigen::Isometry3d& T_world_camera,
+                                     double time_s) const override;
+    Mobility MobilityOf(const SurfaceHit& hit, double time_s) const override;
+    bool has_motion() const override { return !motions_.empty(); }
     SurfaceHit CastRay(const Eigen::Vector3d& origin,
                        const Eigen::Vector3d& direction) const override;
     Eigen::Vector3d Normal(const SurfaceHit& hit) const override;
@@ -80,6 +89,7 @@ class AnalyticScene : public Scene {
         Eigen::Isometry3d T_shape_world;
         double radius_m = 0;  // of the bounding ball
         int instance = 0;
+        int motion = -1;  // of motions_; -1: static
         std::array<Chart, 6> charts;
     };
 
@@ -89,6 +99,7 @@ class AnalyticScene : public Scene {
                              const Eigen::Vector3d& p, const Eigen::Vector3d& normal,
                              std::uint64_t key);
     void BakeChart(const Lighting& lighting, std::size_t part, int chart);
+    static void LightEvenly(Part& part, int chart);
     float LightAt(const Chart& chart, float u, float v) const;
     void LayPatches(Part& part);
     static Eigen::Vector3d PatchCorner(const Shape& shape, int number, const Chart& chart,
@@ -99,7 +110,8 @@ class AnalyticScene : public Scene {
 
     std::vector<Texture> textures_;
     std::vector<Part> parts_;
-    int current_instance_ = 0;
+    std::vector<Motion> motions_;
+    int current_instance_ = 0, current_motion_ = -1;
     std::int64_t patch_count_ = 0;
 };
 

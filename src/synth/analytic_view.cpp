@@ -10,8 +10,8 @@ namespace tessera {
 
 class AnalyticView : public ViewCaster {
   public:
-    AnalyticView(const AnalyticScene& scene, const PinholeCamera& camera,
-                 const Eigen::Isometry3d& T_world_camera);
+    AnalyticView(const AnalyticScene& scene, const PinholeCamera& camera, const Eigen::Isometry3d& T_world_camera,
+                 double time_s);
     void Cast(const PixelRect& rect, double offset_x_px, double offset_y_px,
               std::span<SurfaceHit> hits) const override;
 
@@ -25,7 +25,8 @@ class AnalyticView : public ViewCaster {
         Eigen::Matrix<double, 3, 8> p_camera;  // the bounding box's corners
         bool unbounded;  // reaches behind the camera: the rectangle says nothing
     };
-    void Add(int part, const Eigen::Isometry3d& T_world_camera);
+    // `T_placed_camera`: the camera among the parts where they were added.
+    void Add(int part, const Eigen::Isometry3d& T_placed_camera);
     bool InTile(const Candidate& candidate, const PixelRect& rect, double offset_x_px,
                 double offset_y_px) const;
     const Candidate* Nearest(std::span<const Candidate* const> candidates, const Candidate* first,
@@ -38,19 +39,25 @@ class AnalyticView : public ViewCaster {
 };
 
 AnalyticView::AnalyticView(const AnalyticScene& scene, const PinholeCamera& camera,
-                           const Eigen::Isometry3d& T_world_camera)
+                           const Eigen::Isometry3d& T_world_camera, double time_s)
     : scene_(scene), camera_(camera) {
-    for (std::size_t i = 0; i < scene.parts_.size(); ++i) Add(static_cast<int>(i), T_world_camera);
+    std::vector<Eigen::Isometry3d> T_placed_camera;  // of each motion
+    for (const AnalyticScene::Motion& motion : scene.motions_)
+        T_placed_camera.push_back(motion(time_s).inverse() * T_world_camera);
+    for (std::size_t i = 0; i < scene.parts_.size(); ++i) {
+        const int motion = scene.parts_[i].motion;
+        Add(static_cast<int>(i), motion < 0 ? T_world_camera : T_placed_camera[motion]);
+    }
     std::stable_sort(
         candidates_.begin(), candidates_.end(),
         [](const Candidate& a, const Candidate& b) { return a.nearest_z < b.nearest_z; });
 }
 
-void AnalyticView::Add(int number, const Eigen::Isometry3d& T_world_camera) {
+void AnalyticView::Add(int number, const Eigen::Isometry3d& T_placed_camera) {
     constexpr double kNear =
         1e-3;  // a corner this close to the camera's plane bounds no pixels, metres
     const AnalyticScene::Part& part = scene_.parts_[number];
-    const Eigen::Isometry3d T_shape_camera = part.T_shape_world * T_world_camera;
+    const Eigen::Isometry3d T_shape_camera = part.T_shape_world * T_placed_camera;
     const Eigen::Isometry3d T_camera_shape = T_shape_camera.inverse();
     constexpr double kAll = 1e9;
     Candidate c;
@@ -151,8 +158,9 @@ void AnalyticView::Cast(const PixelRect& rect, double offset_x_px, double offset
 }
 
 std::unique_ptr<ViewCaster> AnalyticScene::View(const PinholeCamera& camera,
-                                                const Eigen::Isometry3d& T_world_camera) const {
-    return std::make_unique<AnalyticView>(*this, camera, T_world_camera);
+                                                const Eigen::Isometry3d& T_world_camera,
+                                                double time_s) const {
+    return std::make_unique<AnalyticView>(*this, camera, T_world_camera, time_s);
 }
 
 }  // namespace tessera

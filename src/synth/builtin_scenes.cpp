@@ -8,7 +8,7 @@
 namespace tessera {
 namespace {
 
-constexpr std::array<std::pair<const char*, StagedScene (*)()>, 7> kScenes = {{
+constexpr std::array<std::pair<const char*, StagedScene (*)()>, 10> kScenes = {{
     {"desk", MakeDesk},
     {"room", MakeRoom},
     {"flat", MakeFlat},
@@ -16,6 +16,9 @@ constexpr std::array<std::pair<const char*, StagedScene (*)()>, 7> kScenes = {{
     {"floor", MakeFloor},
     {"corner", MakeCorner},
     {"wall", MakeWall},
+    {"people", MakePeople},
+    {"chair", MakeChair},
+    {"door", MakeDoor},
 }};
 
 }  // namespace

@@ -17,7 +17,7 @@ struct StagedScene {
     std::string description;
 };
 
-// desk, room, flat, corridor, floor, corner, wall: in the order to present them.
+// desk, room, flat, corridor, floor, corner, wall, people, chair, door: in the order to present them.
 std::vector<std::string> BuiltinSceneNames();
 
 // World frame: z up, the floor at z = 0. An unknown name is an error that lists the known ones.
@@ -28,6 +28,10 @@ std::vector<std::string> BuiltinSceneNames();
 //   floor     patterned floor only: texture without structure. 10 s.
 //   corner    three bare bright walls: structure without texture. 10 s.
 //   wall      one bare wall: neither. 10 s.
+// In these something moves; it is no part of their exact surface:
+//   people    the room, in which two people walk about before the camera; one stands for three seconds. 24 s.
+//   chair     the room: a chair is put elsewhere between the fifth and the eighth second, and stays. 14 s.
+//   door      the flat: a door between its rooms opens between the fourth and the sixth second. 12 s.
 Result<StagedScene> MakeBuiltinScene(const std::string& name);
 
 // The single builders, for the table in builtin_scenes.cpp.
@@ -38,5 +42,8 @@ StagedScene MakeCorridor();
 StagedScene MakeFloor();
 StagedScene MakeCorner();
 StagedScene MakeWall();
+StagedScene MakePeople();
+StagedScene MakeChair();
+StagedScene MakeDoor();
 
 }  // namespace tessera

@@ -22,8 +22,8 @@ using TileHits = std::array<SurfaceHit, kTile * kTile>;
 
 class TileRenderer {
   public:
-    TileRenderer(const Scene& scene, const PinholeCamera& camera, RenderedView& view)
-        : scene_(scene), pixel_m_(static_cast<float>(kSampleExtentPx / camera.fx)), view_(view) {}
+    TileRenderer(const Scene& scene, const PinholeCamera& camera, double time_s, RenderedView& view)
+        : scene_(scene), pixel_m_(static_cast<float>(kSampleExtentPx / camera.fx)), time_s_(time_s), view_(view) {}
 
     void AddColour(const ViewCaster& caster, const PixelRect& rect, int sample) const {
         TileHits hits;
@@ -54,6 +54,7 @@ class TileRenderer {
                 view_.instance(x, y) = static_cast<std::uint16_t>(instance);
                 view_.class_id(x, y) =
                     static_cast<std::uint16_t>(scene_.instances()[instance].class_id);
+                view_.mobility(x, y) = hit.valid() ? scene_.MobilityOf(hit, time_s_) : Mobility::kStatic;
                 if (!view_.patch.empty())
                     view_.patch(x, y) = hit.valid() ? scene_.PatchOf(hit) : -1;
             }
@@ -69,6 +70,7 @@ class TileRenderer {
 
     const Scene& scene_;
     float pixel_m_;  // a sample's extent at 1 m
+    double time_s_;
     RenderedView& view_;
 };
 
@@ -78,6 +80,7 @@ void Resize(RenderedView& view, int width, int height, bool with_patches) {
     view.cos_incidence.Resize(width, height);
     view.class_id.Resize(width, height);
     view.instance.Resize(width, height);
+    view.mobility.Resize(width, height);
     view.patch.Resize(with_patches ? width : 0, with_patches ? height : 0);
 }
 
@@ -87,13 +90,14 @@ void FrameRenderer::Render(const CameraPath& path, double time_s, double exposur
                            RenderedView& view, bool with_patches) const {
     const int width = camera_.width, height = camera_.height;
     Resize(view, width, height, with_patches);
-    const auto truth = scene_.View(camera_, path.T_world_camera(time_s));
+    const auto truth = scene_.View(camera_, path.T_world_camera(time_s), time_s);
     std::array<std::unique_ptr<ViewCaster>, kSamples> moments;
     for (int i = 0; i < kSamples; ++i) {
         const double share = (i + 0.5) / kSamples - 0.5;
-        moments[i] = scene_.View(camera_, path.T_world_camera(time_s + share * exposure_s));
+        const double moment_s = time_s + share * exposure_s;
+        moments[i] = scene_.View(camera_, path.T_world_camera(moment_s), moment_s);
     }
-    const TileRenderer tile(scene_, camera_, view);
+    const TileRenderer tile(scene_, camera_, time_s, view);
     const int columns = (width + kTile - 1) / kTile, rows = (height + kTile - 1) / kTile;
     tbb::parallel_for(tbb::blocked_range2d<int>(0, rows, 0, columns), [&](const auto& range) {
         for (int row = range.rows().begin(); row < range.rows().end(); ++row) {

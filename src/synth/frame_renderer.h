@@ -17,6 +17,7 @@ struct RenderedView {
     Image<float> cos_incidence;  // |cos| between ray and normal
     Image<std::uint16_t> class_id;
     Image<std::uint16_t> instance;
+    Image<Mobility> mobility;    // of the surface at that time
     Image<std::int64_t> patch;  // Scene::PatchOf; empty unless asked for
 };
 

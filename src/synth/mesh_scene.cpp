@@ -154,7 +154,8 @@ void MeshScene::NameInstances() {
 }
 
 std::unique_ptr<ViewCaster> MeshScene::View(const PinholeCamera& camera,
-                                            const Eigen::Isometry3d& T_world_camera) const {
+                                            const Eigen::Isometry3d& T_world_camera,
+                                            double /*time_s*/) const {
     return std::make_unique<MeshView>(tracer_->scene, camera, T_world_camera);
 }
 

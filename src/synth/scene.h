@@ -38,6 +38,9 @@ struct SceneInstance {
     int class_id = 0;  // index into Scene::class_names()
 };
 
+// Whether a surface moves. The values are the grey levels of a written mask.
+enum class Mobility : std::uint8_t { kStatic = 0, kResting = 128, kMoving = 255 };
+
 // A rectangle of pixels; the last ones are excluded.
 struct PixelRect {
     int x_begin, y_begin, x_end, y_end;
@@ -60,10 +63,13 @@ class Scene {
   public:
     virtual ~Scene() = default;
 
-    // The caster refers to the scene.
-    virtual std::unique_ptr<ViewCaster> View(const PinholeCamera& camera,
-                                             const Eigen::Isometry3d& T_world_camera) const = 0;
-    // The nearest surface along any ray; t in units of the direction's length.
+    // The caster refers to the scene, as it is so many seconds after its start.
+    virtual std::unique_ptr<ViewCaster> View(const PinholeCamera& camera, const Eigen::Isometry3d& T_world_camera,
+                                             double time_s) const = 0;
+    // Whether a hit is on a thing that moves at some time, or at this one.
+    virtual Mobility MobilityOf(const SurfaceHit&, double /*time_s*/) const { return Mobility::kStatic; }
+    virtual bool has_motion() const { return false; }
+    // The nearest static surface along any ray; t in units of the direction's length.
     virtual SurfaceHit CastRay(const Eigen::Vector3d& origin,
                                const Eigen::Vector3d& direction) const = 0;
     // Outward unit normal at a hit.
@@ -73,24 +79,24 @@ class Scene {
     // Index into instances() at a hit.
     virtual int InstanceOf(const SurfaceHit& hit) const = 0;
 
-    // The surface cut into patches of at most 0.1 m, so that what a camera has seen can be told
-    // from the rest.
+    // The static surface cut into patches of at most 0.1 m, so that what a camera has seen can be told
+    // from the rest. PatchOf a hit on something that moves is -1.
     virtual std::int64_t patch_count() const = 0;
     virtual std::int64_t PatchOf(const SurfaceHit& hit) const = 0;
     // The patches' exact mesh (curved surfaces within 0.5 mm), without normals and colours; with
     // `keep`, one flag a patch, only those. A patch belongs to one instance.
     virtual TriangleMesh PatchMesh(const std::vector<bool>* keep = nullptr) const = 0;
-    // The mesh of one instance.
+    // The mesh of one instance, of one that moves where it is at the start.
     virtual TriangleMesh InstanceMesh(int instance) const = 0;
 
-    // Distance from a world point to the nearest surface, metres, negative inside a body. Exact
+    // Distance from a world point to the nearest static surface, metres, negative inside a body. Exact
     // outside bodies and inside where bodies do not overlap. Nothing for meshes, which need not be
     // closed.
     virtual std::optional<double> SignedDistance(const Eigen::Vector3d& p_world) const = 0;
 
     const std::vector<SceneInstance>& instances() const { return instances_; }
     const std::vector<std::string>& class_names() const { return class_names_; }
-    // Axis-aligned bounds of everything, metres.
+    // Axis-aligned bounds of everything that is static, metres.
     const Eigen::AlignedBox3d& bounds() const { return bounds_; }
 
   protected:

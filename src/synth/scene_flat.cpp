@@ -3,7 +3,7 @@
 #include <numbers>
 
 #include "synth/builtin_scenes.h"
-#include "synth/furniture.h"
+#include "synth/interiors.h"
 #include "synth/paint.h"
 
 namespace tessera {
@@ -105,10 +105,7 @@ RingPoint AlongRing(double way_m) {
 
 }  // namespace
 
-StagedScene MakeFlat() {
-    constexpr double kDuration_s = 80, kPace_m_s = 30.0 / kDuration_s;
-    auto scene = std::make_unique<AnalyticScene>();
-    Furnisher add(*scene);
+void AddFlat(Furnisher& add) {
     const Paint wall = add.Repeat(PaintNoise({208, 204, 190}, 60, 1024, 501), 2.6);
     add.Shell({kLength, kWidth, kHeight}, add.Repeat(PaintWood({150, 112, 76}, 8, 1024, 502), 1.6),
               add.Repeat(PaintTiles({222, 222, 218}, {190, 190, 188}, 4, 512, 503), 2.4), wall);
@@ -116,11 +113,22 @@ StagedScene MakeFlat() {
     FurnishFlatWalls(add);
     FurnishFirstRoom(add);
     FurnishSecondRoom(add);
+}
+
+Lighting FlatLighting() {
     Lighting lighting;
     for (const double x : {2.0, 5.0, 9.0, 12.0})
         for (const double y : {1.6, 4.4}) lighting.lights.push_back({{x, y, 2.5}, 0.2, 1.2});
     lighting.texel_m = 0.05;
-    scene->Finish(lighting);
+    return lighting;
+}
+
+StagedScene MakeFlat() {
+    constexpr double kDuration_s = 80, kPace_m_s = 30.0 / kDuration_s;
+    auto scene = std::make_unique<AnalyticScene>();
+    Furnisher add(*scene);
+    AddFlat(add);
+    scene->Finish(FlatLighting());
     StagedScene staged;
     staged.scene = std::move(scene);
     staged.description = "two furnished rooms of 7 m x 6 m, once around through both doorways";

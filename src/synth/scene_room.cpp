@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "synth/builtin_scenes.h"
-#include "synth/furniture.h"
+#include "synth/interiors.h"
 #include "synth/paint.h"
 
 namespace tessera {
@@ -83,19 +83,27 @@ void FurnishCorridor(Furnisher& add, double length, double width) {
 
 }  // namespace
 
-StagedScene MakeRoom() {
-    auto scene = std::make_unique<AnalyticScene>();
-    Furnisher add(*scene);
+void AddRoom(Furnisher& add) {
     add.Shell({5, 4, 2.6}, add.Repeat(PaintWood({152, 112, 74}, 8, 1024, 81), 1.6),
               add.Repeat(PaintNoise({226, 224, 216}, 22, 512, 82), 2.0),
               add.Repeat(PaintStripes({212, 200, 176}, {182, 172, 150}, 1024, 83), 1.6));
     FurnishRoomWalls(add);
     FurnishRoom(add);
+}
+
+Lighting RoomLighting() {
     Lighting lighting;
     lighting.lights = {
         {{2.5, 2.0, 2.4}, 0.25, 2.7}, {{0.8, 3.0, 2.3}, 0.2, 1.0}, {{4.2, 1.0, 2.3}, 0.2, 1.0}};
     lighting.texel_m = 0.03;
-    scene->Finish(lighting);
+    return lighting;
+}
+
+StagedScene MakeRoom() {
+    auto scene = std::make_unique<AnalyticScene>();
+    Furnisher add(*scene);
+    AddRoom(add);
+    scene->Finish(RoomLighting());
     StagedScene staged;
     staged.scene = std::move(scene);
     staged.description = "a furnished room of 5 m x 4 m, one closed turn";

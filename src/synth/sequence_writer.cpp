@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <oneapi/tbb/parallel_invoke.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>
@@ -25,6 +26,15 @@ Status FirstError(std::initializer_list<Status> statuses) {
     return Status::Ok();
 }
 
+ColourImage Grey(const Image<Mobility>& mobility) {
+    ColourImage grey(mobility.width(), mobility.height());
+    std::transform(mobility.data(), mobility.data() + mobility.size(), grey.data(), [](Mobility m) {
+        const auto level = static_cast<std::uint8_t>(m);
+        return Rgb8{level, level, level};
+    });
+    return grey;
+}
+
 // Depth noise stays below this share of the depth, jumps at edges above it.
 constexpr float kSameSurface = 0.03f;
 
@@ -37,8 +47,11 @@ class Writer {
           seen_patches_(static_cast<std::size_t>(source.scene().patch_count())) {}
 
     Status PrepareFolders() const {
-        for (const char* name : {"rgb", "depth", "labels", "instances"})
-            if (Status status = PrepareOutputFolder(folder_ + "/" + name); !status.ok())
+        for (const char* name : {"rgb", "depth", "labels", "instances", "moving"})
+            if (Status status = name != std::string("moving") || source_.scene().has_motion()
+                                    ? PrepareOutputFolder(folder_ + "/" + name)
+                                    : Status::Ok();
+                !status.ok())
                 return status;
         return Status::Ok();
     }
@@ -61,13 +74,14 @@ Status Writer::WriteImages(const Frame& frame, const RenderedView& truth) {
     const std::string file = fmt::format("/{:.6f}.png", frame.stamp_s);
     Image<std::uint16_t> depth;
     StoreDepth(frame.depth_m, kDepthScale, depth);
-    std::array<Status, 4> done;
+    std::array<Status, 5> done;
     tbb::parallel_invoke(
         [&] { done[0] = WriteColourImage(folder_ + "/rgb" + file, frame.colour); },
         [&] { done[1] = WriteDepthImage(folder_ + "/depth" + file, depth); },
         [&] { done[2] = WriteDepthImage(folder_ + "/labels" + file, truth.class_id); },
-        [&] { done[3] = WriteDepthImage(folder_ + "/instances" + file, truth.instance); });
-    return FirstError({done[0], done[1], done[2], done[3]});
+        [&] { done[3] = WriteDepthImage(folder_ + "/instances" + file, truth.instance); },
+        [&] { if (source_.scene().has_motion()) done[4] = WriteColourImage(folder_ + "/moving" + file, Grey(truth.mobility)); });
+    return FirstError({done[0], done[1], done[2], done[3], done[4]});
 }
 
 void Writer::Remember(const Frame& frame, const RenderedView& truth) {

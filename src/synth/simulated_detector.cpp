@@ -38,8 +38,9 @@ std::vector<InstanceBox> FindInstanceBoxes(const Image<std::uint16_t>& instance,
     return boxes;
 }
 
-Image<std::uint16_t> CastInstances(const Scene& scene, const PinholeCamera& camera, const Eigen::Isometry3d& T_world_camera) {
-    const std::unique_ptr<ViewCaster> view = scene.View(camera, T_world_camera);
+Image<std::uint16_t> CastInstances(const Scene& scene, const PinholeCamera& camera, const Eigen::Isometry3d& T_world_camera,
+                                   double time_s) {
+    const std::unique_ptr<ViewCaster> view = scene.View(camera, T_world_camera, time_s);
     Image<std::uint16_t> instance(camera.width, camera.height);
     constexpr int kRows = 16;
     tbb::parallel_for(0, (camera.height + kRows - 1) / kRows, [&](int band) {

@@ -20,7 +20,8 @@ struct InstanceBox {
 std::vector<InstanceBox> FindInstanceBoxes(const Image<std::uint16_t>& instance, std::size_t instance_count);
 
 // Which instance each pixel's centre shows; 0 where that is the surroundings or nothing. Uses all cores (TBB).
-Image<std::uint16_t> CastInstances(const Scene& scene, const PinholeCamera& camera, const Eigen::Isometry3d& T_world_camera);
+Image<std::uint16_t> CastInstances(const Scene& scene, const PinholeCamera& camera, const Eigen::Isometry3d& T_world_camera,
+                                   double time_s);
 
 struct DetectorMistakes {
     double missed = 0.10, wrong_class = 0.03;  // shares

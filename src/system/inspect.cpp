@@ -34,7 +34,7 @@ Result<Inspection> InspectFrame(const std::string& name, const RunConfig& config
         const float farthest_m = static_cast<float>(config.pipeline.frame.max_depth_m);
         const auto predictor = MakePredictor(config.pipeline.trackers.icp.prediction, result.report.warning);
         predictor->Predict(pipeline.map(), camera, track.T_world_camera, nearest_m, farthest_m, view);
-        result.picture = ViewPicture(frame, view, track.gain, track.offset);
+        result.picture = ViewPicture(frame, view, track.gain, track.offset, result.report.moving.get());
         return result;
     }
 }

@@ -30,6 +30,7 @@ void PipelineConfig::Describe(ConfigParameters& p) {
         s.Section("motion", [&](ConfigParameters& m) { motion.Describe(m); });
         s.Section("prealign", [&](ConfigParameters& a) { prealign.Describe(a); });
     });
+    p.Section("moving", [&](ConfigParameters& s) { moving.Describe(s); });
 }
 
 Status PipelineConfig::Validate() const {

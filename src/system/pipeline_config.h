@@ -10,6 +10,7 @@
 #include "system/paging_config.h"
 #include "system/tracking_method.h"
 #include "tracking/image_aligner.h"
+#include "tracking/moving_detector.h"
 
 namespace tessera {
 
@@ -32,6 +33,7 @@ struct PipelineConfig {
     ShutterConfig shutter;
     ImageAligner::Config prealign;
     TrackersConfig trackers;
+    MovingDetector::Config moving;
 
     void Describe(ConfigParameters& parameters);
     Status Validate() const;

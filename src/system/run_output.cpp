@@ -17,9 +17,9 @@ namespace tessera {
 namespace {
 
 constexpr const char* kFramesHeader =
-    "index,stamp_s,method,status,fused,degenerate,valid_depth_fraction,known_fraction,inlier_fraction,distance_rms_m,"
+    "index,stamp_s,method,status,fused,degenerate,valid_depth_fraction,moving_fraction,known_fraction,inlier_fraction,distance_rms_m,"
     "intensity_rms,uncertainty_m,innovation_m,innovation_rad,alpha,gain,offset,iterations,new_blocks,fused_blocks,decode_ms,prepare_ms,"
-    "track_ms,allocate_ms,fuse_ms,frame_ms,reason\n";
+    "track_ms,moving_ms,allocate_ms,fuse_ms,frame_ms,reason\n";
 
 std::string FrameLine(const FrameReport& r, double decode_ms, double frame_ms) {
     const TrackResult& t = r.track;
@@ -27,13 +27,13 @@ std::string FrameLine(const FrameReport& r, double decode_ms, double frame_ms) {
     for (char& c : reason)
         if (c == '"' || c == '\n') c = '\'';
     return fmt::format(
-        "{},{:.6f},{},{},{:d},{:d},{:.4f},{:.4f},{:.4f},{:.6f},{:.5f},{:.3g},{:.5f},{:.5f},{:.4g},{:.4f},{:.4f},{},{},{},{:.3f},{:.3f},"
-        "{:.3f},{:.3f},{:.3f},{:.3f},\"{}\"\n",
-        r.index, r.stamp_s, ToString(r.method), ToString(t.status), r.fused, t.degenerate, r.valid_depth_fraction, t.known_fraction,
+        "{},{:.6f},{},{},{:d},{:d},{:.4f},{:.4f},{:.4f},{:.4f},{:.6f},{:.5f},{:.3g},{:.5f},{:.5f},{:.4g},{:.4f},{:.4f},{},{},{},{:.3f},{:.3f},"
+        "{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},\"{}\"\n",
+        r.index, r.stamp_s, ToString(r.method), ToString(t.status), r.fused, t.degenerate, r.valid_depth_fraction, r.moving ? r.moving->moving_fraction() : 0.0, t.known_fraction,
         t.inlier_fraction, t.distance_rms_m, t.intensity_rms, t.uncertainty_m, t.innovation_m,
         t.innovation_rad, t.alpha, t.gain, t.offset,
         t.iterations, r.fusion.new_blocks, r.fusion.fused_blocks, decode_ms, r.prepare_ms, r.track_ms,
-        r.fusion.allocate_ms, r.fusion.fuse_ms, frame_ms, reason);
+        r.moving_ms, r.fusion.allocate_ms, r.fusion.fuse_ms, frame_ms, reason);
 }
 
 }  // namespace

@@ -63,7 +63,7 @@ Status Runner::TakeLabels(const LabelReport& report) {
 void Runner::AddTimes(const FrameOutcome& outcome, double frame_ms) {
     const FrameReport& report = outcome.report;
     for (const auto& [stage, ms] : {std::pair{"frame", frame_ms}, {"decode", outcome.decode_ms},
-                                    {"prepare", report.prepare_ms}, {"track", report.track_ms},
+                                    {"prepare", report.prepare_ms}, {"track", report.track_ms}, {"moving", report.moving_ms},
                                     {"allocate", report.fusion.allocate_ms}, {"fuse", report.fusion.fuse_ms}})
         times_.Add(stage, ms);
     if (request_.live) times_.Add("latency", outcome.latency_ms);

@@ -24,6 +24,7 @@ TrackingStage::TrackingStage(const PipelineConfig& config, const PinholeCamera& 
       motion_(config.motion),
       motion_before_(config.motion),
       aligner_(config.prealign, camera),
+      moving_(config.moving, camera),
       trackers_(config.trackers, camera, device),
       device_(device) {}
 
@@ -47,8 +48,9 @@ void TrackingStage::Track(const Frame& frame, const BlockMap& map, const std::op
     report.valid_depth_fraction =
         static_cast<double>(prepared.valid_depth_pixels) / static_cast<double>(frame.depth_m.size());
 
-    // 2. Where was the camera?
+    // 2. Where was the camera? What moved a moment ago does not say.
     motion_before_ = motion_;
+    const bool hidden = !given && HideExpected(frame, prepared);
     report.first = !motion_.last().has_value();
     if (prepared.valid_depth_pixels == 0) {
         report.track.reason = prepared.measured_pixels > 0 ? "0 depth pixels in range: is depth_scale right?"
@@ -70,9 +72,45 @@ void TrackingStage::Track(const Frame& frame, const BlockMap& map, const std::op
     report.track_ms = watch.LapMs();
     if (report.tracked()) motion_.Add({frame.stamp_s, report.track.T_world_camera}, report.track.degenerate);
 
-    // 3. Would it harm the map?
+    // 3. What moves is no part of the map.
+    LeaveOutMoving(frame, map, hidden, tracked);
+    report.moving_ms = watch.LapMs();
+
+    // 4. Would it harm the map?
     tracked.to_fuse = report.track.status == TrackStatus::kGood && (fusing_ || report.first);
     tracked.view = FusionView(report.track);
+}
+
+void TrackingStage::PrepareAgain(const Frame& frame, const MovingMask* mask, PreparedFrame& prepared) {
+    if (device_ != nullptr) {
+        device_->Prepare(mask != nullptr ? WithoutMoving(*mask, frame) : frame, config_.frame, bring_images_, prepared);
+        return;
+    }
+    DepthImage depth_m = frame.depth_m;
+    if (mask != nullptr) HideMoving(*mask, depth_m);
+    PrepareDepthAgain(depth_m, config_.frame, prepared);
+}
+
+bool TrackingStage::HideExpected(const Frame& frame, PreparedFrame& prepared) {
+    if (!config_.moving.enabled || !motion_.last()) return false;
+    const auto expected = moving_.Expect(frame.stamp_s, motion_.Predict(frame.stamp_s));
+    if (expected) PrepareAgain(frame, expected.get(), prepared);
+    return expected != nullptr;
+}
+
+void TrackingStage::LeaveOutMoving(const Frame& frame, const BlockMap& map, bool hidden, TrackedFrame& tracked) {
+    ViewPredictor& predictor = device_ != nullptr ? device_->views() : caster_;
+    const FrameReport& report = tracked.report;
+    if (config_.moving.enabled && report.track.status == TrackStatus::kGood)
+        tracked.report.moving = moving_.Find({.depth_m = frame.depth_m,
+                                              .disparity_offset_per_m = static_cast<float>(config_.frame.disparity_offset_per_m),
+                                              .farthest_m = static_cast<float>(config_.frame.max_depth_m),
+                                              .stamp_s = frame.stamp_s,
+                                              .T_world_camera = report.track.T_world_camera},
+                                             map, predictor);
+    const bool moves = report.moving && report.moving->moving_tiles > 0;
+    if (moves || hidden) PrepareAgain(frame, moves ? report.moving.get() : nullptr, tracked.prepared);
+    if (report.moving) SetMoving(report.moving, tracked.prepared);
 }
 
 bool TrackingStage::TrackFrom(const Frame& frame, const BlockMap& map, const Eigen::Isometry3d& T_world_camera,
@@ -88,6 +126,7 @@ bool TrackingStage::TrackFrom(const Frame& frame, const BlockMap& map, const Eig
     if (track.status != TrackStatus::kGood) return false;
     tracked.report.track = std::move(track);
     motion_.Clear();
+    moving_.Clear();
     motion_.Add({frame.stamp_s, tracked.report.track.T_world_camera});
     tracked.to_fuse = fusing_;
     tracked.view = FusionView(tracked.report.track);
@@ -96,6 +135,7 @@ bool TrackingStage::TrackFrom(const Frame& frame, const BlockMap& map, const Eig
 
 void TrackingStage::Disbelieve(const std::string& reason, TrackedFrame& tracked) {
     motion_ = motion_before_;
+    moving_.Clear();
     tracked.report.track.status = TrackStatus::kLost;
     tracked.report.track.reason = reason;
     tracked.to_fuse = false;
@@ -103,10 +143,14 @@ void TrackingStage::Disbelieve(const std::string& reason, TrackedFrame& tracked)
 
 void TrackingStage::Relocate(const StampedPose& pose) {
     motion_.Clear();
+    moving_.Clear();
     motion_.Add(pose);
 }
 
-void TrackingStage::Move(const Eigen::Isometry3d& T_new_old) { motion_.Move(T_new_old); }
+void TrackingStage::Move(const Eigen::Isometry3d& T_new_old) {
+    motion_.Move(T_new_old);
+    moving_.Move(T_new_old);
+}
 
 TrackResult TrackingStage::TrackFrame(const Frame& frame, const PreparedFrame& prepared, const BlockMap& map) {
     const Eigen::Isometry3d& T_world_last = motion_.last()->T_world_camera;
@@ -139,6 +183,7 @@ void TrackingStage::Apply(const ViewerSettings& settings) {
 
 void TrackingStage::Reset() {
     motion_.Clear();
+    moving_.Clear();
     aligner_.Clear();
     trackers_.Reset();
 }

@@ -1,17 +1,20 @@
 // The first half of a frame's life: prepare it, find where the camera was, judge that. Reads the map, never writes it.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 
 #include "core/frame.h"
 #include "mapping/integrator.h"
 #include "mapping/prepared_frame.h"
+#include "mapping/ray_caster.h"
 #include "system/device.h"
 #include "system/motion_model.h"
 #include "system/pipeline_config.h"
 #include "system/viewer_settings.h"
 #include "tracking/image_aligner.h"
+#include "tracking/moving_detector.h"
 
 namespace tessera {
 
@@ -26,7 +29,8 @@ struct FrameReport {
     double valid_depth_fraction = 0;
     std::string warning;     // what a person should know of this frame, in words; mostly empty
     Integrator::Report fusion;
-    double prepare_ms = 0, track_ms = 0;
+    std::shared_ptr<const MovingMask> moving;  // null: nothing moves
+    double prepare_ms = 0, track_ms = 0, moving_ms = 0;
 
     bool tracked() const { return track.status != TrackStatus::kLost; }
 };
@@ -84,12 +88,17 @@ class TrackingStage {
 
   private:
     TrackResult TrackFrame(const Frame& frame, const PreparedFrame& prepared, const BlockMap& map);
+    bool HideExpected(const Frame& frame, PreparedFrame& prepared);
+    void LeaveOutMoving(const Frame& frame, const BlockMap& map, bool hidden, TrackedFrame& tracked);
+    void PrepareAgain(const Frame& frame, const MovingMask* mask, PreparedFrame& prepared);
     FrameMotion ShutterOf(const Frame& frame) const;
 
     PipelineConfig config_;
     PinholeCamera camera_;
     MotionModel motion_, motion_before_;  // after and before the last frame
     ImageAligner aligner_;
+    MovingDetector moving_;
+    RayCaster caster_;
     Trackers trackers_;
     Device* device_;
     bool fusing_ = true, bring_images_ = false;

@@ -38,6 +38,7 @@ void ViewerFeed::SendImages(const Frame& frame, const FrameReport& report, const
     if (!viewer_->images.empty()) return;
     ImageUpdate images;
     images.frame = std::make_shared<Frame>(frame);
+    images.moving = report.moving;
     if (show_prediction_ && report.tracked()) {
         constexpr int kStep = 4;
         auto view = std::make_shared<PredictedView>();

@@ -36,6 +36,7 @@ struct FrameUpdate {
 // Pictures of one frame; large, so only the newest is kept.
 struct ImageUpdate {
     std::shared_ptr<const Frame> frame;           // never null
+    std::shared_ptr<const MovingMask> moving;        // null: nothing moves
     std::shared_ptr<const PredictedView> predicted;  // the map from the frame's pose, smaller; null unless wanted
 };
 

@@ -57,11 +57,16 @@ void ImagesPanel::Update(const ViewerState& state) {
     if (!images.frame) return;
     const Frame& frame = *images.frame;
     const auto far_m = static_cast<float>(state.settings.max_depth_m);
+    const int step = StepFor(frame.depth_m.width());
+    const auto tinted = [&](ColourImage picture) {
+        if (images.moving) TintMoving(*images.moving, step, picture);
+        return picture;
+    };
     if (frame.colour.empty())
         colour_.Clear();
     else
-        colour_.Set(ShrinkColour(frame.colour, StepFor(frame.colour.width())));
-    depth_.Set(DepthColours(frame.depth_m, far_m, StepFor(frame.depth_m.width())));
+        colour_.Set(tinted(ShrinkColour(frame.colour, step)));
+    depth_.Set(tinted(DepthColours(frame.depth_m, far_m, step)));
     if (images.predicted) {
         predicted_.Set(DepthColours(images.predicted->depth_m, far_m, StepFor(images.predicted->depth_m.width())));
         residual_.Set(ResidualColours(frame.depth_m, state.options.camera, *images.predicted,

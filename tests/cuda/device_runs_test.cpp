@@ -4,6 +4,7 @@
 #include "cuda/desk_run.h"
 #include "cuda/device_pipeline.h"
 #include "mapping/ray_caster.h"
+#include "synth/synthetic_source.h"
 #include "system/run.h"
 
 namespace tessera::host {
@@ -102,6 +103,35 @@ TEST(DeviceRuns, SaysInOneLineThatItsMemoryIsFullAndGoesOn) {
     EXPECT_NE(warning.find("mapping.device_memory_mb"), std::string::npos) << warning;
     EXPECT_GT(run.pipeline.map().size(), 500);
     EXPECT_TRUE(run.reports.back().tracked());
+}
+
+// Frames are prepared once more without what moves, and surfaces that are gone are forgotten.
+TEST(DeviceRuns, IsTheProcessorsWherePeopleWalk) {
+    SynthConfig synthetic;
+    synthetic.camera = {160, 120, 131, 131, 79.5, 59.5};
+    synthetic.fps = 15;
+    synthetic.frames = 45;
+    auto source = OpenSynthetic("people", synthetic);
+    ASSERT_TRUE(source.ok());
+    PipelineConfig config;
+    config.map.voxel_size_m = 0.02;
+    config.map.truncation_m = 0.08;
+    DevicePipeline device("host", kPlenty);
+    Pipeline expected(config, synthetic.camera), run(config, synthetic.camera, {}, &device);
+    std::int64_t moving = 0, gone = 0;
+    for (Frame frame; source.value()->Read(frame).status == ReadStatus::kOk;) {
+        const FrameReport wanted = expected.Process(frame), report = run.Process(frame);
+        testing_support::ExpectSameTrack(report.track, wanted.track, static_cast<std::size_t>(frame.index));
+        ASSERT_EQ(report.moving == nullptr, wanted.moving == nullptr) << frame.index;
+        if (!report.moving) continue;
+        EXPECT_EQ(report.moving->moving, wanted.moving->moving) << frame.index;
+        EXPECT_EQ(report.moving->gone_m, wanted.moving->gone_m) << frame.index;
+        moving += report.moving->moving_tiles;
+        gone += report.moving->gone_tiles;
+    }
+    EXPECT_GT(moving, 1000);
+    EXPECT_GT(gone, 100);
+    testing_support::ExpectSameMap(run.map(), expected.map());
 }
 
 // The window's picture, while the voxels are on the device only.

@@ -21,9 +21,10 @@ struct Scene {
     std::vector<std::uint16_t> weight;
     std::vector<ColourWord> colour;
     std::vector<std::int32_t> coords, blocks;
-    std::vector<float> depth_m;
+    std::vector<float> depth_m, gone_m;
     std::vector<std::uint32_t> packed_colour;
     FusionArguments a{};
+    bool gone = false;  // whether gone_m is given
 
     Scene() {
         std::uint32_t state = 4711;
@@ -44,6 +45,7 @@ struct Scene {
         for (int i = 0; i < kWidth * kHeight; ++i) {
             depth_m.push_back(random() % 5 == 0 ? 0.0f : 0.3f + 1e-7f * static_cast<float>(random() % (1u << 22)));
             packed_colour.push_back(random());
+            gone_m.push_back(random() % 2 ? depth_m.back() : 0.0f);
         }
         a.coords = coords.data();
         a.depth_m = depth_m.data();
@@ -76,6 +78,7 @@ struct Scene {
 
     FusionArguments Arguments() {
         FusionArguments filled = a;
+        if (gone) filled.gone_m = gone_m.data();
         filled.field = field.data();
         filled.weight = weight.data();
         filled.colour = colour.data();
@@ -109,6 +112,7 @@ struct Variant {
     bool moving;
     DistanceWeight distance_weight;
     ColourWeighting colour_weighting;
+    bool gone;
 };
 
 class FusionRows : public ::testing::TestWithParam<Variant> {};
@@ -118,6 +122,7 @@ TEST_P(FusionRows, AreTheKernelsOneByOne) {
     scene.a.moving = GetParam().moving;
     scene.a.distance_weight = GetParam().distance_weight;
     scene.a.colour_weighting = GetParam().colour_weighting;
+    scene.gone = GetParam().gone;
     int changed = 0;
     EXPECT_EQ(Differing(scene, FuseOneByOne, baseline::FuseBlocks, changed), 0);
     ASSERT_GT(changed, kBlocks * kBlockVoxels / 8);
@@ -126,9 +131,9 @@ TEST_P(FusionRows, AreTheKernelsOneByOne) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Variants, FusionRows,
-                         ::testing::Values(Variant{false, DistanceWeight::kConstant, ColourWeighting::kSame},
-                                           Variant{false, DistanceWeight::kLinearExp, ColourWeighting::kCosine},
-                                           Variant{true, DistanceWeight::kDepthNoise, ColourWeighting::kCosine}));
+                         ::testing::Values(Variant{false, DistanceWeight::kConstant, ColourWeighting::kSame, false},
+                                           Variant{false, DistanceWeight::kLinearExp, ColourWeighting::kCosine, true},
+                                           Variant{true, DistanceWeight::kDepthNoise, ColourWeighting::kCosine, true}));
 
 }  // namespace
 }  // namespace tessera

@@ -54,6 +54,29 @@ void ForKnownVoxels(const BlockMap& map, const Visit& visit) {
     }
 }
 
+// Somebody who stood at 1 m for ten seconds is gone after a third of one, where that is known.
+TEST(Integrator, ASurfaceThatIsGoneIsForgottenSoon) {
+    const PinholeCamera camera = SmallCamera();
+    for (const bool known : {false, true}) {
+        BlockMap map(MapConfig());
+        Integrator integrator({}, camera);
+        for (int i = 0; i < 300; ++i) integrator.Integrate(Prepare(UniformFrame(camera, 1.0f, {90, 120, 30})), {}, map);
+        PreparedFrame wall = Prepare(UniformFrame(camera, 2.0f, {90, 120, 30}));
+        if (known) wall.gone_m = DepthImage(camera.width, camera.height, 2.0f);
+        for (int i = 0; i < 10; ++i) integrator.Integrate(wall, {}, map);
+        int solid = 0, free = 0;
+        ForKnownVoxels(map, [&](const Eigen::Vector3d& p, FieldWord field, std::uint16_t, ColourWord) {
+            if (p.z() > 1.07 || p.head<2>().norm() > 0.2 * p.z()) return;  // the image's middle
+            (FieldDistance(field) > 0 ? free : solid) += 1;
+        });
+        EXPECT_GT(free, 1000);
+        if (known)
+            EXPECT_EQ(solid, 0);
+        else
+            EXPECT_GT(solid, 300);
+    }
+}
+
 TEST(Integrator, PlaneGivesItsExactDistance) {
     const PinholeCamera camera = SmallCamera();
     BlockMap map(MapConfig());

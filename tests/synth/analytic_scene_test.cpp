@@ -78,7 +78,7 @@ TEST(AnalyticScene, AViewSeesWhatSingleRaysMeet) {
     const auto scene = MixedScene();
     PinholeCamera camera{80, 60, 70, 72, 39.5, 29.5};
     const Eigen::Isometry3d T_world_camera = LookAt({1.6, -2.0, 1.3}, {0, 0, 0.3});
-    const auto view = scene->View(camera, T_world_camera);
+    const auto view = scene->View(camera, T_world_camera, 0);
     std::vector<SurfaceHit> hits(80 * 60);
     int bodies[5] = {};
     for (int y = 0; y < 60; y += 20) {

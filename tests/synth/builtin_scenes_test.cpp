@@ -1,7 +1,10 @@
 #include "synth/builtin_scenes.h"
 
+#include "synth/frame_renderer.h"
+
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numbers>
 #include <set>
 
@@ -13,7 +16,7 @@ TEST(BuiltinScenes, AnUnknownNameListsTheKnownOnes) {
     ASSERT_FALSE(scene.ok());
     EXPECT_EQ(scene.message(),
               "'kitchen' is no built-in scene; there are desk, room, flat, corridor, floor, corner, "
-              "wall, or give an .obj "
+              "wall, people, chair, door, or give an .obj "
               "file");
 }
 
@@ -62,6 +65,50 @@ TEST(BuiltinScenes, TheRoomsTurnEndsWhereItBegan) {
                             last = path.T_world_camera(path.duration_s);
     EXPECT_LT((first.translation() - last.translation()).norm(), 0.02);
     EXPECT_LT(RotationAngle(first, last), 0.03);
+}
+
+// The mask is exact where the view without the movers differs from the one with them; the reference holds none of them.
+TEST(BuiltinScenes, WhatMovesIsMaskedAndNoPartOfTheReference) {
+    const auto staged = MakeBuiltinScene("people");
+    ASSERT_TRUE(staged.ok());
+    const Scene& scene = *staged.value().scene;
+    EXPECT_TRUE(scene.has_motion());
+    const PinholeCamera camera{160, 120, 131, 131, 79.5, 59.5};
+    double most = 0;
+    for (const double t : {0.0, 3.0, 8.0, 11.5, 16.0, 22.0}) {
+        const Eigen::Isometry3d T = staged.value().path.T_world_camera(t);
+        RenderedView view;
+        FrameRenderer(scene, camera).Render(staged.value().path, t, 0, view, true);
+        std::int64_t masked = 0;
+        for (int y = 0; y < camera.height; y += 3)
+            for (int x = 0; x < camera.width; x += 3) {
+                const bool moves = view.mobility(x, y) != Mobility::kStatic;
+                masked += moves;
+                const SurfaceHit behind = scene.CastRay(T.translation(), T.linear() * camera.Unproject(x, y, 1));
+                ASSERT_EQ(view.patch(x, y) < 0, moves);
+                if (moves)
+                    EXPECT_LT(view.depth_m(x, y), behind.t);
+                else
+                    EXPECT_NEAR(view.depth_m(x, y), behind.t, 1e-5);
+            }
+        most = std::max(most, static_cast<double>(masked) / (40 * 54));
+    }
+    EXPECT_GT(most, 0.2);
+}
+
+TEST(BuiltinScenes, TheChairRestsMovesAndRests) {
+    const auto staged = MakeBuiltinScene("chair");
+    ASSERT_TRUE(staged.ok());
+    const PinholeCamera camera{160, 120, 131, 131, 79.5, 59.5};
+    for (const auto& [t, expected] :
+         {std::pair{2.0, Mobility::kResting}, {6.0, Mobility::kMoving}, {10.0, Mobility::kResting}}) {
+        RenderedView view;
+        FrameRenderer(*staged.value().scene, camera).Render(staged.value().path, t, 0, view);
+        const auto count = std::count(view.mobility.data(), view.mobility.data() + view.mobility.size(), expected);
+        const auto rest = std::count(view.mobility.data(), view.mobility.data() + view.mobility.size(), Mobility::kStatic);
+        EXPECT_GT(count, 200) << t;
+        EXPECT_EQ(count + rest, 160 * 120) << t;
+    }
 }
 
 TEST(BuiltinScenes, ThePlainScenesAreAsPlainAsTheySay) {

@@ -81,7 +81,7 @@ TEST_F(TexturedQuad, ObjectsAreInstancesAndTheirStemsClasses) {
 TEST_F(TexturedQuad, AViewSeesWhatSingleRaysMeet) {
     const PinholeCamera camera{40, 30, 35, 35, 19.5, 14.5};
     const Eigen::Isometry3d T = LookAt({1.5, -0.8, 1.9}, {1.6, 0.5, 0});
-    const auto view = scene_->View(camera, T);
+    const auto view = scene_->View(camera, T, 0);
     std::vector<SurfaceHit> hits(40 * 30);
     view->Cast({0, 0, 40, 30}, 0, 0, hits);
     int seen = 0;

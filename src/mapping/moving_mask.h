@@ -1,0 +1,34 @@
+// Which pixels of a frame show something that moves, and where the map's surface has gone: what is left out of tracking and
+// fusion, and what fusion forgets sooner.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+#include "core/frame.h"
+#include "core/image.h"
+
+namespace tessera {
+
+// In tiles of `step` x `step` pixels: tile (k, l) covers the pixels from (k step, l step) on, the last ones also what is left
+// of a row or column.
+struct MovingMask {
+    int step = 1;
+    Image<std::uint8_t> moving;  // 1: moves; to be neither tracked on nor fused
+    DepthImage gone_m;           // the map's surface before this depth is gone; 0: none is known to be
+    std::int64_t moving_tiles = 0, gone_tiles = 0;
+
+    int TileX(int x) const { return std::min(x / step, moving.width() - 1); }
+    int TileY(int y) const { return std::min(y / step, moving.height() - 1); }
+    // Share of the image.
+    double moving_fraction() const { return static_cast<double>(moving_tiles) / static_cast<double>(moving.size()); }
+};
+
+// No depth where something moves. The image is of the masked frame's size.
+void HideMoving(const MovingMask& mask, DepthImage& depth_m);
+// The frame without the depth of what moves.
+Frame WithoutMoving(const MovingMask& mask, const Frame& frame);
+// What moves in magenta, for a person to look at. `colour` is the frame's at 1/`shrunk` of its size.
+void TintMoving(const MovingMask& mask, int shrunk, ColourImage& colour);
+
+}  // namespace tessera

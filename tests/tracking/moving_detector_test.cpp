@@ -1,0 +1,138 @@
+// What moves before a wall, with exact images and a map that is the wall.
+#include "tracking/moving_detector.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace tessera {
+namespace {
+
+constexpr int kWidth = 128, kHeight = 96;
+constexpr float kWall_m = 3.0f, kBox_m = 1.5f;
+constexpr double kFrame_s = 1.0 / 30;
+const PinholeCamera kCamera{kWidth, kHeight, 105, 105, 63.5, 47.5};
+
+// A rectangle of pixels at a depth before the wall.
+struct Box {
+    int left = 0, right = 0, top = 0, bottom = 0;
+    float depth_m = kBox_m;
+    bool Has(int x, int y) const { return x >= left && x < right && y >= top && y < bottom; }
+};
+
+DepthImage View(const Box& box) {
+    DepthImage depth_m(kWidth, kHeight, kWall_m);
+    for (int y = 0; y < kHeight; ++y)
+        for (int x = 0; x < kWidth; ++x)
+            if (box.Has(x, y)) depth_m(x, y) = box.depth_m;
+    return depth_m;
+}
+
+// The map is the wall, and perhaps a box; of the camera's places only the one along its axis counts.
+class WallAndBox : public ViewPredictor {
+  public:
+    Box box;
+    void Predict(const BlockMap&, const PinholeCamera& camera, const Eigen::Isometry3d& T_world_camera, float, float,
+                 PredictedView& view) override {
+        view.Resize(camera, T_world_camera);
+        view.depth_m = View(box);
+        const auto ahead_m = static_cast<float>(T_world_camera.translation().z());
+        for (std::size_t i = 0; i < view.depth_m.size(); ++i) view.depth_m.data()[i] -= ahead_m;
+    }
+};
+
+class MovingDetectorTest : public ::testing::Test {
+  protected:
+    std::shared_ptr<const MovingMask> See(const DepthImage& depth_m) {
+        stamp_s_ += kFrame_s;
+        return detector_.Find({.depth_m = depth_m, .stamp_s = stamp_s_, .T_world_camera = T_world_camera_}, map_, wall_);
+    }
+    // A box as wide as half a metre, `way` pixels along.
+    static Box BoxAt(double way) {
+        const int left = 20 + static_cast<int>(std::lround(way));
+        return {left, left + 35, 10, 90};
+    }
+
+    MovingDetector detector_{{}, kCamera};
+    BlockMap map_{BlockMap::Config()};
+    WallAndBox wall_;
+    Eigen::Isometry3d T_world_camera_ = Eigen::Isometry3d::Identity();
+    double stamp_s_ = 100;
+};
+
+TEST_F(MovingDetectorTest, NothingMovesInAStaticView) {
+    for (int i = 0; i < 60; ++i) EXPECT_EQ(See(View(BoxAt(0))), nullptr) << i;
+}
+
+// At 1 m/s, 2.3 pixels a frame.
+TEST_F(MovingDetectorTest, AWalkerIsMaskedWholeAndTheWallIsNot) {
+    for (int i = 0; i < 10; ++i) See(View({}));
+    for (int i = 0; i < 24; ++i) {
+        const Box box = BoxAt(2.3 * i);
+        const auto mask = See(View(box));
+        ASSERT_NE(mask, nullptr) << i;
+        int missed = 0, false_alarms = 0;
+        for (int y = 0; y < kHeight; ++y)
+            for (int x = 0; x < kWidth; ++x) {
+                const bool masked = mask->moving(mask->TileX(x), mask->TileY(y)) != 0;
+                missed += box.Has(x, y) && !masked;
+                false_alarms += !box.Has(x, y) && masked;
+            }
+        EXPECT_EQ(missed, 0) << i;
+        EXPECT_LT(false_alarms, 5 * 2 * (35 + 80)) << i;  // a rim of the tiles around
+    }
+}
+
+// There from the first frame: nobody has seen what is behind it, and the map has it.
+TEST_F(MovingDetectorTest, AWalkerOfTheFirstFrameIsFoundByWhereItWas) {
+    wall_.box = BoxAt(0);
+    std::shared_ptr<const MovingMask> mask;
+    for (int i = 0; i < 24; ++i) mask = See(View(BoxAt(2.3 * i)));
+    ASSERT_NE(mask, nullptr);
+    const Box box = BoxAt(2.3 * 23);
+    EXPECT_EQ(mask->moving((box.left + box.right) / 2, 50), 1);
+    EXPECT_GT(mask->gone_tiles, 20 * 60);
+    EXPECT_FLOAT_EQ(mask->gone_m(30, 50), kWall_m);  // where it was
+    EXPECT_EQ(mask->gone_m(120, 50), 0);             // where nothing was
+}
+
+TEST_F(MovingDetectorTest, WhatHasStoodStillForTheWindowBelongsToTheScene) {
+    for (int i = 0; i < 10; ++i) See(View({}));
+    for (int i = 0; i < 15; ++i) See(View(BoxAt(2.3 * i)));
+    const Box stands = BoxAt(2.3 * 14);
+    std::shared_ptr<const MovingMask> mask;
+    for (int i = 0; i < 15; ++i) mask = See(View(stands));
+    EXPECT_NE(mask, nullptr);  // after half a second not yet
+    for (int i = 0; i < 18; ++i) mask = See(View(stands));
+    EXPECT_TRUE(mask == nullptr || mask->moving_tiles == 0);
+}
+
+TEST_F(MovingDetectorTest, APoseThatIsOffIsNoMovement) {
+    for (int i = 0; i < 30; ++i) See(View(BoxAt(0)));
+    T_world_camera_.translation() = Eigen::Vector3d(0.3, 0, 0.4);
+    for (int i = 0; i < 10; ++i) EXPECT_EQ(See(View(BoxAt(0))), nullptr) << i;
+}
+
+TEST_F(MovingDetectorTest, SpecksDoNotCount) {
+    for (int i = 0; i < 30; ++i) {
+        DepthImage depth_m = View({});
+        for (int k = 0; k < 40; ++k) depth_m((37 * k + 11 * i) % kWidth, (53 * k + 7 * i) % kHeight) = 1.0f;
+        EXPECT_EQ(See(depth_m), nullptr) << i;
+    }
+}
+
+TEST_F(MovingDetectorTest, WhatMovedIsExpectedAgain) {
+    for (int i = 0; i < 10; ++i) See(View({}));
+    for (int i = 0; i < 10; ++i) See(View(BoxAt(2.3 * i)));
+    const auto expected = detector_.Expect(stamp_s_ + kFrame_s, T_world_camera_);
+    ASSERT_NE(expected, nullptr);
+    const Box next = BoxAt(2.3 * 10);
+    for (int y = next.top; y < next.bottom; ++y)
+        for (int x = next.left; x < next.right; ++x) ASSERT_EQ(expected->moving(x, y), 1) << x << " " << y;
+    EXPECT_EQ(detector_.Expect(stamp_s_ + 1, T_world_camera_), nullptr);
+    detector_.Clear();
+    EXPECT_EQ(detector_.Expect(stamp_s_ + kFrame_s, T_world_camera_), nullptr);
+}
+
+}  // namespace
+}  // namespace tessera
