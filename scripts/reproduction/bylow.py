@@ -95,7 +95,7 @@ METHODS = [("sdf, alpha auto", ("--tracker", "sdf", "--alpha", "auto")),
 def low_structure(bench):
     document = Document("Scenes without structure, without texture, without either",
                         "ATE RMSE in metres; in brackets what was tracked and the frames that were called degenerate "
-                        "(a direction is not held; they are not fused), where there are any.")
+                        "(some motion is known less well than to half a voxel), where there are any.")
     rows, jobs = [], []
     sequences = [(name, find(bench, name)) for name in LOW_STRUCTURE]
     auto_m, best_m = {}, {}
@@ -140,7 +140,7 @@ def figures(bench):
             file = f"b14-figure{figure}-{scene}-{method}.png"
             (bench.out / file).write_bytes((bench.folder(jobs[-1].name) / "picture.png").read_bytes())
             document.pictures.append((file, f"Figure {figure}: {scene}, {rows[-1][2]}"))
-    header = ["figure", "scene", "tracked with", "ATE [m]", "frames lost", "degenerate, not fused"]
+    header = ["figure", "scene", "tracked with", "ATE [m]", "frames lost", "degenerate"]
     document.tables = [("", header, rows)]
     document.notes = ["The paper's recordings are not public: built-in scenes of ours stand in (a corridor of 40 m, a "
                       "patterned floor), with exact truth. The paper gives no figures for these, only pictures."]

@@ -123,7 +123,7 @@ bool TrackingStage::TrackFrom(const Frame& frame, const BlockMap& map, const Eig
                                          .since_last_s = 0,
                                          .motion = ShutterOf(frame)});
     tracked.report.track_ms += watch.LapMs();
-    if (track.status != TrackStatus::kGood) return false;
+    if (track.status != TrackStatus::kGood || track.degenerate) return false;
     tracked.report.track = std::move(track);
     motion_.Clear();
     moving_.Clear();

@@ -249,7 +249,7 @@ void MovingDetector::Move(const Eigen::Isometry3d& T_new_old) {
 void MovingDetector::Clear() { *memory_ = {}; }
 
 void MovingDetector::Config::Describe(ConfigParameters& p) {
-    p.Add("enabled", enabled, "people and other moving things are neither tracked on nor fused (docs/moving.md)");
+    p.Add("enabled", enabled, "people and other moving things are neither tracked on nor fused (docs/moving.md); not good enough yet to be on by itself");
     p.Add("window_s", window_s, {0.1, 10.0}, "s",
           "what has stood still for so long belongs to the scene: shorter takes a moved chair in sooner, longer bears slower movers");
     p.Add("margin_m", margin_m, {0.005, 1.0}, "m",

@@ -101,7 +101,7 @@ TEST(DevicePoints, AreNoneWhereThereIsNoRoom) {
     const PreparedFrame& frame = DeskFrames()[0].prepared;
     const PointArguments a = MakePointArguments(frame, DeskCamera(), {}, 1, 2.0, true);
     std::size_t none = 0, all = 0;
-    for (std::size_t limit = std::size_t{10} << 20; limit < std::size_t{15} << 20; limit += std::size_t{1} << 16) {
+    for (std::size_t limit = std::size_t{10} << 20; limit < std::size_t{20} << 20; limit += std::size_t{1} << 16) {
         DevicePipeline device("host", limit);
         const std::int64_t valid = device.SetPoints(map, frame, a);
         none += valid == 0;
