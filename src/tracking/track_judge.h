@@ -14,7 +14,7 @@ class TrackJudge {
   public:
     struct Config {
         double degenerate_voxels = 0.5;
-        double expected_within_m = 0.01;
+        double expected_within_m = 0.02;
         double min_known_fraction = 0.1;
         double min_inlier_fraction = 0.2;
         double good_inlier_fraction = 0.35;

@@ -60,7 +60,8 @@ TEST_P(EveryTracker, PlaneIsHeldByItsTextureOnly) {
     }
 }
 
-// Along a bare wall the camera is where the last start has it, whichever start was chosen; across it where the map has it.
+// Along a bare wall the camera is where the last start has it, whichever start was chosen, but for the few per cent (of the 7 cm
+// between the starts) that the field's rounding still claims to know; across it where the map has it.
 TEST_P(EveryTracker, WhatNothingShowsIsAsExpected) {
     BoxRoom room;
     room.only_back_wall = true;
@@ -81,7 +82,7 @@ TEST_P(EveryTracker, WhatNothingShowsIsAsExpected) {
                                                  .motion = {}});
     EXPECT_TRUE(result.degenerate);
     const Eigen::Vector3d along = result.T_world_camera.translation() - T_expected.translation();
-    EXPECT_LT(along.head<2>().norm(), 1e-3);
+    EXPECT_LT(along.head<2>().norm(), 2e-3);
     EXPECT_NEAR(result.T_world_camera.translation().z(), T_true.translation().z(), 1e-3);
     const Eigen::Matrix3d turn = T_expected.linear().transpose() * result.T_world_camera.linear();
     EXPECT_NEAR(std::atan2(turn(1, 0), turn(0, 0)), 0, 1e-3);
