@@ -63,7 +63,7 @@ using SumKernel = void (*)(const SdfArguments&, int, int, double*);
 // One thread. The map is far larger than the caches of the core; the points run along image rows.
 void SumPoints(benchmark::State& state, SumKernel kernel, bool use_intensity) {
     FramePoints points;
-    points.Build(RoomPrepared(0), FullCamera(), {}, kStep_px, 2.0);
+    points.Build(RoomPrepared(0), FullCamera(), {}, kStep_px, {2.0});
     points.SampleIntensity(RoomPrepared(0), FullCamera(), {});
     const SdfArguments a = ArgumentsFor(points, StartBeside(TruePose(4)), use_intensity);
     PoseSums sums, expected;

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <vector>
+
 #include "core/stopwatch.h"
 
 namespace tessera {
@@ -14,6 +17,17 @@ Integrator::View FusionView(const TrackResult& track) {
     view.gain = static_cast<float>(track.gain);
     view.offset = static_cast<float>(track.offset);
     return view;
+}
+
+// 0.5 without depth.
+double MedianDepth(const DepthImage& depth_m) {
+    std::vector<float> depths;
+    for (std::size_t i = 0; i < depth_m.size(); ++i)
+        if (depth_m.data()[i] > 0) depths.push_back(depth_m.data()[i]);
+    if (depths.empty()) return 0.5;
+    const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
+    std::nth_element(depths.begin(), middle, depths.end());
+    return *middle;
 }
 
 }  // namespace
@@ -162,7 +176,15 @@ TrackResult TrackingStage::TrackFrame(const Frame& frame, const PreparedFrame& p
                             .T_world_camera_starts = {T_world_expected, T_world_aligned},
                             .T_world_camera_last = T_world_last,
                             .since_last_s = motion_.SinceLast(frame.stamp_s),
-                            .motion = ShutterOf(frame)});
+                            .motion = ShutterOf(frame),
+                            .nearest_m = NearestOfWeight(frame, prepared)});
+}
+
+// Who stands near and starts to walk must not outweigh the room behind: there, the nearer half of the view weighs alike.
+double TrackingStage::NearestOfWeight(const Frame& frame, const PreparedFrame& prepared) const {
+    constexpr double kUsual_m = 0.5;
+    if (!config_.moving.enabled || !moving_.MovedLately(frame.stamp_s)) return kUsual_m;
+    return std::max(kUsual_m, MedianDepth(prepared.reduced.front().depth_m));
 }
 
 FrameMotion TrackingStage::ShutterOf(const Frame& frame) const {

@@ -20,7 +20,7 @@ PinholeImage WithCamera(const Image<float>& image, const PreparedFrame& frame, c
 }  // namespace
 
 PointArguments MakePointArguments(const PreparedFrame& frame, const PinholeCamera& camera, const FrameMotion& motion, int step,
-                                  double depth_exponent, bool intensities) {
+                                  const DepthWeight& weight, bool intensities) {
     const auto sampled = [step](int pixels) { return (pixels + step - 1 - step / 2) / step; };
     PointArguments a{};
     a.depth = WithCamera(frame.depth_m, frame, camera);
@@ -32,7 +32,8 @@ PointArguments MakePointArguments(const PreparedFrame& frame, const PinholeCamer
     a.step = step;
     a.width = (sampled(frame.width) + kPointPadding - 1) / kPointPadding * kPointPadding;
     a.height = sampled(frame.height);
-    a.depth_exponent = static_cast<float>(-depth_exponent);
+    a.depth_exponent = static_cast<float>(-weight.exponent);
+    a.nearest_m = static_cast<float>(weight.nearest_m);
     for (int i = 0; i < 6; ++i) a.twist_per_s[i] = static_cast<float>(motion.twist_per_s(i));
     a.still = motion.twist_per_s.isZero();
     a.depth_readout_s = motion.depth_readout_s;
@@ -50,8 +51,8 @@ void FramePoints::Lay(const PointArguments& a, std::int64_t valid) {
 }
 
 void FramePoints::Build(const PreparedFrame& frame, const PinholeCamera& camera, const FrameMotion& motion, int step,
-                      double depth_exponent) {
-    const PointArguments a = MakePointArguments(frame, camera, motion, step, depth_exponent, false);
+                      const DepthWeight& depth_weight) {
+    const PointArguments a = MakePointArguments(frame, camera, motion, step, depth_weight, false);
     Lay(a, 0);
     for (auto* values : {&x, &y, &z, &weight}) values->assign(static_cast<std::size_t>(count()), 0.0f);
     intensity.assign(static_cast<std::size_t>(count()), -1.0f);
@@ -67,7 +68,7 @@ void FramePoints::Build(const PreparedFrame& frame, const PinholeCamera& camera,
             x[at] = p.x;
             y[at] = p.y;
             z[at] = p.z;
-            weight[at] = PointWeight(d, a.depth_exponent);
+            weight[at] = PointWeight(d, a.depth_exponent, a.nearest_m);
             ++valid[static_cast<std::size_t>(row)];
         }
     });
@@ -100,7 +101,7 @@ void FramePoints::EstimateNormals(const PreparedFrame& frame, const PinholeCamer
 void FramePoints::SampleIntensity(const PreparedFrame& frame, const PinholeCamera& camera,
                                 const FrameMotion& motion) {
     if (!frame.has_colour) return;
-    const PointArguments a = MakePointArguments(frame, camera, motion, step_, 0, true);
+    const PointArguments a = MakePointArguments(frame, camera, motion, step_, {}, true);
     tbb::parallel_for(0, height_, [&](int row) {
         const PointRow r = RowOfPoints(a, row);
         std::size_t i = static_cast<std::size_t>(row) * static_cast<std::size_t>(width_);

@@ -13,16 +13,20 @@
 
 namespace tessera {
 
+// A point's weight: (1 m / depth)^exponent, at most that at nearest_m.
+struct DepthWeight {
+    double exponent = 0, nearest_m = 0.5;
+};
+
 // Every step-th pixel's; intensities only if they are to be read and the frame has any. The images stay the frame's.
 PointArguments MakePointArguments(const PreparedFrame& frame, const PinholeCamera& camera, const FrameMotion& motion, int step,
-                                  double depth_exponent, bool intensities);
+                                  const DepthWeight& weight, bool intensities);
 
 class FramePoints {
   public:
-    // Points in the frame of the camera at the frame's instant, metres. Weight (1 m / z)^depth_exponent, at most that of
-    // 0.5 m.
+    // Points in the frame of the camera at the frame's instant, metres.
     void Build(const PreparedFrame& frame, const PinholeCamera& camera, const FrameMotion& motion, int step,
-               double depth_exponent);
+               const DepthWeight& depth_weight);
     // Reads the intensity of each point where the colour camera saw it at its own time; -1 where it saw nothing.
     void SampleIntensity(const PreparedFrame& frame, const PinholeCamera& camera, const FrameMotion& motion);
 

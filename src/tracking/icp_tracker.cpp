@@ -124,12 +124,13 @@ void IcpTracker::PrepareLevel(const TrackInput& input, int level, State& state) 
             Se3Log(input.T_world_camera_last.inverse() * view_.T_world_camera * state.T_view_camera) /
             input.since_last_s;
     const int step = config_.finest_step_px << level;
+    const DepthWeight weight{config_.depth_exponent, input.nearest_m};
     if (device_ != nullptr) {
-        PointArguments a = MakePointArguments(input.frame, camera_, state.motion, step, config_.depth_exponent, state.alpha > 0);
+        PointArguments a = MakePointArguments(input.frame, camera_, state.motion, step, weight, state.alpha > 0);
         a.normal_radius_px = config_.normal_radius_px;
         points.Lay(a, device_->SetPoints(input.frame, a, level));
     } else {
-        points.Build(input.frame, camera_, state.motion, step, config_.depth_exponent);
+        points.Build(input.frame, camera_, state.motion, step, weight);
         points.EstimateNormals(input.frame, camera_, config_.normal_radius_px);
         if (state.alpha > 0) points.SampleIntensity(input.frame, camera_, state.motion);
     }

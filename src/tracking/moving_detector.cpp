@@ -19,6 +19,7 @@ constexpr int kTileColumns = 128;      // about so many
 constexpr double kAges[] = {0.3, 1.0}; // of the moments that a frame is compared with, in windows
 constexpr double kOld = 0.8;           // the same: what stood there so long ago stands still
 constexpr double kSpacing = 0.1;       // the same: of remembered moments
+constexpr double kLately = 10;         // the same: after what moved, other things may
 constexpr double kImageTime_s = 0.015; // an image is spread over about so much: blur, rolling shutter, stamps
 constexpr double kBody_m = 0.6;        // what hangs together reaches so far
 constexpr float kNearest_m = 0.1f;
@@ -29,6 +30,15 @@ std::int64_t CountOf(const Marks& marks) { return std::count_if(marks.data(), ma
 
 void Join(const Marks& more, Marks& marks) {
     for (std::size_t i = 0; i < marks.size(); ++i) marks.data()[i] |= more.data()[i];
+}
+
+// As if its edges had moved by so many tiles more: what it is compared with has edges that did.
+const TileView& Blurred(const TileView& view, int more, TileView& storage) {
+    if (more == 0) return view;
+    storage = view;
+    storage.blur += more;
+    NearestAround(storage.depth_m, 1 + storage.blur, storage.near_m);
+    return storage;
 }
 
 // What differs between a frame and the moments before.
@@ -54,6 +64,8 @@ struct MovingDetector::Memory {
     TileView now;
     std::deque<TileView> past;           // oldest first
     Marks moving;                        // in `now`; empty: nothing
+    double moving_s = 0;                 // for so long things move now; falls off as it grew
+    double last_moved_s = -1e300;        // when that last was half a window
 };
 
 // One frame against what is remembered.
@@ -72,7 +84,7 @@ class MovingDetector::Moments {
 
   private:
     std::vector<const TileView*> ToCompare() const;
-    int Reach(double turned_rad, double since_s) const;
+    int Blur(double turned_rad, double since_s) const;
 
     const Config& config_;
     const PinholeCamera& camera_;
@@ -80,9 +92,8 @@ class MovingDetector::Moments {
     Memory& memory_;
 };
 
-// Tiles that an edge may have shifted by while the image was taken.
-int MovingDetector::Moments::Reach(double turned_rad, double since_s) const {
-    return 1 + std::min(6, static_cast<int>(turned_rad / since_s * kImageTime_s * camera_.fx + 0.5));
+int MovingDetector::Moments::Blur(double turned_rad, double since_s) const {
+    return std::min(6, static_cast<int>(turned_rad / since_s * kImageTime_s * camera_.fx + 0.5));
 }
 
 void MovingDetector::Moments::Take(const Input& input, int step) {
@@ -93,11 +104,12 @@ void MovingDetector::Moments::Take(const Input& input, int step) {
         m.past.clear();
         m.moving = {};
     }
-    const int reach = follows ? Reach(RotationAngle(m.now.T_world_camera, input.T_world_camera), since_s) : 1;
+    m.now.blur = follows ? Blur(RotationAngle(m.now.T_world_camera, input.T_world_camera), since_s) : 0;
+    m.moving_s = follows ? std::clamp(m.moving_s + (m.moving.empty() ? -since_s : since_s), 0.0, config_.window_s) : 0;
     m.now.T_world_camera = input.T_world_camera;
     m.now.stamp_s = input.stamp_s;
     MakeTiles(input.depth_m, step, input.disparity_offset_per_m, m.now.depth_m);
-    NearestAround(m.now.depth_m, reach, m.now.near_m);
+    NearestAround(m.now.depth_m, 1 + m.now.blur, m.now.near_m);
     while (!m.past.empty() && m.past.front().stamp_s < input.stamp_s - 1.1 * config_.window_s) m.past.pop_front();
 }
 
@@ -118,12 +130,14 @@ Changes MovingDetector::Moments::Compare() const {
     std::array<Changes, std::size(kAges)> parts;
     tbb::parallel_for(std::size_t{0}, 2 * moments.size(), [&](std::size_t i) {
         Changes& part = parts[i / 2];
+        const TileView& past = *moments[i / 2];
+        TileView storage;
         if (i % 2 == 0) {
             part.came = Marks(camera_.width, camera_.height);
-            MarkFree(now, *moments[i / 2], camera_, margin_, part.came);
+            MarkFree(now, Blurred(past, now.blur, storage), camera_, margin_, part.came);
         } else {
             part.left_m = DepthImage(camera_.width, camera_.height);
-            FindLeft(*moments[i / 2], now, camera_, margin_, part.left_m);
+            FindLeft(past, Blurred(now, past.blur, storage), camera_, margin_, part.left_m);
         }
     });
     Changes changes;
@@ -222,6 +236,7 @@ std::shared_ptr<const MovingMask> MovingDetector::Find(const Input& input, const
             if (evidence.gone.data()[i] != 0) mask->gone_m.data()[i] = m.now.near_m.data()[i];
     }
     if (!mask || mask->moving_tiles == 0) m.moving = {};
+    if (m.moving_s >= 0.5 * config_.window_s) m.last_moved_s = input.stamp_s;
     if (!mask || mask->moving_tiles + mask->gone_tiles == 0) return nullptr;
     return mask;
 }
@@ -241,6 +256,10 @@ std::shared_ptr<const MovingMask> MovingDetector::Expect(double stamp_s, const E
     return mask;
 }
 
+bool MovingDetector::MovedLately(double stamp_s) const {
+    return stamp_s - memory_->last_moved_s < kLately * config_.window_s;
+}
+
 void MovingDetector::Move(const Eigen::Isometry3d& T_new_old) {
     for (TileView& view : memory_->past) view.T_world_camera = T_new_old * view.T_world_camera;
     memory_->now.T_world_camera = T_new_old * memory_->now.T_world_camera;
@@ -249,7 +268,7 @@ void MovingDetector::Move(const Eigen::Isometry3d& T_new_old) {
 void MovingDetector::Clear() { *memory_ = {}; }
 
 void MovingDetector::Config::Describe(ConfigParameters& p) {
-    p.Add("enabled", enabled, "people and other moving things are neither tracked on nor fused (docs/moving.md); not good enough yet to be on by itself");
+    p.Add("enabled", enabled, "people and other moving things are neither tracked on nor fused (docs/moving.md); off where nothing moves saves a twentieth of a frame");
     p.Add("window_s", window_s, {0.1, 10.0}, "s",
           "what has stood still for so long belongs to the scene: shorter takes a moved chair in sooner, longer bears slower movers");
     p.Add("margin_m", margin_m, {0.005, 1.0}, "m",

@@ -14,7 +14,7 @@ namespace tessera {
 class MovingDetector {
   public:
     struct Config {
-        bool enabled = false;
+        bool enabled = true;
         double window_s = 1.0;
         double margin_m = 0.04;
         double margin_per_m = 0.01;
@@ -42,6 +42,8 @@ class MovingDetector {
     // What was found to move in the frame before, where a camera there would see it, and somewhat around: not to be tracked on.
     // Null: nothing.
     std::shared_ptr<const MovingMask> Expect(double stamp_s, const Eigen::Isometry3d& T_world_camera) const;
+    // Whether things move here: they did for half a window, at most ten windows ago. Others may start to, and these stop and go on.
+    bool MovedLately(double stamp_s) const;
 
     // The map was moved, the camera with it.
     void Move(const Eigen::Isometry3d& T_new_old);

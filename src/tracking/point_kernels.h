@@ -26,9 +26,10 @@ TESSERA_HD CameraPoint Moved(const CameraPoint& p, const float* twist_per_s, flo
             p.z + time_s * (w[0] * p.y - w[1] * p.x + w[5])};
 }
 
-// z^exponent, z in metres, at most that of 0.5 m.
-TESSERA_HD float PointWeight(float z_m, float exponent) {
-    return exponent == -2.0f ? 1.0f / max(z_m * z_m, 0.25f) : std::pow(max(z_m, 0.5f), exponent);
+// z^exponent, z in metres, at most that of nearest_m.
+TESSERA_HD float PointWeight(float z_m, float exponent, float nearest_m) {
+    const float z = max(z_m, nearest_m);
+    return exponent == -2.0f ? 1.0f / (z * z) : std::pow(z, exponent);
 }
 
 // Three measured depths in a row that may belong to one surface.
@@ -95,7 +96,7 @@ struct PointArguments {
     double fx, fy, cx, cy;   // of the same camera, for RaySlope
     int step;
     int width, height;     // slots per row, some of them to the right of the image, and rows
-    float depth_exponent;  // PointWeight's
+    float depth_exponent, nearest_m;  // PointWeight's
     int normal_radius_px;  // NormalAt's; 0: no normals
     float twist_per_s[6];  // FrameMotion's, with its times
     bool still;            // the twist is zero

@@ -82,13 +82,14 @@ TrackResult SdfTracker::Track(const TrackInput& input) {
 
 // Where there are none the level cannot be tracked; a device may have had no room for them.
 void SdfTracker::MakePoints(const TrackInput& input, int step, FramePoints& points, State& state) const {
+    const DepthWeight weight{config_.depth_exponent, input.nearest_m};
     if (device_ != nullptr) {
         const PointArguments a =
-            MakePointArguments(input.frame, camera_, state.motion, step, config_.depth_exponent, state.alpha > 0);
+            MakePointArguments(input.frame, camera_, state.motion, step, weight, state.alpha > 0);
         points.Lay(a, device_->SetPoints(input.map, input.frame, a));
         if (points.valid() == 0) state.step.valid = false;
     } else {
-        points.Build(input.frame, camera_, state.motion, step, config_.depth_exponent);
+        points.Build(input.frame, camera_, state.motion, step, weight);
         if (state.alpha > 0) points.SampleIntensity(input.frame, camera_, state.motion);
     }
     state.failed = points.valid() == 0;

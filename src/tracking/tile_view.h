@@ -12,7 +12,8 @@ struct TileView {
     Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity();
     double stamp_s = 0;
     DepthImage depth_m;  // nearest of the tile's pixels; 0 unless half of them have depth
-    DepthImage near_m;   // nearest of the tiles around, 0 where depth_m is: nothing at a tile's place is before it
+    int blur = 0;        // tiles that an edge may have moved by while the image was taken
+    DepthImage near_m;   // nearest of the tiles at most 1 + blur away, 0 where depth_m is: nothing at a tile's place is before it
 };
 
 // What differs by more than this between two measurements at that depth is not noise: metres. Structured light's noise and

@@ -22,6 +22,7 @@ struct TrackInput {
     Eigen::Isometry3d T_world_camera_last;   // where it was at the last tracked frame
     double since_last_s = 0;                 // 0 if there is no such frame
     FrameMotion motion;                      // delays and read-out times; the twist is the tracker's to fill
+    double nearest_m = 0.5;                  // nearer points have the weight of this depth
 };
 
 enum class TrackStatus {

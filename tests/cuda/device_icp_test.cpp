@@ -31,7 +31,7 @@ struct IcpRig {
         RayCaster().Predict(map, camera, T_world_view, kNear_m, kFar_m, view);
         BuildIcpModel(view, kLevels, kJump_m, model);
         const PreparedFrame& frame = DeskFrames()[5].prepared;
-        points.Build(frame, DeskCamera(), {}, 2, 2.0);
+        points.Build(frame, DeskCamera(), {}, 2, {2.0});
         points.EstimateNormals(frame, DeskCamera(), 4);
         points.SampleIntensity(frame, DeskCamera(), {});
         distance.resize(static_cast<std::size_t>(points.count()));

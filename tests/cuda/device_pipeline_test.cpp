@@ -72,7 +72,7 @@ TEST(DevicePipeline, SumsAreTheProcessorsToTheBit) {
     for (std::size_t i = 0; i < 5; ++i) integrator.Integrate(DeskFrames()[i].prepared, MovingView(DeskFrames()[i]), map);
     const PreparedFrame& frame = DeskFrames()[5].prepared;
     FramePoints points;
-    points.Build(frame, DeskCamera(), {}, 2, 2.0);
+    points.Build(frame, DeskCamera(), {}, 2, {2.0});
     points.SampleIntensity(frame, DeskCamera(), {});
     SdfArguments a{};
     static_cast<BlockMapView&>(a) = map.view();

@@ -39,18 +39,18 @@ void ExpectSame(const FramePoints& points, const FramePoints& expected) {
 
 // What SetPoints and TakePoints give is what FramePoints makes, without normals and with them.
 void ExpectSamePoints(DevicePipeline& device, const PreparedFrame& frame, const PinholeCamera& camera, const FrameMotion& motion,
-                      int step, double depth_exponent, bool intensities) {
+                      int step, const DepthWeight& weight, bool intensities) {
     const BlockMap map{BlockMap::Config()};
-    PointArguments a = MakePointArguments(frame, camera, motion, step, depth_exponent, intensities);
+    PointArguments a = MakePointArguments(frame, camera, motion, step, weight, intensities);
     FramePoints expected, points;
-    expected.Build(frame, camera, motion, step, depth_exponent);
+    expected.Build(frame, camera, motion, step, weight);
     if (intensities) expected.SampleIntensity(frame, camera, motion);
     points.Lay(a, device.SetPoints(map, frame, a));
     device.TakePoints(points);
     ExpectSame(points, expected);
 
     a.normal_radius_px = 2;
-    expected.Build(frame, camera, motion, step, depth_exponent);
+    expected.Build(frame, camera, motion, step, weight);
     expected.EstimateNormals(frame, camera, a.normal_radius_px);
     if (intensities) expected.SampleIntensity(frame, camera, motion);
     points.Lay(a, device.icp_sums().SetPoints(frame, a, 0));
@@ -67,7 +67,7 @@ TEST(DevicePoints, AreTheBytesOfFramePoints) {
                 for (const bool intensities : {true, false}) {
                     SCOPED_TRACE(::testing::Message() << step << ", " << depth_exponent << ", " << intensities);
                     ExpectSamePoints(device, DeskFrames()[i++ / 2 % DeskFrames().size()].prepared, DeskCamera(), motion, step,
-                                     depth_exponent, intensities);
+                                     {depth_exponent, intensities ? 0.5 : 1.5}, intensities);
                 }
 }
 

@@ -113,6 +113,38 @@ TEST_F(MovingDetectorTest, APoseThatIsOffIsNoMovement) {
     for (int i = 0; i < 10; ++i) EXPECT_EQ(See(View(BoxAt(0))), nullptr) << i;
 }
 
+// The columns of a pillar before a round wall, from a camera in the middle that has turned by `yaw_rad`.
+DepthImage RoundView(double yaw_rad) {
+    DepthImage depth_m(kWidth, kHeight);
+    for (int y = 0; y < kHeight; ++y)
+        for (int x = 0; x < kWidth; ++x) {
+            const double from_axis_rad = std::atan((x - kCamera.cx) / kCamera.fx);
+            const float away_m = std::abs(from_axis_rad + yaw_rad) < 0.15 ? kBox_m : kWall_m;
+            depth_m(x, y) = away_m * static_cast<float>(std::cos(from_axis_rad));
+        }
+    return depth_m;
+}
+
+// A rolling shutter shows the edges where the camera looked up to 15 ms before or after.
+TEST_F(MovingDetectorTest, EdgesThatATurnHasShiftedDoNotMove) {
+    for (int i = 0; i < 30; ++i) EXPECT_EQ(See(RoundView(0)), nullptr) << i;
+    constexpr double kTurn_rad = 0.1, kShutter_rad = kTurn_rad / kFrame_s * 0.015;
+    T_world_camera_ = Eigen::Isometry3d(Eigen::AngleAxisd(kTurn_rad, Eigen::Vector3d::UnitY()));
+    EXPECT_EQ(See(RoundView(kTurn_rad + kShutter_rad)), nullptr);
+}
+
+TEST_F(MovingDetectorTest, ForTenWindowsOthersMayMoveToo) {
+    for (int i = 0; i < 30; ++i) See(View({}));
+    for (int i = 0; i < 12; ++i) See(View(BoxAt(2.3 * i)));
+    EXPECT_FALSE(detector_.MovedLately(stamp_s_));  // it may have been noise
+    for (int i = 12; i < 24; ++i) See(View(BoxAt(2.3 * i)));
+    EXPECT_TRUE(detector_.MovedLately(stamp_s_));
+    EXPECT_TRUE(detector_.MovedLately(stamp_s_ + 9));
+    EXPECT_FALSE(detector_.MovedLately(stamp_s_ + 11));
+    detector_.Clear();
+    EXPECT_FALSE(detector_.MovedLately(stamp_s_));
+}
+
 TEST_F(MovingDetectorTest, SpecksDoNotCount) {
     for (int i = 0; i < 30; ++i) {
         DepthImage depth_m = View({});

@@ -11,10 +11,12 @@ namespace tessera {
 namespace {
 
 TEST(PointKernels, WeightFallsWithDepthFromHalfAMetreOn) {
-    EXPECT_FLOAT_EQ(PointWeight(2.0f, -2.0f), 0.25f);
-    EXPECT_FLOAT_EQ(PointWeight(0.1f, -2.0f), 4.0f);
-    EXPECT_FLOAT_EQ(PointWeight(4.0f, -0.5f), 0.5f);
-    EXPECT_FLOAT_EQ(PointWeight(0.1f, -1.0f), 2.0f);
+    EXPECT_FLOAT_EQ(PointWeight(2.0f, -2.0f, 0.5f), 0.25f);
+    EXPECT_FLOAT_EQ(PointWeight(0.1f, -2.0f, 0.5f), 4.0f);
+    EXPECT_FLOAT_EQ(PointWeight(4.0f, -0.5f, 0.5f), 0.5f);
+    EXPECT_FLOAT_EQ(PointWeight(0.1f, -1.0f, 0.5f), 2.0f);
+    EXPECT_FLOAT_EQ(PointWeight(1.0f, -2.0f, 2.0f), 0.25f);
+    EXPECT_FLOAT_EQ(PointWeight(4.0f, -2.0f, 2.0f), 0.0625f);
 }
 
 // To first order the body twist's exponential, and back again.

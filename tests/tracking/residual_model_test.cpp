@@ -20,7 +20,7 @@ class LearntScales : public testing::Test {
   protected:
     LearntScales() {
         PrepareFrame(room_.Render(camera_, Eigen::Isometry3d::Identity()), {}, frame_);
-        points_.Build(frame_, camera_, {}, 1, 0.0);
+        points_.Build(frame_, camera_, {}, 1, {});
         points_.SampleIntensity(frame_, camera_, {});
         residuals_.Resize(points_.count());
         config_.auto_alpha_max = 100;

@@ -47,7 +47,7 @@ class Shutter : public testing::Test {
             motion.colour_delay_s = estimator.delay_s();
             motion.colour_readout_s = estimator.readout_s();
             FramePoints points;
-            points.Build(prepared, camera, motion, 1, 2.0);
+            points.Build(prepared, camera, motion, 1, {2.0});
             points.SampleIntensity(prepared, camera, motion);
             PointResiduals residuals;
             residuals.Resize(points.count());
