@@ -11,10 +11,11 @@ namespace {
 // errors that a recording has everywhere are in no scatter.
 constexpr double kDeviations = 6;
 constexpr double kFocalFloor = 0.0125, kCentreFloor = 0.006;  // of the focal length, of the width
+constexpr double kReadoutFloor_s = 0.002;  // at 1 rad/s half a pixel at the image's border
 constexpr double kUsefulFocal = 0.02;                       // of the focal length: sigma
 
-bool Beyond(double difference_px, double sigma_px, double floor_px) {
-    return sigma_px > 0 && std::abs(difference_px) > std::max(kDeviations * sigma_px, floor_px);
+bool Beyond(double difference, double sigma, double floor) {
+    return sigma > 0 && std::abs(difference) > std::max(kDeviations * sigma, floor);
 }
 
 }  // namespace
@@ -27,6 +28,10 @@ bool CameraEstimate::centre_shown() const {
     const double floor_px = kCentreFloor * given.width;
     return misfit_found < misfit_given && (Beyond(found.cx - given.cx, centre_x_sigma_px, floor_px) ||
                                            Beyond(found.cy - given.cy, centre_y_sigma_px, floor_px));
+}
+
+bool CameraEstimate::shutter_shown(double given_readout_s) const {
+    return Beyond(readout_s - given_readout_s, readout_sigma_s, kReadoutFloor_s);
 }
 
 bool CameraEstimate::useful() const { return focal_sigma_px > 0 && focal_sigma_px < kUsefulFocal * found.fx; }

@@ -11,7 +11,7 @@ namespace tessera {
 struct CameraEstimate {
     PinholeCamera given, found;
     double focal_sigma_px = 0, centre_x_sigma_px = 0, centre_y_sigma_px = 0;
-    double readout_s = 0;                      // of the rolling shutter, first row to last
+    double readout_s = 0, readout_sigma_s = 0;  // of the colour image's rolling shutter, first row to last
     double misfit_given = 0, misfit_found = 0;  // robust photometric error of a point, as given and as found
     int pairs = 0;                             // of views that were compared
 
@@ -19,6 +19,8 @@ struct CameraEstimate {
     bool focal_shown() const;
     bool centre_shown() const;
     bool shown() const { return focal_shown() || centre_shown(); }
+    // The colour image's rows are not read out over so long.
+    bool shutter_shown(double given_readout_s) const;
     // Good enough for a camera of which nothing is known.
     bool useful() const;
 };

@@ -25,6 +25,9 @@ Eigen::Isometry3d LookAt(const Eigen::Vector3d& eye, const Eigen::Vector3d& targ
 // A hand's shaking about a steady pose: 1 to 2 mm and 0.2 degrees rms below 4 Hz.
 Eigen::Isometry3d Tremor(double time_s);
 
+// The same way, so many times as fast.
+CameraPath Hastened(CameraPath path, double speed);
+
 // A recorded trajectory from its first pose on, interpolated. With `T_world_start`, moved so that
 // it begins there.
 Result<CameraPath> ReadCameraPath(const std::string& file,

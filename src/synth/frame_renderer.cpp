@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
+
+#include "core/row_time.h"
 
 namespace tessera {
 namespace {
@@ -86,30 +89,57 @@ void Resize(RenderedView& view, int width, int height, bool with_patches) {
 
 }  // namespace
 
-void FrameRenderer::Render(const CameraPath& path, double time_s, double exposure_s,
-                           RenderedView& view, bool with_patches) const {
-    const int width = camera_.width, height = camera_.height;
-    Resize(view, width, height, with_patches);
-    const auto truth = scene_.View(camera_, path.T_world_camera(time_s), time_s);
+void FrameRenderer::RenderBand(const CameraPath& path, double time_s, double exposure_s, int first_row, int last_row,
+                               RenderedView& view) const {
+    const double middle = 0.5 * (first_row + last_row - 1);
+    const double depth_s = time_s + RowTime(rig_.depth_readout_s, middle, camera_.height);
+    const double colour_s = time_s + rig_.colour_delay_s + RowTime(rig_.colour_readout_s, middle, camera_.height);
+    const Eigen::Isometry3d T_depth_colour = rig_.T_depth_colour();
+    const auto truth = scene_.View(camera_, path.T_world_camera(depth_s), depth_s);
     std::array<std::unique_ptr<ViewCaster>, kSamples> moments;
     for (int i = 0; i < kSamples; ++i) {
         const double share = (i + 0.5) / kSamples - 0.5;
-        const double moment_s = time_s + share * exposure_s;
-        moments[i] = scene_.View(camera_, path.T_world_camera(moment_s), moment_s);
+        const double moment_s = colour_s + share * exposure_s;
+        moments[i] = scene_.View(camera_, path.T_world_camera(moment_s) * T_depth_colour, moment_s);
     }
-    const TileRenderer tile(scene_, camera_, time_s, view);
-    const int columns = (width + kTile - 1) / kTile, rows = (height + kTile - 1) / kTile;
+    const TileRenderer tile(scene_, camera_, depth_s, view);
+    const int columns = (camera_.width + kTile - 1) / kTile, rows = (last_row - first_row + kTile - 1) / kTile;
     tbb::parallel_for(tbb::blocked_range2d<int>(0, rows, 0, columns), [&](const auto& range) {
         for (int row = range.rows().begin(); row < range.rows().end(); ++row) {
             for (int column = range.cols().begin(); column < range.cols().end(); ++column) {
-                const PixelRect rect{column * kTile, row * kTile,
-                                     std::min((column + 1) * kTile, width),
-                                     std::min((row + 1) * kTile, height)};
+                const PixelRect rect{column * kTile, first_row + row * kTile, std::min((column + 1) * kTile, camera_.width),
+                                     std::min(first_row + (row + 1) * kTile, last_row)};
                 for (int i = 0; i < kSamples; ++i) tile.AddColour(*moments[i], rect, i);
                 tile.FillTruth(*truth, rect);
             }
         }
     });
+}
+
+void FrameRenderer::Render(const CameraPath& path, double time_s, double exposure_s,
+                           RenderedView& view, bool with_patches) const {
+    Resize(view, camera_.width, camera_.height, with_patches);
+    const bool rolling = rig_.depth_readout_s != 0 || rig_.colour_readout_s != 0;
+    const int step = rolling ? kRowsAtOnce : camera_.height;
+    tbb::parallel_for(0, (camera_.height + step - 1) / step, [&](int band) {
+        RenderBand(path, time_s, exposure_s, band * step, std::min((band + 1) * step, camera_.height), view);
+    });
+}
+
+Eigen::Isometry3d CameraRig::T_depth_colour() const {
+    const double turn_rad = colour_turn_deg * std::numbers::pi / 180;
+    return Eigen::Translation3d(colour_x_m, 0, 0) * Eigen::AngleAxisd(turn_rad, Eigen::Vector3d::UnitY());
+}
+
+void CameraRig::Describe(ConfigParameters& p) {
+    p.Add("depth_readout_s", depth_readout_s, {-0.1, 0.1}, "s",
+          "rolling shutter of the depth image, from its first row to its last");
+    p.Add("colour_readout_s", colour_readout_s, {-0.1, 0.1}, "s", "the same of the colour image");
+    p.Add("colour_delay_s", colour_delay_s, {-0.1, 0.1}, "s", "colour is taken so much after its time stamp");
+    p.Add("colour_x_m", colour_x_m, {-0.2, 0.2}, "m",
+          "the colour camera lies so far to the right of where the depth image is registered to");
+    p.Add("colour_turn_deg", colour_turn_deg, {-10, 10}, "deg", "and is turned so far to the right");
+    p.Add("depth_scale", depth_scale, {0.5, 2}, "", "measured depth over true depth");
 }
 
 }  // namespace tessera

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/camera.h"
+#include "core/config.h"
 #include "core/image.h"
 #include "synth/camera_path.h"
 #include "synth/scene.h"
@@ -11,6 +12,18 @@ namespace tessera {
 
 // Images of one size. Where no surface is seen: depth 0, instance and class 0, patch -1, colour
 // black.
+// How the depth and the colour camera stand to each other, in time and space. As it is: one camera, all of it at one instant.
+struct CameraRig {
+    double depth_readout_s = 0, colour_readout_s = 0;  // rolling shutter, from the first row to the last
+    double colour_delay_s = 0;                         // colour is taken so much after its time stamp
+    double colour_x_m = 0;                             // the colour camera's place to the right of the depth camera
+    double colour_turn_deg = 0;                        // and its turn to the right
+    double depth_scale = 1;                            // measured depth over true
+
+    void Describe(ConfigParameters& parameters);
+    Eigen::Isometry3d T_depth_colour() const;
+};
+
 struct RenderedView {
     Image<RgbF> colour;          // grey levels [0, 255], averaged over the pixel and the exposure
     DepthImage depth_m;          // exact, through the pixel's centre, at mid-exposure
@@ -24,18 +37,24 @@ struct RenderedView {
 class FrameRenderer {
   public:
     // Refers to the scene.
-    FrameRenderer(const Scene& scene, const PinholeCamera& camera)
-        : scene_(scene), camera_(camera) {}
+    FrameRenderer(const Scene& scene, const PinholeCamera& camera, const CameraRig& rig = {})
+        : scene_(scene), camera_(camera), rig_(rig) {}
 
     // The view at `time_s`, the middle of an exposure of `exposure_s` seconds (0: no motion blur).
     // Four rays a pixel sample the pixel's area and the exposure at once. `with_patches` fills
-    // view.patch. The same result for any number of threads. Thread-safe.
+    // view.patch. A rolling shutter reads bands of kRowsAtOnce rows together. The same result for any
+    // number of threads. Thread-safe.
     void Render(const CameraPath& path, double time_s, double exposure_s, RenderedView& view,
                 bool with_patches = false) const;
 
   private:
+    static constexpr int kRowsAtOnce = 4;
+    // Rows from first_row to last_row - 1.
+    void RenderBand(const CameraPath& path, double time_s, double exposure_s, int first_row, int last_row, RenderedView& view) const;
+
     const Scene& scene_;
     PinholeCamera camera_;
+    CameraRig rig_;
 };
 
 }  // namespace tessera

@@ -1,6 +1,7 @@
 #include "synth/synthetic_source.h"
 
 #include <cmath>
+#include <span>
 #include <utility>
 
 namespace tessera {
@@ -23,6 +24,8 @@ void SynthConfig::Describe(ConfigParameters& p) {
           "world");
     p.AddChoice("model_up", model_up, {{"y", UpAxis::kY}, {"z", UpAxis::kZ}},
                 "which axis of an .obj model points upwards; only its own motion depends on it");
+    p.Add("speed", speed, {0.1, 10}, "", "how many times as fast as its path says the camera moves");
+    p.Section("rig", [this](ConfigParameters& s) { rig.Describe(s); });
     p.Section("sensor", [this](ConfigParameters& s) { sensor.Describe(s); });
 }
 
@@ -37,7 +40,7 @@ Status SynthConfig::Validate() const {
 SyntheticSource::SyntheticSource(std::string name, StagedScene staged, const SynthConfig& config)
     : config_(config),
       staged_(std::move(staged)),
-      renderer_(*staged_.scene, config.camera),
+      renderer_(*staged_.scene, config.camera, config.rig),
       sensor_(config.sensor, config.camera, static_cast<std::uint64_t>(config.seed)) {
     info_.name = std::move(name);
     info_.kind = "synthetic scene";
@@ -74,6 +77,8 @@ ReadResult SyntheticSource::ReadFrame(Frame& frame, RenderedView& truth, bool wi
     frame.stamp_s = frame.colour_stamp_s = kFirstStamp_s + time_s;
     frame.T_world_camera = staged_.path.T_world_camera(time_s);
     sensor_.SenseDepth(truth, index, frame.depth_m);
+    if (config_.rig.depth_scale != 1)
+        for (float& z_m : std::span(frame.depth_m.data(), frame.depth_m.size())) z_m *= static_cast<float>(config_.rig.depth_scale);
     sensor_.SenseColour(truth, index, time_s, frame.colour);
     return {ReadStatus::kOk, ""};
 }

@@ -24,6 +24,8 @@ struct SynthConfig {
     bool trajectory_from_start =
         false;  // begin at the scene's own first pose instead of the recorded one
     UpAxis model_up = UpAxis::kZ;  // of an .obj model, for its own motion
+    double speed = 1;              // of the motion
+    CameraRig rig;
     SensorModel::Config sensor;
 
     void Describe(ConfigParameters& parameters);

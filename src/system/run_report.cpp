@@ -59,6 +59,7 @@ Json CameraJson(const CameraReport& report) {
             {"found", {{"fx", e.found.fx}, {"fy", e.found.fy}, {"cx", e.found.cx}, {"cy", e.found.cy}}},
             {"sigma_px", {{"fx", e.focal_sigma_px}, {"cx", e.centre_x_sigma_px}, {"cy", e.centre_y_sigma_px}}},
             {"readout_ms", 1000 * e.readout_s},
+            {"readout_sigma_ms", 1000 * e.readout_sigma_s},
             {"misfit_given", e.misfit_given},
             {"misfit_found", e.misfit_found},
             {"pairs", e.pairs}};

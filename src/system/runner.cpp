@@ -10,6 +10,18 @@
 #include "system/source_camera.h"
 
 namespace tessera {
+namespace {
+
+// Learning begins from the rolling shutter that the recording's first seconds show, not from what was given.
+void BeginShutter(const CameraEstimate& estimate, PipelineConfig& config, SourceInfo& source) {
+    const double given_s = config.shutter.colour_readout_s;
+    if (!config.trackers.photometric.shutter.enabled || !estimate.shutter_shown(given_s)) return;
+    config.trackers.photometric.shutter.readout_s = estimate.readout_s - given_s;
+    source.notes.push_back(fmt::format("rolling shutter: a colour image is read out over {:.1f} +- {:.1f} ms",
+                                       1000 * estimate.readout_s, 1000 * estimate.readout_sigma_s));
+}
+
+}  // namespace
 
 Result<RunSummary> Runner::Run(const std::atomic<bool>& stop) {
     if (Status status = Open(stop); !status.ok()) return status;
@@ -48,7 +60,9 @@ Status Runner::Open(const std::atomic<bool>& stop) {
     }
     Result<ScanPlan> scan = OpenScan();
     if (!scan.ok()) return scan.status();
-    EngineInput input{std::move(source), selection_, config_,
+    RunConfig config = config_;
+    if (summary_.camera) BeginShutter(summary_.camera->estimate, config.pipeline, summary_.source);
+    EngineInput input{std::move(source), selection_, std::move(config),
                       FramePlan(request_.switches, std::move(given), request_.poses_file), std::move(scan.value()),
                       std::move(labelling), request_.record_path,
                       request_.viewer, request_.device, &stop};

@@ -17,11 +17,14 @@ void ShutterEstimator::Config::Describe(ConfigParameters& p) {
           "learn the colour image's delay and rolling shutter from the residuals; off trusts the time stamps and "
           "colour_readout_s");
     p.Add("delay_prior_s", delay_prior_s, {1e-6, 0.1}, "s", "how far the delay may lie from the time stamps'");
-    p.Add("readout_prior_s", readout_prior_s, {1e-6, 0.1}, "s", "how long the read-out may be");
+    p.Add("readout_prior_s", readout_prior_s, {1e-6, 0.1}, "s", "how far the read-out may lie from readout_s");
+    p.Add("readout_s", readout_s, {-0.05, 0.05}, "s",
+          "read-out time of the colour image, beyond colour_readout_s, from which learning begins; calibration.check begins from "
+          "the recording's own");
 }
 
 void ShutterEstimator::Reset() {
-    estimate_.setZero();
+    estimate_ = {0.0, config_.enabled ? config_.readout_s : 0.0};
     information_ = Eigen::Vector2d(1.0 / (config_.delay_prior_s * config_.delay_prior_s),
                                    1.0 / (config_.readout_prior_s * config_.readout_prior_s))
                        .asDiagonal();

@@ -19,6 +19,7 @@ class ShutterEstimator {
         bool enabled = true;
         double delay_prior_s = 0.005;
         double readout_prior_s = 0.02;
+        double readout_s = 0;
 
         void Describe(ConfigParameters& parameters);
     };

@@ -81,6 +81,7 @@ TEST(CameraEstimator, LeavesARightCameraAlone) {
     EXPECT_FALSE(estimate->shown());
     EXPECT_NEAR(estimate->found.fx, kCamera.fx, 0.002 * kCamera.fx);
     EXPECT_NEAR(estimate->readout_s, 0, 0.002);
+    EXPECT_FALSE(estimate->shutter_shown(0));
 }
 
 TEST(CameraEstimator, IsNotMisledByARollingShutter) {
@@ -88,6 +89,8 @@ TEST(CameraEstimator, IsNotMisledByARollingShutter) {
     ASSERT_TRUE(estimate);
     EXPECT_FALSE(estimate->shown());
     EXPECT_NEAR(estimate->readout_s, 0.03, 0.006);
+    EXPECT_TRUE(estimate->shutter_shown(0));
+    EXPECT_FALSE(estimate->shutter_shown(estimate->readout_s + 0.001));
 }
 
 TEST(CameraEstimator, SaysNothingWithoutATurn) {

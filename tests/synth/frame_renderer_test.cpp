@@ -48,6 +48,43 @@ TEST_F(WallAndBall, DepthIsAlongTheOpticalAxis) {
                 1 / std::sqrt(1 + std::pow(47.5 / 90, 2) + std::pow(35.5 / 91, 2)), 1e-6);
 }
 
+// A shake to and fro about the vertical.
+Eigen::Isometry3d Shaken(double time_s) {
+    return LookAt({0, 0, 1}, {0, 2, 1}) * Eigen::AngleAxisd(0.3 * std::sin(5 * time_s), Vector3d::UnitY());
+}
+
+TEST_F(WallAndBall, ARollingShutterReadsEachRowAtItsTime) {
+    const CameraPath path{Shaken, 1.0};
+    const CameraRig rig{.depth_readout_s = 0.02, .colour_readout_s = 0.03, .colour_delay_s = 0.01};
+    RenderedView rolling, depth, colour;
+    FrameRenderer(scene_, kCamera, rig).Render(path, 0.4, 0.008, rolling);
+    for (const int row : {0, 24, 68}) {  // of a band of four
+        const double middle = (row + 1.5) / kCamera.height - 0.5;
+        const FrameRenderer global(scene_, kCamera);
+        global.Render(path, 0.4 + 0.02 * middle, 0.008, depth);
+        global.Render(path, 0.4 + 0.01 + 0.03 * middle, 0.008, colour);
+        for (int x = 0; x < kCamera.width; ++x) {
+            EXPECT_FLOAT_EQ(rolling.depth_m(x, row + 2), depth.depth_m(x, row + 2)) << x << " " << row;
+            EXPECT_FLOAT_EQ(rolling.colour(x, row + 2).r, colour.colour(x, row + 2).r) << x << " " << row;
+        }
+    }
+}
+
+TEST_F(WallAndBall, AColourCameraBesideTheDepthCameraSeesFromThere) {
+    const Eigen::Isometry3d T = Shaken(0.1);
+    RenderedView both, moved;
+    FrameRenderer(scene_, kCamera, {.colour_x_m = 0.05, .colour_turn_deg = 2}).Render(Still(T), 0, 0, both);
+    const double turn_rad = 2 * 3.14159265358979 / 180;
+    FrameRenderer(scene_, kCamera)
+        .Render(Still(T * Eigen::Translation3d(0.05, 0, 0) * Eigen::AngleAxisd(turn_rad, Vector3d::UnitY())), 0, 0, moved);
+    RenderedView as_was;
+    FrameRenderer(scene_, kCamera).Render(Still(T), 0, 0, as_was);
+    for (int x = 0; x < kCamera.width; ++x) {
+        EXPECT_NEAR(both.colour(x, 40).r, moved.colour(x, 40).r, 1e-3);
+        EXPECT_EQ(both.depth_m(x, 40), as_was.depth_m(x, 40));
+    }
+}
+
 TEST_F(WallAndBall, DepthOfATiltedPlaneFollowsItsEquation) {
     const Eigen::Isometry3d T = LookAt({-3, 0.1, 1}, {-2.4, 2, 1.2});
     RenderedView view;

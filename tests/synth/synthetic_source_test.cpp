@@ -40,6 +40,23 @@ TEST(SyntheticSource, HandsOutItsFramesWithTheirTruth) {
     EXPECT_EQ(source.value()->Read(frame).status, ReadStatus::kEnd);
 }
 
+TEST(SyntheticSource, GoesTheSameWayFasterAndMeasuresInItsOwnScale) {
+    SynthConfig config = Small();
+    config.frames = 0;
+    auto slow = OpenSyntheticScene("corner", config);
+    config.speed = 2;
+    config.rig.depth_scale = 1.25;
+    auto fast = OpenSyntheticScene("corner", config);
+    ASSERT_TRUE(slow.ok() && fast.ok());
+    EXPECT_EQ(fast.value()->info().frame_count, slow.value()->info().frame_count / 2);
+    Frame a, b;
+    ASSERT_TRUE(slow.value()->Seek(20) && fast.value()->Seek(10));
+    ASSERT_EQ(slow.value()->Read(a).status, ReadStatus::kOk);
+    ASSERT_EQ(fast.value()->Read(b).status, ReadStatus::kOk);
+    EXPECT_NEAR((a.T_world_camera->matrix() - b.T_world_camera->matrix()).norm(), 0, 1e-12);
+    EXPECT_FLOAT_EQ(b.depth_m(30, 20), 1.25f * a.depth_m(30, 20));
+}
+
 TEST(SyntheticSource, SeekGivesTheSameFrameAgain) {
     SynthConfig config = Small();
     config.sensor.noise = NoiseModel::kKinect;

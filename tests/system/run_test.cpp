@@ -67,6 +67,31 @@ TEST_F(Run, GoesOnWithoutACameraAndSaysWhatItAssumes) {
                                 "assumed, fx 138.6");
 }
 
+TEST_F(Run, BeginsWithTheRollingShutterThatTheRecordingShows) {
+    config.synthetic.camera = {320, 240, 262.5, 262.5, 159.5, 119.5};
+    config.synthetic.frames = 48;
+    config.synthetic.speed = 4;
+    config.synthetic.rig.colour_readout_s = 0.03;
+    config.pipeline.map.voxel_size_m = 0.02;
+    config.pipeline.map.truncation_m = 0.08;
+    request.source = "synthetic:room";
+    request.record_path = folder / "raw";
+    ASSERT_TRUE(Execute().ok());
+    request.record_path.clear();
+    request.source = folder / "raw";
+    const auto seen = Execute();
+    config.check_camera = false;
+    const auto unseen = Execute();
+    ASSERT_TRUE(seen.ok() && seen.value().camera && unseen.ok());
+    config.pipeline.trackers.photometric.shutter.readout_s = seen.value().camera->estimate.readout_s;
+    const auto told = Execute();
+    ASSERT_TRUE(told.ok() && told.value().ate && seen.value().ate && unseen.value().ate);
+    EXPECT_NEAR(seen.value().camera->estimate.readout_s, 0.03, 0.004);
+    EXPECT_NE(seen.value().source.notes.back().find("rolling shutter: a colour image is read out over"), std::string::npos);
+    EXPECT_EQ(seen.value().ate->error_m.rmse, told.value().ate->error_m.rmse);
+    EXPECT_NE(seen.value().ate->error_m.rmse, unseen.value().ate->error_m.rmse);
+}
+
 TEST_F(Run, LeavesEveryFileOfTheContract) {
     const auto run = Execute();
     ASSERT_TRUE(run.ok()) << run.message();

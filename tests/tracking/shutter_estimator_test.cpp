@@ -88,9 +88,19 @@ TEST_F(Shutter, LearnsAGlobalOneAsZero) {
     EXPECT_NEAR(estimator.readout_s(), 0.0, 0.001);
 }
 
+TEST_F(Shutter, BeginsWhereItIsToldAndLearnsTheRest) {
+    ShutterEstimator estimator({.readout_s = 0.028});
+    EXPECT_EQ(estimator.readout_s(), 0.028);
+    Learn(estimator, 0.003, 0.02);
+    EXPECT_NEAR(estimator.readout_s(), 0.02, 0.002);
+    estimator.Reset();
+    EXPECT_EQ(estimator.readout_s(), 0.028);
+}
+
 TEST_F(Shutter, StaysAtZeroWhenSwitchedOff) {
     ShutterEstimator::Config config;
     config.enabled = false;
+    config.readout_s = 0.02;
     ShutterEstimator estimator(config);
     Learn(estimator, 0.003, 0.02);
     EXPECT_EQ(estimator.delay_s(), 0.0);
