@@ -38,7 +38,8 @@ class Workbench:
         self.out = pathlib.Path(out).resolve()
         self.tum = pathlib.Path(tum).resolve() if tum else None
         self.quick = quick
-        self.preset, self.only = None, ()  # of b14-table1: one of its settings, some of its sequences
+        self.preset, self.only = None, ()   # one of b14-table1's settings; some of its sequences, or of generality's
+        self.parts, self.frames = (), None  # of generality: some of its tables, the first frames only
         self.log = log
         self.version = self._version()
 

@@ -57,14 +57,18 @@ def find(bench, name):
                                kind=made.kind + every, options=options)
 
 
-def others(bench):
-    """Every other folder of --tum with colour, depth and truth: rows without a paper's figure."""
+def recorded(bench):
+    """Every folder of --tum with colour, depth and truth."""
     if not bench.tum:
         return []
-    known = {folder for folders in FOLDERS.values() for folder in folders}
     return [Sequence(path.name, str(path), path.name, frames(bench)) for path in sorted(bench.tum.iterdir())
-            if path.name not in known
-            and all((path / file).is_file() for file in ("rgb.txt", "depth.txt", "groundtruth.txt"))]
+            if all((path / file).is_file() for file in ("rgb.txt", "depth.txt", "groundtruth.txt"))]
+
+
+def others(bench):
+    """Those that are no sequence of a paper: rows without a paper's figure."""
+    known = {folder for folders in FOLDERS.values() for folder in folders}
+    return [sequence for sequence in recorded(bench) if sequence.name not in known]
 
 
 def run(bench, sequence, label, *options):

@@ -25,7 +25,7 @@ Eigen::Isometry3d MotionModel::Predict(double stamp_s) const {
     return last_->T_world_camera * Se3Exp(*velocity_ * gap_s);
 }
 
-void MotionModel::Add(const StampedPose& pose, bool degenerate) {
+void MotionModel::Add(const StampedPose& pose, bool degenerate, bool poor) {
     const double gap_s = SinceLast(pose.stamp_s);
     if (gap_s > 0)
         velocity_ = Se3Log(last_->T_world_camera.inverse() * pose.T_world_camera) / gap_s;
@@ -33,13 +33,13 @@ void MotionModel::Add(const StampedPose& pose, bool degenerate) {
         velocity_.reset();
     if (degenerate && velocity_) *velocity_ *= config_.come_to_rest_s > 0 ? std::exp(-gap_s / config_.come_to_rest_s) : 0.0;
     last_ = pose;
-    degenerate_ = degenerate;
+    poor_ = poor;
 }
 
 void MotionModel::Clear() {
     last_.reset();
     velocity_.reset();
-    degenerate_ = false;
+    poor_ = false;
 }
 
 void MotionModel::SaveState(StateWriter& state) const {
@@ -49,7 +49,7 @@ void MotionModel::SaveState(StateWriter& state) const {
         state.Put(last_->T_world_camera);
     }
     state.Put(velocity_);
-    state.Put(degenerate_);
+    state.Put(poor_);
 }
 
 bool MotionModel::LoadState(StateReader& state) {
@@ -59,7 +59,7 @@ bool MotionModel::LoadState(StateReader& state) {
         last_.emplace();
         if (!state.Get(last_->stamp_s) || !state.Get(last_->T_world_camera)) return false;
     }
-    return state.Get(velocity_) && state.Get(degenerate_);
+    return state.Get(velocity_) && state.Get(poor_);
 }
 
 }  // namespace tessera

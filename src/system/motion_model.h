@@ -24,13 +24,14 @@ class MotionModel {
 
     // The last tracked pose; nothing before the first.
     const std::optional<StampedPose>& last() const { return last_; }
-    bool degenerate() const { return degenerate_; }  // of the last pose, see Add
+    bool last_is_poor() const { return poor_; }  // see Add
     // Seconds since then; 0 if there is none, or if it is too long ago to say anything about velocity.
     double SinceLast(double stamp_s) const;
     // The pose expected at a time; the last pose, or identity, where there is nothing to go by.
     Eigen::Isometry3d Predict(double stamp_s) const;
-    // `degenerate`: the scene left some motion unconstrained; what is not seen any more is taken to come to rest.
-    void Add(const StampedPose& pose, bool degenerate = false);
+    // `degenerate`: the scene left some motion unconstrained; what is not seen any more is taken to come to rest. `poor`: the pose
+    // may be wrong.
+    void Add(const StampedPose& pose, bool degenerate = false, bool poor = false);
     void Clear();
     void SaveState(StateWriter& state) const;
     bool LoadState(StateReader& state);
@@ -43,7 +44,7 @@ class MotionModel {
     Config config_;
     std::optional<StampedPose> last_;
     std::optional<Vector6d> velocity_;  // body twist per second
-    bool degenerate_ = false;
+    bool poor_ = false;
 };
 
 }  // namespace tessera

@@ -84,7 +84,8 @@ void TrackingStage::Track(const Frame& frame, const BlockMap& map, const std::op
     }
     report.first = report.first && report.tracked();
     report.track_ms = watch.LapMs();
-    if (report.tracked()) motion_.Add({frame.stamp_s, report.track.T_world_camera}, report.track.degenerate);
+    if (report.tracked())
+        motion_.Add({frame.stamp_s, report.track.T_world_camera}, report.track.degenerate, report.track.status == TrackStatus::kPoor);
 
     // 3. What moves is no part of the map.
     LeaveOutMoving(frame, map, hidden, tracked);
@@ -142,6 +143,7 @@ bool TrackingStage::TrackFrom(const Frame& frame, const BlockMap& map, const Eig
     motion_.Clear();
     moving_.Clear();
     motion_.Add({frame.stamp_s, tracked.report.track.T_world_camera});
+    aligner_.KeepNewest(true);
     tracked.to_fuse = fusing_;
     tracked.view = FusionView(tracked.report.track);
     return true;
@@ -149,6 +151,7 @@ bool TrackingStage::TrackFrom(const Frame& frame, const BlockMap& map, const Eig
 
 void TrackingStage::Disbelieve(const std::string& reason, TrackedFrame& tracked) {
     motion_ = motion_before_;
+    aligner_.KeepNewest(false);
     moving_.Clear();
     tracked.report.track.status = TrackStatus::kLost;
     tracked.report.track.reason = reason;
@@ -158,6 +161,7 @@ void TrackingStage::Disbelieve(const std::string& reason, TrackedFrame& tracked)
 void TrackingStage::Relocate(const StampedPose& pose) {
     motion_.Clear();
     moving_.Clear();
+    aligner_.KeepNewest(true);  // nearer to that pose than what was seen before the loss
     motion_.Add(pose);
 }
 
@@ -171,16 +175,19 @@ TrackResult TrackingStage::TrackFrame(const Frame& frame, const PreparedFrame& p
     const Eigen::Isometry3d T_world_expected = motion_.Predict(frame.stamp_s);
     const Eigen::Isometry3d T_world_aligned =
         T_world_last * aligner_.Align(prepared, T_world_last.inverse() * T_world_expected);
-    return trackers_.Track({.frame = prepared,
-                            .map = map,
-                            .T_world_camera_starts = {T_world_expected, T_world_aligned},
-                            .T_world_camera_last = T_world_last,
-                            .since_last_s = motion_.SinceLast(frame.stamp_s),
-                            .motion = ShutterOf(frame),
-                            .nearest_m = NearestOfWeight(frame, prepared)});
+    TrackResult track = trackers_.Track({.frame = prepared,
+                                         .map = map,
+                                         .T_world_camera_starts = {T_world_expected, T_world_aligned},
+                                         .T_world_camera_last = T_world_last,
+                                         // Nothing is a jump from a pose that may be wrong.
+                                         .since_last_s = motion_.last_is_poor() ? 0 : motion_.SinceLast(frame.stamp_s),
+                                         .motion = ShutterOf(frame),
+                                         .nearest_m = NearestOfWeight(frame, prepared)});
+    aligner_.KeepNewest(track.status != TrackStatus::kLost);  // as motion_ does
+    return track;
 }
 
-// Who stands near and starts to walk must not outweigh the room behind: there, the nearer half of the view weighs alike.
+// Who stands near and starts to walk must not outweigh the room behind: where things move, the nearer half of the view weighs alike.
 double TrackingStage::NearestOfWeight(const Frame& frame, const PreparedFrame& prepared) const {
     constexpr double kUsual_m = 0.5;
     if (!config_.moving.enabled || !moving_.MovedLately(frame.stamp_s)) return kUsual_m;

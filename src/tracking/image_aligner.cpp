@@ -32,7 +32,7 @@ ImageAligner::ImageAligner(const Config& config, const PinholeCamera& camera, Ve
       use_avx2_(path == VectorPath::kAvx2 || (path == VectorPath::kAuto && CpuHasAvx2())) {}
 
 void ImageAligner::Clear() {
-    has_last_ = false;
+    has_last_ = has_current_ = false;
     usual_score_ = 0;
 }
 
@@ -43,10 +43,11 @@ PinholeCamera ImageAligner::ReducedCamera(std::size_t level) const {
 }
 
 void ImageAligner::SaveState(StateWriter& state) const {
-    state.Put(has_last_);
+    const bool has_kept = keep_newest_ ? has_current_ : has_last_;
+    state.Put(has_kept);
     state.Put(usual_score_);
-    if (!has_last_) return;
-    for (const Level& level : current_) {
+    if (!has_kept) return;
+    for (const Level& level : keep_newest_ ? current_ : last_) {
         state.PutArray(std::span<const float>(level.intensity.data(), level.intensity.size()));
         state.PutArray(std::span<const float>(level.depth_m.data(), level.depth_m.size()));
     }
@@ -54,9 +55,10 @@ void ImageAligner::SaveState(StateWriter& state) const {
 
 bool ImageAligner::LoadState(StateReader& state) {
     Clear();
-    bool has_last = false;
-    if (!state.Get(has_last) || !state.Get(usual_score_)) return false;
-    if (!has_last) return true;
+    keep_newest_ = true;
+    bool has_kept = false;
+    if (!state.Get(has_kept) || !state.Get(usual_score_)) return false;
+    if (!has_kept) return true;
     std::vector<float> pixels;
     for (std::size_t i = 0; i < current_.size(); ++i) {
         Level& level = current_[i];
@@ -68,7 +70,7 @@ bool ImageAligner::LoadState(StateReader& state) {
         }
         MakePoints(level);
     }
-    has_last_ = true;
+    has_current_ = true;
     return true;
 }
 
@@ -135,15 +137,18 @@ Eigen::Isometry3d ImageAligner::Refine(const Eigen::Isometry3d& T_last_current, 
 
 Eigen::Isometry3d ImageAligner::Align(const PreparedFrame& frame, const Eigen::Isometry3d& T_last_current_guess) {
     if (!config_.enabled) return T_last_current_guess;
-    std::swap(last_, current_);
+    if (keep_newest_) {
+        std::swap(last_, current_);
+        has_last_ = has_current_;
+    }
+    keep_newest_ = true;
     for (std::size_t i = 0; i < current_.size(); ++i) {
         static_cast<PreparedFrame::Reduced&>(current_[i]) = frame.reduced[i];
         current_[i].camera = ReducedCamera(i);
         MakePoints(current_[i]);
     }
-    const bool ready = has_last_;
-    has_last_ = true;
-    if (!ready) return T_last_current_guess;
+    has_current_ = true;
+    if (!has_last_) return T_last_current_guess;
 
     scene_depth_m_ = 0.5 * (frame.nearest_m + frame.farthest_m);
     double score = 0;

@@ -30,11 +30,14 @@ class ImageAligner {
 
     ImageAligner(const Config& config, const PinholeCamera& camera, VectorPath path = VectorPath::kAuto);
 
-    // Takes `frame` as the newest and aligns it with the one given before. `T_last_current_guess` is where to start. The
+    // Takes `frame` as the newest and aligns it with the one kept before. `T_last_current_guess` is where to start. The
     // result is T_last_current; the guess itself if there is nothing to align. Owner thread only.
     Eigen::Isometry3d Align(const PreparedFrame& frame, const Eigen::Isometry3d& T_last_current_guess);
+    // Whether the newest frame is kept, as it is without a word, to align the next one with. False: where it was taken is not known,
+    // and the next one is aligned with the frame that this one was aligned with.
+    void KeepNewest(bool keep) { keep_newest_ = keep; }
     void Clear();
-    // The last frame, reduced; 48 KB at 4:3.
+    // The kept frame, reduced; 48 KB at 4:3.
     void SaveState(StateWriter& state) const;
     bool LoadState(StateReader& state);
     // In place of the configuration's.
@@ -60,7 +63,7 @@ class ImageAligner {
     PinholeCamera camera_;
     bool use_avx2_;
     Levels last_, current_;
-    bool has_last_ = false;
+    bool has_last_ = false, has_current_ = false, keep_newest_ = true;
     double scene_depth_m_ = 0;
     double usual_score_ = 0;  // of alignments so far, 0 before the first
 };

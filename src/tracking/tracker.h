@@ -20,7 +20,7 @@ struct TrackInput {
     // that fits best; along motions that the frame does not know the camera is where the last one has it. Not empty.
     std::vector<Eigen::Isometry3d> T_world_camera_starts;
     Eigen::Isometry3d T_world_camera_last;   // where it was at the last tracked frame
-    double since_last_s = 0;                 // 0 if there is no such frame
+    double since_last_s = 0;                 // 0 if there is no such frame, or its pose was poor
     FrameMotion motion;                      // delays and read-out times; the twist is the tracker's to fill
     double nearest_m = 0.5;                  // nearer points have the weight of this depth
 };

@@ -1,5 +1,5 @@
 """scripts/reproduce: the Markdown of canned figures, the own ATE against `tessera eval ate`, job reuse, the model of
-[D18] table 3, and one table from end to end on a few frames. Usage: test_reproduce.py TESSERA
+[D18] table 3, what generality judges, and two tables from end to end on a few frames. Usage: test_reproduce.py TESSERA
 """
 import io
 import json
@@ -9,13 +9,14 @@ import random
 import subprocess
 import sys
 import tempfile
+import types
 import unittest
 import unittest.mock
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "scripts"))
 sys.dont_write_bytecode = True
-from reproduction import bust, diaz, document, sources, surface, trajectories  # noqa: E402
+from reproduction import bust, diaz, document, generality, sources, surface, trajectories  # noqa: E402
 from reproduction.jobs import Job, JobFailed, Workbench  # noqa: E402
 
 TESSERA = None
@@ -144,6 +145,47 @@ class Jobs(Folder):
     def test_refusal_is_passed_on(self):
         with self.assertRaisesRegex(JobFailed, "nowhere"):
             self.bench().run(Job("x", ("run", "nowhere")))
+
+
+class Generality(Folder):
+    def canned(self, ate_m, fused, degenerate=0):
+        return types.SimpleNamespace(ate_m=ate_m, fused=fused, knows_its_pose=lambda: degenerate == 0)
+
+    def change(self, default, changed):
+        return generality.Change(None, "x 1.5", "somewhere", self.canned(*default), self.canned(*changed))
+
+    def test_what_breaks_a_recording(self):
+        for default, changed, breaks in (((0.010, 1.0), (0.0149, 0.985), False),
+                                         ((0.010, 1.0), (0.0151, 1.0), True),
+                                         ((0.001, 1.0), (0.0019, 1.0), False),       # less than a millimetre
+                                         ((0.010, 1.0), (0.010, 0.97), True),
+                                         ((0.010, 0.5), (0.010, 0.495), False),      # of what the defaults fuse
+                                         ((0.010, 1.0), (math.nan, 1.0), True),
+                                         ((0.300, 1.0, 1), (0.900, 1.0), False),     # ATE is chance
+                                         ((0.300, 1.0, 1), (0.300, 0.5), True)):
+            self.assertEqual(self.change(default, changed).breaks(), breaks, (default, changed))
+
+    def test_constants_are_changed_as_they_are_written(self):
+        by_key = {constant.key: constant for constant in generality.constants()}
+        self.assertGreater(len(by_key), 30)
+        self.assertNotIn("tracking.sdf.levels", by_key)
+        self.assertEqual(by_key["mapping.voxel_size_m"].changed(0.01, 1.5), "0.015")
+        self.assertEqual(by_key["tracking.icp.fine_iterations"].changed(4, 1 / 1.5), "3")
+        self.assertEqual(by_key["tracking.icp.fine_iterations"].tracker(), "icp-rgb")
+
+    def test_the_tables(self):
+        bench = Workbench(TESSERA, self.root / "out", quick=True, log=io.StringIO())
+        bench.only = ["corner_kinect"]
+        few = [constant for constant in generality.constants() if constant.key == "mapping.voxel_size_m"]
+        with unittest.mock.patch.multiple(generality, QUICK_FRAMES=8, STRIDES=[1, 2], ALPHAS=[0.05], constants=lambda: few), \
+                unittest.mock.patch.object(sources, "QUICK_FRAMES", 8):
+            text = generality.generality(bench).markdown(bench.version)
+        self.assertRegex(text, r"\| corner_kinect \| 1 \| 8 \|( \d\.\d\d \|){4}\n\| corner_kinect \| 2 \| 4 \|( \d\.\d\d \|){4}\n")
+        self.assertRegex(text, r"\| corner_kinect \| \d\.\d\d \| \d\.\d\d \| \d\.\d\d \| (yes|no) \|\n")
+        self.assertRegex(text, r"\| `mapping.voxel_size_m` \| \d\.\d\d \| [+-]\d\.\d\d \| corner_kinect, [x/] 1.5 \| \+0.0 \| – \| 0 \|\n")
+        self.assertIn("- 11 runs.\n", text)
+        self.assertNotIn("voxel_size_m=", text)  # of the commands only the defaults'
+        self.assertFalse(list(self.root.rglob("mesh.ply")))
 
 
 class EndToEnd(Folder):

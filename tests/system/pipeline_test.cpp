@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 #include <span>
 
@@ -48,6 +49,50 @@ TEST(Pipeline, FollowsASmoothPath) {
         worst_m = std::max(worst_m, (truth.inverse() * report.track.T_world_camera).translation().norm());
     }
     EXPECT_LT(worst_m, 0.004);
+}
+
+// A hand before the camera for 0.7 s, while the camera steps back from a wall, out of reach of the map's band: velocity says
+// nothing any more, and neither do the frames of the hand.
+TEST(Pipeline, ACameraThatWasCoveredIsFoundWhereItHasMovedTo) {
+    BoxRoom wall;
+    wall.only_back_wall = true;
+    for (const TrackingMethod method : {TrackingMethod::kSdf, TrackingMethod::kIcp}) {
+        PipelineConfig config = SmallConfig();
+        config.map.truncation_m = 0.05;
+        config.trackers.method = method;
+        Pipeline pipeline(config, SmallCamera());
+        const auto process = [&](int i, double back_m, bool covered) {
+            Frame frame = wall.Render(SmallCamera(), Eigen::Isometry3d(Eigen::Translation3d(0, 0, -back_m)), i / 30.0);
+            if (covered) {
+                std::ranges::fill(std::span(frame.depth_m.data(), frame.depth_m.size()), 0.4f);
+                std::ranges::fill(std::span(frame.colour.data(), frame.colour.size()), Rgb8{90, 60, 50});
+            }
+            return pipeline.Process(frame);
+        };
+        for (int i = 0; i < 10; ++i) ASSERT_TRUE(process(i, 0, false).fused) << i;
+        for (int i = 10; i < 30; ++i) EXPECT_EQ(process(i, 0, true).track.status, TrackStatus::kLost) << i;
+        const FrameReport report = process(30, 0.15, false);
+        EXPECT_TRUE(report.fused) << ToString(method) << ": " << report.track.reason;
+        EXPECT_NEAR(report.track.T_world_camera.translation().z(), -0.15, 0.005) << ToString(method);
+    }
+}
+
+// A pose that is not to be trusted with the map is no measure for the next one either: what fits well is no jump from it.
+TEST(Pipeline, AfterAPoorPoseTheCameraMayBeAnywhere) {
+    Pipeline pipeline(SmallConfig(), SmallCamera());
+    BoxRoom room;
+    room.has_ball = true;
+    const auto process = [&](int i, double x_m) {
+        return pipeline.Process(room.Render(SmallCamera(), Eigen::Isometry3d(Eigen::Translation3d(x_m, 0, 0)), i / 30.0));
+    };
+    for (int i = 0; i < 10; ++i) ASSERT_TRUE(process(i, 0).fused) << i;
+    ASSERT_EQ(process(10, 0.22).track.status, TrackStatus::kPoor);
+    const FrameReport back = process(11, -0.12);  // 0.34 m in one frame
+    EXPECT_TRUE(back.tracked()) << back.track.reason;
+    for (int i = 12; i < 14; ++i) process(i, -0.12);
+    const FrameReport report = process(14, -0.12);
+    EXPECT_TRUE(report.fused) << report.track.reason;
+    EXPECT_NEAR(report.track.T_world_camera.translation().x(), -0.12, 0.005);
 }
 
 // Each of these frames says why it is lost, leaves the map alone, and the next good one goes on.
@@ -126,11 +171,9 @@ TEST(MotionModel, MotionsThatNothingShowsComeToRest) {
     velocity << 0, 0, 0.1, 0.5, 0, 0;
     model.Add({0.0, Eigen::Isometry3d::Identity()});
     model.Add({0.1, Se3Exp(0.1 * velocity)});
-    EXPECT_FALSE(model.degenerate());
     for (int i = 1; i <= 10; ++i) {
         const double stamp_s = 0.1 + 0.1 * i * config.come_to_rest_s;
         model.Add({stamp_s, model.Predict(stamp_s)}, true);
-        EXPECT_TRUE(model.degenerate());
     }
     const Vector6d left =
         Se3Log(model.last()->T_world_camera.inverse() * model.Predict(0.2 + config.come_to_rest_s)) / 0.1;

@@ -163,7 +163,7 @@ TEST_F(Scan, AfterAGapTheCameraIsFoundWhereTheScanEndedAndNowhereElse) {
     Run(false, Again(), {.count = 420, .speed = 6}, 400);
     const auto tracked = std::ranges::count_if(Reports(), [](const FrameReport* report) { return report->tracked(); });
     EXPECT_FALSE(Reports().front()->tracked());
-    EXPECT_LE(tracked, 10);
+    EXPECT_LE(tracked, 15);  // of 20; the first is refused
     for (const FrameReport* report : Reports())
         EXPECT_TRUE(!report->tracked() || Error_m(*report, 6) < 0.005) << report->index << " " << Error_m(*report, 6);
     EXPECT_TRUE(tracked > 0 || Content().map->size() == blocks);

@@ -78,6 +78,37 @@ TEST(ImageAligner, WithoutAnythingToAlignReturnsTheGuess) {
     EXPECT_TRUE(aligner.Align(Prepare(frame), guess).isApprox(guess, 1e-6));
 }
 
+// Something was held before the camera, which moved meanwhile: what comes after is aligned with what was seen before.
+TEST(ImageAligner, AFrameThatIsNotKeptIsPassedOver) {
+    BoxRoom room;
+    room.has_ball = true;
+    const PreparedFrame before = Prepare(room.Render(FullCamera(), Eigen::Isometry3d::Identity()));
+    const Eigen::Isometry3d T_true = Se3Exp(Twist(0.02, -0.05, 0.02, 0.05, -0.03, 0.04));
+    const PreparedFrame after = Prepare(room.Render(FullCamera(), T_true));
+    Frame covered;
+    covered.depth_m = DepthImage(640, 480, 0.5f);
+    covered.colour = ColourImage(640, 480, {90, 60, 50});
+    for (const bool saved : {false, true}) {
+        ImageAligner aligner({}, FullCamera());
+        aligner.Align(before, Eigen::Isometry3d::Identity());
+        for (int i = 0; i < 2; ++i) {
+            aligner.Align(Prepare(covered), Eigen::Isometry3d::Identity());
+            aligner.KeepNewest(false);
+        }
+        ImageAligner next({}, FullCamera());
+        if (saved) {
+            std::vector<std::uint8_t> bytes;
+            StateWriter writer(bytes);
+            aligner.SaveState(writer);
+            StateReader reader(bytes);
+            ASSERT_TRUE(next.LoadState(reader));
+        }
+        const Eigen::Isometry3d T = (saved ? next : aligner).Align(after, Eigen::Isometry3d::Identity());
+        EXPECT_LT((T_true.inverse() * T).translation().norm(), 0.015) << saved;
+        EXPECT_LT(RotationAngle(T_true, T), 0.01) << saved;
+    }
+}
+
 // A strip has few rows to reduce: two are left, or there is nothing to read between.
 TEST(ImageAligner, AStripIsAlignedWithinItsImage) {
     const PinholeCamera camera{1024, 32, 800, 800, 511.5, 15.5};
