@@ -96,7 +96,7 @@ TEST(DevicePipeline, SumsAreTheProcessorsToTheBit) {
     const PoseSums expected =
         SumPoints(points.count(), [&](int begin, int end, double* sums) { baseline::SumSdfPoints(a, begin, end, sums); });
     DevicePipeline device("host", kPlenty);
-    EXPECT_EQ(device.SetPoints(map, frame, MakePointArguments(frame, DeskCamera(), {}, 2, 2.0, true)), points.valid());
+    EXPECT_EQ(device.SetPoints(map, frame, MakePointArguments(frame, DeskCamera(), {}, 2, {2.0}, true)), points.valid());
     const PoseSums sums = device.Sum(a);
     EXPECT_GT(expected[SumLayout::kKnown], 1000);
     EXPECT_GT(expected[SumLayout::kColoured], 1000);

@@ -86,13 +86,13 @@ TEST(DevicePoints, OfImagesOfAnySize) {
         const PinholeCamera camera{width, height, 50, 51, 0.5 * width, 0.5 * height};
         PreparedFrame prepared;
         PrepareFrame(frame, {}, prepared);
-        for (const int step : {1, 2, 5}) ExpectSamePoints(device, prepared, camera, Moving(), step, 2.0, true);
+        for (const int step : {1, 2, 5}) ExpectSamePoints(device, prepared, camera, Moving(), step, {2.0}, true);
         frame.depth_m = DepthImage(width, height);
         PrepareFrame(frame, {}, prepared);  // in the same memory
-        ExpectSamePoints(device, prepared, camera, Moving(), 2, 2.0, true);
+        ExpectSamePoints(device, prepared, camera, Moving(), 2, {2.0}, true);
         frame.colour = {};
         PrepareFrame(frame, {}, prepared);
-        ExpectSamePoints(device, prepared, camera, Moving(), 2, 2.0, true);  // asked for what is not there
+        ExpectSamePoints(device, prepared, camera, Moving(), 2, {2.0}, true);  // asked for what is not there
     }
 }
 
