@@ -39,7 +39,7 @@ struct IcpRig {
     }
 
     PointArguments PointsOf(int level) const {
-        PointArguments a = MakePointArguments(DeskFrames()[5].prepared, DeskCamera(), {}, 2 << level, 2.0, true);
+        PointArguments a = MakePointArguments(DeskFrames()[5].prepared, DeskCamera(), {}, 2 << level, {2.0}, true);
         a.normal_radius_px = 4;
         return a;
     }

@@ -99,7 +99,7 @@ TEST(DevicePoints, OfImagesOfAnySize) {
 TEST(DevicePoints, AreNoneWhereThereIsNoRoom) {
     const BlockMap map{BlockMap::Config()};
     const PreparedFrame& frame = DeskFrames()[0].prepared;
-    const PointArguments a = MakePointArguments(frame, DeskCamera(), {}, 1, 2.0, true);
+    const PointArguments a = MakePointArguments(frame, DeskCamera(), {}, 1, {2.0}, true);
     std::size_t none = 0, all = 0;
     for (std::size_t limit = std::size_t{10} << 20; limit < std::size_t{20} << 20; limit += std::size_t{1} << 16) {
         DevicePipeline device("host", limit);
