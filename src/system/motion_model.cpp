@@ -25,21 +25,21 @@ Eigen::Isometry3d MotionModel::Predict(double stamp_s) const {
     return last_->T_world_camera * Se3Exp(*velocity_ * gap_s);
 }
 
-void MotionModel::Add(const StampedPose& pose, bool degenerate, bool poor) {
+void MotionModel::Add(const StampedPose& pose, const PoseDoubt& doubt) {
     const double gap_s = SinceLast(pose.stamp_s);
     if (gap_s > 0)
         velocity_ = Se3Log(last_->T_world_camera.inverse() * pose.T_world_camera) / gap_s;
     else
         velocity_.reset();
-    if (degenerate && velocity_) *velocity_ *= config_.come_to_rest_s > 0 ? std::exp(-gap_s / config_.come_to_rest_s) : 0.0;
+    if (doubt.degenerate && velocity_) *velocity_ *= config_.come_to_rest_s > 0 ? std::exp(-gap_s / config_.come_to_rest_s) : 0.0;
     last_ = pose;
-    poor_ = poor;
+    doubt_ = doubt;
 }
 
 void MotionModel::Clear() {
     last_.reset();
     velocity_.reset();
-    poor_ = false;
+    doubt_ = {};
 }
 
 void MotionModel::SaveState(StateWriter& state) const {
@@ -49,7 +49,8 @@ void MotionModel::SaveState(StateWriter& state) const {
         state.Put(last_->T_world_camera);
     }
     state.Put(velocity_);
-    state.Put(poor_);
+    state.Put(doubt_.poor);
+    state.Put(doubt_.uncertainty_m);
 }
 
 bool MotionModel::LoadState(StateReader& state) {
@@ -59,7 +60,7 @@ bool MotionModel::LoadState(StateReader& state) {
         last_.emplace();
         if (!state.Get(last_->stamp_s) || !state.Get(last_->T_world_camera)) return false;
     }
-    return state.Get(velocity_) && state.Get(poor_);
+    return state.Get(velocity_) && state.Get(doubt_.poor) && state.Get(doubt_.uncertainty_m);
 }
 
 }  // namespace tessera

@@ -10,6 +10,13 @@
 
 namespace tessera {
 
+// What is doubtful about a tracked pose.
+struct PoseDoubt {
+    bool degenerate = false;   // the scene left some motion unconstrained; what is not seen any more is taken to come to rest
+    bool poor = false;         // the pose may be wrong
+    double uncertainty_m = 0;  // TrackResult's
+};
+
 class MotionModel {
   public:
     struct Config {
@@ -24,14 +31,12 @@ class MotionModel {
 
     // The last tracked pose; nothing before the first.
     const std::optional<StampedPose>& last() const { return last_; }
-    bool last_is_poor() const { return poor_; }  // see Add
+    const PoseDoubt& doubt() const { return doubt_; }  // of that pose
     // Seconds since then; 0 if there is none, or if it is too long ago to say anything about velocity.
     double SinceLast(double stamp_s) const;
     // The pose expected at a time; the last pose, or identity, where there is nothing to go by.
     Eigen::Isometry3d Predict(double stamp_s) const;
-    // `degenerate`: the scene left some motion unconstrained; what is not seen any more is taken to come to rest. `poor`: the pose
-    // may be wrong.
-    void Add(const StampedPose& pose, bool degenerate = false, bool poor = false);
+    void Add(const StampedPose& pose, const PoseDoubt& doubt);
     void Clear();
     void SaveState(StateWriter& state) const;
     bool LoadState(StateReader& state);
@@ -44,7 +49,7 @@ class MotionModel {
     Config config_;
     std::optional<StampedPose> last_;
     std::optional<Vector6d> velocity_;  // body twist per second
-    bool poor_ = false;
+    PoseDoubt doubt_;
 };
 
 }  // namespace tessera

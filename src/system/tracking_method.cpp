@@ -28,6 +28,9 @@ void TrackersConfig::Describe(ConfigParameters& p) {
     p.AddChoice("method", method, TrackingMethodNames(),
                 "sdf uses distances and intensities in the field ([B14]); sdf-geometric distances only ([B13]); icp "
                 "aligns with a predicted view ([D18]); icp-rgb with its colours, too");
+    p.Add("even_within_m", even_within_m, {0.0, 1.0}, "m",
+          "while the last frame knew its pose to this, points nearer than the view's median depth weigh no more than points at it: "
+          "what moves close by must not outweigh the room");
     p.Section("judge", [&](ConfigParameters& s) { judge.Describe(s); });
     p.Section("photometric", [&](ConfigParameters& s) { photometric.Describe(s); });
     p.Section("sdf", [&](ConfigParameters& s) { sdf.Describe(s); });

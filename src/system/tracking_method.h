@@ -24,6 +24,7 @@ std::vector<std::pair<std::string, TrackingMethod>> TrackingMethodNames();
 
 struct TrackersConfig {
     TrackingMethod method = TrackingMethod::kSdf;
+    double even_within_m = 0.004;
     TrackJudge::Config judge;
     ResidualModel::Config photometric;
     SdfTracker::Config sdf;

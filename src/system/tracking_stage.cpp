@@ -85,7 +85,9 @@ void TrackingStage::Track(const Frame& frame, const BlockMap& map, const std::op
     report.first = report.first && report.tracked();
     report.track_ms = watch.LapMs();
     if (report.tracked())
-        motion_.Add({frame.stamp_s, report.track.T_world_camera}, report.track.degenerate, report.track.status == TrackStatus::kPoor);
+        motion_.Add({frame.stamp_s, report.track.T_world_camera}, {.degenerate = report.track.degenerate,
+                                                                   .poor = report.track.status == TrackStatus::kPoor,
+                                                                   .uncertainty_m = report.track.uncertainty_m});
 
     // 3. What moves is no part of the map.
     LeaveOutMoving(frame, map, hidden, tracked);
@@ -142,7 +144,7 @@ bool TrackingStage::TrackFrom(const Frame& frame, const BlockMap& map, const Eig
     tracked.report.track = std::move(track);
     motion_.Clear();
     moving_.Clear();
-    motion_.Add({frame.stamp_s, tracked.report.track.T_world_camera});
+    motion_.Add({frame.stamp_s, tracked.report.track.T_world_camera}, {});
     aligner_.KeepNewest(true);
     tracked.to_fuse = fusing_;
     tracked.view = FusionView(tracked.report.track);
@@ -162,7 +164,7 @@ void TrackingStage::Relocate(const StampedPose& pose) {
     motion_.Clear();
     moving_.Clear();
     aligner_.KeepNewest(true);  // nearer to that pose than what was seen before the loss
-    motion_.Add(pose);
+    motion_.Add(pose, {});
 }
 
 void TrackingStage::Move(const Eigen::Isometry3d& T_new_old) {
@@ -180,17 +182,18 @@ TrackResult TrackingStage::TrackFrame(const Frame& frame, const PreparedFrame& p
                                          .T_world_camera_starts = {T_world_expected, T_world_aligned},
                                          .T_world_camera_last = T_world_last,
                                          // Nothing is a jump from a pose that may be wrong.
-                                         .since_last_s = motion_.last_is_poor() ? 0 : motion_.SinceLast(frame.stamp_s),
+                                         .since_last_s = motion_.doubt().poor ? 0 : motion_.SinceLast(frame.stamp_s),
                                          .motion = ShutterOf(frame),
-                                         .nearest_m = NearestOfWeight(frame, prepared)});
+                                         .nearest_m = NearestOfWeight(prepared)});
     aligner_.KeepNewest(track.status != TrackStatus::kLost);  // as motion_ does
     return track;
 }
 
-// Who stands near and starts to walk must not outweigh the room behind: where things move, the nearer half of the view weighs alike.
-double TrackingStage::NearestOfWeight(const Frame& frame, const PreparedFrame& prepared) const {
+// Who stands near and starts to walk must not outweigh the room behind: the nearer half of the view weighs alike, unless the camera
+// is so ill known that it needs what is near.
+double TrackingStage::NearestOfWeight(const PreparedFrame& prepared) const {
     constexpr double kUsual_m = 0.5;
-    if (!config_.moving.enabled || !moving_.MovedLately(frame.stamp_s)) return kUsual_m;
+    if (motion_.doubt().uncertainty_m > config_.trackers.even_within_m) return kUsual_m;
     return std::max(kUsual_m, MedianDepth(prepared.reduced.front().depth_m));
 }
 
@@ -219,7 +222,7 @@ void TrackingStage::Reset() {
 
 void TrackingStage::StartAt(const StampedPose& last) {
     Reset();
-    motion_.Add(last);
+    motion_.Add(last, {});
 }
 
 void TrackingStage::SaveState(StateWriter& state) const {

@@ -91,7 +91,7 @@ class TrackingStage {
     bool HideExpected(const Frame& frame, PreparedFrame& prepared);
     void LeaveOutMoving(const Frame& frame, const BlockMap& map, bool hidden, TrackedFrame& tracked);
     void PrepareAgain(const Frame& frame, const MovingMask* mask, PreparedFrame& prepared);
-    double NearestOfWeight(const Frame& frame, const PreparedFrame& prepared) const;
+    double NearestOfWeight(const PreparedFrame& prepared) const;
     FrameMotion ShutterOf(const Frame& frame) const;
 
     PipelineConfig config_;

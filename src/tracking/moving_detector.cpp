@@ -19,7 +19,6 @@ constexpr int kTileColumns = 128;      // about so many
 constexpr double kAges[] = {0.3, 1.0}; // of the moments that a frame is compared with, in windows
 constexpr double kOld = 0.8;           // the same: what stood there so long ago stands still
 constexpr double kSpacing = 0.1;       // the same: of remembered moments
-constexpr double kLately = 10;         // the same: after what moved, other things may
 constexpr double kImageTime_s = 0.015; // an image is spread over about so much: blur, rolling shutter, stamps
 constexpr double kBody_m = 0.6;        // what hangs together reaches so far
 constexpr float kNearest_m = 0.1f;
@@ -64,8 +63,6 @@ struct MovingDetector::Memory {
     TileView now;
     std::deque<TileView> past;           // oldest first
     Marks moving;                        // in `now`; empty: nothing
-    double moving_s = 0;                 // for so long things move now; falls off as it grew
-    double last_moved_s = -1e300;        // when that last was half a window
 };
 
 // One frame against what is remembered.
@@ -105,7 +102,6 @@ void MovingDetector::Moments::Take(const Input& input, int step) {
         m.moving = {};
     }
     m.now.blur = follows ? Blur(RotationAngle(m.now.T_world_camera, input.T_world_camera), since_s) : 0;
-    m.moving_s = follows ? std::clamp(m.moving_s + (m.moving.empty() ? -since_s : since_s), 0.0, config_.window_s) : 0;
     m.now.T_world_camera = input.T_world_camera;
     m.now.stamp_s = input.stamp_s;
     MakeTiles(input.depth_m, step, input.disparity_offset_per_m, m.now.depth_m);
@@ -236,7 +232,6 @@ std::shared_ptr<const MovingMask> MovingDetector::Find(const Input& input, const
             if (evidence.gone.data()[i] != 0) mask->gone_m.data()[i] = m.now.near_m.data()[i];
     }
     if (!mask || mask->moving_tiles == 0) m.moving = {};
-    if (m.moving_s >= 0.5 * config_.window_s) m.last_moved_s = input.stamp_s;
     if (!mask || mask->moving_tiles + mask->gone_tiles == 0) return nullptr;
     return mask;
 }
@@ -254,10 +249,6 @@ std::shared_ptr<const MovingMask> MovingDetector::Expect(double stamp_s, const E
     Dilate(kExpectedAround, mask->moving);
     mask->moving_tiles = CountOf(mask->moving);
     return mask;
-}
-
-bool MovingDetector::MovedLately(double stamp_s) const {
-    return stamp_s - memory_->last_moved_s < kLately * config_.window_s;
 }
 
 void MovingDetector::Move(const Eigen::Isometry3d& T_new_old) {

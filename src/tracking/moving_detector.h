@@ -42,8 +42,6 @@ class MovingDetector {
     // What was found to move in the frame before, where a camera there would see it, and somewhat around: not to be tracked on.
     // Null: nothing.
     std::shared_ptr<const MovingMask> Expect(double stamp_s, const Eigen::Isometry3d& T_world_camera) const;
-    // Whether things move here: they did for half a window, at most ten windows ago. Others may start to, and these stop and go on.
-    bool MovedLately(double stamp_s) const;
 
     // The map was moved, the camera with it.
     void Move(const Eigen::Isometry3d& T_new_old);

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "support/box_room.h"
+#include "synth/synthetic_source.h"
 
 namespace tessera {
 namespace {
@@ -149,15 +150,41 @@ TEST(Pipeline, AFrameWithoutColourIsTrackedByItsShape) {
     }
 }
 
+// Metres that the camera is off at the end, where two people are in view, and walk, from the first frame on.
+double OffAmongPeople(double even_within_m) {
+    SynthConfig synthetic;
+    synthetic.camera = {320, 240, 262.5, 262.5, 159.5, 119.5};
+    synthetic.fps = 30;
+    synthetic.sensor.noise = NoiseModel::kKinect;
+    auto source = OpenSynthetic("people", synthetic);
+    PipelineConfig config;
+    config.trackers.even_within_m = even_within_m;
+    Pipeline pipeline(config, synthetic.camera);
+    constexpr int kStart = 345, kFrames = 60;
+    Eigen::Isometry3d T_world_start, T_off = Eigen::Isometry3d::Identity();
+    source.value()->Seek(kStart);
+    for (Frame frame; frame.index < kStart + kFrames && source.value()->Read(frame).status == ReadStatus::kOk;) {
+        if (frame.index == kStart) T_world_start = *frame.T_world_camera;
+        const FrameReport report = pipeline.Process(frame);
+        T_off = report.track.T_world_camera.inverse() * T_world_start.inverse() * *frame.T_world_camera;
+    }
+    return T_off.translation().norm();
+}
+
+TEST(Pipeline, FollowsTheRoomNotWhoWalksThroughIt) {
+    EXPECT_LT(OffAmongPeople(PipelineConfig().trackers.even_within_m), 0.02);
+    EXPECT_GT(OffAmongPeople(0), 0.1);
+}
+
 TEST(MotionModel, ExpectsConstantVelocityAndForgetsItOverGaps) {
     MotionModel model({});
     EXPECT_TRUE(model.Predict(1.0).isApprox(Eigen::Isometry3d::Identity()));
     Vector6d step;
     step << 0.01, -0.02, 0.03, 0.1, 0.0, -0.1;
     const Eigen::Isometry3d T0 = SmoothPath(7);
-    model.Add({0.0, T0});
+    model.Add({0.0, T0}, {});
     EXPECT_TRUE(model.Predict(0.1).isApprox(T0));
-    model.Add({0.1, T0 * Se3Exp(step)});
+    model.Add({0.1, T0 * Se3Exp(step)}, {});
     EXPECT_TRUE(model.Predict(0.2).isApprox(T0 * Se3Exp(2 * step), 1e-9));
     EXPECT_TRUE(model.Predict(0.15).isApprox(T0 * Se3Exp(1.5 * step), 1e-9));
     EXPECT_TRUE(model.Predict(5.0).isApprox(T0 * Se3Exp(step), 1e-9));  // too long ago
@@ -169,11 +196,11 @@ TEST(MotionModel, MotionsThatNothingShowsComeToRest) {
     MotionModel model(config);
     Vector6d velocity;
     velocity << 0, 0, 0.1, 0.5, 0, 0;
-    model.Add({0.0, Eigen::Isometry3d::Identity()});
-    model.Add({0.1, Se3Exp(0.1 * velocity)});
+    model.Add({0.0, Eigen::Isometry3d::Identity()}, {});
+    model.Add({0.1, Se3Exp(0.1 * velocity)}, {});
     for (int i = 1; i <= 10; ++i) {
         const double stamp_s = 0.1 + 0.1 * i * config.come_to_rest_s;
-        model.Add({stamp_s, model.Predict(stamp_s)}, true);
+        model.Add({stamp_s, model.Predict(stamp_s)}, {.degenerate = true});
     }
     const Vector6d left =
         Se3Log(model.last()->T_world_camera.inverse() * model.Predict(0.2 + config.come_to_rest_s)) / 0.1;

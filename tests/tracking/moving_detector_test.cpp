@@ -133,18 +133,6 @@ TEST_F(MovingDetectorTest, EdgesThatATurnHasShiftedDoNotMove) {
     EXPECT_EQ(See(RoundView(kTurn_rad + kShutter_rad)), nullptr);
 }
 
-TEST_F(MovingDetectorTest, ForTenWindowsOthersMayMoveToo) {
-    for (int i = 0; i < 30; ++i) See(View({}));
-    for (int i = 0; i < 12; ++i) See(View(BoxAt(2.3 * i)));
-    EXPECT_FALSE(detector_.MovedLately(stamp_s_));  // it may have been noise
-    for (int i = 12; i < 24; ++i) See(View(BoxAt(2.3 * i)));
-    EXPECT_TRUE(detector_.MovedLately(stamp_s_));
-    EXPECT_TRUE(detector_.MovedLately(stamp_s_ + 9));
-    EXPECT_FALSE(detector_.MovedLately(stamp_s_ + 11));
-    detector_.Clear();
-    EXPECT_FALSE(detector_.MovedLately(stamp_s_));
-}
-
 TEST_F(MovingDetectorTest, SpecksDoNotCount) {
     for (int i = 0; i < 30; ++i) {
         DepthImage depth_m = View({});
