@@ -181,7 +181,7 @@ Evidence MovingDetector::Moments::Weigh(const Changes& changes, const DepthImage
             const bool left = changes.left_m(x, y) > 0, before = depth + off < nearest;
             if (before) e.candidates(x, y) = 1;
             if (before && left) e.seeds(x, y) = 1;
-            e.gone(x, y) = left && farthest + off < now.near_m(x, y);
+            e.gone(x, y) = farthest + off < now.near_m(x, y);
             if (e.candidates(x, y) != 0 || left) continue;
             ++known;
             fitting += nearest - off <= depth && depth <= farthest + off;
@@ -224,7 +224,6 @@ std::shared_ptr<const MovingMask> MovingDetector::Find(const Input& input, const
         mask->moving = m.moving;
         Dilate(kAround, mask->moving);
         mask->moving_tiles = CountOf(mask->moving);
-        KeepRegions(m.now.depth_m, evidence.gone, camera_, {config_.min_area_m2, 0}, evidence.gone);
         mask->gone_tiles = CountOf(evidence.gone);
         Dilate(kAround, evidence.gone);
         mask->gone_m = DepthImage(camera_.width, camera_.height);

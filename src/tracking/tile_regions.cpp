@@ -11,6 +11,9 @@ using Marks = Image<std::uint8_t>;
 // Neighbours on one surface: tiles of a slanted one differ, too.
 bool Continuous(float a, float b) { return a > 0 && b > 0 && std::abs(a - b) < 0.05f + 0.03f * std::min(a, b); }
 
+// Neighbours on one body: a chin before a chest, an arm before a hip.
+bool HangTogether(float a, float b) { return a > 0 && b > 0 && std::abs(a - b) < 0.2f; }
+
 template <class Visit>
 void ForNeighbours(const Marks& marks, int x, int y, const Visit& visit) {
     constexpr int kSteps[4][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
@@ -77,7 +80,7 @@ void GrowRegions(const DepthImage& depth_m, const Marks& allowed, const PinholeC
         const double way_m = from.way_m + depth_m(from.x, from.y) / camera.fx;
         if (way_m > reach_m) continue;
         ForNeighbours(marks, from.x, from.y, [&](int u, int v) {
-            if (marks(u, v) != 0 || allowed(u, v) == 0 || !Continuous(depth_m(from.x, from.y), depth_m(u, v))) return;
+            if (marks(u, v) != 0 || allowed(u, v) == 0 || !HangTogether(depth_m(from.x, from.y), depth_m(u, v))) return;
             marks(u, v) = 1;
             tiles.push_back({u, v, way_m});
         });

@@ -24,7 +24,7 @@ bool HasCore(const Image<std::uint8_t>& marks);
 void KeepRegions(const DepthImage& depth_m, const Image<std::uint8_t>& seeds, const PinholeCamera& camera, const RegionRule& rule,
                  Image<std::uint8_t>& marks);
 
-// Marks neighbours of marked tiles, and theirs, that `allowed` marks and whose depths differ little: about as far as `reach_m`.
+// Marks neighbours of marked tiles, and theirs, that `allowed` marks and whose depths differ by less than 0.2 m: about as far as `reach_m`.
 void GrowRegions(const DepthImage& depth_m, const Image<std::uint8_t>& allowed, const PinholeCamera& camera, double reach_m,
                  Image<std::uint8_t>& marks);
 

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace tessera {
@@ -28,14 +29,32 @@ DepthImage View(const Box& box) {
     return depth_m;
 }
 
+// The columns of a pillar before a round wall, from a camera in the middle that has turned by `yaw_rad`.
+DepthImage RoundView(double yaw_rad) {
+    DepthImage depth_m(kWidth, kHeight);
+    for (int y = 0; y < kHeight; ++y)
+        for (int x = 0; x < kWidth; ++x) {
+            const double from_axis_rad = std::atan((x - kCamera.cx) / kCamera.fx);
+            const float away_m = std::abs(from_axis_rad + yaw_rad) < 0.15 ? kBox_m : kWall_m;
+            depth_m(x, y) = away_m * static_cast<float>(std::cos(from_axis_rad));
+        }
+    return depth_m;
+}
+
+void HideRows(int rows, DepthImage& depth_m) { std::fill_n(depth_m.data(), rows * kWidth, 0.0f); }
+
 // The map is the wall, and perhaps a box; of the camera's places only the one along its axis counts.
 class WallAndBox : public ViewPredictor {
   public:
     Box box;
+    int unknown_rows = 0;  // at the top
+    bool round = false;    // RoundView's, in place of all this
     void Predict(const BlockMap&, const PinholeCamera& camera, const Eigen::Isometry3d& T_world_camera, float, float,
                  PredictedView& view) override {
         view.Resize(camera, T_world_camera);
         view.depth_m = View(box);
+        HideRows(unknown_rows, view.depth_m);
+        if (round) view.depth_m = RoundView(std::atan2(T_world_camera.linear()(0, 2), T_world_camera.linear()(2, 2)));
         const auto ahead_m = static_cast<float>(T_world_camera.translation().z());
         for (std::size_t i = 0; i < view.depth_m.size(); ++i) view.depth_m.data()[i] -= ahead_m;
     }
@@ -96,6 +115,36 @@ TEST_F(MovingDetectorTest, AWalkerOfTheFirstFrameIsFoundByWhereItWas) {
     EXPECT_EQ(mask->gone_m(120, 50), 0);             // where nothing was
 }
 
+// Nobody knows what is behind the head, and it is 15 cm behind the chest.
+TEST_F(MovingDetectorTest, AHeadGoesWithItsBody) {
+    constexpr int kUnknown = 30;
+    wall_.unknown_rows = kUnknown;
+    DepthImage wall_m = View({});
+    HideRows(kUnknown, wall_m);
+    for (int i = 0; i < 30; ++i) See(wall_m);
+    for (int i = 0; i < 12; ++i) {
+        const Box chest{20 + 2 * i, 55 + 2 * i, kUnknown, 90}, head{30 + 2 * i, 45 + 2 * i, 15, kUnknown, kBox_m + 0.15f};
+        DepthImage depth_m = View(chest);
+        HideRows(kUnknown, depth_m);
+        for (int y = head.top; y < head.bottom; ++y) std::fill(depth_m.row(y) + head.left, depth_m.row(y) + head.right, head.depth_m);
+        const auto mask = See(depth_m);
+        ASSERT_NE(mask, nullptr) << i;
+        for (int y = head.top; y < head.bottom; ++y)
+            for (int x = head.left; x < head.right; ++x) ASSERT_EQ(mask->moving(x, y), 1) << i << ": " << x << " " << y;
+    }
+}
+
+// The map has a box that went while nobody looked; it is seen through, but only someone else who walks makes the detector ask the map.
+TEST_F(MovingDetectorTest, WhatWentUnseenIsGone) {
+    wall_.box = BoxAt(0);
+    for (int i = 0; i < 30; ++i) EXPECT_EQ(See(View({})), nullptr) << i;
+    const auto mask = See(View(BoxAt(60)));
+    ASSERT_NE(mask, nullptr);
+    EXPECT_GT(mask->gone_tiles, 30 * 75);
+    EXPECT_FLOAT_EQ(mask->gone_m(30, 50), kWall_m);
+    EXPECT_EQ(mask->gone_m(65, 50), 0);
+}
+
 TEST_F(MovingDetectorTest, WhatHasStoodStillForTheWindowBelongsToTheScene) {
     for (int i = 0; i < 10; ++i) See(View({}));
     for (int i = 0; i < 15; ++i) See(View(BoxAt(2.3 * i)));
@@ -113,20 +162,9 @@ TEST_F(MovingDetectorTest, APoseThatIsOffIsNoMovement) {
     for (int i = 0; i < 10; ++i) EXPECT_EQ(See(View(BoxAt(0))), nullptr) << i;
 }
 
-// The columns of a pillar before a round wall, from a camera in the middle that has turned by `yaw_rad`.
-DepthImage RoundView(double yaw_rad) {
-    DepthImage depth_m(kWidth, kHeight);
-    for (int y = 0; y < kHeight; ++y)
-        for (int x = 0; x < kWidth; ++x) {
-            const double from_axis_rad = std::atan((x - kCamera.cx) / kCamera.fx);
-            const float away_m = std::abs(from_axis_rad + yaw_rad) < 0.15 ? kBox_m : kWall_m;
-            depth_m(x, y) = away_m * static_cast<float>(std::cos(from_axis_rad));
-        }
-    return depth_m;
-}
-
 // A rolling shutter shows the edges where the camera looked up to 15 ms before or after.
 TEST_F(MovingDetectorTest, EdgesThatATurnHasShiftedDoNotMove) {
+    wall_.round = true;
     for (int i = 0; i < 30; ++i) EXPECT_EQ(See(RoundView(0)), nullptr) << i;
     constexpr double kTurn_rad = 0.1, kShutter_rad = kTurn_rad / kFrame_s * 0.015;
     T_world_camera_ = Eigen::Isometry3d(Eigen::AngleAxisd(kTurn_rad, Eigen::Vector3d::UnitY()));
