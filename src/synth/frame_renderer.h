@@ -10,8 +10,6 @@
 
 namespace tessera {
 
-// Images of one size. Where no surface is seen: depth 0, instance and class 0, patch -1, colour
-// black.
 // How the depth and the colour camera stand to each other, in time and space. As it is: one camera, all of it at one instant.
 struct CameraRig {
     double depth_readout_s = 0, colour_readout_s = 0;  // rolling shutter, from the first row to the last
@@ -24,6 +22,8 @@ struct CameraRig {
     Eigen::Isometry3d T_depth_colour() const;
 };
 
+// Images of one size. Where no surface is seen: depth 0, instance and class 0, patch -1, colour
+// black.
 struct RenderedView {
     Image<RgbF> colour;          // grey levels [0, 255], averaged over the pixel and the exposure
     DepthImage depth_m;          // exact, through the pixel's centre, at mid-exposure

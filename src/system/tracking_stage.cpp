@@ -19,12 +19,12 @@ Integrator::View FusionView(const TrackResult& track) {
     return view;
 }
 
-// 0.5 without depth.
+// 0 without depth.
 double MedianDepth(const DepthImage& depth_m) {
     std::vector<float> depths;
     for (std::size_t i = 0; i < depth_m.size(); ++i)
         if (depth_m.data()[i] > 0) depths.push_back(depth_m.data()[i]);
-    if (depths.empty()) return 0.5;
+    if (depths.empty()) return 0;
     const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
     std::nth_element(depths.begin(), middle, depths.end());
     return *middle;
@@ -192,9 +192,8 @@ TrackResult TrackingStage::TrackFrame(const Frame& frame, const PreparedFrame& p
 // Who stands near and starts to walk must not outweigh the room behind: the nearer half of the view weighs alike, unless the camera
 // is so ill known that it needs what is near.
 double TrackingStage::NearestOfWeight(const PreparedFrame& prepared) const {
-    constexpr double kUsual_m = 0.5;
-    if (motion_.doubt().uncertainty_m > config_.trackers.even_within_m) return kUsual_m;
-    return std::max(kUsual_m, MedianDepth(prepared.reduced.front().depth_m));
+    if (motion_.doubt().uncertainty_m > config_.trackers.even_within_m) return kNearestWeighed_m;
+    return std::max(kNearestWeighed_m, MedianDepth(prepared.reduced.front().depth_m));
 }
 
 FrameMotion TrackingStage::ShutterOf(const Frame& frame) const {

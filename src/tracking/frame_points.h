@@ -15,7 +15,7 @@ namespace tessera {
 
 // A point's weight: (1 m / depth)^exponent, at most that at nearest_m.
 struct DepthWeight {
-    double exponent = 0, nearest_m = 0.5;
+    double exponent = 0, nearest_m = kNearestWeighed_m;
 };
 
 // Every step-th pixel's; intensities only if they are to be read and the frame has any. The images stay the frame's.

@@ -26,6 +26,8 @@ TESSERA_HD CameraPoint Moved(const CameraPoint& p, const float* twist_per_s, flo
             p.z + time_s * (w[0] * p.y - w[1] * p.x + w[5])};
 }
 
+constexpr double kNearestWeighed_m = 0.5;  // usually
+
 // z^exponent, z in metres, at most that of nearest_m.
 TESSERA_HD float PointWeight(float z_m, float exponent, float nearest_m) {
     const float z = max(z_m, nearest_m);

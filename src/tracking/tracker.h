@@ -10,6 +10,7 @@
 #include "core/frame_motion.h"
 #include "mapping/block_map.h"
 #include "mapping/prepared_frame.h"
+#include "tracking/point_kernels.h"
 
 namespace tessera {
 
@@ -22,7 +23,7 @@ struct TrackInput {
     Eigen::Isometry3d T_world_camera_last;   // where it was at the last tracked frame
     double since_last_s = 0;                 // 0 if there is no such frame, or its pose was poor
     FrameMotion motion;                      // delays and read-out times; the twist is the tracker's to fill
-    double nearest_m = 0.5;                  // nearer points have the weight of this depth
+    double nearest_m = kNearestWeighed_m;    // nearer points have the weight of this depth
 };
 
 enum class TrackStatus {
