@@ -24,8 +24,8 @@ struct MovingMask {
     double moving_fraction() const { return static_cast<double>(moving_tiles) / static_cast<double>(moving.size()); }
 };
 
-// No depth where something moves. The image is of the masked frame's size.
-void HideMoving(const MovingMask& mask, DepthImage& depth_m);
+// No depth where something moves, in row y of a depth image of the masked frame's size.
+void HideMoving(const MovingMask& mask, int y, int width, float* depth_m);
 // The frame without the depth of what moves.
 Frame WithoutMoving(const MovingMask& mask, const Frame& frame);
 // What moves in magenta, for a person to look at. `colour` is the frame's at 1/`shrunk` of its size.

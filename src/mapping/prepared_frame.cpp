@@ -6,6 +6,7 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <vector>
 
 #include "mapping/frame_kernels.h"
 
@@ -16,10 +17,17 @@ constexpr int kBand = 16;  // rows per task; fixed, so that sums have a fixed or
 
 constexpr int kReducedWidths[] = {40, 80};  // 40 x 30 and 80 x 60 from 640 x 480
 
-FrameCounts GateRows(const DepthImage& in, float offset, float low, float high, int first, int last, DepthImage& out) {
+FrameCounts GateRows(const DepthImage& in, const MovingMask* moving, float offset, float low, float high, int first, int last,
+                     DepthImage& out) {
     FrameCounts counts;
+    std::vector<float> rest;
     for (int y = first; y < last; ++y) {
         const float* source = in.row(y);
+        if (moving != nullptr) {
+            rest.assign(source, source + in.width());
+            HideMoving(*moving, y, in.width(), rest.data());
+            source = rest.data();
+        }
         float* target = out.row(y);
         for (int x = 0; x < in.width(); ++x) {
             const float z = CorrectedDepth(source[x], offset);
@@ -144,13 +152,14 @@ void SetFacts(int width, int height, bool has_colour, const FrameCounts& counts,
 
 namespace {
 
-void PrepareDepth(const DepthImage& raw_m, bool has_colour, const PreparedFrame::Config& config, PreparedFrame& p) {
+void PrepareDepth(const DepthImage& raw_m, bool has_colour, const PreparedFrame::Config& config, const MovingMask* moving,
+                  PreparedFrame& p) {
     const int width = raw_m.width(), height = raw_m.height();
     p.depth_m.Resize(width, height);
     std::vector<FrameCounts> counts(static_cast<std::size_t>((height + kBand - 1) / kBand));
     ForBands(height, [&](int band, int first, int last) {
         counts[static_cast<std::size_t>(band)] =
-            GateRows(raw_m, static_cast<float>(config.disparity_offset_per_m), static_cast<float>(config.min_depth_m),
+            GateRows(raw_m, moving, static_cast<float>(config.disparity_offset_per_m), static_cast<float>(config.min_depth_m),
                      static_cast<float>(config.max_depth_m), first, last, p.depth_m);
     });
     FrameCounts total;
@@ -167,8 +176,8 @@ void PrepareDepth(const DepthImage& raw_m, bool has_colour, const PreparedFrame:
 
 }  // namespace
 
-void PrepareDepthAgain(const DepthImage& depth_m, const PreparedFrame::Config& config, PreparedFrame& p) {
-    PrepareDepth(depth_m, p.has_colour, config, p);
+void PrepareDepthAgain(const Frame& frame, const PreparedFrame::Config& config, PreparedFrame& p, const MovingMask* moving) {
+    PrepareDepth(frame.depth_m, p.has_colour, config, moving, p);
     for (std::size_t level = 0; level < p.reduced.size(); ++level) ReduceDepth(p, level, p.reduced[level].depth_m);
 }
 
@@ -182,8 +191,8 @@ void SetMoving(std::shared_ptr<const MovingMask> moving, PreparedFrame& p) {
     });
 }
 
-void PrepareFrame(const Frame& frame, const PreparedFrame::Config& config, PreparedFrame& p) {
-    PrepareDepth(frame.depth_m, !frame.colour.empty(), config, p);
+void PrepareFrame(const Frame& frame, const PreparedFrame::Config& config, PreparedFrame& p, const MovingMask* moving) {
+    PrepareDepth(frame.depth_m, !frame.colour.empty(), config, moving, p);
     if (p.has_colour) {
         SplitColour(frame.colour, config.intensity_blur_px, p);
     } else {

@@ -52,11 +52,11 @@ struct PreparedFrame {
 // or all: one cannot read between less.
 int ReductionOf(int width, int height, std::size_t level);
 
-// Reuses the storage of `prepared`.
-void PrepareFrame(const Frame& frame, const PreparedFrame::Config& config, PreparedFrame& prepared);
-
-// As PrepareFrame, for another depth of a frame whose colour is prepared already.
-void PrepareDepthAgain(const DepthImage& depth_m, const PreparedFrame::Config& config, PreparedFrame& prepared);
+// Reuses the storage of `prepared`. What `moving` marks, if given, has no depth.
+void PrepareFrame(const Frame& frame, const PreparedFrame::Config& config, PreparedFrame& prepared,
+                  const MovingMask* moving = nullptr);
+// The same with other marks, for a frame that is prepared already: its colour stays.
+void PrepareDepthAgain(const Frame& frame, const PreparedFrame::Config& config, PreparedFrame& prepared, const MovingMask* moving);
 // Enters a mask into a frame that was prepared without the depth of what moves.
 void SetMoving(std::shared_ptr<const MovingMask> moving, PreparedFrame& prepared);
 

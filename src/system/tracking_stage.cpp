@@ -51,20 +51,20 @@ void TrackingStage::Track(const Frame& frame, const BlockMap& map, const std::op
     report.stamp_s = frame.stamp_s;
     report.method = trackers_.method();
 
-    // 1. Gate the depth, split the colour.
+    // 1. Gate the depth, split the colour. What moved a moment ago does not say where the camera is.
     Stopwatch watch;
+    const std::shared_ptr<const MovingMask> expected = given ? nullptr : ExpectMoving(frame.stamp_s);
     if (device_ != nullptr) {
-        device_->Prepare(frame, config_.frame, bring_images_, prepared);
+        PrepareOnDevice(frame, expected.get(), prepared);
     } else {
-        PrepareFrame(frame, config_.frame, prepared);
+        PrepareFrame(frame, config_.frame, prepared, expected.get());
     }
     report.prepare_ms = watch.LapMs();
     report.valid_depth_fraction =
         static_cast<double>(prepared.valid_depth_pixels) / static_cast<double>(frame.depth_m.size());
 
-    // 2. Where was the camera? What moved a moment ago does not say.
+    // 2. Where was the camera?
     motion_before_ = motion_;
-    const bool hidden = !given && HideExpected(frame, prepared);
     report.first = !motion_.last().has_value();
     if (prepared.valid_depth_pixels == 0) {
         report.track.reason = prepared.measured_pixels > 0 ? "0 depth pixels in range: is depth_scale right?"
@@ -90,7 +90,7 @@ void TrackingStage::Track(const Frame& frame, const BlockMap& map, const std::op
                                                                    .uncertainty_m = report.track.uncertainty_m});
 
     // 3. What moves is no part of the map.
-    LeaveOutMoving(frame, map, hidden, tracked);
+    LeaveOutMoving(frame, map, expected != nullptr, tracked);
     report.moving_ms = watch.LapMs();
 
     // 4. Would it harm the map?
@@ -98,21 +98,13 @@ void TrackingStage::Track(const Frame& frame, const BlockMap& map, const std::op
     tracked.view = FusionView(report.track);
 }
 
-void TrackingStage::PrepareAgain(const Frame& frame, const MovingMask* mask, PreparedFrame& prepared) {
-    if (device_ != nullptr) {
-        device_->Prepare(mask != nullptr ? WithoutMoving(*mask, frame) : frame, config_.frame, bring_images_, prepared);
-        return;
-    }
-    DepthImage depth_m = frame.depth_m;
-    if (mask != nullptr) HideMoving(*mask, depth_m);
-    PrepareDepthAgain(depth_m, config_.frame, prepared);
+void TrackingStage::PrepareOnDevice(const Frame& frame, const MovingMask* moving, PreparedFrame& prepared) {
+    device_->Prepare(moving != nullptr ? WithoutMoving(*moving, frame) : frame, config_.frame, bring_images_, prepared);
 }
 
-bool TrackingStage::HideExpected(const Frame& frame, PreparedFrame& prepared) {
-    if (!config_.moving.enabled || !motion_.last()) return false;
-    const auto expected = moving_.Expect(frame.stamp_s, motion_.Predict(frame.stamp_s));
-    if (expected) PrepareAgain(frame, expected.get(), prepared);
-    return expected != nullptr;
+std::shared_ptr<const MovingMask> TrackingStage::ExpectMoving(double stamp_s) const {
+    if (!config_.moving.enabled || !motion_.last()) return nullptr;
+    return moving_.Expect(stamp_s, motion_.Predict(stamp_s));
 }
 
 void TrackingStage::LeaveOutMoving(const Frame& frame, const BlockMap& map, bool hidden, TrackedFrame& tracked) {
@@ -126,7 +118,9 @@ void TrackingStage::LeaveOutMoving(const Frame& frame, const BlockMap& map, bool
                                               .T_world_camera = report.track.T_world_camera},
                                              map, predictor);
     const bool moves = report.moving && report.moving->moving_tiles > 0;
-    if (moves || hidden) PrepareAgain(frame, moves ? report.moving.get() : nullptr, tracked.prepared);
+    const MovingMask* moving = moves ? report.moving.get() : nullptr;
+    if ((moves || hidden) && device_ != nullptr) PrepareOnDevice(frame, moving, tracked.prepared);
+    if ((moves || hidden) && device_ == nullptr) PrepareDepthAgain(frame, config_.frame, tracked.prepared, moving);
     if (report.moving) SetMoving(report.moving, tracked.prepared);
 }
 

@@ -26,7 +26,7 @@ struct FrameReport {
     TrackResult track;       // status good, with the given pose, when poses are given
     bool first = false;      // the frame that started the map
     bool fused = false;
-    double valid_depth_fraction = 0;
+    double valid_depth_fraction = 0;  // of the image, without what was expected to move
     std::string warning;     // what a person should know of this frame, in words; mostly empty
     Integrator::Report fusion;
     std::shared_ptr<const MovingMask> moving;  // null: nothing moves
@@ -88,9 +88,9 @@ class TrackingStage {
 
   private:
     TrackResult TrackFrame(const Frame& frame, const PreparedFrame& prepared, const BlockMap& map);
-    bool HideExpected(const Frame& frame, PreparedFrame& prepared);
+    std::shared_ptr<const MovingMask> ExpectMoving(double stamp_s) const;
     void LeaveOutMoving(const Frame& frame, const BlockMap& map, bool hidden, TrackedFrame& tracked);
-    void PrepareAgain(const Frame& frame, const MovingMask* mask, PreparedFrame& prepared);
+    void PrepareOnDevice(const Frame& frame, const MovingMask* moving, PreparedFrame& prepared);
     double NearestOfWeight(const PreparedFrame& prepared) const;
     FrameMotion ShutterOf(const Frame& frame) const;
 

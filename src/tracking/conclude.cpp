@@ -43,7 +43,10 @@ TrackResult Conclude(const TrackInput& input, const FoundPose& found, ResidualAr
     const PoseKnowledge knowledge = KnowledgeOf(information, judge.expected_within_m(), camera_local, found.scene_depth_m);
     result.uncertainty_m = knowledge.uncertainty_m;
 
-    const Eigen::Isometry3d T_local_expected = found.T_world_local.inverse() * input.T_world_camera_starts.back();
+    // The prealignment leads, unless it is fooled: a hand that covers the view is an image that has jumped.
+    const Eigen::Isometry3d &T_world_moved = input.T_world_camera_starts.front(), &T_world_aligned = input.T_world_camera_starts.back();
+    const Eigen::Isometry3d& T_world_expected = judge.Follows(T_world_moved, T_world_aligned) ? T_world_aligned : T_world_moved;
+    const Eigen::Isometry3d T_local_expected = found.T_world_local.inverse() * T_world_expected;
     const Vector6d astray = knowledge.open * Se3Log(found.T_local_camera * T_local_expected.inverse());
     result.T_world_camera = Normalised(found.T_world_local * Se3Exp(-astray) * found.T_local_camera);
     judge.Judge(input, result);

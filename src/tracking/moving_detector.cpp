@@ -23,6 +23,7 @@ constexpr double kImageTime_s = 0.015; // an image is spread over about so much:
 constexpr double kBody_m = 0.6;        // what hangs together reaches so far
 constexpr float kNearest_m = 0.1f;
 constexpr int kAround = 2, kExpectedAround = 3, kBeside = 4;  // tiles
+constexpr int kAsked = 2;              // of so many tiles in a row or column the map is asked at one
 
 bool Marked(std::uint8_t mark) { return mark != 0; }
 std::int64_t CountOf(const Marks& marks) { return std::count_if(marks.data(), marks.data() + marks.size(), Marked); }
@@ -165,6 +166,7 @@ Evidence MovingDetector::Moments::Weigh(const Changes& changes, const DepthImage
     DepthImage nearest_m, farthest_m;
     NearestAround(predicted_m, 1, nearest_m);
     FarthestAround(predicted_m, 1, farthest_m);
+    const int last_x = predicted_m.width() - 1, last_y = predicted_m.height() - 1;
     Evidence e;
     e.seeds = changes.came;
     MarkBeside(now.depth_m, changes.left_m, kBeside, e.seeds);
@@ -173,15 +175,16 @@ Evidence MovingDetector::Moments::Weigh(const Changes& changes, const DepthImage
     std::int64_t known = 0, fitting = 0;
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {
-            const float depth = now.depth_m(x, y), map = predicted_m(x, y);
+            const int u = std::min(x / kAsked, last_x), v = std::min(y / kAsked, last_y);
+            const float depth = now.depth_m(x, y), map = predicted_m(u, v);
             if (depth <= 0) continue;
             e.growing(x, y) = changes.there(x, y) == 0;
             if (map <= 0) continue;
-            const float off = margin_(std::max(depth, map)), nearest = nearest_m(x, y), farthest = farthest_m(x, y);
+            const float off = margin_(std::max(depth, map)), nearest = nearest_m(u, v), farthest = farthest_m(u, v);
             const bool left = changes.left_m(x, y) > 0, before = depth + off < nearest;
             if (before) e.candidates(x, y) = 1;
             if (before && left) e.seeds(x, y) = 1;
-            e.gone(x, y) = farthest + off < now.near_m(x, y);
+            e.gone(x, y) = map + off < now.near_m(x, y);  // near_m bears edges that are a little off
             if (e.candidates(x, y) != 0 || left) continue;
             ++known;
             fitting += nearest - off <= depth && depth <= farthest + off;
@@ -215,7 +218,7 @@ std::shared_ptr<const MovingMask> MovingDetector::Find(const Input& input, const
     std::shared_ptr<MovingMask> mask;
     if (changes.any) {
         PredictedView view;
-        predictor.Predict(map, camera_, input.T_world_camera, kNearest_m, 1.2f * input.farthest_m, view);
+        predictor.Predict(map, camera_.Every(kAsked), input.T_world_camera, kNearest_m, 1.2f * input.farthest_m, view);
         Evidence evidence = moments.Weigh(changes, view.depth_m);
         if (!evidence.fits) evidence.candidates = evidence.seeds = evidence.gone = Marks(camera_.width, camera_.height);
         moments.Decide(evidence);

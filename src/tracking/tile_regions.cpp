@@ -7,6 +7,7 @@ namespace tessera {
 namespace {
 
 using Marks = Image<std::uint8_t>;
+constexpr float kNearestCounted_m = 1.0f;  // noise is a few tiles, near and far
 
 // Neighbours on one surface: tiles of a slanted one differ, too.
 bool Continuous(float a, float b) { return a > 0 && b > 0 && std::abs(a - b) < 0.05f + 0.03f * std::min(a, b); }
@@ -50,7 +51,8 @@ void KeepRegions(const DepthImage& depth_m, const Marks& seeds, const PinholeCam
             for (std::size_t i = 0; i < region.size(); ++i) {
                 const auto [x, y] = region[i];
                 const float depth = depth_m(x, y);
-                area_m2 += depth * depth / (camera.fx * camera.fy);
+                const float from_m = std::max(depth, kNearestCounted_m);
+                area_m2 += from_m * from_m / (camera.fx * camera.fy);
                 seeded += seeds(x, y) != 0;
                 core = core || IsCore(seeds, x, y);
                 ForNeighbours(marks, x, y, [&](int u, int v) {

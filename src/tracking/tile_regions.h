@@ -12,7 +12,7 @@ namespace tessera {
 
 // Of marked tiles, those in regions that count.
 struct RegionRule {
-    double min_area_m2 = 0;       // of the surface, seen face on
+    double min_area_m2 = 0;       // of the surface, seen face on; what is nearer than 1 m counts as if it were there
     double min_seed_fraction = 0; // of the region's tiles
 };
 

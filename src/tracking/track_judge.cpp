@@ -15,6 +15,10 @@ std::string Misfit(const TrackResult& result) {
     return fmt::format("only {:.0f} % of the depth fits the map", 100 * result.inlier_fraction);
 }
 
+double InnovationOf(const Eigen::Isometry3d& T_world_expected, const Eigen::Isometry3d& T_world_camera) {
+    return (T_world_expected.inverse() * T_world_camera).translation().norm();
+}
+
 }  // namespace
 
 bool TrackJudge::Fits(std::int64_t points, const PoseSums& sums, TrackResult& result) const {
@@ -38,9 +42,14 @@ bool TrackJudge::Fits(std::int64_t points, const PoseSums& sums, TrackResult& re
 void TrackJudge::Judge(const TrackInput& input, TrackResult& result) const {
     result.degenerate = result.uncertainty_m > config_.degenerate_voxels * input.map.config().voxel_size_m;
     const Eigen::Isometry3d& T_world_expected = input.T_world_camera_starts.front();
-    result.innovation_m = (T_world_expected.inverse() * result.T_world_camera).translation().norm();
+    result.innovation_m = InnovationOf(T_world_expected, result.T_world_camera);
     result.innovation_rad = RotationAngle(T_world_expected, result.T_world_camera);
     result.status = Status(input, result);
+}
+
+bool TrackJudge::Follows(const Eigen::Isometry3d& T_world_expected, const Eigen::Isometry3d& T_world_camera) const {
+    return InnovationOf(T_world_expected, T_world_camera) <= config_.good_innovation_m &&
+           RotationAngle(T_world_expected, T_world_camera) <= config_.good_innovation_rad;
 }
 
 TrackStatus TrackJudge::Status(const TrackInput& input, TrackResult& result) const {
@@ -57,7 +66,7 @@ TrackStatus TrackJudge::Status(const TrackInput& input, TrackResult& result) con
     if (result.inlier_fraction < config_.good_inlier_fraction) return because(kPoor, Misfit(result));
     if (result.distance_rms_m > config_.good_distance_rms_m)
         return because(kPoor, fmt::format("the depth is {:.1f} cm off the map", 100 * result.distance_rms_m));
-    if (result.innovation_m > config_.good_innovation_m || result.innovation_rad > config_.good_innovation_rad)
+    if (!Follows(input.T_world_camera_starts.front(), result.T_world_camera))
         return because(kPoor, fmt::format("{:.2f} m and {:.2f} rad from where the motion led", result.innovation_m,
                                           result.innovation_rad));
     return TrackStatus::kGood;

@@ -35,6 +35,9 @@ class TrackJudge {
     // Fills status, reason and what else is to be said of a result that fits, whose pose and uncertainty are set.
     void Judge(const TrackInput& input, TrackResult& result) const;
 
+    // Whether a pose is as near to another, the motion model's, as that of a frame to be fused must be.
+    bool Follows(const Eigen::Isometry3d& T_world_expected, const Eigen::Isometry3d& T_world_camera) const;
+
     // Standard deviation of the pose that is expected before a frame is looked at; 0: nothing is expected.
     double expected_within_m() const { return config_.expected_within_m; }
 

@@ -51,12 +51,14 @@ class WallAndBox : public ViewPredictor {
     bool round = false;    // RoundView's, in place of all this
     void Predict(const BlockMap&, const PinholeCamera& camera, const Eigen::Isometry3d& T_world_camera, float, float,
                  PredictedView& view) override {
+        DepthImage depth_m = View(box);
+        HideRows(unknown_rows, depth_m);
+        if (round) depth_m = RoundView(std::atan2(T_world_camera.linear()(0, 2), T_world_camera.linear()(2, 2)));
         view.Resize(camera, T_world_camera);
-        view.depth_m = View(box);
-        HideRows(unknown_rows, view.depth_m);
-        if (round) view.depth_m = RoundView(std::atan2(T_world_camera.linear()(0, 2), T_world_camera.linear()(2, 2)));
         const auto ahead_m = static_cast<float>(T_world_camera.translation().z());
-        for (std::size_t i = 0; i < view.depth_m.size(); ++i) view.depth_m.data()[i] -= ahead_m;
+        const int every = kWidth / camera.width;
+        for (int y = 0; y < camera.height; ++y)
+            for (int x = 0; x < camera.width; ++x) view.depth_m(x, y) = depth_m(every * x, every * y) - ahead_m;
     }
 };
 
@@ -177,6 +179,27 @@ TEST_F(MovingDetectorTest, SpecksDoNotCount) {
         for (int k = 0; k < 40; ++k) depth_m((37 * k + 11 * i) % kWidth, (53 * k + 7 * i) % kHeight) = 1.0f;
         EXPECT_EQ(See(depth_m), nullptr) << i;
     }
+}
+
+// A tenth of the view, but at 0.4 m only 10 cm wide and high.
+TEST_F(MovingDetectorTest, ANearHandIsMasked) {
+    for (int i = 0; i < 10; ++i) See(View({}));
+    for (int i = 0; i < 10; ++i) {
+        const Box hand{20 + 4 * i, 46 + 4 * i, 30, 56, 0.4f};
+        const auto mask = See(View(hand));
+        ASSERT_NE(mask, nullptr) << i;
+        EXPECT_EQ(mask->moving((hand.left + hand.right) / 2, 43), 1) << i;
+    }
+}
+
+// A crumb that is smaller than three by three tiles; the other walks somewhere else.
+TEST_F(MovingDetectorTest, ACrumbThatIsSeenThroughIsGone) {
+    wall_.box = {100, 102, 40, 42};
+    for (int i = 0; i < 30; ++i) See(View({}));
+    const auto mask = See(View(BoxAt(0)));
+    ASSERT_NE(mask, nullptr);
+    EXPECT_EQ(mask->gone_tiles, 4);
+    EXPECT_FLOAT_EQ(mask->gone_m(101, 41), kWall_m);
 }
 
 TEST_F(MovingDetectorTest, WhatMovedIsExpectedAgain) {

@@ -60,32 +60,53 @@ TEST_P(EveryTracker, PlaneIsHeldByItsTextureOnly) {
     }
 }
 
-// Along a bare wall the camera is where the last start has it, whichever start was chosen, but for the few per cent (of the 7 cm
-// between the starts) that the field's rounding still claims to know; across it where the map has it.
-TEST_P(EveryTracker, WhatNothingShowsIsAsExpected) {
-    BoxRoom room;
-    room.only_back_wall = true;
-    room.texture = 0;
-    const World world(room);
+// Before a bare wall, which shows neither where along it the camera is nor how it has rolled.
+struct BareWall {
+    const World world{[] {
+        BoxRoom room;
+        room.only_back_wall = true;
+        room.texture = 0;
+        return room;
+    }()};
     const Eigen::Isometry3d T_true = SmoothPath(20);
-    const auto beside = [&](double x, double y, double z, double roll) {
+
+    Eigen::Isometry3d Beside(double x, double y, double z, double roll) const {
         return Eigen::Isometry3d(Eigen::Translation3d(x, y, z) * T_true * Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitZ()));
-    };
-    const Eigen::Isometry3d T_expected = beside(0.03, -0.02, 0.02, 0.02);
-    const TestTracker tracker = FineTracker(GetParam());
-    const PreparedFrame frame = Prepare(room.Render(world.camera, T_true));
-    const TrackResult result = (*tracker).Track({.frame = frame,
-                                                 .map = world.map,
-                                                 .T_world_camera_starts = {beside(-0.02, 0.03, 0, -0.03), T_expected},
-                                                 .T_world_camera_last = T_true,
-                                                 .since_last_s = 1.0 / 30,
-                                                 .motion = {}});
-    EXPECT_TRUE(result.degenerate);
-    const Eigen::Vector3d along = result.T_world_camera.translation() - T_expected.translation();
-    EXPECT_LT(along.head<2>().norm(), 2e-3);
-    EXPECT_NEAR(result.T_world_camera.translation().z(), T_true.translation().z(), 1e-3);
-    const Eigen::Matrix3d turn = T_expected.linear().transpose() * result.T_world_camera.linear();
-    EXPECT_NEAR(std::atan2(turn(1, 0), turn(0, 0)), 0, 1e-3);
+    }
+    TrackResult Track(const TestTracker& tracker, const Eigen::Isometry3d& T_moved, const Eigen::Isometry3d& T_aligned) const {
+        const PreparedFrame frame = Prepare(world.room.Render(world.camera, T_true));
+        return (*tracker).Track({.frame = frame,
+                                 .map = world.map,
+                                 .T_world_camera_starts = {T_moved, T_aligned},
+                                 .T_world_camera_last = T_true,
+                                 .since_last_s = 1.0 / 30,
+                                 .motion = {}});
+    }
+    // Along the wall and about its normal as it was expected, but for the few per cent that the field's rounding still claims to
+    // know (here of 7 cm between two starts); held otherwise.
+    void ExpectAsExpected(const TrackResult& result, const Eigen::Isometry3d& T_expected) const {
+        EXPECT_TRUE(result.degenerate);
+        const Eigen::Vector3d along = result.T_world_camera.translation() - T_expected.translation();
+        EXPECT_LT(along.head<2>().norm(), 2e-3);
+        EXPECT_NEAR(result.T_world_camera.translation().z(), T_true.translation().z(), 1e-3);
+        const Eigen::Matrix3d turn = T_expected.linear().transpose() * result.T_world_camera.linear();
+        EXPECT_NEAR(std::atan2(turn(1, 0), turn(0, 0)), 0, 1e-3);
+    }
+};
+
+TEST_P(EveryTracker, WhatNothingShowsIsAsExpected) {
+    const BareWall wall;
+    const Eigen::Isometry3d T_aligned = wall.Beside(0.03, -0.02, 0.02, 0.02);
+    wall.ExpectAsExpected(wall.Track(FineTracker(GetParam()), wall.Beside(-0.02, 0.03, 0, -0.03), T_aligned), T_aligned);
+}
+
+// A hand that comes before the camera is an image that has jumped. The motion model is not fooled.
+TEST_P(EveryTracker, APrealignmentThatLeapsIsNotFollowed) {
+    const BareWall wall;
+    const Eigen::Isometry3d T_moved = wall.Beside(-0.02, 0.03, 0, -0.03);
+    const TrackResult result = wall.Track(FineTracker(GetParam()), T_moved, wall.Beside(0.25, -0.02, 0.02, 0.02));
+    wall.ExpectAsExpected(result, T_moved);
+    EXPECT_EQ(result.status, TrackStatus::kGood) << result.reason;
 }
 
 TEST_P(EveryTracker, BareRoomIsHeldByItsShape) {
