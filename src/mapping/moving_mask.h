@@ -24,6 +24,12 @@ struct MovingMask {
     double moving_fraction() const { return static_cast<double>(moving_tiles) / static_cast<double>(moving.size()); }
 };
 
+// What a detector says may move in a frame: the depth, as the camera gave it, of the pixels that show it, 0 elsewhere.
+struct MovingHint {
+    DepthImage depth_m;
+    double stamp_s = 0;  // the frame's
+};
+
 // No depth where something moves, in row y of a depth image of the masked frame's size.
 void HideMoving(const MovingMask& mask, int y, int width, float* depth_m);
 // The frame without the depth of what moves.

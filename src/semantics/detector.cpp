@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace tessera {
 
@@ -24,6 +25,15 @@ PixelBox PixelsOf(const DetectionBox& box, int width, int height) {
     PixelBox pixels{std::max(0, whole(box.x_min, width)), std::max(0, whole(box.y_min, height)),
                     std::min(width, whole(box.x_max, width) + 1), std::min(height, whole(box.y_max, height) + 1)};
     return pixels.empty() ? PixelBox{} : pixels;
+}
+
+std::vector<Detection> TakeDynamic(const LabelClasses& classes, double min_probability, std::vector<Detection>& detections) {
+    const auto rest = std::stable_partition(detections.begin(), detections.end(),
+                                            [&](const Detection& d) { return !classes.IsDynamic(d.name); });
+    std::vector<Detection> dynamic(std::make_move_iterator(rest), std::make_move_iterator(detections.end()));
+    detections.erase(rest, detections.end());
+    std::erase_if(dynamic, [&](const Detection& d) { return !(d.probability >= static_cast<float>(min_probability)); });
+    return dynamic;
 }
 
 void KeepWanted(const LabelClasses& classes, double min_probability, std::vector<Detection>& detections) {

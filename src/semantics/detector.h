@@ -52,6 +52,8 @@ class Detector {
     virtual const std::vector<std::string>& class_names() const = 0;
 };
 
+// Takes those of labels.dynamic out of `detections`, and returns the ones with enough probability.
+std::vector<Detection> TakeDynamic(const LabelClasses& classes, double min_probability, std::vector<Detection>& detections);
 // Those of wanted classes and enough probability, with class_id set; by falling probability.
 void KeepWanted(const LabelClasses& classes, double min_probability, std::vector<Detection>& detections);
 

@@ -54,6 +54,9 @@ void LabelConfig::Describe(ConfigParameters& p) {
           "what is labelled: names, each perhaps with its colour (cup=#b146c2), separated by blanks (_ for those in a "
           "name); all is every class of the detector");
     p.Add("aliases", aliases, "detector's name=ours, separated by blanks");
+    p.Add("dynamic", dynamic,
+          "names, separated by blanks, of what may move at any time: its pixels are not fused, even while it stands still, and it is "
+          "not labelled");
     p.Add("min_probability", min_probability, {0.0, 1.0}, "", "detections below it are left out; [D18] takes 0.5");
     p.AddChoice<LabelRegion>("region", region, {{"segment", LabelRegion::kSegment}, {"mean-depth", LabelRegion::kMeanDepth}},
                              "what of a box is the object: its own connected depth segment (or the model's mask), or all "
@@ -95,17 +98,18 @@ Result<LabelClasses> LabelClasses::Make(const LabelConfig& config, const std::ve
             return Status::Error("labels.aliases: '" + from + "=" + to + "' is not NAME=NAME");
         made.aliases_[from] = to;
     }
-    const auto ours = [&](const std::string& name) {
-        const auto alias = made.aliases_.find(WithoutBlanks(name));
-        return alias == made.aliases_.end() ? WithoutBlanks(name) : alias->second;
-    };
+    for (const auto& [name, colour] : SplitPairs(config.dynamic)) {
+        if (name.empty() || !colour.empty())
+            return Status::Error("labels.dynamic: '" + name + "=" + colour + "' is not a NAME");
+        made.dynamic_.insert(name);
+    }
     Pairs wanted = SplitPairs(config.classes);
     const bool all = std::ranges::any_of(wanted, [](const auto& entry) { return entry.first == "all"; });
     std::erase_if(wanted, [](const auto& entry) { return entry.first == "all"; });
     if (all)
         for (const std::string& name : known)
-            if (std::ranges::none_of(wanted, [&](const auto& entry) { return entry.first == ours(name); }))
-                wanted.emplace_back(ours(name), "");
+            if (std::ranges::none_of(wanted, [&](const auto& entry) { return entry.first == made.OurName(name); }))
+                wanted.emplace_back(made.OurName(name), "");
     if (wanted.empty() && !all) return Status::Error("labels.classes: names no class");
     for (const auto& [name, colour] : wanted) {
         if (name.empty() || made.ids_.contains(name))
@@ -122,11 +126,17 @@ Result<LabelClasses> LabelClasses::Make(const LabelConfig& config, const std::ve
     return made;
 }
 
-int LabelClasses::IdOf(const std::string& detector_name) const {
+std::string LabelClasses::OurName(const std::string& detector_name) const {
     const std::string name = WithoutBlanks(detector_name);
     const auto alias = aliases_.find(name);
-    const auto found = ids_.find(alias == aliases_.end() ? name : alias->second);
+    return alias == aliases_.end() ? name : alias->second;
+}
+
+int LabelClasses::IdOf(const std::string& detector_name) const {
+    const auto found = ids_.find(OurName(detector_name));
     return found == ids_.end() ? 0 : found->second;
 }
+
+bool LabelClasses::IsDynamic(const std::string& detector_name) const { return dynamic_.contains(OurName(detector_name)); }
 
 }  // namespace tessera

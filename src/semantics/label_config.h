@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -27,7 +28,8 @@ struct LabelConfig {
     std::string classes = "computer=#e6403a laptop=#f5a623 keyboard=#3cb44b book=#4363d8 cup=#b146c2";
     // "a detector's name=ours", separated by blanks.
     std::string aliases = "tv=computer tvmonitor=computer monitor=computer";
-    double min_probability = 0.5;  // [D18] 3.3
+    std::string dynamic = "person";  // names as in `classes`, without colours
+    double min_probability = 0.5;    // [D18] 3.3
     LabelRegion region = LabelRegion::kSegment;
     double band_voxels = 1.5;
     int min_observations = 6;
@@ -60,6 +62,8 @@ class LabelClasses {
 
     // Blanks and "_" are the same; aliases are followed. 0 if the class is not wanted.
     int IdOf(const std::string& detector_name) const;
+    // Whether it is one of labels.dynamic, by the same rule: to be left out of the map and its labels.
+    bool IsDynamic(const std::string& detector_name) const;
 
     int count() const { return static_cast<int>(names_.size()) - 1; }
     const std::string& name(int id) const { return names_[static_cast<std::size_t>(id)]; }  // id in [0, count]
@@ -67,11 +71,13 @@ class LabelClasses {
 
   private:
     void Add(const std::string& name, Rgb8 colour);
+    std::string OurName(const std::string& detector_name) const;
 
     std::vector<std::string> names_{""};
     std::vector<Rgb8> colours_{Rgb8{90, 90, 90}};
     std::map<std::string, int> ids_;
     std::map<std::string, std::string> aliases_;
+    std::set<std::string> dynamic_;
 };
 
 // Distinct for neighbouring numbers; the n-th is always the same.

@@ -9,6 +9,24 @@
 
 namespace tessera {
 
+namespace {
+
+MovingHint HintOf(const Frame& frame, const PinholeCamera& camera, std::span<const Detection> dynamic, LabelRegion region) {
+    MovingHint hint;
+    hint.stamp_s = frame.stamp_s;
+    if (dynamic.empty()) return hint;
+    LabelImage labels;
+    MakeLabelImage(frame.depth_m, camera, dynamic, region, labels);
+    hint.depth_m = frame.depth_m;
+    for (std::size_t i = 0; i < hint.depth_m.size(); ++i) {
+        const std::uint8_t pixel = labels.detection.data()[i];
+        if (pixel == 0 || pixel == LabelImage::kBesideObjects) hint.depth_m.data()[i] = 0;
+    }
+    return hint;
+}
+
+}  // namespace
+
 bool LabellingStage::Detect(const Frame& frame, LabelReport& report, std::string& message) {
     message.clear();
     if (broken_) return false;
@@ -30,6 +48,8 @@ bool LabellingStage::Detect(const Frame& frame, LabelReport& report, std::string
     report.stamp_s = frame.stamp_s;
     report.colour_stamp_s = frame.colour_stamp_s;
     report.detections = std::move(found.value());
+    const std::vector<Detection> dynamic = TakeDynamic(classes_, config_.min_probability, report.detections);
+    report.moving = HintOf(frame, camera_, dynamic, config_.region);
     KeepWanted(classes_, config_.min_probability, report.detections);
     report.detect_ms = watch.LapMs();
     return true;

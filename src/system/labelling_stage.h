@@ -10,6 +10,7 @@
 
 #include "core/frame.h"
 #include "core/queue.h"
+#include "mapping/moving_mask.h"
 #include "semantics/label_votes.h"
 #include "semantics/open_detector.h"
 #include "system/map_version.h"
@@ -20,6 +21,7 @@ namespace tessera {
 struct LabelReport {
     double stamp_s = 0, colour_stamp_s = 0;
     std::vector<Detection> detections;  // the wanted ones
+    MovingHint moving;                  // of labels.dynamic's classes; without depth: none was detected
     VoteCount votes;
     double detect_ms = 0, vote_ms = 0;
 };
@@ -27,8 +29,8 @@ struct LabelReport {
 // Owner thread only.
 class LabellingStage {
   public:
-    LabellingStage(std::unique_ptr<Detector> detector, LabelClasses classes, const LabelConfig& config)
-        : detector_(std::move(detector)), classes_(std::move(classes)), config_(config) {}
+    LabellingStage(std::unique_ptr<Detector> detector, LabelClasses classes, const LabelConfig& config, const PinholeCamera& camera)
+        : detector_(std::move(detector)), classes_(std::move(classes)), config_(config), camera_(camera) {}
 
     // False once the detector broke: `message` says so the first time and is empty later.
     bool Detect(const Frame& frame, LabelReport& report, std::string& message);
@@ -39,6 +41,7 @@ class LabellingStage {
     std::unique_ptr<Detector> detector_;
     LabelClasses classes_;
     LabelConfig config_;
+    PinholeCamera camera_;
     bool broken_ = false;
 };
 

@@ -41,7 +41,7 @@ LiveEngine::LiveEngine(EngineInput input)
         labels = LoopCloser::Labels{config_.labels, input.labelling.classes};
         mapping_.EnableLabels(config_.labels, input.labelling.classes);
         labelling_ = std::make_unique<LabellingThread>(LabellingStage(std::move(input.labelling.detector),
-                                                                      std::move(input.labelling.classes), config_.labels),
+                                                                      std::move(input.labelling.classes), config_.labels, source_.camera),
                                                        mapping_wake_);
     }
     if (input.scan.file) status_ = StartScan(std::move(input.scan));

@@ -64,6 +64,12 @@ class LiveEngine : public Engine {
         std::unique_ptr<BlockMap> field;
         Eigen::Isometry3d T_new_old = Eigen::Isometry3d::Identity();  // with `field`
     };
+    // What a detector says may move, in a frame that was tracked in that map.
+    struct Hint {
+        MovingHint moving;
+        Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity();
+        MapVersion map;
+    };
     // What the tracking thread works with.
     struct TrackingState {
         TrackingState(const RunConfig& config, const PinholeCamera& camera, Device* device)
@@ -95,6 +101,7 @@ class LiveEngine : public Engine {
     void TrackFrame(NewFrame item, TrackingState& state);
     const BlockMap& MapToTrackIn(const TrackingState& state) const;
     void TakeMapNews(TrackingState& state);
+    void TakeHint(TrackingState& state);
     void ResetTracking(TrackingState& state);
     std::optional<Eigen::Isometry3d> HearWhereItIs(double stamp_s, TrackingState& state);
     void CheckIfLost(TrackedFrame& tracked, TrackingState& state);
@@ -156,6 +163,7 @@ class LiveEngine : public Engine {
     FifoQueue<ViewerCommand> commands_{16, tracking_wake_};      // reading to tracking
     FifoQueue<Task> tasks_{kTasks, mapping_wake_};               // tracking to mapping
     FifoQueue<MapNews> map_news_{kTasks + 2 + kCorrections, tracking_wake_};  // mapping to tracking
+    NewestQueue<Hint> hints_{1, tracking_wake_};  // mapping to tracking
     NewestQueue<FrameOutcome> outcomes_{kOutcomes, outcome_wake_};  // reading and mapping to the owner
     std::unique_ptr<LabellingThread> labelling_;  // mapping's; null without labels
     std::unique_ptr<LoopThread> loops_;           // mapping's and tracking's; null without loop closure

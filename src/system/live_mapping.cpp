@@ -129,6 +129,8 @@ void LiveEngine::TakeLabels() {
             Carry(corrections_, job.map.corrections, job.T_world_camera);
             answer.report.votes = mapping_.Label(answer.report.detections, job.frame->depth_m, job.T_world_camera);
             answer.report.vote_ms = watch.LapMs();
+            if (!answer.report.moving.depth_m.empty())
+                hints_.Push({std::move(answer.report.moving), job.T_world_camera, {mapped_world_, static_cast<int>(corrections_.size())}});
             if (scan_) scan_->Touch(answer.report.votes.blocks);
             if (loops_) loops_->OfferDetections(job.frame->index, answer.report.detections, job.map);
             labels_ = std::move(answer.report);

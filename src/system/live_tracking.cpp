@@ -52,6 +52,7 @@ void LiveEngine::TrackFrame(NewFrame item, TrackingState& state) {
         show_prediction_.store(settings.show_prediction);
     }
     TakeMapNews(state);
+    TakeHint(state);
     Task task;
     task.tracked = tracked_pool_.Take();
     if (loops_) task.T_found_camera = HearWhereItIs(item.frame->stamp_s, state);
@@ -96,6 +97,11 @@ void LiveEngine::TakeMapNews(TrackingState& state) {
         }
         delta_pool_.Give(std::move(news.delta));
     }
+}
+
+void LiveEngine::TakeHint(TrackingState& state) {
+    Hint hint;
+    if (hints_.TryPop(hint) && hint.map == state.version) state.stage.GuideMoving(hint.moving, hint.T_world_camera);
 }
 
 std::optional<Eigen::Isometry3d> LiveEngine::HearWhereItIs(double stamp_s, TrackingState& state) {

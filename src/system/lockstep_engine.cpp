@@ -23,7 +23,7 @@ LockstepEngine::LockstepEngine(EngineInput input)
         mapping_.EnableLabels(config_.labels, input.labelling.classes);
         loop_labels_ = LoopCloser::Labels{config_.labels, input.labelling.classes};
         labelling_ = std::make_unique<LabellingStage>(std::move(input.labelling.detector), std::move(input.labelling.classes),
-                                                      config_.labels);
+                                                      config_.labels, source_.camera);
     }
     if (input.scan.file) scan_path_ = input.scan.file->path();
     BeginLoops();
@@ -78,6 +78,7 @@ void LockstepEngine::Process(FrameOutcome& outcome) {
     outcome.decode_ms = reader_->decode_ms();
     recorder_.Add(frame_);
     if (paging_) paging_->BeginFrame(mapping_, *scan_);
+    if (labelling_) Detect();
     plan_.Select(frame_, tracking_);
     plan_.Track(frame_, tracking_.reads_map() ? mapping_.map() : mapping_.blocks(), tracking_, tracked_);
     gate_.AfterTracking(frame_, tracking_, tracked_);
@@ -87,7 +88,8 @@ void LockstepEngine::Process(FrameOutcome& outcome) {
         });
     if (paging_) outcome.fusion_dropped = paging_->AfterTracking(tracked_, mapping_, *scan_);
     mapping_.Fuse(tracked_);
-    if (labelling_ && tracked_.report.fused) Label(outcome);
+    if (detected_ && tracked_.report.fused) Label(outcome);
+    if (labelling_) fused_frames_ += tracked_.report.fused;
     if (loops_)
         outcome.loops_ms = loops_->AfterFusion(frame_, tracked_, outcome.labels, tracking_,
                                                [this](auto correction) { PutMap(std::move(correction)); });
@@ -113,15 +115,22 @@ void LockstepEngine::Save(FrameOutcome& outcome) {
     outcome.scan_ms = watch.LapMs();
 }
 
-void LockstepEngine::Label(FrameOutcome& outcome) {
-    if (fused_frames_++ % config_.labels.stride != 0) return;
+// Before the frame is tracked and fused, as it may show people.
+void LockstepEngine::Detect() {
+    detected_.reset();
+    if (fused_frames_ % config_.labels.stride != 0) return;
     LabelReport report;
     if (!labelling_->Detect(frame_, report, label_message_)) return;
+    if (!report.moving.depth_m.empty()) tracking_.GuideMoving(report.moving, std::nullopt);
+    detected_ = std::move(report);
+}
+
+void LockstepEngine::Label(FrameOutcome& outcome) {
     Stopwatch watch;
-    report.votes = mapping_.Label(report.detections, frame_.depth_m, tracked_.report.track.T_world_camera);
-    report.vote_ms = watch.LapMs();
-    if (scan_) scan_->Touch(report.votes.blocks);
-    outcome.labels = std::move(report);
+    detected_->votes = mapping_.Label(detected_->detections, frame_.depth_m, tracked_.report.track.T_world_camera);
+    detected_->vote_ms = watch.LapMs();
+    if (scan_) scan_->Touch(detected_->votes.blocks);
+    outcome.labels = std::exchange(detected_, std::nullopt);
 }
 
 void LockstepEngine::BeginLoops() {

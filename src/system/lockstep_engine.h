@@ -38,6 +38,7 @@ class LockstepEngine : public Engine {
     void PutMap(LoopCloser::Correction correction);
     bool TakeMessage(FrameOutcome& outcome);
     void Process(FrameOutcome& outcome);
+    void Detect();
     void Label(FrameOutcome& outcome);
     Status StartScan(ScanPlan plan);
     void Save(FrameOutcome& outcome);
@@ -61,6 +62,7 @@ class LockstepEngine : public Engine {
     ViewerFeed feed_;
     RecorderThread recorder_;
     std::unique_ptr<LabellingStage> labelling_;  // null without labels
+    std::optional<LabelReport> detected_;        // in the frame at hand
     std::string label_message_;
     std::optional<std::string> loops_message_;
     std::int64_t fused_frames_ = 0;

@@ -107,6 +107,10 @@ std::shared_ptr<const MovingMask> TrackingStage::ExpectMoving(double stamp_s) co
     return moving_.Expect(stamp_s, motion_.Predict(stamp_s));
 }
 
+void TrackingStage::GuideMoving(const MovingHint& hint, const std::optional<Eigen::Isometry3d>& T_world_camera) {
+    moving_.Guide(hint, static_cast<float>(config_.frame.disparity_offset_per_m), T_world_camera);
+}
+
 void TrackingStage::LeaveOutMoving(const Frame& frame, const BlockMap& map, bool hidden, TrackedFrame& tracked) {
     ViewPredictor& predictor = device_ != nullptr ? device_->views() : caster_;
     const FrameReport& report = tracked.report;

@@ -56,6 +56,9 @@ class TrackingStage {
     void Track(const Frame& frame, const BlockMap& map, const std::optional<Eigen::Isometry3d>& given,
                TrackedFrame& tracked);
 
+    // What a detector says may move in the frame that comes next, or in an earlier one tracked to T_world_camera: not to be fused.
+    void GuideMoving(const MovingHint& hint, const std::optional<Eigen::Isometry3d>& T_world_camera);
+
     // Tracks the frame given last once more, from another place; only if it then fits well is its result taken, and true
     // returned.
     bool TrackFrom(const Frame& frame, const BlockMap& map, const Eigen::Isometry3d& T_world_camera, TrackedFrame& tracked);

@@ -3,12 +3,15 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "core/config.h"
 #include "mapping/moving_mask.h"
 #include "mapping/predicted_view.h"
 
 namespace tessera {
+
+struct MovingMemory;
 
 // Owner thread only; TBB inside, the same result for any number of threads.
 class MovingDetector {
@@ -43,19 +46,20 @@ class MovingDetector {
     // Null: nothing.
     std::shared_ptr<const MovingMask> Expect(double stamp_s, const Eigen::Isometry3d& T_world_camera) const;
 
+    // What a detector says: it moves, however still it stands, until the window is over or the next hint comes. Of the frame that
+    // is given to Expect and Find next, or of an earlier one, which was tracked to T_world_camera.
+    void Guide(const MovingHint& hint, float disparity_offset_per_m, const std::optional<Eigen::Isometry3d>& T_world_camera);
+
     // The map was moved, the camera with it.
     void Move(const Eigen::Isometry3d& T_new_old);
     // Forgets the last second: where the camera is now says nothing of where it was.
     void Clear();
 
   private:
-    class Moments;
-    struct Memory;
-
     Config config_;
     int step_;
     PinholeCamera camera_;  // the tiles'
-    std::unique_ptr<Memory> memory_;
+    std::unique_ptr<MovingMemory> memory_;
 };
 
 }  // namespace tessera

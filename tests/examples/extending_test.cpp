@@ -104,7 +104,7 @@ TEST(Extending, ADetectorAnswersTheLabellingStage) {
     config.classes = "cup";
     auto detector = std::make_unique<RedThings>();
     LabelClasses classes = LabelClasses::Make(config, detector->class_names()).value();
-    LabellingStage stage(std::move(detector), std::move(classes), config);
+    LabellingStage stage(std::move(detector), std::move(classes), config, {64, 48, 50, 50, 31.5, 23.5});
     Frame frame;
     frame.colour = ColourImage(64, 48, Rgb8{90, 90, 90});
     for (int x = 20; x <= 30; ++x) frame.colour(x, 12) = {200, 20, 20};

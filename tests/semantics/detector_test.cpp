@@ -37,5 +37,16 @@ TEST(KeepWanted, ByClassAndProbabilityMostProbableFirst) {
     EXPECT_EQ(detections[1].class_id, 5);
 }
 
+TEST(TakeDynamic, LeavesTheRestInItsOrder) {
+    const LabelClasses classes = LabelClasses::Make({}, {}).value();
+    std::vector<Detection> detections = {{"cup", 0, 0.5f, {}, {}}, {"person", 0, 0.9f, {}, {}}, {"dog", 0, 0.9f, {}, {}},
+                                         {"person", 0, 0.4f, {}, {}}, {"book", 0, 0.1f, {}, {}}};
+    const std::vector<Detection> dynamic = TakeDynamic(classes, 0.5, detections);
+    ASSERT_EQ(dynamic.size(), 1u);
+    EXPECT_FLOAT_EQ(dynamic[0].probability, 0.9f);
+    ASSERT_EQ(detections.size(), 3u);
+    EXPECT_EQ(detections[1].name, "dog");
+}
+
 }  // namespace
 }  // namespace tessera

@@ -27,6 +27,17 @@ TEST(LabelClasses, AllIsWhatTheDetectorKnowsAliasesJoined) {
     EXPECT_EQ(classes.value().colour(classes.value().IdOf("cup")), (Rgb8{1, 2, 3}));
 }
 
+TEST(LabelClasses, WhatIsDynamicIsKnownByOurNames) {
+    LabelConfig config;
+    config.dynamic = "person office_chair";
+    config.aliases = "man=person";
+    const LabelClasses classes = LabelClasses::Make(config, {}).value();
+    for (const char* name : {"person", "man", "office chair"}) EXPECT_TRUE(classes.IsDynamic(name)) << name;
+    EXPECT_FALSE(classes.IsDynamic("cup"));
+    config.dynamic = "person=#010203";
+    EXPECT_NE(config.Validate().message().find("labels.dynamic"), std::string::npos);
+}
+
 TEST(LabelClasses, ErrorsNameTheKey) {
     const auto error = [](const std::string& classes, const std::string& aliases, const std::vector<std::string>& known = {}) {
         LabelConfig config;

@@ -38,6 +38,34 @@ Labelling Breaking(int good, bool throws) {
     return {std::move(detector), std::move(classes)};
 }
 
+// Sees a person in the middle of each frame, and a cup that the person holds.
+class PersonDetector : public Detector {
+  public:
+    Result<std::vector<Detection>> Detect(const Frame& frame) override {
+        Detection person, cup;
+        person.name = "person", cup.name = "cup";
+        person.probability = cup.probability = 0.9f;
+        const auto width = static_cast<float>(frame.depth_m.width()), height = static_cast<float>(frame.depth_m.height());
+        person.box = {0.3f * width, 0.2f * height, 0.7f * width, 0.8f * height};
+        cup.box = {0.4f * width, 0.4f * height, 0.5f * width, 0.5f * height};
+        const PixelBox pixels = PixelsOf(person.box, frame.depth_m.width(), frame.depth_m.height());
+        person.mask = Image<std::uint8_t>(pixels.width(), pixels.height(), 1);
+        return std::vector<Detection>{person, cup};
+    }
+    const std::vector<std::string>& class_names() const override { return names_; }
+
+  private:
+    std::vector<std::string> names_{"person", "cup"};
+};
+
+Labelling Person() {
+    LabelConfig config;
+    config.classes = "all";
+    auto detector = std::make_unique<PersonDetector>();
+    LabelClasses classes = LabelClasses::Make(config, detector->class_names()).value();
+    return {std::move(detector), std::move(classes)};
+}
+
 class LabellingStageTest : public EngineTest, public testing::WithParamInterface<bool> {
   protected:
     void MakeLabelling(bool live, int good) {
@@ -60,7 +88,7 @@ class LabellingStageTest : public EngineTest, public testing::WithParamInterface
 
 TEST_P(LabellingStageTest, SaysOnceThatTheDetectorBroke) {
     Labelling labelling = Breaking(1, GetParam());
-    LabellingStage stage(std::move(labelling.detector), std::move(labelling.classes), {});
+    LabellingStage stage(std::move(labelling.detector), std::move(labelling.classes), {}, {});
     LabelReport report;
     std::string message;
     EXPECT_TRUE(stage.Detect({}, report, message));
@@ -104,6 +132,36 @@ TEST_P(LabellingStageTest, LiveOnlySoManyFramesASecondAreDetectedIn) {
     TakeAll();
     EXPECT_GE(Labelled(), 1);
     EXPECT_LE(Labelled(), 2);
+}
+
+// However still who stands there stands, and from the first frame on.
+TEST_F(EngineTest, WhatADetectorCallsAPersonIsNotFusedInLockstep) {
+    EngineInput input = Input({.count = 12});
+    input.labelling = Person();
+    engine = std::make_unique<LockstepEngine>(std::move(input));
+    TakeAll();
+    for (const FrameOutcome& o : outcomes) {
+        if (o.kind != Kind::kFrame) continue;
+        ASSERT_TRUE(o.report.tracked());
+        ASSERT_NE(o.report.moving, nullptr) << o.report.index;
+        const Image<std::uint8_t>& moving = o.report.moving->moving;
+        EXPECT_EQ(moving(moving.width() / 2, moving.height() / 2), 1) << o.report.index;
+        EXPECT_EQ(moving(moving.width() / 12, moving.height() / 12), 0) << o.report.index;
+        ASSERT_TRUE(o.labels.has_value()) << o.report.index;
+        ASSERT_EQ(o.labels->detections.size(), 1u) << o.report.index;  // the person is no object
+        EXPECT_EQ(o.labels->detections[0].name, "cup");
+    }
+}
+
+TEST_F(EngineTest, WhatADetectorCallsAPersonIsNotFusedLiveOnceItAnswered) {
+    config.live.queue_frames = 40;
+    EngineInput input = Input({.count = 40});
+    input.labelling = Person();
+    engine = std::make_unique<LiveEngine>(std::move(input));
+    TakeAll();
+    std::int64_t masked = 0;
+    for (const FrameReport* report : Reports()) masked += report->moving != nullptr;
+    EXPECT_GT(masked, 0);
 }
 
 INSTANTIATE_TEST_SUITE_P(ByErrorAndByException, LabellingStageTest, testing::Bool());

@@ -147,6 +147,32 @@ TEST_F(MovingDetectorTest, WhatWentUnseenIsGone) {
     EXPECT_EQ(mask->gone_m(65, 50), 0);
 }
 
+TEST_F(MovingDetectorTest, WhatADetectorSaysMovesHoweverStillItStands) {
+    const Box box = BoxAt(30);
+    DepthImage hinted_m(kWidth, kHeight, 0.0f);
+    for (int y = box.top; y < box.bottom; ++y) std::fill(hinted_m.row(y) + box.left, hinted_m.row(y) + box.right, kBox_m);
+    detector_.Guide({hinted_m, stamp_s_ + kFrame_s}, 0, std::nullopt);  // of the first frame
+    for (int i = 0; i < 25; ++i) {
+        const auto expected = detector_.Expect(stamp_s_ + kFrame_s, T_world_camera_);
+        const auto mask = See(View(box));
+        ASSERT_NE(expected, nullptr) << i;
+        ASSERT_NE(mask, nullptr) << i;
+        for (int y = 0; y < kHeight; ++y)
+            for (int x = 0; x < kWidth; ++x) {
+                const bool near = x >= box.left - 4 && x < box.right + 4 && y >= box.top - 4 && y < box.bottom + 4;
+                ASSERT_GE(mask->moving(x, y), box.Has(x, y)) << i << ": " << x << " " << y;
+                ASSERT_GE(expected->moving(x, y), box.Has(x, y)) << i << ": " << x << " " << y;
+                ASSERT_LE(mask->moving(x, y), near) << i << ": " << x << " " << y;
+            }
+    }
+    // What was said a window ago no longer counts, nor does it where something else stands.
+    for (int i = 0; i < 10; ++i) See(View(box));
+    EXPECT_EQ(See(View(box)), nullptr);
+    detector_.Guide({hinted_m, stamp_s_}, 0, T_world_camera_);
+    EXPECT_EQ(detector_.Find({.depth_m = View({}), .stamp_s = stamp_s_ + kFrame_s, .T_world_camera = T_world_camera_}, map_, wall_),
+              nullptr);
+}
+
 TEST_F(MovingDetectorTest, WhatHasStoodStillForTheWindowBelongsToTheScene) {
     for (int i = 0; i < 10; ++i) See(View({}));
     for (int i = 0; i < 15; ++i) See(View(BoxAt(2.3 * i)));
