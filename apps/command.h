@@ -1,5 +1,5 @@
-// The commands of the program `tessera`, one file each. Every command only reads its arguments, calls the libraries
-// and prints.
+// The commands of the program `tessera`, one file each. Every command only reads its arguments,
+// calls the libraries and prints.
 #pragma once
 
 #include <string>
@@ -23,8 +23,8 @@ struct CommandContext {
     int exit_code = kExitDone;           // left by the command that ran
 };
 
-// Each adds its subcommand to `app`; when that is parsed it runs at once and leaves its exit code. The context must
-// outlive the parsing.
+// Each adds its subcommand to `app`; when that is parsed it runs at once and leaves its exit code.
+// The context must outlive the parsing.
 void AddConfigCommand(CLI::App& app, CommandContext& context);
 void AddDoctorCommand(CLI::App& app, CommandContext& context);
 void AddEvalCommand(CLI::App& app, CommandContext& context);

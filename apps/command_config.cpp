@@ -28,9 +28,11 @@ int PrintConfig(const Arguments& a) {
 
 void AddConfigCommand(CLI::App& app, CommandContext& context) {
     auto a = std::make_shared<Arguments>();
-    CLI::App* command = app.add_subcommand("config", "Print the whole configuration as YAML, or check a file");
+    CLI::App* command =
+        app.add_subcommand("config", "Print the whole configuration as YAML, or check a file");
     a->config.AddTo(*command);
-    command->add_flag("--markdown", a->markdown, "The table of all parameters with units, ranges and defaults");
+    command->add_flag("--markdown", a->markdown,
+                      "The table of all parameters with units, ranges and defaults");
     command->callback([a, &context] { context.exit_code = PrintConfig(*a); });
 }
 

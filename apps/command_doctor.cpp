@@ -23,7 +23,8 @@ namespace {
 
 void PrintCameras(const OpenniListing& listing) {
     const std::string library = listing.built_in ? "OpenNI2 " + listing.version + ": " : "";
-    const std::string count = listing.devices.empty() ? "none" : std::to_string(listing.devices.size());
+    const std::string count =
+        listing.devices.empty() ? "none" : std::to_string(listing.devices.size());
     fmt::print("cameras      {}{}\n", library, listing.built_in ? count : listing.advice.front());
     if (!listing.built_in) return;
     for (const OpenniDevice& device : listing.devices)
@@ -33,9 +34,11 @@ void PrintCameras(const OpenniListing& listing) {
 
 const char* Window() {
 #ifndef TESSERA_HAVE_WINDOW
-    return "off: this build has no window: install libimgui-dev, libglfw3-dev and libepoxy-dev and build again";
+    return "off: this build has no window: install libimgui-dev, libglfw3-dev and libepoxy-dev and "
+           "build again";
 #else
-    return std::getenv("DISPLAY") || std::getenv("WAYLAND_DISPLAY") ? "on" : "no display: set DISPLAY";
+    return std::getenv("DISPLAY") || std::getenv("WAYLAND_DISPLAY") ? "on"
+                                                                    : "no display: set DISPLAY";
 #endif
 }
 
@@ -48,24 +51,31 @@ void PrintExports() {
 
 int Doctor() {
     const double memory_gb = static_cast<double>(sysconf(_SC_PHYS_PAGES)) *
-                             static_cast<double>(sysconf(_SC_PAGE_SIZE)) / (1024.0 * 1024.0 * 1024.0);
-    fmt::print("tessera {}, built with g++ {}, OpenCV {}, oneTBB {}\n", TESSERA_VERSION, __VERSION__,
-               CV_VERSION, TBB_VERSION_STRING);
+                             static_cast<double>(sysconf(_SC_PAGE_SIZE)) /
+                             (1024.0 * 1024.0 * 1024.0);
+    fmt::print("tessera {}, built with g++ {}, OpenCV {}, oneTBB {}\n", TESSERA_VERSION,
+               __VERSION__, CV_VERSION, TBB_VERSION_STRING);
     fmt::print("processor    {} threads, vector code: {}\n", tbb::info::default_concurrency(),
                CpuHasAvx2() ? "AVX2" : "baseline (this machine has no AVX2: about half the speed)");
     fmt::print("memory       {:.1f} GB\n", memory_gb);
     std::string presets;
     for (const Preset& preset : Presets()) presets += " " + preset.name;
     fmt::print("presets     {}\n", presets);
-    fmt::print("sources      folders (TUM RGB-D, ICL-NUIM, 7-Scenes, camera.yaml), .oni recordings, .klg logs, scan files, synthetic scenes\n");
+    fmt::print(
+        "sources      folders (TUM RGB-D, ICL-NUIM, 7-Scenes, camera.yaml), .oni recordings, .klg "
+        "logs, scan files, synthetic scenes\n");
     const auto gl = GlContext::Create();
     fmt::print("OpenGL       {}\n", gl.ok() ? gl.value()->renderer() : "off: " + gl.message());
     PrintCameras(ListOpenniDevices());
     fmt::print("window       {}\n", Window());
-    fmt::print("loop closure {}\n", PoseGraphAvailable() ? "on request" : "off: install libceres-dev and build again");
-    fmt::print("scan files   {}\n", ScanAvailable() ? "on" : std::string("off: ") + kScanUnavailable);
+    fmt::print("loop closure {}\n",
+               PoseGraphAvailable() ? "on request" : "off: install libceres-dev and build again");
+    fmt::print("scan files   {}\n",
+               ScanAvailable() ? "on" : std::string("off: ") + kScanUnavailable);
     PrintExports();
-    fmt::print("labels       {}\n", HasDnn() ? "networks (.onnx, Darknet), detections files" : "detections files; networks need OpenCV's dnn module");
+    fmt::print("labels       {}\n", HasDnn()
+                                        ? "networks (.onnx, Darknet), detections files"
+                                        : "detections files; networks need OpenCV's dnn module");
     fmt::print("CUDA         {}\n", DescribeGpus());
     return kExitDone;
 }

@@ -27,13 +27,15 @@ struct Arguments {
 };
 
 // Both trajectories, and what their reader noted on stderr.
-Result<std::pair<Trajectory, Trajectory>> ReadBoth(const std::string& reference, const std::string& estimate) {
+Result<std::pair<Trajectory, Trajectory>> ReadBoth(const std::string& reference,
+                                                   const std::string& estimate) {
     Result<Trajectory> a = ReadTrajectory(reference);
     if (!a.ok()) return a.status();
     Result<Trajectory> b = ReadTrajectory(estimate);
     if (!b.ok()) return b.status();
     for (const Trajectory* trajectory : {&a.value(), &b.value()})
-        for (const std::string& note : trajectory->notes) fmt::print(stderr, "tessera: note: {}\n", note);
+        for (const std::string& note : trajectory->notes)
+            fmt::print(stderr, "tessera: note: {}\n", note);
     return std::pair{std::move(a.value()), std::move(b.value())};
 }
 
@@ -46,8 +48,10 @@ Status EvalAte(const Arguments& a) {
     if (!ate.ok()) return Status::Error(a.estimate + ": " + ate.message());
     fmt::print("{}", AteText(ate.value()));
     if (!a.json.empty())
-        if (Status status = WriteTextFile(a.json, AteJson(ate.value())); !status.ok()) return status;
-    return a.picture.empty() ? Status::Ok() : WriteColourImage(a.picture, PlotAte(ate.value(), a.estimate));
+        if (Status status = WriteTextFile(a.json, AteJson(ate.value())); !status.ok())
+            return status;
+    return a.picture.empty() ? Status::Ok()
+                             : WriteColourImage(a.picture, PlotAte(ate.value(), a.estimate));
 }
 
 Status EvalRpe(const Arguments& a, const RpeOptions& options) {
@@ -58,10 +62,12 @@ Status EvalRpe(const Arguments& a, const RpeOptions& options) {
     if (!rpe.ok()) return Status::Error(a.estimate + ": " + rpe.message());
     const RpeResult& r = rpe.value();
     const double degrees = 180 / std::numbers::pi;
-    fmt::print("RPE over {:.3g} s: translation RMSE {:.4f} m (median {:.4f}, max {:.4f}), rotation RMSE {:.3f} deg (median "
-               "{:.3f}, max {:.3f}), {} pairs, no alignment\n",
-               r.delta_s, r.trans_m.rmse, r.trans_m.median, r.trans_m.max, degrees * r.rot_rad.rmse,
-               degrees * r.rot_rad.median, degrees * r.rot_rad.max, r.pairs.size());
+    fmt::print(
+        "RPE over {:.3g} s: translation RMSE {:.4f} m (median {:.4f}, max {:.4f}), rotation RMSE "
+        "{:.3f} deg (median "
+        "{:.3f}, max {:.3f}), {} pairs, no alignment\n",
+        r.delta_s, r.trans_m.rmse, r.trans_m.median, r.trans_m.max, degrees * r.rot_rad.rmse,
+        degrees * r.rot_rad.median, degrees * r.rot_rad.max, r.pairs.size());
     return a.json.empty() ? Status::Ok() : WriteTextFile(a.json, RpeJson(r));
 }
 
@@ -85,17 +91,22 @@ Status EvalMesh(const Arguments& a) {
     if (!a.align.empty()) {
         const auto both = ReadBoth(a.align[0], a.align[1]);
         if (!both.ok()) return both.status();
-        const auto alignment = AlignTrajectories(both.value().first.poses, both.value().second.poses);
+        const auto alignment =
+            AlignTrajectories(both.value().first.poses, both.value().second.poses);
         if (!alignment.ok()) return Status::Error(a.align[1] + ": " + alignment.message());
         options.T_reference_mesh = alignment.value().T_reference_estimate;
     }
-    const Result<MeshErrorResult> result = MeasureMeshError(mesh.value(), reference.value(), options);
+    const Result<MeshErrorResult> result =
+        MeasureMeshError(mesh.value(), reference.value(), options);
     if (!result.ok()) return Status::Error(a.estimate + ": " + result.message());
     const MeshErrorResult& r = result.value();
-    fmt::print("surface error: mean {:.4f} m, std {:.4f}, RMSE {:.4f}, max {:.4f}; {:.1f} % of the reference within 5 cm; "
-               "{} vertices, vertex to triangle, {}\n",
-               r.accuracy_m.mean, r.accuracy_m.std, r.accuracy_m.rmse, r.accuracy_m.max, 100 * r.completeness,
-               r.distances_m.size(), a.align.empty() ? "no alignment" : "aligned by the trajectories (SE(3))");
+    fmt::print(
+        "surface error: mean {:.4f} m, std {:.4f}, RMSE {:.4f}, max {:.4f}; {:.1f} % of the "
+        "reference within 5 cm; "
+        "{} vertices, vertex to triangle, {}\n",
+        r.accuracy_m.mean, r.accuracy_m.std, r.accuracy_m.rmse, r.accuracy_m.max,
+        100 * r.completeness, r.distances_m.size(),
+        a.align.empty() ? "no alignment" : "aligned by the trajectories (SE(3))");
     if (!a.json.empty())
         if (Status status = WriteTextFile(a.json, MeshErrorJson(r)); !status.ok()) return status;
     return a.picture.empty() ? Status::Ok() : PaintErrors(a.picture, mesh.value(), r);
@@ -108,7 +119,8 @@ Status EvalLabels(const Arguments& a) {
     return a.json.empty() ? Status::Ok() : WriteTextFile(a.json, LabelScoresJson(scores.value()));
 }
 
-CLI::App* AddEvaluation(CLI::App& eval, Arguments& a, const char* name, const char* text, const char* estimate) {
+CLI::App* AddEvaluation(CLI::App& eval, Arguments& a, const char* name, const char* text,
+                        const char* estimate) {
     CLI::App* command = eval.add_subcommand(name, text);
     command->add_option("REFERENCE", a.reference, "The truth")->required();
     command->add_option(estimate, a.estimate, "What is measured")->required();
@@ -124,27 +136,46 @@ void AddEvalCommand(CLI::App& app, CommandContext& context) {
     CLI::App* eval = app.add_subcommand("eval", "Measure a trajectory or a mesh against the truth");
     eval->require_subcommand(1);
 
-    CLI::App* ate = AddEvaluation(*eval, *a, "ate", "Absolute trajectory error in metres, SE(3) alignment without scale, "
-                                  "pairs within 0.02 s (TUM trajectories)", "ESTIMATE");
-    ate->add_option("--plot", a->picture, "Draw both paths and the error over time")->type_name("FILE.png");
+    CLI::App* ate =
+        AddEvaluation(*eval, *a, "ate",
+                      "Absolute trajectory error in metres, SE(3) alignment without scale, "
+                      "pairs within 0.02 s (TUM trajectories)",
+                      "ESTIMATE");
+    ate->add_option("--plot", a->picture, "Draw both paths and the error over time")
+        ->type_name("FILE.png");
     ate->callback([a, &context] { context.exit_code = ExitCode(EvalAte(*a)); });
 
-    CLI::App* rpe = AddEvaluation(*eval, *a, "rpe", "Relative pose error over a fixed time: drift (TUM trajectories)",
+    CLI::App* rpe = AddEvaluation(*eval, *a, "rpe",
+                                  "Relative pose error over a fixed time: drift (TUM trajectories)",
                                   "ESTIMATE");
-    rpe->add_option("--delta", rpe_options->delta_s, "Time in seconds over which motions are compared")
-        ->check(CLI::PositiveNumber)->capture_default_str();
-    rpe->callback([a, rpe_options, &context] { context.exit_code = ExitCode(EvalRpe(*a, *rpe_options)); });
+    rpe->add_option("--delta", rpe_options->delta_s,
+                    "Time in seconds over which motions are compared")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+    rpe->callback(
+        [a, rpe_options, &context] { context.exit_code = ExitCode(EvalRpe(*a, *rpe_options)); });
 
-    CLI::App* mesh = AddEvaluation(*eval, *a, "mesh", "Surface error in metres, from the mesh's vertices to the "
-                                   "reference's triangles (PLY)", "MESH");
-    mesh->add_option("--align", a->align, "Move the mesh by the SE(3) that lays the run's trajectory onto the reference's")
-        ->type_name("REFERENCE_TRAJECTORY RUN_TRAJECTORY")->expected(2);
-    mesh->add_option("--picture", a->picture, "Paint the errors onto the mesh")->type_name("FILE.png");
+    CLI::App* mesh = AddEvaluation(*eval, *a, "mesh",
+                                   "Surface error in metres, from the mesh's vertices to the "
+                                   "reference's triangles (PLY)",
+                                   "MESH");
+    mesh->add_option(
+            "--align", a->align,
+            "Move the mesh by the SE(3) that lays the run's trajectory onto the reference's")
+        ->type_name("REFERENCE_TRAJECTORY RUN_TRAJECTORY")
+        ->expected(2);
+    mesh->add_option("--picture", a->picture, "Paint the errors onto the mesh")
+        ->type_name("FILE.png");
     mesh->callback([a, &context] { context.exit_code = ExitCode(EvalMesh(*a)); });
 
-    CLI::App* labels = eval->add_subcommand("labels", "A run's labels against the true classes and instances of a sequence, as "
-                                            "tessera synth writes them; [D18] Table 4");
-    labels->add_option("SEQUENCE", a->reference, "Folder with labels/, instances/, classes.txt, groundtruth.txt")->required();
+    CLI::App* labels = eval->add_subcommand(
+        "labels",
+        "A run's labels against the true classes and instances of a sequence, as "
+        "tessera synth writes them; [D18] Table 4");
+    labels
+        ->add_option("SEQUENCE", a->reference,
+                     "Folder with labels/, instances/, classes.txt, groundtruth.txt")
+        ->required();
     labels->add_option("RUN_DIR", a->estimate, "Folder of a run with --labels")->required();
     labels->add_option("--json", a->json, "Write the figures here")->type_name("FILE");
     labels->callback([a, &context] { context.exit_code = ExitCode(EvalLabels(*a)); });

@@ -1,4 +1,5 @@
-// tessera export: out of a scan file, or a finished run's folder, the files that other programs read.
+// tessera export: out of a scan file, or a finished run's folder, the files that other programs
+// read.
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
@@ -22,7 +23,9 @@ struct Arguments {
     std::string input, mesh, cloud, grid, trajectory, kitti, frames, colmap;
 
     bool WantsTransforms() const { return fs::path(frames).extension() == ".json"; }
-    bool NeedsMesh() const { return !mesh.empty() || !cloud.empty() || !colmap.empty() || WantsTransforms(); }
+    bool NeedsMesh() const {
+        return !mesh.empty() || !cloud.empty() || !colmap.empty() || WantsTransforms();
+    }
     bool NeedsPath() const { return !trajectory.empty() || !kitti.empty(); }
     // What only a scan file has.
     bool NeedsScan() const { return !grid.empty() || NeedsFrames(); }
@@ -70,32 +73,40 @@ Result<Content> FromRun(const Arguments& a) {
 Status Check(const Arguments& a, bool is_run) {
     if (!a.NeedsMesh() && !a.NeedsPath() && !a.NeedsScan())
         return Status::Error(
-            "nothing to export; give --mesh, --cloud, --grid, --trajectory, --kitti, --frames or --colmap");
+            "nothing to export; give --mesh, --cloud, --grid, --trajectory, --kitti, --frames or "
+            "--colmap");
     if (is_run && a.NeedsScan())
-        return Status::Error(
-            a.input + ": a run's folder has no map and no raw frames; --grid, --frames and --colmap take a FILE.scan");
+        return Status::Error(a.input +
+                             ": a run's folder has no map and no raw frames; --grid, --frames and "
+                             "--colmap take a FILE.scan");
     if (!a.mesh.empty())
         if (const Result<MeshFormat> format = MeshFormatOf(a.mesh); !format.ok())
             return Status::Error("--mesh " + format.message());
     if (!a.cloud.empty() && fs::path(a.cloud).extension() != ".ply")
-        return Status::Error("--cloud " + a.cloud + ": a point cloud is written as .ply; give this extension");
+        return Status::Error("--cloud " + a.cloud +
+                             ": a point cloud is written as .ply; give this extension");
     if (!a.grid.empty() && fs::path(a.grid).extension() != ".vdb")
-        return Status::Error("--grid " + a.grid + ": a volume is written as .vdb; give this extension");
-    if (!a.grid.empty() && !VdbAvailable()) return Status::Error("--grid " + a.grid + ": .vdb is " + kVdbUnavailable);
+        return Status::Error("--grid " + a.grid +
+                             ": a volume is written as .vdb; give this extension");
+    if (!a.grid.empty() && !VdbAvailable())
+        return Status::Error("--grid " + a.grid + ": .vdb is " + kVdbUnavailable);
     return Status::Ok();
 }
 
 Status Write(const Arguments& a, const Content& content) {
     if (!a.mesh.empty())
-        if (Status status = MeshFormatOf(a.mesh).value().write(a.mesh, content.mesh); !status.ok()) return status;
+        if (Status status = MeshFormatOf(a.mesh).value().write(a.mesh, content.mesh); !status.ok())
+            return status;
     if (!a.cloud.empty())
         if (Status status = WritePlyCloud(a.cloud, content.mesh); !status.ok()) return status;
     if (!a.trajectory.empty())
-        if (Status status = WriteTrajectory(a.trajectory, content.path); !status.ok()) return status;
+        if (Status status = WriteTrajectory(a.trajectory, content.path); !status.ok())
+            return status;
     if (!a.kitti.empty())
         if (Status status = WriteKittiPoses(a.kitti, content.path); !status.ok()) return status;
     if (!a.colmap.empty())
-        if (Status status = WriteColmap(a.input, content.mesh, a.colmap); !status.ok()) return status;
+        if (Status status = WriteColmap(a.input, content.mesh, a.colmap); !status.ok())
+            return status;
     if (a.WantsTransforms()) return WriteTransforms(a.input, content.mesh, a.frames);
     return a.frames.empty() ? Status::Ok() : ExportFrames(a.input, a.frames);
 }
@@ -112,23 +123,28 @@ Status Export(const Arguments& a) {
 
 void AddExportCommand(CLI::App& app, CommandContext& context) {
     auto a = std::make_shared<Arguments>();
-    CLI::App* command =
-        app.add_subcommand("export", "Write a scan file's or a run's mesh, map, path or raw frames as other files");
+    CLI::App* command = app.add_subcommand(
+        "export", "Write a scan file's or a run's mesh, map, path or raw frames as other files");
     const auto add = [&](const char* name, std::string& value, const char* what, const char* type) {
         command->add_option(name, value, what)->type_name(type);
     };
-    command->add_option("INPUT", a->input, "FILE.scan, or a run's folder (mesh, cloud and path only)")->required();
+    command
+        ->add_option("INPUT", a->input, "FILE.scan, or a run's folder (mesh, cloud and path only)")
+        ->required();
     add("--mesh", a->mesh, "Coloured mesh, metres; by extension: .ply, .obj, .glb", "FILE");
     add("--cloud", a->cloud, "The mesh's vertices as a point cloud, .ply", "FILE");
     add("--grid", a->grid, "Signed distance (metres) and colour as OpenVDB grids, .vdb", "FILE");
     add("--trajectory", a->trajectory, "Camera path, TUM format", "FILE");
     add("--kitti", a->kitti, "Camera path, KITTI format; its stamps go to FILE.times", "FILE");
     add("--frames", a->frames,
-        "The raw frames that a scan holds: a new folder (TUM layout), or FILE.json for nerfstudio and instant-ngp, "
+        "The raw frames that a scan holds: a new folder (TUM layout), or FILE.json for nerfstudio "
+        "and instant-ngp, "
         "with images/ and depth/ beside it",
         "DIR|FILE.json");
     add("--colmap", a->colmap,
-        "The raw frames with their poses, and points of the mesh, as a COLMAP model (text); images/ in it", "DIR");
+        "The raw frames with their poses, and points of the mesh, as a COLMAP model (text); "
+        "images/ in it",
+        "DIR");
     command->callback([a, &context] { context.exit_code = ExitCode(Export(*a)); });
 }
 

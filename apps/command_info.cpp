@@ -20,9 +20,10 @@ void PrintSource(const SourceInfo& info) {
     const PinholeCamera& c = info.camera;
     fmt::print("{}: {}\n", info.name, info.kind);
     if (info.frame_count >= 0)
-        fmt::print("frames: {} pairs of colour and depth, {:.3g} per second\n", info.frame_count, info.fps);
-    fmt::print("camera: {} x {}, fx {:.2f} fy {:.2f} cx {:.2f} cy {:.2f} px{}\n", c.width, c.height, c.fx, c.fy, c.cx,
-               c.cy, info.rectified ? ", lens distortion corrected" : "");
+        fmt::print("frames: {} pairs of colour and depth, {:.3g} per second\n", info.frame_count,
+                   info.fps);
+    fmt::print("camera: {} x {}, fx {:.2f} fy {:.2f} cx {:.2f} cy {:.2f} px{}\n", c.width, c.height,
+               c.fx, c.fy, c.cx, c.cy, info.rectified ? ", lens distortion corrected" : "");
     fmt::print("ground truth: {}\n", info.has_truth ? "yes" : "no");
     for (const std::string& note : info.notes) fmt::print("note: {}\n", note);
 }
@@ -37,20 +38,23 @@ void PrintFirstFrame(FrameSource& source) {
         read = source.Read(frame);
         if (!read.message.empty()) fmt::print("note: {}\n", read.message);
         waits += read.status == ReadStatus::kWait;
-    } while (read.status == ReadStatus::kSkip || (read.status == ReadStatus::kWait && waits < kMostWaits));
+    } while (read.status == ReadStatus::kSkip ||
+             (read.status == ReadStatus::kWait && waits < kMostWaits));
     if (read.status != ReadStatus::kOk) return;
     std::vector<float> depths;
     for (std::size_t i = 0; i < frame.depth_m.size(); ++i)
         if (frame.depth_m.data()[i] > 0) depths.push_back(frame.depth_m.data()[i]);
-    fmt::print("first frame: stamp {:.6f} s, {}, ", frame.stamp_s, frame.colour.empty() ? "no colour" : "colour");
+    fmt::print("first frame: stamp {:.6f} s, {}, ", frame.stamp_s,
+               frame.colour.empty() ? "no colour" : "colour");
     if (depths.empty()) {
         fmt::print("no depth at all\n");
         return;
     }
     std::sort(depths.begin(), depths.end());
-    fmt::print("depth in {:.0f} % of the pixels, {:.2f} to {:.2f} m, median {:.2f} m\n",
-               100.0 * static_cast<double>(depths.size()) / static_cast<double>(frame.depth_m.size()), depths.front(),
-               depths.back(), depths[depths.size() / 2]);
+    fmt::print(
+        "depth in {:.0f} % of the pixels, {:.2f} to {:.2f} m, median {:.2f} m\n",
+        100.0 * static_cast<double>(depths.size()) / static_cast<double>(frame.depth_m.size()),
+        depths.front(), depths.back(), depths[depths.size() / 2]);
 }
 
 int Info(const Arguments& a) {
@@ -76,7 +80,10 @@ int Info(const Arguments& a) {
 void AddInfoCommand(CLI::App& app, CommandContext& context) {
     auto a = std::make_shared<Arguments>();
     CLI::App* command = app.add_subcommand("info", "Say what a source, or a scan file, holds");
-    command->add_option("SOURCE", a->source, "Folder, openni2:[URI], FILE.oni, FILE.klg, FILE.scan or synthetic:NAME")->required();
+    command
+        ->add_option("SOURCE", a->source,
+                     "Folder, openni2:[URI], FILE.oni, FILE.klg, FILE.scan or synthetic:NAME")
+        ->required();
     a->config.AddTo(*command);
     command->callback([a, &context] { context.exit_code = Info(*a); });
 }

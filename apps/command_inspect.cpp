@@ -22,16 +22,20 @@ Status Inspect(const Arguments& a) {
     config.Describe(parameters);
     if (Status status = a.config.Apply(parameters); !status.ok()) return status;
     if (!a.tracker.empty())
-        if (Status status = parameters.Set("tracking.method", a.tracker); !status.ok()) return status;
+        if (Status status = parameters.Set("tracking.method", a.tracker); !status.ok())
+            return status;
     const Result<Inspection> result = InspectFrame(a.source, config, a.frame);
     if (!result.ok()) return result.status();
     const FrameReport& report = result.value().report;
     const TrackResult& t = report.track;
     if (!report.warning.empty()) fmt::print(stderr, "tessera: {}\n", report.warning);
-    fmt::print("frame {} by {}: {}{}{}; depth {:.1f} mm, intensity {:.3f} (robust rms); {:.0f} % in the map, {:.0f} % of "
-               "it fits\n",
-               report.index, ToString(report.method), ToString(t.status), t.reason.empty() ? "" : ": ", t.reason,
-               1000 * t.distance_rms_m, t.intensity_rms, 100 * t.known_fraction, 100 * t.inlier_fraction);
+    fmt::print(
+        "frame {} by {}: {}{}{}; depth {:.1f} mm, intensity {:.3f} (robust rms); {:.0f} % in the "
+        "map, {:.0f} % of "
+        "it fits\n",
+        report.index, ToString(report.method), ToString(t.status), t.reason.empty() ? "" : ": ",
+        t.reason, 1000 * t.distance_rms_m, t.intensity_rms, 100 * t.known_fraction,
+        100 * t.inlier_fraction);
     return WriteColourImage(a.out, result.value().picture);
 }
 
@@ -39,13 +43,20 @@ Status Inspect(const Arguments& a) {
 
 void AddInspectCommand(CLI::App& app, CommandContext& context) {
     auto a = std::make_shared<Arguments>();
-    CLI::App* command = app.add_subcommand(
-        "inspect", "Picture of one frame against the map: measured and predicted colour and depth, and residuals");
+    CLI::App* command = app.add_subcommand("inspect",
+                                           "Picture of one frame against the map: measured and "
+                                           "predicted colour and depth, and residuals");
     command->add_option("SOURCE", a->source, "As for tessera run")->required();
-    command->add_option("--frame", a->frame, "Index as in frames.csv; the frames before it make the map")
-        ->required()->check(CLI::PositiveNumber);
-    command->add_option("--out", a->out, "Picture to write, .png or .jpg")->required()->type_name("PICTURE.png");
-    command->add_option("--tracker", a->tracker, "Tracking method, as tracking.method (default sdf)")
+    command
+        ->add_option("--frame", a->frame,
+                     "Index as in frames.csv; the frames before it make the map")
+        ->required()
+        ->check(CLI::PositiveNumber);
+    command->add_option("--out", a->out, "Picture to write, .png or .jpg")
+        ->required()
+        ->type_name("PICTURE.png");
+    command
+        ->add_option("--tracker", a->tracker, "Tracking method, as tracking.method (default sdf)")
         ->check(CLI::IsMember({"sdf", "sdf-geometric", "icp", "icp-rgb"}));
     a->config.AddTo(*command);
     command->callback([a, &context] { context.exit_code = ExitCode(Inspect(*a)); });

@@ -38,10 +38,14 @@ Status WriteObjects(const Folders& folders) {
 
 void AddObjectsCommand(CLI::App& app, CommandContext& context) {
     auto folders = std::make_shared<Folders>();
-    CLI::App* command = app.add_subcommand("objects", "Write each labelled object of a run as a mesh of its own");
+    CLI::App* command =
+        app.add_subcommand("objects", "Write each labelled object of a run as a mesh of its own");
     command->add_option("RUN_DIR", folders->run, "Folder of a run with --labels")->required();
-    command->add_option("--out", folders->out, "Folder for NUMBER-CLASS.ply")->required()->type_name("DIR");
-    command->callback([folders, &context] { context.exit_code = ExitCode(WriteObjects(*folders)); });
+    command->add_option("--out", folders->out, "Folder for NUMBER-CLASS.ply")
+        ->required()
+        ->type_name("DIR");
+    command->callback(
+        [folders, &context] { context.exit_code = ExitCode(WriteObjects(*folders)); });
 }
 
 }  // namespace tessera

@@ -35,15 +35,19 @@ RenderStyle::Shading ToStyle(Shading shading) {
 }
 
 NamedBox ToBox(const MapObject& o) {
-    return {o.T_world_oriented, o.oriented_size, fmt::format("{} {} {:.0f}%", o.class_name, o.id, 100 * o.probability), o.colour};
+    return {o.T_world_oriented, o.oriented_size,
+            fmt::format("{} {} {:.0f}%", o.class_name, o.id, 100 * o.probability), o.colour};
 }
 
-// Category colours, and the boxes and names of an objects.json that is given or, for these colours, lies beside the mesh.
+// Category colours, and the boxes and names of an objects.json that is given or, for these colours,
+// lies beside the mesh.
 Status ApplyLabels(const Arguments& a, TriangleMesh& mesh, RenderStyle& style) {
     const bool by_label = a.shading == Shading::kLabel;
-    if (by_label && mesh.labels.empty()) return Status::Error(a.mesh + ": has no labels; make the run with --labels");
+    if (by_label && mesh.labels.empty())
+        return Status::Error(a.mesh + ": has no labels; make the run with --labels");
     std::string path = a.objects;
-    const std::string beside = (std::filesystem::path(a.mesh).parent_path() / "objects.json").string();
+    const std::string beside =
+        (std::filesystem::path(a.mesh).parent_path() / "objects.json").string();
     std::error_code ignored;
     if (path.empty() && by_label && std::filesystem::exists(beside, ignored)) path = beside;
     std::vector<MapObject> objects;
@@ -68,7 +72,8 @@ MeshView ViewOfPose(const Arguments& a, const Eigen::Isometry3d& T_world_camera)
 }
 
 Status Render(const Arguments& a) {
-    Result<TriangleMesh> mesh = a.mesh.ends_with(".scan") ? MeshOfScanFile(a.mesh, nullptr) : ReadPly(a.mesh);
+    Result<TriangleMesh> mesh =
+        a.mesh.ends_with(".scan") ? MeshOfScanFile(a.mesh, nullptr) : ReadPly(a.mesh);
     if (!mesh.ok()) return mesh.status();
     if (mesh.value().triangles.empty()) return Status::Error(a.mesh + ": has no triangles");
     RenderStyle style;
@@ -77,10 +82,12 @@ Status Render(const Arguments& a) {
     if (!a.trajectory.empty()) {
         const Result<Trajectory> trajectory = ReadTrajectory(a.trajectory);
         if (!trajectory.ok()) return trajectory.status();
-        for (const StampedPose& pose : trajectory.value().poses) style.path.push_back(pose.T_world_camera);
+        for (const StampedPose& pose : trajectory.value().poses)
+            style.path.push_back(pose.T_world_camera);
     }
     if (a.pose >= static_cast<std::int64_t>(style.path.size()))
-        return Status::Error(fmt::format("--pose {}: --trajectory has {} poses", a.pose, style.path.size()));
+        return Status::Error(
+            fmt::format("--pose {}: --trajectory has {} poses", a.pose, style.path.size()));
     MeshView view;
     if (a.pose >= 0) {
         view = ViewOfPose(a, style.path[static_cast<std::size_t>(a.pose)]);
@@ -88,31 +95,49 @@ Status Render(const Arguments& a) {
     } else {
         view = ChooseView(mesh.value(), style.path, a.width, a.height);
     }
-    return WriteColourImage(a.out, RenderMesh(mesh.value(), view.camera, view.T_world_camera, style));
+    return WriteColourImage(a.out,
+                            RenderMesh(mesh.value(), view.camera, view.T_world_camera, style));
 }
 
 }  // namespace
 
 void AddRenderCommand(CLI::App& app, CommandContext& context) {
     auto a = std::make_shared<Arguments>();
-    CLI::App* command = app.add_subcommand("render", "Draw a mesh; the view is chosen so that all of it shows");
+    CLI::App* command =
+        app.add_subcommand("render", "Draw a mesh; the view is chosen so that all of it shows");
     command->add_option("MESH", a->mesh, "PLY file, or FILE.scan")->required();
-    command->add_option("--out", a->out, "Picture to write, .png or .jpg")->required()->type_name("PICTURE.png");
-    command->add_option("--trajectory", a->trajectory, "Draw this path too, and look from behind its cameras")
+    command->add_option("--out", a->out, "Picture to write, .png or .jpg")
+        ->required()
+        ->type_name("PICTURE.png");
+    command
+        ->add_option("--trajectory", a->trajectory,
+                     "Draw this path too, and look from behind its cameras")
         ->type_name("FILE");
-    command->add_option("--width", a->width, "Pixels")->check(CLI::Range(16, 8192))->capture_default_str();
-    command->add_option("--height", a->height, "Pixels")->check(CLI::Range(16, 8192))->capture_default_str();
-    command->add_option("--shading", a->shading, "colour as it is, colour lit, grey lit, normals, or label: by category, with the objects' boxes and names "
-                        "(default colour)")
-        ->transform(CLI::CheckedTransformer(std::map<std::string, Shading>{{"colour", Shading::kColour},
-                                                                           {"lit", Shading::kLit},
-                                                                           {"grey", Shading::kGrey},
-                                                                           {"normal", Shading::kNormal},
-                                                                           {"label", Shading::kLabel}}));
-    command->add_option("--objects", a->objects, "Draw the boxes and names of this objects.json (with --shading label: the one "
-                                                 "beside the mesh)")
+    command->add_option("--width", a->width, "Pixels")
+        ->check(CLI::Range(16, 8192))
+        ->capture_default_str();
+    command->add_option("--height", a->height, "Pixels")
+        ->check(CLI::Range(16, 8192))
+        ->capture_default_str();
+    command
+        ->add_option("--shading", a->shading,
+                     "colour as it is, colour lit, grey lit, normals, or label: by category, with "
+                     "the objects' boxes and names "
+                     "(default colour)")
+        ->transform(
+            CLI::CheckedTransformer(std::map<std::string, Shading>{{"colour", Shading::kColour},
+                                                                   {"lit", Shading::kLit},
+                                                                   {"grey", Shading::kGrey},
+                                                                   {"normal", Shading::kNormal},
+                                                                   {"label", Shading::kLabel}}));
+    command
+        ->add_option("--objects", a->objects,
+                     "Draw the boxes and names of this objects.json (with --shading label: the one "
+                     "beside the mesh)")
         ->type_name("FILE");
-    command->add_option("--pose", a->pose, "Look from the trajectory's pose with this number, from 0 on")
+    command
+        ->add_option("--pose", a->pose,
+                     "Look from the trajectory's pose with this number, from 0 on")
         ->check(CLI::NonNegativeNumber);
     command->callback([a, &context] { context.exit_code = ExitCode(Render(*a)); });
 }

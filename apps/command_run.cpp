@@ -32,14 +32,17 @@ Result<MethodSwitch> ParseSwitch(const std::string& text) {
     MethodSwitch change;
     const char* end = text.data() + std::min(colon, text.size());
     const auto [rest, error] = std::from_chars(text.data(), end, change.frame);
-    const bool number = colon != std::string::npos && error == std::errc() && rest == end && change.frame >= 0;
+    const bool number =
+        colon != std::string::npos && error == std::errc() && rest == end && change.frame >= 0;
     for (const auto& [name, method] : TrackingMethodNames()) {
         if (!number || text.substr(colon + 1) != name) continue;
         change.method = method;
         return change;
     }
-    return Status::Error(fmt::format("--switch {}: expected FRAME:METHOD, such as 100:icp; methods: sdf, sdf-geometric, "
-                                     "icp, icp-rgb", text));
+    return Status::Error(fmt::format(
+        "--switch {}: expected FRAME:METHOD, such as 100:icp; methods: sdf, sdf-geometric, "
+        "icp, icp-rgb",
+        text));
 }
 
 // The configuration, then the options that name a key of their own.
@@ -50,20 +53,26 @@ Status Configure(const Arguments& a, RunConfig& config) {
         if (Status status = TakeScanKeys(a.resume, parameters); !status.ok()) return status;
     if (Status status = a.config.Apply(parameters); !status.ok()) return status;
     if (!a.tracker.empty())
-        if (Status status = parameters.Set("tracking.method", a.tracker); !status.ok()) return status;
+        if (Status status = parameters.Set("tracking.method", a.tracker); !status.ok())
+            return status;
     if (!a.alpha.empty()) {
         const bool automatic = a.alpha == "auto";
-        if (Status status = parameters.Set("tracking.photometric.alpha_mode", automatic ? "auto" : "fixed"); !status.ok())
+        if (Status status =
+                parameters.Set("tracking.photometric.alpha_mode", automatic ? "auto" : "fixed");
+            !status.ok())
             return status;
         if (!automatic)
             if (Status status = parameters.Set("tracking.photometric.alpha", a.alpha); !status.ok())
                 return Status::Error("--alpha: " + status.message());
     }
     if (!a.loop_closure.empty())
-        if (Status status = parameters.Set("loops.enabled", a.loop_closure == "on" ? "true" : "false"); !status.ok())
+        if (Status status =
+                parameters.Set("loops.enabled", a.loop_closure == "on" ? "true" : "false");
+            !status.ok())
             return status;
     if (a.threads >= 0)
-        if (Status status = parameters.Set("run.threads", std::to_string(a.threads)); !status.ok()) return status;
+        if (Status status = parameters.Set("run.threads", std::to_string(a.threads)); !status.ok())
+            return status;
     return a.resume.empty() ? Status::Ok() : CheckScanKeys(a.resume, parameters);
 }
 
@@ -96,8 +105,8 @@ int Run(const Arguments& a) {
     const RunSummary& summary = result.value();
     fmt::print("{}", RunText(request, summary));
     if (2 * summary.counts.tracked >= summary.counts.frames) return kExitDone;
-    fmt::print(stderr, "tessera: only {} of {} frames tracked; the last reason: {}\n", summary.counts.tracked,
-               summary.counts.frames, summary.last_reason);
+    fmt::print(stderr, "tessera: only {} of {} frames tracked; the last reason: {}\n",
+               summary.counts.tracked, summary.counts.frames, summary.last_reason);
     return kExitMostlyLost;
 }
 
@@ -106,56 +115,98 @@ int Run(const Arguments& a) {
 void AddRunCommand(CLI::App& app, CommandContext& context) {
     auto a = std::make_shared<Arguments>();
     a->request.output_folder = "out";
-    CLI::App* command = app.add_subcommand("run", "Track and fuse a source: trajectory, mesh, picture, timings");
-    command->add_option("SOURCE", a->request.source,
-                        "Folder (TUM RGB-D, ICL-NUIM, 7-Scenes, or images with a camera.yaml), openni2: (a depth camera; "
-                        "openni2:URI for a certain one), FILE.oni, FILE.klg, FILE.scan (the frames that a scan keeps), or synthetic:NAME (desk, room, flat, corridor, floor, corner, "
-                        "wall, people, chair, door)")->required();
+    CLI::App* command =
+        app.add_subcommand("run", "Track and fuse a source: trajectory, mesh, picture, timings");
+    command
+        ->add_option(
+            "SOURCE", a->request.source,
+            "Folder (TUM RGB-D, ICL-NUIM, 7-Scenes, or images with a camera.yaml), openni2: (a "
+            "depth camera; "
+            "openni2:URI for a certain one), FILE.oni, FILE.klg, FILE.scan (the frames that a scan "
+            "keeps), or synthetic:NAME (desk, room, flat, corridor, floor, corner, "
+            "wall, people, chair, door)")
+        ->required();
     command->add_option("--out", a->request.output_folder, "Folder for the results")
-        ->type_name("DIR")->capture_default_str();
+        ->type_name("DIR")
+        ->capture_default_str();
     a->config.AddTo(*command);
-    command->add_option("--tracker", a->tracker, "Tracking method, as tracking.method (default sdf)")
+    command
+        ->add_option("--tracker", a->tracker, "Tracking method, as tracking.method (default sdf)")
         ->check(CLI::IsMember({"sdf", "sdf-geometric", "icp", "icp-rgb"}));
-    command->add_option("--switch", a->switches,
-                        "From this frame on (its index as in frames.csv) another tracking method; repeatable")
-        ->type_name("FRAME:METHOD")->allow_extra_args(false);
-    command->add_option("--alpha", a->alpha, "Weight of the photometric residual in m^2, or auto, as tracking.photometric.alpha")
+    command
+        ->add_option(
+            "--switch", a->switches,
+            "From this frame on (its index as in frames.csv) another tracking method; repeatable")
+        ->type_name("FRAME:METHOD")
+        ->allow_extra_args(false);
+    command
+        ->add_option(
+            "--alpha", a->alpha,
+            "Weight of the photometric residual in m^2, or auto, as tracking.photometric.alpha")
         ->type_name("A|auto");
     command->add_option("--start", a->request.selection.start, "First frame, counted from 0")
-        ->check(CLI::NonNegativeNumber)->capture_default_str();
-    command->add_option("--frames", a->request.selection.count, "Number of frames to read (default: all)")
+        ->check(CLI::NonNegativeNumber)
+        ->capture_default_str();
+    command
+        ->add_option("--frames", a->request.selection.count,
+                     "Number of frames to read (default: all)")
         ->check(CLI::PositiveNumber);
     command->add_option("--stride", a->request.selection.stride, "Take every so-manieth frame")
-        ->check(CLI::PositiveNumber)->capture_default_str();
-    command->add_option("--threads", a->threads, "Threads of the parallel loops, 0 = one per core, as run.threads")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+    command
+        ->add_option("--threads", a->threads,
+                     "Threads of the parallel loops, 0 = one per core, as run.threads")
         ->check(CLI::Range(0, 256));
-    command->add_option("--poses", a->request.poses_file,
-                        "Fuse at the poses of this TUM trajectory (seconds, metres) and do not track")
+    command
+        ->add_option("--poses", a->request.poses_file,
+                     "Fuse at the poses of this TUM trajectory (seconds, metres) and do not track")
         ->type_name("FILE");
-    command->add_option("--mode", a->mode,
-                        "lockstep: every frame, in order; live: the newest frame wins, at the camera's or the recorded pace")
-        ->check(CLI::IsMember({"lockstep", "live"}))->capture_default_str();
-    command->add_option("--labels", a->labels,
-                        "Label objects with this network (.onnx, or .cfg beside its .weights), file of detections, or synthetic: "
-                        "a synthetic: source's own truth")
-        ->type_name("MODEL|DETECTIONS|none")->capture_default_str();
-    command->add_option("--loop-closure", a->loop_closure,
-                        "Correct path and map where the camera comes back, and find the place again after a loss; as "
-                        "loops.enabled (default off)")
+    command
+        ->add_option("--mode", a->mode,
+                     "lockstep: every frame, in order; live: the newest frame wins, at the "
+                     "camera's or the recorded pace")
+        ->check(CLI::IsMember({"lockstep", "live"}))
+        ->capture_default_str();
+    command
+        ->add_option("--labels", a->labels,
+                     "Label objects with this network (.onnx, or .cfg beside its .weights), file "
+                     "of detections, or synthetic: "
+                     "a synthetic: source's own truth")
+        ->type_name("MODEL|DETECTIONS|none")
+        ->capture_default_str();
+    command
+        ->add_option("--loop-closure", a->loop_closure,
+                     "Correct path and map where the camera comes back, and find the place again "
+                     "after a loss; as "
+                     "loops.enabled (default off)")
         ->check(CLI::IsMember({"on", "off"}));
-    command->add_flag("--view", a->view, "Open a window; without a display the run goes on without");
-    command->add_option("--record", a->request.record_path,
-                        "Keep the raw frames in this new folder (TUM layout, depth exact), or FILE.oni of an OpenNI2 camera")
+    command->add_flag("--view", a->view,
+                      "Open a window; without a display the run goes on without");
+    command
+        ->add_option("--record", a->request.record_path,
+                     "Keep the raw frames in this new folder (TUM layout, depth exact), or "
+                     "FILE.oni of an OpenNI2 camera")
         ->type_name("PATH");
-    CLI::Option* scan = command->add_option("--scan", a->scan,
-        "Save the scan as it goes into this new file: killed at any moment it has lost at most the last second")->type_name("FILE");
-    command->add_option("--resume", a->resume,
-        "Go on with a scan that was saved, and save into it; voxel size and truncation are the scan's; frames of the same "
-        "recording that it has are left out")->type_name("FILE")->excludes(scan);
-    command->add_option("--device", a->device,
-                        "Where map and tracking are calculated: auto takes the processor; cuda the first NVIDIA GPU, an experiment "
-                        "that has not yet run on one")
-        ->check(CLI::IsMember({"auto", "cpu", "cuda"}))->capture_default_str();
+    CLI::Option* scan = command
+                            ->add_option("--scan", a->scan,
+                                         "Save the scan as it goes into this new file: killed at "
+                                         "any moment it has lost at most the last second")
+                            ->type_name("FILE");
+    command
+        ->add_option("--resume", a->resume,
+                     "Go on with a scan that was saved, and save into it; voxel size and "
+                     "truncation are the scan's; frames of the same "
+                     "recording that it has are left out")
+        ->type_name("FILE")
+        ->excludes(scan);
+    command
+        ->add_option("--device", a->device,
+                     "Where map and tracking are calculated: auto takes the processor; cuda the "
+                     "first NVIDIA GPU, an experiment "
+                     "that has not yet run on one")
+        ->check(CLI::IsMember({"auto", "cpu", "cuda"}))
+        ->capture_default_str();
     command->callback([a, &context] {
         a->request.command_line = context.arguments;
         context.exit_code = Run(*a);

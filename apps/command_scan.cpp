@@ -16,8 +16,8 @@ int RepairTo(const Arguments& a) {
     const Result<RepairReport> repaired = RepairScan(a.scan, a.out);
     if (!repaired.ok()) return Fail(repaired.status());
     const RepairReport& report = repaired.value();
-    fmt::print("{}: recovered {} blocks, {} frames of the path, {} raw frames, {} keyframes\n", a.out, report.blocks, report.path,
-               report.frames, report.keyframes);
+    fmt::print("{}: recovered {} blocks, {} frames of the path, {} raw frames, {} keyframes\n",
+               a.out, report.blocks, report.path, report.frames, report.keyframes);
     if (report.lost.empty()) fmt::print("nothing is lost\n");
     for (const std::string& what : report.lost) fmt::print("lost: {}\n", what);
     return kExitDone;
@@ -29,7 +29,8 @@ void AddScanCommand(CLI::App& app, CommandContext& context) {
     auto a = std::make_shared<Arguments>();
     CLI::App* command = app.add_subcommand("scan", "Look after scan files");
     command->require_subcommand(1);
-    CLI::App* repair = command->add_subcommand("repair", "Recover what is sound of a damaged scan into a new file");
+    CLI::App* repair = command->add_subcommand(
+        "repair", "Recover what is sound of a damaged scan into a new file");
     repair->add_option("SCAN", a->scan, "The damaged file; it is left as it is")->required();
     repair->add_option("--out", a->out, "New file")->required()->type_name("FILE");
     repair->callback([a, &context] { context.exit_code = RepairTo(*a); });

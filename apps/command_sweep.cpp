@@ -1,4 +1,5 @@
-// tessera sweep alpha: the photometric weight's influence, sequence by sequence, as [B14] figure 6 tabulates it.
+// tessera sweep alpha: the photometric weight's influence, sequence by sequence, as [B14] figure 6
+// tabulates it.
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <memory>
@@ -31,16 +32,19 @@ Result<std::vector<double>> ParseValues(const std::string& text) {
     double first = 0, last = 0, step = 0;
     char rest = 0;
     if (std::sscanf(text.c_str(), "%lf:%lf:%lf%c", &first, &last, &step, &rest) != 3)
-        return Status::Error(fmt::format("--values {}: expected FIRST:LAST:STEP, such as 0:1:0.1", text));
+        return Status::Error(
+            fmt::format("--values {}: expected FIRST:LAST:STEP, such as 0:1:0.1", text));
     const double count = std::floor((last - first) / step + 1e-9) + 1;
     if (!(first >= 0 && last >= first && step > 0 && last <= 100 && count <= 1000))
-        return Status::Error(fmt::format("--values {}: needs 0 <= FIRST <= LAST <= 100 and at most 1000 steps", text));
+        return Status::Error(fmt::format(
+            "--values {}: needs 0 <= FIRST <= LAST <= 100 and at most 1000 steps", text));
     std::vector<double> values;
     for (int i = 0; i < static_cast<int>(count); ++i) values.push_back(first + i * step);
     return values;
 }
 
-Result<Row> RunOne(const Arguments& a, const std::string& source, double alpha, const std::atomic<bool>& stop) {
+Result<Row> RunOne(const Arguments& a, const std::string& source, double alpha,
+                   const std::atomic<bool>& stop) {
     RunConfig config;
     ConfigParameters parameters;
     config.Describe(parameters);
@@ -53,11 +57,14 @@ Result<Row> RunOne(const Arguments& a, const std::string& source, double alpha, 
     request.selection.stride = a.stride;
     Console console;
     RunObserver observer;
-    observer.on_frame = [&](const RunCounts& counts, std::int64_t total) { console.ShowProgress(counts, total); };
+    observer.on_frame = [&](const RunCounts& counts, std::int64_t total) {
+        console.ShowProgress(counts, total);
+    };
     const Result<RunSummary> run = ExecuteRun(request, config, observer, stop);
     if (!run.ok()) return run.status();
     const RunSummary& s = run.value();
-    if (!s.source.has_truth) return Status::Error(source + ": has no ground truth to measure against");
+    if (!s.source.has_truth)
+        return Status::Error(source + ": has no ground truth to measure against");
     const double nan = std::nan("");
     return Row{source, alpha, s.ate ? s.ate->error_m.rmse : nan,
                static_cast<double>(s.counts.tracked) / static_cast<double>(s.counts.frames), s.fps};
@@ -67,8 +74,8 @@ Status WriteRows(const std::string& folder, const std::vector<Row>& rows) {
     std::string csv = "source,alpha,ate_rmse_m,tracked_fraction,fps\n";
     nlohmann::ordered_json json = nlohmann::ordered_json::array();
     for (const Row& row : rows) {
-        csv += fmt::format("\"{}\",{:.6g},{:.6f},{:.4f},{:.1f}\n", row.source, row.alpha, row.ate_rmse_m,
-                           row.tracked_fraction, row.fps);
+        csv += fmt::format("\"{}\",{:.6g},{:.6f},{:.4f},{:.1f}\n", row.source, row.alpha,
+                           row.ate_rmse_m, row.tracked_fraction, row.fps);
         json.push_back({{"source", row.source},
                         {"alpha", row.alpha},
                         {"ate_rmse_m", row.ate_rmse_m},
@@ -76,8 +83,9 @@ Status WriteRows(const std::string& folder, const std::vector<Row>& rows) {
                         {"fps", row.fps}});
     }
     if (Status status = WriteTextFile(folder + "/sweep.csv", csv); !status.ok()) return status;
-    return WriteTextFile(folder + "/sweep.json",
-                         json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+    return WriteTextFile(
+        folder + "/sweep.json",
+        json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
 }
 
 Status Sweep(const Arguments& a) {
@@ -94,8 +102,8 @@ Status Sweep(const Arguments& a) {
             if (!row.ok()) return row.status();
             if (stop) return Status::Ok();  // a run that was cut short is no figure
             rows.push_back(row.value());
-            fmt::print("{}  alpha {:.3g}  {:.4f}  tracked {:.1f} %\n", source, alpha, rows.back().ate_rmse_m,
-                       100 * rows.back().tracked_fraction);
+            fmt::print("{}  alpha {:.3g}  {:.4f}  tracked {:.1f} %\n", source, alpha,
+                       rows.back().ate_rmse_m, 100 * rows.back().tracked_fraction);
             std::fflush(stdout);
             if (a.out.empty()) continue;
             if (Status status = WriteRows(a.out, rows); !status.ok()) return status;
@@ -107,16 +115,22 @@ Status Sweep(const Arguments& a) {
 
 void AddSweepCommand(CLI::App& app, CommandContext& context) {
     auto a = std::make_shared<Arguments>();
-    CLI::App* sweep = app.add_subcommand("sweep", "Run sources again and again with another setting each time");
+    CLI::App* sweep =
+        app.add_subcommand("sweep", "Run sources again and again with another setting each time");
     sweep->require_subcommand(1);
-    CLI::App* alpha = sweep->add_subcommand("alpha", "Over the photometric weight, tracking.photometric.alpha, in m^2");
-    alpha->add_option("SOURCE", a->sources, "Folders or synthetic:NAME, with ground truth")->required();
-    alpha->add_option("--values", a->values, "Both ends included")->type_name("FIRST:LAST:STEP")->capture_default_str();
+    CLI::App* alpha = sweep->add_subcommand(
+        "alpha", "Over the photometric weight, tracking.photometric.alpha, in m^2");
+    alpha->add_option("SOURCE", a->sources, "Folders or synthetic:NAME, with ground truth")
+        ->required();
+    alpha->add_option("--values", a->values, "Both ends included")
+        ->type_name("FIRST:LAST:STEP")
+        ->capture_default_str();
     alpha->add_option("--out", a->out, "Folder for sweep.csv and sweep.json")->type_name("DIR");
     alpha->add_option("--frames", a->frames, "Number of frames of each source (default: all)")
         ->check(CLI::PositiveNumber);
     alpha->add_option("--stride", a->stride, "Take every so-manieth frame")
-        ->check(CLI::PositiveNumber)->capture_default_str();
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
     a->config.AddTo(*alpha);
     alpha->callback([a, &context] { context.exit_code = ExitCode(Sweep(*a)); });
 }

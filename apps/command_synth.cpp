@@ -44,8 +44,8 @@ Status Synth(const Arguments& a) {
         });
     if (!written.ok()) return written.status();
     const SequenceSummary& s = written.value();
-    fmt::print("{}: {} frames over {:.2f} m, reference of {} triangles\n", a.out, s.frames, s.path_m,
-               s.reference_triangles);
+    fmt::print("{}: {} frames over {:.2f} m, reference of {} triangles\n", a.out, s.frames,
+               s.path_m, s.reference_triangles);
     return Status::Ok();
 }
 
@@ -53,17 +53,24 @@ Status Synth(const Arguments& a) {
 
 void AddSynthCommand(CLI::App& app, CommandContext& context) {
     auto a = std::make_shared<Arguments>();
-    CLI::App* command = app.add_subcommand("synth", "Write a synthetic sequence with exact poses, labels and surface");
+    CLI::App* command = app.add_subcommand(
+        "synth", "Write a synthetic sequence with exact poses, labels and surface");
     std::string names;
     for (const std::string& name : BuiltinSceneNames()) names += (names.empty() ? "" : ", ") + name;
-    command->add_option("SCENE", a->scene, "Built-in scene (" + names + ") or MODEL.obj")->required();
+    command->add_option("SCENE", a->scene, "Built-in scene (" + names + ") or MODEL.obj")
+        ->required();
     command->add_option("--out", a->out, "Folder to write")->required()->type_name("DIR");
-    command->add_option("--trajectory", a->trajectory, "Move along this TUM trajectory (default: the scene's own motion)")
+    command
+        ->add_option("--trajectory", a->trajectory,
+                     "Move along this TUM trajectory (default: the scene's own motion)")
         ->type_name("FILE");
-    command->add_option("--frames", a->frames, "Number of frames (default: to the end of the motion)")
+    command
+        ->add_option("--frames", a->frames, "Number of frames (default: to the end of the motion)")
         ->check(CLI::PositiveNumber);
-    command->add_option("--noise", a->noise, "Sensor model (default none)")->check(CLI::IsMember({"none", "kinect"}));
-    command->add_option("--seed", a->seed, "Of the noise (default 1)")->check(CLI::NonNegativeNumber);
+    command->add_option("--noise", a->noise, "Sensor model (default none)")
+        ->check(CLI::IsMember({"none", "kinect"}));
+    command->add_option("--seed", a->seed, "Of the noise (default 1)")
+        ->check(CLI::NonNegativeNumber);
     a->config.AddTo(*command);
     command->callback([a, &context] { context.exit_code = ExitCode(Synth(*a)); });
 }

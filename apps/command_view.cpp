@@ -29,19 +29,23 @@ struct Files {
 Result<Files> FindFiles(const Arguments& a) {
     std::error_code ignored;
     Files files{a.path, a.trajectory, {}};
-    if (a.path.starts_with("synthetic:") || a.path.starts_with("openni2:") || a.path.ends_with(".oni") ||
-        a.path.ends_with(".klg"))
-        return Status::Error(fmt::format("{}: is a source, not a result; use: tessera run {} --view", a.path, a.path));
+    if (a.path.starts_with("synthetic:") || a.path.starts_with("openni2:") ||
+        a.path.ends_with(".oni") || a.path.ends_with(".klg"))
+        return Status::Error(fmt::format(
+            "{}: is a source, not a result; use: tessera run {} --view", a.path, a.path));
     if (!fs::exists(a.path, ignored)) return Status::Error(a.path + ": no such file or folder");
     if (!fs::is_directory(a.path, ignored)) return files;
     const fs::path folder = a.path;
     files.mesh = (folder / "mesh.ply").string();
     if (!fs::exists(files.mesh, ignored))
-        return Status::Error(fmt::format("{}: has no mesh.ply; a run's folder has one, and a source is seen by: "
-                                         "tessera run {} --view", a.path, a.path));
+        return Status::Error(
+            fmt::format("{}: has no mesh.ply; a run's folder has one, and a source is seen by: "
+                        "tessera run {} --view",
+                        a.path, a.path));
     if (files.trajectory.empty() && fs::exists(folder / "trajectory.txt", ignored))
         files.trajectory = (folder / "trajectory.txt").string();
-    if (fs::exists(folder / "objects.json", ignored)) files.objects = (folder / "objects.json").string();
+    if (fs::exists(folder / "objects.json", ignored))
+        files.objects = (folder / "objects.json").string();
     return files;
 }
 
@@ -49,7 +53,8 @@ Result<ViewedModel> Read(const Files& files) {
     ViewedModel model;
     const bool scan = files.mesh.ends_with(".scan");
     Result<TriangleMesh> mesh =
-        scan ? MeshOfScanFile(files.mesh, files.trajectory.empty() ? &model.path : nullptr) : ReadPly(files.mesh);
+        scan ? MeshOfScanFile(files.mesh, files.trajectory.empty() ? &model.path : nullptr)
+             : ReadPly(files.mesh);
     if (!mesh.ok()) return mesh.status();
     if (mesh.value().triangles.empty()) return Status::Error(files.mesh + ": has no triangles");
     model.mesh = std::move(mesh.value());
@@ -61,7 +66,8 @@ Result<ViewedModel> Read(const Files& files) {
     if (files.trajectory.empty()) return model;
     const Result<Trajectory> trajectory = ReadTrajectory(files.trajectory);
     if (!trajectory.ok()) return trajectory.status();
-    for (const StampedPose& pose : trajectory.value().poses) model.path.push_back(pose.T_world_camera);
+    for (const StampedPose& pose : trajectory.value().poses)
+        model.path.push_back(pose.T_world_camera);
     return model;
 }
 
@@ -86,13 +92,24 @@ Status View(const Arguments& a) {
 void AddViewCommand(CLI::App& app, CommandContext& context) {
     auto a = std::make_shared<Arguments>();
     CLI::App* command = app.add_subcommand("view", "Look at a mesh in a window, with a run's path");
-    command->add_option("PATH", a->path, "PLY file, a run's folder (mesh.ply, trajectory.txt), or FILE.scan")->required();
-    command->add_option("--trajectory", a->trajectory, "TUM trajectory to draw, metres (default: the run's)")
+    command
+        ->add_option("PATH", a->path,
+                     "PLY file, a run's folder (mesh.ply, trajectory.txt), or FILE.scan")
+        ->required();
+    command
+        ->add_option("--trajectory", a->trajectory,
+                     "TUM trajectory to draw, metres (default: the run's)")
         ->type_name("FILE");
-    command->add_option("--screenshot", a->screenshot, "Draw once into this picture and leave; needs a display too")
+    command
+        ->add_option("--screenshot", a->screenshot,
+                     "Draw once into this picture and leave; needs a display too")
         ->type_name("FILE.png");
-    command->add_option("--width", a->width, "Window, pixels")->check(CLI::Range(320, 8192))->capture_default_str();
-    command->add_option("--height", a->height, "Window, pixels")->check(CLI::Range(240, 8192))->capture_default_str();
+    command->add_option("--width", a->width, "Window, pixels")
+        ->check(CLI::Range(320, 8192))
+        ->capture_default_str();
+    command->add_option("--height", a->height, "Window, pixels")
+        ->check(CLI::Range(240, 8192))
+        ->capture_default_str();
     command->callback([a, &context] { context.exit_code = ExitCode(View(*a)); });
 }
 

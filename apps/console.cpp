@@ -36,10 +36,12 @@ void Console::ShowProgress(const RunCounts& counts, std::int64_t total) {
     std::string line = fmt::format("{} frames", counts.frames);
     if (total > 0) {
         constexpr int kWidth = 30;
-        const auto filled = static_cast<std::size_t>(std::min<std::int64_t>(kWidth, kWidth * counts.frames / total));
+        const auto filled = static_cast<std::size_t>(
+            std::min<std::int64_t>(kWidth, kWidth * counts.frames / total));
         const double left_s = static_cast<double>(total - counts.frames) / fps;
         line = fmt::format("[{}{}] {}/{}  {:.0f} s left", std::string(filled, '#'),
-                           std::string(kWidth - filled, '.'), counts.frames, total, std::max(0.0, left_s));
+                           std::string(kWidth - filled, '.'), counts.frames, total,
+                           std::max(0.0, left_s));
     }
     fmt::print(stderr, "\r\033[K{}  {:.1f} frames/s  lost {}", line, fps, counts.lost);
     std::fflush(stderr);
@@ -52,7 +54,9 @@ RunObserver Console::Observer() {
         for (const std::string& note : source.notes) Info(note);
     };
     observer.on_warning = [this](const std::string& text) { Warning(text); };
-    observer.on_frame = [this](const RunCounts& counts, std::int64_t total) { ShowProgress(counts, total); };
+    observer.on_frame = [this](const RunCounts& counts, std::int64_t total) {
+        ShowProgress(counts, total);
+    };
     return observer;
 }
 

@@ -1,4 +1,5 @@
-// What a person sees on stderr while a run goes: a progress bar if it is a terminal, warnings in any case.
+// What a person sees on stderr while a run goes: a progress bar if it is a terminal, warnings in
+// any case.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +22,8 @@ class Console {
     // At most ten times a second.
     void ShowProgress(const RunCounts& counts, std::int64_t total);
 
-    // Prints the source's notes and the run's warnings, and draws the bar. Must outlive the observer.
+    // Prints the source's notes and the run's warnings, and draws the bar. Must outlive the
+    // observer.
     RunObserver Observer();
 
   private:

@@ -28,13 +28,15 @@ int ReportParseError(const CLI::App& app, const CLI::ParseError& error) {
     if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) return app.exit(error);
     // CLI11 says only that a command is missing.
     if (app.get_subcommands().empty() && !app.remaining().empty())
-        return Fail(Status::Error(fmt::format("unknown command or option '{}' (tessera -h lists them)", app.remaining().front())));
+        return Fail(Status::Error(fmt::format(
+            "unknown command or option '{}' (tessera -h lists them)", app.remaining().front())));
     std::string command = "tessera";
     for (const CLI::App* used = &app; !used->get_subcommands().empty();) {
         used = used->get_subcommands().front();
         command += " " + used->get_name();
     }
-    return Fail(Status::Error(fmt::format("{} ({} -h lists what can be given)", error.what(), command)));
+    return Fail(
+        Status::Error(fmt::format("{} ({} -h lists what can be given)", error.what(), command)));
 }
 
 int Main(int argc, char** argv) {
@@ -42,8 +44,11 @@ int Main(int argc, char** argv) {
     spdlog::set_pattern("%^%l%$: %v");
     std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is a failed write, not the end
 
-    CLI::App app("Tessera: dense RGB-D SLAM. Exit codes: 0 done; 2 bad input or arguments; 3 fewer than half of the "
-                 "frames tracked.", "tessera");
+    CLI::App app(
+        "Tessera: dense RGB-D SLAM. Exit codes: 0 done; 2 bad input or arguments; 3 fewer than "
+        "half of the "
+        "frames tracked.",
+        "tessera");
     app.set_version_flag("--version", std::string("tessera ") + TESSERA_VERSION);
     app.require_subcommand(1);
     app.get_formatter()->column_width(34);

@@ -8,7 +8,8 @@
 namespace tessera {
 namespace {
 
-ViewerOptions OptionsFor(const RunRequest& request, const RunConfig& config, const SourceInfo& source) {
+ViewerOptions OptionsFor(const RunRequest& request, const RunConfig& config,
+                         const SourceInfo& source) {
     ViewerOptions options;
     options.title = source.name;
     options.width = config.view.width;
@@ -20,7 +21,8 @@ ViewerOptions OptionsFor(const RunRequest& request, const RunConfig& config, con
     const TrackersConfig& trackers = config.pipeline.trackers;
     options.labelled = !request.labels.empty();
     options.settings.method = trackers.method;
-    options.settings.auto_alpha = trackers.photometric.alpha_mode == ResidualModel::AlphaMode::kAuto;
+    options.settings.auto_alpha =
+        trackers.photometric.alpha_mode == ResidualModel::AlphaMode::kAuto;
     options.settings.alpha = trackers.photometric.alpha;
     options.settings.max_depth_m = config.pipeline.frame.max_depth_m;
     options.settings.prealign = config.pipeline.prealign.enabled;
@@ -47,9 +49,11 @@ Result<RunSummary> ExecuteRunInWindow(RunRequest request, const RunConfig& confi
         if (!is_open.exchange(true)) opened.set_value(std::nullopt);
     });
     if (const std::optional<SourceInfo> source = opened.get_future().get()) {
-        Result<std::unique_ptr<Viewer>> viewer = Viewer::Open(link, OptionsFor(request, config, *source));
+        Result<std::unique_ptr<Viewer>> viewer =
+            Viewer::Open(link, OptionsFor(request, config, *source));
         if (viewer.ok())
-            while (viewer.value()->RunOnce() && !(link.ended.load() && stop.load())) {}
+            while (viewer.value()->RunOnce() && !(link.ended.load() && stop.load())) {
+            }
         else
             console.Warning("no window: " + viewer.message() + "; going on without");
     }

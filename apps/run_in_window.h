@@ -1,4 +1,5 @@
-// A run with its window: the run on a thread of its own, the window on the main one, a ViewerLink between them.
+// A run with its window: the run on a thread of its own, the window on the main one, a ViewerLink
+// between them.
 #pragma once
 
 #include <atomic>

@@ -10,7 +10,8 @@ namespace tessera {
 std::string AteText(const AteResult& ate) {
     const ErrorStatistics& e = ate.error_m;
     std::string text = fmt::format(
-        "ATE RMSE {:.4f} m (mean {:.4f}, median {:.4f}, max {:.4f}), {} pairs, SE(3) alignment without scale over all "
+        "ATE RMSE {:.4f} m (mean {:.4f}, median {:.4f}, max {:.4f}), {} pairs, SE(3) alignment "
+        "without scale over all "
         "frames, {:.1f} % tracked\n",
         e.rmse, e.mean, e.median, e.max, ate.pairs.size(), 100 * ate.tracked_fraction);
     if (!ate.warning.empty()) text += "note: " + ate.warning + "\n";
@@ -20,31 +21,37 @@ std::string AteText(const AteResult& ate) {
 std::string LabelsText(const LabelSummary& labels, double wall_s) {
     std::map<std::string, int> counts;
     for (const MapObject& object : labels.objects) ++counts[object.class_name];
-    std::string text = fmt::format("labels: {} frames looked at ({:.1f} a second), {} detections, {} objects", labels.frames,
-                                   static_cast<double>(labels.frames) / std::max(wall_s, 1e-9), labels.detections,
-                                   labels.objects.size());
+    std::string text =
+        fmt::format("labels: {} frames looked at ({:.1f} a second), {} detections, {} objects",
+                    labels.frames, static_cast<double>(labels.frames) / std::max(wall_s, 1e-9),
+                    labels.detections, labels.objects.size());
     const char* separator = ": ";
-    for (const auto& [name, count] : counts) text += fmt::format("{}{} {}", std::exchange(separator, ", "), count, name);
+    for (const auto& [name, count] : counts)
+        text += fmt::format("{}{} {}", std::exchange(separator, ", "), count, name);
     return text + "\n";
 }
 
 std::string RunText(const RunRequest& request, const RunSummary& s) {
     const RunCounts& n = s.counts;
-    std::string text = fmt::format("{}{}: {} frames, {} tracked, {} fused, {} lost, {} skipped\n", request.source,
-                                   s.stopped ? " (stopped)" : "", n.frames, n.tracked, n.fused, n.lost, n.skipped);
+    std::string text =
+        fmt::format("{}{}: {} frames, {} tracked, {} fused, {} lost, {} skipped\n", request.source,
+                    s.stopped ? " (stopped)" : "", n.frames, n.tracked, n.fused, n.lost, n.skipped);
     if (request.live)
-        text += fmt::format("live: {} frames dropped for newer ones, {} tracked but not fused because mapping was busy\n", n.dropped,
-                            n.unfused);
+        text += fmt::format(
+            "live: {} frames dropped for newer ones, {} tracked but not fused because mapping was "
+            "busy\n",
+            n.dropped, n.unfused);
     if (s.ate) text += AteText(*s.ate);
     double median_ms = 0;
     for (const auto& [stage, statistics] : s.stages)
         if (stage == "frame") median_ms = statistics.median_ms;
     constexpr double kMegabyte = 1024.0 * 1024.0;
     text += fmt::format(
-        "{:.1f} frames/s, median {:.1f} ms a frame; map {} blocks, {:.0f} MB ({:.1f} bytes a voxel); peak memory {:.0f} "
+        "{:.1f} frames/s, median {:.1f} ms a frame; map {} blocks, {:.0f} MB ({:.1f} bytes a "
+        "voxel); peak memory {:.0f} "
         "MB\n",
-        s.fps, median_ms, s.map.blocks, static_cast<double>(s.map.bytes) / kMegabyte, s.map.bytes_per_voxel,
-        s.peak_rss_mb);
+        s.fps, median_ms, s.map.blocks, static_cast<double>(s.map.bytes) / kMegabyte,
+        s.map.bytes_per_voxel, s.peak_rss_mb);
     if (s.labels) text += LabelsText(*s.labels, s.wall_s);
     std::error_code ignored;  // an empty mesh has no picture
     for (const auto& [file, what] : {std::pair{"trajectory.txt", "camera path, TUM format"},

@@ -9,8 +9,8 @@ namespace tessera {
 
 std::string RunText(const RunRequest& request, const RunSummary& summary);
 
-// "ATE RMSE 0.0203 m (mean ..., median ..., max ...), 694 pairs, SE(3) alignment without scale over all frames, 100.0 %
-// tracked": the figure never without its protocol.
+// "ATE RMSE 0.0203 m (mean ..., median ..., max ...), 694 pairs, SE(3) alignment without scale over
+// all frames, 100.0 % tracked": the figure never without its protocol.
 std::string AteText(const AteResult& ate);
 
 }  // namespace tessera

@@ -24,7 +24,8 @@ namespace {
 struct Offset {
     double move_m, turn_deg;
 };
-constexpr Offset kOffsets[] = {{0.02, 1}, {0.04, 2}, {0.06, 4}, {0.08, 6}, {0.12, 8}, {0.16, 12}, {0.20, 15}};
+constexpr Offset kOffsets[] = {{0.02, 1}, {0.04, 2},  {0.06, 4}, {0.08, 6},
+                               {0.12, 8}, {0.16, 12}, {0.20, 15}};
 constexpr double kTruncation_m = 0.04;
 constexpr int kMapViews = 10, kTrueViews = 4;
 constexpr double kFound_m = 0.005, kFound_rad = 0.005;
@@ -34,8 +35,9 @@ struct Method {
     const char* name;
     bool prealign;
 };
-constexpr Method kMethods[] = {{"sdf", false}, {"sdf", true}, {"sdf-geometric", false}, {"sdf-geometric", true},
-                               {"icp", false}, {"icp", true}, {"icp-rgb", false},       {"icp-rgb", true}};
+constexpr Method kMethods[] = {{"sdf", false},          {"sdf", true},    {"sdf-geometric", false},
+                               {"sdf-geometric", true}, {"icp", false},   {"icp", true},
+                               {"icp-rgb", false},      {"icp-rgb", true}};
 constexpr std::size_t kMethodCount = std::size(kMethods);
 
 struct Outcome {
@@ -130,8 +132,10 @@ class Basin {
         ResidualModel model({});
         const bool colour = method == "sdf" || method == "icp-rgb";
         const TrackJudge judge(JudgeConfig());
-        if (method.starts_with("sdf")) return SdfTracker({}, FullCamera(), judge, model, colour).Track(input);
-        return IcpTracker({}, FullCamera(), judge, model, colour, std::make_unique<RayCaster>()).Track(input);
+        if (method.starts_with("sdf"))
+            return SdfTracker({}, FullCamera(), judge, model, colour).Track(input);
+        return IcpTracker({}, FullCamera(), judge, model, colour, std::make_unique<RayCaster>())
+            .Track(input);
     }
 
     // Offsets are not to be refused for being large.

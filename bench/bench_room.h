@@ -11,9 +11,7 @@
 
 namespace tessera::bench {
 
-inline PinholeCamera FullCamera() {
-    return {640, 480, 525, 525, 319.5, 239.5};
-}
+inline PinholeCamera FullCamera() { return {640, 480, 525, 525, 319.5, 239.5}; }
 
 inline testing_support::BoxRoom RoomWithBall() {
     testing_support::BoxRoom room;
@@ -63,9 +61,7 @@ inline PreparedFrame Prepared(const Frame& frame) {
 }
 
 // The true pose of view i: ten views are a second and a third of a hand-held camera.
-inline Eigen::Isometry3d TruePose(int i) {
-    return testing_support::SmoothPath(4 * i);
-}
+inline Eigen::Isometry3d TruePose(int i) { return testing_support::SmoothPath(4 * i); }
 
 // A map of 1 cm voxels from the first `views` views.
 template <class Room>

@@ -1,6 +1,7 @@
-// How many frames a second are tracked and fused when they are in memory already: no decoding, no files, no mesh. Prints for each
-// run the rate and each stage's median, and what all runs and devices must have in common: how many frames were tracked, and a
-// hash of their poses. Usage: frames SOURCE [--frames N] [--runs N] [--device cpu|cuda] [--config NAME|FILE] [--set KEY=VALUE]
+// How many frames a second are tracked and fused when they are in memory already: no decoding, no
+// files, no mesh. Prints for each run the rate and each stage's median, and what all runs and
+// devices must have in common: how many frames were tracked, and a hash of their poses. Usage:
+// frames SOURCE [--frames N] [--runs N] [--device cpu|cuda] [--config NAME|FILE] [--set KEY=VALUE]
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -71,9 +72,10 @@ void RunOnce(const Recording& recording, const RunConfig& config, Device* device
     }
     const double seconds = whole.ElapsedMs() / 1000;
     fmt::print("{:7.1f} frames/s;", static_cast<double>(recording.frames.size()) / seconds);
-    for (const auto& [stage, statistics] : times.Summarise()) fmt::print(" {} {:.3f}", stage, statistics.median_ms);
-    fmt::print(" ms; {} of {} tracked, {} blocks, poses {:016x}\n", tracked, recording.frames.size(),
-               pipeline.mapping().blocks().size() - 1, hash);
+    for (const auto& [stage, statistics] : times.Summarise())
+        fmt::print(" {} {:.3f}", stage, statistics.median_ms);
+    fmt::print(" ms; {} of {} tracked, {} blocks, poses {:016x}\n", tracked,
+               recording.frames.size(), pipeline.mapping().blocks().size() - 1, hash);
 }
 
 Status Run(const Options& options) {
@@ -102,8 +104,10 @@ int main(int argc, char** argv) {
     CLI::App app("Tracks and fuses frames that are in memory already");
     tessera::Options options;
     app.add_option("SOURCE", options.source, "As tessera run")->required();
-    app.add_option("--frames", options.frames, "Number of frames to keep in memory")->check(CLI::PositiveNumber);
-    app.add_option("--runs", options.runs, "Runs, each from an empty map")->check(CLI::PositiveNumber);
+    app.add_option("--frames", options.frames, "Number of frames to keep in memory")
+        ->check(CLI::PositiveNumber);
+    app.add_option("--runs", options.runs, "Runs, each from an empty map")
+        ->check(CLI::PositiveNumber);
     app.add_option("--device", options.device, "Where")->check(CLI::IsMember({"cpu", "cuda"}));
     options.config.AddTo(app);
     CLI11_PARSE(app, argc, argv);

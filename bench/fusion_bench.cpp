@@ -144,7 +144,8 @@ BENCHMARK_CAPTURE(Fuse, avx2_moving, VectorPath::kAvx2, true)->Apply(FuseArgumen
 
 using FuseKernel = void (*)(const FusionArguments&, const std::int32_t*, std::int32_t);
 
-// What Integrator makes of its default settings, for the room's frame and a camera that stands still.
+// What Integrator makes of its default settings, for the room's frame and a camera that stands
+// still.
 FusionArguments ArgumentsFor(BlockMap& map) {
     const PreparedFrame& frame = RoomPrepared();
     const Integrator::Config config;
@@ -163,8 +164,10 @@ FusionArguments ArgumentsFor(BlockMap& map) {
     a.cy = static_cast<float>(FullCamera().cy);
     a.frame = 1;
     const Eigen::Isometry3d T_camera_world = TruePose(0).inverse();
-    for (int i = 0; i < 9; ++i) a.to_camera.rotation[i] = static_cast<float>(T_camera_world.linear()(i / 3, i % 3));
-    for (int i = 0; i < 3; ++i) a.to_camera.translation[i] = static_cast<float>(T_camera_world.translation()(i));
+    for (int i = 0; i < 9; ++i)
+        a.to_camera.rotation[i] = static_cast<float>(T_camera_world.linear()(i / 3, i % 3));
+    for (int i = 0; i < 3; ++i)
+        a.to_camera.translation[i] = static_cast<float>(T_camera_world.translation()(i));
     a.voxel_size_m = map.view().voxel_size_m;
     a.truncation_m = map.view().truncation_m;
     a.distance_weight = config.distance_weight;
@@ -175,8 +178,10 @@ FusionArguments ArgumentsFor(BlockMap& map) {
     return a;
 }
 
-// Voxels of one update by two kernels that differ by more than rounding, which may choose the neighbouring pixel.
-std::int64_t DifferingVoxels(FuseKernel kernel, FuseKernel other, const std::vector<BlockId>& blocks) {
+// Voxels of one update by two kernels that differ by more than rounding, which may choose the
+// neighbouring pixel.
+std::int64_t DifferingVoxels(FuseKernel kernel, FuseKernel other,
+                             const std::vector<BlockId>& blocks) {
     const std::unique_ptr<BlockMap> a = FusedMap(RoomWithBall(), kTruncation_m, 10),
                                     b = FusedMap(RoomWithBall(), kTruncation_m, 10);
     kernel(ArgumentsFor(*a), blocks.data(), static_cast<std::int32_t>(blocks.size()));
@@ -195,8 +200,8 @@ std::int64_t DifferingVoxels(FuseKernel kernel, FuseKernel other, const std::vec
 // The kernel alone on one thread, the visible blocks given.
 void FuseVoxels(benchmark::State& state, FuseKernel kernel) {
     VisibleBlocks visible;
-    const std::vector<BlockId>& blocks =
-        visible.Find(RoomMap(), FullCamera(), TruePose(0), RoomPrepared().depth_m, RoomPrepared().farthest_m);
+    const std::vector<BlockId>& blocks = visible.Find(
+        RoomMap(), FullCamera(), TruePose(0), RoomPrepared().depth_m, RoomPrepared().farthest_m);
     const auto voxels = static_cast<double>(blocks.size() * kBlockVoxels);
     if (static_cast<double>(DifferingVoxels(kernel, baseline::FuseBlocks, blocks)) > 1e-3 * voxels)
         return state.SkipWithError("not the portable code's voxels");

@@ -106,7 +106,8 @@ void CastViewScalar(benchmark::State& state) {
     for (auto _ : state)
         for (int v = 0; v < camera.height; ++v)
             for (int u = 0; u < camera.width; ++u) benchmark::DoNotOptimize(walker.Cast(u, v));
-    state.counters["per_pixel"] = bench::PerItem(state, static_cast<double>(camera.width * camera.height));
+    state.counters["per_pixel"] =
+        bench::PerItem(state, static_cast<double>(camera.width * camera.height));
 }
 BENCHMARK(CastViewScalar)->Unit(benchmark::kMillisecond)->Apply(bench::TakeMinimum);
 

@@ -1,7 +1,7 @@
-// What keeping the mesh up to date costs while a sequence is tracked and fused: after each frame a mesher with a budget
-// of blocks meshes what changed, on one thread. Milliseconds are that thread's CPU time, which others on the machine
-// disturb little. Usage: meshing SOURCE [FRAMES [BUDGET...]], budget 0: none. Lag: frames' budgets that the blocks
-// still waiting would take.
+// What keeping the mesh up to date costs while a sequence is tracked and fused: after each frame a
+// mesher with a budget of blocks meshes what changed, on one thread. Milliseconds are that thread's
+// CPU time, which others on the machine disturb little. Usage: meshing SOURCE [FRAMES [BUDGET...]],
+// budget 0: none. Lag: frames' budgets that the blocks still waiting would take.
 #include <fmt/format.h>
 #include <tbb/task_arena.h>
 #include <time.h>
@@ -34,7 +34,8 @@ double ThreadCpuMs() {
 
 double Quantile(std::vector<double> values, double share) {
     if (values.empty()) return 0;
-    const auto nth = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+    const auto nth = values.begin() +
+                     static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
     std::nth_element(values.begin(), nth, values.end());
     return *nth;
 }
@@ -43,8 +44,8 @@ void Print(const BudgetRun& run) {
     const bool none = run.budget_blocks == Mesher::kNoLimit;
     fmt::print("{:>8} {:>9.0f} {:>7.2f} {:>7.2f} {:>7.2f} {:>9.0f} {:>9.0f} {:>8.1f}\n",
                none ? "none" : fmt::format("{}", run.budget_blocks), Quantile(run.updated, 0.5),
-               Quantile(run.update_ms, 0.5), Quantile(run.update_ms, 0.95), Quantile(run.update_ms, 1),
-               Quantile(run.remaining, 0.5), Quantile(run.remaining, 1),
+               Quantile(run.update_ms, 0.5), Quantile(run.update_ms, 0.95),
+               Quantile(run.update_ms, 1), Quantile(run.remaining, 0.5), Quantile(run.remaining, 1),
                Quantile(run.remaining, 0.5) / run.budget_blocks);
 }
 
@@ -72,8 +73,8 @@ int Run(const std::string& source_path, std::int64_t frames, std::vector<BudgetR
         }
     }
     fmt::print("{} frames fused, {} blocks\n", runs[0].update_ms.size(), pipeline.map().size() - 1);
-    fmt::print("{:>8} {:>9} {:>7} {:>7} {:>7} {:>9} {:>9} {:>8}\n", "budget", "updated", "median", "p95", "max ms",
-               "waiting", "most", "lag");
+    fmt::print("{:>8} {:>9} {:>7} {:>7} {:>7} {:>9} {:>9} {:>8}\n", "budget", "updated", "median",
+               "p95", "max ms", "waiting", "most", "lag");
     for (const BudgetRun& run : runs) Print(run);
     return 0;
 }

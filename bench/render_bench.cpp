@@ -1,5 +1,5 @@
-// The predicted view of a box room with a ball, fused at 1 cm, 640 x 480: rasterised and ray cast, standing still and
-// after each fused frame.
+// The predicted view of a box room with a ball, fused at 1 cm, 640 x 480: rasterised and ray cast,
+// standing still and after each fused frame.
 #include "bench_room.h"
 #include "mapping/ray_caster.h"
 #include "render/mesh_rasteriser.h"
@@ -45,7 +45,8 @@ void Predict(benchmark::State& state, ViewPredictor& predictor, bool fusing) {
             T_world_camera = fusion.FuseNext();
             state.ResumeTiming();
         }
-        predictor.Predict(*fusion.map, FullCamera(), T_world_camera, kMinDepth_m, kMaxDepth_m, view);
+        predictor.Predict(*fusion.map, FullCamera(), T_world_camera, kMinDepth_m, kMaxDepth_m,
+                          view);
         if (!rasteriser) continue;
         const MeshRasteriser::Timings& parts = rasteriser->timings();
         sum.mesh_ms += parts.mesh_ms;
@@ -68,15 +69,27 @@ void Rasterise(benchmark::State& state) {
     if (!rasteriser.ok()) return state.SkipWithError(rasteriser.message().c_str());
     Predict(state, *rasteriser.value(), state.range(0) != 0);
 }
-BENCHMARK(Rasterise)->ArgName("fusing")->Arg(0)->Arg(1)
-    ->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime()->Apply(TakeMinimum);
+BENCHMARK(Rasterise)
+    ->ArgName("fusing")
+    ->Arg(0)
+    ->Arg(1)
+    ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime()
+    ->UseRealTime()
+    ->Apply(TakeMinimum);
 
 void RayCast(benchmark::State& state) {
     RayCaster caster;
     Predict(state, caster, state.range(0) != 0);
 }
-BENCHMARK(RayCast)->ArgName("fusing")->Arg(0)->Arg(1)
-    ->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime()->Apply(TakeMinimum);
+BENCHMARK(RayCast)
+    ->ArgName("fusing")
+    ->Arg(0)
+    ->Arg(1)
+    ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime()
+    ->UseRealTime()
+    ->Apply(TakeMinimum);
 
 }  // namespace
 }  // namespace tessera::bench

@@ -72,7 +72,8 @@ void SumPoints(benchmark::State& state, SumKernel kernel, bool use_intensity) {
         sums = {};
         kernel(a, 0, points.count(), sums.value);
     }
-    for (const int sum : {SumLayout::kDistanceError, SumLayout::kIntensityError, SumLayout::kHessian})
+    for (const int sum :
+         {SumLayout::kDistanceError, SumLayout::kIntensityError, SumLayout::kHessian})
         if (!(std::abs(sums[sum] - expected[sum]) <= 1e-3 * std::abs(expected[sum])))
             return state.SkipWithError("not the portable code's sums");
     const auto valid = static_cast<double>(points.valid());
@@ -86,8 +87,10 @@ void SumArguments(benchmark::internal::Benchmark* b) {
 }
 BENCHMARK_CAPTURE(SumPoints, scalar_geometric, SumSdfPointsScalar, false)->Apply(SumArguments);
 BENCHMARK_CAPTURE(SumPoints, scalar_photometric, SumSdfPointsScalar, true)->Apply(SumArguments);
-BENCHMARK_CAPTURE(SumPoints, baseline_geometric, baseline::SumSdfPoints, false)->Apply(SumArguments);
-BENCHMARK_CAPTURE(SumPoints, baseline_photometric, baseline::SumSdfPoints, true)->Apply(SumArguments);
+BENCHMARK_CAPTURE(SumPoints, baseline_geometric, baseline::SumSdfPoints, false)
+    ->Apply(SumArguments);
+BENCHMARK_CAPTURE(SumPoints, baseline_photometric, baseline::SumSdfPoints, true)
+    ->Apply(SumArguments);
 #ifdef TESSERA_HAVE_AVX2
 void SumPointsAvx2(benchmark::State& state, bool use_intensity) {
     if (!CpuHasAvx2()) return state.SkipWithError("no AVX2");

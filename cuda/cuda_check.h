@@ -13,4 +13,5 @@ inline void CudaCheck(cudaError_t error, const char* file, int line, const char*
 
 }  // namespace tessera::TESSERA_DEVICE
 
-#define TESSERA_CUDA_CHECK(expression) ::tessera::TESSERA_DEVICE::CudaCheck((expression), __FILE__, __LINE__, #expression)
+#define TESSERA_CUDA_CHECK(expression) \
+    ::tessera::TESSERA_DEVICE::CudaCheck((expression), __FILE__, __LINE__, #expression)

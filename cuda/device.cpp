@@ -34,7 +34,8 @@ std::byte* Stream::Stage(std::size_t bytes) {
 }
 
 void Stream::Upload(void* device, const void* host, std::size_t bytes) {
-    constexpr std::size_t kPiece = std::size_t{1} << 24;  // so that a whole map needs no pinned memory of its size
+    // So that a whole map needs no pinned memory of its size.
+    constexpr std::size_t kPiece = std::size_t{1} << 24;
     for (std::size_t at = 0; at < bytes; at += kPiece) {
         const std::size_t piece = std::min(kPiece, bytes - at);
         std::byte* staged = Stage(piece);
@@ -52,7 +53,8 @@ void Stream::Download(void* host, const void* device, std::size_t bytes) {
 
 void Stream::Wait() {
     backend::Synchronise(handle_);
-    for (const Arrival& arrival : arrivals_) std::memcpy(arrival.host, arrival.staged, arrival.bytes);
+    for (const Arrival& arrival : arrivals_)
+        std::memcpy(arrival.host, arrival.staged, arrival.bytes);
     arrivals_.clear();
     staged_ = 0;
 }
@@ -70,26 +72,30 @@ void DeviceMemory::Free(void* memory, std::size_t bytes) {
 }
 
 bool DeviceSorter::ReserveSelection(Stream& stream, int count) {
-    const std::size_t bytes = backend::SelectIndices(nullptr, count, nullptr, nullptr, nullptr, 0, stream.handle());
+    const std::size_t bytes =
+        backend::SelectIndices(nullptr, count, nullptr, nullptr, nullptr, 0, stream.handle());
     return scratch_.ReserveScratch(stream, bytes);
 }
 
-bool DeviceSorter::SortKeys(Stream& stream, const std::uint64_t* keys, std::uint64_t* sorted, int count) {
+bool DeviceSorter::SortKeys(Stream& stream, const std::uint64_t* keys, std::uint64_t* sorted,
+                            int count) {
     const std::size_t bytes = backend::SortKeys(keys, sorted, count, nullptr, 0, stream.handle());
     if (!scratch_.ReserveScratch(stream, bytes)) return false;
     backend::SortKeys(keys, sorted, count, scratch_.data(), bytes, stream.handle());
     return true;
 }
 
-bool DeviceSorter::SelectIndices(Stream& stream, const std::uint8_t* keep, int count, std::int32_t* indices,
-                                 std::int32_t* selected) {
-    const std::size_t bytes = backend::SelectIndices(keep, count, indices, selected, nullptr, 0, stream.handle());
+bool DeviceSorter::SelectIndices(Stream& stream, const std::uint8_t* keep, int count,
+                                 std::int32_t* indices, std::int32_t* selected) {
+    const std::size_t bytes =
+        backend::SelectIndices(keep, count, indices, selected, nullptr, 0, stream.handle());
     if (!scratch_.ReserveScratch(stream, bytes)) return false;
     backend::SelectIndices(keep, count, indices, selected, scratch_.data(), bytes, stream.handle());
     return true;
 }
 
-bool DeviceSorter::SumBefore(Stream& stream, const std::int32_t* counts, int count, std::int32_t* sums) {
+bool DeviceSorter::SumBefore(Stream& stream, const std::int32_t* counts, int count,
+                             std::int32_t* sums) {
     const std::size_t bytes = backend::SumBefore(counts, count, sums, nullptr, 0, stream.handle());
     if (!scratch_.ReserveScratch(stream, bytes)) return false;
     backend::SumBefore(counts, count, sums, scratch_.data(), bytes, stream.handle());

@@ -1,6 +1,6 @@
-// What the map and the pipeline need of a device: its memory, a stream of commands, sorting, selecting and running sums.
-// Loops over items are in device_loops.h. No CUDA type is in here: whoever is compiled by g++ includes it, too. Owner thread
-// only.
+// What the map and the pipeline need of a device: its memory, a stream of commands, sorting,
+// selecting and running sums. Loops over items are in device_loops.h. No CUDA type is in here:
+// whoever is compiled by g++ includes it, too. Owner thread only.
 #pragma once
 
 #include <algorithm>
@@ -14,8 +14,9 @@
 
 namespace tessera::TESSERA_DEVICE {
 
-// Commands in order. Copies from and to the computer go through pinned memory of the stream's own, so that they run beside
-// other work: what Upload was given may be overwritten at once, what Download is to fill is filled by the next Wait.
+// Commands in order. Copies from and to the computer go through pinned memory of the stream's own,
+// so that they run beside other work: what Upload was given may be overwritten at once, what
+// Download is to fill is filled by the next Wait.
 class Stream {
   public:
     Stream() : handle_(backend::MakeStream()) {}
@@ -25,8 +26,12 @@ class Stream {
 
     void Upload(void* device, const void* host, std::size_t bytes);
     void Download(void* host, const void* device, std::size_t bytes);
-    void Copy(void* to, const void* from, std::size_t bytes) { backend::Copy(to, from, bytes, handle_); }  // on the device
-    void Fill(void* device, unsigned char value, std::size_t bytes) { backend::Fill(device, value, bytes, handle_); }
+    void Copy(void* to, const void* from, std::size_t bytes) {
+        backend::Copy(to, from, bytes, handle_);
+    }  // on the device
+    void Fill(void* device, unsigned char value, std::size_t bytes) {
+        backend::Fill(device, value, bytes, handle_);
+    }
     // Until all that was asked for is done.
     void Wait();
 
@@ -53,7 +58,9 @@ class DeviceMemory {
     DeviceMemory(const DeviceMemory&) = delete;
     DeviceMemory& operator=(const DeviceMemory&) = delete;
 
-    bool HasRoom(std::size_t bytes) const { return bytes <= limit_bytes_ - std::min(used_bytes_, limit_bytes_); }
+    bool HasRoom(std::size_t bytes) const {
+        return bytes <= limit_bytes_ - std::min(used_bytes_, limit_bytes_);
+    }
     // Null: beyond the limit, or the device has no more.
     void* Allocate(std::size_t bytes);
     void Free(void* memory, std::size_t bytes);
@@ -75,8 +82,9 @@ class DeviceBuffer {
     DeviceBuffer(const DeviceBuffer&) = delete;
     DeviceBuffer& operator=(const DeviceBuffer&) = delete;
 
-    // Room for at least `count` elements; the first `keep` of those that were there stay, the rest is unspecified. Nothing is
-    // taken where there is room. False: no room on the device; all is as it was.
+    // Room for at least `count` elements; the first `keep` of those that were there stay, the rest
+    // is unspecified. Nothing is taken where there is room. False: no room on the device; all is as
+    // it was.
     [[nodiscard]] bool Reserve(Stream& stream, std::size_t count, std::size_t keep) {
         if (count <= capacity_) return true;
         auto* grown = static_cast<T*>(memory_.Allocate(count * sizeof(T)));
@@ -88,9 +96,11 @@ class DeviceBuffer {
         capacity_ = count;
         return true;
     }
-    // The same for contents of passing use: half as much again is taken, so that it soon no longer grows.
+    // The same for contents of passing use: half as much again is taken, so that it soon no longer
+    // grows.
     [[nodiscard]] bool ReserveScratch(Stream& stream, std::size_t count) {
-        return count <= capacity_ || Reserve(stream, count + count / 2, 0) || Reserve(stream, count, 0);
+        return count <= capacity_ || Reserve(stream, count + count / 2, 0) ||
+               Reserve(stream, count, 0);
     }
 
     T* data() { return data_; }
@@ -115,12 +125,14 @@ class DeviceSorter {
     explicit DeviceSorter(DeviceMemory& memory) : scratch_(memory) {}
     // Room to select among that many; SelectIndices then does not fail.
     [[nodiscard]] bool ReserveSelection(Stream& stream, int count);
-    [[nodiscard]] bool SortKeys(Stream& stream, const std::uint64_t* keys, std::uint64_t* sorted, int count);
+    [[nodiscard]] bool SortKeys(Stream& stream, const std::uint64_t* keys, std::uint64_t* sorted,
+                                int count);
     // Writes the indices i with keep[i] != 0 in increasing order, and how many there are.
-    [[nodiscard]] bool SelectIndices(Stream& stream, const std::uint8_t* keep, int count, std::int32_t* indices,
-                                     std::int32_t* selected);
+    [[nodiscard]] bool SelectIndices(Stream& stream, const std::uint8_t* keep, int count,
+                                     std::int32_t* indices, std::int32_t* selected);
     // sums[i] = counts[0] + ... + counts[i - 1], for i < count.
-    [[nodiscard]] bool SumBefore(Stream& stream, const std::int32_t* counts, int count, std::int32_t* sums);
+    [[nodiscard]] bool SumBefore(Stream& stream, const std::int32_t* counts, int count,
+                                 std::int32_t* sums);
 
   private:
     DeviceBuffer<std::byte> scratch_;

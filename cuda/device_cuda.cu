@@ -1,5 +1,5 @@
-// The device that is a GPU. An error here is a bug, or a GPU that broke or was taken away: there is no going on, and the
-// message says what the driver said.
+// The device that is a GPU. An error here is a bug, or a GPU that broke or was taken away: there is
+// no going on, and the message says what the driver said.
 #include <cuda_runtime.h>
 #include <thrust/iterator/counting_iterator.h>
 
@@ -36,36 +36,43 @@ void* MakeStream() {
     return stream;
 }
 
-void DestroyStream(void* stream) { TESSERA_CUDA_CHECK(cudaStreamDestroy(static_cast<cudaStream_t>(stream))); }
+void DestroyStream(void* stream) {
+    TESSERA_CUDA_CHECK(cudaStreamDestroy(static_cast<cudaStream_t>(stream)));
+}
 
-void Synchronise(void* stream) { TESSERA_CUDA_CHECK(cudaStreamSynchronize(static_cast<cudaStream_t>(stream))); }
+void Synchronise(void* stream) {
+    TESSERA_CUDA_CHECK(cudaStreamSynchronize(static_cast<cudaStream_t>(stream)));
+}
 
 void Copy(void* to, const void* from, std::size_t bytes, void* stream) {
-    TESSERA_CUDA_CHECK(cudaMemcpyAsync(to, from, bytes, cudaMemcpyDefault, static_cast<cudaStream_t>(stream)));
+    TESSERA_CUDA_CHECK(
+        cudaMemcpyAsync(to, from, bytes, cudaMemcpyDefault, static_cast<cudaStream_t>(stream)));
 }
 
 void Fill(void* memory, unsigned char value, std::size_t bytes, void* stream) {
     TESSERA_CUDA_CHECK(cudaMemsetAsync(memory, value, bytes, static_cast<cudaStream_t>(stream)));
 }
 
-std::size_t SortKeys(const std::uint64_t* keys, std::uint64_t* sorted, int count, void* scratch, std::size_t scratch_bytes,
-                     void* stream) {
-    TESSERA_CUDA_CHECK(cub::DeviceRadixSort::SortKeys(scratch, scratch_bytes, keys, sorted, count, 0, 64,
-                                                      static_cast<cudaStream_t>(stream)));
+std::size_t SortKeys(const std::uint64_t* keys, std::uint64_t* sorted, int count, void* scratch,
+                     std::size_t scratch_bytes, void* stream) {
+    TESSERA_CUDA_CHECK(cub::DeviceRadixSort::SortKeys(scratch, scratch_bytes, keys, sorted, count,
+                                                      0, 64, static_cast<cudaStream_t>(stream)));
     return scratch_bytes;
 }
 
-std::size_t SelectIndices(const std::uint8_t* keep, int count, std::int32_t* indices, std::int32_t* selected, void* scratch,
-                          std::size_t scratch_bytes, void* stream) {
-    TESSERA_CUDA_CHECK(cub::DeviceSelect::Flagged(scratch, scratch_bytes, thrust::counting_iterator<std::int32_t>(0), keep,
-                                                  indices, selected, count, static_cast<cudaStream_t>(stream)));
+std::size_t SelectIndices(const std::uint8_t* keep, int count, std::int32_t* indices,
+                          std::int32_t* selected, void* scratch, std::size_t scratch_bytes,
+                          void* stream) {
+    TESSERA_CUDA_CHECK(cub::DeviceSelect::Flagged(
+        scratch, scratch_bytes, thrust::counting_iterator<std::int32_t>(0), keep, indices, selected,
+        count, static_cast<cudaStream_t>(stream)));
     return scratch_bytes;
 }
 
-std::size_t SumBefore(const std::int32_t* counts, int count, std::int32_t* sums, void* scratch, std::size_t scratch_bytes,
-                      void* stream) {
-    TESSERA_CUDA_CHECK(
-        cub::DeviceScan::ExclusiveSum(scratch, scratch_bytes, counts, sums, count, static_cast<cudaStream_t>(stream)));
+std::size_t SumBefore(const std::int32_t* counts, int count, std::int32_t* sums, void* scratch,
+                      std::size_t scratch_bytes, void* stream) {
+    TESSERA_CUDA_CHECK(cub::DeviceScan::ExclusiveSum(scratch, scratch_bytes, counts, sums, count,
+                                                     static_cast<cudaStream_t>(stream)));
     return scratch_bytes;
 }
 

@@ -24,7 +24,8 @@ DeviceFrame::DeviceFrame(DeviceMemory& memory, Stream& stream)
 bool DeviceFrame::Reserve(std::size_t pixels, bool colour) {
     identity_ = 0;  // what grows loses its content
     return depth_m_.ReserveScratch(stream_, pixels) && tiles_.ReserveScratch(stream_, pixels) &&
-           (!colour || (intensity_.ReserveScratch(stream_, pixels) && packed_colour_.ReserveScratch(stream_, pixels)));
+           (!colour || (intensity_.ReserveScratch(stream_, pixels) &&
+                        packed_colour_.ReserveScratch(stream_, pixels)));
 }
 
 bool DeviceFrame::Upload(const PreparedFrame& frame) {
@@ -34,7 +35,8 @@ bool DeviceFrame::Upload(const PreparedFrame& frame) {
     stream_.Upload(depth_m_.data(), frame.depth_m.data(), pixels * sizeof(float));
     if (frame.has_colour) {
         stream_.Upload(intensity_.data(), frame.intensity.data(), pixels * sizeof(float));
-        stream_.Upload(packed_colour_.data(), frame.packed_colour.data(), pixels * sizeof(std::uint32_t));
+        stream_.Upload(packed_colour_.data(), frame.packed_colour.data(),
+                       pixels * sizeof(std::uint32_t));
     }
     identity_ = frame.identity;
     return true;
@@ -54,7 +56,8 @@ void DeviceFrame::Gate(const Frame& frame, const PreparedFrame::Config& config) 
     Fill(stream_, nearest_m, kParts, FrameCounts().nearest_m);
     Fill(stream_, farthest_m, kParts, FrameCounts().farthest_m);
     GatePixels(stream_,
-               {raw_depth_m_.data(), frame.depth_m.width(), frame.depth_m.height(), static_cast<float>(config.disparity_offset_per_m),
+               {raw_depth_m_.data(), frame.depth_m.width(), frame.depth_m.height(),
+                static_cast<float>(config.disparity_offset_per_m),
                 static_cast<float>(config.min_depth_m), static_cast<float>(config.max_depth_m)},
                {depth_m_.data(), nearest_m, farthest_m, sum_tiles_.data(), sums_.data()});
 }
@@ -79,7 +82,8 @@ void DeviceFrame::Reduce(PreparedFrame& p) {
         auto& [intensity, depth_m] = p.reduced[level];
         const std::size_t pixels = depth_m.size();
         ReduceImages(stream_,
-                     {depth_m_.data(), p.has_colour ? intensity_.data() : nullptr, p.width, ReductionOf(p.width, p.height, level)},
+                     {depth_m_.data(), p.has_colour ? intensity_.data() : nullptr, p.width,
+                      ReductionOf(p.width, p.height, level)},
                      depth_m.width(), depth_m.height(), at, at + pixels);
         stream_.Download(intensity.data(), at, pixels * sizeof(float));
         stream_.Download(depth_m.data(), at + pixels, pixels * sizeof(float));
@@ -87,7 +91,8 @@ void DeviceFrame::Reduce(PreparedFrame& p) {
     }
 }
 
-bool DeviceFrame::Prepare(const Frame& frame, const PreparedFrame::Config& config, bool bring, PreparedFrame& p) {
+bool DeviceFrame::Prepare(const Frame& frame, const PreparedFrame::Config& config, bool bring,
+                          PreparedFrame& p) {
     constexpr int kParts = GatedPixels::kParts;
     const std::size_t pixels = frame.depth_m.size();
     const bool colour = !frame.colour.empty();
@@ -103,10 +108,12 @@ bool DeviceFrame::Prepare(const Frame& frame, const PreparedFrame::Config& confi
         }
     }
     if (!Reserve(pixels, colour) || !raw_depth_m_.ReserveScratch(stream_, pixels) ||
-        !reduced_.ReserveScratch(stream_, reduced_pixels) || !extremes_.Reserve(stream_, 2 * kParts, 0) ||
+        !reduced_.ReserveScratch(stream_, reduced_pixels) ||
+        !extremes_.Reserve(stream_, 2 * kParts, 0) ||
         !sum_tiles_.ReserveScratch(stream_, GateRoom(static_cast<int>(pixels))) ||
         !sums_.Reserve(stream_, GatedPixels::kCounts, 0) ||
-        (colour && (!colour_.ReserveScratch(stream_, pixels) || !rough_.ReserveScratch(stream_, pixels))))
+        (colour &&
+         (!colour_.ReserveScratch(stream_, pixels) || !rough_.ReserveScratch(stream_, pixels))))
         return false;
     Gate(frame, config);
     if (colour) SplitColour(frame.colour, config.intensity_blur_px);
@@ -132,7 +139,8 @@ bool DeviceFrame::Prepare(const Frame& frame, const PreparedFrame::Config& confi
 }
 
 void DeviceFrame::Bring(bool bring, PreparedFrame& p) {
-    const std::size_t pixels = static_cast<std::size_t>(p.width) * static_cast<std::size_t>(p.height);
+    const std::size_t pixels =
+        static_cast<std::size_t>(p.width) * static_cast<std::size_t>(p.height);
     const auto take = [&](auto& image, const auto& buffer, bool wanted) {
         image.Resize(wanted ? p.width : 0, wanted ? p.height : 0);
         if (wanted) stream_.Download(image.data(), buffer.data(), pixels * sizeof *image.data());

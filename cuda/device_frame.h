@@ -1,4 +1,5 @@
-// A frame's images on the device: made there of what the camera gave, or copied from what PrepareFrame made.
+// A frame's images on the device: made there of what the camera gave, or copied from what
+// PrepareFrame made.
 #pragma once
 
 #include "cuda/device.h"
@@ -11,9 +12,10 @@ class DeviceFrame {
   public:
     DeviceFrame(DeviceMemory& memory, Stream& stream);
 
-    // As PrepareFrame, byte for byte, but of the images only the reduced ones come back, and the others if `bring`.
-    // False: no room, and `prepared` is unspecified.
-    [[nodiscard]] bool Prepare(const Frame& frame, const PreparedFrame::Config& config, bool bring, PreparedFrame& prepared);
+    // As PrepareFrame, byte for byte, but of the images only the reduced ones come back, and the
+    // others if `bring`. False: no room, and `prepared` is unspecified.
+    [[nodiscard]] bool Prepare(const Frame& frame, const PreparedFrame::Config& config, bool bring,
+                               PreparedFrame& prepared);
     // Copies what is not here yet. False: no room, or the images are nowhere any more.
     [[nodiscard]] bool Upload(const PreparedFrame& frame);
 

@@ -18,7 +18,8 @@ struct WidenTile {
     TESSERA_HD_MEMBER void operator()(int i) const {
         const std::int32_t tile_x = i % tiles_per_row, y = i / tiles_per_row;
         const float* row = depth_m + static_cast<std::int64_t>(y) * width;
-        AtomicMax(tiles + y / kDepthTilePx * tiles_per_row + tile_x, FarthestOfTileRow(row, width, tile_x));
+        AtomicMax(tiles + y / kDepthTilePx * tiles_per_row + tile_x,
+                  FarthestOfTileRow(row, width, tile_x));
     }
 };
 
@@ -29,7 +30,8 @@ struct FuseVoxel {
 
     TESSERA_HD_MEMBER void operator()(int i) const {
         using Kernels = FusionKernels<ScalarLanes>;
-        const int x = i % kBlockSide, y = i / kBlockSide % kBlockSide, z = i / (kBlockSide * kBlockSide) % kBlockSide;
+        const int x = i % kBlockSide, y = i / kBlockSide % kBlockSide,
+                  z = i / (kBlockSide * kBlockSide) % kBlockSide;
         const std::int32_t block = blocks[i / kBlockVoxels];
         Kernels::FuseVoxels(arguments, Kernels::RowOf(arguments, block, y, z), x);
     }
@@ -46,14 +48,17 @@ struct MarkRevision {
 
 }  // namespace fusion_bodies
 
-void BuildDepthTiles(Stream& stream, const float* depth_m, std::int32_t width, std::int32_t height, float* tiles) {
-    const std::int32_t columns = (width + kDepthTilePx - 1) / kDepthTilePx, rows = (height + kDepthTilePx - 1) / kDepthTilePx;
-    stream.Fill(tiles, 0, static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows) * sizeof(float));
+void BuildDepthTiles(Stream& stream, const float* depth_m, std::int32_t width, std::int32_t height,
+                     float* tiles) {
+    const std::int32_t columns = (width + kDepthTilePx - 1) / kDepthTilePx,
+                       rows = (height + kDepthTilePx - 1) / kDepthTilePx;
+    stream.Fill(tiles, 0,
+                static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows) * sizeof(float));
     ForEach(stream, columns * height, fusion_bodies::WidenTile{depth_m, width, columns, tiles});
 }
 
-void FuseBlocks(Stream& stream, const FusionArguments& arguments, const std::int32_t* blocks, std::int32_t count,
-                std::uint32_t* revisions, std::uint32_t revision) {
+void FuseBlocks(Stream& stream, const FusionArguments& arguments, const std::int32_t* blocks,
+                std::int32_t count, std::uint32_t* revisions, std::uint32_t revision) {
     ForEach(stream, count * kBlockVoxels, fusion_bodies::FuseVoxel{arguments, blocks});
     ForEach(stream, count, fusion_bodies::MarkRevision{blocks, revisions, revision});
 }

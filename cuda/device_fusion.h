@@ -7,11 +7,12 @@
 namespace tessera::TESSERA_DEVICE {
 
 // The farthest depth of every tile (visibility_kernels.h) of an image on the device.
-void BuildDepthTiles(Stream& stream, const float* depth_m, std::int32_t width, std::int32_t height, float* tiles);
+void BuildDepthTiles(Stream& stream, const float* depth_m, std::int32_t width, std::int32_t height,
+                     float* tiles);
 
-// Updates `count` blocks listed at `blocks`, and gives them a revision. All arrays, those of the arguments too, are on the
-// device.
-void FuseBlocks(Stream& stream, const FusionArguments& arguments, const std::int32_t* blocks, std::int32_t count,
-                std::uint32_t* revisions, std::uint32_t revision);
+// Updates `count` blocks listed at `blocks`, and gives them a revision. All arrays, those of the
+// arguments too, are on the device.
+void FuseBlocks(Stream& stream, const FusionArguments& arguments, const std::int32_t* blocks,
+                std::int32_t count, std::uint32_t* revisions, std::uint32_t revision);
 
 }  // namespace tessera::TESSERA_DEVICE

@@ -1,7 +1,9 @@
-// The device that is none: it makes the map and the pipeline testable where there is no GPU. As far as can be seen from outside
-// it is as unpleasant as a GPU: commands are done as late as possible, loops run in several threads and backwards, and new memory
-// is full of what is neither a number nor an index. So a result that nobody waited for is missing, and what depends on an order
-// of threads or on memory that nobody filled differs from the processor's; ThreadSanitizer finds the races.
+// The device that is none: it makes the map and the pipeline testable where there is no GPU. As far
+// as can be seen from outside it is as unpleasant as a GPU: commands are done as late as possible,
+// loops run in several threads and backwards, and new memory is full of what is neither a number
+// nor an index. So a result that nobody waited for is missing, and what depends on an order of
+// threads or on memory that nobody filled differs from the processor's; ThreadSanitizer finds the
+// races.
 #include "cuda/device_host.h"
 
 #include <algorithm>
@@ -24,7 +26,9 @@ std::vector<void*> streams;
 
 }  // namespace
 
-void Enqueue(void* stream, std::function<void()> command) { static_cast<Commands*>(stream)->push_back(std::move(command)); }
+void Enqueue(void* stream, std::function<void()> command) {
+    static_cast<Commands*>(stream)->push_back(std::move(command));
+}
 
 void InAnyOrder(int count, const std::function<void(int)>& piece) {
     constexpr int kThreads = 3;
@@ -77,13 +81,16 @@ void Fill(void* memory, unsigned char value, std::size_t bytes, void* stream) {
     Enqueue(stream, [=] { std::memset(memory, value, bytes); });
 }
 
-std::size_t SortKeys(const std::uint64_t* keys, std::uint64_t* sorted, int count, void* scratch, std::size_t, void* stream) {
-    if (scratch != nullptr) Enqueue(stream, [=] { std::partial_sort_copy(keys, keys + count, sorted, sorted + count); });
+std::size_t SortKeys(const std::uint64_t* keys, std::uint64_t* sorted, int count, void* scratch,
+                     std::size_t, void* stream) {
+    if (scratch != nullptr)
+        Enqueue(stream,
+                [=] { std::partial_sort_copy(keys, keys + count, sorted, sorted + count); });
     return 1;
 }
 
-std::size_t SelectIndices(const std::uint8_t* keep, int count, std::int32_t* indices, std::int32_t* selected, void* scratch,
-                          std::size_t, void* stream) {
+std::size_t SelectIndices(const std::uint8_t* keep, int count, std::int32_t* indices,
+                          std::int32_t* selected, void* scratch, std::size_t, void* stream) {
     if (scratch == nullptr) return 1;
     Enqueue(stream, [=] {
         *selected = 0;
@@ -93,8 +100,11 @@ std::size_t SelectIndices(const std::uint8_t* keep, int count, std::int32_t* ind
     return 1;
 }
 
-std::size_t SumBefore(const std::int32_t* counts, int count, std::int32_t* sums, void* scratch, std::size_t, void* stream) {
-    if (scratch != nullptr) Enqueue(stream, [=] { std::exclusive_scan(counts, counts + count, sums, std::int32_t{0}); });
+std::size_t SumBefore(const std::int32_t* counts, int count, std::int32_t* sums, void* scratch,
+                      std::size_t, void* stream) {
+    if (scratch != nullptr)
+        Enqueue(stream,
+                [=] { std::exclusive_scan(counts, counts + count, sums, std::int32_t{0}); });
     return 1;
 }
 

@@ -61,14 +61,16 @@ void DeviceIcp::SetModel(const std::vector<IcpModelLevel>& levels) {
     }
 }
 
-std::int64_t DeviceIcp::SetPoints(const PreparedFrame& frame, const PointArguments& points, int level) {
+std::int64_t DeviceIcp::SetPoints(const PreparedFrame& frame, const PointArguments& points,
+                                  int level) {
     level_ = static_cast<std::size_t>(level);
     has_intensities_ = false;
     points_.Clear();
     Stream& stream = device_.stream_;
     const int count = points.width * points.height;
     if (!residuals_.ReserveScratch(stream, 2 * kPointResiduals * static_cast<std::size_t>(count)) ||
-        !sum_tiles_.ReserveScratch(stream, TilesOfPoints(count)) || !sums_.Reserve(stream, SumLayout::kCount, 0))
+        !sum_tiles_.ReserveScratch(stream, TilesOfPoints(count)) ||
+        !sums_.Reserve(stream, SumLayout::kCount, 0))
         return 0;
     return device_.MakePoints(frame, points, points_);
 }
@@ -104,9 +106,7 @@ PoseSums DeviceIcp::Sum(const IcpArguments& arguments) {
     return sums;
 }
 
-void DeviceIcp::KeepResiduals() {
-    kept_ = 1 - kept_;
-}
+void DeviceIcp::KeepResiduals() { kept_ = 1 - kept_; }
 
 ResidualSums DeviceIcp::SumResiduals(const ResidualArguments& arguments) {
     return device_.SumResidualsOf(arguments, points_, Residuals(kept_, 0));

@@ -20,7 +20,8 @@ class DeviceIcp : public IcpSums {
                  const Eigen::Isometry3d& T_world_camera, float min_depth_m, float max_depth_m,
                  int levels, float jump_m) override;
     void SetModel(const std::vector<IcpModelLevel>& levels) override;
-    std::int64_t SetPoints(const PreparedFrame& frame, const PointArguments& points, int level) override;
+    std::int64_t SetPoints(const PreparedFrame& frame, const PointArguments& points,
+                           int level) override;
     PoseSums Sum(const IcpArguments& arguments) override;
     void KeepResiduals() override;
     ResidualSums SumResiduals(const ResidualArguments& arguments) override;
@@ -40,7 +41,9 @@ class DeviceIcp : public IcpSums {
         float *depth_m, *normal, *intensity;
     };
     Images ImagesOf(int level);
-    float* Residuals(int set, int kind) { return residuals_.data() + (kPointResiduals * set + kind) * points_.count(); }
+    float* Residuals(int set, int kind) {
+        return residuals_.data() + (kPointResiduals * set + kind) * points_.count();
+    }
 
     DevicePipeline& device_;
     std::vector<ModelImages> model_;  // per level; empty where there is no room

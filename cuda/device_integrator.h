@@ -14,7 +14,8 @@ class DeviceIntegrator : public Integrator {
     std::string limit() const override;
 
   protected:
-    void Allocate(const PreparedFrame& frame, const View& view, BlockMap& map, Report& report) override;
+    void Allocate(const PreparedFrame& frame, const View& view, BlockMap& map,
+                  Report& report) override;
     void Fuse(const PreparedFrame& frame, const View& view, BlockMap& map, Report& report) override;
 
   private:

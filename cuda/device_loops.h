@@ -1,5 +1,5 @@
-// Loops over items and sums over them, for bodies that are plain structs with TESSERA_HD_MEMBER operator(). Included only by
-// sources that nvcc compiles for a GPU and g++ for the host device.
+// Loops over items and sums over them, for bodies that are plain structs with TESSERA_HD_MEMBER
+// operator(). Included only by sources that nvcc compiles for a GPU and g++ for the host device.
 #pragma once
 
 #include <atomic>
@@ -21,7 +21,8 @@ inline int TileCount(int items) { return (items + kTileItems - 1) / kTileItems; 
 inline int RunCount(int items) { return (items + kRunItems - 1) / kRunItems; }
 // Doubles that SumTiles needs on its way.
 inline std::size_t TileRoom(int items, int sums) {
-    return static_cast<std::size_t>(TileCount(items) + RunCount(items)) * static_cast<std::size_t>(sums);
+    return static_cast<std::size_t>(TileCount(items) + RunCount(items)) *
+           static_cast<std::size_t>(sums);
 }
 
 #ifdef __CUDACC__
@@ -37,9 +38,11 @@ __global__ void ForEach(int count, Body body) {
 // A warp for each tile. Lane i adds what kTileSteps items have, then takes part in the tree.
 inline constexpr int kTilesPerBlock = 4;
 template <int kSums, class Body>
-__global__ void __launch_bounds__(kTileLanes * kTilesPerBlock) SumTile(int count, Body body, double* tiles) {
+__global__ void __launch_bounds__(kTileLanes* kTilesPerBlock)
+    SumTile(int count, Body body, double* tiles) {
     const int lane = static_cast<int>(threadIdx.x) % kTileLanes;
-    const int tile = static_cast<int>(blockIdx.x) * kTilesPerBlock + static_cast<int>(threadIdx.x) / kTileLanes;
+    const int tile =
+        static_cast<int>(blockIdx.x) * kTilesPerBlock + static_cast<int>(threadIdx.x) / kTileLanes;
     if (tile * kTileItems >= count) return;  // the whole warp
     float sums[kSums] = {};
     for (int step = 0; step < kTileSteps; ++step) {
@@ -50,7 +53,8 @@ __global__ void __launch_bounds__(kTileLanes * kTilesPerBlock) SumTile(int count
     for (int k = 0; k < kSums; ++k) {
         float sum = sums[k];
 #pragma unroll
-        for (int half = kTileLanes / 2; half > 0; half /= 2) sum += __shfl_down_sync(0xffffffffu, sum, half);
+        for (int half = kTileLanes / 2; half > 0; half /= 2)
+            sum += __shfl_down_sync(0xffffffffu, sum, half);
         if (lane == 0) tiles[tile * kSums + k] = sum;
     }
 }
@@ -58,11 +62,13 @@ __global__ void __launch_bounds__(kTileLanes * kTilesPerBlock) SumTile(int count
 // One block: a thread for each sum of a run, then one for each sum. Runs go behind the tiles.
 inline constexpr int kAddThreads = 1024;
 template <int kSums>
-__global__ void __launch_bounds__(kAddThreads) AddRuns(int tile_count, int run_count, double* tiles, double* sums) {
+__global__ void __launch_bounds__(kAddThreads)
+    AddRuns(int tile_count, int run_count, double* tiles, double* sums) {
     double* runs = tiles + tile_count * kSums;
     for (int i = static_cast<int>(threadIdx.x); i < run_count * kSums; i += kAddThreads) {
         const int run = i / kSums, k = i % kSums;
-        const int first = run * kRunTiles, last = first + kRunTiles < tile_count ? first + kRunTiles : tile_count;
+        const int first = run * kRunTiles,
+                  last = first + kRunTiles < tile_count ? first + kRunTiles : tile_count;
         double sum = 0;
         for (int tile = first; tile < last; ++tile) sum += tiles[tile * kSums + k];
         runs[i] = sum;
@@ -82,18 +88,24 @@ template <class Body>
 void ForEach(Stream& stream, int count, const Body& body) {
     constexpr int kThreads = 128;
     if (count <= 0) return;
-    loops::ForEach<<<(count + kThreads - 1) / kThreads, kThreads, 0, static_cast<cudaStream_t>(stream.handle())>>>(count, body);
+    loops::ForEach<<<(count + kThreads - 1) / kThreads, kThreads, 0,
+                     static_cast<cudaStream_t>(stream.handle())>>>(count, body);
     TESSERA_CUDA_CHECK(cudaGetLastError());
 }
 
-// body(i, sums) adds what item i has to sums[0] to sums[kSums - 1], in the order of core/tile_sums.h. Both on the device: `tiles`
-// has room for TileRoom(count, kSums), `sums` for kSums.
+// body(i, sums) adds what item i has to sums[0] to sums[kSums - 1], in the order of
+// core/tile_sums.h. Both on the device: `tiles` has room for TileRoom(count, kSums), `sums` for
+// kSums.
 template <int kSums, class Body>
 void SumTiles(Stream& stream, int count, const Body& body, double* tiles, double* sums) {
     const auto handle = static_cast<cudaStream_t>(stream.handle());
-    const int tile_count = TileCount(count), blocks = (tile_count + loops::kTilesPerBlock - 1) / loops::kTilesPerBlock;
-    if (blocks > 0) loops::SumTile<kSums><<<blocks, kTileLanes * loops::kTilesPerBlock, 0, handle>>>(count, body, tiles);
-    loops::AddRuns<kSums><<<1, loops::kAddThreads, 0, handle>>>(tile_count, RunCount(count), tiles, sums);
+    const int tile_count = TileCount(count),
+              blocks = (tile_count + loops::kTilesPerBlock - 1) / loops::kTilesPerBlock;
+    if (blocks > 0)
+        loops::SumTile<kSums>
+            <<<blocks, kTileLanes * loops::kTilesPerBlock, 0, handle>>>(count, body, tiles);
+    loops::AddRuns<kSums>
+        <<<1, loops::kAddThreads, 0, handle>>>(tile_count, RunCount(count), tiles, sums);
     TESSERA_CUDA_CHECK(cudaGetLastError());
 }
 
@@ -117,7 +129,8 @@ void SumTiles(Stream& stream, int count, const Body& body, double* tiles, double
         backend::InAnyOrder(RunCount(count), [&](int run) {
             const int first = run * kRunItems;
             std::fill_n(runs + run * kSums, kSums, 0.0);
-            AddTiles<ScalarLanes, kSums>(first, std::min(first + kRunItems, count), body, runs + run * kSums);
+            AddTiles<ScalarLanes, kSums>(first, std::min(first + kRunItems, count), body,
+                                         runs + run * kSums);
         });
         std::fill_n(sums, kSums, 0.0);
         for (int i = 0; i < RunCount(count) * kSums; ++i) sums[i % kSums] += runs[i];
@@ -136,7 +149,8 @@ TESSERA_HD T AtomicAdd(T* at, T value) {
 #endif
 }
 
-// The lesser, or the larger, of `value` and what is there stays there. Both must be at least 0: their bits then sort as they do.
+// The lesser, or the larger, of `value` and what is there stays there. Both must be at least 0:
+// their bits then sort as they do.
 TESSERA_HD void AtomicMin(float* at, float value) {
 #ifdef __CUDA_ARCH__
     atomicMin(reinterpret_cast<int*>(at), __float_as_int(value));
@@ -161,7 +175,8 @@ template <class T>
 TESSERA_HD T AtomicSwapIf(T* at, T expected, T value) {
 #ifdef __CUDA_ARCH__
     using Word = std::conditional_t<sizeof(T) == 8, unsigned long long, T>;
-    return static_cast<T>(atomicCAS(reinterpret_cast<Word*>(at), static_cast<Word>(expected), static_cast<Word>(value)));
+    return static_cast<T>(atomicCAS(reinterpret_cast<Word*>(at), static_cast<Word>(expected),
+                                    static_cast<Word>(value)));
 #else
     std::atomic_ref(*at).compare_exchange_strong(expected, value);
     return expected;

@@ -6,7 +6,8 @@ namespace tessera::TESSERA_DEVICE {
 namespace {
 
 constexpr std::int32_t kFirstBlocks = 1024;
-constexpr std::int32_t kMaxBlocks = 1 << 22;  // as BlockMap: what a signed index of voxels can reach
+// As BlockMap: what a signed index of voxels can reach.
+constexpr std::int32_t kMaxBlocks = 1 << 22;
 constexpr int kFirstWanted = 1 << 14;
 
 }  // namespace
@@ -36,9 +37,16 @@ DeviceMap::DeviceMap(double voxel_size_m, double truncation_m, DeviceMemory& mem
       part_colour_(memory) {}
 
 DeviceMapView DeviceMap::view() {
-    return {field_.data(),   weight_.data(),   colour_.data(), neighbours_.data(),
-            coords_.data(),  revision_.data(), table_.data(),  static_cast<std::uint32_t>(table_slots_ - 1),
-            static_cast<float>(voxel_size_m_), static_cast<float>(truncation_m_)};
+    return {field_.data(),
+            weight_.data(),
+            colour_.data(),
+            neighbours_.data(),
+            coords_.data(),
+            revision_.data(),
+            table_.data(),
+            static_cast<std::uint32_t>(table_slots_ - 1),
+            static_cast<float>(voxel_size_m_),
+            static_cast<float>(truncation_m_)};
 }
 
 bool DeviceMap::Clear() {
@@ -46,8 +54,9 @@ bool DeviceMap::Clear() {
     full_ = false;
     table_slots_ = 0;
     constexpr std::size_t kPart = static_cast<std::size_t>(kBlocksPerPart) * kBlockVoxels;
-    if (!Reserve(kFirstBlocks) || !count_.Reserve(stream_, 2, 0) || !part_field_.Reserve(stream_, kPart, 0) ||
-        !part_weight_.Reserve(stream_, kPart, 0) || !part_colour_.Reserve(stream_, kPart, 0))
+    if (!Reserve(kFirstBlocks) || !count_.Reserve(stream_, 2, 0) ||
+        !part_field_.Reserve(stream_, kPart, 0) || !part_weight_.Reserve(stream_, kPart, 0) ||
+        !part_colour_.Reserve(stream_, kPart, 0))
         return false;
     const std::int32_t unknown[4] = {kBlockLimit, kBlockLimit, kBlockLimit, 0};
     stream_.Upload(coords_.data(), unknown, sizeof unknown);
@@ -58,8 +67,8 @@ bool DeviceMap::Clear() {
     return true;
 }
 
-bool DeviceMap::Load(std::int32_t size, const std::int32_t* coords, const FieldWord* field, const std::uint16_t* weight,
-                     const ColourWord* colour) {
+bool DeviceMap::Load(std::int32_t size, const std::int32_t* coords, const FieldWord* field,
+                     const std::uint16_t* weight, const ColourWord* colour) {
     if (!Clear() || !Reserve(size)) return false;
     const auto blocks = static_cast<std::size_t>(size), voxels = blocks * kBlockVoxels;
     stream_.Upload(coords_.data(), coords, 4 * blocks * sizeof *coords);
@@ -73,11 +82,14 @@ bool DeviceMap::Load(std::int32_t size, const std::int32_t* coords, const FieldW
     return true;
 }
 
-// Room for that many blocks and half as many table slots again; more at once while it is to be had, so that it seldom grows.
+// Room for that many blocks and half as many table slots again; more at once while it is to be had,
+// so that it seldom grows.
 bool DeviceMap::Reserve(std::int32_t blocks) {
     if (blocks > kMaxBlocks) return false;
     if (static_cast<std::size_t>(blocks) > revision_.capacity()) {
-        const auto more = [blocks](int share) { return std::min(blocks + blocks / share, kMaxBlocks); };
+        const auto more = [blocks](int share) {
+            return std::min(blocks + blocks / share, kMaxBlocks);
+        };
         if (full_) return false;
         full_ = !GrowTo(more(2)) && !GrowTo(more(8)) && !GrowTo(more(32));
         if (full_) return false;
@@ -88,18 +100,20 @@ bool DeviceMap::Reserve(std::int32_t blocks) {
 // The layer that says how many blocks there is room for comes last.
 bool DeviceMap::GrowTo(std::int32_t blocks) {
     // While a layer grows it is there twice.
-    constexpr std::size_t kBlockBytes = kBlockVoxels * (sizeof(FieldWord) + sizeof(ColourWord) + sizeof(std::uint16_t)) +
-                                        (8 + 4 + 1 + 1 + 1) * sizeof(std::int32_t) + sizeof(std::uint8_t);
+    constexpr std::size_t kBlockBytes =
+        kBlockVoxels * (sizeof(FieldWord) + sizeof(ColourWord) + sizeof(std::uint16_t)) +
+        (8 + 4 + 1 + 1 + 1) * sizeof(std::int32_t) + sizeof(std::uint8_t);
     const auto count = static_cast<std::size_t>(blocks), have = static_cast<std::size_t>(size_);
-    const std::size_t before = revision_.capacity(), twice = before * kBlockVoxels * sizeof(FieldWord);
+    const std::size_t before = revision_.capacity(),
+                      twice = before * kBlockVoxels * sizeof(FieldWord);
     if (!memory_.HasRoom((count - before) * kBlockBytes + twice)) return false;
     return field_.Reserve(stream_, count * kBlockVoxels, have * kBlockVoxels) &&
            colour_.Reserve(stream_, count * kBlockVoxels, have * kBlockVoxels) &&
            weight_.Reserve(stream_, count * kBlockVoxels, have * kBlockVoxels) &&
-           neighbours_.Reserve(stream_, count * 8, have * 8) && coords_.Reserve(stream_, count * 4, have * 4) &&
-           keep_.Reserve(stream_, count, 0) && visible_.Reserve(stream_, count, 0) &&
-           selected_.Reserve(stream_, count, 0) && sorter_.ReserveSelection(stream_, blocks) &&
-           revision_.Reserve(stream_, count, have);
+           neighbours_.Reserve(stream_, count * 8, have * 8) &&
+           coords_.Reserve(stream_, count * 4, have * 4) && keep_.Reserve(stream_, count, 0) &&
+           visible_.Reserve(stream_, count, 0) && selected_.Reserve(stream_, count, 0) &&
+           sorter_.ReserveSelection(stream_, blocks) && revision_.Reserve(stream_, count, have);
 }
 
 // At most half full.
@@ -125,8 +139,9 @@ bool DeviceMap::MarkWanted(const BandWalk& walk, const WorldBox& box, int& wante
             return false;
         stream_.Fill(wanted_set_.data(), 0, slots * sizeof(std::uint64_t));
         stream_.Fill(count_.data(), 0, 2 * sizeof(std::int32_t));
-        const KeySet set{wanted_set_.data(), static_cast<std::uint32_t>(slots - 1), wanted_.data(), count_.data(),
-                         count_.data() + 1, static_cast<std::int32_t>(capacity)};
+        const KeySet set{wanted_set_.data(), static_cast<std::uint32_t>(slots - 1),
+                         wanted_.data(),     count_.data(),
+                         count_.data() + 1,  static_cast<std::int32_t>(capacity)};
         ForEach(stream_, walk.columns() * walk.rows(),
                 MarkWantedBlocks{walk, box, voxel_size_m_ * kBlockSide, view(), set});
         std::int32_t counted[2];
@@ -138,7 +153,8 @@ bool DeviceMap::MarkWanted(const BandWalk& walk, const WorldBox& box, int& wante
     }
 }
 
-DeviceMap::Growth DeviceMap::Allocate(const BandWalk& walk, const WorldBox& box, int max_new_blocks) {
+DeviceMap::Growth DeviceMap::Allocate(const BandWalk& walk, const WorldBox& box,
+                                      int max_new_blocks) {
     Growth growth;
     int wanted = 0;
     if (!MarkWanted(walk, box, wanted)) {
@@ -192,7 +208,8 @@ int DeviceMap::Select(DeviceBuffer<std::int32_t>& ids) {
 void DeviceMap::DownloadPart(int begin, int count, BlockVoxels& out) {
     const auto blocks = static_cast<std::size_t>(count), voxels = blocks * kBlockVoxels;
     ForEach(stream_, static_cast<int>(voxels),
-            GatherVoxels{view(), selected_.data() + begin, part_field_.data(), part_weight_.data(), part_colour_.data()});
+            GatherVoxels{view(), selected_.data() + begin, part_field_.data(), part_weight_.data(),
+                         part_colour_.data()});
     out.ids.resize(blocks);
     out.field.resize(voxels);
     out.weight.resize(voxels);

@@ -1,5 +1,6 @@
-// The map on the device: BlockMap's pool, hash and neighbours (src/mapping/block_map.h) under the same ids with the same
-// content. What it lacks: labels, released blocks, and numbers other than the ids.
+// The map on the device: BlockMap's pool, hash and neighbours (src/mapping/block_map.h) under the
+// same ids with the same content. What it lacks: labels, released blocks, and numbers other than
+// the ids.
 #pragma once
 
 #include <vector>
@@ -24,7 +25,9 @@ struct DeviceMapView {
     float voxel_size_m, truncation_m;
 
     // What the kernels of src/ read.
-    BlockMapView readable() const { return {field, neighbours, table, coords, table_mask, voxel_size_m, truncation_m}; }
+    BlockMapView readable() const {
+        return {field, neighbours, table, coords, table_mask, voxel_size_m, truncation_m};
+    }
 };
 
 // Voxels in the computer's memory: kBlockVoxels of each for every id.
@@ -42,22 +45,22 @@ class DeviceMap {
 
     // False: the device has no room for even an empty map.
     [[nodiscard]] bool Clear();
-    // The content of a map from which nothing was released: `size` blocks with the unknown one, 4 coords for each. False: no
-    // room; the map is then empty.
-    [[nodiscard]] bool Load(std::int32_t size, const std::int32_t* coords, const FieldWord* field, const std::uint16_t* weight,
-                            const ColourWord* colour);
+    // The content of a map from which nothing was released: `size` blocks with the unknown one, 4
+    // coords for each. False: no room; the map is then empty.
+    [[nodiscard]] bool Load(std::int32_t size, const std::int32_t* coords, const FieldWord* field,
+                            const std::uint16_t* weight, const ColourWord* colour);
 
     struct Growth {
         std::vector<BlockCoord> added;  // under the ids from the old size() on
         std::int64_t wanted = 0;        // added or not
         bool full = false;              // the memory's limit was in the way
     };
-    // Adds the blocks that the image calls for and the map has not, in the order of their coordinates, as Integrator does.
-    // `walk.depth_m` is on the device.
+    // Adds the blocks that the image calls for and the map has not, in the order of their
+    // coordinates, as Integrator does. `walk.depth_m` is on the device.
     Growth Allocate(const BandWalk& walk, const WorldBox& box, int max_new_blocks);
 
-    // The ids of the blocks that the image may change, increasing, as VisibleBlocks finds them: they stay on the device,
-    // valid until the next call. `tiles` is on the device.
+    // The ids of the blocks that the image may change, increasing, as VisibleBlocks finds them:
+    // they stay on the device, valid until the next call. `tiles` is on the device.
     int FindVisible(const DepthTileView& tiles, const ViewCone& cone);
     const std::int32_t* visible() const { return visible_.data(); }
 

@@ -6,7 +6,8 @@ namespace tessera::TESSERA_DEVICE {
 namespace {
 
 // Block `i` of those that `arrays` are of.
-std::unique_ptr<const BlockMesh> TakeMesh(const SurfaceArrays& arrays, std::size_t i, const BlockMap& map, BlockId id) {
+std::unique_ptr<const BlockMesh> TakeMesh(const SurfaceArrays& arrays, std::size_t i,
+                                          const BlockMap& map, BlockId id) {
     const auto [vertex, triangle] = arrays.first[i];
     const auto [vertex_end, triangle_end] = arrays.first[i + 1];
     if (vertex == vertex_end && triangle == triangle_end) return nullptr;
@@ -14,7 +15,8 @@ std::unique_ptr<const BlockMesh> TakeMesh(const SurfaceArrays& arrays, std::size
     mesh->coord = map.coord(id);
     std::copy_n(map.view().neighbours + 8 * static_cast<std::size_t>(id), 8, mesh->blocks.begin());
     mesh->vertices.assign(arrays.vertices.begin() + vertex, arrays.vertices.begin() + vertex_end);
-    mesh->triangles.assign(arrays.triangles.begin() + triangle, arrays.triangles.begin() + triangle_end);
+    mesh->triangles.assign(arrays.triangles.begin() + triangle,
+                           arrays.triangles.begin() + triangle_end);
     return mesh;
 }
 
@@ -22,7 +24,8 @@ std::unique_ptr<const BlockMesh> TakeMesh(const SurfaceArrays& arrays, std::size
 
 DeviceMesher::DeviceMesher(DevicePipeline& device) : device_(device) {}
 
-bool DeviceMesher::MeshBlocks(const BlockMap& map, std::span<const BlockId> blocks, double min_weight, BlockMeshes& meshes) {
+bool DeviceMesher::MeshBlocks(const BlockMap& map, std::span<const BlockId> blocks,
+                              double min_weight, BlockMeshes& meshes) {
     if (blocks.empty()) return true;
     DeviceMap* mirror = device_.MirrorOf(map);
     if (mirror == nullptr) return false;
@@ -31,7 +34,8 @@ bool DeviceMesher::MeshBlocks(const BlockMap& map, std::span<const BlockId> bloc
     while (!blocks.empty()) {
         const std::span<const BlockId> part = blocks.first(std::min(most, blocks.size()));
         if (!surface_) surface_.emplace(device_.memory_, device_.stream_);
-        if (!surface_->Extract(mirror->view(), part.data(), static_cast<int>(part.size()), MinWeightSteps(min_weight), arrays_)) {
+        if (!surface_->Extract(mirror->view(), part.data(), static_cast<int>(part.size()),
+                               MinWeightSteps(min_weight), arrays_)) {
             surface_.reset();  // what it had taken for so many leaves the less room for fewer
             most = std::min(most, part.size()) / 2;
             if (most < kLeastBlocks) return false;

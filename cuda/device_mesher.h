@@ -13,7 +13,8 @@ class DeviceMesher : public BlockMesher {
   public:
     explicit DeviceMesher(DevicePipeline& device);
 
-    bool MeshBlocks(const BlockMap& map, std::span<const BlockId> blocks, double min_weight, BlockMeshes& meshes) override;
+    bool MeshBlocks(const BlockMap& map, std::span<const BlockId> blocks, double min_weight,
+                    BlockMeshes& meshes) override;
 
   private:
     DevicePipeline& device_;

@@ -21,33 +21,41 @@ DevicePipeline::DevicePipeline(std::string name, std::size_t limit_bytes)
       views_(*this),
       icp_(*this) {}
 
-void DevicePipeline::Prepare(const Frame& frame, const PreparedFrame::Config& config, bool bring, PreparedFrame& prepared) {
+void DevicePipeline::Prepare(const Frame& frame, const PreparedFrame::Config& config, bool bring,
+                             PreparedFrame& prepared) {
     if (!frame_.Prepare(frame, config, bring, prepared)) PrepareFrame(frame, config, prepared);
 }
 
-std::unique_ptr<Integrator> DevicePipeline::MakeIntegrator(const Integrator::Config& config, const PinholeCamera& camera) {
+std::unique_ptr<Integrator> DevicePipeline::MakeIntegrator(const Integrator::Config& config,
+                                                           const PinholeCamera& camera) {
     return std::make_unique<DeviceIntegrator>(*this, config, camera);
 }
 
-std::unique_ptr<BlockMesher> DevicePipeline::MakeBlockMesher() { return std::make_unique<DeviceMesher>(*this); }
+std::unique_ptr<BlockMesher> DevicePipeline::MakeBlockMesher() {
+    return std::make_unique<DeviceMesher>(*this);
+}
 
 DeviceMap* DevicePipeline::MirrorOf(const BlockMap& map) {
     if (map_ && mirrored_ == map.identity()) return map_.get();
     TESSERA_CHECK(map.count() == map.size() - 1, "{} blocks under {} ids", map.count(), map.size());
     mirrored_ = 0;
-    map_ = std::make_unique<DeviceMap>(map.config().voxel_size_m, map.config().truncation_m, memory_, stream_);
-    if (!map_->Load(map.size(), map.view().coords, map.field(0), map.weight(0), map.colour(0))) map_.reset();
+    map_ = std::make_unique<DeviceMap>(map.config().voxel_size_m, map.config().truncation_m,
+                                       memory_, stream_);
+    if (!map_->Load(map.size(), map.view().coords, map.field(0), map.weight(0), map.colour(0)))
+        map_.reset();
     if (map_) mirrored_ = map.identity();
     return map_.get();
 }
 
 bool DevicePipeline::ReserveSums(int points) {
     const auto count = static_cast<std::size_t>(points);
-    return sums_.Reserve(stream_, SumLayout::kCount, 0) && sum_tiles_.ReserveScratch(stream_, TilesOfPoints(points)) &&
+    return sums_.Reserve(stream_, SumLayout::kCount, 0) &&
+           sum_tiles_.ReserveScratch(stream_, TilesOfPoints(points)) &&
            residuals_.ReserveScratch(stream_, kPointResiduals * count);
 }
 
-std::int64_t DevicePipeline::SetPoints(const BlockMap& map, const PreparedFrame& frame, const PointArguments& points) {
+std::int64_t DevicePipeline::SetPoints(const BlockMap& map, const PreparedFrame& frame,
+                                       const PointArguments& points) {
     has_distance_residual_ = has_intensity_residual_ = false;
     points_.Clear();
     // What has no room is not tracked: there are no points, and the frame is lost.
@@ -55,8 +63,10 @@ std::int64_t DevicePipeline::SetPoints(const BlockMap& map, const PreparedFrame&
     return MakePoints(frame, points, points_);
 }
 
-std::int64_t DevicePipeline::MakePoints(const PreparedFrame& frame, const PointArguments& arguments, DevicePoints& points) {
-    if (!frame_.Upload(frame) || !residual_sums_.Reserve(arguments.width, arguments.height)) return 0;
+std::int64_t DevicePipeline::MakePoints(const PreparedFrame& frame, const PointArguments& arguments,
+                                        DevicePoints& points) {
+    if (!frame_.Upload(frame) || !residual_sums_.Reserve(arguments.width, arguments.height))
+        return 0;
     PointArguments a = arguments;
     a.depth.pixels = frame_.depth_m();
     if (a.intensity.width > 0) a.intensity.pixels = frame_.intensity();
@@ -91,7 +101,8 @@ ResidualSums DevicePipeline::SumResiduals(const ResidualArguments& arguments) {
     return SumResidualsOf(arguments, points_, residuals_.data());
 }
 
-ResidualSums DevicePipeline::SumResidualsOf(ResidualArguments a, const DevicePoints& points, const float* residuals) {
+ResidualSums DevicePipeline::SumResidualsOf(ResidualArguments a, const DevicePoints& points,
+                                            const float* residuals) {
     ResidualSums sums;
     if (points.count() == 0) return sums;
     a.x = points.x();
@@ -124,7 +135,8 @@ void DevicePipeline::Download(const DevicePoints& from, FramePoints& points) {
 void DevicePipeline::TakeResiduals(std::vector<float>& distance, std::vector<float>& intensity) {
     const std::size_t bytes = static_cast<std::size_t>(points_.count()) * sizeof(float);
     if (has_distance_residual_) stream_.Download(distance.data(), residuals_.data(), bytes);
-    if (has_intensity_residual_) stream_.Download(intensity.data(), residuals_.data() + points_.count(), bytes);
+    if (has_intensity_residual_)
+        stream_.Download(intensity.data(), residuals_.data() + points_.count(), bytes);
     stream_.Wait();
 }
 

@@ -13,7 +13,9 @@ struct GatePixel {
     GatedPixels gated;
 
     // 0 where missing or out of range.
-    TESSERA_HD_MEMBER float Gated(float z) const { return InRange(z, gate.low_m, gate.high_m) ? z : 0.0f; }
+    TESSERA_HD_MEMBER float Gated(float z) const {
+        return InRange(z, gate.low_m, gate.high_m) ? z : 0.0f;
+    }
 
     TESSERA_HD_MEMBER void operator()(int i, float* counts) const {
         const float z = CorrectedDepth(gate.raw_m[i], gate.offset_per_m), here = Gated(z);
@@ -42,7 +44,9 @@ struct Set {
 struct LumaOfPixel {
     const Rgb8* colour;
     float* luma;
-    TESSERA_HD_MEMBER void operator()(int i) const { luma[i] = Luma255(colour[i]) * (1.0f / 255.0f); }
+    TESSERA_HD_MEMBER void operator()(int i) const {
+        luma[i] = Luma255(colour[i]) * (1.0f / 255.0f);
+    }
 };
 
 // Per pixel.
@@ -71,16 +75,20 @@ struct ReducePixel {
     TESSERA_HD_MEMBER void operator()(int i) const {
         const int x = i % reduced_width, y = i / reduced_width;
         depth_m[i] = of.depth_m[(y * of.n + of.n / 2) * of.width + x * of.n + of.n / 2];
-        intensity[i] = of.intensity != nullptr ? MeanOfTile(of.intensity, of.width, of.n, x, y) : -1.0f;
+        intensity[i] =
+            of.intensity != nullptr ? MeanOfTile(of.intensity, of.width, of.n, x, y) : -1.0f;
     }
 };
 
 }  // namespace pixel_bodies
 
-void Fill(Stream& stream, float* values, int count, float value) { ForEach(stream, count, pixel_bodies::Set{values, value}); }
+void Fill(Stream& stream, float* values, int count, float value) {
+    ForEach(stream, count, pixel_bodies::Set{values, value});
+}
 
 void GatePixels(Stream& stream, const DepthGate& gate, const GatedPixels& gated) {
-    SumTiles<GatedPixels::kCounts>(stream, gate.width * gate.height, pixel_bodies::GatePixel{gate, gated}, gated.sum_tiles,
+    SumTiles<GatedPixels::kCounts>(stream, gate.width * gate.height,
+                                   pixel_bodies::GatePixel{gate, gated}, gated.sum_tiles,
                                    gated.counts);
 }
 
@@ -92,12 +100,15 @@ void SmoothImage(Stream& stream, const float* in, int width, int height, float* 
     ForEach(stream, width * height, pixel_bodies::SmoothPixel{in, width, height, out});
 }
 
-void PackColours(Stream& stream, const Rgb8* colour, const float* luma, int count, std::uint32_t* packed) {
+void PackColours(Stream& stream, const Rgb8* colour, const float* luma, int count,
+                 std::uint32_t* packed) {
     ForEach(stream, count, pixel_bodies::PackPixel{colour, luma, packed});
 }
 
-void ReduceImages(Stream& stream, const Reduction& of, int reduced_width, int reduced_height, float* intensity, float* depth_m) {
-    ForEach(stream, reduced_width * reduced_height, pixel_bodies::ReducePixel{of, reduced_width, intensity, depth_m});
+void ReduceImages(Stream& stream, const Reduction& of, int reduced_width, int reduced_height,
+                  float* intensity, float* depth_m) {
+    ForEach(stream, reduced_width * reduced_height,
+            pixel_bodies::ReducePixel{of, reduced_width, intensity, depth_m});
 }
 
 std::size_t GateRoom(int pixels) { return TileRoom(pixels, GatedPixels::kCounts); }

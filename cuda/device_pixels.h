@@ -1,4 +1,5 @@
-// What is done to a frame's pixels on the device, with the formulas of mapping/frame_kernels.h. Arrays are the device's.
+// What is done to a frame's pixels on the device, with the formulas of mapping/frame_kernels.h.
+// Arrays are the device's.
 #pragma once
 
 #include "core/image.h"
@@ -15,7 +16,8 @@ struct DepthGate {
 struct GatedPixels {
     // What is counted, as FrameCounts.
     enum Count { kValid, kMeasured, kPairs, kCoherent, kCounts };
-    // The nearest and the farthest depth are sought in so many parts each, so that not all pixels write to one place.
+    // The nearest and the farthest depth are sought in so many parts each, so that not all pixels
+    // write to one place.
     static constexpr int kParts = 256;
 
     float* depth_m;
@@ -27,14 +29,17 @@ void Fill(Stream& stream, float* values, int count, float value);
 void GatePixels(Stream& stream, const DepthGate& gate, const GatedPixels& gated);
 void MakeLuma(Stream& stream, const Rgb8* colour, int count, float* luma);
 void SmoothImage(Stream& stream, const float* in, int width, int height, float* out);
-void PackColours(Stream& stream, const Rgb8* colour, const float* luma, int count, std::uint32_t* packed);
+void PackColours(Stream& stream, const Rgb8* colour, const float* luma, int count,
+                 std::uint32_t* packed);
 
-// Every n x n pixels of images of `width` columns become one; without intensities (null) they are -1.
+// Every n x n pixels of images of `width` columns become one; without intensities (null) they are
+// -1.
 struct Reduction {
     const float *depth_m, *intensity;
     int width, n;
 };
-void ReduceImages(Stream& stream, const Reduction& of, int reduced_width, int reduced_height, float* intensity, float* depth_m);
+void ReduceImages(Stream& stream, const Reduction& of, int reduced_width, int reduced_height,
+                  float* intensity, float* depth_m);
 
 // Doubles that GatedPixels::sum_tiles needs.
 std::size_t GateRoom(int pixels);

@@ -29,7 +29,8 @@ struct MakePoint {
             normal_z[i] = n.z;
         }
         weight[i] = valid ? PointWeight(d, a.depth_exponent, a.nearest_m) : 0.0f;
-        intensity[i] = valid && a.intensity.pixels != nullptr ? IntensityOfPoint(a, row, u, p) : -1.0f;
+        intensity[i] =
+            valid && a.intensity.pixels != nullptr ? IntensityOfPoint(a, row, u, p) : -1.0f;
         if (valid) sums[0] += 1.0f;
     }
 };
@@ -48,8 +49,10 @@ DevicePoints::DevicePoints(DeviceMemory& memory, Stream& stream)
       valid_(memory) {}
 
 bool DevicePoints::Reserve(std::size_t points, bool normals) {
-    bool room = valid_.Reserve(stream_, 1, 0) && tiles_.ReserveScratch(stream_, TileRoom(static_cast<int>(points), 1));
-    for (auto* buffer : {&x_, &y_, &z_, &intensity_, &weight_}) room = room && buffer->ReserveScratch(stream_, points);
+    bool room = valid_.Reserve(stream_, 1, 0) &&
+                tiles_.ReserveScratch(stream_, TileRoom(static_cast<int>(points), 1));
+    for (auto* buffer : {&x_, &y_, &z_, &intensity_, &weight_})
+        room = room && buffer->ReserveScratch(stream_, points);
     return room && (!normals || normals_.ReserveScratch(stream_, 3 * points));
 }
 
@@ -61,8 +64,9 @@ std::int64_t DevicePoints::Build(const PointArguments& a) {
     count_ = count;
     float* n = normals_.data();
     SumTiles<1>(stream_, count,
-                point_bodies::MakePoint{a, x_.data(), y_.data(), z_.data(), intensity_.data(), weight_.data(), n,
-                                        normals ? n + count : nullptr, normals ? n + 2 * count : nullptr},
+                point_bodies::MakePoint{a, x_.data(), y_.data(), z_.data(), intensity_.data(),
+                                        weight_.data(), n, normals ? n + count : nullptr,
+                                        normals ? n + 2 * count : nullptr},
                 tiles_.data(), valid_.data());
     double valid = 0;
     stream_.Download(&valid, valid_.data(), sizeof valid);

@@ -11,8 +11,9 @@ class DevicePoints {
   public:
     DevicePoints(DeviceMemory& memory, Stream& stream);
 
-    // The points that `arguments`, whose images are on the device, call for, in the slots and with the bytes of FramePoints.
-    // How many have a weight; 0, and there are none, where there is no room.
+    // The points that `arguments`, whose images are on the device, call for, in the slots and with
+    // the bytes of FramePoints. How many have a weight; 0, and there are none, where there is no
+    // room.
     [[nodiscard]] std::int64_t Build(const PointArguments& arguments);
 
     void Clear() { count_ = 0; }
@@ -24,7 +25,9 @@ class DevicePoints {
     const float* z() const { return z_.data(); }
     const float* intensity() const { return intensity_.data(); }
     const float* weight() const { return weight_.data(); }
-    const float* normal_x() const { return normals_.data(); }  // unspecified where none were called for
+    const float* normal_x() const {
+        return normals_.data();
+    }  // unspecified where none were called for
     const float* normal_y() const { return normals_.data() + count_; }
     const float* normal_z() const { return normals_.data() + 2 * count_; }
 

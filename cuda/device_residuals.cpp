@@ -36,19 +36,22 @@ struct AddParts {
 
 template <class Kind>
 std::size_t PartRoom(const ResidualArguments& a) {
-    return static_cast<std::size_t>(Kind::Groups(a)) * static_cast<std::size_t>(Kind::Parts(a) * Kind::kSums);
+    return static_cast<std::size_t>(Kind::Groups(a)) *
+           static_cast<std::size_t>(Kind::Parts(a) * Kind::kSums);
 }
 
 }  // namespace residual_bodies
 
-DeviceResiduals::DeviceResiduals(DeviceMemory& memory, Stream& stream) : stream_(stream), parts_(memory), sums_(memory) {}
+DeviceResiduals::DeviceResiduals(DeviceMemory& memory, Stream& stream)
+    : stream_(stream), parts_(memory), sums_(memory) {}
 
 bool DeviceResiduals::Reserve(int width, int height) {
     using residual_bodies::PartRoom;
     ResidualArguments a{};
     a.width = width;
     a.height = height;
-    const std::size_t room = std::max({PartRoom<DistanceSums>(a), PartRoom<ScoreSums>(a), PartRoom<ShutterSums>(a)});
+    const std::size_t room =
+        std::max({PartRoom<DistanceSums>(a), PartRoom<ScoreSums>(a), PartRoom<ShutterSums>(a)});
     return parts_.ReserveScratch(stream_, room) && sums_.ReserveScratch(stream_, room);
 }
 
@@ -56,7 +59,8 @@ template <class Kind>
 void DeviceResiduals::Sum(const ResidualArguments& a, std::vector<double>& sums) {
     const int groups = Kind::Groups(a), parts = Kind::Parts(a);
     ForEach(stream_, groups * parts, residual_bodies::SumPart<Kind>{a, parts_.data()});
-    ForEach(stream_, groups * Kind::kSums, residual_bodies::AddParts{parts_.data(), parts, Kind::kSums, sums_.data()});
+    ForEach(stream_, groups * Kind::kSums,
+            residual_bodies::AddParts{parts_.data(), parts, Kind::kSums, sums_.data()});
     sums.resize(static_cast<std::size_t>(groups * Kind::kSums));
     stream_.Download(sums.data(), sums_.data(), sums.size() * sizeof(double));
 }

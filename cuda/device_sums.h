@@ -1,4 +1,5 @@
-// The trackers' normal equations on the device, with the formulas of tracking/sdf_kernels.h and icp_kernels.h.
+// The trackers' normal equations on the device, with the formulas of tracking/sdf_kernels.h and
+// icp_kernels.h.
 #pragma once
 
 #include "cuda/device.h"
@@ -10,9 +11,11 @@ namespace tessera::TESSERA_DEVICE {
 // Room that the sums over so many points take in `tiles`, in doubles.
 std::size_t TilesOfPoints(int points);
 
-// The sums (SumLayout) over the points, to sums[]: the same bytes on every run. All arrays, those of the arguments too, are on
-// the device.
-void SumSdfPoints(Stream& stream, const SdfArguments& arguments, int points, double* tiles, double* sums);
-void SumIcpPoints(Stream& stream, const IcpArguments& arguments, int points, double* tiles, double* sums);
+// The sums (SumLayout) over the points, to sums[]: the same bytes on every run. All arrays, those
+// of the arguments too, are on the device.
+void SumSdfPoints(Stream& stream, const SdfArguments& arguments, int points, double* tiles,
+                  double* sums);
+void SumIcpPoints(Stream& stream, const IcpArguments& arguments, int points, double* tiles,
+                  double* sums);
 
 }  // namespace tessera::TESSERA_DEVICE

@@ -25,31 +25,38 @@ bool DeviceSurface::Reserve(std::size_t blocks) {
         if (!cases_.Reserve(stream_, kCubeConfigurations, 0)) return false;
         stream_.Upload(cases_.data(), CubeCases().data(), sizeof CubeCases());
     }
-    return ids_.ReserveScratch(stream_, blocks) && reads_.ReserveScratch(stream_, blocks * kBlocksAround) &&
+    return ids_.ReserveScratch(stream_, blocks) &&
+           reads_.ReserveScratch(stream_, blocks * kBlocksAround) &&
            rows_.ReserveScratch(stream_, blocks * CellRows::kRows) &&
            aprons_.ReserveScratch(stream_, blocks * ApronField::kWords) &&
            vertex_count_.ReserveScratch(stream_, blocks * kEdgeRows + 1) &&
            vertex_first_.ReserveScratch(stream_, blocks * kEdgeRows + 1) &&
            triangle_count_.ReserveScratch(stream_, blocks * kCellRows + 1) &&
-           triangle_first_.ReserveScratch(stream_, blocks * kCellRows + 1) && first_.ReserveScratch(stream_, blocks + 1);
+           triangle_first_.ReserveScratch(stream_, blocks * kCellRows + 1) &&
+           first_.ReserveScratch(stream_, blocks + 1);
 }
 
 // Fills what Extract reads up to first_.
 bool DeviceSurface::Count(const DeviceMapView& map, int count, int min_weight_steps) {
     const int edge_rows = count * kEdgeRows, cell_rows = count * kCellRows;
-    ForEach(stream_, count * CellRows::kRows, ReadCellRows{map, ids_.data(), min_weight_steps, rows_.data()});
-    ForEach(stream_, cell_rows, CountSurface{rows_.data(), cases_.data(), vertex_count_.data(), triangle_count_.data()});
-    stream_.Fill(vertex_count_.data() + edge_rows, 0, sizeof(std::int32_t));  // so that the last sums are the ends
+    ForEach(stream_, count * CellRows::kRows,
+            ReadCellRows{map, ids_.data(), min_weight_steps, rows_.data()});
+    ForEach(
+        stream_, cell_rows,
+        CountSurface{rows_.data(), cases_.data(), vertex_count_.data(), triangle_count_.data()});
+    // So that the last sums are the ends.
+    stream_.Fill(vertex_count_.data() + edge_rows, 0, sizeof(std::int32_t));
     stream_.Fill(triangle_count_.data() + cell_rows, 0, sizeof(std::int32_t));
     if (!sums_.SumBefore(stream_, vertex_count_.data(), edge_rows + 1, vertex_first_.data()) ||
         !sums_.SumBefore(stream_, triangle_count_.data(), cell_rows + 1, triangle_first_.data()))
         return false;
-    ForEach(stream_, count + 1, TakeFirsts{vertex_first_.data(), triangle_first_.data(), first_.data()});
+    ForEach(stream_, count + 1,
+            TakeFirsts{vertex_first_.data(), triangle_first_.data(), first_.data()});
     return true;
 }
 
-bool DeviceSurface::Extract(const DeviceMapView& map, const std::int32_t* ids, int count, int min_weight_steps,
-                            SurfaceArrays& out) {
+bool DeviceSurface::Extract(const DeviceMapView& map, const std::int32_t* ids, int count,
+                            int min_weight_steps, SurfaceArrays& out) {
     const auto blocks = static_cast<std::size_t>(count);
     if (!Reserve(blocks)) return false;
     stream_.Upload(ids_.data(), ids, blocks * sizeof *ids);
@@ -59,15 +66,20 @@ bool DeviceSurface::Extract(const DeviceMapView& map, const std::int32_t* ids, i
     stream_.Wait();
     out.vertices.resize(static_cast<std::size_t>(out.first.back().vertex));
     out.triangles.resize(static_cast<std::size_t>(out.first.back().triangle));
-    if (!vertices_.ReserveScratch(stream_, out.vertices.size()) || !triangles_.ReserveScratch(stream_, out.triangles.size()))
+    if (!vertices_.ReserveScratch(stream_, out.vertices.size()) ||
+        !triangles_.ReserveScratch(stream_, out.triangles.size()))
         return false;
     ForEach(stream_, count * kBlocksAround, FindReadBlocks{map, ids_.data(), reads_.data()});
-    ForEach(stream_, count * ApronField::kWords, FillApron{map, reads_.data(), first_.data(), aprons_.data()});
+    ForEach(stream_, count * ApronField::kWords,
+            FillApron{map, reads_.data(), first_.data(), aprons_.data()});
     ForEach(stream_, count * kCellRows,
-            EmitSurface{map, ids_.data(), rows_.data(), cases_.data(), aprons_.data(), vertex_first_.data(),
-                        triangle_first_.data(), vertices_.data(), triangles_.data()});
-    stream_.Download(out.vertices.data(), vertices_.data(), out.vertices.size() * sizeof out.vertices[0]);
-    stream_.Download(out.triangles.data(), triangles_.data(), out.triangles.size() * sizeof out.triangles[0]);
+            EmitSurface{map, ids_.data(), rows_.data(), cases_.data(), aprons_.data(),
+                        vertex_first_.data(), triangle_first_.data(), vertices_.data(),
+                        triangles_.data()});
+    stream_.Download(out.vertices.data(), vertices_.data(),
+                     out.vertices.size() * sizeof out.vertices[0]);
+    stream_.Download(out.triangles.data(), triangles_.data(),
+                     out.triangles.size() * sizeof out.triangles[0]);
     stream_.Wait();
     return true;
 }

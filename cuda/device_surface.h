@@ -1,4 +1,5 @@
-// Marching cubes over blocks of the device's map, with the formulas of mapping/cell_kernels.h and mesh_kernels.h.
+// Marching cubes over blocks of the device's map, with the formulas of mapping/cell_kernels.h and
+// mesh_kernels.h.
 #pragma once
 
 #include <array>
@@ -19,18 +20,18 @@ struct SurfaceArrays {
     std::vector<std::array<MeshVertexRef, 3>> triangles;
 };
 
-// Counts what each row of cells makes, sums the counts up, and writes everything to its place: nothing depends on which
-// thread was first. Owner thread only; `memory` and `stream` outlive it.
+// Counts what each row of cells makes, sums the counts up, and writes everything to its place:
+// nothing depends on which thread was first. Owner thread only; `memory` and `stream` outlive it.
 class DeviceSurface {
   public:
     DeviceSurface(DeviceMemory& memory, Stream& stream);
 
     static constexpr int kMaxBlocks = 512;  // at once: with what they make 5 to 10 MB
 
-    // The surface of at most kMaxBlocks blocks, none of them the unknown one; `ids` is in the computer's memory. False: no
-    // room on the device.
-    [[nodiscard]] bool Extract(const DeviceMapView& map, const std::int32_t* ids, int count, int min_weight_steps,
-                               SurfaceArrays& out);
+    // The surface of at most kMaxBlocks blocks, none of them the unknown one; `ids` is in the
+    // computer's memory. False: no room on the device.
+    [[nodiscard]] bool Extract(const DeviceMapView& map, const std::int32_t* ids, int count,
+                               int min_weight_steps, SurfaceArrays& out);
 
   private:
     [[nodiscard]] bool Reserve(std::size_t blocks);

@@ -1,8 +1,8 @@
-#include "cuda/gpus.h"
-
 #include <cuda_runtime.h>
 
 #include <cstring>
+
+#include "cuda/gpus.h"
 
 namespace tessera::TESSERA_DEVICE::backend {
 
@@ -12,7 +12,8 @@ int CountGpus(const char*& reason) {
     (void)cudaGetLastError();
     // What the runtime says where there is no driver at all.
     const bool no_driver = error == cudaErrorInsufficientDriver;
-    reason = no_driver ? "no NVIDIA driver, or one too old for this CUDA toolkit" : cudaGetErrorString(error);
+    reason = no_driver ? "no NVIDIA driver, or one too old for this CUDA toolkit"
+                       : cudaGetErrorString(error);
     if (error == cudaSuccess) reason = "the driver lists none";
     return error == cudaSuccess ? count : 0;
 }

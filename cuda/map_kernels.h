@@ -12,19 +12,23 @@ TESSERA_HD std::uint64_t KeyOf(const BlockCoord& c) {
     return std::uint64_t{1} << 63 | part(c.z) << 42 | part(c.y) << 21 | part(c.x);
 }
 TESSERA_HD BlockCoord CoordOf(std::uint64_t key) {
-    const auto part = [key](int shift) { return static_cast<std::int32_t>(key >> shift & 0x1fffffu) - kBlockLimit; };
+    const auto part = [key](int shift) {
+        return static_cast<std::int32_t>(key >> shift & 0x1fffffu) - kBlockLimit;
+    };
     return {part(0), part(21), part(42)};
 }
 
-TESSERA_HD std::int32_t Find(const DeviceMapView& map, const BlockCoord& c) { return FindBlock(map, c.x, c.y, c.z); }
+TESSERA_HD std::int32_t Find(const DeviceMapView& map, const BlockCoord& c) {
+    return FindBlock(map, c.x, c.y, c.z);
+}
 
 TESSERA_HD BlockCoord CoordAt(const DeviceMapView& map, std::int32_t id) {
     const std::int32_t* c = map.coords + 4 * static_cast<std::int64_t>(id);
     return {c[0], c[1], c[2]};
 }
 
-// A set of keys by compare-and-swap, and the list of what was entered. `missed` says that there was too little room: the
-// caller begins anew with more.
+// A set of keys by compare-and-swap, and the list of what was entered. `missed` says that there was
+// too little room: the caller begins anew with more.
 struct KeySet {
     std::uint64_t* slots;
     std::uint32_t mask;
@@ -97,7 +101,8 @@ struct PlaceBlocks {
     }
 };
 
-// Per block from `first` on. Which slot of several that collide it gets may differ from run to run; what is found does not.
+// Per block from `first` on. Which slot of several that collide it gets may differ from run to run;
+// what is found does not.
 struct InsertIntoTable {
     DeviceMapView map;
     std::int32_t first;
@@ -110,8 +115,8 @@ struct InsertIntoTable {
     }
 };
 
-// Per block from `first` on and slot of View::neighbours: enters what lies there, and the new block at an older one that has
-// it as a neighbour. New ones enter each other themselves.
+// Per block from `first` on and slot of View::neighbours: enters what lies there, and the new block
+// at an older one that has it as a neighbour. New ones enter each other themselves.
 struct LinkNeighbours {
     DeviceMapView map;
     std::int32_t first;
@@ -120,9 +125,11 @@ struct LinkNeighbours {
         const std::int32_t id = first + i / 8, slot = i % 8;
         const std::int32_t dx = slot & 1, dy = slot >> 1 & 1, dz = slot >> 2;
         const BlockCoord c = CoordAt(map, id);
-        map.neighbours[8 * static_cast<std::int64_t>(id) + slot] = Find(map, {c.x + dx, c.y + dy, c.z + dz});
+        map.neighbours[8 * static_cast<std::int64_t>(id) + slot] =
+            Find(map, {c.x + dx, c.y + dy, c.z + dz});
         const std::int32_t before = Find(map, {c.x - dx, c.y - dy, c.z - dz});
-        if (before != 0 && before < first) map.neighbours[8 * static_cast<std::int64_t>(before) + slot] = id;
+        if (before != 0 && before < first)
+            map.neighbours[8 * static_cast<std::int64_t>(before) + slot] = id;
     }
 };
 
@@ -145,7 +152,9 @@ struct FlagSince {
     std::uint32_t first;
     std::uint8_t* keep;
 
-    TESSERA_HD_MEMBER void operator()(int id) const { keep[id] = id != 0 && map.revision[id] >= first; }
+    TESSERA_HD_MEMBER void operator()(int id) const {
+        keep[id] = id != 0 && map.revision[id] >= first;
+    }
 };
 
 // Per voxel of the listed blocks: side by side, for one copy to the computer.
@@ -157,7 +166,8 @@ struct GatherVoxels {
     ColourWord* colour;
 
     TESSERA_HD_MEMBER void operator()(int i) const {
-        const std::int64_t at = static_cast<std::int64_t>(ids[i / kBlockVoxels]) * kBlockVoxels + i % kBlockVoxels;
+        const std::int64_t at =
+            static_cast<std::int64_t>(ids[i / kBlockVoxels]) * kBlockVoxels + i % kBlockVoxels;
         field[i] = map.field[at];
         weight[i] = map.weight[at];
         colour[i] = map.colour[at];

@@ -14,11 +14,12 @@ using TESSERA_DEVICE::backend::UseGpu;
 
 constexpr int kLeastMajor = 7, kLeastMinor = 5;
 constexpr std::size_t kMega = std::size_t{1} << 20;
-constexpr std::size_t kLeastBytes = 64 * kMega;  // an empty map, one frame and the storage of passing use
+// An empty map, one frame and the storage of passing use.
+constexpr std::size_t kLeastBytes = 64 * kMega;
 
 std::string Describe(const Gpu& gpu) {
-    return fmt::format("{}, compute capability {}.{}, {} of {} MB free", gpu.name, gpu.major, gpu.minor, gpu.free_bytes / kMega,
-                       gpu.total_bytes / kMega);
+    return fmt::format("{}, compute capability {}.{}, {} of {} MB free", gpu.name, gpu.major,
+                       gpu.minor, gpu.free_bytes / kMega, gpu.total_bytes / kMega);
 }
 
 }  // namespace
@@ -37,15 +38,22 @@ Result<std::unique_ptr<Device>> OpenGpu(const DeviceConfig& config) {
     const char* reason = nullptr;
     Gpu gpu;
     if (CountGpus(reason) == 0 || !UseGpu(0, gpu, reason))
-        return Status::Error(fmt::format("--device cuda: no GPU: {}; leave --device out to run on the processor", reason));
+        return Status::Error(fmt::format(
+            "--device cuda: no GPU: {}; leave --device out to run on the processor", reason));
     if (gpu.major < kLeastMajor || (gpu.major == kLeastMajor && gpu.minor < kLeastMinor))
-        return Status::Error(fmt::format("--device cuda: {}: needs compute capability {}.{}; leave --device out to run on the "
-                                         "processor", Describe(gpu), kLeastMajor, kLeastMinor));
-    const std::size_t limit = config.memory_mb > 0 ? static_cast<std::size_t>(config.memory_mb) * kMega : gpu.free_bytes / 10 * 9;
+        return Status::Error(fmt::format(
+            "--device cuda: {}: needs compute capability {}.{}; leave --device out to run on the "
+            "processor",
+            Describe(gpu), kLeastMajor, kLeastMinor));
+    const std::size_t limit = config.memory_mb > 0
+                                  ? static_cast<std::size_t>(config.memory_mb) * kMega
+                                  : gpu.free_bytes / 10 * 9;
     if (limit < kLeastBytes || limit > gpu.free_bytes)
-        return Status::Error(fmt::format("--device cuda: {}: {} MB wanted, at least {} MB needed (mapping.device_memory_mb)",
-                                         Describe(gpu), limit / kMega, kLeastBytes / kMega));
-    return std::unique_ptr<Device>(std::make_unique<TESSERA_DEVICE::DevicePipeline>(gpu.name, limit));
+        return Status::Error(fmt::format(
+            "--device cuda: {}: {} MB wanted, at least {} MB needed (mapping.device_memory_mb)",
+            Describe(gpu), limit / kMega, kLeastBytes / kMega));
+    return std::unique_ptr<Device>(
+        std::make_unique<TESSERA_DEVICE::DevicePipeline>(gpu.name, limit));
 }
 
 }  // namespace tessera

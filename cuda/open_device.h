@@ -1,4 +1,5 @@
-// The CUDA backend's door: whoever comes through it needs to know nothing else of this folder, nor whether it was built.
+// The CUDA backend's door: whoever comes through it needs to know nothing else of this folder, nor
+// whether it was built.
 #pragma once
 
 #include <memory>

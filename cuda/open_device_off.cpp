@@ -3,11 +3,15 @@
 
 namespace tessera {
 
-std::string DescribeGpus() { return "off: this build has none; configure with TESSERA_CUDA=ON (needs nvcc)"; }
+std::string DescribeGpus() {
+    return "off: this build has none; configure with TESSERA_CUDA=ON (needs nvcc)";
+}
 
 Result<std::unique_ptr<Device>> OpenGpu(const DeviceConfig&) {
-    return Status::Error("--device cuda: this build has no CUDA backend; configure with TESSERA_CUDA=ON (needs nvcc), or leave "
-                         "--device out to run on the processor");
+    return Status::Error(
+        "--device cuda: this build has no CUDA backend; configure with TESSERA_CUDA=ON (needs "
+        "nvcc), or leave "
+        "--device out to run on the processor");
 }
 
 }  // namespace tessera

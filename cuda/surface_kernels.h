@@ -1,5 +1,5 @@
-// The loop bodies of marching cubes (device_loops.h): one call per row of cells, voxel of an apron, or block. All arrays are by
-// the block's place in the list `ids`.
+// The loop bodies of marching cubes (device_loops.h): one call per row of cells, voxel of an apron,
+// or block. All arrays are by the block's place in the list `ids`.
 #pragma once
 
 #include "cuda/device_surface.h"
@@ -7,7 +7,8 @@
 
 namespace tessera::TESSERA_DEVICE {
 
-// Of a block: rows of eight cells; and the edges from a row's voxels along the three axes, in the order of BlockMesh's vertices.
+// Of a block: rows of eight cells; and the edges from a row's voxels along the three axes, in the
+// order of BlockMesh's vertices.
 inline constexpr int kCellRows = kBlockSide * kBlockSide, kEdgeRows = 3 * kCellRows;
 inline constexpr int kBlocksAround = 27;
 
@@ -33,11 +34,13 @@ struct ReadCellRows {
 
     TESSERA_HD_MEMBER void operator()(int i) const {
         const int row = i % CellRows::kRows, y = row % CellRows::kSide, z = row / CellRows::kSide;
-        const std::int32_t* blocks = map.neighbours + 8 * static_cast<std::int64_t>(ids[i / CellRows::kRows]);
+        const std::int32_t* blocks =
+            map.neighbours + 8 * static_cast<std::int64_t>(ids[i / CellRows::kRows]);
         RowBits bits{};
         for (int x = 0; x <= kBlockSide; ++x) {
             const VoxelPlace place = PlaceOf(x, y, z);
-            const std::int64_t at = static_cast<std::int64_t>(blocks[place.slot]) * kBlockVoxels + place.offset;
+            const std::int64_t at =
+                static_cast<std::int64_t>(blocks[place.slot]) * kBlockVoxels + place.offset;
             const std::uint32_t flags = CellFlags(map.field[at], map.weight[at], min_weight_steps);
             bits.inside |= (flags & 1) << x;
             bits.usable |= (flags >> 1 & 1) << x;
@@ -55,11 +58,13 @@ struct CountSurface {
     std::int32_t* triangles;  // kCellRows for each block
 
     TESSERA_HD_MEMBER void operator()(int i) const {
-        const int block = i / kCellRows, row = i % kCellRows, y = row % kBlockSide, z = row / kBlockSide;
+        const int block = i / kCellRows, row = i % kCellRows, y = row % kBlockSide,
+                  z = row / kBlockSide;
         const CellRows cells{rows + block * CellRows::kRows};
         for (int axis = 0; axis < 3; ++axis) {
             std::int32_t count = 0;
-            for (std::uint32_t bits = cells.CrossedEdges(axis, y, z); bits != 0; bits &= bits - 1) ++count;
+            for (std::uint32_t bits = cells.CrossedEdges(axis, y, z); bits != 0; bits &= bits - 1)
+                ++count;
             vertices[block * kEdgeRows + axis * kCellRows + row] = count;
         }
         std::int32_t count = 0;
@@ -92,9 +97,11 @@ struct FillApron {
         const int block = i / ApronField::kWords, word = i % ApronField::kWords;
         if (first[block].vertex == first[block + 1].vertex) return;
         constexpr int kSide = ApronField::kSide;
-        const int x = word % kSide - 1, y = word / kSide % kSide - 1, z = word / (kSide * kSide) - 1;
+        const int x = word % kSide - 1, y = word / kSide % kSide - 1,
+                  z = word / (kSide * kSide) - 1;
         const int around = (x >> 3) + 1 + 3 * ((y >> 3) + 1 + 3 * ((z >> 3) + 1));
-        const std::int64_t from = static_cast<std::int64_t>(reads[block * kBlocksAround + around]) * kBlockVoxels;
+        const std::int64_t from =
+            static_cast<std::int64_t>(reads[block * kBlocksAround + around]) * kBlockVoxels;
         aprons[i] = map.field[from + PlaceOf(x & 7, y & 7, z & 7).offset];
     }
 };
@@ -112,7 +119,8 @@ struct EmitSurface {
     std::array<MeshVertexRef, 3>* triangles;
 
     TESSERA_HD_MEMBER void operator()(int i) const {
-        const int block = i / kCellRows, row = i % kCellRows, y = row % kBlockSide, z = row / kBlockSide;
+        const int block = i / kCellRows, row = i % kCellRows, y = row % kBlockSide,
+                  z = row / kBlockSide;
         const CellRows cells{rows + block * CellRows::kRows};
         for (int axis = 0; axis < 3; ++axis) {
             MeshVertex* out = vertices + vertex_first[block * kEdgeRows + axis * kCellRows + row];
@@ -132,11 +140,14 @@ struct EmitSurface {
 
     TESSERA_HD_MEMBER MeshVertex Vertex(int block, int axis, int x, int y, int z) const {
         const std::int32_t* blocks = map.neighbours + 8 * static_cast<std::int64_t>(ids[block]);
-        const VoxelPlace here = PlaceOf(x, y, z), next = PlaceOf(x + (axis == 0), y + (axis == 1), z + (axis == 2));
+        const VoxelPlace here = PlaceOf(x, y, z),
+                         next = PlaceOf(x + (axis == 0), y + (axis == 1), z + (axis == 2));
         const auto colour = [&](const VoxelPlace& at) {
-            return map.colour[static_cast<std::int64_t>(blocks[at.slot]) * kBlockVoxels + at.offset];
+            return map
+                .colour[static_cast<std::int64_t>(blocks[at.slot]) * kBlockVoxels + at.offset];
         };
-        return VertexOnEdge({aprons + block * ApronField::kWords}, axis, x, y, z, colour(here), colour(next));
+        return VertexOnEdge({aprons + block * ApronField::kWords}, axis, x, y, z, colour(here),
+                            colour(next));
     }
 };
 

@@ -21,7 +21,8 @@ void CheckType(const py::array& array, const char* name, const char* expected, c
 void CheckShape(const py::array& array, const std::vector<py::ssize_t>& shape, const char* name) {
     if (std::equal(shape.begin(), shape.end(), array.shape(), array.shape() + array.ndim())) return;
     throw std::invalid_argument(fmt::format("{}: shape {} expected, not {}", name,
-                                            std::string(py::str(py::tuple(py::cast(shape)))), ShapeOf(array)));
+                                            std::string(py::str(py::tuple(py::cast(shape)))),
+                                            ShapeOf(array)));
 }
 
 Eigen::Isometry3d RigidFrom(const double (&m)[4][4], py::ssize_t index) {
@@ -29,17 +30,21 @@ Eigen::Isometry3d RigidFrom(const double (&m)[4][4], py::ssize_t index) {
     for (int r = 0; r < 4; ++r)
         for (int c = 0; c < 4; ++c) T.matrix()(r, c) = m[r][c];
     const Eigen::Matrix3d R = T.linear();
-    const bool rigid = T.matrix().allFinite() && T.matrix().row(3) == Eigen::RowVector4d(0, 0, 0, 1) &&
-                       (R * R.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() < 1e-3 &&
-                       R.determinant() > 0;
-    if (!rigid) throw std::invalid_argument(fmt::format("T_world_camera[{}]: not a rotation and a translation", index));
+    const bool rigid =
+        T.matrix().allFinite() && T.matrix().row(3) == Eigen::RowVector4d(0, 0, 0, 1) &&
+        (R * R.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() < 1e-3 &&
+        R.determinant() > 0;
+    if (!rigid)
+        throw std::invalid_argument(
+            fmt::format("T_world_camera[{}]: not a rotation and a translation", index));
     return T;
 }
 
 }  // namespace
 
 DepthImage DepthFrom(const py::array& depth_m, int width, int height) {
-    CheckType<float>(depth_m, "depth_m", "float32 in metres", "; of millimetres: depth.astype('float32') / 1000");
+    CheckType<float>(depth_m, "depth_m", "float32 in metres",
+                     "; of millimetres: depth.astype('float32') / 1000");
     CheckShape(depth_m, {height, width}, "depth_m");
     const auto values = py::array_t<float>(depth_m).unchecked<2>();
     DepthImage image(width, height);
@@ -57,7 +62,8 @@ ColourImage ColourFrom(const py::array& colour, int width, int height) {
     const auto values = py::array_t<std::uint8_t>(colour).unchecked<3>();
     ColourImage image(width, height);
     for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x) image(x, y) = {values(y, x, 0), values(y, x, 1), values(y, x, 2)};
+        for (int x = 0; x < width; ++x)
+            image(x, y) = {values(y, x, 0), values(y, x, 1), values(y, x, 2)};
     return image;
 }
 
@@ -78,7 +84,8 @@ py::array VectorOf(const Eigen::Vector3d& p) {
 std::vector<StampedPose> PosesFrom(const py::array& stamps_s, const py::array& T_world_camera) {
     CheckType<double>(stamps_s, "stamps_s", "float64", "");
     CheckType<double>(T_world_camera, "T_world_camera", "float64", "");
-    if (stamps_s.ndim() != 1) throw std::invalid_argument("stamps_s: shape (N,) expected, not " + ShapeOf(stamps_s));
+    if (stamps_s.ndim() != 1)
+        throw std::invalid_argument("stamps_s: shape (N,) expected, not " + ShapeOf(stamps_s));
     const py::ssize_t count = stamps_s.shape(0);
     CheckShape(T_world_camera, {count, 4, 4}, "T_world_camera");
     const auto stamps = py::array_t<double>(stamps_s).unchecked<1>();
@@ -86,7 +93,8 @@ std::vector<StampedPose> PosesFrom(const py::array& stamps_s, const py::array& T
     std::vector<StampedPose> poses;
     for (py::ssize_t i = 0; i < count; ++i) {
         if (!std::isfinite(stamps(i)) || (i > 0 && stamps(i) <= stamps(i - 1)))
-            throw std::invalid_argument(fmt::format("stamps_s[{}]: {} is not after the one before", i, stamps(i)));
+            throw std::invalid_argument(
+                fmt::format("stamps_s[{}]: {} is not after the one before", i, stamps(i)));
         double m[4][4];
         for (int r = 0; r < 4; ++r)
             for (int c = 0; c < 4; ++c) m[r][c] = matrices(i, r, c);

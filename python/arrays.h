@@ -1,5 +1,5 @@
-// Between NumPy arrays and the images, poses and lists of the libraries. In: one copy, element types and shapes
-// checked. Out: views of memory that an owner keeps alive, or small copies.
+// Between NumPy arrays and the images, poses and lists of the libraries. In: one copy, element
+// types and shapes checked. Out: views of memory that an owner keeps alive, or small copies.
 #pragma once
 
 #include <pybind11/numpy.h>
@@ -13,8 +13,9 @@
 
 namespace tessera::python {
 
-// (height, width) float32, metres, any strides. What is not finite or not above 0 becomes 0, no measurement. Throws
-// py::type_error for another element type, std::invalid_argument for another shape.
+// (height, width) float32, metres, any strides. What is not finite or not above 0 becomes 0, no
+// measurement. Throws py::type_error for another element type, std::invalid_argument for another
+// shape.
 DepthImage DepthFrom(const pybind11::array& depth_m, int width, int height);
 // (height, width, 3) uint8, red first; likewise.
 ColourImage ColourFrom(const pybind11::array& colour, int width, int height);
@@ -24,13 +25,16 @@ pybind11::array MatrixOf(const Eigen::Isometry3d& T);
 // (3,) float64.
 pybind11::array VectorOf(const Eigen::Vector3d& p);
 // (N,) and (N, 4, 4) float64; stamps strictly increasing, matrices rigid. Throws as above.
-std::vector<StampedPose> PosesFrom(const pybind11::array& stamps_s, const pybind11::array& T_world_camera);
+std::vector<StampedPose> PosesFrom(const pybind11::array& stamps_s,
+                                   const pybind11::array& T_world_camera);
 
 // (rows, columns) of Element at `data`, writable; `owner` lives as long as the array.
 template <class Element, class Item>
-pybind11::array ViewOf(const std::vector<Item>& items, pybind11::ssize_t columns, const pybind11::object& owner) {
+pybind11::array ViewOf(const std::vector<Item>& items, pybind11::ssize_t columns,
+                       const pybind11::object& owner) {
     static_assert(sizeof(Item) % sizeof(Element) == 0);
-    const std::array<pybind11::ssize_t, 2> shape{static_cast<pybind11::ssize_t>(items.size()), columns};
+    const std::array<pybind11::ssize_t, 2> shape{static_cast<pybind11::ssize_t>(items.size()),
+                                                 columns};
     const std::array<pybind11::ssize_t, 2> strides{sizeof(Item), sizeof(Element)};
     return pybind11::array(pybind11::dtype::of<Element>(), shape, strides, items.data(), owner);
 }

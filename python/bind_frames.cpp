@@ -42,7 +42,8 @@ class Frames {
     SourceInfo info_;
 };
 
-// What is unreadable or needs patience is a warning, so that a loop over a recording with a bad image goes on.
+// What is unreadable or needs patience is a warning, so that a loop over a recording with a bad
+// image goes on.
 std::shared_ptr<CameraFrame> NextFrame(Frames& frames) {
     const auto frame = std::make_shared<CameraFrame>();
     while (true) {
@@ -53,7 +54,8 @@ std::shared_ptr<CameraFrame> NextFrame(Frames& frames) {
         if (read.status == ReadStatus::kOk) return frame;
         if (read.status == ReadStatus::kEnd) throw py::stop_iteration();
         if (read.status == ReadStatus::kError) throw std::runtime_error(read.message);
-        if (!read.message.empty() && PyErr_WarnEx(PyExc_RuntimeWarning, read.message.c_str(), 1) != 0)
+        if (!read.message.empty() &&
+            PyErr_WarnEx(PyExc_RuntimeWarning, read.message.c_str(), 1) != 0)
             throw py::error_already_set();
         if (PyErr_CheckSignals() != 0) throw py::error_already_set();
     }
@@ -67,8 +69,8 @@ PinholeCamera MakeCamera(int width, int height, double fx, double fy, double cx,
 
 void BindCamera(py::module_& module) {
     py::class_<PinholeCamera>(module, "Camera")
-        .def(py::init(&MakeCamera), py::arg("width"), py::arg("height"), py::arg("fx"), py::arg("fy"), py::arg("cx"),
-             py::arg("cy"))
+        .def(py::init(&MakeCamera), py::arg("width"), py::arg("height"), py::arg("fx"),
+             py::arg("fy"), py::arg("cx"), py::arg("cy"))
         .def_readonly("width", &PinholeCamera::width)
         .def_readonly("height", &PinholeCamera::height)
         .def_readonly("fx", &PinholeCamera::fx)
@@ -77,31 +79,35 @@ void BindCamera(py::module_& module) {
         .def_readonly("cy", &PinholeCamera::cy)
         .def(py::self == py::self)
         .def("__repr__", [](const PinholeCamera& c) {
-            return fmt::format("tessera.Camera(width={}, height={}, fx={}, fy={}, cx={}, cy={})", c.width, c.height,
-                               c.fx, c.fy, c.cx, c.cy);
+            return fmt::format("tessera.Camera(width={}, height={}, fx={}, fy={}, cx={}, cy={})",
+                               c.width, c.height, c.fx, c.fy, c.cx, c.cy);
         });
 }
 
 py::array DepthOf(const py::object& self) {
     const DepthImage& image = self.cast<const CameraFrame&>().frame.depth_m;
-    return py::array(py::dtype::of<float>(), {image.height(), image.width()}, {}, image.data(), self);
+    return py::array(py::dtype::of<float>(), {image.height(), image.width()}, {}, image.data(),
+                     self);
 }
 
 py::object ColourOf(const py::object& self) {
     const ColourImage& image = self.cast<const CameraFrame&>().frame.colour;
     if (image.empty()) return py::none();
-    return py::array(py::dtype::of<std::uint8_t>(), {image.height(), image.width(), 3}, {}, image.data(), self);
+    return py::array(py::dtype::of<std::uint8_t>(), {image.height(), image.width(), 3}, {},
+                     image.data(), self);
 }
 
 py::object TruthOf(const CameraFrame& frame) {
-    return frame.frame.T_world_camera ? py::object(MatrixOf(*frame.frame.T_world_camera)) : py::none();
+    return frame.frame.T_world_camera ? py::object(MatrixOf(*frame.frame.T_world_camera))
+                                      : py::none();
 }
 
 void BindFrame(py::module_& module) {
     py::class_<CameraFrame, std::shared_ptr<CameraFrame>>(module, "Frame")
         .def_property_readonly("index", [](const CameraFrame& f) { return f.frame.index; })
         .def_property_readonly("stamp_s", [](const CameraFrame& f) { return f.frame.stamp_s; })
-        .def_property_readonly("colour_stamp_s", [](const CameraFrame& f) { return f.frame.colour_stamp_s; })
+        .def_property_readonly("colour_stamp_s",
+                               [](const CameraFrame& f) { return f.frame.colour_stamp_s; })
         .def_readonly("camera", &CameraFrame::camera)
         .def_property_readonly("depth_m", &DepthOf)
         .def_property_readonly("colour", &ColourOf)
@@ -120,18 +126,24 @@ void BindFrames(py::module_& module) {
         .def_property_readonly("source", [](const Frames& f) { return f.info().name; })
         .def_property_readonly("kind", [](const Frames& f) { return f.info().kind; })
         .def_property_readonly("camera", [](const Frames& f) { return f.info().camera; })
-        .def_property_readonly("frame_count", [](const Frames& f) -> std::optional<std::int64_t> {
-            return f.info().frame_count < 0 ? std::nullopt : std::optional(f.info().frame_count);
-        })
+        .def_property_readonly("frame_count",
+                               [](const Frames& f) -> std::optional<std::int64_t> {
+                                   return f.info().frame_count < 0
+                                              ? std::nullopt
+                                              : std::optional(f.info().frame_count);
+                               })
         .def_property_readonly("notes", [](const Frames& f) { return f.info().notes; })
         .def("__iter__", [](const py::object& self) { return self; })
         .def("__next__", &NextFrame);
-    module.def("frames", [](const Path& source, const std::optional<Path>& config,
-                            const std::optional<py::dict>& settings) {
-        const RunConfig configured = Configure(config, settings);
-        const py::gil_scoped_release release;
-        return std::make_unique<Frames>(source.string(), configured);
-    }, py::arg("source"), py::arg("config") = py::none(), py::arg("settings") = py::none());
+    module.def(
+        "frames",
+        [](const Path& source, const std::optional<Path>& config,
+           const std::optional<py::dict>& settings) {
+            const RunConfig configured = Configure(config, settings);
+            const py::gil_scoped_release release;
+            return std::make_unique<Frames>(source.string(), configured);
+        },
+        py::arg("source"), py::arg("config") = py::none(), py::arg("settings") = py::none());
 }
 
 }  // namespace tessera::python

@@ -12,13 +12,15 @@ namespace py = pybind11;
 namespace {
 
 std::unique_ptr<Scanner> MakeScanner(const PinholeCamera& camera, const std::optional<Path>& config,
-                                     const std::optional<py::dict>& settings, const std::optional<Path>& labels) {
+                                     const std::optional<py::dict>& settings,
+                                     const std::optional<Path>& labels) {
     const RunConfig configured = Configure(config, settings);
     const py::gil_scoped_release release;
     return std::make_unique<Scanner>(camera, configured, labels.value_or("").string());
 }
 
-FrameResult Track(Scanner& scanner, const py::array& depth_m, const std::optional<py::array>& colour, double stamp_s,
+FrameResult Track(Scanner& scanner, const py::array& depth_m,
+                  const std::optional<py::array>& colour, double stamp_s,
                   std::optional<double> colour_stamp_s) {
     const PinholeCamera& camera = scanner.camera();
     Frame frame;
@@ -31,7 +33,8 @@ FrameResult Track(Scanner& scanner, const py::array& depth_m, const std::optiona
 }
 
 py::object PoseOf(const FrameResult& result) {
-    return result.report.tracked() ? py::object(MatrixOf(result.report.track.T_world_camera)) : py::none();
+    return result.report.tracked() ? py::object(MatrixOf(result.report.track.T_world_camera))
+                                   : py::none();
 }
 
 void BindFrameResult(py::module_& module) {
@@ -41,15 +44,17 @@ void BindFrameResult(py::module_& module) {
         .def_property_readonly("tracked", [](const FrameResult& r) { return r.report.tracked(); })
         .def_property_readonly("fused", [](const FrameResult& r) { return r.report.fused; })
         .def_property_readonly("T_world_camera", &PoseOf)
-        .def_property_readonly("status", [](const FrameResult& r) { return ToString(r.report.track.status); })
+        .def_property_readonly("status",
+                               [](const FrameResult& r) { return ToString(r.report.track.status); })
         .def_property_readonly("reason", [](const FrameResult& r) { return r.report.track.reason; })
-        .def_property_readonly("inlier_fraction", [](const FrameResult& r) { return r.report.track.inlier_fraction; })
+        .def_property_readonly("inlier_fraction",
+                               [](const FrameResult& r) { return r.report.track.inlier_fraction; })
         .def_property_readonly("milliseconds", [](const FrameResult& r) { return r.frame_ms; })
         .def_readonly("messages", &FrameResult::messages)
         .def("__repr__", [](const FrameResult& r) {
             const FrameReport& report = r.report;
-            return fmt::format("<tessera.FrameResult {}: {}, {:.1f} ms>", report.index, ToString(report.track.status),
-                               r.frame_ms);
+            return fmt::format("<tessera.FrameResult {}: {}, {:.1f} ms>", report.index,
+                               ToString(report.track.status), r.frame_ms);
         });
 }
 
@@ -65,7 +70,12 @@ void BindScanner(py::module_& module) {
         .def("track", &Track, py::arg("depth_m"), py::arg("colour").none(true), py::arg("stamp_s"),
              py::arg("colour_stamp_s") = py::none())
         .def("mesh", &Scanner::Mesh, unlocked)
-        .def("trajectory", [](const Scanner& scanner) { return Trajectory{scanner.Path(), {}}; }, unlocked)
+        .def(
+            "trajectory",
+            [](const Scanner& scanner) {
+                return Trajectory{scanner.Path(), {}};
+            },
+            unlocked)
         .def("finish", &Scanner::Finish, unlocked)
         .def("objects", &Scanner::Objects, unlocked);
 }

@@ -35,19 +35,25 @@ void BindTrajectory(py::module_& module) {
     py::class_<Trajectory>(module, "Trajectory")
         .def(py::init([](const py::array& stamps_s, const py::array& T_world_camera) {
                  return Trajectory{PosesFrom(stamps_s, T_world_camera), {}};
-             }), py::arg("stamps_s"), py::arg("T_world_camera"))
+             }),
+             py::arg("stamps_s"), py::arg("T_world_camera"))
         .def_property_readonly("stamps_s", &Stamps)
         .def_property_readonly("T_world_camera", &Matrices)
         .def_readonly("notes", &Trajectory::notes)
-        .def("write", [](const Trajectory& t, const Path& path) {
-                 ThrowIfBroken(WriteTrajectory(path.string(), t.poses));
-             }, py::arg("path"))
+        .def(
+            "write",
+            [](const Trajectory& t, const Path& path) {
+                ThrowIfBroken(WriteTrajectory(path.string(), t.poses));
+            },
+            py::arg("path"))
         .def("__len__", [](const Trajectory& t) { return t.poses.size(); })
         .def("__repr__", [](const Trajectory& t) {
             return fmt::format("<tessera.Trajectory: {} poses>", t.poses.size());
         });
-    module.def("read_trajectory", [](const Path& path) { return ValueOrBadInput(ReadTrajectory(path.string())); },
-               py::arg("path"));
+    module.def(
+        "read_trajectory",
+        [](const Path& path) { return ValueOrBadInput(ReadTrajectory(path.string())); },
+        py::arg("path"));
 }
 
 }  // namespace tessera::python

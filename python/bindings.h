@@ -18,7 +18,8 @@ void BindFrames(pybind11::module_& module);   // Camera, Frame, Frames
 void BindScanner(pybind11::module_& module);  // after BindFrames
 void BindRun(pybind11::module_& module);
 
-// A JSON text as Python's own dict or list: keys and figures are those that the program writes, stated in one place.
+// A JSON text as Python's own dict or list: keys and figures are those that the program writes,
+// stated in one place.
 pybind11::object FromJson(const std::string& json);
 
 }  // namespace tessera::python

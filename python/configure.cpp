@@ -13,13 +13,15 @@ std::string TextOf(const py::handle& value) {
 
 }  // namespace
 
-RunConfig Configure(const std::optional<std::filesystem::path>& config, const std::optional<py::dict>& settings) {
+RunConfig Configure(const std::optional<std::filesystem::path>& config,
+                    const std::optional<py::dict>& settings) {
     RunConfig result;
     ConfigParameters parameters;
     result.Describe(parameters);
     if (config) ThrowIfBadInput(LoadPresetOrFile(config->string(), parameters));
     if (settings)
-        for (const auto& [key, value] : *settings) ThrowIfBadInput(parameters.Set(py::str(key), TextOf(value)));
+        for (const auto& [key, value] : *settings)
+            ThrowIfBadInput(parameters.Set(py::str(key), TextOf(value)));
     return result;
 }
 

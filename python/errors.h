@@ -1,5 +1,6 @@
-// The edge where a Status becomes a Python exception: pybind11 turns std::invalid_argument into ValueError and
-// std::runtime_error into RuntimeError. Only the module throws; the libraries below it never do.
+// The edge where a Status becomes a Python exception: pybind11 turns std::invalid_argument into
+// ValueError and std::runtime_error into RuntimeError. Only the module throws; the libraries below
+// it never do.
 #pragma once
 
 #include <stdexcept>

@@ -27,7 +27,8 @@ class FrameFeed {
 
 class FeedSource : public FrameSource {
   public:
-    FeedSource(std::shared_ptr<FrameFeed> feed, SourceInfo info) : feed_(std::move(feed)), info_(std::move(info)) {}
+    FeedSource(std::shared_ptr<FrameFeed> feed, SourceInfo info)
+        : feed_(std::move(feed)), info_(std::move(info)) {}
 
     const SourceInfo& info() const override { return info_; }
     ReadResult Read(Frame& frame) override;

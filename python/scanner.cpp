@@ -31,28 +31,34 @@ Scanner::Scanner(const PinholeCamera& camera, const RunConfig& config, const std
     input.config = config;
     input.stop = &stop_;
     if (!labels.empty())
-        input.labelling = ValueOrBadInput(OpenLabelling(labels, "arrays", config.synthetic, config.labels));
+        input.labelling =
+            ValueOrBadInput(OpenLabelling(labels, "arrays", config.synthetic, config.labels));
     if (config.threads > 0) {
-        thread_limit_.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(config.threads));
+        thread_limit_.emplace(tbb::global_control::max_allowed_parallelism,
+                              static_cast<std::size_t>(config.threads));
         arena_.emplace(config.threads);
     }
     engine_ = std::make_unique<LockstepEngine>(std::move(input));
 }
 
-Scanner::~Scanner() { feed_->Close(); }  // else the engine would wait for its reader, and that for a frame
+Scanner::~Scanner() {
+    feed_->Close();
+}  // else the engine would wait for its reader, and that for a frame
 
 void Scanner::Check(const Frame& frame) const {
-    if (final_mesh_) throw std::runtime_error("Scanner.track: the scan is finished; make another Scanner");
+    if (final_mesh_)
+        throw std::runtime_error("Scanner.track: the scan is finished; make another Scanner");
     ThrowIfBroken(engine_->status());
     if (!std::isfinite(frame.stamp_s) || !std::isfinite(frame.colour_stamp_s))
         throw std::invalid_argument("stamp_s: seconds expected, not nan or inf");
     if (frames_ > 0 && frame.stamp_s <= last_stamp_s_)
-        throw std::invalid_argument(fmt::format("stamp_s: {:.6f} is not after the frame before, {:.6f}", frame.stamp_s,
-                                                last_stamp_s_));
+        throw std::invalid_argument(fmt::format(
+            "stamp_s: {:.6f} is not after the frame before, {:.6f}", frame.stamp_s, last_stamp_s_));
 }
 
 bool Scanner::Next(FrameOutcome& outcome) {
-    return arena_ ? arena_->execute([&] { return engine_->Next(outcome); }) : engine_->Next(outcome);
+    return arena_ ? arena_->execute([&] { return engine_->Next(outcome); })
+                  : engine_->Next(outcome);
 }
 
 FrameResult Scanner::Track(Frame frame) {
@@ -68,7 +74,8 @@ FrameResult Scanner::Track(Frame frame) {
         if (outcome.kind != FrameOutcome::Kind::kFrame) continue;
         result.report = std::move(outcome.report);
         if (!result.report.warning.empty()) result.messages.push_back(result.report.warning);
-        if (result.report.tracked()) path_.push_back({result.report.stamp_s, result.report.track.T_world_camera});
+        if (result.report.tracked())
+            path_.push_back({result.report.stamp_s, result.report.track.T_world_camera});
         result.frame_ms = watch.LapMs();
         return result;
     }
@@ -95,7 +102,8 @@ std::vector<std::string> Scanner::Finish() {
     feed_->Close();
     for (FrameOutcome outcome; Next(outcome);)
         if (!outcome.message.empty()) messages.push_back(outcome.message);
-    if (std::vector<StampedPose> corrected = engine_->CorrectedPath(); !corrected.empty()) path_ = std::move(corrected);
+    if (std::vector<StampedPose> corrected = engine_->CorrectedPath(); !corrected.empty())
+        path_ = std::move(corrected);
     const auto take = [&] { return std::make_shared<TriangleMesh>(engine_->TakeMesh()); };
     final_mesh_ = arena_ ? arena_->execute(take) : take();
     ThrowIfBroken(engine_->status());
@@ -104,7 +112,9 @@ std::vector<std::string> Scanner::Finish() {
 
 std::vector<MapObject> Scanner::Objects() const {
     const std::lock_guard lock(mutex_);
-    if (!final_mesh_) throw std::runtime_error("Scanner.objects: they are of the final mesh; call finish() first");
+    if (!final_mesh_)
+        throw std::runtime_error(
+            "Scanner.objects: they are of the final mesh; call finish() first");
     return engine_->objects();
 }
 

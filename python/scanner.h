@@ -1,5 +1,5 @@
-// A scan that is driven frame by frame by whoever has the images: the lockstep engine of `tessera run` behind a source
-// that is fed by hand, so that the same frames give the same bytes.
+// A scan that is driven frame by frame by whoever has the images: the lockstep engine of `tessera
+// run` behind a source that is fed by hand, so that the same frames give the same bytes.
 #pragma once
 
 #include <tbb/global_control.h>
@@ -23,8 +23,9 @@ struct FrameResult {
     std::vector<std::string> messages;  // for a person; mostly empty
 };
 
-// Thread-safe: calls wait for one another. Throws std::invalid_argument for what the caller gave, std::runtime_error
-// for what broke and for calls that come too early or too late. Nothing here touches Python.
+// Thread-safe: calls wait for one another. Throws std::invalid_argument for what the caller gave,
+// std::runtime_error for what broke and for calls that come too early or too late. Nothing here
+// touches Python.
 class Scanner {
   public:
     // `labels`: a network or a file of detections; empty = no labels.
@@ -35,15 +36,18 @@ class Scanner {
 
     const PinholeCamera& camera() const { return camera_; }
 
-    // Tracks and fuses. Images are of the camera's size, or colour is empty; stamps grow. `index` is set here.
+    // Tracks and fuses. Images are of the camera's size, or colour is empty; stamps grow. `index`
+    // is set here.
     FrameResult Track(Frame frame);
 
-    // As far as it is known: before Finish as the frames were tracked, after it as they were corrected.
+    // As far as it is known: before Finish as the frames were tracked, after it as they were
+    // corrected.
     std::vector<StampedPose> Path() const;
     // A snapshot of the map before Finish; after it the final mesh, the same object each time.
     std::shared_ptr<TriangleMesh> Mesh() const;
 
-    // No more frames: loops are corrected, the map becomes the mesh. Returns messages for a person. Once or more.
+    // No more frames: loops are corrected, the map becomes the mesh. Returns messages for a person.
+    // Once or more.
     std::vector<std::string> Finish();
     // After Finish; empty without labels.
     std::vector<MapObject> Objects() const;

@@ -1,10 +1,12 @@
-// The module tessera._tessera. What a person sees is the package around it: tessera/__init__.py, documented and typed
-// in tessera/__init__.pyi.
+// The module tessera._tessera. What a person sees is the package around it: tessera/__init__.py,
+// documented and typed in tessera/__init__.pyi.
 #include "bindings.h"
 
 namespace tessera::python {
 
-pybind11::object FromJson(const std::string& json) { return pybind11::module_::import("json").attr("loads")(json); }
+pybind11::object FromJson(const std::string& json) {
+    return pybind11::module_::import("json").attr("loads")(json);
+}
 
 }  // namespace tessera::python
 

@@ -18,7 +18,8 @@ Status CheckPlausible(const CameraCalibration& c) {
     const LensDistortion& d = c.distortion;
     for (const double k : {d.k1, d.k2, d.p1, d.p2, d.k3})
         if (!std::isfinite(k)) return NotPlausible("distortion", k);
-    if (!(c.depth_scale > 0 && c.depth_scale < 1e7)) return NotPlausible("depth_scale", c.depth_scale);
+    if (!(c.depth_scale > 0 && c.depth_scale < 1e7))
+        return NotPlausible("depth_scale", c.depth_scale);
     if (!(c.fps > 0 && c.fps < 1e4)) return NotPlausible("fps", c.fps);
     return Status::Ok();
 }
@@ -38,8 +39,11 @@ Status CheckPlausible(const PinholeCamera& p) {
 Result<CameraCalibration> ReadCameraFile(const std::string& path) {
     CameraCalibration c;
     PinholeCamera& p = c.pinhole;
-    std::map<std::string, double*> numbers = {{"fx", &p.fx}, {"fy", &p.fy}, {"cx", &p.cx},
-                                              {"cy", &p.cy}, {"depth_scale", &c.depth_scale},
+    std::map<std::string, double*> numbers = {{"fx", &p.fx},
+                                              {"fy", &p.fy},
+                                              {"cx", &p.cx},
+                                              {"cy", &p.cy},
+                                              {"depth_scale", &c.depth_scale},
                                               {"fps", &c.fps}};
     std::map<std::string, int*> sizes = {{"width", &p.width}, {"height", &p.height}};
     std::set<std::string> missing = {"fx", "fy", "cx", "cy"};
@@ -57,12 +61,14 @@ Result<CameraCalibration> ReadCameraFile(const std::string& path) {
             } else if (key == "distortion") {
                 const auto k = entry.second.as<std::vector<double>>();
                 if (k.size() != 4 && k.size() != 5)
-                    return Status::Error(path + ": distortion: needs k1, k2, p1, p2 and perhaps k3");
+                    return Status::Error(path +
+                                         ": distortion: needs k1, k2, p1, p2 and perhaps k3");
                 c.distortion = {k[0], k[1], k[2], k[3], k.size() == 5 ? k[4] : 0.0};
             } else {
                 return Status::Error(fmt::format(
                     "{}: unknown key '{}' (known: width, height, fx, fy, cx, cy, distortion, "
-                    "depth_scale, fps)", path, key));
+                    "depth_scale, fps)",
+                    path, key));
             }
         }
     } catch (const YAML::BadFile&) {
@@ -70,19 +76,24 @@ Result<CameraCalibration> ReadCameraFile(const std::string& path) {
     } catch (const YAML::Exception& error) {
         return Status::Error(fmt::format("{}: {}: {}", path, key, error.what()));
     }
-    if (!missing.empty()) return Status::Error(fmt::format("{}: '{}' is missing", path, *missing.begin()));
-    p.fy = std::abs(p.fy);  // ICL-NUIM writes the y axis upwards in its intrinsics, but not in its images
-    if (Status status = CheckPlausible(c); !status.ok()) return Status::Error(path + ": " + status.message());
+    if (!missing.empty())
+        return Status::Error(fmt::format("{}: '{}' is missing", path, *missing.begin()));
+    // ICL-NUIM writes the y axis upwards in its intrinsics, but not in its images.
+    p.fy = std::abs(p.fy);
+    if (Status status = CheckPlausible(c); !status.ok())
+        return Status::Error(path + ": " + status.message());
     return c;
 }
 
 std::string CameraFileText(const CameraCalibration& calibration) {
     const PinholeCamera& p = calibration.pinhole;
     const LensDistortion& d = calibration.distortion;
-    const std::string lens =
-        d.IsZero() ? "" : fmt::format("distortion: [{}, {}, {}, {}, {}]\n", d.k1, d.k2, d.p1, d.p2, d.k3);
-    return fmt::format("width: {}\nheight: {}\nfx: {}\nfy: {}\ncx: {}\ncy: {}\n{}depth_scale: {}\nfps: {}\n", p.width,
-                       p.height, p.fx, p.fy, p.cx, p.cy, lens, calibration.depth_scale, calibration.fps);
+    const std::string lens = d.IsZero() ? ""
+                                        : fmt::format("distortion: [{}, {}, {}, {}, {}]\n", d.k1,
+                                                      d.k2, d.p1, d.p2, d.k3);
+    return fmt::format(
+        "width: {}\nheight: {}\nfx: {}\nfy: {}\ncx: {}\ncy: {}\n{}depth_scale: {}\nfps: {}\n",
+        p.width, p.height, p.fx, p.fy, p.cx, p.cy, lens, calibration.depth_scale, calibration.fps);
 }
 
 }  // namespace tessera

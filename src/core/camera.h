@@ -1,5 +1,5 @@
-// The camera: an ideal pinhole for everything behind a source, and the calibration file's lens distortion,
-// which sources correct before anyone else sees an image.
+// The camera: an ideal pinhole for everything behind a source, and the calibration file's lens
+// distortion, which sources correct before anyone else sees an image.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,10 +9,11 @@
 
 namespace tessera {
 
-// Right-handed camera frame: x right, y down, z forward. Pixel (0, 0) is the top-left pixel's centre.
+// Right-handed camera frame: x right, y down, z forward. Pixel (0, 0) is the top-left pixel's
+// centre.
 struct PinholeCamera {
-    int width = 640;   // pixels
-    int height = 480;  // pixels
+    int width = 640;                                        // pixels
+    int height = 480;                                       // pixels
     double fx = 525.0, fy = 525.0, cx = 319.5, cy = 239.5;  // pixels
 
     // [B14] eq. 2. p_camera.z() must not be 0.
@@ -23,11 +24,12 @@ struct PinholeCamera {
     Eigen::Vector3d Unproject(double u, double v, double z) const {
         return {(u - cx) / fx * z, (v - cy) / fy * z, z};
     }
-    // The camera whose pixels are every step-th of this one's in both directions: pixel (k, l) is (k step + step / 2,
-    // l step + step / 2), in whole numbers.
+    // The camera whose pixels are every step-th of this one's in both directions: pixel (k, l) is
+    // (k step + step / 2, l step + step / 2), in whole numbers.
     PinholeCamera Every(int step) const {
         const int first = step / 2;
-        return {width / step, height / step, fx / step, fy / step, (cx - first) / step, (cy - first) / step};
+        return {width / step, height / step,       fx / step,
+                fy / step,    (cx - first) / step, (cy - first) / step};
     }
     bool operator==(const PinholeCamera&) const = default;
 };
@@ -50,8 +52,9 @@ struct CameraCalibration {
     double fps = 30.0;            // frames per second, for sources without time stamps
 };
 
-// Reads width, height, fx, fy, cx, cy, distortion (4 or 5 numbers), depth_scale, fps. A negative fy (ICL-NUIM) is
-// taken as positive. Unknown keys, missing intrinsics and impossible values are errors that name file and key.
+// Reads width, height, fx, fy, cx, cy, distortion (4 or 5 numbers), depth_scale, fps. A negative fy
+// (ICL-NUIM) is taken as positive. Unknown keys, missing intrinsics and impossible values are
+// errors that name file and key.
 Result<CameraCalibration> ReadCameraFile(const std::string& path);
 
 // The text of such a file, every value to its last bit.

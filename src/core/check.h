@@ -1,5 +1,5 @@
-// Checks for bugs in this program: they abort with file, line and values. Never for bad input (that is a
-// Status) nor for what is expected while running (that is a value).
+// Checks for bugs in this program: they abort with file, line and values. Never for bad input (that
+// is a Status) nor for what is expected while running (that is a value).
 #pragma once
 
 #include <fmt/format.h>
@@ -14,8 +14,8 @@ namespace tessera {
 }  // namespace tessera
 
 // TESSERA_CHECK(index < size, "index {} size {}", index, size)
-#define TESSERA_CHECK(expression, ...)                                                    \
-    do {                                                                                  \
-        if (!(expression)) [[unlikely]]                                                   \
+#define TESSERA_CHECK(expression, ...)                                                         \
+    do {                                                                                       \
+        if (!(expression)) [[unlikely]]                                                        \
             ::tessera::CheckFailed(__FILE__, __LINE__, #expression, fmt::format(__VA_ARGS__)); \
     } while (false)

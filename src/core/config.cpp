@@ -31,9 +31,11 @@ Status SetNumber(const std::string& key, Number& value, ConfigParameters::Range 
     const auto number = ParseNumber<Number>(text);
     const char* kind = std::is_integral_v<Number> ? "a whole number" : "a number";
     if (!number || !std::isfinite(static_cast<double>(*number)))
-        return Status::Error(fmt::format("{}: '{}' is not {} (allowed: {})", key, text, kind, allowed));
+        return Status::Error(
+            fmt::format("{}: '{}' is not {} (allowed: {})", key, text, kind, allowed));
     if (*number < range.minimum || *number > range.maximum)
-        return Status::Error(fmt::format("{}: {} is out of range (allowed: {})", key, text, allowed));
+        return Status::Error(
+            fmt::format("{}: {} is out of range (allowed: {})", key, text, allowed));
     value = *number;
     return Status::Ok();
 }
@@ -73,7 +75,8 @@ void ConfigParameters::AddParameter(Parameter parameter) {
 void ConfigParameters::Add(const std::string& key, double& value, Range range,
                            const std::string& unit, const std::string& documentation) {
     const std::string allowed = fmt::format("[{}, {}]", range.minimum, range.maximum);
-    AddParameter({key, unit, allowed, documentation, "", [&value] { return fmt::format("{}", value); },
+    AddParameter({key, unit, allowed, documentation, "",
+                  [&value] { return fmt::format("{}", value); },
                   [=, &value, full = prefix_ + key](const std::string& text) {
                       return SetNumber(full, value, range, allowed, text);
                   }});
@@ -82,7 +85,8 @@ void ConfigParameters::Add(const std::string& key, double& value, Range range,
 void ConfigParameters::Add(const std::string& key, int& value, Range range, const std::string& unit,
                            const std::string& documentation) {
     const std::string allowed = fmt::format("[{}, {}]", range.minimum, range.maximum);
-    AddParameter({key, unit, allowed, documentation, "", [&value] { return fmt::format("{}", value); },
+    AddParameter({key, unit, allowed, documentation, "",
+                  [&value] { return fmt::format("{}", value); },
                   [=, &value, full = prefix_ + key](const std::string& text) {
                       return SetNumber(full, value, range, allowed, text);
                   }});
@@ -120,8 +124,8 @@ void ConfigParameters::AddChoiceByName(const std::string& key,
     AddParameter({key, "", Join(names), documentation, "", std::move(get),
                   [=, full = prefix_ + key](const std::string& text) {
                       if (std::find(names.begin(), names.end(), text) == names.end())
-                          return Status::Error(fmt::format("{}: '{}' is none of {}", full, text,
-                                                           Join(names)));
+                          return Status::Error(
+                              fmt::format("{}: '{}' is none of {}", full, text, Join(names)));
                       set(text);
                       return Status::Ok();
                   }});
@@ -153,8 +157,8 @@ std::string ConfigParameters::NearestKey(const std::string& key) const {
 Status ConfigParameters::Set(const std::string& key, const std::string& value) {
     Parameter* parameter = Find(key);
     if (parameter == nullptr)
-        return Status::Error(
-            fmt::format("unknown configuration key '{}'; did you mean '{}'?", key, NearestKey(key)));
+        return Status::Error(fmt::format("unknown configuration key '{}'; did you mean '{}'?", key,
+                                         NearestKey(key)));
     return parameter->set(value);
 }
 

@@ -1,6 +1,7 @@
-// Configuration: every class has a Config struct whose defaults, units, ranges and texts are written once, in its
-// Describe(ConfigParameters&). From that one description come the YAML reader, --set, the file saved with each
-// result and docs/configuration.md. An unknown key is an error that names the nearest known one.
+// Configuration: every class has a Config struct whose defaults, units, ranges and texts are
+// written once, in its Describe(ConfigParameters&). From that one description come the YAML reader,
+// --set, the file saved with each result and docs/configuration.md. An unknown key is an error that
+// names the nearest known one.
 #pragma once
 
 #include <functional>
@@ -23,7 +24,7 @@ class ConfigParameters {
         std::string default_value;  // the value when described
         std::function<std::string()> get;
         std::function<Status(const std::string&)> set;
-        bool is_text = false;       // written in quotes
+        bool is_text = false;  // written in quotes
     };
     struct Range {
         double minimum, maximum;  // both allowed
@@ -62,7 +63,8 @@ class ConfigParameters {
 
     // Sets one key from text, as --set KEY=VALUE does.
     Status Set(const std::string& key, const std::string& value);
-    // Sets every key of a YAML text; `name` is the file's name for messages. Nothing is changed on error.
+    // Sets every key of a YAML text; `name` is the file's name for messages. Nothing is changed on
+    // error.
     Status LoadYaml(const std::string& yaml, const std::string& name);
     Status LoadYamlFile(const std::string& path);
     // All keys with their present values.

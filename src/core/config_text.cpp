@@ -10,16 +10,18 @@
 namespace tessera {
 namespace {
 
-// Dotted key and scalar text of every leaf. Limited in depth and, since aliases multiply, in visits: the file is a
-// user's.
+// Dotted key and scalar text of every leaf. Limited in depth and, since aliases multiply, in
+// visits: the file is a user's.
 Status Flatten(const YAML::Node& node, const std::string& prefix, int depth, int& visits_left,
                std::vector<std::pair<std::string, std::string>>& leaves) {
     if (depth > 8) return Status::Error(prefix + ": nested too deeply");
     for (const auto& entry : node) {
         if (--visits_left < 0) return Status::Error(prefix + ": too many entries");
-        const std::string key = prefix + (prefix.empty() ? "" : ".") + entry.first.as<std::string>();
+        const std::string key =
+            prefix + (prefix.empty() ? "" : ".") + entry.first.as<std::string>();
         if (entry.second.IsMap()) {
-            if (Status status = Flatten(entry.second, key, depth + 1, visits_left, leaves); !status.ok())
+            if (Status status = Flatten(entry.second, key, depth + 1, visits_left, leaves);
+                !status.ok())
                 return status;
         } else if (entry.second.IsScalar()) {
             leaves.emplace_back(key, entry.second.as<std::string>());
@@ -106,16 +108,17 @@ std::string ConfigParameters::ToMarkdown() const {
         const std::string here = dot == std::string::npos ? "" : parameter.key.substr(0, dot);
         if (here != section) {
             section = here;
-            markdown += fmt::format("\n## {}\n\n| key | default | unit | allowed | what it does, when to "
-                                    "change it |\n| --- | --- | --- | --- | --- |\n",
-                                    here.empty() ? "general" : here);
+            markdown += fmt::format(
+                "\n## {}\n\n| key | default | unit | allowed | what it does, when to "
+                "change it |\n| --- | --- | --- | --- | --- |\n",
+                here.empty() ? "general" : here);
         }
         std::string allowed = parameter.allowed;
         for (std::size_t at = 0; (at = allowed.find(" | ", at)) != std::string::npos;)
             allowed.replace(at, 3, ", ");
-        markdown += fmt::format("| `{}` | {} | {} | {} | {} |\n", parameter.key.substr(dot + 1),
-                                parameter.default_value, parameter.unit, allowed,
-                                parameter.documentation);
+        markdown +=
+            fmt::format("| `{}` | {} | {} | {} | {} |\n", parameter.key.substr(dot + 1),
+                        parameter.default_value, parameter.unit, allowed, parameter.documentation);
     }
     return markdown;
 }

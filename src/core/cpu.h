@@ -3,7 +3,8 @@
 
 namespace tessera {
 
-// kAuto picks the widest that the build and the machine have; kBaseline forces the portable code (tests, bench).
+// kAuto picks the widest that the build and the machine have; kBaseline forces the portable code
+// (tests, bench).
 enum class VectorPath { kAuto, kBaseline, kAvx2 };
 
 bool CpuHasAvx2();

@@ -1,5 +1,6 @@
-// How the camera moved while one frame was taken: its images are not taken at one instant. Colour and depth have their
-// own time stamps, and a rolling shutter reads the rows one after another. To first order in time.
+// How the camera moved while one frame was taken: its images are not taken at one instant. Colour
+// and depth have their own time stamps, and a rolling shutter reads the rows one after another. To
+// first order in time.
 #pragma once
 
 #include "core/row_time.h"
@@ -10,13 +11,15 @@ namespace tessera {
 struct FrameMotion {
     // Body twist per second: T_world_camera(t + dt) = T_world_camera(t) * Se3Exp(dt * twist_per_s).
     Vector6d twist_per_s = Vector6d::Zero();
-    double colour_delay_s = 0;    // the colour image's time minus the depth image's
-    double depth_readout_s = 0;   // from the first row to the last, 0 for a global shutter
+    double colour_delay_s = 0;   // the colour image's time minus the depth image's
+    double depth_readout_s = 0;  // from the first row to the last, 0 for a global shutter
     double colour_readout_s = 0;
 
     // Seconds between the frame's instant (the middle row of the depth image) and a row.
     double DepthTime(double row, int height) const { return RowTime(depth_readout_s, row, height); }
-    double ColourTime(double row, int height) const { return colour_delay_s + RowTime(colour_readout_s, row, height); }
+    double ColourTime(double row, int height) const {
+        return colour_delay_s + RowTime(colour_readout_s, row, height);
+    }
 };
 
 }  // namespace tessera

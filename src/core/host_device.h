@@ -1,6 +1,6 @@
-// Marks the functions of *_kernels.h and their like, which CPU code and CUDA share. On the CPU they are always
-// inlined, because the same header is compiled with and without AVX2: an out-of-line copy compiled for AVX2 could
-// otherwise be the one that the linker keeps for the portable path.
+// Marks the functions of *_kernels.h and their like, which CPU code and CUDA share. On the CPU they
+// are always inlined, because the same header is compiled with and without AVX2: an out-of-line
+// copy compiled for AVX2 could otherwise be the one that the linker keeps for the portable path.
 #pragma once
 
 #ifdef __CUDACC__

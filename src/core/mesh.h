@@ -1,4 +1,5 @@
-// An indexed triangle mesh, as the mesher makes it and the writers, the renderer and the evaluation read it.
+// An indexed triangle mesh, as the mesher makes it and the writers, the renderer and the evaluation
+// read it.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,4 +1,5 @@
-// Things whose storage is worth keeping (images, lists of voxels) go round instead of being made anew for each frame.
+// Things whose storage is worth keeping (images, lists of voxels) go round instead of being made
+// anew for each frame.
 #pragma once
 
 #include <concurrentqueue/concurrentqueue.h>

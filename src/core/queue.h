@@ -1,5 +1,5 @@
-// The bounded lock-free queues between threads, by what they do when they are full. Neither waits: a consumer with
-// nothing to do sleeps on its Wake (wake.h), which every push notifies.
+// The bounded lock-free queues between threads, by what they do when they are full. Neither waits:
+// a consumer with nothing to do sleeps on its Wake (wake.h), which every push notifies.
 #pragma once
 
 #include <concurrentqueue/concurrentqueue.h>
@@ -18,8 +18,10 @@ namespace tessera {
 template <class T>
 class FifoQueue {
   public:
-    // At least one item; `consumer` outlives the queue and may be shared with others of the same thread.
-    FifoQueue(std::size_t capacity, Wake& consumer) : queue_(capacity), capacity_(capacity), consumer_(consumer) {}
+    // At least one item; `consumer` outlives the queue and may be shared with others of the same
+    // thread.
+    FifoQueue(std::size_t capacity, Wake& consumer)
+        : queue_(capacity), capacity_(capacity), consumer_(consumer) {}
 
     // False if full: `item` is then as it was.
     bool TryPush(T&& item) {
@@ -48,12 +50,13 @@ class FifoQueue {
     std::atomic<std::size_t> size_{0};
 };
 
-// Any threads push and pop; items of one producer keep their order. Full: the oldest makes room, so that a slow
-// consumer sees the newest.
+// Any threads push and pop; items of one producer keep their order. Full: the oldest makes room, so
+// that a slow consumer sees the newest.
 template <class T>
 class NewestQueue {
   public:
-    NewestQueue(std::size_t capacity, Wake& consumer) : queue_(capacity), capacity_(capacity), consumer_(consumer) {}
+    NewestQueue(std::size_t capacity, Wake& consumer)
+        : queue_(capacity), capacity_(capacity), consumer_(consumer) {}
 
     // The item that was dropped for it, if any.
     std::optional<T> Push(T&& item) {
@@ -81,7 +84,8 @@ class NewestQueue {
     moodycamel::ConcurrentQueue<T> queue_;
     const std::size_t capacity_;
     Wake& consumer_;
-    std::atomic<std::size_t> size_{0};  // counted before an item is in and after it is out: never less than there are
+    // Counted before an item is in and after it is out: never less than there are.
+    std::atomic<std::size_t> size_{0};
 };
 
 }  // namespace tessera

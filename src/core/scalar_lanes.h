@@ -1,7 +1,8 @@
-// Lanes: what the kernels (*_kernels.h) are templates on, so that one text serves the CPU's vectors (vector_lanes.h),
-// plain numbers and CUDA. A kernel of lanes V works on V::kCount voxels, points or pixels at once and takes its types
-// and operations from V; masks it combines with && and ||, which vectors do not cut short. These are the lanes of plain
-// numbers, one at a time: a thread of a GPU, and the tests' oracle.
+// Lanes: what the kernels (*_kernels.h) are templates on, so that one text serves the CPU's vectors
+// (vector_lanes.h), plain numbers and CUDA. A kernel of lanes V works on V::kCount voxels, points
+// or pixels at once and takes its types and operations from V; masks it combines with && and ||,
+// which vectors do not cut short. These are the lanes of plain numbers, one at a time: a thread of
+// a GPU, and the tests' oracle.
 #pragma once
 
 #include <cmath>
@@ -19,17 +20,22 @@ struct ScalarLanes {
     using Mask = bool;
     static constexpr int kCount = 1;
 
-    // kCount neighbours in memory, aligned or not. 16 bits are widened, and cut off again, without a sign.
+    // kCount neighbours in memory, aligned or not. 16 bits are widened, and cut off again, without
+    // a sign.
     TESSERA_HD_MEMBER static Real Load(const float* p) { return *p; }
     TESSERA_HD_MEMBER static Bits Load(const std::uint32_t* p) { return *p; }
     TESSERA_HD_MEMBER static Int Load(const std::uint16_t* p) { return *p; }
     TESSERA_HD_MEMBER static void Store(Real v, float* p) { *p = v; }
     TESSERA_HD_MEMBER static void Store(Bits v, std::uint32_t* p) { *p = v; }
-    TESSERA_HD_MEMBER static void Store(Int v, std::uint16_t* p) { *p = static_cast<std::uint16_t>(v); }
+    TESSERA_HD_MEMBER static void Store(Int v, std::uint16_t* p) {
+        *p = static_cast<std::uint16_t>(v);
+    }
     // base[index] per lane.
     TESSERA_HD_MEMBER static Real Gather(const float* base, Int index) { return base[index]; }
     TESSERA_HD_MEMBER static Int Gather(const std::int32_t* base, Int index) { return base[index]; }
-    TESSERA_HD_MEMBER static Bits Gather(const std::uint32_t* base, Int index) { return base[index]; }
+    TESSERA_HD_MEMBER static Bits Gather(const std::uint32_t* base, Int index) {
+        return base[index];
+    }
 
     TESSERA_HD_MEMBER static Real ToReal(Int v) { return static_cast<float>(v); }
     // Towards zero. What does not fit, NaN included, becomes the least integer, as on x86.

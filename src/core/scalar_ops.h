@@ -1,5 +1,6 @@
-// The few operations that the shared kernel templates call by unqualified name, for plain floats. For vectors the same
-// names come from their own library by argument-dependent look-up, hence the lower case.
+// The few operations that the shared kernel templates call by unqualified name, for plain floats.
+// For vectors the same names come from their own library by argument-dependent look-up, hence the
+// lower case.
 #pragma once
 
 #include <cmath>

@@ -1,6 +1,8 @@
-// What an object knows, as bytes, so that it can go on in another process: each class with such a state has
+// What an object knows, as bytes, so that it can go on in another process. Each class with such a
+// state has
 //     void SaveState(StateWriter&) const;   bool LoadState(StateReader&);
-// Little endian, as all machines that this program runs on. Formats that outlive a program version keep their own number.
+// Little endian, like all machines that this program runs on. Formats that outlive a program
+// version keep their own number.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -18,7 +20,8 @@ namespace tessera {
 static_assert(std::endian::native == std::endian::little);
 
 template <class T>
-concept PlainState = std::is_trivially_copyable_v<T> && (std::is_arithmetic_v<T> || std::is_enum_v<T>);
+concept PlainState = std::is_trivially_copyable_v<T> &&
+    (std::is_arithmetic_v<T> || std::is_enum_v<T>);
 
 // Appends to a vector, which outlives it.
 class StateWriter {
@@ -55,8 +58,8 @@ class StateWriter {
     std::vector<std::uint8_t>& bytes_;
 };
 
-// Reads what a StateWriter wrote. Every Get is false from the first on that finds too few bytes, or a pose that is none;
-// nothing is allocated beyond the bytes that are there.
+// Reads what a StateWriter wrote. Every Get is false from the first on that finds too few bytes, or
+// a pose that is none; nothing is allocated beyond the bytes that are there.
 class StateReader {
   public:
     explicit StateReader(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
@@ -74,9 +77,10 @@ class StateReader {
     }
     bool Get(Eigen::Isometry3d& T) {
         if (!Take(T.matrix().data(), 16 * sizeof(double))) return false;
-        const bool rigid = T.matrix().allFinite() && T.matrix().row(3) == Eigen::RowVector4d(0, 0, 0, 1) &&
-                           (T.linear() * T.linear().transpose() - Eigen::Matrix3d::Identity()).norm() < 1e-3 &&
-                           T.linear().determinant() > 0;
+        const bool rigid =
+            T.matrix().allFinite() && T.matrix().row(3) == Eigen::RowVector4d(0, 0, 0, 1) &&
+            (T.linear() * T.linear().transpose() - Eigen::Matrix3d::Identity()).norm() < 1e-3 &&
+            T.linear().determinant() > 0;
         return rigid || Fail();
     }
     template <class S, int R, int C>

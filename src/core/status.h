@@ -1,5 +1,6 @@
-// The outcome of work that a user's input can make fail: a file, a flag, a key. The message names the file or
-// key, what is wrong and what to do; programs print it and exit with 2. Values, copied freely.
+// The outcome of work that a user's input can make fail: a file, a flag, a key. The message names
+// the file or key, what is wrong and what to do; programs print it and exit with 2. Values, copied
+// freely.
 #pragma once
 
 #include <optional>
@@ -34,7 +35,7 @@ class [[nodiscard]] Status {
 template <class T>
 class [[nodiscard]] Result {
   public:
-    Result(T value) : value_(std::move(value)) {}  // NOLINT: implicit by design
+    Result(T value) : value_(std::move(value)) {}       // NOLINT: implicit by design
     Result(Status error) : status_(std::move(error)) {  // NOLINT
         TESSERA_CHECK(!status_.ok(), "a Result without value needs an error");
     }

@@ -16,7 +16,9 @@ class Stopwatch {
     }
 
     // The same, and the lap goes on.
-    double ElapsedMs() const { return std::chrono::duration<double, std::milli>(Clock::now() - start_).count(); }
+    double ElapsedMs() const {
+        return std::chrono::duration<double, std::milli>(Clock::now() - start_).count();
+    }
 
   private:
     using Clock = std::chrono::steady_clock;

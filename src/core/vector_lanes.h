@@ -1,6 +1,7 @@
-// Lanes for the hot loops of the CPU: vectors of floats and integers, as wide as the file that includes this is
-// compiled for. Included only by vector sources (tessera_vector_source in cmake/TesseraTargets.cmake), which include no
-// Eigen. scalar_lanes.h says what each operation does.
+// Lanes for the hot loops of the CPU: vectors of floats and integers, as wide as the file that
+// includes this is compiled for. Included only by vector sources (tessera_vector_source in
+// cmake/TesseraTargets.cmake), which include no Eigen. scalar_lanes.h says what each operation
+// does.
 #pragma once
 
 #include <cstdint>
@@ -55,10 +56,14 @@ struct VectorLanes {
     TESSERA_HD_MEMBER static Int AsInt(const Bits& v) { return xsimd::bitwise_cast<Int>(v); }
     TESSERA_HD_MEMBER static Bits AsBits(const Int& v) { return xsimd::bitwise_cast<Bits>(v); }
 
-    TESSERA_HD_MEMBER static Mask ToMask(const xsimd::batch_bool<std::int32_t>& m) { return xsimd::bool_cast(m); }
+    TESSERA_HD_MEMBER static Mask ToMask(const xsimd::batch_bool<std::int32_t>& m) {
+        return xsimd::bool_cast(m);
+    }
     TESSERA_HD_MEMBER static Mask Not(const Mask& m) { return ~m; }
     TESSERA_HD_MEMBER static bool Any(const Mask& m) { return xsimd::any(m); }
-    TESSERA_HD_MEMBER static Real Select(const Mask& m, const Real& a, const Real& b) { return xsimd::select(m, a, b); }
+    TESSERA_HD_MEMBER static Real Select(const Mask& m, const Real& a, const Real& b) {
+        return xsimd::select(m, a, b);
+    }
     TESSERA_HD_MEMBER static Int Select(const Mask& m, const Int& a, const Int& b) {
         return xsimd::select(xsimd::batch_bool<std::int32_t>(xsimd::bool_cast(m)), a, b);
     }

@@ -1,5 +1,5 @@
-// How a thread that has nothing to do sleeps: it waits for a condition over queues and flags that other threads fill,
-// and whoever fills one wakes it.
+// How a thread that has nothing to do sleeps: it waits for a condition over queues and flags that
+// other threads fill, and whoever fills one wakes it.
 #pragma once
 
 #include <atomic>

@@ -12,9 +12,7 @@ namespace {
 constexpr Rgb8 kGrid{228, 231, 235};
 constexpr int kSubpixelBits = 4;
 
-cv::Scalar ToScalar(const Rgb8& c) {
-    return {double(c.r), double(c.g), double(c.b)};
-}
+cv::Scalar ToScalar(const Rgb8& c) { return {double(c.r), double(c.g), double(c.b)}; }
 
 void DrawLine(cv::Mat& canvas, const Eigen::Vector2d& a, const Eigen::Vector2d& b,
               const Rgb8& colour, double width_px) {

@@ -18,8 +18,9 @@ Status ReadObjects(const std::string& path, RunLabels& run) {
     const auto json = nlohmann::json::parse(text.value(), nullptr, false);
     if (!json.is_array()) return Status::Error(path + ": is no list of objects");
     for (const auto& object : json) {
-        if (!object.is_object() || !object.contains("class_id") || !object["class_id"].is_number_integer() ||
-            !object.contains("class") || !object["class"].is_string())
+        if (!object.is_object() || !object.contains("class_id") ||
+            !object["class_id"].is_number_integer() || !object.contains("class") ||
+            !object["class"].is_string())
             return Status::Error(path + ": an object has no class");
         run.class_names[object["class_id"].get<int>()] = object["class"].get<std::string>();
     }
@@ -40,7 +41,8 @@ Status ReadDetections(const std::string& path, RunLabels& run) {
         }
         RunDetection d;
         double stamp_s = 0;
-        if (line.starts_with('#') || !(words >> stamp_s >> d.name >> d.probability >> d.x_min >> d.y_min >> d.x_max >> d.y_max))
+        if (line.starts_with('#') || !(words >> stamp_s >> d.name >> d.probability >> d.x_min >>
+                                       d.y_min >> d.x_max >> d.y_max))
             continue;
         run.frames[stamp_s].push_back(d);
         run.wanted.insert(d.name);
@@ -53,10 +55,12 @@ Status ReadDetections(const std::string& path, RunLabels& run) {
 Result<RunLabels> ReadLabelRun(const std::string& folder, const LabelTruth& truth) {
     RunLabels run;
     if (Status status = ReadObjects(folder + "/objects.json", run); !status.ok()) return status;
-    if (Status status = ReadDetections(folder + "/detections.txt", run); !status.ok()) return status;
+    if (Status status = ReadDetections(folder + "/detections.txt", run); !status.ok())
+        return status;
     Result<TriangleMesh> mesh = ReadPly(folder + "/mesh.ply");
     if (!mesh.ok()) return mesh.status();
-    if (mesh.value().labels.empty()) return Status::Error(folder + "/mesh.ply: has no labels; make the run with --labels");
+    if (mesh.value().labels.empty())
+        return Status::Error(folder + "/mesh.ply: has no labels; make the run with --labels");
     const Result<Trajectory> path = ReadTrajectory(folder + "/trajectory.txt");
     if (!path.ok()) return path.status();
     const Result<Alignment> alignment = AlignTrajectories(truth.poses, path.value().poses);

@@ -23,10 +23,12 @@ struct RunLabels {
     TriangleMesh mesh;  // in the truth's world
     std::map<int, std::string> class_names;
     std::map<double, std::vector<RunDetection>> frames;  // that were looked at
-    std::set<std::string> wanted;                        // classes that were looked for, as far as one can tell
+    // Classes that were looked for, as far as one can tell.
+    std::set<std::string> wanted;
 };
 
-// Of a run's folder: mesh.ply, laid over the truth by both trajectories, objects.json, detections.txt. Errors name the file.
+// Of a run's folder: mesh.ply, laid over the truth by both trajectories, objects.json,
+// detections.txt. Errors name the file.
 Result<RunLabels> ReadLabelRun(const std::string& folder, const LabelTruth& truth);
 
 }  // namespace tessera

@@ -38,19 +38,23 @@ double Overlap(const TrueBox& a, const RunDetection& b) {
     const double width = std::min(a.x_max, b.x_max) - std::max(a.x_min, b.x_min) + 1;
     const double height = std::min(a.y_max, b.y_max) - std::max(a.y_min, b.y_min) + 1;
     if (width <= 0 || height <= 0) return 0;
-    const double areas = (a.x_max - a.x_min + 1) * (a.y_max - a.y_min + 1) + (b.x_max - b.x_min + 1) * (b.y_max - b.y_min + 1);
+    const double areas = (a.x_max - a.x_min + 1) * (a.y_max - a.y_min + 1) +
+                         (b.x_max - b.x_min + 1) * (b.y_max - b.y_min + 1);
     return width * height / (areas - width * height);
 }
 
-void CountDetections(const std::map<int, TrueBox>& boxes, const std::vector<RunDetection>& detections, const LabelTruth& truth,
+void CountDetections(const std::map<int, TrueBox>& boxes,
+                     const std::vector<RunDetection>& detections, const LabelTruth& truth,
                      LabelScores& scores) {
     const double least_pixels = 400.0 / (640 * 480) * truth.camera.width * truth.camera.height;
     for (const auto& [instance, box] : boxes) {
         const auto name = truth.class_names.find(box.class_id);
-        const auto score = name == truth.class_names.end() ? scores.classes.end() : scores.classes.find(name->second);
+        const auto score = name == truth.class_names.end() ? scores.classes.end()
+                                                           : scores.classes.find(name->second);
         if (score == scores.classes.end() || box.pixels <= least_pixels) continue;
         ++score->second.visible;
-        const auto best = std::ranges::max_element(detections, {}, [&](const RunDetection& d) { return Overlap(box, d); });
+        const auto best = std::ranges::max_element(
+            detections, {}, [&](const RunDetection& d) { return Overlap(box, d); });
         if (best == detections.end() || Overlap(box, *best) < kSameBox) continue;
         ++score->second.detected;
         score->second.correct += best->name == name->second;
@@ -83,12 +87,14 @@ std::string TrueName(const LabelTruth& truth, const LabelScores& scores, int cla
     return scores.classes.contains(name) ? name : std::string();
 }
 
-void ScoreVertices(const LabelTruth& truth, const RunLabels& run, const std::vector<VertexLabel>& labels,
-                   const std::vector<std::uint8_t>& seen, LabelScores& scores) {
+void ScoreVertices(const LabelTruth& truth, const RunLabels& run,
+                   const std::vector<VertexLabel>& labels, const std::vector<std::uint8_t>& seen,
+                   LabelScores& scores) {
     std::int64_t right = 0, objects = 0, right_objects = 0;
     for (std::size_t i = 0; i < labels.size(); ++i) {
         if (seen[i] == 0) continue;
-        const std::string is = TrueName(truth, scores, labels[i].class_id), said = NameOf(run.class_names, run.mesh.labels[i].class_id);
+        const std::string is = TrueName(truth, scores, labels[i].class_id),
+                          said = NameOf(run.class_names, run.mesh.labels[i].class_id);
         ++scores.vertices;
         right += is == said;
         objects += !is.empty();
@@ -97,8 +103,10 @@ void ScoreVertices(const LabelTruth& truth, const RunLabels& run, const std::vec
         if (!said.empty()) ++scores.classes[said].labelled;
         if (!is.empty() && is == said) ++scores.classes[is].both;
     }
-    scores.accuracy = static_cast<double>(right) / static_cast<double>(std::max<std::int64_t>(1, scores.vertices));
-    scores.object_accuracy = static_cast<double>(right_objects) / static_cast<double>(std::max<std::int64_t>(1, objects));
+    scores.accuracy = static_cast<double>(right) /
+                      static_cast<double>(std::max<std::int64_t>(1, scores.vertices));
+    scores.object_accuracy = static_cast<double>(right_objects) /
+                             static_cast<double>(std::max<std::int64_t>(1, objects));
     int present = 0;
     for (const auto& [name, score] : scores.classes)
         if (score.vertices > 0) scores.mean_iou += score.Iou(), ++present;
@@ -137,8 +145,9 @@ struct InstancePoints {
     std::map<std::pair<int, int>, std::int64_t> common;
 };
 
-InstancePoints Gather(const LabelTruth& truth, const RunLabels& run, const std::vector<VertexLabel>& labels,
-                      const std::vector<std::uint8_t>& seen, const LabelScores& scores) {
+InstancePoints Gather(const LabelTruth& truth, const RunLabels& run,
+                      const std::vector<VertexLabel>& labels, const std::vector<std::uint8_t>& seen,
+                      const LabelScores& scores) {
     InstancePoints points;
     for (std::size_t i = 0; i < labels.size(); ++i) {
         if (seen[i] == 0) continue;
@@ -155,7 +164,8 @@ InstancePoints Gather(const LabelTruth& truth, const RunLabels& run, const std::
     return points;
 }
 
-void ScoreInstances(const LabelTruth& truth, const RunLabels& run, const InstancePoints& points, LabelScores& scores) {
+void ScoreInstances(const LabelTruth& truth, const RunLabels& run, const InstancePoints& points,
+                    LabelScores& scores) {
     std::set<int> good_25, good_50;
     int recalled_25 = 0, recalled_50 = 0, matched = 0;
     for (const auto& [id, its] : points.truth) {
@@ -167,23 +177,33 @@ void ScoreInstances(const LabelTruth& truth, const RunLabels& run, const Instanc
             if (pair.first == id && count > most) most = count, score.found = pair.second;
         if (score.found != 0) {
             const Points& found = points.found.at(score.found);
-            score.right_class = NameOf(run.class_names, points.class_of_found.at(score.found)) == score.class_name;
+            score.right_class =
+                NameOf(run.class_names, points.class_of_found.at(score.found)) == score.class_name;
             score.box_iou = BoxIou(TrimmedBox(its), TrimmedBox(found));
-            score.vertex_iou = static_cast<double>(most) / (static_cast<double>(its.size() + found.size()) - static_cast<double>(most));
+            score.vertex_iou =
+                static_cast<double>(most) /
+                (static_cast<double>(its.size() + found.size()) - static_cast<double>(most));
             score.centroid_error_m = (MeanOf(its) - MeanOf(found)).norm();
-            const bool is_25 = score.right_class && score.box_iou >= 0.25 && good_25.insert(score.found).second;
-            const bool is_50 = score.right_class && score.box_iou >= 0.5 && good_50.insert(score.found).second;
+            const bool is_25 =
+                score.right_class && score.box_iou >= 0.25 && good_25.insert(score.found).second;
+            const bool is_50 =
+                score.right_class && score.box_iou >= 0.5 && good_50.insert(score.found).second;
             recalled_25 += is_25, recalled_50 += is_50;
             scores.centroid_error_mean_m += score.centroid_error_m, ++matched;
-            scores.centroid_error_max_m = std::max(scores.centroid_error_max_m, score.centroid_error_m);
+            scores.centroid_error_max_m =
+                std::max(scores.centroid_error_max_m, score.centroid_error_m);
         }
         scores.instances.push_back(score);
     }
     scores.found_objects = static_cast<int>(points.found.size());
     scores.centroid_error_mean_m /= std::max(1, matched);
-    const auto share = [](int part, std::size_t all) { return all > 0 ? part / static_cast<double>(all) : 0.0; };
-    scores.precision_25 = share(recalled_25, points.found.size()), scores.recall_25 = share(recalled_25, points.truth.size());
-    scores.precision_50 = share(recalled_50, points.found.size()), scores.recall_50 = share(recalled_50, points.truth.size());
+    const auto share = [](int part, std::size_t all) {
+        return all > 0 ? part / static_cast<double>(all) : 0.0;
+    };
+    scores.precision_25 = share(recalled_25, points.found.size()),
+    scores.recall_25 = share(recalled_25, points.truth.size());
+    scores.precision_50 = share(recalled_50, points.found.size()),
+    scores.recall_50 = share(recalled_50, points.truth.size());
 }
 
 }  // namespace
@@ -195,13 +215,18 @@ Result<LabelScores> EvaluateLabels(const std::string& sequence, const std::strin
     if (!run.ok()) return run.status();
     LabelScores scores;
     for (const std::string& name : run.value().wanted) scores.classes[name];
-    if (Status status = ScoreDetections(truth.value(), run.value(), scores); !status.ok()) return status;
+    if (Status status = ScoreDetections(truth.value(), run.value(), scores); !status.ok())
+        return status;
     std::vector<VertexLabel> labels;
     std::vector<std::uint8_t> seen;
-    const std::size_t stride = std::max<std::size_t>(1, truth.value().poses.size() / kLookedUpFrames);
-    if (Status status = LookUpVertices(truth.value(), run.value().mesh, stride, labels, seen); !status.ok()) return status;
+    const std::size_t stride =
+        std::max<std::size_t>(1, truth.value().poses.size() / kLookedUpFrames);
+    if (Status status = LookUpVertices(truth.value(), run.value().mesh, stride, labels, seen);
+        !status.ok())
+        return status;
     ScoreVertices(truth.value(), run.value(), labels, seen, scores);
-    ScoreInstances(truth.value(), run.value(), Gather(truth.value(), run.value(), labels, seen, scores), scores);
+    ScoreInstances(truth.value(), run.value(),
+                   Gather(truth.value(), run.value(), labels, seen, scores), scores);
     return scores;
 }
 

@@ -31,7 +31,9 @@ struct Tally {
                 return;
             }
     }
-    std::uint32_t Best() const { return key[static_cast<std::size_t>(std::ranges::max_element(count) - count.begin())]; }
+    std::uint32_t Best() const {
+        return key[static_cast<std::size_t>(std::ranges::max_element(count) - count.begin())];
+    }
 };
 
 Status ReadClassNames(const std::string& path, std::map<int, std::string>& names) {
@@ -48,22 +50,27 @@ Status ReadClassNames(const std::string& path, std::map<int, std::string>& names
     return names.empty() ? Status::Error(path + ": names no class") : Status::Ok();
 }
 
-void Look(const LabelTruth& truth, const TruthImages& images, const Eigen::Isometry3d& T_world_camera, const TriangleMesh& mesh,
+void Look(const LabelTruth& truth, const TruthImages& images,
+          const Eigen::Isometry3d& T_world_camera, const TriangleMesh& mesh,
           std::vector<Tally>& tallies) {
     const Eigen::Isometry3d T_camera_world = T_world_camera.inverse();
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, mesh.vertices.size(), 4096), [&](const auto& range) {
-        for (std::size_t i = range.begin(); i < range.end(); ++i) {
-            const Eigen::Vector3d p = T_camera_world * mesh.vertices[i].cast<double>();
-            if (p.z() < 0.1) continue;
-            const Eigen::Vector2d pixel = truth.camera.Project(p);
-            if (!(std::abs(pixel.x()) < 1e5) || !(std::abs(pixel.y()) < 1e5)) continue;
-            const int x = static_cast<int>(std::lround(pixel.x())), y = static_cast<int>(std::lround(pixel.y()));
-            if (!images.depth_m.Contains(x, y)) continue;
-            const float z = images.depth_m(x, y);
-            if (z <= 0 || std::abs(z - static_cast<float>(p.z())) > kSameSurface_m) continue;
-            tallies[i].Add((static_cast<std::uint32_t>(images.class_id(x, y)) << 16 | images.instance(x, y)) + 1);
-        }
-    });
+    tbb::parallel_for(
+        tbb::blocked_range<std::size_t>(0, mesh.vertices.size(), 4096), [&](const auto& range) {
+            for (std::size_t i = range.begin(); i < range.end(); ++i) {
+                const Eigen::Vector3d p = T_camera_world * mesh.vertices[i].cast<double>();
+                if (p.z() < 0.1) continue;
+                const Eigen::Vector2d pixel = truth.camera.Project(p);
+                if (!(std::abs(pixel.x()) < 1e5) || !(std::abs(pixel.y()) < 1e5)) continue;
+                const int x = static_cast<int>(std::lround(pixel.x())),
+                          y = static_cast<int>(std::lround(pixel.y()));
+                if (!images.depth_m.Contains(x, y)) continue;
+                const float z = images.depth_m(x, y);
+                if (z <= 0 || std::abs(z - static_cast<float>(p.z())) > kSameSurface_m) continue;
+                tallies[i].Add((static_cast<std::uint32_t>(images.class_id(x, y)) << 16 |
+                                images.instance(x, y)) +
+                               1);
+            }
+        });
 }
 
 }  // namespace
@@ -73,8 +80,9 @@ Result<LabelTruth> ReadLabelTruth(const std::string& folder) {
     truth.folder = folder;
     for (const char* name : {"labels", "instances"})
         if (!std::filesystem::is_directory(folder + "/" + name))
-            return Status::Error(folder + ": has no folder " + name + "/ of true labels; `tessera synth NAME --out DIR` makes such "
-                                          "sequences");
+            return Status::Error(folder + ": has no folder " + name +
+                                 "/ of true labels; `tessera synth NAME --out DIR` makes such "
+                                 "sequences");
     const Result<CameraCalibration> camera = ReadCameraFile(folder + "/camera.yaml");
     if (!camera.ok()) return camera.status();
     truth.camera = camera.value().pinhole;
@@ -94,18 +102,25 @@ Result<LabelTruth> ReadLabelTruth(const std::string& folder) {
         truth.poses.push_back({stamp_s, *T});
         truth.depth_files.push_back(std::filesystem::path(file).filename().string());
     }
-    if (truth.poses.empty()) return Status::Error(folder + "/depth.txt: no image has a pose in groundtruth.txt");
-    if (Status status = ReadClassNames(folder + "/classes.txt", truth.class_names); !status.ok()) return status;
+    if (truth.poses.empty())
+        return Status::Error(folder + "/depth.txt: no image has a pose in groundtruth.txt");
+    if (Status status = ReadClassNames(folder + "/classes.txt", truth.class_names); !status.ok())
+        return status;
     return truth;
 }
 
 Status ReadTruthImages(const LabelTruth& truth, std::size_t frame, TruthImages& images) {
-    const auto read = [&](const char* folder) { return ReadDepthImage(truth.folder + "/" + folder + "/" + truth.depth_files[frame]); };
-    Result<Image<std::uint16_t>> depth = read("depth"), classes = read("labels"), instances = read("instances");
+    const auto read = [&](const char* folder) {
+        return ReadDepthImage(truth.folder + "/" + folder + "/" + truth.depth_files[frame]);
+    };
+    Result<Image<std::uint16_t>> depth = read("depth"), classes = read("labels"),
+                                 instances = read("instances");
     for (const auto* image : {&depth, &classes, &instances}) {
         if (!image->ok()) return image->status();
-        if (image->value().width() != truth.camera.width || image->value().height() != truth.camera.height)
-            return Status::Error(truth.folder + ": the images of " + truth.depth_files[frame] + " have not camera.yaml's size");
+        if (image->value().width() != truth.camera.width ||
+            image->value().height() != truth.camera.height)
+            return Status::Error(truth.folder + ": the images of " + truth.depth_files[frame] +
+                                 " have not camera.yaml's size");
     }
     images.depth_m.Resize(truth.camera.width, truth.camera.height);
     for (std::size_t i = 0; i < images.depth_m.size(); ++i)
@@ -115,14 +130,15 @@ Status ReadTruthImages(const LabelTruth& truth, std::size_t frame, TruthImages& 
     return Status::Ok();
 }
 
-Status LookUpVertices(LabelTruth& truth, const TriangleMesh& mesh, std::size_t stride, std::vector<VertexLabel>& labels,
-                      std::vector<std::uint8_t>& seen) {
+Status LookUpVertices(LabelTruth& truth, const TriangleMesh& mesh, std::size_t stride,
+                      std::vector<VertexLabel>& labels, std::vector<std::uint8_t>& seen) {
     std::vector<Tally> tallies(mesh.vertices.size());
     TruthImages images;
     for (std::size_t frame = 0; frame < truth.poses.size(); frame += stride) {
         if (Status status = ReadTruthImages(truth, frame, images); !status.ok()) return status;
         for (std::size_t i = 0; i < images.instance.size(); ++i)
-            if (images.instance.data()[i] != 0) truth.class_of_instance[images.instance.data()[i]] = images.class_id.data()[i];
+            if (images.instance.data()[i] != 0)
+                truth.class_of_instance[images.instance.data()[i]] = images.class_id.data()[i];
         Look(truth, images, truth.poses[frame].T_world_camera, mesh, tallies);
     }
     labels.assign(mesh.vertices.size(), {});
@@ -131,7 +147,8 @@ Status LookUpVertices(LabelTruth& truth, const TriangleMesh& mesh, std::size_t s
         const std::uint32_t best = tallies[i].Best();
         if (best == 0) continue;
         seen[i] = 1;
-        labels[i] = {static_cast<std::uint8_t>((best - 1) >> 16), static_cast<std::uint16_t>((best - 1) & 0xffff)};
+        labels[i] = {static_cast<std::uint8_t>((best - 1) >> 16),
+                     static_cast<std::uint16_t>((best - 1) & 0xffff)};
     }
     return Status::Ok();
 }

@@ -66,8 +66,8 @@ Result<MeshErrorResult> MeasureMeshError(const TriangleMesh& mesh, const Triangl
     if (reference.triangles.empty())
         return Status::Error("the reference has no triangles to measure against");
     const TriangleMesh moved = TransformMesh(mesh, options.T_reference_mesh);
-    std::vector<double> distances =
-        Distances(moved.vertices, TriangleScene(reference), std::numeric_limits<double>::infinity());
+    std::vector<double> distances = Distances(moved.vertices, TriangleScene(reference),
+                                              std::numeric_limits<double>::infinity());
     MeshErrorResult result;
     for (const double distance : distances)
         result.distances_m.push_back(static_cast<float>(distance));

@@ -17,7 +17,8 @@ Result<std::unique_ptr<PosedFrames>> PosedFrames::Open(const std::string& scan_p
     if (!scan.ok()) return scan.status();
     frames->scan_ = std::move(scan.value());
     if (frames->file_->seal().tables[IndexOf(ScanTable::kFrames)].rows == 0)
-        return Status::Error(scan_path + ": holds no raw frames; scan with --set scan.frames=all to keep them");
+        return Status::Error(scan_path +
+                             ": holds no raw frames; scan with --set scan.frames=all to keep them");
     return frames;
 }
 
@@ -25,7 +26,8 @@ Status PosedFrames::ForEach(const std::function<Status(const PosedFrame&)>& take
     std::size_t taken = 0;
     Status read = file_->Read(ScanTable::kFrames, [&](const ScanRow& row) {
         FrameRecord record;
-        if (row.key < 0 || row.key >= static_cast<std::int64_t>(scan_.path.size()) || !record.Decode(row.data))
+        if (row.key < 0 || row.key >= static_cast<std::int64_t>(scan_.path.size()) ||
+            !record.Decode(row.data))
             return DamagedScan(file_->path(), fmt::format("frames {}", row.key));
         const auto T_world_camera = scan_.PoseOf(scan_.path[static_cast<std::size_t>(row.key)]);
         if (!T_world_camera || record.stored.colour_jpeg.empty()) return Status::Ok();
@@ -34,8 +36,9 @@ Status PosedFrames::ForEach(const std::function<Status(const PosedFrame&)>& take
     });
     if (!read.ok()) return read;
     if (taken == 0)
-        return Status::Error(file_->path() +
-                             ": none of its raw frames has both a pose and colour; scan again with a colour camera");
+        return Status::Error(
+            file_->path() +
+            ": none of its raw frames has both a pose and colour; scan again with a colour camera");
     return Status::Ok();
 }
 

@@ -43,7 +43,8 @@ Json Head(const PinholeCamera& camera) {
 // Depth as other programs expect it.
 class DepthFiles {
   public:
-    DepthFiles(const PinholeCamera& camera, double units_per_m) : camera_(camera), decoder_(0, units_per_m) {}
+    DepthFiles(const PinholeCamera& camera, double units_per_m)
+        : camera_(camera), decoder_(0, units_per_m) {}
 
     Status Write(const StoredFrame& stored, const std::string& path) {
         if (Status status = decoder_.Load(stored, frame_); !status.ok()) return status;
@@ -72,15 +73,20 @@ Status WritePoints(const TriangleMesh& mesh, const std::string& path) {
 
 Status WriteFrames(PosedFrames& frames, const std::string& folder, Json& list) {
     DepthFiles depth(frames.camera(), frames.depth_units_per_m());
-    const Eigen::Isometry3d T_opencv_opengl(Eigen::DiagonalMatrix<double, 3>(1, -1, -1).toDenseMatrix());
+    const Eigen::Isometry3d T_opencv_opengl(
+        Eigen::DiagonalMatrix<double, 3>(1, -1, -1).toDenseMatrix());
     return frames.ForEach([&](const PosedFrame& frame) {
-        const std::string colour_name = "images/" + frame.name + ".jpg", depth_name = "depth/" + frame.name + ".png";
-        if (Status status = WriteImageFile(folder + colour_name, frame.stored.colour_jpeg); !status.ok()) return status;
+        const std::string colour_name = "images/" + frame.name + ".jpg",
+                          depth_name = "depth/" + frame.name + ".png";
+        if (Status status = WriteImageFile(folder + colour_name, frame.stored.colour_jpeg);
+            !status.ok())
+            return status;
         if (Status status = depth.Write(frame.stored, folder + depth_name); !status.ok())
             return Status::Error("frame " + frame.name + ": " + status.message());
         const Eigen::Isometry3d T = ZUpFromWorld() * frame.T_world_camera * T_opencv_opengl;
-        list.push_back(
-            {{"file_path", colour_name}, {"depth_file_path", depth_name}, {"transform_matrix", Rows(T.matrix(), 4)}});
+        list.push_back({{"file_path", colour_name},
+                        {"depth_file_path", depth_name},
+                        {"transform_matrix", Rows(T.matrix(), 4)}});
         return Status::Ok();
     });
 }
@@ -93,7 +99,8 @@ Eigen::Isometry3d ZUpFromWorld() {
     return T;
 }
 
-Status WriteTransforms(const std::string& scan_path, const TriangleMesh& mesh, const std::string& json_path) {
+Status WriteTransforms(const std::string& scan_path, const TriangleMesh& mesh,
+                       const std::string& json_path) {
     Result<std::unique_ptr<PosedFrames>> frames = PosedFrames::Open(scan_path);
     if (!frames.ok()) return frames.status();
     const std::string parent = std::filesystem::path(json_path).parent_path();

@@ -2,9 +2,7 @@
 
 namespace tessera {
 
-bool VdbAvailable() {
-    return false;
-}
+bool VdbAvailable() { return false; }
 
 Status WriteVdb(const std::string& path, const BlockMap&) {
     return Status::Error(path + ": .vdb is " + kVdbUnavailable);

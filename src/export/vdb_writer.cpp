@@ -28,7 +28,8 @@ std::uint64_t Checksum(const T* values, std::size_t count, std::uint64_t before)
     return Crc64({reinterpret_cast<const std::uint8_t*>(values), count * sizeof(T)}, before);
 }
 
-// OpenVDB gives every file a random identity. This one follows from the map, so that the same map gives the same bytes.
+// OpenVDB gives every file a random identity. This one follows from the map, so that the same map
+// gives the same bytes.
 std::string FileId(const BlockMap& map) {
     std::uint64_t shape = 0, paint = 0;
     for (const double value : {map.config().voxel_size_m, map.config().truncation_m})
@@ -40,8 +41,8 @@ std::string FileId(const BlockMap& map) {
         shape = Checksum(map.field(id), kBlockVoxels, shape);
         paint = Checksum(map.colour(id), kBlockVoxels, paint);
     }
-    return fmt::format("{:08x}-{:04x}-{:04x}-{:04x}-{:012x}", shape >> 32, shape >> 16 & 0xffff, shape & 0xffff,
-                       paint >> 48, paint & 0xffffffffffff);
+    return fmt::format("{:08x}-{:04x}-{:04x}-{:04x}-{:012x}", shape >> 32, shape >> 16 & 0xffff,
+                       shape & 0xffff, paint >> 48, paint & 0xffffffffffff);
 }
 
 // A stream into a file that appears whole or not at all, and that carries `id` as its identity.
@@ -59,7 +60,8 @@ class AtomicBuffer : public std::streambuf {
     }
     int sync() override {
         const auto count = static_cast<std::size_t>(pptr() - pbase());
-        if (!std::exchange(begun_, true) && count >= kIdOffset + kIdBytes) id_.copy(pbase() + kIdOffset, kIdBytes);
+        if (!std::exchange(begun_, true) && count >= kIdOffset + kIdBytes)
+            id_.copy(pbase() + kIdOffset, kIdBytes);
         file_.Write({pbase(), count});
         setp(bytes_.data(), bytes_.data() + bytes_.size());
         return 0;
@@ -72,9 +74,7 @@ class AtomicBuffer : public std::streambuf {
     bool begun_ = false;
 };
 
-bool InBand(FieldWord word) {
-    return HasDistance(word) && std::abs(FieldDistance(word)) < 1;
-}
+bool InBand(FieldWord word) { return HasDistance(word) && std::abs(FieldDistance(word)) < 1; }
 
 // IEC 61966-2-1.
 float LinearOfSrgb(float s) {
@@ -119,7 +119,8 @@ class LeafWriter {
 
 Status Write(const std::string& path, const BlockMap& map) {
     openvdb::initialize();
-    const auto transform = openvdb::math::Transform::createLinearTransform(map.config().voxel_size_m);
+    const auto transform =
+        openvdb::math::Transform::createLinearTransform(map.config().voxel_size_m);
     const auto truncation_m = static_cast<float>(map.config().truncation_m);
     const auto surface = openvdb::FloatGrid::create(truncation_m);
     surface->setName("surface");
@@ -142,9 +143,7 @@ Status Write(const std::string& path, const BlockMap& map) {
 
 }  // namespace
 
-bool VdbAvailable() {
-    return true;
-}
+bool VdbAvailable() { return true; }
 
 Status WriteVdb(const std::string& path, const BlockMap& map) {
     try {

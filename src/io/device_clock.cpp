@@ -5,9 +5,10 @@
 namespace tessera {
 namespace {
 
-constexpr int kAgreeing = 4;            // refused stamps in a row that make a new time
-constexpr double kAgreeingStep_s = 1;   // and are at most so far apart
-constexpr double kLeastStep_s = 0.005;  // from the last stamp before a restart to the first after it
+constexpr int kAgreeing = 4;           // refused stamps in a row that make a new time
+constexpr double kAgreeingStep_s = 1;  // and are at most so far apart
+// From the last stamp before a restart to the first after it.
+constexpr double kLeastStep_s = 0.005;
 
 }  // namespace
 
@@ -36,7 +37,8 @@ DeviceClock::Reading DeviceClock::Read(int stream, std::uint64_t stamp_us, doubl
         started_ = true;
         return reading;
     }
-    const bool agrees = s.suspects > 0 && device_s > *s.suspect_s && device_s < *s.suspect_s + kAgreeingStep_s;
+    const bool agrees =
+        s.suspects > 0 && device_s > *s.suspect_s && device_s < *s.suspect_s + kAgreeingStep_s;
     s.suspects = agrees ? s.suspects + 1 : 1;
     s.suspect_s = device_s;
     if (s.suspects < kAgreeing) return reading;

@@ -1,4 +1,5 @@
-// A camera's own time stamps, made trustworthy: checked one by one, and going on when the camera's clock begins anew.
+// A camera's own time stamps, made trustworthy: checked one by one, and going on when the camera's
+// clock begins anew.
 #pragma once
 
 #include <cstdint>
@@ -16,18 +17,19 @@ class DeviceClock {
     };
     struct Reading {
         Verdict verdict = Verdict::kGood;
-        double stamp_s = 0;       // meaningful if kGood
-        bool was_reset = false;   // several stamps in a row agreed on another time: taken as the clock's new one
+        double stamp_s = 0;  // meaningful if kGood
+        // Several stamps in a row agreed on another time: taken as the clock's new one.
+        bool was_reset = false;
     };
 
     explicit DeviceClock(double max_jump_s) : max_jump_s_(max_jump_s) {}
 
-    // The stamp of an image of stream 0 or 1 that came at host_s (any steady clock, seconds). Until the first Restart
-    // stamp_s is stamp_us in seconds.
+    // The stamp of an image of stream 0 or 1 that came at host_s (any steady clock, seconds). Until
+    // the first Restart stamp_s is stamp_us in seconds.
     Reading Read(int stream, std::uint64_t stamp_us, double host_s);
 
-    // The next stamp may be anything (another device, or the same after a reset); the time that it amounts to follows
-    // the last one by as long as it took.
+    // The next stamp may be anything (another device, or the same after a reset); the time that it
+    // amounts to follows the last one by as long as it took.
     void Restart();
 
   private:

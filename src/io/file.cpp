@@ -36,19 +36,14 @@ std::string BehindLinks(const std::string& path) {
 std::string WriteErrorText(int error) {
     switch (error) {
         case ENOSPC:
-        case EDQUOT:
-            return "no space left on the device; free some or choose another place";
+        case EDQUOT: return "no space left on the device; free some or choose another place";
         case EACCES:
         case EPERM:
-        case EROFS:
-            return "no permission to write here; choose another place";
+        case EROFS: return "no permission to write here; choose another place";
         case ENOENT:
-        case ENOTDIR:
-            return "its folder does not exist; make it or choose another place";
-        case EISDIR:
-            return "is a folder; give a file's name";
-        default:
-            return std::generic_category().message(error);
+        case ENOTDIR: return "its folder does not exist; make it or choose another place";
+        case EISDIR: return "is a folder; give a file's name";
+        default: return std::generic_category().message(error);
     }
 }
 
@@ -97,7 +92,8 @@ void AtomicFile::Write(std::string_view bytes) {
 
 Status AtomicFile::Commit(Sync sync) {
     // Pipes and some devices know no sync: not an error of ours.
-    if (status_.ok() && sync == Sync::kNow && fsync(file_) != 0 && errno != EINVAL && errno != EROFS)
+    if (status_.ok() && sync == Sync::kNow && fsync(file_) != 0 && errno != EINVAL &&
+        errno != EROFS)
         Fail("cannot be written");
     Close();
     if (status_.ok() && !temporary_.empty()) {

@@ -14,7 +14,8 @@ namespace tessera {
 // for different paths.
 Status WriteTextFile(const std::string& path, const std::string& text);
 
-// What an errno of writing means, and what to do: "no space left on the device; free some or choose another place".
+// What an errno of writing means, and what to do: "no space left on the device; free some or choose
+// another place".
 std::string WriteErrorText(int error);
 
 // Makes the folder (and its parents) and proves that it can be written to.
@@ -35,8 +36,8 @@ class AtomicFile {
 
     // After an error nothing more is written; Commit reports the first error.
     void Write(std::string_view bytes);
-    // Synced: a power cut after it does not lose the file. kLater leaves that to the system (some seconds) and takes no
-    // time: for many files in a row.
+    // Synced: a power cut after it does not lose the file. kLater leaves that to the system (some
+    // seconds) and takes no time: for many files in a row.
     enum class Sync { kNow, kLater };
     Status Commit(Sync sync = Sync::kNow);
 

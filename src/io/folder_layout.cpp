@@ -79,13 +79,16 @@ bool IsIclFolder(const fs::path& folder, Layout layout) {
     return images.ok() && StampsAreFrameNumbers(images.value().pairs);
 }
 
-// TUM's lists name the recording in a comment, whatever the folder is called now: "# file: 'rgbd_dataset_freiburg1_rpy.bag'".
+// TUM's lists name the recording in a comment, whatever the folder is called now: "# file:
+// 'rgbd_dataset_freiburg1_rpy.bag'".
 std::string BagName(const fs::path& folder) {
     constexpr std::size_t kLongest = 1000;
     std::ifstream list(folder / "rgb.txt");
     std::string line;
     for (int i = 0; i < 2 && std::getline(list, line); ++i)
-        if (line.size() < kLongest && line.starts_with('#') && line.find("rgbd_dataset_") != std::string::npos) return line;
+        if (line.size() < kLongest && line.starts_with('#') &&
+            line.find("rgbd_dataset_") != std::string::npos)
+            return line;
     return {};
 }
 
@@ -97,7 +100,8 @@ std::string PublishedName(const fs::path& folder, const std::string& by_layout) 
 }
 
 // Nothing where nobody says what camera it was.
-Result<std::optional<CameraCalibration>> FindCamera(const fs::path& folder, const std::string& published,
+Result<std::optional<CameraCalibration>> FindCamera(const fs::path& folder,
+                                                    const std::string& published,
                                                     std::vector<std::string>& notes) {
     const fs::path file = folder / "camera.yaml";
     if (Exists(file)) {
@@ -121,12 +125,9 @@ Result<ImagePairs> ReadPairs(const fs::path& folder, Layout layout, double fps,
         case Layout::kLists:
             return ReadImageLists((folder / "depth.txt").string(), (folder / "rgb.txt").string(),
                                   max_pair_gap_s);
-        case Layout::kAssociations:
-            return ReadAssociations((folder / "associations.txt").string());
-        case Layout::kSevenScenes:
-            return ReadSevenScenesNames(folder.string(), fps);
-        case Layout::kNamedImages:
-            break;
+        case Layout::kAssociations: return ReadAssociations((folder / "associations.txt").string());
+        case Layout::kSevenScenes: return ReadSevenScenesNames(folder.string(), fps);
+        case Layout::kNamedImages: break;
     }
     return PairByName(folder.string(), FindImageFolders(folder.string()), fps, max_pair_gap_s);
 }

@@ -21,7 +21,8 @@ struct FolderFrame {
 struct FolderLayout {
     std::string kind;  // "TUM RGB-D folder", "ICL-NUIM folder", "7-Scenes sequence", "image folder"
     CameraCalibration calibration;
-    bool camera_known = true;         // false: nobody says; the calibration is empty but for its frame rate
+    // False: nobody says; the calibration is empty but for its frame rate.
+    bool camera_known = true;
     std::uint16_t invalid_depth = 0;  // a stored value that means "no measurement", beside 0
     std::vector<FolderFrame> frames;  // strictly increasing depth stamps, at least one
     std::vector<std::string> notes;   // what a person should know

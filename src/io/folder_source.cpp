@@ -108,7 +108,9 @@ void FolderSourceConfig::Describe(ConfigParameters& p) {
     p.Add("depth_scale", depth_scale, {0.0, 1e6}, "",
           "stored depth value of one metre; 0 takes the camera file's; set it where depths come "
           "out too long or short");
-    p.Add("swap_red_blue", swap_red_blue, "of .klg logs: some loggers stored colours the other way round; turn on where faces are blue");
+    p.Add("swap_red_blue", swap_red_blue,
+          "of .klg logs: some loggers stored colours the other way round; turn on where faces are "
+          "blue");
 }
 
 Status FolderSourceConfig::Validate() const {

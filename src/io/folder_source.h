@@ -18,7 +18,8 @@ struct FolderSourceConfig {
     bool rectify = true;           // correct the lens distortion that camera.yaml gives
     double depth_scale = 0;        // stored depth value of one metre; 0 = as the camera file says
     bool swap_red_blue = false;    // of .klg logs
-    // In place of what the camera file says; no key, the program's own. Its size counts for nothing, the lens's distortion stays.
+    // In place of what the camera file says; no key, the program's own. Its size counts for
+    // nothing, the lens's distortion stays.
     std::optional<PinholeCamera> camera = std::nullopt;
 
     void Describe(ConfigParameters& parameters);

@@ -16,9 +16,7 @@ FrameReader::FrameReader(std::unique_ptr<FrameSource> source, const FrameSelecti
     thread_ = std::jthread([this] { ReadAhead(); });
 }
 
-FrameReader::~FrameReader() {
-    RequestStop();
-}
+FrameReader::~FrameReader() { RequestStop(); }
 
 void FrameReader::RequestStop() {
     stop_.store(true);

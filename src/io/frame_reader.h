@@ -28,8 +28,9 @@ class FrameReader {
     const SourceInfo& info() const { return info_; }
 
     // Waits for the next selected frame, in the source's order, and swaps it into `frame`, whose
-    // old storage is used for a later one. On kSkip and kWait (passed on from a live source, at least every half second)
-    // `frame` stays as it was. kEnd and kError are final; after RequestStop it is kEnd.
+    // old storage is used for a later one. On kSkip and kWait (passed on from a live source, at
+    // least every half second) `frame` stays as it was. kEnd and kError are final; after
+    // RequestStop it is kEnd.
     ReadResult Next(Frame& frame);
 
     // What reading and decoding the frame took that Next gave last (also a skipped one),

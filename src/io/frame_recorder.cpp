@@ -24,11 +24,13 @@ Status FirstError(std::initializer_list<Status> statuses) {
 
 void RecordConfig::Describe(ConfigParameters& p) {
     p.AddChoice("colour", colour, {{"jpeg", Colour::kJpeg}, {"png", Colour::kPng}},
-                "how recordings store colour: jpeg (quality 95, about 0.1 MB a frame) or png (exact, about 0.35 MB and twice the "
+                "how recordings store colour: jpeg (quality 95, about 0.1 MB a frame) or png "
+                "(exact, about 0.35 MB and twice the "
                 "time); in .oni files jpeg or uncompressed; depth is always exact");
 }
 
-Result<std::unique_ptr<FrameRecorder>> FrameRecorder::Create(const std::string& folder, const SourceInfo& source,
+Result<std::unique_ptr<FrameRecorder>> FrameRecorder::Create(const std::string& folder,
+                                                             const SourceInfo& source,
                                                              const RecordConfig& config) {
     std::unique_ptr<FrameRecorder> recorder(new FrameRecorder(folder, source, config));
     if (Status status = recorder->Start(); !status.ok()) return status;
@@ -45,7 +47,8 @@ Status FrameRecorder::Start() {
     const CameraCalibration camera{source_.camera, {}, source_.depth_units_per_m, source_.fps};
     const std::string header = "# timestamp filename\n";
     if (Status status = FirstError({WriteTextFile(folder_ + "/camera.yaml", CameraFileText(camera)),
-                                    colour_list_.Open(folder_ + "/rgb.txt"), depth_list_.Open(folder_ + "/depth.txt")});
+                                    colour_list_.Open(folder_ + "/rgb.txt"),
+                                    depth_list_.Open(folder_ + "/depth.txt")});
         !status.ok())
         return status;
     return FirstError({colour_list_.Append(header), depth_list_.Append(header)});
@@ -54,13 +57,15 @@ Status FrameRecorder::Start() {
 Status FrameRecorder::Add(const Frame& frame) {
     if (!status_.ok()) return status_;
     const std::string colour_name =
-        fmt::format("rgb/{:.6f}.{}", frame.colour_stamp_s, config_.colour == RecordConfig::Colour::kJpeg ? "jpg" : "png");
+        fmt::format("rgb/{:.6f}.{}", frame.colour_stamp_s,
+                    config_.colour == RecordConfig::Colour::kJpeg ? "jpg" : "png");
     const std::string depth_name = fmt::format("depth/{:.6f}.png", frame.stamp_s);
     Status status = Check(frame);
     if (status.ok()) status = WriteImages(frame, colour_name, depth_name);
     if (status.ok()) status = List(frame, colour_name, depth_name);
     if (!status.ok())
-        return status_ = Status::Error(fmt::format("{}; {} frames are safe in {}", status.message(), frames_, folder_));
+        return status_ = Status::Error(
+                   fmt::format("{}; {} frames are safe in {}", status.message(), frames_, folder_));
     ++frames_;
     last_stamp_s_ = frame.stamp_s;
     last_colour_stamp_s_ = frame.colour_stamp_s;
@@ -70,22 +75,27 @@ Status FrameRecorder::Add(const Frame& frame) {
 Status FrameRecorder::Check(const Frame& frame) const {
     const PinholeCamera& camera = source_.camera;
     const auto bad = [&](const std::string& why) {
-        return Status::Error(fmt::format("{}: frame {} cannot be recorded: {}", source_.name, frame.index, why));
+        return Status::Error(
+            fmt::format("{}: frame {} cannot be recorded: {}", source_.name, frame.index, why));
     };
     if (frame.colour.empty()) return bad("it has no colour");
     if (frame.depth_m.width() != camera.width || frame.depth_m.height() != camera.height ||
         frame.colour.width() != camera.width || frame.colour.height() != camera.height)
-        return bad(fmt::format("it does not have the camera's {} x {} pixels", camera.width, camera.height));
+        return bad(fmt::format("it does not have the camera's {} x {} pixels", camera.width,
+                               camera.height));
     // As it is written: microseconds.
     const auto increases = [&](double before_s, double stamp_s) {
-        return frames_ == 0 ? std::isfinite(stamp_s) : std::round(1e6 * stamp_s) > std::round(1e6 * before_s);
+        return frames_ == 0 ? std::isfinite(stamp_s)
+                            : std::round(1e6 * stamp_s) > std::round(1e6 * before_s);
     };
-    if (!increases(last_stamp_s_, frame.stamp_s) || !increases(last_colour_stamp_s_, frame.colour_stamp_s))
+    if (!increases(last_stamp_s_, frame.stamp_s) ||
+        !increases(last_colour_stamp_s_, frame.colour_stamp_s))
         return bad("its stamp does not lie after the last frame's");
     return Status::Ok();
 }
 
-Status FrameRecorder::WriteImages(const Frame& frame, const std::string& colour_name, const std::string& depth_name) {
+Status FrameRecorder::WriteImages(const Frame& frame, const std::string& colour_name,
+                                  const std::string& depth_name) {
     if (config_.colour == RecordConfig::Colour::kPng)
         png_.EncodeColour(frame.colour, file_);
     else if (Status status = EncodeJpeg(frame.colour, kFineJpegQuality, file_); !status.ok())
@@ -103,14 +113,20 @@ Status FrameRecorder::WriteImage(const std::string& name) const {
 }
 
 // The depth list last: a frame counts once it is in there.
-Status FrameRecorder::List(const Frame& frame, const std::string& colour_name, const std::string& depth_name) {
+Status FrameRecorder::List(const Frame& frame, const std::string& colour_name,
+                           const std::string& depth_name) {
     if (frame.T_world_camera) {
         if (!truth_.is_open())
-            if (Status status = truth_.Open(folder_ + "/groundtruth.txt"); !status.ok()) return status;
-        if (Status status = truth_.Append(TrajectoryLine({frame.stamp_s, *frame.T_world_camera}) + '\n'); !status.ok())
+            if (Status status = truth_.Open(folder_ + "/groundtruth.txt"); !status.ok())
+                return status;
+        if (Status status =
+                truth_.Append(TrajectoryLine({frame.stamp_s, *frame.T_world_camera}) + '\n');
+            !status.ok())
             return status;
     }
-    if (Status status = colour_list_.Append(fmt::format("{:.6f} {}\n", frame.colour_stamp_s, colour_name)); !status.ok())
+    if (Status status =
+            colour_list_.Append(fmt::format("{:.6f} {}\n", frame.colour_stamp_s, colour_name));
+        !status.ok())
         return status;
     return depth_list_.Append(fmt::format("{:.6f} {}\n", frame.stamp_s, depth_name));
 }
@@ -121,7 +137,8 @@ Status FrameRecorder::Finish() {
         (void)syncfs(folder);  // the images; their lists below tell if the disk fails
         close(folder);
     }
-    status_ = FirstError({colour_list_.Sync(), depth_list_.Sync(), truth_.is_open() ? truth_.Sync() : Status::Ok()});
+    status_ = FirstError(
+        {colour_list_.Sync(), depth_list_.Sync(), truth_.is_open() ? truth_.Sync() : Status::Ok()});
     return status_;
 }
 

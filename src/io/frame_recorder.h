@@ -1,9 +1,11 @@
-// Records any source into a folder that every tool here reads again: TUM layout, as `tessera run FOLDER` takes it.
+// Records any source into a folder in TUM layout, which `tessera run FOLDER` and every other tool
+// here reads.
 //
-//   rgb/STAMP.jpg (or .png)  depth/STAMP.png  rgb.txt depth.txt camera.yaml  groundtruth.txt if the frames have truth
+//   rgb/STAMP.jpg (or .png)   depth/STAMP.png   rgb.txt   depth.txt   camera.yaml
+//   groundtruth.txt, if the frames have truth
 //
-// Depth is 16-bit PNG in the source's own units: what is read back is what was given, bit for bit. One core, 640x480, on
-// recorded images: 4 to 6 ms a frame with JPEG, 8 to 11 with PNG.
+// Depth is 16-bit PNG in the source's own units: what is read back is what was given, bit for bit.
+// A 640x480 frame takes one core 4 to 6 ms with JPEG, 8 to 11 ms with PNG (recorded images).
 #pragma once
 
 #include <cstdint>
@@ -29,14 +31,17 @@ struct RecordConfig {
 // Owner thread only. After an error every further Add returns it.
 class FrameRecorder {
   public:
-    // Makes the folder. Refuses one that holds a recording already, and one that cannot be written to.
-    static Result<std::unique_ptr<FrameRecorder>> Create(const std::string& folder, const SourceInfo& source,
+    // Makes the folder. Refuses one that holds a recording already, and one that cannot be written
+    // to.
+    static Result<std::unique_ptr<FrameRecorder>> Create(const std::string& folder,
+                                                         const SourceInfo& source,
                                                          const RecordConfig& config = {});
 
-    // Writes the frame before it returns. Images are written beside their place and renamed, and listed only then: at any
-    // moment, also when the disk is full or the process is killed, the folder holds a readable recording of the frames
-    // before. Errors name the file, what is wrong, and how many frames are safe: a frame without colour, of another size,
-    // or with a stamp that does not increase by a microsecond; a file that cannot be written.
+    // Writes the frame before it returns. Images are written beside their place and renamed, and
+    // listed only then: at any moment, also when the disk is full or the process is killed, the
+    // folder holds a readable recording of the frames before. Errors name the file, what is wrong,
+    // and how many frames are safe: a frame without colour, of another size, or with a stamp that
+    // does not increase by a microsecond; a file that cannot be written.
     Status Add(const Frame& frame);
 
     // Has the system put all of it on the disk. To be called once, at the end.
@@ -49,7 +54,8 @@ class FrameRecorder {
         : folder_(folder), source_(source), config_(config) {}
     Status Start();
     Status Check(const Frame& frame) const;
-    Status WriteImages(const Frame& frame, const std::string& colour_name, const std::string& depth_name);
+    Status WriteImages(const Frame& frame, const std::string& colour_name,
+                       const std::string& depth_name);
     Status List(const Frame& frame, const std::string& colour_name, const std::string& depth_name);
     Status WriteImage(const std::string& name) const;
 

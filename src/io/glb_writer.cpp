@@ -17,11 +17,14 @@ static_assert(std::endian::native == std::endian::little, "glTF files are little
 static_assert(sizeof(Eigen::Vector3f) == 12 && sizeof(std::array<std::uint32_t, 3>) == 12,
               "written as they lie in memory");
 
-constexpr std::uint32_t kMagic = 0x46546c67, kVersion = 2, kJsonChunk = 0x4e4f534a, kBinaryChunk = 0x004e4942;
-constexpr int kFloat = 5126, kUnsignedShort = 5123, kUnsignedInt = 5125, kArrayBuffer = 34962, kElementBuffer = 34963;
+constexpr std::uint32_t kMagic = 0x46546c67, kVersion = 2, kJsonChunk = 0x4e4f534a,
+                        kBinaryChunk = 0x004e4942;
+constexpr int kFloat = 5126, kUnsignedShort = 5123, kUnsignedInt = 5125, kArrayBuffer = 34962,
+              kElementBuffer = 34963;
 constexpr std::size_t kColoursAtOnce = 1 << 17;
 
-using Colour16 = std::array<std::uint16_t, 4>;  // with alpha, so that each lies at a multiple of four bytes
+// With alpha, so that each lies at a multiple of four bytes.
+using Colour16 = std::array<std::uint16_t, 4>;
 
 template <class T>
 std::string_view BytesOf(const std::vector<T>& values, std::size_t count) {
@@ -45,7 +48,8 @@ class Arrays {
     // The accessor's number.
     int Add(std::size_t count, std::size_t bytes, int target, nlohmann::json accessor) {
         const auto number = static_cast<int>(views_.size());
-        views_.push_back({{"buffer", 0}, {"byteOffset", bytes_}, {"byteLength", bytes}, {"target", target}});
+        views_.push_back(
+            {{"buffer", 0}, {"byteOffset", bytes_}, {"byteLength", bytes}, {"target", target}});
         accessor["bufferView"] = number;
         accessor["count"] = count;
         accessors_.push_back(std::move(accessor));
@@ -79,14 +83,15 @@ nlohmann::json Describe(const TriangleMesh& mesh, Arrays& arrays) {
     nlohmann::json attributes;
     attributes["POSITION"] = arrays.Add(count, 12 * count, kArrayBuffer, PositionAccessor(mesh));
     if (!mesh.normals.empty())
-        attributes["NORMAL"] =
-            arrays.Add(count, 12 * count, kArrayBuffer, {{"componentType", kFloat}, {"type", "VEC3"}});
+        attributes["NORMAL"] = arrays.Add(count, 12 * count, kArrayBuffer,
+                                          {{"componentType", kFloat}, {"type", "VEC3"}});
     if (!mesh.colours.empty())
-        attributes["COLOR_0"] = arrays.Add(count, sizeof(Colour16) * count, kArrayBuffer,
-                                           {{"componentType", kUnsignedShort}, {"type", "VEC4"}, {"normalized", true}});
+        attributes["COLOR_0"] =
+            arrays.Add(count, sizeof(Colour16) * count, kArrayBuffer,
+                       {{"componentType", kUnsignedShort}, {"type", "VEC4"}, {"normalized", true}});
     const std::size_t corners = 3 * mesh.triangles.size();
-    const int indices =
-        arrays.Add(corners, 4 * corners, kElementBuffer, {{"componentType", kUnsignedInt}, {"type", "SCALAR"}});
+    const int indices = arrays.Add(corners, 4 * corners, kElementBuffer,
+                                   {{"componentType", kUnsignedInt}, {"type", "SCALAR"}});
     return {{"attributes", attributes}, {"indices", indices}, {"material", 0}, {"mode", 4}};
 }
 
@@ -94,8 +99,9 @@ std::string Json(const TriangleMesh& mesh, std::size_t& binary_bytes) {
     Arrays arrays;
     const nlohmann::json primitive = Describe(mesh, arrays);
     binary_bytes = arrays.bytes();
-    const nlohmann::json surface = {{"name", "scanned surface"},
-                                    {"pbrMetallicRoughness", {{"metallicFactor", 0.0}, {"roughnessFactor", 1.0}}}};
+    const nlohmann::json surface = {
+        {"name", "scanned surface"},
+        {"pbrMetallicRoughness", {{"metallicFactor", 0.0}, {"roughnessFactor", 1.0}}}};
     const nlohmann::json node = {{"name", "scan"}, {"mesh", 0}, {"rotation", {1.0, 0.0, 0.0, 0.0}}};
     const nlohmann::json file = {{"asset", {{"version", "2.0"}, {"generator", "tessera"}}},
                                  {"scene", 0},
@@ -147,7 +153,8 @@ Status WriteGlb(const std::string& path, const TriangleMesh& mesh) {
     const std::string json = Json(mesh, binary_bytes);
     const std::size_t bytes = 12 + 8 + json.size() + 8 + binary_bytes;
     if (bytes > std::numeric_limits<std::uint32_t>::max())
-        return Status::Error(path + ": the mesh takes more than the 4 GiB of a glTF file; write it as .ply");
+        return Status::Error(
+            path + ": the mesh takes more than the 4 GiB of a glTF file; write it as .ply");
     AtomicFile file(path);
     WriteNumbers(file, {kMagic, kVersion, bytes, json.size(), kJsonChunk});
     file.Write(json);

@@ -46,7 +46,8 @@ void StoreDepth(const DepthImage& depth_m, double units_per_m, Image<std::uint16
     std::uint16_t* to = stored.data();
     for (std::size_t i = 0; i < stored.size(); ++i) {
         const double value = static_cast<double>(from[i]) * units_per_m + 0.5;
-        to[i] = static_cast<std::uint16_t>(value >= 0.5 && value < 65536 ? static_cast<int>(value) : 0);
+        to[i] =
+            static_cast<std::uint16_t>(value >= 0.5 && value < 65536 ? static_cast<int>(value) : 0);
     }
 }
 

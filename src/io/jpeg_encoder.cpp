@@ -1,16 +1,16 @@
 #include "io/jpeg_encoder.h"
 
-#include <cstdio>  // jpeglib.h needs it first
-
 #include <jpeglib.h>
 
 #include <csetjmp>
+#include <cstdio>  // jpeglib.h needs it first
 #include <cstdlib>
 
 namespace tessera {
 namespace {
 
-// libjpeg's state. Its errors come back through longjmp: the function that calls setjmp holds plain values only.
+// libjpeg's state. Its errors come back through longjmp: the function that calls setjmp holds plain
+// values only.
 struct Compressor {
     jpeg_compress_struct info{};
     jpeg_error_mgr errors{};
@@ -47,7 +47,8 @@ bool Encode(Compressor& c, const ColourImage& image, int quality) {
     c.info.comp_info[0].h_samp_factor = c.info.comp_info[0].v_samp_factor = 1;
     jpeg_start_compress(&c.info, TRUE);
     while (c.info.next_scanline < c.info.image_height) {
-        const auto* const pixels = image.data() + std::size_t{c.info.next_scanline} * c.info.image_width;
+        const auto* const pixels =
+            image.data() + std::size_t{c.info.next_scanline} * c.info.image_width;
         JSAMPROW row = reinterpret_cast<JSAMPROW>(const_cast<Rgb8*>(pixels));  // only read
         jpeg_write_scanlines(&c.info, &row, 1);
     }

@@ -13,8 +13,9 @@ namespace tessera {
 // Of recordings and of single pictures.
 inline constexpr int kFineJpegQuality = 95;
 
-// Into `file` (its storage is reused), `quality` 1 to 100, colour at full resolution. The image must not be empty. Errors
-// say what libjpeg refuses (a side of more than 65500 pixels). Thread-safe for distinct files.
+// Into `file` (its storage is reused), `quality` 1 to 100, colour at full resolution. The image
+// must not be empty. Errors say what libjpeg refuses (a side of more than 65500 pixels).
+// Thread-safe for distinct files.
 Status EncodeJpeg(const ColourImage& image, int quality, std::vector<std::uint8_t>& file);
 
 }  // namespace tessera

@@ -35,11 +35,13 @@ bool ReadNumber(std::istream& file, Number& number) {
     return static_cast<bool>(file.read(reinterpret_cast<char*>(&number), sizeof(number)));
 }
 
-// Walks from header to header; allocates for frames that are there, not for those that the file claims.
+// Walks from header to header; allocates for frames that are there, not for those that the file
+// claims.
 Result<Index> ReadIndex(const std::string& path, std::istream& file, std::uint64_t file_bytes) {
     constexpr std::uint64_t kHeader = 16;
     std::int32_t count = 0;
-    if (!ReadNumber(file, count) || count < 0) return Status::Error(path + ": is no .klg log: it does not begin with a number of frames");
+    if (!ReadNumber(file, count) || count < 0)
+        return Status::Error(path + ": is no .klg log: it does not begin with a number of frames");
     Index index;
     std::uint64_t at = sizeof(count);
     std::int32_t whole = 0;
@@ -47,20 +49,28 @@ Result<Index> ReadIndex(const std::string& path, std::istream& file, std::uint64
         Entry entry;
         std::int32_t depth_bytes = 0, colour_bytes = 0;
         file.seekg(static_cast<std::streamoff>(at));
-        if (!ReadNumber(file, entry.stamp_us) || !ReadNumber(file, depth_bytes) || !ReadNumber(file, colour_bytes)) break;
+        if (!ReadNumber(file, entry.stamp_us) || !ReadNumber(file, depth_bytes) ||
+            !ReadNumber(file, colour_bytes))
+            break;
         if (depth_bytes <= 0 || colour_bytes < 0)
-            return Status::Error(fmt::format("{}: frame {} has {} bytes of depth and {} of colour; this is no .klg log, or a damaged one",
-                                             path, whole, depth_bytes, colour_bytes));
+            return Status::Error(
+                fmt::format("{}: frame {} has {} bytes of depth and {} of colour; this is no .klg "
+                            "log, or a damaged one",
+                            path, whole, depth_bytes, colour_bytes));
         entry.offset = at + kHeader;
         entry.depth_bytes = static_cast<std::uint32_t>(depth_bytes);
         entry.colour_bytes = static_cast<std::uint32_t>(colour_bytes);
         at = entry.offset + entry.depth_bytes + entry.colour_bytes;
         if (at > file_bytes) break;
-        if (index.entries.empty() || entry.stamp_us > index.entries.back().stamp_us) index.entries.push_back(entry);
+        if (index.entries.empty() || entry.stamp_us > index.entries.back().stamp_us)
+            index.entries.push_back(entry);
     }
-    if (whole < count) index.notes.push_back(fmt::format("the log was cut off: {} of its {} frames are there", whole, count));
+    if (whole < count)
+        index.notes.push_back(
+            fmt::format("the log was cut off: {} of its {} frames are there", whole, count));
     if (const auto dropped = static_cast<std::size_t>(whole) - index.entries.size(); dropped > 0)
-        index.notes.push_back(fmt::format("{} of {} frames are left out: their time stamps do not grow", dropped, whole));
+        index.notes.push_back(fmt::format(
+            "{} of {} frames are left out: their time stamps do not grow", dropped, whole));
     if (index.entries.empty()) return Status::Error(path + ": holds no whole frame");
     return index;
 }
@@ -69,7 +79,9 @@ Result<CameraCalibration> FindKlgCamera(const std::string& path, std::vector<std
     const fs::path file = fs::path(path).parent_path() / "camera.yaml";
     std::error_code ignored;
     if (fs::exists(file, ignored)) return ReadCameraFile(file.string());
-    notes.push_back("no camera.yaml beside the log: a focal length of 528 pixels is assumed; put a camera.yaml there if it is another camera");
+    notes.push_back(
+        "no camera.yaml beside the log: a focal length of 528 pixels is assumed; put a camera.yaml "
+        "there if it is another camera");
     CameraCalibration calibration;
     calibration.pinhole = {.width = 640, .height = 480, .fx = 528, .fy = 528, .cx = 320, .cy = 240};
     calibration.depth_scale = 1000;
@@ -78,8 +90,8 @@ Result<CameraCalibration> FindKlgCamera(const std::string& path, std::vector<std
 
 class KlgSource : public FrameSource {
   public:
-    KlgSource(const std::string& path, std::ifstream file, Index index, const CameraCalibration& calibration,
-              const FolderSourceConfig& config)
+    KlgSource(const std::string& path, std::ifstream file, Index index,
+              const CameraCalibration& calibration, const FolderSourceConfig& config)
         : path_(path),
           file_(std::move(file)),
           entries_(std::move(index.entries)),
@@ -101,7 +113,8 @@ class KlgSource : public FrameSource {
         if (next_ >= entries_.size()) return {ReadStatus::kEnd, {}};
         const std::size_t index = next_++;
         if (Status status = Decode(entries_[index]); !status.ok())
-            return {ReadStatus::kSkip, fmt::format("{}: frame {}: {}", path_, index, status.message())};
+            return {ReadStatus::kSkip,
+                    fmt::format("{}: frame {}: {}", path_, index, status.message())};
         frame.index = static_cast<std::int64_t>(index);
         frame.stamp_s = frame.colour_stamp_s = static_cast<double>(entries_[index].stamp_us) * 1e-6;
         frame.T_world_camera.reset();
@@ -117,7 +130,8 @@ class KlgSource : public FrameSource {
 
     Status Probe() {
         Status status = Decode(entries_.front());
-        return status.ok() ? status : Status::Error(fmt::format("{}: frame 0: {}", path_, status.message()));
+        return status.ok() ? status
+                           : Status::Error(fmt::format("{}: frame 0: {}", path_, status.message()));
     }
 
   private:
@@ -125,7 +139,8 @@ class KlgSource : public FrameSource {
         bytes_.resize(std::size_t{entry.depth_bytes} + entry.colour_bytes);
         file_.clear();
         file_.seekg(static_cast<std::streamoff>(entry.offset));
-        if (!file_.read(reinterpret_cast<char*>(bytes_.data()), static_cast<std::streamsize>(bytes_.size())))
+        if (!file_.read(reinterpret_cast<char*>(bytes_.data()),
+                        static_cast<std::streamsize>(bytes_.size())))
             return Status::Error("cannot be read");
         const std::span<const std::uint8_t> all(bytes_);
         if (Status status = DecodeDepth(all.first(entry.depth_bytes)); !status.ok()) return status;
@@ -139,28 +154,39 @@ class KlgSource : public FrameSource {
             std::memcpy(depth_.data(), bytes.data(), size);
             return Status::Ok();
         }
-        if (libdeflate_zlib_decompress(inflater_.get(), bytes.data(), bytes.size(), depth_.data(), size, nullptr) != LIBDEFLATE_SUCCESS)
-            return Status::Error(fmt::format("depth is damaged, or not of {} x {} pixels (camera.yaml beside the log says the size)",
-                                             info_.camera.width, info_.camera.height));
+        if (libdeflate_zlib_decompress(inflater_.get(), bytes.data(), bytes.size(), depth_.data(),
+                                       size, nullptr) != LIBDEFLATE_SUCCESS)
+            return Status::Error(
+                fmt::format("depth is damaged, or not of {} x {} pixels (camera.yaml beside the "
+                            "log says the size)",
+                            info_.camera.width, info_.camera.height));
         return Status::Ok();
     }
 
     Status DecodeColour(std::span<const std::uint8_t> bytes) {
-        colour_.Resize(bytes.empty() ? 0 : info_.camera.width, bytes.empty() ? 0 : info_.camera.height);
+        colour_.Resize(bytes.empty() ? 0 : info_.camera.width,
+                       bytes.empty() ? 0 : info_.camera.height);
         if (bytes.size() == colour_.size() * sizeof(Rgb8)) {
             if (!bytes.empty()) std::memcpy(colour_.data(), bytes.data(), bytes.size());
-        } else if (Status status = DecodeJpeg(bytes, ImageDecoder::kMaxSide_px, colour_); !status.ok()) {
+        } else if (Status status = DecodeJpeg(bytes, ImageDecoder::kMaxSide_px, colour_);
+                   !status.ok()) {
             return Status::Error("colour " + status.message());
         }
-        if (colour_.size() > 0 && (colour_.width() != info_.camera.width || colour_.height() != info_.camera.height))
-            return Status::Error(fmt::format("colour has {} x {} pixels, but the camera {} x {}; correct camera.yaml beside the log",
-                                             colour_.width(), colour_.height(), info_.camera.width, info_.camera.height));
-        if (swap_red_blue_) std::for_each_n(colour_.data(), colour_.size(), [](Rgb8& c) { std::swap(c.r, c.b); });
+        if (colour_.size() > 0 &&
+            (colour_.width() != info_.camera.width || colour_.height() != info_.camera.height))
+            return Status::Error(fmt::format(
+                "colour has {} x {} pixels, but the camera {} x {}; correct camera.yaml beside the "
+                "log",
+                colour_.width(), colour_.height(), info_.camera.width, info_.camera.height));
+        if (swap_red_blue_)
+            std::for_each_n(colour_.data(), colour_.size(), [](Rgb8& c) { std::swap(c.r, c.b); });
         return Status::Ok();
     }
 
     struct FreeInflater {
-        void operator()(libdeflate_decompressor* inflater) const { libdeflate_free_decompressor(inflater); }
+        void operator()(libdeflate_decompressor* inflater) const {
+            libdeflate_free_decompressor(inflater);
+        }
     };
 
     std::string path_;
@@ -169,7 +195,8 @@ class KlgSource : public FrameSource {
     bool swap_red_blue_;
     Rectifier rectifier_;
     SourceInfo info_;
-    std::unique_ptr<libdeflate_decompressor, FreeInflater> inflater_{libdeflate_alloc_decompressor()};
+    std::unique_ptr<libdeflate_decompressor, FreeInflater> inflater_{
+        libdeflate_alloc_decompressor()};
     std::vector<std::uint8_t> bytes_;
     Image<std::uint16_t> depth_;
     ColourImage colour_;
@@ -178,7 +205,8 @@ class KlgSource : public FrameSource {
 
 }  // namespace
 
-Result<std::unique_ptr<FrameSource>> OpenKlgSource(const std::string& path, const FolderSourceConfig& config) {
+Result<std::unique_ptr<FrameSource>> OpenKlgSource(const std::string& path,
+                                                   const FolderSourceConfig& config) {
     if (Status status = config.Validate(); !status.ok()) return status;
     std::error_code error;
     if (!fs::is_regular_file(path, error)) return Status::Error(path + ": no such file");
@@ -190,8 +218,10 @@ Result<std::unique_ptr<FrameSource>> OpenKlgSource(const std::string& path, cons
     Result<CameraCalibration> calibration = FindKlgCamera(path, index.value().notes);
     if (!calibration.ok()) return calibration.status();
     if (config.depth_scale > 0) calibration.value().depth_scale = config.depth_scale;
-    if (config.camera) calibration.value().pinhole = WithSizeOf(calibration.value().pinhole, *config.camera);
-    auto source = std::make_unique<KlgSource>(path, std::move(file), std::move(index.value()), calibration.value(), config);
+    if (config.camera)
+        calibration.value().pinhole = WithSizeOf(calibration.value().pinhole, *config.camera);
+    auto source = std::make_unique<KlgSource>(path, std::move(file), std::move(index.value()),
+                                              calibration.value(), config);
     if (Status status = source->Probe(); !status.ok()) return status;
     return std::unique_ptr<FrameSource>(std::move(source));
 }

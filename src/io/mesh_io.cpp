@@ -19,7 +19,21 @@ constexpr std::size_t kMaxMeshBytes = std::size_t{16} << 30;
 constexpr std::uint64_t kMaxIndex = std::numeric_limits<std::int32_t>::max();
 
 // Where a vertex property goes; kNone is skipped.
-enum Slot { kX, kY, kZ, kNx, kNy, kNz, kRed, kGreen, kBlue, kClass, kInstance, kSlots, kNone = kSlots };
+enum Slot {
+    kX,
+    kY,
+    kZ,
+    kNx,
+    kNy,
+    kNz,
+    kRed,
+    kGreen,
+    kBlue,
+    kClass,
+    kInstance,
+    kSlots,
+    kNone = kSlots
+};
 
 Slot SlotOf(std::string_view name) {
     // clang-format off
@@ -48,7 +62,8 @@ std::uint8_t ToByte(double value) {
 }
 
 std::uint16_t ToIndex(double value) {
-    return value > 0 ? static_cast<std::uint16_t>(std::lround(std::min(value, 65535.0))) : std::uint16_t{0};
+    return value > 0 ? static_cast<std::uint16_t>(std::lround(std::min(value, 65535.0)))
+                     : std::uint16_t{0};
 }
 
 // A normal as the mesh wants it: of unit length, zero if it cannot be.
@@ -75,7 +90,8 @@ Status ReadVertices(const PlyElement& element, Scalars& scalars, TriangleMesh& m
     for (const PlyProperty& property : element.properties) {
         slots.push_back(property.is_list ? kNone : SlotOf(property.name));
         has[slots.back()] = true;
-        if (slots.back() >= kRed && slots.back() <= kBlue) scale[slots.back()] = ColourScale(property.type);
+        if (slots.back() >= kRed && slots.back() <= kBlue)
+            scale[slots.back()] = ColourScale(property.type);
     }
     if (!has[kX] || !has[kY] || !has[kZ]) return Status::Error("its vertices have no x, y, z");
     if (element.count > kMaxIndex) return Status::Error("has more than 2^31 vertices");

@@ -17,8 +17,9 @@ constexpr MeshFormat kFormats[] = {{".ply", WritePly}, {".obj", WriteObj}, {".gl
 
 void CheckVertexProperties(const TriangleMesh& mesh) {
     const std::size_t count = mesh.vertices.size();
-    for (const auto& [name, size] : {std::pair("normals", mesh.normals.size()), std::pair("colours", mesh.colours.size()),
-                                     std::pair("labels", mesh.labels.size())})
+    for (const auto& [name, size] :
+         {std::pair("normals", mesh.normals.size()), std::pair("colours", mesh.colours.size()),
+          std::pair("labels", mesh.labels.size())})
         TESSERA_CHECK(size == 0 || size == count, "{} {}, {} vertices", size, name, count);
 }
 
@@ -29,7 +30,8 @@ Result<MeshFormat> MeshFormatOf(const std::string& path) {
         if (extension == format.extension) return format;
         known += (known.empty() ? "" : ", ") + std::string(format.extension);
     }
-    return Status::Error(fmt::format("{}: a mesh is written as {}; give one of these extensions", path, known));
+    return Status::Error(
+        fmt::format("{}: a mesh is written as {}; give one of these extensions", path, known));
 }
 
 }  // namespace tessera

@@ -46,14 +46,10 @@ std::optional<double> StampInName(const std::string& name) {
     if (error != std::errc() || end != stem.data() + stem.size()) return std::nullopt;
     if (stem.find('.') != std::string::npos) return value;
     switch (stem.size()) {
-        case 13:
-            return value * 1e-3;
-        case 16:
-            return value * 1e-6;
-        case 19:
-            return value * 1e-9;
-        default:
-            return std::nullopt;
+        case 13: return value * 1e-3;
+        case 16: return value * 1e-6;
+        case 19: return value * 1e-9;
+        default: return std::nullopt;
     }
 }
 

@@ -25,7 +25,8 @@ double MiddleValue(std::vector<std::uint16_t>& values) {
 // TUM's files hold whole millimetres times five. Otherwise the unit that makes it more of a room.
 double UnitOf(const std::vector<std::uint16_t>& values, double middle) {
     if (middle <= 0) return kMillimetres;
-    const bool fives = std::all_of(values.begin(), values.end(), [](std::uint16_t value) { return value % 5 == 0; });
+    const bool fives = std::all_of(values.begin(), values.end(),
+                                   [](std::uint16_t value) { return value % 5 == 0; });
     if (fives && middle >= kNearest_m * kTum && middle <= kFarthest_m * kTum) return kTum;
     const auto unusual = [&](double unit) { return std::abs(std::log(middle / unit / kUsual_m)); };
     return unusual(kTum) < unusual(kMillimetres) ? kTum : kMillimetres;
@@ -42,13 +43,16 @@ Status AssumeCamera(FolderLayout& layout) {
     PinholeCamera camera{.width = 0};
     const std::size_t count = layout.frames.size(), probes = std::min(kProbes, count);
     for (std::size_t i = 0; i < probes; ++i) {
-        if (Status status = decoder.ReadDepth(layout.frames[i * count / probes].depth_path, depth); !status.ok()) {
+        if (Status status = decoder.ReadDepth(layout.frames[i * count / probes].depth_path, depth);
+            !status.ok()) {
             if (first.ok()) first = std::move(status);
             continue;
         }
         if (camera.width == 0) camera.width = depth.width(), camera.height = depth.height();
         for (std::size_t k = 0; k < depth.size(); k += kEvery)
-            if (const std::uint16_t value = depth.data()[k]; value != 0 && value != layout.invalid_depth) values.push_back(value);
+            if (const std::uint16_t value = depth.data()[k];
+                value != 0 && value != layout.invalid_depth)
+                values.push_back(value);
     }
     if (camera.width == 0) return first;
     camera.fx = camera.fy = 0.5 * camera.width / std::tan(0.5 * kFieldOfView_rad);
@@ -57,9 +61,11 @@ Status AssumeCamera(FolderLayout& layout) {
     const double middle = MiddleValue(values), unit = UnitOf(values, middle);
     layout.calibration.pinhole = camera;
     layout.calibration.depth_scale = unit;
-    layout.notes.push_back(fmt::format("no camera.yaml: depth_scale {:.0f} is assumed, which makes the middle depth {:.2f} m; if it is "
-                                       "another, set source.depth_scale",
-                                       unit, middle / unit));
+    layout.notes.push_back(
+        fmt::format("no camera.yaml: depth_scale {:.0f} is assumed, which makes the middle depth "
+                    "{:.2f} m; if it is "
+                    "another, set source.depth_scale",
+                    unit, middle / unit));
     return Status::Ok();
 }
 

@@ -14,7 +14,9 @@ constexpr std::size_t kLineBytes = 256;  // more than any line takes
 // Collects lines and hands them on in large pieces.
 class LineBuffer {
   public:
-    explicit LineBuffer(AtomicFile& file) : file_(file) { text_.reserve(kMeshPieceBytes + kLineBytes); }
+    explicit LineBuffer(AtomicFile& file) : file_(file) {
+        text_.reserve(kMeshPieceBytes + kLineBytes);
+    }
     ~LineBuffer() { file_.Write(text_); }
     LineBuffer(const LineBuffer&) = delete;
     LineBuffer& operator=(const LineBuffer&) = delete;
@@ -40,8 +42,8 @@ void AddVertices(const TriangleMesh& mesh, LineBuffer& lines) {
             continue;
         }
         const Rgb8& c = mesh.colours[i];
-        lines.Add(FMT_COMPILE("v {:.6f} {:.6f} {:.6f} {:.4f} {:.4f} {:.4f}\n"), v.x(), v.y(), v.z(), c.r / 255.0,
-                  c.g / 255.0, c.b / 255.0);
+        lines.Add(FMT_COMPILE("v {:.6f} {:.6f} {:.6f} {:.4f} {:.4f} {:.4f}\n"), v.x(), v.y(), v.z(),
+                  c.r / 255.0, c.g / 255.0, c.b / 255.0);
     }
     for (const Eigen::Vector3f& n : mesh.normals)
         lines.Add(FMT_COMPILE("vn {:.4f} {:.4f} {:.4f}\n"), n.x(), n.y(), n.z());
@@ -50,7 +52,8 @@ void AddVertices(const TriangleMesh& mesh, LineBuffer& lines) {
 // Counted from 1.
 void AddFaces(const TriangleMesh& mesh, LineBuffer& lines) {
     for (const auto& [a, b, c] : mesh.triangles) {
-        const std::uint64_t i = std::uint64_t{a} + 1, j = std::uint64_t{b} + 1, k = std::uint64_t{c} + 1;
+        const std::uint64_t i = std::uint64_t{a} + 1, j = std::uint64_t{b} + 1,
+                            k = std::uint64_t{c} + 1;
         if (mesh.normals.empty())
             lines.Add(FMT_COMPILE("f {} {} {}\n"), i, j, k);
         else
@@ -65,7 +68,8 @@ Status WriteObj(const std::string& path, const TriangleMesh& mesh) {
     AtomicFile file(path);
     {
         LineBuffer lines(file);
-        lines.Add(FMT_COMPILE("# made by tessera, metres; {} vertices, {} triangles\n"), mesh.vertices.size(), mesh.triangles.size());
+        lines.Add(FMT_COMPILE("# made by tessera, metres; {} vertices, {} triangles\n"),
+                  mesh.vertices.size(), mesh.triangles.size());
         AddVertices(mesh, lines);
         AddFaces(mesh, lines);
     }

@@ -33,16 +33,19 @@ namespace {
 constexpr int kDepthBytes = 2, kRgbBytes = 3;
 
 int PixelBytes(openni::PixelFormat format) {
-    return format == openni::PIXEL_FORMAT_RGB888 ? kRgbBytes : format == openni::PIXEL_FORMAT_GRAY8 ? 1 : kDepthBytes;
+    return format == openni::PIXEL_FORMAT_RGB888  ? kRgbBytes
+           : format == openni::PIXEL_FORMAT_GRAY8 ? 1
+                                                  : kDepthBytes;
 }
 
 // Empty, or what is wrong with an image that should have the camera's size.
 std::string FaultOf(const openni::VideoFrameRef& image, const PinholeCamera& camera) {
     if (image.getData() == nullptr || image.getDataSize() <= 0) return "it is empty";
     if (image.getWidth() != camera.width || image.getHeight() != camera.height)
-        return fmt::format("it has {} x {} pixels instead of {} x {}", image.getWidth(), image.getHeight(), camera.width,
-                           camera.height);
-    const std::int64_t row = std::int64_t{camera.width} * PixelBytes(image.getVideoMode().getPixelFormat());
+        return fmt::format("it has {} x {} pixels instead of {} x {}", image.getWidth(),
+                           image.getHeight(), camera.width, camera.height);
+    const std::int64_t row =
+        std::int64_t{camera.width} * PixelBytes(image.getVideoMode().getPixelFormat());
     const std::int64_t stride = image.getStrideInBytes();
     if (stride < row || image.getDataSize() < stride * (camera.height - 1) + row)
         return fmt::format("it has {} bytes, too few for its size", image.getDataSize());
@@ -62,62 +65,77 @@ void CopyColour(const openni::VideoFrameRef& from, ColourImage& to) {
     const bool grey = from.getVideoMode().getPixelFormat() == openni::PIXEL_FORMAT_GRAY8;
     for (int y = 0; y < to.height(); ++y, row += from.getStrideInBytes()) {
         if (!grey)
-            std::memcpy(static_cast<void*>(to.row(y)), row, static_cast<std::size_t>(to.width()) * kRgbBytes);
+            std::memcpy(static_cast<void*>(to.row(y)), row,
+                        static_cast<std::size_t>(to.width()) * kRgbBytes);
         else
             for (int x = 0; x < to.width(); ++x) to(x, y) = {row[x], row[x], row[x]};
     }
 }
 
-Status StartPlayback(openni::Device& device, const openni::VideoStream& depth, const openni::VideoStream& colour,
-                     const OpenniConfig& config, OpenniCamera::About& about) {
+Status StartPlayback(openni::Device& device, const openni::VideoStream& depth,
+                     const openni::VideoStream& colour, const OpenniConfig& config,
+                     OpenniCamera::About& about) {
     openni::PlaybackControl* playback = device.getPlaybackControl();
     if (playback == nullptr) return Status::Error("is no .oni recording");
     // -1: a frame whenever one is waited for.
     const float speed = config.playback == OpenniConfig::Playback::kFast ? -1.0f : 1.0f;
-    if (playback->setRepeatEnabled(false) != openni::STATUS_OK || playback->setSpeed(speed) != openni::STATUS_OK)
+    if (playback->setRepeatEnabled(false) != openni::STATUS_OK ||
+        playback->setSpeed(speed) != openni::STATUS_OK)
         return Status::Error("cannot be played: " + OpenniErrorText());
-    const int frames = std::min(playback->getNumberOfFrames(depth), playback->getNumberOfFrames(colour));
+    const int frames =
+        std::min(playback->getNumberOfFrames(depth), playback->getNumberOfFrames(colour));
     if (frames >= 0) about.frame_count = frames;
     return Status::Ok();
 }
 
 }  // namespace
 
-OpenniCamera::OpenniCamera(std::shared_ptr<OpenniRuntime> runtime, std::unique_ptr<Streams> streams, About about,
-                           bool is_recording)
-    : runtime_(std::move(runtime)), streams_(std::move(streams)), about_(std::move(about)), is_recording_(is_recording) {}
+OpenniCamera::OpenniCamera(std::shared_ptr<OpenniRuntime> runtime, std::unique_ptr<Streams> streams,
+                           About about, bool is_recording)
+    : runtime_(std::move(runtime)),
+      streams_(std::move(streams)),
+      about_(std::move(about)),
+      is_recording_(is_recording) {}
 
 OpenniCamera::~OpenniCamera() = default;
 
-Result<std::unique_ptr<OpenniCamera>> OpenniCamera::Open(std::shared_ptr<OpenniRuntime> runtime, const std::string& uri,
-                                                         bool is_recording, const OpenniConfig& config) {
+Result<std::unique_ptr<OpenniCamera>> OpenniCamera::Open(std::shared_ptr<OpenniRuntime> runtime,
+                                                         const std::string& uri, bool is_recording,
+                                                         const OpenniConfig& config) {
     About about;
     about.uri = uri;
     runtime->Watch(uri);
     auto streams = std::make_unique<Streams>();
     if (streams->device.open(uri.c_str()) != openni::STATUS_OK)
-        return Status::Error(is_recording ? "is no complete .oni recording (" + OpenniErrorText() + ")"
-                                          : "cannot be opened, does another program use it? (" + OpenniErrorText() + ")");
+        return Status::Error(is_recording
+                                 ? "is no complete .oni recording (" + OpenniErrorText() + ")"
+                                 : "cannot be opened, does another program use it? (" +
+                                       OpenniErrorText() + ")");
     const openni::DeviceInfo& info = streams->device.getDeviceInfo();
     about.name = std::string(info.getVendor()) + " " + info.getName();
     const OpenniStreams parts{streams->device, streams->depth, streams->colour};
-    if (Status status = SetUpOpenniStreams(parts, is_recording, config, about); !status.ok()) return status;
+    if (Status status = SetUpOpenniStreams(parts, is_recording, config, about); !status.ok())
+        return status;
     if (is_recording)
-        if (Status status = StartPlayback(streams->device, streams->depth, streams->colour, config, about); !status.ok())
+        if (Status status =
+                StartPlayback(streams->device, streams->depth, streams->colour, config, about);
+            !status.ok())
             return status;
-    if (Status status = StartOpenniStreams(parts, is_recording, config, about); !status.ok()) return status;
+    if (Status status = StartOpenniStreams(parts, is_recording, config, about); !status.ok())
+        return status;
     return std::unique_ptr<OpenniCamera>(
         new OpenniCamera(std::move(runtime), std::move(streams), std::move(about), is_recording));
 }
 
-OpenniCamera::Arrival OpenniCamera::Wait(double seconds, Image<std::uint16_t>& depth, ColourImage& colour) {
+OpenniCamera::Arrival OpenniCamera::Wait(double seconds, Image<std::uint16_t>& depth,
+                                         ColourImage& colour) {
     Arrival arrival;
     openni::VideoStream* both[] = {&streams_->depth, &streams_->colour};
     int ready = -1;
     const int milliseconds = std::max(1, static_cast<int>(std::lround(1000 * seconds)));
     openni::VideoFrameRef image;
-    if (openni::OpenNI::waitForAnyStream(both, 2, &ready, milliseconds) != openni::STATUS_OK || ready < 0 ||
-        both[ready]->readFrame(&image) != openni::STATUS_OK || !image.isValid()) {
+    if (openni::OpenNI::waitForAnyStream(both, 2, &ready, milliseconds) != openni::STATUS_OK ||
+        ready < 0 || both[ready]->readFrame(&image) != openni::STATUS_OK || !image.isValid()) {
         if (is_recording_ && runtime_->CameToItsEnd(about_.uri)) arrival.event = Event::kEnd;
         return arrival;
     }
@@ -143,7 +161,8 @@ Status OpenniCamera::Record(const std::string& path, bool lossless_colour) {
     openni::Recorder& recorder = streams_->recorder;
     if (recorder.isValid()) return Status::Error(path + ": this camera is being recorded already");
     std::error_code ignored;
-    if (std::filesystem::exists(path, ignored)) return Status::Error(path + ": exists already; give a new name");
+    if (std::filesystem::exists(path, ignored))
+        return Status::Error(path + ": exists already; give a new name");
     // The library ends the process where it cannot open the file, so that is tried before.
     if (GrowingFile probe; !probe.Open(path).ok()) return probe.Open(path);
     if (recorder.create(path.c_str()) != openni::STATUS_OK)

@@ -9,12 +9,14 @@ namespace tessera {
 struct OpenniConfig {
     enum class Playback { kFast, kRecorded };
 
-    double fx = 0, fy = 0, cx = 0, cy = 0;  // pixels; 0: from the device's fields of view, and the image's centre
-    bool registration = true;               // depth as the colour camera sees it, by the device
-    bool frame_sync = true;                 // both images at the same moment, by the device
+    // Pixels; 0: from the device's fields of view, and the image's centre.
+    double fx = 0, fy = 0, cx = 0, cy = 0;
+    bool registration = true;  // depth as the colour camera sees it, by the device
+    bool frame_sync = true;    // both images at the same moment, by the device
     bool auto_exposure = true, auto_white_balance = true;
-    double max_pair_gap_s = 0.02;           // colour and depth at least this far apart in time are no pair
-    Playback playback = Playback::kFast;    // of .oni files
+    // Colour and depth at least this far apart in time are no pair.
+    double max_pair_gap_s = 0.02;
+    Playback playback = Playback::kFast;  // of .oni files
 
     void Describe(ConfigParameters& parameters);
 };

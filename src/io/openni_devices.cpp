@@ -20,11 +20,14 @@ constexpr const char* kSettings = "/etc/openni2/OpenNI.ini";
 std::string DriverFolder() {
     Dl_info about{};
     std::error_code error;
-    if (dladdr(reinterpret_cast<const void*>(&oniInitialize), &about) == 0 || about.dli_fname == nullptr) return {};
+    if (dladdr(reinterpret_cast<const void*>(&oniInitialize), &about) == 0 ||
+        about.dli_fname == nullptr)
+        return {};
     const fs::path base = fs::canonical(about.dli_fname, error).parent_path();
     std::ifstream settings(kSettings);
     for (std::string line; std::getline(settings, line);)
-        if (const std::string key = "Repository="; line.starts_with(key)) return (base / line.substr(key.size())).string();
+        if (const std::string key = "Repository="; line.starts_with(key))
+            return (base / line.substr(key.size())).string();
     return (base / "OpenNI2" / "Drivers").string();
 }
 
@@ -40,20 +43,30 @@ bool HasUdevRules() {
     for (const char* folder : {"/lib/udev/rules.d", "/usr/lib/udev/rules.d", "/etc/udev/rules.d"})
         for (const auto& entry : fs::directory_iterator(folder, error)) {
             const std::string name = entry.path().filename().string();
-            if (name.find("openni") != std::string::npos || name.find("primesense") != std::string::npos) return true;
+            if (name.find("openni") != std::string::npos ||
+                name.find("primesense") != std::string::npos)
+                return true;
         }
     return false;
 }
 
-void AdviseOn(const UsbCamera& camera, const std::string& driver_folder, std::vector<std::string>& advice) {
+void AdviseOn(const UsbCamera& camera, const std::string& driver_folder,
+              std::vector<std::string>& advice) {
     advice.push_back(fmt::format("on USB: {}, {}", camera.name, camera.path));
     if (!camera.writable)
-        advice.push_back(HasUdevRules() ? "  you may not use it: unplug it and plug it in again, so that the udev rules apply"
-                                        : "  you may not use it: udev rules are missing (package libopenni2-0); install, plug in again");
+        advice.push_back(HasUdevRules() ? "  you may not use it: unplug it and plug it in again, "
+                                          "so that the udev rules apply"
+                                        : "  you may not use it: udev rules are missing (package "
+                                          "libopenni2-0); install, plug in again");
     else if (camera.needs_freenect && !HasDriver(driver_folder, "Freenect"))
-        advice.push_back("  needs libfreenect's OpenNI2 driver, which Debian does not have (docs/camera.md), in " + driver_folder);
+        advice.push_back(
+            "  needs libfreenect's OpenNI2 driver, which Debian does not have (docs/camera.md), "
+            "in " +
+            driver_folder);
     else
-        advice.push_back("  it does not answer: does another program use it? else plug it in again, at another port");
+        advice.push_back(
+            "  it does not answer: does another program use it? else plug it in again, at another "
+            "port");
 }
 
 std::vector<std::string> Advise(const std::string& driver_folder) {
@@ -61,13 +74,17 @@ std::vector<std::string> Advise(const std::string& driver_folder) {
     std::vector<std::string> advice;
     std::error_code error;
     if (!HasDriver(driver_folder, "lib"))
-        advice.push_back("no drivers in " + driver_folder + " (package libopenni2-0; or correct " + kSettings + ")");
+        advice.push_back("no drivers in " + driver_folder + " (package libopenni2-0; or correct " +
+                         kSettings + ")");
     if (!fs::exists(sys_devices, error)) {
-        advice.push_back("no USB bus to be seen here (in a container? pass /dev/bus/usb and /sys into it)");
+        advice.push_back(
+            "no USB bus to be seen here (in a container? pass /dev/bus/usb and /sys into it)");
         return advice;
     }
     const std::vector<UsbCamera> cameras = FindUsbCameras(sys_devices, "/dev/bus/usb");
-    if (cameras.empty()) advice.push_back("no known depth camera on USB: is it plugged in, and its power supply too?");
+    if (cameras.empty())
+        advice.push_back(
+            "no known depth camera on USB: is it plugged in, and its power supply too?");
     for (const UsbCamera& camera : cameras) AdviseOn(camera, driver_folder, advice);
     return advice;
 }
@@ -84,7 +101,8 @@ OpenniListing ListOpenniDevices() {
     if (!runtime.ok()) listing.advice.push_back(runtime.message());
     if (runtime.ok()) listing.devices = runtime.value()->Devices();
     if (listing.devices.empty())
-        for (std::string& line : Advise(listing.driver_folder)) listing.advice.push_back(std::move(line));
+        for (std::string& line : Advise(listing.driver_folder))
+            listing.advice.push_back(std::move(line));
     return listing;
 }
 

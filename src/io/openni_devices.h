@@ -12,11 +12,12 @@ struct OpenniDevice {
 };
 
 struct OpenniListing {
-    bool built_in = false;            // this build has OpenNI2
-    std::string version;              // of the OpenNI2 library
-    std::string driver_folder;        // where it looks for drivers
+    bool built_in = false;      // this build has OpenNI2
+    std::string version;        // of the OpenNI2 library
+    std::string driver_folder;  // where it looks for drivers
     std::vector<OpenniDevice> devices;
-    std::vector<std::string> advice;  // if there is no device: what is wrong or what to do, a line each
+    // If there is no device: what is wrong or what to do, a line each.
+    std::vector<std::string> advice;
 };
 
 // Initialises the OpenNI2 runtime if nobody has; takes up to a second then. Thread-safe.
@@ -24,9 +25,9 @@ OpenniListing ListOpenniDevices();
 
 // A depth camera on the USB bus, known by its numbers.
 struct UsbCamera {
-    std::string name;    // "Microsoft Kinect (Xbox 360)"
-    std::string path;    // its device file
-    bool writable = false;      // by this user: needed to drive it
+    std::string name;             // "Microsoft Kinect (Xbox 360)"
+    std::string path;             // its device file
+    bool writable = false;        // by this user: needed to drive it
     bool needs_freenect = false;  // OpenNI2's own drivers do not know it
 };
 

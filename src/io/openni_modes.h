@@ -14,9 +14,10 @@ struct StreamMode {
     int preference = 0;  // among equals, less is better
 };
 
-// The modes' indices (depth's, colour's) of the common size nearest to 640 x 480, then of the rates nearest to 30 per
-// second, then the preferred pixels; nothing if no usable modes have the same size.
-std::optional<std::pair<std::size_t, std::size_t>> ChooseModes(const std::vector<StreamMode>& depth,
-                                                               const std::vector<StreamMode>& colour);
+// The modes' indices (depth's, colour's) of the common size nearest to 640 x 480, then of the rates
+// nearest to 30 per second, then the preferred pixels; nothing if no usable modes have the same
+// size.
+std::optional<std::pair<std::size_t, std::size_t>> ChooseModes(
+    const std::vector<StreamMode>& depth, const std::vector<StreamMode>& colour);
 
 }  // namespace tessera

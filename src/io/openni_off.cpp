@@ -4,8 +4,10 @@
 
 namespace tessera {
 
-Result<std::unique_ptr<FrameSource>> OpenOpenniSource(const std::string& name, const OpenniConfig&) {
-    return Status::Error(name + ": this build has no OpenNI2: install libopenni2-dev and build again");
+Result<std::unique_ptr<FrameSource>> OpenOpenniSource(const std::string& name,
+                                                      const OpenniConfig&) {
+    return Status::Error(name +
+                         ": this build has no OpenNI2: install libopenni2-dev and build again");
 }
 
 OpenniListing ListOpenniDevices() {

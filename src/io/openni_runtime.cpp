@@ -22,7 +22,8 @@ std::mutex& LifeMutex() {
 std::string OpenniErrorText() {
     std::string text = openni::OpenNI::getExtendedError();
     while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back()))) text.pop_back();
-    std::replace_if(text.begin(), text.end(), [](unsigned char c) { return c < ' '; }, ' ');
+    std::replace_if(
+        text.begin(), text.end(), [](unsigned char c) { return c < ' '; }, ' ');
     return text.empty() ? "no reason given" : text;
 }
 
@@ -30,7 +31,9 @@ std::string OpenniErrorText() {
 struct OpenniRuntime::Impl : openni::OpenNI::DeviceConnectedListener,
                              openni::OpenNI::DeviceDisconnectedListener,
                              openni::OpenNI::DeviceStateChangedListener {
-    void onDeviceConnected(const openni::DeviceInfo*) override { Change([] {}); }
+    void onDeviceConnected(const openni::DeviceInfo*) override {
+        Change([] {});
+    }
     void onDeviceDisconnected(const openni::DeviceInfo* info) override {
         Change([&] { unplugged.insert(info->getUri()); });
     }

@@ -12,9 +12,10 @@ namespace tessera {
 
 // Initialised with the first Acquire, shut down with its last owner. Thread-safe.
 //
-// The library (2.2) remembers every thread that ever called it, its own recorders' too, and looks at the dead ones' memory
-// when another thread calls it first. That memory is mostly still there; but a process should call it from few threads
-// that live long, and begin no second recording. Even a test program runs one such test per process.
+// The library (2.2) remembers every thread that ever called it, its own recorders' too, and looks
+// at the dead ones' memory when another thread calls it first. That memory is mostly still there;
+// but a process should call it from few threads that live long, and begin no second recording. Even
+// a test program runs one such test per process.
 class OpenniRuntime {
   public:
     // An error says what the library found missing.

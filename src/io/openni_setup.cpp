@@ -17,14 +17,10 @@ StreamMode Described(const VideoMode& mode) {
     StreamMode result{mode.getResolutionX(), mode.getResolutionY(), mode.getFps(), true, 0};
     switch (mode.getPixelFormat()) {
         case openni::PIXEL_FORMAT_DEPTH_1_MM:
-        case openni::PIXEL_FORMAT_RGB888:
-            break;
+        case openni::PIXEL_FORMAT_RGB888: break;
         case openni::PIXEL_FORMAT_DEPTH_100_UM:
-        case openni::PIXEL_FORMAT_GRAY8:
-            result.preference = 1;
-            break;
-        default:
-            result.usable = false;
+        case openni::PIXEL_FORMAT_GRAY8: result.preference = 1; break;
+        default: result.usable = false;
     }
     return result;
 }
@@ -38,20 +34,27 @@ std::vector<StreamMode> ModesOf(const VideoStream& stream) {
 
 Status ChooseAndSetModes(const OpenniStreams& s) {
     const auto chosen = ChooseModes(ModesOf(s.depth), ModesOf(s.colour));
-    if (!chosen) return Status::Error("depth and colour have no size in common, with 16-bit depth and RGB or grey colour");
+    if (!chosen)
+        return Status::Error(
+            "depth and colour have no size in common, with 16-bit depth and RGB or grey colour");
     const auto set = [](VideoStream& stream, std::size_t index) {
-        return stream.setVideoMode(stream.getSensorInfo().getSupportedVideoModes()[static_cast<int>(index)]);
+        return stream.setVideoMode(
+            stream.getSensorInfo().getSupportedVideoModes()[static_cast<int>(index)]);
     };
-    if (set(s.depth, chosen->first) != openni::STATUS_OK || set(s.colour, chosen->second) != openni::STATUS_OK)
+    if (set(s.depth, chosen->first) != openni::STATUS_OK ||
+        set(s.colour, chosen->second) != openni::STATUS_OK)
         return Status::Error("the size and rate cannot be set: " + OpenniErrorText());
     return Status::Ok();
 }
 
 void SetRegistration(openni::Device& device, OpenniCamera::About& about) {
     const auto wanted = openni::IMAGE_REGISTRATION_DEPTH_TO_COLOR;
-    if (!device.isImageRegistrationModeSupported(wanted) || device.setImageRegistrationMode(wanted) != openni::STATUS_OK)
-        about.notes.push_back("the device does not register depth to colour: depth is used as it is, colours lie beside their "
-                              "surface by the distance of the two lenses");
+    if (!device.isImageRegistrationModeSupported(wanted) ||
+        device.setImageRegistrationMode(wanted) != openni::STATUS_OK)
+        about.notes.push_back(
+            "the device does not register depth to colour: depth is used as it is, colours lie "
+            "beside their "
+            "surface by the distance of the two lenses");
 }
 
 // A pinhole's focal length from its field of view.
@@ -60,41 +63,58 @@ double Focal_px(int pixels, float fov_rad) {
 }
 
 // Registered depth is the colour camera's view.
-PinholeCamera CameraOf(const OpenniStreams& s, const OpenniConfig& config, OpenniCamera::About& about) {
+PinholeCamera CameraOf(const OpenniStreams& s, const OpenniConfig& config,
+                       OpenniCamera::About& about) {
     const VideoMode mode = s.depth.getVideoMode();
-    const bool registered = s.device.getImageRegistrationMode() == openni::IMAGE_REGISTRATION_DEPTH_TO_COLOR;
+    const bool registered =
+        s.device.getImageRegistrationMode() == openni::IMAGE_REGISTRATION_DEPTH_TO_COLOR;
     const VideoStream& stream = registered ? s.colour : s.depth;
     const int width = mode.getResolutionX(), height = mode.getResolutionY();
-    PinholeCamera camera{width, height, Focal_px(width, stream.getHorizontalFieldOfView()),
-                         Focal_px(height, stream.getVerticalFieldOfView()), (width - 1) / 2.0, (height - 1) / 2.0};
-    const auto plausible = [](double focal, int pixels) { return focal > 0.2 * pixels && focal < 10.0 * pixels; };
+    PinholeCamera camera{width,
+                         height,
+                         Focal_px(width, stream.getHorizontalFieldOfView()),
+                         Focal_px(height, stream.getVerticalFieldOfView()),
+                         (width - 1) / 2.0,
+                         (height - 1) / 2.0};
+    const auto plausible = [](double focal, int pixels) {
+        return focal > 0.2 * pixels && focal < 10.0 * pixels;
+    };
     if (!plausible(camera.fx, width) || !plausible(camera.fy, height)) {
         camera.fx = camera.fy = 525.0 / 640 * width;  // a Kinect's, nearly
         if (config.fx == 0 || config.fy == 0)
-            about.notes.push_back("no usable field of view is given; a Kinect's focal length is taken (set source.openni.fx "
-                                  "and fy)");
+            about.notes.push_back(
+                "no usable field of view is given; a Kinect's focal length is taken (set "
+                "source.openni.fx "
+                "and fy)");
     }
-    for (const auto& [wanted, value] :
-         {std::pair{config.fx, &camera.fx}, {config.fy, &camera.fy}, {config.cx, &camera.cx}, {config.cy, &camera.cy}})
+    for (const auto& [wanted, value] : {std::pair{config.fx, &camera.fx},
+                                        {config.fy, &camera.fy},
+                                        {config.cx, &camera.cx},
+                                        {config.cy, &camera.cy}})
         if (wanted > 0) *value = wanted;
     return camera;
 }
 
 Status CheckModes(const OpenniStreams& s, OpenniCamera::About& about) {
-    const StreamMode depth = Described(s.depth.getVideoMode()), colour = Described(s.colour.getVideoMode());
-    if (!depth.usable || !colour.usable) return Status::Error("depth is not 16-bit in mm, or colour neither RGB nor grey");
+    const StreamMode depth = Described(s.depth.getVideoMode()),
+                     colour = Described(s.colour.getVideoMode());
+    if (!depth.usable || !colour.usable)
+        return Status::Error("depth is not 16-bit in mm, or colour neither RGB nor grey");
     if (depth.width != colour.width || depth.height != colour.height)
-        return Status::Error(fmt::format("depth has {} x {} pixels, colour {} x {}: they must be the same", depth.width,
-                                         depth.height, colour.width, colour.height));
+        return Status::Error(
+            fmt::format("depth has {} x {} pixels, colour {} x {}: they must be the same",
+                        depth.width, depth.height, colour.width, colour.height));
     if (depth.width < 16 || depth.height < 16 || depth.width > 8192 || depth.height > 8192)
-        return Status::Error(fmt::format("{} x {} pixels are no plausible size", depth.width, depth.height));
+        return Status::Error(
+            fmt::format("{} x {} pixels are no plausible size", depth.width, depth.height));
     const int fps = std::clamp(depth.fps, 1, 1000);
     about.fps = fps;
     about.shortest_period_s = 1.0 / std::max(fps, std::clamp(colour.fps, 1, 1000));
     about.depth_units_per_m = depth.preference == 0 ? 1000 : 10000;
     if (depth.width != 640 || depth.height != 480 || depth.fps != 30 || colour.fps != 30)
-        about.notes.push_back(fmt::format("{} x {} pixels, depth {} and colour {} times a second (640 x 480 x 30 were asked for)",
-                                          depth.width, depth.height, depth.fps, colour.fps));
+        about.notes.push_back(fmt::format(
+            "{} x {} pixels, depth {} and colour {} times a second (640 x 480 x 30 were asked for)",
+            depth.width, depth.height, depth.fps, colour.fps));
     return Status::Ok();
 }
 
@@ -104,9 +124,11 @@ Status SetUpOpenniStreams(const OpenniStreams& s, bool is_recording, const Openn
                           OpenniCamera::About& about) {
     for (const auto& [stream, sensor, name] : {std::tuple{&s.depth, openni::SENSOR_DEPTH, "depth"},
                                                {&s.colour, openni::SENSOR_COLOR, "colour"}}) {
-        if (s.device.getSensorInfo(sensor) == nullptr) return Status::Error(fmt::format("has no {} images", name));
+        if (s.device.getSensorInfo(sensor) == nullptr)
+            return Status::Error(fmt::format("has no {} images", name));
         if (stream->create(s.device, sensor) != openni::STATUS_OK)
-            return Status::Error(fmt::format("its {} images cannot be had: {}", name, OpenniErrorText()));
+            return Status::Error(
+                fmt::format("its {} images cannot be had: {}", name, OpenniErrorText()));
     }
     if (!is_recording) {
         if (Status status = ChooseAndSetModes(s); !status.ok()) return status;
@@ -115,7 +137,9 @@ Status SetUpOpenniStreams(const OpenniStreams& s, bool is_recording, const Openn
     }
     for (const VideoStream* stream : {&s.depth, &s.colour})
         if (stream->getMirroringEnabled())
-            return Status::Error("its images are mirrored, which cannot be undone; record it again without mirroring");
+            return Status::Error(
+                "its images are mirrored, which cannot be undone; record it again without "
+                "mirroring");
     if (Status status = CheckModes(s, about); !status.ok()) return status;
     about.camera = CameraOf(s, config, about);
     return Status::Ok();
@@ -124,13 +148,15 @@ Status SetUpOpenniStreams(const OpenniStreams& s, bool is_recording, const Openn
 Status StartOpenniStreams(const OpenniStreams& s, bool is_recording, const OpenniConfig& config,
                           OpenniCamera::About& about) {
     for (VideoStream* stream : {&s.depth, &s.colour})
-        if (stream->start() != openni::STATUS_OK) return Status::Error("it cannot be started: " + OpenniErrorText());
+        if (stream->start() != openni::STATUS_OK)
+            return Status::Error("it cannot be started: " + OpenniErrorText());
     if (is_recording) return Status::Ok();
     if (openni::CameraSettings* settings = s.colour.getCameraSettings()) {
         (void)settings->setAutoExposureEnabled(config.auto_exposure);
         (void)settings->setAutoWhiteBalanceEnabled(config.auto_white_balance);
     }
-    about.frame_sync = config.frame_sync && s.device.setDepthColorSyncEnabled(true) == openni::STATUS_OK;
+    about.frame_sync =
+        config.frame_sync && s.device.setDepthColorSyncEnabled(true) == openni::STATUS_OK;
     if (!about.frame_sync) s.device.setDepthColorSyncEnabled(false);
     return Status::Ok();
 }

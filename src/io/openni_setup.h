@@ -1,4 +1,5 @@
-// Brings an opened OpenNI2 device into the state that is wanted: sizes, rates, registration. Part of OpenniCamera.
+// Brings an opened OpenNI2 device into the state that is wanted: sizes, rates, registration. Part
+// of OpenniCamera.
 #pragma once
 
 #include "core/status.h"
@@ -17,12 +18,13 @@ struct OpenniStreams {
     openni::VideoStream& colour;
 };
 
-// Creates both streams and fills `about`, except uri and name. A recording's streams are taken as they are.
-Status SetUpOpenniStreams(const OpenniStreams& streams, bool is_recording, const OpenniConfig& config,
-                          OpenniCamera::About& about);
+// Creates both streams and fills `about`, except uri and name. A recording's streams are taken as
+// they are.
+Status SetUpOpenniStreams(const OpenniStreams& streams, bool is_recording,
+                          const OpenniConfig& config, OpenniCamera::About& about);
 
 // Starts both, and sets what devices take only from then on.
-Status StartOpenniStreams(const OpenniStreams& streams, bool is_recording, const OpenniConfig& config,
-                          OpenniCamera::About& about);
+Status StartOpenniStreams(const OpenniStreams& streams, bool is_recording,
+                          const OpenniConfig& config, OpenniCamera::About& about);
 
 }  // namespace tessera

@@ -14,25 +14,30 @@ namespace {
 
 constexpr const char* kPrefix = "openni2:";
 constexpr double kLongestRead_s = 0.4;
-constexpr double kSilence_s = 1.0;          // then a person is told
-// A recording that gives nothing for so long has lost its end; at the recorded pace there may be a pause in it.
+constexpr double kSilence_s = 1.0;  // then a person is told
+// A recording that gives nothing for so long has lost its end; at the recorded pace there may be a
+// pause in it.
 constexpr double kLostEnd_s = 1.5, kLostEndRecordedPace_s = 5;
-constexpr std::int64_t kManyAlone = 10;     // images without a partner, before it is worth a word
-constexpr double kLargestJump_s = 10, kLargestPause_s = 1e6;  // of a camera's, of a recording's stamps
+constexpr std::int64_t kManyAlone = 10;  // images without a partner, before it is worth a word
+// Of a camera's, of a recording's stamps.
+constexpr double kLargestJump_s = 10, kLargestPause_s = 1e6;
 
 double Now_s() {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
+        .count();
 }
 
 // The same device, or one of the same kind: after "@" the URI says where it was plugged in.
 bool IsReplacement(const std::string& uri, const std::string& lost) {
-    return uri == lost || (lost.find('@') != std::string::npos && uri.substr(0, uri.find('@')) == lost.substr(0, lost.find('@')));
+    return uri == lost || (lost.find('@') != std::string::npos &&
+                           uri.substr(0, uri.find('@')) == lost.substr(0, lost.find('@')));
 }
 
 class OpenniSource : public FrameSource {
   public:
-    OpenniSource(const std::string& name, bool any_device, bool is_recording, std::shared_ptr<OpenniRuntime> runtime,
-                 std::unique_ptr<OpenniCamera> camera, const OpenniConfig& config)
+    OpenniSource(const std::string& name, bool any_device, bool is_recording,
+                 std::shared_ptr<OpenniRuntime> runtime, std::unique_ptr<OpenniCamera> camera,
+                 const OpenniConfig& config)
         : config_(config),
           any_device_(any_device),
           is_recording_(is_recording),
@@ -72,15 +77,18 @@ class OpenniSource : public FrameSource {
             if (TakePair(frame)) return {};
             if (ended_) return EndOfRecording();
             if (camera_->WasUnplugged()) return Unplug();
-            const OpenniCamera::Arrival arrival = camera_->Wait(deadline_s - Now_s(), depth_, colour_);
+            const OpenniCamera::Arrival arrival =
+                camera_->Wait(deadline_s - Now_s(), depth_, colour_);
             const double now_s = Now_s();
             if (arrival.event == OpenniCamera::Event::kEnd) {
                 ended_ = true;
                 pairing_.End();
             } else if (arrival.event != OpenniCamera::Event::kNothing) {
-                if (ReadResult result = Take(arrival, now_s); result.status != ReadStatus::kOk) return result;
+                if (ReadResult result = Take(arrival, now_s); result.status != ReadStatus::kOk)
+                    return result;
             }
-            if (std::string trouble = Trouble(now_s); !trouble.empty()) return {ReadStatus::kWait, std::move(trouble)};
+            if (std::string trouble = Trouble(now_s); !trouble.empty())
+                return {ReadStatus::kWait, std::move(trouble)};
             if (now_s >= deadline_s && !ended_) return {ReadStatus::kWait, {}};
         }
     }
@@ -97,7 +105,8 @@ class OpenniSource : public FrameSource {
         const auto units_per_metre = static_cast<float>(info_.depth_units_per_m);
         const std::uint16_t* from = pair_.depth.data();
         float* to = frame.depth_m.data();
-        for (std::size_t i = 0; i < pair_.depth.size(); ++i) to[i] = static_cast<float>(from[i]) / units_per_metre;
+        for (std::size_t i = 0; i < pair_.depth.size(); ++i)
+            to[i] = static_cast<float>(from[i]) / units_per_metre;
         return true;
     }
 
@@ -106,17 +115,20 @@ class OpenniSource : public FrameSource {
         const bool is_depth = arrival.event == OpenniCamera::Event::kDepth;
         (is_depth ? heard_depth_s_ : heard_colour_s_) = now_s;
         const auto skip = [&](const std::string& why) {
-            return ReadResult{ReadStatus::kSkip, fmt::format("{}{} image {}: {}", prefix_, is_depth ? "depth" : "colour",
-                                                             arrival.number, why)};
+            return ReadResult{ReadStatus::kSkip,
+                              fmt::format("{}{} image {}: {}", prefix_,
+                                          is_depth ? "depth" : "colour", arrival.number, why)};
         };
         if (!arrival.fault.empty()) return skip(arrival.fault);
         const DeviceClock::Reading reading = clock_.Read(is_depth ? 0 : 1, arrival.stamp_us, now_s);
-        if (reading.verdict == DeviceClock::Verdict::kBackwards) return skip("its stamp does not lie after the one before");
+        if (reading.verdict == DeviceClock::Verdict::kBackwards)
+            return skip("its stamp does not lie after the one before");
         if (reading.verdict == DeviceClock::Verdict::kAbsurd)
             return skip(fmt::format("its stamp of {} us is absurd", arrival.stamp_us));
         if (reading.was_reset) {
             pairing_.Clear();
-            message_ = prefix_ + "the camera's clock was set to another time; stamps go on from the last";
+            message_ =
+                prefix_ + "the camera's clock was set to another time; stamps go on from the last";
         }
         if (is_depth)
             pairing_.AddDepth(reading.stamp_s, depth_);
@@ -139,16 +151,21 @@ class OpenniSource : public FrameSource {
         const std::int64_t alone = pairing_.depth_alone();
         if (alone < kManyAlone || alone_told_) return {};
         alone_told_ = true;
-        return fmt::format("{}{} of the first {} depth images had no colour image within {:.0f} ms and were left out (do "
-                           "depth and colour come at different rates?)",
-                           prefix_, alone, alone + pairing_.pairs(), 1000 * config_.max_pair_gap_s);
+        return fmt::format(
+            "{}{} of the first {} depth images had no colour image within {:.0f} ms and were left "
+            "out (do "
+            "depth and colour come at different rates?)",
+            prefix_, alone, alone + pairing_.pairs(), 1000 * config_.max_pair_gap_s);
     }
 
     std::string Silence(double now_s) {
         silence_told_ = true;
-        const bool no_depth = now_s - heard_depth_s_ >= kSilence_s, no_colour = now_s - heard_colour_s_ >= kSilence_s;
+        const bool no_depth = now_s - heard_depth_s_ >= kSilence_s,
+                   no_colour = now_s - heard_colour_s_ >= kSilence_s;
         std::string text = fmt::format("{}no {} for {:.1f} s", prefix_,
-                                       no_depth && no_colour ? "images" : no_depth ? "depth images" : "colour images",
+                                       no_depth && no_colour ? "images"
+                                       : no_depth            ? "depth images"
+                                                             : "colour images",
                                        now_s - std::min(heard_depth_s_, heard_colour_s_));
         if (!camera_->about().frame_sync) return text;
         camera_->StopFrameSync();
@@ -159,15 +176,19 @@ class OpenniSource : public FrameSource {
         drained_ = true;
         const std::int64_t alone = pairing_.depth_alone();
         if (alone == 0) return {ReadStatus::kEnd, {}};
-        return {ReadStatus::kWait, fmt::format("{}{} of {} depth images had no colour image within {:.0f} ms and were left out",
-                                               prefix_, alone, alone + pairing_.pairs(), 1000 * config_.max_pair_gap_s)};
+        return {
+            ReadStatus::kWait,
+            fmt::format(
+                "{}{} of {} depth images had no colour image within {:.0f} ms and were left out",
+                prefix_, alone, alone + pairing_.pairs(), 1000 * config_.max_pair_gap_s)};
     }
 
     ReadResult Unplug() {
         camera_.reset();
         pairing_.Clear();
         // The library cannot be trusted to begin a second recording: see openni_runtime.h.
-        const std::string recording = recording_path_.empty() ? "" : "; the recording " + recording_path_ + " ends here";
+        const std::string recording =
+            recording_path_.empty() ? "" : "; the recording " + recording_path_ + " ends here";
         recording_path_.clear();
         return {ReadStatus::kWait, prefix_ + "camera unplugged, waiting for it" + recording};
     }
@@ -177,10 +198,13 @@ class OpenniSource : public FrameSource {
         constexpr double kBetweenTries_s = 0.2;
         for (const OpenniDevice& device : runtime_->Devices()) {
             if (!any_device_ && !IsReplacement(device.uri, about_.uri)) continue;
-            Result<std::unique_ptr<OpenniCamera>> opened = OpenniCamera::Open(runtime_, device.uri, false, config_);
+            Result<std::unique_ptr<OpenniCamera>> opened =
+                OpenniCamera::Open(runtime_, device.uri, false, config_);
             if (!opened.ok()) continue;  // still starting, or another's
             const OpenniCamera::About& about = opened.value()->about();
-            if (about.camera != about_.camera || about.depth_units_per_m != about_.depth_units_per_m) continue;
+            if (about.camera != about_.camera ||
+                about.depth_units_per_m != about_.depth_units_per_m)
+                continue;
             camera_ = std::move(opened.value());
             about_.uri = about.uri;
             clock_.Restart();
@@ -215,7 +239,8 @@ class OpenniSource : public FrameSource {
 Status CheckRecording(const std::string& path) {
     std::error_code ignored;
     if (!std::filesystem::exists(path, ignored)) return Status::Error(path + ": no such file");
-    if (!std::filesystem::is_regular_file(path, ignored)) return Status::Error(path + ": is not a file");
+    if (!std::filesystem::is_regular_file(path, ignored))
+        return Status::Error(path + ": is not a file");
     char magic[4] = {};
     std::ifstream file(path, std::ios::binary);
     if (!file.read(magic, sizeof(magic)) || std::string(magic, 4) != "NI10")
@@ -225,7 +250,8 @@ Status CheckRecording(const std::string& path) {
 
 }  // namespace
 
-Result<std::unique_ptr<FrameSource>> OpenOpenniSource(const std::string& name, const OpenniConfig& config) {
+Result<std::unique_ptr<FrameSource>> OpenOpenniSource(const std::string& name,
+                                                      const OpenniConfig& config) {
     const bool is_recording = !name.starts_with(kPrefix);
     std::string uri = is_recording ? name : name.substr(std::string(kPrefix).size());
     if (is_recording)
@@ -236,15 +262,18 @@ Result<std::unique_ptr<FrameSource>> OpenOpenniSource(const std::string& name, c
     if (!is_recording) {
         const std::vector<OpenniDevice> devices = runtime.value()->Devices();
         if (devices.empty())
-            return Status::Error(name + ": no camera found; is it plugged in, and may you use it? tessera doctor says more");
+            return Status::Error(name +
+                                 ": no camera found; is it plugged in, and may you use it? tessera "
+                                 "doctor says more");
         if (any_device) uri = devices.front().uri;
         if (std::ranges::find(devices, uri, &OpenniDevice::uri) == devices.end())
             return Status::Error(name + ": no such camera; tessera doctor lists them");
     }
-    Result<std::unique_ptr<OpenniCamera>> camera = OpenniCamera::Open(runtime.value(), uri, is_recording, config);
+    Result<std::unique_ptr<OpenniCamera>> camera =
+        OpenniCamera::Open(runtime.value(), uri, is_recording, config);
     if (!camera.ok()) return Status::Error(name + ": " + camera.message());
-    return std::unique_ptr<FrameSource>(std::make_unique<OpenniSource>(name, any_device, is_recording, runtime.value(),
-                                                                       std::move(camera.value()), config));
+    return std::unique_ptr<FrameSource>(std::make_unique<OpenniSource>(
+        name, any_device, is_recording, runtime.value(), std::move(camera.value()), config));
 }
 
 }  // namespace tessera

@@ -22,22 +22,14 @@ class BinaryScalars {
 
     double Read(PlyType type) {
         switch (type) {
-            case PlyType::kInt8:
-                return ReadAs<std::int8_t>();
-            case PlyType::kUint8:
-                return ReadAs<std::uint8_t>();
-            case PlyType::kInt16:
-                return ReadAs<std::int16_t>();
-            case PlyType::kUint16:
-                return ReadAs<std::uint16_t>();
-            case PlyType::kInt32:
-                return ReadAs<std::int32_t>();
-            case PlyType::kUint32:
-                return ReadAs<std::uint32_t>();
-            case PlyType::kFloat32:
-                return static_cast<double>(ReadAs<float>());
-            case PlyType::kFloat64:
-                return ReadAs<double>();
+            case PlyType::kInt8: return ReadAs<std::int8_t>();
+            case PlyType::kUint8: return ReadAs<std::uint8_t>();
+            case PlyType::kInt16: return ReadAs<std::int16_t>();
+            case PlyType::kUint16: return ReadAs<std::uint16_t>();
+            case PlyType::kInt32: return ReadAs<std::int32_t>();
+            case PlyType::kUint32: return ReadAs<std::uint32_t>();
+            case PlyType::kFloat32: return static_cast<double>(ReadAs<float>());
+            case PlyType::kFloat64: return ReadAs<double>();
         }
         return 0;
     }

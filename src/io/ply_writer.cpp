@@ -45,7 +45,8 @@ std::string Header(const TriangleMesh& mesh, Content content) {
         text += "property uchar red\nproperty uchar green\nproperty uchar blue\n";
     if (!mesh.labels.empty()) text += "property uchar class\nproperty ushort instance\n";
     if (content == Content::kMesh)
-        text += fmt::format("element face {}\nproperty list uchar int vertex_indices\n", mesh.triangles.size());
+        text += fmt::format("element face {}\nproperty list uchar int vertex_indices\n",
+                            mesh.triangles.size());
     return text + "end_header\n";
 }
 
@@ -77,8 +78,12 @@ Status WriteVertices(const std::string& path, const TriangleMesh& mesh, Content 
 
 }  // namespace
 
-Status WritePly(const std::string& path, const TriangleMesh& mesh) { return WriteVertices(path, mesh, Content::kMesh); }
+Status WritePly(const std::string& path, const TriangleMesh& mesh) {
+    return WriteVertices(path, mesh, Content::kMesh);
+}
 
-Status WritePlyCloud(const std::string& path, const TriangleMesh& mesh) { return WriteVertices(path, mesh, Content::kPoints); }
+Status WritePlyCloud(const std::string& path, const TriangleMesh& mesh) {
+    return WriteVertices(path, mesh, Content::kPoints);
+}
 
 }  // namespace tessera

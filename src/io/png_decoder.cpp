@@ -48,41 +48,27 @@ bool Unfilter(int filter, std::uint8_t* row, const std::uint8_t* above, std::siz
             }
     };
     switch (filter) {
-        case 0:
-            return true;
-        case 1:
-            each([](int a, int, int) { return a; });
-            return true;
+        case 0: return true;
+        case 1: each([](int a, int, int) { return a; }); return true;
         case 2:
             for (std::size_t i = 0; i < size; ++i)
                 row[i] = static_cast<std::uint8_t>(row[i] + above[i]);
             return true;
-        case 3:
-            each([](int a, int b, int) { return (a + b) / 2; });
-            return true;
-        case 4:
-            each(Paeth);
-            return true;
-        default:
-            return false;
+        case 3: each([](int a, int b, int) { return (a + b) / 2; }); return true;
+        case 4: each(Paeth); return true;
+        default: return false;
     }
 }
 
 bool UnfilterRow(int step, int filter, std::uint8_t* row, const std::uint8_t* above,
                  std::size_t size) {
     switch (step) {
-        case 1:
-            return Unfilter<1>(filter, row, above, size);
-        case 2:
-            return Unfilter<2>(filter, row, above, size);
-        case 3:
-            return Unfilter<3>(filter, row, above, size);
-        case 4:
-            return Unfilter<4>(filter, row, above, size);
-        case 6:
-            return Unfilter<6>(filter, row, above, size);
-        default:
-            return Unfilter<8>(filter, row, above, size);
+        case 1: return Unfilter<1>(filter, row, above, size);
+        case 2: return Unfilter<2>(filter, row, above, size);
+        case 3: return Unfilter<3>(filter, row, above, size);
+        case 4: return Unfilter<4>(filter, row, above, size);
+        case 6: return Unfilter<6>(filter, row, above, size);
+        default: return Unfilter<8>(filter, row, above, size);
     }
 }
 

@@ -18,13 +18,15 @@ void PutBigEndian32(std::size_t value, std::uint8_t* to) {
 }
 
 // Length, name, data, checksum.
-void AppendChunk(const char* name, const std::uint8_t* data, std::size_t size, std::vector<std::uint8_t>& file) {
+void AppendChunk(const char* name, const std::uint8_t* data, std::size_t size,
+                 std::vector<std::uint8_t>& file) {
     const std::size_t at = file.size();
     file.resize(at + 12 + size);
     PutBigEndian32(size, file.data() + at);
     std::memcpy(file.data() + at + 4, name, 4);
     if (size > 0) std::memcpy(file.data() + at + 8, data, size);
-    PutBigEndian32(libdeflate_crc32(0, file.data() + at + 4, 4 + size), file.data() + at + 8 + size);
+    PutBigEndian32(libdeflate_crc32(0, file.data() + at + 4, 4 + size),
+                   file.data() + at + 8 + size);
 }
 
 }  // namespace
@@ -40,7 +42,8 @@ PngEncoder::PngEncoder() : deflater_(std::make_unique<Deflater>()) {
 }
 PngEncoder::~PngEncoder() = default;
 
-// Measured on a Kinect's depth: at the fastest level no filter makes the files smaller, all cost time.
+// Measured on a Kinect's depth: at the fastest level no filter makes the files smaller, all cost
+// time.
 void PngEncoder::EncodeDepth(const Image<std::uint16_t>& image, std::vector<std::uint8_t>& file) {
     const auto width = static_cast<std::size_t>(image.width());
     rows_.resize((1 + 2 * width) * static_cast<std::size_t>(image.height()));
@@ -65,16 +68,18 @@ void PngEncoder::EncodeColour(const ColourImage& image, std::vector<std::uint8_t
         *to = kLeftFilter;
         const auto* from = reinterpret_cast<const std::uint8_t*>(image.row(y));
         std::memcpy(to + 1, from, 3);
-        for (std::size_t i = 3; i < row_bytes; ++i) to[1 + i] = static_cast<std::uint8_t>(from[i] - from[i - 3]);
+        for (std::size_t i = 3; i < row_bytes; ++i)
+            to[1 + i] = static_cast<std::uint8_t>(from[i] - from[i - 3]);
     }
     Encode(image.width(), image.height(), 8, kRgb, file);
 }
 
-void PngEncoder::Encode(int width, int height, int bit_depth, int colour_type, std::vector<std::uint8_t>& file) {
+void PngEncoder::Encode(int width, int height, int bit_depth, int colour_type,
+                        std::vector<std::uint8_t>& file) {
     std::vector<std::uint8_t>& compressed = deflater_->compressed;
     compressed.resize(libdeflate_zlib_compress_bound(deflater_->compressor, rows_.size()));
-    const std::size_t size = libdeflate_zlib_compress(deflater_->compressor, rows_.data(), rows_.size(),
-                                                      compressed.data(), compressed.size());
+    const std::size_t size = libdeflate_zlib_compress(
+        deflater_->compressor, rows_.data(), rows_.size(), compressed.data(), compressed.size());
     TESSERA_CHECK(size > 0, "{} bytes do not fit their bound", rows_.size());
     file.assign({0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'});
     std::uint8_t header[13] = {};  // compression, filter and interlace method stay 0

@@ -1,5 +1,5 @@
-// PNG encoding for recordings, through libdeflate's fastest level. One core, 640x480: depth 2.2 ms (OpenCV's fastest: 6.8
-// ms, and a fifth larger), colour 4.4 ms.
+// PNG encoding for recordings, through libdeflate's fastest level. One core, 640x480: depth 2.2 ms
+// (OpenCV's fastest: 6.8 ms, and a fifth larger), colour 4.4 ms.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,8 @@ class PngEncoder {
     void EncodeDepth(const Image<std::uint16_t>& image, std::vector<std::uint8_t>& file);
 
   private:
-    void Encode(int width, int height, int bit_depth, int colour_type, std::vector<std::uint8_t>& file);
+    void Encode(int width, int height, int bit_depth, int colour_type,
+                std::vector<std::uint8_t>& file);
 
     struct Deflater;
     std::unique_ptr<Deflater> deflater_;

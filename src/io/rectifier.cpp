@@ -84,7 +84,8 @@ void Rectifier::Depth(const Image<std::uint16_t>& raw, DepthImage& depth_m) cons
         to[i] = source[i] < 0 ? 0.0f : metres(from[source[i]]);
 }
 
-void Rectifier::Fill(const Image<std::uint16_t>& raw_depth, ColourImage& raw_colour, Frame& frame) const {
+void Rectifier::Fill(const Image<std::uint16_t>& raw_depth, ColourImage& raw_colour,
+                     Frame& frame) const {
     Depth(raw_depth, frame.depth_m);
     if (active() && raw_colour.size() > 0)
         Colour(raw_colour, frame.colour);

@@ -35,7 +35,8 @@ class Rectifier {
     // Nearest pixel, never mixed: a mean across an edge is a surface that does not exist. 0 where
     // the raw image has nothing. Metres = stored / depth_scale.
     void Depth(const Image<std::uint16_t>& raw, DepthImage& depth_m) const;
-    // Both into a frame; where nothing moves, `raw_colour` is swapped with the frame's. An empty one stays empty.
+    // Both into a frame; where nothing moves, `raw_colour` is swapped with the frame's. An empty
+    // one stays empty.
     void Fill(const Image<std::uint16_t>& raw_depth, ColourImage& raw_colour, Frame& frame) const;
 
   private:

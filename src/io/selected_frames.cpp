@@ -50,7 +50,8 @@ ReadResult SelectedFrames::Advance(Frame& frame) {
     if (count >= 0 && wanted >= count) return {ReadStatus::kEnd, {}};
     if (position_ != wanted && source_->Seek(wanted)) position_ = wanted;
     for (; position_ < wanted; ++position_)
-        if (ReadResult dropped = source_->Read(frame); IsFinal(dropped) || dropped.status == ReadStatus::kWait)
+        if (ReadResult dropped = source_->Read(frame);
+            IsFinal(dropped) || dropped.status == ReadStatus::kWait)
             return dropped;
     ReadResult result = source_->Read(frame);
     if (result.status == ReadStatus::kWait) return result;

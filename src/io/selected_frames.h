@@ -14,10 +14,9 @@ class SelectedFrames {
 
     FrameSource& source() { return *source_; }
     const SourceInfo& info() const { return source_->info(); }
-    // The next selected frame. A frame that the source skips counts as one of selection.count, kWait is passed on and
-    // does not.
-    // kError, with what to do, if the selection is impossible or begins behind the source's end.
-    // kEnd and kError are final.
+    // The next selected frame. A frame that the source skips counts as one of selection.count,
+    // kWait is passed on and does not. kError, with what to do, if the selection is impossible or
+    // begins behind the source's end. kEnd and kError are final.
     ReadResult Next(Frame& frame);
 
   private:

@@ -56,7 +56,8 @@ std::vector<StampPair> PairNearest(std::span<const double> depth_stamps_s,
     std::vector<Item> items = Merge(depth_stamps_s, colour_stamps_s);
     std::priority_queue<Candidate, std::vector<Candidate>, std::greater<>> candidates;
     const auto consider = [&](std::size_t first, std::size_t second) {
-        if (first == kNoItem || second == kNoItem || items[first].is_depth == items[second].is_depth)
+        if (first == kNoItem || second == kNoItem ||
+            items[first].is_depth == items[second].is_depth)
             return;
         const Item& depth = items[items[first].is_depth ? first : second];
         const Item& colour = items[items[first].is_depth ? second : first];

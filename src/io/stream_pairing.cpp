@@ -7,7 +7,8 @@ namespace tessera {
 namespace {
 
 constexpr std::size_t kMostWaiting = 8;  // of either stream
-constexpr double kLatePeriods = 2;       // a partner may be delivered so much later than its stamp says
+// A partner may be delivered so much later than its stamp says.
+constexpr double kLatePeriods = 2;
 
 }  // namespace
 
@@ -30,9 +31,7 @@ void StreamPairing::AddDepth(double stamp_s, Image<std::uint16_t>& image) {
     depth_.Add(stamp_s, image);
 }
 
-void StreamPairing::AddColour(double stamp_s, ColourImage& image) {
-    colour_.Add(stamp_s, image);
-}
+void StreamPairing::AddColour(double stamp_s, ColourImage& image) { colour_.Add(stamp_s, image); }
 
 void StreamPairing::Clear() {
     while (!depth_.items.empty()) depth_.Drop();
@@ -48,14 +47,18 @@ std::ptrdiff_t StreamPairing::Partner() const {
     const auto& colour = colour_.items;
     const double stamp_s = depth.front().stamp_s;
     // A colour image that is nearer to the next depth image is that one's.
-    const auto is_the_next_ones = [&](std::size_t c) { return depth.size() > 1 && Gap(1, c) < Gap(0, c); };
+    const auto is_the_next_ones = [&](std::size_t c) {
+        return depth.size() > 1 && Gap(1, c) < Gap(0, c);
+    };
     std::ptrdiff_t best = kNone;
     for (std::size_t c = 0; c < colour.size(); ++c)
         if (Gap(0, c) < max_gap_s_ && !is_the_next_ones(c) &&
             (best < 0 || Gap(0, c) < Gap(0, static_cast<std::size_t>(best))))
             best = static_cast<std::ptrdiff_t>(c);
-    if (ended_ || (best >= 0 && Gap(0, static_cast<std::size_t>(best)) < period_s_ / 2)) return best;
-    const bool colour_is_past = !colour.empty() && colour.back().stamp_s >= stamp_s + (best >= 0 ? 0 : max_gap_s_);
+    if (ended_ || (best >= 0 && Gap(0, static_cast<std::size_t>(best)) < period_s_ / 2))
+        return best;
+    const bool colour_is_past =
+        !colour.empty() && colour.back().stamp_s >= stamp_s + (best >= 0 ? 0 : max_gap_s_);
     const bool depth_is_past = depth.size() > 1;
     if (best >= 0) return colour_is_past && depth_is_past ? best : kUndecided;
     const bool too_late = depth.back().stamp_s >= stamp_s + max_gap_s_ + kLatePeriods * period_s_;
@@ -84,7 +87,8 @@ bool StreamPairing::Next(Pair& pair) {
     const auto is_left_over = [&] {
         if (colour_.items.empty()) return false;
         if (colour_.items.size() > kMostWaiting || (ended_ && depth_.items.empty())) return true;
-        return !depth_.items.empty() && colour_.items.front().stamp_s <= depth_.items.front().stamp_s - max_gap_s_;
+        return !depth_.items.empty() &&
+               colour_.items.front().stamp_s <= depth_.items.front().stamp_s - max_gap_s_;
     };
     for (; is_left_over(); ++colour_alone_) colour_.Drop();
     return false;

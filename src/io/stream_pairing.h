@@ -1,4 +1,5 @@
-// Which colour image belongs to which depth image, while both still come: what stamp_pairing.h does for whole lists.
+// Which colour image belongs to which depth image, while both still come: what stamp_pairing.h does
+// for whole lists.
 #pragma once
 
 #include <cstddef>
@@ -9,10 +10,11 @@
 
 namespace tessera {
 
-// Each image is used once; a depth image is paired with the colour image nearest in time, less than max_gap_s away, as
-// soon as none nearer can come: at once if they are nearer than half a period. (Nearest as stamp_pairing.h has it, but
-// for images halfway between two partners, where a whole list may decide otherwise.) What finds no partner is left out and
-// counted. Images are swapped in and out, so that their storage goes round. Owner thread only.
+// Each image is used once; a depth image is paired with the colour image nearest in time, less than
+// max_gap_s away, as soon as none nearer can come: at once if they are nearer than half a period.
+// (Nearest as stamp_pairing.h has it, but for images halfway between two partners, where a whole
+// list may decide otherwise.) What finds no partner is left out and counted. Images are swapped in
+// and out, so that their storage goes round. Owner thread only.
 class StreamPairing {
   public:
     struct Pair {

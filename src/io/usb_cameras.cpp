@@ -1,5 +1,5 @@
-// Depth cameras on the USB bus, by the numbers that Linux shows of every device. Needs no driver, so it can tell a camera
-// that is plugged in but cannot be used from one that is not there.
+// Depth cameras on the USB bus, by the numbers that Linux shows of every device. Needs no driver,
+// so it can tell a camera that is plugged in but cannot be used from one that is not there.
 #include <unistd.h>
 
 #include <algorithm>
@@ -39,7 +39,8 @@ std::vector<UsbCamera> FindUsbCameras(const std::string& sys_devices, const std:
     std::vector<UsbCamera> cameras;
     std::error_code error;
     for (const auto& entry : std::filesystem::directory_iterator(sys_devices, error)) {
-        const std::string vendor = FirstWord(entry.path() / "idVendor"), product = FirstWord(entry.path() / "idProduct");
+        const std::string vendor = FirstWord(entry.path() / "idVendor"),
+                          product = FirstWord(entry.path() / "idProduct");
         const auto kind = std::ranges::find_if(kKinds, [&](const Kind& k) {
             return vendor == k.vendor && (*k.product == 0 || product == k.product);
         });

@@ -1,5 +1,5 @@
-// Which blocks one pixel's measurement calls for: [B14] III-C1. Host-device: plain functions on plain types, shared by the
-// CPU code and CUDA.
+// Which blocks one pixel's measurement calls for: [B14] III-C1. Host-device: plain functions on
+// plain types, shared by the CPU code and CUDA.
 #pragma once
 
 #include <cstdint>
@@ -20,18 +20,21 @@ struct WorldBox {
 TESSERA_HD bool Meets(const WorldBox& box, const BlockCoord& block, double block_m) {
     const std::int32_t index[3] = {block.x, block.y, block.z};
     bool meets = true;
-    for (int i = 0; i < 3; ++i) meets &= index[i] * block_m < box.high_m[i] && (index[i] + 1) * block_m > box.low_m[i];
+    for (int i = 0; i < 3; ++i)
+        meets &= index[i] * block_m < box.high_m[i] && (index[i] + 1) * block_m > box.low_m[i];
     return !box.bounded || meets;
 }
 
-// A walk along the rays of every step-th pixel, through the truncation band around what they measured.
+// A walk along the rays of every step-th pixel, through the truncation band around what they
+// measured.
 struct BandWalk {
     const float* depth_m;  // 0 = none
     std::int32_t width, height;
     std::int32_t step;        // pixels from one ray to the next, in both directions
     std::int32_t walk_steps;  // from one end of the band to the other
     double fx, fy, cx, cy;
-    // p_world [blocks] = block + part + rotation * p_camera [m]: single precision stays fine far from the origin.
+    // p_world [blocks] = block + part + rotation * p_camera [m]: single precision stays fine far
+    // from the origin.
     float rotation[9];
     float part[3];
     std::int32_t block[3];
@@ -41,37 +44,46 @@ struct BandWalk {
     TESSERA_HD_MEMBER std::int32_t rows() const { return (height + step - 1) / step; }
 };
 
-// A measurement that none of its neighbours confirms within 5 % is noise, not a surface to spend memory on.
+// A measurement that none of its neighbours confirms within 5 % is noise, not a surface to spend
+// memory on.
 TESSERA_HD bool HasSupport(const BandWalk& walk, std::int32_t x, std::int32_t y) {
     const std::int32_t reach = (walk.step > 2 ? walk.step : 2) / 2;
     const float* row = walk.depth_m + static_cast<std::int64_t>(y) * walk.width;
     const float z = row[x], tolerance = 0.05f * z;
-    const std::int32_t left = x > reach ? x - reach : 0, right = x + reach < walk.width ? x + reach : walk.width - 1;
-    const std::int32_t top = y > reach ? y - reach : 0, bottom = y + reach < walk.height ? y + reach : walk.height - 1;
-    const float around[4] = {row[left], row[right], walk.depth_m[static_cast<std::int64_t>(top) * walk.width + x],
+    const std::int32_t left = x > reach ? x - reach : 0,
+                       right = x + reach < walk.width ? x + reach : walk.width - 1;
+    const std::int32_t top = y > reach ? y - reach : 0,
+                       bottom = y + reach < walk.height ? y + reach : walk.height - 1;
+    const float around[4] = {row[left], row[right],
+                             walk.depth_m[static_cast<std::int64_t>(top) * walk.width + x],
                              walk.depth_m[static_cast<std::int64_t>(bottom) * walk.width + x]};
     int near = 0;
     for (const float other : around) near += abs(other - z) < tolerance;
     return near >= 2;
 }
 
-// Calls visit(block) for every block that the ray of pixel (step column, step row) passes in the band, some of them
-// repeatedly. A margin of one and a half voxels around the walk adds the neighbours whose voxels the tracker's interpolation
-// needs.
+// Calls visit(block) for every block that the ray of pixel (step column, step row) passes in the
+// band, some of them repeatedly. A margin of one and a half voxels around the walk adds the
+// neighbours whose voxels the tracker's interpolation needs.
 template <class Visit>
-TESSERA_HD void WalkRay(const BandWalk& walk, std::int32_t column, std::int32_t row, const Visit& visit) {
+TESSERA_HD void WalkRay(const BandWalk& walk, std::int32_t column, std::int32_t row,
+                        const Visit& visit) {
     constexpr float kMargin = 1.5f / kBlockSide;
     const std::int32_t x = column * walk.step, y = row * walk.step;
     const float z = walk.depth_m[static_cast<std::int64_t>(y) * walk.width + x];
     if (z <= 0 || !HasSupport(walk, x, y)) return;
-    const auto ray_x = static_cast<float>((x - walk.cx) / walk.fx), ray_y = static_cast<float>((y - walk.cy) / walk.fy);
+    const auto ray_x = static_cast<float>((x - walk.cx) / walk.fx),
+               ray_y = static_cast<float>((y - walk.cy) / walk.fy);
     for (int i = 0; i <= walk.walk_steps; ++i) {
-        const float along = z + walk.truncation_m * (2.0f * static_cast<float>(i) / static_cast<float>(walk.walk_steps) - 1.0f);
+        const float along =
+            z + walk.truncation_m *
+                    (2.0f * static_cast<float>(i) / static_cast<float>(walk.walk_steps) - 1.0f);
         const float p_camera[3] = {ray_x * along, ray_y * along, along};
         std::int32_t low[3], high[3];
         for (int k = 0; k < 3; ++k) {
             const float* r = walk.rotation + 3 * k;
-            const float p = r[0] * p_camera[0] + r[1] * p_camera[1] + r[2] * p_camera[2] + walk.part[k];
+            const float p =
+                r[0] * p_camera[0] + r[1] * p_camera[1] + r[2] * p_camera[2] + walk.part[k];
             low[k] = Floor(p - kMargin) + walk.block[k];
             high[k] = Floor(p + kMargin) + walk.block[k];
         }

@@ -7,8 +7,8 @@
 
 namespace tessera {
 
-// The blocks met lately, absent ones too, in front of the map's hash, which takes far longer: for rays, whose
-// neighbours meet the same blocks.
+// The blocks met lately, absent ones too, in front of the map's hash, which takes far longer: for
+// rays, whose neighbours meet the same blocks.
 template <class V>
 class BlockCache {
   public:
@@ -20,8 +20,8 @@ class BlockCache {
 
     BlockCache() { std::fill_n(keys_, kSlots, kEmpty); }
 
-    // The ids of the wanted lanes' blocks, any ids of the map elsewhere. `block`: counted from map.origin_block, the
-    // same in every call.
+    // The ids of the wanted lanes' blocks, any ids of the map elsewhere. `block`: counted from
+    // map.origin_block, the same in every call.
     template <class Map>
     TESSERA_HD_MEMBER Int Find(const Map& map, const Int* block, const Mask& wanted) {
         Int slot(0), key(0);
@@ -38,12 +38,15 @@ class BlockCache {
     static constexpr int kSlotBits = 3, kKeyBits = 10;  // of each axis
     static constexpr int kSlots = 1 << (3 * kSlotBits);
     static constexpr std::int32_t kEmpty = -1;
-    static_assert(2 * kReachBlocks == 1 << (kSlotBits + kKeyBits), "else two blocks would share a key");
+    static_assert(2 * kReachBlocks == 1 << (kSlotBits + kKeyBits),
+                  "else two blocks would share a key");
 
     template <class Map>
-    [[gnu::noinline]] Int Add(const Map& map, const Int* block, const Int& slot, const Int& key, const Mask& missing) {
+    [[gnu::noinline]] Int Add(const Map& map, const Int* block, const Int& slot, const Int& key,
+                              const Mask& missing) {
         const Int found = HashedBlocks<V>().Find(map, block, missing);
-        alignas(64) std::uint32_t slots[V::kCount], keys[V::kCount], ids[V::kCount], wanted[V::kCount];
+        alignas(64) std::uint32_t slots[V::kCount], keys[V::kCount], ids[V::kCount],
+            wanted[V::kCount];
         V::Store(V::AsBits(slot), slots);
         V::Store(V::AsBits(key), keys);
         V::Store(V::AsBits(found), ids);

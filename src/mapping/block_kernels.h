@@ -1,5 +1,6 @@
-// Reading the map by lanes of points (scalar_lanes.h): which block each lies in, and where the eight voxels around it
-// are. For the CPU's vectors and CUDA alike. `Map` is BlockMapView or any struct with the same plain pointers.
+// Reading the map by lanes of points (scalar_lanes.h): which block each lies in, and where the
+// eight voxels around it are. For the CPU's vectors and CUDA alike. `Map` is BlockMapView or any
+// struct with the same plain pointers.
 #pragma once
 
 #include "mapping/voxel.h"
@@ -11,16 +12,19 @@ struct BlockKernels {
     using Int = typename V::Int;
     using Mask = typename V::Mask;
 
-    // BlockMap::Find for every pending lane; kUnknownBlock elsewhere. x, y, z: the block's coordinate in the world.
+    // BlockMap::Find for every pending lane; kUnknownBlock elsewhere. x, y, z: the block's
+    // coordinate in the world.
     template <class Map>
-    TESSERA_HD_MEMBER static Int FindBlocks(const Map& map, const Int& x, const Int& y, const Int& z, Mask pending) {
+    TESSERA_HD_MEMBER static Int FindBlocks(const Map& map, const Int& x, const Int& y,
+                                            const Int& z, Mask pending) {
         const Int mask(static_cast<std::int32_t>(map.table_mask));
         Int slot = V::AsInt(HashBits(V::AsBits(x), V::AsBits(y), V::AsBits(z))) & mask;
         Int found(0);
         while (V::Any(pending)) {
             const Int id = V::Gather(map.table, slot);
             const Int at = id << 2;
-            const Mask match = V::ToMask((V::Gather(map.coords, at) == x) && (V::Gather(map.coords + 1, at) == y) &&
+            const Mask match = V::ToMask((V::Gather(map.coords, at) == x) &&
+                                         (V::Gather(map.coords + 1, at) == y) &&
                                          (V::Gather(map.coords + 2, at) == z));
             found = V::Select(pending && match, id, found);
             pending = pending && V::Not(match) && V::ToMask(id != Int(0));
@@ -29,10 +33,12 @@ struct BlockKernels {
         return found;
     }
 
-    // Indices into the map's layers of the corners of cells: index[c] is the corner at offsets (x, y, z) = bits 0, 1, 2
-    // of c. `voxel`: the lowest corner; only its three low bits count, as it lies in `block`.
+    // Indices into the map's layers of the corners of cells: index[c] is the corner at offsets (x,
+    // y, z) = bits 0, 1, 2 of c. `voxel`: the lowest corner; only its three low bits count, as it
+    // lies in `block`.
     template <class Map>
-    TESSERA_HD_MEMBER static void CornerVoxels(const Map& map, const Int& block, const Int* voxel, Int* index) {
+    TESSERA_HD_MEMBER static void CornerVoxels(const Map& map, const Int& block, const Int* voxel,
+                                               Int* index) {
         const Int seven(7);
         const Int x0 = voxel[0] & seven, y0 = voxel[1] & seven, z0 = voxel[2] & seven;
         const Int x1 = x0 + Int(1), y1 = y0 + Int(1), z1 = z0 + Int(1);
@@ -46,7 +52,8 @@ struct BlockKernels {
             const int bx = c & 1, by = c >> 1 & 1, bz = c >> 2;
             Int owner = block;
             if (!inside && c != 0) {
-                const Int slot = (bx ? over_x : Int(0)) | (by ? over_y << 1 : Int(0)) | (bz ? over_z << 2 : Int(0));
+                const Int slot = (bx ? over_x : Int(0)) | (by ? over_y << 1 : Int(0)) |
+                                 (bz ? over_z << 2 : Int(0));
                 owner = V::Gather(map.neighbours, (block << 3) + slot);
             }
             index[c] = (owner << 9) + in_x[bx] + in_y[by] + in_z[bz];
@@ -54,7 +61,8 @@ struct BlockKernels {
     }
 };
 
-// Finds blocks for rays by the map's hash alone, nothing remembered: what BlockCache stands in front of.
+// Finds blocks for rays by the map's hash alone, nothing remembered: what BlockCache stands in
+// front of.
 template <class V>
 struct HashedBlocks {
     using Int = typename V::Int;
@@ -64,8 +72,9 @@ struct HashedBlocks {
     template <class Map>
     TESSERA_HD_MEMBER Int Find(const Map& map, const Int* block, const Mask& wanted) const {
         const std::int32_t* origin = map.origin_block;
-        return BlockKernels<V>::FindBlocks(map, block[0] + Int(origin[0]), block[1] + Int(origin[1]),
-                                           block[2] + Int(origin[2]), wanted);
+        return BlockKernels<V>::FindBlocks(map, block[0] + Int(origin[0]),
+                                           block[1] + Int(origin[1]), block[2] + Int(origin[2]),
+                                           wanted);
     }
 };
 

@@ -10,8 +10,8 @@
 namespace tessera {
 namespace {
 
-// 2^22 blocks are 2^31 voxels: what a signed 32-bit gather index can reach. At 1 cm voxels that is 2147 cubic
-// metres of near-surface space, 21 GB: memory ends before the index does.
+// 2^22 blocks are 2^31 voxels: what a signed 32-bit gather index can reach. At 1 cm voxels that is
+// 2147 cubic metres of near-surface space, 21 GB: memory ends before the index does.
 constexpr std::size_t kMaxBlocks = std::size_t{1} << 22;
 
 std::atomic<std::uint64_t> last_identity = 0;
@@ -19,18 +19,20 @@ std::atomic<std::uint64_t> last_identity = 0;
 }  // namespace
 
 void BlockMap::Config::Describe(ConfigParameters& p) {
-    p.Add("voxel_size_m", voxel_size_m, {0.001, 0.5}, "m",
-          "edge of a voxel; halving it costs four times the time and memory and shows finer detail");
+    p.Add(
+        "voxel_size_m", voxel_size_m, {0.001, 0.5}, "m",
+        "edge of a voxel; halving it costs four times the time and memory and shows finer detail");
     p.Add("truncation_m", truncation_m, {0.002, 2.0}, "m",
-          "half width of the band around the surface in which distances are kept; wider tracks faster motion, "
+          "half width of the band around the surface in which distances are kept; wider tracks "
+          "faster motion, "
           "thinner keeps thin objects and costs less");
 }
 
 Status BlockMap::Config::Validate() const {
     if (truncation_m < 2 * voxel_size_m)
         return Status::Error(fmt::format(
-            "mapping.truncation_m: {} m is less than two voxels of {} m; make it at least {} m", truncation_m,
-            voxel_size_m, 2 * voxel_size_m));
+            "mapping.truncation_m: {} m is less than two voxels of {} m; make it at least {} m",
+            truncation_m, voxel_size_m, 2 * voxel_size_m));
     return Status::Ok();
 }
 
@@ -74,7 +76,8 @@ void BlockMap::EnableLabels() {
 
 void BlockMap::InitialiseBlock(BlockId id, const BlockCoord& c, std::int32_t number) {
     std::fill_n(field(id), kBlockVoxels, kUnknownField);
-    if (layers_ == Layers::kAll || id == kUnknownBlock) std::fill_n(colour(id), kBlockVoxels, kNoColour);
+    if (layers_ == Layers::kAll || id == kUnknownBlock)
+        std::fill_n(colour(id), kBlockVoxels, kNoColour);
     std::int32_t* coords = coords_.data() + 4 * static_cast<std::size_t>(id);
     coords[0] = c.x;
     coords[1] = c.y;
@@ -123,7 +126,8 @@ void BlockMap::Enter(BlockId id, const BlockCoord& c, std::int32_t number) {
 }
 
 void BlockMap::AllocateAs(BlockId id, const BlockCoord& c) {
-    TESSERA_CHECK(id >= size_ && static_cast<std::size_t>(id) < max_size_ && InLimits(c) && Find(c) == kUnknownBlock,
+    TESSERA_CHECK(id >= size_ && static_cast<std::size_t>(id) < max_size_ && InLimits(c) &&
+                      Find(c) == kUnknownBlock,
                   "block {} of {} allocated", id, size_);
     for (; size_ < id; ++size_) {
         InitialiseBlock(size_, {kBlockLimit, kBlockLimit, kBlockLimit}, 0);
@@ -148,7 +152,8 @@ BlockId BlockMap::TakeId() {
 }
 
 void BlockMap::Release(BlockId id) {
-    TESSERA_CHECK(id > kUnknownBlock && id < size_ && !IsFree(id), "block {} of {} released", id, size_);
+    TESSERA_CHECK(id > kUnknownBlock && id < size_ && !IsFree(id), "block {} of {} released", id,
+                  size_);
     const BlockCoord c = coord(id);
     const std::uint32_t mask = static_cast<std::uint32_t>(table_.size() - 1);
     std::uint32_t slot = BlockHash(c) & mask;
@@ -203,11 +208,13 @@ BlockId BlockMap::neighbour(BlockId id, int dx, int dy, int dz) const {
 
 std::size_t BlockMap::bytes() const {
     const std::size_t per_voxel =
-        sizeof(FieldWord) + (layers_ == Layers::kAll ? sizeof(std::uint16_t) + sizeof(ColourWord) : 0) +
+        sizeof(FieldWord) +
+        (layers_ == Layers::kAll ? sizeof(std::uint16_t) + sizeof(ColourWord) : 0) +
         (labels_ ? sizeof(VoxelLabel) : 0);
-    const std::size_t per_block = kBlockVoxels * per_voxel + (8 + 4 + 1) * sizeof(std::int32_t) + sizeof(BlockId);
-    return static_cast<std::size_t>(count() + 1) * per_block + table_.size() * sizeof(std::int32_t) +
-           regions_.bytes();
+    const std::size_t per_block =
+        kBlockVoxels * per_voxel + (8 + 4 + 1) * sizeof(std::int32_t) + sizeof(BlockId);
+    return static_cast<std::size_t>(count() + 1) * per_block +
+           table_.size() * sizeof(std::int32_t) + regions_.bytes();
 }
 
 double BlockMap::bytes_per_voxel() const {

@@ -8,10 +8,11 @@
 namespace tessera {
 
 struct BlockMapView {
-    const FieldWord* field;          // [blocks * 512]
-    const std::int32_t* neighbours;  // [blocks * 8]: at offsets (x, y, z) = bits 0, 1, 2 of the slot
-    const std::int32_t* table;       // hash slots, each a BlockId, 0 = empty
-    const std::int32_t* coords;      // [blocks * 4]: x, y, z, number
+    const FieldWord* field;  // [blocks * 512]
+    // [blocks * 8]: at offsets (x, y, z) = bits 0, 1, 2 of the slot.
+    const std::int32_t* neighbours;
+    const std::int32_t* table;   // hash slots, each a BlockId, 0 = empty
+    const std::int32_t* coords;  // [blocks * 4]: x, y, z, number
     std::uint32_t table_mask;
     float voxel_size_m, truncation_m;
 };

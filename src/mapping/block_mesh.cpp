@@ -45,7 +45,8 @@ class VertexMaker {
 
     BlockMesh::Vertex Make(int axis, int x, int y, int z) const {
         const VoxelPlace next = PlaceOf(x + (axis == 0), y + (axis == 1), z + (axis == 2));
-        return VertexOnEdge(field_.view(), axis, x, y, z, map_.colour(blocks_[0])[PlaceOf(x, y, z).offset],
+        return VertexOnEdge(field_.view(), axis, x, y, z,
+                            map_.colour(blocks_[0])[PlaceOf(x, y, z).offset],
                             map_.colour(blocks_[next.slot])[next.offset]);
     }
 
@@ -75,7 +76,8 @@ void MakeTriangles(const CellRows& rows, BlockMesh& mesh) {
                 const CubeCase& cell = cases[rows.Configuration(x, y, z)];
                 for (int t = 0; t < cell.triangle_count; ++t) {
                     const auto& [a, b, c] = cell.triangles[t];
-                    mesh.triangles.push_back({VertexRefOf(a, x, y, z), VertexRefOf(b, x, y, z), VertexRefOf(c, x, y, z)});
+                    mesh.triangles.push_back({VertexRefOf(a, x, y, z), VertexRefOf(b, x, y, z),
+                                              VertexRefOf(c, x, y, z)});
                 }
             }
 }
@@ -104,7 +106,9 @@ void MeshConfig::Describe(ConfigParameters& p) {
           "more removes larger floating specks");
 }
 
-int MinWeightSteps(double min_weight) { return static_cast<int>(std::ceil(min_weight * kWeightSteps)); }
+int MinWeightSteps(double min_weight) {
+    return static_cast<int>(std::ceil(min_weight * kWeightSteps));
+}
 
 std::unique_ptr<const BlockMesh> MeshBlock(const BlockMap& map, BlockId id, double min_weight) {
     // Kept between calls for its storage: the result is a copy that is no larger than it needs to

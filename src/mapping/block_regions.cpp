@@ -33,7 +33,8 @@ std::span<const std::int32_t> BlockRegions::Blocks(const BlockCoord& region) con
 
 void BlockRegions::Grow() {
     table_.assign(2 * table_.size(), 0);
-    for (std::size_t i = 0; i < regions_.size(); ++i) table_[SlotOf(regions_[i].coord)] = static_cast<std::int32_t>(i) + 1;
+    for (std::size_t i = 0; i < regions_.size(); ++i)
+        table_[SlotOf(regions_[i].coord)] = static_cast<std::int32_t>(i) + 1;
 }
 
 void BlockRegions::Add(std::int32_t block, const BlockCoord& region) {
@@ -57,8 +58,9 @@ void BlockRegions::Remove(std::int32_t block, const BlockCoord& region) {
     const std::uint32_t last_slot = SlotOf(regions_.back().coord);
     std::swap(regions_[index], regions_.back());
     table_[last_slot] = static_cast<std::int32_t>(index) + 1;
-    EraseSlot(table_, slot,
-              [this](std::int32_t entry) { return BlockHash(regions_[static_cast<std::size_t>(entry) - 1].coord); });
+    EraseSlot(table_, slot, [this](std::int32_t entry) {
+        return BlockHash(regions_[static_cast<std::size_t>(entry) - 1].coord);
+    });
     regions_.pop_back();
 }
 

@@ -1,5 +1,5 @@
-// Which blocks lie in which region of space, so that a view looks up what may be in it. A second, coarser hash beside
-// BlockMap's, which owns one.
+// Which blocks lie in which region of space, so that a view looks up what may be in it. A second,
+// coarser hash beside BlockMap's, which owns one.
 #pragma once
 
 #include <cstdint>

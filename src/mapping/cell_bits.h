@@ -1,4 +1,5 @@
-// A block's rows of flags (cell_kernels.h), made so that compilers use vectors. Used by block_mesh.cpp only.
+// A block's rows of flags (cell_kernels.h), made so that compilers use vectors. Used by
+// block_mesh.cpp only.
 #pragma once
 
 #include <array>
@@ -41,8 +42,8 @@ class CellBits {
 
   private:
     // A byte per voxel.
-    static void ReadFlags(const BlockMap& map, BlockId block, int offset, int count, int min_weight_steps,
-                          std::uint8_t* flags) {
+    static void ReadFlags(const BlockMap& map, BlockId block, int offset, int count,
+                          int min_weight_steps, std::uint8_t* flags) {
         const FieldWord* field = map.field(block) + offset;
         const std::uint16_t* weight = map.weight(block) + offset;
         for (int i = 0; i < count; ++i) flags[i] = CellFlags(field[i], weight[i], min_weight_steps);

@@ -1,5 +1,5 @@
-// Which cells and edges of a block hold surface: one bit per voxel of a row, so that a row of eight cells costs a few
-// operations. Host-device, shared by the CPU and CUDA.
+// Which cells and edges of a block hold surface: one bit per voxel of a row, so that a row of eight
+// cells costs a few operations. Host-device, shared by the CPU and CUDA.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +8,8 @@
 
 namespace tessera {
 
-// Where a block's voxel (x, y, z) is, each in [0, 2 kBlockSide): in the neighbour at this slot of BlockMapView, at this
-// offset.
+// Where a block's voxel (x, y, z) is, each in [0, 2 kBlockSide): in the neighbour at this slot of
+// BlockMapView, at this offset.
 struct VoxelPlace {
     std::int32_t slot, offset;
 };
@@ -17,8 +17,9 @@ TESSERA_HD VoxelPlace PlaceOf(int x, int y, int z) {
     return {x >> 3 | y >> 3 << 1 | z >> 3 << 2, (x & 7) + 8 * (y & 7) + 64 * (z & 7)};
 }
 
-// A voxel's flags in bits 0 to 2: inside where its distance is negative; usable where it has a distance and enough weight,
-// which counts in 1/kWeightSteps; and at an end of the distance's range.
+// A voxel's flags in bits 0 to 2: inside where its distance is negative; usable where it has a
+// distance and enough weight, which counts in 1/kWeightSteps; and at an end of the distance's
+// range.
 TESSERA_HD std::uint8_t CellFlags(FieldWord field, std::uint16_t weight, int min_weight_steps) {
     // Distances from here on count as the end of the range; fused averages seldom reach it exactly.
     constexpr int kRangeEnd = static_cast<int>(0.99f * kDistanceSteps);

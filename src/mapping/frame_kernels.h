@@ -1,5 +1,5 @@
-// What becomes of a frame's pixels before tracking and fusion, one by one: depth corrected and gated, colour as luma
-// and chroma, luma smoothed. Host-device, shared by the CPU and CUDA.
+// What becomes of a frame's pixels before tracking and fusion, one by one: depth corrected and
+// gated, colour as luma and chroma, luma smoothed. Host-device, shared by the CPU and CUDA.
 #pragma once
 
 #include <cstdint>
@@ -11,16 +11,24 @@
 namespace tessera {
 
 // PreparedFrame::Config::disparity_offset_per_m says what for.
-TESSERA_HD float CorrectedDepth(float z_m, float offset_per_m) { return z_m / (1.0f + offset_per_m * z_m); }
+TESSERA_HD float CorrectedDepth(float z_m, float offset_per_m) {
+    return z_m / (1.0f + offset_per_m * z_m);
+}
 
 // False for NaN.
-TESSERA_HD bool InRange(float z_m, float low_m, float high_m) { return z_m >= low_m && z_m <= high_m; }
+TESSERA_HD bool InRange(float z_m, float low_m, float high_m) {
+    return z_m >= low_m && z_m <= high_m;
+}
 
 // Whether two depths side by side are within 5 %.
-TESSERA_HD bool Coherent(float left_m, float right_m) { return abs(left_m - right_m) < 0.05f * left_m; }
+TESSERA_HD bool Coherent(float left_m, float right_m) {
+    return abs(left_m - right_m) < 0.05f * left_m;
+}
 
 // Luma of ITU-R BT.601, the weights of [B14] eq. 7, in [0, 255].
-TESSERA_HD float Luma255(const Rgb8& colour) { return 0.299f * colour.r + 0.587f * colour.g + 0.114f * colour.b; }
+TESSERA_HD float Luma255(const Rgb8& colour) {
+    return 0.299f * colour.r + 0.587f * colour.g + 0.114f * colour.b;
+}
 
 // The pixel in FusionArguments::packed_colour; `luma` in [0, 1], smoothed or not.
 TESSERA_HD std::uint32_t PackColour(const Rgb8& colour, float luma) {
@@ -33,7 +41,8 @@ TESSERA_HD std::uint32_t PackColour(const Rgb8& colour, float luma) {
            static_cast<std::uint32_t>(min(cr + 128.5f, 255.0f)) << 24;
 }
 
-// Three rows of an image, of which the middle one is smoothed: at the image's border one of them comes twice.
+// Three rows of an image, of which the middle one is smoothed: at the image's border one of them
+// comes twice.
 struct RowsAround {
     const float *above, *here, *below;
 
@@ -49,7 +58,8 @@ struct RowsAround {
 TESSERA_HD float MeanOfTile(const float* image, int width, int n, int x, int y) {
     float sum = 0;
     for (int v = y * n; v < (y + 1) * n; ++v)
-        for (int u = x * n; u < (x + 1) * n; ++u) sum += image[static_cast<std::int64_t>(v) * width + u];
+        for (int u = x * n; u < (x + 1) * n; ++u)
+            sum += image[static_cast<std::int64_t>(v) * width + u];
     return sum / static_cast<float>(n * n);
 }
 
@@ -61,7 +71,8 @@ TESSERA_HD float SmoothInside(const RowsAround& rows, int x) {
 // The same in every column; the border repeats.
 TESSERA_HD float SmoothAt(const RowsAround& rows, int x, int width) {
     if (x == 0) return (3.0f * rows.Column(0) + rows.Column(1)) * (1.0f / 16.0f);
-    if (x == width - 1) return (rows.Column(width - 2) + 3.0f * rows.Column(width - 1)) * (1.0f / 16.0f);
+    if (x == width - 1)
+        return (rows.Column(width - 2) + 3.0f * rows.Column(width - 1)) * (1.0f / 16.0f);
     return SmoothInside(rows, x);
 }
 

@@ -1,5 +1,5 @@
-// What fusion is told: the map's layers, the frame, the camera and the weights, in plain pointers and numbers, for the
-// CPU's vector code and CUDA alike.
+// What fusion is told: the map's layers, the frame, the camera and the weights, in plain pointers
+// and numbers, for the CPU's vector code and CUDA alike.
 #pragma once
 
 #include <cstdint>
@@ -31,10 +31,12 @@ struct FusionArguments {
     std::uint16_t* weight;
     ColourWord* colour;
     const std::int32_t* coords;  // 4 per block, the last its number
-    // The frame. Depth in metres, 0 = none. Packed colour: see PackColour; null if the frame has none.
+    // The frame. Depth in metres, 0 = none. Packed colour: see PackColour; null if the frame has
+    // none.
     const float* depth_m;
     const std::uint32_t* packed_colour;
-    const float* gone_m;  // the map's surface before this depth is gone, 0 = none is; null if nowhere
+    // The map's surface before this depth is gone, 0 = none is; null if nowhere.
+    const float* gone_m;
     std::int32_t width, height;
     float fx, fy, cx, cy;
     std::uint32_t frame;  // seeds the dither
@@ -50,7 +52,7 @@ struct FusionArguments {
     ColourWeighting colour_weighting;
     float epsilon_m, sigma;  // of kLinearExp
     float max_weight, max_colour_weight;
-    float gain, offset;  // map intensity = gain * image intensity + offset
+    float gain, offset;                       // map intensity = gain * image intensity + offset
     float frame_weight, frame_colour_weight;  // factor for the whole frame (blur), in (0, 1]
 };
 

@@ -1,6 +1,7 @@
-// Fusion: what one frame does to a voxel. The weights of both papers, the running averages and the rounding are
-// templates on the number type; FusionKernels puts them together for lanes of voxels (scalar_lanes.h), for vectors and
-// CUDA alike. Distances in metres, positive in front of the surface: [B14] eq. 12 has the opposite sign.
+// Fusion: what one frame does to a voxel. The weights of both papers, the running averages and the
+// rounding are templates on the number type; FusionKernels puts them together for lanes of voxels
+// (scalar_lanes.h), for vectors and CUDA alike. Distances in metres, positive in front of the
+// surface: [B14] eq. 12 has the opposite sign.
 #pragma once
 
 #include <cstddef>
@@ -11,8 +12,8 @@
 
 namespace tessera {
 
-// e^v for v <= 0, by the same few roundings whatever F is: to 1e-6, and below e^-10 to 3e-9. (e^(v / 16))^16, by the
-// series.
+// e^v for v <= 0, by the same few roundings whatever F is: to 1e-6, and below e^-10 to 3e-9. (e^(v
+// / 16))^16, by the series.
 template <class F>
 TESSERA_HD F ExpOfNegative(F v) {
     constexpr float kFactorials[] = {5040, 720, 120, 24, 6, 2, 1, 1};
@@ -23,8 +24,8 @@ TESSERA_HD F ExpOfNegative(F v) {
     return e;
 }
 
-// [B14] eq. 13 with d = z_voxel - z_measured = -signed_distance: 1 up to epsilon behind the surface, then
-// exp(-sigma (d - epsilon)^2). The cut at delta is the caller's.
+// [B14] eq. 13 with d = z_voxel - z_measured = -signed_distance: 1 up to epsilon behind the
+// surface, then exp(-sigma (d - epsilon)^2). The cut at delta is the caller's.
 template <class F>
 TESSERA_HD F LinearExpWeight(F signed_distance_m, float epsilon_m, float sigma) {
     const F behind = F(0.0f) - signed_distance_m - F(epsilon_m);
@@ -38,9 +39,9 @@ TESSERA_HD F WeightedAverage(F old_value, F old_weight, F value, F weight) {
     return (old_weight * old_value + weight * value) / (old_weight + weight);
 }
 
-// 32 well-mixed bits from a voxel's address and the frame: the dither of the running averages. Rounding to nearest
-// would freeze an average once the weight is large; rounding up with the probability of the fraction moves it right
-// in the mean, and a hash makes every run the same.
+// 32 well-mixed bits from a voxel's address and the frame: the dither of the running averages.
+// Rounding to nearest would freeze an average once the weight is large; rounding up with the
+// probability of the fraction moves it right in the mean, and a hash makes every run the same.
 template <class U>
 TESSERA_HD U DitherBits(U address, std::uint32_t frame) {
     U h = address * U(0x9e3779b1u) + U(frame * 0x85ebca77u);
@@ -51,8 +52,8 @@ TESSERA_HD U DitherBits(U address, std::uint32_t frame) {
     return h ^ (h >> 16);
 }
 
-// Share of its weight that a voxel before a surface that is gone keeps with each frame: full weight is as nothing after half a
-// second.
+// Share of its weight that a voxel before a surface that is gone keeps with each frame: full weight
+// is as nothing after half a second.
 inline constexpr float kKeptOfGone = 0.6f;
 
 // Fusion of lanes V of neighbouring voxels.
@@ -80,16 +81,20 @@ class FusionKernels {
         Row row;
         for (int i = 0; i < 3; ++i) {
             const float* r = a.to_camera.rotation + 3 * i;
-            row.origin[i] = (r[0] * vx + r[1] * vy + r[2] * vz) * a.voxel_size_m + a.to_camera.translation[i];
+            row.origin[i] =
+                (r[0] * vx + r[1] * vy + r[2] * vz) * a.voxel_size_m + a.to_camera.translation[i];
             row.step[i] = r[0] * a.voxel_size_m;
         }
         const int in_block = kBlockSide * (y + kBlockSide * z);
-        row.at = static_cast<std::size_t>(block) * kBlockVoxels + static_cast<std::size_t>(in_block);
-        row.seed = static_cast<std::uint32_t>(c[3]) * kBlockVoxels + static_cast<std::uint32_t>(in_block);
+        row.at =
+            static_cast<std::size_t>(block) * kBlockVoxels + static_cast<std::size_t>(in_block);
+        row.seed =
+            static_cast<std::uint32_t>(c[3]) * kBlockVoxels + static_cast<std::uint32_t>(in_block);
         return row;
     }
 
-    // Updates the voxels [x, x + V::kCount) of a row. Voxels that the frame does not see keep their values.
+    // Updates the voxels [x, x + V::kCount) of a row. Voxels that the frame does not see keep their
+    // values.
     TESSERA_HD_MEMBER static void FuseVoxels(const FusionArguments& a, const Row& row, int x) {
         const Point instant = PointAt(row, V::Numbers() + Real(static_cast<float>(x)));
         Mask inside;
@@ -108,15 +113,18 @@ class FusionKernels {
         FieldWord* field = a.field + row.at + x;
         std::uint16_t* weight_steps = a.weight + row.at + x;
         ColourWord* colour = a.colour + row.at + x;
-        Voxels v{V::Load(field), V::ToReal(V::Load(weight_steps)) * Real(1.0f / kWeightSteps), V::Load(colour)};
+        Voxels v{V::Load(field), V::ToReal(V::Load(weight_steps)) * Real(1.0f / kWeightSteps),
+                 V::Load(colour)};
         // Where a surface is known to be gone, what made it is forgotten soon.
         if (a.gone_m != nullptr) {
             const Mask gone = update && (V::Gather(a.gone_m, pixel) - p.z > Real(a.truncation_m));
             v.weight = V::Select(gone, v.weight * Real(kKeptOfGone), v.weight);
         }
         // Weights below the stored resolution would be lost.
-        const Real weight = V::Max(WeightOf(a, distance, V::Max(depth, Real(0.05f))), Real(1.0f / kWeightSteps));
-        const Bits address = Bits(row.seed + static_cast<std::uint32_t>(x)) + V::AsBits(V::ToInt(V::Numbers()));
+        const Real weight =
+            V::Max(WeightOf(a, distance, V::Max(depth, Real(0.05f))), Real(1.0f / kWeightSteps));
+        const Bits address =
+            Bits(row.seed + static_cast<std::uint32_t>(x)) + V::AsBits(V::ToInt(V::Numbers()));
         const Bits dither = DitherBits(address, a.frame);
         FuseDistance(a, update, distance, weight, dither, v);
         V::Store(v.field, field);
@@ -125,7 +133,9 @@ class FusionKernels {
         Mask coloured = update && (distance <= Real(a.truncation_m));
         if (a.packed_colour == nullptr || !V::Any(coloured)) return;
         const Point q =
-            a.moving ? AtTime(a, instant, Real(a.colour_delay_s) + row_time * Real(a.colour_readout_s)) : instant;
+            a.moving
+                ? AtTime(a, instant, Real(a.colour_delay_s) + row_time * Real(a.colour_readout_s))
+                : instant;
         Mask in_colour;
         const Int colour_pixel = NearestPixel(a, q, in_colour);
         coloured = coloured && in_colour;
@@ -147,12 +157,13 @@ class FusionKernels {
 
     // The points of the voxels at x of a row.
     TESSERA_HD_MEMBER static Point PointAt(const Row& row, const Real& x) {
-        return {Real(row.origin[0]) + x * Real(row.step[0]), Real(row.origin[1]) + x * Real(row.step[1]),
+        return {Real(row.origin[0]) + x * Real(row.step[0]),
+                Real(row.origin[1]) + x * Real(row.step[1]),
                 Real(row.origin[2]) + x * Real(row.step[2])};
     }
 
-    // Where a point of the camera at the frame's instant is for the camera at time t: to first order
-    // p - t (omega x p + velocity).
+    // Where a point of the camera at the frame's instant is for the camera at time t: to first
+    // order p - t (omega x p + velocity).
     TESSERA_HD_MEMBER static Point AtTime(const FusionArguments& a, const Point& p, const Real& t) {
         const float* w = a.twist_per_s;
         return {p.x - t * (Real(w[1]) * p.z - Real(w[2]) * p.y + Real(w[3])),
@@ -167,19 +178,23 @@ class FusionKernels {
         return V::Min(V::Max(share, Real(-0.5f)), Real(0.5f));
     }
 
-    // Index of the nearest pixel and whether the point is in front of the camera and in the image. [B14] eq. 2.
-    TESSERA_HD_MEMBER static Int NearestPixel(const FusionArguments& a, const Point& p, Mask& inside) {
+    // Index of the nearest pixel and whether the point is in front of the camera and in the image.
+    // [B14] eq. 2.
+    TESSERA_HD_MEMBER static Int NearestPixel(const FusionArguments& a, const Point& p,
+                                              Mask& inside) {
         const Real inverse_z = Real(1.0f) / p.z;
         const Real u = p.x * inverse_z * Real(a.fx) + Real(a.cx + 0.5f);
         const Real v = p.y * inverse_z * Real(a.fy) + Real(a.cy + 0.5f);
         inside = (p.z > Real(0.05f)) && (u >= Real(0.0f)) && (v >= Real(0.0f)) &&
-                 (u < Real(static_cast<float>(a.width))) && (v < Real(static_cast<float>(a.height)));
+                 (u < Real(static_cast<float>(a.width))) &&
+                 (v < Real(static_cast<float>(a.height)));
         const Int column = V::ToInt(V::Select(inside, u, Real(0.0f)));
         const Int line = V::ToInt(V::Select(inside, v, Real(0.0f)));
         return line * Int(a.width) + column;
     }
 
-    TESSERA_HD_MEMBER static Real WeightOf(const FusionArguments& a, const Real& distance, const Real& depth) {
+    TESSERA_HD_MEMBER static Real WeightOf(const FusionArguments& a, const Real& distance,
+                                           const Real& depth) {
         switch (a.distance_weight) {
             case DistanceWeight::kDepthNoise: return Real(a.frame_weight) / (depth * depth);
             case DistanceWeight::kLinearExp:
@@ -190,7 +205,8 @@ class FusionKernels {
     }
 
     // From the distance's weight, of voxels at p.
-    TESSERA_HD_MEMBER static Real ColourWeightOf(const FusionArguments& a, Real weight, const Point& p) {
+    TESSERA_HD_MEMBER static Real ColourWeightOf(const FusionArguments& a, Real weight,
+                                                 const Point& p) {
         weight = weight * Real(a.frame_colour_weight / a.frame_weight);
         if (a.colour_weighting == ColourWeighting::kCosine)
             weight = weight * p.z / V::Sqrt(p.x * p.x + p.y * p.y + p.z * p.z);
@@ -203,8 +219,9 @@ class FusionKernels {
         return V::ToInt(V::Floor(value + dither));
     }
 
-    TESSERA_HD_MEMBER static void FuseDistance(const FusionArguments& a, const Mask& update, const Real& distance,
-                                               const Real& weight, const Bits& dither, Voxels& v) {
+    TESSERA_HD_MEMBER static void FuseDistance(const FusionArguments& a, const Mask& update,
+                                               const Real& distance, const Real& weight,
+                                               const Bits& dither, Voxels& v) {
         const Real truncated = V::Min(distance, Real(a.truncation_m));
         const Real steps = truncated * Real(kDistanceSteps / a.truncation_m);
         const Real old_steps = V::ToReal(V::AsInt(v.field) >> 16);
@@ -216,21 +233,28 @@ class FusionKernels {
         v.weight = V::Select(update, V::Min(v.weight + weight, Real(a.max_weight)), v.weight);
     }
 
-    // Intensity and chroma, [B14] eq. 18-20 and [D18] eq. 6 in luma and chroma instead of R, G, B: the same average.
-    TESSERA_HD_MEMBER static void FuseColour(const FusionArguments& a, const Mask& update, const Bits& pixel,
-                                             const Real& weight, const Bits& address, const Bits& dither, Voxels& v) {
+    // Intensity and chroma, [B14] eq. 18-20 and [D18] eq. 6 in luma and chroma instead of R, G, B:
+    // the same average.
+    TESSERA_HD_MEMBER static void FuseColour(const FusionArguments& a, const Mask& update,
+                                             const Bits& pixel, const Real& weight,
+                                             const Bits& address, const Bits& dither, Voxels& v) {
         const Int old_colour = V::AsInt(v.colour);
-        const Real old_weight = V::ToReal(V::AsInt(v.colour >> 20)) * Real(1.0f / kColourWeightSteps);
+        const Real old_weight =
+            V::ToReal(V::AsInt(v.colour >> 20)) * Real(1.0f / kColourWeightSteps);
         const Real old_share = old_weight / (old_weight + weight);
         const Real new_share = Real(1.0f) - old_share;
         const auto average = [&](const Int& old_steps, const Real& value) {
             return old_share * V::ToReal(old_steps) + new_share * value;
         };
-        const Real y = V::ToReal(V::AsInt(pixel & Bits(0xffffu))) * Real(a.gain * kIntensitySteps / 65535.0f) +
-                       Real(1.0f + a.offset * kIntensitySteps);
+        const Real y =
+            V::ToReal(V::AsInt(pixel & Bits(0xffffu))) * Real(a.gain * kIntensitySteps / 65535.0f) +
+            Real(1.0f + a.offset * kIntensitySteps);
         const Real chroma_scale(a.gain * kChromaSteps / kPackedChroma);
-        const Real cb = (V::ToReal(V::AsInt((pixel >> 16) & Bits(255u))) - Real(128.0f)) * chroma_scale + Real(512.0f);
-        const Real cr = (V::ToReal(V::AsInt(pixel >> 24)) - Real(128.0f)) * chroma_scale + Real(512.0f);
+        const Real cb =
+            (V::ToReal(V::AsInt((pixel >> 16) & Bits(255u))) - Real(128.0f)) * chroma_scale +
+            Real(512.0f);
+        const Real cr =
+            (V::ToReal(V::AsInt(pixel >> 24)) - Real(128.0f)) * chroma_scale + Real(512.0f);
         const Bits more = DitherBits(address, ~a.frame);
         Int new_y = DitheredRound(average(V::AsInt(v.field & Bits(0xffffu)), y), dither >> 16);
         Int new_cb = DitheredRound(average(old_colour & Int(1023), cb), more & Bits(0xffffu));
@@ -241,7 +265,8 @@ class FusionKernels {
         const Real summed = V::Min(old_weight + weight, Real(a.max_colour_weight));
         const Int steps = V::ToInt(summed * Real(kColourWeightSteps) + Real(0.5f));
         const Int packed = new_cb | (new_cr << 10) | (steps << 20);
-        v.field = V::AsBits(V::Select(update, (V::AsInt(v.field) & Int(~0xffff)) | new_y, V::AsInt(v.field)));
+        v.field = V::AsBits(
+            V::Select(update, (V::AsInt(v.field) & Int(~0xffff)) | new_y, V::AsInt(v.field)));
         v.colour = V::AsBits(V::Select(update, packed, old_colour));
     }
 };

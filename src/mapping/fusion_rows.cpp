@@ -12,7 +12,8 @@ void FuseBlocks(const FusionArguments& a, const std::int32_t* blocks, std::int32
         for (int z = 0; z < kBlockSide; ++z)
             for (int y = 0; y < kBlockSide; ++y) {
                 const Kernels::Row row = Kernels::RowOf(a, blocks[b], y, z);
-                for (int x = 0; x < kBlockSide; x += VectorLanes::kCount) Kernels::FuseVoxels(a, row, x);
+                for (int x = 0; x < kBlockSide; x += VectorLanes::kCount)
+                    Kernels::FuseVoxels(a, row, x);
             }
 }
 

@@ -1,5 +1,5 @@
-// The hot loop of fusion behind plain pointers: updates whole blocks from one frame. Compiled twice (portable, AVX2);
-// integrator.cpp picks. No Eigen here.
+// The hot loop of fusion behind plain pointers: updates whole blocks from one frame. Compiled twice
+// (portable, AVX2); integrator.cpp picks. No Eigen here.
 #pragma once
 
 #include <cstdint>

@@ -6,7 +6,8 @@
 
 namespace tessera {
 
-// Empties a slot; entries behind it move up where the gap would hide them. `hash_of` gives an entry's hash.
+// Empties a slot; entries behind it move up where the gap would hide them. `hash_of` gives an
+// entry's hash.
 template <class HashOf>
 void EraseSlot(std::vector<std::int32_t>& table, std::uint32_t gap, const HashOf& hash_of) {
     const std::uint32_t mask = static_cast<std::uint32_t>(table.size() - 1);

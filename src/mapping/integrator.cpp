@@ -13,11 +13,13 @@
 namespace tessera {
 namespace {
 
-VoxelToCamera MakeVoxelToCamera(const Eigen::Isometry3d& T_camera_world, const Eigen::Vector3d& origin_m) {
+VoxelToCamera MakeVoxelToCamera(const Eigen::Isometry3d& T_camera_world,
+                                const Eigen::Vector3d& origin_m) {
     VoxelToCamera out{};
     const Eigen::Vector3d t = T_camera_world * origin_m;
     for (int i = 0; i < 3; ++i) {
-        for (int j = 0; j < 3; ++j) out.rotation[3 * i + j] = static_cast<float>(T_camera_world.linear()(i, j));
+        for (int j = 0; j < 3; ++j)
+            out.rotation[3 * i + j] = static_cast<float>(T_camera_world.linear()(i, j));
         out.translation[i] = static_cast<float>(t[i]);
     }
     return out;
@@ -30,14 +32,18 @@ void Integrator::Config::Describe(ConfigParameters& p) {
                 {{"constant", DistanceWeight::kConstant},
                  {"linear_exp", DistanceWeight::kLinearExp},
                  {"depth_noise", DistanceWeight::kDepthNoise}},
-                "weight of a measurement: the same for all ([D18] eq. 7), falling behind the surface ([B14] eq. "
+                "weight of a measurement: the same for all ([D18] eq. 7), falling behind the "
+                "surface ([B14] eq. "
                 "13), or (1 m / depth)^2 as structured light's noise asks for");
     p.AddChoice("colour_weighting", colour_weighting,
                 {{"cosine", ColourWeighting::kCosine}, {"same", ColourWeighting::kSame}},
-                "weight of a colour: the distance's times the cosine to the optical axis ([B14] eq. 17), or the "
+                "weight of a colour: the distance's times the cosine to the optical axis ([B14] "
+                "eq. 17), or the "
                 "distance's ([D18] eq. 6)");
-    p.Add("epsilon_m", epsilon_m, {0.0, 1.0}, "m", "linear_exp: full weight up to here behind the surface");
-    p.Add("sigma", sigma, {0.0, 1e6}, "1/m^2", "linear_exp: how fast the weight falls beyond epsilon_m");
+    p.Add("epsilon_m", epsilon_m, {0.0, 1.0}, "m",
+          "linear_exp: full weight up to here behind the surface");
+    p.Add("sigma", sigma, {0.0, 1e6}, "1/m^2",
+          "linear_exp: how fast the weight falls beyond epsilon_m");
     p.Add("max_weight", max_weight, {1.0, kMaxWeight}, "",
           "the running average's memory, in frames at 1 m; lower it where the scene changes");
     p.Add("max_colour_weight", max_colour_weight, {1.0, kMaxWeight}, "", "the same for colour");
@@ -52,15 +58,16 @@ Integrator::Integrator(const Config& config, const PinholeCamera& camera, Vector
       changed_(&none_),
       use_avx2_(path == VectorPath::kAvx2 || (path == VectorPath::kAuto && CpuHasAvx2())) {}
 
-BandWalk MakeBandWalk(const PreparedFrame& frame, const PinholeCamera& camera, const Eigen::Isometry3d& T_world_camera,
-                      const BlockMap::Config& map) {
+BandWalk MakeBandWalk(const PreparedFrame& frame, const PinholeCamera& camera,
+                      const Eigen::Isometry3d& T_world_camera, const BlockMap::Config& map) {
     const double block_m = map.voxel_size_m * kBlockSide;
     BandWalk walk{};
     walk.depth_m = frame.depth_m.data();
     walk.width = frame.width;
     walk.height = frame.height;
     // Rays at most half a block apart at the farthest depth.
-    walk.step = std::clamp(static_cast<int>(0.5 * block_m * camera.fx / std::max(frame.farthest_m, 0.1f)), 1, 8);
+    walk.step = std::clamp(
+        static_cast<int>(0.5 * block_m * camera.fx / std::max(frame.farthest_m, 0.1f)), 1, 8);
     walk.walk_steps = static_cast<int>(std::ceil(4.0 * map.truncation_m / block_m));
     walk.fx = camera.fx;
     walk.fy = camera.fy;
@@ -77,7 +84,8 @@ BandWalk MakeBandWalk(const PreparedFrame& frame, const PinholeCamera& camera, c
     return walk;
 }
 
-Integrator::Report Integrator::Integrate(const PreparedFrame& frame, const View& view, BlockMap& map) {
+Integrator::Report Integrator::Integrate(const PreparedFrame& frame, const View& view,
+                                         BlockMap& map) {
     Report report;
     ++revision_;
     added_.clear();
@@ -96,7 +104,8 @@ void Integrator::MarkAllChanged(BlockMap& map) {
         if (!map.IsFree(id)) map.MarkChanged(id, revision_);
 }
 
-void Integrator::Allocate(const PreparedFrame& frame, const View& view, BlockMap& map, Report& report) {
+void Integrator::Allocate(const PreparedFrame& frame, const View& view, BlockMap& map,
+                          Report& report) {
     const BandWalk walk = MakeBandWalk(frame, camera_, view.T_world_camera, map.config());
     const WorldBox box = config_.volume.box();
     const double block_m = map.config().voxel_size_m * kBlockSide;
@@ -110,16 +119,20 @@ void Integrator::Allocate(const PreparedFrame& frame, const View& view, BlockMap
         const auto visit = [&](const BlockCoord& c) {
             if (c == last) return;
             last = c;
-            if (map.Find(c) == kUnknownBlock && InLimits(c) && Meets(box, c, block_m)) missing.push_back(c);
+            if (map.Find(c) == kUnknownBlock && InLimits(c) && Meets(box, c, block_m))
+                missing.push_back(c);
         };
-        for (int row = band * kRowsPerBand; row < std::min(walk.rows(), (band + 1) * kRowsPerBand); ++row)
-            for (int column = 0; column < walk.columns(); ++column) WalkRay(walk, column, row, visit);
+        for (int row = band * kRowsPerBand; row < std::min(walk.rows(), (band + 1) * kRowsPerBand);
+             ++row)
+            for (int column = 0; column < walk.columns(); ++column)
+                WalkRay(walk, column, row, visit);
         std::sort(missing.begin(), missing.end());
         missing.erase(std::unique(missing.begin(), missing.end()), missing.end());
     });
 
     new_blocks_.clear();
-    for (const auto& missing : missing_) new_blocks_.insert(new_blocks_.end(), missing.begin(), missing.end());
+    for (const auto& missing : missing_)
+        new_blocks_.insert(new_blocks_.end(), missing.begin(), missing.end());
     std::sort(new_blocks_.begin(), new_blocks_.end());
     new_blocks_.erase(std::unique(new_blocks_.begin(), new_blocks_.end()), new_blocks_.end());
     const auto wanted = static_cast<std::int64_t>(new_blocks_.size());
@@ -134,10 +147,12 @@ void Integrator::Allocate(const PreparedFrame& frame, const View& view, BlockMap
     report.refused_blocks = wanted - report.new_blocks;
 }
 
-FusionArguments MakeFusionArguments(const PreparedFrame& frame, const Integrator::View& view, const PinholeCamera& camera,
-                                    const Integrator::Config& config, const BlockMap::Config& map, std::uint32_t revision) {
+FusionArguments MakeFusionArguments(const PreparedFrame& frame, const Integrator::View& view,
+                                    const PinholeCamera& camera, const Integrator::Config& config,
+                                    const BlockMap::Config& map, std::uint32_t revision) {
     const double voxel_m = map.voxel_size_m;
-    // Coordinates relative to a voxel near the camera: single precision is then as fine far from the world's origin.
+    // Coordinates relative to a voxel near the camera: single precision is then as fine far from
+    // the world's origin.
     const Eigen::Vector3d origin = (view.T_world_camera.translation() / voxel_m).array().round();
     const Eigen::Isometry3d T_camera_world = view.T_world_camera.inverse();
 
@@ -184,13 +199,15 @@ void Integrator::Fuse(const PreparedFrame& frame, const View& view, BlockMap& ma
     a.depth_m = frame.depth_m.data();
     a.packed_colour = frame.has_colour ? frame.packed_colour.data() : nullptr;
     a.gone_m = frame.gone_m.empty() ? nullptr : frame.gone_m.data();
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, blocks.size(), 64), [&](const auto& range) {
-        const auto count = static_cast<std::int32_t>(range.size());
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, blocks.size(), 64),
+                      [&](const auto& range) {
+                          const auto count = static_cast<std::int32_t>(range.size());
 #ifdef TESSERA_HAVE_AVX2
-        if (use_avx2_) return avx2::FuseBlocks(a, blocks.data() + range.begin(), count);
+                          if (use_avx2_)
+                              return avx2::FuseBlocks(a, blocks.data() + range.begin(), count);
 #endif
-        baseline::FuseBlocks(a, blocks.data() + range.begin(), count);
-    });
+                          baseline::FuseBlocks(a, blocks.data() + range.begin(), count);
+                      });
     for (const BlockId id : blocks) map.MarkChanged(id, revision_);
     report.fused_blocks = static_cast<std::int64_t>(blocks.size());
     changed_ = &blocks;

@@ -1,5 +1,6 @@
-// Puts frames into the map: allocates blocks along the measured band, then updates every voxel that the frame sees.
-// The one writer of a BlockMap. Owner thread only; TBB inside, the same result for any number of threads.
+// Puts frames into the map: allocates blocks along the measured band, then updates every voxel that
+// the frame sees. The one writer of a BlockMap. Owner thread only; TBB inside, the same result for
+// any number of threads.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -51,7 +52,8 @@ class Integrator {
         double allocate_ms = 0, fuse_ms = 0;
     };
 
-    Integrator(const Config& config, const PinholeCamera& camera, VectorPath path = VectorPath::kAuto);
+    Integrator(const Config& config, const PinholeCamera& camera,
+               VectorPath path = VectorPath::kAuto);
     virtual ~Integrator() = default;
 
     Report Integrate(const PreparedFrame& frame, const View& view, BlockMap& map);
@@ -65,14 +67,15 @@ class Integrator {
     void MarkAllChanged(BlockMap& map);
     // Goes on after that many, in a map that they made.
     void SetRevision(std::uint32_t revision) { revision_ = revision; }
-    // Where a device keeps the voxels: `map` gets those that changed. Its blocks, without their voxels, are always those of the
-    // last Integrate.
+    // Where a device keeps the voxels: `map` gets those that changed. Its blocks, without their
+    // voxels, are always those of the last Integrate.
     virtual void Bring(BlockMap&) {}
     // What map_full means, in words.
     virtual std::string limit() const { return "the map is full"; }
 
   protected:
-    virtual void Allocate(const PreparedFrame& frame, const View& view, BlockMap& map, Report& report);
+    virtual void Allocate(const PreparedFrame& frame, const View& view, BlockMap& map,
+                          Report& report);
     virtual void Fuse(const PreparedFrame& frame, const View& view, BlockMap& map, Report& report);
 
     Config config_;
@@ -90,11 +93,13 @@ class Integrator {
 };
 
 // What WalkRay needs of a frame taken from there.
-BandWalk MakeBandWalk(const PreparedFrame& frame, const PinholeCamera& camera, const Eigen::Isometry3d& T_world_camera,
-                      const BlockMap::Config& map);
+BandWalk MakeBandWalk(const PreparedFrame& frame, const PinholeCamera& camera,
+                      const Eigen::Isometry3d& T_world_camera, const BlockMap::Config& map);
 
-// What fusion needs of a frame and its view; the map's layers and the images are the caller's to enter.
-FusionArguments MakeFusionArguments(const PreparedFrame& frame, const Integrator::View& view, const PinholeCamera& camera,
-                                    const Integrator::Config& config, const BlockMap::Config& map, std::uint32_t revision);
+// What fusion needs of a frame and its view; the map's layers and the images are the caller's to
+// enter.
+FusionArguments MakeFusionArguments(const PreparedFrame& frame, const Integrator::View& view,
+                                    const PinholeCamera& camera, const Integrator::Config& config,
+                                    const BlockMap::Config& map, std::uint32_t revision);
 
 }  // namespace tessera

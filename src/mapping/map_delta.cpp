@@ -27,8 +27,8 @@ std::size_t MapDelta::bytes() const {
            field.capacity() * sizeof(FieldWord);
 }
 
-void CollectDelta(const BlockMap& map, std::span<const BlockChange> blocks, std::span<const BlockId> changed,
-                  std::uint32_t revision, MapDelta& delta) {
+void CollectDelta(const BlockMap& map, std::span<const BlockChange> blocks,
+                  std::span<const BlockId> changed, std::uint32_t revision, MapDelta& delta) {
     delta.revision = revision;
     delta.blocks.assign(blocks.begin(), blocks.end());
     delta.changed.assign(changed.begin(), changed.end());
@@ -68,7 +68,8 @@ void ApplyDelta(const MapDelta& delta, BlockMap& copy) {
         if (change.released) copy.Release(id);
     }
     ForEachChanged(delta.changed.size(), [&](std::size_t i) {
-        std::memcpy(copy.field(delta.changed[i]), delta.field.data() + i * kBlockVoxels, kFieldBytes);
+        std::memcpy(copy.field(delta.changed[i]), delta.field.data() + i * kBlockVoxels,
+                    kFieldBytes);
         copy.MarkChanged(delta.changed[i], delta.revision);
     });
 }

@@ -1,4 +1,5 @@
-// A box of the world outside of which the map is not to grow, as systems with a dense grid have one ([D18] section 4).
+// A box of the world outside of which the map is not to grow, as systems with a dense grid have one
+// ([D18] section 4).
 #pragma once
 
 #include "core/config.h"
@@ -16,9 +17,13 @@ struct MapVolume {
     // The error names the axis whose maximum is not above its minimum.
     Status Validate() const;
 
-    WorldBox box() const { return {bounded, {min_x_m, min_y_m, min_z_m}, {max_x_m, max_y_m, max_z_m}}; }
+    WorldBox box() const {
+        return {bounded, {min_x_m, min_y_m, min_z_m}, {max_x_m, max_y_m, max_z_m}};
+    }
     // Whether some of the block lies inside.
-    bool Meets(const BlockCoord& block, double block_m) const { return tessera::Meets(box(), block, block_m); }
+    bool Meets(const BlockCoord& block, double block_m) const {
+        return tessera::Meets(box(), block, block_m);
+    }
 };
 
 }  // namespace tessera

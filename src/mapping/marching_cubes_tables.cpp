@@ -134,8 +134,6 @@ FaceSegments CubeFaceSegments(int configuration, int face) {
     return SegmentsOf(configuration, face);
 }
 
-const std::array<CubeCase, kCubeConfigurations>& CubeCases() {
-    return kCases;
-}
+const std::array<CubeCase, kCubeConfigurations>& CubeCases() { return kCases; }
 
 }  // namespace tessera

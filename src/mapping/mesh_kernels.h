@@ -1,5 +1,5 @@
-// The vertices of marching cubes, one edge at a time, and what their triangles refer to them by. Host-device, shared by the
-// CPU and CUDA.
+// The vertices of marching cubes, one edge at a time, and what their triangles refer to them by.
+// Host-device, shared by the CPU and CUDA.
 #pragma once
 
 #include <array>
@@ -12,18 +12,23 @@
 
 namespace tessera {
 
-// A block's field with an apron of one voxel below and two above along each axis, x fastest: a copy, or shared memory.
+// A block's field with an apron of one voxel below and two above along each axis, x fastest: a
+// copy, or shared memory.
 struct ApronField {
     static constexpr int kSide = kBlockSide + 3;
     static constexpr int kWords = kSide * kSide * kSide;
     const FieldWord* words;
 
     // x, y, z in [-1, kBlockSide + 2).
-    TESSERA_HD_MEMBER static int Index(int x, int y, int z) { return x + 1 + kSide * (y + 1 + kSide * (z + 1)); }
-    TESSERA_HD_MEMBER static int Stride(int axis) { return axis == 0 ? 1 : axis == 1 ? kSide : kSide * kSide; }
+    TESSERA_HD_MEMBER static int Index(int x, int y, int z) {
+        return x + 1 + kSide * (y + 1 + kSide * (z + 1));
+    }
+    TESSERA_HD_MEMBER static int Stride(int axis) {
+        return axis == 0 ? 1 : axis == 1 ? kSide : kSide * kSide;
+    }
 
-    // Of the distance along an axis, in truncations per voxel: the central difference, one-sided or zero where
-    // neighbours are unknown.
+    // Of the distance along an axis, in truncations per voxel: the central difference, one-sided or
+    // zero where neighbours are unknown.
     TESSERA_HD_MEMBER float Slope(int index, int axis) const {
         const FieldWord here = words[index];
         FieldWord before = words[index - Stride(axis)], after = words[index + Stride(axis)];
@@ -34,8 +39,9 @@ struct ApronField {
     }
 };
 
-// Whether a block's mesh is made from voxels of the block at this offset, each in {-1, 0, 1}: of its own, of the positive
-// neighbours (corners of cells), and of those one step further along an axis (gradients at the vertices' ends).
+// Whether a block's mesh is made from voxels of the block at this offset, each in {-1, 0, 1}: of
+// its own, of the positive neighbours (corners of cells), and of those one step further along an
+// axis (gradients at the vertices' ends).
 TESSERA_HD constexpr bool ReadByMesh(int dx, int dy, int dz) {
     const int below = (dx < 0) + (dy < 0) + (dz < 0), above = (dx > 0) + (dy > 0) + (dz > 0);
     return below == 0 || (below == 1 && above <= 1);
@@ -58,7 +64,8 @@ inline constexpr int kMeshSlotShift = 11;
 TESSERA_HD MeshVertexRef VertexRefOf(int cube_edge, int x, int y, int z) {
     const CubeEdge e = CubeEdgeAt(cube_edge);
     const VoxelPlace at = PlaceOf(x + (e.corner & 1), y + (e.corner >> 1 & 1), z + (e.corner >> 2));
-    return static_cast<MeshVertexRef>(at.slot << kMeshSlotShift | (e.axis * kBlockVoxels + at.offset));
+    return static_cast<MeshVertexRef>(at.slot << kMeshSlotShift |
+                                      (e.axis * kBlockVoxels + at.offset));
 }
 
 // Octahedral, from a vector of any length but 0; VertexNormal undoes it.
@@ -66,24 +73,30 @@ TESSERA_HD void EncodeNormal(const float* n, std::int16_t* code) {
     const float length = abs(n[0]) + (abs(n[1]) + abs(n[2]));
     const float x = n[0] / length, y = n[1] / length;
     const bool behind = n[2] / length < 0;
-    const float uv[2] = {behind ? std::copysign(1 - abs(y), x) : x, behind ? std::copysign(1 - abs(x), y) : y};
-    for (int k = 0; k < 2; ++k) code[k] = static_cast<std::int16_t>(uv[k] * 32767 + std::copysign(0.5f, uv[k]));
+    const float uv[2] = {behind ? std::copysign(1 - abs(y), x) : x,
+                         behind ? std::copysign(1 - abs(x), y) : y};
+    for (int k = 0; k < 2; ++k)
+        code[k] = static_cast<std::int16_t>(uv[k] * 32767 + std::copysign(0.5f, uv[k]));
 }
 
-TESSERA_HD std::uint8_t ColourByte(float value) { return static_cast<std::uint8_t>(value * 255.0f + 0.5f); }
+TESSERA_HD std::uint8_t ColourByte(float value) {
+    return static_cast<std::uint8_t>(value * 255.0f + 0.5f);
+}
 
-// [D18] eq. 10, m of the way from one voxel to the other; where one has no colour, the other's; where none has, grey.
+// [D18] eq. 10, m of the way from one voxel to the other; where one has no colour, the other's;
+// where none has, grey.
 TESSERA_HD Rgb8 MixColours(FieldWord w1, ColourWord c1, FieldWord w2, ColourWord c2, float m) {
     if (!HasIntensity(w1) && !HasIntensity(w2)) return {128, 128, 128};
     const LinearRgb a = HasIntensity(w1) ? ColourFromWords(w1, c1) : ColourFromWords(w2, c2);
     const LinearRgb b = HasIntensity(w2) ? ColourFromWords(w2, c2) : a;
-    return {ColourByte(a.r + m * (b.r - a.r)), ColourByte(a.g + m * (b.g - a.g)), ColourByte(a.b + m * (b.b - a.b))};
+    return {ColourByte(a.r + m * (b.r - a.r)), ColourByte(a.g + m * (b.g - a.g)),
+            ColourByte(a.b + m * (b.b - a.b))};
 }
 
-// The vertex on the edge from the block's voxel (x, y, z) along `axis`, whose ends lie on both sides of the surface;
-// c1 and c2 are their colours.
-TESSERA_HD MeshVertex VertexOnEdge(const ApronField& field, int axis, int x, int y, int z, ColourWord c1,
-                                   ColourWord c2) {
+// The vertex on the edge from the block's voxel (x, y, z) along `axis`, whose ends lie on both
+// sides of the surface; c1 and c2 are their colours.
+TESSERA_HD MeshVertex VertexOnEdge(const ApronField& field, int axis, int x, int y, int z,
+                                   ColourWord c1, ColourWord c2) {
     const int i1 = ApronField::Index(x, y, z), i2 = i1 + ApronField::Stride(axis);
     const FieldWord w1 = field.words[i1], w2 = field.words[i2];
     const float d1 = FieldDistance(w1), d2 = FieldDistance(w2);

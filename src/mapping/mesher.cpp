@@ -13,7 +13,8 @@ namespace tessera {
 int Mesher::Update(const BlockMap& map, int budget_blocks, BlockMesher* device) {
     voxel_size_m_ = map.config().voxel_size_m;
     FindChanged(map);
-    std::size_t count = std::min(pending_.size(), static_cast<std::size_t>(std::max(budget_blocks, 0)));
+    std::size_t count =
+        std::min(pending_.size(), static_cast<std::size_t>(std::max(budget_blocks, 0)));
     if (device == nullptr)
         MeshHere(map, {pending_.data(), count});
     else if (!device->MeshBlocks(map, {pending_.data(), count}, config_.min_weight, meshes_))
@@ -33,7 +34,8 @@ void Mesher::MeshHere(const BlockMap& map, std::span<const BlockId> blocks) {
     });
 }
 
-// Appends to pending_ every block that reads one whose revision is new, and what is another block by now or none.
+// Appends to pending_ every block that reads one whose revision is new, and what is another block
+// by now or none.
 void Mesher::FindChanged(const BlockMap& map) {
     const std::size_t size = static_cast<std::size_t>(map.size());
     TESSERA_CHECK(size >= meshes_.size(), "the map shrank from {} to {} blocks without Clear",
@@ -84,7 +86,8 @@ void Mesher::Clear() {
 }
 
 std::size_t Mesher::bytes() const {
-    std::size_t total = meshes_.capacity() * (sizeof(meshes_[0]) + 2 * sizeof(std::uint32_t) + sizeof(BlockCoord) + 1) +
+    std::size_t total = meshes_.capacity() * (sizeof(meshes_[0]) + 2 * sizeof(std::uint32_t) +
+                                              sizeof(BlockCoord) + 1) +
                         (pending_.capacity() + updated_.capacity()) * sizeof(BlockId);
     for (const auto& mesh : meshes_)
         if (mesh) total += mesh->bytes();

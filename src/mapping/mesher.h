@@ -25,9 +25,9 @@ class Mesher {
     // Meshes again the blocks whose result may have changed since the last call: those that read a
     // block (kMeshReadOffsets) whose BlockMap::revision differs from the one last seen. So whoever
     // writes the map must use a new revision after each Update. At most `budget_blocks` are done,
-    // oldest first; returns how many remain. Nobody may write the map meanwhile. Blocks may come and
-    // go between calls; Clear when it is another map. With `device` that one meshes, in a map whose blocks do not go; where
-    // it has no room none is done.
+    // oldest first; returns how many remain. Nobody may write the map meanwhile. Blocks may come
+    // and go between calls; Clear when it is another map. With `device` that one meshes, in a map
+    // whose blocks do not go; where it has no room none is done.
     int Update(const BlockMap& map, int budget_blocks = kNoLimit, BlockMesher* device = nullptr);
 
     // The whole mesh, with normals and colours. Vertices are shared across blocks, ordered by block
@@ -56,7 +56,8 @@ class Mesher {
     // By block id.
     BlockMeshes meshes_;
     std::vector<std::uint32_t> seen_revision_;
-    std::vector<std::int32_t> seen_number_;  // BlockMap::number: an id may be another block's by now
+    // BlockMap::number: an id may be another block's by now.
+    std::vector<std::int32_t> seen_number_;
     std::vector<BlockCoord> seen_coord_;
     std::vector<std::uint8_t> is_pending_;
     std::vector<BlockId> pending_;  // to be meshed, oldest first

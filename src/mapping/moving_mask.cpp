@@ -6,12 +6,15 @@ void HideMoving(const MovingMask& mask, int y, int width, float* depth_m) {
     const std::uint8_t* moving = mask.moving.row(mask.TileY(y));
     const int tiles = mask.moving.width();
     for (int k = 0; k < tiles; ++k)
-        if (moving[k] != 0) std::fill(depth_m + k * mask.step, depth_m + (k + 1 < tiles ? (k + 1) * mask.step : width), 0.0f);
+        if (moving[k] != 0)
+            std::fill(depth_m + k * mask.step,
+                      depth_m + (k + 1 < tiles ? (k + 1) * mask.step : width), 0.0f);
 }
 
 Frame WithoutMoving(const MovingMask& mask, const Frame& frame) {
     Frame rest = frame;
-    for (int y = 0; y < rest.depth_m.height(); ++y) HideMoving(mask, y, rest.depth_m.width(), rest.depth_m.row(y));
+    for (int y = 0; y < rest.depth_m.height(); ++y)
+        HideMoving(mask, y, rest.depth_m.width(), rest.depth_m.row(y));
     return rest;
 }
 

@@ -1,5 +1,5 @@
-// What a camera at a given pose would see of the map, and the interface that makes it: the ray caster and the
-// rasteriser of the mesh both fill it, and trackers do not know which.
+// What a camera at a given pose would see of the map, and the interface that makes it: the ray
+// caster and the rasteriser of the mesh both fill it, and trackers do not know which.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -43,8 +43,8 @@ struct PredictedView {
 class ViewPredictor {
   public:
     virtual ~ViewPredictor() = default;
-    // The first surface seen from the front by each pixel, between the two depths (metres along z, min > 0), into a
-    // view whose storage is used again. Nobody may write the map meanwhile.
+    // The first surface seen from the front by each pixel, between the two depths (metres along z,
+    // min > 0), into a view whose storage is used again. Nobody may write the map meanwhile.
     virtual void Predict(const BlockMap& map, const PinholeCamera& camera,
                          const Eigen::Isometry3d& T_world_camera, float min_depth_m,
                          float max_depth_m, PredictedView& view) = 0;

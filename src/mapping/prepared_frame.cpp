@@ -17,8 +17,8 @@ constexpr int kBand = 16;  // rows per task; fixed, so that sums have a fixed or
 
 constexpr int kReducedWidths[] = {40, 80};  // 40 x 30 and 80 x 60 from 640 x 480
 
-FrameCounts GateRows(const DepthImage& in, const MovingMask* moving, float offset, float low, float high, int first, int last,
-                     DepthImage& out) {
+FrameCounts GateRows(const DepthImage& in, const MovingMask* moving, float offset, float low,
+                     float high, int first, int last, DepthImage& out) {
     FrameCounts counts;
     std::vector<float> rest;
     for (int y = first; y < last; ++y) {
@@ -79,7 +79,8 @@ void Reduce(const PreparedFrame& p, std::size_t level, PreparedFrame::Reduced& o
     out.intensity.Resize(width, height);
     tbb::parallel_for(0, height, [&](int y) {
         for (int x = 0; x < width; ++x)
-            out.intensity(x, y) = p.has_colour ? MeanOfTile(p.intensity.data(), p.width, n, x, y) : -1.0f;
+            out.intensity(x, y) =
+                p.has_colour ? MeanOfTile(p.intensity.data(), p.width, n, x, y) : -1.0f;
     });
 }
 
@@ -101,33 +102,40 @@ void SplitColour(const ColourImage& colour, int blur_px, PreparedFrame& p) {
     Image<float> smoothed;
     for (int pass = 0; pass < blur_px; ++pass) {
         smoothed.Resize(width, height);
-        ForBands(height, [&](int, int first, int last) { Smooth(p.intensity, first, last, smoothed); });
+        ForBands(height,
+                 [&](int, int first, int last) { Smooth(p.intensity, first, last, smoothed); });
         std::swap(smoothed, p.intensity);
     }
     ForBands(height, [&](int, int first, int last) {
-        for (int y = first; y < last; ++y) PackRow(colour.row(y), p.intensity.row(y), p.packed_colour.row(y), width);
+        for (int y = first; y < last; ++y)
+            PackRow(colour.row(y), p.intensity.row(y), p.packed_colour.row(y), width);
     });
 }
 
 }  // namespace
 
 void PreparedFrame::Config::Describe(ConfigParameters& p) {
-    p.Add("min_depth_m", min_depth_m, {0.0, 100.0}, "m", "nearer depth is ignored; the sensor's own limit");
+    p.Add("min_depth_m", min_depth_m, {0.0, 100.0}, "m",
+          "nearer depth is ignored; the sensor's own limit");
     p.Add("max_depth_m", max_depth_m, {0.1, 100.0}, "m",
           "farther depth is ignored; structured light's noise grows with the square of the depth");
     p.Add("intensity_blur_px", intensity_blur_px, {0, 4}, "px",
-          "times that the intensity is smoothed with a 1-2-1 kernel; a voxel is wider than a pixel, so that "
+          "times that the intensity is smoothed with a 1-2-1 kernel; a voxel is wider than a "
+          "pixel, so that "
           "unsmoothed intensity aliases");
     p.Add("min_coherent_fraction", min_coherent_fraction, {0.0, 1.0}, "",
-          "a frame is noise, and not used, if a smaller share of neighbouring depths agree within 5 %");
+          "a frame is noise, and not used, if a smaller share of neighbouring depths agree within "
+          "5 %");
     p.Add("disparity_offset_per_m", disparity_offset_per_m, {-0.1, 0.1}, "1/m",
-          "depths become z / (1 + offset z): what calibration.refine finds of a triangulating sensor's error");
+          "depths become z / (1 + offset z): what calibration.refine finds of a triangulating "
+          "sensor's error");
 }
 
 Status PreparedFrame::Config::Validate() const {
     if (min_depth_m >= max_depth_m)
-        return Status::Error(fmt::format("frame.min_depth_m: {} m is not below frame.max_depth_m ({} m)",
-                                         min_depth_m, max_depth_m));
+        return Status::Error(
+            fmt::format("frame.min_depth_m: {} m is not below frame.max_depth_m ({} m)",
+                        min_depth_m, max_depth_m));
     return Status::Ok();
 }
 
@@ -143,7 +151,9 @@ void SetFacts(int width, int height, bool has_colour, const FrameCounts& counts,
     p.has_colour = has_colour;
     p.valid_depth_pixels = counts.valid;
     p.measured_pixels = counts.measured;
-    p.coherent_fraction = counts.pairs > 0 ? static_cast<double>(counts.coherent) / static_cast<double>(counts.pairs) : 0.0;
+    p.coherent_fraction =
+        counts.pairs > 0 ? static_cast<double>(counts.coherent) / static_cast<double>(counts.pairs)
+                         : 0.0;
     p.nearest_m = counts.valid > 0 ? counts.nearest_m : 0.0f;
     p.farthest_m = counts.farthest_m;
     p.moving.reset();
@@ -152,15 +162,16 @@ void SetFacts(int width, int height, bool has_colour, const FrameCounts& counts,
 
 namespace {
 
-void PrepareDepth(const DepthImage& raw_m, bool has_colour, const PreparedFrame::Config& config, const MovingMask* moving,
-                  PreparedFrame& p) {
+void PrepareDepth(const DepthImage& raw_m, bool has_colour, const PreparedFrame::Config& config,
+                  const MovingMask* moving, PreparedFrame& p) {
     const int width = raw_m.width(), height = raw_m.height();
     p.depth_m.Resize(width, height);
     std::vector<FrameCounts> counts(static_cast<std::size_t>((height + kBand - 1) / kBand));
     ForBands(height, [&](int band, int first, int last) {
         counts[static_cast<std::size_t>(band)] =
-            GateRows(raw_m, moving, static_cast<float>(config.disparity_offset_per_m), static_cast<float>(config.min_depth_m),
-                     static_cast<float>(config.max_depth_m), first, last, p.depth_m);
+            GateRows(raw_m, moving, static_cast<float>(config.disparity_offset_per_m),
+                     static_cast<float>(config.min_depth_m), static_cast<float>(config.max_depth_m),
+                     first, last, p.depth_m);
     });
     FrameCounts total;
     for (const FrameCounts& c : counts) {
@@ -176,9 +187,11 @@ void PrepareDepth(const DepthImage& raw_m, bool has_colour, const PreparedFrame:
 
 }  // namespace
 
-void PrepareDepthAgain(const Frame& frame, const PreparedFrame::Config& config, PreparedFrame& p, const MovingMask* moving) {
+void PrepareDepthAgain(const Frame& frame, const PreparedFrame::Config& config, PreparedFrame& p,
+                       const MovingMask* moving) {
     PrepareDepth(frame.depth_m, p.has_colour, config, moving, p);
-    for (std::size_t level = 0; level < p.reduced.size(); ++level) ReduceDepth(p, level, p.reduced[level].depth_m);
+    for (std::size_t level = 0; level < p.reduced.size(); ++level)
+        ReduceDepth(p, level, p.reduced[level].depth_m);
 }
 
 void SetMoving(std::shared_ptr<const MovingMask> moving, PreparedFrame& p) {
@@ -191,7 +204,8 @@ void SetMoving(std::shared_ptr<const MovingMask> moving, PreparedFrame& p) {
     });
 }
 
-void PrepareFrame(const Frame& frame, const PreparedFrame::Config& config, PreparedFrame& p, const MovingMask* moving) {
+void PrepareFrame(const Frame& frame, const PreparedFrame::Config& config, PreparedFrame& p,
+                  const MovingMask* moving) {
     PrepareDepth(frame.depth_m, !frame.colour.empty(), config, moving, p);
     if (p.has_colour) {
         SplitColour(frame.colour, config.intensity_blur_px, p);
@@ -199,7 +213,8 @@ void PrepareFrame(const Frame& frame, const PreparedFrame::Config& config, Prepa
         p.intensity = {};
         p.packed_colour = {};
     }
-    for (std::size_t level = 0; level < p.reduced.size(); ++level) Reduce(p, level, p.reduced[level]);
+    for (std::size_t level = 0; level < p.reduced.size(); ++level)
+        Reduce(p, level, p.reduced[level]);
 }
 
 }  // namespace tessera

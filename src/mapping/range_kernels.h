@@ -26,7 +26,7 @@ struct RangeArguments {
     float fx, fy, cx, cy;
     float min_depth_m, max_depth_m;
     std::int32_t width, height;  // tiles
-    bool all_regions;  // else only blocks of these:
+    bool all_regions;            // else only blocks of these:
     RegionBox regions;
 };
 

@@ -1,5 +1,5 @@
-// What the ray caster's kernels are told: the map, the camera and the images to write, in plain pointers and numbers,
-// for the CPU's vector code and CUDA alike.
+// What the ray caster's kernels are told: the map, the camera and the images to write, in plain
+// pointers and numbers, for the CPU's vector code and CUDA alike.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,8 @@ namespace tessera {
 
 struct RayArguments : BlockMapView {
     const ColourWord* colour;  // the map's
-    // The camera. p_local [voxels from origin_block's first voxel] = voxel_from_camera * p_camera [m] + start.
+    // The camera. p_local [voxels from origin_block's first voxel] = voxel_from_camera * p_camera
+    // [m] + start.
     float fx, fy, cx, cy;
     float voxel_from_camera[9];  // row-major
     float start[3];

@@ -1,5 +1,5 @@
-// What the pixels of a predicted view show: a ray each, and at its surface depth, normal and colour. For lanes of
-// pixels (scalar_lanes.h), for the CPU's vectors and CUDA alike.
+// What the pixels of a predicted view show: a ray each, and at its surface depth, normal and
+// colour. For lanes of pixels (scalar_lanes.h), for the CPU's vectors and CUDA alike.
 #pragma once
 
 #include <cstddef>
@@ -18,7 +18,8 @@ class RayKernels {
 
     // Casts the rays of the pixels [u, u + V::kCount) of row v, as far as they lie in the tile, and
     // writes what they show.
-    TESSERA_HD_MEMBER static void CastPixels(const RayArguments& a, Walker& walker, const RayTile& tile, int u, int v) {
+    TESSERA_HD_MEMBER static void CastPixels(const RayArguments& a, Walker& walker,
+                                             const RayTile& tile, int u, int v) {
         const int count = V::kCount < tile.u_end - u ? V::kCount : tile.u_end - u;
         const Rays rays = RaysThrough(a, Real(static_cast<float>(u)) + V::Numbers(), v);
         const Mask used = V::Numbers() < Real(static_cast<float>(count));
@@ -39,12 +40,13 @@ class RayKernels {
     };
 
     // Interpolates the words' parts over the corners that have an intensity, then converts once.
-    TESSERA_HD_MEMBER static Appearance InterpolateColour(const RayArguments& a, const Int* index, const Int* words,
-                                                          const Real* fraction) {
+    TESSERA_HD_MEMBER static Appearance InterpolateColour(const RayArguments& a, const Int* index,
+                                                          const Int* words, const Real* fraction) {
         Real total(0.0f), y(0.0f), cb(0.0f), cr(0.0f);
         for (int c = 0; c < 8; ++c) {
             Real w(1.0f);
-            for (int k = 0; k < 3; ++k) w = w * (c >> k & 1 ? fraction[k] : Real(1.0f) - fraction[k]);
+            for (int k = 0; k < 3; ++k)
+                w = w * (c >> k & 1 ? fraction[k] : Real(1.0f) - fraction[k]);
             const Int intensity = words[c] & Int(0xffff);
             w = V::Select(V::ToMask(intensity != Int(0)), w, Real(0.0f));
             const Int chroma = V::AsInt(V::Gather(a.colour, index[c]));
@@ -59,7 +61,8 @@ class RayKernels {
         const Real intensity = (y * scale - Real(1.0f)) * Real(1.0f / kIntensitySteps);
         RgbFromParts(intensity, cb * scale, cr * scale, result.rgb);
         result.intensity = V::Select(coloured, intensity, Real(-1.0f));
-        for (Real& channel : result.rgb) channel = V::Select(coloured, channel, Real(128.0f / 255.0f));
+        for (Real& channel : result.rgb)
+            channel = V::Select(coloured, channel, Real(128.0f / 255.0f));
         return result;
     }
 
@@ -72,11 +75,12 @@ class RayKernels {
 
     // What a packet's pixels show, lane by lane.
     struct Pixels {
-        alignas(64) float depth_m[V::kCount], intensity[V::kCount], normal[3][V::kCount], rgb[3][V::kCount];
+        alignas(64) float depth_m[V::kCount], intensity[V::kCount], normal[3][V::kCount],
+            rgb[3][V::kCount];
     };
 
-    TESSERA_HD_MEMBER static void Shade(const RayArguments& a, Walker& walker, const Rays& rays, const Hits& hits,
-                                        Pixels& pixels) {
+    TESSERA_HD_MEMBER static void Shade(const RayArguments& a, Walker& walker, const Rays& rays,
+                                        const Hits& hits, Pixels& pixels) {
         const Cells cells = walker.Locate(rays, hits.depth_m, hits.found);
         Int index[8], words[8];
         BlockKernels<V>::CornerVoxels(a, cells.block, cells.voxel, index);
@@ -85,7 +89,8 @@ class RayKernels {
             words[c] = V::AsInt(V::Gather(a.field, index[c]));
             corner[c] = V::ToReal(words[c] >> 16);
         }
-        const auto distance = Trilinear(corner, cells.fraction[0], cells.fraction[1], cells.fraction[2]);
+        const auto distance =
+            Trilinear(corner, cells.fraction[0], cells.fraction[1], cells.fraction[2]);
         const Real gradient[3] = {distance.gx, distance.gy, distance.gz};
         Real normal[3];
         Rotate(a.camera_from_world, gradient, normal);
@@ -97,11 +102,13 @@ class RayKernels {
         V::Store(V::Select(hits.found, look.intensity, none), pixels.intensity);
         for (int k = 0; k < 3; ++k) {
             V::Store(V::Select(hits.found, normal[k] * scale, none), pixels.normal[k]);
-            V::Store(V::Select(hits.found, look.rgb[k] * Real(255.0f) + Real(0.5f), none), pixels.rgb[k]);
+            V::Store(V::Select(hits.found, look.rgb[k] * Real(255.0f) + Real(0.5f), none),
+                     pixels.rgb[k]);
         }
     }
 
-    TESSERA_HD_MEMBER static void Write(const RayArguments& a, const Pixels& pixels, int u, int v, int count) {
+    TESSERA_HD_MEMBER static void Write(const RayArguments& a, const Pixels& pixels, int u, int v,
+                                        int count) {
         const std::size_t row = static_cast<std::size_t>(v) * static_cast<std::size_t>(a.width);
         for (int i = 0; i < count; ++i) {
             const std::size_t at = row + static_cast<std::size_t>(u + i);
@@ -115,7 +122,8 @@ class RayKernels {
     }
 
     TESSERA_HD_MEMBER static Rays RaysThrough(const RayArguments& a, const Real& u, int v) {
-        const Real camera[3] = {(u - Real(a.cx)) / Real(a.fx), Real((static_cast<float>(v) - a.cy) / a.fy), Real(1.0f)};
+        const Real camera[3] = {(u - Real(a.cx)) / Real(a.fx),
+                                Real((static_cast<float>(v) - a.cy) / a.fy), Real(1.0f)};
         Rays rays;
         Rotate(a.voxel_from_camera, camera, rays.step);
         Real length2(0.0f);

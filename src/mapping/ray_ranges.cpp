@@ -26,8 +26,10 @@ RegionBox RegionsInView(const BlockMap& map, const PinholeCamera& camera,
         }
     RegionBox regions;
     for (int i = 0; i < 3; ++i) {
-        regions.first[i] = static_cast<std::int32_t>(std::floor((box.min()[i] - block_m) / region_m));
-        regions.last[i] = static_cast<std::int32_t>(std::floor((box.max()[i] + block_m) / region_m));
+        regions.first[i] =
+            static_cast<std::int32_t>(std::floor((box.min()[i] - block_m) / region_m));
+        regions.last[i] =
+            static_cast<std::int32_t>(std::floor((box.max()[i] + block_m) / region_m));
     }
     return regions;
 }

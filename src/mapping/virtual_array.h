@@ -1,5 +1,6 @@
-// An array that grows without moving: it reserves address space once and lets the system commit pages as they are
-// touched. So readers keep plain pointers and vector gathers have one base, and nothing is copied on growth.
+// An array that grows without moving: it reserves address space once and lets the system commit
+// pages as they are touched. So readers keep plain pointers and vector gathers have one base, and
+// nothing is copied on growth.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +10,8 @@ namespace tessera {
 // Raw reservation; VirtualArray below is the typed face. Not copyable.
 class VirtualMemory {
   public:
-    // Reserves `bytes` of address space (no memory yet). Halves the wish until the system grants it.
+    // Reserves `bytes` of address space (no memory yet). Halves the wish until the system grants
+    // it.
     explicit VirtualMemory(std::size_t bytes);
     ~VirtualMemory();
     VirtualMemory(const VirtualMemory&) = delete;

@@ -1,4 +1,5 @@
-// Whether one image may change a block. Host-device: plain functions on plain types, shared by the CPU code and CUDA.
+// Whether one image may change a block. Host-device: plain functions on plain types, shared by the
+// CPU code and CUDA.
 #pragma once
 
 #include <cmath>
@@ -16,7 +17,8 @@ struct DepthTileView {
     std::int32_t width, height;  // tiles
 };
 
-// Of the pixels of a row of the image that are in that column of tiles: a tile's is the farthest of its rows.
+// Of the pixels of a row of the image that are in that column of tiles: a tile's is the farthest of
+// its rows.
 TESSERA_HD float FarthestOfTileRow(const float* row, std::int32_t width, std::int32_t tile_x) {
     float farthest = 0.0f;
     for (std::int32_t x = tile_x * kDepthTilePx; x < (tile_x + 1) * kDepthTilePx && x < width; ++x)
@@ -31,27 +33,32 @@ struct ViewCone {
     double planes[4][3];                 // inward unit normals
     double far_m;
     double voxel_size_m, truncation_m;
-    RegionBox regions;                   // around the cone
+    RegionBox regions;  // around the cone
 
     TESSERA_HD_MEMBER void ToCamera(const double* p_world, double* p_camera) const {
         for (int i = 0; i < 3; ++i) {
             const double* r = rotation + 3 * i;
-            p_camera[i] = r[0] * p_world[0] + r[1] * p_world[1] + r[2] * p_world[2] + translation[i];
+            p_camera[i] =
+                r[0] * p_world[0] + r[1] * p_world[1] + r[2] * p_world[2] + translation[i];
         }
     }
 
     // A ball in the camera frame.
     TESSERA_HD_MEMBER bool MayContain(const double* centre, double radius_m) const {
         bool inside = centre[2] >= -radius_m && centre[2] <= far_m + radius_m;
-        for (const auto& n : planes) inside &= n[0] * centre[0] + n[1] * centre[1] + n[2] * centre[2] > -radius_m;
+        for (const auto& n : planes)
+            inside &= n[0] * centre[0] + n[1] * centre[1] + n[2] * centre[2] > -radius_m;
         return inside;
     }
 };
 
-// Whether a ball in the camera frame may hold voxels in front of, or just behind, what the tiles it covers measured.
-TESSERA_HD bool MayChange(const DepthTileView& tiles, const ViewCone& cone, const double* c, double radius_m) {
+// Whether a ball in the camera frame may hold voxels in front of, or just behind, what the tiles it
+// covers measured.
+TESSERA_HD bool MayChange(const DepthTileView& tiles, const ViewCone& cone, const double* c,
+                          double radius_m) {
     if (c[2] < 2 * radius_m) return true;  // too near to bound its image
-    const double reach = radius_m / (c[2] - radius_m);  // bounds the ball's image, in units of focal lengths
+    // Bounds the ball's image, in units of focal lengths.
+    const double reach = radius_m / (c[2] - radius_m);
     const double u = c[0] / c[2] * cone.fx + cone.cx, v = c[1] / c[2] * cone.fy + cone.cy;
     const double slant = 1.0 + std::sqrt(c[0] * c[0] + c[1] * c[1]) / c[2];
     const double ru = reach * slant * cone.fx + 1, rv = reach * slant * cone.fy + 1;
@@ -68,7 +75,8 @@ TESSERA_HD bool MayChange(const DepthTileView& tiles, const ViewCone& cone, cons
 }
 
 // Whether the block's voxels may be changed: by the ball around their centres.
-TESSERA_HD bool MayChangeBlock(const DepthTileView& tiles, const ViewCone& cone, const BlockCoord& block) {
+TESSERA_HD bool MayChangeBlock(const DepthTileView& tiles, const ViewCone& cone,
+                               const BlockCoord& block) {
     const double p_world[3] = {(block.x * kBlockSide + 3.5) * cone.voxel_size_m,
                                (block.y * kBlockSide + 3.5) * cone.voxel_size_m,
                                (block.z * kBlockSide + 3.5) * cone.voxel_size_m};

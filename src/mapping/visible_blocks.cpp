@@ -15,23 +15,28 @@ void DepthTiles::Build(const DepthImage& depth) {
     tbb::parallel_for(0, height, [&](int y) {
         for (int x = 0; x < width; ++x) {
             float& farthest = farthest_m[static_cast<std::size_t>(y * width + x)] = 0;
-            for (int row = y * kDepthTilePx; row < std::min((y + 1) * kDepthTilePx, depth.height()); ++row)
+            for (int row = y * kDepthTilePx; row < std::min((y + 1) * kDepthTilePx, depth.height());
+                 ++row)
                 farthest = std::max(farthest, FarthestOfTileRow(depth.row(row), depth.width(), x));
         }
     });
 }
 
-ViewCone MakeViewCone(const PinholeCamera& camera, const Eigen::Isometry3d& T_world_camera, double far_m,
-                      const BlockMap::Config& map) {
-    ViewCone cone{camera.fx, camera.fy, camera.cx, camera.cy, {}, {}, {}, far_m, map.voxel_size_m, map.truncation_m, {}};
+ViewCone MakeViewCone(const PinholeCamera& camera, const Eigen::Isometry3d& T_world_camera,
+                      double far_m, const BlockMap::Config& map) {
+    ViewCone cone{camera.fx, camera.fy, camera.cx,        camera.cy,        {}, {},
+                  {},        far_m,     map.voxel_size_m, map.truncation_m, {}};
     const Eigen::Isometry3d T_camera_world = T_world_camera.inverse();
     for (int i = 0; i < 3; ++i) {
         for (int j = 0; j < 3; ++j) cone.rotation[3 * i + j] = T_camera_world.linear()(i, j);
         cone.translation[i] = T_camera_world.translation()[i];
     }
-    const double left = (-0.5 - camera.cx) / camera.fx, right = (camera.width - 0.5 - camera.cx) / camera.fx;
-    const double top = (-0.5 - camera.cy) / camera.fy, bottom = (camera.height - 0.5 - camera.cy) / camera.fy;
-    const Eigen::Vector3d inward[4] = {{1, 0, -left}, {-1, 0, right}, {0, 1, -top}, {0, -1, bottom}};
+    const double left = (-0.5 - camera.cx) / camera.fx,
+                 right = (camera.width - 0.5 - camera.cx) / camera.fx;
+    const double top = (-0.5 - camera.cy) / camera.fy,
+                 bottom = (camera.height - 0.5 - camera.cy) / camera.fy;
+    const Eigen::Vector3d inward[4] = {
+        {1, 0, -left}, {-1, 0, right}, {0, 1, -top}, {0, -1, bottom}};
     for (int plane = 0; plane < 4; ++plane)
         for (int i = 0; i < 3; ++i) cone.planes[plane][i] = inward[plane].normalized()[i];
 
@@ -55,13 +60,15 @@ const std::vector<BlockId>& VisibleBlocks::Find(const BlockMap& map, const Pinho
                                                 const Eigen::Isometry3d& T_world_camera,
                                                 const DepthImage& depth_m, float farthest_m) {
     tiles_.Build(depth_m);
-    const ViewCone cone = MakeViewCone(camera, T_world_camera, farthest_m + map.config().truncation_m, map.config());
+    const ViewCone cone =
+        MakeViewCone(camera, T_world_camera, farthest_m + map.config().truncation_m, map.config());
     const double region_m = map.config().voxel_size_m * kBlockSide * kRegionBlocks;
     candidates_.clear();
     for (int z = cone.regions.first[2]; z <= cone.regions.last[2]; ++z)
         for (int y = cone.regions.first[1]; y <= cone.regions.last[1]; ++y)
             for (int x = cone.regions.first[0]; x <= cone.regions.last[0]; ++x) {
-                const double p_world[3] = {(x + 0.5) * region_m, (y + 0.5) * region_m, (z + 0.5) * region_m};
+                const double p_world[3] = {(x + 0.5) * region_m, (y + 0.5) * region_m,
+                                           (z + 0.5) * region_m};
                 double centre[3];
                 cone.ToCamera(p_world, centre);
                 if (!cone.MayContain(centre, 0.8661 * region_m)) continue;
@@ -70,10 +77,11 @@ const std::vector<BlockId>& VisibleBlocks::Find(const BlockMap& map, const Pinho
             }
 
     keep_.resize(candidates_.size());
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, candidates_.size(), 512), [&](const auto& range) {
-        for (std::size_t i = range.begin(); i != range.end(); ++i)
-            keep_[i] = MayChangeBlock(tiles_.view(), cone, map.coord(candidates_[i]));
-    });
+    tbb::parallel_for(
+        tbb::blocked_range<std::size_t>(0, candidates_.size(), 512), [&](const auto& range) {
+            for (std::size_t i = range.begin(); i != range.end(); ++i)
+                keep_[i] = MayChangeBlock(tiles_.view(), cone, map.coord(candidates_[i]));
+        });
     visible_.clear();
     for (std::size_t i = 0; i < candidates_.size(); ++i)
         if (keep_[i]) visible_.push_back(candidates_[i]);

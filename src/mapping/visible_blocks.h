@@ -1,5 +1,5 @@
-// Which blocks of the map one depth image may change: those in the camera's frustum that do not lie wholly behind what
-// it measured. The cost follows the view, not the size of the map.
+// Which blocks of the map one depth image may change: those in the camera's frustum that do not lie
+// wholly behind what it measured. The cost follows the view, not the size of the map.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -21,15 +21,15 @@ struct DepthTiles {
 };
 
 // What a camera there sees of a map of these blocks, up to `far_m`.
-ViewCone MakeViewCone(const PinholeCamera& camera, const Eigen::Isometry3d& T_world_camera, double far_m,
-                      const BlockMap::Config& map);
+ViewCone MakeViewCone(const PinholeCamera& camera, const Eigen::Isometry3d& T_world_camera,
+                      double far_m, const BlockMap::Config& map);
 
 // Block ids in increasing order. Owner thread only; runs TBB inside.
 class VisibleBlocks {
   public:
     const std::vector<BlockId>& Find(const BlockMap& map, const PinholeCamera& camera,
-                                     const Eigen::Isometry3d& T_world_camera, const DepthImage& depth_m,
-                                     float farthest_m);
+                                     const Eigen::Isometry3d& T_world_camera,
+                                     const DepthImage& depth_m, float farthest_m);
 
   private:
     DepthTiles tiles_;

@@ -1,5 +1,5 @@
-// What a voxel is, bit by bit, and how blocks and voxels are counted. Host-device: plain functions on plain types,
-// shared by the CPU code and CUDA.
+// What a voxel is, bit by bit, and how blocks and voxels are counted. Host-device: plain functions
+// on plain types, shared by the CPU code and CUDA.
 //
 // A block holds 8 x 8 x 8 voxels; voxel (i, j, k), counted over the whole world, has its centre at
 // (i, j, k) * voxel_size_m. In a block, x runs fastest: offset = x + 8 y + 64 z. Indices use floor.
@@ -15,9 +15,10 @@ namespace tessera {
 inline constexpr int kBlockSide = 8;
 inline constexpr int kBlockVoxels = kBlockSide * kBlockSide * kBlockSide;
 
-// Geometry and intensity, what the tracker reads at eight corners, in one 32-bit word so that a corner is one
-// gather. Low half: intensity, 0 = none yet, else 1 + round(65534 * intensity). High half: signed distance in
-// truncations, two's complement, -32768 = none yet, else round(32767 * distance / truncation).
+// Geometry and intensity, what the tracker reads at eight corners, in one 32-bit word so that a
+// corner is one gather. Low half: intensity, 0 = none yet, else 1 + round(65534 * intensity). High
+// half: signed distance in truncations, two's complement, -32768 = none yet, else round(32767 *
+// distance / truncation).
 using FieldWord = std::uint32_t;
 inline constexpr FieldWord kUnknownField = 0x80000000u;
 inline constexpr float kDistanceSteps = 32767.0f;
@@ -30,15 +31,17 @@ TESSERA_HD float FieldDistance(FieldWord w) {
 TESSERA_HD bool HasDistance(FieldWord w) { return (w >> 16) != 0x8000u; }
 // Intensity in [0, 1]. Only if HasIntensity.
 TESSERA_HD float FieldIntensity(FieldWord w) {
-    return static_cast<float>(static_cast<std::int32_t>(w & 0xffffu) - 1) * (1.0f / kIntensitySteps);
+    return static_cast<float>(static_cast<std::int32_t>(w & 0xffffu) - 1) *
+           (1.0f / kIntensitySteps);
 }
 TESSERA_HD bool HasIntensity(FieldWord w) { return (w & 0xffffu) != 0; }
 
 // Weight of the distance: 8.8 fixed point, up to 255.
 inline constexpr float kWeightSteps = 256.0f;
 
-// Colour: the intensity of the field word plus chroma, so nothing is stored twice. Bits 0-9 Cb, 10-19 Cr (each
-// 512 + 1022 * chroma), 20-31 the colour's weight in 1/16, up to 255. Cb = (B - Y) / 1.772, Cr = (R - Y) / 1.402.
+// Colour: the intensity of the field word plus chroma, so nothing is stored twice. Bits 0-9 Cb,
+// 10-19 Cr (each 512 + 1022 * chroma), 20-31 the colour's weight in 1/16, up to 255. Cb = (B - Y)
+// / 1.772, Cr = (R - Y) / 1.402.
 using ColourWord = std::uint32_t;
 inline constexpr float kChromaSteps = 1022.0f;  // chroma runs over [-0.5, 0.5]
 inline constexpr float kColourWeightSteps = 16.0f;
@@ -49,8 +52,8 @@ TESSERA_HD float ColourWeight(ColourWord c) {
     return static_cast<float>(c >> 20) * (1.0f / kColourWeightSteps);
 }
 
-// Channel values in [0, 1], clamped, from an intensity in [0, 1] and chroma as a colour word counts it. A template on
-// the number type, shared by scalar and vector code.
+// Channel values in [0, 1], clamped, from an intensity in [0, 1] and chroma as a colour word counts
+// it. A template on the number type, shared by scalar and vector code.
 template <class F>
 TESSERA_HD void RgbFromParts(const F& intensity, const F& cb_steps, const F& cr_steps, F* rgb) {
     const F cb = (cb_steps - F(512.0f)) * F(1.0f / kChromaSteps);
@@ -66,8 +69,8 @@ struct LinearRgb {
 };
 TESSERA_HD LinearRgb ColourFromWords(FieldWord field, ColourWord colour) {
     float rgb[3];
-    RgbFromParts(FieldIntensity(field), static_cast<float>(colour & 1023u), static_cast<float>((colour >> 10) & 1023u),
-                 rgb);
+    RgbFromParts(FieldIntensity(field), static_cast<float>(colour & 1023u),
+                 static_cast<float>((colour >> 10) & 1023u), rgb);
     return {rgb[0], rgb[1], rgb[2]};
 }
 
@@ -83,7 +86,8 @@ TESSERA_HD bool operator<(const BlockCoord& a, const BlockCoord& b) {
     return a.z != b.z ? a.z < b.z : (a.y != b.y ? a.y < b.y : a.x < b.x);
 }
 
-// Blocks live in [-kBlockLimit, kBlockLimit) along each axis: 21 bits, so that a coordinate packs into 64.
+// Blocks live in [-kBlockLimit, kBlockLimit) along each axis: 21 bits, so that a coordinate packs
+// into 64.
 inline constexpr std::int32_t kBlockLimit = 1 << 20;
 TESSERA_HD bool InLimits(const BlockCoord& c) {
     return c.x >= -kBlockLimit && c.x < kBlockLimit && c.y >= -kBlockLimit && c.y < kBlockLimit &&
@@ -94,7 +98,8 @@ TESSERA_HD bool InLimits(const BlockCoord& c) {
 inline constexpr int kRegionShift = 2, kRegionBlocks = 1 << kRegionShift;
 // The region that a block is in.
 TESSERA_HD BlockCoord RegionOf(const BlockCoord& block) {
-    return {block.x >> kRegionShift, block.y >> kRegionShift, block.z >> kRegionShift};  // an arithmetic shift is floor
+    // An arithmetic shift is floor.
+    return {block.x >> kRegionShift, block.y >> kRegionShift, block.z >> kRegionShift};
 }
 
 // Regions from `first` to `last` along each axis, both included.
@@ -109,8 +114,8 @@ struct RegionBox {
     }
 };
 
-// Position in the hash table before masking. Unsigned arithmetic wraps; a template on the number type, shared by scalar
-// and vector code.
+// Position in the hash table before masking. Unsigned arithmetic wraps; a template on the number
+// type, shared by scalar and vector code.
 template <class U>
 TESSERA_HD U HashBits(const U& x, const U& y, const U& z) {
     U h = (x * U(73856093u)) ^ (y * U(19349669u)) ^ (z * U(83492791u));
@@ -118,7 +123,8 @@ TESSERA_HD U HashBits(const U& x, const U& y, const U& z) {
     return ((h * U(2654435769u)) >> 4) ^ h;
 }
 TESSERA_HD std::uint32_t BlockHash(std::int32_t x, std::int32_t y, std::int32_t z) {
-    return HashBits(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), static_cast<std::uint32_t>(z));
+    return HashBits(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y),
+                    static_cast<std::uint32_t>(z));
 }
 TESSERA_HD std::uint32_t BlockHash(const BlockCoord& c) { return BlockHash(c.x, c.y, c.z); }
 

@@ -29,7 +29,8 @@ NormalEquations NormalOf(const CalibrationFit& fit, const std::vector<Eigen::Ind
 
 std::vector<int> Times(const CalibrationFit& fit, int parts) {
     std::vector<int> part;
-    for (const PlanePair& p : fit.pairs) part.push_back(std::max(p.from, p.to) * parts / std::max(1, fit.views));
+    for (const PlanePair& p : fit.pairs)
+        part.push_back(std::max(p.from, p.to) * parts / std::max(1, fit.views));
     return part;
 }
 
@@ -49,7 +50,8 @@ std::vector<int> Ranks(const CalibrationFit& fit, int parts, const KeyOf& key_of
 
 std::vector<int> Quarters(const CalibrationFit& fit) {
     std::vector<int> part;
-    for (const PlanePair& p : fit.pairs) part.push_back((p.direction_to.x() > 0 ? 1 : 0) + (p.direction_to.y() > 0 ? 2 : 0));
+    for (const PlanePair& p : fit.pairs)
+        part.push_back((p.direction_to.x() > 0 ? 1 : 0) + (p.direction_to.y() > 0 ? 2 : 0));
     return part;
 }
 
@@ -67,9 +69,11 @@ Eigen::VectorXd ScatterVariance(const CalibrationFit& fit) {
 
 }  // namespace
 
-Eigen::VectorXd JackknifeSpread(const CalibrationFit& fit, const std::vector<int>& part, int parts) {
+Eigen::VectorXd JackknifeSpread(const CalibrationFit& fit, const std::vector<int>& part,
+                                int parts) {
     const Eigen::Index priors = fit.jacobian.rows() - static_cast<Eigen::Index>(fit.pairs.size());
-    std::vector<std::vector<Eigen::Index>> rows(static_cast<std::size_t>(parts) + 1);  // the last: what is never left out
+    // The last: what is never left out.
+    std::vector<std::vector<Eigen::Index>> rows(static_cast<std::size_t>(parts) + 1);
     for (Eigen::Index i = 0; i < priors; ++i) rows.back().push_back(i);
     for (std::size_t i = 0; i < part.size(); ++i)
         rows[static_cast<std::size_t>(part[i])].push_back(priors + static_cast<Eigen::Index>(i));
@@ -98,7 +102,8 @@ Eigen::VectorXd Deviations(const CalibrationFit& fit) {
     };
     add(Times(fit, kTimes), kTimes);
     add(Ranks(fit, kDistances, [](const PlanePair& p) { return p.depth_to_m; }), kDistances);
-    add(Ranks(fit, kRings, [](const PlanePair& p) { return p.direction_to.squaredNorm(); }), kRings);
+    add(Ranks(fit, kRings, [](const PlanePair& p) { return p.direction_to.squaredNorm(); }),
+        kRings);
     add(Quarters(fit), kQuarters);
     return variance.cwiseSqrt();
 }

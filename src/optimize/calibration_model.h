@@ -1,5 +1,5 @@
-// How a depth camera's measurement becomes a point under a calibration that is in question, and what two views say of it:
-// written once for numbers and for automatic derivatives.
+// How a depth camera's measurement becomes a point under a calibration that is in question, and
+// what two views say of it: written once for numbers and for automatic derivatives.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -12,8 +12,8 @@ namespace tessera {
 struct CalibrationUnknowns {
     enum Index { kLogFocal, kOffset, kCount };
 
-    // kLogFocal: logarithm of the true focal length over the given one. kOffset: of the disparity, 1/m, as
-    // Calibration::disparity_offset_per_m.
+    // kLogFocal: logarithm of the true focal length over the given one. kOffset: of the disparity,
+    // 1/m, as Calibration::disparity_offset_per_m.
     std::array<double, kCount> values{};
     // What is known of depth cameras before: standard deviations.
     static constexpr std::array<double, kCount> kPrior{0.03, 0.01};
@@ -21,7 +21,8 @@ struct CalibrationUnknowns {
 
 // The point of a measured depth along `direction`, a ray of the given camera with z = 1.
 template <class T>
-Eigen::Matrix<T, 3, 1> CalibratedPoint(const Eigen::Vector2d& direction, double depth_m, const T* unknowns) {
+Eigen::Matrix<T, 3, 1> CalibratedPoint(const Eigen::Vector2d& direction, double depth_m,
+                                       const T* unknowns) {
     using U = CalibrationUnknowns;
     using std::exp;
     const T z = T(depth_m) / (T(1) + unknowns[U::kOffset] * depth_m);
@@ -36,9 +37,11 @@ struct PlanePair {
     double depth_from_m = 0, depth_to_m = 0, sigma_m = 0;
     Eigen::Vector3d normal;  // in the camera `to`, held fixed while the poses are solved for
 
-    // Their distance in standard deviations. Rotations are unit quaternions (x, y, z, w), world from camera.
+    // Their distance in standard deviations. Rotations are unit quaternions (x, y, z, w), world
+    // from camera.
     template <class T>
-    bool operator()(const T* unknowns, const T* q_from, const T* t_from, const T* q_to, const T* t_to, T* residual) const {
+    bool operator()(const T* unknowns, const T* q_from, const T* t_from, const T* q_to,
+                    const T* t_to, T* residual) const {
         using Quaternion = Eigen::Quaternion<T>;
         using Vector = Eigen::Matrix<T, 3, 1>;
         const Eigen::Map<const Quaternion> a(q_from), b(q_to);
@@ -46,9 +49,11 @@ struct PlanePair {
         const Vector world = a * CalibratedPoint(direction_from, depth_from_m, unknowns) + ta;
         const Vector plane = CalibratedPoint(direction_to, depth_to_m, unknowns);
         const Vector off = b.conjugate() * (world - tb) - plane;
-        // As the error of the measured depth that it takes: distances in the world would all be small in a small world.
+        // As the error of the measured depth that it takes: distances in the world would all be
+        // small in a small world.
         const T stretch = T(1) + unknowns[CalibrationUnknowns::kOffset] * depth_to_m;
-        residual[0] = normal.cast<T>().dot(off) * depth_to_m * stretch / (normal.cast<T>().dot(plane) * sigma_m);
+        residual[0] = normal.cast<T>().dot(off) * depth_to_m * stretch /
+                      (normal.cast<T>().dot(plane) * sigma_m);
         return true;
     }
 };

@@ -13,13 +13,16 @@ double Sigma_m(double z) { return 0.001 + 0.0019 * (z - 0.4) * (z - 0.4); }
 
 class PairFinder {
   public:
-    PairFinder(const PinholeCamera& camera, const CalibrationUnknowns& unknowns) : camera_(camera), unknowns_(unknowns) {}
+    PairFinder(const PinholeCamera& camera, const CalibrationUnknowns& unknowns)
+        : camera_(camera), unknowns_(unknowns) {}
 
-    std::optional<PlanePair> Find(const DepthImage& from, const DepthImage& to, const Eigen::Isometry3d& T_to_from, int x,
-                                  int y) const;
+    std::optional<PlanePair> Find(const DepthImage& from, const DepthImage& to,
+                                  const Eigen::Isometry3d& T_to_from, int x, int y) const;
 
   private:
-    Eigen::Vector2d Direction(int x, int y) const { return {(x - camera_.cx) / camera_.fx, (y - camera_.cy) / camera_.fy}; }
+    Eigen::Vector2d Direction(int x, int y) const {
+        return {(x - camera_.cx) / camera_.fx, (y - camera_.cy) / camera_.fy};
+    }
     Eigen::Vector3d Point(const DepthImage& depth_m, int x, int y) const {
         return CalibratedPoint(Direction(x, y), depth_m(x, y), unknowns_.values.data());
     }
@@ -30,14 +33,18 @@ class PairFinder {
     const CalibrationUnknowns& unknowns_;
 };
 
-// Of the plane about a cell; nothing at its border, at a depth edge, or where it is seen at a grazing angle.
+// Of the plane about a cell; nothing at its border, at a depth edge, or where it is seen at a
+// grazing angle.
 std::optional<Eigen::Vector3d> PairFinder::Normal(const DepthImage& depth_m, int x, int y) const {
     constexpr double kBend = 0.01, kGrazing = 0.35;
-    if (x < 1 || y < 1 || x + 1 >= depth_m.width() || y + 1 >= depth_m.height()) return std::nullopt;
-    const double here = depth_m(x, y), left = depth_m(x - 1, y), right = depth_m(x + 1, y), up = depth_m(x, y - 1),
-                 down = depth_m(x, y + 1);
+    if (x < 1 || y < 1 || x + 1 >= depth_m.width() || y + 1 >= depth_m.height())
+        return std::nullopt;
+    const double here = depth_m(x, y), left = depth_m(x - 1, y), right = depth_m(x + 1, y),
+                 up = depth_m(x, y - 1), down = depth_m(x, y + 1);
     if (here <= 0 || left <= 0 || right <= 0 || up <= 0 || down <= 0) return std::nullopt;
-    if (std::abs(left + right - 2 * here) > kBend * here || std::abs(up + down - 2 * here) > kBend * here) return std::nullopt;
+    if (std::abs(left + right - 2 * here) > kBend * here ||
+        std::abs(up + down - 2 * here) > kBend * here)
+        return std::nullopt;
     const Eigen::Vector3d along = Point(depth_m, x + 1, y) - Point(depth_m, x - 1, y);
     const Eigen::Vector3d across = Point(depth_m, x, y + 1) - Point(depth_m, x, y - 1);
     const Eigen::Vector3d normal = along.cross(across).normalized();
@@ -52,8 +59,8 @@ Eigen::Vector2i PairFinder::Cell(const Eigen::Vector3d& point) const {
             static_cast<int>(std::lround(camera_.fy * scale * point.y() + camera_.cy))};
 }
 
-std::optional<PlanePair> PairFinder::Find(const DepthImage& from, const DepthImage& to, const Eigen::Isometry3d& T_to_from,
-                                          int x, int y) const {
+std::optional<PlanePair> PairFinder::Find(const DepthImage& from, const DepthImage& to,
+                                          const Eigen::Isometry3d& T_to_from, int x, int y) const {
     constexpr double kFar_m = 0.03, kFarShare = 0.01, kSameNormal = 0.85;
     const auto normal_from = Normal(from, x, y);
     if (!normal_from) return std::nullopt;
@@ -61,28 +68,41 @@ std::optional<PlanePair> PairFinder::Find(const DepthImage& from, const DepthIma
     if (point.z() <= 0) return std::nullopt;
     const Eigen::Vector2i cell = Cell(point);
     const auto normal = Normal(to, cell.x(), cell.y());
-    if (!normal || normal->dot(T_to_from.linear() * *normal_from) < kSameNormal) return std::nullopt;
+    if (!normal || normal->dot(T_to_from.linear() * *normal_from) < kSameNormal)
+        return std::nullopt;
     const double off_m = normal->dot(point - Point(to, cell.x(), cell.y()));
     if (std::abs(off_m) > kFar_m + kFarShare * point.z()) return std::nullopt;
     const double z_from = from(x, y), z_to = to(cell.x(), cell.y());
-    return PlanePair{0, 0, Direction(x, y), Direction(cell.x(), cell.y()), z_from, z_to,
-                     std::hypot(Sigma_m(z_from), Sigma_m(z_to)), *normal};
+    return PlanePair{0,
+                     0,
+                     Direction(x, y),
+                     Direction(cell.x(), cell.y()),
+                     z_from,
+                     z_to,
+                     std::hypot(Sigma_m(z_from), Sigma_m(z_to)),
+                     *normal};
 }
 
-// Whether surfaces face in enough different ways to hold two views against each other in every direction. Where one plane is all
-// there is, what tracking said of the poses would decide about the calibration.
+// Whether surfaces face in enough different ways to hold two views against each other in every
+// direction. Where one plane is all there is, what tracking said of the poses would decide about
+// the calibration.
 bool HoldsTheViews(std::span<const PlanePair> pairs) {
-    constexpr double kLeastShare = 0.02;  // of the normals' squares, in the direction that the fewest face
+    // Of the normals' squares, in the direction that the fewest face.
+    constexpr double kLeastShare = 0.02;
     Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
     for (const PlanePair& p : pairs) squares += p.normal * p.normal.transpose();
-    const double least = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(squares, Eigen::EigenvaluesOnly).eigenvalues()(0);
+    const double least =
+        Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(squares, Eigen::EigenvaluesOnly)
+            .eigenvalues()(0);
     return least >= kLeastShare * static_cast<double>(pairs.size());
 }
 
 }  // namespace
 
-std::vector<PlanePair> FindPlanePairs(const PinholeCamera& camera, const std::vector<CalibrationView>& views,
-                                      std::span<const PoseEdge> edges, std::span<const Eigen::Isometry3d> T_world_camera,
+std::vector<PlanePair> FindPlanePairs(const PinholeCamera& camera,
+                                      const std::vector<CalibrationView>& views,
+                                      std::span<const PoseEdge> edges,
+                                      std::span<const Eigen::Isometry3d> T_world_camera,
                                       const CalibrationUnknowns& unknowns) {
     constexpr int kStep = 5;  // cells: some five hundred points of a view
     const PairFinder finder(CalibrationView::ViewOf(camera), unknowns);

@@ -11,19 +11,24 @@ PinholeCamera Corrected(const PinholeCamera& camera, const Calibration& calibrat
     return corrected;
 }
 
-std::string CalibrationText(const PinholeCamera& camera, double offset_before_per_m, const CalibrationReport& report) {
+std::string CalibrationText(const PinholeCamera& camera, double offset_before_per_m,
+                            const CalibrationReport& report) {
     const PinholeCamera found = Corrected(camera, report.calibration);
     std::string text = "calibration: ";
     if (!report.shown) text += "the given one stays, the scan does not show another; estimated ";
     if (report.focal_sigma > 0)
-        text += fmt::format("focal length {:.1f} -> {:.1f} +- {:.1f} px", camera.fx, found.fx, found.fx * report.focal_sigma);
+        text += fmt::format("focal length {:.1f} -> {:.1f} +- {:.1f} px", camera.fx, found.fx,
+                            found.fx * report.focal_sigma);
     if (report.offset_sigma_per_m > 0)
-        text += fmt::format("{}frame.disparity_offset_per_m {:.4f} -> {:.4f} +- {:.4f}", report.focal_sigma > 0 ? ", " : "",
-                            offset_before_per_m, offset_before_per_m + report.calibration.disparity_offset_per_m,
+        text += fmt::format("{}frame.disparity_offset_per_m {:.4f} -> {:.4f} +- {:.4f}",
+                            report.focal_sigma > 0 ? ", " : "", offset_before_per_m,
+                            offset_before_per_m + report.calibration.disparity_offset_per_m,
                             report.offset_sigma_per_m);
     if (!report.shown) return text;
-    return text + fmt::format("; surfaces in {} points {:.1f} -> {:.1f} mm apart; the map is made again with it", report.points,
-                              1000 * report.rms_before_m, 1000 * report.rms_after_m);
+    return text +
+           fmt::format(
+               "; surfaces in {} points {:.1f} -> {:.1f} mm apart; the map is made again with it",
+               report.points, 1000 * report.rms_before_m, 1000 * report.rms_after_m);
 }
 
 }  // namespace tessera

@@ -17,7 +17,8 @@ struct EdgePrior {
     PoseEdge edge;
 
     template <class T>
-    bool operator()(const T* q_from, const T* t_from, const T* q_to, const T* t_to, T* residual) const {
+    bool operator()(const T* q_from, const T* t_from, const T* q_to, const T* t_to,
+                    T* residual) const {
         EdgeResidualOf(edge, q_from, t_from, q_to, t_to, residual);
         return true;
     }
@@ -26,7 +27,8 @@ struct EdgePrior {
 struct UnknownsPrior {
     template <class T>
     bool operator()(const T* unknowns, T* residual) const {
-        for (int i = 0; i < U::kCount; ++i) residual[i] = unknowns[i] / U::kPrior[static_cast<std::size_t>(i)];
+        for (int i = 0; i < U::kCount; ++i)
+            residual[i] = unknowns[i] / U::kPrior[static_cast<std::size_t>(i)];
         return true;
     }
 };
@@ -37,7 +39,8 @@ using PriorCost = ceres::AutoDiffCostFunction<EdgePrior, 6, 4, 3, 4, 3>;
 
 class Solver {
   public:
-    Solver(const CalibrationProblem& problem, const std::vector<Eigen::Isometry3d>& poses, const CalibrationMask& mask)
+    Solver(const CalibrationProblem& problem, const std::vector<Eigen::Isometry3d>& poses,
+           const CalibrationMask& mask)
         : problem_(problem), mask_(mask), nodes_(poses.begin(), poses.end()) {}
 
     Result<CalibrationEstimate> Run();
@@ -61,22 +64,25 @@ class Solver {
     CalibrationUnknowns unknowns_;
 };
 
-// What tracking says of the poses was found with the calibration that is in question: it holds only where the views do not say.
+// What tracking says of the poses was found with the calibration that is in question: it holds only
+// where the views do not say.
 void Solver::Fill(ceres::Problem& problem) {
     constexpr double kDoubt = 10.0, kLoss = 2.0;  // standard deviations
     for (PoseEdge edge : problem_.edges) {
         edge.sigma_m *= kDoubt;
         edge.sigma_rad *= kDoubt;
-        problem.AddResidualBlock(new PriorCost(new EdgePrior{edge}), nullptr, Rotation(edge.from), Place(edge.from),
-                                 Rotation(edge.to), Place(edge.to));
+        problem.AddResidualBlock(new PriorCost(new EdgePrior{edge}), nullptr, Rotation(edge.from),
+                                 Place(edge.from), Rotation(edge.to), Place(edge.to));
     }
     double* unknowns = unknowns_.values.data();
     problem.AddResidualBlock(new UnknownsCost(new UnknownsPrior), nullptr, unknowns);
     for (const PlanePair& p : pairs_)
-        problem.AddResidualBlock(new PairCost(new PlanePair(p)), new ceres::CauchyLoss(kLoss), unknowns, Rotation(p.from),
-                                 Place(p.from), Rotation(p.to), Place(p.to));
+        problem.AddResidualBlock(new PairCost(new PlanePair(p)), new ceres::CauchyLoss(kLoss),
+                                 unknowns, Rotation(p.from), Place(p.from), Rotation(p.to),
+                                 Place(p.to));
     for (int i = 0; i < static_cast<int>(nodes_.size()); ++i)
-        if (problem.HasParameterBlock(Rotation(i))) problem.SetManifold(Rotation(i), new ceres::EigenQuaternionManifold);
+        if (problem.HasParameterBlock(Rotation(i)))
+            problem.SetManifold(Rotation(i), new ceres::EigenQuaternionManifold);
     problem.SetParameterBlockConstant(Rotation(problem_.edges.front().from));
     problem.SetParameterBlockConstant(Place(problem_.edges.front().from));
     std::vector<int> fixed;
@@ -98,12 +104,15 @@ CalibrationFit Solver::Linearise(ceres::Problem& problem) {
     problem.Evaluate(options, nullptr, &residuals, nullptr, &j);
     std::vector<Eigen::Triplet<double>> entries;
     for (int row = 0; row < j.num_rows; ++row)
-        for (int k = j.rows[static_cast<std::size_t>(row)]; k < j.rows[static_cast<std::size_t>(row) + 1]; ++k)
-            entries.emplace_back(row, j.cols[static_cast<std::size_t>(k)], j.values[static_cast<std::size_t>(k)]);
+        for (int k = j.rows[static_cast<std::size_t>(row)];
+             k < j.rows[static_cast<std::size_t>(row) + 1]; ++k)
+            entries.emplace_back(row, j.cols[static_cast<std::size_t>(k)],
+                                 j.values[static_cast<std::size_t>(k)]);
     CalibrationFit fit;
     fit.jacobian.resize(j.num_rows, j.num_cols);
     fit.jacobian.setFromTriplets(entries.begin(), entries.end());
-    fit.residuals = Eigen::Map<const Eigen::VectorXd>(residuals.data(), static_cast<Eigen::Index>(residuals.size()));
+    fit.residuals = Eigen::Map<const Eigen::VectorXd>(residuals.data(),
+                                                      static_cast<Eigen::Index>(residuals.size()));
     fit.pairs = pairs_;
     fit.views = static_cast<int>(nodes_.size());
     fit.unknowns = static_cast<int>(std::ranges::count(mask_, true));
@@ -114,9 +123,11 @@ CalibrationFit Solver::Linearise(ceres::Problem& problem) {
 double Solver::Rms_m() const {
     std::vector<double> off_m;
     for (const PlanePair& p : pairs_) {
-        const PoseNode &a = nodes_[static_cast<std::size_t>(p.from)], &b = nodes_[static_cast<std::size_t>(p.to)];
+        const PoseNode &a = nodes_[static_cast<std::size_t>(p.from)],
+                       &b = nodes_[static_cast<std::size_t>(p.to)];
         double residual = 0;
-        p(unknowns_.values.data(), a.q.coeffs().data(), a.t.data(), b.q.coeffs().data(), b.t.data(), &residual);
+        p(unknowns_.values.data(), a.q.coeffs().data(), a.t.data(), b.q.coeffs().data(), b.t.data(),
+          &residual);
         off_m.push_back(std::abs(residual) * p.sigma_m);
     }
     std::ranges::nth_element(off_m, off_m.begin() + static_cast<std::ptrdiff_t>(off_m.size() / 2));
@@ -127,7 +138,8 @@ Status Solve(ceres::Problem& problem) {
     constexpr int kIterations = 5;  // pairs are found anew after them
     ceres::Solver::Summary summary;
     ceres::Solve(SparseSolverOptions(kIterations), &problem, &summary);
-    return summary.IsSolutionUsable() ? Status::Ok() : Status::Error("calibration: " + summary.message);
+    return summary.IsSolutionUsable() ? Status::Ok()
+                                      : Status::Error("calibration: " + summary.message);
 }
 
 Result<CalibrationEstimate> Solver::Run() {
@@ -135,9 +147,11 @@ Result<CalibrationEstimate> Solver::Run() {
     constexpr std::size_t kLeastPairs = 2000;
     CalibrationEstimate estimate;
     for (int round = 0; round < kRounds; ++round) {
-        pairs_ = FindPlanePairs(problem_.camera, problem_.views, problem_.edges, Poses(), unknowns_);
+        pairs_ =
+            FindPlanePairs(problem_.camera, problem_.views, problem_.edges, Poses(), unknowns_);
         if (pairs_.size() < kLeastPairs)
-            return Status::Error("calibration: the given one stays, too little was seen from two places");
+            return Status::Error(
+                "calibration: the given one stays, too little was seen from two places");
         if (round == 0) estimate.rms_before_m = Rms_m();
         ceres::Problem problem;
         Fill(problem);
@@ -159,7 +173,8 @@ Result<CalibrationEstimate> Solver::Run() {
 Result<CalibrationEstimate> SolveCalibration(const CalibrationProblem& problem,
                                              const std::vector<Eigen::Isometry3d>& T_world_camera,
                                              const CalibrationMask& mask) {
-    if (problem.edges.empty()) return Status::Error("calibration: the given one stays, a single view shows nothing");
+    if (problem.edges.empty())
+        return Status::Error("calibration: the given one stays, a single view shows nothing");
     return Solver(problem, T_world_camera, mask).Run();
 }
 

@@ -22,13 +22,15 @@ using CalibrationMask = std::array<bool, CalibrationUnknowns::kCount>;
 
 struct CalibrationEstimate {
     CalibrationUnknowns unknowns;
-    std::array<double, CalibrationUnknowns::kCount> sigma{};  // Deviations; 0 where it was not solved for
+    // Deviations; 0 where it was not solved for.
+    std::array<double, CalibrationUnknowns::kCount> sigma{};
     std::vector<Eigen::Isometry3d> T_world_camera;
     double rms_before_m = 0, rms_m = 0;  // points off the surfaces of other views, robust
     int points = 0;
 };
 
-// Errors: too little is seen twice, or no usable solution. One thread: the same result on every run.
+// Errors: too little is seen twice, or no usable solution. One thread: the same result on every
+// run.
 Result<CalibrationEstimate> SolveCalibration(const CalibrationProblem& problem,
                                              const std::vector<Eigen::Isometry3d>& T_world_camera,
                                              const CalibrationMask& mask);

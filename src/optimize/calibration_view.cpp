@@ -30,8 +30,12 @@ CalibrationView::CalibrationView(const DepthImage& depth_m)
 
 PinholeCamera CalibrationView::ViewOf(const PinholeCamera& camera) {
     constexpr double kMiddle = 0.5 * (kReduction - 1);  // of a block's pixels
-    return {camera.width / kReduction, camera.height / kReduction, camera.fx / kReduction, camera.fy / kReduction,
-            (camera.cx - kMiddle) / kReduction, (camera.cy - kMiddle) / kReduction};
+    return {camera.width / kReduction,
+            camera.height / kReduction,
+            camera.fx / kReduction,
+            camera.fy / kReduction,
+            (camera.cx - kMiddle) / kReduction,
+            (camera.cy - kMiddle) / kReduction};
 }
 
 }  // namespace tessera

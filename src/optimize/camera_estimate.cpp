@@ -7,12 +7,12 @@
 namespace tessera {
 namespace {
 
-// On recordings whose camera is known, estimates lie up to five of their deviations off, most within 1 % (docs/calibration.md):
-// errors that a recording has everywhere are in no scatter.
+// On recordings whose camera is known, estimates lie up to five of their deviations off, most
+// within 1 % (docs/calibration.md): errors that a recording has everywhere are in no scatter.
 constexpr double kDeviations = 6;
 constexpr double kFocalFloor = 0.0125, kCentreFloor = 0.006;  // of the focal length, of the width
 constexpr double kReadoutFloor_s = 0.002;  // at 1 rad/s half a pixel at the image's border
-constexpr double kUsefulFocal = 0.02;                       // of the focal length: sigma
+constexpr double kUsefulFocal = 0.02;      // of the focal length: sigma
 
 bool Beyond(double difference, double sigma, double floor) {
     return sigma > 0 && std::abs(difference) > std::max(kDeviations * sigma, floor);
@@ -21,20 +21,24 @@ bool Beyond(double difference, double sigma, double floor) {
 }  // namespace
 
 bool CameraEstimate::focal_shown() const {
-    return misfit_found < misfit_given && Beyond(found.fx - given.fx, focal_sigma_px, kFocalFloor * given.fx);
+    return misfit_found < misfit_given &&
+           Beyond(found.fx - given.fx, focal_sigma_px, kFocalFloor * given.fx);
 }
 
 bool CameraEstimate::centre_shown() const {
     const double floor_px = kCentreFloor * given.width;
-    return misfit_found < misfit_given && (Beyond(found.cx - given.cx, centre_x_sigma_px, floor_px) ||
-                                           Beyond(found.cy - given.cy, centre_y_sigma_px, floor_px));
+    return misfit_found < misfit_given &&
+           (Beyond(found.cx - given.cx, centre_x_sigma_px, floor_px) ||
+            Beyond(found.cy - given.cy, centre_y_sigma_px, floor_px));
 }
 
 bool CameraEstimate::shutter_shown(double given_readout_s) const {
     return Beyond(readout_s - given_readout_s, readout_sigma_s, kReadoutFloor_s);
 }
 
-bool CameraEstimate::useful() const { return focal_sigma_px > 0 && focal_sigma_px < kUsefulFocal * found.fx; }
+bool CameraEstimate::useful() const {
+    return focal_sigma_px > 0 && focal_sigma_px < kUsefulFocal * found.fx;
+}
 
 PinholeCamera CameraToUse(const CameraEstimate& estimate, bool known) {
     PinholeCamera camera = estimate.given;
@@ -51,11 +55,13 @@ PinholeCamera CameraToUse(const CameraEstimate& estimate, bool known) {
 
 std::string EstimateText(const CameraEstimate& estimate, const std::string& who) {
     const PinholeCamera &given = estimate.given, &found = estimate.found;
-    std::string text = fmt::format("{} says fx {:.1f}; this recording says {:.1f} +- {:.1f}", who, given.fx, found.fx,
-                                   estimate.focal_sigma_px);
+    std::string text = fmt::format("{} says fx {:.1f}; this recording says {:.1f} +- {:.1f}", who,
+                                   given.fx, found.fx, estimate.focal_sigma_px);
     if (estimate.centre_shown())
-        text += fmt::format(", and a centre of ({:.1f} +- {:.1f}, {:.1f} +- {:.1f}), not ({:.1f}, {:.1f})", found.cx,
-                            estimate.centre_x_sigma_px, found.cy, estimate.centre_y_sigma_px, given.cx, given.cy);
+        text += fmt::format(
+            ", and a centre of ({:.1f} +- {:.1f}, {:.1f} +- {:.1f}), not ({:.1f}, {:.1f})",
+            found.cx, estimate.centre_x_sigma_px, found.cy, estimate.centre_y_sigma_px, given.cx,
+            given.cy);
     return text;
 }
 

@@ -7,13 +7,16 @@
 
 namespace tessera {
 
-// Standard deviations hold what differs between parts of the recording (camera_fit.h), not the residuals' scatter.
+// Standard deviations hold what differs between parts of the recording (camera_fit.h), not the
+// residuals' scatter.
 struct CameraEstimate {
     PinholeCamera given, found;
     double focal_sigma_px = 0, centre_x_sigma_px = 0, centre_y_sigma_px = 0;
-    double readout_s = 0, readout_sigma_s = 0;  // of the colour image's rolling shutter, first row to last
-    double misfit_given = 0, misfit_found = 0;  // robust photometric error of a point, as given and as found
-    int pairs = 0;                             // of views that were compared
+    // Of the colour image's rolling shutter, first row to last.
+    double readout_s = 0, readout_sigma_s = 0;
+    // Robust photometric error of a point, as given and as found.
+    double misfit_given = 0, misfit_found = 0;
+    int pairs = 0;  // of views that were compared
 
     // The recording contradicts what was given, by more than such an estimate can be wrong.
     bool focal_shown() const;
@@ -28,7 +31,7 @@ struct CameraEstimate {
 // For run.json: what was found, and what was done with it.
 struct CameraReport {
     CameraEstimate estimate;
-    bool known = true;   // the camera was given; else `estimate.given` is a guess
+    bool known = true;  // the camera was given; else `estimate.given` is a guess
     bool used = false;
 };
 

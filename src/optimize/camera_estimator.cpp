@@ -7,13 +7,16 @@
 
 namespace tessera {
 
-CameraEstimator::CameraEstimator(const PinholeCamera& camera) : camera_(camera), aligner_({}, camera) {}
+CameraEstimator::CameraEstimator(const PinholeCamera& camera)
+    : camera_(camera), aligner_({}, camera) {}
 
 void CameraEstimator::Add(const Frame& frame) {
     if (frame.colour.empty()) return;
     PrepareFrame(frame, {}, prepared_);
-    const Eigen::Isometry3d T_last_current = aligner_.Align(prepared_, Eigen::Isometry3d::Identity());
-    const Eigen::Isometry3d last = T_world_camera_.empty() ? Eigen::Isometry3d::Identity() : T_world_camera_.back();
+    const Eigen::Isometry3d T_last_current =
+        aligner_.Align(prepared_, Eigen::Isometry3d::Identity());
+    const Eigen::Isometry3d last =
+        T_world_camera_.empty() ? Eigen::Isometry3d::Identity() : T_world_camera_.back();
     T_world_camera_.push_back(Normalised(last * T_last_current));
     views_.push_back(MakeCameraView(frame));
 }

@@ -1,6 +1,7 @@
-// Finds out from a recording's first seconds what camera took it: views are aligned one after the other, those that turned
-// against each other are compared, and one camera is fitted to all of these pairs. Colour tells it nearly alone: depths, which
-// err in their own way, only say how far away the edges are.
+// Finds out from a recording's first seconds what camera took it: views are aligned one after the
+// other, those that turned against each other are compared, and one camera is fitted to all of
+// these pairs. Colour tells it nearly alone: depths, which err in their own way, only say how far
+// away the edges are.
 #pragma once
 
 #include <optional>
@@ -14,7 +15,8 @@
 
 namespace tessera {
 
-// Owner thread only (pairs are summed in parallel; the result does not depend on the number of threads). Keeps some 0.8 MB a frame at 640 x 480.
+// Owner thread only (pairs are summed in parallel; the result does not depend on the number of
+// threads). Keeps some 0.8 MB a frame at 640 x 480.
 class CameraEstimator {
   public:
     explicit CameraEstimator(const PinholeCamera& camera);

@@ -12,11 +12,13 @@ namespace {
 constexpr int kCount = CameraUnknowns::kCount, kOwn = CameraPairSums::kOwn;
 constexpr int kTimes = 8;
 constexpr int kLeastPairs = 6, kLeastPoints = 100;
-constexpr double kLeastSeen = 0.25;   // of a view's points, seen in the other
-constexpr double kWorstScale = 1.8;      // residuals, against the middle pair's: more is a motion that was not found
-constexpr double kLongestStep_rad = 0.1;    // a step
-// What is known of a camera before: factor of the focal length, centre in widths, readout in seconds; as standard deviations.
-// The residuals of neighbouring pixels err together: a hundred count as one.
+constexpr double kLeastSeen = 0.25;  // of a view's points, seen in the other
+// Residuals, against the middle pair's: more is a motion that was not found.
+constexpr double kWorstScale = 1.8;
+constexpr double kLongestStep_rad = 0.1;  // a step
+// What is known of a camera before: factor of the focal length, centre in widths, readout in
+// seconds; as standard deviations. The residuals of neighbouring pixels err together: a hundred
+// count as one.
 constexpr double kBefore[kCount] = {0.2, 0.01, 0.01, 0.02};
 constexpr double kTogether = 100;
 
@@ -37,7 +39,8 @@ struct Share {
         own.diagonal().array() += 1e-3;
         own_inverse = own.inverse();
         to_own = sums.hessian.bottomLeftCorner<kCount, kOwn>() * own_inverse;
-        hessian = sums.hessian.bottomRightCorner<kCount, kCount>() - to_own * sums.hessian.topRightCorner<kOwn, kCount>();
+        hessian = sums.hessian.bottomRightCorner<kCount, kCount>() -
+                  to_own * sums.hessian.topRightCorner<kOwn, kCount>();
         for (std::size_t i = 0; i < gradient.size(); ++i) {
             gradient[i] = sums.gradient[i].tail<kCount>() - to_own * sums.gradient[i].head<kOwn>();
             whole += gradient[i];
@@ -47,21 +50,26 @@ struct Share {
 
 class Fit {
   public:
-    Fit(const std::vector<CameraView>& views, const PinholeCamera& given, std::vector<CameraPair>& pairs)
+    Fit(const std::vector<CameraView>& views, const PinholeCamera& given,
+        std::vector<CameraPair>& pairs)
         : views_(views), given_(given), pairs_(pairs) {
         for (int i = 0; i < kCount; ++i) before_(i, i) = kTogether / (kBefore[i] * kBefore[i]);
     }
 
-    // Steps on one level; the camera is held where `camera_free` is off. Returns the mean robust error of a point.
+    // Steps on one level; the camera is held where `camera_free` is off. Returns the mean robust
+    // error of a point.
     double Refine(int level, int iterations, bool camera_free) {
         double misfit = 0;
         for (int i = 0; i < iterations; ++i) {
             misfit = Linearise(level);
             Vector step = Vector::Zero();
-            if (camera_free) step = -(hessian_ + before_).ldlt().solve(gradient_ + before_ * State());
+            if (camera_free)
+                step = -(hessian_ + before_).ldlt().solve(gradient_ + before_ * State());
             MovePairs(step);
             unknowns_.Add(step);
-            if (camera_free && i > 0 && std::abs(step(0)) < 1e-5 && step.segment<2>(1).norm() < 1e-5) break;
+            if (camera_free && i > 0 && std::abs(step(0)) < 1e-5 &&
+                step.segment<2>(1).norm() < 1e-5)
+                break;
         }
         return misfit;
     }
@@ -74,11 +82,13 @@ class Fit {
         if (scales.empty()) return;
         const auto middle = scales.begin() + static_cast<std::ptrdiff_t>(scales.size() / 2);
         std::nth_element(scales.begin(), middle, scales.end());
-        for (CameraPair& pair : pairs_) pair.usable = pair.usable && pair.scale <= kWorstScale * *middle;
+        for (CameraPair& pair : pairs_)
+            pair.usable = pair.usable && pair.scale <= kWorstScale * *middle;
     }
 
     int usable() const {
-        return static_cast<int>(std::count_if(pairs_.begin(), pairs_.end(), [](const CameraPair& pair) { return pair.usable; }));
+        return static_cast<int>(std::count_if(pairs_.begin(), pairs_.end(),
+                                              [](const CameraPair& pair) { return pair.usable; }));
     }
     const CameraUnknowns& unknowns() const { return unknowns_; }
     void Set(const CameraUnknowns& unknowns) { unknowns_ = unknowns; }
@@ -90,7 +100,8 @@ class Fit {
         const Matrix inverse = (hessian_ + before_).inverse();
         Matrix spread = Matrix::Zero();
         const auto add = [&](const std::vector<Vector>& parts) {
-            const double few = static_cast<double>(parts.size()) / static_cast<double>(parts.size() - 1);
+            const double few =
+                static_cast<double>(parts.size()) / static_cast<double>(parts.size() - 1);
             for (const Vector& part : parts) spread += few * part * part.transpose();
         };
         using V = CameraView;
@@ -103,13 +114,16 @@ class Fit {
     }
 
   private:
-    Vector State() const { return {unknowns_.log_focal, unknowns_.centre_x, unknowns_.centre_y, unknowns_.readout_s}; }
+    Vector State() const {
+        return {unknowns_.log_focal, unknowns_.centre_x, unknowns_.centre_y, unknowns_.readout_s};
+    }
 
     double Linearise(int level) {
         sums_.resize(pairs_.size());
         tbb::parallel_for(std::size_t{0}, pairs_.size(), [&](std::size_t i) {
             const CameraPair& pair = pairs_[i];
-            if (pair.usable) sums_[i] = SumPair(View(pair.from), View(pair.to), level, given_, unknowns_, pair);
+            if (pair.usable)
+                sums_[i] = SumPair(View(pair.from), View(pair.to), level, given_, unknowns_, pair);
         });
         shares_.clear();
         hessian_.setZero();
@@ -117,7 +131,8 @@ class Fit {
         double error = 0;
         int used = 0;
         for (std::size_t i = 0; i < pairs_.size(); ++i) {
-            pairs_[i].usable = pairs_[i].usable && sums_[i].used >= kLeastPoints && sums_[i].used >= kLeastSeen * sums_[i].points;
+            pairs_[i].usable = pairs_[i].usable && sums_[i].used >= kLeastPoints &&
+                               sums_[i].used >= kLeastSeen * sums_[i].points;
             if (!pairs_[i].usable) continue;
             shares_.emplace_back(sums_[i]);
             hessian_ += shares_.back().hessian;
@@ -139,7 +154,8 @@ class Fit {
             for (const auto& part : sums_[i].gradient) own += part.head<kOwn>();
             gradient += s.own_inverse * own;
             Vector6d twist = -gradient.head<6>();
-            if (const double turn = twist.head<3>().norm(); turn > kLongestStep_rad) twist *= kLongestStep_rad / turn;
+            if (const double turn = twist.head<3>().norm(); turn > kLongestStep_rad)
+                twist *= kLongestStep_rad / turn;
             pair.T_to_from = Se3Exp(twist) * pair.T_to_from;
             pair.gain = std::clamp(pair.gain - gradient(6), -0.5, 0.5);
             pair.offset -= gradient(7);
@@ -152,7 +168,8 @@ class Fit {
         std::vector<Vector> parts(static_cast<std::size_t>(groups), Vector::Zero());
         for (const Share& share : shares_)
             for (int i = 0; i < CameraView::kRegions; ++i)
-                parts[static_cast<std::size_t>(i / inner % groups)] += share.gradient[static_cast<std::size_t>(i)];
+                parts[static_cast<std::size_t>(i / inner % groups)] +=
+                    share.gradient[static_cast<std::size_t>(i)];
         return parts;
     }
 
@@ -161,7 +178,9 @@ class Fit {
         std::size_t share = 0;
         const int count = static_cast<int>(views_.size());
         for (const CameraPair& pair : pairs_)
-            if (pair.usable) parts[static_cast<std::size_t>(std::min(pair.from, pair.to) * kTimes / count)] += shares_[share++].whole;
+            if (pair.usable)
+                parts[static_cast<std::size_t>(std::min(pair.from, pair.to) * kTimes / count)] +=
+                    shares_[share++].whole;
         return parts;
     }
 
@@ -180,7 +199,8 @@ class Fit {
 
 }  // namespace
 
-CameraFit FitCamera(const std::vector<CameraView>& views, const PinholeCamera& given, std::vector<CameraPair>& pairs) {
+CameraFit FitCamera(const std::vector<CameraView>& views, const PinholeCamera& given,
+                    std::vector<CameraPair>& pairs) {
     Fit fit(views, given, pairs);
     CameraFit result;
     fit.Refine(0, 6, false);

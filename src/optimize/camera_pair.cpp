@@ -6,7 +6,8 @@
 namespace tessera {
 namespace {
 
-constexpr double kNearestPoint_m = 0.1, kOccluded = 0.1;  // depths that differ by more than this part are of other surfaces
+// Depths that differ by more than this part are of other surfaces.
+constexpr double kNearestPoint_m = 0.1, kOccluded = 0.1;
 constexpr double kLeastScale = 0.003;
 
 // Linear between four pixels.
@@ -18,12 +19,15 @@ Sample SampleAt(const Image<float>& image, double u, double v) {
     const int u0 = static_cast<int>(u), v0 = static_cast<int>(v);
     const double fu = u - u0, fv = v - v0;
     const float *top = image.row(v0) + u0, *bottom = image.row(v0 + 1) + u0;
-    const double above = top[0] + fu * (top[1] - top[0]), below = bottom[0] + fu * (bottom[1] - bottom[0]);
-    return {above + fv * (below - above), (1 - fv) * (top[1] - top[0]) + fv * (bottom[1] - bottom[0]), below - above,
+    const double above = top[0] + fu * (top[1] - top[0]),
+                 below = bottom[0] + fu * (bottom[1] - bottom[0]);
+    return {above + fv * (below - above),
+            (1 - fv) * (top[1] - top[0]) + fv * (bottom[1] - bottom[0]), below - above,
             std::min(std::min(top[0], top[1]), std::min(bottom[0], bottom[1]))};
 }
 
-// How a point moves in the camera's frame per second, for a camera that moves with `velocity`, at a row's part of the readout.
+// How a point moves in the camera's frame per second, for a camera that moves with `velocity`, at a
+// row's part of the readout.
 Eigen::Vector3d RowMotion(const Vector6d& velocity, double row, const Eigen::Vector3d& p) {
     return row * (velocity.head<3>().cross(p) + velocity.tail<3>());
 }
@@ -46,11 +50,13 @@ void CameraUnknowns::Add(const Eigen::Matrix<double, kCount, 1>& step) {
     readout_s += step(3);
 }
 
-bool EvaluatePoint(const CameraViewPoint& point, const CameraView::Level& to, const PinholeCamera& camera, const CameraPair& pair,
-                   double readout_s, CameraPairResidual& residual) {
+bool EvaluatePoint(const CameraViewPoint& point, const CameraView::Level& to,
+                   const PinholeCamera& camera, const CameraPair& pair, double readout_s,
+                   CameraPairResidual& residual) {
     const PinholeCamera& c = camera;
     Eigen::Vector3d p = c.Unproject(point.u, point.v, point.depth_m);
-    const Eigen::Vector3d moved_from = RowMotion(pair.velocity_from, static_cast<double>(point.v) / c.height - 0.5, p);
+    const Eigen::Vector3d moved_from =
+        RowMotion(pair.velocity_from, static_cast<double>(point.v) / c.height - 0.5, p);
     p += readout_s * moved_from;
     Eigen::Vector3d q = pair.T_to_from * p;
     if (q.z() < kNearestPoint_m) return false;
@@ -60,14 +66,16 @@ bool EvaluatePoint(const CameraViewPoint& point, const CameraView::Level& to, co
     q -= readout_s * moved_to;
     if (q.z() < kNearestPoint_m) return false;
     const Eigen::Vector2d pixel = c.Project(q);
-    if (!(pixel.x() >= 1 && pixel.y() >= 1 && pixel.x() < c.width - 2 && pixel.y() < c.height - 2)) return false;
+    if (!(pixel.x() >= 1 && pixel.y() >= 1 && pixel.x() < c.width - 2 && pixel.y() < c.height - 2))
+        return false;
     const Sample depth = SampleAt(to.depth_m, pixel.x(), pixel.y());
     if (depth.least <= 0 || std::abs(depth.value - q.z()) > kOccluded * q.z()) return false;
     const Sample seen = SampleAt(to.intensity, pixel.x(), pixel.y());
     residual.value = seen.value - (1 + pair.gain) * point.intensity - pair.offset;
 
     const double inverse_z = 1 / q.z(), x = pixel.x() - c.cx, y = pixel.y() - c.cy;
-    const Eigen::Vector3d by_q(seen.du * c.fx * inverse_z, seen.dv * c.fy * inverse_z, -(seen.du * x + seen.dv * y) * inverse_z);
+    const Eigen::Vector3d by_q(seen.du * c.fx * inverse_z, seen.dv * c.fy * inverse_z,
+                               -(seen.du * x + seen.dv * y) * inverse_z);
     const Eigen::Vector3d by_p = pair.T_to_from.linear().transpose() * by_q;
     auto& j = residual.jacobian;
     j.head<3>() = q.cross(by_q);
@@ -81,8 +89,9 @@ bool EvaluatePoint(const CameraViewPoint& point, const CameraView::Level& to, co
     return true;
 }
 
-CameraPairSums SumPair(const CameraView& from, const CameraView& to, int level, const PinholeCamera& camera,
-                       const CameraUnknowns& unknowns, const CameraPair& pair) {
+CameraPairSums SumPair(const CameraView& from, const CameraView& to, int level,
+                       const PinholeCamera& camera, const CameraUnknowns& unknowns,
+                       const CameraPair& pair) {
     const auto at = static_cast<std::size_t>(level);
     const CameraView::Level& seen = to.levels[at];
     const PinholeCamera reduced = Averaged(unknowns.Applied(camera), seen.reduction);

@@ -21,7 +21,8 @@ struct Candidate {
 struct Overlap {
     double share = 0, inverse_depth = 0;
 };
-Overlap OverlapOf(const CameraView& from, const PinholeCamera& camera, const Eigen::Isometry3d& T_to_from) {
+Overlap OverlapOf(const CameraView& from, const PinholeCamera& camera,
+                  const Eigen::Isometry3d& T_to_from) {
     const CameraView::Level& level = from.levels.front();
     const PinholeCamera c = Averaged(camera, level.reduction);
     int count = 0, inside = 0;
@@ -43,28 +44,34 @@ Overlap OverlapOf(const CameraView& from, const PinholeCamera& camera, const Eig
 
 }  // namespace
 
-std::vector<CameraPair> ChoosePairs(const std::vector<CameraView>& views, const PinholeCamera& camera,
+std::vector<CameraPair> ChoosePairs(const std::vector<CameraView>& views,
+                                    const PinholeCamera& camera,
                                     const std::vector<Eigen::Isometry3d>& T_world_camera) {
     std::vector<Candidate> candidates;
     const int count = static_cast<int>(views.size());
     const auto motion = [&](int from, int to) -> Eigen::Isometry3d {
-        return T_world_camera[static_cast<std::size_t>(to)].inverse() * T_world_camera[static_cast<std::size_t>(from)];
+        return T_world_camera[static_cast<std::size_t>(to)].inverse() *
+               T_world_camera[static_cast<std::size_t>(from)];
     };
     for (int from = 0; from < count; ++from)
         for (int to = 0; to < count; ++to) {
             const Eigen::Isometry3d T_to_from = motion(from, to);
             const double turn = Eigen::AngleAxisd(T_to_from.linear()).angle();
             if (turn < kLeastTurn_rad || turn > kMostTurn_rad) continue;
-            const Overlap overlap = OverlapOf(views[static_cast<std::size_t>(from)], camera, T_to_from);
+            const Overlap overlap =
+                OverlapOf(views[static_cast<std::size_t>(from)], camera, T_to_from);
             if (overlap.share < kLeastOverlap) continue;
             const double parallax = T_to_from.translation().norm() * overlap.inverse_depth;
-            candidates.push_back({from, to, turn * std::sqrt(overlap.share) - kParallax * parallax});
+            candidates.push_back(
+                {from, to, turn * std::sqrt(overlap.share) - kParallax * parallax});
         }
-    std::stable_sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) { return a.merit > b.merit; });
+    std::stable_sort(candidates.begin(), candidates.end(),
+                     [](const Candidate& a, const Candidate& b) { return a.merit > b.merit; });
     std::vector<int> used(views.size(), 0);
     std::vector<CameraPair> pairs;
     for (const Candidate& c : candidates) {
-        int &from = used[static_cast<std::size_t>(c.from)], &to = used[static_cast<std::size_t>(c.to)];
+        int &from = used[static_cast<std::size_t>(c.from)],
+            &to = used[static_cast<std::size_t>(c.to)];
         if (pairs.size() >= kMostPairs || from >= kMostOfView || to >= kMostOfView) continue;
         ++from;
         ++to;

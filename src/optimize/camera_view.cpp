@@ -7,8 +7,8 @@ namespace tessera {
 namespace {
 
 constexpr int kColumns = 320;
-constexpr float kSmooth = 0.03f;         // of the depth: farther apart is an edge
-constexpr float kLeastSlope = 0.01f;     // of the intensity per pixel: below it is noise
+constexpr float kSmooth = 0.03f;      // of the depth: farther apart is an edge
+constexpr float kLeastSlope = 0.01f;  // of the intensity per pixel: below it is noise
 constexpr float kNearest_m = 0.3f, kFarthest_m = 6;
 constexpr std::size_t kMostPoints = 4000;
 
@@ -33,7 +33,8 @@ Level FinestLevel(const Frame& frame, int n) {
                     nearest = std::min(nearest, z);
                     farthest = std::max(farthest, z);
                 }
-            level.intensity(x, y) = static_cast<float>(luma) / (256.0f * 255.0f * static_cast<float>(n * n));
+            level.intensity(x, y) =
+                static_cast<float>(luma) / (256.0f * 255.0f * static_cast<float>(n * n));
             const bool whole = known == n * n && farthest - nearest < kSmooth * nearest;
             level.depth_m(x, y) = whole ? sum / static_cast<float>(known) : 0.0f;
         }
@@ -76,18 +77,25 @@ bool Smooth(const DepthImage& depth_m, int x, int y) {
 }
 
 std::uint8_t RegionOf(const Level& level, int x, int y, float du, float dv, float middle_m) {
-    const float width = static_cast<float>(level.intensity.width()), height = static_cast<float>(level.intensity.height());
-    const float right = 2 * static_cast<float>(x) / width - 1, down = 2 * static_cast<float>(y) / height - 1;
-    const int ring = std::min(CameraView::kRings - 1, static_cast<int>(2 * std::hypot(right, down)));
+    const float width = static_cast<float>(level.intensity.width()),
+                height = static_cast<float>(level.intensity.height());
+    const float right = 2 * static_cast<float>(x) / width - 1,
+                down = 2 * static_cast<float>(y) / height - 1;
+    const int ring =
+        std::min(CameraView::kRings - 1, static_cast<int>(2 * std::hypot(right, down)));
     const int quarter = (right > 0 ? 1 : 0) + (down > 0 ? 2 : 0);
-    const int far = level.depth_m(x, y) > middle_m ? 1 : 0, upright = std::abs(du) > std::abs(dv) ? 1 : 0;
-    return static_cast<std::uint8_t>(((ring * CameraView::kQuarters + quarter) * CameraView::kDepths + far) * CameraView::kDirections +
-                                     upright);
+    const int far = level.depth_m(x, y) > middle_m ? 1 : 0,
+              upright = std::abs(du) > std::abs(dv) ? 1 : 0;
+    return static_cast<std::uint8_t>(
+        ((ring * CameraView::kQuarters + quarter) * CameraView::kDepths + far) *
+            CameraView::kDirections +
+        upright);
 }
 
 float MiddleDepth(const DepthImage& depth_m) {
     std::vector<float> known;
-    std::copy_if(depth_m.data(), depth_m.data() + depth_m.size(), std::back_inserter(known), [](float z) { return z > 0; });
+    std::copy_if(depth_m.data(), depth_m.data() + depth_m.size(), std::back_inserter(known),
+                 [](float z) { return z > 0; });
     if (known.empty()) return 0;
     const auto middle = known.begin() + static_cast<std::ptrdiff_t>(known.size() / 2);
     std::nth_element(known.begin(), middle, known.end());
@@ -99,9 +107,12 @@ void FindPoints(Level& level) {
     const float middle_m = MiddleDepth(level.depth_m);
     for (int y = 2; y < image.height() - 2; ++y)
         for (int x = 2; x < image.width() - 2; ++x) {
-            const float du = 0.5f * (image(x + 1, y) - image(x - 1, y)), dv = 0.5f * (image(x, y + 1) - image(x, y - 1));
-            if (du * du + dv * dv < kLeastSlope * kLeastSlope || !Smooth(level.depth_m, x, y)) continue;
-            level.points.push_back({static_cast<float>(x), static_cast<float>(y), level.depth_m(x, y), image(x, y),
+            const float du = 0.5f * (image(x + 1, y) - image(x - 1, y)),
+                        dv = 0.5f * (image(x, y + 1) - image(x, y - 1));
+            if (du * du + dv * dv < kLeastSlope * kLeastSlope || !Smooth(level.depth_m, x, y))
+                continue;
+            level.points.push_back({static_cast<float>(x), static_cast<float>(y),
+                                    level.depth_m(x, y), image(x, y),
                                     RegionOf(level, x, y, du, dv, middle_m)});
         }
     const std::size_t count = level.points.size(), kept = std::min(count, kMostPoints);
@@ -114,7 +125,8 @@ void FindPoints(Level& level) {
 CameraView MakeCameraView(const Frame& frame) {
     CameraView view;
     view.stamp_s = frame.stamp_s;
-    view.levels[2] = FinestLevel(frame, std::max(1, (frame.colour.width() + kColumns / 2) / kColumns));
+    view.levels[2] =
+        FinestLevel(frame, std::max(1, (frame.colour.width() + kColumns / 2) / kColumns));
     view.levels[1] = Halved(view.levels[2]);
     view.levels[0] = Halved(view.levels[1]);
     for (Level& level : view.levels) FindPoints(level);
@@ -122,8 +134,8 @@ CameraView MakeCameraView(const Frame& frame) {
 }
 
 PinholeCamera Averaged(const PinholeCamera& camera, int n) {
-    return {camera.width / n,  camera.height / n,         camera.fx / n,
-            camera.fy / n,     (camera.cx + 0.5) / n - 0.5, (camera.cy + 0.5) / n - 0.5};
+    return {camera.width / n, camera.height / n,           camera.fx / n,
+            camera.fy / n,    (camera.cx + 0.5) / n - 0.5, (camera.cy + 0.5) / n - 0.5};
 }
 
 }  // namespace tessera

@@ -1,5 +1,5 @@
-// A frame made small for finding out what camera took it: intensity and depth on three levels, and the pixels that are worth
-// comparing.
+// A frame made small for finding out what camera took it: intensity and depth on three levels, and
+// the pixels that are worth comparing.
 #pragma once
 
 #include <array>
@@ -13,10 +13,11 @@ namespace tessera {
 
 // A pixel with depth on a smooth surface and an edge in its intensity.
 struct CameraViewPoint {
-    float u = 0, v = 0;       // pixels of its level
-    float depth_m = 0;        // along z
-    float intensity = 0;      // [0, 1]
-    std::uint8_t region = 0;  // which part of the image, the depths and the edges' directions: kRegions of them
+    float u = 0, v = 0;   // pixels of its level
+    float depth_m = 0;    // along z
+    float intensity = 0;  // [0, 1]
+    // Which part of the image, the depths and the edges' directions: kRegions of them.
+    std::uint8_t region = 0;
 };
 
 struct CameraView {
@@ -25,9 +26,10 @@ struct CameraView {
     static constexpr int kRegions = kRings * kQuarters * kDepths * kDirections;
 
     struct Level {
-        int reduction = 1;         // full-resolution pixels in a row that are one here
-        Image<float> intensity;    // [0, 1], averaged: blurring would move edges that are seen from aslant
-        DepthImage depth_m;        // averaged where smooth; 0 where missing or torn
+        int reduction = 1;  // full-resolution pixels in a row that are one here
+        // [0, 1], averaged: blurring would move edges that are seen from aslant.
+        Image<float> intensity;
+        DepthImage depth_m;  // averaged where smooth; 0 where missing or torn
         std::vector<CameraViewPoint> points;
     };
 

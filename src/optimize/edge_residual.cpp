@@ -2,11 +2,13 @@
 
 namespace tessera {
 
-Vector6d EdgeResidual(const PoseEdge& edge, const Eigen::Isometry3d& T_world_from, const Eigen::Isometry3d& T_world_to) {
+Vector6d EdgeResidual(const PoseEdge& edge, const Eigen::Isometry3d& T_world_from,
+                      const Eigen::Isometry3d& T_world_to) {
     const Eigen::Quaterniond q_from(T_world_from.linear()), q_to(T_world_to.linear());
     const Eigen::Vector3d t_from = T_world_from.translation(), t_to = T_world_to.translation();
     Vector6d residual;
-    EdgeResidualOf(edge, q_from.coeffs().data(), t_from.data(), q_to.coeffs().data(), t_to.data(), residual.data());
+    EdgeResidualOf(edge, q_from.coeffs().data(), t_from.data(), q_to.coeffs().data(), t_to.data(),
+                   residual.data());
     return residual;
 }
 

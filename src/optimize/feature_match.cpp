@@ -20,7 +20,8 @@ struct Nearest {
 
 }  // namespace
 
-std::vector<std::pair<int, int>> MatchDescriptors(std::span<const Descriptor> old, std::span<const Descriptor> fresh) {
+std::vector<std::pair<int, int>> MatchDescriptors(std::span<const Descriptor> old,
+                                                  std::span<const Descriptor> fresh) {
     constexpr int kMaxDistance = 64;
     constexpr double kRatio = 0.85;
     std::vector<Nearest> of_old(old.size()), of_fresh(fresh.size());
@@ -33,7 +34,9 @@ std::vector<std::pair<int, int>> MatchDescriptors(std::span<const Descriptor> ol
     std::vector<std::pair<int, int>> pairs;
     for (std::size_t i = 0; i < old.size(); ++i) {
         const Nearest& nearest = of_old[i];
-        if (nearest.index < 0 || nearest.distance > kMaxDistance || nearest.distance >= kRatio * nearest.second) continue;
+        if (nearest.index < 0 || nearest.distance > kMaxDistance ||
+            nearest.distance >= kRatio * nearest.second)
+            continue;
         if (of_fresh[static_cast<std::size_t>(nearest.index)].index == static_cast<int>(i))
             pairs.emplace_back(static_cast<int>(i), nearest.index);
     }

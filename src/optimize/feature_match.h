@@ -17,7 +17,8 @@ struct FeatureMatch {
 };
 
 // Pairs (old, new) of mutually nearest descriptors that are clearly nearer than the second nearest.
-std::vector<std::pair<int, int>> MatchDescriptors(std::span<const Descriptor> old, std::span<const Descriptor> fresh);
+std::vector<std::pair<int, int>> MatchDescriptors(std::span<const Descriptor> old,
+                                                  std::span<const Descriptor> fresh);
 
 // Thread-safe.
 FeatureMatch MatchFeatures(const Features& old, const Features& fresh, const LoopConfig& config);

@@ -1,4 +1,5 @@
-// What a keyframe is recognised by: ORB features, each with the 3D point that the depth image has there.
+// What a keyframe is recognised by: ORB features, each with the 3D point that the depth image has
+// there.
 #pragma once
 
 #include <Eigen/Core>
@@ -29,8 +30,8 @@ struct Features {
     std::size_t size() const { return descriptors.size(); }
 };
 
-// At most `max_features`, spread over the image by OpenCV's ORB; those without depth are left out. None of a frame without
-// colour. The same for any number of threads.
+// At most `max_features`, spread over the image by OpenCV's ORB; those without depth are left out.
+// None of a frame without colour. The same for any number of threads.
 Features ExtractFeatures(const PreparedFrame& frame, const PinholeCamera& camera, int max_features);
 
 }  // namespace tessera

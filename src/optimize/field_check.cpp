@@ -16,16 +16,17 @@ FieldCheck::FieldCheck(const FieldSettings& settings, const LoopConfig& config)
       model_(settings.photometric),
       tracker_(settings.tracker, settings.camera, TrackJudge(settings.judge), model_, true) {}
 
-FieldVerdict FieldCheck::Check(std::span<const NearFrame> old_frames, const FreshFrame& fresh, FrameStore& store) {
+FieldVerdict FieldCheck::Check(std::span<const NearFrame> old_frames, const FreshFrame& fresh,
+                               FrameStore& store) {
     constexpr double kAsWell = 0.9;
     FieldVerdict verdict;
     FuseOld(old_frames, store);
     const TrackResult forward = Track(fresh.prepared, fresh.motion, fresh.T_old_new_features);
     verdict.T_old_new = forward.T_world_camera;
     if (verdict.reason = Fault(forward); !verdict.reason.empty()) return verdict;
-    verdict.closed_before =
-        fresh.T_old_new_expected && ShareThatFits(fresh.prepared, *fresh.T_old_new_expected) >=
-                                        kAsWell * ShareThatFits(fresh.prepared, forward.T_world_camera);
+    verdict.closed_before = fresh.T_old_new_expected &&
+                            ShareThatFits(fresh.prepared, *fresh.T_old_new_expected) >=
+                                kAsWell * ShareThatFits(fresh.prepared, forward.T_world_camera);
 
     map_.Clear();
     Integrator::View view;
@@ -36,23 +37,27 @@ FieldVerdict FieldCheck::Check(std::span<const NearFrame> old_frames, const Fres
         verdict.reason = "the old keyframe's images are damaged";
         return verdict;
     }
-    const TrackResult backward = Track(prepared_, old.view.motion, forward.T_world_camera.inverse());
+    const TrackResult backward =
+        Track(prepared_, old.view.motion, forward.T_world_camera.inverse());
     if (verdict.reason = Fault(backward); !verdict.reason.empty()) {
         verdict.reason = "seen from the other side, " + verdict.reason;
         return verdict;
     }
-    verdict.explained = std::min(forward.known_fraction * forward.inlier_fraction, backward.known_fraction * backward.inlier_fraction);
+    verdict.explained = std::min(forward.known_fraction * forward.inlier_fraction,
+                                 backward.known_fraction * backward.inlier_fraction);
     const Eigen::Isometry3d disagreement = forward.T_world_camera * backward.T_world_camera;
     const double off_m = disagreement.translation().norm();
     const double off_rad = RotationAngle(disagreement, Eigen::Isometry3d::Identity());
     verdict.accepted = off_m <= config_.max_disagreement_m && off_rad <= config_.max_disagreement_m;
     if (!verdict.accepted)
-        verdict.reason = fmt::format("the two sides disagree by {:.3f} m and {:.3f} rad", off_m, off_rad);
+        verdict.reason =
+            fmt::format("the two sides disagree by {:.3f} m and {:.3f} rad", off_m, off_rad);
     return verdict;
 }
 
 bool FieldCheck::Load(const StoredFrame& stored, FrameStore& store) {
-    return store.LoadPrepared(stored, settings_.camera, settings_.preparation, frame_, prepared_).ok();
+    return store.LoadPrepared(stored, settings_.camera, settings_.preparation, frame_, prepared_)
+        .ok();
 }
 
 void FieldCheck::FuseOld(std::span<const NearFrame> frames, FrameStore& store) {
@@ -77,7 +82,8 @@ TrackResult FieldCheck::Track(const PreparedFrame& frame, const FrameMotion& mot
 }
 
 // Of the points that the field knows, those within half the truncation of its surface.
-double FieldCheck::ShareThatFits(const PreparedFrame& frame, const Eigen::Isometry3d& T_field_camera) const {
+double FieldCheck::ShareThatFits(const PreparedFrame& frame,
+                                 const Eigen::Isometry3d& T_field_camera) const {
     constexpr int kStep = 8;
     FieldSampler sampler(map_.view(), BlockCoord{0, 0, 0});
     const double per_voxel = 1 / settings_.map.voxel_size_m;
@@ -86,7 +92,8 @@ double FieldCheck::ShareThatFits(const PreparedFrame& frame, const Eigen::Isomet
         for (int x = kStep / 2; x < frame.depth_m.width(); x += kStep) {
             const float z = frame.depth_m(x, y);
             if (z <= 0) continue;
-            const Eigen::Vector3f p = ((T_field_camera * settings_.camera.Unproject(x, y, z)) * per_voxel).cast<float>();
+            const Eigen::Vector3f p =
+                ((T_field_camera * settings_.camera.Unproject(x, y, z)) * per_voxel).cast<float>();
             const FieldSample sample = sampler.Sample<false>(sampler.Locate(p.x(), p.y(), p.z()));
             if (!sample.has_distance) continue;
             ++known;
@@ -97,11 +104,14 @@ double FieldCheck::ShareThatFits(const PreparedFrame& frame, const Eigen::Isomet
 
 std::string FieldCheck::Fault(const TrackResult& track) const {
     if (track.status != TrackStatus::kGood) return track.reason;
-    if (track.degenerate) return fmt::format("some motion is only known to {:.0f} mm", 1000 * track.uncertainty_m);
+    if (track.degenerate)
+        return fmt::format("some motion is only known to {:.0f} mm", 1000 * track.uncertainty_m);
     if (track.known_fraction < config_.min_known_fraction)
-        return fmt::format("only {:.0f} % of the depth lies in the field", 100 * track.known_fraction);
+        return fmt::format("only {:.0f} % of the depth lies in the field",
+                           100 * track.known_fraction);
     if (track.inlier_fraction < config_.min_fit)
-        return fmt::format("only {:.0f} % of the depth fits the field", 100 * track.inlier_fraction);
+        return fmt::format("only {:.0f} % of the depth fits the field",
+                           100 * track.inlier_fraction);
     return {};
 }
 

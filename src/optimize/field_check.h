@@ -1,6 +1,7 @@
-// The last word on a loop: does the new frame fit the surface around the old keyframe, and the other way round? A small
-// field is fused from the stored frames of each side and the other side is tracked in it, by the same tracker as any frame.
-// The whole map would not do: where the camera has come back with drift it already holds both surfaces.
+// The last word on a loop: does the new frame fit the surface around the old keyframe, and the
+// other way round? A small field is fused from the stored frames of each side and the other side is
+// tracked in it, by the same tracker as any frame. The whole map would not do: where the camera has
+// come back with drift it already holds both surfaces.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -37,14 +38,17 @@ struct FreshFrame {
     const PreparedFrame& prepared;
     FrameMotion motion;                    // while it was taken
     Eigen::Isometry3d T_old_new_features;  // where the features put it
-    std::optional<Eigen::Isometry3d> T_old_new_expected;  // where it is thought to be; nothing of a lost camera
+    // Where it is thought to be; nothing of a lost camera.
+    std::optional<Eigen::Isometry3d> T_old_new_expected;
 };
 
 struct FieldVerdict {
     bool accepted = false;
-    // Where it was expected the frame fits about as well: tracking against the map has closed this loop by itself.
+    // Where it was expected the frame fits about as well: tracking against the map has closed this
+    // loop by itself.
     bool closed_before = false;
-    double explained = 0;  // of each side's depth, the share that lies on the other's surface: the smaller one
+    // Of each side's depth, the share that lies on the other's surface: the smaller one.
+    double explained = 0;
     Eigen::Isometry3d T_old_new = Eigen::Isometry3d::Identity();
     std::string reason;  // in words, unless accepted
 };
@@ -55,12 +59,14 @@ class FieldCheck {
     FieldCheck(const FieldSettings& settings, const LoopConfig& config);
 
     // `old_frames`: the old keyframe's own first, then others near it.
-    FieldVerdict Check(std::span<const NearFrame> old_frames, const FreshFrame& fresh, FrameStore& store);
+    FieldVerdict Check(std::span<const NearFrame> old_frames, const FreshFrame& fresh,
+                       FrameStore& store);
 
   private:
     void FuseOld(std::span<const NearFrame> frames, FrameStore& store);
     bool Load(const StoredFrame& stored, FrameStore& store);  // false: it is damaged
-    TrackResult Track(const PreparedFrame& frame, const FrameMotion& motion, const Eigen::Isometry3d& T_field_camera);
+    TrackResult Track(const PreparedFrame& frame, const FrameMotion& motion,
+                      const Eigen::Isometry3d& T_field_camera);
     double ShareThatFits(const PreparedFrame& frame, const Eigen::Isometry3d& T_field_camera) const;
     std::string Fault(const TrackResult& track) const;
 

@@ -15,20 +15,26 @@ constexpr int kJpegQuality = 92, kMaxSide_px = 65500;
 
 }  // namespace
 
-Status FrameStore::Add(const Frame& frame, int keyframe, bool is_keyframe, const Eigen::Isometry3d& T_keyframe_camera,
-                       const Integrator::View& view) {
+Status FrameStore::Add(const Frame& frame, int keyframe, bool is_keyframe,
+                       const Eigen::Isometry3d& T_keyframe_camera, const Integrator::View& view) {
     const std::int64_t ordinal = next_ordinal_++;
     if (!is_keyframe && ordinal % stride_ != 0) return Status::Ok();
-    StoredFrame stored{ordinal, keyframe, is_keyframe, T_keyframe_camera, view, frame.stamp_s, frame.colour_stamp_s, {}, {}, frame.index, std::nullopt};
+    StoredFrame stored{ordinal, keyframe,      is_keyframe,          T_keyframe_camera,
+                       view,    frame.stamp_s, frame.colour_stamp_s, {},
+                       {},      frame.index,   std::nullopt};
     raw_depth_.Resize(frame.depth_m.width(), frame.depth_m.height());
     const float units = static_cast<float>(depth_units_per_m_);
-    std::transform(frame.depth_m.data(), frame.depth_m.data() + frame.depth_m.size(), raw_depth_.data(), [&](float z) {
-        return static_cast<std::uint16_t>(z * units < 65535.0f ? std::lround(std::max(z, 0.0f) * units) : 0);
-    });
+    std::transform(frame.depth_m.data(), frame.depth_m.data() + frame.depth_m.size(),
+                   raw_depth_.data(), [&](float z) {
+                       return static_cast<std::uint16_t>(
+                           z * units < 65535.0f ? std::lround(std::max(z, 0.0f) * units) : 0);
+                   });
     encoder_.EncodeDepth(raw_depth_, stored.depth_png);
     stored.depth_png.shrink_to_fit();
     if (!frame.colour.empty())
-        if (Status status = EncodeJpeg(frame.colour, kJpegQuality, stored.colour_jpeg); !status.ok()) return status;
+        if (Status status = EncodeJpeg(frame.colour, kJpegQuality, stored.colour_jpeg);
+            !status.ok())
+            return status;
     stored.colour_jpeg.shrink_to_fit();
     bytes_ += stored.bytes();
     frames_.push_back(std::move(stored));
@@ -38,13 +44,15 @@ Status FrameStore::Add(const Frame& frame, int keyframe, bool is_keyframe, const
 
 const StoredFrame* FrameStore::Find(std::int64_t frame_index) const {
     const auto own = std::ranges::lower_bound(frames_, first_own_, {}, &StoredFrame::ordinal);
-    const auto frame = std::ranges::lower_bound(own, frames_.end(), frame_index, {}, &StoredFrame::frame_index);
+    const auto frame =
+        std::ranges::lower_bound(own, frames_.end(), frame_index, {}, &StoredFrame::frame_index);
     return frame != frames_.end() && frame->frame_index == frame_index ? &*frame : nullptr;
 }
 
 void FrameStore::AddDetections(std::int64_t frame_index, std::vector<Detection> detections) {
     if (const StoredFrame* frame = Find(frame_index))
-        frames_[static_cast<std::size_t>(frame - frames_.data())].detections = std::move(detections);
+        frames_[static_cast<std::size_t>(frame - frames_.data())].detections =
+            std::move(detections);
 }
 
 void FrameStore::Resume(std::vector<StoredFrame> frames, std::int64_t next_ordinal) {
@@ -56,7 +64,8 @@ void FrameStore::Resume(std::vector<StoredFrame> frames, std::int64_t next_ordin
 
 void FrameStore::Thin() {
     stride_ *= 2;
-    std::erase_if(frames_, [&](const StoredFrame& f) { return !f.is_keyframe && f.ordinal % stride_ != 0; });
+    std::erase_if(frames_,
+                  [&](const StoredFrame& f) { return !f.is_keyframe && f.ordinal % stride_ != 0; });
     bytes_ = 0;
     for (const StoredFrame& f : frames_) bytes_ += f.bytes();
 }
@@ -65,7 +74,8 @@ Status FrameStore::Load(const StoredFrame& stored, Frame& frame) {
     frame.index = stored.ordinal;
     const auto header = ReadPngHeader(stored.depth_png);
     if (!header) return Status::Error("a stored depth image is none");
-    if (Status status = decoder_.DecodeDepth(stored.depth_png, *header, raw_depth_); !status.ok()) return status;
+    if (Status status = decoder_.DecodeDepth(stored.depth_png, *header, raw_depth_); !status.ok())
+        return status;
     frame.depth_m.Resize(raw_depth_.width(), raw_depth_.height());
     const float metres = static_cast<float>(1 / depth_units_per_m_);
     std::transform(raw_depth_.data(), raw_depth_.data() + raw_depth_.size(), frame.depth_m.data(),
@@ -78,11 +88,15 @@ Status FrameStore::Load(const StoredFrame& stored, Frame& frame) {
 }
 
 Status FrameStore::LoadPrepared(const StoredFrame& stored, const PinholeCamera& camera,
-                                const PreparedFrame::Config& preparation, Frame& frame, PreparedFrame& prepared) {
+                                const PreparedFrame::Config& preparation, Frame& frame,
+                                PreparedFrame& prepared) {
     if (Status status = Load(stored, frame); !status.ok()) return status;
-    const auto fits = [&](const auto& image) { return image.width() == camera.width && image.height() == camera.height; };
+    const auto fits = [&](const auto& image) {
+        return image.width() == camera.width && image.height() == camera.height;
+    };
     if (!fits(frame.depth_m) || (!frame.colour.empty() && !fits(frame.colour)))
-        return Status::Error(fmt::format("stored frame {}: its images are not of the camera's size", stored.ordinal));
+        return Status::Error(fmt::format("stored frame {}: its images are not of the camera's size",
+                                         stored.ordinal));
     PrepareFrame(frame, preparation, prepared);
     return Status::Ok();
 }

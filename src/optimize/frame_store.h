@@ -1,5 +1,5 @@
-// The frames that the map was made of, compressed in memory, each with its place relative to a keyframe: what it takes to
-// make the map again when the keyframes have moved.
+// The frames that the map was made of, compressed in memory, each with its place relative to a
+// keyframe: what it takes to make the map again when the keyframes have moved.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -22,36 +22,43 @@ struct StoredFrame {
     int keyframe = 0;
     bool is_keyframe = false;  // the keyframe's own: never thinned out
     Eigen::Isometry3d T_keyframe_camera = Eigen::Isometry3d::Identity();
-    Integrator::View view;     // as it was fused, but for the pose
+    Integrator::View view;  // as it was fused, but for the pose
     double stamp_s = 0, colour_stamp_s = 0;
     std::vector<std::uint8_t> depth_png, colour_jpeg;  // the latter empty without colour
     std::int64_t frame_index = 0;
-    std::optional<std::vector<Detection>> detections;  // as they were voted into the map; nothing if it was not looked at
+    // As they were voted into the map; nothing if it was not looked at.
+    std::optional<std::vector<Detection>> detections;
 
-    std::size_t bytes() const { return sizeof(StoredFrame) + depth_png.capacity() + colour_jpeg.capacity(); }
+    std::size_t bytes() const {
+        return sizeof(StoredFrame) + depth_png.capacity() + colour_jpeg.capacity();
+    }
 };
 
 // Owner thread only.
 class FrameStore {
   public:
-    // Over the limit every second frame is let go, then every second of the rest, and so on: what is left is spread over
-    // the whole scan. Depth is kept in steps of 1 / `depth_units_per_m`, colour as JPEG.
+    // Over the limit every second frame is let go, then every second of the rest, and so on: what
+    // is left is spread over the whole scan. Depth is kept in steps of 1 / `depth_units_per_m`,
+    // colour as JPEG.
     FrameStore(std::size_t limit_bytes, double depth_units_per_m)
         : limit_bytes_(limit_bytes), depth_units_per_m_(depth_units_per_m) {}
 
-    // `T_keyframe_camera` is the identity for the keyframe's own frame. Errors: what the encoder refuses.
-    Status Add(const Frame& frame, int keyframe, bool is_keyframe, const Eigen::Isometry3d& T_keyframe_camera,
-               const Integrator::View& view);
+    // `T_keyframe_camera` is the identity for the keyframe's own frame. Errors: what the encoder
+    // refuses.
+    Status Add(const Frame& frame, int keyframe, bool is_keyframe,
+               const Eigen::Isometry3d& T_keyframe_camera, const Integrator::View& view);
     // To a frame added before, by this process, if it is still there.
     void AddDetections(std::int64_t frame_index, std::vector<Detection> detections);
     // Before the first Add: goes on with frames of an earlier one, by increasing ordinal.
     void Resume(std::vector<StoredFrame> frames, std::int64_t next_ordinal);
-    // Index (the ordinal), colour and depth, into storage that is used again; the rest of `frame` stays.
+    // Index (the ordinal), colour and depth, into storage that is used again; the rest of `frame`
+    // stays.
     Status Load(const StoredFrame& stored, Frame& frame);
-    // The same made ready for tracking and fusion. Frames of an earlier process may be damaged: errors are what the decoders
-    // refuse, and images of another size than the camera's.
-    Status LoadPrepared(const StoredFrame& stored, const PinholeCamera& camera, const PreparedFrame::Config& preparation,
-                        Frame& frame, PreparedFrame& prepared);
+    // The same made ready for tracking and fusion. Frames of an earlier process may be damaged:
+    // errors are what the decoders refuse, and images of another size than the camera's.
+    Status LoadPrepared(const StoredFrame& stored, const PinholeCamera& camera,
+                        const PreparedFrame::Config& preparation, Frame& frame,
+                        PreparedFrame& prepared);
 
     // A frame added by this process, by its index; null if it is not kept.
     const StoredFrame* Find(std::int64_t frame_index) const;

@@ -7,15 +7,17 @@
 namespace tessera {
 
 std::optional<Eigen::Isometry3d> JumpDetector::Follow(const Eigen::Isometry3d& T_map_camera) {
-    constexpr double kLeast_m = 0.02, kLeast_rad = 0.015;  // of no calm hand, from one frame to the next
-    constexpr double kTimes = 6;                           // what was usual lately: of no shaky one
-    constexpr double kShare = 0.1;                         // of the newest frame in what is usual
+    // Of no calm hand, from one frame to the next.
+    constexpr double kLeast_m = 0.02, kLeast_rad = 0.015;
+    constexpr double kTimes = 6;    // what was usual lately: of no shaky one
+    constexpr double kShare = 0.1;  // of the newest frame in what is usual
     std::optional<Eigen::Isometry3d> expected;
     if (followed_ == 2) {
         const Eigen::Isometry3d T_map_expected = Normalised(T_map_last_ * T_before_last_);
         const double off_m = (T_map_camera.translation() - T_map_expected.translation()).norm();
         const double off_rad = RotationAngle(T_map_expected, T_map_camera);
-        if (off_m > std::max(kLeast_m, kTimes * usual_m_) || off_rad > std::max(kLeast_rad, kTimes * usual_rad_))
+        if (off_m > std::max(kLeast_m, kTimes * usual_m_) ||
+            off_rad > std::max(kLeast_rad, kTimes * usual_rad_))
             expected = T_map_expected;
         // A jump is not usual, but what comes again and again is.
         usual_m_ += kShare * (std::min(off_m, kLeast_m + 2 * usual_m_) - usual_m_);

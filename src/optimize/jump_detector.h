@@ -9,8 +9,9 @@ namespace tessera {
 // Owner thread only.
 class JumpDetector {
   public:
-    // The pose of each tracked frame, in order. A value: where the camera was expected, going on as before, as it is farther
-    // from there than a hand moves it and far farther than it was lately. After one, the next frame is taken as it is.
+    // The pose of each tracked frame, in order. A value: where the camera was expected, going on as
+    // before, as it is farther from there than a hand moves it and far farther than it was lately.
+    // After one, the next frame is taken as it is.
     std::optional<Eigen::Isometry3d> Follow(const Eigen::Isometry3d& T_map_camera);
     // The map was moved, the last pose with it.
     void Move(const Eigen::Isometry3d& T_new_old) { T_map_last_ = T_new_old * T_map_last_; }
@@ -18,7 +19,8 @@ class JumpDetector {
     void Reset() { followed_ = 0; }
 
   private:
-    Eigen::Isometry3d T_map_last_ = Eigen::Isometry3d::Identity(), T_before_last_ = Eigen::Isometry3d::Identity();
+    Eigen::Isometry3d T_map_last_ = Eigen::Isometry3d::Identity(),
+                      T_before_last_ = Eigen::Isometry3d::Identity();
     int followed_ = 0;                    // frames since the last break, at most 2
     double usual_m_ = 0, usual_rad_ = 0;  // off the expected pose, smoothed over frames
 };

@@ -4,7 +4,8 @@
 
 namespace tessera {
 
-double ViewOverlap(const DepthImage& depth_m, const PinholeCamera& view, const Eigen::Isometry3d& T_other_this) {
+double ViewOverlap(const DepthImage& depth_m, const PinholeCamera& view,
+                   const Eigen::Isometry3d& T_other_this) {
     constexpr double kMaxScale = 1.2;
     int points = 0, seen = 0;
     for (int y = 0; y < depth_m.height(); ++y)
@@ -15,7 +16,8 @@ double ViewOverlap(const DepthImage& depth_m, const PinholeCamera& view, const E
             const Eigen::Vector3d p_other = T_other_this * view.Unproject(x, y, z);
             if (p_other.z() < z / kMaxScale || p_other.z() > z * kMaxScale) continue;
             const Eigen::Vector2d uv = view.Project(p_other);
-            seen += uv.x() >= -0.5 && uv.x() < view.width - 0.5 && uv.y() >= -0.5 && uv.y() < view.height - 0.5;
+            seen += uv.x() >= -0.5 && uv.x() < view.width - 0.5 && uv.y() >= -0.5 &&
+                    uv.y() < view.height - 0.5;
         }
     return points > 0 ? static_cast<double>(seen) / points : 0;
 }
@@ -23,7 +25,8 @@ double ViewOverlap(const DepthImage& depth_m, const PinholeCamera& view, const E
 DepthImage ReducedDepth(const DepthImage& depth_m, int step) {
     DepthImage reduced(depth_m.width() / step, depth_m.height() / step);
     for (int y = 0; y < reduced.height(); ++y)
-        for (int x = 0; x < reduced.width(); ++x) reduced(x, y) = depth_m(step / 2 + step * x, step / 2 + step * y);
+        for (int x = 0; x < reduced.width(); ++x)
+            reduced(x, y) = depth_m(step / 2 + step * x, step / 2 + step * y);
     return reduced;
 }
 
@@ -39,10 +42,12 @@ void Keyframes::Follow(const Eigen::Isometry3d& T_map_camera) {
 bool Keyframes::Wanted(const PreparedFrame& frame, const Eigen::Isometry3d& T_map_camera) const {
     if (keyframes_.empty()) return true;
     const DepthImage depth = ReducedDepth(frame.depth_m, kKeyframeReduction);
-    return ViewOverlap(depth, camera_.Every(kKeyframeReduction), last().T_map_camera.inverse() * T_map_camera) < max_overlap_;
+    return ViewOverlap(depth, camera_.Every(kKeyframeReduction),
+                       last().T_map_camera.inverse() * T_map_camera) < max_overlap_;
 }
 
-Keyframe& Keyframes::Add(std::int64_t frame_index, double stamp_s, const PreparedFrame& frame, const TrackResult& track) {
+Keyframe& Keyframes::Add(std::int64_t frame_index, double stamp_s, const PreparedFrame& frame,
+                         const TrackResult& track) {
     Keyframe next;
     next.id = size();
     next.frame_index = frame_index;

@@ -1,4 +1,5 @@
-// Which views are remembered: a new one where the last one has left less than a certain share of the picture.
+// Which views are remembered: a new one where the last one has left less than a certain share of
+// the picture.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -11,10 +12,11 @@
 
 namespace tessera {
 
-// Of the points of `depth_m` (of the camera `view`), the share that the same camera sees in its image from where
-// T_other_this puts it, at most a fifth larger or smaller: walking straight ahead, too, one sees new things. 0 if there are
-// none. Thread-safe.
-double ViewOverlap(const DepthImage& depth_m, const PinholeCamera& view, const Eigen::Isometry3d& T_other_this);
+// Of the points of `depth_m` (of the camera `view`), the share that the same camera sees in its
+// image from where T_other_this puts it, at most a fifth larger or smaller: walking straight ahead,
+// too, one sees new things. 0 if there are none. Thread-safe.
+double ViewOverlap(const DepthImage& depth_m, const PinholeCamera& view,
+                   const Eigen::Isometry3d& T_other_this);
 
 // The nearest pixel of every step-th, for ViewOverlap.
 DepthImage ReducedDepth(const DepthImage& depth_m, int step);
@@ -22,7 +24,8 @@ DepthImage ReducedDepth(const DepthImage& depth_m, int step);
 // Owner thread only.
 class Keyframes {
   public:
-    // `max_overlap`: the share that a new keyframe may have in common with the last. `max_features` of each.
+    // `max_overlap`: the share that a new keyframe may have in common with the last. `max_features`
+    // of each.
     Keyframes(const PinholeCamera& camera, double max_overlap, int max_features)
         : camera_(camera), max_overlap_(max_overlap), max_features_(max_features) {}
 
@@ -31,11 +34,13 @@ class Keyframes {
     // Whether a frame, the last one followed, should become one.
     bool Wanted(const PreparedFrame& frame, const Eigen::Isometry3d& T_map_camera) const;
     // Its T_world_camera is the last keyframe's, moved on by as much as it is away in the map.
-    Keyframe& Add(std::int64_t frame_index, double stamp_s, const PreparedFrame& frame, const TrackResult& track);
+    Keyframe& Add(std::int64_t frame_index, double stamp_s, const PreparedFrame& frame,
+                  const TrackResult& track);
     // The map was moved, the last pose with it: the way goes on from there.
     void Move(const Eigen::Isometry3d& T_new_old) { T_map_last_ = T_new_old * T_map_last_; }
 
-    // Before the first: goes on after keyframes of an earlier run; the way goes on from the last one.
+    // Before the first: goes on after keyframes of an earlier run; the way goes on from the last
+    // one.
     void Resume(std::vector<Keyframe> keyframes);
 
     // What lies between the last frame and the next is no way that was gone.

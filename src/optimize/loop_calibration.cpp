@@ -13,17 +13,21 @@ Status LoopCloser::LoadViews(std::vector<CalibrationView>& views) {
     PreparedFrame prepared;
     for (const StoredFrame& stored : store_.frames()) {
         if (!stored.is_keyframe) continue;
-        Status loaded = store_.LoadPrepared(stored, settings_.camera, settings_.preparation, frame, prepared);
-        if (!loaded.ok()) return Status::Error("calibration: the given one stays, " + loaded.message());
+        Status loaded =
+            store_.LoadPrepared(stored, settings_.camera, settings_.preparation, frame, prepared);
+        if (!loaded.ok())
+            return Status::Error("calibration: the given one stays, " + loaded.message());
         views.emplace_back(prepared.depth_m);
     }
     if (static_cast<int>(views.size()) != keyframes_.size())
-        return Status::Error("calibration: the given one stays, some keyframes' frames were let go; raise loops.memory_limit_mb");
+        return Status::Error(
+            "calibration: the given one stays, some keyframes' frames were let go; raise "
+            "loops.memory_limit_mb");
     return Status::Ok();
 }
 
-// Compares keyframes that follow each other, every second, and loops. No frame may come after it: features and the field's
-// checks are of the calibration that was given.
+// Compares keyframes that follow each other, every second, and loops. No frame may come after it:
+// features and the field's checks are of the calibration that was given.
 Status LoopCloser::Calibrate() {
     constexpr double kNothing = 1e3;  // standard deviation of what is not known
     std::vector<CalibrationView> views;
@@ -33,16 +37,19 @@ Status LoopCloser::Calibrate() {
     for (int i = 0; i < keyframes_.size(); ++i) {
         poses.push_back(keyframes_[i].T_world_camera);
         if (i < 2) continue;
-        const Eigen::Isometry3d T_before_i = Normalised(keyframes_[i - 2].T_world_camera.inverse() * poses.back());
+        const Eigen::Isometry3d T_before_i =
+            Normalised(keyframes_[i - 2].T_world_camera.inverse() * poses.back());
         edges.push_back({i - 2, i, T_before_i, kNothing, kNothing, false});
     }
     const auto report = RefineCalibration(settings_.camera, views, edges, poses);
     if (!report.ok()) return report.status();
     calibration_ = report.value();
     if (!calibration_->shown) return Status::Ok();
-    for (int i = 0; i < keyframes_.size(); ++i) keyframes_[i].T_world_camera = poses[static_cast<std::size_t>(i)];
+    for (int i = 0; i < keyframes_.size(); ++i)
+        keyframes_[i].T_world_camera = poses[static_cast<std::size_t>(i)];
     settings_.camera = Corrected(settings_.camera, calibration_->calibration);
-    settings_.preparation.disparity_offset_per_m += calibration_->calibration.disparity_offset_per_m;
+    settings_.preparation.disparity_offset_per_m +=
+        calibration_->calibration.disparity_offset_per_m;
     corrected_ = true;
     return Status::Ok();
 }

@@ -15,8 +15,8 @@ std::size_t Bytes(double megabytes) { return static_cast<std::size_t>(megabytes 
 
 }  // namespace
 
-LoopCloser::LoopCloser(const LoopConfig& config, const FieldSettings& settings, double depth_units_per_m,
-                       std::optional<Labels> labels, MakePager make_pager)
+LoopCloser::LoopCloser(const LoopConfig& config, const FieldSettings& settings,
+                       double depth_units_per_m, std::optional<Labels> labels, MakePager make_pager)
     : config_(config),
       settings_(settings),
       labels_(std::move(labels)),
@@ -42,22 +42,26 @@ void LoopCloser::Resume(Memory memory) {
     moved_ = true;
 }
 
-std::string LoopCloser::Add(const Frame& frame, const PreparedFrame& prepared, const TrackResult& track,
-                            const Integrator::View& view, bool fused) {
+std::string LoopCloser::Add(const Frame& frame, const PreparedFrame& prepared,
+                            const TrackResult& track, const Integrator::View& view, bool fused) {
     std::string news;
     const Eigen::Isometry3d& T_map_camera = track.T_world_camera;
     keyframes_.Follow(T_map_camera);
-    // In a map that is known to hold places twice, or that has just been replaced, tracking may jump from one surface to the
-    // other. What comes then hangs on a new keyframe, and that on where the camera was expected.
+    // In a map that is known to hold places twice, or that has just been replaced, tracking may
+    // jump from one surface to the other. What comes then hangs on a new keyframe, and that on
+    // where the camera was expected.
     const std::optional<Eigen::Isometry3d> expected = jumps_.Follow(T_map_camera);
     const bool jumped = expected && (rebuild_ || swapped_) && !relocalised_at_;
-    const bool keyframe = fused && (relocalised_at_ || jumped || keyframes_.Wanted(prepared, T_map_camera));
+    const bool keyframe =
+        fused && (relocalised_at_ || jumped || keyframes_.Wanted(prepared, T_map_camera));
     if (keyframe) AddKeyframe(frame, prepared, track, jumped ? *expected : T_map_camera);
     if (keyframes_.empty()) return news;
     const Keyframe& last = keyframes_.last();
     AddPassage(frame.stamp_s, T_map_camera);
     if (!fused) return news;
-    const Status stored = store_.Add(prepared.moving ? WithoutMoving(*prepared.moving, frame) : frame, last.id, keyframe, passages_.back().T_keyframe_camera, view);
+    const Status stored =
+        store_.Add(prepared.moving ? WithoutMoving(*prepared.moving, frame) : frame, last.id,
+                   keyframe, passages_.back().T_keyframe_camera, view);
     if (keyframe && stored.ok()) {
         news = SeekLoop(last, prepared, view.motion);
         index_.Add(last.id, last.features.descriptors);
@@ -65,7 +69,8 @@ std::string LoopCloser::Add(const Frame& frame, const PreparedFrame& prepared, c
     if (keyframe && rebuild_) {
         // As the graph has it, which a loop may just have told better than tracking.
         const Keyframe& before = keyframes_[last.id - 1];
-        rebuild_->AddKeyframe(Normalised(rebuild_->T_world_keyframe().back() * before.T_world_camera.inverse() * last.T_world_camera));
+        rebuild_->AddKeyframe(Normalised(rebuild_->T_world_keyframe().back() *
+                                         before.T_world_camera.inverse() * last.T_world_camera));
     }
     return stored.ok() ? news : stored.message();
 }
@@ -81,14 +86,14 @@ void LoopCloser::AddPassage(double stamp_s, const Eigen::Isometry3d& T_map_camer
     passages_.push_back({stamp_s, last.id, Normalised(last.T_map_camera.inverse() * T_map_camera)});
 }
 
-void LoopCloser::AddKeyframe(const Frame& frame, const PreparedFrame& prepared, const TrackResult& track,
-                             const Eigen::Isometry3d& T_map_expected) {
+void LoopCloser::AddKeyframe(const Frame& frame, const PreparedFrame& prepared,
+                             const TrackResult& track, const Eigen::Isometry3d& T_map_expected) {
     const bool first = keyframes_.empty();
     Keyframe& fresh = keyframes_.Add(frame.index, frame.stamp_s, prepared, track);
     if (!first) {
         const int from = relocalised_at_.value_or(fresh.id - 1);
-        fresh.T_world_camera = Normalised(keyframes_[from].T_world_camera * keyframes_[from].T_map_camera.inverse() *
-                                          T_map_expected);
+        fresh.T_world_camera = Normalised(keyframes_[from].T_world_camera *
+                                          keyframes_[from].T_map_camera.inverse() * T_map_expected);
         Link(from, fresh.id, T_map_expected);
     }
     relocalised_at_.reset();
@@ -97,38 +102,47 @@ void LoopCloser::AddKeyframe(const Frame& frame, const PreparedFrame& prepared, 
 
 void LoopCloser::Link(int from, int to, const Eigen::Isometry3d& T_map_to) {
     const Keyframe &a = keyframes_[from], &b = keyframes_[to], &before = keyframes_[to - 1];
-    // What tracking against the map loses on the way: a little for each keyframe, and a share of the way.
+    // What tracking against the map loses on the way: a little for each keyframe, and a share of
+    // the way.
     constexpr double kTwice = 10.0;  // where it may have jumped
-    const double trust = (b.inlier_fraction < config_.min_fit ? 2.0 : 1.0) * (rebuild_ || swapped_ ? kTwice : 1.0);
+    const double trust =
+        (b.inlier_fraction < config_.min_fit ? 2.0 : 1.0) * (rebuild_ || swapped_ ? kTwice : 1.0);
     edges_.push_back({from, to, Normalised(a.T_map_camera.inverse() * T_map_to),
                       trust * (0.002 + 0.01 * std::min(1.0, b.way_m - before.way_m)),
-                      trust * (0.002 + 0.01 * std::min(1.0, b.turned_rad - before.turned_rad)), false});
+                      trust * (0.002 + 0.01 * std::min(1.0, b.turned_rad - before.turned_rad)),
+                      false});
 }
 
-std::string LoopCloser::SeekLoop(const Keyframe& fresh, const PreparedFrame& prepared, const FrameMotion& motion) {
-    const auto candidates = index_.Query(fresh.features.descriptors, fresh.id - config_.min_gap, config_.candidates,
-                                         config_.min_votes);
+std::string LoopCloser::SeekLoop(const Keyframe& fresh, const PreparedFrame& prepared,
+                                 const FrameMotion& motion) {
+    const auto candidates = index_.Query(fresh.features.descriptors, fresh.id - config_.min_gap,
+                                         config_.candidates, config_.min_votes);
     for (const PlaceIndex::Candidate& candidate : candidates) {
         const Keyframe& old = keyframes_[candidate.keyframe];
-        const FieldVerdict verdict = verifier_.VerifyLoop(keyframes_, old, fresh, prepared, motion, store_);
+        const FieldVerdict verdict =
+            verifier_.VerifyLoop(keyframes_, old, fresh, prepared, motion, store_);
         if (verdict.accepted) return CloseLoop(old, fresh, verdict);
     }
     return {};
 }
 
-// A loop that tracking has closed by itself is kept as it is: the whole map knows better than two frames.
-std::string LoopCloser::CloseLoop(const Keyframe& old, const Keyframe& fresh, const FieldVerdict& verdict) {
+// A loop that tracking has closed by itself is kept as it is: the whole map knows better than two
+// frames.
+std::string LoopCloser::CloseLoop(const Keyframe& old, const Keyframe& fresh,
+                                  const FieldVerdict& verdict) {
     constexpr double kSigma_m = 0.01, kSigma_rad = 0.005;
     const Eigen::Isometry3d T_old_new =
-        verdict.closed_before ? Normalised(old.T_map_camera.inverse() * fresh.T_map_camera) : verdict.T_old_new;
+        verdict.closed_before ? Normalised(old.T_map_camera.inverse() * fresh.T_map_camera)
+                              : verdict.T_old_new;
     edges_.push_back({old.id, fresh.id, T_old_new, kSigma_m, kSigma_rad, true});
     ++loops_;
     const Drift drift = DriftOf(old, fresh, T_old_new, config_.max_drift);
-    if (drift.off_m < config_.min_correction_m && drift.off_rad < config_.min_correction_m) return {};
+    if (drift.off_m < config_.min_correction_m && drift.off_rad < config_.min_correction_m)
+        return {};
     corrected_ = true;
     if (Status solved = Optimise(); !solved.ok()) return solved.message();
-    return fmt::format("loop closed with frame {}: {:.1f} cm and {:.1f} degrees off", old.frame_index, 100 * drift.off_m,
-                       drift.off_rad * 57.29578);
+    return fmt::format("loop closed with frame {}: {:.1f} cm and {:.1f} degrees off",
+                       old.frame_index, 100 * drift.off_m, drift.off_rad * 57.29578);
 }
 
 // On error the keyframes stay where they are.
@@ -136,15 +150,18 @@ Status LoopCloser::Optimise() {
     std::vector<Eigen::Isometry3d> poses;
     for (int i = 0; i < keyframes_.size(); ++i) poses.push_back(keyframes_[i].T_world_camera);
     if (const auto report = OptimisePoses(edges_, poses); !report.ok()) return report.status();
-    for (int i = 0; i < keyframes_.size(); ++i) keyframes_[i].T_world_camera = poses[static_cast<std::size_t>(i)];
+    for (int i = 0; i < keyframes_.size(); ++i)
+        keyframes_[i].T_world_camera = poses[static_cast<std::size_t>(i)];
     moved_ = true;
     return Status::Ok();
 }
 
 // Of several places the one that explains the view, if it does so far better than any other.
-std::optional<Eigen::Isometry3d> LoopCloser::Relocalise(const PreparedFrame& frame, std::string& note) {
+std::optional<Eigen::Isometry3d> LoopCloser::Relocalise(const PreparedFrame& frame,
+                                                        std::string& note) {
     constexpr double kApart_m = 0.3, kApart_rad = 0.3, kAsWell = 0.6;
-    constexpr int kManyCandidates = 4;  // times as many as for a loop: nothing else tells where the camera is
+    // Times as many as for a loop: nothing else tells where the camera is.
+    constexpr int kManyCandidates = 4;
     struct Place {
         int keyframe = 0;
         Eigen::Isometry3d T_map_camera;
@@ -153,8 +170,9 @@ std::optional<Eigen::Isometry3d> LoopCloser::Relocalise(const PreparedFrame& fra
     const Features features = ExtractFeatures(frame, settings_.camera, config_.max_features);
     std::vector<Place> places;
     relocalised_at_.reset();
-    for (const auto& candidate : index_.Query(features.descriptors, keyframes_.size(),
-                                              kManyCandidates * config_.candidates, config_.min_votes)) {
+    for (const auto& candidate :
+         index_.Query(features.descriptors, keyframes_.size(), kManyCandidates * config_.candidates,
+                      config_.min_votes)) {
         const Keyframe& old = keyframes_[candidate.keyframe];
         const FeatureMatch match = MatchFeatures(old.features, features, config_);
         if (!match.accepted) continue;
@@ -164,14 +182,18 @@ std::optional<Eigen::Isometry3d> LoopCloser::Relocalise(const PreparedFrame& fra
                    RotationAngle(place.T_map_camera, T_guess) <= kApart_rad;
         };
         if (std::ranges::any_of(places, same)) continue;
-        const FieldVerdict verdict = verifier_.VerifyPlace(keyframes_, old, frame, match.T_old_new, store_);
-        if (verdict.accepted) places.push_back({old.id, Normalised(old.T_map_camera * verdict.T_old_new), verdict.explained});
+        const FieldVerdict verdict =
+            verifier_.VerifyPlace(keyframes_, old, frame, match.T_old_new, store_);
+        if (verdict.accepted)
+            places.push_back(
+                {old.id, Normalised(old.T_map_camera * verdict.T_old_new), verdict.explained});
     }
     if (places.empty()) return std::nullopt;
     std::ranges::stable_sort(places, std::greater{}, &Place::explained);
     const Place& best = places.front();
     if (places.size() > 1 && places[1].explained >= kAsWell * best.explained) {
-        note = fmt::format("this could be at frame {} or at frame {}", keyframes_[best.keyframe].frame_index,
+        note = fmt::format("this could be at frame {} or at frame {}",
+                           keyframes_[best.keyframe].frame_index,
                            keyframes_[places[1].keyframe].frame_index);
         return std::nullopt;
     }
@@ -185,7 +207,8 @@ std::optional<Eigen::Isometry3d> LoopCloser::Relocalise(const PreparedFrame& fra
 std::vector<StampedPose> LoopCloser::Path() const {
     std::vector<StampedPose> path;
     for (const Passage& p : passages_)
-        path.push_back({p.stamp_s, Normalised(keyframes_[p.keyframe].T_world_camera * p.T_keyframe_camera)});
+        path.push_back(
+            {p.stamp_s, Normalised(keyframes_[p.keyframe].T_world_camera * p.T_keyframe_camera)});
     return path;
 }
 

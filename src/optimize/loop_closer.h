@@ -1,6 +1,6 @@
-// Global consistency: keyframes, loops between them, where they belong by the pose graph, and the map made again there; and
-// the place of a camera that was lost. Reads frames as they are tracked and fused; never touches the map in use, but hands
-// out a corrected one when it is ready.
+// Global consistency: keyframes, loops between them, where they belong by the pose graph, and the
+// map made again there; and the place of a camera that was lost. Reads frames as they are tracked
+// and fused; never touches the map in use, but hands out a corrected one when it is ready.
 #pragma once
 
 #include <functional>
@@ -24,11 +24,13 @@ namespace tessera {
 // Owner thread only. The same result for any number of threads.
 class LoopCloser {
   public:
-    // In place of the map so far; poses of cameras in it are to be moved likewise: T_new = T_new_old * T_old.
+    // In place of the map so far; poses of cameras in it are to be moved likewise: T_new =
+    // T_new_old * T_old.
     struct Correction {
         std::unique_ptr<BlockMap> map;
         std::unique_ptr<LabelMapper> labels;  // of the map, where labels are kept
-        std::unique_ptr<MapPager> pager;      // the one that was made for the map, where they are; it has all of it
+        // The one that was made for the map, where they are; it has all of it.
+        std::unique_ptr<MapPager> pager;
         Eigen::Isometry3d T_new_old = Eigen::Isometry3d::Identity();
     };
 
@@ -54,7 +56,8 @@ class LoopCloser {
         LabelClasses classes;
     };
 
-    // `make_pager`: for each corrected map one that keeps it within a memory limit; empty: there is none.
+    // `make_pager`: for each corrected map one that keeps it within a memory limit; empty: there is
+    // none.
     using MakePager = std::function<Result<std::unique_ptr<MapPager>>()>;
     LoopCloser(const LoopConfig& config, const FieldSettings& settings, double depth_units_per_m,
                std::optional<Labels> labels = std::nullopt, MakePager make_pager = {});
@@ -62,7 +65,8 @@ class LoopCloser {
     // Before the first Add. A corrected map that was being made then is begun again.
     void Resume(Memory memory);
 
-    // Every tracked frame, after its fusion, if it was fused. Returns what a person should know, mostly empty.
+    // Every tracked frame, after its fusion, if it was fused. Returns what a person should know,
+    // mostly empty.
     std::string Add(const Frame& frame, const PreparedFrame& prepared, const TrackResult& track,
                     const Integrator::View& view, bool fused);
     // What was seen in a frame that was added, whenever it is known.
@@ -71,8 +75,8 @@ class LoopCloser {
     }
     // A tracked frame of which nothing but the pose is kept.
     void Pass(double stamp_s, const Eigen::Isometry3d& T_map_camera);
-    // T_map_camera of a frame whose camera is lost; nothing if it was not here before, or if it could be at two places.
-    // `note` says what was found.
+    // T_map_camera of a frame whose camera is lost; nothing if it was not here before, or if it
+    // could be at two places. `note` says what was found.
     std::optional<Eigen::Isometry3d> Relocalise(const PreparedFrame& frame, std::string& note);
     // Works on the corrected map: fuses at most so many stored frames into it.
     std::optional<Correction> Step(int frames);
@@ -80,7 +84,8 @@ class LoopCloser {
     bool HasWork() const { return rebuild_ != nullptr || moved_; }
     // Why the map is no longer corrected, for a person; mostly empty, and said once.
     std::string TakeTrouble() { return std::exchange(trouble_, {}); }
-    // At the end: whatever is still to be corrected; the calibration, if it is to be refined: `note` says what was found.
+    // At the end: whatever is still to be corrected; the calibration, if it is to be refined:
+    // `note` says what was found.
     std::optional<Correction> Finish(std::string& note);
 
     // The frames' poses as they are known now, in order.
@@ -99,7 +104,8 @@ class LoopCloser {
                      const Eigen::Isometry3d& T_map_expected);
     void Link(int from, int to, const Eigen::Isometry3d& T_map_to);
     void AddPassage(double stamp_s, const Eigen::Isometry3d& T_map_camera);
-    std::string SeekLoop(const Keyframe& fresh, const PreparedFrame& prepared, const FrameMotion& motion);
+    std::string SeekLoop(const Keyframe& fresh, const PreparedFrame& prepared,
+                         const FrameMotion& motion);
     std::string CloseLoop(const Keyframe& old, const Keyframe& fresh, const FieldVerdict& verdict);
     double FarthestOff_m(const std::vector<Eigen::Isometry3d>& T_map_keyframe) const;
     Status Optimise();
@@ -123,12 +129,12 @@ class LoopCloser {
     std::unique_ptr<MapRebuild> rebuild_;  // null when the map is right
     std::optional<int> relocalised_at_;    // the keyframe that the next one hangs on
     int loops_ = 0;
-    bool corrected_ = false;               // some loop was worth it
+    bool corrected_ = false;  // some loop was worth it
     std::optional<CalibrationReport> calibration_;
-    bool broken_ = false;                  // no further map can be made
+    bool broken_ = false;  // no further map can be made
     std::string trouble_;
-    bool moved_ = false;                   // keyframes, since Step looked last
-    bool swapped_ = false;                 // the map, since the last keyframe
+    bool moved_ = false;    // keyframes, since Step looked last
+    bool swapped_ = false;  // the map, since the last keyframe
 };
 
 }  // namespace tessera

@@ -8,13 +8,16 @@
 
 namespace tessera {
 
-// Of any point half a view away, between a map made with these poses of the keyframes and the pose graph.
+// Of any point half a view away, between a map made with these poses of the keyframes and the pose
+// graph.
 double LoopCloser::FarthestOff_m(const std::vector<Eigen::Isometry3d>& T_map_keyframe) const {
     constexpr double kReach_m = 2.0;
     double farthest = 0;
     for (int i = 0; i < keyframes_.size(); ++i) {
-        const Eigen::Isometry3d &map = T_map_keyframe[static_cast<std::size_t>(i)], &graph = keyframes_[i].T_world_camera;
-        farthest = std::max(farthest, (map.translation() - graph.translation()).norm() + kReach_m * RotationAngle(map, graph));
+        const Eigen::Isometry3d &map = T_map_keyframe[static_cast<std::size_t>(i)],
+                                &graph = keyframes_[i].T_world_camera;
+        farthest = std::max(farthest, (map.translation() - graph.translation()).norm() +
+                                          kReach_m * RotationAngle(map, graph));
     }
     return farthest;
 }
@@ -39,9 +42,12 @@ bool LoopCloser::BeginRebuild(double tolerance_m) {
         pager = std::move(made.value());
     }
     std::unique_ptr<LabelMapper> labels;
-    if (labels_) labels = std::make_unique<LabelMapper>(labels_->config, labels_->classes, settings_.camera,
-                                                        static_cast<float>(settings_.preparation.max_depth_m));
-    rebuild_ = std::make_unique<MapRebuild>(settings_, std::move(graph), std::move(labels), std::move(pager));
+    if (labels_)
+        labels =
+            std::make_unique<LabelMapper>(labels_->config, labels_->classes, settings_.camera,
+                                          static_cast<float>(settings_.preparation.max_depth_m));
+    rebuild_ = std::make_unique<MapRebuild>(settings_, std::move(graph), std::move(labels),
+                                            std::move(pager));
     return true;
 }
 
@@ -82,7 +88,8 @@ std::optional<LoopCloser::Correction> LoopCloser::Finish(std::string& note) {
     if (config_.refine_calibration && !keyframes_.empty()) {
         const FieldSettings given = settings_;
         const Status status = Calibrate();
-        note = status.ok() ? CalibrationText(given.camera, given.preparation.disparity_offset_per_m, *calibration_)
+        note = status.ok() ? CalibrationText(given.camera, given.preparation.disparity_offset_per_m,
+                                             *calibration_)
                            : status.message();
         if (calibration_ && calibration_->shown) {
             rebuild_.reset();
@@ -91,7 +98,8 @@ std::optional<LoopCloser::Correction> LoopCloser::Finish(std::string& note) {
     }
     if (!corrected_) return last;
     const double tolerance_m = settings_.map.voxel_size_m / 10;
-    if (rebuild_ && FarthestOff_m(rebuild_->T_world_keyframe()) >= tolerance_m) rebuild_.reset();  // of a path that is no more
+    // Of a path that is no more.
+    if (rebuild_ && FarthestOff_m(rebuild_->T_world_keyframe()) >= tolerance_m) rebuild_.reset();
     while (BeginRebuild(tolerance_m))
         if (auto next = StepRebuild(std::numeric_limits<int>::max())) last = std::move(next);
     return last;

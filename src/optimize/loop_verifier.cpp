@@ -6,7 +6,8 @@
 
 namespace tessera {
 
-Drift DriftOf(const Keyframe& old, const Keyframe& fresh, const Eigen::Isometry3d& T_old_new, double max_drift) {
+Drift DriftOf(const Keyframe& old, const Keyframe& fresh, const Eigen::Isometry3d& T_old_new,
+              double max_drift) {
     constexpr double kAlways = 0.15;  // metres and radians
     const Eigen::Isometry3d T_old_estimate = old.T_world_camera.inverse() * fresh.T_world_camera;
     Drift drift;
@@ -17,15 +18,18 @@ Drift DriftOf(const Keyframe& old, const Keyframe& fresh, const Eigen::Isometry3
     return drift;
 }
 
-FieldVerdict LoopVerifier::VerifyLoop(const Keyframes& keyframes, const Keyframe& old, const Keyframe& fresh,
-                                      const PreparedFrame& prepared, const FrameMotion& motion, FrameStore& store) {
+FieldVerdict LoopVerifier::VerifyLoop(const Keyframes& keyframes, const Keyframe& old,
+                                      const Keyframe& fresh, const PreparedFrame& prepared,
+                                      const FrameMotion& motion, FrameStore& store) {
     FieldVerdict refused;
     const FeatureMatch match = MatchFeatures(old.features, fresh.features, config_);
     const Drift drift = DriftOf(old, fresh, match.T_old_new, config_.max_drift);
     if (!match.accepted)
-        refused.reason = fmt::format("{} features fit, spread over {:.2f} m", match.inliers, match.spread_m);
+        refused.reason =
+            fmt::format("{} features fit, spread over {:.2f} m", match.inliers, match.spread_m);
     else if (!drift.possible)
-        refused.reason = fmt::format("it would take a drift of {:.2f} m and {:.2f} rad", drift.off_m, drift.off_rad);
+        refused.reason = fmt::format("it would take a drift of {:.2f} m and {:.2f} rad",
+                                     drift.off_m, drift.off_rad);
     if (!refused.reason.empty()) return refused;
     const Eigen::Isometry3d T_old_new_expected = old.T_map_camera.inverse() * fresh.T_map_camera;
     if (NothingToCorrect(match.T_old_new, T_old_new_expected)) {
@@ -34,23 +38,29 @@ FieldVerdict LoopVerifier::VerifyLoop(const Keyframes& keyframes, const Keyframe
         closed.T_old_new = T_old_new_expected;
         return closed;
     }
-    return field_.Check(FramesNear(keyframes, old.id, store), {prepared, motion, match.T_old_new, T_old_new_expected},
-                        store);
+    return field_.Check(FramesNear(keyframes, old.id, store),
+                        {prepared, motion, match.T_old_new, T_old_new_expected}, store);
 }
 
-// Features and map agree so well that the field, which costs a hundred times as much, could not move anything.
-bool LoopVerifier::NothingToCorrect(const Eigen::Isometry3d& T_measured, const Eigen::Isometry3d& T_expected) const {
-    return (T_measured.translation() - T_expected.translation()).norm() < config_.min_correction_m &&
+// Features and map agree so well that the field, which costs a hundred times as much, could not
+// move anything.
+bool LoopVerifier::NothingToCorrect(const Eigen::Isometry3d& T_measured,
+                                    const Eigen::Isometry3d& T_expected) const {
+    return (T_measured.translation() - T_expected.translation()).norm() <
+               config_.min_correction_m &&
            RotationAngle(T_measured, T_expected) < config_.min_correction_m;
 }
 
-FieldVerdict LoopVerifier::VerifyPlace(const Keyframes& keyframes, const Keyframe& old, const PreparedFrame& fresh,
+FieldVerdict LoopVerifier::VerifyPlace(const Keyframes& keyframes, const Keyframe& old,
+                                       const PreparedFrame& fresh,
                                        const Eigen::Isometry3d& T_old_new, FrameStore& store) {
-    return field_.Check(FramesNear(keyframes, old.id, store), {fresh, {}, T_old_new, std::nullopt}, store);
+    return field_.Check(FramesNear(keyframes, old.id, store), {fresh, {}, T_old_new, std::nullopt},
+                        store);
 }
 
 // The keyframe's own frame first, then others of it and of its two neighbours, evenly.
-std::vector<NearFrame> LoopVerifier::FramesNear(const Keyframes& keyframes, int keyframe, const FrameStore& store) const {
+std::vector<NearFrame> LoopVerifier::FramesNear(const Keyframes& keyframes, int keyframe,
+                                                const FrameStore& store) const {
     constexpr std::size_t kMost = 4;
     const std::vector<StoredFrame>& all = store.frames();
     std::vector<NearFrame> near(1), others;

@@ -4,7 +4,8 @@
 
 namespace tessera {
 
-MapRebuild::MapRebuild(const FieldSettings& settings, std::vector<Eigen::Isometry3d> T_world_keyframe,
+MapRebuild::MapRebuild(const FieldSettings& settings,
+                       std::vector<Eigen::Isometry3d> T_world_keyframe,
                        std::unique_ptr<LabelMapper> labels, std::unique_ptr<MapPager> pager)
     : map_(std::make_unique<BlockMap>(settings.map)),
       integrator_(settings.fusion, settings.camera),
@@ -21,7 +22,8 @@ Result<bool> MapRebuild::Step(FrameStore& store, int frames) {
     auto next = std::ranges::lower_bound(stored, next_ordinal_, {}, &StoredFrame::ordinal);
     for (int i = 0; i < frames && next != stored.end(); ++i, ++next) {
         next_ordinal_ = next->ordinal + 1;
-        if (!store.LoadPrepared(*next, camera_, preparation_, frame_, prepared_).ok()) continue;  // the map does without
+        // The map does without.
+        if (!store.LoadPrepared(*next, camera_, preparation_, frame_, prepared_).ok()) continue;
         if (Status status = Fuse(*next); !status.ok()) return status;
     }
     const bool done = next == stored.end();
@@ -33,11 +35,14 @@ Result<bool> MapRebuild::Step(FrameStore& store, int frames) {
 // The frame that was loaded.
 Status MapRebuild::Fuse(const StoredFrame& stored) {
     Integrator::View view = stored.view;
-    view.T_world_camera = T_world_keyframe_[static_cast<std::size_t>(stored.keyframe)] * stored.T_keyframe_camera;
+    view.T_world_camera =
+        T_world_keyframe_[static_cast<std::size_t>(stored.keyframe)] * stored.T_keyframe_camera;
     if (pager_)
-        if (Status status = pager_->Bring(view.T_world_camera, *map_, labels_.get()); !status.ok()) return status;
+        if (Status status = pager_->Bring(view.T_world_camera, *map_, labels_.get()); !status.ok())
+            return status;
     integrator_.Integrate(prepared_, view, *map_);
-    if (labels_ && stored.detections) labels_->Label(*stored.detections, frame_.depth_m, view.T_world_camera, *map_);
+    if (labels_ && stored.detections)
+        labels_->Label(*stored.detections, frame_.depth_m, view.T_world_camera, *map_);
     return pager_ ? pager_->Release(view.T_world_camera, *map_, labels_.get()) : Status::Ok();
 }
 

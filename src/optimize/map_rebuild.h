@@ -1,5 +1,6 @@
-// The map made again from the stored frames, with their keyframes where they belong now, a few frames at a time while the
-// old map is still in use. The result is by construction a fresh fusion with the new poses.
+// The map made again from the stored frames, with their keyframes where they belong now, a few
+// frames at a time while the old map is still in use. The result is by construction a fresh fusion
+// with the new poses.
 #pragma once
 
 #include <memory>
@@ -17,14 +18,18 @@ namespace tessera {
 class MapRebuild {
   public:
     // `T_world_keyframe` by keyframe; those that come later are to be added.
-    // With `labels`, a new one, the frames' detections are voted in, too. With `pager` part of the map is with it.
+    // With `labels`, a new one, the frames' detections are voted in, too. With `pager` part of the
+    // map is with it.
     MapRebuild(const FieldSettings& settings, std::vector<Eigen::Isometry3d> T_world_keyframe,
                std::unique_ptr<LabelMapper> labels, std::unique_ptr<MapPager> pager = nullptr);
 
-    void AddKeyframe(const Eigen::Isometry3d& T_world_keyframe) { T_world_keyframe_.push_back(T_world_keyframe); }
+    void AddKeyframe(const Eigen::Isometry3d& T_world_keyframe) {
+        T_world_keyframe_.push_back(T_world_keyframe);
+    }
     const std::vector<Eigen::Isometry3d>& T_world_keyframe() const { return T_world_keyframe_; }
 
-    // Fuses at most `frames` more. True: none is left, the map may be taken. After an error, the pager's, it is of no use.
+    // Fuses at most `frames` more. True: none is left, the map may be taken. After an error, the
+    // pager's, it is of no use.
     Result<bool> Step(FrameStore& store, int frames);
     std::unique_ptr<BlockMap> TakeMap() { return std::move(map_); }
     std::unique_ptr<LabelMapper> TakeLabels() { return std::move(labels_); }

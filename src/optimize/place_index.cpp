@@ -36,16 +36,18 @@ std::uint32_t PlaceIndex::Key(int table, const Descriptor& descriptor) const {
 }
 
 void PlaceIndex::Add(int keyframe, std::span<const Descriptor> descriptors) {
-    TESSERA_CHECK(keyframe >= static_cast<int>(descriptors_.size()), "keyframe {} is not new", keyframe);
+    TESSERA_CHECK(keyframe >= static_cast<int>(descriptors_.size()), "keyframe {} is not new",
+                  keyframe);
     descriptors_.resize(static_cast<std::size_t>(keyframe) + 1);
     descriptors_.back().assign(descriptors.begin(), descriptors.end());
     for (std::size_t i = 0; i < descriptors.size(); ++i)
         for (int table = 0; table < kTables; ++table)
-            buckets_[Key(table, descriptors[i])].push_back({keyframe, static_cast<std::int32_t>(i)});
+            buckets_[Key(table, descriptors[i])].push_back(
+                {keyframe, static_cast<std::int32_t>(i)});
 }
 
-std::vector<PlaceIndex::Candidate> PlaceIndex::Query(std::span<const Descriptor> descriptors, int end, int count,
-                                                     int min_votes) const {
+std::vector<PlaceIndex::Candidate> PlaceIndex::Query(std::span<const Descriptor> descriptors,
+                                                     int end, int count, int min_votes) const {
     std::vector<int> votes(descriptors_.size(), 0), voted_by(descriptors_.size(), -1);
     for (std::size_t q = 0; q < descriptors.size(); ++q)
         for (int table = 0; table < kTables; ++table) {
@@ -54,7 +56,8 @@ std::vector<PlaceIndex::Candidate> PlaceIndex::Query(std::span<const Descriptor>
             for (const Entry& entry : bucket->second) {
                 const auto keyframe = static_cast<std::size_t>(entry.keyframe);
                 if (entry.keyframe >= end || voted_by[keyframe] == static_cast<int>(q)) continue;
-                const Descriptor& other = descriptors_[keyframe][static_cast<std::size_t>(entry.feature)];
+                const Descriptor& other =
+                    descriptors_[keyframe][static_cast<std::size_t>(entry.feature)];
                 if (HammingDistance(descriptors[q], other) > kNear_bits) continue;
                 voted_by[keyframe] = static_cast<int>(q);
                 ++votes[keyframe];
@@ -63,7 +66,8 @@ std::vector<PlaceIndex::Candidate> PlaceIndex::Query(std::span<const Descriptor>
     std::vector<Candidate> best;
     for (std::size_t k = 0; k < votes.size(); ++k)
         if (votes[k] >= min_votes) best.push_back({static_cast<int>(k), votes[k]});
-    std::ranges::stable_sort(best, [](const Candidate& a, const Candidate& b) { return a.votes > b.votes; });
+    std::ranges::stable_sort(
+        best, [](const Candidate& a, const Candidate& b) { return a.votes > b.votes; });
     if (best.size() > static_cast<std::size_t>(count)) best.resize(static_cast<std::size_t>(count));
     return best;
 }

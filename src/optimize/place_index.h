@@ -1,5 +1,6 @@
-// Which remembered views have features like these? Locality-sensitive hashing of binary descriptors with a vote for each
-// that is really near: no vocabulary to train or to download, and it grows as the scan goes.
+// Which remembered views have features like these? Locality-sensitive hashing of binary descriptors
+// with a vote for each that is really near: no vocabulary to train or to download, and it grows as
+// the scan goes.
 #pragma once
 
 #include <cstdint>
@@ -25,9 +26,10 @@ class PlaceIndex {
 
     // Keyframes are to be added in increasing order, each once.
     void Add(int keyframe, std::span<const Descriptor> descriptors);
-    // The `count` keyframes below `end` with the most votes, and at least `min_votes`; most votes first, of equal ones
-    // the older first.
-    std::vector<Candidate> Query(std::span<const Descriptor> descriptors, int end, int count, int min_votes) const;
+    // The `count` keyframes below `end` with the most votes, and at least `min_votes`; most votes
+    // first, of equal ones the older first.
+    std::vector<Candidate> Query(std::span<const Descriptor> descriptors, int end, int count,
+                                 int min_votes) const;
 
   private:
     struct Entry {

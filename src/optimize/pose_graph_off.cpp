@@ -10,9 +10,12 @@ Result<PoseGraphReport> OptimisePoses(std::span<const PoseEdge>, std::vector<Eig
     return Status::Error("this build has no pose graph: install libceres-dev and build again");
 }
 
-double EdgeJacobianError(const PoseEdge&, const Eigen::Isometry3d&, const Eigen::Isometry3d&) { return 0; }
+double EdgeJacobianError(const PoseEdge&, const Eigen::Isometry3d&, const Eigen::Isometry3d&) {
+    return 0;
+}
 
-Result<CalibrationEstimate> SolveCalibration(const CalibrationProblem&, const std::vector<Eigen::Isometry3d>&,
+Result<CalibrationEstimate> SolveCalibration(const CalibrationProblem&,
+                                             const std::vector<Eigen::Isometry3d>&,
                                              const CalibrationMask&) {
     return Status::Error("this build cannot calibrate: install libceres-dev and build again");
 }

@@ -9,8 +9,8 @@ namespace tessera {
 
 // Rotations are unit quaternions (Eigen's order: x, y, z, w), world from camera.
 template <class T>
-void EdgeResidualOf(const PoseEdge& edge, const T* rotation_from, const T* translation_from, const T* rotation_to,
-                    const T* translation_to, T* residual) {
+void EdgeResidualOf(const PoseEdge& edge, const T* rotation_from, const T* translation_from,
+                    const T* rotation_to, const T* translation_to, T* residual) {
     using Quaternion = Eigen::Quaternion<T>;
     using Vector = Eigen::Matrix<T, 3, 1>;
     const Eigen::Map<const Quaternion> q_from(rotation_from), q_to(rotation_to);
@@ -21,7 +21,8 @@ void EdgeResidualOf(const PoseEdge& edge, const T* rotation_from, const T* trans
     const Quaternion edge_inverse = q_edge.conjugate().template cast<T>();
     Quaternion q_error = edge_inverse * q_from_to;
     if (q_error.w() < T(0)) q_error.coeffs() = -q_error.coeffs();
-    const Vector t_error = edge_inverse * (t_from_to - edge.T_from_to.translation().template cast<T>());
+    const Vector t_error =
+        edge_inverse * (t_from_to - edge.T_from_to.translation().template cast<T>());
     Eigen::Map<Eigen::Matrix<T, 6, 1>> r(residual);
     r.template head<3>() = q_error.vec() * T(2 / edge.sigma_rad);
     r.template tail<3>() = t_error * T(1 / edge.sigma_m);

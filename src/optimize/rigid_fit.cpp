@@ -23,7 +23,8 @@ Eigen::Isometry3d FitSome(Points p_a, Points p_b, std::span<const int> which) {
     return FitAll(Chosen(p_a, which), Chosen(p_b, which));
 }
 
-std::vector<int> Inliers(Points p_a, Points p_b, const Eigen::Isometry3d& T_a_b, double tolerance_m) {
+std::vector<int> Inliers(Points p_a, Points p_b, const Eigen::Isometry3d& T_a_b,
+                         double tolerance_m) {
     const Eigen::Isometry3f T = T_a_b.cast<float>();
     std::vector<int> inliers;
     for (std::size_t i = 0; i < p_a.size(); ++i) {
@@ -37,10 +38,12 @@ std::vector<int> Inliers(Points p_a, Points p_b, const Eigen::Isometry3d& T_a_b,
 // Wrong triples mostly differ in their sides.
 bool SameTriangle(Points p_a, Points p_b, const int (&triple)[3], double tolerance_m) {
     for (int i = 0; i < 3; ++i) {
-        const auto m = static_cast<std::size_t>(triple[i]), n = static_cast<std::size_t>(triple[(i + 1) % 3]);
+        const auto m = static_cast<std::size_t>(triple[i]),
+                   n = static_cast<std::size_t>(triple[(i + 1) % 3]);
         const float a = (p_a[m] - p_a[n]).norm(), b = (p_b[m] - p_b[n]).norm();
         const float depth = std::max({1.0f, p_a[m].z(), p_a[n].z()});
-        if (a < 0.1f || std::abs(a - b) > 2 * static_cast<float>(tolerance_m) * depth * depth) return false;
+        if (a < 0.1f || std::abs(a - b) > 2 * static_cast<float>(tolerance_m) * depth * depth)
+            return false;
     }
     return true;
 }
@@ -60,7 +63,8 @@ double Spread(Points points, std::span<const int> which) {
 }  // namespace
 
 Eigen::Isometry3d FitAll(Points p_a, Points p_b) {
-    TESSERA_CHECK(p_a.size() == p_b.size() && p_a.size() >= 3, "{} and {} points", p_a.size(), p_b.size());
+    TESSERA_CHECK(p_a.size() == p_b.size() && p_a.size() >= 3, "{} and {} points", p_a.size(),
+                  p_b.size());
     Eigen::Matrix3Xd a(3, p_a.size()), b(3, p_b.size());
     for (std::size_t i = 0; i < p_a.size(); ++i) {
         a.col(static_cast<Eigen::Index>(i)) = p_a[i].cast<double>();

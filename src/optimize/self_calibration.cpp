@@ -11,7 +11,8 @@ using U = CalibrationUnknowns;
 
 bool Shown(const CalibrationEstimate& estimate, U::Index which) {
     constexpr double kSigmas = 5;  // of jackknives over few parts, whose tails are wide
-    constexpr double kMost[] = {0.1, 0.03};  // of which depth cameras are off; further is another fault
+    // Of which depth cameras are off; further is another fault.
+    constexpr double kMost[] = {0.1, 0.03};
     const double value = std::abs(estimate.unknowns.values[which]);
     return value > kSigmas * estimate.sigma[which] && value < kMost[which];
 }
@@ -19,7 +20,8 @@ bool Shown(const CalibrationEstimate& estimate, U::Index which) {
 CalibrationReport ReportOf(const CalibrationEstimate& estimate, bool shown) {
     CalibrationReport report;
     report.shown = shown && estimate.rms_m < estimate.rms_before_m;
-    report.calibration = {std::exp(estimate.unknowns.values[U::kLogFocal]), estimate.unknowns.values[U::kOffset]};
+    report.calibration = {std::exp(estimate.unknowns.values[U::kLogFocal]),
+                          estimate.unknowns.values[U::kOffset]};
     report.focal_sigma = estimate.sigma[U::kLogFocal];
     report.offset_sigma_per_m = estimate.sigma[U::kOffset];
     report.rms_before_m = estimate.rms_before_m;
@@ -30,8 +32,10 @@ CalibrationReport ReportOf(const CalibrationEstimate& estimate, bool shown) {
 
 }  // namespace
 
-Result<CalibrationReport> RefineCalibration(const PinholeCamera& camera, const std::vector<CalibrationView>& views,
-                                            std::span<const PoseEdge> edges, std::vector<Eigen::Isometry3d>& T_world_camera) {
+Result<CalibrationReport> RefineCalibration(const PinholeCamera& camera,
+                                            const std::vector<CalibrationView>& views,
+                                            std::span<const PoseEdge> edges,
+                                            std::vector<Eigen::Isometry3d>& T_world_camera) {
     const CalibrationProblem problem{camera, views, edges};
     Result<CalibrationEstimate> estimate = SolveCalibration(problem, T_world_camera, {true, true});
     if (!estimate.ok()) return estimate.status();

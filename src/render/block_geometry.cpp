@@ -7,25 +7,27 @@ constexpr std::uint16_t kUnresolved = 0xffff, kMissing = 0xfffe;
 constexpr int kEdgeMask = (1 << BlockMesh::kSlotShift) - 1;
 constexpr std::size_t kRefs = std::size_t{8} << BlockMesh::kSlotShift;
 
-GeometryVertex MakeVertex(const BlockMesh& owner, const BlockMesh::Vertex& vertex, const BlockCoord& sector,
-                          const MarkVertex& mark) {
+GeometryVertex MakeVertex(const BlockMesh& owner, const BlockMesh::Vertex& vertex,
+                          const BlockCoord& sector, const MarkVertex& mark) {
     const BlockCoord& block = owner.coord;
     const int offset = vertex.edge % kBlockVoxels, axis = vertex.edge / kBlockVoxels;
     const auto voxel = [](int b, int s, int in_block) {
         return static_cast<float>((b - s * kSectorBlocks) * kBlockSide + in_block);
     };
-    GeometryVertex out{{voxel(block.x, sector.x, offset % 8), voxel(block.y, sector.y, offset / 8 % 8),
-                        voxel(block.z, sector.z, offset / 64)},
-                       vertex.normal,
-                       vertex.colour,
-                       static_cast<std::uint8_t>(vertex.has_colour ? 255 : 0),
-                       mark ? mark(owner, vertex) : VertexMark{}};
-    out.position_voxels[static_cast<std::size_t>(axis)] += static_cast<float>(vertex.fraction) / 65536;
+    GeometryVertex out{
+        {voxel(block.x, sector.x, offset % 8), voxel(block.y, sector.y, offset / 8 % 8),
+         voxel(block.z, sector.z, offset / 64)},
+        vertex.normal,
+        vertex.colour,
+        static_cast<std::uint8_t>(vertex.has_colour ? 255 : 0),
+        mark ? mark(owner, vertex) : VertexMark{}};
+    out.position_voxels[static_cast<std::size_t>(axis)] +=
+        static_cast<float>(vertex.fraction) / 65536;
     return out;
 }
 
-// Index of a vertex by VertexRef. All entries are kUnresolved between two calls of Build, so that a call's cost follows
-// the block's vertices.
+// Index of a vertex by VertexRef. All entries are kUnresolved between two calls of Build, so that a
+// call's cost follows the block's vertices.
 std::vector<std::uint16_t>& IndexTable() {
     thread_local std::vector<std::uint16_t> table(kRefs, kUnresolved);
     return table;
@@ -34,7 +36,8 @@ std::vector<std::uint16_t>& IndexTable() {
 }  // namespace
 
 void BlockGeometry::Build(const BlockMesh& mesh,
-                          const std::vector<std::unique_ptr<const BlockMesh>>& meshes, const MarkVertex& mark) {
+                          const std::vector<std::unique_ptr<const BlockMesh>>& meshes,
+                          const MarkVertex& mark) {
     vertices.clear();
     indices.clear();
     const BlockCoord sector = SectorOf(mesh.coord);
@@ -48,7 +51,8 @@ void BlockGeometry::Build(const BlockMesh& mesh,
         const BlockMesh* owner = id < meshes.size() ? meshes[id].get() : nullptr;
         const int found = owner ? owner->FindVertex(ref & kEdgeMask) : -1;
         if (found < 0) return kMissing;
-        vertices.push_back(MakeVertex(*owner, owner->vertices[static_cast<std::size_t>(found)], sector, mark));
+        vertices.push_back(
+            MakeVertex(*owner, owner->vertices[static_cast<std::size_t>(found)], sector, mark));
         return static_cast<std::uint16_t>(vertices.size() - 1);
     };
     for (const auto& triangle : mesh.triangles) {

@@ -21,7 +21,8 @@ bool GlBuffer::Reserve(std::size_t bytes) {
     glBufferData(GL_COPY_WRITE_BUFFER, static_cast<GLsizeiptr>(capacity), nullptr, GL_DYNAMIC_DRAW);
     if (name_) {
         glBindBuffer(GL_COPY_READ_BUFFER, name_);
-        glCopyBufferSubData(GL_COPY_READ_BUFFER, GL_COPY_WRITE_BUFFER, 0, 0, static_cast<GLsizeiptr>(capacity_));
+        glCopyBufferSubData(GL_COPY_READ_BUFFER, GL_COPY_WRITE_BUFFER, 0, 0,
+                            static_cast<GLsizeiptr>(capacity_));
         glDeleteBuffers(1, &name_);
     }
     name_ = name;
@@ -31,7 +32,8 @@ bool GlBuffer::Reserve(std::size_t bytes) {
 
 void GlBuffer::Write(std::size_t offset, const void* data, std::size_t bytes) {
     glBindBuffer(GL_COPY_WRITE_BUFFER, name_);
-    glBufferSubData(GL_COPY_WRITE_BUFFER, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes), data);
+    glBufferSubData(GL_COPY_WRITE_BUFFER, static_cast<GLintptr>(offset),
+                    static_cast<GLsizeiptr>(bytes), data);
 }
 
 }  // namespace tessera

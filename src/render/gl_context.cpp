@@ -23,23 +23,24 @@ bool HasLibraries() {
     return epoxy_has_egl() && (loads("libOpenGL.so.0") || loads("libGL.so.1"));
 }
 
-bool HasClientExtension(const char* name) {
-    return epoxy_has_egl_extension(EGL_NO_DISPLAY, name);
-}
+bool HasClientExtension(const char* name) { return epoxy_has_egl_extension(EGL_NO_DISPLAY, name); }
 
-// Mesa without any display server first, because it says nothing and needs nothing; then the devices, which is how
-// NVIDIA's driver is found.
+// Mesa without any display server first, because it says nothing and needs nothing; then the
+// devices, which is how NVIDIA's driver is found.
 std::vector<EGLDisplay> WindowlessDisplays() {
     std::vector<EGLDisplay> displays;
     if (!HasClientExtension("EGL_EXT_platform_base")) return displays;
     if (HasClientExtension("EGL_MESA_platform_surfaceless"))
-        displays.push_back(eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr));
-    if (HasClientExtension("EGL_EXT_platform_device") && HasClientExtension("EGL_EXT_device_enumeration")) {
+        displays.push_back(
+            eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr));
+    if (HasClientExtension("EGL_EXT_platform_device") &&
+        HasClientExtension("EGL_EXT_device_enumeration")) {
         std::array<EGLDeviceEXT, 16> devices;
         EGLint count = 0;
         if (!eglQueryDevicesEXT(devices.size(), devices.data(), &count)) count = 0;
         for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i)
-            displays.push_back(eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, devices[i], nullptr));
+            displays.push_back(
+                eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, devices[i], nullptr));
     }
     return displays;
 }
@@ -47,7 +48,8 @@ std::vector<EGLDisplay> WindowlessDisplays() {
 }  // namespace
 
 Result<std::unique_ptr<GlContext>> GlContext::Create() {
-    if (!HasLibraries()) return Status::Error(fmt::format("no EGL and OpenGL libraries here: {}", kInstall));
+    if (!HasLibraries())
+        return Status::Error(fmt::format("no EGL and OpenGL libraries here: {}", kInstall));
     std::unique_ptr<GlContext> found;
     std::string why;  // of the first display, the likeliest
     const auto try_display = [&](EGLDisplay display) {
@@ -60,7 +62,8 @@ Result<std::unique_ptr<GlContext>> GlContext::Create() {
         if (!found || found->is_software_) try_display(display);
     if (!found) try_display(eglGetDisplay(EGL_DEFAULT_DISPLAY));
     if (found) return found;
-    return Status::Error(fmt::format("no OpenGL 3.3 without a window here ({}): {}", why, kInstall));
+    return Status::Error(
+        fmt::format("no OpenGL 3.3 without a window here ({}): {}", why, kInstall));
 }
 
 Status GlContext::Initialise() {
@@ -72,7 +75,8 @@ Status GlContext::Initialise() {
         return Status::Error("EGL has no contexts without a surface");
     const EGLenum api_before = eglQueryAPI();
     if (!eglBindAPI(EGL_OPENGL_API)) return Status::Error("EGL has no desktop OpenGL");
-    const EGLint config_wanted[] = {EGL_SURFACE_TYPE, 0, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_NONE};
+    const EGLint config_wanted[] = {EGL_SURFACE_TYPE, 0, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT,
+                                    EGL_NONE};
     const EGLint context_wanted[] = {EGL_CONTEXT_MAJOR_VERSION_KHR,
                                      3,
                                      EGL_CONTEXT_MINOR_VERSION_KHR,
@@ -90,13 +94,16 @@ Status GlContext::Initialise() {
     const Scope scope(*this);
     const int version = epoxy_gl_version();
     const auto* name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
-    renderer_ = fmt::format("{}, OpenGL {}.{}", name ? name : "unnamed", version / 10, version % 10);
-    is_software_ = renderer_.find("llvmpipe") != std::string::npos || renderer_.find("softpipe") != std::string::npos ||
+    renderer_ =
+        fmt::format("{}, OpenGL {}.{}", name ? name : "unnamed", version / 10, version % 10);
+    is_software_ = renderer_.find("llvmpipe") != std::string::npos ||
+                   renderer_.find("softpipe") != std::string::npos ||
                    renderer_.find("swrast") != std::string::npos;
     return version >= 33 ? Status::Ok() : Status::Error(fmt::format("{} is too old", renderer_));
 }
 
-// The display is not terminated: it belongs to the process, EGL does not count its users, and a window may be one.
+// The display is not terminated: it belongs to the process, EGL does not count its users, and a
+// window may be one.
 GlContext::~GlContext() {
     if (context_) eglDestroyContext(display_, context_);
 }

@@ -1,4 +1,5 @@
-// An OpenGL 3.3 core context without a window, through EGL: on a graphics card or on Mesa's software renderer.
+// An OpenGL 3.3 core context without a window, through EGL: on a graphics card or on Mesa's
+// software renderer.
 #pragma once
 
 #include <memory>
@@ -8,17 +9,19 @@
 
 namespace tessera {
 
-// One thread at a time. Objects made in the context must be destroyed while it is current, before it is.
+// One thread at a time. Objects made in the context must be destroyed while it is current, before
+// it is.
 class GlContext {
   public:
-    // Prefers a graphics card to software. The error says in one line what is missing and what to install.
+    // Prefers a graphics card to software. The error says in one line what is missing and what to
+    // install.
     static Result<std::unique_ptr<GlContext>> Create();
     ~GlContext();
     GlContext(const GlContext&) = delete;
     GlContext& operator=(const GlContext&) = delete;
 
-    // While it lives, the context is the calling thread's current one; then what was before is again. So the context
-    // is bound to no thread, and a window's stays undisturbed.
+    // While it lives, the context is the calling thread's current one; then what was before is
+    // again. So the context is bound to no thread, and a window's stays undisturbed.
     class [[nodiscard]] Scope {
       public:
         explicit Scope(const GlContext& context);

@@ -8,7 +8,8 @@
 namespace tessera {
 
 void SetGeometryAttributes() {
-    const auto attribute = [](GLuint location, GLint size, GLenum type, GLboolean normalised, std::size_t offset) {
+    const auto attribute = [](GLuint location, GLint size, GLenum type, GLboolean normalised,
+                              std::size_t offset) {
         glEnableVertexAttribArray(location);
         glVertexAttribPointer(location, size, type, normalised, sizeof(GeometryVertex),
                               reinterpret_cast<const void*>(offset));
@@ -19,13 +20,9 @@ void SetGeometryAttributes() {
     attribute(3, 4, GL_UNSIGNED_BYTE, GL_TRUE, offsetof(GeometryVertex, mark));
 }
 
-GlMeshStore::GlMeshStore() {
-    glGenVertexArrays(1, &vertex_array_);
-}
+GlMeshStore::GlMeshStore() { glGenVertexArrays(1, &vertex_array_); }
 
-GlMeshStore::~GlMeshStore() {
-    glDeleteVertexArrays(1, &vertex_array_);
-}
+GlMeshStore::~GlMeshStore() { glDeleteVertexArrays(1, &vertex_array_); }
 
 void GlMeshStore::Clear() {
     for (Piece& piece : pieces_) {
@@ -38,7 +35,8 @@ void GlMeshStore::Clear() {
 }
 
 std::size_t GlMeshStore::bytes_used() const {
-    return vertex_pool_.used() * sizeof(GeometryVertex) + index_pool_.used() * sizeof(std::uint16_t);
+    return vertex_pool_.used() * sizeof(GeometryVertex) +
+           index_pool_.used() * sizeof(std::uint16_t);
 }
 
 void GlMeshStore::Replace(double voxel_size_m, std::span<const GeometryBlock> blocks) {
@@ -64,7 +62,8 @@ void GlMeshStore::Replace(double voxel_size_m, std::span<const GeometryBlock> bl
 // Takes the ranges that the geometry needs, and gives back those that it no longer does.
 void GlMeshStore::Place(Piece& piece, const BlockGeometry& geometry) {
     const auto index_count = static_cast<std::uint32_t>(geometry.indices.size());
-    const auto vertex_count = index_count == 0 ? 0u : static_cast<std::uint32_t>(geometry.vertices.size());
+    const auto vertex_count =
+        index_count == 0 ? 0u : static_cast<std::uint32_t>(geometry.vertices.size());
     const auto place = [](RangePool& pool, RangePool::Range& range, std::uint32_t count) {
         if (RangePool::Fits(range, count)) return;
         pool.Free(range);
@@ -72,7 +71,8 @@ void GlMeshStore::Place(Piece& piece, const BlockGeometry& geometry) {
     };
     place(vertex_pool_, piece.vertices, vertex_count);
     place(index_pool_, piece.indices, index_count);
-    blocks_ += static_cast<std::size_t>(index_count != 0) - static_cast<std::size_t>(piece.index_count != 0);
+    blocks_ += static_cast<std::size_t>(index_count != 0) -
+               static_cast<std::size_t>(piece.index_count != 0);
     triangles_ += index_count / 3 - static_cast<std::size_t>(piece.index_count) / 3;
     piece.index_count = static_cast<std::int32_t>(index_count);
 }
@@ -88,8 +88,10 @@ void GlMeshStore::BindBuffers() {
     glBindVertexArray(0);
 }
 
-// A sphere around each block against the frustum's six sides, in voxels from the camera so that no precision is lost.
-void GlMeshStore::FillDrawLists(const Eigen::Matrix4d& clip_from_camera, const Eigen::Isometry3d& T_world_camera) {
+// A sphere around each block against the frustum's six sides, in voxels from the camera so that no
+// precision is lost.
+void GlMeshStore::FillDrawLists(const Eigen::Matrix4d& clip_from_camera,
+                                const Eigen::Isometry3d& T_world_camera) {
     Eigen::Matrix4d from_voxels = Eigen::Matrix4d::Identity();
     from_voxels.topLeftCorner<3, 3>() = T_world_camera.linear().transpose() * voxel_size_m_;
     const Eigen::Matrix4d clip = clip_from_camera * from_voxels;
@@ -107,20 +109,23 @@ void GlMeshStore::FillDrawLists(const Eigen::Matrix4d& clip_from_camera, const E
     }
     for (const Piece& piece : pieces_) {
         if (piece.index_count == 0) continue;
-        const Eigen::Vector3d middle(piece.coord.x * 8 + 4, piece.coord.y * 8 + 4, piece.coord.z * 8 + 4);
+        const Eigen::Vector3d middle(piece.coord.x * 8 + 4, piece.coord.y * 8 + 4,
+                                     piece.coord.z * 8 + 4);
         const Eigen::Vector3f p = (middle - camera_voxels).cast<float>();
         bool outside = false;
-        for (const Eigen::Vector4f& side : sides) outside |= side.head<3>().dot(p) + side.w() < -kRadius;
+        for (const Eigen::Vector4f& side : sides)
+            outside |= side.head<3>().dot(p) + side.w() < -kRadius;
         if (outside) continue;
         DrawList& list = draws_[SectorOf(piece.coord)];
         list.counts.push_back(piece.index_count);
         list.base_vertices.push_back(static_cast<std::int32_t>(piece.vertices.first));
-        list.offsets.push_back(reinterpret_cast<const void*>(piece.indices.first * sizeof(std::uint16_t)));
+        list.offsets.push_back(
+            reinterpret_cast<const void*>(piece.indices.first * sizeof(std::uint16_t)));
     }
 }
 
-int GlMeshStore::Draw(const Eigen::Matrix4d& clip_from_camera, const Eigen::Isometry3d& T_world_camera,
-                      int clip_from_position) {
+int GlMeshStore::Draw(const Eigen::Matrix4d& clip_from_camera,
+                      const Eigen::Isometry3d& T_world_camera, int clip_from_position) {
     FillDrawLists(clip_from_camera, T_world_camera);
     glBindVertexArray(vertex_array_);
     int drawn = 0;
@@ -129,15 +134,15 @@ int GlMeshStore::Draw(const Eigen::Matrix4d& clip_from_camera, const Eigen::Isom
         const Eigen::Vector3d origin_voxels =
             Eigen::Vector3d(sector.x, sector.y, sector.z) * kSectorBlocks * kBlockSide;
         Eigen::Isometry3d T_camera_sector = T_world_camera.inverse();
-        T_camera_sector.translation() =
-            T_camera_sector.linear() * (origin_voxels * voxel_size_m_ - T_world_camera.translation());
+        T_camera_sector.translation() = T_camera_sector.linear() * (origin_voxels * voxel_size_m_ -
+                                                                    T_world_camera.translation());
         Eigen::Matrix4d from_voxels = T_camera_sector.matrix();
         from_voxels.topLeftCorner<3, 3>() *= voxel_size_m_;
         const Eigen::Matrix4f clip = (clip_from_camera * from_voxels).cast<float>();
         glUniformMatrix4fv(clip_from_position, 1, GL_FALSE, clip.data());
         const auto count = static_cast<GLsizei>(list.counts.size());
-        glMultiDrawElementsBaseVertex(GL_TRIANGLES, list.counts.data(), GL_UNSIGNED_SHORT, list.offsets.data(), count,
-                                      list.base_vertices.data());
+        glMultiDrawElementsBaseVertex(GL_TRIANGLES, list.counts.data(), GL_UNSIGNED_SHORT,
+                                      list.offsets.data(), count, list.base_vertices.data());
         drawn += count;
     }
     glBindVertexArray(0);

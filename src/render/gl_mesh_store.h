@@ -1,5 +1,5 @@
-// The map's mesh on the graphics card, kept block by block, for whoever draws it: the predicted view
-// and a person's window. Knows no target and no shader.
+// The map's mesh on the graphics card, kept block by block, for whoever draws it: the predicted
+// view and a person's window. Knows no target and no shader.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -17,11 +17,11 @@ namespace tessera {
 // Tells the vertex array in use that the bound array buffer holds GeometryVertex.
 void SetGeometryAttributes();
 
-// Owner thread only, with the same OpenGL context current in every call and when it is destroyed. A program that draws
-// it has the vertex attributes
-//   layout(location = 0) in vec3 position;  // voxels, to be multiplied by the uniform that Draw sets
-//   layout(location = 1) in vec2 normal;    // octahedral, unit is 32767; world frame, out of the surface
-//   layout(location = 2) in vec4 colour;    // a = 0: the surface has none here
+// Owner thread only, with the same OpenGL context current in every call and on destruction. A
+// program that draws it has the vertex attributes
+//   layout(location = 0) in vec3 position;  // voxels; Draw sets the uniform to multiply them by
+//   layout(location = 1) in vec2 normal;    // octahedral, unit is 32767; world, out of the surface
+//   layout(location = 2) in vec4 colour;    // a = 0: the surface has no colour here
 class GlMeshStore {
   public:
     GlMeshStore();
@@ -29,21 +29,21 @@ class GlMeshStore {
     GlMeshStore(const GlMeshStore&) = delete;
     GlMeshStore& operator=(const GlMeshStore&) = delete;
 
-    // Puts these blocks in the place of what was there under their ids. The voxel size is the whole mesh's: another one
-    // only after Clear.
+    // Puts these blocks in the place of what was there under their ids. The voxel size is the whole
+    // mesh's: another one only after Clear.
     void Replace(double voxel_size_m, std::span<const GeometryBlock> blocks);
     // Forgets the mesh, keeps the memory.
     void Clear();
 
-    // Draws the blocks that may be in view with the program in use, triangles counter-clockwise seen from outside.
-    // `clip_from_position` is the location of its mat4 that takes positions to clip space; it is set anew for each
-    // sector. Returns the number of blocks drawn.
+    // Draws the blocks that may be in view with the program in use, triangles counter-clockwise
+    // seen from outside. `clip_from_position` is the location of its mat4 that takes positions to
+    // clip space; it is set anew for each sector. Returns the number of blocks drawn.
     int Draw(const Eigen::Matrix4d& clip_from_camera, const Eigen::Isometry3d& T_world_camera,
              int clip_from_position);
 
-    std::size_t blocks() const { return blocks_; }        // with triangles
+    std::size_t blocks() const { return blocks_; }  // with triangles
     std::size_t triangles() const { return triangles_; }
-    std::size_t bytes_used() const;                        // of the card's memory, by blocks
+    std::size_t bytes_used() const;  // of the card's memory, by blocks
     std::size_t bytes() const { return vertex_buffer_.capacity() + index_buffer_.capacity(); }
 
   private:
@@ -61,7 +61,8 @@ class GlMeshStore {
 
     void Place(Piece& piece, const BlockGeometry& geometry);
     void BindBuffers();
-    void FillDrawLists(const Eigen::Matrix4d& clip_from_camera, const Eigen::Isometry3d& T_world_camera);
+    void FillDrawLists(const Eigen::Matrix4d& clip_from_camera,
+                       const Eigen::Isometry3d& T_world_camera);
 
     double voxel_size_m_ = 0;
     std::vector<Piece> pieces_;  // by block id

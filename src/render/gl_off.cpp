@@ -11,19 +11,15 @@ Status Off() {
 
 }  // namespace
 
-Result<std::unique_ptr<GlContext>> GlContext::Create() {
-    return Off();
-}
+Result<std::unique_ptr<GlContext>> GlContext::Create() { return Off(); }
 GlContext::~GlContext() = default;
 
 struct MeshRasteriser::Impl {};
-Result<std::unique_ptr<MeshRasteriser>> MeshRasteriser::Create(const MeshConfig&) {
-    return Off();
-}
+Result<std::unique_ptr<MeshRasteriser>> MeshRasteriser::Create(const MeshConfig&) { return Off(); }
 MeshRasteriser::~MeshRasteriser() = default;
 // Never called: there is no object.
-void MeshRasteriser::Predict(const BlockMap&, const PinholeCamera&, const Eigen::Isometry3d&, float, float,
-                             PredictedView& view) {
+void MeshRasteriser::Predict(const BlockMap&, const PinholeCamera&, const Eigen::Isometry3d&, float,
+                             float, PredictedView& view) {
     view.SetNothing();
 }
 const Status& MeshRasteriser::status() const {
@@ -34,11 +30,7 @@ const MeshRasteriser::Timings& MeshRasteriser::timings() const {
     static const Timings timings;
     return timings;
 }
-std::string MeshRasteriser::renderer() const {
-    return {};
-}
-std::size_t MeshRasteriser::bytes() const {
-    return 0;
-}
+std::string MeshRasteriser::renderer() const { return {}; }
+std::size_t MeshRasteriser::bytes() const { return 0; }
 
 }  // namespace tessera

@@ -22,16 +22,18 @@ Status AttachShader(GLuint program, GLenum kind, const char* source) {
     if (!compiled) glGetShaderInfoLog(shader, log.size(), nullptr, log.data());
     glAttachShader(program, shader);
     glDeleteShader(shader);  // it lives on in the program
-    return compiled ? Status::Ok() : Status::Error("a shader does not compile: " + FirstLine(log.data()));
+    return compiled ? Status::Ok()
+                    : Status::Error("a shader does not compile: " + FirstLine(log.data()));
 }
 
 }  // namespace
 
 Result<GlProgram> GlProgram::Create(const char* vertex_source, const char* fragment_source) {
     GlProgram program(glCreateProgram());
-    for (const auto& [kind, source] :
-         {std::pair(GL_VERTEX_SHADER, vertex_source), std::pair(GL_FRAGMENT_SHADER, fragment_source)})
-        if (const Status status = AttachShader(program.name_, static_cast<GLenum>(kind), source); !status.ok())
+    for (const auto& [kind, source] : {std::pair(GL_VERTEX_SHADER, vertex_source),
+                                       std::pair(GL_FRAGMENT_SHADER, fragment_source)})
+        if (const Status status = AttachShader(program.name_, static_cast<GLenum>(kind), source);
+            !status.ok())
             return status;
     glLinkProgram(program.name_);
     GLint linked = 0;
@@ -46,9 +48,7 @@ GlProgram::~GlProgram() {
     if (name_) glDeleteProgram(name_);
 }
 
-void GlProgram::Use() const {
-    glUseProgram(name_);
-}
+void GlProgram::Use() const { glUseProgram(name_); }
 
 int GlProgram::Location(const char* uniform) const {
     const int location = glGetUniformLocation(name_, uniform);

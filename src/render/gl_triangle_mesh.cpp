@@ -37,13 +37,9 @@ std::vector<Eigen::Vector3f> MeanNormals(const TriangleMesh& mesh) {
 
 }  // namespace
 
-GlTriangleMesh::GlTriangleMesh() {
-    glGenVertexArrays(1, &vertex_array_);
-}
+GlTriangleMesh::GlTriangleMesh() { glGenVertexArrays(1, &vertex_array_); }
 
-GlTriangleMesh::~GlTriangleMesh() {
-    glDeleteVertexArrays(1, &vertex_array_);
-}
+GlTriangleMesh::~GlTriangleMesh() { glDeleteVertexArrays(1, &vertex_array_); }
 
 void GlTriangleMesh::Set(const TriangleMesh& mesh, std::span<const Rgb8> label_colours) {
     const auto normals = mesh.normals.empty() ? MeanNormals(mesh) : mesh.normals;
@@ -51,7 +47,9 @@ void GlTriangleMesh::Set(const TriangleMesh& mesh, std::span<const Rgb8> label_c
     for (std::size_t i = 0; i < vertices.size(); ++i) {
         const Eigen::Vector3f& p = mesh.vertices[i];
         const bool has_colour = !mesh.colours.empty();
-        vertices[i] = {{p.x(), p.y(), p.z()}, Octahedral(normals[i]), has_colour ? mesh.colours[i] : Rgb8{},
+        vertices[i] = {{p.x(), p.y(), p.z()},
+                       Octahedral(normals[i]),
+                       has_colour ? mesh.colours[i] : Rgb8{},
                        static_cast<std::uint8_t>(has_colour ? 255 : 0),
                        {label_colours.empty() ? Rgb8{} : label_colours[i], 0}};
     }
@@ -67,10 +65,11 @@ void GlTriangleMesh::Set(const TriangleMesh& mesh, std::span<const Rgb8> label_c
     glBindVertexArray(0);
 }
 
-void GlTriangleMesh::Draw(const Eigen::Matrix4d& clip_from_camera, const Eigen::Isometry3d& T_world_camera,
-                          int clip_from_position) const {
+void GlTriangleMesh::Draw(const Eigen::Matrix4d& clip_from_camera,
+                          const Eigen::Isometry3d& T_world_camera, int clip_from_position) const {
     if (indices_ == 0) return;
-    const Eigen::Matrix4f clip = (clip_from_camera * T_world_camera.inverse().matrix()).cast<float>();
+    const Eigen::Matrix4f clip =
+        (clip_from_camera * T_world_camera.inverse().matrix()).cast<float>();
     glUniformMatrix4fv(clip_from_position, 1, GL_FALSE, clip.data());
     glBindVertexArray(vertex_array_);
     glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(indices_), GL_UNSIGNED_INT, nullptr);

@@ -1,5 +1,5 @@
-// A whole mesh on the graphics card, drawn by the same programs as GlMeshStore's. Owner thread only, with the same
-// OpenGL context current in every call and when it is destroyed.
+// A whole mesh on the graphics card, drawn by the same programs as GlMeshStore's. Owner thread
+// only, with the same OpenGL context current in every call and when it is destroyed.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -17,8 +17,8 @@ class GlTriangleMesh {
     GlTriangleMesh(const GlTriangleMesh&) = delete;
     GlTriangleMesh& operator=(const GlTriangleMesh&) = delete;
 
-    // Replaces what was there. Without normals the vertices get the mean of their triangles'. `label_colours`:
-    // VertexMark's, one per vertex or none.
+    // Replaces what was there. Without normals the vertices get the mean of their triangles'.
+    // `label_colours`: VertexMark's, one per vertex or none.
     void Set(const TriangleMesh& mesh, std::span<const Rgb8> label_colours = {});
     // With the attributes of GlMeshStore, positions in metres.
     void Draw(const Eigen::Matrix4d& clip_from_camera, const Eigen::Isometry3d& T_world_camera,

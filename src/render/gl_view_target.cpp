@@ -36,8 +36,10 @@ Status GlViewTarget::Resize(int width, int height) {
     glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &most);
     if (width < 1 || height < 1 || width > most || height > most)
         return Status::Error(
-            fmt::format("a view of {} x {} pixels cannot be drawn: at least 1, at most {}", width, height, most));
-    while (glGetError() != GL_NO_ERROR) {}
+            fmt::format("a view of {} x {} pixels cannot be drawn: at least 1, at most {}", width,
+                        height, most));
+    while (glGetError() != GL_NO_ERROR) {
+    }
     const auto attach = [&](Image image, GLenum format, GLenum attachment) {
         glBindRenderbuffer(GL_RENDERBUFFER, images_[image]);
         glRenderbufferStorage(GL_RENDERBUFFER, format, width, height);
@@ -48,9 +50,10 @@ Status GlViewTarget::Resize(int width, int height) {
     attach(kDepth, GL_DEPTH_COMPONENT32F, GL_DEPTH_ATTACHMENT);
     constexpr GLenum kOutputs[] = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
     glDrawBuffers(2, kOutputs);
-    if (glGetError() != GL_NO_ERROR || glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
-        return Status::Error(
-            fmt::format("the OpenGL driver has no memory for a view of {} x {} pixels", width, height));
+    if (glGetError() != GL_NO_ERROR ||
+        glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
+        return Status::Error(fmt::format(
+            "the OpenGL driver has no memory for a view of {} x {} pixels", width, height));
     width_ = width;
     height_ = height;
     return Status::Ok();
@@ -71,8 +74,12 @@ void GlViewTarget::ReadBack(float near_m, float far_m, PredictedView& view) {
             const bool seen = depth < 1;
             const float *surface = &surface_[4 * i], mask = seen ? 1.0f : 0.0f;
             const std::uint8_t* colour = &colour_[4 * i];
-            depth = seen ? static_cast<float>(DepthFromBuffer(static_cast<double>(depth), near_m, far_m)) : 0;
-            view.normal_camera.data()[i] = mask * Eigen::Vector3f(surface[0], surface[1], surface[2]);
+            depth =
+                seen
+                    ? static_cast<float>(DepthFromBuffer(static_cast<double>(depth), near_m, far_m))
+                    : 0;
+            view.normal_camera.data()[i] =
+                mask * Eigen::Vector3f(surface[0], surface[1], surface[2]);
             view.intensity.data()[i] = mask * surface[3];
             view.colour.data()[i] = seen ? Rgb8{colour[0], colour[1], colour[2]} : Rgb8{};
         }

@@ -8,8 +8,8 @@
 #include <cmath>
 
 #include "core/check.h"
-#include "render/triangle_scene.h"
 #include "render/path_overlay.h"
+#include "render/triangle_scene.h"
 
 namespace tessera {
 namespace {
@@ -17,9 +17,7 @@ namespace {
 using Eigen::Vector3f;
 using Shading = RenderStyle::Shading;
 
-Vector3f ToVector(const Rgb8& c) {
-    return Vector3f(c.r, c.g, c.b);
-}
+Vector3f ToVector(const Rgb8& c) { return Vector3f(c.r, c.g, c.b); }
 
 Rgb8 ToRgb(const Vector3f& c) {
     const auto byte = [](float x) {

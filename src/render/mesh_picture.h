@@ -36,7 +36,7 @@ struct RenderStyle {
     // it.
     std::vector<Eigen::Isometry3d> path;
     Rgb8 path_colour{214, 72, 32};
-    double frustum_m = 0;  // the outlines' depth; 0 chooses it by the picture
+    double frustum_m = 0;         // the outlines' depth; 0 chooses it by the picture
     std::vector<NamedBox> boxes;  // drawn over the picture, edges whole, with their names
 };
 

@@ -82,7 +82,8 @@ struct MeshRasteriser::Impl {
 Status MeshRasteriser::Impl::Initialise() {
     const auto scope = context->MakeCurrent();
     Result<GlProgram> made = GlProgram::Create(kVertexSource, kFragmentSource);
-    if (!made.ok()) return Status::Error(fmt::format("{}: {}", context->renderer(), made.message()));
+    if (!made.ok())
+        return Status::Error(fmt::format("{}: {}", context->renderer(), made.message()));
     program.emplace(std::move(made.value()));
     clip_from_position = program->Location("clip_from_position");
     camera_from_world = program->Location("camera_from_world");
@@ -114,7 +115,8 @@ void MeshRasteriser::Impl::Draw(const PredictedView& view, float min_depth_m, fl
     program->Use();
     const Eigen::Matrix3f rotation = view.T_world_camera.linear().transpose().cast<float>();
     glUniformMatrix3fv(camera_from_world, 1, GL_FALSE, rotation.data());
-    store->Draw(ClipFromCamera(view.camera, min_depth_m, max_depth_m), view.T_world_camera, clip_from_position);
+    store->Draw(ClipFromCamera(view.camera, min_depth_m, max_depth_m), view.T_world_camera,
+                clip_from_position);
 }
 
 Result<std::unique_ptr<MeshRasteriser>> MeshRasteriser::Create(const MeshConfig& config) {
@@ -129,9 +131,10 @@ MeshRasteriser::MeshRasteriser(std::unique_ptr<Impl> impl) : impl_(std::move(imp
 MeshRasteriser::~MeshRasteriser() = default;
 
 void MeshRasteriser::Predict(const BlockMap& map, const PinholeCamera& camera,
-                             const Eigen::Isometry3d& T_world_camera, float min_depth_m, float max_depth_m,
-                             PredictedView& view) {
-    TESSERA_CHECK(min_depth_m > 0 && max_depth_m > min_depth_m, "{} m to {} m", min_depth_m, max_depth_m);
+                             const Eigen::Isometry3d& T_world_camera, float min_depth_m,
+                             float max_depth_m, PredictedView& view) {
+    TESSERA_CHECK(min_depth_m > 0 && max_depth_m > min_depth_m, "{} m to {} m", min_depth_m,
+                  max_depth_m);
     view.Resize(camera, T_world_camera);
     const auto scope = impl_->context->MakeCurrent();
     impl_->TakeOver(map);
@@ -147,17 +150,9 @@ void MeshRasteriser::Predict(const BlockMap& map, const PinholeCamera& camera,
     impl_->timings.read_back_ms = watch.LapMs();
 }
 
-const Status& MeshRasteriser::status() const {
-    return impl_->status;
-}
-const MeshRasteriser::Timings& MeshRasteriser::timings() const {
-    return impl_->timings;
-}
-std::string MeshRasteriser::renderer() const {
-    return impl_->context->renderer();
-}
-std::size_t MeshRasteriser::bytes() const {
-    return impl_->mesher.bytes() + impl_->store->bytes();
-}
+const Status& MeshRasteriser::status() const { return impl_->status; }
+const MeshRasteriser::Timings& MeshRasteriser::timings() const { return impl_->timings; }
+std::string MeshRasteriser::renderer() const { return impl_->context->renderer(); }
+std::size_t MeshRasteriser::bytes() const { return impl_->mesher.bytes() + impl_->store->bytes(); }
 
 }  // namespace tessera

@@ -40,13 +40,17 @@ class Pen {
         if (!(p.z() > kNear_m)) return;
         const double scale = 0.45 * std::max(1.0, camera_.width / 1280.0);
         int below = 0;
-        const cv::Size size = cv::getTextSize(text, cv::FONT_HERSHEY_SIMPLEX, scale, thickness_, &below);
+        const cv::Size size =
+            cv::getTextSize(text, cv::FONT_HERSHEY_SIMPLEX, scale, thickness_, &below);
         const cv::Point middle = Pixel(p);
-        const cv::Point at((middle.x >> kSubpixelBits) - size.width / 2, (middle.y >> kSubpixelBits) - below - 3);
+        const cv::Point at((middle.x >> kSubpixelBits) - size.width / 2,
+                           (middle.y >> kSubpixelBits) - below - 3);
         const bool dark = 0.299 * colour.r + 0.587 * colour.g + 0.114 * colour.b < 140;
-        cv::rectangle(canvas_, {at.x - 3, at.y - size.height - 3}, {at.x + size.width + 3, at.y + below + 1},
+        cv::rectangle(canvas_, {at.x - 3, at.y - size.height - 3},
+                      {at.x + size.width + 3, at.y + below + 1},
                       {double(colour.r), double(colour.g), double(colour.b)}, cv::FILLED);
-        cv::putText(canvas_, text, at, cv::FONT_HERSHEY_SIMPLEX, scale, cv::Scalar::all(dark ? 255 : 0), thickness_, cv::LINE_AA);
+        cv::putText(canvas_, text, at, cv::FONT_HERSHEY_SIMPLEX, scale,
+                    cv::Scalar::all(dark ? 255 : 0), thickness_, cv::LINE_AA);
     }
 
   private:
@@ -92,7 +96,8 @@ double FrustumDepth(const PinholeCamera& camera, const Eigen::Isometry3d& T_worl
 }
 
 Eigen::Vector3d Corner(const NamedBox& box, int i) {
-    const Eigen::Vector3d sign((i & 1) != 0 ? 0.5 : -0.5, (i & 2) != 0 ? 0.5 : -0.5, (i & 4) != 0 ? 0.5 : -0.5);
+    const Eigen::Vector3d sign((i & 1) != 0 ? 0.5 : -0.5, (i & 2) != 0 ? 0.5 : -0.5,
+                               (i & 4) != 0 ? 0.5 : -0.5);
     return box.T_world_box * sign.cwiseProduct(box.size);
 }
 

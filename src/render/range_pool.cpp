@@ -25,7 +25,8 @@ RangePool::Range RangePool::Allocate(std::uint32_t count) {
         free.pop_back();
         return {first, size};
     }
-    TESSERA_CHECK(end_ <= std::numeric_limits<std::int32_t>::max() - size, "{} items and {} more", end_, size);
+    TESSERA_CHECK(end_ <= std::numeric_limits<std::int32_t>::max() - size, "{} items and {} more",
+                  end_, size);
     const Range range{end_, size};
     end_ += size;
     return range;

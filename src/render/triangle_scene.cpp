@@ -77,8 +77,9 @@ TriangleScene::TriangleScene(const TriangleMesh& mesh) : scene_(std::make_unique
     TESSERA_CHECK(scene_->device, "Embree: error {}", static_cast<int>(rtcGetDeviceError(nullptr)));
     scene_->scene = rtcNewScene(scene_->device);
     // Compact: half the memory, and no slower.
-    rtcSetSceneFlags(scene_->scene, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_COMPACT |
-                                                               RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
+    rtcSetSceneFlags(scene_->scene,
+                     static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_COMPACT |
+                                                RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
     if (!mesh.triangles.empty()) scene_->Attach(mesh);
     rtcCommitScene(scene_->scene);
     const RTCError error = rtcGetDeviceError(scene_->device);
@@ -108,8 +109,8 @@ TriangleScene::TriangleScene(TriangleScene&&) noexcept = default;
 TriangleScene& TriangleScene::operator=(TriangleScene&&) noexcept = default;
 
 std::array<RayHit, 4> TriangleScene::CastFour(const Eigen::Vector3f& origin,
-                                          const std::array<Eigen::Vector3f, 4>& directions,
-                                          bool cull_back_faces) const {
+                                              const std::array<Eigen::Vector3f, 4>& directions,
+                                              bool cull_back_faces) const {
     RTCRayHit4 packet;
     for (unsigned i = 0; i < 4; ++i) {
         packet.ray.org_x[i] = origin.x();

@@ -14,7 +14,8 @@ constexpr Rgb8 kMissingColour{150, 150, 150};
 
 // Rec. 601, as the map's luma.
 float Luma(const Rgb8& c) {
-    return (0.299f * static_cast<float>(c.r) + 0.587f * static_cast<float>(c.g) + 0.114f * static_cast<float>(c.b)) /
+    return (0.299f * static_cast<float>(c.r) + 0.587f * static_cast<float>(c.g) +
+            0.114f * static_cast<float>(c.b)) /
            255.0f;
 }
 
@@ -29,8 +30,10 @@ ColourImage DepthPicture(const DepthImage& depth_m, float nearest_m, float farth
     cv::Mat bytes(depth_m.height(), depth_m.width(), CV_8U), colours;
     for (int v = 0; v < depth_m.height(); ++v)
         for (int u = 0; u < depth_m.width(); ++u) {
-            const float share = (depth_m(u, v) - nearest_m) / std::max(farthest_m - nearest_m, 1e-3f);
-            bytes.at<std::uint8_t>(v, u) = static_cast<std::uint8_t>(255.0f * std::clamp(1.0f - share, 0.0f, 1.0f));
+            const float share =
+                (depth_m(u, v) - nearest_m) / std::max(farthest_m - nearest_m, 1e-3f);
+            bytes.at<std::uint8_t>(v, u) =
+                static_cast<std::uint8_t>(255.0f * std::clamp(1.0f - share, 0.0f, 1.0f));
         }
     cv::applyColorMap(bytes, colours, cv::COLORMAP_TURBO);
     ColourImage picture(depth_m.width(), depth_m.height());
@@ -52,7 +55,8 @@ class Sheet {
         cv::Mat canvas(image_.height(), image_.width(), CV_8UC3, image_.data());
         const cv::Point at(column * width_ + 8, row * height_ + 22);
         cv::putText(canvas, name, at, cv::FONT_HERSHEY_SIMPLEX, 0.6, {0, 0, 0}, 4, cv::LINE_AA);
-        cv::putText(canvas, name, at, cv::FONT_HERSHEY_SIMPLEX, 0.6, {255, 255, 255}, 1, cv::LINE_AA);
+        cv::putText(canvas, name, at, cv::FONT_HERSHEY_SIMPLEX, 0.6, {255, 255, 255}, 1,
+                    cv::LINE_AA);
     }
     ColourImage Take() { return std::move(image_); }
 
@@ -63,10 +67,12 @@ class Sheet {
 
 }  // namespace
 
-ColourImage ViewPicture(const Frame& frame, const PredictedView& view, double gain, double offset, const MovingMask* moving) {
+ColourImage ViewPicture(const Frame& frame, const PredictedView& view, double gain, double offset,
+                        const MovingMask* moving) {
     const int width = frame.depth_m.width(), height = frame.depth_m.height();
-    TESSERA_CHECK(view.depth_m.width() == width && view.depth_m.height() == height, "view of {} x {}, frame of {} x {}",
-                  view.depth_m.width(), view.depth_m.height(), width, height);
+    TESSERA_CHECK(view.depth_m.width() == width && view.depth_m.height() == height,
+                  "view of {} x {}, frame of {} x {}", view.depth_m.width(), view.depth_m.height(),
+                  width, height);
     const ColourImage colour = frame.colour.empty() ? ColourImage(width, height) : frame.colour;
     ColourImage depth_error(width, height), intensity_error(width, height);
     float nearest_m = 100.0f, farthest_m = 0.0f;
@@ -81,13 +87,15 @@ ColourImage ViewPicture(const Frame& frame, const PredictedView& view, double ga
             if (predicted <= 0) continue;
             if (measured > 0) depth_error(u, v) = Signed((predicted - measured) / kFullDepth_m);
             if (view.intensity(u, v) < 0 || frame.colour.empty()) continue;
-            const float image = static_cast<float>(gain) * Luma(colour(u, v)) + static_cast<float>(offset);
+            const float image =
+                static_cast<float>(gain) * Luma(colour(u, v)) + static_cast<float>(offset);
             intensity_error(u, v) = Signed((view.intensity(u, v) - image) / kFullIntensity);
         }
     Sheet sheet(width, height);
     ColourImage measured = colour;
     if (moving != nullptr) TintMoving(*moving, 1, measured);
-    sheet.Put(0, 0, moving != nullptr ? "measured colour, magenta: moves" : "measured colour", measured);
+    sheet.Put(0, 0, moving != nullptr ? "measured colour, magenta: moves" : "measured colour",
+              measured);
     sheet.Put(1, 0, "measured depth", DepthPicture(frame.depth_m, nearest_m, farthest_m));
     sheet.Put(2, 0, "depth: red before the map, blue behind, full at 5 cm", depth_error);
     sheet.Put(0, 1, "predicted colour", view.colour);

@@ -9,7 +9,8 @@ namespace tessera {
 namespace {
 
 constexpr std::size_t kNumberBytes = sizeof(std::int32_t);
-constexpr std::size_t kLayerBytes = kBlockVoxels * (sizeof(FieldWord) + sizeof(std::uint16_t) + sizeof(ColourWord));
+constexpr std::size_t kLayerBytes =
+    kBlockVoxels * (sizeof(FieldWord) + sizeof(std::uint16_t) + sizeof(ColourWord));
 constexpr std::size_t kLabelBytes = kBlockVoxels * sizeof(VoxelLabel);
 
 // Byte b of every element, for each b in turn.
@@ -32,10 +33,12 @@ const std::uint8_t* FromPlanes(const std::uint8_t* in, T* values) {
 std::size_t ContentBytes(std::span<const std::uint8_t> row) {
     if (row.size() <= kNumberBytes) return 0;
     const std::uint64_t size = Compressor::ContentSize(row.subspan(kNumberBytes));
-    return size == kLayerBytes || size == kLayerBytes + kLabelBytes ? static_cast<std::size_t>(size) : 0;
+    return size == kLayerBytes || size == kLayerBytes + kLabelBytes ? static_cast<std::size_t>(size)
+                                                                    : 0;
 }
 
-// Growing a vector keeps its elements beside their copies and rounds up to twice the size; here nothing is to be kept.
+// Growing a vector keeps its elements beside their copies and rounds up to twice the size; here
+// nothing is to be kept.
 template <class T>
 void Fit(std::size_t count, std::vector<T>& values) {
     if (count > values.capacity()) {
@@ -55,18 +58,20 @@ void BlockCopies::Copy(const BlockMap& map, std::span<const BlockId> blocks) {
     Fit(voxels, weight);
     Fit(voxels, colour);
     Fit(map.has_labels() ? voxels : 0, labels);
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, blocks.size(), 64), [&](const auto& range) {
-        for (std::size_t i = range.begin(); i < range.end(); ++i) {
-            const BlockId id = blocks[i];
-            const std::size_t at = i * kBlockVoxels;
-            numbers[i] = map.number(id);
-            coords[i] = map.coord(id);
-            std::copy_n(map.field(id), kBlockVoxels, field.data() + at);
-            std::copy_n(map.weight(id), kBlockVoxels, weight.data() + at);
-            std::copy_n(map.colour(id), kBlockVoxels, colour.data() + at);
-            if (map.has_labels()) std::copy_n(map.label(id), kBlockVoxels, labels.data() + at);
-        }
-    });
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, blocks.size(), 64),
+                      [&](const auto& range) {
+                          for (std::size_t i = range.begin(); i < range.end(); ++i) {
+                              const BlockId id = blocks[i];
+                              const std::size_t at = i * kBlockVoxels;
+                              numbers[i] = map.number(id);
+                              coords[i] = map.coord(id);
+                              std::copy_n(map.field(id), kBlockVoxels, field.data() + at);
+                              std::copy_n(map.weight(id), kBlockVoxels, weight.data() + at);
+                              std::copy_n(map.colour(id), kBlockVoxels, colour.data() + at);
+                              if (map.has_labels())
+                                  std::copy_n(map.label(id), kBlockVoxels, labels.data() + at);
+                          }
+                      });
 }
 
 void BlockCopies::Append(const BlockCoord& coord, std::int32_t number, bool with_labels) {
@@ -84,7 +89,8 @@ void BlockCopies::Put(std::size_t index, BlockMap& map, BlockId id) const {
     std::copy_n(field.data() + at, kBlockVoxels, map.field(id));
     std::copy_n(weight.data() + at, kBlockVoxels, map.weight(id));
     std::copy_n(colour.data() + at, kBlockVoxels, map.colour(id));
-    if (map.has_labels() && !labels.empty()) std::copy_n(labels.data() + at, kBlockVoxels, map.label(id));
+    if (map.has_labels() && !labels.empty())
+        std::copy_n(labels.data() + at, kBlockVoxels, map.label(id));
 }
 
 void BlockCopies::Clear() {
@@ -126,11 +132,13 @@ bool BlockCodec::Decode(std::span<const std::uint8_t> row, BlockMap& map, BlockI
     const std::uint8_t* in = FromPlanes(content_.data(), map.field(id));
     in = FromPlanes(in, map.weight(id));
     in = FromPlanes(in, map.colour(id));
-    if (map.has_labels() && content_.size() == kLayerBytes + kLabelBytes) FromPlanes(in, map.label(id));
+    if (map.has_labels() && content_.size() == kLayerBytes + kLabelBytes)
+        FromPlanes(in, map.label(id));
     return true;
 }
 
-bool BlockCodec::Decode(std::span<const std::uint8_t> row, const BlockCoord& coord, BlockCopies& copies) {
+bool BlockCodec::Decode(std::span<const std::uint8_t> row, const BlockCoord& coord,
+                        BlockCopies& copies) {
     const std::optional<std::int32_t> number = NumberOf(row);
     if (!number || !Unpack(row)) return false;
     const std::size_t at = copies.size() * kBlockVoxels;

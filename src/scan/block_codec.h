@@ -1,5 +1,6 @@
-// One block's layers as a row of ScanTable::kBlocks: its number in the order of allocation, then the voxels, byte planes of
-// each layer one after the other, zstd. Fused voxels are noisy: 5120 bytes become some 2900.
+// One block's layers as a row of ScanTable::kBlocks: its number in the order of allocation, then
+// the voxels, byte planes of each layer one after the other, zstd. Fused voxels are noisy: 5120
+// bytes become some 2900.
 #pragma once
 
 #include <optional>
@@ -12,12 +13,12 @@ namespace tessera {
 
 // Copies of blocks out of a map, for a thread that may not read it.
 struct BlockCopies {
-    std::vector<std::int32_t> numbers;     // BlockMap::number
+    std::vector<std::int32_t> numbers;  // BlockMap::number
     std::vector<BlockCoord> coords;
-    std::vector<FieldWord> field;          // kBlockVoxels for each block
-    std::vector<std::uint16_t> weight;     // likewise
-    std::vector<ColourWord> colour;        // likewise
-    std::vector<VoxelLabel> labels;        // likewise; empty without labels
+    std::vector<FieldWord> field;       // kBlockVoxels for each block
+    std::vector<std::uint16_t> weight;  // likewise
+    std::vector<ColourWord> colour;     // likewise
+    std::vector<VoxelLabel> labels;     // likewise; empty without labels
 
     // Into storage that is used again. Nobody may write the map meanwhile.
     void Copy(const BlockMap& map, std::span<const BlockId> blocks);
@@ -37,9 +38,11 @@ class BlockCodec {
 
     // The number of a row's block; nothing if the row is none, by its sizes.
     static std::optional<std::int32_t> NumberOf(std::span<const std::uint8_t> row);
-    // Into a block of a map; labels only where the map has them, none where the row has none. False: the row is none.
+    // Into a block of a map; labels only where the map has them, none where the row has none.
+    // False: the row is none.
     bool Decode(std::span<const std::uint8_t> row, BlockMap& map, BlockId id);
-    // Appended to copies, with labels if the row has them. False: the row is none, and nothing was appended.
+    // Appended to copies, with labels if the row has them. False: the row is none, and nothing was
+    // appended.
     bool Decode(std::span<const std::uint8_t> row, const BlockCoord& coord, BlockCopies& copies);
 
   private:

@@ -1,4 +1,5 @@
-// CRC-64/XZ (ECMA-182, reflected): finds every burst of up to 64 wrong bits, and of other damage all but one in 2^64.
+// CRC-64/XZ (ECMA-182, reflected): finds every burst of up to 64 wrong bits, and of other damage
+// all but one in 2^64.
 #pragma once
 
 #include <cstdint>

@@ -22,15 +22,16 @@ void Compressor::Compress(std::span<const std::uint8_t> content, std::vector<std
     constexpr int kLevel = -5;  // half the time of level 1, a seventh larger
     const std::size_t begin = out.size();
     out.resize(begin + ZSTD_compressBound(content.size()));
-    const std::size_t size = ZSTD_compressCCtx(contexts_->compress.get(), out.data() + begin, out.size() - begin,
-                                               content.data(), content.size(), kLevel);
+    const std::size_t size =
+        ZSTD_compressCCtx(contexts_->compress.get(), out.data() + begin, out.size() - begin,
+                          content.data(), content.size(), kLevel);
     TESSERA_CHECK(!ZSTD_isError(size), "zstd: {}", ZSTD_getErrorName(size));
     out.resize(begin + size);
 }
 
 bool Compressor::Decompress(std::span<const std::uint8_t> bytes, std::span<std::uint8_t> content) {
-    const std::size_t size = ZSTD_decompressDCtx(contexts_->decompress.get(), content.data(), content.size(), bytes.data(),
-                                                 bytes.size());
+    const std::size_t size = ZSTD_decompressDCtx(contexts_->decompress.get(), content.data(),
+                                                 content.size(), bytes.data(), bytes.size());
     return !ZSTD_isError(size) && size == content.size();
 }
 

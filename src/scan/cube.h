@@ -1,4 +1,5 @@
-// What goes out of memory and comes back as one: a cube of 8 x 8 x 8 blocks. In the file its blocks' keys follow each other.
+// What goes out of memory and comes back as one: a cube of 8 x 8 x 8 blocks. In the file its
+// blocks' keys follow each other.
 #pragma once
 
 #include "scan/scan_row.h"
@@ -8,7 +9,9 @@ namespace tessera {
 inline constexpr int kCubeBlocks = 8;
 
 // Floor, also for negatives.
-inline BlockCoord CubeOf(const BlockCoord& block) { return {block.x >> 3, block.y >> 3, block.z >> 3}; }
+inline BlockCoord CubeOf(const BlockCoord& block) {
+    return {block.x >> 3, block.y >> 3, block.z >> 3};
+}
 
 // BlockKey of the first of its blocks; the others' are the next kCubeKeys - 1.
 inline std::int64_t CubeKey(const BlockCoord& cube) {

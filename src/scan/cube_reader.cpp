@@ -10,7 +10,9 @@ namespace tessera {
 namespace {
 
 // One more must be a number, too.
-bool IsNumber(std::int32_t number) { return number >= 1 && number < std::numeric_limits<std::int32_t>::max(); }
+bool IsNumber(std::int32_t number) {
+    return number >= 1 && number < std::numeric_limits<std::int32_t>::max();
+}
 
 }  // namespace
 
@@ -18,14 +20,17 @@ Result<std::unique_ptr<CubeReader>> CubeReader::Open(const std::string& path) {
     Result<std::unique_ptr<Database>> database = Database::Open(path, Database::Access::kRead);
     if (!database.ok()) return database.status();
     Result<DatabaseStatement> select = database.value()->Prepare(
-        "SELECT key, epoch, checkpoint, data, checksum FROM blocks WHERE key BETWEEN ? AND ? ORDER BY key");
+        "SELECT key, epoch, checkpoint, data, checksum FROM blocks WHERE key BETWEEN ? AND ? ORDER "
+        "BY key");
     if (!select.ok()) return select.status();
-    return std::unique_ptr<CubeReader>(new CubeReader(std::move(database.value()), std::move(select.value())));
+    return std::unique_ptr<CubeReader>(
+        new CubeReader(std::move(database.value()), std::move(select.value())));
 }
 
 // A disk that does not answer is not a file that is damaged.
 Status CubeReader::ReadError() const {
-    return database_->damaged() ? DamagedScan(path(), "blocks") : database_->Error("cannot be read");
+    return database_->damaged() ? DamagedScan(path(), "blocks")
+                                : database_->Error("cannot be read");
 }
 
 Status CubeReader::Read(std::int64_t cube_key, BlockCopies& blocks) {
@@ -35,9 +40,12 @@ Status CubeReader::Read(std::int64_t cube_key, BlockCopies& blocks) {
     Status status = Status::Ok();
     int step = select_.Step();
     for (; step == kStepRow && status.ok(); step = select_.Step()) {
-        const ScanRow row{ScanTable::kBlocks, select_.Number(0), select_.Number(1), select_.Number(2), select_.Bytes(3)};
-        if (ChecksumOf(row) != static_cast<std::uint64_t>(select_.Number(4)) || CubeKeyOf(row.key) != cube_key ||
-            !codec_.Decode(row.data, CoordOfKey(row.key), blocks) || !IsNumber(blocks.numbers.back()))
+        const ScanRow row{ScanTable::kBlocks, select_.Number(0), select_.Number(1),
+                          select_.Number(2), select_.Bytes(3)};
+        if (ChecksumOf(row) != static_cast<std::uint64_t>(select_.Number(4)) ||
+            CubeKeyOf(row.key) != cube_key ||
+            !codec_.Decode(row.data, CoordOfKey(row.key), blocks) ||
+            !IsNumber(blocks.numbers.back()))
             status = DamagedScan(path(), fmt::format("block {}", row.key));
     }
     if (status.ok() && step != kStepDone) status = ReadError();

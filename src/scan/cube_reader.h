@@ -1,12 +1,13 @@
-// Reads single cubes of a scan file, also while its writer goes on: each cube as the last checkpoint left it.
+// Reads single cubes of a scan file, also while its writer goes on: each cube as the last
+// checkpoint left it.
 #pragma once
 
 #include <memory>
 #include <string>
 
 #include "scan/block_codec.h"
-#include "scan/database.h"
 #include "scan/cube.h"
+#include "scan/database.h"
 
 namespace tessera {
 
@@ -16,8 +17,8 @@ class CubeReader {
     // A file that this process writes, or has read before: its header is not looked at again.
     static Result<std::unique_ptr<CubeReader>> Open(const std::string& path);
 
-    // All blocks of a cube, by increasing key; perhaps none; their numbers are at least 1. An error names the file, `blocks` is
-    // then of no use.
+    // All blocks of a cube, by increasing key; perhaps none; their numbers are at least 1. An error
+    // names the file, `blocks` is then of no use.
     Status Read(std::int64_t cube_key, BlockCopies& blocks);
 
     // The keys of all cubes that have blocks, increasing, with how many.

@@ -51,7 +51,9 @@ bool ReadAll(int file, std::uint8_t* bytes, std::size_t count, std::uint64_t off
 Result<std::shared_ptr<CubeScratch>> CubeScratch::Create(const std::string& beside_path) {
     std::string name = beside_path + ".XXXXXX";
     const int file = ::mkostemp(name.data(), O_CLOEXEC);
-    if (file < 0) return Status::Error(fmt::format("{}: no file can be made beside it: {}", beside_path, WriteErrorText(errno)));
+    if (file < 0)
+        return Status::Error(fmt::format("{}: no file can be made beside it: {}", beside_path,
+                                         WriteErrorText(errno)));
     ::unlink(name.c_str());
     return std::shared_ptr<CubeScratch>(new CubeScratch(file, beside_path));
 }
@@ -59,7 +61,8 @@ Result<std::shared_ptr<CubeScratch>> CubeScratch::Create(const std::string& besi
 CubeScratch::~CubeScratch() { ::close(file_); }
 
 Status CubeScratch::Error(const std::string& doing, int error) const {
-    return Status::Error(fmt::format("{}: the file for a map that is made again {}: {}", path_, doing, WriteErrorText(error)));
+    return Status::Error(fmt::format("{}: the file for a map that is made again {}: {}", path_,
+                                     doing, WriteErrorText(error)));
 }
 
 // The smallest gap that it fits into, else at the end.
@@ -83,7 +86,8 @@ CubeScratch::Place CubeScratch::Room(std::uint64_t bytes) {
 
 Status CubeScratch::Put(std::int64_t cube_key, const BlockCopies& blocks) {
     std::vector<std::pair<std::int64_t, std::size_t>> order;
-    for (std::size_t i = 0; i < blocks.size(); ++i) order.emplace_back(BlockKey(blocks.coords[i]), i);
+    for (std::size_t i = 0; i < blocks.size(); ++i)
+        order.emplace_back(BlockKey(blocks.coords[i]), i);
     std::ranges::sort(order);
     rows_.clear();
     for (const auto& [key, i] : order) {
@@ -100,20 +104,24 @@ Status CubeScratch::Put(std::int64_t cube_key, const BlockCopies& blocks) {
     Place place = Room(rows_.size());
     place.blocks = static_cast<std::int32_t>(blocks.size());
     place.checksum = Crc64(rows_);
-    if (!WriteAll(file_, rows_.data(), rows_.size(), place.offset)) return Error("cannot be written", errno);
+    if (!WriteAll(file_, rows_.data(), rows_.size(), place.offset))
+        return Error("cannot be written", errno);
     places_[cube_key] = place;
     return Status::Ok();
 }
 
-Status CubeScratch::ReadRows(const Place& place, std::vector<std::uint8_t>& rows, const TakeRow& take) const {
+Status CubeScratch::ReadRows(const Place& place, std::vector<std::uint8_t>& rows,
+                             const TakeRow& take) const {
     rows.resize(place.bytes);
-    if (!ReadAll(file_, rows.data(), rows.size(), place.offset)) return Error("cannot be read", errno);
+    if (!ReadAll(file_, rows.data(), rows.size(), place.offset))
+        return Error("cannot be read", errno);
     if (Crc64(rows) != place.checksum) return Error("was damaged", EIO);
     for (std::size_t at = 0; at < rows.size();) {
         RowHead head;
         std::memcpy(&head, rows.data() + at, sizeof(head));
         at += sizeof(head);
-        if (Status status = take(head.key, std::span(rows).subspan(at, head.bytes)); !status.ok()) return status;
+        if (Status status = take(head.key, std::span(rows).subspan(at, head.bytes)); !status.ok())
+            return status;
         at += head.bytes;
     }
     return Status::Ok();
@@ -123,9 +131,11 @@ Status CubeScratch::Read(std::int64_t cube_key, BlockCopies& blocks) const {
     blocks.Clear();
     std::vector<std::uint8_t> rows;
     BlockCodec codec;
-    return ReadRows(places_.at(cube_key), rows, [&](std::int64_t key, std::span<const std::uint8_t> data) {
-        return codec.Decode(data, CoordOfKey(key), blocks) ? Status::Ok() : Error("was damaged", EIO);
-    });
+    return ReadRows(
+        places_.at(cube_key), rows, [&](std::int64_t key, std::span<const std::uint8_t> data) {
+            return codec.Decode(data, CoordOfKey(key), blocks) ? Status::Ok()
+                                                               : Error("was damaged", EIO);
+        });
 }
 
 std::map<std::int64_t, std::int32_t> CubeScratch::Cubes() const {

@@ -1,5 +1,5 @@
-// Where the cubes of a map go that is not the scan's yet: a file without a name in the scan's folder, gone with the process. Its
-// rows are those of the scan file, which takes them as they are.
+// Where the cubes of a map go that is not the scan's yet: a file without a name in the scan's
+// folder, gone with the process. Its rows are those of the scan file, which takes them as they are.
 #pragma once
 
 #include <functional>
@@ -30,7 +30,8 @@ class CubeScratch {
     // Of a cube that is there; 0: it is not.
     std::int32_t Count(std::int64_t cube_key) const;
     // Every block's row of ScanTable::kBlocks, by increasing key.
-    using TakeRow = std::function<Status(std::int64_t block_key, std::span<const std::uint8_t> data)>;
+    using TakeRow =
+        std::function<Status(std::int64_t block_key, std::span<const std::uint8_t> data)>;
     Status ForEachRow(const TakeRow& take) const;
 
   private:

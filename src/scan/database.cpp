@@ -11,25 +11,34 @@ static_assert(kStepRow == SQLITE_ROW && kStepDone == SQLITE_DONE);
 
 bool ScanAvailable() { return true; }
 
-void DatabaseStatement::Finalizer::operator()(sqlite3_stmt* statement) const { sqlite3_finalize(statement); }
+void DatabaseStatement::Finalizer::operator()(sqlite3_stmt* statement) const {
+    sqlite3_finalize(statement);
+}
 
-void DatabaseStatement::Bind(int parameter, std::int64_t value) { sqlite3_bind_int64(statement_.get(), parameter, value); }
+void DatabaseStatement::Bind(int parameter, std::int64_t value) {
+    sqlite3_bind_int64(statement_.get(), parameter, value);
+}
 
 void DatabaseStatement::Bind(int parameter, std::span<const std::uint8_t> bytes) {
     static const std::uint8_t kNothing = 0;
-    sqlite3_bind_blob64(statement_.get(), parameter, bytes.empty() ? &kNothing : bytes.data(), bytes.size(), SQLITE_STATIC);
+    sqlite3_bind_blob64(statement_.get(), parameter, bytes.empty() ? &kNothing : bytes.data(),
+                        bytes.size(), SQLITE_STATIC);
 }
 
 int DatabaseStatement::Step() { return sqlite3_step(statement_.get()); }
 
 void DatabaseStatement::Reset() { sqlite3_reset(statement_.get()); }
 
-std::int64_t DatabaseStatement::Number(int column) const { return sqlite3_column_int64(statement_.get(), column); }
+std::int64_t DatabaseStatement::Number(int column) const {
+    return sqlite3_column_int64(statement_.get(), column);
+}
 
 std::span<const std::uint8_t> DatabaseStatement::Bytes(int column) const {
-    const auto* bytes = static_cast<const std::uint8_t*>(sqlite3_column_blob(statement_.get(), column));
+    const auto* bytes =
+        static_cast<const std::uint8_t*>(sqlite3_column_blob(statement_.get(), column));
     const int size = sqlite3_column_bytes(statement_.get(), column);
-    return bytes != nullptr && size > 0 ? std::span(bytes, static_cast<std::size_t>(size)) : std::span<const std::uint8_t>();
+    return bytes != nullptr && size > 0 ? std::span(bytes, static_cast<std::size_t>(size))
+                                        : std::span<const std::uint8_t>();
 }
 
 Result<std::unique_ptr<Database>> Database::Open(const std::string& path, Access access) {
@@ -47,20 +56,24 @@ Result<std::unique_ptr<Database>> Database::Open(const std::string& path, Access
     sqlite3_db_config(handle, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
     sqlite3_db_config(handle, SQLITE_DBCONFIG_ENABLE_TRIGGER, 0, nullptr);
     sqlite3_db_config(handle, SQLITE_DBCONFIG_ENABLE_VIEW, 0, nullptr);
-    if (Status status = database->Execute("PRAGMA cell_size_check=ON; PRAGMA mmap_size=0;"); !status.ok()) return status;
+    if (Status status = database->Execute("PRAGMA cell_size_check=ON; PRAGMA mmap_size=0;");
+        !status.ok())
+        return status;
     return database;
 }
 
 Database::~Database() { sqlite3_close_v2(handle_); }
 
 Status Database::Execute(const std::string& sql) {
-    if (sqlite3_exec(handle_, sql.c_str(), nullptr, nullptr, nullptr) == SQLITE_OK) return Status::Ok();
+    if (sqlite3_exec(handle_, sql.c_str(), nullptr, nullptr, nullptr) == SQLITE_OK)
+        return Status::Ok();
     return Error("cannot be used");
 }
 
 Result<DatabaseStatement> Database::Prepare(const std::string& sql) {
     sqlite3_stmt* statement = nullptr;
-    if (sqlite3_prepare_v2(handle_, sql.c_str(), -1, &statement, nullptr) != SQLITE_OK) return Error("cannot be read");
+    if (sqlite3_prepare_v2(handle_, sql.c_str(), -1, &statement, nullptr) != SQLITE_OK)
+        return Error("cannot be read");
     return DatabaseStatement(statement);
 }
 
@@ -73,15 +86,17 @@ Result<std::int64_t> Database::Number(const std::string& sql) {
 
 Status Database::Error(const std::string& doing) const {
     const int code = handle_ != nullptr ? sqlite3_errcode(handle_) & 0xff : SQLITE_NOMEM;
-    const char* what = code == SQLITE_FULL ? "no space left on the device; free some or choose another place"
-                                           : (handle_ != nullptr ? sqlite3_errmsg(handle_) : "out of memory");
+    const char* what = code == SQLITE_FULL
+                           ? "no space left on the device; free some or choose another place"
+                           : (handle_ != nullptr ? sqlite3_errmsg(handle_) : "out of memory");
     return Status::Error(fmt::format("{}: {}: {}", path_, doing, what));
 }
 
 bool Database::damaged() const {
     const int code = sqlite3_errcode(handle_) & 0xff;
-    return code == SQLITE_CORRUPT || code == SQLITE_NOTADB || code == SQLITE_FORMAT || code == SQLITE_ERROR ||
-           code == SQLITE_TOOBIG || code == SQLITE_MISMATCH || code == SQLITE_SCHEMA;
+    return code == SQLITE_CORRUPT || code == SQLITE_NOTADB || code == SQLITE_FORMAT ||
+           code == SQLITE_ERROR || code == SQLITE_TOOBIG || code == SQLITE_MISMATCH ||
+           code == SQLITE_SCHEMA;
 }
 
 }  // namespace tessera

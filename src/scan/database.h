@@ -1,4 +1,5 @@
-// SQLite, as far as scan files need it: the only place that knows the library. Errors name the file.
+// SQLite, as far as scan files need it: the only place that knows the library. Errors name the
+// file.
 #pragma once
 
 #include <cstdint>
@@ -13,19 +14,23 @@ struct sqlite3_stmt;
 
 namespace tessera {
 
-// Whether this build has SQLite and zstd; if not, opening anything is refused with `ScanUnavailableText`.
+// Whether this build has SQLite and zstd; if not, opening anything is refused with
+// `ScanUnavailableText`.
 bool ScanAvailable();
 inline constexpr const char* kScanUnavailable =
     "this build has no scan files; install libsqlite3-dev and libzstd-dev and build again";
 
-// One prepared statement; its parameters are numbered from 1, its columns from 0. Goes before its database.
+// One prepared statement; its parameters are numbered from 1, its columns from 0. Goes before its
+// database.
 class DatabaseStatement {
   public:
     DatabaseStatement() = default;
-    DatabaseStatement(sqlite3_stmt* statement) : statement_(statement) {}  // NOLINT: implicit by design
+    DatabaseStatement(sqlite3_stmt* statement)
+        : statement_(statement) {}  // NOLINT: implicit by design
 
     void Bind(int parameter, std::int64_t value);
-    void Bind(int parameter, std::span<const std::uint8_t> bytes);  // not copied: they must outlive Step
+    // Not copied: they must outlive Step.
+    void Bind(int parameter, std::span<const std::uint8_t> bytes);
     // SQLite's result code: one of the three below, or an error.
     int Step();
     // Ready for other parameters.
@@ -47,7 +52,8 @@ class Database {
   public:
     enum class Access { kCreate, kRead, kWrite };
 
-    // With settings against hostile files: no code from a schema runs, no row is larger than kMaxRowBytes.
+    // With settings against hostile files: no code from a schema runs, no row is larger than
+    // kMaxRowBytes.
     static Result<std::unique_ptr<Database>> Open(const std::string& path, Access access);
     ~Database();
     Database(const Database&) = delete;

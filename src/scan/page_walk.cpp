@@ -39,8 +39,8 @@ bool ReadVarint(std::span<const std::uint8_t> bytes, std::size_t& at, std::uint6
 }
 
 // A column's value by its serial type; only integers and blobs.
-bool ReadColumn(std::span<const std::uint8_t> record, std::size_t& at, std::uint64_t type, std::int64_t& number,
-                std::span<const std::uint8_t>& blob) {
+bool ReadColumn(std::span<const std::uint8_t> record, std::size_t& at, std::uint64_t type,
+                std::int64_t& number, std::span<const std::uint8_t>& blob) {
     constexpr std::size_t kIntegerBytes[] = {0, 1, 2, 3, 4, 6, 8};
     if (type == 8 || type == 9) {
         number = static_cast<std::int64_t>(type) - 8;
@@ -100,11 +100,13 @@ Result<std::unique_ptr<PageWalk>> PageWalk::Open(const std::string& path) {
         walk->images_.push_back({0, i * kPage, static_cast<std::uint32_t>(i + 1)});
     auto journal = std::make_unique<File>();
     if (!journal->Map(path + "-wal").ok() || journal->size < kJournalHeader) return walk;
-    for (std::size_t at = kJournalHeader; at + kFrameHeader + kPage <= journal->size; at += kFrameHeader + kPage) {
+    for (std::size_t at = kJournalHeader; at + kFrameHeader + kPage <= journal->size;
+         at += kFrameHeader + kPage) {
         const std::uint32_t number = BigEndian(journal->data + at, 4);
         if (number == 0 || number > (std::uint32_t{1} << 26)) continue;
         walk->images_.push_back({1, at + kFrameHeader, number});
-        if (walk->newest_in_journal_.size() <= number) walk->newest_in_journal_.resize(number + 1, 0);
+        if (walk->newest_in_journal_.size() <= number)
+            walk->newest_in_journal_.resize(number + 1, 0);
         walk->newest_in_journal_[number] = walk->images_.size();
     }
     walk->files_.push_back(std::move(journal));
@@ -133,26 +135,33 @@ void PageWalk::ForEach(const std::function<void(const ScanRow&, const Place&)>& 
 bool PageWalk::Load(const Place& place, ScanRow& row) {
     const PageImage& image = images_[place.image];
     const std::span<const std::uint8_t> page = Page(image);
-    // A row that goes on in other pages: they are the journal's newest, or where that is not of this row, the file's.
+    // A row that goes on in other pages: they are the journal's newest, or where that is not of
+    // this row, the file's.
     return ReadCell(page, place.offset, true, row) || ReadCell(page, place.offset, false, row);
 }
 
-// The cell of a leaf as SQLite's file format has it: size, key, as much of the record as fits, the first overflow page.
-bool PageWalk::ReadCell(std::span<const std::uint8_t> page, std::size_t at, bool journal, ScanRow& row) {
+// The cell of a leaf as SQLite's file format has it: size, key, as much of the record as fits, the
+// first overflow page.
+bool PageWalk::ReadCell(std::span<const std::uint8_t> page, std::size_t at, bool journal,
+                        ScanRow& row) {
     std::uint64_t size = 0, key = 0;
     if (at >= kPage || !ReadVarint(page, at, size) || !ReadVarint(page, at, key)) return false;
     if (size < 6 || size > kMaxRowBytes) return false;
     constexpr std::size_t kMostLocal = kPage - 35, kLeastLocal = (kPage - 12) * 32 / 255 - 23;
     std::size_t local = static_cast<std::size_t>(size);
     if (size > kMostLocal) {
-        const std::size_t fitting = kLeastLocal + (static_cast<std::size_t>(size) - kLeastLocal) % (kPage - 4);
+        const std::size_t fitting =
+            kLeastLocal + (static_cast<std::size_t>(size) - kLeastLocal) % (kPage - 4);
         local = fitting <= kMostLocal ? fitting : kLeastLocal;
     }
     if (local > kPage - at) return false;
-    payload_.assign(page.begin() + static_cast<std::ptrdiff_t>(at), page.begin() + static_cast<std::ptrdiff_t>(at + local));
+    payload_.assign(page.begin() + static_cast<std::ptrdiff_t>(at),
+                    page.begin() + static_cast<std::ptrdiff_t>(at + local));
     if (local < size) {
         if (at + local + 4 > kPage) return false;
-        if (!GatherOverflow(BigEndian(page.data() + at + local, 4), journal, static_cast<std::size_t>(size))) return false;
+        if (!GatherOverflow(BigEndian(page.data() + at + local, 4), journal,
+                            static_cast<std::size_t>(size)))
+            return false;
     }
     return ParseRecord(static_cast<std::int64_t>(key), row);
 }
@@ -161,7 +170,8 @@ bool PageWalk::GatherOverflow(std::uint32_t number, bool journal, std::size_t si
     while (payload_.size() < size) {
         std::size_t image = kNoPage;
         if (number >= 1 && number <= main_pages_) image = number - 1;
-        if (journal && number < newest_in_journal_.size() && newest_in_journal_[number] > 0) image = newest_in_journal_[number] - 1;
+        if (journal && number < newest_in_journal_.size() && newest_in_journal_[number] > 0)
+            image = newest_in_journal_[number] - 1;
         if (image == kNoPage) return false;
         const std::span<const std::uint8_t> page = Page(images_[image]);
         const std::size_t take = std::min(size - payload_.size(), kPage - 4);
@@ -180,13 +190,15 @@ bool PageWalk::ParseRecord(std::int64_t key, ScanRow& row) const {
     const std::span<const std::uint8_t> record(payload_);
     if (!ReadVarint(record, at, header_size) || header_size > record.size()) return false;
     for (std::uint64_t& type : types)
-        if (!ReadVarint(record.first(static_cast<std::size_t>(header_size)), at, type)) return false;
+        if (!ReadVarint(record.first(static_cast<std::size_t>(header_size)), at, type))
+            return false;
     if (at != header_size) return false;
     std::int64_t nothing = 0, checksum = 0;
     std::span<const std::uint8_t> no_blob;
     row.data = {};
     if (types[0] != 0 || !ReadColumn(record, at, types[1], row.epoch, no_blob) ||
-        !ReadColumn(record, at, types[2], row.checkpoint, no_blob) || !ReadColumn(record, at, types[3], nothing, row.data) ||
+        !ReadColumn(record, at, types[2], row.checkpoint, no_blob) ||
+        !ReadColumn(record, at, types[3], nothing, row.data) ||
         !ReadColumn(record, at, types[4], checksum, no_blob))
         return false;
     row.key = key;

@@ -1,5 +1,5 @@
-// Finds the rows of a scan file without SQLite, page by page: whatever its header, tables or trees look like, a row whose
-// checksum is right is found. Reads the journal (-wal) beside it, too.
+// Finds the rows of a scan file without SQLite, page by page: whatever its header, tables or trees
+// look like, a row whose checksum is right is found. Reads the journal (-wal) beside it, too.
 #pragma once
 
 #include <functional>
@@ -40,7 +40,8 @@ class PageWalk {
     };
 
     PageWalk();
-    bool ReadCell(std::span<const std::uint8_t> page, std::size_t offset, bool journal, ScanRow& row);
+    bool ReadCell(std::span<const std::uint8_t> page, std::size_t offset, bool journal,
+                  ScanRow& row);
     bool GatherOverflow(std::uint32_t page, bool journal, std::size_t size);
     bool ParseRecord(std::int64_t key, ScanRow& row) const;
     std::span<const std::uint8_t> Page(const PageImage& image) const;

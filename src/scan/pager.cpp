@@ -4,7 +4,8 @@
 
 namespace tessera {
 
-Pager::Pager(std::unique_ptr<CubeReader> reader) : reader_(std::move(reader)), thread_([this] { ReadAll(); }) {}
+Pager::Pager(std::unique_ptr<CubeReader> reader)
+    : reader_(std::move(reader)), thread_([this] { ReadAll(); }) {}
 
 Pager::~Pager() {
     done_.store(true);

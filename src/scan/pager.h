@@ -1,4 +1,5 @@
-// Brings cubes back from the scan file on a thread of its own, so that nobody waits for the disk who does not want to.
+// Brings cubes back from the scan file on a thread of its own, so that nobody waits for the disk
+// who does not want to.
 #pragma once
 
 #include <atomic>

@@ -15,11 +15,13 @@ Result<Bytes> ReadState(ScanFile& file, ScanStateKey key) {
 
 // The blocks' numbers, from 1 on, are the order in which they are to be allocated.
 Result<std::vector<BlockCoord>> ReadBlockOrder(ScanFile& file) {
-    const auto count = static_cast<std::size_t>(file.seal().tables[IndexOf(ScanTable::kBlocks)].rows);
+    const auto count =
+        static_cast<std::size_t>(file.seal().tables[IndexOf(ScanTable::kBlocks)].rows);
     std::vector<std::pair<BlockId, BlockCoord>> blocks;
     Status read = file.Read(ScanTable::kBlocks, [&](const ScanRow& row) {
         const std::optional<std::int32_t> number = BlockCodec::NumberOf(row.data);
-        if (!number || row.key < 0) return DamagedScan(file.path(), fmt::format("block {}", row.key));
+        if (!number || row.key < 0)
+            return DamagedScan(file.path(), fmt::format("block {}", row.key));
         blocks.emplace_back(*number, CoordOfKey(row.key));
         return Status::Ok();
     });
@@ -27,7 +29,8 @@ Result<std::vector<BlockCoord>> ReadBlockOrder(ScanFile& file) {
     std::ranges::sort(blocks, {}, &std::pair<BlockId, BlockCoord>::first);
     std::vector<BlockCoord> order;
     for (const auto& [id, coord] : blocks) {
-        if (static_cast<std::size_t>(id) != order.size() + 1) return DamagedScan(file.path(), fmt::format("{} blocks", count));
+        if (static_cast<std::size_t>(id) != order.size() + 1)
+            return DamagedScan(file.path(), fmt::format("{} blocks", count));
         order.push_back(coord);
     }
     return order;
@@ -35,7 +38,8 @@ Result<std::vector<BlockCoord>> ReadBlockOrder(ScanFile& file) {
 
 Status ReadMap(ScanFile& file, bool labels, ScanContent& content) {
     const ScanMeta& meta = content.meta;
-    const BlockMap::Config config{.voxel_size_m = meta.voxel_size_m, .truncation_m = meta.truncation_m};
+    const BlockMap::Config config{.voxel_size_m = meta.voxel_size_m,
+                                  .truncation_m = meta.truncation_m};
     Result<std::vector<BlockCoord>> order = ReadBlockOrder(file);
     if (!order.ok()) return order.status();
     content.map = std::make_unique<BlockMap>(config);
@@ -43,8 +47,8 @@ Status ReadMap(ScanFile& file, bool labels, ScanContent& content) {
     if (content.progress.labels || labels) map.EnableLabels();
     for (const BlockCoord& coord : order.value())
         if (map.Allocate(coord) == kUnknownBlock)
-            return Status::Error(fmt::format("{}: {} blocks do not fit into this machine's memory", file.path(),
-                                             order.value().size()));
+            return Status::Error(fmt::format("{}: {} blocks do not fit into this machine's memory",
+                                             file.path(), order.value().size()));
     BlockCodec codec;
     return file.Read(ScanTable::kBlocks, [&](const ScanRow& row) {
         const BlockId id = map.Find(CoordOfKey(row.key));
@@ -58,7 +62,8 @@ Status ReadMap(ScanFile& file, bool labels, ScanContent& content) {
 Status ReadPath(ScanFile& file, ScanContent& content) {
     return file.Read(ScanTable::kPath, [&](const ScanRow& row) {
         PathRecord& record = content.path.emplace_back();
-        if (row.key != static_cast<std::int64_t>(content.path.size()) - 1 || !record.Decode(row.data) ||
+        if (row.key != static_cast<std::int64_t>(content.path.size()) - 1 ||
+            !record.Decode(row.data) ||
             record.keyframe >= static_cast<int>(content.keyframes.size()))
             return DamagedScan(file.path(), fmt::format("path {}", row.key));
         return Status::Ok();
@@ -72,35 +77,42 @@ Status ReadKeyframes(ScanFile& file, ScanContent& content) {
     Status keyframes = file.Read(ScanTable::kKeyframes, [&](const ScanRow& row) {
         Keyframe& keyframe = content.keyframes.emplace_back();
         keyframe.id = static_cast<int>(content.keyframes.size()) - 1;
-        return row.key == keyframe.id && DecodeKeyframe(row.data, content.meta.camera, keyframe) ? Status::Ok() : damaged(row);
+        return row.key == keyframe.id && DecodeKeyframe(row.data, content.meta.camera, keyframe)
+                   ? Status::Ok()
+                   : damaged(row);
     });
     if (!keyframes.ok()) return keyframes;
     std::size_t posed = 0;
     Status poses = file.Read(ScanTable::kPoses, [&](const ScanRow& row) {
         KeyframePoses both;
-        if (row.key != static_cast<std::int64_t>(posed) || posed >= content.keyframes.size() || !both.Decode(row.data))
+        if (row.key != static_cast<std::int64_t>(posed) || posed >= content.keyframes.size() ||
+            !both.Decode(row.data))
             return damaged(row);
         content.keyframes[posed].T_map_camera = both.T_map_camera;
         content.keyframes[posed++].T_world_camera = both.T_world_camera;
         return Status::Ok();
     });
     if (!poses.ok()) return poses;
-    return posed == content.keyframes.size() ? Status::Ok() : DamagedScan(file.path(), "poses missing");
+    return posed == content.keyframes.size() ? Status::Ok()
+                                             : DamagedScan(file.path(), "poses missing");
 }
 
 Status ReadStates(ScanFile& file, ScanContent& content) {
-    for (auto& [key, bytes] : {std::pair<ScanStateKey, Bytes*>{ScanStateKey::kTracking, &content.tracking},
-                               {ScanStateKey::kLabels, &content.labels}}) {
+    for (auto& [key, bytes] :
+         {std::pair<ScanStateKey, Bytes*>{ScanStateKey::kTracking, &content.tracking},
+          {ScanStateKey::kLabels, &content.labels}}) {
         Result<Bytes> read = ReadState(file, key);
         if (!read.ok()) return read.status();
         *bytes = std::move(read.value());
     }
     const Result<Bytes> loops = ReadState(file, ScanStateKey::kLoops);
     if (!loops.ok()) return loops.status();
-    if (!loops.value().empty() && !content.loops.Decode(loops.value())) return DamagedScan(file.path(), "loops");
+    if (!loops.value().empty() && !content.loops.Decode(loops.value()))
+        return DamagedScan(file.path(), "loops");
     const int keyframes = static_cast<int>(content.keyframes.size());
     for (const PoseEdge& edge : content.loops.edges)
-        if (edge.from < 0 || edge.to < 0 || edge.from >= keyframes || edge.to >= keyframes || edge.from == edge.to)
+        if (edge.from < 0 || edge.to < 0 || edge.from >= keyframes || edge.to >= keyframes ||
+            edge.from == edge.to)
             return DamagedScan(file.path(), "loops");
     return Status::Ok();
 }
@@ -118,7 +130,8 @@ Result<ScanMeta> ReadMeta(ScanFile& file) {
     const Result<Bytes> bytes = file.ReadOne(ScanTable::kMeta, 0);
     if (!bytes.ok()) return bytes.status();
     ScanMeta meta;
-    if (!meta.Decode(bytes.value()) || meta.truncation_m < meta.voxel_size_m) return DamagedScan(file.path(), "meta");
+    if (!meta.Decode(bytes.value()) || meta.truncation_m < meta.voxel_size_m)
+        return DamagedScan(file.path(), "meta");
     return meta;
 }
 
@@ -134,7 +147,8 @@ std::optional<Eigen::Isometry3d> ScanContent::PoseOf(const PathRecord& record) c
 std::vector<StampedPose> ScanContent::Path() const {
     std::vector<StampedPose> poses;
     for (const PathRecord& record : path)
-        if (const std::optional<Eigen::Isometry3d> T = PoseOf(record)) poses.push_back({record.stamp_s, *T});
+        if (const std::optional<Eigen::Isometry3d> T = PoseOf(record))
+            poses.push_back({record.stamp_s, *T});
     return poses;
 }
 
@@ -143,7 +157,9 @@ std::optional<StampedPose> ScanContent::LastPose() const {
         if (!record->tracked()) continue;
         const Eigen::Isometry3d& T = record->T_reference_camera;
         if (record->keyframe < 0) return StampedPose{record->stamp_s, T};
-        return StampedPose{record->stamp_s, Normalised(keyframes[static_cast<std::size_t>(record->keyframe)].T_map_camera * T)};
+        return StampedPose{
+            record->stamp_s,
+            Normalised(keyframes[static_cast<std::size_t>(record->keyframe)].T_map_camera * T)};
     }
     return std::nullopt;
 }
@@ -151,14 +167,16 @@ std::optional<StampedPose> ScanContent::LastPose() const {
 std::vector<StampedPose> ScanContent::Truth() const {
     std::vector<StampedPose> poses;
     for (const PathRecord& record : path)
-        if (record.T_world_camera_truth) poses.push_back({record.stamp_s, *record.T_world_camera_truth});
+        if (record.T_world_camera_truth)
+            poses.push_back({record.stamp_s, *record.T_world_camera_truth});
     return poses;
 }
 
 Status ReadScanFrames(ScanFile& file, const std::function<Status(FrameRecord&&)>& take) {
     return file.Read(ScanTable::kFrames, [&](const ScanRow& row) {
         FrameRecord record;
-        if (!record.Decode(row.data)) return DamagedScan(file.path(), fmt::format("frames {}", row.key));
+        if (!record.Decode(row.data))
+            return DamagedScan(file.path(), fmt::format("frames {}", row.key));
         return take(std::move(record));
     });
 }
@@ -183,12 +201,16 @@ Result<ScanContent> ReadScan(ScanFile& file, const ScanParts& parts) {
     content.meta = std::move(meta.value());
     const Result<Bytes> progress = ReadState(file, ScanStateKey::kProgress);
     if (!progress.ok()) return progress.status();
-    if (!progress.value().empty() && !content.progress.Decode(progress.value())) return DamagedScan(file.path(), "progress");
+    if (!progress.value().empty() && !content.progress.Decode(progress.value()))
+        return DamagedScan(file.path(), "progress");
     for (const auto& read : {ReadKeyframes, ReadPath, ReadStates})
         if (Status status = read(file, content); !status.ok()) return status;
-    if (static_cast<std::int64_t>(content.path.size()) != content.progress.frames) return DamagedScan(file.path(), "path");
+    if (static_cast<std::int64_t>(content.path.size()) != content.progress.frames)
+        return DamagedScan(file.path(), "path");
     // Every state row is sealed, too.
-    if (Status status = file.Read(ScanTable::kState, [](const ScanRow&) { return Status::Ok(); }); !status.ok()) return status;
+    if (Status status = file.Read(ScanTable::kState, [](const ScanRow&) { return Status::Ok(); });
+        !status.ok())
+        return status;
     if (parts.map)
         if (Status status = ReadMap(file, parts.labels, content); !status.ok()) return status;
     if (parts.frames)

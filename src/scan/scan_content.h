@@ -1,4 +1,5 @@
-// Everything that a scan file holds, in memory: what it takes to go on, to look at it, or to hand it out as other files.
+// Everything that a scan file holds, in memory: what it takes to go on, to look at it, or to hand
+// it out as other files.
 #pragma once
 
 #include <memory>
@@ -16,20 +17,23 @@ namespace tessera {
 struct ScanContent {
     ScanMeta meta;
     ScanProgress progress;
-    bool finished = false;               // the run that wrote it last came to its end
-    std::unique_ptr<BlockMap> map;       // null unless asked for; its blocks have the ids that they had
+    bool finished = false;  // the run that wrote it last came to its end
+    // Null unless asked for; its blocks have the ids that they had.
+    std::unique_ptr<BlockMap> map;
     std::vector<PathRecord> path;
     std::vector<Keyframe> keyframes;
-    std::vector<FrameRecord> frames;     // if asked for, by increasing time
+    std::vector<FrameRecord> frames;  // if asked for, by increasing time
     LoopProgress loops;
-    Bytes tracking, labels;              // TrackingStage's and LabelMapper's states, as they gave them; perhaps empty
+    // TrackingStage's and LabelMapper's states, as they gave them; perhaps empty.
+    Bytes tracking, labels;
 
     // T_world_camera of one of the path's frames as it is known now; nothing if it was not tracked.
     std::optional<Eigen::Isometry3d> PoseOf(const PathRecord& record) const;
     // The same of all tracked frames, and the source's truth where it has one.
     std::vector<StampedPose> Path() const;
     std::vector<StampedPose> Truth() const;
-    // Where the last tracked frame's camera was in the map as it is here; nothing if no frame was tracked.
+    // Where the last tracked frame's camera was in the map as it is here; nothing if no frame was
+    // tracked.
     std::optional<StampedPose> LastPose() const;
 };
 
@@ -38,8 +42,8 @@ struct ScanParts {
     bool labels = false;  // the map gets room for labels even if the file has none
 };
 
-// Errors name the file and what to do: damage of any kind is found and refused, never passed on. What is not asked for is
-// not looked at.
+// Errors name the file and what to do: damage of any kind is found and refused, never passed on.
+// What is not asked for is not looked at.
 Result<ScanContent> ReadScan(const std::string& path, const ScanParts& parts);
 Result<ScanContent> ReadScan(ScanFile& file, const ScanParts& parts);
 Result<ScanMeta> ReadScanMeta(const std::string& path);

@@ -14,8 +14,11 @@ namespace tessera {
 namespace {
 
 std::string TableSql(ScanTable table) {
-    return fmt::format("CREATE TABLE {} (key INTEGER PRIMARY KEY, epoch INTEGER NOT NULL, checkpoint INTEGER NOT NULL, "
-                       "data BLOB NOT NULL, checksum INTEGER NOT NULL)", ToString(table));
+    return fmt::format(
+        "CREATE TABLE {} (key INTEGER PRIMARY KEY, epoch INTEGER NOT NULL, checkpoint INTEGER NOT "
+        "NULL, "
+        "data BLOB NOT NULL, checksum INTEGER NOT NULL)",
+        ToString(table));
 }
 
 bool Exists(const std::string& path) {
@@ -50,26 +53,36 @@ std::string WhyNoScan(const std::string& path) {
 }  // namespace
 
 Status DamagedScan(const std::string& path, const std::string& why) {
-    return Status::Error(fmt::format("{}: damaged ({}); what is sound is recovered by: tessera scan repair {} --out NEW.scan",
-                                     path, why, path));
+    return Status::Error(fmt::format(
+        "{}: damaged ({}); what is sound is recovered by: tessera scan repair {} --out NEW.scan",
+        path, why, path));
 }
 
-Result<std::unique_ptr<ScanFile>> ScanFile::Create(const std::string& path, std::span<const std::uint8_t> meta) {
-    if (Exists(path)) return Status::Error(path + ": exists already; go on with it by --resume, or choose another name");
+Result<std::unique_ptr<ScanFile>> ScanFile::Create(const std::string& path,
+                                                   std::span<const std::uint8_t> meta) {
+    if (Exists(path))
+        return Status::Error(path +
+                             ": exists already; go on with it by --resume, or choose another name");
     // SQLite would take it for the new file's.
     if (const std::string journal = path + "-wal"; HasContent(journal))
-        return Status::Error(journal + ": is the journal of a scan that is not here any more; put it back beside its file, or remove it");
+        return Status::Error(journal +
+                             ": is the journal of a scan that is not here any more; put it back "
+                             "beside its file, or remove it");
     const std::string unfinished = path + ".new";
     std::error_code ignored;
-    for (const char* ending : {"", "-wal", "-shm"}) std::filesystem::remove(unfinished + ending, ignored);
+    for (const char* ending : {"", "-wal", "-shm"})
+        std::filesystem::remove(unfinished + ending, ignored);
     {
-        Result<std::unique_ptr<Database>> database = Database::Open(unfinished, Database::Access::kCreate);
+        Result<std::unique_ptr<Database>> database =
+            Database::Open(unfinished, Database::Access::kCreate);
         if (!database.ok()) return database.status();
         std::unique_ptr<ScanFile> file(new ScanFile());
         file->database_ = std::move(database.value());
         // Pages that hold several blocks and need no overflow pages for one.
-        std::string sql = fmt::format("PRAGMA synchronous=OFF; PRAGMA page_size={}; PRAGMA application_id={}; PRAGMA user_version={}; ",
-                                      kScanPageBytes, kScanApplicationId, kScanVersion);
+        std::string sql = fmt::format(
+            "PRAGMA synchronous=OFF; PRAGMA page_size={}; PRAGMA application_id={}; PRAGMA "
+            "user_version={}; ",
+            kScanPageBytes, kScanApplicationId, kScanVersion);
         for (const ScanTable table : kScanTables) sql += TableSql(table) + "; ";
         Status made = file->database_->Execute(sql);
         if (made.ok()) made = file->PrepareToWrite();
@@ -78,10 +91,13 @@ Result<std::unique_ptr<ScanFile>> ScanFile::Create(const std::string& path, std:
             file->next_.checkpoint = 0;
             made = file->Put(ScanTable::kMeta, 0, meta);
             // Once more on another page, for repair.
-            if (made.ok()) made = file->Put(ScanTable::kState, static_cast<std::int64_t>(ScanStateKey::kMetaCopy), meta);
+            if (made.ok())
+                made = file->Put(ScanTable::kState,
+                                 static_cast<std::int64_t>(ScanStateKey::kMetaCopy), meta);
         }
         if (made.ok()) made = file->Commit(false);
-        // Not only once it has its name: who is killed while SQLite changes this leaves a file that cannot be opened to read.
+        // Not only once it has its name: who is killed while SQLite changes this leaves a file that
+        // cannot be opened to read.
         if (made.ok()) made = file->database_->Execute("PRAGMA journal_mode=WAL");
         if (!made.ok()) {
             file.reset();
@@ -99,7 +115,8 @@ Result<std::unique_ptr<ScanFile>> ScanFile::Create(const std::string& path, std:
 
 Result<std::unique_ptr<ScanFile>> ScanFile::OpenToRead(const std::string& path) {
     if (!ScanAvailable()) return Status::Error(path + ": " + kScanUnavailable);
-    if (const std::string why = WhyNoScan(path); !why.empty()) return Status::Error(path + ": " + why);
+    if (const std::string why = WhyNoScan(path); !why.empty())
+        return Status::Error(path + ": " + why);
     std::unique_ptr<ScanFile> file(new ScanFile());
     Result<std::unique_ptr<Database>> database = Database::Open(path, Database::Access::kRead);
     if (!database.ok()) return database.status();
@@ -113,15 +130,17 @@ Result<std::unique_ptr<ScanFile>> ScanFile::OpenToRead(const std::string& path) 
 
 Result<std::unique_ptr<ScanFile>> ScanFile::OpenToWrite(const std::string& path) {
     if (!ScanAvailable()) return Status::Error(path + ": " + kScanUnavailable);
-    if (const std::string why = WhyNoScan(path); !why.empty()) return Status::Error(path + ": " + why);
+    if (const std::string why = WhyNoScan(path); !why.empty())
+        return Status::Error(path + ": " + why);
     std::unique_ptr<ScanFile> file(new ScanFile());
     if (Status locked = file->Lock(path); !locked.ok()) return locked;
     Result<std::unique_ptr<Database>> database = Database::Open(path, Database::Access::kWrite);
     if (!database.ok()) return database.status();
     file->database_ = std::move(database.value());
     if (Status status = file->CheckHeader(); !status.ok()) return status;
-    if (Status status = file->database_->Execute("PRAGMA journal_mode=WAL; PRAGMA synchronous=NORMAL; "
-                                                 "PRAGMA journal_size_limit=67108864; PRAGMA cache_size=-16384;");
+    if (Status status = file->database_->Execute(
+            "PRAGMA journal_mode=WAL; PRAGMA synchronous=NORMAL; "
+            "PRAGMA journal_size_limit=67108864; PRAGMA cache_size=-16384;");
         !status.ok())
         return status;
     if (Status status = file->LoadSeal(); !status.ok()) return status;
@@ -140,27 +159,34 @@ ScanFile::~ScanFile() {
 
 Status ScanFile::Lock(const std::string& path) {
     lock_ = ::open(path.c_str(), O_RDWR | O_CLOEXEC);
-    if (lock_ < 0) return Status::Error(fmt::format("{}: cannot be written: {}", path, std::strerror(errno)));
+    if (lock_ < 0)
+        return Status::Error(fmt::format("{}: cannot be written: {}", path, std::strerror(errno)));
     if (::flock(lock_, LOCK_EX | LOCK_NB) != 0)
-        return Status::Error(path + ": another run is writing into it; wait for its end, or choose another file");
+        return Status::Error(
+            path + ": another run is writing into it; wait for its end, or choose another file");
     return Status::Ok();
 }
 
-// A file that is no scan of a version that this program reads is refused before anything is believed of it.
+// A file that is no scan of a version that this program reads is refused before anything is
+// believed of it.
 Status ScanFile::CheckHeader() {
     const Result<std::int64_t> application = database_->Number("PRAGMA application_id");
     if (!application.ok()) return Failed("header");
-    if (application.value() != kScanApplicationId) return Status::Error(path() + ": is not a scan (another program's database)");
+    if (application.value() != kScanApplicationId)
+        return Status::Error(path() + ": is not a scan (another program's database)");
     const Result<std::int64_t> version = database_->Number("PRAGMA user_version");
     if (!version.ok()) return Failed("header");
     if (version.value() > kScanVersion)
-        return Status::Error(fmt::format("{}: is of format version {}, this program reads up to {}; use a newer tessera (or, if "
-                                         "the file is damaged: tessera scan repair {} --out NEW.scan)",
-                                         path(), version.value(), kScanVersion, path()));
+        return Status::Error(fmt::format(
+            "{}: is of format version {}, this program reads up to {}; use a newer tessera (or, if "
+            "the file is damaged: tessera scan repair {} --out NEW.scan)",
+            path(), version.value(), kScanVersion, path()));
     if (version.value() < 1) return DamagedScan(path(), "no format version");
     std::string tables;
-    for (const ScanTable table : kScanTables) tables += fmt::format(" OR sql = '{}'", TableSql(table));
-    const Result<std::int64_t> known = database_->Number("SELECT count(*) FROM sqlite_schema WHERE 0" + tables);
+    for (const ScanTable table : kScanTables)
+        tables += fmt::format(" OR sql = '{}'", TableSql(table));
+    const Result<std::int64_t> known =
+        database_->Number("SELECT count(*) FROM sqlite_schema WHERE 0" + tables);
     const Result<std::int64_t> all = database_->Number("SELECT count(*) FROM sqlite_schema");
     if (!known.ok() || !all.ok()) return Failed("tables");
     if (known.value() != static_cast<std::int64_t>(kScanTableCount) || all.value() != known.value())

@@ -1,8 +1,8 @@
-// A scan file as its tables of rows: one SQLite database, written in transactions that each end in a consistent state (a
-// checkpoint), read with every row checked.
+// A scan file as its tables of rows: one SQLite database, written in transactions that each end in
+// a consistent state (a checkpoint), read with every row checked.
 //
-// A checkpoint's seal (in ScanTable::kState) holds each table's number of rows and the sum of their checksums: a row that is
-// missing, old, moved or damaged is found, whatever SQLite makes of it.
+// A checkpoint's seal (in ScanTable::kState) holds each table's number of rows and the sum of their
+// checksums: a row that is missing, old, moved or damaged is found, whatever SQLite makes of it.
 #pragma once
 
 #include <array>
@@ -35,26 +35,30 @@ Status DamagedScan(const std::string& path, const std::string& why);
 // Owner thread only. Errors name the file, what is wrong and what to do.
 class ScanFile {
   public:
-    // A new file with one checkpoint, number 0: `meta` and nothing else. Refused where there is a file already, or the journal of
-    // one. It appears at `path` whole or not at all.
-    static Result<std::unique_ptr<ScanFile>> Create(const std::string& path, std::span<const std::uint8_t> meta);
-    // No scan, a newer version, or a header or schema that is not sound: refused. Two runs cannot write into one file.
+    // A new file with one checkpoint, number 0: `meta` and nothing else. Refused where there is a
+    // file already, or the journal of one. It appears at `path` whole or not at all.
+    static Result<std::unique_ptr<ScanFile>> Create(const std::string& path,
+                                                    std::span<const std::uint8_t> meta);
+    // No scan, a newer version, or a header or schema that is not sound: refused. Two runs cannot
+    // write into one file.
     static Result<std::unique_ptr<ScanFile>> OpenToRead(const std::string& path);
     static Result<std::unique_ptr<ScanFile>> OpenToWrite(const std::string& path);
-    ~ScanFile();  // what was not committed is not there; a new file without a checkpoint but its first goes
+    // What was not committed is not there; a new file without a checkpoint but its first goes.
+    ~ScanFile();
     ScanFile(const ScanFile&) = delete;
     ScanFile& operator=(const ScanFile&) = delete;
 
     const std::string& path() const { return database_->path(); }
     const ScanSeal& seal() const { return seal_; }
 
-    // Every row of a table by increasing key, checked against its checksum, and at the end their number and sum against the
-    // seal. Ends early where `take` gives an error.
+    // Every row of a table by increasing key, checked against its checksum, and at the end their
+    // number and sum against the seal. Ends early where `take` gives an error.
     Status Read(ScanTable table, const std::function<Status(const ScanRow&)>& take);
     // The data of one row of kState or kMeta; empty if there is none.
     Result<std::vector<std::uint8_t>> ReadOne(ScanTable table, std::int64_t key);
 
-    // One checkpoint: Begin, any Put and Clear, Commit. An error leaves the file as it was before Begin.
+    // One checkpoint: Begin, any Put and Clear, Commit. An error leaves the file as it was before
+    // Begin.
     Status Begin();
     Status Put(ScanTable table, std::int64_t key, std::span<const std::uint8_t> data);
     // All rows go; those that come are of a new epoch.
@@ -79,7 +83,9 @@ class ScanFile {
     Status Failed(const std::string& doing) const;
 
     bool fresh_ = false;  // made by Create
-    int lock_ = -1;  // the file, held so that nobody else writes; outlives the database (closing it drops SQLite's locks)
+    // The file, held so that nobody else writes; outlives the database (closing it drops SQLite's
+    // locks).
+    int lock_ = -1;
     std::unique_ptr<Database> database_;
     ScanSeal seal_, next_;  // as committed, and as it will be
     std::array<Statements, kScanTableCount> statements_;

@@ -38,8 +38,8 @@ Status ScanFile::Failed(const std::string& doing) const {
 
 Status ScanFile::Read(ScanTable table, const std::function<Status(const ScanRow&)>& take) {
     const char* name = ToString(table);
-    Result<DatabaseStatement> select =
-        database_->Prepare(fmt::format("SELECT key, epoch, checkpoint, data, checksum FROM {} ORDER BY key", name));
+    Result<DatabaseStatement> select = database_->Prepare(
+        fmt::format("SELECT key, epoch, checkpoint, data, checksum FROM {} ORDER BY key", name));
     if (!select.ok()) return Failed(name);
     DatabaseStatement& rows = select.value();
     ScanSeal::Table found;
@@ -57,21 +57,24 @@ Status ScanFile::Read(ScanTable table, const std::function<Status(const ScanRow&
         if (table == ScanTable::kState && row.key == kSealKey) continue;
         ++found.rows;
         found.checksums += checksum;
-        if (row.epoch != sealed.epoch || row.checkpoint > seal_.checkpoint || found.rows > sealed.rows)
+        if (row.epoch != sealed.epoch || row.checkpoint > seal_.checkpoint ||
+            found.rows > sealed.rows)
             return DamagedScan(path(), fmt::format("{} {} is of another time", name, row.key));
         if (Status status = take(row); !status.ok()) return status;
     }
     if (step != kStepDone) return Failed(name);
     if (found.rows != sealed.rows)
-        return DamagedScan(path(), fmt::format("{} of {} {} missing", sealed.rows - found.rows, sealed.rows, name));
-    if (found.checksums != sealed.checksums) return DamagedScan(path(), fmt::format("{}: some are old", name));
+        return DamagedScan(path(), fmt::format("{} of {} {} missing", sealed.rows - found.rows,
+                                               sealed.rows, name));
+    if (found.checksums != sealed.checksums)
+        return DamagedScan(path(), fmt::format("{}: some are old", name));
     return Status::Ok();
 }
 
 Result<std::vector<std::uint8_t>> ScanFile::ReadOne(ScanTable table, std::int64_t key) {
     const char* name = ToString(table);
-    Result<DatabaseStatement> select =
-        database_->Prepare(fmt::format("SELECT key, epoch, checkpoint, data, checksum FROM {} WHERE key = ?", name));
+    Result<DatabaseStatement> select = database_->Prepare(
+        fmt::format("SELECT key, epoch, checkpoint, data, checksum FROM {} WHERE key = ?", name));
     if (!select.ok()) return Failed(name);
     DatabaseStatement& found = select.value();
     found.Bind(1, key);
@@ -87,7 +90,8 @@ Result<std::vector<std::uint8_t>> ScanFile::ReadOne(ScanTable table, std::int64_
 Status ScanFile::PrepareToWrite() {
     for (const ScanTable table : kScanTables) {
         const char* name = ToString(table);
-        Result<DatabaseStatement> find = database_->Prepare(fmt::format("SELECT checksum FROM {} WHERE key = ?", name));
+        Result<DatabaseStatement> find =
+            database_->Prepare(fmt::format("SELECT checksum FROM {} WHERE key = ?", name));
         Result<DatabaseStatement> replace =
             database_->Prepare(fmt::format("REPLACE INTO {} VALUES (?, ?, ?, ?, ?)", name));
         if (!find.ok() || !replace.ok()) return Failed(name);
@@ -134,7 +138,8 @@ Status ScanFile::Put(ScanTable table, std::int64_t key, std::span<const std::uin
 Status ScanFile::Clear(ScanTable table) {
     ScanSeal::Table& sealed = next_.tables[IndexOf(table)];
     sealed = {sealed.epoch + 1, 0, 0};
-    if (Status status = database_->Execute(fmt::format("DELETE FROM {}", ToString(table))); !status.ok())
+    if (Status status = database_->Execute(fmt::format("DELETE FROM {}", ToString(table)));
+        !status.ok())
         return Abandon("cannot be written");
     return Status::Ok();
 }
@@ -143,7 +148,8 @@ Status ScanFile::Commit(bool finished) {
     next_.finished = finished;
     const std::vector<std::uint8_t> seal = next_.Encode();
     if (Status status = Put(ScanTable::kState, kSealKey, seal); !status.ok()) return status;
-    if (Status status = database_->Execute("COMMIT"); !status.ok()) return Abandon("cannot be written");
+    if (Status status = database_->Execute("COMMIT"); !status.ok())
+        return Abandon("cannot be written");
     seal_ = next_;
     return Status::Ok();
 }
@@ -159,9 +165,13 @@ void ScanFile::Rollback() {
         statements.find.Reset();
         statements.replace.Reset();
     }
-    static_cast<void>(database_->Execute("ROLLBACK"));  // where the library has rolled back itself there is nothing to do
+    // Where the library has rolled back itself there is nothing to do.
+    static_cast<void>(database_->Execute("ROLLBACK"));
 }
 
-void ScanFile::Close() { static_cast<void>(database_->Execute("PRAGMA wal_checkpoint(TRUNCATE); PRAGMA journal_mode=DELETE;")); }
+void ScanFile::Close() {
+    static_cast<void>(
+        database_->Execute("PRAGMA wal_checkpoint(TRUNCATE); PRAGMA journal_mode=DELETE;"));
+}
 
 }  // namespace tessera

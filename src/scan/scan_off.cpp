@@ -1,5 +1,5 @@
-// In place of database.cpp and compression.cpp in a build without SQLite or zstd. No file is ever opened, so nothing else is
-// ever called.
+// In place of database.cpp and compression.cpp in a build without SQLite or zstd. No file is ever
+// opened, so nothing else is ever called.
 #include "scan/compression.h"
 #include "scan/database.h"
 
@@ -20,8 +20,12 @@ Result<std::unique_ptr<Database>> Database::Open(const std::string& path, Access
 }
 Database::~Database() = default;
 Status Database::Execute(const std::string&) { return Status::Error(kScanUnavailable); }
-Result<std::int64_t> Database::Number(const std::string&) { return Status::Error(kScanUnavailable); }
-Result<DatabaseStatement> Database::Prepare(const std::string&) { return Status::Error(kScanUnavailable); }
+Result<std::int64_t> Database::Number(const std::string&) {
+    return Status::Error(kScanUnavailable);
+}
+Result<DatabaseStatement> Database::Prepare(const std::string&) {
+    return Status::Error(kScanUnavailable);
+}
 Status Database::Error(const std::string&) const { return Status::Error(kScanUnavailable); }
 bool Database::damaged() const { return false; }
 
@@ -29,7 +33,9 @@ struct Compressor::Contexts {};
 Compressor::Compressor() = default;
 Compressor::~Compressor() = default;
 void Compressor::Compress(std::span<const std::uint8_t>, std::vector<std::uint8_t>&) {}
-bool Compressor::Decompress(std::span<const std::uint8_t>, std::span<std::uint8_t>) { return false; }
+bool Compressor::Decompress(std::span<const std::uint8_t>, std::span<std::uint8_t>) {
+    return false;
+}
 std::uint64_t Compressor::ContentSize(std::span<const std::uint8_t>) { return 0; }
 
 }  // namespace tessera

@@ -17,7 +17,8 @@ bool GetCamera(StateReader& state, PinholeCamera& c) {
     if (!state.Get(c.width) || !state.Get(c.height)) return false;
     for (double* value : {&c.fx, &c.fy, &c.cx, &c.cy})
         if (!state.Get(*value) || !std::isfinite(*value)) return false;
-    return c.width > 0 && c.height > 0 && c.width <= kMostSide_px && c.height <= kMostSide_px && c.fx > 0 && c.fy > 0;
+    return c.width > 0 && c.height > 0 && c.width <= kMostSide_px && c.height <= kMostSide_px &&
+           c.fx > 0 && c.fy > 0;
 }
 
 void PutDetections(const std::optional<std::vector<Detection>>& detections, StateWriter& state) {
@@ -27,7 +28,9 @@ void PutDetections(const std::optional<std::vector<Detection>>& detections, Stat
     for (const Detection& d : *detections) {
         state.Put(d.name);
         state.Put(static_cast<std::int32_t>(d.class_id));
-        for (const float value : {d.probability, d.box.x_min, d.box.y_min, d.box.x_max, d.box.y_max}) state.Put(value);
+        for (const float value :
+             {d.probability, d.box.x_min, d.box.y_min, d.box.x_max, d.box.y_max})
+            state.Put(value);
         state.Put(static_cast<std::int32_t>(d.mask.width()));
         state.PutArray(std::span<const std::uint8_t>(d.mask.data(), d.mask.size()));
     }
@@ -64,12 +67,15 @@ bool GetDetections(StateReader& state, std::optional<std::vector<Detection>>& de
 
 void PutMotion(const FrameMotion& motion, StateWriter& state) {
     state.Put(motion.twist_per_s);
-    for (const double value : {motion.colour_delay_s, motion.depth_readout_s, motion.colour_readout_s}) state.Put(value);
+    for (const double value :
+         {motion.colour_delay_s, motion.depth_readout_s, motion.colour_readout_s})
+        state.Put(value);
 }
 
 bool GetMotion(StateReader& state, FrameMotion& motion) {
     if (!state.Get(motion.twist_per_s)) return false;
-    for (double* value : {&motion.colour_delay_s, &motion.depth_readout_s, &motion.colour_readout_s})
+    for (double* value :
+         {&motion.colour_delay_s, &motion.depth_readout_s, &motion.colour_readout_s})
         if (!state.Get(*value) || !std::isfinite(*value)) return false;
     return true;
 }
@@ -121,7 +127,8 @@ bool PathRecord::Decode(std::span<const std::uint8_t> bytes) {
     state.Get(T_reference_camera);
     state.Get(T_world_camera_truth);
     status = static_cast<TrackStatus>(status_number);
-    return state.at_end() && std::isfinite(stamp_s) && status_number <= static_cast<int>(TrackStatus::kLost) && keyframe >= -1;
+    return state.at_end() && std::isfinite(stamp_s) &&
+           status_number <= static_cast<int>(TrackStatus::kLost) && keyframe >= -1;
 }
 
 Bytes ScanProgress::Encode() const {
@@ -161,7 +168,8 @@ Bytes FrameRecord::Encode() const {
     state.Put(stored.T_keyframe_camera);
     state.Put(stored.view.T_world_camera);
     PutMotion(stored.view.motion, state);
-    for (const float value : {stored.view.gain, stored.view.offset, stored.view.weight, stored.view.colour_weight})
+    for (const float value :
+         {stored.view.gain, stored.view.offset, stored.view.weight, stored.view.colour_weight})
         state.Put(value);
     state.PutArray(std::span<const std::uint8_t>(stored.depth_png));
     state.PutArray(std::span<const std::uint8_t>(stored.colour_jpeg));
@@ -181,14 +189,15 @@ bool FrameRecord::Decode(std::span<const std::uint8_t> bytes) {
     state.Get(stored.T_keyframe_camera);
     state.Get(stored.view.T_world_camera);
     if (!GetMotion(state, stored.view.motion)) return false;
-    for (float* value : {&stored.view.gain, &stored.view.offset, &stored.view.weight, &stored.view.colour_weight})
+    for (float* value :
+         {&stored.view.gain, &stored.view.offset, &stored.view.weight, &stored.view.colour_weight})
         if (!state.Get(*value) || !std::isfinite(*value)) return false;
     state.GetArray(stored.depth_png);
     state.GetArray(stored.colour_jpeg);
     stored.frame_index = index;
     if (!GetDetections(state, stored.detections)) return false;
-    return state.at_end() && std::isfinite(stamp_s) && std::isfinite(colour_stamp_s) && stored.ordinal >= 0 &&
-           stored.keyframe >= 0;
+    return state.at_end() && std::isfinite(stamp_s) && std::isfinite(colour_stamp_s) &&
+           stored.ordinal >= 0 && stored.keyframe >= 0;
 }
 
 Bytes KeyframePoses::Encode() const {
@@ -209,16 +218,19 @@ Bytes EncodeKeyframe(const Keyframe& keyframe) {
     StateWriter state(bytes);
     state.Put(keyframe.frame_index);
     state.Put(keyframe.stamp_s);
-    for (const double value : {keyframe.way_m, keyframe.turned_rad, keyframe.inlier_fraction}) state.Put(value);
+    for (const double value : {keyframe.way_m, keyframe.turned_rad, keyframe.inlier_fraction})
+        state.Put(value);
     state.PutArray(std::span<const Descriptor>(keyframe.features.descriptors));
     static_assert(sizeof(Eigen::Vector3f) == 3 * sizeof(float));
-    state.PutArray(std::span<const float>(keyframe.features.p_camera.empty() ? nullptr : keyframe.features.p_camera[0].data(),
-                                          3 * keyframe.features.p_camera.size()));
+    state.PutArray(std::span<const float>(
+        keyframe.features.p_camera.empty() ? nullptr : keyframe.features.p_camera[0].data(),
+        3 * keyframe.features.p_camera.size()));
     state.PutArray(std::span<const float>(keyframe.depth_m.data(), keyframe.depth_m.size()));
     return bytes;
 }
 
-bool DecodeKeyframe(std::span<const std::uint8_t> bytes, const PinholeCamera& camera, Keyframe& keyframe) {
+bool DecodeKeyframe(std::span<const std::uint8_t> bytes, const PinholeCamera& camera,
+                    Keyframe& keyframe) {
     StateReader state(bytes);
     std::vector<float> points, depth;
     state.Get(keyframe.frame_index);
@@ -230,7 +242,9 @@ bool DecodeKeyframe(std::span<const std::uint8_t> bytes, const PinholeCamera& ca
     state.GetArray(depth);
     keyframe.view = camera.Every(kKeyframeReduction);
     keyframe.depth_m.Resize(keyframe.view.width, keyframe.view.height);
-    if (!state.at_end() || points.size() != 3 * keyframe.features.size() || depth.size() != keyframe.depth_m.size()) return false;
+    if (!state.at_end() || points.size() != 3 * keyframe.features.size() ||
+        depth.size() != keyframe.depth_m.size())
+        return false;
     for (const std::vector<float>* values : {&points, &depth})
         for (const float value : *values)
             if (!std::isfinite(value)) return false;

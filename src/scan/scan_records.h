@@ -1,5 +1,6 @@
-// What the rows of a scan file besides the blocks say, and their bytes. Decode functions are false for bytes that are no such
-// record; they believe nothing and allocate no more than the bytes that are there.
+// What the rows of a scan file besides the blocks say, and their bytes. Decode functions are false
+// for bytes that are no such record; they believe nothing and allocate no more than the bytes that
+// are there.
 #pragma once
 
 #include <optional>
@@ -19,13 +20,13 @@ using Bytes = std::vector<std::uint8_t>;
 
 // What does not change while a scan is made.
 struct ScanMeta {
-    std::string program;          // version that began it
+    std::string program;  // version that began it
     std::string source_name, source_kind;
     PinholeCamera camera;
     double depth_units_per_m = 5000;
     double voxel_size_m = 0, truncation_m = 0;
-    bool loops = false;           // loop closure is on: keyframes and frames are there
-    std::string configuration;    // YAML, the whole of it
+    bool loops = false;         // loop closure is on: keyframes and frames are there
+    std::string configuration;  // YAML, the whole of it
 
     Bytes Encode() const;
     bool Decode(std::span<const std::uint8_t> bytes);
@@ -37,9 +38,10 @@ struct PathRecord {
     double stamp_s = 0;
     TrackStatus status = TrackStatus::kLost;
     bool fused = false;
-    std::int32_t keyframe = -1;  // with loop closure: T_reference_camera is relative to it; -1: to the world
+    // With loop closure: T_reference_camera is relative to it; -1: to the world.
+    std::int32_t keyframe = -1;
     Eigen::Isometry3d T_reference_camera = Eigen::Isometry3d::Identity();  // identity if lost
-    std::optional<Eigen::Isometry3d> T_world_camera_truth;                // in the source's world
+    std::optional<Eigen::Isometry3d> T_world_camera_truth;                 // in the source's world
 
     bool tracked() const { return status != TrackStatus::kLost; }
     Bytes Encode() const;
@@ -48,12 +50,13 @@ struct PathRecord {
 
 // As of the last frame of a checkpoint.
 struct ScanProgress {
-    std::int64_t frames = 0;            // of the path
-    std::uint32_t fused_frames = 0;     // that the map has seen, corrections apart: what its dither counts
-    std::int64_t labelled_frames = 0;   // that were offered to the detector
+    std::int64_t frames = 0;  // of the path
+    // That the map has seen, corrections apart: what its dither counts.
+    std::uint32_t fused_frames = 0;
+    std::int64_t labelled_frames = 0;  // that were offered to the detector
     std::int64_t last_index = -1;
     double last_stamp_s = 0;
-    bool labels = false;                // blocks have labels
+    bool labels = false;  // blocks have labels
 
     Bytes Encode() const;
     bool Decode(std::span<const std::uint8_t> bytes);
@@ -73,10 +76,12 @@ struct FrameRecord {
 
 // Where a keyframe lies, which changes with each loop.
 struct KeyframePoses {
-    Eigen::Isometry3d T_map_camera = Eigen::Isometry3d::Identity(), T_world_camera = Eigen::Isometry3d::Identity();
+    Eigen::Isometry3d T_map_camera = Eigen::Isometry3d::Identity(),
+                      T_world_camera = Eigen::Isometry3d::Identity();
 
     bool operator==(const KeyframePoses& other) const {
-        return T_map_camera.matrix() == other.T_map_camera.matrix() && T_world_camera.matrix() == other.T_world_camera.matrix();
+        return T_map_camera.matrix() == other.T_map_camera.matrix() &&
+               T_world_camera.matrix() == other.T_world_camera.matrix();
     }
     Bytes Encode() const;
     bool Decode(std::span<const std::uint8_t> bytes);
@@ -84,7 +89,8 @@ struct KeyframePoses {
 
 // All of a keyframe but its two poses, and but `view`, which follows from the camera.
 Bytes EncodeKeyframe(const Keyframe& keyframe);
-bool DecodeKeyframe(std::span<const std::uint8_t> bytes, const PinholeCamera& camera, Keyframe& keyframe);
+bool DecodeKeyframe(std::span<const std::uint8_t> bytes, const PinholeCamera& camera,
+                    Keyframe& keyframe);
 
 // What LoopCloser knows besides keyframes, frames and passages.
 struct LoopProgress {

@@ -22,15 +22,20 @@ class Repair {
 
     Result<RepairReport> Run() {
         Index();
-        if (!FindMeta()) return Status::Error(path_ + ": nothing can be recovered: what the scan was made with is lost");
-        if (found_[IndexOf(ScanTable::kBlocks)].empty() && found_[IndexOf(ScanTable::kPath)].empty())
-            return Status::Error(path_ + ": nothing can be recovered: no block and no pose is sound");
+        if (!FindMeta())
+            return Status::Error(path_ +
+                                 ": nothing can be recovered: what the scan was made with is lost");
+        if (found_[IndexOf(ScanTable::kBlocks)].empty() &&
+            found_[IndexOf(ScanTable::kPath)].empty())
+            return Status::Error(path_ +
+                                 ": nothing can be recovered: no block and no pose is sound");
         JudgeLoops();
         Result<std::unique_ptr<ScanFile>> file = ScanFile::Create(out_, meta_.Encode());
         if (!file.ok()) return file.status();
         file_ = std::move(file.value());
         if (Status status = file_->Begin(); !status.ok()) return status;
-        for (const auto& copy : {&Repair::CopyBlocks, &Repair::CopyPath, &Repair::CopyKeyframes, &Repair::CopyFrames, &Repair::CopyState})
+        for (const auto& copy : {&Repair::CopyBlocks, &Repair::CopyPath, &Repair::CopyKeyframes,
+                                 &Repair::CopyFrames, &Repair::CopyState})
             if (Status status = (this->*copy)(); !status.ok()) return status;
         if (Status status = file_->Commit(false); !status.ok()) return status;
         file_->Close();
@@ -54,8 +59,10 @@ class Repair {
             if (row.epoch < epoch) return;
             if (row.epoch > epoch) rows(row.table).clear();
             epoch = row.epoch;
-            const auto [at, fresh] = rows(row.table).try_emplace(row.key, Found{row.epoch, row.checkpoint, place});
-            if (!fresh && at->second.checkpoint <= row.checkpoint) at->second = {row.epoch, row.checkpoint, place};
+            const auto [at, fresh] =
+                rows(row.table).try_emplace(row.key, Found{row.epoch, row.checkpoint, place});
+            if (!fresh && at->second.checkpoint <= row.checkpoint)
+                at->second = {row.epoch, row.checkpoint, place};
         });
         ScanRow row;
         if (Load(ScanTable::kState, static_cast<std::int64_t>(ScanStateKey::kSeal), row)) {
@@ -63,12 +70,15 @@ class Repair {
             if (ScanSeal::Decode(row.data, seal)) seal_ = seal;
         }
         if (!seal_) report_.lost.push_back("how much there was");
-        for (const ScanTable table : {ScanTable::kBlocks, ScanTable::kPath, ScanTable::kFrames, ScanTable::kKeyframes}) {
+        for (const ScanTable table :
+             {ScanTable::kBlocks, ScanTable::kPath, ScanTable::kFrames, ScanTable::kKeyframes}) {
             if (!seal_) continue;
             const ScanSeal::Table& sealed = seal_->tables[IndexOf(table)];
             if (epochs[IndexOf(table)] < sealed.epoch) rows(table).clear();  // emptied since
             const auto missing = sealed.rows - static_cast<std::int64_t>(rows(table).size());
-            if (missing > 0) report_.lost.push_back(fmt::format("{} of {} {}", missing, sealed.rows, ToString(table)));
+            if (missing > 0)
+                report_.lost.push_back(
+                    fmt::format("{} of {} {}", missing, sealed.rows, ToString(table)));
         }
     }
 
@@ -81,26 +91,32 @@ class Repair {
     bool FindMeta() {
         ScanRow row;
         return (Load(ScanTable::kMeta, 0, row) && meta_.Decode(row.data)) ||
-               (Load(ScanTable::kState, static_cast<std::int64_t>(ScanStateKey::kMetaCopy), row) && meta_.Decode(row.data));
+               (Load(ScanTable::kState, static_cast<std::int64_t>(ScanStateKey::kMetaCopy), row) &&
+                meta_.Decode(row.data));
     }
 
     // Loop closure can go on only from all keyframes; else the path is written without them.
     void JudgeLoops() {
         ScanRow row;
         const std::size_t count = rows(ScanTable::kPoses).size();
-        bool whole = meta_.loops && Load(ScanTable::kState, static_cast<std::int64_t>(ScanStateKey::kLoops), row) &&
-                     loops_.Decode(row.data) && rows(ScanTable::kKeyframes).size() == count;
+        bool whole =
+            meta_.loops &&
+            Load(ScanTable::kState, static_cast<std::int64_t>(ScanStateKey::kLoops), row) &&
+            loops_.Decode(row.data) && rows(ScanTable::kKeyframes).size() == count;
         Keyframe keyframe;
         for (const auto& [key, place] : rows(ScanTable::kPoses)) {
             KeyframePoses poses;
             if (Load(ScanTable::kPoses, key, row) && poses.Decode(row.data)) poses_[key] = poses;
-            whole = whole && Load(ScanTable::kKeyframes, key, row) && DecodeKeyframe(row.data, meta_.camera, keyframe);
+            whole = whole && Load(ScanTable::kKeyframes, key, row) &&
+                    DecodeKeyframe(row.data, meta_.camera, keyframe);
         }
         for (const PoseEdge& edge : loops_.edges)
             whole = whole && edge.from >= 0 && edge.to >= 0 && edge.from != edge.to &&
                     std::max(edge.from, edge.to) < static_cast<int>(count);
-        whole = whole && poses_.size() == count && (count == 0 || poses_.rbegin()->first == static_cast<std::int64_t>(count) - 1);
-        if (meta_.loops && !whole) report_.lost.push_back("keyframes or loops: the scan goes on without loop closure");
+        whole = whole && poses_.size() == count &&
+                (count == 0 || poses_.rbegin()->first == static_cast<std::int64_t>(count) - 1);
+        if (meta_.loops && !whole)
+            report_.lost.push_back("keyframes or loops: the scan goes on without loop closure");
         meta_.loops = whole;
     }
 
@@ -118,7 +134,8 @@ class Repair {
             Bytes data(row.data.begin(), row.data.end());
             std::memcpy(data.data(), &next, sizeof(next));
             ++next;
-            if (Status status = file_->Put(ScanTable::kBlocks, key, data); !status.ok()) return status;
+            if (Status status = file_->Put(ScanTable::kBlocks, key, data); !status.ok())
+                return status;
         }
         report_.blocks = next - 1;
         return Status::Ok();
@@ -136,15 +153,19 @@ class Repair {
                     ++unplaced;
                     continue;
                 }
-                record.T_reference_camera = Normalised(poses->second.T_world_camera * record.T_reference_camera);
+                record.T_reference_camera =
+                    Normalised(poses->second.T_world_camera * record.T_reference_camera);
                 record.keyframe = -1;
             }
             if (record.keyframe >= static_cast<int>(poses_.size())) continue;
             new_key_[key] = report_.path;
             last_ = record;
-            if (Status status = file_->Put(ScanTable::kPath, report_.path++, record.Encode()); !status.ok()) return status;
+            if (Status status = file_->Put(ScanTable::kPath, report_.path++, record.Encode());
+                !status.ok())
+                return status;
         }
-        if (unplaced > 0) report_.lost.push_back(fmt::format("{} poses whose keyframe is lost", unplaced));
+        if (unplaced > 0)
+            report_.lost.push_back(fmt::format("{} poses whose keyframe is lost", unplaced));
         return Status::Ok();
     }
 
@@ -153,8 +174,10 @@ class Repair {
         if (!meta_.loops) return Status::Ok();
         for (const auto& [key, poses] : poses_) {
             if (!Load(ScanTable::kKeyframes, key, row)) continue;
-            if (Status status = file_->Put(ScanTable::kKeyframes, key, row.data); !status.ok()) return status;
-            if (Status status = file_->Put(ScanTable::kPoses, key, poses.Encode()); !status.ok()) return status;
+            if (Status status = file_->Put(ScanTable::kKeyframes, key, row.data); !status.ok())
+                return status;
+            if (Status status = file_->Put(ScanTable::kPoses, key, poses.Encode()); !status.ok())
+                return status;
             ++report_.keyframes;
         }
         return Status::Ok();
@@ -164,10 +187,15 @@ class Repair {
         ScanRow row;
         for (const auto& [key, place] : rows(ScanTable::kFrames)) {
             FrameRecord record;
-            if (!new_key_.contains(key) || !Load(ScanTable::kFrames, key, row) || !record.Decode(row.data)) continue;
+            if (!new_key_.contains(key) || !Load(ScanTable::kFrames, key, row) ||
+                !record.Decode(row.data))
+                continue;
             if (!meta_.loops) record.in_store = false;
-            if (record.in_store && record.stored.keyframe >= static_cast<int>(poses_.size())) continue;
-            if (Status status = file_->Put(ScanTable::kFrames, new_key_[key], record.Encode()); !status.ok()) return status;
+            if (record.in_store && record.stored.keyframe >= static_cast<int>(poses_.size()))
+                continue;
+            if (Status status = file_->Put(ScanTable::kFrames, new_key_[key], record.Encode());
+                !status.ok())
+                return status;
             ++report_.frames;
         }
         return Status::Ok();
@@ -176,11 +204,14 @@ class Repair {
     Status CopyState() {
         ScanRow row;
         ScanProgress progress;
-        const auto load = [&](ScanStateKey key) { return Load(ScanTable::kState, static_cast<std::int64_t>(key), row); };
+        const auto load = [&](ScanStateKey key) {
+            return Load(ScanTable::kState, static_cast<std::int64_t>(key), row);
+        };
         if (!load(ScanStateKey::kProgress) || !progress.Decode(row.data)) {
             report_.lost.push_back("the progress");
             progress = {};
-            progress.fused_frames = static_cast<std::uint32_t>(std::max<std::int64_t>(1, report_.path));
+            progress.fused_frames =
+                static_cast<std::uint32_t>(std::max<std::int64_t>(1, report_.path));
             if (last_) {
                 progress.last_index = last_->index;
                 progress.last_stamp_s = last_->stamp_s;
@@ -190,7 +221,8 @@ class Repair {
         const auto put = [&](ScanStateKey key, std::span<const std::uint8_t> data) {
             return file_->Put(ScanTable::kState, static_cast<std::int64_t>(key), data);
         };
-        if (Status status = put(ScanStateKey::kProgress, progress.Encode()); !status.ok()) return status;
+        if (Status status = put(ScanStateKey::kProgress, progress.Encode()); !status.ok())
+            return status;
         for (const ScanStateKey key : {ScanStateKey::kTracking, ScanStateKey::kLabels})
             if (load(key)) {
                 const Bytes data(row.data.begin(), row.data.end());

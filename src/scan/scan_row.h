@@ -1,5 +1,5 @@
-// What a scan file is made of: rows of a few tables, all of one shape, each with a checksum over its content and its place.
-// docs/scan_file.md has the format.
+// What a scan file is made of: rows of a few tables, all of one shape, each with a checksum over
+// its content and its place. docs/scan_file.md has the format.
 #pragma once
 
 #include <cstdint>
@@ -12,13 +12,23 @@
 namespace tessera {
 
 inline constexpr std::int32_t kScanApplicationId = 0x54455353;  // "TESS", in the file's header
-inline constexpr int kScanVersion = 1;                          // a change that an older program would read wrongly counts it up
+// A change that an older program would read wrongly counts it up.
+inline constexpr int kScanVersion = 1;
 inline constexpr std::size_t kScanPageBytes = 16384;
 inline constexpr std::size_t kMaxRowBytes = std::size_t{64} << 20;  // no sound row is larger
 
-enum class ScanTable : std::uint8_t { kMeta = 1, kBlocks, kPath, kFrames, kKeyframes, kPoses, kState };
-inline constexpr ScanTable kScanTables[] = {ScanTable::kMeta,      ScanTable::kBlocks, ScanTable::kPath, ScanTable::kFrames,
-                                            ScanTable::kKeyframes, ScanTable::kPoses,  ScanTable::kState};
+enum class ScanTable : std::uint8_t {
+    kMeta = 1,
+    kBlocks,
+    kPath,
+    kFrames,
+    kKeyframes,
+    kPoses,
+    kState
+};
+inline constexpr ScanTable kScanTables[] = {
+    ScanTable::kMeta,      ScanTable::kBlocks, ScanTable::kPath, ScanTable::kFrames,
+    ScanTable::kKeyframes, ScanTable::kPoses,  ScanTable::kState};
 inline constexpr std::size_t kScanTableCount = std::size(kScanTables);
 const char* ToString(ScanTable table);  // its name in the file
 inline std::size_t IndexOf(ScanTable table) { return static_cast<std::size_t>(table) - 1; }
@@ -31,15 +41,16 @@ inline constexpr std::int64_t kSealKey = static_cast<std::int64_t>(ScanStateKey:
 struct ScanRow {
     ScanTable table = ScanTable::kMeta;
     std::int64_t key = 0;
-    std::int64_t epoch = 0;       // how often the table had been emptied before this row was written
+    // How often the table had been emptied before this row was written.
+    std::int64_t epoch = 0;
     std::int64_t checkpoint = 0;  // which one wrote it, from 0
     std::span<const std::uint8_t> data;
 };
 
 std::uint64_t ChecksumOf(const ScanRow& row);
 
-// A block's key: the bits of its coordinates interleaved (Morton order), so that neighbours in space, which change
-// together, share pages of the file. Coordinates are to be in limits.
+// A block's key: the bits of its coordinates interleaved (Morton order), so that neighbours in
+// space, which change together, share pages of the file. Coordinates are to be in limits.
 std::int64_t BlockKey(const BlockCoord& coord);
 BlockCoord CoordOfKey(std::int64_t key);
 

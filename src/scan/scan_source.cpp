@@ -23,23 +23,30 @@ Result<std::unique_ptr<FrameSource>> ScanSource::Open(const std::string& path) {
     std::unique_ptr<ScanSource> source(new ScanSource(std::move(file.value()), content.value()));
     const auto frames = static_cast<std::int64_t>(source->path_.size());
     Status checked = source->file_->Read(ScanTable::kFrames, [&](const ScanRow& row) {
-        if (row.key < 0 || row.key >= frames) return DamagedScan(path, fmt::format("frames {}", row.key));
+        if (row.key < 0 || row.key >= frames)
+            return DamagedScan(path, fmt::format("frames {}", row.key));
         source->keys_.push_back(row.key);
         return Status::Ok();
     });
     if (!checked.ok()) return checked;
     const std::vector<std::int64_t>& keys = source->keys_;
     if (keys.empty())
-        return Status::Error(path + ": holds no raw frames to replay; scan with --set scan.frames=all to keep them (the scan itself "
-                                    "is read by tessera export, tessera info and --resume)");
-    const auto record = [&](std::int64_t key) -> const PathRecord& { return source->path_[static_cast<std::size_t>(key)]; };
+        return Status::Error(path +
+                             ": holds no raw frames to replay; scan with --set scan.frames=all to "
+                             "keep them (the scan itself "
+                             "is read by tessera export, tessera info and --resume)");
+    const auto record = [&](std::int64_t key) -> const PathRecord& {
+        return source->path_[static_cast<std::size_t>(key)];
+    };
     const double span_s = record(keys.back()).stamp_s - record(keys.front()).stamp_s;
     source->info_.frame_count = static_cast<std::int64_t>(keys.size());
-    if (keys.size() > 1 && span_s > 0) source->info_.fps = static_cast<double>(keys.size() - 1) / span_s;
-    source->info_.has_truth =
-        std::ranges::any_of(keys, [&](std::int64_t key) { return record(key).T_world_camera_truth.has_value(); });
+    if (keys.size() > 1 && span_s > 0)
+        source->info_.fps = static_cast<double>(keys.size() - 1) / span_s;
+    source->info_.has_truth = std::ranges::any_of(
+        keys, [&](std::int64_t key) { return record(key).T_world_camera_truth.has_value(); });
     if (static_cast<std::int64_t>(keys.size()) < frames)
-        source->info_.notes.push_back(fmt::format("{} of the scan's {} frames are in the file", keys.size(), frames));
+        source->info_.notes.push_back(
+            fmt::format("{} of the scan's {} frames are in the file", keys.size(), frames));
     return std::unique_ptr<FrameSource>(std::move(source));
 }
 
@@ -53,10 +60,12 @@ ReadResult ScanSource::Read(Frame& frame) {
     const Result<Bytes> bytes = file_->ReadOne(ScanTable::kFrames, key);
     FrameRecord record;
     if (!bytes.ok() || !record.Decode(bytes.value())) return bad("is damaged");
-    if (Status status = decoder_.Load(record.stored, frame); !status.ok()) return bad(status.message());
+    if (Status status = decoder_.Load(record.stored, frame); !status.ok())
+        return bad(status.message());
     const PinholeCamera& c = info_.camera;
     if (frame.depth_m.width() != c.width || frame.depth_m.height() != c.height ||
-        (!frame.colour.empty() && (frame.colour.width() != c.width || frame.colour.height() != c.height)))
+        (!frame.colour.empty() &&
+         (frame.colour.width() != c.width || frame.colour.height() != c.height)))
         return bad("is not of the camera's size");
     frame.index = static_cast<std::int64_t>(position);
     frame.stamp_s = record.stamp_s;

@@ -16,7 +16,8 @@ void ScanThread::WaitUntilIdle() {
 
 void ScanThread::Write(std::unique_ptr<ScanCheckpoint> checkpoint) {
     writing_.store(true);
-    TESSERA_CHECK(checkpoints_.TryPush(std::move(checkpoint)), "a checkpoint while one is being written");
+    TESSERA_CHECK(checkpoints_.TryPush(std::move(checkpoint)),
+                  "a checkpoint while one is being written");
 }
 
 void ScanThread::WriteAll() {
@@ -28,7 +29,8 @@ void ScanThread::WriteAll() {
             Stopwatch watch;
             if (Status status = writer_->Write(*checkpoint); !status.ok()) {
                 failed_.store(true);
-                messages_.Push("the scan is no longer saved: " + status.message() + "; what was saved by then is sound");
+                messages_.Push("the scan is no longer saved: " + status.message() +
+                               "; what was saved by then is sound");
             }
             total_ms_ += watch.LapMs();
             ++written_;

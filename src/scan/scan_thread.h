@@ -27,7 +27,8 @@ class ScanThread {
     void Write(std::unique_ptr<ScanCheckpoint> checkpoint);
     // Waits until all is written, and makes the file one again.
     void Stop();
-    // Nothing more is written: `TakeMessage` said why. The file is sound up to the last checkpoint before.
+    // Nothing more is written: `TakeMessage` said why. The file is sound up to the last checkpoint
+    // before.
     bool failed() const { return failed_.load(); }
 
     std::optional<std::string> TakeMessage();

@@ -44,25 +44,39 @@ Status ScanWriter::PutRows(const ScanCheckpoint& c) {
     }
     // By their keys, so that each page is touched once.
     order_.clear();
-    for (std::size_t i = 0; i < c.blocks.size(); ++i) order_.emplace_back(BlockKey(c.blocks.coords[i]), i);
+    for (std::size_t i = 0; i < c.blocks.size(); ++i)
+        order_.emplace_back(BlockKey(c.blocks.coords[i]), i);
     std::ranges::sort(order_);
     for (const auto& [block_key, i] : order_)
-        if (Status status = file_->Put(ScanTable::kBlocks, block_key, codec_.Encode(c.blocks, i)); !status.ok()) return status;
+        if (Status status = file_->Put(ScanTable::kBlocks, block_key, codec_.Encode(c.blocks, i));
+            !status.ok())
+            return status;
     for (const auto& [number, record] : c.path)
-        if (Status status = file_->Put(ScanTable::kPath, number, record.Encode()); !status.ok()) return status;
+        if (Status status = file_->Put(ScanTable::kPath, number, record.Encode()); !status.ok())
+            return status;
     for (const auto& [number, record] : c.frames)
-        if (Status status = file_->Put(ScanTable::kFrames, number, record.Encode()); !status.ok()) return status;
+        if (Status status = file_->Put(ScanTable::kFrames, number, record.Encode()); !status.ok())
+            return status;
     for (const auto& [number, frame] : c.raw_frames) {
         const Result<FrameRecord> record = Compress(*frame);
-        if (!record.ok()) continue;  // an image that no encoder takes is left out; the scan does not hang on it
-        if (Status status = file_->Put(ScanTable::kFrames, number, record.value().Encode()); !status.ok()) return status;
+        // An image that no encoder takes is left out; the scan does not hang on it.
+        if (!record.ok()) continue;
+        if (Status status = file_->Put(ScanTable::kFrames, number, record.value().Encode());
+            !status.ok())
+            return status;
     }
     for (const Keyframe& keyframe : c.keyframes)
-        if (Status status = file_->Put(ScanTable::kKeyframes, keyframe.id, EncodeKeyframe(keyframe)); !status.ok()) return status;
+        if (Status status =
+                file_->Put(ScanTable::kKeyframes, keyframe.id, EncodeKeyframe(keyframe));
+            !status.ok())
+            return status;
     for (const auto& [number, poses] : c.poses)
-        if (Status status = file_->Put(ScanTable::kPoses, number, poses.Encode()); !status.ok()) return status;
-    if (Status status = PutState(ScanStateKey::kProgress, c.progress.Encode()); !status.ok()) return status;
-    for (const auto& [state_key, bytes] : {std::pair{ScanStateKey::kTracking, &c.tracking}, {ScanStateKey::kLabels, &c.labels}})
+        if (Status status = file_->Put(ScanTable::kPoses, number, poses.Encode()); !status.ok())
+            return status;
+    if (Status status = PutState(ScanStateKey::kProgress, c.progress.Encode()); !status.ok())
+        return status;
+    for (const auto& [state_key, bytes] :
+         {std::pair{ScanStateKey::kTracking, &c.tracking}, {ScanStateKey::kLabels, &c.labels}})
         if (!bytes->empty() || c.clear_all)
             if (Status status = PutState(state_key, *bytes); !status.ok()) return status;
     return c.loops ? PutState(ScanStateKey::kLoops, c.loops->Encode()) : Status::Ok();
@@ -81,7 +95,9 @@ Result<FrameRecord> ScanWriter::Compress(const Frame& frame) {
     StoreDepth(frame.depth_m, depth_units_per_m_, raw_depth_);
     png_.EncodeDepth(raw_depth_, record.stored.depth_png);
     if (!frame.colour.empty())
-        if (Status status = EncodeJpeg(frame.colour, kJpegQuality, record.stored.colour_jpeg); !status.ok()) return status;
+        if (Status status = EncodeJpeg(frame.colour, kJpegQuality, record.stored.colour_jpeg);
+            !status.ok())
+            return status;
     return record;
 }
 

@@ -19,13 +19,15 @@ struct ScanCheckpoint {
     bool clear_blocks = false;  // another map: `stored` and `blocks` are all of it
     std::shared_ptr<const CubeScratch> stored;  // mostly null; `blocks` are newer
     BlockCopies blocks;
-    std::vector<std::pair<std::int64_t, PathRecord>> path;  // new ones, and those whose place is known better now
+    // New ones, and those whose place is known better now.
+    std::vector<std::pair<std::int64_t, PathRecord>> path;
     std::vector<std::pair<std::int64_t, FrameRecord>> frames;
-    std::vector<std::pair<std::int64_t, std::unique_ptr<Frame>>> raw_frames;  // to be compressed by the writer; not also in `frames`
+    // To be compressed by the writer; not also in `frames`.
+    std::vector<std::pair<std::int64_t, std::unique_ptr<Frame>>> raw_frames;
     std::vector<Keyframe> keyframes;  // new ones
     std::vector<std::pair<int, KeyframePoses>> poses;
     ScanProgress progress;
-    Bytes tracking, labels;           // empty: as the file has it
+    Bytes tracking, labels;  // empty: as the file has it
     std::optional<LoopProgress> loops;
     bool finished = false;
 

@@ -16,7 +16,8 @@ namespace {
 // Cubes of the file in a map, around the one that is being meshed.
 class CubeWindow {
   public:
-    CubeWindow(CubeReader& reader, const BlockMap::Config& config, bool labels) : reader_(reader), map_(config) {
+    CubeWindow(CubeReader& reader, const BlockMap::Config& config, bool labels)
+        : reader_(reader), map_(config) {
         if (labels) map_.EnableLabels();
     }
 
@@ -39,7 +40,8 @@ class CubeWindow {
 
     // The cube and all around it are there, whole.
     Status MoveTo(std::int64_t key) {
-        constexpr std::int64_t kMostBlocks = 20000;  // 100 MB; what is behind is read again at most a few times
+        // 100 MB; what is behind is read again at most a few times.
+        constexpr std::int64_t kMostBlocks = 20000;
         const BlockCoord at = CubeOfKey(key);
         if (map_.count() > kMostBlocks) Leave(at);
         for (int z = -1; z <= 1; ++z)
@@ -47,7 +49,8 @@ class CubeWindow {
                 for (int x = -1; x <= 1; ++x) {
                     const auto cube = cubes_.find(CubeKey({at.x + x, at.y + y, at.z + z}));
                     if (cube == cubes_.end() || !cube->second.ids.empty()) continue;
-                    if (Status status = Load(cube->first, cube->second); !status.ok()) return status;
+                    if (Status status = Load(cube->first, cube->second); !status.ok())
+                        return status;
                 }
         return Status::Ok();
     }
@@ -60,7 +63,8 @@ class CubeWindow {
 
     Status Load(std::int64_t key, Cube& cube) {
         if (Status status = reader_.Read(key, copies_); !status.ok()) return status;
-        if (static_cast<std::int32_t>(copies_.size()) != cube.stored) return DamagedScan(reader_.path(), "blocks");
+        if (static_cast<std::int32_t>(copies_.size()) != cube.stored)
+            return DamagedScan(reader_.path(), "blocks");
         for (std::size_t i = 0; i < copies_.size(); ++i) {
             const BlockId id = map_.Allocate(copies_.coords[i], copies_.numbers[i]);
             copies_.Put(i, map_, id);
@@ -72,7 +76,8 @@ class CubeWindow {
     void Leave(const BlockCoord& at) {
         for (auto& [key, cube] : cubes_) {
             const BlockCoord c = CubeOfKey(key);
-            if (std::max({std::abs(c.x - at.x), std::abs(c.y - at.y), std::abs(c.z - at.z)}) <= 1) continue;
+            if (std::max({std::abs(c.x - at.x), std::abs(c.y - at.y), std::abs(c.z - at.z)}) <= 1)
+                continue;
             for (const BlockId id : cube.ids) map_.Release(id);
             cube.ids.clear();
         }
@@ -93,22 +98,25 @@ struct CubeMeshes {
 };
 
 // As of a map whose blocks' ids are their numbers.
-void MeshByNumber(const BlockMap& map, BlockId id, double min_weight, const StoredVertexLabel& label, CubeMeshes& out) {
+void MeshByNumber(const BlockMap& map, BlockId id, double min_weight,
+                  const StoredVertexLabel& label, CubeMeshes& out) {
     const std::unique_ptr<const BlockMesh> mesh = MeshBlock(map, id, min_weight);
     if (!mesh) return;
     const auto number = static_cast<std::size_t>(map.number(id));
     if (label) {
         std::vector<VertexLabel> labels;
-        for (const BlockMesh::Vertex& vertex : mesh->vertices) labels.push_back(label(map, *mesh, vertex));
-        if (std::ranges::any_of(labels, [](const VertexLabel& l) { return l != VertexLabel{}; })) out.labels[number] = std::move(labels);
+        for (const BlockMesh::Vertex& vertex : mesh->vertices)
+            labels.push_back(label(map, *mesh, vertex));
+        if (std::ranges::any_of(labels, [](const VertexLabel& l) { return l != VertexLabel{}; }))
+            out.labels[number] = std::move(labels);
     }
     auto numbered = std::make_unique<BlockMesh>(*mesh);
     for (BlockId& block : numbered->blocks) block = map.number(block);
     out.meshes[number] = std::move(numbered);
 }
 
-Result<CubeMeshes> MeshCubes(const std::string& path, const BlockMap::Config& config, double min_weight,
-                             const StoredVertexLabel& label) {
+Result<CubeMeshes> MeshCubes(const std::string& path, const BlockMap::Config& config,
+                             double min_weight, const StoredVertexLabel& label) {
     Result<std::unique_ptr<CubeReader>> reader = CubeReader::Open(path);
     if (!reader.ok()) return reader.status();
     CubeWindow window(*reader.value(), config, static_cast<bool>(label));
@@ -122,22 +130,25 @@ Result<CubeMeshes> MeshCubes(const std::string& path, const BlockMap::Config& co
         const std::vector<BlockId>& blocks = window.blocks(key);
         for (const BlockId id : blocks) {
             const auto number = static_cast<std::size_t>(window.map().number(id));
-            if (number >= there.size() || there[number]) return DamagedScan(path, fmt::format("block number {}", number));
+            if (number >= there.size() || there[number])
+                return DamagedScan(path, fmt::format("block number {}", number));
             there[number] = true;
         }
-        tbb::parallel_for(std::size_t{0}, blocks.size(),
-                          [&](std::size_t i) { MeshByNumber(window.map(), blocks[i], min_weight, label, all); });
+        tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t i) {
+            MeshByNumber(window.map(), blocks[i], min_weight, label, all);
+        });
     }
     return all;
 }
 
 }  // namespace
 
-Result<TriangleMesh> MeshOfStoredMap(const std::string& path, const BlockMap::Config& config, const MeshConfig& meshing,
-                                     const StoredVertexLabel& label) {
+Result<TriangleMesh> MeshOfStoredMap(const std::string& path, const BlockMap::Config& config,
+                                     const MeshConfig& meshing, const StoredVertexLabel& label) {
     const Result<CubeMeshes> cubes = MeshCubes(path, config, meshing.min_weight, label);
     if (!cubes.ok()) return cubes.status();
-    return AssembleMesh(cubes.value().meshes, config.voxel_size_m, meshing.min_component_triangles, cubes.value().labels);
+    return AssembleMesh(cubes.value().meshes, config.voxel_size_m, meshing.min_component_triangles,
+                        cubes.value().labels);
 }
 
 }  // namespace tessera

@@ -8,16 +8,19 @@
 namespace tessera {
 namespace {
 
-constexpr float kRing = 0.15f;        // the ring's width as a share of the box's longer side
+constexpr float kRing = 0.15f;  // the ring's width as a share of the box's longer side
 constexpr int kLeastRing_px = 8;
-constexpr float kFlatShare = 0.04f;   // less of the box off the planes: the object is flat
-constexpr float kInsideShare = 0.7f;  // of a further piece that belongs to the object
-constexpr float kSameDepth_m = 0.03f;   // to be a piece of the object, at least;
-constexpr float kDepthShare = 0.25f;    // large objects: this share of the box's width
+constexpr float kFlatShare = 0.04f;    // less of the box off the planes: the object is flat
+constexpr float kInsideShare = 0.7f;   // of a further piece that belongs to the object
+constexpr float kSameDepth_m = 0.03f;  // to be a piece of the object, at least;
+constexpr float kDepthShare = 0.25f;   // large objects: this share of the box's width
 
 PixelBox Grown(const PixelBox& box, const DepthImage& depth_m) {
-    const int ring = std::max(kLeastRing_px, static_cast<int>(kRing * static_cast<float>(std::max(box.width(), box.height()))));
-    return {std::max(0, box.x_begin - ring), std::max(0, box.y_begin - ring), std::min(depth_m.width(), box.x_end + ring),
+    const int ring =
+        std::max(kLeastRing_px,
+                 static_cast<int>(kRing * static_cast<float>(std::max(box.width(), box.height()))));
+    return {std::max(0, box.x_begin - ring), std::max(0, box.y_begin - ring),
+            std::min(depth_m.width(), box.x_end + ring),
             std::min(depth_m.height(), box.y_end + ring)};
 }
 
@@ -35,9 +38,12 @@ struct Piece {
 // The window's pixels that lie in no plane, in pieces: the piece's number + 1, 0 = none.
 class Pieces {
   public:
-    Pieces(const DepthImage& depth_m, const PinholeCamera& camera, const PixelBox& box, const PixelBox& window,
-           std::span<const PixelBox> others)
-        : depth_m_(depth_m), box_(box), window_(window), number_(window.width(), window.height(), 0),
+    Pieces(const DepthImage& depth_m, const PinholeCamera& camera, const PixelBox& box,
+           const PixelBox& window, std::span<const PixelBox> others)
+        : depth_m_(depth_m),
+          box_(box),
+          window_(window),
+          number_(window.width(), window.height(), 0),
           free_(window.width(), window.height(), 0) {
         const std::vector<Plane> planes = FindRingPlanes(depth_m, camera, box, window, others);
         for (int y = 0; y < window.height(); ++y)
@@ -62,8 +68,11 @@ class Pieces {
     bool IsFree(const PinholeCamera& camera, const std::vector<Plane>& planes, int x, int y) const {
         const float z = DepthAt(x, y);
         if (z <= 0) return false;
-        const Eigen::Vector3f p = camera.Unproject(x + window_.x_begin, y + window_.y_begin, z).cast<float>();
-        return std::ranges::none_of(planes, [&](const Plane& plane) { return std::abs(plane.n.dot(p) - plane.d) < PlaneTolerance_m(z); });
+        const Eigen::Vector3f p =
+            camera.Unproject(x + window_.x_begin, y + window_.y_begin, z).cast<float>();
+        return std::ranges::none_of(planes, [&](const Plane& plane) {
+            return std::abs(plane.n.dot(p) - plane.d) < PlaneTolerance_m(z);
+        });
     }
 
     void Fill(int x, int y) {
@@ -76,8 +85,10 @@ class Pieces {
             const auto [px, py] = stack_.back();
             stack_.pop_back();
             Count(px, py, piece);
-            for (const auto& [nx, ny] : {std::pair{px - 1, py}, {px + 1, py}, {px, py - 1}, {px, py + 1}}) {
-                if (!number_.Contains(nx, ny) || free_(nx, ny) == 0 || number_(nx, ny) != 0) continue;
+            for (const auto& [nx, ny] :
+                 {std::pair{px - 1, py}, {px + 1, py}, {px, py - 1}, {px, py + 1}}) {
+                if (!number_.Contains(nx, ny) || free_(nx, ny) == 0 || number_(nx, ny) != 0)
+                    continue;
                 if (!Continuous(DepthAt(px, py), DepthAt(nx, ny))) continue;
                 number_(nx, ny) = number;
                 stack_.emplace_back(nx, ny);
@@ -87,7 +98,8 @@ class Pieces {
 
     void Count(int x, int y, Piece& piece) const {
         const int u = x + window_.x_begin, v = y + window_.y_begin;
-        const bool inside = u >= box_.x_begin && u < box_.x_end && v >= box_.y_begin && v < box_.y_end;
+        const bool inside =
+            u >= box_.x_begin && u < box_.x_end && v >= box_.y_begin && v < box_.y_end;
         ++(inside ? piece.inside : piece.outside);
         if (inside) piece.depths_m.push_back(DepthAt(x, y));
     }
@@ -101,13 +113,15 @@ class Pieces {
 };
 
 float Quantile(std::vector<float> values, float share) {
-    const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<float>(values.size() - 1));
+    const auto at =
+        values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<float>(values.size() - 1));
     std::nth_element(values.begin(), at, values.end());
     return *at;
 }
 
 float InsideShare(const Piece& piece) {
-    return static_cast<float>(piece.inside) / static_cast<float>(std::max(1, piece.inside + piece.outside));
+    return static_cast<float>(piece.inside) /
+           static_cast<float>(std::max(1, piece.inside + piece.outside));
 }
 
 // Which pieces are the object, by number.
@@ -116,17 +130,20 @@ std::vector<std::uint8_t> ChoosePieces(const std::vector<Piece>& pieces, float w
     std::size_t main = 0;
     float best = 0;
     for (std::size_t i = 0; i < pieces.size(); ++i) {
-        const float share = InsideShare(pieces[i]), score = static_cast<float>(pieces[i].inside) * share * share;
+        const float share = InsideShare(pieces[i]),
+                    score = static_cast<float>(pieces[i].inside) * share * share;
         if (score > best) best = score, main = i;
     }
     if (best <= 0) return chosen;
-    const float around_m = std::max(kSameDepth_m, kDepthShare * width_per_depth * Quantile(pieces[main].depths_m, 0.5f));
+    const float around_m = std::max(
+        kSameDepth_m, kDepthShare * width_per_depth * Quantile(pieces[main].depths_m, 0.5f));
     const float near_m = Quantile(pieces[main].depths_m, 0.05f) - around_m;
     const float far_m = Quantile(pieces[main].depths_m, 0.95f) + around_m;
     for (std::size_t i = 0; i < pieces.size(); ++i) {
         if (pieces[i].inside == 0) continue;
         const float middle_m = Quantile(pieces[i].depths_m, 0.5f);
-        chosen[i + 1] = i == main || (InsideShare(pieces[i]) >= kInsideShare && middle_m > near_m && middle_m < far_m);
+        chosen[i + 1] = i == main || (InsideShare(pieces[i]) >= kInsideShare && middle_m > near_m &&
+                                      middle_m < far_m);
     }
     return chosen;
 }
@@ -152,13 +169,15 @@ void SegmentByDepth(const DepthImage& depth_m, const PinholeCamera& camera, cons
                     std::span<const PixelBox> others, Image<std::uint8_t>& mask) {
     mask.Resize(box.width(), box.height());
     const Pieces pieces(depth_m, camera, box, Grown(box, depth_m), others);
-    const bool flat = static_cast<float>(pieces.free_inside()) < kFlatShare * static_cast<float>(box.width() * box.height());
+    const bool flat = static_cast<float>(pieces.free_inside()) <
+                      kFlatShare * static_cast<float>(box.width() * box.height());
     const std::vector<std::uint8_t> chosen =
         ChoosePieces(pieces.pieces(), static_cast<float>(box.width() / camera.fx));
     for (int y = 0; y < box.height(); ++y)
         for (int x = 0; x < box.width(); ++x) {
             const int u = x + box.x_begin, v = y + box.y_begin;
-            mask(x, y) = flat ? depth_m(u, v) > 0 : chosen[static_cast<std::size_t>(pieces.NumberAt(u, v))];
+            mask(x, y) =
+                flat ? depth_m(u, v) > 0 : chosen[static_cast<std::size_t>(pieces.NumberAt(u, v))];
         }
 }
 

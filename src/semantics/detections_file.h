@@ -1,5 +1,5 @@
-// Detections made beforehand, the way of [D18]: lines "stamp class probability xmin ymin xmax ymax", pixels inclusive, "_"
-// for blanks in a class's name, '#' starts a comment.
+// Detections made beforehand, the way of [D18]: lines "stamp class probability xmin ymin xmax
+// ymax", pixels inclusive, "_" for blanks in a class's name, '#' starts a comment.
 #pragma once
 
 #include <map>
@@ -10,7 +10,8 @@ namespace tessera {
 
 class DetectionsFile : public Detector {
   public:
-    // A line of another form, a number out of range or a file without any line is an error: "FILE:LINE: ...".
+    // A line of another form, a number out of range or a file without any line is an error:
+    // "FILE:LINE: ...".
     static Result<std::unique_ptr<DetectionsFile>> Read(const std::string& path);
 
     // Those of the frame's colour image, else of its depth image, by time stamp within 2 ms.
@@ -23,6 +24,7 @@ class DetectionsFile : public Detector {
 };
 
 // One such line, without newline.
-std::string DetectionLine(double stamp_s, const std::string& class_name, const Detection& detection);
+std::string DetectionLine(double stamp_s, const std::string& class_name,
+                          const Detection& detection);
 
 }  // namespace tessera

@@ -12,31 +12,40 @@ float DetectionBox::Area() const {
 }
 
 float BoxOverlap(const DetectionBox& a, const DetectionBox& b) {
-    const DetectionBox both{std::max(a.x_min, b.x_min), std::max(a.y_min, b.y_min), std::min(a.x_max, b.x_max),
-                            std::min(a.y_max, b.y_max)};
+    const DetectionBox both{std::max(a.x_min, b.x_min), std::max(a.y_min, b.y_min),
+                            std::min(a.x_max, b.x_max), std::min(a.y_max, b.y_max)};
     const float common = both.Area(), all = a.Area() + b.Area() - common;
     return all > 0 ? common / all : 0.0f;
 }
 
 PixelBox PixelsOf(const DetectionBox& box, int width, int height) {
     const auto whole = [](float value, int end) {
-        return std::isfinite(value) ? static_cast<int>(std::lround(std::clamp(value, -1.0f, static_cast<float>(end)))) : 0;
+        return std::isfinite(value) ? static_cast<int>(std::lround(
+                                          std::clamp(value, -1.0f, static_cast<float>(end))))
+                                    : 0;
     };
     PixelBox pixels{std::max(0, whole(box.x_min, width)), std::max(0, whole(box.y_min, height)),
-                    std::min(width, whole(box.x_max, width) + 1), std::min(height, whole(box.y_max, height) + 1)};
+                    std::min(width, whole(box.x_max, width) + 1),
+                    std::min(height, whole(box.y_max, height) + 1)};
     return pixels.empty() ? PixelBox{} : pixels;
 }
 
-std::vector<Detection> TakeDynamic(const LabelClasses& classes, double min_probability, std::vector<Detection>& detections) {
-    const auto rest = std::stable_partition(detections.begin(), detections.end(),
-                                            [&](const Detection& d) { return !classes.IsDynamic(d.name); });
-    std::vector<Detection> dynamic(std::make_move_iterator(rest), std::make_move_iterator(detections.end()));
+std::vector<Detection> TakeDynamic(const LabelClasses& classes, double min_probability,
+                                   std::vector<Detection>& detections) {
+    const auto rest =
+        std::stable_partition(detections.begin(), detections.end(),
+                              [&](const Detection& d) { return !classes.IsDynamic(d.name); });
+    std::vector<Detection> dynamic(std::make_move_iterator(rest),
+                                   std::make_move_iterator(detections.end()));
     detections.erase(rest, detections.end());
-    std::erase_if(dynamic, [&](const Detection& d) { return !(d.probability >= static_cast<float>(min_probability)); });
+    std::erase_if(dynamic, [&](const Detection& d) {
+        return !(d.probability >= static_cast<float>(min_probability));
+    });
     return dynamic;
 }
 
-void KeepWanted(const LabelClasses& classes, double min_probability, std::vector<Detection>& detections) {
+void KeepWanted(const LabelClasses& classes, double min_probability,
+                std::vector<Detection>& detections) {
     for (Detection& detection : detections) detection.class_id = classes.IdOf(detection.name);
     std::erase_if(detections, [&](const Detection& d) {
         return d.class_id == 0 || !(d.probability >= static_cast<float>(min_probability));

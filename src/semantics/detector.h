@@ -1,5 +1,5 @@
-// Who finds objects in colour images: networks (dnn_detector.h), a file of detections made beforehand
-// (detections_file.h), or the truth of a built-in scene (synthetic_detector.h).
+// Who finds objects in colour images: networks (dnn_detector.h), a file of detections made
+// beforehand (detections_file.h), or the truth of a built-in scene (synthetic_detector.h).
 #pragma once
 
 #include <memory>
@@ -27,7 +27,8 @@ struct Detection {
     int class_id = 0;       // LabelClasses; 0 until KeepWanted set it
     float probability = 0;  // [0, 1]
     DetectionBox box;
-    Image<std::uint8_t> mask;  // of the box's whole pixels (PixelsOf): 1 = the object; empty if there is none
+    // Of the box's whole pixels (PixelsOf): 1 = the object; empty if there is none.
+    Image<std::uint8_t> mask;
 };
 
 struct PixelBox {
@@ -43,18 +44,21 @@ PixelBox PixelsOf(const DetectionBox& box, int width, int height);
 class Detector {
   public:
     virtual ~Detector() = default;
-    // What there is in the frame's colour image, of all classes and probabilities. An error ends its use: the network
-    // broke, or the frame has no colour. Never throws.
+    // What there is in the frame's colour image, of all classes and probabilities. An error ends
+    // its use: the network broke, or the frame has no colour. Never throws.
     virtual Result<std::vector<Detection>> Detect(const Frame& frame) = 0;
-    // From now on it works beside something more urgent: on the calling thread only, as far as it can choose.
+    // From now on it works beside something more urgent: on the calling thread only, as far as it
+    // can choose.
     virtual void WorkInBackground() {}
     // All that it may say; empty if that is not known beforehand.
     virtual const std::vector<std::string>& class_names() const = 0;
 };
 
 // Takes those of labels.dynamic out of `detections`, and returns the ones with enough probability.
-std::vector<Detection> TakeDynamic(const LabelClasses& classes, double min_probability, std::vector<Detection>& detections);
+std::vector<Detection> TakeDynamic(const LabelClasses& classes, double min_probability,
+                                   std::vector<Detection>& detections);
 // Those of wanted classes and enough probability, with class_id set; by falling probability.
-void KeepWanted(const LabelClasses& classes, double min_probability, std::vector<Detection>& detections);
+void KeepWanted(const LabelClasses& classes, double min_probability,
+                std::vector<Detection>& detections);
 
 }  // namespace tessera

@@ -28,14 +28,18 @@ std::string OneLine(const char* text) {
 class DnnDetector : public Detector {
   public:
     DnnDetector(std::string path, cv::dnn::Net net, const LabelConfig& config)
-        : path_(std::move(path)), net_(std::move(net)), config_(config), output_names_(net_.getUnconnectedOutLayersNames()) {}
+        : path_(std::move(path)),
+          net_(std::move(net)),
+          config_(config),
+          output_names_(net_.getUnconnectedOutLayersNames()) {}
 
     // Finds an input size at which the network runs and its outputs are understood.
     Status Try();
     Status SetNames(std::vector<std::string> names);
 
     Result<std::vector<Detection>> Detect(const Frame& frame) override;
-    // OpenCV has one number of threads for the whole process; nothing else here needs them while frames come.
+    // OpenCV has one number of threads for the whole process; nothing else here needs them while
+    // frames come.
     void WorkInBackground() override { cv::setNumThreads(1); }
     const std::vector<std::string>& class_names() const override { return names_; }
 
@@ -56,7 +60,8 @@ class DnnDetector : public Detector {
 };
 
 Status DnnDetector::Try() {
-    const std::vector<int> sizes = config_.input_px > 0 ? std::vector<int>{config_.input_px} : std::vector<int>{416, 640, 320};
+    const std::vector<int> sizes =
+        config_.input_px > 0 ? std::vector<int>{config_.input_px} : std::vector<int>{416, 640, 320};
     std::string why;
     for (const int size : sizes) {
         layout_ = {};
@@ -64,7 +69,8 @@ Status DnnDetector::Try() {
         try {
             Run(cv::Mat::zeros(size, size, CV_8UC3));
         } catch (const cv::Exception& error) {
-            why = fmt::format("does not run with an input of {} px ({})", size, OneLine(error.err.c_str()));
+            why = fmt::format("does not run with an input of {} px ({})", size,
+                              OneLine(error.err.c_str()));
             continue;
         }
         const Result<YoloLayout> layout = RecogniseOutputs(outputs_, size, config_.family);
@@ -80,8 +86,9 @@ Status DnnDetector::Try() {
 Status DnnDetector::SetNames(std::vector<std::string> names) {
     names_ = std::move(names);
     if (static_cast<int>(names_.size()) == layout_.classes) return Status::Ok();
-    return Status::Error(fmt::format("{}: knows {} classes, but {} names {}; set labels.names to its list", path_, layout_.classes,
-                                     config_.names.empty() ? "COCO's list" : config_.names, names_.size()));
+    return Status::Error(fmt::format(
+        "{}: knows {} classes, but {} names {}; set labels.names to its list", path_,
+        layout_.classes, config_.names.empty() ? "COCO's list" : config_.names, names_.size()));
 }
 
 // Fills outputs_. Throws what OpenCV throws.
@@ -91,14 +98,17 @@ void DnnDetector::Run(const cv::Mat& rgb) {
     outputs_.clear();
     for (cv::Mat& blob : blobs_) {
         if (blob.type() != CV_32F || !blob.isContinuous()) blob.convertTo(blob, CV_32F);
-        outputs_.push_back({std::vector<int>(blob.size.p, blob.size.p + blob.dims), blob.ptr<float>()});
+        outputs_.push_back(
+            {std::vector<int>(blob.size.p, blob.size.p + blob.dims), blob.ptr<float>()});
     }
 }
 
-// Letterboxed at the top left; Darknet's stretched. YOLOX takes BGR in 0..255, the others RGB in 0..1.
+// Letterboxed at the top left; Darknet's stretched. YOLOX takes BGR in 0..255, the others RGB in
+// 0..1.
 cv::Mat DnnDetector::InputOf(const cv::Mat& rgb) {
     const int size = layout_.input_px;
-    scale_x_ = static_cast<double>(size) / rgb.cols, scale_y_ = static_cast<double>(size) / rgb.rows;
+    scale_x_ = static_cast<double>(size) / rgb.cols,
+    scale_y_ = static_cast<double>(size) / rgb.rows;
     if (layout_.family != ModelFamily::kDarknet) scale_x_ = scale_y_ = std::min(scale_x_, scale_y_);
     const int width = std::clamp(static_cast<int>(std::lround(rgb.cols * scale_x_)), 1, size);
     const int height = std::clamp(static_cast<int>(std::lround(rgb.rows * scale_y_)), 1, size);
@@ -112,15 +122,22 @@ Detection DnnDetector::ToFrame(const RawDetection& raw, int width, int height) c
     Detection d;
     d.name = names_[static_cast<std::size_t>(raw.class_index)];
     d.probability = raw.probability;
-    const auto column = [&](float x) { return std::clamp(static_cast<float>(x / scale_x_ - 0.5), 0.0f, static_cast<float>(width - 1)); };
-    const auto row = [&](float y) { return std::clamp(static_cast<float>(y / scale_y_ - 0.5), 0.0f, static_cast<float>(height - 1)); };
+    const auto column = [&](float x) {
+        return std::clamp(static_cast<float>(x / scale_x_ - 0.5), 0.0f,
+                          static_cast<float>(width - 1));
+    };
+    const auto row = [&](float y) {
+        return std::clamp(static_cast<float>(y / scale_y_ - 0.5), 0.0f,
+                          static_cast<float>(height - 1));
+    };
     d.box = {column(raw.x_min), row(raw.y_min), column(raw.x_max), row(raw.y_max)};
     if (layout_.masks_output < 0) return d;
     const PixelBox pixels = PixelsOf(d.box, width, height);
     d.mask.Resize(pixels.width(), pixels.height());
     for (int y = 0; y < pixels.height(); ++y)
         for (int x = 0; x < pixels.width(); ++x)
-            d.mask(x, y) = MaskAt(layout_, outputs_, raw, static_cast<float>((x + pixels.x_begin + 0.5) * scale_x_),
+            d.mask(x, y) = MaskAt(layout_, outputs_, raw,
+                                  static_cast<float>((x + pixels.x_begin + 0.5) * scale_x_),
                                   static_cast<float>((y + pixels.y_begin + 0.5) * scale_y_));
     return d;
 }
@@ -128,17 +145,20 @@ Detection DnnDetector::ToFrame(const RawDetection& raw, int width, int height) c
 Result<std::vector<Detection>> DnnDetector::Detect(const Frame& frame) {
     if (frame.colour.empty()) return Status::Error("labels: the frame has no colour image");
     // OpenCV takes no const pixels, but only reads them here.
-    const cv::Mat rgb(frame.colour.height(), frame.colour.width(), CV_8UC3, const_cast<Rgb8*>(frame.colour.data()));
+    const cv::Mat rgb(frame.colour.height(), frame.colour.width(), CV_8UC3,
+                      const_cast<Rgb8*>(frame.colour.data()));
     try {
         Run(rgb);
     } catch (const cv::Exception& error) {
-        return Status::Error(fmt::format("{}: failed while running: {}", path_, OneLine(error.err.c_str())));
+        return Status::Error(
+            fmt::format("{}: failed while running: {}", path_, OneLine(error.err.c_str())));
     }
-    std::vector<RawDetection> raw =
-        DecodeOutputs(layout_, outputs_, std::max(0.01f, static_cast<float>(config_.min_probability)));
+    std::vector<RawDetection> raw = DecodeOutputs(
+        layout_, outputs_, std::max(0.01f, static_cast<float>(config_.min_probability)));
     SuppressOverlaps(static_cast<float>(config_.overlap), raw);
     std::vector<Detection> detections;
-    for (const RawDetection& d : raw) detections.push_back(ToFrame(d, frame.colour.width(), frame.colour.height()));
+    for (const RawDetection& d : raw)
+        detections.push_back(ToFrame(d, frame.colour.width(), frame.colour.height()));
     return detections;
 }
 
@@ -167,7 +187,8 @@ Result<cv::dnn::Net> LoadNet(const std::string& path) {
             if (!cfg.ok()) return cfg.status();
             const Result<std::string> weights = ReadWholeFile(stem + ".weights", kMaxModelBytes);
             if (!weights.ok()) return weights.status();
-            net = cv::dnn::readNetFromDarknet(cfg.value().data(), cfg.value().size(), weights.value().data(), weights.value().size());
+            net = cv::dnn::readNetFromDarknet(cfg.value().data(), cfg.value().size(),
+                                              weights.value().data(), weights.value().size());
         } else {
             const Result<std::string> model = ReadWholeFile(path, kMaxModelBytes);
             if (!model.ok()) return model.status();
@@ -177,8 +198,9 @@ Result<cv::dnn::Net> LoadNet(const std::string& path) {
         if (net.empty()) return Status::Error(path + ": holds no network");
         return net;
     } catch (const std::exception& error) {
-        return Status::Error(path + ": not a network that OpenCV can read: damaged, cut off or of another kind (" +
-                             OneLine(error.what()) + ")");
+        return Status::Error(
+            path + ": not a network that OpenCV can read: damaged, cut off or of another kind (" +
+            OneLine(error.what()) + ")");
     }
 }
 
@@ -186,7 +208,8 @@ Result<cv::dnn::Net> LoadNet(const std::string& path) {
 
 bool HasDnn() { return true; }
 
-Result<std::unique_ptr<Detector>> OpenDnnDetector(const std::string& path, const LabelConfig& config) {
+Result<std::unique_ptr<Detector>> OpenDnnDetector(const std::string& path,
+                                                  const LabelConfig& config) {
     Result<std::vector<std::string>> names = ReadNames(config.names);
     if (!names.ok()) return names.status();
     Result<cv::dnn::Net> net = LoadNet(path);

@@ -6,8 +6,10 @@ namespace tessera {
 bool HasDnn() { return false; }
 
 Result<std::unique_ptr<Detector>> OpenDnnDetector(const std::string& path, const LabelConfig&) {
-    return Status::Error(path + ": this build has no networks (install libopencv-dnn-dev and build again); a detections file "
-                                "works without");
+    return Status::Error(path +
+                         ": this build has no networks (install libopencv-dnn-dev and build "
+                         "again); a detections file "
+                         "works without");
 }
 
 }  // namespace tessera

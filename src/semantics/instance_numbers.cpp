@@ -9,7 +9,8 @@
 namespace tessera {
 namespace {
 
-constexpr std::size_t kMarks = 64;  // of an instance: the smallest are the same few in any part of its detections
+// Of an instance: the smallest are the same few in any part of its detections.
+constexpr std::size_t kMarks = 64;
 
 int CommonMarks(const InstanceRecord& a, const InstanceRecord& b) {
     std::vector<std::uint64_t> common;
@@ -31,7 +32,8 @@ void Instances::KeepNumbersOf(const Instances& before) {
     for (InstanceId id = 1; id <= last(); ++id)
         for (InstanceId old_id = 1; old_id <= before.last(); ++old_id)
             if (Resolve(id) == id && before.Resolve(old_id) == old_id && before.confirmed(old_id))
-                if (const int common = CommonMarks(records_[id], before.records_[old_id])) pairs.emplace_back(-common, id, old_id);
+                if (const int common = CommonMarks(records_[id], before.records_[old_id]))
+                    pairs.emplace_back(-common, id, old_id);
     std::ranges::sort(pairs);
     std::set<InstanceId> taken;
     for (InstanceRecord& r : records_) r.number_before = 0;

@@ -7,17 +7,18 @@
 namespace tessera {
 namespace {
 
-constexpr int kLeastVisible = 20;       // sampled pixels; smaller views say nothing
-constexpr double kSameClassOverlap = 0.25, kOtherClassOverlap = 0.4;  // intersection over union, in the image
+constexpr int kLeastVisible = 20;  // sampled pixels; smaller views say nothing
+// Intersection over union, in the image.
+constexpr double kSameClassOverlap = 0.25, kOtherClassOverlap = 0.4;
 constexpr double kContained = 0.5, kContainedShare = 0.2;
-constexpr double kSameSpace = 0.3;      // intersection over union of 3D boxes
+constexpr double kSameSpace = 0.3;  // intersection over union of 3D boxes
 constexpr double kSameUnseen = 0.4;
-constexpr double kFree = 0.5;           // more of a region held by others is busy
-constexpr double kCovers = 0.6;         // of both, for one detection to say that two are one
-constexpr int kTogether = 12;          // times said, and so many times as often as the contrary:
+constexpr double kFree = 0.5;    // more of a region held by others is busy
+constexpr double kCovers = 0.6;  // of both, for one detection to say that two are one
+constexpr int kTogether = 12;    // times said, and so many times as often as the contrary:
 constexpr int kOftener = 4;
 constexpr int kTrialFrames = 12;        // in view, before one that is not confirmed may be dropped
-constexpr double kHeldShare = 0.3;     // of a detection's pixels shown by the map
+constexpr double kHeldShare = 0.3;      // of a detection's pixels shown by the map
 constexpr double kStandingShare = 0.5;  // of the rate asked for
 constexpr double kClassShare = 0.5;     // of the votes, to be confirmed
 
@@ -35,14 +36,19 @@ Value At(const std::map<InstanceId, Value>& values, InstanceId id) {
     return found == values.end() ? Value{} : found->second;
 }
 
-// How well a detection fits a known object that the map shows; 0: not at all. Of two that lie within the detection the one whose
-// outline in the image is the detector's box fits better, whatever the segment has taken along.
-double Fit(const ObservedObject& o, const InstanceRecord& record, int common, const VisibleObject& visible, bool same_class) {
+// How well a detection fits a known object that the map shows; 0: not at all. Of two that lie
+// within the detection the one whose outline in the image is the detector's box fits better,
+// whatever the segment has taken along.
+double Fit(const ObservedObject& o, const InstanceRecord& record, int common,
+           const VisibleObject& visible, bool same_class) {
     const double all = o.pixels + visible.pixels - common, overlap = all > 0 ? common / all : 0;
-    const double image = IntersectionOverUnion(o.image_box, visible.image_box), space = IntersectionOverUnion(o.box, record.box);
+    const double image = IntersectionOverUnion(o.image_box, visible.image_box),
+                 space = IntersectionOverUnion(o.box, record.box);
     if (!same_class) return overlap >= kOtherClassOverlap ? overlap + image : 0;
-    const double contained = static_cast<double>(common) / std::max(1, std::min(o.pixels, visible.pixels));
-    const bool part = contained >= kContained && (common >= kContainedShare * o.pixels || space >= kSameSpace);
+    const double contained =
+        static_cast<double>(common) / std::max(1, std::min(o.pixels, visible.pixels));
+    const bool part =
+        contained >= kContained && (common >= kContainedShare * o.pixels || space >= kSameSpace);
     return overlap >= kSameClassOverlap || part ? 0.2 + overlap + image + 0.2 * space : 0;
 }
 
@@ -55,7 +61,8 @@ InstanceId Instances::Resolve(InstanceId id) const {
 
 int Instances::ClassOf(InstanceId id) const {
     const auto& votes = records_[id].class_votes;
-    const auto best = std::ranges::max_element(votes, {}, [](const auto& vote) { return vote.second; });
+    const auto best =
+        std::ranges::max_element(votes, {}, [](const auto& vote) { return vote.second; });
     return best == votes.end() ? 0 : best->first;
 }
 
@@ -71,10 +78,12 @@ double Instances::SeenArea_m2(InstanceId id) const {
 
 bool Instances::stands(InstanceId id) const {
     if (!confirmed(id)) return false;
-    return records_[id].observations >= kStandingShare * config_.min_rate * records_[id].visible_frames;
+    return records_[id].observations >=
+           kStandingShare * config_.min_rate * records_[id].visible_frames;
 }
 
-std::vector<InstanceId> Instances::Match(const std::vector<ObservedObject>& observed, const std::map<InstanceId, VisibleObject>& visible) {
+std::vector<InstanceId> Instances::Match(const std::vector<ObservedObject>& observed,
+                                         const std::map<InstanceId, VisibleObject>& visible) {
     std::vector<InstanceId> match(observed.size(), 0);
     Assign(observed, visible, match);
     const std::set<InstanceId> claimed(match.begin(), match.end());
@@ -86,7 +95,8 @@ std::vector<InstanceId> Instances::Match(const std::vector<ObservedObject>& obse
         if (busy < kFree * observed[i].pixels) match[i] = Add();
     }
     for (const auto& [id, seen] : visible)
-        if (seen.pixels >= kLeastVisible || std::ranges::find(match, id) != match.end()) ++records_[id].visible_frames;
+        if (seen.pixels >= kLeastVisible || std::ranges::find(match, id) != match.end())
+            ++records_[id].visible_frames;
     for (std::size_t i = 0; i < observed.size(); ++i)
         if (match[i] != 0) Update(match[i], observed[i], At(visible, match[i]).pixels);
     GatherEvidence(observed, visible, match);
@@ -96,7 +106,8 @@ std::vector<InstanceId> Instances::Match(const std::vector<ObservedObject>& obse
 }
 
 // Best fits first, one to one.
-void Instances::Assign(const std::vector<ObservedObject>& observed, const std::map<InstanceId, VisibleObject>& visible,
+void Instances::Assign(const std::vector<ObservedObject>& observed,
+                       const std::map<InstanceId, VisibleObject>& visible,
                        std::vector<InstanceId>& match) const {
     struct Candidate {
         double fit;
@@ -107,10 +118,12 @@ void Instances::Assign(const std::vector<ObservedObject>& observed, const std::m
     for (std::size_t i = 0; i < observed.size(); ++i) {
         for (InstanceId id = 1; id <= last(); ++id)  // what another's votes still hide
             if (!visible.contains(id) && Resolve(id) == id && ClassOf(id) == observed[i].class_id)
-                if (const double space = IntersectionOverUnion(observed[i].box, records_[id].box); space >= kSameUnseen)
+                if (const double space = IntersectionOverUnion(observed[i].box, records_[id].box);
+                    space >= kSameUnseen)
                     candidates.push_back({0.1 * space, i, id});
         for (const auto& [id, common] : observed[i].overlaps) {
-            const double fit = Fit(observed[i], records_[id], common, At(visible, id), ClassOf(id) == observed[i].class_id);
+            const double fit = Fit(observed[i], records_[id], common, At(visible, id),
+                                   ClassOf(id) == observed[i].class_id);
             if (fit > 0) candidates.push_back({fit, i, id});
         }
     }
@@ -147,43 +160,54 @@ void Instances::Judge(InstanceId id) {
     if (r.public_id > 0 || r.dropped || r.merged_into != 0) return;
     const double rate = static_cast<double>(r.observations) / std::max(1, r.visible_frames);
     const auto count = r.class_counts.find(ClassOf(id));
-    const double share = count == r.class_counts.end() ? 0 : static_cast<double>(count->second) / r.observations;
-    if (r.observations >= config_.min_observations && rate >= config_.min_rate && share >= kClassShare && 2 * r.held >= r.observations)
+    const double share =
+        count == r.class_counts.end() ? 0 : static_cast<double>(count->second) / r.observations;
+    if (r.observations >= config_.min_observations && rate >= config_.min_rate &&
+        share >= kClassShare && 2 * r.held >= r.observations)
         r.public_id = r.number_before > 0 ? r.number_before : ++last_public_;
     else if (r.visible_frames >= kTrialFrames && rate < config_.min_rate)
         r.dropped = true;
 }
 
-bool Instances::Covers(const ObservedObject& observed, const std::map<InstanceId, VisibleObject>& visible, InstanceId id) const {
+bool Instances::Covers(const ObservedObject& observed,
+                       const std::map<InstanceId, VisibleObject>& visible, InstanceId id) const {
     const int pixels = At(visible, id).pixels;
     return pixels >= kLeastVisible && At(observed.overlaps, id) >= kCovers * pixels;
 }
 
-std::vector<InstanceId> Instances::Covered(const ObservedObject& observed, const std::map<InstanceId, VisibleObject>& visible,
+std::vector<InstanceId> Instances::Covered(const ObservedObject& observed,
+                                           const std::map<InstanceId, VisibleObject>& visible,
                                            const std::vector<InstanceId>& match) const {
     std::vector<InstanceId> covered;
     for (const auto& [id, common] : observed.overlaps)
-        if (std::ranges::find(match, id) == match.end() && (ClassOf(id) == observed.class_id || stands(id)) && Covers(observed, visible, id))
+        if (std::ranges::find(match, id) == match.end() &&
+            (ClassOf(id) == observed.class_id || stands(id)) && Covers(observed, visible, id))
             covered.push_back(id);
     return covered;
 }
 
-void Instances::GatherEvidence(const std::vector<ObservedObject>& observed, const std::map<InstanceId, VisibleObject>& visible,
+void Instances::GatherEvidence(const std::vector<ObservedObject>& observed,
+                               const std::map<InstanceId, VisibleObject>& visible,
                                const std::vector<InstanceId>& match) {
-    const auto key = [](InstanceId a, InstanceId b) { return std::pair(std::min(a, b), std::max(a, b)); };
+    const auto key = [](InstanceId a, InstanceId b) {
+        return std::pair(std::min(a, b), std::max(a, b));
+    };
     std::set<std::pair<InstanceId, InstanceId>> together;
     for (std::size_t i = 0; i < observed.size(); ++i) {
         if (match[i] == 0) continue;
         for (std::size_t j = 0; j < i; ++j)
-            if (match[j] != 0 && ClassOf(match[j]) == ClassOf(match[i])) ++evidence_[key(match[i], match[j])].apart;
+            if (match[j] != 0 && ClassOf(match[j]) == ClassOf(match[i]))
+                ++evidence_[key(match[i], match[j])].apart;
         if (!Covers(observed[i], visible, match[i])) continue;
         for (const auto& [id, common] : observed[i].overlaps)
-            if (std::ranges::find(match, id) == match.end() && ClassOf(id) == ClassOf(match[i]) && Covers(observed[i], visible, id))
+            if (std::ranges::find(match, id) == match.end() && ClassOf(id) == ClassOf(match[i]) &&
+                Covers(observed[i], visible, id))
                 together.insert(key(id, match[i]));
     }
     for (const auto& pair : together) {
         PairEvidence& e = evidence_[pair];
-        if (++e.together >= kTogether && e.together > kOftener * e.apart) Join(pair.first, pair.second);
+        if (++e.together >= kTogether && e.together > kOftener * e.apart)
+            Join(pair.first, pair.second);
     }
 }
 
@@ -192,7 +216,9 @@ void Instances::Join(InstanceId a, InstanceId b) {
     a = Resolve(a), b = Resolve(b);
     if (a == b || a == 0 || b == 0) return;
     const auto rank = [&](InstanceId id) {
-        return std::pair(records_[id].public_id > 0 ? records_[id].public_id : std::numeric_limits<int>::max(), id);
+        return std::pair(
+            records_[id].public_id > 0 ? records_[id].public_id : std::numeric_limits<int>::max(),
+            id);
     };
     if (rank(b) < rank(a)) std::swap(a, b);
     InstanceRecord &kept = records_[a], &gone = records_[b];

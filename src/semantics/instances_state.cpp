@@ -14,7 +14,9 @@ void Instances::SaveState(StateWriter& state) const {
             state.Put(sum);
             state.Put(r.class_counts.contains(id) ? r.class_counts.at(id) : 0);
         }
-        for (const int value : {r.observations, r.visible_frames, r.held, r.public_id, r.number_before}) state.Put(value);
+        for (const int value :
+             {r.observations, r.visible_frames, r.held, r.public_id, r.number_before})
+            state.Put(value);
         state.Put(r.area_m2);
         state.Put(static_cast<std::uint64_t>(r.marks.size()));
         for (const std::uint64_t mark : r.marks) state.Put(mark);
@@ -49,7 +51,9 @@ bool Instances::LoadState(StateReader& state) {
             r.class_votes[id] = sum;
             r.class_counts[id] = seen;
         }
-        for (int* value : {&r.observations, &r.visible_frames, &r.held, &r.public_id, &r.number_before}) state.Get(*value);
+        for (int* value :
+             {&r.observations, &r.visible_frames, &r.held, &r.public_id, &r.number_before})
+            state.Get(*value);
         state.Get(r.area_m2);
         std::uint64_t marks = 0;
         state.Get(marks);
@@ -67,7 +71,9 @@ bool Instances::LoadState(StateReader& state) {
     for (; state.ok() && count > 0; --count) {
         std::pair<InstanceId, InstanceId> pair;
         PairEvidence found;
-        if (!state.Get(pair.first) || !state.Get(pair.second) || !state.Get(found.together) || !state.Get(found.apart)) return false;
+        if (!state.Get(pair.first) || !state.Get(pair.second) || !state.Get(found.together) ||
+            !state.Get(found.apart))
+            return false;
         if (pair.first >= records.size() || pair.second >= records.size()) return false;
         evidence[pair] = found;
     }

@@ -17,13 +17,15 @@ Pairs SplitPairs(const std::string& text) {
     std::istringstream words(text);
     for (std::string word; words >> word;) {
         const std::size_t equals = word.find('=');
-        pairs.emplace_back(word.substr(0, equals), equals == std::string::npos ? "" : word.substr(equals + 1));
+        pairs.emplace_back(word.substr(0, equals),
+                           equals == std::string::npos ? "" : word.substr(equals + 1));
     }
     return pairs;
 }
 
 std::optional<Rgb8> ParseColour(const std::string& text) {
-    if (text.size() != 7 || text[0] != '#' || text.find_first_not_of("0123456789abcdefABCDEF", 1) != std::string::npos)
+    if (text.size() != 7 || text[0] != '#' ||
+        text.find_first_not_of("0123456789abcdefABCDEF", 1) != std::string::npos)
         return std::nullopt;
     const auto value = static_cast<std::uint32_t>(std::strtoul(text.c_str() + 1, nullptr, 16));
     return Rgb8{static_cast<std::uint8_t>(value >> 16), static_cast<std::uint8_t>(value >> 8 & 255),
@@ -51,31 +53,53 @@ Rgb8 DistinctColour(int n) {
 
 void LabelConfig::Describe(ConfigParameters& p) {
     p.Add("classes", classes,
-          "what is labelled: names, each perhaps with its colour (cup=#b146c2), separated by blanks (_ for those in a "
+          "what is labelled: names, each perhaps with its colour (cup=#b146c2), separated by "
+          "blanks (_ for those in a "
           "name); all is every class of the detector");
     p.Add("aliases", aliases, "detector's name=ours, separated by blanks");
     p.Add("dynamic", dynamic,
-          "names, separated by blanks, of what may move at any time: its pixels are not fused, even while it stands still, and it is "
+          "names, separated by blanks, of what may move at any time: its pixels are not fused, "
+          "even while it stands still, and it is "
           "not labelled");
-    p.Add("min_probability", min_probability, {0.0, 1.0}, "", "detections below it are left out; [D18] takes 0.5");
-    p.AddChoice<LabelRegion>("region", region, {{"segment", LabelRegion::kSegment}, {"mean-depth", LabelRegion::kMeanDepth}},
-                             "what of a box is the object: its own connected depth segment (or the model's mask), or all "
-                             "that is not deeper than the box's mean ([D18])");
-    p.Add("band_voxels", band_voxels, {0.9, 10.0}, "voxels", "voxels so near the surface get votes");
-    p.Add("min_observations", min_observations, {1, 1000}, "", "an object counts once it was detected so often");
-    p.Add("min_rate", min_rate, {0.0, 1.0}, "", "and in such a share of the detected frames that show it");
-    p.Add("stride", stride, {1, 1000}, "frames", "lockstep: detect in every so-manieth frame; live takes what the detector can do");
+    p.Add("min_probability", min_probability, {0.0, 1.0}, "",
+          "detections below it are left out; [D18] takes 0.5");
+    p.AddChoice<LabelRegion>(
+        "region", region,
+        {{"segment", LabelRegion::kSegment}, {"mean-depth", LabelRegion::kMeanDepth}},
+        "what of a box is the object: its own connected depth segment (or the model's mask), or "
+        "all "
+        "that is not deeper than the box's mean ([D18])");
+    p.Add("band_voxels", band_voxels, {0.9, 10.0}, "voxels",
+          "voxels so near the surface get votes");
+    p.Add("min_observations", min_observations, {1, 1000}, "",
+          "an object counts once it was detected so often");
+    p.Add("min_rate", min_rate, {0.0, 1.0}, "",
+          "and in such a share of the detected frames that show it");
+    p.Add("stride", stride, {1, 1000}, "frames",
+          "lockstep: detect in every so-manieth frame; live takes what the detector can do");
     p.Add("max_rate_hz", max_rate_hz, {0.1, 1000.0}, "1/s",
-          "live: at most so many frames a second are detected in, so that tracking keeps its processor; raise it on a machine "
+          "live: at most so many frames a second are detected in, so that tracking keeps its "
+          "processor; raise it on a machine "
           "with cores to spare");
-    p.AddChoice<ModelFamily>("family", family, {{"auto", ModelFamily::kAuto}, {"yolox", ModelFamily::kYolox}, {"yolov5", ModelFamily::kYolov5}, {"yolov8", ModelFamily::kYolov8}, {"darknet", ModelFamily::kDarknet}},
+    p.AddChoice<ModelFamily>("family", family,
+                             {{"auto", ModelFamily::kAuto},
+                              {"yolox", ModelFamily::kYolox},
+                              {"yolov5", ModelFamily::kYolov5},
+                              {"yolov8", ModelFamily::kYolov8},
+                              {"darknet", ModelFamily::kDarknet}},
                              "of a network: how to read its outputs; auto tells by their shapes");
     p.Add("names", names, "file with the network's class names, one a line; empty: COCO's 80");
-    p.Add("input_px", input_px, {0, 4096}, "px", "edge of the network's square input, a multiple of 32; 0 tries 416, 640 and 320");
-    p.Add("overlap", overlap, {0.0, 1.0}, "", "of two boxes of a class that overlap more (intersection over union), the less probable goes");
-    p.Add("synthetic_missed", synthetic_missed, {0.0, 1.0}, "", "share of detections that --labels synthetic leaves out");
-    p.Add("synthetic_wrong", synthetic_wrong, {0.0, 1.0}, "", "share to which --labels synthetic gives a wrong class");
-    p.Add("synthetic_seed", synthetic_seed, {0, 2147483647}, "", "which detections these are: another seed, other ones");
+    p.Add("input_px", input_px, {0, 4096}, "px",
+          "edge of the network's square input, a multiple of 32; 0 tries 416, 640 and 320");
+    p.Add("overlap", overlap, {0.0, 1.0}, "",
+          "of two boxes of a class that overlap more (intersection over union), the less probable "
+          "goes");
+    p.Add("synthetic_missed", synthetic_missed, {0.0, 1.0}, "",
+          "share of detections that --labels synthetic leaves out");
+    p.Add("synthetic_wrong", synthetic_wrong, {0.0, 1.0}, "",
+          "share to which --labels synthetic gives a wrong class");
+    p.Add("synthetic_seed", synthetic_seed, {0, 2147483647}, "",
+          "which detections these are: another seed, other ones");
 }
 
 Status LabelConfig::Validate() const {
@@ -91,7 +115,8 @@ void LabelClasses::Add(const std::string& name, Rgb8 colour) {
     colours_.push_back(colour);
 }
 
-Result<LabelClasses> LabelClasses::Make(const LabelConfig& config, const std::vector<std::string>& known) {
+Result<LabelClasses> LabelClasses::Make(const LabelConfig& config,
+                                        const std::vector<std::string>& known) {
     LabelClasses made;
     for (const auto& [from, to] : SplitPairs(config.aliases)) {
         if (from.empty() || to.empty())
@@ -104,25 +129,34 @@ Result<LabelClasses> LabelClasses::Make(const LabelConfig& config, const std::ve
         made.dynamic_.insert(name);
     }
     Pairs wanted = SplitPairs(config.classes);
-    const bool all = std::ranges::any_of(wanted, [](const auto& entry) { return entry.first == "all"; });
+    const bool all =
+        std::ranges::any_of(wanted, [](const auto& entry) { return entry.first == "all"; });
     std::erase_if(wanted, [](const auto& entry) { return entry.first == "all"; });
     if (all)
         for (const std::string& name : known)
-            if (std::ranges::none_of(wanted, [&](const auto& entry) { return entry.first == made.OurName(name); }))
+            if (std::ranges::none_of(
+                    wanted, [&](const auto& entry) { return entry.first == made.OurName(name); }))
                 wanted.emplace_back(made.OurName(name), "");
     if (wanted.empty() && !all) return Status::Error("labels.classes: names no class");
     for (const auto& [name, colour] : wanted) {
         if (name.empty() || made.ids_.contains(name))
             return Status::Error("labels.classes: '" + name + "' is empty or given twice");
         const auto rgb = colour.empty() ? DistinctColour(made.count()) : ParseColour(colour);
-        if (!rgb) return Status::Error(fmt::format("labels.classes: {}={}: expected a colour as #rrggbb", name, colour));
+        if (!rgb)
+            return Status::Error(
+                fmt::format("labels.classes: {}={}: expected a colour as #rrggbb", name, colour));
         made.Add(name, *rgb);
     }
     if (made.count() > kMost)
-        return Status::Error(fmt::format("labels.classes: {} classes, at most {}", made.count(), kMost));
-    if (!known.empty() && std::ranges::none_of(known, [&](const auto& name) { return made.IdOf(name) > 0; }))
-        return Status::Error(fmt::format("labels.classes: the detector knows none of them (it knows {}{}); set labels.classes or "
-                                         "labels.aliases, or labels.classes=all", known.front(), known.size() > 1 ? ", ..." : ""));
+        return Status::Error(
+            fmt::format("labels.classes: {} classes, at most {}", made.count(), kMost));
+    if (!known.empty() &&
+        std::ranges::none_of(known, [&](const auto& name) { return made.IdOf(name) > 0; }))
+        return Status::Error(
+            fmt::format("labels.classes: the detector knows none of them (it knows {}{}); set "
+                        "labels.classes or "
+                        "labels.aliases, or labels.classes=all",
+                        known.front(), known.size() > 1 ? ", ..." : ""));
     return made;
 }
 
@@ -137,6 +171,8 @@ int LabelClasses::IdOf(const std::string& detector_name) const {
     return found == ids_.end() ? 0 : found->second;
 }
 
-bool LabelClasses::IsDynamic(const std::string& detector_name) const { return dynamic_.contains(OurName(detector_name)); }
+bool LabelClasses::IsDynamic(const std::string& detector_name) const {
+    return dynamic_.contains(OurName(detector_name));
+}
 
 }  // namespace tessera

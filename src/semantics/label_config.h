@@ -1,5 +1,5 @@
-// What is to be found in the images, and how sure of it one must be: section `labels` of the configuration. Immutable
-// values once read; thread-safe to read.
+// What is to be found in the images, and how sure of it one must be: section `labels` of the
+// configuration. Immutable values once read; thread-safe to read.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,8 @@ namespace tessera {
 
 // Which pixels of a detection's box belong to the object.
 enum class LabelRegion {
-    kSegment,    // its own connected depth segment (depth_segment.h), or the model's mask where it gives one
+    // Its own connected depth segment (depth_segment.h), or the model's mask where it gives one.
+    kSegment,
     kMeanDepth,  // all that is not deeper than the box's mean depth: [D18] 3.3
 };
 
@@ -25,7 +26,8 @@ enum class ModelFamily { kAuto, kYolox, kYolov5, kYolov8, kDarknet };
 
 struct LabelConfig {
     // "name" or "name=#rrggbb", separated by blanks; "all" is every class that the detector knows.
-    std::string classes = "computer=#e6403a laptop=#f5a623 keyboard=#3cb44b book=#4363d8 cup=#b146c2";
+    std::string classes =
+        "computer=#e6403a laptop=#f5a623 keyboard=#3cb44b book=#4363d8 cup=#b146c2";
     // "a detector's name=ours", separated by blanks.
     std::string aliases = "tv=computer tvmonitor=computer monitor=computer";
     std::string dynamic = "person";  // names as in `classes`, without colours
@@ -56,17 +58,22 @@ class LabelClasses {
     static constexpr int kMost = 250;
 
     LabelClasses() = default;
-    // `known`: what the detector can say, for "all". An error names labels.classes, labels.aliases or the limit, or says
-    // that the detector knows none of the classes. An empty `known` is not checked.
-    static Result<LabelClasses> Make(const LabelConfig& config, const std::vector<std::string>& known);
+    // `known`: what the detector can say, for "all". An error names labels.classes, labels.aliases
+    // or the limit, or says that the detector knows none of the classes. An empty `known` is not
+    // checked.
+    static Result<LabelClasses> Make(const LabelConfig& config,
+                                     const std::vector<std::string>& known);
 
     // Blanks and "_" are the same; aliases are followed. 0 if the class is not wanted.
     int IdOf(const std::string& detector_name) const;
-    // Whether it is one of labels.dynamic, by the same rule: to be left out of the map and its labels.
+    // Whether it is one of labels.dynamic, by the same rule: to be left out of the map and its
+    // labels.
     bool IsDynamic(const std::string& detector_name) const;
 
     int count() const { return static_cast<int>(names_.size()) - 1; }
-    const std::string& name(int id) const { return names_[static_cast<std::size_t>(id)]; }  // id in [0, count]
+    const std::string& name(int id) const {
+        return names_[static_cast<std::size_t>(id)];
+    }  // id in [0, count]
     Rgb8 colour(int id) const { return colours_[static_cast<std::size_t>(id)]; }
 
   private:

@@ -13,7 +13,8 @@
 namespace tessera {
 namespace {
 
-constexpr int kSampledColumns = 160;  // at least, of the predicted view and of what is compared with it
+// At least, of the predicted view and of what is compared with it.
+constexpr int kSampledColumns = 160;
 constexpr float kNear_m = 0.1f;
 constexpr float kStrayShare = 0.02f;  // of an instance's pixels on each side, for its outline
 constexpr float kTrim = 0.05f;  // of a detection's points on each side of each axis, for its box
@@ -40,11 +41,14 @@ std::uint64_t MarkOf(const Detection& d) {
     return mark;
 }
 
-Instances::Config InstanceConfig(const LabelConfig& config) { return {config.min_observations, config.min_rate}; }
+Instances::Config InstanceConfig(const LabelConfig& config) {
+    return {config.min_observations, config.min_rate};
+}
 
 }  // namespace
 
-LabelMapper::LabelMapper(const LabelConfig& config, LabelClasses classes, const PinholeCamera& camera, float max_depth_m)
+LabelMapper::LabelMapper(const LabelConfig& config, LabelClasses classes,
+                         const PinholeCamera& camera, float max_depth_m)
     : config_(config),
       classes_(std::move(classes)),
       camera_(camera),
@@ -54,7 +58,8 @@ LabelMapper::LabelMapper(const LabelConfig& config, LabelClasses classes, const 
 
 VoteCount LabelMapper::Label(std::span<const Detection> detections, const DepthImage& measured_m,
                              const Eigen::Isometry3d& T_world_camera, BlockMap& map) {
-    const float farthest_m = *std::max_element(measured_m.data(), measured_m.data() + measured_m.size());
+    const float farthest_m =
+        *std::max_element(measured_m.data(), measured_m.data() + measured_m.size());
     const DepthImage& depth_m = WithinReach(measured_m, farthest_m);
     // 1. What do the detections say of each pixel?
     MakeLabelImage(depth_m, camera_, detections, config_.region, image_);
@@ -68,12 +73,15 @@ VoteCount LabelMapper::Label(std::span<const Detection> detections, const DepthI
     std::vector<Ballot> ballots(detections.size());
     for (std::size_t i = 0; i < match.size(); ++i)
         if (match[i] != 0)
-            ballots[i] = {static_cast<std::uint8_t>(detections[i].class_id), match[i], visible.contains(match[i]),
+            ballots[i] = {static_cast<std::uint8_t>(detections[i].class_id), match[i],
+                          visible.contains(match[i]),
                           instances_.Covered(observed[i], visible, match)};
     std::vector<InstanceId> joined(static_cast<std::size_t>(instances_.last()) + 1, 0);
-    for (std::size_t id = 1; id < joined.size(); ++id) joined[id] = instances_.Resolve(static_cast<InstanceId>(id));
+    for (std::size_t id = 1; id < joined.size(); ++id)
+        joined[id] = instances_.Resolve(static_cast<InstanceId>(id));
     const double band_m = config_.band_voxels * map.config().voxel_size_m;
-    VoteCount count = VoteLabels(image_, ballots, joined, depth_m, camera_, T_world_camera, band_m, map);
+    VoteCount count =
+        VoteLabels(image_, ballots, joined, depth_m, camera_, T_world_camera, band_m, map);
     KnowBlocks(map);
     for (const BlockId id : count.blocks) votes_[static_cast<std::size_t>(id)] = Votes::kNew;
     return count;
@@ -82,19 +90,25 @@ VoteCount LabelMapper::Label(std::span<const Detection> detections, const DepthI
 const DepthImage& LabelMapper::WithinReach(const DepthImage& depth_m, float farthest_m) {
     if (!(farthest_m > max_depth_m_)) return depth_m;
     near_m_ = depth_m;
-    std::replace_if(near_m_.data(), near_m_.data() + near_m_.size(), [this](float z) { return z > max_depth_m_; }, 0.0f);
+    std::replace_if(
+        near_m_.data(), near_m_.data() + near_m_.size(),
+        [this](float z) { return z > max_depth_m_; }, 0.0f);
     return near_m_;
 }
 
-void LabelMapper::PredictInstances(const Eigen::Isometry3d& T_world_camera, float farthest_m, const BlockMap& map) {
+void LabelMapper::PredictInstances(const Eigen::Isometry3d& T_world_camera, float farthest_m,
+                                   const BlockMap& map) {
     const PinholeCamera camera = camera_.Every(step_px_);
-    ray_caster_.Predict(map, camera, T_world_camera, kNear_m, std::max(2 * kNear_m, farthest_m), view_);
+    ray_caster_.Predict(map, camera, T_world_camera, kNear_m, std::max(2 * kNear_m, farthest_m),
+                        view_);
     predicted_.Resize(camera.width, camera.height);
     tbb::parallel_for(0, camera.height, [&](int y) {
         for (int x = 0; x < camera.width; ++x) {
             const float z = view_.depth_m(x, y);
-            predicted_(x, y) = z > 0 ? instances_.Resolve(LabelNear(map, T_world_camera * camera.Unproject(x, y, z)).instance)
-                                     : InstanceId{0};
+            predicted_(x, y) =
+                z > 0 ? instances_.Resolve(
+                            LabelNear(map, T_world_camera * camera.Unproject(x, y, z)).instance)
+                      : InstanceId{0};
         }
     });
 }
@@ -112,17 +126,20 @@ std::map<InstanceId, VisibleObject> LabelMapper::Visible() const {
     for (auto& [id, place] : places) {
         VisibleObject& seen = visible[id];
         seen.pixels = static_cast<int>(place[0].size());
-        const auto cut = static_cast<std::size_t>(kStrayShare * static_cast<float>(place[0].size()));
+        const auto cut =
+            static_cast<std::size_t>(kStrayShare * static_cast<float>(place[0].size()));
         for (std::size_t axis = 0; axis < 2; ++axis) {
             std::ranges::sort(place[axis]);
             seen.image_box.min()[static_cast<int>(axis)] = step_px_ * place[axis][cut];
-            seen.image_box.max()[static_cast<int>(axis)] = step_px_ * (place[axis][place[axis].size() - 1 - cut] + 1);
+            seen.image_box.max()[static_cast<int>(axis)] =
+                step_px_ * (place[axis][place[axis].size() - 1 - cut] + 1);
         }
     }
     return visible;
 }
 
-std::vector<ObservedObject> LabelMapper::Observe(std::span<const Detection> detections, const DepthImage& depth_m,
+std::vector<ObservedObject> LabelMapper::Observe(std::span<const Detection> detections,
+                                                 const DepthImage& depth_m,
                                                  const Eigen::Isometry3d& T_world_camera) const {
     std::vector<ObservedObject> observed(std::min(detections.size(), LabelImage::kMostDetections));
     std::vector<std::vector<Eigen::Vector3d>> points(observed.size());
@@ -138,7 +155,8 @@ std::vector<ObservedObject> LabelMapper::Observe(std::span<const Detection> dete
                 o.area_m2 += pixel_m2 * depth_m(u, v) * depth_m(u, v);
                 o.own_pixels += label == image_.detection(u, v);
                 if (predicted_(x, y) != 0) ++o.overlaps[predicted_(x, y)];
-                points[label - 1u].push_back(T_world_camera * camera_.Unproject(u, v, depth_m(u, v)));
+                points[label - 1u].push_back(T_world_camera *
+                                             camera_.Unproject(u, v, depth_m(u, v)));
             }
         }
     for (std::size_t i = 0; i < observed.size(); ++i) {
@@ -147,7 +165,8 @@ std::vector<ObservedObject> LabelMapper::Observe(std::span<const Detection> dete
         observed[i].mark = MarkOf(detections[i]);
         observed[i].box = BoxWithoutStrays(points[i]);
         const DetectionBox& box = detections[i].box;
-        observed[i].image_box = {Eigen::Vector2d(box.x_min, box.y_min), Eigen::Vector2d(box.x_max + 1, box.y_max + 1)};
+        observed[i].image_box = {Eigen::Vector2d(box.x_min, box.y_min),
+                                 Eigen::Vector2d(box.x_max + 1, box.y_max + 1)};
     }
     return observed;
 }

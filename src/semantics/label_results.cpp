@@ -26,29 +26,36 @@ VertexLabel LabelMapper::LabelOfInstance(InstanceId voted_for) const {
     if (voted_for == 0) return {};
     const InstanceId id = instances_.Resolve(voted_for);
     if (!instances_.stands(id)) return {};
-    return {static_cast<std::uint8_t>(instances_.ClassOf(id)), static_cast<std::uint16_t>(instances_.record(id).public_id)};
+    return {static_cast<std::uint8_t>(instances_.ClassOf(id)),
+            static_cast<std::uint16_t>(instances_.record(id).public_id)};
 }
 
 void LabelMapper::LabelVertices(const BlockMap& map, TriangleMesh& mesh) const {
     mesh.labels.resize(mesh.vertices.size());
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, mesh.vertices.size(), 4096), [&](const auto& range) {
-        for (std::size_t i = range.begin(); i < range.end(); ++i)
-            mesh.labels[i] = LabelOf(LabelNear(map, mesh.vertices[i].cast<double>()));
-    });
+    tbb::parallel_for(
+        tbb::blocked_range<std::size_t>(0, mesh.vertices.size(), 4096), [&](const auto& range) {
+            for (std::size_t i = range.begin(); i < range.end(); ++i)
+                mesh.labels[i] = LabelOf(LabelNear(map, mesh.vertices[i].cast<double>()));
+        });
 }
 
-VertexLabel LabelMapper::LabelOf(const BlockMap& map, const BlockMesh& owner, const BlockMesh::Vertex& vertex) const {
-    return LabelOf(LabelNear(map, VertexPosition(owner, vertex, map.config().voxel_size_m).cast<double>()));
+VertexLabel LabelMapper::LabelOf(const BlockMap& map, const BlockMesh& owner,
+                                 const BlockMesh::Vertex& vertex) const {
+    return LabelOf(
+        LabelNear(map, VertexPosition(owner, vertex, map.config().voxel_size_m).cast<double>()));
 }
 
-Rgb8 LabelMapper::ColourOf(const BlockMap& map, const BlockMesh& owner, const BlockMesh::Vertex& vertex) const {
-    if (const int class_id = LabelOf(map, owner, vertex).class_id; class_id != 0) return classes_.colour(class_id);
+Rgb8 LabelMapper::ColourOf(const BlockMap& map, const BlockMesh& owner,
+                           const BlockMesh::Vertex& vertex) const {
+    if (const int class_id = LabelOf(map, owner, vertex).class_id; class_id != 0)
+        return classes_.colour(class_id);
     return vertex.has_colour ? NoCategoryColour(vertex.colour) : kNoSceneColour;
 }
 
 // After LoadState any block may have votes.
 void LabelMapper::KnowBlocks(const BlockMap& map) {
-    votes_.resize(static_cast<std::size_t>(map.size()), std::exchange(loaded_, false) ? Votes::kNew : Votes::kNone);
+    votes_.resize(static_cast<std::size_t>(map.size()),
+                  std::exchange(loaded_, false) ? Votes::kNew : Votes::kNone);
 }
 
 std::vector<BlockId> LabelMapper::TakeRelabelled(const BlockMap& map) {
@@ -62,27 +69,31 @@ std::vector<BlockId> LabelMapper::TakeRelabelled(const BlockMap& map) {
         any_changed |= changed[id] != 0;
         shown_[id] = label;
     }
-    const auto holds_changed = [&](const VoxelLabel& voxel) { return changed[voxel.instance] != 0; };
+    const auto holds_changed = [&](const VoxelLabel& voxel) {
+        return changed[voxel.instance] != 0;
+    };
     std::vector<BlockId> relabelled;
     for (std::size_t i = 0; i < votes_.size(); ++i) {
         if (votes_[i] == Votes::kNone) continue;
         const VoxelLabel* voxels = map.label(static_cast<BlockId>(i));
-        if (votes_[i] == Votes::kNew || (any_changed && std::any_of(voxels, voxels + kBlockVoxels, holds_changed)))
+        if (votes_[i] == Votes::kNew ||
+            (any_changed && std::any_of(voxels, voxels + kBlockVoxels, holds_changed)))
             relabelled.push_back(static_cast<BlockId>(i));
         votes_[i] = Votes::kTold;
     }
     return relabelled;
 }
 
-TriangleMesh LabelMapper::LabelledVertices(const BlockMap& map,
-                                           const std::vector<std::unique_ptr<const BlockMesh>>& meshes) const {
+TriangleMesh LabelMapper::LabelledVertices(
+    const BlockMap& map, const std::vector<std::unique_ptr<const BlockMesh>>& meshes) const {
     TriangleMesh labelled;
     for (std::size_t i = 0; i < std::min(votes_.size(), meshes.size()); ++i) {
         if (votes_[i] == Votes::kNone || !meshes[i]) continue;
         for (const BlockMesh::Vertex& vertex : meshes[i]->vertices) {
             const VertexLabel label = LabelOf(map, *meshes[i], vertex);
             if (label.instance == 0) continue;
-            labelled.vertices.push_back(VertexPosition(*meshes[i], vertex, map.config().voxel_size_m));
+            labelled.vertices.push_back(
+                VertexPosition(*meshes[i], vertex, map.config().voxel_size_m));
             labelled.labels.push_back(label);
         }
     }
@@ -105,9 +116,11 @@ void LabelMapper::Leave(const BlockMap& map, std::span<const BlockId> blocks,
         if (at >= meshes.size() || !meshes[at] || !(meshes[at]->coord == map.coord(id))) continue;
         std::vector<LabelledVertex> vertices;
         for (const BlockMesh::Vertex& vertex : meshes[at]->vertices) {
-            const Eigen::Vector3f p_world = VertexPosition(*meshes[at], vertex, map.config().voxel_size_m);
+            const Eigen::Vector3f p_world =
+                VertexPosition(*meshes[at], vertex, map.config().voxel_size_m);
             const VoxelLabel voxel = LabelNear(map, p_world.cast<double>());
-            if (ClassOf(voxel) != 0 && voxel.instance != 0) vertices.push_back({p_world, voxel.instance});
+            if (ClassOf(voxel) != 0 && voxel.instance != 0)
+                vertices.push_back({p_world, voxel.instance});
         }
         if (!vertices.empty()) away_[map.coord(id)] = std::move(vertices);
     }
@@ -117,7 +130,8 @@ void LabelMapper::Return(const BlockMap& map, std::span<const BlockId> blocks) {
     KnowBlocks(map);
     for (const BlockId id : blocks) {
         const VoxelLabel* voxels = map.label(id);
-        const bool voted = std::any_of(voxels, voxels + kBlockVoxels, [](const VoxelLabel& v) { return v.count[0] > 0; });
+        const bool voted = std::any_of(voxels, voxels + kBlockVoxels,
+                                       [](const VoxelLabel& v) { return v.count[0] > 0; });
         votes_[static_cast<std::size_t>(id)] = voted ? Votes::kNew : Votes::kNone;
     }
 }
@@ -140,12 +154,15 @@ std::vector<MapObject> LabelMapper::Objects(double voxel_size_m, TriangleMesh& l
         object.probability = instances_.Probability(id);
         object.observations = instances_.record(id).observations;
         objects.push_back(std::move(object));
-        least_m2[objects.back().id] = std::max(kLeastArea_m2, kLeastSeenShare * instances_.SeenArea_m2(id));
+        least_m2[objects.back().id] =
+            std::max(kLeastArea_m2, kLeastSeenShare * instances_.SeenArea_m2(id));
     }
-    tbb::parallel_for(std::size_t{0}, objects.size(), [&](std::size_t i) { MeasureObject(labelled, objects[i]); });
+    tbb::parallel_for(std::size_t{0}, objects.size(),
+                      [&](std::size_t i) { MeasureObject(labelled, objects[i]); });
     std::set<int> remains;
     for (const MapObject& o : objects)
-        if (static_cast<double>(o.vertices) * voxel_size_m * voxel_size_m < least_m2[o.id]) remains.insert(o.id);
+        if (static_cast<double>(o.vertices) * voxel_size_m * voxel_size_m < least_m2[o.id])
+            remains.insert(o.id);
     std::erase_if(objects, [&](const MapObject& o) { return remains.contains(o.id); });
     for (VertexLabel& label : labelled.labels)
         if (remains.contains(label.instance)) label = {};

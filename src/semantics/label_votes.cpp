@@ -9,7 +9,8 @@
 namespace tessera {
 namespace {
 
-constexpr int kApartWeight = 3;  // votes of a detection against another one's instance: they are seen to be two
+// Votes of a detection against another one's instance: they are seen to be two.
+constexpr int kApartWeight = 3;
 
 struct Voting {
     const LabelImage& labels;
@@ -20,9 +21,12 @@ struct Voting {
     Eigen::Isometry3d T_camera_world;
     double band_m;
 
-    std::uint16_t HolderOf(const VoxelLabel& voxel) const { return voxel.instance < joined.size() ? joined[voxel.instance] : 0; }
+    std::uint16_t HolderOf(const VoxelLabel& voxel) const {
+        return voxel.instance < joined.size() ? joined[voxel.instance] : 0;
+    }
     bool IsDetected(std::uint16_t instance) const {
-        return std::ranges::any_of(ballots, [&](const Ballot& ballot) { return ballot.instance == instance; });
+        return std::ranges::any_of(
+            ballots, [&](const Ballot& ballot) { return ballot.instance == instance; });
     }
 };
 
@@ -41,7 +45,8 @@ Vote VoteOf(const Voting& v, const Claims& claims, const VoxelLabel& voxel) {
     if (claims.first == LabelImage::kBesideObjects) return {kBackgroundClass, 0, 1};
     const Ballot* ballot = &v.ballots[claims.first - 1u];
     const std::uint16_t holder = v.HolderOf(voxel);
-    if (holder == 0 || holder == ballot->instance || ballot->instance == 0) return {ballot->class_id, ballot->instance, 1};
+    if (holder == 0 || holder == ballot->instance || ballot->instance == 0)
+        return {ballot->class_id, ballot->instance, 1};
     if (claims.second != 0 && ballot->shown && v.ballots[claims.second - 1u].instance == holder)
         return {v.ballots[claims.second - 1u].class_id, holder, 1};
     if (std::ranges::find(ballot->covered, holder) != ballot->covered.end()) return {};
@@ -49,7 +54,8 @@ Vote VoteOf(const Voting& v, const Claims& claims, const VoxelLabel& voxel) {
 }
 
 // Blocks of the map around the labelled pixels' surface, each once, increasing.
-std::vector<BlockId> BlocksOf(const Voting& v, const Eigen::Isometry3d& T_world_camera, const BlockMap& map) {
+std::vector<BlockId> BlocksOf(const Voting& v, const Eigen::Isometry3d& T_world_camera,
+                              const BlockMap& map) {
     const double block_m = map.config().voxel_size_m * kBlockSide, margin = v.band_m / block_m;
     constexpr int kStep = 2;
     constexpr int kRows = 16;
@@ -60,14 +66,16 @@ std::vector<BlockId> BlocksOf(const Voting& v, const Eigen::Isometry3d& T_world_
         for (int y = band * kRows; y < std::min(v.depth_m.height(), (band + 1) * kRows); y += kStep)
             for (int x = 0; x < v.depth_m.width(); x += kStep) {
                 if (v.labels.detection(x, y) == 0 || v.depth_m(x, y) <= 0) continue;
-                const Eigen::Vector3d p = T_world_camera * v.camera.Unproject(x, y, v.depth_m(x, y)) / block_m;
+                const Eigen::Vector3d p =
+                    T_world_camera * v.camera.Unproject(x, y, v.depth_m(x, y)) / block_m;
                 const Eigen::Array3i low = (p.array() - margin).floor().cast<int>();
                 const Eigen::Array3i high = (p.array() + margin).floor().cast<int>();
                 for (int bz = low.z(); bz <= high.z(); ++bz)
                     for (int by = low.y(); by <= high.y(); ++by)
                         for (int bx = low.x(); bx <= high.x(); ++bx) {
                             const BlockId id = map.Find({bx, by, bz});
-                            if (id != kUnknownBlock && (blocks.empty() || blocks.back() != id)) blocks.push_back(id);
+                            if (id != kUnknownBlock && (blocks.empty() || blocks.back() != id))
+                                blocks.push_back(id);
                         }
             }
         std::ranges::sort(blocks);
@@ -85,14 +93,17 @@ Claims ClaimsAt(const Voting& v, const Eigen::Vector3d& p_camera, double truncat
     if (p_camera.z() < 0.01) return {};
     const Eigen::Vector2d pixel = v.camera.Project(p_camera);
     if (!(std::abs(pixel.x()) < 1e6) || !(std::abs(pixel.y()) < 1e6)) return {};
-    const int x = static_cast<int>(std::lround(pixel.x())), y = static_cast<int>(std::lround(pixel.y()));
+    const int x = static_cast<int>(std::lround(pixel.x())),
+              y = static_cast<int>(std::lround(pixel.y()));
     if (!v.depth_m.Contains(x, y)) return {};
     const double z = v.depth_m(x, y);
     if (z <= 0 || std::abs(z - p_camera.z()) > truncation_m) return {};
     return {v.labels.detection(x, y), v.labels.second(x, y)};
 }
 
-bool IsSettledOnObject(const VoxelLabel& voxel) { return voxel.settled != 0 && voxel.settled != kBackgroundClass; }
+bool IsSettledOnObject(const VoxelLabel& voxel) {
+    return voxel.settled != 0 && voxel.settled != kBackgroundClass;
+}
 
 VoteCount VoteInBlock(const Voting& v, BlockId id, BlockMap& map) {
     VoteCount count;
@@ -102,7 +113,8 @@ VoteCount VoteInBlock(const Voting& v, BlockId id, BlockMap& map) {
     const FieldWord* field = map.field(id);
     for (int i = 0; i < kBlockVoxels; ++i) {
         if (!HasDistance(field[i]) || std::abs(FieldDistance(field[i])) > band) continue;
-        const Eigen::Vector3d voxel(8.0 * c.x + (i & 7), 8.0 * c.y + (i >> 3 & 7), 8.0 * c.z + (i >> 6));
+        const Eigen::Vector3d voxel(8.0 * c.x + (i & 7), 8.0 * c.y + (i >> 3 & 7),
+                                    8.0 * c.z + (i >> 6));
         const Claims claims = ClaimsAt(v, v.T_camera_world * (voxel * voxel_m), truncation_m);
         if (claims.first == 0) continue;
         VoxelLabel& voxel_label = map.label(id)[i];
@@ -119,22 +131,24 @@ VoteCount VoteInBlock(const Voting& v, BlockId id, BlockMap& map) {
 
 }  // namespace
 
-VoteCount VoteLabels(const LabelImage& labels, std::span<const Ballot> ballots, std::span<const std::uint16_t> joined,
-                     const DepthImage& depth_m, const PinholeCamera& camera, const Eigen::Isometry3d& T_world_camera,
+VoteCount VoteLabels(const LabelImage& labels, std::span<const Ballot> ballots,
+                     std::span<const std::uint16_t> joined, const DepthImage& depth_m,
+                     const PinholeCamera& camera, const Eigen::Isometry3d& T_world_camera,
                      double band_m, BlockMap& map) {
     const Voting voting{labels, ballots, joined, depth_m, camera, T_world_camera.inverse(), band_m};
     const std::vector<BlockId> blocks = BlocksOf(voting, T_world_camera, map);
     std::vector<std::uint8_t> got_votes(blocks.size());
     std::atomic<std::int64_t> voxels = 0, flips = 0, settled = 0;
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, blocks.size(), 16), [&](const auto& range) {
-        for (std::size_t i = range.begin(); i < range.end(); ++i) {
-            const VoteCount count = VoteInBlock(voting, blocks[i], map);
-            voxels += count.voxels;
-            flips += count.flips;
-            settled += count.settled;
-            got_votes[i] = count.voxels > 0;
-        }
-    });
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, blocks.size(), 16),
+                      [&](const auto& range) {
+                          for (std::size_t i = range.begin(); i < range.end(); ++i) {
+                              const VoteCount count = VoteInBlock(voting, blocks[i], map);
+                              voxels += count.voxels;
+                              flips += count.flips;
+                              settled += count.settled;
+                              got_votes[i] = count.voxels > 0;
+                          }
+                      });
     VoteCount count{voxels, flips, settled, {}};
     for (std::size_t i = 0; i < blocks.size(); ++i)
         if (got_votes[i]) count.blocks.push_back(blocks[i]);

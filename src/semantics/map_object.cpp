@@ -10,7 +10,7 @@ namespace tessera {
 namespace {
 
 constexpr double kStray = 0.005;
-constexpr int kAngles = 30;  // tried over a quarter turn
+constexpr int kAngles = 30;           // tried over a quarter turn
 constexpr std::size_t kTried = 1000;  // points that the trials look at; the box chosen holds all
 
 using WorldPoints = std::vector<Eigen::Vector3d>;
@@ -20,7 +20,8 @@ Eigen::AlignedBox3d TrimmedBox(const WorldPoints& points, const Eigen::Matrix3d&
     std::vector<double> values(points.size());
     const auto low = static_cast<std::ptrdiff_t>(kStray * static_cast<double>(points.size()));
     for (int axis = 0; axis < 3; ++axis) {
-        for (std::size_t i = 0; i < points.size(); ++i) values[i] = R_box_world.row(axis).dot(points[i]);
+        for (std::size_t i = 0; i < points.size(); ++i)
+            values[i] = R_box_world.row(axis).dot(points[i]);
         std::nth_element(values.begin(), values.begin() + low, values.end());
         box.min()[axis] = values[static_cast<std::size_t>(low)];
         std::nth_element(values.begin(), values.end() - 1 - low, values.end());
@@ -43,13 +44,16 @@ Eigen::Matrix3d PrincipalAxes(const WorldPoints& points) {
 void FitOrientedBox(const WorldPoints& points, MapObject& object) {
     const Eigen::Matrix3d principal = PrincipalAxes(points);
     WorldPoints some;
-    for (std::size_t i = 0; i < points.size(); i += (points.size() + kTried - 1) / kTried) some.push_back(points[i]);
+    for (std::size_t i = 0; i < points.size(); i += (points.size() + kTried - 1) / kTried)
+        some.push_back(points[i]);
     double least = std::numeric_limits<double>::max();
     Eigen::Matrix3d R_best = principal;
     for (int about = 0; about < 3; ++about)
         for (int step = 0; step < kAngles; ++step) {
             const double angle = step * std::numbers::pi / 2 / kAngles;
-            const Eigen::Matrix3d R = Eigen::AngleAxisd(angle, Eigen::Vector3d::Unit(about)).toRotationMatrix() * principal;
+            const Eigen::Matrix3d R =
+                Eigen::AngleAxisd(angle, Eigen::Vector3d::Unit(about)).toRotationMatrix() *
+                principal;
             const Eigen::AlignedBox3d box = TrimmedBox(some, R);
             const double volume = (box.sizes().array() + 1e-4).prod();
             if (volume >= least) continue;
@@ -80,7 +84,8 @@ void MeasureObject(const TriangleMesh& mesh, MapObject& object) {
     double area = 0;
     for (const auto& [ia, ib, ic] : mesh.triangles) {
         if (!is_its(ia) || !is_its(ib) || !is_its(ic)) continue;
-        const Eigen::Vector3d a = mesh.vertices[ia].cast<double>(), b = mesh.vertices[ib].cast<double>(),
+        const Eigen::Vector3d a = mesh.vertices[ia].cast<double>(),
+                              b = mesh.vertices[ib].cast<double>(),
                               c = mesh.vertices[ic].cast<double>();
         const double part = (b - a).cross(c - a).norm();
         moment += part * (a + b + c) / 3;
@@ -96,19 +101,20 @@ std::string ObjectsJson(const std::vector<MapObject>& objects) {
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
     for (const MapObject& o : objects) {
         const Eigen::Quaterniond q(o.T_world_oriented.linear());
-        list.push_back({{"id", o.id},
-                        {"class", o.class_name},
-                        {"class_id", o.class_id},
-                        {"colour", fmt::format("#{:02x}{:02x}{:02x}", o.colour.r, o.colour.g, o.colour.b)},
-                        {"probability", std::round(o.probability * 1e4) / 1e4},
-                        {"observations", o.observations},
-                        {"vertices", o.vertices},
-                        {"centroid", Rounded(o.centroid)},
-                        {"aabb_min", Rounded(o.box.min())},
-                        {"aabb_max", Rounded(o.box.max())},
-                        {"obb_centre", Rounded(o.T_world_oriented.translation())},
-                        {"obb_size", Rounded(o.oriented_size)},
-                        {"obb_quaternion_xyzw", {q.x(), q.y(), q.z(), q.w()}}});
+        list.push_back(
+            {{"id", o.id},
+             {"class", o.class_name},
+             {"class_id", o.class_id},
+             {"colour", fmt::format("#{:02x}{:02x}{:02x}", o.colour.r, o.colour.g, o.colour.b)},
+             {"probability", std::round(o.probability * 1e4) / 1e4},
+             {"observations", o.observations},
+             {"vertices", o.vertices},
+             {"centroid", Rounded(o.centroid)},
+             {"aabb_min", Rounded(o.box.min())},
+             {"aabb_max", Rounded(o.box.max())},
+             {"obb_centre", Rounded(o.T_world_oriented.translation())},
+             {"obb_size", Rounded(o.oriented_size)},
+             {"obb_quaternion_xyzw", {q.x(), q.y(), q.z(), q.w()}}});
     }
     return list.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }

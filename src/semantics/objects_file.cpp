@@ -14,7 +14,8 @@ namespace {
 using Json = nlohmann::json;
 
 Eigen::Vector3d ToVector(const Json& json) {
-    return Eigen::Vector3d(json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>());
+    return Eigen::Vector3d(json.at(0).get<double>(), json.at(1).get<double>(),
+                           json.at(2).get<double>());
 }
 
 // Throws what the json library throws where a field is missing or of another kind.
@@ -24,8 +25,10 @@ MapObject ToObject(const Json& json) {
     o.class_id = json.at("class_id");
     o.class_name = json.at("class");
     const std::string colour = json.at("colour");
-    const unsigned long rgb = std::stoul(colour.substr(std::min<std::size_t>(1, colour.size())), nullptr, 16);
-    o.colour = {static_cast<std::uint8_t>(rgb >> 16), static_cast<std::uint8_t>(rgb >> 8), static_cast<std::uint8_t>(rgb)};
+    const unsigned long rgb =
+        std::stoul(colour.substr(std::min<std::size_t>(1, colour.size())), nullptr, 16);
+    o.colour = {static_cast<std::uint8_t>(rgb >> 16), static_cast<std::uint8_t>(rgb >> 8),
+                static_cast<std::uint8_t>(rgb)};
     o.probability = json.at("probability");
     o.observations = json.at("observations");
     o.centroid = ToVector(json.at("centroid"));
@@ -33,8 +36,10 @@ MapObject ToObject(const Json& json) {
     o.oriented_size = ToVector(json.at("obb_size"));
     const Json& q = json.at("obb_quaternion_xyzw");
     o.T_world_oriented.translation() = ToVector(json.at("obb_centre"));
-    o.T_world_oriented.linear() =
-        Eigen::Quaterniond(q.at(3).get<double>(), q.at(0).get<double>(), q.at(1).get<double>(), q.at(2).get<double>()).normalized().toRotationMatrix();
+    o.T_world_oriented.linear() = Eigen::Quaterniond(q.at(3).get<double>(), q.at(0).get<double>(),
+                                                     q.at(1).get<double>(), q.at(2).get<double>())
+                                      .normalized()
+                                      .toRotationMatrix();
     return o;
 }
 
@@ -60,7 +65,8 @@ Result<std::vector<MapObject>> ReadObjects(const std::string& path) {
     return objects;
 }
 
-std::vector<Rgb8> CategoryColours(const TriangleMesh& labelled, const std::vector<MapObject>& objects) {
+std::vector<Rgb8> CategoryColours(const TriangleMesh& labelled,
+                                  const std::vector<MapObject>& objects) {
     std::map<int, Rgb8> of_class;
     for (const MapObject& o : objects) of_class[o.class_id] = o.colour;
     std::vector<Rgb8> colours(labelled.vertices.size(), kNoSceneColour);
@@ -87,9 +93,12 @@ TriangleMesh ExtractInstance(const TriangleMesh& labelled, int id) {
         part.labels.push_back(labelled.labels[v]);
         return new_index[v];
     };
-    const auto is_its = [&](std::uint32_t v) { return v < labelled.labels.size() && labelled.labels[v].instance == id; };
+    const auto is_its = [&](std::uint32_t v) {
+        return v < labelled.labels.size() && labelled.labels[v].instance == id;
+    };
     for (const auto& [a, b, c] : labelled.triangles)
-        if (is_its(a) && is_its(b) && is_its(c)) part.triangles.push_back({take(a), take(b), take(c)});
+        if (is_its(a) && is_its(b) && is_its(c))
+            part.triangles.push_back({take(a), take(b), take(c)});
     return part;
 }
 

@@ -7,7 +7,8 @@
 namespace tessera {
 namespace {
 
-Result<std::unique_ptr<Detector>> OpenDetector(const std::string& name, const std::string& source, const SynthConfig& synthetic,
+Result<std::unique_ptr<Detector>> OpenDetector(const std::string& name, const std::string& source,
+                                               const SynthConfig& synthetic,
                                                const LabelConfig& config) {
     if (name == "synthetic") return OpenSyntheticDetector(source, synthetic, config);
     for (const char* end : {".onnx", ".cfg", ".weights"})
@@ -19,8 +20,8 @@ Result<std::unique_ptr<Detector>> OpenDetector(const std::string& name, const st
 
 }  // namespace
 
-Result<Labelling> OpenLabelling(const std::string& name, const std::string& source, const SynthConfig& synthetic,
-                                const LabelConfig& config) {
+Result<Labelling> OpenLabelling(const std::string& name, const std::string& source,
+                                const SynthConfig& synthetic, const LabelConfig& config) {
     if (Status status = config.Validate(); !status.ok()) return status;
     Result<std::unique_ptr<Detector>> detector = OpenDetector(name, source, synthetic, config);
     if (!detector.ok()) return detector.status();

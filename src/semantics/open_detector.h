@@ -11,9 +11,9 @@ struct Labelling {
     LabelClasses classes;
 };
 
-// `name`: "synthetic" (the truth of the source, with mistakes), a network (.onnx, .cfg, .weights), or else a detections
-// file. `source`: the run's. The error is one line that names the file or key.
-Result<Labelling> OpenLabelling(const std::string& name, const std::string& source, const SynthConfig& synthetic,
-                                const LabelConfig& config);
+// `name`: "synthetic" (the truth of the source, with mistakes), a network (.onnx, .cfg, .weights),
+// or else a detections file. `source`: the run's. The error is one line that names the file or key.
+Result<Labelling> OpenLabelling(const std::string& name, const std::string& source,
+                                const SynthConfig& synthetic, const LabelConfig& config);
 
 }  // namespace tessera

@@ -18,7 +18,9 @@ constexpr float kMost = 0.5f;
 
 using Points = std::vector<Eigen::Vector3f>;
 
-bool Contains(const PixelBox& box, int x, int y) { return x >= box.x_begin && x < box.x_end && y >= box.y_begin && y < box.y_end; }
+bool Contains(const PixelBox& box, int x, int y) {
+    return x >= box.x_begin && x < box.x_end && y >= box.y_begin && y < box.y_end;
+}
 
 // Above, below, left, right of the box.
 int SideOf(const PixelBox& box, int x, int y) {
@@ -31,17 +33,23 @@ struct Ring {
     std::vector<int> sides;  // of each point
 };
 
-bool LiesIn(const Plane& plane, const Eigen::Vector3f& p) { return std::abs(plane.n.dot(p) - plane.d) < PlaneTolerance_m(p.z()); }
+bool LiesIn(const Plane& plane, const Eigen::Vector3f& p) {
+    return std::abs(plane.n.dot(p) - plane.d) < PlaneTolerance_m(p.z());
+}
 
-Ring RingPoints(const DepthImage& depth_m, const PinholeCamera& camera, const PixelBox& box, const PixelBox& window,
-                std::span<const PixelBox> others) {
-    const double area = static_cast<double>(window.width()) * window.height() - static_cast<double>(box.width()) * box.height();
-    const int step = std::max(1, static_cast<int>(std::sqrt(area / static_cast<double>(kMostPoints))));
+Ring RingPoints(const DepthImage& depth_m, const PinholeCamera& camera, const PixelBox& box,
+                const PixelBox& window, std::span<const PixelBox> others) {
+    const double area = static_cast<double>(window.width()) * window.height() -
+                        static_cast<double>(box.width()) * box.height();
+    const int step =
+        std::max(1, static_cast<int>(std::sqrt(area / static_cast<double>(kMostPoints))));
     Ring ring;
     for (int y = window.y_begin; y < window.y_end; y += step)
         for (int x = window.x_begin; x < window.x_end; x += step) {
             if (Contains(box, x, y) || depth_m(x, y) <= 0) continue;
-            if (std::ranges::any_of(others, [&](const PixelBox& other) { return Contains(other, x, y); })) continue;
+            if (std::ranges::any_of(others,
+                                    [&](const PixelBox& other) { return Contains(other, x, y); }))
+                continue;
             ring.points.push_back(camera.Unproject(x, y, depth_m(x, y)).cast<float>());
             ring.sides.push_back(SideOf(box, x, y));
         }
@@ -49,10 +57,12 @@ Ring RingPoints(const DepthImage& depth_m, const PinholeCamera& camera, const Pi
 }
 
 std::size_t CountIn(const Plane& plane, const Points& points) {
-    return static_cast<std::size_t>(std::ranges::count_if(points, [&](const auto& p) { return LiesIn(plane, p); }));
+    return static_cast<std::size_t>(
+        std::ranges::count_if(points, [&](const auto& p) { return LiesIn(plane, p); }));
 }
 
-std::optional<Plane> ThroughThree(const Eigen::Vector3f& a, const Eigen::Vector3f& b, const Eigen::Vector3f& c) {
+std::optional<Plane> ThroughThree(const Eigen::Vector3f& a, const Eigen::Vector3f& b,
+                                  const Eigen::Vector3f& c) {
     const Eigen::Vector3f n = (b - a).cross(c - a);
     const float length = n.norm();
     if (length < 1e-5f) return std::nullopt;
@@ -73,7 +83,8 @@ Plane Refined(const Plane& plane, const Points& points) {
     }
     if (count < 3) return plane;
     mean /= count;
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(second / count - mean * mean.transpose());
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(second / count -
+                                                                mean * mean.transpose());
     const Eigen::Vector3d n = solver.eigenvectors().col(0);
     return {n.cast<float>(), static_cast<float>(n.dot(mean))};
 }
@@ -111,12 +122,13 @@ bool CarriesOrBacks(const Plane& plane, const Ring& ring) {
 
 }  // namespace
 
-std::vector<Plane> FindRingPlanes(const DepthImage& depth_m, const PinholeCamera& camera, const PixelBox& box,
-                                  const PixelBox& window, std::span<const PixelBox> others) {
+std::vector<Plane> FindRingPlanes(const DepthImage& depth_m, const PinholeCamera& camera,
+                                  const PixelBox& box, const PixelBox& window,
+                                  std::span<const PixelBox> others) {
     const Ring ring = RingPoints(depth_m, camera, box, window, others);
     Points points = ring.points;
-    const std::size_t least =
-        std::max(kLeastPoints, static_cast<std::size_t>(kLeastShare * static_cast<float>(points.size())));
+    const std::size_t least = std::max(
+        kLeastPoints, static_cast<std::size_t>(kLeastShare * static_cast<float>(points.size())));
     std::vector<Plane> planes;
     std::uint32_t random = 1;
     int tried = 0;

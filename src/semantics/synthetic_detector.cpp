@@ -14,14 +14,16 @@ class SyntheticDetector : public Detector {
     }
 
     Result<std::vector<Detection>> Detect(const Frame& frame) override {
-        if (!frame.T_world_camera) return Status::Error("--labels synthetic: the frame has no true pose");
+        if (!frame.T_world_camera)
+            return Status::Error("--labels synthetic: the frame has no true pose");
         const Scene& scene = source_->scene();
-        const Image<std::uint16_t> instances = CastInstances(scene, source_->info().camera, *frame.T_world_camera, frame.stamp_s - kFirstStamp_s);
+        const Image<std::uint16_t> instances = CastInstances(
+            scene, source_->info().camera, *frame.T_world_camera, frame.stamp_s - kFirstStamp_s);
         std::vector<Detection> detections;
-        for (const SimulatedDetection& d :
-             SimulateDetections(scene, FindInstanceBoxes(instances, scene.instances().size()), instances.size(),
-                                static_cast<std::uint64_t>(config_.synthetic_seed), frame.index,
-                                {config_.synthetic_missed, config_.synthetic_wrong})) {
+        for (const SimulatedDetection& d : SimulateDetections(
+                 scene, FindInstanceBoxes(instances, scene.instances().size()), instances.size(),
+                 static_cast<std::uint64_t>(config_.synthetic_seed), frame.index,
+                 {config_.synthetic_missed, config_.synthetic_wrong})) {
             Detection detection;
             detection.name = scene.class_names()[static_cast<std::size_t>(d.class_id)];
             detection.probability = static_cast<float>(d.probability);
@@ -41,13 +43,16 @@ class SyntheticDetector : public Detector {
 
 }  // namespace
 
-Result<std::unique_ptr<Detector>> OpenSyntheticDetector(const std::string& source, const SynthConfig& synthetic,
+Result<std::unique_ptr<Detector>> OpenSyntheticDetector(const std::string& source,
+                                                        const SynthConfig& synthetic,
                                                         const LabelConfig& config) {
     if (!source.starts_with("synthetic:"))
-        return Status::Error("--labels synthetic: " + source + " is no synthetic: source; give a model or a detections file");
+        return Status::Error("--labels synthetic: " + source +
+                             " is no synthetic: source; give a model or a detections file");
     Result<std::unique_ptr<SyntheticSource>> opened = OpenSynthetic(source, synthetic);
     if (!opened.ok()) return opened.status();
-    return std::unique_ptr<Detector>(std::make_unique<SyntheticDetector>(std::move(opened.value()), config));
+    return std::unique_ptr<Detector>(
+        std::make_unique<SyntheticDetector>(std::move(opened.value()), config));
 }
 
 }  // namespace tessera

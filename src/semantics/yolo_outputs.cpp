@@ -19,14 +19,16 @@ std::string ShapeText(const std::vector<OutputArray>& outputs) {
     std::string text;
     for (const OutputArray& output : outputs) {
         text += text.empty() ? "" : ", ";
-        for (std::size_t i = 0; i < output.shape.size(); ++i) text += fmt::format("{}{}", i > 0 ? "x" : "", output.shape[i]);
+        for (std::size_t i = 0; i < output.shape.size(); ++i)
+            text += fmt::format("{}{}", i > 0 ? "x" : "", output.shape[i]);
     }
     return text.empty() ? "none" : text;
 }
 
 bool IsMaskOutput(const OutputArray& output, int input_px) {
-    return output.shape.size() == 4 && output.shape[0] == 1 && output.shape[1] == kMaskCoefficients &&
-           output.shape[2] == input_px / 4 && output.shape[3] == input_px / 4;
+    return output.shape.size() == 4 && output.shape[0] == 1 &&
+           output.shape[1] == kMaskCoefficients && output.shape[2] == input_px / 4 &&
+           output.shape[3] == input_px / 4;
 }
 
 // What a single boxes' output is; classes 0: nothing known.
@@ -53,7 +55,8 @@ YoloLayout LayoutOf(const OutputArray& output, int input_px, bool with_masks) {
 
 bool IsDarknet(const std::vector<OutputArray>& outputs) {
     return !outputs.empty() && std::ranges::all_of(outputs, [&](const OutputArray& output) {
-        return output.shape.size() == 2 && output.shape[0] > 1 && output.shape[1] > 5 && output.shape[1] == outputs[0].shape[1];
+        return output.shape.size() == 2 && output.shape[0] > 1 && output.shape[1] > 5 &&
+               output.shape[1] == outputs[0].shape[1];
     });
 }
 
@@ -68,30 +71,41 @@ BestClass FindBest(const float* scores, int count, int step) {
     return best;
 }
 
-void Append(BestClass best, float cx, float cy, float width, float height, std::vector<RawDetection>& found) {
-    RawDetection d{best.index, std::min(best.probability, 1.0f), cx - width / 2, cy - height / 2, cx + width / 2,
-                   cy + height / 2, {}};
-    if (std::isfinite(d.x_min) && std::isfinite(d.y_min) && std::isfinite(d.x_max) && std::isfinite(d.y_max))
+void Append(BestClass best, float cx, float cy, float width, float height,
+            std::vector<RawDetection>& found) {
+    RawDetection d{best.index,
+                   std::min(best.probability, 1.0f),
+                   cx - width / 2,
+                   cy - height / 2,
+                   cx + width / 2,
+                   cy + height / 2,
+                   {}};
+    if (std::isfinite(d.x_min) && std::isfinite(d.y_min) && std::isfinite(d.x_max) &&
+        std::isfinite(d.y_max))
         found.push_back(std::move(d));
 }
 
-// Rows (cx, cy, width, height, objectness, scores...) scaled by `scale`; with masks their coefficients follow.
-void DecodeRows(const OutputArray& output, int rows, const YoloLayout& layout, float scale, float least,
-                std::vector<RawDetection>& found) {
+// Rows (cx, cy, width, height, objectness, scores...) scaled by `scale`; with masks their
+// coefficients follow.
+void DecodeRows(const OutputArray& output, int rows, const YoloLayout& layout, float scale,
+                float least, std::vector<RawDetection>& found) {
     const int columns = output.shape.back();
     for (int r = 0; r < rows; ++r) {
         const float* row = output.data + static_cast<std::ptrdiff_t>(r) * columns;
         BestClass best = FindBest(row + 5, layout.classes, 1);
-        if (layout.family != ModelFamily::kDarknet) best.probability *= row[4];  // Darknet's scores hold it already
+        // Darknet's scores hold it already.
+        if (layout.family != ModelFamily::kDarknet) best.probability *= row[4];
         if (!(best.probability >= least)) continue;
         const std::size_t before = found.size();
         Append(best, row[0] * scale, row[1] * scale, row[2] * scale, row[3] * scale, found);
         if (found.size() > before && layout.mask_coefficients > 0)
-            found.back().mask_coefficients.assign(row + 5 + layout.classes, row + 5 + layout.classes + layout.mask_coefficients);
+            found.back().mask_coefficients.assign(
+                row + 5 + layout.classes, row + 5 + layout.classes + layout.mask_coefficients);
     }
 }
 
-void DecodeYolox(const OutputArray& output, const YoloLayout& layout, float least, std::vector<RawDetection>& found) {
+void DecodeYolox(const OutputArray& output, const YoloLayout& layout, float least,
+                 std::vector<RawDetection>& found) {
     const float* row = output.data;
     for (const int stride : kStrides) {
         const int side = layout.input_px / stride;
@@ -100,13 +114,15 @@ void DecodeYolox(const OutputArray& output, const YoloLayout& layout, float leas
             BestClass best = FindBest(row + 5, layout.classes, 1);
             best.probability *= row[4];
             if (!(best.probability >= least)) continue;
-            Append(best, (row[0] + static_cast<float>(cell % side)) * s, (row[1] + static_cast<float>(cell / side)) * s,
-                   std::exp(row[2]) * s, std::exp(row[3]) * s, found);
+            Append(best, (row[0] + static_cast<float>(cell % side)) * s,
+                   (row[1] + static_cast<float>(cell / side)) * s, std::exp(row[2]) * s,
+                   std::exp(row[3]) * s, found);
         }
     }
 }
 
-void DecodeYolov8(const OutputArray& output, const YoloLayout& layout, float least, std::vector<RawDetection>& found) {
+void DecodeYolov8(const OutputArray& output, const YoloLayout& layout, float least,
+                  std::vector<RawDetection>& found) {
     const int count = output.shape[2];
     for (int i = 0; i < count; ++i) {
         const float* column = output.data + i;
@@ -121,7 +137,8 @@ void DecodeYolov8(const OutputArray& output, const YoloLayout& layout, float lea
 
 }  // namespace
 
-Result<YoloLayout> RecogniseOutputs(const std::vector<OutputArray>& outputs, int input_px, ModelFamily family) {
+Result<YoloLayout> RecogniseOutputs(const std::vector<OutputArray>& outputs, int input_px,
+                                    ModelFamily family) {
     const bool wants_darknet = family == ModelFamily::kDarknet || family == ModelFamily::kAuto;
     if (wants_darknet && IsDarknet(outputs))
         return YoloLayout{ModelFamily::kDarknet, input_px, outputs[0].shape[1] - 5, 0, 0, -1};
@@ -130,33 +147,42 @@ Result<YoloLayout> RecogniseOutputs(const std::vector<OutputArray>& outputs, int
         if (IsMaskOutput(outputs[i], input_px)) masks_output = static_cast<int>(i);
     for (std::size_t i = 0; i < outputs.size(); ++i) {
         YoloLayout layout = LayoutOf(outputs[i], input_px, masks_output >= 0);
-        if (layout.classes < 1 || (family != ModelFamily::kAuto && family != layout.family)) continue;
+        if (layout.classes < 1 || (family != ModelFamily::kAuto && family != layout.family))
+            continue;
         layout.boxes_output = static_cast<int>(i);
         layout.masks_output = layout.mask_coefficients > 0 ? masks_output : -1;
         return layout;
     }
-    return Status::Error(fmt::format("its outputs ({}) for an input of {} px are not those of a {} network", ShapeText(outputs),
-                                     input_px, family == ModelFamily::kAuto ? "YOLOX, YOLOv5, YOLOv8 or Darknet" : "labels.family"));
+    return Status::Error(fmt::format(
+        "its outputs ({}) for an input of {} px are not those of a {} network", ShapeText(outputs),
+        input_px,
+        family == ModelFamily::kAuto ? "YOLOX, YOLOv5, YOLOv8 or Darknet" : "labels.family"));
 }
 
-std::vector<RawDetection> DecodeOutputs(const YoloLayout& layout, const std::vector<OutputArray>& outputs,
+std::vector<RawDetection> DecodeOutputs(const YoloLayout& layout,
+                                        const std::vector<OutputArray>& outputs,
                                         float min_probability) {
     std::vector<RawDetection> found;
     const OutputArray& boxes = outputs[static_cast<std::size_t>(layout.boxes_output)];
     switch (layout.family) {
         case ModelFamily::kYolox: DecodeYolox(boxes, layout, min_probability, found); break;
-        case ModelFamily::kYolov5: DecodeRows(boxes, boxes.shape[1], layout, 1, min_probability, found); break;
+        case ModelFamily::kYolov5:
+            DecodeRows(boxes, boxes.shape[1], layout, 1, min_probability, found);
+            break;
         case ModelFamily::kYolov8: DecodeYolov8(boxes, layout, min_probability, found); break;
         default:
             for (const OutputArray& output : outputs)
-                DecodeRows(output, output.shape[0], layout, static_cast<float>(layout.input_px), min_probability, found);
+                DecodeRows(output, output.shape[0], layout, static_cast<float>(layout.input_px),
+                           min_probability, found);
     }
     return found;
 }
 
 void SuppressOverlaps(float overlap, std::vector<RawDetection>& detections) {
     std::ranges::stable_sort(detections, std::greater{}, &RawDetection::probability);
-    const auto box = [](const RawDetection& d) { return DetectionBox{d.x_min, d.y_min, d.x_max - 1, d.y_max - 1}; };
+    const auto box = [](const RawDetection& d) {
+        return DetectionBox{d.x_min, d.y_min, d.x_max - 1, d.y_max - 1};
+    };
     std::vector<RawDetection> kept;
     for (RawDetection& d : detections)
         if (std::ranges::none_of(kept, [&](const RawDetection& k) {
@@ -166,13 +192,16 @@ void SuppressOverlaps(float overlap, std::vector<RawDetection>& detections) {
     detections = std::move(kept);
 }
 
-bool MaskAt(const YoloLayout& layout, const std::vector<OutputArray>& outputs, const RawDetection& detection, float x, float y) {
+bool MaskAt(const YoloLayout& layout, const std::vector<OutputArray>& outputs,
+            const RawDetection& detection, float x, float y) {
     const OutputArray& prototypes = outputs[static_cast<std::size_t>(layout.masks_output)];
     const int side = prototypes.shape[2];
-    const int column = std::clamp(static_cast<int>(x / 4), 0, side - 1), row = std::clamp(static_cast<int>(y / 4), 0, side - 1);
+    const int column = std::clamp(static_cast<int>(x / 4), 0, side - 1),
+              row = std::clamp(static_cast<int>(y / 4), 0, side - 1);
     float sum = 0;
     for (int m = 0; m < layout.mask_coefficients; ++m)
-        sum += detection.mask_coefficients[static_cast<std::size_t>(m)] * prototypes.data[(m * side + row) * side + column];
+        sum += detection.mask_coefficients[static_cast<std::size_t>(m)] *
+               prototypes.data[(m * side + row) * side + column];
     return sum > 0;  // the sigmoid's 0.5
 }
 

@@ -1,11 +1,12 @@
-// What the outputs of detection networks mean: which family they are of, by their shapes, and the boxes in them. Plain
-// arrays, no library's types. Pure functions, thread-safe.
+// What the outputs of detection networks mean: their family, told by their shapes, and the boxes in
+// them. Plain arrays, no library's types. Pure functions, thread-safe.
 //
-// S is the edge of the square input in pixels, A = (S/8)^2 + (S/16)^2 + (S/32)^2 the cells of the three strides, C the
-// number of classes.
-//   YOLOX    1 x A x (5 + C)    centre and size counted in cells of their stride, sizes as logarithms
+// S is the edge of the square input in pixels, A = (S/8)^2 + (S/16)^2 + (S/32)^2 the cells of the
+// three strides, C the number of classes.
+//   YOLOX    1 x A x (5 + C)    centre and size in cells of their stride, sizes as logarithms
 //   YOLOv5   1 x 3A x (5 + C)   centre and size in input pixels
-//   YOLOv8   1 x (4 + C) x A    the same, channels first; with masks (4 + C + 32) and a second output 1 x 32 x S/4 x S/4
+//   YOLOv8   1 x (4 + C) x A    the same, channels first; with masks 1 x (4 + C + 32) x A and a
+//                               second output 1 x 32 x S/4 x S/4
 //   Darknet  several N x (5 + C), relative to the input's size
 #pragma once
 
@@ -26,12 +27,13 @@ struct YoloLayout {
     ModelFamily family = ModelFamily::kAuto;  // never kAuto once recognised
     int input_px = 0;
     int classes = 0;
-    int mask_coefficients = 0;  // 0: no masks
+    int mask_coefficients = 0;                // 0: no masks
     int boxes_output = 0, masks_output = -1;  // indices
 };
 
 // `family` other than kAuto: only that one is tried. The error lists the shapes.
-Result<YoloLayout> RecogniseOutputs(const std::vector<OutputArray>& outputs, int input_px, ModelFamily family);
+Result<YoloLayout> RecogniseOutputs(const std::vector<OutputArray>& outputs, int input_px,
+                                    ModelFamily family);
 
 // One box in input pixels, ends as distances (not inclusive pixels).
 struct RawDetection {
@@ -41,14 +43,18 @@ struct RawDetection {
     std::vector<float> mask_coefficients;
 };
 
-// Those of at least `min_probability` > 0, numbers that are not finite left out, in the outputs' order.
-std::vector<RawDetection> DecodeOutputs(const YoloLayout& layout, const std::vector<OutputArray>& outputs,
+// Those of at least `min_probability` > 0, numbers that are not finite left out, in the outputs'
+// order.
+std::vector<RawDetection> DecodeOutputs(const YoloLayout& layout,
+                                        const std::vector<OutputArray>& outputs,
                                         float min_probability);
 
-// Of boxes of one class that overlap more than `overlap`, only the most probable stays; sorted by falling probability.
+// Of boxes of one class that overlap more than `overlap`, only the most probable stays; sorted by
+// falling probability.
 void SuppressOverlaps(float overlap, std::vector<RawDetection>& detections);
 
 // The model's mask at input pixel (x, y): 1 inside.
-bool MaskAt(const YoloLayout& layout, const std::vector<OutputArray>& outputs, const RawDetection& detection, float x, float y);
+bool MaskAt(const YoloLayout& layout, const std::vector<OutputArray>& outputs,
+            const RawDetection& detection, float x, float y);
 
 }  // namespace tessera

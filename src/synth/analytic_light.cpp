@@ -185,8 +185,9 @@ void AnalyticScene::Finish(const Lighting& lighting) {
 
 void AnalyticScene::LightEvenly(Part& part, int chart) {
     const Eigen::Vector2d centre = 0.5 * ChartSize(part.shape, chart);
-    const Eigen::Vector3d normal = part.shape.T_world_shape.linear() *
-                                   NormalOnChart(part.shape, chart, PointOnChart(part.shape, chart, centre));
+    const Eigen::Vector3d normal =
+        part.shape.T_world_shape.linear() *
+        NormalOnChart(part.shape, chart, PointOnChart(part.shape, chart, centre));
     const Eigen::Vector3d sun = Eigen::Vector3d(0.45, -0.55, 0.7).normalized();
     part.charts[chart].light = {static_cast<float>(0.75 + 0.25 * normal.dot(sun))};
 }

@@ -56,7 +56,8 @@ void AnalyticScene::LayPatches(Part& part) {
             if (i > 0) chart.patch_rows = FlatCells(radius);
         }
         chart.first_patch = patch_count_;
-        if (part.motion < 0) patch_count_ += static_cast<std::int64_t>(chart.patch_columns) * chart.patch_rows;
+        if (part.motion < 0)
+            patch_count_ += static_cast<std::int64_t>(chart.patch_columns) * chart.patch_rows;
     }
 }
 
@@ -131,7 +132,8 @@ void AnalyticScene::AppendPatches(const Part& part, const std::vector<bool>* kee
                                   TriangleMesh& mesh) const {
     Shape shape = part.shape;
     if (part.motion >= 0) shape.T_world_shape = motions_[part.motion](0) * shape.T_world_shape;
-    for (int i = 0; i < ChartCount(shape.kind); ++i) AppendChart(shape, i, part.charts[i], keep, mesh);
+    for (int i = 0; i < ChartCount(shape.kind); ++i)
+        AppendChart(shape, i, part.charts[i], keep, mesh);
 }
 
 }  // namespace tessera

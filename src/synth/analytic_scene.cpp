@@ -110,19 +110,19 @@ Mobility AnalyticScene::MobilityOf(const SurfaceHit& hit, double time_s) const {
     constexpr double kStep_s = 1.0 / 60, kStill_m = 1e-4;
     const Motion& motion = motions_[part.motion];
     const Eigen::Vector3d& centre = part.shape.T_world_shape.translation();
-    const Eigen::Vector3d way = motion(time_s + kStep_s) * centre - motion(time_s - kStep_s) * centre;
+    const Eigen::Vector3d way =
+        motion(time_s + kStep_s) * centre - motion(time_s - kStep_s) * centre;
     return way.norm() > kStill_m ? Mobility::kMoving : Mobility::kResting;
 }
 
-int AnalyticScene::InstanceOf(const SurfaceHit& hit) const {
-    return parts_[hit.part].instance;
-}
+int AnalyticScene::InstanceOf(const SurfaceHit& hit) const { return parts_[hit.part].instance; }
 
 std::optional<double> AnalyticScene::SignedDistance(const Eigen::Vector3d& p_world) const {
     double nearest = std::numeric_limits<double>::infinity();
     for (const Part& part : parts_)
         if (part.motion < 0)
-            nearest = std::min(nearest, tessera::SignedDistance(part.shape, part.T_shape_world * p_world));
+            nearest = std::min(nearest,
+                               tessera::SignedDistance(part.shape, part.T_shape_world * p_world));
     return nearest;
 }
 

@@ -37,15 +37,16 @@ struct Lighting {
 
 class AnalyticScene : public Scene {
   public:
-    // T(t) moves what is added at its place to where it is t seconds after the start. A function of continuous time, any
-    // value; thread-safe.
+    // T(t) moves what is added at its place to where it is t seconds after the start. A function of
+    // continuous time, any value; thread-safe.
     using Motion = std::function<Eigen::Isometry3d(double time_s)>;
 
     int AddTexture(const ColourImage& image, Texture::Wrap wrap = Texture::Wrap::kRepeat);
     // Later parts belong to it. Class names are made as they come; an empty one means the
     // surroundings.
     void BeginInstance(const std::string& name, const std::string& class_name);
-    // Later parts move like that, until the next call; an empty one: they do not. They are lit evenly and cast no shadows.
+    // Later parts move like that, until the next call; an empty one: they do not. They are lit
+    // evenly and cast no shadows.
     void BeginMotion(Motion motion);
     // Returns the part's number, for SetPaint. Every chart gets `paint`.
     int AddShape(const Shape& shape, const Paint& paint);
@@ -53,7 +54,8 @@ class AnalyticScene : public Scene {
     // Bakes the light (deterministic) and ends the building.
     void Finish(const Lighting& lighting);
 
-    std::unique_ptr<ViewCaster> View(const PinholeCamera& camera, const Eigen::Isometry3d& T_world_camera,
+    std::unique_ptr<ViewCaster> View(const PinholeCamera& camera,
+                                     const Eigen::Isometry3d& T_world_camera,
                                      double time_s) const override;
     Mobility MobilityOf(const SurfaceHit& hit, double time_s) const override;
     bool has_motion() const override { return !motions_.empty(); }

@@ -10,8 +10,8 @@ namespace tessera {
 
 class AnalyticView : public ViewCaster {
   public:
-    AnalyticView(const AnalyticScene& scene, const PinholeCamera& camera, const Eigen::Isometry3d& T_world_camera,
-                 double time_s);
+    AnalyticView(const AnalyticScene& scene, const PinholeCamera& camera,
+                 const Eigen::Isometry3d& T_world_camera, double time_s);
     void Cast(const PixelRect& rect, double offset_x_px, double offset_y_px,
               std::span<SurfaceHit> hits) const override;
 

@@ -36,7 +36,9 @@ Eigen::Isometry3d Tremor(double time_s) {
 }
 
 CameraPath Hastened(CameraPath path, double speed) {
-    return {[at = std::move(path.T_world_camera), speed](double time_s) { return at(speed * time_s); }, path.duration_s / speed};
+    return {
+        [at = std::move(path.T_world_camera), speed](double time_s) { return at(speed * time_s); },
+        path.duration_s / speed};
 }
 
 Result<CameraPath> ReadCameraPath(const std::string& file, const Eigen::Isometry3d* T_world_start) {

@@ -26,7 +26,10 @@ using TileHits = std::array<SurfaceHit, kTile * kTile>;
 class TileRenderer {
   public:
     TileRenderer(const Scene& scene, const PinholeCamera& camera, double time_s, RenderedView& view)
-        : scene_(scene), pixel_m_(static_cast<float>(kSampleExtentPx / camera.fx)), time_s_(time_s), view_(view) {}
+        : scene_(scene),
+          pixel_m_(static_cast<float>(kSampleExtentPx / camera.fx)),
+          time_s_(time_s),
+          view_(view) {}
 
     void AddColour(const ViewCaster& caster, const PixelRect& rect, int sample) const {
         TileHits hits;
@@ -57,7 +60,8 @@ class TileRenderer {
                 view_.instance(x, y) = static_cast<std::uint16_t>(instance);
                 view_.class_id(x, y) =
                     static_cast<std::uint16_t>(scene_.instances()[instance].class_id);
-                view_.mobility(x, y) = hit.valid() ? scene_.MobilityOf(hit, time_s_) : Mobility::kStatic;
+                view_.mobility(x, y) =
+                    hit.valid() ? scene_.MobilityOf(hit, time_s_) : Mobility::kStatic;
                 if (!view_.patch.empty())
                     view_.patch(x, y) = hit.valid() ? scene_.PatchOf(hit) : -1;
             }
@@ -89,11 +93,12 @@ void Resize(RenderedView& view, int width, int height, bool with_patches) {
 
 }  // namespace
 
-void FrameRenderer::RenderBand(const CameraPath& path, double time_s, double exposure_s, int first_row, int last_row,
-                               RenderedView& view) const {
+void FrameRenderer::RenderBand(const CameraPath& path, double time_s, double exposure_s,
+                               int first_row, int last_row, RenderedView& view) const {
     const double middle = 0.5 * (first_row + last_row - 1);
     const double depth_s = time_s + RowTime(rig_.depth_readout_s, middle, camera_.height);
-    const double colour_s = time_s + rig_.colour_delay_s + RowTime(rig_.colour_readout_s, middle, camera_.height);
+    const double colour_s =
+        time_s + rig_.colour_delay_s + RowTime(rig_.colour_readout_s, middle, camera_.height);
     const Eigen::Isometry3d T_depth_colour = rig_.T_depth_colour();
     const auto truth = scene_.View(camera_, path.T_world_camera(depth_s), depth_s);
     std::array<std::unique_ptr<ViewCaster>, kSamples> moments;
@@ -103,11 +108,13 @@ void FrameRenderer::RenderBand(const CameraPath& path, double time_s, double exp
         moments[i] = scene_.View(camera_, path.T_world_camera(moment_s) * T_depth_colour, moment_s);
     }
     const TileRenderer tile(scene_, camera_, depth_s, view);
-    const int columns = (camera_.width + kTile - 1) / kTile, rows = (last_row - first_row + kTile - 1) / kTile;
+    const int columns = (camera_.width + kTile - 1) / kTile,
+              rows = (last_row - first_row + kTile - 1) / kTile;
     tbb::parallel_for(tbb::blocked_range2d<int>(0, rows, 0, columns), [&](const auto& range) {
         for (int row = range.rows().begin(); row < range.rows().end(); ++row) {
             for (int column = range.cols().begin(); column < range.cols().end(); ++column) {
-                const PixelRect rect{column * kTile, first_row + row * kTile, std::min((column + 1) * kTile, camera_.width),
+                const PixelRect rect{column * kTile, first_row + row * kTile,
+                                     std::min((column + 1) * kTile, camera_.width),
                                      std::min(first_row + (row + 1) * kTile, last_row)};
                 for (int i = 0; i < kSamples; ++i) tile.AddColour(*moments[i], rect, i);
                 tile.FillTruth(*truth, rect);
@@ -122,23 +129,27 @@ void FrameRenderer::Render(const CameraPath& path, double time_s, double exposur
     const bool rolling = rig_.depth_readout_s != 0 || rig_.colour_readout_s != 0;
     const int step = rolling ? kRowsAtOnce : camera_.height;
     tbb::parallel_for(0, (camera_.height + step - 1) / step, [&](int band) {
-        RenderBand(path, time_s, exposure_s, band * step, std::min((band + 1) * step, camera_.height), view);
+        RenderBand(path, time_s, exposure_s, band * step,
+                   std::min((band + 1) * step, camera_.height), view);
     });
 }
 
 Eigen::Isometry3d CameraRig::T_depth_colour() const {
     const double turn_rad = colour_turn_deg * std::numbers::pi / 180;
-    return Eigen::Translation3d(colour_x_m, 0, 0) * Eigen::AngleAxisd(turn_rad, Eigen::Vector3d::UnitY());
+    return Eigen::Translation3d(colour_x_m, 0, 0) *
+           Eigen::AngleAxisd(turn_rad, Eigen::Vector3d::UnitY());
 }
 
 void CameraRig::Describe(ConfigParameters& p) {
     p.Add("depth_readout_s", depth_readout_s, {-0.1, 0.1}, "s",
           "rolling shutter of the depth image, from its first row to its last");
     p.Add("colour_readout_s", colour_readout_s, {-0.1, 0.1}, "s", "the same of the colour image");
-    p.Add("colour_delay_s", colour_delay_s, {-0.1, 0.1}, "s", "colour is taken so much after its time stamp");
+    p.Add("colour_delay_s", colour_delay_s, {-0.1, 0.1}, "s",
+          "colour is taken so much after its time stamp");
     p.Add("colour_x_m", colour_x_m, {-0.2, 0.2}, "m",
           "the colour camera lies so far to the right of where the depth image is registered to");
-    p.Add("colour_turn_deg", colour_turn_deg, {-10, 10}, "deg", "and is turned so far to the right");
+    p.Add("colour_turn_deg", colour_turn_deg, {-10, 10}, "deg",
+          "and is turned so far to the right");
     p.Add("depth_scale", depth_scale, {0.5, 2}, "", "measured depth over true depth");
 }
 

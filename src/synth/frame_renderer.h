@@ -10,13 +10,17 @@
 
 namespace tessera {
 
-// How the depth and the colour camera stand to each other, in time and space. As it is: one camera, all of it at one instant.
+// How the depth and the colour camera stand to each other, in time and space. As it is: one camera,
+// all of it at one instant.
 struct CameraRig {
-    double depth_readout_s = 0, colour_readout_s = 0;  // rolling shutter, from the first row to the last
-    double colour_delay_s = 0;                         // colour is taken so much after its time stamp
-    double colour_x_m = 0;                             // the colour camera's place to the right of the depth camera
-    double colour_turn_deg = 0;                        // and its turn to the right
-    double depth_scale = 1;                            // measured depth over true
+    // Rolling shutter, from the first row to the last.
+    double depth_readout_s = 0, colour_readout_s = 0;
+    // Colour is taken so much after its time stamp.
+    double colour_delay_s = 0;
+    // The colour camera's place to the right of the depth camera.
+    double colour_x_m = 0;
+    double colour_turn_deg = 0;  // and its turn to the right
+    double depth_scale = 1;      // measured depth over true
 
     void Describe(ConfigParameters& parameters);
     Eigen::Isometry3d T_depth_colour() const;
@@ -30,7 +34,7 @@ struct RenderedView {
     Image<float> cos_incidence;  // |cos| between ray and normal
     Image<std::uint16_t> class_id;
     Image<std::uint16_t> instance;
-    Image<Mobility> mobility;    // of the surface at that time
+    Image<Mobility> mobility;   // of the surface at that time
     Image<std::int64_t> patch;  // Scene::PatchOf; empty unless asked for
 };
 
@@ -42,15 +46,16 @@ class FrameRenderer {
 
     // The view at `time_s`, the middle of an exposure of `exposure_s` seconds (0: no motion blur).
     // Four rays a pixel sample the pixel's area and the exposure at once. `with_patches` fills
-    // view.patch. A rolling shutter reads bands of kRowsAtOnce rows together. The same result for any
-    // number of threads. Thread-safe.
+    // view.patch. A rolling shutter reads bands of kRowsAtOnce rows together. The same result for
+    // any number of threads. Thread-safe.
     void Render(const CameraPath& path, double time_s, double exposure_s, RenderedView& view,
                 bool with_patches = false) const;
 
   private:
     static constexpr int kRowsAtOnce = 4;
     // Rows from first_row to last_row - 1.
-    void RenderBand(const CameraPath& path, double time_s, double exposure_s, int first_row, int last_row, RenderedView& view) const;
+    void RenderBand(const CameraPath& path, double time_s, double exposure_s, int first_row,
+                    int last_row, RenderedView& view) const;
 
     const Scene& scene_;
     PinholeCamera camera_;

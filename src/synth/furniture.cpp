@@ -46,9 +46,7 @@ int Furnisher::Sphere(const Eigen::Isometry3d& T, const Vector3d& bottom, double
                            paint);
 }
 
-Paint Furnisher::Flat(Rgb8 colour) {
-    return {scene_.AddTexture(PaintFlat(colour))};
-}
+Paint Furnisher::Flat(Rgb8 colour) { return {scene_.AddTexture(PaintFlat(colour))}; }
 Paint Furnisher::Fit(const ColourImage& image) {
     return {scene_.AddTexture(image, Texture::Wrap::kClamp)};
 }
@@ -69,7 +67,8 @@ void Furnisher::Monitor(const Eigen::Isometry3d& T, const std::string& name, std
 void Furnisher::Keyboard(const Eigen::Isometry3d& T, const std::string& name) {
     scene_.BeginInstance(name, "keyboard");
     const int body = Box(T, {0, 0, 0}, {0.45, 0.16, 0.022}, Flat({52, 52, 56}));
-    scene_.SetPaint(body, kTopChart, Fit(PaintKeyboard({52, 52, 56}, {205, 204, 198}, 900, 320, 5)));
+    scene_.SetPaint(body, kTopChart,
+                    Fit(PaintKeyboard({52, 52, 56}, {205, 204, 198}, 900, 320, 5)));
     scene_.BeginInstance("", "");
 }
 
@@ -182,7 +181,8 @@ void Furnisher::Poster(const Eigen::Isometry3d& T_world_wall, double x, double z
     const int sheet =
         Box(T_world_wall, {x, -0.006, z - height / 2}, {width, 0.012, height}, Flat({70, 56, 44}));
     const auto pixels = [](double metres) { return static_cast<int>(metres * 900); };
-    scene_.SetPaint(sheet, kFrontChart, Fit(PaintPoster(caption, pixels(width), pixels(height), seed)));
+    scene_.SetPaint(sheet, kFrontChart,
+                    Fit(PaintPoster(caption, pixels(width), pixels(height), seed)));
 }
 
 void Furnisher::Door(const Eigen::Isometry3d& T_world_wall, double x, const std::string& plate,

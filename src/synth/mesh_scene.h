@@ -19,7 +19,8 @@ class MeshScene : public Scene {
     explicit MeshScene(ObjModel model);
     ~MeshScene() override;
 
-    std::unique_ptr<ViewCaster> View(const PinholeCamera& camera, const Eigen::Isometry3d& T_world_camera,
+    std::unique_ptr<ViewCaster> View(const PinholeCamera& camera,
+                                     const Eigen::Isometry3d& T_world_camera,
                                      double time_s) const override;
     SurfaceHit CastRay(const Eigen::Vector3d& origin,
                        const Eigen::Vector3d& direction) const override;

@@ -53,7 +53,8 @@ Result<std::unique_ptr<SyntheticSource>> OpenSynthetic(const std::string& name,
         if (!path.ok()) return path.status();
         staged.value().path = std::move(path.value());
     }
-    if (config.speed != 1) staged.value().path = Hastened(std::move(staged.value().path), config.speed);
+    if (config.speed != 1)
+        staged.value().path = Hastened(std::move(staged.value().path), config.speed);
     return std::make_unique<SyntheticSource>(name, std::move(staged.value()), config);
 }
 

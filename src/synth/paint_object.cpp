@@ -9,12 +9,8 @@
 namespace tessera {
 namespace {
 
-cv::Scalar Ink(Rgb8 c) {
-    return cv::Scalar(c.r, c.g, c.b);
-}
-cv::Scalar Ink(int r, int g, int b) {
-    return cv::Scalar(r, g, b);
-}
+cv::Scalar Ink(Rgb8 c) { return cv::Scalar(c.r, c.g, c.b); }
+cv::Scalar Ink(int r, int g, int b) { return cv::Scalar(r, g, b); }
 
 // The image's own pixels as OpenCV sees them.
 cv::Mat Canvas(ColourImage& image) {

@@ -77,9 +77,7 @@ ColourImage Fill(int width, int height, const Function& colour) {
 
 }  // namespace
 
-ColourImage PaintFlat(Rgb8 colour) {
-    return ColourImage(1, 1, colour);
-}
+ColourImage PaintFlat(Rgb8 colour) { return ColourImage(1, 1, colour); }
 
 ColourImage PaintChecker(Rgb8 a, Rgb8 b, int columns, int rows, int size_px) {
     return Fill(size_px, size_px, [&](double u, double v) {

@@ -64,10 +64,13 @@ class Scene {
     virtual ~Scene() = default;
 
     // The caster refers to the scene, as it is so many seconds after its start.
-    virtual std::unique_ptr<ViewCaster> View(const PinholeCamera& camera, const Eigen::Isometry3d& T_world_camera,
+    virtual std::unique_ptr<ViewCaster> View(const PinholeCamera& camera,
+                                             const Eigen::Isometry3d& T_world_camera,
                                              double time_s) const = 0;
     // Whether a hit is on a thing that moves at some time, or at this one.
-    virtual Mobility MobilityOf(const SurfaceHit&, double /*time_s*/) const { return Mobility::kStatic; }
+    virtual Mobility MobilityOf(const SurfaceHit&, double /*time_s*/) const {
+        return Mobility::kStatic;
+    }
     virtual bool has_motion() const { return false; }
     // The nearest static surface along any ray; t in units of the direction's length.
     virtual SurfaceHit CastRay(const Eigen::Vector3d& origin,
@@ -79,8 +82,8 @@ class Scene {
     // Index into instances() at a hit.
     virtual int InstanceOf(const SurfaceHit& hit) const = 0;
 
-    // The static surface cut into patches of at most 0.1 m, so that what a camera has seen can be told
-    // from the rest. PatchOf a hit on something that moves is -1.
+    // The static surface cut into patches of at most 0.1 m, so that what a camera has seen can be
+    // told from the rest. PatchOf a hit on something that moves is -1.
     virtual std::int64_t patch_count() const = 0;
     virtual std::int64_t PatchOf(const SurfaceHit& hit) const = 0;
     // The patches' exact mesh (curved surfaces within 0.5 mm), without normals and colours; with
@@ -89,9 +92,9 @@ class Scene {
     // The mesh of one instance, of one that moves where it is at the start.
     virtual TriangleMesh InstanceMesh(int instance) const = 0;
 
-    // Distance from a world point to the nearest static surface, metres, negative inside a body. Exact
-    // outside bodies and inside where bodies do not overlap. Nothing for meshes, which need not be
-    // closed.
+    // Distance from a world point to the nearest static surface, metres, negative inside a body.
+    // Exact outside bodies and inside where bodies do not overlap. Nothing for meshes, which need
+    // not be closed.
     virtual std::optional<double> SignedDistance(const Eigen::Vector3d& p_world) const = 0;
 
     const std::vector<SceneInstance>& instances() const { return instances_; }

@@ -1,4 +1,5 @@
-// Scenes in which something moves: people who walk through a room, a chair that is put elsewhere, a door that opens.
+// Scenes in which something moves: people who walk through a room, a chair that is put elsewhere, a
+// door that opens.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -31,12 +32,15 @@ double TurningHeading(double t) {
     return a + 0.25 * std::sin(2 * a);
 }
 
-// To and fro before the camera, so far from it and so far to its side, where the furniture leaves room.
-Walk BeforeTheCamera(std::function<double(double)> distance_m, std::function<double(double)> angle) {
+// To and fro before the camera, so far from it and so far to its side, where the furniture leaves
+// room.
+Walk BeforeTheCamera(std::function<double(double)> distance_m,
+                     std::function<double(double)> angle) {
     return [=](double t) {
         const double direction = TurningHeading(t) + angle(t);
         const Vector3d eye = TurningEye(t);
-        const Vector2d at = eye.head<2>() + distance_m(t) * Vector2d(std::cos(direction), std::sin(direction));
+        const Vector2d at =
+            eye.head<2>() + distance_m(t) * Vector2d(std::cos(direction), std::sin(direction));
         return Vector2d(std::clamp(at.x(), 1.1, 4.0), std::clamp(at.y(), 0.9, 3.0));
     };
 }
@@ -48,7 +52,8 @@ double WithAStop(double t) {
     return t < kGo_s ? kStop_s : std::min(kStop_s + kCatchUp * (t - kGo_s), t);
 }
 
-StagedScene Stage(std::unique_ptr<AnalyticScene> scene, const Lighting& lighting, const char* description, CameraPath path) {
+StagedScene Stage(std::unique_ptr<AnalyticScene> scene, const Lighting& lighting,
+                  const char* description, CameraPath path) {
     scene->Finish(lighting);
     StagedScene staged;
     staged.scene = std::move(scene);
@@ -62,8 +67,10 @@ CameraPath Standing(const Vector3d& eye, const Vector3d& target, double duration
     CameraPath path;
     path.duration_s = duration_s;
     path.T_world_camera = [=](double t) {
-        const Vector3d sway(0.18 * std::sin(0.9 * t), 0.14 * std::sin(0.7 * t + 1), 0.05 * std::sin(1.1 * t));
-        const Vector3d look(0.35 * std::sin(0.6 * t), 0.5 * std::sin(0.8 * t), 0.12 * std::sin(0.5 * t + 2));
+        const Vector3d sway(0.18 * std::sin(0.9 * t), 0.14 * std::sin(0.7 * t + 1),
+                            0.05 * std::sin(1.1 * t));
+        const Vector3d look(0.35 * std::sin(0.6 * t), 0.5 * std::sin(0.8 * t),
+                            0.12 * std::sin(0.5 * t + 2));
         return Eigen::Isometry3d(LookAt(eye + sway, target + look) * Tremor(t));
     };
     return path;
@@ -77,10 +84,13 @@ StagedScene MakePeople() {
     AddRoom(add);
     const auto near = [](double t) { return 1.05 + 0.3 * std::sin(0.71 * t + 0.4); };
     const auto far = [](double t) { return 1.75 + 0.35 * std::sin(0.47 * t); };
-    AddWalker(*scene, "person 1", BeforeTheCamera(near, [](double t) { return -0.85 * std::cos(0.83 * t); }),
+    AddWalker(*scene, "person 1",
+              BeforeTheCamera(near, [](double t) { return -0.85 * std::cos(0.83 * t); }),
               {170, 60, 60}, {50, 60, 96}, 701);
     const Walk second = BeforeTheCamera(far, [](double t) { return -1.1 * std::cos(0.61 * t); });
-    AddWalker(*scene, "person 2", [second](double t) { return second(WithAStop(t)); }, {60, 120, 90}, {70, 66, 60}, 711);
+    AddWalker(
+        *scene, "person 2", [second](double t) { return second(WithAStop(t)); }, {60, 120, 90},
+        {70, 66, 60}, 711);
     CameraPath path;
     path.duration_s = kTurn_s;
     path.T_world_camera = [](double t) {
@@ -88,7 +98,8 @@ StagedScene MakePeople() {
         const Vector3d ahead(std::cos(look), std::sin(look), -0.28 + 0.10 * std::sin(2 * a + 0.5));
         return Eigen::Isometry3d(LookAt(TurningEye(t), TurningEye(t) + ahead) * Tremor(t));
     };
-    return Stage(std::move(scene), RoomLighting(), "two people walk about in a furnished room, one stands for a while",
+    return Stage(std::move(scene), RoomLighting(),
+                 "two people walk about in a furnished room, one stands for a while",
                  std::move(path));
 }
 
@@ -102,7 +113,8 @@ StagedScene MakeChair() {
     });
     add.Chair(Eigen::Isometry3d::Identity(), "chair 3", {70, 130, 90}, 721);
     scene->BeginMotion({});
-    return Stage(std::move(scene), RoomLighting(), "a chair in a furnished room is put elsewhere and stays there",
+    return Stage(std::move(scene), RoomLighting(),
+                 "a chair in a furnished room is put elsewhere and stays there",
                  Standing({1.35, 1.1, 1.5}, {3.2, 2.4, 0.55}, 14));
 }
 
@@ -111,7 +123,9 @@ StagedScene MakeDoor() {
     Furnisher add(*scene);
     AddFlat(add);
     const Paint wood = add.Repeat(PaintWood({150, 104, 66}, 3, 512, 731), 0.8);
-    scene->BeginMotion([](double t) { return Eigen::Isometry3d(StandAt(6.95, 1.8, 0.005, -75 * Progress(t, 4, 6))); });
+    scene->BeginMotion([](double t) {
+        return Eigen::Isometry3d(StandAt(6.95, 1.8, 0.005, -75 * Progress(t, 4, 6)));
+    });
     add.Box(Eigen::Isometry3d::Identity(), {0, -0.5, 0}, {0.04, 1.0, 2.04}, wood);
     scene->BeginMotion({});
     return Stage(std::move(scene), FlatLighting(), "a door between two furnished rooms opens",

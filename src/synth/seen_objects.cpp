@@ -52,10 +52,11 @@ void SeenObjects::Add(const RenderedView& view, std::int64_t frame, double stamp
         ++counts_[i].frames;
         counts_[i].max_pixels = std::max(counts_[i].max_pixels, boxes[i].pixels);
     }
-    for (const SimulatedDetection& d : SimulateDetections(scene_, boxes, view.instance.size(), seed_, frame))
+    for (const SimulatedDetection& d :
+         SimulateDetections(scene_, boxes, view.instance.size(), seed_, frame))
         detections_ += fmt::format("{:.6f} {} {:.3f} {} {} {} {}\n", stamp_s,
-                                   WithoutBlanks(scene_.class_names()[d.class_id]), d.probability, d.box.x_min, d.box.y_min,
-                                   d.box.x_max, d.box.y_max);
+                                   WithoutBlanks(scene_.class_names()[d.class_id]), d.probability,
+                                   d.box.x_min, d.box.y_min, d.box.x_max, d.box.y_max);
 }
 
 std::string SeenObjects::ClassesText() const {

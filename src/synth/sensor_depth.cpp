@@ -23,9 +23,7 @@ void UnitSplineWeights(double t, float weights[4]) {
     for (int i = 0; i < 4; ++i) weights[i] = static_cast<float>(w[i] / norm);
 }
 
-bool IsEdge(float z, float neighbour) {
-    return !(std::abs(neighbour - z) <= kEdgeShare * z);
-}
+bool IsEdge(float z, float neighbour) { return !(std::abs(neighbour - z) <= kEdgeShare * z); }
 
 bool HasEdgeBeside(const DepthImage& depth, int x, int y) {
     const float z = depth(x, y);

@@ -80,7 +80,10 @@ Status Writer::WriteImages(const Frame& frame, const RenderedView& truth) {
         [&] { done[1] = WriteDepthImage(folder_ + "/depth" + file, depth); },
         [&] { done[2] = WriteDepthImage(folder_ + "/labels" + file, truth.class_id); },
         [&] { done[3] = WriteDepthImage(folder_ + "/instances" + file, truth.instance); },
-        [&] { if (source_.scene().has_motion()) done[4] = WriteColourImage(folder_ + "/moving" + file, Grey(truth.mobility)); });
+        [&] {
+            if (source_.scene().has_motion())
+                done[4] = WriteColourImage(folder_ + "/moving" + file, Grey(truth.mobility));
+        });
     return FirstError({done[0], done[1], done[2], done[3], done[4]});
 }
 

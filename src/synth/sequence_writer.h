@@ -1,13 +1,20 @@
 // A synthetic sequence as a folder that any RGB-D system reads: TUM layout plus exact truth.
 //
-//   rgb/STAMP.png depth/STAMP.png   8-bit colour; 16-bit depth, 5000 = 1 m, 0 = none (13.1 m and
-//   more included) rgb.txt depth.txt camera.yaml   image lists; intrinsics groundtruth.txt
-//   T_world_camera of each frame, in the scene's world labels/ instances/STAMP.png     class and
-//   instance of each pixel, 16 bit, 0 = surroundings moving/STAMP.png   only of scenes in which
-//   something moves: 255 = moves now, 128 = rests now, 0 = static classes.txt objects.json        the scene's
-//   classes; its instances with bounds and how much of them was seen detections.txt boxes as a
-//   detector would give them: 10 % missed, 3 % wrong, p = 0.9 +- 0.06 reference.ply exact mesh of
-//   what has measured depth in some frame, in the scene's world
+//   rgb/STAMP.png         8-bit colour
+//   depth/STAMP.png       16-bit depth: 5000 = 1 m, 0 = none (so is 13.1 m and more)
+//   rgb.txt depth.txt     image lists
+//   camera.yaml           intrinsics
+//   groundtruth.txt       T_world_camera of each frame, in the scene's world
+//   labels/STAMP.png      class of each pixel, 16 bit, 0 = surroundings
+//   instances/STAMP.png   instance of each pixel, likewise
+//   moving/STAMP.png      only of scenes in which something moves: 255 = moves now, 128 = rests
+//   now,
+//                         0 = static
+//   classes.txt           the scene's classes
+//   objects.json          its instances, with bounds and how much of them was seen
+//   detections.txt        boxes as a detector would give them: 10 % missed, 3 % wrong,
+//                         p = 0.9 +- 0.06
+//   reference.ply         exact mesh of what has measured depth in some frame, in the scene's world
 #pragma once
 
 #include <cstdint>

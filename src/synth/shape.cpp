@@ -114,12 +114,9 @@ double BoxDistance(const Vector& q) {
 
 int ChartCount(ShapeKind kind) {
     switch (kind) {
-        case ShapeKind::kBox:
-            return 6;
-        case ShapeKind::kCylinder:
-            return 3;
-        default:
-            return 1;
+        case ShapeKind::kBox: return 6;
+        case ShapeKind::kCylinder: return 3;
+        default: return 1;
     }
 }
 
@@ -130,12 +127,10 @@ Vector2d ChartSize(const Shape& shape, int chart) {
             const FaceAxes axes = kBoxFaces[chart];
             return {edge[std::abs(axes.u) - 1], edge[std::abs(axes.v) - 1]};
         }
-        case ShapeKind::kSphere:
-            return {kPi * edge.x(), kPi * edge.x() / 2};
+        case ShapeKind::kSphere: return {kPi * edge.x(), kPi * edge.x() / 2};
         case ShapeKind::kCylinder:
             return chart == 0 ? Vector2d(kPi * edge.x(), edge.z()) : Vector2d(edge.x(), edge.x());
-        case ShapeKind::kRectangle:
-            break;
+        case ShapeKind::kRectangle: break;
     }
     return edge.head<2>();
 }
@@ -164,8 +159,7 @@ Vector3d PointOnChart(const Shape& shape, int chart, const Vector2d& uv) {
             const double angle = uv.x() / half.x() - kPi;
             return {half.x() * std::cos(angle), half.x() * std::sin(angle), half.z() - uv.y()};
         }
-        case ShapeKind::kRectangle:
-            break;
+        case ShapeKind::kRectangle: break;
     }
     return {uv.x() - half.x(), half.y() - uv.y(), 0.0};
 }
@@ -183,38 +177,31 @@ Vector2d ChartPoint(const Shape& shape, int chart, const Vector3d& p) {
             if (chart != 0)
                 return {p.x() + half.x(), chart == 1 ? p.y() + half.x() : half.x() - p.y()};
             return {half.x() * (std::atan2(p.y(), p.x()) + kPi), half.z() - p.z()};
-        case ShapeKind::kRectangle:
-            break;
+        case ShapeKind::kRectangle: break;
     }
     return {p.x() + half.x(), half.y() - p.y()};
 }
 
 Vector3d NormalOnChart(const Shape& shape, int chart, const Vector3d& p) {
     switch (shape.kind) {
-        case ShapeKind::kBox:
-            return (chart % 2 == 0 ? -1.0 : 1.0) * Vector3d::Unit(chart / 2);
-        case ShapeKind::kSphere:
-            return p.normalized();
+        case ShapeKind::kBox: return (chart % 2 == 0 ? -1.0 : 1.0) * Vector3d::Unit(chart / 2);
+        case ShapeKind::kSphere: return p.normalized();
         case ShapeKind::kCylinder:
             if (chart == 0) return Vector3d(p.x(), p.y(), 0).normalized();
             return chart == 1 ? Vector3d(0, 0, -1) : Vector3d(0, 0, 1);
-        case ShapeKind::kRectangle:
-            break;
+        case ShapeKind::kRectangle: break;
     }
     return Vector3d::UnitZ();
 }
 
 double AlongNormal(const Shape& shape, int chart, const Vector3d& p, const Vector3d& vector) {
     switch (shape.kind) {
-        case ShapeKind::kBox:
-            return chart % 2 == 0 ? -vector[chart / 2] : vector[chart / 2];
-        case ShapeKind::kSphere:
-            return p.dot(vector) / shape.half_size_m.x();
+        case ShapeKind::kBox: return chart % 2 == 0 ? -vector[chart / 2] : vector[chart / 2];
+        case ShapeKind::kSphere: return p.dot(vector) / shape.half_size_m.x();
         case ShapeKind::kCylinder:
             if (chart == 0) return p.head<2>().dot(vector.head<2>()) / shape.half_size_m.x();
             return chart == 1 ? -vector.z() : vector.z();
-        case ShapeKind::kRectangle:
-            break;
+        case ShapeKind::kRectangle: break;
     }
     return vector.z();
 }
@@ -222,14 +209,12 @@ double AlongNormal(const Shape& shape, int chart, const Vector3d& p, const Vecto
 std::optional<ShapeHit> Intersect(const Shape& shape, const Vector3d& origin,
                                   const Vector3d& direction, double t_max) {
     switch (shape.kind) {
-        case ShapeKind::kBox:
-            return IntersectBox(shape.half_size_m, origin, direction, t_max);
+        case ShapeKind::kBox: return IntersectBox(shape.half_size_m, origin, direction, t_max);
         case ShapeKind::kSphere:
             return IntersectSphere(shape.half_size_m.x(), origin, direction, t_max);
         case ShapeKind::kCylinder:
             return IntersectCylinder(shape.half_size_m, origin, direction, t_max);
-        case ShapeKind::kRectangle:
-            break;
+        case ShapeKind::kRectangle: break;
     }
     return IntersectRectangle(shape.half_size_m, origin, direction, t_max);
 }
@@ -237,14 +222,11 @@ std::optional<ShapeHit> Intersect(const Shape& shape, const Vector3d& origin,
 double SignedDistance(const Shape& shape, const Vector3d& p) {
     const Vector3d& half = shape.half_size_m;
     switch (shape.kind) {
-        case ShapeKind::kBox:
-            return BoxDistance(Vector3d(p.cwiseAbs() - half));
-        case ShapeKind::kSphere:
-            return p.norm() - half.x();
+        case ShapeKind::kBox: return BoxDistance(Vector3d(p.cwiseAbs() - half));
+        case ShapeKind::kSphere: return p.norm() - half.x();
         case ShapeKind::kCylinder:
             return BoxDistance(Vector2d(p.head<2>().norm() - half.x(), std::abs(p.z()) - half.z()));
-        case ShapeKind::kRectangle:
-            break;
+        case ShapeKind::kRectangle: break;
     }
     return Vector3d(p.cwiseAbs() - half).cwiseMax(0.0).norm();
 }

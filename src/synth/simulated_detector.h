@@ -1,5 +1,6 @@
-// What a detector would say of a scene's view, made from the truth with mistakes at known rates: for sequences written to
-// disk and for runs on built-in scenes. Pure functions of their arguments, thread-safe.
+// What a detector would say of a scene's view, made from the truth with mistakes at known rates:
+// for sequences written to disk and for runs on built-in scenes. Pure functions of their arguments,
+// thread-safe.
 #pragma once
 
 #include <cstdint>
@@ -17,11 +18,13 @@ struct InstanceBox {
     std::int64_t pixels;
 };
 // One an instance of the scene, in their order; those not in view have no pixels.
-std::vector<InstanceBox> FindInstanceBoxes(const Image<std::uint16_t>& instance, std::size_t instance_count);
+std::vector<InstanceBox> FindInstanceBoxes(const Image<std::uint16_t>& instance,
+                                           std::size_t instance_count);
 
-// Which instance each pixel's centre shows; 0 where that is the surroundings or nothing. Uses all cores (TBB).
-Image<std::uint16_t> CastInstances(const Scene& scene, const PinholeCamera& camera, const Eigen::Isometry3d& T_world_camera,
-                                   double time_s);
+// Which instance each pixel's centre shows; 0 where that is the surroundings or nothing. Uses all
+// cores (TBB).
+Image<std::uint16_t> CastInstances(const Scene& scene, const PinholeCamera& camera,
+                                   const Eigen::Isometry3d& T_world_camera, double time_s);
 
 struct DetectorMistakes {
     double missed = 0.10, wrong_class = 0.03;  // shares
@@ -33,9 +36,12 @@ struct SimulatedDetection {
     double probability = 0;
     InstanceBox box{};
 };
-// Of instances with more than 400 pixels of a 640x480 image, in proportion for others; p = 0.9 +- 0.06.
-std::vector<SimulatedDetection> SimulateDetections(const Scene& scene, const std::vector<InstanceBox>& boxes,
-                                                   std::size_t image_pixels, std::uint64_t seed, std::int64_t frame,
+// Of instances with more than 400 pixels of a 640x480 image, in proportion for others; p = 0.9 +-
+// 0.06.
+std::vector<SimulatedDetection> SimulateDetections(const Scene& scene,
+                                                   const std::vector<InstanceBox>& boxes,
+                                                   std::size_t image_pixels, std::uint64_t seed,
+                                                   std::int64_t frame,
                                                    const DetectorMistakes& mistakes = {});
 
 }  // namespace tessera

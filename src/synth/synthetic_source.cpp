@@ -24,7 +24,8 @@ void SynthConfig::Describe(ConfigParameters& p) {
           "world");
     p.AddChoice("model_up", model_up, {{"y", UpAxis::kY}, {"z", UpAxis::kZ}},
                 "which axis of an .obj model points upwards; only its own motion depends on it");
-    p.Add("speed", speed, {0.1, 10}, "", "how many times as fast as its path says the camera moves");
+    p.Add("speed", speed, {0.1, 10}, "",
+          "how many times as fast as its path says the camera moves");
     p.Section("rig", [this](ConfigParameters& s) { rig.Describe(s); });
     p.Section("sensor", [this](ConfigParameters& s) { sensor.Describe(s); });
 }
@@ -60,9 +61,7 @@ bool SyntheticSource::Seek(std::int64_t index) {
     return true;
 }
 
-ReadResult SyntheticSource::Read(Frame& frame) {
-    return ReadFrame(frame, view_, false);
-}
+ReadResult SyntheticSource::Read(Frame& frame) { return ReadFrame(frame, view_, false); }
 
 ReadResult SyntheticSource::ReadWithTruth(Frame& frame, RenderedView& truth) {
     return ReadFrame(frame, truth, true);
@@ -78,7 +77,8 @@ ReadResult SyntheticSource::ReadFrame(Frame& frame, RenderedView& truth, bool wi
     frame.T_world_camera = staged_.path.T_world_camera(time_s);
     sensor_.SenseDepth(truth, index, frame.depth_m);
     if (config_.rig.depth_scale != 1)
-        for (float& z_m : std::span(frame.depth_m.data(), frame.depth_m.size())) z_m *= static_cast<float>(config_.rig.depth_scale);
+        for (float& z_m : std::span(frame.depth_m.data(), frame.depth_m.size()))
+            z_m *= static_cast<float>(config_.rig.depth_scale);
     sensor_.SenseColour(truth, index, time_s, frame.colour);
     return {ReadStatus::kOk, ""};
 }

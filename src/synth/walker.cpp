@@ -24,7 +24,8 @@ Eigen::Isometry3d T_world_feet(const Walk& walk, double time_s) {
     const Eigen::Vector2d at = walk(time_s);
     Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
     T.translation() = Vector3d(at.x(), at.y(), 0);
-    T.linear() = Eigen::AngleAxisd(std::atan2(ahead.y(), ahead.x()) + std::numbers::pi / 2, Vector3d::UnitZ())
+    T.linear() = Eigen::AngleAxisd(std::atan2(ahead.y(), ahead.x()) + std::numbers::pi / 2,
+                                   Vector3d::UnitZ())
                      .toRotationMatrix();
     return T;
 }
@@ -33,17 +34,19 @@ Eigen::Isometry3d T_world_feet(const Walk& walk, double time_s) {
 AnalyticScene::Motion Swing(const Walk& walk, double joint_m, double share, double phase) {
     return [=](double time_s) {
         const double pace = std::min(Velocity(walk, time_s).norm(), 1.0);
-        const double angle = share * kFullSwing * pace * std::sin(std::numbers::pi * kStepsPerSecond * time_s + phase);
+        const double angle = share * kFullSwing * pace *
+                             std::sin(std::numbers::pi * kStepsPerSecond * time_s + phase);
         const Vector3d joint(0, 0, joint_m);
         return Eigen::Isometry3d(T_world_feet(walk, time_s) * Eigen::Translation3d(joint) *
-                                 Eigen::AngleAxisd(angle, Vector3d::UnitX()) * Eigen::Translation3d(-joint));
+                                 Eigen::AngleAxisd(angle, Vector3d::UnitX()) *
+                                 Eigen::Translation3d(-joint));
     };
 }
 
 }  // namespace
 
-void AddWalker(AnalyticScene& scene, const std::string& name, const Walk& walk, Rgb8 shirt, Rgb8 trousers,
-               std::uint64_t seed) {
+void AddWalker(AnalyticScene& scene, const std::string& name, const Walk& walk, Rgb8 shirt,
+               Rgb8 trousers, std::uint64_t seed) {
     Furnisher add(scene);
     const Paint cloth = add.Repeat(PaintStripes(shirt, {235, 230, 215}, 256, seed), 0.22);
     const Paint denim = add.Repeat(PaintNoise(trousers, 50, 256, seed + 1), 0.3);

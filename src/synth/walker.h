@@ -11,8 +11,9 @@ namespace tessera {
 // Where the walker is on the floor at each moment, metres; any time.
 using Walk = std::function<Eigen::Vector2d(double time_s)>;
 
-// 1.74 m tall, of class "person", facing where the walk leads. Owner thread only, while the scene is being built.
-void AddWalker(AnalyticScene& scene, const std::string& name, const Walk& walk, Rgb8 shirt, Rgb8 trousers,
-               std::uint64_t seed);
+// 1.74 m tall, of class "person", facing where the walk leads. Owner thread only, while the scene
+// is being built.
+void AddWalker(AnalyticScene& scene, const std::string& name, const Walk& walk, Rgb8 shirt,
+               Rgb8 trousers, std::uint64_t seed);
 
 }  // namespace tessera

@@ -1,5 +1,5 @@
-// A GPU that keeps the map and does the work over its voxels, over rays through it and over a frame's pixels and points, in
-// the processor's place.
+// A GPU that keeps the map and does the work over its voxels, over rays through it and over a
+// frame's pixels and points, in the processor's place.
 #pragma once
 
 #include <memory>
@@ -28,10 +28,13 @@ class Device {
 
     virtual std::string name() const = 0;
     // As PrepareFrame, but the images stay there, apart from the reduced ones, unless `bring`.
-    virtual void Prepare(const Frame& frame, const PreparedFrame::Config& config, bool bring, PreparedFrame& prepared) = 0;
+    virtual void Prepare(const Frame& frame, const PreparedFrame::Config& config, bool bring,
+                         PreparedFrame& prepared) = 0;
     // Fuses there. The device outlives it.
-    virtual std::unique_ptr<Integrator> MakeIntegrator(const Integrator::Config& config, const PinholeCamera& camera) = 0;
-    // Meshes the map that the integrator fuses into there. The device outlives it. Null: the processor meshes.
+    virtual std::unique_ptr<Integrator> MakeIntegrator(const Integrator::Config& config,
+                                                       const PinholeCamera& camera) = 0;
+    // Meshes the map that the integrator fuses into there. The device outlives it. Null: the
+    // processor meshes.
     virtual std::unique_ptr<BlockMesher> MakeBlockMesher() = 0;
     // Sums over the map that the integrator fuses into.
     virtual SdfSums& sdf_sums() = 0;

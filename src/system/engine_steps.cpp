@@ -12,7 +12,8 @@ namespace tessera {
 
 Status StartRecording(const std::string& path, const RecordConfig& config, FrameSource& source,
                       RecorderThread& recorder) {
-    if (path.ends_with(".oni")) return source.RecordTo(path, config.colour == RecordConfig::Colour::kPng);
+    if (path.ends_with(".oni"))
+        return source.RecordTo(path, config.colour == RecordConfig::Colour::kPng);
     return recorder.Start(path);
 }
 
@@ -24,8 +25,8 @@ std::string SaveMesh(const MappingStage& mapping, const std::string& path) {
     return fmt::format("saved {}: {} triangles", path, mesh.triangles.size());
 }
 
-std::string SaveScan(const std::string& path, const SourceInfo& source, const RunConfig& config, bool wait,
-                     std::vector<PathRecord>& past, std::optional<ScanStage>& scan) {
+std::string SaveScan(const std::string& path, const SourceInfo& source, const RunConfig& config,
+                     bool wait, std::vector<PathRecord>& past, std::optional<ScanStage>& scan) {
     if (scan) return "the scan is being saved already: " + scan->path();
     if (config.loops.refine_calibration)
         return "no scan is saved: with calibration.refine its frames would be of two calibrations";
@@ -36,22 +37,26 @@ std::string SaveScan(const std::string& path, const SourceInfo& source, const Ru
     return "scan saved, and from now on as it goes: " + path;
 }
 
-Status StartPaging(const PipelineConfig& config, const PinholeCamera& camera, const std::string& scan_path, bool wait,
-                   std::unique_ptr<PagingStage>& paging) {
+Status StartPaging(const PipelineConfig& config, const PinholeCamera& camera,
+                   const std::string& scan_path, bool wait, std::unique_ptr<PagingStage>& paging) {
     if (!config.paging.enabled()) return Status::Ok();
     Result<std::unique_ptr<CubeReader>> reader = CubeReader::Open(scan_path);
     if (!reader.ok()) return reader.status();
-    paging = std::make_unique<PagingStage>(config, camera, std::make_unique<Pager>(std::move(reader.value())), wait);
+    paging = std::make_unique<PagingStage>(
+        config, camera, std::make_unique<Pager>(std::move(reader.value())), wait);
     return Status::Ok();
 }
 
-void PutInPlace(LoopCloser::Correction correction, MappingStage& mapping, std::optional<ScanStage>& scan, PagingStage* paging) {
+void PutInPlace(LoopCloser::Correction correction, MappingStage& mapping,
+                std::optional<ScanStage>& scan, PagingStage* paging) {
     mapping.Replace(std::move(correction.map), std::move(correction.labels));
     if (paging == nullptr) return;
-    paging->Replaced(correction.T_new_old, static_cast<const RebuildPaging&>(*correction.pager), mapping, *scan);
+    paging->Replaced(correction.T_new_old, static_cast<const RebuildPaging&>(*correction.pager),
+                     mapping, *scan);
 }
 
-TriangleMesh TakeFinalMesh(MappingStage& mapping, std::optional<ScanStage>& scan, PagingStage* paging, Status& status) {
+TriangleMesh TakeFinalMesh(MappingStage& mapping, std::optional<ScanStage>& scan,
+                           PagingStage* paging, Status& status) {
     if (paging == nullptr || !paging->paged()) return mapping.TakeMesh();
     if (scan->failed()) {
         const Status returned = paging->ReturnAll(mapping, *scan);

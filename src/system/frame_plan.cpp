@@ -4,17 +4,20 @@
 
 namespace tessera {
 
-FramePlan::FramePlan(std::vector<MethodSwitch> switches, std::vector<StampedPose> poses, const std::string& poses_file)
+FramePlan::FramePlan(std::vector<MethodSwitch> switches, std::vector<StampedPose> poses,
+                     const std::string& poses_file)
     : switches_(std::move(switches)), poses_(std::move(poses)), poses_file_(poses_file) {
     std::ranges::stable_sort(switches_, {}, &MethodSwitch::frame);
 }
 
 void FramePlan::Select(const Frame& frame, TrackingStage& stage) {
-    for (; next_switch_ < switches_.size() && switches_[next_switch_].frame <= frame.index; ++next_switch_)
+    for (; next_switch_ < switches_.size() && switches_[next_switch_].frame <= frame.index;
+         ++next_switch_)
         stage.Select(switches_[next_switch_].method);
 }
 
-void FramePlan::Track(const Frame& frame, const BlockMap& map, TrackingStage& stage, TrackedFrame& tracked) {
+void FramePlan::Track(const Frame& frame, const BlockMap& map, TrackingStage& stage,
+                      TrackedFrame& tracked) {
     if (poses_.empty()) return stage.Track(frame, map, std::nullopt, tracked);
     if (const auto T_world_camera = InterpolatePose(poses_, frame.stamp_s))
         return stage.Track(frame, map, T_world_camera, tracked);

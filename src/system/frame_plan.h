@@ -15,12 +15,15 @@ class FramePlan {
   public:
     FramePlan() = default;
     // `poses` empty: track. `poses_file` is for messages.
-    FramePlan(std::vector<MethodSwitch> switches, std::vector<StampedPose> poses, const std::string& poses_file);
+    FramePlan(std::vector<MethodSwitch> switches, std::vector<StampedPose> poses,
+              const std::string& poses_file);
 
-    // Selects the frame's method; before Track, and before anybody asks whether that method reads the map.
+    // Selects the frame's method; before Track, and before anybody asks whether that method reads
+    // the map.
     void Select(const Frame& frame, TrackingStage& stage);
     // TrackingStage::Track by the plan. Frames are to come in the source's order.
-    void Track(const Frame& frame, const BlockMap& map, TrackingStage& stage, TrackedFrame& tracked);
+    void Track(const Frame& frame, const BlockMap& map, TrackingStage& stage,
+               TrackedFrame& tracked);
 
   private:
     std::vector<MethodSwitch> switches_;  // by frame

@@ -7,7 +7,8 @@
 
 namespace tessera {
 
-Result<Inspection> InspectFrame(const std::string& name, const RunConfig& config, std::int64_t index) {
+Result<Inspection> InspectFrame(const std::string& name, const RunConfig& config,
+                                std::int64_t index) {
     if (Status status = config.Validate(); !status.ok()) return status;
     Result<std::unique_ptr<FrameSource>> source = OpenSource(name, config);
     if (!source.ok()) return source.status();
@@ -18,23 +19,29 @@ Result<Inspection> InspectFrame(const std::string& name, const RunConfig& config
     for (;;) {
         const ReadResult read = reader.Next(frame);
         if (read.status == ReadStatus::kEnd)
-            return Status::Error(fmt::format("{}: has no frame {} (see frames.csv or tessera info)", name, index));
+            return Status::Error(
+                fmt::format("{}: has no frame {} (see frames.csv or tessera info)", name, index));
         if (read.status == ReadStatus::kError) return Status::Error(read.message);
         if (read.status == ReadStatus::kSkip || read.status == ReadStatus::kWait) continue;
-        if (frame.index > index) return Status::Error(fmt::format("{}: frame {} cannot be read", name, index));
+        if (frame.index > index)
+            return Status::Error(fmt::format("{}: frame {} cannot be read", name, index));
         pipeline.SetFusing(frame.index < index);
         Inspection result;
         result.report = pipeline.Process(frame);
         if (frame.index < index) continue;
         const TrackResult& track = result.report.track;
         if (!result.report.tracked())
-            return Status::Error(fmt::format("{}: frame {} was lost: {}", name, index, track.reason));
+            return Status::Error(
+                fmt::format("{}: frame {} was lost: {}", name, index, track.reason));
         PredictedView view;
         const float nearest_m = static_cast<float>(config.pipeline.frame.min_depth_m);
         const float farthest_m = static_cast<float>(config.pipeline.frame.max_depth_m);
-        const auto predictor = MakePredictor(config.pipeline.trackers.icp.prediction, result.report.warning);
-        predictor->Predict(pipeline.map(), camera, track.T_world_camera, nearest_m, farthest_m, view);
-        result.picture = ViewPicture(frame, view, track.gain, track.offset, result.report.moving.get());
+        const auto predictor =
+            MakePredictor(config.pipeline.trackers.icp.prediction, result.report.warning);
+        predictor->Predict(pipeline.map(), camera, track.T_world_camera, nearest_m, farthest_m,
+                           view);
+        result.picture =
+            ViewPicture(frame, view, track.gain, track.offset, result.report.moving.get());
         return result;
     }
 }

@@ -16,9 +16,10 @@ struct Inspection {
     FrameReport report;   // of the frame that is shown
 };
 
-// Tracks and fuses the frames before `frame` (an index as in frames.csv), tracks that one and predicts the view at its
-// pose, by the ray caster or the rasteriser as tracking.icp.prediction says. Errors: bad source, no such frame, a frame
-// that could not be read or was lost.
-Result<Inspection> InspectFrame(const std::string& source, const RunConfig& config, std::int64_t frame);
+// Tracks and fuses the frames before `frame` (an index as in frames.csv), tracks that one and
+// predicts the view at its pose, by the ray caster or the rasteriser as tracking.icp.prediction
+// says. Errors: bad source, no such frame, a frame that could not be read or was lost.
+Result<Inspection> InspectFrame(const std::string& source, const RunConfig& config,
+                                std::int64_t frame);
 
 }  // namespace tessera

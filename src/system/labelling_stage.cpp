@@ -11,7 +11,8 @@ namespace tessera {
 
 namespace {
 
-MovingHint HintOf(const Frame& frame, const PinholeCamera& camera, std::span<const Detection> dynamic, LabelRegion region) {
+MovingHint HintOf(const Frame& frame, const PinholeCamera& camera,
+                  std::span<const Detection> dynamic, LabelRegion region) {
     MovingHint hint;
     hint.stamp_s = frame.stamp_s;
     if (dynamic.empty()) return hint;
@@ -34,7 +35,8 @@ bool LabellingStage::Detect(const Frame& frame, LabelReport& report, std::string
     const auto detect = [&]() -> Result<std::vector<Detection>> {
         try {
             return detector_->Detect(frame);
-        } catch (const std::exception& error) {  // a detector that breaks its word must not end the run
+            // A detector that breaks its word must not end the run.
+        } catch (const std::exception& error) {
             return Status::Error(error.what());
         }
     };
@@ -48,7 +50,8 @@ bool LabellingStage::Detect(const Frame& frame, LabelReport& report, std::string
     report.stamp_s = frame.stamp_s;
     report.colour_stamp_s = frame.colour_stamp_s;
     report.detections = std::move(found.value());
-    const std::vector<Detection> dynamic = TakeDynamic(classes_, config_.min_probability, report.detections);
+    const std::vector<Detection> dynamic =
+        TakeDynamic(classes_, config_.min_probability, report.detections);
     report.moving = HintOf(frame, camera_, dynamic, config_.region);
     KeepWanted(classes_, config_.min_probability, report.detections);
     report.detect_ms = watch.LapMs();

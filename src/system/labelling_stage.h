@@ -1,6 +1,6 @@
-// Runs a detector on frames: as a step of the caller's thread (lockstep), or on a thread of its own, where the newest frame
-// wins and the answer comes when it comes (live). A detector that breaks is reported once; labelling then stops and the
-// run goes on.
+// Runs a detector on frames: as a step of the caller's thread (lockstep), or on a thread of its
+// own, where the newest frame wins and the answer comes when it comes (live). A detector that
+// breaks is reported once; labelling then stops and the run goes on.
 #pragma once
 
 #include <atomic>
@@ -21,7 +21,8 @@ namespace tessera {
 struct LabelReport {
     double stamp_s = 0, colour_stamp_s = 0;
     std::vector<Detection> detections;  // the wanted ones
-    MovingHint moving;                  // of labels.dynamic's classes; without depth: none was detected
+    // Of labels.dynamic's classes; without depth: none was detected.
+    MovingHint moving;
     VoteCount votes;
     double detect_ms = 0, vote_ms = 0;
 };
@@ -29,12 +30,17 @@ struct LabelReport {
 // Owner thread only.
 class LabellingStage {
   public:
-    LabellingStage(std::unique_ptr<Detector> detector, LabelClasses classes, const LabelConfig& config, const PinholeCamera& camera)
-        : detector_(std::move(detector)), classes_(std::move(classes)), config_(config), camera_(camera) {}
+    LabellingStage(std::unique_ptr<Detector> detector, LabelClasses classes,
+                   const LabelConfig& config, const PinholeCamera& camera)
+        : detector_(std::move(detector)),
+          classes_(std::move(classes)),
+          config_(config),
+          camera_(camera) {}
 
     // False once the detector broke: `message` says so the first time and is empty later.
     bool Detect(const Frame& frame, LabelReport& report, std::string& message);
-    // On the thread that will detect, beside tracking: one thread only, and behind the others where cores are short.
+    // On the thread that will detect, beside tracking: one thread only, and behind the others where
+    // cores are short.
     void WorkInBackground();
 
   private:
@@ -64,7 +70,8 @@ class LabellingThread {
     LabellingThread(LabellingStage stage, Wake& mapping);
     ~LabellingThread();  // stops after the frame at hand, and joins
 
-    // Returns the frame that is not needed: an older one that still waited, or this one once labelling has stopped.
+    // Returns the frame that is not needed: an older one that still waited, or this one once
+    // labelling has stopped.
     std::unique_ptr<Frame> Offer(Job job);
     bool has_answer() const { return !answers_.empty(); }
     bool TryTake(Answer& answer);

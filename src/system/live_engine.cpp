@@ -30,7 +30,8 @@ LiveEngine::LiveEngine(EngineInput input)
       feed_(input.viewer, config_.live.mesh_blocks),
       mapping_wake_(device_ != nullptr ? tracking_wake_ : own_mapping_wake_),
       new_frames_(static_cast<std::size_t>(config_.live.queue_frames), tracking_wake_) {
-    if (!input.record_path.empty()) status_ = StartRecording(input.record_path, config_.record, frames_.source(), recorder_);
+    if (!input.record_path.empty())
+        status_ = StartRecording(input.record_path, config_.record, frames_.source(), recorder_);
     if (!status_.ok()) {
         mapping_done_.store(true);
         return;
@@ -40,9 +41,10 @@ LiveEngine::LiveEngine(EngineInput input)
     if (input.labelling.detector) {
         labels = LoopCloser::Labels{config_.labels, input.labelling.classes};
         mapping_.EnableLabels(config_.labels, input.labelling.classes);
-        labelling_ = std::make_unique<LabellingThread>(LabellingStage(std::move(input.labelling.detector),
-                                                                      std::move(input.labelling.classes), config_.labels, source_.camera),
-                                                       mapping_wake_);
+        labelling_ = std::make_unique<LabellingThread>(
+            LabellingStage(std::move(input.labelling.detector), std::move(input.labelling.classes),
+                           config_.labels, source_.camera),
+            mapping_wake_);
     }
     if (input.scan.file) status_ = StartScan(std::move(input.scan));
     if (!status_.ok()) {
@@ -56,14 +58,19 @@ LiveEngine::LiveEngine(EngineInput input)
 }
 
 void LiveEngine::BeginLoops(std::optional<LoopCloser::Labels> labels) {
-    LoopThread::Settings settings{config_.loops, FieldSettingsOf(config_.pipeline, source_.camera), source_.depth_units_per_m,
-                                  std::move(labels), scan_.has_value(), std::nullopt};
+    LoopThread::Settings settings{config_.loops,
+                                  FieldSettingsOf(config_.pipeline, source_.camera),
+                                  source_.depth_units_per_m,
+                                  std::move(labels),
+                                  scan_.has_value(),
+                                  std::nullopt};
     if (scan_) {
         settings.resumed = scan_->TakeLoops();
         settings.make_pager = RebuildPagers(config_.pipeline, source_.camera, scan_->path());
     }
-    loops_ = std::make_unique<LoopThread>(std::move(settings),
-                                          LoopThread::Surroundings{frame_pool_, tracked_pool_, mapping_wake_, tracking_wake_});
+    loops_ = std::make_unique<LoopThread>(
+        std::move(settings),
+        LoopThread::Surroundings{frame_pool_, tracked_pool_, mapping_wake_, tracking_wake_});
 }
 
 // Before the threads: a resumed scan's map is the first news of the map.
@@ -76,7 +83,10 @@ Status LiveEngine::StartScan(ScanPlan plan) {
     scan_.emplace(std::move(plan), config_.scan, false, config_.loops.enabled);
     saving_.store(true);
     if (Status status = scan_->Resume(mapping_); !status.ok()) return status;
-    if (Status status = StartPaging(config_.pipeline, source_.camera, scan_->path(), false, paging_); !status.ok()) return status;
+    if (Status status =
+            StartPaging(config_.pipeline, source_.camera, scan_->path(), false, paging_);
+        !status.ok())
+        return status;
     if (device_ != nullptr || mapping_.map().size() == 1) return Status::Ok();
     MapNews whole{delta_pool_.Take(), 0, nullptr};
     mapping_.CollectWhole(*whole.delta);
@@ -84,7 +94,9 @@ Status LiveEngine::StartScan(ScanPlan plan) {
     return Status::Ok();
 }
 
-LiveEngine::~LiveEngine() { quit_.store(true); }  // reading ends, then tracking, then mapping: each empties its queue
+LiveEngine::~LiveEngine() {
+    quit_.store(true);
+}  // reading ends, then tracking, then mapping: each empties its queue
 
 bool LiveEngine::Next(FrameOutcome& outcome) {
     bool got = false;
@@ -102,17 +114,20 @@ TriangleMesh LiveEngine::TakeMesh() {
 void LiveEngine::ReadFrames() {
     while (!quit_.load() && !stopped_ && ReadFrame()) {
         while (const auto command = control_.TakeCommand()) Obey(*command);
-        while (const auto message = recorder_.TakeMessage()) Tell(FrameOutcome::Kind::kMessage, *message);
+        while (const auto message = recorder_.TakeMessage())
+            Tell(FrameOutcome::Kind::kMessage, *message);
         if (viewer_ != nullptr) viewer_->recording.store(recorder_.recording());
         stopped_ = stopped_ || stop_.load();
     }
     recorder_.Stop();
-    while (const auto message = recorder_.TakeMessage()) Tell(FrameOutcome::Kind::kMessage, *message);
+    while (const auto message = recorder_.TakeMessage())
+        Tell(FrameOutcome::Kind::kMessage, *message);
     reading_done_.store(true);
     tracking_wake_.Notify();
 }
 
-// One look at the source; false at its end. A paused camera's frames are read and let go, a recording waits.
+// One look at the source; false at its end. A paused camera's frames are read and let go, a
+// recording waits.
 bool LiveEngine::ReadFrame() {
     if (control_.waiting() && !source_.live) {
         PauseBriefly();

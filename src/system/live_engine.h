@@ -1,6 +1,7 @@
-// The camera never waits: reading, tracking and mapping on a thread each, over bounded lock-free queues; the newest frame
-// wins and what is dropped is counted. With a device, whose commands one thread gives, tracking's thread maps too, each frame
-// before the next is tracked. docs/threads.md has every queue's capacity and policy.
+// The camera never waits: reading, tracking and mapping on a thread each, over bounded lock-free
+// queues; the newest frame wins and what is dropped is counted. With a device, whose commands one
+// thread gives, tracking's thread maps too, each frame before the next is tracked. docs/threads.md
+// has every queue's capacity and policy.
 #pragma once
 
 #include <chrono>
@@ -14,9 +15,9 @@
 #include "system/engine_steps.h"
 #include "system/loop_thread.h"
 #include "system/lost_camera.h"
+#include "system/paging_stage.h"
 #include "system/resume_gate.h"
 #include "system/run_control.h"
-#include "system/paging_stage.h"
 #include "system/scan_stage.h"
 #include "system/viewer_feed.h"
 
@@ -37,8 +38,12 @@ class LiveEngine : public Engine {
     const std::vector<MapObject>& objects() const override { return mapping_.objects(); }
     std::string mesh_warning() const override { return mapping_.mesh_warning(); }
     MapStatistics map_statistics() const override { return StatisticsOf(mapping_.blocks()); }
-    std::vector<StampedPose> CorrectedPath() const override { return loops_ ? loops_->Path() : std::vector<StampedPose>(); }
-    std::optional<CalibrationReport> calibration() const override { return loops_ ? loops_->calibration() : std::nullopt; }
+    std::vector<StampedPose> CorrectedPath() const override {
+        return loops_ ? loops_->Path() : std::vector<StampedPose>();
+    }
+    std::optional<CalibrationReport> calibration() const override {
+        return loops_ ? loops_->calibration() : std::nullopt;
+    }
 
   private:
     using Clock = std::chrono::steady_clock;
@@ -54,10 +59,12 @@ class LiveEngine : public Engine {
         std::unique_ptr<Frame> frame;
         double decode_ms = 0, latency_ms = 0;
         int corrections = 0;  // of the map that it was tracked in
-        std::optional<Eigen::Isometry3d> T_found_camera;  // where a lost camera was found to be, in that map
+        // Where a lost camera was found to be, in that map.
+        std::optional<Eigen::Isometry3d> T_found_camera;
         ViewerCommand command;
     };
-    // What a fused frame changed, or a corrected map's whole field; `world` counts the resets before it.
+    // What a fused frame changed, or a corrected map's whole field; `world` counts the resets
+    // before it.
     struct MapNews {
         std::unique_ptr<MapDelta> delta;
         int world = 0;
@@ -126,30 +133,31 @@ class LiveEngine : public Engine {
 
     const RunConfig config_;
     Device* const device_;  // null without; then tracking's, and all that is mapping's with it
-    FramePlan plan_;  // tracking's
+    FramePlan plan_;        // tracking's
     ViewerLink* const viewer_;
     const std::atomic<bool>& stop_;
     std::string record_path_;
-    SelectedFrames frames_;        // reading's
-    RunControl control_;           // reading's
-    RecorderThread recorder_;      // reading's
+    SelectedFrames frames_;    // reading's
+    RunControl control_;       // reading's
+    RecorderThread recorder_;  // reading's
     const SourceInfo source_;
-    MappingStage mapping_;         // mapping's; the owner's once it has ended
+    MappingStage mapping_;           // mapping's; the owner's once it has ended
     std::optional<ScanStage> scan_;  // mapping's; if it is to be saved
-    std::vector<PathRecord> past_;   // mapping's, with a window: for a scan that is saved from some time on
-    std::atomic<bool> saving_{false};  // there is a scan: tracking tells its state
-    std::unique_ptr<PagingStage> paging_;  // mapping's; null without a memory limit
-    ResumeGate gate_;              // tracking's
-    Bytes saved_tracking_;         // tracking's, of a resumed scan
+    // Mapping's, with a window: for a scan that is saved from some time on.
+    std::vector<PathRecord> past_;
+    std::atomic<bool> saving_{false};        // there is a scan: tracking tells its state
+    std::unique_ptr<PagingStage> paging_;    // mapping's; null without a memory limit
+    ResumeGate gate_;                        // tracking's
+    Bytes saved_tracking_;                   // tracking's, of a resumed scan
     std::optional<StampedPose> saved_pose_;  // the same
     std::optional<double> saved_stamp_s_;    // the same: of its last frame
-    ViewerFeed feed_;              // mapping's
-    Status status_;                // reading's; the owner's once all have ended
-    bool stopped_ = false;         // the same
-    std::optional<double> first_stamp_s_;  // reading's
+    ViewerFeed feed_;                        // mapping's
+    Status status_;                          // reading's; the owner's once all have ended
+    bool stopped_ = false;                   // the same
+    std::optional<double> first_stamp_s_;    // reading's
     Clock::time_point first_time_;
-    int mapped_world_ = 0;         // mapping's
-    double next_detection_s_ = 0;  // mapping's
+    int mapped_world_ = 0;                        // mapping's
+    double next_detection_s_ = 0;                 // mapping's
     std::vector<Eigen::Isometry3d> corrections_;  // mapping's: of this world's map, T_new_old each
 
     Pool<Frame> frame_pool_;
@@ -158,17 +166,20 @@ class LiveEngine : public Engine {
     static constexpr std::size_t kTasks = 8, kCorrections = 3, kOutcomes = 4096;
     Wake tracking_wake_, own_mapping_wake_, outcome_wake_;
     Wake& mapping_wake_;
-    std::optional<LabelReport> labels_;  // mapping's: for the next outcome
-    NewestQueue<NewFrame> new_frames_;                           // reading to tracking
-    FifoQueue<ViewerCommand> commands_{16, tracking_wake_};      // reading to tracking
-    FifoQueue<Task> tasks_{kTasks, mapping_wake_};               // tracking to mapping
+    std::optional<LabelReport> labels_;                      // mapping's: for the next outcome
+    NewestQueue<NewFrame> new_frames_;                       // reading to tracking
+    FifoQueue<ViewerCommand> commands_{16, tracking_wake_};  // reading to tracking
+    FifoQueue<Task> tasks_{kTasks, mapping_wake_};           // tracking to mapping
     FifoQueue<MapNews> map_news_{kTasks + 2 + kCorrections, tracking_wake_};  // mapping to tracking
-    NewestQueue<Hint> hints_{1, tracking_wake_};  // mapping to tracking
-    NewestQueue<FrameOutcome> outcomes_{kOutcomes, outcome_wake_};  // reading and mapping to the owner
+    NewestQueue<Hint> hints_{1, tracking_wake_};                              // mapping to tracking
+    // Reading and mapping to the owner.
+    NewestQueue<FrameOutcome> outcomes_{kOutcomes, outcome_wake_};
     std::unique_ptr<LabellingThread> labelling_;  // mapping's; null without labels
-    std::unique_ptr<LoopThread> loops_;           // mapping's and tracking's; null without loop closure
+    // Mapping's and tracking's; null without loop closure.
+    std::unique_ptr<LoopThread> loops_;
     std::atomic<bool> show_prediction_{true};
-    std::atomic<bool> quit_{false}, reading_done_{false}, tracking_done_{false}, mapping_done_{false};
+    std::atomic<bool> quit_{false}, reading_done_{false}, tracking_done_{false},
+        mapping_done_{false};
     std::jthread reading_thread_, tracking_thread_, mapping_thread_;
 };
 

@@ -7,13 +7,16 @@ namespace tessera {
 
 void LiveEngine::MapFrames() {
     while (true) {
-        mapping_wake_.Wait([&] { return !tasks_.empty() || tracking_done_.load() || HasAnswers(); });
+        mapping_wake_.Wait(
+            [&] { return !tasks_.empty() || tracking_done_.load() || HasAnswers(); });
         if (!MapNext() && tracking_done_.load() && tasks_.empty()) break;
     }
     EndMapping();
 }
 
-bool LiveEngine::HasAnswers() const { return (labelling_ && labelling_->has_answer()) || UpdateFits(); }
+bool LiveEngine::HasAnswers() const {
+    return (labelling_ && labelling_->has_answer()) || UpdateFits();
+}
 
 // What other threads have found, then a task. False: there was none.
 bool LiveEngine::MapNext() {
@@ -33,11 +36,13 @@ void LiveEngine::EndMapping() {
     if (loops_) EndLoops();
     if (paging_) {
         paging_->Close();
-        if (const auto message = paging_->TakeMessage()) Tell(FrameOutcome::Kind::kMessage, *message);
+        if (const auto message = paging_->TakeMessage())
+            Tell(FrameOutcome::Kind::kMessage, *message);
     }
     if (scan_) {
         scan_->Finish(mapping_);
-        while (const auto message = scan_->TakeMessage()) Tell(FrameOutcome::Kind::kMessage, *message);
+        while (const auto message = scan_->TakeMessage())
+            Tell(FrameOutcome::Kind::kMessage, *message);
     }
     mapping_done_.store(true);
     outcome_wake_.Notify();
@@ -70,15 +75,17 @@ void LiveEngine::MapFrame(Task& task) {
     outcome.latency_ms = task.latency_ms;
     outcome.map = map_statistics();
     outcome.labels = std::exchange(labels_, std::nullopt);
-    outcome.queues = {{"to tracking", new_frames_.size()}, {"to mapping", tasks_.size()}, {"to recorder", recorder_.waiting()}};
+    outcome.queues = {{"to tracking", new_frames_.size()},
+                      {"to mapping", tasks_.size()},
+                      {"to recorder", recorder_.waiting()}};
     if (loops_) outcome.queues.emplace_back("to loops", loops_->waiting());
     if (scan_) outcome.queues.emplace_back("to scan", scan_->waiting());
     outcomes_.Push(std::move(outcome));
     Offer(task);
 }
 
-// What of the map is away comes back. A lost camera that was found where the map is away is tracked there once it has come, when
-// it is found again.
+// What of the map is away comes back. A lost camera that was found where the map is away is tracked
+// there once it has come, when it is found again.
 void LiveEngine::Page(Task& task, FrameOutcome& outcome) {
     if (task.T_found_camera) {
         Carry(corrections_, task.corrections, *task.T_found_camera);
@@ -97,7 +104,8 @@ void LiveEngine::Save(const Task& task, FrameOutcome& outcome) {
     while (const auto message = scan_->TakeMessage()) Tell(FrameOutcome::Kind::kMessage, *message);
 }
 
-// What else is to be done with a frame once it is in the map: objects and loops are found in it, at leisure.
+// What else is to be done with a frame once it is in the map: objects and loops are found in it, at
+// leisure.
 void LiveEngine::Offer(Task& task) {
     const FrameReport& report = task.tracked->report;
     const MapVersion version{mapped_world_, static_cast<int>(corrections_.size())};
@@ -109,11 +117,14 @@ void LiveEngine::Offer(Task& task) {
         else
             std::swap(frame, task.frame);
         const Frame* offered = frame.get();
-        std::unique_ptr<Frame> needless = labelling_->Offer({std::move(frame), report.track.T_world_camera, version});
-        if (paging_ && needless.get() != offered) paging_->Hold(report.index, report.track.T_world_camera);
+        std::unique_ptr<Frame> needless =
+            labelling_->Offer({std::move(frame), report.track.T_world_camera, version});
+        if (paging_ && needless.get() != offered)
+            paging_->Hold(report.index, report.track.T_world_camera);
         frame_pool_.Give(std::move(needless));
     }
-    if (loops_ && report.tracked()) loops_->Offer(std::move(task.tracked), std::move(task.frame), version);
+    if (loops_ && report.tracked())
+        loops_->Offer(std::move(task.tracked), std::move(task.frame), version);
     frame_pool_.Give(std::move(task.frame));
     tracked_pool_.Give(std::move(task.tracked));
 }
@@ -127,20 +138,24 @@ void LiveEngine::TakeLabels() {
         if (answer.message.empty() && job.map.world == mapped_world_) {
             Stopwatch watch;
             Carry(corrections_, job.map.corrections, job.T_world_camera);
-            answer.report.votes = mapping_.Label(answer.report.detections, job.frame->depth_m, job.T_world_camera);
+            answer.report.votes =
+                mapping_.Label(answer.report.detections, job.frame->depth_m, job.T_world_camera);
             answer.report.vote_ms = watch.LapMs();
             if (!answer.report.moving.depth_m.empty())
-                hints_.Push({std::move(answer.report.moving), job.T_world_camera, {mapped_world_, static_cast<int>(corrections_.size())}});
+                hints_.Push({std::move(answer.report.moving),
+                             job.T_world_camera,
+                             {mapped_world_, static_cast<int>(corrections_.size())}});
             if (scan_) scan_->Touch(answer.report.votes.blocks);
-            if (loops_) loops_->OfferDetections(job.frame->index, answer.report.detections, job.map);
+            if (loops_)
+                loops_->OfferDetections(job.frame->index, answer.report.detections, job.map);
             labels_ = std::move(answer.report);
         }
         frame_pool_.Give(std::move(job.frame));
     }
 }
 
-// There is room: each news answers a frame that tracking handed over after it had taken all news before; corrections have
-// room of their own (UpdateFits).
+// There is room: each news answers a frame that tracking handed over after it had taken all news
+// before; corrections have room of their own (UpdateFits).
 void LiveEngine::SendMapNews() {
     MapNews news{delta_pool_.Take(), mapped_world_, nullptr};
     mapping_.CollectDelta(*news.delta);
@@ -166,8 +181,9 @@ void LiveEngine::TakeUpdate(LoopThread::Update update, bool last) {
         corrections_.push_back(T_new_old);
         if (scan_) scan_->Move(T_new_old);
         if (!last)
-            TESSERA_CHECK(map_news_.TryPush({nullptr, mapped_world_, std::move(update.field), T_new_old}),
-                          "more corrections than there is room for");
+            TESSERA_CHECK(
+                map_news_.TryPush({nullptr, mapped_world_, std::move(update.field), T_new_old}),
+                "more corrections than there is room for");
         Tell(FrameOutcome::Kind::kMessage, "map corrected");
         feed_.SendMesh(mapping_);
     }
@@ -199,9 +215,11 @@ void LiveEngine::ObeyInMapping(const ViewerCommand& command) {
         if (paging_) paging_->Reset();
         Tell(FrameOutcome::Kind::kReset, {});
     } else if (command.kind == ViewerCommand::Kind::kSaveMesh) {
-        Tell(FrameOutcome::Kind::kMessage, SaveMesh(mapping_, command.path) + (paging_ ? paging_->Lacking(*scan_) : ""));
+        Tell(FrameOutcome::Kind::kMessage,
+             SaveMesh(mapping_, command.path) + (paging_ ? paging_->Lacking(*scan_) : ""));
     } else if (command.kind == ViewerCommand::Kind::kSaveScan) {
-        Tell(FrameOutcome::Kind::kMessage, SaveScan(command.path, source_, config_, false, past_, scan_));
+        Tell(FrameOutcome::Kind::kMessage,
+             SaveScan(command.path, source_, config_, false, past_, scan_));
         if (scan_ && !saving_.exchange(true) && loops_) loops_->BeginNews();
     }
     feed_.SendMesh(mapping_);

@@ -16,7 +16,8 @@ void LiveEngine::TrackFrames() {
     if (saved_stamp_s_) state.lost.Resume(*saved_stamp_s_);
     while (true) {
         tracking_wake_.Wait([&] {
-            return !commands_.empty() || !new_frames_.empty() || reading_done_.load() || (device_ != nullptr && HasAnswers());
+            return !commands_.empty() || !new_frames_.empty() || reading_done_.load() ||
+                   (device_ != nullptr && HasAnswers());
         });
         if (device_ != nullptr) MapNext();
         ViewerCommand command;
@@ -68,7 +69,8 @@ void LiveEngine::TrackFrame(NewFrame item, TrackingState& state) {
     task.corrections = state.version.corrections;
     const bool first = task.tracked->report.first;
     Hand(std::move(task));
-    if (first && device_ == nullptr) tracking_wake_.Wait([&] { return !map_news_.empty(); });  // the next frame needs a map
+    // The next frame needs a map.
+    if (first && device_ == nullptr) tracking_wake_.Wait([&] { return !map_news_.empty(); });
 }
 
 const BlockMap& LiveEngine::MapToTrackIn(const TrackingState& state) const {
@@ -101,7 +103,8 @@ void LiveEngine::TakeMapNews(TrackingState& state) {
 
 void LiveEngine::TakeHint(TrackingState& state) {
     Hint hint;
-    if (hints_.TryPop(hint) && hint.map == state.version) state.stage.GuideMoving(hint.moving, hint.T_world_camera);
+    if (hints_.TryPop(hint) && hint.map == state.version)
+        state.stage.GuideMoving(hint.moving, hint.T_world_camera);
 }
 
 std::optional<Eigen::Isometry3d> LiveEngine::HearWhereItIs(double stamp_s, TrackingState& state) {

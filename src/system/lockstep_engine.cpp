@@ -17,18 +17,21 @@ LockstepEngine::LockstepEngine(EngineInput input)
       gate_(config_.pipeline.motion.max_gap_s),
       feed_(input.viewer, config_.live.mesh_blocks),
       recorder_(source_, config_.record, true) {
-    if (!input.record_path.empty()) status_ = StartRecording(input.record_path, config_.record, *input.source, recorder_);
+    if (!input.record_path.empty())
+        status_ = StartRecording(input.record_path, config_.record, *input.source, recorder_);
     if (!status_.ok()) return;
     if (input.labelling.detector) {
         mapping_.EnableLabels(config_.labels, input.labelling.classes);
         loop_labels_ = LoopCloser::Labels{config_.labels, input.labelling.classes};
-        labelling_ = std::make_unique<LabellingStage>(std::move(input.labelling.detector), std::move(input.labelling.classes),
+        labelling_ = std::make_unique<LabellingStage>(std::move(input.labelling.detector),
+                                                      std::move(input.labelling.classes),
                                                       config_.labels, source_.camera);
     }
     if (input.scan.file) scan_path_ = input.scan.file->path();
     BeginLoops();
     if (input.scan.file) status_ = StartScan(std::move(input.scan));
-    reader_ = std::make_unique<FrameReader>(std::move(input.source), input.selection, config_.read_ahead);
+    reader_ =
+        std::make_unique<FrameReader>(std::move(input.source), input.selection, config_.read_ahead);
 }
 
 Status LockstepEngine::StartScan(ScanPlan plan) {
@@ -40,7 +43,8 @@ Status LockstepEngine::StartScan(ScanPlan plan) {
     }
     scan_.emplace(std::move(plan), config_.scan, true, loops_.has_value());
     if (Status status = scan_->Resume(mapping_); !status.ok()) return status;
-    if (auto memory = scan_->TakeLoops(); memory && loops_) loops_->Resume(std::move(*memory), last_stamp_s);
+    if (auto memory = scan_->TakeLoops(); memory && loops_)
+        loops_->Resume(std::move(*memory), last_stamp_s);
     return StartPaging(config_.pipeline, source_.camera, scan_->path(), true, paging_);
 }
 
@@ -66,7 +70,10 @@ bool LockstepEngine::Next(FrameOutcome& outcome) {
     if (reader_) reader_->RequestStop();
     recorder_.Stop();
     if (loops_)
-        if (std::string note = loops_->Finish([this](auto correction) { PutMap(std::move(correction)); }); !note.empty()) loops_message_ = std::move(note);
+        if (std::string note =
+                loops_->Finish([this](auto correction) { PutMap(std::move(correction)); });
+            !note.empty())
+            loops_message_ = std::move(note);
     if (paging_) paging_->Close();
     if (scan_ && loops_) scan_->AddLoops(loops_->TakeNews());
     if (scan_) scan_->Finish(mapping_);
@@ -80,19 +87,23 @@ void LockstepEngine::Process(FrameOutcome& outcome) {
     if (paging_) paging_->BeginFrame(mapping_, *scan_);
     if (labelling_) Detect();
     plan_.Select(frame_, tracking_);
-    plan_.Track(frame_, tracking_.reads_map() ? mapping_.map() : mapping_.blocks(), tracking_, tracked_);
+    plan_.Track(frame_, tracking_.reads_map() ? mapping_.map() : mapping_.blocks(), tracking_,
+                tracked_);
     gate_.AfterTracking(frame_, tracking_, tracked_);
     if (loops_)
-        loops_->AfterTracking(frame_, mapping_.map(), tracking_, tracked_, [this](const Eigen::Isometry3d& T_world_camera) {
-            if (paging_) paging_->BringAround(T_world_camera, mapping_, *scan_);
-        });
+        loops_->AfterTracking(frame_, mapping_.map(), tracking_, tracked_,
+                              [this](const Eigen::Isometry3d& T_world_camera) {
+                                  if (paging_)
+                                      paging_->BringAround(T_world_camera, mapping_, *scan_);
+                              });
     if (paging_) outcome.fusion_dropped = paging_->AfterTracking(tracked_, mapping_, *scan_);
     mapping_.Fuse(tracked_);
     if (detected_ && tracked_.report.fused) Label(outcome);
     if (labelling_) fused_frames_ += tracked_.report.fused;
     if (loops_)
-        outcome.loops_ms = loops_->AfterFusion(frame_, tracked_, outcome.labels, tracking_,
-                                               [this](auto correction) { PutMap(std::move(correction)); });
+        outcome.loops_ms =
+            loops_->AfterFusion(frame_, tracked_, outcome.labels, tracking_,
+                                [this](auto correction) { PutMap(std::move(correction)); });
     if (scan_)
         Save(outcome);
     else if (viewer_ != nullptr)
@@ -127,7 +138,8 @@ void LockstepEngine::Detect() {
 
 void LockstepEngine::Label(FrameOutcome& outcome) {
     Stopwatch watch;
-    detected_->votes = mapping_.Label(detected_->detections, frame_.depth_m, tracked_.report.track.T_world_camera);
+    detected_->votes =
+        mapping_.Label(detected_->detections, frame_.depth_m, tracked_.report.track.T_world_camera);
     detected_->vote_ms = watch.LapMs();
     if (scan_) scan_->Touch(detected_->votes.blocks);
     outcome.labels = std::exchange(detected_, std::nullopt);
@@ -195,7 +207,8 @@ bool LockstepEngine::Obey(const ViewerCommand& command, FrameOutcome& outcome) {
             outcome.kind = FrameOutcome::Kind::kReset;
             return true;
         case ViewerCommand::Kind::kSaveMesh:
-            outcome.message = SaveMesh(mapping_, command.path) + (paging_ ? paging_->Lacking(*scan_) : "");
+            outcome.message =
+                SaveMesh(mapping_, command.path) + (paging_ ? paging_->Lacking(*scan_) : "");
             return true;
         case ViewerCommand::Kind::kSaveScan:
             outcome.message = SaveScan(command.path, source_, config_, true, past_, scan_);

@@ -1,14 +1,14 @@
-// Every frame, each tracked against the map of all frames before it: the same bytes out on every run and for any number
-// of threads. Only decoding runs ahead.
+// Every frame, each tracked against the map of all frames before it: the same bytes out on every
+// run and for any number of threads. Only decoding runs ahead.
 #pragma once
 
 #include "io/frame_reader.h"
 #include "system/engine.h"
 #include "system/engine_steps.h"
 #include "system/loop_stage.h"
+#include "system/paging_stage.h"
 #include "system/resume_gate.h"
 #include "system/run_control.h"
-#include "system/paging_stage.h"
 #include "system/scan_stage.h"
 #include "system/viewer_feed.h"
 
@@ -25,7 +25,9 @@ class LockstepEngine : public Engine {
     std::string mesh_warning() const override { return mapping_.mesh_warning(); }
     const std::vector<MapObject>& objects() const override { return mapping_.objects(); }
     std::vector<StampedPose> CorrectedPath() const override;
-    std::optional<CalibrationReport> calibration() const override { return loops_ ? loops_->calibration() : std::nullopt; }
+    std::optional<CalibrationReport> calibration() const override {
+        return loops_ ? loops_->calibration() : std::nullopt;
+    }
     MapStatistics map_statistics() const override { return StatisticsOf(mapping_.blocks()); }
     // The map as it is between two calls of Next; before TakeMesh.
     const MappingStage& mapping() const { return mapping_; }
@@ -53,9 +55,9 @@ class LockstepEngine : public Engine {
     MappingStage mapping_;
     std::optional<LoopStage> loops_;  // if they are to be closed
     std::optional<LoopCloser::Labels> loop_labels_;
-    std::optional<ScanStage> scan_;   // if it is to be saved
-    std::string scan_path_;           // the same from the beginning; else empty
-    std::vector<PathRecord> past_;    // with a window: for a scan that is saved from some time on
+    std::optional<ScanStage> scan_;  // if it is to be saved
+    std::string scan_path_;          // the same from the beginning; else empty
+    std::vector<PathRecord> past_;   // with a window: for a scan that is saved from some time on
     std::unique_ptr<PagingStage> paging_;  // null without a memory limit
     ResumeGate gate_;
     TrackedFrame tracked_;

@@ -10,20 +10,25 @@ void LoopJournal::Begin(const LoopCloser& closer) {
     touched_.clear();
     poses_.clear();
     const Keyframes& keyframes = closer.keyframes();
-    for (int id = 0; id < keyframes.size(); ++id) poses_.push_back({keyframes[id].T_map_camera, keyframes[id].T_world_camera});
+    for (int id = 0; id < keyframes.size(); ++id)
+        poses_.push_back({keyframes[id].T_map_camera, keyframes[id].T_world_camera});
 }
 
 LoopNews LoopJournal::Take(const LoopCloser& closer, std::size_t most_frames) {
     LoopNews news;
-    news.passages.assign(closer.passages().begin() + static_cast<std::ptrdiff_t>(passages_), closer.passages().end());
+    news.passages.assign(closer.passages().begin() + static_cast<std::ptrdiff_t>(passages_),
+                         closer.passages().end());
     passages_ = closer.passages().size();
     for (const std::int64_t index : std::exchange(touched_, {}))
-        if (const StoredFrame* frame = closer.store().Find(index); frame != nullptr && frame->ordinal < next_ordinal_)
+        if (const StoredFrame* frame = closer.store().Find(index);
+            frame != nullptr && frame->ordinal < next_ordinal_)
             news.frames.push_back(*frame);
     const std::vector<StoredFrame>& frames = closer.store().frames();
-    const auto first_new = std::ranges::lower_bound(frames, next_ordinal_, {}, &StoredFrame::ordinal);
+    const auto first_new =
+        std::ranges::lower_bound(frames, next_ordinal_, {}, &StoredFrame::ordinal);
     const auto count = std::min(most_frames, static_cast<std::size_t>(frames.end() - first_new));
-    news.frames.insert(news.frames.end(), first_new, first_new + static_cast<std::ptrdiff_t>(count));
+    news.frames.insert(news.frames.end(), first_new,
+                       first_new + static_cast<std::ptrdiff_t>(count));
     if (count > 0) next_ordinal_ = news.frames.back().ordinal + 1;
     const Keyframes& keyframes = closer.keyframes();
     for (int id = 0; id < keyframes.size(); ++id) {
@@ -38,7 +43,8 @@ LoopNews LoopJournal::Take(const LoopCloser& closer, std::size_t most_frames) {
         poses_[at] = poses;
         news.poses.emplace_back(id, poses);
     }
-    news.progress = {closer.edges(), closer.store().next_ordinal(), closer.loops(), closer.corrected()};
+    news.progress = {closer.edges(), closer.store().next_ordinal(), closer.loops(),
+                     closer.corrected()};
     return news;
 }
 

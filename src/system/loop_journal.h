@@ -1,4 +1,5 @@
-// What loop closure has learnt since it was last asked, as a message: for a scan file that is written on another thread.
+// What loop closure has learnt since it was last asked, as a message: for a scan file that is
+// written on another thread.
 #pragma once
 
 #include <utility>
@@ -11,10 +12,11 @@ namespace tessera {
 
 // Copies: nothing in it belongs to anyone else.
 struct LoopNews {
-    std::vector<LoopCloser::Passage> passages;           // new, in order
-    std::vector<StoredFrame> frames;                     // new ones, and those in which objects were found since
-    std::vector<Keyframe> keyframes;                     // new, in order
-    std::vector<std::pair<int, KeyframePoses>> poses;    // of keyframes that are new or have moved
+    std::vector<LoopCloser::Passage> passages;  // new, in order
+    // New ones, and those in which objects were found since.
+    std::vector<StoredFrame> frames;
+    std::vector<Keyframe> keyframes;                   // new, in order
+    std::vector<std::pair<int, KeyframePoses>> poses;  // of keyframes that are new or have moved
     LoopProgress progress;
 };
 
@@ -31,8 +33,8 @@ class LoopJournal {
   private:
     std::size_t passages_ = 0;
     std::int64_t next_ordinal_ = 0;
-    std::vector<KeyframePoses> poses_;      // by keyframe, as they were told
-    std::vector<std::int64_t> touched_;     // by frame index
+    std::vector<KeyframePoses> poses_;   // by keyframe, as they were told
+    std::vector<std::int64_t> touched_;  // by frame index
 };
 
 }  // namespace tessera

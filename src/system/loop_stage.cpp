@@ -27,12 +27,13 @@ FieldSettings FieldSettingsOf(const PipelineConfig& pipeline, const PinholeCamer
     return settings;
 }
 
-LoopStage::LoopStage(const LoopConfig& config, const PipelineConfig& pipeline, const SourceInfo& source,
-                     std::optional<LoopCloser::Labels> labels, LoopCloser::MakePager make_pager)
+LoopStage::LoopStage(const LoopConfig& config, const PipelineConfig& pipeline,
+                     const SourceInfo& source, std::optional<LoopCloser::Labels> labels,
+                     LoopCloser::MakePager make_pager)
     : config_(config),
       camera_(config, pipeline.motion.max_gap_s),
-      closer_(config, FieldSettingsOf(pipeline, source.camera), source.depth_units_per_m, std::move(labels),
-              std::move(make_pager)) {}
+      closer_(config, FieldSettingsOf(pipeline, source.camera), source.depth_units_per_m,
+              std::move(labels), std::move(make_pager)) {}
 
 void LoopStage::Resume(LoopCloser::Memory memory, double last_stamp_s) {
     closer_.Resume(std::move(memory));
@@ -40,8 +41,8 @@ void LoopStage::Resume(LoopCloser::Memory memory, double last_stamp_s) {
     camera_.Resume(last_stamp_s);
 }
 
-void LoopStage::AfterTracking(const Frame& frame, const BlockMap& map, TrackingStage& tracking, TrackedFrame& tracked,
-                              const BringAround& bring) {
+void LoopStage::AfterTracking(const Frame& frame, const BlockMap& map, TrackingStage& tracking,
+                              TrackedFrame& tracked, const BringAround& bring) {
     lost_ms_ = 0;
     if (camera_.Judge(tracked) != LostCamera::Verdict::kLost) return;
     FrameReport& report = tracked.report;
@@ -52,17 +53,20 @@ void LoopStage::AfterTracking(const Frame& frame, const BlockMap& map, TrackingS
         lost_ms_ = watch.LapMs();
         AddNote(note, report.warning);
         if (T_map_camera) bring(*T_map_camera);
-        if (T_map_camera && tracking.TrackFrom(frame, map, *T_map_camera, tracked)) return camera_.Found(frame.stamp_s);
+        if (T_map_camera && tracking.TrackFrom(frame, map, *T_map_camera, tracked))
+            return camera_.Found(frame.stamp_s);
     }
     if (report.tracked()) tracking.Disbelieve(kNotBelieved, tracked);
 }
 
-double LoopStage::AfterFusion(const Frame& frame, TrackedFrame& tracked, const std::optional<LabelReport>& labels,
-                              TrackingStage& tracking, const PutMap& put) {
+double LoopStage::AfterFusion(const Frame& frame, TrackedFrame& tracked,
+                              const std::optional<LabelReport>& labels, TrackingStage& tracking,
+                              const PutMap& put) {
     Stopwatch watch;
     FrameReport& report = tracked.report;
     if (report.tracked())
-        AddNote(closer_.Add(frame, tracked.prepared, report.track, tracked.view, report.fused), report.warning);
+        AddNote(closer_.Add(frame, tracked.prepared, report.track, tracked.view, report.fused),
+                report.warning);
     if (labels) closer_.AddDetections(frame.index, labels->detections);
     if (auto correction = closer_.Step(config_.rebuild_frames)) {
         tracking.Move(correction->T_new_old);

@@ -13,7 +13,8 @@
 namespace tessera {
 namespace {
 
-// Of this thread only (Linux). Its parallel loops run on it alone: no worker is kept from tracking and mapping.
+// Of this thread only (Linux). Its parallel loops run on it alone: no worker is kept from tracking
+// and mapping.
 void StandBack() {
     constexpr int kNice = 10;
     setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNice);
@@ -49,7 +50,8 @@ LoopThread::~LoopThread() {
 
 // ---- Mapping's.
 
-void LoopThread::Offer(std::unique_ptr<TrackedFrame> tracked, std::unique_ptr<Frame> frame, MapVersion map) {
+void LoopThread::Offer(std::unique_ptr<TrackedFrame> tracked, std::unique_ptr<Frame> frame,
+                       MapVersion map) {
     Job job;
     job.map = map;
     job.stamp_s = tracked->report.stamp_s;
@@ -69,7 +71,8 @@ void LoopThread::Offer(std::unique_ptr<TrackedFrame> tracked, std::unique_ptr<Fr
     around_.frames.Give(std::move(frame));
 }
 
-void LoopThread::OfferDetections(std::int64_t frame_index, std::vector<Detection> detections, MapVersion map) {
+void LoopThread::OfferDetections(std::int64_t frame_index, std::vector<Detection> detections,
+                                 MapVersion map) {
     Job job;
     job.kind = Job::Kind::kDetections;
     job.map = map;
@@ -110,7 +113,8 @@ void LoopThread::Work() {
     constexpr int kFramesAtOnce = 2;  // of a map that is made again: so long a question waits
     while (true) {
         wake_.Wait([&] {
-            return stop_.load() || finish_.load() || !questions_.empty() || !jobs_.empty() || MayCorrect();
+            return stop_.load() || finish_.load() || !questions_.empty() || !jobs_.empty() ||
+                   MayCorrect();
         });
         Question question;
         Job job;
@@ -133,20 +137,25 @@ void LoopThread::Work() {
 // At the run's end nobody else works any more: on all cores.
 void LoopThread::Conclude() {
     if (closer_->corrected())
-        news_.Push(fmt::format("the corrected path is gone over once more; where that moves the map, {} frames are fused again",
-                               closer_->store().frames().size()));
+        news_.Push(
+            fmt::format("the corrected path is gone over once more; where that moves the map, {} "
+                        "frames are fused again",
+                        closer_->store().frames().size()));
     std::string note;
     if (auto change = closer_->Finish(note)) HandOver(std::move(*change));
     if (!note.empty()) news_.Push(std::move(note));
     TellTrouble();
-    if (saved_.load()) Push({world_, std::nullopt, nullptr, journal_.Take(*closer_, closer_->store().frames().size())});
+    if (saved_.load())
+        Push({world_, std::nullopt, nullptr,
+              journal_.Take(*closer_, closer_->store().frames().size())});
 }
 
 void LoopThread::BeginWorld(int world) {
     world_ = world;
     history_.clear();
-    closer_ = std::make_unique<LoopCloser>(settings_.loops, settings_.field, settings_.depth_units_per_m, settings_.labels,
-                                           settings_.make_pager);
+    closer_ =
+        std::make_unique<LoopCloser>(settings_.loops, settings_.field, settings_.depth_units_per_m,
+                                     settings_.labels, settings_.make_pager);
     journal_.Begin(*closer_);
 }
 
@@ -165,7 +174,8 @@ void LoopThread::AddFrame(Job& job) {
     if (!job.tracked) return closer_->Pass(job.stamp_s, job.T_world_camera);
     TrackedFrame& tracked = *job.tracked;
     tracked.report.track.T_world_camera = tracked.view.T_world_camera = job.T_world_camera;
-    const std::string news = closer_->Add(*job.frame, tracked.prepared, tracked.report.track, tracked.view, true);
+    const std::string news =
+        closer_->Add(*job.frame, tracked.prepared, tracked.report.track, tracked.view, true);
     if (!news.empty()) news_.Push(fmt::format("frame {}: {}", job.frame->index, news));
     whole_.fetch_sub(1);
     around_.tracked_frames.Give(std::move(job.tracked));
@@ -183,7 +193,8 @@ void LoopThread::Reply(Question& question) {
 }
 
 void LoopThread::TellTrouble() {
-    if (std::string trouble = closer_->TakeTrouble(); !trouble.empty()) news_.Push(std::move(trouble));
+    if (std::string trouble = closer_->TakeTrouble(); !trouble.empty())
+        news_.Push(std::move(trouble));
 }
 
 // What there is no room for is told later, together with what comes then.
@@ -192,7 +203,9 @@ void LoopThread::Tell() {
         Push({world_, std::nullopt, nullptr, journal_.Take(*closer_)});
 }
 
-void LoopThread::Push(Update update) { TESSERA_CHECK(updates_.TryPush(std::move(update)), "more updates than there is room for"); }
+void LoopThread::Push(Update update) {
+    TESSERA_CHECK(updates_.TryPush(std::move(update)), "more updates than there is room for");
+}
 
 void LoopThread::HandOver(LoopCloser::Correction change) {
     history_.push_back(change.T_new_old);

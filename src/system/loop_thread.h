@@ -1,5 +1,6 @@
-// Loop closure beside a live run: a thread of low priority that owns the LoopCloser. Mapping offers it what was fused and
-// takes corrected maps from it; tracking asks it where a lost camera is. Nobody waits for it.
+// Loop closure beside a live run: a thread of low priority that owns the LoopCloser. Mapping offers
+// it what was fused and takes corrected maps from it; tracking asks it where a lost camera is.
+// Nobody waits for it.
 #pragma once
 
 #include <atomic>
@@ -21,15 +22,18 @@ class LoopThread {
         FieldSettings field;
         double depth_units_per_m = 5000;
         std::optional<LoopCloser::Labels> labels;
-        bool saved = false;                          // updates carry news, for a scan file; else from BeginNews on
-        std::optional<LoopCloser::Memory> resumed;   // of an earlier scan that goes on
+        // Updates carry news, for a scan file; else from BeginNews on.
+        bool saved = false;
+        std::optional<LoopCloser::Memory> resumed;  // of an earlier scan that goes on
         LoopCloser::MakePager make_pager = {};
     };
-    // In this order they hold: news speak of the map as it is after the corrections before them and with them.
+    // In this order they hold: news speak of the map as it is after the corrections before them and
+    // with them.
     struct Update {
         int world = 0;
         std::optional<LoopCloser::Correction> correction;
-        std::unique_ptr<BlockMap> field;  // the corrected map once more, for tracking: Layers::kFieldOnly
+        // The corrected map once more, for tracking: Layers::kFieldOnly.
+        std::unique_ptr<BlockMap> field;
         LoopNews news;
     };
     // A lost camera's frame, and the answer: its pose, or nothing.
@@ -45,7 +49,8 @@ class LoopThread {
         std::string note;  // for a person
     };
 
-    // Where the storage of frames comes from and goes to, and whom to notify of what is there for them. All outlive this.
+    // Where the storage of frames comes from and goes to, and whom to notify of what is there for
+    // them. All outlive this.
     struct Surroundings {
         Pool<Frame>& frames;
         Pool<TrackedFrame>& tracked_frames;
@@ -59,16 +64,19 @@ class LoopThread {
     // ---- Mapping's.
     // A tracked frame, after its fusion. Where too many wait only its pose is kept.
     void Offer(std::unique_ptr<TrackedFrame> tracked, std::unique_ptr<Frame> frame, MapVersion map);
-    void OfferDetections(std::int64_t frame_index, std::vector<Detection> detections, MapVersion map);
+    void OfferDetections(std::int64_t frame_index, std::vector<Detection> detections,
+                         MapVersion map);
     // Waits where very many jobs wait.
     void Reset(MapVersion map);
     // From now on updates carry news, the next ones of all so far.
     void BeginNews() { saved_.store(true); }
     bool has_update() const { return !updates_.empty(); }
     bool TryTake(Update& update);
-    // No more frames: waits until all is corrected, and tells meanwhile what a person should know. What is left comes as updates.
+    // No more frames: waits until all is corrected, and tells meanwhile what a person should know.
+    // What is left comes as updates.
     void Finish(const std::function<void(const std::string&)>& tell);
-    // After Finish: the tracked frames' poses as they are known, and what was found of the calibration.
+    // After Finish: the tracked frames' poses as they are known, and what was found of the
+    // calibration.
     std::vector<StampedPose> Path() const { return closer_->Path(); }
     const std::optional<CalibrationReport>& calibration() const { return closer_->calibration(); }
     // For a person.
@@ -96,7 +104,9 @@ class LoopThread {
     void Work();
     void Conclude();
     void BeginWorld(int world);
-    bool MayCorrect() const { return closer_->HasWork() && updates_.size() < kUpdates - kCorrections; }
+    bool MayCorrect() const {
+        return closer_->HasWork() && updates_.size() < kUpdates - kCorrections;
+    }
     void Do(Job& job);
     void AddFrame(Job& job);
     void Reply(Question& question);
@@ -107,7 +117,8 @@ class LoopThread {
 
     Settings settings_;
     Surroundings around_;
-    static constexpr std::size_t kJobs = 4096, kUpdates = 8, kCorrections = 3;  // the last places are for corrections only
+    // The last places are for corrections only.
+    static constexpr std::size_t kJobs = 4096, kUpdates = 8, kCorrections = 3;
     static constexpr int kWhole = 16;  // frames that wait with their images, some 6 MB each
     Wake wake_;
     std::atomic<int> whole_{0};

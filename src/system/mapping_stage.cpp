@@ -11,7 +11,8 @@
 
 namespace tessera {
 
-MappingStage::MappingStage(const PipelineConfig& config, const MeshConfig& meshing, const PinholeCamera& camera, Device* device)
+MappingStage::MappingStage(const PipelineConfig& config, const MeshConfig& meshing,
+                           const PinholeCamera& camera, Device* device)
     : config_(config),
       camera_(camera),
       map_(std::make_unique<BlockMap>(config.map)),
@@ -27,13 +28,16 @@ void MappingStage::Fuse(TrackedFrame& tracked) {
     report.fusion = integrator_->Integrate(tracked.prepared, tracked.view, *map_);
     report.fused = true;
     if (keep_deltas_) {
-        for (const BlockId id : integrator_->added_blocks()) block_changes_.push_back({id, false, map_->coord(id)});
-        changed_.insert(changed_.end(), integrator_->changed_blocks().begin(), integrator_->changed_blocks().end());
+        for (const BlockId id : integrator_->added_blocks())
+            block_changes_.push_back({id, false, map_->coord(id)});
+        changed_.insert(changed_.end(), integrator_->changed_blocks().begin(),
+                        integrator_->changed_blocks().end());
     }
     if (report.fusion.refused_blocks > 0)
-        report.warning = fmt::format("{} of {} new blocks refused: {}", report.fusion.refused_blocks,
-                                     report.fusion.refused_blocks + report.fusion.new_blocks,
-                                     report.fusion.map_full ? integrator_->limit() : "mapping.max_new_blocks");
+        report.warning =
+            fmt::format("{} of {} new blocks refused: {}", report.fusion.refused_blocks,
+                        report.fusion.refused_blocks + report.fusion.new_blocks,
+                        report.fusion.map_full ? integrator_->limit() : "mapping.max_new_blocks");
 }
 
 const BlockMap& MappingStage::map() const {
@@ -43,7 +47,8 @@ const BlockMap& MappingStage::map() const {
 
 void MappingStage::EnableLabels(const LabelConfig& config, LabelClasses classes) {
     map_->EnableLabels();
-    labels_ = std::make_unique<LabelMapper>(config, std::move(classes), camera_, static_cast<float>(config_.frame.max_depth_m));
+    labels_ = std::make_unique<LabelMapper>(config, std::move(classes), camera_,
+                                            static_cast<float>(config_.frame.max_depth_m));
 }
 
 VoteCount MappingStage::Label(std::span<const Detection> detections, const DepthImage& depth_m,
@@ -72,7 +77,8 @@ void MappingStage::Release(std::span<const BlockId> blocks) {
 void MappingStage::Return(const BlockCopies& blocks, std::vector<BlockId>& ids) {
     ids.clear();
     for (std::size_t i = 0; i < blocks.size(); ++i) {
-        TESSERA_CHECK(map_->Find(blocks.coords[i]) == kUnknownBlock, "a block came back that is there");
+        TESSERA_CHECK(map_->Find(blocks.coords[i]) == kUnknownBlock,
+                      "a block came back that is there");
         const BlockId id = map_->Allocate(blocks.coords[i], blocks.numbers[i]);
         TESSERA_CHECK(id != kUnknownBlock, "no room for a block that was here before");
         blocks.Put(i, *map_, id);
@@ -119,7 +125,8 @@ int MappingStage::UpdateMesh(int budget_blocks, MeshUpdate& update) {
                           WeightStep(VertexWeight(*map_, owner, vertex))};
     };
     const std::span<GeometryBlock> blocks = geometry_.Build(*map_, mesher_, mark);
-    update.blocks.assign(std::make_move_iterator(blocks.begin()), std::make_move_iterator(blocks.end()));
+    update.blocks.assign(std::make_move_iterator(blocks.begin()),
+                         std::make_move_iterator(blocks.end()));
     return waiting;
 }
 
@@ -155,7 +162,8 @@ TriangleMesh MappingStage::TakeStoredMesh(const std::string& scan_path, Status& 
     mesher_.Clear();
     StoredVertexLabel label;
     if (labels_)
-        label = [this](const BlockMap& map, const BlockMesh& owner, const BlockMesh::Vertex& vertex) {
+        label = [this](const BlockMap& map, const BlockMesh& owner,
+                       const BlockMesh::Vertex& vertex) {
             return labels_->LabelOf(map, owner, vertex);
         };
     Result<TriangleMesh> mesh = MeshOfStoredMap(scan_path, config_.map, mesher_.config(), label);
@@ -167,10 +175,13 @@ TriangleMesh MappingStage::TakeStoredMesh(const std::string& scan_path, Status& 
     return std::move(mesh.value());
 }
 
-void MappingStage::Predict(const Eigen::Isometry3d& T_world_camera, int step, PredictedView& view) const {
+void MappingStage::Predict(const Eigen::Isometry3d& T_world_camera, int step,
+                           PredictedView& view) const {
     constexpr float kNear_m = 0.1f;
     const float far_m = 1.2f * static_cast<float>(config_.frame.max_depth_m);
-    if (device_views_ != nullptr) return device_views_->Predict(*map_, camera_.Every(step), T_world_camera, kNear_m, far_m, view);
+    if (device_views_ != nullptr)
+        return device_views_->Predict(*map_, camera_.Every(step), T_world_camera, kNear_m, far_m,
+                                      view);
     RayCaster().Predict(*map_, camera_.Every(step), T_world_camera, kNear_m, far_m, view);
 }
 

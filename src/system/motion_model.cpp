@@ -6,10 +6,12 @@ namespace tessera {
 
 void MotionModel::Config::Describe(ConfigParameters& p) {
     p.Add("constant_velocity", constant_velocity,
-          "start each frame where constant velocity would have it; off starts at the last pose ([B14], [D18])");
+          "start each frame where constant velocity would have it; off starts at the last pose "
+          "([B14], [D18])");
     p.Add("max_gap_s", max_gap_s, {0.0, 60.0}, "s", "velocity is forgotten over longer gaps");
     p.Add("come_to_rest_s", come_to_rest_s, {0.0, 60.0}, "s",
-          "in degenerate frames the velocity falls to 37 % within this time, or motions that nothing shows would go on for ever");
+          "in degenerate frames the velocity falls to 37 % within this time, or motions that "
+          "nothing shows would go on for ever");
 }
 
 double MotionModel::SinceLast(double stamp_s) const {
@@ -31,7 +33,8 @@ void MotionModel::Add(const StampedPose& pose, const PoseDoubt& doubt) {
         velocity_ = Se3Log(last_->T_world_camera.inverse() * pose.T_world_camera) / gap_s;
     else
         velocity_.reset();
-    if (doubt.degenerate && velocity_) *velocity_ *= config_.come_to_rest_s > 0 ? std::exp(-gap_s / config_.come_to_rest_s) : 0.0;
+    if (doubt.degenerate && velocity_)
+        *velocity_ *= config_.come_to_rest_s > 0 ? std::exp(-gap_s / config_.come_to_rest_s) : 0.0;
     last_ = pose;
     doubt_ = doubt;
 }

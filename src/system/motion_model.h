@@ -1,5 +1,5 @@
-// Where the camera is expected next: constant body velocity over the last two tracked frames, which comes to rest while frames
-// are degenerate.
+// Where the camera is expected next: constant body velocity over the last two tracked frames, which
+// comes to rest while frames are degenerate.
 #pragma once
 
 #include <optional>
@@ -12,7 +12,8 @@ namespace tessera {
 
 // What is doubtful about a tracked pose.
 struct PoseDoubt {
-    bool degenerate = false;   // the scene left some motion unconstrained; what is not seen any more is taken to come to rest
+    // The scene left some motion unconstrained; what is not seen any more is taken to come to rest.
+    bool degenerate = false;
     bool poor = false;         // the pose may be wrong
     double uncertainty_m = 0;  // TrackResult's
 };
@@ -32,7 +33,8 @@ class MotionModel {
     // The last tracked pose; nothing before the first.
     const std::optional<StampedPose>& last() const { return last_; }
     const PoseDoubt& doubt() const { return doubt_; }  // of that pose
-    // Seconds since then; 0 if there is none, or if it is too long ago to say anything about velocity.
+    // Seconds since then; 0 if there is none, or if it is too long ago to say anything about
+    // velocity.
     double SinceLast(double stamp_s) const;
     // The pose expected at a time; the last pose, or identity, where there is nothing to go by.
     Eigen::Isometry3d Predict(double stamp_s) const;

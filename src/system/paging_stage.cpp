@@ -10,19 +10,22 @@
 namespace tessera {
 namespace {
 
-constexpr double kAhead_m = 1.0;   // so much before the camera may see a cube it is asked for
+constexpr double kAhead_m = 1.0;     // so much before the camera may see a cube it is asked for
 constexpr std::int64_t kFrames = 8;  // after which a cube that was asked for is put in, lockstep
 constexpr std::size_t kMostPerFrame = 8;  // cubes that live puts in
 
 }  // namespace
 
-PagingStage::PagingStage(const PipelineConfig& config, const PinholeCamera& camera, std::unique_ptr<Pager> pager, bool wait)
+PagingStage::PagingStage(const PipelineConfig& config, const PinholeCamera& camera,
+                         std::unique_ptr<Pager> pager, bool wait)
     : limit_bytes_(config.paging.memory_limit_mb * 1e6),
       viewed_(config, camera),
       wait_(wait),
       pager_(std::move(pager)) {}
 
-double PagingStage::Outside(const BlockCoord& cube) const { return viewed_.Outside_m(*T_world_camera_, cube); }
+double PagingStage::Outside(const BlockCoord& cube) const {
+    return viewed_.Outside_m(*T_world_camera_, cube);
+}
 
 // What is near and away, and not asked for.
 void PagingStage::Plan() {
@@ -30,7 +33,8 @@ void PagingStage::Plan() {
     for (Asked& asked : asked_) asked.outside_m = Outside(CubeOfKey(asked.key));
     if (away_.size() == asked_.size()) return;
     const auto [first, last] = viewed_.Around(*T_world_camera_, kAhead_m);
-    const double count = (last.x - first.x + 1.0) * (last.y - first.y + 1.0) * (last.z - first.z + 1.0);
+    const double count =
+        (last.x - first.x + 1.0) * (last.y - first.y + 1.0) * (last.z - first.z + 1.0);
     const bool here_only = !expected_ || frame_ > expected_->frame;
     if (here_only && count < static_cast<double>(away_.size())) {
         for (int z = first.z; z <= last.z; ++z)
@@ -43,7 +47,8 @@ void PagingStage::Plan() {
 }
 
 bool PagingStage::IsExpected(const BlockCoord& cube) const {
-    return expected_ && frame_ <= expected_->frame && viewed_.Outside_m(expected_->T_world_camera, cube) <= 0;
+    return expected_ && frame_ <= expected_->frame &&
+           viewed_.Outside_m(expected_->T_world_camera, cube) <= 0;
 }
 
 void PagingStage::Want(const BlockCoord& cube) {
@@ -69,7 +74,8 @@ bool PagingStage::Needs(double further_m) const {
     return std::ranges::any_of(asked_, needed) || std::ranges::any_of(wanted_, needed);
 }
 
-// The next camera is as far from the last one as that was from the one before, about: tracking starts there.
+// The next camera is as far from the last one as that was from the one before, about: tracking
+// starts there.
 void PagingStage::BeginFrame(MappingStage& mapping, ScanStage& scan) {
     ++frame_;
     if (T_world_camera_) Bring(std::min(step_m_, kAhead_m), mapping, scan);
@@ -78,7 +84,8 @@ void PagingStage::BeginFrame(MappingStage& mapping, ScanStage& scan) {
 bool PagingStage::AfterTracking(TrackedFrame& tracked, MappingStage& mapping, ScanStage& scan) {
     if (!tracked.report.tracked() && !tracked.to_fuse) return false;
     const Eigen::Isometry3d& T_world_camera = tracked.report.track.T_world_camera;
-    if (T_world_camera_) step_m_ = (T_world_camera.translation() - T_world_camera_->translation()).norm();
+    if (T_world_camera_)
+        step_m_ = (T_world_camera.translation() - T_world_camera_->translation()).norm();
     T_world_camera_ = T_world_camera;
     return !Bring(0, mapping, scan) && std::exchange(tracked.to_fuse, false);
 }
@@ -92,7 +99,8 @@ bool PagingStage::Bring(double further_m, MappingStage& mapping, ScanStage& scan
             TakeWhatCame(further_m, mapping, scan);
         }
     }
-    return !Needs(0) && std::ranges::none_of(lost_, [&](std::int64_t key) { return Outside(CubeOfKey(key)) <= 0; });
+    return !Needs(0) && std::ranges::none_of(
+                            lost_, [&](std::int64_t key) { return Outside(CubeOfKey(key)) <= 0; });
 }
 
 void PagingStage::TakeWhatCame(double further_m, MappingStage& mapping, ScanStage& scan) {
@@ -107,7 +115,8 @@ void PagingStage::TakeWhatCame(double further_m, MappingStage& mapping, ScanStag
     }
 }
 
-// A cube that cannot be read back leaves a hole into which nothing may be fused; the rest of the scan goes on.
+// A cube that cannot be read back leaves a hole into which nothing may be fused; the rest of the
+// scan goes on.
 void PagingStage::Put(const StoredCube& cube, MappingStage& mapping, ScanStage& scan) {
     const auto expected = away_.extract(cube.key);
     if (cube.status.ok() && expected.mapped() == static_cast<std::int32_t>(cube.blocks.size())) {
@@ -117,37 +126,49 @@ void PagingStage::Put(const StoredCube& cube, MappingStage& mapping, ScanStage& 
     }
     lost_.push_back(cube.key);
     if (std::exchange(told_lost_, true)) return;
-    const Status status = cube.status.ok() ? DamagedScan(scan.path(), "blocks that left memory are missing") : cube.status;
-    message_ = status.message() + "; frames that see this part of the map are tracked, but not fused";
+    const Status status = cube.status.ok()
+                              ? DamagedScan(scan.path(), "blocks that left memory are missing")
+                              : cube.status;
+    message_ =
+        status.message() + "; frames that see this part of the map are tracked, but not fused";
 }
 
-bool PagingStage::AllSaved(const ResidentCubes::Cube& cube, const BlockMap& map, const ScanStage& scan) const {
-    return std::ranges::all_of(resident_.blocks(cube), [&](BlockId id) { return scan.Has(map, id); });
+bool PagingStage::AllSaved(const ResidentCubes::Cube& cube, const BlockMap& map,
+                           const ScanStage& scan) const {
+    return std::ranges::all_of(resident_.blocks(cube),
+                               [&](BlockId id) { return scan.Has(map, id); });
 }
 
 bool PagingStage::IsHeld(const BlockCoord& cube) const {
     if (IsExpected(cube)) return true;
-    return std::ranges::any_of(held_, [&](const Held& held) { return viewed_.Outside_m(held.T_world_camera, cube) <= 0; });
+    return std::ranges::any_of(
+        held_, [&](const Held& held) { return viewed_.Outside_m(held.T_world_camera, cube) <= 0; });
 }
 
 // As many as are to go, of those that may; says so if they are too few.
-std::vector<ResidentCubes::Cube> PagingStage::ChooseLeaving(const BlockMap& map, const ScanStage& scan) {
+std::vector<ResidentCubes::Cube> PagingStage::ChooseLeaving(const BlockMap& map,
+                                                            const ScanStage& scan) {
     const auto bytes = static_cast<double>(map.bytes());
     const double block_bytes = bytes / static_cast<double>(map.count() + 1);
-    double rest_bytes = bytes, least_bytes = bytes;  // with those that leave gone, and with all that may
+    // With those that leave gone, and with all that may.
+    double rest_bytes = bytes, least_bytes = bytes;
     std::vector<ResidentCubes::Cube> leaving;
     resident_.Gather(map);
     for (const ResidentCubes::Cube& cube : resident_.Farthest(viewed_, *T_world_camera_)) {
         const double cube_bytes = block_bytes * static_cast<double>(cube.last - cube.first);
         least_bytes -= cube_bytes;
-        if (rest_bytes <= kRefill * limit_bytes_ || IsHeld(cube.cube) || (!wait_ && !AllSaved(cube, map, scan))) continue;
+        if (rest_bytes <= kRefill * limit_bytes_ || IsHeld(cube.cube) ||
+            (!wait_ && !AllSaved(cube, map, scan)))
+            continue;
         rest_bytes -= cube_bytes;
         leaving.push_back(cube);
     }
     if (least_bytes > limit_bytes_ && !std::exchange(told_small_, true))
-        message_ = fmt::format("mapping.memory_limit_mb: {:.0f} MB are too few for what the camera may see from one place, {:.0f} MB; "
-                               "raise it, or lower frame.max_depth_m",
-                               limit_bytes_ / 1e6, least_bytes / 1e6);
+        message_ = fmt::format(
+            "mapping.memory_limit_mb: {:.0f} MB are too few for what the camera may see from one "
+            "place, {:.0f} MB; "
+            "raise it, or lower frame.max_depth_m",
+            limit_bytes_ / 1e6, least_bytes / 1e6);
     return leaving;
 }
 
@@ -155,11 +176,13 @@ void PagingStage::Release(MappingStage& mapping, ScanStage& scan) {
     const BlockMap& map = mapping.map();
     if (store_ && scan.HasReplaced()) store_.reset();
     if (static_cast<double>(map.bytes()) <= limit_bytes_ || !T_world_camera_) return;
-    if ((!wait_ && !scan.idle()) || scan.failed()) return;  // in this order: a checkpoint that failed is no longer under way
+    // In this order: a checkpoint that failed is no longer under way.
+    if ((!wait_ && !scan.idle()) || scan.failed()) return;
     const std::vector<ResidentCubes::Cube> leaving = ChooseLeaving(map, scan);
     if (leaving.empty()) return;
     if (wait_) {
-        const bool saved = std::ranges::all_of(leaving, [&](const auto& cube) { return AllSaved(cube, map, scan); });
+        const bool saved = std::ranges::all_of(
+            leaving, [&](const auto& cube) { return AllSaved(cube, map, scan); });
         if (!scan.Settle(mapping, !saved)) return;
     }
     paged_ = true;
@@ -189,7 +212,8 @@ Status PagingStage::ReturnAll(MappingStage& mapping, ScanStage& scan) {
         cube.status = reader.value()->Read(key, cube.blocks);
         Put(cube, mapping, scan);
     }
-    return lost_.empty() ? Status::Ok() : DamagedScan(scan.path(), "blocks that left memory cannot be read back");
+    return lost_.empty() ? Status::Ok()
+                         : DamagedScan(scan.path(), "blocks that left memory cannot be read back");
 }
 
 std::string PagingStage::Lacking(const ScanStage& scan) const {
@@ -197,8 +221,8 @@ std::string PagingStage::Lacking(const ScanStage& scan) const {
     return fmt::format("; without what is in {} only: `tessera export` has all", scan.path());
 }
 
-void PagingStage::Replaced(const Eigen::Isometry3d& T_new_old, const RebuildPaging& pager, MappingStage& mapping,
-                           ScanStage& scan) {
+void PagingStage::Replaced(const Eigen::Isometry3d& T_new_old, const RebuildPaging& pager,
+                           MappingStage& mapping, ScanStage& scan) {
     Drain();
     away_ = {pager.away().begin(), pager.away().end()};
     paged_ = pager.paged();
@@ -234,7 +258,8 @@ void PagingStage::ReturnFromStore(MappingStage& mapping, ScanStage& scan) {
     store_.reset();
 }
 
-void PagingStage::BringAround(const Eigen::Isometry3d& T_world_camera, MappingStage& mapping, ScanStage& scan) {
+void PagingStage::BringAround(const Eigen::Isometry3d& T_world_camera, MappingStage& mapping,
+                              ScanStage& scan) {
     const auto here = std::exchange(T_world_camera_, T_world_camera);
     Bring(0, mapping, scan);
     T_world_camera_ = here;

@@ -27,7 +27,8 @@ void PathLog::Place(LoopNews& news, ScanCheckpoint& into) {
         while (!waiting_.empty()) {
             auto [number, record] = waiting_.front();
             waiting_.pop_front();
-            const bool here = record.stamp_s == passage.stamp_s;  // else loop closure has left it out
+            // Else loop closure has left it out.
+            const bool here = record.stamp_s == passage.stamp_s;
             if (here) {
                 record.keyframe = passage.keyframe;
                 record.T_reference_camera = passage.T_keyframe_camera;
@@ -37,16 +38,20 @@ void PathLog::Place(LoopNews& news, ScanCheckpoint& into) {
             if (here) break;
         }
     for (StoredFrame& frame : news.frames) {
-        const auto placed = std::ranges::lower_bound(placed_, frame.frame_index, {}, &Numbered::frame_index);
+        const auto placed =
+            std::ranges::lower_bound(placed_, frame.frame_index, {}, &Numbered::frame_index);
         if (placed == placed_.end() || placed->frame_index != frame.frame_index) continue;
-        std::erase_if(into.raw_frames, [&](const auto& raw) { return raw.first == placed->number; });
-        FrameRecord record{frame.frame_index, frame.stamp_s, frame.colour_stamp_s, true, std::move(frame)};
+        std::erase_if(into.raw_frames,
+                      [&](const auto& raw) { return raw.first == placed->number; });
+        FrameRecord record{frame.frame_index, frame.stamp_s, frame.colour_stamp_s, true,
+                           std::move(frame)};
         into.frames.emplace_back(placed->number, std::move(record));
     }
 }
 
 void PathLog::Move(const Eigen::Isometry3d& T_new_old) {
-    for (auto& [number, record] : waiting_) record.T_reference_camera = Normalised(T_new_old * record.T_reference_camera);
+    for (auto& [number, record] : waiting_)
+        record.T_reference_camera = Normalised(T_new_old * record.T_reference_camera);
 }
 
 void PathLog::AddWaiting(ScanCheckpoint& into) const {

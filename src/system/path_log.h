@@ -1,5 +1,5 @@
-// The frames of a scan's path on their way into its file: with loop closure their places relative to a keyframe are known
-// some time after their fusion.
+// The frames of a scan's path on their way into its file: with loop closure their places relative
+// to a keyframe are known some time after their fusion.
 #pragma once
 
 #include <deque>

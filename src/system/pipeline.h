@@ -1,5 +1,5 @@
-// A frame's life on one thread: track, then fuse. Whoever drives it may step it frame by frame; the threads of a live
-// system (live_engine.h) run the same two stages.
+// A frame's life on one thread: track, then fuse. Whoever drives it may step it frame by frame; the
+// threads of a live system (live_engine.h) run the same two stages.
 #pragma once
 
 #include <optional>
@@ -12,13 +12,16 @@ namespace tessera {
 // Owner thread only.
 class Pipeline {
   public:
-    Pipeline(const PipelineConfig& config, const PinholeCamera& camera, const MeshConfig& meshing = {}, Device* device = nullptr)
+    Pipeline(const PipelineConfig& config, const PinholeCamera& camera,
+             const MeshConfig& meshing = {}, Device* device = nullptr)
         : tracking_(config, camera, device), mapping_(config, meshing, camera, device) {}
 
-    // With a given pose the frame is fused there and not tracked. The world is the first fused frame's camera unless its
-    // pose is given.
-    FrameReport Process(const Frame& frame, const std::optional<Eigen::Isometry3d>& given = std::nullopt) {
-        tracking_.Track(frame, tracking_.reads_map() ? mapping_.map() : mapping_.blocks(), given, tracked_);
+    // With a given pose the frame is fused there and not tracked. The world is the first fused
+    // frame's camera unless its pose is given.
+    FrameReport Process(const Frame& frame,
+                        const std::optional<Eigen::Isometry3d>& given = std::nullopt) {
+        tracking_.Track(frame, tracking_.reads_map() ? mapping_.map() : mapping_.blocks(), given,
+                        tracked_);
         mapping_.Fuse(tracked_);
         return tracked_.report;
     }

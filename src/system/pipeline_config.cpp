@@ -6,13 +6,15 @@ void ShutterConfig::Describe(ConfigParameters& p) {
     p.Add("colour_delay", colour_delay,
           "allow for the camera's motion between the depth and the colour image's time stamps");
     p.Add("depth_readout_s", depth_readout_s, {-0.1, 0.1}, "s",
-          "time from the depth image's first row to its last: the rolling shutter; 0 is a global one");
+          "time from the depth image's first row to its last: the rolling shutter; 0 is a global "
+          "one");
     p.Add("colour_readout_s", colour_readout_s, {-0.1, 0.1}, "s", "the same of the colour image");
 }
 
 void DeviceConfig::Describe(ConfigParameters& p) {
     p.Add("device_memory_mb", memory_mb, {0.0, 1e6}, "MB",
-          "most memory that --device cuda takes on the GPU, 0 = nine tenths of what is free when it starts; while the map grows "
+          "most memory that --device cuda takes on the GPU, 0 = nine tenths of what is free when "
+          "it starts; while the map grows "
           "there, its largest layer is there twice");
 }
 

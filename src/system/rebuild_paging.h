@@ -1,5 +1,5 @@
-// Keeps a corrected map that is being made within the same limit as the map in use. The file of the scan does not hear of it
-// until it is whole.
+// Keeps a corrected map that is being made within the same limit as the map in use. The file of the
+// scan does not hear of it until it is whole.
 #pragma once
 
 #include <functional>
@@ -14,10 +14,13 @@ namespace tessera {
 
 class RebuildPaging : public MapPager {
   public:
-    RebuildPaging(const PipelineConfig& config, const PinholeCamera& camera, std::shared_ptr<CubeScratch> store);
+    RebuildPaging(const PipelineConfig& config, const PinholeCamera& camera,
+                  std::shared_ptr<CubeScratch> store);
 
-    Status Bring(const Eigen::Isometry3d& T_world_camera, BlockMap& map, LabelMapper* labels) override;
-    Status Release(const Eigen::Isometry3d& T_world_camera, BlockMap& map, LabelMapper* labels) override;
+    Status Bring(const Eigen::Isometry3d& T_world_camera, BlockMap& map,
+                 LabelMapper* labels) override;
+    Status Release(const Eigen::Isometry3d& T_world_camera, BlockMap& map,
+                   LabelMapper* labels) override;
     Status Complete(const BlockMap& map) override;
 
     // After Complete: all of the map.
@@ -39,8 +42,10 @@ class RebuildPaging : public MapPager {
     bool paged_ = false;
 };
 
-// A new one for each map, in the folder of the scan; an empty function where the configuration has no limit.
+// A new one for each map, in the folder of the scan; an empty function where the configuration has
+// no limit.
 using MakeMapPager = std::function<Result<std::unique_ptr<MapPager>>()>;
-MakeMapPager RebuildPagers(const PipelineConfig& config, const PinholeCamera& camera, const std::string& scan_path);
+MakeMapPager RebuildPagers(const PipelineConfig& config, const PinholeCamera& camera,
+                           const std::string& scan_path);
 
 }  // namespace tessera

@@ -4,15 +4,18 @@
 
 namespace tessera {
 
-RecorderThread::RecorderThread(const SourceInfo& source, const RecordConfig& config, bool wait_when_full)
+RecorderThread::RecorderThread(const SourceInfo& source, const RecordConfig& config,
+                               bool wait_when_full)
     : source_(source), config_(config), wait_when_full_(wait_when_full) {}
 
 RecorderThread::~RecorderThread() { Stop(); }
 
 Status RecorderThread::Start(const std::string& folder) {
     if (!recording()) Stop();
-    if (thread_.joinable()) return Status::Error(folder + ": not recorded: recording to " + folder_ + " is under way");
-    Result<std::unique_ptr<FrameRecorder>> recorder = FrameRecorder::Create(folder, source_, config_);
+    if (thread_.joinable())
+        return Status::Error(folder + ": not recorded: recording to " + folder_ + " is under way");
+    Result<std::unique_ptr<FrameRecorder>> recorder =
+        FrameRecorder::Create(folder, source_, config_);
     if (!recorder.ok()) return recorder.status();
     recorder_ = std::move(recorder.value());
     folder_ = folder;
@@ -28,7 +31,8 @@ void RecorderThread::Add(const Frame& frame) {
     if (!recording()) return;
     std::unique_ptr<Frame> copy = pool_.Take();
     *copy = frame;
-    if (wait_when_full_) return adder_.Wait([&] { return failed_.load() || frames_.TryPush(std::move(copy)); });
+    if (wait_when_full_)
+        return adder_.Wait([&] { return failed_.load() || frames_.TryPush(std::move(copy)); });
     if (frames_.TryPush(std::move(copy))) return;
     ++dropped_;
     pool_.Give(std::move(copy));
@@ -58,10 +62,13 @@ void RecorderThread::Stop() {
     thread_.join();
     const Status status = recorder_->Finish();
     if (!failed_.load())
-        messages_.Push(!status.ok() ? "recording: " + status.message()
-                                    : fmt::format("recorded {} frames in {}{}", recorder_->frames(), folder_,
-                                                  dropped_ > 0 ? fmt::format("; {} left out, the disk is too slow", dropped_)
-                                                               : std::string()));
+        messages_.Push(
+            !status.ok()
+                ? "recording: " + status.message()
+                : fmt::format("recorded {} frames in {}{}", recorder_->frames(), folder_,
+                              dropped_ > 0
+                                  ? fmt::format("; {} left out, the disk is too slow", dropped_)
+                                  : std::string()));
     recorder_.reset();
 }
 

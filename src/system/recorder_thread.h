@@ -16,11 +16,13 @@ namespace tessera {
 // Owner thread only.
 class RecorderThread {
   public:
-    // When more frames wait than the queue holds: `wait_when_full`, or the new frame is not recorded, and counted.
+    // When more frames wait than the queue holds: `wait_when_full`, or the new frame is not
+    // recorded, and counted.
     RecorderThread(const SourceInfo& source, const RecordConfig& config, bool wait_when_full);
     ~RecorderThread();  // as Stop
 
-    // A folder, made anew. An error leaves things as they were: also, if something is being recorded already.
+    // A folder, made anew. An error leaves things as they were: also, if something is being
+    // recorded already.
     Status Start(const std::string& folder);
     // Takes a copy.
     void Add(const Frame& frame);

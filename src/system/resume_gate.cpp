@@ -2,8 +2,8 @@
 
 namespace tessera {
 
-void ResumeGate::Begin(std::span<const std::uint8_t> saved, const std::optional<StampedPose>& last, bool gated,
-                       TrackingStage& tracking) {
+void ResumeGate::Begin(std::span<const std::uint8_t> saved, const std::optional<StampedPose>& last,
+                       bool gated, TrackingStage& tracking) {
     if (!last) return;
     StateReader state(saved);
     if (!tracking.LoadState(state) || !state.at_end()) tracking.StartAt(*last);
@@ -12,12 +12,15 @@ void ResumeGate::Begin(std::span<const std::uint8_t> saved, const std::optional<
     closed_ = first_ = gated;
 }
 
-// A view of the last place is nearly all known, and fits: anywhere else a tracker that starts at the last pose may settle in
-// a wrong one that fits half-way. (fr1 rpy: median 7 mm, 94 % fitting; a wrong place of the box room: 21 mm, 89 %.)
+// A view of the last place is nearly all known, and fits: anywhere else a tracker that starts at
+// the last pose may settle in a wrong one that fits half-way. (fr1 rpy: median 7 mm, 94 % fitting;
+// a wrong place of the box room: 21 mm, 89 %.)
 bool ResumeGate::IsThere(const TrackResult& track) const {
-    constexpr double kNear_m = 0.3, kNear_rad = 0.4, kKnown = 0.8, kFits = 0.85, kDistance_m = 0.012;
-    return track.status == TrackStatus::kGood && track.known_fraction >= kKnown && track.inlier_fraction >= kFits &&
-           track.distance_rms_m <= kDistance_m && RotationAngle(T_world_last_, track.T_world_camera) <= kNear_rad &&
+    constexpr double kNear_m = 0.3, kNear_rad = 0.4, kKnown = 0.8, kFits = 0.85,
+                     kDistance_m = 0.012;
+    return track.status == TrackStatus::kGood && track.known_fraction >= kKnown &&
+           track.inlier_fraction >= kFits && track.distance_rms_m <= kDistance_m &&
+           RotationAngle(T_world_last_, track.T_world_camera) <= kNear_rad &&
            (T_world_last_.translation() - track.T_world_camera.translation()).norm() <= kNear_m;
 }
 
@@ -33,8 +36,11 @@ void ResumeGate::AfterTracking(const Frame& frame, TrackingStage& tracking, Trac
         closed_ = false;
         report.warning = "the scan goes on where it ended";
     } else if (report.tracked()) {
-        tracking.Disbelieve("the camera is not where the scan ended: show it what it saw there last; a scan with --loop-closure on "
-                            "goes on anywhere", tracked);
+        tracking.Disbelieve(
+            "the camera is not where the scan ended: show it what it saw there last; a scan with "
+            "--loop-closure on "
+            "goes on anywhere",
+            tracked);
     }
 }
 

@@ -11,36 +11,45 @@ namespace {
 
 Status CheckLoops(const RunRequest& request, const RunConfig& config) {
     const bool refine = config.loops.refine_calibration;
-    if (refine && !config.loops.enabled) return Status::Error("calibration.refine: needs --loop-closure on");
+    if (refine && !config.loops.enabled)
+        return Status::Error("calibration.refine: needs --loop-closure on");
     if (refine && !request.scan_file.empty())
-        return Status::Error("calibration.refine: not with --scan or --resume, whose frames are of one calibration; run once "
-                             "to find it, and scan with what it says");
+        return Status::Error(
+            "calibration.refine: not with --scan or --resume, whose frames are of one calibration; "
+            "run once "
+            "to find it, and scan with what it says");
     if (!config.loops.enabled) return Status::Ok();
     if (!PoseGraphAvailable())
-        return Status::Error("--loop-closure on: this build has no pose graph; install libceres-dev and build again");
+        return Status::Error(
+            "--loop-closure on: this build has no pose graph; install libceres-dev and build "
+            "again");
     if (!request.poses_file.empty())
-        return Status::Error("--loop-closure on: with --poses the poses are given; leave one of the two out");
+        return Status::Error(
+            "--loop-closure on: with --poses the poses are given; leave one of the two out");
     return Status::Ok();
 }
 
 Status CheckPaging(const RunRequest& request, const RunConfig& config) {
     if (!config.pipeline.paging.enabled()) return Status::Ok();
     const std::string key = "mapping.memory_limit_mb: ";
-    if (request.scan_file.empty()) return Status::Error(key + "what leaves memory goes to the scan file; give --scan FILE");
+    if (request.scan_file.empty())
+        return Status::Error(key + "what leaves memory goes to the scan file; give --scan FILE");
     return Status::Ok();
 }
 
 Status CheckDevice(const RunRequest& request, const RunConfig& config) {
     if (request.device == nullptr) return Status::Ok();
     if (config.pipeline.paging.enabled())
-        return Status::Error("--device cuda: not yet with mapping.memory_limit_mb; leave one of the two out");
+        return Status::Error(
+            "--device cuda: not yet with mapping.memory_limit_mb; leave one of the two out");
     return Status::Ok();
 }
 
 }  // namespace
 
 Status CheckRun(const RunRequest& request, const RunConfig& config) {
-    for (const Status& status : {config.Validate(), CheckLoops(request, config), CheckPaging(request, config), CheckDevice(request, config)})
+    for (const Status& status : {config.Validate(), CheckLoops(request, config),
+                                 CheckPaging(request, config), CheckDevice(request, config)})
         if (!status.ok()) return status;
     return Status::Ok();
 }
@@ -49,8 +58,8 @@ MapStatistics StatisticsOf(const BlockMap& map) {
     return {map.count(), map.bytes(), map.bytes_per_voxel()};
 }
 
-Result<RunSummary> ExecuteRun(const RunRequest& request, const RunConfig& config, const RunObserver& observer,
-                              const std::atomic<bool>& stop) {
+Result<RunSummary> ExecuteRun(const RunRequest& request, const RunConfig& config,
+                              const RunObserver& observer, const std::atomic<bool>& stop) {
     Runner runner(request, config, observer);
     if (config.threads == 0) return runner.Run(stop);
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,

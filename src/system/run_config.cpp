@@ -6,20 +6,24 @@ namespace tessera {
 
 void LiveConfig::Describe(ConfigParameters& p) {
     p.Add("queue_frames", queue_frames, {1, 30}, "frames",
-          "how many may wait to be tracked before the oldest is dropped; more bridges hiccups and adds delay");
+          "how many may wait to be tracked before the oldest is dropped; more bridges hiccups and "
+          "adds delay");
     p.Add("mesh_blocks", mesh_blocks, {1, 1000000}, "blocks",
           "most blocks meshed again after a frame, for the window: about 5 us each on one core");
     p.Add("playback_speed", playback_speed, {0.01, 1000.0}, "",
-          "recorded sources give their frames at this multiple of the recorded pace; cameras have their own");
+          "recorded sources give their frames at this multiple of the recorded pace; cameras have "
+          "their own");
     p.Add("extra_tracking_ms", extra_tracking_ms, {0.0, 10000.0}, "ms",
           "added to the tracking of each frame, to see what a slower machine would do");
     p.Add("extra_mapping_ms", extra_mapping_ms, {0.0, 10000.0}, "ms", "the same for its fusion");
 }
 
 void ViewConfig::Describe(ConfigParameters& p) {
-    p.Add("width", width, {320, 16384}, "px", "of the window when it opens, on a display of usual density");
+    p.Add("width", width, {320, 16384}, "px",
+          "of the window when it opens, on a display of usual density");
     p.Add("height", height, {240, 16384}, "px", "the same of its height");
-    p.Add("close_at_end", close_at_end, "close the window when the run has ended; off: it stays until it is closed");
+    p.Add("close_at_end", close_at_end,
+          "close the window when the run has ended; off: it stays until it is closed");
 }
 
 void RunConfig::Describe(ConfigParameters& p) {
@@ -34,10 +38,13 @@ void RunConfig::Describe(ConfigParameters& p) {
     p.Section("loops", [&](ConfigParameters& s) { loops.Describe(s); });
     p.Section("calibration", [&](ConfigParameters& s) {
         s.Add("check", check_camera,
-              "before a recording is run, find its focal length and centre from its first 8 seconds: a camera.yaml that they "
-              "contradict is said and corrected for the run, a missing one made up for; off: what is given counts");
+              "before a recording is run, find its focal length and centre from its first 8 "
+              "seconds: a camera.yaml that they "
+              "contradict is said and corrected for the run, a missing one made up for; off: what "
+              "is given counts");
         s.Add("refine", loops.refine_calibration,
-              "at the end, find focal length and disparity offset from the keyframes and, where the scan shows that they are "
+              "at the end, find focal length and disparity offset from the keyframes and, where "
+              "the scan shows that they are "
               "off, make the map again with them; needs --loop-closure on");
     });
     p.Section("scan", [&](ConfigParameters& s) { scan.Describe(s); });
@@ -68,7 +75,8 @@ Status LoadPresetOrFile(const std::string& name_or_path, ConfigParameters& param
     }
     std::error_code ignored;
     if (!std::filesystem::exists(name_or_path, ignored))
-        return Status::Error(fmt::format("{}: neither a file nor a preset ({})", name_or_path, names));
+        return Status::Error(
+            fmt::format("{}: neither a file nor a preset ({})", name_or_path, names));
     return parameters.LoadYamlFile(name_or_path);
 }
 
@@ -77,10 +85,14 @@ std::string ConfigurationDocument() {
     ConfigParameters parameters;
     config.Describe(parameters);
     return "# Configuration\n\n"
-           "Made by `tessera config --markdown`; do not edit. A configuration file is YAML that nests as the\n"
-           "sections below do; `--config FILE` reads it, `--set section.key=value` overrides one key. A missing key\n"
-           "keeps its default, an unknown one is an error that names the nearest known key. `tessera config` prints\n"
-           "the whole configuration as such a file, and every run saves the one that it used in its run.json.\n"
+           "Made by `tessera config --markdown`; do not edit. A configuration file is YAML that "
+           "nests as the\n"
+           "sections below do; `--config FILE` reads it, `--set section.key=value` overrides one "
+           "key. A missing key\n"
+           "keeps its default, an unknown one is an error that names the nearest known key. "
+           "`tessera config` prints\n"
+           "the whole configuration as such a file, and every run saves the one that it used in "
+           "its run.json.\n"
            "Presets that come with the program: `--config default`, `--config bylow2014`.\n" +
            parameters.ToMarkdown();
 }

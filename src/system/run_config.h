@@ -1,4 +1,5 @@
-// Every setting of a run, described once: the configuration file, --set, run.json and docs/configuration.md.
+// Every setting of a run, described once: the configuration file, --set, run.json and
+// docs/configuration.md.
 #pragma once
 
 #include <string>
@@ -48,10 +49,11 @@ struct RunConfig {
     LiveConfig live;
     ViewConfig view;
     bool check_camera = true;  // key calibration.check
-    int threads = 0;     // 0: as many as the machine has
-    int read_ahead = 4;  // frames decoded ahead
+    int threads = 0;           // 0: as many as the machine has
+    int read_ahead = 4;        // frames decoded ahead
 
-    // Sections source (source.openni in it), synthetic, frame, mapping, tracking, meshing, labels, loops, scan, live, view, record, run.
+    // Sections source (source.openni in it), synthetic, frame, mapping, tracking, meshing, labels,
+    // loops, scan, live, view, record, run.
     void Describe(ConfigParameters& parameters);
     // Conditions between keys; the error names the key.
     Status Validate() const;

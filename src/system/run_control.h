@@ -1,4 +1,5 @@
-// What a person asks of a running system through its window: which frames may pass, and what else is to be done.
+// What a person asks of a running system through its window: which frames may pass, and what else
+// is to be done.
 #pragma once
 
 #include <optional>
@@ -13,7 +14,8 @@ class RunControl {
   public:
     explicit RunControl(ViewerLink* viewer) : viewer_(viewer) {}
 
-    // The next thing to be done that is not about which frames pass; nothing if there is none. To be called until then.
+    // The next thing to be done that is not about which frames pass; nothing if there is none. To
+    // be called until then.
     std::optional<ViewerCommand> TakeCommand() {
         ViewerCommand command;
         while (viewer_ != nullptr && viewer_->commands.TryPop(command)) {

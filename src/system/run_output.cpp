@@ -17,8 +17,10 @@ namespace tessera {
 namespace {
 
 constexpr const char* kFramesHeader =
-    "index,stamp_s,method,status,fused,degenerate,valid_depth_fraction,moving_fraction,known_fraction,inlier_fraction,distance_rms_m,"
-    "intensity_rms,uncertainty_m,innovation_m,innovation_rad,alpha,gain,offset,iterations,new_blocks,fused_blocks,decode_ms,prepare_ms,"
+    "index,stamp_s,method,status,fused,degenerate,valid_depth_fraction,moving_fraction,known_"
+    "fraction,inlier_fraction,distance_rms_m,"
+    "intensity_rms,uncertainty_m,innovation_m,innovation_rad,alpha,gain,offset,iterations,new_"
+    "blocks,fused_blocks,decode_ms,prepare_ms,"
     "track_ms,moving_ms,allocate_ms,fuse_ms,frame_ms,reason\n";
 
 std::string FrameLine(const FrameReport& r, double decode_ms, double frame_ms) {
@@ -27,37 +29,43 @@ std::string FrameLine(const FrameReport& r, double decode_ms, double frame_ms) {
     for (char& c : reason)
         if (c == '"' || c == '\n') c = '\'';
     return fmt::format(
-        "{},{:.6f},{},{},{:d},{:d},{:.4f},{:.4f},{:.4f},{:.4f},{:.6f},{:.5f},{:.3g},{:.5f},{:.5f},{:.4g},{:.4f},{:.4f},{},{},{},{:.3f},{:.3f},"
+        "{},{:.6f},{},{},{:d},{:d},{:.4f},{:.4f},{:.4f},{:.4f},{:.6f},{:.5f},{:.3g},{:.5f},{:.5f},{"
+        ":.4g},{:.4f},{:.4f},{},{},{},{:.3f},{:.3f},"
         "{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},\"{}\"\n",
-        r.index, r.stamp_s, ToString(r.method), ToString(t.status), r.fused, t.degenerate, r.valid_depth_fraction, r.moving ? r.moving->moving_fraction() : 0.0, t.known_fraction,
+        r.index, r.stamp_s, ToString(r.method), ToString(t.status), r.fused, t.degenerate,
+        r.valid_depth_fraction, r.moving ? r.moving->moving_fraction() : 0.0, t.known_fraction,
         t.inlier_fraction, t.distance_rms_m, t.intensity_rms, t.uncertainty_m, t.innovation_m,
-        t.innovation_rad, t.alpha, t.gain, t.offset,
-        t.iterations, r.fusion.new_blocks, r.fusion.fused_blocks, decode_ms, r.prepare_ms, r.track_ms,
-        r.moving_ms, r.fusion.allocate_ms, r.fusion.fuse_ms, frame_ms, reason);
+        t.innovation_rad, t.alpha, t.gain, t.offset, t.iterations, r.fusion.new_blocks,
+        r.fusion.fused_blocks, decode_ms, r.prepare_ms, r.track_ms, r.moving_ms,
+        r.fusion.allocate_ms, r.fusion.fuse_ms, frame_ms, reason);
 }
 
 }  // namespace
 
-Result<std::unique_ptr<RunOutput>> RunOutput::Open(const RunRequest& request, const RunConfig& config,
+Result<std::unique_ptr<RunOutput>> RunOutput::Open(const RunRequest& request,
+                                                   const RunConfig& config,
                                                    const SourceInfo& source) {
     if (Status status = PrepareOutputFolder(request.output_folder); !status.ok()) return status;
     std::unique_ptr<RunOutput> output(new RunOutput(request, config));
     std::error_code ignored;
-    for (const char* name : {"mesh.ply", "preview.png", "objects.json", "timings.json", "detections.txt"})
+    for (const char* name :
+         {"mesh.ply", "preview.png", "objects.json", "timings.json", "detections.txt"})
         std::filesystem::remove(output->Path(name), ignored);
     RunSummary unfinished;
     unfinished.source = source;
     unfinished.exit = "unfinished";
     for (const Status& status :
          {WriteTextFile(output->Path("run.json"), RunJson(request, config, unfinished)),
-          output->OpenGrowing("trajectory.txt", "# stamp_s tx ty tz qx qy qz qw: T_world_camera, metres\n",
+          output->OpenGrowing("trajectory.txt",
+                              "# stamp_s tx ty tz qx qy qz qw: T_world_camera, metres\n",
                               output->trajectory_),
           output->OpenGrowing("frames.csv", kFramesHeader, output->frames_)})
         if (!status.ok()) return status;
     if (!request.labels.empty())
-        if (Status status = output->OpenGrowing(
-                "detections.txt", "# stamp class probability xmin ymin xmax ymax; '# frame STAMP' before each frame looked at\n",
-                output->detections_);
+        if (Status status = output->OpenGrowing("detections.txt",
+                                                "# stamp class probability xmin ymin xmax ymax; '# "
+                                                "frame STAMP' before each frame looked at\n",
+                                                output->detections_);
             !status.ok())
             return status;
     return output;
@@ -65,21 +73,27 @@ Result<std::unique_ptr<RunOutput>> RunOutput::Open(const RunRequest& request, co
 
 Status RunOutput::OpenGrowing(const std::string& name, const std::string& header, File& file) {
     file.reset(std::fopen(Path(name).c_str(), "w"));
-    if (!file) return Status::Error(fmt::format("{}: cannot be written: {}", Path(name), std::strerror(errno)));
+    if (!file)
+        return Status::Error(
+            fmt::format("{}: cannot be written: {}", Path(name), std::strerror(errno)));
     return Append(name, header, file);
 }
 
 Status RunOutput::Append(const std::string& name, const std::string& line, File& file) {
-    if (std::fwrite(line.data(), 1, line.size(), file.get()) != line.size() || std::fflush(file.get()) != 0)
-        return Status::Error(fmt::format("{}: cannot be written: {}", Path(name), std::strerror(errno)));
+    if (std::fwrite(line.data(), 1, line.size(), file.get()) != line.size() ||
+        std::fflush(file.get()) != 0)
+        return Status::Error(
+            fmt::format("{}: cannot be written: {}", Path(name), std::strerror(errno)));
     return Status::Ok();
 }
 
 Status RunOutput::AddFrame(const FrameReport& report, double decode_ms, double frame_ms) {
     if (report.tracked()) {
         path_.push_back(report.track.T_world_camera);
-        const std::string line = TrajectoryLine({report.stamp_s, report.track.T_world_camera}) + "\n";
-        if (Status status = Append("trajectory.txt", line, trajectory_); !status.ok()) return status;
+        const std::string line =
+            TrajectoryLine({report.stamp_s, report.track.T_world_camera}) + "\n";
+        if (Status status = Append("trajectory.txt", line, trajectory_); !status.ok())
+            return status;
     }
     return Append("frames.csv", FrameLine(report, decode_ms, frame_ms), frames_);
 }
@@ -112,11 +126,13 @@ Status RunOutput::WritePicture(const TriangleMesh& mesh) const {
     const MeshView view = ChooseView(mesh, path_);
     RenderStyle style;
     style.path = path_;
-    return WriteColourImage(Path("preview.png"), RenderMesh(mesh, view.camera, view.T_world_camera, style));
+    return WriteColourImage(Path("preview.png"),
+                            RenderMesh(mesh, view.camera, view.T_world_camera, style));
 }
 
 Status RunOutput::WriteMesh(TriangleMesh mesh) const {
-    constexpr std::size_t kMostInPicture = 2'000'000;  // more than it has pixels; rays cost some 100 bytes a triangle
+    // More than it has pixels; rays cost some 100 bytes a triangle.
+    constexpr std::size_t kMostInPicture = 2'000'000;
     const Status status = WritePly(Path("mesh.ply"), mesh);
     if (mesh.triangles.size() > kMostInPicture) mesh = CoarseMeshOf(mesh, kMostInPicture / 2);
     const Status picture = WritePicture(mesh);
@@ -129,7 +145,9 @@ Status RunOutput::Finish(const RunSummary& summary) {
         if (first.ok()) first = status;
     };
     keep_first(WriteTextFile(Path("timings.json"), TimingsJson(summary)));
-    keep_first(WriteTextFile(Path("objects.json"), ObjectsJson(summary.labels ? summary.labels->objects : std::vector<MapObject>{})));
+    keep_first(WriteTextFile(
+        Path("objects.json"),
+        ObjectsJson(summary.labels ? summary.labels->objects : std::vector<MapObject>{})));
     keep_first(WriteTextFile(Path("run.json"), RunJson(request_, config_, summary)));
     return first;
 }

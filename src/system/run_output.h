@@ -1,5 +1,6 @@
-// The folder that a run leaves: trajectory.txt and frames.csv grow frame by frame, so that a killed run loses at most
-// its last lines; the rest is written at the end, each file whole or not at all. Owner thread only.
+// The folder that a run leaves: trajectory.txt and frames.csv grow frame by frame, so that a killed
+// run loses at most its last lines; the rest is written at the end, each file whole or not at all.
+// Owner thread only.
 #pragma once
 
 #include <cstdio>
@@ -9,19 +10,21 @@
 #include "core/mesh.h"
 #include "core/status.h"
 #include "system/labelling_stage.h"
-#include "system/tracking_stage.h"
 #include "system/run.h"
+#include "system/tracking_stage.h"
 
 namespace tessera {
 
 class RunOutput {
   public:
-    // Makes the folder, removes what an earlier run left of the files below, and starts the growing ones. run.json says
-    // "unfinished" until Finish.
-    static Result<std::unique_ptr<RunOutput>> Open(const RunRequest& request, const RunConfig& config,
+    // Makes the folder, removes what an earlier run left of the files below, and starts the growing
+    // ones. run.json says "unfinished" until Finish.
+    static Result<std::unique_ptr<RunOutput>> Open(const RunRequest& request,
+                                                   const RunConfig& config,
                                                    const SourceInfo& source);
 
-    // One line of frames.csv; one of trajectory.txt if the frame was tracked. Both reach the system before return.
+    // One line of frames.csv; one of trajectory.txt if the frame was tracked. Both reach the system
+    // before return.
     Status AddFrame(const FrameReport& report, double decode_ms, double frame_ms);
 
     // The frame's lines in detections.txt, after a line that says that it was looked at.
@@ -31,8 +34,8 @@ class RunOutput {
     // trajectory.txt anew, from poses that are known better now; whole or not at all.
     Status ReplacePath(const std::vector<StampedPose>& path);
 
-    // mesh.ply, and preview.png where the mesh has triangles: of a large one coarsened, and the mesh itself gone by then. The first
-    // error, but the other file is tried, too.
+    // mesh.ply, and preview.png where the mesh has triangles: of a large one coarsened, and the
+    // mesh itself gone by then. The first error, but the other file is tried, too.
     Status WriteMesh(TriangleMesh mesh) const;
 
     // objects.json, timings.json, run.json; likewise.
@@ -54,7 +57,7 @@ class RunOutput {
     RunRequest request_;
     RunConfig config_;
     File trajectory_, frames_, detections_;  // the last one with labels only
-    std::vector<Eigen::Isometry3d> path_;  // T_world_camera of the tracked frames
+    std::vector<Eigen::Isometry3d> path_;    // T_world_camera of the tracked frames
 };
 
 }  // namespace tessera

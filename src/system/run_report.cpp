@@ -28,7 +28,13 @@ Json SourceJson(const SourceInfo& source) {
     const PinholeCamera& c = source.camera;
     return {{"name", source.name},
             {"kind", source.kind},
-            {"camera", {{"width", c.width}, {"height", c.height}, {"fx", c.fx}, {"fy", c.fy}, {"cx", c.cx}, {"cy", c.cy}}},
+            {"camera",
+             {{"width", c.width},
+              {"height", c.height},
+              {"fx", c.fx},
+              {"fy", c.fy},
+              {"cx", c.cx},
+              {"cy", c.cy}}},
             {"frames", source.frame_count},
             {"fps", source.fps},
             {"rectified", source.rectified},
@@ -37,32 +43,36 @@ Json SourceJson(const SourceInfo& source) {
 }
 
 // Focal lengths as found, used or not; the source's are those that were given.
-Json CalibrationJson(const PinholeCamera& given, double offset_before_per_m, const CalibrationReport& report) {
+Json CalibrationJson(const PinholeCamera& given, double offset_before_per_m,
+                     const CalibrationReport& report) {
     const PinholeCamera found = Corrected(given, report.calibration);
-    return {{"used", report.shown},
-            {"fx", found.fx},
-            {"fy", found.fy},
-            {"focal_sigma", report.focal_sigma},
-            {"disparity_offset_per_m", offset_before_per_m + report.calibration.disparity_offset_per_m},
-            {"disparity_offset_sigma_per_m", report.offset_sigma_per_m},
-            {"points", report.points},
-            {"apart_before_mm", 1000 * report.rms_before_m},
-            {"apart_mm", 1000 * report.rms_after_m}};
+    return {
+        {"used", report.shown},
+        {"fx", found.fx},
+        {"fy", found.fy},
+        {"focal_sigma", report.focal_sigma},
+        {"disparity_offset_per_m", offset_before_per_m + report.calibration.disparity_offset_per_m},
+        {"disparity_offset_sigma_per_m", report.offset_sigma_per_m},
+        {"points", report.points},
+        {"apart_before_mm", 1000 * report.rms_before_m},
+        {"apart_mm", 1000 * report.rms_after_m}};
 }
 
 // What the recording says; "source" has what was used.
 Json CameraJson(const CameraReport& report) {
     const CameraEstimate& e = report.estimate;
-    return {{"known", report.known},
-            {"used", report.used},
-            {"given", {{"fx", e.given.fx}, {"fy", e.given.fy}, {"cx", e.given.cx}, {"cy", e.given.cy}}},
-            {"found", {{"fx", e.found.fx}, {"fy", e.found.fy}, {"cx", e.found.cx}, {"cy", e.found.cy}}},
-            {"sigma_px", {{"fx", e.focal_sigma_px}, {"cx", e.centre_x_sigma_px}, {"cy", e.centre_y_sigma_px}}},
-            {"readout_ms", 1000 * e.readout_s},
-            {"readout_sigma_ms", 1000 * e.readout_sigma_s},
-            {"misfit_given", e.misfit_given},
-            {"misfit_found", e.misfit_found},
-            {"pairs", e.pairs}};
+    return {
+        {"known", report.known},
+        {"used", report.used},
+        {"given", {{"fx", e.given.fx}, {"fy", e.given.fy}, {"cx", e.given.cx}, {"cy", e.given.cy}}},
+        {"found", {{"fx", e.found.fx}, {"fy", e.found.fy}, {"cx", e.found.cx}, {"cy", e.found.cy}}},
+        {"sigma_px",
+         {{"fx", e.focal_sigma_px}, {"cx", e.centre_x_sigma_px}, {"cy", e.centre_y_sigma_px}}},
+        {"readout_ms", 1000 * e.readout_s},
+        {"readout_sigma_ms", 1000 * e.readout_sigma_s},
+        {"misfit_given", e.misfit_given},
+        {"misfit_found", e.misfit_found},
+        {"pairs", e.pairs}};
 }
 
 }  // namespace
@@ -70,7 +80,10 @@ Json CameraJson(const CameraReport& report) {
 std::string TimingsJson(const RunSummary& summary) {
     Json stages = Json::object();
     for (const auto& [stage, s] : summary.stages)
-        stages[stage] = {{"mean_ms", s.mean_ms}, {"median_ms", s.median_ms}, {"p95_ms", s.p95_ms}, {"max_ms", s.max_ms}};
+        stages[stage] = {{"mean_ms", s.mean_ms},
+                         {"median_ms", s.median_ms},
+                         {"p95_ms", s.p95_ms},
+                         {"max_ms", s.max_ms}};
     return Dump({{"frames", summary.counts.frames},
                  {"tracked", summary.counts.tracked},
                  {"wall_s", summary.wall_s},
@@ -107,16 +120,20 @@ std::string RunJson(const RunRequest& request, RunConfig config, const RunSummar
                    {"degenerate", n.degenerate}}},
                  {"ate", nullptr}};
     if (summary.labels)
-        json["labels"] = {{"detector", request.labels},
-                          {"frames", summary.labels->frames},
-                          {"frames_per_s", summary.wall_s > 0 ? static_cast<double>(summary.labels->frames) / summary.wall_s : 0.0},
-                          {"detections", summary.labels->detections},
-                          {"settled_voxels", summary.labels->settled},
-                          {"settled_flips", summary.labels->flips},
-                          {"objects", summary.labels->objects.size()}};
+        json["labels"] = {
+            {"detector", request.labels},
+            {"frames", summary.labels->frames},
+            {"frames_per_s", summary.wall_s > 0
+                                 ? static_cast<double>(summary.labels->frames) / summary.wall_s
+                                 : 0.0},
+            {"detections", summary.labels->detections},
+            {"settled_voxels", summary.labels->settled},
+            {"settled_flips", summary.labels->flips},
+            {"objects", summary.labels->objects.size()}};
     if (summary.calibration)
-        json["calibration"] = CalibrationJson(summary.source.camera, config.pipeline.frame.disparity_offset_per_m,
-                                              *summary.calibration);
+        json["calibration"] =
+            CalibrationJson(summary.source.camera, config.pipeline.frame.disparity_offset_per_m,
+                            *summary.calibration);
     if (summary.camera) json["camera_estimate"] = CameraJson(*summary.camera);
     if (summary.ate) json["ate"] = Json::parse(AteJson(*summary.ate), nullptr, false);
     json["configuration"] = ConfigurationJson(config);

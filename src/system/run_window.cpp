@@ -24,7 +24,8 @@ void RunWindow::Show(const LabelReport& report, const LabelClasses& classes) {
     update.stamp_s = report.stamp_s;
     update.detect_ms = report.detect_ms;
     for (const Detection& d : report.detections)
-        update.detections.push_back({d.box, classes.name(d.class_id), d.probability, classes.colour(d.class_id)});
+        update.detections.push_back(
+            {d.box, classes.name(d.class_id), d.probability, classes.colour(d.class_id)});
     viewer_->labels.Push(std::move(update));
 }
 

@@ -9,13 +9,16 @@
 
 namespace tessera {
 
-// Owner thread only: the one that takes an engine's outcomes. Without a window (null) nothing happens.
+// Owner thread only: the one that takes an engine's outcomes. Without a window (null) nothing
+// happens.
 class RunWindow {
   public:
     explicit RunWindow(ViewerLink* viewer) : viewer_(viewer) {}
 
-    // `counts`: up to and with this frame. `T_world_camera_truth`: in the map's world, if it is known.
-    void Show(const FrameOutcome& outcome, const RunCounts& counts, const std::optional<Eigen::Isometry3d>& T_world_camera_truth);
+    // `counts`: up to and with this frame. `T_world_camera_truth`: in the map's world, if it is
+    // known.
+    void Show(const FrameOutcome& outcome, const RunCounts& counts,
+              const std::optional<Eigen::Isometry3d>& T_world_camera_truth);
     void Show(const LabelReport& report, const LabelClasses& classes);
     void EndLabels();
     // At the end, when the map's owner has stopped.

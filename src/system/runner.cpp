@@ -12,13 +12,15 @@
 namespace tessera {
 namespace {
 
-// Learning begins from the rolling shutter that the recording's first seconds show, not from what was given.
+// Learning begins from the rolling shutter that the recording's first seconds show, not from what
+// was given.
 void BeginShutter(const CameraEstimate& estimate, PipelineConfig& config, SourceInfo& source) {
     const double given_s = config.shutter.colour_readout_s;
     if (!config.trackers.photometric.shutter.enabled || !estimate.shutter_shown(given_s)) return;
     config.trackers.photometric.shutter.readout_s = estimate.readout_s - given_s;
-    source.notes.push_back(fmt::format("rolling shutter: a colour image is read out over {:.1f} +- {:.1f} ms",
-                                       1000 * estimate.readout_s, 1000 * estimate.readout_sigma_s));
+    source.notes.push_back(
+        fmt::format("rolling shutter: a colour image is read out over {:.1f} +- {:.1f} ms",
+                    1000 * estimate.readout_s, 1000 * estimate.readout_sigma_s));
 }
 
 }  // namespace
@@ -26,9 +28,11 @@ void BeginShutter(const CameraEstimate& estimate, PipelineConfig& config, Source
 Result<RunSummary> Runner::Run(const std::atomic<bool>& stop) {
     if (Status status = Open(stop); !status.ok()) return status;
     Status status = TakeOutcomes();
-    if (status.ok() && !summary_.stopped && frames_before_ == 0 && summary_.counts.frames == summary_.counts.skipped)
-        status = Status::Error(request_.source + ": no frame could be read" +
-                               (summary_.last_reason.empty() ? "" : "; the last: " + summary_.last_reason));
+    if (status.ok() && !summary_.stopped && frames_before_ == 0 &&
+        summary_.counts.frames == summary_.counts.skipped)
+        status = Status::Error(
+            request_.source + ": no frame could be read" +
+            (summary_.last_reason.empty() ? "" : "; the last: " + summary_.last_reason));
     Status finished = Finish(status);
     if (!status.ok()) return status;
     if (!finished.ok()) return finished;
@@ -52,7 +56,8 @@ Status Runner::Open(const std::atomic<bool>& stop) {
     camera_notes_ = std::move(checked.value().messages);
     Labelling labelling;
     if (!request_.labels.empty()) {
-        Result<Labelling> opened = OpenLabelling(request_.labels, request_.source, config_.synthetic, config_.labels);
+        Result<Labelling> opened =
+            OpenLabelling(request_.labels, request_.source, config_.synthetic, config_.labels);
         if (!opened.ok()) return opened.status();
         labelling = std::move(opened.value());
         class_names_ = labelling.classes;
@@ -62,10 +67,16 @@ Status Runner::Open(const std::atomic<bool>& stop) {
     if (!scan.ok()) return scan.status();
     RunConfig config = config_;
     if (summary_.camera) BeginShutter(summary_.camera->estimate, config.pipeline, summary_.source);
-    EngineInput input{std::move(source), selection_, std::move(config),
-                      FramePlan(request_.switches, std::move(given), request_.poses_file), std::move(scan.value()),
-                      std::move(labelling), request_.record_path,
-                      request_.viewer, request_.device, &stop};
+    EngineInput input{std::move(source),
+                      selection_,
+                      std::move(config),
+                      FramePlan(request_.switches, std::move(given), request_.poses_file),
+                      std::move(scan.value()),
+                      std::move(labelling),
+                      request_.record_path,
+                      request_.viewer,
+                      request_.device,
+                      &stop};
     if (request_.live)
         engine_ = std::make_unique<LiveEngine>(std::move(input));
     else
@@ -76,9 +87,11 @@ Status Runner::Open(const std::atomic<bool>& stop) {
 Result<ScanPlan> Runner::OpenScan() {
     if (request_.scan_file.empty()) return ScanPlan();
     if (!request_.poses_file.empty() && request_.resume)
-        return Status::Error("--resume: with --poses the poses are given; leave one of the two out");
+        return Status::Error(
+            "--resume: with --poses the poses are given; leave one of the two out");
     if (!request_.resume) return BeginScan(request_.scan_file, summary_.source, config_);
-    Result<ScanPlan> plan = ResumeScan(request_.scan_file, summary_.source, config_, !request_.labels.empty());
+    Result<ScanPlan> plan =
+        ResumeScan(request_.scan_file, summary_.source, config_, !request_.labels.empty());
     if (!plan.ok()) return plan;
     const ScanContent& scan = *plan.value().resumed;
     selection_ = RestOf(request_.selection, summary_.source, scan);
@@ -88,7 +101,8 @@ Result<ScanPlan> Runner::OpenScan() {
     return plan;
 }
 
-// With the first frame and not before: a run that is refused says one line, and leaves the results of an earlier one.
+// With the first frame and not before: a run that is refused says one line, and leaves the results
+// of an earlier one.
 Status Runner::Begin() {
     begun_ = true;
     if (!request_.output_folder.empty())
@@ -116,7 +130,9 @@ Status Runner::Finish(const Status& outcome) {
     s.peak_rss_mb = MeasureProcess().peak_rss_mb;
     s.stages = times_.Summarise();
     if (request_.poses_file.empty())
-        if (Result<AteResult> ate = EvaluateAte(truth_, estimate_, {.frames = frames_before_ + s.counts.frames}); ate.ok())
+        if (Result<AteResult> ate =
+                EvaluateAte(truth_, estimate_, {.frames = frames_before_ + s.counts.frames});
+            ate.ok())
             s.ate = std::move(ate.value());
     if (Status status = output_ ? output_->Finish(s) : Status::Ok(); written.ok()) written = status;
     return written;
@@ -147,7 +163,8 @@ std::int64_t Runner::Total() const {
     const FrameSelection& selection = selection_;
     const std::int64_t all = summary_.source.frame_count;
     if (all < 0) return selection.count;
-    const std::int64_t total = std::max<std::int64_t>(0, (all - selection.start + selection.stride - 1) / selection.stride);
+    const std::int64_t total = std::max<std::int64_t>(
+        0, (all - selection.start + selection.stride - 1) / selection.stride);
     return selection.count < 0 ? total : std::min(total, selection.count);
 }
 

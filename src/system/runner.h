@@ -1,4 +1,5 @@
-// One run under way: opens what it needs, takes what the engine gives, keeps count, leaves the files. run.h is its face.
+// One run under way: opens what it needs, takes what the engine gives, keeps count, leaves the
+// files. run.h is its face.
 #pragma once
 
 #include "core/stopwatch.h"
@@ -13,14 +14,19 @@ namespace tessera {
 class Runner {
   public:
     Runner(const RunRequest& request, const RunConfig& config, const RunObserver& observer)
-        : request_(request), config_(config), observer_(observer), selection_(request.selection), window_(request.viewer) {}
+        : request_(request),
+          config_(config),
+          observer_(observer),
+          selection_(request.selection),
+          window_(request.viewer) {}
 
     Result<RunSummary> Run(const std::atomic<bool>& stop);
 
   private:
     Status Open(const std::atomic<bool>& stop);
     Result<ScanPlan> OpenScan();
-    // With the first frame and not before: a run that is refused says one line, and leaves the results of an earlier one.
+    // With the first frame and not before: a run that is refused says one line, and leaves the
+    // results of an earlier one.
     Status Begin();
 
     Status TakeOutcomes();
@@ -48,7 +54,8 @@ class Runner {
     const RunRequest& request_;
     const RunConfig& config_;
     const RunObserver& observer_;
-    FrameSelection selection_;  // what is still to be read: less than was asked for where a scan is resumed
+    // What is still to be read: less than was asked for where a scan is resumed.
+    FrameSelection selection_;
     std::int64_t frames_before_ = 0;  // that a resumed scan has
     RunWindow window_;
     std::vector<StampedPose> truth_, estimate_;

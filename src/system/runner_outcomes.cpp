@@ -39,7 +39,8 @@ Status Runner::Take(const FrameOutcome& outcome) {
 Status Runner::TakeFrame(const FrameOutcome& outcome) {
     const FrameReport& report = outcome.report;
     Count(outcome);
-    if (outcome.T_world_camera_truth) truth_.push_back({report.stamp_s, *outcome.T_world_camera_truth});
+    if (outcome.T_world_camera_truth)
+        truth_.push_back({report.stamp_s, *outcome.T_world_camera_truth});
     if (report.tracked()) estimate_.push_back({report.stamp_s, report.track.T_world_camera});
     const double frame_ms = frame_watch_.LapMs();
     AddTimes(outcome, frame_ms);
@@ -62,9 +63,13 @@ Status Runner::TakeLabels(const LabelReport& report) {
 
 void Runner::AddTimes(const FrameOutcome& outcome, double frame_ms) {
     const FrameReport& report = outcome.report;
-    for (const auto& [stage, ms] : {std::pair{"frame", frame_ms}, {"decode", outcome.decode_ms},
-                                    {"prepare", report.prepare_ms}, {"track", report.track_ms}, {"moving", report.moving_ms},
-                                    {"allocate", report.fusion.allocate_ms}, {"fuse", report.fusion.fuse_ms}})
+    for (const auto& [stage, ms] : {std::pair{"frame", frame_ms},
+                                    {"decode", outcome.decode_ms},
+                                    {"prepare", report.prepare_ms},
+                                    {"track", report.track_ms},
+                                    {"moving", report.moving_ms},
+                                    {"allocate", report.fusion.allocate_ms},
+                                    {"fuse", report.fusion.fuse_ms}})
         times_.Add(stage, ms);
     if (request_.live) times_.Add("latency", outcome.latency_ms);
     if (!request_.scan_file.empty()) times_.Add("scan", outcome.scan_ms);
@@ -74,7 +79,8 @@ void Runner::AddTimes(const FrameOutcome& outcome, double frame_ms) {
 
 std::optional<Eigen::Isometry3d> Runner::TruthOf(const FrameOutcome& outcome) const {
     if (!outcome.T_world_camera_truth || estimate_.empty() || truth_.empty()) return std::nullopt;
-    return estimate_.front().T_world_camera * truth_.front().T_world_camera.inverse() * *outcome.T_world_camera_truth;
+    return estimate_.front().T_world_camera * truth_.front().T_world_camera.inverse() *
+           *outcome.T_world_camera_truth;
 }
 
 // After a reset: the files, too, tell of the new world only.
@@ -120,9 +126,11 @@ void Runner::SayWhenItChanges(const FrameReport& report) {
         const std::string reason = t.reason.empty() ? "" : ": " + t.reason;
         if (t.status != TrackStatus::kGood)
             Warn(fmt::format("frame {}: {}{}", report.index,
-                             t.status == TrackStatus::kLost ? "lost" : "tracked badly, not fused", reason));
+                             t.status == TrackStatus::kLost ? "lost" : "tracked badly, not fused",
+                             reason));
         else if (t.degenerate)
-            Warn(fmt::format("frame {}: degenerate, the scene leaves some motion open{}", report.index, reason));
+            Warn(fmt::format("frame {}: degenerate, the scene leaves some motion open{}",
+                             report.index, reason));
         else
             Warn(fmt::format("frame {}: tracking well again", report.index));
     }

@@ -17,7 +17,8 @@ RunConfig ConfigOf(const ScanMeta& meta) {
     RunConfig config;
     ConfigParameters parameters;
     config.Describe(parameters);
-    static_cast<void>(parameters.LoadYaml(meta.configuration, "scan"));  // another version's keys: the defaults
+    // Another version's keys: the defaults.
+    static_cast<void>(parameters.LoadYaml(meta.configuration, "scan"));
     config.pipeline.map = {.voxel_size_m = meta.voxel_size_m, .truncation_m = meta.truncation_m};
     return config;
 }
@@ -25,7 +26,9 @@ RunConfig ConfigOf(const ScanMeta& meta) {
 double LengthOf(const std::vector<StampedPose>& path) {
     double length_m = 0;
     for (std::size_t i = 1; i < path.size(); ++i)
-        length_m += (path[i].T_world_camera.translation() - path[i - 1].T_world_camera.translation()).norm();
+        length_m +=
+            (path[i].T_world_camera.translation() - path[i - 1].T_world_camera.translation())
+                .norm();
     return length_m;
 }
 
@@ -38,10 +41,12 @@ std::string MapText(const ScanContent& scan) {
     }
     const Eigen::Vector3d extent_m =
         box.isEmpty() ? Eigen::Vector3d::Zero()
-                      : Eigen::Vector3d((box.sizes().array() + 1).cast<double>() * kBlockSide * scan.meta.voxel_size_m);
-    return fmt::format("map: {} blocks, {:.1f} x {:.1f} x {:.1f} m, voxels of {:g} m, truncation {:g} m{}\n", map.count(),
-                       extent_m.x(), extent_m.y(), extent_m.z(), scan.meta.voxel_size_m, scan.meta.truncation_m,
-                       scan.progress.labels ? ", with labels" : "");
+                      : Eigen::Vector3d((box.sizes().array() + 1).cast<double>() * kBlockSide *
+                                        scan.meta.voxel_size_m);
+    return fmt::format(
+        "map: {} blocks, {:.1f} x {:.1f} x {:.1f} m, voxels of {:g} m, truncation {:g} m{}\n",
+        map.count(), extent_m.x(), extent_m.y(), extent_m.z(), scan.meta.voxel_size_m,
+        scan.meta.truncation_m, scan.progress.labels ? ", with labels" : "");
 }
 
 }  // namespace
@@ -54,13 +59,16 @@ Result<TriangleMesh> MeshOfScan(ScanContent& scan) {
         if (!classes.ok()) return classes.status();
         mapping.EnableLabels(config.labels, std::move(classes.value()));
         StateReader labels(scan.labels);
-        if (!mapping.LoadLabels(labels)) return Status::Error("the scan's labels are of other classes than its configuration says");
+        if (!mapping.LoadLabels(labels))
+            return Status::Error(
+                "the scan's labels are of other classes than its configuration says");
     }
     mapping.Resume(std::move(scan.map), scan.progress.fused_frames);
     return mapping.TakeMesh();
 }
 
-Result<TriangleMesh> MeshOfScanFile(const std::string& scan_path, std::vector<Eigen::Isometry3d>* path) {
+Result<TriangleMesh> MeshOfScanFile(const std::string& scan_path,
+                                    std::vector<Eigen::Isometry3d>* path) {
     Result<ScanContent> scan = ReadScan(scan_path, {});
     if (!scan.ok()) return scan.status();
     if (path != nullptr)
@@ -71,7 +79,8 @@ Result<TriangleMesh> MeshOfScanFile(const std::string& scan_path, std::vector<Ei
 Status ExportFrames(const std::string& scan_path, const std::string& folder) {
     Result<std::unique_ptr<FrameSource>> source = ScanSource::Open(scan_path);
     if (!source.ok()) return source.status();
-    Result<std::unique_ptr<FrameRecorder>> recorder = FrameRecorder::Create(folder, source.value()->info());
+    Result<std::unique_ptr<FrameRecorder>> recorder =
+        FrameRecorder::Create(folder, source.value()->info());
     if (!recorder.ok()) return recorder.status();
     Frame frame;
     while (true) {
@@ -90,17 +99,22 @@ Result<std::string> DescribeScan(const std::string& path) {
     if (!content.ok()) return content.status();
     const ScanContent& scan = content.value();
     const PinholeCamera& c = scan.meta.camera;
-    std::string text = fmt::format("{}: scan, format version {}, begun by tessera {}, {}\n", path, kScanVersion, scan.meta.program,
-                                   scan.finished ? "complete" : "cut off: go on with it by --resume");
+    std::string text = fmt::format(
+        "{}: scan, format version {}, begun by tessera {}, {}\n", path, kScanVersion,
+        scan.meta.program, scan.finished ? "complete" : "cut off: go on with it by --resume");
     text += fmt::format("source: {} ({})\n", scan.meta.source_name, scan.meta.source_kind);
-    text += fmt::format("camera: {} x {}, fx {:.2f} fy {:.2f} cx {:.2f} cy {:.2f} px\n", c.width, c.height, c.fx, c.fy, c.cx, c.cy);
+    text += fmt::format("camera: {} x {}, fx {:.2f} fy {:.2f} cx {:.2f} cy {:.2f} px\n", c.width,
+                        c.height, c.fx, c.fy, c.cx, c.cy);
     const std::vector<StampedPose> poses = scan.Path();
-    text += fmt::format("path: {} frames, {} tracked, {:.2f} m", scan.path.size(), poses.size(), LengthOf(poses));
+    text += fmt::format("path: {} frames, {} tracked, {:.2f} m", scan.path.size(), poses.size(),
+                        LengthOf(poses));
     if (!scan.path.empty())
-        text += fmt::format(", {:.6f} to {:.6f} s", scan.path.front().stamp_s, scan.path.back().stamp_s);
+        text += fmt::format(", {:.6f} to {:.6f} s", scan.path.front().stamp_s,
+                            scan.path.back().stamp_s);
     text += "\n" + MapText(scan);
     if (scan.meta.loops)
-        text += fmt::format("loop closure: {} keyframes, {} loops\n", scan.keyframes.size(), scan.loops.loops);
+        text += fmt::format("loop closure: {} keyframes, {} loops\n", scan.keyframes.size(),
+                            scan.loops.loops);
     for (const ScanTable table : kScanTables) {
         std::size_t bytes = 0, rows = 0;
         Status read = file.Read(table, [&](const ScanRow& row) {
@@ -109,10 +123,13 @@ Result<std::string> DescribeScan(const std::string& path) {
             return Status::Ok();
         });
         if (!read.ok()) return read;
-        if (rows > 0) text += fmt::format("  {:<10} {:>8} rows {:>10.2f} MB\n", ToString(table), rows, static_cast<double>(bytes) / 1e6);
+        if (rows > 0)
+            text += fmt::format("  {:<10} {:>8} rows {:>10.2f} MB\n", ToString(table), rows,
+                                static_cast<double>(bytes) / 1e6);
     }
     std::error_code ignored;
-    text += fmt::format("file: {:.2f} MB, all of it sound\n", static_cast<double>(std::filesystem::file_size(path, ignored)) / 1e6);
+    text += fmt::format("file: {:.2f} MB, all of it sound\n",
+                        static_cast<double>(std::filesystem::file_size(path, ignored)) / 1e6);
     return text;
 }
 

@@ -22,9 +22,11 @@ std::vector<ScanKey> KeysOf(const ScanMeta& meta) {
 
 void ScanConfig::Describe(ConfigParameters& p) {
     p.Add("interval_s", interval_s, {0.05, 60.0}, "s",
-          "longest time between two checkpoints, by the clock and by the frames' stamps: what a crash can cost");
+          "longest time between two checkpoints, by the clock and by the frames' stamps: what a "
+          "crash can cost");
     p.AddChoice("frames", frames, {{"loops", Frames::kLoops}, {"all", Frames::kAll}},
-                "raw frames in the file: loops keeps what loop closure keeps (none without), all keeps every one, so that the "
+                "raw frames in the file: loops keeps what loop closure keeps (none without), all "
+                "keeps every one, so that the "
                 "scan can be replayed: 0.25 MB a frame");
 }
 
@@ -41,12 +43,15 @@ Status CheckScanKeys(const std::string& path, ConfigParameters& parameters) {
     const Result<ScanMeta> meta = ReadScanMeta(path);
     if (!meta.ok()) return meta.status();
     for (const ScanKey& key : KeysOf(meta.value())) {
-        const auto found = std::ranges::find(parameters.parameters(), key.key, &ConfigParameters::Parameter::key);
+        const auto found =
+            std::ranges::find(parameters.parameters(), key.key, &ConfigParameters::Parameter::key);
         const std::string wanted = found->get();
         static_cast<void>(parameters.Set(key.key, key.value));
         if (found->get() != wanted)
-            return Status::Error(fmt::format("{}: {} is asked for, but {} was scanned with {}; leave it out, or begin another scan",
-                                             key.key, wanted, path, found->get()));
+            return Status::Error(
+                fmt::format("{}: {} is asked for, but {} was scanned with {}; leave it out, or "
+                            "begin another scan",
+                            key.key, wanted, path, found->get()));
     }
     return Status::Ok();
 }
@@ -72,19 +77,24 @@ Result<ScanPlan> BeginScan(const std::string& path, const SourceInfo& source, Ru
     return plan;
 }
 
-Result<ScanPlan> ResumeScan(const std::string& path, const SourceInfo& source, const RunConfig& config, bool labels) {
+Result<ScanPlan> ResumeScan(const std::string& path, const SourceInfo& source,
+                            const RunConfig& config, bool labels) {
     Result<std::unique_ptr<ScanFile>> file = ScanFile::OpenToWrite(path);
     if (!file.ok()) return file.status();
-    Result<ScanContent> content = ReadScan(*file.value(), {.map = true, .frames = config.loops.enabled, .labels = labels});
+    Result<ScanContent> content =
+        ReadScan(*file.value(), {.map = true, .frames = config.loops.enabled, .labels = labels});
     if (!content.ok()) return content.status();
     ScanContent& scan = content.value();
     const PinholeCamera &was = scan.meta.camera, &is = source.camera;
     if (!(was == is))
-        return Status::Error(fmt::format("{}: was made with a camera of {} x {}, fx {:.2f}; {} has {} x {}, fx {:.2f}: go on with "
-                                         "the same camera, or begin another scan",
-                                         path, was.width, was.height, was.fx, source.name, is.width, is.height, is.fx));
+        return Status::Error(fmt::format(
+            "{}: was made with a camera of {} x {}, fx {:.2f}; {} has {} x {}, fx {:.2f}: go on "
+            "with "
+            "the same camera, or begin another scan",
+            path, was.width, was.height, was.fx, source.name, is.width, is.height, is.fx));
     if (scan.progress.labels && !labels)
-        return Status::Error(path + ": has labels, which would be lost; give --labels as when it was begun");
+        return Status::Error(
+            path + ": has labels, which would be lost; give --labels as when it was begun");
     ScanPlan plan;
     plan.file = std::move(file.value());
     plan.depth_units_per_m = scan.meta.depth_units_per_m;
@@ -92,9 +102,12 @@ Result<ScanPlan> ResumeScan(const std::string& path, const SourceInfo& source, c
     return plan;
 }
 
-FrameSelection RestOf(const FrameSelection& selection, const SourceInfo& source, const ScanContent& resumed) {
+FrameSelection RestOf(const FrameSelection& selection, const SourceInfo& source,
+                      const ScanContent& resumed) {
     const std::int64_t last = resumed.progress.last_index;
-    if (source.live || source.name != resumed.meta.source_name || last < selection.start || selection.stride < 1) return selection;
+    if (source.live || source.name != resumed.meta.source_name || last < selection.start ||
+        selection.stride < 1)
+        return selection;
     FrameSelection rest = selection;
     const std::int64_t done = (last - selection.start) / selection.stride + 1;
     rest.start = selection.start + done * selection.stride;

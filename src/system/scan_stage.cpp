@@ -7,7 +7,6 @@
 #include <iterator>
 #include <utility>
 
-
 namespace tessera {
 namespace {
 
@@ -24,8 +23,11 @@ LoopCloser::Memory LoopMemory(ScanContent& scan) {
             memory.passages.push_back({record.stamp_s, record.keyframe, record.T_reference_camera});
         } else if (!memory.passages.empty()) {
             const int last = memory.passages.back().keyframe;
-            const Eigen::Isometry3d& T_map_keyframe = memory.keyframes[static_cast<std::size_t>(last)].T_map_camera;
-            memory.passages.push_back({record.stamp_s, last, Normalised(T_map_keyframe.inverse() * record.T_reference_camera)});
+            const Eigen::Isometry3d& T_map_keyframe =
+                memory.keyframes[static_cast<std::size_t>(last)].T_map_camera;
+            memory.passages.push_back(
+                {record.stamp_s, last,
+                 Normalised(T_map_keyframe.inverse() * record.T_reference_camera)});
         }
     }
     for (FrameRecord& frame : scan.frames)
@@ -55,18 +57,22 @@ Status ScanStage::Resume(MappingStage& mapping) {
     ScanContent& scan = *resumed_;
     progress_ = scan.progress;
     map_identity_ = scan.map->identity();
-    for (BlockId id = 0; id < scan.map->size(); ++id) seen_revision_.push_back(scan.map->revision(id));
+    for (BlockId id = 0; id < scan.map->size(); ++id)
+        seen_revision_.push_back(scan.map->revision(id));
     mapping.Resume(std::move(scan.map), scan.progress.fused_frames);
     StateReader labels(scan.labels);
     if (!scan.labels.empty() && !mapping.LoadLabels(labels))
-        return Status::Error(path_ + ": its labels are of other classes; give the same --labels and labels.classes as when it was "
-                                     "begun");
+        return Status::Error(path_ +
+                             ": its labels are of other classes; give the same --labels and "
+                             "labels.classes as when it was "
+                             "begun");
     loops_ = LoopMemory(scan);
     resumed_.reset();
     return Status::Ok();
 }
 
-void ScanStage::AddFrame(const Frame& frame, const TrackedFrame& tracked, std::int64_t labelled_frames) {
+void ScanStage::AddFrame(const Frame& frame, const TrackedFrame& tracked,
+                         std::int64_t labelled_frames) {
     if (thread_.failed()) return;
     path_log_.Add(progress_.frames, RecordOf(frame, tracked), *pending_);
     if (config_.frames == ScanConfig::Frames::kAll) AddRaw(frame);
@@ -99,12 +105,15 @@ void ScanStage::SaveIfDue(const MappingStage& mapping) {
 
 bool ScanStage::Due(double stamp_s) const {
     if (!last_stamp_s_) return thread_.idle();
-    const double longer_s = std::max(std::chrono::duration<double>(Clock::now() - last_time_).count(),
-                                     std::abs(stamp_s - *last_stamp_s_));
-    return longer_s >= config_.interval_s && (thread_.idle() || (wait_ && longer_s >= 2 * config_.interval_s));
+    const double longer_s =
+        std::max(std::chrono::duration<double>(Clock::now() - last_time_).count(),
+                 std::abs(stamp_s - *last_stamp_s_));
+    return longer_s >= config_.interval_s &&
+           (thread_.idle() || (wait_ && longer_s >= 2 * config_.interval_s));
 }
 
-// A copy, compressed by the writer. Where that is far behind frames are left out: memory is bounded.
+// A copy, compressed by the writer. Where that is far behind frames are left out: memory is
+// bounded.
 void ScanStage::AddRaw(const Frame& frame) {
     constexpr std::size_t kMostRaw = 90;
     if (wait_ || pending_->raw_frames.size() < kMostRaw) {
@@ -123,7 +132,8 @@ void ScanStage::Checkpoint(const MappingStage& mapping, bool finished) {
     thread_.WaitUntilIdle();
     path_log_.AddWaiting(*pending_);
     std::unique_ptr<ScanCheckpoint> next = thread_.Take();
-    std::swap(pending_->blocks, next->blocks);  // the one just written had room for blocks: the only large part needs to be there once
+    // The one just written had room for blocks: the only large part needs to be there once.
+    std::swap(pending_->blocks, next->blocks);
     AddBlocks(mapping);
     progress_.fused_frames = mapping.fused_frames();
     progress_.labels = mapping.has_labels();
@@ -169,7 +179,8 @@ void ScanStage::Replaced(const BlockMap& map, std::shared_ptr<const CubeScratch>
 
 void ScanStage::Touch(std::span<const BlockId> blocks) {
     for (const BlockId id : blocks)
-        if (static_cast<std::size_t>(id) < seen_revision_.size()) seen_revision_[static_cast<std::size_t>(id)] = kNever;
+        if (static_cast<std::size_t>(id) < seen_revision_.size())
+            seen_revision_[static_cast<std::size_t>(id)] = kNever;
 }
 
 bool ScanStage::Settle(const MappingStage& mapping, bool checkpoint) {
@@ -182,7 +193,8 @@ bool ScanStage::Settle(const MappingStage& mapping, bool checkpoint) {
 void ScanStage::Released(std::span<const BlockId> blocks) { Touch(blocks); }
 
 void ScanStage::Returned(const BlockMap& map, std::span<const BlockId> blocks) {
-    seen_revision_.resize(std::max(seen_revision_.size(), static_cast<std::size_t>(map.size())), kNever);
+    seen_revision_.resize(std::max(seen_revision_.size(), static_cast<std::size_t>(map.size())),
+                          kNever);
     for (const BlockId id : blocks) seen_revision_[static_cast<std::size_t>(id)] = map.revision(id);
 }
 

@@ -17,10 +17,14 @@ constexpr int kLeastViews = 12;
 constexpr std::int64_t kMostFrames = 100000;
 constexpr double kOtherCamera = 0.25;  // of the focal length: a scan of another camera than this
 
-bool IsRecording(const std::string& name) { return !name.starts_with("synthetic:") && !name.starts_with("openni2:") && !name.ends_with(".scan"); }
+bool IsRecording(const std::string& name) {
+    return !name.starts_with("synthetic:") && !name.starts_with("openni2:") &&
+           !name.ends_with(".scan");
+}
 
 // With `camera` in place of the one that is given with the recording.
-Result<std::unique_ptr<FrameSource>> OpenWith(const std::string& name, RunConfig config, const std::optional<PinholeCamera>& camera) {
+Result<std::unique_ptr<FrameSource>> OpenWith(const std::string& name, RunConfig config,
+                                              const std::optional<PinholeCamera>& camera) {
     if (camera) {
         config.source.camera = camera;
         config.openni.fx = camera->fx;
@@ -41,28 +45,36 @@ std::int64_t StrideOf(FrameSource& source, std::int64_t start) {
     Frame frame;
     for (int i = 0; i < kProbes; ++i) {
         if (source.Read(frame).status != ReadStatus::kOk) continue;
-        if (last_s && frame.stamp_s > *last_s) shortest_s = std::min(shortest_s, frame.stamp_s - *last_s);
+        if (last_s && frame.stamp_s > *last_s)
+            shortest_s = std::min(shortest_s, frame.stamp_s - *last_s);
         last_s = frame.stamp_s;
     }
-    return source.Seek(start) ? static_cast<std::int64_t>(std::clamp(std::round(kEvery_s / shortest_s), 1.0, kMost)) : 1;
+    return source.Seek(start) ? static_cast<std::int64_t>(
+                                    std::clamp(std::round(kEvery_s / shortest_s), 1.0, kMost))
+                              : 1;
 }
 
 // Part of a selection, in frames of the source; nothing where that is too little to see.
 std::optional<FrameSelection> PartToSee(FrameSource& source, const FrameSelection& selection) {
     const std::int64_t all = source.info().frame_count;
-    if (selection.start < 0 || selection.stride < 1 || (all >= 0 && selection.start >= all)) return std::nullopt;
+    if (selection.start < 0 || selection.stride < 1 || (all >= 0 && selection.start >= all))
+        return std::nullopt;
     std::int64_t frames = all < 0 ? -1 : all - selection.start;
     if (selection.count >= 0) {
-        const std::int64_t asked = selection.count > kMostFrames ? kMostFrames : selection.count * std::min(selection.stride, kMostFrames);
+        const std::int64_t asked = selection.count > kMostFrames
+                                       ? kMostFrames
+                                       : selection.count * std::min(selection.stride, kMostFrames);
         frames = frames < 0 ? asked : std::min(frames, asked);
     }
     if (frames >= 0 && frames < kLeastViews) return std::nullopt;
     const std::int64_t stride = StrideOf(source, selection.start);
-    return FrameSelection{selection.start, frames < 0 ? -1 : (frames + stride - 1) / stride, stride};
+    return FrameSelection{selection.start, frames < 0 ? -1 : (frames + stride - 1) / stride,
+                          stride};
 }
 
 // The source is used up. Nothing where it has too little to see.
-std::optional<CameraEstimate> EstimateFrom(std::unique_ptr<FrameSource> source, const FrameSelection& selection) {
+std::optional<CameraEstimate> EstimateFrom(std::unique_ptr<FrameSource> source,
+                                           const FrameSelection& selection) {
     const std::optional<FrameSelection> part = PartToSee(*source, selection);
     if (!part) return std::nullopt;
     const SourceInfo info = source->info();
@@ -93,25 +105,34 @@ std::optional<PinholeCamera> CameraOfScan(const std::string& path, const Pinhole
     return was;
 }
 
-std::string GivenBy(const std::string& name) { return name.ends_with(".oni") ? "the device" : "camera.yaml"; }
+std::string GivenBy(const std::string& name) {
+    return name.ends_with(".oni") ? "the device" : "camera.yaml";
+}
 
-void Describe(const SourceInfo& given, const std::optional<CameraReport>& report, std::vector<std::string>& messages) {
-    const std::string assumed = fmt::format("a field of view of 60 degrees is assumed, fx {:.1f}", given.camera.fx);
+void Describe(const SourceInfo& given, const std::optional<CameraReport>& report,
+              std::vector<std::string>& messages) {
+    const std::string assumed =
+        fmt::format("a field of view of 60 degrees is assumed, fx {:.1f}", given.camera.fx);
     if (!report) {
-        if (!given.camera_known) messages.push_back("no camera.yaml, and this recording does not show the focal length: " + assumed);
+        if (!given.camera_known)
+            messages.push_back(
+                "no camera.yaml, and this recording does not show the focal length: " + assumed);
         return;
     }
     const CameraEstimate& e = report->estimate;
     if (!given.camera_known)
-        messages.push_back(fmt::format("no camera.yaml: this recording says fx {:.1f} +- {:.1f}{}", e.found.fx, e.focal_sigma_px,
-                                       report->used ? ", which is used; put a camera.yaml there if you know better"
-                                                    : ", too little to go by: " + assumed));
+        messages.push_back(
+            fmt::format("no camera.yaml: this recording says fx {:.1f} +- {:.1f}{}", e.found.fx,
+                        e.focal_sigma_px,
+                        report->used ? ", which is used; put a camera.yaml there if you know better"
+                                     : ", too little to go by: " + assumed));
     else if (report->used)
         messages.push_back(EstimateText(e, GivenBy(given.name)) + ": that is used");
 }
 
 // Looks at the source and, where it shows another camera, once more through that one.
-Result<std::optional<PinholeCamera>> FindCamera(const RunRequest& request, const RunConfig& config, std::unique_ptr<FrameSource> source,
+Result<std::optional<PinholeCamera>> FindCamera(const RunRequest& request, const RunConfig& config,
+                                                std::unique_ptr<FrameSource> source,
                                                 std::optional<CameraReport>& report) {
     const SourceInfo given = source->info();
     std::optional<CameraEstimate> first = EstimateFrom(std::move(source), request.selection);
@@ -125,7 +146,8 @@ Result<std::optional<PinholeCamera>> FindCamera(const RunRequest& request, const
     if (!camera) return camera;
     Result<std::unique_ptr<FrameSource>> again = OpenWith(request.source, config, camera);
     if (!again.ok()) return again.status();
-    std::optional<CameraEstimate> second = EstimateFrom(std::move(again.value()), request.selection);
+    std::optional<CameraEstimate> second =
+        EstimateFrom(std::move(again.value()), request.selection);
     if (!second) return camera;
     second->given = given.camera;
     second->misfit_given = first->misfit_given;
@@ -147,10 +169,12 @@ Result<CheckedSource> OpenCheckedSource(const RunRequest& request, const RunConf
     if (request.resume) {
         camera = CameraOfScan(request.scan_file, given.camera);
         if (camera)
-            checked.messages.push_back(fmt::format("{} says fx {:.1f}; the scan was made with {:.1f}, which is kept",
-                                                   GivenBy(given.name), given.camera.fx, camera->fx));
+            checked.messages.push_back(
+                fmt::format("{} says fx {:.1f}; the scan was made with {:.1f}, which is kept",
+                            GivenBy(given.name), given.camera.fx, camera->fx));
     } else {
-        Result<std::optional<PinholeCamera>> found = FindCamera(request, config, std::move(opened.value()), checked.camera);
+        Result<std::optional<PinholeCamera>> found =
+            FindCamera(request, config, std::move(opened.value()), checked.camera);
         if (!found.ok()) return found.status();
         camera = found.value();
         Describe(given, checked.camera, checked.messages);

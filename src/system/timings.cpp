@@ -15,7 +15,8 @@ StageStatistics SummariseDurations(std::vector<double> durations_ms) {
     const std::size_t n = durations_ms.size();
     const auto rank = static_cast<std::size_t>(std::ceil(0.95 * static_cast<double>(n)));
     StageStatistics s;
-    s.mean_ms = std::accumulate(durations_ms.begin(), durations_ms.end(), 0.0) / static_cast<double>(n);
+    s.mean_ms =
+        std::accumulate(durations_ms.begin(), durations_ms.end(), 0.0) / static_cast<double>(n);
     s.median_ms = (durations_ms[(n - 1) / 2] + durations_ms[n / 2]) / 2;
     s.p95_ms = durations_ms[rank - 1];
     s.max_ms = durations_ms.back();

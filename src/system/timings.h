@@ -1,4 +1,5 @@
-// How long each stage of a run took, frame by frame, and what the process used. Plain values; owner thread only.
+// How long each stage of a run took, frame by frame, and what the process used. Plain values; owner
+// thread only.
 #pragma once
 
 #include <string>
@@ -28,13 +29,13 @@ class StageTimes {
 };
 
 struct ProcessUsage {
-    double cpu_s = 0;         // user and system time of all threads since the process began
-    double peak_rss_mb = 0;   // 2^20 bytes
+    double cpu_s = 0;        // user and system time of all threads since the process began
+    double peak_rss_mb = 0;  // 2^20 bytes
 };
 ProcessUsage MeasureProcess();
 
-// What was freed goes back to the system now, as far as the allocator can: before something large is made that need not stand
-// beside it. Costs some milliseconds. Thread-safe.
+// What was freed goes back to the system now, as far as the allocator can: before something large
+// is made that need not stand beside it. Costs some milliseconds. Thread-safe.
 void ReturnFreeMemory();
 
 }  // namespace tessera

@@ -26,10 +26,12 @@ const char* ToString(TrackingMethod method) {
 
 void TrackersConfig::Describe(ConfigParameters& p) {
     p.AddChoice("method", method, TrackingMethodNames(),
-                "sdf uses distances and intensities in the field ([B14]); sdf-geometric distances only ([B13]); icp "
+                "sdf uses distances and intensities in the field ([B14]); sdf-geometric distances "
+                "only ([B13]); icp "
                 "aligns with a predicted view ([D18]); icp-rgb with its colours, too");
     p.Add("even_within_m", even_within_m, {0.0, 1.0}, "m",
-          "while the last frame knew its pose to this, points nearer than the view's median depth weigh no more than points at it: "
+          "while the last frame knew its pose to this, points nearer than the view's median depth "
+          "weigh no more than points at it: "
           "what moves close by must not outweigh the room");
     p.Section("judge", [&](ConfigParameters& s) { judge.Describe(s); });
     p.Section("photometric", [&](ConfigParameters& s) { photometric.Describe(s); });
@@ -38,7 +40,11 @@ void TrackersConfig::Describe(ConfigParameters& p) {
 }
 
 Trackers::Trackers(const TrackersConfig& config, const PinholeCamera& camera, Device* device)
-    : config_(config), camera_(camera), device_(device), method_(config.method), model_(config.photometric) {}
+    : config_(config),
+      camera_(camera),
+      device_(device),
+      method_(config.method),
+      model_(config.photometric) {}
 
 bool Trackers::reads_map() const {
     const bool icp = method_ == TrackingMethod::kIcp || method_ == TrackingMethod::kIcpRgb;
@@ -64,12 +70,14 @@ std::unique_ptr<Tracker> Trackers::Make(TrackingMethod method) {
     const TrackJudge judge(config_.judge);
     const bool colour = method == TrackingMethod::kSdf || method == TrackingMethod::kIcpRgb;
     if (method == TrackingMethod::kSdf || method == TrackingMethod::kSdfGeometric)
-        return std::make_unique<SdfTracker>(config_.sdf, camera_, judge, model_, colour, VectorPath::kAuto,
+        return std::make_unique<SdfTracker>(config_.sdf, camera_, judge, model_, colour,
+                                            VectorPath::kAuto,
                                             device_ != nullptr ? &device_->sdf_sums() : nullptr);
     std::unique_ptr<ViewPredictor> predictor;  // none where a device casts the rays itself
     if (device_ == nullptr || config_.icp.prediction == IcpTracker::Prediction::kRaster)
         predictor = MakePredictor(config_.icp.prediction, note_);
-    return std::make_unique<IcpTracker>(config_.icp, camera_, judge, model_, colour, std::move(predictor), VectorPath::kAuto,
+    return std::make_unique<IcpTracker>(config_.icp, camera_, judge, model_, colour,
+                                        std::move(predictor), VectorPath::kAuto,
                                         device_ != nullptr ? &device_->icp_sums() : nullptr);
 }
 

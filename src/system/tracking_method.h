@@ -33,10 +33,12 @@ struct TrackersConfig {
     void Describe(ConfigParameters& parameters);
 };
 
-// The rasteriser where it is asked for and works here, else the ray caster; `note` says so in words if it steps in.
+// The rasteriser where it is asked for and works here, else the ray caster; `note` says so in words
+// if it steps in.
 std::unique_ptr<ViewPredictor> MakePredictor(IcpTracker::Prediction prediction, std::string& note);
 
-// All methods over one camera, switchable between two frames: what residuals teach is theirs together. Owner thread only.
+// All methods over one camera, switchable between two frames: what residuals teach is theirs
+// together. Owner thread only.
 class Trackers {
   public:
     // `device` outlives them; null: all on the processor.

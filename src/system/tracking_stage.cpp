@@ -32,7 +32,8 @@ double MedianDepth(const DepthImage& depth_m) {
 
 }  // namespace
 
-TrackingStage::TrackingStage(const PipelineConfig& config, const PinholeCamera& camera, Device* device)
+TrackingStage::TrackingStage(const PipelineConfig& config, const PinholeCamera& camera,
+                             Device* device)
     : config_(config),
       camera_(camera),
       motion_(config.motion),
@@ -42,8 +43,8 @@ TrackingStage::TrackingStage(const PipelineConfig& config, const PinholeCamera& 
       trackers_(config.trackers, camera, device),
       device_(device) {}
 
-void TrackingStage::Track(const Frame& frame, const BlockMap& map, const std::optional<Eigen::Isometry3d>& given,
-                          TrackedFrame& tracked) {
+void TrackingStage::Track(const Frame& frame, const BlockMap& map,
+                          const std::optional<Eigen::Isometry3d>& given, TrackedFrame& tracked) {
     PreparedFrame& prepared = tracked.prepared;
     FrameReport& report = tracked.report;
     report = {};
@@ -51,27 +52,31 @@ void TrackingStage::Track(const Frame& frame, const BlockMap& map, const std::op
     report.stamp_s = frame.stamp_s;
     report.method = trackers_.method();
 
-    // 1. Gate the depth, split the colour. What moved a moment ago does not say where the camera is.
+    // 1. Gate the depth, split the colour. What moved a moment ago does not say where the camera
+    // is.
     Stopwatch watch;
-    const std::shared_ptr<const MovingMask> expected = given ? nullptr : ExpectMoving(frame.stamp_s);
+    const std::shared_ptr<const MovingMask> expected =
+        given ? nullptr : ExpectMoving(frame.stamp_s);
     if (device_ != nullptr) {
         PrepareOnDevice(frame, expected.get(), prepared);
     } else {
         PrepareFrame(frame, config_.frame, prepared, expected.get());
     }
     report.prepare_ms = watch.LapMs();
-    report.valid_depth_fraction =
-        static_cast<double>(prepared.valid_depth_pixels) / static_cast<double>(frame.depth_m.size());
+    report.valid_depth_fraction = static_cast<double>(prepared.valid_depth_pixels) /
+                                  static_cast<double>(frame.depth_m.size());
 
     // 2. Where was the camera?
     motion_before_ = motion_;
     report.first = !motion_.last().has_value();
     if (prepared.valid_depth_pixels == 0) {
-        report.track.reason = prepared.measured_pixels > 0 ? "0 depth pixels in range: is depth_scale right?"
-                                                           : "0 depth pixels in the image";
+        report.track.reason = prepared.measured_pixels > 0
+                                  ? "0 depth pixels in range: is depth_scale right?"
+                                  : "0 depth pixels in the image";
     } else if (prepared.coherent_fraction < config_.frame.min_coherent_fraction) {
-        report.track.reason = fmt::format("the depth is noise: only {:.0f} % of neighbouring pixels agree",
-                                          100 * prepared.coherent_fraction);
+        report.track.reason =
+            fmt::format("the depth is noise: only {:.0f} % of neighbouring pixels agree",
+                        100 * prepared.coherent_fraction);
     } else if (given) {
         report.track.T_world_camera = *given;
         report.track.status = TrackStatus::kGood;
@@ -85,9 +90,10 @@ void TrackingStage::Track(const Frame& frame, const BlockMap& map, const std::op
     report.first = report.first && report.tracked();
     report.track_ms = watch.LapMs();
     if (report.tracked())
-        motion_.Add({frame.stamp_s, report.track.T_world_camera}, {.degenerate = report.track.degenerate,
-                                                                   .poor = report.track.status == TrackStatus::kPoor,
-                                                                   .uncertainty_m = report.track.uncertainty_m});
+        motion_.Add({frame.stamp_s, report.track.T_world_camera},
+                    {.degenerate = report.track.degenerate,
+                     .poor = report.track.status == TrackStatus::kPoor,
+                     .uncertainty_m = report.track.uncertainty_m});
 
     // 3. What moves is no part of the map.
     LeaveOutMoving(frame, map, expected != nullptr, tracked);
@@ -98,8 +104,10 @@ void TrackingStage::Track(const Frame& frame, const BlockMap& map, const std::op
     tracked.view = FusionView(report.track);
 }
 
-void TrackingStage::PrepareOnDevice(const Frame& frame, const MovingMask* moving, PreparedFrame& prepared) {
-    device_->Prepare(moving != nullptr ? WithoutMoving(*moving, frame) : frame, config_.frame, bring_images_, prepared);
+void TrackingStage::PrepareOnDevice(const Frame& frame, const MovingMask* moving,
+                                    PreparedFrame& prepared) {
+    device_->Prepare(moving != nullptr ? WithoutMoving(*moving, frame) : frame, config_.frame,
+                     bring_images_, prepared);
 }
 
 std::shared_ptr<const MovingMask> TrackingStage::ExpectMoving(double stamp_s) const {
@@ -107,29 +115,33 @@ std::shared_ptr<const MovingMask> TrackingStage::ExpectMoving(double stamp_s) co
     return moving_.Expect(stamp_s, motion_.Predict(stamp_s));
 }
 
-void TrackingStage::GuideMoving(const MovingHint& hint, const std::optional<Eigen::Isometry3d>& T_world_camera) {
+void TrackingStage::GuideMoving(const MovingHint& hint,
+                                const std::optional<Eigen::Isometry3d>& T_world_camera) {
     moving_.Guide(hint, static_cast<float>(config_.frame.disparity_offset_per_m), T_world_camera);
 }
 
-void TrackingStage::LeaveOutMoving(const Frame& frame, const BlockMap& map, bool hidden, TrackedFrame& tracked) {
+void TrackingStage::LeaveOutMoving(const Frame& frame, const BlockMap& map, bool hidden,
+                                   TrackedFrame& tracked) {
     ViewPredictor& predictor = device_ != nullptr ? device_->views() : caster_;
     const FrameReport& report = tracked.report;
     if (config_.moving.enabled && report.track.status == TrackStatus::kGood)
-        tracked.report.moving = moving_.Find({.depth_m = frame.depth_m,
-                                              .disparity_offset_per_m = static_cast<float>(config_.frame.disparity_offset_per_m),
-                                              .farthest_m = static_cast<float>(config_.frame.max_depth_m),
-                                              .stamp_s = frame.stamp_s,
-                                              .T_world_camera = report.track.T_world_camera},
-                                             map, predictor);
+        tracked.report.moving = moving_.Find(
+            {.depth_m = frame.depth_m,
+             .disparity_offset_per_m = static_cast<float>(config_.frame.disparity_offset_per_m),
+             .farthest_m = static_cast<float>(config_.frame.max_depth_m),
+             .stamp_s = frame.stamp_s,
+             .T_world_camera = report.track.T_world_camera},
+            map, predictor);
     const bool moves = report.moving && report.moving->moving_tiles > 0;
     const MovingMask* moving = moves ? report.moving.get() : nullptr;
     if ((moves || hidden) && device_ != nullptr) PrepareOnDevice(frame, moving, tracked.prepared);
-    if ((moves || hidden) && device_ == nullptr) PrepareDepthAgain(frame, config_.frame, tracked.prepared, moving);
+    if ((moves || hidden) && device_ == nullptr)
+        PrepareDepthAgain(frame, config_.frame, tracked.prepared, moving);
     if (report.moving) SetMoving(report.moving, tracked.prepared);
 }
 
-bool TrackingStage::TrackFrom(const Frame& frame, const BlockMap& map, const Eigen::Isometry3d& T_world_camera,
-                              TrackedFrame& tracked) {
+bool TrackingStage::TrackFrom(const Frame& frame, const BlockMap& map,
+                              const Eigen::Isometry3d& T_world_camera, TrackedFrame& tracked) {
     Stopwatch watch;
     TrackResult track = trackers_.Track({.frame = tracked.prepared,
                                          .map = map,
@@ -170,25 +182,27 @@ void TrackingStage::Move(const Eigen::Isometry3d& T_new_old) {
     moving_.Move(T_new_old);
 }
 
-TrackResult TrackingStage::TrackFrame(const Frame& frame, const PreparedFrame& prepared, const BlockMap& map) {
+TrackResult TrackingStage::TrackFrame(const Frame& frame, const PreparedFrame& prepared,
+                                      const BlockMap& map) {
     const Eigen::Isometry3d& T_world_last = motion_.last()->T_world_camera;
     const Eigen::Isometry3d T_world_expected = motion_.Predict(frame.stamp_s);
     const Eigen::Isometry3d T_world_aligned =
         T_world_last * aligner_.Align(prepared, T_world_last.inverse() * T_world_expected);
-    TrackResult track = trackers_.Track({.frame = prepared,
-                                         .map = map,
-                                         .T_world_camera_starts = {T_world_expected, T_world_aligned},
-                                         .T_world_camera_last = T_world_last,
-                                         // Nothing is a jump from a pose that may be wrong.
-                                         .since_last_s = motion_.doubt().poor ? 0 : motion_.SinceLast(frame.stamp_s),
-                                         .motion = ShutterOf(frame),
-                                         .nearest_m = NearestOfWeight(prepared)});
+    TrackResult track = trackers_.Track(
+        {.frame = prepared,
+         .map = map,
+         .T_world_camera_starts = {T_world_expected, T_world_aligned},
+         .T_world_camera_last = T_world_last,
+         // Nothing is a jump from a pose that may be wrong.
+         .since_last_s = motion_.doubt().poor ? 0 : motion_.SinceLast(frame.stamp_s),
+         .motion = ShutterOf(frame),
+         .nearest_m = NearestOfWeight(prepared)});
     aligner_.KeepNewest(track.status != TrackStatus::kLost);  // as motion_ does
     return track;
 }
 
-// Who stands near and starts to walk must not outweigh the room behind: the nearer half of the view weighs alike, unless the camera
-// is so ill known that it needs what is near.
+// Who stands near and starts to walk must not outweigh the room behind: the nearer half of the view
+// weighs alike, unless the camera is so ill known that it needs what is near.
 double TrackingStage::NearestOfWeight(const PreparedFrame& prepared) const {
     if (motion_.doubt().uncertainty_m > config_.trackers.even_within_m) return kNearestWeighed_m;
     return std::max(kNearestWeighed_m, MedianDepth(prepared.reduced.front().depth_m));
@@ -196,7 +210,8 @@ double TrackingStage::NearestOfWeight(const PreparedFrame& prepared) const {
 
 FrameMotion TrackingStage::ShutterOf(const Frame& frame) const {
     FrameMotion motion;
-    motion.colour_delay_s = config_.shutter.colour_delay ? frame.colour_stamp_s - frame.stamp_s : 0.0;
+    motion.colour_delay_s =
+        config_.shutter.colour_delay ? frame.colour_stamp_s - frame.stamp_s : 0.0;
     motion.depth_readout_s = config_.shutter.depth_readout_s;
     motion.colour_readout_s = config_.shutter.colour_readout_s;
     return motion;
@@ -229,7 +244,8 @@ void TrackingStage::SaveState(StateWriter& state) const {
 }
 
 bool TrackingStage::LoadState(StateReader& state) {
-    if (motion_.LoadState(state) && aligner_.LoadState(state) && trackers_.LoadState(state)) return true;
+    if (motion_.LoadState(state) && aligner_.LoadState(state) && trackers_.LoadState(state))
+        return true;
     Reset();
     return false;
 }

@@ -28,20 +28,24 @@ ViewedCubes::ViewedCubes(const PipelineConfig& config, const PinholeCamera& came
       margin_m_(MarginOf(config.map)),
       reach_m_(RangeOf(config, camera) + margin_m_) {}
 
-double ViewedCubes::Outside_m(const Eigen::Isometry3d& T_world_camera, const BlockCoord& cube) const {
+double ViewedCubes::Outside_m(const Eigen::Isometry3d& T_world_camera,
+                              const BlockCoord& cube) const {
     const Eigen::Vector3d camera = T_world_camera.translation();
     const Eigen::Vector3d low = Eigen::Vector3d(cube.x, cube.y, cube.z) * cube_m_;
     const Eigen::Vector3d high = low.array() + cube_m_;
     const double away_m = (camera - camera.cwiseMax(low).cwiseMin(high)).norm();
-    const double ahead_m = T_world_camera.linear().col(2).dot(0.5 * (low + high) - camera) + 0.866 * cube_m_;
+    const double ahead_m =
+        T_world_camera.linear().col(2).dot(0.5 * (low + high) - camera) + 0.866 * cube_m_;
     return std::max(away_m - reach_m_, -ahead_m - margin_m_);
 }
 
-std::pair<BlockCoord, BlockCoord> ViewedCubes::Around(const Eigen::Isometry3d& T_world_camera, double further_m) const {
+std::pair<BlockCoord, BlockCoord> ViewedCubes::Around(const Eigen::Isometry3d& T_world_camera,
+                                                      double further_m) const {
     constexpr double kLimit = kBlockLimit / kCubeBlocks;
     const Eigen::Array3d camera = T_world_camera.translation();
     const auto cube_of = [&](double offset_m) -> BlockCoord {
-        const Eigen::Array3i cube = ((camera + offset_m) / cube_m_).floor().max(-kLimit).min(kLimit - 1).cast<int>();
+        const Eigen::Array3i cube =
+            ((camera + offset_m) / cube_m_).floor().max(-kLimit).min(kLimit - 1).cast<int>();
         return {cube.x(), cube.y(), cube.z()};
     };
     return {cube_of(-reach_m_ - further_m), cube_of(reach_m_ + further_m)};
@@ -65,7 +69,8 @@ std::vector<ResidentCubes::Cube> ResidentCubes::All() const {
     return cubes;
 }
 
-std::vector<ResidentCubes::Cube> ResidentCubes::Farthest(const ViewedCubes& viewed, const Eigen::Isometry3d& T_world_camera) const {
+std::vector<ResidentCubes::Cube> ResidentCubes::Farthest(
+    const ViewedCubes& viewed, const Eigen::Isometry3d& T_world_camera) const {
     std::vector<Cube> cubes = All();
     for (Cube& cube : cubes) cube.outside_m = viewed.Outside_m(T_world_camera, cube.cube);
     std::erase_if(cubes, [](const Cube& cube) { return cube.outside_m <= kKeepAround_m; });

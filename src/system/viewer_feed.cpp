@@ -24,7 +24,8 @@ double ViewerFeed::SendMesh(MappingStage& mapping) {
     return watch.LapMs();
 }
 
-// A person needs them twice a second at most; by the frames' stamps, so that lockstep sends the same on every run.
+// A person needs them twice a second at most; by the frames' stamps, so that lockstep sends the
+// same on every run.
 void ViewerFeed::SendObjects(const MappingStage& mapping) {
     constexpr double kPeriod_s = 0.5;
     if (mapping.labels_revision() == objects_revision_ || !viewer_->objects.empty()) return;
@@ -34,7 +35,8 @@ void ViewerFeed::SendObjects(const MappingStage& mapping) {
     objects_stamp_s_ = stamp_s_;
 }
 
-void ViewerFeed::SendImages(const Frame& frame, const FrameReport& report, const MappingStage& mapping) {
+void ViewerFeed::SendImages(const Frame& frame, const FrameReport& report,
+                            const MappingStage& mapping) {
     if (!viewer_->images.empty()) return;
     ImageUpdate images;
     images.frame = std::make_shared<Frame>(frame);

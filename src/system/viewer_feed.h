@@ -1,5 +1,5 @@
-// Feeds the window from the thread that owns the map: meshes, objects and pictures, as fast as the window takes them and
-// no faster.
+// Feeds the window from the thread that owns the map: meshes, objects and pictures, as fast as the
+// window takes them and no faster.
 #pragma once
 
 #include "system/mapping_stage.h"
@@ -28,8 +28,8 @@ class ViewerFeed {
     ViewerLink* viewer_;
     int mesh_blocks_;
     bool show_prediction_ = true;
-    std::uint64_t objects_revision_ = 0;  // of the labels, when objects were last sent
-    double stamp_s_ = 0;                  // of the last frame
+    std::uint64_t objects_revision_ = 0;     // of the labels, when objects were last sent
+    double stamp_s_ = 0;                     // of the last frame
     std::optional<double> objects_stamp_s_;  // when objects were last sent
 };
 

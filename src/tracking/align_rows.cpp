@@ -8,7 +8,9 @@ namespace tessera::TESSERA_VECTOR_NAMESPACE {
 
 void SumAlignedPoints(const AlignArguments& a, int first, int last, double* sums) {
     static_assert(kPointPadding % VectorLanes::kCount == 0);
-    const auto add = [&](int i, VectorLanes::Real* lanes) { AlignKernels<VectorLanes>::AddPoints(a, i, lanes); };
+    const auto add = [&](int i, VectorLanes::Real* lanes) {
+        AlignKernels<VectorLanes>::AddPoints(a, i, lanes);
+    };
     AddTiles<VectorLanes, SumLayout::kCount>(first, last, add, sums);
 }
 

@@ -1,5 +1,5 @@
-// The hot loop of the prealignment behind plain pointers: its sums over a run of points. Compiled twice (portable, AVX2);
-// image_aligner.cpp picks. No Eigen here.
+// The hot loop of the prealignment behind plain pointers: its sums over a run of points. Compiled
+// twice (portable, AVX2); image_aligner.cpp picks. No Eigen here.
 #pragma once
 
 #include "tracking/align_arguments.h"

@@ -1,5 +1,5 @@
-// What follows once a method has found a pose, the same for every method: how well the frame fits, what it knows of its pose, and
-// what it teaches.
+// What follows once a method has found a pose, the same for every method: how well the frame fits,
+// what it knows of its pose, and what it teaches.
 #pragma once
 
 #include <functional>
@@ -9,7 +9,8 @@
 
 namespace tessera {
 
-// As the sums of the finest level had it last. The local coordinates are those of the method's increments.
+// As the sums of the finest level had it last. The local coordinates are those of the method's
+// increments.
 struct FoundPose {
     Eigen::Isometry3d T_world_local, T_local_camera;
     double scene_depth_m = 1;
@@ -17,14 +18,15 @@ struct FoundPose {
     double alpha = 0, gain = 1, offset = 0;
     int iterations = 0;
     PoseSums sums;
-    SolverOptions options;  // of the last step
+    SolverOptions options;    // of the last step
     std::int64_t points = 0;  // with depth
     bool valid = false;       // false: there is no such pose
 };
 
-// `residuals`: of the finest points (MakeResidualArguments). `sum`: SumResiduals, or a device that has them. Owner thread only.
+// `residuals`: of the finest points (MakeResidualArguments). `sum`: SumResiduals, or a device that
+// has them. Owner thread only.
 TrackResult Conclude(const TrackInput& input, const FoundPose& found, ResidualArguments residuals,
-                     const std::function<ResidualSums(const ResidualArguments&)>& sum, double distance_scale_m, const TrackJudge& judge,
-                     ResidualModel& model);
+                     const std::function<ResidualSums(const ResidualArguments&)>& sum,
+                     double distance_scale_m, const TrackJudge& judge, ResidualModel& model);
 
 }  // namespace tessera

@@ -12,15 +12,22 @@ namespace tessera {
 namespace {
 
 // One of the frame's images, which may be on a device only.
-PinholeImage WithCamera(const Image<float>& image, const PreparedFrame& frame, const PinholeCamera& camera) {
-    return {image.data(), frame.width, frame.height, static_cast<float>(camera.fx), static_cast<float>(camera.fy),
-            static_cast<float>(camera.cx), static_cast<float>(camera.cy)};
+PinholeImage WithCamera(const Image<float>& image, const PreparedFrame& frame,
+                        const PinholeCamera& camera) {
+    return {image.data(),
+            frame.width,
+            frame.height,
+            static_cast<float>(camera.fx),
+            static_cast<float>(camera.fy),
+            static_cast<float>(camera.cx),
+            static_cast<float>(camera.cy)};
 }
 
 }  // namespace
 
-PointArguments MakePointArguments(const PreparedFrame& frame, const PinholeCamera& camera, const FrameMotion& motion, int step,
-                                  const DepthWeight& weight, bool intensities) {
+PointArguments MakePointArguments(const PreparedFrame& frame, const PinholeCamera& camera,
+                                  const FrameMotion& motion, int step, const DepthWeight& weight,
+                                  bool intensities) {
     const auto sampled = [step](int pixels) { return (pixels + step - 1 - step / 2) / step; };
     PointArguments a{};
     a.depth = WithCamera(frame.depth_m, frame, camera);
@@ -47,14 +54,16 @@ void FramePoints::Lay(const PointArguments& a, std::int64_t valid) {
     width_ = a.width;
     height_ = a.height;
     valid_ = valid;
-    for (auto* values : {&x, &y, &z, &weight, &intensity}) values->resize(static_cast<std::size_t>(count()));
+    for (auto* values : {&x, &y, &z, &weight, &intensity})
+        values->resize(static_cast<std::size_t>(count()));
 }
 
-void FramePoints::Build(const PreparedFrame& frame, const PinholeCamera& camera, const FrameMotion& motion, int step,
-                      const DepthWeight& depth_weight) {
+void FramePoints::Build(const PreparedFrame& frame, const PinholeCamera& camera,
+                        const FrameMotion& motion, int step, const DepthWeight& depth_weight) {
     const PointArguments a = MakePointArguments(frame, camera, motion, step, depth_weight, false);
     Lay(a, 0);
-    for (auto* values : {&x, &y, &z, &weight}) values->assign(static_cast<std::size_t>(count()), 0.0f);
+    for (auto* values : {&x, &y, &z, &weight})
+        values->assign(static_cast<std::size_t>(count()), 0.0f);
     intensity.assign(static_cast<std::size_t>(count()), -1.0f);
     std::vector<std::int64_t> valid(static_cast<std::size_t>(height_), 0);
     tbb::parallel_for(0, height_, [&](int row) {
@@ -75,8 +84,10 @@ void FramePoints::Build(const PreparedFrame& frame, const PinholeCamera& camera,
     valid_ = std::accumulate(valid.begin(), valid.end(), std::int64_t{0});
 }
 
-void FramePoints::EstimateNormals(const PreparedFrame& frame, const PinholeCamera& camera, int radius_px) {
-    for (auto* values : {&normal_x, &normal_y, &normal_z}) values->assign(static_cast<std::size_t>(count()), 0.0f);
+void FramePoints::EstimateNormals(const PreparedFrame& frame, const PinholeCamera& camera,
+                                  int radius_px) {
+    for (auto* values : {&normal_x, &normal_y, &normal_z})
+        values->assign(static_cast<std::size_t>(count()), 0.0f);
     const PinholeImage depth = WithCamera(frame.depth_m, frame, camera);
     std::vector<std::int64_t> dropped(static_cast<std::size_t>(height_), 0);
     tbb::parallel_for(0, height_, [&](int row) {
@@ -99,14 +110,16 @@ void FramePoints::EstimateNormals(const PreparedFrame& frame, const PinholeCamer
 }
 
 void FramePoints::SampleIntensity(const PreparedFrame& frame, const PinholeCamera& camera,
-                                const FrameMotion& motion) {
+                                  const FrameMotion& motion) {
     if (!frame.has_colour) return;
     const PointArguments a = MakePointArguments(frame, camera, motion, step_, {}, true);
     tbb::parallel_for(0, height_, [&](int row) {
         const PointRow r = RowOfPoints(a, row);
         std::size_t i = static_cast<std::size_t>(row) * static_cast<std::size_t>(width_);
         for (int column = 0; column < width_; ++column, ++i)
-            if (weight[i] > 0) intensity[i] = IntensityOfPoint(a, r, column * step_ + step_ / 2, {x[i], y[i], z[i]});
+            if (weight[i] > 0)
+                intensity[i] =
+                    IntensityOfPoint(a, r, column * step_ + step_ / 2, {x[i], y[i], z[i]});
     });
 }
 

@@ -1,6 +1,6 @@
-// The points of one depth image, every `step`-th pixel in both directions, as the hot loop reads them: one slot per
-// sampled pixel, weight 0 where there is no depth. Slots are laid out row by row, so that neighbours in the array are
-// neighbours in the image.
+// The points of one depth image, every `step`-th pixel in both directions, as the hot loop reads
+// them: one slot per sampled pixel, weight 0 where there is no depth. Slots are laid out row by
+// row, so that neighbours in the array are neighbours in the image.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -18,24 +18,29 @@ struct DepthWeight {
     double exponent = 0, nearest_m = kNearestWeighed_m;
 };
 
-// Every step-th pixel's; intensities only if they are to be read and the frame has any. The images stay the frame's.
-PointArguments MakePointArguments(const PreparedFrame& frame, const PinholeCamera& camera, const FrameMotion& motion, int step,
-                                  const DepthWeight& weight, bool intensities);
+// Every step-th pixel's; intensities only if they are to be read and the frame has any. The images
+// stay the frame's.
+PointArguments MakePointArguments(const PreparedFrame& frame, const PinholeCamera& camera,
+                                  const FrameMotion& motion, int step, const DepthWeight& weight,
+                                  bool intensities);
 
 class FramePoints {
   public:
     // Points in the frame of the camera at the frame's instant, metres.
-    void Build(const PreparedFrame& frame, const PinholeCamera& camera, const FrameMotion& motion, int step,
-               const DepthWeight& depth_weight);
-    // Reads the intensity of each point where the colour camera saw it at its own time; -1 where it saw nothing.
-    void SampleIntensity(const PreparedFrame& frame, const PinholeCamera& camera, const FrameMotion& motion);
+    void Build(const PreparedFrame& frame, const PinholeCamera& camera, const FrameMotion& motion,
+               int step, const DepthWeight& depth_weight);
+    // Reads the intensity of each point where the colour camera saw it at its own time; -1 where it
+    // saw nothing.
+    void SampleIntensity(const PreparedFrame& frame, const PinholeCamera& camera,
+                         const FrameMotion& motion);
 
-    // The slots alone, for whoever fills them elsewhere; `valid` of them have a point. What the arrays hold is unspecified.
+    // The slots alone, for whoever fills them elsewhere; `valid` of them have a point. What the
+    // arrays hold is unspecified.
     void Lay(const PointArguments& arguments, std::int64_t valid);
 
-    // Normals of the measured surface in the camera frame, unit, towards the camera, from differences across radius_px
-    // pixels to each side ([D18] eq. 15 has radius 1, one-sided). A point without one, at a depth edge or a hole, loses
-    // its weight.
+    // Normals of the measured surface in the camera frame, unit, towards the camera, from
+    // differences across radius_px pixels to each side ([D18] eq. 15 has radius 1, one-sided). A
+    // point without one, at a depth edge or a hole, loses its weight.
     void EstimateNormals(const PreparedFrame& frame, const PinholeCamera& camera, int radius_px);
 
     int width() const { return width_; }    // slots per row, a multiple of kPointPadding

@@ -1,6 +1,6 @@
-// The ICP tracker's sums: one point's share of [D18] eq. 17 and of its photometric companion. The formulas beyond those
-// of normal_equations.h are templates on the number type; IcpKernels puts them together for lanes of points
-// (scalar_lanes.h), for the CPU's vectors and CUDA alike.
+// The ICP tracker's sums: one point's share of [D18] eq. 17 and of its photometric companion. The
+// formulas beyond those of normal_equations.h are templates on the number type; IcpKernels puts
+// them together for lanes of points (scalar_lanes.h), for the CPU's vectors and CUDA alike.
 #pragma once
 
 #include <limits>
@@ -28,7 +28,8 @@ class IcpKernels {
     using Int = typename V::Int;
     using Mask = typename V::Mask;
 
-    // Adds what points [i, i + V::kCount) contribute to sums[], laid out as SumLayout, and writes their residuals.
+    // Adds what points [i, i + V::kCount) contribute to sums[], laid out as SumLayout, and writes
+    // their residuals.
     TESSERA_HD_MEMBER static void AddPoints(const IcpArguments& a, int i, Real* sums) {
         const Real weight = V::Load(a.weight + i);
         const Projected<V> q = Project<V>(a, i);
@@ -39,15 +40,20 @@ class IcpKernels {
   private:
     using L = SumLayout;
 
-    TESSERA_HD_MEMBER static void Add(Real* sums, int at, const Real& v) { sums[at] = sums[at] + v; }
+    TESSERA_HD_MEMBER static void Add(Real* sums, int at, const Real& v) {
+        sums[at] = sums[at] + v;
+    }
 
-    TESSERA_HD_MEMBER static Real Masked(const Mask& m, const Real& v) { return V::Select(m, v, Real(0.0f)); }
+    TESSERA_HD_MEMBER static Real Masked(const Mask& m, const Real& v) {
+        return V::Select(m, v, Real(0.0f));
+    }
 
     // Stores the residuals and adds their energy and the energy before where both exist.
-    TESSERA_HD_MEMBER static void AddEnergy(float* target, const float* before, int i, const Mask& valid,
-                                            const Real& residual, const Real& scale, const Real& weight,
-                                            Real* sums) {
-        V::Store(V::Select(valid, residual, Real(std::numeric_limits<float>::quiet_NaN())), target + i);
+    TESSERA_HD_MEMBER static void AddEnergy(float* target, const float* before, int i,
+                                            const Mask& valid, const Real& residual,
+                                            const Real& scale, const Real& weight, Real* sums) {
+        V::Store(V::Select(valid, residual, Real(std::numeric_limits<float>::quiet_NaN())),
+                 target + i);
         const Real cost = weight * HuberCost(residual, scale);
         if (before == nullptr) return Add(sums, L::kEnergy, Masked(valid, cost));
         const Real old = V::Load(before + i);
@@ -56,23 +62,28 @@ class IcpKernels {
         Add(sums, L::kEnergyBefore, Masked(both, weight * HuberCost(old, scale)));
     }
 
-    // [D18] eq. 17-18: the residual to the tangent plane of the pixel's surface. Returns where there is a partner.
-    TESSERA_HD_MEMBER static Mask AddDistance(const IcpArguments& a, int i, const Projected<V>& q, const Real& weight,
-                                              Real* sums) {
+    // [D18] eq. 17-18: the residual to the tangent plane of the pixel's surface. Returns where
+    // there is a partner.
+    TESSERA_HD_MEMBER static Mask AddDistance(const IcpArguments& a, int i, const Projected<V>& q,
+                                              const Real& weight, Real* sums) {
         const Real u = V::Floor(q.u + Real(0.5f)), v = V::Floor(q.v + Real(0.5f));
         const Int pixel = V::ToInt(v) * Int(a.width) + V::ToInt(u);
         const Real depth = V::Gather(a.depth, pixel);
         const Int at = pixel + pixel + pixel;
-        const Real n[3] = {V::Gather(a.normal, at), V::Gather(a.normal + 1, at), V::Gather(a.normal + 2, at)};
+        const Real n[3] = {V::Gather(a.normal, at), V::Gather(a.normal + 1, at),
+                           V::Gather(a.normal + 2, at)};
         const Real d[3] = {q.p[0] - (u - Real(a.cx)) * Real(1.0f / a.fx) * depth,
                            q.p[1] - (v - Real(a.cy)) * Real(1.0f / a.fy) * depth, q.p[2] - depth};
         Real normal[3];
-        Rotate<V>(a.rotation, V::Load(a.normal_x + i), V::Load(a.normal_y + i), V::Load(a.normal_z + i), normal);
+        Rotate<V>(a.rotation, V::Load(a.normal_x + i), V::Load(a.normal_y + i),
+                  V::Load(a.normal_z + i), normal);
         const Mask counts = weight > Real(0.0f);
         const Mask known = counts && q.inside && (depth > Real(0.0f));
-        const Mask matched = known &&
-                             (d[0] * d[0] + d[1] * d[1] + d[2] * d[2] < Real(a.distance_gate_m * a.distance_gate_m)) &&
-                             (normal[0] * n[0] + normal[1] * n[1] + normal[2] * n[2] > Real(a.normal_gate_cosine));
+        const Mask matched =
+            known &&
+            (d[0] * d[0] + d[1] * d[1] + d[2] * d[2] <
+             Real(a.distance_gate_m * a.distance_gate_m)) &&
+            (normal[0] * n[0] + normal[1] * n[1] + normal[2] * n[2] > Real(a.normal_gate_cosine));
         const Real residual = Masked(matched, d[0] * n[0] + d[1] * n[1] + d[2] * n[2]);
         const Real scale(a.distance_scale_m);
         const Real w = Masked(matched, weight * HuberWeight(residual, scale));
@@ -83,14 +94,17 @@ class IcpKernels {
         Add(sums, L::kDistanceError, w * residual * residual);
         Add(sums, L::kDistanceWeight, w);
         Add(sums, L::kKnown, Masked(known, Real(1.0f)));
-        Add(sums, L::kInliers, Masked(matched && (V::Abs(residual) < Real(a.inlier_distance_m)), Real(1.0f)));
-        AddEnergy(a.distance_residual, a.distance_before, i, matched, residual, scale, weight, sums);
+        Add(sums, L::kInliers,
+            Masked(matched && (V::Abs(residual) < Real(a.inlier_distance_m)), Real(1.0f)));
+        AddEnergy(a.distance_residual, a.distance_before, i, matched, residual, scale, weight,
+                  sums);
         return matched;
     }
 
     // The same pixel's colour: r = predicted(projection of p) - (gain * image + offset).
-    TESSERA_HD_MEMBER static void AddIntensity(const IcpArguments& a, int i, const Projected<V>& q, const Mask& matched,
-                                               const Real& weight, Real* sums) {
+    TESSERA_HD_MEMBER static void AddIntensity(const IcpArguments& a, int i, const Projected<V>& q,
+                                               const Mask& matched, const Real& weight,
+                                               Real* sums) {
         const ViewSample<V> s = SampleAt<V>(a.intensity, a.width, a.height, q);
         const Real image = V::Load(a.intensity_of_point + i);
         const Mask counts = (weight > Real(0.0f)) && (image >= Real(0.0f));
@@ -107,7 +121,8 @@ class IcpKernels {
         Add(sums, L::kIntensityError, w * residual * residual);
         Add(sums, L::kIntensityWeight, w);
         Add(sums, L::kColoured, Masked(valid, Real(1.0f)));
-        AddEnergy(a.intensity_residual, a.intensity_before, i, valid, residual, scale, weight * Real(a.alpha), sums);
+        AddEnergy(a.intensity_residual, a.intensity_before, i, valid, residual, scale,
+                  weight * Real(a.alpha), sums);
     }
 };
 

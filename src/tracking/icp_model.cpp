@@ -8,8 +8,10 @@
 namespace tessera {
 namespace {
 
-ModelImages ImagesOf(const DepthImage& depth_m, const Image<Eigen::Vector3f>& normal, const Image<float>& intensity) {
-    return {depth_m.data(), normal.data()->data(), intensity.data(), depth_m.width(), depth_m.height()};
+ModelImages ImagesOf(const DepthImage& depth_m, const Image<Eigen::Vector3f>& normal,
+                     const Image<float>& intensity) {
+    return {depth_m.data(), normal.data()->data(), intensity.data(), depth_m.width(),
+            depth_m.height()};
 }
 
 void TakeView(const PredictedView& view, float jump_m, IcpModelLevel& level) {
@@ -35,7 +37,8 @@ void Halve(const IcpModelLevel& fine, float jump_m, IcpModelLevel& coarse) {
         for (int x = 0; x < c.width; ++x) {
             const ModelPixel pixel = images.Halved(x, y, jump_m);
             coarse.depth_m(x, y) = pixel.depth_m;
-            coarse.normal_camera(x, y) = Eigen::Vector3f(pixel.normal[0], pixel.normal[1], pixel.normal[2]);
+            coarse.normal_camera(x, y) =
+                Eigen::Vector3f(pixel.normal[0], pixel.normal[1], pixel.normal[2]);
             coarse.intensity(x, y) = pixel.intensity;
         }
     });
@@ -44,10 +47,12 @@ void Halve(const IcpModelLevel& fine, float jump_m, IcpModelLevel& coarse) {
 }  // namespace
 
 PinholeCamera HalfOf(const PinholeCamera& fine) {
-    return {fine.width / 2, fine.height / 2, fine.fx / 2, fine.fy / 2, (fine.cx - 0.5) / 2, (fine.cy - 0.5) / 2};
+    return {fine.width / 2, fine.height / 2,     fine.fx / 2,
+            fine.fy / 2,    (fine.cx - 0.5) / 2, (fine.cy - 0.5) / 2};
 }
 
-void BuildIcpModel(const PredictedView& view, int count, float jump_m, std::vector<IcpModelLevel>& levels) {
+void BuildIcpModel(const PredictedView& view, int count, float jump_m,
+                   std::vector<IcpModelLevel>& levels) {
     levels.resize(static_cast<std::size_t>(count));
     TakeView(view, jump_m, levels[0]);
     for (std::size_t i = 1; i < levels.size(); ++i) Halve(levels[i - 1], jump_m, levels[i]);

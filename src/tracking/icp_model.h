@@ -17,12 +17,15 @@ struct IcpModelLevel {
     Image<float> intensity;  // -1 where there is none, and beside jumps of the depth
 };
 
-// The camera of an image of half the size: its pixel i lies between the pixels 2 i and 2 i + 1 of the fine one.
+// The camera of an image of half the size: its pixel i lies between the pixels 2 i and 2 i + 1 of
+// the fine one.
 PinholeCamera HalfOf(const PinholeCamera& fine);
 
-// Level 0 is the view; each further one holds means of two by two pixels where these are one surface. Neighbours whose
-// depths differ by more than jump_m are not. Storage in `levels` is used again.
-void BuildIcpModel(const PredictedView& view, int count, float jump_m, std::vector<IcpModelLevel>& levels);
+// Level 0 is the view; each further one holds means of two by two pixels where these are one
+// surface. Neighbours whose depths differ by more than jump_m are not. Storage in `levels` is used
+// again.
+void BuildIcpModel(const PredictedView& view, int count, float jump_m,
+                   std::vector<IcpModelLevel>& levels);
 
 // As the sums take it; its images are empty where a device has them.
 void SetModel(const IcpModelLevel& model, IcpArguments& arguments);

@@ -29,8 +29,10 @@ class IcpSums {
     virtual void SetModel(const std::vector<IcpModelLevel>& levels) = 0;
     // The points that the next calls of Sum go over, and the level of the model that belongs to
     // them: those of MakePointArguments' `points` of this frame with normals, in FramePoints' slots
-    // and with its bytes. How many have a weight; 0 also where there is no room. Nothing is kept yet.
-    virtual std::int64_t SetPoints(const PreparedFrame& frame, const PointArguments& points, int level) = 0;
+    // and with its bytes. How many have a weight; 0 also where there is no room. Nothing is kept
+    // yet.
+    virtual std::int64_t SetPoints(const PreparedFrame& frame, const PointArguments& points,
+                                   int level) = 0;
     // What SumIcpPoints gives over all of them. Of the arguments no arrays are read; the energies
     // are compared with the kept residuals where distance_before is not null.
     virtual PoseSums Sum(const IcpArguments& arguments) = 0;

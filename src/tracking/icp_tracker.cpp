@@ -9,7 +9,8 @@
 namespace tessera {
 namespace {
 
-constexpr double kLeastFall = 1e-6;  // of the energy, as predicted: less is converged, and whether it falls is left to rounding
+// Of the energy, as predicted: less is converged, and whether it falls is left to rounding.
+constexpr double kLeastFall = 1e-6;
 constexpr double kAnotherView_m = 0.15, kAnotherView_rad = 0.15;
 constexpr double kIntensityGateScales = 5.0;
 
@@ -31,10 +32,16 @@ struct IcpTracker::State {
 };
 
 IcpTracker::IcpTracker(const Config& config, const PinholeCamera& camera, const TrackJudge& judge,
-                       ResidualModel& model, bool use_colour, std::unique_ptr<ViewPredictor> predictor,
-                       VectorPath path, IcpSums* device)
-    : config_(config), camera_(camera), judge_(judge), residual_model_(model), use_colour_(use_colour),
-      predictor_(std::move(predictor)), use_avx2_(path == VectorPath::kAvx2 || (path == VectorPath::kAuto && CpuHasAvx2())), device_(device),
+                       ResidualModel& model, bool use_colour,
+                       std::unique_ptr<ViewPredictor> predictor, VectorPath path, IcpSums* device)
+    : config_(config),
+      camera_(camera),
+      judge_(judge),
+      residual_model_(model),
+      use_colour_(use_colour),
+      predictor_(std::move(predictor)),
+      use_avx2_(path == VectorPath::kAvx2 || (path == VectorPath::kAuto && CpuHasAvx2())),
+      device_(device),
       points_(static_cast<std::size_t>(config.levels)) {}
 
 TrackResult IcpTracker::Track(const TrackInput& input) {
@@ -51,29 +58,34 @@ TrackResult IcpTracker::Track(const TrackInput& input) {
         PrepareLevel(input, level, state);
         if (!state.failed) RunLevel(level, state);
     }
-    return Conclude(input,
-                    {.T_world_local = view_.T_world_camera,
-                     .T_local_camera = state.T_view_camera,
-                     .scene_depth_m = state.scene_depth_m,
-                     .motion = state.motion,
-                     .alpha = state.alpha,
-                     .gain = state.gain,
-                     .offset = state.offset,
-                     .iterations = state.iterations,
-                     .sums = state.sums,
-                     .options = state.options,
-                     .points = points_[0].valid(),
-                     .valid = state.step.valid},
-                    MakeResidualArguments(input.frame, camera_, points_[0], residuals_),
-                    [this](const ResidualArguments& a) { return device_ != nullptr ? device_->SumResiduals(a) : SumResiduals(a); },
-                    config_.distance_scale_m, judge_, residual_model_);
+    return Conclude(
+        input,
+        {.T_world_local = view_.T_world_camera,
+         .T_local_camera = state.T_view_camera,
+         .scene_depth_m = state.scene_depth_m,
+         .motion = state.motion,
+         .alpha = state.alpha,
+         .gain = state.gain,
+         .offset = state.offset,
+         .iterations = state.iterations,
+         .sums = state.sums,
+         .options = state.options,
+         .points = points_[0].valid(),
+         .valid = state.step.valid},
+        MakeResidualArguments(input.frame, camera_, points_[0], residuals_),
+        [this](const ResidualArguments& a) {
+            return device_ != nullptr ? device_->SumResiduals(a) : SumResiduals(a);
+        },
+        config_.distance_scale_m, judge_, residual_model_);
 }
 
 // The view that the frame is aligned with. The camera's pose is sought in its frame.
-void IcpTracker::PredictAt(const TrackInput& input, const Eigen::Isometry3d& T_world_view, State& state) {
+void IcpTracker::PredictAt(const TrackInput& input, const Eigen::Isometry3d& T_world_view,
+                           State& state) {
     constexpr float kNear_m = 0.1f, kMargin_m = 0.5f;
     const float near_m = std::max(kNear_m, 0.7f * input.frame.nearest_m - kMargin_m);
-    const float far_m = 1.2f * input.frame.farthest_m + kMargin_m, jump_m = static_cast<float>(config_.distance_gate_m);
+    const float far_m = 1.2f * input.frame.farthest_m + kMargin_m,
+                jump_m = static_cast<float>(config_.distance_gate_m);
     const PinholeCamera camera = camera_.Every(config_.finest_step_px);
     state.T_view_camera.setIdentity();
     if (predictor_ != nullptr) {
@@ -85,12 +97,14 @@ void IcpTracker::PredictAt(const TrackInput& input, const Eigen::Isometry3d& T_w
     view_.camera = camera;
     view_.T_world_camera = Normalised(T_world_view);
     model_.resize(points_.size());
-    for (std::size_t i = 0; i < model_.size(); ++i) model_[i].camera = i == 0 ? camera : HalfOf(model_[i - 1].camera);
-    device_->Predict(input.map, camera, view_.T_world_camera, near_m, far_m, config_.levels, jump_m);
+    for (std::size_t i = 0; i < model_.size(); ++i)
+        model_[i].camera = i == 0 ? camera : HalfOf(model_[i - 1].camera);
+    device_->Predict(input.map, camera, view_.T_world_camera, near_m, far_m, config_.levels,
+                     jump_m);
 }
 
-// The start that fits best on the coarsest level. A view from elsewhere would show another part of the map, so
-// it is predicted again where the choice lies far from the first.
+// The start that fits best on the coarsest level. A view from elsewhere would show another part of
+// the map, so it is predicted again where the choice lies far from the first.
 void IcpTracker::ChooseStart(const TrackInput& input, State& state) {
     const auto& starts = input.T_world_camera_starts;
     if (starts.size() < 2) return;
@@ -103,8 +117,9 @@ void IcpTracker::ChooseStart(const TrackInput& input, State& state) {
     for (const Eigen::Isometry3d& T_world_camera : starts) {
         state.T_view_camera = Normalised(T_view_world * T_world_camera);
         const PoseSums sums = SumAt(points, Compare::kWithNothing, state);
-        const double misfit = Misfit(sums, sums[SumLayout::kInliers], static_cast<double>(points.valid()),
-                                     config_.distance_scale_m, state.alpha);
+        const double misfit =
+            Misfit(sums, sums[SumLayout::kInliers], static_cast<double>(points.valid()),
+                   config_.distance_scale_m, state.alpha);
         if (misfit >= best) continue;
         best = misfit;
         T_best = state.T_view_camera;
@@ -120,13 +135,14 @@ void IcpTracker::PrepareLevel(const TrackInput& input, int level, State& state) 
     FramePoints& points = points_[static_cast<std::size_t>(level)];
     state.motion = use_colour_ ? residual_model_.Timed(input.motion) : input.motion;
     if (input.since_last_s > 0)  // the velocity of the last interval, as far as this level knows it
-        state.motion.twist_per_s =
-            Se3Log(input.T_world_camera_last.inverse() * view_.T_world_camera * state.T_view_camera) /
-            input.since_last_s;
+        state.motion.twist_per_s = Se3Log(input.T_world_camera_last.inverse() *
+                                          view_.T_world_camera * state.T_view_camera) /
+                                   input.since_last_s;
     const int step = config_.finest_step_px << level;
     const DepthWeight weight{config_.depth_exponent, input.nearest_m};
     if (device_ != nullptr) {
-        PointArguments a = MakePointArguments(input.frame, camera_, state.motion, step, weight, state.alpha > 0);
+        PointArguments a =
+            MakePointArguments(input.frame, camera_, state.motion, step, weight, state.alpha > 0);
         a.normal_radius_px = config_.normal_radius_px;
         points.Lay(a, device_->SetPoints(input.frame, a, level));
     } else {
@@ -153,7 +169,8 @@ void IcpTracker::PrepareLevel(const TrackInput& input, int level, State& state) 
     a.intensity_scale = static_cast<float>(residual_model_.config().intensity_scale);
     a.intensity_gate = static_cast<float>(kIntensityGateScales) * a.intensity_scale;
     a.inlier_distance_m = static_cast<float>(0.5 * input.map.config().truncation_m);
-    for (PointResiduals* residuals : {&residuals_, &trial_residuals_}) residuals->Resize(points.count());
+    for (PointResiduals* residuals : {&residuals_, &trial_residuals_})
+        residuals->Resize(points.count());
 }
 
 // At the state's pose and brightness.
@@ -193,20 +210,23 @@ void IcpTracker::RunLevel(int level, State& state) {
     KeepResiduals();
     SolverOptions& options = state.options;
     options.alpha = state.alpha;
-    options.least_damping = LeastDamping(residual_model_.scales(), judge_.expected_within_m(), level);
+    options.least_damping =
+        LeastDamping(residual_model_.scales(), judge_.expected_within_m(), level);
     options.estimate_brightness = state.alpha > 0 && residual_model_.config().brightness;
-    options.brightness_prior = residual_model_.config().brightness_prior * state.sums[SumLayout::kBrightness + 2];
+    options.brightness_prior =
+        residual_model_.config().brightness_prior * state.sums[SumLayout::kBrightness + 2];
     state.damping = {};
     const double tolerance = level == 0 ? 5e-5 : 2e-4;
     for (int i = 0; i < iterations; ++i) {
         options.damping = state.damping.damping();
-        state.step = SolvePoseStep(state.sums, options, state.gain, state.offset, state.T_view_camera.translation(),
-                                   state.scene_depth_m);
+        state.step = SolvePoseStep(state.sums, options, state.gain, state.offset,
+                                   state.T_view_camera.translation(), state.scene_depth_m);
         state.failed = !state.step.valid;
         if (state.failed) return;
         if (state.step.predicted_decrease < kLeastFall * state.sums[SumLayout::kEnergy]) break;
         TakeStep(points, state);
-        if (state.step.increment.head<3>().norm() < tolerance && state.step.increment.tail<3>().norm() < tolerance)
+        if (state.step.increment.head<3>().norm() < tolerance &&
+            state.step.increment.tail<3>().norm() < tolerance)
             break;
     }
     state.T_view_camera = Normalised(state.T_view_camera);
@@ -220,11 +240,15 @@ void IcpTracker::TakeStep(const FramePoints& points, State& state) {
     trial.offset = std::clamp(state.offset + state.step.offset_change, -0.3, 0.3);
     trial.sums = SumAt(points, Compare::kWithKept, trial);
     const auto prior = [&](const State& s) {
-        return state.alpha * state.options.brightness_prior * ((s.gain - 1) * (s.gain - 1) + s.offset * s.offset);
+        return state.alpha * state.options.brightness_prior *
+               ((s.gain - 1) * (s.gain - 1) + s.offset * s.offset);
     };
-    const double fall = trial.sums[SumLayout::kEnergyBefore] + prior(state) - trial.sums[SumLayout::kEnergy] - prior(trial);
-    const bool keeps_partners = 2 * trial.sums[SumLayout::kInliers] >= state.sums[SumLayout::kInliers];
-    const bool accept = state.damping.Accept(keeps_partners ? fall : 0.0, state.step.predicted_decrease);
+    const double fall = trial.sums[SumLayout::kEnergyBefore] + prior(state) -
+                        trial.sums[SumLayout::kEnergy] - prior(trial);
+    const bool keeps_partners =
+        2 * trial.sums[SumLayout::kInliers] >= state.sums[SumLayout::kInliers];
+    const bool accept =
+        state.damping.Accept(keeps_partners ? fall : 0.0, state.step.predicted_decrease);
     state.iterations = trial.iterations;
     if (!accept) return;
     trial.damping = state.damping;

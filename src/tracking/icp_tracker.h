@@ -1,5 +1,6 @@
-// Tracks a frame against a predicted view of the map by coarse-to-fine point-to-plane ICP with projective association
-// and Levenberg-Marquardt ([D18] section 3.2), alone or with a photometric term against the predicted colours.
+// Tracks a frame against a predicted view of the map by coarse-to-fine point-to-plane ICP with
+// projective association and Levenberg-Marquardt ([D18] section 3.2), alone or with a photometric
+// term against the predicted colours.
 #pragma once
 
 #include <memory>
@@ -37,10 +38,12 @@ class IcpTracker : public Tracker {
         void Describe(ConfigParameters& parameters);
     };
 
-    // `model` outlives the tracker. Without `use_colour` it tracks by geometry alone. `device` outlives it, too; null sums here.
-    // `predictor` may be null where there is a device, which then predicts.
-    IcpTracker(const Config& config, const PinholeCamera& camera, const TrackJudge& judge, ResidualModel& model, bool use_colour,
-               std::unique_ptr<ViewPredictor> predictor, VectorPath path = VectorPath::kAuto, IcpSums* device = nullptr);
+    // `model` outlives the tracker. Without `use_colour` it tracks by geometry alone. `device`
+    // outlives it, too; null sums here. `predictor` may be null where there is a device, which then
+    // predicts.
+    IcpTracker(const Config& config, const PinholeCamera& camera, const TrackJudge& judge,
+               ResidualModel& model, bool use_colour, std::unique_ptr<ViewPredictor> predictor,
+               VectorPath path = VectorPath::kAuto, IcpSums* device = nullptr);
 
     TrackResult Track(const TrackInput& input) override;
 
@@ -64,9 +67,10 @@ class IcpTracker : public Tracker {
     std::unique_ptr<ViewPredictor> predictor_;
     bool use_avx2_;
     IcpSums* device_;
-    PredictedView view_;                // with a device that predicts: camera and pose only, as the model's levels
-    std::vector<IcpModelLevel> model_;  // per level
-    std::vector<FramePoints> points_;   // per level
+    // With a device that predicts: camera and pose only, as the model's levels.
+    PredictedView view_;
+    std::vector<IcpModelLevel> model_;            // per level
+    std::vector<FramePoints> points_;             // per level
     PointResiduals residuals_, trial_residuals_;  // of a level: those kept, and the last sum's
 };
 

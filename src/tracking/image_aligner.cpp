@@ -16,14 +16,17 @@ namespace {
 
 constexpr float kIntensityScale = 0.04f, kDepthScale_m = 0.05f, kMostDepthError_m = 0.3f;
 constexpr double kUsual = 1.3, kUsualShare = 0.1, kClearlyBetter = 0.7;
-constexpr double kHeld_m[] = {0.02, 0.01};  // per level; motions that the images tell less well are left as guessed
+// Per level; motions that the images tell less well are left as guessed.
+constexpr double kHeld_m[] = {0.02, 0.01};
 
 }  // namespace
 
 void ImageAligner::Config::Describe(ConfigParameters& p) {
-    p.Add("enabled", enabled, "find a second start for the tracker from the frame before: helps fast motion");
+    p.Add("enabled", enabled,
+          "find a second start for the tracker from the frame before: helps fast motion");
     p.Add("iterations", iterations, {1, 100}, "", "most steps on each of the two reduced levels");
-    p.Add("starts", starts, {0, 16}, "", "best matches of an exhaustive search over rotations that are tried, too");
+    p.Add("starts", starts, {0, 16}, "",
+          "best matches of an exhaustive search over rotations that are tried, too");
 }
 
 ImageAligner::ImageAligner(const Config& config, const PinholeCamera& camera, VectorPath path)
@@ -38,8 +41,8 @@ void ImageAligner::Clear() {
 
 PinholeCamera ImageAligner::ReducedCamera(std::size_t level) const {
     const int n = ReductionOf(camera_.width, camera_.height, level);
-    return {camera_.width / n,  camera_.height / n,         camera_.fx / n,
-            camera_.fy / n,     (camera_.cx + 0.5) / n - 0.5, (camera_.cy + 0.5) / n - 0.5};
+    return {camera_.width / n, camera_.height / n,           camera_.fx / n,
+            camera_.fy / n,    (camera_.cx + 0.5) / n - 0.5, (camera_.cy + 0.5) / n - 0.5};
 }
 
 void ImageAligner::SaveState(StateWriter& state) const {
@@ -91,9 +94,10 @@ void ImageAligner::MakePoints(Level& level) {
         }
 }
 
-// Residuals of the last frame's points in the current images; increments multiply T_current_last from the left.
-ImageSystem ImageAligner::Linearise(const Level& last, const Level& current, const Eigen::Isometry3d& T_current_last,
-                                    double offset) const {
+// Residuals of the last frame's points in the current images; increments multiply T_current_last
+// from the left.
+ImageSystem ImageAligner::Linearise(const Level& last, const Level& current,
+                                    const Eigen::Isometry3d& T_current_last, double offset) const {
     AlignArguments a{};
     SetCamera(current.camera, a);
     SetPose(T_current_last, a);
@@ -107,21 +111,25 @@ ImageSystem ImageAligner::Linearise(const Level& last, const Level& current, con
     a.depth_gate_m = kMostDepthError_m;
     a.depth_scale_m = kDepthScale_m;
     a.intensity_scale = kIntensityScale;
-    return ImageSystem(SumPoints(static_cast<int>(last.x.size()), [&](int first, int last_point, double* sums) {
+    return ImageSystem(
+        SumPoints(static_cast<int>(last.x.size()), [&](int first, int last_point, double* sums) {
 #ifdef TESSERA_HAVE_AVX2
-        if (use_avx2_) return avx2::SumAlignedPoints(a, first, last_point, sums);
+            if (use_avx2_) return avx2::SumAlignedPoints(a, first, last_point, sums);
 #endif
-        baseline::SumAlignedPoints(a, first, last_point, sums);
-    }));
+            baseline::SumAlignedPoints(a, first, last_point, sums);
+        }));
 }
 
-// Gauss-Newton, coarse to fine, from one start; `score` is the mean robust error of the last linearisation.
-Eigen::Isometry3d ImageAligner::Refine(const Eigen::Isometry3d& T_last_current, double& score) const {
+// Gauss-Newton, coarse to fine, from one start; `score` is the mean robust error of the last
+// linearisation.
+Eigen::Isometry3d ImageAligner::Refine(const Eigen::Isometry3d& T_last_current,
+                                       double& score) const {
     Eigen::Isometry3d T_current_last = T_last_current.inverse();
     double offset = 0;
     for (std::size_t level = 0; level < last_.size(); ++level)
         for (int i = 0; i < config_.iterations; ++i) {
-            const ImageSystem system = Linearise(last_[level], current_[level], T_current_last, offset);
+            const ImageSystem system =
+                Linearise(last_[level], current_[level], T_current_last, offset);
             score = system.Score();
             const ImageSystem::Step step = system.Solve(scene_depth_m_, kHeld_m[level]);
             if (!step.twist.allFinite() || !std::isfinite(step.offset)) {
@@ -135,7 +143,8 @@ Eigen::Isometry3d ImageAligner::Refine(const Eigen::Isometry3d& T_last_current, 
     return T_current_last.inverse();
 }
 
-Eigen::Isometry3d ImageAligner::Align(const PreparedFrame& frame, const Eigen::Isometry3d& T_last_current_guess) {
+Eigen::Isometry3d ImageAligner::Align(const PreparedFrame& frame,
+                                      const Eigen::Isometry3d& T_last_current_guess) {
     if (!config_.enabled) return T_last_current_guess;
     if (keep_newest_) {
         std::swap(last_, current_);
@@ -157,10 +166,12 @@ Eigen::Isometry3d ImageAligner::Align(const PreparedFrame& frame, const Eigen::I
         usual_score_ += kUsualShare * (score - usual_score_);
         return best;
     }
-    // Not as good as usual: look farther. A far start must be clearly better, or a pattern that repeats would do.
-    double best_score = score < std::numeric_limits<double>::infinity() ? kClearlyBetter * score : score;
-    for (const Eigen::Vector3d& turn :
-         SearchRotations(last_[0].intensity, current_[0].intensity, current_[0].camera, config_.starts)) {
+    // Not as good as usual: look farther. A far start must be clearly better, or a pattern that
+    // repeats would do.
+    double best_score =
+        score < std::numeric_limits<double>::infinity() ? kClearlyBetter * score : score;
+    for (const Eigen::Vector3d& turn : SearchRotations(last_[0].intensity, current_[0].intensity,
+                                                       current_[0].camera, config_.starts)) {
         Vector6d twist;
         twist << turn, Eigen::Vector3d::Zero();
         const Eigen::Isometry3d refined = Refine(Se3Exp(twist).inverse(), score);
@@ -169,7 +180,8 @@ Eigen::Isometry3d ImageAligner::Align(const PreparedFrame& frame, const Eigen::I
         best = refined;
     }
     if (best_score < std::numeric_limits<double>::infinity())
-        usual_score_ = usual_score_ > 0 ? usual_score_ + kUsualShare * (best_score - usual_score_) : best_score;
+        usual_score_ = usual_score_ > 0 ? usual_score_ + kUsualShare * (best_score - usual_score_)
+                                        : best_score;
     return best;
 }
 

@@ -1,6 +1,7 @@
-// Aligns a frame with the one before it on heavily reduced images: intensity and depth together, all six motions. Not
-// accurate, but it finds fast motions that the field's narrow band and the texture's small basin would miss; trackers
-// take its answer as one more start, beside the motion model's.
+// Aligns a frame with the one before it on heavily reduced images: intensity and depth together,
+// all six motions. Not accurate, but it finds fast motions that the field's narrow band and the
+// texture's small basin would miss; trackers take its answer as one more start, beside the motion
+// model's.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -28,13 +29,17 @@ class ImageAligner {
         void Describe(ConfigParameters& parameters);
     };
 
-    ImageAligner(const Config& config, const PinholeCamera& camera, VectorPath path = VectorPath::kAuto);
+    ImageAligner(const Config& config, const PinholeCamera& camera,
+                 VectorPath path = VectorPath::kAuto);
 
-    // Takes `frame` as the newest and aligns it with the one kept before. `T_last_current_guess` is where to start. The
-    // result is T_last_current; the guess itself if there is nothing to align. Owner thread only.
-    Eigen::Isometry3d Align(const PreparedFrame& frame, const Eigen::Isometry3d& T_last_current_guess);
-    // Whether the newest frame is kept, as it is without a word, to align the next one with. False: where it was taken is not known,
-    // and the next one is aligned with the frame that this one was aligned with.
+    // Takes `frame` as the newest and aligns it with the one kept before. `T_last_current_guess` is
+    // where to start. The result is T_last_current; the guess itself if there is nothing to align.
+    // Owner thread only.
+    Eigen::Isometry3d Align(const PreparedFrame& frame,
+                            const Eigen::Isometry3d& T_last_current_guess);
+    // Whether the newest frame is kept, as it is without a word, to align the next one with. False:
+    // where it was taken is not known, and the next one is aligned with the frame that this one was
+    // aligned with.
     void KeepNewest(bool keep) { keep_newest_ = keep; }
     void Clear();
     // The kept frame, reduced; 48 KB at 4:3.
@@ -52,12 +57,14 @@ class ImageAligner {
         PinholeCamera camera;
         std::vector<float> x, y, z, intensity_of_point;
     };
-    using Levels = std::array<Level, std::tuple_size_v<decltype(PreparedFrame::reduced)>>;  // coarse to fine
+    // Coarse to fine.
+    using Levels = std::array<Level, std::tuple_size_v<decltype(PreparedFrame::reduced)>>;
 
     PinholeCamera ReducedCamera(std::size_t level) const;
     static void MakePoints(Level& level);
     Eigen::Isometry3d Refine(const Eigen::Isometry3d& T_last_current, double& score) const;
-    ImageSystem Linearise(const Level& last, const Level& current, const Eigen::Isometry3d& T_current_last, double offset) const;
+    ImageSystem Linearise(const Level& last, const Level& current,
+                          const Eigen::Isometry3d& T_current_last, double offset) const;
 
     Config config_;
     PinholeCamera camera_;

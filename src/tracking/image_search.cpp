@@ -27,7 +27,8 @@ Image<float> Roll(const Image<float>& image, const PinholeCamera& camera, double
             const int iu = static_cast<int>(u), iv = static_cast<int>(v);
             const auto fu = static_cast<float>(u - iu), fv = static_cast<float>(v - iv);
             const float top = image(iu, iv) + fu * (image(iu + 1, iv) - image(iu, iv));
-            const float bottom = image(iu, iv + 1) + fu * (image(iu + 1, iv + 1) - image(iu, iv + 1));
+            const float bottom =
+                image(iu, iv + 1) + fu * (image(iu + 1, iv + 1) - image(iu, iv + 1));
             out(x, y) = top + fv * (bottom - top);
         }
     return out;
@@ -67,10 +68,12 @@ std::vector<Eigen::Vector3d> SearchRotations(const Image<float>& last, const Ima
         const int roll = task / kShifts, dy = task % kShifts - kReach_px;
         for (int dx = -kReach_px; dx <= kReach_px; ++dx)
             all[static_cast<std::size_t>(task * kShifts + dx + kReach_px)] = {
-                DifferenceVariance(rolled[static_cast<std::size_t>(roll)], current, dx, dy), roll, dx, dy};
+                DifferenceVariance(rolled[static_cast<std::size_t>(roll)], current, dx, dy), roll,
+                dx, dy};
     });
-    std::stable_sort(all.begin(), all.end(),
-                     [](const Candidate& a, const Candidate& b) { return a.variance < b.variance; });
+    std::stable_sort(all.begin(), all.end(), [](const Candidate& a, const Candidate& b) {
+        return a.variance < b.variance;
+    });
     std::vector<Candidate> best;
     for (const Candidate& c : all) {
         if (c.variance >= 1e9 || static_cast<int>(best.size()) >= count) break;
@@ -81,7 +84,8 @@ std::vector<Eigen::Vector3d> SearchRotations(const Image<float>& last, const Ima
     }
     std::vector<Eigen::Vector3d> rotations;
     for (const Candidate& c : best)  // a turn by +y moves the image to the right, by +x up
-        rotations.emplace_back(-c.dy / camera.fy, c.dx / camera.fx, kRolls_rad[static_cast<std::size_t>(c.roll)]);
+        rotations.emplace_back(-c.dy / camera.fy, c.dx / camera.fx,
+                               kRolls_rad[static_cast<std::size_t>(c.roll)]);
     return rotations;
 }
 

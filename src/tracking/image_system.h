@@ -1,5 +1,6 @@
-// The normal equations of aligning one reduced image with another, made of AlignKernels' sums: six motions and an offset of the
-// intensity. Eigenvalues of the Hessian are inverse variances for errors as large as the residuals' scales.
+// The normal equations of aligning one reduced image with another, made of AlignKernels' sums: six
+// motions and an offset of the intensity. Eigenvalues of the Hessian are inverse variances for
+// errors as large as the residuals' scales.
 #pragma once
 
 #include <Eigen/Eigenvalues>
@@ -13,10 +14,12 @@ namespace tessera {
 
 class ImageSystem {
   public:
-    explicit ImageSystem(const PoseSums& sums) : error_(sums[L::kDistanceError]), residuals_(sums[L::kKnown]) {
+    explicit ImageSystem(const PoseSums& sums)
+        : error_(sums[L::kDistanceError]), residuals_(sums[L::kKnown]) {
         int at = L::kHessian;
         for (int row = 0; row < 6; ++row) {
-            for (int column = row; column < 6; ++column, ++at) H_(row, column) = H_(column, row) = sums[at];
+            for (int column = row; column < 6; ++column, ++at)
+                H_(row, column) = H_(column, row) = sums[at];
             g_(row) = sums[L::kGradient + row];
             by_offset_(row) = sums[L::kCoupling + 2 * row + 1];
         }
@@ -28,23 +31,29 @@ class ImageSystem {
         Vector6d twist;
         double offset;
     };
-    // The Gauss-Newton step. Along motions of the camera that are known less well than to `held_m`, a turn counting by how far it
-    // moves what is `scene_depth_m` away, it is zero.
+    // The Gauss-Newton step. Along motions of the camera that are known less well than to `held_m`,
+    // a turn counting by how far it moves what is `scene_depth_m` away, it is zero.
     Step Solve(double scene_depth_m, double held_m) const {
         Vector6d to_metres = Vector6d::Ones();
         to_metres.head<3>() /= std::max(scene_depth_m, 0.1);
-        const Matrix6d N = to_metres.asDiagonal() * (H_ - by_offset_ * by_offset_.transpose() / offset_H_) * to_metres.asDiagonal();
+        const Matrix6d N = to_metres.asDiagonal() *
+                           (H_ - by_offset_ * by_offset_.transpose() / offset_H_) *
+                           to_metres.asDiagonal();
         const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(N);
-        Vector6d along = eigen.eigenvectors().transpose() * to_metres.asDiagonal() * (g_ - by_offset_ * offset_g_ / offset_H_);
+        Vector6d along = eigen.eigenvectors().transpose() * to_metres.asDiagonal() *
+                         (g_ - by_offset_ * offset_g_ / offset_H_);
         for (int i = 0; i < 6; ++i)
-            along(i) = eigen.eigenvalues()(i) * held_m * held_m < 1 ? 0.0 : -along(i) / eigen.eigenvalues()(i);
+            along(i) = eigen.eigenvalues()(i) * held_m * held_m < 1
+                           ? 0.0
+                           : -along(i) / eigen.eigenvalues()(i);
         const Vector6d twist = to_metres.asDiagonal() * eigen.eigenvectors() * along;
         return {twist, -(offset_g_ + by_offset_.dot(twist)) / offset_H_};
     }
 
     // A robust mean; few residuals mean little overlap, which is no merit.
     double Score() const {
-        return residuals_ > 100 ? error_ / residuals_ + 200.0 / residuals_ : std::numeric_limits<double>::infinity();
+        return residuals_ > 100 ? error_ / residuals_ + 200.0 / residuals_
+                                : std::numeric_limits<double>::infinity();
     }
 
   private:

@@ -1,5 +1,5 @@
-// Whether a step of Levenberg-Marquardt is taken and how the damping goes on: Nielsen's rule on the gain ratio, the
-// energy's fall over the predicted one.
+// Whether a step of Levenberg-Marquardt is taken and how the damping goes on: Nielsen's rule on the
+// gain ratio, the energy's fall over the predicted one.
 #pragma once
 
 #include <algorithm>
@@ -11,8 +11,8 @@ class LevenbergMarquardt {
   public:
     double damping() const { return damping_; }  // SolverOptions::damping
 
-    // A step is taken only if the energy falls by it; the damping then eases with a good gain ratio, else it grows
-    // faster and faster.
+    // A step is taken only if the energy falls by it; the damping then eases with a good gain
+    // ratio, else it grows faster and faster.
     bool Accept(double fall, double predicted_fall) {
         if (!(fall > 0)) {
             damping_ = std::max(damping_, kLeastAfterFailure) * growth_;

@@ -1,5 +1,6 @@
-// What IcpModel makes of a predicted view, one pixel at a time. Host-device, shared by the CPU and CUDA. Images row by
-// row: depth in metres, 0 where nothing is; three floats of normal a pixel; intensity < 0 where there is none.
+// What IcpModel makes of a predicted view, one pixel at a time. Host-device, shared by the CPU and
+// CUDA. Images row by row: depth in metres, 0 where nothing is; three floats of normal a pixel;
+// intensity < 0 where there is none.
 #pragma once
 
 #include <cmath>
@@ -20,13 +21,15 @@ struct ModelImages {
     const float* intensity;
     int width, height;
 
-    // Whether (x, y) is at the border of a surface: it has no depth, or a neighbour has none or differs by more than
-    // jump_m. Colours are not to be trusted there.
+    // Whether (x, y) is at the border of a surface: it has no depth, or a neighbour has none or
+    // differs by more than jump_m. Colours are not to be trusted there.
     TESSERA_HD_MEMBER bool AtEdge(int x, int y, float jump_m) const {
         const float* here = depth_m + y * width + x;
         const float z = *here;
-        return z <= 0 || (x > 0 && Jumps(z, here[-1], jump_m)) || (x + 1 < width && Jumps(z, here[1], jump_m)) ||
-               (y > 0 && Jumps(z, here[-width], jump_m)) || (y + 1 < height && Jumps(z, here[width], jump_m));
+        return z <= 0 || (x > 0 && Jumps(z, here[-1], jump_m)) ||
+               (x + 1 < width && Jumps(z, here[1], jump_m)) ||
+               (y > 0 && Jumps(z, here[-width], jump_m)) ||
+               (y + 1 < height && Jumps(z, here[width], jump_m));
     }
 
     // The intensity where it is to be trusted, else -1.
@@ -34,7 +37,8 @@ struct ModelImages {
         return AtEdge(x, y, jump_m) ? -1.0f : intensity[y * width + x];
     }
 
-    // The pixel (x, y) of an image of half the size: the mean of four, where they are of one surface.
+    // The pixel (x, y) of an image of half the size: the mean of four, where they are of one
+    // surface.
     TESSERA_HD_MEMBER ModelPixel Halved(int x, int y, float jump_m) const {
         const int first = 2 * y * width + 2 * x;
         const int at[4] = {first, first + 1, first + width, first + width + 1};
@@ -45,7 +49,8 @@ struct ModelImages {
             dimmest = min(dimmest, intensity[at[k]]);
         }
         if (!(nearest > 0 && farthest - nearest < jump_m)) return {0.0f, {0.0f, 0.0f, 0.0f}, -1.0f};
-        ModelPixel mean{Sum(depth_m, at, 1, 0) / 4, {}, dimmest >= 0 ? Sum(intensity, at, 1, 0) / 4 : -1.0f};
+        ModelPixel mean{
+            Sum(depth_m, at, 1, 0) / 4, {}, dimmest >= 0 ? Sum(intensity, at, 1, 0) / 4 : -1.0f};
         float* n = mean.normal;
         for (int k = 0; k < 3; ++k) n[k] = Sum(normal, at, 3, k);
         const float length2 = n[0] * n[0] + (n[1] * n[1] + n[2] * n[2]);
@@ -58,7 +63,8 @@ struct ModelImages {
         return there <= 0 || abs(there - here) > jump_m;
     }
     // Of one channel of four pixels.
-    TESSERA_HD_MEMBER static float Sum(const float* image, const int* at, int channels, int channel) {
+    TESSERA_HD_MEMBER static float Sum(const float* image, const int* at, int channels,
+                                       int channel) {
         const auto value = [&](int k) { return image[channels * at[k] + channel]; };
         return value(0) + value(1) + value(2) + value(3);
     }

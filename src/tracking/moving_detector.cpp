@@ -16,32 +16,41 @@ constexpr float kNearest_m = 0.1f;
 constexpr int kAround = 2, kExpectedAround = 3;  // tiles
 
 bool Marked(std::uint8_t mark) { return mark != 0; }
-std::int64_t CountOf(const Marks& marks) { return std::count_if(marks.data(), marks.data() + marks.size(), Marked); }
+std::int64_t CountOf(const Marks& marks) {
+    return std::count_if(marks.data(), marks.data() + marks.size(), Marked);
+}
 
 }  // namespace
 
 MovingDetector::MovingDetector(const Config& config, const PinholeCamera& camera)
     : config_(config),
-      step_(std::max(1, static_cast<int>(std::lround(static_cast<double>(camera.width) / kTileColumns)))),
+      step_(std::max(
+          1, static_cast<int>(std::lround(static_cast<double>(camera.width) / kTileColumns)))),
       camera_(camera.Every(step_)),
       memory_(std::make_unique<MovingMemory>()) {}
 
 MovingDetector::~MovingDetector() = default;
 
-std::shared_ptr<const MovingMask> MovingDetector::Find(const Input& input, const BlockMap& map, ViewPredictor& predictor) {
+std::shared_ptr<const MovingMask> MovingDetector::Find(const Input& input, const BlockMap& map,
+                                                       ViewPredictor& predictor) {
     MovingMemory& m = *memory_;
     MovingMoments moments(config_, camera_, m);
     moments.Take(input, step_);
     const MovingChanges changes = moments.Compare();
-    if (m.past.empty() || m.now.stamp_s - m.past.back().stamp_s >= kSpacing * config_.window_s) m.past.push_back(m.now);
+    if (m.past.empty() || m.now.stamp_s - m.past.back().stamp_s >= kSpacing * config_.window_s)
+        m.past.push_back(m.now);
     if (m.hint.stamp_s == input.stamp_s) m.hint.T_world_camera = input.T_world_camera;
-    const DepthImage hinted_m = m.CarriedHint(input.stamp_s, input.T_world_camera, camera_, config_.window_s);
+    const DepthImage hinted_m =
+        m.CarriedHint(input.stamp_s, input.T_world_camera, camera_, config_.window_s);
     std::shared_ptr<MovingMask> mask;
     if (changes.any || !hinted_m.empty()) {
         PredictedView view;
-        predictor.Predict(map, camera_.Every(kAskedTiles), input.T_world_camera, kNearest_m, 1.2f * input.farthest_m, view);
+        predictor.Predict(map, camera_.Every(kAskedTiles), input.T_world_camera, kNearest_m,
+                          1.2f * input.farthest_m, view);
         MovingEvidence evidence = moments.Weigh(changes, hinted_m, view.depth_m);
-        if (!evidence.fits) evidence.candidates = evidence.seeds = evidence.gone = Marks(camera_.width, camera_.height);
+        if (!evidence.fits)
+            evidence.candidates = evidence.seeds = evidence.gone =
+                Marks(camera_.width, camera_.height);
         moments.Decide(evidence);
         mask = std::make_shared<MovingMask>();
         mask->step = step_;
@@ -59,7 +68,8 @@ std::shared_ptr<const MovingMask> MovingDetector::Find(const Input& input, const
     return mask;
 }
 
-std::shared_ptr<const MovingMask> MovingDetector::Expect(double stamp_s, const Eigen::Isometry3d& T_world_camera) const {
+std::shared_ptr<const MovingMask> MovingDetector::Expect(
+    double stamp_s, const Eigen::Isometry3d& T_world_camera) const {
     constexpr double kLongest_s = 0.2;  // between two frames
     const MovingMemory& m = *memory_;
     const bool moved = !m.moving.empty() && std::abs(stamp_s - m.now.stamp_s) <= kLongest_s;
@@ -70,7 +80,8 @@ std::shared_ptr<const MovingMask> MovingDetector::Expect(double stamp_s, const E
     auto mask = std::make_shared<MovingMask>();
     mask->step = step_;
     mask->moving = Marks(camera_.width, camera_.height);
-    for (std::size_t i = 0; i < mask->moving.size(); ++i) mask->moving.data()[i] = carried_m.data()[i] > 0;
+    for (std::size_t i = 0; i < mask->moving.size(); ++i)
+        mask->moving.data()[i] = carried_m.data()[i] > 0;
     Dilate(kExpectedAround, mask->moving);
     mask->moving_tiles = CountOf(mask->moving);
     return mask;
@@ -80,30 +91,38 @@ void MovingDetector::Guide(const MovingHint& hint, float disparity_offset_per_m,
                            const std::optional<Eigen::Isometry3d>& T_world_camera) {
     TileView& view = memory_->hint;
     view.stamp_s = hint.stamp_s;
-    view.T_world_camera = T_world_camera.value_or(Eigen::Isometry3d::Identity());  // Find knows better
+    // Find knows better.
+    view.T_world_camera = T_world_camera.value_or(Eigen::Isometry3d::Identity());
     MakeTiles(hint.depth_m, step_, disparity_offset_per_m, view.depth_m);
 }
 
 void MovingDetector::Move(const Eigen::Isometry3d& T_new_old) {
     for (TileView& view : memory_->past) view.T_world_camera = T_new_old * view.T_world_camera;
-    for (TileView* view : {&memory_->now, &memory_->hint}) view->T_world_camera = T_new_old * view->T_world_camera;
+    for (TileView* view : {&memory_->now, &memory_->hint})
+        view->T_world_camera = T_new_old * view->T_world_camera;
 }
 
 void MovingDetector::Clear() { *memory_ = {}; }
 
 void MovingDetector::Config::Describe(ConfigParameters& p) {
-    p.Add("enabled", enabled, "people and other moving things are neither tracked on nor fused (docs/moving.md); off where nothing moves saves a twentieth of a frame");
+    p.Add("enabled", enabled,
+          "people and other moving things are neither tracked on nor fused (docs/moving.md); off "
+          "where nothing moves saves a twentieth of a frame");
     p.Add("window_s", window_s, {0.1, 10.0}, "s",
-          "what has stood still for so long belongs to the scene: shorter takes a moved chair in sooner, longer bears slower movers");
+          "what has stood still for so long belongs to the scene: shorter takes a moved chair in "
+          "sooner, longer bears slower movers");
     p.Add("margin_m", margin_m, {0.005, 1.0}, "m",
-          "depths nearer to each other than this plus margin_per_m times the squared depth are the same: the sensor's noise and "
+          "depths nearer to each other than this plus margin_per_m times the squared depth are the "
+          "same: the sensor's noise and "
           "the pose's");
-    p.Add("margin_per_m", margin_per_m, {0.0, 0.1}, "1/m", "see margin_m; 0.01 is three times a structured-light sensor's noise");
+    p.Add("margin_per_m", margin_per_m, {0.0, 0.1}, "1/m",
+          "see margin_m; 0.01 is three times a structured-light sensor's noise");
     p.Add("min_area_m2", min_area_m2, {0.0, 10.0}, "m^2", "smaller regions do not count");
     p.Add("min_changed_fraction", min_changed_fraction, {0.01, 1.0}, "",
           "share of a region that must have changed within window_s for it to count as moving");
     p.Add("min_fitting_fraction", min_fitting_fraction, {0.0, 1.0}, "",
-          "nothing is taken for moving unless such a share of the rest fits the map: else the pose is wrong");
+          "nothing is taken for moving unless such a share of the rest fits the map: else the pose "
+          "is wrong");
 }
 
 }  // namespace tessera

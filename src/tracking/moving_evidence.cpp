@@ -13,10 +13,11 @@ namespace tessera {
 namespace {
 
 using Marks = Image<std::uint8_t>;
-constexpr double kAges[] = {0.3, 1.0}; // of the moments that a frame is compared with, in windows
-constexpr double kOld = 0.8;           // the same: what stood there so long ago stands still
-constexpr double kImageTime_s = 0.015; // an image is spread over about so much: blur, rolling shutter, stamps
-constexpr double kBody_m = 0.6;        // what hangs together reaches so far
+constexpr double kAges[] = {0.3, 1.0};  // of the moments that a frame is compared with, in windows
+constexpr double kOld = 0.8;            // the same: what stood there so long ago stands still
+// An image is spread over about so much: blur, rolling shutter, stamps.
+constexpr double kImageTime_s = 0.015;
+constexpr double kBody_m = 0.6;              // what hangs together reaches so far
 constexpr int kBeside = 4, kBesideHint = 1;  // tiles
 
 void Join(const Marks& more, Marks& marks) {
@@ -35,8 +36,8 @@ const TileView& Blurred(const TileView& view, int more, TileView& storage) {
 }  // namespace
 
 // Where a camera sees what a detector said to move. Empty: nothing was said within the window.
-DepthImage MovingMemory::CarriedHint(double stamp_s, const Eigen::Isometry3d& T_world_camera, const PinholeCamera& camera,
-                                               double window_s) const {
+DepthImage MovingMemory::CarriedHint(double stamp_s, const Eigen::Isometry3d& T_world_camera,
+                                     const PinholeCamera& camera, double window_s) const {
     if (hint.depth_m.empty() || std::abs(stamp_s - hint.stamp_s) > window_s) return {};
     if (stamp_s == hint.stamp_s) return hint.depth_m;
     DepthImage carried_m(camera.width, camera.height);
@@ -56,12 +57,14 @@ void MovingMoments::Take(const MovingDetector::Input& input, int step) {
         m.past.clear();
         m.moving = {};
     }
-    m.now.blur = follows ? Blur(RotationAngle(m.now.T_world_camera, input.T_world_camera), since_s) : 0;
+    m.now.blur =
+        follows ? Blur(RotationAngle(m.now.T_world_camera, input.T_world_camera), since_s) : 0;
     m.now.T_world_camera = input.T_world_camera;
     m.now.stamp_s = input.stamp_s;
     MakeTiles(input.depth_m, step, input.disparity_offset_per_m, m.now.depth_m);
     NearestAround(m.now.depth_m, 1 + m.now.blur, m.now.near_m);
-    while (!m.past.empty() && m.past.front().stamp_s < input.stamp_s - 1.1 * config_.window_s) m.past.pop_front();
+    while (!m.past.empty() && m.past.front().stamp_s < input.stamp_s - 1.1 * config_.window_s)
+        m.past.pop_front();
 }
 
 std::vector<const TileView*> MovingMoments::ToCompare() const {
@@ -69,8 +72,11 @@ std::vector<const TileView*> MovingMoments::ToCompare() const {
     for (const double age : kAges) {
         const TileView* found = nullptr;  // the youngest that is old enough, or the oldest
         for (const TileView& view : memory_.past)
-            if (found == nullptr || view.stamp_s <= memory_.now.stamp_s - age * config_.window_s + 1e-4) found = &view;
-        if (found != nullptr && (moments.empty() || moments.back() != found)) moments.push_back(found);
+            if (found == nullptr ||
+                view.stamp_s <= memory_.now.stamp_s - age * config_.window_s + 1e-4)
+                found = &view;
+        if (found != nullptr && (moments.empty() || moments.back() != found))
+            moments.push_back(found);
     }
     return moments;
 }
@@ -105,7 +111,8 @@ MovingChanges MovingMoments::Compare() const {
         }
     }
     changes.any = HasCore(changes.came) || HasCore(left);
-    const bool old = !moments.empty() && now.stamp_s - moments.back()->stamp_s >= kOld * config_.window_s;
+    const bool old =
+        !moments.empty() && now.stamp_s - moments.back()->stamp_s >= kOld * config_.window_s;
     if (old && changes.any) MarkSame(now, *moments.back(), camera_, margin_, changes.there);
     // Noise leaves in specks, a thing as a region.
     KeepRegions(changes.left_m, left, camera_, {config_.min_area_m2, 0}, left);
@@ -114,7 +121,8 @@ MovingChanges MovingMoments::Compare() const {
     return changes;
 }
 
-MovingEvidence MovingMoments::Weigh(const MovingChanges& changes, const DepthImage& hinted_m, const DepthImage& predicted_m) const {
+MovingEvidence MovingMoments::Weigh(const MovingChanges& changes, const DepthImage& hinted_m,
+                                    const DepthImage& predicted_m) const {
     const int width = camera_.width, height = camera_.height;
     const TileView& now = memory_.now;
     DepthImage nearest_m, farthest_m;
@@ -135,23 +143,27 @@ MovingEvidence MovingMoments::Weigh(const MovingChanges& changes, const DepthIma
             if (depth <= 0) continue;
             e.growing(x, y) = changes.there(x, y) == 0;
             if (map <= 0) continue;
-            const float off = margin_(std::max(depth, map)), nearest = nearest_m(u, v), farthest = farthest_m(u, v);
+            const float off = margin_(std::max(depth, map)), nearest = nearest_m(u, v),
+                        farthest = farthest_m(u, v);
             const bool left = changes.left_m(x, y) > 0, before = depth + off < nearest;
             if (before) e.candidates(x, y) = 1;
             if (before && left) e.seeds(x, y) = 1;
-            e.gone(x, y) = map + off < now.near_m(x, y);  // near_m bears edges that are a little off
+            // near_m bears edges that are a little off.
+            e.gone(x, y) = map + off < now.near_m(x, y);
             if (e.candidates(x, y) != 0 || left) continue;
             ++known;
             fitting += nearest - off <= depth && depth <= farthest + off;
         }
     // Where the rest does not fit the map either, it is the camera that is elsewhere.
-    e.fits = static_cast<double>(fitting) >= config_.min_fitting_fraction * static_cast<double>(known);
+    e.fits =
+        static_cast<double>(fitting) >= config_.min_fitting_fraction * static_cast<double>(known);
     return e;
 }
 
 void MovingMoments::Decide(MovingEvidence& e) {
     const DepthImage& depth_m = memory_.now.depth_m;
-    KeepRegions(depth_m, e.seeds, camera_, {config_.min_area_m2, config_.min_changed_fraction}, e.candidates);
+    KeepRegions(depth_m, e.seeds, camera_, {config_.min_area_m2, config_.min_changed_fraction},
+                e.candidates);
     GrowRegions(depth_m, e.growing, camera_, kBody_m, e.candidates);
     memory_.moving = e.candidates;
 }

@@ -1,4 +1,5 @@
-// What a frame and the moments before it, the map and a detector say of each tile: the evidence that MovingDetector decides by.
+// What a frame and the moments before it, the map and a detector say of each tile: the evidence
+// that MovingDetector decides by.
 #pragma once
 
 #include <deque>
@@ -34,13 +35,15 @@ struct MovingMemory {
     Image<std::uint8_t> moving;  // in `now`; empty: nothing
     TileView hint;               // depth where a detector says that something moves; empty: nowhere
 
-    DepthImage CarriedHint(double stamp_s, const Eigen::Isometry3d& T_world_camera, const PinholeCamera& camera, double window_s) const;
+    DepthImage CarriedHint(double stamp_s, const Eigen::Isometry3d& T_world_camera,
+                           const PinholeCamera& camera, double window_s) const;
 };
 
 // One frame against what is remembered.
 class MovingMoments {
   public:
-    MovingMoments(const MovingDetector::Config& config, const PinholeCamera& camera, MovingMemory& memory)
+    MovingMoments(const MovingDetector::Config& config, const PinholeCamera& camera,
+                  MovingMemory& memory)
         : config_(config),
           camera_(camera),
           margin_{static_cast<float>(config.margin_m), static_cast<float>(config.margin_per_m)},
@@ -48,7 +51,8 @@ class MovingMoments {
 
     void Take(const MovingDetector::Input& input, int step);
     MovingChanges Compare() const;
-    MovingEvidence Weigh(const MovingChanges& changes, const DepthImage& hinted_m, const DepthImage& predicted_m) const;
+    MovingEvidence Weigh(const MovingChanges& changes, const DepthImage& hinted_m,
+                         const DepthImage& predicted_m) const;
     void Decide(MovingEvidence& evidence);
 
   private:

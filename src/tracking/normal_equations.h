@@ -1,9 +1,11 @@
-// One point's share of [B14] eq. 8-11: residuals, Jacobians, robust weights and normal equations. Templates on the
-// number type: the same lines run in vectors, in the tests' plain floats, and on a GPU.
+// One point's share of [B14] eq. 8-11: residuals, Jacobians, robust weights and normal equations.
+// Templates on the number type: the same lines run in vectors, in the tests' plain floats, and on a
+// GPU.
 //
-// The unknowns: a left increment (rotation, translation) of T_world_camera about a world point O near the camera
-// ("local" coordinates are world coordinates minus O), and the frame's brightness: gain a, offset b with
-// field intensity ~ a * image intensity + b.
+// The unknowns: a left increment (rotation, translation) of T_world_camera about a world point O
+// near the camera
+// ("local" coordinates are world coordinates minus O), and the frame's brightness: gain a, offset b
+// with field intensity ~ a * image intensity + b.
 #pragma once
 
 #include "core/scalar_ops.h"
@@ -14,25 +16,26 @@ namespace tessera {
 // Arrays of points are padded to a multiple of this with points of weight 0.
 inline constexpr int kPointPadding = 8;
 
-// Sums over points. Symmetric matrices keep the upper triangle, row by row. Distances and intensities are summed apart, and
-// without alpha: what each of them knows about the pose does not depend on how the two are weighed.
+// Sums over points. Symmetric matrices keep the upper triangle, row by row. Distances and
+// intensities are summed apart, and without alpha: what each of them knows about the pose does not
+// depend on how the two are weighed.
 struct SumLayout {
     // A pose term, at kDistance and at kIntensity: pose x pose (21), then pose x residual (6).
     static constexpr int kHessian = 0, kGradient = 21, kPoseTerm = 27;
     static constexpr int kDistance = 0;
     static constexpr int kIntensity = kPoseTerm;
-    static constexpr int kCoupling = 54;    // 12: pose x (gain, offset)
-    static constexpr int kBrightness = 66;  // 3: gain^2, gain offset, offset^2
+    static constexpr int kCoupling = 54;            // 12: pose x (gain, offset)
+    static constexpr int kBrightness = 66;          // 3: gain^2, gain offset, offset^2
     static constexpr int kBrightnessGradient = 69;  // 2
-    static constexpr int kDistanceError = 71;   // sum of w r^2, distance, m^2
-    static constexpr int kIntensityError = 72;  // the same for intensity
-    static constexpr int kDistanceWeight = 73;  // sum of w
+    static constexpr int kDistanceError = 71;       // sum of w r^2, distance, m^2
+    static constexpr int kIntensityError = 72;      // the same for intensity
+    static constexpr int kDistanceWeight = 73;      // sum of w
     static constexpr int kIntensityWeight = 74;
     static constexpr int kKnown = 75;     // points with a known distance
     static constexpr int kInliers = 76;   // of these, with |r| below the inlier distance
     static constexpr int kColoured = 77;  // points with a known intensity
-    // Of methods that accept or reject steps: the robust energy ([B14] eq. 8, with alpha) over the residuals that exist here and
-    // at the pose before, and the energy that those had there.
+    // Of methods that accept or reject steps: the robust energy ([B14] eq. 8, with alpha) over the
+    // residuals that exist here and at the pose before, and the energy that those had there.
     static constexpr int kEnergy = 78;
     static constexpr int kEnergyBefore = 79;
     static constexpr int kCount = 80;
@@ -44,7 +47,8 @@ TESSERA_HD F HuberWeight(const F& residual, const F& scale) {
     return scale / max(abs(residual), scale);
 }
 
-// d(residual)/d(increment) for a residual f(p) of a point p in local coordinates with gradient g: (p x g, g).
+// d(residual)/d(increment) for a residual f(p) of a point p in local coordinates with gradient g:
+// (p x g, g).
 template <class F>
 TESSERA_HD void PointJacobian(const F* p, const F* g, F* j) {
     j[0] = p[1] * g[2] - p[2] * g[1];
@@ -66,9 +70,11 @@ TESSERA_HD void AddPoseTerm(const F* j, const F& residual, const F& w, F* term) 
     }
 }
 
-// The brightness terms of the photometric residual r = field - (a * image + b): dr/da = -image, dr/db = -1.
+// The brightness terms of the photometric residual r = field - (a * image + b): dr/da = -image,
+// dr/db = -1.
 template <class F>
-TESSERA_HD void AddBrightnessTerm(const F* j, const F& residual, const F& image, const F& w, F* sums) {
+TESSERA_HD void AddBrightnessTerm(const F* j, const F& residual, const F& image, const F& w,
+                                  F* sums) {
     using L = SumLayout;
     const F wi = w * image;
     for (int row = 0; row < 6; ++row) {

@@ -1,5 +1,6 @@
-// What FramePoints makes of a pixel: its point at the frame's instant, weight, normal, and the intensity that the
-// colour camera saw there. Host-device, shared by the CPU and CUDA. Camera frame, metres.
+// What FramePoints makes of a pixel: its point at the frame's instant, weight, normal, and the
+// intensity that the colour camera saw there. Host-device, shared by the CPU and CUDA. Camera
+// frame, metres.
 #pragma once
 
 #include <cmath>
@@ -18,11 +19,13 @@ TESSERA_HD float RaySlope(int pixel, double centre_px, double focal_px) {
     return static_cast<float>((pixel - centre_px) / focal_px);
 }
 
-// A point of the camera time_s after the frame's instant, in the camera at that instant: to first order
-// p + time (omega x p + velocity). -time_s is the way back. `twist_per_s`: FrameMotion's, (rotation, translation).
+// A point of the camera time_s after the frame's instant, in the camera at that instant: to first
+// order p + time (omega x p + velocity). -time_s is the way back. `twist_per_s`: FrameMotion's,
+// (rotation, translation).
 TESSERA_HD CameraPoint Moved(const CameraPoint& p, const float* twist_per_s, float time_s) {
     const float* w = twist_per_s;
-    return {p.x + time_s * (w[1] * p.z - w[2] * p.y + w[3]), p.y + time_s * (w[2] * p.x - w[0] * p.z + w[4]),
+    return {p.x + time_s * (w[1] * p.z - w[2] * p.y + w[3]),
+            p.y + time_s * (w[2] * p.x - w[0] * p.z + w[4]),
             p.z + time_s * (w[0] * p.y - w[1] * p.x + w[5])};
 }
 
@@ -53,7 +56,8 @@ struct PinholeImage {
     }
     // Bilinear; -1 outside.
     TESSERA_HD_MEMBER float Between(float u, float v) const {
-        if (!(u >= 0 && v >= 0 && u < static_cast<float>(width - 1) && v < static_cast<float>(height - 1)))
+        if (!(u >= 0 && v >= 0 && u < static_cast<float>(width - 1) &&
+              v < static_cast<float>(height - 1)))
             return -1.0f;
         const int x = static_cast<int>(u), y = static_cast<int>(v);
         const float fu = u - static_cast<float>(x), fv = v - static_cast<float>(y);
@@ -65,14 +69,17 @@ struct PinholeImage {
     }
 };
 
-// The normal of the depth image's surface at (u, v), unit, towards the camera, from differences across radius_px pixels
-// to each side ([D18] eq. 15). False where it has none: at a depth edge, beside a hole.
-TESSERA_HD bool NormalAt(const PinholeImage& depth, int u, int v, int radius_px, CameraPoint& normal) {
+// The normal of the depth image's surface at (u, v), unit, towards the camera, from differences
+// across radius_px pixels to each side ([D18] eq. 15). False where it has none: at a depth edge,
+// beside a hole.
+TESSERA_HD bool NormalAt(const PinholeImage& depth, int u, int v, int radius_px,
+                         CameraPoint& normal) {
     const int left = u > radius_px ? u - radius_px : 0, up = v > radius_px ? v - radius_px : 0;
     const int right = u + radius_px < depth.width ? u + radius_px : depth.width - 1;
     const int down = v + radius_px < depth.height ? v + radius_px : depth.height - 1;
     const float d = depth.At(u, v);
-    if (!OneSurface(depth.At(left, v), d, depth.At(right, v)) || !OneSurface(depth.At(u, up), d, depth.At(u, down)))
+    if (!OneSurface(depth.At(left, v), d, depth.At(right, v)) ||
+        !OneSurface(depth.At(u, up), d, depth.At(u, down)))
         return false;
     const CameraPoint low = depth.PointAt(u, down), high = depth.PointAt(u, up);
     const CameraPoint east = depth.PointAt(right, v), west = depth.PointAt(left, v);
@@ -97,11 +104,11 @@ struct PointArguments {
     PinholeImage intensity;  // as large; `pixels` null: not to be read
     double fx, fy, cx, cy;   // of the same camera, for RaySlope
     int step;
-    int width, height;     // slots per row, some of them to the right of the image, and rows
+    int width, height;  // slots per row, some of them to the right of the image, and rows
     float depth_exponent, nearest_m;  // PointWeight's
-    int normal_radius_px;  // NormalAt's; 0: no normals
-    float twist_per_s[6];  // FrameMotion's, with its times
-    bool still;            // the twist is zero
+    int normal_radius_px;             // NormalAt's; 0: no normals
+    float twist_per_s[6];             // FrameMotion's, with its times
+    bool still;                       // the twist is zero
     double depth_readout_s, colour_delay_s, colour_readout_s;
 };
 
@@ -113,18 +120,23 @@ struct PointRow {
 };
 TESSERA_HD PointRow RowOfPoints(const PointArguments& a, int row) {
     const int v = row * a.step + a.step / 2;
-    return {v, RaySlope(v, a.cy, a.fy), static_cast<float>(RowTime(a.depth_readout_s, v, a.depth.height)),
+    return {v, RaySlope(v, a.cy, a.fy),
+            static_cast<float>(RowTime(a.depth_readout_s, v, a.depth.height)),
             static_cast<float>(a.colour_delay_s + RowTime(a.colour_readout_s, v, a.depth.height))};
 }
 
 // The point that the pixel in column u measured at this depth, at the frame's instant.
-TESSERA_HD CameraPoint PointOfPixel(const PointArguments& a, const PointRow& row, int u, float depth_m) {
-    return Moved({RaySlope(u, a.cx, a.fx) * depth_m, row.slope_y * depth_m, depth_m}, a.twist_per_s, row.depth_time_s);
+TESSERA_HD CameraPoint PointOfPixel(const PointArguments& a, const PointRow& row, int u,
+                                    float depth_m) {
+    return Moved({RaySlope(u, a.cx, a.fx) * depth_m, row.slope_y * depth_m, depth_m}, a.twist_per_s,
+                 row.depth_time_s);
 }
 
 // What the colour camera saw of that point at its own time; -1: nothing.
-TESSERA_HD float IntensityOfPoint(const PointArguments& a, const PointRow& row, int u, const CameraPoint& p) {
-    return a.still ? a.intensity.At(u, row.v) : SampleAtPoint(a.intensity, Moved(p, a.twist_per_s, -row.colour_time_s));
+TESSERA_HD float IntensityOfPoint(const PointArguments& a, const PointRow& row, int u,
+                                  const CameraPoint& p) {
+    return a.still ? a.intensity.At(u, row.v)
+                   : SampleAtPoint(a.intensity, Moved(p, a.twist_per_s, -row.colour_time_s));
 }
 
 }  // namespace tessera

@@ -1,5 +1,6 @@
-// What a frame's residuals teach, as sums over neighbourhoods of its finest points. Each kind of sums is a struct:
-// kSums sums for each of Groups(a), added up over Parts(a) in their order. Host-device, shared by the CPU and CUDA; in double.
+// What a frame's residuals teach, as sums over neighbourhoods of its finest points. Each kind of
+// sums is a struct: kSums sums for each of Groups(a), added up over Parts(a) in their order.
+// Host-device, shared by the CPU and CUDA; in double.
 #pragma once
 
 #include <cmath>
@@ -28,8 +29,8 @@ struct ResidualArguments {
     bool has_intensity, wants_shutter;  // which sums
 
     TESSERA_HD_MEMBER int At(int column, int row) const { return row * width + column; }
-    // A side of the patches that DistanceSums are of, in points: a fortieth of the image, whatever its resolution. Two by two of
-    // them are a block, over which errors are taken to be shared.
+    // A side of the patches that DistanceSums are of, in points: a fortieth of the image, whatever
+    // its resolution. Two by two of them are a block, over which errors are taken to be shared.
     TESSERA_HD_MEMBER int Patch() const { return width >= 80 ? (width + 20) / 40 : 2; }
     TESSERA_HD_MEMBER double HuberedWeight(int i, double residual, double scale) const {
         const double size = std::fabs(residual);
@@ -37,14 +38,20 @@ struct ResidualArguments {
     }
 };
 
-// Of a patch, the four of a block one after the other: weights, weight times Jacobian, and its score, weight times Jacobian times
-// distance. Jacobians are for increments about the camera in the axes of the gradients (rotation, translation).
+// Of a patch, the four of a block one after the other: weights, weight times Jacobian, and its
+// score, weight times Jacobian times distance. Jacobians are for increments about the camera in the
+// axes of the gradients (rotation, translation).
 struct DistanceSums {
     static constexpr int kSums = 13, kJacobian = 1, kScore = 7;
-    TESSERA_HD_MEMBER static int Columns(const ResidualArguments& a) { return a.width / (2 * a.Patch()); }  // of blocks
-    TESSERA_HD_MEMBER static int Groups(const ResidualArguments& a) { return 4 * Columns(a) * (a.height / (2 * a.Patch())); }
+    TESSERA_HD_MEMBER static int Columns(const ResidualArguments& a) {
+        return a.width / (2 * a.Patch());
+    }  // of blocks
+    TESSERA_HD_MEMBER static int Groups(const ResidualArguments& a) {
+        return 4 * Columns(a) * (a.height / (2 * a.Patch()));
+    }
     TESSERA_HD_MEMBER static int Parts(const ResidualArguments& a) { return a.Patch(); }
-    TESSERA_HD_MEMBER static void Add(const ResidualArguments& a, int group, int part, double* sums) {
+    TESSERA_HD_MEMBER static void Add(const ResidualArguments& a, int group, int part,
+                                      double* sums) {
         const int block = group / 4, x0 = (2 * (block % Columns(a)) + group % 2) * a.Patch();
         const int y = (2 * (block / Columns(a)) + group % 4 / 2) * a.Patch() + part;
         for (int i = a.At(x0, y); i < a.At(x0 + a.Patch(), y); ++i) {
@@ -57,7 +64,12 @@ struct DistanceSums {
                 p[k] = row[0] * a.x[i] + row[1] * a.y[i] + row[2] * a.z[i];
                 g[k] = a.gradient[k][i];
             }
-            const double j[6] = {p[1] * g[2] - p[2] * g[1], p[2] * g[0] - p[0] * g[2], p[0] * g[1] - p[1] * g[0], g[0], g[1], g[2]};
+            const double j[6] = {p[1] * g[2] - p[2] * g[1],
+                                 p[2] * g[0] - p[0] * g[2],
+                                 p[0] * g[1] - p[1] * g[0],
+                                 g[0],
+                                 g[1],
+                                 g[2]};
             sums[0] += w;
             for (int k = 0; k < 6; ++k) {
                 sums[kJacobian + k] += w * j[k];
@@ -67,20 +79,28 @@ struct DistanceSums {
     }
 };
 
-// Intensities of a block, with the image's gradient over depth (what a sideways move changes): weighted residual times gradient,
-// both directions; the gradients; their squares; the gradient's product with the map's, at the same points, and the map's square.
+// Intensities of a block, with the image's gradient over depth (what a sideways move changes):
+// weighted residual times gradient, both directions; the gradients; their squares; the gradient's
+// product with the map's, at the same points, and the map's square.
 struct ScoreSums {
     static constexpr int kSums = 7;
     TESSERA_HD_MEMBER static int Side(const ResidualArguments& a) { return 2 * a.Patch(); }
-    TESSERA_HD_MEMBER static int Columns(const ResidualArguments& a) { return (a.width - 2) / Side(a); }
-    TESSERA_HD_MEMBER static int Groups(const ResidualArguments& a) { return Columns(a) * ((a.height - 2) / Side(a)); }
+    TESSERA_HD_MEMBER static int Columns(const ResidualArguments& a) {
+        return (a.width - 2) / Side(a);
+    }
+    TESSERA_HD_MEMBER static int Groups(const ResidualArguments& a) {
+        return Columns(a) * ((a.height - 2) / Side(a));
+    }
     TESSERA_HD_MEMBER static int Parts(const ResidualArguments& a) { return Side(a); }
-    TESSERA_HD_MEMBER static void Add(const ResidualArguments& a, int group, int part, double* sums) {
-        const int x0 = 1 + group % Columns(a) * Side(a), y = 1 + group / Columns(a) * Side(a) + part;
+    TESSERA_HD_MEMBER static void Add(const ResidualArguments& a, int group, int part,
+                                      double* sums) {
+        const int x0 = 1 + group % Columns(a) * Side(a),
+                  y = 1 + group / Columns(a) * Side(a) + part;
         for (int i = a.At(x0, y); i < a.At(x0 + Side(a), y); ++i) {
             const int left = i - 1, right = i + 1, up = i - a.width, down = i + a.width;
             const double r = a.intensity_residual[i], z = a.z[i];
-            if (std::isnan(r) || z <= 0 || a.intensity[left] < 0 || a.intensity[right] < 0 || a.intensity[up] < 0 || a.intensity[down] < 0)
+            if (std::isnan(r) || z <= 0 || a.intensity[left] < 0 || a.intensity[right] < 0 ||
+                a.intensity[up] < 0 || a.intensity[down] < 0)
                 continue;
             const double w = a.HuberedWeight(i, r, a.intensity_scale);
             const double gu = a.gain * (a.intensity[right] - a.intensity[left]) / z;
@@ -91,8 +111,12 @@ struct ScoreSums {
             sums[3] += w * gv;
             sums[4] += w * (gu * gu + gv * gv);
             // The map's intensity is residual + gain * image + offset.
-            const double mu = gu + (static_cast<double>(a.intensity_residual[right]) - a.intensity_residual[left]) / z;
-            const double mv = gv + (static_cast<double>(a.intensity_residual[down]) - a.intensity_residual[up]) / z;
+            const double mu =
+                gu +
+                (static_cast<double>(a.intensity_residual[right]) - a.intensity_residual[left]) / z;
+            const double mv =
+                gv +
+                (static_cast<double>(a.intensity_residual[down]) - a.intensity_residual[up]) / z;
             const double map2 = mu * mu + mv * mv;
             if (std::isnan(map2)) continue;
             sums[5] += w * (gu * mu + gv * mv);
@@ -101,16 +125,23 @@ struct ScoreSums {
     }
 };
 
-// Of some rows of points, parts of a row: the normal equations of the colour image's delay and read-out time, upper triangle
-// (3), then the gradient (2). Some points of a row: enough, and cheap.
+// Of some rows of points, parts of a row: the normal equations of the colour image's delay and
+// read-out time, upper triangle (3), then the gradient (2). Some points of a row: enough, and
+// cheap.
 struct ShutterSums {
     static constexpr int kSums = 5;
     static constexpr int kRowStep = 3, kColumnStep = 2, kPart = 32;
-    TESSERA_HD_MEMBER static int Groups(const ResidualArguments& a) { return (a.height + kRowStep - 1) / kRowStep; }
-    TESSERA_HD_MEMBER static int Parts(const ResidualArguments& a) { return (a.width + kPart - 1) / kPart; }
-    TESSERA_HD_MEMBER static void Add(const ResidualArguments& a, int group, int part, double* sums) {
+    TESSERA_HD_MEMBER static int Groups(const ResidualArguments& a) {
+        return (a.height + kRowStep - 1) / kRowStep;
+    }
+    TESSERA_HD_MEMBER static int Parts(const ResidualArguments& a) {
+        return (a.width + kPart - 1) / kPart;
+    }
+    TESSERA_HD_MEMBER static void Add(const ResidualArguments& a, int group, int part,
+                                      double* sums) {
         const int row = group * kRowStep, image_row = row * a.step + a.step / 2;
-        const double time = a.colour_delay_s + RowTime(a.colour_readout_s, image_row, a.image_height);
+        const double time =
+            a.colour_delay_s + RowTime(a.colour_readout_s, image_row, a.image_height);
         const double share = RowTime(1.0, image_row, a.image_height);
         const int end = (part + 1) * kPart < a.width ? (part + 1) * kPart : a.width;
         for (int column = part * kPart; column < end; column += kColumnStep)
@@ -118,21 +149,26 @@ struct ShutterSums {
     }
 
   private:
-    TESSERA_HD_MEMBER static void AddPoint(const ResidualArguments& a, int i, double time, double share, double* sums) {
+    TESSERA_HD_MEMBER static void AddPoint(const ResidualArguments& a, int i, double time,
+                                           double share, double* sums) {
         const double residual = a.intensity_residual[i];
         if (std::isnan(residual)) return;
         const double *turn = a.twist_per_s, *move = a.twist_per_s + 3;
         const double p[3] = {a.x[i], a.y[i], a.z[i]};
-        const double velocity[3] = {-(turn[1] * p[2] - turn[2] * p[1] + move[0]),  // of the point, seen from the moving camera
-                                    -(turn[2] * p[0] - turn[0] * p[2] + move[1]), -(turn[0] * p[1] - turn[1] * p[0] + move[2])};
+        // Of the point, seen from the moving camera.
+        const double velocity[3] = {-(turn[1] * p[2] - turn[2] * p[1] + move[0]),
+                                    -(turn[2] * p[0] - turn[0] * p[2] + move[1]),
+                                    -(turn[0] * p[1] - turn[1] * p[0] + move[2])};
         double q[3];
         for (int k = 0; k < 3; ++k) q[k] = p[k] + time * velocity[k];
         if (!(q[2] >= 0.1)) return;
         // Central differences of the image at the nearest pixel.
         const double u = a.fx * q[0] / q[2] + a.cx, v = a.fy * q[1] / q[2] + a.cy;
         if (!(u >= 1 && v >= 1 && u < a.image_width - 2 && v < a.image_height - 2)) return;
-        const float* pixel = a.image + static_cast<int>(v + 0.5) * a.image_width + static_cast<int>(u + 0.5);
-        const double du = 0.5 * (pixel[1] - pixel[-1]), dv = 0.5 * (pixel[a.image_width] - pixel[-a.image_width]);
+        const float* pixel =
+            a.image + static_cast<int>(v + 0.5) * a.image_width + static_cast<int>(u + 0.5);
+        const double du = 0.5 * (pixel[1] - pixel[-1]),
+                     dv = 0.5 * (pixel[a.image_width] - pixel[-a.image_width]);
         const double flow_u = a.fx * (velocity[0] - q[0] / q[2] * velocity[2]) / q[2];
         const double flow_v = a.fy * (velocity[1] - q[1] / q[2] * velocity[2]) / q[2];
         const double slope = -a.gain * (du * flow_u + dv * flow_v);  // d(residual)/d(time)

@@ -8,8 +8,9 @@
 namespace tessera {
 namespace {
 
-// Errors are taken to be shared within regions of the image, not beyond: depth deformation, calibration and exposure err over
-// large parts of it (docs/information.md has how the variance grows with the region).
+// Errors are taken to be shared within regions of the image, not beyond: depth deformation,
+// calibration and exposure err over large parts of it (docs/information.md has how the variance
+// grows with the region).
 constexpr int kRegionColumns = 5, kRegionRows = 4, kRegions = kRegionColumns * kRegionRows;
 constexpr int kLeastRegions = 5;
 constexpr double kShareOfFrame = 0.1;  // of a new frame in what is smoothed
@@ -31,9 +32,9 @@ struct Regions {
         hessians.fill(Matrix::Zero());
     }
 
-    // The variance of a residual as it counts in a sum: the covariance of the regions' scores over the Hessian, at the place that
-    // fits these residuals best. For independent residuals it is their variance; errors that neighbours share make it larger.
-    // 0: there is too little.
+    // The variance of a residual as it counts in a sum: the covariance of the regions' scores over
+    // the Hessian, at the place that fits these residuals best. For independent residuals it is
+    // their variance; errors that neighbours share make it larger. 0: there is too little.
     double Variance() const {
         Vector score = Vector::Zero();
         Matrix H = Matrix::Zero(), covariance = Matrix::Zero();
@@ -44,7 +45,8 @@ struct Regions {
             seen += hessians[i].trace() > 0;
         }
         if (seen < kLeastRegions) return 0;
-        constexpr double kRegular = 1e-9;  // of the trace: a motion that nothing at all shows has no score either
+        // Of the trace: a motion that nothing at all shows has no score either.
+        constexpr double kRegular = 1e-9;
         const Eigen::LDLT<Matrix> solver(H + kRegular * H.trace() * Matrix::Identity());
         const Vector best = solver.solve(score);
         for (std::size_t i = 0; i < kRegions; ++i) {
@@ -55,21 +57,25 @@ struct Regions {
     }
 };
 
-// From the sums over patches (DistanceSums). A patch's Hessian is that of its mean Jacobian. `shared_m` is what a whole patch is
-// wrong by though no residual shows it.
+// From the sums over patches (DistanceSums). A patch's Hessian is that of its mean Jacobian.
+// `shared_m` is what a whole patch is wrong by though no residual shows it.
 double DistanceVariance(const ResidualEvidence& e, double shared_m) {
     Vector6d to_metres = Vector6d::Ones();
     to_metres.head<3>() /= e.scene_depth_m;
     Regions<6> regions;
     double weights = 0, weights2 = 0;
-    const int columns = DistanceSums::Columns(e.arguments), blocks = DistanceSums::Groups(e.arguments) / 4;
+    const int columns = DistanceSums::Columns(e.arguments),
+              blocks = DistanceSums::Groups(e.arguments) / 4;
     for (int block = 0; block < blocks; ++block) {
-        const auto region = static_cast<std::size_t>(RegionOf(block % columns, columns, block / columns, blocks / columns));
+        const auto region = static_cast<std::size_t>(
+            RegionOf(block % columns, columns, block / columns, blocks / columns));
         for (int patch = 4 * block; patch < 4 * block + 4; ++patch) {
             const double* const s = e.sums.distances.data() + patch * DistanceSums::kSums;
             if (s[0] <= 0) continue;
-            const Vector6d jacobian = to_metres.asDiagonal() * Eigen::Map<const Vector6d>(s + DistanceSums::kJacobian);
-            regions.scores[region] += to_metres.asDiagonal() * Eigen::Map<const Vector6d>(s + DistanceSums::kScore);
+            const Vector6d jacobian =
+                to_metres.asDiagonal() * Eigen::Map<const Vector6d>(s + DistanceSums::kJacobian);
+            regions.scores[region] +=
+                to_metres.asDiagonal() * Eigen::Map<const Vector6d>(s + DistanceSums::kScore);
             regions.hessians[region] += jacobian * jacobian.transpose() / s[0];
             weights += s[0];
             weights2 += s[0] * s[0];
@@ -79,16 +85,19 @@ double DistanceVariance(const ResidualEvidence& e, double shared_m) {
     return variance > 0 ? variance + shared_m * shared_m * weights2 / weights : 0;
 }
 
-// From ScoreSums, whose scores are residual times image gradient over depth: errors at edges, where the gradient is large, count
-// as they pull. What a whole block is wrong by together (`shading_error`, intensities in [0, 1]) is added: it hardly pulls where
-// texture has gradients of all signs, and a lot where the only gradient is shading, which residuals against a map of the same
-// shading do not show. `texture`: the share of the map's gradients that the frame's confirm; noise of the two is independent.
+// From ScoreSums, whose scores are residual times image gradient over depth: errors at edges, where
+// the gradient is large, count as they pull. What a whole block is wrong by together
+// (`shading_error`, intensities in [0, 1]) is added: it hardly pulls where texture has gradients of
+// all signs, and a lot where the only gradient is shading, which residuals against a map of the
+// same shading do not show. `texture`: the share of the map's gradients that the frame's confirm;
+// noise of the two is independent.
 double IntensityVariance(const ResidualEvidence& e, double shading_error, double& texture) {
     Regions<2> regions;
     double shading_scores2 = 0, information = 0, both = 0, map2 = 0;
     const int columns = ScoreSums::Columns(e.arguments), blocks = ScoreSums::Groups(e.arguments);
     for (int block = 0; block < blocks; ++block) {
-        const auto region = static_cast<std::size_t>(RegionOf(block % columns, columns, block / columns, blocks / columns));
+        const auto region = static_cast<std::size_t>(
+            RegionOf(block % columns, columns, block / columns, blocks / columns));
         const double* const s = e.sums.scores.data() + block * ScoreSums::kSums;
         regions.scores[region] += Eigen::Vector2d(s[0], s[1]);
         regions.hessians[region] += 0.5 * s[4] * Eigen::Matrix2d::Identity();
@@ -103,26 +112,38 @@ double IntensityVariance(const ResidualEvidence& e, double shading_error, double
     return variance + shading_error * shading_error * shading_scores2 / information;
 }
 
-// The ratio of the variances, what the two kinds disagree about, the pose, included: it is an error of theirs, too, which no
-// scatter within one kind shows (calibration, time, deformation of the whole image). It is shared out at the pose where both pull
-// as their own errors say, whatever alpha found the present one.
-double RatioWithDisagreement(const PoseTerm& distances, const PoseTerm& intensities, double distance, double intensity) {
+// The ratio of the variances, what the two kinds disagree about, the pose, included: it is an error
+// of theirs, too, which no scatter within one kind shows (calibration, time, deformation of the
+// whole image). It is shared out at the pose where both pull as their own errors say, whatever
+// alpha found the present one.
+double RatioWithDisagreement(const PoseTerm& distances, const PoseTerm& intensities,
+                             double distance, double intensity) {
     constexpr double kRegular = 1e-9;  // of the trace
     const double alpha = distance / intensity;
     const Matrix6d H = distances.H + alpha * intensities.H;
-    const Vector6d to_both = (H + kRegular * H.trace() * Matrix6d::Identity()).ldlt().solve(-(distances.g + alpha * intensities.g));
-    const auto pull = [&](const PoseTerm& term) {  // a mean over the six motions, as Regions::Variance
+    const Vector6d to_both = (H + kRegular * H.trace() * Matrix6d::Identity())
+                                 .ldlt()
+                                 .solve(-(distances.g + alpha * intensities.g));
+    // A mean over the six motions, as Regions::Variance.
+    const auto pull = [&](const PoseTerm& term) {
         const Vector6d score = term.g + term.H * to_both;
-        return score.dot((term.H + kRegular * term.H.trace() * Matrix6d::Identity()).ldlt().solve(score)) / 6;
+        return score.dot((term.H + kRegular * term.H.trace() * Matrix6d::Identity())
+                             .ldlt()
+                             .solve(score)) /
+               6;
     };
     return (distance + pull(distances)) / (intensity + pull(intensities));
 }
 
-void Smooth(double measured, bool first, double& value) { value += (first ? 1.0 : kShareOfFrame) * (measured - value); }
+void Smooth(double measured, bool first, double& value) {
+    value += (first ? 1.0 : kShareOfFrame) * (measured - value);
+}
 
 }  // namespace
 
-ResidualModel::ResidualModel(const Config& config) : config_(config), shutter_(config.shutter) { Reset(); }
+ResidualModel::ResidualModel(const Config& config) : config_(config), shutter_(config.shutter) {
+    Reset();
+}
 
 void ResidualModel::Reset() {
     gain_ = 1;
@@ -136,20 +157,24 @@ void ResidualModel::SetAlpha(bool automatic, double alpha) {
     if (!automatic) config_.alpha = alpha;
 }
 
-// Each residual's weight is the inverse of its variance as it counts in the sum, so alpha in [B14] eq. 8 is the ratio of
-// the two. Plain variances would say that the geometry knows ten times more than it does.
+// Each residual's weight is the inverse of its variance as it counts in the sum, so alpha in [B14]
+// eq. 8 is the ratio of the two. Plain variances would say that the geometry knows ten times more
+// than it does.
 double ResidualModel::alpha() const {
     if (config_.alpha_mode == AlphaMode::kFixed || scales_.alpha <= 0) return config_.alpha;
     return std::min(scales_.alpha, config_.auto_alpha_max);
 }
 
 void ResidualModel::SaveState(StateWriter& state) const {
-    for (const double value : {gain_, offset_, scales_.distance_m2, scales_.intensity, scales_.texture, scales_.alpha}) state.Put(value);
+    for (const double value :
+         {gain_, offset_, scales_.distance_m2, scales_.intensity, scales_.texture, scales_.alpha})
+        state.Put(value);
     shutter_.SaveState(state);
 }
 
 bool ResidualModel::LoadState(StateReader& state) {
-    for (double* value : {&gain_, &offset_, &scales_.distance_m2, &scales_.intensity, &scales_.texture, &scales_.alpha})
+    for (double* value : {&gain_, &offset_, &scales_.distance_m2, &scales_.intensity,
+                          &scales_.texture, &scales_.alpha})
         if (!state.Get(*value) || !std::isfinite(*value)) return false;
     return shutter_.LoadState(state);
 }
@@ -161,12 +186,15 @@ FrameMotion ResidualModel::Timed(FrameMotion motion) const {
 }
 
 void ResidualModel::LearnScales(const ResidualEvidence& evidence) {
-    const double distance = DistanceVariance(evidence, config_.surface_error_voxels * evidence.voxel_size_m);
+    const double distance =
+        DistanceVariance(evidence, config_.surface_error_voxels * evidence.voxel_size_m);
     if (distance <= 0) return;
     double intensity = 0, texture = 1;
-    if (!evidence.sums.scores.empty()) intensity = IntensityVariance(evidence, config_.shading_error, texture);
+    if (!evidence.sums.scores.empty())
+        intensity = IntensityVariance(evidence, config_.shading_error, texture);
     if (intensity > 0) {
-        Smooth(RatioWithDisagreement(evidence.distances, evidence.intensities, distance, intensity), scales_.alpha <= 0, scales_.alpha);
+        Smooth(RatioWithDisagreement(evidence.distances, evidence.intensities, distance, intensity),
+               scales_.alpha <= 0, scales_.alpha);
         Smooth(texture, scales_.intensity <= 0, scales_.texture);
         Smooth(intensity, scales_.intensity <= 0, scales_.intensity);
     }
@@ -176,27 +204,34 @@ void ResidualModel::LearnScales(const ResidualEvidence& evidence) {
 void ResidualModel::LearnColour(const TrackResult& result, const ResidualSums& sums) {
     gain_ = result.gain;
     offset_ = result.offset;
-    if (!sums.shutter.empty() && !result.degenerate) shutter_.Update(sums.shutter, result.intensity_rms);
+    if (!sums.shutter.empty() && !result.degenerate)
+        shutter_.Update(sums.shutter, result.intensity_rms);
 }
 
 void ResidualModel::Config::Describe(ConfigParameters& p) {
-    p.AddChoice("alpha_mode", alpha_mode, {{"fixed", AlphaMode::kFixed}, {"auto", AlphaMode::kAuto}},
+    p.AddChoice("alpha_mode", alpha_mode,
+                {{"fixed", AlphaMode::kFixed}, {"auto", AlphaMode::kAuto}},
                 "fixed uses alpha; auto estimates it from the residuals of the frames so far");
     p.Add("alpha", alpha, {0.0, 100.0}, "m^2",
-          "photometric weight of [B14] eq. 8 (distances in metres, intensities in [0, 1]); 0 is geometry only; auto "
+          "photometric weight of [B14] eq. 8 (distances in metres, intensities in [0, 1]); 0 is "
+          "geometry only; auto "
           "starts from it");
     p.Add("shading_error", shading_error, {0.0, 1.0}, "",
-          "what intensities are taken to be wrong by over whole image regions (vignetting, moving light, exposure); lowers "
+          "what intensities are taken to be wrong by over whole image regions (vignetting, moving "
+          "light, exposure); lowers "
           "their weight where shading is the only texture");
     p.Add("surface_error_voxels", surface_error_voxels, {0.0, 1.0}, "voxels",
-          "what distances are taken to be wrong by over whole image regions, beyond what residuals show");
+          "what distances are taken to be wrong by over whole image regions, beyond what residuals "
+          "show");
     p.Add("auto_alpha_max", auto_alpha_max, {1e-4, 100.0}, "m^2",
-          "auto: the largest alpha; where intensities lead, distances no longer show their own errors");
+          "auto: the largest alpha; where intensities lead, distances no longer show their own "
+          "errors");
     p.Add("intensity_scale", intensity_scale, {1e-3, 10.0}, "", "Huber scale of intensities");
     p.Add("brightness", brightness,
           "estimate gain and offset of every frame, so that auto-exposure does not bend the path");
     p.Add("brightness_prior", brightness_prior, {0.0, 10.0}, "",
-          "pull of gain 1 and offset 0, per unit of photometric weight; raise it where exposure is fixed");
+          "pull of gain 1 and offset 0, per unit of photometric weight; raise it where exposure is "
+          "fixed");
     p.Section("shutter", [&](ConfigParameters& s) { shutter.Describe(s); });
 }
 

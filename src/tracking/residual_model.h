@@ -1,6 +1,7 @@
-// What the residuals teach from frame to frame, whatever method tracks: how large the errors of distances and intensities are,
-// and so how the two are weighed; the brightness of the camera against the map; when the colour image's rows were taken. One
-// object serves all methods, so that a switch between two frames loses nothing. docs/information.md has the derivation.
+// What the residuals teach from frame to frame, whatever method tracks: how large the errors of
+// distances and intensities are, and so how the two are weighed; the brightness of the camera
+// against the map; when the colour image's rows were taken. One object serves all methods, so that
+// a switch between two frames loses nothing. docs/information.md has the derivation.
 #pragma once
 
 #include "core/config.h"
@@ -11,20 +12,23 @@
 
 namespace tessera {
 
-// Variances of residuals of weight 1 as they count in a sum over many points: neighbours err together, so they are larger than
-// the scatter of single residuals.
+// Variances of residuals of weight 1 as they count in a sum over many points: neighbours err
+// together, so they are larger than the scatter of single residuals.
 struct ResidualScales {
     double distance_m2 = 0;  // 0: not known yet
     double intensity = 0;    // the same
-    double texture = 1;      // share of the map's image gradients that the frame confirms; the rest is noise
-    double alpha = 0;        // ratio of the two, what they disagree about shared out between them; 0: not known yet
+    // Share of the map's image gradients that the frame confirms; the rest is noise.
+    double texture = 1;
+    // Ratio of the two, what they disagree about shared out between them; 0: not known yet.
+    double alpha = 0;
 };
 
 // What one frame says about them.
 struct ResidualEvidence {
     const ResidualArguments& arguments;
     const ResidualSums& sums;  // of them
-    const PoseTerm &distances, &intensities;  // at the pose that was found, Normalised to this depth
+    // At the pose that was found, Normalised to this depth.
+    const PoseTerm &distances, &intensities;
     double scene_depth_m, voxel_size_m;
 };
 
@@ -57,17 +61,21 @@ class ResidualModel {
 
     const Config& config() const { return config_; }
     const ResidualScales& scales() const { return scales_; }  // smoothed over frames
-    double alpha() const;                    // in use, [B14] eq. 8
-    double gain() const { return gain_; }    // of the last tracked frame: map = gain * image + offset
+    double alpha() const;                                     // in use, [B14] eq. 8
+    double gain() const { return gain_; }  // of the last tracked frame: map = gain * image + offset
     double offset() const { return offset_; }
     // The motion with the colour image's delay and read-out as learnt so far.
     FrameMotion Timed(FrameMotion motion) const;
 
-    // Whether a frame with this motion and intensity residuals has something to tell about the shutter.
-    bool WantsShutter(const FrameMotion& motion, double intensity_rms) const { return shutter_.Wants(motion, intensity_rms); }
+    // Whether a frame with this motion and intensity residuals has something to tell about the
+    // shutter.
+    bool WantsShutter(const FrameMotion& motion, double intensity_rms) const {
+        return shutter_.Wants(motion, intensity_rms);
+    }
     // From any frame that fits the map.
     void LearnScales(const ResidualEvidence& evidence);
-    // From a tracked frame. Where the pose is `degenerate` it explains what it should not, and the shutter is left alone.
+    // From a tracked frame. Where the pose is `degenerate` it explains what it should not, and the
+    // shutter is left alone.
     void LearnColour(const TrackResult& result, const ResidualSums& sums);
 
   private:

@@ -27,7 +27,8 @@ void PointResiduals::Resize(int points) {
     for (auto& values : gradient) values.resize(static_cast<std::size_t>(points));
 }
 
-ResidualArguments MakeResidualArguments(const PreparedFrame& frame, const PinholeCamera& camera, const FramePoints& points,
+ResidualArguments MakeResidualArguments(const PreparedFrame& frame, const PinholeCamera& camera,
+                                        const FramePoints& points,
                                         const PointResiduals& residuals) {
     ResidualArguments a{};
     a.width = points.width();

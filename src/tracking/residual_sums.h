@@ -24,10 +24,10 @@ struct ResidualSums {
     std::vector<double> distances, scores, shutter;
 };
 
-// Of these points and their residuals. What the pose says, and which sums are wanted, is the caller's to enter. The arrays stay
-// whose they were.
-ResidualArguments MakeResidualArguments(const PreparedFrame& frame, const PinholeCamera& camera, const FramePoints& points,
-                                        const PointResiduals& residuals);
+// Of these points and their residuals. What the pose says, and which sums are wanted, is the
+// caller's to enter. The arrays stay whose they were.
+ResidualArguments MakeResidualArguments(const PreparedFrame& frame, const PinholeCamera& camera,
+                                        const FramePoints& points, const PointResiduals& residuals);
 
 // On all threads, the same bytes for any number of them.
 ResidualSums SumResiduals(const ResidualArguments& arguments);

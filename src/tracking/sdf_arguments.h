@@ -1,5 +1,5 @@
-// What the SDF tracker's sums are told: the map, the pose, the points and the energy, in plain pointers and numbers,
-// for the CPU's vector code and CUDA alike.
+// What the SDF tracker's sums are told: the map, the pose, the points and the energy, in plain
+// pointers and numbers, for the CPU's vector code and CUDA alike.
 #pragma once
 
 #include <cstdint>
@@ -24,8 +24,9 @@ struct SdfArguments : BlockMapView {
     bool normalise;  // divide distances by their gradient's length where it exceeds 1
     float gain, offset;
     float distance_scale_m, intensity_scale;  // Huber
-    float inlier_distance_m;  // for SumLayout::kInliers
-    // If not null: residuals per point, NaN where unknown; with distances their gradients in the axes of the local coordinates.
+    float inlier_distance_m;                  // for SumLayout::kInliers
+    // If not null: residuals per point, NaN where unknown; with distances their gradients in the
+    // axes of the local coordinates.
     float* distance_residual;
     float* intensity_residual;
     float* gradient[3];

@@ -10,8 +10,8 @@ namespace {
 using L = SumLayout;
 
 // Copies a rigid motion with the voxel scale into the hot loop's arguments.
-void SetSdfPose(const Eigen::Isometry3d& T_world_camera, const Eigen::Vector3d& origin_m, double voxel_m,
-                SdfArguments& a) {
+void SetSdfPose(const Eigen::Isometry3d& T_world_camera, const Eigen::Vector3d& origin_m,
+                double voxel_m, SdfArguments& a) {
     const Eigen::Vector3d t = (T_world_camera.translation() - origin_m) / voxel_m;
     for (int i = 0; i < 3; ++i) {
         for (int j = 0; j < 3; ++j)
@@ -62,26 +62,30 @@ TrackResult SdfTracker::Track(const TrackInput& input) {
         if (!state.failed) RunLevel(input, level, state);
     }
     const Eigen::Isometry3d T_world_local(Eigen::Translation3d(state.origin_m));
-    return Conclude(input,
-                    {.T_world_local = T_world_local,
-                     .T_local_camera = T_world_local.inverse() * state.T_world_camera,
-                     .scene_depth_m = state.scene_depth_m,
-                     .motion = state.motion,
-                     .alpha = state.alpha,
-                     .gain = state.gain,
-                     .offset = state.offset,
-                     .iterations = state.iterations,
-                     .sums = state.sums,
-                     .options = state.options,
-                     .points = points_[0].valid(),
-                     .valid = state.step.valid},
-                    MakeResidualArguments(input.frame, camera_, points_[0], residuals_),
-                    [this](const ResidualArguments& a) { return device_ != nullptr ? device_->SumResiduals(a) : SumResiduals(a); },
-                    config_.distance_scale_m, judge_, residual_model_);
+    return Conclude(
+        input,
+        {.T_world_local = T_world_local,
+         .T_local_camera = T_world_local.inverse() * state.T_world_camera,
+         .scene_depth_m = state.scene_depth_m,
+         .motion = state.motion,
+         .alpha = state.alpha,
+         .gain = state.gain,
+         .offset = state.offset,
+         .iterations = state.iterations,
+         .sums = state.sums,
+         .options = state.options,
+         .points = points_[0].valid(),
+         .valid = state.step.valid},
+        MakeResidualArguments(input.frame, camera_, points_[0], residuals_),
+        [this](const ResidualArguments& a) {
+            return device_ != nullptr ? device_->SumResiduals(a) : SumResiduals(a);
+        },
+        config_.distance_scale_m, judge_, residual_model_);
 }
 
 // Where there are none the level cannot be tracked; a device may have had no room for them.
-void SdfTracker::MakePoints(const TrackInput& input, int step, FramePoints& points, State& state) const {
+void SdfTracker::MakePoints(const TrackInput& input, int step, FramePoints& points,
+                            State& state) const {
     const DepthWeight weight{config_.depth_exponent, input.nearest_m};
     if (device_ != nullptr) {
         const PointArguments a =
@@ -95,7 +99,8 @@ void SdfTracker::MakePoints(const TrackInput& input, int step, FramePoints& poin
     state.failed = points.valid() == 0;
 }
 
-// Points, their intensities and the map as the hot loop takes them, for every (finest_step_px << level)-th pixel.
+// Points, their intensities and the map as the hot loop takes them, for every (finest_step_px <<
+// level)-th pixel.
 void SdfTracker::PrepareLevel(const TrackInput& input, int level, State& state) {
     FramePoints& points = points_[static_cast<std::size_t>(level)];
     state.motion = use_colour_ ? residual_model_.Timed(input.motion) : input.motion;
@@ -104,7 +109,8 @@ void SdfTracker::PrepareLevel(const TrackInput& input, int level, State& state) 
             Se3Log(input.T_world_camera_last.inverse() * state.T_world_camera) / input.since_last_s;
     MakePoints(input, config_.finest_step_px << level, points, state);
     const double block_m = input.map.config().voxel_size_m * kBlockSide;
-    const Eigen::Vector3d origin_block = (state.T_world_camera.translation() / block_m).array().floor();
+    const Eigen::Vector3d origin_block =
+        (state.T_world_camera.translation() / block_m).array().floor();
     state.origin_m = origin_block * block_m;
     state.scene_depth_m = 0.5 * (input.frame.nearest_m + input.frame.farthest_m);
     SdfArguments& a = state.arguments;
@@ -129,7 +135,8 @@ void SdfTracker::PrepareLevel(const TrackInput& input, int level, State& state) 
 }
 
 PoseSums SdfTracker::SumAt(const TrackInput& input, const FramePoints& points, State& state) const {
-    SetSdfPose(state.T_world_camera, state.origin_m, input.map.config().voxel_size_m, state.arguments);
+    SetSdfPose(state.T_world_camera, state.origin_m, input.map.config().voxel_size_m,
+               state.arguments);
     state.arguments.gain = static_cast<float>(state.gain);
     state.arguments.offset = static_cast<float>(state.offset);
     if (device_ != nullptr) return device_->Sum(state.arguments);
@@ -165,19 +172,23 @@ void SdfTracker::RunLevel(const TrackInput& input, int level, State& state) {
     SolverOptions& options = state.options;
     options.alpha = state.alpha;
     options.estimate_brightness = state.alpha > 0 && residual_model_.config().brightness;
-    options.least_damping = LeastDamping(residual_model_.scales(), judge_.expected_within_m(), level);
+    options.least_damping =
+        LeastDamping(residual_model_.scales(), judge_.expected_within_m(), level);
     const int iterations = level == 0 ? config_.fine_iterations : config_.coarse_iterations;
     for (int i = 0; i < iterations; ++i) {
         state.sums = SumAt(input, points, state);
         ++state.iterations;
-        options.brightness_prior = residual_model_.config().brightness_prior * state.sums[L::kBrightness + 2];
-        state.step = SolvePoseStep(state.sums, options, state.gain, state.offset,
-                                  state.T_world_camera.translation() - state.origin_m, state.scene_depth_m);
+        options.brightness_prior =
+            residual_model_.config().brightness_prior * state.sums[L::kBrightness + 2];
+        state.step =
+            SolvePoseStep(state.sums, options, state.gain, state.offset,
+                          state.T_world_camera.translation() - state.origin_m, state.scene_depth_m);
         state.failed = !state.step.valid;
         if (state.failed) return;
         // The increment acts about the local origin: conjugate it with the shift.
         const Eigen::Translation3d shift(state.origin_m);
-        state.T_world_camera = shift * Se3Exp(state.step.increment) * shift.inverse() * state.T_world_camera;
+        state.T_world_camera =
+            shift * Se3Exp(state.step.increment) * shift.inverse() * state.T_world_camera;
         state.gain = std::clamp(state.gain + state.step.gain_change, 0.5, 2.0);
         state.offset = std::clamp(state.offset + state.step.offset_change, -0.3, 0.3);
         const double turn = state.step.increment.head<3>().norm();
@@ -192,15 +203,19 @@ void SdfTracker::Config::Describe(ConfigParameters& p) {
     p.Add("distance_scale_m", distance_scale_m, {1e-4, 1.0}, "m",
           "Huber scale of distances: larger residuals count linearly");
     p.Add("depth_exponent", depth_exponent, {0.0, 4.0}, "",
-          "a point's weight is (1 m / depth)^this: 4 is the inverse variance of structured light, 0 is [B14]");
+          "a point's weight is (1 m / depth)^this: 4 is the inverse variance of structured light, "
+          "0 is [B14]");
     p.Add("normalise", normalise,
-          "divide the field's distance by its gradient's length: distances measured along slanted rays are too long; "
+          "divide the field's distance by its gradient's length: distances measured along slanted "
+          "rays are too long; "
           "off is [B14]");
     p.Add("finest_step_px", finest_step_px, {1, 16}, "px",
           "the finest level takes every so-manieth pixel in both directions");
     p.Add("levels", levels, {1, 5}, "", "coarse to fine: each level doubles the step");
-    p.Add("coarse_iterations", coarse_iterations, {1, 100}, "", "most Gauss-Newton steps on each coarse level");
-    p.Add("fine_iterations", fine_iterations, {1, 100}, "", "most Gauss-Newton steps on the finest level");
+    p.Add("coarse_iterations", coarse_iterations, {1, 100}, "",
+          "most Gauss-Newton steps on each coarse level");
+    p.Add("fine_iterations", fine_iterations, {1, 100}, "",
+          "most Gauss-Newton steps on the finest level");
 }
 
 }  // namespace tessera

@@ -1,12 +1,12 @@
-// Tracks a frame directly in the signed distance field by Gauss-Newton on distances and intensities ([B14] eq. 8-11;
-// alpha = 0 gives [B13]), coarse to fine over subsampled points.
+// Tracks a frame directly in the signed distance field by Gauss-Newton on distances and intensities
+// ([B14] eq. 8-11; alpha = 0 gives [B13]), coarse to fine over subsampled points.
 #pragma once
 
 #include <vector>
 
 #include "core/cpu.h"
-#include "tracking/frame_points.h"
 #include "tracking/conclude.h"
+#include "tracking/frame_points.h"
 #include "tracking/sdf_rows.h"
 #include "tracking/sdf_sums.h"
 #include "tracking/tracker.h"
@@ -27,9 +27,11 @@ class SdfTracker : public Tracker {
         void Describe(ConfigParameters& parameters);
     };
 
-    // `model` outlives the tracker. Without `use_colour` it tracks by geometry alone. `device` outlives it, too; null sums here.
-    SdfTracker(const Config& config, const PinholeCamera& camera, const TrackJudge& judge, ResidualModel& model, bool use_colour,
-               VectorPath path = VectorPath::kAuto, SdfSums* device = nullptr);
+    // `model` outlives the tracker. Without `use_colour` it tracks by geometry alone. `device`
+    // outlives it, too; null sums here.
+    SdfTracker(const Config& config, const PinholeCamera& camera, const TrackJudge& judge,
+               ResidualModel& model, bool use_colour, VectorPath path = VectorPath::kAuto,
+               SdfSums* device = nullptr);
 
     TrackResult Track(const TrackInput& input) override;
 
@@ -50,7 +52,7 @@ class SdfTracker : public Tracker {
     bool use_avx2_;
     SdfSums* device_;
     std::vector<FramePoints> points_;  // per level
-    PointResiduals residuals_;  // of the finest level
+    PointResiduals residuals_;         // of the finest level
 };
 
 }  // namespace tessera

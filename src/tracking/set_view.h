@@ -19,7 +19,8 @@ inline void SetCamera(const PinholeCamera& camera, ViewArguments& a) {
 
 inline void SetPose(const Eigen::Isometry3d& T_view_point, ViewArguments& a) {
     for (int i = 0; i < 3; ++i) {
-        for (int j = 0; j < 3; ++j) a.rotation[3 * i + j] = static_cast<float>(T_view_point.linear()(i, j));
+        for (int j = 0; j < 3; ++j)
+            a.rotation[3 * i + j] = static_cast<float>(T_view_point.linear()(i, j));
         a.translation[i] = static_cast<float>(T_view_point.translation()(i));
     }
 }

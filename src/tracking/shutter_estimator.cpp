@@ -8,18 +8,23 @@ namespace tessera {
 namespace {
 
 constexpr double kSharedError = 100.0;  // neighbouring residuals err together: so many count as one
-constexpr double kMemory = 0.85;  // per frame: each step goes only part of the way, the pose takes the rest
+// Per frame: each step goes only part of the way, the pose takes the rest.
+constexpr double kMemory = 0.85;
 
 }  // namespace
 
 void ShutterEstimator::Config::Describe(ConfigParameters& p) {
     p.Add("enabled", enabled,
-          "learn the colour image's delay and rolling shutter from the residuals; off trusts the time stamps and "
+          "learn the colour image's delay and rolling shutter from the residuals; off trusts the "
+          "time stamps and "
           "colour_readout_s");
-    p.Add("delay_prior_s", delay_prior_s, {1e-6, 0.1}, "s", "how far the delay may lie from the time stamps'");
-    p.Add("readout_prior_s", readout_prior_s, {1e-6, 0.1}, "s", "how far the read-out may lie from readout_s");
+    p.Add("delay_prior_s", delay_prior_s, {1e-6, 0.1}, "s",
+          "how far the delay may lie from the time stamps'");
+    p.Add("readout_prior_s", readout_prior_s, {1e-6, 0.1}, "s",
+          "how far the read-out may lie from readout_s");
     p.Add("readout_s", readout_s, {-0.05, 0.05}, "s",
-          "read-out time of the colour image, beyond colour_readout_s, from which learning begins; calibration.check begins from "
+          "read-out time of the colour image, beyond colour_readout_s, from which learning begins; "
+          "calibration.check begins from "
           "the recording's own");
 }
 
@@ -35,13 +40,16 @@ void ShutterEstimator::SaveState(StateWriter& state) const {
     state.Put(information_);
 }
 
-bool ShutterEstimator::LoadState(StateReader& state) { return state.Get(estimate_) && state.Get(information_); }
+bool ShutterEstimator::LoadState(StateReader& state) {
+    return state.Get(estimate_) && state.Get(information_);
+}
 
 bool ShutterEstimator::Wants(const FrameMotion& motion, double residual_scale) const {
     return config_.enabled && !motion.twist_per_s.isZero() && residual_scale > 0;
 }
 
-// One Gauss-Newton step on all frames so far, of which only the newest has a gradient left: recursive least squares.
+// One Gauss-Newton step on all frames so far, of which only the newest has a gradient left:
+// recursive least squares.
 void ShutterEstimator::Update(const std::vector<double>& sums, double residual_scale) {
     Eigen::Matrix2d H = Eigen::Matrix2d::Zero();
     Eigen::Vector2d g = Eigen::Vector2d::Zero();
@@ -49,7 +57,8 @@ void ShutterEstimator::Update(const std::vector<double>& sums, double residual_s
         H += (Eigen::Matrix2d() << sums[at], sums[at + 1], sums[at + 1], sums[at + 2]).finished();
         g += Eigen::Vector2d(sums[at + 3], sums[at + 4]);
     }
-    const double scale = ShutterSums::kRowStep * ShutterSums::kColumnStep / (kSharedError * residual_scale * residual_scale);
+    const double scale = ShutterSums::kRowStep * ShutterSums::kColumnStep /
+                         (kSharedError * residual_scale * residual_scale);
     information_ = kMemory * information_ + scale * H;
     const Eigen::Vector2d step = information_.inverse() * (-scale * g);
     if (!step.allFinite()) return;

@@ -1,6 +1,7 @@
-// Learns, while the camera turns, when the rows of the colour image were really taken: a constant delay beyond the time
-// stamps and the read-out time of a rolling shutter. Both shear the image of a moving camera, and what they shear shows
-// in the photometric residuals. A global shutter is learnt as zero.
+// Learns, while the camera turns, when the rows of the colour image were really taken: a constant
+// delay beyond the time stamps and the read-out time of a rolling shutter. Both shear the image of
+// a moving camera, and what they shear shows in the photometric residuals. A global shutter is
+// learnt as zero.
 #pragma once
 
 #include <Eigen/Core>
@@ -26,10 +27,11 @@ class ShutterEstimator {
 
     explicit ShutterEstimator(const Config& config) : config_(config) { Reset(); }
 
-    // Whether a frame with this motion, and photometric residuals of this size, has something to tell.
+    // Whether a frame with this motion, and photometric residuals of this size, has something to
+    // tell.
     bool Wants(const FrameMotion& motion, double residual_scale) const;
-    // One tracked frame: ShutterSums (residual_kernels.h) of its residuals, map minus gain times image minus offset. Owner
-    // thread only.
+    // One tracked frame: ShutterSums (residual_kernels.h) of its residuals, map minus gain times
+    // image minus offset. Owner thread only.
     void Update(const std::vector<double>& sums, double residual_scale);
     void Reset();
     void SaveState(StateWriter& state) const;

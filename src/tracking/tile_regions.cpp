@@ -10,7 +10,9 @@ using Marks = Image<std::uint8_t>;
 constexpr float kNearestCounted_m = 1.0f;  // noise is a few tiles, near and far
 
 // Neighbours on one surface: tiles of a slanted one differ, too.
-bool Continuous(float a, float b) { return a > 0 && b > 0 && std::abs(a - b) < 0.05f + 0.03f * std::min(a, b); }
+bool Continuous(float a, float b) {
+    return a > 0 && b > 0 && std::abs(a - b) < 0.05f + 0.03f * std::min(a, b);
+}
 
 // Neighbours on one body: a chin before a chest, an arm before a hip.
 bool HangTogether(float a, float b) { return a > 0 && b > 0 && std::abs(a - b) < 0.2f; }
@@ -38,7 +40,8 @@ bool HasCore(const Marks& marks) {
     return false;
 }
 
-void KeepRegions(const DepthImage& depth_m, const Marks& seeds, const PinholeCamera& camera, const RegionRule& rule, Marks& marks) {
+void KeepRegions(const DepthImage& depth_m, const Marks& seeds, const PinholeCamera& camera,
+                 const RegionRule& rule, Marks& marks) {
     constexpr std::uint8_t kOpen = 1, kKept = 2, kLeft = 3;
     std::vector<std::pair<int, int>> region;
     for (int y0 = 0; y0 < marks.height(); ++y0)
@@ -61,14 +64,16 @@ void KeepRegions(const DepthImage& depth_m, const Marks& seeds, const PinholeCam
                     region.emplace_back(u, v);
                 });
             }
-            if (core && area_m2 >= rule.min_area_m2 && seeded >= rule.min_seed_fraction * static_cast<double>(region.size()))
+            if (core && area_m2 >= rule.min_area_m2 &&
+                seeded >= rule.min_seed_fraction * static_cast<double>(region.size()))
                 for (const auto& [x, y] : region) marks(x, y) = kKept;
         }
     std::transform(marks.data(), marks.data() + marks.size(), marks.data(),
                    [](std::uint8_t m) { return static_cast<std::uint8_t>(m == kKept); });
 }
 
-void GrowRegions(const DepthImage& depth_m, const Marks& allowed, const PinholeCamera& camera, double reach_m, Marks& marks) {
+void GrowRegions(const DepthImage& depth_m, const Marks& allowed, const PinholeCamera& camera,
+                 double reach_m, Marks& marks) {
     struct Tile {
         int x, y;
         double way_m;
@@ -82,7 +87,9 @@ void GrowRegions(const DepthImage& depth_m, const Marks& allowed, const PinholeC
         const double way_m = from.way_m + depth_m(from.x, from.y) / camera.fx;
         if (way_m > reach_m) continue;
         ForNeighbours(marks, from.x, from.y, [&](int u, int v) {
-            if (marks(u, v) != 0 || allowed(u, v) == 0 || !HangTogether(depth_m(from.x, from.y), depth_m(u, v))) return;
+            if (marks(u, v) != 0 || allowed(u, v) == 0 ||
+                !HangTogether(depth_m(from.x, from.y), depth_m(u, v)))
+                return;
             marks(u, v) = 1;
             tiles.push_back({u, v, way_m});
         });
@@ -93,8 +100,10 @@ void MarkBeside(const DepthImage& depth_m, const DepthImage& other_m, int reach,
     for (int y = 0; y < other_m.height(); ++y)
         for (int x = 0; x < other_m.width(); ++x) {
             if (other_m(x, y) <= 0) continue;
-            for (int v = std::max(y - reach, 0); v <= std::min(y + reach, other_m.height() - 1); ++v)
-                for (int u = std::max(x - reach, 0); u <= std::min(x + reach, other_m.width() - 1); ++u)
+            for (int v = std::max(y - reach, 0); v <= std::min(y + reach, other_m.height() - 1);
+                 ++v)
+                for (int u = std::max(x - reach, 0); u <= std::min(x + reach, other_m.width() - 1);
+                     ++u)
                     if (Continuous(other_m(x, y), depth_m(u, v))) marks(u, v) = 1;
         }
 }
@@ -106,7 +115,9 @@ void Dilate(int reach, Marks& marks) {
             for (int x = 0; x < marks.width(); ++x)
                 if (before(x, y) != 0)
                     for (int v = std::max(y - 1, 0); v <= std::min(y + 1, marks.height() - 1); ++v)
-                        for (int u = std::max(x - 1, 0); u <= std::min(x + 1, marks.width() - 1); ++u) marks(u, v) = 1;
+                        for (int u = std::max(x - 1, 0); u <= std::min(x + 1, marks.width() - 1);
+                             ++u)
+                            marks(u, v) = 1;
     }
 }
 

@@ -28,14 +28,16 @@ float NearestOfTile(const DepthImage& depth_m, int step, int k, int l) {
 
 // By rows, then by columns.
 template <class Better>
-void BestAround(const DepthImage& tiles, int reach, DepthImage& out, float none, const Better& better) {
+void BestAround(const DepthImage& tiles, int reach, DepthImage& out, float none,
+                const Better& better) {
     const int width = tiles.width(), height = tiles.height();
     DepthImage rows(width, height);
     const auto value = [&](int x, int y) { return tiles(x, y) > 0 ? tiles(x, y) : none; };
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {
             float best = none;
-            for (int u = std::max(x - reach, 0); u <= std::min(x + reach, width - 1); ++u) best = better(best, value(u, y));
+            for (int u = std::max(x - reach, 0); u <= std::min(x + reach, width - 1); ++u)
+                best = better(best, value(u, y));
             rows(x, y) = best;
         }
     out.Resize(width, height);
@@ -48,9 +50,11 @@ void BestAround(const DepthImage& tiles, int reach, DepthImage& out, float none,
     }
 }
 
-// Visits each tile (x, y) of `from` that has depth and whose point a camera there sees: its depth there, and in which tile.
+// Visits each tile (x, y) of `from` that has depth and whose point a camera there sees: its depth
+// there, and in which tile.
 template <class Visit>
-void ForSeen(const TileView& from, const Eigen::Isometry3d& T_world_camera, const PinholeCamera& camera, const Visit& visit) {
+void ForSeen(const TileView& from, const Eigen::Isometry3d& T_world_camera,
+             const PinholeCamera& camera, const Visit& visit) {
     const Eigen::Isometry3f T = (T_world_camera.inverse() * from.T_world_camera).cast<float>();
     const Eigen::Matrix3f R = T.linear();
     const Eigen::Vector3f t = T.translation();
@@ -63,7 +67,8 @@ void ForSeen(const TileView& from, const Eigen::Isometry3d& T_world_camera, cons
         for (int x = 0; x < width; ++x) {
             const float depth = from.depth_m(x, y);
             if (depth <= 0) continue;
-            const Eigen::Vector3f p = depth * (R.col(0) * ((static_cast<float>(x) - cx) / fx) + row) + t;
+            const Eigen::Vector3f p =
+                depth * (R.col(0) * ((static_cast<float>(x) - cx) / fx) + row) + t;
             if (p.z() < kNearest_m) continue;
             const float u = p.x() / p.z() * fx + cx + 0.5f, v = p.y() / p.z() * fy + cy + 0.5f;
             if (u >= 0 && v >= 0 && u < static_cast<float>(width) && v < static_cast<float>(height))
@@ -74,13 +79,15 @@ void ForSeen(const TileView& from, const Eigen::Isometry3d& T_world_camera, cons
 
 }  // namespace
 
-void MakeTiles(const DepthImage& depth_m, int step, float disparity_offset_per_m, DepthImage& tiles) {
+void MakeTiles(const DepthImage& depth_m, int step, float disparity_offset_per_m,
+               DepthImage& tiles) {
     tiles.Resize(depth_m.width() / step, depth_m.height() / step);
     constexpr int kRows = 8;
     tbb::parallel_for(0, (tiles.height() + kRows - 1) / kRows, [&](int band) {
         for (int l = band * kRows; l < std::min((band + 1) * kRows, tiles.height()); ++l)
             for (int k = 0; k < tiles.width(); ++k)
-                tiles(k, l) = CorrectedDepth(NearestOfTile(depth_m, step, k, l), disparity_offset_per_m);
+                tiles(k, l) =
+                    CorrectedDepth(NearestOfTile(depth_m, step, k, l), disparity_offset_per_m);
     });
 }
 
@@ -92,23 +99,24 @@ void FarthestAround(const DepthImage& tiles, int reach, DepthImage& farthest) {
     BestAround(tiles, reach, farthest, 0.0f, [](float a, float b) { return std::max(a, b); });
 }
 
-void MarkFree(const TileView& from, const TileView& to, const PinholeCamera& camera, const DepthMargin& margin,
-              Image<std::uint8_t>& of_from) {
+void MarkFree(const TileView& from, const TileView& to, const PinholeCamera& camera,
+              const DepthMargin& margin, Image<std::uint8_t>& of_from) {
     ForSeen(from, to.T_world_camera, camera, [&](int x, int y, float depth_m, int k, int l) {
         const float seen = to.near_m(k, l);
         if (seen > depth_m + margin(seen)) of_from(x, y) = 1;
     });
 }
 
-void MarkSame(const TileView& from, const TileView& to, const PinholeCamera& camera, const DepthMargin& margin,
-              Image<std::uint8_t>& of_from) {
+void MarkSame(const TileView& from, const TileView& to, const PinholeCamera& camera,
+              const DepthMargin& margin, Image<std::uint8_t>& of_from) {
     ForSeen(from, to.T_world_camera, camera, [&](int x, int y, float depth_m, int k, int l) {
         const float nearest = to.near_m(k, l), there = to.depth_m(k, l), off = margin(depth_m);
         if (there > 0 && nearest - off <= depth_m && depth_m <= there + off) of_from(x, y) = 1;
     });
 }
 
-void FindLeft(const TileView& past, const TileView& now, const PinholeCamera& camera, const DepthMargin& margin, DepthImage& left_m) {
+void FindLeft(const TileView& past, const TileView& now, const PinholeCamera& camera,
+              const DepthMargin& margin, DepthImage& left_m) {
     ForSeen(past, now.T_world_camera, camera, [&](int, int, float depth_m, int k, int l) {
         const float seen = now.near_m(k, l);
         if (seen <= depth_m + margin(seen)) return;
@@ -116,8 +124,9 @@ void FindLeft(const TileView& past, const TileView& now, const PinholeCamera& ca
     });
 }
 
-void Carry(const TileView& from, const Image<std::uint8_t>& marked, const Eigen::Isometry3d& T_world_camera,
-           const PinholeCamera& camera, DepthImage& carried_m) {
+void Carry(const TileView& from, const Image<std::uint8_t>& marked,
+           const Eigen::Isometry3d& T_world_camera, const PinholeCamera& camera,
+           DepthImage& carried_m) {
     ForSeen(from, T_world_camera, camera, [&](int x, int y, float depth_m, int k, int l) {
         if (marked(x, y) != 0) carried_m(k, l) = depth_m;
     });

@@ -15,7 +15,8 @@ std::string Misfit(const TrackResult& result) {
     return fmt::format("only {:.0f} % of the depth fits the map", 100 * result.inlier_fraction);
 }
 
-double InnovationOf(const Eigen::Isometry3d& T_world_expected, const Eigen::Isometry3d& T_world_camera) {
+double InnovationOf(const Eigen::Isometry3d& T_world_expected,
+                    const Eigen::Isometry3d& T_world_camera) {
     return (T_world_expected.inverse() * T_world_camera).translation().norm();
 }
 
@@ -33,21 +34,24 @@ bool TrackJudge::Fits(std::int64_t points, const PoseSums& sums, TrackResult& re
     if (known <= 0)
         result.reason = "no depth where the map is known";
     else if (result.known_fraction < config_.min_known_fraction)
-        result.reason = fmt::format("only {:.0f} % of the depth lies in the map", 100 * result.known_fraction);
+        result.reason =
+            fmt::format("only {:.0f} % of the depth lies in the map", 100 * result.known_fraction);
     else if (result.inlier_fraction < config_.min_inlier_fraction)
         result.reason = Misfit(result);
     return result.reason.empty();
 }
 
 void TrackJudge::Judge(const TrackInput& input, TrackResult& result) const {
-    result.degenerate = result.uncertainty_m > config_.degenerate_voxels * input.map.config().voxel_size_m;
+    result.degenerate =
+        result.uncertainty_m > config_.degenerate_voxels * input.map.config().voxel_size_m;
     const Eigen::Isometry3d& T_world_expected = input.T_world_camera_starts.front();
     result.innovation_m = InnovationOf(T_world_expected, result.T_world_camera);
     result.innovation_rad = RotationAngle(T_world_expected, result.T_world_camera);
     result.status = Status(input, result);
 }
 
-bool TrackJudge::Follows(const Eigen::Isometry3d& T_world_expected, const Eigen::Isometry3d& T_world_camera) const {
+bool TrackJudge::Follows(const Eigen::Isometry3d& T_world_expected,
+                         const Eigen::Isometry3d& T_world_camera) const {
     return InnovationOf(T_world_expected, T_world_camera) <= config_.good_innovation_m &&
            RotationAngle(T_world_expected, T_world_camera) <= config_.good_innovation_rad;
 }
@@ -61,22 +65,28 @@ TrackStatus TrackJudge::Status(const TrackInput& input, TrackResult& result) con
     const Eigen::Isometry3d jump = input.T_world_camera_last.inverse() * result.T_world_camera;
     const double moved_m = jump.translation().norm();
     const double turned_rad = RotationAngle(input.T_world_camera_last, result.T_world_camera);
-    if (input.since_last_s > 0 && (moved_m > config_.max_jump_m || turned_rad > config_.max_jump_rad))
-        return because(TrackStatus::kLost, fmt::format("jumped by {:.2f} m and {:.2f} rad", moved_m, turned_rad));
-    if (result.inlier_fraction < config_.good_inlier_fraction) return because(kPoor, Misfit(result));
+    if (input.since_last_s > 0 &&
+        (moved_m > config_.max_jump_m || turned_rad > config_.max_jump_rad))
+        return because(TrackStatus::kLost,
+                       fmt::format("jumped by {:.2f} m and {:.2f} rad", moved_m, turned_rad));
+    if (result.inlier_fraction < config_.good_inlier_fraction)
+        return because(kPoor, Misfit(result));
     if (result.distance_rms_m > config_.good_distance_rms_m)
-        return because(kPoor, fmt::format("the depth is {:.1f} cm off the map", 100 * result.distance_rms_m));
+        return because(
+            kPoor, fmt::format("the depth is {:.1f} cm off the map", 100 * result.distance_rms_m));
     if (!Follows(input.T_world_camera_starts.front(), result.T_world_camera))
-        return because(kPoor, fmt::format("{:.2f} m and {:.2f} rad from where the motion led", result.innovation_m,
-                                          result.innovation_rad));
+        return because(kPoor, fmt::format("{:.2f} m and {:.2f} rad from where the motion led",
+                                          result.innovation_m, result.innovation_rad));
     return TrackStatus::kGood;
 }
 
 void TrackJudge::Config::Describe(ConfigParameters& p) {
     p.Add("degenerate_voxels", degenerate_voxels, {0.0, 100.0}, "voxels",
-          "a frame is called degenerate if some motion's standard deviation at the scene's depth is larger");
+          "a frame is called degenerate if some motion's standard deviation at the scene's depth "
+          "is larger");
     p.Add("expected_within_m", expected_within_m, {0.0, 1.0}, "m",
-          "standard deviation of the pose that prealignment and motion model expect: a motion that the frame knows less well "
+          "standard deviation of the pose that prealignment and motion model expect: a motion that "
+          "the frame knows less well "
           "follows them; 0: no motion does");
     p.Add("min_known_fraction", min_known_fraction, {0.0, 1.0}, "",
           "lost if a smaller share of the depth lies in the map");
@@ -86,11 +96,14 @@ void TrackJudge::Config::Describe(ConfigParameters& p) {
           "tracked, but not fused, if a smaller share fits");
     p.Add("good_distance_rms_m", good_distance_rms_m, {0.0, 10.0}, "m",
           "tracked, but not fused, if the robust residual of the depth is larger");
-    p.Add("max_jump_m", max_jump_m, {0.0, 100.0}, "m", "lost if the camera moved farther since the last frame");
-    p.Add("max_jump_rad", max_jump_rad, {0.0, 3.2}, "rad", "lost if the camera turned more since the last frame");
+    p.Add("max_jump_m", max_jump_m, {0.0, 100.0}, "m",
+          "lost if the camera moved farther since the last frame");
+    p.Add("max_jump_rad", max_jump_rad, {0.0, 3.2}, "rad",
+          "lost if the camera turned more since the last frame");
     p.Add("good_innovation_m", good_innovation_m, {0.0, 100.0}, "m",
           "tracked, but not fused, if the pose lies farther from the motion model's expectation");
-    p.Add("good_innovation_rad", good_innovation_rad, {0.0, 3.2}, "rad", "the same for the rotation");
+    p.Add("good_innovation_rad", good_innovation_rad, {0.0, 3.2}, "rad",
+          "the same for the rotation");
 }
 
 }  // namespace tessera

@@ -1,4 +1,5 @@
-// Whether a tracked frame may be trusted: the same rules for every method, from the sums at the pose that it found.
+// Whether a tracked frame may be trusted: the same rules for every method, from the sums at the
+// pose that it found.
 #pragma once
 
 #include <cstdint>
@@ -29,16 +30,20 @@ class TrackJudge {
 
     explicit TrackJudge(const Config& config) : config_(config) {}
 
-    // Fills how well the frame fits the map. `sums` are the finest level's last, `points` how many points had depth there. False,
-    // with status and reason: it is lost.
+    // Fills how well the frame fits the map. `sums` are the finest level's last, `points` how many
+    // points had depth there. False, with status and reason: it is lost.
     bool Fits(std::int64_t points, const PoseSums& sums, TrackResult& result) const;
-    // Fills status, reason and what else is to be said of a result that fits, whose pose and uncertainty are set.
+    // Fills status, reason and what else is to be said of a result that fits, whose pose and
+    // uncertainty are set.
     void Judge(const TrackInput& input, TrackResult& result) const;
 
-    // Whether a pose is as near to another, the motion model's, as that of a frame to be fused must be.
-    bool Follows(const Eigen::Isometry3d& T_world_expected, const Eigen::Isometry3d& T_world_camera) const;
+    // Whether a pose is as near to another, the motion model's, as that of a frame to be fused must
+    // be.
+    bool Follows(const Eigen::Isometry3d& T_world_expected,
+                 const Eigen::Isometry3d& T_world_camera) const;
 
-    // Standard deviation of the pose that is expected before a frame is looked at; 0: nothing is expected.
+    // Standard deviation of the pose that is expected before a frame is looked at; 0: nothing is
+    // expected.
     double expected_within_m() const { return config_.expected_within_m; }
 
   private:

@@ -1,4 +1,5 @@
-// Points held against an image from elsewhere, in plain pointers and numbers: what icp's sums and the prealignment's share.
+// Points held against an image from elsewhere, in plain pointers and numbers: what icp's sums and
+// the prealignment's share.
 #pragma once
 
 namespace tessera {

@@ -1,5 +1,5 @@
-// Points projected into an image, and the image read there. Templates on the number type or on lanes V (scalar_lanes.h), for the
-// CPU's vectors and CUDA alike.
+// Points projected into an image, and the image read there. Templates on the number type or on
+// lanes V (scalar_lanes.h), for the CPU's vectors and CUDA alike.
 #pragma once
 
 #include "core/host_device.h"
@@ -13,16 +13,18 @@ struct ImageSample {
     F value, du, dv;
 };
 template <class F>
-TESSERA_HD ImageSample<F> Bilinear(const F& p00, const F& p10, const F& p01, const F& p11, const F& fu, const F& fv) {
+TESSERA_HD ImageSample<F> Bilinear(const F& p00, const F& p10, const F& p01, const F& p11,
+                                   const F& fu, const F& fv) {
     const F top = p00 + fu * (p10 - p00), bottom = p01 + fu * (p11 - p01);
     const F left = p10 - p00, right = p11 - p01;
     return {top + fv * (bottom - top), left + fv * (right - left), bottom - top};
 }
 
-// d(image)/d(point) of an image read where the point p (camera frame) projects: slopes times the projection's
-// derivative.
+// d(image)/d(point) of an image read where the point p (camera frame) projects: slopes times the
+// projection's derivative.
 template <class F>
-TESSERA_HD void ImageGradientInSpace(const F* p, const F& fx, const F& fy, const F& du, const F& dv, F* g) {
+TESSERA_HD void ImageGradientInSpace(const F* p, const F& fx, const F& fy, const F& du, const F& dv,
+                                     F* g) {
     const F inverse_z = F(1.0f) / p[2];
     g[0] = du * fx * inverse_z;
     g[1] = dv * fy * inverse_z;
@@ -31,11 +33,12 @@ TESSERA_HD void ImageGradientInSpace(const F* p, const F& fx, const F& fy, const
 
 // Row-major rotation times (x, y, z).
 template <class V>
-TESSERA_HD void Rotate(const float* rotation, const typename V::Real& x, const typename V::Real& y, const typename V::Real& z,
-                       typename V::Real* out) {
+TESSERA_HD void Rotate(const float* rotation, const typename V::Real& x, const typename V::Real& y,
+                       const typename V::Real& z, typename V::Real* out) {
     for (int k = 0; k < 3; ++k) {
         const float* r = rotation + 3 * k;
-        out[k] = typename V::Real(r[0]) * x + typename V::Real(r[1]) * y + typename V::Real(r[2]) * z;
+        out[k] =
+            typename V::Real(r[0]) * x + typename V::Real(r[1]) * y + typename V::Real(r[2]) * z;
     }
 }
 
@@ -43,7 +46,7 @@ TESSERA_HD void Rotate(const float* rotation, const typename V::Real& x, const t
 template <class V>
 struct Projected {
     typename V::Real p[3];
-    typename V::Real u, v;     // 0 where outside
+    typename V::Real u, v;    // 0 where outside
     typename V::Mask inside;  // in front of the camera and within the image
 };
 
@@ -59,20 +62,23 @@ TESSERA_HD Projected<V> Project(const ViewArguments& a, int i) {
     const Real inverse_z = Real(1.0f) / q.p[2];
     q.u = q.p[0] * inverse_z * Real(a.fx) + Real(a.cx);
     q.v = q.p[1] * inverse_z * Real(a.fy) + Real(a.cy);
-    q.inside = in_front && (q.u >= Real(0.0f)) && (q.v >= Real(0.0f)) && (q.u <= Real(static_cast<float>(a.width - 1))) &&
+    q.inside = in_front && (q.u >= Real(0.0f)) && (q.v >= Real(0.0f)) &&
+               (q.u <= Real(static_cast<float>(a.width - 1))) &&
                (q.v <= Real(static_cast<float>(a.height - 1)));
     q.u = V::Select(q.inside, q.u, Real(0.0f));
     q.v = V::Select(q.inside, q.v, Real(0.0f));
     return q;
 }
 
-// `image`, at least 2 x 2 pixels row by row, at (q.u, q.v); and the least of the four pixels around.
+// `image`, at least 2 x 2 pixels row by row, at (q.u, q.v); and the least of the four pixels
+// around.
 template <class V>
 struct ViewSample : ImageSample<typename V::Real> {
     typename V::Real least;
 };
 template <class V>
-TESSERA_HD ViewSample<V> SampleAt(const float* image, int width, int height, const Projected<V>& q) {
+TESSERA_HD ViewSample<V> SampleAt(const float* image, int width, int height,
+                                  const Projected<V>& q) {
     using Real = typename V::Real;
     using Int = typename V::Int;
     const Real u0 = V::Min(V::Floor(q.u), Real(static_cast<float>(width - 2)));
@@ -81,7 +87,8 @@ TESSERA_HD ViewSample<V> SampleAt(const float* image, int width, int height, con
     const Int below = pixel + Int(width);
     const Real p00 = V::Gather(image, pixel), p10 = V::Gather(image + 1, pixel);
     const Real p01 = V::Gather(image, below), p11 = V::Gather(image + 1, below);
-    return {Bilinear(p00, p10, p01, p11, q.u - u0, q.v - v0), V::Min(V::Min(p00, p10), V::Min(p01, p11))};
+    return {Bilinear(p00, p10, p01, p11, q.u - u0, q.v - v0),
+            V::Min(V::Min(p00, p10), V::Min(p01, p11))};
 }
 
 }  // namespace tessera

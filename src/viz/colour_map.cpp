@@ -25,15 +25,14 @@ template <Rgb8 (*Colour)(float)>
 const std::array<Rgb8, 256>& Shades() {
     static const std::array<Rgb8, 256> shades = [] {
         std::array<Rgb8, 256> table;
-        for (std::size_t i = 0; i < table.size(); ++i) table[i] = Colour(static_cast<float>(i) / 255);
+        for (std::size_t i = 0; i < table.size(); ++i)
+            table[i] = Colour(static_cast<float>(i) / 255);
         return table;
     }();
     return shades;
 }
 
-Rgb8 DivergingFromUnit(float value) {
-    return DivergingColour(2 * value - 1);
-}
+Rgb8 DivergingFromUnit(float value) { return DivergingColour(2 * value - 1); }
 
 std::size_t Shade(float unit) {
     return static_cast<std::size_t>(std::clamp(unit, 0.0f, 1.0f) * 255 + 0.5f);
@@ -47,9 +46,13 @@ const std::array<Rgb8, kWeightStops> kWeightColours{
 Rgb8 WeightColour(float value) { return Interpolate(kWeightColours, value); }
 
 Rgb8 SequentialColour(float value) {
-    static constexpr std::array<Rgb8, 7> kStops{
-        {{150, 20, 60}, {222, 82, 62}, {250, 165, 88}, {246, 228, 140}, {132, 205, 160}, {54, 142, 186},
-         {72, 62, 140}}};
+    static constexpr std::array<Rgb8, 7> kStops{{{150, 20, 60},
+                                                 {222, 82, 62},
+                                                 {250, 165, 88},
+                                                 {246, 228, 140},
+                                                 {132, 205, 160},
+                                                 {54, 142, 186},
+                                                 {72, 62, 140}}};
     return Interpolate(kStops, value);
 }
 
@@ -80,22 +83,26 @@ ColourImage DepthColours(const DepthImage& depth_m, float far_m, int step) {
     ColourImage out(depth_m.width() / step, depth_m.height() / step, kNothingShown);
     for (int y = 0; y < out.height(); ++y)
         for (int x = 0; x < out.width(); ++x)
-            if (const float z = depth_m(x * step, y * step); z > 0) out(x, y) = shades[Shade(z / far_m)];
+            if (const float z = depth_m(x * step, y * step); z > 0)
+                out(x, y) = shades[Shade(z / far_m)];
     return out;
 }
 
-ColourImage ResidualColours(const DepthImage& measured_m, const PinholeCamera& camera, const PredictedView& predicted,
-                            float reach_m) {
+ColourImage ResidualColours(const DepthImage& measured_m, const PinholeCamera& camera,
+                            const PredictedView& predicted, float reach_m) {
     const auto& shades = Shades<DivergingFromUnit>();
     const PinholeCamera& small = predicted.camera;
     ColourImage out(predicted.depth_m.width(), predicted.depth_m.height(), kNothingShown);
     for (int v = 0; v < out.height(); ++v) {
-        const int y = static_cast<int>(std::lround((v - small.cy) / small.fy * camera.fy + camera.cy));
+        const int y =
+            static_cast<int>(std::lround((v - small.cy) / small.fy * camera.fy + camera.cy));
         for (int u = 0; u < out.width(); ++u) {
-            const int x = static_cast<int>(std::lround((u - small.cx) / small.fx * camera.fx + camera.cx));
+            const int x =
+                static_cast<int>(std::lround((u - small.cx) / small.fx * camera.fx + camera.cx));
             if (!measured_m.Contains(x, y)) continue;
             const float z = measured_m(x, y), expected = predicted.depth_m(u, v);
-            if (z > 0 && expected > 0) out(u, v) = shades[Shade(0.5f + 0.5f * (z - expected) / reach_m)];
+            if (z > 0 && expected > 0)
+                out(u, v) = shades[Shade(0.5f + 0.5f * (z - expected) / reach_m)];
         }
     }
     return out;

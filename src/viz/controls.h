@@ -1,4 +1,5 @@
-// Where each control was drawn, by name, so that a test can click on it as a person does. Owner thread only.
+// Where each control was drawn, by name, so that a test can click on it as a person does. Owner
+// thread only.
 #pragma once
 
 #include <map>

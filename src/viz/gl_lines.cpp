@@ -7,7 +7,8 @@
 namespace tessera {
 namespace {
 
-// Both ends are cut at the near plane before the division, so that a line that passes the viewer stays straight.
+// Both ends are cut at the near plane before the division, so that a line that passes the viewer
+// stays straight.
 constexpr const char* kLineVertexSource = R"(#version 330 core
 layout(location = 0) in vec3 start;
 layout(location = 1) in vec4 start_colour;
@@ -44,13 +45,9 @@ void main() { pixel = colour; }
 
 }  // namespace
 
-GlLines::GlLines() {
-    glGenVertexArrays(1, &vertex_array_);
-}
+GlLines::GlLines() { glGenVertexArrays(1, &vertex_array_); }
 
-GlLines::~GlLines() {
-    glDeleteVertexArrays(1, &vertex_array_);
-}
+GlLines::~GlLines() { glDeleteVertexArrays(1, &vertex_array_); }
 
 void GlLines::Append(std::span<const LineVertex> vertices) {
     buffer_.Reserve((count_ + vertices.size()) * sizeof(LineVertex));
@@ -65,7 +62,8 @@ void GlLines::Bind(bool connected) {
     const auto stride = static_cast<GLsizei>(sizeof(LineVertex) * (connected ? 1 : 2));
     for (GLuint end = 0; end < 2; ++end) {
         const std::size_t offset = end * sizeof(LineVertex);
-        glVertexAttribPointer(2 * end, 3, GL_FLOAT, GL_FALSE, stride, reinterpret_cast<const void*>(offset));
+        glVertexAttribPointer(2 * end, 3, GL_FLOAT, GL_FALSE, stride,
+                              reinterpret_cast<const void*>(offset));
         glVertexAttribPointer(2 * end + 1, 4, GL_UNSIGNED_BYTE, GL_TRUE, stride,
                               reinterpret_cast<const void*>(offset + offsetof(LineVertex, colour)));
     }
@@ -81,13 +79,16 @@ Result<GlLineProgram> GlLineProgram::Create() {
     return GlLineProgram(std::move(program.value()));
 }
 
-void GlLineProgram::Draw(GlLines& lines, const View& view, bool connected, float width_px, float opacity) const {
-    const std::size_t count = connected ? std::max<std::size_t>(lines.size(), 1) - 1 : lines.size() / 2;
+void GlLineProgram::Draw(GlLines& lines, const View& view, bool connected, float width_px,
+                         float opacity) const {
+    const std::size_t count =
+        connected ? std::max<std::size_t>(lines.size(), 1) - 1 : lines.size() / 2;
     if (count == 0) return;
     program_.Use();
     const Eigen::Matrix4f clip = view.clip_from_world.cast<float>();
     glUniformMatrix4fv(program_.Location("clip_from_world"), 1, GL_FALSE, clip.data());
-    glUniform2f(program_.Location("size_px"), static_cast<float>(view.width_px), static_cast<float>(view.height_px));
+    glUniform2f(program_.Location("size_px"), static_cast<float>(view.width_px),
+                static_cast<float>(view.height_px));
     glUniform1f(program_.Location("width_px"), width_px);
     glUniform1f(program_.Location("opacity"), opacity);
     lines.Bind(connected);

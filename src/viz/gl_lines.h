@@ -1,5 +1,5 @@
-// Lines of any width in 3D, which OpenGL's core profile does not have: each is drawn as a rectangle that faces the
-// picture. Made, used and destroyed with the OpenGL context current.
+// Lines of any width in 3D, which OpenGL's core profile does not have: each is drawn as a rectangle
+// that faces the picture. Made, used and destroyed with the OpenGL context current.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -47,9 +47,10 @@ class GlLineProgram {
         Eigen::Matrix4d clip_from_world;
         int width_px = 0, height_px = 0;
     };
-    // From each vertex to the next (`connected`), or from the first to the second, the third to the fourth and so on.
-    // `opacity` in [0, 1]. Depth test and blending are the caller's.
-    void Draw(GlLines& lines, const View& view, bool connected, float width_px, float opacity) const;
+    // From each vertex to the next (`connected`), or from the first to the second, the third to the
+    // fourth and so on. `opacity` in [0, 1]. Depth test and blending are the caller's.
+    void Draw(GlLines& lines, const View& view, bool connected, float width_px,
+              float opacity) const;
 
   private:
     explicit GlLineProgram(GlProgram program) : program_(std::move(program)) {}

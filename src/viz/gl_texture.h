@@ -1,4 +1,5 @@
-// An image on the graphics card, for ImGui. Made, used and destroyed with its OpenGL context current.
+// An image on the graphics card, for ImGui. Made, used and destroyed with its OpenGL context
+// current.
 #pragma once
 
 #include "core/image.h"

@@ -28,7 +28,8 @@ void main() {
 }
 )";
 
-// One lamp at the viewer's left shoulder and a little light from the sky: enough for bare walls to show their shape.
+// One lamp at the viewer's left shoulder and a little light from the sky: enough for bare walls to
+// show their shape.
 constexpr const char* kMeshFragmentSource = R"(#version 330 core
 in vec3 normal_world;
 in vec4 weighted_colour;
@@ -75,14 +76,15 @@ Result<MeshProgram> MeshProgram::Create() {
     return MeshProgram(std::move(program.value()));
 }
 
-void MeshProgram::Use(const PinholeCamera& camera, const Eigen::Isometry3d& T_world_camera, const Eigen::Vector3d& up,
-                      Shading shading) const {
+void MeshProgram::Use(const PinholeCamera& camera, const Eigen::Isometry3d& T_world_camera,
+                      const Eigen::Vector3d& up, Shading shading) const {
     program_.Use();
     const Eigen::Matrix3f rotation = T_world_camera.linear().cast<float>();
     const Eigen::Vector3f up_world = up.cast<float>();
     glUniformMatrix3fv(program_.Location("world_from_camera"), 1, GL_FALSE, rotation.data());
-    glUniform4f(program_.Location("intrinsics"), static_cast<float>(camera.fx), static_cast<float>(camera.fy),
-                static_cast<float>(camera.cx + 0.5), static_cast<float>(camera.cy + 0.5));
+    glUniform4f(program_.Location("intrinsics"), static_cast<float>(camera.fx),
+                static_cast<float>(camera.fy), static_cast<float>(camera.cx + 0.5),
+                static_cast<float>(camera.cy + 0.5));
     glUniform3fv(program_.Location("up"), 1, up_world.data());
     glUniform1i(program_.Location("shading"), static_cast<int>(shading));
     static_assert(kWeightStops == 5, "the shader's array");

@@ -15,8 +15,8 @@ class MeshProgram {
     static Result<MeshProgram> Create();
 
     // Draws from now on for this camera; `up` is the world's, unit.
-    void Use(const PinholeCamera& camera, const Eigen::Isometry3d& T_world_camera, const Eigen::Vector3d& up,
-             Shading shading) const;
+    void Use(const PinholeCamera& camera, const Eigen::Isometry3d& T_world_camera,
+             const Eigen::Vector3d& up, Shading shading) const;
     // For GlMeshStore::Draw.
     int clip_from_position() const { return program_.Location("clip_from_position"); }
 

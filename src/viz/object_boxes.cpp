@@ -7,10 +7,13 @@ namespace {
 
 // The twelve edges, two vertices each.
 void AppendEdges(const MapObject& object, std::vector<LineVertex>& vertices) {
-    const std::array<std::uint8_t, 4> colour{object.colour.r, object.colour.g, object.colour.b, 255};
+    const std::array<std::uint8_t, 4> colour{object.colour.r, object.colour.g, object.colour.b,
+                                             255};
     const auto corner = [&](int which) {
-        const Eigen::Vector3d side(which & 1 ? 0.5 : -0.5, which & 2 ? 0.5 : -0.5, which & 4 ? 0.5 : -0.5);
-        const Eigen::Vector3f p = (object.T_world_oriented * side.cwiseProduct(object.oriented_size)).cast<float>();
+        const Eigen::Vector3d side(which & 1 ? 0.5 : -0.5, which & 2 ? 0.5 : -0.5,
+                                   which & 4 ? 0.5 : -0.5);
+        const Eigen::Vector3f p =
+            (object.T_world_oriented * side.cwiseProduct(object.oriented_size)).cast<float>();
         return LineVertex{{p.x(), p.y(), p.z()}, colour};
     };
     for (int from = 0; from < 8; ++from)
@@ -24,7 +27,8 @@ void AppendEdges(const MapObject& object, std::vector<LineVertex>& vertices) {
 }  // namespace
 
 bool ObjectBoxes::Update(const ViewerState& state) {
-    if (taken_ == state.system.objects_taken() && selected_id_ == state.selected_object) return false;
+    if (taken_ == state.system.objects_taken() && selected_id_ == state.selected_object)
+        return false;
     taken_ = state.system.objects_taken();
     selected_id_ = state.selected_object;
     std::vector<LineVertex> edges, selected;
@@ -37,7 +41,8 @@ bool ObjectBoxes::Update(const ViewerState& state) {
     return true;
 }
 
-void ObjectBoxes::Draw(const GlLineProgram& program, const GlLineProgram::View& view, float opacity) {
+void ObjectBoxes::Draw(const GlLineProgram& program, const GlLineProgram::View& view,
+                       float opacity) {
     program.Draw(edges_, view, false, Scaled(1.5f), opacity);
     program.Draw(selected_, view, false, Scaled(3), opacity);
 }

@@ -1,4 +1,5 @@
-// The objects' oriented boxes in the 3D view. Made, used and destroyed with the OpenGL context current.
+// The objects' oriented boxes in the 3D view. Made, used and destroyed with the OpenGL context
+// current.
 #pragma once
 
 #include "viz/gl_lines.h"

@@ -29,10 +29,12 @@ void DrawMethods(ViewerState& state) {
     const float width = WidthOf(2);
     for (const Choice& choice : kChoices) {
         const std::string name = fmt::format("method.{}", ToString(choice.method));
-        if (MarkedButton(state.controls, name.c_str(), choice.label, width, state.settings.method == choice.method))
+        if (MarkedButton(state.controls, name.c_str(), choice.label, width,
+                         state.settings.method == choice.method))
             state.SelectMethod(choice.method);
         Tip(choice.tip);
-        if (choice.method == TrackingMethod::kSdf || choice.method == TrackingMethod::kIcp) ImGui::SameLine();
+        if (choice.method == TrackingMethod::kSdf || choice.method == TrackingMethod::kIcp)
+            ImGui::SameLine();
     }
 }
 
@@ -43,13 +45,15 @@ void DrawSettings(ViewerState& state) {
     bool changed = false;
     ImGui::AlignTextToFramePadding();
     ImGui::TextUnformatted("Colour");
-    Tip("Weight of the photometric residual against the distances, alpha of [B14] eq. 8, in square metres");
+    Tip("Weight of the photometric residual against the distances, alpha of [B14] eq. 8, in square "
+        "metres");
     ImGui::SameLine(label_width);
     changed |= MarkedCheckbox(controls, "alpha.auto", "auto", settings.auto_alpha);
     ImGui::SameLine();
     double shown = settings.auto_alpha ? state.system.frame().report.track.alpha : settings.alpha;
     ImGui::BeginDisabled(settings.auto_alpha);
-    if (MarkedSlider(controls, "alpha", shown, 0.0005, 2, "%.4f m\xC2\xB2", true) && !settings.auto_alpha) {
+    if (MarkedSlider(controls, "alpha", shown, 0.0005, 2, "%.4f m\xC2\xB2", true) &&
+        !settings.auto_alpha) {
         settings.alpha = shown;
         changed = true;
     }
@@ -79,7 +83,9 @@ void DrawCommands(ViewerState& state) {
     GroupTitle("RUN");
     const float narrow = WidthOf(4), wide = WidthOf(3);
     ImGui::BeginDisabled(state.ended());
-    if (MarkedButton(controls, "pause", state.paused() ? "Resume" : "Pause", narrow, state.paused())) state.TogglePause();
+    if (MarkedButton(controls, "pause", state.paused() ? "Resume" : "Pause", narrow,
+                     state.paused()))
+        state.TogglePause();
     Tip("No further frames, or on again  (Space)");
     ImGui::SameLine();
     if (MarkedButton(controls, "step", "Step", narrow)) state.Step();
@@ -88,7 +94,8 @@ void DrawCommands(ViewerState& state) {
     if (MarkedButton(controls, "reset", "Reset", narrow)) state.ask_reset = true;
     Tip("An empty map and a new world, after a question  (R)");
     ImGui::SameLine();
-    if (MarkedButton(controls, "record", state.recording() ? "Stop rec." : "Record", narrow, state.recording()))
+    if (MarkedButton(controls, "record", state.recording() ? "Stop rec." : "Record", narrow,
+                     state.recording()))
         state.ToggleRecording();
     Tip("Keep the raw frames from now on  (V)");
     if (MarkedButton(controls, "save_mesh", "Save mesh", wide)) state.SaveMesh();

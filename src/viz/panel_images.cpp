@@ -13,25 +13,25 @@ namespace {
 
 constexpr int kTexturePx = 320;  // wider than it is shown
 
-int StepFor(int width) {
-    return std::max(1, (width + kTexturePx - 1) / kTexturePx);
-}
+int StepFor(int width) { return std::max(1, (width + kTexturePx - 1) / kTexturePx); }
 
 // Where the image was drawn; empty without one.
-ImVec4 DrawImage(const char* title, const GlTexture& texture, const ImVec2& size, const char* missing,
-               const Legend& legend) {
+ImVec4 DrawImage(const char* title, const GlTexture& texture, const ImVec2& size,
+                 const char* missing, const Legend& legend) {
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const ImVec2 at = ImGui::GetCursorScreenPos(), to{at.x + size.x, at.y + size.y};
     ImVec4 drawn{};
     list.AddRectFilled(at, to, IM_COL32(18, 20, 24, 255), Scaled(4));
     if (!texture.empty()) {
         // As large as fits, without distortion.
-        const auto width = static_cast<float>(texture.width()), height = static_cast<float>(texture.height());
+        const auto width = static_cast<float>(texture.width()),
+                   height = static_cast<float>(texture.height());
         const float scale = std::min(size.x / width, size.y / height);
         const ImVec2 part{scale * width, scale * height};
         const ImVec2 from{at.x + (size.x - part.x) / 2, at.y + (size.y - part.y) / 2};
-        list.AddImageRounded(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(texture.name())), from,
-                             {from.x + part.x, from.y + part.y}, {0, 0}, {1, 1}, IM_COL32_WHITE, Scaled(4));
+        list.AddImageRounded(
+            reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(texture.name())), from,
+            {from.x + part.x, from.y + part.y}, {0, 0}, {1, 1}, IM_COL32_WHITE, Scaled(4));
         drawn = {from.x, from.y, from.x + part.x, from.y + part.y};
         if (legend.colour) DrawLegend(list, legend, at, size);
     } else {
@@ -43,7 +43,8 @@ ImVec4 DrawImage(const char* title, const GlTexture& texture, const ImVec2& size
     const ImVec2 label_to{at.x + extent.x + Scaled(14), at.y + extent.y + Scaled(6)};
     list.AddRectFilled(at, label_to, IM_COL32(14, 16, 19, 190), Scaled(4),
                        ImDrawFlags_RoundCornersTopLeft | ImDrawFlags_RoundCornersBottomRight);
-    list.AddText(SmallFont(), SmallFont()->FontSize, {at.x + Scaled(7), at.y + Scaled(3)}, palette::kText, title);
+    list.AddText(SmallFont(), SmallFont()->FontSize, {at.x + Scaled(7), at.y + Scaled(3)},
+                 palette::kText, title);
     ImGui::Dummy(size);
     return drawn;
 }
@@ -68,7 +69,8 @@ void ImagesPanel::Update(const ViewerState& state) {
         colour_.Set(tinted(ShrinkColour(frame.colour, step)));
     depth_.Set(tinted(DepthColours(frame.depth_m, far_m, step)));
     if (images.predicted) {
-        predicted_.Set(DepthColours(images.predicted->depth_m, far_m, StepFor(images.predicted->depth_m.width())));
+        predicted_.Set(DepthColours(images.predicted->depth_m, far_m,
+                                    StepFor(images.predicted->depth_m.width())));
         residual_.Set(ResidualColours(frame.depth_m, state.options.camera, *images.predicted,
                                       static_cast<float>(state.options.truncation_m)));
     } else {
@@ -84,11 +86,12 @@ void ImagesPanel::Draw(ViewerState& state, const ControlRect& area) {
     const float height = std::min(0.75f * width, (ImGui::GetContentRegionAvail().y - 3 * gap) / 4);
     const char* waiting = state.ended() ? "none" : "waiting for a frame";
     const char* unpredicted = state.settings.show_prediction ? waiting : "off";
-    const Legend depth{SequentialColour, 0, 1, "0", fmt::format("{:.1f} m", state.settings.max_depth_m)};
+    const Legend depth{SequentialColour, 0, 1, "0",
+                       fmt::format("{:.1f} m", state.settings.max_depth_m)};
     const std::string reach = fmt::format("{:.0f} mm", 1000 * state.options.truncation_m);
     const Legend difference{DivergingColour, -1, 1, "-" + reach, "+" + reach};
-    const ImVec4 colour =
-        DrawImage("Colour", colour_, {width, height}, state.system.images().frame ? "no colour" : waiting, {});
+    const ImVec4 colour = DrawImage("Colour", colour_, {width, height},
+                                    state.system.images().frame ? "no colour" : waiting, {});
     DrawDetections(state, {colour.x, colour.y}, {colour.z, colour.w});
     DrawImage("Depth", depth_, {width, height}, waiting, depth);
     DrawImage("Predicted depth", predicted_, {width, height}, unpredicted, depth);

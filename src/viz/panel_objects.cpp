@@ -1,4 +1,5 @@
-// What the detector finds and what objects stand in the map: a list, names over the 3D view, boxes over the image.
+// What the detector finds and what objects stand in the map: a list, names over the 3D view, boxes
+// over the image.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,7 +10,8 @@
 namespace tessera {
 namespace {
 
-// Names on small plates with the colour's mark at their left, none over another: a later one goes up until it is free.
+// Names on small plates with the colour's mark at their left, none over another: a later one goes
+// up until it is free.
 class NamePlates {
   public:
     NamePlates(ImDrawList& list, float opacity) : list_(list), opacity_(opacity) {}
@@ -19,14 +21,17 @@ class NamePlates {
         ImFont* const font = SmallFont();
         const ImVec2 extent = font->CalcTextSizeA(font->FontSize, 1e4f, 0, text.c_str());
         const float mark = Scaled(4), pad = Scaled(4), height = extent.y + Scaled(3);
-        const ImVec4 plate = FreePlace({at.x, at.y - height, at.x + mark + extent.x + 2 * pad, at.y});
+        const ImVec4 plate =
+            FreePlace({at.x, at.y - height, at.x + mark + extent.x + 2 * pad, at.y});
         const ImVec2 from{plate.x, plate.y}, to{plate.z, plate.w};
         const auto alpha = [&](float full) { return static_cast<unsigned>(full * opacity_); };
         list_.AddRectFilled(from, to, IM_COL32(14, 16, 19, alpha(215)), Scaled(3));
-        list_.AddRectFilled(from, {from.x + mark, to.y}, Packed(colour, alpha(255)), Scaled(3), ImDrawFlags_RoundCornersLeft);
+        list_.AddRectFilled(from, {from.x + mark, to.y}, Packed(colour, alpha(255)), Scaled(3),
+                            ImDrawFlags_RoundCornersLeft);
         if (lit) list_.AddRect(from, to, IM_COL32(255, 255, 255, alpha(220)), Scaled(3));
         list_.AddText(font, font->FontSize, {from.x + mark + pad, from.y + Scaled(1)},
-                      (palette::kText & ~IM_COL32_A_MASK) | (alpha(255) << IM_COL32_A_SHIFT), text.c_str());
+                      (palette::kText & ~IM_COL32_A_MASK) | (alpha(255) << IM_COL32_A_SHIFT),
+                      text.c_str());
     }
 
   private:
@@ -58,10 +63,12 @@ void DrawDetector(const ViewerState& state) {
     else if (system.labels().stopped)
         LabelledValue("Detector", "broken: see the messages", palette::kBad);
     else if (system.detections_per_s() <= 0)
-        LabelledValue("Detector", state.ended() ? "ended" : "waiting for its first answers", palette::kDim);
+        LabelledValue("Detector", state.ended() ? "ended" : "waiting for its first answers",
+                      palette::kDim);
     else
-        LabelledValue("Detector", fmt::format("{:.1f} images/s, {:.0f} ms each", system.detections_per_s(),
-                                              system.labels().detect_ms));
+        LabelledValue("Detector",
+                      fmt::format("{:.1f} images/s, {:.0f} ms each", system.detections_per_s(),
+                                  system.labels().detect_ms));
     ImGui::PopFont();
 }
 
@@ -70,8 +77,9 @@ void DrawRow(ViewerState& state, SceneView& scene, const MapObject& object) {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
     const std::string name = fmt::format("object.{}", object.id);
-    if (ImGui::Selectable(fmt::format("      {} {}##{}", object.id, object.class_name, name).c_str(),
-                          state.selected_object == object.id, ImGuiSelectableFlags_SpanAllColumns)) {
+    if (ImGui::Selectable(
+            fmt::format("      {} {}##{}", object.id, object.class_name, name).c_str(),
+            state.selected_object == object.id, ImGuiSelectableFlags_SpanAllColumns)) {
         state.selected_object = object.id;
         state.view.follow = state.view.keep_all = false;
         scene.camera().LookAt(object.centroid);
@@ -80,7 +88,8 @@ void DrawRow(ViewerState& state, SceneView& scene, const MapObject& object) {
     Tip("Look at it");
     const ImVec2 at = ImGui::GetItemRectMin(), to = ImGui::GetItemRectMax();
     const float middle = (at.y + to.y) / 2;
-    ImGui::GetWindowDrawList()->AddRectFilled({at.x + Scaled(3), middle - Scaled(4)}, {at.x + Scaled(11), middle + Scaled(4)},
+    ImGui::GetWindowDrawList()->AddRectFilled({at.x + Scaled(3), middle - Scaled(4)},
+                                              {at.x + Scaled(11), middle + Scaled(4)},
                                               Packed(object.colour), Scaled(2));
     ImGui::TableNextColumn();
     ImGui::Text("%.0f %%", 100 * object.probability);
@@ -120,14 +129,16 @@ void DrawObjectNames(const ViewerState& state, const SceneView& scene, const Con
     };
     std::vector<Name> names;
     for (const MapObject& object : state.system.objects())
-        if (const auto pixel = scene.PixelOf(object.T_world_oriented.translation())) names.push_back({*pixel, &object});
+        if (const auto pixel = scene.PixelOf(object.T_world_oriented.translation()))
+            names.push_back({*pixel, &object});
     std::ranges::stable_sort(names, {}, [](const Name& name) { return name.pixel.z(); });
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const ImVec2 scale = ImGui::GetIO().DisplayFramebufferScale;
     list.PushClipRect({area.x, area.y}, {area.x + area.width, area.y + area.height}, true);
     NamePlates plates(list, 1);
     for (const auto& [pixel, object] : names) {
-        const ImVec2 at{area.x + static_cast<float>(pixel.x()) / scale.x, area.y + static_cast<float>(pixel.y()) / scale.y};
+        const ImVec2 at{area.x + static_cast<float>(pixel.x()) / scale.x,
+                        area.y + static_cast<float>(pixel.y()) / scale.y};
         plates.Draw(at, object->colour, fmt::format("{} {}", object->class_name, object->id),
                     object->id == state.selected_object);
     }
@@ -149,12 +160,15 @@ void DrawDetections(const ViewerState& state, const ImVec2& from, const ImVec2& 
     list.PushClipRect(from, to, true);
     for (const LabelUpdate::Shown& shown : labels.detections) {
         const ImVec2 low{from.x + x_scale * shown.box.x_min, from.y + y_scale * shown.box.y_min};
-        const ImVec2 high{from.x + x_scale * (shown.box.x_max + 1), from.y + y_scale * (shown.box.y_max + 1)};
-        list.AddRect(low, high, Packed(shown.colour, static_cast<unsigned>(255 * opacity)), Scaled(2), 0, Scaled(1.5f));
+        const ImVec2 high{from.x + x_scale * (shown.box.x_max + 1),
+                          from.y + y_scale * (shown.box.y_max + 1)};
+        list.AddRect(low, high, Packed(shown.colour, static_cast<unsigned>(255 * opacity)),
+                     Scaled(2), 0, Scaled(1.5f));
     }
     NamePlates plates(list, opacity);
     for (const LabelUpdate::Shown& shown : labels.detections)
-        plates.Draw({from.x + x_scale * shown.box.x_min, from.y + y_scale * shown.box.y_min}, shown.colour, shown.name, false);
+        plates.Draw({from.x + x_scale * shown.box.x_min, from.y + y_scale * shown.box.y_min},
+                    shown.colour, shown.name, false);
     list.PopClipRect();
 }
 

@@ -19,7 +19,8 @@ Light LightOf(const ViewerState& state) {
     const FrameReport& report = state.system.frame().report;
     const TrackResult& track = report.track;
     if (track.status == TrackStatus::kLost) return {palette::kBad, "Lost", track.reason};
-    if (track.status == TrackStatus::kPoor) return {palette::kWarning, "Poor, not fused", track.reason};
+    if (track.status == TrackStatus::kPoor)
+        return {palette::kWarning, "Poor, not fused", track.reason};
     if (track.degenerate)
         return {palette::kWarning, "Degenerate",
                 track.reason.empty() ? "the scene leaves some motion open" : track.reason};
@@ -33,27 +34,35 @@ void DrawLight(const ViewerState& state) {
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const ImVec2 size{ImGui::GetContentRegionAvail().x, Scaled(58)};
-    const auto faded = [&](unsigned alpha) { return (light.colour & ~IM_COL32_A_MASK) | (alpha << IM_COL32_A_SHIFT); };
+    const auto faded = [&](unsigned alpha) {
+        return (light.colour & ~IM_COL32_A_MASK) | (alpha << IM_COL32_A_SHIFT);
+    };
     list.AddRectFilled(at, {at.x + size.x, at.y + size.y}, faded(26), Scaled(6));
     const ImVec2 centre{at.x + Scaled(22), at.y + Scaled(20)};
     list.AddCircleFilled(centre, Scaled(11), faded(60));
     list.AddCircleFilled(centre, Scaled(6.5f), light.colour);
-    const std::string note = state.ended() ? "ended" : state.paused() ? "paused" : state.recording() ? "recording" : "";
-    list.AddText(HeadingFont(), HeadingFont()->FontSize, {at.x + Scaled(42), at.y + Scaled(10)}, palette::kText,
-                 light.title.c_str());
-    const float note_width = SmallFont()->CalcTextSizeA(SmallFont()->FontSize, 1e4f, 0, note.c_str()).x;
-    list.AddText(SmallFont(), SmallFont()->FontSize, {at.x + size.x - note_width - Scaled(10), at.y + Scaled(13)},
-                 state.recording() && !state.paused() ? palette::kBad : palette::kDim, note.c_str());
+    const std::string note = state.ended()       ? "ended"
+                             : state.paused()    ? "paused"
+                             : state.recording() ? "recording"
+                                                 : "";
+    list.AddText(HeadingFont(), HeadingFont()->FontSize, {at.x + Scaled(42), at.y + Scaled(10)},
+                 palette::kText, light.title.c_str());
+    const float note_width =
+        SmallFont()->CalcTextSizeA(SmallFont()->FontSize, 1e4f, 0, note.c_str()).x;
+    list.AddText(SmallFont(), SmallFont()->FontSize,
+                 {at.x + size.x - note_width - Scaled(10), at.y + Scaled(13)},
+                 state.recording() && !state.paused() ? palette::kBad : palette::kDim,
+                 note.c_str());
     const float wrap = size.x - Scaled(52);
     const ImVec4 clip{at.x, at.y, at.x + size.x, at.y + size.y};
-    list.AddText(SmallFont(), SmallFont()->FontSize, {at.x + Scaled(42), at.y + Scaled(31)}, palette::kDim,
-                 light.reason.c_str(), nullptr, wrap, &clip);
+    list.AddText(SmallFont(), SmallFont()->FontSize, {at.x + Scaled(42), at.y + Scaled(31)},
+                 palette::kDim, light.reason.c_str(), nullptr, wrap, &clip);
     ImGui::Dummy(size);
     Tip(light.reason.c_str());
 }
 
 std::string Count(std::int64_t n) {
-    return n < 100000 ? fmt::format("{}", n)
+    return n < 100000     ? fmt::format("{}", n)
            : n < 10000000 ? fmt::format("{:.0f} k", static_cast<double>(n) / 1e3)
                           : fmt::format("{:.1f} M", static_cast<double>(n) / 1e6);
 }
@@ -66,7 +75,8 @@ void DrawStatusPanel(ViewerState& state, const SceneView& scene) {
     if (!ImGui::BeginTable("numbers", 2, ImGuiTableFlags_SizingStretchSame)) return;
     const FrameUpdate& frame = state.system.frame();
     const TrackResult& track = frame.report.track;
-    const auto cell = [](const char* label, const std::string& value, ImU32 colour = palette::kText) {
+    const auto cell = [](const char* label, const std::string& value,
+                         ImU32 colour = palette::kText) {
         ImGui::TableNextColumn();
         LabelledValue(label, value, colour);
     };
@@ -77,7 +87,8 @@ void DrawStatusPanel(ViewerState& state, const SceneView& scene) {
     cell("Dropped", Count(frame.dropped), frame.dropped > 0 ? palette::kWarning : palette::kText);
     cell("Inliers", fmt::format("{:.0f} %", 100 * track.inlier_fraction));
     cell("Distance", fmt::format("{:.1f} mm", 1000 * track.distance_rms_m));
-    cell("Poor", Count(frame.counts.poor), frame.counts.poor > 0 ? palette::kWarning : palette::kText);
+    cell("Poor", Count(frame.counts.poor),
+         frame.counts.poor > 0 ? palette::kWarning : palette::kText);
     cell("Lost", Count(frame.counts.lost), frame.counts.lost > 0 ? palette::kBad : palette::kText);
     cell("Blocks", Count(frame.map.blocks));
     cell("Map", fmt::format("{:.0f} MB", static_cast<double>(frame.map.bytes) / (1 << 20)));

@@ -11,7 +11,8 @@
 namespace tessera {
 namespace {
 
-// The pointer turns, moves and zooms; a drag takes the camera from the sensor. True if it did anything.
+// The pointer turns, moves and zooms; a drag takes the camera from the sensor. True if it did
+// anything.
 bool HandlePointer(ViewerState& state, SceneView& scene, const ControlRect& area) {
     const ImGuiIO& io = ImGui::GetIO();
     ViewCamera& camera = scene.camera();
@@ -39,7 +40,8 @@ bool HandlePointer(ViewerState& state, SceneView& scene, const ControlRect& area
             camera.LookAt(*point);
         }
     }
-    return left || middle || (hovered && (io.MouseWheel != 0 || ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)));
+    return left || middle ||
+           (hovered && (io.MouseWheel != 0 || ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)));
 }
 
 void DrawToolbar(ViewerState& state, const ControlRect& area) {
@@ -58,23 +60,30 @@ void DrawToolbar(ViewerState& state, const ControlRect& area) {
         const auto shading = static_cast<Shading>(i);
         if (!state.CanShade(shading)) continue;
         const std::string name = std::string("shading.") + ToString(shading);
-        if (button(name.c_str(), ToString(shading), view.shading == shading, "Shading  (C)")) view.shading = shading;
+        if (button(name.c_str(), ToString(shading), view.shading == shading, "Shading  (C)"))
+            view.shading = shading;
     }
     ImGui::Dummy({Scaled(6), 0});
     ImGui::SameLine();
     if (button("wireframe", "Wireframe", view.wireframe, "Triangles' edges only  (W)"))
         view.wireframe = !view.wireframe;
-    if (button("depth_test", "Depth test", view.depth_test, "Off: what is behind shows through  (D)"))
+    if (button("depth_test", "Depth test", view.depth_test,
+               "Off: what is behind shows through  (D)"))
         view.depth_test = !view.depth_test;
-    if (state.options.labelled && button("objects", "Objects", view.show_objects, "Their boxes and names  (B)"))
+    if (state.options.labelled &&
+        button("objects", "Objects", view.show_objects, "Their boxes and names  (B)"))
         view.show_objects = !view.show_objects;
-    if (state.link && button("truth", "Truth", view.show_truth, "Path of the ground truth, white  (T)"))
+    if (state.link &&
+        button("truth", "Truth", view.show_truth, "Path of the ground truth, white  (T)"))
         view.show_truth = !view.show_truth;
     ImGui::Dummy({Scaled(6), 0});
     ImGui::SameLine();
-    if (state.link && button("follow", "Follow", view.follow, "Stay behind the sensor  (F)")) state.ToggleFollow();
-    if (button("view_all", "All", view.keep_all, "See all of the mesh, also as it grows  (A)")) state.ViewAll();
-    if (button("help", "Help", state.show_help, "Keys and pointer  (H)")) state.show_help = !state.show_help;
+    if (state.link && button("follow", "Follow", view.follow, "Stay behind the sensor  (F)"))
+        state.ToggleFollow();
+    if (button("view_all", "All", view.keep_all, "See all of the mesh, also as it grows  (A)"))
+        state.ViewAll();
+    if (button("help", "Help", state.show_help, "Keys and pointer  (H)"))
+        state.show_help = !state.show_help;
     ImGui::PopStyleVar();
     ImGui::PopFont();
 }
@@ -93,20 +102,23 @@ bool DrawViewPanel(ViewerState& state, SceneView& scene, const ViewPanelFrame& f
     const bool by_hand = HandlePointer(state, scene, area);
     if (state.view.keep_all) scene.ViewAll();
     const ImVec2 scale = ImGui::GetIO().DisplayFramebufferScale;
-    const bool drawn = scene.Draw(state, {.width = std::max(static_cast<int>(area.width * scale.x), 1),
-                                          .height = std::max(static_cast<int>(area.height * scale.y), 1),
-                                          .may_redraw = frame.may_redraw,
-                                          .by_hand = by_hand,
-                                          .smooth = frame.smooth});
+    const bool drawn =
+        scene.Draw(state, {.width = std::max(static_cast<int>(area.width * scale.x), 1),
+                           .height = std::max(static_cast<int>(area.height * scale.y), 1),
+                           .may_redraw = frame.may_redraw,
+                           .by_hand = by_hand,
+                           .smooth = frame.smooth});
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const ImVec2 from{area.x, area.y}, to{area.x + area.width, area.y + area.height};
-    list.AddRectFilledMultiColor(from, to, palette::kViewTop, palette::kViewTop, palette::kViewBottom,
-                                 palette::kViewBottom);
-    list.AddImage(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(scene.texture())), from, to);
+    list.AddRectFilledMultiColor(from, to, palette::kViewTop, palette::kViewTop,
+                                 palette::kViewBottom, palette::kViewBottom);
+    list.AddImage(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(scene.texture())), from,
+                  to);
     DrawObjectNames(state, scene, area);
     if (state.view.shading == Shading::kWeight)
         DrawLegend(list, {WeightColour, 0, 1, "weight 0", "255, logarithmic"},
-                   {area.x, area.y + area.height - Scaled(34)}, {std::min(Scaled(360), area.width), Scaled(34)});
+                   {area.x, area.y + area.height - Scaled(34)},
+                   {std::min(Scaled(360), area.width), Scaled(34)});
     DrawToolbar(state, area);
     return drawn;
 }

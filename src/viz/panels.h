@@ -1,4 +1,5 @@
-// The window's parts, each in a file of its own (panel_*.cpp). Inside an ImGui frame; they read and change the state.
+// The window's parts, each in a file of its own (panel_*.cpp). Inside an ImGui frame; they read and
+// change the state.
 #pragma once
 
 #include <imgui.h>
@@ -9,10 +10,11 @@
 
 namespace tessera {
 
-void DrawStatusPanel(ViewerState& state, const SceneView& scene);    // inside the left column
-void DrawControlsPanel(ViewerState& state);                          // inside the left column
-void DrawObjectsPanel(ViewerState& state, SceneView& scene);         // inside the left column; a click looks at one
-void DrawMessagesPanel(const ViewerState& state);                     // the left column's rest
+void DrawStatusPanel(ViewerState& state, const SceneView& scene);  // inside the left column
+void DrawControlsPanel(ViewerState& state);                        // inside the left column
+// Inside the left column; a click looks at one.
+void DrawObjectsPanel(ViewerState& state, SceneView& scene);
+void DrawMessagesPanel(const ViewerState& state);  // the left column's rest
 void DrawPlotsPanel(const ViewerState& state, const ControlRect& area);
 // Over everything, while wanted.
 void DrawHelp(ViewerState& state);

@@ -17,8 +17,10 @@ LineVertex Vertex(const Eigen::Vector3f& p, const Colour& colour) {
     return {{p.x(), p.y(), p.z()}, colour};
 }
 
-// What `points` has more than `lines`, whose vertices are two where a piece begins: nothing leads there.
-void AppendNew(const std::vector<SystemView::PathPoint>& points, std::size_t done, const Colour& good, GlLines& lines) {
+// What `points` has more than `lines`, whose vertices are two where a piece begins: nothing leads
+// there.
+void AppendNew(const std::vector<SystemView::PathPoint>& points, std::size_t done,
+               const Colour& good, GlLines& lines) {
     std::vector<LineVertex> vertices;
     for (std::size_t i = done; i < points.size(); ++i) {
         const SystemView::PathPoint& point = points[i];
@@ -33,7 +35,8 @@ void AppendNew(const std::vector<SystemView::PathPoint>& points, std::size_t don
 
 void PathLines::SetPath(const std::vector<Eigen::Isometry3d>& path) {
     std::vector<LineVertex> vertices;
-    for (const Eigen::Isometry3d& T : path) vertices.push_back(Vertex(T.translation().cast<float>(), kPath));
+    for (const Eigen::Isometry3d& T : path)
+        vertices.push_back(Vertex(T.translation().cast<float>(), kPath));
     path_.Clear();
     if (!vertices.empty()) path_.Append(vertices);
 }
@@ -47,7 +50,8 @@ bool PathLines::Update(const ViewerState& state) {
         truth_.Clear();
         path_done_ = truth_done_ = 0;
     }
-    const bool changed = system.path().size() != path_done_ || system.truth().size() != truth_done_ ||
+    const bool changed = system.path().size() != path_done_ ||
+                         system.truth().size() != truth_done_ ||
                          system.frame().report.index != outline_frame_;
     AppendNew(system.path(), path_done_, kPath, path_);
     AppendNew(system.truth(), truth_done_, kTruth, truth_);
@@ -63,7 +67,8 @@ bool PathLines::Update(const ViewerState& state) {
 }
 
 // A pyramid 15 cm deep with a mark on its upper side.
-void PathLines::SetOutline(const Eigen::Isometry3d& T_world_camera, const PinholeCamera& camera, TrackStatus status) {
+void PathLines::SetOutline(const Eigen::Isometry3d& T_world_camera, const PinholeCamera& camera,
+                           TrackStatus status) {
     constexpr double kDepthM = 0.15;
     const Colour colour = ToColour(status == TrackStatus::kGood   ? palette::kGood
                                    : status == TrackStatus::kPoor ? palette::kWarning
@@ -73,8 +78,8 @@ void PathLines::SetOutline(const Eigen::Isometry3d& T_world_camera, const Pinhol
     };
     const double right = camera.width, bottom = camera.height;
     const Eigen::Vector3f apex = T_world_camera.translation().cast<float>();
-    const std::array<Eigen::Vector3f, 4> corners{corner(0, 0), corner(right, 0), corner(right, bottom),
-                                                 corner(0, bottom)};
+    const std::array<Eigen::Vector3f, 4> corners{corner(0, 0), corner(right, 0),
+                                                 corner(right, bottom), corner(0, bottom)};
     std::vector<LineVertex> vertices;
     const auto line = [&](const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
         vertices.push_back(Vertex(a, colour));
@@ -91,7 +96,8 @@ void PathLines::SetOutline(const Eigen::Isometry3d& T_world_camera, const Pinhol
     outline_.Append(vertices);
 }
 
-void PathLines::Draw(const GlLineProgram& program, const GlLineProgram::View& view, bool with_truth, float opacity) {
+void PathLines::Draw(const GlLineProgram& program, const GlLineProgram::View& view, bool with_truth,
+                     float opacity) {
     if (with_truth) program.Draw(truth_, view, true, Scaled(1.5f), opacity);
     program.Draw(path_, view, true, Scaled(2.2f), opacity);
     program.Draw(outline_, view, false, Scaled(2), opacity);

@@ -1,5 +1,5 @@
-// The lines of the 3D view: the path by tracking quality, the ground truth, the sensor's outline. Made, used and
-// destroyed with the OpenGL context current.
+// The lines of the 3D view: the path by tracking quality, the ground truth, the sensor's outline.
+// Made, used and destroyed with the OpenGL context current.
 #pragma once
 
 #include <vector>
@@ -15,10 +15,12 @@ class PathLines {
     void SetPath(const std::vector<Eigen::Isometry3d>& path);
     // Brings over what is new. True if anything changed.
     bool Update(const ViewerState& state);
-    void Draw(const GlLineProgram& program, const GlLineProgram::View& view, bool with_truth, float opacity);
+    void Draw(const GlLineProgram& program, const GlLineProgram::View& view, bool with_truth,
+              float opacity);
 
   private:
-    void SetOutline(const Eigen::Isometry3d& T_world_camera, const PinholeCamera& camera, TrackStatus status);
+    void SetOutline(const Eigen::Isometry3d& T_world_camera, const PinholeCamera& camera,
+                    TrackStatus status);
 
     GlLines path_, truth_, outline_;
     std::uint64_t path_identity_ = 0;

@@ -12,9 +12,9 @@ namespace tessera {
 namespace {
 
 std::string ValueText(float value, const char* unit) {
-    return *unit == 0 ? fmt::format("{:g}", value)
-           : value < 10  ? fmt::format("{:.1f}", value)
-                         : fmt::format("{:.0f}", value);
+    return *unit == 0   ? fmt::format("{:g}", value)
+           : value < 10 ? fmt::format("{:.1f}", value)
+                        : fmt::format("{:.0f}", value);
 }
 
 struct PlotFrame {
@@ -37,8 +37,8 @@ void DrawCurve(ImDrawList& list, const PlotFrame& frame, const Curve& curve, boo
     list.Flags &= ~ImDrawListFlags_AntiAliasedFill;  // it would show the seams
     if (filled)
         for (std::size_t i = 1; i < points.size(); ++i)
-            list.AddQuadFilled({points[i - 1].x, frame.to.y}, points[i - 1], points[i], {points[i].x, frame.to.y},
-                               shade);
+            list.AddQuadFilled({points[i - 1].x, frame.to.y}, points[i - 1], points[i],
+                               {points[i].x, frame.to.y}, shade);
     list.Flags = flags;
     list.AddPolyline(points.data(), static_cast<int>(points.size()), curve.colour, 0, Scaled(1.4f));
 }
@@ -50,7 +50,8 @@ void DrawCurveNames(ImDrawList& list, std::span<const Curve> curves, ImVec2 at, 
         const float width = ImGui::CalcTextSize(text.c_str()).x;
         if (at.x + width + Scaled(10) > right) return;
         const float y = at.y + 0.5f * ImGui::GetTextLineHeight();
-        list.AddRectFilled({at.x, y - Scaled(3)}, {at.x + Scaled(6), y + Scaled(3)}, curve.colour, Scaled(1));
+        list.AddRectFilled({at.x, y - Scaled(3)}, {at.x + Scaled(6), y + Scaled(3)}, curve.colour,
+                           Scaled(1));
         list.AddText({at.x + Scaled(10), at.y}, palette::kText, text.c_str());
         at.x += width + Scaled(17);
     }
@@ -65,14 +66,16 @@ void DrawTip(std::span<const Curve> curves, const PlotFrame& frame, const char* 
         const auto age = static_cast<std::size_t>(std::max(steps + 0.5f, 0.0f));
         if (age >= series.size()) continue;
         const std::string value = ValueText(series[series.size() - 1 - age], unit);
-        ImGui::TextUnformatted(fmt::format("{} {} {}, {} frames ago", curve.name, value, unit, age).c_str());
+        ImGui::TextUnformatted(
+            fmt::format("{} {} {}, {} frames ago", curve.name, value, unit, age).c_str());
     }
     ImGui::EndTooltip();
 }
 
 }  // namespace
 
-void DrawPlot(const char* title, const char* unit, std::span<const Curve> curves, const ImVec2& size, float axis_end) {
+void DrawPlot(const char* title, const char* unit, std::span<const Curve> curves,
+              const ImVec2& size, float axis_end) {
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const ImVec2 at = ImGui::GetCursorScreenPos();
     ImGui::Dummy(size);
@@ -90,8 +93,10 @@ void DrawPlot(const char* title, const char* unit, std::span<const Curve> curves
     if (curves.size() > 1) {
         DrawCurveNames(list, curves, {at.x + title_width + Scaled(14), at.y}, right);
     } else if (!curves.empty()) {
-        const std::string value = fmt::format("{} {}", ValueText(curves[0].series->last(), unit), unit);
-        list.AddText({right - ImGui::CalcTextSize(value.c_str()).x, at.y}, palette::kText, value.c_str());
+        const std::string value =
+            fmt::format("{} {}", ValueText(curves[0].series->last(), unit), unit);
+        list.AddText({right - ImGui::CalcTextSize(value.c_str()).x, at.y}, palette::kText,
+                     value.c_str());
     }
     list.AddRectFilled(frame.from, frame.to, IM_COL32(18, 20, 24, 255), Scaled(3));
     const float middle = 0.5f * (frame.from.y + frame.to.y);

@@ -23,7 +23,8 @@ SceneTarget::~SceneTarget() {
 }
 
 void SceneTarget::Resize(int width, int height, int samples) {
-    const auto set = [&](GLuint texture, GLint format, GLenum channels, GLenum type, GLenum attachment) {
+    const auto set = [&](GLuint texture, GLint format, GLenum channels, GLenum type,
+                         GLenum attachment) {
         glBindTexture(GL_TEXTURE_2D, texture);
         glTexImage2D(GL_TEXTURE_2D, 0, format, width, height, 0, channels, type, nullptr);
         glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
@@ -64,8 +65,8 @@ void SceneTarget::End() {
     if (samples_ > 1) {
         glBindFramebuffer(GL_READ_FRAMEBUFFER, smooth_framebuffer_);
         glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer_);
-        glBlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT,
-                          GL_NEAREST);
+        glBlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_,
+                          GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT, GL_NEAREST);
     }
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
 }

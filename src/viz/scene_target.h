@@ -1,5 +1,6 @@
-// The picture of the 3D view, drawn apart from the window so that it can be shown again without being drawn again, and
-// asked for depths. Made, used and destroyed with the OpenGL context current.
+// The picture of the 3D view, drawn apart from the window so that it can be shown again without
+// being drawn again, and asked for depths. Made, used and destroyed with the OpenGL context
+// current.
 #pragma once
 
 namespace tessera {
@@ -11,7 +12,8 @@ class SceneTarget {
     SceneTarget(const SceneTarget&) = delete;
     SceneTarget& operator=(const SceneTarget&) = delete;
 
-    // All that is drawn goes there, onto transparent black; `samples` per pixel, 1 or more, as far as the driver goes.
+    // All that is drawn goes there, onto transparent black; `samples` per pixel, 1 or more, as far
+    // as the driver goes.
     void Begin(int width, int height, int samples);
     // The picture is complete.
     void End();
@@ -26,8 +28,8 @@ class SceneTarget {
     void Resize(int width, int height, int samples);
 
     unsigned framebuffer_ = 0, smooth_framebuffer_ = 0;
-    unsigned colour_ = 0, depth_ = 0;      // textures of the former
-    unsigned smooth_[2] = {};              // renderbuffers of the latter
+    unsigned colour_ = 0, depth_ = 0;  // textures of the former
+    unsigned smooth_[2] = {};          // renderbuffers of the latter
     int width_ = 0, height_ = 0, samples_ = 0;
 };
 

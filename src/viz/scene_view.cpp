@@ -65,29 +65,29 @@ Result<std::unique_ptr<SceneView>> SceneView::Create(bool is_software) {
 SceneView::SceneView(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 SceneView::~SceneView() = default;
 
-ViewCamera& SceneView::camera() {
-    return impl_->camera;
-}
-unsigned SceneView::texture() const {
-    return impl_->target.texture();
-}
+ViewCamera& SceneView::camera() { return impl_->camera; }
+unsigned SceneView::texture() const { return impl_->target.texture(); }
 std::size_t SceneView::triangles() const {
     return impl_->store.triangles() + impl_->model.triangles();
 }
 
 void SceneView::SetModel(const ViewedModel& model) {
-    impl_->model.Set(model.mesh, model.mesh.labels.empty() ? std::vector<Rgb8>()
-                                                           : CategoryColours(model.mesh, model.objects));
+    impl_->model.Set(model.mesh, model.mesh.labels.empty()
+                                     ? std::vector<Rgb8>()
+                                     : CategoryColours(model.mesh, model.objects));
     impl_->paths.SetPath(model.path);
-    for (const Eigen::Vector3f& vertex : model.mesh.vertices) impl_->bounds.extend(vertex.cast<double>());
+    for (const Eigen::Vector3f& vertex : model.mesh.vertices)
+        impl_->bounds.extend(vertex.cast<double>());
     const MeshView view = ChooseView(model.mesh, model.path);
     // ChooseView took one of these two for up.
     const Eigen::Vector3d down = view.T_world_camera.linear().col(1);
-    const Eigen::Vector3d up = -down.z() > down.y() ? Eigen::Vector3d(0, 0, 1) : Eigen::Vector3d(0, -1, 0);
+    const Eigen::Vector3d up =
+        -down.z() > down.y() ? Eigen::Vector3d(0, 0, 1) : Eigen::Vector3d(0, -1, 0);
     impl_->up = UpEstimator(up);
     for (const Eigen::Vector3f& normal : model.mesh.normals) impl_->up.Add(normal);
     impl_->camera.SetUp(impl_->up.Up().value_or(up));
-    const Eigen::Vector3d eye = view.T_world_camera.translation(), forward = view.T_world_camera.linear().col(2);
+    const Eigen::Vector3d eye = view.T_world_camera.translation(),
+                          forward = view.T_world_camera.linear().col(2);
     const double ahead = std::max((impl_->bounds.center() - eye).dot(forward), 0.1);
     impl_->camera.Place(eye, eye + ahead * forward);
     impl_->changed = true;
@@ -112,12 +112,14 @@ bool SceneView::TakeMesh(ViewerLink& link, std::size_t most_bytes) {
         const std::size_t first = s.pending_done;
         for (; s.pending_done < s.pending.blocks.size() && bytes < most_bytes; ++s.pending_done) {
             const GeometryBlock& block = s.pending.blocks[s.pending_done];
-            bytes += block.geometry.vertices.size() * sizeof(GeometryVertex) + block.geometry.indices.size() * 2 + 64;
+            bytes += block.geometry.vertices.size() * sizeof(GeometryVertex) +
+                     block.geometry.indices.size() * 2 + 64;
             if (block.geometry.indices.empty()) continue;
             s.up.Add(block.geometry);
             const Eigen::Vector3d corner(block.coord.x, block.coord.y, block.coord.z);
             s.bounds.extend(corner * kBlockSide * s.pending.voxel_size_m);
-            s.bounds.extend((corner + Eigen::Vector3d::Ones()) * kBlockSide * s.pending.voxel_size_m);
+            s.bounds.extend((corner + Eigen::Vector3d::Ones()) * kBlockSide *
+                            s.pending.voxel_size_m);
         }
         s.store.Replace(s.pending.voxel_size_m,
                         std::span(s.pending.blocks).subspan(first, s.pending_done - first));
@@ -141,7 +143,8 @@ bool SceneView::Follow(const ViewerState& state, double since_s) {
     }
     if (!state.system.has_frame() || !state.system.frame().report.tracked()) return false;
     const Eigen::Vector3d before = impl_->camera.eye();
-    impl_->camera.Follow(state.system.frame().report.track.T_world_camera, impl_->followed ? since_s : -1);
+    impl_->camera.Follow(state.system.frame().report.track.T_world_camera,
+                         impl_->followed ? since_s : -1);
     impl_->followed = true;
     return (impl_->camera.eye() - before).norm() > 1e-3;
 }
@@ -161,9 +164,9 @@ void SceneView::ViewAll() {
 bool SceneView::Impl::ChosenAnew(const ViewerState& state, const Request& request) const {
     const ViewChoices &a = state.view, &b = drawn.choices;
     return request.width != drawn.request.width || request.height != drawn.request.height ||
-           request.smooth != drawn.request.smooth || a.shading != b.shading || a.wireframe != b.wireframe ||
-           a.depth_test != b.depth_test || a.show_truth != b.show_truth ||
-           a.show_objects != b.show_objects;
+           request.smooth != drawn.request.smooth || a.shading != b.shading ||
+           a.wireframe != b.wireframe || a.depth_test != b.depth_test ||
+           a.show_truth != b.show_truth || a.show_objects != b.show_objects;
 }
 
 bool SceneView::Draw(const ViewerState& state, const Request& request) {
@@ -204,7 +207,8 @@ void SceneView::Impl::DrawMesh(const ViewerState& state, const PinholeCamera& pi
 // Once as far as they show, and once more, faintly, behind the surfaces.
 void SceneView::Impl::DrawPaths(const ViewerState& state, const PinholeCamera& pinhole) {
     GlLineProgram::View view;
-    view.clip_from_world = ClipFromCamera(pinhole, kNearM, kFarM) * drawn.T_world_view.inverse().matrix();
+    view.clip_from_world =
+        ClipFromCamera(pinhole, kNearM, kFarM) * drawn.T_world_view.inverse().matrix();
     view.width_px = pinhole.width;
     view.height_px = pinhole.height;
     glEnable(GL_BLEND);
@@ -225,14 +229,17 @@ void SceneView::Impl::DrawPaths(const ViewerState& state, const PinholeCamera& p
 std::optional<Eigen::Vector3d> SceneView::PointAt(int x, int y) const {
     const double buffer = impl_->target.DepthAt(x, y);
     if (buffer >= 1) return std::nullopt;
-    const PinholeCamera pinhole = ViewCamera::Camera(impl_->drawn.request.width, impl_->drawn.request.height);
-    return impl_->drawn.T_world_view * pinhole.Unproject(x, y, DepthFromBuffer(buffer, kNearM, kFarM));
+    const PinholeCamera pinhole =
+        ViewCamera::Camera(impl_->drawn.request.width, impl_->drawn.request.height);
+    return impl_->drawn.T_world_view *
+           pinhole.Unproject(x, y, DepthFromBuffer(buffer, kNearM, kFarM));
 }
 
 std::optional<Eigen::Vector3d> SceneView::PixelOf(const Eigen::Vector3d& p_world) const {
     const Eigen::Vector3d p = impl_->drawn.T_world_view.inverse() * p_world;
     if (p.z() < kNearM) return std::nullopt;
-    const Eigen::Vector2d pixel = ViewCamera::Camera(impl_->drawn.request.width, impl_->drawn.request.height).Project(p);
+    const Eigen::Vector2d pixel =
+        ViewCamera::Camera(impl_->drawn.request.width, impl_->drawn.request.height).Project(p);
     return Eigen::Vector3d(pixel.x(), pixel.y(), p.z());
 }
 

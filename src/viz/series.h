@@ -25,7 +25,8 @@ class Series {
     std::size_t size_ = 0, next_ = 0;
 };
 
-// The smallest of 1, 2, 5, 10, 20, ... times any power of ten that is not below `value`: where a plot's axis ends.
+// The smallest of 1, 2, 5, 10, 20, ... times any power of ten that is not below `value`: where a
+// plot's axis ends.
 float AxisEnd(float value);
 
 }  // namespace tessera

@@ -3,7 +3,8 @@
 namespace tessera {
 namespace {
 
-// Adds now_s to the arrivals of the last `keep_s` seconds, at least two; how many a second that makes.
+// Adds now_s to the arrivals of the last `keep_s` seconds, at least two; how many a second that
+// makes.
 double RateWith(double now_s, double keep_s, std::deque<double>& arrivals_s) {
     arrivals_s.push_back(now_s);
     while (arrivals_s.size() > 2 && now_s - arrivals_s.front() > keep_s) arrivals_s.pop_front();
@@ -71,9 +72,11 @@ void SystemView::Add(FrameUpdate&& update, double now_s) {
     }
     const bool follows = has_frame_ && frame_.report.tracked() && !report.first;
     if (report.tracked())
-        path_.push_back({report.track.T_world_camera.translation().cast<float>(), report.track.status, follows});
+        path_.push_back({report.track.T_world_camera.translation().cast<float>(),
+                         report.track.status, follows});
     if (update.T_world_camera_truth)
-        truth_.push_back({update.T_world_camera_truth->translation().cast<float>(), TrackStatus::kGood,
+        truth_.push_back({update.T_world_camera_truth->translation().cast<float>(),
+                          TrackStatus::kGood,
                           has_frame_ && frame_.T_world_camera_truth && !report.first});
     frame_ = std::move(update);
     has_frame_ = true;
@@ -97,7 +100,8 @@ void SystemView::AddToHistory() {
     add(h.rms_mm, 1000 * report.track.distance_rms_m);
     add(h.map_mb, static_cast<double>(frame_.map.bytes) / (1 << 20));
     add(h.dropped, static_cast<double>(frame_.dropped));
-    for (const auto& [name, waiting] : frame_.queues) add(h.queued[name], static_cast<double>(waiting));
+    for (const auto& [name, waiting] : frame_.queues)
+        add(h.queued[name], static_cast<double>(waiting));
 }
 
 }  // namespace tessera

@@ -1,4 +1,5 @@
-// What the window knows of the running system: the newest of everything that came over the link, and its recent past.
+// What the window knows of the running system: the newest of everything that came over the link,
+// and its recent past.
 #pragma once
 
 #include <cstdint>
@@ -27,7 +28,8 @@ class SystemView {
     };
     static constexpr std::size_t kMostMessages = 500;
 
-    // Takes frames, pictures and messages; meshes go to the 3D view. `now_s`: any steady clock. True if anything came.
+    // Takes frames, pictures and messages; meshes go to the 3D view. `now_s`: any steady clock.
+    // True if anything came.
     bool Take(ViewerLink& link, double now_s);
     // In place of a link's.
     void SetObjects(std::vector<MapObject> objects);
@@ -39,13 +41,17 @@ class SystemView {
     double fps() const { return fps_; }  // of the last seconds' frames
     const std::vector<PathPoint>& path() const { return path_; }
     const std::vector<PathPoint>& truth() const { return truth_; }
-    std::uint64_t path_identity() const { return path_identity_; }  // another one: the paths began anew
-    const ImageUpdate& images() const { return images_; }           // `frame` is null before the first
+    std::uint64_t path_identity() const {
+        return path_identity_;
+    }                                                      // another one: the paths began anew
+    const ImageUpdate& images() const { return images_; }  // `frame` is null before the first
     std::uint64_t images_taken() const { return images_taken_; }
     const std::vector<MapObject>& objects() const { return objects_; }  // by number
     std::uint64_t objects_taken() const { return objects_taken_; }
     const LabelUpdate& labels() const { return labels_; }  // the newest detections
-    double detections_per_s() const { return detections_per_s_; }  // frames detected, of the last seconds; 0: not known yet
+    double detections_per_s() const {
+        return detections_per_s_;
+    }  // frames detected, of the last seconds; 0: not known yet
     const History& history() const { return history_; }
     const std::deque<std::string>& messages() const { return messages_; }  // oldest first
     std::uint64_t messages_said() const { return messages_said_; }

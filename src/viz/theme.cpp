@@ -84,14 +84,8 @@ void ApplyTheme(float scale) {
     style.ScaleAllSizes(scale);
 }
 
-float Scaled(float size) {
-    return size * theme.scale;
-}
-ImFont* SmallFont() {
-    return theme.small;
-}
-ImFont* HeadingFont() {
-    return theme.heading;
-}
+float Scaled(float size) { return size * theme.scale; }
+ImFont* SmallFont() { return theme.small; }
+ImFont* HeadingFont() { return theme.heading; }
 
 }  // namespace tessera

@@ -9,17 +9,21 @@ constexpr float kCosReach = 0.602f, kSinReach = 0.799f;  // of 53 degrees
 constexpr double kLeastNormals = 500, kLeastShare = 0.08;
 
 Eigen::Vector3f FromOctahedral(const std::array<std::int16_t, 2>& packed) {
-    const float x = static_cast<float>(packed[0]) / 32767, y = static_cast<float>(packed[1]) / 32767;
+    const float x = static_cast<float>(packed[0]) / 32767,
+                y = static_cast<float>(packed[1]) / 32767;
     const float z = 1 - std::abs(x) - std::abs(y);
     if (z >= 0) return Eigen::Vector3f(x, y, z).normalized();
-    return Eigen::Vector3f((1 - std::abs(y)) * (x < 0 ? -1.0f : 1.0f), (1 - std::abs(x)) * (y < 0 ? -1.0f : 1.0f), z)
+    return Eigen::Vector3f((1 - std::abs(y)) * (x < 0 ? -1.0f : 1.0f),
+                           (1 - std::abs(x)) * (y < 0 ? -1.0f : 1.0f), z)
         .normalized();
 }
 
 }  // namespace
 
-UpEstimator::UpEstimator(const Eigen::Vector3d& roughly_up) : rough_(roughly_up.normalized().cast<float>()) {
-    const Eigen::Vector3f any = std::abs(rough_.z()) < 0.9f ? Eigen::Vector3f::UnitZ() : Eigen::Vector3f::UnitX();
+UpEstimator::UpEstimator(const Eigen::Vector3d& roughly_up)
+    : rough_(roughly_up.normalized().cast<float>()) {
+    const Eigen::Vector3f any =
+        std::abs(rough_.z()) < 0.9f ? Eigen::Vector3f::UnitZ() : Eigen::Vector3f::UnitX();
     east_ = any.cross(rough_).normalized();
     north_ = rough_.cross(east_);
 }
@@ -31,7 +35,8 @@ void UpEstimator::Clear() {
 
 void UpEstimator::Add(const BlockGeometry& geometry) {
     // A direction needs no more than a few samples of a block.
-    for (std::size_t i = 0; i < geometry.vertices.size(); i += 8) Add(FromOctahedral(geometry.vertices[i].normal));
+    for (std::size_t i = 0; i < geometry.vertices.size(); i += 8)
+        Add(FromOctahedral(geometry.vertices[i].normal));
 }
 
 void UpEstimator::Add(const Eigen::Vector3f& normal_world) {
@@ -47,7 +52,8 @@ void UpEstimator::Add(const Eigen::Vector3f& normal_world) {
 }
 
 std::optional<Eigen::Vector3d> UpEstimator::Up() const {
-    // A wall lies as far from the rough direction as the floor when that is 45 degrees off: the nearer one counts more.
+    // A wall lies as far from the rough direction as the floor when that is 45 degrees off: the
+    // nearer one counts more.
     const auto weight = [&](const Bin& bin) {
         return bin.count * std::pow(bin.sum.normalized().dot(rough_.cast<double>()), 4);
     };

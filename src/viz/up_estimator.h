@@ -1,5 +1,5 @@
-// Which way is up, from the mesh alone: a run's world is its first camera, which somebody held tilted. Floors, tables
-// and seats agree on a direction near that camera's up. Owner thread only.
+// Which way is up, from the mesh alone: a run's world is its first camera, which somebody held
+// tilted. Floors, tables and seats agree on a direction near that camera's up. Owner thread only.
 #pragma once
 
 #include <Eigen/Geometry>

@@ -16,7 +16,8 @@ void ViewCamera::SetUp(const Eigen::Vector3d& up) {
     const Eigen::Vector3d eye_before = up_.isZero() ? Eigen::Vector3d::Zero() : eye();
     const bool placed = !up_.isZero();
     up_ = up.normalized();
-    const Eigen::Vector3d any = std::abs(up_.z()) < 0.9 ? Eigen::Vector3d::UnitZ() : Eigen::Vector3d::UnitX();
+    const Eigen::Vector3d any =
+        std::abs(up_.z()) < 0.9 ? Eigen::Vector3d::UnitZ() : Eigen::Vector3d::UnitX();
     east_ = any.cross(up_).normalized();
     north_ = up_.cross(east_);
     if (placed) Place(eye_before, target_);
@@ -26,8 +27,8 @@ void ViewCamera::Place(const Eigen::Vector3d& eye, const Eigen::Vector3d& target
     const Eigen::Vector3d offset = eye - target;
     target_ = target;
     distance_m_ = std::max(offset.norm(), 1e-3);
-    elevation_rad_ = std::clamp(std::asin(std::clamp(offset.dot(up_) / distance_m_, -1.0, 1.0)), -kSteepestRad,
-                                kSteepestRad);
+    elevation_rad_ = std::clamp(std::asin(std::clamp(offset.dot(up_) / distance_m_, -1.0, 1.0)),
+                                -kSteepestRad, kSteepestRad);
     azimuth_rad_ = std::atan2(offset.dot(north_), offset.dot(east_));
 }
 
@@ -48,7 +49,8 @@ void ViewCamera::Zoom(double factor) {
 }
 
 void ViewCamera::Follow(const Eigen::Isometry3d& T_world_sensor, double since_s) {
-    const Eigen::Vector3d sensor = T_world_sensor.translation(), forward = T_world_sensor.linear().col(2);
+    const Eigen::Vector3d sensor = T_world_sensor.translation(),
+                          forward = T_world_sensor.linear().col(2);
     const Eigen::Vector3d wanted_eye = sensor + follow_scale_ * (0.7 * up_ - 1.1 * forward);
     const Eigen::Vector3d wanted_target = sensor + 1.0 * forward;
     const double part = since_s < 0 ? 1 : 1 - std::exp(-since_s / 0.3);
@@ -58,7 +60,8 @@ void ViewCamera::Follow(const Eigen::Isometry3d& T_world_sensor, double since_s)
 
 Eigen::Vector3d ViewCamera::eye() const {
     const Eigen::Vector3d level = std::cos(azimuth_rad_) * east_ + std::sin(azimuth_rad_) * north_;
-    return target_ + distance_m_ * (std::cos(elevation_rad_) * level + std::sin(elevation_rad_) * up_);
+    return target_ +
+           distance_m_ * (std::cos(elevation_rad_) * level + std::sin(elevation_rad_) * up_);
 }
 
 Eigen::Isometry3d ViewCamera::T_world_camera() const {

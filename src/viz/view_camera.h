@@ -1,4 +1,5 @@
-// Where a person looks at the map from: around a point, or behind the sensor. Pure calculation, owner thread only.
+// Where a person looks at the map from: around a point, or behind the sensor. Pure calculation,
+// owner thread only.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -26,8 +27,8 @@ class ViewCamera {
     // Makes this point the target; the direction stays.
     void LookAt(const Eigen::Vector3d& point) { target_ = point; }
 
-    // Goes towards the place behind and above the sensor, most of the way in half a second. `since_s` since the last
-    // call; negative: jumps there.
+    // Goes towards the place behind and above the sensor, most of the way in half a second.
+    // `since_s` since the last call; negative: jumps there.
     void Follow(const Eigen::Isometry3d& T_world_sensor, double since_s);
 
     Eigen::Isometry3d T_world_camera() const;
@@ -41,7 +42,8 @@ class ViewCamera {
   private:
     Eigen::Vector3d up_ = Eigen::Vector3d::Zero(), east_, north_;  // east_ x north_ = up_
     Eigen::Vector3d target_ = Eigen::Vector3d::Zero();
-    double distance_m_ = 2, azimuth_rad_ = 0, elevation_rad_ = 0.5;  // of the eye, seen from the target
+    // Of the eye, seen from the target.
+    double distance_m_ = 2, azimuth_rad_ = 0, elevation_rad_ = 0.5;
     double follow_scale_ = 1;
 };
 

@@ -18,8 +18,8 @@ namespace {
 
 // After the last input or update, ImGui needs a few rounds until hovering and popups have settled.
 constexpr int kSettlingRounds = 3;
-// In software, on the processor that the system needs as well: while nobody moves the view it is drawn anew at most
-// this often, and never for more than this share of the time.
+// In software, on the processor that the system needs as well: while nobody moves the view it is
+// drawn anew at most this often, and never for more than this share of the time.
 constexpr double kSoftwareViewPeriodS = 0.25, kSoftwareShare = 0.1;
 
 struct Layout {
@@ -28,9 +28,11 @@ struct Layout {
 
 Layout LayOut(float width, float height, bool with_system) {
     if (!with_system) return {.left = {}, .view = {0, 0, width, height}, .plots = {}, .images = {}};
-    const float left = std::min(Scaled(292), 0.4f * width), right = std::min(Scaled(232), 0.3f * width);
+    const float left = std::min(Scaled(292), 0.4f * width),
+                right = std::min(Scaled(232), 0.3f * width);
     const float plots = std::min(Scaled(158), 0.35f * height);
-    const float middle = std::max(width - left - right - 2, 1.0f), view = std::max(height - plots - 1, 1.0f);
+    const float middle = std::max(width - left - right - 2, 1.0f),
+                view = std::max(height - plots - 1, 1.0f);
     return {.left = {0, 0, left, height},
             .view = {left + 1, 0, middle, view},
             .plots = {left + 1, view + 1, middle, plots},
@@ -101,12 +103,11 @@ Viewer::Viewer(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 Viewer::~Viewer() = default;
 
 void Viewer::Run() {
-    while (RunOnce()) {}
+    while (RunOnce()) {
+    }
 }
 
-bool Viewer::RunOnce() {
-    return impl_->RunOnce();
-}
+bool Viewer::RunOnce() { return impl_->RunOnce(); }
 
 std::optional<ControlRect> Viewer::FindControl(const std::string& name) const {
     return impl_->state.controls.Find(name);
@@ -139,11 +140,14 @@ bool Viewer::Impl::RunOnce() {
         if (!ImGui::GetIO().WantTextInput) state.OnKey(key.key, key.mods);
         rounds_to_draw = kSettlingRounds;
     }
-    if (scene->Follow(state, std::min(now_s - followed_at_s, 0.2))) rounds_to_draw = std::max(rounds_to_draw, 1);
+    if (scene->Follow(state, std::min(now_s - followed_at_s, 0.2)))
+        rounds_to_draw = std::max(rounds_to_draw, 1);
     followed_at_s = now_s;
 
-    if (state.close || window->ShouldClose() || (ended_seen && link && state.options.close_at_end)) {
-        if (link && !link->ended && !sent_stop) link->commands.Push({ViewerCommand::Kind::kStop, {}});
+    if (state.close || window->ShouldClose() ||
+        (ended_seen && link && state.options.close_at_end)) {
+        if (link && !link->ended && !sent_stop)
+            link->commands.Push({ViewerCommand::Kind::kStop, {}});
         sent_stop = true;
         return false;
     }
@@ -181,7 +185,8 @@ void Viewer::Impl::DrawFrame(bool smooth) {
 bool Viewer::Impl::DrawPanels(bool may_redraw, bool smooth) {
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     const Layout layout = LayOut(size.x, size.y, state.link != nullptr);
-    const bool drawn = DrawViewPanel(state, *scene, {.area = layout.view, .may_redraw = may_redraw, .smooth = smooth});
+    const bool drawn = DrawViewPanel(
+        state, *scene, {.area = layout.view, .may_redraw = may_redraw, .smooth = smooth});
     if (state.link) {
         {
             const Panel left("left", layout.left);

@@ -5,30 +5,23 @@ namespace tessera {
 namespace {
 
 Status Off() {
-    return Status::Error("this build has no window: install libimgui-dev, libglfw3-dev and libepoxy-dev and build "
-                         "again");
+    return Status::Error(
+        "this build has no window: install libimgui-dev, libglfw3-dev and libepoxy-dev and build "
+        "again");
 }
 
 }  // namespace
 
 struct Viewer::Impl {};
-Result<std::unique_ptr<Viewer>> Viewer::Open(ViewerLink&, const ViewerOptions&) {
-    return Off();
-}
+Result<std::unique_ptr<Viewer>> Viewer::Open(ViewerLink&, const ViewerOptions&) { return Off(); }
 Result<std::unique_ptr<Viewer>> Viewer::OpenModel(ViewedModel, const ViewerOptions&) {
     return Off();
 }
 Viewer::~Viewer() = default;
 // Never called: there is no object.
 void Viewer::Run() {}
-bool Viewer::RunOnce() {
-    return false;
-}
-ColourImage Viewer::Picture() {
-    return {};
-}
-std::optional<ControlRect> Viewer::FindControl(const std::string&) const {
-    return std::nullopt;
-}
+bool Viewer::RunOnce() { return false; }
+ColourImage Viewer::Picture() { return {}; }
+std::optional<ControlRect> Viewer::FindControl(const std::string&) const { return std::nullopt; }
 
 }  // namespace tessera

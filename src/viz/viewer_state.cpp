@@ -44,9 +44,7 @@ void ViewerState::Step() {
     if (!ended()) Send(ViewerCommand::Kind::kStep);
 }
 
-void ViewerState::Reset() {
-    Send(ViewerCommand::Kind::kReset);
-}
+void ViewerState::Reset() { Send(ViewerCommand::Kind::kReset); }
 
 void ViewerState::SaveMesh() {
     if (!ended()) Send(ViewerCommand::Kind::kSaveMesh, NewFileName("mesh", "ply"));
@@ -126,7 +124,8 @@ std::string ViewerState::NewFileName(const char* prefix, const char* extension) 
     std::error_code ignored;  // whoever writes the file says what is wrong
     fs::create_directories(options.output_folder, ignored);
     const std::string ending = *extension ? std::string(".") + extension : "";
-    const std::string stem = fmt::format("{}-{:%Y%m%d-%H%M%S}", prefix, fmt::localtime(std::time(nullptr)));
+    const std::string stem =
+        fmt::format("{}-{:%Y%m%d-%H%M%S}", prefix, fmt::localtime(std::time(nullptr)));
     fs::path path = fs::path(options.output_folder) / (stem + ending);
     for (int i = 2; fs::exists(path, ignored); ++i)
         path = fs::path(options.output_folder) / fmt::format("{}-{}{}", stem, i, ending);

@@ -1,5 +1,5 @@
-// What the window's panels share: what they show, what the person has chosen, and what a control does. A button and its
-// key call the same function here.
+// What the window's panels share: what they show, what the person has chosen, and what a control
+// does. A button and its key call the same function here.
 #pragma once
 
 #include <string>
@@ -56,7 +56,8 @@ struct ViewerState {
     void ViewAll();
     // The window's keys: GLFW_KEY_* and GLFW_MOD_*.
     void OnKey(int key, int mods);
-    // "DIR/PREFIX-YYYYMMDD-HHMMSS.EXTENSION", with a number where that exists already; makes the folder.
+    // "DIR/PREFIX-YYYYMMDD-HHMMSS.EXTENSION", with a number where that exists already; makes the
+    // folder.
     std::string NewFileName(const char* prefix, const char* extension) const;
 
   private:

@@ -13,13 +13,12 @@ Panel::Panel(const char* name, const ControlRect& area, ImGuiWindowFlags more) {
     ImGui::SetNextWindowPos({area.x, area.y});
     ImGui::SetNextWindowSize({area.width, area.height});
     ImGui::Begin(name, nullptr,
-                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
-                     ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoNav | more);
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus |
+                     ImGuiWindowFlags_NoNav | more);
 }
 
-Panel::~Panel() {
-    ImGui::End();
-}
+Panel::~Panel() { ImGui::End(); }
 
 void SmallText(ImU32 colour, const std::string& text) {
     ImGui::PushFont(SmallFont());
@@ -41,7 +40,8 @@ void GroupTitle(const char* text) {
     ImGui::SameLine();
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const float y = at.y + 0.55f * ImGui::GetTextLineHeight();
-    ImGui::GetWindowDrawList()->AddLine({at.x, y}, {at.x + ImGui::GetContentRegionAvail().x, y}, palette::kLine);
+    ImGui::GetWindowDrawList()->AddLine({at.x, y}, {at.x + ImGui::GetContentRegionAvail().x, y},
+                                        palette::kLine);
     ImGui::NewLine();
 }
 
@@ -82,17 +82,19 @@ bool MarkedCheckbox(Controls& controls, const char* name, const char* label, boo
     return changed;
 }
 
-bool MarkedSlider(Controls& controls, const char* name, double& value, double least, double most, const char* format,
-                  bool logarithmic) {
+bool MarkedSlider(Controls& controls, const char* name, double& value, double least, double most,
+                  const char* format, bool logarithmic) {
     ImGui::PushID(name);
-    const float value_width = Scaled(72), right = ImGui::GetCursorPosX() + ImGui::GetContentRegionAvail().x;
+    const float value_width = Scaled(72),
+                right = ImGui::GetCursorPosX() + ImGui::GetContentRegionAvail().x;
     ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - value_width);
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {Scaled(4), Scaled(2)});
     const ImVec2 text_at{0, ImGui::GetCursorPosY()};
     ImGui::SetCursorPosY(text_at.y + Scaled(2));
-    const bool changed = ImGui::SliderScalar("##value", ImGuiDataType_Double, &value, &least, &most, "",
-                                             ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_NoInput |
-                                                 (logarithmic ? ImGuiSliderFlags_Logarithmic : 0));
+    const bool changed =
+        ImGui::SliderScalar("##value", ImGuiDataType_Double, &value, &least, &most, "",
+                            ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_NoInput |
+                                (logarithmic ? ImGuiSliderFlags_Logarithmic : 0));
     ImGui::PopStyleVar();
     controls.MarkLast(name);
     const std::string text = fmt::sprintf(format, value);

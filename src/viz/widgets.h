@@ -30,9 +30,10 @@ void LabelledValue(const char* label, const std::string& value, ImU32 colour = p
 void Tip(const char* text);
 
 // Marked by `name` in the controls.
-bool MarkedButton(Controls& controls, const char* name, const char* label, float width, bool lit = false);
+bool MarkedButton(Controls& controls, const char* name, const char* label, float width,
+                  bool lit = false);
 bool MarkedCheckbox(Controls& controls, const char* name, const char* label, bool& value);
-bool MarkedSlider(Controls& controls, const char* name, double& value, double least, double most, const char* format,
-                  bool logarithmic = false);
+bool MarkedSlider(Controls& controls, const char* name, double& value, double least, double most,
+                  const char* format, bool logarithmic = false);
 
 }  // namespace tessera

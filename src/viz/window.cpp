@@ -24,9 +24,7 @@ std::string LastError() {
     return text ? text : "no reason given";
 }
 
-Window& Self(GLFWwindow* window) {
-    return *static_cast<Window*>(glfwGetWindowUserPointer(window));
-}
+Window& Self(GLFWwindow* window) { return *static_cast<Window*>(glfwGetWindowUserPointer(window)); }
 
 GLFWwindow* CreateWithContext(int api, const std::string& title, int width, int height) {
     glfwDefaultWindowHints();
@@ -54,14 +52,17 @@ Status Window::Create(const std::string& title, int width, int height) {
     for (const int api : {GLFW_EGL_CONTEXT_API, GLFW_NATIVE_CONTEXT_API})
         if (!window_) window_ = CreateWithContext(api, title, width, height);
     if (!window_)
-        return Status::Error(fmt::format("the display has no OpenGL 3.3 window ({}): install libegl1, libgl1 and "
-                                         "libgl1-mesa-dri, or run without --view", LastError()));
+        return Status::Error(
+            fmt::format("the display has no OpenGL 3.3 window ({}): install libegl1, libgl1 and "
+                        "libgl1-mesa-dri, or run without --view",
+                        LastError()));
     SurviveLossOfDisplay();
     glfwMakeContextCurrent(window_);
     glfwSwapInterval(0);  // the viewer has its own pace, and a hidden window must not hold it up
     const auto* name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
     renderer_ = name ? name : "unnamed";
-    is_software_ = renderer_.find("llvmpipe") != std::string::npos || renderer_.find("softpipe") != std::string::npos;
+    is_software_ = renderer_.find("llvmpipe") != std::string::npos ||
+                   renderer_.find("softpipe") != std::string::npos;
     float scale_y = 1;
     glfwGetWindowContentScale(window_, &scale_, &scale_y);
     scale_ = std::clamp(scale_, 1.0f, 4.0f);
@@ -83,14 +84,22 @@ void Window::SetCallbacks() {
         Self(window).had_input_ = true;
         if (action == GLFW_PRESS) Self(window).keys_.push_back({key, mods});
     });
-    glfwSetCursorPosCallback(window_, [](GLFWwindow* window, double, double) { Self(window).had_input_ = true; });
-    glfwSetCursorEnterCallback(window_, [](GLFWwindow* window, int) { Self(window).had_input_ = true; });
-    glfwSetMouseButtonCallback(window_, [](GLFWwindow* window, int, int, int) { Self(window).had_input_ = true; });
-    glfwSetScrollCallback(window_, [](GLFWwindow* window, double, double) { Self(window).had_input_ = true; });
-    glfwSetCharCallback(window_, [](GLFWwindow* window, unsigned) { Self(window).had_input_ = true; });
-    glfwSetWindowFocusCallback(window_, [](GLFWwindow* window, int) { Self(window).had_input_ = true; });
-    glfwSetWindowRefreshCallback(window_, [](GLFWwindow* window) { Self(window).had_input_ = true; });
-    glfwSetFramebufferSizeCallback(window_, [](GLFWwindow* window, int, int) { Self(window).had_input_ = true; });
+    glfwSetCursorPosCallback(
+        window_, [](GLFWwindow* window, double, double) { Self(window).had_input_ = true; });
+    glfwSetCursorEnterCallback(window_,
+                               [](GLFWwindow* window, int) { Self(window).had_input_ = true; });
+    glfwSetMouseButtonCallback(
+        window_, [](GLFWwindow* window, int, int, int) { Self(window).had_input_ = true; });
+    glfwSetScrollCallback(
+        window_, [](GLFWwindow* window, double, double) { Self(window).had_input_ = true; });
+    glfwSetCharCallback(window_,
+                        [](GLFWwindow* window, unsigned) { Self(window).had_input_ = true; });
+    glfwSetWindowFocusCallback(window_,
+                               [](GLFWwindow* window, int) { Self(window).had_input_ = true; });
+    glfwSetWindowRefreshCallback(window_,
+                                 [](GLFWwindow* window) { Self(window).had_input_ = true; });
+    glfwSetFramebufferSizeCallback(
+        window_, [](GLFWwindow* window, int, int) { Self(window).had_input_ = true; });
 }
 
 Window::~Window() {
@@ -111,13 +120,9 @@ bool Window::WaitForInput(double wait_s) {
     return std::exchange(had_input_, false);
 }
 
-bool Window::ShouldClose() const {
-    return glfwWindowShouldClose(window_) || DisplayIsLost();
-}
+bool Window::ShouldClose() const { return glfwWindowShouldClose(window_) || DisplayIsLost(); }
 
-std::vector<Window::Key> Window::TakeKeys() {
-    return std::exchange(keys_, {});
-}
+std::vector<Window::Key> Window::TakeKeys() { return std::exchange(keys_, {}); }
 
 bool Window::is_minimised() const {
     int width = 0, height = 0;
@@ -155,12 +160,8 @@ ColourImage Window::Read() const {
     return turned;
 }
 
-void Window::Finish() {
-    glFinish();
-}
+void Window::Finish() { glFinish(); }
 
-void Window::Show() {
-    glfwSwapBuffers(window_);
-}
+void Window::Show() { glfwSwapBuffers(window_); }
 
 }  // namespace tessera

@@ -1,4 +1,5 @@
-// The operating system's window with its OpenGL 3.3 context and ImGui in it. Knows nothing of what is drawn.
+// The operating system's window with its OpenGL 3.3 context and ImGui in it. Knows nothing of what
+// is drawn.
 #pragma once
 
 #include <memory>
@@ -41,7 +42,7 @@ class Window {
     ColourImage Read() const;
     void Show();
 
-    float scale() const { return scale_; }                // of text and sizes
+    float scale() const { return scale_; }  // of text and sizes
     bool is_minimised() const;
     bool is_software() const { return is_software_; }
     const std::string& renderer() const { return renderer_; }

@@ -31,22 +31,27 @@ struct Outcome {
 class Cli : public testing::Test {
   protected:
     Outcome Call(const std::string& arguments, const std::string& within = {}) const {
-        const std::string command = within + TESSERA_PROGRAM + " " + arguments + " >" + (folder / "stdout") + " 2>" +
-                                    (folder / "stderr") + " </dev/null";
+        const std::string command = within + TESSERA_PROGRAM + " " + arguments + " >" +
+                                    (folder / "stdout") + " 2>" + (folder / "stderr") +
+                                    " </dev/null";
         const int status = std::system(command.c_str());
-        return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, ReadAll(folder / "stdout"), ReadAll(folder / "stderr")};
+        return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, ReadAll(folder / "stdout"),
+                ReadAll(folder / "stderr")};
     }
     // Bad input: exit code 2, one line that names the culprit.
     void ExpectRefused(const std::string& arguments, const std::string& named) const {
         const Outcome outcome = Call(arguments);
         EXPECT_EQ(outcome.exit_code, 2) << arguments << "\n" << outcome.err;
-        EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << arguments << "\n" << outcome.err;
+        EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << arguments << "\n"
+                                                                               << outcome.err;
         EXPECT_NE(outcome.err.find(named), std::string::npos) << arguments << "\n" << outcome.err;
     }
     // A run that takes a second.
     static std::string SmallRun() {
-        return "run synthetic:desk --set synthetic.width=160 --set synthetic.height=120 --set synthetic.fx=131 "
-               "--set synthetic.fy=131 --set synthetic.cx=79.5 --set synthetic.cy=59.5 --set mapping.voxel_size_m=0.04 "
+        return "run synthetic:desk --set synthetic.width=160 --set synthetic.height=120 --set "
+               "synthetic.fx=131 "
+               "--set synthetic.fy=131 --set synthetic.cx=79.5 --set synthetic.cy=59.5 --set "
+               "mapping.voxel_size_m=0.04 "
                "--set mapping.truncation_m=0.16 ";
     }
     TempFolder folder;

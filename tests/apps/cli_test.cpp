@@ -9,27 +9,33 @@ namespace tessera {
 namespace {
 
 TEST_F(Cli, LiveRunsAndRecordsAndTheRecordingRunsAgain) {
-    const Outcome live = Call(SmallRun() + "--frames 12 --mode live --record " + (folder / "raw") + " --out " + (folder / "out"));
+    const Outcome live = Call(SmallRun() + "--frames 12 --mode live --record " + (folder / "raw") +
+                              " --out " + (folder / "out"));
     EXPECT_EQ(live.exit_code, 0) << live.err;
     EXPECT_NE(live.out.find("live: "), std::string::npos) << live.out;
-    EXPECT_NE(live.err.find("recorded 12 frames in " + (folder / "raw")), std::string::npos) << live.err;
+    EXPECT_NE(live.err.find("recorded 12 frames in " + (folder / "raw")), std::string::npos)
+        << live.err;
     const Outcome again = Call("run " + (folder / "raw") + " --out " + (folder / "again"));
     EXPECT_EQ(again.exit_code, 0) << again.err;
     EXPECT_NE(again.out.find("12 frames, 12 tracked"), std::string::npos) << again.out;
 }
 
 TEST_F(Cli, WithoutADisplayViewSaysSoAndGoesOn) {
-    const Outcome outcome = Call(SmallRun() + "--frames 5 --view --out " + (folder / "out"), "env -u DISPLAY -u WAYLAND_DISPLAY ");
+    const Outcome outcome = Call(SmallRun() + "--frames 5 --view --out " + (folder / "out"),
+                                 "env -u DISPLAY -u WAYLAND_DISPLAY ");
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_NE(outcome.err.find("going on without"), std::string::npos) << outcome.err;
     EXPECT_NE(outcome.out.find("5 frames, 5 tracked"), std::string::npos) << outcome.out;
 }
 
 TEST_F(Cli, AWholeRunInAWindow) {
-    if (std::system("command -v xvfb-run >/dev/null") != 0) GTEST_SKIP() << "no xvfb-run: apt-get install xvfb";
+    if (std::system("command -v xvfb-run >/dev/null") != 0)
+        GTEST_SKIP() << "no xvfb-run: apt-get install xvfb";
     for (const std::string mode : {"lockstep", "live"}) {
-        const Outcome outcome = Call(SmallRun() + "--frames 12 --view --set view.close_at_end=true --mode " + mode + " --out " +
-                                         (folder / mode), "xvfb-run -a ");
+        const Outcome outcome =
+            Call(SmallRun() + "--frames 12 --view --set view.close_at_end=true --mode " + mode +
+                     " --out " + (folder / mode),
+                 "xvfb-run -a ");
         EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
         EXPECT_EQ(outcome.err.find("no window"), std::string::npos) << outcome.err;
         EXPECT_FALSE(ReadAll(folder / (mode + "/mesh.ply")).empty());
@@ -37,8 +43,9 @@ TEST_F(Cli, AWholeRunInAWindow) {
 }
 
 TEST_F(Cli, HelpEverywhere) {
-    for (const char* command : {"", "run", "eval", "eval ate", "eval rpe", "eval mesh", "synth", "sweep", "sweep alpha",
-                                "render", "objects", "view", "info", "doctor", "config"})
+    for (const char* command :
+         {"", "run", "eval", "eval ate", "eval rpe", "eval mesh", "synth", "sweep", "sweep alpha",
+          "render", "objects", "view", "info", "doctor", "config"})
         for (const char* flag : {" -h", " --help"}) {
             const Outcome outcome = Call(std::string(command) + flag);
             EXPECT_EQ(outcome.exit_code, 0) << command;
@@ -49,11 +56,14 @@ TEST_F(Cli, HelpEverywhere) {
 
 // Before the run starts: nothing is written.
 TEST_F(Cli, LabelsThatCannotBeAreRefused) {
-    const auto refused = [&](const std::string& name, const std::string& content, const std::string& named) {
+    const auto refused = [&](const std::string& name, const std::string& content,
+                             const std::string& named) {
         std::ofstream(folder / name) << content;
-        ExpectRefused("run synthetic:desk --out " + (folder / "o") + " --labels " + (folder / name), named);
+        ExpectRefused("run synthetic:desk --out " + (folder / "o") + " --labels " + (folder / name),
+                      named);
     };
-    ExpectRefused("run synthetic:desk --out " + (folder / "o") + " --labels /no/such.txt", "/no/such.txt");
+    ExpectRefused("run synthetic:desk --out " + (folder / "o") + " --labels /no/such.txt",
+                  "/no/such.txt");
     refused("empty.txt", "", "empty.txt");
     refused("five.txt", "1000 cup 0.9 1 1\n", "five.txt:1: ");
     refused("nan.txt", "1000 cup 0.9 1 1 5 5\n1000 cup nan 1 1 5 5\n", "nan.txt:2: ");
@@ -65,7 +75,9 @@ TEST_F(Cli, LabelsThatCannotBeAreRefused) {
 
 TEST_F(Cli, AMeshWithoutLabelsIsNotShownByLabel) {
     ASSERT_EQ(Call(SmallRun() + "--frames 3 --out " + (folder / "o")).exit_code, 0);
-    ExpectRefused("render " + (folder / "o/mesh.ply") + " --shading label --out " + (folder / "p.png"), "has no labels");
+    ExpectRefused(
+        "render " + (folder / "o/mesh.ply") + " --shading label --out " + (folder / "p.png"),
+        "has no labels");
     ExpectRefused("objects " + (folder / "o") + " --out " + (folder / "parts"), "has no labels");
 }
 
@@ -98,24 +110,34 @@ TEST_F(Cli, BadArgumentsAreOneLineAndExitCode2) {
 }
 
 TEST_F(Cli, AGpuThatIsAskedForByNameAndIsNotThereIsRefused) {
-    if (Call("doctor").out.find("compute capability") != std::string::npos) GTEST_SKIP() << "this machine has a GPU";
+    if (Call("doctor").out.find("compute capability") != std::string::npos)
+        GTEST_SKIP() << "this machine has a GPU";
     ExpectRefused("run synthetic:desk --device cuda", "--device cuda");
 }
 
 TEST_F(Cli, AScanIsSavedLookedAtGoneOnWithHandedOutAndRepaired) {
     const std::string scan = folder / "a.scan";
-    EXPECT_EQ(Call(SmallRun() + "--frames 12 --out " + (folder / "first") + " --scan " + scan).exit_code, 0);
-    ExpectRefused(SmallRun() + "--frames 12 --out " + (folder / "x") + " --scan " + scan, "--resume");
-    ExpectRefused(SmallRun() + "--set mapping.voxel_size_m=0.05 --resume " + scan, "mapping.voxel_size_m");
+    EXPECT_EQ(
+        Call(SmallRun() + "--frames 12 --out " + (folder / "first") + " --scan " + scan).exit_code,
+        0);
+    ExpectRefused(SmallRun() + "--frames 12 --out " + (folder / "x") + " --scan " + scan,
+                  "--resume");
+    ExpectRefused(SmallRun() + "--set mapping.voxel_size_m=0.05 --resume " + scan,
+                  "mapping.voxel_size_m");
     ExpectRefused(SmallRun() + "--loop-closure on --resume " + scan, "loops.enabled");
     const Outcome info = Call("info " + scan);
     EXPECT_EQ(info.exit_code, 0) << info.err;
     EXPECT_NE(info.out.find("complete"), std::string::npos) << info.out;
     EXPECT_NE(info.out.find("12 frames, 12 tracked"), std::string::npos) << info.out;
-    const Outcome resumed = Call(SmallRun() + "--frames 20 --out " + (folder / "second") + " --resume " + scan);
-    EXPECT_NE(resumed.out.find("8 frames, 8 tracked"), std::string::npos) << resumed.out << resumed.err;
+    const Outcome resumed =
+        Call(SmallRun() + "--frames 20 --out " + (folder / "second") + " --resume " + scan);
+    EXPECT_NE(resumed.out.find("8 frames, 8 tracked"), std::string::npos)
+        << resumed.out << resumed.err;
     EXPECT_EQ(ReadTrajectory(folder / "second/trajectory.txt").value().poses.size(), 20u);
-    EXPECT_EQ(Call("export " + scan + " --mesh " + (folder / "m.ply") + " --trajectory " + (folder / "t.txt")).exit_code, 0);
+    EXPECT_EQ(Call("export " + scan + " --mesh " + (folder / "m.ply") + " --trajectory " +
+                   (folder / "t.txt"))
+                  .exit_code,
+              0);
     EXPECT_EQ(ReadAll(folder / "m.ply"), ReadAll(folder / "second/mesh.ply"));
     EXPECT_EQ(ReadTrajectory(folder / "t.txt").value().poses.size(), 20u);
     ExpectRefused("export " + scan + " --frames " + (folder / "raw"), "scan.frames=all");
@@ -133,7 +155,8 @@ TEST_F(Cli, LoopClosureIsRefusedWhereItCannotBe) {
     const std::string poses = folder / "poses.txt";
     std::ofstream(poses) << "0 0 0 0 0 0 0 1\n";
     ExpectRefused("run synthetic:desk --loop-closure on --poses " + poses, "--loop-closure on");
-    const std::string refine = "run synthetic:desk --set calibration.refine=true --out " + (folder / "refine");
+    const std::string refine =
+        "run synthetic:desk --set calibration.refine=true --out " + (folder / "refine");
     ExpectRefused(refine, "needs --loop-closure on");
     ExpectRefused(refine + " --loop-closure on --scan " + (folder / "c.scan"), "not with --scan");
 }
@@ -145,7 +168,8 @@ TEST_F(Cli, SwitchNeedsAFrameAndAMethod) {
 
 TEST_F(Cli, SwitchesTheTrackerBetweenTwoFrames) {
     const std::string out = folder / "switched";
-    const Outcome run = Call(SmallRun() + "--frames 6 --switch 4:icp --switch 2:icp-rgb --out " + out);
+    const Outcome run =
+        Call(SmallRun() + "--frames 6 --switch 4:icp --switch 2:icp-rgb --out " + out);
     ASSERT_EQ(run.exit_code, 0) << run.err;
     std::ifstream csv(out + "/frames.csv");
     std::vector<std::string> methods;
@@ -154,7 +178,8 @@ TEST_F(Cli, SwitchesTheTrackerBetweenTwoFrames) {
         const std::size_t second = line.find(',', line.find(',') + 1);
         methods.push_back(line.substr(second + 1, line.find(',', second + 1) - second - 1));
     }
-    EXPECT_EQ(methods, (std::vector<std::string>{"sdf", "sdf", "icp-rgb", "icp-rgb", "icp", "icp"}));
+    EXPECT_EQ(methods,
+              (std::vector<std::string>{"sdf", "sdf", "icp-rgb", "icp-rgb", "icp", "icp"}));
 }
 
 TEST_F(Cli, InspectDrawsAFrameAgainstTheMap) {
@@ -164,72 +189,86 @@ TEST_F(Cli, InspectDrawsAFrameAgainstTheMap) {
     ASSERT_EQ(inspect.exit_code, 0) << inspect.err;
     EXPECT_NE(inspect.out.find("frame 3 by sdf: good"), std::string::npos) << inspect.out;
     EXPECT_TRUE(std::filesystem::exists(picture));
-    const Outcome beyond = Call("inspect synthetic:desk --frame 99999 --out " + picture + " --set synthetic.frames=2");
+    const Outcome beyond =
+        Call("inspect synthetic:desk --frame 99999 --out " + picture + " --set synthetic.frames=2");
     EXPECT_EQ(beyond.exit_code, 2);
 }
 
 TEST_F(Cli, RunsAndEvaluates) {
     const std::string out = folder / "o";
-    const Outcome run = Call(SmallRun() + "--frames 5 --device cpu --mode lockstep --labels none --loop-closure off --out " + out);
+    const Outcome run = Call(
+        SmallRun() +
+        "--frames 5 --device cpu --mode lockstep --labels none --loop-closure off --out " + out);
     ASSERT_EQ(run.exit_code, 0) << run.err;
     EXPECT_NE(run.out.find("ATE RMSE"), std::string::npos) << run.out;
     EXPECT_EQ(run.err.find('\r'), std::string::npos) << "a progress bar without a terminal";
-    for (const char* file : {"trajectory.txt", "mesh.ply", "objects.json", "timings.json", "run.json", "preview.png"})
+    for (const char* file :
+         {"trajectory.txt", "mesh.ply", "objects.json", "timings.json", "run.json", "preview.png"})
         EXPECT_TRUE(std::filesystem::exists(out + "/" + file)) << file;
 
     const std::string trajectory = out + "/trajectory.txt", mesh = out + "/mesh.ply";
-    const Outcome ate = Call("eval ate " + trajectory + " " + trajectory + " --json " + (folder / "ate.json") + " --plot " +
-                             (folder / "ate.png"));
+    const Outcome ate = Call("eval ate " + trajectory + " " + trajectory + " --json " +
+                             (folder / "ate.json") + " --plot " + (folder / "ate.png"));
     ASSERT_EQ(ate.exit_code, 0) << ate.err;
     EXPECT_NE(ate.out.find("ATE RMSE 0.0000 m"), std::string::npos) << ate.out;
     EXPECT_NE(ReadAll(folder / "ate.json").find("\"alignment\""), std::string::npos);
     EXPECT_TRUE(std::filesystem::exists(folder / "ate.png"));
-    const Outcome surface = Call("eval mesh " + mesh + " " + mesh + " --align " + trajectory + " " + trajectory +
-                                 " --json " + (folder / "mesh.json") + " --picture " + (folder / "mesh.png"));
+    const Outcome surface =
+        Call("eval mesh " + mesh + " " + mesh + " --align " + trajectory + " " + trajectory +
+             " --json " + (folder / "mesh.json") + " --picture " + (folder / "mesh.png"));
     ASSERT_EQ(surface.exit_code, 0) << surface.err;
     EXPECT_NE(ReadAll(folder / "mesh.json").find("\"completeness_5cm\""), std::string::npos);
-    EXPECT_EQ(Call("render " + mesh + " --out " + (folder / "m.png") + " --width 64 --height 48").exit_code, 0);
-    ExpectRefused("eval rpe " + trajectory + " " + trajectory, trajectory);  // five frames are less than a second
+    EXPECT_EQ(Call("render " + mesh + " --out " + (folder / "m.png") + " --width 64 --height 48")
+                  .exit_code,
+              0);
+    // Five frames are less than a second.
+    ExpectRefused("eval rpe " + trajectory + " " + trajectory, trajectory);
     EXPECT_EQ(Call("eval rpe " + trajectory + " " + trajectory + " --delta 0.1").exit_code, 0);
 }
 
 TEST_F(Cli, MostlyLostIsExitCode3) {
-    const Outcome run = Call(SmallRun() + "--frames 4 --set frame.min_depth_m=50 --set frame.max_depth_m=60 --out " +
-                             (folder / "o"));
+    const Outcome run = Call(
+        SmallRun() + "--frames 4 --set frame.min_depth_m=50 --set frame.max_depth_m=60 --out " +
+        (folder / "o"));
     EXPECT_EQ(run.exit_code, 3);
     EXPECT_NE(run.err.find("depth_scale"), std::string::npos) << run.err;
 }
 
 TEST_F(Cli, ADiskThatIsFullIsNamed) {
-    // No file may grow beyond 32 blocks of 512 bytes: room for run.json, not for the mesh. The same as a full disk, and
-    // needs no privileges.
+    // No file may grow beyond 32 blocks of 512 bytes: room for run.json, not for the mesh. The same
+    // as a full disk, and needs no privileges.
     const std::string limited = "sh -c 'ulimit -f 32; exec " TESSERA_PROGRAM " \"$@\"' sh ";
-    const std::string command = limited + SmallRun() + "--frames 5 --out " + (folder / "o") + " 2>" + (folder / "stderr") +
-                                " >/dev/null </dev/null";
+    const std::string command = limited + SmallRun() + "--frames 5 --out " + (folder / "o") +
+                                " 2>" + (folder / "stderr") + " >/dev/null </dev/null";
     const int status = std::system(command.c_str());
     EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 2) << status;
-    EXPECT_NE(ReadAll(folder / "stderr").find("mesh.ply"), std::string::npos) << ReadAll(folder / "stderr");
+    EXPECT_NE(ReadAll(folder / "stderr").find("mesh.ply"), std::string::npos)
+        << ReadAll(folder / "stderr");
     const auto trajectory = ReadTrajectory(folder / "o/trajectory.txt");  // what was written stays
     EXPECT_TRUE(trajectory.ok()) << trajectory.message();
 }
 
 // SIGINT or SIGTERM ends a run within two seconds, with everything written.
 TEST_F(Cli, ASignalEndsTheRunWithEverythingWritten) {
-    for (const auto& [signal_number, mode] : {std::pair{SIGTERM, "lockstep"}, {SIGINT, "lockstep"}, {SIGTERM, "live"}, {SIGINT, "live"}}) {
+    for (const auto& [signal_number, mode] : {std::pair{SIGTERM, "lockstep"},
+                                              {SIGINT, "lockstep"},
+                                              {SIGTERM, "live"},
+                                              {SIGINT, "live"}}) {
         const std::string out = folder / (mode + std::to_string(signal_number));
         const pid_t child = fork();
         ASSERT_GE(child, 0);
         if (child == 0) {
             (void)!freopen("/dev/null", "w", stdout);
             (void)!freopen("/dev/null", "w", stderr);
-            const std::string command =
-                std::string("exec ") + TESSERA_PROGRAM + " " + SmallRun() + "--mode " + mode + " --out " + out;
+            const std::string command = std::string("exec ") + TESSERA_PROGRAM + " " + SmallRun() +
+                                        "--mode " + mode + " --out " + out;
             execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
             _exit(127);
         }
         // The second line of the trajectory says that frames are being tracked.
-        while (std::count_if(std::istreambuf_iterator<char>(std::ifstream(out + "/trajectory.txt").rdbuf()), {},
-                             [](char c) { return c == '\n'; }) < 3)
+        while (std::count_if(
+                   std::istreambuf_iterator<char>(std::ifstream(out + "/trajectory.txt").rdbuf()),
+                   {}, [](char c) { return c == '\n'; }) < 3)
             if (waitpid(child, nullptr, WNOHANG) != 0) FAIL() << "ended before it could be stopped";
         kill(child, signal_number);
         int status = 0;

@@ -9,29 +9,32 @@ class Export : public Cli {
   protected:
     // A scan and a run of four frames; raw frames are kept if asked for.
     void Scan(const std::string& keep) const {
-        const Outcome run =
-            Call(SmallRun() + keep + " --frames 4 --out " + (folder / "run") + " --scan " + (folder / "a.scan"));
+        const Outcome run = Call(SmallRun() + keep + " --frames 4 --out " + (folder / "run") +
+                                 " --scan " + (folder / "a.scan"));
         ASSERT_EQ(run.exit_code, 0) << run.err;
     }
 };
 
 TEST_F(Export, WritesEveryFormatOutOfAScan) {
     ASSERT_NO_FATAL_FAILURE(Scan("--set scan.frames=all"));
-    const Outcome all = Call("export " + (folder / "a.scan") + " --mesh " + (folder / "m.glb") + " --cloud " +
-                             (folder / "c.ply") + " --kitti " + (folder / "k.txt") + " --frames " +
-                             (folder / "ns/transforms.json") + " --colmap " + (folder / "cm"));
+    const Outcome all =
+        Call("export " + (folder / "a.scan") + " --mesh " + (folder / "m.glb") + " --cloud " +
+             (folder / "c.ply") + " --kitti " + (folder / "k.txt") + " --frames " +
+             (folder / "ns/transforms.json") + " --colmap " + (folder / "cm"));
     ASSERT_EQ(all.exit_code, 0) << all.err;
     EXPECT_EQ(ReadAll(folder / "m.glb").substr(0, 4), "glTF");
-    EXPECT_EQ(ReadPly(folder / "c.ply").value().vertices, ReadPly(folder / "run/mesh.ply").value().vertices);
+    EXPECT_EQ(ReadPly(folder / "c.ply").value().vertices,
+              ReadPly(folder / "run/mesh.ply").value().vertices);
     const std::string kitti = ReadAll(folder / "k.txt");
     EXPECT_EQ(std::count(kitti.begin(), kitti.end(), '\n'), 4);
-    for (const char* name :
-         {"k.txt.times", "ns/transforms.json", "ns/images/000003.jpg", "ns/depth/000003.png", "ns/points.ply",
-          "cm/cameras.txt", "cm/images.txt", "cm/points3D.txt", "cm/images/000000.jpg"})
+    for (const char* name : {"k.txt.times", "ns/transforms.json", "ns/images/000003.jpg",
+                             "ns/depth/000003.png", "ns/points.ply", "cm/cameras.txt",
+                             "cm/images.txt", "cm/points3D.txt", "cm/images/000000.jpg"})
         EXPECT_GT(std::filesystem::file_size(folder / name), 0u) << name;
     ASSERT_EQ(Call("export " + (folder / "a.scan") + " --frames " + (folder / "raw")).exit_code, 0);
     EXPECT_TRUE(std::filesystem::exists(folder / "raw/camera.yaml"));
-    ExpectRefused("export " + (folder / "a.scan") + " --colmap " + (folder / "cm"), "holds files already");
+    ExpectRefused("export " + (folder / "a.scan") + " --colmap " + (folder / "cm"),
+                  "holds files already");
 }
 
 TEST_F(Export, AVolumeIsWrittenOrSaysWhatToInstall) {
@@ -49,16 +52,18 @@ TEST_F(Export, AVolumeIsWrittenOrSaysWhatToInstall) {
 TEST_F(Export, OfARunItWritesMeshCloudAndPathAndNamesWhatItLacks) {
     ASSERT_NO_FATAL_FAILURE(Scan(""));
     const std::string from = "export " + (folder / "run");
-    EXPECT_EQ(Call(from + " --mesh " + (folder / "m.obj") + " --cloud " + (folder / "c.ply") + " --trajectory " +
-                   (folder / "t.txt"))
+    EXPECT_EQ(Call(from + " --mesh " + (folder / "m.obj") + " --cloud " + (folder / "c.ply") +
+                   " --trajectory " + (folder / "t.txt"))
                   .exit_code,
               0);
     EXPECT_EQ(ReadAll(folder / "t.txt").substr(0, 1), "#");
-    for (const char* option : {" --grid g.vdb", " --frames new", " --frames t.json", " --colmap new"})
+    for (const char* option :
+         {" --grid g.vdb", " --frames new", " --frames t.json", " --colmap new"})
         ExpectRefused(from + option, "FILE.scan");
     for (const char* option : {" --frames ", " --colmap "}) {
         const std::string json = option == std::string(" --frames ") ? "t.json" : "cm";
-        ExpectRefused("export " + (folder / "a.scan") + " --mesh " + (folder / "m.glb") + option + (folder / json),
+        ExpectRefused("export " + (folder / "a.scan") + " --mesh " + (folder / "m.glb") + option +
+                          (folder / json),
                       "scan.frames=all");
     }
     EXPECT_FALSE(std::filesystem::exists(folder / "m.glb"));

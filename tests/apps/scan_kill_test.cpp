@@ -1,5 +1,6 @@
-// kill -9 at twenty random moments of a run: each file opens, has lost at most the last second, and the run that goes on
-// with it ends as the unbroken one. The same with loop closure on, live, and with a third of the map away from memory.
+// kill -9 at twenty random moments of a run: each file opens, has lost at most the last second, and
+// the run that goes on with it ends as the unbroken one. The same with loop closure on, live, and
+// with a third of the map away from memory.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/wait.h>
@@ -28,21 +29,28 @@ double Seconds(Clock::duration duration) { return std::chrono::duration<double>(
 
 class KilledScan : public testing::Test {
   protected:
-    std::vector<std::string> Arguments(const std::string& out, const std::vector<std::string>& more) const {
-        std::vector<std::string> all{"run", sequence, "--frames", std::to_string(frames), "--out", out,
-                                     "--set", "mapping.voxel_size_m=0.03", "--set", "mapping.truncation_m=0.12"};
+    std::vector<std::string> Arguments(const std::string& out,
+                                       const std::vector<std::string>& more) const {
+        std::vector<std::string> all{"run",      sequence,
+                                     "--frames", std::to_string(frames),
+                                     "--out",    out,
+                                     "--set",    "mapping.voxel_size_m=0.03",
+                                     "--set",    "mapping.truncation_m=0.12"};
         all.insert(all.end(), options.begin(), options.end());
         all.insert(all.end(), more.begin(), more.end());
         return all;
     }
     pid_t Start(const std::vector<std::string>& arguments) const {
         std::vector<char*> argv{const_cast<char*>(TESSERA_PROGRAM)};
-        for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
+        for (const std::string& argument : arguments)
+            argv.push_back(const_cast<char*>(argument.c_str()));
         argv.push_back(nullptr);
         const pid_t child = fork();
         if (child == 0) {
             const std::string log = folder / "log";
-            if (std::freopen(log.c_str(), "a", stdout) == nullptr || std::freopen(log.c_str(), "a", stderr) == nullptr) _exit(99);
+            if (std::freopen(log.c_str(), "a", stdout) == nullptr ||
+                std::freopen(log.c_str(), "a", stderr) == nullptr)
+                _exit(99);
             execv(TESSERA_PROGRAM, argv.data());
             _exit(98);
         }
@@ -55,7 +63,8 @@ class KilledScan : public testing::Test {
     }
     int Call(const std::vector<std::string>& arguments) const { return WaitFor(Start(arguments)); }
     double Ate(const std::string& out) const {
-        const auto truth = ReadTrajectory(sequence + "/groundtruth.txt"), path = ReadTrajectory(out + "/trajectory.txt");
+        const auto truth = ReadTrajectory(sequence + "/groundtruth.txt"),
+                   path = ReadTrajectory(out + "/trajectory.txt");
         EXPECT_TRUE(truth.ok() && path.ok()) << truth.message() << path.message();
         if (!truth.ok() || !path.ok()) return 1;
         const auto ate = EvaluateAte(truth.value().poses, path.value().poses, {});
@@ -71,13 +80,23 @@ class KilledScan : public testing::Test {
     std::string Log() const { return Bytes(folder / "log"); }
 
     void MakeSequence(const std::string& scene, int length) const {
-        ASSERT_EQ(Call({"synth", scene, "--out", sequence, "--frames", std::to_string(length), "--noise", "kinect", "--set",
-                        "synthetic.width=320", "--set", "synthetic.height=240", "--set", "synthetic.fx=262.5", "--set",
-                        "synthetic.fy=262.5", "--set", "synthetic.cx=159.5", "--set", "synthetic.cy=119.5"}), 0) << Log();
+        ASSERT_EQ(Call({"synth",    scene,
+                        "--out",    sequence,
+                        "--frames", std::to_string(length),
+                        "--noise",  "kinect",
+                        "--set",    "synthetic.width=320",
+                        "--set",    "synthetic.height=240",
+                        "--set",    "synthetic.fx=262.5",
+                        "--set",    "synthetic.fy=262.5",
+                        "--set",    "synthetic.cx=159.5",
+                        "--set",    "synthetic.cy=119.5"}),
+                  0)
+            << Log();
     }
     void KillAndResume(int times);
     void ExpectSame(const std::string& a, const std::string& b) const {
-        for (const char* file : {"/mesh.ply", "/trajectory.txt"}) EXPECT_TRUE(Bytes(folder / a + file) == Bytes(folder / b + file)) << file;
+        for (const char* file : {"/mesh.ply", "/trajectory.txt"})
+            EXPECT_TRUE(Bytes(folder / a + file) == Bytes(folder / b + file)) << file;
     }
     // Of the map in memory at the run's end.
     int BlocksOf(const std::string& run) const {
@@ -106,22 +125,28 @@ void KilledScan::KillAndResume(int times) {
     std::mt19937 random(20250101);
     for (int i = 0; i < times; ++i) {
         const std::string scan = folder / (std::to_string(i) + ".scan"), out = folder / "killed";
-        const double kill_s = run_s * (0.1 + 0.9 * std::uniform_real_distribution<double>()(random));
-        std::filesystem::remove_all(out);  // or the trajectory of the run before counts as this one's
+        const double kill_s =
+            run_s * (0.1 + 0.9 * std::uniform_real_distribution<double>()(random));
+        // Or the trajectory of the run before counts as this one's.
+        std::filesystem::remove_all(out);
         const Clock::time_point start = Clock::now();
         const pid_t child = Start(Arguments(out, {"--scan", scan}));
-        std::this_thread::sleep_until(start + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(kill_s)));
+        std::this_thread::sleep_until(start + std::chrono::duration_cast<Clock::duration>(
+                                                  std::chrono::duration<double>(kill_s)));
         kill(child, SIGKILL);
         waitpid(child, nullptr, 0);
         const int tracked = LinesOf(out + "/trajectory.txt");
-        if (!std::filesystem::exists(scan)) continue;  // killed before it began: nothing was scanned
+        // Killed before it began: nothing was scanned.
+        if (!std::filesystem::exists(scan)) continue;
         const auto content = ReadScan(scan, {.map = true, .frames = true});
         ASSERT_TRUE(content.ok()) << content.message();
         constexpr int kFramesOfASecond = 30;  // of stamps; by the clock it is less
-        EXPECT_GE(static_cast<int>(content.value().path.size()), tracked - kFramesOfASecond) << "killed after " << kill_s << " s";
+        EXPECT_GE(static_cast<int>(content.value().path.size()), tracked - kFramesOfASecond)
+            << "killed after " << kill_s << " s";
         ASSERT_EQ(Call(Arguments(folder / "resumed", {"--resume", scan})), 0) << Log();
         EXPECT_LE(Ate(folder / "resumed"), 1.1 * unbroken_m) << "killed after " << kill_s << " s";
-        EXPECT_EQ(LinesOf(folder / "resumed/trajectory.txt"), LinesOf(folder / "whole/trajectory.txt"));
+        EXPECT_EQ(LinesOf(folder / "resumed/trajectory.txt"),
+                  LinesOf(folder / "whole/trajectory.txt"));
         if (exact) ExpectSame("resumed", "whole");
         std::filesystem::remove(scan);
     }
@@ -144,7 +169,8 @@ TEST_F(KilledScan, WithAThirdOfTheMapAway) {
     frames = 180;
     MakeSequence("corridor", kStride * frames);
     options = {"--stride", std::to_string(kStride), "--set", "frame.max_depth_m=3"};
-    ASSERT_EQ(Call(Arguments(folder / "unlimited", {"--scan", folder / "unlimited.scan"})), 0) << Log();
+    ASSERT_EQ(Call(Arguments(folder / "unlimited", {"--scan", folder / "unlimited.scan"})), 0)
+        << Log();
     options.insert(options.end(), {"--set", "mapping.memory_limit_mb=10"});
     KillAndResume(5);
     ExpectSame("unlimited", "whole");
@@ -162,7 +188,8 @@ TEST_F(KilledScan, AsSoonAsTheFileIsThere) {
         const Clock::time_point latest = Clock::now() + std::chrono::seconds(60);
         while (!std::filesystem::exists(scan) && Clock::now() < latest) std::this_thread::yield();
         const Clock::time_point there = Clock::now();
-        while (Clock::now() < there + std::chrono::microseconds(50 * (i % 20))) std::this_thread::yield();
+        while (Clock::now() < there + std::chrono::microseconds(50 * (i % 20)))
+            std::this_thread::yield();
         kill(child, SIGKILL);
         waitpid(child, nullptr, 0);
         const auto content = ReadScan(scan, {.map = true, .frames = true});
@@ -170,7 +197,8 @@ TEST_F(KilledScan, AsSoonAsTheFileIsThere) {
     }
 }
 
-// Which frames a live run drops, its threads decide: it is as accurate as a run without interruption can be.
+// Which frames a live run drops, its threads decide: it is as accurate as a run without
+// interruption can be.
 TEST_F(KilledScan, LiveWithLoopClosure) {
     MakeSequence("desk", frames);
     const std::vector<std::string> live{"--mode", "live", "--loop-closure", "on"};
@@ -187,7 +215,8 @@ TEST_F(KilledScan, LiveWithLoopClosure) {
         if (!std::filesystem::exists(scan)) continue;
         const auto content = ReadScan(scan, {.map = true, .frames = true});
         ASSERT_TRUE(content.ok()) << content.message();
-        EXPECT_GE(static_cast<int>(content.value().path.size()), tracked - 30) << "killed after " << kill_s << " s";
+        EXPECT_GE(static_cast<int>(content.value().path.size()), tracked - 30)
+            << "killed after " << kill_s << " s";
         more = live;
         more.insert(more.end(), {"--resume", scan});
         ASSERT_EQ(Call(Arguments(folder / "resumed", more)), 0) << Log();

@@ -30,7 +30,8 @@ class View : public testing::Test {
         EXPECT_TRUE(WriteTrajectory(folder_ / "trajectory.txt", poses).ok());
     }
     int Call(const std::string& arguments) {
-        const std::string command = std::string(TESSERA_PROGRAM) + " view " + arguments + " 2>" + (folder_ / "stderr");
+        const std::string command =
+            std::string(TESSERA_PROGRAM) + " view " + arguments + " 2>" + (folder_ / "stderr");
         const int status = std::system(command.c_str());
         std::stringstream text;
         text << std::ifstream(folder_ / "stderr").rdbuf();
@@ -46,7 +47,9 @@ TEST_F(View, AScreenshotShowsTheMesh) {
     const auto display = testing_support::VirtualDisplay::Start(why);
     if (!display) GTEST_SKIP() << why;
     for (const std::string& path : {folder_.path(), folder_ / "mesh.ply"}) {
-        ASSERT_EQ(Call(path + " --screenshot " + (folder_ / "shot.png") + " --width 640 --height 480"), 0) << error_;
+        ASSERT_EQ(
+            Call(path + " --screenshot " + (folder_ / "shot.png") + " --width 640 --height 480"), 0)
+            << error_;
         const auto picture = ReadColourImage(folder_ / "shot.png");
         ASSERT_TRUE(picture.ok()) << picture.message();
         ASSERT_EQ(picture.value().width(), 640);

@@ -21,7 +21,9 @@ constexpr const char* kIntrinsics = "fx: 500\nfy: 510\ncx: 310\ncy: 230\n";
 TEST(Camera, ProjectsWhatItUnprojects) {
     const PinholeCamera camera{640, 480, 525, 520, 319.5, 239.5};
     const Eigen::Vector3d p = camera.Unproject(10, 400, 2.5);
-    EXPECT_LT((p - Eigen::Vector3d((10 - 319.5) / 525 * 2.5, (400 - 239.5) / 520 * 2.5, 2.5)).norm(), 1e-15);
+    EXPECT_LT(
+        (p - Eigen::Vector3d((10 - 319.5) / 525 * 2.5, (400 - 239.5) / 520 * 2.5, 2.5)).norm(),
+        1e-15);
     EXPECT_LT((camera.Project(p) - Eigen::Vector2d(10, 400)).norm(), 1e-12);
     // The optical axis meets the image at the principal point.
     EXPECT_EQ(camera.Project({0, 0, 3}), Eigen::Vector2d(319.5, 239.5));
@@ -35,8 +37,9 @@ TEST(Camera, ImplausibleValuesAreNamed) {
 }
 
 TEST(CameraFile, ReadsEveryKey) {
-    const auto camera = ReadText(std::string("width: 320\nheight: 240\n") + kIntrinsics +
-                                 "distortion: [0.1, -0.2, 0.003, -0.004, 0.5]\ndepth_scale: 1000\nfps: 25\n");
+    const auto camera =
+        ReadText(std::string("width: 320\nheight: 240\n") + kIntrinsics +
+                 "distortion: [0.1, -0.2, 0.003, -0.004, 0.5]\ndepth_scale: 1000\nfps: 25\n");
     ASSERT_TRUE(camera.ok()) << camera.message();
     EXPECT_EQ(camera.value().pinhole, (PinholeCamera{320, 240, 500, 510, 310, 230}));
     EXPECT_EQ(camera.value().distortion, (LensDistortion{0.1, -0.2, 0.003, -0.004, 0.5}));
@@ -88,8 +91,10 @@ INSTANTIATE_TEST_SUITE_P(
         BadFile{"fx: 500\nfy: 510\ncx: 310\n", "'cy' is missing"},
         BadFile{"fx: 500\nfy: 510\ncx: 310\ncy: 230\nk1: 2\n", "unknown key 'k1'"},
         BadFile{"fx: wide\nfy: 510\ncx: 310\ncy: 230\n", "fx"},
-        BadFile{"fx: 0\nfy: 510\ncx: 310\ncy: 230\n", "fx"}, BadFile{"fx: -500\nfy: 510\ncx: 310\ncy: 230\n", "fx"},
-        BadFile{"fx: 500\nfy: .nan\ncx: 310\ncy: 230\n", "fy"}, BadFile{"fx: 500\nfy: 5\ncx: .inf\ncy: 230\n", "cx"},
+        BadFile{"fx: 0\nfy: 510\ncx: 310\ncy: 230\n", "fx"},
+        BadFile{"fx: -500\nfy: 510\ncx: 310\ncy: 230\n", "fx"},
+        BadFile{"fx: 500\nfy: .nan\ncx: 310\ncy: 230\n", "fy"},
+        BadFile{"fx: 500\nfy: 5\ncx: .inf\ncy: 230\n", "cx"},
         BadFile{"fx: 500\nfy: 510\ncx: 310\ncy: 5000\n", "cy"},
         BadFile{"fx: 500\nfy: 510\ncx: 310\ncy: 230\nwidth: 0\n", "width"},
         BadFile{"fx: 500\nfy: 510\ncx: 310\ncy: 230\nwidth: 99999999999\n", "width"},

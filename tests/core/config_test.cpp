@@ -53,7 +53,8 @@ TEST_F(Config, BothEndsOfARangeAreAllowedAndNothingBeyond) {
     for (const char* good : {"0.001", "1", "1e-2"})
         EXPECT_TRUE(parameters.Set("mapping.voxel_size_m", good).ok()) << good;
     settings.voxel_size_m = 0.5;
-    for (const char* bad : {"0.0009", "1.01", "-1", "nan", "inf", "1 cm", "", " 0.1", "0,1", "1e999"}) {
+    for (const char* bad :
+         {"0.0009", "1.01", "-1", "nan", "inf", "1 cm", "", " 0.1", "0,1", "1e999"}) {
         const Status status = parameters.Set("mapping.voxel_size_m", bad);
         EXPECT_FALSE(status.ok()) << bad;
         EXPECT_NE(status.message().find("mapping.voxel_size_m"), std::string::npos);
@@ -73,8 +74,9 @@ TEST_F(Config, ChoicesAndSwitchesNameWhatIsAllowed) {
 
 TEST_F(Config, AnUnknownKeyNamesTheNearest) {
     const auto nearest = [&](const std::string& key) { return parameters.Set(key, "1").message(); };
-    EXPECT_EQ(nearest("mapping.voxel_size"),
-              "unknown configuration key 'mapping.voxel_size'; did you mean 'mapping.voxel_size_m'?");
+    EXPECT_EQ(
+        nearest("mapping.voxel_size"),
+        "unknown configuration key 'mapping.voxel_size'; did you mean 'mapping.voxel_size_m'?");
     EXPECT_NE(nearest("iterations").find("'tracking.iterations'"), std::string::npos);
     EXPECT_NE(nearest("mapping.gama").find("'tracking.gamma'"), std::string::npos);
 }
@@ -84,7 +86,8 @@ TEST_F(Config, MarkdownHoldsEveryKeyWithItsDefault) {
     const std::string markdown = parameters.ToMarkdown();
     EXPECT_NE(markdown.find("## mapping"), std::string::npos);
     EXPECT_NE(markdown.find("| `voxel_size_m` | 0.01 | m | [0.001, 1] | Edge of a voxel. |"),
-              std::string::npos) << markdown;
+              std::string::npos)
+        << markdown;
     EXPECT_NE(markdown.find("constant, linear_exp"), std::string::npos);
 }
 

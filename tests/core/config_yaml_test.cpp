@@ -43,7 +43,8 @@ TEST_F(ConfigYaml, AnEmptyFileChangesNothing) {
 }
 
 TEST_F(ConfigYaml, OneErrorLeavesEverythingAsItWas) {
-    for (const char* bad : {"a: {x: 3, deep: {n: 99}}", "name: other\na: {x: 3}\nc: 1", "a: {x: 3}\nb: {on: [1]}"}) {
+    for (const char* bad :
+         {"a: {x: 3, deep: {n: 99}}", "name: other\na: {x: 3}\nc: 1", "a: {x: 3}\nb: {on: [1]}"}) {
         const Status status = Load(bad);
         EXPECT_FALSE(status.ok()) << bad;
         EXPECT_EQ(status.message().rfind("my.yaml: ", 0), 0u) << status.message();
@@ -54,7 +55,8 @@ TEST_F(ConfigYaml, OneErrorLeavesEverythingAsItWas) {
 }
 
 TEST_F(ConfigYaml, WhatItWritesItReads) {
-    const std::string awkward[] = {"", "null", "~", "a: b # c", "\"quoted\" \\ back", "two\nlines", "-", "5", "tab\t\x01"};
+    const std::string awkward[] = {"",           "null", "~", "a: b # c", "\"quoted\" \\ back",
+                                   "two\nlines", "-",    "5", "tab\t\x01"};
     for (const std::string& text : awkward) {
         name = text;
         x = 0.1 + 0.2;
@@ -74,7 +76,8 @@ TEST_F(ConfigYaml, WhatItWritesItReads) {
 }
 
 TEST_F(ConfigYaml, RefusesWhatIsNoMapping) {
-    for (const char* bad : {"just text", "[1, 2]", "a: [1]", "a:", "a: 5", "{", "a: {x: }", "? [1]\n: 2", "a: *nowhere"})
+    for (const char* bad : {"just text", "[1, 2]", "a: [1]", "a:", "a: 5", "{", "a: {x: }",
+                            "? [1]\n: 2", "a: *nowhere"})
         EXPECT_FALSE(Load(bad).ok()) << bad;
 }
 

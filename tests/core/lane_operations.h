@@ -1,5 +1,6 @@
-// Every operation of lanes (core/scalar_lanes.h) on rows of numbers: compiled for vectors in lane_operations.cpp, and
-// for plain numbers in the test. Plain arrays: the vector code must share nothing else with the test.
+// Every operation of lanes (core/scalar_lanes.h) on rows of numbers: compiled for vectors in
+// lane_operations.cpp, and for plain numbers in the test. Plain arrays: the vector code must share
+// nothing else with the test.
 #pragma once
 
 #include <cstdint>
@@ -17,10 +18,33 @@ struct LaneInputs {
     std::uint32_t index[kLaneInputs];  // into the arrays above
 };
 
-enum RealOperation { kMin, kMax, kAbs, kFloor, kSqrt, kToReal, kSelect, kGather, kNumbers, kRealOperations };
+enum RealOperation {
+    kMin,
+    kMax,
+    kAbs,
+    kFloor,
+    kSqrt,
+    kToReal,
+    kSelect,
+    kGather,
+    kNumbers,
+    kRealOperations
+};
 enum BitsOperation {
-    kToInt, kIntMin, kIntMax, kIntSelect, kIntShift, kBitsShift, kIntGather, kBitsGather, kWiden, kNot, kAndOr,
-    kIntMask, kAny, kBitsOperations
+    kToInt,
+    kIntMin,
+    kIntMax,
+    kIntSelect,
+    kIntShift,
+    kBitsShift,
+    kIntGather,
+    kBitsGather,
+    kWiden,
+    kNot,
+    kAndOr,
+    kIntMask,
+    kAny,
+    kBitsOperations
 };
 
 struct LaneResults {
@@ -38,10 +62,15 @@ TESSERA_HD void ApplyLaneOperations(const LaneInputs& in, LaneResults& out) {
     for (int at = 0; at < kLaneInputs; at += V::kCount) {
         const Real a = V::Load(in.a + at), b = V::Load(in.b + at);
         const Bits unsigned_i = V::Load(in.i + at), unsigned_j = V::Load(in.j + at);
-        const Int i = V::AsInt(unsigned_i), j = V::AsInt(unsigned_j), index = V::AsInt(V::Load(in.index + at));
+        const Int i = V::AsInt(unsigned_i), j = V::AsInt(unsigned_j),
+                  index = V::AsInt(V::Load(in.index + at));
         const Mask less = a < b;
-        const auto real = [&](RealOperation operation, const Real& v) { V::Store(v, out.real[operation] + at); };
-        const auto bits = [&](BitsOperation operation, const Bits& v) { V::Store(v, out.bits[operation] + at); };
+        const auto real = [&](RealOperation operation, const Real& v) {
+            V::Store(v, out.real[operation] + at);
+        };
+        const auto bits = [&](BitsOperation operation, const Bits& v) {
+            V::Store(v, out.bits[operation] + at);
+        };
         const auto mask = [&](BitsOperation operation, const Mask& m) {
             bits(operation, V::AsBits(V::Select(m, Int(1), Int(0))));
         };
@@ -79,4 +108,4 @@ namespace avx2 {
 int ApplyLanes(const LaneInputs& in, LaneResults& out);
 }  // namespace avx2
 
-}  // namespace tessera::testing
+}  // namespace tessera::testing_support

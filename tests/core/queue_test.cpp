@@ -49,7 +49,8 @@ TEST(NewestQueue, TheOldestMakesRoom) {
     EXPECT_FALSE(queue.TryPop(item));
 }
 
-// Both sides sleep when they have nothing to do: the consumer on an empty queue, the producer on a full one.
+// Both sides sleep when they have nothing to do: the consumer on an empty queue, the producer on a
+// full one.
 TEST(FifoQueue, AMillionItemsInOrderAcrossThreads) {
     Wake consumer, producer;
     FifoQueue<std::int64_t> queue(64, consumer);
@@ -68,8 +69,8 @@ TEST(FifoQueue, AMillionItemsInOrderAcrossThreads) {
     EXPECT_TRUE(queue.empty());
 }
 
-// What is popped and what was dropped are together what was pushed, both in order, and never more than the capacity
-// and one push under way are inside.
+// What is popped and what was dropped are together what was pushed, both in order, and never more
+// than the capacity and one push under way are inside.
 TEST(NewestQueue, AMillionItemsAreEachTakenOrDroppedOnce) {
     Wake consumer;
     NewestQueue<std::int64_t> queue(8, consumer);
@@ -112,7 +113,8 @@ TEST(NewestQueue, ManyProducersLoseNothingThatIsNotCounted) {
     std::vector<std::jthread> producers;
     for (int p = 0; p < 4; ++p)
         producers.emplace_back([&] {
-            for (std::int64_t i = 0; i < kItems / 4; ++i) dropped += queue.Push(std::int64_t{i}).has_value();
+            for (std::int64_t i = 0; i < kItems / 4; ++i)
+                dropped += queue.Push(std::int64_t{i}).has_value();
             --running;
             consumer.Notify();
         });

@@ -1,4 +1,5 @@
-// The lanes of plain numbers: each operation at its edges, and against the vectors' twins on numbers of all sizes.
+// The lanes of plain numbers: each operation at its edges, and against the vectors' twins on
+// numbers of all sizes.
 #include "core/scalar_lanes.h"
 
 #include <gtest/gtest.h>
@@ -17,7 +18,8 @@ namespace {
 using namespace testing_support;
 using S = ScalarLanes;
 
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN(), kInfinity = std::numeric_limits<float>::infinity();
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN(),
+                kInfinity = std::numeric_limits<float>::infinity();
 constexpr std::int32_t kLeast = std::numeric_limits<std::int32_t>::min();
 
 TEST(ScalarLanes, Edges) {
@@ -26,7 +28,8 @@ TEST(ScalarLanes, Edges) {
     EXPECT_EQ(S::Floor(-1e9f), -1e9f);
     EXPECT_EQ(S::ToInt(-1.75f), -1);
     EXPECT_EQ(S::ToInt(2147483520.0f), 2147483520);  // the largest that fits
-    for (const float v : {2147483648.0f, -2147483648.0f, 1e20f, -1e20f, kInfinity, -kInfinity, kNan})
+    for (const float v :
+         {2147483648.0f, -2147483648.0f, 1e20f, -1e20f, kInfinity, -kInfinity, kNan})
         EXPECT_EQ(S::ToInt(v), kLeast) << v;
     EXPECT_EQ(S::Min(kNan, 2.0f), 2.0f);
     EXPECT_EQ(S::Max(kNan, 2.0f), 2.0f);
@@ -57,8 +60,10 @@ std::unique_ptr<LaneInputs> Inputs() {
         in->narrow[k] = static_cast<std::uint16_t>(random());
         in->index[k] = random() % kLaneInputs;
     }
-    const float special[] = {kNan, kInfinity, -kInfinity, 2147483648.0f, -2147483648.0f, 3e9f, -3e9f, 2147483520.0f,
-                             -0.0f, 0.0f, -0.5f, -1.0f, 1e-40f, 8388607.5f, -8388607.5f, 16777217.0f};
+    const float special[] = {kNan,           kInfinity,  -kInfinity,  2147483648.0f,
+                             -2147483648.0f, 3e9f,       -3e9f,       2147483520.0f,
+                             -0.0f,          0.0f,       -0.5f,       -1.0f,
+                             1e-40f,         8388607.5f, -8388607.5f, 16777217.0f};
     int k = 0;
     for (const float a : special)
         for (const float b : special) {
@@ -86,10 +91,12 @@ TEST_P(LaneTwins, MakeTheSameOfTheSameNumbers) {
     const auto same = [](float a, float b) { return a == b || (std::isnan(a) && std::isnan(b)); };
     for (int k = 0; k < kLaneInputs; ++k) {
         for (const RealOperation op : {kMin, kMax, kAbs, kFloor, kSqrt, kToReal, kSelect, kGather})
-            EXPECT_PRED2(same, scalar->real[op][k], vector->real[op][k]) << "operation " << op << " of " << in->a[k];
+            EXPECT_PRED2(same, scalar->real[op][k], vector->real[op][k])
+                << "operation " << op << " of " << in->a[k];
         EXPECT_EQ(vector->real[kNumbers][k], static_cast<float>(k % lanes));
         for (int op = 0; op < kAny; ++op)
-            EXPECT_EQ(scalar->bits[op][k], vector->bits[op][k]) << "operation " << op << " of " << in->a[k];
+            EXPECT_EQ(scalar->bits[op][k], vector->bits[op][k])
+                << "operation " << op << " of " << in->a[k];
         const int first = k - k % lanes;
         const bool any = std::any_of(scalar->bits[kAny] + first, scalar->bits[kAny] + first + lanes,
                                      [](std::uint32_t m) { return m != 0; });

@@ -10,7 +10,8 @@
 namespace tessera {
 namespace {
 
-// exp of the 4 x 4 twist matrix by its 20-term power series, of an eighth of it and then squared three times.
+// exp of the 4 x 4 twist matrix by its 20-term power series, of an eighth of it and then squared
+// three times.
 Eigen::Matrix4d SeriesExp(const Vector6d& twist) {
     Eigen::Matrix4d X = Eigen::Matrix4d::Zero();
     X.topLeftCorner<3, 3>() = Skew(twist.head<3>());
@@ -82,7 +83,8 @@ TEST(Se3, ExpInvertsLogAtPi) {
 
 TEST(Se3, LogOfTheNegativeQuaternionIsTheSame) {
     Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
-    T.linear() = Eigen::AngleAxisd(2 * std::numbers::pi - 0.5, Eigen::Vector3d::UnitX()).toRotationMatrix();
+    T.linear() =
+        Eigen::AngleAxisd(2 * std::numbers::pi - 0.5, Eigen::Vector3d::UnitX()).toRotationMatrix();
     EXPECT_NEAR(Se3Log(T)(0), -0.5, 1e-12);
 }
 
@@ -94,7 +96,8 @@ TEST(Se3, IncrementsMultiplyFromTheLeft) {
     Vector6d increment = Vector6d::Zero();
     increment(3) = 0.25;
     const Eigen::Isometry3d T_new = Se3Exp(increment) * T_old;
-    EXPECT_LT((T_new.translation() - T_old.translation() - Eigen::Vector3d(0.25, 0, 0)).norm(), 1e-15);
+    EXPECT_LT((T_new.translation() - T_old.translation() - Eigen::Vector3d(0.25, 0, 0)).norm(),
+              1e-15);
     EXPECT_LT((T_new.linear() - T_old.linear()).norm(), 1e-15);
 
     // d (exp(increment) * p) / d increment at 0 is [-Skew(p), I].
@@ -116,7 +119,8 @@ TEST(Se3, NormalisedIsRigidAndKeepsWhatIs) {
     Eigen::Isometry3d worn = T;
     worn.linear() *= 1.0001;
     const Eigen::Isometry3d rigid = Normalised(worn);
-    EXPECT_LT((rigid.linear() * rigid.linear().transpose() - Eigen::Matrix3d::Identity()).norm(), 1e-14);
+    EXPECT_LT((rigid.linear() * rigid.linear().transpose() - Eigen::Matrix3d::Identity()).norm(),
+              1e-14);
     EXPECT_TRUE(rigid.isApprox(T, 1e-4));
     EXPECT_TRUE(Normalised(T).isApprox(T, 1e-14));
 }

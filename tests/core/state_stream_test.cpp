@@ -29,17 +29,18 @@ bool GetEverything(std::span<const std::uint8_t> bytes) {
     Eigen::Isometry3d T;
     std::optional<Eigen::Vector2d> none, some;
     std::vector<float> values;
-    const bool got = state.Get(number) && state.Get(yes) && state.Get(text) && state.Get(T) && state.Get(none) && state.Get(some) &&
-                     state.GetArray(values) && state.at_end();
-    return got && number == -7 && yes && text == "a word" && T.translation().y() == 2 && !none && some->y() == 5 &&
-           values == std::vector<float>{1.5f, -2.5f};
+    const bool got = state.Get(number) && state.Get(yes) && state.Get(text) && state.Get(T) &&
+                     state.Get(none) && state.Get(some) && state.GetArray(values) && state.at_end();
+    return got && number == -7 && yes && text == "a word" && T.translation().y() == 2 && !none &&
+           some->y() == 5 && values == std::vector<float>{1.5f, -2.5f};
 }
 
 TEST(StateStream, GivesBackWhatWasPut) { EXPECT_TRUE(GetEverything(Everything())); }
 
 TEST(StateStream, EveryCutIsFoundAndSoIsARest) {
     std::vector<std::uint8_t> bytes = Everything();
-    for (std::size_t size = 0; size < bytes.size(); ++size) EXPECT_FALSE(GetEverything(std::span(bytes).first(size))) << size;
+    for (std::size_t size = 0; size < bytes.size(); ++size)
+        EXPECT_FALSE(GetEverything(std::span(bytes).first(size))) << size;
     bytes.push_back(0);
     EXPECT_FALSE(GetEverything(bytes));
 }

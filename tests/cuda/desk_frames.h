@@ -1,4 +1,5 @@
-// The first frames of the built-in desk, small, with their true poses: made once for all tests of a program.
+// The first frames of the built-in desk, small, with their true poses: made once for all tests of a
+// program.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -35,7 +36,8 @@ inline const std::vector<DeskFrame>& DeskFrames() {
         for (DeskFrame& f : made) {
             EXPECT_EQ(source.value()->Read(f.frame).status, ReadStatus::kOk);
             PrepareFrame(f.frame, {}, f.prepared);
-            f.T_world_camera = made.front().frame.T_world_camera->inverse() * *f.frame.T_world_camera;
+            f.T_world_camera =
+                made.front().frame.T_world_camera->inverse() * *f.frame.T_world_camera;
         }
         return made;
     }();
@@ -53,7 +55,8 @@ inline void FusedDesk(std::size_t frames, BlockMap& map) {
 }
 
 // To the bit.
-inline void ExpectSameTrack(const TrackResult& track, const TrackResult& expected, std::size_t frame) {
+inline void ExpectSameTrack(const TrackResult& track, const TrackResult& expected,
+                            std::size_t frame) {
     EXPECT_EQ(track.status, expected.status) << frame << ": " << track.reason;
     EXPECT_EQ(track.iterations, expected.iterations) << frame;
     EXPECT_EQ(track.T_world_camera.matrix(), expected.T_world_camera.matrix()) << frame;
@@ -66,7 +69,8 @@ inline void ExpectSameTrack(const TrackResult& track, const TrackResult& expecte
 
 template <class Pixel>
 bool SameBytes(const Image<Pixel>& a, const Image<Pixel>& b) {
-    return a.width() == b.width() && a.height() == b.height() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Pixel)) == 0;
+    return a.width() == b.width() && a.height() == b.height() &&
+           std::memcmp(a.data(), b.data(), a.size() * sizeof(Pixel)) == 0;
 }
 
 inline void ExpectSameView(const PredictedView& view, const PredictedView& expected) {

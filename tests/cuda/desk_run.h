@@ -11,8 +11,10 @@ namespace tessera::testing_support {
 
 // The device, null for the processor, outlives it.
 struct DeskRun {
-    DeskRun(const PipelineConfig& config, Device* device) : pipeline(config, DeskCamera(), {}, device) {
-        for (const DeskFrame& frame : DeskFrames()) reports.push_back(pipeline.Process(frame.frame));
+    DeskRun(const PipelineConfig& config, Device* device)
+        : pipeline(config, DeskCamera(), {}, device) {
+        for (const DeskFrame& frame : DeskFrames())
+            reports.push_back(pipeline.Process(frame.frame));
     }
 
     // Whether the processor has voxels without asking for them.

@@ -60,7 +60,8 @@ Frame AnyFrame(int width, int height, bool colour, std::uint32_t seed) {
                                   : kind < 10 ? before * 1.02f
                                               : depth(random);
         if (colour)
-            frame.colour.data()[i] = {static_cast<std::uint8_t>(random()), static_cast<std::uint8_t>(random()),
+            frame.colour.data()[i] = {static_cast<std::uint8_t>(random()),
+                                      static_cast<std::uint8_t>(random()),
                                       static_cast<std::uint8_t>(random())};
     }
     return frame;
@@ -70,10 +71,12 @@ TEST(DeviceFrame, IsTheBytesOfThePreparedFrame) {
     DevicePipeline device("host", std::size_t{1} << 30);
     PreparedFrame made, expected;
     std::uint32_t seed = 0;
-    for (const auto& [width, height] : {std::pair(160, 120), std::pair(641, 37), std::pair(64, 48), std::pair(16, 16)})
+    for (const auto& [width, height] :
+         {std::pair(160, 120), std::pair(641, 37), std::pair(64, 48), std::pair(16, 16)})
         for (const bool colour : {true, false})
             for (int blur = 0; blur <= 4; ++blur) {
-                SCOPED_TRACE(::testing::Message() << width << " x " << height << ", " << colour << ", " << blur);
+                SCOPED_TRACE(::testing::Message()
+                             << width << " x " << height << ", " << colour << ", " << blur);
                 const Frame frame = AnyFrame(width, height, colour, ++seed);
                 PreparedFrame::Config config;
                 config.intensity_blur_px = blur;
@@ -85,7 +88,8 @@ TEST(DeviceFrame, IsTheBytesOfThePreparedFrame) {
                 EXPECT_NE(made.identity, expected.identity);
                 device.Prepare(frame, config, false, made);
                 ExpectSameReduced(made, expected);
-                EXPECT_TRUE(made.depth_m.empty() && made.intensity.empty() && made.packed_colour.empty());
+                EXPECT_TRUE(made.depth_m.empty() && made.intensity.empty() &&
+                            made.packed_colour.empty());
             }
     Frame none;
     none.depth_m = DepthImage(32, 24, 0.0f);
@@ -94,7 +98,8 @@ TEST(DeviceFrame, IsTheBytesOfThePreparedFrame) {
     ExpectSameFrame(made, expected);
 }
 
-// Nothing is copied to fuse and track what was made there, or a second time; what was made elsewhere is.
+// Nothing is copied to fuse and track what was made there, or a second time; what was made
+// elsewhere is.
 TEST(DeviceFrame, IsThereWhenItWasMadeThere) {
     DeviceMemory memory(std::size_t{1} << 30);
     Stream stream;
@@ -103,9 +108,14 @@ TEST(DeviceFrame, IsThereWhenItWasMadeThere) {
     ASSERT_TRUE(on_device.Prepare(DeskFrames()[0].frame, {}, false, made));
     ASSERT_TRUE(on_device.Upload(made));
     const PreparedFrame& expected = DeskFrames()[0].prepared;
-    EXPECT_EQ(std::memcmp(on_device.depth_m(), expected.depth_m.data(), 4 * expected.depth_m.size()), 0);
-    EXPECT_EQ(std::memcmp(on_device.intensity(), expected.intensity.data(), 4 * expected.intensity.size()), 0);
-    EXPECT_EQ(std::memcmp(on_device.packed_colour(), expected.packed_colour.data(), 4 * expected.packed_colour.size()), 0);
+    EXPECT_EQ(
+        std::memcmp(on_device.depth_m(), expected.depth_m.data(), 4 * expected.depth_m.size()), 0);
+    EXPECT_EQ(std::memcmp(on_device.intensity(), expected.intensity.data(),
+                          4 * expected.intensity.size()),
+              0);
+    EXPECT_EQ(std::memcmp(on_device.packed_colour(), expected.packed_colour.data(),
+                          4 * expected.packed_colour.size()),
+              0);
 
     const PreparedFrame& other = DeskFrames()[7].prepared;
     ASSERT_TRUE(on_device.Upload(other));

@@ -39,7 +39,8 @@ struct IcpRig {
     }
 
     PointArguments PointsOf(int level) const {
-        PointArguments a = MakePointArguments(DeskFrames()[5].prepared, DeskCamera(), {}, 2 << level, {2.0}, true);
+        PointArguments a =
+            MakePointArguments(DeskFrames()[5].prepared, DeskCamera(), {}, 2 << level, {2.0}, true);
         a.normal_radius_px = 4;
         return a;
     }
@@ -95,7 +96,8 @@ TEST(DeviceIcp, ModelIsTheProcessorsToTheBit) {
     DevicePipeline device("host", kPlenty);
     DeviceIcp icp(device);
     icp.Predict(rig.map, rig.camera, rig.T_world_view, kNear_m, kFar_m, kLevels, kJump_m);
-    EXPECT_GT(icp.SetPoints(DeskFrames()[5].prepared, rig.PointsOf(0), 0), 0);  // waits for the model, too
+    // Waits for the model, too.
+    EXPECT_GT(icp.SetPoints(DeskFrames()[5].prepared, rig.PointsOf(0), 0), 0);
     ASSERT_EQ(icp.model().size(), rig.model.size());
     for (std::size_t i = 0; i < rig.model.size(); ++i) {
         const ModelImages& level = icp.model()[i];
@@ -114,7 +116,8 @@ TEST(DeviceIcp, ModelIsTheProcessorsToTheBit) {
 }
 
 void ExpectSameSums(const PoseSums& sums, const PoseSums& expected) {
-    for (const int count : {SumLayout::kKnown, SumLayout::kInliers, SumLayout::kColoured}) EXPECT_GT(expected[count], 1000);
+    for (const int count : {SumLayout::kKnown, SumLayout::kInliers, SumLayout::kColoured})
+        EXPECT_GT(expected[count], 1000);
     EXPECT_EQ(std::memcmp(sums.value, expected.value, sizeof sums.value), 0);
 }
 
@@ -135,7 +138,8 @@ TEST(DeviceIcp, SumsAreTheProcessorsToTheBit) {
     EXPECT_GT(std::abs(second[SumLayout::kEnergyBefore] - second[SumLayout::kEnergy]),
               1e-3 * second[SumLayout::kEnergy]);
     for (int i = 0; i < 2; ++i)
-        ExpectSameSums(icp.Sum(rig.ArgumentsAt(0, true)), second);  // what is not kept changes nothing
+        ExpectSameSums(icp.Sum(rig.ArgumentsAt(0, true)),
+                       second);  // what is not kept changes nothing
 
     std::vector<float> distance(rig.distance.size()), intensity(rig.intensity.size());
     icp.TakeResiduals(distance, intensity);  // those kept
@@ -179,10 +183,9 @@ TEST_P(IcpTrackers, TracksAsTheProcessorDoes) {
     DevicePipeline device("host", kPlenty);
     const TrackJudge judge({});
     ResidualModel model({}), device_model({});
-    IcpTracker expected({}, DeskCamera(), judge, model, colour(),
-                        std::make_unique<RayCaster>());
-    IcpTracker tracker({}, DeskCamera(), judge, device_model, colour(), nullptr,
-                       VectorPath::kAuto, &device.icp_sums());
+    IcpTracker expected({}, DeskCamera(), judge, model, colour(), std::make_unique<RayCaster>());
+    IcpTracker tracker({}, DeskCamera(), judge, device_model, colour(), nullptr, VectorPath::kAuto,
+                       &device.icp_sums());
     for (std::size_t i = 8; i < 14; ++i) {
         const Eigen::Isometry3d& last = DeskFrames()[i - 1].T_world_camera;
         const Eigen::Isometry3d away = last * Eigen::Translation3d(0.02, 0.01, -0.02);

@@ -25,7 +25,8 @@ std::vector<FrameReport> RunFrames(const std::vector<Frame>& frames, Device* dev
     return reports;
 }
 
-// 2 s of a walk, 1.5 s of nothing, then the walk's middle once more: found by its features, as by the processor alone.
+// 2 s of a walk, 1.5 s of nothing, then the walk's middle once more: found by its features, as by
+// the processor alone.
 TEST(DeviceLoops, AKidnappedCameraIsFoundAsByTheProcessor) {
     std::vector<Frame> frames = RoomWalk(0, 60, 3);
     frames.insert(frames.end(), 45, Blank());
@@ -34,7 +35,8 @@ TEST(DeviceLoops, AKidnappedCameraIsFoundAsByTheProcessor) {
     DevicePipeline device("host", kPlenty);
     const std::vector<FrameReport> reports = RunFrames(frames, &device);
     ASSERT_EQ(reports.size(), frames.size());
-    for (std::size_t i = 0; i < frames.size(); ++i) ExpectSameTrack(reports[i].track, expected[i].track, i);
+    for (std::size_t i = 0; i < frames.size(); ++i)
+        ExpectSameTrack(reports[i].track, expected[i].track, i);
     EXPECT_FALSE(reports[104].tracked());
     EXPECT_TRUE(reports.back().tracked()) << reports.back().track.reason;
 }

@@ -25,11 +25,15 @@ Integrator::View At(const DeskFrame& frame) {
 // A device with a map, and room for one frame's depth.
 struct MapRig {
     explicit MapRig(std::size_t limit_bytes = kPlenty)
-        : memory(limit_bytes), depth(memory), tiles(memory), map(kMap.voxel_size_m, kMap.truncation_m, memory, stream) {
+        : memory(limit_bytes),
+          depth(memory),
+          tiles(memory),
+          map(kMap.voxel_size_m, kMap.truncation_m, memory, stream) {
         EXPECT_TRUE(map.Clear());
     }
 
-    DeviceMap::Growth Allocate(const DeskFrame& frame, int max_new_blocks = 60000, const WorldBox& box = {}) {
+    DeviceMap::Growth Allocate(const DeskFrame& frame, int max_new_blocks = 60000,
+                               const WorldBox& box = {}) {
         const DepthImage& image = frame.prepared.depth_m;
         EXPECT_TRUE(depth.Reserve(stream, image.size(), 0));
         stream.Upload(depth.data(), image.data(), image.size() * sizeof(float));
@@ -52,8 +56,10 @@ void ExpectSameIndex(MapRig& rig, const BlockMap& map) {
     const BlockMapView expected = map.view();
     ASSERT_EQ(device.size(), map.size());
     for (BlockId id = 0; id < map.size(); ++id) {
-        for (int i = 0; i < 4; ++i) ASSERT_EQ(view.coords[4 * id + i], expected.coords[4 * id + i]) << id;
-        for (int i = 0; i < 8; ++i) ASSERT_EQ(view.neighbours[8 * id + i], expected.neighbours[8 * id + i]) << id;
+        for (int i = 0; i < 4; ++i)
+            ASSERT_EQ(view.coords[4 * id + i], expected.coords[4 * id + i]) << id;
+        for (int i = 0; i < 8; ++i)
+            ASSERT_EQ(view.neighbours[8 * id + i], expected.neighbours[8 * id + i]) << id;
         ASSERT_TRUE(id == 0 || Find(view, CoordAt(view, id)) == id) << id;
     }
 }
@@ -88,7 +94,8 @@ TEST(DeviceMap, SeesTheBlocksThatTheIntegratorSees) {
         const int count = rig.map.FindVisible(tiles.view(), cone);
         ASSERT_EQ(count, static_cast<int>(integrator.changed_blocks().size()));
         for (int i = 0; i < count; ++i)
-            ASSERT_EQ(rig.map.visible()[i], integrator.changed_blocks()[static_cast<std::size_t>(i)]);
+            ASSERT_EQ(rig.map.visible()[i],
+                      integrator.changed_blocks()[static_cast<std::size_t>(i)]);
     }
 }
 
@@ -138,10 +145,12 @@ TEST(DeviceMap, GrowthAndDownloadLoseNoVoxel) {
     };
     for (int i = 0; i < 3; ++i) fuse(i);
     MapRig rig;
-    ASSERT_TRUE(rig.map.Load(map.size(), map.view().coords, map.field(0), map.weight(0), map.colour(0)));
+    ASSERT_TRUE(
+        rig.map.Load(map.size(), map.view().coords, map.field(0), map.weight(0), map.colour(0)));
     ExpectSameIndex(rig, map);
     const std::int32_t before = rig.map.size();
-    for (int turn = 1; turn <= 6; ++turn) {  // the camera turns: new blocks until the pool has grown
+    // The camera turns: new blocks until the pool has grown.
+    for (int turn = 1; turn <= 6; ++turn) {
         DeskFrame turned = DeskFrames()[0];
         turned.T_world_camera.rotate(Eigen::AngleAxisd(turn, Eigen::Vector3d::UnitY()));
         ASSERT_FALSE(rig.Allocate(turned).full);
@@ -154,7 +163,9 @@ TEST(DeviceMap, GrowthAndDownloadLoseNoVoxel) {
             ASSERT_EQ(part.ids[i], next);
             for (std::size_t v = 0; v < kBlockVoxels; ++v) {
                 const bool old = next < before;
-                ASSERT_EQ(part.field[i * kBlockVoxels + v], old ? map.field(next)[v] : kUnknownField) << next;
+                ASSERT_EQ(part.field[i * kBlockVoxels + v],
+                          old ? map.field(next)[v] : kUnknownField)
+                    << next;
                 ASSERT_EQ(part.weight[i * kBlockVoxels + v], old ? map.weight(next)[v] : 0);
                 ASSERT_EQ(part.colour[i * kBlockVoxels + v], old ? map.colour(next)[v] : kNoColour);
             }
@@ -164,8 +175,15 @@ TEST(DeviceMap, GrowthAndDownloadLoseNoVoxel) {
 }
 
 TEST(DeviceMap, KeysSortAsCoordinatesDo) {
-    const BlockCoord coords[] = {{0, 0, -5},  {3, 0, -1},        {-kBlockLimit, -1, 0},        {-2, 0, 0}, {1, 0, 0},
-                                 {-7, 1, 0},  {0, 0, 1},         {kBlockLimit - 1, -3, 7},     {0, kBlockLimit - 1, kBlockLimit - 1}};
+    const BlockCoord coords[] = {{0, 0, -5},
+                                 {3, 0, -1},
+                                 {-kBlockLimit, -1, 0},
+                                 {-2, 0, 0},
+                                 {1, 0, 0},
+                                 {-7, 1, 0},
+                                 {0, 0, 1},
+                                 {kBlockLimit - 1, -3, 7},
+                                 {0, kBlockLimit - 1, kBlockLimit - 1}};
     for (const BlockCoord& a : coords) {
         EXPECT_EQ(CoordOf(KeyOf(a)), a);
         for (const BlockCoord& b : coords) EXPECT_EQ(a < b, KeyOf(a) < KeyOf(b));

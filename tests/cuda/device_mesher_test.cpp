@@ -32,16 +32,20 @@ std::vector<BlockId> AllBlocks(const BlockMap& map) {
     return ids;
 }
 
-// A cube of `side` blocks from `low` on in which every voxel is anything: unknown, too light, at the end of the range, grey.
+// A cube of `side` blocks from `low` on in which every voxel is anything: unknown, too light, at
+// the end of the range, grey.
 std::unique_ptr<const BlockMap> Noise(const BlockCoord& low, int side) {
     auto noise = std::make_unique<BlockMap>(BlockMap::Config{});
     BlockMap& map = *noise;
     std::uint32_t counter = 0;
     const auto random = [&](unsigned n) { return static_cast<int>(Mix(++counter) % n); };
     for (int i = 0; i < side * side * side; ++i) {
-        const BlockId id = map.Allocate({low.x + i % side, low.y + i / side % side, low.z + i / side / side});
+        const BlockId id =
+            map.Allocate({low.x + i % side, low.y + i / side % side, low.z + i / side / side});
         for (int v = 0; v < kBlockVoxels; ++v) {
-            const double distance = random(20) ? 0.9 * (2 * Uniform(++counter) - 1) : random(2) ? 1.0 : -1.0;
+            const double distance = random(20)  ? 0.9 * (2 * Uniform(++counter) - 1)
+                                    : random(2) ? 1.0
+                                                : -1.0;
             const double intensity = random(4) ? Uniform(++counter) : -1;
             map.field(id)[v] = random(30) ? PackField(distance, intensity) : kUnknownField;
             map.weight(id)[v] = static_cast<std::uint16_t>(random(30) ? 512 : 100);
@@ -51,7 +55,8 @@ std::unique_ptr<const BlockMap> Noise(const BlockCoord& low, int side) {
     return noise;
 }
 
-void ExpectDeviceMeshes(const BlockMap& map, const std::vector<BlockId>& blocks, double min_weight, std::size_t least_triangles) {
+void ExpectDeviceMeshes(const BlockMap& map, const std::vector<BlockId>& blocks, double min_weight,
+                        std::size_t least_triangles) {
     DevicePipeline device("host", kPlenty);
     const std::unique_ptr<BlockMesher> mesher = device.MakeBlockMesher();
     BlockMeshes meshes(static_cast<std::size_t>(map.size()));
@@ -68,15 +73,17 @@ TEST(DeviceMesher, MakesTheBytesOfAFusedMapsMeshes) {
         integrator.Integrate(frame.prepared, view, map);
     }
     ASSERT_GT(map.size(), 2 * DeviceSurface::kMaxBlocks);  // several parts
-    for (const double min_weight : {0.0, 2.5}) ExpectDeviceMeshes(map, AllBlocks(map), min_weight, 5000);
+    for (const double min_weight : {0.0, 2.5})
+        ExpectDeviceMeshes(map, AllBlocks(map), min_weight, 5000);
 }
 
-// Every configuration, within blocks and across their borders, beside the unknown and where the weight is too low. Any blocks
-// in any order.
+// Every configuration, within blocks and across their borders, beside the unknown and where the
+// weight is too low. Any blocks in any order.
 TEST(DeviceMesher, MakesTheBytesOfNoise) {
     const std::unique_ptr<const BlockMap> noise = Noise({-2, -3, -1}, 4);
     const BlockMap& map = *noise;
-    for (const double min_weight : {0.0, 1.0}) ExpectDeviceMeshes(map, AllBlocks(map), min_weight, 10000);
+    for (const double min_weight : {0.0, 1.0})
+        ExpectDeviceMeshes(map, AllBlocks(map), min_weight, 10000);
     std::vector<BlockId> some = AllBlocks(map);
     std::erase_if(some, [](BlockId id) { return id % 3 == 0; });
     std::ranges::reverse(some);
@@ -136,7 +143,8 @@ TEST(DeviceMesher, TakesFewerBlocksAtOnceWhereMemoryIsShortAndRefusesWhereThereI
     ASSERT_TRUE(shorter.MakeBlockMesher()->MeshBlocks(map, blocks, 0, meshes));
     ExpectMeshesOf(map, blocks, 0, meshes);
 
-    DevicePipeline full("host", of_map + (std::size_t{64} << 10)), tiny("host", std::size_t{1} << 20);
+    DevicePipeline full("host", of_map + (std::size_t{64} << 10)),
+        tiny("host", std::size_t{1} << 20);
     for (DevicePipeline* device : {&full, &tiny}) {
         const std::unique_ptr<BlockMesher> mesher = device->MakeBlockMesher();
         EXPECT_FALSE(mesher->MeshBlocks(map, blocks, 0, meshes));
@@ -144,11 +152,14 @@ TEST(DeviceMesher, TakesFewerBlocksAtOnceWhereMemoryIsShortAndRefusesWhereThereI
         EXPECT_EQ(refused.Update(map, Mesher::kNoLimit, mesher.get()), map.size() - 1);
         EXPECT_TRUE(refused.updated().empty());
         EXPECT_EQ(refused.Update(map), 0);  // nothing was forgotten
-        EXPECT_TRUE(SameBytes(refused.Assemble(), MeshOf(map, refused.config().min_component_triangles)));
+        EXPECT_TRUE(
+            SameBytes(refused.Assemble(), MeshOf(map, refused.config().min_component_triangles)));
     }
 }
 
-TriangleMesh MeshHere(const BlockMap& map) { return MeshOf(map, MeshConfig().min_component_triangles); }
+TriangleMesh MeshHere(const BlockMap& map) {
+    return MeshOf(map, MeshConfig().min_component_triangles);
+}
 
 // Of what the device fused; nobody asks for the voxels.
 TEST(MappingStage, MeshesOnTheDeviceWithoutItsVoxels) {
@@ -165,7 +176,8 @@ TEST(MappingStage, MeshesOnTheDeviceWithoutItsVoxels) {
     EXPECT_GT(mesh.triangles.size(), 5000u);
     const BlockMap& blocks = mapping.blocks();
     for (BlockId id = 1; id < blocks.size(); ++id)
-        ASSERT_TRUE(std::all_of(blocks.field(id), blocks.field(id) + kBlockVoxels, [](FieldWord w) { return w == kUnknownField; }));
+        ASSERT_TRUE(std::all_of(blocks.field(id), blocks.field(id) + kBlockVoxels,
+                                [](FieldWord w) { return w == kUnknownField; }));
     const TriangleMesh expected = MeshHere(mapping.map());  // now they come over
     EXPECT_TRUE(SameBytes(mesh, expected));
     EXPECT_TRUE(SameBytes(as_it_goes.Assemble(), expected));

@@ -36,7 +36,8 @@ TEST(DeviceIntegrator, FusesTheBytesOfTheProcessor) {
     const std::unique_ptr<Integrator> on_device = device.MakeIntegrator({}, DeskCamera());
     for (std::size_t i = 0; i < DeskFrames().size(); ++i) {
         const DeskFrame& frame = DeskFrames()[i];
-        const Integrator::Report a = integrator.Integrate(frame.prepared, MovingView(frame), expected);
+        const Integrator::Report a =
+            integrator.Integrate(frame.prepared, MovingView(frame), expected);
         const Integrator::Report b = on_device->Integrate(frame.prepared, MovingView(frame), map);
         ASSERT_EQ(a.new_blocks, b.new_blocks);
         ASSERT_EQ(a.refused_blocks, b.refused_blocks);
@@ -69,7 +70,8 @@ TEST(DeviceIntegrator, GoesOnWithAMapThatWasMadeElsewhere) {
 TEST(DevicePipeline, SumsAreTheProcessorsToTheBit) {
     BlockMap map{BlockMap::Config()};
     Integrator integrator({}, DeskCamera());
-    for (std::size_t i = 0; i < 5; ++i) integrator.Integrate(DeskFrames()[i].prepared, MovingView(DeskFrames()[i]), map);
+    for (std::size_t i = 0; i < 5; ++i)
+        integrator.Integrate(DeskFrames()[i].prepared, MovingView(DeskFrames()[i]), map);
     const PreparedFrame& frame = DeskFrames()[5].prepared;
     FramePoints points;
     points.Build(frame, DeskCamera(), {}, 2, {2.0});
@@ -93,18 +95,26 @@ TEST(DevicePipeline, SumsAreTheProcessorsToTheBit) {
     a.distance_residual = found.distance_m.data();
     a.intensity_residual = found.intensity.data();
     for (std::size_t k = 0; k < 3; ++k) a.gradient[k] = found.gradient[k].data();
-    const PoseSums expected =
-        SumPoints(points.count(), [&](int begin, int end, double* sums) { baseline::SumSdfPoints(a, begin, end, sums); });
+    const PoseSums expected = SumPoints(points.count(), [&](int begin, int end, double* sums) {
+        baseline::SumSdfPoints(a, begin, end, sums);
+    });
     DevicePipeline device("host", kPlenty);
-    EXPECT_EQ(device.SetPoints(map, frame, MakePointArguments(frame, DeskCamera(), {}, 2, {2.0}, true)), points.valid());
+    EXPECT_EQ(
+        device.SetPoints(map, frame, MakePointArguments(frame, DeskCamera(), {}, 2, {2.0}, true)),
+        points.valid());
     const PoseSums sums = device.Sum(a);
     EXPECT_GT(expected[SumLayout::kKnown], 1000);
     EXPECT_GT(expected[SumLayout::kColoured], 1000);
     EXPECT_EQ(std::memcmp(sums.value, expected.value, sizeof sums.value), 0);
-    std::vector<float> device_distance(found.distance_m.size()), device_intensity(found.intensity.size());
+    std::vector<float> device_distance(found.distance_m.size()),
+        device_intensity(found.intensity.size());
     device.TakeResiduals(device_distance, device_intensity);
-    EXPECT_EQ(std::memcmp(device_distance.data(), found.distance_m.data(), 4 * device_distance.size()), 0);
-    EXPECT_EQ(std::memcmp(device_intensity.data(), found.intensity.data(), 4 * device_intensity.size()), 0);
+    EXPECT_EQ(
+        std::memcmp(device_distance.data(), found.distance_m.data(), 4 * device_distance.size()),
+        0);
+    EXPECT_EQ(
+        std::memcmp(device_intensity.data(), found.intensity.data(), 4 * device_intensity.size()),
+        0);
 
     ResidualArguments residuals = MakeResidualArguments(frame, DeskCamera(), points, found);
     residuals.has_intensity = residuals.wants_shutter = true;
@@ -134,7 +144,8 @@ TEST(DevicePipeline, TracksAsTheProcessorDoes) {
     ResidualModel model({}), device_model({});
     SdfTracker expected({}, DeskCamera(), judge, model, true);
     SdfTracker tracker({}, DeskCamera(), judge, device_model, true, VectorPath::kAuto, &device);
-    for (std::size_t i = 0; i < 8; ++i) integrator.Integrate(DeskFrames()[i].prepared, MovingView(DeskFrames()[i]), map);
+    for (std::size_t i = 0; i < 8; ++i)
+        integrator.Integrate(DeskFrames()[i].prepared, MovingView(DeskFrames()[i]), map);
     for (std::size_t i = 8; i < 14; ++i) {
         const Eigen::Isometry3d& last = DeskFrames()[i - 1].T_world_camera;
         const TrackInput input{DeskFrames()[i].prepared, map, {last}, last, 1.0 / 30, {}};

@@ -22,7 +22,8 @@ FrameMotion Moving() {
 }
 
 bool Same(const std::vector<float>& values, const std::vector<float>& others) {
-    return values.size() == others.size() && std::memcmp(values.data(), others.data(), 4 * values.size()) == 0;
+    return values.size() == others.size() &&
+           std::memcmp(values.data(), others.data(), 4 * values.size()) == 0;
 }
 
 void ExpectSame(const FramePoints& points, const FramePoints& expected) {
@@ -38,8 +39,9 @@ void ExpectSame(const FramePoints& points, const FramePoints& expected) {
 }
 
 // What SetPoints and TakePoints give is what FramePoints makes, without normals and with them.
-void ExpectSamePoints(DevicePipeline& device, const PreparedFrame& frame, const PinholeCamera& camera, const FrameMotion& motion,
-                      int step, const DepthWeight& weight, bool intensities) {
+void ExpectSamePoints(DevicePipeline& device, const PreparedFrame& frame,
+                      const PinholeCamera& camera, const FrameMotion& motion, int step,
+                      const DepthWeight& weight, bool intensities) {
     const BlockMap map{BlockMap::Config()};
     PointArguments a = MakePointArguments(frame, camera, motion, step, weight, intensities);
     FramePoints expected, points;
@@ -65,13 +67,16 @@ TEST(DevicePoints, AreTheBytesOfFramePoints) {
         for (const FrameMotion& motion : {FrameMotion(), Moving()})
             for (const double depth_exponent : {2.0, 3.5})
                 for (const bool intensities : {true, false}) {
-                    SCOPED_TRACE(::testing::Message() << step << ", " << depth_exponent << ", " << intensities);
-                    ExpectSamePoints(device, DeskFrames()[i++ / 2 % DeskFrames().size()].prepared, DeskCamera(), motion, step,
+                    SCOPED_TRACE(::testing::Message()
+                                 << step << ", " << depth_exponent << ", " << intensities);
+                    ExpectSamePoints(device, DeskFrames()[i++ / 2 % DeskFrames().size()].prepared,
+                                     DeskCamera(), motion, step,
                                      {depth_exponent, intensities ? 0.5 : 1.5}, intensities);
                 }
 }
 
-// Sizes that no step divides, with slots beside the image; larger frames than before, and smaller ones; none valid.
+// Sizes that no step divides, with slots beside the image; larger frames than before, and smaller
+// ones; none valid.
 TEST(DevicePoints, OfImagesOfAnySize) {
     DevicePipeline device("host", std::size_t{1} << 30);
     for (const auto& [width, height] : {std::pair(61, 47), std::pair(83, 31), std::pair(5, 4)}) {
@@ -80,19 +85,23 @@ TEST(DevicePoints, OfImagesOfAnySize) {
         frame.colour = ColourImage(width, height);
         for (int v = 0; v < height; ++v)
             for (int u = 0; u < width; ++u) {
-                frame.depth_m(u, v) = (u * v) % 7 == 0 ? 0.0f : 1.0f + 0.01f * static_cast<float>(u + 2 * v);
-                frame.colour(u, v) = {static_cast<std::uint8_t>(3 * u), static_cast<std::uint8_t>(5 * v), 77};
+                frame.depth_m(u, v) =
+                    (u * v) % 7 == 0 ? 0.0f : 1.0f + 0.01f * static_cast<float>(u + 2 * v);
+                frame.colour(u, v) = {static_cast<std::uint8_t>(3 * u),
+                                      static_cast<std::uint8_t>(5 * v), 77};
             }
         const PinholeCamera camera{width, height, 50, 51, 0.5 * width, 0.5 * height};
         PreparedFrame prepared;
         PrepareFrame(frame, {}, prepared);
-        for (const int step : {1, 2, 5}) ExpectSamePoints(device, prepared, camera, Moving(), step, {2.0}, true);
+        for (const int step : {1, 2, 5})
+            ExpectSamePoints(device, prepared, camera, Moving(), step, {2.0}, true);
         frame.depth_m = DepthImage(width, height);
         PrepareFrame(frame, {}, prepared);  // in the same memory
         ExpectSamePoints(device, prepared, camera, Moving(), 2, {2.0}, true);
         frame.colour = {};
         PrepareFrame(frame, {}, prepared);
-        ExpectSamePoints(device, prepared, camera, Moving(), 2, {2.0}, true);  // asked for what is not there
+        // Asked for what is not there.
+        ExpectSamePoints(device, prepared, camera, Moving(), 2, {2.0}, true);
     }
 }
 
@@ -101,7 +110,8 @@ TEST(DevicePoints, AreNoneWhereThereIsNoRoom) {
     const PreparedFrame& frame = DeskFrames()[0].prepared;
     const PointArguments a = MakePointArguments(frame, DeskCamera(), {}, 1, {2.0}, true);
     std::size_t none = 0, all = 0;
-    for (std::size_t limit = std::size_t{10} << 20; limit < std::size_t{20} << 20; limit += std::size_t{1} << 16) {
+    for (std::size_t limit = std::size_t{10} << 20; limit < std::size_t{20} << 20;
+         limit += std::size_t{1} << 16) {
         DevicePipeline device("host", limit);
         const std::int64_t valid = device.SetPoints(map, frame, a);
         none += valid == 0;

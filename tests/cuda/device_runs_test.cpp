@@ -35,8 +35,8 @@ std::string NameOf(const testing::TestParamInfo<TrackingMethod>& test) {
 }
 
 INSTANTIATE_TEST_SUITE_P(DeviceRuns, ByMethod,
-                         testing::Values(TrackingMethod::kSdf, TrackingMethod::kSdfGeometric, TrackingMethod::kIcp,
-                                         TrackingMethod::kIcpRgb),
+                         testing::Values(TrackingMethod::kSdf, TrackingMethod::kSdfGeometric,
+                                         TrackingMethod::kIcp, TrackingMethod::kIcpRgb),
                          NameOf);
 
 TEST_P(ByMethod, IsTheProcessorsAndBringsNoVoxel) {
@@ -50,8 +50,8 @@ TEST_P(ByMethod, IsTheProcessorsAndBringsNoVoxel) {
 
 struct ByIcp : ByMethod {};
 
-INSTANTIATE_TEST_SUITE_P(DeviceRuns, ByIcp, testing::Values(TrackingMethod::kIcp, TrackingMethod::kIcpRgb),
-                         NameOf);
+INSTANTIATE_TEST_SUITE_P(DeviceRuns, ByIcp,
+                         testing::Values(TrackingMethod::kIcp, TrackingMethod::kIcpRgb), NameOf);
 
 // Without OpenGL the processor's ray caster steps in: predicted there in any case.
 TEST_P(ByIcp, IsTheProcessorsOnViewsThatTheProcessorDrew) {
@@ -122,7 +122,8 @@ TEST(DeviceRuns, IsTheProcessorsWherePeopleWalk) {
     std::int64_t moving = 0;
     for (Frame frame; source.value()->Read(frame).status == ReadStatus::kOk;) {
         const FrameReport wanted = expected.Process(frame), report = run.Process(frame);
-        testing_support::ExpectSameTrack(report.track, wanted.track, static_cast<std::size_t>(frame.index));
+        testing_support::ExpectSameTrack(report.track, wanted.track,
+                                         static_cast<std::size_t>(frame.index));
         ASSERT_EQ(report.moving == nullptr, wanted.moving == nullptr) << frame.index;
         if (!report.moving) continue;
         EXPECT_EQ(report.moving->moving, wanted.moving->moving) << frame.index;
@@ -142,7 +143,8 @@ TEST(DeviceRuns, TheWindowsViewBringsNoVoxel) {
     run.pipeline.mapping().Predict(DeskFrames()[2].T_world_camera, 4, view);
     EXPECT_FALSE(run.HasVoxels());
     const float far_m = 1.2f * static_cast<float>(config.frame.max_depth_m);
-    RayCaster().Predict(run.pipeline.map(), DeskCamera().Every(4), DeskFrames()[2].T_world_camera, 0.1f, far_m, expected);
+    RayCaster().Predict(run.pipeline.map(), DeskCamera().Every(4), DeskFrames()[2].T_world_camera,
+                        0.1f, far_m, expected);
     testing_support::ExpectSameView(view, expected);
 }
 

@@ -44,7 +44,8 @@ TEST(Stream, WhatWasGivenMayBeOverwrittenAndWhatComesIsThereAfterWait) {
     const std::size_t bytes = (std::size_t{1} << 25) + 123;  // several pieces of the staging memory
     ASSERT_TRUE(buffer.Reserve(stream, bytes, 0));
     std::vector<std::uint8_t> sent(bytes), back(bytes), expected(bytes);
-    for (std::size_t i = 0; i < bytes; ++i) expected[i] = sent[i] = static_cast<std::uint8_t>(i * 7 + i / 256);
+    for (std::size_t i = 0; i < bytes; ++i)
+        expected[i] = sent[i] = static_cast<std::uint8_t>(i * 7 + i / 256);
     stream.Upload(buffer.data(), sent.data(), bytes);
     std::fill(sent.begin(), sent.end(), std::uint8_t{0});
     stream.Download(back.data(), buffer.data(), bytes);
@@ -65,7 +66,8 @@ TEST(DeviceSorter, SortsKeysAndSelectsIndices) {
     stream.Download(back, sorted.data(), sizeof back);
     DeviceBuffer<std::uint8_t> keep(memory);
     DeviceBuffer<std::int32_t> indices(memory), selected(memory);
-    ASSERT_TRUE(keep.Reserve(stream, 5, 0) && indices.Reserve(stream, 5, 0) && selected.Reserve(stream, 1, 0));
+    ASSERT_TRUE(keep.Reserve(stream, 5, 0) && indices.Reserve(stream, 5, 0) &&
+                selected.Reserve(stream, 1, 0));
     const std::uint8_t flags[5] = {0, 1, 1, 0, 9};
     stream.Upload(keep.data(), flags, sizeof flags);
     ASSERT_TRUE(sorter.SelectIndices(stream, keep.data(), 5, indices.data(), selected.data()));

@@ -65,8 +65,8 @@ TEST_F(Gpu, MeshesTheBytesOfTheProcessor) {
 }
 
 TEST_F(Gpu, WholeRunsAreTheProcessors) {
-    for (const TrackingMethod method :
-         {TrackingMethod::kSdf, TrackingMethod::kSdfGeometric, TrackingMethod::kIcp, TrackingMethod::kIcpRgb}) {
+    for (const TrackingMethod method : {TrackingMethod::kSdf, TrackingMethod::kSdfGeometric,
+                                        TrackingMethod::kIcp, TrackingMethod::kIcpRgb}) {
         PipelineConfig config;
         config.trackers.method = method;
         testing_support::DeskRun expected(config, nullptr), run(config, device_.get());
@@ -75,7 +75,8 @@ TEST_F(Gpu, WholeRunsAreTheProcessors) {
 }
 
 TEST_F(Gpu, ARecordingIsTheProcessorsRun) {
-    if (!std::filesystem::exists(testing_support::RecordingFolder())) GTEST_SKIP() << testing_support::HowToGetTheRecording();
+    if (!std::filesystem::exists(testing_support::RecordingFolder()))
+        GTEST_SKIP() << testing_support::HowToGetTheRecording();
     for (const TrackingMethod method : {TrackingMethod::kSdf, TrackingMethod::kIcpRgb})
         testing_support::ExpectTheProcessorsRun(method, *device_);
 }

@@ -16,11 +16,14 @@ namespace tessera::testing_support {
 // Where TUM's fr1 rpy should be.
 inline std::string RecordingFolder() {
     const char* data = std::getenv("TESSERA_DATA");
-    return (data != nullptr ? data : std::string(TESSERA_SOURCE_DIR) + "/../shared/data") + "/tum_fr1_rpy";
+    return (data != nullptr ? data : std::string(TESSERA_SOURCE_DIR) + "/../shared/data") +
+           "/tum_fr1_rpy";
 }
 
 inline std::string HowToGetTheRecording() {
-    return RecordingFolder() + " is absent: set TESSERA_DATA to a folder that holds TUM's fr1 rpy under the name tum_fr1_rpy";
+    return RecordingFolder() +
+           " is absent: set TESSERA_DATA to a folder that holds TUM's fr1 rpy under the name "
+           "tum_fr1_rpy";
 }
 
 // More frames than the few that are tried each time: TESSERA_DEVICE_FRAMES, -1 = all.

@@ -14,13 +14,14 @@ namespace tessera::testing_support {
 static_assert(sizeof(MeshVertex) == 12, "else it has bytes that nobody writes");
 
 // Those of the blocks are MeshBlock's, all others null. How many triangles they have.
-inline std::size_t ExpectMeshesOf(const BlockMap& map, std::span<const BlockId> blocks, double min_weight,
-                                  const BlockMeshes& meshes) {
+inline std::size_t ExpectMeshesOf(const BlockMap& map, std::span<const BlockId> blocks,
+                                  double min_weight, const BlockMeshes& meshes) {
     std::size_t triangles = 0;
     for (BlockId id = 0; id < map.size(); ++id) {
         const BlockMesh* mesh = meshes[static_cast<std::size_t>(id)].get();
         std::unique_ptr<const BlockMesh> expected;
-        if (std::find(blocks.begin(), blocks.end(), id) != blocks.end()) expected = MeshBlock(map, id, min_weight);
+        if (std::find(blocks.begin(), blocks.end(), id) != blocks.end())
+            expected = MeshBlock(map, id, min_weight);
         EXPECT_EQ(mesh == nullptr, expected == nullptr) << "block " << id;
         if (mesh == nullptr || expected == nullptr) continue;
         EXPECT_EQ(mesh->coord, expected->coord) << "block " << id;
@@ -29,7 +30,9 @@ inline std::size_t ExpectMeshesOf(const BlockMap& map, std::span<const BlockId> 
         EXPECT_EQ(mesh->vertices.size(), expected->vertices.size()) << "block " << id;
         triangles += mesh->triangles.size();
         if (mesh->vertices.size() != expected->vertices.size() || mesh->vertices.empty()) continue;
-        EXPECT_EQ(std::memcmp(mesh->vertices.data(), expected->vertices.data(), mesh->vertices.size() * sizeof(MeshVertex)), 0)
+        EXPECT_EQ(std::memcmp(mesh->vertices.data(), expected->vertices.data(),
+                              mesh->vertices.size() * sizeof(MeshVertex)),
+                  0)
             << "block " << id;
     }
     return triangles;

@@ -8,8 +8,8 @@
 #include <numbers>
 
 #include "eval/test_trajectories.h"
-#include "support/temp_folder.h"
 #include "io/file.h"
+#include "support/temp_folder.h"
 
 namespace tessera {
 namespace {

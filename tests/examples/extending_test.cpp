@@ -1,4 +1,5 @@
-// docs/extending.md's examples: the smallest tracker, source and detector, each run as the product runs its own.
+// docs/extending.md's examples: the smallest tracker, source and detector, each run as the product
+// runs its own.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -40,7 +41,8 @@ class NearingWall : public FrameSource {
         frame.index = next_++;
         frame.stamp_s = frame.colour_stamp_s = static_cast<double>(frame.index) / info_.fps;
         frame.depth_m.Resize(info_.camera.width, info_.camera.height);
-        std::fill_n(frame.depth_m.data(), frame.depth_m.size(), static_cast<float>(2 - frame.stamp_s / 2));
+        std::fill_n(frame.depth_m.data(), frame.depth_m.size(),
+                    static_cast<float>(2 - frame.stamp_s / 2));
         frame.colour = ColourImage(info_.camera.width, info_.camera.height, Rgb8{90, 90, 90});
         frame.T_world_camera.reset();
         return {};
@@ -66,7 +68,8 @@ class RedThings : public Detector {
                 const Rgb8 c = frame.colour(x, y);
                 if (c.r < 150 || c.g > 60 || c.b > 60) continue;
                 const auto u = static_cast<float>(x), v = static_cast<float>(y);
-                cup.box = {std::min(cup.box.x_min, u), std::min(cup.box.y_min, v), std::max(cup.box.x_max, u), std::max(cup.box.y_max, v)};
+                cup.box = {std::min(cup.box.x_min, u), std::min(cup.box.y_min, v),
+                           std::max(cup.box.x_max, u), std::max(cup.box.y_max, v)};
             }
         return cup.box.x_max < 0 ? std::vector<Detection>{} : std::vector<Detection>{cup};
     }
@@ -83,7 +86,8 @@ TEST(Extending, ATrackerIsAskedOncePerFrame) {
     expected.translation().x() = 0.1;
     MotionModelTracker tracker;
     Tracker& used = tracker;
-    const TrackResult result = used.Track({frame, map, {expected}, Eigen::Isometry3d::Identity(), 0, {}});
+    const TrackResult result =
+        used.Track({frame, map, {expected}, Eigen::Isometry3d::Identity(), 0, {}});
     EXPECT_EQ(result.T_world_camera.translation().x(), 0.1);
     EXPECT_STREQ(ToString(result.status), ToString(TrackStatus::kPoor));
     EXPECT_FALSE(result.reason.empty());
@@ -104,7 +108,8 @@ TEST(Extending, ADetectorAnswersTheLabellingStage) {
     config.classes = "cup";
     auto detector = std::make_unique<RedThings>();
     LabelClasses classes = LabelClasses::Make(config, detector->class_names()).value();
-    LabellingStage stage(std::move(detector), std::move(classes), config, {64, 48, 50, 50, 31.5, 23.5});
+    LabellingStage stage(std::move(detector), std::move(classes), config,
+                         {64, 48, 50, 50, 31.5, 23.5});
     Frame frame;
     frame.colour = ColourImage(64, 48, Rgb8{90, 90, 90});
     for (int x = 20; x <= 30; ++x) frame.colour(x, 12) = {200, 20, 20};

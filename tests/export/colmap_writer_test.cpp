@@ -19,7 +19,8 @@ std::vector<std::string> Lines(const std::string& path) {
 }
 
 // As COLMAP's documentation describes it: q turns and t moves from the world to the camera.
-Eigen::Vector3d ToCamera(double w, const Eigen::Vector3d& q, const Eigen::Vector3d& t, const Eigen::Vector3d& p) {
+Eigen::Vector3d ToCamera(double w, const Eigen::Vector3d& q, const Eigen::Vector3d& t,
+                         const Eigen::Vector3d& p) {
     return p + 2 * w * q.cross(p) + 2 * q.cross(q.cross(p)) + t;
 }
 
@@ -35,7 +36,8 @@ TEST(Colmap, EveryPixelIsWhereTheFilesSay) {
     std::string model;
     double id, width, height, fx, fy, cx, cy;
     camera >> id >> model >> width >> height >> fx >> fy >> cx >> cy;
-    EXPECT_TRUE(camera && id == 1 && model == "PINHOLE" && width == 160 && height == 120) << cameras[0];
+    EXPECT_TRUE(camera && id == 1 && model == "PINHOLE" && width == 160 && height == 120)
+        << cameras[0];
     ASSERT_EQ(images.size(), 8u);
     const int numbers[] = {0, 1, 3, 4};
     for (std::size_t i = 0; i < 4; ++i) {
@@ -44,8 +46,10 @@ TEST(Colmap, EveryPixelIsWhereTheFilesSay) {
         double image_id, w, camera_id;
         Eigen::Vector3d q, t;
         std::string name;
-        line >> image_id >> w >> q.x() >> q.y() >> q.z() >> t.x() >> t.y() >> t.z() >> camera_id >> name;
-        ASSERT_TRUE(line && image_id == static_cast<double>(i + 1) && camera_id == 1) << images[2 * i];
+        line >> image_id >> w >> q.x() >> q.y() >> q.z() >> t.x() >> t.y() >> t.z() >> camera_id >>
+            name;
+        ASSERT_TRUE(line && image_id == static_cast<double>(i + 1) && camera_id == 1)
+            << images[2 * i];
         const auto colour = ReadColourImage(folder / "set/images/" + name);
         ASSERT_TRUE(colour.ok()) << colour.message();
         for (int v = 3; v < 120; v += 9)
@@ -73,10 +77,12 @@ TEST(Colmap, PointsAreTheMeshsInTheWorld) {
         line >> id >> p.x() >> p.y() >> p.z() >> r >> g >> b >> error;
         ASSERT_TRUE(line && id == static_cast<double>(i + 1) && error == 0) << points[i];
         ASSERT_LT((p - mesh.vertices[i].cast<double>()).norm(), 1e-6);
-        ASSERT_TRUE(r == mesh.colours[i].r && g == mesh.colours[i].g && b == mesh.colours[i].b) << points[i];
+        ASSERT_TRUE(r == mesh.colours[i].r && g == mesh.colours[i].g && b == mesh.colours[i].b)
+            << points[i];
     }
-    EXPECT_NE(WriteColmap(folder / "a.scan", mesh, folder / "set").message().find("holds files already"),
-              std::string::npos);
+    EXPECT_NE(
+        WriteColmap(folder / "a.scan", mesh, folder / "set").message().find("holds files already"),
+        std::string::npos);
 }
 
 }  // namespace

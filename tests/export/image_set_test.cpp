@@ -18,15 +18,16 @@ TEST(PosedFrames, AreThoseWithAPoseInOrder) {
     ASSERT_TRUE(frames.value()
                     ->ForEach([&](const PosedFrame& frame) {
                         names.push_back(frame.name);
-                        EXPECT_TRUE(frame.T_world_camera.isApprox(PosedCamera(std::stoi(frame.name)), 1e-12))
+                        EXPECT_TRUE(frame.T_world_camera.isApprox(
+                            PosedCamera(std::stoi(frame.name)), 1e-12))
                             << frame.name;
                         EXPECT_FALSE(frame.stored.depth_png.empty());
                         return Status::Ok();
                     })
                     .ok());
     EXPECT_EQ(names, (std::vector<std::string>{"000000", "000001", "000003", "000004"}));
-    const Status stopped =
-        frames.value()->ForEach([](const PosedFrame& frame) { return Status::Error("no " + frame.name); });
+    const Status stopped = frames.value()->ForEach(
+        [](const PosedFrame& frame) { return Status::Error("no " + frame.name); });
     EXPECT_EQ(stopped.message(), "no 000000");
 }
 
@@ -44,8 +45,9 @@ TEST(PosedFrames, NobodysPicturesAreWrittenOver) {
     EXPECT_TRUE(MakeImageFolder(folder / "new/images").ok());
     EXPECT_TRUE(MakeImageFolder(folder / "new/images").ok());
     WriteBytes(folder / "new/images/000000.jpg", "mine");
-    EXPECT_NE(MakeImageFolder(folder / "new/images").message().find("new/images: holds files already"),
-              std::string::npos);
+    EXPECT_NE(
+        MakeImageFolder(folder / "new/images").message().find("new/images: holds files already"),
+        std::string::npos);
     EXPECT_FALSE(MakeImageFolder(folder / "new/images/000000.jpg").ok());
 }
 

@@ -1,4 +1,5 @@
-// A scan file with raw frames of the exact little world at exactly known poses, and points of that world's surface.
+// A scan file with raw frames of the exact little world at exactly known poses, and points of that
+// world's surface.
 #pragma once
 
 #include "io/image_io.h"
@@ -16,13 +17,12 @@ inline BoxRoom PosedRoom() {
     return room;
 }
 
-inline Eigen::Isometry3d PosedCamera(int frame) {
-    return SmoothPath(20 * frame);
-}
+inline Eigen::Isometry3d PosedCamera(int frame) { return SmoothPath(20 * frame); }
 
 // Of different channels.
 inline Rgb8 Warm(std::uint8_t grey) {
-    return {grey, static_cast<std::uint8_t>(grey * 7 / 10), static_cast<std::uint8_t>(grey * 4 / 10)};
+    return {grey, static_cast<std::uint8_t>(grey * 7 / 10),
+            static_cast<std::uint8_t>(grey * 4 / 10)};
 }
 
 // Frame kLostFrame has no pose; depth is stored in steps of 0.2 mm.
@@ -41,12 +41,14 @@ inline void WritePosedScan(const std::string& path, bool with_frames = true) {
         record.T_reference_camera = PosedCamera(i);
         checkpoint.path.emplace_back(i, record);
         if (!with_frames) continue;
-        auto frame = std::make_unique<Frame>(PosedRoom().Render(SmallCamera(), PosedCamera(i), record.stamp_s));
+        auto frame = std::make_unique<Frame>(
+            PosedRoom().Render(SmallCamera(), PosedCamera(i), record.stamp_s));
         for (std::size_t k = 0; k < frame->colour.size(); ++k)
             frame->colour.data()[k] = Warm(frame->colour.data()[k].r);
         checkpoint.raw_frames.emplace_back(i, std::move(frame));
     }
-    checkpoint.progress = {kPosedFrames, 0, 0, kPosedFrames - 1, 20 * (kPosedFrames - 1) / 30.0, false};
+    checkpoint.progress = {kPosedFrames, 0, 0, kPosedFrames - 1, 20 * (kPosedFrames - 1) / 30.0,
+                           false};
     checkpoint.finished = true;
     ASSERT_TRUE(writer.Write(checkpoint).ok());
     writer.Close();

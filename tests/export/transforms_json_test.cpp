@@ -14,21 +14,25 @@ class Transforms : public testing::Test {
   protected:
     void Write() {
         WritePosedScan(scan);
-        const Status status = WriteTransforms(scan, PointsOfTheRoom(5000), folder / "set/transforms.json");
+        const Status status =
+            WriteTransforms(scan, PointsOfTheRoom(5000), folder / "set/transforms.json");
         ASSERT_TRUE(status.ok()) << status.message();
         json = nlohmann::json::parse(ReadBytes(folder / "set/transforms.json"));
     }
     // The file's world, z up, from ours: to the right, ahead, up.
     static Eigen::Vector3d Turned(const Eigen::Vector3d& p) { return {p.x(), p.z(), -p.y()}; }
-    // Where a point of the file's world is in an image, in pixels from its corner, and how far ahead.
+    // Where a point of the file's world is in an image, in pixels from its corner, and how far
+    // ahead.
     Eigen::Vector3d Project(const nlohmann::json& frame, const Eigen::Vector3d& p) const {
         Eigen::Matrix4d T;
         for (int r = 0; r < 4; ++r)
             for (int c = 0; c < 4; ++c)
-                T(r, c) = frame["transform_matrix"][static_cast<std::size_t>(r)][static_cast<std::size_t>(c)];
+                T(r, c) = frame["transform_matrix"][static_cast<std::size_t>(r)]
+                               [static_cast<std::size_t>(c)];
         const Eigen::Vector4d q = T.inverse() * p.homogeneous();  // x right, y up, z back
         const double ahead = -q.z();
-        return {Number("cx") + Number("fl_x") * q.x() / ahead, Number("cy") - Number("fl_y") * q.y() / ahead, ahead};
+        return {Number("cx") + Number("fl_x") * q.x() / ahead,
+                Number("cy") - Number("fl_y") * q.y() / ahead, ahead};
     }
     double Number(const char* key) const { return json.at(key).get<double>(); }
 
@@ -47,8 +51,10 @@ TEST_F(Transforms, EveryPixelIsWhereTheFileSaysInColourAndDepth) {
     ASSERT_EQ(json["frames"].size(), 4u);
     for (std::size_t i = 0; i < 4; ++i) {
         const nlohmann::json& frame = json["frames"][i];
-        const auto colour = ReadColourImage(folder / "set/" + frame["file_path"].get<std::string>());
-        const auto depth = ReadDepthImage(folder / "set/" + frame["depth_file_path"].get<std::string>());
+        const auto colour =
+            ReadColourImage(folder / "set/" + frame["file_path"].get<std::string>());
+        const auto depth =
+            ReadDepthImage(folder / "set/" + frame["depth_file_path"].get<std::string>());
         ASSERT_TRUE(colour.ok() && depth.ok()) << colour.message() << depth.message();
         for (int v = 3; v < 120; v += 9)
             for (int u = 3; u < 160; u += 9) {
@@ -56,7 +62,8 @@ TEST_F(Transforms, EveryPixelIsWhereTheFileSaysInColourAndDepth) {
                 const Eigen::Vector3d seen = Project(frame, Turned(p));
                 ASSERT_NEAR(seen.x(), u + 0.5, 1e-6);  // the centre of a pixel that begins at u
                 ASSERT_NEAR(seen.y(), v + 0.5, 1e-6);
-                ASSERT_NEAR(depth.value()(u, v) * Number("integer_depth_scale"), seen.z(), 0.00061);  // two roundings
+                // Two roundings.
+                ASSERT_NEAR(depth.value()(u, v) * Number("integer_depth_scale"), seen.z(), 0.00061);
                 ExpectSimilar(colour.value()(u, v), ColourAt(p), u, v);
             }
     }
@@ -70,7 +77,8 @@ TEST_F(Transforms, PointsLieInTheFilesWorldAndAppliedTransformLeadsBack) {
     Eigen::Matrix<double, 3, 4> T_file_world;
     for (int r = 0; r < 3; ++r)
         for (int c = 0; c < 4; ++c)
-            T_file_world(r, c) = json["applied_transform"][static_cast<std::size_t>(r)][static_cast<std::size_t>(c)];
+            T_file_world(r, c) =
+                json["applied_transform"][static_cast<std::size_t>(r)][static_cast<std::size_t>(c)];
     EXPECT_EQ(T_file_world.col(3).norm(), 0);
     for (std::size_t i = 0; i < 5000; ++i) {
         const Eigen::Vector3d p = points.value().vertices[i].cast<double>(),
@@ -84,7 +92,8 @@ TEST_F(Transforms, PointsLieInTheFilesWorldAndAppliedTransformLeadsBack) {
 TEST_F(Transforms, WhatIsThereAlreadyIsRefused) {
     ASSERT_NO_FATAL_FAILURE(Write());
     const Status again = WriteTransforms(scan, {}, folder / "set/other.json");
-    EXPECT_NE(again.message().find("set/images: holds files already"), std::string::npos) << again.message();
+    EXPECT_NE(again.message().find("set/images: holds files already"), std::string::npos)
+        << again.message();
     EXPECT_FALSE(std::filesystem::exists(folder / "set/other.json"));
 }
 

@@ -19,9 +19,7 @@ Eigen::Vector3d Paint(const Eigen::Vector3d& p) {
     return {0.5 + 0.4 * p.x(), 0.5 - 0.3 * p.y(), 0.4 + 0.5 * p.z()};
 }
 
-double Linear(double s) {
-    return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
-}
+double Linear(double s) { return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4); }
 
 class VdbWriter : public ::testing::Test {
   protected:
@@ -54,7 +52,8 @@ TEST_F(VdbWriter, TheSurfaceIsTheMapsDistanceEverywhere) {
     for (int x = -36; x < 44; ++x)
         for (int y = -36; y < 44; ++y)
             for (int z = -36; z < 44; ++z) {
-                const openvdb::Vec3d world = grid->transform().indexToWorld(openvdb::Coord(x, y, z));
+                const openvdb::Vec3d world =
+                    grid->transform().indexToWorld(openvdb::Coord(x, y, z));
                 const double distance_m = sdf({world.x(), world.y(), world.z()});
                 const float value = grid->tree().getValue({x, y, z});
                 const bool in_band = std::abs(distance_m) < kTruncation_m * 0.9999;
@@ -83,7 +82,8 @@ TEST_F(VdbWriter, ColoursAreLinear) {
     for (auto voxel = colour->cbeginValueOn(); voxel; ++voxel) {
         const openvdb::Vec3d p = colour->transform().indexToWorld(voxel.getCoord());
         const Eigen::Vector3d expected = Paint({p.x(), p.y(), p.z()});
-        for (int c = 0; c < 3; ++c) ASSERT_NEAR(voxel.getValue()[c], Linear(expected(c)), 0.005) << voxel.getCoord();
+        for (int c = 0; c < 3; ++c)
+            ASSERT_NEAR(voxel.getValue()[c], Linear(expected(c)), 0.005) << voxel.getCoord();
     }
 }
 
@@ -98,11 +98,14 @@ TEST_F(VdbWriter, WhatWasNeverSeenIsBackground) {
     const auto grid = openvdb::gridPtrCast<openvdb::FloatGrid>(Read("surface"));
     const openvdb::Coord origin(8 * c.x, 8 * c.y, 8 * c.z);
     EXPECT_NEAR(grid->tree().getValue(origin.offsetBy(1, 2, 3)), -0.5 * kTruncation_m, 1e-5);
-    EXPECT_FLOAT_EQ(grid->tree().getValue(origin.offsetBy(3, 2, 1)), static_cast<float>(kTruncation_m));
+    EXPECT_FLOAT_EQ(grid->tree().getValue(origin.offsetBy(3, 2, 1)),
+                    static_cast<float>(kTruncation_m));
     EXPECT_FALSE(grid->tree().isValueOn(origin.offsetBy(3, 2, 1)));
     map.Release(block);
     ASSERT_TRUE(WriteVdb(path, map).ok());
-    EXPECT_FALSE(openvdb::gridPtrCast<openvdb::FloatGrid>(Read("surface"))->tree().isValueOn(origin.offsetBy(1, 2, 3)));
+    EXPECT_FALSE(openvdb::gridPtrCast<openvdb::FloatGrid>(Read("surface"))
+                     ->tree()
+                     .isValueOn(origin.offsetBy(1, 2, 3)));
 }
 
 // OpenVDB itself tells files apart by an identity that it draws at random.
@@ -111,7 +114,9 @@ TEST_F(VdbWriter, TheSameMapGivesTheSameBytesAndAnotherAnotherIdentity) {
     ASSERT_TRUE(WriteVdb(folder / "again.vdb", map).ok());
     map.field(1)[7] = testing_support::PackField(0.25);
     ASSERT_TRUE(WriteVdb(folder / "other.vdb", map).ok());
-    const auto bytes = [](const std::string& file) { return ReadWholeFile(file, std::size_t{1} << 28).value(); };
+    const auto bytes = [](const std::string& file) {
+        return ReadWholeFile(file, std::size_t{1} << 28).value();
+    };
     EXPECT_TRUE(bytes(path) == bytes(folder / "again.vdb"));
     openvdb::initialize();
     std::string identities[2];
@@ -125,7 +130,8 @@ TEST_F(VdbWriter, TheSameMapGivesTheSameBytesAndAnotherAnotherIdentity) {
 }
 
 TEST_F(VdbWriter, VdbPrintListsBothGrids) {
-    if (std::system("command -v vdb_print >/dev/null") != 0) GTEST_SKIP() << "needs vdb_print (libopenvdb-tools)";
+    if (std::system("command -v vdb_print >/dev/null") != 0)
+        GTEST_SKIP() << "needs vdb_print (libopenvdb-tools)";
     ASSERT_TRUE(WriteVdb(path, map).ok());
     for (const char* name : {"surface", "Cd"})
         EXPECT_EQ(std::system(("vdb_print " + path + " | grep -qw " + name).c_str()), 0) << name;

@@ -17,7 +17,7 @@ class CountingSource : public FrameSource {
         bool knows_count = true;
         bool seeks = true;
         std::set<std::int64_t> skipped = {};
-        std::set<std::int64_t> waits = {};  // one kWait before each of these
+        std::set<std::int64_t> waits = {};                   // one kWait before each of these
         std::function<void(std::int64_t)> before_read = {};  // may wait or throw
         std::atomic<std::int64_t>* reads = nullptr;          // counts calls of Read
     };
@@ -30,7 +30,8 @@ class CountingSource : public FrameSource {
     ReadResult Read(Frame& frame) override {
         if (options_.reads) ++*options_.reads;
         if (options_.before_read) options_.before_read(next_);
-        if (options_.waits.erase(next_) > 0) return {ReadStatus::kWait, "before " + std::to_string(next_)};
+        if (options_.waits.erase(next_) > 0)
+            return {ReadStatus::kWait, "before " + std::to_string(next_)};
         if (next_ >= options_.count) return {ReadStatus::kEnd, {}};
         const std::int64_t index = next_++;
         if (options_.skipped.count(index))

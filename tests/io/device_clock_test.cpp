@@ -15,7 +15,8 @@ TEST(DeviceClock, KeepsTheDevicesStamps) {
         const auto reading = clock.Read(0, 5000000 + i * kFrame_us, 100 + static_cast<double>(i));
         EXPECT_EQ(reading.verdict, Verdict::kGood);
         EXPECT_DOUBLE_EQ(reading.stamp_s, 5 + 1e-6 * static_cast<double>(i * kFrame_us));
-        EXPECT_EQ(clock.Read(1, 5000000 + i * kFrame_us, 100).verdict, Verdict::kGood);  // the other stream
+        // The other stream.
+        EXPECT_EQ(clock.Read(1, 5000000 + i * kFrame_us, 100).verdict, Verdict::kGood);
     }
 }
 
@@ -45,11 +46,13 @@ TEST(DeviceClock, AClockThatWasSetIsFollowedAfterAFewStamps) {
     for (const std::uint64_t set_to : {std::uint64_t{1000}, std::uint64_t{900000000}}) {
         DeviceClock clock(10);
         double last_s = 0;
-        for (std::uint64_t i = 0; i < 5; ++i) last_s = clock.Read(0, 50000000 + i * kFrame_us, 0.0333 * double(i)).stamp_s;
+        for (std::uint64_t i = 0; i < 5; ++i)
+            last_s = clock.Read(0, 50000000 + i * kFrame_us, 0.0333 * double(i)).stamp_s;
         int refused = 0;
         DeviceClock::Reading reading;
         do {
-            reading = clock.Read(0, set_to + static_cast<std::uint64_t>(refused) * kFrame_us, 0.2 + 0.0333 * refused);
+            reading = clock.Read(0, set_to + static_cast<std::uint64_t>(refused) * kFrame_us,
+                                 0.2 + 0.0333 * refused);
         } while (reading.verdict != Verdict::kGood && ++refused < 20);
         EXPECT_EQ(refused, 3);
         EXPECT_TRUE(reading.was_reset);

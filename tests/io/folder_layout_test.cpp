@@ -64,7 +64,9 @@ TEST(ReadFolderLayout, ACameraThatNobodyGaveIsUnknown) {
 TEST(ReadFolderLayout, RecognisesATumRecordingUnderAnyNameByItsList) {
     TemporaryFolder folder("desk");
     WriteTumLists(folder);
-    folder.WriteText("rgb.txt", "# color images\n# file: 'rgbd_dataset_freiburg3_teddy.bag'\n# timestamp filename\n1.0 rgb/1.png\n2.0 rgb/2.png\n");
+    folder.WriteText("rgb.txt",
+                     "# color images\n# file: 'rgbd_dataset_freiburg3_teddy.bag'\n# timestamp "
+                     "filename\n1.0 rgb/1.png\n2.0 rgb/2.png\n");
     const auto layout = Read(folder);
     ASSERT_TRUE(layout.ok()) << layout.message();
     EXPECT_TRUE(layout.value().camera_known);

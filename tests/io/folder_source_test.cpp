@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-
 #include <limits>
 
 #include "io/temporary_folder.h"
@@ -165,11 +164,13 @@ TEST(FolderSource, IsRefusedWhereNoFrameIsUsable) {
 
 // 60 degrees across; TUM's depths are whole millimetres times five.
 TEST(FolderSource, AssumesACameraWhereNobodyGaveOne) {
-    for (const auto& [value, unit] : {std::pair<std::uint16_t, double>{1501, 1000}, {1500, 5000}, {7502, 5000}}) {
+    for (const auto& [value, unit] :
+         {std::pair<std::uint16_t, double>{1501, 1000}, {1500, 5000}, {7502, 5000}}) {
         TemporaryFolder folder;
         WriteSequence(folder, 3);
         std::filesystem::remove(folder.Path("camera.yaml"));
-        for (int i = 0; i < 3; ++i) folder.WriteDepth("depth/" + std::to_string(i) + ".png", 32, 24, value);
+        for (int i = 0; i < 3; ++i)
+            folder.WriteDepth("depth/" + std::to_string(i) + ".png", 32, 24, value);
         const auto source = OpenFolderSource(folder.path(), {});
         ASSERT_TRUE(source.ok()) << source.message();
         const SourceInfo& info = source.value()->info();

@@ -127,7 +127,8 @@ TEST(FrameReader, AnExceptionInTheSourceIsAnError) {
 }
 
 TEST(FrameReader, PassesWaitingOn) {
-    FrameReader reader(std::make_unique<CountingSource>(CountingSource::Options{.count = 2, .waits = {1}}), {}, 2);
+    FrameReader reader(
+        std::make_unique<CountingSource>(CountingSource::Options{.count = 2, .waits = {1}}), {}, 2);
     Frame frame;
     EXPECT_EQ(reader.Next(frame).status, ReadStatus::kOk);
     const ReadResult wait = reader.Next(frame);

@@ -30,7 +30,8 @@ Frame SomeFrame(int index, bool with_truth = false) {
     frame.colour = ColourImage(64, 48, {static_cast<std::uint8_t>(40 * index), 100, 50});
     frame.depth_m = DepthImage(64, 48);
     for (std::size_t i = 0; i < frame.depth_m.size(); ++i)
-        frame.depth_m.data()[i] = static_cast<float>((i * 64 + static_cast<std::size_t>(index)) % 65536) / 1000.0f;
+        frame.depth_m.data()[i] =
+            static_cast<float>((i * 64 + static_cast<std::size_t>(index)) % 65536) / 1000.0f;
     if (with_truth) {
         frame.T_world_camera = Eigen::Isometry3d::Identity();
         frame.T_world_camera->translation().x() = 0.1 * index;
@@ -52,7 +53,8 @@ std::vector<Frame> ReadBack(const std::string& folder) {
     EXPECT_EQ(source.value()->info().camera, SomeSource().camera);
     EXPECT_EQ(source.value()->info().fps, 15);
     EXPECT_EQ(source.value()->info().depth_units_per_m, 1000);
-    for (Frame frame; source.value()->Read(frame).status == ReadStatus::kOk;) frames.push_back(frame);
+    for (Frame frame; source.value()->Read(frame).status == ReadStatus::kOk;)
+        frames.push_back(frame);
     return frames;
 }
 
@@ -87,7 +89,8 @@ TEST(FrameRecorder, AtAnyMomentTheFolderIsReadable) {
     const auto recorder = Create(folder.Path("scan"));
     for (int i = 0; i < 3; ++i) {
         ASSERT_TRUE(recorder->Add(SomeFrame(i)).ok());
-        EXPECT_EQ(ReadBack(folder.Path("scan")).size(), static_cast<std::size_t>(i + 1));  // nothing was closed
+        // Nothing was closed.
+        EXPECT_EQ(ReadBack(folder.Path("scan")).size(), static_cast<std::size_t>(i + 1));
         EXPECT_EQ(recorder->frames(), i + 1);
     }
 }
@@ -106,17 +109,21 @@ TEST(FrameRecorder, FramesThatDoNotFitAreRefusedByName) {
     Frame small = SomeFrame(1), grey = SomeFrame(1), late = SomeFrame(0);
     small.depth_m = DepthImage(32, 24);
     grey.colour = ColourImage();
-    for (const auto& [frame, why] : {std::pair{&small, "64 x 48 pixels"}, {&grey, "no colour"}, {&late, "its stamp"}}) {
+    for (const auto& [frame, why] :
+         {std::pair{&small, "64 x 48 pixels"}, {&grey, "no colour"}, {&late, "its stamp"}}) {
         const auto recorder = Create(folder.Path(why));
         ASSERT_TRUE(recorder->Add(SomeFrame(0)).ok());
         const Status status = recorder->Add(*frame);
         EXPECT_NE(status.message().find(why), std::string::npos) << status.message();
-        EXPECT_NE(status.message().find("; 1 frames are safe in"), std::string::npos) << status.message();
-        EXPECT_EQ(recorder->Add(SomeFrame(2)).message(), status.message());  // the first error stays
+        EXPECT_NE(status.message().find("; 1 frames are safe in"), std::string::npos)
+            << status.message();
+        // The first error stays.
+        EXPECT_EQ(recorder->Add(SomeFrame(2)).message(), status.message());
     }
 }
 
-// No file may grow past a limit: as a disk that becomes full, first within an image, then within a list.
+// No file may grow past a limit: as a disk that becomes full, first within an image, then within a
+// list.
 TEST(FrameRecorder, AFullDiskLosesNothingThatWasSafe) {
     signal(SIGXFSZ, SIG_IGN);
     for (const rlim_t limit : {rlim_t{4500}, rlim_t{150}}) {
@@ -128,7 +135,13 @@ TEST(FrameRecorder, AFullDiskLosesNothingThatWasSafe) {
         Frame frame = SomeFrame(0);
         frame.depth_m = DepthImage(64, 48, 1.0f);  // small files
         ASSERT_TRUE(recorder->Add(frame).ok());
-        ASSERT_TRUE(recorder->Add([&] { frame.stamp_s += 0.1; frame.colour_stamp_s += 0.1; return frame; }()).ok());
+        ASSERT_TRUE(recorder
+                        ->Add([&] {
+                            frame.stamp_s += 0.1;
+                            frame.colour_stamp_s += 0.1;
+                            return frame;
+                        }())
+                        .ok());
         const std::string list_before = ReadText(path + "/depth.txt");
         rlimit before{};
         getrlimit(RLIMIT_FSIZE, &before);
@@ -136,7 +149,8 @@ TEST(FrameRecorder, AFullDiskLosesNothingThatWasSafe) {
         ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &lowered), 0);
         Status status;
         for (int i = 2; i < 200 && status.ok(); ++i) {
-            Frame next = limit > 1000 ? SomeFrame(i) : frame;  // large depth files; or lists that grow past the limit
+            // Large depth files; or lists that grow past the limit.
+            Frame next = limit > 1000 ? SomeFrame(i) : frame;
             next.stamp_s = 20 + i;
             next.colour_stamp_s = 20 + i;
             status = recorder->Add(next);
@@ -144,9 +158,11 @@ TEST(FrameRecorder, AFullDiskLosesNothingThatWasSafe) {
         setrlimit(RLIMIT_FSIZE, &before);
         ASSERT_FALSE(status.ok());
         EXPECT_EQ(status.message().find(path), 0u) << status.message();
-        EXPECT_NE(status.message().find("cannot be written"), std::string::npos) << status.message();
+        EXPECT_NE(status.message().find("cannot be written"), std::string::npos)
+            << status.message();
         const auto safe = static_cast<std::size_t>(recorder->frames());
-        EXPECT_NE(status.message().find(fmt::format("; {} frames are safe in {}", safe, path)), std::string::npos);
+        EXPECT_NE(status.message().find(fmt::format("; {} frames are safe in {}", safe, path)),
+                  std::string::npos);
         EXPECT_GE(safe, 2u);
         EXPECT_EQ(ReadBack(path).size(), safe);
         EXPECT_TRUE(ReadText(path + "/depth.txt").starts_with(list_before));

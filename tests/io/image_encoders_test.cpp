@@ -25,7 +25,8 @@ ColourImage SmoothColour(int width, int height) {
     ColourImage colour(width, height);
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x)
-            colour(x, y) = {static_cast<std::uint8_t>(x), static_cast<std::uint8_t>(2 * y), static_cast<std::uint8_t>(x + y)};
+            colour(x, y) = {static_cast<std::uint8_t>(x), static_cast<std::uint8_t>(2 * y),
+                            static_cast<std::uint8_t>(x + y)};
     return colour;
 }
 
@@ -40,7 +41,8 @@ TEST(PngEncoder, DepthComesBackExactly) {
         ASSERT_EQ(read.cols, width);
         ASSERT_EQ(read.rows, height);
         for (int y = 0; y < height; ++y)
-            for (int x = 0; x < width; ++x) ASSERT_EQ(read.at<std::uint16_t>(y, x), depth(x, y)) << x << ' ' << y;
+            for (int x = 0; x < width; ++x)
+                ASSERT_EQ(read.at<std::uint16_t>(y, x), depth(x, y)) << x << ' ' << y;
     }
 }
 
@@ -74,7 +76,8 @@ TEST(JpegEncoder, ComesBackAlmost) {
 
 TEST(JpegEncoder, SaysWhatItRefuses) {
     std::vector<std::uint8_t> file;
-    EXPECT_NE(EncodeJpeg(ColourImage(70000, 1), 95, file).message().find("cannot be made a JPEG"), std::string::npos);
+    EXPECT_NE(EncodeJpeg(ColourImage(70000, 1), 95, file).message().find("cannot be made a JPEG"),
+              std::string::npos);
 }
 
 }  // namespace

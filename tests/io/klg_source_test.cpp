@@ -21,14 +21,16 @@ void Put(std::string& bytes, Number number) {
 std::string Zlib(const std::string& bytes) {
     libdeflate_compressor* compressor = libdeflate_alloc_compressor(6);
     std::string packed(libdeflate_zlib_compress_bound(compressor, bytes.size()), '\0');
-    packed.resize(libdeflate_zlib_compress(compressor, bytes.data(), bytes.size(), packed.data(), packed.size()));
+    packed.resize(libdeflate_zlib_compress(compressor, bytes.data(), bytes.size(), packed.data(),
+                                           packed.size()));
     libdeflate_free_compressor(compressor);
     return packed;
 }
 
 std::string Depth(int metres) {
     std::string depth;
-    for (int i = 0; i < 32 * 24; ++i) Put(depth, static_cast<std::uint16_t>(1000 * metres + i % 32));
+    for (int i = 0; i < 32 * 24; ++i)
+        Put(depth, static_cast<std::uint16_t>(1000 * metres + i % 32));
     return depth;
 }
 
@@ -62,7 +64,9 @@ class Klg : public ::testing::Test {
         Put(bytes, count);
         folder.WriteText("a.klg", bytes + frames);
     }
-    Result<std::unique_ptr<FrameSource>> Open() { return OpenKlgSource(folder.path() + "/a.klg", config); }
+    Result<std::unique_ptr<FrameSource>> Open() {
+        return OpenKlgSource(folder.path() + "/a.klg", config);
+    }
 
     TemporaryFolder folder;
     FolderSourceConfig config;
@@ -104,7 +108,8 @@ TEST_F(Klg, RedAndBlueSwappedOnRequest) {
 }
 
 TEST_F(Klg, WhatWasCutOffOrDoesNotGrowIsNoted) {
-    const std::string frames = FrameOf(10, Depth(1), "") + FrameOf(10, Depth(2), "") + FrameOf(20, Depth(3), "");
+    const std::string frames =
+        FrameOf(10, Depth(1), "") + FrameOf(10, Depth(2), "") + FrameOf(20, Depth(3), "");
     for (const std::size_t missing : {std::size_t{1}, std::size_t{1500}, Depth(3).size() + 5}) {
         Write(3, frames.substr(0, frames.size() - missing));
         const auto source = Open();
@@ -119,11 +124,13 @@ TEST_F(Klg, WhatWasCutOffOrDoesNotGrowIsNoted) {
 TEST_F(Klg, ADamagedFrameIsSkippedAlone) {
     std::string packed = Zlib(Depth(2));
     packed[packed.size() / 2] = static_cast<char>(packed[packed.size() / 2] ^ 0x55);
-    Write(4, FrameOf(1, Depth(1), "") + FrameOf(2, packed, "") + FrameOf(3, Depth(1), "no JPEG") + FrameOf(4, Depth(1), Jpeg(40)));
+    Write(4, FrameOf(1, Depth(1), "") + FrameOf(2, packed, "") + FrameOf(3, Depth(1), "no JPEG") +
+                 FrameOf(4, Depth(1), Jpeg(40)));
     const auto source = Open();
     ASSERT_TRUE(source.ok());
     EXPECT_EQ(source.value()->Read(frame).status, ReadStatus::kOk);
-    for (const char* what : {"frame 1: depth is damaged", "frame 2: colour", "frame 3: colour has 40 x 24"}) {
+    for (const char* what :
+         {"frame 1: depth is damaged", "frame 2: colour", "frame 3: colour has 40 x 24"}) {
         const ReadResult result = source.value()->Read(frame);
         EXPECT_EQ(result.status, ReadStatus::kSkip);
         EXPECT_NE(result.message.find(what), std::string::npos) << result.message;
@@ -142,7 +149,8 @@ TEST_F(Klg, WhatIsNoLogIsRefusedByName) {
     refused("is no .klg log");
     Write(-1, "");
     refused("is no .klg log");
-    Write(2'000'000'000, FrameOf(1, Depth(1), "").substr(0, 100));  // nothing is allocated for what it claims
+    // Nothing is allocated for what it claims.
+    Write(2'000'000'000, FrameOf(1, Depth(1), "").substr(0, 100));
     refused("no whole frame");
     std::string huge;
     Put(huge, std::int64_t{1});

@@ -46,10 +46,13 @@ struct Glb {
         std::vector<T> values(a["count"].get<std::size_t>() * columns);
         EXPECT_EQ(view["byteLength"].get<std::size_t>(), values.size() * sizeof(T));
         EXPECT_EQ(view["byteOffset"].get<std::size_t>() % 4, 0u);
-        std::memcpy(values.data(), binary.data() + view["byteOffset"].get<std::size_t>(), values.size() * sizeof(T));
+        std::memcpy(values.data(), binary.data() + view["byteOffset"].get<std::size_t>(),
+                    values.size() * sizeof(T));
         return values;
     }
-    int Attribute(const char* name) const { return json["meshes"][0]["primitives"][0]["attributes"][name].get<int>(); }
+    int Attribute(const char* name) const {
+        return json["meshes"][0]["primitives"][0]["attributes"][name].get<int>();
+    }
 };
 
 Glb TakeApart(const std::string& bytes) {
@@ -75,12 +78,14 @@ TEST(MeshWriters, ObjIsTheTextThatReadersKnow) {
               "v 1.000000 0.000000 0.250000 1.0000 0.5020 0.0275\n"
               "v 0.000000 -2.500000 0.000000 0.0353 0.0314 0.0275\n"
               "v 0.000000 0.000000 -3.000000 0.0039 0.0039 0.0039\n"
-              "vn 0.0000 0.0000 1.0000\nvn 1.0000 0.0000 0.0000\nvn 0.0000 1.0000 0.0000\nvn 0.6000 0.0000 0.8000\n"
+              "vn 0.0000 0.0000 1.0000\nvn 1.0000 0.0000 0.0000\nvn 0.0000 1.0000 0.0000\nvn "
+              "0.6000 0.0000 0.8000\n"
               "f 1//1 3//3 2//2\n");
     mesh.colours.clear();
     mesh.normals.clear();
     ASSERT_TRUE(WriteObj(folder / "a.obj", mesh).ok());
-    EXPECT_NE(FileBytes(folder / "a.obj").find("v 1.000000 0.000000 0.250000\n"), std::string::npos);
+    EXPECT_NE(FileBytes(folder / "a.obj").find("v 1.000000 0.000000 0.250000\n"),
+              std::string::npos);
     EXPECT_NE(FileBytes(folder / "a.obj").find("\nf 1 3 2\n"), std::string::npos);
 }
 
@@ -92,7 +97,8 @@ TEST(MeshWriters, GlbHoldsTheArraysBitForBit) {
     EXPECT_EQ(glb.json["buffers"][0]["byteLength"].get<std::size_t>(), glb.binary.size());
     const auto positions = glb.Values<float>(glb.Attribute("POSITION"), 3),
                normals = glb.Values<float>(glb.Attribute("NORMAL"), 3);
-    const auto indices = glb.Values<std::uint32_t>(glb.json["meshes"][0]["primitives"][0]["indices"].get<int>(), 1);
+    const auto indices =
+        glb.Values<std::uint32_t>(glb.json["meshes"][0]["primitives"][0]["indices"].get<int>(), 1);
     ASSERT_EQ(positions.size(), 12u);
     ASSERT_EQ(indices.size(), 12u);
     for (std::size_t i = 0; i < 12; ++i) {
@@ -100,28 +106,36 @@ TEST(MeshWriters, GlbHoldsTheArraysBitForBit) {
         EXPECT_EQ(normals[i], mesh.normals[i / 3][static_cast<int>(i % 3)]) << i;
         EXPECT_EQ(indices[i], mesh.triangles[i / 3][i % 3]) << i;
     }
-    const nlohmann::json& accessor = glb.json["accessors"][static_cast<std::size_t>(glb.Attribute("POSITION"))];
+    const nlohmann::json& accessor =
+        glb.json["accessors"][static_cast<std::size_t>(glb.Attribute("POSITION"))];
     EXPECT_EQ(accessor["min"], nlohmann::json({0.0, -2.5, -3.0}));
     EXPECT_EQ(accessor["max"], nlohmann::json({1.0, 0.0, 0.25}));
 }
 
-// Camera up is up in a viewer, and what lies before the camera lies before the viewer, who looks along -z.
+// Camera up is up in a viewer, and what lies before the camera lies before the viewer, who looks
+// along -z.
 TEST(MeshWriters, GlbStandsUpright) {
     const TempFolder folder;
     ASSERT_TRUE(WriteGlb(folder / "a.glb", LabelledTetrahedron()).ok());
-    const auto q = TakeApart(FileBytes(folder / "a.glb")).json["nodes"][0]["rotation"].get<std::vector<double>>();
+    const auto q = TakeApart(FileBytes(folder / "a.glb"))
+                       .json["nodes"][0]["rotation"]
+                       .get<std::vector<double>>();
     const Eigen::Quaterniond R_viewer_world(q[3], q[0], q[1], q[2]);
-    EXPECT_LT((R_viewer_world * Eigen::Vector3d(0, -1, 0) - Eigen::Vector3d(0, 1, 0)).norm(), 1e-12);
-    EXPECT_LT((R_viewer_world * Eigen::Vector3d(0, 0, 1) - Eigen::Vector3d(0, 0, -1)).norm(), 1e-12);
+    EXPECT_LT((R_viewer_world * Eigen::Vector3d(0, -1, 0) - Eigen::Vector3d(0, 1, 0)).norm(),
+              1e-12);
+    EXPECT_LT((R_viewer_world * Eigen::Vector3d(0, 0, 1) - Eigen::Vector3d(0, 0, -1)).norm(),
+              1e-12);
     EXPECT_LT((R_viewer_world * Eigen::Vector3d(1, 0, 0) - Eigen::Vector3d(1, 0, 0)).norm(), 1e-12);
 }
 
-// More colours than are converted at once, so that every value comes from every piece; the inverse is the standard's.
+// More colours than are converted at once, so that every value comes from every piece; the inverse
+// is the standard's.
 TEST(MeshWriters, GlbColoursAreLinearAndComeBackExactly) {
     TriangleMesh mesh;
     for (std::size_t i = 0; i < 300000; ++i) {
         mesh.vertices.push_back({static_cast<float>(i), 0, 0});
-        mesh.colours.push_back({static_cast<std::uint8_t>(i % 256), static_cast<std::uint8_t>((i + 1) % 256),
+        mesh.colours.push_back({static_cast<std::uint8_t>(i % 256),
+                                static_cast<std::uint8_t>((i + 1) % 256),
                                 static_cast<std::uint8_t>(i / 256 % 256)});
     }
     mesh.triangles = {{0, 1, 2}};
@@ -131,7 +145,8 @@ TEST(MeshWriters, GlbColoursAreLinearAndComeBackExactly) {
     const auto colours = glb.Values<std::uint16_t>(glb.Attribute("COLOR_0"), 4);
     const auto srgb = [&](std::size_t i) {
         const double linear = colours[i] / 65535.0;
-        return std::lround(255 * (linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055));
+        return std::lround(255 * (linear <= 0.0031308 ? 12.92 * linear
+                                                      : 1.055 * std::pow(linear, 1 / 2.4) - 0.055));
     };
     ASSERT_EQ(colours.size(), 4 * mesh.colours.size());
     for (std::size_t i = 0; i < mesh.colours.size(); ++i) {
@@ -157,12 +172,16 @@ TEST(MeshWriters, GlbIsReadByTinyGltf) {
     EXPECT_EQ(error + warning, "");
     const tinygltf::Primitive& primitive = model.meshes.at(0).primitives.at(0);
     EXPECT_EQ(primitive.mode, TINYGLTF_MODE_TRIANGLES);
-    EXPECT_EQ(model.accessors.at(static_cast<std::size_t>(primitive.attributes.at("COLOR_0"))).count,
-              mesh.colours.size());
-    const tinygltf::Accessor& indices = model.accessors.at(static_cast<std::size_t>(primitive.indices));
+    EXPECT_EQ(
+        model.accessors.at(static_cast<std::size_t>(primitive.attributes.at("COLOR_0"))).count,
+        mesh.colours.size());
+    const tinygltf::Accessor& indices =
+        model.accessors.at(static_cast<std::size_t>(primitive.indices));
     EXPECT_EQ(indices.count, 3 * mesh.triangles.size());
-    const tinygltf::BufferView& view = model.bufferViews.at(static_cast<std::size_t>(indices.bufferView));
-    EXPECT_EQ(std::memcmp(model.buffers.at(0).data.data() + view.byteOffset, mesh.triangles.data(), view.byteLength),
+    const tinygltf::BufferView& view =
+        model.bufferViews.at(static_cast<std::size_t>(indices.bufferView));
+    EXPECT_EQ(std::memcmp(model.buffers.at(0).data.data() + view.byteOffset, mesh.triangles.data(),
+                          view.byteLength),
               0);
     EXPECT_EQ(model.materials.at(0).pbrMetallicRoughness.metallicFactor, 0);
 #endif
@@ -171,7 +190,8 @@ TEST(MeshWriters, GlbIsReadByTinyGltf) {
 TEST(MeshWriters, AnEmptyMeshIsNoGlb) {
     const TempFolder folder;
     const Status status = WriteGlb(folder / "a.glb", {});
-    EXPECT_NE(status.message().find("a.glb: the mesh is empty"), std::string::npos) << status.message();
+    EXPECT_NE(status.message().find("a.glb: the mesh is empty"), std::string::npos)
+        << status.message();
     EXPECT_FALSE(std::filesystem::exists(folder / "a.glb"));
 }
 
@@ -190,20 +210,23 @@ TEST(MeshWriters, ACloudIsTheVerticesAndNothingElse) {
 }
 
 TEST(MeshWriters, TheExtensionChoosesAndAnUnknownOneIsRefusedByName) {
-    for (const char* name : {"a.ply", "b.obj", "folder.obj/c.glb"}) EXPECT_TRUE(MeshFormatOf(name).ok()) << name;
+    for (const char* name : {"a.ply", "b.obj", "folder.obj/c.glb"})
+        EXPECT_TRUE(MeshFormatOf(name).ok()) << name;
     EXPECT_TRUE(MeshFormatOf("a.obj").value().write == WriteObj);
     for (const char* name : {"a.stl", "a", "obj"}) {
         const Result<MeshFormat> none = MeshFormatOf(name);
         ASSERT_FALSE(none.ok()) << name;
         EXPECT_EQ(none.message(),
-                  std::string(name) + ": a mesh is written as .ply, .obj, .glb; give one of these extensions");
+                  std::string(name) +
+                      ": a mesh is written as .ply, .obj, .glb; give one of these extensions");
     }
 }
 
 TEST(MeshWriters, AFullDiskIsAnError) {
     if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "needs /dev/full (Linux)";
     for (const auto write : {WriteObj, WriteGlb, WritePlyCloud})
-        EXPECT_NE(write("/dev/full", LabelledTetrahedron()).message().find("no space"), std::string::npos);
+        EXPECT_NE(write("/dev/full", LabelledTetrahedron()).message().find("no space"),
+                  std::string::npos);
 }
 
 }  // namespace

@@ -9,7 +9,8 @@ namespace {
 
 TEST(UsbCameras, AreKnownByTheirNumbers) {
     TemporaryFolder folder;
-    const auto add = [&](const std::string& name, const char* vendor, const char* product, const char* device) {
+    const auto add = [&](const std::string& name, const char* vendor, const char* product,
+                         const char* device) {
         folder.WriteText("sys/" + name + "/idVendor", std::string(vendor) + "\n");
         folder.WriteText("sys/" + name + "/idProduct", std::string(product) + "\n");
         folder.WriteText("sys/" + name + "/busnum", "1\n");

@@ -24,9 +24,7 @@ TEST(PublishedCamera, AgreesWithTheFilesInConfig) {
     EXPECT_EQ(files, 5);
 }
 
-TEST(PublishedCamera, KnowsNothingElse) {
-    EXPECT_FALSE(PublishedCamera("freiburg4").has_value());
-}
+TEST(PublishedCamera, KnowsNothingElse) { EXPECT_FALSE(PublishedCamera("freiburg4").has_value()); }
 
 }  // namespace
 }  // namespace tessera

@@ -70,13 +70,14 @@ TEST(SelectedFrames, RefusesImpossibleSelections) {
 
 // Waiting is passed on and costs no frame, neither between the selected frames nor at one.
 TEST(SelectedFrames, WaitingIsNoFrame) {
-    auto source = std::make_unique<CountingSource>(
-        CountingSource::Options{.count = 10, .knows_count = false, .seeks = false, .waits = {0, 3, 4}});
+    auto source = std::make_unique<CountingSource>(CountingSource::Options{
+        .count = 10, .knows_count = false, .seeks = false, .waits = {0, 3, 4}});
     SelectedFrames frames(std::move(source), {.start = 2, .count = 2, .stride = 2});
     std::string seen;
     Frame frame;
     for (ReadResult read; (read = frames.Next(frame)).status != ReadStatus::kEnd;)
-        seen += read.status == ReadStatus::kWait ? read.message + ", " : "frame " + std::to_string(frame.index) + ", ";
+        seen += read.status == ReadStatus::kWait ? read.message + ", "
+                                                 : "frame " + std::to_string(frame.index) + ", ";
     EXPECT_EQ(seen, "before 0, frame 2, before 3, before 4, frame 4, ");
 }
 

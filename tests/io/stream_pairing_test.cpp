@@ -18,13 +18,16 @@ struct Stamp {
 };
 
 // What comes out while `arriving` goes in; images are marked with their stamps' milliseconds.
-std::vector<std::pair<double, double>> Feed(StreamPairing& pairing, const std::vector<Stamp>& arriving, bool end = true) {
+std::vector<std::pair<double, double>> Feed(StreamPairing& pairing,
+                                            const std::vector<Stamp>& arriving, bool end = true) {
     std::vector<std::pair<double, double>> pairs;
     StreamPairing::Pair pair;
     const auto take = [&] {
         while (pairing.Next(pair)) {
-            EXPECT_EQ(pair.depth(0, 0), static_cast<std::uint16_t>(1000 * pair.depth_stamp_s + 0.5));
-            EXPECT_EQ(pair.colour(0, 0).r, static_cast<std::uint8_t>(1000 * pair.colour_stamp_s + 0.5));
+            EXPECT_EQ(pair.depth(0, 0),
+                      static_cast<std::uint16_t>(1000 * pair.depth_stamp_s + 0.5));
+            EXPECT_EQ(pair.colour(0, 0).r,
+                      static_cast<std::uint8_t>(1000 * pair.colour_stamp_s + 0.5));
             pairs.emplace_back(pair.depth_stamp_s, pair.colour_stamp_s);
         }
     };
@@ -59,7 +62,8 @@ TEST(StreamPairing, AFarOneWaitsForANearerOne) {
 
 TEST(StreamPairing, AGapOfTheLimitIsNoPair) {
     StreamPairing pairing(0.25, 1);
-    EXPECT_EQ(Feed(pairing, {{true, 1.0}, {false, 1.25}, {true, 2.0}, {false, 2.125}}), (Pairs{{2.0, 2.125}}));
+    EXPECT_EQ(Feed(pairing, {{true, 1.0}, {false, 1.25}, {true, 2.0}, {false, 2.125}}),
+              (Pairs{{2.0, 2.125}}));
     EXPECT_EQ(pairing.depth_alone(), 1);
     EXPECT_EQ(pairing.colour_alone(), 1);
     EXPECT_EQ(pairing.pairs(), 1);
@@ -85,8 +89,8 @@ TEST(StreamPairing, ClearForgetsWhatWaits) {
     EXPECT_EQ(pairing.depth_alone(), 0);
 }
 
-// Jitter, losses and different rates: the same pairs as pairing the whole lists at the end. In the last rounds images lie
-// halfway between two partners, and only what must hold is the same.
+// Jitter, losses and different rates: the same pairs as pairing the whole lists at the end. In the
+// last rounds images lie halfway between two partners, and only what must hold is the same.
 TEST(StreamPairing, AgreesWithThePairingOfWholeLists) {
     std::mt19937 random(7);
     std::uniform_real_distribution<double> jitter(-0.004, 0.004), share(0, 1);
@@ -97,14 +101,16 @@ TEST(StreamPairing, AgreesWithThePairingOfWholeLists) {
         std::vector<double> depth, colour;
         for (int i = 0; i < 60; ++i) {
             if (share(random) > 0.1) depth.push_back(1 + i / 30.0 + jitter(random));
-            if (i % colour_every == 0 && share(random) > 0.1) colour.push_back(1 + offset_s + i / 30.0 + jitter(random));
+            if (i % colour_every == 0 && share(random) > 0.1)
+                colour.push_back(1 + offset_s + i / 30.0 + jitter(random));
         }
         std::vector<Stamp> arriving;
         for (const double s : depth) arriving.push_back({true, s});
         for (const double s : colour) arriving.push_back({false, s});
         std::ranges::sort(arriving, {}, &Stamp::stamp_s);
         Pairs expected;
-        for (const StampPair& p : PairNearest(depth, colour, 0.02)) expected.emplace_back(depth[p.depth], colour[p.colour]);
+        for (const StampPair& p : PairNearest(depth, colour, 0.02))
+            expected.emplace_back(depth[p.depth], colour[p.colour]);
         StreamPairing pairing(0.02, 1 / 30.0 - 0.008);
         const Pairs pairs = Feed(pairing, arriving);
         if (!halfway) {
@@ -113,7 +119,8 @@ TEST(StreamPairing, AgreesWithThePairingOfWholeLists) {
         EXPECT_NEAR(static_cast<double>(pairs.size()), static_cast<double>(expected.size()), 4);
         for (const auto& [depth_s, colour_s] : pairs) EXPECT_LT(std::abs(depth_s - colour_s), 0.02);
         EXPECT_EQ(pairing.pairs() + pairing.depth_alone(), static_cast<std::int64_t>(depth.size()));
-        EXPECT_EQ(pairing.pairs() + pairing.colour_alone(), static_cast<std::int64_t>(colour.size()));
+        EXPECT_EQ(pairing.pairs() + pairing.colour_alone(),
+                  static_cast<std::int64_t>(colour.size()));
     }
 }
 

@@ -14,7 +14,8 @@
 namespace tessera {
 
 // The camera.yaml of 32 x 24 pixels.
-inline constexpr const char* kSmallCamera = "width: 32\nheight: 24\nfx: 30\nfy: 31\ncx: 15.5\ncy: 11.5\ndepth_scale: 1000\n";
+inline constexpr const char* kSmallCamera =
+    "width: 32\nheight: 24\nfx: 30\nfy: 31\ncx: 15.5\ncy: 11.5\ndepth_scale: 1000\n";
 
 class TemporaryFolder {
   public:

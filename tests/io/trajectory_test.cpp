@@ -70,11 +70,14 @@ TEST(Trajectory, KittiLinesAreThreeRowsAndTheStampsLieBeside) {
     const Eigen::Quaterniond quarter(Eigen::AngleAxisd(M_PI / 2, Eigen::Vector3d::UnitZ()));
     const std::string path = TrajectoryPath();
     const Eigen::Quaterniond identity = Eigen::Quaterniond::Identity();
-    ASSERT_TRUE(WriteKittiPoses(path, {Pose(12.25, {1, -2, 0.125}, quarter), Pose(12.5, {0, 0, 3}, identity)}).ok());
+    ASSERT_TRUE(WriteKittiPoses(
+                    path, {Pose(12.25, {1, -2, 0.125}, quarter), Pose(12.5, {0, 0, 3}, identity)})
+                    .ok());
     EXPECT_EQ(ReadWholeFile(path + ".times", 1000).value(), "12.250000\n12.500000\n");
     const std::string text = ReadWholeFile(path, 1000).value();
     std::stringstream numbers(text);
-    const double expected[] = {0, -1, 0, 1, 1, 0, 0, -2, 0, 0, 1, 0.125, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 3};
+    const double expected[] = {0, -1, 0, 1, 1, 0, 0, -2, 0, 0, 1, 0.125,
+                               1, 0,  0, 0, 0, 1, 0, 0,  0, 0, 1, 3};
     for (const double e : expected) {
         double value = 9;
         numbers >> value;
@@ -146,7 +149,8 @@ TEST(Trajectory, ALineCutOffAtTheEndIsSkipped) {
 TEST(Trajectory, ErrorsNameFileAndLine) {
     const auto words = ReadText("1 0 0 0 0 0 0 1\nstamp x y z\n");
     ASSERT_FALSE(words.ok());
-    EXPECT_NE(words.message().find(TrajectoryPath() + ":2: 'stamp' is no number"), std::string::npos)
+    EXPECT_NE(words.message().find(TrajectoryPath() + ":2: 'stamp' is no number"),
+              std::string::npos)
         << words.message();
     EXPECT_NE(ReadText("").message().find("no pose in it"), std::string::npos);
     EXPECT_NE(ReadText("# only\n").message().find("no pose in it"), std::string::npos);

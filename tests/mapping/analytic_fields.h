@@ -46,9 +46,7 @@ inline std::uint32_t Mix(std::uint32_t v) {
     v = (v ^ v >> 15) * 0x846ca68bu;
     return v ^ v >> 16;
 }
-inline double Uniform(std::uint32_t counter) {
-    return Mix(counter) / 4294967296.0;
-}
+inline double Uniform(std::uint32_t counter) { return Mix(counter) / 4294967296.0; }
 
 // `distance` in truncations, clamped to [-1, 1]; intensity < 0: none.
 inline FieldWord PackField(double distance, double intensity = -1) {
@@ -102,4 +100,4 @@ inline void Fill(BlockMap& map, const Sdf& sdf, const BlockCoord& low, const Blo
             }
 }
 
-}  // namespace tessera::testing
+}  // namespace tessera::testing_support

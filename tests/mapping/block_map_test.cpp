@@ -130,7 +130,8 @@ void ExpectExactly(const std::map<BlockCoord, std::int32_t>& numbers, const Bloc
     for (BlockId id = 1; id < map.size(); ++id) {
         if (map.IsFree(id)) {
             ASSERT_EQ(map.revision(id), 0u);
-            for (int slot = 0; slot < 8; ++slot) ASSERT_EQ(map.view().neighbours[8 * id + slot], kUnknownBlock);
+            for (int slot = 0; slot < 8; ++slot)
+                ASSERT_EQ(map.view().neighbours[8 * id + slot], kUnknownBlock);
             continue;
         }
         ++there;

@@ -67,7 +67,9 @@ TEST_F(FieldSamplerTest, AgreesWithTheObviousWayEverywhere) {
         if (!sample.has_distance) continue;
         ++known;
         ASSERT_NEAR(sample.distance.value, distance, 1e-7) << p.transpose();
-        ASSERT_NEAR(sample.intensity.value, Trilinear(p.cast<double>(), [](FieldWord w) { return FieldIntensity(w); }), 1e-5);
+        ASSERT_NEAR(sample.intensity.value,
+                    Trilinear(p.cast<double>(), [](FieldWord w) { return FieldIntensity(w); }),
+                    1e-5);
     }
     EXPECT_GT(known, 15000);
     EXPECT_LT(known, 20000);

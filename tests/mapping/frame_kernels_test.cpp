@@ -31,17 +31,20 @@ TEST(FrameKernels, ColourIsPackedAsLumaAndChroma) {
 // Half a step more than a byte holds: it must neither wrap round nor spill into its neighbour.
 TEST(FrameKernels, PureRedAndBlueHaveTheLargestChroma) {
     EXPECT_EQ(PackColour({255, 0, 0}, 0.0f) >> 24, 255u);
-    EXPECT_EQ(PackColour({0, 0, 255}, 0.0f), 107u << 24 | 255u << 16);  // Cr: 128.5 - 0.114 * 255 / 1.402
+    // Cr: 128.5 - 0.114 * 255 / 1.402.
+    EXPECT_EQ(PackColour({0, 0, 255}, 0.0f), 107u << 24 | 255u << 16);
 }
 
 TEST(FrameKernels, SmoothingIsTheBinomialWithTheBorderRepeated) {
     const float point[] = {0, 0, 16, 0, 0}, none[5] = {};
-    const RowsAround on{none, point, none}, beside{point, none, none}, corner{point + 2, point + 2, none};
+    const RowsAround on{none, point, none}, beside{point, none, none},
+        corner{point + 2, point + 2, none};
     EXPECT_EQ(SmoothInside(on, 2), 4.0f);
     EXPECT_EQ(SmoothAt(on, 1, 5), 2.0f);
     EXPECT_EQ(SmoothAt(beside, 2, 5), 2.0f);
     EXPECT_EQ(SmoothAt(beside, 3, 5), 1.0f);
-    EXPECT_EQ(SmoothAt(corner, 0, 3), 9.0f);  // the pixel in the image's corner: (1 + 2) (1 + 2) of 16
+    // The pixel in the image's corner: (1 + 2) (1 + 2) of 16.
+    EXPECT_EQ(SmoothAt(corner, 0, 3), 9.0f);
     EXPECT_EQ(SmoothAt({none, point, none}, 2, 3), 6.0f);
 }
 

@@ -12,13 +12,15 @@ TEST(FusionKernels, LinearExpWeightIsEquation13) {
     constexpr float kEpsilon = 0.025f, kSigma = 60.0f;
     EXPECT_FLOAT_EQ(LinearExpWeight(0.1f, kEpsilon, kSigma), 1.0f);     // in front
     EXPECT_FLOAT_EQ(LinearExpWeight(-0.025f, kEpsilon, kSigma), 1.0f);  // d = epsilon
-    EXPECT_NEAR(LinearExpWeight(-0.125f, kEpsilon, kSigma), std::exp(-60.0 * 0.01), 1e-6);  // d - epsilon = 0.1
+    // D - epsilon = 0.1.
+    EXPECT_NEAR(LinearExpWeight(-0.125f, kEpsilon, kSigma), std::exp(-60.0 * 0.01), 1e-6);
     EXPECT_NEAR(LinearExpWeight(-0.3f, kEpsilon, kSigma), std::exp(-60.0 * 0.275 * 0.275), 1e-6);
 }
 
 TEST(FusionKernels, ExpOfNegativeIsTheExponential) {
     EXPECT_EQ(ExpOfNegative(0.0f), 1.0f);
-    for (float v = 0; v > -10; v -= 0.01f) EXPECT_NEAR(ExpOfNegative(v), std::exp(static_cast<double>(v)), 1e-6) << v;
+    for (float v = 0; v > -10; v -= 0.01f)
+        EXPECT_NEAR(ExpOfNegative(v), std::exp(static_cast<double>(v)), 1e-6) << v;
     for (float v = -10; v > -200; v -= 1) {
         EXPECT_NEAR(ExpOfNegative(v), std::exp(static_cast<double>(v)), 3e-9) << v;
         EXPECT_GE(ExpOfNegative(v), 0) << v;

@@ -15,7 +15,8 @@ namespace {
 
 constexpr int kWidth = 97, kHeight = 61, kBlocks = 64;
 
-// Blocks in front of a camera, full of random voxels, and a frame of random pixels, a fifth of them without depth.
+// Blocks in front of a camera, full of random voxels, and a frame of random pixels, a fifth of them
+// without depth.
 struct Scene {
     std::vector<FieldWord> field;
     std::vector<std::uint16_t> weight;
@@ -37,13 +38,16 @@ struct Scene {
             coords.insert(coords.end(), {i % 4 - 2, i / 4 % 4 - 2, 2 + i / 16, i + 100});
             for (int k = 0; k < kBlockVoxels; ++k) {
                 const bool known = random() % 4 != 0, coloured = known && random() % 2;
-                field.push_back(known ? random() << 16 | (coloured ? random() >> 16 : 0) : kUnknownField);
+                field.push_back(known ? random() << 16 | (coloured ? random() >> 16 : 0)
+                                      : kUnknownField);
                 weight.push_back(static_cast<std::uint16_t>(known ? random() % 32768u : 0));
                 colour.push_back(coloured ? random() : kNoColour);
             }
         }
         for (int i = 0; i < kWidth * kHeight; ++i) {
-            depth_m.push_back(random() % 5 == 0 ? 0.0f : 0.3f + 1e-7f * static_cast<float>(random() % (1u << 22)));
+            depth_m.push_back(random() % 5 == 0
+                                  ? 0.0f
+                                  : 0.3f + 1e-7f * static_cast<float>(random() % (1u << 22)));
             packed_colour.push_back(random());
             gone_m.push_back(random() % 2 ? depth_m.back() : 0.0f);
         }
@@ -95,7 +99,8 @@ void FuseOneByOne(const FusionArguments& a, const std::int32_t* blocks, std::int
 
 using Fuse = void (*)(const FusionArguments&, const std::int32_t*, std::int32_t);
 
-// How many voxels two ways of fusing leave different; `changed`: how many the first has changed at all.
+// How many voxels two ways of fusing leave different; `changed`: how many the first has changed at
+// all.
 int Differing(const Scene& scene, Fuse one, Fuse other, int& changed) {
     Scene x = scene, y = scene;
     one(x.Arguments(), x.blocks.data(), kBlocks);
@@ -103,7 +108,8 @@ int Differing(const Scene& scene, Fuse one, Fuse other, int& changed) {
     int differing = 0;
     for (std::size_t i = 0; i < x.field.size(); ++i) {
         changed += x.field[i] != scene.field[i];
-        differing += x.field[i] != y.field[i] || x.weight[i] != y.weight[i] || x.colour[i] != y.colour[i];
+        differing +=
+            x.field[i] != y.field[i] || x.weight[i] != y.weight[i] || x.colour[i] != y.colour[i];
     }
     return differing;
 }
@@ -130,10 +136,11 @@ TEST_P(FusionRows, AreTheKernelsOneByOne) {
     EXPECT_EQ(Differing(scene, FuseOneByOne, avx2::FuseBlocks, changed), 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Variants, FusionRows,
-                         ::testing::Values(Variant{false, DistanceWeight::kConstant, ColourWeighting::kSame, false},
-                                           Variant{false, DistanceWeight::kLinearExp, ColourWeighting::kCosine, true},
-                                           Variant{true, DistanceWeight::kDepthNoise, ColourWeighting::kCosine, true}));
+INSTANTIATE_TEST_SUITE_P(
+    Variants, FusionRows,
+    ::testing::Values(Variant{false, DistanceWeight::kConstant, ColourWeighting::kSame, false},
+                      Variant{false, DistanceWeight::kLinearExp, ColourWeighting::kCosine, true},
+                      Variant{true, DistanceWeight::kDepthNoise, ColourWeighting::kCosine, true}));
 
 }  // namespace
 }  // namespace tessera

@@ -40,15 +40,17 @@ Frame UniformFrame(const PinholeCamera& camera, float depth_m, Rgb8 colour) {
     return frame;
 }
 
-// Calls visit(point in metres, field word, weight word, colour word) for every voxel with a distance.
+// Calls visit(point in metres, field word, weight word, colour word) for every voxel with a
+// distance.
 template <class Visit>
 void ForKnownVoxels(const BlockMap& map, const Visit& visit) {
     for (BlockId id = 1; id < map.size(); ++id) {
         const BlockCoord c = map.coord(id);
         for (int i = 0; i < kBlockVoxels; ++i) {
             if (!HasDistance(map.field(id)[i])) continue;
-            const Eigen::Vector3d p = Eigen::Vector3d(c.x * 8 + (i & 7), c.y * 8 + (i >> 3 & 7), c.z * 8 + (i >> 6)) *
-                                      map.config().voxel_size_m;
+            const Eigen::Vector3d p =
+                Eigen::Vector3d(c.x * 8 + (i & 7), c.y * 8 + (i >> 3 & 7), c.z * 8 + (i >> 6)) *
+                map.config().voxel_size_m;
             visit(p, map.field(id)[i], map.weight(id)[i], map.colour(id)[i]);
         }
     }
@@ -60,15 +62,18 @@ TEST(Integrator, ASurfaceThatIsGoneIsForgottenSoon) {
     for (const bool known : {false, true}) {
         BlockMap map(MapConfig());
         Integrator integrator({}, camera);
-        for (int i = 0; i < 300; ++i) integrator.Integrate(Prepare(UniformFrame(camera, 1.0f, {90, 120, 30})), {}, map);
+        for (int i = 0; i < 300; ++i)
+            integrator.Integrate(Prepare(UniformFrame(camera, 1.0f, {90, 120, 30})), {}, map);
         PreparedFrame wall = Prepare(UniformFrame(camera, 2.0f, {90, 120, 30}));
         if (known) wall.gone_m = DepthImage(camera.width, camera.height, 2.0f);
         for (int i = 0; i < 10; ++i) integrator.Integrate(wall, {}, map);
         int solid = 0, free = 0;
-        ForKnownVoxels(map, [&](const Eigen::Vector3d& p, FieldWord field, std::uint16_t, ColourWord) {
-            if (p.z() > 1.07 || p.head<2>().norm() > 0.2 * p.z()) return;  // the image's middle
-            (FieldDistance(field) > 0 ? free : solid) += 1;
-        });
+        ForKnownVoxels(map,
+                       [&](const Eigen::Vector3d& p, FieldWord field, std::uint16_t, ColourWord) {
+                           if (p.z() > 1.07 || p.head<2>().norm() > 0.2 * p.z())
+                               return;  // the image's middle
+                           (FieldDistance(field) > 0 ? free : solid) += 1;
+                       });
         EXPECT_GT(free, 1000);
         if (known)
             EXPECT_EQ(solid, 0);
@@ -96,7 +101,8 @@ TEST(Integrator, WeightIsTheNumberOfFramesOverDepthSquared) {
     const PinholeCamera camera = SmallCamera();
     BlockMap map(MapConfig());
     Integrator integrator({}, camera);
-    for (int i = 0; i < 5; ++i) integrator.Integrate(Prepare(UniformFrame(camera, 2.0f, {9, 9, 9})), {}, map);
+    for (int i = 0; i < 5; ++i)
+        integrator.Integrate(Prepare(UniformFrame(camera, 2.0f, {9, 9, 9})), {}, map);
     ForKnownVoxels(map, [&](const Eigen::Vector3d& p, FieldWord, std::uint16_t weight, ColourWord) {
         if (std::abs(p.x()) > 0.5 || std::abs(p.y()) > 0.5) return;
         ASSERT_EQ(weight, static_cast<int>(5 * kWeightSteps / 4)) << p.transpose();
@@ -104,14 +110,16 @@ TEST(Integrator, WeightIsTheNumberOfFramesOverDepthSquared) {
 }
 
 TEST(Integrator, RoomMatchesTheExactFieldNearTheSurface) {
-    // The measured distance runs along the optical axis ([B14] eq. 12): at an angle it exceeds the exact one by at most
-    // 1 / cosine, so both vanish together and agree in sign. Slanted walls: within a tenth of the band after dividing.
+    // The measured distance runs along the optical axis ([B14] eq. 12): at an angle it exceeds the
+    // exact one by at most 1 / cosine, so both vanish together and agree in sign. Slanted walls:
+    // within a tenth of the band after dividing.
     const PinholeCamera camera = SmallCamera();
     BoxRoom room;
     BlockMap map(MapConfig(0.02, 0.08));
     Integrator integrator({}, camera);
     for (int i = 0; i < 20; ++i)
-        integrator.Integrate(Prepare(room.Render(camera, SmoothPath(4 * i))), At(SmoothPath(4 * i)), map);
+        integrator.Integrate(Prepare(room.Render(camera, SmoothPath(4 * i))), At(SmoothPath(4 * i)),
+                             map);
     int voxels = 0, off = 0;
     ForKnownVoxels(map, [&](const Eigen::Vector3d& p, FieldWord field, std::uint16_t, ColourWord) {
         const double exact = room.SignedDistance(p);
@@ -129,16 +137,18 @@ TEST(Integrator, ColourComesBack) {
     BlockMap map(MapConfig());
     Integrator integrator({}, camera);
     const Rgb8 colour{200, 90, 40};
-    for (int i = 0; i < 8; ++i) integrator.Integrate(Prepare(UniformFrame(camera, 1.0f, colour)), {}, map);
+    for (int i = 0; i < 8; ++i)
+        integrator.Integrate(Prepare(UniformFrame(camera, 1.0f, colour)), {}, map);
     int coloured = 0;
-    ForKnownVoxels(map, [&](const Eigen::Vector3d& p, FieldWord field, std::uint16_t, ColourWord word) {
-        if (!HasIntensity(field)) return;
-        const LinearRgb rgb = ColourFromWords(field, word);
-        ASSERT_NEAR(rgb.r * 255, colour.r, 1.6) << p.transpose();
-        ASSERT_NEAR(rgb.g * 255, colour.g, 1.6);
-        ASSERT_NEAR(rgb.b * 255, colour.b, 1.6);
-        ++coloured;
-    });
+    ForKnownVoxels(map,
+                   [&](const Eigen::Vector3d& p, FieldWord field, std::uint16_t, ColourWord word) {
+                       if (!HasIntensity(field)) return;
+                       const LinearRgb rgb = ColourFromWords(field, word);
+                       ASSERT_NEAR(rgb.r * 255, colour.r, 1.6) << p.transpose();
+                       ASSERT_NEAR(rgb.g * 255, colour.g, 1.6);
+                       ASSERT_NEAR(rgb.b * 255, colour.b, 1.6);
+                       ++coloured;
+                   });
     EXPECT_GT(coloured, 5000);
 }
 
@@ -156,7 +166,8 @@ TEST(Integrator, BrightnessIsTakenBackToTheMaps) {
     });
 }
 
-// Eight-bit averages, and sixteen-bit ones rounded to nearest, stop moving once the weight is large.
+// Eight-bit averages, and sixteen-bit ones rounded to nearest, stop moving once the weight is
+// large.
 TEST(Integrator, TenThousandFramesConverge) {
     const PinholeCamera camera{24, 18, 100, 100, 11.5, 8.5};
     BlockMap map(MapConfig(0.02, 0.04));
@@ -167,14 +178,16 @@ TEST(Integrator, TenThousandFramesConverge) {
     for (int i = 0; i < 9500; ++i) integrator.Integrate(right, {}, map);
     double worst_distance = 0, worst_colour = 0;
     int voxels = 0;
-    ForKnownVoxels(map, [&](const Eigen::Vector3d& p, FieldWord field, std::uint16_t, ColourWord word) {
-        if (std::abs(p.z() - 1.0) > 0.025 || !HasIntensity(field)) return;
-        const LinearRgb rgb = ColourFromWords(field, word);
-        worst_distance = std::max(worst_distance, std::abs(FieldDistance(field) * 0.04 - (1.0 - p.z())));
-        worst_colour = std::max({worst_colour, std::abs(rgb.r * 255.0 - 100), std::abs(rgb.g * 255.0 - 128),
-                                 std::abs(rgb.b * 255.0 - 140)});
-        ++voxels;
-    });
+    ForKnownVoxels(
+        map, [&](const Eigen::Vector3d& p, FieldWord field, std::uint16_t, ColourWord word) {
+            if (std::abs(p.z() - 1.0) > 0.025 || !HasIntensity(field)) return;
+            const LinearRgb rgb = ColourFromWords(field, word);
+            worst_distance =
+                std::max(worst_distance, std::abs(FieldDistance(field) * 0.04 - (1.0 - p.z())));
+            worst_colour = std::max({worst_colour, std::abs(rgb.r * 255.0 - 100),
+                                     std::abs(rgb.g * 255.0 - 128), std::abs(rgb.b * 255.0 - 140)});
+            ++voxels;
+        });
     EXPECT_GT(voxels, 100);
     EXPECT_LT(worst_distance, 2e-4);
     EXPECT_LT(worst_colour, 4.0);  // one frame's chroma has 8 bits; the rest is the dither's spread
@@ -198,9 +211,11 @@ TEST(Integrator, PortableAndAvx2Agree) {
         for (int i = 0; i < kBlockVoxels; ++i) {
             const FieldWord a = maps[0].field(id)[i], b = maps[1].field(id)[i];
             ++voxels;
-            differ += HasDistance(a) != HasDistance(b) || std::abs(FieldDistance(a) - FieldDistance(b)) > 1e-3f;
+            differ += HasDistance(a) != HasDistance(b) ||
+                      std::abs(FieldDistance(a) - FieldDistance(b)) > 1e-3f;
         }
-    // Fused multiply-adds move a projection across a pixel's border now and then; the neighbouring pixel's depth differs.
+    // Fused multiply-adds move a projection across a pixel's border now and then; the neighbouring
+    // pixel's depth differs.
     EXPECT_LT(differ, voxels / 1000);
 }
 
@@ -213,8 +228,8 @@ TEST(Integrator, ThreadsDoNotChangeAByte) {
         tbb::global_control threads(tbb::global_control::max_allowed_parallelism, k == 0 ? 1 : 4);
         Integrator integrator({}, camera);
         for (int i = 0; i < 5; ++i)
-            integrator.Integrate(Prepare(room.Render(camera, SmoothPath(10 * i))), At(SmoothPath(10 * i)),
-                                 maps[k]);
+            integrator.Integrate(Prepare(room.Render(camera, SmoothPath(10 * i))),
+                                 At(SmoothPath(10 * i)), maps[k]);
     }
     ASSERT_EQ(maps[0].size(), maps[1].size());
     const auto bytes = static_cast<std::size_t>(maps[0].size()) * kBlockVoxels;
@@ -263,8 +278,10 @@ TEST(Integrator, SeenThroughIsClearedAgain) {
     const PinholeCamera camera = SmallCamera();
     BlockMap map(MapConfig());
     Integrator integrator({}, camera);
-    for (int i = 0; i < 3; ++i) integrator.Integrate(Prepare(UniformFrame(camera, 1.0f, {9, 9, 9})), {}, map);
-    for (int i = 0; i < 60; ++i) integrator.Integrate(Prepare(UniformFrame(camera, 2.0f, {9, 9, 9})), {}, map);
+    for (int i = 0; i < 3; ++i)
+        integrator.Integrate(Prepare(UniformFrame(camera, 1.0f, {9, 9, 9})), {}, map);
+    for (int i = 0; i < 60; ++i)
+        integrator.Integrate(Prepare(UniformFrame(camera, 2.0f, {9, 9, 9})), {}, map);
     ForKnownVoxels(map, [&](const Eigen::Vector3d& p, FieldWord field, std::uint16_t, ColourWord) {
         if (p.z() > 1.2 || std::abs(p.x()) > 0.3 || std::abs(p.y()) > 0.3) return;
         ASSERT_GT(FieldDistance(field), 0.0f) << p.transpose();

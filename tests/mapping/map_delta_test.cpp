@@ -31,7 +31,8 @@ struct MovingMap {
         Integrator::View view;
         view.T_world_camera = T_world_camera;
         integrator.Integrate(prepared, view, map);
-        for (const BlockId id : integrator.added_blocks()) came_and_went.push_back({id, false, map.coord(id)});
+        for (const BlockId id : integrator.added_blocks())
+            came_and_went.push_back({id, false, map.coord(id)});
     }
     void Release(BlockId id) {
         came_and_went.push_back({id, true, map.coord(id)});
@@ -65,7 +66,9 @@ TEST(MapDelta, TheCopyIsTheMapsFieldWordForWord) {
         ASSERT_EQ(world.copy.size(), world.map.size());
         for (BlockId id = 0; id < world.map.size(); ++id) {
             ASSERT_EQ(world.copy.coord(id), world.map.coord(id));
-            ASSERT_EQ(std::memcmp(world.copy.field(id), world.map.field(id), kBlockVoxels * sizeof(FieldWord)), 0)
+            ASSERT_EQ(std::memcmp(world.copy.field(id), world.map.field(id),
+                                  kBlockVoxels * sizeof(FieldWord)),
+                      0)
                 << "block " << id << " after frame " << i;
             ASSERT_EQ(world.copy.Find(world.map.coord(id)), id);
         }
@@ -84,7 +87,8 @@ TEST(MapDelta, ACopyFollowsBlocksThatGoAndComeBack) {
             away.push_back(world.map.coord(id));
             world.Release(id);
         }
-        for (std::size_t j = 0; j < away.size(); j += 4) world.Return(away[away.size() - 1 - j], 11u + static_cast<FieldWord>(j));
+        for (std::size_t j = 0; j < away.size(); j += 4)
+            world.Return(away[away.size() - 1 - j], 11u + static_cast<FieldWord>(j));
         world.Release(world.map.Find(away[away.size() - 1]));
         ASSERT_LT(world.map.count(), world.map.size() - 1);
     }
@@ -95,7 +99,10 @@ TEST(MapDelta, ACopyFollowsBlocksThatGoAndComeBack) {
     for (BlockId id = 0; id < world.map.size(); ++id) {
         ASSERT_EQ(world.copy.IsFree(id), world.map.IsFree(id));
         ASSERT_EQ(world.copy.coord(id), world.map.coord(id));
-        ASSERT_EQ(std::memcmp(world.copy.field(id), world.map.field(id), kBlockVoxels * sizeof(FieldWord)), 0) << id;
+        ASSERT_EQ(std::memcmp(world.copy.field(id), world.map.field(id),
+                              kBlockVoxels * sizeof(FieldWord)),
+                  0)
+            << id;
     }
 }
 
@@ -107,17 +114,22 @@ TEST(CopyField, IsTheWholeFieldUnderTheSameIdsAndNewToWhoeverLooks) {
     for (BlockId id = 1; id < world.map.size(); ++id) {
         ASSERT_EQ(copy->coord(id), world.map.coord(id));
         ASSERT_EQ(copy->Find(world.map.coord(id)), id);
-        ASSERT_EQ(std::memcmp(copy->field(id), world.map.field(id), kBlockVoxels * sizeof(FieldWord)), 0) << id;
+        ASSERT_EQ(
+            std::memcmp(copy->field(id), world.map.field(id), kBlockVoxels * sizeof(FieldWord)), 0)
+            << id;
         ASSERT_NE(copy->revision(id), 0u);
     }
     // The next delta goes on from there.
     world.came_and_went.clear();
     world.Fuse(3);
     MapDelta delta;
-    CollectDelta(world.map, world.came_and_went, world.integrator.changed_blocks(), world.integrator.revision(), delta);
+    CollectDelta(world.map, world.came_and_went, world.integrator.changed_blocks(),
+                 world.integrator.revision(), delta);
     ApplyDelta(delta, *copy);
     for (BlockId id = 1; id < world.map.size(); ++id)
-        ASSERT_EQ(std::memcmp(copy->field(id), world.map.field(id), kBlockVoxels * sizeof(FieldWord)), 0) << id;
+        ASSERT_EQ(
+            std::memcmp(copy->field(id), world.map.field(id), kBlockVoxels * sizeof(FieldWord)), 0)
+            << id;
 }
 
 // Whoever keeps what it made from the copy up to date by revisions sees every change.

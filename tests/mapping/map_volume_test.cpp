@@ -30,7 +30,8 @@ TEST(MapVolume, RefusesAnEmptyBoxByItsKey) {
     volume.bounded = true;
     const Status status = volume.Validate();
     ASSERT_FALSE(status.ok());
-    EXPECT_NE(status.message().find("mapping.volume.max_y_m"), std::string::npos) << status.message();
+    EXPECT_NE(status.message().find("mapping.volume.max_y_m"), std::string::npos)
+        << status.message();
 }
 
 TEST(MapVolume, TheMapStaysInside) {

@@ -17,9 +17,7 @@ std::set<Segment> Segments(int configuration, int face) {
     return result;
 }
 
-bool CornerOnFace(int corner, int face) {
-    return (corner >> face / 2 & 1) == face % 2;
-}
+bool CornerOnFace(int corner, int face) { return (corner >> face / 2 & 1) == face % 2; }
 
 bool EdgeOnFace(int edge, int face) {
     const CubeEdge e = CubeEdgeAt(edge);

@@ -10,7 +10,8 @@ namespace tessera {
 namespace {
 
 FieldWord Word(float distance, std::uint32_t intensity = 0) {
-    return static_cast<std::uint32_t>(static_cast<std::int32_t>(distance * kDistanceSteps)) << 16 | intensity;
+    return static_cast<std::uint32_t>(static_cast<std::int32_t>(distance * kDistanceSteps)) << 16 |
+           intensity;
 }
 
 // Distances 0.1 (x - 2.25) + 0.2 (y - 2): the surface crosses x = 2.25 in row y = 2.
@@ -19,7 +20,8 @@ std::vector<FieldWord> Slanted() {
     for (int z = 0; z < ApronField::kSide; ++z)
         for (int y = 0; y < ApronField::kSide; ++y)
             for (int x = 0; x < ApronField::kSide; ++x) {
-                const float d = 0.1f * (static_cast<float>(x - 1) - 2.25f) + 0.2f * static_cast<float>(y - 1 - 2);
+                const float d = 0.1f * (static_cast<float>(x - 1) - 2.25f) +
+                                0.2f * static_cast<float>(y - 1 - 2);
                 words.push_back(Word(d, 1 + 32768));
             }
     return words;
@@ -40,7 +42,8 @@ TEST(MeshKernels, GradientsAreOneSidedBesideTheUnknown) {
     for (const int y : {1, 3})
         for (const int x : {2, 3}) words[ApronField::Index(x, y, 3)] = kUnknownField;
     const MeshVertex v = VertexOnEdge({words.data()}, 0, 2, 2, 3, kNoColour, kNoColour);
-    EXPECT_LT((VertexNormal(v) - Eigen::Vector3f(1, 0, 0)).norm(), 1e-3f) << "nothing is known of y";
+    EXPECT_LT((VertexNormal(v) - Eigen::Vector3f(1, 0, 0)).norm(), 1e-3f)
+        << "nothing is known of y";
 }
 
 TEST(MeshKernels, ColourIsTheOtherEndsWhereOneHasNone) {

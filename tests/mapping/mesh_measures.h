@@ -91,4 +91,4 @@ inline TriangleMesh MeshOf(const Sdf& sdf, const BlockCoord& low, const BlockCoo
     return MeshOf(map);
 }
 
-}  // namespace tessera::testing
+}  // namespace tessera::testing_support

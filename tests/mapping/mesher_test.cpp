@@ -36,8 +36,8 @@ TEST(Mesher, ChangeReachesTheReadersOnly) {
     EXPECT_EQ(mesher.Update(map, 0), kMeshReads);
 }
 
-// Random edits of single voxels, whole blocks, new blocks and blocks that go: whatever changed where, the incremental mesh
-// has the bytes of one made from scratch.
+// Random edits of single voxels, whole blocks, new blocks and blocks that go: whatever changed
+// where, the incremental mesh has the bytes of one made from scratch.
 TEST(Mesher, IncrementalEqualsFromScratch) {
     BlockMap map{BlockMap::Config{}};
     Mesher::Config config;
@@ -99,7 +99,8 @@ TEST(Mesher, BudgetSpreadsTheWorkAndEndsAtTheSameMesh) {
     EXPECT_TRUE(SameBytes(mesher.Assemble(), MeshOf(map, config.min_component_triangles)));
 }
 
-// The surface lies between the last voxels of one block and the first of the other, whose own cells have none.
+// The surface lies between the last voxels of one block and the first of the other, whose own cells
+// have none.
 TEST(Mesher, ABlockWithoutSurfaceThatGoesTakesItsNeighboursSurfaceAlong) {
     BlockMap map{BlockMap::Config{}};
     Fill(map, Plane({1, 0, 0}, 7.5 * map.config().voxel_size_m), {0, 0, 0}, {1, 0, 0});

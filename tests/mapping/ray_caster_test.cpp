@@ -13,9 +13,7 @@ using namespace testing_support;
 // 1 cm voxels: a tenth of a voxel is a millimetre.
 constexpr double kTenthVoxel = 1e-3;
 
-PinholeCamera SmallCamera() {
-    return {160, 120, 140, 145, 79.5, 60.5};
-}
+PinholeCamera SmallCamera() { return {160, 120, 140, 145, 79.5, 60.5}; }
 
 // At `eye`, looking at `target`, turned about the optical axis.
 Eigen::Isometry3d LookAt(const Eigen::Vector3d& eye, const Eigen::Vector3d& target,
@@ -157,8 +155,7 @@ TEST(RayCaster, ColourAndIntensityAreInterpolated) {
 TEST(RayCaster, SurfaceWithoutColourSaysSo) {
     BlockMap map{BlockMap::Config{}};
     Fill(map, Sphere({0, 0, 0}, .3), {-6, -6, -6}, {5, 5, 5});
-    const PredictedView view =
-        Cast(map, SmallCamera(), LookAt({0, 0, -1}, {0, 0, 0}), .1f, 3.f);
+    const PredictedView view = Cast(map, SmallCamera(), LookAt({0, 0, -1}, {0, 0, 0}), .1f, 3.f);
     ASSERT_GT(view.depth_m(80, 60), 0);
     EXPECT_EQ(view.intensity(80, 60), -1);
     EXPECT_EQ(view.colour(80, 60), (Rgb8{128, 128, 128}));
@@ -178,7 +175,7 @@ TEST(RayCaster, NothingToSee) {
     caster.Predict(map, camera, LookAt({0, 0, -1}, {0, 0, 0}), .1f, .6f, view);  // too far
     EXPECT_EQ(CountHits(view), 0);
     caster.Predict(map, camera, LookAt({0, 0, 0}, {0, 0, 1}), .1f, 3.f,
-                view);  // from inside: the back
+                   view);  // from inside: the back
     EXPECT_EQ(CountHits(view), 0);
     for (std::size_t i = 0; i < view.depth_m.size(); ++i) {
         ASSERT_EQ(view.normal_camera.data()[i].norm(), 0);

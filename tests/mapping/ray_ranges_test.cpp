@@ -21,15 +21,18 @@ TEST(RayRanges, FarBlocksChangeNothing) {
     AddBlocksAround(false, near);
     AddBlocksAround(true, both);
     for (int i = 0; i < 12; ++i) {
-        Eigen::Isometry3d T_world_camera(Eigen::AngleAxisd(0.5 * i, Eigen::Vector3d(0.2, 1, 0.1 * i).normalized()));
+        Eigen::Isometry3d T_world_camera(
+            Eigen::AngleAxisd(0.5 * i, Eigen::Vector3d(0.2, 1, 0.1 * i).normalized()));
         T_world_camera.translation() = Eigen::Vector3d(0.1 * i - 0.5, 0.05 * i, 0.2 * i - 0.7);
         RayRanges expected, actual;
         expected.Build(near, camera, T_world_camera, 0.1f, 2.5f);
         actual.Build(both, camera, T_world_camera, 0.1f, 2.5f);
         int covered = 0;
         for (std::size_t k = 0; k < expected.ranges.size(); ++k) {
-            ASSERT_EQ(actual.ranges[k].first_m, expected.ranges[k].first_m) << "view " << i << ", tile " << k;
-            ASSERT_EQ(actual.ranges[k].last_m, expected.ranges[k].last_m) << "view " << i << ", tile " << k;
+            ASSERT_EQ(actual.ranges[k].first_m, expected.ranges[k].first_m)
+                << "view " << i << ", tile " << k;
+            ASSERT_EQ(actual.ranges[k].last_m, expected.ranges[k].last_m)
+                << "view " << i << ", tile " << k;
             covered += expected.ranges[k].first_m < expected.ranges[k].last_m;
         }
         EXPECT_GT(covered, 0) << "view " << i;

@@ -1,5 +1,5 @@
-// The ray caster's vector code against a scalar oracle and against itself, on a map that has everything: holes, missing
-// blocks, noise, surfaces with and without colour.
+// The ray caster's vector code against a scalar oracle and against itself, on a map that has
+// everything: holes, missing blocks, noise, surfaces with and without colour.
 #include "mapping/ray_rows.h"
 
 #include <gtest/gtest.h>
@@ -21,16 +21,18 @@ constexpr float kNear_m = 0.1f, kFar_m = 4.f;
 constexpr float kTenthVoxel_m = 1e-3f;
 
 // Not a multiple of a tile or a vector in width.
-PinholeCamera OddCamera() {
-    return {205, 149, 190, 195, 101.5, 73.5};
-}
+PinholeCamera OddCamera() { return {205, 149, 190, 195, 101.5, 73.5}; }
 
-// Noise of a quarter of a voxel, a voxel in 50 unknown, a block in 20 missing, half of the rest without colour.
+// Noise of a quarter of a voxel, a voxel in 50 unknown, a block in 20 missing, half of the rest
+// without colour.
 BlockMap& RoughMap() {
     static BlockMap map{BlockMap::Config{}};
     if (map.size() > 1) return map;
-    const Sdf room = Union(Union(Sphere({-.2, .1, .1}, .3), Box({.4, -.1, .2}, {.15, .3, .2})), Plane({0, 0, -1}, -.6));
-    const Paint paint = [](const Eigen::Vector3d& p) { return Eigen::Vector3d(.5 + .3 * p.x(), .5 - .3 * p.y(), .4); };
+    const Sdf room = Union(Union(Sphere({-.2, .1, .1}, .3), Box({.4, -.1, .2}, {.15, .3, .2})),
+                           Plane({0, 0, -1}, -.6));
+    const Paint paint = [](const Eigen::Vector3d& p) {
+        return Eigen::Vector3d(.5 + .3 * p.x(), .5 - .3 * p.y(), .4);
+    };
     Fill(map, room, {-14, -14, -6}, {13, 13, 9}, paint);
     std::uint32_t counter = 0;
     for (BlockId id = 1; id < map.size(); ++id) {
@@ -49,11 +51,14 @@ BlockMap& RoughMap() {
 std::vector<Eigen::Isometry3d> Views() {
     std::vector<Eigen::Isometry3d> views(4, Eigen::Isometry3d::Identity());
     views[0].translation() = Eigen::Vector3d(.013, .027, -.9);
-    views[1].linear() = Eigen::AngleAxisd(.7, Eigen::Vector3d(.2, 1, .1).normalized()).toRotationMatrix();
+    views[1].linear() =
+        Eigen::AngleAxisd(.7, Eigen::Vector3d(.2, 1, .1).normalized()).toRotationMatrix();
     views[1].translation() = Eigen::Vector3d(-.8, .1, -.5);
-    views[2].linear() = Eigen::AngleAxisd(-1.2, Eigen::Vector3d(1, .1, .2).normalized()).toRotationMatrix();
+    views[2].linear() =
+        Eigen::AngleAxisd(-1.2, Eigen::Vector3d(1, .1, .2).normalized()).toRotationMatrix();
     views[2].translation() = Eigen::Vector3d(.1, -1.1, .3);
-    views[3].translation() = Eigen::Vector3d(.1, -.2, -.35);  // straight on: rays parallel to axes, objects near
+    // Straight on: rays parallel to axes, objects near.
+    views[3].translation() = Eigen::Vector3d(.1, -.2, -.35);
     return views;
 }
 
@@ -63,14 +68,15 @@ PredictedView CastOnPath(const Eigen::Isometry3d& T_world_camera, VectorPath pat
     return view;
 }
 
-// Where a bracket's end falls within rounding of a voxel's border or of a step's end, the two may go on differently; so
-// few pixels may differ, by anything.
+// Where a bracket's end falls within rounding of a voxel's border or of a step's end, the two may
+// go on differently; so few pixels may differ, by anything.
 constexpr double kMayDiffer = 1e-4;
 
 class RayRows : public ::testing::TestWithParam<VectorPath> {};
 
 TEST_P(RayRows, AgreesWithTheScalarWalk) {
-    if (GetParam() == VectorPath::kAvx2 && !CpuHasAvx2()) GTEST_SKIP() << "this machine has no AVX2";
+    if (GetParam() == VectorPath::kAvx2 && !CpuHasAvx2())
+        GTEST_SKIP() << "this machine has no AVX2";
     const PinholeCamera camera = OddCamera();
     int hits = 0, pixels = 0, differ = 0, coloured = 0;
     for (const Eigen::Isometry3d& T : Views()) {
@@ -96,8 +102,11 @@ TEST_P(RayRows, AgreesWithTheScalarWalk) {
     RecordProperty("differ", differ);
 }
 
-INSTANTIATE_TEST_SUITE_P(Paths, RayRows, ::testing::Values(VectorPath::kBaseline, VectorPath::kAvx2),
-                         [](const auto& test) { return test.param == VectorPath::kAvx2 ? "Avx2" : "Baseline"; });
+INSTANTIATE_TEST_SUITE_P(Paths, RayRows,
+                         ::testing::Values(VectorPath::kBaseline, VectorPath::kAvx2),
+                         [](const auto& test) {
+                             return test.param == VectorPath::kAvx2 ? "Avx2" : "Baseline";
+                         });
 
 template <class T>
 bool SameBytes(const Image<T>& a, const Image<T>& b) {
@@ -106,7 +115,8 @@ bool SameBytes(const Image<T>& a, const Image<T>& b) {
 
 // The kernels one pixel at a time and without the vectors' cache of blocks: the same bytes.
 TEST_P(RayRows, AreTheKernelsOneByOne) {
-    if (GetParam() == VectorPath::kAvx2 && !CpuHasAvx2()) GTEST_SKIP() << "this machine has no AVX2";
+    if (GetParam() == VectorPath::kAvx2 && !CpuHasAvx2())
+        GTEST_SKIP() << "this machine has no AVX2";
     using Kernels = RayKernels<ScalarLanes, HashedBlocks<ScalarLanes>>;
     const PinholeCamera camera = OddCamera();
     const RayTile tile{0, camera.width, 0, camera.height, kNear_m, kFar_m};
@@ -119,7 +129,8 @@ TEST_P(RayRows, AreTheKernelsOneByOne) {
         const RayArguments arguments = RayArgumentsFor(RoughMap(), b);
         Kernels::Walker walker(arguments);
         for (int v = 0; v < camera.height; ++v)
-            for (int u = 0; u < camera.width; ++u) Kernels::CastPixels(arguments, walker, tile, u, v);
+            for (int u = 0; u < camera.width; ++u)
+                Kernels::CastPixels(arguments, walker, tile, u, v);
         EXPECT_TRUE(SameBytes(a.depth_m, b.depth_m));
         EXPECT_TRUE(SameBytes(a.normal_camera, b.normal_camera));
         EXPECT_TRUE(SameBytes(a.colour, b.colour));
@@ -138,7 +149,8 @@ TEST(RayRowsPaths, RaysParallelToAxes) {
     for (const VectorPath path : {VectorPath::kBaseline, VectorPath::kAuto}) {
         RayCaster(path).Predict(map, camera, T, kNear_m, kFar_m, view);
         for (int v = 0; v < camera.height; ++v)
-            for (int u = 0; u < camera.width; ++u) ASSERT_NEAR(view.depth_m(u, v), 1.09, 1e-4) << u << " " << v;
+            for (int u = 0; u < camera.width; ++u)
+                ASSERT_NEAR(view.depth_m(u, v), 1.09, 1e-4) << u << " " << v;
     }
 }
 

@@ -20,14 +20,15 @@ class ScalarRayWalker {
         bool has_intensity = false;
     };
 
-    ScalarRayWalker(const BlockMap& map, const PinholeCamera& camera, const Eigen::Isometry3d& T_world_camera,
-                    float min_depth_m, float max_depth_m)
+    ScalarRayWalker(const BlockMap& map, const PinholeCamera& camera,
+                    const Eigen::Isometry3d& T_world_camera, float min_depth_m, float max_depth_m)
         : camera_(camera), sampler_(map.view(), OriginOf(map, T_world_camera)) {
         const double voxel_m = map.config().voxel_size_m;
         voxel_m_ = static_cast<float>(voxel_m);
         truncation_m_ = static_cast<float>(map.config().truncation_m);
         const BlockCoord origin = OriginOf(map, T_world_camera);
-        start_ = (T_world_camera.translation() / voxel_m - kBlockSide * Eigen::Vector3d(origin.x, origin.y, origin.z))
+        start_ = (T_world_camera.translation() / voxel_m -
+                  kBlockSide * Eigen::Vector3d(origin.x, origin.y, origin.z))
                      .cast<float>();
         voxel_from_camera_ = (T_world_camera.linear() / voxel_m).cast<float>();
         camera_from_world_ = T_world_camera.linear().transpose().cast<float>();
@@ -37,7 +38,8 @@ class ScalarRayWalker {
     // The first surface seen from the front by pixel (u, v).
     Hit Cast(int u, int v) {
         constexpr int kTile = kRayTilePx;
-        const auto [first_m, last_m] = ranges_.ranges[static_cast<std::size_t>(v / kTile * ranges_.width + u / kTile)];
+        const auto [first_m, last_m] =
+            ranges_.ranges[static_cast<std::size_t>(v / kTile * ranges_.width + u / kTile)];
         step_ = voxel_from_camera_ * camera_.Unproject(u, v, 1).cast<float>();
         metres_per_voxel_ = 1 / step_.norm();
         bool has_front = false;
@@ -70,7 +72,10 @@ class ScalarRayWalker {
 
     static BlockCoord OriginOf(const BlockMap& map, const Eigen::Isometry3d& T_world_camera) {
         const Eigen::Vector3i block =
-            (T_world_camera.translation() / (map.config().voxel_size_m * kBlockSide)).array().floor().cast<int>();
+            (T_world_camera.translation() / (map.config().voxel_size_m * kBlockSide))
+                .array()
+                .floor()
+                .cast<int>();
         return {block.x(), block.y(), block.z()};
     }
 
@@ -84,17 +89,22 @@ class ScalarRayWalker {
         const FieldWord word = sampler_.Nearest(cell);
         if (!HasDistance(word)) return {false, 0, 0};
         const float nearest_m = FieldDistance(word) * truncation_m_;
-        if (std::abs(nearest_m) > 1.5f * voxel_m_) return {true, nearest_m, 0.8f * std::abs(nearest_m) / voxel_m_};
+        if (std::abs(nearest_m) > 1.5f * voxel_m_)
+            return {true, nearest_m, 0.8f * std::abs(nearest_m) / voxel_m_};
         const FieldSample sample = sampler_.Sample<false>(cell);
-        return {sample.has_distance, sample.distance.value, std::abs(sample.distance.value) / voxel_m_ + 0.5f};
+        return {sample.has_distance, sample.distance.value,
+                std::abs(sample.distance.value) / voxel_m_ + 0.5f};
     }
 
     float VoxelsToBlockEnd(const FieldCell& cell) const {
-        const Eigen::Vector3f into(static_cast<float>(cell.x) + cell.fx, static_cast<float>(cell.y) + cell.fy,
+        const Eigen::Vector3f into(static_cast<float>(cell.x) + cell.fx,
+                                   static_cast<float>(cell.y) + cell.fy,
                                    static_cast<float>(cell.z) + cell.fz);
         float least_z = std::numeric_limits<float>::max();
         for (int i = 0; i < 3; ++i)
-            if (step_[i] != 0) least_z = std::min(least_z, ((step_[i] > 0 ? kBlockSide : 0.0f) - into[i]) / step_[i]);
+            if (step_[i] != 0)
+                least_z =
+                    std::min(least_z, ((step_[i] > 0 ? kBlockSide : 0.0f) - into[i]) / step_[i]);
         return std::max(least_z / metres_per_voxel_, 0.0f) + 1e-2f;
     }
 
@@ -120,8 +130,8 @@ class ScalarRayWalker {
     Hit HitAt(float z) {
         const FieldSample sample = sampler_.Sample<true>(CellAt(z));
         const auto& g = sample.distance;
-        return {z, (camera_from_world_ * Eigen::Vector3f(g.gx, g.gy, g.gz)).normalized(), sample.intensity.value,
-                sample.has_intensity};
+        return {z, (camera_from_world_ * Eigen::Vector3f(g.gx, g.gy, g.gz)).normalized(),
+                sample.intensity.value, sample.has_intensity};
     }
 
     PinholeCamera camera_;
@@ -132,4 +142,4 @@ class ScalarRayWalker {
     float voxel_m_ = 0, truncation_m_ = 0, metres_per_voxel_ = 0;
 };
 
-}  // namespace tessera::testing
+}  // namespace tessera::testing_support

@@ -13,17 +13,20 @@ namespace {
 using testing_support::BoxRoom;
 using testing_support::SmallCamera;
 
-// The slow truth: a block counts if any of its voxels projects onto a measured pixel that it does not lie far behind.
+// The slow truth: a block counts if any of its voxels projects onto a measured pixel that it does
+// not lie far behind.
 bool AnyVoxelMayChange(const BlockMap& map, BlockId id, const PinholeCamera& camera,
                        const Eigen::Isometry3d& T_world_camera, const DepthImage& depth) {
     const BlockCoord c = map.coord(id);
     for (int i = 0; i < kBlockVoxels; ++i) {
         const Eigen::Vector3d p_world =
-            Eigen::Vector3d(c.x * 8 + (i & 7), c.y * 8 + (i >> 3 & 7), c.z * 8 + (i >> 6)) * map.config().voxel_size_m;
+            Eigen::Vector3d(c.x * 8 + (i & 7), c.y * 8 + (i >> 3 & 7), c.z * 8 + (i >> 6)) *
+            map.config().voxel_size_m;
         const Eigen::Vector3d p = T_world_camera.inverse() * p_world;
         if (p.z() <= 0.05) continue;
         const Eigen::Vector2d uv = camera.Project(p);
-        const int u = static_cast<int>(std::floor(uv.x() + 0.5)), v = static_cast<int>(std::floor(uv.y() + 0.5));
+        const int u = static_cast<int>(std::floor(uv.x() + 0.5)),
+                  v = static_cast<int>(std::floor(uv.y() + 0.5));
         if (!depth.Contains(u, v) || depth(u, v) <= 0) continue;
         if (depth(u, v) - p.z() >= -map.config().truncation_m) return true;
     }
@@ -43,7 +46,8 @@ TEST(VisibleBlocks, MissesNoBlockThatAVoxelCallsFor) {
     const Eigen::Isometry3d T_world_camera = Se3Exp(twist);
     const Frame frame = room.Render(camera, T_world_camera);
     VisibleBlocks visible;
-    const std::vector<BlockId>& found = visible.Find(map, camera, T_world_camera, frame.depth_m, 4.0f);
+    const std::vector<BlockId>& found =
+        visible.Find(map, camera, T_world_camera, frame.depth_m, 4.0f);
     int wanted = 0;
     for (BlockId id = 1; id < map.size(); ++id)
         if (AnyVoxelMayChange(map, id, camera, T_world_camera, frame.depth_m)) {

@@ -44,10 +44,11 @@ TEST(Voxel, ColourOfKnownWords) {
 TEST(Voxel, ColourSurvivesPacking) {
     for (int i = 0; i < 1000; ++i) {
         const auto counter = static_cast<std::uint32_t>(3 * i);
-        const Eigen::Vector3d rgb(testing_support::Uniform(counter), testing_support::Uniform(counter + 1),
+        const Eigen::Vector3d rgb(testing_support::Uniform(counter),
+                                  testing_support::Uniform(counter + 1),
                                   testing_support::Uniform(counter + 2));
-        const LinearRgb back =
-            ColourFromWords(testing_support::PackField(0, testing_support::Luma(rgb)), PackColour(rgb));
+        const LinearRgb back = ColourFromWords(
+            testing_support::PackField(0, testing_support::Luma(rgb)), PackColour(rgb));
         ASSERT_NEAR(back.r, rgb.x(), 1.0 / 1022);
         ASSERT_NEAR(back.g, rgb.y(), 1.0 / 1022);
         ASSERT_NEAR(back.b, rgb.z(), 1.0 / 1022);

@@ -22,7 +22,8 @@ class PatternFeed : public DeviceFeed {
     double fy() const override { return kFocal_px; }
 
     void Get(int number, FeedFrame& frame) override {
-        frame.stamp_us = static_cast<std::uint64_t>(1000000 + std::llround(1e6 * number / rate_hz_));
+        frame.stamp_us =
+            static_cast<std::uint64_t>(1000000 + std::llround(1e6 * number / rate_hz_));
         frame.depth_mm.resize(kWidth * kHeight);
         frame.rgb.resize(3 * kWidth * kHeight);
         std::size_t at = 0;
@@ -30,7 +31,8 @@ class PatternFeed : public DeviceFeed {
             for (int x = 0; x < kWidth; ++x, ++at) {
                 frame.depth_mm[at] = PatternDepth(number, x, y);
                 for (int channel = 0; channel < 3; ++channel)
-                    frame.rgb[3 * at + static_cast<std::size_t>(channel)] = PatternColour(number, x, y, channel);
+                    frame.rgb[3 * at + static_cast<std::size_t>(channel)] =
+                        PatternColour(number, x, y, channel);
             }
     }
 
@@ -62,14 +64,19 @@ class FolderFeed : public DeviceFeed {
     std::string Open(const std::string& folder, int preload) {
         depth_ = ReadList(folder, "depth.txt");
         colour_ = ReadList(folder, "rgb.txt");
-        if (depth_.size() < 2 || colour_.empty()) return "no images listed in depth.txt and rgb.txt";
+        if (depth_.size() < 2 || colour_.empty())
+            return "no images listed in depth.txt and rgb.txt";
         std::ifstream camera(folder + "/camera.yaml");
         for (std::string key; camera >> key;) {
-            double* const value = key == "fx:" ? &fx_ : key == "fy:" ? &fy_ : key == "depth_scale:" ? &depth_scale_ : nullptr;
+            double* const value = key == "fx:"            ? &fx_
+                                  : key == "fy:"          ? &fy_
+                                  : key == "depth_scale:" ? &depth_scale_
+                                                          : nullptr;
             if (value != nullptr) camera >> *value;
         }
         const cv::Mat first = cv::imread(depth_[0].path, cv::IMREAD_UNCHANGED);
-        if (first.type() != CV_16UC1 || first.empty()) return "no 16-bit depth image " + depth_[0].path;
+        if (first.type() != CV_16UC1 || first.empty())
+            return "no 16-bit depth image " + depth_[0].path;
         width_ = first.cols;
         height_ = first.rows;
         kept_.resize(std::min(static_cast<std::size_t>(std::max(preload, 0)), depth_.size()));
@@ -93,22 +100,26 @@ class FolderFeed : public DeviceFeed {
         const double lap_s = depth_.back().stamp_s - depth_.front().stamp_s;
         const double into_lap_s = lap % 2 == 0 ? depth_[shown].stamp_s - depth_.front().stamp_s
                                                : depth_.back().stamp_s - depth_[shown].stamp_s;
-        frame.stamp_us = static_cast<std::uint64_t>(1000000 + std::llround(1e6 * (lap * lap_s + into_lap_s)));
+        frame.stamp_us =
+            static_cast<std::uint64_t>(1000000 + std::llround(1e6 * (lap * lap_s + into_lap_s)));
     }
 
   private:
     void Decode(std::size_t index, FeedFrame& frame) const {
-        const std::size_t pixels = static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
+        const std::size_t pixels =
+            static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
         frame.depth_mm.assign(pixels, 0);
         frame.rgb.assign(3 * pixels, 0);
         const cv::Mat depth = cv::imread(depth_[index].path, cv::IMREAD_UNCHANGED);
         if (depth.type() == CV_16UC1 && depth.total() == pixels)
-            std::transform(depth.begin<std::uint16_t>(), depth.end<std::uint16_t>(), frame.depth_mm.begin(),
-                           [&](std::uint16_t stored) {
-                               return static_cast<std::uint16_t>(std::lround(1000.0 * stored / depth_scale_));
-                           });
-        const auto nearest = std::ranges::min_element(
-            colour_, {}, [&](const Listed& c) { return std::abs(c.stamp_s - depth_[index].stamp_s); });
+            std::transform(
+                depth.begin<std::uint16_t>(), depth.end<std::uint16_t>(), frame.depth_mm.begin(),
+                [&](std::uint16_t stored) {
+                    return static_cast<std::uint16_t>(std::lround(1000.0 * stored / depth_scale_));
+                });
+        const auto nearest = std::ranges::min_element(colour_, {}, [&](const Listed& c) {
+            return std::abs(c.stamp_s - depth_[index].stamp_s);
+        });
         const cv::Mat bgr = cv::imread(nearest->path, cv::IMREAD_COLOR);
         cv::Mat rgb(height_, width_, CV_8UC3, frame.rgb.data());
         if (bgr.size() == rgb.size()) cv::cvtColor(bgr, rgb, cv::COLOR_BGR2RGB);

@@ -28,9 +28,10 @@ class DeviceFeed {
 // The pattern of test_pattern.h at `rate_hz`, its first stamp 1 s.
 std::unique_ptr<DeviceFeed> MakePatternFeed(double rate_hz);
 
-// A TUM-layout folder (rgb.txt, depth.txt, camera.yaml) at its recorded pace, to and fro so that the motion stays
-// smooth: frames 0, 1, ..., n-1, n-2, ..., 1, 0, 1, ... Null, with a line on stderr, if it cannot be read. The first
-// `preload` frames are decoded at once, the others whenever they are shown.
+// A TUM-layout folder (rgb.txt, depth.txt, camera.yaml) at its recorded pace, to and fro so that
+// the motion stays smooth: frames 0, 1, ..., n-1, n-2, ..., 1, 0, 1, ... Null, with a line on
+// stderr, if it cannot be read. The first `preload` frames are decoded at once, the others whenever
+// they are shown.
 std::unique_ptr<DeviceFeed> MakeFolderFeed(const std::string& folder, int preload);
 
 }  // namespace tessera::test_device

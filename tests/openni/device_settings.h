@@ -1,5 +1,5 @@
-// How the test driver's devices behave: read from the environment when the OpenNI2 runtime loads the driver.
-// test_driver.cpp lists the variables.
+// How the test driver's devices behave: read from the environment when the OpenNI2 runtime loads
+// the driver. test_driver.cpp lists the variables.
 #pragma once
 
 #include <cstdint>
@@ -65,11 +65,13 @@ inline std::uint32_t Mixed(std::uint64_t a, std::uint64_t b) {
 }
 
 inline Fault FaultOf(const DeviceSettings& s, int number, bool depth) {
-    const std::uint32_t dice = Mixed(static_cast<std::uint64_t>(s.seed), static_cast<std::uint64_t>(2 * number + depth));
+    const std::uint32_t dice =
+        Mixed(static_cast<std::uint64_t>(s.seed), static_cast<std::uint64_t>(2 * number + depth));
     const int percent = static_cast<int>(dice % 100);
     if (percent < s.drop_percent) return Fault::kDropped;
     if (percent >= s.drop_percent + s.garbage_percent) return Fault::kNone;
-    return static_cast<Fault>(static_cast<int>(Fault::kWrongSize) + static_cast<int>(dice / 100 % 5));
+    return static_cast<Fault>(static_cast<int>(Fault::kWrongSize) +
+                              static_cast<int>(dice / 100 % 5));
 }
 
 }  // namespace tessera::test_device

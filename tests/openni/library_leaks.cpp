@@ -1,6 +1,6 @@
-// Linked into the tests of AddressSanitizer builds: OpenNI2 2.2 and its player of .oni files never free some of what they
-// allocate when they start (device lists, event handles, codecs). Only what they themselves allocate is let pass; leaks of
-// the sources that use them are found as ever.
+// Linked into the tests of AddressSanitizer builds: OpenNI2 2.2 and its player of .oni files never
+// free some of what they allocate when they start (device lists, event handles, codecs). Only what
+// they themselves allocate is let pass; leaks of the sources that use them are found as ever.
 #include <dlfcn.h>
 
 extern "C" const char* __lsan_default_suppressions() {

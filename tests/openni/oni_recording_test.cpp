@@ -36,20 +36,22 @@ TEST_F(OniRecording, IsReadBackBitForBit) {
     ASSERT_GE(log.frames.size(), 10u);
     EXPECT_EQ(static_cast<std::int64_t>(log.frames.size()), source->info().frame_count);
     ExpectIncreasingStamps(log.frames);
-    // The recorder begins a frame or two after the source, and starts the clock of each stream anew with its first frame: on a
-    // busy machine that need not be the same one.
+    // The recorder begins a frame or two after the source, and starts the clock of each stream anew
+    // with its first frame: on a busy machine that need not be the same one.
     const auto first_of = [](const auto& is) {
         int first = 0;
         while (first < 12 && !is(first)) ++first;
         return first;
     };
-    const int depth = first_of([&](int i) { return Millimetres(log.frames[0]) == ExpectedDepth(i); });
+    const int depth =
+        first_of([&](int i) { return Millimetres(log.frames[0]) == ExpectedDepth(i); });
     const int colour = first_of([&](int i) { return log.frames[0].colour == ExpectedColour(i); });
     ASSERT_LT(depth, 12);
     ASSERT_LT(colour, 12);
     EXPECT_LE(std::abs(depth - colour), 2);
     for (const Frame& frame : log.frames) {
-        EXPECT_EQ(Millimetres(frame), ExpectedDepth(depth + NumberOf(frame, log.frames[0].stamp_s)));
+        EXPECT_EQ(Millimetres(frame),
+                  ExpectedDepth(depth + NumberOf(frame, log.frames[0].stamp_s)));
         EXPECT_EQ(frame.colour, ExpectedColour(colour + NumberOf(frame, log.frames[0].stamp_s)));
     }
     Frame frame;
@@ -77,9 +79,10 @@ TEST_F(OniRecording, EndsWhenTheCameraIsUnplugged) {
     Set("BACK_MS", 100);
     const Log log = Record(folder.Path("a.oni"), 12, false);
     EXPECT_EQ(log.frames.size(), 12u);
-    EXPECT_EQ(log.messages, (std::vector<std::string>{
-                                "camera unplugged, waiting for it; the recording " + folder.Path("a.oni") + " ends here",
-                                "camera is back"}));
+    EXPECT_EQ(log.messages,
+              (std::vector<std::string>{"camera unplugged, waiting for it; the recording " +
+                                            folder.Path("a.oni") + " ends here",
+                                        "camera is back"}));
     const auto recorded = Open(folder.Path("a.oni"));
     ASSERT_NE(recorded, nullptr);
     const Log played = ReadFrames(*recorded, 1000);
@@ -93,20 +96,26 @@ TEST_F(OniRecording, OnlyCamerasRecordThemselves) {
     Record(folder.Path("a.oni"), 5, false);
     const auto source = Open(folder.Path("a.oni"));
     ASSERT_NE(source, nullptr);
-    EXPECT_EQ(source->RecordTo("b.oni", true).message(),
-              "b.oni: only openni2: cameras record to .oni; give a folder's name to record this source");
+    EXPECT_EQ(
+        source->RecordTo("b.oni", true).message(),
+        "b.oni: only openni2: cameras record to .oni; give a folder's name to record this source");
     EXPECT_EQ(Open()->RecordTo("/no/such/folder/c.oni", true).message(),
-              "/no/such/folder/c.oni: cannot be written: its folder does not exist; make it or choose another place");
+              "/no/such/folder/c.oni: cannot be written: its folder does not exist; make it or "
+              "choose another place");
     EXPECT_EQ(Open()->RecordTo(folder.Path("a.oni"), true).message(),
               folder.Path("a.oni") + ": exists already; give a new name");
 }
 
 TEST_F(OniRecording, AFileThatIsNoRecordingIsRefused) {
     TemporaryFolder folder;
-    folder.WriteText("text.oni", "this is not a recording, but long enough to be read as the head of one ............");
+    folder.WriteText(
+        "text.oni",
+        "this is not a recording, but long enough to be read as the head of one ............");
     folder.WriteText("empty.oni", "");
     std::filesystem::create_directory(folder.Path("folder.oni"));
-    const auto message = [&](const char* name) { return OpenOpenniSource(folder.Path(name), {}).message(); };
+    const auto message = [&](const char* name) {
+        return OpenOpenniSource(folder.Path(name), {}).message();
+    };
     EXPECT_EQ(message("none.oni"), folder.Path("none.oni") + ": no such file");
     EXPECT_EQ(message("folder.oni"), folder.Path("folder.oni") + ": is not a file");
     for (const char* name : {"text.oni", "empty.oni"})
@@ -120,7 +129,8 @@ TEST_F(OniRecording, AFileThatIsCutOffIsRefusedOrReadAsFarAsItGoes) {
     const auto size = std::filesystem::file_size(folder.Path("a.oni"));
     for (const std::uintmax_t kept : {std::uintmax_t{20}, size / 2}) {
         const std::string path = folder.Path("cut.oni");
-        std::filesystem::copy_file(folder.Path("a.oni"), path, std::filesystem::copy_options::overwrite_existing);
+        std::filesystem::copy_file(folder.Path("a.oni"), path,
+                                   std::filesystem::copy_options::overwrite_existing);
         std::filesystem::resize_file(path, kept);
         const auto source = OpenOpenniSource(path, {});
         if (!source.ok()) {
@@ -130,7 +140,9 @@ TEST_F(OniRecording, AFileThatIsCutOffIsRefusedOrReadAsFarAsItGoes) {
         }
         const Log log = ReadFrames(*source.value(), 1000, 60);
         EXPECT_TRUE(log.ended) << kept << " of " << size;
-        EXPECT_EQ(log.messages, std::vector<std::string>{path + ": the recording has lost its end; what there is was read"});
+        EXPECT_EQ(log.messages,
+                  std::vector<std::string>{
+                      path + ": the recording has lost its end; what there is was read"});
         EXPECT_LE(log.frames.size(), 7u);
     }
 }

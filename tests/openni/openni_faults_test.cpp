@@ -21,12 +21,14 @@ TEST_F(OpenniFaults, ACameraThatIsUnpluggedAndComesBack) {
     ASSERT_NE(source, nullptr);
     const Log log = ReadFrames(*source, 12);
     ASSERT_EQ(log.frames.size(), 12u);
-    EXPECT_EQ(log.messages, (std::vector<std::string>{"camera unplugged, waiting for it", "camera is back"}));
+    EXPECT_EQ(log.messages,
+              (std::vector<std::string>{"camera unplugged, waiting for it", "camera is back"}));
     ExpectIncreasingStamps(log.frames);
     EXPECT_GT(log.frames[5].stamp_s - log.frames[4].stamp_s, 0.29);  // as long as it was away
     EXPECT_LT(log.frames[5].stamp_s - log.frames[4].stamp_s, 2.0);
     EXPECT_NEAR(log.frames[11].stamp_s - log.frames[5].stamp_s, 6 / 30.0, 1e-5);
-    EXPECT_EQ(Millimetres(log.frames[5]), ExpectedDepth(6));  // the driver's frame 5 went with the plug
+    // The driver's frame 5 went with the plug.
+    EXPECT_EQ(Millimetres(log.frames[5]), ExpectedDepth(6));
 }
 
 TEST_F(OpenniFaults, ANamedCameraIsWaitedForUnderItsName) {
@@ -36,7 +38,8 @@ TEST_F(OpenniFaults, ANamedCameraIsWaitedForUnderItsName) {
     ASSERT_NE(source, nullptr);
     const Log log = ReadFrames(*source, 5, 8);  // the other camera is not taken in its stead
     EXPECT_EQ(log.frames.size(), 2u);
-    EXPECT_EQ(log.messages, std::vector<std::string>{"openni2:test://1: camera unplugged, waiting for it"});
+    EXPECT_EQ(log.messages,
+              std::vector<std::string>{"openni2:test://1: camera unplugged, waiting for it"});
 }
 
 TEST_F(OpenniFaults, EachReadReturnsInTimeWhileThereIsNoCamera) {
@@ -81,7 +84,9 @@ TEST_F(OpenniFaults, AStreamThatIsMissingIsNamed) {
     const Log log = ReadFrames(*source, 2, 6);
     EXPECT_EQ(log.frames.size(), 1u);
     ASSERT_EQ(log.messages.size(), 2u) << log.Text();
-    EXPECT_NE(log.messages[0].find("depth images had no colour image within 20 ms"), std::string::npos) << log.Text();
+    EXPECT_NE(log.messages[0].find("depth images had no colour image within 20 ms"),
+              std::string::npos)
+        << log.Text();
     EXPECT_TRUE(log.messages[1].starts_with("no colour images for 1.")) << log.Text();
 }
 
@@ -131,7 +136,8 @@ TEST_F(OpenniFaults, GarbageIsSkippedWithAReason) {
     EXPECT_GT(log.skips.size(), 5u);
     std::string all;
     for (const std::string& why : log.skips) all += why + "\n";
-    for (const char* kind : {"320 x 240 pixels instead of 640 x 480", "it is empty", "does not lie after", "is absurd"})
+    for (const char* kind : {"320 x 240 pixels instead of 640 x 480", "it is empty",
+                             "does not lie after", "is absurd"})
         EXPECT_NE(all.find(kind), std::string::npos) << kind << " in\n" << all;
 }
 

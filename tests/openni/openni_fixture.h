@@ -1,4 +1,5 @@
-// A test against the OpenNI2 runtime and the test driver: sets the driver's environment, opens the source, reads it.
+// A test against the OpenNI2 runtime and the test driver: sets the driver's environment, opens the
+// source, reads it.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -25,7 +26,8 @@ class OpenniTest : public testing::Test {
     }
     static void Set(const std::string& name, int value) { Set(name, std::to_string(value)); }
 
-    static std::unique_ptr<FrameSource> Open(const std::string& name = "openni2:", const OpenniConfig& config = {}) {
+    static std::unique_ptr<FrameSource> Open(const std::string& name = "openni2:",
+                                             const OpenniConfig& config = {}) {
         auto source = OpenOpenniSource(name, config);
         EXPECT_TRUE(source.ok()) << source.message();
         return source.ok() ? std::move(source.value()) : nullptr;
@@ -49,21 +51,24 @@ class OpenniTest : public testing::Test {
             const ReadResult read = source.Read(frame);
             if (read.status == ReadStatus::kOk) log.frames.push_back(frame);
             if (read.status == ReadStatus::kSkip) log.skips.push_back(read.message);
-            if (read.status == ReadStatus::kWait && !read.message.empty()) log.messages.push_back(read.message);
+            if (read.status == ReadStatus::kWait && !read.message.empty())
+                log.messages.push_back(read.message);
             log.ended = read.status == ReadStatus::kEnd;
             EXPECT_NE(read.status, ReadStatus::kError) << read.message;
         }
         return log;
     }
 
-    // The driver's number of the pattern that the depth shows, found by its stamp (first stamp 1 s, 30 a second).
+    // The driver's number of the pattern that the depth shows, found by its stamp (first stamp 1 s,
+    // 30 a second).
     static int NumberOf(const Frame& frame, double first_stamp_s = 1) {
         return static_cast<int>(std::lround(30 * (frame.stamp_s - first_stamp_s)));
     }
     static Image<std::uint16_t> Millimetres(const Frame& frame) {
         Image<std::uint16_t> depth(frame.depth_m.width(), frame.depth_m.height());
         for (std::size_t i = 0; i < depth.size(); ++i)
-            depth.data()[i] = static_cast<std::uint16_t>(std::lround(1000.0 * frame.depth_m.data()[i]));
+            depth.data()[i] =
+                static_cast<std::uint16_t>(std::lround(1000.0 * frame.depth_m.data()[i]));
         return depth;
     }
     static Image<std::uint16_t> ExpectedDepth(int number, int divisor = 1) {

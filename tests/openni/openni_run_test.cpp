@@ -105,7 +105,8 @@ TEST_F(OpenniRun, TheListingNamesTheDevices) {
     EXPECT_EQ(listing.devices[1].vendor, "Tessera");
     EXPECT_EQ(listing.devices[1].name, "Test camera");
     EXPECT_TRUE(listing.advice.empty());
-    EXPECT_NE(listing.driver_folder.find("tests/openni/runtime/OpenNI2/Drivers"), std::string::npos) << listing.driver_folder;
+    EXPECT_NE(listing.driver_folder.find("tests/openni/runtime/OpenNI2/Drivers"), std::string::npos)
+        << listing.driver_folder;
 }
 
 TEST_F(OpenniRun, WithoutADeviceThereIsAdvice) {

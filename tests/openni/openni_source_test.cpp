@@ -38,10 +38,12 @@ TEST_F(OpenniSource, GivesWhatTheDeviceServedBitForBit) {
     for (int i = 0; i < 12; ++i) {
         const Frame& frame = log.frames[static_cast<std::size_t>(i)];
         EXPECT_EQ(frame.index, i);
-        EXPECT_DOUBLE_EQ(frame.stamp_s, 1e-6 * static_cast<double>(1000000 + std::llround(1e6 * i / 30)));
+        EXPECT_DOUBLE_EQ(frame.stamp_s,
+                         1e-6 * static_cast<double>(1000000 + std::llround(1e6 * i / 30)));
         EXPECT_EQ(frame.colour_stamp_s, frame.stamp_s);
         EXPECT_EQ(Millimetres(frame), ExpectedDepth(i));
-        EXPECT_EQ(frame.depth_m(5, 7), static_cast<float>(test_device::PatternDepth(i, 5, 7)) / 1000.0f);
+        EXPECT_EQ(frame.depth_m(5, 7),
+                  static_cast<float>(test_device::PatternDepth(i, 5, 7)) / 1000.0f);
         EXPECT_EQ(frame.colour, ExpectedColour(i));
     }
 }
@@ -65,8 +67,8 @@ TEST_F(OpenniSource, SetsTheDeviceUp) {
     config.auto_exposure = false;
     ASSERT_NE(Open("openni2:", config), nullptr);
     const std::string log = ReadText(folder.Path("log"));
-    for (const char* line : {"registration 1\n", "depth mirror 0\n", "colour mirror 0\n", "colour auto_exposure 0\n",
-                             "colour auto_white_balance 1\n"})
+    for (const char* line : {"registration 1\n", "depth mirror 0\n", "colour mirror 0\n",
+                             "colour auto_exposure 0\n", "colour auto_white_balance 1\n"})
         EXPECT_NE(log.find(line), std::string::npos) << line << "in\n" << log;
 }
 
@@ -75,7 +77,9 @@ TEST_F(OpenniSource, TakesTheNearestSizeThatTheDeviceHas) {
     const auto source = Open();
     ASSERT_NE(source, nullptr);
     ASSERT_EQ(source->info().notes.size(), 1u);
-    EXPECT_EQ(source->info().notes[0], "320 x 240 pixels, depth 30 and colour 30 times a second (640 x 480 x 30 were asked for)");
+    EXPECT_EQ(
+        source->info().notes[0],
+        "320 x 240 pixels, depth 30 and colour 30 times a second (640 x 480 x 30 were asked for)");
     EXPECT_NEAR(source->info().camera.fx, 262.5, 1e-3);
     EXPECT_EQ(source->info().camera.cx, 159.5);
     const Log log = ReadFrames(*source, 2);
@@ -107,7 +111,8 @@ TEST_F(OpenniSource, FrameSyncThatGivesNothingIsTurnedOff) {
     ASSERT_NE(source, nullptr);
     const Log log = ReadFrames(*source, 1, 4);
     ASSERT_EQ(log.messages.size(), 1u);
-    EXPECT_NE(log.messages[0].find("trying without frame sync"), std::string::npos) << log.messages[0];
+    EXPECT_NE(log.messages[0].find("trying without frame sync"), std::string::npos)
+        << log.messages[0];
 }
 
 TEST_F(OpenniSource, DevicesAreFoundByTheirUri) {
@@ -132,7 +137,8 @@ TEST_F(OpenniSource, TwoCamerasAtATime) {
 TEST_F(OpenniSource, NoCameraSaysWhatToDo) {
     Set("COUNT", 0);
     EXPECT_EQ(OpenOpenniSource("openni2:", {}).message(),
-              "openni2:: no camera found; is it plugged in, and may you use it? tessera doctor says more");
+              "openni2:: no camera found; is it plugged in, and may you use it? tessera doctor "
+              "says more");
 }
 
 TEST_F(OpenniSource, RunsByTheClock) {
@@ -142,7 +148,8 @@ TEST_F(OpenniSource, RunsByTheClock) {
     const Log log = ReadFrames(*source, 10);
     ASSERT_EQ(log.frames.size(), 10u);
     ExpectIncreasingStamps(log.frames);
-    for (const Frame& frame : log.frames) EXPECT_EQ(Millimetres(frame), ExpectedDepth(NumberOf(frame)));
+    for (const Frame& frame : log.frames)
+        EXPECT_EQ(Millimetres(frame), ExpectedDepth(NumberOf(frame)));
 }
 
 }  // namespace

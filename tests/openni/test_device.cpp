@@ -5,12 +5,14 @@
 
 namespace tessera::test_device {
 
-TestDevice::TestDevice(Shared& shared, std::function<void()> vanish) : shared_(shared), vanish_(std::move(vanish)) {
+TestDevice::TestDevice(Shared& shared, std::function<void()> vanish)
+    : shared_(shared), vanish_(std::move(vanish)) {
     for (const int depth : {0, 1}) {
         const bool small = shared_.settings.small;
         modes_[depth][0] = Mode(depth == 1, true);
         modes_[depth][1] = Mode(depth == 1, false);
-        sensors_[depth] = {depth == 1 ? ONI_SENSOR_DEPTH : ONI_SENSOR_COLOR, small ? 1 : 2, modes_[depth]};
+        sensors_[depth] = {depth == 1 ? ONI_SENSOR_DEPTH : ONI_SENSOR_COLOR, small ? 1 : 2,
+                           modes_[depth]};
     }
 }
 
@@ -18,8 +20,9 @@ TestDevice::~TestDevice() = default;
 
 OniVideoMode TestDevice::Mode(bool depth, bool small) const {
     const int divisor = small ? 2 : 1;
-    return {depth ? ONI_PIXEL_FORMAT_DEPTH_1_MM : ONI_PIXEL_FORMAT_RGB888, shared_.feed->width() / divisor,
-            shared_.feed->height() / divisor, static_cast<int>(std::lround(shared_.settings.rate_hz))};
+    return {depth ? ONI_PIXEL_FORMAT_DEPTH_1_MM : ONI_PIXEL_FORMAT_RGB888,
+            shared_.feed->width() / divisor, shared_.feed->height() / divisor,
+            static_cast<int>(std::lround(shared_.settings.rate_hz))};
 }
 
 OniStatus TestDevice::getSensorInfoList(OniSensorInfo** sensors, int* count) {
@@ -43,7 +46,8 @@ void TestDevice::destroyStream(oni::driver::StreamBase* stream) {
 }
 
 OniStatus TestDevice::setProperty(int id, const void* data, int size) {
-    if (id != ONI_DEVICE_PROPERTY_IMAGE_REGISTRATION || size != static_cast<int>(sizeof(registration_)))
+    if (id != ONI_DEVICE_PROPERTY_IMAGE_REGISTRATION ||
+        size != static_cast<int>(sizeof(registration_)))
         return ONI_STATUS_NOT_SUPPORTED;
     std::memcpy(&registration_, data, sizeof(registration_));
     shared_.log("registration " + std::to_string(registration_));
@@ -51,7 +55,8 @@ OniStatus TestDevice::setProperty(int id, const void* data, int size) {
 }
 
 OniStatus TestDevice::getProperty(int id, void* data, int* size) {
-    if (id != ONI_DEVICE_PROPERTY_IMAGE_REGISTRATION || *size < static_cast<int>(sizeof(registration_)))
+    if (id != ONI_DEVICE_PROPERTY_IMAGE_REGISTRATION ||
+        *size < static_cast<int>(sizeof(registration_)))
         return ONI_STATUS_NOT_SUPPORTED;
     std::memcpy(data, &registration_, sizeof(registration_));
     return ONI_STATUS_OK;
@@ -81,7 +86,8 @@ void TestDevice::Run(const std::stop_token& stop) {
         shared_.feed->Get(shared_.next, next);
         if (first_us == 0) first_us = next.stamp_us;
         std::unique_lock lock(sleep_mutex);
-        wake_.wait_until(lock, stop, begin + std::chrono::microseconds(next.stamp_us - first_us), [] { return false; });
+        wake_.wait_until(lock, stop, begin + std::chrono::microseconds(next.stamp_us - first_us),
+                         [] { return false; });
     }
 }
 
@@ -107,7 +113,8 @@ bool TestDevice::Tick() {
     ticked_ = true;
     const std::uint64_t stamp_us = frame_.stamp_us - first_us_ + 1000000;
     if (depth_ != nullptr) depth_->Give(frame_, number, stamp_us, FaultOf(s, number, true));
-    const auto colour_us = static_cast<std::uint64_t>(static_cast<std::int64_t>(stamp_us) + s.colour_delay_us);
+    const auto colour_us =
+        static_cast<std::uint64_t>(static_cast<std::int64_t>(stamp_us) + s.colour_delay_us);
     if (colour_ != nullptr && number % s.colour_every == 0)
         colour_->Give(frame_, number, colour_us, FaultOf(s, number, false));
     return true;

@@ -33,11 +33,13 @@ class TestStream : public oni::driver::StreamBase {
     void Give(const FeedFrame& frame, int number, std::uint64_t stamp_us, Fault fault);
 
   private:
-    void Fill(const FeedFrame& frame, const OniVideoMode& mode, int number, Fault fault, OniFrame& image) const;
+    void Fill(const FeedFrame& frame, const OniVideoMode& mode, int number, Fault fault,
+              OniFrame& image) const;
 
     TestDevice& device_;
     const bool depth_;
-    // Two, because the runtime asks for properties under a lock that it also takes when it is given a frame.
+    // Two, because the runtime asks for properties under a lock that it also takes when it is given
+    // a frame.
     std::mutex giving_;  // of running_: after stop no frame is being given
     bool running_ = false;
     std::mutex mutex_;  // of what follows
@@ -65,7 +67,9 @@ class TestDevice : public oni::driver::DeviceBase {
     void destroyStream(oni::driver::StreamBase* stream) override;
     OniStatus setProperty(int id, const void* data, int size) override;
     OniStatus getProperty(int id, void* data, int* size) override;
-    OniBool isPropertySupported(int id) override { return id == ONI_DEVICE_PROPERTY_IMAGE_REGISTRATION; }
+    OniBool isPropertySupported(int id) override {
+        return id == ONI_DEVICE_PROPERTY_IMAGE_REGISTRATION;
+    }
     OniBool isImageRegistrationModeSupported(OniImageRegistrationMode mode) override;
     // The runtime calls it while someone waits for a frame: the pace "fast".
     OniStatus tryManualTrigger() override;

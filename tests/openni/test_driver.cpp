@@ -1,27 +1,32 @@
-// An OpenNI2 driver without hardware: what the runtime loads in place of a camera's driver, for tests and for trying the
-// program without a camera. Its devices show a known pattern (test_pattern.h) or a recorded folder.
+// An OpenNI2 driver without hardware: what the runtime loads in place of a camera's driver, for
+// tests and for trying the program without a camera. Its devices show a known pattern
+// (test_pattern.h) or a recorded folder.
 //
 // Use it with the program:
 //     LD_LIBRARY_PATH=build/release/tests/openni/runtime TESSERA_TEST_DEVICE_FOLDER=/a/tum/folder
 //     build/release/apps/tessera run openni2:
-// runtime/ holds a copy of the OpenNI2 library, because the library looks for its drivers beside itself and nowhere else.
+// runtime/ holds a copy of the OpenNI2 library, because the library looks for its drivers beside
+// itself and nowhere else.
 //
 // Environment, read when the runtime is initialised; all begin with TESSERA_TEST_DEVICE_:
 //   COUNT=1             devices at the start, URIs test://0, test://1 ...
-//   FOLDER=             TUM-layout folder to show, to and fro without end, at its recorded pace; empty: the pattern
-//   PRELOAD=0           so many of its frames are decoded at the start instead of when they are shown
-//   PACE=real           real: by the clock; fast: a frame whenever someone waits for one, nothing depends on the clock
+//   FOLDER=             TUM-layout folder to play to and fro without end, at its recorded pace;
+//                       empty: the pattern
+//   PRELOAD=0           this many of its frames are decoded at the start, not when they are shown
+//   PACE=real           real: by the clock; fast: a frame whenever someone waits for one, so that
+//                       nothing depends on the clock
 //   RATE=30             frames per second of the pattern
 //   COLOUR_EVERY=1      colour comes with every n-th depth image only
-//   COLOUR_DELAY_US=0   colour stamps differ so much from the depth's
+//   COLOUR_DELAY_US=0   the colour stamps are this much later than the depth stamps
 //   SMALL=0             1: 320x240 is the only mode
 //   REGISTRATION=1      0: no depth-to-colour registration
 //   SYNC=0              1: frame sync is supported
-//   DROP=0 GARBAGE=0    so many percent of the images are left out; are of a wrong size, empty, noise, or have a stamp that
-//                       goes back or is absurd (each image by itself, by SEED=1)
-//   STALL_AT=-1 STALL_MS=1500      before this frame nothing comes for so long
-//   VANISH_AT=-1 BACK_MS=-1        before this frame the device is unplugged, and plugged in again after so long (-1: never);
-//                                  then its clock starts anew
+//   DROP=0 GARBAGE=0    per cent of the images that are left out; that are of a wrong size, empty,
+//                       noise, or have a stamp that goes back or is absurd (each image by itself,
+//                       seeded by SEED=1)
+//   STALL_AT=-1 STALL_MS=1500   before this frame nothing comes for this long
+//   VANISH_AT=-1 BACK_MS=-1     before this frame the device is unplugged; after this long it is
+//                               plugged in again (-1: never) and its clock starts anew
 //   LOG=                file to which settings made by the program are appended: "depth mirror 0"
 #include <cstdio>
 #include <cstring>
@@ -37,7 +42,8 @@ class TestDriver : public oni::driver::DriverBase {
     explicit TestDriver(OniDriverServices* services)
         : DriverBase(services), settings_(DeviceSettings::FromEnvironment()) {}
 
-    OniStatus initialize(oni::driver::DeviceConnectedCallback connected, oni::driver::DeviceDisconnectedCallback disconnected,
+    OniStatus initialize(oni::driver::DeviceConnectedCallback connected,
+                         oni::driver::DeviceDisconnectedCallback disconnected,
                          oni::driver::DeviceStateChangedCallback changed, void* cookie) override {
         DriverBase::initialize(connected, disconnected, changed, cookie);
         for (int i = 0; i < settings_.devices; ++i) {
@@ -45,8 +51,9 @@ class TestDriver : public oni::driver::DriverBase {
             Entry& entry = entries_[uri];
             entry.shared.settings = settings_;
             entry.shared.log = [this](const std::string& line) { Log(line); };
-            entry.shared.feed = settings_.folder.empty() ? MakePatternFeed(settings_.rate_hz)
-                                                         : MakeFolderFeed(settings_.folder, settings_.preload);
+            entry.shared.feed = settings_.folder.empty()
+                                    ? MakePatternFeed(settings_.rate_hz)
+                                    : MakeFolderFeed(settings_.folder, settings_.preload);
             if (entry.shared.feed == nullptr) return ONI_STATUS_ERROR;
             std::strncpy(entry.info.uri, uri.c_str(), ONI_MAX_STR - 1);
             std::strncpy(entry.info.vendor, "Tessera", ONI_MAX_STR - 1);
@@ -69,7 +76,9 @@ class TestDriver : public oni::driver::DriverBase {
             timer_.join();
         }
     }
-    void* enableFrameSync(oni::driver::StreamBase**, int) override { return settings_.sync ? this : nullptr; }
+    void* enableFrameSync(oni::driver::StreamBase**, int) override {
+        return settings_.sync ? this : nullptr;
+    }
 
   private:
     struct Entry {
@@ -84,7 +93,8 @@ class TestDriver : public oni::driver::DriverBase {
             std::mutex mutex;
             std::condition_variable_any wake;
             std::unique_lock lock(mutex);
-            wake.wait_for(lock, stop, std::chrono::milliseconds(settings_.back_ms), [] { return false; });
+            wake.wait_for(lock, stop, std::chrono::milliseconds(settings_.back_ms),
+                          [] { return false; });
             if (!stop.stop_requested()) deviceConnected(&entry.info);
         });
     }

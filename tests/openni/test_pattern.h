@@ -1,4 +1,5 @@
-// What the test driver's devices show when they serve no folder: known to the driver and to the tests, pixel by pixel.
+// What the test driver's devices show when they serve no folder: known to the driver and to the
+// tests, pixel by pixel.
 #pragma once
 
 #include <cstdint>

@@ -17,12 +17,14 @@ OniStatus Answer(T value, void* data, int* size) {
 
 // Every factor-th pixel.
 template <int kChannels, class T>
-void Copy(const std::vector<T>& from, int from_width, const OniVideoMode& mode, int factor, void* to) {
+void Copy(const std::vector<T>& from, int from_width, const OniVideoMode& mode, int factor,
+          void* to) {
     auto* out = static_cast<T*>(to);
     for (int y = 0; y < mode.resolutionY; ++y)
         for (int x = 0; x < mode.resolutionX; ++x)
             for (int c = 0; c < kChannels; ++c)
-                *out++ = from[static_cast<std::size_t>((y * from_width + x) * factor * kChannels + c)];
+                *out++ =
+                    from[static_cast<std::size_t>((y * from_width + x) * factor * kChannels + c)];
 }
 
 }  // namespace
@@ -33,7 +35,8 @@ TestStream::TestStream(TestDevice& device, bool depth)
 OniStatus TestStream::setProperty(int id, const void* data, int size) {
     const std::lock_guard lock(mutex_);
     const auto log = [&](const char* name, int value) {
-        device_.shared().log(std::string(depth_ ? "depth " : "colour ") + name + " " + std::to_string(value));
+        device_.shared().log(std::string(depth_ ? "depth " : "colour ") + name + " " +
+                             std::to_string(value));
     };
     if (id == ONI_STREAM_PROPERTY_VIDEO_MODE && size == static_cast<int>(sizeof(OniVideoMode))) {
         OniVideoMode mode;
@@ -42,7 +45,8 @@ OniStatus TestStream::setProperty(int id, const void* data, int size) {
             const OniVideoMode offered = device_.Mode(depth_, small);
             return std::memcmp(&mode, &offered, sizeof(mode)) == 0;
         };
-        if (!is_offered(true) && (device_.shared().settings.small || !is_offered(false))) return ONI_STATUS_NOT_SUPPORTED;
+        if (!is_offered(true) && (device_.shared().settings.small || !is_offered(false)))
+            return ONI_STATUS_NOT_SUPPORTED;
         mode_ = mode;
         return ONI_STATUS_OK;
     }
@@ -50,8 +54,14 @@ OniStatus TestStream::setProperty(int id, const void* data, int size) {
     OniBool value = FALSE;
     std::memcpy(&value, data, sizeof(value));
     switch (id) {
-        case ONI_STREAM_PROPERTY_MIRRORING: mirror_ = value; log("mirror", value); return ONI_STATUS_OK;
-        case ONI_STREAM_PROPERTY_AUTO_EXPOSURE: auto_exposure_ = value; log("auto_exposure", value); return ONI_STATUS_OK;
+        case ONI_STREAM_PROPERTY_MIRRORING:
+            mirror_ = value;
+            log("mirror", value);
+            return ONI_STATUS_OK;
+        case ONI_STREAM_PROPERTY_AUTO_EXPOSURE:
+            auto_exposure_ = value;
+            log("auto_exposure", value);
+            return ONI_STATUS_OK;
         case ONI_STREAM_PROPERTY_AUTO_WHITE_BALANCE:
             auto_white_balance_ = value;
             log("auto_white_balance", value);
@@ -66,13 +76,17 @@ OniStatus TestStream::getProperty(int id, void* data, int* size) {
     switch (id) {
         case ONI_STREAM_PROPERTY_VIDEO_MODE: return Answer(mode_, data, size);
         case ONI_STREAM_PROPERTY_HORIZONTAL_FOV:
-            return Answer(static_cast<float>(2 * std::atan(0.5 * feed.width() / feed.fx())), data, size);
+            return Answer(static_cast<float>(2 * std::atan(0.5 * feed.width() / feed.fx())), data,
+                          size);
         case ONI_STREAM_PROPERTY_VERTICAL_FOV:
-            return Answer(static_cast<float>(2 * std::atan(0.5 * feed.height() / feed.fy())), data, size);
+            return Answer(static_cast<float>(2 * std::atan(0.5 * feed.height() / feed.fy())), data,
+                          size);
         // Without it the player of .oni files gives no frame of what was recorded.
         case ONI_STREAM_PROPERTY_CROPPING:
-            return Answer(OniCropping{FALSE, 0, 0, mode_.resolutionX, mode_.resolutionY}, data, size);
-        case ONI_STREAM_PROPERTY_MAX_VALUE: return depth_ ? Answer(10000, data, size) : ONI_STATUS_NOT_SUPPORTED;
+            return Answer(OniCropping{FALSE, 0, 0, mode_.resolutionX, mode_.resolutionY}, data,
+                          size);
+        case ONI_STREAM_PROPERTY_MAX_VALUE:
+            return depth_ ? Answer(10000, data, size) : ONI_STATUS_NOT_SUPPORTED;
         case ONI_STREAM_PROPERTY_MIRRORING: return Answer(mirror_, data, size);
         case ONI_STREAM_PROPERTY_AUTO_EXPOSURE: return Answer(auto_exposure_, data, size);
         case ONI_STREAM_PROPERTY_AUTO_WHITE_BALANCE: return Answer(auto_white_balance_, data, size);
@@ -116,7 +130,8 @@ void TestStream::Give(const FeedFrame& frame, int number, std::uint64_t stamp_us
     getServices().releaseFrame(image);
 }
 
-void TestStream::Fill(const FeedFrame& frame, const OniVideoMode& mode, int number, Fault fault, OniFrame& image) const {
+void TestStream::Fill(const FeedFrame& frame, const OniVideoMode& mode, int number, Fault fault,
+                      OniFrame& image) const {
     const DeviceFeed& feed = *device_.shared().feed;
     const int factor = std::max(1, feed.width() / mode.resolutionX);
     if (depth_)

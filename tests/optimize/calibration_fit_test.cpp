@@ -1,4 +1,5 @@
-// How far a fit is to be believed, where the answer can be worked out by hand: one unknown, the mean of the data.
+// How far a fit is to be believed, where the answer can be worked out by hand: one unknown, the
+// mean of the data.
 #include "optimize/calibration_fit.h"
 
 #include <gtest/gtest.h>
@@ -45,14 +46,16 @@ TEST(JackknifeSpread, OfOneValueAPartIsTheMeansStandardError) {
     const std::vector<double> y{3, -1, 4, 1, -5};
     double squares = 0;
     for (double value : y) squares += (value - 0.4) * (value - 0.4);
-    EXPECT_NEAR(JackknifeSpread(MeanOf(y), {0, 1, 2, 3, 4}, 5)(0), std::sqrt(squares / 4 / 5), 1e-12);
+    EXPECT_NEAR(JackknifeSpread(MeanOf(y), {0, 1, 2, 3, 4}, 5)(0), std::sqrt(squares / 4 / 5),
+                1e-12);
 }
 
 // The rows before the pairs are what is known before: they are never left out.
 TEST(JackknifeSpread, WhatIsKnownBeforeStaysIn) {
     CalibrationFit fit = MeanOf({0, 0, 1, 5});
     fit.pairs.resize(2);  // the last two
-    EXPECT_NEAR(JackknifeSpread(fit, {0, 1}, 2)(0), std::sqrt(0.5) * (5.0 / 3 - 1.0 / 3) / std::sqrt(2.0), 1e-12);
+    EXPECT_NEAR(JackknifeSpread(fit, {0, 1}, 2)(0),
+                std::sqrt(0.5) * (5.0 / 3 - 1.0 / 3) / std::sqrt(2.0), 1e-12);
 }
 
 // What each pair says hangs on where it lies; the scatter alone is the same in every case.
@@ -72,7 +75,8 @@ class WhereItLies : public testing::Test {
             p.from = p.to = static_cast<int>(i * 6151 % kPairs);
             p.depth_to_m = 1 + static_cast<double>(mixed) / kPairs;
             const double angle = 0.1 + 6.2831853 * static_cast<double>(i * 7883 % kPairs) / kPairs;
-            p.direction_to = std::sqrt(static_cast<double>(other) / kPairs) * Eigen::Vector2d(std::cos(angle), std::sin(angle));
+            p.direction_to = std::sqrt(static_cast<double>(other) / kPairs) *
+                             Eigen::Vector2d(std::cos(angle), std::sin(angle));
             place(i, p);
         }
         return Deviations(fit)(0);
@@ -88,12 +92,18 @@ TEST_F(WhereItLies, ScatterThatIsTheSameEverywhereCountsAsScatter) {
 
 TEST_F(WhereItLies, PartsThatDisagreeMakeItLarge) {
     const double large = 8 * scatter;
-    EXPECT_GT(Deviation([](std::size_t i, PlanePair& p) { p.from = p.to = static_cast<int>(i); }), large);
-    EXPECT_GT(Deviation([](std::size_t i, PlanePair& p) { p.depth_to_m = static_cast<double>(i); }), large);
+    EXPECT_GT(Deviation([](std::size_t i, PlanePair& p) { p.from = p.to = static_cast<int>(i); }),
+              large);
+    EXPECT_GT(Deviation([](std::size_t i, PlanePair& p) { p.depth_to_m = static_cast<double>(i); }),
+              large);
     EXPECT_GT(Deviation([](std::size_t i, PlanePair& p) {
                   p.direction_to = p.direction_to.normalized() * static_cast<double>(i + 1);
-              }), large);
-    EXPECT_GT(Deviation([](std::size_t i, PlanePair& p) { p.direction_to.x() = i < kPairs / 2 ? 0.5 : -0.5; }), large);
+              }),
+              large);
+    EXPECT_GT(Deviation([](std::size_t i, PlanePair& p) {
+                  p.direction_to.x() = i < kPairs / 2 ? 0.5 : -0.5;
+              }),
+              large);
 }
 
 }  // namespace

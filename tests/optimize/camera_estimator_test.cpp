@@ -1,4 +1,5 @@
-// A painted box of a room, seen without noise by a camera that turns in it, and that is not as it is said to be.
+// A painted box of a room, seen without noise by a camera that turns in it, and that is not as it
+// is said to be.
 #include "optimize/camera_estimator.h"
 
 #include <gtest/gtest.h>
@@ -14,17 +15,20 @@ const PinholeCamera kCamera{320, 240, 270, 270, 159.5, 119.5};
 const Eigen::Vector3d kHalfRoom(2.0, 1.3, 2.4);
 
 double Paint(const Eigen::Vector3d& p) {
-    return 0.5 + 0.16 * std::sin(9 * p.x() + 2 * p.z()) * std::sin(8 * p.y() + 1) + 0.14 * std::sin(7 * p.z() - 5 * p.y()) +
+    return 0.5 + 0.16 * std::sin(9 * p.x() + 2 * p.z()) * std::sin(8 * p.y() + 1) +
+           0.14 * std::sin(7 * p.z() - 5 * p.y()) +
            0.12 * std::sin(15 * p.x() - 4 * p.y() + 11 * p.z());
 }
 
 // The first view's frame where it is, with a slow shake so that turns are about all axes.
 Frame View(int number, double readout_s) {
     const auto pose = [](double t) {
-        return Eigen::Isometry3d(Eigen::Translation3d(0.1 * std::sin(t), 0.05 * std::cos(1.7 * t), 0.1 * std::sin(0.8 * t)) *
-                                 Eigen::AngleAxisd(0.35 * std::sin(0.9 * t), Eigen::Vector3d::UnitY()) *
-                                 Eigen::AngleAxisd(0.25 * std::sin(1.4 * t + 0.5), Eigen::Vector3d::UnitX()) *
-                                 Eigen::AngleAxisd(0.15 * std::sin(0.6 * t), Eigen::Vector3d::UnitZ()));
+        return Eigen::Isometry3d(
+            Eigen::Translation3d(0.1 * std::sin(t), 0.05 * std::cos(1.7 * t),
+                                 0.1 * std::sin(0.8 * t)) *
+            Eigen::AngleAxisd(0.35 * std::sin(0.9 * t), Eigen::Vector3d::UnitY()) *
+            Eigen::AngleAxisd(0.25 * std::sin(1.4 * t + 0.5), Eigen::Vector3d::UnitX()) *
+            Eigen::AngleAxisd(0.15 * std::sin(0.6 * t), Eigen::Vector3d::UnitZ()));
     };
     Frame frame;
     frame.stamp_s = frame.colour_stamp_s = 0.1 * number;
@@ -36,8 +40,10 @@ Frame View(int number, double readout_s) {
             const Eigen::Vector3d ray = T.linear() * kCamera.Unproject(u, v, 1);
             double z = 1e9;
             for (int k = 0; k < 3; ++k)
-                z = std::min(z, ((ray(k) > 0 ? kHalfRoom(k) : -kHalfRoom(k)) - T.translation()(k)) / ray(k));
-            const auto grey = static_cast<std::uint8_t>(std::lround(255 * Paint(T.translation() + z * ray)));
+                z = std::min(
+                    z, ((ray(k) > 0 ? kHalfRoom(k) : -kHalfRoom(k)) - T.translation()(k)) / ray(k));
+            const auto grey =
+                static_cast<std::uint8_t>(std::lround(255 * Paint(T.translation() + z * ray)));
             frame.colour(u, v) = {grey, grey, grey};
             frame.depth_m(u, v) = static_cast<float>(z);
         }
@@ -109,14 +115,16 @@ TEST(CameraPair, DerivativesAreThoseOfDifferences) {
     const auto value = [&](const CameraViewPoint& point, int unknown, double step) {
         CameraPair moved = pair;
         CameraUnknowns unknowns;
-        Eigen::Matrix<double, CameraPairSums::kAll, 1> d = Eigen::Matrix<double, CameraPairSums::kAll, 1>::Zero();
+        Eigen::Matrix<double, CameraPairSums::kAll, 1> d =
+            Eigen::Matrix<double, CameraPairSums::kAll, 1>::Zero();
         d(unknown) = step;
         moved.T_to_from = Se3Exp(Vector6d(d.head<6>())) * pair.T_to_from;
         moved.gain += d(6);
         moved.offset += d(7);
         unknowns.Add(d.tail<CameraUnknowns::kCount>());
         CameraPairResidual residual;
-        EXPECT_TRUE(EvaluatePoint(point, seen, unknowns.Applied(kCamera), moved, unknowns.readout_s, residual));
+        EXPECT_TRUE(EvaluatePoint(point, seen, unknowns.Applied(kCamera), moved, unknowns.readout_s,
+                                  residual));
         return residual.value;
     };
     constexpr double kStep = 1e-7;
@@ -126,7 +134,8 @@ TEST(CameraPair, DerivativesAreThoseOfDifferences) {
         CameraPairResidual residual;
         if (!EvaluatePoint(point, seen, kCamera, pair, 0, residual)) continue;
         for (int k = 0; k < CameraPairSums::kAll; ++k) {
-            const double difference = (value(point, k, kStep) - value(point, k, -kStep)) / (2 * kStep);
+            const double difference =
+                (value(point, k, kStep) - value(point, k, -kStep)) / (2 * kStep);
             EXPECT_NEAR(residual.jacobian(k), difference, 1e-4 * (1 + std::abs(difference))) << k;
         }
         ++compared;
@@ -150,7 +159,8 @@ TEST(CameraEstimate, IsBelievedBeyondItsDeviationsAndItsFloorOnly) {
     estimate.focal_sigma_px = 2;
     estimate.misfit_found = 2.1;  // fits no better
     EXPECT_FALSE(estimate.shown());
-    EXPECT_EQ(EstimateText(estimate, "camera.yaml"), "camera.yaml says fx 270.0; this recording says 283.5 +- 2.0");
+    EXPECT_EQ(EstimateText(estimate, "camera.yaml"),
+              "camera.yaml says fx 270.0; this recording says 283.5 +- 2.0");
 }
 
 }  // namespace

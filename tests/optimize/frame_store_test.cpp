@@ -47,7 +47,8 @@ TEST(FrameStore, OverItsLimitKeepsKeyframesAndAnEvenShareOfTheRest) {
         ASSERT_TRUE(unlimited.Add(FrameAt(i), 0, i == 0, Eigen::Isometry3d::Identity(), {}).ok());
     FrameStore store(unlimited.bytes() / 2, 5000);
     for (int i = 0; i < 32; ++i)
-        ASSERT_TRUE(store.Add(FrameAt(i), 0, i == 0 || i == 5, Eigen::Isometry3d::Identity(), {}).ok());
+        ASSERT_TRUE(
+            store.Add(FrameAt(i), 0, i == 0 || i == 5, Eigen::Isometry3d::Identity(), {}).ok());
     EXPECT_LE(store.bytes(), unlimited.bytes() / 2);
     EXPECT_GT(store.stride(), 4);
     EXPECT_EQ(store.next_ordinal(), 32);
@@ -61,7 +62,8 @@ TEST(FrameStore, OverItsLimitKeepsKeyframesAndAnEvenShareOfTheRest) {
 TEST(FrameStore, DamagedFramesAreRefusedAndLeftOutOfAMap) {
     FrameStore whole(100000000, 5000);
     for (int i = 0; i < 4; ++i)
-        ASSERT_TRUE(whole.Add(FrameAt(i), 0, i == 0, SmoothPath(0).inverse() * SmoothPath(i), {}).ok());
+        ASSERT_TRUE(
+            whole.Add(FrameAt(i), 0, i == 0, SmoothPath(0).inverse() * SmoothPath(i), {}).ok());
     std::vector<StoredFrame> frames = whole.frames();
     frames[1].depth_png.resize(frames[1].depth_png.size() / 2);
     frames[2].colour_jpeg.assign(30, 7);
@@ -74,10 +76,17 @@ TEST(FrameStore, DamagedFramesAreRefusedAndLeftOutOfAMap) {
     Frame frame;
     PreparedFrame prepared;
     for (const int i : {1, 2})
-        EXPECT_FALSE(damaged.LoadPrepared(damaged.frames()[static_cast<std::size_t>(i)], settings.camera, {}, frame, prepared).ok());
-    EXPECT_TRUE(damaged.LoadPrepared(damaged.frames()[3], settings.camera, {}, frame, prepared).ok());
-    EXPECT_FALSE(damaged.LoadPrepared(damaged.frames()[3], settings.camera.Every(2), {}, frame, prepared).ok());
-    MapRebuild with(settings, {Eigen::Isometry3d::Identity()}, nullptr), without(settings, {Eigen::Isometry3d::Identity()}, nullptr);
+        EXPECT_FALSE(damaged
+                         .LoadPrepared(damaged.frames()[static_cast<std::size_t>(i)],
+                                       settings.camera, {}, frame, prepared)
+                         .ok());
+    EXPECT_TRUE(
+        damaged.LoadPrepared(damaged.frames()[3], settings.camera, {}, frame, prepared).ok());
+    EXPECT_FALSE(
+        damaged.LoadPrepared(damaged.frames()[3], settings.camera.Every(2), {}, frame, prepared)
+            .ok());
+    MapRebuild with(settings, {Eigen::Isometry3d::Identity()}, nullptr),
+        without(settings, {Eigen::Isometry3d::Identity()}, nullptr);
     ASSERT_TRUE(with.Step(damaged, 10).value());
     ASSERT_TRUE(without.Step(sound, 10).value());
     const auto a = with.TakeMap(), b = without.TakeMap();
@@ -86,12 +95,15 @@ TEST(FrameStore, DamagedFramesAreRefusedAndLeftOutOfAMap) {
         ASSERT_TRUE(std::equal(a->weight(id), a->weight(id) + kBlockVoxels, b->weight(id))) << id;
 }
 
-// A map made in steps from the store is bit for bit what fusing the same frames at the new poses gives, labels included.
+// A map made in steps from the store is bit for bit what fusing the same frames at the new poses
+// gives, labels included.
 TEST(MapRebuild, EqualsAFreshFusion) {
     const BlockMap::Config config{.voxel_size_m = 0.04, .truncation_m = 0.16};
     const Eigen::Isometry3d moved = Se3Exp((Vector6d() << 0.02, 0.1, 0, 0.3, 0, -0.1).finished());
     FrameStore store(100000000, 5000);
-    const auto labeller = [] { return std::make_unique<LabelMapper>(LabelConfig{}, LabelClasses{}, SmallCamera()); };
+    const auto labeller = [] {
+        return std::make_unique<LabelMapper>(LabelConfig{}, LabelClasses{}, SmallCamera());
+    };
     const std::vector<Detection> detections{{"cup", 1, 0.9f, {10, 10, 50, 40}, {}}};
     BlockMap fresh(config);
     fresh.EnableLabels();

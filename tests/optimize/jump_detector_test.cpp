@@ -36,7 +36,11 @@ TEST(JumpDetector, AShakyHandIsTakenAsItIs) {
     std::normal_distribution<double> shake(0, 0.03);
     int jumps = 0;
     for (int i = 0; i < 200; ++i) {
-        const bool jump = detector.Follow(Se3Exp((Vector6d() << shake(random), shake(random), 0, 0, 0, shake(random)).finished())).has_value();
+        const bool jump =
+            detector
+                .Follow(Se3Exp((Vector6d() << shake(random), shake(random), 0, 0, 0, shake(random))
+                                   .finished()))
+                .has_value();
         jumps += jump && i >= 60;  // once it is known
     }
     EXPECT_EQ(jumps, 0);

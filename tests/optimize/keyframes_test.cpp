@@ -7,11 +7,14 @@
 namespace tessera {
 namespace {
 
-constexpr double kHalfAngle_rad = 0.4636476;  // atan(1/2): half the picture of a camera with fx = width
+// atan(1/2): half the picture of a camera with fx = width.
+constexpr double kHalfAngle_rad = 0.4636476;
 
 PinholeCamera Wide() { return {160, 160, 160, 160, 79.5, 79.5}; }
 
-Eigen::Isometry3d Shift(double x, double y = 0, double z = 0) { return Eigen::Isometry3d(Eigen::Translation3d(x, y, z)); }
+Eigen::Isometry3d Shift(double x, double y = 0, double z = 0) {
+    return Eigen::Isometry3d(Eigen::Translation3d(x, y, z));
+}
 
 PreparedFrame Wall(float depth_m) {
     PreparedFrame frame;
@@ -32,9 +35,10 @@ TEST(ViewOverlap, OfAWallIsWhatTheStepLeaves) {
     EXPECT_DOUBLE_EQ(ViewOverlap(depth, view, Shift(0)), 1.0);
     EXPECT_DOUBLE_EQ(ViewOverlap(depth, view, Shift(0.5)), 0.75);
     EXPECT_DOUBLE_EQ(ViewOverlap(depth, view, Shift(0, -1)), 0.5);
-    EXPECT_DOUBLE_EQ(ViewOverlap(depth, view, Shift(0, 0, -3)), 0.0);  // behind the other
+    EXPECT_DOUBLE_EQ(ViewOverlap(depth, view, Shift(0, 0, -3)), 0.0);   // behind the other
     EXPECT_DOUBLE_EQ(ViewOverlap(depth, view, Shift(0, 0, 0.3)), 1.0);  // 2.3 m instead of 2
-    EXPECT_DOUBLE_EQ(ViewOverlap(depth, view, Shift(0, 0, 0.5)), 0.0);  // the same, but much smaller
+    // The same, but much smaller.
+    EXPECT_DOUBLE_EQ(ViewOverlap(depth, view, Shift(0, 0, 0.5)), 0.0);
     EXPECT_DOUBLE_EQ(ViewOverlap(DepthImage(16, 16, 0.0f), view, Shift(0)), 0.0);
 }
 
@@ -55,7 +59,8 @@ TEST(Keyframes, OneIsWantedWhereTheLastHasLeftThePicture) {
     keyframes.Add(0, 0, Wall(2), TrackedAt(Shift(0)));
     EXPECT_FALSE(keyframes.Wanted(Wall(2), Shift(0.5)));
     EXPECT_TRUE(keyframes.Wanted(Wall(2), Shift(0.8)));
-    EXPECT_TRUE(keyframes.Wanted(Wall(2), Eigen::Isometry3d(Eigen::AngleAxisd(kHalfAngle_rad, Eigen::Vector3d::UnitY()))));
+    EXPECT_TRUE(keyframes.Wanted(
+        Wall(2), Eigen::Isometry3d(Eigen::AngleAxisd(kHalfAngle_rad, Eigen::Vector3d::UnitY()))));
 }
 
 TEST(Keyframes, CountTheWayAndFollowThePoseGraph) {

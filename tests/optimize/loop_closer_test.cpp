@@ -23,11 +23,13 @@ Eigen::Isometry3d Bias() { return Se3Exp((Vector6d() << 0, 0.0009, 0, 0.0015, 0,
 void WalkWithDrift(const std::vector<Frame>& frames, Walker& walker) {
     for (std::size_t i = 0; i < frames.size(); ++i)
         walker.Go(frames[i], i == 0 ? Eigen::Isometry3d::Identity()
-                                    : frames[i - 1].T_world_camera->inverse() * *frames[i].T_world_camera * Bias());
+                                    : frames[i - 1].T_world_camera->inverse() *
+                                          *frames[i].T_world_camera * Bias());
 }
 
 double EndError_m(const std::vector<Frame>& frames, const std::vector<StampedPose>& path) {
-    return (path.back().T_world_camera.translation() - frames.back().T_world_camera->translation()).norm();
+    return (path.back().T_world_camera.translation() - frames.back().T_world_camera->translation())
+        .norm();
 }
 
 TEST(LoopCloser, TakesAFifthOrLessOfTheDriftToTheEndAndTheMapFollows) {
@@ -41,11 +43,14 @@ TEST(LoopCloser, TakesAFifthOrLessOfTheDriftToTheEndAndTheMapFollows) {
     std::string note;
     with.Take(with.closer.Finish(note));
     EXPECT_EQ(note, "");
-    const double before_m = EndError_m(frames, without.closer.Path()), after_m = EndError_m(frames, with.closer.Path());
+    const double before_m = EndError_m(frames, without.closer.Path()),
+                 after_m = EndError_m(frames, with.closer.Path());
     RecordProperty("before_mm", std::to_string(1000 * before_m));
     RecordProperty("after_mm", std::to_string(1000 * after_m));
-    std::cout << "end-point error " << 1000 * before_m << " mm without, " << 1000 * after_m << " mm with; "
-              << with.closer.loops() << " loops, " << with.closer.keyframes().size() << " keyframes\n" << with.all_news;
+    std::cout << "end-point error " << 1000 * before_m << " mm without, " << 1000 * after_m
+              << " mm with; " << with.closer.loops() << " loops, " << with.closer.keyframes().size()
+              << " keyframes\n"
+              << with.all_news;
     EXPECT_GT(before_m, 0.07);
     EXPECT_LE(after_m, before_m / 5);
     EXPECT_GE(with.corrections, 1);
@@ -64,14 +69,15 @@ TEST(LoopCloser, TakesAFifthOrLessOfTheDriftToTheEndAndTheMapFollows) {
         integrator.Integrate(prepared, view, fresh);
     }
     std::vector<float> off_voxels;
-    const float voxels = static_cast<float>(with.settings.map.truncation_m / with.settings.map.voxel_size_m);
+    const float voxels =
+        static_cast<float>(with.settings.map.truncation_m / with.settings.map.voxel_size_m);
     for (BlockId id = 1; id < fresh.size(); ++id) {
         const BlockId other = with.map->Find(fresh.coord(id));
         for (int v = 0; v < kBlockVoxels && other != kUnknownBlock; ++v)
             if (HasDistance(fresh.field(id)[v]) && HasDistance(with.map->field(other)[v]) &&
                 std::abs(FieldDistance(fresh.field(id)[v])) < 0.5f)
-                off_voxels.push_back(
-                    voxels * std::abs(FieldDistance(fresh.field(id)[v]) - FieldDistance(with.map->field(other)[v])));
+                off_voxels.push_back(voxels * std::abs(FieldDistance(fresh.field(id)[v]) -
+                                                       FieldDistance(with.map->field(other)[v])));
     }
     ASSERT_GT(off_voxels.size(), 10000u);
     std::ranges::sort(off_voxels);
@@ -88,7 +94,8 @@ TEST(LoopCloser, AJumpWhileTheMapIsMadeAgainIsNoMotion) {
     std::size_t jumped = 0;
     for (std::size_t i = 0; i < frames.size(); ++i) {
         Eigen::Isometry3d step = Eigen::Isometry3d::Identity();
-        if (i > 0) step = frames[i - 1].T_world_camera->inverse() * *frames[i].T_world_camera * Bias();
+        if (i > 0)
+            step = frames[i - 1].T_world_camera->inverse() * *frames[i].T_world_camera * Bias();
         if (jumped == 0 && walker.closer.HasWork()) {
             step = step * Eigen::Translation3d(0.08, 0, 0);
             jumped = i;
@@ -97,12 +104,15 @@ TEST(LoopCloser, AJumpWhileTheMapIsMadeAgainIsNoMotion) {
     }
     ASSERT_GT(jumped, 0u);
     const std::vector<StampedPose> path = walker.closer.Path();
-    const Eigen::Isometry3d went = path[jumped - 1].T_world_camera.inverse() * path[jumped].T_world_camera;
-    const Eigen::Isometry3d true_step = frames[jumped - 1].T_world_camera->inverse() * *frames[jumped].T_world_camera;
+    const Eigen::Isometry3d went =
+        path[jumped - 1].T_world_camera.inverse() * path[jumped].T_world_camera;
+    const Eigen::Isometry3d true_step =
+        frames[jumped - 1].T_world_camera->inverse() * *frames[jumped].T_world_camera;
     EXPECT_LT((went.translation() - true_step.translation()).norm(), 0.03);
 }
 
-// A picture that is too wide for a JPEG; its keyframes hang on those of the map that is made again all the same.
+// A picture that is too wide for a JPEG; its keyframes hang on those of the map that is made again
+// all the same.
 TEST(LoopCloser, FramesThatCannotBeStoredWhileTheMapIsMadeAgainAreTold) {
     if (!PoseGraphAvailable()) GTEST_SKIP() << "this build has no Ceres: install libceres-dev";
     const std::vector<Frame> frames = Round();
@@ -110,7 +120,8 @@ TEST(LoopCloser, FramesThatCannotBeStoredWhileTheMapIsMadeAgainAreTold) {
     int keyframes_lost = 0;
     for (std::size_t i = 0; i < frames.size(); ++i) {
         Eigen::Isometry3d step = Eigen::Isometry3d::Identity();
-        if (i > 0) step = frames[i - 1].T_world_camera->inverse() * *frames[i].T_world_camera * Bias();
+        if (i > 0)
+            step = frames[i - 1].T_world_camera->inverse() * *frames[i].T_world_camera * Bias();
         Frame wide = frames[i];
         wide.colour.Resize(70000, 1);
         const bool lost = walker.closer.HasWork();
@@ -131,7 +142,8 @@ TEST(LoopCloser, CorrectsToTheSameBytesForAnyNumberOfThreads) {
     const std::vector<Frame> frames = Round();
     std::vector<StampedPose> paths[2];
     for (const int threads : {1, 3}) {
-        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                        static_cast<std::size_t>(threads));
         Walker walker(LoopConfig{});
         WalkWithDrift(frames, walker);
         EXPECT_GE(walker.corrections, 1);
@@ -145,12 +157,14 @@ TEST(LoopCloser, CorrectsToTheSameBytesForAnyNumberOfThreads) {
 // Loops between keyframes that lie in different rooms, 6 m apart.
 int FalseLoops(const LoopCloser& closer) {
     return static_cast<int>(std::ranges::count_if(closer.edges(), [&](const PoseEdge& edge) {
-        const Eigen::Isometry3d &a = closer.keyframes()[edge.from].T_map_camera, &b = closer.keyframes()[edge.to].T_map_camera;
+        const Eigen::Isometry3d &a = closer.keyframes()[edge.from].T_map_camera,
+                                &b = closer.keyframes()[edge.to].T_map_camera;
         return edge.loop && (a.translation() - b.translation()).norm() > 3;
     }));
 }
 
-// The second room is the first one again, picture by picture: only the way between them tells them apart.
+// The second room is the first one again, picture by picture: only the way between them tells them
+// apart.
 TEST(LoopCloser, TwoIdenticalRoomsAreNotOne) {
     const std::vector<Frame> frames = RoomWalk(0, 20, 6);
     for (const double max_drift : {0.05, 10.0}) {
@@ -160,13 +174,16 @@ TEST(LoopCloser, TwoIdenticalRoomsAreNotOne) {
         Walker walker(config);
         for (int room = 0; room < 2; ++room)
             for (std::size_t i = 0; i < frames.size(); ++i)
-                walker.Go(frames[i], i > 0 ? frames[i - 1].T_world_camera->inverse() * *frames[i].T_world_camera
+                walker.Go(frames[i], i > 0 ? frames[i - 1].T_world_camera->inverse() *
+                                                 *frames[i].T_world_camera
                                      : room == 0 ? Eigen::Isometry3d::Identity()
-                                                 : frames.back().T_world_camera->inverse() * Eigen::Translation3d(6, 0, 0));
+                                                 : frames.back().T_world_camera->inverse() *
+                                                       Eigen::Translation3d(6, 0, 0));
         if (max_drift < 1)
             EXPECT_EQ(FalseLoops(walker.closer), 0) << walker.all_news;
         else
-            EXPECT_GT(FalseLoops(walker.closer) + walker.corrections, 0) << "without the gate the test must fail";
+            EXPECT_GT(FalseLoops(walker.closer) + walker.corrections, 0)
+                << "without the gate the test must fail";
         if (max_drift > 1) continue;
         // A camera that was lost could be in either.
         PreparedFrame prepared;
@@ -181,8 +198,9 @@ TEST(LoopCloser, FindsALostCameraToTheCentimetreAndRefusesAnUnknownPlace) {
     const std::vector<Frame> seen = RoomWalk(0, 30, 6);
     Walker walker(LoopConfig{});
     for (std::size_t i = 0; i < seen.size(); ++i)
-        walker.Go(seen[i], i == 0 ? Eigen::Isometry3d::Identity()
-                                  : seen[i - 1].T_world_camera->inverse() * *seen[i].T_world_camera);
+        walker.Go(seen[i], i == 0
+                               ? Eigen::Isometry3d::Identity()
+                               : seen[i - 1].T_world_camera->inverse() * *seen[i].T_world_camera);
     std::string note;
     PreparedFrame prepared;
     int found = 0;
@@ -191,7 +209,8 @@ TEST(LoopCloser, FindsALostCameraToTheCentimetreAndRefusesAnUnknownPlace) {
         const auto T_map_camera = walker.closer.Relocalise(prepared, note);
         if (!T_map_camera) continue;
         ++found;
-        EXPECT_LT((T_map_camera->translation() - frame.T_world_camera->translation()).norm(), 0.015) << frame.index;
+        EXPECT_LT((T_map_camera->translation() - frame.T_world_camera->translation()).norm(), 0.015)
+            << frame.index;
     }
     EXPECT_GE(found, 4);
     for (const Frame& frame : RoomWalk(360, 5, 24)) {  // the other side of the room
@@ -206,7 +225,7 @@ TEST(DriftOf, GrowsWithTheWay) {
     fresh.way_m = 10;
     const Eigen::Isometry3d measured(Eigen::Translation3d(0.4, 0, 0));
     EXPECT_DOUBLE_EQ(DriftOf(old, fresh, measured, 0.05).off_m, 0.6);
-    EXPECT_TRUE(DriftOf(old, fresh, measured, 0.05).possible);   // 0.15 + 0.05 * 10
+    EXPECT_TRUE(DriftOf(old, fresh, measured, 0.05).possible);  // 0.15 + 0.05 * 10
     EXPECT_FALSE(DriftOf(old, fresh, measured, 0.04).possible);
     const Eigen::Isometry3d turned = measured * Eigen::AngleAxisd(0.2, Eigen::Vector3d::UnitX());
     EXPECT_FALSE(DriftOf(old, fresh, turned, 0.05).possible);

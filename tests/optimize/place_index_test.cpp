@@ -52,7 +52,9 @@ TEST_F(Places, AThirdOfTheFeaturesWithATenthOfTheirBitsWrongIsEnough) {
     EXPECT_GT(found[0].votes, 60);
 }
 
-TEST_F(Places, AnUnknownPlaceHasNoVotes) { EXPECT_TRUE(index.Query(Random(random, 300), 30, 3, 1).empty()); }
+TEST_F(Places, AnUnknownPlaceHasNoVotes) {
+    EXPECT_TRUE(index.Query(Random(random, 300), 30, 3, 1).empty());
+}
 
 TEST_F(Places, RecentOnesAreLeftOutAndTheBestComeFirst) {
     std::vector<Descriptor> query(places[20].begin(), places[20].begin() + 50);

@@ -14,7 +14,8 @@ class Square : public testing::Test {
   protected:
     void SetUp() override {
         if (!PoseGraphAvailable()) GTEST_SKIP() << "this build has no Ceres: install libceres-dev";
-        const Eigen::Isometry3d step = Eigen::Translation3d(1, 0, 0) * Eigen::AngleAxisd(M_PI / 2, Eigen::Vector3d::UnitZ());
+        const Eigen::Isometry3d step =
+            Eigen::Translation3d(1, 0, 0) * Eigen::AngleAxisd(M_PI / 2, Eigen::Vector3d::UnitZ());
         truth.push_back(Pose(0.1, 0.2, 0.3, 4, 5, 6));
         for (int i = 0; i < 4; ++i) truth.push_back(truth.back() * step);
         drifted.push_back(truth[0]);
@@ -30,15 +31,16 @@ class Square : public testing::Test {
 
 TEST_F(Square, ResidualIsZeroWhereTheEdgeIsMetAndCountsDeviations) {
     EXPECT_LT(EdgeResidual(edges[1], drifted[1], drifted[2]).norm(), 1e-9);
-    const Vector6d r = EdgeResidual({0, 1, Eigen::Isometry3d::Identity(), 0.5, 0.1, false}, truth[0],
-                                    truth[0] * Pose(0, 0, 0.001, 0, 1, 0));
+    const Vector6d r = EdgeResidual({0, 1, Eigen::Isometry3d::Identity(), 0.5, 0.1, false},
+                                    truth[0], truth[0] * Pose(0, 0, 0.001, 0, 1, 0));
     EXPECT_NEAR(r(2), 0.01, 1e-6);
     EXPECT_NEAR(r(4), 2, 1e-2);
 }
 
 TEST_F(Square, JacobianAgreesWithCentralDifferences) {
     const PoseEdge edge{0, 1, Pose(0.5, -0.2, 0.8, 1, 2, 3), 0.1, 0.2, false};
-    EXPECT_LT(EdgeJacobianError(edge, Pose(-0.4, 0.3, 0.2, 1, 0, 2), Pose(0.3, 0.1, 0.9, 2, 2, 4)), 1e-7);
+    EXPECT_LT(EdgeJacobianError(edge, Pose(-0.4, 0.3, 0.2, 1, 0, 2), Pose(0.3, 0.1, 0.9, 2, 2, 4)),
+              1e-7);
 }
 
 TEST_F(Square, ALoopBringsTheEndToTheStart) {
@@ -55,7 +57,8 @@ TEST_F(Square, ALoopBringsTheEndToTheStart) {
 TEST_F(Square, ExactEdgesGiveTheTruthFromAnywhere) {
     edges.clear();
     for (int i = 0; i < 5; ++i)
-        for (int j = i + 1; j < 5; ++j) edges.push_back({i, j, truth[i].inverse() * truth[j], 0.01, 0.01, j > i + 1});
+        for (int j = i + 1; j < 5; ++j)
+            edges.push_back({i, j, truth[i].inverse() * truth[j], 0.01, 0.01, j > i + 1});
     auto poses = drifted;
     ASSERT_TRUE(OptimisePoses(edges, poses).ok());
     for (int i = 0; i < 5; ++i) EXPECT_LT(Se3Log(poses[i].inverse() * truth[i]).norm(), 1e-6) << i;
@@ -64,27 +67,31 @@ TEST_F(Square, ExactEdgesGiveTheTruthFromAnywhere) {
 TEST_F(Square, AWrongLoopAmongRightOnesPullsLittle) {
     for (int i = 0; i < 4; ++i) edges[i].T_from_to = truth[i].inverse() * truth[i + 1];
     edges.push_back({0, 4, truth[0].inverse() * truth[4], 0.01, 0.01, true});
-    edges.push_back({1, 4, truth[1].inverse() * truth[4] * Pose(0, 0, 0, 0, 3, 0), 0.01, 0.01, true});
+    edges.push_back(
+        {1, 4, truth[1].inverse() * truth[4] * Pose(0, 0, 0, 0, 3, 0), 0.01, 0.01, true});
     auto poses = truth;
     ASSERT_TRUE(OptimisePoses(edges, poses).ok());
     EXPECT_LT((poses[4].translation() - truth[4].translation()).norm(), 0.01);
 }
 
-// Where the camera came back with drift, tracking jumps from the new surface to the old one; loops on both sides of the jump
-// tell that it did not move.
+// Where the camera came back with drift, tracking jumps from the new surface to the old one; loops
+// on both sides of the jump tell that it did not move.
 TEST_F(Square, AJumpOfTrackingAmongLoopsIsNoMotion) {
     constexpr int kPoses = 20, kJump = 10;
     edges.clear();
     truth.assign(1, truth[0]);
     for (int i = 1; i < kPoses; ++i) truth.push_back(truth.back() * Pose(0, 0, 0.02, 0.1, 0, 0));
     for (int i = 0; i + 1 < kPoses; ++i) {
-        const Eigen::Isometry3d jump = i == kJump ? Pose(0, 0, 0, 0, 0.06, 0) : Eigen::Isometry3d::Identity();
+        const Eigen::Isometry3d jump =
+            i == kJump ? Pose(0, 0, 0, 0, 0.06, 0) : Eigen::Isometry3d::Identity();
         edges.push_back({i, i + 1, truth[i].inverse() * truth[i + 1] * jump, 0.003, 0.003, false});
     }
-    for (int i = kJump - 3; i <= kJump + 4; ++i) edges.push_back({0, i, truth[0].inverse() * truth[i], 0.01, 0.005, true});
+    for (int i = kJump - 3; i <= kJump + 4; ++i)
+        edges.push_back({0, i, truth[0].inverse() * truth[i], 0.01, 0.005, true});
     auto poses = truth;
     ASSERT_TRUE(OptimisePoses(edges, poses).ok());
-    for (int i = 0; i < kPoses; ++i) EXPECT_LT((poses[i].translation() - truth[i].translation()).norm(), 0.015) << i;
+    for (int i = 0; i < kPoses; ++i)
+        EXPECT_LT((poses[i].translation() - truth[i].translation()).norm(), 0.015) << i;
 }
 
 TEST_F(Square, NothingToDoWithoutEdges) {

@@ -18,7 +18,8 @@ class Pairs : public testing::Test {
         for (int i = 0; i < right + wrong; ++i) {
             const Eigen::Vector3f p(side(random), side(random), depth(random));
             b.push_back(p);
-            const bool is_right = i % (right + wrong) * right / (right + wrong) != (i + 1) * right / (right + wrong);
+            const bool is_right =
+                i % (right + wrong) * right / (right + wrong) != (i + 1) * right / (right + wrong);
             a.push_back(is_right ? Eigen::Vector3f(T.cast<float>() * p)
                                  : Eigen::Vector3f(side(random), side(random), depth(random)));
         }

@@ -1,4 +1,5 @@
-// A walk through the furnished room: frames with their true poses in the first camera's world, rendered once.
+// A walk through the furnished room: frames with their true poses in the first camera's world,
+// rendered once.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -13,7 +14,8 @@ namespace tessera::testing_support {
 
 inline PinholeCamera RoomCamera() { return {320, 240, 262.5, 262.5, 159.5, 119.5}; }
 
-// Every `step`-th of the walk's 720 frames, from `first`; truth in the world of the whole walk's first camera.
+// Every `step`-th of the walk's 720 frames, from `first`; truth in the world of the whole walk's
+// first camera.
 inline std::vector<Frame> RoomWalk(int first, int count, int step) {
     SynthConfig config;
     config.camera = RoomCamera();
@@ -46,14 +48,18 @@ inline FieldSettings RoomSettings() {
     return settings;
 }
 
-// Frames at given poses into a LoopCloser and a map, as the system does it, and the map corrected when it says so.
+// Frames at given poses into a LoopCloser and a map, as the system does it, and the map corrected
+// when it says so.
 struct Walker {
     explicit Walker(const LoopConfig& config)
-        : closer(config, settings, 5000), map(std::make_unique<BlockMap>(settings.map)),
+        : closer(config, settings, 5000),
+          map(std::make_unique<BlockMap>(settings.map)),
           integrator(settings.fusion, settings.camera) {}
 
-    // The camera moves on by `T_last_camera`, as its odometry has it. `stored`: what is given to be stored, if not the frame.
-    void Go(const Frame& frame, const Eigen::Isometry3d& T_last_camera, const Frame* stored = nullptr) {
+    // The camera moves on by `T_last_camera`, as its odometry has it. `stored`: what is given to be
+    // stored, if not the frame.
+    void Go(const Frame& frame, const Eigen::Isometry3d& T_last_camera,
+            const Frame* stored = nullptr) {
         T_map_camera = Normalised(T_map_camera * T_last_camera);
         PreparedFrame prepared;
         PrepareFrame(frame, settings.preparation, prepared);
@@ -64,7 +70,8 @@ struct Walker {
         track.T_world_camera = T_map_camera;
         track.status = TrackStatus::kGood;
         track.inlier_fraction = 1;
-        const std::string news = closer.Add(stored != nullptr ? *stored : frame, prepared, track, view, true);
+        const std::string news =
+            closer.Add(stored != nullptr ? *stored : frame, prepared, track, view, true);
         if (!news.empty()) all_news += std::to_string(frame.index) + ": " + news + "\n";
         Take(closer.Step(LoopConfig{}.rebuild_frames));
     }

@@ -1,4 +1,5 @@
-// A box of a room with pillars, seen without noise along a turn, by a camera that is not as it is said to be.
+// A box of a room with pillars, seen without noise along a turn, by a camera that is not as it is
+// said to be.
 #include "optimize/self_calibration.h"
 
 #include <gtest/gtest.h>
@@ -17,12 +18,16 @@ struct Box {
     Eigen::Vector3d low, high;
 };
 const Box kRoom{{-1.8, -1.2, -2.0}, {2.2, 1.4, 2.6}};
-const Box kPillars[] = {{{-0.9, -1.2, 1.4}, {-0.5, 0.3, 1.8}}, {{0.9, 0.2, 0.9}, {1.5, 1.4, 1.5}}, {{-1.4, 0.4, -0.8}, {-0.9, 1.4, 0.2}}};
+const Box kPillars[] = {{{-0.9, -1.2, 1.4}, {-0.5, 0.3, 1.8}},
+                        {{0.9, 0.2, 0.9}, {1.5, 1.4, 1.5}},
+                        {{-1.4, 0.4, -0.8}, {-0.9, 1.4, 0.2}}};
 
-// How far along a ray it meets a box: where it leaves it, or where it comes in (infinity if it misses).
+// How far along a ray it meets a box: where it leaves it, or where it comes in (infinity if it
+// misses).
 double Leaves(const Box& box, const Eigen::Vector3d& from, const Eigen::Vector3d& ray) {
     double t = 1e9;
-    for (int k = 0; k < 3; ++k) t = std::min(t, ((ray(k) > 0 ? box.high(k) : box.low(k)) - from(k)) / ray(k));
+    for (int k = 0; k < 3; ++k)
+        t = std::min(t, ((ray(k) > 0 ? box.high(k) : box.low(k)) - from(k)) / ray(k));
     return t;
 }
 double Enters(const Box& box, const Eigen::Vector3d& from, const Eigen::Vector3d& ray) {
@@ -36,23 +41,28 @@ double Enters(const Box& box, const Eigen::Vector3d& from, const Eigen::Vector3d
 
 class SelfCalibration : public testing::Test {
   protected:
-    using Sensor = std::function<double(double z, double x, double y)>;  // true depth, and where in the image (tangents)
+    // True depth, and where in the image (tangents).
+    using Sensor = std::function<double(double z, double x, double y)>;
     static constexpr int kViews = 18;
 
     void SetUp() override {
         if (!PoseGraphAvailable()) GTEST_SKIP() << "this build has no Ceres: install libceres-dev";
         for (int i = 0; i < kViews; ++i) {
             const double a = 0.25 * i;
-            const Eigen::Isometry3d T(Eigen::Translation3d(0.3 * std::cos(1.3 * a), 0.2 * std::sin(a), 0.3 * std::sin(1.7 * a)) *
-                                      Eigen::AngleAxisd(a, Eigen::Vector3d::UnitY()) *
-                                      Eigen::AngleAxisd(0.35 * std::sin(2 * a), Eigen::Vector3d::UnitX()));
+            const Eigen::Isometry3d T(
+                Eigen::Translation3d(0.3 * std::cos(1.3 * a), 0.2 * std::sin(a),
+                                     0.3 * std::sin(1.7 * a)) *
+                Eigen::AngleAxisd(a, Eigen::Vector3d::UnitY()) *
+                Eigen::AngleAxisd(0.35 * std::sin(2 * a), Eigen::Vector3d::UnitX()));
             poses.push_back(T);
             for (int before : {i - 1, i - 2})
-                if (before >= 0) edges.push_back({before, i, Eigen::Isometry3d::Identity(), 0.01, 0.01, false});
+                if (before >= 0)
+                    edges.push_back({before, i, Eigen::Isometry3d::Identity(), 0.01, 0.01, false});
         }
         truth = poses;
         for (PoseEdge& edge : edges)
-            edge.T_from_to = Normalised(poses[static_cast<std::size_t>(edge.from)].inverse() * poses[static_cast<std::size_t>(edge.to)]);
+            edge.T_from_to = Normalised(poses[static_cast<std::size_t>(edge.from)].inverse() *
+                                        poses[static_cast<std::size_t>(edge.to)]);
     }
     std::vector<CalibrationView> Views(const PinholeCamera& camera, const Sensor& sensor) const {
         std::vector<CalibrationView> views;
@@ -60,7 +70,8 @@ class SelfCalibration : public testing::Test {
             DepthImage depth_m(camera.width, camera.height);
             for (int v = 0; v < camera.height; ++v)
                 for (int u = 0; u < camera.width; ++u) {
-                    const Eigen::Vector3d ray = camera.Unproject(u, v, 1), from = T.translation(), to = T.linear() * ray;
+                    const Eigen::Vector3d ray = camera.Unproject(u, v, 1), from = T.translation(),
+                                          to = T.linear() * ray;
                     double z = Leaves(kRoom, from, to);
                     for (const Box& pillar : kPillars) z = std::min(z, Enters(pillar, from, to));
                     depth_m(u, v) = static_cast<float>(sensor(z, ray.x(), ray.y()));
@@ -76,7 +87,8 @@ class SelfCalibration : public testing::Test {
 };
 
 TEST_F(SelfCalibration, FindsAFocalLengthThatIsOff) {
-    const auto report = RefineCalibration(Corrected(kCamera, {1 / 1.02, 0}), Views(kCamera, Exact), edges, poses);
+    const auto report =
+        RefineCalibration(Corrected(kCamera, {1 / 1.02, 0}), Views(kCamera, Exact), edges, poses);
     ASSERT_TRUE(report.ok()) << report.message();
     const CalibrationReport& r = report.value();
     EXPECT_TRUE(r.shown);
@@ -90,7 +102,8 @@ TEST_F(SelfCalibration, FindsAFocalLengthThatIsOff) {
 
 TEST_F(SelfCalibration, FindsBothFocalLengthAndDisparityOffset) {
     const Sensor sensor = [](double z, double, double) { return z / (1 - 0.012 * z); };
-    const auto report = RefineCalibration(Corrected(kCamera, {1.03, 0}), Views(kCamera, sensor), edges, poses);
+    const auto report =
+        RefineCalibration(Corrected(kCamera, {1.03, 0}), Views(kCamera, sensor), edges, poses);
     ASSERT_TRUE(report.ok()) << report.message();
     const CalibrationReport& r = report.value();
     EXPECT_TRUE(r.shown);
@@ -107,12 +120,16 @@ TEST_F(SelfCalibration, LeavesAGoodOneAndThePosesAlone) {
     EXPECT_FALSE(report.value().shown);
     EXPECT_NEAR(report.value().calibration.focal_scale, 1, 0.001);
     for (std::size_t i = 0; i < poses.size(); ++i) EXPECT_EQ(poses[i].matrix(), truth[i].matrix());
-    EXPECT_NE(CalibrationText(kCamera, 0, report.value()).find("the given one stays"), std::string::npos);
+    EXPECT_NE(CalibrationText(kCamera, 0, report.value()).find("the given one stays"),
+              std::string::npos);
 }
 
-// A sensor that is bent in a way the model does not have; a model with a focal length alone would call itself certain.
+// A sensor that is bent in a way the model does not have; a model with a focal length alone would
+// call itself certain.
 TEST_F(SelfCalibration, IsNotMisledByAnErrorOfAnotherKind) {
-    const Sensor sensor = [](double z, double x, double y) { return z * (1 + 0.012 * std::sin(4 * x) + 0.012 * std::sin(3 * y + z)); };
+    const Sensor sensor = [](double z, double x, double y) {
+        return z * (1 + 0.012 * std::sin(4 * x) + 0.012 * std::sin(3 * y + z));
+    };
     const auto report = RefineCalibration(kCamera, Views(kCamera, sensor), edges, poses);
     ASSERT_TRUE(report.ok()) << report.message();
     EXPECT_FALSE(report.value().shown) << CalibrationText(kCamera, 0, report.value());
@@ -126,10 +143,12 @@ TEST_F(SelfCalibration, AWallAloneDoesNotShowIt) {
         DepthImage depth_m(kCamera.width, kCamera.height);
         std::fill_n(depth_m.data(), depth_m.size(), 1.5f + 0.01f * static_cast<float>(i));
         views.emplace_back(depth_m);
-        poses[static_cast<std::size_t>(i)] = Eigen::Translation3d(0.02 * i, 0, -0.01 * i) * Eigen::Isometry3d::Identity();
+        poses[static_cast<std::size_t>(i)] =
+            Eigen::Translation3d(0.02 * i, 0, -0.01 * i) * Eigen::Isometry3d::Identity();
     }
     for (PoseEdge& edge : edges)
-        edge.T_from_to = poses[static_cast<std::size_t>(edge.from)].inverse() * poses[static_cast<std::size_t>(edge.to)];
+        edge.T_from_to = poses[static_cast<std::size_t>(edge.from)].inverse() *
+                         poses[static_cast<std::size_t>(edge.to)];
     const auto report = RefineCalibration(off, views, edges, poses);
     ASSERT_FALSE(report.ok());
     EXPECT_NE(report.message().find("too little was seen from two places"), std::string::npos);

@@ -19,7 +19,8 @@ Eigen::Vector3d WorldPosition(const GeometryVertex& vertex, const BlockCoord& bl
 
 // All blocks together are the mesh that Mesher assembles, across blocks, sectors and signs.
 TEST(BlockGeometry, TogetherTheBlocksAreTheWholeMesh) {
-    for (const Eigen::Vector3d& centre : {Eigen::Vector3d(.011, -.023, .031), Eigen::Vector3d(10.24, .0, -10.24)}) {
+    for (const Eigen::Vector3d& centre :
+         {Eigen::Vector3d(.011, -.023, .031), Eigen::Vector3d(10.24, .0, -10.24)}) {
         BlockMap map{BlockMap::Config{}};
         const Eigen::Vector3i middle = (centre / .08).array().round().cast<int>();
         Fill(map, Sphere(centre, .2), {middle.x() - 4, middle.y() - 4, middle.z() - 4},
@@ -36,8 +37,12 @@ TEST(BlockGeometry, TogetherTheBlocksAreTheWholeMesh) {
             const auto& [vertices, indices] = geometry;
             for (std::size_t i = 0; i < indices.size(); ++i, ++next) {
                 ASSERT_LT(next / 3, whole.triangles.size());
-                const Eigen::Vector3f& expected = whole.vertices[whole.triangles[next / 3][next % 3]];
-                ASSERT_LT((WorldPosition(vertices[indices[i]], mesh->coord) - expected.cast<double>()).norm(), 2e-6);
+                const Eigen::Vector3f& expected =
+                    whole.vertices[whole.triangles[next / 3][next % 3]];
+                ASSERT_LT(
+                    (WorldPosition(vertices[indices[i]], mesh->coord) - expected.cast<double>())
+                        .norm(),
+                    2e-6);
             }
             for (const GeometryVertex& vertex : vertices) {
                 ASSERT_EQ(vertex.has_colour, 255);
@@ -57,7 +62,8 @@ TEST(BlockGeometry, WithoutTheNeighbourItsTrianglesAreLeftOut) {
     const BlockMesh& mesh = *mesher.block_meshes()[static_cast<std::size_t>(map.Find({0, 0, 0}))];
     BlockGeometry geometry;
     geometry.Build(mesh, mesher.block_meshes());
-    EXPECT_EQ(geometry.indices.size(), 3u * 2 * 8 * 7);  // the last row of cells has no neighbour in y
+    // The last row of cells has no neighbour in y.
+    EXPECT_EQ(geometry.indices.size(), 3u * 2 * 8 * 7);
     EXPECT_EQ(geometry.vertices.front().has_colour, 0);
     geometry.Build(mesh, {});
     EXPECT_EQ(geometry.indices.size(), 3u * 2 * 7 * 7);

@@ -12,7 +12,8 @@ TriangleMesh Square(int n) {
     TriangleMesh mesh;
     for (int y = 0; y <= n; ++y)
         for (int x = 0; x <= n; ++x) {
-            mesh.vertices.emplace_back(static_cast<float>(x) / static_cast<float>(n), static_cast<float>(y) / static_cast<float>(n), 0.5f);
+            mesh.vertices.emplace_back(static_cast<float>(x) / static_cast<float>(n),
+                                       static_cast<float>(y) / static_cast<float>(n), 0.5f);
             mesh.colours.push_back({static_cast<std::uint8_t>(x % 256), 0, 0});
         }
     const auto at = [n](int x, int y) { return static_cast<std::uint32_t>(y * (n + 1) + x); };
@@ -27,12 +28,15 @@ TriangleMesh Square(int n) {
 double Area(const TriangleMesh& mesh) {
     double area = 0;
     for (const auto& [a, b, c] : mesh.triangles)
-        area += 0.5 * (mesh.vertices[b] - mesh.vertices[a]).cross(mesh.vertices[c] - mesh.vertices[a]).z();
+        area +=
+            0.5 *
+            (mesh.vertices[b] - mesh.vertices[a]).cross(mesh.vertices[c] - mesh.vertices[a]).z();
     return area;
 }
 
 TEST(CoarseMesh, KeepsTheFirstVertexOfEachCell) {
-    const TriangleMesh coarse = CoarseMesh(Square(8), 0.25);  // cells of two quads, and the far edges
+    // Cells of two quads, and the far edges.
+    const TriangleMesh coarse = CoarseMesh(Square(8), 0.25);
     ASSERT_EQ(coarse.vertices.size(), 25u);
     EXPECT_EQ(coarse.triangles.size(), 32u);
     EXPECT_TRUE(coarse.normals.empty());

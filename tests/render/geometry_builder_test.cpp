@@ -22,10 +22,12 @@ class GeometryBuilderTest : public ::testing::Test {
         mesher.Update(map);
     }
     static std::uint16_t WeightOf(const BlockCoord& c, int i) {
-        return static_cast<std::uint16_t>(Mix(static_cast<std::uint32_t>(((c.x * 64 + c.y) * 64 + c.z) * 512 + i)));
+        return static_cast<std::uint16_t>(
+            Mix(static_cast<std::uint32_t>(((c.x * 64 + c.y) * 64 + c.z) * 512 + i)));
     }
     void Take() {
-        for (GeometryBlock& block : builder.Build(map, mesher, Mark())) copies[block.id] = std::move(block.geometry);
+        for (GeometryBlock& block : builder.Build(map, mesher, Mark()))
+            copies[block.id] = std::move(block.geometry);
     }
     MarkVertex Mark() const {
         return [this](const BlockMesh& owner, const BlockMesh::Vertex& vertex) {
@@ -42,7 +44,8 @@ class GeometryBuilderTest : public ::testing::Test {
             const auto& kept = copies[static_cast<BlockId>(id)].vertices;
             ASSERT_EQ(kept.size(), fresh.vertices.size());
             for (std::size_t i = 0; i < kept.size(); ++i)
-                ASSERT_EQ(kept[i].mark.weight, fresh.vertices[i].mark.weight) << after << ", block " << id << " vertex " << i;
+                ASSERT_EQ(kept[i].mark.weight, fresh.vertices[i].mark.weight)
+                    << after << ", block " << id << " vertex " << i;
         }
     }
 
@@ -59,8 +62,9 @@ TEST_F(GeometryBuilderTest, VerticesCarryTheWeightBetweenTheirVoxels) {
     for (const auto& [id, geometry] : copies)
         for (const GeometryVertex& vertex : geometry.vertices) {
             const BlockCoord sector = SectorOf(map.coord(id));
-            const Eigen::Vector3d at = Eigen::Vector3d(sector.x, sector.y, sector.z) * kSectorBlocks * kBlockSide +
-                                       Eigen::Vector3f(vertex.position_voxels.data()).cast<double>();
+            const Eigen::Vector3d at =
+                Eigen::Vector3d(sector.x, sector.y, sector.z) * kSectorBlocks * kBlockSide +
+                Eigen::Vector3f(vertex.position_voxels.data()).cast<double>();
             const Eigen::Vector3d low = at.array().floor();
             const auto weight = [&](const Eigen::Vector3d& voxel) {
                 const Eigen::Vector3i v = voxel.cast<int>();
@@ -79,20 +83,22 @@ TEST_F(GeometryBuilderTest, VerticesCarryTheWeightBetweenTheirVoxels) {
 
 TEST(VertexWeight, TheScaleIsLogarithmic) {
     EXPECT_EQ(WeightStep(0), 0);
-    EXPECT_EQ(WeightStep(1), 32);  // 31.875
+    EXPECT_EQ(WeightStep(1), 32);    // 31.875
     EXPECT_EQ(WeightStep(15), 128);  // 127.5
     EXPECT_EQ(WeightStep(255), 255);
     EXPECT_EQ(WeightStep(1e9f), 255);
 }
 
-// Only the marks of one block's voxels change: all copies of vertices beside them come anew, and not the whole mesh.
+// Only the marks of one block's voxels change: all copies of vertices beside them come anew, and
+// not the whole mesh.
 TEST_F(GeometryBuilderTest, MarkedAgainWithoutMeshingAgain) {
     Take();
     const std::size_t all = copies.size();
     mesher.Update(map);
     ASSERT_TRUE(builder.Build(map, mesher, Mark()).empty());
     for (BlockId id = 1; id < map.size(); ++id) {
-        for (int i = 0; i < kBlockVoxels; ++i) map.weight(id)[i] = static_cast<std::uint16_t>(map.weight(id)[i] + 7000);
+        for (int i = 0; i < kBlockVoxels; ++i)
+            map.weight(id)[i] = static_cast<std::uint16_t>(map.weight(id)[i] + 7000);
         builder.MarkAgain({&id, 1});
         const auto blocks = builder.Build(map, mesher, Mark());
         EXPECT_LT(blocks.size(), all / 2);

@@ -13,9 +13,7 @@ using Eigen::Vector3d;
 
 constexpr Rgb8 kWhite{255, 255, 255}, kRed{255, 0, 0};
 
-PinholeCamera SmallCamera() {
-    return {40, 30, 20, 20, 20, 15};
-}
+PinholeCamera SmallCamera() { return {40, 30, 20, 20, 20, 15}; }
 
 RenderStyle OnWhite() {
     RenderStyle style;

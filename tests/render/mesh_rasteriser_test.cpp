@@ -14,7 +14,8 @@ using namespace testing_support;
 constexpr double kVoxel_m = .01;
 
 double Median(std::vector<double> values) {
-    std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
+    std::nth_element(values.begin(),
+                     values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
     return values.at(values.size() / 2);
 }
 
@@ -25,7 +26,8 @@ TEST_F(MeshRasteriserTest, ObliquePlaneIsExact) {
     Fill(map, Plane(normal, .013), {-14, -14, -8}, {13, 13, 7});
     const Eigen::Isometry3d T = LookAt({.2, .1, -.9}, {-.1, .05, 0});
     for (const PinholeCamera& camera :
-         {SmallCamera(), PinholeCamera{160, 120, 170, 110, 31.25, 98.75}, PinholeCamera{33, 57, 40, 40, 16, 28}}) {
+         {SmallCamera(), PinholeCamera{160, 120, 170, 110, 31.25, 98.75},
+          PinholeCamera{33, 57, 40, 40, 16, 28}}) {
         const PredictedView view = Draw(map, camera, T, .1f, 3.f);
         EXPECT_EQ(view.camera, camera);
         int compared = 0;
@@ -33,10 +35,13 @@ TEST_F(MeshRasteriserTest, ObliquePlaneIsExact) {
             for (int u = 0; u < camera.width; ++u) {
                 const Eigen::Vector3d ray = T.linear() * camera.Unproject(u, v, 1);
                 const double z = (.013 - normal.dot(T.translation())) / normal.dot(ray);
-                if (z < .1 || z > 3 || (T.translation() + z * ray).cwiseAbs().maxCoeff() > .9) continue;
+                if (z < .1 || z > 3 || (T.translation() + z * ray).cwiseAbs().maxCoeff() > .9)
+                    continue;
                 ++compared;
-                ASSERT_NEAR(view.depth_m(u, v), z, 5e-5 / std::abs(normal.dot(ray.normalized()))) << u << " " << v;
-                ASSERT_LT((T.linear() * view.normal_camera(u, v).cast<double>() - normal).norm(), 2e-3);
+                ASSERT_NEAR(view.depth_m(u, v), z, 5e-5 / std::abs(normal.dot(ray.normalized())))
+                    << u << " " << v;
+                ASSERT_LT((T.linear() * view.normal_camera(u, v).cast<double>() - normal).norm(),
+                          2e-3);
                 ASSERT_NEAR(view.normal_camera(u, v).norm(), 1, 1e-5);
             }
         EXPECT_GT(compared, camera.width * camera.height / 2);
@@ -58,7 +63,8 @@ TEST_F(MeshRasteriserTest, AgreesWithTheRayCaster) {
     BlockMap map{BlockMap::Config{}};
     FillScene(map);
     const PinholeCamera camera{320, 240, 270, 290, 150.25, 131};
-    for (const Eigen::Vector3d& eye : {Eigen::Vector3d(.1, .2, -1), Eigen::Vector3d(.7, -.6, -.5)}) {
+    for (const Eigen::Vector3d& eye :
+         {Eigen::Vector3d(.1, .2, -1), Eigen::Vector3d(.7, -.6, -.5)}) {
         const Eigen::Isometry3d T = LookAt(eye, {0, 0, .2});
         const PredictedView drawn = Draw(map, camera, T), cast = Cast(map, camera, T);
         std::vector<double> depth_m, angle_deg, red, intensity;
@@ -128,9 +134,12 @@ TEST_F(MeshRasteriserTest, NothingToSee) {
     EXPECT_EQ(CountHits(Draw(map, camera, LookAt({0, 0, -1}, {0, 0, 0}))), 0);
     Fill(map, Sphere({0, 0, 0}, .3), {-6, -6, -6}, {5, 5, 5});
     EXPECT_GT(CountHits(Draw(map, camera, LookAt({0, 0, -1}, {0, 0, 0}))), 3000);
-    for (const PredictedView& view : {Draw(map, camera, LookAt({0, 0, -1}, {0, 0, -2})),              // away from it
-                                      Draw(map, camera, LookAt({0, 0, -1}, {0, 0, 0}), .1f, .6f),     // too far
-                                      Draw(map, camera, LookAt({0, 0, 0}, {0, 0, 1}))}) {             // its back
+    // Away from it.
+    for (const PredictedView& view : {Draw(map, camera, LookAt({0, 0, -1}, {0, 0, -2})),
+                                      // Too far.
+                                      Draw(map, camera, LookAt({0, 0, -1}, {0, 0, 0}), .1f, .6f),
+                                      // Its back.
+                                      Draw(map, camera, LookAt({0, 0, 0}, {0, 0, 1}))}) {
         EXPECT_EQ(CountHits(view), 0);
         for (std::size_t i = 0; i < view.depth_m.size(); ++i) {
             ASSERT_EQ(view.normal_camera.data()[i].norm(), 0);
@@ -141,7 +150,8 @@ TEST_F(MeshRasteriserTest, NothingToSee) {
 }
 
 TEST_F(MeshRasteriserTest, FarFromTheWorldsOrigin) {
-    const Eigen::Vector3d normal = Eigen::Vector3d(.1, -.2, -1).normalized(), middle(400.003, -250.002, 123.001);
+    const Eigen::Vector3d normal = Eigen::Vector3d(.1, -.2, -1).normalized(),
+                          middle(400.003, -250.002, 123.001);
     BlockMap map{BlockMap::Config{}};
     const Eigen::Vector3i block = (middle / .08).array().floor().cast<int>();
     Fill(map, Plane(normal, normal.dot(middle)), {block.x() - 6, block.y() - 6, block.z() - 4},
@@ -151,7 +161,8 @@ TEST_F(MeshRasteriserTest, FarFromTheWorldsOrigin) {
     for (int v = 40; v < 80; ++v)
         for (int u = 60; u < 100; ++u) {
             const Eigen::Vector3d ray = T.linear() * SmallCamera().Unproject(u, v, 1);
-            ASSERT_NEAR(view.depth_m(u, v), normal.dot(middle - T.translation()) / normal.dot(ray), 4e-5);
+            ASSERT_NEAR(view.depth_m(u, v), normal.dot(middle - T.translation()) / normal.dot(ray),
+                        4e-5);
         }
 }
 

@@ -12,7 +12,8 @@ namespace {
 
 using namespace testing_support;
 
-// What changed is drawn as if everything were new; and blocks that are meshed over and over use the same memory.
+// What changed is drawn as if everything were new; and blocks that are meshed over and over use the
+// same memory.
 TEST_F(MeshRasteriserTest, AfterChangesTheSameAsAFreshOne) {
     BlockMap map{BlockMap::Config{}};
     FillScene(map);
@@ -37,8 +38,8 @@ TEST_F(MeshRasteriserTest, AfterChangesTheSameAsAFreshOne) {
     EXPECT_LT(rasteriser_->bytes(), bytes + bytes / 3);
 }
 
-// A vertex's normal may change although the lower neighbour, which draws it too, reads nothing that changed: that of
-// the edge from (0, 0, 7) upwards reads the changed block, (-1, 0, 0) does not.
+// A vertex's normal may change although the lower neighbour, which draws it too, reads nothing that
+// changed: that of the edge from (0, 0, 7) upwards reads the changed block, (-1, 0, 0) does not.
 TEST_F(MeshRasteriserTest, BorrowedVerticesFollowTheirOwners) {
     const Sdf plane = Plane({0, 0, -1}, -.075);
     BlockMap map{BlockMap::Config{}};
@@ -48,7 +49,8 @@ TEST_F(MeshRasteriserTest, BorrowedVerticesFollowTheirOwners) {
     const PredictedView before = Draw(map, SmallCamera(), T, .01f, 1.f);
     FillBlock(map, map.Find({0, -1, 1}), Plane({0, 0, -1}, -.079), nullptr, 2);
     const PredictedView changed = Draw(map, SmallCamera(), T, .01f, 1.f);
-    EXPECT_FALSE(changed.normal_camera(75, 55) == before.normal_camera(75, 55));  // within (-1, 0, 0)
+    // Within (-1, 0, 0).
+    EXPECT_FALSE(changed.normal_camera(75, 55) == before.normal_camera(75, 55));
     PredictedView expected;
     Make()->Predict(map, SmallCamera(), T, .01f, 1.f, expected);
     EXPECT_TRUE(SameBytes(changed, expected));

@@ -40,7 +40,8 @@ TEST(Projection, MatrixAndDepthBufferAgree) {
         }
 }
 
-// [D18] eq. 13: with the principal point in the middle, the top and bottom of the image are VFOV apart.
+// [D18] eq. 13: with the principal point in the middle, the top and bottom of the image are VFOV
+// apart.
 TEST(Projection, FieldOfView) {
     const PinholeCamera camera{640, 480, 525, 525, 319.5, 239.5};
     const double half = std::atan(.5 * 480 / 525);

@@ -32,7 +32,8 @@ TEST(RangePool, NothingNeedsNothing) {
     EXPECT_EQ(pool.used(), 0u);
 }
 
-// Two hundred blocks that change their sizes at random: never overlapping, and the pool stops growing.
+// Two hundred blocks that change their sizes at random: never overlapping, and the pool stops
+// growing.
 TEST(RangePool, ReusesWhatWasGivenBack) {
     RangePool pool;
     std::vector<RangePool::Range> ranges(200);

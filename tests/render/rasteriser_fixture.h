@@ -1,5 +1,5 @@
-// What the rasteriser's tests share: cameras, a painted scene without symmetry, and the rasteriser itself, without
-// which they skip.
+// What the rasteriser's tests share: cameras, a painted scene without symmetry, and the rasteriser
+// itself, without which they skip.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -14,11 +14,10 @@
 
 namespace tessera::testing_support {
 
-inline PinholeCamera SmallCamera() {
-    return {160, 120, 140, 145, 79.5, 60.5};
-}
+inline PinholeCamera SmallCamera() { return {160, 120, 140, 145, 79.5, 60.5}; }
 
-inline Eigen::Isometry3d LookAt(const Eigen::Vector3d& eye, const Eigen::Vector3d& target, double roll_rad = .3) {
+inline Eigen::Isometry3d LookAt(const Eigen::Vector3d& eye, const Eigen::Vector3d& target,
+                                double roll_rad = .3) {
     Eigen::Matrix3d R;
     R.col(2) = (target - eye).normalized();
     R.col(0) = Eigen::Vector3d(.1, 1, .2).cross(R.col(2)).normalized();
@@ -30,7 +29,8 @@ inline Eigen::Isometry3d LookAt(const Eigen::Vector3d& eye, const Eigen::Vector3
 }
 
 inline int CountHits(const PredictedView& view) {
-    return static_cast<int>(std::count_if(view.depth_m.data(), view.depth_m.data() + view.depth_m.size(),
+    return static_cast<int>(std::count_if(view.depth_m.data(),
+                                          view.depth_m.data() + view.depth_m.size(),
                                           [](float z) { return z > 0; }));
 }
 
@@ -63,8 +63,9 @@ class MeshRasteriserTest : public ::testing::Test {
     std::string why_;
 };
 
-inline PredictedView Cast(const BlockMap& map, const PinholeCamera& camera, const Eigen::Isometry3d& T,
-                   float min_depth_m = .1f, float max_depth_m = 5.f) {
+inline PredictedView Cast(const BlockMap& map, const PinholeCamera& camera,
+                          const Eigen::Isometry3d& T, float min_depth_m = .1f,
+                          float max_depth_m = 5.f) {
     PredictedView view;
     RayCaster().Predict(map, camera, T, min_depth_m, max_depth_m, view);
     return view;
@@ -77,11 +78,13 @@ inline double SceneDistance(const Eigen::Vector3d& p) {
 
 // A scene without any symmetry, painted.
 inline void FillScene(BlockMap& map, std::uint32_t revision = 1) {
-    Fill(map, SceneDistance, {-9, -9, -4}, {8, 8, 5},
-         [](const Eigen::Vector3d& p) {
-             return Eigen::Vector3d(.5 + .4 * p.x(), .5 - .4 * p.y(), .5 + .3 * std::sin(20 * p.x() + 9 * p.y()));
-         },
-         revision);
+    Fill(
+        map, SceneDistance, {-9, -9, -4}, {8, 8, 5},
+        [](const Eigen::Vector3d& p) {
+            return Eigen::Vector3d(.5 + .4 * p.x(), .5 - .4 * p.y(),
+                                   .5 + .3 * std::sin(20 * p.x() + 9 * p.y()));
+        },
+        revision);
 }
 
-}  // namespace tessera::testing
+}  // namespace tessera::testing_support

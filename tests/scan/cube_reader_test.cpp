@@ -9,7 +9,8 @@ namespace {
 using namespace testing_support;
 
 TEST(Cube, HoldsTheBlocksWhoseKeysFollowItsOwn) {
-    for (const BlockCoord& block : {BlockCoord{0, 0, 0}, {-1, -8, -9}, {7, 8, 15}, {-kBlockLimit, kBlockLimit - 1, 3}}) {
+    for (const BlockCoord& block :
+         {BlockCoord{0, 0, 0}, {-1, -8, -9}, {7, 8, 15}, {-kBlockLimit, kBlockLimit - 1, 3}}) {
         const BlockCoord cube = CubeOf(block);
         const std::int64_t key = CubeKey(cube);
         EXPECT_EQ(CubeKeyOf(BlockKey(block)), key);
@@ -58,7 +59,8 @@ TEST(Cube, AChangedRowIsRefused) {
     auto reader = CubeReader::Open(path);
     ASSERT_TRUE(reader.ok());
     BlockCopies blocks;
-    const Status status = reader.value()->Read(reader.value()->Cubes().value().front().first, blocks);
+    const Status status =
+        reader.value()->Read(reader.value()->Cubes().value().front().first, blocks);
     ASSERT_FALSE(status.ok());
     EXPECT_NE(status.message().find("tessera scan repair"), std::string::npos);
 }

@@ -16,8 +16,10 @@ using namespace testing_support;
 
 // So many blocks of hashed voxels; `seed` tells one map from another.
 std::unique_ptr<BlockMap> MapOf(int blocks, std::uint32_t seed) {
-    auto map = std::make_unique<BlockMap>(BlockMap::Config{.voxel_size_m = 0.02, .truncation_m = 0.08});
-    for (int i = 0; i < blocks; ++i) FillBlock(*map, map->Allocate(CoordOfBlock(i)), seed + static_cast<std::uint32_t>(i));
+    auto map =
+        std::make_unique<BlockMap>(BlockMap::Config{.voxel_size_m = 0.02, .truncation_m = 0.08});
+    for (int i = 0; i < blocks; ++i)
+        FillBlock(*map, map->Allocate(CoordOfBlock(i)), seed + static_cast<std::uint32_t>(i));
     return map;
 }
 
@@ -51,7 +53,8 @@ TEST(CubeScratch, GivesBackWhatWasPutLastAndLeavesNoFile) {
         ASSERT_EQ(copies.size(), ids.size());
         BlockMap again(map.config());
         for (std::size_t i = 0; i < copies.size(); ++i) {
-            const BlockId id = again.Allocate(copies.coords[i], copies.numbers[i]), expected = map.Find(copies.coords[i]);
+            const BlockId id = again.Allocate(copies.coords[i], copies.numbers[i]),
+                          expected = map.Find(copies.coords[i]);
             copies.Put(i, again, id);
             EXPECT_EQ(copies.numbers[i], map.number(expected));
             EXPECT_TRUE(SameBlock(again, id, map, expected));
@@ -69,9 +72,10 @@ TEST(CubeScratch, SaysWhereItCannotBeMade) {
     EXPECT_NE(store.message().find("/no/such/folder/a.scan"), std::string::npos);
 }
 
-// One map after the other takes all of a file's blocks' place, until the process is killed: in even turns as it has begun to put
-// one there, in odd ones once that is done. Maps of even and of odd turns differ in
-// every block and in their number; the file's is wholly one of the two, whichever was under way.
+// One map after the other takes all of a file's blocks' place, until the process is killed: in even
+// turns as it has begun to put one there, in odd ones once that is done. Maps of even and of odd
+// turns differ in every block and in their number; the file's is wholly one of the two, whichever
+// was under way.
 TEST(CubeScratch, AFileThatIsKilledHasTheOneMapOrTheOther) {
     constexpr int kBlocks[] = {150, 90};
     constexpr std::uint32_t kSeeds[] = {1, 5000};
@@ -105,7 +109,8 @@ TEST(CubeScratch, AFileThatIsKilledHasTheOneMapOrTheOther) {
         }
         close(ends[1]);
         char told;
-        for (int i = 0; i <= turn; ++i) ASSERT_EQ(read(ends[0], &told, 1), 1) << "it ended by itself";
+        for (int i = 0; i <= turn; ++i)
+            ASSERT_EQ(read(ends[0], &told, 1), 1) << "it ended by itself";
         close(ends[0]);
         kill(child, SIGKILL);
         waitpid(child, nullptr, 0);
@@ -117,7 +122,8 @@ TEST(CubeScratch, AFileThatIsKilledHasTheOneMapOrTheOther) {
         const int which = map.count() == kBlocks[0] ? 0 : 1;
         const auto expected = MapOf(kBlocks[which], kSeeds[which]);
         ASSERT_EQ(map.count(), expected->count());
-        for (BlockId id = 1; id < map.size(); ++id) ASSERT_TRUE(SameBlock(map, id, *expected, expected->Find(map.coord(id))));
+        for (BlockId id = 1; id < map.size(); ++id)
+            ASSERT_TRUE(SameBlock(map, id, *expected, expected->Find(map.coord(id))));
     }
     EXPECT_GE(seen.size(), 2u) << "all were killed in the same map";
 }

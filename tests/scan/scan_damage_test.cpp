@@ -1,4 +1,5 @@
-// Bit flips and truncations at fixed seeds: never a crash, never a wrong map, and what is sound is recovered.
+// Bit flips and truncations at fixed seeds: never a crash, never a wrong map, and what is sound is
+// recovered.
 #include <filesystem>
 #include <set>
 
@@ -29,7 +30,10 @@ class WrongByte {
 
 class ScanDamage : public testing::Test {
   protected:
-    ScanDamage() : owned(WriteSmallScan(folder / "a.scan")), map(*owned), whole(ReadBytes(folder / "a.scan")) {
+    ScanDamage()
+        : owned(WriteSmallScan(folder / "a.scan")),
+          map(*owned),
+          whole(ReadBytes(folder / "a.scan")) {
         Result<ScanContent> scan = ReadScan(folder / "a.scan", {});
         EXPECT_TRUE(scan.ok());
         path = scan.value().path;
@@ -47,7 +51,8 @@ class ScanDamage : public testing::Test {
         return true;
     }
 
-    // What repair gives can be read, and each block and pose of it is one that was there. Returns the blocks.
+    // What repair gives can be read, and each block and pose of it is one that was there. Returns
+    // the blocks.
     std::int64_t ExpectSoundRepair(const std::string& file) {
         const std::string out = folder / "repaired.scan";
         std::filesystem::remove(out);
@@ -60,7 +65,9 @@ class ScanDamage : public testing::Test {
         EXPECT_EQ(found.size() - 1, report.value().blocks);
         for (BlockId id = 1; id < found.size(); ++id) {
             const BlockId original = map.Find(found.coord(id));
-            EXPECT_TRUE(original != kUnknownBlock && (original == 1 || SameBlock(found, id, map, original))) << id;
+            EXPECT_TRUE(original != kUnknownBlock &&
+                        (original == 1 || SameBlock(found, id, map, original)))
+                << id;
         }
         EXPECT_LE(scan.value().path.size(), path.size());
         return report.value().blocks;
@@ -80,14 +87,15 @@ TEST_F(ScanDamage, AThousandBitFlips) {
     std::int64_t blocks = 0;
     for (int i = 0; i < 1000; ++i) {
         const std::size_t at = random() % whole.size();
-        const WrongByte wrong(folder / "b.scan", at, static_cast<char>(whole[at] ^ (1 << random() % 8)), whole[at]);
+        const WrongByte wrong(folder / "b.scan", at,
+                              static_cast<char>(whole[at] ^ (1 << random() % 8)), whole[at]);
         const bool read = ReadIsRightOrRefused(folder / "b.scan");
         refused += !read;
         if (i % 50 != 0) continue;
         ++repaired;
         blocks += ExpectSoundRepair(folder / "b.scan");
     }
-    EXPECT_GT(refused, 200);  // the rest fell on free space
+    EXPECT_GT(refused, 200);           // the rest fell on free space
     EXPECT_GE(blocks, repaired * 35);  // of 36: a flip costs at most one
 }
 
@@ -121,7 +129,8 @@ TEST_F(ScanDamage, AHeaderOfZerosAndTablesThatAreNoneAreRepaired) {
     EXPECT_TRUE(SamePath(scan.value().path, path));
 }
 
-// A process that was killed: the journal holds the last checkpoints. Cut anywhere, what is left is as of some checkpoint.
+// A process that was killed: the journal holds the last checkpoints. Cut anywhere, what is left is
+// as of some checkpoint.
 TEST_F(ScanDamage, ACutJournalIsAnEarlierCheckpoint) {
     std::string copy_from = folder / "d.scan";
     auto file = ScanFile::Create(copy_from, SmallMeta().Encode());
@@ -129,7 +138,9 @@ TEST_F(ScanDamage, ACutJournalIsAnEarlierCheckpoint) {
     for (int c = 0; c < 4; ++c) {
         ASSERT_TRUE(file.value()->Begin().ok());
         for (int i = 0; i < 5; ++i)
-            ASSERT_TRUE(file.value()->Put(ScanTable::kPath, 5 * c + i, RecordOfFrame(5 * c + i).Encode()).ok());
+            ASSERT_TRUE(file.value()
+                            ->Put(ScanTable::kPath, 5 * c + i, RecordOfFrame(5 * c + i).Encode())
+                            .ok());
         const ScanProgress progress{5 * (c + 1), 1, 0, 5 * c + 4, 0, false};
         ASSERT_TRUE(file.value()->Put(ScanTable::kState, 1, progress.Encode()).ok());
         ASSERT_TRUE(file.value()->Commit(false).ok());
@@ -141,7 +152,8 @@ TEST_F(ScanDamage, ACutJournalIsAnEarlierCheckpoint) {
     for (int i = 0; i < 60; ++i) {
         std::filesystem::remove(folder / "e.scan-shm");
         WriteBytes(folder / "e.scan", main);
-        WriteBytes(folder / "e.scan-wal", journal.substr(0, i == 0 ? journal.size() : random() % journal.size()));
+        WriteBytes(folder / "e.scan-wal",
+                   journal.substr(0, i == 0 ? journal.size() : random() % journal.size()));
         const Result<ScanContent> scan = ReadScan(folder / "e.scan", {});
         ASSERT_TRUE(scan.ok()) << scan.message();
         EXPECT_EQ(scan.value().path.size() % 5, 0u);

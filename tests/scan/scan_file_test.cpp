@@ -17,7 +17,9 @@ TEST(ScanFile, GivesBackWhatWasWrittenAndTheBlocksKeepTheirNumbers) {
     ASSERT_TRUE(scan.ok()) << scan.message();
     EXPECT_TRUE(SameMap(*scan.value().map, *map));
     ASSERT_EQ(scan.value().path.size(), 30u);
-    for (int i = 0; i < 30; ++i) EXPECT_EQ(scan.value().path[static_cast<std::size_t>(i)].Encode(), RecordOfFrame(i).Encode());
+    for (int i = 0; i < 30; ++i)
+        EXPECT_EQ(scan.value().path[static_cast<std::size_t>(i)].Encode(),
+                  RecordOfFrame(i).Encode());
     EXPECT_EQ(scan.value().tracking, Bytes(500, 2));
     EXPECT_TRUE(scan.value().finished);
     EXPECT_EQ(scan.value().meta.Encode(), SmallMeta().Encode());
@@ -34,13 +36,15 @@ TEST(ScanFile, AnExistingFileIsNeverOverwritten) {
     EXPECT_EQ(ReadBytes(folder / "a.scan"), "mine");
 }
 
-// A killed run's file was removed, or moved, without its journal: SQLite would play that into the new file.
+// A killed run's file was removed, or moved, without its journal: SQLite would play that into the
+// new file.
 TEST(ScanFile, TheJournalOfAFileThatIsGoneIsNotTakenForTheNewOnes) {
     TempFolder folder;
     WriteBytes(folder / "a.scan-wal", "of another");
     const auto file = ScanFile::Create(folder / "a.scan", SmallMeta().Encode());
     ASSERT_FALSE(file.ok());
-    EXPECT_NE(file.message().find("a.scan-wal: is the journal"), std::string::npos) << file.message();
+    EXPECT_NE(file.message().find("a.scan-wal: is the journal"), std::string::npos)
+        << file.message();
     EXPECT_EQ(ReadBytes(folder / "a.scan-wal"), "of another");
     EXPECT_FALSE(std::filesystem::exists(folder / "a.scan"));
     std::filesystem::remove(folder / "a.scan-wal");
@@ -73,7 +77,13 @@ TEST(ScanFile, ATransactionThatIsNotCommittedIsNotThere) {
     auto file = ScanFile::OpenToRead(folder / "a.scan");
     ASSERT_TRUE(file.ok()) << file.message();
     std::vector<std::int64_t> keys;
-    ASSERT_TRUE(file.value()->Read(ScanTable::kPath, [&](const ScanRow& row) { keys.push_back(row.key); return Status::Ok(); }).ok());
+    ASSERT_TRUE(file.value()
+                    ->Read(ScanTable::kPath,
+                           [&](const ScanRow& row) {
+                               keys.push_back(row.key);
+                               return Status::Ok();
+                           })
+                    .ok());
     EXPECT_EQ(keys, std::vector<std::int64_t>{0});
 }
 
@@ -82,11 +92,12 @@ TEST(ScanFile, AMissingAnOldAndAStrangeRowAreFound) {
     TempFolder folder;
     WriteSmallScan(folder / "a.scan");
     const std::string whole = ReadBytes(folder / "a.scan");
-    for (const char* crime : {"DELETE FROM path WHERE key = 4", "UPDATE path SET key = 99 WHERE key = 29",
-                              "UPDATE blocks SET data = (SELECT data FROM blocks ORDER BY key LIMIT 1)",
-                              "UPDATE path SET checkpoint = 0 WHERE key = 4", "DELETE FROM meta", "DROP TABLE frames",
-                              "DELETE FROM state WHERE key = 0", "DELETE FROM state WHERE key = 1",
-                              "CREATE VIEW v AS SELECT 1", "INSERT INTO frames VALUES (0, 0, 0, x'00', 1)"}) {
+    for (const char* crime :
+         {"DELETE FROM path WHERE key = 4", "UPDATE path SET key = 99 WHERE key = 29",
+          "UPDATE blocks SET data = (SELECT data FROM blocks ORDER BY key LIMIT 1)",
+          "UPDATE path SET checkpoint = 0 WHERE key = 4", "DELETE FROM meta", "DROP TABLE frames",
+          "DELETE FROM state WHERE key = 0", "DELETE FROM state WHERE key = 1",
+          "CREATE VIEW v AS SELECT 1", "INSERT INTO frames VALUES (0, 0, 0, x'00', 1)"}) {
         WriteBytes(folder / "b.scan", whole);
         auto database = Database::Open(folder / "b.scan", Database::Access::kWrite);
         ASSERT_TRUE(database.ok());
@@ -98,7 +109,8 @@ TEST(ScanFile, AMissingAnOldAndAStrangeRowAreFound) {
     }
 }
 
-// A write that the disk lost: each row is sound by itself, but one is of an earlier checkpoint. Only the seal knows.
+// A write that the disk lost: each row is sound by itself, but one is of an earlier checkpoint.
+// Only the seal knows.
 TEST(ScanFile, ARowOfAnEarlierCheckpointIsFound) {
     TempFolder folder;
     WriteSmallScan(folder / "old.scan", 12, 1);
@@ -106,9 +118,13 @@ TEST(ScanFile, ARowOfAnEarlierCheckpointIsFound) {
     {
         auto database = Database::Open(folder / "a.scan", Database::Access::kWrite);
         ASSERT_TRUE(database.ok());
-        ASSERT_TRUE(database.value()->Execute("ATTACH '" + (folder / "old.scan") + "' AS old").ok());
+        ASSERT_TRUE(
+            database.value()->Execute("ATTACH '" + (folder / "old.scan") + "' AS old").ok());
         const std::string key = std::to_string(BlockKey(CoordOfBlock(0)));
-        ASSERT_TRUE(database.value()->Execute("REPLACE INTO main.blocks SELECT * FROM old.blocks WHERE key = " + key).ok());
+        ASSERT_TRUE(
+            database.value()
+                ->Execute("REPLACE INTO main.blocks SELECT * FROM old.blocks WHERE key = " + key)
+                .ok());
     }
     const auto scan = ReadScan(folder / "a.scan", {});
     ASSERT_FALSE(scan.ok());

@@ -1,4 +1,5 @@
-// A small scan file with known content: blocks of hashed voxels, a path, states; written in several checkpoints.
+// A small scan file with known content: blocks of hashed voxels, a path, states; written in several
+// checkpoints.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -43,13 +44,17 @@ inline PathRecord RecordOfFrame(int i) {
     record.stamp_s = i / 30.0;
     record.status = i % 7 == 3 ? TrackStatus::kLost : TrackStatus::kGood;
     record.fused = record.tracked();
-    if (record.tracked()) record.T_reference_camera.translation() = Eigen::Vector3d(0.01 * i, 0, 0.5);
+    if (record.tracked())
+        record.T_reference_camera.translation() = Eigen::Vector3d(0.01 * i, 0, 0.5);
     return record;
 }
 
-// `blocks` blocks and 10 frames a checkpoint, `checkpoints` of them; each also writes the first block anew.
-inline std::unique_ptr<BlockMap> WriteSmallScan(const std::string& path, int blocks = 12, int checkpoints = 3) {
-    auto owned = std::make_unique<BlockMap>(BlockMap::Config{.voxel_size_m = 0.02, .truncation_m = 0.08});
+// `blocks` blocks and 10 frames a checkpoint, `checkpoints` of them; each also writes the first
+// block anew.
+inline std::unique_ptr<BlockMap> WriteSmallScan(const std::string& path, int blocks = 12,
+                                                int checkpoints = 3) {
+    auto owned =
+        std::make_unique<BlockMap>(BlockMap::Config{.voxel_size_m = 0.02, .truncation_m = 0.08});
     BlockMap& map = *owned;
     Result<std::unique_ptr<ScanFile>> file = ScanFile::Create(path, SmallMeta().Encode());
     EXPECT_TRUE(file.ok()) << file.message();
@@ -57,12 +62,20 @@ inline std::unique_ptr<BlockMap> WriteSmallScan(const std::string& path, int blo
     for (int c = 0; c < checkpoints; ++c) {
         ScanCheckpoint checkpoint;
         std::vector<BlockId> changed;
-        for (int i = 0; i < blocks; ++i) changed.push_back(map.Allocate(CoordOfBlock(c * blocks + i)));
+        for (int i = 0; i < blocks; ++i)
+            changed.push_back(map.Allocate(CoordOfBlock(c * blocks + i)));
         if (c > 0) changed.push_back(1);
-        for (const BlockId id : changed) FillBlock(map, id, static_cast<std::uint32_t>(1000 * c + id));
+        for (const BlockId id : changed)
+            FillBlock(map, id, static_cast<std::uint32_t>(1000 * c + id));
         checkpoint.blocks.Copy(map, changed);
-        for (int i = 0; i < 10; ++i) checkpoint.path.emplace_back(10 * c + i, RecordOfFrame(10 * c + i));
-        checkpoint.progress = {10 * (c + 1), static_cast<std::uint32_t>(10 * (c + 1)), 0, 10 * c + 9, (10 * c + 9) / 30.0, false};
+        for (int i = 0; i < 10; ++i)
+            checkpoint.path.emplace_back(10 * c + i, RecordOfFrame(10 * c + i));
+        checkpoint.progress = {10 * (c + 1),
+                               static_cast<std::uint32_t>(10 * (c + 1)),
+                               0,
+                               10 * c + 9,
+                               (10 * c + 9) / 30.0,
+                               false};
         checkpoint.tracking = Bytes(500, static_cast<std::uint8_t>(c));
         checkpoint.finished = c == checkpoints - 1;
         EXPECT_TRUE(writer.Write(checkpoint).ok());
@@ -98,7 +111,8 @@ inline std::string ReadBytes(const std::string& path) {
 }
 
 inline void WriteBytes(const std::string& path, const std::string& bytes) {
-    std::ofstream(path, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    std::ofstream(path, std::ios::binary)
+        .write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
 }
 
 }  // namespace tessera::testing_support

@@ -11,7 +11,8 @@ using namespace testing_support;
 
 // A room with a ball, seen from some places.
 std::unique_ptr<BlockMap> WriteRoom(const std::string& path) {
-    auto map = std::make_unique<BlockMap>(BlockMap::Config{.voxel_size_m = 0.02, .truncation_m = 0.08});
+    auto map =
+        std::make_unique<BlockMap>(BlockMap::Config{.voxel_size_m = 0.02, .truncation_m = 0.08});
     const PinholeCamera camera = SmallCamera();
     Integrator integrator({}, camera);
     BoxRoom room;
@@ -55,9 +56,11 @@ TEST(StoredMesh, IsThatOfTheWholeMap) {
     }
 }
 
-// Two blocks of one number, and one of a number beyond all: what would be counted by it is bounded by what is there.
+// Two blocks of one number, and one of a number beyond all: what would be counted by it is bounded
+// by what is there.
 TEST(StoredMesh, NumbersThatNoMapHasAreRefused) {
-    for (const std::int32_t number : {1, 0, 2'000'000'000, std::numeric_limits<std::int32_t>::max()}) {
+    for (const std::int32_t number :
+         {1, 0, 2'000'000'000, std::numeric_limits<std::int32_t>::max()}) {
         TempFolder folder;
         const std::string path = folder / "a.scan";
         const auto map = WriteSmallScan(path);
@@ -68,7 +71,10 @@ TEST(StoredMesh, NumbersThatNoMapHasAreRefused) {
         copies.numbers[0] = number;
         BlockCodec codec;
         ASSERT_TRUE(file.value()->Begin().ok());
-        ASSERT_TRUE(file.value()->Put(ScanTable::kBlocks, BlockKey(copies.coords[0]), codec.Encode(copies, 0)).ok());
+        ASSERT_TRUE(
+            file.value()
+                ->Put(ScanTable::kBlocks, BlockKey(copies.coords[0]), codec.Encode(copies, 0))
+                .ok());
         ASSERT_TRUE(file.value()->Commit(true).ok());
         file.value()->Close();
         const auto mesh = MeshOfStoredMap(path, map->config(), {});

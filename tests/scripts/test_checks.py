@@ -55,6 +55,15 @@ class Style(Tree):
         self.write("src/core/c.cpp", "\n" * 501)
         self.assertEqual([failure for failure, _ in check_style.findings(self.root)], [False, True])
 
+    @unittest.skipIf(check_style.formatter() is None, "needs clang-format-14")
+    def test_unformatted_files_are_found(self):
+        self.write(".clang-format", "BasedOnStyle: Google\n")
+        self.write("src/core/a.cpp", "int a = 1;\n")
+        self.write("src/core/b.cpp", "int  b =1;\n")
+        found = list(check_style.format_findings(self.root))
+        self.assertEqual([failure for failure, _ in found], [True])
+        self.assertIn("src/core/b.cpp", found[0][1])
+
     def test_heavy_includes_only_in_sources(self):
         self.write("src/io/a.h", "#include <opencv2/core.hpp>\n")
         self.write("src/io/a.cpp", "#include <opencv2/core.hpp>\n")

@@ -18,13 +18,15 @@ struct View {
     PixelBox box{160, 120, 0, 0};
 };
 
-// The camera looks down at 45 degrees onto the plane y' = 0.7 (y' down); a box of 20 x 10 x 20 cm stands on it. With
-// `behind`, a wall far behind the table.
+// The camera looks down at 45 degrees onto the plane y' = 0.7 (y' down); a box of 20 x 10 x 20 cm
+// stands on it. With `behind`, a wall far behind the table.
 View TableAndBox(double noise_m) {
     View view;
     std::mt19937 random(3);
     std::normal_distribution<double> noise(0, 1);
-    const Eigen::Matrix3d R = Eigen::AngleAxisd(-M_PI / 4, Eigen::Vector3d::UnitX()).toRotationMatrix();  // camera to world
+    // Camera to world.
+    const Eigen::Matrix3d R =
+        Eigen::AngleAxisd(-M_PI / 4, Eigen::Vector3d::UnitX()).toRotationMatrix();
     const Eigen::Vector3d low(-0.1, 0.6, 0.6), high(0.1, 0.7, 0.8);
     for (int y = 0; y < 120; ++y)
         for (int x = 0; x < 160; ++x) {
@@ -39,8 +41,8 @@ View TableAndBox(double noise_m) {
             view.depth_m(x, y) = static_cast<float>(t + noise_m * noise(random));
             view.object(x, y) = hit;
             if (!hit) continue;
-            view.box = {std::min(view.box.x_begin, x), std::min(view.box.y_begin, y), std::max(view.box.x_end, x + 1),
-                        std::max(view.box.y_end, y + 1)};
+            view.box = {std::min(view.box.x_begin, x), std::min(view.box.y_begin, y),
+                        std::max(view.box.x_end, x + 1), std::max(view.box.y_end, y + 1)};
         }
     return view;
 }
@@ -49,7 +51,8 @@ double Iou(const View& view, const Image<std::uint8_t>& mask) {
     int both = 0, any = 0;
     for (int y = 0; y < view.box.height(); ++y)
         for (int x = 0; x < view.box.width(); ++x) {
-            const bool is = view.object(x + view.box.x_begin, y + view.box.y_begin) != 0, said = mask(x, y) != 0;
+            const bool is = view.object(x + view.box.x_begin, y + view.box.y_begin) != 0,
+                       said = mask(x, y) != 0;
             both += is && said, any += is || said;
         }
     return both / static_cast<double>(any);
@@ -107,8 +110,11 @@ void MakeWall(BlockMap& map) {
             for (int bz = 11; bz < 14; ++bz) {
                 const BlockId id = map.Allocate({bx, by, bz});
                 for (int i = 0; i < kBlockVoxels; ++i) {
-                    const double distance = std::clamp(1.0 - 0.01 * (8 * bz + (i >> 6)), -0.04, 0.04);
-                    map.field(id)[i] = static_cast<std::uint32_t>(static_cast<std::uint16_t>(std::lround(distance / 0.04 * 32767))) << 16;
+                    const double distance =
+                        std::clamp(1.0 - 0.01 * (8 * bz + (i >> 6)), -0.04, 0.04);
+                    map.field(id)[i] = static_cast<std::uint32_t>(static_cast<std::uint16_t>(
+                                           std::lround(distance / 0.04 * 32767)))
+                                       << 16;
                 }
             }
 }
@@ -124,7 +130,8 @@ TEST(VoteLabels, OnlyTheBandAroundTheSurface) {
     for (int y = 50; y < 70; ++y)
         for (int x = 70; x < 90; ++x) labels.detection(x, y) = 1;
     const Ballot ballot{5, 3};
-    const VoteCount count = VoteLabels(labels, {&ballot, 1}, {}, depth, kCamera, Eigen::Isometry3d::Identity(), 0.0151, map);
+    const VoteCount count = VoteLabels(labels, {&ballot, 1}, {}, depth, kCamera,
+                                       Eigen::Isometry3d::Identity(), 0.0151, map);
     std::int64_t voxels = 0;
     std::vector<BlockId> expected_blocks;
     for (BlockId id = 1; id < map.size(); ++id)
@@ -132,20 +139,24 @@ TEST(VoteLabels, OnlyTheBandAroundTheSurface) {
             const VoxelLabel& v = map.label(id)[i];
             const BlockCoord c = map.coord(id);
             const int z = 8 * c.z + (i >> 6);
-            const Eigen::Vector2d pixel = kCamera.Project(0.01 * Eigen::Vector3d(8.0 * c.x + (i & 7), 8.0 * c.y + (i >> 3 & 7), z));
+            const Eigen::Vector2d pixel = kCamera.Project(
+                0.01 * Eigen::Vector3d(8.0 * c.x + (i & 7), 8.0 * c.y + (i >> 3 & 7), z));
             const long px = std::lround(pixel.x()), py = std::lround(pixel.y());
-            const bool expected = std::abs(z - 100) <= 1 && px >= 70 && px < 90 && py >= 50 && py < 70;
+            const bool expected =
+                std::abs(z - 100) <= 1 && px >= 70 && px < 90 && py >= 50 && py < 70;
             EXPECT_EQ(v.count[0], expected) << z << " " << px << " " << py;
             EXPECT_EQ(v.instance, expected ? 3 : 0);
             voxels += expected;
-            if (expected && (expected_blocks.empty() || expected_blocks.back() != id)) expected_blocks.push_back(id);
+            if (expected && (expected_blocks.empty() || expected_blocks.back() != id))
+                expected_blocks.push_back(id);
         }
     EXPECT_EQ(count.blocks, expected_blocks);
     EXPECT_EQ(count.voxels, voxels);
     EXPECT_GT(voxels, 500);
 }
 
-// The instance of a voxel in the middle after each of these frames: first claim and second claim of all pixels, two ballots.
+// The instance of a voxel in the middle after each of these frames: first claim and second claim of
+// all pixels, two ballots.
 TEST(VoteLabels, AVoxelsHolderCounts) {
     BlockMap map(kVoxels);
     MakeWall(map);
@@ -153,10 +164,13 @@ TEST(VoteLabels, AVoxelsHolderCounts) {
     const std::vector<std::uint16_t> joined{0, 1, 2, 3};
     const BlockId block = map.Find({0, 0, 12});
     const VoxelLabel& voxel = map.label(block)[4 * 64];
-    const auto vote = [&](int times, std::uint8_t first, std::uint8_t second, const std::vector<Ballot>& ballots) {
-        const LabelImage labels{Image<std::uint8_t>(160, 120, first), Image<std::uint8_t>(160, 120, second)};
+    const auto vote = [&](int times, std::uint8_t first, std::uint8_t second,
+                          const std::vector<Ballot>& ballots) {
+        const LabelImage labels{Image<std::uint8_t>(160, 120, first),
+                                Image<std::uint8_t>(160, 120, second)};
         for (int i = 0; i < times; ++i)
-            VoteLabels(labels, ballots, joined, depth, kCamera, Eigen::Isometry3d::Identity(), 0.0151, map);
+            VoteLabels(labels, ballots, joined, depth, kCamera, Eigen::Isometry3d::Identity(),
+                       0.0151, map);
         return voxel.instance;
     };
     EXPECT_EQ(vote(6, 1, 0, {{5, 1}, {5, 2}}), 1);

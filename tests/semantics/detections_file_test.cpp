@@ -17,7 +17,9 @@ Result<std::unique_ptr<DetectionsFile>> Parse(const std::string& text) {
 }
 
 TEST(DetectionsFile, ByTheColourImagesStamp) {
-    auto file = Parse("# a comment\n1000.0 cup 0.9 1 2 3 4\r\n\n1000.033333 cell_phone 0.4 10 20 30 40 # late\n1000 tv 1 0 0 5 5\n");
+    auto file = Parse(
+        "# a comment\n1000.0 cup 0.9 1 2 3 4\r\n\n1000.033333 cell_phone 0.4 10 20 30 40 # "
+        "late\n1000 tv 1 0 0 5 5\n");
     ASSERT_TRUE(file.ok()) << file.message();
     EXPECT_EQ(file.value()->class_names(), (std::vector<std::string>{"cell_phone", "cup", "tv"}));
     Frame frame;
@@ -38,9 +40,12 @@ TEST(DetectionsFile, ByTheColourImagesStamp) {
 
 TEST(DetectionsFile, ABadLineIsNamed) {
     const std::string good = "1000 cup 0.9 1 2 3 4\n";
-    for (const auto& [line, why] : {std::pair{"1000 cup 0.9 1 2 3", "expected"}, {"1000 cup 0.9 1 2 3 4 5", "expected"},
-                                    {"x cup 0.9 1 2 3 4", "expected"}, {"1000 cup 1.5 1 2 3 4", "probability 1.5"},
-                                    {"1000 cup 0.9 9 2 3 4", "empty"}, {"1000 cup 0.9 1 2 3e9 4", "out of range"}}) {
+    for (const auto& [line, why] : {std::pair{"1000 cup 0.9 1 2 3", "expected"},
+                                    {"1000 cup 0.9 1 2 3 4 5", "expected"},
+                                    {"x cup 0.9 1 2 3 4", "expected"},
+                                    {"1000 cup 1.5 1 2 3 4", "probability 1.5"},
+                                    {"1000 cup 0.9 9 2 3 4", "empty"},
+                                    {"1000 cup 0.9 1 2 3e9 4", "out of range"}}) {
         const auto file = Parse(good + line + "\n");
         EXPECT_FALSE(file.ok());
         EXPECT_NE(file.message().find(":2: "), std::string::npos) << file.message();

@@ -29,8 +29,12 @@ TEST(PixelsOf, AnyNumbers) {
 
 TEST(KeepWanted, ByClassAndProbabilityMostProbableFirst) {
     const LabelClasses classes = LabelClasses::Make({}, {}).value();
-    std::vector<Detection> detections = {{"cup", 0, 0.5f, {}, {}}, {"tv", 0, 0.9f, {}, {}}, {"dog", 0, 0.9f, {}, {}},
-                                         {"book", 0, 0.49f, {}, {}}, {"cup", 0, std::numeric_limits<float>::quiet_NaN(), {}, {}}};
+    std::vector<Detection> detections = {
+        {"cup", 0, 0.5f, {}, {}},
+        {"tv", 0, 0.9f, {}, {}},
+        {"dog", 0, 0.9f, {}, {}},
+        {"book", 0, 0.49f, {}, {}},
+        {"cup", 0, std::numeric_limits<float>::quiet_NaN(), {}, {}}};
     KeepWanted(classes, 0.5, detections);
     ASSERT_EQ(detections.size(), 2u);
     EXPECT_EQ(detections[0].class_id, 1);
@@ -39,8 +43,11 @@ TEST(KeepWanted, ByClassAndProbabilityMostProbableFirst) {
 
 TEST(TakeDynamic, LeavesTheRestInItsOrder) {
     const LabelClasses classes = LabelClasses::Make({}, {}).value();
-    std::vector<Detection> detections = {{"cup", 0, 0.5f, {}, {}}, {"person", 0, 0.9f, {}, {}}, {"dog", 0, 0.9f, {}, {}},
-                                         {"person", 0, 0.4f, {}, {}}, {"book", 0, 0.1f, {}, {}}};
+    std::vector<Detection> detections = {{"cup", 0, 0.5f, {}, {}},
+                                         {"person", 0, 0.9f, {}, {}},
+                                         {"dog", 0, 0.9f, {}, {}},
+                                         {"person", 0, 0.4f, {}, {}},
+                                         {"book", 0, 0.1f, {}, {}}};
     const std::vector<Detection> dynamic = TakeDynamic(classes, 0.5, detections);
     ASSERT_EQ(dynamic.size(), 1u);
     EXPECT_FLOAT_EQ(dynamic[0].probability, 0.9f);

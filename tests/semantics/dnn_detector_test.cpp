@@ -1,4 +1,5 @@
-// A published network on a real image, and files that are none. They are not part of the project: see README, "Data".
+// A published network on a real image, and files that are none. They are not part of the project:
+// see README, "Data".
 #include "semantics/dnn_detector.h"
 
 #include <gtest/gtest.h>
@@ -16,7 +17,8 @@ namespace {
 
 std::string SharedPath(const std::string& name) {
     const char* root = std::getenv("TESSERA_DATA");
-    return (root ? std::string(root) + "/../" : std::string(TESSERA_SOURCE_DIR) + "/../shared/") + name;
+    return (root ? std::string(root) + "/../" : std::string(TESSERA_SOURCE_DIR) + "/../shared/") +
+           name;
 }
 const std::string kModel = SharedPath("models/yolox_nano.onnx");
 
@@ -25,9 +27,11 @@ class DnnDetectorTest : public testing::Test {
     void SetUp() override {
         if (!HasDnn()) GTEST_SKIP() << "this build has no networks";
         if (!std::filesystem::exists(kModel))
-            GTEST_SKIP() << kModel << " is absent: YOLOX-nano as ONNX, from the YOLOX project's releases";
+            GTEST_SKIP() << kModel
+                         << " is absent: YOLOX-nano as ONNX, from the YOLOX project's releases";
     }
-    static void ExpectRefused(const std::string& path, const LabelConfig& config, const std::string& named) {
+    static void ExpectRefused(const std::string& path, const LabelConfig& config,
+                              const std::string& named) {
         const auto detector = OpenDnnDetector(path, config);
         ASSERT_FALSE(detector.ok()) << path;
         EXPECT_NE(detector.message().find(named), std::string::npos) << detector.message();
@@ -39,7 +43,8 @@ TEST_F(DnnDetectorTest, FindsTheDesksThings) {
     const std::string folder = SharedPath("data/tum_fr1_rpy/rgb");
     if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is absent";
     std::vector<std::string> files;
-    for (const auto& entry : std::filesystem::directory_iterator(folder)) files.push_back(entry.path().string());
+    for (const auto& entry : std::filesystem::directory_iterator(folder))
+        files.push_back(entry.path().string());
     std::ranges::sort(files);
     auto detector = OpenDnnDetector(kModel, {});
     ASSERT_TRUE(detector.ok()) << detector.message();
@@ -49,7 +54,9 @@ TEST_F(DnnDetectorTest, FindsTheDesksThings) {
     auto found = detector.value()->Detect(frame);
     ASSERT_TRUE(found.ok()) << found.message();
     const auto has = [&](const std::string& name) {
-        return std::ranges::any_of(found.value(), [&](const Detection& d) { return d.name == name && d.probability > 0.5f; });
+        return std::ranges::any_of(found.value(), [&](const Detection& d) {
+            return d.name == name && d.probability > 0.5f;
+        });
     };
     EXPECT_TRUE(has("tv"));
     EXPECT_TRUE(has("keyboard"));
@@ -78,7 +85,8 @@ std::string ReluNetwork(int side) {
         return Field(1, name) + Field(2, Field(1, Field(1, 1) + Field(2, shape)));
     };
     const std::string node = Field(1, "x") + Field(2, "y") + Field(4, "Relu");
-    const std::string graph = Field(1, node) + Field(2, "g") + Field(11, value("x")) + Field(12, value("y"));
+    const std::string graph =
+        Field(1, node) + Field(2, "g") + Field(11, value("x")) + Field(12, value("y"));
     return Field(1, 7) + Field(7, graph) + Field(8, Field(1, "") + Field(2, 11));
 }
 

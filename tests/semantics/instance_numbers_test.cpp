@@ -10,7 +10,8 @@ namespace tessera {
 namespace {
 
 // Two objects seen one after the other, each detection with a mark of its own.
-Instances TwoObjects(const std::vector<std::uint64_t>& first, const std::vector<std::uint64_t>& second, bool swapped) {
+Instances TwoObjects(const std::vector<std::uint64_t>& first,
+                     const std::vector<std::uint64_t>& second, bool swapped) {
     Instances instances({.min_observations = 3, .min_rate = 0.3});
     std::vector<std::pair<std::uint64_t, bool>> detections;
     for (const std::uint64_t mark : first) detections.emplace_back(mark, false);
@@ -19,10 +20,13 @@ Instances TwoObjects(const std::vector<std::uint64_t>& first, const std::vector<
     InstanceId known[2] = {0, 0};
     for (const auto& [mark, is_second] : detections) {
         InstanceId& id = known[is_second];
-        ObservedObject seen = Seen(is_second ? 6 : 5, id == 0 ? std::map<InstanceId, int>{} : std::map<InstanceId, int>{{id, 90}});
+        ObservedObject seen =
+            Seen(is_second ? 6 : 5,
+                 id == 0 ? std::map<InstanceId, int>{} : std::map<InstanceId, int>{{id, 90}});
         seen.box.translate(Eigen::Vector3d(is_second ? 5 : 0, 0, 0));
         seen.mark = mark;
-        id = instances.Match({seen}, id == 0 ? std::map<InstanceId, VisibleObject>{} : std::map<InstanceId, VisibleObject>{{id, {95}}})[0];
+        id = instances.Match({seen}, id == 0 ? std::map<InstanceId, VisibleObject>{}
+                                             : std::map<InstanceId, VisibleObject>{{id, {95}}})[0];
     }
     return instances;
 }
@@ -65,7 +69,8 @@ TEST(InstanceNumbers, OneThatIsConfirmedLaterStillGetsItsNumber) {
     EXPECT_EQ(NumberOfClass(strangers, 6), 3);  // 1 and 2 were others
 }
 
-// Two of a class, five metres apart, each seen eight times while the map shows neither, as `marks` say.
+// Two of a class, five metres apart, each seen eight times while the map shows neither, as `marks`
+// say.
 std::array<InstanceId, 2> Parts(Instances& instances, const std::array<std::uint64_t, 2>& marks) {
     std::array<InstanceId, 2> parts{};
     for (std::size_t part : {0u, 1u}) {
@@ -94,7 +99,8 @@ TEST(InstanceNumbers, WhatWasJoinedIsKnownByTheDetectionsOfBoth) {
     const auto parts = Parts(before, {100, 200});
     Join(before, parts, 1.0);
     ASSERT_EQ(before.record(parts[0]).public_id, 2);
-    Instances after = TwoObjects({}, {200, 201, 202}, false);  // detections of the part that is gone
+    // Detections of the part that is gone.
+    Instances after = TwoObjects({}, {200, 201, 202}, false);
     after.KeepNumbersOf(before);
     EXPECT_EQ(NumberOfClass(after, 6), 2);
 }

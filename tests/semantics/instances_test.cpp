@@ -12,7 +12,8 @@ TEST(Instances, NewThenUpdatedThenConfirmed) {
     const InstanceId id = instances.Match({Seen(5)}, {})[0];
     EXPECT_NE(id, 0);
     EXPECT_FALSE(instances.confirmed(id));
-    for (int i = 0; i < 2; ++i) EXPECT_EQ(instances.Match({Seen(5, {{id, 90}})}, {{id, {95}}})[0], id);
+    for (int i = 0; i < 2; ++i)
+        EXPECT_EQ(instances.Match({Seen(5, {{id, 90}})}, {{id, {95}}})[0], id);
     EXPECT_TRUE(instances.confirmed(id));
     EXPECT_EQ(instances.record(id).public_id, 1);
     EXPECT_EQ(instances.record(id).observations, 3);
@@ -24,8 +25,10 @@ TEST(Instances, TwoOfAClassStayApart) {
     const auto both = instances.Match({Seen(5), Seen(5)}, {});
     EXPECT_NE(both[0], both[1]);
     for (int i = 0; i < 9; ++i)
-        EXPECT_EQ(instances.Match({Seen(5, {{both[1], 80}, {both[0], 5}}), Seen(5, {{both[0], 85}})}, {{both[0], {90}}, {both[1], {90}}}),
-                  (std::vector<InstanceId>{both[1], both[0]}));
+        EXPECT_EQ(
+            instances.Match({Seen(5, {{both[1], 80}, {both[0], 5}}), Seen(5, {{both[0], 85}})},
+                            {{both[0], {90}}, {both[1], {90}}}),
+            (std::vector<InstanceId>{both[1], both[0]}));
     EXPECT_EQ(instances.record(both[0]).public_id + instances.record(both[1]).public_id, 3);
 }
 
@@ -90,12 +93,13 @@ Eigen::AlignedBox2d Pixels(double x_min, double y_min, double x_max, double y_ma
     return {Eigen::Vector2d(x_min, y_min), Eigen::Vector2d(x_max, y_max)};
 }
 
-// A book on a book: the lower one's box and segment hold both. In a frame where the upper one is missed it is told by the
-// outline, and the upper one keeps its voxels.
+// A book on a book: the lower one's box and segment hold both. In a frame where the upper one is
+// missed it is told by the outline, and the upper one keeps its voxels.
 TEST(Instances, ADetectionIsTheOneWithItsOutlineAndSparesTheOneItCovers) {
     Instances instances({});
     const InstanceId upper = Confirmed(instances, 5), lower = Confirmed(instances, 5);
-    const std::map<InstanceId, VisibleObject> visible{{upper, {200, Pixels(10, 0, 90, 40)}}, {lower, {90, Pixels(0, 0, 100, 60)}}};
+    const std::map<InstanceId, VisibleObject> visible{{upper, {200, Pixels(10, 0, 90, 40)}},
+                                                      {lower, {90, Pixels(0, 0, 100, 60)}}};
     ObservedObject seen = Seen(5, {{upper, 170}, {lower, 85}}, 290);
     seen.image_box = Pixels(0, 0, 100, 60);
     const std::vector<InstanceId> match = instances.Match({seen}, visible);
@@ -116,7 +120,8 @@ TEST(Instances, WhatTheMapDoesNotShowYetIsKnownByItsPlace) {
     beside.box = {Eigen::Vector3d(3, 0, 0), Eigen::Vector3d(4, 1, 1)};
     const InstanceId b = instances.Match({Seen(5, {{a, 90}}), beside}, {{a, {150}}})[1];
     ASSERT_NE(b, a);
-    for (int i = 0; i < 3; ++i) EXPECT_EQ(instances.Match({Seen(5, {{a, 90}}), beside}, {{a, {150}}})[1], b);
+    for (int i = 0; i < 3; ++i)
+        EXPECT_EQ(instances.Match({Seen(5, {{a, 90}}), beside}, {{a, {150}}})[1], b);
     beside.box.translate(Eigen::Vector3d(3, 0, 0));
     EXPECT_NE(instances.Match({Seen(5, {{a, 90}}), beside}, {{a, {150}}})[1], b);
 }
@@ -132,7 +137,8 @@ TEST(Instances, GoOnFromASavedState) {
     StateReader reader(bytes);
     ASSERT_TRUE(resumed.LoadState(reader));
     for (int i = 0; i < 8; ++i) {
-        const std::vector<ObservedObject> seen{Seen(5, {{a, 90}}), Seen(4, {{InstanceId(a + 1), 80}})};
+        const std::vector<ObservedObject> seen{Seen(5, {{a, 90}}),
+                                               Seen(4, {{InstanceId(a + 1), 80}})};
         const std::map<InstanceId, VisibleObject> visible{{a, {95}}, {InstanceId(a + 1), {90}}};
         EXPECT_EQ(resumed.Match(seen, visible), instances.Match(seen, visible));
     }

@@ -32,14 +32,16 @@ TEST(LabelClasses, WhatIsDynamicIsKnownByOurNames) {
     config.dynamic = "person office_chair";
     config.aliases = "man=person";
     const LabelClasses classes = LabelClasses::Make(config, {}).value();
-    for (const char* name : {"person", "man", "office chair"}) EXPECT_TRUE(classes.IsDynamic(name)) << name;
+    for (const char* name : {"person", "man", "office chair"})
+        EXPECT_TRUE(classes.IsDynamic(name)) << name;
     EXPECT_FALSE(classes.IsDynamic("cup"));
     config.dynamic = "person=#010203";
     EXPECT_NE(config.Validate().message().find("labels.dynamic"), std::string::npos);
 }
 
 TEST(LabelClasses, ErrorsNameTheKey) {
-    const auto error = [](const std::string& classes, const std::string& aliases, const std::vector<std::string>& known = {}) {
+    const auto error = [](const std::string& classes, const std::string& aliases,
+                          const std::vector<std::string>& known = {}) {
         LabelConfig config;
         config.classes = classes;
         config.aliases = aliases;
@@ -49,12 +51,14 @@ TEST(LabelClasses, ErrorsNameTheKey) {
     EXPECT_NE(error("cup cup", "").find("'cup' is empty or given twice"), std::string::npos);
     EXPECT_NE(error("cup=red", "").find("#rrggbb"), std::string::npos);
     EXPECT_NE(error("cup", "tv").find("labels.aliases"), std::string::npos);
-    EXPECT_NE(error("cup", "", {"dog", "cat"}).find("knows none of them (it knows dog, ...)"), std::string::npos);
+    EXPECT_NE(error("cup", "", {"dog", "cat"}).find("knows none of them (it knows dog, ...)"),
+              std::string::npos);
 }
 
 TEST(DistinctColour, TheFirstTwentyDiffer) {
     for (int a = 0; a < 20; ++a)
-        for (int b = 0; b < a; ++b) EXPECT_FALSE(DistinctColour(a) == DistinctColour(b)) << a << " " << b;
+        for (int b = 0; b < a; ++b)
+            EXPECT_FALSE(DistinctColour(a) == DistinctColour(b)) << a << " " << b;
 }
 
 TEST(LabelConfig, InputMustFitTheStrides) {

@@ -11,7 +11,8 @@
 namespace tessera {
 namespace {
 
-const PinholeCamera kMapperCamera{.width = 160, .height = 120, .fx = 130, .fy = 130, .cx = 79.5, .cy = 59.5};
+const PinholeCamera kMapperCamera{
+    .width = 160, .height = 120, .fx = 130, .fy = 130, .cx = 79.5, .cy = 59.5};
 constexpr Rgb8 kCup{1, 200, 3}, kBook{4, 5, 220};
 
 // A wall at 1 m that nobody measures again, and a detector's word on it.
@@ -20,9 +21,11 @@ class LabelMapperTest : public ::testing::Test {
     LabelMapperTest() {
         config.classes = "cup=#01c803 book=#0405dc";
         map.EnableLabels();
-        testing_support::Fill(map, testing_support::Plane({0, 0, -1}, -1.003), {-6, -5, 11}, {6, 5, 13});
+        testing_support::Fill(map, testing_support::Plane({0, 0, -1}, -1.003), {-6, -5, 11},
+                              {6, 5, 13});
         mesher.Update(map);
-        mapper = std::make_unique<LabelMapper>(config, LabelClasses::Make(config, {"cup", "book"}).value(), kMapperCamera);
+        mapper = std::make_unique<LabelMapper>(
+            config, LabelClasses::Make(config, {"cup", "book"}).value(), kMapperCamera);
     }
     void Label(int class_id, int width) {
         Detection d;
@@ -35,17 +38,20 @@ class LabelMapperTest : public ::testing::Test {
     std::vector<Rgb8> ColoursOf(BlockId id) const {
         std::vector<Rgb8> colours;
         if (const auto& mesh = mesher.block_meshes()[static_cast<std::size_t>(id)])
-            for (const auto& vertex : mesh->vertices) colours.push_back(mapper->ColourOf(map, *mesh, vertex));
+            for (const auto& vertex : mesh->vertices)
+                colours.push_back(mapper->ColourOf(map, *mesh, vertex));
         return colours;
     }
     // Renews what TakeRelabelled names, and expects all else to be as it was.
     std::size_t Renew() {
         const std::vector<BlockId> relabelled = mapper->TakeRelabelled(map);
         for (const BlockId id : relabelled)
-            for (const BlockId owner : {id, map.neighbour(id, -1, 0, 0), map.neighbour(id, 0, -1, 0), map.neighbour(id, 0, 0, -1)})
+            for (const BlockId owner : {id, map.neighbour(id, -1, 0, 0),
+                                        map.neighbour(id, 0, -1, 0), map.neighbour(id, 0, 0, -1)})
                 kept[owner] = ColoursOf(owner);
         for (BlockId id = 1; id < map.size(); ++id)
-            if (const auto now = ColoursOf(id); kept.contains(id) || std::ranges::count(now, kNoSceneColour) != std::ssize(now)) {
+            if (const auto now = ColoursOf(id);
+                kept.contains(id) || std::ranges::count(now, kNoSceneColour) != std::ssize(now)) {
                 EXPECT_EQ(kept[id], now) << "block " << id;
             }
         return relabelled.size();
@@ -72,7 +78,7 @@ TEST_F(LabelMapperTest, WhatShowsDifferentlyIsNamedAlsoWhereNobodyVoted) {
         whole = Renew();
         EXPECT_EQ(CountOf(kCup) > 0, i + 1 >= config.min_observations) << i;
     }
-    EXPECT_EQ(Renew(), 0u);  // nothing was said since
+    EXPECT_EQ(Renew(), 0u);          // nothing was said since
     EXPECT_GT(CountOf(kCup), 2500);  // 80 x 60 pixels of 7.7 mm
     std::size_t most = 0, least = whole;
     for (int i = 0; i < 15; ++i) {
@@ -110,7 +116,8 @@ TEST_F(LabelMapperTest, ATenthOfWhatWasSeenIsNoObject) {
     const TriangleMesh whole = mapper->LabelledVertices(map, mesher.block_meshes());
     const auto objects_of = [&](double share) {
         TriangleMesh part = whole;
-        const auto left = static_cast<std::size_t>(share * static_cast<double>(whole.vertices.size()));
+        const auto left =
+            static_cast<std::size_t>(share * static_cast<double>(whole.vertices.size()));
         for (std::size_t i = left; i < part.labels.size(); ++i) part.labels[i] = {};
         const std::size_t objects = mapper->Objects(0.01, part).size();
         EXPECT_EQ(part.labels[0].instance != 0, objects == 1);

@@ -15,7 +15,8 @@ MapObject Cup() {
     o.probability = 0.75, o.observations = 12;
     o.centroid = {1, 2, 3};
     o.box = Eigen::AlignedBox3d(Eigen::Vector3d(0, 1, 2), Eigen::Vector3d(2, 3, 4));
-    o.T_world_oriented = Eigen::Translation3d(1, 2, 3) * Eigen::AngleAxisd(0.5, Eigen::Vector3d::UnitZ());
+    o.T_world_oriented =
+        Eigen::Translation3d(1, 2, 3) * Eigen::AngleAxisd(0.5, Eigen::Vector3d::UnitZ());
     o.oriented_size = {0.1, 0.2, 0.3};
     return o;
 }

@@ -10,7 +10,8 @@ namespace tessera {
 
 inline const Eigen::AlignedBox3d kBox(Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(1, 1, 1));
 
-inline ObservedObject Seen(int class_id, std::map<InstanceId, int> overlaps = {}, int pixels = 100) {
+inline ObservedObject Seen(int class_id, std::map<InstanceId, int> overlaps = {},
+                           int pixels = 100) {
     return {class_id, 0.9f, pixels, std::move(overlaps), kBox, {}, pixels};
 }
 

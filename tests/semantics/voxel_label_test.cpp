@@ -57,7 +57,8 @@ TEST(VoxelLabel, AFifthOfWrongVotesFlipsNothingSettled) {
     int flips = 0;
     for (int voxel = 0; voxel < 2000; ++voxel) {
         std::vector<std::uint8_t> votes;
-        for (int i = 0; i < 200; ++i) votes.push_back(random() % 5 != 0 ? 1 : static_cast<std::uint8_t>(2 + random() % 4));
+        for (int i = 0; i < 200; ++i)
+            votes.push_back(random() % 5 != 0 ? 1 : static_cast<std::uint8_t>(2 + random() % 4));
         EXPECT_EQ(After(votes, &flips).class_id[0], 1);
     }
     EXPECT_EQ(flips, 0);

@@ -23,8 +23,8 @@ struct Outputs {
     }
 };
 
-void ExpectOne(const std::vector<RawDetection>& found, int class_index, float probability, float x_min, float y_min, float x_max,
-               float y_max) {
+void ExpectOne(const std::vector<RawDetection>& found, int class_index, float probability,
+               float x_min, float y_min, float x_max, float y_max) {
     ASSERT_EQ(found.size(), 1u);
     EXPECT_EQ(found[0].class_index, class_index);
     EXPECT_NEAR(found[0].probability, probability, 1e-6);
@@ -37,7 +37,8 @@ void ExpectOne(const std::vector<RawDetection>& found, int class_index, float pr
 TEST(YoloOutputs, YoloxCountsInCells) {
     Outputs o;
     auto& v = o.Add({1, kCells, 7});
-    // Cell (1, 0) of stride 16 is row 16 + 1: centre ((0.5 + 1) 16, (0.25 + 0) 16), size (16 e^0, 16 e^log(0.5)).
+    // Cell (1, 0) of stride 16 is row 16 + 1: centre ((0.5 + 1) 16, (0.25 + 0) 16), size (16 e^0,
+    // 16 e^log(0.5)).
     const float row[] = {0.5f, 0.25f, 0, std::log(0.5f), 0.8f, 0.1f, 0.9f};
     std::copy(std::begin(row), std::end(row), v.begin() + 17 * 7);
     const auto layout = RecogniseOutputs(o.arrays, kInput, ModelFamily::kAuto);
@@ -95,10 +96,12 @@ TEST(YoloOutputs, DarknetIsRelative) {
 TEST(YoloOutputs, UnknownShapesAreListed) {
     Outputs o;
     o.Add({1, 1000});
-    EXPECT_NE(RecogniseOutputs(o.arrays, kInput, ModelFamily::kAuto).message().find("YOLOX"), std::string::npos);
+    EXPECT_NE(RecogniseOutputs(o.arrays, kInput, ModelFamily::kAuto).message().find("YOLOX"),
+              std::string::npos);
     Outputs yolox;
     yolox.Add({1, kCells, 7});
-    EXPECT_NE(RecogniseOutputs(yolox.arrays, kInput, ModelFamily::kYolov8).message().find("1x21x7"), std::string::npos);
+    EXPECT_NE(RecogniseOutputs(yolox.arrays, kInput, ModelFamily::kYolov8).message().find("1x21x7"),
+              std::string::npos);
     EXPECT_FALSE(RecogniseOutputs({}, kInput, ModelFamily::kAuto).ok());
 }
 
@@ -109,11 +112,14 @@ TEST(YoloOutputs, NumbersThatAreNone) {
     const float rows[] = {0, 0, 100, 0, 1, 1, 0, nan, 0, 0, 0, 1, 1, 0, 0, 0, 0, 0, nan, 1, 0};
     std::copy(std::begin(rows), std::end(rows), v.begin());
     const auto layout = RecogniseOutputs(o.arrays, kInput, ModelFamily::kAuto);
-    EXPECT_TRUE(DecodeOutputs(layout.value(), o.arrays, 0.5f).empty());  // e^100 cells wide overflows
+    // e^100 cells wide overflows.
+    EXPECT_TRUE(DecodeOutputs(layout.value(), o.arrays, 0.5f).empty());
 }
 
 TEST(SuppressOverlaps, KeepsTheMostProbableOfAClass) {
-    std::vector<RawDetection> d = {{0, 0.6f, 0, 0, 10, 10, {}}, {0, 0.9f, 1, 0, 11, 10, {}}, {1, 0.5f, 0, 0, 10, 10, {}},
+    std::vector<RawDetection> d = {{0, 0.6f, 0, 0, 10, 10, {}},
+                                   {0, 0.9f, 1, 0, 11, 10, {}},
+                                   {1, 0.5f, 0, 0, 10, 10, {}},
                                    {0, 0.7f, 20, 0, 30, 10, {}}};
     SuppressOverlaps(0.45f, d);
     ASSERT_EQ(d.size(), 3u);

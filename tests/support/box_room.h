@@ -1,5 +1,5 @@
-// An exact little world for tests: the inside of a box with a smooth texture and perhaps a ball in it. Renders depth and
-// colour and knows its signed distance.
+// An exact little world for tests: the inside of a box with a smooth texture and perhaps a ball in
+// it. Renders depth and colour and knows its signed distance.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -20,7 +20,7 @@ struct BoxRoom {
     bool has_ball = false;
     Eigen::Vector3d ball_centre{0.2, 0.1, 1.2};
     double ball_radius_m = 0.3;
-    double texture = 1.0;      // contrast; 0 is a room of one colour
+    double texture = 1.0;         // contrast; 0 is a room of one colour
     bool only_back_wall = false;  // one plane, z = high.z(), and nothing else
 
     // Positive in the free inside of the room.
@@ -33,12 +33,14 @@ struct BoxRoom {
 
     // Smooth in space: wavelengths of 15 to 60 cm.
     double Intensity(const Eigen::Vector3d& p) const {
-        const double wave = std::sin(23 * p.x() + 11 * p.y()) + std::sin(-9 * p.x() + 31 * p.y() + 13 * p.z()) +
+        const double wave = std::sin(23 * p.x() + 11 * p.y()) +
+                            std::sin(-9 * p.x() + 31 * p.y() + 13 * p.z()) +
                             std::sin(27 * p.z() + 17 * p.y() - 5 * p.x());
         return 0.5 + texture * 0.13 * wave;
     }
 
-    // Distance along `ray` (any length) from `origin`, in units of the ray; both in the world frame.
+    // Distance along `ray` (any length) from `origin`, in units of the ray; both in the world
+    // frame.
     double Cast(const Eigen::Vector3d& origin, const Eigen::Vector3d& ray) const {
         double nearest = std::numeric_limits<double>::infinity();
         for (int axis = 0; axis < 3; ++axis) {
@@ -51,7 +53,8 @@ struct BoxRoom {
         }
         if (has_ball) {
             const Eigen::Vector3d o = origin - ball_centre;
-            const double a = ray.squaredNorm(), b = o.dot(ray), c = o.squaredNorm() - ball_radius_m * ball_radius_m;
+            const double a = ray.squaredNorm(), b = o.dot(ray),
+                         c = o.squaredNorm() - ball_radius_m * ball_radius_m;
             if (const double root = b * b - a * c; root > 0) {
                 const double t = (-b - std::sqrt(root)) / a;
                 if (t > 1e-9) nearest = std::min(nearest, t);
@@ -60,7 +63,8 @@ struct BoxRoom {
         return nearest;
     }
 
-    Frame Render(const PinholeCamera& camera, const Eigen::Isometry3d& T_world_camera, double stamp_s = 0) const {
+    Frame Render(const PinholeCamera& camera, const Eigen::Isometry3d& T_world_camera,
+                 double stamp_s = 0) const {
         Frame frame;
         frame.stamp_s = frame.colour_stamp_s = stamp_s;
         frame.colour = ColourImage(camera.width, camera.height);
@@ -73,7 +77,8 @@ struct BoxRoom {
                 if (!std::isfinite(z)) continue;
                 frame.depth_m(u, v) = static_cast<float>(z);
                 const double i = Intensity(T_world_camera.translation() + z * ray);
-                const auto grey = static_cast<std::uint8_t>(std::clamp(255.0 * i + 0.5, 0.0, 255.0));
+                const auto grey =
+                    static_cast<std::uint8_t>(std::clamp(255.0 * i + 0.5, 0.0, 255.0));
                 frame.colour(u, v) = {grey, grey, grey};
             }
         return frame;
@@ -84,8 +89,8 @@ struct BoxRoom {
 inline Eigen::Isometry3d SmoothPath(int i, double speed = 1.0) {
     const double t = speed * i / 30.0;
     Vector6d twist;
-    twist << 0.08 * std::sin(1.1 * t), 0.12 * std::sin(0.9 * t), 0.06 * std::sin(1.3 * t), 0.15 * std::sin(1.0 * t),
-        0.08 * std::sin(1.4 * t), 0.10 * std::sin(0.8 * t);
+    twist << 0.08 * std::sin(1.1 * t), 0.12 * std::sin(0.9 * t), 0.06 * std::sin(1.3 * t),
+        0.15 * std::sin(1.0 * t), 0.08 * std::sin(1.4 * t), 0.10 * std::sin(0.8 * t);
     return Se3Exp(twist);
 }
 

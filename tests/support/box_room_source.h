@@ -40,7 +40,8 @@ class BoxRoomSource : public FrameSource {
         frame.index = next_++;
         for (std::size_t i = 0; i < frame.colour.size(); ++i) {
             Rgb8& c = frame.colour.data()[i];
-            c = {c.r, static_cast<std::uint8_t>(c.g * 7 / 10), static_cast<std::uint8_t>(c.b * 4 / 10)};
+            c = {c.r, static_cast<std::uint8_t>(c.g * 7 / 10),
+                 static_cast<std::uint8_t>(c.b * 4 / 10)};
         }
         return {};
     }

@@ -1,12 +1,12 @@
 #include "synth/builtin_scenes.h"
 
-#include "synth/frame_renderer.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <numbers>
 #include <set>
+
+#include "synth/frame_renderer.h"
 
 namespace tessera {
 namespace {
@@ -14,10 +14,11 @@ namespace {
 TEST(BuiltinScenes, AnUnknownNameListsTheKnownOnes) {
     const auto scene = MakeBuiltinScene("kitchen");
     ASSERT_FALSE(scene.ok());
-    EXPECT_EQ(scene.message(),
-              "'kitchen' is no built-in scene; there are desk, room, flat, corridor, floor, corner, "
-              "wall, people, chair, door, or give an .obj "
-              "file");
+    EXPECT_EQ(
+        scene.message(),
+        "'kitchen' is no built-in scene; there are desk, room, flat, corridor, floor, corner, "
+        "wall, people, chair, door, or give an .obj "
+        "file");
 }
 
 TEST(BuiltinScenes, TheDeskHasItsObjects) {
@@ -67,7 +68,8 @@ TEST(BuiltinScenes, TheRoomsTurnEndsWhereItBegan) {
     EXPECT_LT(RotationAngle(first, last), 0.03);
 }
 
-// The mask is exact where the view without the movers differs from the one with them; the reference holds none of them.
+// The mask is exact where the view without the movers differs from the one with them; the reference
+// holds none of them.
 TEST(BuiltinScenes, WhatMovesIsMaskedAndNoPartOfTheReference) {
     const auto staged = MakeBuiltinScene("people");
     ASSERT_TRUE(staged.ok());
@@ -84,7 +86,8 @@ TEST(BuiltinScenes, WhatMovesIsMaskedAndNoPartOfTheReference) {
             for (int x = 0; x < camera.width; x += 3) {
                 const bool moves = view.mobility(x, y) != Mobility::kStatic;
                 masked += moves;
-                const SurfaceHit behind = scene.CastRay(T.translation(), T.linear() * camera.Unproject(x, y, 1));
+                const SurfaceHit behind =
+                    scene.CastRay(T.translation(), T.linear() * camera.Unproject(x, y, 1));
                 ASSERT_EQ(view.patch(x, y) < 0, moves);
                 if (moves)
                     EXPECT_LT(view.depth_m(x, y), behind.t);
@@ -100,12 +103,15 @@ TEST(BuiltinScenes, TheChairRestsMovesAndRests) {
     const auto staged = MakeBuiltinScene("chair");
     ASSERT_TRUE(staged.ok());
     const PinholeCamera camera{160, 120, 131, 131, 79.5, 59.5};
-    for (const auto& [t, expected] :
-         {std::pair{2.0, Mobility::kResting}, {6.0, Mobility::kMoving}, {10.0, Mobility::kResting}}) {
+    for (const auto& [t, expected] : {std::pair{2.0, Mobility::kResting},
+                                      {6.0, Mobility::kMoving},
+                                      {10.0, Mobility::kResting}}) {
         RenderedView view;
         FrameRenderer(*staged.value().scene, camera).Render(staged.value().path, t, 0, view);
-        const auto count = std::count(view.mobility.data(), view.mobility.data() + view.mobility.size(), expected);
-        const auto rest = std::count(view.mobility.data(), view.mobility.data() + view.mobility.size(), Mobility::kStatic);
+        const auto count =
+            std::count(view.mobility.data(), view.mobility.data() + view.mobility.size(), expected);
+        const auto rest = std::count(
+            view.mobility.data(), view.mobility.data() + view.mobility.size(), Mobility::kStatic);
         EXPECT_GT(count, 200) << t;
         EXPECT_EQ(count + rest, 160 * 120) << t;
     }

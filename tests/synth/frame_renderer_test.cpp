@@ -50,7 +50,8 @@ TEST_F(WallAndBall, DepthIsAlongTheOpticalAxis) {
 
 // A shake to and fro about the vertical.
 Eigen::Isometry3d Shaken(double time_s) {
-    return LookAt({0, 0, 1}, {0, 2, 1}) * Eigen::AngleAxisd(0.3 * std::sin(5 * time_s), Vector3d::UnitY());
+    return LookAt({0, 0, 1}, {0, 2, 1}) *
+           Eigen::AngleAxisd(0.3 * std::sin(5 * time_s), Vector3d::UnitY());
 }
 
 TEST_F(WallAndBall, ARollingShutterReadsEachRowAtItsTime) {
@@ -64,8 +65,10 @@ TEST_F(WallAndBall, ARollingShutterReadsEachRowAtItsTime) {
         global.Render(path, 0.4 + 0.02 * middle, 0.008, depth);
         global.Render(path, 0.4 + 0.01 + 0.03 * middle, 0.008, colour);
         for (int x = 0; x < kCamera.width; ++x) {
-            EXPECT_FLOAT_EQ(rolling.depth_m(x, row + 2), depth.depth_m(x, row + 2)) << x << " " << row;
-            EXPECT_FLOAT_EQ(rolling.colour(x, row + 2).r, colour.colour(x, row + 2).r) << x << " " << row;
+            EXPECT_FLOAT_EQ(rolling.depth_m(x, row + 2), depth.depth_m(x, row + 2))
+                << x << " " << row;
+            EXPECT_FLOAT_EQ(rolling.colour(x, row + 2).r, colour.colour(x, row + 2).r)
+                << x << " " << row;
         }
     }
 }
@@ -73,10 +76,13 @@ TEST_F(WallAndBall, ARollingShutterReadsEachRowAtItsTime) {
 TEST_F(WallAndBall, AColourCameraBesideTheDepthCameraSeesFromThere) {
     const Eigen::Isometry3d T = Shaken(0.1);
     RenderedView both, moved;
-    FrameRenderer(scene_, kCamera, {.colour_x_m = 0.05, .colour_turn_deg = 2}).Render(Still(T), 0, 0, both);
+    FrameRenderer(scene_, kCamera, {.colour_x_m = 0.05, .colour_turn_deg = 2})
+        .Render(Still(T), 0, 0, both);
     const double turn_rad = 2 * 3.14159265358979 / 180;
     FrameRenderer(scene_, kCamera)
-        .Render(Still(T * Eigen::Translation3d(0.05, 0, 0) * Eigen::AngleAxisd(turn_rad, Vector3d::UnitY())), 0, 0, moved);
+        .Render(Still(T * Eigen::Translation3d(0.05, 0, 0) *
+                      Eigen::AngleAxisd(turn_rad, Vector3d::UnitY())),
+                0, 0, moved);
     RenderedView as_was;
     FrameRenderer(scene_, kCamera).Render(Still(T), 0, 0, as_was);
     for (int x = 0; x < kCamera.width; ++x) {

@@ -6,11 +6,11 @@
 #include <fstream>
 
 #include "io/image_io.h"
+#include "support/temp_folder.h"
 #include "synth/camera_path.h"
 #include "synth/frame_renderer.h"
 #include "synth/hash_random.h"
 #include "synth/model_path.h"
-#include "support/temp_folder.h"
 
 namespace tessera {
 namespace {

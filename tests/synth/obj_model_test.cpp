@@ -5,8 +5,8 @@
 
 #include <fstream>
 
-#include "synth/hash_random.h"
 #include "support/temp_folder.h"
+#include "synth/hash_random.h"
 
 namespace tessera {
 namespace {

@@ -10,11 +10,11 @@
 #include "io/image_io.h"
 #include "io/mesh_io.h"
 #include "io/trajectory.h"
+#include "support/temp_folder.h"
 #include "synth/analytic_scene.h"
 #include "synth/furniture.h"
 #include "synth/paint.h"
 #include "synth/seen_objects.h"
-#include "support/temp_folder.h"
 
 namespace tessera {
 namespace {

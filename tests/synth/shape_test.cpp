@@ -13,9 +13,7 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-Shape Make(ShapeKind kind, const Vector3d& half) {
-    return {kind, half};
-}
+Shape Make(ShapeKind kind, const Vector3d& half) { return {kind, half}; }
 const Shape kBox = Make(ShapeKind::kBox, {0.5, 1.0, 1.5});
 const Shape kSphere = Make(ShapeKind::kSphere, {0.7, 0.7, 0.7});
 const Shape kCylinder = Make(ShapeKind::kCylinder, {0.4, 0.4, 1.2});

@@ -1,5 +1,6 @@
-// The whole program's figures on sequences with ground truth: the defaults, every frame, SE(3) alignment without scale.
-// The bounds are the project's, not the present figures: docs/benchmarks.md has those.
+// The whole program's figures on sequences with ground truth: the defaults, every frame, SE(3)
+// alignment without scale. The bounds are the project's, not the present figures:
+// docs/benchmarks.md has those.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -21,7 +22,9 @@ namespace fs = std::filesystem;
 
 std::string DataFolder(const std::string& name) {
     const char* data = std::getenv("TESSERA_DATA");
-    return (data != nullptr ? std::string(data) : std::string(TESSERA_SOURCE_DIR) + "/../shared/data") + "/" + name;
+    return (data != nullptr ? std::string(data)
+                            : std::string(TESSERA_SOURCE_DIR) + "/../shared/data") +
+           "/" + name;
 }
 
 std::string ReadAll(const std::string& path) {
@@ -43,8 +46,9 @@ RunSummary RunWith(const RunConfig& config, const std::string& source, const std
     return run.ok() ? run.value() : RunSummary{};
 }
 
-RunSummary RunOn(const std::string& source, const std::string& out, std::int64_t stride = 1, int threads = 0,
-                 std::int64_t count = -1, TrackingMethod method = TrackingMethod::kSdf) {
+RunSummary RunOn(const std::string& source, const std::string& out, std::int64_t stride = 1,
+                 int threads = 0, std::int64_t count = -1,
+                 TrackingMethod method = TrackingMethod::kSdf) {
     RunConfig config;
     config.threads = threads;
     config.pipeline.trackers.method = method;
@@ -57,7 +61,8 @@ class Recorded : public testing::Test {
     void Need(const std::string& name) {
         sequence = DataFolder(name);
         if (!fs::exists(sequence))
-            GTEST_SKIP() << sequence << " is absent: set TESSERA_DATA to a folder that holds " << name
+            GTEST_SKIP() << sequence << " is absent: set TESSERA_DATA to a folder that holds "
+                         << name
                          << " (TUM RGB-D sequences: cvg.cit.tum.de/data/datasets/rgbd-dataset)";
     }
     TempFolder folder;
@@ -99,7 +104,8 @@ TEST_P(HouseSequence, MeetsItsBoundAtFullAndAtAQuarterOfTheRate) {
         const RunSummary run = RunOn(sequence, folder / "out", stride);
         EXPECT_EQ(run.counts.tracked, run.counts.frames);
         ASSERT_TRUE(run.ate.has_value());
-        EXPECT_LE(run.ate->error_m.rmse, GetParam().ate_m * (stride == 1 ? 1 : 2)) << "stride " << stride;
+        EXPECT_LE(run.ate->error_m.rmse, GetParam().ate_m * (stride == 1 ? 1 : 2))
+            << "stride " << stride;
     }
 }
 
@@ -135,7 +141,8 @@ TEST_F(Recorded, GeometryAloneIsDegenerateOnAFloorAndSaysSo) {
     EXPECT_GT(run.ate->error_m.rmse, 0.05);
 }
 
-// A gate on a share of the Hessian's trace refused nearly all of these frames, and the frozen map never came back.
+// A gate on a share of the Hessian's trace refused nearly all of these frames, and the frozen map
+// never came back.
 TEST_F(Recorded, TeddyIsFusedFromItsFirstFrameToItsLast) {
     ASSERT_NO_FATAL_FAILURE(Need("tum_fr3_teddy_200"));
     if (IsSkipped()) return;
@@ -151,7 +158,8 @@ TEST_F(Recorded, ThreadsAndRunsDoNotChangeAByte) {
     std::string trajectory, mesh;
     for (const int threads : {1, 2, 4, 2}) {
         RunOn(sequence, folder / "out", 1, threads, 60);
-        const std::string t = ReadAll(folder / "out/trajectory.txt"), m = ReadAll(folder / "out/mesh.ply");
+        const std::string t = ReadAll(folder / "out/trajectory.txt"),
+                          m = ReadAll(folder / "out/mesh.ply");
         ASSERT_FALSE(t.empty());
         if (!trajectory.empty()) {
             EXPECT_EQ(t, trajectory) << threads << " threads";
@@ -170,14 +178,16 @@ struct IcpCase {
 
 class IcpSequence : public Recorded, public testing::WithParamInterface<IcpCase> {};
 
-// [D18] section 3.2. InfiniTAM's best depth-only tracker has 36 mm on fr1_rpy. Where there is no OpenGL, the rasteriser's
-// place is taken by the ray caster, and the two runs agree for nothing. Where nothing holds the camera (fr1 rpy, frames 38 to 58 with
-// icp-rgb) they differ by chance, up to 15 mm: so their medians are compared.
+// [D18] section 3.2. InfiniTAM's best depth-only tracker has 36 mm on fr1_rpy. Where there is no
+// OpenGL, the rasteriser's place is taken by the ray caster, and the two runs agree for nothing.
+// Where nothing holds the camera (fr1 rpy, frames 38 to 58 with icp-rgb) they differ by chance, up
+// to 15 mm: so their medians are compared.
 TEST_P(IcpSequence, MeetsItsBoundFromEitherPrediction) {
     ASSERT_NO_FATAL_FAILURE(Need(GetParam().name));
     if (IsSkipped()) return;
     std::vector<Trajectory> paths;
-    for (const auto prediction : {IcpTracker::Prediction::kRayCast, IcpTracker::Prediction::kRaster}) {
+    for (const auto prediction :
+         {IcpTracker::Prediction::kRayCast, IcpTracker::Prediction::kRaster}) {
         RunConfig config;
         config.pipeline.trackers.method = GetParam().method;
         config.pipeline.trackers.icp.prediction = prediction;
@@ -194,24 +204,30 @@ TEST_P(IcpSequence, MeetsItsBoundFromEitherPrediction) {
     EXPECT_LE(apart.value().error_m.median, 0.001);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    All, IcpSequence,
-    testing::Values(IcpCase{"tum_fr1_rpy", TrackingMethod::kIcp, 0.036}, IcpCase{"tum_fr1_rpy", TrackingMethod::kIcpRgb, 0.025},
-                    IcpCase{"house_desk", TrackingMethod::kIcp, 0.006}, IcpCase{"house_desk", TrackingMethod::kIcpRgb, 0.004},
-                    IcpCase{"house_wall_plain", TrackingMethod::kIcp, 0.006},
-                    IcpCase{"house_wall_plain", TrackingMethod::kIcpRgb, 0.004}),
-    [](const auto& test) {
-        return std::string(test.param.name) + (test.param.method == TrackingMethod::kIcp ? "_icp" : "_icp_rgb");
-    });
+INSTANTIATE_TEST_SUITE_P(All, IcpSequence,
+                         testing::Values(IcpCase{"tum_fr1_rpy", TrackingMethod::kIcp, 0.036},
+                                         IcpCase{"tum_fr1_rpy", TrackingMethod::kIcpRgb, 0.025},
+                                         IcpCase{"house_desk", TrackingMethod::kIcp, 0.006},
+                                         IcpCase{"house_desk", TrackingMethod::kIcpRgb, 0.004},
+                                         IcpCase{"house_wall_plain", TrackingMethod::kIcp, 0.006},
+                                         IcpCase{"house_wall_plain", TrackingMethod::kIcpRgb,
+                                                 0.004}),
+                         [](const auto& test) {
+                             return std::string(test.param.name) +
+                                    (test.param.method == TrackingMethod::kIcp ? "_icp"
+                                                                               : "_icp_rgb");
+                         });
 
-// What nothing shows follows the prealignment, which sees the texture; the floor is mapped all the same.
+// What nothing shows follows the prealignment, which sees the texture; the floor is mapped all the
+// same.
 TEST_F(Recorded, IcpOnAFloorIsDegenerateAndWithColourItIsHeld) {
     ASSERT_NO_FATAL_FAILURE(Need("house_floor"));
     if (IsSkipped()) return;
     const RunSummary icp = RunOn(sequence, folder / "out", 1, 0, -1, TrackingMethod::kIcp);
     EXPECT_GT(icp.counts.degenerate, 150);
     EXPECT_EQ(icp.counts.fused, icp.counts.frames);
-    const RunSummary with_colour = RunOn(sequence, folder / "out", 1, 0, -1, TrackingMethod::kIcpRgb);
+    const RunSummary with_colour =
+        RunOn(sequence, folder / "out", 1, 0, -1, TrackingMethod::kIcpRgb);
     EXPECT_EQ(with_colour.counts.fused, with_colour.counts.frames);
     EXPECT_EQ(with_colour.counts.degenerate, 0);
     ASSERT_TRUE(with_colour.ate.has_value());
@@ -223,15 +239,17 @@ double MotionSize(const Eigen::Isometry3d& T) {
     return T.translation().norm() + RotationAngle(T, Eigen::Isometry3d::Identity()) * 1.0;
 }
 
-// A switch is no jump: from the frame before to the frame of the switch the path moves as the truth does, up to less
-// than what the camera moves in one frame. (The methods' own estimates may lie a centimetre apart.)
+// A switch is no jump: from the frame before to the frame of the switch the path moves as the truth
+// does, up to less than what the camera moves in one frame. (The methods' own estimates may lie a
+// centimetre apart.)
 TEST_F(Recorded, SwitchingMethodsKeepsPoseAndMap) {
     ASSERT_NO_FATAL_FAILURE(Need("tum_fr1_rpy"));
     if (IsSkipped()) return;
     RunRequest request;
     request.source = sequence;
     request.output_folder = folder / "out";
-    request.switches = {{100, TrackingMethod::kIcp}, {200, TrackingMethod::kSdf}, {300, TrackingMethod::kIcpRgb}};
+    request.switches = {
+        {100, TrackingMethod::kIcp}, {200, TrackingMethod::kSdf}, {300, TrackingMethod::kIcpRgb}};
     const std::atomic<bool> stop{false};
     const auto run = ExecuteRun(request, {}, {}, stop);
     ASSERT_TRUE(run.ok()) << run.message();
@@ -241,7 +259,8 @@ TEST_F(Recorded, SwitchingMethodsKeepsPoseAndMap) {
     const auto truth = ReadTrajectory(sequence + "/groundtruth.txt");
     const auto path = ReadTrajectory(folder / "out/trajectory.txt");
     ASSERT_TRUE(truth.ok() && path.ok());
-    const auto motion_at = [&](std::size_t i) -> std::pair<double, double> {  // of the truth; how far off the path is
+    // Of the truth; how far off the path is.
+    const auto motion_at = [&](std::size_t i) -> std::pair<double, double> {
         const StampedPose &before = path.value().poses[i - 1], &after = path.value().poses[i];
         const auto true_before = InterpolatePose(truth.value().poses, before.stamp_s);
         const auto true_after = InterpolatePose(truth.value().poses, after.stamp_s);
@@ -252,7 +271,8 @@ TEST_F(Recorded, SwitchingMethodsKeepsPoseAndMap) {
     };
     for (const std::size_t at : {100u, 200u, 300u}) {
         double largest_motion_m = 0;
-        for (std::size_t i = at - 10; i <= at + 10; ++i) largest_motion_m = std::max(largest_motion_m, motion_at(i).first);
+        for (std::size_t i = at - 10; i <= at + 10; ++i)
+            largest_motion_m = std::max(largest_motion_m, motion_at(i).first);
         EXPECT_LT(motion_at(at).second, largest_motion_m) << "frame " << at;
     }
 }

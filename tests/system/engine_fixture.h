@@ -52,7 +52,8 @@ class EngineTest : public testing::Test {
         return true;
     }
     void TakeAll() {
-        while (Next()) {}
+        while (Next()) {
+        }
     }
     std::int64_t Count(Kind kind) const {
         return std::ranges::count(outcomes, kind, &FrameOutcome::kind);
@@ -70,7 +71,8 @@ class EngineTest : public testing::Test {
     }
     void Ask(Command kind, const std::string& path = {}) { viewer->commands.Push({kind, path}); }
 
-    // Everything that a person can ask for but a stop, with a window that takes what it is sent only now and then.
+    // Everything that a person can ask for but a stop, with a window that takes what it is sent
+    // only now and then.
     void AskAtRandomToTheEnd(const TempFolder& folder) {
         std::mt19937 random(7);
         int saved = 0;
@@ -82,7 +84,8 @@ class EngineTest : public testing::Test {
                 case 3: Ask(Command::kRecord, folder / fmt::format("raw{}", saved++)); break;
                 case 4: Ask(Command::kStopRecording); break;
                 case 7: Ask(Command::kSaveScan, folder / "random.scan"); break;
-                case 5: case 6: {
+                case 5:
+                case 6: {
                     ViewerSettings settings;
                     settings.method = static_cast<TrackingMethod>(random() % kTrackingMethods);
                     settings.prealign = random() % 2 == 0;
@@ -103,8 +106,9 @@ class EngineTest : public testing::Test {
 
     // Off the true pose, in the world of the first camera.
     static double Error_m(const FrameReport& report, double speed = 1) {
-        const Eigen::Isometry3d truth = testing_support::SmoothPath(0, speed).inverse() *
-                                        testing_support::SmoothPath(static_cast<int>(report.index), speed);
+        const Eigen::Isometry3d truth =
+            testing_support::SmoothPath(0, speed).inverse() *
+            testing_support::SmoothPath(static_cast<int>(report.index), speed);
         return (truth.inverse() * report.track.T_world_camera).translation().norm();
     }
 

@@ -8,12 +8,14 @@ namespace tessera::testing_support {
 
 class FrameList : public FrameSource {
   public:
-    explicit FrameList(std::vector<Frame> frames, double first_stamp_s = 0) : frames_(std::move(frames)) {
+    explicit FrameList(std::vector<Frame> frames, double first_stamp_s = 0)
+        : frames_(std::move(frames)) {
         info_.name = "frames";
         info_.camera = RoomCamera();
         for (std::size_t i = 0; i < frames_.size(); ++i) {
             frames_[i].index = static_cast<std::int64_t>(i);
-            frames_[i].stamp_s = frames_[i].colour_stamp_s = first_stamp_s + static_cast<double>(i) / 30;
+            frames_[i].stamp_s = frames_[i].colour_stamp_s =
+                first_stamp_s + static_cast<double>(i) / 30;
         }
     }
     const SourceInfo& info() const override { return info_; }

@@ -45,7 +45,8 @@ class PersonDetector : public Detector {
         Detection person, cup;
         person.name = "person", cup.name = "cup";
         person.probability = cup.probability = 0.9f;
-        const auto width = static_cast<float>(frame.depth_m.width()), height = static_cast<float>(frame.depth_m.height());
+        const auto width = static_cast<float>(frame.depth_m.width()),
+                   height = static_cast<float>(frame.depth_m.height());
         person.box = {0.3f * width, 0.2f * height, 0.7f * width, 0.8f * height};
         cup.box = {0.4f * width, 0.4f * height, 0.5f * width, 0.5f * height};
         const PixelBox pixels = PixelsOf(person.box, frame.depth_m.width(), frame.depth_m.height());
@@ -78,11 +79,13 @@ class LabellingStageTest : public EngineTest, public testing::WithParamInterface
     }
     int TimesSaid() const {
         int times = 0;
-        for (const FrameOutcome& o : outcomes) times += o.message.find("the network fell over") != std::string::npos;
+        for (const FrameOutcome& o : outcomes)
+            times += o.message.find("the network fell over") != std::string::npos;
         return times;
     }
     std::int64_t Labelled() const {
-        return std::ranges::count_if(outcomes, [](const FrameOutcome& o) { return o.labels.has_value(); });
+        return std::ranges::count_if(outcomes,
+                                     [](const FrameOutcome& o) { return o.labels.has_value(); });
     }
 };
 

@@ -1,5 +1,5 @@
-// Labels end to end against per-pixel truth: a built-in scene, and a rendered sequence with its detections file, each with
-// the mistakes as given and with 20 % wrong and 30 % missed.
+// Labels end to end against per-pixel truth: a built-in scene, and a rendered sequence with its
+// detections file, each with the mistakes as given and with 20 % wrong and 30 % missed.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -28,7 +28,8 @@ constexpr Mistakes kGiven{0.1, 0.03, 0.95, 11}, kHard{0.3, 0.2, 0.9, 10};
 class LabelsTest : public testing::Test {
   protected:
     // Labels the source; the scores against `truth`.
-    LabelScores Score(const std::string& source, const std::string& labels, const std::string& truth) {
+    LabelScores Score(const std::string& source, const std::string& labels,
+                      const std::string& truth) {
         RunRequest request;
         request.source = source;
         request.labels = labels;
@@ -51,15 +52,18 @@ class LabelsTest : public testing::Test {
     // As a window would.
     void Watch() {
         MeshUpdate mesh;
-        while (link.meshes.TryPop(mesh)) {}
+        while (link.meshes.TryPop(mesh)) {
+        }
         std::vector<MapObject> objects;
         while (link.objects.TryPop(objects)) told.push_back(std::move(objects));
     }
-    // What was once told of under a number is at the same place ever after, unless it went for good; then no new number
-    // stands there.
+    // What was once told of under a number is at the same place ever after, unless it went for
+    // good; then no new number stands there.
     void ExpectConstantNumbers() const {
         ASSERT_GE(told.size(), 2u);
-        const auto distance_m = [](const MapObject& a, const MapObject& b) { return (a.centroid - b.centroid).norm(); };
+        const auto distance_m = [](const MapObject& a, const MapObject& b) {
+            return (a.centroid - b.centroid).norm();
+        };
         std::map<int, MapObject> places;
         std::set<int> gone;
         for (const auto& objects : told) {
@@ -75,7 +79,8 @@ class LabelsTest : public testing::Test {
                 if (!here.contains(id)) gone.insert(id);
             for (const MapObject& o : objects)
                 for (const int id : gone)
-                    EXPECT_FALSE(id < o.id && places[id].class_id == o.class_id && distance_m(places[id], o) < 0.03)
+                    EXPECT_FALSE(id < o.id && places[id].class_id == o.class_id &&
+                                 distance_m(places[id], o) < 0.03)
                         << "object " << id << " became " << o.id;
         }
         EXPECT_FALSE(told.back().empty());
@@ -91,7 +96,8 @@ class LabelsTest : public testing::Test {
 
 class SyntheticDesk : public LabelsTest, public testing::WithParamInterface<Mistakes> {};
 
-// The desk has a stack of three books, each two or three voxels thick: with a third missed and so few frames, 10 of 11 will do.
+// The desk has a stack of three books, each two or three voxels thick: with a third missed and so
+// few frames, 10 of 11 will do.
 TEST_P(SyntheticDesk, IsLabelledDespiteMistakes) {
     config.synthetic.frames = 60;
     config.synthetic.fps = 6;  // the whole of the scene's motion
@@ -120,7 +126,9 @@ INSTANTIATE_TEST_SUITE_P(GivenAndHard, SyntheticDesk, testing::Values(kGiven, kH
 
 std::string Sequence() {
     const char* data = std::getenv("TESSERA_DATA");
-    return (data != nullptr ? std::string(data) : std::string(TESSERA_SOURCE_DIR) + "/../shared/data") + "/house_desk";
+    return (data != nullptr ? std::string(data)
+                            : std::string(TESSERA_SOURCE_DIR) + "/../shared/data") +
+           "/house_desk";
 }
 
 // The file with further mistakes; the same on every machine.
@@ -142,7 +150,8 @@ void MakeMistakes(const std::string& from, const std::string& to, const Mistakes
     for (auto& fields : lines) {
         const double missed = share(), wrong = share(), which = share();
         if (missed < mistakes.missed) continue;
-        if (wrong < mistakes.wrong) fields[1] = names[static_cast<std::size_t>(which * static_cast<double>(names.size()))];
+        if (wrong < mistakes.wrong)
+            fields[1] = names[static_cast<std::size_t>(which * static_cast<double>(names.size()))];
         for (const std::string& field : fields) out << field << ' ';
         out << '\n';
     }
@@ -152,7 +161,8 @@ class HouseDesk : public LabelsTest {
   protected:
     void SetUp() override {
         if (!std::filesystem::exists(Sequence()))
-            GTEST_SKIP() << Sequence() << " is absent: set TESSERA_DATA to a folder that holds house_desk";
+            GTEST_SKIP() << Sequence()
+                         << " is absent: set TESSERA_DATA to a folder that holds house_desk";
     }
     void ExpectWell(const LabelScores& scores, double least_accuracy) {
         EXPECT_GT(scores.accuracy, least_accuracy) << LabelScoresText(scores);
@@ -171,8 +181,8 @@ TEST_F(HouseDesk, DetectionsAsGiven) {
     EXPECT_EQ(scores.recall_25, 1.0) << LabelScoresText(scores);
 }
 
-// Wrong "books" leave nothing behind: the surroundings of the true ones stay without a label. Two of the books lie one upon
-// the other.
+// Wrong "books" leave nothing behind: the surroundings of the true ones stay without a label. Two
+// of the books lie one upon the other.
 TEST_F(HouseDesk, AFifthWrongAndAThirdMissed) {
     MakeMistakes(Sequence() + "/detections.txt", folder / "hard.txt", kHard);
     const LabelScores scores = Score(Sequence(), folder / "hard.txt", Sequence());

@@ -1,6 +1,7 @@
-// No latch: whatever the constants, frames that were not fused are followed by frames that are. Trials change all constants of
-// scripts/reproduction/constants.txt at once, each by a random factor of up to 1.5 either way, and run the engine's two stages
-// on small rendered sequences in which a hand covers the camera for a moment. docs/generality.md has the protocol.
+// No latch: whatever the constants, frames that were not fused are followed by frames that are.
+// Trials change all constants of scripts/reproduction/constants.txt at once, each by a random
+// factor of up to 1.5 either way, and run the engine's two stages on small rendered sequences in
+// which a hand covers the camera for a moment. docs/generality.md has the protocol.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <tbb/parallel_for.h>
@@ -46,7 +47,8 @@ int NumberFromEnvironment(const char* name, int otherwise) {
     return text != nullptr ? std::atoi(text) : otherwise;
 }
 
-// At every third of a camera's frames: fast enough to be lost by a tracker that has stood still for long.
+// At every third of a camera's frames: fast enough to be lost by a tracker that has stood still for
+// long.
 std::vector<Frame> Rendered(const std::string& scene) {
     SynthConfig config;
     config.camera = kCamera;
@@ -60,8 +62,9 @@ std::vector<Frame> Rendered(const std::string& scene) {
     return frames;
 }
 
-// A hand before the camera for some frames: over some columns and too near to be measured, or over the whole image. (A hand over a
-// part of the image that is measured looks like a scene that moves, and takes the camera along: docs/generality.md.)
+// A hand before the camera for some frames: over some columns and too near to be measured, or over
+// the whole image. (A hand over a part of the image that is measured looks like a scene that moves,
+// and takes the camera along: docs/generality.md.)
 struct Hand {
     int from = 0, count = 0;
     int columns = 0;
@@ -102,10 +105,13 @@ class Latch : public testing::Test {
             trial.config.trackers.method = static_cast<TrackingMethod>(below(kTrackingMethods));
             trial.scene = std::next(scenes_.begin(), below(scenes_.size()))->first;
             Hand& hand = trial.hand;
-            hand = {1 + below(kFrames / 2), below(kMostCovered + 1), kCamera.width * (1 + below(4)) / 4, 0};
+            hand = {1 + below(kFrames / 2), below(kMostCovered + 1),
+                    kCamera.width * (1 + below(4)) / 4, 0};
             if (below(2) == 0) hand = {hand.from, hand.count, kCamera.width, 0.6f};
-            trial.text = fmt::format("seed {}: {}, {}, {} frames from {} covered to column {} at {} m", seed, trial.scene,
-                                     ToString(trial.config.trackers.method), hand.count, hand.from, hand.columns, hand.depth_m);
+            trial.text =
+                fmt::format("seed {}: {}, {}, {} frames from {} covered to column {} at {} m", seed,
+                            trial.scene, ToString(trial.config.trackers.method), hand.count,
+                            hand.from, hand.columns, hand.depth_m);
             ConfigParameters parameters;
             trial.config.Describe(parameters);
             for (const ConfigParameters::Parameter& p : parameters.parameters()) {
@@ -113,8 +119,8 @@ class Latch : public testing::Test {
                 if (listed == constants_.end() || listed->second == "leave") continue;
                 const double power = 2 * static_cast<double>(random() >> 11) * 0x1p-53 - 1;
                 const double value = std::stod(p.default_value) * std::pow(kFactor, power);
-                const std::string text =
-                    listed->second == "count" ? fmt::format("{:.0f}", value) : fmt::format("{:.6g}", value);
+                const std::string text = listed->second == "count" ? fmt::format("{:.0f}", value)
+                                                                   : fmt::format("{:.6g}", value);
                 const Status set = parameters.Set(p.key, text);
                 EXPECT_TRUE(set.ok()) << set.message();
                 trial.text += fmt::format(" {}={}", p.key, text);
@@ -135,12 +141,15 @@ class Latch : public testing::Test {
             if (!report.fused) reason = report.track.reason;
         }
         if (unfused <= kMostUnfused) return {};
-        return fmt::format("the last {} of {} frames were not fused ({})\n{}", unfused, kFrames, reason, trial.text);
+        return fmt::format("the last {} of {} frames were not fused ({})\n{}", unfused, kFrames,
+                           reason, trial.text);
     }
 
     const std::map<std::string, std::string> constants_ = ListedConstants();
-    const std::map<std::string, std::vector<Frame>> scenes_ = {
-        {"desk", Rendered("desk")}, {"corner", Rendered("corner")}, {"floor", Rendered("floor")}, {"wall", Rendered("wall")}};
+    const std::map<std::string, std::vector<Frame>> scenes_ = {{"desk", Rendered("desk")},
+                                                               {"corner", Rendered("corner")},
+                                                               {"floor", Rendered("floor")},
+                                                               {"wall", Rendered("wall")}};
 };
 
 // A number that is added to the program is either changed here, or constants.txt says why not.
@@ -155,7 +164,8 @@ TEST(ConstantsList, EveryNumberOfFrameMappingTrackingAndMovingIsListed) {
         EXPECT_TRUE(numbers.erase(key) == 1) << key << " is no number of the configuration";
         EXPECT_TRUE(kind == "size" || kind == "count" || kind == "leave") << kind << " " << key;
     }
-    for (const std::string& key : numbers) ADD_FAILURE() << key << " is missing in scripts/reproduction/constants.txt";
+    for (const std::string& key : numbers)
+        ADD_FAILURE() << key << " is missing in scripts/reproduction/constants.txt";
 }
 
 // TESSERA_LATCH_TRIALS: how many; TESSERA_LATCH_SEED: the first one's seed, to see a failure again.

@@ -32,7 +32,8 @@ TEST_F(Live, EveryFrameIsAccountedForAndTrackedToTheMillimetre) {
     EXPECT_GT(engine->TakeMesh().triangles.size(), 1000u);
 }
 
-// Mapping far slower than tracking: frames go on being tracked, not all of them are fused. How many are depends on the machine.
+// Mapping far slower than tracking: frames go on being tracked, not all of them are fused. How many
+// are depends on the machine.
 TEST_F(Live, SlowMappingLeavesFramesUnfusedAndTracksThem) {
     config.live.playback_speed = 1;
     config.live.extra_mapping_ms = 1000;  // tracking is faster on a slow machine, too
@@ -55,7 +56,8 @@ TEST_F(Live, SlowMappingLeavesFramesUnfusedAndTracksThem) {
     EXPECT_EQ(fused + unfused, 45);
 }
 
-// Tracking ten times slower: frames are dropped, the newest are tracked, and the slow camera is not lost.
+// Tracking ten times slower: frames are dropped, the newest are tracked, and the slow camera is not
+// lost.
 TEST_F(Live, SlowTrackingDropsOldFramesAndKeepsThePose) {
     config.live.playback_speed = 1;
     config.live.extra_tracking_ms = 330;
@@ -75,7 +77,8 @@ TEST_F(Live, SlowTrackingDropsOldFramesAndKeepsThePose) {
 TEST_F(Live, BadFramesWaitsAndABrokenSourceAreTold) {
     Make(true, {.before_read = [waited = false](std::int64_t i) mutable -> ReadResult {
              if (i == 2) return {ReadStatus::kSkip, "torn"};
-             if (i == 4 && !std::exchange(waited, true)) return {ReadStatus::kWait, "camera unplugged"};
+             if (i == 4 && !std::exchange(waited, true))
+                 return {ReadStatus::kWait, "camera unplugged"};
              if (i == 6) return {ReadStatus::kError, "burnt"};
              return {};
          }});
@@ -91,7 +94,8 @@ TEST_F(Live, BadFramesWaitsAndABrokenSourceAreTold) {
 TEST_F(Live, ARecordingThatFailsEndsAloneAndIsTold) {
     TempFolder folder;
     EngineInput input = Input({.count = 20, .before_read = [&](std::int64_t i) -> ReadResult {
-                                   if (i == 5) std::filesystem::rename(folder / "raw", folder / "gone");
+                                   if (i == 5)
+                                       std::filesystem::rename(folder / "raw", folder / "gone");
                                    return {};
                                }});
     input.config.live.queue_frames = 30;
@@ -99,7 +103,8 @@ TEST_F(Live, ARecordingThatFailsEndsAloneAndIsTold) {
     engine = std::make_unique<LiveEngine>(std::move(input));
     TakeAll();
     EXPECT_EQ(Reports().size() + static_cast<std::size_t>(Count(Kind::kDropped)), 20u);
-    EXPECT_NE(Messages().find("recording ended: " + (folder / "raw")), std::string::npos) << Messages();
+    EXPECT_NE(Messages().find("recording ended: " + (folder / "raw")), std::string::npos)
+        << Messages();
 }
 
 TEST_F(Live, AStopEndsItSoonAndKeepsTheMap) {
@@ -128,7 +133,8 @@ TEST_F(Live, ViewerCommandsAreObeyed) {
     settings.method = TrackingMethod::kIcp;
     link.settings.Push(ViewerSettings(settings));
     // Single frames may be lost where many were dropped before them.
-    while (Reports().back()->method != TrackingMethod::kIcp || !Reports().back()->tracked()) ASSERT_TRUE(Next());
+    while (Reports().back()->method != TrackingMethod::kIcp || !Reports().back()->tracked())
+        ASSERT_TRUE(Next());
     Ask(Command::kSaveMesh, folder / "now.ply");
     while (Messages().find("saved ") == std::string::npos) ASSERT_TRUE(Next());
     EXPECT_TRUE(std::filesystem::exists(folder / "now.ply"));
@@ -143,7 +149,8 @@ TEST_F(Live, ViewerCommandsAreObeyed) {
     EXPECT_TRUE(engine->stopped());
 }
 
-// Everything at random, with a window that takes what it is sent only now and then: for the sanitizers.
+// Everything at random, with a window that takes what it is sent only now and then: for the
+// sanitizers.
 TEST_F(Live, RandomCommandsDoNoHarm) {
     ViewerLink link;
     viewer = &link;

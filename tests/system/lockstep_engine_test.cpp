@@ -25,7 +25,8 @@ TEST_F(Lockstep, TheSameBytesWithAndWithoutAViewer) {
     TakeAll();
     ASSERT_EQ(outcomes.size(), alone.size());
     for (std::size_t i = 0; i < alone.size(); ++i)
-        EXPECT_EQ(outcomes[i].report.track.T_world_camera.matrix(), alone[i].report.track.T_world_camera.matrix());
+        EXPECT_EQ(outcomes[i].report.track.T_world_camera.matrix(),
+                  alone[i].report.track.T_world_camera.matrix());
     const TriangleMesh seen = engine->TakeMesh();
     EXPECT_EQ(seen.vertices, mesh.vertices);
     EXPECT_EQ(seen.triangles, mesh.triangles);
@@ -55,7 +56,8 @@ TEST_F(Lockstep, PauseStepResumeLetExactlySoManyFramesPass) {
     Ask(Command::kSaveMesh, "unwritable/nowhere.ply");
     ASSERT_TRUE(Next());  // and no third frame
     EXPECT_EQ(outcomes.back().kind, Kind::kMessage);
-    EXPECT_NE(outcomes.back().message.find("unwritable/nowhere.ply"), std::string::npos) << outcomes.back().message;
+    EXPECT_NE(outcomes.back().message.find("unwritable/nowhere.ply"), std::string::npos)
+        << outcomes.back().message;
     Ask(Command::kResume);
     TakeAll();
     EXPECT_EQ(Reports().size(), 6u);
@@ -67,7 +69,8 @@ TEST_F(Lockstep, AResetBeginsANewWorldAndKeepsTheMethod) {
     Make(false, {.count = 8});
     for (int i = 0; i < 4; ++i) ASSERT_TRUE(Next());
     MeshUpdate update;
-    while (link.meshes.TryPop(update)) {}
+    while (link.meshes.TryPop(update)) {
+    }
     ViewerSettings settings;
     settings.method = TrackingMethod::kSdfGeometric;
     link.settings.Push(std::move(settings));
@@ -99,7 +102,8 @@ TEST_F(Lockstep, WhatIsRecordedIsTheSourceAgain) {
         ASSERT_EQ(again.value()->Read(actual).status, ReadStatus::kOk);
         EXPECT_NEAR(actual.stamp_s, expected.stamp_s, 1e-6);
         ASSERT_EQ(actual.depth_m.size(), expected.depth_m.size());
-        for (std::size_t k = 0; k < actual.depth_m.size(); ++k)  // the source's depth is no multiple of its unit
+        for (std::size_t k = 0; k < actual.depth_m.size();
+             ++k)  // the source's depth is no multiple of its unit
             ASSERT_NEAR(actual.depth_m.data()[k], expected.depth_m.data()[k], 0.5 / 5000 + 1e-6);
     }
 }
@@ -109,7 +113,8 @@ TEST_F(Lockstep, ARecordingThatCannotBeMadeIsAnError) {
     input.record_path = "/proc/nowhere";
     engine = std::make_unique<LockstepEngine>(std::move(input));
     EXPECT_FALSE(Next());
-    EXPECT_NE(engine->status().message().find("/proc/nowhere"), std::string::npos) << engine->status().message();
+    EXPECT_NE(engine->status().message().find("/proc/nowhere"), std::string::npos)
+        << engine->status().message();
 }
 
 }  // namespace

@@ -63,7 +63,8 @@ TEST(LoopStage, AKidnappedCameraIsFoundWithinTenFrames) {
     for (std::size_t i = 0; i < frames.size(); ++i) {
         if (!outcome.reports[i].tracked()) continue;
         const double off_m = (outcome.reports[i].track.T_world_camera.translation() -
-                              frames[i].T_world_camera->translation()).norm();
+                              frames[i].T_world_camera->translation())
+                                 .norm();
         squares += off_m * off_m;
         ++tracked;
     }
@@ -88,12 +89,15 @@ TEST(LoopStage, TheSameBytesForAnyNumberOfThreads) {
     const std::vector<Frame> frames = Kidnap(RoomWalk(31, 10, 1));
     Outcome outcomes[2];
     for (int threads : {1, 3}) {
-        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                        static_cast<std::size_t>(threads));
         outcomes[threads / 2] = RunFrames(frames);
     }
     ASSERT_EQ(outcomes[0].path.size(), outcomes[1].path.size());
     for (std::size_t i = 0; i < outcomes[0].path.size(); ++i)
-        EXPECT_EQ(outcomes[0].path[i].T_world_camera.matrix(), outcomes[1].path[i].T_world_camera.matrix()) << i;
+        EXPECT_EQ(outcomes[0].path[i].T_world_camera.matrix(),
+                  outcomes[1].path[i].T_world_camera.matrix())
+            << i;
     EXPECT_EQ(outcomes[0].mesh.vertices, outcomes[1].mesh.vertices);
     EXPECT_EQ(outcomes[0].mesh.colours, outcomes[1].mesh.colours);
 }
@@ -104,7 +108,9 @@ TEST(LoopStage, AWalkWithoutDriftIsTheSameWithAndWithout) {
     const Outcome with = RunFrames(frames), without = RunFrames(frames, false);
     EXPECT_TRUE(without.path.empty());
     for (std::size_t i = 0; i < frames.size(); ++i)
-        EXPECT_EQ(with.reports[i].track.T_world_camera.matrix(), without.reports[i].track.T_world_camera.matrix()) << i;
+        EXPECT_EQ(with.reports[i].track.T_world_camera.matrix(),
+                  without.reports[i].track.T_world_camera.matrix())
+            << i;
     EXPECT_EQ(with.mesh.vertices, without.mesh.vertices);
 }
 

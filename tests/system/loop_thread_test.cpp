@@ -1,4 +1,5 @@
-// Loop closure beside a live run: what the thread makes of a walk that drifts, and a camera that is lost in mid-run.
+// Loop closure beside a live run: what the thread makes of a walk that drifts, and a camera that is
+// lost in mid-run.
 #include "system/loop_thread.h"
 
 #include <map>
@@ -31,7 +32,8 @@ class LoopThreadTest : public testing::Test {
         auto copy = frames.Take();
         *copy = frame;
         thread.Offer(std::move(tracked), std::move(copy), {0, corrections});
-        // The thread may be slow: frames that wait are not to pile up in a test that wants all of them.
+        // The thread may be slow: frames that wait are not to pile up in a test that wants all of
+        // them.
         mapping.Wait([&] { return thread.waiting() < 8; });
         TakeCorrections();
     }
@@ -77,7 +79,8 @@ TEST_F(LoopThreadTest, CorrectsAWalkThatDrifts) {
     Eigen::Isometry3d T_drifted = Eigen::Isometry3d::Identity();
     for (std::size_t i = 0; i < walk.size(); ++i) {
         const Eigen::Isometry3d step =
-            i == 0 ? T_drifted : walk[i - 1].T_world_camera->inverse() * *walk[i].T_world_camera * bias;
+            i == 0 ? T_drifted
+                   : walk[i - 1].T_world_camera->inverse() * *walk[i].T_world_camera * bias;
         T_drifted = T_drifted * step;
         Go(walk[i], step);
     }
@@ -95,8 +98,8 @@ TEST_F(LoopThreadTest, CorrectsAWalkThatDrifts) {
     ASSERT_EQ(passages.size(), path.size());
     EXPECT_EQ(poses.size(), keyframes);
     for (std::size_t i = 0; i < path.size(); ++i) {
-        const Eigen::Isometry3d T_world_camera =
-            Normalised(poses.at(passages[i].keyframe).T_world_camera * passages[i].T_keyframe_camera);
+        const Eigen::Isometry3d T_world_camera = Normalised(
+            poses.at(passages[i].keyframe).T_world_camera * passages[i].T_keyframe_camera);
         EXPECT_EQ(T_world_camera.matrix(), path[i].T_world_camera.matrix()) << i;
     }
     EXPECT_EQ(stored.size(), walk.size());
@@ -122,7 +125,8 @@ TEST_F(LoopThreadTest, AResetForgetsAllAndAnOldQuestionHasNoAnswer) {
     };
     const LoopThread::Answer here = ask({0, 0});
     ASSERT_TRUE(here.T_world_camera.has_value());
-    EXPECT_LT((here.T_world_camera->translation() - walk[0].T_world_camera->translation()).norm(), 0.02);
+    EXPECT_LT((here.T_world_camera->translation() - walk[0].T_world_camera->translation()).norm(),
+              0.02);
     EXPECT_EQ(here.stamp_s, 1.5);
     thread.Reset({1, 0});
     mapping.Wait([&] { return thread.waiting() == 0; });
@@ -133,9 +137,11 @@ TEST_F(LoopThreadTest, AResetForgetsAllAndAnOldQuestionHasNoAnswer) {
 }
 
 TEST(Carry, AppliesWhatCameSince) {
-    const std::vector<Eigen::Isometry3d> corrections{Eigen::Isometry3d(Eigen::Translation3d(1, 0, 0)),
-                                                     Eigen::Isometry3d(Eigen::Translation3d(0, 2, 0))};
-    for (const auto& [from, expected] : {std::pair{0, Eigen::Vector3d(1, 2, 0)}, {1, {0, 2, 0}}, {2, {0, 0, 0}}}) {
+    const std::vector<Eigen::Isometry3d> corrections{
+        Eigen::Isometry3d(Eigen::Translation3d(1, 0, 0)),
+        Eigen::Isometry3d(Eigen::Translation3d(0, 2, 0))};
+    for (const auto& [from, expected] :
+         {std::pair{0, Eigen::Vector3d(1, 2, 0)}, {1, {0, 2, 0}}, {2, {0, 0, 0}}}) {
         Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
         Carry(corrections, from, pose);
         EXPECT_EQ(pose.translation(), expected) << from;
@@ -167,7 +173,8 @@ TEST(LiveEngineWithLoops, FindsAKidnappedCamera) {
             continue;
         }
         if (!report.tracked()) continue;
-        error_m = (report.track.T_world_camera.translation() - again.T_world_camera->translation()).norm();
+        error_m = (report.track.T_world_camera.translation() - again.T_world_camera->translation())
+                      .norm();
         stop.store(true);
     }
     EXPECT_LT(error_m, 0.02);

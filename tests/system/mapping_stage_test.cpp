@@ -7,7 +7,8 @@
 namespace tessera {
 namespace {
 
-const PinholeCamera kCamera{.width = 160, .height = 120, .fx = 130, .fy = 130, .cx = 79.5, .cy = 59.5};
+const PinholeCamera kCamera{
+    .width = 160, .height = 120, .fx = 130, .fy = 130, .cx = 79.5, .cy = 59.5};
 
 Detection Seen(int class_id, float left) {
     Detection d;
@@ -19,9 +20,11 @@ Detection Seen(int class_id, float left) {
 }
 
 std::unique_ptr<BlockMap> Wall() {
-    auto map = std::make_unique<BlockMap>(BlockMap::Config{.voxel_size_m = 0.01, .truncation_m = 0.04});
+    auto map =
+        std::make_unique<BlockMap>(BlockMap::Config{.voxel_size_m = 0.01, .truncation_m = 0.04});
     map->EnableLabels();
-    testing_support::Fill(*map, testing_support::Plane({0, 0, -1}, -1.003), {-8, -5, 11}, {8, 5, 13});
+    testing_support::Fill(*map, testing_support::Plane({0, 0, -1}, -1.003), {-8, -5, 11},
+                          {8, 5, 13});
     return map;
 }
 

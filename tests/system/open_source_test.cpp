@@ -19,8 +19,12 @@ TEST(OpenSource, ASceneByItsName) {
 TEST(OpenSource, WhatIsWrongIsNamed) {
     const TempFolder folder;
     std::ofstream(folder / "file.txt") << "x";
-    const auto message = [](const std::string& name) { return OpenSource(name, RunConfig()).message(); };
-    EXPECT_EQ(message("/no/such"), "/no/such: no such folder (a source is a folder, FILE.oni, FILE.klg, FILE.scan, openni2: or synthetic:NAME)");
+    const auto message = [](const std::string& name) {
+        return OpenSource(name, RunConfig()).message();
+    };
+    EXPECT_EQ(message("/no/such"),
+              "/no/such: no such folder (a source is a folder, FILE.oni, FILE.klg, FILE.scan, "
+              "openni2: or synthetic:NAME)");
     EXPECT_NE(message(folder / "file.txt").find("is a file"), std::string::npos);
     EXPECT_NE(message("synthetic:dsk").find("desk"), std::string::npos) << message("synthetic:dsk");
     EXPECT_NE(message(folder.path()).find(folder.path()), std::string::npos);  // an empty folder

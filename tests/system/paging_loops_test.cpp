@@ -1,4 +1,5 @@
-// Maps that are corrected under a memory limit: a rendered room with a Kinect's noise, at poses that drift until loops are closed.
+// Maps that are corrected under a memory limit: a rendered room with a Kinect's noise, at poses
+// that drift until loops are closed.
 #include <sys/resource.h>
 
 #include <csignal>
@@ -85,7 +86,8 @@ class PagingLoops : public testing::Test {
     }
     TriangleMesh Run(const std::vector<Frame>& frames, bool live, double limit_mb) {
         Start(frames, live, limit_mb);
-        while (Next()) {}
+        while (Next()) {
+        }
         EXPECT_TRUE(engine->status().ok()) << engine->status().message();
         path_at_end = engine->CorrectedPath();
         blocks_at_end = engine->map_statistics().blocks;
@@ -95,12 +97,14 @@ class PagingLoops : public testing::Test {
     }
     // As an odometry that turns and shifts a little with each step.
     static std::vector<StampedPose> Drifted(const std::vector<Frame>& frames) {
-        const Eigen::Isometry3d bias = Se3Exp((Vector6d() << 0, 0.0009, 0, 0.0015, 0, 0).finished());
+        const Eigen::Isometry3d bias =
+            Se3Exp((Vector6d() << 0, 0.0009, 0, 0.0015, 0, 0).finished());
         std::vector<StampedPose> poses;
         for (std::size_t i = 0; i < frames.size(); ++i) {
             Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity();
             if (i > 0)
-                T_world_camera = Normalised(poses.back().T_world_camera * frames[i - 1].T_world_camera->inverse() *
+                T_world_camera = Normalised(poses.back().T_world_camera *
+                                            frames[i - 1].T_world_camera->inverse() *
                                             *frames[i].T_world_camera * bias);
             poses.push_back({static_cast<double>(i) / 30, T_world_camera});
         }
@@ -141,10 +145,13 @@ TEST_F(PagingLoops, ACorrectedMapIsTheSameWithALimit) {
     EXPECT_EQ(said.find("memory_limit"), std::string::npos);
     ASSERT_EQ(reports.size(), reports_whole.size());
     for (std::size_t i = 0; i < reports.size(); ++i)
-        EXPECT_EQ(reports[i].track.T_world_camera.matrix(), reports_whole[i].track.T_world_camera.matrix()) << i;
+        EXPECT_EQ(reports[i].track.T_world_camera.matrix(),
+                  reports_whole[i].track.T_world_camera.matrix())
+            << i;
     ASSERT_EQ(path_at_end.size(), path_whole.size());
     for (std::size_t i = 0; i < path_at_end.size(); ++i)
-        EXPECT_EQ(path_at_end[i].T_world_camera.matrix(), path_whole[i].T_world_camera.matrix()) << i;
+        EXPECT_EQ(path_at_end[i].T_world_camera.matrix(), path_whole[i].T_world_camera.matrix())
+            << i;
     ExpectSame(mesh, whole);
     Result<ScanContent> scan = ReadScan(path, {.map = true, .frames = true});
     ASSERT_TRUE(scan.ok()) << scan.message();
@@ -152,11 +159,13 @@ TEST_F(PagingLoops, ACorrectedMapIsTheSameWithALimit) {
     const Result<TriangleMesh> exported = MeshOfScan(scan.value());
     ASSERT_TRUE(exported.ok()) << exported.message();
     ExpectSame(exported.value(), whole);
-    // Less than what the camera may see from one place: all else leaves at once, and comes back at the end of the tour.
+    // Less than what the camera may see from one place: all else leaves at once, and comes back at
+    // the end of the tour.
     ExpectSame(Run(walk, false, 20), whole);
 }
 
-// As of a full disk, from where the first loop is found: neither the scan nor the corrected map can be written.
+// As of a full disk, from where the first loop is found: neither the scan nor the corrected map can
+// be written.
 TEST_F(PagingLoops, AFullDiskWhileTheMapIsMadeAgainLeavesTheMapAndCorrectsThePath) {
     const std::vector<Frame> walk = Tour();
     config.loops.enabled = false;
@@ -170,7 +179,8 @@ TEST_F(PagingLoops, AFullDiskWhileTheMapIsMadeAgainLeavesTheMapAndCorrectsThePat
     while (Next()) {
         if (full || said.find("loop closed") == std::string::npos) continue;
         full = true;
-        const rlimit little{1 << 16, before.rlim_max};  // room for SQLite's index of its journal, which it had before
+        // Room for SQLite's index of its journal, which it had before.
+        const rlimit little{1 << 16, before.rlim_max};
         ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &little), 0);
     }
     ASSERT_TRUE(full) << said;
@@ -188,10 +198,12 @@ TEST_F(PagingLoops, AFullDiskWhileTheMapIsMadeAgainLeavesTheMapAndCorrectsThePat
     EXPECT_EQ(mesh.vertices.size(), whole.vertices.size());
     EXPECT_EQ(mesh.triangles.size(), whole.triangles.size());
     const auto off_m = [&](const Eigen::Isometry3d& T_world_camera) {
-        const Eigen::Isometry3d truth = walk.front().T_world_camera->inverse() * *walk.back().T_world_camera;
+        const Eigen::Isometry3d truth =
+            walk.front().T_world_camera->inverse() * *walk.back().T_world_camera;
         return (T_world_camera.translation() - truth.translation()).norm();
     };
-    EXPECT_LT(off_m(path_found.back().T_world_camera), 0.5 * off_m(Drifted(walk).back().T_world_camera));
+    EXPECT_LT(off_m(path_found.back().T_world_camera),
+              0.5 * off_m(Drifted(walk).back().T_world_camera));
 }
 
 // Which frames are fused hangs on the threads; what there is in the end is whole.
@@ -203,7 +215,8 @@ TEST_F(PagingLoops, LiveTheMapIsCorrectedAndWhole) {
     const Result<ScanContent> scan = ReadScan(path, {.map = true, .frames = true});
     ASSERT_TRUE(scan.ok()) << scan.message();
     EXPECT_GE(scan.value().map->count(), blocks_at_end);
-    if (said.find("map corrected") == std::string::npos) GTEST_SKIP() << "too slow a machine: no loop was closed";
+    if (said.find("map corrected") == std::string::npos)
+        GTEST_SKIP() << "too slow a machine: no loop was closed";
 }
 
 }  // namespace

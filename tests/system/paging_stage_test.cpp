@@ -25,7 +25,8 @@ Eigen::Isometry3d WalkPose(int i, double aside_rad = 0) {
     Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity();
     T_world_camera.translation().z() = 0.4 * (forth - back);
     const double angle_rad = turned + aside_rad * (1 - 2 * turned / std::numbers::pi);
-    T_world_camera.linear() = Eigen::AngleAxisd(angle_rad, Eigen::Vector3d::UnitY()).toRotationMatrix();
+    T_world_camera.linear() =
+        Eigen::AngleAxisd(angle_rad, Eigen::Vector3d::UnitY()).toRotationMatrix();
     return T_world_camera;
 }
 
@@ -61,17 +62,20 @@ class PosterDetector : public Detector {
             for (int u = 0; u < camera.width; ++u) {
                 const double depth_m = frame.depth_m(u, v);
                 const Eigen::Vector3d p = *frame.T_world_camera * camera.Unproject(u, v, depth_m);
-                if (depth_m > 8 || p.x() < 0.88 || std::abs(p.y()) > 0.4 || std::abs(p.z() - z_m) > 0.6) continue;
+                if (depth_m > 8 || p.x() < 0.88 || std::abs(p.y()) > 0.4 ||
+                    std::abs(p.z() - z_m) > 0.6)
+                    continue;
                 mask(u, v) = 1;
                 box.extend(Eigen::Vector2i(u, v));
             }
         if (box.isEmpty() || box.sizes().minCoeff() < 8) return false;
-        poster.box = {static_cast<float>(box.min().x()), static_cast<float>(box.min().y()), static_cast<float>(box.max().x()),
-                      static_cast<float>(box.max().y())};
+        poster.box = {static_cast<float>(box.min().x()), static_cast<float>(box.min().y()),
+                      static_cast<float>(box.max().x()), static_cast<float>(box.max().y())};
         const PixelBox pixels = PixelsOf(poster.box, camera.width, camera.height);
         poster.mask.Resize(pixels.width(), pixels.height());
         for (int y = 0; y < pixels.height(); ++y)
-            for (int x = 0; x < pixels.width(); ++x) poster.mask(x, y) = mask(x + pixels.x_begin, y + pixels.y_begin);
+            for (int x = 0; x < pixels.width(); ++x)
+                poster.mask(x, y) = mask(x + pixels.x_begin, y + pixels.y_begin);
         return true;
     }
 
@@ -80,8 +84,10 @@ class PosterDetector : public Detector {
 
 class HallSource : public FrameSource {
   public:
-    // `mapped`, if not null: frames that have come out of the engine, which the source is never two ahead of.
-    HallSource(const std::atomic<int>* mapped, double aside_rad) : mapped_(mapped), aside_rad_(aside_rad) {
+    // `mapped`, if not null: frames that have come out of the engine, which the source is never two
+    // ahead of.
+    HallSource(const std::atomic<int>* mapped, double aside_rad)
+        : mapped_(mapped), aside_rad_(aside_rad) {
         info_ = BoxRoomSource({.count = kFrames}).info();
     }
     const SourceInfo& info() const override { return info_; }
@@ -150,7 +156,8 @@ class Paging : public EngineTest {
     }
     // So many frames from now.
     void TakeFrames(int count) {
-        for (std::int64_t end = Count(Kind::kFrame) + count; Count(Kind::kFrame) < end;) ASSERT_TRUE(Next());
+        for (std::int64_t end = Count(Kind::kFrame) + count; Count(Kind::kFrame) < end;)
+            ASSERT_TRUE(Next());
     }
     std::int64_t MostBlocks() const {
         std::int64_t most = 0;
@@ -159,7 +166,8 @@ class Paging : public EngineTest {
     }
 
     static std::int64_t Labelled(const TriangleMesh& mesh) {
-        return std::ranges::count_if(mesh.labels, [](const VertexLabel& label) { return label.instance != 0; });
+        return std::ranges::count_if(mesh.labels,
+                                     [](const VertexLabel& label) { return label.instance != 0; });
     }
 
     TempFolder folder;
@@ -182,7 +190,8 @@ TEST_F(Paging, ALimitChangesNothingButTheMemory) {
     EXPECT_EQ(mesh.colours, whole.colours);
     EXPECT_EQ(mesh.triangles, whole.triangles);
     EXPECT_LT(2 * MostBlocks(), blocks);
-    for (const FrameOutcome& o : outcomes) EXPECT_LT(static_cast<double>(o.map.bytes), 1e6 * kLimit_mb);
+    for (const FrameOutcome& o : outcomes)
+        EXPECT_LT(static_cast<double>(o.map.bytes), 1e6 * kLimit_mb);
     EXPECT_EQ(Messages().find("memory_limit"), std::string::npos);
     EXPECT_FALSE(std::filesystem::exists(path + "-wal")) << "the file is one again";
 
@@ -196,7 +205,8 @@ TEST_F(Paging, ALimitChangesNothingButTheMemory) {
     const auto first = std::move(outcomes);
     Run(false, kLimit_mb);
     ASSERT_EQ(outcomes.size(), first.size());
-    for (std::size_t i = 0; i < first.size(); ++i) EXPECT_EQ(outcomes[i].map.blocks, first[i].map.blocks) << i;
+    for (std::size_t i = 0; i < first.size(); ++i)
+        EXPECT_EQ(outcomes[i].map.blocks, first[i].map.blocks) << i;
 }
 
 TEST_F(Paging, LabelsAndObjectsAreTheSameWithALimit) {
@@ -234,7 +244,8 @@ TEST_F(Paging, ObjectsInTheWindowDoNotShrinkWhileTheyAreAway) {
     for (int i = 0; i < kSteps; ++i) {
         TakeFrames(1);
         MeshUpdate mesh;
-        while (link.meshes.TryPop(mesh)) {}
+        while (link.meshes.TryPop(mesh)) {
+        }
         while (link.objects.TryPop(last)) {
             if (last.size() == 1) before = last;
         }
@@ -258,8 +269,10 @@ TEST_F(Paging, LiveKeepsTheLimitAndTheMap) {
     EXPECT_GE(stored, resident);
     ASSERT_GT(mesh.triangles.size(), 100000u);
     const BoxRoom hall = Hall();
-    for (const Eigen::Vector3f& v : mesh.vertices) ASSERT_LT(std::abs(hall.SignedDistance(v.cast<double>())), 0.02) << v.transpose();
-    if (2 * stored <= 3 * resident) GTEST_SKIP() << "too slow a machine: what was to leave memory was not saved in time";
+    for (const Eigen::Vector3f& v : mesh.vertices)
+        ASSERT_LT(std::abs(hall.SignedDistance(v.cast<double>())), 0.02) << v.transpose();
+    if (2 * stored <= 3 * resident)
+        GTEST_SKIP() << "too slow a machine: what was to leave memory was not saved in time";
 }
 
 TEST_F(Paging, ALimitThatIsTooSmallIsSaidOnce) {
@@ -285,8 +298,12 @@ TEST_F(Paging, WhatCannotBeReadBackIsSaidOnceAndNothingIsFusedThere) {
         for (const auto& [key, blocks] : cubes.value()) {
             const double z_m = CubeOfKey(key).z * cube_m;
             if (z_m < 2 || z_m > 4) continue;
-            const std::string keys = std::to_string(key) + " AND " + std::to_string(key + kCubeKeys - 1);
-            ASSERT_TRUE(database.value()->Execute("UPDATE blocks SET checksum = checksum + 1 WHERE key BETWEEN " + keys).ok());
+            const std::string keys =
+                std::to_string(key) + " AND " + std::to_string(key + kCubeKeys - 1);
+            ASSERT_TRUE(
+                database.value()
+                    ->Execute("UPDATE blocks SET checksum = checksum + 1 WHERE key BETWEEN " + keys)
+                    .ok());
         }
     }
     TakeAll();
@@ -309,7 +326,8 @@ TEST_F(Paging, WhatCannotBeReadBackIsSaidOnceAndNothingIsFusedThere) {
     }
     EXPECT_GT(not_fused, 5);
     EXPECT_TRUE(engine->TakeMesh().triangles.empty());
-    EXPECT_NE(engine->status().message().find("tessera scan repair"), std::string::npos) << engine->status().message();
+    EXPECT_NE(engine->status().message().find("tessera scan repair"), std::string::npos)
+        << engine->status().message();
 }
 
 TEST_F(Paging, AnEmptyMapBeginsWhileCubesAreUnderWay) {
@@ -325,13 +343,15 @@ TEST_F(Paging, AnEmptyMapBeginsWhileCubesAreUnderWay) {
     const TriangleMesh mesh = engine->TakeMesh();
     ASSERT_GT(mesh.triangles.size(), 50000u);
     const BoxRoom hall = Hall();
-    for (const Eigen::Vector3f& v : mesh.vertices) ASSERT_LT(std::abs(hall.SignedDistance(v.cast<double>())), 0.02) << v.transpose();
+    for (const Eigen::Vector3f& v : mesh.vertices)
+        ASSERT_LT(std::abs(hall.SignedDistance(v.cast<double>())), 0.02) << v.transpose();
 }
 
 TEST_F(Paging, LiveCanBeLeftAtAnyTime) {
     for (const int frames : {1, kSteps, kSteps + kTurn + 10}) {
         Start(true, 24);
-        for (int i = 0; i < frames && Next(); ++i) {}
+        for (int i = 0; i < frames && Next(); ++i) {
+        }
         engine.reset();
         std::remove(path.c_str());
     }

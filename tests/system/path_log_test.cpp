@@ -24,7 +24,8 @@ class PathLogTest : public testing::Test {
         log.Add(13, RecordAt(3), checkpoint);
     }
     static LoopCloser::Passage Passage(std::int64_t index, int keyframe) {
-        return {RecordAt(index).stamp_s, keyframe, Eigen::Isometry3d(Eigen::Translation3d(0, 5, 0))};
+        return {RecordAt(index).stamp_s, keyframe,
+                Eigen::Isometry3d(Eigen::Translation3d(0, 5, 0))};
     }
     std::vector<std::int64_t> Numbers() const {
         std::vector<std::int64_t> numbers;

@@ -46,14 +46,16 @@ TEST(Pipeline, FollowsASmoothPath) {
         const FrameReport report = pipeline.Process(RoomFrame(i));
         ASSERT_EQ(report.track.status, TrackStatus::kGood) << i << ": " << report.track.reason;
         EXPECT_TRUE(report.fused);
-        const Eigen::Isometry3d truth = SmoothPath(0).inverse() * SmoothPath(i);  // the first camera is the world
-        worst_m = std::max(worst_m, (truth.inverse() * report.track.T_world_camera).translation().norm());
+        // The first camera is the world.
+        const Eigen::Isometry3d truth = SmoothPath(0).inverse() * SmoothPath(i);
+        worst_m =
+            std::max(worst_m, (truth.inverse() * report.track.T_world_camera).translation().norm());
     }
     EXPECT_LT(worst_m, 0.004);
 }
 
-// A hand before the camera for 0.7 s, while the camera steps back from a wall, out of reach of the map's band: velocity says
-// nothing any more, and neither do the frames of the hand.
+// A hand before the camera for 0.7 s, while the camera steps back from a wall, out of reach of the
+// map's band: velocity says nothing any more, and neither do the frames of the hand.
 TEST(Pipeline, ACameraThatWasCoveredIsFoundWhereItHasMovedTo) {
     BoxRoom wall;
     wall.only_back_wall = true;
@@ -63,28 +65,34 @@ TEST(Pipeline, ACameraThatWasCoveredIsFoundWhereItHasMovedTo) {
         config.trackers.method = method;
         Pipeline pipeline(config, SmallCamera());
         const auto process = [&](int i, double back_m, bool covered) {
-            Frame frame = wall.Render(SmallCamera(), Eigen::Isometry3d(Eigen::Translation3d(0, 0, -back_m)), i / 30.0);
+            Frame frame = wall.Render(
+                SmallCamera(), Eigen::Isometry3d(Eigen::Translation3d(0, 0, -back_m)), i / 30.0);
             if (covered) {
                 std::ranges::fill(std::span(frame.depth_m.data(), frame.depth_m.size()), 0.4f);
-                std::ranges::fill(std::span(frame.colour.data(), frame.colour.size()), Rgb8{90, 60, 50});
+                std::ranges::fill(std::span(frame.colour.data(), frame.colour.size()),
+                                  Rgb8{90, 60, 50});
             }
             return pipeline.Process(frame);
         };
         for (int i = 0; i < 10; ++i) ASSERT_TRUE(process(i, 0, false).fused) << i;
-        for (int i = 10; i < 30; ++i) EXPECT_EQ(process(i, 0, true).track.status, TrackStatus::kLost) << i;
+        for (int i = 10; i < 30; ++i)
+            EXPECT_EQ(process(i, 0, true).track.status, TrackStatus::kLost) << i;
         const FrameReport report = process(30, 0.15, false);
         EXPECT_TRUE(report.fused) << ToString(method) << ": " << report.track.reason;
-        EXPECT_NEAR(report.track.T_world_camera.translation().z(), -0.15, 0.005) << ToString(method);
+        EXPECT_NEAR(report.track.T_world_camera.translation().z(), -0.15, 0.005)
+            << ToString(method);
     }
 }
 
-// A pose that is not to be trusted with the map is no measure for the next one either: what fits well is no jump from it.
+// A pose that is not to be trusted with the map is no measure for the next one either: what fits
+// well is no jump from it.
 TEST(Pipeline, AfterAPoorPoseTheCameraMayBeAnywhere) {
     Pipeline pipeline(SmallConfig(), SmallCamera());
     BoxRoom room;
     room.has_ball = true;
     const auto process = [&](int i, double x_m) {
-        return pipeline.Process(room.Render(SmallCamera(), Eigen::Isometry3d(Eigen::Translation3d(x_m, 0, 0)), i / 30.0));
+        return pipeline.Process(room.Render(
+            SmallCamera(), Eigen::Isometry3d(Eigen::Translation3d(x_m, 0, 0)), i / 30.0));
     };
     for (int i = 0; i < 10; ++i) ASSERT_TRUE(process(i, 0).fused) << i;
     ASSERT_EQ(process(10, 0.22).track.status, TrackStatus::kPoor);
@@ -150,7 +158,8 @@ TEST(Pipeline, AFrameWithoutColourIsTrackedByItsShape) {
     }
 }
 
-// Metres that the camera is off at the end, where two people are in view, and walk, from the first frame on.
+// Metres that the camera is off at the end, where two people are in view, and walk, from the first
+// frame on.
 double OffAmongPeople(double even_within_m) {
     SynthConfig synthetic;
     synthetic.camera = {320, 240, 262.5, 262.5, 159.5, 119.5};
@@ -163,10 +172,12 @@ double OffAmongPeople(double even_within_m) {
     constexpr int kStart = 345, kFrames = 60;
     Eigen::Isometry3d T_world_start, T_off = Eigen::Isometry3d::Identity();
     source.value()->Seek(kStart);
-    for (Frame frame; frame.index < kStart + kFrames && source.value()->Read(frame).status == ReadStatus::kOk;) {
+    for (Frame frame;
+         frame.index < kStart + kFrames && source.value()->Read(frame).status == ReadStatus::kOk;) {
         if (frame.index == kStart) T_world_start = *frame.T_world_camera;
         const FrameReport report = pipeline.Process(frame);
-        T_off = report.track.T_world_camera.inverse() * T_world_start.inverse() * *frame.T_world_camera;
+        T_off =
+            report.track.T_world_camera.inverse() * T_world_start.inverse() * *frame.T_world_camera;
     }
     return T_off.translation().norm();
 }
@@ -202,8 +213,9 @@ TEST(MotionModel, MotionsThatNothingShowsComeToRest) {
         const double stamp_s = 0.1 + 0.1 * i * config.come_to_rest_s;
         model.Add({stamp_s, model.Predict(stamp_s)}, {.degenerate = true});
     }
-    const Vector6d left =
-        Se3Log(model.last()->T_world_camera.inverse() * model.Predict(0.2 + config.come_to_rest_s)) / 0.1;
+    const Vector6d left = Se3Log(model.last()->T_world_camera.inverse() *
+                                 model.Predict(0.2 + config.come_to_rest_s)) /
+                          0.1;
     EXPECT_LT((left - velocity * std::exp(-1.0)).norm(), 1e-3 * velocity.norm());
 }
 

@@ -17,8 +17,10 @@ TEST(RunConfig, EveryParameterSaysWhatItDoes) {
     EXPECT_GT(parameters.parameters().size(), 30u);
     for (const auto& parameter : parameters.parameters()) {
         EXPECT_GT(parameter.documentation.size(), 10u) << parameter.key;
-        EXPECT_EQ(parameter.documentation.find('|'), std::string::npos) << parameter.key << ": breaks the table";
-        // A default that its own range refuses could not be read back from run.json or `tessera config`.
+        EXPECT_EQ(parameter.documentation.find('|'), std::string::npos)
+            << parameter.key << ": breaks the table";
+        // A default that its own range refuses could not be read back from run.json or `tessera
+        // config`.
         EXPECT_TRUE(parameter.set(parameter.default_value).ok()) << parameter.key;
     }
 }

@@ -40,7 +40,9 @@ class Run : public testing::Test {
     }
     Result<RunSummary> Execute() { return ExecuteRun(request, config, observer, stop); }
     std::string Out(const std::string& name) const { return request.output_folder + "/" + name; }
-    nlohmann::json Json(const std::string& name) const { return nlohmann::json::parse(ReadAll(Out(name))); }
+    nlohmann::json Json(const std::string& name) const {
+        return nlohmann::json::parse(ReadAll(Out(name)));
+    }
 
     TempFolder folder;
     RunConfig config;
@@ -63,8 +65,10 @@ TEST_F(Run, GoesOnWithoutACameraAndSaysWhatItAssumes) {
     EXPECT_FALSE(run.value().source.camera_known);
     EXPECT_NEAR(run.value().source.camera.fx, 80 * std::sqrt(3.0), 1e-9);
     ASSERT_FALSE(warnings.empty());
-    EXPECT_EQ(warnings.front(), "no camera.yaml, and this recording does not show the focal length: a field of view of 60 degrees is "
-                                "assumed, fx 138.6");
+    EXPECT_EQ(warnings.front(),
+              "no camera.yaml, and this recording does not show the focal length: a field of view "
+              "of 60 degrees is "
+              "assumed, fx 138.6");
 }
 
 TEST_F(Run, BeginsWithTheRollingShutterThatTheRecordingShows) {
@@ -83,11 +87,14 @@ TEST_F(Run, BeginsWithTheRollingShutterThatTheRecordingShows) {
     config.check_camera = false;
     const auto unseen = Execute();
     ASSERT_TRUE(seen.ok() && seen.value().camera && unseen.ok());
-    config.pipeline.trackers.photometric.shutter.readout_s = seen.value().camera->estimate.readout_s;
+    config.pipeline.trackers.photometric.shutter.readout_s =
+        seen.value().camera->estimate.readout_s;
     const auto told = Execute();
     ASSERT_TRUE(told.ok() && told.value().ate && seen.value().ate && unseen.value().ate);
     EXPECT_NEAR(seen.value().camera->estimate.readout_s, 0.03, 0.004);
-    EXPECT_NE(seen.value().source.notes.back().find("rolling shutter: a colour image is read out over"), std::string::npos);
+    EXPECT_NE(
+        seen.value().source.notes.back().find("rolling shutter: a colour image is read out over"),
+        std::string::npos);
     EXPECT_EQ(seen.value().ate->error_m.rmse, told.value().ate->error_m.rmse);
     EXPECT_NE(seen.value().ate->error_m.rmse, unseen.value().ate->error_m.rmse);
 }
@@ -98,7 +105,8 @@ TEST_F(Run, LeavesEveryFileOfTheContract) {
     EXPECT_EQ(run.value().counts.frames, 6);
     const auto trajectory = ReadTrajectory(Out("trajectory.txt"));
     ASSERT_TRUE(trajectory.ok()) << trajectory.message();
-    EXPECT_EQ(static_cast<std::int64_t>(trajectory.value().poses.size()), run.value().counts.tracked);
+    EXPECT_EQ(static_cast<std::int64_t>(trajectory.value().poses.size()),
+              run.value().counts.tracked);
     const auto mesh = ReadPly(Out("mesh.ply"));
     ASSERT_TRUE(mesh.ok()) << mesh.message();
     EXPECT_GT(mesh.value().triangles.size(), 100u);
@@ -114,7 +122,8 @@ TEST_F(Run, LeavesEveryFileOfTheContract) {
     for (const char* stage : {"frame", "decode", "track", "allocate", "fuse", "mesh"})
         for (const char* key : {"mean_ms", "median_ms", "p95_ms", "max_ms"})
             EXPECT_TRUE(timings.at("stages").at(stage).at(key).is_number()) << stage << " " << key;
-    for (const char* key : {"blocks", "bytes", "bytes_per_voxel"}) EXPECT_GT(timings.at("map").at(key), 0) << key;
+    for (const char* key : {"blocks", "bytes", "bytes_per_voxel"})
+        EXPECT_GT(timings.at("map").at(key), 0) << key;
 
     const auto json = Json("run.json");
     EXPECT_EQ(json.at("exit"), "finished");
@@ -166,7 +175,8 @@ TEST_F(Run, FusesAtGivenPosesOnly) {
     ASSERT_TRUE(Execute().ok());
     const auto tracked = ReadTrajectory(Out("trajectory.txt"));
     ASSERT_TRUE(tracked.ok());
-    std::vector<StampedPose> poses(tracked.value().poses.begin(), tracked.value().poses.begin() + 4);
+    std::vector<StampedPose> poses(tracked.value().poses.begin(),
+                                   tracked.value().poses.begin() + 4);
     for (StampedPose& pose : poses) pose.T_world_camera.pretranslate(Eigen::Vector3d(10, 0, 0));
     request.poses_file = folder / "poses.txt";
     ASSERT_TRUE(WriteTrajectory(request.poses_file, poses).ok());
@@ -177,7 +187,10 @@ TEST_F(Run, FusesAtGivenPosesOnly) {
     const auto given = ReadTrajectory(Out("trajectory.txt"));
     ASSERT_TRUE(given.ok());
     for (std::size_t i = 0; i < poses.size(); ++i)
-        EXPECT_LT((given.value().poses[i].T_world_camera.matrix() - poses[i].T_world_camera.matrix()).norm(), 1e-6);
+        EXPECT_LT(
+            (given.value().poses[i].T_world_camera.matrix() - poses[i].T_world_camera.matrix())
+                .norm(),
+            1e-6);
 }
 
 TEST_F(Run, WithoutAFolderNothingIsWritten) {

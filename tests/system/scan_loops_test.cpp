@@ -1,4 +1,5 @@
-// Scans with loop closure that are saved and gone on with, in a rendered room with a Kinect's noise.
+// Scans with loop closure that are saved and gone on with, in a rendered room with a Kinect's
+// noise.
 #include <cstring>
 
 #include "support/temp_folder.h"
@@ -16,14 +17,16 @@ using testing_support::RoomWalk;
 class ScanLoops : public testing::TestWithParam<bool> {
   protected:
     ScanLoops() {
-        // No frame is dropped, and all are fused, on a slow machine too: this is not about overload.
+        // No frame is dropped, and all are fused, on a slow machine too: this is not about
+        // overload.
         config.live.queue_frames = 100;
         config.live.playback_speed = 0.3;
         config.loops.enabled = true;
         config.pipeline.map = {.voxel_size_m = 0.02, .truncation_m = 0.08};
         config.pipeline.trackers.sdf.finest_step_px = 1;
     }
-    std::vector<FrameReport> Run(const std::vector<Frame>& frames, double first_stamp_s, bool resume) {
+    std::vector<FrameReport> Run(const std::vector<Frame>& frames, double first_stamp_s,
+                                 bool resume) {
         EngineInput input;
         input.source = std::make_unique<FrameList>(frames, first_stamp_s);
         input.config = config;
@@ -70,7 +73,8 @@ TEST_P(ScanLoops, KeyframesFramesAndLoopsComeBackAndALostCameraIsFoundByThem) {
     EXPECT_GT(early.value().path.size(), 10u);
     EXPECT_GT(early.value().keyframes.size(), 1u);
     EXPECT_GT(early.value().frames.size(), 5u);
-    for (const PathRecord& record : early.value().path) EXPECT_TRUE(record.tracked()) << record.index;
+    for (const PathRecord& record : early.value().path)
+        EXPECT_TRUE(record.tracked()) << record.index;
     const std::vector<StampedPose> before = corrected;
     Result<ScanContent> scan = ReadScan(path, {.map = false, .frames = true});
     ASSERT_TRUE(scan.ok()) << scan.message();
@@ -83,9 +87,11 @@ TEST_P(ScanLoops, KeyframesFramesAndLoopsComeBackAndALostCameraIsFoundByThem) {
     ASSERT_EQ(stored.size(), before.size());
     for (std::size_t i = 0; i < stored.size(); ++i)
         EXPECT_EQ(stored[i].T_world_camera.matrix(), before[i].T_world_camera.matrix()) << i;
-    // Ten seconds later the camera sees what it saw at the beginning, not at the end. Live it is held there until it is found,
-    // beside the first keyframe: of the later frames a slow machine may not have kept the images.
-    const std::vector<Frame> again = GetParam() ? std::vector<Frame>(300, RoomWalk(2, 1, 1).front()) : RoomWalk(21, 10, 1);
+    // Ten seconds later the camera sees what it saw at the beginning, not at the end. Live it is
+    // held there until it is found, beside the first keyframe: of the later frames a slow machine
+    // may not have kept the images.
+    const std::vector<Frame> again =
+        GetParam() ? std::vector<Frame>(300, RoomWalk(2, 1, 1).front()) : RoomWalk(21, 10, 1);
     stop_when_tracked = GetParam();
     const std::vector<FrameReport> reports = Run(again, 12, true);
     if (!GetParam()) {
@@ -98,7 +104,8 @@ TEST_P(ScanLoops, KeyframesFramesAndLoopsComeBackAndALostCameraIsFoundByThem) {
     for (std::size_t i = 0; i < reports.size(); ++i) {
         if (!reports[i].tracked()) continue;
         ++tracked;
-        const Eigen::Isometry3d off = again[i].T_world_camera->inverse() * reports[i].track.T_world_camera;
+        const Eigen::Isometry3d off =
+            again[i].T_world_camera->inverse() * reports[i].track.T_world_camera;
         EXPECT_LT(off.translation().norm(), 0.02) << i;
     }
     EXPECT_EQ(corrected.size(), before.size() + tracked);  // the path of the whole scan
@@ -113,7 +120,9 @@ TEST_P(ScanLoops, WhereNothingWasSeenTheCameraStaysLostAndTheMapAsItWas) {
     ASSERT_TRUE(before.ok() && after.ok());
     ASSERT_EQ(after.value().map->size(), before.value().map->size());
     for (BlockId id = 1; id < after.value().map->size(); ++id)
-        ASSERT_EQ(std::memcmp(after.value().map->field(id), before.value().map->field(id), kBlockVoxels * sizeof(FieldWord)), 0);
+        ASSERT_EQ(std::memcmp(after.value().map->field(id), before.value().map->field(id),
+                              kBlockVoxels * sizeof(FieldWord)),
+                  0);
 }
 
 INSTANTIATE_TEST_SUITE_P(LockstepAndLive, ScanLoops, testing::Bool());

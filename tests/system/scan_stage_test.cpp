@@ -15,7 +15,8 @@ using testing_support::SmoothPath;
 class Scan : public EngineTest {
   protected:
     // The engine runs to its end; the mesh that it would write.
-    TriangleMesh Run(bool live, ScanPlan plan, const Source::Options& options, std::int64_t start = 0) {
+    TriangleMesh Run(bool live, ScanPlan plan, const Source::Options& options,
+                     std::int64_t start = 0) {
         EngineInput input = Input(options);
         input.scan = std::move(plan);
         input.selection.start = start;
@@ -66,8 +67,8 @@ TEST_F(Scan, SavingChangesNothingAndTheFileHoldsTheSameMesh) {
     ExpectSame(mesh.value(), alone);
 }
 
-// Byte for byte: map, poses, motion, brightness and shutter go on as if nothing had been. With an interval of 0 the last
-// frame's checkpoint comes before the end's, which has nothing new to say.
+// Byte for byte: map, poses, motion, brightness and shutter go on as if nothing had been. With an
+// interval of 0 the last frame's checkpoint comes before the end's, which has nothing new to say.
 class ResumedScan : public Scan, public testing::WithParamInterface<double> {};
 
 TEST_P(ResumedScan, IsTheUnbrokenOne) {
@@ -84,7 +85,9 @@ TEST_P(ResumedScan, IsTheUnbrokenOne) {
     ExpectSame(Run(false, std::move(plan), {.count = 40}, rest.start), unbroken);
     ASSERT_EQ(Reports().size(), 23u);
     for (std::size_t i = 0; i < 23; ++i)
-        EXPECT_EQ(Reports()[i]->track.T_world_camera.matrix(), expected[17 + i].report.track.T_world_camera.matrix()) << i;
+        EXPECT_EQ(Reports()[i]->track.T_world_camera.matrix(),
+                  expected[17 + i].report.track.T_world_camera.matrix())
+            << i;
     EXPECT_EQ(Content().path.size(), 40u);
 }
 
@@ -109,7 +112,8 @@ TEST_F(Scan, SavedFromTheMiddleOnItIsTheWholeScan) {
     ScanContent middle = Content();
     ExpectSame(MeshOfScan(middle).value(), MeshOfScan(whole).value());
     ASSERT_EQ(middle.path.size(), 24u);
-    for (std::size_t i = 0; i < 24; ++i) EXPECT_EQ(middle.path[i].Encode(), whole.path[i].Encode()) << i;
+    for (std::size_t i = 0; i < 24; ++i)
+        EXPECT_EQ(middle.path[i].Encode(), whole.path[i].Encode()) << i;
     EXPECT_EQ(middle.tracking, whole.tracking);
     EXPECT_EQ(middle.progress.Encode(), whole.progress.Encode());
 }
@@ -154,18 +158,21 @@ TEST_F(Scan, LiveASavedScanIsGoneOnWith) {
 
 // After a gap nothing is believed but what fits well; the map does not change until then.
 TEST_F(Scan, AfterAGapTheCameraIsFoundWhereTheScanEndedAndNowhereElse) {
-    // With this weight of colour the tracker settles in a wrong place at first, which the gate has to refuse.
+    // With this weight of colour the tracker settles in a wrong place at first, which the gate has
+    // to refuse.
     config.pipeline.trackers.photometric.alpha_mode = ResidualModel::AlphaMode::kFixed;
     config.pipeline.trackers.photometric.alpha = 0.05;
     Run(false, New(), {.count = 20});
     const BlockId blocks = Content().map->size();
     // 13 s later, some turned and moved views, and then one near the last.
     Run(false, Again(), {.count = 420, .speed = 6}, 400);
-    const auto tracked = std::ranges::count_if(Reports(), [](const FrameReport* report) { return report->tracked(); });
+    const auto tracked = std::ranges::count_if(
+        Reports(), [](const FrameReport* report) { return report->tracked(); });
     EXPECT_FALSE(Reports().front()->tracked());
     EXPECT_LE(tracked, 15);  // of 20; the first is refused
     for (const FrameReport* report : Reports())
-        EXPECT_TRUE(!report->tracked() || Error_m(*report, 6) < 0.005) << report->index << " " << Error_m(*report, 6);
+        EXPECT_TRUE(!report->tracked() || Error_m(*report, 6) < 0.005)
+            << report->index << " " << Error_m(*report, 6);
     EXPECT_TRUE(tracked > 0 || Content().map->size() == blocks);
     // Back where it ended: frame 19's view, at once.
     config.scan.interval_s = 0.1;

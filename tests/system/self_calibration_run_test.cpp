@@ -13,7 +13,8 @@ using testing_support::RoomWalk;
 
 class OffCamera : public FrameList {
   public:
-    OffCamera(const std::vector<Frame>& frames, double focal_scale) : FrameList(frames), info_(FrameList::info()) {
+    OffCamera(const std::vector<Frame>& frames, double focal_scale)
+        : FrameList(frames), info_(FrameList::info()) {
         info_.camera = Corrected(info_.camera, {focal_scale, 0});
     }
     const SourceInfo& info() const override { return info_; }
@@ -53,8 +54,10 @@ RoomOutcome RunRoom(double focal_scale, bool refine) {
     while (engine.Next(frame))
         if (frame.kind == FrameOutcome::Kind::kMessage) outcome.messages += frame.message + "\n";
     std::vector<StampedPose> truth;
-    for (std::size_t i = 0; i < frames.size(); ++i) truth.push_back({static_cast<double>(i) / 30, *frames[i].T_world_camera});
-    const auto ate = EvaluateAte(truth, engine.CorrectedPath(), {.frames = static_cast<std::int64_t>(frames.size())});
+    for (std::size_t i = 0; i < frames.size(); ++i)
+        truth.push_back({static_cast<double>(i) / 30, *frames[i].T_world_camera});
+    const auto ate = EvaluateAte(truth, engine.CorrectedPath(),
+                                 {.frames = static_cast<std::int64_t>(frames.size())});
     EXPECT_TRUE(ate.ok()) << ate.message();
     if (ate.ok()) outcome.ate_m = ate.value().error_m.rmse;
     outcome.calibration = engine.calibration();
@@ -67,9 +70,11 @@ TEST(SelfCalibrationRun, AFocalLengthThatIsOffIsFoundAndThePathFollows) {
     const RoomOutcome before = RunRoom(0.97, false), after = RunRoom(0.97, true);
     EXPECT_FALSE(before.calibration);
     ASSERT_TRUE(after.calibration);
-    std::cout << after.messages << "ATE " << 1000 * before.ate_m << " -> " << 1000 * after.ate_m << " mm\n";
+    std::cout << after.messages << "ATE " << 1000 * before.ate_m << " -> " << 1000 * after.ate_m
+              << " mm\n";
     EXPECT_TRUE(after.calibration->shown);
-    EXPECT_NEAR(0.97 * after.calibration->calibration.focal_scale, 1, 3 * after.calibration->focal_sigma);
+    EXPECT_NEAR(0.97 * after.calibration->calibration.focal_scale, 1,
+                3 * after.calibration->focal_sigma);
     EXPECT_LT(after.ate_m, before.ate_m / 3);
     EXPECT_NE(after.messages.find("calibration: focal length 254.6 -> 26"), std::string::npos);
 }
@@ -81,10 +86,12 @@ TEST(SelfCalibrationRun, AGoodOneStaysAndTheMapIsTheSameByteForByte) {
     EXPECT_FALSE(after.calibration->shown) << after.messages;
     EXPECT_EQ(after.ate_m, before.ate_m);
     ASSERT_EQ(after.mesh.vertices.size(), before.mesh.vertices.size());
-    for (std::size_t i = 0; i < after.mesh.vertices.size(); ++i) ASSERT_EQ(after.mesh.vertices[i], before.mesh.vertices[i]);
+    for (std::size_t i = 0; i < after.mesh.vertices.size(); ++i)
+        ASSERT_EQ(after.mesh.vertices[i], before.mesh.vertices[i]);
 }
 
-// How many frames a live run keeps hangs on the machine, so what it finds does; that it looks and says so does not.
+// How many frames a live run keeps hangs on the machine, so what it finds does; that it looks and
+// says so does not.
 TEST(SelfCalibrationRun, ALiveRunLooksAtItsEnd) {
     if (!PoseGraphAvailable()) GTEST_SKIP() << "this build has no Ceres: install libceres-dev";
     LiveEngine engine(InputOf(0.97, true));
@@ -94,7 +101,9 @@ TEST(SelfCalibrationRun, ALiveRunLooksAtItsEnd) {
         if (frame.kind == FrameOutcome::Kind::kMessage) messages += frame.message + "\n";
     EXPECT_NE(messages.find("calibration: "), std::string::npos) << messages;
     const auto found = engine.calibration();
-    EXPECT_TRUE(!found || !found->shown || std::abs(0.97 * found->calibration.focal_scale - 1) < 0.01) << messages;
+    EXPECT_TRUE(!found || !found->shown ||
+                std::abs(0.97 * found->calibration.focal_scale - 1) < 0.01)
+        << messages;
     EXPECT_FALSE(engine.TakeMesh().triangles.empty());
 }
 

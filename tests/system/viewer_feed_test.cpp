@@ -10,7 +10,8 @@
 namespace tessera {
 namespace {
 
-// Sees one thing on the wall: for a while it takes it for a cup, then for ever for a book, of which it sees the left half.
+// Sees one thing on the wall: for a while it takes it for a cup, then for ever for a book, of which
+// it sees the left half.
 class FickleDetector : public Detector {
   public:
     Result<std::vector<Detection>> Detect(const Frame& frame) override {
@@ -32,7 +33,8 @@ class FickleDetector : public Detector {
     std::vector<std::string> names_{"cup", "book"};
 };
 
-constexpr float kSteps = 2000;  // of a voxel, to tell vertices apart by their places: a thousandth is the least distance
+// Of a voxel, to tell vertices apart by their places: a thousandth is the least distance.
+constexpr float kSteps = 2000;
 constexpr Rgb8 kCup{1, 200, 3}, kBook{4, 5, 220};
 
 class ViewerFeedTest : public EngineTest {
@@ -71,12 +73,15 @@ class ViewerFeedTest : public EngineTest {
             const BlockCoord sector = SectorOf(block.coord);
             for (const GeometryVertex& v : block.geometry.vertices) {
                 const auto at = [&](float p, int s) {
-                    return static_cast<int>(std::lround((p + static_cast<float>(s * kSectorBlocks * kBlockSide)) * kSteps));
+                    return static_cast<int>(std::lround(
+                        (p + static_cast<float>(s * kSectorBlocks * kBlockSide)) * kSteps));
                 };
                 const auto& p = v.position_voxels;
-                const auto [entry, is_new] =
-                    colours.try_emplace({at(p[0], sector.x), at(p[1], sector.y), at(p[2], sector.z)}, v.mark.label_colour);
-                EXPECT_TRUE(is_new || entry->second == v.mark.label_colour) << "copies of a vertex differ, block " << id;
+                const auto [entry, is_new] = colours.try_emplace(
+                    {at(p[0], sector.x), at(p[1], sector.y), at(p[2], sector.z)},
+                    v.mark.label_colour);
+                EXPECT_TRUE(is_new || entry->second == v.mark.label_colour)
+                    << "copies of a vertex differ, block " << id;
             }
         }
         return colours;
@@ -92,8 +97,8 @@ class ViewerFeedTest : public EngineTest {
     std::vector<std::vector<MapObject>> sent;
 };
 
-// The object is confirmed, then changes its class, while one half gets no votes: what was sent block by block is at any
-// time what the whole mesh says.
+// The object is confirmed, then changes its class, while one half gets no votes: what was sent
+// block by block is at any time what the whole mesh says.
 TEST_F(ViewerFeedTest, ColoursByLabelAreThoseOfTheMesh) {
     MakeLabelled(30);
     std::int64_t most_cups = 0;
@@ -106,12 +111,14 @@ TEST_F(ViewerFeedTest, ColoursByLabelAreThoseOfTheMesh) {
     std::int64_t books = 0, found = 0;
     for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
         const Eigen::Vector3d at = mesh.vertices[i].cast<double>() / voxel_m * kSteps;
-        const auto there = colours.find({static_cast<int>(std::lround(at.x())), static_cast<int>(std::lround(at.y())),
+        const auto there = colours.find({static_cast<int>(std::lround(at.x())),
+                                         static_cast<int>(std::lround(at.y())),
                                          static_cast<int>(std::lround(at.z()))});
         if (there == colours.end()) continue;  // its rounded place is another one
         ++found;
         books += mesh.labels[i].class_id != 0;
-        const Rgb8 expected = mesh.labels[i].class_id == 2 ? kBook : NoCategoryColour(mesh.colours[i]);
+        const Rgb8 expected =
+            mesh.labels[i].class_id == 2 ? kBook : NoCategoryColour(mesh.colours[i]);
         ASSERT_EQ(there->second, expected) << i;
     }
     EXPECT_GT(books, 500);
@@ -120,7 +127,8 @@ TEST_F(ViewerFeedTest, ColoursByLabelAreThoseOfTheMesh) {
 
 TEST_F(ViewerFeedTest, ObjectsAreSentOnceTheyAreKnown) {
     MakeLabelled(30);
-    while (NextTaken()) {}
+    while (NextTaken()) {
+    }
     ASSERT_GE(sent.size(), 1u);
     for (const auto& objects : sent)
         for (const MapObject& o : objects) {
@@ -135,7 +143,8 @@ TEST_F(ViewerFeedTest, ObjectsAreSentOnceTheyAreKnown) {
 
 TEST_F(ViewerFeedTest, WithoutLabelsNothingIsSaidOfThem) {
     Make(false, {.count = 3});
-    while (NextTaken()) {}
+    while (NextTaken()) {
+    }
     EXPECT_TRUE(sent.empty());
     EXPECT_EQ(CountOf({}), static_cast<std::int64_t>(Colours().size()));
 }

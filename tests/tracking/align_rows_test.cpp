@@ -32,7 +32,8 @@ struct TwoImages {
     TwoImages() {
         for (int i = 0; i < kWidth * kHeight; ++i) {
             const auto u = static_cast<float>(i % kWidth), v = static_cast<float>(i / kWidth);
-            depth.push_back(i % 37 == 0 ? 0.0f : 1.5f + 0.1f * std::sin(0.4f * u) * std::cos(0.3f * v));
+            depth.push_back(i % 37 == 0 ? 0.0f
+                                        : 1.5f + 0.1f * std::sin(0.4f * u) * std::cos(0.3f * v));
             intensity.push_back(i % 41 == 0 ? -1.0f : 0.5f + 0.4f * std::sin(0.5f * u - 0.4f * v));
         }
         std::mt19937 random(11);
@@ -58,7 +59,9 @@ struct TwoImages {
         a.intensity_scale = 0.04f;
     }
 
-    static Eigen::Isometry3d Pose() { return Se3Exp((Vector6d() << 0.02, -0.03, 0.01, 0.01, 0.02, -0.03).finished()); }
+    static Eigen::Isometry3d Pose() {
+        return Se3Exp((Vector6d() << 0.02, -0.03, 0.01, 0.01, 0.02, -0.03).finished());
+    }
 };
 
 std::vector<SumAligned> AlignPaths() {
@@ -87,11 +90,14 @@ class SlowSums {
 
         double At(double u, double v) const {
             const double fu = u - u0, fv = v - v0;
-            return (1 - fv) * ((1 - fu) * pixel[0] + fu * pixel[1]) + fv * ((1 - fu) * pixel[2] + fu * pixel[3]);
+            return (1 - fv) * ((1 - fu) * pixel[0] + fu * pixel[1]) +
+                   fv * ((1 - fu) * pixel[2] + fu * pixel[3]);
         }
     };
-    std::optional<Cell> CellOf(const std::vector<float>& image, double u, double v, double least) const {
-        if (u < 0 || v < 0 || u > TwoImages::kWidth - 1 || v > TwoImages::kHeight - 1) return std::nullopt;
+    std::optional<Cell> CellOf(const std::vector<float>& image, double u, double v,
+                               double least) const {
+        if (u < 0 || v < 0 || u > TwoImages::kWidth - 1 || v > TwoImages::kHeight - 1)
+            return std::nullopt;
         Cell cell{static_cast<int>(u), static_cast<int>(v), {}};
         for (int k = 0; k < 4; ++k) {
             const int at = (cell.v0 + k / 2) * TwoImages::kWidth + cell.u0 + k % 2;
@@ -107,14 +113,21 @@ class SlowSums {
     void AddPoint(std::size_t i) {
         const AlignArguments& a = images_.a;
         if (images_.z[i] <= 0) return;
-        const Eigen::Vector3d p = TwoImages::Pose() * Eigen::Vector3d(images_.x[i], images_.y[i], images_.z[i]);
+        const Eigen::Vector3d p =
+            TwoImages::Pose() * Eigen::Vector3d(images_.x[i], images_.y[i], images_.z[i]);
         const double last = images_.last[i];
-        const auto colour = CellOf(images_.intensity, U(p), V(p), 0.0), depth = CellOf(images_.depth, U(p), V(p), 0.05);
+        const auto colour = CellOf(images_.intensity, U(p), V(p), 0.0),
+                   depth = CellOf(images_.depth, U(p), V(p), 0.05);
         if (colour && last >= 0)
-            Add(p, [&](const Eigen::Vector3d& q, double offset) { return colour->At(U(q), V(q)) - (last + a.offset + offset); },
+            Add(
+                p,
+                [&](const Eigen::Vector3d& q, double offset) {
+                    return colour->At(U(q), V(q)) - (last + a.offset + offset);
+                },
                 a.intensity_scale);
         if (!depth || std::abs(depth->At(U(p), V(p)) - p.z()) > a.depth_gate_m) return;
-        Add(p, [&](const Eigen::Vector3d& q, double) { return depth->At(U(q), V(q)) - q.z(); },
+        Add(
+            p, [&](const Eigen::Vector3d& q, double) { return depth->At(U(q), V(q)) - q.z(); },
             a.depth_scale_m * std::max(1.0, static_cast<double>(images_.z[i])));
     }
 
@@ -131,7 +144,8 @@ class SlowSums {
         const double r = residual(p, 0), w = std::min(1.0, scale / std::abs(r)) / (scale * scale);
         int at = L::kHessian;
         for (int row = 0; row < 6; ++row) {
-            for (int column = row; column < 6; ++column, ++at) sums_.value[at] += w * j(row) * j(column);
+            for (int column = row; column < 6; ++column, ++at)
+                sums_.value[at] += w * j(row) * j(column);
             sums_.value[L::kGradient + row] += w * j(row) * r;
             sums_.value[L::kCoupling + 2 * row + 1] += w * j(row) * j(6);
         }
@@ -157,7 +171,8 @@ TEST(AlignRows, AreTheSlowSumsWithDerivativesByCentralDifferences) {
         sum(images.a, 0, TwoImages::kPoints, sums.value);
         EXPECT_EQ(sums[L::kKnown], slow[L::kKnown]);
         EXPECT_NEAR(sums[L::kDistanceError], slow[L::kDistanceError], 1e-3);
-        for (int k = 0; k < L::kCount; ++k) EXPECT_NEAR(sums[k], slow[k], 1e-5 * largest) << "sum " << k;
+        for (int k = 0; k < L::kCount; ++k)
+            EXPECT_NEAR(sums[k], slow[k], 1e-5 * largest) << "sum " << k;
     }
 }
 
@@ -165,7 +180,8 @@ TEST(AlignRows, AreTheSlowSumsWithDerivativesByCentralDifferences) {
 TEST(AlignRows, AreTheKernelsOneByOne) {
     const TwoImages images;
     PoseSums one_by_one;
-    testing_support::SumOneByOne<AlignKernels<ScalarLanes>>(images.a, 0, TwoImages::kPoints, one_by_one.value);
+    testing_support::SumOneByOne<AlignKernels<ScalarLanes>>(images.a, 0, TwoImages::kPoints,
+                                                            one_by_one.value);
     for (const SumAligned sum : AlignPaths()) {
         PoseSums sums;
         sum(images.a, 0, TwoImages::kPoints, sums.value);

@@ -27,15 +27,19 @@ float Random(std::uint32_t& state) {
 struct Scene {
     static constexpr int kWidth = 40, kHeight = 30, kPoints = 2048;
     std::vector<float> depth, normal, intensity;
-    std::vector<float> x, y, z, nx, ny, nz, image, weight, distance_residual, intensity_residual, gradient[3];
+    std::vector<float> x, y, z, nx, ny, nz, image, weight, distance_residual, intensity_residual,
+        gradient[3];
     IcpArguments a{};
 
     Scene() {
         std::uint32_t state = 7;
         for (int i = 0; i < kWidth * kHeight; ++i) {
             const float u = static_cast<float>(i % kWidth), v = static_cast<float>(i / kWidth);
-            depth.push_back(i % 31 == 0 ? 0.0f : 1.5f + 0.05f * std::sin(0.3f * u) * std::cos(0.2f * v));
-            const Eigen::Vector3f n = Eigen::Vector3f(0.3f * Random(state) - 0.15f, 0.2f * Random(state), -1).normalized();
+            depth.push_back(i % 31 == 0 ? 0.0f
+                                        : 1.5f + 0.05f * std::sin(0.3f * u) * std::cos(0.2f * v));
+            const Eigen::Vector3f n =
+                Eigen::Vector3f(0.3f * Random(state) - 0.15f, 0.2f * Random(state), -1)
+                    .normalized();
             normal.insert(normal.end(), {n.x(), n.y(), n.z()});
             intensity.push_back(i % 41 == 0 ? -1.0f : 0.5f + 0.4f * std::sin(0.5f * u - 0.4f * v));
         }
@@ -44,7 +48,8 @@ struct Scene {
             x.push_back((Random(state) - 0.5f) * 1.6f);
             y.push_back((Random(state) - 0.5f) * 1.2f);
             z.push_back(i % 97 == 0 ? -far : far);
-            const Eigen::Vector3f n = Eigen::Vector3f(Random(state) - 0.5f, Random(state) - 0.5f, -1).normalized();
+            const Eigen::Vector3f n =
+                Eigen::Vector3f(Random(state) - 0.5f, Random(state) - 0.5f, -1).normalized();
             nx.push_back(n.x());
             ny.push_back(n.y());
             nz.push_back(n.z());
@@ -95,34 +100,41 @@ class SlowIcpSums {
   private:
     Eigen::Vector3d Rotated(float x, float y, float z) const {
         const float* r = a_.rotation;
-        return {r[0] * x + r[1] * y + r[2] * z, r[3] * x + r[4] * y + r[5] * z, r[6] * x + r[7] * y + r[8] * z};
+        return {r[0] * x + r[1] * y + r[2] * z, r[3] * x + r[4] * y + r[5] * z,
+                r[6] * x + r[7] * y + r[8] * z};
     }
 
     void AddPoint(std::size_t i) {
-        const Eigen::Vector3d p = Rotated(s_.x[i], s_.y[i], s_.z[i]) +
-                                  Eigen::Vector3d(a_.translation[0], a_.translation[1], a_.translation[2]);
+        const Eigen::Vector3d p =
+            Rotated(s_.x[i], s_.y[i], s_.z[i]) +
+            Eigen::Vector3d(a_.translation[0], a_.translation[1], a_.translation[2]);
         if (p.z() <= 0.05) return;
         const double u = p.x() / p.z() * a_.fx + a_.cx, v = p.y() / p.z() * a_.fy + a_.cy;
         if (u < 0 || v < 0 || u > a_.width - 1 || v > a_.height - 1) return;
-        const int pu = static_cast<int>(std::floor(u + 0.5)), pv = static_cast<int>(std::floor(v + 0.5));
+        const int pu = static_cast<int>(std::floor(u + 0.5)),
+                  pv = static_cast<int>(std::floor(v + 0.5));
         const auto pixel = static_cast<std::size_t>(pv * a_.width + pu);
         const double depth = a_.depth[pixel];
         if (depth <= 0) return;
         sums.value[L::kKnown] += 1;
         const double cx = a_.cx, cy = a_.cy;
         const Eigen::Vector3d surface((pu - cx) / a_.fx * depth, (pv - cy) / a_.fy * depth, depth);
-        const Eigen::Vector3d n(a_.normal[3 * pixel], a_.normal[3 * pixel + 1], a_.normal[3 * pixel + 2]);
+        const Eigen::Vector3d n(a_.normal[3 * pixel], a_.normal[3 * pixel + 1],
+                                a_.normal[3 * pixel + 2]);
         const Eigen::Vector3d normal = Rotated(s_.nx[i], s_.ny[i], s_.nz[i]);
-        if ((p - surface).norm() >= a_.distance_gate_m || normal.dot(n) <= a_.normal_gate_cosine) return;
+        if ((p - surface).norm() >= a_.distance_gate_m || normal.dot(n) <= a_.normal_gate_cosine)
+            return;
         const double r = n.dot(p - surface);
         sums.value[L::kInliers] += std::abs(r) < a_.inlier_distance_m;
-        Add(p, n, r, s_.weight[i], a_.distance_scale_m, L::kDistanceError, L::kDistanceWeight, 1.0, L::kDistance);
+        Add(p, n, r, s_.weight[i], a_.distance_scale_m, L::kDistanceError, L::kDistanceWeight, 1.0,
+            L::kDistance);
         if (a_.alpha <= 0 || s_.image[i] < 0) return;
         AddIntensity(i, p, u, v);
     }
 
     void AddIntensity(std::size_t i, const Eigen::Vector3d& p, double u, double v) {
-        const int u0 = std::min(static_cast<int>(u), a_.width - 2), v0 = std::min(static_cast<int>(v), a_.height - 2);
+        const int u0 = std::min(static_cast<int>(u), a_.width - 2),
+                  v0 = std::min(static_cast<int>(v), a_.height - 2);
         const auto at = [&](int du, int dv) {
             return static_cast<double>(a_.intensity[(v0 + dv) * a_.width + u0 + du]);
         };
@@ -134,15 +146,15 @@ class SlowIcpSums {
         double g[3];
         ImageGradientInSpace<double>(point, a_.fx, a_.fy, s.du, s.dv, g);
         sums.value[L::kColoured] += 1;
-        const double w = Add(p, {g[0], g[1], g[2]}, r, s_.weight[i], a_.intensity_scale, L::kIntensityError,
-                             L::kIntensityWeight, a_.alpha, L::kIntensity);
+        const double w = Add(p, {g[0], g[1], g[2]}, r, s_.weight[i], a_.intensity_scale,
+                             L::kIntensityError, L::kIntensityWeight, a_.alpha, L::kIntensity);
         double j[6];
         PointJacobian(point, g, j);
         AddBrightnessTerm(j, r, double(s_.image[i]), w, sums.value);
     }
 
-    double Add(const Eigen::Vector3d& p, const Eigen::Vector3d& g, double r, double weight, double scale, int error,
-               int total, double share, int term) {
+    double Add(const Eigen::Vector3d& p, const Eigen::Vector3d& g, double r, double weight,
+               double scale, int error, int total, double share, int term) {
         const double point[3] = {p.x(), p.y(), p.z()}, gradient[3] = {g.x(), g.y(), g.z()};
         double j[6];
         PointJacobian(point, gradient, j);
@@ -151,7 +163,8 @@ class SlowIcpSums {
         sums.value[error] += w * r * r;
         sums.value[total] += w;
         const double size = std::abs(r);
-        sums.value[L::kEnergy] += share * weight * (size < scale ? r * r : scale * (2 * size - scale));
+        sums.value[L::kEnergy] +=
+            share * weight * (size < scale ? r * r : scale * (2 * size - scale));
         return w;
     }
 
@@ -180,8 +193,9 @@ TEST_P(IcpRows, AgreeWithTheSlowSums) {
         sum(scene.a, 0, Scene::kPoints, sums.value);
         for (int k = 0; k < L::kCount; ++k)
             EXPECT_NEAR(sums[k], slow[k], 2e-4 * (1.0 + std::abs(slow[k]))) << "sum " << k;
-        const auto partners = std::count_if(scene.distance_residual.begin(), scene.distance_residual.end(),
-                                            [](float r) { return !std::isnan(r); });
+        const auto partners =
+            std::count_if(scene.distance_residual.begin(), scene.distance_residual.end(),
+                          [](float r) { return !std::isnan(r); });
         EXPECT_GT(slow[L::kKnown], partners);
     }
 }
@@ -191,15 +205,20 @@ TEST_P(IcpRows, AreTheKernelsOneByOne) {
     Scene expected;
     expected.a.alpha = GetParam();
     PoseSums one_by_one;
-    testing_support::SumOneByOne<IcpKernels<ScalarLanes>>(expected.a, 0, Scene::kPoints, one_by_one.value);
+    testing_support::SumOneByOne<IcpKernels<ScalarLanes>>(expected.a, 0, Scene::kPoints,
+                                                          one_by_one.value);
     for (const SumFunction sum : Paths()) {
         Scene scene;
         scene.a.alpha = GetParam();
         PoseSums sums;
         sum(scene.a, 0, Scene::kPoints, sums.value);
         const std::size_t bytes = Scene::kPoints * sizeof(float);
-        EXPECT_EQ(std::memcmp(scene.distance_residual.data(), expected.distance_residual.data(), bytes), 0);
-        EXPECT_EQ(std::memcmp(scene.intensity_residual.data(), expected.intensity_residual.data(), bytes), 0);
+        EXPECT_EQ(
+            std::memcmp(scene.distance_residual.data(), expected.distance_residual.data(), bytes),
+            0);
+        EXPECT_EQ(
+            std::memcmp(scene.intensity_residual.data(), expected.intensity_residual.data(), bytes),
+            0);
         EXPECT_EQ(std::memcmp(sums.value, one_by_one.value, sizeof sums.value), 0);
     }
 }
@@ -245,10 +264,12 @@ TEST(IcpRows, EnergiesOfTwoPosesAreOverTheSamePoints) {
 
 // d(residual)/d(increment) of both terms, the partner held: against central differences.
 TEST(IcpKernels, JacobiansMatchCentralDifferences) {
-    const Eigen::Vector3d p(0.21, -0.13, 1.4), n = Eigen::Vector3d(0.2, -0.3, -1).normalized(), partner(0.2, -0.1, 1.43);
+    const Eigen::Vector3d p(0.21, -0.13, 1.4), n = Eigen::Vector3d(0.2, -0.3, -1).normalized(),
+                                               partner(0.2, -0.1, 1.43);
     const double pixel[4] = {0.3, 0.5, 0.45, 0.2}, fx = 200, fy = 210;
     const auto sample = [&](const Eigen::Vector3d& q) {  // around the pixel that p falls on
-        const double u = fx * q.x() / q.z() - fx * p.x() / p.z() + 0.4, v = fy * q.y() / q.z() - fy * p.y() / p.z() + 0.6;
+        const double u = fx * q.x() / q.z() - fx * p.x() / p.z() + 0.4,
+                     v = fy * q.y() / q.z() - fy * p.y() / p.z() + 0.6;
         return Bilinear<double>(pixel[0], pixel[1], pixel[2], pixel[3], u, v);
     };
     const double point[3] = {p.x(), p.y(), p.z()}, plane[3] = {n.x(), n.y(), n.z()};
@@ -261,8 +282,12 @@ TEST(IcpKernels, JacobiansMatchCentralDifferences) {
         Vector6d twist = Vector6d::Zero();
         twist(k) = kStep;
         const Eigen::Vector3d forward = Se3Exp(twist) * p, back = Se3Exp(-twist) * p;
-        EXPECT_NEAR(j_distance[k], (n.dot(forward - partner) - n.dot(back - partner)) / (2 * kStep), 1e-8) << k;
-        EXPECT_NEAR(j_intensity[k], (sample(forward).value - sample(back).value) / (2 * kStep), 1e-6) << k;
+        EXPECT_NEAR(j_distance[k], (n.dot(forward - partner) - n.dot(back - partner)) / (2 * kStep),
+                    1e-8)
+            << k;
+        EXPECT_NEAR(j_intensity[k], (sample(forward).value - sample(back).value) / (2 * kStep),
+                    1e-6)
+            << k;
     }
 }
 

@@ -29,16 +29,22 @@ TEST_P(FromRest, AFastMotionIsFound) {
     room.has_ball = true;
     const Vector6d twist = GetParam();
     ImageAligner aligner({}, FullCamera());
-    aligner.Align(Prepare(room.Render(FullCamera(), Eigen::Isometry3d::Identity())), Eigen::Isometry3d::Identity());
+    aligner.Align(Prepare(room.Render(FullCamera(), Eigen::Isometry3d::Identity())),
+                  Eigen::Isometry3d::Identity());
     const Eigen::Isometry3d T_true = Se3Exp(twist);
-    const Eigen::Isometry3d T = aligner.Align(Prepare(room.Render(FullCamera(), T_true)), Eigen::Isometry3d::Identity());
+    const Eigen::Isometry3d T =
+        aligner.Align(Prepare(room.Render(FullCamera(), T_true)), Eigen::Isometry3d::Identity());
     EXPECT_LT((T_true.inverse() * T).translation().norm(), 0.015);
     EXPECT_LT(RotationAngle(T_true, T), 0.01);
 }
-Vector6d Twist(double a, double b, double c, double d, double e, double f) { return (Vector6d() << a, b, c, d, e, f).finished(); }
+Vector6d Twist(double a, double b, double c, double d, double e, double f) {
+    return (Vector6d() << a, b, c, d, e, f).finished();
+}
 INSTANTIATE_TEST_SUITE_P(ImageAligner, FromRest,
-                         testing::Values(Twist(0.06, -0.09, 0.05, 0.05, -0.03, 0.04),  // 6.6 degrees and 7 cm between two frames
-                                         Twist(0.01, 0.25, 0.02, 0.05, -0.02, 0.01),   // 14 degrees, as at 400 a second
+                         // 6.6 degrees and 7 cm between two frames.
+                         testing::Values(Twist(0.06, -0.09, 0.05, 0.05, -0.03, 0.04),
+                                         // 14 degrees, as at 400 a second.
+                                         Twist(0.01, 0.25, 0.02, 0.05, -0.02, 0.01),
                                          Twist(0.01, -0.25, 0.02, -0.05, 0.02, 0.01)));
 
 // What a wall's noise says about motion along it is not worth as much as the guess.
@@ -60,7 +66,8 @@ TEST(ImageAligner, AlongABareWallKeepsTheGuess) {
     };
     ImageAligner aligner({}, FullCamera());
     aligner.Align(noisy(Eigen::Isometry3d::Identity()), Eigen::Isometry3d::Identity());
-    const Eigen::Isometry3d guess(Eigen::Translation3d(0.03, -0.02, 0.04)), T_true(Eigen::Translation3d(0, 0, 0.01));
+    const Eigen::Isometry3d guess(Eigen::Translation3d(0.03, -0.02, 0.04)),
+        T_true(Eigen::Translation3d(0, 0, 0.01));
     const Eigen::Isometry3d T = aligner.Align(noisy(T_true), guess);
     EXPECT_NEAR(T.translation().x(), 0.03, 0.002);
     EXPECT_NEAR(T.translation().y(), -0.02, 0.002);
@@ -78,7 +85,8 @@ TEST(ImageAligner, WithoutAnythingToAlignReturnsTheGuess) {
     EXPECT_TRUE(aligner.Align(Prepare(frame), guess).isApprox(guess, 1e-6));
 }
 
-// Something was held before the camera, which moved meanwhile: what comes after is aligned with what was seen before.
+// Something was held before the camera, which moved meanwhile: what comes after is aligned with
+// what was seen before.
 TEST(ImageAligner, AFrameThatIsNotKeptIsPassedOver) {
     BoxRoom room;
     room.has_ball = true;
@@ -103,7 +111,8 @@ TEST(ImageAligner, AFrameThatIsNotKeptIsPassedOver) {
             StateReader reader(bytes);
             ASSERT_TRUE(next.LoadState(reader));
         }
-        const Eigen::Isometry3d T = (saved ? next : aligner).Align(after, Eigen::Isometry3d::Identity());
+        const Eigen::Isometry3d T =
+            (saved ? next : aligner).Align(after, Eigen::Isometry3d::Identity());
         EXPECT_LT((T_true.inverse() * T).translation().norm(), 0.015) << saved;
         EXPECT_LT(RotationAngle(T_true, T), 0.01) << saved;
     }
@@ -115,26 +124,32 @@ TEST(ImageAligner, AStripIsAlignedWithinItsImage) {
     BoxRoom room;
     const Frame frame = room.Render(camera, Eigen::Isometry3d::Identity());
     const PreparedFrame prepared = Prepare(frame);
-    for (const PreparedFrame::Reduced& reduced : prepared.reduced) EXPECT_EQ(reduced.depth_m.height(), 2);
+    for (const PreparedFrame::Reduced& reduced : prepared.reduced)
+        EXPECT_EQ(reduced.depth_m.height(), 2);
     ImageAligner aligner({}, camera);
     aligner.Align(prepared, Eigen::Isometry3d::Identity());
-    EXPECT_TRUE(aligner.Align(prepared, Eigen::Isometry3d::Identity()).isApprox(Eigen::Isometry3d::Identity(), 1e-6));
+    EXPECT_TRUE(aligner.Align(prepared, Eigen::Isometry3d::Identity())
+                    .isApprox(Eigen::Isometry3d::Identity(), 1e-6));
 }
 
 TEST(ImageSearch, FindsAShiftToThePixelAndItsSign) {
     const PinholeCamera camera{40, 30, 32.8, 32.8, 19.5, 14.5};
     Image<float> last(40, 30), current(40, 30);
-    const auto texture = [](int x, int y) { return 0.5f + 0.3f * static_cast<float>(std::sin(0.7 * x) * std::cos(0.9 * y + 0.2 * x)); };
+    const auto texture = [](int x, int y) {
+        return 0.5f + 0.3f * static_cast<float>(std::sin(0.7 * x) * std::cos(0.9 * y + 0.2 * x));
+    };
     for (int y = 0; y < 30; ++y)
         for (int x = 0; x < 40; ++x) {
             last(x, y) = texture(x, y);
-            current(x, y) = 0.1f + texture(x - 3, y + 2);  // the content moved by (+3, -2), and got brighter
+            // The content moved by (+3, -2), and got brighter.
+            current(x, y) = 0.1f + texture(x - 3, y + 2);
         }
     const auto rotations = SearchRotations(last, current, camera, 1);
     ASSERT_EQ(rotations.size(), 1u);
     // A rotation taking last camera coordinates to current ones that moves the image right and up.
-    const Eigen::Vector3d p = Se3Exp((Vector6d() << rotations[0], Eigen::Vector3d::Zero()).finished()) *
-                              camera.Unproject(19.5, 14.5, 1.0);
+    const Eigen::Vector3d p =
+        Se3Exp((Vector6d() << rotations[0], Eigen::Vector3d::Zero()).finished()) *
+        camera.Unproject(19.5, 14.5, 1.0);
     EXPECT_NEAR(camera.Project(p).x(), 22.5, 0.1);
     EXPECT_NEAR(camera.Project(p).y(), 12.5, 0.1);
 }

@@ -36,12 +36,15 @@ TEST(LevenbergMarquardt, FailuresInARowGrowFasterAndFaster) {
     EXPECT_DOUBLE_EQ(lm.damping() / two, 8);
 }
 
-// Rosenbrock's valley, where Gauss-Newton's full step first goes up: the energy never rises, and the bottom is found.
+// Rosenbrock's valley, where Gauss-Newton's full step first goes up: the energy never rises, and
+// the bottom is found.
 TEST(LevenbergMarquardt, DescendsACurvedValley) {
     double x = -1.2, y = 1.0, energy = 1e9;
     LevenbergMarquardt lm;
     for (int i = 0; i < 200; ++i) {
-        const auto residuals = [](double a, double b) { return std::pair{10 * (b - a * a), 1 - a}; };
+        const auto residuals = [](double a, double b) {
+            return std::pair{10 * (b - a * a), 1 - a};
+        };
         const auto [r0, r1] = residuals(x, y);
         const double before = r0 * r0 + r1 * r1;
         EXPECT_LE(before, energy);
@@ -49,9 +52,11 @@ TEST(LevenbergMarquardt, DescendsACurvedValley) {
         const double j00 = -20 * x, h00 = j00 * j00 + 1, h01 = j00 * 10, h11 = 100;
         const double g0 = j00 * r0 - r1, g1 = 10 * r0, d = lm.damping() * (h00 + h11);
         const double det = (h00 + d) * (h11 + d) - h01 * h01;
-        const double sx = -((h11 + d) * g0 - h01 * g1) / det, sy = -((h00 + d) * g1 - h01 * g0) / det;
+        const double sx = -((h11 + d) * g0 - h01 * g1) / det,
+                     sy = -((h00 + d) * g1 - h01 * g0) / det;
         const auto [t0, t1] = residuals(x + sx, y + sy);
-        const double predicted = -(2 * (g0 * sx + g1 * sy) + h00 * sx * sx + 2 * h01 * sx * sy + h11 * sy * sy);
+        const double predicted =
+            -(2 * (g0 * sx + g1 * sy) + h00 * sx * sx + 2 * h01 * sx * sy + h11 * sy * sy);
         if (!lm.Accept(before - t0 * t0 - t1 * t1, predicted)) continue;
         x += sx;
         y += sy;

@@ -7,7 +7,8 @@
 namespace tessera {
 namespace {
 
-// 4 x 2 pixels: a wall at 1 m, in the right half rising by 5 cm a row and without colour in one pixel.
+// 4 x 2 pixels: a wall at 1 m, in the right half rising by 5 cm a row and without colour in one
+// pixel.
 struct Images {
     std::vector<float> depth_m = {1, 1, 1.0f, 1.0f, 1, 1, 1.05f, 1.05f};
     std::vector<float> intensity = {0.1f, 0.2f, 0.5f, -1, 0.3f, 0.4f, 0.5f, 0.5f};
@@ -20,7 +21,8 @@ struct Images {
 
 TEST(ModelKernels, HalvingTakesTheMeanOfOneSurface) {
     const Images images;
-    const ModelPixel left = images.view().Halved(0, 0, 0.1f), right = images.view().Halved(1, 0, 0.1f);
+    const ModelPixel left = images.view().Halved(0, 0, 0.1f),
+                     right = images.view().Halved(1, 0, 0.1f);
     EXPECT_FLOAT_EQ(left.depth_m, 1);
     EXPECT_FLOAT_EQ(left.intensity, 0.25f);
     EXPECT_NEAR(left.normal[0], 0, 1e-7);

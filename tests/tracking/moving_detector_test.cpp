@@ -29,7 +29,8 @@ DepthImage View(const Box& box) {
     return depth_m;
 }
 
-// The columns of a pillar before a round wall, from a camera in the middle that has turned by `yaw_rad`.
+// The columns of a pillar before a round wall, from a camera in the middle that has turned by
+// `yaw_rad`.
 DepthImage RoundView(double yaw_rad) {
     DepthImage depth_m(kWidth, kHeight);
     for (int y = 0; y < kHeight; ++y)
@@ -43,22 +44,27 @@ DepthImage RoundView(double yaw_rad) {
 
 void HideRows(int rows, DepthImage& depth_m) { std::fill_n(depth_m.data(), rows * kWidth, 0.0f); }
 
-// The map is the wall, and perhaps a box; of the camera's places only the one along its axis counts.
+// The map is the wall, and perhaps a box; of the camera's places only the one along its axis
+// counts.
 class WallAndBox : public ViewPredictor {
   public:
     Box box;
     int unknown_rows = 0;  // at the top
     bool round = false;    // RoundView's, in place of all this
-    void Predict(const BlockMap&, const PinholeCamera& camera, const Eigen::Isometry3d& T_world_camera, float, float,
+    void Predict(const BlockMap&, const PinholeCamera& camera,
+                 const Eigen::Isometry3d& T_world_camera, float, float,
                  PredictedView& view) override {
         DepthImage depth_m = View(box);
         HideRows(unknown_rows, depth_m);
-        if (round) depth_m = RoundView(std::atan2(T_world_camera.linear()(0, 2), T_world_camera.linear()(2, 2)));
+        if (round)
+            depth_m =
+                RoundView(std::atan2(T_world_camera.linear()(0, 2), T_world_camera.linear()(2, 2)));
         view.Resize(camera, T_world_camera);
         const auto ahead_m = static_cast<float>(T_world_camera.translation().z());
         const int every = kWidth / camera.width;
         for (int y = 0; y < camera.height; ++y)
-            for (int x = 0; x < camera.width; ++x) view.depth_m(x, y) = depth_m(every * x, every * y) - ahead_m;
+            for (int x = 0; x < camera.width; ++x)
+                view.depth_m(x, y) = depth_m(every * x, every * y) - ahead_m;
     }
 };
 
@@ -66,7 +72,9 @@ class MovingDetectorTest : public ::testing::Test {
   protected:
     std::shared_ptr<const MovingMask> See(const DepthImage& depth_m) {
         stamp_s_ += kFrame_s;
-        return detector_.Find({.depth_m = depth_m, .stamp_s = stamp_s_, .T_world_camera = T_world_camera_}, map_, wall_);
+        return detector_.Find(
+            {.depth_m = depth_m, .stamp_s = stamp_s_, .T_world_camera = T_world_camera_}, map_,
+            wall_);
     }
     // A box as wide as half a metre, `way` pixels along.
     static Box BoxAt(double way) {
@@ -125,18 +133,22 @@ TEST_F(MovingDetectorTest, AHeadGoesWithItsBody) {
     HideRows(kUnknown, wall_m);
     for (int i = 0; i < 30; ++i) See(wall_m);
     for (int i = 0; i < 12; ++i) {
-        const Box chest{20 + 2 * i, 55 + 2 * i, kUnknown, 90}, head{30 + 2 * i, 45 + 2 * i, 15, kUnknown, kBox_m + 0.15f};
+        const Box chest{20 + 2 * i, 55 + 2 * i, kUnknown, 90},
+            head{30 + 2 * i, 45 + 2 * i, 15, kUnknown, kBox_m + 0.15f};
         DepthImage depth_m = View(chest);
         HideRows(kUnknown, depth_m);
-        for (int y = head.top; y < head.bottom; ++y) std::fill(depth_m.row(y) + head.left, depth_m.row(y) + head.right, head.depth_m);
+        for (int y = head.top; y < head.bottom; ++y)
+            std::fill(depth_m.row(y) + head.left, depth_m.row(y) + head.right, head.depth_m);
         const auto mask = See(depth_m);
         ASSERT_NE(mask, nullptr) << i;
         for (int y = head.top; y < head.bottom; ++y)
-            for (int x = head.left; x < head.right; ++x) ASSERT_EQ(mask->moving(x, y), 1) << i << ": " << x << " " << y;
+            for (int x = head.left; x < head.right; ++x)
+                ASSERT_EQ(mask->moving(x, y), 1) << i << ": " << x << " " << y;
     }
 }
 
-// The map has a box that went while nobody looked; it is seen through, but only someone else who walks makes the detector ask the map.
+// The map has a box that went while nobody looked; it is seen through, but only someone else who
+// walks makes the detector ask the map.
 TEST_F(MovingDetectorTest, WhatWentUnseenIsGone) {
     wall_.box = BoxAt(0);
     for (int i = 0; i < 30; ++i) EXPECT_EQ(See(View({})), nullptr) << i;
@@ -150,7 +162,8 @@ TEST_F(MovingDetectorTest, WhatWentUnseenIsGone) {
 TEST_F(MovingDetectorTest, WhatADetectorSaysMovesHoweverStillItStands) {
     const Box box = BoxAt(30);
     DepthImage hinted_m(kWidth, kHeight, 0.0f);
-    for (int y = box.top; y < box.bottom; ++y) std::fill(hinted_m.row(y) + box.left, hinted_m.row(y) + box.right, kBox_m);
+    for (int y = box.top; y < box.bottom; ++y)
+        std::fill(hinted_m.row(y) + box.left, hinted_m.row(y) + box.right, kBox_m);
     detector_.Guide({hinted_m, stamp_s_ + kFrame_s}, 0, std::nullopt);  // of the first frame
     for (int i = 0; i < 25; ++i) {
         const auto expected = detector_.Expect(stamp_s_ + kFrame_s, T_world_camera_);
@@ -159,7 +172,8 @@ TEST_F(MovingDetectorTest, WhatADetectorSaysMovesHoweverStillItStands) {
         ASSERT_NE(mask, nullptr) << i;
         for (int y = 0; y < kHeight; ++y)
             for (int x = 0; x < kWidth; ++x) {
-                const bool near = x >= box.left - 4 && x < box.right + 4 && y >= box.top - 4 && y < box.bottom + 4;
+                const bool near = x >= box.left - 4 && x < box.right + 4 && y >= box.top - 4 &&
+                                  y < box.bottom + 4;
                 ASSERT_GE(mask->moving(x, y), box.Has(x, y)) << i << ": " << x << " " << y;
                 ASSERT_GE(expected->moving(x, y), box.Has(x, y)) << i << ": " << x << " " << y;
                 ASSERT_LE(mask->moving(x, y), near) << i << ": " << x << " " << y;
@@ -169,7 +183,10 @@ TEST_F(MovingDetectorTest, WhatADetectorSaysMovesHoweverStillItStands) {
     for (int i = 0; i < 10; ++i) See(View(box));
     EXPECT_EQ(See(View(box)), nullptr);
     detector_.Guide({hinted_m, stamp_s_}, 0, T_world_camera_);
-    EXPECT_EQ(detector_.Find({.depth_m = View({}), .stamp_s = stamp_s_ + kFrame_s, .T_world_camera = T_world_camera_}, map_, wall_),
+    EXPECT_EQ(detector_.Find({.depth_m = View({}),
+                              .stamp_s = stamp_s_ + kFrame_s,
+                              .T_world_camera = T_world_camera_},
+                             map_, wall_),
               nullptr);
 }
 
@@ -202,7 +219,8 @@ TEST_F(MovingDetectorTest, EdgesThatATurnHasShiftedDoNotMove) {
 TEST_F(MovingDetectorTest, SpecksDoNotCount) {
     for (int i = 0; i < 30; ++i) {
         DepthImage depth_m = View({});
-        for (int k = 0; k < 40; ++k) depth_m((37 * k + 11 * i) % kWidth, (53 * k + 7 * i) % kHeight) = 1.0f;
+        for (int k = 0; k < 40; ++k)
+            depth_m((37 * k + 11 * i) % kWidth, (53 * k + 7 * i) % kHeight) = 1.0f;
         EXPECT_EQ(See(depth_m), nullptr) << i;
     }
 }
@@ -235,7 +253,8 @@ TEST_F(MovingDetectorTest, WhatMovedIsExpectedAgain) {
     ASSERT_NE(expected, nullptr);
     const Box next = BoxAt(2.3 * 10);
     for (int y = next.top; y < next.bottom; ++y)
-        for (int x = next.left; x < next.right; ++x) ASSERT_EQ(expected->moving(x, y), 1) << x << " " << y;
+        for (int x = next.left; x < next.right; ++x)
+            ASSERT_EQ(expected->moving(x, y), 1) << x << " " << y;
     EXPECT_EQ(detector_.Expect(stamp_s_ + 1, T_world_camera_), nullptr);
     detector_.Clear();
     EXPECT_EQ(detector_.Expect(stamp_s_ + kFrame_s, T_world_camera_), nullptr);

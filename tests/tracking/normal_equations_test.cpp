@@ -9,8 +9,8 @@
 namespace tessera {
 namespace {
 
-// A trilinear cell stands for any field: residual and Jacobian against central differences of the whole chain
-// increment -> moved point -> interpolation.
+// A trilinear cell stands for any field: residual and Jacobian against central differences of the
+// whole chain increment -> moved point -> interpolation.
 struct Cell {
     double corner[8] = {0.3, -0.2, 0.5, 0.1, -0.4, 0.7, 0.2, -0.1};
 
@@ -22,7 +22,8 @@ struct Cell {
 TEST(Trilinear, ReproducesCornersAndLinearFields) {
     const Cell cell;
     for (int c = 0; c < 8; ++c)
-        EXPECT_DOUBLE_EQ(cell.At({double(c & 1), double(c >> 1 & 1), double(c >> 2)}).value, cell.corner[c]);
+        EXPECT_DOUBLE_EQ(cell.At({double(c & 1), double(c >> 1 & 1), double(c >> 2)}).value,
+                         cell.corner[c]);
     double linear[8];
     for (int c = 0; c < 8; ++c) linear[c] = 1 + 2 * (c & 1) - 3 * (c >> 1 & 1) + 5 * (c >> 2);
     const auto s = Trilinear<double>(linear, 0.3, 0.8, 0.6);
@@ -43,7 +44,8 @@ TEST(PointJacobian, MatchesCentralDifferencesOfALeftIncrement) {
         constexpr double kStep = 1e-6;
         Vector6d twist = Vector6d::Zero();
         twist(k) = kStep;
-        const double forward = cell.At(Se3Exp(twist) * p).value, back = cell.At(Se3Exp(-twist) * p).value;
+        const double forward = cell.At(Se3Exp(twist) * p).value,
+                     back = cell.At(Se3Exp(-twist) * p).value;
         EXPECT_NEAR(j[k], (forward - back) / (2 * kStep), 1e-8) << k;
     }
 }
@@ -54,7 +56,8 @@ TEST(HuberWeight, IsOneInsideAndFallsOutside) {
     EXPECT_FLOAT_EQ(HuberWeight(0.2f, 0.02f), 0.1f);
 }
 
-// E(x) = w (r + J x)^2 / 2 for the brightness unknowns: the sums must be the gradient and Hessian of it.
+// E(x) = w (r + J x)^2 / 2 for the brightness unknowns: the sums must be the gradient and Hessian
+// of it.
 TEST(AddBrightnessTerm, MatchesThePhotometricResidual) {
     using L = SumLayout;
     const double j[6] = {0.1, -0.2, 0.3, 0.4, 0.5, -0.6};
@@ -63,8 +66,10 @@ TEST(AddBrightnessTerm, MatchesThePhotometricResidual) {
     double sums[L::kCount] = {};
     AddBrightnessTerm(j, residual(gain, offset), image, w, sums);
     constexpr double kStep = 1e-6;
-    const double dr_gain = (residual(gain + kStep, offset) - residual(gain - kStep, offset)) / (2 * kStep);
-    const double dr_offset = (residual(gain, offset + kStep) - residual(gain, offset - kStep)) / (2 * kStep);
+    const double dr_gain =
+        (residual(gain + kStep, offset) - residual(gain - kStep, offset)) / (2 * kStep);
+    const double dr_offset =
+        (residual(gain, offset + kStep) - residual(gain, offset - kStep)) / (2 * kStep);
     const double r = residual(gain, offset);
     EXPECT_NEAR(sums[L::kBrightness], w * dr_gain * dr_gain, 1e-8);
     EXPECT_NEAR(sums[L::kBrightness + 1], w * dr_gain * dr_offset, 1e-8);
@@ -84,8 +89,10 @@ TEST(AddPoseTerm, SumsTheUpperTriangleRowByRow) {
     AddPoseTerm(j, 0.5, 2.0, sums);
     int at = 0;
     for (int row = 0; row < 6; ++row)
-        for (int column = row; column < 6; ++column) EXPECT_DOUBLE_EQ(sums[at++], 2.0 * j[row] * j[column]);
-    for (int row = 0; row < 6; ++row) EXPECT_DOUBLE_EQ(sums[L::kGradient + row], 2.0 * j[row] * 0.5);
+        for (int column = row; column < 6; ++column)
+            EXPECT_DOUBLE_EQ(sums[at++], 2.0 * j[row] * j[column]);
+    for (int row = 0; row < 6; ++row)
+        EXPECT_DOUBLE_EQ(sums[L::kGradient + row], 2.0 * j[row] * 0.5);
 }
 
 }  // namespace

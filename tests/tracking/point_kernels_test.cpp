@@ -37,7 +37,8 @@ TEST(PointKernels, MovedIsTheMotionToFirstOrder) {
 TEST(PointKernels, NormalOfAPlanePointsTowardsTheCamera) {
     PinholeImage image{nullptr, 9, 7, 20, 20, 4, 3};
     std::vector<float> depth;
-    for (int i = 0; i < 63; ++i) depth.push_back(1.0f / (1.0f - 0.5f * static_cast<float>(i % 9 - 4) / 20.0f));
+    for (int i = 0; i < 63; ++i)
+        depth.push_back(1.0f / (1.0f - 0.5f * static_cast<float>(i % 9 - 4) / 20.0f));
     depth[3 * 9 + 7] = 0;
     image.pixels = depth.data();
     CameraPoint n{};

@@ -9,7 +9,8 @@
 namespace tessera {
 namespace {
 
-// Patches of unit weight that see planes with these normals from the camera, 1 m ahead; each normal with noise of its own.
+// Patches of unit weight that see planes with these normals from the camera, 1 m ahead; each normal
+// with noise of its own.
 std::vector<double> Patches(int blocks, const std::vector<Eigen::Vector3d>& normals, double noise) {
     std::mt19937 random(5);
     std::normal_distribution<double> normal;
@@ -28,10 +29,12 @@ std::vector<double> Patches(int blocks, const std::vector<Eigen::Vector3d>& norm
     return sums;
 }
 
-Vector6d Eigenvalues(const Matrix6d& m) { return Eigen::SelfAdjointEigenSolver<Matrix6d>(m).eigenvalues(); }
+Vector6d Eigenvalues(const Matrix6d& m) {
+    return Eigen::SelfAdjointEigenSolver<Matrix6d>(m).eigenvalues();
+}
 
-// A wall holds three motions. Noise of its normals makes the other three look held if patches are squared (0.01 x 400), and does
-// not where different patches are multiplied.
+// A wall holds three motions. Noise of its normals makes the other three look held if patches are
+// squared (0.01 x 400), and does not where different patches are multiplied.
 TEST(AgreedHessian, NoiseOfNormalsIsNoInformation) {
     const std::vector<double> wall = Patches(100, {{0, 0, -1}}, 0.1);
     Matrix6d squared = Matrix6d::Zero();
@@ -72,7 +75,8 @@ TEST(PoseInformation, IsInMetresAndGrowsWithEveryResidual) {
     EXPECT_NEAR(1 / std::sqrt(both(3, 3)), 0.005, 1e-9);
     EXPECT_GE(Eigenvalues(both - geometry)(0), -1e-6);
     scales.texture = 0.25;  // of which three quarters are noise
-    EXPECT_NEAR(1 / std::sqrt(PoseInformation(residuals, intensities, scales, 2.0)(3, 3)), 0.01, 1e-9);
+    EXPECT_NEAR(1 / std::sqrt(PoseInformation(residuals, intensities, scales, 2.0)(3, 3)), 0.01,
+                1e-9);
 }
 
 // Known to 1 mm along x, to 1 cm, as well as expected, along y, not at all else.
@@ -87,7 +91,8 @@ TEST(PoseKnowledge, MotionsFollowWhatWasExpectedAsFarAsTheFrameDoesNotKnowThem) 
     EXPECT_TRUE(Matrix6d(knowledge.open).isApprox(Matrix6d(expected.asDiagonal()), 1e-9));
     EXPECT_TRUE(KnowledgeOf(information, 0, Eigen::Vector3d::Zero(), 1.0).open.isZero(1e-12));
     information.diagonal().setConstant(1e4);
-    EXPECT_NEAR(KnowledgeOf(information, 0.01, Eigen::Vector3d(1, 2, 3), 2.0).uncertainty_m, 0.01, 1e-9);
+    EXPECT_NEAR(KnowledgeOf(information, 0.01, Eigen::Vector3d(1, 2, 3), 2.0).uncertainty_m, 0.01,
+                1e-9);
 }
 
 // As if so many points as the finest level has were weighed against the expectation.

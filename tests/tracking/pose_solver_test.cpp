@@ -15,7 +15,9 @@ void SetTerm(const Vector6d& h, const Vector6d& g, int term, PoseSums& sums) {
     }
 }
 
-Vector6d V(double a, double b, double c, double d, double e, double f) { return (Vector6d() << a, b, c, d, e, f).finished(); }
+Vector6d V(double a, double b, double c, double d, double e, double f) {
+    return (Vector6d() << a, b, c, d, e, f).finished();
+}
 
 PoseStep Solve(const PoseSums& sums, double alpha, double least_damping) {
     SolverOptions options;

@@ -15,7 +15,8 @@ namespace {
 
 using namespace testing_support;
 
-// What is learnt from residuals of a textured room, bounds out of the way. All points see all motions: gradients turn about.
+// What is learnt from residuals of a textured room, bounds out of the way. All points see all
+// motions: gradients turn about.
 class LearntScales : public testing::Test {
   protected:
     LearntScales() {
@@ -30,11 +31,15 @@ class LearntScales : public testing::Test {
         for (float& r : residuals_.intensity) r = 0.02f * noise(random_);
         for (auto& values : residuals_.gradient)
             for (int y = 0; y < points_.height(); ++y)
-                for (int x = 0; x < points_.width(); ++x) values[Index(x, y)] = static_cast<float>(std::sin(0.03 * x + 0.05 * y + double(&values - residuals_.gradient.data())));
+                for (int x = 0; x < points_.width(); ++x)
+                    values[Index(x, y)] = static_cast<float>(std::sin(
+                        0.03 * x + 0.05 * y + double(&values - residuals_.gradient.data())));
         distances_.H = intensities_.H = Matrix6d::Identity();
         distances_.g = intensities_.g = Vector6d::Zero();
     }
-    std::size_t Index(int x, int y) const { return static_cast<std::size_t>(y * points_.width() + x); }
+    std::size_t Index(int x, int y) const {
+        return static_cast<std::size_t>(y * points_.width() + x);
+    }
 
     ResidualSums Sums() {
         arguments_ = MakeResidualArguments(frame_, camera_, points_, residuals_);
@@ -71,7 +76,8 @@ TEST_F(LearntScales, AreTheVariancesOfIndependentErrors) {
     EXPECT_NEAR(model_->alpha(), 0.01, 0.007);
 }
 
-// Errors that neighbours share count more the more neighbours share them; here 32 x 32 do, about half a region across.
+// Errors that neighbours share count more the more neighbours share them; here 32 x 32 do, about
+// half a region across.
 TEST_F(LearntScales, GrowWithErrorsThatNeighboursShare) {
     const double alone = Learn().distance_m2;
     std::normal_distribution<float> noise;
@@ -79,21 +85,26 @@ TEST_F(LearntScales, GrowWithErrorsThatNeighboursShare) {
     for (auto& row : shared)
         for (float& s : row) s = 0.002f * noise(random_);
     for (int y = 0; y < points_.height(); ++y)
-        for (int x = 0; x < points_.width(); ++x) residuals_.distance_m[Index(x, y)] += shared[y / 32][x / 32];
+        for (int x = 0; x < points_.width(); ++x)
+            residuals_.distance_m[Index(x, y)] += shared[y / 32][x / 32];
     EXPECT_GT(Learn().distance_m2, 50 * alone);
 }
 
-// As where edges are blurred or displaced: the errors pull all one way at each edge, though their sum is zero.
+// As where edges are blurred or displaced: the errors pull all one way at each edge, though their
+// sum is zero.
 TEST_F(LearntScales, ErrorsAlongTheImageGradientCountAsTheyPull) {
     const double before = Learn().intensity;
     for (int y = 0; y < points_.height(); ++y)
         for (int x = 1; x + 1 < points_.width(); ++x)
-            residuals_.intensity[Index(x, y)] += (y / 16 + x / 16) % 2 == 0 ? points_.intensity[Index(x + 1, y)] - points_.intensity[Index(x - 1, y)]
-                                                                           : points_.intensity[Index(x - 1, y)] - points_.intensity[Index(x + 1, y)];
+            residuals_.intensity[Index(x, y)] +=
+                (y / 16 + x / 16) % 2 == 0
+                    ? points_.intensity[Index(x + 1, y)] - points_.intensity[Index(x - 1, y)]
+                    : points_.intensity[Index(x - 1, y)] - points_.intensity[Index(x + 1, y)];
     EXPECT_GT(Learn().intensity, 3 * before);
 }
 
-// The same gradient everywhere, up and down by turns or only up: what a block is wrong by together cancels, or counts 256 times.
+// The same gradient everywhere, up and down by turns or only up: what a block is wrong by together
+// cancels, or counts 256 times.
 TEST_F(LearntScales, ShadingErrorCountsWhereShadingIsTheOnlyTexture) {
     config_.shading_error = 0.02;
     std::ranges::fill(residuals_.intensity, 0.0f);
@@ -101,7 +112,8 @@ TEST_F(LearntScales, ShadingErrorCountsWhereShadingIsTheOnlyTexture) {
     const auto learn_from = [&](const auto& intensity_of) {
         for (int i = 0; i < points_.count(); ++i) {
             points_.z[static_cast<std::size_t>(i)] = 1;
-            points_.intensity[static_cast<std::size_t>(i)] = 0.001f * static_cast<float>(intensity_of(i % points_.width()));
+            points_.intensity[static_cast<std::size_t>(i)] =
+                0.001f * static_cast<float>(intensity_of(i % points_.width()));
         }
         return Learn().intensity;
     };
@@ -119,7 +131,8 @@ TEST_F(LearntScales, NoiseInTheMapIsNoTexture) {
     for (float& r : residuals_.intensity) r = 0.05f * noise(random_);
     EXPECT_NEAR(Learn().texture, 0.5, 0.05);
     for (int i = 0; i < points_.count(); ++i)  // a map that shows nothing of the image
-        residuals_.intensity[static_cast<std::size_t>(i)] = 0.05f * noise(random_) - (points_.intensity[static_cast<std::size_t>(i)] - 0.5f);
+        residuals_.intensity[static_cast<std::size_t>(i)] =
+            0.05f * noise(random_) - (points_.intensity[static_cast<std::size_t>(i)] - 0.5f);
     EXPECT_LT(Learn().texture, 0.05);
 }
 

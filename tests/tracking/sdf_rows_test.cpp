@@ -17,7 +17,8 @@ namespace {
 
 using L = SumLayout;
 
-// Fills every voxel of the blocks in a cube with a smooth field; leaves one block out and one voxel unknown.
+// Fills every voxel of the blocks in a cube with a smooth field; leaves one block out and one voxel
+// unknown.
 void Fill(BlockMap& map) {
     for (int z = -2; z <= 2; ++z)
         for (int y = -2; y <= 2; ++y)
@@ -25,7 +26,8 @@ void Fill(BlockMap& map) {
                 if (x == 1 && y == 1 && z == 1) continue;
                 const BlockId id = map.Allocate({x, y, z});
                 for (int i = 0; i < kBlockVoxels; ++i) {
-                    const double px = 8 * x + (i & 7), py = 8 * y + (i >> 3 & 7), pz = 8 * z + (i >> 6);
+                    const double px = 8 * x + (i & 7), py = 8 * y + (i >> 3 & 7),
+                                 pz = 8 * z + (i >> 6);
                     const double d = 0.8 * std::sin(0.07 * px + 0.05 * py - 0.06 * pz);
                     const double c = 0.5 + 0.4 * std::cos(0.11 * px - 0.08 * py + 0.05 * pz);
                     const auto distance = static_cast<std::int32_t>(std::lround(32767 * d));
@@ -76,7 +78,8 @@ PoseSums SlowSdfSums(const BlockMap& map, const Points& points, const SdfArgumen
         double distance[8], intensity[8];
         bool known = true, coloured = points.intensity[i] >= 0;
         for (int c = 0; c < 8; ++c) {
-            const FieldWord w = word(8 * a.origin_block[0] + cell[0] + (c & 1), 8 * a.origin_block[1] + cell[1] + (c >> 1 & 1),
+            const FieldWord w = word(8 * a.origin_block[0] + cell[0] + (c & 1),
+                                     8 * a.origin_block[1] + cell[1] + (c >> 1 & 1),
                                      8 * a.origin_block[2] + cell[2] + (c >> 2));
             known = known && HasDistance(w);
             coloured = coloured && HasIntensity(w);
@@ -86,7 +89,8 @@ PoseSums SlowSdfSums(const BlockMap& map, const Points& points, const SdfArgumen
         if (!known) continue;
         const double weight = points.weight[i];
         const auto add = [&](const double* corner, double unit, double scale, bool photometric) {
-            const auto s = Trilinear<double>(corner, q[0] - cell[0], q[1] - cell[1], q[2] - cell[2]);
+            const auto s =
+                Trilinear<double>(corner, q[0] - cell[0], q[1] - cell[1], q[2] - cell[2]);
             const double slope = unit / a.voxel_size_m;
             const double g[3] = {s.gx * slope, s.gy * slope, s.gz * slope};
             double r = s.value * unit;
@@ -161,12 +165,17 @@ TEST_P(SdfRows, AgreeWithTheSlowSums) {
     PoseSums portable;
     baseline::SumSdfPoints(a, 0, 4096, portable.value);
     expect_equal(portable);
-    const std::vector<float> portable_distance = distance_residual, portable_intensity = intensity_residual;
+    const std::vector<float> portable_distance = distance_residual,
+                             portable_intensity = intensity_residual;
     const auto expect_the_same_bytes = [&](const PoseSums& sums) {
         EXPECT_EQ(std::memcmp(sums.value, portable.value, sizeof portable.value), 0);
-        EXPECT_EQ(std::memcmp(portable_distance.data(), distance_residual.data(), 4096 * sizeof(float)), 0);
+        EXPECT_EQ(
+            std::memcmp(portable_distance.data(), distance_residual.data(), 4096 * sizeof(float)),
+            0);
         if (a.use_intensity) {
-            EXPECT_EQ(std::memcmp(portable_intensity.data(), intensity_residual.data(), 4096 * sizeof(float)), 0);
+            EXPECT_EQ(std::memcmp(portable_intensity.data(), intensity_residual.data(),
+                                  4096 * sizeof(float)),
+                      0);
         }
     };
     PoseSums one_by_one;

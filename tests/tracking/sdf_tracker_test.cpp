@@ -25,7 +25,8 @@ TEST(SdfTracker, ExposureChangeIsExplainedByBrightness) {
     config.brightness_prior = 1e-3;
     const TestTracker tracker = FineSdf(config);
     const TrackResult result = world.Track(*tracker, prepared, SmoothPath(19), SmoothPath(19));
-    // map = gain * image + offset, so gain = 1 / 0.8 and offset = -10 / 255 / 0.8, up to the prior's pull.
+    // map = gain * image + offset, so gain = 1 / 0.8 and offset = -10 / 255 / 0.8, up to the
+    // prior's pull.
     EXPECT_NEAR(result.gain, 1.25, 0.07);
     EXPECT_LT((T_true.inverse() * result.T_world_camera).translation().norm(), 0.002);
 }
@@ -44,8 +45,8 @@ TEST(SdfTracker, ColourDelayIsAllowedFor) {
     const PreparedFrame prepared = Prepare(frame);
     const auto error = [&](bool allow) {
         const TestTracker tracker = FineSdf(FixedAlpha(0.3));
-        const TrackResult result =
-            world.Track(*tracker, prepared, T_true, T_last, {.colour_delay_s = allow ? delay_share / 30 : 0});
+        const TrackResult result = world.Track(*tracker, prepared, T_true, T_last,
+                                               {.colour_delay_s = allow ? delay_share / 30 : 0});
         return (T_true.inverse() * result.T_world_camera).translation().norm();
     };
     EXPECT_LT(error(true), 0.003);
@@ -63,7 +64,8 @@ TEST(SdfTracker, AutoAlphaGrowsWhenNeighboursShareDistanceErrors) {
         Frame frame = world.room.Render(world.camera, SmoothPath(20));
         for (int v = 0; v < frame.depth_m.height(); ++v)
             for (int u = 0; u < frame.depth_m.width(); ++u)
-                frame.depth_m(u, v) += static_cast<float>(bump_m * std::sin(0.05 * u) * std::cos(0.06 * v));
+                frame.depth_m(u, v) +=
+                    static_cast<float>(bump_m * std::sin(0.05 * u) * std::cos(0.06 * v));
         const PreparedFrame prepared = Prepare(frame);
         TrackResult result;
         for (int i = 0; i < 3; ++i)

@@ -15,19 +15,22 @@ namespace {
 using testing_support::BoxRoom;
 using testing_support::SmallCamera;
 
-// A camera turning in a textured room, whose colour rows are each taken at their own time. The poses are known, so the
-// residuals come from the shutter alone.
+// A camera turning in a textured room, whose colour rows are each taken at their own time. The
+// poses are known, so the residuals come from the shutter alone.
 class Shutter : public testing::Test {
   protected:
     // The image of a camera whose colour comes `delay_s` late and is read out over `readout_s`.
-    Frame Render(const Eigen::Isometry3d& T, const Vector6d& twist, double delay_s, double readout_s) const {
+    Frame Render(const Eigen::Isometry3d& T, const Vector6d& twist, double delay_s,
+                 double readout_s) const {
         Frame frame = room.Render(camera, T);
         for (int v = 0; v < camera.height; ++v) {
-            const double time = delay_s + readout_s * (static_cast<double>(v) / camera.height - 0.5);
+            const double time =
+                delay_s + readout_s * (static_cast<double>(v) / camera.height - 0.5);
             const Eigen::Isometry3d T_row = T * Se3Exp(twist * time);
             for (int u = 0; u < camera.width; ++u) {
                 const Eigen::Vector3d ray = T_row.linear() * camera.Unproject(u, v, 1.0);
-                const double i = room.Intensity(T_row.translation() + room.Cast(T_row.translation(), ray) * ray);
+                const double i =
+                    room.Intensity(T_row.translation() + room.Cast(T_row.translation(), ray) * ray);
                 const auto grey = static_cast<std::uint8_t>(255.0 * i + 0.5);
                 frame.colour(u, v) = {grey, grey, grey};
             }
@@ -38,7 +41,8 @@ class Shutter : public testing::Test {
     void Learn(ShutterEstimator& estimator, double delay_s, double readout_s) const {
         for (int i = 0; i < 40; ++i) {
             Vector6d twist;
-            twist << 0.9 * std::sin(0.5 * i), 1.2 * std::cos(0.4 * i), 0.5 * std::sin(0.7 * i), 0.1, -0.1, 0.05;
+            twist << 0.9 * std::sin(0.5 * i), 1.2 * std::cos(0.4 * i), 0.5 * std::sin(0.7 * i), 0.1,
+                -0.1, 0.05;
             const Eigen::Isometry3d T = testing_support::SmoothPath(5 * i);
             PreparedFrame prepared;
             PrepareFrame(Render(T, twist, delay_s, readout_s), {}, prepared);
@@ -55,9 +59,10 @@ class Shutter : public testing::Test {
             std::ranges::fill(residuals.intensity, std::numeric_limits<float>::quiet_NaN());
             for (std::size_t k = 0; k < residuals.intensity.size(); ++k)
                 if (points.weight[k] > 0 && points.intensity[k] >= 0)
-                    residuals.intensity[k] = static_cast<float>(room.Intensity(T * Eigen::Vector3d(points.x[k], points.y[k],
-                                                                                         points.z[k]))) -
-                                   points.intensity[k];
+                    residuals.intensity[k] =
+                        static_cast<float>(room.Intensity(
+                            T * Eigen::Vector3d(points.x[k], points.y[k], points.z[k]))) -
+                        points.intensity[k];
             if (!estimator.Wants(motion, 0.05)) continue;
             ResidualArguments a = MakeResidualArguments(prepared, camera, points, residuals);
             for (int k = 0; k < 6; ++k) a.twist_per_s[k] = motion.twist_per_s(k);

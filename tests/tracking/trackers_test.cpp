@@ -56,7 +56,8 @@ TEST_P(EveryTracker, PlaneIsHeldByItsTextureOnly) {
         EXPECT_LT((T_true.inverse() * result.T_world_camera).translation().norm(), 0.002);
     } else {
         EXPECT_TRUE(result.degenerate);
-        EXPECT_EQ(result.status, TrackStatus::kGood) << "depth fits: fusing it changes nothing of the wall";
+        EXPECT_EQ(result.status, TrackStatus::kGood)
+            << "depth fits: fusing it changes nothing of the wall";
     }
 }
 
@@ -71,9 +72,11 @@ struct BareWall {
     const Eigen::Isometry3d T_true = SmoothPath(20);
 
     Eigen::Isometry3d Beside(double x, double y, double z, double roll) const {
-        return Eigen::Isometry3d(Eigen::Translation3d(x, y, z) * T_true * Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitZ()));
+        return Eigen::Isometry3d(Eigen::Translation3d(x, y, z) * T_true *
+                                 Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitZ()));
     }
-    TrackResult Track(const TestTracker& tracker, const Eigen::Isometry3d& T_moved, const Eigen::Isometry3d& T_aligned) const {
+    TrackResult Track(const TestTracker& tracker, const Eigen::Isometry3d& T_moved,
+                      const Eigen::Isometry3d& T_aligned) const {
         const PreparedFrame frame = Prepare(world.room.Render(world.camera, T_true));
         return (*tracker).Track({.frame = frame,
                                  .map = world.map,
@@ -82,14 +85,16 @@ struct BareWall {
                                  .since_last_s = 1.0 / 30,
                                  .motion = {}});
     }
-    // Along the wall and about its normal as it was expected, but for the few per cent that the field's rounding still claims to
-    // know (here of 7 cm between two starts); held otherwise.
+    // Along the wall and about its normal as it was expected, but for the few per cent that the
+    // field's rounding still claims to know (here of 7 cm between two starts); held otherwise.
     void ExpectAsExpected(const TrackResult& result, const Eigen::Isometry3d& T_expected) const {
         EXPECT_TRUE(result.degenerate);
-        const Eigen::Vector3d along = result.T_world_camera.translation() - T_expected.translation();
+        const Eigen::Vector3d along =
+            result.T_world_camera.translation() - T_expected.translation();
         EXPECT_LT(along.head<2>().norm(), 2e-3);
         EXPECT_NEAR(result.T_world_camera.translation().z(), T_true.translation().z(), 1e-3);
-        const Eigen::Matrix3d turn = T_expected.linear().transpose() * result.T_world_camera.linear();
+        const Eigen::Matrix3d turn =
+            T_expected.linear().transpose() * result.T_world_camera.linear();
         EXPECT_NEAR(std::atan2(turn(1, 0), turn(0, 0)), 0, 1e-3);
     }
 };
@@ -97,14 +102,17 @@ struct BareWall {
 TEST_P(EveryTracker, WhatNothingShowsIsAsExpected) {
     const BareWall wall;
     const Eigen::Isometry3d T_aligned = wall.Beside(0.03, -0.02, 0.02, 0.02);
-    wall.ExpectAsExpected(wall.Track(FineTracker(GetParam()), wall.Beside(-0.02, 0.03, 0, -0.03), T_aligned), T_aligned);
+    wall.ExpectAsExpected(
+        wall.Track(FineTracker(GetParam()), wall.Beside(-0.02, 0.03, 0, -0.03), T_aligned),
+        T_aligned);
 }
 
 // A hand that comes before the camera is an image that has jumped. The motion model is not fooled.
 TEST_P(EveryTracker, APrealignmentThatLeapsIsNotFollowed) {
     const BareWall wall;
     const Eigen::Isometry3d T_moved = wall.Beside(-0.02, 0.03, 0, -0.03);
-    const TrackResult result = wall.Track(FineTracker(GetParam()), T_moved, wall.Beside(0.25, -0.02, 0.02, 0.02));
+    const TrackResult result =
+        wall.Track(FineTracker(GetParam()), T_moved, wall.Beside(0.25, -0.02, 0.02, 0.02));
     wall.ExpectAsExpected(result, T_moved);
     EXPECT_EQ(result.status, TrackStatus::kGood) << result.reason;
 }
@@ -121,7 +129,8 @@ TEST_P(EveryTracker, BareRoomIsHeldByItsShape) {
     EXPECT_LT((T_true.inverse() * result.T_world_camera).translation().norm(), 0.002);
 }
 
-// A start whose rotation is not quite one (a product of many poses) must not feed its error into the next.
+// A start whose rotation is not quite one (a product of many poses) must not feed its error into
+// the next.
 TEST_P(EveryTracker, PosesStayRigid) {
     BoxRoom room;
     room.has_ball = true;
@@ -159,7 +168,8 @@ TEST_P(EveryTracker, ThreadsDoNotChangeABit) {
     EXPECT_EQ(poses[0].matrix(), poses[1].matrix());
 }
 
-INSTANTIATE_TEST_SUITE_P(Methods, EveryTracker, testing::Values("sdf", "sdf-geometric", "icp", "icp-rgb"),
+INSTANTIATE_TEST_SUITE_P(Methods, EveryTracker,
+                         testing::Values("sdf", "sdf-geometric", "icp", "icp-rgb"),
                          [](const auto& method) {
                              std::string name = method.param;
                              std::erase(name, '-');

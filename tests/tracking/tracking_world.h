@@ -1,4 +1,5 @@
-// What the trackers' tests share: a map fused from exact views of a box room, and each method as the tests set it up.
+// What the trackers' tests share: a map fused from exact views of a box room, and each method as
+// the tests set it up.
 #pragma once
 
 #include <memory>
@@ -34,8 +35,9 @@ struct World {
         }
     }
 
-    TrackResult Track(Tracker& tracker, const PreparedFrame& frame, const Eigen::Isometry3d& T_start,
-                      const Eigen::Isometry3d& T_last, const FrameMotion& motion = {}) const {
+    TrackResult Track(Tracker& tracker, const PreparedFrame& frame,
+                      const Eigen::Isometry3d& T_start, const Eigen::Isometry3d& T_last,
+                      const FrameMotion& motion = {}) const {
         return tracker.Track({.frame = frame,
                               .map = map,
                               .T_world_camera_starts = {T_start},
@@ -44,7 +46,8 @@ struct World {
                               .motion = motion});
     }
 
-    TrackResult Track(Tracker& tracker, const Eigen::Isometry3d& T_true, const Eigen::Isometry3d& T_start) const {
+    TrackResult Track(Tracker& tracker, const Eigen::Isometry3d& T_true,
+                      const Eigen::Isometry3d& T_start) const {
         return Track(tracker, Prepare(room.Render(camera, T_true)), T_start, T_start);
     }
 };
@@ -74,16 +77,17 @@ inline TestTracker FineSdf(const ResidualModel::Config& photometric) {
     return t;
 }
 
-inline TestTracker FineIcp(const ResidualModel::Config& photometric, bool colour = true,
-                           std::unique_ptr<ViewPredictor> predictor = std::make_unique<RayCaster>()) {
+inline TestTracker FineIcp(
+    const ResidualModel::Config& photometric, bool colour = true,
+    std::unique_ptr<ViewPredictor> predictor = std::make_unique<RayCaster>()) {
     IcpTracker::Config config;
     config.finest_step_px = 1;
     config.levels = 2;
     config.fine_iterations = 30;
     TestTracker t;
     t.model = std::make_unique<ResidualModel>(photometric);
-    t.tracker = std::make_unique<IcpTracker>(config, SmallCamera(), TrackJudge({}),
-                                             *t.model, colour, std::move(predictor));
+    t.tracker = std::make_unique<IcpTracker>(config, SmallCamera(), TrackJudge({}), *t.model,
+                                             colour, std::move(predictor));
     return t;
 }
 

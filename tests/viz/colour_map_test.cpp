@@ -45,7 +45,7 @@ TEST(ColourMap, ResidualComparesTheSameDirections) {
     measured(0, 0) = 0;
     predicted.depth_m(3, 2) = 0;
     const ColourImage colours = ResidualColours(measured, camera, predicted, 0.04f);
-    EXPECT_EQ(colours(2, 1), DivergingColour(-1));  // in front of the map
+    EXPECT_EQ(colours(2, 1), DivergingColour(-1));          // in front of the map
     EXPECT_EQ(colours(1, 1), DivergingColour(1.0f / 255));  // equal, to the shade
     EXPECT_EQ(colours(3, 2), kNothingShown);
 }

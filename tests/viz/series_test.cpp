@@ -24,8 +24,14 @@ TEST(Series, KeepsTheNewestInOrder) {
 }
 
 TEST(Series, AxesEndAtRoundNumbers) {
-    for (const auto& [value, end] : {std::pair{0.0f, 1.0f}, {1.0f, 1.0f}, {1.1f, 2.0f}, {2.1f, 5.0f}, {7.0f, 10.0f},
-                                     {0.03f, 0.05f}, {101.0f, 200.0f}, {1000.0f, 1000.0f}})
+    for (const auto& [value, end] : {std::pair{0.0f, 1.0f},
+                                     {1.0f, 1.0f},
+                                     {1.1f, 2.0f},
+                                     {2.1f, 5.0f},
+                                     {7.0f, 10.0f},
+                                     {0.03f, 0.05f},
+                                     {101.0f, 200.0f},
+                                     {1000.0f, 1000.0f}})
         EXPECT_NEAR(AxisEnd(value), end, 1e-5f * end) << value;
 }
 

@@ -9,7 +9,8 @@
 
 namespace tessera::testing_support {
 
-SteppedSystem::SteppedSystem(ViewerLink& link, std::unique_ptr<FrameSource> source, const PipelineConfig& config)
+SteppedSystem::SteppedSystem(ViewerLink& link, std::unique_ptr<FrameSource> source,
+                             const PipelineConfig& config)
     : link_(link), config_(config), source_(std::move(source)) {
     StartAnew();
 }
@@ -33,7 +34,8 @@ void SteppedSystem::Obey() {
     while (link_.commands.TryPop(command)) {
         commands_.push_back(command);
         using Kind = ViewerCommand::Kind;
-        if (command.kind == Kind::kPause || command.kind == Kind::kResume) paused_ = command.kind == Kind::kPause;
+        if (command.kind == Kind::kPause || command.kind == Kind::kResume)
+            paused_ = command.kind == Kind::kPause;
         if (command.kind == Kind::kStep) paused_ = one_step_ = true;
         if (command.kind == Kind::kRecord || command.kind == Kind::kStopRecording)
             link_.recording = command.kind == Kind::kRecord;
@@ -42,7 +44,8 @@ void SteppedSystem::Obey() {
         if (command.kind == Kind::kStop) stopped_ = true;
         if (command.kind == Kind::kSaveMesh) {
             const Status status = WritePly(command.path, mesher_->Assemble());
-            link_.messages.Push(std::string(status.ok() ? "mesh saved: " + command.path : status.message()));
+            link_.messages.Push(
+                std::string(status.ok() ? "mesh saved: " + command.path : status.message()));
         }
     }
 }
@@ -69,7 +72,8 @@ void SteppedSystem::ProcessFrame(std::shared_ptr<const Frame> frame, double deco
     const FrameReport& report = update.report;
     if (report.first && report.tracked() && frame->T_world_camera)
         T_map_truth_ = report.track.T_world_camera * frame->T_world_camera->inverse();
-    if (T_map_truth_ && frame->T_world_camera) update.T_world_camera_truth = *T_map_truth_ * *frame->T_world_camera;
+    if (T_map_truth_ && frame->T_world_camera)
+        update.T_world_camera_truth = *T_map_truth_ * *frame->T_world_camera;
     mesher_->Update(pipeline_->map());
     SendMesh();
     update.mesh_ms = watch.LapMs();
@@ -82,7 +86,8 @@ void SteppedSystem::ProcessFrame(std::shared_ptr<const Frame> frame, double deco
     const BlockMap& map = pipeline_->map();
     update.map = {map.size() - 1, map.bytes(), map.bytes_per_voxel()};
     SendImages(frame, report);
-    if (report.first) link_.messages.Push(fmt::format("frame {}: the map begins here", report.index));
+    if (report.first)
+        link_.messages.Push(fmt::format("frame {}: the map begins here", report.index));
     link_.frames.Push(std::move(update));
 }
 
@@ -92,16 +97,19 @@ void SteppedSystem::SendMesh() {
     update.clear = clear_;
     const BlockMap& map = pipeline_->map();
     const auto mark = [&](const BlockMesh& owner, const BlockMesh::Vertex& vertex) {
-        return VertexMark{owner.coord.x < 0 ? kLeftLabel : kNoLabel, WeightStep(VertexWeight(map, owner, vertex))};
+        return VertexMark{owner.coord.x < 0 ? kLeftLabel : kNoLabel,
+                          WeightStep(VertexWeight(map, owner, vertex))};
     };
     const auto blocks = builder_.Build(map, *mesher_, mark);
-    update.blocks.assign(std::make_move_iterator(blocks.begin()), std::make_move_iterator(blocks.end()));
+    update.blocks.assign(std::make_move_iterator(blocks.begin()),
+                         std::make_move_iterator(blocks.end()));
     clear_ = false;
     const bool sent = link_.meshes.TryPush(std::move(update));
     TESSERA_CHECK(sent, "the test must let the viewer take the meshes");
 }
 
-void SteppedSystem::SendImages(const std::shared_ptr<const Frame>& frame, const FrameReport& report) {
+void SteppedSystem::SendImages(const std::shared_ptr<const Frame>& frame,
+                               const FrameReport& report) {
     ImageUpdate images;
     images.frame = frame;
     if (wanted_.show_prediction && report.tracked()) {

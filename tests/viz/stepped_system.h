@@ -1,5 +1,5 @@
-// A system behind a viewer's link that a test steps by hand: the real pipeline and mesher, on the test's own thread.
-// Remembers every command and setting.
+// A system behind a viewer's link that a test steps by hand: the real pipeline and mesher, on the
+// test's own thread. Remembers every command and setting.
 #pragma once
 
 #include <memory>
@@ -21,9 +21,11 @@ inline constexpr Rgb8 kLeftLabel{240, 20, 30}, kNoLabel{150, 150, 150};
 
 class SteppedSystem {
   public:
-    SteppedSystem(ViewerLink& link, std::unique_ptr<FrameSource> source, const PipelineConfig& config);
+    SteppedSystem(ViewerLink& link, std::unique_ptr<FrameSource> source,
+                  const PipelineConfig& config);
 
-    // Does what came over the link; then, unless paused, one frame. False at the source's end or after kStop.
+    // Does what came over the link; then, unless paused, one frame. False at the source's end or
+    // after kStop.
     bool Step();
 
     const PinholeCamera& camera() const { return source_->info().camera; }

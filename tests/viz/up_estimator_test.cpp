@@ -9,7 +9,8 @@ namespace {
 
 void AddMany(UpEstimator& estimator, const Eigen::Vector3d& normal, int n) {
     for (int i = 0; i < n; ++i) {
-        const Eigen::Vector3d noise = 0.05 * Eigen::Vector3d(std::sin(i), std::sin(2.0 * i), std::sin(3.0 * i));
+        const Eigen::Vector3d noise =
+            0.05 * Eigen::Vector3d(std::sin(i), std::sin(2.0 * i), std::sin(3.0 * i));
         estimator.Add(Eigen::Vector3f((normal + noise).normalized().cast<float>()));
     }
 }

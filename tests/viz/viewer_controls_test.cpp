@@ -139,12 +139,13 @@ TEST_F(ViewerControls, KeysDoWhatButtonsDo) {
         Key(key);
         system_->Step();  // what a key does next may depend on what the system has done
     }
-    EXPECT_EQ(Commands(), (std::vector{Kind::kPause, Kind::kResume, Kind::kStep, Kind::kSaveMesh, Kind::kSaveScan,
-                                       Kind::kRecord, Kind::kStopRecording}));
-    for (const auto& [key, method] : {std::pair<unsigned long, TrackingMethod>{XK_2, TrackingMethod::kSdfGeometric},
-                                      {XK_3, TrackingMethod::kIcp},
-                                      {XK_4, TrackingMethod::kIcpRgb},
-                                      {XK_1, TrackingMethod::kSdf}}) {
+    EXPECT_EQ(Commands(), (std::vector{Kind::kPause, Kind::kResume, Kind::kStep, Kind::kSaveMesh,
+                                       Kind::kSaveScan, Kind::kRecord, Kind::kStopRecording}));
+    for (const auto& [key, method] :
+         {std::pair<unsigned long, TrackingMethod>{XK_2, TrackingMethod::kSdfGeometric},
+          {XK_3, TrackingMethod::kIcp},
+          {XK_4, TrackingMethod::kIcpRgb},
+          {XK_1, TrackingMethod::kSdf}}) {
         Key(key);
         ASSERT_NE(LastSettings(), nullptr);
         EXPECT_EQ(LastSettings()->method, method);
@@ -169,7 +170,9 @@ TEST_F(ViewerControls, AfterTheEndNothingIsSent) {
     Frames(2);
     link_.ended = true;
     Rounds(4);
-    for (const char* name : {"pause", "step", "reset", "save_mesh", "record", "method.icp", "fusing"}) Click(name);
+    for (const char* name :
+         {"pause", "step", "reset", "save_mesh", "record", "method.icp", "fusing"})
+        Click(name);
     Key(XK_space);
     EXPECT_TRUE(link_.commands.empty());
     EXPECT_TRUE(link_.settings.empty());

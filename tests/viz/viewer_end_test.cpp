@@ -1,4 +1,5 @@
-// How a window ends: closed by the person, by the run's end, or with its display; and where there is none.
+// How a window ends: closed by the person, by the run's end, or with its display; and where there
+// is none.
 #include <X11/keysym.h>
 
 #include <cstdlib>
@@ -25,7 +26,8 @@ class ViewerEnd : public testing_support::WindowTest {
   protected:
     bool StopWasSent() {
         ViewerCommand command;
-        return link_.commands.TryPop(command) && command.kind == Kind::kStop && link_.commands.empty();
+        return link_.commands.TryPop(command) && command.kind == Kind::kStop &&
+               link_.commands.empty();
     }
 };
 

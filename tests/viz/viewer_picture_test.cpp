@@ -19,11 +19,14 @@ class ViewerPicture : public testing_support::WindowTest {
         const ControlRect view = Find("view");
         int all = 0, hits = 0;
         for (int y = static_cast<int>(view.y) + 60; y < static_cast<int>(view.y + view.height); ++y)
-            for (int x = static_cast<int>(view.x); x < static_cast<int>(view.x + view.width); ++x, ++all)
+            for (int x = static_cast<int>(view.x); x < static_cast<int>(view.x + view.width);
+                 ++x, ++all)
                 hits += predicate(picture(x, y));
         return static_cast<double>(hits) / all;
     }
-    static int Spread(const Rgb8& c) { return std::max({c.r, c.g, c.b}) - std::min({c.r, c.g, c.b}); }
+    static int Spread(const Rgb8& c) {
+        return std::max({c.r, c.g, c.b}) - std::min({c.r, c.g, c.b});
+    }
     static bool IsBackground(const Rgb8& c) { return std::max({c.r, c.g, c.b}) < 62; }
     double Difference(const ColourImage& a, const ColourImage& b) {
         double sum = 0;
@@ -48,7 +51,8 @@ TEST_F(ViewerPicture, AScreenshotIsSavedAndToldOf) {
     Frames(3);
     Click("screenshot");
     std::vector<std::filesystem::path> files;
-    for (const auto& entry : std::filesystem::directory_iterator(folder_.path())) files.push_back(entry.path());
+    for (const auto& entry : std::filesystem::directory_iterator(folder_.path()))
+        files.push_back(entry.path());
     ASSERT_EQ(files.size(), 1u);
     EXPECT_EQ(files[0].filename().string().rfind("scan-", 0), 0u) << files[0];
     const auto picture = ReadColourImage(files[0].string());
@@ -56,7 +60,8 @@ TEST_F(ViewerPicture, AScreenshotIsSavedAndToldOf) {
     ASSERT_EQ(picture.value().width(), 1280);
     ASSERT_EQ(picture.value().height(), 720);
     // The box room: warm colours, which no part of the window's own has.
-    EXPECT_GT(Share(picture.value(), [](const Rgb8& c) { return c.r > c.b + 15 && c.r > 70; }), 0.05);
+    EXPECT_GT(Share(picture.value(), [](const Rgb8& c) { return c.r > c.b + 15 && c.r > 70; }),
+              0.05);
     Key(XK_p);
     EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_.path()), {}), 2);
 }
@@ -64,10 +69,12 @@ TEST_F(ViewerPicture, AScreenshotIsSavedAndToldOf) {
 TEST_F(ViewerPicture, ShadingByButtonAndKey) {
     Frames(3);
     const auto coloured = [&] {
-        return Share(viewer_->Picture(), [](const Rgb8& c) { return !IsBackground(c) && Spread(c) > 40; });
+        return Share(viewer_->Picture(),
+                     [](const Rgb8& c) { return !IsBackground(c) && Spread(c) > 40; });
     };
     const auto red = [&] {
-        return Share(viewer_->Picture(), [](const Rgb8& c) { return c.r > 90 && c.r > 3 * c.g && c.r > 3 * c.b; });
+        return Share(viewer_->Picture(),
+                     [](const Rgb8& c) { return c.r > 90 && c.r > 3 * c.g && c.r > 3 * c.b; });
     };
     const double colour = coloured(), red_of_scene = red();
     Click("shading.Label");  // half of the room has one
@@ -75,7 +82,8 @@ TEST_F(ViewerPicture, ShadingByButtonAndKey) {
     EXPECT_GT(labelled, red_of_scene + 0.05);
     Click("shading.Weight");  // seen once or twice: of the dark end
     EXPECT_LT(red(), 0.01);
-    EXPECT_GT(Share(viewer_->Picture(), [](const Rgb8& c) { return c.b > c.r + 20 && c.b > 60; }), 0.15);
+    EXPECT_GT(Share(viewer_->Picture(), [](const Rgb8& c) { return c.b > c.r + 20 && c.b > 60; }),
+              0.15);
     Click("shading.Grey");
     const double grey = coloured();
     Click("shading.Normal");
@@ -90,7 +98,8 @@ TEST_F(ViewerPicture, ShadingByButtonAndKey) {
 constexpr Rgb8 kMagenta{255, 0, 255};
 bool IsMagenta(const Rgb8& c) { return c.r > 150 && c.b > 150 && c.g < 90; }
 
-// Its box and name show; a click in the list brings it to the middle, another shading keeps it, the key hides it.
+// Its box and name show; a click in the list brings it to the middle, another shading keeps it, the
+// key hides it.
 TEST_F(ViewerPicture, AnObjectIsListedBoxedAndLookedAt) {
     Frames(3);
     const auto magenta = [&] { return Share(viewer_->Picture(), IsMagenta); };
@@ -137,7 +146,8 @@ TEST_F(ViewerPicture, DetectionsShowOverTheImage) {
         const ControlRect view = Find("view");
         int count = 0;
         for (int y = 0; y < 170; ++y)
-            for (int x = static_cast<int>(view.x + view.width) + 1; x < picture.width(); ++x) count += IsMagenta(picture(x, y));
+            for (int x = static_cast<int>(view.x + view.width) + 1; x < picture.width(); ++x)
+                count += IsMagenta(picture(x, y));
         return count;
     };
     EXPECT_EQ(magenta(), 0);
@@ -155,7 +165,9 @@ TEST_F(ViewerPicture, DetectionsShowOverTheImage) {
 
 TEST_F(ViewerPicture, WireframeShowsThrough) {
     Frames(3);
-    const auto covered = [&] { return Share(viewer_->Picture(), [](const Rgb8& c) { return !IsBackground(c); }); };
+    const auto covered = [&] {
+        return Share(viewer_->Picture(), [](const Rgb8& c) { return !IsBackground(c); });
+    };
     Click("view_all");
     const double filled = covered();
     Click("wireframe");

@@ -32,7 +32,8 @@ std::unique_ptr<VirtualDisplay> VirtualDisplay::Start(std::string& why) {
         close(ends[0]);
         (void)!freopen("/dev/null", "w", stderr);
         const std::string fd = std::to_string(ends[1]);
-        execlp("Xvfb", "Xvfb", "-displayfd", fd.c_str(), "-screen", "0", "1280x800x24", "-nolisten", "tcp", nullptr);
+        execlp("Xvfb", "Xvfb", "-displayfd", fd.c_str(), "-screen", "0", "1280x800x24", "-nolisten",
+               "tcp", nullptr);
         _exit(127);
     }
     close(ends[1]);
@@ -103,7 +104,8 @@ bool VirtualDisplay::AskToClose(const std::string& title) {
         event.xclient.window = windows[i];
         event.xclient.message_type = XInternAtom(connection_, "WM_PROTOCOLS", False);
         event.xclient.format = 32;
-        event.xclient.data.l[0] = static_cast<long>(XInternAtom(connection_, "WM_DELETE_WINDOW", False));
+        event.xclient.data.l[0] =
+            static_cast<long>(XInternAtom(connection_, "WM_DELETE_WINDOW", False));
         XSendEvent(connection_, windows[i], False, NoEventMask, &event);
     }
     if (windows) XFree(windows);

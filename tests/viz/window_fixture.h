@@ -7,8 +7,8 @@
 #include <memory>
 #include <string>
 
-#include "support/temp_folder.h"
 #include "support/box_room_source.h"
+#include "support/temp_folder.h"
 #include "viz/stepped_system.h"
 #include "viz/viewer.h"
 #include "viz/virtual_display.h"

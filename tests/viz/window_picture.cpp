@@ -1,5 +1,6 @@
 // Makes docs/images/window.png: the window on a scan, half-way. Needs a display; under Xvfb:
-//   xvfb-run -a -s "-screen 0 1280x720x24" build/release/tests/viz/window_picture docs/images/window.png synthetic:desk 200
+//   xvfb-run -a -s "-screen 0 1280x720x24" build/release/tests/viz/window_picture
+//   docs/images/window.png synthetic:desk 200
 // Usage: window_picture PICTURE.png SOURCE FRAMES [LABELS|none [colour|label|weight [follow]]]
 #include <atomic>
 #include <cstdio>
@@ -28,7 +29,9 @@ ViewerOptions OptionsOf(const Arguments& a, const RunConfig& config, const Sourc
     options.camera = source.camera;
     options.truncation_m = config.pipeline.map.truncation_m;
     options.labelled = !a.labels.empty();
-    options.shading = a.shading == "label" ? Shading::kLabel : a.shading == "weight" ? Shading::kWeight : Shading::kColour;
+    options.shading = a.shading == "label"    ? Shading::kLabel
+                      : a.shading == "weight" ? Shading::kWeight
+                                              : Shading::kColour;
     options.follow = a.follow;
     options.wait_s = 0;
     return options;
@@ -81,6 +84,6 @@ int main(int argc, char** argv) {
     if (argc < 4) return 2;
     const auto optional = [&](int i) { return std::string(argc > i ? argv[i] : ""); };
     const std::string labels = optional(4);
-    return tessera::MakePicture({argv[1], argv[2], labels == "none" ? "" : labels, optional(5), std::atoll(argv[3]),
-                                 optional(6) == "follow"});
+    return tessera::MakePicture({argv[1], argv[2], labels == "none" ? "" : labels, optional(5),
+                                 std::atoll(argv[3]), optional(6) == "follow"});
 }
