@@ -1,5 +1,5 @@
-// The commands of the program `tessera`, one file each. Every command only reads its arguments,
-// calls the libraries and prints.
+// The subcommands of `tessera`, one file each. Each only parses its arguments, calls the libraries
+// and prints.
 #pragma once
 
 #include <string>
@@ -14,17 +14,18 @@ class App;
 namespace tessera {
 
 inline constexpr int kExitDone = 0;
-inline constexpr int kExitBadInput = 2;    // input or arguments; one line on stderr says which
+// Bad input or arguments; one line on stderr gives the reason.
+inline constexpr int kExitBadInput = 2;
 inline constexpr int kExitMostlyLost = 3;  // fewer than half of the frames tracked
 
-// What the commands share with main.
+// Shared between the commands and main.
 struct CommandContext {
     std::vector<std::string> arguments;  // the whole command line
-    int exit_code = kExitDone;           // left by the command that ran
+    int exit_code = kExitDone;           // set by the command that ran
 };
 
-// Each adds its subcommand to `app`; when that is parsed it runs at once and leaves its exit code.
-// The context must outlive the parsing.
+// Each function adds its subcommand to `app`. A parsed subcommand runs immediately and stores its
+// exit code. The context must outlive the parsing.
 void AddConfigCommand(CLI::App& app, CommandContext& context);
 void AddDoctorCommand(CLI::App& app, CommandContext& context);
 void AddEvalCommand(CLI::App& app, CommandContext& context);
@@ -39,9 +40,9 @@ void AddSweepCommand(CLI::App& app, CommandContext& context);
 void AddSynthCommand(CLI::App& app, CommandContext& context);
 void AddViewCommand(CLI::App& app, CommandContext& context);
 
-// Prints the error as one line on stderr; returns kExitBadInput.
+// Prints the error as one line on stderr and returns kExitBadInput.
 int Fail(const Status& error);
-// kExitDone, or Fail.
+// Returns kExitDone, or the result of Fail.
 int ExitCode(const Status& status);
 
 }  // namespace tessera

@@ -1,4 +1,5 @@
-// tessera config: the parameters, as a file to start from or as the table of docs/configuration.md.
+// tessera config: prints the parameters, as a YAML file to start from or as the table of
+// docs/configuration.md.
 #include <CLI/CLI.hpp>
 #include <memory>
 
@@ -32,7 +33,7 @@ void AddConfigCommand(CLI::App& app, CommandContext& context) {
         app.add_subcommand("config", "Print the whole configuration as YAML, or check a file");
     a->config.AddTo(*command);
     command->add_flag("--markdown", a->markdown,
-                      "The table of all parameters with units, ranges and defaults");
+                      "Print a table of all parameters with units, ranges and defaults");
     command->callback([a, &context] { context.exit_code = PrintConfig(*a); });
 }
 

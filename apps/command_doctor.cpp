@@ -1,4 +1,4 @@
-// tessera doctor: what this build can do on this machine; what is off says so.
+// tessera doctor: reports what this build can do on this machine and why something is off.
 #include <tbb/info.h>
 #include <tbb/version.h>
 #include <unistd.h>
@@ -34,7 +34,7 @@ void PrintCameras(const OpenniListing& listing) {
 
 const char* Window() {
 #ifndef TESSERA_HAVE_WINDOW
-    return "off: this build has no window: install libimgui-dev, libglfw3-dev and libepoxy-dev and "
+    return "off: built without a window; install libimgui-dev, libglfw3-dev and libepoxy-dev and "
            "build again";
 #else
     return std::getenv("DISPLAY") || std::getenv("WAYLAND_DISPLAY") ? "on"
@@ -55,8 +55,8 @@ int Doctor() {
                              (1024.0 * 1024.0 * 1024.0);
     fmt::print("tessera {}, built with g++ {}, OpenCV {}, oneTBB {}\n", TESSERA_VERSION,
                __VERSION__, CV_VERSION, TBB_VERSION_STRING);
-    fmt::print("processor    {} threads, vector code: {}\n", tbb::info::default_concurrency(),
-               CpuHasAvx2() ? "AVX2" : "baseline (this machine has no AVX2: about half the speed)");
+    fmt::print("CPU          {} threads, SIMD: {}\n", tbb::info::default_concurrency(),
+               CpuHasAvx2() ? "AVX2" : "baseline (no AVX2 on this machine: about half the speed)");
     fmt::print("memory       {:.1f} GB\n", memory_gb);
     std::string presets;
     for (const Preset& preset : Presets()) presets += " " + preset.name;
@@ -83,7 +83,8 @@ int Doctor() {
 }  // namespace
 
 void AddDoctorCommand(CLI::App& app, CommandContext& context) {
-    CLI::App* command = app.add_subcommand("doctor", "Say what this build can do on this machine");
+    CLI::App* command =
+        app.add_subcommand("doctor", "Report what this build can do on this machine");
     command->callback([&context] { context.exit_code = Doctor(); });
 }
 

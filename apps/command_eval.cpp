@@ -1,4 +1,4 @@
-// tessera eval: how far a result lies from the truth.
+// tessera eval: measures the error of a result against ground truth.
 #include <CLI/CLI.hpp>
 #include <functional>
 #include <memory>
@@ -23,10 +23,10 @@ namespace {
 
 struct Arguments {
     std::string reference, estimate, json, picture;
-    std::vector<std::string> align;  // reference's and run's trajectory
+    std::vector<std::string> align;  // trajectories of the reference and of the run
 };
 
-// Both trajectories, and what their reader noted on stderr.
+// Reads both trajectories. Prints the reader's notes on stderr.
 Result<std::pair<Trajectory, Trajectory>> ReadBoth(const std::string& reference,
                                                    const std::string& estimate) {
     Result<Trajectory> a = ReadTrajectory(reference);
@@ -122,9 +122,9 @@ Status EvalLabels(const Arguments& a) {
 CLI::App* AddEvaluation(CLI::App& eval, Arguments& a, const char* name, const char* text,
                         const char* estimate) {
     CLI::App* command = eval.add_subcommand(name, text);
-    command->add_option("REFERENCE", a.reference, "The truth")->required();
-    command->add_option(estimate, a.estimate, "What is measured")->required();
-    command->add_option("--json", a.json, "Write the figures here")->type_name("FILE");
+    command->add_option("REFERENCE", a.reference, "Ground truth")->required();
+    command->add_option(estimate, a.estimate, "Result to evaluate")->required();
+    command->add_option("--json", a.json, "Write the figures to this file")->type_name("FILE");
     return command;
 }
 
@@ -133,7 +133,8 @@ CLI::App* AddEvaluation(CLI::App& eval, Arguments& a, const char* name, const ch
 void AddEvalCommand(CLI::App& app, CommandContext& context) {
     auto a = std::make_shared<Arguments>();
     auto rpe_options = std::make_shared<RpeOptions>();
-    CLI::App* eval = app.add_subcommand("eval", "Measure a trajectory or a mesh against the truth");
+    CLI::App* eval =
+        app.add_subcommand("eval", "Evaluate a trajectory, a mesh or labels against ground truth");
     eval->require_subcommand(1);
 
     CLI::App* ate =
@@ -141,15 +142,14 @@ void AddEvalCommand(CLI::App& app, CommandContext& context) {
                       "Absolute trajectory error in metres, SE(3) alignment without scale, "
                       "pairs within 0.02 s (TUM trajectories)",
                       "ESTIMATE");
-    ate->add_option("--plot", a->picture, "Draw both paths and the error over time")
+    ate->add_option("--plot", a->picture, "Plot both paths and the error over time")
         ->type_name("FILE.png");
     ate->callback([a, &context] { context.exit_code = ExitCode(EvalAte(*a)); });
 
-    CLI::App* rpe = AddEvaluation(*eval, *a, "rpe",
-                                  "Relative pose error over a fixed time: drift (TUM trajectories)",
-                                  "ESTIMATE");
-    rpe->add_option("--delta", rpe_options->delta_s,
-                    "Time in seconds over which motions are compared")
+    CLI::App* rpe = AddEvaluation(
+        *eval, *a, "rpe",
+        "Relative pose error (drift) over a fixed time interval (TUM trajectories)", "ESTIMATE");
+    rpe->add_option("--delta", rpe_options->delta_s, "Time interval in seconds")
         ->check(CLI::PositiveNumber)
         ->capture_default_str();
     rpe->callback(
@@ -161,23 +161,23 @@ void AddEvalCommand(CLI::App& app, CommandContext& context) {
                                    "MESH");
     mesh->add_option(
             "--align", a->align,
-            "Move the mesh by the SE(3) that lays the run's trajectory onto the reference's")
+            "Transform the mesh by the SE(3) that aligns the run's trajectory with the reference's")
         ->type_name("REFERENCE_TRAJECTORY RUN_TRAJECTORY")
         ->expected(2);
-    mesh->add_option("--picture", a->picture, "Paint the errors onto the mesh")
+    mesh->add_option("--picture", a->picture, "Colour the mesh by its errors")
         ->type_name("FILE.png");
     mesh->callback([a, &context] { context.exit_code = ExitCode(EvalMesh(*a)); });
 
-    CLI::App* labels = eval->add_subcommand(
-        "labels",
-        "A run's labels against the true classes and instances of a sequence, as "
-        "tessera synth writes them; [D18] Table 4");
+    CLI::App* labels =
+        eval->add_subcommand("labels",
+                             "Evaluate a run's labels against the true classes and instances of a "
+                             "sequence written by tessera synth; [D18] Table 4");
     labels
         ->add_option("SEQUENCE", a->reference,
                      "Folder with labels/, instances/, classes.txt, groundtruth.txt")
         ->required();
     labels->add_option("RUN_DIR", a->estimate, "Folder of a run with --labels")->required();
-    labels->add_option("--json", a->json, "Write the figures here")->type_name("FILE");
+    labels->add_option("--json", a->json, "Write the figures to this file")->type_name("FILE");
     labels->callback([a, &context] { context.exit_code = ExitCode(EvalLabels(*a)); });
 }
 

@@ -1,5 +1,5 @@
-// tessera export: out of a scan file, or a finished run's folder, the files that other programs
-// read.
+// tessera export: writes a scan file or the folder of a finished run in the formats of other
+// programs.
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
@@ -27,19 +27,19 @@ struct Arguments {
         return !mesh.empty() || !cloud.empty() || !colmap.empty() || WantsTransforms();
     }
     bool NeedsPath() const { return !trajectory.empty() || !kitti.empty(); }
-    // What only a scan file has.
+    // Whether an output needs data that only a scan file has.
     bool NeedsScan() const { return !grid.empty() || NeedsFrames(); }
     bool NeedsFrames() const { return !frames.empty() || !colmap.empty(); }
 };
 
-// What is asked for, of either kind of input.
+// The requested data, from either kind of input.
 struct Content {
     TriangleMesh mesh;
     std::vector<StampedPose> path;
 };
 
 Result<Content> FromScan(const Arguments& a) {
-    if (a.NeedsFrames())  // before anything is written
+    if (a.NeedsFrames())  // check before anything is written
         if (const auto frames = PosedFrames::Open(a.input); !frames.ok()) return frames.status();
     Result<ScanContent> scan = ReadScan(a.input, {.map = a.NeedsMesh() || !a.grid.empty()});
     if (!scan.ok()) return scan.status();
@@ -69,7 +69,7 @@ Result<Content> FromRun(const Arguments& a) {
     return content;
 }
 
-// Before anything is read or written.
+// Checks the arguments before anything is read or written.
 Status Check(const Arguments& a, bool is_run) {
     if (!a.NeedsMesh() && !a.NeedsPath() && !a.NeedsScan())
         return Status::Error(
@@ -77,17 +77,17 @@ Status Check(const Arguments& a, bool is_run) {
             "--colmap");
     if (is_run && a.NeedsScan())
         return Status::Error(a.input +
-                             ": a run's folder has no map and no raw frames; --grid, --frames and "
-                             "--colmap take a FILE.scan");
+                             ": the folder of a run has no map and no raw frames; --grid, --frames "
+                             "and --colmap need a FILE.scan");
     if (!a.mesh.empty())
         if (const Result<MeshFormat> format = MeshFormatOf(a.mesh); !format.ok())
             return Status::Error("--mesh " + format.message());
     if (!a.cloud.empty() && fs::path(a.cloud).extension() != ".ply")
         return Status::Error("--cloud " + a.cloud +
-                             ": a point cloud is written as .ply; give this extension");
+                             ": a point cloud is written as .ply; use this extension");
     if (!a.grid.empty() && fs::path(a.grid).extension() != ".vdb")
         return Status::Error("--grid " + a.grid +
-                             ": a volume is written as .vdb; give this extension");
+                             ": a volume is written as .vdb; use this extension");
     if (!a.grid.empty() && !VdbAvailable())
         return Status::Error("--grid " + a.grid + ": .vdb is " + kVdbUnavailable);
     return Status::Ok();
@@ -124,26 +124,28 @@ Status Export(const Arguments& a) {
 void AddExportCommand(CLI::App& app, CommandContext& context) {
     auto a = std::make_shared<Arguments>();
     CLI::App* command = app.add_subcommand(
-        "export", "Write a scan file's or a run's mesh, map, path or raw frames as other files");
+        "export", "Export the mesh, map, path or raw frames of a scan file or a run");
     const auto add = [&](const char* name, std::string& value, const char* what, const char* type) {
         command->add_option(name, value, what)->type_name(type);
     };
     command
-        ->add_option("INPUT", a->input, "FILE.scan, or a run's folder (mesh, cloud and path only)")
+        ->add_option("INPUT", a->input,
+                     "FILE.scan, or the folder of a run (mesh, cloud and path only)")
         ->required();
-    add("--mesh", a->mesh, "Coloured mesh, metres; by extension: .ply, .obj, .glb", "FILE");
+    add("--mesh", a->mesh, "Coloured mesh, metres; the extension sets the format: .ply, .obj, .glb",
+        "FILE");
     add("--cloud", a->cloud, "The mesh's vertices as a point cloud, .ply", "FILE");
     add("--grid", a->grid, "Signed distance (metres) and colour as OpenVDB grids, .vdb", "FILE");
     add("--trajectory", a->trajectory, "Camera path, TUM format", "FILE");
-    add("--kitti", a->kitti, "Camera path, KITTI format; its stamps go to FILE.times", "FILE");
+    add("--kitti", a->kitti, "Camera path, KITTI format; time stamps are written to FILE.times",
+        "FILE");
     add("--frames", a->frames,
-        "The raw frames that a scan holds: a new folder (TUM layout), or FILE.json for nerfstudio "
-        "and instant-ngp, "
-        "with images/ and depth/ beside it",
+        "Raw frames stored in the scan: a new folder (TUM layout), or FILE.json for nerfstudio and "
+        "instant-ngp, with images/ and depth/ beside it",
         "DIR|FILE.json");
     add("--colmap", a->colmap,
-        "The raw frames with their poses, and points of the mesh, as a COLMAP model (text); "
-        "images/ in it",
+        "Raw frames with their poses and points of the mesh, as a COLMAP text model; images in "
+        "images/",
         "DIR");
     command->callback([a, &context] { context.exit_code = ExitCode(Export(*a)); });
 }

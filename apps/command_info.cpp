@@ -1,4 +1,4 @@
-// tessera info: what a source holds, before an hour is spent on it.
+// tessera info: describes a source before a long run on it.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
@@ -28,11 +28,11 @@ void PrintSource(const SourceInfo& info) {
     for (const std::string& note : info.notes) fmt::print("note: {}\n", note);
 }
 
-// The first readable frame's depths, which show at once whether depth_scale is right.
+// The depth range of the first readable frame shows whether depth_scale is right.
 void PrintFirstFrame(FrameSource& source) {
     Frame frame;
     ReadResult read;
-    constexpr int kMostWaits = 20;  // each at most half a second, of a camera that gives nothing
+    constexpr int kMostWaits = 20;  // each up to half a second, for a camera that delivers nothing
     int waits = 0;
     do {
         read = source.Read(frame);
@@ -47,7 +47,7 @@ void PrintFirstFrame(FrameSource& source) {
     fmt::print("first frame: stamp {:.6f} s, {}, ", frame.stamp_s,
                frame.colour.empty() ? "no colour" : "colour");
     if (depths.empty()) {
-        fmt::print("no depth at all\n");
+        fmt::print("no depth\n");
         return;
     }
     std::sort(depths.begin(), depths.end());
@@ -79,7 +79,7 @@ int Info(const Arguments& a) {
 
 void AddInfoCommand(CLI::App& app, CommandContext& context) {
     auto a = std::make_shared<Arguments>();
-    CLI::App* command = app.add_subcommand("info", "Say what a source, or a scan file, holds");
+    CLI::App* command = app.add_subcommand("info", "Describe a source or a scan file");
     command
         ->add_option("SOURCE", a->source,
                      "Folder, openni2:[URI], FILE.oni, FILE.klg, FILE.scan or synthetic:NAME")

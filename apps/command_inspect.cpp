@@ -1,4 +1,4 @@
-// tessera inspect: what the map predicts for one frame, beside what was measured.
+// tessera inspect: compares one measured frame with the view predicted from the map.
 #include <CLI/CLI.hpp>
 #include <memory>
 
@@ -31,8 +31,7 @@ Status Inspect(const Arguments& a) {
     if (!report.warning.empty()) fmt::print(stderr, "tessera: {}\n", report.warning);
     fmt::print(
         "frame {} by {}: {}{}{}; depth {:.1f} mm, intensity {:.3f} (robust rms); {:.0f} % in the "
-        "map, {:.0f} % of "
-        "it fits\n",
+        "map, {:.0f} % of it inliers\n",
         report.index, ToString(report.method), ToString(t.status), t.reason.empty() ? "" : ": ",
         t.reason, 1000 * t.distance_rms_m, t.intensity_rms, 100 * t.known_fraction,
         100 * t.inlier_fraction);
@@ -44,12 +43,12 @@ Status Inspect(const Arguments& a) {
 void AddInspectCommand(CLI::App& app, CommandContext& context) {
     auto a = std::make_shared<Arguments>();
     CLI::App* command = app.add_subcommand("inspect",
-                                           "Picture of one frame against the map: measured and "
-                                           "predicted colour and depth, and residuals");
+                                           "Compare one frame with the map in a picture: measured "
+                                           "and predicted colour and depth, and residuals");
     command->add_option("SOURCE", a->source, "As for tessera run")->required();
     command
         ->add_option("--frame", a->frame,
-                     "Index as in frames.csv; the frames before it make the map")
+                     "Frame index as in frames.csv; the map is built from the frames before it")
         ->required()
         ->check(CLI::PositiveNumber);
     command->add_option("--out", a->out, "Picture to write, .png or .jpg")

@@ -1,4 +1,4 @@
-// tessera objects: a labelled mesh's objects as meshes of their own.
+// tessera objects: writes each object of a labelled mesh as its own mesh.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
@@ -21,7 +21,8 @@ Status WriteObjects(const Folders& folders) {
     const Result<TriangleMesh> mesh = ReadPly(folders.run + "/mesh.ply");
     if (!mesh.ok()) return mesh.status();
     if (mesh.value().labels.empty())
-        return Status::Error(folders.run + "/mesh.ply: has no labels; make the run with --labels");
+        return Status::Error(folders.run +
+                             "/mesh.ply: has no labels; repeat the run with --labels");
     if (Status status = PrepareOutputFolder(folders.out); !status.ok()) return status;
     for (const MapObject& o : objects.value()) {
         std::string name = o.class_name;
@@ -39,7 +40,7 @@ Status WriteObjects(const Folders& folders) {
 void AddObjectsCommand(CLI::App& app, CommandContext& context) {
     auto folders = std::make_shared<Folders>();
     CLI::App* command =
-        app.add_subcommand("objects", "Write each labelled object of a run as a mesh of its own");
+        app.add_subcommand("objects", "Write each labelled object of a run as a separate mesh");
     command->add_option("RUN_DIR", folders->run, "Folder of a run with --labels")->required();
     command->add_option("--out", folders->out, "Folder for NUMBER-CLASS.ply")
         ->required()

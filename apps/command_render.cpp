@@ -1,4 +1,4 @@
-// tessera render: a picture of a mesh, without a window or OpenGL.
+// tessera render: renders a picture of a mesh, without a window or OpenGL.
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
@@ -39,12 +39,12 @@ NamedBox ToBox(const MapObject& o) {
             fmt::format("{} {} {:.0f}%", o.class_name, o.id, 100 * o.probability), o.colour};
 }
 
-// Category colours, and the boxes and names of an objects.json that is given or, for these colours,
-// lies beside the mesh.
+// Applies category colours, and the boxes and names from the given objects.json. With category
+// colours, the default is the objects.json beside the mesh.
 Status ApplyLabels(const Arguments& a, TriangleMesh& mesh, RenderStyle& style) {
     const bool by_label = a.shading == Shading::kLabel;
     if (by_label && mesh.labels.empty())
-        return Status::Error(a.mesh + ": has no labels; make the run with --labels");
+        return Status::Error(a.mesh + ": has no labels; repeat the run with --labels");
     std::string path = a.objects;
     const std::string beside =
         (std::filesystem::path(a.mesh).parent_path() / "objects.json").string();
@@ -61,7 +61,7 @@ Status ApplyLabels(const Arguments& a, TriangleMesh& mesh, RenderStyle& style) {
     return Status::Ok();
 }
 
-// From where the camera stood, 70 degrees wide.
+// A view from a camera pose, 70 degrees wide.
 MeshView ViewOfPose(const Arguments& a, const Eigen::Isometry3d& T_world_camera) {
     MeshView view;
     view.T_world_camera = T_world_camera;
@@ -91,7 +91,7 @@ Status Render(const Arguments& a) {
     MeshView view;
     if (a.pose >= 0) {
         view = ViewOfPose(a, style.path[static_cast<std::size_t>(a.pose)]);
-        style.path.clear();  // it would start in the eye
+        style.path.clear();  // the path would start at the eye point
     } else {
         view = ChooseView(mesh.value(), style.path, a.width, a.height);
     }
@@ -104,14 +104,14 @@ Status Render(const Arguments& a) {
 void AddRenderCommand(CLI::App& app, CommandContext& context) {
     auto a = std::make_shared<Arguments>();
     CLI::App* command =
-        app.add_subcommand("render", "Draw a mesh; the view is chosen so that all of it shows");
+        app.add_subcommand("render", "Render a mesh; the view is chosen to show all of it");
     command->add_option("MESH", a->mesh, "PLY file, or FILE.scan")->required();
     command->add_option("--out", a->out, "Picture to write, .png or .jpg")
         ->required()
         ->type_name("PICTURE.png");
     command
         ->add_option("--trajectory", a->trajectory,
-                     "Draw this path too, and look from behind its cameras")
+                     "Draw this path too, and choose a view from behind its cameras")
         ->type_name("FILE");
     command->add_option("--width", a->width, "Pixels")
         ->check(CLI::Range(16, 8192))
@@ -121,9 +121,9 @@ void AddRenderCommand(CLI::App& app, CommandContext& context) {
         ->capture_default_str();
     command
         ->add_option("--shading", a->shading,
-                     "colour as it is, colour lit, grey lit, normals, or label: by category, with "
-                     "the objects' boxes and names "
-                     "(default colour)")
+                     "colour: vertex colours; lit: vertex colours with shading; grey: shaded "
+                     "without colour; normal: normals; label: by category, with the objects' boxes "
+                     "and names (default colour)")
         ->transform(
             CLI::CheckedTransformer(std::map<std::string, Shading>{{"colour", Shading::kColour},
                                                                    {"lit", Shading::kLit},
@@ -132,12 +132,12 @@ void AddRenderCommand(CLI::App& app, CommandContext& context) {
                                                                    {"label", Shading::kLabel}}));
     command
         ->add_option("--objects", a->objects,
-                     "Draw the boxes and names of this objects.json (with --shading label: the one "
-                     "beside the mesh)")
+                     "Draw the boxes and names in this objects.json (with --shading label, "
+                     "default: the one beside the mesh)")
         ->type_name("FILE");
     command
         ->add_option("--pose", a->pose,
-                     "Look from the trajectory's pose with this number, from 0 on")
+                     "View from the trajectory pose with this number, counted from 0")
         ->check(CLI::NonNegativeNumber);
     command->callback([a, &context] { context.exit_code = ExitCode(Render(*a)); });
 }

@@ -1,4 +1,4 @@
-// tessera run: a source becomes a trajectory, a mesh and their figures.
+// tessera run: turns a source into a trajectory, a mesh and their statistics.
 #include <CLI/CLI.hpp>
 #include <charconv>
 #include <memory>
@@ -45,7 +45,7 @@ Result<MethodSwitch> ParseSwitch(const std::string& text) {
         text));
 }
 
-// The configuration, then the options that name a key of their own.
+// Sets the configuration first, then the options that correspond to a single key.
 Status Configure(const Arguments& a, RunConfig& config) {
     ConfigParameters parameters;
     config.Describe(parameters);
@@ -80,7 +80,7 @@ int Run(const Arguments& a) {
     RunConfig config;
     if (Status status = Configure(a, config); !status.ok()) return Fail(status);
     std::unique_ptr<Device> device;
-    if (a.device == "cuda") {  // until it has run on a GPU, auto is the processor
+    if (a.device == "cuda") {  // auto means the CPU until the CUDA backend has run on a GPU
         Result<std::unique_ptr<Device>> opened = OpenGpu(config.pipeline.device);
         if (!opened.ok()) return Fail(opened.status());
         device = std::move(opened.value());
@@ -105,7 +105,7 @@ int Run(const Arguments& a) {
     const RunSummary& summary = result.value();
     fmt::print("{}", RunText(request, summary));
     if (2 * summary.counts.tracked >= summary.counts.frames) return kExitDone;
-    fmt::print(stderr, "tessera: only {} of {} frames tracked; the last reason: {}\n",
+    fmt::print(stderr, "tessera: only {} of {} frames tracked; last reason: {}\n",
                summary.counts.tracked, summary.counts.frames, summary.last_reason);
     return kExitMostlyLost;
 }
@@ -115,16 +115,14 @@ int Run(const Arguments& a) {
 void AddRunCommand(CLI::App& app, CommandContext& context) {
     auto a = std::make_shared<Arguments>();
     a->request.output_folder = "out";
-    CLI::App* command =
-        app.add_subcommand("run", "Track and fuse a source: trajectory, mesh, picture, timings");
+    CLI::App* command = app.add_subcommand(
+        "run", "Track and fuse a source; write trajectory, mesh, picture and timings");
     command
-        ->add_option(
-            "SOURCE", a->request.source,
-            "Folder (TUM RGB-D, ICL-NUIM, 7-Scenes, or images with a camera.yaml), openni2: (a "
-            "depth camera; "
-            "openni2:URI for a certain one), FILE.oni, FILE.klg, FILE.scan (the frames that a scan "
-            "keeps), or synthetic:NAME (desk, room, flat, corridor, floor, corner, "
-            "wall, people, chair, door)")
+        ->add_option("SOURCE", a->request.source,
+                     "Folder (TUM RGB-D, ICL-NUIM, 7-Scenes, or images with a camera.yaml), "
+                     "openni2: (a depth camera; openni2:URI for a specific one), FILE.oni, "
+                     "FILE.klg, FILE.scan (the frames stored in a scan), or synthetic:NAME (desk, "
+                     "room, flat, corridor, floor, corner, wall, people, chair, door)")
         ->required();
     command->add_option("--out", a->request.output_folder, "Folder for the results")
         ->type_name("DIR")
@@ -136,13 +134,13 @@ void AddRunCommand(CLI::App& app, CommandContext& context) {
     command
         ->add_option(
             "--switch", a->switches,
-            "From this frame on (its index as in frames.csv) another tracking method; repeatable")
+            "Switch to another tracking method at this frame (index as in frames.csv); repeatable")
         ->type_name("FRAME:METHOD")
         ->allow_extra_args(false);
     command
         ->add_option(
             "--alpha", a->alpha,
-            "Weight of the photometric residual in m^2, or auto, as tracking.photometric.alpha")
+            "Weight of the photometric residual in m^2, or auto; sets tracking.photometric.alpha")
         ->type_name("A|auto");
     command->add_option("--start", a->request.selection.start, "First frame, counted from 0")
         ->check(CLI::NonNegativeNumber)
@@ -151,60 +149,58 @@ void AddRunCommand(CLI::App& app, CommandContext& context) {
         ->add_option("--frames", a->request.selection.count,
                      "Number of frames to read (default: all)")
         ->check(CLI::PositiveNumber);
-    command->add_option("--stride", a->request.selection.stride, "Take every so-manieth frame")
+    command->add_option("--stride", a->request.selection.stride, "Use every Nth frame")
         ->check(CLI::PositiveNumber)
         ->capture_default_str();
     command
         ->add_option("--threads", a->threads,
-                     "Threads of the parallel loops, 0 = one per core, as run.threads")
+                     "Threads for parallel loops, 0 = one per core; sets run.threads")
         ->check(CLI::Range(0, 256));
     command
         ->add_option("--poses", a->request.poses_file,
-                     "Fuse at the poses of this TUM trajectory (seconds, metres) and do not track")
+                     "Do not track; fuse at the poses of this TUM trajectory (seconds, metres)")
         ->type_name("FILE");
     command
         ->add_option("--mode", a->mode,
-                     "lockstep: every frame, in order; live: the newest frame wins, at the "
-                     "camera's or the recorded pace")
+                     "lockstep: every frame, in order; live: the newest frame wins, at the pace of "
+                     "the camera or recording")
         ->check(CLI::IsMember({"lockstep", "live"}))
         ->capture_default_str();
     command
-        ->add_option("--labels", a->labels,
-                     "Label objects with this network (.onnx, or .cfg beside its .weights), file "
-                     "of detections, or synthetic: "
-                     "a synthetic: source's own truth")
+        ->add_option(
+            "--labels", a->labels,
+            "Label objects with this network (.onnx, or .cfg with .weights beside it), with a "
+            "detections file, or with synthetic: the ground truth of a synthetic: source")
         ->type_name("MODEL|DETECTIONS|none")
         ->capture_default_str();
     command
         ->add_option("--loop-closure", a->loop_closure,
-                     "Correct path and map where the camera comes back, and find the place again "
-                     "after a loss; as "
-                     "loops.enabled (default off)")
+                     "Close loops: correct path and map when the camera returns to a known place, "
+                     "and relocalise after tracking is lost; sets loops.enabled (default off)")
         ->check(CLI::IsMember({"on", "off"}));
     command->add_flag("--view", a->view,
-                      "Open a window; without a display the run goes on without");
+                      "Open a window; without a display the run continues without one");
     command
         ->add_option("--record", a->request.record_path,
-                     "Keep the raw frames in this new folder (TUM layout, depth exact), or "
-                     "FILE.oni of an OpenNI2 camera")
+                     "Record the raw frames to this new folder (TUM layout, exact depth), or to "
+                     "FILE.oni with an OpenNI2 camera")
         ->type_name("PATH");
     CLI::Option* scan = command
                             ->add_option("--scan", a->scan,
-                                         "Save the scan as it goes into this new file: killed at "
-                                         "any moment it has lost at most the last second")
+                                         "Save the scan continuously to this new file; a killed "
+                                         "run loses at most the last second")
                             ->type_name("FILE");
     command
-        ->add_option("--resume", a->resume,
-                     "Go on with a scan that was saved, and save into it; voxel size and "
-                     "truncation are the scan's; frames of the same "
-                     "recording that it has are left out")
+        ->add_option(
+            "--resume", a->resume,
+            "Continue a saved scan, and save to the same file; voxel size and truncation are those "
+            "of the scan; frames of the same recording that are already in it are skipped")
         ->type_name("FILE")
         ->excludes(scan);
     command
         ->add_option("--device", a->device,
-                     "Where map and tracking are calculated: auto takes the processor; cuda the "
-                     "first NVIDIA GPU, an experiment "
-                     "that has not yet run on one")
+                     "Where to compute map and tracking: auto uses the CPU; cuda uses the first "
+                     "NVIDIA GPU (experimental, not yet tested on one)")
         ->check(CLI::IsMember({"auto", "cpu", "cuda"}))
         ->capture_default_str();
     command->callback([a, &context] {

@@ -1,4 +1,4 @@
-// tessera scan: what to do with a scan file that is not sound.
+// tessera scan: maintenance of scan files.
 #include <CLI/CLI.hpp>
 #include <memory>
 
@@ -18,7 +18,7 @@ int RepairTo(const Arguments& a) {
     const RepairReport& report = repaired.value();
     fmt::print("{}: recovered {} blocks, {} frames of the path, {} raw frames, {} keyframes\n",
                a.out, report.blocks, report.path, report.frames, report.keyframes);
-    if (report.lost.empty()) fmt::print("nothing is lost\n");
+    if (report.lost.empty()) fmt::print("nothing was lost\n");
     for (const std::string& what : report.lost) fmt::print("lost: {}\n", what);
     return kExitDone;
 }
@@ -27,11 +27,11 @@ int RepairTo(const Arguments& a) {
 
 void AddScanCommand(CLI::App& app, CommandContext& context) {
     auto a = std::make_shared<Arguments>();
-    CLI::App* command = app.add_subcommand("scan", "Look after scan files");
+    CLI::App* command = app.add_subcommand("scan", "Maintain scan files");
     command->require_subcommand(1);
     CLI::App* repair = command->add_subcommand(
-        "repair", "Recover what is sound of a damaged scan into a new file");
-    repair->add_option("SCAN", a->scan, "The damaged file; it is left as it is")->required();
+        "repair", "Recover what is intact in a damaged scan into a new file");
+    repair->add_option("SCAN", a->scan, "Damaged file; not modified")->required();
     repair->add_option("--out", a->out, "New file")->required()->type_name("FILE");
     repair->callback([a, &context] { context.exit_code = RepairTo(*a); });
 }

@@ -1,5 +1,5 @@
-// tessera sweep alpha: the photometric weight's influence, sequence by sequence, as [B14] figure 6
-// tabulates it.
+// tessera sweep alpha: measures the influence of the photometric weight on each sequence, as [B14]
+// figure 6 tabulates it.
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <memory>
@@ -27,7 +27,7 @@ struct Row {
     double alpha, ate_rmse_m, tracked_fraction, fps;
 };
 
-// "FIRST:LAST:STEP", both ends included.
+// "FIRST:LAST:STEP", including both ends.
 Result<std::vector<double>> ParseValues(const std::string& text) {
     double first = 0, last = 0, step = 0;
     char rest = 0;
@@ -64,7 +64,7 @@ Result<Row> RunOne(const Arguments& a, const std::string& source, double alpha,
     if (!run.ok()) return run.status();
     const RunSummary& s = run.value();
     if (!s.source.has_truth)
-        return Status::Error(source + ": has no ground truth to measure against");
+        return Status::Error(source + ": has no ground truth to evaluate against");
     const double nan = std::nan("");
     return Row{source, alpha, s.ate ? s.ate->error_m.rmse : nan,
                static_cast<double>(s.counts.tracked) / static_cast<double>(s.counts.frames), s.fps};
@@ -100,7 +100,7 @@ Status Sweep(const Arguments& a) {
         for (const double alpha : values.value()) {
             const Result<Row> row = RunOne(a, source, alpha, stop);
             if (!row.ok()) return row.status();
-            if (stop) return Status::Ok();  // a run that was cut short is no figure
+            if (stop) return Status::Ok();  // discard a run that was cut short
             rows.push_back(row.value());
             fmt::print("{}  alpha {:.3g}  {:.4f}  tracked {:.1f} %\n", source, alpha,
                        rows.back().ate_rmse_m, 100 * rows.back().tracked_fraction);
@@ -116,19 +116,19 @@ Status Sweep(const Arguments& a) {
 void AddSweepCommand(CLI::App& app, CommandContext& context) {
     auto a = std::make_shared<Arguments>();
     CLI::App* sweep =
-        app.add_subcommand("sweep", "Run sources again and again with another setting each time");
+        app.add_subcommand("sweep", "Run sources repeatedly with different values of a setting");
     sweep->require_subcommand(1);
     CLI::App* alpha = sweep->add_subcommand(
-        "alpha", "Over the photometric weight, tracking.photometric.alpha, in m^2");
+        "alpha", "Vary the photometric weight, tracking.photometric.alpha, in m^2");
     alpha->add_option("SOURCE", a->sources, "Folders or synthetic:NAME, with ground truth")
         ->required();
-    alpha->add_option("--values", a->values, "Both ends included")
+    alpha->add_option("--values", a->values, "Values to try, including both ends")
         ->type_name("FIRST:LAST:STEP")
         ->capture_default_str();
     alpha->add_option("--out", a->out, "Folder for sweep.csv and sweep.json")->type_name("DIR");
-    alpha->add_option("--frames", a->frames, "Number of frames of each source (default: all)")
+    alpha->add_option("--frames", a->frames, "Number of frames per source (default: all)")
         ->check(CLI::PositiveNumber);
-    alpha->add_option("--stride", a->stride, "Take every so-manieth frame")
+    alpha->add_option("--stride", a->stride, "Use every Nth frame")
         ->check(CLI::PositiveNumber)
         ->capture_default_str();
     a->config.AddTo(*alpha);

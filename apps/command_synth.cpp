@@ -1,4 +1,5 @@
-// tessera synth: a synthetic sequence with exact truth, as a folder that any RGB-D system reads.
+// tessera synth: writes a synthetic sequence with exact ground truth, as a folder that any RGB-D
+// system can read.
 #include <CLI/CLI.hpp>
 #include <memory>
 
@@ -44,7 +45,7 @@ Status Synth(const Arguments& a) {
         });
     if (!written.ok()) return written.status();
     const SequenceSummary& s = written.value();
-    fmt::print("{}: {} frames over {:.2f} m, reference of {} triangles\n", a.out, s.frames,
+    fmt::print("{}: {} frames over {:.2f} m, reference mesh of {} triangles\n", a.out, s.frames,
                s.path_m, s.reference_triangles);
     return Status::Ok();
 }
@@ -59,17 +60,16 @@ void AddSynthCommand(CLI::App& app, CommandContext& context) {
     for (const std::string& name : BuiltinSceneNames()) names += (names.empty() ? "" : ", ") + name;
     command->add_option("SCENE", a->scene, "Built-in scene (" + names + ") or MODEL.obj")
         ->required();
-    command->add_option("--out", a->out, "Folder to write")->required()->type_name("DIR");
+    command->add_option("--out", a->out, "Output folder")->required()->type_name("DIR");
     command
         ->add_option("--trajectory", a->trajectory,
-                     "Move along this TUM trajectory (default: the scene's own motion)")
+                     "Move along this TUM trajectory (default: the scene's own)")
         ->type_name("FILE");
-    command
-        ->add_option("--frames", a->frames, "Number of frames (default: to the end of the motion)")
+    command->add_option("--frames", a->frames, "Number of frames (default: until the motion ends)")
         ->check(CLI::PositiveNumber);
     command->add_option("--noise", a->noise, "Sensor model (default none)")
         ->check(CLI::IsMember({"none", "kinect"}));
-    command->add_option("--seed", a->seed, "Of the noise (default 1)")
+    command->add_option("--seed", a->seed, "Random seed of the noise (default 1)")
         ->check(CLI::NonNegativeNumber);
     a->config.AddTo(*command);
     command->callback([a, &context] { context.exit_code = ExitCode(Synth(*a)); });

@@ -1,4 +1,4 @@
-// tessera view: a mesh, or a finished run's folder, in a window.
+// tessera view: shows a mesh, or the folder of a finished run, in a window.
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
@@ -21,7 +21,7 @@ struct Arguments {
     int width = 1280, height = 720;
 };
 
-// What to read: the mesh, and the trajectory beside it where there is one.
+// The files to read: the mesh, and the trajectory beside it if there is one.
 struct Files {
     std::string mesh, trajectory, objects;
 };
@@ -39,8 +39,8 @@ Result<Files> FindFiles(const Arguments& a) {
     files.mesh = (folder / "mesh.ply").string();
     if (!fs::exists(files.mesh, ignored))
         return Status::Error(
-            fmt::format("{}: has no mesh.ply; a run's folder has one, and a source is seen by: "
-                        "tessera run {} --view",
+            fmt::format("{}: has no mesh.ply, so it is not the folder of a run; to view a source, "
+                        "use: tessera run {} --view",
                         a.path, a.path));
     if (files.trajectory.empty() && fs::exists(folder / "trajectory.txt", ignored))
         files.trajectory = (folder / "trajectory.txt").string();
@@ -91,23 +91,24 @@ Status View(const Arguments& a) {
 
 void AddViewCommand(CLI::App& app, CommandContext& context) {
     auto a = std::make_shared<Arguments>();
-    CLI::App* command = app.add_subcommand("view", "Look at a mesh in a window, with a run's path");
+    CLI::App* command =
+        app.add_subcommand("view", "Show a mesh in a window, with the path of a run");
     command
         ->add_option("PATH", a->path,
-                     "PLY file, a run's folder (mesh.ply, trajectory.txt), or FILE.scan")
+                     "PLY file, folder of a run (mesh.ply, trajectory.txt), or FILE.scan")
         ->required();
     command
         ->add_option("--trajectory", a->trajectory,
-                     "TUM trajectory to draw, metres (default: the run's)")
+                     "TUM trajectory to draw, metres (default: that of the run)")
         ->type_name("FILE");
     command
         ->add_option("--screenshot", a->screenshot,
-                     "Draw once into this picture and leave; needs a display too")
+                     "Render once to this picture and exit; also needs a display")
         ->type_name("FILE.png");
-    command->add_option("--width", a->width, "Window, pixels")
+    command->add_option("--width", a->width, "Width of the window in pixels")
         ->check(CLI::Range(320, 8192))
         ->capture_default_str();
-    command->add_option("--height", a->height, "Window, pixels")
+    command->add_option("--height", a->height, "Height of the window in pixels")
         ->check(CLI::Range(240, 8192))
         ->capture_default_str();
     command->callback([a, &context] { context.exit_code = ExitCode(View(*a)); });

@@ -1,4 +1,4 @@
-// --config and --set, the same for every command that has a configuration.
+// --config and --set, shared by every command that has a configuration.
 #pragma once
 
 #include <string>
@@ -14,11 +14,11 @@ class App;
 namespace tessera {
 
 struct ConfigOptions {
-    std::string config;             // preset's name or file; empty = the defaults
+    std::string config;             // name of a preset or file; empty: defaults
     std::vector<std::string> sets;  // KEY=VALUE
 
     void AddTo(CLI::App& command);
-    // The file first, then each --set in the order given.
+    // Applies the file first, then each --set in the given order.
     Status Apply(ConfigParameters& parameters) const;
 };
 

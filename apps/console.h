@@ -1,5 +1,4 @@
-// What a person sees on stderr while a run goes: a progress bar if it is a terminal, warnings in
-// any case.
+// Output on stderr during a run: a progress bar if stderr is a terminal, and always the warnings.
 #pragma once
 
 #include <cstdint>
@@ -19,11 +18,11 @@ class Console {
 
     void Info(const std::string& text);
     void Warning(const std::string& text);
-    // At most ten times a second.
+    // Draws at most ten times a second.
     void ShowProgress(const RunCounts& counts, std::int64_t total);
 
-    // Prints the source's notes and the run's warnings, and draws the bar. Must outlive the
-    // observer.
+    // Prints the source's notes and the run's warnings, and draws the bar. The Console must outlive
+    // the observer.
     RunObserver Observer();
 
   private:

@@ -1,4 +1,4 @@
-// The program: parses the command line, runs one command, returns its exit code.
+// Entry point: parses the command line, runs one command, returns its exit code.
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
@@ -26,7 +26,7 @@ namespace {
 
 int ReportParseError(const CLI::App& app, const CLI::ParseError& error) {
     if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) return app.exit(error);
-    // CLI11 says only that a command is missing.
+    // CLI11 only reports that a subcommand is missing.
     if (app.get_subcommands().empty() && !app.remaining().empty())
         return Fail(Status::Error(fmt::format(
             "unknown command or option '{}' (tessera -h lists them)", app.remaining().front())));
@@ -35,14 +35,14 @@ int ReportParseError(const CLI::App& app, const CLI::ParseError& error) {
         used = used->get_subcommands().front();
         command += " " + used->get_name();
     }
-    return Fail(
-        Status::Error(fmt::format("{} ({} -h lists what can be given)", error.what(), command)));
+    return Fail(Status::Error(fmt::format("{} (see {} -h)", error.what(), command)));
 }
 
 int Main(int argc, char** argv) {
     spdlog::set_default_logger(spdlog::stderr_color_mt("tessera"));
     spdlog::set_pattern("%^%l%$: %v");
-    std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is a failed write, not the end
+    // A file that cannot grow is a write error, not the end of the program.
+    std::signal(SIGXFSZ, SIG_IGN);
 
     CLI::App app(
         "Tessera: dense RGB-D SLAM. Exit codes: 0 done; 2 bad input or arguments; 3 fewer than "

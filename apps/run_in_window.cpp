@@ -55,7 +55,7 @@ Result<RunSummary> ExecuteRunInWindow(RunRequest request, const RunConfig& confi
             while (viewer.value()->RunOnce() && !(link.ended.load() && stop.load())) {
             }
         else
-            console.Warning("no window: " + viewer.message() + "; going on without");
+            console.Warning("no window: " + viewer.message() + "; continuing without one");
     }
     run.join();
     return std::move(*result);

@@ -1,5 +1,5 @@
-// A run with its window: the run on a thread of its own, the window on the main one, a ViewerLink
-// between them.
+// A run with its window: the run on its own thread, the window on the main thread, connected by a
+// ViewerLink.
 #pragma once
 
 #include <atomic>
@@ -9,7 +9,8 @@
 
 namespace tessera {
 
-// As ExecuteRun. Where no window can be opened, the console says why and the run goes on without.
+// Like ExecuteRun. If no window can be opened, the console says why and the run continues without
+// one.
 Result<RunSummary> ExecuteRunInWindow(RunRequest request, const RunConfig& config, Console& console,
                                       const std::atomic<bool>& stop);
 

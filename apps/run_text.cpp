@@ -22,7 +22,7 @@ std::string LabelsText(const LabelSummary& labels, double wall_s) {
     std::map<std::string, int> counts;
     for (const MapObject& object : labels.objects) ++counts[object.class_name];
     std::string text =
-        fmt::format("labels: {} frames looked at ({:.1f} a second), {} detections, {} objects",
+        fmt::format("labels: {} frames processed ({:.1f} per second), {} detections, {} objects",
                     labels.frames, static_cast<double>(labels.frames) / std::max(wall_s, 1e-9),
                     labels.detections, labels.objects.size());
     const char* separator = ": ";
@@ -47,20 +47,19 @@ std::string RunText(const RunRequest& request, const RunSummary& s) {
         if (stage == "frame") median_ms = statistics.median_ms;
     constexpr double kMegabyte = 1024.0 * 1024.0;
     text += fmt::format(
-        "{:.1f} frames/s, median {:.1f} ms a frame; map {} blocks, {:.0f} MB ({:.1f} bytes a "
-        "voxel); peak memory {:.0f} "
-        "MB\n",
+        "{:.1f} frames/s, median {:.1f} ms per frame; map {} blocks, {:.0f} MB ({:.1f} bytes per "
+        "voxel); peak memory {:.0f} MB\n",
         s.fps, median_ms, s.map.blocks, static_cast<double>(s.map.bytes) / kMegabyte,
         s.map.bytes_per_voxel, s.peak_rss_mb);
     if (s.labels) text += LabelsText(*s.labels, s.wall_s);
     std::error_code ignored;  // an empty mesh has no picture
     for (const auto& [file, what] : {std::pair{"trajectory.txt", "camera path, TUM format"},
                                      {"mesh.ply", "coloured mesh"},
-                                     {"preview.png", "picture of it"},
+                                     {"preview.png", "picture of the mesh"},
                                      {"objects.json", "labelled objects, with boxes"},
-                                     {"detections.txt", "what the detector saw"},
+                                     {"detections.txt", "detections by frame"},
                                      {"timings.json", "time per stage"},
-                                     {"run.json", "settings and figures of this run"}})
+                                     {"run.json", "settings and statistics of this run"}})
         if (std::filesystem::exists(request.output_folder + "/" + file, ignored))
             text += fmt::format("  {}/{}  {}\n", request.output_folder, file, what);
     return text;

@@ -1,4 +1,4 @@
-// A finished run in a few lines for a person.
+// Summarises a finished run in a few lines of text.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@ namespace tessera {
 std::string RunText(const RunRequest& request, const RunSummary& summary);
 
 // "ATE RMSE 0.0203 m (mean ..., median ..., max ...), 694 pairs, SE(3) alignment without scale over
-// all frames, 100.0 % tracked": the figure never without its protocol.
+// all frames, 100.0 % tracked". The protocol is always given with the figure.
 std::string AteText(const AteResult& ate);
 
 }  // namespace tessera

@@ -5,7 +5,7 @@
 namespace tessera {
 namespace {
 
-// A signal handler can reach nothing but a global.
+// A signal handler can only reach global state.
 std::atomic<bool> stop_requested{false};
 static_assert(std::atomic<bool>::is_always_lock_free);
 

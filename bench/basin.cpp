@@ -1,5 +1,6 @@
-// The convergence basin: from how far away the tracker finds the pose. Random starts around true
-// poses in exact rooms; prints a Markdown table. Usage: basin [starts per column, default 100]
+// Measures the convergence basin: the distance from which the tracker still finds the pose. Uses
+// random starts around true poses in exact rooms, and prints a Markdown table. Usage: basin [starts
+// per column, default 100]
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
@@ -30,7 +31,7 @@ constexpr double kTruncation_m = 0.04;
 constexpr int kMapViews = 10, kTrueViews = 4;
 constexpr double kFound_m = 0.005, kFound_rad = 0.005;
 
-// One way to track, and whether the prealignment offers a second start.
+// A tracking method, and whether the prealignment provides a second start.
 struct Method {
     const char* name;
     bool prealign;
@@ -42,13 +43,13 @@ constexpr std::size_t kMethodCount = std::size(kMethods);
 
 struct Outcome {
     bool found = false;
-    bool misjudged = false;  // called good and is not
+    bool misjudged = false;  // reported as good but wrong
 };
 struct Tally {
     int found = 0, misjudged = 0;
 };
 
-// Uniform on the sphere.
+// A direction uniformly distributed on the sphere.
 Eigen::Vector3d Direction(std::uint64_t key) {
     const double z = 2.0 * UniformFromBits(MixBits(key)) - 1.0;
     const double angle = 2.0 * std::numbers::pi * UniformFromBits(MixBits(key + 1));
@@ -56,7 +57,7 @@ Eigen::Vector3d Direction(std::uint64_t key) {
     return {r * std::cos(angle), r * std::sin(angle), z};
 }
 
-// T_true with its centre moved and its axes turned by exactly the offset.
+// T_true with its centre moved and its axes rotated by exactly the offset.
 Eigen::Isometry3d Beside(const Eigen::Isometry3d& T_true, const Offset& offset, int start) {
     const double turn_rad = offset.turn_deg * std::numbers::pi / 180.0;
     Eigen::Isometry3d T = T_true;
@@ -73,11 +74,11 @@ class Basin {
             frames_.push_back(Prepared(room.Render(FullCamera(), TruePose(TrueView(i)))));
     }
 
-    // The tallies of all methods over the same starts.
+    // Returns the tally of each method. All methods use the same starts.
     std::array<Tally, kMethodCount> Run(const Offset& offset, int starts) const {
         std::vector<std::array<Outcome, kMethodCount>> outcomes(static_cast<std::size_t>(starts));
         tbb::parallel_for(0, starts, [&](int start) {
-            // A thread that waits in one start must not begin another.
+            // A thread that waits within one start must not begin another.
             tbb::this_task_arena::isolate(
                 [&] { outcomes[static_cast<std::size_t>(start)] = RunStart(offset, start); });
         });
@@ -91,7 +92,7 @@ class Basin {
     }
 
   private:
-    // Between fused views, so that no frame meets the map at a pose that made it.
+    // Halfway between fused views, so that no frame is tracked at a pose used for fusion.
     static double TrueView(int i) { return 1.5 + 2 * i; }
     static Eigen::Isometry3d TruePose(double view) {
         const int before = static_cast<int>(view);
@@ -99,7 +100,7 @@ class Basin {
         return T * Se3Exp((view - before) * Se3Log(T.inverse() * bench::TruePose(before + 1)));
     }
 
-    // The camera stood at the start when the last frame was taken, and is now at the true pose.
+    // The camera was at the start pose for the last frame and is now at the true pose.
     std::array<Outcome, kMethodCount> RunStart(const Offset& offset, int start) const {
         const int view = start % kTrueViews;
         const PreparedFrame& frame = frames_[static_cast<std::size_t>(view)];
@@ -138,7 +139,7 @@ class Basin {
             .Track(input);
     }
 
-    // Offsets are not to be refused for being large.
+    // Large offsets must not be refused.
     static TrackJudge::Config JudgeConfig() {
         TrackJudge::Config config;
         config.max_jump_m = config.good_innovation_m = 1;

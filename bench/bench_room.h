@@ -1,5 +1,5 @@
-// What the kernel benchmarks and the convergence basin share: full-size views of the tests' exact
-// room, and a map fused from them with true poses.
+// Shared by the kernel benchmarks and the convergence basin: full-size views of the box room from
+// the tests, and a map fused from them with true poses.
 #pragma once
 
 #include <cmath>
@@ -19,8 +19,8 @@ inline testing_support::BoxRoom RoomWithBall() {
     return room;
 }
 
-// One wall with a texture that does not repeat: BoxRoom's own plane waves come back after 25 cm on
-// it, so that no tracker could tell two places apart.
+// One wall with a texture that does not repeat. The plane waves of BoxRoom repeat every 25 cm on
+// it, so a tracker could not distinguish two positions.
 struct NoiseWall : testing_support::BoxRoom {
     NoiseWall() { only_back_wall = true; }
 
@@ -29,7 +29,7 @@ struct NoiseWall : testing_support::BoxRoom {
             MixBits(StreamKey(static_cast<std::uint64_t>(octave), static_cast<std::uint32_t>(x),
                               static_cast<std::uint32_t>(y))));
     }
-    // Random values at lattice points, smoothly interpolated.
+    // Smooth interpolation between random values at lattice points.
     static double Noise(int octave, double x, double y) {
         const double cx = std::floor(x), cy = std::floor(y);
         const auto ease = [](double t) { return t * t * (3 - 2 * t); };
@@ -60,10 +60,10 @@ inline PreparedFrame Prepared(const Frame& frame) {
     return prepared;
 }
 
-// The true pose of view i: ten views are a second and a third of a hand-held camera.
+// The true pose of view i. Ten views cover 1.33 s of hand-held motion.
 inline Eigen::Isometry3d TruePose(int i) { return testing_support::SmoothPath(4 * i); }
 
-// A map of 1 cm voxels from the first `views` views.
+// A map with 1 cm voxels, fused from the first `views` views.
 template <class Room>
 std::unique_ptr<BlockMap> FusedMap(const Room& room, double truncation_m, int views) {
     BlockMap::Config config;

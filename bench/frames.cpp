@@ -1,7 +1,8 @@
-// How many frames a second are tracked and fused when they are in memory already: no decoding, no
-// files, no mesh. Prints for each run the rate and each stage's median, and what all runs and
-// devices must have in common: how many frames were tracked, and a hash of their poses. Usage:
-// frames SOURCE [--frames N] [--runs N] [--device cpu|cuda] [--config NAME|FILE] [--set KEY=VALUE]
+// Measures how many frames per second are tracked and fused if they are already in memory: no
+// decoding, no files, no mesh. Prints the rate and the median of each stage for each run. Also
+// prints what must be equal for all runs and devices: the number of tracked frames, and a hash of
+// their poses. Usage: frames SOURCE [--frames N] [--runs N] [--device cpu|cuda] [--config
+// NAME|FILE] [--set KEY=VALUE]
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>

@@ -1,5 +1,6 @@
-// Fusion stage by stage on 640 x 480 views of a room at 1 cm voxels and 4 cm truncation: preparing
-// the frame, allocating blocks, finding the visible ones, and updating their voxels.
+// Benchmarks each stage of fusion on 640 x 480 views of a room with 1 cm voxels and 4 cm
+// truncation: preparing the frame, allocating blocks, finding the visible blocks, and updating
+// their voxels.
 #include <tbb/global_control.h>
 
 #include "bench_room.h"
@@ -52,7 +53,7 @@ BENCHMARK(Prepare)
     ->UseRealTime()
     ->Apply(TakeMinimum);
 
-// The first frame: everything that it sees is new.
+// The first frame, for which all blocks are new.
 void AllocateFirstFrame(benchmark::State& state) {
     const auto threads = Threads(state.range(0));
     const PreparedFrame& frame = RoomPrepared();
@@ -74,7 +75,7 @@ BENCHMARK(AllocateFirstFrame)
     ->UseManualTime()
     ->Apply(TakeMinimum);
 
-// A frame that sees only what is known: the walk along the rays without an allocation.
+// A frame that sees only known blocks: the walk along the rays without any allocation.
 void AllocateNothing(benchmark::State& state) {
     const auto threads = Threads(state.range(0));
     Integrator integrator({}, FullCamera());
@@ -112,8 +113,8 @@ BENCHMARK(FindVisibleBlocks)
     ->UseRealTime()
     ->Apply(TakeMinimum);
 
-// The whole stage after allocation, FindVisibleBlocks included. A voxel counts if its block is
-// visible, whether the frame changes it or not.
+// The whole stage after allocation, including FindVisibleBlocks. Every voxel of a visible block
+// counts, whether or not the frame changes it.
 void Fuse(benchmark::State& state, VectorPath path, bool moving) {
     if (path == VectorPath::kAvx2 && !CpuHasAvx2()) return state.SkipWithError("no AVX2");
     const auto threads = Threads(state.range(0));
@@ -144,8 +145,8 @@ BENCHMARK_CAPTURE(Fuse, avx2_moving, VectorPath::kAvx2, true)->Apply(FuseArgumen
 
 using FuseKernel = void (*)(const FusionArguments&, const std::int32_t*, std::int32_t);
 
-// What Integrator makes of its default settings, for the room's frame and a camera that stands
-// still.
+// The arguments that Integrator derives from its default settings, for a frame of the room and a
+// stationary camera.
 FusionArguments ArgumentsFor(BlockMap& map) {
     const PreparedFrame& frame = RoomPrepared();
     const Integrator::Config config;
@@ -178,8 +179,8 @@ FusionArguments ArgumentsFor(BlockMap& map) {
     return a;
 }
 
-// Voxels of one update by two kernels that differ by more than rounding, which may choose the
-// neighbouring pixel.
+// Number of voxels that differ by more than rounding error after one update by two kernels.
+// Rounding may select the neighbouring pixel.
 std::int64_t DifferingVoxels(FuseKernel kernel, FuseKernel other,
                              const std::vector<BlockId>& blocks) {
     const std::unique_ptr<BlockMap> a = FusedMap(RoomWithBall(), kTruncation_m, 10),
@@ -197,14 +198,14 @@ std::int64_t DifferingVoxels(FuseKernel kernel, FuseKernel other,
     return differing;
 }
 
-// The kernel alone on one thread, the visible blocks given.
+// Only the kernel, on one thread, for given visible blocks.
 void FuseVoxels(benchmark::State& state, FuseKernel kernel) {
     VisibleBlocks visible;
     const std::vector<BlockId>& blocks = visible.Find(
         RoomMap(), FullCamera(), TruePose(0), RoomPrepared().depth_m, RoomPrepared().farthest_m);
     const auto voxels = static_cast<double>(blocks.size() * kBlockVoxels);
     if (static_cast<double>(DifferingVoxels(kernel, baseline::FuseBlocks, blocks)) > 1e-3 * voxels)
-        return state.SkipWithError("not the portable code's voxels");
+        return state.SkipWithError("the voxels differ from the portable code's");
     FusionArguments a = ArgumentsFor(RoomMap());
     for (auto _ : state) {
         ++a.frame;

@@ -1,5 +1,5 @@
-// Meshing and ray casting on a made-up room at 1 cm: a wavy floor, a sphere, a box. Per block and
-// per pixel, on one thread and on all.
+// Benchmarks meshing and ray casting on a synthetic room with 1 cm voxels: a wavy floor, a sphere,
+// a box. Reports times per block and per pixel, on one thread and on all threads.
 #include <benchmark/benchmark.h>
 #include <tbb/global_control.h>
 
@@ -29,7 +29,7 @@ BlockMap& RoomMap() {
     return map;
 }
 
-// All of the room's blocks again, as after a frame that changed each.
+// Meshes all blocks of the room again, as after a frame that changed each of them.
 void MeshBlocks(benchmark::State& state) {
     const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
                                       static_cast<std::size_t>(state.range(0)));
@@ -55,7 +55,7 @@ BENCHMARK(MeshBlocks)
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime();
 
-// What finding the changed blocks costs when none has changed.
+// The cost of finding the changed blocks if there are none.
 void MeshNothing(benchmark::State& state) {
     Mesher mesher{Mesher::Config{}};
     mesher.Update(RoomMap());
@@ -99,7 +99,7 @@ void CastArguments(benchmark::internal::Benchmark* b) {
 BENCHMARK_CAPTURE(CastView, baseline, VectorPath::kBaseline)->Apply(CastArguments);
 BENCHMARK_CAPTURE(CastView, avx2, VectorPath::kAvx2)->Apply(CastArguments);
 
-// The same view by the tests' scalar walk, one ray after the other; it makes no colours.
+// The same view by the scalar ray walk of the tests, one ray at a time. It computes no colours.
 void CastViewScalar(benchmark::State& state) {
     const PinholeCamera camera;
     ScalarRayWalker walker(RoomMap(), camera, CastPose(), .2f, 5.f);

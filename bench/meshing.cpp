@@ -1,7 +1,8 @@
-// What keeping the mesh up to date costs while a sequence is tracked and fused: after each frame a
-// mesher with a budget of blocks meshes what changed, on one thread. Milliseconds are that thread's
-// CPU time, which others on the machine disturb little. Usage: meshing SOURCE [FRAMES [BUDGET...]],
-// budget 0: none. Lag: frames' budgets that the blocks still waiting would take.
+// Measures the cost of keeping the mesh up to date while a sequence is tracked and fused. After
+// each frame a mesher with a block budget meshes the changed blocks on one thread. Times are CPU
+// milliseconds of that thread, which other load on the machine affects little. Usage: meshing
+// SOURCE [FRAMES [BUDGET...]]; a budget of 0 means no limit. Lag: the number of frames that the
+// budget would need for the blocks still waiting.
 #include <fmt/format.h>
 #include <tbb/task_arena.h>
 #include <time.h>

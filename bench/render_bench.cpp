@@ -1,5 +1,5 @@
-// The predicted view of a box room with a ball, fused at 1 cm, 640 x 480: rasterised and ray cast,
-// standing still and after each fused frame.
+// Benchmarks the predicted view of a box room with a ball, fused at 1 cm, 640 x 480: rasterised and
+// ray cast, for an unchanged map and after each fused frame.
 #include "bench_room.h"
 #include "mapping/ray_caster.h"
 #include "render/mesh_rasteriser.h"
@@ -11,7 +11,7 @@ namespace {
 constexpr int kViews = 12;
 constexpr float kMinDepth_m = .2f, kMaxDepth_m = 6.f;
 
-// The room's first views, to be fused again and again.
+// Fuses the first views of the room again and again.
 struct Fusion {
     std::unique_ptr<BlockMap> map = std::make_unique<BlockMap>(BlockMap::Config{});
     Integrator integrator{{}, FullCamera()};

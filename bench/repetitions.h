@@ -1,4 +1,4 @@
-// How a kernel benchmark takes and reports its figures.
+// How kernel benchmarks measure and report.
 #pragma once
 
 #include <benchmark/benchmark.h>
@@ -8,7 +8,7 @@
 
 namespace tessera::bench {
 
-// Several repetitions and their minimum: others may use the machine meanwhile.
+// Several repetitions and their minimum, because other load may share the machine.
 inline void TakeMinimum(benchmark::internal::Benchmark* b) {
     b->Repetitions(7)->DisplayAggregatesOnly()->ComputeStatistics(
         "min", [](const std::vector<double>& v) { return *std::min_element(v.begin(), v.end()); });

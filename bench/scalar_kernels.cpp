@@ -12,7 +12,7 @@ namespace {
 using L = SumLayout;
 
 struct Point {
-    float p[3];  // local, metres
+    float p[3];  // in the local frame, in metres
     float weight, image;
 };
 
@@ -68,7 +68,7 @@ void SumPoints(const SdfArguments& a, int first, int last, float* sums) {
     }
 }
 
-// A voxel's layers, unpacked.
+// References to the layers of one voxel.
 struct Voxel {
     FieldWord& field;
     std::uint16_t& weight;
@@ -149,7 +149,7 @@ void FuseVoxel(const FusionArguments& a, const float* p, std::size_t at) {
 }  // namespace
 
 void SumSdfPointsScalar(const SdfArguments& a, int first, int last, double* sums) {
-    // Short runs, so that floats keep their digits.
+    // Short runs, so that the float sums keep their precision.
     constexpr int kRun = 1024;
     for (int i = first; i < last; i += kRun) {
         float run[L::kCount] = {};

@@ -1,5 +1,5 @@
-// The hot loops of tracking and fusion as one would write them without vectors: the shared kernel
-// templates with plain floats, one point or voxel at a time. What the vector code is compared with.
+// The hot loops of tracking and fusion as one would write them without SIMD: the shared kernel
+// templates in scalar float, one point or voxel at a time. The baseline for the SIMD code.
 #pragma once
 
 #include "mapping/fusion_rows.h"
@@ -7,10 +7,10 @@
 
 namespace tessera::bench {
 
-// As SumSdfPoints, without residuals per point.
+// Like SumSdfPoints, but without residuals per point.
 void SumSdfPointsScalar(const SdfArguments& arguments, int first, int last, double* sums);
 
-// As FuseBlocks, for a camera that stands still.
+// Like FuseBlocks, for a stationary camera.
 void FuseBlocksScalar(const FusionArguments& arguments, const std::int32_t* blocks,
                       std::int32_t count);
 

@@ -1,5 +1,5 @@
-// Tracking on 640 x 480 views of a room at 1 cm voxels and 4 cm truncation: the sums of one
-// Gauss-Newton step over every second pixel, a whole track, and the prealignment.
+// Benchmarks tracking on 640 x 480 views of a room with 1 cm voxels and 4 cm truncation: the sums
+// of one Gauss-Newton step over every second pixel, a complete track, and the prealignment.
 #include <tbb/global_control.h>
 
 #include "bench_room.h"
@@ -26,7 +26,7 @@ const PreparedFrame& RoomPrepared(int view) {
     return prepared[view];
 }
 
-// 1 cm and 9 mrad beside the true pose.
+// A pose 1 cm and 9 mrad from the true pose.
 Eigen::Isometry3d StartBeside(const Eigen::Isometry3d& T_world_camera) {
     Vector6d twist;
     twist << 0.005, -0.006, 0.004, 0.006, -0.005, 0.006;
@@ -60,7 +60,8 @@ SdfArguments ArgumentsFor(const FramePoints& points, const Eigen::Isometry3d& T_
 
 using SumKernel = void (*)(const SdfArguments&, int, int, double*);
 
-// One thread. The map is far larger than the caches of the core; the points run along image rows.
+// On one thread. The map is far larger than the caches of the core, and the points follow the image
+// rows.
 void SumPoints(benchmark::State& state, SumKernel kernel, bool use_intensity) {
     FramePoints points;
     points.Build(RoomPrepared(0), FullCamera(), {}, kStep_px, {2.0});
@@ -75,7 +76,7 @@ void SumPoints(benchmark::State& state, SumKernel kernel, bool use_intensity) {
     for (const int sum :
          {SumLayout::kDistanceError, SumLayout::kIntensityError, SumLayout::kHessian})
         if (!(std::abs(sums[sum] - expected[sum]) <= 1e-3 * std::abs(expected[sum])))
-            return state.SkipWithError("not the portable code's sums");
+            return state.SkipWithError("the sums differ from the portable code's");
     const auto valid = static_cast<double>(points.valid());
     state.counters["points"] = valid;
     state.counters["known"] = sums[SumLayout::kKnown] / valid;
@@ -100,7 +101,7 @@ BENCHMARK_CAPTURE(SumPointsAvx2, geometric, false)->Apply(SumArguments);
 BENCHMARK_CAPTURE(SumPointsAvx2, photometric, true)->Apply(SumArguments);
 #endif
 
-// From 1 cm and 9 mrad away, as after an imperfect prediction.
+// Starts 1 cm and 9 mrad away, as after an imperfect prediction.
 void Track(benchmark::State& state, VectorPath path, double alpha) {
     if (path == VectorPath::kAvx2 && !CpuHasAvx2()) return state.SkipWithError("no AVX2");
     const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
@@ -134,7 +135,7 @@ BENCHMARK_CAPTURE(Track, baseline, VectorPath::kBaseline, 0.1)->Apply(TrackArgum
 BENCHMARK_CAPTURE(Track, avx2, VectorPath::kAvx2, 0.1)->Apply(TrackArguments);
 BENCHMARK_CAPTURE(Track, avx2_geometric, VectorPath::kAvx2, 0.0)->Apply(TrackArguments);
 
-// Two views 0.13 s apart, in turn.
+// Alternates between two views 0.13 s apart.
 void Align(benchmark::State& state) {
     const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
                                       static_cast<std::size_t>(state.range(0)));

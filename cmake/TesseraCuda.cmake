@@ -1,21 +1,22 @@
-# Whether the CUDA backend is built. TESSERA_CUDA is AUTO (where nvcc is found), ON (an error where it is not) or OFF.
+# Decides whether the CUDA backend is built. TESSERA_CUDA is AUTO (if nvcc is found), ON (an error
+# if it is not found) or OFF.
 set(TESSERA_CUDA_ARCHITECTURES "75;120-virtual" CACHE STRING
-    "GPU architectures, as CMAKE_CUDA_ARCHITECTURES takes them. 75 is Turing's code, and PTX that later GPUs compile when they first run it")
+    "GPU architectures in the format of CMAKE_CUDA_ARCHITECTURES. 75 is code for Turing, and PTX that later GPUs compile on first use")
 
 if(NOT TESSERA_CUDA MATCHES "^(AUTO|ON|OFF)$")
-    message(FATAL_ERROR "TESSERA_CUDA: ${TESSERA_CUDA} is none of AUTO, ON, OFF")
+    message(FATAL_ERROR "TESSERA_CUDA: unknown value ${TESSERA_CUDA}; use AUTO, ON or OFF")
 endif()
 if(TESSERA_CUDA STREQUAL "OFF")
     message(STATUS "tessera: CUDA off (TESSERA_CUDA=OFF)")
 elseif(TESSERA_CUDA STREQUAL "AUTO" AND TESSERA_SANITIZE)
     set(TESSERA_CUDA OFF)
-    message(STATUS "tessera: CUDA off (sanitizers watch the processor's code)")
+    message(STATUS "tessera: CUDA off (the sanitizers check only CPU code)")
 else()
     find_program(TESSERA_NVCC nvcc HINTS ENV CUDA_PATH ENV CUDACXX PATHS /usr/local/cuda PATH_SUFFIXES bin)
     if(TESSERA_NVCC)
         set(CMAKE_CUDA_ARCHITECTURES ${TESSERA_CUDA_ARCHITECTURES})
         if(TESSERA_CUDA STREQUAL "AUTO")
-            # An nvcc that does not get along with this compiler is none, and no end of the configuration.
+            # An nvcc that does not work with this compiler must not stop the configuration.
             set(ENV{CUDACXX} ${TESSERA_NVCC})
             set(ENV{CUDAARCHS} "75")
             include(CheckLanguage)
@@ -26,12 +27,12 @@ else()
     endif()
     if(TESSERA_NVCC AND CMAKE_CUDA_COMPILER)
         enable_language(CUDA)
-        if(NOT CMAKE_CUDA20_STANDARD_COMPILE_OPTION)  # CMake 3.25 does not know that nvcc has it
+        if(NOT CMAKE_CUDA20_STANDARD_COMPILE_OPTION)  # CMake 3.25 does not know nvcc's option
             set(CMAKE_CUDA20_STANDARD_COMPILE_OPTION "-std=c++20")
         endif()
         if(TESSERA_CUDA STREQUAL "AUTO" AND CMAKE_CUDA_COMPILER_VERSION VERSION_LESS 12.8)
             set(TESSERA_CUDA OFF)
-            message(STATUS "tessera: CUDA off (nvcc ${CMAKE_CUDA_COMPILER_VERSION}; 12.8 and later know the architectures)")
+            message(STATUS "tessera: CUDA off (nvcc ${CMAKE_CUDA_COMPILER_VERSION} is too old for the architectures; install 12.8 or later)")
             return()
         endif()
         set(TESSERA_CUDA ON)
@@ -40,6 +41,6 @@ else()
         message(FATAL_ERROR "TESSERA_CUDA=ON: no nvcc on PATH or in /usr/local/cuda; install the CUDA toolkit, or set TESSERA_CUDA=OFF")
     else()
         set(TESSERA_CUDA OFF)
-        message(STATUS "tessera: CUDA off (no nvcc that works on PATH or in /usr/local/cuda)")
+        message(STATUS "tessera: CUDA off (no working nvcc on PATH or in /usr/local/cuda)")
     endif()
 endif()

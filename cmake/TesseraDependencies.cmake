@@ -1,5 +1,6 @@
-# Everything comes from Debian 12's packages (scripts/packages.txt lists them); nothing is fetched.
-# The core's dependencies are required; what is optional says here whether it is on.
+# All dependencies are Debian 12 packages (scripts/packages.txt lists them). Nothing is downloaded.
+# The core's dependencies are required. For an optional one that is missing, a message says what is
+# off.
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(OpenCV 4.5 REQUIRED COMPONENTS core imgproc imgcodecs calib3d features2d)
 find_package(OpenCV 4.5 QUIET OPTIONAL_COMPONENTS dnn)
@@ -7,7 +8,7 @@ if(TARGET opencv_dnn)
     set(TESSERA_DNN ON)
 else()
     set(TESSERA_DNN OFF)
-    message(STATUS "tessera: detection networks off (install libopencv-dnn-dev); detections files work without")
+    message(STATUS "tessera: detection networks off (install libopencv-dnn-dev); detections files still work")
 endif()
 find_package(TBB REQUIRED)
 find_package(yaml-cpp REQUIRED)
@@ -25,8 +26,8 @@ find_library(DEFLATE_LIBRARY deflate REQUIRED)
 find_path(READERWRITERQUEUE_INCLUDE readerwriterqueue/readerwriterqueue.h REQUIRED)
 find_path(CONCURRENTQUEUE_INCLUDE concurrentqueue/concurrentqueue.h REQUIRED)
 
-# OpenGL without a window. epoxy loads EGL and OpenGL when the program runs, so the build needs only its headers and
-# EGL's.
+# OpenGL without a window. epoxy loads EGL and OpenGL at run time, so the build needs only the
+# headers of epoxy and EGL.
 find_package(PkgConfig)
 if(PkgConfig_FOUND)
     pkg_check_modules(EPOXY IMPORTED_TARGET epoxy>=1.5)
@@ -39,7 +40,7 @@ else()
     message(STATUS "tessera: rasterised predictions off (install pkg-config and libepoxy-dev)")
 endif()
 
-# The window: ImGui with its GLFW and OpenGL back ends, which Debian compiles into the library.
+# The window: ImGui with its GLFW and OpenGL backends, which Debian compiles into the library.
 if(PkgConfig_FOUND)
     pkg_check_modules(IMGUI IMPORTED_TARGET imgui>=1.80)
     pkg_check_modules(GLFW IMPORTED_TARGET glfw3>=3.3)
@@ -55,7 +56,8 @@ endif()
 find_path(OPENNI2_INCLUDE OpenNI.h PATH_SUFFIXES openni2)
 find_library(OPENNI2_LIBRARY OpenNI2)
 if(TESSERA_SANITIZE MATCHES thread)
-    # The library unlocks a foreign mutex when it is loaded: no program that links it could be watched.
+    # On loading, the library unlocks a mutex that it does not hold, so ThreadSanitizer cannot check
+    # any program that links it.
     set(TESSERA_OPENNI2 OFF)
 elseif(OPENNI2_INCLUDE AND OPENNI2_LIBRARY)
     set(TESSERA_OPENNI2 ON)
@@ -64,7 +66,8 @@ else()
     message(STATUS "tessera: OpenNI2 cameras and .oni recordings off (install libopenni2-dev)")
 endif()
 
-# The pose graph. Ceres' own package file looks for what it was built with, so it may fail where Ceres itself lies.
+# The pose graph. Ceres' package file searches for its own build dependencies, so it may fail
+# although Ceres is installed.
 find_package(Ceres 2.1 QUIET)
 if(Ceres_FOUND)
     set(TESSERA_CERES ON)
@@ -85,7 +88,8 @@ else()
     message(STATUS "tessera: scan files off (install pkg-config, libsqlite3-dev and libzstd-dev)")
 endif()
 
-# Volumes for other programs. Not under TSan: the writer has no thread, and OpenVDB's own are not instrumented.
+# Volumes for other programs. Off under ThreadSanitizer, because the writer uses no threads of ours
+# and OpenVDB's threads are not instrumented.
 find_path(OPENVDB_INCLUDE openvdb/openvdb.h)
 find_library(OPENVDB_LIBRARY openvdb)
 find_path(IMATH_INCLUDE half.h PATH_SUFFIXES Imath)
@@ -97,13 +101,14 @@ if(OPENVDB_INCLUDE AND OPENVDB_LIBRARY AND IMATH_INCLUDE AND IMATH_LIBRARY AND N
     target_link_libraries(tessera_openvdb INTERFACE ${OPENVDB_LIBRARY} ${IMATH_LIBRARY} TBB::tbb)
 else()
     set(TESSERA_VDB OFF)
-    message(STATUS "tessera: export of .vdb volumes off (needs libopenvdb-dev, and no TSan)")
+    message(STATUS "tessera: export of .vdb volumes off (install libopenvdb-dev; ThreadSanitizer is not supported)")
 endif()
 
-# The Python module, for the interpreter that Debian's headers belong to, whatever comes first on PATH.
+# The Python module, built for Debian's interpreter and headers, even if another Python is first on
+# PATH.
 if(TESSERA_PYTHON AND TESSERA_SANITIZE)
     set(TESSERA_PYTHON OFF)
-    message(STATUS "tessera: Python module off (a sanitizer cannot come into an interpreter that is built without it)")
+    message(STATUS "tessera: Python module off (the interpreter is not built with the sanitizer)")
 elseif(TESSERA_PYTHON)
     if(NOT Python_EXECUTABLE AND EXISTS /usr/bin/python3)
         set(Python_EXECUTABLE /usr/bin/python3)

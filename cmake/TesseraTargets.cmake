@@ -1,4 +1,4 @@
-# How this project declares its libraries, its vector code and its tests. Included once, from the top.
+# Declares libraries, SIMD code and tests. Included once, from the top-level CMakeLists.txt.
 set(CMAKE_CXX_STANDARD 20)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
@@ -12,8 +12,9 @@ if(CCACHE)
     set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE})
 endif()
 
-# Warnings and sanitizers, private to our own targets. -Wrestrict is wrong about std::string in g++ 12. No fused
-# multiply-adds: the same bytes with and without vectors, on every processor and on a GPU.
+# Warnings and sanitizers for our own targets only. -Wrestrict gives false warnings about
+# std::string in g++ 12. Without fused multiply-adds the results are the same bytes with and without
+# SIMD, on every CPU and on a GPU.
 add_library(tessera_options INTERFACE)
 target_compile_options(tessera_options INTERFACE -Wall -Wextra -Wshadow -Wconversion
     -Wno-sign-conversion -Wno-restrict -ffp-contract=off $<$<BOOL:${TESSERA_WERROR}>:-Werror>)
@@ -21,12 +22,13 @@ if(TESSERA_SANITIZE)
     target_compile_options(tessera_options INTERFACE -fsanitize=${TESSERA_SANITIZE}
         -fno-omit-frame-pointer -fno-sanitize-recover=all)
     target_link_options(tessera_options INTERFACE -fsanitize=${TESSERA_SANITIZE})
-    # As without a sanitizer: else Eigen's out-of-line functions allocate here and Ceres' static library frees otherwise.
+    # The same as without a sanitizer. Otherwise Eigen's out-of-line functions allocate one way here
+    # and Ceres' static library frees another way.
     target_compile_definitions(tessera_options INTERFACE EIGEN_MALLOC_ALREADY_ALIGNED=1)
 endif()
 
-# What the Python module is linked from. Hidden symbols keep position-independent code as fast as a program's own: calls
-# and inlining within a library stay as they are.
+# For libraries that the Python module links. With hidden symbols, position-independent code is as
+# fast as a program's: calls and inlining within a library do not change.
 function(tessera_for_python target)
     if(TESSERA_PYTHON)
         set_target_properties(${target} PROPERTIES
@@ -34,7 +36,7 @@ function(tessera_for_python target)
     endif()
 endfunction()
 
-# tessera_library(NAME SOURCES... LINK libs...): one library per folder under src/.
+# tessera_library(NAME SOURCES... LINK libs...) declares the library of a folder under src/.
 function(tessera_library name)
     cmake_parse_arguments(ARG "" "" "SOURCES;LINK;PRIVATE_LINK" ${ARGN})
     add_library(${name} STATIC ${ARG_SOURCES})
@@ -43,8 +45,9 @@ function(tessera_library name)
     tessera_for_python(${name})
 endfunction()
 
-# tessera_vector_source(LIBRARY FILE): compiles FILE once more for AVX2 (not for FMA, see above). Such a file includes no
-# Eigen and exports one function in namespace tessera::TESSERA_VECTOR_NAMESPACE; the caller picks at run time.
+# tessera_vector_source(LIBRARY FILE) compiles FILE a second time for AVX2 (not for FMA, see above).
+# The file must not include Eigen and must export one function in namespace
+# tessera::TESSERA_VECTOR_NAMESPACE. The caller selects one at run time.
 function(tessera_vector_source library file)
     get_filename_component(stem ${file} NAME_WE)
     foreach(arch baseline avx2)
@@ -65,11 +68,12 @@ function(tessera_vector_source library file)
     endforeach()
 endfunction()
 
-# All unit test programs: what a sanitizer build needs.
+# All unit test programs, as needed for a sanitizer build.
 add_custom_target(tessera_unit_tests)
 
-# tessera_test(NAME SOURCES... LINK libs... LABEL unit|data|slow [SERIAL]): one GoogleTest program, one ctest entry per
-# test. SERIAL: no other test runs beside it, for those that look at a clock.
+# tessera_test(NAME SOURCES... LINK libs... LABEL unit|data|slow [SERIAL]) declares a GoogleTest
+# program, with one ctest entry per test. SERIAL is for tests that depend on timing: no other test
+# runs at the same time.
 function(tessera_test name)
     cmake_parse_arguments(ARG "SERIAL" "LABEL" "SOURCES;LINK" ${ARGN})
     if(NOT ARG_LABEL)
@@ -79,7 +83,7 @@ function(tessera_test name)
     target_include_directories(${name} PRIVATE ${CMAKE_SOURCE_DIR}/tests)
     target_link_libraries(${name} PRIVATE ${ARG_LINK} GTest::gtest_main tessera_options)
     if(TESSERA_SANITIZE)
-        target_compile_options(${name} PRIVATE -O1)  # a third less to compile; what is tested stays at -O2
+        target_compile_options(${name} PRIVATE -O1)  # compiles a third faster; the code under test stays at -O2
     endif()
     if(TESSERA_SANITIZE MATCHES address)
         target_sources(${name} PRIVATE ${CMAKE_SOURCE_DIR}/tests/support/leaks.cpp)

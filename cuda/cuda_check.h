@@ -1,4 +1,4 @@
-// Included only by what nvcc compiles.
+// Included only by sources that nvcc compiles.
 #pragma once
 
 #include <cuda_runtime.h>

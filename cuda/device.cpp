@@ -16,7 +16,7 @@ Stream::~Stream() {
     backend::DestroyStream(handle_);
 }
 
-// The next free piece of pinned memory; freed again by Wait.
+// Returns the next free piece of pinned memory. Wait frees all pieces.
 std::byte* Stream::Stage(std::size_t bytes) {
     constexpr std::size_t kAlignment = 256, kLeast = std::size_t{1} << 20;
     const std::size_t padded = (bytes + kAlignment - 1) / kAlignment * kAlignment;
@@ -34,7 +34,7 @@ std::byte* Stream::Stage(std::size_t bytes) {
 }
 
 void Stream::Upload(void* device, const void* host, std::size_t bytes) {
-    // So that a whole map needs no pinned memory of its size.
+    // Copy in pieces, so that a whole map needs no pinned memory of its size.
     constexpr std::size_t kPiece = std::size_t{1} << 24;
     for (std::size_t at = 0; at < bytes; at += kPiece) {
         const std::size_t piece = std::min(kPiece, bytes - at);

@@ -1,6 +1,6 @@
-// What the map and the pipeline need of a device: its memory, a stream of commands, sorting,
-// selecting and running sums. Loops over items are in device_loops.h. No CUDA type is in here:
-// whoever is compiled by g++ includes it, too. Owner thread only.
+// Device services for the map and the pipeline: memory, a command stream, sorting, selection and
+// prefix sums. Loops over items are in device_loops.h. Contains no CUDA types, because sources
+// compiled by g++ include it, too. Owner thread only.
 #pragma once
 
 #include <algorithm>
@@ -14,9 +14,9 @@
 
 namespace tessera::TESSERA_DEVICE {
 
-// Commands in order. Copies from and to the computer go through pinned memory of the stream's own,
-// so that they run beside other work: what Upload was given may be overwritten at once, what
-// Download is to fill is filled by the next Wait.
+// Runs commands in order. Copies from and to the host go through the stream's own pinned memory, so
+// that they overlap with other work. The source of an Upload may be overwritten at once. The next
+// Wait fills the target of a Download.
 class Stream {
   public:
     Stream() : handle_(backend::MakeStream()) {}
@@ -32,7 +32,7 @@ class Stream {
     void Fill(void* device, unsigned char value, std::size_t bytes) {
         backend::Fill(device, value, bytes, handle_);
     }
-    // Until all that was asked for is done.
+    // Waits until all commands are done.
     void Wait();
 
     void* handle() const { return handle_; }
@@ -51,7 +51,7 @@ class Stream {
     std::vector<Arrival> arrivals_;
 };
 
-// Counts what is taken from the device against a limit. Outlives its buffers.
+// Counts allocations on the device against a limit. Must outlive its buffers.
 class DeviceMemory {
   public:
     explicit DeviceMemory(std::size_t limit_bytes) : limit_bytes_(limit_bytes) {}
@@ -61,7 +61,7 @@ class DeviceMemory {
     bool HasRoom(std::size_t bytes) const {
         return bytes <= limit_bytes_ - std::min(used_bytes_, limit_bytes_);
     }
-    // Null: beyond the limit, or the device has no more.
+    // Returns null beyond the limit or if the device has no more.
     void* Allocate(std::size_t bytes);
     void Free(void* memory, std::size_t bytes);
     std::size_t used_bytes() const { return used_bytes_; }
@@ -82,9 +82,9 @@ class DeviceBuffer {
     DeviceBuffer(const DeviceBuffer&) = delete;
     DeviceBuffer& operator=(const DeviceBuffer&) = delete;
 
-    // Room for at least `count` elements; the first `keep` of those that were there stay, the rest
-    // is unspecified. Nothing is taken where there is room. False: no room on the device; all is as
-    // it was.
+    // Makes room for at least `count` elements. Keeps the first `keep` of the old ones; the rest is
+    // unspecified. Does nothing if there is room already. Returns false, with everything unchanged,
+    // if the device has no room.
     [[nodiscard]] bool Reserve(Stream& stream, std::size_t count, std::size_t keep) {
         if (count <= capacity_) return true;
         auto* grown = static_cast<T*>(memory_.Allocate(count * sizeof(T)));
@@ -96,8 +96,8 @@ class DeviceBuffer {
         capacity_ = count;
         return true;
     }
-    // The same for contents of passing use: half as much again is taken, so that it soon no longer
-    // grows.
+    // The same for temporary contents. Allocates half as much again, so that the buffer soon stops
+    // growing.
     [[nodiscard]] bool ReserveScratch(Stream& stream, std::size_t count) {
         return count <= capacity_ || Reserve(stream, count + count / 2, 0) ||
                Reserve(stream, count, 0);
@@ -119,11 +119,11 @@ class DeviceBuffer {
     std::size_t capacity_ = 0;
 };
 
-// Sorting, selecting and running sums, with their passing storage. False: no room on the device.
+// Sorting, selection and prefix sums, with their temporary storage. False: no room on the device.
 class DeviceSorter {
   public:
     explicit DeviceSorter(DeviceMemory& memory) : scratch_(memory) {}
-    // Room to select among that many; SelectIndices then does not fail.
+    // Makes room to select among `count` items; SelectIndices then does not fail.
     [[nodiscard]] bool ReserveSelection(Stream& stream, int count);
     [[nodiscard]] bool SortKeys(Stream& stream, const std::uint64_t* keys, std::uint64_t* sorted,
                                 int count);

@@ -1,5 +1,5 @@
-// The device that is a GPU. An error here is a bug, or a GPU that broke or was taken away: there is
-// no going on, and the message says what the driver said.
+// The GPU backend. An error here is a bug, or a GPU that failed or was removed. The program cannot
+// continue, and the message is the driver's.
 #include <cuda_runtime.h>
 #include <thrust/iterator/counting_iterator.h>
 
@@ -16,7 +16,7 @@ void* Allocate(std::size_t bytes) {
     void* memory = nullptr;
     const cudaError_t error = cudaMalloc(&memory, bytes > 0 ? bytes : 1);
     if (error != cudaErrorMemoryAllocation) TESSERA_CUDA_CHECK(error);
-    (void)cudaGetLastError();  // no room is an answer, not an error to find later
+    (void)cudaGetLastError();  // no room is a result, not an error to find later
     return error == cudaSuccess ? memory : nullptr;
 }
 

@@ -22,7 +22,7 @@ DeviceFrame::DeviceFrame(DeviceMemory& memory, Stream& stream)
       sums_(memory) {}
 
 bool DeviceFrame::Reserve(std::size_t pixels, bool colour) {
-    identity_ = 0;  // what grows loses its content
+    identity_ = 0;  // buffers that grow lose their content
     return depth_m_.ReserveScratch(stream_, pixels) && tiles_.ReserveScratch(stream_, pixels) &&
            (!colour || (intensity_.ReserveScratch(stream_, pixels) &&
                         packed_colour_.ReserveScratch(stream_, pixels)));
@@ -65,7 +65,7 @@ void DeviceFrame::Gate(const Frame& frame, const PreparedFrame::Config& config) 
 void DeviceFrame::SplitColour(const ColourImage& colour, int blur_px) {
     const auto pixels = static_cast<int>(colour.size());
     stream_.Upload(colour_.data(), colour.data(), colour.size() * sizeof(Rgb8));
-    // The last pass, whichever it is, writes to intensity_.
+    // The last pass must write to intensity_.
     float *to = intensity_.data(), *other = rough_.data();
     if (blur_px % 2 != 0) std::swap(to, other);
     MakeLuma(stream_, colour_.data(), pixels, to);

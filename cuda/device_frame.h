@@ -1,5 +1,5 @@
-// A frame's images on the device: made there of what the camera gave, or copied from what
-// PrepareFrame made.
+// A frame's images on the device: prepared there from the camera's images, or copied from the
+// result of PrepareFrame.
 #pragma once
 
 #include "cuda/device.h"
@@ -7,26 +7,27 @@
 
 namespace tessera::TESSERA_DEVICE {
 
-// Owner thread only; `memory` and `stream` outlive it.
+// Owner thread only; `memory` and `stream` must outlive it.
 class DeviceFrame {
   public:
     DeviceFrame(DeviceMemory& memory, Stream& stream);
 
-    // As PrepareFrame, byte for byte, but of the images only the reduced ones come back, and the
-    // others if `bring`. False: no room, and `prepared` is unspecified.
+    // Like PrepareFrame, byte for byte, but copies back only the reduced images, and the others if
+    // `bring`. Returns false if there is no room; `prepared` is then unspecified.
     [[nodiscard]] bool Prepare(const Frame& frame, const PreparedFrame::Config& config, bool bring,
                                PreparedFrame& prepared);
-    // Copies what is not here yet. False: no room, or the images are nowhere any more.
+    // Copies what is not on the device yet. Returns false if there is no room, or if the images do
+    // not exist anywhere any more.
     [[nodiscard]] bool Upload(const PreparedFrame& frame);
 
-    // PreparedFrame::gone_m there; null without one, or without room.
+    // Copies PreparedFrame::gone_m to the device. Returns null if there is none, or no room.
     [[nodiscard]] const float* UploadGone(const PreparedFrame& frame);
 
-    // Images on the device, of the frame of the last call.
+    // Device images of the last call's frame.
     const float* depth_m() const { return depth_m_.data(); }
     const float* intensity() const { return intensity_.data(); }
     const std::uint32_t* packed_colour() const { return packed_colour_.data(); }
-    // Room for the depth tiles of that image.
+    // Room for the depth tiles of this image.
     float* tiles() { return tiles_.data(); }
 
   private:
@@ -39,8 +40,8 @@ class DeviceFrame {
     Stream& stream_;
     DeviceBuffer<float> depth_m_, intensity_, tiles_, gone_m_;
     DeviceBuffer<std::uint32_t> packed_colour_;
-    std::uint64_t identity_ = 0;  // whose images these are: PreparedFrame::identity
-    // On the way there.
+    std::uint64_t identity_ = 0;  // PreparedFrame::identity of these images
+    // Temporary buffers.
     DeviceBuffer<float> raw_depth_m_, rough_, reduced_, extremes_;
     DeviceBuffer<Rgb8> colour_;
     DeviceBuffer<double> sum_tiles_, sums_;

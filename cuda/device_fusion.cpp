@@ -9,7 +9,7 @@ namespace tessera::TESSERA_DEVICE {
 
 namespace fusion_bodies {
 
-// Per row of the image and column of tiles. The largest depth does not depend on the order.
+// Per row of the image and column of tiles. The maximum does not depend on the order.
 struct WidenTile {
     const float* depth_m;
     std::int32_t width, tiles_per_row;

@@ -10,8 +10,8 @@ namespace tessera::TESSERA_DEVICE {
 void BuildDepthTiles(Stream& stream, const float* depth_m, std::int32_t width, std::int32_t height,
                      float* tiles);
 
-// Updates `count` blocks listed at `blocks`, and gives them a revision. All arrays, those of the
-// arguments too, are on the device.
+// Updates the `count` blocks listed in `blocks` and sets their revision. All arrays, including
+// those of the arguments, are on the device.
 void FuseBlocks(Stream& stream, const FusionArguments& arguments, const std::int32_t* blocks,
                 std::int32_t count, std::uint32_t* revisions, std::uint32_t revision);
 

@@ -1,9 +1,8 @@
-// The device that is none: it makes the map and the pipeline testable where there is no GPU. As far
-// as can be seen from outside it is as unpleasant as a GPU: commands are done as late as possible,
-// loops run in several threads and backwards, and new memory is full of what is neither a number
-// nor an index. So a result that nobody waited for is missing, and what depends on an order of
-// threads or on memory that nobody filled differs from the processor's; ThreadSanitizer finds the
-// races.
+// An emulated device in host memory, to test the map and the pipeline without a GPU. It is as
+// unforgiving as a GPU: commands run as late as possible, loops run on several threads and
+// backwards, and new memory is filled with bytes that are neither a number nor an index. So a
+// result that nobody waited for is missing, and a result that depends on thread order or
+// uninitialised memory differs from the CPU's. ThreadSanitizer finds the races.
 #include "cuda/device_host.h"
 
 #include <algorithm>
@@ -47,7 +46,7 @@ void* Allocate(std::size_t bytes) {
     return memory;
 }
 
-// As with CUDA, nothing is under way any more when memory is freed.
+// As with CUDA, all commands finish before memory is freed.
 void Free(void* memory) {
     const std::lock_guard lock(streams_mutex);
     for (void* stream : streams) Synchronise(stream);

@@ -1,4 +1,4 @@
-// What the host device does beyond device_backend.h: it takes commands that are any function.
+// Extensions of the host device to device_backend.h: it accepts any function as a command.
 #pragma once
 
 #include <functional>
@@ -7,10 +7,10 @@
 
 namespace tessera::TESSERA_DEVICE::backend {
 
-// Done when the stream is waited for, after what it was given before.
+// Runs the command when the stream is waited for, after all earlier commands.
 void Enqueue(void* stream, std::function<void()> command);
 
-// Calls piece(0) to piece(count - 1), each once: in several threads, the last ones first.
+// Calls piece(0) to piece(count - 1) once each, on several threads, the last ones first.
 void InAnyOrder(int count, const std::function<void(int)>& piece);
 
 }  // namespace tessera::TESSERA_DEVICE::backend

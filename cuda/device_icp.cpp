@@ -7,7 +7,7 @@
 namespace tessera::TESSERA_DEVICE {
 namespace {
 
-constexpr std::size_t kModelFloats = 5;  // of a pixel
+constexpr std::size_t kModelFloats = 5;  // per pixel
 
 }  // namespace
 

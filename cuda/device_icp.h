@@ -10,8 +10,7 @@ namespace tessera::TESSERA_DEVICE {
 
 class DevicePipeline;
 
-// Owner thread only. What has no room on the device is not there: the sums are empty, and the frame
-// is lost.
+// Owner thread only. If the device has no room, the sums are empty and the frame is lost.
 class DeviceIcp : public IcpSums {
   public:
     explicit DeviceIcp(DevicePipeline& device);
@@ -26,16 +25,16 @@ class DeviceIcp : public IcpSums {
     void KeepResiduals() override;
     ResidualSums SumResiduals(const ResidualArguments& arguments) override;
 
-    // As DevicePipeline's; the kept residuals.
+    // Like those of DevicePipeline, for the kept residuals.
     void TakePoints(FramePoints& points);
     void TakeResiduals(std::vector<float>& distance, std::vector<float>& intensity);
 
-    // The model's levels, their images on the device.
+    // The model's levels, with their images on the device.
     const std::vector<ModelImages>& model() const { return model_; }
 
   private:
-    // Room for the images of so many levels, the finest of that size; ImagesOf says where each
-    // level's are.
+    // Makes room for the images of this many levels, the finest of this size. ImagesOf returns the
+    // images of a level.
     [[nodiscard]] bool ReserveModel(const PinholeCamera& finest, int levels);
     struct Images {
         float *depth_m, *normal, *intensity;
@@ -46,13 +45,13 @@ class DeviceIcp : public IcpSums {
     }
 
     DevicePipeline& device_;
-    std::vector<ModelImages> model_;  // per level; empty where there is no room
-    std::size_t pixels_ = 0;          // of its finest level
-    std::size_t level_ = 0;           // the points'
+    std::vector<ModelImages> model_;  // per level; empty if there is no room
+    std::size_t pixels_ = 0;          // of the finest level
+    std::size_t level_ = 0;           // of the points
     DevicePoints points_;
     DeviceBuffer<float> model_pixels_;
     DeviceBuffer<float> residuals_;  // two sets of PointResiduals, one array after the other
-    int kept_ = 0;                   // which set; the other is the last sum's
+    int kept_ = 0;                   // index of the kept set; the other is the last sum's
     bool has_intensities_ = false;
     DeviceBuffer<double> sum_tiles_, sums_;
 };

@@ -14,7 +14,7 @@ DeviceIntegrator::DeviceIntegrator(DevicePipeline& device, const Config& config,
     : Integrator(config, camera), device_(device) {}
 
 std::string DeviceIntegrator::limit() const {
-    return fmt::format("the GPU's {} MB for the map are full (mapping.device_memory_mb)",
+    return fmt::format("the GPU memory limit of {} MB is reached (mapping.device_memory_mb)",
                        device_.limit_bytes() >> 20);
 }
 
@@ -24,7 +24,7 @@ void DeviceIntegrator::Allocate(const PreparedFrame& frame, const View& view, Bl
     uploaded_ = mirror != nullptr && device_.frame_.Upload(frame);
     report.map_full = !uploaded_;
     if (!uploaded_) {
-        report.refused_blocks = 1;  // nobody knows how many it would be
+        report.refused_blocks = 1;  // the true number is unknown
         return;
     }
     if (brought_map_ != map.identity()) {
@@ -39,7 +39,7 @@ void DeviceIntegrator::Allocate(const PreparedFrame& frame, const View& view, Bl
         const BlockId id = map.Allocate(coord);
         TESSERA_CHECK(
             id == mirror->size() - static_cast<BlockId>(growth.added.size() - added_.size()),
-            "block {} has another id on the device", id);
+            "block {} has a different id on the device", id);
         added_.push_back(id);
     }
     report.new_blocks = static_cast<std::int64_t>(added_.size());

@@ -20,9 +20,9 @@ class DeviceIntegrator : public Integrator {
 
   private:
     DevicePipeline& device_;
-    bool uploaded_ = false;  // the frame of this call, and the map is mirrored
+    bool uploaded_ = false;  // this call's frame is on the device, and the map is mirrored
     std::uint32_t brought_revision_ = 0;
-    std::uint64_t brought_map_ = 0;  // of which identity
+    std::uint64_t brought_map_ = 0;  // identity of the map of brought_revision_
     std::vector<BlockId> changed_ids_;
     BlockVoxels voxels_;
 };

@@ -1,4 +1,4 @@
-// Loops over items and sums over them, for bodies that are plain structs with TESSERA_HD_MEMBER
+// Loops over items, and sums over them. Bodies are plain structs with a TESSERA_HD_MEMBER
 // operator(). Included only by sources that nvcc compiles for a GPU and g++ for the host device.
 #pragma once
 
@@ -19,7 +19,7 @@ namespace tessera::TESSERA_DEVICE {
 
 inline int TileCount(int items) { return (items + kTileItems - 1) / kTileItems; }
 inline int RunCount(int items) { return (items + kRunItems - 1) / kRunItems; }
-// Doubles that SumTiles needs on its way.
+// Temporary doubles that SumTiles needs.
 inline std::size_t TileRoom(int items, int sums) {
     return static_cast<std::size_t>(TileCount(items) + RunCount(items)) *
            static_cast<std::size_t>(sums);
@@ -35,7 +35,7 @@ __global__ void ForEach(int count, Body body) {
     if (i < count) body(i);
 }
 
-// A warp for each tile. Lane i adds what kTileSteps items have, then takes part in the tree.
+// One warp per tile. Lane i adds its kTileSteps items, then takes part in the tree reduction.
 inline constexpr int kTilesPerBlock = 4;
 template <int kSums, class Body>
 __global__ void __launch_bounds__(kTileLanes* kTilesPerBlock)
@@ -59,7 +59,8 @@ __global__ void __launch_bounds__(kTileLanes* kTilesPerBlock)
     }
 }
 
-// One block: a thread for each sum of a run, then one for each sum. Runs go behind the tiles.
+// One block: a thread for each sum of a run, then one for each total. Runs are stored after the
+// tiles.
 inline constexpr int kAddThreads = 1024;
 template <int kSums>
 __global__ void __launch_bounds__(kAddThreads)
@@ -83,7 +84,7 @@ __global__ void __launch_bounds__(kAddThreads)
 
 }  // namespace loops
 
-// body(i) for i in [0, count), in no order.
+// Calls body(i) for i in [0, count), in any order.
 template <class Body>
 void ForEach(Stream& stream, int count, const Body& body) {
     constexpr int kThreads = 128;
@@ -93,9 +94,9 @@ void ForEach(Stream& stream, int count, const Body& body) {
     TESSERA_CUDA_CHECK(cudaGetLastError());
 }
 
-// body(i, sums) adds what item i has to sums[0] to sums[kSums - 1], in the order of
-// core/tile_sums.h. Both on the device: `tiles` has room for TileRoom(count, kSums), `sums` for
-// kSums.
+// body(i, sums) adds the contribution of item i to sums[0] to sums[kSums - 1], in the order of
+// core/tile_sums.h. Both arrays are on the device: `tiles` has room for TileRoom(count, kSums),
+// `sums` for kSums.
 template <int kSums, class Body>
 void SumTiles(Stream& stream, int count, const Body& body, double* tiles, double* sums) {
     const auto handle = static_cast<cudaStream_t>(stream.handle());
@@ -139,7 +140,7 @@ void SumTiles(Stream& stream, int count, const Body& body, double* tiles, double
 
 #endif
 
-// Atomic in a loop over items; each returns what was there before.
+// Atomic operations for loops over items. AtomicAdd and AtomicSwapIf return the previous value.
 template <class T>
 TESSERA_HD T AtomicAdd(T* at, T value) {
 #ifdef __CUDA_ARCH__
@@ -149,8 +150,8 @@ TESSERA_HD T AtomicAdd(T* at, T value) {
 #endif
 }
 
-// The lesser, or the larger, of `value` and what is there stays there. Both must be at least 0:
-// their bits then sort as they do.
+// Stores the lesser, or the larger, of `value` and the current value. Both must be at least 0,
+// because only then do their bits sort like the floats.
 TESSERA_HD void AtomicMin(float* at, float value) {
 #ifdef __CUDA_ARCH__
     atomicMin(reinterpret_cast<int*>(at), __float_as_int(value));
@@ -170,7 +171,7 @@ TESSERA_HD void AtomicMax(float* at, float value) {
 #endif
 }
 
-// Puts `value` where `expected` is.
+// Stores `value` if the current value is `expected`.
 template <class T>
 TESSERA_HD T AtomicSwapIf(T* at, T expected, T value) {
 #ifdef __CUDA_ARCH__

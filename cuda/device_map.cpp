@@ -6,7 +6,7 @@ namespace tessera::TESSERA_DEVICE {
 namespace {
 
 constexpr std::int32_t kFirstBlocks = 1024;
-// As BlockMap: what a signed index of voxels can reach.
+// As in BlockMap: the range of a signed voxel index.
 constexpr std::int32_t kMaxBlocks = 1 << 22;
 constexpr int kFirstWanted = 1 << 14;
 
@@ -82,8 +82,8 @@ bool DeviceMap::Load(std::int32_t size, const std::int32_t* coords, const FieldW
     return true;
 }
 
-// Room for that many blocks and half as many table slots again; more at once while it is to be had,
-// so that it seldom grows.
+// Makes room for this many blocks and their table slots. Allocates more at once while that is
+// possible, so that it seldom grows.
 bool DeviceMap::Reserve(std::int32_t blocks) {
     if (blocks > kMaxBlocks) return false;
     if (static_cast<std::size_t>(blocks) > revision_.capacity()) {
@@ -97,9 +97,9 @@ bool DeviceMap::Reserve(std::int32_t blocks) {
     return GrowTable(blocks);
 }
 
-// The layer that says how many blocks there is room for comes last.
+// revision_, whose capacity is the number of blocks, grows last.
 bool DeviceMap::GrowTo(std::int32_t blocks) {
-    // While a layer grows it is there twice.
+    // While a layer grows, it exists twice.
     constexpr std::size_t kBlockBytes =
         kBlockVoxels * (sizeof(FieldWord) + sizeof(ColourWord) + sizeof(std::uint16_t)) +
         (8 + 4 + 1 + 1 + 1) * sizeof(std::int32_t) + sizeof(std::uint8_t);
@@ -116,7 +116,7 @@ bool DeviceMap::GrowTo(std::int32_t blocks) {
            sorter_.ReserveSelection(stream_, blocks) && revision_.Reserve(stream_, count, have);
 }
 
-// At most half full.
+// Keeps the table at most half full.
 bool DeviceMap::GrowTable(std::int32_t blocks) {
     std::size_t slots = std::max<std::size_t>(table_slots_, 1024);
     while (slots <= 2 * static_cast<std::size_t>(blocks)) slots *= 2;
@@ -128,7 +128,7 @@ bool DeviceMap::GrowTable(std::int32_t blocks) {
     return true;
 }
 
-// Fills wanted_ with each block that is wanted once, in no order.
+// Fills wanted_ with every wanted block once, in any order.
 bool DeviceMap::MarkWanted(const BandWalk& walk, const WorldBox& box, int& wanted) {
     std::size_t capacity = std::max<std::size_t>(kFirstWanted, wanted_.capacity());
     while (true) {
@@ -196,7 +196,7 @@ int DeviceMap::SelectSince(std::uint32_t first) {
     return Select(selected_);
 }
 
-// The ids that are flagged in keep_; how many.
+// Selects the ids that are flagged in keep_ and returns their number.
 int DeviceMap::Select(DeviceBuffer<std::int32_t>& ids) {
     int count = 0;
     if (!sorter_.SelectIndices(stream_, keep_.data(), size_, ids.data(), count_.data())) return 0;

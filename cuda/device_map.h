@@ -1,6 +1,5 @@
-// The map on the device: BlockMap's pool, hash and neighbours (src/mapping/block_map.h) under the
-// same ids with the same content. What it lacks: labels, released blocks, and numbers other than
-// the ids.
+// The map on the device: BlockMap's pool, hash and neighbours (src/mapping/block_map.h), with the
+// same ids and content. It does not support labels, released blocks, or numbers other than the ids.
 #pragma once
 
 #include <vector>
@@ -12,7 +11,7 @@
 
 namespace tessera::TESSERA_DEVICE {
 
-// What kernels write. Valid until the map grows.
+// Arrays that kernels write. Valid until the map grows.
 struct DeviceMapView {
     FieldWord* field;
     std::uint16_t* weight;
@@ -30,7 +29,7 @@ struct DeviceMapView {
     }
 };
 
-// Voxels in the computer's memory: kBlockVoxels of each for every id.
+// Voxels in host memory: kBlockVoxels of each kind per id.
 struct BlockVoxels {
     std::vector<std::int32_t> ids;
     std::vector<FieldWord> field;
@@ -38,33 +37,34 @@ struct BlockVoxels {
     std::vector<ColourWord> colour;
 };
 
-// Owner thread only. `memory` and `stream` outlive it.
+// Owner thread only. `memory` and `stream` must outlive it.
 class DeviceMap {
   public:
     DeviceMap(double voxel_size_m, double truncation_m, DeviceMemory& memory, Stream& stream);
 
-    // False: the device has no room for even an empty map.
+    // Returns false if the device has no room even for an empty map.
     [[nodiscard]] bool Clear();
-    // The content of a map from which nothing was released: `size` blocks with the unknown one, 4
-    // coords for each. False: no room; the map is then empty.
+    // Loads a map from which nothing was released: `size` blocks including the unknown one, with 4
+    // coords each. Returns false if there is no room; the map is then empty.
     [[nodiscard]] bool Load(std::int32_t size, const std::int32_t* coords, const FieldWord* field,
                             const std::uint16_t* weight, const ColourWord* colour);
 
     struct Growth {
-        std::vector<BlockCoord> added;  // under the ids from the old size() on
-        std::int64_t wanted = 0;        // added or not
-        bool full = false;              // the memory's limit was in the way
+        std::vector<BlockCoord> added;  // with ids from the old size() on
+        std::int64_t wanted = 0;        // missing blocks, added or not
+        bool full = false;              // stopped by the memory limit
     };
-    // Adds the blocks that the image calls for and the map has not, in the order of their
-    // coordinates, as Integrator does. `walk.depth_m` is on the device.
+    // Adds the blocks that the image needs and the map lacks, in the order of their coordinates, as
+    // Integrator does. `walk.depth_m` is on the device.
     Growth Allocate(const BandWalk& walk, const WorldBox& box, int max_new_blocks);
 
-    // The ids of the blocks that the image may change, increasing, as VisibleBlocks finds them:
-    // they stay on the device, valid until the next call. `tiles` is on the device.
+    // Finds the ids of the blocks that the image may change, increasing, like VisibleBlocks.
+    // Returns their number. The ids stay on the device and are valid until the next call. `tiles`
+    // is on the device.
     int FindVisible(const DepthTileView& tiles, const ViewCone& cone);
     const std::int32_t* visible() const { return visible_.data(); }
 
-    // Copies the blocks whose revision is `first` or later, by parts: calls take(voxels) for each.
+    // Copies the blocks whose revision is `first` or later, in parts; calls take(voxels) for each.
     template <class Take>
     void DownloadSince(std::uint32_t first, BlockVoxels& voxels, const Take& take) {
         const int count = SelectSince(first);
@@ -75,7 +75,7 @@ class DeviceMap {
     }
 
     DeviceMapView view();
-    std::int32_t size() const { return size_; }  // with the unknown block
+    std::int32_t size() const { return size_; }  // including the unknown block
     double voxel_size_m() const { return voxel_size_m_; }
 
     static constexpr int kBlocksPerPart = 1024;
@@ -94,7 +94,7 @@ class DeviceMap {
     DeviceMemory& memory_;
     Stream& stream_;
     std::int32_t size_ = 0;
-    bool full_ = false;  // it cannot grow: not asked for again before Clear
+    bool full_ = false;  // growth failed; not tried again before Clear
     DeviceBuffer<FieldWord> field_;
     DeviceBuffer<std::uint16_t> weight_;
     DeviceBuffer<ColourWord> colour_;
@@ -102,7 +102,7 @@ class DeviceMap {
     DeviceBuffer<std::uint32_t> revision_;
     DeviceBuffer<std::int32_t> table_;
     std::size_t table_slots_ = 0;
-    // Of passing use.
+    // Temporary buffers.
     DeviceSorter sorter_;
     DeviceBuffer<std::uint64_t> wanted_set_, wanted_, sorted_;
     DeviceBuffer<std::int32_t> count_;

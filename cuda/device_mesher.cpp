@@ -5,7 +5,7 @@
 namespace tessera::TESSERA_DEVICE {
 namespace {
 
-// Block `i` of those that `arrays` are of.
+// The mesh of block `i` of `arrays`.
 std::unique_ptr<const BlockMesh> TakeMesh(const SurfaceArrays& arrays, std::size_t i,
                                           const BlockMap& map, BlockId id) {
     const auto [vertex, triangle] = arrays.first[i];
@@ -36,7 +36,7 @@ bool DeviceMesher::MeshBlocks(const BlockMap& map, std::span<const BlockId> bloc
         if (!surface_) surface_.emplace(device_.memory_, device_.stream_);
         if (!surface_->Extract(mirror->view(), part.data(), static_cast<int>(part.size()),
                                MinWeightSteps(min_weight), arrays_)) {
-            surface_.reset();  // what it had taken for so many leaves the less room for fewer
+            surface_.reset();  // its buffers leave less room for a smaller batch
             most = std::min(most, part.size()) / 2;
             if (most < kLeastBlocks) return false;
             continue;

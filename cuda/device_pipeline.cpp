@@ -37,7 +37,9 @@ std::unique_ptr<BlockMesher> DevicePipeline::MakeBlockMesher() {
 
 DeviceMap* DevicePipeline::MirrorOf(const BlockMap& map) {
     if (map_ && mirrored_ == map.identity()) return map_.get();
-    TESSERA_CHECK(map.count() == map.size() - 1, "{} blocks under {} ids", map.count(), map.size());
+    TESSERA_CHECK(map.count() == map.size() - 1,
+                  "a map without releases is needed; it has {} blocks and {} ids", map.count(),
+                  map.size());
     mirrored_ = 0;
     map_ = std::make_unique<DeviceMap>(map.config().voxel_size_m, map.config().truncation_m,
                                        memory_, stream_);
@@ -58,7 +60,7 @@ std::int64_t DevicePipeline::SetPoints(const BlockMap& map, const PreparedFrame&
                                        const PointArguments& points) {
     has_distance_residual_ = has_intensity_residual_ = false;
     points_.Clear();
-    // What has no room is not tracked: there are no points, and the frame is lost.
+    // Without room there are no points, and the frame is lost.
     if (MirrorOf(map) == nullptr || !ReserveSums(points.width * points.height)) return 0;
     return MakePoints(frame, points, points_);
 }
@@ -114,7 +116,7 @@ ResidualSums DevicePipeline::SumResidualsOf(ResidualArguments a, const DevicePoi
     a.intensity_residual = residuals + points.count();
     for (int k = 0; k < 3; ++k) a.gradient[k] = residuals + (2 + k) * points.count();
     a.image = frame_.intensity();
-    // One after the other they use the same room: the stream keeps their order.
+    // The kinds share the same buffers, because the stream runs them in order.
     residual_sums_.Sum<DistanceSums>(a, sums.distances);
     if (a.has_intensity) residual_sums_.Sum<ScoreSums>(a, sums.scores);
     if (a.wants_shutter) residual_sums_.Sum<ShutterSums>(a, sums.shutter);

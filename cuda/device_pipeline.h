@@ -1,7 +1,7 @@
-// The backend as the stages of src/system see it: an Integrator that allocates and fuses on the
-// device, a BlockMesher, the trackers' sums and the predicted views there. All work on one map,
-// which mirrors the stage's BlockMap: the blocks are in both at once, the voxels come over when
-// somebody asks (Integrator::Bring).
+// The device backend as the stages of src/system see it: an Integrator that allocates and fuses on
+// the device, a BlockMesher, the trackers' sums and predicted views. All work on one map, which
+// mirrors the stage's BlockMap. Blocks are added to both at once; voxels are copied back on request
+// (Integrator::Bring).
 #pragma once
 
 #include "cuda/device_frame.h"
@@ -14,10 +14,10 @@
 
 namespace tessera::TESSERA_DEVICE {
 
-// Owner thread only, with all that it makes.
+// Owner thread only, including everything that it makes.
 class DevicePipeline : public Device, public SdfSums {
   public:
-    // `limit_bytes`: of the device's memory, all counted.
+    // `limit_bytes`: limit of all device memory in use.
     DevicePipeline(std::string name, std::size_t limit_bytes);
 
     std::string name() const override { return name_; }
@@ -35,7 +35,7 @@ class DevicePipeline : public Device, public SdfSums {
     PoseSums Sum(const SdfArguments& arguments) override;
     ResidualSums SumResiduals(const ResidualArguments& arguments) override;
 
-    // For who looks into it: the points without their normals, to what Lay has made for them, and
+    // For inspection: copies the points without their normals into arrays that Lay has made, and
     // the last Sum's residuals.
     void TakePoints(FramePoints& points) { Download(points_, points); }
     void TakeResiduals(std::vector<float>& distance, std::vector<float>& intensity);
@@ -49,17 +49,17 @@ class DevicePipeline : public Device, public SdfSums {
     friend class DeviceIcp;
     friend class DeviceMesher;
 
-    // The device's map becomes that one's copy, if it is not yet: by BlockMap::identity. Null: no
-    // room.
+    // Returns the device's copy of this map. Copies the map first if the device holds another one
+    // (by BlockMap::identity). Null: no room.
     DeviceMap* MirrorOf(const BlockMap& map);
-    // The frame's points on the device, as DevicePoints::Build.
+    // Makes the frame's points on the device, like DevicePoints::Build.
     [[nodiscard]] std::int64_t MakePoints(const PreparedFrame& frame,
                                           const PointArguments& arguments, DevicePoints& points);
-    // Of those points and residuals (PointResiduals, one array after the other), which are there,
-    // of the frame that is there.
+    // Sums over these points and residuals (PointResiduals, one array after the other) and the
+    // frame, all of which are on the device.
     [[nodiscard]] ResidualSums SumResidualsOf(ResidualArguments arguments,
                                               const DevicePoints& points, const float* residuals);
-    // All but the normals, to what Lay has made for them.
+    // Copies all but the normals into arrays that Lay has made.
     void Download(const DevicePoints& from, FramePoints& points);
     [[nodiscard]] bool ReserveSums(int points);
 
@@ -67,7 +67,7 @@ class DevicePipeline : public Device, public SdfSums {
     Stream stream_;
     DeviceMemory memory_;
     std::unique_ptr<DeviceMap> map_;
-    std::uint64_t mirrored_ = 0;  // the map's identity; 0 = none
+    std::uint64_t mirrored_ = 0;  // identity of the mirrored map; 0 = none
     DeviceFrame frame_;
     DevicePoints points_;
     DeviceResiduals residual_sums_;

@@ -1,5 +1,5 @@
-// What is done to a frame's pixels on the device, with the formulas of mapping/frame_kernels.h.
-// Arrays are the device's.
+// Preparation of a frame's pixels on the device, with the formulas of mapping/frame_kernels.h.
+// Arrays are on the device.
 #pragma once
 
 #include "core/image.h"
@@ -14,14 +14,14 @@ struct DepthGate {
 };
 
 struct GatedPixels {
-    // What is counted, as FrameCounts.
+    // Indices of the counts, as in FrameCounts.
     enum Count { kValid, kMeasured, kPairs, kCoherent, kCounts };
-    // The nearest and the farthest depth are sought in so many parts each, so that not all pixels
+    // The nearest and the farthest depth are kept in this many parts each, so that not all pixels
     // write to one place.
     static constexpr int kParts = 256;
 
     float* depth_m;
-    float *nearest_m, *farthest_m;  // kParts of each, filled in before
+    float *nearest_m, *farthest_m;  // kParts of each, initialised by the caller
     double *sum_tiles, *counts;     // room for TileRoom(pixels, kCounts) and kCounts
 };
 
@@ -32,8 +32,8 @@ void SmoothImage(Stream& stream, const float* in, int width, int height, float* 
 void PackColours(Stream& stream, const Rgb8* colour, const float* luma, int count,
                  std::uint32_t* packed);
 
-// Every n x n pixels of images of `width` columns become one; without intensities (null) they are
-// -1.
+// Reduces every n x n pixels of images with `width` columns to one. Without intensities (null) they
+// become -1.
 struct Reduction {
     const float *depth_m, *intensity;
     int width, n;

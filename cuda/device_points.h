@@ -6,14 +6,14 @@
 
 namespace tessera::TESSERA_DEVICE {
 
-// Owner thread only; `memory` and `stream` outlive it.
+// Owner thread only; `memory` and `stream` must outlive it.
 class DevicePoints {
   public:
     DevicePoints(DeviceMemory& memory, Stream& stream);
 
-    // The points that `arguments`, whose images are on the device, call for, in the slots and with
-    // the bytes of FramePoints. How many have a weight; 0, and there are none, where there is no
-    // room.
+    // Builds the points of `arguments`, whose images are on the device, in the slots and with the
+    // bytes of FramePoints. Returns how many have a weight. If there is no room, there are no
+    // points, and it returns 0.
     [[nodiscard]] std::int64_t Build(const PointArguments& arguments);
 
     void Clear() { count_ = 0; }
@@ -25,9 +25,7 @@ class DevicePoints {
     const float* z() const { return z_.data(); }
     const float* intensity() const { return intensity_.data(); }
     const float* weight() const { return weight_.data(); }
-    const float* normal_x() const {
-        return normals_.data();
-    }  // unspecified where none were called for
+    const float* normal_x() const { return normals_.data(); }  // unspecified if none were requested
     const float* normal_y() const { return normals_.data() + count_; }
     const float* normal_z() const { return normals_.data() + 2 * count_; }
 

@@ -16,7 +16,7 @@ struct ClearRange {
     TESSERA_HD_MEMBER void operator()(int i) const { ranges[i] = nothing; }
 };
 
-// Per block but the unknown one. The least and the largest of depths do not depend on the order.
+// Per block except the unknown one. Minimum and maximum do not depend on the order.
 struct WidenRanges {
     RangeArguments arguments;
     const std::int32_t* coords;
@@ -37,7 +37,7 @@ struct WidenRanges {
     }
 };
 
-// Per pixel, tile by tile: neighbouring threads' rays meet the same blocks.
+// Per pixel, tile by tile, so that the rays of neighbouring threads meet the same blocks.
 struct CastPixel {
     RayArguments arguments;
     const RayRange* ranges;

@@ -20,7 +20,7 @@ struct SumPart {
     }
 };
 
-// Per sum of a group: its parts in their order.
+// Per sum of a group: adds its parts in order.
 struct AddParts {
     const double* parts;
     int of_group, sums_of_part;

@@ -8,16 +8,17 @@
 
 namespace tessera::TESSERA_DEVICE {
 
-inline constexpr int kPointResiduals = 5;  // arrays of PointResiduals
+inline constexpr int kPointResiduals = 5;  // number of arrays of PointResiduals
 
-// Owner thread only; `memory` and `stream` outlive it.
+// Owner thread only; `memory` and `stream` must outlive it.
 class DeviceResiduals {
   public:
     DeviceResiduals(DeviceMemory& memory, Stream& stream);
 
-    // Room for all that points so many in a row and a column can ask for. False: there is none.
+    // Makes room for all sums over this many points per row and column. False: there is none.
     [[nodiscard]] bool Reserve(int width, int height);
-    // Of a Kind of residual_kernels.h: one group after another. The arrays are the device's.
+    // Sums of a Kind of residual_kernels.h, group by group. The arrays of the arguments are on the
+    // device.
     template <class Kind>
     void Sum(const ResidualArguments& arguments, std::vector<double>& sums);
 

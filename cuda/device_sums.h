@@ -8,11 +8,11 @@
 
 namespace tessera::TESSERA_DEVICE {
 
-// Room that the sums over so many points take in `tiles`, in doubles.
+// Doubles that `tiles` needs for the sums over this many points.
 std::size_t TilesOfPoints(int points);
 
-// The sums (SumLayout) over the points, to sums[]: the same bytes on every run. All arrays, those
-// of the arguments too, are on the device.
+// Writes the sums (SumLayout) over the points to sums[]: the same bytes on every run. All arrays,
+// including those of the arguments, are on the device.
 void SumSdfPoints(Stream& stream, const SdfArguments& arguments, int points, double* tiles,
                   double* sums);
 void SumIcpPoints(Stream& stream, const IcpArguments& arguments, int points, double* tiles,

@@ -36,7 +36,7 @@ bool DeviceSurface::Reserve(std::size_t blocks) {
            first_.ReserveScratch(stream_, blocks + 1);
 }
 
-// Fills what Extract reads up to first_.
+// Fills the buffers that Extract reads, up to first_.
 bool DeviceSurface::Count(const DeviceMapView& map, int count, int min_weight_steps) {
     const int edge_rows = count * kEdgeRows, cell_rows = count * kCellRows;
     ForEach(stream_, count * CellRows::kRows,
@@ -44,7 +44,7 @@ bool DeviceSurface::Count(const DeviceMapView& map, int count, int min_weight_st
     ForEach(
         stream_, cell_rows,
         CountSurface{rows_.data(), cases_.data(), vertex_count_.data(), triangle_count_.data()});
-    // So that the last sums are the ends.
+    // With a zero at the end, the last prefix sums are the ends.
     stream_.Fill(vertex_count_.data() + edge_rows, 0, sizeof(std::int32_t));
     stream_.Fill(triangle_count_.data() + cell_rows, 0, sizeof(std::int32_t));
     if (!sums_.SumBefore(stream_, vertex_count_.data(), edge_rows + 1, vertex_first_.data()) ||

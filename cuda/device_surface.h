@@ -10,26 +10,27 @@
 
 namespace tessera::TESSERA_DEVICE {
 
-// What BlockMesh holds of each of some blocks, one after the other, in the computer's memory.
+// The contents of several BlockMeshes, one after the other, in host memory.
 struct SurfaceArrays {
     struct First {
         std::int32_t vertex, triangle;
     };
-    std::vector<First> first;  // of each block, and one more: the ends
+    std::vector<First> first;  // of each block, plus one entry for the ends
     std::vector<MeshVertex> vertices;
     std::vector<std::array<MeshVertexRef, 3>> triangles;
 };
 
-// Counts what each row of cells makes, sums the counts up, and writes everything to its place:
-// nothing depends on which thread was first. Owner thread only; `memory` and `stream` outlive it.
+// Counts the output of each row of cells, takes prefix sums of the counts, and writes everything to
+// its place. So the result does not depend on the order of threads. Owner thread only; `memory` and
+// `stream` must outlive it.
 class DeviceSurface {
   public:
     DeviceSurface(DeviceMemory& memory, Stream& stream);
 
-    static constexpr int kMaxBlocks = 512;  // at once: with what they make 5 to 10 MB
+    static constexpr int kMaxBlocks = 512;  // at once; 5 to 10 MB with their output
 
-    // The surface of at most kMaxBlocks blocks, none of them the unknown one; `ids` is in the
-    // computer's memory. False: no room on the device.
+    // Extracts the surface of at most kMaxBlocks blocks, none of them the unknown one. `ids` is in
+    // host memory. Returns false if the device has no room.
     [[nodiscard]] bool Extract(const DeviceMapView& map, const std::int32_t* ids, int count,
                                int min_weight_steps, SurfaceArrays& out);
 
@@ -43,7 +44,7 @@ class DeviceSurface {
     DeviceBuffer<std::int32_t> ids_, reads_;
     DeviceBuffer<RowBits> rows_;
     DeviceBuffer<FieldWord> aprons_;
-    // By row of cells: how many, and how many before.
+    // Per row of cells: its count, and the sum of the counts before it.
     DeviceBuffer<std::int32_t> vertex_count_, triangle_count_, vertex_first_, triangle_first_;
     DeviceBuffer<SurfaceArrays::First> first_;
     DeviceBuffer<MeshVertex> vertices_;

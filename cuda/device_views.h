@@ -1,4 +1,4 @@
-// Predicted views of the map on the device: what mapping/ray_caster.h does. Made by DevicePipeline.
+// Predicted views of the map on the device, like mapping/ray_caster.h. Made by DevicePipeline.
 #pragma once
 
 #include "cuda/device_map.h"
@@ -15,11 +15,11 @@ class DeviceViews : public ViewPredictor {
   public:
     explicit DeviceViews(DevicePipeline& device);
 
-    // Leaves the view on the device. False: no room there.
+    // Leaves the view on the device. Returns false if there is no room.
     [[nodiscard]] bool Cast(const BlockMap& map, const PinholeCamera& camera,
                             const Eigen::Isometry3d& T_world_camera, float min_depth_m,
                             float max_depth_m);
-    // The view that was cast last, on the device.
+    // The last view that was cast, on the device.
     ModelImages images() const {
         return {depth_m_.data(), normal_.data(), intensity_.data(), width_, height_};
     }

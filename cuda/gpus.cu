@@ -10,11 +10,11 @@ int CountGpus(const char*& reason) {
     int count = 0;
     const cudaError_t error = cudaGetDeviceCount(&count);
     (void)cudaGetLastError();
-    // What the runtime says where there is no driver at all.
+    // The runtime's error if there is no driver at all.
     const bool no_driver = error == cudaErrorInsufficientDriver;
-    reason = no_driver ? "no NVIDIA driver, or one too old for this CUDA toolkit"
+    reason = no_driver ? "no NVIDIA driver, or it is too old for this CUDA toolkit"
                        : cudaGetErrorString(error);
-    if (error == cudaSuccess) reason = "the driver lists none";
+    if (error == cudaSuccess) reason = "the driver reports no GPU";
     return error == cudaSuccess ? count : 0;
 }
 

@@ -11,9 +11,10 @@ struct Gpu {
     std::size_t free_bytes, total_bytes;
 };
 
-// How many; `reason` says in the runtime's words why there are none.
+// Returns the number of GPUs. `reason` is the runtime's explanation if there are none.
 int CountGpus(const char*& reason);
-// Makes it the present one, and looks at it. False: it cannot be used, `reason` says why.
+// Makes this GPU the current one and queries it. Returns false if it cannot be used; `reason` says
+// why.
 bool UseGpu(int index, Gpu& gpu, const char*& reason);
 
 }  // namespace tessera::TESSERA_DEVICE::backend

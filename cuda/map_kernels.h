@@ -6,7 +6,7 @@
 
 namespace tessera::TESSERA_DEVICE {
 
-// A coordinate in 64 bits that sort as BlockCoord does; never 0, which is an empty slot.
+// Packs a coordinate into 64 bits that sort like BlockCoord. Never 0, which is an empty slot.
 TESSERA_HD std::uint64_t KeyOf(const BlockCoord& c) {
     const auto part = [](std::int32_t v) { return static_cast<std::uint64_t>(v + kBlockLimit); };
     return std::uint64_t{1} << 63 | part(c.z) << 42 | part(c.y) << 21 | part(c.x);
@@ -27,8 +27,8 @@ TESSERA_HD BlockCoord CoordAt(const DeviceMapView& map, std::int32_t id) {
     return {c[0], c[1], c[2]};
 }
 
-// A set of keys by compare-and-swap, and the list of what was entered. `missed` says that there was
-// too little room: the caller begins anew with more.
+// A set of keys, filled by compare-and-swap, and the list of its entries. `missed` > 0 means that
+// there was too little room; the caller then starts again with more.
 struct KeySet {
     std::uint64_t* slots;
     std::uint32_t mask;
@@ -86,7 +86,7 @@ struct ClearVoxels {
     }
 };
 
-// Per key: the block's coordinate, and no neighbours yet.
+// Per key: sets the coordinate, the number and the revision of its block.
 struct PlaceBlocks {
     DeviceMapView map;
     std::int32_t first;
@@ -101,8 +101,8 @@ struct PlaceBlocks {
     }
 };
 
-// Per block from `first` on. Which slot of several that collide it gets may differ from run to run;
-// what is found does not.
+// Per block from `first` on. Which of several colliding slots a block gets may differ between runs;
+// what look-ups find does not.
 struct InsertIntoTable {
     DeviceMapView map;
     std::int32_t first;
@@ -115,8 +115,8 @@ struct InsertIntoTable {
     }
 };
 
-// Per block from `first` on and slot of View::neighbours: enters what lies there, and the new block
-// at an older one that has it as a neighbour. New ones enter each other themselves.
+// Per block from `first` on and slot of View::neighbours: enters the neighbour there, and the new
+// block in an older one that has it as a neighbour. New blocks enter each other themselves.
 struct LinkNeighbours {
     DeviceMapView map;
     std::int32_t first;
@@ -133,7 +133,7 @@ struct LinkNeighbours {
     }
 };
 
-// Per block; the unknown one is never seen.
+// Per block. The unknown block is never visible.
 struct FlagVisible {
     DeviceMapView map;
     DepthTileView tiles;
@@ -157,7 +157,7 @@ struct FlagSince {
     }
 };
 
-// Per voxel of the listed blocks: side by side, for one copy to the computer.
+// Per voxel of the listed blocks: packs the voxels for one copy to the host.
 struct GatherVoxels {
     DeviceMapView map;
     const std::int32_t* ids;

@@ -1,5 +1,5 @@
-// The CUDA backend's door: whoever comes through it needs to know nothing else of this folder, nor
-// whether it was built.
+// Entry point to the CUDA backend. Callers need to know nothing else of this folder, nor whether it
+// was built.
 #pragma once
 
 #include <memory>
@@ -9,10 +9,10 @@
 
 namespace tessera {
 
-// One line for a person: the GPUs that are here, or why there is none.
+// One line for the user: the GPUs that are available, or why there is none.
 std::string DescribeGpus();
 
-// The first GPU. An error says why there is none, and what to do.
+// Opens the first GPU. The error says why there is none and what to do.
 Result<std::unique_ptr<Device>> OpenGpu(const DeviceConfig& config);
 
 }  // namespace tessera

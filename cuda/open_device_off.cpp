@@ -1,17 +1,16 @@
-// In builds without the CUDA backend.
+// Stubs for builds without the CUDA backend.
 #include "cuda/open_device.h"
 
 namespace tessera {
 
 std::string DescribeGpus() {
-    return "off: this build has none; configure with TESSERA_CUDA=ON (needs nvcc)";
+    return "off: this build has no CUDA backend; configure with TESSERA_CUDA=ON (needs nvcc)";
 }
 
 Result<std::unique_ptr<Device>> OpenGpu(const DeviceConfig&) {
     return Status::Error(
         "--device cuda: this build has no CUDA backend; configure with TESSERA_CUDA=ON (needs "
-        "nvcc), or leave "
-        "--device out to run on the processor");
+        "nvcc), or omit --device to run on the CPU");
 }
 
 }  // namespace tessera

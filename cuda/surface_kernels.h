@@ -1,5 +1,5 @@
 // The loop bodies of marching cubes (device_loops.h): one call per row of cells, voxel of an apron,
-// or block. All arrays are by the block's place in the list `ids`.
+// or block. All arrays are indexed by the block's position in the list `ids`.
 #pragma once
 
 #include "cuda/device_surface.h"
@@ -7,12 +7,12 @@
 
 namespace tessera::TESSERA_DEVICE {
 
-// Of a block: rows of eight cells; and the edges from a row's voxels along the three axes, in the
-// order of BlockMesh's vertices.
+// Rows per block: rows of eight cells, and rows of edges from a row's voxels along the three axes,
+// in the order of BlockMesh's vertices.
 inline constexpr int kCellRows = kBlockSide * kBlockSide, kEdgeRows = 3 * kCellRows;
 inline constexpr int kBlocksAround = 27;
 
-// Per block and block around it, x fastest: that one's id, 0 where it is absent or not read.
+// Per block and block around it, x fastest: the other block's id, 0 if it is absent or not read.
 struct FindReadBlocks {
     DeviceMapView map;
     const std::int32_t* ids;
@@ -75,7 +75,7 @@ struct CountSurface {
     }
 };
 
-// Per block, and once more for the ends.
+// Per block, plus once for the ends.
 struct TakeFirsts {
     const std::int32_t* vertex_first;
     const std::int32_t* triangle_first;
@@ -86,7 +86,7 @@ struct TakeFirsts {
     }
 };
 
-// Per block and word of its ApronField; of blocks with vertices only.
+// Per block and word of its ApronField; only for blocks with vertices.
 struct FillApron {
     DeviceMapView map;
     const std::int32_t* reads;
@@ -106,7 +106,7 @@ struct FillApron {
     }
 };
 
-// Per block and row of cells: what CountSurface counted.
+// Per block and row of cells: writes what CountSurface counted.
 struct EmitSurface {
     DeviceMapView map;
     const std::int32_t* ids;

@@ -15,12 +15,12 @@ template <class Element>
 void CheckType(const py::array& array, const char* name, const char* expected, const char* hint) {
     if (py::isinstance<py::array_t<Element>>(array)) return;
     const std::string type = py::str(array.dtype());
-    throw py::type_error(fmt::format("{}: {} expected, not {}{}", name, expected, type, hint));
+    throw py::type_error(fmt::format("{}: expected {}, got {}{}", name, expected, type, hint));
 }
 
 void CheckShape(const py::array& array, const std::vector<py::ssize_t>& shape, const char* name) {
     if (std::equal(shape.begin(), shape.end(), array.shape(), array.shape() + array.ndim())) return;
-    throw std::invalid_argument(fmt::format("{}: shape {} expected, not {}", name,
+    throw std::invalid_argument(fmt::format("{}: expected shape {}, got {}", name,
                                             std::string(py::str(py::tuple(py::cast(shape)))),
                                             ShapeOf(array)));
 }
@@ -35,8 +35,8 @@ Eigen::Isometry3d RigidFrom(const double (&m)[4][4], py::ssize_t index) {
         (R * R.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() < 1e-3 &&
         R.determinant() > 0;
     if (!rigid)
-        throw std::invalid_argument(
-            fmt::format("T_world_camera[{}]: not a rotation and a translation", index));
+        throw std::invalid_argument(fmt::format(
+            "T_world_camera[{}]: not a rigid transform (rotation and translation)", index));
     return T;
 }
 
@@ -44,7 +44,7 @@ Eigen::Isometry3d RigidFrom(const double (&m)[4][4], py::ssize_t index) {
 
 DepthImage DepthFrom(const py::array& depth_m, int width, int height) {
     CheckType<float>(depth_m, "depth_m", "float32 in metres",
-                     "; of millimetres: depth.astype('float32') / 1000");
+                     "; to convert from millimetres: depth.astype('float32') / 1000");
     CheckShape(depth_m, {height, width}, "depth_m");
     const auto values = py::array_t<float>(depth_m).unchecked<2>();
     DepthImage image(width, height);
@@ -57,7 +57,7 @@ DepthImage DepthFrom(const py::array& depth_m, int width, int height) {
 }
 
 ColourImage ColourFrom(const py::array& colour, int width, int height) {
-    CheckType<std::uint8_t>(colour, "colour", "uint8, red first", "");
+    CheckType<std::uint8_t>(colour, "colour", "uint8 RGB", "");
     CheckShape(colour, {height, width, 3}, "colour");
     const auto values = py::array_t<std::uint8_t>(colour).unchecked<3>();
     ColourImage image(width, height);
@@ -85,7 +85,7 @@ std::vector<StampedPose> PosesFrom(const py::array& stamps_s, const py::array& T
     CheckType<double>(stamps_s, "stamps_s", "float64", "");
     CheckType<double>(T_world_camera, "T_world_camera", "float64", "");
     if (stamps_s.ndim() != 1)
-        throw std::invalid_argument("stamps_s: shape (N,) expected, not " + ShapeOf(stamps_s));
+        throw std::invalid_argument("stamps_s: expected shape (N,), got " + ShapeOf(stamps_s));
     const py::ssize_t count = stamps_s.shape(0);
     CheckShape(T_world_camera, {count, 4, 4}, "T_world_camera");
     const auto stamps = py::array_t<double>(stamps_s).unchecked<1>();
@@ -94,7 +94,7 @@ std::vector<StampedPose> PosesFrom(const py::array& stamps_s, const py::array& T
     for (py::ssize_t i = 0; i < count; ++i) {
         if (!std::isfinite(stamps(i)) || (i > 0 && stamps(i) <= stamps(i - 1)))
             throw std::invalid_argument(
-                fmt::format("stamps_s[{}]: {} is not after the one before", i, stamps(i)));
+                fmt::format("stamps_s[{}]: {} is not later than the previous stamp", i, stamps(i)));
         double m[4][4];
         for (int r = 0; r < 4; ++r)
             for (int c = 0; c < 4; ++c) m[r][c] = matrices(i, r, c);

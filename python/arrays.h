@@ -1,5 +1,6 @@
-// Between NumPy arrays and the images, poses and lists of the libraries. In: one copy, element
-// types and shapes checked. Out: views of memory that an owner keeps alive, or small copies.
+// Converts between NumPy arrays and the libraries' images, poses and lists. Input: one copy, with
+// element type and shape checked. Output: views of memory that an owner keeps alive, or small
+// copies.
 #pragma once
 
 #include <pybind11/numpy.h>
@@ -13,14 +14,14 @@
 
 namespace tessera::python {
 
-// (height, width) float32, metres, any strides. What is not finite or not above 0 becomes 0, no
-// measurement. Throws py::type_error for another element type, std::invalid_argument for another
-// shape.
+// (height, width) float32, metres, any strides. Values that are not finite or not above 0 become 0
+// (no measurement). Throws py::type_error for another element type, std::invalid_argument for
+// another shape.
 DepthImage DepthFrom(const pybind11::array& depth_m, int width, int height);
-// (height, width, 3) uint8, red first; likewise.
+// (height, width, 3) uint8, RGB. Throws as above.
 ColourImage ColourFrom(const pybind11::array& colour, int width, int height);
 
-// (4, 4) float64, row by row.
+// (4, 4) float64, row-major.
 pybind11::array MatrixOf(const Eigen::Isometry3d& T);
 // (3,) float64.
 pybind11::array VectorOf(const Eigen::Vector3d& p);
@@ -28,7 +29,7 @@ pybind11::array VectorOf(const Eigen::Vector3d& p);
 std::vector<StampedPose> PosesFrom(const pybind11::array& stamps_s,
                                    const pybind11::array& T_world_camera);
 
-// (rows, columns) of Element at `data`, writable; `owner` lives as long as the array.
+// A writable (rows, columns) view of Element at `items.data()`. The array keeps `owner` alive.
 template <class Element, class Item>
 pybind11::array ViewOf(const std::vector<Item>& items, pybind11::ssize_t columns,
                        const pybind11::object& owner) {

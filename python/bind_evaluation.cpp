@@ -1,4 +1,4 @@
-// The errors that `tessera eval` prints.
+// The errors printed by `tessera eval`.
 #include <pybind11/stl.h>
 
 #include "bindings.h"
@@ -24,8 +24,7 @@ void BindEvaluation(py::module_& module) {
     module.def(
         "evaluate_rpe",
         [](const Trajectory& reference, const Trajectory& estimate, double delta_s) {
-            if (!(delta_s > 0))
-                throw std::invalid_argument("delta_s: more than 0 seconds expected");
+            if (!(delta_s > 0)) throw std::invalid_argument("delta_s: must be more than 0 seconds");
             return FromJson(RpeJson(ValueOrBadInput(
                 EvaluateRpe(reference.poses, estimate.poses, {.delta_s = delta_s}))));
         },

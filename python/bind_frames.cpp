@@ -1,4 +1,4 @@
-// Cameras, and the frames of any source that the program opens.
+// Cameras, and the frames of any source that the program can open.
 #include <pybind11/operators.h>
 #include <pybind11/stl.h>
 
@@ -21,7 +21,7 @@ struct CameraFrame {
     PinholeCamera camera;
 };
 
-// A source's frames, one after the other. Thread-safe: calls wait for one another.
+// The frames of a source in order. Thread-safe: calls are serialised.
 class Frames {
   public:
     Frames(const std::string& source, const RunConfig& config)
@@ -29,7 +29,7 @@ class Frames {
 
     const SourceInfo& info() const { return info_; }
 
-    // One attempt: a camera may answer kWait.
+    // Reads once. A camera may return kWait.
     ReadResult Read(CameraFrame& frame) {
         const std::lock_guard lock(mutex_);
         frame.camera = info_.camera;
@@ -42,8 +42,8 @@ class Frames {
     SourceInfo info_;
 };
 
-// What is unreadable or needs patience is a warning, so that a loop over a recording with a bad
-// image goes on.
+// Waits for the next frame. Unreadable frames and waiting only raise warnings, so that a loop over
+// a recording with a bad image continues.
 std::shared_ptr<CameraFrame> NextFrame(Frames& frames) {
     const auto frame = std::make_shared<CameraFrame>();
     while (true) {

@@ -1,4 +1,4 @@
-// A whole run, as `tessera run` does it.
+// A whole run, like `tessera run`.
 #include <pybind11/stl.h>
 
 #include "bindings.h"
@@ -30,8 +30,8 @@ RunResult Run(const Path& source, const std::optional<Path>& out, const std::opt
     std::optional<py::error_already_set> interrupt;
     RunObserver observer;
     observer.on_warning = [&](const std::string& text) { result.warnings.push_back(text); };
-    // Control-C ends the run after the present frame; its files are then whole, as the program's
-    // are.
+    // Ctrl-C ends the run after the current frame. Its files are then complete, as with the
+    // program.
     observer.on_frame = [&](const RunCounts&, std::int64_t) {
         const py::gil_scoped_acquire acquire;
         if (interrupt || PyErr_CheckSignals() == 0) return;

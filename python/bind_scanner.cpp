@@ -1,4 +1,4 @@
-// The scan that is driven by hand.
+// The scan driven by the caller.
 #include <pybind11/stl.h>
 
 #include "arrays.h"

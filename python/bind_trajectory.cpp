@@ -1,4 +1,4 @@
-// Trajectories; how far one lies from another: bind_evaluation.cpp.
+// Trajectories. For errors between them, see bind_evaluation.cpp.
 #include <pybind11/stl.h>
 
 #include "arrays.h"

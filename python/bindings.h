@@ -1,4 +1,4 @@
-// One function per topic; each adds its classes and functions to the module.
+// One function per topic. Each adds its classes and functions to the module.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -15,11 +15,11 @@ void BindMesh(pybind11::module_& module);
 void BindTrajectory(pybind11::module_& module);
 void BindEvaluation(pybind11::module_& module);
 void BindFrames(pybind11::module_& module);   // Camera, Frame, Frames
-void BindScanner(pybind11::module_& module);  // after BindFrames
+void BindScanner(pybind11::module_& module);  // call after BindFrames
 void BindRun(pybind11::module_& module);
 
-// A JSON text as Python's own dict or list: keys and figures are those that the program writes,
-// stated in one place.
+// Converts JSON text to a Python dict or list, so that keys and figures are the same as in the
+// program's files.
 pybind11::object FromJson(const std::string& json);
 
 }  // namespace tessera::python

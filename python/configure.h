@@ -1,5 +1,4 @@
-// A run's configuration as the module's functions take it: what --config and --set are on the
-// command line.
+// The configuration as Python arguments: the equivalents of --config and --set.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -11,8 +10,9 @@
 
 namespace tessera::python {
 
-// `config`: a preset's name or a YAML file; then each of `settings`, in its order. Values are str,
-// bool, int or float. Throws std::invalid_argument with the line that the program would print.
+// `config`: a preset's name or a YAML file. Then applies each of `settings`, in order. Values are
+// str, bool, int or float. Throws std::invalid_argument with the message that the program would
+// print.
 RunConfig Configure(const std::optional<std::filesystem::path>& config,
                     const std::optional<pybind11::dict>& settings);
 

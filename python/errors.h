@@ -1,6 +1,5 @@
-// The edge where a Status becomes a Python exception: pybind11 turns std::invalid_argument into
-// ValueError and std::runtime_error into RuntimeError. Only the module throws; the libraries below
-// it never do.
+// Turns a Status into a Python exception: pybind11 converts std::invalid_argument to ValueError and
+// std::runtime_error to RuntimeError. Only the module throws; the libraries never do.
 #pragma once
 
 #include <stdexcept>
@@ -10,12 +9,12 @@
 
 namespace tessera::python {
 
-// What the caller gave is wrong.
+// For errors in the caller's arguments.
 inline void ThrowIfBadInput(const Status& status) {
     if (!status.ok()) throw std::invalid_argument(status.message());
 }
 
-// What was right at first broke later: a source, a full disk.
+// For errors that occur later: a source that fails, a full disk.
 inline void ThrowIfBroken(const Status& status) {
     if (!status.ok()) throw std::runtime_error(status.message());
 }

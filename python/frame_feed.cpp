@@ -5,7 +5,7 @@
 namespace tessera::python {
 
 void FrameFeed::Push(Frame frame) {
-    TESSERA_CHECK(frames_.TryPush(std::move(frame)), "the frame before was not read");
+    TESSERA_CHECK(frames_.TryPush(std::move(frame)), "the previous frame was not read");
 }
 
 void FrameFeed::Close() {

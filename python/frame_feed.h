@@ -1,4 +1,4 @@
-// Frames that a program hands in one by one, as a source that an engine reads.
+// Frames that a program passes in one by one, as a source for an engine.
 #pragma once
 
 #include <atomic>
@@ -9,14 +9,14 @@
 
 namespace tessera::python {
 
-// Between the thread that hands frames in and the one that reads the source.
+// Connects the thread that passes frames in with the one that reads the source.
 class FrameFeed {
   public:
-    // One thread at a time. A frame that waits already must have been read.
+    // One thread at a time. The previous frame must have been read.
     void Push(Frame frame);
-    // No more frames: a reader that waits gets the end. Any thread.
+    // No more frames: a waiting reader gets the end. Thread-safe.
     void Close();
-    // Waits. False: closed, and no frame is left. The reading thread only.
+    // Waits for a frame. Returns false if closed and empty. Reading thread only.
     bool Pop(Frame& frame);
 
   private:

@@ -43,17 +43,18 @@ Scanner::Scanner(const PinholeCamera& camera, const RunConfig& config, const std
 
 Scanner::~Scanner() {
     feed_->Close();
-}  // else the engine would wait for its reader, and that for a frame
+}  // otherwise the engine would wait for its reader, which waits for a frame
 
 void Scanner::Check(const Frame& frame) const {
     if (final_mesh_)
-        throw std::runtime_error("Scanner.track: the scan is finished; make another Scanner");
+        throw std::runtime_error("Scanner.track: the scan is finished; create a new Scanner");
     ThrowIfBroken(engine_->status());
     if (!std::isfinite(frame.stamp_s) || !std::isfinite(frame.colour_stamp_s))
-        throw std::invalid_argument("stamp_s: seconds expected, not nan or inf");
+        throw std::invalid_argument("stamp_s: must be a finite time in seconds");
     if (frames_ > 0 && frame.stamp_s <= last_stamp_s_)
-        throw std::invalid_argument(fmt::format(
-            "stamp_s: {:.6f} is not after the frame before, {:.6f}", frame.stamp_s, last_stamp_s_));
+        throw std::invalid_argument(
+            fmt::format("stamp_s: {:.6f} is not later than the previous frame, {:.6f}",
+                        frame.stamp_s, last_stamp_s_));
 }
 
 bool Scanner::Next(FrameOutcome& outcome) {
@@ -80,7 +81,7 @@ FrameResult Scanner::Track(Frame frame) {
         return result;
     }
     ThrowIfBroken(engine_->status());
-    throw std::runtime_error("Scanner.track: the scan came to an end");
+    throw std::runtime_error("Scanner.track: the scan has ended");
 }
 
 std::vector<StampedPose> Scanner::Path() const {
@@ -114,7 +115,7 @@ std::vector<MapObject> Scanner::Objects() const {
     const std::lock_guard lock(mutex_);
     if (!final_mesh_)
         throw std::runtime_error(
-            "Scanner.objects: they are of the final mesh; call finish() first");
+            "Scanner.objects: objects belong to the final mesh; call finish() first");
     return engine_->objects();
 }
 

@@ -1,5 +1,5 @@
-// A scan that is driven frame by frame by whoever has the images: the lockstep engine of `tessera
-// run` behind a source that is fed by hand, so that the same frames give the same bytes.
+// A scan driven frame by frame by the caller: the lockstep engine of `tessera run` with a source
+// fed by the caller, so that the same frames give identical results.
 #pragma once
 
 #include <tbb/global_control.h>
@@ -16,19 +16,18 @@
 
 namespace tessera::python {
 
-// What became of a frame that was handed in.
+// The result for one frame.
 struct FrameResult {
     FrameReport report;
-    double frame_ms = 0;                // the whole frame, fused and with loops
-    std::vector<std::string> messages;  // for a person; mostly empty
+    double frame_ms = 0;                // the whole frame, including fusion and loop closure
+    std::vector<std::string> messages;  // for the user; usually empty
 };
 
-// Thread-safe: calls wait for one another. Throws std::invalid_argument for what the caller gave,
-// std::runtime_error for what broke and for calls that come too early or too late. Nothing here
-// touches Python.
+// Thread-safe: calls are serialised. Throws std::invalid_argument for bad arguments,
+// std::runtime_error for later failures and for calls in the wrong order. Does not touch Python.
 class Scanner {
   public:
-    // `labels`: a network or a file of detections; empty = no labels.
+    // `labels`: a network or a detections file; empty: no labels.
     Scanner(const PinholeCamera& camera, const RunConfig& config, const std::string& labels);
     ~Scanner();
     Scanner(const Scanner&) = delete;
@@ -36,20 +35,20 @@ class Scanner {
 
     const PinholeCamera& camera() const { return camera_; }
 
-    // Tracks and fuses. Images are of the camera's size, or colour is empty; stamps grow. `index`
-    // is set here.
+    // Tracks and fuses a frame. Images have the camera's size; colour may be empty. Stamps must
+    // increase. Sets `index`.
     FrameResult Track(Frame frame);
 
-    // As far as it is known: before Finish as the frames were tracked, after it as they were
-    // corrected.
+    // Before Finish: poses as tracked. After Finish: corrected poses.
     std::vector<StampedPose> Path() const;
-    // A snapshot of the map before Finish; after it the final mesh, the same object each time.
+    // Before Finish: a snapshot of the map. After Finish: the final mesh, the same object each
+    // time.
     std::shared_ptr<TriangleMesh> Mesh() const;
 
-    // No more frames: loops are corrected, the map becomes the mesh. Returns messages for a person.
-    // Once or more.
+    // Call after the last frame: completes loop closure and builds the final mesh. Returns messages
+    // for the user. Later calls do nothing.
     std::vector<std::string> Finish();
-    // After Finish; empty without labels.
+    // After Finish. Empty without labels.
     std::vector<MapObject> Objects() const;
 
   private:
@@ -58,7 +57,7 @@ class Scanner {
 
     const PinholeCamera camera_;
     mutable std::mutex mutex_;
-    std::optional<tbb::global_control> thread_limit_;  // both with run.threads only
+    std::optional<tbb::global_control> thread_limit_;  // both only if run.threads is set
     mutable std::optional<tbb::task_arena> arena_;
     std::atomic<bool> stop_{false};
     std::shared_ptr<FrameFeed> feed_;
@@ -66,7 +65,7 @@ class Scanner {
     std::vector<StampedPose> path_;
     std::int64_t frames_ = 0;
     double last_stamp_s_ = 0;
-    std::shared_ptr<TriangleMesh> final_mesh_;  // not null: finished
+    std::shared_ptr<TriangleMesh> final_mesh_;  // not null after Finish
 };
 
 }  // namespace tessera::python

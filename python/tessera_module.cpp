@@ -1,4 +1,4 @@
-// The module tessera._tessera. What a person sees is the package around it: tessera/__init__.py,
+// The extension module tessera._tessera. Users import the package around it: tessera/__init__.py,
 // documented and typed in tessera/__init__.pyi.
 #include "bindings.h"
 

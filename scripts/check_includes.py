@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Holds the order of docs/design.md, section 1: lower never includes higher, and folders of one rank do not include
-each other.
+"""Checks the include order of docs/design.md, section 1: lower folders never include higher ones, and folders of equal
+rank do not include each other.
 
-Usage: check_includes.py [ROOT]   Prints one line per offence; exits with 1 if there is any.
+Usage: check_includes.py [ROOT]   Prints one line per violation; exits with 1 if there is any.
 """
 import pathlib
 import re
@@ -16,7 +16,7 @@ INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]')
 
 
 def folder_of(path, root):
-    """The ranked folder that a file lies in, or None."""
+    """The folder that determines the rank of a file, or None."""
     parts = path.relative_to(root).parts
     if parts[0] in ("apps", "cuda"):
         return parts[0]
@@ -30,7 +30,7 @@ def offences(root):
         here = folder_of(path, root)
         where = path.relative_to(root)
         if here not in RANK:
-            yield f"{where}: the folder has no place in the order"
+            yield f"{where}: this folder is not in the include order"
             continue
         for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
             match = INCLUDE.match(line)
@@ -38,7 +38,7 @@ def offences(root):
                 continue
             there = match.group(1).split("/")[0]
             if match.group(1).startswith("."):
-                yield f"{where}:{number}: includes start at src/, not at '{there}'"
+                yield f"{where}:{number}: include paths start at src/, not at '{there}'"
             elif there in RANK and there != here and RANK[there] >= RANK[here]:
                 yield f"{where}:{number}: {here} must not include {there} ({match.group(1)})"
 

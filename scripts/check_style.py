@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""House rules that a machine can hold. Files warn over 250 lines and fail over 500. Headers under src/ include no heavy
-third-party headers, so that a rebuild stays short and the interfaces of our libraries stay ours. C++ and CUDA are
-formatted as .clang-format says; a table in a comment may be as wide as the column limit and is then left alone. Only
-Debian 12's clang-format 14 is asked, as other versions differ; without it this rule is not checked, and that is said.
+"""Checks the style rules of this project. Files over 250 lines give a warning, over 500 an error. Headers under src/
+must not include heavy third-party headers, so that rebuilds stay short and the library interfaces independent. C++ and
+CUDA must be formatted according to .clang-format. Only Debian 12's clang-format 14 is used, because other versions
+differ; if it is missing, the check is skipped with a warning.
 
-Usage: check_style.py [ROOT]   Prints one line per finding; exits with 1 if there is any failure.
+Usage: check_style.py [ROOT]   Prints one line per finding; exits with 1 on any error.
 """
 import os
 import pathlib
@@ -31,7 +31,7 @@ def files_of(root, suffixes):
 
 
 def formatter():
-    """The clang-format of the one version that is asked, or None."""
+    """Path of clang-format in the required version, or None."""
     for name in (f"clang-format-{FORMATTER_VERSION}", "clang-format"):
         path = shutil.which(name)
         if path is None:
@@ -46,7 +46,7 @@ def format_findings(root):
     """Yields (is_failure, text) for each file that is not formatted."""
     program = formatter()
     if program is None:
-        yield False, f"formatting is not checked: install clang-format-{FORMATTER_VERSION}"
+        yield False, f"formatting not checked: install clang-format-{FORMATTER_VERSION}"
         return
 
     def unformatted(files):
@@ -73,7 +73,7 @@ def findings(root):
             for number, line in enumerate(lines, 1):
                 match = HEAVY.match(line)
                 if match:
-                    yield True, f"{where}:{number}: {match.group(1)} belongs into the .cpp file"
+                    yield True, f"{where}:{number}: {match.group(1)} belongs in the .cpp file"
 
 
 def main(arguments):

@@ -6,7 +6,7 @@ set -euo pipefail
 
 name=yolox_nano.onnx
 url=${TESSERA_MODEL_URL:-https://github.com/Megvii-BaseDetection/YOLOX/releases/download/0.1.1rc0/$name}
-# Of the file that docs/labels.md's figures were measured with (YOLOX, Megvii, Apache-2.0).
+# Of the file that docs/benchmarks/labels.md's figures were measured with (YOLOX, Megvii, Apache-2.0).
 sha256=e8af074932d4ed7e232278e3055cefcdea3edf178874a3694ae292649fb464dd
 folder=${1:-models}
 

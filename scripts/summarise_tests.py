@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Adds up ctest's JUnit files, one per stage; the last line is "N passed, M failed[, K skipped]".
+"""Summarises ctest's JUnit files, one per stage. The last line is "N passed, M failed[, K skipped]".
 
-Usage: summarise_tests.py STAGE...   reads STAGE.xml each. A stage without a readable file, or without a single test,
-counts as one failure. Exits with 1 if anything failed.
+Usage: summarise_tests.py STAGE...   Reads STAGE.xml for each stage. A stage with no readable file or no tests counts as
+one failure. Exits with 1 if anything failed.
 """
 import os
 import sys
@@ -12,7 +12,7 @@ LAST_CHARACTERS = 2000  # of a failed test's output
 
 
 def read_stage(path):
-    """Returns (passed, {failed name: the end of its output}, skipped names) of one JUnit file."""
+    """Returns (passed, {failed name: end of its output}, skipped names) of one JUnit file."""
     passed, failed, skipped = 0, {}, []
     for case in ET.parse(path).getroot().iter("testcase"):
         status = case.get("status")

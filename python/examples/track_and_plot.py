@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Scans a source frame by frame, prints the error against the source's truth, and draws the path.
+"""Scans a source frame by frame, prints the error against the ground truth, and plots the path.
 
 Usage: track_and_plot.py SOURCE [--out DIR] [--frames N] [--set KEY=VALUE]...
-SOURCE is what `tessera run` takes: a folder, FILE.oni, openni2:, synthetic:NAME. Writes mesh.ply, trajectory.txt and,
-where matplotlib is installed, path.png into DIR.
+SOURCE is any source of `tessera run`: a folder, FILE.oni, openni2:, synthetic:NAME. Writes mesh.ply, trajectory.txt
+and, if matplotlib is installed, path.png to DIR.
 """
 import argparse
 import itertools
@@ -16,7 +16,7 @@ import tessera
 
 
 def scan(source, settings, count):
-    """The finished scanner, and the truth as a Trajectory; None where the source has none."""
+    """Returns the finished scanner, and the ground truth as a Trajectory or None."""
     frames = tessera.frames(source, settings=settings)
     scanner = tessera.Scanner(frames.camera, settings=settings)
     stamps_s, truth = [], []
@@ -33,7 +33,7 @@ def scan(source, settings, count):
 
 
 def to_first_camera(trajectory):
-    """Positions (N, 3) in the first camera's frame: the world of a scan."""
+    """Positions (N, 3) in the frame of the first camera, which is the world frame of a scan."""
     T_first_world = np.linalg.inv(trajectory.T_world_camera[0])
     return (T_first_world @ trajectory.T_world_camera)[:, :3, 3]
 
@@ -54,7 +54,7 @@ def plot(path, estimate, truth):
     p = to_first_camera(estimate)
     axes.plot(p[:, 0], p[:, 2], color="tab:blue", label="estimate")
     axes.plot(*p[0, [0, 2]], "o", color="tab:blue")
-    axes.set(xlabel="x, right (m)", ylabel="z, forward (m)", title="The camera's path from above; the dot is its start")
+    axes.set(xlabel="x, right (m)", ylabel="z, forward (m)", title="Camera path from above; the dot marks the start")
     axes.set_aspect("equal", adjustable="datalim")
     axes.legend()
     figure.savefig(path, dpi=120)
@@ -65,7 +65,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("source")
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("out/python"), metavar="DIR")
-    parser.add_argument("--frames", type=int, help="at most so many")
+    parser.add_argument("--frames", type=int, help="maximum number of frames")
     parser.add_argument("--set", dest="settings", action="append", default=[], metavar="KEY=VALUE")
     arguments = parser.parse_args()
     settings = dict(text.split("=", 1) for text in arguments.settings)

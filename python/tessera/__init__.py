@@ -1,9 +1,9 @@
 """Dense RGB-D SLAM: depth images in; camera poses and a coloured mesh out.
 
-Scan frame by frame from NumPy arrays with `Scanner`, or a whole recording with `run`. Frames: right-handed, the camera
-looks along +z, x right, y down; `p_world = T_world_camera @ p_camera`. Metres, seconds. What is wrong with what you
-gave is a ValueError or a TypeError that says what to do; what breaks later (a source, a full disk) is a RuntimeError.
-Everything is documented and typed in __init__.pyi beside this file, and on one page in docs/python.md.
+Scan frame by frame from NumPy arrays with `Scanner`, or a whole recording with `run`. Coordinate frames are
+right-handed; the camera looks along +z, with x right and y down; `p_world = T_world_camera @ p_camera`. Units are
+metres and seconds. Bad arguments raise a ValueError or TypeError that says what to do. Later failures (a source, a full
+disk) raise a RuntimeError. __init__.pyi beside this file has types and documentation; docs/python.md is an overview.
 """
 try:
     from ._tessera import (
@@ -30,7 +30,7 @@ except ImportError as error:
     import sys
 
     built = ", ".join(path.name for path in pathlib.Path(__file__).parent.glob("_tessera*"))
-    raise ImportError(f"tessera needs NumPy and the Python that it was built for ({built or 'not built'}); this is "
+    raise ImportError(f"tessera needs NumPy and the Python it was built for ({built or 'not built'}); this is "
                       f"{sys.executable}, {sys.version.split()[0]}: {error}") from error
 
 __all__ = [

@@ -1,13 +1,13 @@
-"""A bust made by code, for [D18] table 3: blended spheres, so that nothing of anyone else's is shipped."""
+"""A generated bust for [D18] table 3, made of blended spheres, so that no third-party model is shipped."""
 import math
 
-# (centre x, y, z, radius) in metres, z up, the face towards -y.
+# (centre x, y, z, radius) in metres; z up, facing -y.
 BALLS = [(0.00, 0.02, 1.02, 0.20), (0.00, -0.03, 0.93, 0.16), (0.00, -0.10, 0.86, 0.09), (0.00, -0.20, 0.98, 0.045),
          (0.00, -0.22, 0.94, 0.05), (0.08, -0.16, 1.06, 0.05), (-0.08, -0.16, 1.06, 0.05), (0.19, 0.03, 0.98, 0.05),
          (-0.19, 0.03, 0.98, 0.05), (0.00, 0.04, 0.72, 0.13), (0.00, 0.05, 0.45, 0.24), (0.26, 0.05, 0.45, 0.17),
          (-0.26, 0.05, 0.45, 0.17), (0.00, 0.03, 0.26, 0.22)]
-HEART = (0.0, 0.03, 0.62)  # the surface is seen whole from here: one distance for each direction
-BLEND_M = 0.05             # width over which two spheres flow into one another
+HEART = (0.0, 0.03, 0.62)  # the whole surface is visible from here: one distance per direction
+BLEND_M = 0.05             # width over which two spheres blend
 REACH_M = 0.9
 
 
@@ -21,7 +21,7 @@ def distance(x, y, z):
 
 
 def radius_along(dx, dy, dz):
-    """How far the outermost surface lies from HEART in this direction."""
+    """Distance from HEART to the outermost surface in this direction."""
     def value(r):
         return distance(HEART[0] + r * dx, HEART[1] + r * dy, HEART[2] + r * dz)
     outer, step = REACH_M, 0.02
@@ -58,7 +58,7 @@ def vertices_and_triangles(rows, columns):
 
 
 def write(path, rows=120, columns=200):
-    """An .obj of one object without material. Also returns the vertices' centroid, at which the cameras look."""
+    """Writes an .obj with one object and no material. Returns the centroid of its vertices, the cameras' target."""
     vertices, triangles = vertices_and_triangles(rows, columns)
     lines = ["# bust of blended spheres, metres, z up", "o bust"]
     lines += [f"v {x:.6f} {y:.6f} {z:.6f}" for x, y, z in vertices]

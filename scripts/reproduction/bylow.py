@@ -1,4 +1,4 @@
-"""[B14] table I and figures 6 and 7, and its claim about scenes without structure or texture with all trackers."""
+"""[B14] table I, figures 6 and 7, and scenes without structure or texture with all trackers."""
 import math
 
 from . import plots
@@ -17,7 +17,7 @@ def alphas(bench):
 
 
 def table1_rows(bench):
-    """(name in the paper or the folder's, sequence, the paper's figures or None) of all that is at hand."""
+    """(name in the paper or folder name, sequence, the paper's figures or None) for each available sequence."""
     rows = [(name, find(bench, name), values) for name, values in B14_TABLE1.items()]
     rows = [row for row in rows if row[1]] + [(extra.name, extra, None) for extra in others(bench)]
     return [row for row in rows if not bench.only or row[1].name in bench.only]
@@ -29,7 +29,7 @@ def alpha_job(bench, sequence, setting, alpha):
 
 
 def settings(bench):
-    """The paper's settings cost four times a frame's time: --preset chooses."""
+    """Both settings, or the one chosen by --preset. The paper's settings take four times as long per frame."""
     return [bench.preset] if bench.preset else list(SETTINGS)
 
 
@@ -44,7 +44,7 @@ def table1_jobs(bench):
 
 def table1(bench):
     document = Document("[B14] Table I: ATE against the photometric weight alpha", "ATE RMSE in metres. The paper's "
-                        "best and worst alpha are over its eleven values; \"auto\" is our default, told none.")
+                        "best and worst alpha are over its eleven values; \"auto\" is our default, with no fixed alpha.")
     document.notes = [STAND_IN_NOTE, ATE_PROTOCOL]
     summary, curves, detail = [], [], []
     for name, sequence, paper in table1_rows(bench):
@@ -60,9 +60,9 @@ def table1(bench):
             curves.append((f"{sequence.name}, {setting}", alphas(bench), [r.ate_m for r in runs]))
         if paper:
             printed = [number(paper[ALPHAS.index(a)], 3) for a in alphas(bench)]
-            detail.append([name, "the paper, its sequence", *printed])
+            detail.append([name, "the paper, on its own sequence", *printed])
     document.tables = [
-        ("Best alpha of each. Best and worst count runs that tracked over 95 % of the frames.",
+        ("Best alpha of each sequence. Best and worst include only runs that tracked over 95 % of the frames.",
          ["sequence", "measured on", "settings", "[B14] best", "ours, best alpha", "ratio", "ours, worst alpha",
           "ours, auto", "auto / best"], summary),
         ("All values.", ["sequence", "settings", *(f"α = {a}" for a in alphas(bench))], detail)]
@@ -71,9 +71,9 @@ def table1(bench):
         document.notes.append("Not measured here: " + ", ".join(missing) + ".")
     document.protocol = [
         "`--tracker sdf --alpha A` on every frame. Settings `bylow2014`: config/bylow2014.yaml, the paper's equations; "
-        "`default`: our defaults, in which lens, shutter, brightness and robust weights are ours, and alpha's unit is "
-        "the same (m² per squared intensity in [0, 1]).",
-        "`fr3` sequences come as near and far; the paper does not say which, near is taken where both are there."]
+        "`default`: our defaults, with our own lens, shutter, brightness and robust weights; alpha has the same unit "
+        " (m² per squared intensity in [0, 1]).",
+        "`fr3` sequences come as near and far. The paper does not say which was used; we use near if both are present."]
     document.pictures = plots.curves(bench.out / "b14-table1.png", "alpha", "ATE RMSE [m]", curves, log=True)
     document.commands = commands(bench, table1_jobs(bench))
     return document
@@ -93,9 +93,9 @@ METHODS = [("sdf, alpha auto", ("--tracker", "sdf", "--alpha", "auto")),
 
 
 def low_structure(bench):
-    document = Document("Scenes without structure, without texture, without either",
-                        "ATE RMSE in metres; in brackets what was tracked and the frames that were called degenerate "
-                        "(some motion is known less well than to half a voxel), where there are any.")
+    document = Document("Scenes without structure, without texture, or without both",
+                        "ATE RMSE in metres. In brackets, if any: the share of frames tracked and the number of "
+                        "degenerate frames (some motion has a standard deviation above half a voxel).")
     rows, jobs = [], []
     sequences = [(name, find(bench, name)) for name in LOW_STRUCTURE]
     auto_m, best_m = {}, {}
@@ -117,9 +117,9 @@ def low_structure(bench):
     rows.insert(2, ["[B14], alpha 0", "–", *(number(B14_TABLE1[name][0], 3) for name, _ in sequences[1:])])
     rows.append(["sdf, alpha auto / best fixed alpha", *(ratio(auto_m[name], best_m.get(name)) for name in auto_m)])
     document.tables = [("", header, rows)]
-    document.notes = [STAND_IN_NOTE, "Without structure and texture no method can know the pose: the right answer is "
-                      "to say so and to fuse nothing. The ATE there ranks nothing."]
-    document.protocol = [ATE_PROTOCOL, "Default settings but for the method and alpha; 1 cm voxels."]
+    document.notes = [STAND_IN_NOTE, "Without structure and texture no method can estimate the pose: the right result "
+                      "is to report this and fuse nothing. The ATE there does not rank the methods."]
+    document.protocol = [ATE_PROTOCOL, "Default settings except for the method and alpha; 1 cm voxels."]
     document.commands = commands(bench, jobs)
     return document
 
@@ -142,15 +142,15 @@ def figures(bench):
             document.pictures.append((file, f"Figure {figure}: {scene}, {rows[-1][2]}"))
     header = ["figure", "scene", "tracked with", "ATE [m]", "frames lost", "degenerate"]
     document.tables = [("", header, rows)]
-    document.notes = ["The paper's recordings are not public: built-in scenes of ours stand in (a corridor of 40 m, a "
-                      "patterned floor), with exact truth. The paper gives no figures for these, only pictures."]
-    document.protocol = [ATE_PROTOCOL, "The corridor at every 4th frame: four times the speed of walking."]
+    document.notes = ["The paper's recordings are not public. We use built-in scenes with exact ground truth instead "
+                      "(a corridor of 40 m, a patterned floor). The paper gives only pictures for these, no figures."]
+    document.protocol = [ATE_PROTOCOL, "Corridor: every 4th frame, which is four times walking speed."]
     document.commands = commands(bench, jobs)
     return document
 
 
 def picture(bench, job, scene, method):
-    """The mesh with the camera's path."""
+    """The job that renders the mesh with the camera path."""
     name, folder = f"pictures/{scene}_{method}", bench.folder(job.name)
     return Job(name, ("render", str(folder / "mesh.ply"), "--trajectory", str(folder / "trajectory.txt"), "--out",
                       str(bench.folder(name) / "picture.png")), (job,))

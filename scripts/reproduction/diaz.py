@@ -1,4 +1,4 @@
-"""[D18] tables 1, 2, 4 and 5 with figures 11 and 12; table 3 is in surface.py."""
+"""[D18] tables 1, 2, 4 and 5 with figures 11 and 12. Table 3 is in surface.py."""
 import math
 
 from . import plots, trajectories
@@ -12,13 +12,13 @@ from .sources import find, frames, others, run, synthetic
 
 UNBOUNDED = ("--config", "diaz2018", "--set", "mapping.volume.bounded=false")
 METHODS = {"diaz2018": UNBOUNDED, "icp": ("--tracker", "icp"), "icp-rgb": ("--tracker", "icp-rgb"), "sdf": ()}
-METHODS_LINE = ("`diaz2018`: config/diaz2018.yaml, the paper's equations and 2.34 cm voxels, without the bounds of its "
-                "volume, which fit its own scene; the others: our defaults (1 cm voxels) with this tracker, of which "
+METHODS_LINE = ("`diaz2018`: config/diaz2018.yaml, the paper's equations and 2.34 cm voxels, without the paper's "
+                "volume bounds, which fit only its own scene. The others: our defaults (1 cm voxels) with this tracker; "
                 "`sdf` is the default.")
 
 
 def table1(bench):
-    document = Document("[D18] Table 1, figures 11 and 12: accuracy in camera pose, noise-free synthetic data")
+    document = Document("[D18] Table 1, figures 11 and 12: camera pose accuracy, noise-free synthetic data")
     sequence = synthetic(bench, "desk")
     jobs = {label: run(bench, sequence, label, *options) for label, options in METHODS.items()}
     errors = {}
@@ -38,14 +38,14 @@ def table1(bench):
                         + [ratio(found["diaz2018"][name], printed[index]) if comparable else "–",
                            ratio(found["sdf"][name], printed[index]) if comparable else "–"])
     shares = [number(100 * trajectories.rms([row[1] for row in e]) / way_m, 3) for e in errors.values()]
-    rows.append(["Loc.", "RMSE, % of the way", number(D18_TABLE1_RMSE_PERCENT_OF_WAY, 2), *shares, "–", "–"])
+    rows.append(["Loc.", "RMSE, % of the path", number(D18_TABLE1_RMSE_PERCENT_OF_WAY, 2), *shares, "–", "–"])
     document.tables = [("", ["", "estimation", "[D18]", *(f"ours, {label}" for label in errors), "ratio, diaz2018",
                              "ratio, sdf"], rows)]
-    document.notes = [f"Way of the camera: {way_m:.2f} m here, 7.27 m in the paper. Ratios across two scenes only say "
-                      "whether the order of size is the paper's.",
-                      "The paper's ray-traced desk is not shipped; `synthetic:desk` is our own, without noise."]
-    document.protocol = ["Both trajectories start at the same pose; no alignment after that. Position: Euclidean "
-                         "distance. Rotation: the error's rotation vector in the camera's axes.", METHODS_LINE]
+    document.notes = [f"Camera path: {way_m:.2f} m here, 7.27 m in the paper. Ratios between different scenes only "
+                      "show whether the order of magnitude agrees.",
+                      "We do not ship the paper's ray-traced desk; `synthetic:desk` is our own, without noise."]
+    document.protocol = ["Both trajectories start at the same pose, without further alignment. Position: Euclidean "
+                         "distance. Rotation: rotation vector of the error in camera axes.", METHODS_LINE]
     for file, label, value in [("d18-figure11.png", "position error [cm]", lambda row: 100 * row[1])] + [
             (f"d18-figure12{axis}.png", f"rotation error about {axis} [deg]", lambda row, k=k: row[2][k])
             for k, axis in enumerate("xyz")]:
@@ -67,7 +67,7 @@ def table2(bench):
         rows.append([name, used(sequence), *(number(p, 3) for p in printed or [None] * len(D18_TABLE2_SYSTEMS)),
                      *(r.ate_cell() for r in runs), ratio(runs[0].ate_m, printed and printed[0]),
                      ratio(runs[3].ate_m, printed and printed[0])])
-    document.tables = [("ATE RMSE in metres; the ratios are against [D18].",
+    document.tables = [("ATE RMSE in metres. The ratios are relative to [D18].",
                         ["sequence", "measured on", *D18_TABLE2_SYSTEMS, *(f"ours, {m}" for m in METHODS),
                          "ours, sdf with loop closure", "ratio, diaz2018", "ratio, sdf"], rows)]
     document.notes = [STAND_IN_NOTE, "Kintinuous, ElasticFusion, ORB-SLAM2 and RGBDTAM close loops or adjust globally."]
@@ -96,17 +96,18 @@ def table4(bench):
             rows.append([label, number(pt, 1), number(pc, 1), number(probability, 1)] + (
                 [number(100 * ours[key], 1) for key in ("pt", "pc", "probability")] if ours else ["–"] * 3))
     document.tables = [
-        ("The detector, by category (the paper: single objects). Ours is the simulated detector, which is told to miss "
-         "10 % and to name 3 % wrongly: Pt and Pc measure that, not a network.",
+        ("The detector, by category (the paper: single objects). Ours is the simulated detector, set to miss "
+         "10 % and to misclassify 3 %. Pt and Pc measure that, not a network.",
          ["object", "[D18] Pt [%]", "[D18] Pc [%]", "[D18] prob. [%]", "ours, Pt", "ours, Pc", "ours, prob."], rows),
-        ("What the map makes of it; the paper gives no figures. mean-depth is the paper's rule for an object's pixels.",
-         ["rule", "vertices right", "of those on objects", "mean IoU", "objects found",
+        ("The labels in the map; the paper gives no figures. mean-depth is the paper's rule for an object's pixels.",
+         ["rule", "correct vertices", "of those on objects", "mean IoU", "objects found",
           "precision, recall at 3D IoU 0.25", "centroid error, mean [cm]"],
          [[rule, f"{100 * s['accuracy']:.2f} %", f"{100 * s['object_accuracy']:.1f} %", number(s["mean_iou"], 3),
            f"{s['found_objects']} of {len(s['instances'])}", f"{s['precision_25']:.2f}, {s['recall_25']:.2f}",
            number(100 * (s["centroid_error_mean_m"] or math.nan), 2)] for rule, s in scores.items()])]
-    document.protocol = ["`tessera eval labels` against the scene's true classes and instances. Pt: detected, of the "
-                         "frames that show the object with over 400 pixels; Pc: right class, of those."]
+    document.protocol = ["`tessera eval labels` against the scene's true classes and instances. Pt: share of "
+                         "detections in the frames that show the object with over 400 pixels. Pc: share of correct "
+                         "classes in those."]
     document.commands = commands(bench, jobs)
     return document
 
@@ -130,15 +131,15 @@ def table5(bench):
     document.tables = [("Means in ms.", ["process", "[D18]", *(f"ours, {m}" for m in columns),
                                          *(f"ratio, {m}" for m in columns)], rows)]
     document.notes = [
-        "[D18] measured on a GeForce 960M; ours runs on the processor's cores.",
-        "Ours: tracking includes preparing the frame and the predicted view (rasterised with its incremental meshing "
-        "for `diaz2018`, ray cast for `icp`, none for `sdf`); marching cubes is the whole mesh once, after the last "
-        "frame, so no ratio; TOTAL is from one frame's completion to the next, decoding included; stages "
-        "overlap."]
+        "[D18] used a GeForce 960M; ours runs on the CPU.",
+        "Ours: tracking includes preparing the frame and the predicted view (rasterised with incremental meshing "
+        "for `diaz2018`, ray cast for `icp`, none for `sdf`). Marching cubes is the whole mesh once, after the last "
+        "frame, so there is no ratio. TOTAL is from the completion of one frame to the next, including decoding. "
+        "Stages overlap."]
     if busy > 0.2:
-        document.notes.append(f"The machine was busy with other work while these times were taken (up to "
-                              f"{busy:.1f} cores in use just before a run): they are upper bounds, not the program's "
-                              "speed. docs/benchmarks.md has quiet ones.")
+        document.notes.append(f"The machine was busy with other work during these measurements (up to {busy:.1f} cores "
+                              "in use just before a run), so they are upper bounds. docs/benchmarks/README.md has "
+                              "times from a quiet machine.")
     document.protocol = ["noise-free `synthetic:desk`, 640 x 480, every frame, lockstep, all cores.", METHODS_LINE]
     document.commands = commands(bench, jobs.values())
     return document

@@ -1,4 +1,4 @@
-"""A table's Markdown file: caption, figures, protocol, the exact commands, versions."""
+"""The Markdown file of a table: caption, figures, protocol, exact commands, versions."""
 import dataclasses
 import math
 import platform
@@ -41,12 +41,12 @@ def table(header, rows):
 
 
 def number(value, digits=4):
-    """None and NaN, what there is no figure for, are a dash."""
+    """Formats a number. None and NaN become a dash."""
     return "–" if value is None or math.isnan(value) else f"{value:.{digits}f}"
 
 
 def ratio(ours, paper):
-    """Ours over the paper's: below 1 is better. A dash where either is missing or the paper's is 0."""
+    """Our figure divided by the paper's: below 1 is better. A dash if either is missing or the paper's is 0."""
     if ours is None or not paper or math.isnan(ours):
         return "–"
     return f"{ours / paper:.2f}"

@@ -1,5 +1,5 @@
-"""Does it hold on more than what it was made with? All recordings at three speeds with all trackers, alpha auto against
-fixed alphas, and every constant that matters changed by a factor of 1.5 both ways. docs/generality.md has the protocol.
+"""Tests generality: all recordings at three speeds with all trackers, alpha auto against fixed alphas, and every
+relevant constant multiplied and divided by 1.5. docs/generality.md has the protocol.
 """
 import csv
 import dataclasses
@@ -16,14 +16,14 @@ STRIDES = [1, 2, 4]
 METHODS = ["sdf", "sdf-geometric", "icp", "icp-rgb"]
 ALPHAS = [0.01, 0.02, 0.05, 0.1, 0.2, 0.4]
 FACTOR = 1.5
-AS_GIVEN = "calibration.check=false"  # the camera, so that no run has another one than its neighbour
-LEAST_FUSED = 0.98                 # of the frames that another method tracks well, or of what the defaults fuse
-ALPHA_RATIO, ALPHA_MM = 1.05, 0.1  # auto may be worse by either
-BREAK_RATIO, BREAK_MM = 1.5, 1.0   # a changed constant breaks a recording if its ATE is worse by both
+AS_GIVEN = "calibration.check=false"  # the camera as given, so that all runs use the same one
+LEAST_FUSED = 0.98                 # of the frames that another method tracks well, or of those that the defaults fuse
+ALPHA_RATIO, ALPHA_MM = 1.05, 0.1  # auto may be worse by one of these
+BREAK_RATIO, BREAK_MM = 1.5, 1.0   # a changed constant breaks a recording if its ATE is worse by both of these
 
 
 class FigureRun(Run):
-    """A run without its mesh: a table is hundreds of runs."""
+    """A run whose mesh is deleted, because a table needs hundreds of runs."""
 
     def __init__(self, bench, job):
         super().__init__(bench, job)
@@ -34,17 +34,17 @@ class FigureRun(Run):
         self.fused = self.json["counts"]["fused"] / max(1, self.frames)
 
     def cell(self):
-        """ATE in mm; in brackets what is tracked and fused where that is not all."""
+        """ATE in mm. In brackets the shares tracked and fused, if not all frames were fused."""
         missing = f" ({percent(self.tracked)} % tracked, {percent(self.fused)} % fused)" if self.fused < 1 else ""
         return number(1000 * self.ate_m, 2) + missing
 
     def well_tracked(self):
-        """Indices of the frames whose pose was trusted with the map."""
+        """Indices of the frames with status good."""
         with open(self.folder / "frames.csv", encoding="utf-8", newline="") as file:
             return {row["index"] for row in csv.DictReader(file) if row["status"] == "good"}
 
     def knows_its_pose(self):
-        """Where most frames are degenerate the ATE is chance."""
+        """If most frames are degenerate, the ATE is not meaningful."""
         return 2 * self.degenerate <= self.frames and not math.isnan(self.ate_m)
 
 
@@ -54,7 +54,7 @@ class Constant:
     is_count: bool
 
     def changed(self, value, factor):
-        """As --set takes it."""
+        """The changed value in the format of --set."""
         return str(round(value * factor)) if self.is_count else f"{value * factor:.6g}"
 
     def tracker(self):
@@ -62,7 +62,7 @@ class Constant:
 
 
 def constants(path=pathlib.Path(__file__).with_name("constants.txt")):
-    """Those of constants.txt that are changed."""
+    """The constants to change, from constants.txt."""
     rows = [line.split() for line in path.read_text(encoding="utf-8").splitlines() if line and line[0] != "#"]
     return [Constant(row[1], row[0] == "count") for row in rows if row[0] != "leave"]
 
@@ -73,7 +73,7 @@ def sequences(bench):
 
 
 def frames(bench, stride):
-    """The same time of each recording, whatever the stride."""
+    """The same duration of each recording for every stride."""
     count = QUICK_FRAMES if bench.quick else bench.frames
     return ("--frames", str(math.ceil(count / stride))) if count else ()
 
@@ -109,7 +109,7 @@ def trackers_table(bench, document, runs):
             if share < LEAST_FUSED:
                 misses.append(f"{sequence.name}, stride {stride}: {percent(share)} %")
     document.tables.append((
-        "Trackers and speeds: ATE in mm; what is tracked and fused where that is not every frame.",
+        "Trackers and speeds: ATE in mm, and the shares tracked and fused if not every frame was fused.",
         ["recording", "stride", "frames", *METHODS], rows))
     document.notes.append(f"Recordings in which the default fuses less than {100 * LEAST_FUSED:.0f} % of the frames that any "
                           "other method tracks well: " + ("; ".join(misses) or "none") + ".")
@@ -125,7 +125,7 @@ def alpha_table(bench, document, runs):
         whole = [one.ate_m for one in fixed if one.tracked > 0.95 and not math.isnan(one.ate_m)]
         best = min(whole, default=math.nan)
         if not auto.knows_its_pose():
-            verdict = "ATE is chance"
+            verdict = "not meaningful"
         else:
             good = auto.ate_m <= ALPHA_RATIO * best or 1000 * (auto.ate_m - best) <= ALPHA_MM
             verdict = "yes" if good else "no"
@@ -135,13 +135,13 @@ def alpha_table(bench, document, runs):
                      ratio(auto.ate_m, best), verdict])
     document.tables.append((
         "alpha: ATE in mm.", ["recording", *(str(alpha) for alpha in ALPHAS), "auto", "auto / best fixed", "holds"], rows))
-    document.notes.append(f"Recordings in which alpha auto has more than {ALPHA_RATIO} times the best fixed one's ATE, and is "
-                          f"more than {ALPHA_MM} mm worse: " + (", ".join(misses) or "none") + ".")
+    document.notes.append(f"Recordings in which alpha auto has more than {ALPHA_RATIO} times the ATE of the best fixed alpha, "
+                          f"and is more than {ALPHA_MM} mm worse: " + (", ".join(misses) or "none") + ".")
 
 
 @dataclasses.dataclass
 class Change:
-    """One constant changed one way on one recording, against the defaults there."""
+    """One constant changed in one direction on one recording, compared with the defaults."""
     constant: Constant
     direction: str
     sequence: str
@@ -149,7 +149,7 @@ class Change:
     run: FigureRun
 
     def ate_ratio(self):
-        """0 where the ATE says nothing."""
+        """0 if the ATE is not meaningful."""
         return self.run.ate_m / self.default.ate_m if self.default.knows_its_pose() else 0.0
 
     def ate_change_mm(self):
@@ -195,25 +195,25 @@ def constants_table(bench, document, runs):
             len(broken)]))
     rows.sort(key=lambda row: -row[0])
     document.tables.append((
-        "Constants times and over 1.5, the worst of all recordings, worst first. `tracking.icp` with icp-rgb, all else with "
-        "the default tracker.",
-        ["constant", "ATE, ratio", "mm more", "on", "share fused, points", "on", "runs broken"], [row for _, row in rows]))
+        "Constants multiplied and divided by 1.5: the worst result of all recordings, worst first. `tracking.icp` uses "
+        "icp-rgb, all others the default tracker.",
+        ["constant", "ATE ratio", "mm worse", "on", "share fused, points", "on", "broken runs"], [row for _, row in rows]))
     document.notes.append(f"Broken: fuses less than {100 * LEAST_FUSED:.0f} % of what the defaults fuse, or has more than "
-                          f"{BREAK_RATIO} times their ATE and {BREAK_MM:.0f} mm more: " + ("; ".join(breaking) or "none") + ".")
+                          f"{BREAK_RATIO} times their ATE and is over {BREAK_MM:.0f} mm worse: " + ("; ".join(breaking) or "none") + ".")
 
 
 PARTS = {"methods": trackers_table, "alpha": alpha_table, "constants": constants_table}
 
 
 def generality(bench):
-    document = Document("Generality: all recordings, all speeds, all trackers, no constant to sit on")
+    document = Document("Generality: all recordings, speeds and trackers, and sensitivity to constants")
     runs = []
     for part in bench.parts or PARTS:
         PARTS[part](bench, document, runs)
     document.protocol = [
-        "ATE RMSE, SE(3) alignment without scale, all tracked frames. Where more than half of the frames are degenerate ATE is "
-        "chance and is not judged. Cameras as given (`calibration.check=false`); lockstep, no loop closure."]
+        "ATE RMSE, SE(3) alignment without scale, all tracked frames. If more than half of the frames are degenerate, the "
+        "ATE is not meaningful and is not judged. Cameras as given (`calibration.check=false`); lockstep, no loop closure."]
     document.notes.append(f"{len({one.job.name for one in runs})} runs.")
-    document.commands = ["# the defaults' runs; the others add --alpha A or --set KEY=VALUE, see done.json in their folders",
+    document.commands = ["# runs with the defaults; the others add --alpha A or --set KEY=VALUE, see done.json in their folders",
                          *(bench.shown(job) for job in with_needs([one.job for one in runs if one.is_default]))]
     return document

@@ -1,5 +1,5 @@
-"""One job is one call of tessera with a folder of its own. Its done-file holds a key of the command line, of the
-program and of the jobs that it needs, so that a second call reuses what is finished and repeats what has changed.
+"""A job is one call of tessera with its own output folder. Its done-file holds a key made from the command line, the
+program and the jobs it needs, so that a second call reuses finished jobs and repeats changed ones.
 """
 import dataclasses
 import hashlib
@@ -12,17 +12,17 @@ import sys
 import time
 
 DONE = "done.json"
-ENDED_LOST = 3  # tessera's exit code where less than half of the frames were tracked: a result, not an error
+ENDED_LOST = 3  # tessera's exit code if fewer than half of the frames were tracked: a result, not an error
 
 
 class JobFailed(Exception):
-    """tessera refused a job; the text is its own line and the command."""
+    """tessera failed; the text has its error line and the command."""
 
 
 @dataclasses.dataclass(frozen=True)
 class Job:
-    """`name` is the folder below OUT/jobs; `arguments` follow the word tessera; `needs` are finished before;
-    `inputs` are files whose content counts as part of the command."""
+    """`name` is the folder below OUT/jobs; `arguments` follow the word tessera; `needs` are jobs that run first;
+    `inputs` are files whose content is part of the key."""
     name: str
     arguments: tuple
     needs: tuple = ()
@@ -30,21 +30,21 @@ class Job:
 
 
 class Workbench:
-    """Runs jobs of one tessera into one folder. Owner thread only; several processes may share the folder as long as
-    no two run the same job."""
+    """Runs jobs of one tessera in one folder. Owner thread only. Several processes may share the folder if no two run
+    the same job."""
 
     def __init__(self, tessera, out, tum=None, quick=False, log=sys.stderr):
         self.tessera = pathlib.Path(tessera).resolve()
         self.out = pathlib.Path(out).resolve()
         self.tum = pathlib.Path(tum).resolve() if tum else None
         self.quick = quick
-        self.preset, self.only = None, ()   # one of b14-table1's settings; some of its sequences, or of generality's
-        self.parts, self.frames = (), None  # of generality: some of its tables, the first frames only
+        self.preset, self.only = None, ()   # options --preset and --only
+        self.parts, self.frames = (), None  # options --parts and --frames
         self.log = log
         self.version = self._version()
 
     def _version(self):
-        """The program's own version and the start of its file's sha256: a build from changed sources is another one."""
+        """The program's version and the start of its sha256, so that a changed build counts as different."""
         text = subprocess.run([self.tessera, "--version"], capture_output=True, text=True, check=True).stdout.strip()
         return f"{text}, sha256 {hashlib.sha256(self.tessera.read_bytes()).hexdigest()[:12]}"
 
@@ -52,7 +52,7 @@ class Workbench:
         return self.out / "jobs" / name
 
     def shown(self, job):
-        """The command as a reader types it: no path of this machine, $OUT for --out and $TUM for --tum."""
+        """The command without paths of this machine: $OUT for --out and $TUM for --tum."""
         words = " ".join(["tessera", *job.arguments])
         if self.tum:
             words = words.replace(str(self.tum), "$TUM")
@@ -67,14 +67,14 @@ class Workbench:
         return self.record(job).get("key") == self.key(job)
 
     def record(self, job):
-        """What the done-file says: key, command, exit_code, seconds, busy_cores (others', just before)."""
+        """Content of the done-file: key, command, exit_code, seconds, busy_cores (used by others just before)."""
         try:
             return json.loads((self.folder(job.name) / DONE).read_text())
         except (OSError, ValueError):
             return {}
 
     def run(self, job):
-        """Runs what `job` needs, then the job, unless they are done. Returns its folder; raises JobFailed."""
+        """Runs the needed jobs, then `job`, unless they are done. Returns its folder. Raises JobFailed."""
         for need in job.needs:
             self.run(need)
         folder = self.folder(job.name)
@@ -98,12 +98,12 @@ class Workbench:
         return folder
 
     def read(self, job, file):
-        """A JSON file that the finished job left."""
+        """Runs `job` and returns one of its JSON files."""
         return json.loads((self.run(job) / file).read_text())
 
 
 def busy_cores(window_s=0.3):
-    """How many cores others use now: nothing of ours runs while this looks. 0 where the system does not tell."""
+    """How many cores other programs use now. None of our jobs runs meanwhile. 0 if the system does not report it."""
     def idle_and_all():
         ticks = [int(word) for word in pathlib.Path("/proc/stat").read_text().split("\n", 1)[0].split()[1:9]]
         return ticks[3] + ticks[4], sum(ticks)
@@ -117,7 +117,7 @@ def busy_cores(window_s=0.3):
 
 
 def with_needs(jobs):
-    """`jobs` and all that they need, each once, needed ones first."""
+    """`jobs` and all jobs they need, each once, needed ones first."""
     found = {}
     for job in jobs:
         for one in (*with_needs(job.needs), job):

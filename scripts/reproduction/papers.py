@@ -1,4 +1,4 @@
-"""The figures printed in the papers, and which TUM RGB-D folders they were measured on."""
+"""The figures printed in the papers, and the TUM RGB-D folders they were measured on."""
 
 # [B14] table I: ATE RMSE in metres for alpha 0, 0.1, ... 1.0.
 ALPHAS = [round(0.1 * i, 1) for i in range(11)]
@@ -15,7 +15,7 @@ B14_TABLE1 = {
     "fr1 360": [.117, .114, .115, .120, .136, .138, .150, .163, .168, .177, .314],
     "long_office_household": [.087, .062, .057, .054, .054, .052, .051, .051, .052, .051, .053],
 }
-# Where the paper does not say which of two, the near one first.
+# If the paper does not say which of two was used, the near one comes first.
 FOLDERS = {
     "fr1 teddy": [FR1 + "teddy"],
     "fr3 structure_no_texture": [FR3 + "structure_notexture_near", FR3 + "structure_notexture_far"],
@@ -31,7 +31,7 @@ FOLDERS = {
     "long_office_household": [FR3 + "long_office_household"],
 }
 
-# [D18] table 1: position in cm, rotation about x, y, z in degrees; over 7.27 m of way.
+# [D18] table 1: position in cm, rotation about x, y, z in degrees; over a path of 7.27 m.
 D18_TABLE1 = {
     "RMSE": (.4314, .0802, .0820, .0402),
     "Max. error": (.5701, -.0080, .1587, .0785),

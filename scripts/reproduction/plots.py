@@ -1,4 +1,4 @@
-"""Plots by matplotlib. Where it is missing they are left out, and the program says so once."""
+"""Plots with matplotlib. If it is missing, plots are skipped with one warning."""
 import sys
 
 try:
@@ -11,11 +11,11 @@ except ImportError:
 
 def warn_if_missing():
     if pyplot is None:
-        print("plots are left out: install python3-matplotlib", file=sys.stderr)
+        print("no plots: install python3-matplotlib", file=sys.stderr)
 
 
 def curves(path, x_label, y_label, lines, log=False):
-    """`lines` are (label, x values, y values). Returns a Document's pictures: one, or none without matplotlib."""
+    """`lines` are (label, x values, y values). Returns pictures for a Document: one, or none without matplotlib."""
     if pyplot is None or not lines:
         return []
     figure, axes = pyplot.subplots(figsize=(9, 5), layout="constrained")

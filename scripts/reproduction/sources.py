@@ -1,4 +1,4 @@
-"""Sequences by the papers' names: TUM RGB-D folders where --tum has them, else ones made by `tessera synth`."""
+"""Sequences by their names in the papers: TUM RGB-D folders if --tum has them, else made by `tessera synth`."""
 import dataclasses
 
 from .jobs import Job
@@ -9,8 +9,8 @@ QUICK_FRAMES = 40
 
 @dataclasses.dataclass(frozen=True)
 class Sequence:
-    """`kind` says in a table's cell what it is; `options` select frames; `needs` makes it, if it is
-    one of ours."""
+    """`kind` describes the data in a table cell; `options` select frames; `needs` has the job that makes a synthetic
+    sequence."""
     name: str
     path: str
     kind: str
@@ -18,7 +18,7 @@ class Sequence:
     needs: tuple = ()
 
 
-# The paper's name -> built-in scene, noise, options of `tessera run`.
+# Name in the paper -> built-in scene, noise, options of `tessera run`.
 STAND_INS = {
     "fr1 desk": ("desk", "kinect", ()),
     "fr1 desk2": ("desk", "kinect", ("--stride", "3")),
@@ -32,7 +32,7 @@ STAND_INS = {
 
 
 def synthetic(bench, scene, noise="none"):
-    """The job that writes a built-in scene's sequence, and the sequence."""
+    """The sequence of a built-in scene; its `needs` is the job that writes it."""
     folder = bench.folder(f"data/{scene}_{noise}")
     arguments = ["synth", scene, "--noise", noise, "--out", str(folder / "sequence")]
     job = Job(f"data/{scene}_{noise}", (*arguments, *frames(bench)))
@@ -44,7 +44,7 @@ def frames(bench):
 
 
 def find(bench, name):
-    """The sequence of a paper's row: TUM's, else its stand-in, else None."""
+    """The sequence for a row of a paper: from TUM, else its stand-in, else None."""
     for folder in FOLDERS.get(name, []):
         if bench.tum and (bench.tum / folder).is_dir():
             return Sequence(folder, str(bench.tum / folder), folder, frames(bench))
@@ -58,7 +58,7 @@ def find(bench, name):
 
 
 def recorded(bench):
-    """Every folder of --tum with colour, depth and truth."""
+    """Every folder in --tum with colour, depth and ground truth."""
     if not bench.tum:
         return []
     return [Sequence(path.name, str(path), path.name, frames(bench)) for path in sorted(bench.tum.iterdir())
@@ -66,13 +66,13 @@ def recorded(bench):
 
 
 def others(bench):
-    """Those that are no sequence of a paper: rows without a paper's figure."""
+    """Recorded sequences that are not in a paper: rows without a figure from a paper."""
     known = {folder for folders in FOLDERS.values() for folder in folders}
     return [sequence for sequence in recorded(bench) if sequence.name not in known]
 
 
 def run(bench, sequence, label, *options):
-    """The job `tessera run` of a sequence; `label` tells its settings apart."""
+    """The job that runs `tessera run` on a sequence. `label` identifies its settings."""
     name = f"runs/{sequence.name}/{label}"
     return Job(name, ("run", sequence.path, *sequence.options, *options, "--out", str(bench.folder(name))),
                sequence.needs)

@@ -1,4 +1,4 @@
-"""[D18] table 3 and figure 15: a virtual camera goes around a model by steps of 10 degrees; its mesh is measured."""
+"""[D18] table 3 and figure 15: a virtual camera circles a model in steps of 10 degrees; the mesh error is measured."""
 import math
 
 from . import bust
@@ -16,7 +16,7 @@ VERTICAL_AZIMUTHS_DEG = (0, 90, 180, 270)
 
 
 def look_at(eye, target):
-    """Quaternion (x, y, z, w), camera to world: z axis through the target, x level, y down; z is the world's up."""
+    """Quaternion (x, y, z, w), camera to world: z towards the target, x level, y down. The world's z points up."""
     z = normalised(tuple(t - e for t, e in zip(target, eye)))
     x = normalised((z[1], -z[0], 0.0))
     y = (z[1] * x[2] - z[2] * x[1], z[2] * x[0] - z[0] * x[2], z[0] * x[1] - z[1] * x[0])
@@ -26,7 +26,7 @@ def look_at(eye, target):
     if w > 1e-3:
         return tuple(a / (4 * w) for a in axes) + (w,)
     sizes = [math.sqrt(max(0.0, 1 + 2 * d - trace)) / 2 for d in (x[0], y[1], z[2])]
-    # With w = 0 the signs follow from the symmetric part; the largest component is taken positive.
+    # With w = 0, the signs follow from the symmetric part. The largest component is chosen positive.
     big = max(range(3), key=lambda k: sizes[k])
     m = (x, y, z)
     q = [sizes[k] if k == big else (m[big][k] + m[k][big]) / (4 * sizes[big]) for k in range(3)]
@@ -40,7 +40,7 @@ def normalised(v):
 
 def views():
     """(azimuth, elevation) in degrees: a circle at each elevation, then up and down at some azimuths. Neighbours differ
-    by one step of 10 degrees, so that the path in between is the scan's too."""
+    by one step of 10 degrees, including the transitions between them."""
     path = []
     for elevation in ELEVATIONS_DEG:
         path += [(azimuth, elevation) for azimuth in range(0, 360 + (elevation == 0), STEP_DEG)]
@@ -65,7 +65,7 @@ def pose_line(index, azimuth_deg, elevation_deg, target, frames_per_step):
 
 
 def write_scan(bench, target):
-    """The paper's steps as frames, and a path through the first two circles with five frames to a step for tracking."""
+    """Writes the paper's steps as frames, and a path of two circles with ten frames per step for tracking."""
     folder = bench.out / "model"
     steps = views()
     if bench.quick:
@@ -78,7 +78,7 @@ def write_scan(bench, target):
 
 
 def scan(bench, name):
-    """The job that renders the model along one of the two trajectories, and its sequence's folder."""
+    """The job that renders the model along one of the two trajectories, and the folder of its sequence."""
     sequence = bench.folder(f"data/bust_{name}") / "sequence"
     model, path = str(bench.out / "model/bust.obj"), str(bench.out / f"model/{name}.txt")
     arguments = ("synth", model, "--trajectory", path, "--out", str(sequence))
@@ -111,7 +111,7 @@ PICTURED = ("diaz2018", "default")
 
 
 def table3(bench):
-    document = Document("[D18] Table 3, figure 15: accuracy in geometry, a virtual camera around a loaded model")
+    document = Document("[D18] Table 3, figure 15: geometric accuracy, a virtual camera around a loaded model")
     (bench.out / "model").mkdir(parents=True, exist_ok=True)
     write_scan(bench, bust.write(bench.out / "model/bust.obj"))
     rows, jobs = [], []
@@ -130,14 +130,14 @@ def table3(bench):
     header = ["", "max. error", "mean error", "standard dev.", "ratio of the means", "of the model within 5 cm",
               "ATE [m]"]
     document.tables = [("Vertex to triangle, cm.", header, rows)]
-    document.notes = ["The paper's desk of 2 m is not ours to ship: the model is a bust of 1.2 m, made by this script "
-                      "from blended spheres (model/bust.obj). So the ratio only says whether the order of size is "
-                      "the paper's."]
+    document.notes = ["We cannot ship the paper's desk of 2 m. Our model is a bust of 1.2 m, made by this script from "
+                      "blended spheres (model/bust.obj). So the ratio only shows whether the order of magnitude "
+                      "agrees."]
     document.protocol = [
         f"Camera at {DISTANCE_M} m from the model's centroid, looking at it, 10 degrees between frames in azimuth and "
         "elevation: circles at 0 to 40 degrees of elevation, then up and down from -30 to 70 degrees at four azimuths. "
         "Depth is noise-free; poses are the virtual camera's own.",
-        "Tracked: 1 degree between frames, circles at 10 and 30 degrees, as a camera moves; the mesh is laid onto the "
-        "model by aligning the trajectories. `tessera eval mesh` measures as CloudCompare's cloud-to-mesh does."]
+        "Tracked: 1 degree between frames, circles at 10 and 30 degrees, like a moving camera. The mesh is aligned to "
+        "the model by aligning the trajectories. `tessera eval mesh` measures the same as CloudCompare's cloud-to-mesh."]
     document.commands = commands(bench, jobs)
     return document

@@ -1,5 +1,5 @@
-"""Trajectories in TUM's format and their errors, written from the definitions in plain Python: a second, slow
-implementation beside src/eval, which tests compare with it.
+"""Trajectories in TUM format and their errors, in plain Python from the definitions: a second, slow implementation,
+which tests compare with src/eval.
 
 Poses are (stamp_s, (tx, ty, tz), (qx, qy, qz, qw)), camera to world, metres.
 """
@@ -8,7 +8,7 @@ import statistics
 
 
 def read(path):
-    """Poses of a TUM file, in its order. Raises ValueError with the line's number."""
+    """The poses of a TUM file, in file order. Raises ValueError with the line number."""
     poses = []
     with open(path, encoding="utf-8") as file:
         for row, line in enumerate(file, 1):
@@ -25,7 +25,7 @@ def read(path):
 
 
 def associate(reference, estimate, max_gap_s=0.02):
-    """Pairs (reference pose, estimated pose): the closest in time first, each used once, as TUM's associate.py does."""
+    """Pairs (reference pose, estimated pose): closest in time first, each used once, like TUM's associate.py."""
     near = []
     for j, (stamp, *_) in enumerate(estimate):
         near += [(abs(stamp - pose[0]), i, j) for i, pose in enumerate(reference) if abs(stamp - pose[0]) < max_gap_s]
@@ -66,7 +66,7 @@ def centre(points):
 
 
 def align(points, targets):
-    """The rotation (quaternion) and translation that lay `points` onto `targets` with least squares: Horn 1987."""
+    """The rotation (quaternion) and translation that align `points` to `targets` in least squares: Horn 1987."""
     mean_p, mean_t = centre(points), centre(targets)
     s = [[0.0] * 3 for _ in range(3)]
     for p, t in zip(points, targets):
@@ -85,7 +85,7 @@ def align(points, targets):
 
 
 def largest_eigenvector(matrix):
-    """Of a symmetric 4 x 4 matrix, by Jacobi rotations."""
+    """For a symmetric 4 x 4 matrix, by Jacobi rotations."""
     a, v = [row[:] for row in matrix], [[float(i == j) for j in range(4)] for i in range(4)]
     for _ in range(60):
         off, p, q = max((abs(a[i][j]), i, j) for i in range(4) for j in range(i + 1, 4))
@@ -104,10 +104,10 @@ def largest_eigenvector(matrix):
 
 
 def ate(reference, estimate):
-    """TUM's absolute trajectory error after SE(3) alignment without scale: the distances in metres, one per pair."""
+    """TUM's absolute trajectory error after SE(3) alignment without scale: one distance in metres per pair."""
     pairs = associate(reference, estimate)
     if len(pairs) < 3:
-        raise ValueError(f"only {len(pairs)} poses have a true pose within 0.02 s")
+        raise ValueError(f"only {len(pairs)} poses have a reference pose within 0.02 s")
     points, targets = [b[1] for _, b in pairs], [a[1] for a, _ in pairs]
     q, t = align(points, targets)
     return [math.dist(tuple(r + o for r, o in zip(rotate(q, p), t)), target) for p, target in zip(points, targets)]
@@ -118,8 +118,8 @@ def rms(values):
 
 
 def errors_from_first(reference, estimate):
-    """As [D18] 4.1: both trajectories start at the same pose, nothing is aligned after. Returns rows (seconds from the
-    start, position error in metres, (x, y, z) of the rotation error's vector in the camera's axes in degrees)."""
+    """As in [D18] 4.1: both trajectories start at the same pose, without further alignment. Returns rows (seconds from
+    the start, position error in metres, (x, y, z) of the rotation error vector in camera axes in degrees)."""
     pairs = associate(reference, estimate)
     (first_stamp, t_a, q_a), (_, t_b, q_b) = pairs[0]
     rows = []

@@ -62,7 +62,7 @@ Result<CameraCalibration> ReadCameraFile(const std::string& path) {
                 const auto k = entry.second.as<std::vector<double>>();
                 if (k.size() != 4 && k.size() != 5)
                     return Status::Error(path +
-                                         ": distortion: needs k1, k2, p1, p2 and perhaps k3");
+                                         ": distortion: needs k1, k2, p1, p2 and optionally k3");
                 c.distortion = {k[0], k[1], k[2], k[3], k.size() == 5 ? k[4] : 0.0};
             } else {
                 return Status::Error(fmt::format(
@@ -78,7 +78,7 @@ Result<CameraCalibration> ReadCameraFile(const std::string& path) {
     }
     if (!missing.empty())
         return Status::Error(fmt::format("{}: '{}' is missing", path, *missing.begin()));
-    // ICL-NUIM writes the y axis upwards in its intrinsics, but not in its images.
+    // ICL-NUIM's intrinsics have the y axis pointing up, but its images do not.
     p.fy = std::abs(p.fy);
     if (Status status = CheckPlausible(c); !status.ok())
         return Status::Error(path + ": " + status.message());

@@ -1,5 +1,5 @@
-// The camera: an ideal pinhole for everything behind a source, and the calibration file's lens
-// distortion, which sources correct before anyone else sees an image.
+// The camera model. Everything downstream of a source sees an ideal pinhole camera. Sources correct
+// the lens distortion given in the calibration file before they hand out an image.
 #pragma once
 
 #include <Eigen/Core>
@@ -20,12 +20,13 @@ struct PinholeCamera {
     Eigen::Vector2d Project(const Eigen::Vector3d& p_camera) const {
         return {p_camera.x() / p_camera.z() * fx + cx, p_camera.y() / p_camera.z() * fy + cy};
     }
-    // [B14] eq. 1: the point in the camera frame, metres, of pixel (u, v) at depth z metres.
+    // [B14] eq. 1. Returns the point in the camera frame, in metres, of pixel (u, v) at depth z
+    // metres.
     Eigen::Vector3d Unproject(double u, double v, double z) const {
         return {(u - cx) / fx * z, (v - cy) / fy * z, z};
     }
-    // The camera whose pixels are every step-th of this one's in both directions: pixel (k, l) is
-    // (k step + step / 2, l step + step / 2), in whole numbers.
+    // Subsampled camera: keeps every step-th pixel in both directions. Its pixel (k, l) is pixel (k
+    // step + step / 2, l step + step / 2) of this camera, in integer arithmetic.
     PinholeCamera Every(int step) const {
         const int first = step / 2;
         return {width / step, height / step,       fx / step,
@@ -34,7 +35,7 @@ struct PinholeCamera {
     bool operator==(const PinholeCamera&) const = default;
 };
 
-// Values that no depth camera has are errors: "fx: 0 is not plausible".
+// Rejects values that no depth camera has: "fx: 0 is not plausible".
 Status CheckPlausible(const PinholeCamera& camera);
 
 // Brown-Conrady coefficients in OpenCV's order; all zero means an ideal lens.
@@ -44,7 +45,7 @@ struct LensDistortion {
     bool operator==(const LensDistortion&) const = default;
 };
 
-// What a camera.yaml says.
+// Contents of a camera.yaml file.
 struct CameraCalibration {
     PinholeCamera pinhole;
     LensDistortion distortion;
@@ -52,12 +53,12 @@ struct CameraCalibration {
     double fps = 30.0;            // frames per second, for sources without time stamps
 };
 
-// Reads width, height, fx, fy, cx, cy, distortion (4 or 5 numbers), depth_scale, fps. A negative fy
-// (ICL-NUIM) is taken as positive. Unknown keys, missing intrinsics and impossible values are
-// errors that name file and key.
+// Reads width, height, fx, fy, cx, cy, distortion (4 or 5 numbers), depth_scale, fps. The sign of a
+// negative fy (ICL-NUIM) is dropped. Unknown keys, missing intrinsics and implausible values are
+// errors that name the file and the key.
 Result<CameraCalibration> ReadCameraFile(const std::string& path);
 
-// The text of such a file, every value to its last bit.
+// Returns the text of a camera.yaml file. Every value round-trips exactly.
 std::string CameraFileText(const CameraCalibration& calibration);
 
 }  // namespace tessera

@@ -1,5 +1,6 @@
-// Checks for bugs in this program: they abort with file, line and values. Never for bad input (that
-// is a Status) nor for what is expected while running (that is a value).
+// Checks for bugs in this program. A failed check aborts and prints file, line and values. Do not
+// use it for bad input (return a Status) or for conditions that are expected at run time (return a
+// value).
 #pragma once
 
 #include <fmt/format.h>

@@ -15,7 +15,7 @@ std::string Join(const std::vector<std::string>& names) {
     return text;
 }
 
-// The number that makes up the whole text, or nothing.
+// Parses the whole text as one number; nullopt if anything else is in it.
 template <class Number>
 std::optional<Number> ParseNumber(const std::string& text) {
     Number number{};
@@ -125,7 +125,7 @@ void ConfigParameters::AddChoiceByName(const std::string& key,
                   [=, full = prefix_ + key](const std::string& text) {
                       if (std::find(names.begin(), names.end(), text) == names.end())
                           return Status::Error(
-                              fmt::format("{}: '{}' is none of {}", full, text, Join(names)));
+                              fmt::format("{}: '{}' is not one of {}", full, text, Join(names)));
                       set(text);
                       return Status::Ok();
                   }});
@@ -141,7 +141,8 @@ std::string ConfigParameters::NearestKey(const std::string& key) const {
     std::string nearest;
     std::size_t best = std::numeric_limits<std::size_t>::max();
     for (const Parameter& parameter : parameters_) {
-        // A wrong section or a bare last part must still find its key.
+        // Weigh the last part of the key extra, so that a key with the wrong section or none still
+        // finds its match.
         const std::string leaf = parameter.key.substr(parameter.key.rfind('.') + 1);
         const std::string key_leaf = key.substr(key.rfind('.') + 1);
         const std::size_t distance =

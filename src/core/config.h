@@ -1,7 +1,7 @@
-// Configuration: every class has a Config struct whose defaults, units, ranges and texts are
-// written once, in its Describe(ConfigParameters&). From that one description come the YAML reader,
-// --set, the file saved with each result and docs/configuration.md. An unknown key is an error that
-// names the nearest known one.
+// Configuration. Every class has a Config struct. Its defaults, units, ranges and help texts are
+// defined once, in Describe(ConfigParameters&). That description drives the YAML reader, --set, the
+// file saved with each result and docs/configuration.md. An unknown key is an error that names the
+// nearest known key.
 #pragma once
 
 #include <functional>
@@ -13,7 +13,8 @@
 
 namespace tessera {
 
-// Refers to the described structs' members: these must outlive it. Owner thread only.
+// Holds references to the members of the described structs, which must outlive it. Owner thread
+// only.
 class ConfigParameters {
   public:
     struct Parameter {
@@ -21,13 +22,13 @@ class ConfigParameters {
         std::string unit;           // "m", "rad", "" ...
         std::string allowed;        // "[0.001, 1]", "true or false", "a | b | c"
         std::string documentation;  // what it does and when to change it
-        std::string default_value;  // the value when described
+        std::string default_value;  // value at the time of Add
         std::function<std::string()> get;
         std::function<Status(const std::string&)> set;
-        bool is_text = false;  // written in quotes
+        bool is_text = false;  // written in quotes in YAML
     };
     struct Range {
-        double minimum, maximum;  // both allowed
+        double minimum, maximum;  // both inclusive
     };
 
     // Keys added inside `describe` get the prefix "name.".
@@ -63,13 +64,13 @@ class ConfigParameters {
 
     // Sets one key from text, as --set KEY=VALUE does.
     Status Set(const std::string& key, const std::string& value);
-    // Sets every key of a YAML text; `name` is the file's name for messages. Nothing is changed on
-    // error.
+    // Sets every key in a YAML text. `name` is the file name used in messages. On error, nothing
+    // changes.
     Status LoadYaml(const std::string& yaml, const std::string& name);
     Status LoadYamlFile(const std::string& path);
-    // All keys with their present values.
+    // All keys with their current values.
     std::string ToYaml() const;
-    // One table per section: key, default, unit, allowed values, text.
+    // One Markdown table per section: key, default, unit, allowed values, documentation.
     std::string ToMarkdown() const;
 
   private:

@@ -1,4 +1,4 @@
-// The configuration as text: YAML in and out, and the tables of docs/configuration.md.
+// Configuration as text: YAML input and output, and the tables of docs/configuration.md.
 #include <yaml-cpp/yaml.h>
 
 #include <filesystem>
@@ -10,8 +10,8 @@
 namespace tessera {
 namespace {
 
-// Dotted key and scalar text of every leaf. Limited in depth and, since aliases multiply, in
-// visits: the file is a user's.
+// Collects the dotted key and scalar text of every leaf. The file comes from the user, so this
+// limits the depth and the number of nodes visited (YAML aliases can multiply them).
 Status Flatten(const YAML::Node& node, const std::string& prefix, int depth, int& visits_left,
                std::vector<std::pair<std::string, std::string>>& leaves) {
     if (depth > 8) return Status::Error(prefix + ": nested too deeply");

@@ -1,6 +1,6 @@
-// How the camera moved while one frame was taken: its images are not taken at one instant. Colour
-// and depth have their own time stamps, and a rolling shutter reads the rows one after another. To
-// first order in time.
+// Camera motion during one frame, to first order in time. The images of a frame are not captured at
+// one instant: colour and depth have their own time stamps, and a rolling shutter reads the rows
+// one after another.
 #pragma once
 
 #include "core/row_time.h"
@@ -15,7 +15,7 @@ struct FrameMotion {
     double depth_readout_s = 0;  // from the first row to the last, 0 for a global shutter
     double colour_readout_s = 0;
 
-    // Seconds between the frame's instant (the middle row of the depth image) and a row.
+    // Seconds from the frame's reference time (middle row of the depth image) to the given row.
     double DepthTime(double row, int height) const { return RowTime(depth_readout_s, row, height); }
     double ColourTime(double row, int height) const {
         return colour_delay_s + RowTime(colour_readout_s, row, height);

@@ -1,6 +1,6 @@
-// Marks the functions of *_kernels.h and their like, which CPU code and CUDA share. On the CPU they
-// are always inlined, because the same header is compiled with and without AVX2: an out-of-line
-// copy compiled for AVX2 could otherwise be the one that the linker keeps for the portable path.
+// Marks functions shared by CPU and CUDA code, in *_kernels.h and similar headers. On the CPU they
+// are always inlined, because the same header is compiled with and without AVX2. Otherwise the
+// linker could keep an out-of-line AVX2 copy and use it in the portable path.
 #pragma once
 
 #ifdef __CUDACC__

@@ -1,6 +1,6 @@
-// A dense, row-major image without padding that owns its pixels. Pixel (0, 0) is the centre of the
-// top-left pixel. Plain values: copied deeply, moved cheaply; no shared storage, so no surprise
-// between threads.
+// A dense row-major image without padding. It owns its pixels. Pixel (0, 0) is the centre of the
+// top-left pixel. Copies are deep, moves are cheap. Images never share storage, so passing them
+// between threads is safe.
 #pragma once
 
 #include <cstddef>
@@ -36,8 +36,8 @@ class Image {
     const T& operator()(int x, int y) const { return pixels_[Offset(x, y)]; }
     bool Contains(int x, int y) const { return x >= 0 && y >= 0 && x < width_ && y < height_; }
 
-    // Changes the size; the pixels' values are unspecified afterwards. Keeps the storage where it
-    // suffices.
+    // Changes the size. The pixel values are unspecified afterwards. Keeps the storage if it is
+    // large enough.
     void Resize(int width, int height) {
         width_ = width;
         height_ = height;

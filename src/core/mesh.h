@@ -1,4 +1,4 @@
-// An indexed triangle mesh, as the mesher makes it and the writers, the renderer and the evaluation
+// An indexed triangle mesh. The mesher produces it; the writers, the renderer and the evaluation
 // read it.
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace tessera {
 
-// Of which kind of object a vertex is a part, and of which single one; 0 = none that is known.
+// Object class and object instance that a vertex belongs to; 0 = unknown.
 struct VertexLabel {
     std::uint8_t class_id = 0;
     std::uint16_t instance = 0;

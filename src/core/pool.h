@@ -1,5 +1,5 @@
-// Things whose storage is worth keeping (images, lists of voxels) go round instead of being made
-// anew for each frame.
+// Recycles objects with expensive storage (images, voxel lists) instead of allocating them for
+// every frame.
 #pragma once
 
 #include <concurrentqueue/concurrentqueue.h>
@@ -8,7 +8,8 @@
 
 namespace tessera {
 
-// Any threads take and give; lock-free. What is taken is as it was given, or new.
+// Any thread may take and give; lock-free. Take returns a recycled object in the state in which it
+// was given, or a new one.
 template <class T>
 class Pool {
   public:

@@ -1,5 +1,5 @@
-// The bounded lock-free queues between threads, by what they do when they are full. Neither waits:
-// a consumer with nothing to do sleeps on its Wake (wake.h), which every push notifies.
+// Bounded lock-free queues between threads. They differ in what they do when full. Neither blocks:
+// an idle consumer sleeps on its Wake (wake.h), and every push notifies it.
 #pragma once
 
 #include <concurrentqueue/concurrentqueue.h>
@@ -14,16 +14,16 @@
 
 namespace tessera {
 
-// One thread pushes, one pops. Full: the push is refused, nothing is ever lost.
+// Single producer, single consumer. When full, it refuses the push; it never drops an item.
 template <class T>
 class FifoQueue {
   public:
-    // At least one item; `consumer` outlives the queue and may be shared with others of the same
-    // thread.
+    // `capacity` is at least 1. `consumer` must outlive the queue. Several queues of the same
+    // consumer thread may share it.
     FifoQueue(std::size_t capacity, Wake& consumer)
         : queue_(capacity), capacity_(capacity), consumer_(consumer) {}
 
-    // False if full: `item` is then as it was.
+    // Returns false if full and leaves `item` unchanged.
     bool TryPush(T&& item) {
         if (size_.load() >= capacity_) return false;
         size_.fetch_add(1);
@@ -38,7 +38,7 @@ class FifoQueue {
         return true;
     }
 
-    // Exact for the pushing and the popping thread's own decisions, a moment old for all others.
+    // Reliable in the pushing and the popping thread; other threads may see a stale value.
     std::size_t size() const { return size_.load(); }
     bool empty() const { return size() == 0; }
     std::size_t capacity() const { return capacity_; }
@@ -50,15 +50,15 @@ class FifoQueue {
     std::atomic<std::size_t> size_{0};
 };
 
-// Any threads push and pop; items of one producer keep their order. Full: the oldest makes room, so
-// that a slow consumer sees the newest.
+// Any thread may push and pop. Items from one producer keep their order. When full, a push drops
+// the oldest item, so that a slow consumer sees the newest ones.
 template <class T>
 class NewestQueue {
   public:
     NewestQueue(std::size_t capacity, Wake& consumer)
         : queue_(capacity), capacity_(capacity), consumer_(consumer) {}
 
-    // The item that was dropped for it, if any.
+    // Returns the item dropped to make room, if any.
     std::optional<T> Push(T&& item) {
         std::optional<T> dropped;
         if (size_.fetch_add(1) >= capacity_) {
@@ -84,7 +84,8 @@ class NewestQueue {
     moodycamel::ConcurrentQueue<T> queue_;
     const std::size_t capacity_;
     Wake& consumer_;
-    // Counted before an item is in and after it is out: never less than there are.
+    // Incremented before an item is enqueued and decremented after it is dequeued, so it is never
+    // less than the number of items in the queue.
     std::atomic<std::size_t> size_{0};
 };
 

@@ -1,8 +1,8 @@
-// Lanes: what the kernels (*_kernels.h) are templates on, so that one text serves the CPU's vectors
-// (vector_lanes.h), plain numbers and CUDA. A kernel of lanes V works on V::kCount voxels, points
-// or pixels at once and takes its types and operations from V; masks it combines with && and ||,
-// which vectors do not cut short. These are the lanes of plain numbers, one at a time: a thread of
-// a GPU, and the tests' oracle.
+// Lanes: the template parameter of the kernels (*_kernels.h). One kernel source serves the SIMD
+// paths (vector_lanes.h), scalar code and CUDA. A kernel with lanes V processes V::kCount voxels,
+// points or pixels at once and takes its types and operations from V. It combines masks with && and
+// ||, which do not short-circuit for SIMD vectors. This file defines scalar lanes, one element at a
+// time. GPU threads use them, and tests use them as the reference.
 #pragma once
 
 #include <cmath>
@@ -20,8 +20,8 @@ struct ScalarLanes {
     using Mask = bool;
     static constexpr int kCount = 1;
 
-    // kCount neighbours in memory, aligned or not. 16 bits are widened, and cut off again, without
-    // a sign.
+    // kCount consecutive elements in memory, aligned or not. 16-bit values are zero-extended on
+    // load and truncated on store.
     TESSERA_HD_MEMBER static Real Load(const float* p) { return *p; }
     TESSERA_HD_MEMBER static Bits Load(const std::uint32_t* p) { return *p; }
     TESSERA_HD_MEMBER static Int Load(const std::uint16_t* p) { return *p; }
@@ -38,21 +38,22 @@ struct ScalarLanes {
     }
 
     TESSERA_HD_MEMBER static Real ToReal(Int v) { return static_cast<float>(v); }
-    // Towards zero. What does not fit, NaN included, becomes the least integer, as on x86.
+    // Truncates towards zero. Values that do not fit, including NaN, become the lowest integer, as
+    // on x86.
     TESSERA_HD_MEMBER static Int ToInt(Real v) {
         return Abs(v) < 2147483648.0f ? static_cast<Int>(v) : std::numeric_limits<Int>::min();
     }
     TESSERA_HD_MEMBER static Int AsInt(Bits v) { return static_cast<Int>(v); }
     TESSERA_HD_MEMBER static Bits AsBits(Int v) { return static_cast<Bits>(v); }
 
-    // What comparing integers gives, as a mask.
+    // Converts the result of an integer comparison to a mask.
     TESSERA_HD_MEMBER static Mask ToMask(bool m) { return m; }
     TESSERA_HD_MEMBER static Mask Not(Mask m) { return !m; }
     TESSERA_HD_MEMBER static bool Any(Mask m) { return m; }
     TESSERA_HD_MEMBER static Real Select(Mask m, Real a, Real b) { return m ? a : b; }
     TESSERA_HD_MEMBER static Int Select(Mask m, Int a, Int b) { return m ? a : b; }
 
-    // The second where either is NaN.
+    // Both return b if either argument is NaN.
     TESSERA_HD_MEMBER static Real Min(Real a, Real b) { return a < b ? a : b; }
     TESSERA_HD_MEMBER static Real Max(Real a, Real b) { return a > b ? a : b; }
     TESSERA_HD_MEMBER static Int Min(Int a, Int b) { return a < b ? a : b; }
@@ -61,10 +62,10 @@ struct ScalarLanes {
     TESSERA_HD_MEMBER static Real Floor(Real v) { return std::floor(v); }
     TESSERA_HD_MEMBER static Real Sqrt(Real v) { return std::sqrt(v); }
 
-    // Of all lanes, as a tree: the upper half is added to the lower half, until one is left.
+    // Sum of all lanes, as a tree: adds the upper half to the lower half until one lane is left.
     TESSERA_HD_MEMBER static float Sum(Real v) { return v; }
 
-    // Each lane's number: 0, 1, 2, ...
+    // Lane indices: 0, 1, 2, ...
     TESSERA_HD_MEMBER static Real Numbers() { return 0.0f; }
 };
 

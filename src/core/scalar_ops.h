@@ -1,5 +1,5 @@
-// The few operations that the shared kernel templates call by unqualified name, for plain floats.
-// For vectors the same names come from their own library by argument-dependent look-up, hence the
+// The few operations that shared kernel templates call by unqualified name, for plain floats. For
+// SIMD vectors, argument-dependent lookup finds the same names in the vector library, hence the
 // lower case.
 #pragma once
 

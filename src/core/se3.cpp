@@ -18,7 +18,7 @@ Eigen::Matrix3d Skew(const Eigen::Vector3d& a) {
 
 namespace {
 
-// V with t = V * translation part of the twist; coefficients by series near zero.
+// The matrix V with t = V * (translation part of the twist). Coefficients near zero use a series.
 Eigen::Matrix3d LeftJacobian(const Eigen::Vector3d& omega) {
     const double angle2 = omega.squaredNorm();
     const double angle = std::sqrt(angle2);

@@ -1,6 +1,6 @@
-// Rigid motions. The one place that states the conventions: a twist is (rotation, translation), as
-// [B14] eq. 9, radians and metres, and increments multiply from the left:  T_new =
-// Se3Exp(increment) * T_old.
+// Rigid motions. This file defines the conventions: a twist is (rotation, translation) as in [B14]
+// eq. 9, in radians and metres. Increments multiply from the left:
+//     T_new = Se3Exp(increment) * T_old
 #pragma once
 
 #include <Eigen/Core>
@@ -17,8 +17,8 @@ Eigen::Isometry3d Se3Exp(const Vector6d& twist);
 // log: SE(3) -> se(3), rotation angle in [0, pi].
 Vector6d Se3Log(const Eigen::Isometry3d& T);
 
-// With its nearly orthonormal rotation made exactly so: products of many poses lose it, and an
-// isometry's inverse doubles the error.
+// Returns T with its rotation made exactly orthonormal. Products of many poses drift from
+// orthonormal, and inverting an isometry doubles the error.
 Eigen::Isometry3d Normalised(const Eigen::Isometry3d& T);
 
 // Skew(a) * b == a x b.

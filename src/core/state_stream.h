@@ -1,8 +1,8 @@
-// What an object knows, as bytes, so that it can go on in another process. Each class with such a
-// state has
+// Serialises the state of an object, so that it can resume in another process. Each class with such
+// a state has
 //     void SaveState(StateWriter&) const;   bool LoadState(StateReader&);
-// Little endian, like all machines that this program runs on. Formats that outlive a program
-// version keep their own number.
+// Little endian, as on every machine this program runs on. Formats that must outlive a program
+// version carry their own version number.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -23,7 +23,7 @@ template <class T>
 concept PlainState = std::is_trivially_copyable_v<T> &&
     (std::is_arithmetic_v<T> || std::is_enum_v<T>);
 
-// Appends to a vector, which outlives it.
+// Appends to a vector, which must outlive the writer.
 class StateWriter {
   public:
     explicit StateWriter(std::vector<std::uint8_t>& bytes) : bytes_(bytes) {}
@@ -38,7 +38,7 @@ class StateWriter {
         static_assert(R > 0 && C > 0);
         Append(m.data(), sizeof(S) * R * C);
     }
-    // Elements without padding and pointers.
+    // T must contain neither padding nor pointers.
     template <class T>
     void PutArray(std::span<const T> values) {
         static_assert(std::is_trivially_copyable_v<T>);
@@ -58,8 +58,9 @@ class StateWriter {
     std::vector<std::uint8_t>& bytes_;
 };
 
-// Reads what a StateWriter wrote. Every Get is false from the first on that finds too few bytes, or
-// a pose that is none; nothing is allocated beyond the bytes that are there.
+// Reads what a StateWriter wrote. If too few bytes are left or a value is invalid (a non-rigid
+// pose, a non-finite matrix, a bool other than 0 or 1), Get returns false, and so does every later
+// Get. A size in the data never makes it allocate more than the bytes that are left.
 class StateReader {
   public:
     explicit StateReader(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}

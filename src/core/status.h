@@ -1,6 +1,6 @@
-// The outcome of work that a user's input can make fail: a file, a flag, a key. The message names
-// the file or key, what is wrong and what to do; programs print it and exit with 2. Values, copied
-// freely.
+// The outcome of an operation that user input can make fail: a file, a flag, a key. The message
+// names the file or key, says what is wrong and what to do. Programs print it and exit with 2. A
+// plain value, freely copyable.
 #pragma once
 
 #include <optional>
@@ -23,7 +23,7 @@ class [[nodiscard]] Status {
     }
 
     bool ok() const { return !failed_; }
-    // The error's text; empty on success.
+    // The error text; empty on success.
     const std::string& message() const { return message_; }
 
   private:
@@ -31,7 +31,7 @@ class [[nodiscard]] Status {
     std::string message_;
 };
 
-// A value of type T, or the reason why there is none.
+// A value of type T, or the error that prevented it.
 template <class T>
 class [[nodiscard]] Result {
   public:

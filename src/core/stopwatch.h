@@ -15,7 +15,7 @@ class Stopwatch {
         return ms;
     }
 
-    // The same, and the lap goes on.
+    // Like LapMs, but does not start a new lap.
     double ElapsedMs() const {
         return std::chrono::duration<double, std::milli>(Clock::now() - start_).count();
     }

@@ -1,8 +1,8 @@
-// Sums over items in one order, whatever adds them up: vectors of any width, plain numbers, a GPU.
-// So all of them give the same bytes. A tile has kTileItems items; lane i of its kTileLanes adds
-// items i, i + kTileLanes, ... in single precision; the lanes are added as a tree: the upper half
-// to the lower half, until one is left. From there on in double: the tiles of a run of kRunItems in
-// their order, then the runs in theirs.
+// Sums in a fixed order, so that SIMD of any width, scalar code and a GPU give the same bytes. A
+// tile has kTileItems items. Lane i of its kTileLanes lanes adds items i, i + kTileLanes, ... in
+// single precision. The lanes are then reduced as a tree: the upper half is added to the lower half
+// until one is left. From there on sums are in double precision: the tiles of each run of kRunItems
+// items in order, then the runs in order.
 #pragma once
 
 #include "core/host_device.h"
@@ -12,9 +12,9 @@ namespace tessera {
 inline constexpr int kTileLanes = 32, kTileSteps = 8, kTileItems = kTileLanes * kTileSteps;
 inline constexpr int kRunTiles = 8, kRunItems = kRunTiles * kTileItems;
 
-// Adds the tiles of items [first, last) to sums[0] to sums[kSums - 1]. add(i, lanes) adds what
-// items [i, i + V::kCount) have to `lanes`, a V::Real for each sum; `first` is a tile's, `last` -
-// first a multiple of V::kCount.
+// Adds the tiles of items [first, last) to sums[0] to sums[kSums - 1]. add(i, lanes) adds the
+// contributions of items [i, i + V::kCount) to `lanes`, one V::Real per sum. `first` is the start
+// of a tile. `last` - `first` is a multiple of V::kCount.
 template <class V, int kSums, class Add>
 TESSERA_HD void AddTiles(int first, int last, const Add& add, double* sums) {
     constexpr int kVectors = kTileLanes / V::kCount;

@@ -1,7 +1,7 @@
-// Lanes for the hot loops of the CPU: vectors of floats and integers, as wide as the file that
-// includes this is compiled for. Included only by vector sources (tessera_vector_source in
-// cmake/TesseraTargets.cmake), which include no Eigen. scalar_lanes.h says what each operation
-// does.
+// SIMD lanes for the hot loops on the CPU: vectors of floats and integers, as wide as the compile
+// flags of the including file allow. Only SIMD sources (tessera_vector_source in
+// cmake/TesseraTargets.cmake) include this, and they include no Eigen. scalar_lanes.h documents
+// each operation.
 #pragma once
 
 #include <cstdint>
@@ -32,7 +32,7 @@ struct VectorLanes {
         v.store_aligned(values);
         for (int i = 0; i < kCount; ++i) p[i] = static_cast<std::uint16_t>(values[i]);
     }
-    // (xsimd 8.1 takes its portable path even where AVX2 has an instruction.)
+    // xsimd 8.1 uses its portable gather even where AVX2 has an instruction for it.
     TESSERA_HD_MEMBER static Real Gather(const float* base, const Int& index) {
 #ifdef __AVX2__
         return _mm256_i32gather_ps(base, index, 4);

@@ -1,5 +1,5 @@
-// How a thread that has nothing to do sleeps: it waits for a condition over queues and flags that
-// other threads fill, and whoever fills one wakes it.
+// Lets an idle thread sleep until a condition on queues and flags holds. Whoever changes them wakes
+// the thread.
 #pragma once
 
 #include <atomic>
@@ -7,20 +7,21 @@
 
 namespace tessera {
 
-// Thread-safe. No lock; a waiting thread uses no processor.
+// Thread-safe, no lock. A waiting thread uses no CPU time.
 class Wake {
   public:
-    // To be called after the change that a condition looks at.
+    // Call this after the change that the condition depends on.
     void Notify() {
         events_.fetch_add(1);
         events_.notify_all();
     }
 
-    // Returns when the condition holds; it is looked at again after each Notify.
+    // Returns when the condition holds. Re-evaluates it after each Notify.
     template <class Condition>
     void Wait(Condition condition) {
         while (true) {
-            // Counted before the look, so that a change after the look ends the wait.
+            // Read the counter before the condition, so that a change after the check ends the
+            // wait.
             const std::uint32_t seen = events_.load();
             if (condition()) return;
             events_.wait(seen);

@@ -11,9 +11,9 @@ namespace {
 
 constexpr std::size_t kMinPairs = 3;
 
-// Both trajectories' poses in one line, ordered by time. The closest reference and estimate are
-// always next to each other in it, also after others were taken out: anything between them would
-// be closer to one of the two.
+// The poses of both trajectories in one list, ordered by time. The closest reference and estimate
+// are always adjacent in it, even after others are removed: anything between them would be closer
+// to one of the two.
 class TimeLine {
   public:
     TimeLine(const std::vector<StampedPose>& reference, const std::vector<StampedPose>& estimate) {
@@ -65,10 +65,10 @@ class TimeLine {
         std::size_t before = 0, after = 0;
         bool taken = false;
     };
-    // Difference, reference's index, left and right entry: the smallest comes first.
+    // Difference, reference index, left and right entry. The smallest comes first.
     using Candidate = std::tuple<double, std::size_t, std::size_t, std::size_t>;
 
-    // Entry i and the one after it, if they are of different kind and close.
+    // Adds entry i and the one after it as a candidate if they are of different kinds and close.
     void Offer(std::size_t i, double max_difference_s) {
         const Entry& a = entries_[i];
         const Entry& b = entries_[a.after];
@@ -95,12 +95,13 @@ Status TooFewPairs(const std::vector<StampedPose>& reference,
             pairs, estimate.size(), max_difference_s, kMinPairs));
     return Status::Error(fmt::format(
         "no pose of the estimate ({:.3f} to {:.3f} s) lies within {} s of one of the reference "
-        "({:.3f} to {:.3f} s); are they of the same sequence?",
+        "({:.3f} to {:.3f} s); are they from the same sequence?",
         estimate.front().stamp_s, estimate.back().stamp_s, max_difference_s,
         reference.front().stamp_s, reference.back().stamp_s));
 }
 
-// Positions spread over less than 1 mm, or 100 times less across than along, hold no rotation.
+// The rotation is undetermined if the positions spread over less than 1 mm, or 100 times less
+// across than along their main direction.
 std::string WarnIfDegenerate(const Eigen::Matrix3Xd& positions) {
     const Eigen::Matrix3Xd centred = positions.colwise() - positions.rowwise().mean();
     const Eigen::Matrix3d covariance =

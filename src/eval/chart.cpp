@@ -25,7 +25,7 @@ void DrawLine(cv::Mat& canvas, const Eigen::Vector2d& a, const Eigen::Vector2d& 
     cv::line(canvas, fixed(a), fixed(b), ToScalar(colour), thickness, cv::LINE_AA, kSubpixelBits);
 }
 
-// Ticks at 1, 2 or 5 times a power of ten, at most about `count` of them.
+// Tick step of 1, 2 or 5 times a power of ten that gives at most about `count` ticks.
 double TickStep(double size, double count) {
     const double power = std::pow(10, std::floor(std::log10(size / count)));
     for (const double factor : {1.0, 2.0, 5.0})
@@ -52,7 +52,7 @@ void ForTicks(const Chart::Range& range, double step, const Use& use) {
 void DrawText(cv::Mat& canvas, const std::string& text, const Eigen::Vector2d& at, double height_px,
               int align, const Rgb8& colour) {
     constexpr int kFont = cv::FONT_HERSHEY_SIMPLEX;
-    const double scale = height_px * kChartOversampling / 21.0;  // capitals are 21 high at 1
+    const double scale = height_px * kChartOversampling / 21.0;  // capitals are 21 high at scale 1
     const int thickness = std::max(1, static_cast<int>(std::lround(scale * 1.6)));
     const int width = cv::getTextSize(text, kFont, scale, thickness, nullptr).width;
     const cv::Point begin(static_cast<int>(at.x() * kChartOversampling) - width * (align + 1) / 2,

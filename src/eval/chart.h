@@ -14,16 +14,17 @@ class Mat;
 
 namespace tessera {
 
-// Drawn this many times larger and scaled down at the end: smooth lines and letters.
+// Charts are drawn this many times larger and then scaled down, for smooth lines and text.
 inline constexpr int kChartOversampling = 2;
-// Of texts and frames.
+// Colour of text and axes.
 inline constexpr Rgb8 kInk{50, 54, 60};
 
-// Text with its left (centre, right: align -1, 0, 1) end of the base line at `at`, final pixels.
+// Draws text with the left end, centre or right end (align -1, 0, 1) of its baseline at `at`, in
+// final pixels.
 void DrawText(cv::Mat& canvas, const std::string& text, const Eigen::Vector2d& at, double height_px,
               int align, const Rgb8& colour);
 
-// A rectangle of the picture, final pixels.
+// A rectangle of the image, in final pixels.
 struct ChartArea {
     double x, y, width, height;
 };
@@ -35,8 +36,8 @@ class Chart {
         double size() const { return high - low; }
     };
 
-    // `area` is everything, labels included, in final pixels. With equal_scale one of the ranges
-    // is widened so that a metre is as long along x as along y.
+    // `area` includes the labels, in final pixels. With equal_scale, one range is widened so that
+    // both axes have the same scale.
     Chart(cv::Mat& canvas, const ChartArea& area, Range x, Range y, bool equal_scale);
 
     void DrawFrame(const std::string& title, const std::string& x_label,

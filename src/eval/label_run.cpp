@@ -16,7 +16,7 @@ Status ReadObjects(const std::string& path, RunLabels& run) {
     const Result<std::string> text = ReadWholeFile(path, std::size_t{1} << 28);
     if (!text.ok()) return text.status();
     const auto json = nlohmann::json::parse(text.value(), nullptr, false);
-    if (!json.is_array()) return Status::Error(path + ": is no list of objects");
+    if (!json.is_array()) return Status::Error(path + ": is not a list of objects");
     for (const auto& object : json) {
         if (!object.is_object() || !object.contains("class_id") ||
             !object["class_id"].is_number_integer() || !object.contains("class") ||
@@ -47,7 +47,7 @@ Status ReadDetections(const std::string& path, RunLabels& run) {
         run.frames[stamp_s].push_back(d);
         run.wanted.insert(d.name);
     }
-    return run.frames.empty() ? Status::Error(path + ": tells of no frame") : Status::Ok();
+    return run.frames.empty() ? Status::Error(path + ": contains no frames") : Status::Ok();
 }
 
 }  // namespace
@@ -60,7 +60,7 @@ Result<RunLabels> ReadLabelRun(const std::string& folder, const LabelTruth& trut
     Result<TriangleMesh> mesh = ReadPly(folder + "/mesh.ply");
     if (!mesh.ok()) return mesh.status();
     if (mesh.value().labels.empty())
-        return Status::Error(folder + "/mesh.ply: has no labels; make the run with --labels");
+        return Status::Error(folder + "/mesh.ply: has no labels; repeat the run with --labels");
     const Result<Trajectory> path = ReadTrajectory(folder + "/trajectory.txt");
     if (!path.ok()) return path.status();
     const Result<Alignment> alignment = AlignTrajectories(truth.poses, path.value().poses);

@@ -1,4 +1,4 @@
-// What a run with labels wrote, as far as its scores need it.
+// The output of a run with labels, as needed for scoring.
 #pragma once
 
 #include <map>
@@ -18,17 +18,17 @@ struct RunDetection {
     double x_min = 0, y_min = 0, x_max = 0, y_max = 0;
 };
 
-// What the run wrote; truth's class numbers stand for names from here on.
+// Output of a run. Classes are compared by name; run and ground truth may use different class ids.
 struct RunLabels {
-    TriangleMesh mesh;  // in the truth's world
+    TriangleMesh mesh;  // in the ground truth's world
     std::map<int, std::string> class_names;
-    std::map<double, std::vector<RunDetection>> frames;  // that were looked at
-    // Classes that were looked for, as far as one can tell.
+    std::map<double, std::vector<RunDetection>> frames;  // processed ones, by time stamp
+    // Classes that the run looked for, as far as its output shows.
     std::set<std::string> wanted;
 };
 
-// Of a run's folder: mesh.ply, laid over the truth by both trajectories, objects.json,
-// detections.txt. Errors name the file.
+// Reads from a run's folder: mesh.ply (aligned to the ground truth by the two trajectories),
+// objects.json, detections.txt. Errors name the file.
 Result<RunLabels> ReadLabelRun(const std::string& folder, const LabelTruth& truth);
 
 }  // namespace tessera

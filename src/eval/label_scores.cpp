@@ -9,7 +9,7 @@
 namespace tessera {
 namespace {
 
-constexpr std::size_t kLookedUpFrames = 100;  // of the truth, for the vertices
+constexpr std::size_t kLookedUpFrames = 100;  // of the ground truth, to label the vertices
 constexpr double kSameBox = 0.5;
 constexpr double kStray = 0.005;
 
@@ -81,7 +81,7 @@ std::string NameOf(const std::map<int, std::string>& names, int id) {
     return found == names.end() ? std::string() : found->second;
 }
 
-// Truth's name of a vertex, "" for background and classes that were not looked for.
+// True class name of a vertex; "" for background and classes that the run did not look for.
 std::string TrueName(const LabelTruth& truth, const LabelScores& scores, int class_id) {
     const std::string name = NameOf(truth.class_names, class_id);
     return scores.classes.contains(name) ? name : std::string();
@@ -159,7 +159,7 @@ InstancePoints Gather(const LabelTruth& truth, const RunLabels& run,
         if (said != 0) points.class_of_found[said] = run.mesh.labels[i].class_id;
         if (is != 0 && said != 0) ++points.common[{is, said}];
     }
-    const std::size_t least = 30;  // vertices of a true object
+    const std::size_t least = 30;  // vertices per true object
     std::erase_if(points.truth, [&](const auto& entry) { return entry.second.size() < least; });
     return points;
 }

@@ -1,4 +1,4 @@
-// Label scores for a person and for programs.
+// Label scores as text and as JSON.
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
@@ -19,12 +19,11 @@ std::string LabelScoresText(const LabelScores& s) {
         text += fmt::format("{:<16}{:>9}{:>8.1f}{:>8.1f}{:>7.2f}{:>10}{:>7.3f}\n", name, c.visible,
                             100 * c.Pt(), 100 * c.Pc(), c.Probability(), c.vertices, c.Iou());
     text += fmt::format(
-        "vertices: {:.2f} % right of {}, {:.2f} % of those on objects; mean IoU {:.3f}\n",
+        "vertices: {:.2f} % of {} correct, {:.2f} % of those on objects; mean IoU {:.3f}\n",
         100 * s.accuracy, s.vertices, 100 * s.object_accuracy, s.mean_iou);
     text += fmt::format(
         "instances: {} true, {} found; precision {:.2f}, recall {:.2f} at 3D IoU 0.25; {:.2f}, "
-        "{:.2f} at 0.5; centroid "
-        "error mean {:.3f} m, max {:.3f}\n",
+        "{:.2f} at 0.5; centroid error mean {:.3f} m, max {:.3f} m\n",
         s.instances.size(), s.found_objects, s.precision_25, s.recall_25, s.precision_50,
         s.recall_50, s.centroid_error_mean_m, s.centroid_error_max_m);
     return text;

@@ -18,9 +18,9 @@ namespace {
 constexpr std::size_t kMaxListBytes = 1 << 26;
 constexpr float kSameSurface_m = 0.02f;
 
-// Space-saving count of few candidates: a vertex sees one or two surfaces.
+// Counts the first three labels seen at a vertex. A vertex usually gets only one or two.
 struct Tally {
-    std::array<std::uint32_t, 3> key{};  // class << 16 | instance, + 1; 0 = empty
+    std::array<std::uint32_t, 3> key{};  // (class << 16 | instance) + 1; 0 = empty
     std::array<std::uint16_t, 3> count{};
 
     void Add(std::uint32_t value) {
@@ -47,7 +47,7 @@ Status ReadClassNames(const std::string& path, std::map<int, std::string>& names
         if (line.starts_with('#') || !(words >> id >> name)) continue;
         names[id] = name;
     }
-    return names.empty() ? Status::Error(path + ": names no class") : Status::Ok();
+    return names.empty() ? Status::Error(path + ": contains no classes") : Status::Ok();
 }
 
 void Look(const LabelTruth& truth, const TruthImages& images,
@@ -81,7 +81,7 @@ Result<LabelTruth> ReadLabelTruth(const std::string& folder) {
     for (const char* name : {"labels", "instances"})
         if (!std::filesystem::is_directory(folder + "/" + name))
             return Status::Error(folder + ": has no folder " + name +
-                                 "/ of true labels; `tessera synth NAME --out DIR` makes such "
+                                 "/ with true labels; `tessera synth NAME --out DIR` creates such "
                                  "sequences");
     const Result<CameraCalibration> camera = ReadCameraFile(folder + "/camera.yaml");
     if (!camera.ok()) return camera.status();
@@ -120,7 +120,7 @@ Status ReadTruthImages(const LabelTruth& truth, std::size_t frame, TruthImages& 
         if (image->value().width() != truth.camera.width ||
             image->value().height() != truth.camera.height)
             return Status::Error(truth.folder + ": the images of " + truth.depth_files[frame] +
-                                 " have not camera.yaml's size");
+                                 " do not have the size given in camera.yaml");
     }
     images.depth_m.Resize(truth.camera.width, truth.camera.height);
     for (std::size_t i = 0; i < images.depth_m.size(); ++i)

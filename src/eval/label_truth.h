@@ -1,5 +1,5 @@
-// The truth of a sequence's labels: class and instance images, with poses. Used by
-// label_scores.cpp.
+// Ground-truth labels of a sequence: class and instance images, with poses. Used by label_run.cpp
+// and label_scores.cpp.
 #pragma once
 
 #include <map>
@@ -17,10 +17,10 @@ struct LabelTruth {
     PinholeCamera camera;
     double depth_scale = 5000;
     std::vector<StampedPose> poses;  // T_world_camera
-    // One a pose; names only, the same in labels/ and instances/.
+    // One per pose; file names only, the same in depth/, labels/ and instances/.
     std::vector<std::string> depth_files;
     std::map<int, std::string> class_names;
-    std::map<int, int> class_of_instance;  // filled as images are read
+    std::map<int, int> class_of_instance;  // filled in as images are read
 };
 
 // Errors name the file that is missing or wrong.
@@ -32,8 +32,8 @@ struct TruthImages {
 };
 Status ReadTruthImages(const LabelTruth& truth, std::size_t frame, TruthImages& images);
 
-// Each vertex's most frequent truth over every `stride`-th frame; VertexLabel{} with `seen` 0 where
-// none saw it. `mesh` is in the truth's world.
+// Finds each vertex's most frequent label in every `stride`-th frame. If no frame saw a vertex, its
+// label is VertexLabel{} and `seen` is 0. `mesh` is in the ground truth's world.
 Status LookUpVertices(LabelTruth& truth, const TriangleMesh& mesh, std::size_t stride,
                       std::vector<VertexLabel>& labels, std::vector<std::uint8_t>& seen);
 

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t kGrain = 1024;
 
-// The nearest distance for each of the points; infinite where it exceeds max_distance_m.
+// The distance from each point to the scene; infinite if it exceeds max_distance_m.
 template <class Point>
 std::vector<double> Distances(const std::vector<Point>& points, const TriangleScene& scene,
                               double max_distance_m) {
@@ -46,7 +46,7 @@ double Completeness(const TriangleMesh& mesh, const TriangleMesh& reference,
     if (samples.empty()) return 0;
     TriangleScene scene(mesh);
     if (mesh.triangles.empty()) {
-        TriangleMesh points;  // each vertex a triangle without extent
+        TriangleMesh points;  // each vertex as a degenerate triangle
         points.vertices = mesh.vertices;
         for (std::uint32_t i = 0; i < mesh.vertices.size(); ++i)
             points.triangles.push_back({i, i, i});
@@ -84,8 +84,8 @@ std::vector<Eigen::Vector3d> SampleSurface(const TriangleMesh& mesh, int count) 
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) total += TwiceArea(mesh, i);
     std::vector<Eigen::Vector3d> points;
     if (!(total > 0)) return points;
-    // Walks along the summed area in equal steps; inside a triangle the plastic number's sequence
-    // (Roberts 2018) spreads the points.
+    // Samples the cumulative area in equal steps. Within a triangle, the sequence of the plastic
+    // number (Roberts 2018) distributes the points.
     const double step = total / count;
     double before = 0;
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {

@@ -25,7 +25,7 @@ ColourImage ScaledDown(const cv::Mat& canvas, int width, int height) {
     return image;
 }
 
-// The interval of both paths along an axis, a little wider, never empty.
+// The range of both paths along an axis, with a margin, never empty.
 Chart::Range RangeOf(const AteResult& result, int axis) {
     Chart::Range range{result.pairs[0].p_reference(axis), result.pairs[0].p_reference(axis)};
     for (const AteResult::Pair& pair : result.pairs) {

@@ -1,4 +1,5 @@
-// Pictures of evaluations: two trajectories with their error, and the colour scale of a mesh's.
+// Images of evaluation results: two trajectories with their error, and the colour scale of mesh
+// errors.
 #pragma once
 
 #include <string>
@@ -8,11 +9,12 @@
 
 namespace tessera {
 
-// Both paths from above (where the reference's z is up) and from two sides, and the error over
-// time. 1280 x 960. There must be pairs. `title` is ASCII. Thread-safe.
+// Plots both paths from above (the reference's z is up) and from two sides, and the error over
+// time. 1280 x 960 pixels. There must be at least one pair. `title` must be ASCII. Thread-safe.
 ColourImage PlotAte(const AteResult& result, const std::string& title);
 
-// Draws the scale of ErrorColours(.., max_m) into the picture's lower left corner, in millimetres.
+// Draws the scale of ErrorColours(.., max_m), in millimetres, into the lower left corner of the
+// image.
 void DrawErrorScale(double max_m, ColourImage& image);
 
 }  // namespace tessera

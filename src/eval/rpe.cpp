@@ -8,7 +8,7 @@
 namespace tessera {
 namespace {
 
-// The pose nearest in time; poses are not empty, of two equally near the later.
+// Index of the pose nearest in time; of two equally near, the later. `poses` must not be empty.
 std::size_t NearestInTime(const std::vector<StampedPose>& poses, double stamp_s) {
     const auto after = std::lower_bound(
         poses.begin(), poses.end(), stamp_s,
@@ -35,9 +35,11 @@ Eigen::Isometry3d Motion(const StampedPose& from, const StampedPose& to) {
 Result<RpeResult> EvaluateRpe(const std::vector<StampedPose>& reference,
                               const std::vector<StampedPose>& estimate, const RpeOptions& options) {
     if (!(options.delta_s > 0) || !std::isfinite(options.delta_s))
-        return Status::Error(fmt::format("delta of {} s: give more than 0", options.delta_s));
-    if (reference.size() < 2) return Status::Error("the reference trajectory has no two poses");
-    if (estimate.size() < 2) return Status::Error("the estimated trajectory has no two poses");
+        return Status::Error(fmt::format("delta of {} s must be greater than 0", options.delta_s));
+    if (reference.size() < 2)
+        return Status::Error("the reference trajectory has fewer than two poses");
+    if (estimate.size() < 2)
+        return Status::Error("the estimated trajectory has fewer than two poses");
 
     const double max_difference_s = 2 * MedianInterval(reference);
     RpeResult result;

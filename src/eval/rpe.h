@@ -1,5 +1,6 @@
-// Relative pose error: how much the motion over a fixed time differs from the reference's, as TUM's
-// evaluate_rpe.py --fixed_delta (Sturm et al., IROS 2012). Measures drift; needs no alignment.
+// Relative pose error: how much the motion over a fixed time differs from the reference's, as in
+// TUM's evaluate_rpe.py --fixed_delta (Sturm et al., IROS 2012). Measures drift; needs no
+// alignment.
 #pragma once
 
 #include <string>
@@ -12,7 +13,7 @@
 namespace tessera {
 
 struct RpeOptions {
-    double delta_s = 1.0;  // the time over which motions are compared
+    double delta_s = 1.0;  // time over which motions are compared
 };
 
 struct RpeResult {
@@ -27,11 +28,12 @@ struct RpeResult {
     std::vector<Pair> pairs;
 };
 
-// For every pose of the estimate the one nearest to delta_s later; for both the reference's
-// nearest, at most two of its median intervals away. All pairs count (the script draws 10,000 at
-// random), save those whose end is the last pose, as in the script, and those whose duration misses
-// delta_s by more than a tenth (a gap in the estimate), which the script keeps. Fewer than one pair
-// is an error. Thread-safe.
+// Pairs every pose of the estimate with the estimated pose nearest to delta_s later, and each of
+// the two with the nearest reference pose, at most two median reference intervals away. Uses all
+// pairs (the script draws 10,000 at random), with two exceptions. Pairs that end at the last pose
+// are dropped, as in the script. Pairs whose duration differs from delta_s by more than a tenth (a
+// gap in the estimate) are dropped, too; the script keeps them. If there are no pairs, that is an
+// error. Thread-safe.
 Result<RpeResult> EvaluateRpe(const std::vector<StampedPose>& reference,
                               const std::vector<StampedPose>& estimate,
                               const RpeOptions& options = {});

@@ -1,5 +1,5 @@
-// Mean, spread and extremes of a list of errors, summed in the list's order so that the figures do
-// not depend on the number of threads.
+// Mean, spread and extremes of a list of errors. Sums follow the order of the list, so that the
+// results do not depend on the number of threads.
 #pragma once
 
 #include <vector>
@@ -7,12 +7,12 @@
 namespace tessera {
 
 struct ErrorStatistics {
-    double rmse = 0, mean = 0, std = 0;  // std: population, about the mean
-    double median = 0;                   // of an even count: the mean of the two in the middle
+    double rmse = 0, mean = 0, std = 0;  // std is the population value, about the mean
+    double median = 0;                   // for an even count, the mean of the middle two
     double max = 0;
 };
 
-// All zero for an empty list. Errors are not negative and finite. Thread-safe.
+// All zero for an empty list. Errors must be finite and non-negative. Thread-safe.
 ErrorStatistics Summarise(std::vector<double> errors);
 
 }  // namespace tessera

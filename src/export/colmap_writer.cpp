@@ -16,7 +16,7 @@ std::string CamerasText(const PinholeCamera& c) {
         c.width, c.height, c.fx, c.fy, c.cx + 0.5, c.cy + 0.5);
 }
 
-// Two lines, the second for points seen in the image, of which we name none.
+// Two lines per image. The second is for the points seen in the image, which we leave empty.
 std::string ImageLines(std::size_t id, const Eigen::Isometry3d& T_world_camera,
                        const std::string& file_name) {
     const Eigen::Isometry3d T_camera_world = T_world_camera.inverse();

@@ -1,4 +1,4 @@
-// A scan as COLMAP, and all that read its models (Gaussian splatting among them), take it.
+// Exports a scan in COLMAP's format, which many programs read (Gaussian splatting among them).
 #pragma once
 
 #include <string>
@@ -8,12 +8,12 @@
 
 namespace tessera {
 
-// Writes cameras.txt, images.txt and points3D.txt into `folder`, and images/NNNNNN.jpg (the stored
-// bytes) beside them. The world is the scan's; camera axes are COLMAP's own, as ours; poses are
-// world to camera. One PINHOLE camera; its principal point counts from the top-left pixel's corner,
-// so it is ours plus a half. Points are at most kSeedPoints of the mesh's vertices, without tracks.
-// `mesh` is in the scan's world. Errors: no raw frames (it says which key keeps them), a folder
-// `images` that holds files already, writing.
+// Writes cameras.txt, images.txt and points3D.txt to `folder`, and the stored JPEGs to
+// images/NNNNNN.jpg. The world frame is the scan's. Camera axes are the same as COLMAP's; poses are
+// world to camera. There is one PINHOLE camera. COLMAP measures the principal point from the corner
+// of the top-left pixel, so it is ours plus a half. Points are at most kSeedPoints of the mesh's
+// vertices, without tracks. `mesh` is in the scan's world. Errors: no raw frames (the error names
+// the key that keeps them), a folder `images` that already contains files, write errors.
 Status WriteColmap(const std::string& scan_path, const TriangleMesh& mesh,
                    const std::string& folder);
 

@@ -17,8 +17,8 @@ Result<std::unique_ptr<PosedFrames>> PosedFrames::Open(const std::string& scan_p
     if (!scan.ok()) return scan.status();
     frames->scan_ = std::move(scan.value());
     if (frames->file_->seal().tables[IndexOf(ScanTable::kFrames)].rows == 0)
-        return Status::Error(scan_path +
-                             ": holds no raw frames; scan with --set scan.frames=all to keep them");
+        return Status::Error(
+            scan_path + ": contains no raw frames; scan with --set scan.frames=all to keep them");
     return frames;
 }
 
@@ -45,7 +45,7 @@ Status PosedFrames::ForEach(const std::function<Status(const PosedFrame&)>& take
 Status MakeImageFolder(const std::string& path) {
     std::error_code ignored;
     if (std::filesystem::is_directory(path, ignored) && !std::filesystem::is_empty(path, ignored))
-        return Status::Error(path + ": holds files already; give another place");
+        return Status::Error(path + ": already contains files; give another location");
     return PrepareOutputFolder(path);
 }
 

@@ -1,5 +1,5 @@
-// What the sets of posed images for other programs have in common: a scan's raw frames with their
-// poses, folders for them, and some points of the surface to begin with.
+// Shared code for exporting posed images: a scan's raw frames with their poses, output folders, and
+// surface points to start from.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -14,24 +14,25 @@
 
 namespace tessera {
 
-// One of a scan's frames that has a pose and colour.
+// A frame of a scan that has a pose and colour.
 struct PosedFrame {
     std::string name;  // its number on the scan's path, six digits
     Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity();
-    StoredFrame stored;  // its images, as files
+    StoredFrame stored;  // its images, encoded
 };
 
-// Owner thread only. Errors name the file; for a scan without raw frames, or without any that has a
-// pose and colour, they say how to keep them.
+// Owner thread only. Errors name the file. If the scan has no raw frames, or none with a pose and
+// colour, the error says what to do.
 class PosedFrames {
   public:
     static Result<std::unique_ptr<PosedFrames>> Open(const std::string& scan_path);
 
-    // Images are of this ideal pinhole: lens distortion was corrected before the scan was made.
+    // The ideal pinhole camera of the images. Lens distortion was corrected before the scan was
+    // made.
     const PinholeCamera& camera() const { return scan_.meta.camera; }
     double depth_units_per_m() const { return scan_.meta.depth_units_per_m; }
-    // In the order of the path, one in memory at a time, checked; ends early where `take` gives an
-    // error.
+    // Visits the frames in path order, with one in memory at a time, and checks them. Stops early
+    // if `take` returns an error.
     Status ForEach(const std::function<Status(const PosedFrame&)>& take);
 
   private:
@@ -39,16 +40,16 @@ class PosedFrames {
     ScanContent scan_;  // without map and frames
 };
 
-// Makes the folder. One that holds anything already is refused: nobody's pictures are written over.
+// Creates the folder. Refuses a folder that contains anything, so that no images are overwritten.
 Status MakeImageFolder(const std::string& path);
 
 Status WriteImageFile(const std::string& path, std::span<const std::uint8_t> bytes);
 
-// At most `count` of the mesh's vertices with their colours (grey if it has none), evenly over its
-// list; no triangles.
+// At most `count` of the mesh's vertices, evenly spaced in its list, with their colours (grey if it
+// has none); no triangles.
 TriangleMesh SamplePoints(const TriangleMesh& mesh, std::size_t count);
 
-// What such programs begin with: enough to start from, few enough to be read as text.
+// Number of initial points for such programs: enough to start from, few enough to read as text.
 inline constexpr std::size_t kSeedPoints = 100000;
 
 }  // namespace tessera

@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kDepthUnitsPerMetre = 1000;  // what nerfstudio takes without being told
+constexpr double kDepthUnitsPerMetre = 1000;  // nerfstudio's default
 
 Json Rows(const Eigen::Matrix4d& T, int rows) {
     Json all = Json::array();
@@ -40,7 +40,7 @@ Json Head(const PinholeCamera& camera) {
             {"ply_file_path", "points.ply"}};
 }
 
-// Depth as other programs expect it.
+// Writes depth images in the units and encoding that other programs expect.
 class DepthFiles {
   public:
     DepthFiles(const PinholeCamera& camera, double units_per_m)
@@ -49,7 +49,7 @@ class DepthFiles {
     Status Write(const StoredFrame& stored, const std::string& path) {
         if (Status status = decoder_.Load(stored, frame_); !status.ok()) return status;
         if (frame_.depth_m.width() != camera_.width || frame_.depth_m.height() != camera_.height)
-            return Status::Error("is not of the camera's size");
+            return Status::Error("does not have the camera's size");
         StoreDepth(frame_.depth_m, kDepthUnitsPerMetre, depth_mm_);
         encoder_.EncodeDepth(depth_mm_, file_);
         return WriteImageFile(path, file_);
@@ -57,7 +57,7 @@ class DepthFiles {
 
   private:
     const PinholeCamera camera_;
-    FrameStore decoder_;  // holds no frame
+    FrameStore decoder_;  // used for decoding only
     Frame frame_;
     Image<std::uint16_t> depth_mm_;
     PngEncoder encoder_;

@@ -18,9 +18,9 @@
 namespace tessera {
 namespace {
 
-static_assert(openvdb::FloatTree::LeafNodeType::DIM == kBlockSide, "a block becomes a leaf");
+static_assert(openvdb::FloatTree::LeafNodeType::DIM == kBlockSide, "one block maps to one leaf");
 
-constexpr std::size_t kIdOffset = 21;  // behind the magic number, three version numbers and a flag
+constexpr std::size_t kIdOffset = 21;  // after the magic number, three version numbers and a flag
 constexpr std::size_t kIdBytes = 36;
 
 template <class T>
@@ -28,8 +28,8 @@ std::uint64_t Checksum(const T* values, std::size_t count, std::uint64_t before)
     return Crc64({reinterpret_cast<const std::uint8_t*>(values), count * sizeof(T)}, before);
 }
 
-// OpenVDB gives every file a random identity. This one follows from the map, so that the same map
-// gives the same bytes.
+// OpenVDB gives every file a random id. Derive it from the map instead, so that the same map gives
+// the same bytes.
 std::string FileId(const BlockMap& map) {
     std::uint64_t shape = 0, paint = 0;
     for (const double value : {map.config().voxel_size_m, map.config().truncation_m})
@@ -45,7 +45,7 @@ std::string FileId(const BlockMap& map) {
                        shape & 0xffff, paint >> 48, paint & 0xffffffffffff);
 }
 
-// A stream into a file that appears whole or not at all, and that carries `id` as its identity.
+// A stream buffer for a file that appears complete or not at all. Replaces the file's id by `id`.
 class AtomicBuffer : public std::streambuf {
   public:
     AtomicBuffer(AtomicFile& file, const std::string& id) : file_(file), id_(id), bytes_(1 << 20) {
@@ -81,7 +81,7 @@ float LinearOfSrgb(float s) {
     return s <= 0.04045f ? s / 12.92f : std::pow((s + 0.055f) / 1.055f, 2.4f);
 }
 
-// One block into a leaf of each grid.
+// Copies each block to one leaf of each grid.
 class LeafWriter {
   public:
     LeafWriter(openvdb::FloatGrid& surface, openvdb::Vec3SGrid& colour, float truncation_m)
@@ -96,7 +96,7 @@ class LeafWriter {
         auto& colour = *colour_.touchLeaf(origin);
         for (int i = 0; i < kBlockVoxels; ++i) {
             if (!HasDistance(field[i])) continue;
-            // Ours has x fastest, OpenVDB's z.
+            // x varies fastest in our blocks, z in OpenVDB's leaves.
             const openvdb::Index at = openvdb::Index((i & 7) << 6 | (i & 0x38) | i >> 6);
             const float distance_m = truncation_m_ * FieldDistance(field[i]);
             if (!InBand(field[i])) {
@@ -149,7 +149,7 @@ Status WriteVdb(const std::string& path, const BlockMap& map) {
     try {
         return Write(path, map);
     } catch (const std::bad_alloc&) {
-        return Status::Error(path + ": the grid does not fit into memory; take larger voxels");
+        return Status::Error(path + ": the grid does not fit in memory; use larger voxels");
     } catch (const std::exception& error) {
         return Status::Error(path + ": OpenVDB cannot write it: " + error.what());
     }

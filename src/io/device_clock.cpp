@@ -5,9 +5,9 @@
 namespace tessera {
 namespace {
 
-constexpr int kAgreeing = 4;           // refused stamps in a row that make a new time
-constexpr double kAgreeingStep_s = 1;  // and are at most so far apart
-// From the last stamp before a restart to the first after it.
+constexpr int kAgreeing = 4;           // rejected stamps in a row that define a new clock time
+constexpr double kAgreeingStep_s = 1;  // and their largest step
+// Shortest time between the last stamp before a restart and the first one after it.
 constexpr double kLeastStep_s = 0.005;
 
 }  // namespace

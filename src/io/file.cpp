@@ -18,7 +18,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Unique in this process and, by the process id, among all that write to the same folder.
+// Unique in this process and, through the process id, among all processes that write to the same
+// folder.
 std::string TemporaryName(const std::string& target) {
     static std::atomic<unsigned> counter{0};
     return fmt::format("{}.{}-{}.tmp", target, getpid(), counter.fetch_add(1));
@@ -36,13 +37,14 @@ std::string BehindLinks(const std::string& path) {
 std::string WriteErrorText(int error) {
     switch (error) {
         case ENOSPC:
-        case EDQUOT: return "no space left on the device; free some or choose another place";
+        case EDQUOT:
+            return "no space left on the device; free some space or choose another location";
         case EACCES:
         case EPERM:
-        case EROFS: return "no permission to write here; choose another place";
+        case EROFS: return "no write permission; choose another location";
         case ENOENT:
-        case ENOTDIR: return "its folder does not exist; make it or choose another place";
-        case EISDIR: return "is a folder; give a file's name";
+        case ENOTDIR: return "the folder does not exist; create it or choose another location";
+        case EISDIR: return "is a folder; give a file name";
         default: return std::generic_category().message(error);
     }
 }
@@ -58,7 +60,7 @@ AtomicFile::AtomicFile(const std::string& path) : path_(path), target_(BehindLin
         temporary_ = TemporaryName(target_);
         file_ = open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
         if (file_ < 0) temporary_.clear();
-        if (file_ >= 0 && exists) (void)!fchmod(file_, info.st_mode & 07777);  // as it was
+        if (file_ >= 0 && exists) (void)!fchmod(file_, info.st_mode & 07777);  // same permissions
     }
     if (file_ < 0) Fail("cannot be written");
 }
@@ -91,7 +93,7 @@ void AtomicFile::Write(std::string_view bytes) {
 }
 
 Status AtomicFile::Commit(Sync sync) {
-    // Pipes and some devices know no sync: not an error of ours.
+    // Pipes and some devices do not support fsync; that is not an error.
     if (status_.ok() && sync == Sync::kNow && fsync(file_) != 0 && errno != EINVAL &&
         errno != EROFS)
         Fail("cannot be written");
@@ -116,16 +118,16 @@ Status PrepareOutputFolder(const std::string& path) {
     fs::create_directories(path, error);
     std::error_code ignored;
     if (fs::exists(path, ignored) && !fs::is_directory(path, ignored))
-        return Status::Error(path + ": is a file; give a folder to write to");
+        return Status::Error(path + ": is a file; give an output folder");
     if (error)
         return Status::Error(
-            fmt::format("{}: the folder cannot be made: {}", path, WriteErrorText(error.value())));
+            fmt::format("{}: cannot create the folder: {}", path, WriteErrorText(error.value())));
     const std::string probe = TemporaryName((fs::path(path) / "probe").string());
     const Status status = WriteTextFile(probe, std::string(4096, ' '));
     unlink(probe.c_str());
     if (status.ok()) return status;
     return Status::Error(
-        fmt::format("{}: the folder cannot be written to ({}); choose another with --out", path,
+        fmt::format("{}: cannot write to the folder ({}); choose another one with --out", path,
                     status.message()));
 }
 
@@ -135,7 +137,7 @@ Result<std::string> ReadWholeFile(const std::string& path, std::size_t max_bytes
     if (stat(path.c_str(), &info) != 0)
         return fail(errno == ENOENT ? "no such file" : "cannot be read: " + WriteErrorText(errno));
     if (S_ISDIR(info.st_mode)) return fail("is a folder; give a file");
-    const auto too_large = [&] { return fail(fmt::format("has more than {} bytes", max_bytes)); };
+    const auto too_large = [&] { return fail(fmt::format("is larger than {} bytes", max_bytes)); };
     const auto claimed = static_cast<std::size_t>(std::max<off_t>(info.st_size, 0));
     if (claimed > max_bytes) return too_large();
 
@@ -144,7 +146,7 @@ Result<std::string> ReadWholeFile(const std::string& path, std::size_t max_bytes
     if (!file) return fail("cannot be read: " + std::generic_category().message(errno));
     try {
         std::string bytes;
-        std::size_t wanted = std::min(claimed, max_bytes) + 1;  // one more, to see the end at once
+        std::size_t wanted = std::min(claimed, max_bytes) + 1;  // one extra, to detect the end
         while (true) {
             const std::size_t have = bytes.size();
             bytes.resize(wanted);
@@ -154,10 +156,10 @@ Result<std::string> ReadWholeFile(const std::string& path, std::size_t max_bytes
             if (bytes.size() < wanted) break;
             wanted = std::min(2 * wanted + 65536, max_bytes + 1);
         }
-        if (std::ferror(file.get())) return fail("cannot be read to its end");
+        if (std::ferror(file.get())) return fail("cannot be read completely");
         return bytes;
     } catch (const std::bad_alloc&) {
-        return fail("does not fit into memory");
+        return fail("does not fit in memory");
     }
 }
 

@@ -1,4 +1,4 @@
-// Files written whole or not at all, files read within bounds, and folders made ready for output.
+// Atomic file writing, bounded file reading, and preparation of output folders.
 #pragma once
 
 #include <cstddef>
@@ -9,24 +9,24 @@
 
 namespace tessera {
 
-// Writes beside `path`, syncs and renames; says what failed (no space left, not writable) and
-// leaves no debris. A device or pipe is written in place, a symbolic link is followed. Thread-safe
-// for different paths.
+// Writes a temporary file next to `path`, syncs it and renames it. On error, reports what failed
+// (no space left, not writable) and removes the temporary file. A device or pipe is written in
+// place; a symbolic link is followed. Thread-safe for different paths.
 Status WriteTextFile(const std::string& path, const std::string& text);
 
-// What an errno of writing means, and what to do: "no space left on the device; free some or choose
-// another place".
+// Describes an errno from writing and what to do about it: "no space left on the device; free some
+// space or choose another location".
 std::string WriteErrorText(int error);
 
-// Makes the folder (and its parents) and proves that it can be written to.
+// Creates the folder (and its parents) and checks that it is writable.
 Status PrepareOutputFolder(const std::string& path);
 
-// The file's bytes. A folder, an unreadable file or one of more than max_bytes is an error,
-// whatever size the file claims to have.
+// Returns the file's bytes. It is an error if the path is a folder, cannot be read, or has more
+// than max_bytes, whatever size the file reports.
 Result<std::string> ReadWholeFile(const std::string& path, std::size_t max_bytes);
 
-// What WriteTextFile does, in pieces: nothing is seen at `path` before Commit succeeded. Owner
-// thread only.
+// Like WriteTextFile, but in pieces: nothing appears at `path` before Commit succeeds. Owner thread
+// only.
 class AtomicFile {
   public:
     explicit AtomicFile(const std::string& path);
@@ -34,10 +34,10 @@ class AtomicFile {
     AtomicFile(const AtomicFile&) = delete;
     AtomicFile& operator=(const AtomicFile&) = delete;
 
-    // After an error nothing more is written; Commit reports the first error.
+    // After an error, Write does nothing more. Commit reports the first error.
     void Write(std::string_view bytes);
-    // Synced: a power cut after it does not lose the file. kLater leaves that to the system (some
-    // seconds) and takes no time: for many files in a row.
+    // kNow: the file survives a power cut after Commit. kLater: the system writes it to disk some
+    // seconds later; takes no time, for many files in a row.
     enum class Sync { kNow, kLater };
     Status Commit(Sync sync = Sync::kNow);
 
@@ -46,7 +46,7 @@ class AtomicFile {
     void Close();
 
     std::string path_;       // as the user gave it, for messages
-    std::string target_;     // behind symbolic links
+    std::string target_;     // with symbolic links resolved
     std::string temporary_;  // empty if written in place
     int file_ = -1;
     Status status_;

@@ -22,7 +22,7 @@ bool Exists(const fs::path& path) {
     return fs::exists(path, error);
 }
 
-// The folder's own name, also for "." and a trailing slash.
+// The folder's own name, also for "." and with a trailing slash.
 std::string FolderName(const fs::path& folder) {
     std::error_code error;
     const fs::path whole = fs::canonical(folder, error);
@@ -54,8 +54,8 @@ Result<Layout> RecogniseLayout(const fs::path& folder) {
     const bool parent = Exists(folder / "seq-01");
     return Status::Error(fmt::format(
         "{}: {}", folder.string(),
-        parent ? "holds several sequences; give one of them, such as seq-01"
-               : "no sequence that is known here; expected rgb.txt and depth.txt (TUM), "
+        parent ? "contains several sequences; give one of them, such as seq-01"
+               : "not a known sequence layout; expected rgb.txt and depth.txt (TUM), "
                  "associations.txt (ICL-NUIM), "
                  "frame-000000.depth.png (7-Scenes), or camera.yaml with depth/ and rgb/"));
 }
@@ -79,7 +79,7 @@ bool IsIclFolder(const fs::path& folder, Layout layout) {
     return images.ok() && StampsAreFrameNumbers(images.value().pairs);
 }
 
-// TUM's lists name the recording in a comment, whatever the folder is called now: "# file:
+// TUM's lists name the recording in a comment, even if the folder was renamed: "# file:
 // 'rgbd_dataset_freiburg1_rpy.bag'".
 std::string BagName(const fs::path& folder) {
     constexpr std::size_t kLongest = 1000;
@@ -99,7 +99,7 @@ std::string PublishedName(const fs::path& folder, const std::string& by_layout) 
     return by_layout;
 }
 
-// Nothing where nobody says what camera it was.
+// nullopt if the camera is unknown.
 Result<std::optional<CameraCalibration>> FindCamera(const fs::path& folder,
                                                     const std::string& published,
                                                     std::vector<std::string>& notes) {
@@ -113,8 +113,8 @@ Result<std::optional<CameraCalibration>> FindCamera(const fs::path& folder,
     std::optional<CameraCalibration> camera = PublishedCamera(name);
     if (camera)
         notes.push_back(
-            fmt::format("no camera.yaml: the published values of {} are used; put a camera.yaml "
-                        "there if it is another camera",
+            fmt::format("no camera.yaml: using the published calibration of {}; add a camera.yaml "
+                        "if this is a different camera",
                         name));
     return camera;
 }
@@ -147,8 +147,8 @@ Status AddFrames(const fs::path& folder, const std::vector<ImagePair>& pairs,
     }
     if (absent == pairs.size())
         return Status::Error(
-            fmt::format("{}: no such file, and none of the {} frames has both its images; are they "
-                        "unpacked, and is the list theirs?",
+            fmt::format("{}: no such file; none of the {} frames has both of its images. Are the "
+                        "images unpacked, and does the list belong to them?",
                         first_absent, absent));
     if (absent > 0)
         layout.notes.push_back(
@@ -157,7 +157,7 @@ Status AddFrames(const fs::path& folder, const std::vector<ImagePair>& pairs,
     return Status::Ok();
 }
 
-// Kind, the published camera's name, and what is peculiar to the layout.
+// Sets the layout's kind and peculiarities. Returns the name of its published camera.
 std::string Characterise(const fs::path& folder, Layout layout, FolderLayout& result) {
     if (IsIclFolder(folder, layout)) {
         result.kind = "ICL-NUIM folder";

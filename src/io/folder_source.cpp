@@ -28,7 +28,7 @@ class FolderSource : public FrameSource {
                         [](const FolderFrame& frame) { return frame.T_world_camera.has_value(); });
         info_.notes = layout_.notes;
         if (!info_.rectified && !layout_.calibration.distortion.IsZero())
-            info_.notes.push_back("the lens distortion is not corrected, as configured");
+            info_.notes.push_back("lens distortion is not corrected, as configured");
     }
 
     const SourceInfo& info() const override { return info_; }
@@ -53,8 +53,7 @@ class FolderSource : public FrameSource {
         return true;
     }
 
-    // Fails if none of some frames, spread over the sequence, is usable: with what is wrong with
-    // the first.
+    // Decodes a few frames, spread over the sequence. If none is usable, returns the first error.
     Status Probe() {
         constexpr std::size_t kProbes = 5;
         const std::size_t count = layout_.frames.size();
@@ -68,7 +67,7 @@ class FolderSource : public FrameSource {
     }
 
   private:
-    // The frame's raw images, of the calibration's size.
+    // Decodes the frame's raw images and checks that they have the calibration's size.
     Status Decode(const FolderFrame& listed) {
         if (Status status = decoder_.ReadDepth(listed.depth_path, depth_); !status.ok())
             return status;
@@ -100,24 +99,26 @@ class FolderSource : public FrameSource {
 
 void FolderSourceConfig::Describe(ConfigParameters& p) {
     p.Add("max_pair_gap_s", max_pair_gap_s, {1e-6, 10.0}, "s",
-          "colour and depth images this far apart in time or farther are no pair; raise it for a "
-          "recorder that is not "
-          "synchronised, at the price of colours beside their surface in fast motion");
-    p.Add("rectify", rectify,
-          "correct the lens distortion that camera.yaml gives; off only to measure what it brings");
-    p.Add("depth_scale", depth_scale, {0.0, 1e6}, "",
-          "stored depth value of one metre; 0 takes the camera file's; set it where depths come "
-          "out too long or short");
+          "colour and depth images whose time stamps differ by this much or more are not paired; "
+          "raise it if the recorder does not synchronise them; in fast motion, colours are then "
+          "offset from their surface");
+    p.Add(
+        "rectify", rectify,
+        "correct the lens distortion given in camera.yaml; turn it off only to measure its effect");
+    p.Add(
+        "depth_scale", depth_scale, {0.0, 1e6}, "",
+        "stored depth value that corresponds to one metre; 0 takes it from the camera file; set it "
+        "if depths come out too long or too short");
     p.Add("swap_red_blue", swap_red_blue,
-          "of .klg logs: some loggers stored colours the other way round; turn on where faces are "
-          "blue");
+          "for .klg logs: some loggers store the colour channels in the opposite order; turn it on "
+          "if faces look blue");
 }
 
 Status FolderSourceConfig::Validate() const {
     constexpr double kLeast = 1e-3;
     if (depth_scale == 0 || depth_scale >= kLeast) return Status::Ok();
     return Status::Error(
-        fmt::format("source.depth_scale: {} is neither 0 nor at least {}", depth_scale, kLeast));
+        fmt::format("source.depth_scale: {} must be 0 or at least {}", depth_scale, kLeast));
 }
 
 Result<std::unique_ptr<FrameSource>> OpenFolderSource(const std::string& path,

@@ -1,5 +1,5 @@
-// Recorded sequences in folders of images: TUM RGB-D, ICL-NUIM, 7-Scenes, or any with a camera.yaml
-// (folder_layout.h says how each is recognised and paired).
+// Recorded sequences in image folders: TUM RGB-D, ICL-NUIM, 7-Scenes, or any folder with a
+// camera.yaml (folder_layout.h describes how each is recognised and paired).
 #pragma once
 
 #include <memory>
@@ -14,21 +14,21 @@
 namespace tessera {
 
 struct FolderSourceConfig {
-    double max_pair_gap_s = 0.02;  // colour and depth at least this far apart in time are no pair
-    bool rectify = true;           // correct the lens distortion that camera.yaml gives
-    double depth_scale = 0;        // stored depth value of one metre; 0 = as the camera file says
-    bool swap_red_blue = false;    // of .klg logs
-    // In place of what the camera file says; no key, the program's own. Its size counts for
-    // nothing, the lens's distortion stays.
+    double max_pair_gap_s = 0.02;  // images this far apart or farther are not paired
+    bool rectify = true;           // correct the lens distortion given in camera.yaml
+    double depth_scale = 0;        // stored depth value of one metre; 0 = from the camera file
+    bool swap_red_blue = false;    // for .klg logs
+    // Overrides the camera file's pinhole. Set by the program; not a configuration key. Its image
+    // size is ignored, and the camera file's lens distortion still applies.
     std::optional<PinholeCamera> camera = std::nullopt;
 
     void Describe(ConfigParameters& parameters);
     Status Validate() const;
 };
 
-// Reads what the folder holds and decodes a few of its frames; the error names the file and what to
-// do if none of them is usable. The source seeks. A frame that cannot be read is kSkip; the source
-// itself does not judge depths.
+// Reads the folder's layout and decodes a few of its frames. If none is usable, the error names the
+// file and what to do. The source can seek. A frame that cannot be read returns kSkip. The source
+// does not filter depth values.
 Result<std::unique_ptr<FrameSource>> OpenFolderSource(const std::string& path,
                                                       const FolderSourceConfig& config);
 

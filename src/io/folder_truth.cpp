@@ -14,7 +14,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// From ICL-NUIM's y-up, left-handed frames (world and camera) into right-handed ones with y down.
+// Converts from ICL-NUIM's y-up, left-handed frames (world and camera) to right-handed frames with
+// y down.
 Eigen::Isometry3d ReflectY(const Eigen::Isometry3d& T) {
     const Eigen::DiagonalMatrix<double, 3> M(1, -1, 1);
     Eigen::Isometry3d reflected = Eigen::Isometry3d::Identity();
@@ -42,17 +43,18 @@ void AddTrajectory(const std::string& path, bool reflect, double max_gap_s, Fold
         else if (reflect)
             frame.T_world_camera = ReflectY(*frame.T_world_camera);
     }
-    if (reflect) layout.notes.push_back(path + ": y-up poses, reflected to y down");
+    if (reflect) layout.notes.push_back(path + ": poses are y-up; reflected to y-down");
     if (without > 0)
         layout.notes.push_back(fmt::format("{} of {} frames have no ground truth at their time",
                                            without, layout.frames.size()));
 }
 
-// A 4 x 4 matrix in text. Nothing if it is unreadable, not finite or no rigid motion.
+// Reads a 4 x 4 matrix from text. Returns nullopt if it is unreadable, not finite or not a rigid
+// motion.
 std::optional<Eigen::Isometry3d> ReadPoseMatrix(const std::string& path) {
     constexpr std::size_t kMaxBytes = 4096;
-    constexpr double kMaxDeviation =
-        1e-2;  // the data set rounds to 7 digits; a wrong file is far off
+    // The data set rounds to 7 digits; a wrong file is far off.
+    constexpr double kMaxDeviation = 1e-2;
     std::vector<std::uint8_t> bytes;
     if (!ReadFileBytes(path, kMaxBytes, bytes).ok()) return std::nullopt;
     std::istringstream text(std::string(bytes.begin(), bytes.end()));

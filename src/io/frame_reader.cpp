@@ -28,8 +28,7 @@ void FrameReader::Signal() {
     events_.notify_all();
 }
 
-// The count of events is read before the condition, so that a change after the look at it ends the
-// wait.
+// Reads the event counter before the condition, so that a change after the check ends the wait.
 template <class Condition>
 void FrameReader::WaitUntil(Condition condition) {
     while (true) {
@@ -49,7 +48,7 @@ void FrameReader::ReadAhead() {
         const std::chrono::duration<double, std::milli> taken =
             std::chrono::steady_clock::now() - begin;
         target.decode_ms = taken.count();
-        const ReadStatus status = target.result.status;  // the slot is Next's once written_ says so
+        const ReadStatus status = target.result.status;  // once written_ advances, Next owns it
         written_.store(number + 1);
         Signal();
         if (status == ReadStatus::kEnd || status == ReadStatus::kError) return;
@@ -59,7 +58,7 @@ void FrameReader::ReadAhead() {
 ReadResult FrameReader::ReadInto(Slot& target) {
     try {
         return frames_.Next(target.frame);
-    } catch (const std::exception& error) {  // out of memory: nothing else may come out of a source
+    } catch (const std::exception& error) {  // out of memory; a source throws nothing else
         return {ReadStatus::kError, info_.name + ": reading failed: " + error.what()};
     }
 }

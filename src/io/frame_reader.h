@@ -1,5 +1,5 @@
-// Decoding runs ahead of the pipeline on a thread of its own, over a bounded ring whose frames'
-// storage goes round: in steady state nothing is allocated.
+// Reads and decodes ahead of the pipeline on its own thread, into a bounded ring of slots. Frame
+// storage is recycled, so nothing is allocated in steady state.
 #pragma once
 
 #include <atomic>
@@ -13,31 +13,30 @@
 
 namespace tessera {
 
-// One thread calls Next; any thread may call RequestStop. The reader's own thread is the only one
-// that reads the source.
+// One thread calls Next. Any thread may call RequestStop. Only the reader's own thread reads the
+// source.
 class FrameReader {
   public:
-    // Starts reading at once, at most `capacity` (>= 1) frames ahead; when that many wait, reading
-    // waits.
+    // Starts reading at once, at most `capacity` (>= 1) frames ahead. The reader thread waits while
+    // that many frames are ready.
     FrameReader(std::unique_ptr<FrameSource> source, const FrameSelection& selection,
                 int capacity = 4);
-    ~FrameReader();  // stops and joins, at any moment
+    ~FrameReader();  // stops and joins, at any time
     FrameReader(const FrameReader&) = delete;
     FrameReader& operator=(const FrameReader&) = delete;
 
     const SourceInfo& info() const { return info_; }
 
-    // Waits for the next selected frame, in the source's order, and swaps it into `frame`, whose
-    // old storage is used for a later one. On kSkip and kWait (passed on from a live source, at
-    // least every half second) `frame` stays as it was. kEnd and kError are final; after
-    // RequestStop it is kEnd.
+    // Waits for the next selected frame, in the source's order, and swaps it into `frame`; the old
+    // storage of `frame` is reused for a later frame. On kSkip and kWait (a live source sends one
+    // at least every half second) `frame` is unchanged. kEnd and kError are final. After
+    // RequestStop, returns kEnd.
     ReadResult Next(Frame& frame);
 
-    // What reading and decoding the frame took that Next gave last (also a skipped one),
-    // milliseconds.
+    // Milliseconds to read and decode the frame that Next returned last (even if skipped).
     double decode_ms() const { return decode_ms_; }
 
-    // Next returns kEnd from now on, also where it waits; frames read ahead are dropped.
+    // Makes Next return kEnd from now on, even if it is waiting. Frames read ahead are dropped.
     // Thread-safe.
     void RequestStop();
 
@@ -58,14 +57,13 @@ class FrameReader {
     SelectedFrames frames_;  // reader thread only, once it runs
     const SourceInfo info_;
     std::vector<Slot> slots_;
-    std::atomic<std::uint64_t> written_{
-        0};  // slots filled so far: the reader thread's; releases the slot
-    std::atomic<std::uint64_t> taken_{0};  // slots emptied so far: Next's; releases the slot
+    std::atomic<std::uint64_t> written_{0};  // slots filled so far; set by the reader thread
+    std::atomic<std::uint64_t> taken_{0};    // slots emptied so far; set by Next
     std::atomic<bool> stop_{false};
-    std::atomic<std::uint32_t> events_{
-        0};  // grows with each change of the three above: what waiting waits on
+    // Incremented with each change of the three above; waiters wait on it.
+    std::atomic<std::uint32_t> events_{0};
     double decode_ms_ = 0;
-    std::jthread thread_;  // last: ends before what it uses
+    std::jthread thread_;  // last member: ends before anything it uses
 };
 
 }  // namespace tessera

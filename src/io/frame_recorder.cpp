@@ -24,9 +24,9 @@ Status FirstError(std::initializer_list<Status> statuses) {
 
 void RecordConfig::Describe(ConfigParameters& p) {
     p.AddChoice("colour", colour, {{"jpeg", Colour::kJpeg}, {"png", Colour::kPng}},
-                "how recordings store colour: jpeg (quality 95, about 0.1 MB a frame) or png "
-                "(exact, about 0.35 MB and twice the "
-                "time); in .oni files jpeg or uncompressed; depth is always exact");
+                "how recordings store colour: jpeg (quality 95, about 0.1 MB per frame) or png "
+                "(exact, about 0.35 MB per frame and twice the time); .oni files store jpeg or "
+                "uncompressed colour; depth is always exact");
 }
 
 Result<std::unique_ptr<FrameRecorder>> FrameRecorder::Create(const std::string& folder,
@@ -41,7 +41,8 @@ Status FrameRecorder::Start() {
     std::error_code ignored;
     for (const char* name : {"/depth.txt", "/rgb.txt", "/camera.yaml"})
         if (std::filesystem::exists(folder_ + name, ignored))
-            return Status::Error(folder_ + ": holds a recording already; give a new folder's name");
+            return Status::Error(folder_ +
+                                 ": already contains a recording; give a new folder name");
     for (const char* name : {"/rgb", "/depth"})
         if (Status status = PrepareOutputFolder(folder_ + name); !status.ok()) return status;
     const CameraCalibration camera{source_.camera, {}, source_.depth_units_per_m, source_.fps};
@@ -81,16 +82,16 @@ Status FrameRecorder::Check(const Frame& frame) const {
     if (frame.colour.empty()) return bad("it has no colour");
     if (frame.depth_m.width() != camera.width || frame.depth_m.height() != camera.height ||
         frame.colour.width() != camera.width || frame.colour.height() != camera.height)
-        return bad(fmt::format("it does not have the camera's {} x {} pixels", camera.width,
+        return bad(fmt::format("its size is not the camera's {} x {} pixels", camera.width,
                                camera.height));
-    // As it is written: microseconds.
+    // Compare as written: in microseconds.
     const auto increases = [&](double before_s, double stamp_s) {
         return frames_ == 0 ? std::isfinite(stamp_s)
                             : std::round(1e6 * stamp_s) > std::round(1e6 * before_s);
     };
     if (!increases(last_stamp_s_, frame.stamp_s) ||
         !increases(last_colour_stamp_s_, frame.colour_stamp_s))
-        return bad("its stamp does not lie after the last frame's");
+        return bad("its time stamp is not later than the previous frame's");
     return Status::Ok();
 }
 
@@ -112,7 +113,7 @@ Status FrameRecorder::WriteImage(const std::string& name) const {
     return file.Commit(AtomicFile::Sync::kLater);
 }
 
-// The depth list last: a frame counts once it is in there.
+// Appends to the depth list last: a frame counts once it is listed there.
 Status FrameRecorder::List(const Frame& frame, const std::string& colour_name,
                            const std::string& depth_name) {
     if (frame.T_world_camera) {
@@ -134,7 +135,7 @@ Status FrameRecorder::List(const Frame& frame, const std::string& colour_name,
 Status FrameRecorder::Finish() {
     if (!status_.ok()) return status_;
     if (const int folder = open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC); folder >= 0) {
-        (void)syncfs(folder);  // the images; their lists below tell if the disk fails
+        (void)syncfs(folder);  // flushes the images; the Sync calls below report a failing disk
         close(folder);
     }
     status_ = FirstError(

@@ -1,11 +1,11 @@
-// Records any source into a folder in TUM layout, which `tessera run FOLDER` and every other tool
-// here reads.
+// Records any source into a folder in TUM layout, which `tessera run FOLDER` and all other tools in
+// this project can read.
 //
 //   rgb/STAMP.jpg (or .png)   depth/STAMP.png   rgb.txt   depth.txt   camera.yaml
-//   groundtruth.txt, if the frames have truth
+//   groundtruth.txt, if the frames have ground truth
 //
-// Depth is 16-bit PNG in the source's own units: what is read back is what was given, bit for bit.
-// A 640x480 frame takes one core 4 to 6 ms with JPEG, 8 to 11 ms with PNG (recorded images).
+// Depth is 16-bit PNG in the source's own units, so reading it back gives exactly the same values.
+// On one core, a 640x480 frame takes 4 to 6 ms with JPEG, 8 to 11 ms with PNG (recorded images).
 #pragma once
 
 #include <cstdint>
@@ -28,23 +28,22 @@ struct RecordConfig {
     void Describe(ConfigParameters& parameters);
 };
 
-// Owner thread only. After an error every further Add returns it.
+// Owner thread only. After an error, every further Add returns it.
 class FrameRecorder {
   public:
-    // Makes the folder. Refuses one that holds a recording already, and one that cannot be written
-    // to.
+    // Creates the folder. Refuses a folder that already contains a recording or is not writable.
     static Result<std::unique_ptr<FrameRecorder>> Create(const std::string& folder,
                                                          const SourceInfo& source,
                                                          const RecordConfig& config = {});
 
-    // Writes the frame before it returns. Images are written beside their place and renamed, and
-    // listed only then: at any moment, also when the disk is full or the process is killed, the
-    // folder holds a readable recording of the frames before. Errors name the file, what is wrong,
-    // and how many frames are safe: a frame without colour, of another size, or with a stamp that
-    // does not increase by a microsecond; a file that cannot be written.
+    // Writes the frame before it returns. Images are written to a temporary file, renamed, and only
+    // then listed. So at any time, even if the disk is full or the process is killed, the folder
+    // holds a readable recording of the earlier frames. Errors name the file, what is wrong, and
+    // how many frames are safe. A frame is refused if it has no colour, another size, or a stamp
+    // that does not increase by a microsecond.
     Status Add(const Frame& frame);
 
-    // Has the system put all of it on the disk. To be called once, at the end.
+    // Flushes everything to disk. Call it once, at the end.
     Status Finish();
 
     std::int64_t frames() const { return frames_; }
@@ -64,7 +63,7 @@ class FrameRecorder {
     const RecordConfig config_;
     GrowingFile colour_list_, depth_list_, truth_;
     PngEncoder png_;
-    Image<std::uint16_t> depth_;      // storage, as the next
+    Image<std::uint16_t> depth_;      // recycled storage, like file_
     std::vector<std::uint8_t> file_;  // an encoded image
     std::int64_t frames_ = 0;
     double last_stamp_s_ = 0, last_colour_stamp_s_ = 0;

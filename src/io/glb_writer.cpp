@@ -15,7 +15,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "glTF files are little endian");
 static_assert(sizeof(Eigen::Vector3f) == 12 && sizeof(std::array<std::uint32_t, 3>) == 12,
-              "written as they lie in memory");
+              "arrays are written as raw memory");
 
 constexpr std::uint32_t kMagic = 0x46546c67, kVersion = 2, kJsonChunk = 0x4e4f534a,
                         kBinaryChunk = 0x004e4942;
@@ -23,7 +23,7 @@ constexpr int kFloat = 5126, kUnsignedShort = 5123, kUnsignedInt = 5125, kArrayB
               kElementBuffer = 34963;
 constexpr std::size_t kColoursAtOnce = 1 << 17;
 
-// With alpha, so that each lies at a multiple of four bytes.
+// With alpha, so that each element is aligned to four bytes.
 using Colour16 = std::array<std::uint16_t, 4>;
 
 template <class T>
@@ -42,10 +42,11 @@ std::array<std::uint16_t, 256> LinearOfSrgb() {
     return table;
 }
 
-// What the JSON says of one array: its place in the binary chunk, and how it is read.
+// Collects the JSON descriptions of the arrays: their position in the binary chunk and their
+// format.
 class Arrays {
   public:
-    // The accessor's number.
+    // Returns the accessor's index.
     int Add(std::size_t count, std::size_t bytes, int target, nlohmann::json accessor) {
         const auto number = static_cast<int>(views_.size());
         views_.push_back(
@@ -77,7 +78,7 @@ nlohmann::json PositionAccessor(const TriangleMesh& mesh) {
             {"max", {high.x(), high.y(), high.z()}}};
 }
 
-// In the order in which WriteArrays writes them.
+// The arrays must be in the order in which WriteArrays writes them.
 nlohmann::json Describe(const TriangleMesh& mesh, Arrays& arrays) {
     const std::size_t count = mesh.vertices.size();
     nlohmann::json attributes;
@@ -148,13 +149,14 @@ void WriteArrays(AtomicFile& file, const TriangleMesh& mesh) {
 Status WriteGlb(const std::string& path, const TriangleMesh& mesh) {
     CheckVertexProperties(mesh);
     if (mesh.triangles.empty())
-        return Status::Error(path + ": the mesh is empty, which glTF cannot say; write it as .ply");
+        return Status::Error(path +
+                             ": the mesh is empty, which glTF cannot represent; write it as .ply");
     std::size_t binary_bytes = 0;
     const std::string json = Json(mesh, binary_bytes);
     const std::size_t bytes = 12 + 8 + json.size() + 8 + binary_bytes;
     if (bytes > std::numeric_limits<std::uint32_t>::max())
-        return Status::Error(
-            path + ": the mesh takes more than the 4 GiB of a glTF file; write it as .ply");
+        return Status::Error(path +
+                             ": the mesh exceeds the 4 GiB limit of a glTF file; write it as .ply");
     AtomicFile file(path);
     WriteNumbers(file, {kMagic, kVersion, bytes, json.size(), kJsonChunk});
     file.Write(json);

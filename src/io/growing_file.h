@@ -1,4 +1,4 @@
-// A text file that grows line by line and is whole after every line, whatever happens next.
+// A text file that grows line by line and is complete after every line, even if the process dies.
 #pragma once
 
 #include <cstdint>
@@ -17,12 +17,13 @@ class GrowingFile {
     GrowingFile(const GrowingFile&) = delete;
     GrowingFile& operator=(const GrowingFile&) = delete;
 
-    // Makes the file, or empties the one that is there. Errors name it.
+    // Creates the file, or truncates an existing one. Errors name the file.
     Status Open(const std::string& path);
     bool is_open() const { return file_ >= 0; }
-    // The text reaches the system whole, or the file is left as it was before. Errors name it.
+    // Hands the whole text to the system, or leaves the file as it was before. Errors name the
+    // file.
     Status Append(std::string_view text);
-    // Nothing appended is lost by a power cut after it.
+    // After this, a power cut loses nothing that was appended.
     Status Sync();
 
   private:
@@ -30,7 +31,7 @@ class GrowingFile {
 
     std::string path_;
     int file_ = -1;
-    std::int64_t size_ = 0;  // bytes, all whole lines
+    std::int64_t size_ = 0;  // bytes, complete lines only
 };
 
 }  // namespace tessera

@@ -16,8 +16,8 @@ constexpr std::size_t kMaxImageBytes = std::size_t{512} << 20;
 Status CheckSize(int width, int height) {
     if (width <= ImageDecoder::kMaxSide_px && height <= ImageDecoder::kMaxSide_px)
         return Status::Ok();
-    return Status::Error(fmt::format("{} x {} pixels; at most {} a side are read", width, height,
-                                     ImageDecoder::kMaxSide_px));
+    return Status::Error(fmt::format("{} x {} pixels; at most {} per side are supported", width,
+                                     height, ImageDecoder::kMaxSide_px));
 }
 
 Status RefuseDepth(int bits, int channels) {
@@ -26,19 +26,19 @@ Status RefuseDepth(int bits, int channels) {
                     channels, channels == 1 ? "" : "s"));
 }
 
-// The kinds that have no decoder of our own.
+// For formats that our own decoders do not handle.
 Result<cv::Mat> DecodeWithOpenCv(std::vector<std::uint8_t>& file, int flags) {
     try {
         cv::Mat image = cv::imdecode(file, flags);
-        if (image.empty()) return Status::Error("is no image, or truncated or damaged");
+        if (image.empty()) return Status::Error("is not an image, or is truncated or damaged");
         if (Status status = CheckSize(image.cols, image.rows); !status.ok()) return status;
         return image;
     } catch (const cv::Exception&) {
-        return Status::Error("is no image, or truncated or damaged");
+        return Status::Error("is not an image, or is truncated or damaged");
     }
 }
 
-// Prefixes the file's name and turns what a library may throw into an error.
+// Prefixes errors with the file name and turns exceptions from libraries into errors.
 Status Named(const std::string& path, const std::function<Status()>& decode) {
     try {
         const Status status = decode();

@@ -1,5 +1,5 @@
-// Image files to pixels, as fast as one core can, into storage that is kept: what frame sources
-// read with. image_io.h has the same for single images.
+// Fast single-core decoding of image files into reusable storage, for frame sources. image_io.h is
+// the simple interface for single images.
 #pragma once
 
 #include <cstdint>
@@ -16,13 +16,14 @@ namespace tessera {
 // it; the image is then unspecified. Never throws.
 class ImageDecoder {
   public:
-    // No image has a longer side; refused from the header alone in PNG and JPEG.
+    // Largest image side. PNG and JPEG files that exceed it are refused from the header alone.
     static constexpr int kMaxSide_px = 8192;
 
-    // 8-bit colour or grey: PNG, JPEG, or whatever else OpenCV reads. Grey is spread over the three
-    // channels.
+    // Reads 8-bit colour or grey: PNG, JPEG, or any other format OpenCV reads. Grey is copied to
+    // all three channels.
     Status ReadColour(const std::string& path, ColourImage& image);
-    // 16 bits and one channel; raw values. Anything else is refused by what it is.
+    // Reads raw 16-bit, single-channel values. The error for any other image states its bits and
+    // channels.
     Status ReadDepth(const std::string& path, Image<std::uint16_t>& image);
 
   private:

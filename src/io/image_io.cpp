@@ -9,7 +9,7 @@
 namespace tessera {
 namespace {
 
-// OpenCV's matrices have no const view of foreign pixels; what is wrapped here is only read.
+// cv::Mat has no const view of external pixels. The wrapped pixels are only read.
 template <class T>
 cv::Mat Wrap(const Image<T>& image, int type) {
     return {image.height(), image.width(), type, const_cast<T*>(image.data())};
@@ -21,9 +21,10 @@ Status WritePixels(const std::string& path, const cv::Mat& pixels) {
         if (cv::imwrite(path, pixels, {cv::IMWRITE_JPEG_QUALITY, kFineJpegQuality}))
             return Status::Ok();
     } catch (const cv::Exception&) {  // the extension is unknown
-        return Status::Error(path + ": is no image format that can be written; use .png");
+        return Status::Error(path + ": is not a supported image format; use .png");
     }
-    return Status::Error(path + ": cannot be written; is the folder there, writable and not full?");
+    return Status::Error(
+        path + ": cannot be written; does the folder exist, is it writable, is the disk full?");
 }
 
 }  // namespace

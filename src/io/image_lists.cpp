@@ -41,8 +41,8 @@ std::optional<double> ParseStamp(std::string_view word) {
     return stamp_s;
 }
 
-// Hands each line's words to `use`, which says whether they are what they should be; notes how many
-// are not.
+// Passes each line's words to `use`, which returns whether they have the expected form. Reports in
+// the notes how many do not.
 Status ForEachLine(const std::string& path, const std::string& form,
                    const std::function<bool(std::span<const std::string_view>)>& use,
                    std::vector<std::string>& notes) {
@@ -63,14 +63,14 @@ Status ForEachLine(const std::string& path, const std::string& form,
             first_bad = number;
         }
     }
-    if (good == 0) return Status::Error(fmt::format("{}: no line '{}' in it", path, form));
+    if (good == 0) return Status::Error(fmt::format("{}: no line of the form '{}'", path, form));
     if (bad > 0)
-        notes.push_back(fmt::format("{}: {} line{} not '{}' (first: line {}); skipped", path, bad,
-                                    bad == 1 ? " is" : "s are", form, first_bad));
+        notes.push_back(fmt::format("{}: {} line{} not of the form '{}' (first: line {}); skipped",
+                                    path, bad, bad == 1 ? " is" : "s are", form, first_bad));
     return Status::Ok();
 }
 
-// Sorts by stamp and drops what repeats one; `stamp` names the member.
+// Sorts by stamp and drops repeated stamps. `stamp` points to the member.
 template <class Entry>
 void SortByStamp(const std::string& path, double Entry::*stamp, std::vector<Entry>& entries,
                  std::vector<std::string>& notes) {

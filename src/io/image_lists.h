@@ -1,4 +1,4 @@
-// Lists of images as recordings carry them: TUM's rgb.txt and depth.txt, and associations.txt.
+// Image lists of recordings: TUM's rgb.txt and depth.txt, and associations.txt.
 #pragma once
 
 #include <string>
@@ -8,8 +8,7 @@
 
 namespace tessera {
 
-// A depth image and the colour image that belongs to it; paths as written in the list (relative to
-// the folder).
+// A depth image and its colour image. Paths are as written in the list (relative to the folder).
 struct ImagePair {
     double depth_stamp_s = 0, colour_stamp_s = 0;
     std::string depth, colour;
@@ -20,15 +19,15 @@ struct ImagePairs {
     std::vector<std::string> notes;  // what was skipped, sorted or left over, with counts
 };
 
-// Two lists of lines "stamp filename" ('#' starts a comment), paired by nearest time
-// (stamp_pairing.h). Lines that are nothing of the kind and repeated stamps are skipped, disorder
-// is sorted; each is noted. A list without any usable line, and lists without a pair less than
-// max_gap_s apart, are errors.
+// Reads two lists of lines "stamp filename" ('#' starts a comment) and pairs them by nearest time
+// (stamp_pairing.h). Malformed lines and repeated stamps are skipped, unordered lists are sorted;
+// each is reported in the notes. It is an error if a list has no usable line, or if no two images
+// are less than max_gap_s apart.
 Result<ImagePairs> ReadImageLists(const std::string& depth_list, const std::string& colour_list,
                                   double max_gap_s);
 
-// Lines "stamp filename stamp filename": the depth image is the one with "depth" in its name, first
-// or second. Taken as they stand, however far the stamps are apart.
+// Reads lines "stamp filename stamp filename". The depth image is the one with "depth" in its name,
+// first or second. The pairs are taken as they are, however far apart their stamps.
 Result<ImagePairs> ReadAssociations(const std::string& list);
 
 }  // namespace tessera

@@ -11,8 +11,8 @@ namespace {
 
 static_assert(sizeof(Rgb8) == 3, "decoded rows are written in place");
 
-// libjpeg's state. Its errors come back through longjmp: the functions that call setjmp hold plain
-// values only.
+// libjpeg's state. libjpeg reports errors through longjmp, so the functions that call setjmp must
+// hold only trivial objects.
 struct Decompressor {
     jpeg_decompress_struct info{};
     jpeg_error_mgr errors{};
@@ -54,7 +54,7 @@ bool ReadHeader(Decompressor& d, std::span<const std::uint8_t> file) {
     return true;
 }
 
-// `pixels` holds the image's width x height.
+// `pixels` must have room for the image's width x height.
 bool ReadRows(Decompressor& d, Rgb8* pixels) {
     if (setjmp(d.on_error) != 0) return false;
     d.info.out_color_space = JCS_EXT_RGB;
@@ -86,8 +86,8 @@ Status DecodeJpeg(std::span<const std::uint8_t> file, int max_side_px, ColourIma
     const JDIMENSION width = d.info.image_width, height = d.info.image_height;
     const auto limit = static_cast<JDIMENSION>(max_side_px);
     if (width > limit || height > limit)
-        return Status::Error(
-            fmt::format("{} x {} pixels; at most {} a side are read", width, height, max_side_px));
+        return Status::Error(fmt::format("{} x {} pixels; at most {} per side are supported", width,
+                                         height, max_side_px));
     image.Resize(static_cast<int>(width), static_cast<int>(height));
     if (!ReadRows(d, image.data()) || d.damage != 0) return d.LastError();
     return Status::Ok();

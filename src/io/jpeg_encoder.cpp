@@ -9,13 +9,13 @@
 namespace tessera {
 namespace {
 
-// libjpeg's state. Its errors come back through longjmp: the function that calls setjmp holds plain
-// values only.
+// libjpeg's state. libjpeg reports errors through longjmp, so the function that calls setjmp must
+// hold only trivial objects.
 struct Compressor {
     jpeg_compress_struct info{};
     jpeg_error_mgr errors{};
     std::jmp_buf on_error{};
-    unsigned char* buffer = nullptr;  // libjpeg's own, from malloc
+    unsigned char* buffer = nullptr;  // allocated by libjpeg with malloc
     unsigned long size = 0;
 
     Compressor() {
@@ -64,7 +64,7 @@ Status EncodeJpeg(const ColourImage& image, int quality, std::vector<std::uint8_
     if (!Encode(c, image, quality)) {
         char text[JMSG_LENGTH_MAX];
         c.errors.format_message(reinterpret_cast<j_common_ptr>(&c.info), text);
-        return Status::Error(fmt::format("cannot be made a JPEG ({})", text));
+        return Status::Error(fmt::format("cannot be encoded as JPEG ({})", text));
     }
     file.assign(c.buffer, c.buffer + c.size);
     return Status::Ok();

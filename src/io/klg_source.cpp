@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 struct Entry {
     std::int64_t stamp_us = 0;
-    std::uint64_t offset = 0;  // of its depth; colour follows
+    std::uint64_t offset = 0;  // of the depth data; colour follows
     std::uint32_t depth_bytes = 0, colour_bytes = 0;
 };
 
@@ -35,13 +35,13 @@ bool ReadNumber(std::istream& file, Number& number) {
     return static_cast<bool>(file.read(reinterpret_cast<char*>(&number), sizeof(number)));
 }
 
-// Walks from header to header; allocates for frames that are there, not for those that the file
-// claims.
+// Walks from header to header. Allocates only for frames that are present, not for the number the
+// file claims.
 Result<Index> ReadIndex(const std::string& path, std::istream& file, std::uint64_t file_bytes) {
     constexpr std::uint64_t kHeader = 16;
     std::int32_t count = 0;
     if (!ReadNumber(file, count) || count < 0)
-        return Status::Error(path + ": is no .klg log: it does not begin with a number of frames");
+        return Status::Error(path + ": is not a .klg log: it does not start with a frame count");
     Index index;
     std::uint64_t at = sizeof(count);
     std::int32_t whole = 0;
@@ -54,8 +54,8 @@ Result<Index> ReadIndex(const std::string& path, std::istream& file, std::uint64
             break;
         if (depth_bytes <= 0 || colour_bytes < 0)
             return Status::Error(
-                fmt::format("{}: frame {} has {} bytes of depth and {} of colour; this is no .klg "
-                            "log, or a damaged one",
+                fmt::format("{}: frame {} has {} bytes of depth and {} of colour; this is not a "
+                            ".klg log, or it is damaged",
                             path, whole, depth_bytes, colour_bytes));
         entry.offset = at + kHeader;
         entry.depth_bytes = static_cast<std::uint32_t>(depth_bytes);
@@ -67,11 +67,11 @@ Result<Index> ReadIndex(const std::string& path, std::istream& file, std::uint64
     }
     if (whole < count)
         index.notes.push_back(
-            fmt::format("the log was cut off: {} of its {} frames are there", whole, count));
+            fmt::format("the log is truncated: {} of its {} frames are present", whole, count));
     if (const auto dropped = static_cast<std::size_t>(whole) - index.entries.size(); dropped > 0)
         index.notes.push_back(fmt::format(
-            "{} of {} frames are left out: their time stamps do not grow", dropped, whole));
-    if (index.entries.empty()) return Status::Error(path + ": holds no whole frame");
+            "{} of {} frames are dropped: their time stamps do not increase", dropped, whole));
+    if (index.entries.empty()) return Status::Error(path + ": contains no complete frame");
     return index;
 }
 
@@ -80,8 +80,8 @@ Result<CameraCalibration> FindKlgCamera(const std::string& path, std::vector<std
     std::error_code ignored;
     if (fs::exists(file, ignored)) return ReadCameraFile(file.string());
     notes.push_back(
-        "no camera.yaml beside the log: a focal length of 528 pixels is assumed; put a camera.yaml "
-        "there if it is another camera");
+        "no camera.yaml next to the log: assuming a focal length of 528 pixels; add a camera.yaml "
+        "if this is a different camera");
     CameraCalibration calibration;
     calibration.pinhole = {.width = 640, .height = 480, .fx = 528, .fy = 528, .cx = 320, .cy = 240};
     calibration.depth_scale = 1000;
@@ -157,8 +157,8 @@ class KlgSource : public FrameSource {
         if (libdeflate_zlib_decompress(inflater_.get(), bytes.data(), bytes.size(), depth_.data(),
                                        size, nullptr) != LIBDEFLATE_SUCCESS)
             return Status::Error(
-                fmt::format("depth is damaged, or not of {} x {} pixels (camera.yaml beside the "
-                            "log says the size)",
+                fmt::format("depth is damaged, or its size is not {} x {} pixels (set the size in "
+                            "camera.yaml next to the log)",
                             info_.camera.width, info_.camera.height));
         return Status::Ok();
     }
@@ -175,8 +175,9 @@ class KlgSource : public FrameSource {
         if (colour_.size() > 0 &&
             (colour_.width() != info_.camera.width || colour_.height() != info_.camera.height))
             return Status::Error(fmt::format(
-                "colour has {} x {} pixels, but the camera {} x {}; correct camera.yaml beside the "
-                "log",
+                "colour has {} x {} pixels, but the camera has {} x {}; correct camera.yaml next "
+                "to "
+                "the log",
                 colour_.width(), colour_.height(), info_.camera.width, info_.camera.height));
         if (swap_red_blue_)
             std::for_each_n(colour_.data(), colour_.size(), [](Rgb8& c) { std::swap(c.r, c.b); });

@@ -1,6 +1,7 @@
-// .klg logs, as Logger2 writes them and Kintinuous and ElasticFusion read them: one file of depth
-// in millimetres (raw or zlib) and colour (raw or JPEG). Little endian: int32 frames; then for each
-// int64 stamp in microseconds, int32 bytes of depth, int32 bytes of colour, depth, colour.
+// .klg logs, as written by Logger2 and read by Kintinuous and ElasticFusion: one file with depth in
+// millimetres (raw or zlib) and colour (raw or JPEG). Little endian. An int32 number of frames;
+// then for each frame: int64 stamp in microseconds, int32 depth size in bytes, int32 colour size in
+// bytes, depth, colour.
 #pragma once
 
 #include <memory>
@@ -12,10 +13,10 @@
 
 namespace tessera {
 
-// The camera is that of camera.yaml beside the file; without one 640 x 480 pixels with a focal
-// length of 528 are assumed, as those programs do, and noted. The source seeks; a frame that cannot
-// be decoded is kSkip; a log that was cut off is read up to its last whole frame, with a note;
-// frames whose stamp does not grow are left out, with a note. Errors name the file.
+// Takes the camera from camera.yaml next to the file. Without it, assumes 640 x 480 pixels and a
+// focal length of 528, as those programs do, and adds a note. The source can seek. A frame that
+// cannot be decoded returns kSkip. A truncated log is read up to its last complete frame, with a
+// note. Frames whose stamps do not increase are dropped, with a note. Errors name the file.
 Result<std::unique_ptr<FrameSource>> OpenKlgSource(const std::string& path,
                                                    const FolderSourceConfig& config);
 

@@ -18,7 +18,7 @@ namespace {
 constexpr std::size_t kMaxMeshBytes = std::size_t{16} << 30;
 constexpr std::uint64_t kMaxIndex = std::numeric_limits<std::int32_t>::max();
 
-// Where a vertex property goes; kNone is skipped.
+// Destination of a vertex property; kNone is skipped.
 enum Slot {
     kX,
     kY,
@@ -51,7 +51,8 @@ Slot SlotOf(std::string_view name) {
     return kNone;
 }
 
-// Factor from the stored value to 0..255: colours are bytes, 16-bit, or floats from 0 to 1.
+// Factor from the stored value to the range 0 to 255. Colours are bytes, 16-bit integers, or floats
+// from 0 to 1.
 double ColourScale(PlyType type) {
     if (type == PlyType::kFloat32 || type == PlyType::kFloat64) return 255.0;
     return type == PlyType::kUint16 ? 255.0 / 65535.0 : 1.0;
@@ -66,7 +67,7 @@ std::uint16_t ToIndex(double value) {
                      : std::uint16_t{0};
 }
 
-// A normal as the mesh wants it: of unit length, zero if it cannot be.
+// Normalises to unit length; zero if that is impossible.
 Eigen::Vector3f ToNormal(const double* n) {
     const Eigen::Vector3d normal(n[0], n[1], n[2]);
     const double length = normal.norm();
@@ -122,14 +123,14 @@ Status ReadVertices(const PlyElement& element, Scalars& scalars, TriangleMesh& m
     return Status::Ok();
 }
 
-// One polygon as a fan around its first corner.
+// Splits a polygon into a triangle fan around its first corner.
 template <class Scalars>
 void ReadPolygon(const PlyProperty& property, Scalars& scalars, TriangleMesh& mesh) {
     const std::uint64_t corners = scalars.ReadCount(property.count_type);
     std::array<std::uint32_t, 3> triangle{};
     for (std::uint64_t i = 0; i < corners && scalars.ok(); ++i) {
         const double index = scalars.Read(property.type);
-        // Out of range (checked once all vertices are known) if it is no index at all.
+        // An invalid index becomes out of range, which is checked once all vertices are known.
         const bool valid = index >= 0 && index <= static_cast<double>(kMaxIndex);
         triangle[std::min<std::uint64_t>(i, 2)] = valid ? static_cast<std::uint32_t>(index) : ~0u;
         if (i < 2) continue;
@@ -167,14 +168,14 @@ Status ReadBody(const PlyHeader& header, Scalars scalars, TriangleMesh& mesh) {
                     SkipProperty(property, scalars);
         }
         if (!scalars.ok())
-            return Status::Error(fmt::format("ends early or is damaged, in its '{}' list",
+            return Status::Error(fmt::format("is truncated or damaged in its '{}' list",
                                              element.name.substr(0, 40)));
     }
     if (!has_vertices) return Status::Error("has no vertices");
     for (const auto& triangle : mesh.triangles)
         for (const std::uint32_t index : triangle)
             if (index >= mesh.vertices.size())
-                return Status::Error(fmt::format("a face names vertex {} of {}",
+                return Status::Error(fmt::format("a face refers to vertex {} of {}",
                                                  static_cast<std::int32_t>(index),
                                                  mesh.vertices.size()));
     return Status::Ok();
@@ -200,7 +201,7 @@ Result<TriangleMesh> ReadPly(const std::string& path) {
         const Status status = ParsePly(file.value(), mesh);
         if (!status.ok()) return Status::Error(path + ": " + status.message());
     } catch (const std::bad_alloc&) {
-        return Status::Error(path + ": the mesh does not fit into memory");
+        return Status::Error(path + ": the mesh does not fit in memory");
     }
     return mesh;
 }

@@ -1,5 +1,4 @@
-// PLY in and out. Writing is binary little endian; reading takes ASCII and binary of either byte
-// order.
+// PLY input and output. Writes binary little endian; reads ASCII and binary of either byte order.
 #pragma once
 
 #include <string>
@@ -9,12 +8,12 @@
 
 namespace tessera {
 
-// Vertices with normals, colours and labels (class, instance) where the mesh has them. Written
-// beside the target and renamed, so that an existing file is never half overwritten.
+// Writes vertices, plus normals, colours and labels (class, instance) if the mesh has them. Writes
+// to a temporary file and renames it, so an existing file is never left half overwritten.
 Status WritePly(const std::string& path, const TriangleMesh& mesh);
 
-// Polygons are split into triangles, unknown properties skipped. Element counts are checked against
-// the file's size before anything is allocated.
+// Splits polygons into triangles and skips unknown properties. Checks element counts against the
+// file size before allocating anything.
 Result<TriangleMesh> ReadPly(const std::string& path);
 
 }  // namespace tessera

@@ -31,7 +31,7 @@ Result<MeshFormat> MeshFormatOf(const std::string& path) {
         known += (known.empty() ? "" : ", ") + std::string(format.extension);
     }
     return Status::Error(
-        fmt::format("{}: a mesh is written as {}; give one of these extensions", path, known));
+        fmt::format("{}: a mesh can be written as {}; use one of these extensions", path, known));
 }
 
 }  // namespace tessera

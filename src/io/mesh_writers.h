@@ -1,6 +1,6 @@
-// Meshes for other programs: which file formats there are, by extension, and their writers. Labels
-// go into PLY files only. All are written beside the target and renamed, so that an existing file
-// is never half overwritten. docs/exports.md says what opens them.
+// Mesh export for other programs: the file formats, selected by extension, and their writers. Only
+// PLY files hold labels. All writers use a temporary file and rename it, so an existing file is
+// never left half overwritten. docs/exports.md lists programs that open each format.
 #pragma once
 
 #include <cstddef>
@@ -11,11 +11,10 @@
 
 namespace tessera {
 
-// What a writer collects before it hands it on to the file.
+// Size of the pieces in which writers pass data to the file.
 inline constexpr std::size_t kMeshPieceBytes = std::size_t{1} << 20;
 
-// Stops the program where a property is neither empty nor one per vertex: what every writer relies
-// on.
+// Aborts if a vertex property is neither empty nor one per vertex, which all writers rely on.
 void CheckVertexProperties(const TriangleMesh& mesh);
 
 struct MeshFormat {
@@ -23,21 +22,21 @@ struct MeshFormat {
     Status (*write)(const std::string& path, const TriangleMesh& mesh);
 };
 
-// The format that a path's extension asks for: .ply, .obj or .glb. The error names those.
+// Returns the format for a path's extension: .ply, .obj or .glb. The error lists them.
 Result<MeshFormat> MeshFormatOf(const std::string& path);
 
 // Wavefront OBJ, text: "v x y z r g b", metres with 6 decimals in the mesh's own frame, colours as
-// the images have them (sRGB, 0 to 1), "vn" where the mesh has normals.
+// in the images (sRGB, 0 to 1), "vn" if the mesh has normals.
 Status WriteObj(const std::string& path, const TriangleMesh& mesh);
 
-// Binary glTF 2.0, metres. Its node turns the world (x right, y down, z forward) by half a turn
-// about x, so that viewers, whose y is up, show it upright; the vertices stay as they are. COLOR_0
-// is linear, as the specification wants it, in 16 bits: the exact image of all 256 sRGB values.
-// Nothing but a megabyte of colours is copied. Errors, besides those of writing: a mesh without
+// Binary glTF 2.0, metres. Its node rotates the world (x right, y down, z forward) by half a turn
+// about x, so that viewers, which have y up, show it upright. The vertices are not changed. COLOR_0
+// is linear, as the specification requires, in 16 bits, which keeps all 256 sRGB values distinct.
+// Copies no more than a megabyte of colours. Errors, besides write errors: a mesh without
 // triangles, which the format cannot hold, and more than 4 GiB.
 Status WriteGlb(const std::string& path, const TriangleMesh& mesh);
 
-// The vertices alone as a binary PLY point cloud, with all that the mesh knows of them.
+// Writes only the vertices, with all their properties, as a binary PLY point cloud.
 Status WritePlyCloud(const std::string& path, const TriangleMesh& mesh);
 
 }  // namespace tessera

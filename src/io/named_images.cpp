@@ -24,7 +24,7 @@ bool IsImageName(const std::string& name) {
     return std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end();
 }
 
-// Names of the images in a folder, sorted; empty if the folder cannot be read.
+// Sorted names of the images in a folder; empty if the folder cannot be read.
 std::vector<std::string> ImageNames(const fs::path& folder) {
     std::vector<std::string> names;
     std::error_code error;
@@ -36,7 +36,7 @@ std::vector<std::string> ImageNames(const fs::path& folder) {
     return names;
 }
 
-// "1305031229.528748" is seconds; 13, 16 and 19 digits are milli-, micro- and nanoseconds since
+// "1305031229.528748" is in seconds; 13, 16 and 19 digits are milli-, micro- and nanoseconds since
 // 1970.
 std::optional<double> StampInName(const std::string& name) {
     const std::string stem = fs::path(name).stem().string();
@@ -66,7 +66,7 @@ std::optional<std::int64_t> NumberInName(const std::string& name) {
     return number;
 }
 
-// Name by key, if every name has a key and no two the same.
+// Maps keys to names; nullopt unless every name has a key and all keys differ.
 template <class Key>
 std::optional<std::map<Key, std::string>> IndexNames(
     const std::vector<std::string>& names, std::optional<Key> (*key_of)(const std::string&)) {
@@ -146,7 +146,7 @@ Result<ImagePairs> ReadSevenScenesNames(const std::string& folder, double fps) {
     if (depth_index && colour_index) result = PairByNumber(*depth_index, *colour_index, fps);
     if (result.pairs.empty())
         return Status::Error(folder +
-                             ": no frame-NNNNNN.color.png with its frame-NNNNNN.depth.png");
+                             ": no frame-NNNNNN.color.png has a matching frame-NNNNNN.depth.png");
     NoteUnpaired(depth.size(), colour.size(), result);
     return result;
 }
@@ -168,7 +168,7 @@ Result<ImagePairs> PairByName(const std::string& folder, const ImageFolders& fol
     for (const auto& [name, images] :
          {std::pair(folders.depth, &depth), std::pair(folders.colour, &colour)})
         if (images->empty())
-            return Status::Error((fs::path(folder) / name).string() + ": no images in it");
+            return Status::Error((fs::path(folder) / name).string() + ": contains no images");
 
     const auto depth_stamps = IndexNames(depth, &StampInName),
                colour_stamps = IndexNames(colour, &StampInName);
@@ -183,9 +183,9 @@ Result<ImagePairs> PairByName(const std::string& folder, const ImageFolders& fol
         result = PairByOrder(depth, colour, fps);
     if (result.pairs.empty())
         return Status::Error(
-            fmt::format("{}: the {} images in {} and the {} in {} cannot be paired by their names; "
-                        "give both the same numbers, or "
-                        "write rgb.txt and depth.txt with lines 'stamp filename'",
+            fmt::format("{}: the {} images in {} and the {} in {} cannot be paired by name; give "
+                        "matching images the same number, or write rgb.txt and depth.txt with "
+                        "lines 'stamp filename'",
                         folder, depth.size(), folders.depth, colour.size(), folders.colour));
     NoteUnpaired(depth.size(), colour.size(), result);
     for (ImagePair& pair : result.pairs) {

@@ -10,11 +10,11 @@ namespace tessera {
 namespace {
 
 constexpr double kFieldOfView_rad = std::numbers::pi / 3;
-constexpr double kMillimetres = 1000, kTum = 5000;  // stored values of one metre that are in use
-constexpr double kUsual_m = 1.5;                    // the middle depth of a room
+constexpr double kMillimetres = 1000, kTum = 5000;  // common stored depth values of one metre
+constexpr double kUsual_m = 1.5;                    // median depth of a room
 constexpr double kNearest_m = 0.3, kFarthest_m = 8;
 
-// The middle one, 0 if there are none.
+// Returns the median; 0 if there are no values.
 double MiddleValue(std::vector<std::uint16_t>& values) {
     if (values.empty()) return 0;
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -22,7 +22,8 @@ double MiddleValue(std::vector<std::uint16_t>& values) {
     return *middle;
 }
 
-// TUM's files hold whole millimetres times five. Otherwise the unit that makes it more of a room.
+// TUM's files hold whole millimetres times five. Otherwise, choose the unit that makes the depth
+// more typical of a room.
 double UnitOf(const std::vector<std::uint16_t>& values, double middle) {
     if (middle <= 0) return kMillimetres;
     const bool fives = std::all_of(values.begin(), values.end(),
@@ -62,9 +63,8 @@ Status AssumeCamera(FolderLayout& layout) {
     layout.calibration.pinhole = camera;
     layout.calibration.depth_scale = unit;
     layout.notes.push_back(
-        fmt::format("no camera.yaml: depth_scale {:.0f} is assumed, which makes the middle depth "
-                    "{:.2f} m; if it is "
-                    "another, set source.depth_scale",
+        fmt::format("no camera.yaml: assuming depth_scale {:.0f}, which gives a median depth of "
+                    "{:.2f} m; if that is wrong, set source.depth_scale",
                     unit, middle / unit));
     return Status::Ok();
 }

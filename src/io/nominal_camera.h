@@ -1,4 +1,4 @@
-// A camera of which nobody says anything: what is usual, and what the images themselves show.
+// Assumptions for an unknown camera, based on typical values and on the images themselves.
 #pragma once
 
 #include "core/status.h"
@@ -6,13 +6,13 @@
 
 namespace tessera {
 
-// Fills in the calibration of a layout whose camera is not known, and notes what is assumed: a
-// horizontal field of view of 60 degrees, the centre in the middle, no distortion, and the unit of
-// depth (1000 or 5000 values a metre) that makes the images' middle depth that of a room. The size
-// is the first readable depth image's; an error if there is none.
+// Fills in the calibration of a layout with an unknown camera. Assumes a horizontal field of view
+// of 60 degrees, a centred principal point, no distortion, and the depth unit (1000 or 5000 values
+// per metre) that makes the median depth typical of a room. The depth unit is reported in the
+// notes. The size is that of the first readable depth image; it is an error if there is none.
 Status AssumeCamera(FolderLayout& layout);
 
-// `values`, with the size of `sized`.
+// Returns `values` with the image size of `sized`.
 PinholeCamera WithSizeOf(const PinholeCamera& sized, const PinholeCamera& values);
 
 }  // namespace tessera

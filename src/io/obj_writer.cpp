@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t kLineBytes = 256;  // more than any line takes
 
-// Collects lines and hands them on in large pieces.
+// Collects lines and writes them in large pieces.
 class LineBuffer {
   public:
     explicit LineBuffer(AtomicFile& file) : file_(file) {
@@ -49,7 +49,7 @@ void AddVertices(const TriangleMesh& mesh, LineBuffer& lines) {
         lines.Add(FMT_COMPILE("vn {:.4f} {:.4f} {:.4f}\n"), n.x(), n.y(), n.z());
 }
 
-// Counted from 1.
+// OBJ indices start at 1.
 void AddFaces(const TriangleMesh& mesh, LineBuffer& lines) {
     for (const auto& [a, b, c] : mesh.triangles) {
         const std::uint64_t i = std::uint64_t{a} + 1, j = std::uint64_t{b} + 1,

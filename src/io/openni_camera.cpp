@@ -13,7 +13,7 @@
 namespace tessera {
 
 struct OpenniCamera::Streams {
-    // Closed in reverse: recorder, streams, device.
+    // Closed in reverse order: recorder, streams, device.
     openni::Device device;
     openni::VideoStream depth, colour;
     openni::Recorder recorder;
@@ -38,7 +38,7 @@ int PixelBytes(openni::PixelFormat format) {
                                                   : kDepthBytes;
 }
 
-// Empty, or what is wrong with an image that should have the camera's size.
+// Returns what is wrong with an image that should have the camera's size; empty if nothing is.
 std::string FaultOf(const openni::VideoFrameRef& image, const PinholeCamera& camera) {
     if (image.getData() == nullptr || image.getDataSize() <= 0) return "it is empty";
     if (image.getWidth() != camera.width || image.getHeight() != camera.height)
@@ -76,12 +76,12 @@ Status StartPlayback(openni::Device& device, const openni::VideoStream& depth,
                      const openni::VideoStream& colour, const OpenniConfig& config,
                      OpenniCamera::About& about) {
     openni::PlaybackControl* playback = device.getPlaybackControl();
-    if (playback == nullptr) return Status::Error("is no .oni recording");
-    // -1: a frame whenever one is waited for.
+    if (playback == nullptr) return Status::Error("is not an .oni recording");
+    // -1: deliver a frame whenever one is requested.
     const float speed = config.playback == OpenniConfig::Playback::kFast ? -1.0f : 1.0f;
     if (playback->setRepeatEnabled(false) != openni::STATUS_OK ||
         playback->setSpeed(speed) != openni::STATUS_OK)
-        return Status::Error("cannot be played: " + OpenniErrorText());
+        return Status::Error("cannot be played back: " + OpenniErrorText());
     const int frames =
         std::min(playback->getNumberOfFrames(depth), playback->getNumberOfFrames(colour));
     if (frames >= 0) about.frame_count = frames;
@@ -108,8 +108,8 @@ Result<std::unique_ptr<OpenniCamera>> OpenniCamera::Open(std::shared_ptr<OpenniR
     auto streams = std::make_unique<Streams>();
     if (streams->device.open(uri.c_str()) != openni::STATUS_OK)
         return Status::Error(is_recording
-                                 ? "is no complete .oni recording (" + OpenniErrorText() + ")"
-                                 : "cannot be opened, does another program use it? (" +
+                                 ? "is not a complete .oni recording (" + OpenniErrorText() + ")"
+                                 : "cannot be opened; is another program using it? (" +
                                        OpenniErrorText() + ")");
     const openni::DeviceInfo& info = streams->device.getDeviceInfo();
     about.name = std::string(info.getVendor()) + " " + info.getName();
@@ -159,11 +159,11 @@ void OpenniCamera::StopFrameSync() {
 
 Status OpenniCamera::Record(const std::string& path, bool lossless_colour) {
     openni::Recorder& recorder = streams_->recorder;
-    if (recorder.isValid()) return Status::Error(path + ": this camera is being recorded already");
+    if (recorder.isValid()) return Status::Error(path + ": this camera is already being recorded");
     std::error_code ignored;
     if (std::filesystem::exists(path, ignored))
-        return Status::Error(path + ": exists already; give a new name");
-    // The library ends the process where it cannot open the file, so that is tried before.
+        return Status::Error(path + ": already exists; give a new name");
+    // The library terminates the process if it cannot open the file, so test that first.
     if (GrowingFile probe; !probe.Open(path).ok()) return probe.Open(path);
     if (recorder.create(path.c_str()) != openni::STATUS_OK)
         return Status::Error(path + ": the recording cannot be started: " + OpenniErrorText());

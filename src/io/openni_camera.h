@@ -1,5 +1,5 @@
-// One OpenNI2 device or .oni recording that is open and gives colour and depth. The only files that
-// know OpenNI2's own types are openni_camera.cpp, openni_setup.cpp and openni_runtime.cpp.
+// An open OpenNI2 device or .oni recording with colour and depth streams. Only openni_camera.cpp,
+// openni_setup.cpp and openni_runtime.cpp use OpenNI2's types.
 #pragma once
 
 #include <cstdint>
@@ -19,25 +19,25 @@ namespace tessera {
 class OpenniCamera {
   public:
     struct About {
-        std::string uri, name;  // of the device, "PrimeSense PS1080"; a recording's are its file
+        std::string uri, name;  // of the device, "PrimeSense PS1080"; for recordings, of the file
         PinholeCamera camera;
-        double fps = 30;                      // the depth stream's
+        double fps = 30;                      // of the depth stream
         double shortest_period_s = 1.0 / 30;  // between two images of the same stream
         double depth_units_per_m = 1000;
-        std::int64_t frame_count = -1;  // of a recording: no more pairs than that
+        std::int64_t frame_count = -1;  // recordings only: upper bound on the number of pairs
         bool frame_sync = false;
-        std::vector<std::string> notes;  // what could not be had as asked for
+        std::vector<std::string> notes;  // requested settings that are not available
     };
     enum class Event { kDepth, kColour, kNothing, kEnd };
     struct Arrival {
         Event event = Event::kNothing;
         std::uint64_t stamp_us = 0;
-        int number = 0;     // the device's own
+        int number = 0;     // the device's own frame number
         std::string fault;  // why the image is unusable; it is then not copied
     };
 
-    // `uri`: of a device, or a recording's path. Errors: in use, gone, no such streams, no common
-    // size.
+    // `uri` is a device's URI or a recording's path. Errors: in use, gone, missing streams, no
+    // common image size.
     static Result<std::unique_ptr<OpenniCamera>> Open(std::shared_ptr<OpenniRuntime> runtime,
                                                       const std::string& uri, bool is_recording,
                                                       const OpenniConfig& config);
@@ -45,14 +45,15 @@ class OpenniCamera {
 
     const About& about() const { return about_; }
 
-    // Waits for an image of either stream, at most so long, and copies it into `depth` or `colour`.
-    // kEnd: the recording is over; final.
+    // Waits at most `seconds` for an image of either stream and copies it into `depth` or `colour`.
+    // kEnd means that the recording is over; it is final.
     Arrival Wait(double seconds, Image<std::uint16_t>& depth, ColourImage& colour);
 
     bool WasUnplugged() const { return runtime_->WasUnplugged(about_.uri); }
     void StopFrameSync();
 
-    // From now on the device's images go into this .oni file too, until the camera is closed. Once.
+    // From now on, also records the device's images into this .oni file, until the camera is
+    // closed. Call it at most once.
     Status Record(const std::string& path, bool lossless_colour);
 
   private:

@@ -1,4 +1,4 @@
-// Settings of OpenNI2 cameras and recordings.
+// Settings for OpenNI2 cameras and recordings.
 #pragma once
 
 #include "core/config.h"
@@ -9,14 +9,14 @@ namespace tessera {
 struct OpenniConfig {
     enum class Playback { kFast, kRecorded };
 
-    // Pixels; 0: from the device's fields of view, and the image's centre.
+    // In pixels. 0 = from the device's field of view and the image centre.
     double fx = 0, fy = 0, cx = 0, cy = 0;
-    bool registration = true;  // depth as the colour camera sees it, by the device
-    bool frame_sync = true;    // both images at the same moment, by the device
+    bool registration = true;  // the device registers depth to the colour camera
+    bool frame_sync = true;    // the device captures both images at the same time
     bool auto_exposure = true, auto_white_balance = true;
-    // Colour and depth at least this far apart in time are no pair.
+    // Colour and depth images at least this far apart in time are not paired.
     double max_pair_gap_s = 0.02;
-    Playback playback = Playback::kFast;  // of .oni files
+    Playback playback = Playback::kFast;  // for .oni files
 
     void Describe(ConfigParameters& parameters);
 };

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kSettings = "/etc/openni2/OpenNI.ini";
 
-// Where the library looks: beside itself, or where its settings say.
+// The folder where the library looks for drivers: next to itself, or as its settings file says.
 std::string DriverFolder() {
     Dl_info about{};
     std::error_code error;
@@ -54,19 +54,19 @@ void AdviseOn(const UsbCamera& camera, const std::string& driver_folder,
               std::vector<std::string>& advice) {
     advice.push_back(fmt::format("on USB: {}, {}", camera.name, camera.path));
     if (!camera.writable)
-        advice.push_back(HasUdevRules() ? "  you may not use it: unplug it and plug it in again, "
-                                          "so that the udev rules apply"
-                                        : "  you may not use it: udev rules are missing (package "
-                                          "libopenni2-0); install, plug in again");
+        advice.push_back(HasUdevRules() ? "  no permission to use it: unplug it and plug it in "
+                                          "again so that the udev rules apply"
+                                        : "  no permission to use it: udev rules are missing; "
+                                          "install the package libopenni2-0 and plug it in again");
     else if (camera.needs_freenect && !HasDriver(driver_folder, "Freenect"))
         advice.push_back(
-            "  needs libfreenect's OpenNI2 driver, which Debian does not have (docs/camera.md), "
-            "in " +
+            "  needs libfreenect's OpenNI2 driver, which Debian does not package (see "
+            "docs/camera.md), in " +
             driver_folder);
     else
         advice.push_back(
-            "  it does not answer: does another program use it? else plug it in again, at another "
-            "port");
+            "  it does not respond: is another program using it? If not, plug it in again, at "
+            "another port");
 }
 
 std::vector<std::string> Advise(const std::string& driver_folder) {
@@ -74,17 +74,17 @@ std::vector<std::string> Advise(const std::string& driver_folder) {
     std::vector<std::string> advice;
     std::error_code error;
     if (!HasDriver(driver_folder, "lib"))
-        advice.push_back("no drivers in " + driver_folder + " (package libopenni2-0; or correct " +
-                         kSettings + ")");
+        advice.push_back("no drivers in " + driver_folder +
+                         " (install the package libopenni2-0, or correct " + kSettings + ")");
     if (!fs::exists(sys_devices, error)) {
         advice.push_back(
-            "no USB bus to be seen here (in a container? pass /dev/bus/usb and /sys into it)");
+            "no USB bus visible (in a container? pass /dev/bus/usb and /sys through to it)");
         return advice;
     }
     const std::vector<UsbCamera> cameras = FindUsbCameras(sys_devices, "/dev/bus/usb");
     if (cameras.empty())
         advice.push_back(
-            "no known depth camera on USB: is it plugged in, and its power supply too?");
+            "no known depth camera on USB: is it plugged in, and its power supply as well?");
     for (const UsbCamera& camera : cameras) AdviseOn(camera, driver_folder, advice);
     return advice;
 }

@@ -1,4 +1,4 @@
-// In place of everything that needs OpenNI2, in a build without it: says so.
+// Stubs for builds without OpenNI2; they report that it is missing.
 #include "io/openni_devices.h"
 #include "io/openni_source.h"
 
@@ -6,8 +6,8 @@ namespace tessera {
 
 Result<std::unique_ptr<FrameSource>> OpenOpenniSource(const std::string& name,
                                                       const OpenniConfig&) {
-    return Status::Error(name +
-                         ": this build has no OpenNI2: install libopenni2-dev and build again");
+    return Status::Error(
+        name + ": this build has no OpenNI2 support; install libopenni2-dev and build again");
 }
 
 OpenniListing ListOpenniDevices() {

@@ -11,7 +11,7 @@
 namespace tessera {
 namespace {
 
-// Held while the library is started or shut down.
+// Held while the library starts or shuts down.
 std::mutex& LifeMutex() {
     static std::mutex mutex;
     return mutex;
@@ -27,7 +27,7 @@ std::string OpenniErrorText() {
     return text.empty() ? "no reason given" : text;
 }
 
-// The library calls the listeners on its drivers' threads.
+// The library calls these listeners from its driver threads.
 struct OpenniRuntime::Impl : openni::OpenNI::DeviceConnectedListener,
                              openni::OpenNI::DeviceDisconnectedListener,
                              openni::OpenNI::DeviceStateChangedListener {
@@ -48,7 +48,7 @@ struct OpenniRuntime::Impl : openni::OpenNI::DeviceConnectedListener,
         changed.notify_all();
     }
 
-    std::mutex mutex;  // of all below
+    std::mutex mutex;  // protects everything below
     std::condition_variable changed;
     std::uint64_t changes = 0;
     std::set<std::string> unplugged, ended;

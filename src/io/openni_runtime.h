@@ -1,4 +1,4 @@
-// The OpenNI2 library's life in this process, and what it says about devices that come and go.
+// Lifetime of the OpenNI2 library in this process, and its device events.
 #pragma once
 
 #include <memory>
@@ -10,15 +10,15 @@
 
 namespace tessera {
 
-// Initialised with the first Acquire, shut down with its last owner. Thread-safe.
+// Initialised by the first Acquire, shut down with its last owner. Thread-safe.
 //
-// The library (2.2) remembers every thread that ever called it, its own recorders' too, and looks
-// at the dead ones' memory when another thread calls it first. That memory is mostly still there;
-// but a process should call it from few threads that live long, and begin no second recording. Even
-// a test program runs one such test per process.
+// The library (2.2) remembers every thread that ever called it, including its own recorder threads.
+// When a new thread calls it, the library reads the memory of threads that have ended. That memory
+// is usually still mapped. Even so, a process should call the library from few long-lived threads
+// and should not start a second recording. Test programs run only one such test per process.
 class OpenniRuntime {
   public:
-    // An error says what the library found missing.
+    // The error says what the library could not find.
     static Result<std::shared_ptr<OpenniRuntime>> Acquire();
     ~OpenniRuntime();
     OpenniRuntime(const OpenniRuntime&) = delete;
@@ -26,12 +26,12 @@ class OpenniRuntime {
 
     std::vector<OpenniDevice> Devices() const;
 
-    // Whether the device was unplugged, or the recording came to its end, since Watch(uri).
+    // Device events since Watch(uri): the device was unplugged, or the recording reached its end.
     void Watch(const std::string& uri);
     bool WasUnplugged(const std::string& uri) const;
     bool CameToItsEnd(const std::string& uri) const;
 
-    // Returns when a device is plugged in or out, or after so long.
+    // Returns when a device is plugged in or unplugged, or after `seconds`.
     void WaitForChange(double seconds);
 
   private:
@@ -40,7 +40,7 @@ class OpenniRuntime {
     std::unique_ptr<Impl> impl_;
 };
 
-// What the library said last, on one line.
+// The library's last error message, on one line.
 std::string OpenniErrorText();
 
 }  // namespace tessera

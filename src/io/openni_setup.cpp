@@ -36,14 +36,15 @@ Status ChooseAndSetModes(const OpenniStreams& s) {
     const auto chosen = ChooseModes(ModesOf(s.depth), ModesOf(s.colour));
     if (!chosen)
         return Status::Error(
-            "depth and colour have no size in common, with 16-bit depth and RGB or grey colour");
+            "depth and colour have no image size in common (with 16-bit depth, RGB or grey "
+            "colour)");
     const auto set = [](VideoStream& stream, std::size_t index) {
         return stream.setVideoMode(
             stream.getSensorInfo().getSupportedVideoModes()[static_cast<int>(index)]);
     };
     if (set(s.depth, chosen->first) != openni::STATUS_OK ||
         set(s.colour, chosen->second) != openni::STATUS_OK)
-        return Status::Error("the size and rate cannot be set: " + OpenniErrorText());
+        return Status::Error("cannot set the image size and frame rate: " + OpenniErrorText());
     return Status::Ok();
 }
 
@@ -52,17 +53,16 @@ void SetRegistration(openni::Device& device, OpenniCamera::About& about) {
     if (!device.isImageRegistrationModeSupported(wanted) ||
         device.setImageRegistrationMode(wanted) != openni::STATUS_OK)
         about.notes.push_back(
-            "the device does not register depth to colour: depth is used as it is, colours lie "
-            "beside their "
-            "surface by the distance of the two lenses");
+            "the device does not register depth to colour: depth is used as it is, and colours are "
+            "offset from their surface by the distance between the two lenses");
 }
 
-// A pinhole's focal length from its field of view.
+// Focal length of a pinhole camera with this field of view.
 double Focal_px(int pixels, float fov_rad) {
     return pixels / (2 * std::tan(static_cast<double>(fov_rad) / 2));
 }
 
-// Registered depth is the colour camera's view.
+// Registered depth has the colour camera's view.
 PinholeCamera CameraOf(const OpenniStreams& s, const OpenniConfig& config,
                        OpenniCamera::About& about) {
     const VideoMode mode = s.depth.getVideoMode();
@@ -80,12 +80,11 @@ PinholeCamera CameraOf(const OpenniStreams& s, const OpenniConfig& config,
         return focal > 0.2 * pixels && focal < 10.0 * pixels;
     };
     if (!plausible(camera.fx, width) || !plausible(camera.fy, height)) {
-        camera.fx = camera.fy = 525.0 / 640 * width;  // a Kinect's, nearly
+        camera.fx = camera.fy = 525.0 / 640 * width;  // close to a Kinect's
         if (config.fx == 0 || config.fy == 0)
             about.notes.push_back(
-                "no usable field of view is given; a Kinect's focal length is taken (set "
-                "source.openni.fx "
-                "and fy)");
+                "the device reports no usable field of view; using a Kinect's focal length (set "
+                "source.openni.fx and fy)");
     }
     for (const auto& [wanted, value] : {std::pair{config.fx, &camera.fx},
                                         {config.fy, &camera.fy},
@@ -99,21 +98,22 @@ Status CheckModes(const OpenniStreams& s, OpenniCamera::About& about) {
     const StreamMode depth = Described(s.depth.getVideoMode()),
                      colour = Described(s.colour.getVideoMode());
     if (!depth.usable || !colour.usable)
-        return Status::Error("depth is not 16-bit in mm, or colour neither RGB nor grey");
+        return Status::Error("unsupported pixel format: depth must be 16-bit, colour RGB or grey");
     if (depth.width != colour.width || depth.height != colour.height)
         return Status::Error(
-            fmt::format("depth has {} x {} pixels, colour {} x {}: they must be the same",
+            fmt::format("depth has {} x {} pixels, colour {} x {}; the sizes must match",
                         depth.width, depth.height, colour.width, colour.height));
     if (depth.width < 16 || depth.height < 16 || depth.width > 8192 || depth.height > 8192)
         return Status::Error(
-            fmt::format("{} x {} pixels are no plausible size", depth.width, depth.height));
+            fmt::format("{} x {} pixels is not a plausible size", depth.width, depth.height));
     const int fps = std::clamp(depth.fps, 1, 1000);
     about.fps = fps;
     about.shortest_period_s = 1.0 / std::max(fps, std::clamp(colour.fps, 1, 1000));
     about.depth_units_per_m = depth.preference == 0 ? 1000 : 10000;
     if (depth.width != 640 || depth.height != 480 || depth.fps != 30 || colour.fps != 30)
         about.notes.push_back(fmt::format(
-            "{} x {} pixels, depth {} and colour {} times a second (640 x 480 x 30 were asked for)",
+            "{} x {} pixels, depth at {} and colour at {} frames per second (requested: 640 x 480 "
+            "at 30)",
             depth.width, depth.height, depth.fps, colour.fps));
     return Status::Ok();
 }
@@ -128,7 +128,7 @@ Status SetUpOpenniStreams(const OpenniStreams& s, bool is_recording, const Openn
             return Status::Error(fmt::format("has no {} images", name));
         if (stream->create(s.device, sensor) != openni::STATUS_OK)
             return Status::Error(
-                fmt::format("its {} images cannot be had: {}", name, OpenniErrorText()));
+                fmt::format("its {} stream cannot be opened: {}", name, OpenniErrorText()));
     }
     if (!is_recording) {
         if (Status status = ChooseAndSetModes(s); !status.ok()) return status;
@@ -149,7 +149,7 @@ Status StartOpenniStreams(const OpenniStreams& s, bool is_recording, const Openn
                           OpenniCamera::About& about) {
     for (VideoStream* stream : {&s.depth, &s.colour})
         if (stream->start() != openni::STATUS_OK)
-            return Status::Error("it cannot be started: " + OpenniErrorText());
+            return Status::Error("its streams cannot be started: " + OpenniErrorText());
     if (is_recording) return Status::Ok();
     if (openni::CameraSettings* settings = s.colour.getCameraSettings()) {
         (void)settings->setAutoExposureEnabled(config.auto_exposure);

@@ -1,5 +1,5 @@
-// Brings an opened OpenNI2 device into the state that is wanted: sizes, rates, registration. Part
-// of OpenniCamera.
+// Configures an opened OpenNI2 device: image sizes, frame rates, registration. Part of
+// OpenniCamera.
 #pragma once
 
 #include "core/status.h"
@@ -18,12 +18,12 @@ struct OpenniStreams {
     openni::VideoStream& colour;
 };
 
-// Creates both streams and fills `about`, except uri and name. A recording's streams are taken as
+// Creates both streams and fills `about`, except for uri and name. Recorded streams are used as
 // they are.
 Status SetUpOpenniStreams(const OpenniStreams& streams, bool is_recording,
                           const OpenniConfig& config, OpenniCamera::About& about);
 
-// Starts both, and sets what devices take only from then on.
+// Starts both streams and applies the settings that devices accept only after that.
 Status StartOpenniStreams(const OpenniStreams& streams, bool is_recording,
                           const OpenniConfig& config, OpenniCamera::About& about);
 

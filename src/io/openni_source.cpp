@@ -14,12 +14,12 @@ namespace {
 
 constexpr const char* kPrefix = "openni2:";
 constexpr double kLongestRead_s = 0.4;
-constexpr double kSilence_s = 1.0;  // then a person is told
-// A recording that gives nothing for so long has lost its end; at the recorded pace there may be a
-// pause in it.
+constexpr double kSilence_s = 1.0;  // after this, the user is told
+// A recording that delivers nothing for this long has no end marker. At the recorded pace it may
+// contain a pause.
 constexpr double kLostEnd_s = 1.5, kLostEndRecordedPace_s = 5;
-constexpr std::int64_t kManyAlone = 10;  // images without a partner, before it is worth a word
-// Of a camera's, of a recording's stamps.
+constexpr std::int64_t kManyAlone = 10;  // unpaired images before the user is told
+// Largest step of a camera's stamps and of a recording's stamps.
 constexpr double kLargestJump_s = 10, kLargestPause_s = 1e6;
 
 double Now_s() {
@@ -27,7 +27,7 @@ double Now_s() {
         .count();
 }
 
-// The same device, or one of the same kind: after "@" the URI says where it was plugged in.
+// True for the same device or one of the same kind. The part of a URI after "@" is the port.
 bool IsReplacement(const std::string& uri, const std::string& lost) {
     return uri == lost || (lost.find('@') != std::string::npos &&
                            uri.substr(0, uri.find('@')) == lost.substr(0, lost.find('@')));
@@ -110,7 +110,7 @@ class OpenniSource : public FrameSource {
         return true;
     }
 
-    // Checks the image and hands it to the pairing; kSkip if it is unusable.
+    // Checks the image and passes it to the pairing. Returns kSkip if it is unusable.
     ReadResult Take(const OpenniCamera::Arrival& arrival, double now_s) {
         const bool is_depth = arrival.event == OpenniCamera::Event::kDepth;
         (is_depth ? heard_depth_s_ : heard_colour_s_) = now_s;
@@ -122,13 +122,13 @@ class OpenniSource : public FrameSource {
         if (!arrival.fault.empty()) return skip(arrival.fault);
         const DeviceClock::Reading reading = clock_.Read(is_depth ? 0 : 1, arrival.stamp_us, now_s);
         if (reading.verdict == DeviceClock::Verdict::kBackwards)
-            return skip("its stamp does not lie after the one before");
+            return skip("its time stamp is not later than the previous one");
         if (reading.verdict == DeviceClock::Verdict::kAbsurd)
-            return skip(fmt::format("its stamp of {} us is absurd", arrival.stamp_us));
+            return skip(fmt::format("its time stamp of {} us is implausible", arrival.stamp_us));
         if (reading.was_reset) {
             pairing_.Clear();
             message_ =
-                prefix_ + "the camera's clock was set to another time; stamps go on from the last";
+                prefix_ + "the camera's clock jumped; time stamps continue from the last one";
         }
         if (is_depth)
             pairing_.AddDepth(reading.stamp_s, depth_);
@@ -137,7 +137,7 @@ class OpenniSource : public FrameSource {
         return {};
     }
 
-    // What a person should know now, each thing once; mostly nothing.
+    // Returns what the user should know now, each thing once. Usually empty.
     std::string Trouble(double now_s) {
         if (!message_.empty()) return std::exchange(message_, {});
         const double silence_s = now_s - std::min(heard_depth_s_, heard_colour_s_);
@@ -145,16 +145,15 @@ class OpenniSource : public FrameSource {
         if (is_recording_ && silence_s > (info_.live ? kLostEndRecordedPace_s : kLostEnd_s)) {
             ended_ = true;
             pairing_.End();
-            return prefix_ + "the recording has lost its end; what there is was read";
+            return prefix_ + "the recording is truncated; all frames in it were read";
         }
         if (!is_recording_ && silence_s >= kSilence_s && !silence_told_) return Silence(now_s);
         const std::int64_t alone = pairing_.depth_alone();
         if (alone < kManyAlone || alone_told_) return {};
         alone_told_ = true;
         return fmt::format(
-            "{}{} of the first {} depth images had no colour image within {:.0f} ms and were left "
-            "out (do "
-            "depth and colour come at different rates?)",
+            "{}{} of the first {} depth images had no colour image within {:.0f} ms and were "
+            "dropped (do depth and colour have different frame rates?)",
             prefix_, alone, alone + pairing_.pairs(), 1000 * config_.max_pair_gap_s);
     }
 
@@ -176,31 +175,30 @@ class OpenniSource : public FrameSource {
         drained_ = true;
         const std::int64_t alone = pairing_.depth_alone();
         if (alone == 0) return {ReadStatus::kEnd, {}};
-        return {
-            ReadStatus::kWait,
-            fmt::format(
-                "{}{} of {} depth images had no colour image within {:.0f} ms and were left out",
-                prefix_, alone, alone + pairing_.pairs(), 1000 * config_.max_pair_gap_s)};
+        return {ReadStatus::kWait,
+                fmt::format(
+                    "{}{} of {} depth images had no colour image within {:.0f} ms and were dropped",
+                    prefix_, alone, alone + pairing_.pairs(), 1000 * config_.max_pair_gap_s)};
     }
 
     ReadResult Unplug() {
         camera_.reset();
         pairing_.Clear();
-        // The library cannot be trusted to begin a second recording: see openni_runtime.h.
+        // The library cannot reliably start a second recording: see openni_runtime.h.
         const std::string recording =
             recording_path_.empty() ? "" : "; the recording " + recording_path_ + " ends here";
         recording_path_.clear();
         return {ReadStatus::kWait, prefix_ + "camera unplugged, waiting for it" + recording};
     }
 
-    // One try, at most a fraction of a second.
+    // Tries once, for at most a fraction of a second.
     ReadResult Reconnect() {
         constexpr double kBetweenTries_s = 0.2;
         for (const OpenniDevice& device : runtime_->Devices()) {
             if (!any_device_ && !IsReplacement(device.uri, about_.uri)) continue;
             Result<std::unique_ptr<OpenniCamera>> opened =
                 OpenniCamera::Open(runtime_, device.uri, false, config_);
-            if (!opened.ok()) continue;  // still starting, or another's
+            if (!opened.ok()) continue;  // still starting, or in use
             const OpenniCamera::About& about = opened.value()->about();
             if (about.camera != about_.camera ||
                 about.depth_units_per_m != about_.depth_units_per_m)
@@ -219,23 +217,23 @@ class OpenniSource : public FrameSource {
     const bool any_device_, is_recording_;
     std::shared_ptr<OpenniRuntime> runtime_;
     std::unique_ptr<OpenniCamera> camera_;  // null while unplugged
-    OpenniCamera::About about_;             // of the present or last camera
+    OpenniCamera::About about_;             // of the current or last camera
     SourceInfo info_;
     StreamPairing pairing_;
     DeviceClock clock_;
     StreamPairing::Pair pair_;
     Image<std::uint16_t> depth_;
     ColourImage colour_;
-    double heard_depth_s_, heard_colour_s_;  // when an image of either stream came last
+    double heard_depth_s_, heard_colour_s_;  // when the last image of each stream arrived
     std::int64_t next_index_ = 0;
     bool ended_ = false, drained_ = false;  // no more images; no more pairs
     bool silence_told_ = false, alone_told_ = false;
-    const std::string prefix_;  // of messages
+    const std::string prefix_;  // for messages
     std::string message_;
-    std::string recording_path_;  // empty: the camera does not record
+    std::string recording_path_;  // empty: the camera is not recording
 };
 
-// Whether the file begins as .oni files do.
+// Checks that the file starts like an .oni file.
 Status CheckRecording(const std::string& path) {
     std::error_code ignored;
     if (!std::filesystem::exists(path, ignored)) return Status::Error(path + ": no such file");
@@ -244,7 +242,7 @@ Status CheckRecording(const std::string& path) {
     char magic[4] = {};
     std::ifstream file(path, std::ios::binary);
     if (!file.read(magic, sizeof(magic)) || std::string(magic, 4) != "NI10")
-        return Status::Error(path + ": is no .oni recording (it does not begin with NI10)");
+        return Status::Error(path + ": is not an .oni recording (it does not start with NI10)");
     return Status::Ok();
 }
 
@@ -262,12 +260,13 @@ Result<std::unique_ptr<FrameSource>> OpenOpenniSource(const std::string& name,
     if (!is_recording) {
         const std::vector<OpenniDevice> devices = runtime.value()->Devices();
         if (devices.empty())
-            return Status::Error(name +
-                                 ": no camera found; is it plugged in, and may you use it? tessera "
-                                 "doctor says more");
+            return Status::Error(
+                name +
+                ": no camera found; is it plugged in, and do you have permission to "
+                "use it? tessera doctor gives details");
         if (any_device) uri = devices.front().uri;
         if (std::ranges::find(devices, uri, &OpenniDevice::uri) == devices.end())
-            return Status::Error(name + ": no such camera; tessera doctor lists them");
+            return Status::Error(name + ": no such camera; tessera doctor lists the cameras");
     }
     Result<std::unique_ptr<OpenniCamera>> camera =
         OpenniCamera::Open(runtime.value(), uri, is_recording, config);

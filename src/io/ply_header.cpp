@@ -49,7 +49,7 @@ Status ParseFormat(const std::vector<std::string_view>& words, PlyHeader& header
     else if (name == "binary_big_endian")
         header.format = PlyFormat::kBigEndian;
     else
-        return Status::Error(fmt::format("PLY format '{}' is not known", name.substr(0, 40)));
+        return Status::Error(fmt::format("unknown PLY format '{}'", name.substr(0, 40)));
     return Status::Ok();
 }
 
@@ -82,7 +82,7 @@ Status CheckCounts(const PlyHeader& header, std::size_t file_bytes) {
         // The last number of a text file needs no separator after it.
         if (least > 0 && element.count > (body + 1) / least)
             return Status::Error(fmt::format(
-                "claims {} '{}' but the file has only {} bytes; it is cut off or damaged",
+                "claims {} '{}' but the file has only {} bytes; it is truncated or damaged",
                 element.count, element.name.substr(0, 40), file_bytes));
     }
     return Status::Ok();
@@ -113,7 +113,7 @@ Result<PlyHeader> ParsePlyHeader(std::string_view file) {
         begin = end + 1;
         const auto words = Words(line.substr(0, 4096));
         if (number == 1 && (words.size() != 1 || words[0] != "ply"))
-            return Status::Error("is no PLY file: it does not begin with 'ply'");
+            return Status::Error("is not a PLY file: it does not start with 'ply'");
         if (number == 1 || words.empty() || words[0] == "comment" || words[0] == "obj_info")
             continue;
         if (words[0] == "end_header") {
@@ -130,7 +130,7 @@ Result<PlyHeader> ParsePlyHeader(std::string_view file) {
             return BadLine(line);
         }
     }
-    return Status::Error("PLY header: no end_header; it is cut off or damaged");
+    return Status::Error("PLY header: no end_header; it is truncated or damaged");
 }
 
 }  // namespace tessera

@@ -1,4 +1,4 @@
-// The head of a PLY file: which elements follow, with which properties. Used by mesh_io.cpp only.
+// PLY header: the elements of the file and their properties. Used by mesh_io.cpp only.
 #pragma once
 
 #include <cstddef>
@@ -29,18 +29,18 @@ struct PlyElement {
     std::uint64_t count = 0;
     std::vector<PlyProperty> properties;
 
-    // The least that one of it takes in the file.
+    // The minimum size of one element in the file.
     std::size_t MinBytes(PlyFormat format) const;
 };
 
 struct PlyHeader {
     PlyFormat format = PlyFormat::kAscii;
     std::vector<PlyElement> elements;
-    std::size_t body_offset = 0;  // bytes from the file's begin to the first element
+    std::size_t body_offset = 0;  // bytes from the start of the file to the first element
 };
 
-// `file` is the whole file. Counts are checked against its size: no element claims more than there
-// is. Messages do not name the file.
+// `file` is the whole file. Checks that no element count exceeds what the file can hold. Messages
+// do not name the file.
 Result<PlyHeader> ParsePlyHeader(std::string_view file);
 
 }  // namespace tessera

@@ -1,5 +1,6 @@
-// The numbers of a PLY file's body, one after the other, from text or binary. Used by mesh_io.cpp
-// only. Both readers give 0 once the file ended or a number is damaged; ok() tells.
+// Reads the numbers in a PLY file's body one after another, from text or binary. Used by
+// mesh_io.cpp only. After the end of the file or a malformed number, both readers return 0 and ok()
+// is false.
 #pragma once
 
 #include <algorithm>
@@ -34,7 +35,7 @@ class BinaryScalars {
         return 0;
     }
 
-    // A list's length: a whole number that is not negative.
+    // Reads a list's length, a non-negative integer.
     std::uint64_t ReadCount(PlyType type) {
         const double count = Read(type);
         if (!(count >= 0 && count < 4294967296.0)) ok_ = false;

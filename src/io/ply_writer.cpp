@@ -9,7 +9,7 @@
 namespace tessera {
 namespace {
 
-// Collects small values and hands them on in large pieces.
+// Collects small values and writes them in large pieces.
 class BinaryBuffer {
   public:
     explicit BinaryBuffer(AtomicFile& file) : file_(file) { bytes_.reserve(kMeshPieceBytes + 64); }

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::array<std::uint8_t, 8> kSignature = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
 constexpr std::size_t kChunkFrame = 12;         // length, type and checksum around a chunk's data
-constexpr std::size_t kMaxDeflateRatio = 1032;  // what one compressed byte can grow to at most
+constexpr std::size_t kMaxDeflateRatio = 1032;  // largest possible expansion of one compressed byte
 
 std::uint32_t BigEndian32(const std::uint8_t* p) {
     return std::uint32_t{p[0]} << 24 | std::uint32_t{p[1]} << 16 | std::uint32_t{p[2]} << 8 | p[3];
@@ -23,7 +23,7 @@ std::size_t RowBytes(const PngHeader& header) {
            static_cast<std::size_t>(header.channels * header.bit_depth / 8);
 }
 
-// The neighbour (left, above, above left) that is nearest to left + above - above left; PNG
+// Returns the neighbour (left, above, above left) nearest to left + above - above left; PNG
 // specification 9.4.
 inline int Paeth(int left, int above, int above_left) {
     const int from_left = std::abs(above - above_left);
@@ -33,7 +33,8 @@ inline int Paeth(int left, int above, int above_left) {
     return from_above_left < std::min(from_left, from_above) ? above_left : nearer;
 }
 
-// Undoes one row's filter in place. `above` is the row above, undone; kStep is bytes per pixel.
+// Undoes one row's filter in place. `above` is the row above, already unfiltered. kStep is the
+// number of bytes per pixel.
 template <int kStep>
 bool Unfilter(int filter, std::uint8_t* row, const std::uint8_t* above, std::size_t size) {
     std::array<int, kStep> left{};
@@ -72,7 +73,7 @@ bool UnfilterRow(int step, int filter, std::uint8_t* row, const std::uint8_t* ab
     }
 }
 
-// Calls store(y, bytes) for every row while it is in the cache.
+// Calls store(y, bytes) for every row while it is still in the cache.
 template <class Store>
 Status UnfilterAll(std::vector<std::uint8_t>& rows, const PngHeader& header, Store store) {
     const std::size_t size = RowBytes(header);
@@ -88,8 +89,8 @@ Status UnfilterAll(std::vector<std::uint8_t>& rows, const PngHeader& header, Sto
     return Status::Ok();
 }
 
-// Joins the image's data chunks. What follows the last whole chunk is not looked at: if data is
-// missing, inflating says so.
+// Joins the image's data chunks. Ignores anything after the last complete chunk; if data is
+// missing, inflating fails.
 Status GatherData(std::span<const std::uint8_t> file, std::vector<std::uint8_t>& data) {
     data.clear();
     for (std::size_t at = kSignature.size(); at + kChunkFrame <= file.size();) {
@@ -153,7 +154,7 @@ std::optional<PngHeader> ReadPngHeader(std::span<const std::uint8_t> file) {
 Status PngDecoder::Inflate(std::span<const std::uint8_t> file, const PngHeader& header) {
     if (Status status = GatherData(file, compressed_); !status.ok()) return status;
     const std::size_t size = (RowBytes(header) + 1) * static_cast<std::size_t>(header.height);
-    if (size / kMaxDeflateRatio > compressed_.size())  // before anything is allocated for it
+    if (size / kMaxDeflateRatio > compressed_.size())  // check before allocating
         return Status::Error(
             fmt::format("is truncated or damaged: too little data for {} x {} pixels", header.width,
                         header.height));
@@ -170,8 +171,8 @@ Status PngDecoder::DecodeColour(std::span<const std::uint8_t> file, const PngHea
     image.Resize(header.width, header.height);
     const std::size_t bytes = static_cast<std::size_t>(header.bit_depth / 8);
     const std::size_t step = static_cast<std::size_t>(header.channels) * bytes;
-    const std::size_t green =
-        header.channels >= 3 ? bytes : 0;  // grey: all three read the same byte
+    // Grey: all three channels read the same byte.
+    const std::size_t green = header.channels >= 3 ? bytes : 0;
     return UnfilterAll(rows_, header, [&](int y, const std::uint8_t* p) {
         Rgb8* out = image.row(y);
         if (step == sizeof(Rgb8)) {

@@ -1,7 +1,8 @@
-// PNG decoding for the kinds that RGB-D recordings are made of: 8 and 16 bits, grey or colour, not
-// interlaced. libdeflate and the loops here take less than half of libpng's time, through OpenCV
-// (one core, 640x480: depth 1.1 for 2.7 ms, colour 2.3 for 4.6 ms), and PNG is the largest part of
-// reading a frame. Other kinds are reported as such and left to OpenCV (image_decoder.cpp).
+// PNG decoding for the formats that RGB-D recordings use: 8 and 16 bits, grey or colour, not
+// interlaced. libdeflate and the loops here take less than half the time of libpng through OpenCV
+// (one core, 640x480: depth 1.1 instead of 2.7 ms, colour 2.3 instead of 4.6 ms), and PNG decoding
+// is the largest part of reading a frame. Other formats are reported as such and left to OpenCV
+// (image_decoder.cpp).
 #pragma once
 
 #include <cstdint>
@@ -16,7 +17,7 @@
 
 namespace tessera {
 
-// What a PNG's first chunk says.
+// Contents of a PNG's first chunk.
 struct PngHeader {
     int width = 0, height = 0;  // pixels
     int bit_depth = 0;          // per channel
@@ -24,13 +25,13 @@ struct PngHeader {
     bool palette = false;
     bool interlaced = false;
 
-    // Whether PngDecoder decodes this kind.
+    // Whether PngDecoder supports this format.
     bool common() const { return (bit_depth == 8 || bit_depth == 16) && !palette && !interlaced; }
 };
 
 bool IsPng(std::span<const std::uint8_t> file);
 
-// Nothing if the file is no PNG or its header is impossible.
+// nullopt if the file is not a PNG or its header is invalid.
 std::optional<PngHeader> ReadPngHeader(std::span<const std::uint8_t> file);
 
 // Keeps its buffers between images. Owner thread only.
@@ -41,8 +42,9 @@ class PngDecoder {
     PngDecoder(PngDecoder&&) noexcept;
     PngDecoder& operator=(PngDecoder&&) noexcept;
 
-    // `header` is the file's own, with common() true. Errors say what is wrong, without the file's
-    // name. Grey is spread over the three channels, alpha dropped, of 16 bits the upper 8 kept.
+    // `header` must be the file's own, with common() true. Errors say what is wrong, without the
+    // file name. Grey is copied to all three channels, alpha is dropped, and 16-bit values keep the
+    // upper 8 bits.
     Status DecodeColour(std::span<const std::uint8_t> file, const PngHeader& header,
                         ColourImage& image);
     // 16 bits and one channel; raw values.
@@ -55,7 +57,7 @@ class PngDecoder {
     struct Inflater;
     std::unique_ptr<Inflater> inflater_;
     std::vector<std::uint8_t> compressed_;
-    std::vector<std::uint8_t> rows_;  // per row: the filter's number, then the filtered bytes
+    std::vector<std::uint8_t> rows_;  // per row: filter type, then the filtered bytes
 };
 
 }  // namespace tessera

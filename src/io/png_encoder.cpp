@@ -17,7 +17,7 @@ void PutBigEndian32(std::size_t value, std::uint8_t* to) {
     for (int i = 0; i < 4; ++i) to[i] = static_cast<std::uint8_t>(value >> (24 - 8 * i));
 }
 
-// Length, name, data, checksum.
+// Appends length, name, data and checksum.
 void AppendChunk(const char* name, const std::uint8_t* data, std::size_t size,
                  std::vector<std::uint8_t>& file) {
     const std::size_t at = file.size();
@@ -42,8 +42,8 @@ PngEncoder::PngEncoder() : deflater_(std::make_unique<Deflater>()) {
 }
 PngEncoder::~PngEncoder() = default;
 
-// Measured on a Kinect's depth: at the fastest level no filter makes the files smaller, all cost
-// time.
+// No filter: on a Kinect's depth at the fastest level, no filter type makes the files smaller, and
+// all of them cost time.
 void PngEncoder::EncodeDepth(const Image<std::uint16_t>& image, std::vector<std::uint8_t>& file) {
     const auto width = static_cast<std::size_t>(image.width());
     rows_.resize((1 + 2 * width) * static_cast<std::size_t>(image.height()));

@@ -1,4 +1,4 @@
-// PNG encoding for recordings, through libdeflate's fastest level. One core, 640x480: depth 2.2 ms
+// PNG encoding for recordings, with libdeflate's fastest level. One core, 640x480: depth 2.2 ms
 // (OpenCV's fastest: 6.8 ms, and a fifth larger), colour 4.4 ms.
 #pragma once
 
@@ -18,7 +18,7 @@ class PngEncoder {
     PngEncoder(const PngEncoder&) = delete;
     PngEncoder& operator=(const PngEncoder&) = delete;
 
-    // A whole file into `file` (its storage is reused): 8-bit RGB; 16-bit grey.
+    // Encodes a complete file into `file` (its storage is reused): 8-bit RGB or 16-bit grey.
     void EncodeColour(const ColourImage& image, std::vector<std::uint8_t>& file);
     void EncodeDepth(const Image<std::uint16_t>& image, std::vector<std::uint8_t>& file);
 
@@ -28,7 +28,7 @@ class PngEncoder {
 
     struct Deflater;
     std::unique_ptr<Deflater> deflater_;
-    std::vector<std::uint8_t> rows_;  // per row: the filter's number, then the filtered bytes
+    std::vector<std::uint8_t> rows_;  // per row: filter type, then the filtered bytes
 };
 
 }  // namespace tessera

@@ -1,5 +1,5 @@
-// The calibrations that public data sets publish beside their images. The same values stand in
-// config/cameras/*.yaml, for people to copy; a test holds the two together.
+// Calibrations that public data sets publish with their images. config/cameras/*.yaml holds the
+// same values, for users to copy; a test keeps the two in sync.
 #pragma once
 
 #include <optional>
@@ -9,8 +9,9 @@
 
 namespace tessera {
 
-// TUM RGB-D: "freiburg1", "freiburg2", "freiburg3" (the ROS default calibration of its colour
-// camera, to which depth is registered); "icl_nuim"; "seven_scenes". Nothing for other names.
+// "freiburg1", "freiburg2", "freiburg3" for TUM RGB-D (freiburg3 is the ROS default calibration of
+// its colour camera, to which depth is registered); "icl_nuim"; "seven_scenes". nullopt for other
+// names.
 std::optional<CameraCalibration> PublishedCamera(std::string_view name);
 
 }  // namespace tessera

@@ -27,7 +27,7 @@ Status SystemError(const std::string& path) {
 
 Status ReadFileBytes(const std::string& path, std::size_t max_bytes,
                      std::vector<std::uint8_t>& bytes) {
-    // Not blocking, so that a pipe in a file's place is refused below instead of waited for.
+    // Non-blocking, so that opening a pipe does not hang; it is refused below.
     const Descriptor file{open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)};
     if (file.value < 0) return SystemError(path);
     struct stat about {};
@@ -36,7 +36,7 @@ Status ReadFileBytes(const std::string& path, std::size_t max_bytes,
     const auto size = static_cast<std::size_t>(about.st_size);
     if (size > max_bytes)
         return Status::Error(
-            fmt::format("{}: {} bytes are more than the {} that are read", path, size, max_bytes));
+            fmt::format("{}: has {} bytes; at most {} bytes are read", path, size, max_bytes));
     bytes.resize(size);
     std::size_t done = 0;
     while (done < size) {

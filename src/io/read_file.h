@@ -1,5 +1,5 @@
-// A whole regular file in memory, with a limit: lists and images come from outside and are read
-// before they are trusted.
+// Reads a whole regular file into memory, up to a limit. For lists and images from outside, whose
+// content is not trusted.
 #pragma once
 
 #include <cstddef>
@@ -11,8 +11,8 @@
 
 namespace tessera {
 
-// Fills `bytes` (its storage is reused). Missing, unreadable, not a regular file or larger than
-// max_bytes are errors that name the file. Thread-safe for distinct `bytes`.
+// Fills `bytes` (its storage is reused). A file that is missing, unreadable, not a regular file or
+// larger than max_bytes is an error that names the file. Thread-safe for distinct `bytes`.
 Status ReadFileBytes(const std::string& path, std::size_t max_bytes,
                      std::vector<std::uint8_t>& bytes);
 

@@ -8,7 +8,7 @@
 namespace tessera {
 namespace {
 
-// Per pixel of the ideal image, the raw image's pixel nearest to where the lens put it.
+// For each pixel of the ideal image, the nearest pixel of the raw image.
 std::vector<std::int32_t> NearestPixels(const cv::Mat& x, const cv::Mat& y) {
     std::vector<std::int32_t> source;
     source.reserve(x.total());
@@ -26,8 +26,8 @@ std::vector<std::int32_t> NearestPixels(const cv::Mat& x, const cv::Mat& y) {
 }  // namespace
 
 struct Rectifier::ColourMaps {
-    cv::Mat whole,
-        fraction;  // OpenCV's fixed-point form: integer pixel, and index of its bilinear weights
+    // OpenCV's fixed-point form: integer pixel, and index of its bilinear weights.
+    cv::Mat whole, fraction;
 };
 
 Rectifier::Rectifier(const CameraCalibration& calibration, const Options& options)

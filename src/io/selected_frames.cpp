@@ -22,7 +22,7 @@ ReadResult CheckSelection(const FrameSelection& selection, const SourceInfo& inf
     if (selection.count < -1)
         return error(fmt::format("{} frames cannot be read", selection.count));
     if (info.frame_count >= 0 && selection.start >= info.frame_count)
-        return error(fmt::format("start frame {} lies behind its {} frames", selection.start,
+        return error(fmt::format("start frame {} is past the end of its {} frames", selection.start,
                                  info.frame_count));
     return {};
 }

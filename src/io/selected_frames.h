@@ -1,4 +1,4 @@
-// Reads the part of a source that a person asked for (--start, --frames, --stride).
+// Reads the part of a source that the user selected (--start, --frames, --stride).
 #pragma once
 
 #include <memory>
@@ -7,16 +7,16 @@
 
 namespace tessera {
 
-// Seeks where the source can, else reads and drops what lies between. Owner thread only.
+// Seeks if the source can; otherwise reads and drops the frames in between. Owner thread only.
 class SelectedFrames {
   public:
     SelectedFrames(std::unique_ptr<FrameSource> source, const FrameSelection& selection);
 
     FrameSource& source() { return *source_; }
     const SourceInfo& info() const { return source_->info(); }
-    // The next selected frame. A frame that the source skips counts as one of selection.count,
-    // kWait is passed on and does not. kError, with what to do, if the selection is impossible or
-    // begins behind the source's end. kEnd and kError are final.
+    // Returns the next selected frame. A frame that the source skips counts towards
+    // selection.count; kWait is passed on and does not count. An invalid selection, or one that
+    // starts past the source's end, returns kError with what to do. kEnd and kError are final.
     ReadResult Next(Frame& frame);
 
   private:
@@ -24,8 +24,8 @@ class SelectedFrames {
 
     std::unique_ptr<FrameSource> source_;
     FrameSelection selection_;
-    std::int64_t given_ = 0;     // frames handed out, skipped ones included
-    std::int64_t position_ = 0;  // of the source's next frame
+    std::int64_t given_ = 0;     // frames returned, including skipped ones
+    std::int64_t position_ = 0;  // index of the source's next frame
     ReadResult final_{ReadStatus::kOk, {}};
 };
 

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t kNoItem = std::numeric_limits<std::size_t>::max();
 
-// Both lists merged by time, as a doubly linked list from which paired images are taken out.
+// Both lists merged by time, as a doubly linked list from which paired images are removed.
 struct Item {
     double stamp_s;
     bool is_depth;
@@ -48,9 +48,9 @@ struct Candidate {
 
 }  // namespace
 
-// The closest pair of what remains always stands side by side in the merged order: whatever stood
-// between the two would be closer to one of them. So neighbours are the only candidates, and taking
-// a pair out makes one new one.
+// The closest remaining pair is always adjacent in the merged order: anything between the two would
+// be closer to one of them. So only neighbours are candidates, and removing a pair creates one new
+// candidate.
 std::vector<StampPair> PairNearest(std::span<const double> depth_stamps_s,
                                    std::span<const double> colour_stamps_s, double max_gap_s) {
     std::vector<Item> items = Merge(depth_stamps_s, colour_stamps_s);

@@ -1,4 +1,4 @@
-// Which colour image belongs to which depth image.
+// Pairs colour and depth images by time stamp.
 #pragma once
 
 #include <cstddef>
@@ -11,14 +11,15 @@ struct StampPair {
     std::size_t depth = 0, colour = 0;  // indices into the two lists
 };
 
-// As the TUM tools' associate.py: of all pairs less than max_gap_s apart the closest is taken, then
-// the next closest of what remains, each image once; equal gaps in order of the colour, then of the
-// depth stamp. Sorted by depth stamp. Both lists strictly increasing and finite. O(n log n),
-// however close the stamps lie. Thread-safe.
+// Like associate.py of the TUM tools: takes the closest of all pairs less than max_gap_s apart,
+// then the closest of the rest, and so on. Each image is used once. Ties are broken by the earlier
+// colour stamp, then the earlier depth stamp. The result is sorted by depth stamp. Both lists must
+// be strictly increasing and finite. O(n log n), however dense the stamps are. Thread-safe.
 std::vector<StampPair> PairNearest(std::span<const double> depth_stamps_s,
                                    std::span<const double> colour_stamps_s, double max_gap_s);
 
-// The least distance between a stamp of either list and one of the other; infinity if one is empty.
+// The smallest distance between a stamp of one list and a stamp of the other; infinity if either is
+// empty.
 double SmallestGap(std::span<const double> depth_stamps_s, std::span<const double> colour_stamps_s);
 
 }  // namespace tessera

@@ -6,8 +6,8 @@
 namespace tessera {
 namespace {
 
-constexpr std::size_t kMostWaiting = 8;  // of either stream
-// A partner may be delivered so much later than its stamp says.
+constexpr std::size_t kMostWaiting = 8;  // per stream
+// A partner may arrive this many periods later than its stamp.
 constexpr double kLatePeriods = 2;
 
 }  // namespace
@@ -46,7 +46,7 @@ std::ptrdiff_t StreamPairing::Partner() const {
     const auto& depth = depth_.items;
     const auto& colour = colour_.items;
     const double stamp_s = depth.front().stamp_s;
-    // A colour image that is nearer to the next depth image is that one's.
+    // A colour image nearer to the next depth image is left to that one.
     const auto is_the_next_ones = [&](std::size_t c) {
         return depth.size() > 1 && Gap(1, c) < Gap(0, c);
     };

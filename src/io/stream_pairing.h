@@ -1,5 +1,4 @@
-// Which colour image belongs to which depth image, while both still come: what stamp_pairing.h does
-// for whole lists.
+// Pairs colour and depth images while they arrive, as stamp_pairing.h does for complete lists.
 #pragma once
 
 #include <cstddef>
@@ -10,11 +9,12 @@
 
 namespace tessera {
 
-// Each image is used once; a depth image is paired with the colour image nearest in time, less than
-// max_gap_s away, as soon as none nearer can come: at once if they are nearer than half a period.
-// (Nearest as stamp_pairing.h has it, but for images halfway between two partners, where a whole
-// list may decide otherwise.) What finds no partner is left out and counted. Images are swapped in
-// and out, so that their storage goes round. Owner thread only.
+// Pairs a depth image with the colour image nearest in time, if that is less than max_gap_s away.
+// Each image is used once. A pair is settled as soon as no nearer image can arrive: at once if the
+// two are less than half a period apart. (The result is that of stamp_pairing.h, except for images
+// halfway between two partners, where the complete list may decide differently.) Images without a
+// partner are dropped and counted. Images are swapped in and out, so their storage is recycled.
+// Owner thread only.
 class StreamPairing {
   public:
     struct Pair {
@@ -23,18 +23,18 @@ class StreamPairing {
         ColourImage colour;
     };
 
-    // period_s: the shorter one of the two streams' times between images.
+    // period_s is the shorter of the two streams' frame periods.
     StreamPairing(double max_gap_s, double period_s) : max_gap_s_(max_gap_s), period_s_(period_s) {}
 
-    // Stamps of one stream must increase. `image` becomes an unspecified image.
+    // Stamps of one stream must increase. `image` is unspecified afterwards.
     void AddDepth(double stamp_s, Image<std::uint16_t>& image);
     void AddColour(double stamp_s, ColourImage& image);
-    // Nothing more will come: what waits for a nearer partner takes the one that there is.
+    // No more images will arrive. Images that wait for a nearer partner take the one available.
     void End() { ended_ = true; }
-    // Forgets the waiting images (uncounted).
+    // Drops the waiting images without counting them.
     void Clear();
 
-    // The next pair in order of time, if there is one that is settled.
+    // Returns the next settled pair in time order, if there is one.
     bool Next(Pair& pair);
 
     std::int64_t pairs() const { return pairs_; }
@@ -49,12 +49,12 @@ class StreamPairing {
             Pixels image;
         };
         void Add(double stamp_s, Pixels& image);
-        void Drop();  // the first
+        void Drop();  // drops the first item
         std::deque<Item> items;
         std::deque<Pixels> spare;
     };
 
-    // The colour image for the first depth image: its index, kNone, or kUndecided.
+    // The partner of the first depth image: index of the colour image, kNone, or kUndecided.
     static constexpr std::ptrdiff_t kNone = -1, kUndecided = -2;
     std::ptrdiff_t Partner() const;
     double Gap(std::size_t depth, std::size_t colour) const;

@@ -16,7 +16,7 @@ constexpr std::size_t kMaxNotes = 50;
 constexpr double kMaxCoordinate_m = 1e6;
 constexpr std::size_t kColumns = 8;
 
-// Collects notes, the first kMaxNotes in full.
+// Collects notes; keeps the first kMaxNotes in full.
 class Notes {
   public:
     explicit Notes(const std::string& path) : path_(path) {}
@@ -37,8 +37,8 @@ class Notes {
 
 struct NumberLine {
     std::array<double, kColumns> values{};
-    std::size_t count = 0;      // may exceed kColumns; further values are not kept
-    std::string_view bad_word;  // the first word that is no number
+    std::size_t count = 0;      // may exceed kColumns; further values are dropped
+    std::string_view bad_word;  // the first word that is not a number
 };
 
 NumberLine ParseNumbers(std::string_view line) {
@@ -63,7 +63,7 @@ NumberLine ParseNumbers(std::string_view line) {
     }
 }
 
-// Why the pose cannot be used; empty if it can.
+// Returns why the pose cannot be used; empty if it can.
 std::string ReadPose(const NumberLine& line, StampedPose& pose) {
     const auto& v = line.values;
     if (line.count != kColumns) return fmt::format("{} numbers, not 8; skipped", line.count);
@@ -99,7 +99,7 @@ void SortAndDropRepeated(std::vector<NumberedPose>& poses, Notes& notes, Traject
     result.poses.reserve(poses.size());
     for (const NumberedPose& next : poses) {
         if (!result.poses.empty() && result.poses.back().stamp_s == next.pose.stamp_s)
-            notes.Add(next.line, fmt::format("stamp {:.6f} again; skipped", next.pose.stamp_s));
+            notes.Add(next.line, fmt::format("repeated stamp {:.6f}; skipped", next.pose.stamp_s));
         else
             result.poses.push_back(next.pose);
     }
@@ -123,14 +123,15 @@ Result<Trajectory> ReadTrajectory(const std::string& path) {
         line = line.substr(0, line.find('#'));
         const NumberLine parsed = ParseNumbers(line);
         if (!parsed.bad_word.empty() && complete)
-            return Status::Error(fmt::format(
-                "{}:{}: '{}' is no number; expected 'stamp tx ty tz qx qy qz qw' (comments start "
-                "with #)",
-                path, number, parsed.bad_word));
+            return Status::Error(
+                fmt::format("{}:{}: '{}' is not a number; expected 'stamp tx ty tz qx qy qz qw' "
+                            "(comments start "
+                            "with #)",
+                            path, number, parsed.bad_word));
         if (parsed.count == 0 && parsed.bad_word.empty()) continue;
         NumberedPose pose{{}, number};
         const std::string why =
-            parsed.bad_word.empty() ? ReadPose(parsed, pose.pose) : "cut off; skipped";
+            parsed.bad_word.empty() ? ReadPose(parsed, pose.pose) : "truncated line; skipped";
         if (why.empty())
             poses.push_back(pose);
         else
@@ -141,8 +142,8 @@ Result<Trajectory> ReadTrajectory(const std::string& path) {
     result.notes = notes.Take();
     if (result.poses.empty())
         return Status::Error(fmt::format(
-            "{}: no pose in it; expected lines 'stamp tx ty tz qx qy qz qw'{}", path,
-            result.notes.empty() ? "" : " (first trouble: " + result.notes.front() + ")"));
+            "{}: contains no pose; expected lines 'stamp tx ty tz qx qy qz qw'{}", path,
+            result.notes.empty() ? "" : " (first problem: " + result.notes.front() + ")"));
     return result;
 }
 
@@ -150,7 +151,7 @@ std::string TrajectoryLine(const StampedPose& pose) {
     const Eigen::Vector3d t = pose.T_world_camera.translation();
     Eigen::Quaterniond q(pose.T_world_camera.linear());
     q.normalize();
-    if (q.w() < 0) q.coeffs() = -q.coeffs();  // of the two signs always the same
+    if (q.w() < 0) q.coeffs() = -q.coeffs();  // pick the same sign every time
     return fmt::format("{:.6f} {:.9f} {:.9f} {:.9f} {:.9f} {:.9f} {:.9f} {:.9f}", pose.stamp_s,
                        t.x(), t.y(), t.z(), q.x(), q.y(), q.z(), q.w());
 }

@@ -1,5 +1,5 @@
-// Depth cameras on the USB bus, by the numbers that Linux shows of every device. Needs no driver,
-// so it can tell a camera that is plugged in but cannot be used from one that is not there.
+// Finds depth cameras on the USB bus by the vendor and product ids that Linux reports. Needs no
+// driver, so it can tell a camera that is plugged in but unusable from one that is not there.
 #include <unistd.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace tessera {
 namespace {
 
 struct Kind {
-    const char *vendor, *product;  // product empty: any
+    const char *vendor, *product;  // empty product: any
     const char* name;
     bool needs_freenect;
 };
@@ -23,7 +23,7 @@ constexpr std::array<Kind, 5> kKinds = {{
     {"1d27", "", "PrimeSense or ASUS Xtion camera", false},
     {"045e", "02ae", "Microsoft Kinect (Xbox 360)", true},
     {"045e", "02bf", "Microsoft Kinect for Windows", true},
-    {"2bc5", "", "Orbbec camera (its maker's OpenNI2 driver is needed)", false},
+    {"2bc5", "", "Orbbec camera (needs the vendor's OpenNI2 driver)", false},
 }};
 
 std::string FirstWord(const std::filesystem::path& file) {

@@ -1,5 +1,5 @@
-// Which blocks one pixel's measurement calls for: [B14] III-C1. Host-device: plain functions on
-// plain types, shared by the CPU code and CUDA.
+// Selects the blocks to allocate for one depth measurement ([B14] III-C1). Host-device: plain
+// functions on plain types, shared by the CPU code and CUDA.
 #pragma once
 
 #include <cstdint>
@@ -10,13 +10,13 @@
 
 namespace tessera {
 
-// A box of the world; the map does not grow outside of it if it is bounded.
+// An axis-aligned box in the world frame. If bounded, the map does not grow outside it.
 struct WorldBox {
     bool bounded;
     double low_m[3], high_m[3];
 };
 
-// Whether some of the block lies inside.
+// Whether the block overlaps the box. Always true if the box is unbounded.
 TESSERA_HD bool Meets(const WorldBox& box, const BlockCoord& block, double block_m) {
     const std::int32_t index[3] = {block.x, block.y, block.z};
     bool meets = true;
@@ -25,16 +25,15 @@ TESSERA_HD bool Meets(const WorldBox& box, const BlockCoord& block, double block
     return !box.bounded || meets;
 }
 
-// A walk along the rays of every step-th pixel, through the truncation band around what they
-// measured.
+// Walks the ray of every step-th pixel through the truncation band around its measured depth.
 struct BandWalk {
     const float* depth_m;  // 0 = none
     std::int32_t width, height;
-    std::int32_t step;        // pixels from one ray to the next, in both directions
-    std::int32_t walk_steps;  // from one end of the band to the other
+    std::int32_t step;        // ray spacing in pixels, along both image axes
+    std::int32_t walk_steps;  // number of steps across the band
     double fx, fy, cx, cy;
-    // p_world [blocks] = block + part + rotation * p_camera [m]: single precision stays fine far
-    // from the origin.
+    // p_world [blocks] = block + part + rotation * p_camera [m]. The separate integer part keeps
+    // single precision accurate far from the origin.
     float rotation[9];
     float part[3];
     std::int32_t block[3];
@@ -44,8 +43,8 @@ struct BandWalk {
     TESSERA_HD_MEMBER std::int32_t rows() const { return (height + step - 1) / step; }
 };
 
-// A measurement that none of its neighbours confirms within 5 % is noise, not a surface to spend
-// memory on.
+// True if at least two of the four neighbours are within 5 %. An isolated measurement is noise and
+// not worth any memory.
 TESSERA_HD bool HasSupport(const BandWalk& walk, std::int32_t x, std::int32_t y) {
     const std::int32_t reach = (walk.step > 2 ? walk.step : 2) / 2;
     const float* row = walk.depth_m + static_cast<std::int64_t>(y) * walk.width;
@@ -62,9 +61,9 @@ TESSERA_HD bool HasSupport(const BandWalk& walk, std::int32_t x, std::int32_t y)
     return near >= 2;
 }
 
-// Calls visit(block) for every block that the ray of pixel (step column, step row) passes in the
-// band, some of them repeatedly. A margin of one and a half voxels around the walk adds the
-// neighbours whose voxels the tracker's interpolation needs.
+// Calls visit(block) for every block that the ray of pixel (step * column, step * row) crosses
+// within the band. A block may be visited more than once. A margin of 1.5 voxels around the ray
+// adds neighbouring blocks that the tracker's interpolation needs.
 template <class Visit>
 TESSERA_HD void WalkRay(const BandWalk& walk, std::int32_t column, std::int32_t row,
                         const Visit& visit) {

@@ -1,4 +1,4 @@
-// A small cache of blocks for the rays of the CPU's vectors. One thread's.
+// A small per-thread block cache for ray casting with the CPU's SIMD kernels.
 #pragma once
 
 #include <algorithm>
@@ -7,21 +7,21 @@
 
 namespace tessera {
 
-// The blocks met lately, absent ones too, in front of the map's hash, which takes far longer: for
-// rays, whose neighbours meet the same blocks.
+// Caches recently found blocks, including absent ones, in front of the map's much slower hash.
+// Neighbouring rays mostly meet the same blocks.
 template <class V>
 class BlockCache {
   public:
     using Int = typename V::Int;
     using Mask = typename V::Mask;
 
-    // Blocks must lie within so many of the origin along each axis.
+    // Block coordinates must lie within this many blocks of the origin along each axis.
     static constexpr std::int32_t kReachBlocks = 4096;
 
     BlockCache() { std::fill_n(keys_, kSlots, kEmpty); }
 
-    // The ids of the wanted lanes' blocks, any ids of the map elsewhere. `block`: counted from
-    // map.origin_block, the same in every call.
+    // Block ids of the wanted lanes; the other lanes get arbitrary ids of the map. `block` is
+    // relative to map.origin_block, which must be the same in every call.
     template <class Map>
     TESSERA_HD_MEMBER Int Find(const Map& map, const Int* block, const Mask& wanted) {
         Int slot(0), key(0);
@@ -35,11 +35,10 @@ class BlockCache {
     }
 
   private:
-    static constexpr int kSlotBits = 3, kKeyBits = 10;  // of each axis
+    static constexpr int kSlotBits = 3, kKeyBits = 10;  // per axis
     static constexpr int kSlots = 1 << (3 * kSlotBits);
     static constexpr std::int32_t kEmpty = -1;
-    static_assert(2 * kReachBlocks == 1 << (kSlotBits + kKeyBits),
-                  "else two blocks would share a key");
+    static_assert(2 * kReachBlocks == 1 << (kSlotBits + kKeyBits), "two blocks would share a key");
 
     template <class Map>
     [[gnu::noinline]] Int Add(const Map& map, const Int* block, const Int& slot, const Int& key,

@@ -1,6 +1,6 @@
-// Reading the map by lanes of points (scalar_lanes.h): which block each lies in, and where the
-// eight voxels around it are. For the CPU's vectors and CUDA alike. `Map` is BlockMapView or any
-// struct with the same plain pointers.
+// Reads the map for lanes of points (scalar_lanes.h): finds each point's block and the indices of
+// the eight voxels around it. Shared by the CPU's SIMD kernels and CUDA. `Map` is BlockMapView or
+// any struct with the same plain pointers.
 #pragma once
 
 #include "mapping/voxel.h"
@@ -12,8 +12,8 @@ struct BlockKernels {
     using Int = typename V::Int;
     using Mask = typename V::Mask;
 
-    // BlockMap::Find for every pending lane; kUnknownBlock elsewhere. x, y, z: the block's
-    // coordinate in the world.
+    // BlockMap::Find for every pending lane; the other lanes get kUnknownBlock. x, y, z: world
+    // coordinates of the block.
     template <class Map>
     TESSERA_HD_MEMBER static Int FindBlocks(const Map& map, const Int& x, const Int& y,
                                             const Int& z, Mask pending) {
@@ -33,16 +33,16 @@ struct BlockKernels {
         return found;
     }
 
-    // Indices into the map's layers of the corners of cells: index[c] is the corner at offsets (x,
-    // y, z) = bits 0, 1, 2 of c. `voxel`: the lowest corner; only its three low bits count, as it
-    // lies in `block`.
+    // Layer indices of the cells' corners: index[c] is the corner at offset (x, y, z) = bits 0, 1,
+    // 2 of c. `voxel` is the lowest corner. Only its three low bits count, because it lies in
+    // `block`.
     template <class Map>
     TESSERA_HD_MEMBER static void CornerVoxels(const Map& map, const Int& block, const Int* voxel,
                                                Int* index) {
         const Int seven(7);
         const Int x0 = voxel[0] & seven, y0 = voxel[1] & seven, z0 = voxel[2] & seven;
         const Int x1 = x0 + Int(1), y1 = y0 + Int(1), z1 = z0 + Int(1);
-        // Where the upper corner leaves the block: its neighbour's slot bits, else 0.
+        // The neighbour's slot bit where the upper corner leaves the block, else 0.
         const Int over_x = x1 >> 3, over_y = y1 >> 3, over_z = z1 >> 3;
         const Int in_x[2] = {x0, x1 & seven};
         const Int in_y[2] = {y0 << 3, (y1 & seven) << 3};
@@ -61,14 +61,13 @@ struct BlockKernels {
     }
 };
 
-// Finds blocks for rays by the map's hash alone, nothing remembered: what BlockCache stands in
-// front of.
+// Finds blocks for rays through the map's hash, without a cache. BlockCache uses it on a miss.
 template <class V>
 struct HashedBlocks {
     using Int = typename V::Int;
     using Mask = typename V::Mask;
 
-    // As BlockCache::Find.
+    // See BlockCache::Find.
     template <class Map>
     TESSERA_HD_MEMBER Int Find(const Map& map, const Int* block, const Mask& wanted) const {
         const std::int32_t* origin = map.origin_block;

@@ -10,8 +10,8 @@
 namespace tessera {
 namespace {
 
-// 2^22 blocks are 2^31 voxels: what a signed 32-bit gather index can reach. At 1 cm voxels that is
-// 2147 cubic metres of near-surface space, 21 GB: memory ends before the index does.
+// 2^22 blocks are 2^31 voxels: the range of a signed 32-bit gather index. At 1 cm voxels that is
+// 2147 cubic metres of near-surface space, or 21 GB: memory runs out before the index.
 constexpr std::size_t kMaxBlocks = std::size_t{1} << 22;
 
 std::atomic<std::uint64_t> last_identity = 0;
@@ -19,13 +19,12 @@ std::atomic<std::uint64_t> last_identity = 0;
 }  // namespace
 
 void BlockMap::Config::Describe(ConfigParameters& p) {
-    p.Add(
-        "voxel_size_m", voxel_size_m, {0.001, 0.5}, "m",
-        "edge of a voxel; halving it costs four times the time and memory and shows finer detail");
+    p.Add("voxel_size_m", voxel_size_m, {0.001, 0.5}, "m",
+          "edge length of a voxel; halving it gives finer detail but costs four times the time and "
+          "memory");
     p.Add("truncation_m", truncation_m, {0.002, 2.0}, "m",
-          "half width of the band around the surface in which distances are kept; wider tracks "
-          "faster motion, "
-          "thinner keeps thin objects and costs less");
+          "half width of the band around the surface in which distances are stored; a wider band "
+          "tracks faster motion, a narrower one preserves thin objects and costs less");
 }
 
 Status BlockMap::Config::Validate() const {
@@ -128,7 +127,7 @@ void BlockMap::Enter(BlockId id, const BlockCoord& c, std::int32_t number) {
 void BlockMap::AllocateAs(BlockId id, const BlockCoord& c) {
     TESSERA_CHECK(id >= size_ && static_cast<std::size_t>(id) < max_size_ && InLimits(c) &&
                       Find(c) == kUnknownBlock,
-                  "block {} of {} allocated", id, size_);
+                  "cannot allocate block {} in a map of {}", id, size_);
     for (; size_ < id; ++size_) {
         InitialiseBlock(size_, {kBlockLimit, kBlockLimit, kBlockLimit}, 0);
         free_.push_back(size_);
@@ -152,8 +151,8 @@ BlockId BlockMap::TakeId() {
 }
 
 void BlockMap::Release(BlockId id) {
-    TESSERA_CHECK(id > kUnknownBlock && id < size_ && !IsFree(id), "block {} of {} released", id,
-                  size_);
+    TESSERA_CHECK(id > kUnknownBlock && id < size_ && !IsFree(id),
+                  "cannot release block {} in a map of {}", id, size_);
     const BlockCoord c = coord(id);
     const std::uint32_t mask = static_cast<std::uint32_t>(table_.size() - 1);
     std::uint32_t slot = BlockHash(c) & mask;
@@ -182,7 +181,8 @@ void BlockMap::GrowTable() {
         if (!IsFree(id)) InsertIntoTable(id);
 }
 
-// Enters the new block at every block that has it as a positive neighbour, and its own eight.
+// Registers the new block with every block that has it as a positive neighbour, and fills in its
+// own eight neighbours.
 void BlockMap::LinkNeighbours(BlockId id, const BlockCoord& c) {
     for (int slot = 0; slot < 8; ++slot) {
         const int dx = slot & 1, dy = slot >> 1 & 1, dz = slot >> 2;

@@ -1,4 +1,4 @@
-// The map: a pool of voxel blocks near the surface, found through a hash of the block coordinate,
+// The map: a pool of voxel blocks near the surface, indexed by a hash of the block coordinate, with
 // one array per attribute (layer). One writer; any number of readers while nobody writes.
 #pragma once
 
@@ -19,7 +19,7 @@
 namespace tessera {
 
 // Index of a block in the pool. Block 0 always exists, is never written and holds only unknown
-// voxels: what is not in the map is block 0, so that readers need no branch.
+// voxels. Absent blocks resolve to block 0, so readers need no branch.
 using BlockId = std::int32_t;
 inline constexpr BlockId kUnknownBlock = 0;
 
@@ -27,15 +27,15 @@ class BlockMap {
   public:
     struct Config {
         double voxel_size_m = 0.01;
-        double truncation_m = 0.04;  // the band's half width; distances are clamped to it
+        double truncation_m = 0.04;  // half width of the band; distances are clamped to it
 
         void Describe(ConfigParameters& parameters);
-        // Conditions between keys; single ranges are checked when a key is set.
+        // Checks conditions between keys. The range of each key is checked when the key is set.
         Status Validate() const;
     };
 
-    // What a map keeps: a copy for a reader needs the field only; its weights are then zero and its
-    // colours grey.
+    // Which layers a map stores. A reader's copy needs only the field; its weights then read as
+    // zero and its colours as grey.
     enum class Layers { kAll, kFieldOnly };
 
     explicit BlockMap(const Config& config, Layers layers = Layers::kAll);
@@ -44,39 +44,39 @@ class BlockMap {
     // Valid until the next Allocate, Release or Clear.
     BlockMapView view() const;
 
-    // Ids run from 0 to size() - 1; those between that were released are free. Without Release: in
-    // order of allocation.
+    // Ids run from 0 to size() - 1 and include the free ids of released blocks. Without Release,
+    // ids follow the order of allocation.
     BlockId size() const { return size_; }
     std::size_t max_size() const { return max_size_; }
     bool IsFree(BlockId id) const { return neighbours_[8 * static_cast<std::size_t>(id)] != id; }
-    // Blocks that are there, block 0 not counted.
+    // Number of allocated blocks, excluding block 0.
     std::int64_t count() const { return size_ - 1 - static_cast<std::int64_t>(free_.size()); }
 
     BlockId Find(const BlockCoord& coord) const;
-    // The block, made if it is not there; kUnknownBlock if the map is full or the coordinate out of
-    // limits. Of the ids that are free the lowest is taken.
+    // Returns the block and allocates it if absent, under the lowest free id. Returns kUnknownBlock
+    // if the map is full or the coordinate is out of limits.
     BlockId Allocate(const BlockCoord& coord) { return Allocate(coord, next_number_); }
-    // A block that was released comes back under the number that it had.
+    // Reallocates a released block under its previous number.
     BlockId Allocate(const BlockCoord& coord, std::int32_t number);
-    // A new block under an id that is not smaller than size(); the ids skipped are free. For a map
-    // with the same ids as another.
+    // Allocates a new block under an id that is not smaller than size(). Skipped ids become free.
+    // For maps that use the same ids as another map.
     void AllocateAs(BlockId id, const BlockCoord& coord);
-    // The block goes: unknown to all, its id free. Not block 0.
+    // Removes the block and frees its id. Not for block 0.
     void Release(BlockId id);
     void Clear();
 
     BlockCoord coord(BlockId id) const;
-    // Counts blocks from 1 on in the order of their first allocation: unlike the id the same
-    // whatever was released meanwhile. Without Release it is the id.
+    // Counts blocks from 1 in the order of their first allocation. Unlike the id, the number does
+    // not depend on releases. Without Release it equals the id.
     std::int32_t number(BlockId id) const { return coords_[4 * static_cast<std::size_t>(id) + 3]; }
-    // Blocks allocated from here on carry numbers from this one on: those below are known to be
-    // released ones'.
+    // Blocks allocated from now on get numbers from this one up. Lower numbers belong to released
+    // blocks.
     void SetNextNumber(std::int32_t number) { next_number_ = number; }
     std::int32_t next_number() const { return next_number_; }
-    // Each in {-1, 0, 1}; a hash look-up.
+    // dx, dy, dz in {-1, 0, 1}. Does a hash look-up.
     BlockId neighbour(BlockId id, int dx, int dy, int dz) const;
 
-    // One block's voxels, kBlockVoxels of each.
+    // The voxels of one block, kBlockVoxels per layer.
     FieldWord* field(BlockId id) { return field_.data() + Offset(id); }
     const FieldWord* field(BlockId id) const { return field_.data() + Offset(id); }
     std::uint16_t* weight(BlockId id) { return weight_.data() + Offset(id); }
@@ -86,21 +86,21 @@ class BlockMap {
         return colour_.data() + (layers_ == Layers::kAll ? Offset(id) : 0);
     }
 
-    // The layer of labels exists from here on, and costs memory where it is written. To be called
-    // while the map is empty.
+    // Adds the label layer, which takes memory only where it is written. Call this while the map is
+    // empty.
     void EnableLabels();
     bool has_labels() const { return labels_.has_value(); }
-    // Only with has_labels.
+    // Only if has_labels().
     VoxelLabel* label(BlockId id) { return labels_->data() + Offset(id); }
     const VoxelLabel* label(BlockId id) const { return labels_->data() + Offset(id); }
 
-    // Change tracking: the writer marks what it changed with its own increasing number.
+    // Change tracking: the writer marks changed blocks with its own increasing revision number.
     void MarkChanged(BlockId id, std::uint32_t revision) {
         revision_[static_cast<std::size_t>(id)] = revision;
     }
     std::uint32_t revision(BlockId id) const { return revision_[static_cast<std::size_t>(id)]; }
 
-    // The blocks of a region (RegionOf), so that the cost of a frame follows what is in view, not
+    // The blocks of a region (RegionOf). They make the cost of a frame depend on the view, not on
     // the size of the map. The span is valid until the next Allocate, Release or Clear.
     std::span<const BlockId> BlocksInRegion(const BlockCoord& region) const {
         return regions_.Blocks(region);
@@ -109,8 +109,8 @@ class BlockMap {
     std::size_t bytes() const;  // memory in use by blocks and their index
     double bytes_per_voxel() const;
 
-    // A number that no other map of this process has, and a new one after Clear: whoever keeps
-    // copies of the map's content tells by it that they are another map's.
+    // Unique among the maps of this process; Clear assigns a new one. Holders of copied map content
+    // use it to detect that the copy belongs to another map.
     std::uint64_t identity() const { return identity_; }
 
   private:
@@ -127,7 +127,7 @@ class BlockMap {
     Layers layers_;
     BlockId size_ = 1;
     std::int32_t next_number_ = 1;
-    std::vector<BlockId> free_;  // a heap, the lowest first
+    std::vector<BlockId> free_;  // min-heap
     std::size_t max_size_ = 0;
     std::uint64_t identity_ = 0;
     VirtualArray<FieldWord> field_;

@@ -1,4 +1,4 @@
-// A block map as the kernels read it, in plain pointers, for the CPU's vector code and CUDA alike.
+// Plain-pointer view of a block map for the CPU's SIMD kernels and CUDA.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@ namespace tessera {
 
 struct BlockMapView {
     const FieldWord* field;  // [blocks * 512]
-    // [blocks * 8]: at offsets (x, y, z) = bits 0, 1, 2 of the slot.
+    // [blocks * 8]: the neighbour at offset (x, y, z) = bits 0, 1, 2 of the slot.
     const std::int32_t* neighbours;
     const std::int32_t* table;   // hash slots, each a BlockId, 0 = empty
     const std::int32_t* coords;  // [blocks * 4]: x, y, z, number

@@ -16,7 +16,7 @@ namespace {
 class LocalField {
   public:
     LocalField(const BlockMap& map, BlockId id) {
-        BlockId ids[3][3][3] = {};  // [z][y][x]; what is not read stays unknown
+        BlockId ids[3][3][3] = {};  // [z][y][x]; blocks that are not read stay unknown
         for (const auto& [dx, dy, dz] : kMeshReadOffsets)
             ids[dz + 1][dy + 1][dx + 1] = map.neighbour(id, dx, dy, dz);
         FieldWord* out = words_;
@@ -97,13 +97,12 @@ constexpr auto FindReadOffsets() {
 constexpr std::array<std::array<int, 3>, kMeshReads> kMeshReadOffsets = FindReadOffsets();
 
 void MeshConfig::Describe(ConfigParameters& p) {
-    p.Add(
-        "min_weight", min_weight, {0, kMaxWeight}, "",
-        "least weight of the voxels that a piece of mesh is made from; raise it to leave out what "
-        "was seen once or badly");
+    p.Add("min_weight", min_weight, {0, kMaxWeight}, "",
+          "minimum weight of the voxels that form the mesh; raise it to leave out surfaces that "
+          "were seen only once or poorly");
     p.Add("min_component_triangles", min_component_triangles, {0, 1e9}, "",
-          "connected pieces with fewer triangles are left out of the written mesh; 0 keeps all, "
-          "more removes larger floating specks");
+          "connected components with fewer triangles are left out of the written mesh; 0 keeps "
+          "all, higher values remove larger floating specks");
 }
 
 int MinWeightSteps(double min_weight) {
@@ -111,8 +110,7 @@ int MinWeightSteps(double min_weight) {
 }
 
 std::unique_ptr<const BlockMesh> MeshBlock(const BlockMap& map, BlockId id, double min_weight) {
-    // Kept between calls for its storage: the result is a copy that is no larger than it needs to
-    // be.
+    // Kept between calls to reuse its storage; the result is a copy of minimal size.
     thread_local BlockMesh scratch;
     std::copy_n(map.view().neighbours + 8 * static_cast<std::size_t>(id), 8,
                 scratch.blocks.begin());

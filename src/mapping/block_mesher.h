@@ -1,4 +1,4 @@
-// Where blocks are meshed, if not by the processor: on a device that keeps the map.
+// Interface for meshing blocks outside the CPU, on a device that holds the map.
 #pragma once
 
 #include <span>
@@ -7,7 +7,7 @@
 
 namespace tessera {
 
-// By block id; null where there is no surface.
+// Indexed by block id; null where there is no surface.
 using BlockMeshes = std::vector<std::unique_ptr<const BlockMesh>>;
 
 // Owner thread only.
@@ -15,9 +15,9 @@ class BlockMesher {
   public:
     virtual ~BlockMesher() = default;
 
-    // Puts what MeshBlock makes of each of the blocks, none of them free, under its id; of the
-    // map's voxels only the device's are read. False: no room for it there, and only some of them
-    // were put.
+    // Stores the result of MeshBlock for each of the blocks under its id. None of the blocks may be
+    // free. Reads voxels only from the device's copy of the map. Returns false if the device has no
+    // room; some blocks may then be stored already.
     [[nodiscard]] virtual bool MeshBlocks(const BlockMap& map, std::span<const BlockId> blocks,
                                           double min_weight, BlockMeshes& meshes) = 0;
 };

@@ -16,7 +16,7 @@ void BlockRegions::Clear() {
     regions_.clear();
 }
 
-// Where the region is in the table, or the empty slot where it would be.
+// The table slot of the region, or the empty slot where it would go.
 std::uint32_t BlockRegions::SlotOf(const BlockCoord& region) const {
     const std::uint32_t mask = static_cast<std::uint32_t>(table_.size() - 1);
     for (std::uint32_t slot = BlockHash(region) & mask;; slot = (slot + 1) & mask) {
@@ -54,7 +54,7 @@ void BlockRegions::Remove(std::int32_t block, const BlockCoord& region) {
     *std::ranges::find(blocks, block) = blocks.back();
     blocks.pop_back();
     if (!blocks.empty()) return;
-    // The last region takes its place.
+    // Move the last region into the gap.
     const std::uint32_t last_slot = SlotOf(regions_.back().coord);
     std::swap(regions_[index], regions_.back());
     table_[last_slot] = static_cast<std::int32_t>(index) + 1;

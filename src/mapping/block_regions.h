@@ -1,5 +1,5 @@
-// Which blocks lie in which region of space, so that a view looks up what may be in it. A second,
-// coarser hash beside BlockMap's, which owns one.
+// Which blocks lie in which region of space, so that a view can look up its candidate blocks. A
+// second, coarser hash; BlockMap owns one.
 #pragma once
 
 #include <cstdint>
@@ -16,12 +16,12 @@ class BlockRegions {
     BlockRegions() { Clear(); }
 
     void Add(std::int32_t block, const BlockCoord& region);
-    // The block must be there. A region without blocks goes.
+    // The block must be present. A region without blocks is removed.
     void Remove(std::int32_t block, const BlockCoord& region);
-    // In no particular order; valid until the next call that changes anything.
+    // In no particular order. Valid until the next modifying call.
     std::span<const std::int32_t> Blocks(const BlockCoord& region) const;
     void Clear();
-    std::size_t bytes() const;  // without the regions' lists of blocks
+    std::size_t bytes() const;  // excluding the regions' block lists
 
   private:
     struct Region {

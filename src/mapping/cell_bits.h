@@ -1,5 +1,5 @@
-// A block's rows of flags (cell_kernels.h), made so that compilers use vectors. Used by
-// block_mesh.cpp only.
+// Flag bits of a block's rows (cell_kernels.h), computed in a form that compilers vectorise. Used
+// by block_mesh.cpp only.
 #pragma once
 
 #include <array>
@@ -15,7 +15,8 @@ namespace tessera {
 class CellBits {
   public:
     CellBits(const BlockMap& map, const std::array<BlockId, 8>& blocks, int min_weight_steps) {
-        // By voxel offset; of each block only the part that borders on this one.
+        // Indexed by voxel offset. Of each neighbour, only the part that borders this block is
+        // filled.
         std::uint8_t own[kBlockVoxels], above[kBlockVoxels], behind[64], beyond[8];
         ReadFlags(map, blocks[0], 0, kBlockVoxels, min_weight_steps, own);
         for (int z = 0; z < kBlockSide; ++z)
@@ -35,25 +36,25 @@ class CellBits {
             }
     }
 
-    // If not, there is neither a crossed edge nor a surface cell.
+    // If false, the block has neither a crossed edge nor a surface cell.
     bool HasBothSigns() const { return any_inside_ != 0 && any_outside_ != 0; }
 
     CellRows view() const { return {rows_}; }
 
   private:
-    // A byte per voxel.
+    // One byte per voxel.
     static void ReadFlags(const BlockMap& map, BlockId block, int offset, int count,
                           int min_weight_steps, std::uint8_t* flags) {
         const FieldWord* field = map.field(block) + offset;
         const std::uint16_t* weight = map.weight(block) + offset;
         for (int i = 0; i < count; ++i) flags[i] = CellFlags(field[i], weight[i], min_weight_steps);
     }
-    // Bit i: the lowest bit of byte i.
+    // Bit i of the result is the lowest bit of byte i.
     static std::uint32_t LowestBits(std::uint64_t bytes) {
         return static_cast<std::uint32_t>((bytes & 0x0101010101010101u) * 0x0102040810204080u >>
                                           56);
     }
-    // Of eight voxels and the one after them.
+    // Packs eight voxels and the one after them.
     static RowBits Row(const std::uint8_t* flags, std::uint32_t last) {
         std::uint64_t bytes;
         std::memcpy(&bytes, flags, sizeof(bytes));

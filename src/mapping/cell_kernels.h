@@ -1,5 +1,5 @@
-// Which cells and edges of a block hold surface: one bit per voxel of a row, so that a row of eight
-// cells costs a few operations. Host-device, shared by the CPU and CUDA.
+// Finds the cells and edges of a block that contain surface. Each row stores one bit per voxel, so
+// that eight cells cost a few operations. Host-device, shared by the CPU code and CUDA.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +8,8 @@
 
 namespace tessera {
 
-// Where a block's voxel (x, y, z) is, each in [0, 2 kBlockSide): in the neighbour at this slot of
-// BlockMapView, at this offset.
+// Location of a block's voxel (x, y, z), each in [0, 2 kBlockSide): the neighbour slot (as in
+// BlockMapView) and the offset inside that neighbour.
 struct VoxelPlace {
     std::int32_t slot, offset;
 };
@@ -17,11 +17,11 @@ TESSERA_HD VoxelPlace PlaceOf(int x, int y, int z) {
     return {x >> 3 | y >> 3 << 1 | z >> 3 << 2, (x & 7) + 8 * (y & 7) + 64 * (z & 7)};
 }
 
-// A voxel's flags in bits 0 to 2: inside where its distance is negative; usable where it has a
-// distance and enough weight, which counts in 1/kWeightSteps; and at an end of the distance's
+// A voxel's flags. Bit 0 (inside): its distance is negative. Bit 1 (usable): it has a distance and
+// enough weight, in units of 1/kWeightSteps. Bit 2 (range end): its distance is at an end of the
 // range.
 TESSERA_HD std::uint8_t CellFlags(FieldWord field, std::uint16_t weight, int min_weight_steps) {
-    // Distances from here on count as the end of the range; fused averages seldom reach it exactly.
+    // Distances from here on count as the end of the range; fused averages rarely reach it exactly.
     constexpr int kRangeEnd = static_cast<int>(0.99f * kDistanceSteps);
     const int distance = static_cast<std::int32_t>(field) >> 16;
     const int usable = (distance != -32768) & (weight >= min_weight_steps);
@@ -29,22 +29,22 @@ TESSERA_HD std::uint8_t CellFlags(FieldWord field, std::uint16_t weight, int min
     return static_cast<std::uint8_t>((distance < 0) | usable << 1 | range_end << 2);
 }
 
-// The flags of a row's eight voxels and the one after them: bit x is voxel x.
+// Flags of a row's eight voxels and the one after them; bit x is voxel x.
 struct RowBits {
     std::uint32_t inside, usable, range_end;
 };
 
-// A block's rows along x, with those just above it along y and z.
+// A block's rows along x, plus the adjacent rows above it along y and z.
 struct CellRows {
     static constexpr int kSide = kBlockSide + 1;
     static constexpr int kRows = kSide * kSide;
-    static constexpr std::uint32_t kRowBits = 0xff;  // of the block's own voxels
+    static constexpr std::uint32_t kRowBits = 0xff;  // the block's own voxels
     const RowBits* rows;
 
     // y, z in [0, kSide).
     TESSERA_HD_MEMBER static int Index(int y, int z) { return y + kSide * z; }
 
-    // Bit x: the edge from voxel (x, y, z) along `axis` has one end inside, one outside.
+    // Bit x: the edge from voxel (x, y, z) along `axis` has one end inside and one outside.
     TESSERA_HD_MEMBER std::uint32_t CrossedEdges(int axis, int y, int z) const {
         const RowBits& a = rows[Index(y, z)];
         if (axis == 0) return (a.inside ^ a.inside >> 1) & a.usable & a.usable >> 1 & kRowBits;
@@ -52,7 +52,7 @@ struct CellRows {
         return (a.inside ^ b.inside) & a.usable & b.usable & kRowBits;
     }
 
-    // Bit x: the cell at (x, y, z) is to be triangulated.
+    // Bit x: the cell at (x, y, z) must be triangulated.
     TESSERA_HD_MEMBER std::uint32_t SurfaceCells(int y, int z) const {
         std::uint32_t usable = ~0u, all = ~0u, any = 0, far = 0, behind = 0;
         for (int corner = 0; corner < 4; ++corner) {
@@ -67,7 +67,7 @@ struct CellRows {
         return usable & usable >> 1 & (any | any >> 1) & ~(all & all >> 1) & ~jumps & kRowBits;
     }
 
-    // As CubeCases counts them.
+    // Index into CubeCases.
     TESSERA_HD_MEMBER int Configuration(int x, int y, int z) const {
         int configuration = 0;
         for (int corner = 0; corner < 4; ++corner) {

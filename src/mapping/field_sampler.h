@@ -1,12 +1,12 @@
-// The map's field at any point: distance and intensity with their analytic gradients. Scalar,
-// host-device; the formula is trilinear.h's, which the vector code shares. Reads BlockMapView, or
-// any struct with the same plain pointers.
+// Samples the map's field at any point: distance and intensity with their analytic gradients.
+// Scalar, host-device. The SIMD kernels use the same formula (trilinear.h). `View` is BlockMapView
+// or any struct with the same plain pointers.
 //
-// One look-up finds the block of a cell's lowest corner; the other seven corners lie in it or in
-// its positive neighbours, which View::neighbours lists. So the position of corner c is
-//     block = neighbours[8 * base + slot],  slot = which of (x, y, z) + (bits 0, 1, 2 of c) reach
-//     8, voxel = 512 * block + (x & 7) + 8 (y & 7) + 64 (z & 7).
-// What is not in the map is block 0, whose voxels are unknown: no branch.
+// One look-up finds the block of a cell's lowest corner. The other seven corners lie in that block
+// or in its positive neighbours, which View::neighbours lists. The position of corner c is
+//     block = neighbours[8 * base + slot], slot = which of (x, y, z) + (bits 0, 1, 2 of c) reach 8,
+//     voxel = 512 * block + (x & 7) + 8 (y & 7) + 64 (z & 7).
+// Absent blocks resolve to block 0, whose voxels are unknown, so there is no branch.
 #pragma once
 
 #include <cstdint>
@@ -19,8 +19,8 @@ namespace tessera {
 // The eight voxels around a point.
 struct FieldCell {
     std::int32_t block;    // of the lowest corner; 0 if the map does not have it
-    std::int32_t x, y, z;  // of the lowest corner in its block, 0 to 7
-    float fx, fy, fz;      // from the lowest corner to the point, [0, 1) voxels
+    std::int32_t x, y, z;  // lowest corner within its block, 0 to 7
+    float fx, fy, fz;      // the point relative to the lowest corner, [0, 1) voxels
 };
 
 struct FieldSample {
@@ -30,7 +30,7 @@ struct FieldSample {
     ValueAndGradient<float> intensity;  // [0, 1]; per metre
 };
 
-// A block's id by the map's hash; 0 if there is none.
+// Looks up a block's id in the map's hash; 0 if absent.
 template <class View>
 TESSERA_HD std::int32_t FindBlock(const View& map, std::int32_t x, std::int32_t y, std::int32_t z) {
     for (std::uint32_t slot = BlockHash(x, y, z) & map.table_mask;;
@@ -47,10 +47,10 @@ TESSERA_HD std::int32_t Floor(float v) {
     return i - (static_cast<float>(i) > v ? 1 : 0);
 }
 
-// Points are given in voxels relative to voxel (0, 0, 0) of `origin`, a block near them: floats
-// stay exact however far from the world's origin the scan has come. Remembers the last block, as
-// neighbouring points share it; so one sampler per thread or ray. Points must stay within 2^20
-// voxels of the origin.
+// Points are in voxels relative to voxel (0, 0, 0) of `origin`, a nearby block. Floats then stay
+// accurate far from the world's origin. Points must stay within 2^20 voxels of `origin`. The
+// sampler remembers the last block, which neighbouring points usually share, so use one sampler per
+// thread or ray.
 template <class View>
 class FieldSampler {
   public:
@@ -74,7 +74,7 @@ class FieldSampler {
                 pz - static_cast<float>(z)};
     }
 
-    // voxel[c]: index into the map's layers of the corner at offsets (x, y, z) = bits 0, 1, 2 of c.
+    // voxel[c]: layer index of the corner at offset (x, y, z) = bits 0, 1, 2 of c.
     TESSERA_HD_MEMBER void Corners(const FieldCell& cell, std::int32_t* voxel) const {
         for (int c = 0; c < 8; ++c) {
             const int x = cell.x + (c & 1), y = cell.y + (c >> 1 & 1), z = cell.z + (c >> 2);
@@ -85,7 +85,7 @@ class FieldSampler {
         }
     }
 
-    // The word of the voxel nearest to the point.
+    // The field word of the voxel nearest to the point.
     TESSERA_HD_MEMBER FieldWord Nearest(const FieldCell& cell) const {
         const int x = cell.x + (cell.fx >= 0.5f), y = cell.y + (cell.fy >= 0.5f),
                   z = cell.z + (cell.fz >= 0.5f);
@@ -95,7 +95,7 @@ class FieldSampler {
         return map_.field[kBlockVoxels * block + (x & 7) + 8 * (y & 7) + 64 * (z & 7)];
     }
 
-    // kIntensity: whether the intensity is wanted; without it has_intensity is false.
+    // kIntensity: also samples the intensity; otherwise has_intensity is false.
     template <bool kIntensity>
     TESSERA_HD_MEMBER FieldSample Sample(const FieldCell& cell) const {
         std::int32_t voxel[8];

@@ -1,5 +1,5 @@
-// What fusion is told: the map's layers, the frame, the camera and the weights, in plain pointers
-// and numbers, for the CPU's vector code and CUDA alike.
+// Arguments of the fusion kernels: map layers, frame, camera and weights, as plain pointers and
+// numbers. Shared by the CPU's SIMD kernels and CUDA.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@ namespace tessera {
 
 enum class DistanceWeight {
     kConstant,    // 1                                  [D18] eq. 7
-    kLinearExp,   // 1, falling behind the surface      [B14] eq. 13
+    kLinearExp,   // 1, falling off behind the surface  [B14] eq. 13
     kDepthNoise,  // (1 m / z)^2: structured light's depth noise grows with z^2
 };
 
@@ -30,17 +30,18 @@ struct FusionArguments {
     FieldWord* field;
     std::uint16_t* weight;
     ColourWord* colour;
-    const std::int32_t* coords;  // 4 per block, the last its number
-    // The frame. Depth in metres, 0 = none. Packed colour: see PackColour; null if the frame has
-    // none.
+    const std::int32_t* coords;  // 4 per block: x, y, z, number
+    // The frame. Depth in metres, 0 = none. See PackColour for the packed colour; null if the frame
+    // has no colour.
     const float* depth_m;
     const std::uint32_t* packed_colour;
-    // The map's surface before this depth is gone, 0 = none is; null if nowhere.
+    // Map surfaces nearer than this depth have disappeared; 0 = none. Null if there are none at
+    // all.
     const float* gone_m;
     std::int32_t width, height;
     float fx, fy, cx, cy;
     std::uint32_t frame;  // seeds the dither
-    // Geometry: the camera at the frame's instant, and how it moved around it (FrameMotion).
+    // Geometry: the camera at the frame's timestamp, and its motion around that time (FrameMotion).
     VoxelToCamera to_camera;
     bool moving;
     float twist_per_s[6];
@@ -50,7 +51,7 @@ struct FusionArguments {
     // Weights.
     DistanceWeight distance_weight;
     ColourWeighting colour_weighting;
-    float epsilon_m, sigma;  // of kLinearExp
+    float epsilon_m, sigma;  // for kLinearExp
     float max_weight, max_colour_weight;
     float gain, offset;                       // map intensity = gain * image intensity + offset
     float frame_weight, frame_colour_weight;  // factor for the whole frame (blur), in (0, 1]

@@ -1,7 +1,7 @@
-// Fusion: what one frame does to a voxel. The weights of both papers, the running averages and the
-// rounding are templates on the number type; FusionKernels puts them together for lanes of voxels
-// (scalar_lanes.h), for vectors and CUDA alike. Distances in metres, positive in front of the
-// surface: [B14] eq. 12 has the opposite sign.
+// Fusion: updates a voxel from one frame. The weights of both papers, the running averages and the
+// rounding are templates on the number type. FusionKernels combines them for lanes of voxels
+// (scalar_lanes.h), for the CPU's SIMD kernels and CUDA. Distances are in metres, positive in front
+// of the surface; [B14] eq. 12 has the opposite sign.
 #pragma once
 
 #include <cstddef>
@@ -12,8 +12,8 @@
 
 namespace tessera {
 
-// e^v for v <= 0, by the same few roundings whatever F is: to 1e-6, and below e^-10 to 3e-9. (e^(v
-// / 16))^16, by the series.
+// e^v for v <= 0, with the same few roundings for every F. Accurate to 1e-6, and to 3e-9 below
+// e^-10. Computed as (e^(v / 16))^16 from the series.
 template <class F>
 TESSERA_HD F ExpOfNegative(F v) {
     constexpr float kFactorials[] = {5040, 720, 120, 24, 6, 2, 1, 1};
@@ -25,7 +25,7 @@ TESSERA_HD F ExpOfNegative(F v) {
 }
 
 // [B14] eq. 13 with d = z_voxel - z_measured = -signed_distance: 1 up to epsilon behind the
-// surface, then exp(-sigma (d - epsilon)^2). The cut at delta is the caller's.
+// surface, then exp(-sigma (d - epsilon)^2). The caller applies the cut at delta.
 template <class F>
 TESSERA_HD F LinearExpWeight(F signed_distance_m, float epsilon_m, float sigma) {
     const F behind = F(0.0f) - signed_distance_m - F(epsilon_m);
@@ -39,9 +39,9 @@ TESSERA_HD F WeightedAverage(F old_value, F old_weight, F value, F weight) {
     return (old_weight * old_value + weight * value) / (old_weight + weight);
 }
 
-// 32 well-mixed bits from a voxel's address and the frame: the dither of the running averages.
-// Rounding to nearest would freeze an average once the weight is large; rounding up with the
-// probability of the fraction moves it right in the mean, and a hash makes every run the same.
+// 32 well-mixed bits from a voxel's address and the frame, to dither the running averages. Rounding
+// to nearest would freeze an average once the weight is large. Rounding up with a probability equal
+// to the fraction keeps the mean correct. A hash makes runs reproducible.
 template <class U>
 TESSERA_HD U DitherBits(U address, std::uint32_t frame) {
     U h = address * U(0x9e3779b1u) + U(frame * 0x85ebca77u);
@@ -52,11 +52,11 @@ TESSERA_HD U DitherBits(U address, std::uint32_t frame) {
     return h ^ (h >> 16);
 }
 
-// Share of its weight that a voxel before a surface that is gone keeps with each frame: full weight
-// is as nothing after half a second.
+// Fraction of its weight that a voxel of a disappeared surface keeps per frame: full weight fades
+// to almost nothing within half a second.
 inline constexpr float kKeptOfGone = 0.6f;
 
-// Fusion of lanes V of neighbouring voxels.
+// Fuses lanes V of neighbouring voxels.
 template <class V>
 class FusionKernels {
   public:
@@ -65,11 +65,11 @@ class FusionKernels {
     using Bits = typename V::Bits;
     using Mask = typename V::Mask;
 
-    // Eight voxels along x in the camera: an affine function of x.
+    // Eight voxels along x in the camera frame: an affine function of x.
     struct Row {
         float origin[3], step[3];
-        std::size_t at;      // of the first voxel in the map's layers
-        std::uint32_t seed;  // of its dither
+        std::size_t at;      // layer index of the first voxel
+        std::uint32_t seed;  // dither seed of the first voxel
     };
 
     // Row (y, z) of a block.
@@ -115,7 +115,7 @@ class FusionKernels {
         ColourWord* colour = a.colour + row.at + x;
         Voxels v{V::Load(field), V::ToReal(V::Load(weight_steps)) * Real(1.0f / kWeightSteps),
                  V::Load(colour)};
-        // Where a surface is known to be gone, what made it is forgotten soon.
+        // Quickly forget a surface that is known to have disappeared.
         if (a.gone_m != nullptr) {
             const Mask gone = update && (V::Gather(a.gone_m, pixel) - p.z > Real(a.truncation_m));
             v.weight = V::Select(gone, v.weight * Real(kKeptOfGone), v.weight);
@@ -155,15 +155,15 @@ class FusionKernels {
         Bits colour;
     };
 
-    // The points of the voxels at x of a row.
+    // Camera-frame positions of the voxels at x of a row.
     TESSERA_HD_MEMBER static Point PointAt(const Row& row, const Real& x) {
         return {Real(row.origin[0]) + x * Real(row.step[0]),
                 Real(row.origin[1]) + x * Real(row.step[1]),
                 Real(row.origin[2]) + x * Real(row.step[2])};
     }
 
-    // Where a point of the camera at the frame's instant is for the camera at time t: to first
-    // order p - t (omega x p + velocity).
+    // Transforms a point from the camera frame at the frame's timestamp to the camera frame at time
+    // t, to first order: p - t (omega x p + velocity).
     TESSERA_HD_MEMBER static Point AtTime(const FusionArguments& a, const Point& p, const Real& t) {
         const float* w = a.twist_per_s;
         return {p.x - t * (Real(w[1]) * p.z - Real(w[2]) * p.y + Real(w[3])),
@@ -171,14 +171,14 @@ class FusionKernels {
                 p.z - t * (Real(w[0]) * p.y - Real(w[1]) * p.x + Real(w[5]))};
     }
 
-    // Time of the row that a point is seen in, in read-outs from the middle row.
+    // Time of the row in which a point is seen, in read-out times relative to the middle row.
     TESSERA_HD_MEMBER static Real RowTime(const FusionArguments& a, const Point& p) {
         const Real v = p.y / V::Max(p.z, Real(0.05f)) * Real(a.fy) + Real(a.cy);
         const Real share = v * Real(1.0f / static_cast<float>(a.height)) - Real(0.5f);
         return V::Min(V::Max(share, Real(-0.5f)), Real(0.5f));
     }
 
-    // Index of the nearest pixel and whether the point is in front of the camera and in the image.
+    // Index of the nearest pixel. `inside`: the point is in front of the camera and in the image.
     // [B14] eq. 2.
     TESSERA_HD_MEMBER static Int NearestPixel(const FusionArguments& a, const Point& p,
                                               Mask& inside) {
@@ -204,7 +204,7 @@ class FusionKernels {
         return Real(a.frame_weight);
     }
 
-    // From the distance's weight, of voxels at p.
+    // Derives the colour weight from the distance weight, for voxels at p.
     TESSERA_HD_MEMBER static Real ColourWeightOf(const FusionArguments& a, Real weight,
                                                  const Point& p) {
         weight = weight * Real(a.frame_colour_weight / a.frame_weight);
@@ -233,8 +233,8 @@ class FusionKernels {
         v.weight = V::Select(update, V::Min(v.weight + weight, Real(a.max_weight)), v.weight);
     }
 
-    // Intensity and chroma, [B14] eq. 18-20 and [D18] eq. 6 in luma and chroma instead of R, G, B:
-    // the same average.
+    // Fuses intensity and chroma: [B14] eq. 18-20 and [D18] eq. 6, in luma and chroma instead of R,
+    // G, B. The average is the same.
     TESSERA_HD_MEMBER static void FuseColour(const FusionArguments& a, const Mask& update,
                                              const Bits& pixel, const Real& weight,
                                              const Bits& address, const Bits& dither, Voxels& v) {

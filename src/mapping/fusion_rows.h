@@ -1,5 +1,5 @@
 // The hot loop of fusion behind plain pointers: updates whole blocks from one frame. Compiled twice
-// (portable, AVX2); integrator.cpp picks. No Eigen here.
+// (portable, AVX2); integrator.cpp selects the version. No Eigen here.
 #pragma once
 
 #include <cstdint>

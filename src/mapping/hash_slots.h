@@ -1,4 +1,4 @@
-// Hash tables as the map's are: a power of two of slots, linear probing, 0 = empty.
+// Erasure for hash tables like the map's: power-of-two size, linear probing, 0 = empty.
 #pragma once
 
 #include <cstdint>
@@ -6,8 +6,8 @@
 
 namespace tessera {
 
-// Empties a slot; entries behind it move up where the gap would hide them. `hash_of` gives an
-// entry's hash.
+// Empties a slot. Moves up later entries that the gap would hide. `hash_of` returns an entry's
+// hash.
 template <class HashOf>
 void EraseSlot(std::vector<std::int32_t>& table, std::uint32_t gap, const HashOf& hash_of) {
     const std::uint32_t mask = static_cast<std::uint32_t>(table.size() - 1);

@@ -32,23 +32,22 @@ void Integrator::Config::Describe(ConfigParameters& p) {
                 {{"constant", DistanceWeight::kConstant},
                  {"linear_exp", DistanceWeight::kLinearExp},
                  {"depth_noise", DistanceWeight::kDepthNoise}},
-                "weight of a measurement: the same for all ([D18] eq. 7), falling behind the "
-                "surface ([B14] eq. "
-                "13), or (1 m / depth)^2 as structured light's noise asks for");
+                "weight of a measurement: constant ([D18] eq. 7), falling off behind the surface "
+                "([B14] eq. 13), or (1 m / depth)^2 to match the noise of structured light");
     p.AddChoice("colour_weighting", colour_weighting,
                 {{"cosine", ColourWeighting::kCosine}, {"same", ColourWeighting::kSame}},
-                "weight of a colour: the distance's times the cosine to the optical axis ([B14] "
-                "eq. 17), or the "
-                "distance's ([D18] eq. 6)");
+                "weight of a colour: the distance weight times the cosine of the angle to the "
+                "optical axis ([B14] eq. 17), or the distance weight ([D18] eq. 6)");
     p.Add("epsilon_m", epsilon_m, {0.0, 1.0}, "m",
-          "linear_exp: full weight up to here behind the surface");
+          "linear_exp: full weight up to this distance behind the surface");
     p.Add("sigma", sigma, {0.0, 1e6}, "1/m^2",
           "linear_exp: how fast the weight falls beyond epsilon_m");
     p.Add("max_weight", max_weight, {1.0, kMaxWeight}, "",
-          "the running average's memory, in frames at 1 m; lower it where the scene changes");
-    p.Add("max_colour_weight", max_colour_weight, {1.0, kMaxWeight}, "", "the same for colour");
+          "memory of the running average, in frames at 1 m; lower it if the scene changes");
+    p.Add("max_colour_weight", max_colour_weight, {1.0, kMaxWeight}, "",
+          "memory of the running average of colour, in frames at 1 m");
     p.Add("max_new_blocks", max_new_blocks, {100, 1000000}, "blocks",
-          "most blocks that one frame may add; bounds what a garbage frame can cost");
+          "maximum number of blocks that one frame may add; limits the cost of a corrupt frame");
     p.Section("volume", [&](ConfigParameters& s) { volume.Describe(s); });
 }
 
@@ -65,7 +64,7 @@ BandWalk MakeBandWalk(const PreparedFrame& frame, const PinholeCamera& camera,
     walk.depth_m = frame.depth_m.data();
     walk.width = frame.width;
     walk.height = frame.height;
-    // Rays at most half a block apart at the farthest depth.
+    // Space rays at most half a block apart at the farthest depth.
     walk.step = std::clamp(
         static_cast<int>(0.5 * block_m * camera.fx / std::max(frame.farthest_m, 0.1f)), 1, 8);
     walk.walk_steps = static_cast<int>(std::ceil(4.0 * map.truncation_m / block_m));
@@ -151,8 +150,8 @@ FusionArguments MakeFusionArguments(const PreparedFrame& frame, const Integrator
                                     const PinholeCamera& camera, const Integrator::Config& config,
                                     const BlockMap::Config& map, std::uint32_t revision) {
     const double voxel_m = map.voxel_size_m;
-    // Coordinates relative to a voxel near the camera: single precision is then as fine far from
-    // the world's origin.
+    // Use coordinates relative to a voxel near the camera, to keep single precision accurate far
+    // from the world's origin.
     const Eigen::Vector3d origin = (view.T_world_camera.translation() / voxel_m).array().round();
     const Eigen::Isometry3d T_camera_world = view.T_world_camera.inverse();
 

@@ -1,6 +1,6 @@
-// Puts frames into the map: allocates blocks along the measured band, then updates every voxel that
-// the frame sees. The one writer of a BlockMap. Owner thread only; TBB inside, the same result for
-// any number of threads.
+// Integrates frames into the map: allocates blocks along the measured band, then updates every
+// voxel that the frame sees. The only writer of a BlockMap. Owner thread only; uses TBB internally
+// and gives the same result for any number of threads.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -25,8 +25,8 @@ class Integrator {
     struct Config {
         DistanceWeight distance_weight = DistanceWeight::kDepthNoise;
         ColourWeighting colour_weighting = ColourWeighting::kCosine;
-        double epsilon_m = 0.025;  // of linear_exp, [B14] eq. 13
-        double sigma = 60.0;       // of linear_exp, 1/m^2; the paper gives no value
+        double epsilon_m = 0.025;  // for linear_exp, [B14] eq. 13
+        double sigma = 60.0;       // for linear_exp, 1/m^2; the paper gives no value
         double max_weight = 128.0;
         double max_colour_weight = 64.0;
         int max_new_blocks = 60000;
@@ -35,19 +35,19 @@ class Integrator {
         void Describe(ConfigParameters& parameters);
     };
 
-    // What besides the images one integration needs.
+    // What one integration needs besides the images.
     struct View {
         Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity();
         FrameMotion motion;
         float gain = 1.0f, offset = 0.0f;  // map intensity = gain * image intensity + offset
-        float weight = 1.0f;               // of the whole frame, in (0, 1]
+        float weight = 1.0f;               // for the whole frame, in (0, 1]
         float colour_weight = 1.0f;
     };
 
     struct Report {
         std::int64_t new_blocks = 0;
-        std::int64_t refused_blocks = 0;  // beyond max_new_blocks or the map's end
-        bool map_full = false;            // the map's end
+        std::int64_t refused_blocks = 0;  // exceeded max_new_blocks or the map's capacity
+        bool map_full = false;            // the map's capacity is exhausted
         std::int64_t fused_blocks = 0;
         double allocate_ms = 0, fuse_ms = 0;
     };
@@ -57,20 +57,20 @@ class Integrator {
     virtual ~Integrator() = default;
 
     Report Integrate(const PreparedFrame& frame, const View& view, BlockMap& map);
-    // The ids that the last call changed, increasing.
+    // Ids changed by the last call, in increasing order.
     const std::vector<BlockId>& changed_blocks() const { return *changed_; }
-    // The blocks that it added, in order.
+    // Blocks added by the last call, in order of allocation.
     const std::vector<BlockId>& added_blocks() const { return added_; }
-    // Counts the integrations; blocks changed by the n-th carry BlockMap::revision n.
+    // Counts the integrations. Blocks changed by the n-th one carry BlockMap::revision n.
     std::uint32_t revision() const { return revision_; }
-    // The map was changed otherwise: all its blocks carry a revision of their own from here on.
+    // Call after changing the map by other means: marks all its blocks with a new revision.
     void MarkAllChanged(BlockMap& map);
-    // Goes on after that many, in a map that they made.
+    // Continues after this many integrations, for a map that they built.
     void SetRevision(std::uint32_t revision) { revision_ = revision; }
-    // Where a device keeps the voxels: `map` gets those that changed. Its blocks, without their
-    // voxels, are always those of the last Integrate.
+    // If a device holds the voxels, copies the changed ones to `map`. The blocks of `map`, without
+    // their voxels, are always up to date with the last Integrate.
     virtual void Bring(BlockMap&) {}
-    // What map_full means, in words.
+    // Describes the limit behind map_full.
     virtual std::string limit() const { return "the map is full"; }
 
   protected:
@@ -92,12 +92,12 @@ class Integrator {
     std::vector<BlockCoord> new_blocks_;
 };
 
-// What WalkRay needs of a frame taken from there.
+// The arguments of WalkRay for a frame taken at this pose.
 BandWalk MakeBandWalk(const PreparedFrame& frame, const PinholeCamera& camera,
                       const Eigen::Isometry3d& T_world_camera, const BlockMap::Config& map);
 
-// What fusion needs of a frame and its view; the map's layers and the images are the caller's to
-// enter.
+// The fusion arguments for a frame and its view. The caller fills in the map's layers and the
+// images.
 FusionArguments MakeFusionArguments(const PreparedFrame& frame, const Integrator::View& view,
                                     const PinholeCamera& camera, const Integrator::Config& config,
                                     const BlockMap::Config& map, std::uint32_t revision);

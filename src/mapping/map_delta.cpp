@@ -39,7 +39,9 @@ void CollectDelta(const BlockMap& map, std::span<const BlockChange> blocks,
 }
 
 void CollectWhole(const BlockMap& map, std::uint32_t revision, MapDelta& delta) {
-    TESSERA_CHECK(map.count() == map.size() - 1, "{} blocks under {} ids", map.count(), map.size());
+    TESSERA_CHECK(map.count() == map.size() - 1,
+                  "CollectWhole needs a map without releases; it has {} blocks and {} ids",
+                  map.count(), map.size());
     std::vector<BlockChange> blocks;
     std::vector<BlockId> all;
     for (BlockId id = 1; id < map.size(); ++id) {
@@ -64,7 +66,8 @@ std::unique_ptr<BlockMap> CopyField(const BlockMap& map) {
 void ApplyDelta(const MapDelta& delta, BlockMap& copy) {
     for (const BlockChange& change : delta.blocks) {
         const BlockId id = change.released ? copy.Find(change.coord) : copy.Allocate(change.coord);
-        TESSERA_CHECK(id == change.id, "block {} of the map is {} in the copy", change.id, id);
+        TESSERA_CHECK(id == change.id, "block {} of the map is block {} in the copy", change.id,
+                      id);
         if (change.released) copy.Release(id);
     }
     ForEachChanged(delta.changed.size(), [&](std::size_t i) {

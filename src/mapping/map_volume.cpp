@@ -6,17 +6,17 @@ namespace tessera {
 
 void MapVolume::Describe(ConfigParameters& p) {
     constexpr ConfigParameters::Range kWorld{-1e4, 1e4};
-    p.Add("bounded", bounded,
-          "map only what lies in this box of the world; the world is the first camera, x right, y "
-          "down, "
-          "z ahead");
+    p.Add(
+        "bounded", bounded,
+        "map only inside this box of the world frame, which is the first camera's frame: x right, "
+        "y down, z forward");
     p.Add("min_x_m", min_x_m, kWorld, "m",
-          "the box's left side, if bounded; the defaults are [D18]'s for desks");
-    p.Add("min_y_m", min_y_m, kWorld, "m", "the box's upper side");
-    p.Add("min_z_m", min_z_m, kWorld, "m", "the box's near side");
-    p.Add("max_x_m", max_x_m, kWorld, "m", "the box's right side");
-    p.Add("max_y_m", max_y_m, kWorld, "m", "the box's lower side");
-    p.Add("max_z_m", max_z_m, kWorld, "m", "the box's far side");
+          "left side of the box, if bounded; the defaults are those of [D18] for desks");
+    p.Add("min_y_m", min_y_m, kWorld, "m", "upper side of the box");
+    p.Add("min_z_m", min_z_m, kWorld, "m", "near side of the box");
+    p.Add("max_x_m", max_x_m, kWorld, "m", "right side of the box");
+    p.Add("max_y_m", max_y_m, kWorld, "m", "lower side of the box");
+    p.Add("max_z_m", max_z_m, kWorld, "m", "far side of the box");
 }
 
 Status MapVolume::Validate() const {

@@ -1,5 +1,5 @@
-// A box of the world outside of which the map is not to grow, as systems with a dense grid have one
-// ([D18] section 4).
+// A box in the world that limits the growth of the map, as in systems with a dense grid ([D18]
+// section 4).
 #pragma once
 
 #include "core/config.h"
@@ -20,7 +20,7 @@ struct MapVolume {
     WorldBox box() const {
         return {bounded, {min_x_m, min_y_m, min_z_m}, {max_x_m, max_y_m, max_z_m}};
     }
-    // Whether some of the block lies inside.
+    // Whether the block overlaps the box.
     bool Meets(const BlockCoord& block, double block_m) const {
         return tessera::Meets(box(), block, block_m);
     }

@@ -40,7 +40,7 @@ constexpr FaceSegments SegmentsOf(int configuration, int face) {
     return result;
 }
 
-// Twice the edge's middle, cell coordinates.
+// Twice the edge's midpoint, in cell coordinates.
 constexpr std::array<int, 3> Middle(int edge) {
     const CubeEdge e = CubeEdgeAt(edge);
     std::array<int, 3> p{2 * (e.corner & 1), 2 * (e.corner >> 1 & 1), 2 * (e.corner >> 2)};
@@ -48,8 +48,8 @@ constexpr std::array<int, 3> Middle(int edge) {
     return p;
 }
 
-// What a diagonal between two edges' vertices costs: its squared length, or everything if it would
-// lie in a face.
+// Cost of a diagonal between two edges' vertices: its squared length, or kForbidden if it would lie
+// in a face.
 constexpr int DiagonalCost(int a, int b) {
     const std::array<int, 3> p = Middle(a), q = Middle(b);
     int length = 0;
@@ -60,8 +60,8 @@ constexpr int DiagonalCost(int a, int b) {
     return length;
 }
 
-// The triangulation of a polygon with the shortest diagonals, by dynamic programming over its
-// sub-polygons i..j.
+// Triangulates a polygon with the shortest diagonals, by dynamic programming over its sub-polygons
+// i..j.
 class Triangulation {
   public:
     constexpr Triangulation(const Loop& loop, CubeCase& out) : loop_(loop), out_(out) {

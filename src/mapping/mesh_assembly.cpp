@@ -15,7 +15,7 @@ using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
-// Index of each block's first vertex and first triangle among all; one more entry for the end.
+// Index of each block's first vertex and first triangle, plus one entry for the end.
 struct FirstIndices {
     std::vector<std::uint32_t> vertex, triangle;
 
@@ -49,7 +49,7 @@ std::uint32_t Resolve(const Blocks& blocks, const BlockMesh& block, BlockMesh::V
     return found < 0 ? kNone : first_vertex[id] + static_cast<std::uint32_t>(found);
 }
 
-// Triangles over the indices of all blocks' vertices, in order of block.
+// Triangles over global vertex indices, ordered by block.
 Triangles ResolveTriangles(const Blocks& blocks, const FirstIndices& first) {
     Triangles triangles(first.triangle.back());
     ForEachBlock(blocks, [&](std::size_t id, const BlockMesh& block) {

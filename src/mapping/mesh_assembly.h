@@ -9,10 +9,10 @@
 
 namespace tessera {
 
-// `blocks` by block id, null where there is no surface. Triangles whose vertex the neighbour does
-// not have (it was meshed at another time) are left out, and so are connected pieces of fewer than
-// `min_component_triangles`. `labels`: of the blocks' vertices, a block's may be empty: none has
-// one; or empty as a whole: the mesh has no labels.
+// `blocks` is indexed by block id, null where there is no surface. Drops triangles whose vertex is
+// missing in the neighbour (it was meshed at another time), and connected components of fewer than
+// `min_component_triangles`. `labels` holds the labels of each block's vertices. An empty entry
+// means that the block has none; if `labels` is empty, the mesh has no labels.
 using BlockVertexLabels = std::vector<std::vector<VertexLabel>>;
 TriangleMesh AssembleMesh(const std::vector<std::unique_ptr<const BlockMesh>>& blocks,
                           double voxel_size_m, int min_component_triangles,

@@ -1,5 +1,5 @@
-// The vertices of marching cubes, one edge at a time, and what their triangles refer to them by.
-// Host-device, shared by the CPU and CUDA.
+// The vertices of marching cubes, one edge at a time, and the references by which triangles name
+// them. Host-device, shared by the CPU code and CUDA.
 #pragma once
 
 #include <array>
@@ -12,8 +12,8 @@
 
 namespace tessera {
 
-// A block's field with an apron of one voxel below and two above along each axis, x fastest: a
-// copy, or shared memory.
+// A block's field with an apron of one voxel below and two above along each axis, x fastest.
+// `words` points to a copy or to shared memory.
 struct ApronField {
     static constexpr int kSide = kBlockSide + 3;
     static constexpr int kWords = kSide * kSide * kSide;
@@ -27,8 +27,8 @@ struct ApronField {
         return axis == 0 ? 1 : axis == 1 ? kSide : kSide * kSide;
     }
 
-    // Of the distance along an axis, in truncations per voxel: the central difference, one-sided or
-    // zero where neighbours are unknown.
+    // Slope of the distance along an axis, in truncations per voxel: the central difference,
+    // one-sided or zero where neighbours are unknown.
     TESSERA_HD_MEMBER float Slope(int index, int axis) const {
         const FieldWord here = words[index];
         FieldWord before = words[index - Stride(axis)], after = words[index + Stride(axis)];
@@ -39,9 +39,9 @@ struct ApronField {
     }
 };
 
-// Whether a block's mesh is made from voxels of the block at this offset, each in {-1, 0, 1}: of
-// its own, of the positive neighbours (corners of cells), and of those one step further along an
-// axis (gradients at the vertices' ends).
+// Whether a block's mesh reads voxels of the block at this offset, each in {-1, 0, 1}. It reads the
+// block itself, the positive neighbours (cell corners), and the blocks one step further along an
+// axis (gradients at the ends of edges).
 TESSERA_HD constexpr bool ReadByMesh(int dx, int dy, int dz) {
     const int below = (dx < 0) + (dy < 0) + (dz < 0), above = (dx > 0) + (dy > 0) + (dz > 0);
     return below == 0 || (below == 1 && above <= 1);
@@ -50,17 +50,17 @@ TESSERA_HD constexpr bool ReadByMesh(int dx, int dy, int dz) {
 // Edge axis * 512 + o of a block runs from its voxel o to the next voxel along `axis`.
 struct MeshVertex {
     std::uint16_t edge;
-    std::uint16_t fraction;              // of the way along the edge, in 1/65536; never 0
+    std::uint16_t fraction;              // position along the edge, in 1/65536; never 0
     std::array<std::int16_t, 2> normal;  // octahedral
     Rgb8 colour;
-    std::uint8_t has_colour;  // 0 or 1; without, colour is mid grey
+    std::uint8_t has_colour;  // 0 or 1; if 0, colour is mid grey
 };
 
 // A triangle's corner: neighbour slot (as in BlockMapView) << kMeshSlotShift | edge in that block.
 using MeshVertexRef = std::uint16_t;
 inline constexpr int kMeshSlotShift = 11;
 
-// Of the vertex on a cube's edge, for the block's cell at (x, y, z).
+// Refers to the vertex on a cube's edge, for the block's cell at (x, y, z).
 TESSERA_HD MeshVertexRef VertexRefOf(int cube_edge, int x, int y, int z) {
     const CubeEdge e = CubeEdgeAt(cube_edge);
     const VoxelPlace at = PlaceOf(x + (e.corner & 1), y + (e.corner >> 1 & 1), z + (e.corner >> 2));
@@ -68,7 +68,7 @@ TESSERA_HD MeshVertexRef VertexRefOf(int cube_edge, int x, int y, int z) {
                                       (e.axis * kBlockVoxels + at.offset));
 }
 
-// Octahedral, from a vector of any length but 0; VertexNormal undoes it.
+// Octahedral encoding of a vector of any non-zero length. VertexNormal decodes it.
 TESSERA_HD void EncodeNormal(const float* n, std::int16_t* code) {
     const float length = abs(n[0]) + (abs(n[1]) + abs(n[2]));
     const float x = n[0] / length, y = n[1] / length;
@@ -83,8 +83,8 @@ TESSERA_HD std::uint8_t ColourByte(float value) {
     return static_cast<std::uint8_t>(value * 255.0f + 0.5f);
 }
 
-// [D18] eq. 10, m of the way from one voxel to the other; where one has no colour, the other's;
-// where none has, grey.
+// [D18] eq. 10: interpolates from voxel 1 to voxel 2 by the fraction m. If only one voxel has a
+// colour, returns that colour; if neither has one, grey.
 TESSERA_HD Rgb8 MixColours(FieldWord w1, ColourWord c1, FieldWord w2, ColourWord c2, float m) {
     if (!HasIntensity(w1) && !HasIntensity(w2)) return {128, 128, 128};
     const LinearRgb a = HasIntensity(w1) ? ColourFromWords(w1, c1) : ColourFromWords(w2, c2);
@@ -93,14 +93,14 @@ TESSERA_HD Rgb8 MixColours(FieldWord w1, ColourWord c1, FieldWord w2, ColourWord
             ColourByte(a.b + m * (b.b - a.b))};
 }
 
-// The vertex on the edge from the block's voxel (x, y, z) along `axis`, whose ends lie on both
-// sides of the surface; c1 and c2 are their colours.
+// The vertex on the edge from the block's voxel (x, y, z) along `axis`. The ends of the edge lie on
+// opposite sides of the surface; c1 and c2 are their colours.
 TESSERA_HD MeshVertex VertexOnEdge(const ApronField& field, int axis, int x, int y, int z,
                                    ColourWord c1, ColourWord c2) {
     const int i1 = ApronField::Index(x, y, z), i2 = i1 + ApronField::Stride(axis);
     const FieldWord w1 = field.words[i1], w2 = field.words[i2];
     const float d1 = FieldDistance(w1), d2 = FieldDistance(w2);
-    // [D18] eq. 9, kept off the ends: a voxel at exactly zero would make triangles without area.
+    // [D18] eq. 9, kept off the ends: a voxel at exactly zero would give degenerate triangles.
     constexpr float kMargin = 1e-3f;
     const float m = min(max(d1 / (d1 - d2), kMargin), 1 - kMargin);
     float n[3];

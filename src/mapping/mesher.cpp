@@ -34,8 +34,8 @@ void Mesher::MeshHere(const BlockMap& map, std::span<const BlockId> blocks) {
     });
 }
 
-// Appends to pending_ every block that reads one whose revision is new, and what is another block
-// by now or none.
+// Appends to pending_ every block that reads a block with a new revision, and every id that now
+// belongs to another block or to none.
 void Mesher::FindChanged(const BlockMap& map) {
     const std::size_t size = static_cast<std::size_t>(map.size());
     TESSERA_CHECK(size >= meshes_.size(), "the map shrank from {} to {} blocks without Clear",
@@ -50,7 +50,7 @@ void Mesher::FindChanged(const BlockMap& map) {
         const std::uint32_t revision = map.revision(id);
         const bool same = seen_number_[at] == map.number(id);
         if (same && revision == seen_revision_[at]) continue;
-        // Whoever refers to vertices of the block that was here would find another's.
+        // Meshes that refer to the old block's vertices would find another block's.
         if (!same && seen_number_[at] != 0) {
             AddReaders(map, seen_coord_[at]);
             if (!std::exchange(is_pending_[at], std::uint8_t{1})) pending_.push_back(id);

@@ -1,6 +1,5 @@
-// The map's surface as a triangle mesh, kept up to date block by block: only what changed is meshed
-// again. Owns the block meshes, copies what it needs from the map, and needs the map only inside
-// Update.
+// The map's surface as a triangle mesh, updated block by block: only changed blocks are meshed
+// again. Owns the block meshes and reads the map only inside Update.
 #pragma once
 
 #include <limits>
@@ -13,8 +12,8 @@
 
 namespace tessera {
 
-// Owner thread only; Update works on all of TBB's threads and gives the same bytes for any number
-// of them.
+// Owner thread only. Update runs on all TBB threads and gives the same bytes for any number of
+// them.
 class Mesher {
   public:
     using Config = MeshConfig;
@@ -22,23 +21,23 @@ class Mesher {
 
     explicit Mesher(const Config& config) : config_(config) {}
 
-    // Meshes again the blocks whose result may have changed since the last call: those that read a
-    // block (kMeshReadOffsets) whose BlockMap::revision differs from the one last seen. So whoever
-    // writes the map must use a new revision after each Update. At most `budget_blocks` are done,
-    // oldest first; returns how many remain. Nobody may write the map meanwhile. Blocks may come
-    // and go between calls; Clear when it is another map. With `device` that one meshes, in a map
-    // whose blocks do not go; where it has no room none is done.
+    // Remeshes the blocks whose result may have changed since the last call: those that read a
+    // block (kMeshReadOffsets) whose BlockMap::revision differs from the last one seen. So the
+    // writer of the map must use a new revision after each Update. Meshes at most `budget_blocks`,
+    // oldest first, and returns how many remain. Nobody may write the map meanwhile. Blocks may be
+    // allocated and released between calls; call Clear for another map. If `device` is given, it
+    // does the meshing, and the map must not release blocks; if it has no room, no block is done.
     int Update(const BlockMap& map, int budget_blocks = kNoLimit, BlockMesher* device = nullptr);
 
-    // The whole mesh, with normals and colours. Vertices are shared across blocks, ordered by block
-    // id and edge; only those that a triangle uses. While blocks remain to be done there may be
-    // gaps between old and new blocks.
+    // The whole mesh, with normals and colours. Blocks share vertices, which are ordered by block
+    // id and edge; unused vertices are left out. While blocks remain to be done, there may be gaps
+    // between old and new blocks.
     TriangleMesh Assemble() const;
 
-    // Forgets everything; to be called when the map was cleared or replaced.
+    // Forgets everything. Call this when the map is cleared or replaced.
     void Clear();
 
-    // What the last Update meshed, oldest first, for those who keep copies of the block meshes.
+    // The blocks that the last Update meshed, oldest first, for holders of block mesh copies.
     std::span<const BlockId> updated() const { return updated_; }
     const BlockMeshes& block_meshes() const { return meshes_; }
 
@@ -53,10 +52,10 @@ class Mesher {
 
     Config config_;
     double voxel_size_m_ = 0;
-    // By block id.
+    // Indexed by block id.
     BlockMeshes meshes_;
     std::vector<std::uint32_t> seen_revision_;
-    // BlockMap::number: an id may be another block's by now.
+    // BlockMap::number, because an id may belong to another block by now.
     std::vector<std::int32_t> seen_number_;
     std::vector<BlockCoord> seen_coord_;
     std::vector<std::uint8_t> is_pending_;

@@ -1,5 +1,5 @@
-// Which pixels of a frame show something that moves, and where the map's surface has gone: what is
-// left out of tracking and fusion, and what fusion forgets sooner.
+// Which pixels of a frame show moving objects, and which map surfaces have disappeared. Tracking
+// and fusion skip moving pixels. Fusion forgets disappeared surfaces faster.
 #pragma once
 
 #include <algorithm>
@@ -10,36 +10,35 @@
 
 namespace tessera {
 
-// In tiles of `step` x `step` pixels: tile (k, l) covers the pixels from (k step, l step) on, the
-// last ones also what is left of a row or column.
+// In tiles of `step` x `step` pixels: tile (k, l) starts at pixel (k step, l step). The last tile
+// of a row or column also covers the remaining pixels.
 struct MovingMask {
     int step = 1;
-    Image<std::uint8_t> moving;  // 1: moves; to be neither tracked on nor fused
-    // The map's surface before this depth is gone; 0: none is known to be.
+    Image<std::uint8_t> moving;  // 1 = moving: neither tracked nor fused
+    // Map surfaces nearer than this depth have disappeared; 0 = none known.
     DepthImage gone_m;
     std::int64_t moving_tiles = 0, gone_tiles = 0;
 
     int TileX(int x) const { return std::min(x / step, moving.width() - 1); }
     int TileY(int y) const { return std::min(y / step, moving.height() - 1); }
-    // Share of the image.
+    // Fraction of the image that moves.
     double moving_fraction() const {
         return static_cast<double>(moving_tiles) / static_cast<double>(moving.size());
     }
 };
 
-// What a detector says may move in a frame: the depth, as the camera gave it, of the pixels that
-// show it, 0 elsewhere.
+// Pixels of a frame that may move according to a detector: their depth as measured by the camera, 0
+// elsewhere.
 struct MovingHint {
     DepthImage depth_m;
-    double stamp_s = 0;  // the frame's
+    double stamp_s = 0;  // timestamp of the frame
 };
 
-// No depth where something moves, in row y of a depth image of the masked frame's size.
+// Removes the depth of moving pixels from row y of a depth image of the masked frame's size.
 void HideMoving(const MovingMask& mask, int y, int width, float* depth_m);
-// The frame without the depth of what moves.
+// Returns the frame without the depth of moving pixels.
 Frame WithoutMoving(const MovingMask& mask, const Frame& frame);
-// What moves in magenta, for a person to look at. `colour` is the frame's at 1/`shrunk` of its
-// size.
+// Tints moving pixels magenta for display. `colour` is the frame's image at 1/`shrunk` of its size.
 void TintMoving(const MovingMask& mask, int shrunk, ColourImage& colour);
 
 }  // namespace tessera

@@ -91,7 +91,7 @@ void ForBands(int height, const Work& work) {
     });
 }
 
-// To `intensity` and `packed_colour`.
+// Fills `intensity` and `packed_colour`.
 void SplitColour(const ColourImage& colour, int blur_px, PreparedFrame& p) {
     const int width = p.width, height = p.height;
     p.intensity.Resize(width, height);
@@ -116,19 +116,20 @@ void SplitColour(const ColourImage& colour, int blur_px, PreparedFrame& p) {
 
 void PreparedFrame::Config::Describe(ConfigParameters& p) {
     p.Add("min_depth_m", min_depth_m, {0.0, 100.0}, "m",
-          "nearer depth is ignored; the sensor's own limit");
-    p.Add("max_depth_m", max_depth_m, {0.1, 100.0}, "m",
-          "farther depth is ignored; structured light's noise grows with the square of the depth");
+          "depth below this is ignored; normally the sensor's minimum range");
+    p.Add(
+        "max_depth_m", max_depth_m, {0.1, 100.0}, "m",
+        "depth beyond this is ignored; structured-light noise grows with the square of the depth");
     p.Add("intensity_blur_px", intensity_blur_px, {0, 4}, "px",
-          "times that the intensity is smoothed with a 1-2-1 kernel; a voxel is wider than a "
-          "pixel, so that "
-          "unsmoothed intensity aliases");
-    p.Add("min_coherent_fraction", min_coherent_fraction, {0.0, 1.0}, "",
-          "a frame is noise, and not used, if a smaller share of neighbouring depths agree within "
-          "5 %");
+          "number of times that the intensity is smoothed with a 1-2-1 kernel; a voxel is wider "
+          "than a pixel, so unsmoothed intensity aliases");
+    p.Add(
+        "min_coherent_fraction", min_coherent_fraction, {0.0, 1.0}, "",
+        "a frame counts as noise and is not used if a smaller fraction of its neighbouring depths "
+        "agree within 5 %");
     p.Add("disparity_offset_per_m", disparity_offset_per_m, {-0.1, 0.1}, "1/m",
-          "depths become z / (1 + offset z): what calibration.refine finds of a triangulating "
-          "sensor's error");
+          "corrects depth z to z / (1 + offset z); calibration.refine estimates this error of "
+          "triangulating sensors");
 }
 
 Status PreparedFrame::Config::Validate() const {

@@ -1,4 +1,4 @@
-// A frame made ready once for tracking and fusion: depth gated, colour as luma and chroma.
+// A frame prepared once for tracking and fusion: depth gated, colour as luma and chroma.
 #pragma once
 
 #include <array>
@@ -24,7 +24,8 @@ struct PreparedFrame {
         Status Validate() const;
     };
 
-    // Heavily reduced: intensity averaged, depth sampled; -1 and 0 where missing.
+    // Strongly reduced images. Intensity is averaged, -1 where missing; depth is sampled, 0 where
+    // missing.
     struct Reduced {
         Image<float> intensity;
         DepthImage depth_m;
@@ -32,45 +33,45 @@ struct PreparedFrame {
 
     int width = 0, height = 0;
     bool has_colour = false;
-    // All three are empty where only a device has them (Device::Prepare), and the colours without
-    // colour.
+    // All three are empty if only a device has them (Device::Prepare). The last two are also empty
+    // for a frame without colour.
     DepthImage depth_m;                  // 0 where missing or out of range
     Image<float> intensity;              // [0, 1], smoothed
     Image<std::uint32_t> packed_colour;  // fusion_arguments.h; Y is `intensity`
-    std::array<Reduced, 2> reduced;      // coarse to fine, from about 40 and 80 columns on
+    std::array<Reduced, 2> reduced;      // coarse to fine, at least about 40 and 80 columns
     std::int64_t valid_depth_pixels = 0;
-    std::int64_t measured_pixels = 0;  // with any depth at all, in range or not
-    double coherent_fraction = 0;  // of neighbouring valid pixels, those within 5 % of each other
-    float nearest_m = 0, farthest_m = 0;  // of the valid pixels
-    // What moves has no depth above; null: nothing does. The map's surface before gone_m, of the
-    // image's size, is gone; empty: none is.
+    std::int64_t measured_pixels = 0;  // pixels with any depth, in range or not
+    double coherent_fraction = 0;      // fraction of adjacent valid pixels within 5 % of each other
+    float nearest_m = 0, farthest_m = 0;  // over the valid pixels
+    // Moving pixels have no depth above; null if nothing moves. Map surfaces nearer than gone_m
+    // (same size as the image) have disappeared; empty if none has.
     std::shared_ptr<const MovingMask> moving;
     DepthImage gone_m;
-    // Another number for each PrepareFrame of this process: whoever keeps copies of the images
-    // tells by it whose they are.
+    // Unique per PrepareFrame call in this process. Holders of copied images use it to recognise
+    // the frame.
     std::uint64_t identity = 0;
 };
 
-// How many pixels in a row PreparedFrame::reduced[level] makes one of, for images of that size. At
-// least two rows are left, or all: one cannot read between less.
+// The tile side, in pixels, that PreparedFrame::reduced[level] reduces to one pixel for images of
+// this size. At least two rows remain, or all of them, because interpolation needs two.
 int ReductionOf(int width, int height, std::size_t level);
 
-// Reuses the storage of `prepared`. What `moving` marks, if given, has no depth.
+// Reuses the storage of `prepared`. Pixels that `moving` marks, if given, get no depth.
 void PrepareFrame(const Frame& frame, const PreparedFrame::Config& config, PreparedFrame& prepared,
                   const MovingMask* moving = nullptr);
-// The same with other marks, for a frame that is prepared already: its colour stays.
+// The same with another mask, for a frame that is prepared already. Keeps its colour.
 void PrepareDepthAgain(const Frame& frame, const PreparedFrame::Config& config,
                        PreparedFrame& prepared, const MovingMask* moving);
-// Enters a mask into a frame that was prepared without the depth of what moves.
+// Attaches a mask to a frame that was prepared without the depth of moving pixels.
 void SetMoving(std::shared_ptr<const MovingMask> moving, PreparedFrame& prepared);
 
-// What it leaves besides images, of a frame's pixels.
+// Statistics of a frame's pixels that preparation computes besides the images.
 struct FrameCounts {
     std::int64_t valid = 0, measured = 0;
-    std::int64_t pairs = 0, coherent = 0;  // of pixels side by side
+    std::int64_t pairs = 0, coherent = 0;  // of adjacent pixels
     float nearest_m = 1e9f, farthest_m = 0;
 };
-// Size, colour or none, counts and a new identity; nothing moves.
+// Sets size, colour flag and counts, assigns a new identity and clears the moving mask.
 void SetFacts(int width, int height, bool has_colour, const FrameCounts& counts,
               PreparedFrame& prepared);
 

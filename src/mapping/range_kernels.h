@@ -1,5 +1,5 @@
-// Where in a view's picture a block may be met by rays, and between which depths. Host-device:
-// plain functions on plain types, shared by RayRanges and CUDA.
+// Which tiles of a view a block may appear in, and between which depths. Host-device: plain
+// functions on plain types, shared by RayRanges and CUDA.
 #pragma once
 
 #include <cmath>
@@ -10,10 +10,10 @@
 
 namespace tessera {
 
-// Tiles of so many pixels to each side share one range.
+// Tiles have this many pixels per side and share one range.
 inline constexpr int kRayTilePx = 8;
 
-// Depths along z, metres; first > last where nothing is in the way.
+// Depths along z, metres; first > last if no block is in the way.
 struct RayRange {
     float first_m, last_m;
 };
@@ -22,11 +22,11 @@ struct RayRange {
 struct RangeArguments {
     double rotation[9], translation[3];  // T_camera_world, row-major
     double voxel_size_m;
-    float radius_m;  // of the ball around a block's cells
+    float radius_m;  // of a ball around a block's cells
     float fx, fy, cx, cy;
     float min_depth_m, max_depth_m;
     std::int32_t width, height;  // tiles
-    bool all_regions;            // else only blocks of these:
+    bool all_regions;            // if false, only blocks in `regions` count
     RegionBox regions;
 };
 
@@ -35,8 +35,8 @@ struct TileSpan {
     int first, last;
 };
 
-// The tiles that a ball's image touches along one axis. `c` is the ball's centre along it, z its
-// depth.
+// The tiles that a ball's image touches along one axis. `c` is the ball centre's coordinate along
+// that axis, z its depth.
 TESSERA_HD TileSpan SpanOfBall(float c, float z, float radius, float focal, float centre,
                                int tiles) {
     const float near_z = z - radius, far_z = z + radius;
@@ -52,13 +52,13 @@ TESSERA_HD TileSpan SpanOfBall(float c, float z, float radius, float focal, floa
     return {first > 0 ? first : 0, last < tiles ? last : tiles - 1};
 }
 
-// What a block adds to the ranges: this one, to all tiles of the columns and lines.
+// A block's contribution: extends the range of all tiles in these columns and lines by `range`.
 struct BlockReach {
     TileSpan columns, lines;
     RayRange range;
 };
 
-// False: the block does not lie between the view's two depths.
+// Returns false if the block does not lie between the view's two depths.
 TESSERA_HD bool ReachOf(const RangeArguments& a, const BlockCoord& block, BlockReach& reach) {
     const double middle[3] = {(block.x + 0.5) * kBlockSide * a.voxel_size_m,
                               (block.y + 0.5) * kBlockSide * a.voxel_size_m,

@@ -1,5 +1,5 @@
-// What the ray caster's kernels are told: the map, the camera and the images to write, in plain
-// pointers and numbers, for the CPU's vector code and CUDA alike.
+// Arguments of the ray casting kernels: the map, the camera and the output images, as plain
+// pointers and numbers. Shared by the CPU's SIMD kernels and CUDA.
 #pragma once
 
 #include <cstdint>
@@ -17,21 +17,21 @@ struct RayArguments : BlockMapView {
     float start[3];
     std::int32_t origin_block[3];
     float camera_from_world[9];  // rotation, row-major
-    // The images to write, width x height; PredictedView says what they hold.
+    // Output images, width x height; see PredictedView for their contents.
     std::int32_t width, height;
     float* depth_m;
-    float* normal_camera;  // 3 a pixel
-    std::uint8_t* rgb;     // 3 a pixel
+    float* normal_camera;  // 3 per pixel
+    std::uint8_t* rgb;     // 3 per pixel
     float* intensity;
 };
 
-// Pixels [u_begin, u_end) x [v_begin, v_end), and the depths between which their rays are walked.
+// Pixels [u_begin, u_end) x [v_begin, v_end), and the depth range in which to walk their rays.
 struct RayTile {
     std::int32_t u_begin, u_end, v_begin, v_end;
     float first_m, last_m;
 };
 
-// Rays must end within so many blocks of the origin along each axis: at 1 mm voxels 32 m.
+// Rays must end within this many blocks of the origin along each axis: 32 m at 1 mm voxels.
 inline constexpr std::int32_t kRayReachBlocks = 4096;
 
 }  // namespace tessera

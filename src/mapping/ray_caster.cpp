@@ -18,7 +18,7 @@ void CopyRowMajor(const Eigen::Matrix3d& matrix, float* out) {
 
 float FarthestRayDepth(const BlockMap::Config& map, const PinholeCamera& camera) {
     const double reach_m = (kRayReachBlocks - 1) * kBlockSide * map.voxel_size_m;
-    double longest = 1;  // ray of unit depth
+    double longest = 1;  // length of a ray of unit depth
     for (const int u : {0, camera.width - 1})
         for (const int v : {0, camera.height - 1})
             longest = std::max(longest, camera.Unproject(u, v, 1).norm());
@@ -32,8 +32,7 @@ RayArguments MakeRayArguments(const BlockMap::Config& map, const PinholeCamera& 
     a.fy = static_cast<float>(camera.fy);
     a.cx = static_cast<float>(camera.cx);
     a.cy = static_cast<float>(camera.cy);
-    // Counted from the camera's block, so that floats stay exact however far from the world's
-    // origin it is.
+    // Relative to the camera's block, so that floats stay accurate far from the world's origin.
     const double voxel_m = map.voxel_size_m;
     const Eigen::Vector3d at = T_world_camera.translation() / voxel_m;
     for (int i = 0; i < 3; ++i) {
@@ -72,7 +71,7 @@ void RayCaster::Predict(const BlockMap& map, const PinholeCamera& camera,
     tbb::parallel_for(0, ranges_.height, [&](int y) { CastRow(arguments, y); });
 }
 
-// One row of RayRanges' tiles: neighbouring rays read the same blocks.
+// Casts one row of the tiles of RayRanges. Neighbouring rays read the same blocks.
 void RayCaster::CastRow(const RayArguments& arguments, int y) const {
     constexpr int kTile = kRayTilePx;
     std::vector<RayTile> tiles;

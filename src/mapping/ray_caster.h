@@ -1,5 +1,5 @@
-// Predicted views of the map by ray casting: empty space is left out block by block, the band is
-// crossed in steps of the stored distance, the zero crossing found by trilinear interpolation.
+// Predicts views of the map by ray casting: skips empty space block by block, crosses the band in
+// steps of the stored distance, and finds the zero crossing by trilinear interpolation.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -14,22 +14,21 @@ namespace tessera {
 
 struct RayArguments;
 
-// Rays must not be walked beyond this depth, where the picture's corners leave the vector code's
-// reach (kRayReachBlocks).
+// Rays must not be walked beyond this depth: there the image corners leave the reach of the SIMD
+// kernels (kRayReachBlocks).
 float FarthestRayDepth(const BlockMap::Config& map, const PinholeCamera& camera);
 
-// What the kernels need of a view taken from there; the map's layers and the images are the
-// caller's to enter.
+// Kernel arguments for a view from this pose. The caller fills in the map's layers and the images.
 RayArguments MakeRayArguments(const BlockMap::Config& map, const PinholeCamera& camera,
                               const Eigen::Isometry3d& T_world_camera);
 
-// What the kernels need to fill `view`, whose size, camera and pose are set, from the map. Points
-// into both.
+// Kernel arguments that fill `view` from the map. The size, camera and pose of `view` must be set.
+// The result points into both.
 RayArguments RayArgumentsFor(const BlockMap& map, PredictedView& view);
 
-// Works on all of TBB's threads and gives the same bytes for any number of them. Surface is where
-// all eight voxels around a point are known and the distance falls through zero; a fall over the
-// whole range at once is an occlusion's edge and passed through, as by the mesher.
+// Runs on all TBB threads and gives the same bytes for any number of them. A surface point is where
+// all eight surrounding voxels are known and the distance falls through zero. A drop over the whole
+// range at once is an occlusion edge; rays pass through it, as in the mesher.
 class RayCaster : public ViewPredictor {
   public:
     explicit RayCaster(VectorPath path = VectorPath::kAuto);

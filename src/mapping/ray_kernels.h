@@ -1,5 +1,6 @@
-// What the pixels of a predicted view show: a ray each, and at its surface depth, normal and
-// colour. For lanes of pixels (scalar_lanes.h), for the CPU's vectors and CUDA alike.
+// Renders the pixels of a predicted view: casts one ray each and computes depth, normal and colour
+// at its surface point. Works on lanes of pixels (scalar_lanes.h), for the CPU's SIMD kernels and
+// CUDA.
 #pragma once
 
 #include <cstddef>
@@ -16,8 +17,8 @@ class RayKernels {
     using Mask = typename V::Mask;
     using Walker = RayWalker<V, Blocks>;
 
-    // Casts the rays of the pixels [u, u + V::kCount) of row v, as far as they lie in the tile, and
-    // writes what they show.
+    // Casts the rays of the pixels [u, u + V::kCount) of row v that lie in the tile, and writes the
+    // results.
     TESSERA_HD_MEMBER static void CastPixels(const RayArguments& a, Walker& walker,
                                              const RayTile& tile, int u, int v) {
         const int count = V::kCount < tile.u_end - u ? V::kCount : tile.u_end - u;
@@ -39,7 +40,7 @@ class RayKernels {
         Real rgb[3];     // 0 to 1
     };
 
-    // Interpolates the words' parts over the corners that have an intensity, then converts once.
+    // Interpolates luma and chroma over the corners that have an intensity, then converts once.
     TESSERA_HD_MEMBER static Appearance InterpolateColour(const RayArguments& a, const Int* index,
                                                           const Int* words, const Real* fraction) {
         Real total(0.0f), y(0.0f), cb(0.0f), cr(0.0f);
@@ -73,7 +74,7 @@ class RayKernels {
         }
     }
 
-    // What a packet's pixels show, lane by lane.
+    // The results of one packet of pixels, lane by lane.
     struct Pixels {
         alignas(64) float depth_m[V::kCount], intensity[V::kCount], normal[3][V::kCount],
             rgb[3][V::kCount];
@@ -130,7 +131,7 @@ class RayKernels {
         for (int k = 0; k < 3; ++k) {
             const Real& step = rays.step[k];
             length2 = length2 + step * step;
-            const Real parallel(1e30f);  // to this axis' sides: never meets them
+            const Real parallel(1e30f);  // parallel to this axis' faces: never meets them
             rays.inverse_step[k] = V::Select(step == Real(0.0f), parallel, Real(1.0f) / step);
         }
         rays.metres_per_voxel = Real(1.0f) / V::Sqrt(length2);

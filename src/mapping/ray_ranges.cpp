@@ -12,7 +12,7 @@ std::int64_t CountOf(const RegionBox& box) {
     return count;
 }
 
-// Around the pyramid of what the camera sees up to a depth, half a block wider than it.
+// The regions that the view pyramid up to a depth may touch, with a margin of one block.
 RegionBox RegionsInView(const BlockMap& map, const PinholeCamera& camera,
                         const Eigen::Isometry3d& T_world_camera, double max_depth_m) {
     const double block_m = map.config().voxel_size_m * kBlockSide,
@@ -56,7 +56,7 @@ RangeArguments MakeRangeArguments(const BlockMap& map, const PinholeCamera& came
     a.max_depth_m = max_depth_m;
     a.width = (camera.width + kRayTilePx - 1) / kRayTilePx;
     a.height = (camera.height + kRayTilePx - 1) / kRayTilePx;
-    // Whichever is less to look at: the regions that the view's pyramid may touch, or all blocks.
+    // Use whichever is fewer: the regions that the view pyramid may touch, or all blocks.
     a.regions = RegionsInView(map, camera, T_world_camera, max_depth_m);
     a.all_regions = CountOf(a.regions) >= map.size();
     return a;

@@ -1,5 +1,4 @@
-// Between which depths the rays of a view can meet blocks at all: what lies before and after need
-// not be walked.
+// The depth range in which the rays of a view can meet blocks. Outside it they need not be walked.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -11,8 +10,8 @@
 
 namespace tessera {
 
-// What ReachOf needs of a view of the map. Only blocks between the two depths count, and the ranges
-// are cut to them.
+// The arguments of ReachOf for a view of the map. Only blocks between the two depths count, and the
+// ranges are clipped to them.
 RangeArguments MakeRangeArguments(const BlockMap& map, const PinholeCamera& camera,
                                   const Eigen::Isometry3d& T_world_camera, float min_depth_m,
                                   float max_depth_m);
@@ -22,7 +21,7 @@ struct RayRanges {
     int width = 0, height = 0;     // tiles
     std::vector<RayRange> ranges;  // row by row
 
-    // As MakeRangeArguments.
+    // See MakeRangeArguments.
     void Build(const BlockMap& map, const PinholeCamera& camera,
                const Eigen::Isometry3d& T_world_camera, float min_depth_m, float max_depth_m);
 };

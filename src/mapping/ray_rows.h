@@ -1,5 +1,5 @@
-// The hot loop of the ray caster behind plain pointers: casts tiles of pixels, as many rays at once
-// as a vector has lanes. Compiled twice (portable, AVX2); ray_caster.cpp picks. No Eigen here.
+// The hot loop of the ray caster behind plain pointers: casts tiles of pixels, one ray per SIMD
+// lane. Compiled twice (portable, AVX2); ray_caster.cpp selects the version. No Eigen here.
 #pragma once
 
 #include <cstdint>

@@ -1,8 +1,8 @@
-// Walking rays through the map, one per lane (scalar_lanes.h), to the first surface seen from the
-// front. For the CPU's vectors and CUDA alike. How: far from the surface by steps of the stored
-// distance, near it by the interpolated one; through unknown blocks to their end; a lane that has
-// met a sign change waits until all have or have left the map, and then the zeros are refined
-// together.
+// Walks rays through the map, one per lane (scalar_lanes.h), to the first front-facing surface.
+// Shared by the CPU's SIMD kernels and CUDA. Far from the surface a ray steps by the stored
+// distance, near it by the interpolated one. It crosses an unknown block in one step. A lane that
+// meets a sign change waits until every other lane has met one or left the map. Then the zeros are
+// refined together.
 #pragma once
 
 #include <cstdint>
@@ -14,9 +14,9 @@
 
 namespace tessera {
 
-// Walks V::kCount rays at once, best neighbouring ones. Blocks finds the map's blocks: a
-// HashedBlocks, or a BlockCache where one walker has many rays. All lengths are in voxels, depths
-// along the camera's z apart, which are in metres.
+// Walks V::kCount rays at once, preferably neighbouring ones. `Blocks` finds the map's blocks: a
+// HashedBlocks, or a BlockCache where one walker casts many rays. All lengths are in voxels, except
+// depths along the camera's z, which are in metres.
 template <class V, class Blocks>
 class RayWalker {
   public:
@@ -24,7 +24,7 @@ class RayWalker {
     using Int = typename V::Int;
     using Mask = typename V::Mask;
 
-    // One ray per lane by depth z: p(z) = start + z * step.
+    // One ray per lane, parametrised by depth z: p(z) = start + z * step.
     struct Rays {
         Real step[3], inverse_step[3];
         Real metres_per_voxel;  // of z: 1 / |step|
@@ -47,7 +47,7 @@ class RayWalker {
           to_voxels_(a.truncation_m / (kDistanceSteps * a.voxel_size_m)),
           range_(0.99f * a.truncation_m / a.voxel_size_m) {}
 
-    // Of the `walking` lanes, between two depths.
+    // The first surface of each `walking` lane between two depths.
     TESSERA_HD_MEMBER Hits FirstSurface(const Rays& rays, Mask walking, float first_m,
                                         float last_m) {
         Hits hits{Mask(false), Real(0.0f)};
@@ -56,7 +56,7 @@ class RayWalker {
         const Real last(last_m);
         for (;;) {
             w.walking = w.walking && (w.z <= last);
-            // A lane that has crossed waits for the others: refined together they cost as much as
+            // A lane that has crossed waits for the others: refining all lanes costs as much as
             // one.
             while (V::Any(w.walking)) {
                 Advance(rays, w);
@@ -72,7 +72,7 @@ class RayWalker {
         }
     }
 
-    // The cells at depth z; blocks only of the wanted lanes.
+    // The cells at depth z. Looks up blocks only for the wanted lanes.
     TESSERA_HD_MEMBER Cells Locate(const Rays& rays, const Real& z, const Mask& wanted) {
         Cells cells;
         Int block[3];
@@ -88,28 +88,28 @@ class RayWalker {
     }
 
   private:
-    // Interpolated from here on; farther off the nearest voxel will do.
+    // Interpolate within this distance; farther away the nearest voxel suffices.
     static constexpr float kNear = 1.5f;
-    static constexpr float kExact = 1e-3f;  // what is that near to zero is the surface
+    static constexpr float kExact = 1e-3f;  // a smaller distance counts as zero
     static constexpr int kRefinements = 12;
 
-    // Where each lane has come to.
+    // The progress of each lane.
     struct Walk {
-        Mask walking;    // others have left their range or have crossed
+        Mask walking;    // the other lanes have left their range or have crossed
         Mask crossed;    // z lies behind a surface whose front is at front_z
         Mask has_front;  // the last point was known and in front of a surface
         Real z, distance, advance;
         Real front_z, front;
     };
 
-    // One step of every walking lane.
+    // Advances every walking lane by one step.
     TESSERA_HD_MEMBER void Advance(const Rays& rays, Walk& w) {
         const Cells cells = Locate(rays, w.z, w.walking);
         const Int steps = NearestDistance(cells);
         Mask known = V::ToMask(steps != Int(-32768));
         Real distance = V::ToReal(steps) * Real(to_voxels_);
-        // Stored distances run along the rays that measured them: too long for others, hence less
-        // than all of it.
+        // Stored distances run along the rays that measured them. They can be too long for other
+        // rays, so step by less.
         Real advance = Real(0.8f) * V::Abs(distance);
         const Mask near = w.walking && known && (V::Abs(distance) <= Real(kNear));
         if (V::Any(near)) {
@@ -117,7 +117,7 @@ class RayWalker {
             const Real exact = Interpolate(cells, all_known);
             known = known && (all_known || V::Not(near));
             distance = V::Select(near, exact, distance);
-            // Half a voxel more than to the surface, so that the next step ends behind it.
+            // Go half a voxel beyond the surface, so that the next step ends behind it.
             advance = V::Select(near, V::Abs(exact) + Real(0.5f), advance);
         }
         if (V::Any(w.walking && V::Not(known)))
@@ -148,7 +148,7 @@ class RayWalker {
         return V::AsInt(V::Gather(a_.field, at)) >> 16;
     }
 
-    // The distance between the eight voxels, and where all are known.
+    // The trilinear distance. `known`: all eight voxels are known.
     TESSERA_HD_MEMBER Real Interpolate(const Cells& cells, Mask& known) const {
         Int index[8];
         BlockKernels<V>::CornerVoxels(a_, cells.block, cells.voxel, index);
@@ -164,8 +164,8 @@ class RayWalker {
                Real(to_voxels_);
     }
 
-    // How far to walk where the distance is unknown: to the block's end if the map does not have
-    // it, else a voxel.
+    // The step through an unknown distance: to the block's end if the map lacks the block, else one
+    // voxel.
     TESSERA_HD_MEMBER static Real ThroughUnknown(const Rays& rays, const Cells& cells) {
         constexpr float kBeyond = 1e-2f;
         Real least(std::numeric_limits<float>::max());
@@ -179,9 +179,9 @@ class RayWalker {
         return V::Select(V::ToMask(cells.block == Int(0)), to_end, Real(1.0f));
     }
 
-    // The zeros between points in front and points behind, of the lanes that have crossed: regula
-    // falsi with the Illinois rule. Not found where a distance is unknown and where the fall is
-    // over the whole range.
+    // Refines the zeros between the front and back points of crossed lanes, by regula falsi with
+    // the Illinois rule. A lane finds nothing if a distance is unknown or the drop spans the whole
+    // range.
     TESSERA_HD_MEMBER Hits Refine(const Rays& rays, const Walk& w) {
         Real a_z = w.front_z, a = w.front, b_z = w.z, b = w.distance;
         Mask pending = w.crossed && V::Not((a > Real(range_)) && (b < Real(-range_)));
@@ -209,7 +209,7 @@ class RayWalker {
     }
 
     const RayArguments& a_;
-    const float to_voxels_;  // from distance steps
+    const float to_voxels_;  // converts distance steps
     const float range_;      // nearly the largest distance
     Blocks blocks_;
 };

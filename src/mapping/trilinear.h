@@ -1,5 +1,5 @@
 // Trilinear interpolation: value and analytic gradient from eight corners. A template on the number
-// type, shared by the scalar samplers, the vector code and CUDA.
+// type, shared by the scalar samplers, the SIMD kernels and CUDA.
 #pragma once
 
 #include "core/host_device.h"

@@ -16,9 +16,9 @@ VirtualMemory::VirtualMemory(std::size_t bytes) : bytes_(bytes) {
             break;
         }
         TESSERA_CHECK(bytes_ > kLeast, "no address space left for {} bytes", bytes_);
-        bytes_ /= 2;  // a limit on address space (ulimit -v): a smaller map is better than none
+        bytes_ /= 2;  // address space may be limited (ulimit -v); a smaller map is better than none
     }
-    madvise(data_, bytes_, MADV_HUGEPAGE);  // gathers over many blocks miss the TLB otherwise
+    madvise(data_, bytes_, MADV_HUGEPAGE);  // otherwise gathers over many blocks miss the TLB
 }
 
 VirtualMemory::~VirtualMemory() { munmap(data_, bytes_); }

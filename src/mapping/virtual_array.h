@@ -1,16 +1,16 @@
-// An array that grows without moving: it reserves address space once and lets the system commit
-// pages as they are touched. So readers keep plain pointers and vector gathers have one base, and
-// nothing is copied on growth.
+// An array that grows without moving: it reserves address space once, and the system commits pages
+// as they are touched. Readers can keep plain pointers, SIMD gathers have one base, and growth
+// copies nothing.
 #pragma once
 
 #include <cstddef>
 
 namespace tessera {
 
-// Raw reservation; VirtualArray below is the typed face. Not copyable.
+// Raw reservation; VirtualArray below adds the element type. Not copyable.
 class VirtualMemory {
   public:
-    // Reserves `bytes` of address space (no memory yet). Halves the wish until the system grants
+    // Reserves `bytes` of address space (no memory yet). Halves the request until the system grants
     // it.
     explicit VirtualMemory(std::size_t bytes);
     ~VirtualMemory();
@@ -19,7 +19,7 @@ class VirtualMemory {
 
     std::byte* data() const { return data_; }
     std::size_t reserved_bytes() const { return bytes_; }
-    // Gives all pages back; they read as zero again.
+    // Returns all pages to the system; they read as zero again.
     void Clear();
 
   private:

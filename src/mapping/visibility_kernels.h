@@ -1,5 +1,5 @@
-// Whether one image may change a block. Host-device: plain functions on plain types, shared by the
-// CPU code and CUDA.
+// Whether a depth image may change a block. Host-device: plain functions on plain types, shared by
+// the CPU code and CUDA.
 #pragma once
 
 #include <cmath>
@@ -17,8 +17,8 @@ struct DepthTileView {
     std::int32_t width, height;  // tiles
 };
 
-// Of the pixels of a row of the image that are in that column of tiles: a tile's is the farthest of
-// its rows.
+// Farthest depth of the pixels of an image row in one column of tiles. A tile's depth is the
+// farthest of its rows.
 TESSERA_HD float FarthestOfTileRow(const float* row, std::int32_t width, std::int32_t tile_x) {
     float farthest = 0.0f;
     for (std::int32_t x = tile_x * kDepthTilePx; x < (tile_x + 1) * kDepthTilePx && x < width; ++x)
@@ -26,14 +26,14 @@ TESSERA_HD float FarthestOfTileRow(const float* row, std::int32_t width, std::in
     return farthest;
 }
 
-// The camera's view as a cone of four planes through its centre, in the camera frame.
+// The view frustum: four planes through the camera centre, in the camera frame.
 struct ViewCone {
     double fx, fy, cx, cy;
     double rotation[9], translation[3];  // T_camera_world, row-major
     double planes[4][3];                 // inward unit normals
     double far_m;
     double voxel_size_m, truncation_m;
-    RegionBox regions;  // around the cone
+    RegionBox regions;  // around the frustum
 
     TESSERA_HD_MEMBER void ToCamera(const double* p_world, double* p_camera) const {
         for (int i = 0; i < 3; ++i) {
@@ -43,7 +43,7 @@ struct ViewCone {
         }
     }
 
-    // A ball in the camera frame.
+    // Whether a ball in the camera frame may intersect the frustum.
     TESSERA_HD_MEMBER bool MayContain(const double* centre, double radius_m) const {
         bool inside = centre[2] >= -radius_m && centre[2] <= far_m + radius_m;
         for (const auto& n : planes)
@@ -52,12 +52,12 @@ struct ViewCone {
     }
 };
 
-// Whether a ball in the camera frame may hold voxels in front of, or just behind, what the tiles it
-// covers measured.
+// Whether a ball in the camera frame may contain voxels in front of, or just behind, the measured
+// depth of the tiles that it covers.
 TESSERA_HD bool MayChange(const DepthTileView& tiles, const ViewCone& cone, const double* c,
                           double radius_m) {
     if (c[2] < 2 * radius_m) return true;  // too near to bound its image
-    // Bounds the ball's image, in units of focal lengths.
+    // Bounds of the ball's image, in units of focal lengths.
     const double reach = radius_m / (c[2] - radius_m);
     const double u = c[0] / c[2] * cone.fx + cone.cx, v = c[1] / c[2] * cone.fy + cone.cy;
     const double slant = 1.0 + std::sqrt(c[0] * c[0] + c[1] * c[1]) / c[2];
@@ -74,7 +74,7 @@ TESSERA_HD bool MayChange(const DepthTileView& tiles, const ViewCone& cone, cons
     return false;
 }
 
-// Whether the block's voxels may be changed: by the ball around their centres.
+// Whether the block's voxels may change, judged by the ball around their centres.
 TESSERA_HD bool MayChangeBlock(const DepthTileView& tiles, const ViewCone& cone,
                                const BlockCoord& block) {
     const double p_world[3] = {(block.x * kBlockSide + 3.5) * cone.voxel_size_m,

@@ -1,5 +1,5 @@
-// Which blocks of the map one depth image may change: those in the camera's frustum that do not lie
-// wholly behind what it measured. The cost follows the view, not the size of the map.
+// Which blocks of the map one depth image may change: those in the camera's frustum that are not
+// wholly behind the measured depth. The cost depends on the view, not on the size of the map.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -20,11 +20,11 @@ struct DepthTiles {
     DepthTileView view() const { return {farthest_m.data(), width, height}; }
 };
 
-// What a camera there sees of a map of these blocks, up to `far_m`.
+// The frustum of a camera at this pose, up to `far_m`, for a map of this configuration.
 ViewCone MakeViewCone(const PinholeCamera& camera, const Eigen::Isometry3d& T_world_camera,
                       double far_m, const BlockMap::Config& map);
 
-// Block ids in increasing order. Owner thread only; runs TBB inside.
+// Finds block ids in increasing order. Owner thread only; uses TBB internally.
 class VisibleBlocks {
   public:
     const std::vector<BlockId>& Find(const BlockMap& map, const PinholeCamera& camera,

@@ -1,8 +1,9 @@
-// What a voxel is, bit by bit, and how blocks and voxels are counted. Host-device: plain functions
-// on plain types, shared by the CPU code and CUDA.
+// The bit layout of a voxel, and the indexing of blocks and voxels. Host-device: plain functions on
+// plain types, shared by the CPU code and CUDA.
 //
-// A block holds 8 x 8 x 8 voxels; voxel (i, j, k), counted over the whole world, has its centre at
-// (i, j, k) * voxel_size_m. In a block, x runs fastest: offset = x + 8 y + 64 z. Indices use floor.
+// A block holds 8 x 8 x 8 voxels. Voxel (i, j, k), indexed over the whole world, has its centre at
+// (i, j, k) * voxel_size_m. In a block, x runs fastest: offset = x + 8 y + 64 z. Indices round
+// down.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +16,7 @@ namespace tessera {
 inline constexpr int kBlockSide = 8;
 inline constexpr int kBlockVoxels = kBlockSide * kBlockSide * kBlockSide;
 
-// Geometry and intensity, what the tracker reads at eight corners, in one 32-bit word so that a
+// Geometry and intensity in one 32-bit word. The tracker reads both at eight corners, so each
 // corner is one gather. Low half: intensity, 0 = none yet, else 1 + round(65534 * intensity). High
 // half: signed distance in truncations, two's complement, -32768 = none yet, else round(32767 *
 // distance / truncation).
@@ -24,12 +25,12 @@ inline constexpr FieldWord kUnknownField = 0x80000000u;
 inline constexpr float kDistanceSteps = 32767.0f;
 inline constexpr float kIntensitySteps = 65534.0f;
 
-// Signed distance in truncations, [-1, 1]; positive in front of the surface. Only if HasDistance.
+// Signed distance in truncations, [-1, 1]; positive in front of the surface. Requires HasDistance.
 TESSERA_HD float FieldDistance(FieldWord w) {
     return static_cast<float>(static_cast<std::int32_t>(w) >> 16) * (1.0f / kDistanceSteps);
 }
 TESSERA_HD bool HasDistance(FieldWord w) { return (w >> 16) != 0x8000u; }
-// Intensity in [0, 1]. Only if HasIntensity.
+// Intensity in [0, 1]. Requires HasIntensity.
 TESSERA_HD float FieldIntensity(FieldWord w) {
     return static_cast<float>(static_cast<std::int32_t>(w & 0xffffu) - 1) *
            (1.0f / kIntensitySteps);
@@ -39,9 +40,9 @@ TESSERA_HD bool HasIntensity(FieldWord w) { return (w & 0xffffu) != 0; }
 // Weight of the distance: 8.8 fixed point, up to 255.
 inline constexpr float kWeightSteps = 256.0f;
 
-// Colour: the intensity of the field word plus chroma, so nothing is stored twice. Bits 0-9 Cb,
-// 10-19 Cr (each 512 + 1022 * chroma), 20-31 the colour's weight in 1/16, up to 255. Cb = (B - Y)
-// / 1.772, Cr = (R - Y) / 1.402.
+// Chroma and colour weight. The field word's intensity is the luma, so nothing is stored twice.
+// Bits 0-9 Cb, 10-19 Cr (each 512 + 1022 * chroma), 20-31 the colour weight in 1/16, up to 255. Cb
+// = (B - Y) / 1.772, Cr = (R - Y) / 1.402.
 using ColourWord = std::uint32_t;
 inline constexpr float kChromaSteps = 1022.0f;  // chroma runs over [-0.5, 0.5]
 inline constexpr float kColourWeightSteps = 16.0f;
@@ -52,8 +53,8 @@ TESSERA_HD float ColourWeight(ColourWord c) {
     return static_cast<float>(c >> 20) * (1.0f / kColourWeightSteps);
 }
 
-// Channel values in [0, 1], clamped, from an intensity in [0, 1] and chroma as a colour word counts
-// it. A template on the number type, shared by scalar and vector code.
+// RGB in [0, 1], clamped, from an intensity in [0, 1] and chroma in the units of a colour word. A
+// template on the number type, shared by scalar and SIMD code.
 template <class F>
 TESSERA_HD void RgbFromParts(const F& intensity, const F& cb_steps, const F& cr_steps, F* rgb) {
     const F cb = (cb_steps - F(512.0f)) * F(1.0f / kChromaSteps);
@@ -81,28 +82,28 @@ struct BlockCoord {
         return x == o.x && y == o.y && z == o.z;
     }
 };
-// z, then y, then x: the one order used wherever blocks are sorted.
+// By z, then y, then x. All sorted blocks use this order.
 TESSERA_HD bool operator<(const BlockCoord& a, const BlockCoord& b) {
     return a.z != b.z ? a.z < b.z : (a.y != b.y ? a.y < b.y : a.x < b.x);
 }
 
-// Blocks live in [-kBlockLimit, kBlockLimit) along each axis: 21 bits, so that a coordinate packs
-// into 64.
+// Block coordinates lie in [-kBlockLimit, kBlockLimit) along each axis: 21 bits, so that a
+// coordinate packs into 64.
 inline constexpr std::int32_t kBlockLimit = 1 << 20;
 TESSERA_HD bool InLimits(const BlockCoord& c) {
     return c.x >= -kBlockLimit && c.x < kBlockLimit && c.y >= -kBlockLimit && c.y < kBlockLimit &&
            c.z >= -kBlockLimit && c.z < kBlockLimit;
 }
 
-// Regions of so many blocks to each side: a view looks its blocks up through them.
+// Regions have this many blocks per side. A view looks up its blocks through them.
 inline constexpr int kRegionShift = 2, kRegionBlocks = 1 << kRegionShift;
-// The region that a block is in.
+// The region that contains a block.
 TESSERA_HD BlockCoord RegionOf(const BlockCoord& block) {
-    // An arithmetic shift is floor.
+    // An arithmetic shift rounds down.
     return {block.x >> kRegionShift, block.y >> kRegionShift, block.z >> kRegionShift};
 }
 
-// Regions from `first` to `last` along each axis, both included.
+// Regions from `first` to `last` along each axis, inclusive.
 struct RegionBox {
     std::int32_t first[3], last[3];
 
@@ -114,8 +115,8 @@ struct RegionBox {
     }
 };
 
-// Position in the hash table before masking. Unsigned arithmetic wraps; a template on the number
-// type, shared by scalar and vector code.
+// Position in the hash table before masking. Unsigned arithmetic wraps. A template on the number
+// type, shared by scalar and SIMD code.
 template <class U>
 TESSERA_HD U HashBits(const U& x, const U& y, const U& z) {
     U h = (x * U(73856093u)) ^ (y * U(19349669u)) ^ (z * U(83492791u));

@@ -1,4 +1,4 @@
-// What a voxel knows of objects, and how it is told. Host-device: plain functions on plain types.
+// A voxel's object label and how votes change it. Host-device: plain functions on plain types.
 #pragma once
 
 #include <cstdint>
@@ -7,29 +7,29 @@
 
 namespace tessera {
 
-// [D18] eq. 1: the two classes with the most votes, the first the one that counts; all zero: none
-// yet. Also the instance most voted for.
+// [D18] eq. 1: the two classes with the most votes; the first is the voxel's class. All zero means
+// no votes yet. Also stores the instance with the most votes.
 struct VoxelLabel {
     std::uint8_t class_id[2];
     std::uint8_t count[2];
     std::uint16_t instance;  // 0 = none
     std::uint8_t instance_count;
-    // The class that once had many votes and twice as many as the second; 0 = none yet.
+    // The last class with many votes and twice as many as the second; 0 = none yet.
     std::uint8_t settled;
 };
 static_assert(sizeof(VoxelLabel) == 8);
 
-// Seen beside an object, in a detection's box: a class of its own among the votes.
+// Background seen beside an object in a detection's box. Votes like a class of its own.
 inline constexpr std::uint8_t kBackgroundClass = 255;
 inline constexpr int kSettledVotes = 16, kSettledRatio = 2;
-// With 2, a hundredth of a cluttered desk's voxels flip, where objects touch.
+// With 2, a hundredth of the voxels of a cluttered desk flip where objects touch.
 inline constexpr int kFlipRatio = 8;
-inline constexpr int kLeastVotes = 2;  // for a voxel to have a class
+inline constexpr int kLeastVotes = 2;  // minimum for a voxel to have a class
 
-// One vote. Counters stop at 255; there a vote for the one takes from the other, so that old
-// mistakes fade. A third class wears the second out before it takes its place. A settled voxel goes
-// from one kind of object to another only for kFlipRatio times as many votes. True if it did by
-// this vote ([D18] 4.3: that should not happen).
+// Adds one vote. Counters stop at 255; from then on, a vote for one class decrements the other, so
+// that old mistakes fade. A vote for a third class decrements the second until it can be replaced.
+// A settled voxel changes from one object class to another only for more than kFlipRatio times as
+// many votes. Returns true if this vote caused such a change ([D18] 4.3: that should not happen).
 TESSERA_HD bool VoteForClass(std::uint8_t class_id, VoxelLabel& v) {
     bool flipped = false;
     if (v.count[0] == 0 || v.class_id[0] == class_id) {
@@ -62,7 +62,7 @@ TESSERA_HD bool VoteForClass(std::uint8_t class_id, VoxelLabel& v) {
     return flipped;
 }
 
-// One vote for an instance, or with 0 against the one there is.
+// Adds one vote for an instance. Another instance, or 0, votes against the current one.
 TESSERA_HD void VoteForInstance(std::uint16_t instance, VoxelLabel& v) {
     if (instance != 0 && (v.instance == instance || v.instance_count == 0)) {
         v.instance = instance;
@@ -72,7 +72,7 @@ TESSERA_HD void VoteForInstance(std::uint16_t instance, VoxelLabel& v) {
     }
 }
 
-// The class, 0 if it has none or is background.
+// The voxel's class; 0 if it has none or is background.
 TESSERA_HD std::uint8_t ClassOf(const VoxelLabel& v) {
     return v.count[0] >= kLeastVotes && v.class_id[0] != kBackgroundClass ? v.class_id[0]
                                                                           : std::uint8_t{0};

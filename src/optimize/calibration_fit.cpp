@@ -34,7 +34,7 @@ std::vector<int> Times(const CalibrationFit& fit, int parts) {
     return part;
 }
 
-// As many pairs in each.
+// Splits the pairs into parts of equal size by the rank of their key.
 template <class KeyOf>
 std::vector<int> Ranks(const CalibrationFit& fit, int parts, const KeyOf& key_of) {
     std::vector<double> sorted;
@@ -72,7 +72,7 @@ Eigen::VectorXd ScatterVariance(const CalibrationFit& fit) {
 Eigen::VectorXd JackknifeSpread(const CalibrationFit& fit, const std::vector<int>& part,
                                 int parts) {
     const Eigen::Index priors = fit.jacobian.rows() - static_cast<Eigen::Index>(fit.pairs.size());
-    // The last: what is never left out.
+    // The last entry holds the prior rows, which are never left out.
     std::vector<std::vector<Eigen::Index>> rows(static_cast<std::size_t>(parts) + 1);
     for (Eigen::Index i = 0; i < priors; ++i) rows.back().push_back(i);
     for (std::size_t i = 0; i < part.size(); ++i)

@@ -1,5 +1,5 @@
-// How a depth camera's measurement becomes a point under a calibration that is in question, and
-// what two views say of it: written once for numbers and for automatic derivatives.
+// Model of a depth measurement under an unknown calibration, and the residual between two views.
+// Templates, for plain numbers and for automatic differentiation.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -8,18 +8,18 @@
 
 namespace tessera {
 
-// What is solved for.
+// Unknowns of the calibration.
 struct CalibrationUnknowns {
     enum Index { kLogFocal, kOffset, kCount };
 
-    // kLogFocal: logarithm of the true focal length over the given one. kOffset: of the disparity,
-    // 1/m, as Calibration::disparity_offset_per_m.
+    // kLogFocal: logarithm of true over given focal length. kOffset: disparity offset, 1/m, as in
+    // Calibration::disparity_offset_per_m.
     std::array<double, kCount> values{};
-    // What is known of depth cameras before: standard deviations.
+    // Standard deviations of the prior, from experience with depth cameras.
     static constexpr std::array<double, kCount> kPrior{0.03, 0.01};
 };
 
-// The point of a measured depth along `direction`, a ray of the given camera with z = 1.
+// Point of a measured depth along `direction`, a ray of the given camera with z = 1.
 template <class T>
 Eigen::Matrix<T, 3, 1> CalibratedPoint(const Eigen::Vector2d& direction, double depth_m,
                                        const T* unknowns) {
@@ -30,15 +30,15 @@ Eigen::Matrix<T, 3, 1> CalibratedPoint(const Eigen::Vector2d& direction, double 
     return {scale * direction.x(), scale * direction.y(), z};
 }
 
-// A point of one view, and the plane about the cell of another view in which it lies.
+// A point of one view and the plane of another view in which it should lie.
 struct PlanePair {
     int from = 0, to = 0;
     Eigen::Vector2d direction_from, direction_to;
     double depth_from_m = 0, depth_to_m = 0, sigma_m = 0;
-    Eigen::Vector3d normal;  // in the camera `to`, held fixed while the poses are solved for
+    Eigen::Vector3d normal;  // in the frame of camera `to`; held fixed while solving
 
-    // Their distance in standard deviations. Rotations are unit quaternions (x, y, z, w), world
-    // from camera.
+    // Point-to-plane distance in standard deviations. Rotations are unit quaternions (x, y, z, w),
+    // world from camera.
     template <class T>
     bool operator()(const T* unknowns, const T* q_from, const T* t_from, const T* q_to,
                     const T* t_to, T* residual) const {
@@ -49,8 +49,8 @@ struct PlanePair {
         const Vector world = a * CalibratedPoint(direction_from, depth_from_m, unknowns) + ta;
         const Vector plane = CalibratedPoint(direction_to, depth_to_m, unknowns);
         const Vector off = b.conjugate() * (world - tb) - plane;
-        // As the error of the measured depth that it takes: distances in the world would all be
-        // small in a small world.
+        // Expressed as an error of measured depth. A distance in the world would vanish if the
+        // whole world shrank.
         const T stretch = T(1) + unknowns[CalibrationUnknowns::kOffset] * depth_to_m;
         residual[0] = normal.cast<T>().dot(off) * depth_to_m * stretch /
                       (normal.cast<T>().dot(plane) * sigma_m);

@@ -8,7 +8,7 @@
 namespace tessera {
 namespace {
 
-// A structured-light sensor's noise (Nguyen et al. 2012, axial), of a cell's mean.
+// Axial noise of a structured-light sensor (Nguyen et al. 2012), for the mean of a cell.
 double Sigma_m(double z) { return 0.001 + 0.0019 * (z - 0.4) * (z - 0.4); }
 
 class PairFinder {
@@ -29,12 +29,12 @@ class PairFinder {
     std::optional<Eigen::Vector3d> Normal(const DepthImage& depth_m, int x, int y) const;
     Eigen::Vector2i Cell(const Eigen::Vector3d& point) const;
 
-    PinholeCamera camera_;  // of a view's cells
+    PinholeCamera camera_;  // camera of the reduced views
     const CalibrationUnknowns& unknowns_;
 };
 
-// Of the plane about a cell; nothing at its border, at a depth edge, or where it is seen at a
-// grazing angle.
+// Normal of the plane around a cell. None at the image border, at a depth discontinuity or at
+// grazing angles.
 std::optional<Eigen::Vector3d> PairFinder::Normal(const DepthImage& depth_m, int x, int y) const {
     constexpr double kBend = 0.01, kGrazing = 0.35;
     if (x < 1 || y < 1 || x + 1 >= depth_m.width() || y + 1 >= depth_m.height())
@@ -52,7 +52,7 @@ std::optional<Eigen::Vector3d> PairFinder::Normal(const DepthImage& depth_m, int
     return normal;
 }
 
-// In which a point is seen.
+// Returns the cell that sees a point.
 Eigen::Vector2i PairFinder::Cell(const Eigen::Vector3d& point) const {
     const double scale = std::exp(unknowns_.values[CalibrationUnknowns::kLogFocal]) / point.z();
     return {static_cast<int>(std::lround(camera_.fx * scale * point.x() + camera_.cx)),
@@ -83,11 +83,10 @@ std::optional<PlanePair> PairFinder::Find(const DepthImage& from, const DepthIma
                      *normal};
 }
 
-// Whether surfaces face in enough different ways to hold two views against each other in every
-// direction. Where one plane is all there is, what tracking said of the poses would decide about
-// the calibration.
+// True if the surface normals constrain the relative motion of two views in every direction. If all
+// surfaces lie in one plane, the tracked poses would determine the calibration.
 bool HoldsTheViews(std::span<const PlanePair> pairs) {
-    // Of the normals' squares, in the direction that the fewest face.
+    // Smallest eigenvalue of the normals' scatter matrix, per pair.
     constexpr double kLeastShare = 0.02;
     Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
     for (const PlanePair& p : pairs) squares += p.normal * p.normal.transpose();
@@ -104,7 +103,7 @@ std::vector<PlanePair> FindPlanePairs(const PinholeCamera& camera,
                                       std::span<const PoseEdge> edges,
                                       std::span<const Eigen::Isometry3d> T_world_camera,
                                       const CalibrationUnknowns& unknowns) {
-    constexpr int kStep = 5;  // cells: some five hundred points of a view
+    constexpr int kStep = 5;  // cells; yields about 500 points per view
     const PairFinder finder(CalibrationView::ViewOf(camera), unknowns);
     std::vector<PlanePair> pairs;
     const auto one_way = [&](int from, int to) {

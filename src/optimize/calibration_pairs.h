@@ -1,4 +1,5 @@
-// Which points of keyframes lie on which surfaces of others: what a calibration is judged by.
+// Finds points of keyframes that lie on surfaces of other keyframes. Self-calibration minimises
+// their distances.
 #pragma once
 
 #include <span>
@@ -11,9 +12,10 @@
 
 namespace tessera {
 
-// Points on a grid of each view against the views that edges link it with, both ways, where both
-// surfaces are smooth, face the same way and are close; none between two views whose surfaces leave
-// a motion open. `camera` is of whole images, as given. The same order on every run.
+// Compares points on a grid of each view with the views linked to it by edges, in both directions.
+// A pair needs smooth surfaces on both sides, with similar normals and a small distance. Edges
+// whose surfaces do not constrain the motion yield no pairs. `camera`: of the full images, as
+// given. Deterministic order.
 std::vector<PlanePair> FindPlanePairs(const PinholeCamera& camera,
                                       const std::vector<CalibrationView>& views,
                                       std::span<const PoseEdge> edges,

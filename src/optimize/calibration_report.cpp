@@ -15,7 +15,8 @@ std::string CalibrationText(const PinholeCamera& camera, double offset_before_pe
                             const CalibrationReport& report) {
     const PinholeCamera found = Corrected(camera, report.calibration);
     std::string text = "calibration: ";
-    if (!report.shown) text += "the given one stays, the scan does not show another; estimated ";
+    if (!report.shown)
+        text += "keeping the given values, the scan shows no clear error; estimated ";
     if (report.focal_sigma > 0)
         text += fmt::format("focal length {:.1f} -> {:.1f} +- {:.1f} px", camera.fx, found.fx,
                             found.fx * report.focal_sigma);
@@ -25,10 +26,9 @@ std::string CalibrationText(const PinholeCamera& camera, double offset_before_pe
                             offset_before_per_m + report.calibration.disparity_offset_per_m,
                             report.offset_sigma_per_m);
     if (!report.shown) return text;
-    return text +
-           fmt::format(
-               "; surfaces in {} points {:.1f} -> {:.1f} mm apart; the map is made again with it",
-               report.points, 1000 * report.rms_before_m, 1000 * report.rms_after_m);
+    return text + fmt::format(
+                      "; distance of surfaces at {} points {:.1f} -> {:.1f} mm; rebuilding the map",
+                      report.points, 1000 * report.rms_before_m, 1000 * report.rms_after_m);
 }
 
 }  // namespace tessera

@@ -1,5 +1,4 @@
-// What self-calibration found and whether it holds: for the map that is made again, for a person,
-// and for run.json.
+// Result of self-calibration: for rebuilding the map, for the user, and for run.json.
 #pragma once
 
 #include <string>
@@ -8,29 +7,29 @@
 
 namespace tessera {
 
-// A depth that is too large or too small everywhere is no part of it: no view tells it from a world
-// of another size.
+// Does not include a constant depth scale: no view can distinguish it from a world of a different
+// size.
 struct Calibration {
-    double focal_scale = 1;  // true focal length over the one that was given, both axes
-    // True depth = z / (1 + offset z): a triangulating sensor's error of disparity.
+    double focal_scale = 1;  // true over given focal length, both axes
+    // True depth = z / (1 + offset z). Models the disparity error of a triangulating sensor.
     double disparity_offset_per_m = 0;
 };
 
 struct CalibrationReport {
-    bool shown = false;       // the data show an error: `calibration` is to be used
-    Calibration calibration;  // as estimated, shown or not
-    // Standard deviations; 0 of what was held at the given value.
+    bool shown = false;       // the data show an error, so `calibration` should be used
+    Calibration calibration;  // the estimate, whether shown or not
+    // Standard deviations; 0 for values that were held fixed.
     double focal_sigma = 0, offset_sigma_per_m = 0;
-    // Distances of points from surfaces in other views, robust.
+    // Robust distances of points from surfaces in other views.
     double rms_before_m = 0, rms_after_m = 0;
-    int points = 0;  // compared
+    int points = 0;  // number of points compared
 };
 
-// The camera with the focal lengths that were found.
+// Returns the camera with the estimated focal lengths.
 PinholeCamera Corrected(const PinholeCamera& camera, const Calibration& calibration);
 
-// One line for a person: what was found, and that it is used, or why not. `offset_before_per_m`:
-// the configuration's.
+// One line for the user: the estimate, and whether it is used. `offset_before_per_m`: from the
+// configuration.
 std::string CalibrationText(const PinholeCamera& camera, double offset_before_per_m,
                             const CalibrationReport& report);
 

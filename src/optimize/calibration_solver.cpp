@@ -64,8 +64,8 @@ class Solver {
     CalibrationUnknowns unknowns_;
 };
 
-// What tracking says of the poses was found with the calibration that is in question: it holds only
-// where the views do not say.
+// The tracked poses depend on the given calibration. They get low weight, so that they only decide
+// what the views leave open.
 void Solver::Fill(ceres::Problem& problem) {
     constexpr double kDoubt = 10.0, kLoss = 2.0;  // standard deviations
     for (PoseEdge edge : problem_.edges) {
@@ -93,7 +93,7 @@ void Solver::Fill(ceres::Problem& problem) {
 
 CalibrationFit Solver::Linearise(ceres::Problem& problem) {
     ceres::Problem::EvaluateOptions options;
-    problem.GetResidualBlocks(&options.residual_blocks);  // as they were added
+    problem.GetResidualBlocks(&options.residual_blocks);  // in the order they were added
     options.parameter_blocks.push_back(unknowns_.values.data());
     for (int i = 0; i < static_cast<int>(nodes_.size()); ++i)
         for (double* block : {Rotation(i), Place(i)})
@@ -119,7 +119,7 @@ CalibrationFit Solver::Linearise(ceres::Problem& problem) {
     return fit;
 }
 
-// Median absolute distance, as the standard deviation that it would be of normal errors.
+// Standard deviation from the median absolute distance, for normally distributed errors.
 double Solver::Rms_m() const {
     std::vector<double> off_m;
     for (const PlanePair& p : pairs_) {
@@ -135,7 +135,7 @@ double Solver::Rms_m() const {
 }
 
 Status Solve(ceres::Problem& problem) {
-    constexpr int kIterations = 5;  // pairs are found anew after them
+    constexpr int kIterations = 5;  // before the pairs are searched again
     ceres::Solver::Summary summary;
     ceres::Solve(SparseSolverOptions(kIterations), &problem, &summary);
     return summary.IsSolutionUsable() ? Status::Ok()
@@ -151,7 +151,7 @@ Result<CalibrationEstimate> Solver::Run() {
             FindPlanePairs(problem_.camera, problem_.views, problem_.edges, Poses(), unknowns_);
         if (pairs_.size() < kLeastPairs)
             return Status::Error(
-                "calibration: the given one stays, too little was seen from two places");
+                "calibration: keeping the given values, too little was seen from two places");
         if (round == 0) estimate.rms_before_m = Rms_m();
         ceres::Problem problem;
         Fill(problem);
@@ -174,7 +174,8 @@ Result<CalibrationEstimate> SolveCalibration(const CalibrationProblem& problem,
                                              const std::vector<Eigen::Isometry3d>& T_world_camera,
                                              const CalibrationMask& mask) {
     if (problem.edges.empty())
-        return Status::Error("calibration: the given one stays, a single view shows nothing");
+        return Status::Error(
+            "calibration: keeping the given values, a single keyframe is not enough");
     return Solver(problem, T_world_camera, mask).Run();
 }
 

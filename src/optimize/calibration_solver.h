@@ -1,4 +1,4 @@
-// Calibration and poses of keyframes, solved for together.
+// Solves jointly for the calibration and the keyframe poses.
 #pragma once
 
 #include <array>
@@ -12,25 +12,24 @@
 namespace tessera {
 
 struct CalibrationProblem {
-    PinholeCamera camera;  // of whole images, as given
+    PinholeCamera camera;  // of the full images, as given
     const std::vector<CalibrationView>& views;
-    std::span<const PoseEdge> edges;  // which views are compared, and what is known of their poses
+    std::span<const PoseEdge> edges;  // the views to compare, and what is known about their poses
 };
 
-// Which unknowns are solved for; the others stay 0.
+// Which unknowns are solved for; the others stay at 0.
 using CalibrationMask = std::array<bool, CalibrationUnknowns::kCount>;
 
 struct CalibrationEstimate {
     CalibrationUnknowns unknowns;
-    // Deviations; 0 where it was not solved for.
+    // Standard deviations; 0 for unknowns that were not solved for.
     std::array<double, CalibrationUnknowns::kCount> sigma{};
     std::vector<Eigen::Isometry3d> T_world_camera;
-    double rms_before_m = 0, rms_m = 0;  // points off the surfaces of other views, robust
+    double rms_before_m = 0, rms_m = 0;  // robust distances of points from surfaces of other views
     int points = 0;
 };
 
-// Errors: too little is seen twice, or no usable solution. One thread: the same result on every
-// run.
+// Errors: too little overlap, or no usable solution. Runs on one thread; deterministic.
 Result<CalibrationEstimate> SolveCalibration(const CalibrationProblem& problem,
                                              const std::vector<Eigen::Isometry3d>& T_world_camera,
                                              const CalibrationMask& mask);

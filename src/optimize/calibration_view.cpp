@@ -5,7 +5,7 @@
 namespace tessera {
 namespace {
 
-// Mean of a block of pixels; 0 where one is missing, or where it is no smooth surface.
+// Mean of a block of pixels; 0 if a pixel has no depth or the surface is not smooth.
 float MeanDepth(const DepthImage& depth_m, int x, int y, int size) {
     constexpr float kSpread = 0.03f;  // share of the depth
     float sum = 0, low = 1e9f, high = 0;
@@ -29,7 +29,7 @@ CalibrationView::CalibrationView(const DepthImage& depth_m)
 }
 
 PinholeCamera CalibrationView::ViewOf(const PinholeCamera& camera) {
-    constexpr double kMiddle = 0.5 * (kReduction - 1);  // of a block's pixels
+    constexpr double kMiddle = 0.5 * (kReduction - 1);  // centre of a block, in pixels
     return {camera.width / kReduction,
             camera.height / kReduction,
             camera.fx / kReduction,

@@ -1,4 +1,4 @@
-// A keyframe's depth image, much reduced, as self-calibration reads it.
+// A keyframe's depth image at reduced resolution, for self-calibration.
 #pragma once
 
 #include "core/camera.h"
@@ -10,9 +10,9 @@ class CalibrationView {
   public:
     static constexpr int kReduction = 4;
 
-    // Metres; cells without a clear depth are left out.
+    // In metres. Cells without a clear depth are 0.
     explicit CalibrationView(const DepthImage& depth_m);
-    // The camera that such an image is of.
+    // Returns the camera of the reduced image.
     static PinholeCamera ViewOf(const PinholeCamera& camera);
 
     const DepthImage& depth_m() const { return depth_m_; }

@@ -7,12 +7,14 @@
 namespace tessera {
 namespace {
 
-// On recordings whose camera is known, estimates lie up to five of their deviations off, most
-// within 1 % (docs/calibration.md): errors that a recording has everywhere are in no scatter.
+// On recordings with a known camera, estimates are off by up to five of their standard deviations,
+// most of them by less than 1 % (docs/calibration.md). Errors that affect the whole recording do
+// not show in its scatter.
 constexpr double kDeviations = 6;
-constexpr double kFocalFloor = 0.0125, kCentreFloor = 0.006;  // of the focal length, of the width
-constexpr double kReadoutFloor_s = 0.002;  // at 1 rad/s half a pixel at the image's border
-constexpr double kUsefulFocal = 0.02;      // of the focal length: sigma
+// Shares of the focal length and of the image width.
+constexpr double kFocalFloor = 0.0125, kCentreFloor = 0.006;
+constexpr double kReadoutFloor_s = 0.002;  // at 1 rad/s half a pixel at the image border
+constexpr double kUsefulFocal = 0.02;      // largest sigma, as a share of the focal length
 
 bool Beyond(double difference, double sigma, double floor) {
     return sigma > 0 && std::abs(difference) > std::max(kDeviations * sigma, floor);

@@ -1,4 +1,4 @@
-// What a recording says about its camera, how sure that is, and when it is to be believed.
+// Estimate of the camera intrinsics from a recording, its uncertainty, and when to trust it.
 #pragma once
 
 #include <string>
@@ -7,38 +7,41 @@
 
 namespace tessera {
 
-// Standard deviations hold what differs between parts of the recording (camera_fit.h), not the
-// residuals' scatter.
+// Standard deviations come from the differences between parts of the recording (camera_fit.h), not
+// from the scatter of the residuals.
 struct CameraEstimate {
     PinholeCamera given, found;
     double focal_sigma_px = 0, centre_x_sigma_px = 0, centre_y_sigma_px = 0;
-    // Of the colour image's rolling shutter, first row to last.
+    // Read-out time of the colour image's rolling shutter, first row to last.
     double readout_s = 0, readout_sigma_s = 0;
-    // Robust photometric error of a point, as given and as found.
+    // Robust photometric error per point, with the given and with the estimated camera.
     double misfit_given = 0, misfit_found = 0;
-    int pairs = 0;  // of views that were compared
+    int pairs = 0;  // number of compared view pairs
 
-    // The recording contradicts what was given, by more than such an estimate can be wrong.
+    // True if the recording contradicts the given values by more than such an estimate can be
+    // wrong.
     bool focal_shown() const;
     bool centre_shown() const;
     bool shown() const { return focal_shown() || centre_shown(); }
-    // The colour image's rows are not read out over so long.
+    // True if the read-out time differs from the given one.
     bool shutter_shown(double given_readout_s) const;
-    // Good enough for a camera of which nothing is known.
+    // True if the estimate is good enough to use when nothing is known about the camera.
     bool useful() const;
 };
 
-// For run.json: what was found, and what was done with it.
+// For run.json: the estimate and what was done with it.
 struct CameraReport {
     CameraEstimate estimate;
-    bool known = true;  // the camera was given; else `estimate.given` is a guess
+    bool known = true;  // false: the camera was not given, `estimate.given` is a guess
     bool used = false;
 };
 
-// The given camera with what was shown; all that was found where nothing was known.
+// Returns the given camera corrected where the recording contradicts it. If the camera is not
+// known, takes the estimated focal length whenever it is useful().
 PinholeCamera CameraToUse(const CameraEstimate& estimate, bool known);
 
-// "camera.yaml says fx 615.0; this recording says 604.0 +- 2.0"; `who` says what was given.
+// "camera.yaml says fx 615.0; this recording says 604.0 +- 2.0". `who` names the origin of the
+// given values.
 std::string EstimateText(const CameraEstimate& estimate, const std::string& who);
 
 }  // namespace tessera

@@ -21,7 +21,7 @@ void CameraEstimator::Add(const Frame& frame) {
     views_.push_back(MakeCameraView(frame));
 }
 
-// From the frames before and after.
+// Finite difference between the previous and the next frame.
 Vector6d CameraEstimator::Velocity(int view) const {
     constexpr double kLongest_s = 0.5;
     const int before = std::max(0, view - 1), after = std::min(frames() - 1, view + 1);

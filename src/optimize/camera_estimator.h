@@ -1,7 +1,7 @@
-// Finds out from a recording's first seconds what camera took it: views are aligned one after the
-// other, those that turned against each other are compared, and one camera is fitted to all of
-// these pairs. Colour tells it nearly alone: depths, which err in their own way, only say how far
-// away the edges are.
+// Estimates the camera intrinsics from the first seconds of a recording. It aligns consecutive
+// views, compares views that are rotated against each other, and fits one camera to all of these
+// pairs. The estimate relies almost only on colour. Depth, which has errors of its own, only says
+// how far away the edges are.
 #pragma once
 
 #include <optional>
@@ -15,17 +15,17 @@
 
 namespace tessera {
 
-// Owner thread only (pairs are summed in parallel; the result does not depend on the number of
-// threads). Keeps some 0.8 MB a frame at 640 x 480.
+// Owner thread only. Sums pairs in parallel; the result does not depend on the number of threads.
+// Stores about 0.8 MB per frame at 640 x 480.
 class CameraEstimator {
   public:
     explicit CameraEstimator(const PinholeCamera& camera);
 
-    // In order of time, some 15 a second. Without colour it is left out.
+    // In time order, about 15 per second. Ignores frames without colour.
     void Add(const Frame& frame);
     int frames() const { return static_cast<int>(views_.size()); }
 
-    // Nothing where too little was seen: no turns, no edges, no overlap.
+    // Returns nothing if the recording shows too little: no rotation, no edges or no overlap.
     std::optional<CameraEstimate> Estimate() const;
 
   private:

@@ -12,20 +12,20 @@ namespace {
 constexpr int kCount = CameraUnknowns::kCount, kOwn = CameraPairSums::kOwn;
 constexpr int kTimes = 8;
 constexpr int kLeastPairs = 6, kLeastPoints = 100;
-constexpr double kLeastSeen = 0.25;  // of a view's points, seen in the other
-// Residuals, against the middle pair's: more is a motion that was not found.
+constexpr double kLeastSeen = 0.25;  // share of a view's points that the other view must see
+// Pairs whose residual scale exceeds the median by this factor are excluded: their motion was not
+// found.
 constexpr double kWorstScale = 1.8;
-constexpr double kLongestStep_rad = 0.1;  // a step
-// What is known of a camera before: factor of the focal length, centre in widths, readout in
-// seconds; as standard deviations. The residuals of neighbouring pixels err together: a hundred
-// count as one.
+constexpr double kLongestStep_rad = 0.1;  // per iteration
+// Prior standard deviations of the camera: log focal length, centre in image widths, read-out time
+// in seconds. Residuals of neighbouring pixels are correlated, so a hundred count as one.
 constexpr double kBefore[kCount] = {0.2, 0.01, 0.01, 0.02};
 constexpr double kTogether = 100;
 
 using Vector = CameraFit::Vector;
 using Matrix = Eigen::Matrix<double, kCount, kCount>;
 
-// A pair's share, its own unknowns eliminated.
+// Contribution of one pair, its own unknowns eliminated (Schur complement).
 struct Share {
     Eigen::Matrix<double, kOwn, kOwn> own_inverse;
     Eigen::Matrix<double, kCount, kOwn> to_own;
@@ -56,8 +56,8 @@ class Fit {
         for (int i = 0; i < kCount; ++i) before_(i, i) = kTogether / (kBefore[i] * kBefore[i]);
     }
 
-    // Steps on one level; the camera is held where `camera_free` is off. Returns the mean robust
-    // error of a point.
+    // Iterates on one level. If `camera_free` is false, the camera is held fixed. Returns the mean
+    // robust error per point.
     double Refine(int level, int iterations, bool camera_free) {
         double misfit = 0;
         for (int i = 0; i < iterations; ++i) {
@@ -74,7 +74,7 @@ class Fit {
         return misfit;
     }
 
-    // Motions that were not found would only mislead.
+    // Excludes pairs whose motion was not found.
     void LeaveOutBad() {
         std::vector<double> scales;
         for (const CameraPair& pair : pairs_)
@@ -92,7 +92,7 @@ class Fit {
     }
     const CameraUnknowns& unknowns() const { return unknowns_; }
     void Set(const CameraUnknowns& unknowns) { unknowns_ = unknowns; }
-    // So that misfits can be compared.
+    // Keeps the residual scales fixed, so that misfits are comparable.
     void HoldScales() { hold_scales_ = true; }
 
     // At the last linearisation.
@@ -163,7 +163,7 @@ class Fit {
         }
     }
 
-    // Regions number (outer, group, inner), inner fastest.
+    // Region index = (outer, group, inner), inner fastest.
     std::vector<Vector> ByRegion(int groups, int inner) const {
         std::vector<Vector> parts(static_cast<std::size_t>(groups), Vector::Zero());
         for (const Share& share : shares_)
@@ -191,7 +191,7 @@ class Fit {
     std::vector<CameraPair>& pairs_;
     CameraUnknowns unknowns_;
     std::vector<CameraPairSums> sums_;
-    std::vector<Share> shares_;  // of the usable pairs, in order
+    std::vector<Share> shares_;  // one per usable pair, in order
     Matrix hessian_ = Matrix::Zero(), before_ = Matrix::Zero();
     Vector gradient_ = Vector::Zero();
     bool hold_scales_ = false;
@@ -215,7 +215,7 @@ CameraFit FitCamera(const std::vector<CameraView>& views, const PinholeCamera& g
     result.pairs = fit.usable();
     if (result.pairs < kLeastPairs) return CameraFit{};
     result.deviations = fit.Deviations();
-    // The given camera's misfit, its motions and shutter its own.
+    // Misfit of the given camera, with its own motions but the estimated read-out time.
     CameraUnknowns as_given = result.unknowns;
     as_given.log_focal = as_given.centre_x = as_given.centre_y = 0;
     fit.Set(as_given);

@@ -6,11 +6,11 @@
 namespace tessera {
 namespace {
 
-// Depths that differ by more than this part are of other surfaces.
+// Depths that differ by a larger share belong to different surfaces.
 constexpr double kNearestPoint_m = 0.1, kOccluded = 0.1;
 constexpr double kLeastScale = 0.003;
 
-// Linear between four pixels.
+// Bilinear interpolation.
 struct Sample {
     double value, du, dv;
     float least;
@@ -26,8 +26,8 @@ Sample SampleAt(const Image<float>& image, double u, double v) {
             std::min(std::min(top[0], top[1]), std::min(bottom[0], bottom[1]))};
 }
 
-// How a point moves in the camera's frame per second, for a camera that moves with `velocity`, at a
-// row's part of the readout.
+// Velocity of a point in the frame of a camera that moves with `velocity`, scaled by the row's
+// share of the read-out time.
 Eigen::Vector3d RowMotion(const Vector6d& velocity, double row, const Eigen::Vector3d& p) {
     return row * (velocity.head<3>().cross(p) + velocity.tail<3>());
 }
@@ -103,7 +103,8 @@ CameraPairSums SumPair(const CameraView& from, const CameraView& to, int level,
         if (!EvaluatePoint(point, seen, reduced, pair, unknowns.readout_s, residual)) continue;
         ++sums.used;
         sizes.push_back(std::abs(residual.value));
-        // Student's t with few degrees of freedom: what moved, shone or was hidden says little.
+        // Student's t weights with few degrees of freedom: moving, specular or occluded points get
+        // little weight.
         const double in_scales = residual.value / pair.scale, size = 0.25 * in_scales * in_scales;
         const double weight = 1 / ((1 + size) * pair.scale * pair.scale);
         sums.error += std::log1p(size);

@@ -1,5 +1,6 @@
-// What two views of a still scene say about their camera: intensities of one that the other must
-// show where its depths, the motion between them and the camera put them.
+// Photometric constraint of two views of a static scene on their camera. A pixel of one view is
+// projected into the other with its depth, the relative motion and the camera, and the intensities
+// are compared.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -10,13 +11,13 @@
 
 namespace tessera {
 
-// The camera's unknowns, against the camera that was given.
+// Unknowns of the camera, relative to the given camera.
 struct CameraUnknowns {
     static constexpr int kCount = 4;
 
-    double log_focal = 0;               // of the factor of fx and fy
+    double log_focal = 0;               // common factor of fx and fy
     double centre_x = 0, centre_y = 0;  // shift of the principal point, in image widths
-    // From the first row to the last: a rolling shutter; 0 for a global one.
+    // Time between the first and the last row of a rolling shutter; 0 for a global shutter.
     double readout_s = 0;
 
     PinholeCamera Applied(const PinholeCamera& given) const;
@@ -24,18 +25,18 @@ struct CameraUnknowns {
 };
 
 struct CameraPair {
-    int from = 0, to = 0;  // views
+    int from = 0, to = 0;  // indices of the views
     Eigen::Isometry3d T_to_from = Eigen::Isometry3d::Identity();
     // Intensity in `to` = (1 + gain) times that in `from`, + offset.
     double gain = 0, offset = 0;
-    Vector6d velocity_from = Vector6d::Zero();  // twist a second in the camera's own frame
+    Vector6d velocity_from = Vector6d::Zero();  // twist per second in the camera frame
     Vector6d velocity_to = Vector6d::Zero();
-    double scale = 0.05;  // of its residuals, [0, 1]
+    double scale = 0.05;  // of the residuals, which are intensities in [0, 1]
     bool usable = true;
 };
 
-// Normal equations. Unknowns: the motion (twist, from the left), gain, offset, then CameraUnknowns
-// in their order.
+// Normal equations. Unknowns: the motion (left-multiplied twist), gain, offset, then CameraUnknowns
+// in order.
 struct CameraPairSums {
     static constexpr int kOwn = 8, kAll = kOwn + CameraUnknowns::kCount;
     using Vector = Eigen::Matrix<double, kAll, 1>;
@@ -43,13 +44,14 @@ struct CameraPairSums {
     Eigen::Matrix<double, kAll, kAll> hessian = Eigen::Matrix<double, kAll, kAll>::Zero();
     std::array<Vector, CameraView::kRegions> gradient;  // by region
     int points = 0, used = 0;
-    double error = 0;     // robust, in squared scales, summed
+    double error = 0;     // robust, in units of scale squared, summed
     double scale = 0.05;  // robust standard deviation of the residuals
 
     CameraPairSums() { gradient.fill(Vector::Zero()); }
 };
 
-// One point's residual in `to`, and its derivatives; false where it is not seen there.
+// Residual of one point in `to` and its derivatives. EvaluatePoint returns false if `to` does not
+// see the point.
 struct CameraPairResidual {
     double value = 0;
     CameraPairSums::Vector jacobian = CameraPairSums::Vector::Zero();
@@ -58,7 +60,7 @@ bool EvaluatePoint(const CameraViewPoint& point, const CameraView::Level& to,
                    const PinholeCamera& camera, const CameraPair& pair, double readout_s,
                    CameraPairResidual& residual);
 
-// `camera`: the one given, at full resolution.
+// `camera`: the given one, at full resolution.
 CameraPairSums SumPair(const CameraView& from, const CameraView& to, int level,
                        const PinholeCamera& camera, const CameraUnknowns& unknowns,
                        const CameraPair& pair);

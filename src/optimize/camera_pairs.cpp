@@ -10,14 +10,15 @@ constexpr std::size_t kMostPairs = 100;
 constexpr int kMostOfView = 4;
 constexpr double kLeastTurn_rad = 0.035, kMostTurn_rad = 0.45;
 constexpr double kLeastOverlap = 0.6;
-constexpr double kParallax = 0.15;  // radians of turn that as much parallax costs: its depths err
+// Cost of parallax in radians of rotation: it brings in depth errors.
+constexpr double kParallax = 0.15;
 
 struct Candidate {
     int from, to;
     double merit;
 };
 
-// The share of `from`'s points that lie in the picture of `to`, and their mean inverse depth.
+// Share of the points of `from` that project into the image of `to`, and their mean inverse depth.
 struct Overlap {
     double share = 0, inverse_depth = 0;
 };

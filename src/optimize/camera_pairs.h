@@ -1,4 +1,4 @@
-// Which views of a recording show what camera took them.
+// Selects the pairs of views that best constrain the camera.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -8,8 +8,9 @@
 
 namespace tessera {
 
-// Pairs with most turn, which shows the focal length, and least parallax, which does not; each view
-// in a few pairs only. They have T_to_from by the given poses. `camera`: full resolution.
+// Prefers pairs with much rotation, which constrains the focal length, and little parallax, which
+// does not. Uses each view in only a few pairs. Sets T_to_from from the given poses. `camera`: full
+// resolution.
 std::vector<CameraPair> ChoosePairs(const std::vector<CameraView>& views,
                                     const PinholeCamera& camera,
                                     const std::vector<Eigen::Isometry3d>& T_world_camera);

@@ -7,8 +7,8 @@ namespace tessera {
 namespace {
 
 constexpr int kColumns = 320;
-constexpr float kSmooth = 0.03f;      // of the depth: farther apart is an edge
-constexpr float kLeastSlope = 0.01f;  // of the intensity per pixel: below it is noise
+constexpr float kSmooth = 0.03f;      // share of the depth; larger steps are discontinuities
+constexpr float kLeastSlope = 0.01f;  // intensity gradient per pixel; smaller ones are noise
 constexpr float kNearest_m = 0.3f, kFarthest_m = 6;
 constexpr std::size_t kMostPoints = 4000;
 

@@ -1,5 +1,5 @@
-// A frame made small for finding out what camera took it: intensity and depth on three levels, and
-// the pixels that are worth comparing.
+// A reduced frame for camera estimation: intensity and depth on three levels, and the pixels to
+// compare.
 #pragma once
 
 #include <array>
@@ -11,12 +11,12 @@
 
 namespace tessera {
 
-// A pixel with depth on a smooth surface and an edge in its intensity.
+// A pixel with depth on a smooth surface and an intensity edge.
 struct CameraViewPoint {
     float u = 0, v = 0;   // pixels of its level
     float depth_m = 0;    // along z
     float intensity = 0;  // [0, 1]
-    // Which part of the image, the depths and the edges' directions: kRegions of them.
+    // Index of the image part, depth range and edge direction; one of kRegions.
     std::uint8_t region = 0;
 };
 
@@ -26,10 +26,10 @@ struct CameraView {
     static constexpr int kRegions = kRings * kQuarters * kDepths * kDirections;
 
     struct Level {
-        int reduction = 1;  // full-resolution pixels in a row that are one here
-        // [0, 1], averaged: blurring would move edges that are seen from aslant.
+        int reduction = 1;  // one pixel here covers this many full-resolution pixels per axis
+        // [0, 1], box-averaged. Blurring would move edges that are seen at a slant.
         Image<float> intensity;
-        DepthImage depth_m;  // averaged where smooth; 0 where missing or torn
+        DepthImage depth_m;  // averaged where smooth; 0 where missing or at discontinuities
         std::vector<CameraViewPoint> points;
     };
 
@@ -37,10 +37,10 @@ struct CameraView {
     std::array<Level, kLevels> levels;  // coarse to fine
 };
 
-// `frame` has colour. The finest level has about 320 columns.
+// `frame` must have colour. The finest level has about 320 columns.
 CameraView MakeCameraView(const Frame& frame);
 
-// The camera whose pixels are averages over n x n of this one's.
+// Returns the camera whose pixels are averages over n x n pixels of this one.
 PinholeCamera Averaged(const PinholeCamera& camera, int n);
 
 }  // namespace tessera

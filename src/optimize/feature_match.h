@@ -1,4 +1,4 @@
-// The first word on a loop: do enough features of two keyframes match and fit one rigid motion?
+// First check of a loop: do enough features of two keyframes match and agree on one rigid motion?
 #pragma once
 
 #include <string>
@@ -16,7 +16,8 @@ struct FeatureMatch {
     double spread_m = 0;
 };
 
-// Pairs (old, new) of mutually nearest descriptors that are clearly nearer than the second nearest.
+// Returns pairs (old, new) of mutually nearest descriptors that are clearly nearer than the second
+// nearest.
 std::vector<std::pair<int, int>> MatchDescriptors(std::span<const Descriptor> old,
                                                   std::span<const Descriptor> fresh);
 

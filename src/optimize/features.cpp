@@ -8,8 +8,8 @@
 namespace tessera {
 namespace {
 
-// The median of the valid depths around a pixel: corners lie on edges, where a single pixel may be
-// of either side.
+// Median of the valid depths around a pixel. Corners often lie on object edges, where a single
+// pixel may belong to either side.
 float DepthAround(const DepthImage& depth, int x, int y) {
     std::vector<float> valid;
     valid.reserve(9);
@@ -33,7 +33,8 @@ Features ExtractFeatures(const PreparedFrame& frame, const PinholeCamera& camera
     for (std::size_t i = 0; i < frame.intensity.size(); ++i)
         grey.data[i] = static_cast<std::uint8_t>(
             std::lround(255 * std::clamp(frame.intensity.data()[i], 0.0f, 1.0f)));
-    // A low threshold: the strongest are kept anyway, and dim rooms have few.
+    // Uses a low FAST threshold: only the strongest corners are kept anyway, and dim rooms have
+    // few.
     constexpr float kScale = 1.2f;
     constexpr int kLevels = 8, kEdge_px = 19, kPatch_px = 31, kFastThreshold = 10;
     std::vector<cv::KeyPoint> points;

@@ -1,5 +1,4 @@
-// What a keyframe is recognised by: ORB features, each with the 3D point that the depth image has
-// there.
+// ORB features for place recognition, each with its 3D point from the depth image.
 #pragma once
 
 #include <Eigen/Core>
@@ -22,7 +21,7 @@ inline int HammingDistance(const Descriptor& a, const Descriptor& b) {
     return distance;
 }
 
-// Two arrays of one length.
+// Two arrays of equal length.
 struct Features {
     std::vector<Descriptor> descriptors;
     std::vector<Eigen::Vector3f> p_camera;  // metres
@@ -30,8 +29,8 @@ struct Features {
     std::size_t size() const { return descriptors.size(); }
 };
 
-// At most `max_features`, spread over the image by OpenCV's ORB; those without depth are left out.
-// None of a frame without colour. The same for any number of threads.
+// Returns at most `max_features`, spread over the image by OpenCV's ORB, without those that have no
+// depth. Empty for a frame without colour. Does not depend on the number of threads.
 Features ExtractFeatures(const PreparedFrame& frame, const PinholeCamera& camera, int max_features);
 
 }  // namespace tessera

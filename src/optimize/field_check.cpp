@@ -40,7 +40,7 @@ FieldVerdict FieldCheck::Check(std::span<const NearFrame> old_frames, const Fres
     const TrackResult backward =
         Track(prepared_, old.view.motion, forward.T_world_camera.inverse());
     if (verdict.reason = Fault(backward); !verdict.reason.empty()) {
-        verdict.reason = "seen from the other side, " + verdict.reason;
+        verdict.reason = "in the reverse check, " + verdict.reason;
         return verdict;
     }
     verdict.explained = std::min(forward.known_fraction * forward.inlier_fraction,
@@ -50,8 +50,8 @@ FieldVerdict FieldCheck::Check(std::span<const NearFrame> old_frames, const Fres
     const double off_rad = RotationAngle(disagreement, Eigen::Isometry3d::Identity());
     verdict.accepted = off_m <= config_.max_disagreement_m && off_rad <= config_.max_disagreement_m;
     if (!verdict.accepted)
-        verdict.reason =
-            fmt::format("the two sides disagree by {:.3f} m and {:.3f} rad", off_m, off_rad);
+        verdict.reason = fmt::format(
+            "forward and reverse alignment disagree by {:.3f} m and {:.3f} rad", off_m, off_rad);
     return verdict;
 }
 
@@ -81,7 +81,8 @@ TrackResult FieldCheck::Track(const PreparedFrame& frame, const FrameMotion& mot
                            .motion = motion});
 }
 
-// Of the points that the field knows, those within half the truncation of its surface.
+// Share of the points inside the known field that lie within half the truncation distance of its
+// surface.
 double FieldCheck::ShareThatFits(const PreparedFrame& frame,
                                  const Eigen::Isometry3d& T_field_camera) const {
     constexpr int kStep = 8;
@@ -105,7 +106,8 @@ double FieldCheck::ShareThatFits(const PreparedFrame& frame,
 std::string FieldCheck::Fault(const TrackResult& track) const {
     if (track.status != TrackStatus::kGood) return track.reason;
     if (track.degenerate)
-        return fmt::format("some motion is only known to {:.0f} mm", 1000 * track.uncertainty_m);
+        return fmt::format("one direction of motion is only known to within {:.0f} mm",
+                           1000 * track.uncertainty_m);
     if (track.known_fraction < config_.min_known_fraction)
         return fmt::format("only {:.0f} % of the depth lies in the field",
                            100 * track.known_fraction);

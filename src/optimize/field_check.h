@@ -1,7 +1,7 @@
-// The last word on a loop: does the new frame fit the surface around the old keyframe, and the
-// other way round? A small field is fused from the stored frames of each side and the other side is
-// tracked in it, by the same tracker as any frame. The whole map would not do: where the camera has
-// come back with drift it already holds both surfaces.
+// Final check of a loop: does the new frame fit the surface around the old keyframe, and vice
+// versa? It fuses a small field from the stored frames of each side and tracks the other side in
+// it, with the usual tracker. The full map would not do: where the camera came back with drift, it
+// already contains both surfaces.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -16,7 +16,7 @@
 
 namespace tessera {
 
-// How the small fields are made and tracked in: as the map itself.
+// Settings of the small fields and their tracking; the same as for the map.
 struct FieldSettings {
     PinholeCamera camera;
     BlockMap::Config map;
@@ -27,30 +27,30 @@ struct FieldSettings {
     TrackJudge::Config judge;
 };
 
-// A stored frame beside a keyframe.
+// A stored frame near a keyframe.
 struct NearFrame {
     const StoredFrame* stored = nullptr;
     Eigen::Isometry3d T_keyframe_camera = Eigen::Isometry3d::Identity();
 };
 
-// A frame that is to be placed beside an old keyframe.
+// A frame to be aligned with an old keyframe.
 struct FreshFrame {
     const PreparedFrame& prepared;
-    FrameMotion motion;                    // while it was taken
-    Eigen::Isometry3d T_old_new_features;  // where the features put it
-    // Where it is thought to be; nothing of a lost camera.
+    FrameMotion motion;                    // while it was captured
+    Eigen::Isometry3d T_old_new_features;  // pose according to the features
+    // Current estimate of the pose; empty if the camera is lost.
     std::optional<Eigen::Isometry3d> T_old_new_expected;
 };
 
 struct FieldVerdict {
     bool accepted = false;
-    // Where it was expected the frame fits about as well: tracking against the map has closed this
-    // loop by itself.
+    // The frame fits about as well at its expected pose: tracking against the map has already
+    // closed this loop.
     bool closed_before = false;
-    // Of each side's depth, the share that lies on the other's surface: the smaller one.
+    // Share of the depth of one side that lies on the surface of the other; the smaller of the two.
     double explained = 0;
     Eigen::Isometry3d T_old_new = Eigen::Isometry3d::Identity();
-    std::string reason;  // in words, unless accepted
+    std::string reason;  // why it was rejected; empty if accepted
 };
 
 // Owner thread only.
@@ -58,13 +58,13 @@ class FieldCheck {
   public:
     FieldCheck(const FieldSettings& settings, const LoopConfig& config);
 
-    // `old_frames`: the old keyframe's own first, then others near it.
+    // `old_frames`: the frame of the old keyframe first, then others near it.
     FieldVerdict Check(std::span<const NearFrame> old_frames, const FreshFrame& fresh,
                        FrameStore& store);
 
   private:
     void FuseOld(std::span<const NearFrame> frames, FrameStore& store);
-    bool Load(const StoredFrame& stored, FrameStore& store);  // false: it is damaged
+    bool Load(const StoredFrame& stored, FrameStore& store);  // false if damaged
     TrackResult Track(const PreparedFrame& frame, const FrameMotion& motion,
                       const Eigen::Isometry3d& T_field_camera);
     double ShareThatFits(const PreparedFrame& frame, const Eigen::Isometry3d& T_field_camera) const;

@@ -73,7 +73,7 @@ void FrameStore::Thin() {
 Status FrameStore::Load(const StoredFrame& stored, Frame& frame) {
     frame.index = stored.ordinal;
     const auto header = ReadPngHeader(stored.depth_png);
-    if (!header) return Status::Error("a stored depth image is none");
+    if (!header) return Status::Error("a stored depth image is not a PNG file");
     if (Status status = decoder_.DecodeDepth(stored.depth_png, *header, raw_depth_); !status.ok())
         return status;
     frame.depth_m.Resize(raw_depth_.width(), raw_depth_.height());
@@ -95,8 +95,8 @@ Status FrameStore::LoadPrepared(const StoredFrame& stored, const PinholeCamera& 
         return image.width() == camera.width && image.height() == camera.height;
     };
     if (!fits(frame.depth_m) || (!frame.colour.empty() && !fits(frame.colour)))
-        return Status::Error(fmt::format("stored frame {}: its images are not of the camera's size",
-                                         stored.ordinal));
+        return Status::Error(fmt::format(
+            "stored frame {}: its image size differs from the camera's", stored.ordinal));
     PrepareFrame(frame, preparation, prepared);
     return Status::Ok();
 }

@@ -1,5 +1,5 @@
-// The frames that the map was made of, compressed in memory, each with its place relative to a
-// keyframe: what it takes to make the map again when the keyframes have moved.
+// The frames fused into the map, compressed in memory, each with its pose relative to a keyframe.
+// The map is rebuilt from them when keyframes have moved.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -18,15 +18,15 @@
 namespace tessera {
 
 struct StoredFrame {
-    std::int64_t ordinal = 0;  // among all frames ever added, from 0
+    std::int64_t ordinal = 0;  // index among all frames ever added, from 0
     int keyframe = 0;
-    bool is_keyframe = false;  // the keyframe's own: never thinned out
+    bool is_keyframe = false;  // the frame of the keyframe itself; never thinned out
     Eigen::Isometry3d T_keyframe_camera = Eigen::Isometry3d::Identity();
-    Integrator::View view;  // as it was fused, but for the pose
+    Integrator::View view;  // as it was fused, except for the pose
     double stamp_s = 0, colour_stamp_s = 0;
-    std::vector<std::uint8_t> depth_png, colour_jpeg;  // the latter empty without colour
+    std::vector<std::uint8_t> depth_png, colour_jpeg;  // colour_jpeg is empty without colour
     std::int64_t frame_index = 0;
-    // As they were voted into the map; nothing if it was not looked at.
+    // As voted into the map; empty if the detector did not process the frame.
     std::optional<std::vector<Detection>> detections;
 
     std::size_t bytes() const {
@@ -37,36 +37,37 @@ struct StoredFrame {
 // Owner thread only.
 class FrameStore {
   public:
-    // Over the limit every second frame is let go, then every second of the rest, and so on: what
-    // is left is spread over the whole scan. Depth is kept in steps of 1 / `depth_units_per_m`,
-    // colour as JPEG.
+    // Above the limit it drops every second frame, then every second of the rest, and so on, so
+    // that the remaining frames cover the whole scan. Depth is stored in steps of 1 /
+    // `depth_units_per_m`, colour as JPEG.
     FrameStore(std::size_t limit_bytes, double depth_units_per_m)
         : limit_bytes_(limit_bytes), depth_units_per_m_(depth_units_per_m) {}
 
-    // `T_keyframe_camera` is the identity for the keyframe's own frame. Errors: what the encoder
-    // refuses.
+    // `T_keyframe_camera` is the identity for the frame of the keyframe. Returns errors of the
+    // encoder.
     Status Add(const Frame& frame, int keyframe, bool is_keyframe,
                const Eigen::Isometry3d& T_keyframe_camera, const Integrator::View& view);
-    // To a frame added before, by this process, if it is still there.
+    // Adds detections to a frame that this process added, if it is still stored.
     void AddDetections(std::int64_t frame_index, std::vector<Detection> detections);
-    // Before the first Add: goes on with frames of an earlier one, by increasing ordinal.
+    // Before the first Add: continues with the frames of an earlier process, sorted by ordinal.
     void Resume(std::vector<StoredFrame> frames, std::int64_t next_ordinal);
-    // Index (the ordinal), colour and depth, into storage that is used again; the rest of `frame`
-    // stays.
+    // Loads index (the ordinal), colour and depth. Reuses the storage of `frame` and leaves its
+    // other fields unchanged.
     Status Load(const StoredFrame& stored, Frame& frame);
-    // The same made ready for tracking and fusion. Frames of an earlier process may be damaged:
-    // errors are what the decoders refuse, and images of another size than the camera's.
+    // Loads the frame and prepares it for tracking and fusion. Frames of an earlier process may be
+    // damaged: returns decoder errors, and an error if the image size differs from the camera's.
     Status LoadPrepared(const StoredFrame& stored, const PinholeCamera& camera,
                         const PreparedFrame::Config& preparation, Frame& frame,
                         PreparedFrame& prepared);
 
-    // A frame added by this process, by its index; null if it is not kept.
+    // Finds a frame added by this process by its index; null if it is not stored.
     const StoredFrame* Find(std::int64_t frame_index) const;
-    // By increasing ordinal.
+    // Sorted by ordinal.
     const std::vector<StoredFrame>& frames() const { return frames_; }
     std::int64_t next_ordinal() const { return next_ordinal_; }
     std::size_t bytes() const { return bytes_; }
-    int stride() const { return stride_; }  // of the ordinals kept: 1 until the limit was reached
+    // Of the stored ordinals; 1 until the limit is first reached.
+    int stride() const { return stride_; }
 
   private:
     void Thin();
@@ -74,7 +75,9 @@ class FrameStore {
     std::size_t limit_bytes_, bytes_ = 0;
     double depth_units_per_m_;
     std::int64_t next_ordinal_ = 0;
-    std::int64_t first_own_ = 0;  // ordinal: what is before it was resumed; a source may count anew
+    // First ordinal of this process; earlier frames were resumed, and their frame indices may
+    // repeat.
+    std::int64_t first_own_ = 0;
     int stride_ = 1;
     std::vector<StoredFrame> frames_;
     PngEncoder encoder_;

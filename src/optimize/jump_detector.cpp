@@ -7,10 +7,11 @@
 namespace tessera {
 
 std::optional<Eigen::Isometry3d> JumpDetector::Follow(const Eigen::Isometry3d& T_map_camera) {
-    // Of no calm hand, from one frame to the next.
+    // Smallest deviation that counts as a jump: more than a calm hand moves between two frames.
     constexpr double kLeast_m = 0.02, kLeast_rad = 0.015;
-    constexpr double kTimes = 6;    // what was usual lately: of no shaky one
-    constexpr double kShare = 0.1;  // of the newest frame in what is usual
+    // And this many times the recent deviation, so that shaky motion is no jump.
+    constexpr double kTimes = 6;
+    constexpr double kShare = 0.1;  // weight of the newest frame in the running mean
     std::optional<Eigen::Isometry3d> expected;
     if (followed_ == 2) {
         const Eigen::Isometry3d T_map_expected = Normalised(T_map_last_ * T_before_last_);
@@ -19,7 +20,7 @@ std::optional<Eigen::Isometry3d> JumpDetector::Follow(const Eigen::Isometry3d& T
         if (off_m > std::max(kLeast_m, kTimes * usual_m_) ||
             off_rad > std::max(kLeast_rad, kTimes * usual_rad_))
             expected = T_map_expected;
-        // A jump is not usual, but what comes again and again is.
+        // Limits the effect of a single jump; frequent ones raise the running mean.
         usual_m_ += kShare * (std::min(off_m, kLeast_m + 2 * usual_m_) - usual_m_);
         usual_rad_ += kShare * (std::min(off_rad, kLeast_rad + 2 * usual_rad_) - usual_rad_);
     }

@@ -1,4 +1,4 @@
-// Tells a tracker that slipped from one surface to another from a camera that moved.
+// Detects when tracking jumps from one surface to another, as opposed to camera motion.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -9,20 +9,20 @@ namespace tessera {
 // Owner thread only.
 class JumpDetector {
   public:
-    // The pose of each tracked frame, in order. A value: where the camera was expected, going on as
-    // before, as it is farther from there than a hand moves it and far farther than it was lately.
-    // After one, the next frame is taken as it is.
+    // Call with the pose of each tracked frame, in order. Returns the pose predicted by constant
+    // velocity if the given pose deviates from it by more than a hand moves and by much more than
+    // recently. The frame after a jump is accepted as it is.
     std::optional<Eigen::Isometry3d> Follow(const Eigen::Isometry3d& T_map_camera);
-    // The map was moved, the last pose with it.
+    // The map was moved, and the last pose with it.
     void Move(const Eigen::Isometry3d& T_new_old) { T_map_last_ = T_new_old * T_map_last_; }
-    // What lies between the last frame and the next is not known.
+    // Call if the motion between the last frame and the next is unknown.
     void Reset() { followed_ = 0; }
 
   private:
     Eigen::Isometry3d T_map_last_ = Eigen::Isometry3d::Identity(),
                       T_before_last_ = Eigen::Isometry3d::Identity();
-    int followed_ = 0;                    // frames since the last break, at most 2
-    double usual_m_ = 0, usual_rad_ = 0;  // off the expected pose, smoothed over frames
+    int followed_ = 0;                    // frames since the last interruption, at most 2
+    double usual_m_ = 0, usual_rad_ = 0;  // running mean of the deviation from the prediction
 };
 
 }  // namespace tessera

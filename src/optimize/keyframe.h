@@ -1,5 +1,5 @@
-// One remembered view: what is needed to recognise it, to link it with others and to move what was
-// fused by it.
+// A keyframe: the data to recognise it, to link it with others and to move what was fused relative
+// to it.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -11,21 +11,21 @@
 
 namespace tessera {
 
-inline constexpr int kKeyframeReduction = 16;  // of Keyframe::depth_m, against the image
+inline constexpr int kKeyframeReduction = 16;  // of Keyframe::depth_m relative to the image
 
 struct Keyframe {
-    int id = 0;  // position in the list of all
+    int id = 0;  // index in the list of keyframes
     std::int64_t frame_index = 0;
     double stamp_s = 0;
-    // Where the present map has it.
+    // Pose in the current map.
     Eigen::Isometry3d T_map_camera = Eigen::Isometry3d::Identity();
-    // By the pose graph: where it belongs.
+    // Pose according to the pose graph.
     Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity();
     Features features;
-    DepthImage depth_m;  // much reduced, of `view`
+    DepthImage depth_m;  // reduced, with camera `view`
     PinholeCamera view;
-    double way_m = 0, turned_rad = 0;  // that the camera went and turned before it came here
-    double inlier_fraction = 0;        // of the tracked frame, TrackResult
+    double way_m = 0, turned_rad = 0;  // distance and rotation that the camera covered before it
+    double inlier_fraction = 0;        // TrackResult::inlier_fraction of its frame
 };
 
 }  // namespace tessera

@@ -1,5 +1,5 @@
-// Which views are remembered: a new one where the last one has left less than a certain share of
-// the picture.
+// Selects keyframes: adds one when the view shares less than a given fraction with the last
+// keyframe.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -12,38 +12,38 @@
 
 namespace tessera {
 
-// Of the points of `depth_m` (of the camera `view`), the share that the same camera sees in its
-// image from where T_other_this puts it, at most a fifth larger or smaller: walking straight ahead,
-// too, one sees new things. 0 if there are none. Thread-safe.
+// Share of the points of `depth_m` (camera `view`) that the same camera sees after moving by
+// T_other_this. Points whose depth changes by more than a fifth do not count, so that walking
+// straight ahead also yields keyframes. 0 if there are no points. Thread-safe.
 double ViewOverlap(const DepthImage& depth_m, const PinholeCamera& view,
                    const Eigen::Isometry3d& T_other_this);
 
-// The nearest pixel of every step-th, for ViewOverlap.
+// Subsamples every step-th pixel, for ViewOverlap.
 DepthImage ReducedDepth(const DepthImage& depth_m, int step);
 
 // Owner thread only.
 class Keyframes {
   public:
-    // `max_overlap`: the share that a new keyframe may have in common with the last. `max_features`
-    // of each.
+    // `max_overlap`: the largest share that a new keyframe may have in common with the last.
+    // `max_features`: per keyframe.
     Keyframes(const PinholeCamera& camera, double max_overlap, int max_features)
         : camera_(camera), max_overlap_(max_overlap), max_features_(max_features) {}
 
-    // Every tracked frame, in order: counts the way.
+    // Call for every tracked frame, in order. Accumulates the path length and rotation.
     void Follow(const Eigen::Isometry3d& T_map_camera);
-    // Whether a frame, the last one followed, should become one.
+    // True if the frame, the last one followed, should become a keyframe.
     bool Wanted(const PreparedFrame& frame, const Eigen::Isometry3d& T_map_camera) const;
-    // Its T_world_camera is the last keyframe's, moved on by as much as it is away in the map.
+    // Sets its T_world_camera from the last keyframe's and their relative pose in the map.
     Keyframe& Add(std::int64_t frame_index, double stamp_s, const PreparedFrame& frame,
                   const TrackResult& track);
-    // The map was moved, the last pose with it: the way goes on from there.
+    // The map was moved, and the last pose with it; the path continues from there.
     void Move(const Eigen::Isometry3d& T_new_old) { T_map_last_ = T_new_old * T_map_last_; }
 
-    // Before the first: goes on after keyframes of an earlier run; the way goes on from the last
-    // one.
+    // Before the first Add: continues with the keyframes of an earlier run. The path continues from
+    // the last one.
     void Resume(std::vector<Keyframe> keyframes);
 
-    // What lies between the last frame and the next is no way that was gone.
+    // The step from the last frame to the next does not count as path.
     void Jump() { followed_ = false; }
 
     bool empty() const { return keyframes_.empty(); }

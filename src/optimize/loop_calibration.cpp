@@ -1,4 +1,4 @@
-// LoopCloser's part in self-calibration: what it compares, and what comes of it.
+// Self-calibration part of LoopCloser: selects the views to compare and applies the result.
 #include <utility>
 
 #include "core/se3.h"
@@ -7,7 +7,7 @@
 
 namespace tessera {
 
-// A view of each keyframe, as it is measured with the present settings.
+// Loads a view of each keyframe, prepared with the current settings.
 Status LoopCloser::LoadViews(std::vector<CalibrationView>& views) {
     Frame frame;
     PreparedFrame prepared;
@@ -16,20 +16,20 @@ Status LoopCloser::LoadViews(std::vector<CalibrationView>& views) {
         Status loaded =
             store_.LoadPrepared(stored, settings_.camera, settings_.preparation, frame, prepared);
         if (!loaded.ok())
-            return Status::Error("calibration: the given one stays, " + loaded.message());
+            return Status::Error("calibration: keeping the given values, " + loaded.message());
         views.emplace_back(prepared.depth_m);
     }
     if (static_cast<int>(views.size()) != keyframes_.size())
         return Status::Error(
-            "calibration: the given one stays, some keyframes' frames were let go; raise "
+            "calibration: keeping the given values, some keyframes' frames were dropped; raise "
             "loops.memory_limit_mb");
     return Status::Ok();
 }
 
-// Compares keyframes that follow each other, every second, and loops. No frame may come after it:
-// features and the field's checks are of the calibration that was given.
+// Compares consecutive keyframes, keyframes two apart, and loops. No frame may be added afterwards:
+// features and field checks belong to the original calibration.
 Status LoopCloser::Calibrate() {
-    constexpr double kNothing = 1e3;  // standard deviation of what is not known
+    constexpr double kNothing = 1e3;  // standard deviation of unknown values
     std::vector<CalibrationView> views;
     if (Status loaded = LoadViews(views); !loaded.ok()) return loaded;
     std::vector<PoseEdge> edges = edges_;

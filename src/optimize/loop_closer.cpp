@@ -30,7 +30,7 @@ void LoopCloser::Resume(Memory memory) {
     for (int i = 0; i < keyframes_.size(); ++i) index_.Add(i, keyframes_[i].features.descriptors);
     edges_ = std::move(memory.edges);
     passages_ = std::move(memory.passages);
-    // Detections of classes that this run does not have.
+    // Drops detections of classes that this run does not have.
     for (StoredFrame& frame : memory.frames)
         if (frame.detections)
             std::erase_if(*frame.detections, [&](const Detection& d) {
@@ -47,9 +47,9 @@ std::string LoopCloser::Add(const Frame& frame, const PreparedFrame& prepared,
     std::string news;
     const Eigen::Isometry3d& T_map_camera = track.T_world_camera;
     keyframes_.Follow(T_map_camera);
-    // In a map that is known to hold places twice, or that has just been replaced, tracking may
-    // jump from one surface to the other. What comes then hangs on a new keyframe, and that on
-    // where the camera was expected.
+    // If the map holds some places twice, or was just replaced, tracking may jump from one surface
+    // to the other. In that case a new keyframe starts here, linked at the pose where the camera
+    // was expected.
     const std::optional<Eigen::Isometry3d> expected = jumps_.Follow(T_map_camera);
     const bool jumped = expected && (rebuild_ || swapped_) && !relocalised_at_;
     const bool keyframe =
@@ -67,7 +67,7 @@ std::string LoopCloser::Add(const Frame& frame, const PreparedFrame& prepared,
         index_.Add(last.id, last.features.descriptors);
     }
     if (keyframe && rebuild_) {
-        // As the graph has it, which a loop may just have told better than tracking.
+        // Uses the relative pose of the graph: a loop may just have corrected the tracked one.
         const Keyframe& before = keyframes_[last.id - 1];
         rebuild_->AddKeyframe(Normalised(rebuild_->T_world_keyframe().back() *
                                          before.T_world_camera.inverse() * last.T_world_camera));
@@ -102,9 +102,8 @@ void LoopCloser::AddKeyframe(const Frame& frame, const PreparedFrame& prepared,
 
 void LoopCloser::Link(int from, int to, const Eigen::Isometry3d& T_map_to) {
     const Keyframe &a = keyframes_[from], &b = keyframes_[to], &before = keyframes_[to - 1];
-    // What tracking against the map loses on the way: a little for each keyframe, and a share of
-    // the way.
-    constexpr double kTwice = 10.0;  // where it may have jumped
+    // Drift of tracking against the map: a constant per keyframe plus a share of the distance.
+    constexpr double kTwice = 10.0;  // factor where tracking may have jumped
     const double trust =
         (b.inlier_fraction < config_.min_fit ? 2.0 : 1.0) * (rebuild_ || swapped_ ? kTwice : 1.0);
     edges_.push_back({from, to, Normalised(a.T_map_camera.inverse() * T_map_to),
@@ -126,8 +125,8 @@ std::string LoopCloser::SeekLoop(const Keyframe& fresh, const PreparedFrame& pre
     return {};
 }
 
-// A loop that tracking has closed by itself is kept as it is: the whole map knows better than two
-// frames.
+// Keeps the tracked pose if tracking has already closed the loop: the full map is more accurate
+// than two frames.
 std::string LoopCloser::CloseLoop(const Keyframe& old, const Keyframe& fresh,
                                   const FieldVerdict& verdict) {
     constexpr double kSigma_m = 0.01, kSigma_rad = 0.005;
@@ -145,7 +144,7 @@ std::string LoopCloser::CloseLoop(const Keyframe& old, const Keyframe& fresh,
                        old.frame_index, 100 * drift.off_m, drift.off_rad * 57.29578);
 }
 
-// On error the keyframes stay where they are.
+// On error the keyframes do not move.
 Status LoopCloser::Optimise() {
     std::vector<Eigen::Isometry3d> poses;
     for (int i = 0; i < keyframes_.size(); ++i) poses.push_back(keyframes_[i].T_world_camera);
@@ -156,11 +155,11 @@ Status LoopCloser::Optimise() {
     return Status::Ok();
 }
 
-// Of several places the one that explains the view, if it does so far better than any other.
+// Returns the place that explains the view best, if it does so much better than all others.
 std::optional<Eigen::Isometry3d> LoopCloser::Relocalise(const PreparedFrame& frame,
                                                         std::string& note) {
     constexpr double kApart_m = 0.3, kApart_rad = 0.3, kAsWell = 0.6;
-    // Times as many as for a loop: nothing else tells where the camera is.
+    // Factor compared with a loop: no prior pose narrows down the search.
     constexpr int kManyCandidates = 4;
     struct Place {
         int keyframe = 0;
@@ -192,13 +191,13 @@ std::optional<Eigen::Isometry3d> LoopCloser::Relocalise(const PreparedFrame& fra
     std::ranges::stable_sort(places, std::greater{}, &Place::explained);
     const Place& best = places.front();
     if (places.size() > 1 && places[1].explained >= kAsWell * best.explained) {
-        note = fmt::format("this could be at frame {} or at frame {}",
+        note = fmt::format("ambiguous place: frame {} or frame {}",
                            keyframes_[best.keyframe].frame_index,
                            keyframes_[places[1].keyframe].frame_index);
         return std::nullopt;
     }
     relocalised_at_ = best.keyframe;
-    note = fmt::format("found again, at frame {}", keyframes_[best.keyframe].frame_index);
+    note = fmt::format("relocalised at frame {}", keyframes_[best.keyframe].frame_index);
     keyframes_.Jump();
     jumps_.Reset();
     return best.T_map_camera;

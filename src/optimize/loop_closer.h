@@ -1,6 +1,6 @@
-// Global consistency: keyframes, loops between them, where they belong by the pose graph, and the
-// map made again there; and the place of a camera that was lost. Reads frames as they are tracked
-// and fused; never touches the map in use, but hands out a corrected one when it is ready.
+// Global consistency: keeps keyframes, finds loops, optimises the pose graph and rebuilds the map
+// from the corrected poses. Also relocalises a lost camera. Reads frames as they are tracked and
+// fused. Never modifies the map in use, but hands out a corrected one when it is ready.
 #pragma once
 
 #include <functional>
@@ -21,15 +21,14 @@
 
 namespace tessera {
 
-// Owner thread only. The same result for any number of threads.
+// Owner thread only. The result does not depend on the number of threads.
 class LoopCloser {
   public:
-    // In place of the map so far; poses of cameras in it are to be moved likewise: T_new =
-    // T_new_old * T_old.
+    // Replaces the current map. Move camera poses in it likewise: T_new = T_new_old * T_old.
     struct Correction {
         std::unique_ptr<BlockMap> map;
-        std::unique_ptr<LabelMapper> labels;  // of the map, where labels are kept
-        // The one that was made for the map, where they are; it has all of it.
+        std::unique_ptr<LabelMapper> labels;  // of the new map; null without labels
+        // The pager made for the new map, null without paging; it holds all of the map.
         std::unique_ptr<MapPager> pager;
         Eigen::Isometry3d T_new_old = Eigen::Isometry3d::Identity();
     };
@@ -39,7 +38,7 @@ class LoopCloser {
         int keyframe = 0;
         Eigen::Isometry3d T_keyframe_camera;
     };
-    // What it takes to go on in another process.
+    // State needed to continue in another process.
     struct Memory {
         std::vector<Keyframe> keyframes;
         std::vector<PoseEdge> edges;
@@ -50,45 +49,45 @@ class LoopCloser {
         bool corrected = false;
     };
 
-    // Whether objects are labelled, and as what.
+    // Labelling settings and classes, if objects are labelled.
     struct Labels {
         LabelConfig config;
         LabelClasses classes;
     };
 
-    // `make_pager`: for each corrected map one that keeps it within a memory limit; empty: there is
-    // none.
+    // `make_pager`: makes a pager that keeps a corrected map within a memory limit. Empty: no
+    // paging.
     using MakePager = std::function<Result<std::unique_ptr<MapPager>>()>;
     LoopCloser(const LoopConfig& config, const FieldSettings& settings, double depth_units_per_m,
                std::optional<Labels> labels = std::nullopt, MakePager make_pager = {});
 
-    // Before the first Add. A corrected map that was being made then is begun again.
+    // Before the first Add. Restarts a corrected map that was in progress.
     void Resume(Memory memory);
 
-    // Every tracked frame, after its fusion, if it was fused. Returns what a person should know,
-    // mostly empty.
+    // Call for every tracked frame, after its fusion if it was fused. Returns a message for the
+    // user, usually empty.
     std::string Add(const Frame& frame, const PreparedFrame& prepared, const TrackResult& track,
                     const Integrator::View& view, bool fused);
-    // What was seen in a frame that was added, whenever it is known.
+    // Adds the detections of an earlier frame, at any time.
     void AddDetections(std::int64_t frame_index, std::vector<Detection> detections) {
         store_.AddDetections(frame_index, std::move(detections));
     }
-    // A tracked frame of which nothing but the pose is kept.
+    // For a tracked frame of which only the pose is kept.
     void Pass(double stamp_s, const Eigen::Isometry3d& T_map_camera);
-    // T_map_camera of a frame whose camera is lost; nothing if it was not here before, or if it
-    // could be at two places. `note` says what was found.
+    // Returns T_map_camera for a frame of a lost camera. Empty if the place is unknown or
+    // ambiguous. `note`: message for the user.
     std::optional<Eigen::Isometry3d> Relocalise(const PreparedFrame& frame, std::string& note);
-    // Works on the corrected map: fuses at most so many stored frames into it.
+    // Works on the corrected map: fuses at most this many stored frames into it.
     std::optional<Correction> Step(int frames);
-    // Whether Step has anything to do.
+    // True if Step has work to do.
     bool HasWork() const { return rebuild_ != nullptr || moved_; }
-    // Why the map is no longer corrected, for a person; mostly empty, and said once.
+    // Returns once why the map is no longer corrected; usually empty.
     std::string TakeTrouble() { return std::exchange(trouble_, {}); }
-    // At the end: whatever is still to be corrected; the calibration, if it is to be refined:
-    // `note` says what was found.
+    // At the end of a run: makes all remaining corrections, and refines the calibration if
+    // configured. `note`: message for the user about the calibration.
     std::optional<Correction> Finish(std::string& note);
 
-    // The frames' poses as they are known now, in order.
+    // Corrected poses of all frames, in order.
     std::vector<StampedPose> Path() const;
     const Keyframes& keyframes() const { return keyframes_; }
     const std::vector<PoseEdge>& edges() const { return edges_; }
@@ -96,7 +95,7 @@ class LoopCloser {
     int loops() const { return loops_; }
     bool corrected() const { return corrected_; }
     const FrameStore& store() const { return store_; }
-    // After Finish, where the calibration was to be refined and enough was seen for an estimate.
+    // Set after Finish if the calibration was refined and the scan allowed an estimate.
     const std::optional<CalibrationReport>& calibration() const { return calibration_; }
 
   private:
@@ -126,15 +125,15 @@ class LoopCloser {
     LoopVerifier verifier_;
     std::vector<PoseEdge> edges_;
     std::vector<Passage> passages_;
-    std::unique_ptr<MapRebuild> rebuild_;  // null when the map is right
-    std::optional<int> relocalised_at_;    // the keyframe that the next one hangs on
+    std::unique_ptr<MapRebuild> rebuild_;  // null if the map is up to date
+    std::optional<int> relocalised_at_;    // keyframe to which the next one is linked
     int loops_ = 0;
-    bool corrected_ = false;  // some loop was worth it
+    bool corrected_ = false;  // at least one loop was worth correcting
     std::optional<CalibrationReport> calibration_;
-    bool broken_ = false;  // no further map can be made
+    bool broken_ = false;  // no further map can be built
     std::string trouble_;
-    bool moved_ = false;    // keyframes, since Step looked last
-    bool swapped_ = false;  // the map, since the last keyframe
+    bool moved_ = false;    // keyframes moved since the last Step
+    bool swapped_ = false;  // the map was replaced after the last keyframe
 };
 
 }  // namespace tessera

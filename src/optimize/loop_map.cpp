@@ -1,4 +1,5 @@
-// LoopCloser's corrected maps: when one is made, step by step, and what is done at a run's end.
+// Corrected maps of LoopCloser: when to build one, how to build it step by step, and the end of a
+// run.
 #include <algorithm>
 #include <limits>
 #include <utility>
@@ -8,8 +9,8 @@
 
 namespace tessera {
 
-// Of any point half a view away, between a map made with these poses of the keyframes and the pose
-// graph.
+// Largest displacement of any point within 2 m of a keyframe, between a map made with these
+// keyframe poses and the pose graph.
 double LoopCloser::FarthestOff_m(const std::vector<Eigen::Isometry3d>& T_map_keyframe) const {
     constexpr double kReach_m = 2.0;
     double farthest = 0;
@@ -22,7 +23,8 @@ double LoopCloser::FarthestOff_m(const std::vector<Eigen::Isometry3d>& T_map_key
     return farthest;
 }
 
-// True if one is under way, or if the map is off by more than the tolerance.
+// Returns true if a rebuild is in progress, or was started because the map is off by more than the
+// tolerance.
 bool LoopCloser::BeginRebuild(double tolerance_m) {
     if (rebuild_) return true;
     if (broken_ || !corrected_) return false;
@@ -79,12 +81,12 @@ std::optional<LoopCloser::Correction> LoopCloser::StepRebuild(int frames) {
 void LoopCloser::GiveUp(const Status& why) {
     rebuild_.reset();
     broken_ = true;
-    trouble_ = "the map is no longer corrected, the path is: " + why.message();
+    trouble_ = "map correction stopped, the trajectory is still corrected: " + why.message();
 }
 
 std::optional<LoopCloser::Correction> LoopCloser::Finish(std::string& note) {
     std::optional<Correction> last;
-    if (corrected_) static_cast<void>(Optimise());  // if it fails, what was corrected before holds
+    if (corrected_) static_cast<void>(Optimise());  // on error the earlier correction remains
     if (config_.refine_calibration && !keyframes_.empty()) {
         const FieldSettings given = settings_;
         const Status status = Calibrate();
@@ -98,7 +100,7 @@ std::optional<LoopCloser::Correction> LoopCloser::Finish(std::string& note) {
     }
     if (!corrected_) return last;
     const double tolerance_m = settings_.map.voxel_size_m / 10;
-    // Of a path that is no more.
+    // Discards a rebuild with outdated poses.
     if (rebuild_ && FarthestOff_m(rebuild_->T_world_keyframe()) >= tolerance_m) rebuild_.reset();
     while (BeginRebuild(tolerance_m))
         if (auto next = StepRebuild(std::numeric_limits<int>::max())) last = std::move(next);

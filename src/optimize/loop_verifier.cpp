@@ -28,8 +28,8 @@ FieldVerdict LoopVerifier::VerifyLoop(const Keyframes& keyframes, const Keyframe
         refused.reason =
             fmt::format("{} features fit, spread over {:.2f} m", match.inliers, match.spread_m);
     else if (!drift.possible)
-        refused.reason = fmt::format("it would take a drift of {:.2f} m and {:.2f} rad",
-                                     drift.off_m, drift.off_rad);
+        refused.reason = fmt::format("it implies a drift of {:.2f} m and {:.2f} rad", drift.off_m,
+                                     drift.off_rad);
     if (!refused.reason.empty()) return refused;
     const Eigen::Isometry3d T_old_new_expected = old.T_map_camera.inverse() * fresh.T_map_camera;
     if (NothingToCorrect(match.T_old_new, T_old_new_expected)) {
@@ -42,8 +42,8 @@ FieldVerdict LoopVerifier::VerifyLoop(const Keyframes& keyframes, const Keyframe
                         {prepared, motion, match.T_old_new, T_old_new_expected}, store);
 }
 
-// Features and map agree so well that the field, which costs a hundred times as much, could not
-// move anything.
+// Features and map agree so well that the field check, which costs a hundred times as much, could
+// not correct anything.
 bool LoopVerifier::NothingToCorrect(const Eigen::Isometry3d& T_measured,
                                     const Eigen::Isometry3d& T_expected) const {
     return (T_measured.translation() - T_expected.translation()).norm() <
@@ -58,7 +58,7 @@ FieldVerdict LoopVerifier::VerifyPlace(const Keyframes& keyframes, const Keyfram
                         store);
 }
 
-// The keyframe's own frame first, then others of it and of its two neighbours, evenly.
+// The keyframe's own frame first, then an even sample of frames of it and its two neighbours.
 std::vector<NearFrame> LoopVerifier::FramesNear(const Keyframes& keyframes, int keyframe,
                                                 const FrameStore& store) const {
     constexpr std::size_t kMost = 4;
@@ -70,7 +70,7 @@ std::vector<NearFrame> LoopVerifier::FramesNear(const Keyframes& keyframes, int 
         const bool own = frame->keyframe == keyframe && frame->is_keyframe;
         const Eigen::Isometry3d T_keyframe_camera =
             T_keyframe_world * keyframes[frame->keyframe].T_map_camera * frame->T_keyframe_camera;
-        // A loss may lie between two keyframes.
+        // Tracking may have been lost between two keyframes.
         if (T_keyframe_camera.translation().norm() > 0.5) continue;
         if (own)
             near.front() = {&*frame, T_keyframe_camera};

@@ -1,5 +1,6 @@
-// Whether two views are of one place, and how they lie to each other: by features, then by drift,
-// then by the field. Wrong loops ruin a map, missed ones do little harm: it errs on the side of no.
+// Decides whether two views show the same place and finds their relative pose: by features, then
+// drift, then field. A wrong loop ruins the map, a missed one does little harm, so the checks are
+// strict.
 #pragma once
 
 #include "optimize/feature_match.h"
@@ -8,13 +9,13 @@
 
 namespace tessera {
 
-// What an odometry that ends there would have to be off by, and whether it can be.
+// Drift of the odometry that a loop implies, and whether it is plausible.
 struct Drift {
     double off_m = 0, off_rad = 0;
     bool possible = false;
 };
 
-// Between two keyframes whose true relation would be T_old_new.
+// Between two keyframes, if their true relative pose is T_old_new.
 Drift DriftOf(const Keyframe& old, const Keyframe& fresh, const Eigen::Isometry3d& T_old_new,
               double max_drift);
 
@@ -24,11 +25,11 @@ class LoopVerifier {
     LoopVerifier(const FieldSettings& settings, const LoopConfig& config)
         : config_(config), field_(settings, config) {}
 
-    // Of a keyframe `fresh`, made of the frame `prepared`.
+    // For a keyframe `fresh`, made from the frame `prepared`.
     FieldVerdict VerifyLoop(const Keyframes& keyframes, const Keyframe& old, const Keyframe& fresh,
                             const PreparedFrame& prepared, const FrameMotion& motion,
                             FrameStore& store);
-    // By the field alone, of a lost camera's frame that the features put at T_old_new.
+    // Field check only, for a frame of a lost camera that the features place at T_old_new.
     FieldVerdict VerifyPlace(const Keyframes& keyframes, const Keyframe& old,
                              const PreparedFrame& fresh, const Eigen::Isometry3d& T_old_new,
                              FrameStore& store);

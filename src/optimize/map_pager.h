@@ -1,5 +1,5 @@
-// How a map that is being made is kept within a memory limit: what is far from the frames' cameras
-// leaves it and comes back.
+// Keeps a map that is being rebuilt within a memory limit: pages out blocks far from the cameras
+// and back in.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -9,19 +9,20 @@
 
 namespace tessera {
 
-// Of one map; `labels` are that map's, null without. Owner thread only. After an error the map is
-// of no use.
+// One pager per map. `labels` belong to that map; null without labels. Owner thread only. After an
+// error the map must not be used.
 class MapPager {
   public:
     virtual ~MapPager() = default;
 
-    // Before a frame is fused: what its camera may see is there.
+    // Call before fusing a frame: pages in what its camera may see.
     virtual Status Bring(const Eigen::Isometry3d& T_world_camera, BlockMap& map,
                          LabelMapper* labels) = 0;
-    // After it: the map is below the limit, if what the camera may see is.
+    // Call after fusing: pages out until the map is below the limit, as far as the camera's view
+    // allows.
     virtual Status Release(const Eigen::Isometry3d& T_world_camera, BlockMap& map,
                            LabelMapper* labels) = 0;
-    // After the last one: what is still there is stored, too.
+    // Call after the last frame: also stores what is still in memory.
     virtual Status Complete(const BlockMap& map) = 0;
 };
 

@@ -22,7 +22,7 @@ Result<bool> MapRebuild::Step(FrameStore& store, int frames) {
     auto next = std::ranges::lower_bound(stored, next_ordinal_, {}, &StoredFrame::ordinal);
     for (int i = 0; i < frames && next != stored.end(); ++i, ++next) {
         next_ordinal_ = next->ordinal + 1;
-        // The map does without.
+        // Skips a frame that cannot be loaded.
         if (!store.LoadPrepared(*next, camera_, preparation_, frame_, prepared_).ok()) continue;
         if (Status status = Fuse(*next); !status.ok()) return status;
     }
@@ -32,7 +32,7 @@ Result<bool> MapRebuild::Step(FrameStore& store, int frames) {
     return done;
 }
 
-// The frame that was loaded.
+// Fuses the loaded frame.
 Status MapRebuild::Fuse(const StoredFrame& stored) {
     Integrator::View view = stored.view;
     view.T_world_camera =

@@ -1,6 +1,6 @@
-// The map made again from the stored frames, with their keyframes where they belong now, a few
-// frames at a time while the old map is still in use. The result is by construction a fresh fusion
-// with the new poses.
+// Rebuilds the map from the stored frames with corrected keyframe poses, a few frames at a time,
+// while the old map stays in use. By construction the result equals a fresh fusion with the new
+// poses.
 #pragma once
 
 #include <memory>
@@ -17,9 +17,8 @@ namespace tessera {
 // Owner thread only.
 class MapRebuild {
   public:
-    // `T_world_keyframe` by keyframe; those that come later are to be added.
-    // With `labels`, a new one, the frames' detections are voted in, too. With `pager` part of the
-    // map is with it.
+    // `T_world_keyframe`: by keyframe; add later keyframes with AddKeyframe. `labels`: a new mapper
+    // that receives the frames' detections; may be null. `pager`: if given, holds part of the map.
     MapRebuild(const FieldSettings& settings, std::vector<Eigen::Isometry3d> T_world_keyframe,
                std::unique_ptr<LabelMapper> labels, std::unique_ptr<MapPager> pager = nullptr);
 
@@ -28,8 +27,8 @@ class MapRebuild {
     }
     const std::vector<Eigen::Isometry3d>& T_world_keyframe() const { return T_world_keyframe_; }
 
-    // Fuses at most `frames` more. True: none is left, the map may be taken. After an error, the
-    // pager's, it is of no use.
+    // Fuses at most `frames` more. Returns true if none is left and the map can be taken. Errors
+    // come from the pager; after one the map must not be used.
     Result<bool> Step(FrameStore& store, int frames);
     std::unique_ptr<BlockMap> TakeMap() { return std::move(map_); }
     std::unique_ptr<LabelMapper> TakeLabels() { return std::move(labels_); }

@@ -9,9 +9,10 @@
 namespace tessera {
 namespace {
 
-// Of ORB's 256 bits, pairs of the same point mostly differ in fewer, of different points in more.
+// Hamming distance out of 256 bits. Most pairs of the same point are nearer, most of different
+// points farther.
 constexpr int kNear_bits = 44;
-// A bucket with more entries tells nothing: blank walls, repeated texture.
+// Larger buckets do not discriminate: blank walls, repeated texture.
 constexpr std::size_t kFull = 400;
 
 }  // namespace

@@ -1,6 +1,6 @@
-// Which remembered views have features like these? Locality-sensitive hashing of binary descriptors
-// with a vote for each that is really near: no vocabulary to train or to download, and it grows as
-// the scan goes.
+// Finds the keyframes with similar features. Locality-sensitive hashing of binary descriptors, with
+// one vote for each descriptor that is really near. Needs no vocabulary to train or download, and
+// grows with the scan.
 #pragma once
 
 #include <cstdint>
@@ -17,17 +17,17 @@ class PlaceIndex {
   public:
     struct Candidate {
         int keyframe = 0;
-        int votes = 0;  // descriptors of the query that have a near one there
+        int votes = 0;  // number of query descriptors with a near one there
 
         bool operator==(const Candidate&) const = default;
     };
 
     PlaceIndex();
 
-    // Keyframes are to be added in increasing order, each once.
+    // Add keyframes in increasing order, each once.
     void Add(int keyframe, std::span<const Descriptor> descriptors);
-    // The `count` keyframes below `end` with the most votes, and at least `min_votes`; most votes
-    // first, of equal ones the older first.
+    // Returns at most `count` keyframes below `end` with at least `min_votes`, most votes first,
+    // ties with the older one first.
     std::vector<Candidate> Query(std::span<const Descriptor> descriptors, int end, int count,
                                  int min_votes) const;
 

@@ -32,7 +32,8 @@ bool PoseGraphAvailable() { return true; }
 Result<PoseGraphReport> OptimisePoses(std::span<const PoseEdge> edges,
                                       std::vector<Eigen::Isometry3d>& T_world_camera) {
     constexpr int kMaxIterations = 50;
-    constexpr double kLoss = 3.0;  // standard deviations at which an edge begins to count less
+    // Standard deviations at which the loss starts to reduce an edge's weight.
+    constexpr double kLoss = 3.0;
     std::vector<PoseNode> nodes(T_world_camera.begin(), T_world_camera.end());
     std::vector<bool> used(nodes.size(), false);
     ceres::Problem problem;

@@ -1,4 +1,4 @@
-// In place of the pose graph in a build without Ceres: says so.
+// Stubs for builds without Ceres; they return errors.
 #include "optimize/calibration_solver.h"
 #include "optimize/pose_graph.h"
 
@@ -7,7 +7,7 @@ namespace tessera {
 bool PoseGraphAvailable() { return false; }
 
 Result<PoseGraphReport> OptimisePoses(std::span<const PoseEdge>, std::vector<Eigen::Isometry3d>&) {
-    return Status::Error("this build has no pose graph: install libceres-dev and build again");
+    return Status::Error("this build has no pose graph; install libceres-dev and rebuild");
 }
 
 double EdgeJacobianError(const PoseEdge&, const Eigen::Isometry3d&, const Eigen::Isometry3d&) {
@@ -17,7 +17,7 @@ double EdgeJacobianError(const PoseEdge&, const Eigen::Isometry3d&, const Eigen:
 Result<CalibrationEstimate> SolveCalibration(const CalibrationProblem&,
                                              const std::vector<Eigen::Isometry3d>&,
                                              const CalibrationMask&) {
-    return Status::Error("this build cannot calibrate: install libceres-dev and build again");
+    return Status::Error("this build cannot calibrate; install libceres-dev and rebuild");
 }
 
 }  // namespace tessera

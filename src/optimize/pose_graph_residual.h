@@ -1,4 +1,4 @@
-// An edge's residual, written once for numbers and for automatic derivatives.
+// Residual of an edge, as a template for plain numbers and automatic differentiation.
 #pragma once
 
 #include <Eigen/Geometry>

@@ -1,4 +1,4 @@
-// A pose as Ceres holds it.
+// A pose in the form that Ceres optimises.
 #pragma once
 
 #include <Eigen/Geometry>

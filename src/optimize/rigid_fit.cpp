@@ -35,7 +35,7 @@ std::vector<int> Inliers(Points p_a, Points p_b, const Eigen::Isometry3d& T_a_b,
     return inliers;
 }
 
-// Wrong triples mostly differ in their sides.
+// Cheap test: most wrong triples differ in the lengths of their sides.
 bool SameTriangle(Points p_a, Points p_b, const int (&triple)[3], double tolerance_m) {
     for (int i = 0; i < 3; ++i) {
         const auto m = static_cast<std::size_t>(triple[i]),

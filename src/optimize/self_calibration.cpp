@@ -10,8 +10,8 @@ namespace {
 using U = CalibrationUnknowns;
 
 bool Shown(const CalibrationEstimate& estimate, U::Index which) {
-    constexpr double kSigmas = 5;  // of jackknives over few parts, whose tails are wide
-    // Of which depth cameras are off; further is another fault.
+    constexpr double kSigmas = 5;  // jackknifes over few parts have wide tails
+    // Largest errors of real depth cameras; larger estimates have another cause.
     constexpr double kMost[] = {0.1, 0.03};
     const double value = std::abs(estimate.unknowns.values[which]);
     return value > kSigmas * estimate.sigma[which] && value < kMost[which];

@@ -1,6 +1,6 @@
-// What a depth camera's calibration lacks, from its own views of a still scene: surfaces that are
-// seen from several places agree only if they are measured right. Depth images and poses are solved
-// for together.
+// Estimates calibration errors of a depth camera from its own views of a static scene. Surfaces
+// seen from several places agree only if they are measured correctly. Solves jointly for
+// calibration and poses.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -14,13 +14,12 @@
 
 namespace tessera {
 
-// `edges`: which views are to be compared, and what is known of their poses, T_world_camera,
-// without it. An estimate is `shown` where it is further than five of its standard deviations
-// (Deviations, calibration_fit.h) from the given value; the disparity offset, which a scan shows
-// less well and which can make up for other errors, is left at its value where it is not shown.
-// Moves the poses along if shown; the first view stays. An error where too little is seen twice or
-// where Ceres is missing; the poses are then as they were. One thread: the same result on every
-// run.
+// `edges`: which views to compare, and what is known about their poses T_world_camera without this
+// comparison. An estimate is `shown` if it differs from the given value by more than five of its
+// standard deviations (Deviations, calibration_fit.h). The disparity offset is less observable and
+// can absorb other errors, so it stays at its value unless shown. If shown, also updates the poses;
+// the first view stays fixed. Error if the overlap is too small or Ceres is missing; the poses are
+// then unchanged. Runs on one thread; deterministic.
 Result<CalibrationReport> RefineCalibration(const PinholeCamera& camera,
                                             const std::vector<CalibrationView>& views,
                                             std::span<const PoseEdge> edges,

@@ -1,15 +1,15 @@
-// How this library has Ceres solve sparse problems. Only for sources that Ceres is there for.
+// Common Ceres options for sparse problems. Include only in sources that are built with Ceres.
 #pragma once
 
 #include <ceres/ceres.h>
 
 namespace tessera {
 
-// Silent, on the calling thread: the same result on every run.
+// No logging, runs on the calling thread; deterministic.
 inline ceres::Solver::Options SparseSolverOptions(int max_iterations) {
     ceres::Solver::Options options;
     options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
-    // SuiteSparse would bring a BLAS whose threads are not ours to count.
+    // SuiteSparse would bring in a BLAS with threads that we do not control.
     if (ceres::IsSparseLinearAlgebraLibraryTypeAvailable(ceres::EIGEN_SPARSE))
         options.sparse_linear_algebra_library_type = ceres::EIGEN_SPARSE;
     options.max_num_iterations = max_iterations;

@@ -26,8 +26,8 @@ GeometryVertex MakeVertex(const BlockMesh& owner, const BlockMesh::Vertex& verte
     return out;
 }
 
-// Index of a vertex by VertexRef. All entries are kUnresolved between two calls of Build, so that a
-// call's cost follows the block's vertices.
+// Vertex index by VertexRef. All entries are kUnresolved between calls of Build, so that the cost
+// of a call depends only on the block's vertices.
 std::vector<std::uint16_t>& IndexTable() {
     thread_local std::vector<std::uint16_t> table(kRefs, kUnresolved);
     return table;

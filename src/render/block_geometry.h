@@ -1,5 +1,5 @@
-// One block's mesh as a graphics card takes it: vertices of its own and copies of those that it
-// borrows from its neighbours, so that each block is drawn by itself, with 16-bit indices.
+// One block's mesh for the GPU: its own vertices and copies of those that it borrows from its
+// neighbours. So each block can be drawn by itself, with 16-bit indices.
 #pragma once
 
 #include <array>
@@ -12,27 +12,27 @@
 
 namespace tessera {
 
-// What else a person may want to see of a vertex, whatever is chosen at the moment: a window shades
-// by one or the other without asking for the mesh again.
+// Other vertex attributes that a viewer may want to display. Every vertex carries them, so a window
+// can change its shading without requesting the mesh again.
 struct VertexMark {
-    Rgb8 label_colour;        // of its object's class, or a grey
-    std::uint8_t weight = 0;  // WeightStep of the map's weight there
+    Rgb8 label_colour;        // colour of the object's class, or a grey
+    std::uint8_t weight = 0;  // WeightStep of the map's weight at the vertex
 };
-// Of a vertex of its owner; called from many threads at once.
+// Computes the mark of a vertex of `owner`. Called from many threads at once.
 using MarkVertex =
     std::function<VertexMark(const BlockMesh& owner, const BlockMesh::Vertex& vertex)>;
 
 struct GeometryVertex {
-    std::array<float, 3> position_voxels;  // from its sector's origin
-    std::array<std::int16_t, 2> normal;    // octahedral, unit is 32767; world frame
+    std::array<float, 3> position_voxels;  // relative to its sector's origin
+    std::array<std::int16_t, 2> normal;    // octahedral, 32767 = 1; world frame
     Rgb8 colour;
     std::uint8_t has_colour;  // 0 or 255
     VertexMark mark;
 };
 static_assert(sizeof(GeometryVertex) == 24);
 
-// The world in cubes, each with an origin of its own: positions within one fit into floats to a
-// ten-thousandth of a voxel, however far from the world's origin.
+// The world is divided into cubes, each with its own origin. Positions within one are accurate to a
+// ten-thousandth of a voxel in floats, however far from the world's origin.
 inline constexpr int kSectorBlocks = 128;
 inline BlockCoord SectorOf(const BlockCoord& block) {
     static_assert(kSectorBlocks == 1 << 7);
@@ -41,20 +41,21 @@ inline BlockCoord SectorOf(const BlockCoord& block) {
 
 struct BlockGeometry {
     std::vector<GeometryVertex> vertices;
-    std::vector<std::uint16_t> indices;  // three a triangle, counter-clockwise seen from outside
+    std::vector<std::uint16_t> indices;  // three per triangle, counter-clockwise seen from outside
 
-    // `meshes` by block id, as Mesher keeps them. A triangle with a vertex that its owner does not
-    // have (yet) is left out. Positions are taken from the origin of `mesh`'s sector, also those of
-    // neighbours in others. Without `mark` the marks are zero. Thread-safe for distinct geometries.
+    // `meshes` is indexed by block id, as in Mesher. Leaves out triangles with a vertex that its
+    // owner does not have (yet). All positions are relative to the origin of `mesh`'s sector, also
+    // those borrowed from neighbours in other sectors. Without `mark`, marks are zero. Thread-safe
+    // for distinct geometries.
     void Build(const BlockMesh& mesh, const std::vector<std::unique_ptr<const BlockMesh>>& meshes,
                const MarkVertex& mark = {});
 };
 
-// One block of the map's mesh, for whoever keeps a copy of it by block ids.
+// One block of the map's mesh, for holders of a copy indexed by block id.
 struct GeometryBlock {
     BlockId id = 0;
     BlockCoord coord;
-    BlockGeometry geometry;  // empty: no surface here (any more)
+    BlockGeometry geometry;  // empty if there is no surface (any more)
 };
 
 }  // namespace tessera

@@ -11,16 +11,16 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kFieldOfView_rad = 50 * std::numbers::pi / 180;
-constexpr double kFilled = 0.92;    // share of the picture that the mesh may take
-constexpr double kOutliers = 0.01;  // share of the vertices that may lie outside, per side
+constexpr double kFilled = 0.92;    // fraction of the picture that the mesh may fill
+constexpr double kOutliers = 0.01;  // fraction of the vertices that may lie outside, per side
 constexpr std::size_t kMaxSamples = 50000;
 
-// Directions in the world frame.
+// World-frame directions.
 struct Outlook {
     Vector3d up, forward;
 };
 
-// The direction's horizontal part pointed downwards by 25 to 70 degrees: steeper than it looks.
+// The direction's horizontal part, pointed downwards by 25 to 70 degrees: steeper than `direction`.
 Vector3d FromAbove(const Vector3d& direction, const Vector3d& up) {
     const Vector3d horizontal = direction - direction.dot(up) * up;
     const double looks_down_rad = std::atan2(-direction.dot(up), horizontal.norm());
@@ -36,9 +36,9 @@ Outlook OutlookOfPath(std::span<const Eigen::Isometry3d> path) {
         up -= T_world_camera.linear().col(1);
         forward += T_world_camera.linear().col(2);
     }
-    // Cameras that looked all around have no mean direction: take the first one's.
+    // Cameras that looked all around have no mean direction: use the first one's.
     if (forward.norm() < 0.2 * static_cast<double>(path.size())) forward = path[0].linear().col(2);
-    // Cameras that look down tilt the mean; worlds mostly have one of their axes upright.
+    // Cameras that look down tilt the mean. Worlds mostly have an upright axis, so snap to it.
     up.normalize();
     for (int axis = 0; axis < 3; ++axis)
         if (std::abs(up(axis)) > 0.7) up = Vector3d::Unit(axis) * (up(axis) > 0 ? 1 : -1);
@@ -46,8 +46,8 @@ Outlook OutlookOfPath(std::span<const Eigen::Isometry3d> path) {
 }
 
 Outlook OutlookOfSurface(const TriangleMesh& mesh) {
-    Vector3d mean = Vector3d::Zero();  // of the normals, weighted by twice the area
-    double faces_up = 0;               // area towards +z less area towards -z
+    Vector3d mean = Vector3d::Zero();  // sum of the normals, weighted by twice the area
+    double faces_up = 0;               // area facing +z minus area facing -z
     for (const auto& [a, b, c] : mesh.triangles) {
         const Vector3d corner = mesh.vertices[a].cast<double>();
         const Vector3d normal = (mesh.vertices[b].cast<double>() - corner)
@@ -66,10 +66,10 @@ double Quantile(std::vector<double> values, double share) {
     return *nth;
 }
 
-// Points in the camera's axes, origin in the world's.
+// Points in the camera's axes, relative to the world's origin.
 struct Scene {
     std::vector<Vector3d> surface;  // a few may fall outside the picture
-    std::vector<Vector3d> path;     // all shall be inside
+    std::vector<Vector3d> path;     // all must be inside
 };
 
 struct Extent {
@@ -77,7 +77,7 @@ struct Extent {
     double middle() const { return (low + high) / 2; }
 };
 
-// Of `value` over the scene, the surface's outliers apart.
+// The extent of `value` over the scene, without the surface's outliers.
 template <class Value>
 Extent ExtentOf(const Scene& scene, const Value& value) {
     std::vector<double> values;
@@ -90,7 +90,7 @@ Extent ExtentOf(const Scene& scene, const Value& value) {
     return extent;
 }
 
-// Where a camera must stand so that the scene fills its picture; refined a few times because
+// The camera position from which the scene fills the picture. Refined a few times because
 // perspective shifts the middle.
 Vector3d FrameScene(const Scene& scene, double tan_x, double tan_y) {
     Vector3d eye;

@@ -1,4 +1,4 @@
-// The point of a triangle nearest to another point; exact in double for degenerate triangles too.
+// The point of a triangle nearest to another point. Exact in double, also for degenerate triangles.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -15,8 +15,8 @@ inline Eigen::Vector3d ClosestOnSegment(const Eigen::Vector3d& p, const Eigen::V
     return a + u * ab;
 }
 
-// The point of triangle a-b-c, its inside included, nearest to p. Triangles that are a segment or
-// a point are allowed. Thread-safe.
+// The point of triangle a-b-c, including its interior, nearest to p. The triangle may degenerate to
+// a segment or a point. Thread-safe.
 inline Eigen::Vector3d ClosestOnTriangle(const Eigen::Vector3d& p, const Eigen::Vector3d& a,
                                          const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
     const Eigen::Vector3d ab = b - a, ac = c - a, normal = ab.cross(ac);

@@ -58,7 +58,7 @@ TriangleMesh CoarseMesh(const TriangleMesh& mesh, double cell_m) {
 }
 
 TriangleMesh CoarseMeshOf(const TriangleMesh& mesh, std::size_t most_triangles) {
-    // Edges of an even mesh of as many triangles: cells of that size keep most vertices.
+    // Edge length of an even mesh with that many triangles. Cells of that size keep most vertices.
     double area_m2 = 0;
     for (const auto& [a, b, c] : mesh.triangles)
         area_m2 += 0.5 * (mesh.vertices[b] - mesh.vertices[a])

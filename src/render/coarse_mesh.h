@@ -1,4 +1,4 @@
-// A large mesh made small enough for a picture of all of it.
+// Simplifies a large mesh for a picture of the whole.
 #pragma once
 
 #include <cstddef>
@@ -7,11 +7,11 @@
 
 namespace tessera {
 
-// Of the vertices in each cell of a grid of `cell_m` only the first stays, for all of them;
-// triangles that lose a corner go.
+// Merges all vertices in each cell of a grid of `cell_m` into the first one. Drops triangles that
+// become degenerate.
 TriangleMesh CoarseMesh(const TriangleMesh& mesh, double cell_m);
 
-// The same, in cells as small as leave at most `most_triangles`, about. Only for a mesh that has
+// The same, with a cell size that leaves about `most_triangles` at most. Only for a mesh that has
 // more.
 TriangleMesh CoarseMeshOf(const TriangleMesh& mesh, std::size_t most_triangles);
 

@@ -48,7 +48,7 @@ void GeometryBuilder::FindStale(const BlockMap& map, const Mesher& mesher) {
         add(id);
         add_borrowers(id);
     }
-    // A vertex belongs to the lower of its two voxels' blocks.
+    // A vertex belongs to the block of the lower of its two voxels.
     for (const BlockId id : remarked_)
         for (const BlockId owner : {id, map.neighbour(id, -1, 0, 0), map.neighbour(id, 0, -1, 0),
                                     map.neighbour(id, 0, 0, -1)})

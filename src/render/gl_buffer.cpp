@@ -16,7 +16,7 @@ bool GlBuffer::Reserve(std::size_t bytes) {
     const std::size_t capacity = std::max(bytes + bytes / 2, kSmallest);
     GLuint name = 0;
     glGenBuffers(1, &name);
-    // The copy targets: no vertex array's binding changes.
+    // Use the copy targets, so that no vertex array's binding changes.
     glBindBuffer(GL_COPY_WRITE_BUFFER, name);
     glBufferData(GL_COPY_WRITE_BUFFER, static_cast<GLsizeiptr>(capacity), nullptr, GL_DYNAMIC_DRAW);
     if (name_) {

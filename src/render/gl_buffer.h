@@ -1,5 +1,5 @@
-// A buffer on the graphics card that grows and keeps its content. Made, used and destroyed with its
-// OpenGL context current.
+// A GPU buffer that grows and keeps its content. Create, use and destroy it with its OpenGL context
+// current.
 #pragma once
 
 #include <cstddef>
@@ -13,8 +13,8 @@ class GlBuffer {
     GlBuffer(const GlBuffer&) = delete;
     GlBuffer& operator=(const GlBuffer&) = delete;
 
-    // Makes room for `bytes` and half as much again. True if the buffer has a new name, which
-    // vertex arrays must be told.
+    // Makes room for `bytes`; if the buffer must grow, for half as much again. Returns true if the
+    // buffer has a new name; vertex arrays must then be updated.
     bool Reserve(std::size_t bytes);
     void Write(std::size_t offset, const void* data, std::size_t bytes);
 

@@ -13,7 +13,7 @@ namespace {
 
 constexpr const char* kInstall = "install libegl1, libgl1 and libgl1-mesa-dri";
 
-// epoxy aborts the program when it needs a library that is not there.
+// epoxy aborts the program if a library that it needs is missing.
 bool HasLibraries() {
     const auto loads = [](const char* name) {
         void* handle = dlopen(name, RTLD_LAZY | RTLD_LOCAL);
@@ -25,8 +25,8 @@ bool HasLibraries() {
 
 bool HasClientExtension(const char* name) { return epoxy_has_egl_extension(EGL_NO_DISPLAY, name); }
 
-// Mesa without any display server first, because it says nothing and needs nothing; then the
-// devices, which is how NVIDIA's driver is found.
+// Mesa without a display server comes first, because it prints nothing and needs nothing. Then come
+// the devices, through which NVIDIA's driver is found.
 std::vector<EGLDisplay> WindowlessDisplays() {
     std::vector<EGLDisplay> displays;
     if (!HasClientExtension("EGL_EXT_platform_base")) return displays;
@@ -49,9 +49,9 @@ std::vector<EGLDisplay> WindowlessDisplays() {
 
 Result<std::unique_ptr<GlContext>> GlContext::Create() {
     if (!HasLibraries())
-        return Status::Error(fmt::format("no EGL and OpenGL libraries here: {}", kInstall));
+        return Status::Error(fmt::format("EGL and OpenGL libraries not found: {}", kInstall));
     std::unique_ptr<GlContext> found;
-    std::string why;  // of the first display, the likeliest
+    std::string why;  // error of the first display, the likeliest one
     const auto try_display = [&](EGLDisplay display) {
         std::unique_ptr<GlContext> context(new GlContext(display));
         const Status status = context->Initialise();
@@ -62,19 +62,19 @@ Result<std::unique_ptr<GlContext>> GlContext::Create() {
         if (!found || found->is_software_) try_display(display);
     if (!found) try_display(eglGetDisplay(EGL_DEFAULT_DISPLAY));
     if (found) return found;
-    return Status::Error(
-        fmt::format("no OpenGL 3.3 without a window here ({}): {}", why, kInstall));
+    return Status::Error(fmt::format(
+        "cannot create an OpenGL 3.3 context without a window ({}): {}", why, kInstall));
 }
 
 Status GlContext::Initialise() {
-    if (display_ == EGL_NO_DISPLAY) return Status::Error("EGL has no driver");
+    if (display_ == EGL_NO_DISPLAY) return Status::Error("EGL found no driver");
     EGLint major = 0, minor = 0;
-    if (!eglInitialize(display_, &major, &minor)) return Status::Error("EGL does not start");
+    if (!eglInitialize(display_, &major, &minor)) return Status::Error("EGL failed to initialise");
     if (!epoxy_has_egl_extension(display_, "EGL_KHR_surfaceless_context") ||
         !epoxy_has_egl_extension(display_, "EGL_KHR_create_context"))
-        return Status::Error("EGL has no contexts without a surface");
+        return Status::Error("EGL does not support contexts without a surface");
     const EGLenum api_before = eglQueryAPI();
-    if (!eglBindAPI(EGL_OPENGL_API)) return Status::Error("EGL has no desktop OpenGL");
+    if (!eglBindAPI(EGL_OPENGL_API)) return Status::Error("EGL does not support desktop OpenGL");
     const EGLint config_wanted[] = {EGL_SURFACE_TYPE, 0, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT,
                                     EGL_NONE};
     const EGLint context_wanted[] = {EGL_CONTEXT_MAJOR_VERSION_KHR,
@@ -89,7 +89,7 @@ Status GlContext::Initialise() {
     if (eglChooseConfig(display_, config_wanted, &config, 1, &configs) && configs == 1)
         context_ = eglCreateContext(display_, config, EGL_NO_CONTEXT, context_wanted);
     eglBindAPI(api_before);
-    if (!context_) return Status::Error("the driver has no OpenGL 3.3 core context");
+    if (!context_) return Status::Error("the driver does not support an OpenGL 3.3 core context");
 
     const Scope scope(*this);
     const int version = epoxy_gl_version();
@@ -103,7 +103,7 @@ Status GlContext::Initialise() {
 }
 
 // The display is not terminated: it belongs to the process, EGL does not count its users, and a
-// window may be one.
+// window may use it.
 GlContext::~GlContext() {
     if (context_) eglDestroyContext(display_, context_);
 }

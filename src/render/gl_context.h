@@ -1,5 +1,5 @@
-// An OpenGL 3.3 core context without a window, through EGL: on a graphics card or on Mesa's
-// software renderer.
+// An OpenGL 3.3 core context without a window, through EGL: on a GPU or with Mesa's software
+// renderer.
 #pragma once
 
 #include <memory>
@@ -9,19 +9,19 @@
 
 namespace tessera {
 
-// One thread at a time. Objects made in the context must be destroyed while it is current, before
-// it is.
+// For one thread at a time. Objects made in the context must be destroyed before it, while it is
+// current.
 class GlContext {
   public:
-    // Prefers a graphics card to software. The error says in one line what is missing and what to
+    // Prefers a GPU to software. The error is one line that says what is missing and what to
     // install.
     static Result<std::unique_ptr<GlContext>> Create();
     ~GlContext();
     GlContext(const GlContext&) = delete;
     GlContext& operator=(const GlContext&) = delete;
 
-    // While it lives, the context is the calling thread's current one; then what was before is
-    // again. So the context is bound to no thread, and a window's stays undisturbed.
+    // Makes the context current on the calling thread during its lifetime, then restores the
+    // previous one. So the context is bound to no thread, and a window's context stays undisturbed.
     class [[nodiscard]] Scope {
       public:
         explicit Scope(const GlContext& context);
@@ -35,7 +35,7 @@ class GlContext {
     };
     Scope MakeCurrent() const { return Scope(*this); }
 
-    // Who draws, and the version: "llvmpipe (LLVM 15.0.6, 256 bits), OpenGL 4.5".
+    // Renderer and version: "llvmpipe (LLVM 15.0.6, 256 bits), OpenGL 4.5".
     const std::string& renderer() const { return renderer_; }
     bool is_software() const { return is_software_; }
 

@@ -59,7 +59,7 @@ void GlMeshStore::Replace(double voxel_size_m, std::span<const GeometryBlock> bl
     }
 }
 
-// Takes the ranges that the geometry needs, and gives back those that it no longer does.
+// Allocates the ranges that the geometry needs and frees those that it no longer needs.
 void GlMeshStore::Place(Piece& piece, const BlockGeometry& geometry) {
     const auto index_count = static_cast<std::uint32_t>(geometry.indices.size());
     const auto vertex_count =
@@ -77,7 +77,7 @@ void GlMeshStore::Place(Piece& piece, const BlockGeometry& geometry) {
     piece.index_count = static_cast<std::int32_t>(index_count);
 }
 
-// Sees that the buffers are large enough, and that the vertex array knows their names.
+// Grows the buffers if necessary, and updates the vertex array if their names changed.
 void GlMeshStore::BindBuffers() {
     const bool moved = vertex_buffer_.Reserve(vertex_pool_.end() * sizeof(GeometryVertex));
     if (!index_buffer_.Reserve(index_pool_.end() * sizeof(std::uint16_t)) && !moved) return;
@@ -88,20 +88,20 @@ void GlMeshStore::BindBuffers() {
     glBindVertexArray(0);
 }
 
-// A sphere around each block against the frustum's six sides, in voxels from the camera so that no
-// precision is lost.
+// Tests a sphere around each block against the frustum's six sides, in voxels relative to the
+// camera so that no precision is lost.
 void GlMeshStore::FillDrawLists(const Eigen::Matrix4d& clip_from_camera,
                                 const Eigen::Isometry3d& T_world_camera) {
     Eigen::Matrix4d from_voxels = Eigen::Matrix4d::Identity();
     from_voxels.topLeftCorner<3, 3>() = T_world_camera.linear().transpose() * voxel_size_m_;
     const Eigen::Matrix4d clip = clip_from_camera * from_voxels;
-    std::array<Eigen::Vector4f, 6> sides;  // inside where not negative
+    std::array<Eigen::Vector4f, 6> sides;  // not negative inside
     for (int i = 0; i < 6; ++i) {
         const Eigen::Vector4d side = clip.row(3) + (i & 1 ? -1 : 1) * clip.row(i / 2);
         sides[static_cast<std::size_t>(i)] = (side / side.head<3>().norm()).cast<float>();
     }
     const Eigen::Vector3d camera_voxels = T_world_camera.translation() / voxel_size_m_;
-    constexpr float kRadius = 7;  // of eight cells' cube, rounded up
+    constexpr float kRadius = 7;  // of a cube of 8 x 8 x 8 cells, rounded up
     for (auto& [sector, list] : draws_) {
         list.counts.clear();
         list.base_vertices.clear();

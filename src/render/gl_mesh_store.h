@@ -1,5 +1,5 @@
-// The map's mesh on the graphics card, kept block by block, for whoever draws it: the predicted
-// view and a person's window. Knows no target and no shader.
+// The map's mesh on the GPU, stored block by block. The predicted view and the viewer window draw
+// it. Independent of render targets and shaders.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -14,13 +14,13 @@
 
 namespace tessera {
 
-// Tells the vertex array in use that the bound array buffer holds GeometryVertex.
+// Sets up the bound vertex array to read GeometryVertex from the bound array buffer.
 void SetGeometryAttributes();
 
 // Owner thread only, with the same OpenGL context current in every call and on destruction. A
-// program that draws it has the vertex attributes
-//   layout(location = 0) in vec3 position;  // voxels; Draw sets the uniform to multiply them by
-//   layout(location = 1) in vec2 normal;    // octahedral, unit is 32767; world, out of the surface
+// program that draws the mesh has the vertex attributes
+//   layout(location = 0) in vec3 position;  // voxels; multiply by the uniform that Draw sets
+//   layout(location = 1) in vec2 normal;    // octahedral, 32767 = 1; world, out of the surface
 //   layout(location = 2) in vec4 colour;    // a = 0: the surface has no colour here
 class GlMeshStore {
   public:
@@ -29,34 +29,35 @@ class GlMeshStore {
     GlMeshStore(const GlMeshStore&) = delete;
     GlMeshStore& operator=(const GlMeshStore&) = delete;
 
-    // Puts these blocks in the place of what was there under their ids. The voxel size is the whole
-    // mesh's: another one only after Clear.
+    // Replaces the blocks with these ids. The voxel size applies to the whole mesh and may change
+    // only after Clear.
     void Replace(double voxel_size_m, std::span<const GeometryBlock> blocks);
-    // Forgets the mesh, keeps the memory.
+    // Forgets the mesh but keeps the memory.
     void Clear();
 
-    // Draws the blocks that may be in view with the program in use, triangles counter-clockwise
-    // seen from outside. `clip_from_position` is the location of its mat4 that takes positions to
-    // clip space; it is set anew for each sector. Returns the number of blocks drawn.
+    // Draws the blocks that may be in view with the current program. Triangles are
+    // counter-clockwise seen from outside. `clip_from_position` is the location of the program's
+    // mat4 from positions to clip space, which Draw sets for each sector. Returns the number of
+    // blocks drawn.
     int Draw(const Eigen::Matrix4d& clip_from_camera, const Eigen::Isometry3d& T_world_camera,
              int clip_from_position);
 
     std::size_t blocks() const { return blocks_; }  // with triangles
     std::size_t triangles() const { return triangles_; }
-    std::size_t bytes_used() const;  // of the card's memory, by blocks
+    std::size_t bytes_used() const;  // GPU memory, by blocks
     std::size_t bytes() const { return vertex_buffer_.capacity() + index_buffer_.capacity(); }
 
   private:
-    // Where a block's geometry lies; empty ranges where it has no triangles.
+    // Location of a block's geometry. The ranges are empty if it has no triangles.
     struct Piece {
         RangePool::Range vertices, indices;
         std::int32_t index_count = 0;
         BlockCoord coord;
     };
-    // What one call draws.
+    // The blocks of one draw call.
     struct DrawList {
         std::vector<std::int32_t> counts, base_vertices;
-        std::vector<const void*> offsets;  // bytes in the index buffer
+        std::vector<const void*> offsets;  // in bytes, in the index buffer
     };
 
     void Place(Piece& piece, const BlockGeometry& geometry);

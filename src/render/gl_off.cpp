@@ -1,4 +1,4 @@
-// In place of everything that needs OpenGL, in a build without libepoxy: says so.
+// Stubs that replace everything that needs OpenGL in a build without libepoxy. They report this.
 #include "render/gl_context.h"
 #include "render/mesh_rasteriser.h"
 
@@ -6,7 +6,8 @@ namespace tessera {
 namespace {
 
 Status Off() {
-    return Status::Error("this build has no OpenGL: install libepoxy-dev and build again");
+    return Status::Error(
+        "this build has no OpenGL support: install libepoxy-dev and build Tessera again");
 }
 
 }  // namespace
@@ -17,7 +18,7 @@ GlContext::~GlContext() = default;
 struct MeshRasteriser::Impl {};
 Result<std::unique_ptr<MeshRasteriser>> MeshRasteriser::Create(const MeshConfig&) { return Off(); }
 MeshRasteriser::~MeshRasteriser() = default;
-// Never called: there is no object.
+// Never called: no object exists.
 void MeshRasteriser::Predict(const BlockMap&, const PinholeCamera&, const Eigen::Isometry3d&, float,
                              float, PredictedView& view) {
     view.SetNothing();

@@ -21,9 +21,9 @@ Status AttachShader(GLuint program, GLenum kind, const char* source) {
     std::array<char, 512> log{};
     if (!compiled) glGetShaderInfoLog(shader, log.size(), nullptr, log.data());
     glAttachShader(program, shader);
-    glDeleteShader(shader);  // it lives on in the program
+    glDeleteShader(shader);  // the program keeps it alive
     return compiled ? Status::Ok()
-                    : Status::Error("a shader does not compile: " + FirstLine(log.data()));
+                    : Status::Error("shader compilation failed: " + FirstLine(log.data()));
 }
 
 }  // namespace
@@ -41,7 +41,7 @@ Result<GlProgram> GlProgram::Create(const char* vertex_source, const char* fragm
     if (linked) return program;
     std::array<char, 512> log{};
     glGetProgramInfoLog(program.name_, log.size(), nullptr, log.data());
-    return Status::Error("the shaders do not link: " + FirstLine(log.data()));
+    return Status::Error("shader linking failed: " + FirstLine(log.data()));
 }
 
 GlProgram::~GlProgram() {

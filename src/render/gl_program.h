@@ -1,4 +1,4 @@
-// A shader program. Made, used and destroyed with its OpenGL context current.
+// A shader program. Create, use and destroy it with its OpenGL context current.
 #pragma once
 
 #include <string>
@@ -9,14 +9,14 @@ namespace tessera {
 
 class GlProgram {
   public:
-    // Sources in GLSL 3.30. The error is the compiler's or linker's first line.
+    // Takes GLSL 3.30 sources. The error is the first line of the compiler's or linker's log.
     static Result<GlProgram> Create(const char* vertex_source, const char* fragment_source);
     ~GlProgram();
     GlProgram(GlProgram&& other) noexcept : name_(other.name_) { other.name_ = 0; }
     GlProgram& operator=(GlProgram&&) = delete;
 
     void Use() const;
-    // Of a uniform that the program uses.
+    // The location of a uniform. The program must use it.
     int Location(const char* uniform) const;
 
   private:

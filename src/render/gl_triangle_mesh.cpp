@@ -11,7 +11,7 @@
 namespace tessera {
 namespace {
 
-// Inverse of what the shaders do: the unit vector's octahedron, unfolded.
+// Octahedral encoding of a vector; the shaders decode it.
 std::array<std::int16_t, 2> Octahedral(Eigen::Vector3f n) {
     const float sum = n.cwiseAbs().sum();
     if (!(sum > 0)) return {0, 0};

@@ -1,5 +1,5 @@
-// A whole mesh on the graphics card, drawn by the same programs as GlMeshStore's. Owner thread
-// only, with the same OpenGL context current in every call and when it is destroyed.
+// A whole mesh on the GPU, drawn by the same programs as GlMeshStore. Owner thread only, with the
+// same OpenGL context current in every call and on destruction.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -17,10 +17,10 @@ class GlTriangleMesh {
     GlTriangleMesh(const GlTriangleMesh&) = delete;
     GlTriangleMesh& operator=(const GlTriangleMesh&) = delete;
 
-    // Replaces what was there. Without normals the vertices get the mean of their triangles'.
-    // `label_colours`: VertexMark's, one per vertex or none.
+    // Replaces the mesh. Without normals, each vertex gets the mean normal of its triangles.
+    // `label_colours`: as in VertexMark; one per vertex or empty.
     void Set(const TriangleMesh& mesh, std::span<const Rgb8> label_colours = {});
-    // With the attributes of GlMeshStore, positions in metres.
+    // Uses the attributes of GlMeshStore, with positions in metres.
     void Draw(const Eigen::Matrix4d& clip_from_camera, const Eigen::Isometry3d& T_world_camera,
               int clip_from_position) const;
     std::size_t triangles() const { return indices_ / 3; }

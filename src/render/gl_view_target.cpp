@@ -36,7 +36,7 @@ Status GlViewTarget::Resize(int width, int height) {
     glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &most);
     if (width < 1 || height < 1 || width > most || height > most)
         return Status::Error(
-            fmt::format("a view of {} x {} pixels cannot be drawn: at least 1, at most {}", width,
+            fmt::format("cannot draw a view of {} x {} pixels: each side must be 1 to {}", width,
                         height, most));
     while (glGetError() != GL_NO_ERROR) {
     }
@@ -53,7 +53,7 @@ Status GlViewTarget::Resize(int width, int height) {
     if (glGetError() != GL_NO_ERROR ||
         glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
         return Status::Error(fmt::format(
-            "the OpenGL driver has no memory for a view of {} x {} pixels", width, height));
+            "the OpenGL driver cannot allocate a view of {} x {} pixels", width, height));
     width_ = width;
     height_ = height;
     return Status::Ok();

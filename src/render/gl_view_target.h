@@ -1,5 +1,5 @@
-// The images that a predicted view is drawn into, and their way back to the processor's memory. One
-// more attachment (labels, say) is one more Image here and one more output of the shader.
+// The images into which a predicted view is drawn, and their read-back to CPU memory. Another
+// attachment (for example labels) needs one more Image here and one more shader output.
 #pragma once
 
 #include <vector>
@@ -9,10 +9,10 @@
 
 namespace tessera {
 
-// Owner thread only, with the same OpenGL context current in every call and when it is destroyed. A
+// Owner thread only, with the same OpenGL context current in every call and on destruction. A
 // program that draws into it has the outputs
-//   layout(location = 0) out vec4 surface;  // unit normal in the camera frame; intensity in [0,
-//   1], -1: none layout(location = 1) out vec4 colour;
+//   layout(location = 0) out vec4 surface;  // unit normal, camera frame; intensity or -1
+//   layout(location = 1) out vec4 colour;
 class GlViewTarget {
   public:
     GlViewTarget();
@@ -20,8 +20,8 @@ class GlViewTarget {
     GlViewTarget(const GlViewTarget&) = delete;
     GlViewTarget& operator=(const GlViewTarget&) = delete;
 
-    // Empty images of this size, and all that is drawn goes there. Fails where the driver cannot
-    // make them.
+    // Creates empty images of this size and draws into them from now on. Fails if the driver cannot
+    // create them.
     Status Begin(int width, int height);
     // Fills the view's four images. The depth buffer must have been drawn with ClipFromCamera of
     // the same range.
@@ -34,8 +34,8 @@ class GlViewTarget {
     unsigned framebuffer_ = 0;
     unsigned images_[kImages] = {};
     int width_ = 0, height_ = 0;
-    std::vector<float> surface_;        // 4 a pixel
-    std::vector<std::uint8_t> colour_;  // 4 a pixel
+    std::vector<float> surface_;        // 4 per pixel
+    std::vector<std::uint8_t> colour_;  // 4 per pixel
 };
 
 }  // namespace tessera

@@ -26,7 +26,7 @@ Rgb8 ToRgb(const Vector3f& c) {
     return {byte(c.x()), byte(c.y()), byte(c.z())};
 }
 
-// What a ray that hit the mesh sees; colours as 0..255.
+// Shades a ray's hit on the mesh. Colours are 0..255.
 class Shader {
   public:
     Shader(const TriangleMesh& mesh, Shading shading) : mesh_(mesh), shading_(shading) {
@@ -72,7 +72,7 @@ class Shader {
     Shading shading_;
 };
 
-// Where in a pixel the four samples lie, pixels from its centre.
+// Positions of the four samples of a pixel, relative to its centre.
 constexpr double kSamples[4][2] = {{-0.25, -0.25}, {0.25, -0.25}, {-0.25, 0.25}, {0.25, 0.25}};
 
 }  // namespace

@@ -35,7 +35,7 @@ void main() {
 }
 )";
 
-// Colours count as far as the vertices around have one, as RayCaster does with voxels.
+// Weights colours by the surrounding vertices that have one, as RayCaster does with voxels.
 constexpr const char* kFragmentSource = R"(#version 330 core
 in vec3 normal_camera;
 in vec4 weighted_colour;
@@ -53,7 +53,7 @@ void main() {
 
 }  // namespace
 
-// Members are destroyed from below: the context last, and current until then.
+// Members are destroyed from the bottom up: the context is the last one, and current until then.
 struct MeshRasteriser::Impl {
     explicit Impl(const MeshConfig& config, std::unique_ptr<GlContext> gl)
         : context(std::move(gl)), mesher(config) {}

@@ -1,5 +1,5 @@
-// Predicted views of the map by rasterising its mesh, [D18] section 3.2: marching cubes, drawn by
-// OpenGL with the camera's intrinsics, depth buffer read back. Needs no window.
+// Predicts views of the map by rasterising its mesh ([D18] section 3.2): OpenGL draws the marching
+// cubes mesh with the camera's intrinsics, and the depth buffer is read back. Needs no window.
 #pragma once
 
 #include <memory>
@@ -11,33 +11,33 @@
 
 namespace tessera {
 
-// One thread at a time. Meshes and uploads only what has changed since its last view; so whoever
-// writes the map must use a new revision after each Predict (Integrator does). Another map, or one
-// that was cleared, is taken up from scratch. The same bytes for any number of threads.
+// For one thread at a time. Meshes and uploads only what has changed since its last view. So the
+// writer of the map must use a new revision after each Predict (Integrator does). Starts from
+// scratch for another map or a cleared one. Gives the same bytes for any number of threads.
 class MeshRasteriser : public ViewPredictor {
   public:
-    // Of the last Predict. What is drawn may still be under way when draw_ms ends; read_back_ms
-    // waits for it.
+    // Timings of the last Predict. Drawing may still be in progress when draw_ms ends; read_back_ms
+    // includes the wait.
     struct Timings {
         double mesh_ms = 0, upload_ms = 0, draw_ms = 0, read_back_ms = 0;
     };
 
-    // Of `config` only min_weight counts: small pieces are drawn too, as they are ray cast. Fails
-    // with one line where the build or the machine has no OpenGL 3.3 through EGL.
+    // Uses only min_weight of `config`: small components are drawn too, as in ray casting. Fails
+    // with a one-line error if the build or the machine has no OpenGL 3.3 through EGL.
     static Result<std::unique_ptr<MeshRasteriser>> Create(const MeshConfig& config);
     ~MeshRasteriser() override;
 
-    // As ViewPredictor says. Leaves the calling thread's OpenGL context as it was.
+    // See ViewPredictor. Restores the calling thread's OpenGL context.
     void Predict(const BlockMap& map, const PinholeCamera& camera,
                  const Eigen::Isometry3d& T_world_camera, float min_depth_m, float max_depth_m,
                  PredictedView& view) override;
 
-    // Why the last Predict showed nothing, if the driver could not draw it (a camera too large, no
-    // memory).
+    // The error if the driver could not draw the last view (camera too large, out of memory). The
+    // view is then empty.
     const Status& status() const;
     const Timings& timings() const;
-    std::string renderer() const;  // as GlContext::renderer
-    std::size_t bytes() const;     // mesh memory, here and on the card
+    std::string renderer() const;  // see GlContext::renderer
+    std::size_t bytes() const;     // mesh memory, CPU and GPU
 
   private:
     struct Impl;

@@ -27,14 +27,14 @@ class Pen {
     void Line(const Eigen::Vector3d& p_world, const Eigen::Vector3d& q_world, const Rgb8& colour) {
         Eigen::Vector3d p = T_camera_world_ * p_world, q = T_camera_world_ * q_world;
         if (p.z() > q.z()) std::swap(p, q);
-        if (!(q.z() > kNear_m)) return;  // behind the camera, or no number
+        if (!(q.z() > kNear_m)) return;  // behind the camera, or NaN
         if (p.z() < kNear_m) p += (kNear_m - p.z()) / (q.z() - p.z()) * (q - p);
         cv::Point a = Pixel(p), b = Pixel(q);
         cv::line(canvas_, a, b, {double(colour.r), double(colour.g), double(colour.b)}, thickness_,
                  cv::LINE_AA, kSubpixelBits);
     }
 
-    // Above `p_world`, on a plate of that colour; nothing behind the camera.
+    // Writes above `p_world`, on a plate of this colour. Draws nothing behind the camera.
     void Write(const Eigen::Vector3d& p_world, const std::string& text, const Rgb8& colour) {
         const Eigen::Vector3d p = T_camera_world_ * p_world;
         if (!(p.z() > kNear_m)) return;
@@ -55,7 +55,7 @@ class Pen {
 
   private:
     cv::Point Pixel(const Eigen::Vector3d& p_camera) const {
-        const auto fixed = [](double x) {  // far outside is drawn as just outside
+        const auto fixed = [](double x) {  // keeps coordinates far outside the image in range
             return static_cast<int>(std::lround(std::clamp(x, -2e4, 2e4) * (1 << kSubpixelBits)));
         };
         const Eigen::Vector2d pixel = camera_.Project(p_camera);
@@ -68,7 +68,7 @@ class Pen {
     int thickness_;
 };
 
-// A pyramid from the camera's centre to a 4:3 picture `depth_m` in front of it.
+// Draws a pyramid from the camera centre to a 4:3 image plane `depth_m` in front of it.
 void DrawFrustum(const Eigen::Isometry3d& T_world_camera, double depth_m, const Rgb8& colour,
                  Pen& pen) {
     const double x = 0.6 * depth_m, y = 0.45 * depth_m;
@@ -84,7 +84,7 @@ void DrawFrustum(const Eigen::Isometry3d& T_world_camera, double depth_m, const 
     }
 }
 
-// A depth that looks alike in every picture: a fixed share of it at the path's mean distance.
+// A depth that looks alike in every picture: a fixed fraction of it at the path's mean distance.
 double FrustumDepth(const PinholeCamera& camera, const Eigen::Isometry3d& T_world_camera,
                     const RenderStyle& style) {
     if (style.frustum_m > 0) return style.frustum_m;
@@ -101,7 +101,7 @@ Eigen::Vector3d Corner(const NamedBox& box, int i) {
     return box.T_world_box * sign.cwiseProduct(box.size);
 }
 
-// Over the box's middle, as high in the picture as its highest corner.
+// Above the box's centre, at the height of its highest corner in the picture.
 Eigen::Vector3d NamePlace(const NamedBox& box, const Eigen::Isometry3d& T_world_camera) {
     const Eigen::Vector3d middle = T_world_camera.inverse() * box.T_world_box.translation();
     double highest = std::numeric_limits<double>::max();

@@ -9,11 +9,11 @@
 
 namespace tessera {
 
-// Draws style.path as `camera` at T_world_camera sees it, on top of what is there.
+// Draws style.path over the image, as `camera` at T_world_camera sees it.
 void DrawPath(const PinholeCamera& camera, const Eigen::Isometry3d& T_world_camera,
               const RenderStyle& style, ColourImage& image);
 
-// Draws style.boxes likewise, their names above them, those of nearer ones on top.
+// Draws style.boxes likewise, with their names above them. Names of nearer boxes are on top.
 void DrawBoxes(const PinholeCamera& camera, const Eigen::Isometry3d& T_world_camera,
                const RenderStyle& style, ColourImage& image);
 

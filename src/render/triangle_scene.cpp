@@ -12,7 +12,7 @@
 namespace tessera {
 namespace {
 
-// Passes rays on through triangles that face away from them.
+// Lets rays pass through triangles that face away from them.
 void RejectBackFaces(const RTCFilterFunctionNArguments* args) {
     for (unsigned i = 0; i < args->N; ++i) {
         if (args->valid[i] == 0) continue;
@@ -33,7 +33,7 @@ struct NearestQuery {
     double best2;  // squared distance, m^2
     SurfacePoint result;
 
-    // A little wider than the truth: the tree is searched in float.
+    // A little more than the true radius, because the tree is searched in float.
     float SearchRadius() const {
         const double rounding_m = 1e-6 * (1 + point.cwiseAbs().maxCoeff());
         return static_cast<float>(std::sqrt(best2) * (1 + 1e-5) + rounding_m);
@@ -48,7 +48,8 @@ bool MeetTriangle(RTCPointQueryFunctionArguments* args) {
     const Eigen::Vector3d c = query.vertices[corners[2]].cast<double>();
     const Eigen::Vector3d q = ClosestOnTriangle(query.point, a, b, c);
     const double distance2 = (q - query.point).squaredNorm();
-    // Of equally near triangles the first, so that the answer does not depend on the visits' order.
+    // Take the first of equally near triangles, so that the result is independent of visiting
+    // order.
     const bool first = distance2 == query.best2 && args->primID < query.result.triangle;
     if (!(distance2 < query.best2) && !first) return false;
     query.best2 = distance2;
@@ -76,7 +77,7 @@ TriangleScene::TriangleScene(const TriangleMesh& mesh) : scene_(std::make_unique
     scene_->device = rtcNewDevice(nullptr);
     TESSERA_CHECK(scene_->device, "Embree: error {}", static_cast<int>(rtcGetDeviceError(nullptr)));
     scene_->scene = rtcNewScene(scene_->device);
-    // Compact: half the memory, and no slower.
+    // The compact flag halves the memory and is no slower.
     rtcSetSceneFlags(scene_->scene,
                      static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_COMPACT |
                                                 RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));

@@ -1,5 +1,5 @@
-// A triangle mesh prepared for questions: what does a ray hit, which point of the surface is
-// nearest. Holds its own copy of the triangles. The only place in src/render that knows Embree.
+// A triangle mesh prepared for ray casts and nearest-point queries. Holds its own copy of the
+// triangles. The only place in src/render that uses Embree.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,8 +15,8 @@ namespace tessera {
 struct RayHit {
     static constexpr std::uint32_t kNothing = 0xffffffffu;
     std::uint32_t triangle = kNothing;  // index, or kNothing
-    float distance = 0;                 // in lengths of the ray's direction
-    float u = 0, v = 0;                 // the point is (1 - u - v) a + u b + v c
+    float distance = 0;                 // in units of the ray direction's length
+    float u = 0, v = 0;                 // the hit is (1 - u - v) a + u b + v c
     bool hit() const { return triangle != kNothing; }
 };
 
@@ -26,22 +26,22 @@ struct SurfacePoint {
     bool found() const { return triangle != RayHit::kNothing; }
 };
 
-// After construction all questions are thread-safe.
+// After construction, all queries are thread-safe.
 class TriangleScene {
   public:
-    // Indices of triangles must lie within the vertices.
+    // Triangle indices must lie within the vertices.
     explicit TriangleScene(const TriangleMesh& mesh);
     ~TriangleScene();
     TriangleScene(TriangleScene&&) noexcept;
     TriangleScene& operator=(TriangleScene&&) noexcept;
 
-    // The first hits of four rays from one origin, best if nearly parallel. With cull_back_faces,
-    // triangles seen from behind (clockwise) are passed through.
+    // The first hits of four rays from one origin, preferably nearly parallel ones. With
+    // cull_back_faces, rays pass through triangles seen from behind (clockwise).
     std::array<RayHit, 4> CastFour(const Eigen::Vector3f& origin,
                                    const std::array<Eigen::Vector3f, 4>& directions,
                                    bool cull_back_faces) const;
 
-    // The nearest point of any triangle at most max_distance_m away, exact in double.
+    // The nearest surface point at most max_distance_m away, exact in double.
     SurfacePoint Nearest(const Eigen::Vector3d& point,
                          double max_distance_m = std::numeric_limits<double>::infinity()) const;
 

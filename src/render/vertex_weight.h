@@ -1,4 +1,4 @@
-// How often a vertex was measured, as the map's weights tell, for a person to see. Pure functions,
+// How often a vertex was measured according to the map's weights, for display. Pure functions,
 // thread-safe while nobody writes the map.
 #pragma once
 
@@ -6,11 +6,11 @@
 
 namespace tessera {
 
-// Weight of the distance at a vertex of `owner`, which was meshed from `map`: between its two
-// voxels' weights as the vertex lies between the voxels. [0, kMaxWeight].
+// Weight of the distance at a vertex of `owner`, which was meshed from `map`: interpolated between
+// the weights of the vertex's two voxels. [0, kMaxWeight].
 float VertexWeight(const BlockMap& map, const BlockMesh& owner, const BlockMesh::Vertex& vertex);
 
-// On a logarithmic scale, as one byte: round(255 log2(1 + weight) / 8); 0 is 0, kMaxWeight is 255.
+// Logarithmic scale in one byte: round(255 log2(1 + weight) / 8). 0 gives 0, kMaxWeight gives 255.
 std::uint8_t WeightStep(float weight);
 
 }  // namespace tessera

@@ -12,14 +12,14 @@ namespace {
 constexpr float kFullDepth_m = 0.05f, kFullIntensity = 0.25f;
 constexpr Rgb8 kMissingColour{150, 150, 150};
 
-// Rec. 601, as the map's luma.
+// Rec. 601, like the map's luma.
 float Luma(const Rgb8& c) {
     return (0.299f * static_cast<float>(c.r) + 0.587f * static_cast<float>(c.g) +
             0.114f * static_cast<float>(c.b)) /
            255.0f;
 }
 
-// -1 blue, 0 white, 1 red.
+// -1 is blue, 0 white, 1 red.
 Rgb8 Signed(float value) {
     const float v = std::clamp(value, -1.0f, 1.0f);
     const auto faded = static_cast<std::uint8_t>(255.0f * (1.0f - std::abs(v)));
@@ -94,10 +94,10 @@ ColourImage ViewPicture(const Frame& frame, const PredictedView& view, double ga
     Sheet sheet(width, height);
     ColourImage measured = colour;
     if (moving != nullptr) TintMoving(*moving, 1, measured);
-    sheet.Put(0, 0, moving != nullptr ? "measured colour, magenta: moves" : "measured colour",
+    sheet.Put(0, 0, moving != nullptr ? "measured colour, magenta: moving" : "measured colour",
               measured);
     sheet.Put(1, 0, "measured depth", DepthPicture(frame.depth_m, nearest_m, farthest_m));
-    sheet.Put(2, 0, "depth: red before the map, blue behind, full at 5 cm", depth_error);
+    sheet.Put(2, 0, "depth: red in front of map, blue behind, full at 5 cm", depth_error);
     sheet.Put(0, 1, "predicted colour", view.colour);
     sheet.Put(1, 1, "predicted depth", DepthPicture(view.depth_m, nearest_m, farthest_m));
     sheet.Put(2, 1, "intensity: red where the map is brighter, full at 0.25", intensity_error);

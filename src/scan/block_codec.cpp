@@ -13,7 +13,7 @@ constexpr std::size_t kLayerBytes =
     kBlockVoxels * (sizeof(FieldWord) + sizeof(std::uint16_t) + sizeof(ColourWord));
 constexpr std::size_t kLabelBytes = kBlockVoxels * sizeof(VoxelLabel);
 
-// Byte b of every element, for each b in turn.
+// Splits the values into byte planes: byte b of every element, for each b in turn.
 template <class T>
 std::uint8_t* ToPlanes(const T* values, std::uint8_t* out) {
     const auto* bytes = reinterpret_cast<const std::uint8_t*>(values);
@@ -37,8 +37,8 @@ std::size_t ContentBytes(std::span<const std::uint8_t> row) {
                                                                     : 0;
 }
 
-// Growing a vector keeps its elements beside their copies and rounds up to twice the size; here
-// nothing is to be kept.
+// Growing a vector keeps old and new storage at once and doubles the capacity. No element needs to
+// be kept here, so reallocate exactly.
 template <class T>
 void Fit(std::size_t count, std::vector<T>& values) {
     if (count > values.capacity()) {

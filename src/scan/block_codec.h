@@ -1,6 +1,6 @@
-// One block's layers as a row of ScanTable::kBlocks: its number in the order of allocation, then
-// the voxels, byte planes of each layer one after the other, zstd. Fused voxels are noisy: 5120
-// bytes become some 2900.
+// One block's layers as a row of ScanTable::kBlocks: its number in allocation order, then the
+// voxels, compressed with zstd. The layers follow each other, each split into byte planes. Fused
+// voxels are noisy: 5120 bytes shrink to about 2900.
 #pragma once
 
 #include <optional>
@@ -11,20 +11,21 @@
 
 namespace tessera {
 
-// Copies of blocks out of a map, for a thread that may not read it.
+// Copies of a map's blocks, for threads that may not read the map.
 struct BlockCopies {
     std::vector<std::int32_t> numbers;  // BlockMap::number
     std::vector<BlockCoord> coords;
-    std::vector<FieldWord> field;       // kBlockVoxels for each block
-    std::vector<std::uint16_t> weight;  // likewise
-    std::vector<ColourWord> colour;     // likewise
-    std::vector<VoxelLabel> labels;     // likewise; empty without labels
+    std::vector<FieldWord> field;       // kBlockVoxels per block
+    std::vector<std::uint16_t> weight;  // same
+    std::vector<ColourWord> colour;     // same
+    std::vector<VoxelLabel> labels;     // same; empty without labels
 
-    // Into storage that is used again. Nobody may write the map meanwhile.
+    // Copies into recycled storage. Nobody may write to the map meanwhile.
     void Copy(const BlockMap& map, std::span<const BlockId> blocks);
-    // Room for one more, uninitialised; `labels`: for all blocks or none.
+    // Appends a block; the caller fills in its voxels. If any block has labels, all have room for
+    // them.
     void Append(const BlockCoord& coord, std::int32_t number, bool labels);
-    // Into a block of a map, `index` counting from 0.
+    // Copies block `index` (from 0) into a block of a map.
     void Put(std::size_t index, BlockMap& map, BlockId id) const;
     void Clear();
     std::size_t size() const { return numbers.size(); }
@@ -33,16 +34,16 @@ struct BlockCopies {
 // Owner thread only.
 class BlockCodec {
   public:
-    // The row's data, valid until the next call.
+    // Returns the row's data, valid until the next call.
     const std::vector<std::uint8_t>& Encode(const BlockCopies& copies, std::size_t index);
 
-    // The number of a row's block; nothing if the row is none, by its sizes.
+    // Returns the number of the row's block; nullopt if the row's sizes are invalid.
     static std::optional<std::int32_t> NumberOf(std::span<const std::uint8_t> row);
-    // Into a block of a map; labels only where the map has them, none where the row has none.
-    // False: the row is none.
+    // Decodes into a block of a map. Writes labels only if both the map and the row have them.
+    // Returns false if the row is invalid.
     bool Decode(std::span<const std::uint8_t> row, BlockMap& map, BlockId id);
-    // Appended to copies, with labels if the row has them. False: the row is none, and nothing was
-    // appended.
+    // Appends to `copies`, with labels if the row has them. If the row is invalid, returns false
+    // and appends nothing.
     bool Decode(std::span<const std::uint8_t> row, const BlockCoord& coord, BlockCopies& copies);
 
   private:

@@ -6,8 +6,8 @@
 namespace tessera {
 namespace {
 
-// tables[k][b]: the checksum of byte b followed by k zero bytes, so that eight bytes are taken at
-// once.
+// tables[k][b] is the checksum of byte b followed by k zero bytes. It allows processing eight bytes
+// at once.
 using Tables = std::array<std::array<std::uint64_t, 256>, 8>;
 
 constexpr Tables MakeTables() {

@@ -1,5 +1,5 @@
-// CRC-64/XZ (ECMA-182, reflected): finds every burst of up to 64 wrong bits, and of other damage
-// all but one in 2^64.
+// CRC-64/XZ (ECMA-182, reflected). Detects every burst error of up to 64 bits, and all but one in
+// 2^64 of other errors.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 
 namespace tessera {
 
-// Goes on from `crc`, the checksum of what came before. Thread-safe.
+// `crc` is the checksum of the preceding bytes. Thread-safe.
 std::uint64_t Crc64(std::span<const std::uint8_t> bytes, std::uint64_t crc = 0);
 
 }  // namespace tessera

@@ -1,4 +1,4 @@
-// zstd, as far as scan files need it: the only place that knows the library.
+// Wrapper for the parts of zstd that scan files need. Only its source uses the library.
 #pragma once
 
 #include <cstdint>
@@ -16,11 +16,11 @@ class Compressor {
     Compressor(const Compressor&) = delete;
     Compressor& operator=(const Compressor&) = delete;
 
-    // Appends `content`, compressed by zstd's fast mode, to `out`.
+    // Appends `content`, compressed with zstd's fast mode, to `out`.
     void Compress(std::span<const std::uint8_t> content, std::vector<std::uint8_t>& out);
-    // Fills `content` exactly; false if the bytes are not what Compress makes of so many.
+    // Returns false if the bytes are damaged or do not decompress to exactly the size of `content`.
     bool Decompress(std::span<const std::uint8_t> bytes, std::span<std::uint8_t> content);
-    // What the compressed bytes say that their content's size is; 0 if they say nothing sensible.
+    // The content size that the compressed bytes declare; 0 if they declare none or it is invalid.
     static std::uint64_t ContentSize(std::span<const std::uint8_t> bytes);
 
   private:

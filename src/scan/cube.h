@@ -1,5 +1,5 @@
-// What goes out of memory and comes back as one: a cube of 8 x 8 x 8 blocks. In the file its
-// blocks' keys follow each other.
+// The unit of paging: a cube of 8 x 8 x 8 blocks. The keys of its blocks are consecutive, also in
+// the file.
 #pragma once
 
 #include "scan/scan_row.h"
@@ -8,12 +8,12 @@ namespace tessera {
 
 inline constexpr int kCubeBlocks = 8;
 
-// Floor, also for negatives.
+// Rounds down, also for negative coordinates.
 inline BlockCoord CubeOf(const BlockCoord& block) {
     return {block.x >> 3, block.y >> 3, block.z >> 3};
 }
 
-// BlockKey of the first of its blocks; the others' are the next kCubeKeys - 1.
+// The BlockKey of the cube's first block. The other blocks have the next kCubeKeys - 1 keys.
 inline std::int64_t CubeKey(const BlockCoord& cube) {
     return BlockKey({cube.x * kCubeBlocks, cube.y * kCubeBlocks, cube.z * kCubeBlocks});
 }

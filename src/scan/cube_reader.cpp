@@ -9,7 +9,7 @@
 namespace tessera {
 namespace {
 
-// One more must be a number, too.
+// The next number must be valid, too.
 bool IsNumber(std::int32_t number) {
     return number >= 1 && number < std::numeric_limits<std::int32_t>::max();
 }
@@ -27,7 +27,7 @@ Result<std::unique_ptr<CubeReader>> CubeReader::Open(const std::string& path) {
         new CubeReader(std::move(database.value()), std::move(select.value())));
 }
 
-// A disk that does not answer is not a file that is damaged.
+// Distinguishes a read failure from a damaged file.
 Status CubeReader::ReadError() const {
     return database_->damaged() ? DamagedScan(path(), "blocks")
                                 : database_->Error("cannot be read");
@@ -49,7 +49,7 @@ Status CubeReader::Read(std::int64_t cube_key, BlockCopies& blocks) {
             status = DamagedScan(path(), fmt::format("block {}", row.key));
     }
     if (status.ok() && step != kStepDone) status = ReadError();
-    select_.Reset();  // ends the read, so that the writer may fold its journal
+    select_.Reset();  // ends the read, so that the writer can checkpoint its journal
     return status;
 }
 

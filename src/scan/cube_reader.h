@@ -1,5 +1,5 @@
-// Reads single cubes of a scan file, also while its writer goes on: each cube as the last
-// checkpoint left it.
+// Reads single cubes of a scan file, even while its writer is active. Each cube is as of the last
+// checkpoint.
 #pragma once
 
 #include <memory>
@@ -11,17 +11,18 @@
 
 namespace tessera {
 
-// Owner thread only; may be handed from one to another.
+// Owner thread only; ownership may move between threads.
 class CubeReader {
   public:
-    // A file that this process writes, or has read before: its header is not looked at again.
+    // The file must be written by this process or have been read before: its header is not checked
+    // again.
     static Result<std::unique_ptr<CubeReader>> Open(const std::string& path);
 
-    // All blocks of a cube, by increasing key; perhaps none; their numbers are at least 1. An error
-    // names the file, `blocks` is then of no use.
+    // Reads all blocks of a cube, by increasing key; there may be none. Their numbers are at least
+    // 1. Errors name the file; `blocks` is then invalid.
     Status Read(std::int64_t cube_key, BlockCopies& blocks);
 
-    // The keys of all cubes that have blocks, increasing, with how many.
+    // Returns the keys of all cubes that have blocks, in increasing order, with their block counts.
     Result<std::vector<std::pair<std::int64_t, std::int32_t>>> Cubes();
 
     const std::string& path() const { return database_->path(); }

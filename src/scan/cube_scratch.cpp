@@ -15,7 +15,7 @@
 namespace tessera {
 namespace {
 
-// Before each row.
+// Precedes each row.
 struct RowHead {
     std::int64_t key = 0;
     std::uint64_t bytes = 0;
@@ -37,7 +37,7 @@ bool ReadAll(int file, std::uint8_t* bytes, std::size_t count, std::uint64_t off
     while (count > 0) {
         const ssize_t got = ::pread(file, bytes, count, static_cast<off_t>(offset));
         if (got < 0 && errno == EINTR) continue;
-        if (got == 0) errno = EIO;  // it is shorter than it was written
+        if (got == 0) errno = EIO;  // the file is shorter than what was written
         if (got <= 0) return false;
         bytes += got;
         count -= static_cast<std::size_t>(got);
@@ -52,8 +52,8 @@ Result<std::shared_ptr<CubeScratch>> CubeScratch::Create(const std::string& besi
     std::string name = beside_path + ".XXXXXX";
     const int file = ::mkostemp(name.data(), O_CLOEXEC);
     if (file < 0)
-        return Status::Error(fmt::format("{}: no file can be made beside it: {}", beside_path,
-                                         WriteErrorText(errno)));
+        return Status::Error(fmt::format("{}: cannot create a temporary file next to it: {}",
+                                         beside_path, WriteErrorText(errno)));
     ::unlink(name.c_str());
     return std::shared_ptr<CubeScratch>(new CubeScratch(file, beside_path));
 }
@@ -61,11 +61,11 @@ Result<std::shared_ptr<CubeScratch>> CubeScratch::Create(const std::string& besi
 CubeScratch::~CubeScratch() { ::close(file_); }
 
 Status CubeScratch::Error(const std::string& doing, int error) const {
-    return Status::Error(fmt::format("{}: the file for a map that is made again {}: {}", path_,
+    return Status::Error(fmt::format("{}: the temporary file of the rebuilt map {}: {}", path_,
                                      doing, WriteErrorText(error)));
 }
 
-// The smallest gap that it fits into, else at the end.
+// Takes the smallest gap that is large enough; otherwise appends at the end.
 CubeScratch::Place CubeScratch::Room(std::uint64_t bytes) {
     constexpr std::uint64_t kStep = 16384;
     Place place;

@@ -1,5 +1,6 @@
-// Where the cubes of a map go that is not the scan's yet: a file without a name in the scan's
-// folder, gone with the process. Its rows are those of the scan file, which takes them as they are.
+// Temporary storage for the cubes of a map that is not yet the scan's map: an unlinked file in the
+// scan's folder that disappears with the process. Its rows have the format of the scan file, which
+// copies them unchanged.
 #pragma once
 
 #include <functional>
@@ -12,24 +13,24 @@
 
 namespace tessera {
 
-// Owner thread only; a const one may be read by several.
+// Owner thread only; several threads may read a const object.
 class CubeScratch {
   public:
-    // Errors name the file beside which it is to be, what is wrong and what to do.
+    // Creates the file next to `beside_path`. Errors name that path, what is wrong and what to do.
     static Result<std::shared_ptr<CubeScratch>> Create(const std::string& beside_path);
     ~CubeScratch();
     CubeScratch(const CubeScratch&) = delete;
     CubeScratch& operator=(const CubeScratch&) = delete;
 
-    // All blocks of a cube, in place of what it had.
+    // Stores all blocks of a cube and replaces its previous blocks.
     Status Put(std::int64_t cube_key, const BlockCopies& blocks);
-    // As they were put; checked. Blocks by increasing key.
+    // Returns the blocks as stored, checked against the checksum, by increasing key.
     Status Read(std::int64_t cube_key, BlockCopies& blocks) const;
-    // Cubes by increasing key, with how many blocks.
+    // Cubes by increasing key, with their block counts.
     std::map<std::int64_t, std::int32_t> Cubes() const;
-    // Of a cube that is there; 0: it is not.
+    // Number of blocks of a cube; 0 if the cube is not stored.
     std::int32_t Count(std::int64_t cube_key) const;
-    // Every block's row of ScanTable::kBlocks, by increasing key.
+    // Visits every block's row of ScanTable::kBlocks, cube by cube, by increasing key.
     using TakeRow =
         std::function<Status(std::int64_t block_key, std::span<const std::uint8_t> data)>;
     Status ForEachRow(const TakeRow& take) const;
@@ -49,7 +50,7 @@ class CubeScratch {
     int file_;
     std::string path_;
     std::map<std::int64_t, Place> places_;
-    std::multimap<std::uint64_t, std::uint64_t> free_;  // room to offset
+    std::multimap<std::uint64_t, std::uint64_t> free_;  // capacity to offset
     std::uint64_t end_ = 0;
     BlockCodec codec_;
     std::vector<std::uint8_t> rows_;

@@ -86,9 +86,10 @@ Result<std::int64_t> Database::Number(const std::string& sql) {
 
 Status Database::Error(const std::string& doing) const {
     const int code = handle_ != nullptr ? sqlite3_errcode(handle_) & 0xff : SQLITE_NOMEM;
-    const char* what = code == SQLITE_FULL
-                           ? "no space left on the device; free some or choose another place"
-                           : (handle_ != nullptr ? sqlite3_errmsg(handle_) : "out of memory");
+    const char* what =
+        code == SQLITE_FULL
+            ? "no space left on the device; free some space or choose another location"
+            : (handle_ != nullptr ? sqlite3_errmsg(handle_) : "out of memory");
     return Status::Error(fmt::format("{}: {}: {}", path_, doing, what));
 }
 

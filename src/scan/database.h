@@ -1,5 +1,5 @@
-// SQLite, as far as scan files need it: the only place that knows the library. Errors name the
-// file.
+// Wrapper for the parts of SQLite that scan files need. Only its source uses the library. Errors
+// name the file.
 #pragma once
 
 #include <cstdint>
@@ -14,14 +14,13 @@ struct sqlite3_stmt;
 
 namespace tessera {
 
-// Whether this build has SQLite and zstd; if not, opening anything is refused with
-// `ScanUnavailableText`.
+// Whether this build has SQLite and zstd. If not, opening anything fails with kScanUnavailable.
 bool ScanAvailable();
 inline constexpr const char* kScanUnavailable =
-    "this build has no scan files; install libsqlite3-dev and libzstd-dev and build again";
+    "this build has no scan file support; install libsqlite3-dev and libzstd-dev and build again";
 
-// One prepared statement; its parameters are numbered from 1, its columns from 0. Goes before its
-// database.
+// One prepared statement. Parameters are numbered from 1, columns from 0. Must be destroyed before
+// its database.
 class DatabaseStatement {
   public:
     DatabaseStatement() = default;
@@ -29,11 +28,11 @@ class DatabaseStatement {
         : statement_(statement) {}  // NOLINT: implicit by design
 
     void Bind(int parameter, std::int64_t value);
-    // Not copied: they must outlive Step.
+    // Does not copy the bytes; they must outlive Step.
     void Bind(int parameter, std::span<const std::uint8_t> bytes);
-    // SQLite's result code: one of the three below, or an error.
+    // Returns SQLite's result code: kStepRow, kStepDone, or an error.
     int Step();
-    // Ready for other parameters.
+    // Prepares the statement for new parameters.
     void Reset();
     std::int64_t Number(int column) const;
     std::span<const std::uint8_t> Bytes(int column) const;  // until the next Step or Reset
@@ -52,21 +51,21 @@ class Database {
   public:
     enum class Access { kCreate, kRead, kWrite };
 
-    // With settings against hostile files: no code from a schema runs, no row is larger than
-    // kMaxRowBytes.
+    // Opens the file with settings that protect against hostile files: no code from a schema runs,
+    // and no row is larger than kMaxRowBytes.
     static Result<std::unique_ptr<Database>> Open(const std::string& path, Access access);
     ~Database();
     Database(const Database&) = delete;
     Database& operator=(const Database&) = delete;
 
     Status Execute(const std::string& sql);
-    // The first column of the first row.
+    // Returns the first column of the first row.
     Result<std::int64_t> Number(const std::string& sql);
     Result<DatabaseStatement> Prepare(const std::string& sql);
     const std::string& path() const { return path_; }
-    // The library's words for the last error.
+    // An error with SQLite's message for the last failure.
     Status Error(const std::string& doing) const;
-    // The last error was of the file's content, not of reading or writing it.
+    // True if the last error concerns the file's content, not reading or writing it.
     bool damaged() const;
 
   private:

@@ -22,7 +22,7 @@ std::uint32_t BigEndian(const std::uint8_t* bytes, int count) {
     return value;
 }
 
-// SQLite's variable-length integer; false where the bytes end.
+// Reads SQLite's variable-length integer. Returns false if the bytes end too early.
 bool ReadVarint(std::span<const std::uint8_t> bytes, std::size_t& at, std::uint64_t& value) {
     value = 0;
     for (int i = 0; i < 9; ++i) {
@@ -38,7 +38,7 @@ bool ReadVarint(std::span<const std::uint8_t> bytes, std::size_t& at, std::uint6
     return true;
 }
 
-// A column's value by its serial type; only integers and blobs.
+// Reads a column's value by its serial type; supports only integers, blobs and NULL.
 bool ReadColumn(std::span<const std::uint8_t> record, std::size_t& at, std::uint64_t type,
                 std::int64_t& number, std::span<const std::uint8_t>& blob) {
     constexpr std::size_t kIntegerBytes[] = {0, 1, 2, 3, 4, 6, 8};
@@ -82,7 +82,7 @@ struct PageWalk::File {
         size = static_cast<std::size_t>(what.st_size);
         void* mapped = size > 0 ? ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, file, 0) : nullptr;
         ::close(file);
-        if (mapped == MAP_FAILED) return Status::Error(path + ": cannot be read into memory");
+        if (mapped == MAP_FAILED) return Status::Error(path + ": cannot be mapped into memory");
         data = static_cast<const std::uint8_t*>(mapped);
         return Status::Ok();
     }
@@ -135,13 +135,13 @@ void PageWalk::ForEach(const std::function<void(const ScanRow&, const Place&)>& 
 bool PageWalk::Load(const Place& place, ScanRow& row) {
     const PageImage& image = images_[place.image];
     const std::span<const std::uint8_t> page = Page(image);
-    // A row that goes on in other pages: they are the journal's newest, or where that is not of
-    // this row, the file's.
+    // A row may continue on overflow pages. Try the newest pages in the journal first. If they do
+    // not belong to this row, use those in the file.
     return ReadCell(page, place.offset, true, row) || ReadCell(page, place.offset, false, row);
 }
 
-// The cell of a leaf as SQLite's file format has it: size, key, as much of the record as fits, the
-// first overflow page.
+// Reads a leaf cell in SQLite's file format: size, key, the part of the record that fits, the
+// number of the first overflow page.
 bool PageWalk::ReadCell(std::span<const std::uint8_t> page, std::size_t at, bool journal,
                         ScanRow& row) {
     std::uint64_t size = 0, key = 0;
@@ -183,7 +183,7 @@ bool PageWalk::GatherOverflow(std::uint32_t number, bool journal, std::size_t si
     return true;
 }
 
-// Which table it is of, its checksum knows.
+// The checksum determines which table the row belongs to.
 bool PageWalk::ParseRecord(std::int64_t key, ScanRow& row) const {
     std::size_t at = 0;
     std::uint64_t header_size = 0, types[5] = {};

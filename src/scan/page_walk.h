@@ -1,5 +1,6 @@
-// Finds the rows of a scan file without SQLite, page by page: whatever its header, tables or trees
-// look like, a row whose checksum is right is found. Reads the journal (-wal) beside it, too.
+// Finds the rows of a scan file page by page, without SQLite. It finds every row whose checksum is
+// right, whatever state the header, tables or trees are in. Also reads the journal (-wal) next to
+// the file.
 #pragma once
 
 #include <functional>
@@ -15,24 +16,25 @@ namespace tessera {
 // Owner thread only.
 class PageWalk {
   public:
-    // Errors: the file cannot be read.
+    // It is an error if the file cannot be read.
     static Result<std::unique_ptr<PageWalk>> Open(const std::string& path);
     ~PageWalk();
     PageWalk(const PageWalk&) = delete;
     PageWalk& operator=(const PageWalk&) = delete;
 
-    // Where a row lies, for Load.
+    // Position of a row, for Load.
     struct Place {
         std::size_t image = 0, offset = 0;
     };
-    // Every sound row, also those that are no longer part of the file; of one key perhaps several.
+    // Visits every intact row, including rows that are no longer part of the file. There may be
+    // several with the same key.
     void ForEach(const std::function<void(const ScanRow&, const Place&)>& take);
-    // One that ForEach gave.
+    // Loads a row that ForEach visited.
     bool Load(const Place& place, ScanRow& row);
 
   private:
     struct File;
-    // A page as it is in the file or in the journal.
+    // A page as stored in the file or in the journal.
     struct PageImage {
         std::size_t file = 0;
         std::size_t offset = 0;
@@ -49,7 +51,7 @@ class PageWalk {
     std::vector<std::unique_ptr<File>> files_;
     std::vector<PageImage> images_;  // the file's by number, then the journal's in order
     std::size_t main_pages_ = 0;
-    std::vector<std::size_t> newest_in_journal_;  // by page number: 1 + its image, 0 = none
+    std::vector<std::size_t> newest_in_journal_;  // by page number: 1 + image index, 0 = none
     std::vector<std::uint8_t> payload_;           // of the last cell
     mutable ScanTable last_table_ = ScanTable::kBlocks;
 };

@@ -1,5 +1,4 @@
-// Brings cubes back from the scan file on a thread of its own, so that nobody waits for the disk
-// who does not want to.
+// Reads cubes back from the scan file on its own thread, so that nobody has to wait for the disk.
 #pragma once
 
 #include <atomic>
@@ -15,38 +14,39 @@ namespace tessera {
 struct StoredCube {
     std::int64_t key = 0;
     BlockCopies blocks;
-    Status status;  // an error: `blocks` do not hold
+    Status status;  // if an error, `blocks` is invalid
 };
 
-// One thread owns it.
+// Owner thread only.
 class Pager {
   public:
-    // That may be asked for and not yet taken.
+    // Largest number of cubes that may be requested and not yet taken.
     static constexpr std::size_t kMostAsked = 16;
 
     explicit Pager(std::unique_ptr<CubeReader> reader);
-    ~Pager();  // after the cube at hand, joins
+    ~Pager();  // finishes the current cube, then joins
 
-    // In the order in which they are to come. Fewer than kMostAsked are under way.
+    // Requests a cube; cubes are delivered in the order requested. Fewer than kMostAsked must be
+    // under way.
     void Ask(std::int64_t cube_key);
-    // How many were asked for and not taken.
+    // Number of cubes requested and not yet taken.
     std::size_t under_way() const { return under_way_; }
-    // The next one; null if it is not there yet.
+    // Returns the next cube; null if it has not been read yet.
     std::unique_ptr<StoredCube> TryTake();
-    // The next one, waited for. Only while one is under way.
+    // Waits for the next cube. At least one must be under way.
     std::unique_ptr<StoredCube> Take();
-    // Its storage is used again.
+    // Returns a cube so that its storage can be reused.
     void Give(std::unique_ptr<StoredCube> cube) { pool_.Give(std::move(cube)); }
 
   private:
     void ReadAll();
 
-    std::unique_ptr<CubeReader> reader_;  // the thread's
+    std::unique_ptr<CubeReader> reader_;  // used by the reader thread only
     Wake wake_, owner_wake_;
     Pool<StoredCube> pool_;
     FifoQueue<std::int64_t> asked_{kMostAsked, wake_};
     FifoQueue<std::unique_ptr<StoredCube>> read_{kMostAsked, owner_wake_};
-    std::size_t under_way_ = 0;  // the owner's
+    std::size_t under_way_ = 0;  // owner thread only
     std::atomic<bool> done_{false};
     std::jthread thread_;
 };

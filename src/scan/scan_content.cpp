@@ -13,7 +13,7 @@ Result<Bytes> ReadState(ScanFile& file, ScanStateKey key) {
     return file.ReadOne(ScanTable::kState, static_cast<std::int64_t>(key));
 }
 
-// The blocks' numbers, from 1 on, are the order in which they are to be allocated.
+// Block numbers start at 1 and define the allocation order.
 Result<std::vector<BlockCoord>> ReadBlockOrder(ScanFile& file) {
     const auto count =
         static_cast<std::size_t>(file.seal().tables[IndexOf(ScanTable::kBlocks)].rows);
@@ -47,7 +47,7 @@ Status ReadMap(ScanFile& file, bool labels, ScanContent& content) {
     if (content.progress.labels || labels) map.EnableLabels();
     for (const BlockCoord& coord : order.value())
         if (map.Allocate(coord) == kUnknownBlock)
-            return Status::Error(fmt::format("{}: {} blocks do not fit into this machine's memory",
+            return Status::Error(fmt::format("{}: {} blocks do not fit in this machine's memory",
                                              file.path(), order.value().size()));
     BlockCodec codec;
     return file.Read(ScanTable::kBlocks, [&](const ScanRow& row) {
@@ -120,7 +120,7 @@ Status ReadStates(ScanFile& file, ScanContent& content) {
 Status ReadFrames(ScanFile& file, ScanContent& content) {
     return ReadScanFrames(file, [&](FrameRecord&& record) {
         if (record.in_store && record.stored.keyframe >= static_cast<int>(content.keyframes.size()))
-            return DamagedScan(file.path(), "frames of no keyframe");
+            return DamagedScan(file.path(), "frames without a keyframe");
         content.frames.push_back(std::move(record));
         return Status::Ok();
     });
@@ -207,7 +207,7 @@ Result<ScanContent> ReadScan(ScanFile& file, const ScanParts& parts) {
         if (Status status = read(file, content); !status.ok()) return status;
     if (static_cast<std::int64_t>(content.path.size()) != content.progress.frames)
         return DamagedScan(file.path(), "path");
-    // Every state row is sealed, too.
+    // The seal covers every state row, too.
     if (Status status = file.Read(ScanTable::kState, [](const ScanRow&) { return Status::Ok(); });
         !status.ok())
         return status;

@@ -1,5 +1,4 @@
-// Everything that a scan file holds, in memory: what it takes to go on, to look at it, or to hand
-// it out as other files.
+// The content of a scan file, in memory: everything needed to resume, view or export the scan.
 #pragma once
 
 #include <memory>
@@ -17,38 +16,38 @@ namespace tessera {
 struct ScanContent {
     ScanMeta meta;
     ScanProgress progress;
-    bool finished = false;  // the run that wrote it last came to its end
-    // Null unless asked for; its blocks have the ids that they had.
+    bool finished = false;  // the last run that wrote it ended normally
+    // Null unless requested. The blocks have their original ids.
     std::unique_ptr<BlockMap> map;
     std::vector<PathRecord> path;
     std::vector<Keyframe> keyframes;
-    std::vector<FrameRecord> frames;  // if asked for, by increasing time
+    std::vector<FrameRecord> frames;  // if requested, by increasing time
     LoopProgress loops;
-    // TrackingStage's and LabelMapper's states, as they gave them; perhaps empty.
+    // Saved states of TrackingStage and LabelMapper; may be empty.
     Bytes tracking, labels;
 
-    // T_world_camera of one of the path's frames as it is known now; nothing if it was not tracked.
+    // The current T_world_camera of a frame of the path; nullopt if it was not tracked.
     std::optional<Eigen::Isometry3d> PoseOf(const PathRecord& record) const;
-    // The same of all tracked frames, and the source's truth where it has one.
+    // The poses of all tracked frames, and the source's ground truth where available.
     std::vector<StampedPose> Path() const;
     std::vector<StampedPose> Truth() const;
-    // Where the last tracked frame's camera was in the map as it is here; nothing if no frame was
+    // The last tracked frame's camera pose in the map as stored here; nullopt if no frame was
     // tracked.
     std::optional<StampedPose> LastPose() const;
 };
 
 struct ScanParts {
     bool map = true, frames = false;
-    bool labels = false;  // the map gets room for labels even if the file has none
+    bool labels = false;  // allocate labels in the map even if the file has none
 };
 
-// Errors name the file and what to do: damage of any kind is found and refused, never passed on.
-// What is not asked for is not looked at.
+// Errors name the file and what to do. Any kind of damage is detected and refused. Parts that are
+// not requested are not checked.
 Result<ScanContent> ReadScan(const std::string& path, const ScanParts& parts);
 Result<ScanContent> ReadScan(ScanFile& file, const ScanParts& parts);
 Result<ScanMeta> ReadScanMeta(const std::string& path);
 
-// Every stored frame's record, in order, one at a time in memory.
+// Passes every stored frame's record to `take`, in order, with one at a time in memory.
 Status ReadScanFrames(ScanFile& file, const std::function<Status(FrameRecord&&)>& take);
 
 }  // namespace tessera

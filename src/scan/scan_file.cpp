@@ -39,7 +39,7 @@ void Sync(const std::string& path) {
     ::close(file);
 }
 
-// Why the file cannot be a scan, by its first bytes; empty if it can.
+// Returns why the file cannot be a scan, judging by its first bytes; empty if it can be one.
 std::string WhyNoScan(const std::string& path) {
     std::error_code ignored;
     if (!Exists(path)) return "no such file";
@@ -54,7 +54,7 @@ std::string WhyNoScan(const std::string& path) {
 
 Status DamagedScan(const std::string& path, const std::string& why) {
     return Status::Error(fmt::format(
-        "{}: damaged ({}); what is sound is recovered by: tessera scan repair {} --out NEW.scan",
+        "{}: damaged ({}); recover the intact part with: tessera scan repair {} --out NEW.scan",
         path, why, path));
 }
 
@@ -62,12 +62,12 @@ Result<std::unique_ptr<ScanFile>> ScanFile::Create(const std::string& path,
                                                    std::span<const std::uint8_t> meta) {
     if (Exists(path))
         return Status::Error(path +
-                             ": exists already; go on with it by --resume, or choose another name");
-    // SQLite would take it for the new file's.
+                             ": already exists; continue it with --resume, or choose another name");
+    // SQLite would treat it as the new file's journal.
     if (const std::string journal = path + "-wal"; HasContent(journal))
         return Status::Error(journal +
-                             ": is the journal of a scan that is not here any more; put it back "
-                             "beside its file, or remove it");
+                             ": is the journal of a scan that is no longer here; put it back next "
+                             "to its file, or remove it");
     const std::string unfinished = path + ".new";
     std::error_code ignored;
     for (const char* ending : {"", "-wal", "-shm"})
@@ -78,7 +78,7 @@ Result<std::unique_ptr<ScanFile>> ScanFile::Create(const std::string& path,
         if (!database.ok()) return database.status();
         std::unique_ptr<ScanFile> file(new ScanFile());
         file->database_ = std::move(database.value());
-        // Pages that hold several blocks and need no overflow pages for one.
+        // The page size fits several blocks, so that a block needs no overflow pages.
         std::string sql = fmt::format(
             "PRAGMA synchronous=OFF; PRAGMA page_size={}; PRAGMA application_id={}; PRAGMA "
             "user_version={}; ",
@@ -90,14 +90,14 @@ Result<std::unique_ptr<ScanFile>> ScanFile::Create(const std::string& path,
         if (made.ok()) {
             file->next_.checkpoint = 0;
             made = file->Put(ScanTable::kMeta, 0, meta);
-            // Once more on another page, for repair.
+            // Store a second copy on another page, for repair.
             if (made.ok())
                 made = file->Put(ScanTable::kState,
                                  static_cast<std::int64_t>(ScanStateKey::kMetaCopy), meta);
         }
         if (made.ok()) made = file->Commit(false);
-        // Not only once it has its name: who is killed while SQLite changes this leaves a file that
-        // cannot be opened to read.
+        // Set WAL mode before the file gets its name: if the process is killed while SQLite changes
+        // the mode, the file cannot be opened for reading.
         if (made.ok()) made = file->database_->Execute("PRAGMA journal_mode=WAL");
         if (!made.ok()) {
             file.reset();
@@ -107,7 +107,7 @@ Result<std::unique_ptr<ScanFile>> ScanFile::Create(const std::string& path,
     }
     Sync(unfinished);
     if (std::rename(unfinished.c_str(), path.c_str()) != 0)
-        return Status::Error(fmt::format("{}: cannot be made: {}", path, std::strerror(errno)));
+        return Status::Error(fmt::format("{}: cannot be created: {}", path, std::strerror(errno)));
     Result<std::unique_ptr<ScanFile>> made = OpenToWrite(path);
     if (made.ok()) made.value()->fresh_ = true;
     return made;
@@ -121,7 +121,7 @@ Result<std::unique_ptr<ScanFile>> ScanFile::OpenToRead(const std::string& path) 
     Result<std::unique_ptr<Database>> database = Database::Open(path, Database::Access::kRead);
     if (!database.ok()) return database.status();
     file->database_ = std::move(database.value());
-    // One state of the file for all that is read, also while another process goes on writing it.
+    // Reads one consistent state of the file, even while another process writes to it.
     if (Status begun = file->database_->Execute("BEGIN"); !begun.ok()) return begun;
     if (Status status = file->CheckHeader(); !status.ok()) return status;
     if (Status status = file->LoadSeal(); !status.ok()) return status;
@@ -163,12 +163,11 @@ Status ScanFile::Lock(const std::string& path) {
         return Status::Error(fmt::format("{}: cannot be written: {}", path, std::strerror(errno)));
     if (::flock(lock_, LOCK_EX | LOCK_NB) != 0)
         return Status::Error(
-            path + ": another run is writing into it; wait for its end, or choose another file");
+            path + ": another run is writing to it; wait until it ends, or choose another file");
     return Status::Ok();
 }
 
-// A file that is no scan of a version that this program reads is refused before anything is
-// believed of it.
+// Refuses a file that is not a scan of a supported version, before anything in it is trusted.
 Status ScanFile::CheckHeader() {
     const Result<std::int64_t> application = database_->Number("PRAGMA application_id");
     if (!application.ok()) return Failed("header");
@@ -178,7 +177,7 @@ Status ScanFile::CheckHeader() {
     if (!version.ok()) return Failed("header");
     if (version.value() > kScanVersion)
         return Status::Error(fmt::format(
-            "{}: is of format version {}, this program reads up to {}; use a newer tessera (or, if "
+            "{}: has format version {}, this program reads up to {}; use a newer tessera (or, if "
             "the file is damaged: tessera scan repair {} --out NEW.scan)",
             path(), version.value(), kScanVersion, path()));
     if (version.value() < 1) return DamagedScan(path(), "no format version");

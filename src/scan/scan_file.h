@@ -1,8 +1,9 @@
-// A scan file as its tables of rows: one SQLite database, written in transactions that each end in
-// a consistent state (a checkpoint), read with every row checked.
+// A scan file as tables of rows: one SQLite database. It is written in transactions that each end
+// in a consistent state (a checkpoint). Every row is checked when it is read.
 //
-// A checkpoint's seal (in ScanTable::kState) holds each table's number of rows and the sum of their
-// checksums: a row that is missing, old, moved or damaged is found, whatever SQLite makes of it.
+// A checkpoint's seal (in ScanTable::kState) holds each table's row count and the sum of its row
+// checksums. So a row that is missing, outdated, moved or damaged is detected even if SQLite does
+// not notice.
 #pragma once
 
 #include <array>
@@ -19,31 +20,32 @@ namespace tessera {
 struct ScanSeal {
     struct Table {
         std::int64_t epoch = 0, rows = 0;
-        std::uint64_t checksums = 0;  // their sum, modulo 2^64
+        std::uint64_t checksums = 0;  // sum of the row checksums, modulo 2^64
     };
     std::int64_t checkpoint = 0;
-    bool finished = false;  // the run that wrote it came to its end
+    bool finished = false;  // the run that wrote it ended normally
     std::array<Table, kScanTableCount> tables;
 
     std::vector<std::uint8_t> Encode() const;
     static bool Decode(std::span<const std::uint8_t> bytes, ScanSeal& seal);
 };
 
-// The error for a file whose content is not sound: it names `tessera scan repair`.
+// The error for a file with damaged content. It suggests `tessera scan repair`.
 Status DamagedScan(const std::string& path, const std::string& why);
 
 // Owner thread only. Errors name the file, what is wrong and what to do.
 class ScanFile {
   public:
-    // A new file with one checkpoint, number 0: `meta` and nothing else. Refused where there is a
-    // file already, or the journal of one. It appears at `path` whole or not at all.
+    // Creates a new file with a single checkpoint, number 0, that holds only `meta`. Fails if the
+    // file or its journal already exists. The file appears at `path` complete or not at all.
     static Result<std::unique_ptr<ScanFile>> Create(const std::string& path,
                                                     std::span<const std::uint8_t> meta);
-    // No scan, a newer version, or a header or schema that is not sound: refused. Two runs cannot
-    // write into one file.
+    // Refuses files that are not scans, files of a newer version, and files with a damaged header
+    // or schema. Two runs cannot write to the same file.
     static Result<std::unique_ptr<ScanFile>> OpenToRead(const std::string& path);
     static Result<std::unique_ptr<ScanFile>> OpenToWrite(const std::string& path);
-    // What was not committed is not there; a new file without a checkpoint but its first goes.
+    // Discards uncommitted changes. Deletes a file made by Create that has no checkpoint but its
+    // first.
     ~ScanFile();
     ScanFile(const ScanFile&) = delete;
     ScanFile& operator=(const ScanFile&) = delete;
@@ -51,22 +53,23 @@ class ScanFile {
     const std::string& path() const { return database_->path(); }
     const ScanSeal& seal() const { return seal_; }
 
-    // Every row of a table by increasing key, checked against its checksum, and at the end their
-    // number and sum against the seal. Ends early where `take` gives an error.
+    // Reads every row of a table by increasing key. Checks each row against its checksum and, at
+    // the end, the row count and checksum sum against the seal. Stops early if `take` returns an
+    // error.
     Status Read(ScanTable table, const std::function<Status(const ScanRow&)>& take);
-    // The data of one row of kState or kMeta; empty if there is none.
+    // Returns the data of one row of kState or kMeta; empty if there is none.
     Result<std::vector<std::uint8_t>> ReadOne(ScanTable table, std::int64_t key);
 
-    // One checkpoint: Begin, any Put and Clear, Commit. An error leaves the file as it was before
-    // Begin.
+    // To write one checkpoint: Begin, any number of Put and Clear, Commit. On error, the file stays
+    // as it was before Begin.
     Status Begin();
     Status Put(ScanTable table, std::int64_t key, std::span<const std::uint8_t> data);
-    // All rows go; those that come are of a new epoch.
+    // Deletes all rows of the table. New rows belong to a new epoch.
     Status Clear(ScanTable table);
     Status Commit(bool finished);
-    // The file is as it was before Begin.
+    // Restores the file as it was before Begin.
     void Rollback();
-    // The file is one again, without journal beside it. At the end of writing, once.
+    // Merges the journal into the file and removes it. Call it once, at the end of writing.
     void Close();
 
   private:
@@ -83,11 +86,11 @@ class ScanFile {
     Status Failed(const std::string& doing) const;
 
     bool fresh_ = false;  // made by Create
-    // The file, held so that nobody else writes; outlives the database (closing it drops SQLite's
-    // locks).
+    // Holds the lock that keeps other writers out. Must outlive the database: closing this file
+    // descriptor drops SQLite's locks.
     int lock_ = -1;
     std::unique_ptr<Database> database_;
-    ScanSeal seal_, next_;  // as committed, and as it will be
+    ScanSeal seal_, next_;  // as committed, and as it will be after Commit
     std::array<Statements, kScanTableCount> statements_;
 };
 

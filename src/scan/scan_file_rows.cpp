@@ -1,4 +1,4 @@
-// A scan file's rows: reading them checked, writing them in checkpoints.
+// Rows of a scan file: checked reading, and writing in checkpoints.
 #include <fmt/format.h>
 
 #include "core/state_stream.h"
@@ -59,7 +59,8 @@ Status ScanFile::Read(ScanTable table, const std::function<Status(const ScanRow&
         found.checksums += checksum;
         if (row.epoch != sealed.epoch || row.checkpoint > seal_.checkpoint ||
             found.rows > sealed.rows)
-            return DamagedScan(path(), fmt::format("{} {} is of another time", name, row.key));
+            return DamagedScan(path(),
+                               fmt::format("{} {} is from another checkpoint", name, row.key));
         if (Status status = take(row); !status.ok()) return status;
     }
     if (step != kStepDone) return Failed(name);
@@ -67,7 +68,7 @@ Status ScanFile::Read(ScanTable table, const std::function<Status(const ScanRow&
         return DamagedScan(path(), fmt::format("{} of {} {} missing", sealed.rows - found.rows,
                                                sealed.rows, name));
     if (found.checksums != sealed.checksums)
-        return DamagedScan(path(), fmt::format("{}: some are old", name));
+        return DamagedScan(path(), fmt::format("{}: some rows are out of date", name));
     return Status::Ok();
 }
 
@@ -165,7 +166,7 @@ void ScanFile::Rollback() {
         statements.find.Reset();
         statements.replace.Reset();
     }
-    // Where the library has rolled back itself there is nothing to do.
+    // Nothing to do if the library has already rolled back.
     static_cast<void>(database_->Execute("ROLLBACK"));
 }
 

@@ -1,5 +1,5 @@
-// In place of database.cpp and compression.cpp in a build without SQLite or zstd. No file is ever
-// opened, so nothing else is ever called.
+// Stubs for database.cpp and compression.cpp in builds without SQLite or zstd. Opening a file
+// always fails, so nothing else is ever called.
 #include "scan/compression.h"
 #include "scan/database.h"
 

@@ -1,6 +1,6 @@
-// What the rows of a scan file besides the blocks say, and their bytes. Decode functions are false
-// for bytes that are no such record; they believe nothing and allocate no more than the bytes that
-// are there.
+// Contents and encoding of the rows of a scan file, except for blocks. Decode functions return
+// false for bytes that are not a valid record. They trust nothing in the data and allocate no more
+// than the bytes present.
 #pragma once
 
 #include <optional>
@@ -18,27 +18,28 @@ namespace tessera {
 
 using Bytes = std::vector<std::uint8_t>;
 
-// What does not change while a scan is made.
+// Properties that do not change during a scan.
 struct ScanMeta {
-    std::string program;  // version that began it
+    std::string program;  // version that started the scan
     std::string source_name, source_kind;
     PinholeCamera camera;
     double depth_units_per_m = 5000;
     double voxel_size_m = 0, truncation_m = 0;
-    bool loops = false;         // loop closure is on: keyframes and frames are there
-    std::string configuration;  // YAML, the whole of it
+    bool loops = false;         // loop closure is on: keyframes and frames are stored
+    std::string configuration;  // the complete configuration as YAML
 
     Bytes Encode() const;
     bool Decode(std::span<const std::uint8_t> bytes);
 };
 
-// One frame that was tracked, or was to be: the key of its row counts them from 0.
+// One frame that was tracked or should have been. Its row's key counts these frames from 0.
 struct PathRecord {
     std::int64_t index = 0;  // in its source
     double stamp_s = 0;
     TrackStatus status = TrackStatus::kLost;
     bool fused = false;
-    // With loop closure: T_reference_camera is relative to it; -1: to the world.
+    // With loop closure, the keyframe to which T_reference_camera is relative; -1: relative to the
+    // world.
     std::int32_t keyframe = -1;
     Eigen::Isometry3d T_reference_camera = Eigen::Isometry3d::Identity();  // identity if lost
     std::optional<Eigen::Isometry3d> T_world_camera_truth;                 // in the source's world
@@ -48,12 +49,12 @@ struct PathRecord {
     bool Decode(std::span<const std::uint8_t> bytes);
 };
 
-// As of the last frame of a checkpoint.
+// State as of the last frame of a checkpoint.
 struct ScanProgress {
-    std::int64_t frames = 0;  // of the path
-    // That the map has seen, corrections apart: what its dither counts.
+    std::int64_t frames = 0;  // number of frames on the path
+    // Frames fused into the map, not counting corrections. Seeds the map's dither.
     std::uint32_t fused_frames = 0;
-    std::int64_t labelled_frames = 0;  // that were offered to the detector
+    std::int64_t labelled_frames = 0;  // frames offered to the detector
     std::int64_t last_index = -1;
     double last_stamp_s = 0;
     bool labels = false;  // blocks have labels
@@ -62,19 +63,20 @@ struct ScanProgress {
     bool Decode(std::span<const std::uint8_t> bytes);
 };
 
-// A raw frame. The key of its row is its frame's on the path.
+// A raw frame. Its row's key is that of its frame on the path.
 struct FrameRecord {
     std::int64_t index = 0;
     double stamp_s = 0, colour_stamp_s = 0;
-    bool in_store = false;  // one of FrameStore's: all of `stored` holds; else only its images
+    // True: in FrameStore, and all of `stored` is valid. False: only its images are valid.
+    bool in_store = false;
     StoredFrame stored;
 
     Bytes Encode() const;
-    // Images are not decoded, only taken apart.
+    // Does not decode the images.
     bool Decode(std::span<const std::uint8_t> bytes);
 };
 
-// Where a keyframe lies, which changes with each loop.
+// The poses of a keyframe, which change with each loop closure.
 struct KeyframePoses {
     Eigen::Isometry3d T_map_camera = Eigen::Isometry3d::Identity(),
                       T_world_camera = Eigen::Isometry3d::Identity();
@@ -87,15 +89,15 @@ struct KeyframePoses {
     bool Decode(std::span<const std::uint8_t> bytes);
 };
 
-// All of a keyframe but its two poses, and but `view`, which follows from the camera.
+// Everything in a keyframe except its two poses and `view`, which follows from the camera.
 Bytes EncodeKeyframe(const Keyframe& keyframe);
 bool DecodeKeyframe(std::span<const std::uint8_t> bytes, const PinholeCamera& camera,
                     Keyframe& keyframe);
 
-// What LoopCloser knows besides keyframes, frames and passages.
+// LoopCloser's state besides keyframes, frames and passages.
 struct LoopProgress {
     std::vector<PoseEdge> edges;
-    std::int64_t next_ordinal = 0;  // of the frame store
+    std::int64_t next_ordinal = 0;  // next ordinal of the frame store
     std::int32_t loops = 0;
     bool corrected = false;
 

@@ -23,12 +23,11 @@ class Repair {
     Result<RepairReport> Run() {
         Index();
         if (!FindMeta())
-            return Status::Error(path_ +
-                                 ": nothing can be recovered: what the scan was made with is lost");
+            return Status::Error(path_ + ": nothing can be recovered: the scan's metadata is lost");
         if (found_[IndexOf(ScanTable::kBlocks)].empty() &&
             found_[IndexOf(ScanTable::kPath)].empty())
             return Status::Error(path_ +
-                                 ": nothing can be recovered: no block and no pose is sound");
+                                 ": nothing can be recovered: no block and no pose is intact");
         JudgeLoops();
         Result<std::unique_ptr<ScanFile>> file = ScanFile::Create(out_, meta_.Encode());
         if (!file.ok()) return file.status();
@@ -51,7 +50,8 @@ class Repair {
 
     Rows& rows(ScanTable table) { return found_[IndexOf(table)]; }
 
-    // The newest of each row; rows of an earlier epoch than the newest are remains.
+    // Finds the newest version of each row. Rows from an earlier epoch than the newest are
+    // leftovers.
     void Index() {
         std::array<std::int64_t, kScanTableCount> epochs{};
         walk_->ForEach([&](const ScanRow& row, const PageWalk::Place& place) {
@@ -69,7 +69,7 @@ class Repair {
             ScanSeal seal;
             if (ScanSeal::Decode(row.data, seal)) seal_ = seal;
         }
-        if (!seal_) report_.lost.push_back("how much there was");
+        if (!seal_) report_.lost.push_back("the number of rows per table");
         for (const ScanTable table :
              {ScanTable::kBlocks, ScanTable::kPath, ScanTable::kFrames, ScanTable::kKeyframes}) {
             if (!seal_) continue;
@@ -82,7 +82,7 @@ class Repair {
         }
     }
 
-    // Valid until the next Load.
+    // `row` is valid until the next Load.
     bool Load(ScanTable table, std::int64_t key, ScanRow& row) {
         const auto found = rows(table).find(key);
         return found != rows(table).end() && walk_->Load(found->second.place, row);
@@ -95,7 +95,8 @@ class Repair {
                 meta_.Decode(row.data));
     }
 
-    // Loop closure can go on only from all keyframes; else the path is written without them.
+    // Loop closure can continue only with all keyframes. Otherwise the path is written without
+    // them.
     void JudgeLoops() {
         ScanRow row;
         const std::size_t count = rows(ScanTable::kPoses).size();
@@ -116,11 +117,11 @@ class Repair {
         whole = whole && poses_.size() == count &&
                 (count == 0 || poses_.rbegin()->first == static_cast<std::int64_t>(count) - 1);
         if (meta_.loops && !whole)
-            report_.lost.push_back("keyframes or loops: the scan goes on without loop closure");
+            report_.lost.push_back("keyframes or loops: the scan continues without loop closure");
         meta_.loops = whole;
     }
 
-    // Numbered anew, without gaps, in the order that they had.
+    // Renumbers the blocks without gaps, in their original order.
     Status CopyBlocks() {
         std::vector<std::pair<BlockId, std::int64_t>> order;
         ScanRow row;
@@ -208,7 +209,7 @@ class Repair {
             return Load(ScanTable::kState, static_cast<std::int64_t>(key), row);
         };
         if (!load(ScanStateKey::kProgress) || !progress.Decode(row.data)) {
-            report_.lost.push_back("the progress");
+            report_.lost.push_back("the progress record");
             progress = {};
             progress.fused_frames =
                 static_cast<std::uint32_t>(std::max<std::int64_t>(1, report_.path));
@@ -228,7 +229,7 @@ class Repair {
                 const Bytes data(row.data.begin(), row.data.end());
                 if (Status status = put(key, data); !status.ok()) return status;
             } else if (key == ScanStateKey::kTracking) {
-                report_.lost.push_back("the camera's motion at the end");
+                report_.lost.push_back("the tracking state at the end");
             }
         return meta_.loops ? put(ScanStateKey::kLoops, loops_.Encode()) : Status::Ok();
     }
@@ -242,7 +243,7 @@ class Repair {
     ScanMeta meta_;
     LoopProgress loops_;
     std::map<std::int64_t, KeyframePoses> poses_;
-    std::map<std::int64_t, std::int64_t> new_key_;  // of the path
+    std::map<std::int64_t, std::int64_t> new_key_;  // for the path
     std::optional<PathRecord> last_;
 };
 

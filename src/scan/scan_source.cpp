@@ -31,10 +31,11 @@ Result<std::unique_ptr<FrameSource>> ScanSource::Open(const std::string& path) {
     if (!checked.ok()) return checked;
     const std::vector<std::int64_t>& keys = source->keys_;
     if (keys.empty())
-        return Status::Error(path +
-                             ": holds no raw frames to replay; scan with --set scan.frames=all to "
-                             "keep them (the scan itself "
-                             "is read by tessera export, tessera info and --resume)");
+        return Status::Error(
+            path +
+            ": contains no raw frames to replay; scan with --set scan.frames=all to "
+            "keep them (tessera export, tessera info and --resume read the scan "
+            "itself)");
     const auto record = [&](std::int64_t key) -> const PathRecord& {
         return source->path_[static_cast<std::size_t>(key)];
     };
@@ -66,7 +67,7 @@ ReadResult ScanSource::Read(Frame& frame) {
     if (frame.depth_m.width() != c.width || frame.depth_m.height() != c.height ||
         (!frame.colour.empty() &&
          (frame.colour.width() != c.width || frame.colour.height() != c.height)))
-        return bad("is not of the camera's size");
+        return bad("does not have the camera's size");
     frame.index = static_cast<std::int64_t>(position);
     frame.stamp_s = record.stamp_s;
     frame.colour_stamp_s = record.colour_stamp_s;

@@ -1,4 +1,4 @@
-// Replays the frames that a scan file holds, with the source's truth where it has it.
+// Replays the frames of a scan file, with the source's ground truth where available.
 #pragma once
 
 #include <memory>
@@ -11,7 +11,8 @@ namespace tessera {
 
 class ScanSource : public FrameSource {
   public:
-    // All frames are checked. Errors name the file; one without frames says how to keep them.
+    // Checks all frames. Errors name the file; if it has no frames, the error says how to keep
+    // them.
     static Result<std::unique_ptr<FrameSource>> Open(const std::string& path);
 
     const SourceInfo& info() const override { return info_; }
@@ -23,7 +24,7 @@ class ScanSource : public FrameSource {
 
     std::unique_ptr<ScanFile> file_;
     SourceInfo info_;
-    FrameStore decoder_;  // holds no frame
+    FrameStore decoder_;  // used for decoding only
     std::vector<std::int64_t> keys_;
     std::vector<PathRecord> path_;
     std::size_t next_ = 0;

@@ -30,7 +30,7 @@ void ScanThread::WriteAll() {
             if (Status status = writer_->Write(*checkpoint); !status.ok()) {
                 failed_.store(true);
                 messages_.Push("the scan is no longer saved: " + status.message() +
-                               "; what was saved by then is sound");
+                               "; everything saved before is intact");
             }
             total_ms_ += watch.LapMs();
             ++written_;

@@ -1,4 +1,4 @@
-// Writes a scan on a thread of its own, so that neither compression nor the disk holds anyone up.
+// Writes a scan on its own thread, so that neither compression nor the disk delays anyone.
 #pragma once
 
 #include <atomic>
@@ -13,26 +13,27 @@
 
 namespace tessera {
 
-// One thread owns it. Checkpoints go round: in steady state nothing large is allocated.
+// One thread owns it. Checkpoints are recycled: in steady state nothing large is allocated.
 class ScanThread {
   public:
     explicit ScanThread(std::unique_ptr<ScanWriter> writer);
-    ~ScanThread();  // as Stop
+    ~ScanThread();  // like Stop
 
-    // Room for one more; if not, the checkpoint is to be made later, of more.
+    // True if there is room for a checkpoint. If not, make it later, with more content.
     bool idle() const { return checkpoints_.empty() && !writing_.load(); }
     void WaitUntilIdle();
     std::unique_ptr<ScanCheckpoint> Take() { return pool_.Take(); }
-    // Only while idle.
+    // Call it only while idle.
     void Write(std::unique_ptr<ScanCheckpoint> checkpoint);
-    // Waits until all is written, and makes the file one again.
+    // Waits until everything is written, then closes the file.
     void Stop();
-    // Nothing more is written: `TakeMessage` said why. The file is sound up to the last checkpoint
-    // before.
+    // True if writing has stopped after an error. `TakeMessage` returns the reason. The file is
+    // intact up to the last checkpoint before the error.
     bool failed() const { return failed_.load(); }
 
     std::optional<std::string> TakeMessage();
-    // Mean milliseconds of a checkpoint's writing, and how many there were; after Stop.
+    // Mean time to write a checkpoint in milliseconds, and the number of checkpoints. Valid after
+    // Stop.
     double mean_ms() const { return written_ > 0 ? total_ms_ / written_ : 0; }
     int written() const { return written_; }
     std::size_t waiting() const { return checkpoints_.size(); }
@@ -40,7 +41,7 @@ class ScanThread {
   private:
     void WriteAll();
 
-    std::unique_ptr<ScanWriter> writer_;  // the thread's, while it runs
+    std::unique_ptr<ScanWriter> writer_;  // the writer thread's, while it runs
     Wake wake_, idle_wake_, nobody_;
     Pool<ScanCheckpoint> pool_;
     FifoQueue<std::unique_ptr<ScanCheckpoint>> checkpoints_{1, wake_};

@@ -42,7 +42,7 @@ Status ScanWriter::PutRows(const ScanCheckpoint& c) {
             return status;
         }
     }
-    // By their keys, so that each page is touched once.
+    // In key order, so that each page is touched once.
     order_.clear();
     for (std::size_t i = 0; i < c.blocks.size(); ++i)
         order_.emplace_back(BlockKey(c.blocks.coords[i]), i);
@@ -59,7 +59,7 @@ Status ScanWriter::PutRows(const ScanCheckpoint& c) {
             return status;
     for (const auto& [number, frame] : c.raw_frames) {
         const Result<FrameRecord> record = Compress(*frame);
-        // An image that no encoder takes is left out; the scan does not hang on it.
+        // Skip images that cannot be encoded; the scan does not depend on them.
         if (!record.ok()) continue;
         if (Status status = file_->Put(ScanTable::kFrames, number, record.value().Encode());
             !status.ok())

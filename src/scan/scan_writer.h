@@ -1,4 +1,4 @@
-// Writes checkpoints: what changed since the one before, as one transaction.
+// Writes checkpoints: the changes since the previous one, as one transaction.
 #pragma once
 
 #include <memory>
@@ -13,25 +13,25 @@
 
 namespace tessera {
 
-// As a message: nothing in it belongs to anyone else. Keys are those of the rows.
+// A self-contained message; it shares no data with other objects. Keys are row keys.
 struct ScanCheckpoint {
-    bool clear_all = false;     // a new world: nothing that was written before holds
-    bool clear_blocks = false;  // another map: `stored` and `blocks` are all of it
-    std::shared_ptr<const CubeScratch> stored;  // mostly null; `blocks` are newer
+    bool clear_all = false;     // restart from an empty world; everything written before is invalid
+    bool clear_blocks = false;  // replace the map: `stored` and `blocks` are all of it
+    std::shared_ptr<const CubeScratch> stored;  // usually null; `blocks` are newer
     BlockCopies blocks;
-    // New ones, and those whose place is known better now.
+    // New records, and those whose pose has been improved.
     std::vector<std::pair<std::int64_t, PathRecord>> path;
     std::vector<std::pair<std::int64_t, FrameRecord>> frames;
-    // To be compressed by the writer; not also in `frames`.
+    // The writer compresses these. Must not also be in `frames`.
     std::vector<std::pair<std::int64_t, std::unique_ptr<Frame>>> raw_frames;
     std::vector<Keyframe> keyframes;  // new ones
     std::vector<std::pair<int, KeyframePoses>> poses;
     ScanProgress progress;
-    Bytes tracking, labels;  // empty: as the file has it
+    Bytes tracking, labels;  // empty: keep what the file has
     std::optional<LoopProgress> loops;
     bool finished = false;
 
-    // For the next one; storage is kept.
+    // Prepares for reuse and keeps the storage.
     void Clear();
 };
 
@@ -41,7 +41,7 @@ class ScanWriter {
     ScanWriter(std::unique_ptr<ScanFile> file, double depth_units_per_m)
         : file_(std::move(file)), depth_units_per_m_(depth_units_per_m) {}
 
-    // After an error the file is as it was before, and sound; nothing more should be written.
+    // On error, the file stays valid as it was before, and nothing more should be written.
     Status Write(const ScanCheckpoint& checkpoint);
     void Close() { file_->Close(); }
     const ScanFile& file() const { return *file_; }

@@ -13,7 +13,7 @@
 namespace tessera {
 namespace {
 
-// Cubes of the file in a map, around the one that is being meshed.
+// A map that holds the cubes around the one being meshed.
 class CubeWindow {
   public:
     CubeWindow(CubeReader& reader, const BlockMap::Config& config, bool labels)
@@ -33,14 +33,14 @@ class CubeWindow {
         }
         return Status::Ok();
     }
-    // Of all cubes' blocks: their numbers run from 1 to it.
+    // The number of blocks in all cubes. Block numbers run from 1 to this.
     std::int64_t count() const { return count_; }
     const std::vector<std::int64_t>& order() const { return order_; }
     const std::vector<BlockId>& blocks(std::int64_t key) const { return cubes_.at(key).ids; }
 
-    // The cube and all around it are there, whole.
+    // Loads the cube and all its neighbours.
     Status MoveTo(std::int64_t key) {
-        // 100 MB; what is behind is read again at most a few times.
+        // 100 MB. Released cubes are re-read at most a few times.
         constexpr std::int64_t kMostBlocks = 20000;
         const BlockCoord at = CubeOfKey(key);
         if (map_.count() > kMostBlocks) Leave(at);
@@ -91,13 +91,13 @@ class CubeWindow {
     BlockCopies copies_;
 };
 
-// Every block's, by number.
+// Indexed by block number.
 struct CubeMeshes {
     std::vector<std::unique_ptr<const BlockMesh>> meshes;
     BlockVertexLabels labels;
 };
 
-// As of a map whose blocks' ids are their numbers.
+// Meshes one block and replaces the block ids in its mesh by block numbers.
 void MeshByNumber(const BlockMap& map, BlockId id, double min_weight,
                   const StoredVertexLabel& label, CubeMeshes& out) {
     const std::unique_ptr<const BlockMesh> mesh = MeshBlock(map, id, min_weight);

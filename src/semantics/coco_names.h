@@ -1,4 +1,4 @@
-// The 80 classes of the COCO data set in its usual order: what most published detectors know.
+// The 80 COCO class names in their usual order. Most published detectors use them.
 #pragma once
 
 #include <string>

@@ -8,12 +8,14 @@
 namespace tessera {
 namespace {
 
-constexpr float kRing = 0.15f;  // the ring's width as a share of the box's longer side
+constexpr float kRing = 0.15f;  // ring width as a share of the longer box side
 constexpr int kLeastRing_px = 8;
-constexpr float kFlatShare = 0.04f;    // less of the box off the planes: the object is flat
-constexpr float kInsideShare = 0.7f;   // of a further piece that belongs to the object
-constexpr float kSameDepth_m = 0.03f;  // to be a piece of the object, at least;
-constexpr float kDepthShare = 0.25f;   // large objects: this share of the box's width
+// The object is flat if less of the box than this lies off the planes.
+constexpr float kFlatShare = 0.04f;
+// A further piece belongs to the object if this share of it lies in the box.
+constexpr float kInsideShare = 0.7f;
+constexpr float kSameDepth_m = 0.03f;  // depth margin around the main piece, at least
+constexpr float kDepthShare = 0.25f;   // and for large objects this share of the box width
 
 PixelBox Grown(const PixelBox& box, const DepthImage& depth_m) {
     const int ring =
@@ -24,7 +26,8 @@ PixelBox Grown(const PixelBox& box, const DepthImage& depth_m) {
             std::min(depth_m.height(), box.y_end + ring)};
 }
 
-// Neighbouring pixels whose depths differ less are one surface, also where it is seen at a slant.
+// Two neighbouring pixels lie on one surface if their depths differ by less than this. The limit
+// leaves room for slanted surfaces.
 bool Continuous(float a_m, float b_m) {
     const float z = std::min(a_m, b_m);
     return std::abs(a_m - b_m) < 0.008f + 0.006f * z * z;
@@ -32,10 +35,11 @@ bool Continuous(float a_m, float b_m) {
 
 struct Piece {
     int inside = 0, outside = 0;  // pixels in the box and around it
-    std::vector<float> depths_m;  // inside
+    std::vector<float> depths_m;  // of the pixels inside
 };
 
-// The window's pixels that lie in no plane, in pieces: the piece's number + 1, 0 = none.
+// Connected pieces of the window's pixels that lie in no plane. Holds piece index + 1 for each
+// pixel, 0 = none.
 class Pieces {
   public:
     Pieces(const DepthImage& depth_m, const PinholeCamera& camera, const PixelBox& box,
@@ -54,7 +58,7 @@ class Pieces {
     }
 
     const std::vector<Piece>& pieces() const { return pieces_; }
-    // In image coordinates.
+    // (x, y) in image coordinates.
     int NumberAt(int x, int y) const { return number_(x - window_.x_begin, y - window_.y_begin); }
     int free_inside() const {
         int count = 0;
@@ -124,7 +128,7 @@ float InsideShare(const Piece& piece) {
            static_cast<float>(std::max(1, piece.inside + piece.outside));
 }
 
-// Which pieces are the object, by number.
+// Marks the pieces that belong to the object, by piece number.
 std::vector<std::uint8_t> ChoosePieces(const std::vector<Piece>& pieces, float width_per_depth) {
     std::vector<std::uint8_t> chosen(pieces.size() + 1, 0);
     std::size_t main = 0;

@@ -1,5 +1,5 @@
-// Which pixels of a box are the object: by the paper's rule, or by the object's own shape in the
-// depth image.
+// Decides which pixels of a detection box belong to the object: by the paper's rule, or by
+// connected segments of the depth image.
 #pragma once
 
 #include <span>
@@ -10,20 +10,20 @@
 
 namespace tessera {
 
-// `mask` gets the box's size: 1 = object. Pixels without depth are never the object. Pure
-// functions, thread-safe, the same result on every run.
+// `mask` is resized to the box; 1 = object. Pixels without depth never belong to the object. Pure
+// functions, thread-safe, deterministic.
 
-// [D18] 3.3: what is deeper than the mean depth of the box is not the object.
+// [D18] 3.3: pixels deeper than the mean depth of the box do not belong to the object.
 void SegmentByMeanDepth(const DepthImage& depth_m, const PixelBox& box, Image<std::uint8_t>& mask);
 
-// 1. What surrounds the box is mostly what carries the object or lies behind it: the planes that
-// dominate a ring around
-//    the box are fitted (RANSAC) and left out of it.
-// 2. The rest falls into pieces connected in depth. The object is the piece that fills the box best
-// and goes on least
-//    outside of it, with the pieces at its depth that do not go on outside.
-// 3. Nothing left: the object is flat on its support (a picture on a wall), and is the box's part
-// of that plane. `others`: boxes of other objects, which are no surroundings.
+// 1. Most of what surrounds the box supports the object or lies behind it. RANSAC fits the planes
+//    that dominate a ring around the box, and their pixels are removed.
+// 2. The remaining pixels form pieces that are connected in depth. The object is the piece that
+//    fills the box best and extends least outside of it, plus the pieces at its depth that stay
+//    inside.
+// 3. If nothing remains, the object lies flat on its support (a picture on a wall): all pixels of
+//    the box with depth belong to it.
+// `others`: boxes of other objects. The ring leaves them out.
 void SegmentByDepth(const DepthImage& depth_m, const PinholeCamera& camera, const PixelBox& box,
                     std::span<const PixelBox> others, Image<std::uint8_t>& mask);
 

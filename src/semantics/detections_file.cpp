@@ -14,7 +14,7 @@ constexpr std::size_t kMaxFileBytes = std::size_t{1} << 30;
 constexpr double kSameTime_s = 0.002;
 constexpr float kFarthestPixel = 1e6f;
 
-// Why the line is none, or nothing.
+// Returns what is wrong with the line, or an empty string.
 std::string ParseLine(const std::string& line, double& stamp_s, Detection& d) {
     std::istringstream words(line);
     std::string rest;
@@ -54,9 +54,9 @@ Result<std::unique_ptr<DetectionsFile>> DetectionsFile::Read(const std::string& 
         file->by_stamp_[stamp_s].push_back(std::move(detection));
     }
     if (names.empty())
-        return Status::Error(
-            path +
-            ": has no detections; expected lines 'stamp class probability xmin ymin xmax ymax'");
+        return Status::Error(path +
+                             ": contains no detections; expected lines 'stamp class probability "
+                             "xmin ymin xmax ymax'");
     file->names_.assign(names.begin(), names.end());
     return file;
 }

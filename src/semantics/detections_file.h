@@ -1,5 +1,5 @@
-// Detections made beforehand, the way of [D18]: lines "stamp class probability xmin ymin xmax
-// ymax", pixels inclusive, "_" for blanks in a class's name, '#' starts a comment.
+// Precomputed detections, as in [D18]: lines "stamp class probability xmin ymin xmax ymax" with
+// inclusive pixel bounds. "_" stands for a blank in a class name; '#' starts a comment.
 #pragma once
 
 #include <map>
@@ -10,11 +10,12 @@ namespace tessera {
 
 class DetectionsFile : public Detector {
   public:
-    // A line of another form, a number out of range or a file without any line is an error:
-    // "FILE:LINE: ...".
+    // Malformed lines, numbers out of range and files without detections are errors: "FILE:LINE:
+    // ...".
     static Result<std::unique_ptr<DetectionsFile>> Read(const std::string& path);
 
-    // Those of the frame's colour image, else of its depth image, by time stamp within 2 ms.
+    // Returns the detections whose stamp is within 2 ms of the frame's colour stamp, or else of its
+    // depth stamp.
     Result<std::vector<Detection>> Detect(const Frame& frame) override;
     const std::vector<std::string>& class_names() const override { return names_; }
 
@@ -23,7 +24,7 @@ class DetectionsFile : public Detector {
     std::vector<std::string> names_;  // sorted
 };
 
-// One such line, without newline.
+// Formats one line of the file, without newline.
 std::string DetectionLine(double stamp_s, const std::string& class_name,
                           const Detection& detection);
 

@@ -1,5 +1,5 @@
-// Who finds objects in colour images: networks (dnn_detector.h), a file of detections made
-// beforehand (detections_file.h), or the truth of a built-in scene (synthetic_detector.h).
+// Object detectors for colour images: networks (dnn_detector.h), a file of precomputed detections
+// (detections_file.h), or the ground truth of a synthetic scene (synthetic_detector.h).
 #pragma once
 
 #include <memory>
@@ -12,52 +12,55 @@
 
 namespace tessera {
 
-// Pixels, inclusive at both ends, of the frame's images.
+// In pixels of the frame's images, inclusive at both ends.
 struct DetectionBox {
     float x_min = 0, y_min = 0, x_max = 0, y_max = 0;
 
-    float Area() const;  // 0 if it holds no pixel
+    float Area() const;  // 0 if the box is empty
     bool operator==(const DetectionBox&) const = default;
 };
 // Intersection over union, [0, 1].
 float BoxOverlap(const DetectionBox& a, const DetectionBox& b);
 
 struct Detection {
-    std::string name;       // as the detector calls the class
-    int class_id = 0;       // LabelClasses; 0 until KeepWanted set it
+    std::string name;       // the detector's name of the class
+    int class_id = 0;       // index in LabelClasses; 0 until KeepWanted sets it
     float probability = 0;  // [0, 1]
     DetectionBox box;
-    // Of the box's whole pixels (PixelsOf): 1 = the object; empty if there is none.
+    // Over the whole pixels of the box (PixelsOf), 1 = object. Empty if the detector gives no mask.
     Image<std::uint8_t> mask;
 };
 
 struct PixelBox {
-    int x_begin = 0, y_begin = 0, x_end = 0, y_end = 0;  // the ends are excluded
+    int x_begin = 0, y_begin = 0, x_end = 0, y_end = 0;  // exclusive ends
     int width() const { return x_end - x_begin; }
     int height() const { return y_end - y_begin; }
     bool empty() const { return width() <= 0 || height() <= 0; }
 };
-// The whole pixels of a box that lie in an image. Any numbers, also none at all, are taken.
+// Returns the whole pixels of a box that lie in the image. Accepts any values, including NaN.
 PixelBox PixelsOf(const DetectionBox& box, int width, int height);
 
 // Owner thread only.
 class Detector {
   public:
     virtual ~Detector() = default;
-    // What there is in the frame's colour image, of all classes and probabilities. An error ends
-    // its use: the network broke, or the frame has no colour. Never throws.
+    // Detects objects in the frame's colour image, of all classes and probabilities. After an error
+    // (the network failed, or the frame has no colour) the detector is no longer used. Never
+    // throws.
     virtual Result<std::vector<Detection>> Detect(const Frame& frame) = 0;
-    // From now on it works beside something more urgent: on the calling thread only, as far as it
-    // can choose.
+    // Makes the detector run only on the calling thread, as far as it can, because more urgent work
+    // runs in parallel.
     virtual void WorkInBackground() {}
-    // All that it may say; empty if that is not known beforehand.
+    // All class names that it can return; empty if they are not known beforehand.
     virtual const std::vector<std::string>& class_names() const = 0;
 };
 
-// Takes those of labels.dynamic out of `detections`, and returns the ones with enough probability.
+// Moves detections of labels.dynamic classes out of `detections`. Returns those with at least
+// `min_probability`.
 std::vector<Detection> TakeDynamic(const LabelClasses& classes, double min_probability,
                                    std::vector<Detection>& detections);
-// Those of wanted classes and enough probability, with class_id set; by falling probability.
+// Keeps detections of wanted classes with at least `min_probability`, sets class_id and sorts by
+// decreasing probability.
 void KeepWanted(const LabelClasses& classes, double min_probability,
                 std::vector<Detection>& detections);
 

@@ -16,7 +16,7 @@ namespace tessera {
 namespace {
 
 constexpr std::size_t kMaxModelBytes = std::size_t{2} << 30;
-constexpr int kGreyPad = 114;  // what all families are trained with
+constexpr int kGreyPad = 114;  // all families are trained with this padding
 
 std::string OneLine(const char* text) {
     std::string line(text);
@@ -33,13 +33,13 @@ class DnnDetector : public Detector {
           config_(config),
           output_names_(net_.getUnconnectedOutLayersNames()) {}
 
-    // Finds an input size at which the network runs and its outputs are understood.
+    // Finds an input size at which the network runs and its outputs are recognised.
     Status Try();
     Status SetNames(std::vector<std::string> names);
 
     Result<std::vector<Detection>> Detect(const Frame& frame) override;
-    // OpenCV has one number of threads for the whole process; nothing else here needs them while
-    // frames come.
+    // OpenCV's thread count applies to the whole process. Nothing else here uses OpenCV's threads
+    // while frames arrive.
     void WorkInBackground() override { cv::setNumThreads(1); }
     const std::vector<std::string>& class_names() const override { return names_; }
 
@@ -55,7 +55,7 @@ class DnnDetector : public Detector {
     std::vector<std::string> names_;
     YoloLayout layout_;
     std::vector<cv::Mat> blobs_;
-    std::vector<OutputArray> outputs_;  // of blobs_
+    std::vector<OutputArray> outputs_;  // point into blobs_
     double scale_x_ = 1, scale_y_ = 1;  // input pixels per frame pixel
 };
 
@@ -86,12 +86,14 @@ Status DnnDetector::Try() {
 Status DnnDetector::SetNames(std::vector<std::string> names) {
     names_ = std::move(names);
     if (static_cast<int>(names_.size()) == layout_.classes) return Status::Ok();
-    return Status::Error(fmt::format(
-        "{}: knows {} classes, but {} names {}; set labels.names to its list", path_,
-        layout_.classes, config_.names.empty() ? "COCO's list" : config_.names, names_.size()));
+    return Status::Error(
+        fmt::format("{}: the network has {} classes, but {} has {} names; set labels.names to a "
+                    "file with its class names",
+                    path_, layout_.classes, config_.names.empty() ? "the COCO list" : config_.names,
+                    names_.size()));
 }
 
-// Fills outputs_. Throws what OpenCV throws.
+// Fills outputs_. Throws cv::Exception.
 void DnnDetector::Run(const cv::Mat& rgb) {
     net_.setInput(InputOf(rgb));
     net_.forward(blobs_, output_names_);
@@ -103,8 +105,8 @@ void DnnDetector::Run(const cv::Mat& rgb) {
     }
 }
 
-// Letterboxed at the top left; Darknet's stretched. YOLOX takes BGR in 0..255, the others RGB in
-// 0..1.
+// Letterboxes the image at the top left; for Darknet it stretches the image. YOLOX takes BGR in
+// 0..255, the others RGB in 0..1.
 cv::Mat DnnDetector::InputOf(const cv::Mat& rgb) {
     const int size = layout_.input_px;
     scale_x_ = static_cast<double>(size) / rgb.cols,
@@ -144,7 +146,7 @@ Detection DnnDetector::ToFrame(const RawDetection& raw, int width, int height) c
 
 Result<std::vector<Detection>> DnnDetector::Detect(const Frame& frame) {
     if (frame.colour.empty()) return Status::Error("labels: the frame has no colour image");
-    // OpenCV takes no const pixels, but only reads them here.
+    // OpenCV has no Mat of const pixels. It only reads them here.
     const cv::Mat rgb(frame.colour.height(), frame.colour.width(), CV_8UC3,
                       const_cast<Rgb8*>(frame.colour.data()));
     try {
@@ -175,7 +177,7 @@ Result<std::vector<std::string>> ReadNames(const std::string& path) {
     return names;
 }
 
-// Reads the file first: OpenCV's own words about a missing or damaged one are many, and on stderr.
+// Reads the file first: for a missing or damaged file OpenCV prints long messages to stderr.
 Result<cv::dnn::Net> LoadNet(const std::string& path) {
     cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
     const bool darknet = path.ends_with(".cfg") || path.ends_with(".weights");
@@ -195,11 +197,12 @@ Result<cv::dnn::Net> LoadNet(const std::string& path) {
             if (model.value().empty()) return Status::Error(path + ": is empty");
             net = cv::dnn::readNetFromONNX(model.value().data(), model.value().size());
         }
-        if (net.empty()) return Status::Error(path + ": holds no network");
+        if (net.empty()) return Status::Error(path + ": contains no network");
         return net;
     } catch (const std::exception& error) {
         return Status::Error(
-            path + ": not a network that OpenCV can read: damaged, cut off or of another kind (" +
+            path +
+            ": OpenCV cannot read it; the file is damaged, truncated or not a supported network (" +
             OneLine(error.what()) + ")");
     }
 }

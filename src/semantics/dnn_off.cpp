@@ -1,4 +1,4 @@
-// Without OpenCV's DNN module.
+// Stub for builds without OpenCV's DNN module.
 #include "semantics/dnn_detector.h"
 
 namespace tessera {
@@ -7,9 +7,8 @@ bool HasDnn() { return false; }
 
 Result<std::unique_ptr<Detector>> OpenDnnDetector(const std::string& path, const LabelConfig&) {
     return Status::Error(path +
-                         ": this build has no networks (install libopencv-dnn-dev and build "
-                         "again); a detections file "
-                         "works without");
+                         ": this build cannot run networks; install libopencv-dnn-dev and rebuild, "
+                         "or use a detections file");
 }
 
 }  // namespace tessera

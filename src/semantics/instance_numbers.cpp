@@ -1,4 +1,4 @@
-// How objects keep their numbers when a corrected map is made.
+// Keeps the numbers of objects when the map is rebuilt with corrected poses.
 #include <algorithm>
 #include <iterator>
 #include <set>
@@ -9,7 +9,8 @@
 namespace tessera {
 namespace {
 
-// Of an instance: the smallest are the same few in any part of its detections.
+// Number of marks kept per instance. The smallest marks are a sample that does not depend on the
+// order of the detections.
 constexpr std::size_t kMarks = 64;
 
 int CommonMarks(const InstanceRecord& a, const InstanceRecord& b) {
@@ -28,7 +29,7 @@ void Instances::AddMarks(const std::vector<std::uint64_t>& marks, InstanceRecord
 }
 
 void Instances::KeepNumbersOf(const Instances& before) {
-    std::vector<std::tuple<int, InstanceId, InstanceId>> pairs;  // shared marks, negative; new; old
+    std::vector<std::tuple<int, InstanceId, InstanceId>> pairs;  // (-shared marks, new id, old id)
     for (InstanceId id = 1; id <= last(); ++id)
         for (InstanceId old_id = 1; old_id <= before.last(); ++old_id)
             if (Resolve(id) == id && before.Resolve(old_id) == old_id && before.confirmed(old_id))

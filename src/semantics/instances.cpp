@@ -7,20 +7,22 @@
 namespace tessera {
 namespace {
 
-constexpr int kLeastVisible = 20;  // sampled pixels; smaller views say nothing
-// Intersection over union, in the image.
+constexpr int kLeastVisible = 20;  // sampled pixels; smaller views carry no evidence
+// Thresholds of intersection over union in the image.
 constexpr double kSameClassOverlap = 0.25, kOtherClassOverlap = 0.4;
 constexpr double kContained = 0.5, kContainedShare = 0.2;
-constexpr double kSameSpace = 0.3;  // intersection over union of 3D boxes
+constexpr double kSameSpace = 0.3;  // intersection over union of the 3D boxes
 constexpr double kSameUnseen = 0.4;
-constexpr double kFree = 0.5;    // more of a region held by others is busy
-constexpr double kCovers = 0.6;  // of both, for one detection to say that two are one
-constexpr int kTogether = 12;    // times said, and so many times as often as the contrary:
-constexpr int kOftener = 4;
-constexpr int kTrialFrames = 12;        // in view, before one that is not confirmed may be dropped
-constexpr double kHeldShare = 0.3;      // of a detection's pixels shown by the map
-constexpr double kStandingShare = 0.5;  // of the rate asked for
-constexpr double kClassShare = 0.5;     // of the votes, to be confirmed
+constexpr double kFree = 0.5;  // a region is busy if other instances hold at least this share of it
+// Share of both instances that one detection must cover to suggest they are one.
+constexpr double kCovers = 0.6;
+constexpr int kTogether = 12;  // join after this much evidence,
+constexpr int kOftener = 4;    // and more than this many times the evidence against it
+// An unconfirmed instance in view for this many frames may be dropped.
+constexpr int kTrialFrames = 12;
+constexpr double kHeldShare = 0.3;      // the map must show this share of the detection's pixels
+constexpr double kStandingShare = 0.5;  // of the configured rate
+constexpr double kClassShare = 0.5;     // share of the votes needed to be confirmed
 
 template <typename Box>
 double IntersectionOverUnion(const Box& a, const Box& b) {
@@ -36,9 +38,9 @@ Value At(const std::map<InstanceId, Value>& values, InstanceId id) {
     return found == values.end() ? Value{} : found->second;
 }
 
-// How well a detection fits a known object that the map shows; 0: not at all. Of two that lie
-// within the detection the one whose outline in the image is the detector's box fits better,
-// whatever the segment has taken along.
+// Score of a detection against a known object that the map shows; 0: no match. If two objects lie
+// within the detection, the one whose outline in the image matches the detector's box scores
+// higher, even if the segment includes parts of the other.
 double Fit(const ObservedObject& o, const InstanceRecord& record, int common,
            const VisibleObject& visible, bool same_class) {
     const double all = o.pixels + visible.pixels - common, overlap = all > 0 ? common / all : 0;
@@ -89,7 +91,7 @@ std::vector<InstanceId> Instances::Match(const std::vector<ObservedObject>& obse
     const std::set<InstanceId> claimed(match.begin(), match.end());
     for (std::size_t i = 0; i < observed.size(); ++i) {
         if (match[i] != 0 || observed[i].pixels == 0) continue;
-        int busy = 0;  // held by what no other detection of this frame explains
+        int busy = 0;  // pixels held by instances that no detection of this frame explains
         for (const auto& [id, pixels] : observed[i].overlaps)
             if (!claimed.contains(id) && ClassOf(id) == observed[i].class_id) busy += pixels;
         if (busy < kFree * observed[i].pixels) match[i] = Add();
@@ -105,7 +107,7 @@ std::vector<InstanceId> Instances::Match(const std::vector<ObservedObject>& obse
     return match;
 }
 
-// Best fits first, one to one.
+// Greedy one-to-one assignment, best scores first.
 void Instances::Assign(const std::vector<ObservedObject>& observed,
                        const std::map<InstanceId, VisibleObject>& visible,
                        std::vector<InstanceId>& match) const {
@@ -116,7 +118,7 @@ void Instances::Assign(const std::vector<ObservedObject>& observed,
     };
     std::vector<Candidate> candidates;
     for (std::size_t i = 0; i < observed.size(); ++i) {
-        for (InstanceId id = 1; id <= last(); ++id)  // what another's votes still hide
+        for (InstanceId id = 1; id <= last(); ++id)  // instances whose votes are still outvoted
             if (!visible.contains(id) && Resolve(id) == id && ClassOf(id) == observed[i].class_id)
                 if (const double space = IntersectionOverUnion(observed[i].box, records_[id].box);
                     space >= kSameUnseen)
@@ -154,7 +156,7 @@ void Instances::Update(InstanceId id, const ObservedObject& observed, int visibl
     AddMarks({observed.mark}, r);
 }
 
-// Confirmed once seen often enough; dropped if that does not happen while it is in view.
+// Confirms an instance after enough observations. Drops it if it is in view often enough without.
 void Instances::Judge(InstanceId id) {
     InstanceRecord& r = records_[id];
     if (r.public_id > 0 || r.dropped || r.merged_into != 0) return;
@@ -211,7 +213,7 @@ void Instances::GatherEvidence(const std::vector<ObservedObject>& observed,
     }
 }
 
-// The one with the smaller public number stays; else the older one.
+// Keeps the instance with the smaller public number, or else the older one.
 void Instances::Join(InstanceId a, InstanceId b) {
     a = Resolve(a), b = Resolve(b);
     if (a == b || a == 0 || b == 0) return;

@@ -63,7 +63,7 @@ bool Instances::LoadState(StateReader& state) {
         bool empty = true;
         state.Get(empty);
         if (!empty && (!state.Get(r.box.min()) || !state.Get(r.box.max()))) return false;
-        // Merges go to older instances, so that following them ends.
+        // Merges point to older instances, so following them terminates.
         if (!state.ok() || r.merged_into >= std::max<std::uint64_t>(i, 1)) return false;
     }
     std::map<std::pair<InstanceId, InstanceId>, PairEvidence> evidence;

@@ -11,7 +11,7 @@ namespace {
 
 using Pairs = std::vector<std::pair<std::string, std::string>>;
 
-// "a=b c" as pairs; the second of "c" is empty.
+// Splits "a=b c" into pairs; the second part of "c" is empty.
 Pairs SplitPairs(const std::string& text) {
     Pairs pairs;
     std::istringstream words(text);
@@ -53,53 +53,51 @@ Rgb8 DistinctColour(int n) {
 
 void LabelConfig::Describe(ConfigParameters& p) {
     p.Add("classes", classes,
-          "what is labelled: names, each perhaps with its colour (cup=#b146c2), separated by "
-          "blanks (_ for those in a "
-          "name); all is every class of the detector");
-    p.Add("aliases", aliases, "detector's name=ours, separated by blanks");
+          "classes to label, separated by blanks, each with an optional colour (cup=#b146c2); "
+          "write _ for a blank in a name; all stands for every class of the detector");
+    p.Add("aliases", aliases, "renames classes: the detector's name=our name, separated by blanks");
     p.Add("dynamic", dynamic,
-          "names, separated by blanks, of what may move at any time: its pixels are not fused, "
-          "even while it stands still, and it is "
-          "not labelled");
+          "classes that may move at any time, separated by blanks; their pixels are neither fused, "
+          "even while the object stands still, nor labelled");
     p.Add("min_probability", min_probability, {0.0, 1.0}, "",
-          "detections below it are left out; [D18] takes 0.5");
+          "detections below this probability are ignored; [D18] uses 0.5");
     p.AddChoice<LabelRegion>(
         "region", region,
         {{"segment", LabelRegion::kSegment}, {"mean-depth", LabelRegion::kMeanDepth}},
-        "what of a box is the object: its own connected depth segment (or the model's mask), or "
-        "all "
-        "that is not deeper than the box's mean ([D18])");
+        "which pixels of a box belong to the object: its connected depth segment (or the model's "
+        "mask), or all that are not deeper than the mean depth of the box ([D18])");
     p.Add("band_voxels", band_voxels, {0.9, 10.0}, "voxels",
-          "voxels so near the surface get votes");
+          "voxels this close to the surface get votes");
     p.Add("min_observations", min_observations, {1, 1000}, "",
-          "an object counts once it was detected so often");
+          "detections needed to confirm an object");
     p.Add("min_rate", min_rate, {0.0, 1.0}, "",
-          "and in such a share of the detected frames that show it");
+          "an object also needs detections in this share of the processed frames that show it");
     p.Add("stride", stride, {1, 1000}, "frames",
-          "lockstep: detect in every so-manieth frame; live takes what the detector can do");
+          "lockstep mode: run the detector on every N-th frame; live mode runs it as often as it "
+          "can");
     p.Add("max_rate_hz", max_rate_hz, {0.1, 1000.0}, "1/s",
-          "live: at most so many frames a second are detected in, so that tracking keeps its "
-          "processor; raise it on a machine "
-          "with cores to spare");
-    p.AddChoice<ModelFamily>("family", family,
-                             {{"auto", ModelFamily::kAuto},
-                              {"yolox", ModelFamily::kYolox},
-                              {"yolov5", ModelFamily::kYolov5},
-                              {"yolov8", ModelFamily::kYolov8},
-                              {"darknet", ModelFamily::kDarknet}},
-                             "of a network: how to read its outputs; auto tells by their shapes");
-    p.Add("names", names, "file with the network's class names, one a line; empty: COCO's 80");
+          "live mode: run the detector on at most this many frames per second, so that tracking "
+          "keeps its CPU time; raise it on a machine with cores to spare");
+    p.AddChoice<ModelFamily>(
+        "family", family,
+        {{"auto", ModelFamily::kAuto},
+         {"yolox", ModelFamily::kYolox},
+         {"yolov5", ModelFamily::kYolov5},
+         {"yolov8", ModelFamily::kYolov8},
+         {"darknet", ModelFamily::kDarknet}},
+        "how to decode the network's outputs; auto recognises the family by their shapes");
+    p.Add("names", names,
+          "file with the network's class names, one per line; empty: the 80 COCO classes");
     p.Add("input_px", input_px, {0, 4096}, "px",
-          "edge of the network's square input, a multiple of 32; 0 tries 416, 640 and 320");
+          "side length of the network's square input, a multiple of 32; 0 tries 416, 640 and 320");
     p.Add("overlap", overlap, {0.0, 1.0}, "",
-          "of two boxes of a class that overlap more (intersection over union), the less probable "
-          "goes");
+          "if two boxes of one class overlap by more than this (intersection over union), the less "
+          "probable one is removed");
     p.Add("synthetic_missed", synthetic_missed, {0.0, 1.0}, "",
-          "share of detections that --labels synthetic leaves out");
+          "share of detections that --labels synthetic omits");
     p.Add("synthetic_wrong", synthetic_wrong, {0.0, 1.0}, "",
-          "share to which --labels synthetic gives a wrong class");
-    p.Add("synthetic_seed", synthetic_seed, {0, 2147483647}, "",
-          "which detections these are: another seed, other ones");
+          "share of detections to which --labels synthetic gives a wrong class");
+    p.Add("synthetic_seed", synthetic_seed, {0, 2147483647}, "", "random seed of these errors");
 }
 
 Status LabelConfig::Validate() const {

@@ -1,5 +1,5 @@
-// What is to be found in the images, and how sure of it one must be: section `labels` of the
-// configuration. Immutable values once read; thread-safe to read.
+// Which objects to look for in the images, and with what confidence: section `labels` of the
+// configuration. Not modified after reading; thread-safe to read.
 #pragma once
 
 #include <cstdint>
@@ -16,19 +16,19 @@ namespace tessera {
 
 // Which pixels of a detection's box belong to the object.
 enum class LabelRegion {
-    // Its own connected depth segment (depth_segment.h), or the model's mask where it gives one.
+    // Its connected depth segment (depth_segment.h), or the model's mask if there is one.
     kSegment,
-    kMeanDepth,  // all that is not deeper than the box's mean depth: [D18] 3.3
+    kMeanDepth,  // all that is not deeper than the mean depth of the box: [D18] 3.3
 };
 
-// How a network's outputs are to be read (yolo_outputs.h).
+// How to decode a network's outputs (yolo_outputs.h).
 enum class ModelFamily { kAuto, kYolox, kYolov5, kYolov8, kDarknet };
 
 struct LabelConfig {
-    // "name" or "name=#rrggbb", separated by blanks; "all" is every class that the detector knows.
+    // "name" or "name=#rrggbb", separated by blanks; "all" stands for every class of the detector.
     std::string classes =
         "computer=#e6403a laptop=#f5a623 keyboard=#3cb44b book=#4363d8 cup=#b146c2";
-    // "a detector's name=ours", separated by blanks.
+    // "detector's name=our name", separated by blanks.
     std::string aliases = "tv=computer tvmonitor=computer monitor=computer";
     std::string dynamic = "person";  // names as in `classes`, without colours
     double min_probability = 0.5;    // [D18] 3.3
@@ -38,42 +38,41 @@ struct LabelConfig {
     double min_rate = 0.3;
     int stride = 1;
     double max_rate_hz = 3;
-    // Of network detectors.
+    // For network detectors.
     ModelFamily family = ModelFamily::kAuto;
     std::string names;
     int input_px = 0;
     double overlap = 0.45;
-    // Of --labels synthetic.
+    // For --labels synthetic.
     double synthetic_missed = 0.1, synthetic_wrong = 0.03;
     int synthetic_seed = 1;
 
     void Describe(ConfigParameters& parameters);
-    // Errors name the key and what in it cannot be read.
+    // Errors name the key and the value that is wrong.
     Status Validate() const;
 };
 
-// The classes of one run, numbered from 1; 0 is "none of them".
+// The classes of one run, numbered from 1; 0 = none of them.
 class LabelClasses {
   public:
     static constexpr int kMost = 250;
 
     LabelClasses() = default;
-    // `known`: what the detector can say, for "all". An error names labels.classes, labels.aliases
-    // or the limit, or says that the detector knows none of the classes. An empty `known` is not
-    // checked.
+    // `known`: the detector's class names, which "all" expands to. An error names the key, or says
+    // that there are too many classes or that the detector knows none of them. If `known` is empty,
+    // the last check is skipped.
     static Result<LabelClasses> Make(const LabelConfig& config,
                                      const std::vector<std::string>& known);
 
-    // Blanks and "_" are the same; aliases are followed. 0 if the class is not wanted.
+    // Blanks and "_" are equivalent; aliases are applied. Returns 0 if the class is not wanted.
     int IdOf(const std::string& detector_name) const;
-    // Whether it is one of labels.dynamic, by the same rule: to be left out of the map and its
-    // labels.
+    // True for classes of labels.dynamic, by the same name rules. They are kept out of the map and
+    // its labels.
     bool IsDynamic(const std::string& detector_name) const;
 
     int count() const { return static_cast<int>(names_.size()) - 1; }
-    const std::string& name(int id) const {
-        return names_[static_cast<std::size_t>(id)];
-    }  // id in [0, count]
+    // `id` in [0, count].
+    const std::string& name(int id) const { return names_[static_cast<std::size_t>(id)]; }
     Rgb8 colour(int id) const { return colours_[static_cast<std::size_t>(id)]; }
 
   private:
@@ -87,7 +86,7 @@ class LabelClasses {
     std::set<std::string> dynamic_;
 };
 
-// Distinct for neighbouring numbers; the n-th is always the same.
+// Neighbouring numbers get distinct colours; the colour of n never changes.
 Rgb8 DistinctColour(int n);
 
 }  // namespace tessera

@@ -20,7 +20,8 @@ bool IsSecondOpinion(std::span<const Detection> detections, std::size_t i) {
                        });
 }
 
-// The other boxes that do not hold most of this one: an object's support may well be an object.
+// Returns the other boxes, except those that contain most of this one: an object's support may
+// itself be an object.
 std::vector<PixelBox> Neighbours(const std::vector<PixelBox>& boxes, const PixelBox& box) {
     std::vector<PixelBox> neighbours;
     for (const PixelBox& other : boxes) {

@@ -13,11 +13,11 @@
 namespace tessera {
 namespace {
 
-// At least, of the predicted view and of what is compared with it.
+// Minimum number of columns of the predicted view and of the images compared with it.
 constexpr int kSampledColumns = 160;
 constexpr float kNear_m = 0.1f;
-constexpr float kStrayShare = 0.02f;  // of an instance's pixels on each side, for its outline
-constexpr float kTrim = 0.05f;  // of a detection's points on each side of each axis, for its box
+constexpr float kStrayShare = 0.02f;  // outlier pixels of an instance's outline, on each side
+constexpr float kTrim = 0.05f;  // share of a detection's points cut off on each side of each axis
 
 Eigen::AlignedBox3d BoxWithoutStrays(std::vector<Eigen::Vector3d>& points) {
     Eigen::AlignedBox3d box;
@@ -31,7 +31,7 @@ Eigen::AlignedBox3d BoxWithoutStrays(std::vector<Eigen::Vector3d>& points) {
     return box;
 }
 
-// Of what was detected, not of where: the same in whatever map it is looked at again.
+// Depends only on the detection, not on its place in the map: a corrected map yields the same mark.
 std::uint64_t MarkOf(const Detection& d) {
     std::uint64_t mark = static_cast<std::uint64_t>(d.class_id);
     for (const float value : {d.probability, d.box.x_min, d.box.y_min, d.box.x_max, d.box.y_max}) {
@@ -61,15 +61,15 @@ VoteCount LabelMapper::Label(std::span<const Detection> detections, const DepthI
     const float farthest_m =
         *std::max_element(measured_m.data(), measured_m.data() + measured_m.size());
     const DepthImage& depth_m = WithinReach(measured_m, farthest_m);
-    // 1. What do the detections say of each pixel?
+    // 1. Assign each pixel to a detection.
     MakeLabelImage(depth_m, camera_, detections, config_.region, image_);
-    // 2. What does the map say?
+    // 2. Predict the instances that the map shows.
     PredictInstances(T_world_camera, std::min(1.1f * farthest_m, max_depth_m_), map);
     const std::map<InstanceId, VisibleObject> visible = Visible();
-    // 3. Which is which?
+    // 3. Match detections with instances.
     const std::vector<ObservedObject> observed = Observe(detections, depth_m, T_world_camera);
     const std::vector<InstanceId> match = instances_.Match(observed, visible);
-    // 4. Votes.
+    // 4. Vote.
     std::vector<Ballot> ballots(detections.size());
     for (std::size_t i = 0; i < match.size(); ++i)
         if (match[i] != 0)

@@ -1,5 +1,5 @@
-// Labels of a map: takes detections with the pose and depth of their frame, votes them into the
-// voxels, keeps the instances apart, and labels the mesh at the end.
+// Labels a map. Takes detections with the depth and pose of their frame, adds their votes to the
+// voxels, keeps the instances apart, and labels the final mesh.
 #pragma once
 
 #include <limits>
@@ -19,59 +19,60 @@ namespace tessera {
 // The map's owner thread only.
 class LabelMapper {
   public:
-    // What is farther than `max_depth_m` is not looked at: it is not fused either, and need not be
-    // in memory.
+    // Ignores depths beyond `max_depth_m`. These are not fused, and their blocks need not be in
+    // memory.
     LabelMapper(const LabelConfig& config, LabelClasses classes, const PinholeCamera& camera,
                 float max_depth_m = std::numeric_limits<float>::max());
 
-    // `detections` as KeepWanted leaves them, of the frame with this depth and pose; the frame need
-    // not be the last one fused. The map has labels.
+    // `detections`: as returned by KeepWanted, for the frame with this depth and pose. The frame
+    // need not be the last one fused. The map must have labels.
     VoteCount Label(std::span<const Detection> detections, const DepthImage& depth_m,
                     const Eigen::Isometry3d& T_world_camera, BlockMap& map);
 
-    // Gives each vertex the label of the voxel it lies at: the class of its confirmed instance,
-    // else its own; nothing where the instance is not confirmed. VertexLabel::instance is the
-    // public number.
+    // Sets the label of each vertex from its voxel: the class and the public number of the voxel's
+    // instance. Vertices of unconfirmed instances get no label.
     void LabelVertices(const BlockMap& map, TriangleMesh& mesh) const;
 
-    // The same of one vertex of a block's mesh, and the colour of that class; without one a grey as
-    // bright as the scene. Thread-safe while nobody labels.
+    // The label of one vertex of a block mesh, and the colour of its class. A vertex without a
+    // class gets a grey of the scene's brightness. Thread-safe while no other thread labels.
     VertexLabel LabelOf(const BlockMap& map, const BlockMesh& owner,
                         const BlockMesh::Vertex& vertex) const;
     Rgb8 ColourOf(const BlockMap& map, const BlockMesh& owner,
                   const BlockMesh::Vertex& vertex) const;
 
-    // The blocks with voxels whose label may show differently than at the last call: voted into
-    // since, or of an instance that has since been confirmed, joined, withheld or has changed its
-    // class. Increasing.
+    // Returns the blocks whose vertices may be labelled differently than at the last call, in
+    // increasing order: those that got votes since, and those that hold an instance that was
+    // confirmed, joined or withheld or changed its class since.
     std::vector<BlockId> TakeRelabelled(const BlockMap& map);
 
-    // The vertices with a label of blocks that were ever voted into, those that left memory
-    // included, and no triangles: what Objects needs for a look at an unfinished map. `meshes` by
-    // block id, as Mesher keeps them.
+    // Returns the labelled vertices of all blocks that ever got votes, including those paged out,
+    // without triangles. Objects needs them to measure an unfinished map. `meshes`: by block id, as
+    // Mesher keeps them.
     TriangleMesh LabelledVertices(
         const BlockMap& map, const std::vector<std::unique_ptr<const BlockMesh>>& meshes) const;
 
-    // Blocks are about to leave memory: what LabelledVertices gives of them is kept. `meshes`
-    // likewise.
+    // Call before blocks are paged out; keeps what LabelledVertices returns for them. `meshes`: as
+    // above.
     void Leave(const BlockMap& map, std::span<const BlockId> blocks,
                const std::vector<std::unique_ptr<const BlockMesh>>& meshes);
-    // They came back, perhaps under other ids; and they were meshed again.
+    // Call when blocks were paged in again, perhaps under other ids, and when they were meshed.
     void Return(const BlockMap& map, std::span<const BlockId> blocks);
     void Meshed(const BlockMap& map, std::span<const BlockId> blocks);
 
-    // The confirmed objects that the labelled mesh shows, by number. Remains of less than 15 square
-    // centimetres, or of a tenth of what its detections saw of it, are none, and lose their label.
+    // Returns the confirmed objects that the labelled mesh shows, sorted by number. Objects with
+    // less than 15 square centimetres of surface, or less than a tenth of what their detections saw
+    // on average, are discarded and their labels cleared.
     std::vector<MapObject> Objects(double voxel_size_m, TriangleMesh& labelled) const;
 
     const LabelClasses& classes() const { return classes_; }
     const Instances& instances() const { return instances_; }
-    // For one that labelled a corrected map with the same detections: its objects have the numbers
-    // that they had.
+    // For a mapper that labelled a corrected map with the same detections: its objects keep their
+    // previous numbers.
     void KeepNumbersOf(const LabelMapper& before) { instances_.KeepNumbersOf(before.instances_); }
-    // Everything forgotten: a new map.
+    // Forgets everything, for a new map.
     void Reset();
-    // The classes by name, and the instances. LoadState is false if the classes are others.
+    // Saves and restores the class names and the instances. LoadState returns false if the classes
+    // differ.
     void SaveState(StateWriter& state) const;
     bool LoadState(StateReader& state);
 
@@ -101,14 +102,14 @@ class LabelMapper {
     PredictedView view_;
     Image<InstanceId> predicted_;
     LabelImage image_;
-    DepthImage near_m_;  // the frame's depth, where part of it is too far
+    DepthImage near_m_;  // the frame's depth without what is too far
     Instances instances_;
     enum class Votes : std::uint8_t { kNone, kTold, kNew };
     std::vector<Votes> votes_;        // by block id
-    std::vector<VertexLabel> shown_;  // by InstanceId, as told by the last TakeRelabelled
-    // Of blocks that left and were not meshed since.
+    std::vector<VertexLabel> shown_;  // by InstanceId, as of the last TakeRelabelled
+    // Vertices of blocks that were paged out and not meshed since.
     std::map<BlockCoord, std::vector<LabelledVertex>> away_;
-    bool loaded_ = false;  // by LoadState, and nothing known of the blocks yet
+    bool loaded_ = false;  // true after LoadState until the blocks are known
 };
 
 }  // namespace tessera

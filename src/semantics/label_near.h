@@ -1,4 +1,4 @@
-// A map's label at a point.
+// Looks up the map's label at a point.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,8 +7,9 @@
 
 namespace tessera {
 
-// The nearest voxel's label; where that has none, of the next one along the axis on which the point
-// lies between two. Metres, world frame. Thread-safe while nobody writes the map.
+// Returns the label of the nearest voxel. If that has no votes, returns the label of the next voxel
+// along the axis on which the point lies farthest from the voxel centre. Metres, world frame.
+// Thread-safe while no other thread writes to the map.
 VoxelLabel LabelNear(const BlockMap& map, const Eigen::Vector3d& p_world);
 
 }  // namespace tessera

@@ -1,4 +1,4 @@
-// What the labelled map shows: its vertices' labels and colours, and its objects.
+// Results of labelling: vertex labels and colours, and the objects.
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -12,9 +12,9 @@
 namespace tessera {
 namespace {
 
-// An object's surface in the map: less is what others left of a mistake.
+// Minimum surface of an object in the map. Smaller ones are remains of false detections.
 constexpr double kLeastArea_m2 = 0.0015;
-constexpr double kLeastSeenShare = 0.1;  // of what its detections saw of it, in the mean
+constexpr double kLeastSeenShare = 0.1;  // of the mean area that its detections saw
 
 }  // namespace
 
@@ -52,7 +52,7 @@ Rgb8 LabelMapper::ColourOf(const BlockMap& map, const BlockMesh& owner,
     return vertex.has_colour ? NoCategoryColour(vertex.colour) : kNoSceneColour;
 }
 
-// After LoadState any block may have votes.
+// After LoadState every block may have votes.
 void LabelMapper::KnowBlocks(const BlockMap& map) {
     votes_.resize(static_cast<std::size_t>(map.size()),
                   std::exchange(loaded_, false) ? Votes::kNew : Votes::kNone);
@@ -143,7 +143,7 @@ void LabelMapper::Meshed(const BlockMap& map, std::span<const BlockId> blocks) {
 
 std::vector<MapObject> LabelMapper::Objects(double voxel_size_m, TriangleMesh& labelled) const {
     std::vector<MapObject> objects;
-    std::map<int, double> least_m2;  // by number
+    std::map<int, double> least_m2;  // by public number
     for (InstanceId id = 1; id <= instances_.last() && id != 0; ++id) {
         if (instances_.Resolve(id) != id || !instances_.stands(id)) continue;
         MapObject object;

@@ -9,7 +9,7 @@
 namespace tessera {
 namespace {
 
-// Votes of a detection against another one's instance: they are seen to be two.
+// Weight of a vote against an instance that is itself detected in this frame: the two are distinct.
 constexpr int kApartWeight = 3;
 
 struct Voting {
@@ -53,7 +53,8 @@ Vote VoteOf(const Voting& v, const Claims& claims, const VoxelLabel& voxel) {
     return {ballot->class_id, ballot->instance, v.IsDetected(holder) ? kApartWeight : 1};
 }
 
-// Blocks of the map around the labelled pixels' surface, each once, increasing.
+// Returns the map's blocks around the surface of the labelled pixels, without duplicates, in
+// increasing order.
 std::vector<BlockId> BlocksOf(const Voting& v, const Eigen::Isometry3d& T_world_camera,
                               const BlockMap& map) {
     const double block_m = map.config().voxel_size_m * kBlockSide, margin = v.band_m / block_m;
@@ -88,7 +89,7 @@ std::vector<BlockId> BlocksOf(const Voting& v, const Eigen::Isometry3d& T_world_
     return all;
 }
 
-// What the pixel that sees the point says; nothing if none does.
+// Returns the claims of the pixel that sees the point; empty if no pixel does.
 Claims ClaimsAt(const Voting& v, const Eigen::Vector3d& p_camera, double truncation_m) {
     if (p_camera.z() < 0.01) return {};
     const Eigen::Vector2d pixel = v.camera.Project(p_camera);

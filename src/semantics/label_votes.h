@@ -1,5 +1,5 @@
-// Detections become votes of voxels ([D18] eq. 1): from the pose and depth of the frame that was
-// detected, however late the detector answered.
+// Turns detections into votes of voxels ([D18] eq. 1), using the pose and depth of the detected
+// frame even if the detector finishes later.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -12,29 +12,29 @@
 
 namespace tessera {
 
-// What a detection's pixels vote for.
+// What the pixels of a detection vote for.
 struct Ballot {
     std::uint8_t class_id = 0;   // 0: no vote
-    std::uint16_t instance = 0;  // 0: against whatever there is
+    std::uint16_t instance = 0;  // 0: against any instance
     bool shown = false;          // the map shows that instance
-    // Instances within the detection that were not detected: they keep their voxels.
+    // Instances covered by the detection that were not detected themselves. They keep their voxels.
     std::vector<std::uint16_t> covered = {};
 };
 
 struct VoteCount {
     std::int64_t voxels = 0;  // that got a vote
-    std::int64_t flips = 0;   // settled voxels that changed their class (voxel_label.h)
-    // Voxels that settled on an object's class, having been settled on none.
+    std::int64_t flips = 0;   // settled voxels whose class changed (voxel_label.h)
+    // Voxels that newly settled on an object class.
     std::int64_t settled = 0;
-    std::vector<BlockId> blocks = {};  // of those voxels, increasing
+    std::vector<BlockId> blocks = {};  // that hold these voxels, increasing
 };
 
-// One vote for each voxel whose stored distance is at most `band_m` from the surface and that the
-// frame sees: it projects to a pixel with a label and measured depth within the map's truncation.
-// `ballots`: one a detection; pixels beside objects vote for the background. A pixel that two
-// detections claim votes for the one whose instance the voxel holds. `joined`: what each instance's
-// number stands for now. The map must have labels; no voxel is made. Uses all cores (TBB), the same
-// result for any number. The map's owner only.
+// Adds one vote to each voxel whose stored distance is at most `band_m` and that the frame sees: it
+// must project to a labelled pixel whose depth is within the truncation distance. `ballots`: one
+// per detection. Pixels beside objects vote for the background. A pixel claimed by two detections
+// votes for the one whose instance the voxel holds. `joined`: the current instance for each
+// instance number. The map must have labels; no voxels are created. Uses all cores (TBB); the
+// result does not depend on their number. Map's owner thread only.
 VoteCount VoteLabels(const LabelImage& labels, std::span<const Ballot> ballots,
                      std::span<const std::uint16_t> joined, const DepthImage& depth_m,
                      const PinholeCamera& camera, const Eigen::Isometry3d& T_world_camera,

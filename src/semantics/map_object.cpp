@@ -10,8 +10,9 @@ namespace tessera {
 namespace {
 
 constexpr double kStray = 0.005;
-constexpr int kAngles = 30;           // tried over a quarter turn
-constexpr std::size_t kTried = 1000;  // points that the trials look at; the box chosen holds all
+constexpr int kAngles = 30;  // tested over a quarter turn
+// Points used by these tests; the final box is fitted to all points.
+constexpr std::size_t kTried = 1000;
 
 using WorldPoints = std::vector<Eigen::Vector3d>;
 
@@ -40,7 +41,7 @@ Eigen::Matrix3d PrincipalAxes(const WorldPoints& points) {
     return axes.transpose();
 }
 
-// The smallest box found by turning the principal axes about each of themselves.
+// Tests rotations of the principal axes about each of them and keeps the smallest box.
 void FitOrientedBox(const WorldPoints& points, MapObject& object) {
     const Eigen::Matrix3d principal = PrincipalAxes(points);
     WorldPoints some;

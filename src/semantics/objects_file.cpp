@@ -18,7 +18,7 @@ Eigen::Vector3d ToVector(const Json& json) {
                            json.at(2).get<double>());
 }
 
-// Throws what the json library throws where a field is missing or of another kind.
+// Throws a JSON exception if a field is missing or has the wrong type.
 MapObject ToObject(const Json& json) {
     MapObject o;
     o.id = json.at("id");
@@ -55,7 +55,7 @@ Result<std::vector<MapObject>> ReadObjects(const std::string& path) {
     const Result<std::string> text = ReadWholeFile(path, std::size_t{1} << 28);
     if (!text.ok()) return text.status();
     const Json json = Json::parse(text.value(), nullptr, false);
-    if (!json.is_array()) return Status::Error(path + ": is no list of objects");
+    if (!json.is_array()) return Status::Error(path + ": not a list of objects");
     std::vector<MapObject> objects;
     try {
         for (const Json& object : json) objects.push_back(ToObject(object));

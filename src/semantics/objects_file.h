@@ -1,27 +1,27 @@
-// A finished run's labelled objects, for whoever shows or takes apart its mesh: read from
-// objects.json, as colours, and as meshes of their own. Pure functions, thread-safe.
+// Labelled objects of a finished run, for programs that display its mesh or split it: reads
+// objects.json, computes vertex colours, extracts single objects. Pure functions, thread-safe.
 #pragma once
 
 #include "semantics/map_object.h"
 
 namespace tessera {
 
-// What ObjectsJson wrote; the fields of MapObject but `vertices`. Errors name the file and what is
-// wrong in it.
+// Reads what ObjectsJson writes: all fields of MapObject except `vertices`. Errors name the file
+// and the object.
 Result<std::vector<MapObject>> ReadObjects(const std::string& path);
 
-// In place of the scene's colours: vertices with a class get its colour (of `objects`, or
-// DistinctColour for a class that is not among them), the others a pale grey of the scene's
-// brightness.
+// Returns colours that replace those of the scene. Vertices with a class get its colour (from
+// `objects`, or DistinctColour if the class is not among them). The others get a pale grey of the
+// scene's brightness.
 std::vector<Rgb8> CategoryColours(const TriangleMesh& labelled,
                                   const std::vector<MapObject>& objects);
 
-// What a vertex without a class looks like among such: a pale grey as bright as the scene is there.
+// Colour of a vertex without a class: a pale grey of the scene's brightness.
 Rgb8 NoCategoryColour(const Rgb8& scene);
-inline constexpr Rgb8 kNoSceneColour{200, 200, 200};  // of one that has no colour either
+inline constexpr Rgb8 kNoSceneColour{200, 200, 200};  // of a vertex that has no scene colour either
 
-// The triangles of which all corners are that instance's, with their vertices; empty if there are
-// none.
+// Returns the triangles whose three corners belong to the instance, with their vertices. May be
+// empty.
 TriangleMesh ExtractInstance(const TriangleMesh& labelled, int id);
 
 }  // namespace tessera

@@ -1,4 +1,4 @@
-// From what a person gives as --labels to a detector and the classes to look for.
+// Opens the detector and the classes for the --labels argument.
 #pragma once
 
 #include "semantics/detector.h"
@@ -11,8 +11,9 @@ struct Labelling {
     LabelClasses classes;
 };
 
-// `name`: "synthetic" (the truth of the source, with mistakes), a network (.onnx, .cfg, .weights),
-// or else a detections file. `source`: the run's. The error is one line that names the file or key.
+// `name`: "synthetic" (ground truth of the source, with simulated errors), a network (.onnx, .cfg,
+// .weights), or a detections file. `source`: the run's source. Errors are one line and name the
+// file or the key.
 Result<Labelling> OpenLabelling(const std::string& name, const std::string& source,
                                 const SynthConfig& synthetic, const LabelConfig& config);
 

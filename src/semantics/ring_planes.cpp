@@ -13,7 +13,8 @@ constexpr std::size_t kMostPoints = 900;
 constexpr int kMostPlanes = 3, kTrials = 80;
 constexpr float kLeastShare = 0.125f;
 constexpr std::size_t kLeastPoints = 30;
-constexpr float kSideShare = 0.25f;  // of a side's points, for the side to show the plane
+// Share of a side's points that must lie in the plane for the side to count.
+constexpr float kSideShare = 0.25f;
 constexpr float kMost = 0.5f;
 
 using Points = std::vector<Eigen::Vector3f>;
@@ -22,7 +23,7 @@ bool Contains(const PixelBox& box, int x, int y) {
     return x >= box.x_begin && x < box.x_end && y >= box.y_begin && y < box.y_end;
 }
 
-// Above, below, left, right of the box.
+// 0 above, 1 below, 2 left, 3 right of the box.
 int SideOf(const PixelBox& box, int x, int y) {
     if (x >= box.x_begin && x < box.x_end) return y < box.y_begin ? 0 : 1;
     return x < box.x_begin ? 2 : 3;
@@ -30,7 +31,7 @@ int SideOf(const PixelBox& box, int x, int y) {
 
 struct Ring {
     Points points;
-    std::vector<int> sides;  // of each point
+    std::vector<int> sides;  // one per point
 };
 
 bool LiesIn(const Plane& plane, const Eigen::Vector3f& p) {
@@ -69,7 +70,7 @@ std::optional<Plane> ThroughThree(const Eigen::Vector3f& a, const Eigen::Vector3
     return Plane{n / length, n.dot(a) / length};
 }
 
-// Least squares through the points that lie in `plane`.
+// Least-squares plane through the points that lie in `plane`.
 Plane Refined(const Plane& plane, const Points& points) {
     Eigen::Vector3d mean = Eigen::Vector3d::Zero();
     Eigen::Matrix3d second = Eigen::Matrix3d::Zero();

@@ -15,7 +15,7 @@ class SyntheticDetector : public Detector {
 
     Result<std::vector<Detection>> Detect(const Frame& frame) override {
         if (!frame.T_world_camera)
-            return Status::Error("--labels synthetic: the frame has no true pose");
+            return Status::Error("--labels synthetic: the frame has no ground-truth pose");
         const Scene& scene = source_->scene();
         const Image<std::uint16_t> instances = CastInstances(
             scene, source_->info().camera, *frame.T_world_camera, frame.stamp_s - kFirstStamp_s);
@@ -48,7 +48,7 @@ Result<std::unique_ptr<Detector>> OpenSyntheticDetector(const std::string& sourc
                                                         const LabelConfig& config) {
     if (!source.starts_with("synthetic:"))
         return Status::Error("--labels synthetic: " + source +
-                             " is no synthetic: source; give a model or a detections file");
+                             " is not a synthetic: source; give a network or a detections file");
     Result<std::unique_ptr<SyntheticSource>> opened = OpenSynthetic(source, synthetic);
     if (!opened.ok()) return opened.status();
     return std::unique_ptr<Detector>(

@@ -1,5 +1,5 @@
-// The truth of a built-in scene or model as a detector's words, with mistakes at the configured
-// rates: --labels synthetic.
+// Detector for --labels synthetic: returns the ground truth of a built-in scene or model, with
+// simulated errors at the configured rates.
 #pragma once
 
 #include "semantics/detector.h"
@@ -7,8 +7,8 @@
 
 namespace tessera {
 
-// `source`: the run's own, synthetic:NAME or synthetic:FILE.obj; others are an error. Its frames
-// carry their true pose, by which they are detected.
+// `source`: the run's source, synthetic:NAME or synthetic:FILE.obj; others are an error. Detect
+// uses the ground-truth pose of each frame.
 Result<std::unique_ptr<Detector>> OpenSyntheticDetector(const std::string& source,
                                                         const SynthConfig& synthetic,
                                                         const LabelConfig& config);

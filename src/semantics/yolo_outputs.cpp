@@ -31,7 +31,7 @@ bool IsMaskOutput(const OutputArray& output, int input_px) {
            output.shape[3] == input_px / 4;
 }
 
-// What a single boxes' output is; classes 0: nothing known.
+// Layout of a single boxes output; classes < 1: not recognised.
 YoloLayout LayoutOf(const OutputArray& output, int input_px, bool with_masks) {
     YoloLayout layout;
     layout.input_px = input_px;
@@ -85,15 +85,15 @@ void Append(BestClass best, float cx, float cy, float width, float height,
         found.push_back(std::move(d));
 }
 
-// Rows (cx, cy, width, height, objectness, scores...) scaled by `scale`; with masks their
-// coefficients follow.
+// Rows are (cx, cy, width, height, objectness, scores...), scaled by `scale`. Mask coefficients
+// follow if there are masks.
 void DecodeRows(const OutputArray& output, int rows, const YoloLayout& layout, float scale,
                 float least, std::vector<RawDetection>& found) {
     const int columns = output.shape.back();
     for (int r = 0; r < rows; ++r) {
         const float* row = output.data + static_cast<std::ptrdiff_t>(r) * columns;
         BestClass best = FindBest(row + 5, layout.classes, 1);
-        // Darknet's scores hold it already.
+        // Darknet's scores already include the objectness.
         if (layout.family != ModelFamily::kDarknet) best.probability *= row[4];
         if (!(best.probability >= least)) continue;
         const std::size_t before = found.size();

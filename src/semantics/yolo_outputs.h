@@ -1,5 +1,5 @@
-// What the outputs of detection networks mean: their family, told by their shapes, and the boxes in
-// them. Plain arrays, no library's types. Pure functions, thread-safe.
+// Decodes the outputs of detection networks. The shapes of the outputs identify the network family.
+// Plain arrays, no library types. Pure functions, thread-safe.
 //
 // S is the edge of the square input in pixels, A = (S/8)^2 + (S/16)^2 + (S/32)^2 the cells of the
 // three strides, C the number of classes.
@@ -31,11 +31,11 @@ struct YoloLayout {
     int boxes_output = 0, masks_output = -1;  // indices
 };
 
-// `family` other than kAuto: only that one is tried. The error lists the shapes.
+// A `family` other than kAuto restricts the search to that one. The error lists the shapes.
 Result<YoloLayout> RecogniseOutputs(const std::vector<OutputArray>& outputs, int input_px,
                                     ModelFamily family);
 
-// One box in input pixels, ends as distances (not inclusive pixels).
+// One box in input pixels. Bounds are continuous coordinates, not inclusive pixels.
 struct RawDetection {
     int class_index = 0;
     float probability = 0;
@@ -43,17 +43,17 @@ struct RawDetection {
     std::vector<float> mask_coefficients;
 };
 
-// Those of at least `min_probability` > 0, numbers that are not finite left out, in the outputs'
-// order.
+// Returns the boxes with at least `min_probability` > 0, in the order of the outputs. Skips boxes
+// that are not finite.
 std::vector<RawDetection> DecodeOutputs(const YoloLayout& layout,
                                         const std::vector<OutputArray>& outputs,
                                         float min_probability);
 
-// Of boxes of one class that overlap more than `overlap`, only the most probable stays; sorted by
-// falling probability.
+// If two boxes of one class overlap by more than `overlap`, keeps only the more probable one. Sorts
+// by decreasing probability.
 void SuppressOverlaps(float overlap, std::vector<RawDetection>& detections);
 
-// The model's mask at input pixel (x, y): 1 inside.
+// Evaluates the mask at input pixel (x, y); true inside.
 bool MaskAt(const YoloLayout& layout, const std::vector<OutputArray>& outputs,
             const RawDetection& detection, float x, float y);
 

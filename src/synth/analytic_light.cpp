@@ -1,4 +1,4 @@
-// Baked light: soft shadows and the share of open sky, computed once for a grid over each chart.
+// Baked light: computes soft shadows and ambient occlusion once, on a grid over each chart.
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
@@ -11,14 +11,14 @@
 namespace tessera {
 namespace {
 
-constexpr int kLightRays = 10;  // towards each light
+constexpr int kLightRays = 10;  // per light
 constexpr int kSkyRays = 16;
-constexpr double kSkyReach = 0.8;  // what is farther away does not darken, metres
-constexpr int kMaxLights = 3;      // the strongest at a point; the others are too far to matter
-constexpr double kLiftOff = 1e-4;  // metres: shadow rays start above their own surface
+constexpr double kSkyReach = 0.8;  // metres; occluders farther away do not darken
+constexpr int kMaxLights = 3;  // only the strongest lights at a point; the others hardly contribute
+constexpr double kLiftOff = 1e-4;  // metres; shadow rays start this far above their own surface
 
-// Points even over the unit ball's surface: the plane's R2 sequence (steps 1/g and 1/g^2, g^3 = g +
-// 1), which fills a square more evenly than random points do, from a random start.
+// Evenly distributed points on the unit sphere: the R2 sequence of the plane (steps 1/g and 1/g^2,
+// g^3 = g + 1), which fills a square more evenly than random points, with a random start.
 class Directions {
   public:
     explicit Directions(std::uint64_t key)
@@ -44,10 +44,11 @@ double Unshaded(const Light& light, const Eigen::Vector3d& p, const Eigen::Vecto
 
 }  // namespace
 
-// Bodies that can stand between a chart and what it sees: so few that a shadow ray is cheap.
+// Bodies that may lie between a chart and the sky or a light. The lists are short, so shadow rays
+// are cheap.
 struct AnalyticScene::Occluders {
-    std::vector<const Part*> near;                   // within the sky's reach
-    std::vector<std::vector<const Part*>> to_light;  // one list a light
+    std::vector<const Part*> near;                   // within kSkyReach
+    std::vector<std::vector<const Part*>> to_light;  // one list per light
 };
 
 namespace {
@@ -66,7 +67,7 @@ bool Blocked(const auto& parts, const Eigen::Vector3d& origin, const Eigen::Vect
     return false;
 }
 
-// The body's farthest reach along a direction from a point.
+// Largest extent of the body along a direction, measured from a point.
 double Support(const Shape& shape, const Eigen::Vector3d& p, const Eigen::Vector3d& direction) {
     const Eigen::Vector3d d_shape = shape.T_world_shape.linear().transpose() * direction;
     return direction.dot(shape.T_world_shape.translation() - p) +
@@ -118,7 +119,7 @@ double AnalyticScene::Irradiance(const Lighting& lighting, const Occluders& occl
     Directions directions(key);
     int open = 0;
     for (int i = 0; i < kSkyRays; ++i) {
-        // A point of the unit ball's surface added to the normal: cosine-weighted directions.
+        // Adding a point of the unit sphere to the normal gives cosine-weighted directions.
         const Eigen::Vector3d d = (normal * 1.0001 + directions.Next()).normalized();
         if (!Blocked(occluders.near, origin, d, kSkyReach)) ++open;
     }
@@ -192,7 +193,7 @@ void AnalyticScene::LightEvenly(Part& part, int chart) {
     part.charts[chart].light = {static_cast<float>(0.75 + 0.25 * normal.dot(sun))};
 }
 
-// Bilinear, continued beyond the border.
+// Bilinear interpolation, clamped at the border.
 float AnalyticScene::LightAt(const Chart& chart, float u, float v) const {
     const float x = std::clamp(u * chart.light_scale_u - 0.5f, 0.0f,
                                static_cast<float>(chart.light_columns - 1));

@@ -1,4 +1,4 @@
-// The analytic scene's surface as a mesh of patches.
+// Tessellates the surface of the analytic scene into patches.
 #include <algorithm>
 #include <cmath>
 
@@ -10,7 +10,7 @@ namespace {
 constexpr double kMaxPatch = 0.1;       // metres
 constexpr double kMaxSagitta = 0.0005;  // metres
 
-// Cells along an arc of `length_m` of a circle of `radius_m`.
+// Number of cells along an arc of `length_m` of a circle of `radius_m`.
 int ArcCells(double length_m, double radius_m) {
     const double chord_angle = 2 * std::acos(std::max(1 - kMaxSagitta / radius_m, 0.0));
     const double cell = std::min(kMaxPatch, chord_angle * radius_m);
@@ -51,7 +51,8 @@ void AnalyticScene::LayPatches(Part& part) {
             chart.patch_columns = ArcCells(size.x(), radius);
             chart.patch_rows = ArcCells(size.y(), radius);
         } else if (shape.kind == ShapeKind::kCylinder) {
-            // Caps are laid in rings around their centre, so that their rim is the side's.
+            // Caps are tessellated in rings around their centre, so that their rim matches the
+            // side.
             chart.patch_columns = ArcCells(ChartSize(shape, 0).x(), radius);
             if (i > 0) chart.patch_rows = FlatCells(radius);
         }
@@ -93,7 +94,7 @@ TriangleMesh AnalyticScene::InstanceMesh(int instance) const {
     return mesh;
 }
 
-// Two triangles for each kept cell of a chart's grid.
+// Two triangles per kept cell of the chart's grid.
 void AnalyticScene::AppendChart(const Shape& shape, int number, const Chart& chart,
                                 const std::vector<bool>* keep, TriangleMesh& mesh) const {
     const int columns = chart.patch_columns, rows = chart.patch_rows;
@@ -108,12 +109,12 @@ void AnalyticScene::AppendChart(const Shape& shape, int number, const Chart& cha
         }
         return v;
     };
-    const bool from_below =
-        IsCap(shape, number) && number == 1;  // u to the left, seen from outside
+    // Seen from outside, u points to the left.
+    const bool from_below = IsCap(shape, number) && number == 1;
     const auto triangle = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
         const Eigen::Vector3f ab = mesh.vertices[b] - mesh.vertices[a],
                               ac = mesh.vertices[c] - mesh.vertices[a];
-        if (ab.cross(ac).squaredNorm() < 1e-18f) return;  // at a pole or a cap's centre
+        if (ab.cross(ac).squaredNorm() < 1e-18f) return;  // at a pole or the centre of a cap
         mesh.triangles.push_back({a, from_below ? c : b, from_below ? b : c});
     };
     for (int row = 0; row < rows; ++row) {

@@ -1,5 +1,5 @@
-// A scene of boxes, spheres, cylinders and rectangles with painted surfaces and baked light. Built
-// by adding parts, then Finish; const and thread-safe from then on.
+// A scene of boxes, spheres, cylinders and rectangles with textured surfaces and baked light. Add
+// the parts, then call Finish; from then on it is const and thread-safe.
 #pragma once
 
 #include <array>
@@ -12,46 +12,47 @@
 
 namespace tessera {
 
-// How a texture lies on a chart.
+// Mapping of a texture onto a chart.
 struct Paint {
     int texture = 0;  // from AddTexture
-    double width_m =
-        0;  // the texture's width and height on the surface; 0 = stretched over the chart
+    // Size of the texture on the surface; 0: stretched over the chart.
+    double width_m = 0;
     double height_m = 0;
     double offset_u_m = 0, offset_v_m = 0;
 };
 
-// A ball that shines equally in all directions.
+// A spherical light that emits equally in all directions.
 struct Light {
     Eigen::Vector3d p_world;
-    double radius_m = 0.2;   // soft shadows
-    double intensity = 1.0;  // irradiance at 1 m, as a share of full brightness
+    double radius_m = 0.2;   // for soft shadows
+    double intensity = 1.0;  // irradiance at 1 m, as a fraction of full brightness
 };
 
 struct Lighting {
     std::vector<Light> lights;
-    double ambient = 0.45;  // share of full brightness where nothing shades
+    double ambient = 0.45;  // fraction of full brightness where nothing occludes
     double texel_m = 0.02;  // finest resolution of the baked light
-    bool baked = true;  // false: each face evenly, by its direction only (scenes without texture)
+    // False: constant light per face, from its orientation only (for scenes without texture).
+    bool baked = true;
 };
 
 class AnalyticScene : public Scene {
   public:
-    // T(t) moves what is added at its place to where it is t seconds after the start. A function of
-    // continuous time, any value; thread-safe.
+    // Maps the pose at which a part was added to its pose t seconds after the start. Defined for
+    // any t; thread-safe.
     using Motion = std::function<Eigen::Isometry3d(double time_s)>;
 
     int AddTexture(const ColourImage& image, Texture::Wrap wrap = Texture::Wrap::kRepeat);
-    // Later parts belong to it. Class names are made as they come; an empty one means the
-    // surroundings.
+    // Parts added from now on belong to this instance. New class names are registered as needed. An
+    // empty one means the surroundings.
     void BeginInstance(const std::string& name, const std::string& class_name);
-    // Later parts move like that, until the next call; an empty one: they do not. They are lit
-    // evenly and cast no shadows.
+    // Parts added from now on move like this, until the next call. An empty motion makes them
+    // static. Moving parts have constant light per face and cast no shadows.
     void BeginMotion(Motion motion);
-    // Returns the part's number, for SetPaint. Every chart gets `paint`.
+    // Returns the part's number, for SetPaint. All charts get `paint`.
     int AddShape(const Shape& shape, const Paint& paint);
     void SetPaint(int part, int chart, const Paint& paint);
-    // Bakes the light (deterministic) and ends the building.
+    // Bakes the light (deterministic) and completes the scene.
     void Finish(const Lighting& lighting);
 
     std::unique_ptr<ViewCaster> View(const PinholeCamera& camera,
@@ -75,11 +76,11 @@ class AnalyticScene : public Scene {
   private:
     friend class AnalyticView;
 
-    // The baked light on a chart: a grid of shares of full brightness, and the patches' grid.
+    // Paint, baked light (a grid of fractions of full brightness) and patch grid of a chart.
     struct Chart {
         Paint paint;
-        float scale_u = 1, scale_v = 1, offset_u = 0,
-              offset_v = 0;  // metres to texture coordinates
+        // From metres to texture coordinates.
+        float scale_u = 1, scale_v = 1, offset_u = 0, offset_v = 0;
         int light_columns = 1, light_rows = 1;
         float light_scale_u = 0, light_scale_v = 0;
         std::vector<float> light;
@@ -89,9 +90,9 @@ class AnalyticScene : public Scene {
     struct Part {
         Shape shape;
         Eigen::Isometry3d T_shape_world;
-        double radius_m = 0;  // of the bounding ball
+        double radius_m = 0;  // of the bounding sphere
         int instance = 0;
-        int motion = -1;  // of motions_; -1: static
+        int motion = -1;  // index into motions_; -1: static
         std::array<Chart, 6> charts;
     };
 

@@ -1,6 +1,6 @@
-// One camera's rays through an analytic scene: each body's transform and its rectangle of pixels
-// are found once for the view, so that a tile of pixels tries only the few bodies that can be in
-// it, front to back.
+// Casts the rays of one camera through an analytic scene. Computes each body's transform and pixel
+// rectangle once per view, so that a tile of pixels tests only the few bodies that may cover it,
+// front to back.
 #include <algorithm>
 #include <cmath>
 
@@ -18,14 +18,14 @@ class AnalyticView : public ViewCaster {
   private:
     struct Candidate {
         int part;
-        double nearest_z;  // no point of the body is nearer, metres along the optical axis
+        double nearest_z;  // lower bound of the body's depth along the optical axis, metres
         double x_min, x_max, y_min, y_max;  // pixels
-        Eigen::Vector3d origin;             // the camera's centre in the shape's frame
+        Eigen::Vector3d origin;             // camera centre in the shape's frame
         Eigen::Matrix3d R_shape_camera;
-        Eigen::Matrix<double, 3, 8> p_camera;  // the bounding box's corners
-        bool unbounded;  // reaches behind the camera: the rectangle says nothing
+        Eigen::Matrix<double, 3, 8> p_camera;  // corners of the bounding box
+        bool unbounded;  // extends behind the camera, so the rectangle is not valid
     };
-    // `T_placed_camera`: the camera among the parts where they were added.
+    // `T_placed_camera`: the camera pose relative to the parts as they were added.
     void Add(int part, const Eigen::Isometry3d& T_placed_camera);
     bool InTile(const Candidate& candidate, const PixelRect& rect, double offset_x_px,
                 double offset_y_px) const;
@@ -35,13 +35,13 @@ class AnalyticView : public ViewCaster {
 
     const AnalyticScene& scene_;
     PinholeCamera camera_;
-    std::vector<Candidate> candidates_;  // by nearest_z
+    std::vector<Candidate> candidates_;  // sorted by nearest_z
 };
 
 AnalyticView::AnalyticView(const AnalyticScene& scene, const PinholeCamera& camera,
                            const Eigen::Isometry3d& T_world_camera, double time_s)
     : scene_(scene), camera_(camera) {
-    std::vector<Eigen::Isometry3d> T_placed_camera;  // of each motion
+    std::vector<Eigen::Isometry3d> T_placed_camera;  // one per motion
     for (const AnalyticScene::Motion& motion : scene.motions_)
         T_placed_camera.push_back(motion(time_s).inverse() * T_world_camera);
     for (std::size_t i = 0; i < scene.parts_.size(); ++i) {
@@ -54,8 +54,8 @@ AnalyticView::AnalyticView(const AnalyticScene& scene, const PinholeCamera& came
 }
 
 void AnalyticView::Add(int number, const Eigen::Isometry3d& T_placed_camera) {
-    constexpr double kNear =
-        1e-3;  // a corner this close to the camera's plane bounds no pixels, metres
+    // Metres; corners closer to the camera plane than this do not bound any pixels.
+    constexpr double kNear = 1e-3;
     const AnalyticScene::Part& part = scene_.parts_[number];
     const Eigen::Isometry3d T_shape_camera = part.T_shape_world * T_placed_camera;
     const Eigen::Isometry3d T_camera_shape = T_shape_camera.inverse();
@@ -85,14 +85,14 @@ void AnalyticView::Add(int number, const Eigen::Isometry3d& T_placed_camera) {
     if (any_in_front) candidates_.push_back(c);
 }
 
-// False only if no ray of the tile can meet the body.
+// Returns false only if no ray of the tile can hit the body.
 bool AnalyticView::InTile(const Candidate& c, const PixelRect& rect, double offset_x_px,
                           double offset_y_px) const {
     const double left = rect.x_begin + offset_x_px, right = rect.x_end - 1 + offset_x_px;
     const double top = rect.y_begin + offset_y_px, bottom = rect.y_end - 1 + offset_y_px;
     if (!c.unbounded)
         return c.x_max >= left && c.x_min <= right && c.y_max >= top && c.y_min <= bottom;
-    // Outside of one side plane of the tile's pyramid with all corners.
+    // All corners lie outside one side plane of the tile's frustum.
     const auto x = c.p_camera.row(0).array(), y = c.p_camera.row(1).array(),
                z = c.p_camera.row(2).array();
     return (x >= (left - camera_.cx) / camera_.fx * z).any() &&
@@ -101,8 +101,8 @@ bool AnalyticView::InTile(const Candidate& c, const PixelRect& rect, double offs
            (y <= (bottom - camera_.cy) / camera_.fy * z).any();
 }
 
-// `first` is tried first: what the ray beside this one met, so that all that is farther is left
-// out.
+// Tests `first` first: the body that the neighbouring ray hit, so that everything behind it is
+// skipped.
 const AnalyticView::Candidate* AnalyticView::Nearest(std::span<const Candidate* const> candidates,
                                                      const Candidate* first,
                                                      const Eigen::Vector3d& d_camera,

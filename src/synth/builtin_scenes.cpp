@@ -33,7 +33,7 @@ Result<StagedScene> MakeBuiltinScene(const std::string& name) {
     for (const auto& [known, make] : kScenes)
         if (name == known) return make();
     return Status::Error(
-        fmt::format("'{}' is no built-in scene; there are {}, or give an .obj file", name,
+        fmt::format("'{}' is not a built-in scene; use one of {}, or give an .obj file", name,
                     fmt::join(BuiltinSceneNames(), ", ")));
 }
 

@@ -21,7 +21,8 @@ Eigen::Isometry3d LookAt(const Eigen::Vector3d& eye, const Eigen::Vector3d& targ
 }
 
 Eigen::Isometry3d Tremor(double time_s) {
-    constexpr double kFrequencies[3] = {0.83, 1.71, 3.37};  // Hz: no common period worth mentioning
+    // Hz; chosen so that their common period is long.
+    constexpr double kFrequencies[3] = {0.83, 1.71, 3.37};
     constexpr double kWeights[3] = {1.0, 0.5, 0.2};
     Vector6d twist;
     for (int i = 0; i < 6; ++i) {

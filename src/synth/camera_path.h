@@ -1,6 +1,6 @@
-// Where the synthetic camera is at each moment: hand-held-like motion made of smooth sweeps and
-// tremor, the same on every run. A function of continuous time, so that motion blur can look
-// between frames. Thread-safe.
+// Path of the synthetic camera. Imitates a hand-held camera with smooth sweeps and tremor;
+// deterministic. A function of continuous time, so that motion blur can sample between frames.
+// Thread-safe.
 #pragma once
 
 #include <functional>
@@ -12,24 +12,24 @@
 namespace tessera {
 
 struct CameraPath {
-    std::function<Eigen::Isometry3d(double)>
-        T_world_camera;  // of the time in seconds from the start, any value
+    // Argument: seconds from the start, any value.
+    std::function<Eigen::Isometry3d(double)> T_world_camera;
     double duration_s = 0;
 };
 
-// Camera at `eye` with its z axis through `target`, x level; `up` is the world's upward direction
-// and must not be parallel to the view.
+// Camera at `eye` with its z axis through `target` and a level x axis. `up` is the world's up
+// direction and must not be parallel to the view.
 Eigen::Isometry3d LookAt(const Eigen::Vector3d& eye, const Eigen::Vector3d& target,
                          const Eigen::Vector3d& up = Eigen::Vector3d::UnitZ());
 
-// A hand's shaking about a steady pose: 1 to 2 mm and 0.2 degrees rms below 4 Hz.
+// Tremor of a hand about a fixed pose: 1 to 2 mm and 0.2 degrees rms below 4 Hz.
 Eigen::Isometry3d Tremor(double time_s);
 
-// The same way, so many times as fast.
+// Returns the same path, `speed` times as fast.
 CameraPath Hastened(CameraPath path, double speed);
 
-// A recorded trajectory from its first pose on, interpolated. With `T_world_start`, moved so that
-// it begins there.
+// Reads a trajectory and interpolates it, starting at its first pose. With `T_world_start`,
+// transforms it so that it starts there.
 Result<CameraPath> ReadCameraPath(const std::string& file,
                                   const Eigen::Isometry3d* T_world_start = nullptr);
 

@@ -15,10 +15,10 @@ namespace {
 
 constexpr int kTile = 16;  // pixels
 constexpr int kSamples = 4;
-// A rotated grid: each sample covers a column and a row of its own.
+// Rotated grid: no two samples share a column or a row.
 constexpr double kOffsets[kSamples][2] = {
     {-0.125, -0.375}, {0.375, -0.125}, {-0.375, 0.125}, {0.125, 0.375}};
-// Each sample stands for a part of the pixel; a little more than its share, against moire.
+// Filter extent of one sample; slightly more than its share of the pixel, against moire.
 constexpr float kSampleExtentPx = 0.7f;
 
 using TileHits = std::array<SurfaceHit, kTile * kTile>;
@@ -76,7 +76,7 @@ class TileRenderer {
     }
 
     const Scene& scene_;
-    float pixel_m_;  // a sample's extent at 1 m
+    float pixel_m_;  // extent of a sample at 1 m
     double time_s_;
     RenderedView& view_;
 };
@@ -142,15 +142,17 @@ Eigen::Isometry3d CameraRig::T_depth_colour() const {
 
 void CameraRig::Describe(ConfigParameters& p) {
     p.Add("depth_readout_s", depth_readout_s, {-0.1, 0.1}, "s",
-          "rolling shutter of the depth image, from its first row to its last");
-    p.Add("colour_readout_s", colour_readout_s, {-0.1, 0.1}, "s", "the same of the colour image");
+          "read-out time of the depth image's rolling shutter, from the first row to the last");
+    p.Add("colour_readout_s", colour_readout_s, {-0.1, 0.1}, "s",
+          "read-out time of the colour image's rolling shutter");
     p.Add("colour_delay_s", colour_delay_s, {-0.1, 0.1}, "s",
-          "colour is taken so much after its time stamp");
+          "delay of the colour exposure after its time stamp");
     p.Add("colour_x_m", colour_x_m, {-0.2, 0.2}, "m",
-          "the colour camera lies so far to the right of where the depth image is registered to");
+          "offset of the colour camera to the right of the camera to which the depth image is "
+          "registered");
     p.Add("colour_turn_deg", colour_turn_deg, {-10, 10}, "deg",
-          "and is turned so far to the right");
-    p.Add("depth_scale", depth_scale, {0.5, 2}, "", "measured depth over true depth");
+          "rotation of the colour camera to the right");
+    p.Add("depth_scale", depth_scale, {0.5, 2}, "", "ratio of measured to true depth");
 }
 
 }  // namespace tessera

@@ -1,5 +1,5 @@
-// Ideal pictures of a scene: what a perfect camera would see, with all truth. The sensor model
-// (sensor_model.h) makes measurements of them.
+// Renders ideal images of a scene: what a perfect camera would see, with all ground truth. The
+// sensor model (sensor_model.h) turns them into measurements.
 #pragma once
 
 #include "core/camera.h"
@@ -10,44 +10,44 @@
 
 namespace tessera {
 
-// How the depth and the colour camera stand to each other, in time and space. As it is: one camera,
-// all of it at one instant.
+// Relative timing and pose of the depth and the colour camera. By default they are one camera with
+// a global shutter.
 struct CameraRig {
-    // Rolling shutter, from the first row to the last.
+    // Read-out time of the rolling shutter, from the first row to the last.
     double depth_readout_s = 0, colour_readout_s = 0;
-    // Colour is taken so much after its time stamp.
+    // Delay of the colour exposure after its time stamp.
     double colour_delay_s = 0;
-    // The colour camera's place to the right of the depth camera.
+    // Offset of the colour camera to the right of the depth camera.
     double colour_x_m = 0;
-    double colour_turn_deg = 0;  // and its turn to the right
-    double depth_scale = 1;      // measured depth over true
+    double colour_turn_deg = 0;  // its rotation to the right
+    double depth_scale = 1;      // ratio of measured to true depth
 
     void Describe(ConfigParameters& parameters);
     Eigen::Isometry3d T_depth_colour() const;
 };
 
-// Images of one size. Where no surface is seen: depth 0, instance and class 0, patch -1, colour
-// black.
+// Images of equal size. Pixels that see no surface have depth 0, instance and class 0, patch -1 and
+// black colour.
 struct RenderedView {
-    Image<RgbF> colour;          // grey levels [0, 255], averaged over the pixel and the exposure
-    DepthImage depth_m;          // exact, through the pixel's centre, at mid-exposure
+    Image<RgbF> colour;          // grey levels [0, 255], averaged over pixel area and exposure
+    DepthImage depth_m;          // exact, at the pixel centre and mid-exposure
     Image<float> cos_incidence;  // |cos| between ray and normal
     Image<std::uint16_t> class_id;
     Image<std::uint16_t> instance;
-    Image<Mobility> mobility;   // of the surface at that time
-    Image<std::int64_t> patch;  // Scene::PatchOf; empty unless asked for
+    Image<Mobility> mobility;   // of the surface at this time
+    Image<std::int64_t> patch;  // Scene::PatchOf; filled only on request
 };
 
 class FrameRenderer {
   public:
-    // Refers to the scene.
+    // Keeps a reference to the scene.
     FrameRenderer(const Scene& scene, const PinholeCamera& camera, const CameraRig& rig = {})
         : scene_(scene), camera_(camera), rig_(rig) {}
 
-    // The view at `time_s`, the middle of an exposure of `exposure_s` seconds (0: no motion blur).
-    // Four rays a pixel sample the pixel's area and the exposure at once. `with_patches` fills
-    // view.patch. A rolling shutter reads bands of kRowsAtOnce rows together. The same result for
-    // any number of threads. Thread-safe.
+    // Renders the view at `time_s`, the middle of an exposure of `exposure_s` seconds (0: no motion
+    // blur). Four rays per pixel sample the pixel area and the exposure together. `with_patches`
+    // fills view.patch. A rolling shutter is simulated in bands of kRowsAtOnce rows. The result
+    // does not depend on the number of threads. Thread-safe.
     void Render(const CameraPath& path, double time_s, double exposure_s, RenderedView& view,
                 bool with_patches = false) const;
 

@@ -1,13 +1,13 @@
-// Random numbers that are a function of what they are for (seed, stream, counter): the same on
-// every run, in any order and for any number of threads. Thread-safe: plain functions.
+// Random numbers as a function of seed, stream and counter: reproducible in any order and for any
+// number of threads. Plain functions, thread-safe.
 #pragma once
 
 #include <cstdint>
 
 namespace tessera {
 
-// SplitMix64's finaliser: a bijection on 64 bits whose output passes the usual batteries on
-// counters.
+// Finaliser of SplitMix64: a bijection on 64 bits. On counters its output passes the usual test
+// batteries.
 inline std::uint64_t MixBits(std::uint64_t x) {
     x += 0x9e3779b97f4a7c15ull;
     x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ull;
@@ -15,7 +15,7 @@ inline std::uint64_t MixBits(std::uint64_t x) {
     return x ^ (x >> 31);
 }
 
-// The key of one stream of numbers; number `counter` of it is MixBits(key + counter).
+// Key of a stream of numbers; its number `counter` is MixBits(key + counter).
 inline std::uint64_t StreamKey(std::uint64_t seed, std::uint64_t stream,
                                std::uint64_t substream = 0) {
     return MixBits(MixBits(MixBits(seed) ^ stream) ^ substream);
@@ -26,7 +26,7 @@ inline double UniformFromBits(std::uint64_t bits) {
     return static_cast<double>(bits >> 11) * 0x1.0p-53;
 }
 
-// Mean 0, standard deviation 1: the sum of the four 16-bit parts, so within 3.46 and close to a
+// Mean 0, standard deviation 1. Sum of the four 16-bit parts: within +-3.46 and close to a
 // Gaussian.
 inline float GaussianFromBits(std::uint64_t bits) {
     const std::uint32_t sum = static_cast<std::uint32_t>((bits & 0xffff) + (bits >> 16 & 0xffff) +

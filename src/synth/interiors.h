@@ -1,5 +1,5 @@
-// Furnished interiors that more than one built-in scene takes place in. Owner thread only, while
-// the scene is being built.
+// Furnished interiors shared by several built-in scenes. Owner thread only, while the scene is
+// being built.
 #pragma once
 
 #include "synth/furniture.h"
@@ -10,8 +10,8 @@ namespace tessera {
 void AddRoom(Furnisher& add);
 Lighting RoomLighting();
 
-// Two rooms of 7 m x 6 m; between them at x = 7 a wall with doorways at y in [0.8, 1.8] and
-// [4.2, 5.2], 2.05 m high.
+// Two rooms of 7 m x 6 m, separated by a wall at x = 7 with doorways at y in [0.8, 1.8] and [4.2,
+// 5.2], 2.05 m high.
 void AddFlat(Furnisher& add);
 Lighting FlatLighting();
 

@@ -1,6 +1,6 @@
-// The mesh scene's triangles, each cut into n^2 like ones of at most the patches' size. Patch `2 n
-// j - j^2 + 2 i + k` of a triangle is the k-th (0: like the triangle, 1: upside down) in column i
-// of row j, u growing along i, v along j.
+// Cuts each triangle of the mesh scene into n^2 similar triangles, none larger than the patch size.
+// Patch `2 n j - j^2 + 2 i + k` of a triangle is the k-th one (0: oriented like the triangle, 1:
+// upside down) in column i of row j; u grows along i, v along j.
 #include <algorithm>
 #include <cmath>
 
@@ -9,8 +9,8 @@
 namespace tessera {
 namespace {
 
-constexpr std::int64_t kMaxPatches =
-    20'000'000;  // a model of the size of a town gets larger patches
+// Very large models get larger patches.
+constexpr std::int64_t kMaxPatches = 20'000'000;
 constexpr int kMaxDivisions = 1000;
 
 }  // namespace

@@ -65,7 +65,7 @@ void MeshScene::Tracer::Build(const ObjModel& model) const {
                                              3 * sizeof(float), model.vertices.size());
     void* indices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                                             3 * sizeof(unsigned), model.triangles.size());
-    TESSERA_CHECK(vertices && indices, "Embree gives no memory for {} triangles",
+    TESSERA_CHECK(vertices && indices, "Embree cannot allocate memory for {} triangles",
                   model.triangles.size());
     std::memcpy(vertices, model.vertices.data(), model.vertices.size() * 3 * sizeof(float));
     auto* index = static_cast<std::uint32_t*>(indices);
@@ -122,7 +122,7 @@ MeshScene::MeshScene(ObjModel model)
         const Eigen::Vector3f normal = ab.cross(ac);
         const Eigen::Vector2f uv_ab = t.uv[1] - t.uv[0], uv_ac = t.uv[2] - t.uv[0];
         const float uv_area = std::abs(uv_ab.x() * uv_ac.y() - uv_ab.y() * uv_ac.x());
-        // Faces of either winding are lit alike: models are not careful about it.
+        // Lights faces of either winding alike, because models are often inconsistent.
         const float facing = std::abs(normal.dot(sun)) / std::max(normal.norm(), 1e-12f);
         surfaces_.push_back(
             {0.68f + 0.32f * facing, std::sqrt(uv_area / std::max(normal.norm(), 1e-12f))});

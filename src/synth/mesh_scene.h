@@ -1,5 +1,5 @@
-// A scene that is a textured triangle mesh, its rays traced by Embree. Const and thread-safe once
-// made.
+// A scene that consists of a textured triangle mesh, ray traced with Embree. Const and thread-safe
+// once constructed.
 #pragma once
 
 #include <memory>
@@ -15,7 +15,7 @@ class MeshScene : public Scene {
   public:
     // Reads the model's textures. Each object of the file is an instance; its class is its name
     // without trailing numbers ("Chair_01_002" -> "chair"). `model` must have triangles (ReadObj
-    // sees to it).
+    // checks this).
     explicit MeshScene(ObjModel model);
     ~MeshScene() override;
 
@@ -35,17 +35,17 @@ class MeshScene : public Scene {
         return std::nullopt;
     }
 
-    // Textures that the model names but that could not be read; their surfaces have the material's
-    // colour.
+    // Textures that the model references but that could not be read. Their surfaces have the
+    // material's colour.
     const std::vector<std::string>& missing_textures() const { return missing_textures_; }
 
   private:
     friend class MeshView;
-    struct Tracer;  // Embree's device and scene
+    struct Tracer;  // Embree device and scene
 
     struct Surface {
-        float shade;     // light, as a share of full brightness
-        float uv_per_m;  // texture coordinates a metre
+        float shade;     // light, as a fraction of full brightness
+        float uv_per_m;  // texture coordinates per metre
     };
 
     void ReadTextures();
@@ -57,9 +57,9 @@ class MeshScene : public Scene {
 
     ObjModel model_;
     std::unique_ptr<Tracer> tracer_;
-    std::vector<Texture> textures_;          // one a material
-    std::vector<Surface> surfaces_;          // one a triangle
-    std::vector<std::int64_t> first_patch_;  // one a triangle, then the count
+    std::vector<Texture> textures_;          // one per material
+    std::vector<Surface> surfaces_;          // one per triangle
+    std::vector<std::int64_t> first_patch_;  // one per triangle, then the total
     double patch_m_ = 0.1;
     std::vector<std::string> missing_textures_;
 };

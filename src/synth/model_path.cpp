@@ -9,8 +9,8 @@ namespace {
 
 using Eigen::Vector3d;
 constexpr double kTwoPi = 2 * std::numbers::pi;
-constexpr double kLargestThing = 2.5;  // metres; what is larger is walked in, not around
-constexpr double kEyeHeight = 1.4;     // metres above the model's lowest point
+constexpr double kLargestThing = 2.5;  // metres; larger models are entered, not circled
+constexpr double kEyeHeight = 1.4;     // metres above the lowest point of the model
 constexpr double kSpeed = 0.35;        // m/s
 
 struct Axes {
@@ -20,7 +20,8 @@ struct Axes {
     }
 };
 
-// How far the nearest of the surfaces around is; 0 where some directions are open: outdoors.
+// Distance of the nearest surface around `eye`; 0 if many directions are open, as outdoors, or if
+// there is no floor.
 double Clearance(const Scene& scene, const Axes& axes, const Vector3d& eye) {
     constexpr int kRays = 24;
     double nearest = std::numeric_limits<double>::infinity();

@@ -1,4 +1,4 @@
-// A camera motion for a model that brings none: around a small thing, or turning on the spot inside
+// Makes a camera path for a model without one: around a small object, or turning on the spot inside
 // a building.
 #pragma once
 
@@ -7,7 +7,7 @@
 
 namespace tessera {
 
-// `up`: unit, one of the axes. Deterministic.
+// `up`: unit vector along one of the axes. Deterministic.
 CameraPath MakeModelPath(const Scene& scene, const Eigen::Vector3d& up);
 
 }  // namespace tessera

@@ -11,7 +11,7 @@
 namespace tessera {
 namespace {
 
-constexpr float kFarthest = 1e5f;  // metres; beyond it single precision has no millimetres left
+constexpr float kFarthest = 1e5f;  // metres; beyond it single precision cannot resolve millimetres
 constexpr float kLargestUv = 1e4f;
 
 std::uint8_t ToByte(float share) {
@@ -24,10 +24,10 @@ Status TakeVertices(const std::string& path, const tinyobj::attrib_t& attributes
         const Eigen::Vector3f p(attributes.vertices[i], attributes.vertices[i + 1],
                                 attributes.vertices[i + 2]);
         if (!(p.cwiseAbs().maxCoeff() < kFarthest) || !p.allFinite())
-            return Status::Error(fmt::format(
-                "{}: vertex {} at ({}, {}, {}) is no place in metres; check the model's "
-                "units",
-                path, i / 3 + 1, p.x(), p.y(), p.z()));
+            return Status::Error(
+                fmt::format("{}: vertex {} at ({}, {}, {}) is too far from the origin or not "
+                            "finite; check the model's units (metres)",
+                            path, i / 3 + 1, p.x(), p.y(), p.z()));
         model.vertices.push_back(p);
     }
     return Status::Ok();
@@ -48,7 +48,7 @@ void TakeMaterials(const std::string& folder, const std::vector<tinyobj::materia
     model.materials.emplace_back();
 }
 
-// One polygon's corners to a fan of triangles.
+// Splits one polygon into a fan of triangles.
 Status TakePolygon(const std::string& path, const tinyobj::attrib_t& attributes,
                    const tinyobj::index_t* corners, std::size_t count, ObjModel::Triangle triangle,
                    ObjModel& model) {
@@ -56,9 +56,10 @@ Status TakePolygon(const std::string& path, const tinyobj::attrib_t& attributes,
         const tinyobj::index_t index = corners[corner];
         if (index.vertex_index < 0 ||
             static_cast<std::size_t>(index.vertex_index) >= model.vertices.size())
-            return Status::Error(fmt::format("{}: a face of '{}' names vertex {}, but there are {}",
-                                             path, model.object_names[triangle.object],
-                                             index.vertex_index + 1, model.vertices.size()));
+            return Status::Error(
+                fmt::format("{}: a face of '{}' refers to vertex {}, but there are only {}", path,
+                            model.object_names[triangle.object], index.vertex_index + 1,
+                            model.vertices.size()));
         triangle.vertices[slot] = static_cast<std::uint32_t>(index.vertex_index);
         triangle.uv[slot].setZero();
         const auto uv = static_cast<std::size_t>(std::max(index.texcoord_index, 0)) * 2;
@@ -111,7 +112,7 @@ Result<ObjModel> Parse(const std::string& path) {
     std::vector<tinyobj::shape_t> shapes;
     std::vector<tinyobj::material_t> materials;
     std::string warning, problem;
-    // Not triangulated by the parser: it does so before anyone has checked the indices.
+    // The parser does not triangulate: it would do so before the indices are checked.
     if (!tinyobj::LoadObj(&attributes, &shapes, &materials, &warning, &problem, path.c_str(),
                           prefix.c_str(), false)) {
         problem = problem.substr(0, problem.find('\n'));
@@ -130,11 +131,11 @@ Result<ObjModel> Parse(const std::string& path) {
             return status;
     }
     if (model.triangles.empty())
-        return Status::Error(path + ": holds no triangles; export the model with faces");
+        return Status::Error(path + ": contains no triangles; export the model with faces");
     if (model.object_names.size() > 65534)
-        return Status::Error(fmt::format(
-            "{}: {} objects are more than instance images can number (65534); join some", path,
-            model.object_names.size()));
+        return Status::Error(
+            fmt::format("{}: {} objects, but instance images can number only 65534; join some",
+                        path, model.object_names.size()));
     return model;
 }
 

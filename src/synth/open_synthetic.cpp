@@ -1,4 +1,4 @@
-// From a name to a source.
+// Opens a synthetic source by name.
 #include <algorithm>
 #include <cctype>
 #include <utility>
@@ -30,7 +30,7 @@ Result<StagedScene> StageModel(const std::string& path, UpAxis up) {
         fmt::format("model of {} triangles, {} objects", triangles, scene->instances().size() - 1);
     if (!scene->missing_textures().empty())
         staged.description +=
-            fmt::format("; {} textures missing, drawn in flat colour (the first: {})",
+            fmt::format("; {} textures missing, rendered in flat colour (first: {})",
                         scene->missing_textures().size(), scene->missing_textures().front());
     staged.scene = std::move(scene);
     return staged;

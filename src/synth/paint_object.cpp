@@ -1,4 +1,4 @@
-// Lettered things: screens, keyboards, books, posters, doors. OpenCV draws lines, boxes and
+// Objects with lettering: screens, keyboards, books, posters, doors. OpenCV draws lines, boxes and
 // letters.
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
@@ -12,7 +12,7 @@ namespace {
 cv::Scalar Ink(Rgb8 c) { return cv::Scalar(c.r, c.g, c.b); }
 cv::Scalar Ink(int r, int g, int b) { return cv::Scalar(r, g, b); }
 
-// The image's own pixels as OpenCV sees them.
+// Wraps the image's pixels in a cv::Mat, without a copy.
 cv::Mat Canvas(ColourImage& image) {
     return cv::Mat(image.height(), image.width(), CV_8UC3, image.data());
 }
@@ -22,7 +22,7 @@ void Box(cv::Mat& canvas, double x, double y, double width, double height, const
                   cv::FILLED);
 }
 
-// Text of at most `width` and `height` pixels, its box's top-left corner at (x, y).
+// Draws text at most `width` by `height` pixels large; the top-left corner of its box is (x, y).
 void Text(cv::Mat& canvas, const std::string& text, double x, double y, double width, double height,
           const cv::Scalar& ink) {
     const int face = cv::FONT_HERSHEY_DUPLEX;
@@ -34,7 +34,7 @@ void Text(cv::Mat& canvas, const std::string& text, double x, double y, double w
                 cv::LINE_AA);
 }
 
-// A stream of numbers for one picture.
+// A stream of random numbers for one picture.
 class Dice {
   public:
     explicit Dice(std::uint64_t seed) : key_(StreamKey(seed, 0xd1ce)) {}
@@ -50,7 +50,7 @@ class Dice {
     std::uint64_t key_, count_ = 0;
 };
 
-// Words as blocks of ink.
+// Draws words as solid blocks.
 void GreekText(cv::Mat& canvas, Dice& dice, cv::Rect2d area, double line_px,
                const std::vector<cv::Scalar>& inks) {
     for (double y = area.y; y + line_px < area.y + area.height; y += line_px * 1.7) {

@@ -11,8 +11,8 @@
 namespace tessera {
 namespace {
 
-// Value noise of several octaves of halving size and weight 1, 0.6, 0.36 ...; smooth, of mean 0,
-// repeating with period 1 along both axes. The first octave has cells_x by cells_y cells.
+// Value noise of several octaves with halving size and weights 1, 0.6, 0.36 ... Smooth, zero mean,
+// period 1 along both axes. The first octave has cells_x by cells_y cells.
 class PeriodicNoise {
   public:
     PeriodicNoise(std::uint64_t seed, int cells_x, int cells_y, int octaves) {
@@ -117,7 +117,7 @@ ColourImage PaintWood(Rgb8 base, int planks, int size_px, std::uint64_t seed) {
         const Plank& plank = boards[static_cast<std::size_t>(number)];
         const double across = v * planks - number, along = std::fmod(u + plank.start, 1.0);
         if (planks > 1 && (across < 0.018 || along < 0.004)) return Shifted(base, -90);
-        // Rings: a warped coordinate across the plank; pores: short dark streaks.
+        // Rings use a warped coordinate across the plank; pores are short dark streaks.
         const double warp = plank.warp(along, across);
         const double rings = std::sin(40 * (across + 0.35 * warp));
         return Shifted(base, plank.tone + 14 * rings + 44 * plank.pores(along, across) + 40 * warp);

@@ -9,7 +9,7 @@
 namespace tessera {
 namespace {
 
-constexpr double kTop = 0.74;  // the desk's height, metres
+constexpr double kTop = 0.74;  // height of the desk, metres
 
 void FurnishSurroundings(Furnisher& add) {
     const Paint floor = add.Repeat(PaintWood({150, 108, 70}, 8, 1024, 21), 1.6);

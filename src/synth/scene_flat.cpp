@@ -1,4 +1,4 @@
-// Two furnished rooms joined by two doorways: a tour of 30 m that comes back to where it began.
+// Two furnished rooms joined by two doorways: a closed tour of 30 m.
 #include <cmath>
 #include <numbers>
 
@@ -9,7 +9,7 @@
 namespace tessera {
 namespace {
 
-// Metres; the wall between the rooms in the middle.
+// Metres. The wall between the rooms is in the middle.
 constexpr double kLength = 14, kWidth = 6, kHeight = 2.6, kWall = 7;
 
 void BuildPartition(Furnisher& add, const Paint& wall) {
@@ -91,7 +91,7 @@ void FurnishSecondRoom(Furnisher& add) {
                add.Repeat(PaintNoise({64, 112, 58}, 120, 256, 499), 0.59));
 }
 
-// A point `way_m` along the ring through both doorways, and the direction there.
+// A point `way_m` along the loop through both doorways, and the heading there.
 struct RingPoint {
     double x = 0, y = 0, heading = 0;
 };

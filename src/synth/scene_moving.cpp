@@ -1,5 +1,4 @@
-// Scenes in which something moves: people who walk through a room, a chair that is put elsewhere, a
-// door that opens.
+// Scenes with motion: people who walk through a room, a chair that is moved, a door that opens.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -14,9 +13,9 @@ namespace {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
-constexpr double kTurn_s = 24;  // of the camera, once around
+constexpr double kTurn_s = 24;  // period of the camera's loop
 
-// 0 before `from_s`, 1 after `to_s`, smooth.
+// 0 before `from_s`, 1 after `to_s`, smooth in between.
 double Progress(double time_s, double from_s, double to_s) {
     const double x = std::clamp((time_s - from_s) / (to_s - from_s), 0.0, 1.0);
     return x * x * (3 - 2 * x);
@@ -32,8 +31,8 @@ double TurningHeading(double t) {
     return a + 0.25 * std::sin(2 * a);
 }
 
-// To and fro before the camera, so far from it and so far to its side, where the furniture leaves
-// room.
+// A walk to and fro in front of the camera, at the given distance and angle to its heading, limited
+// to the area free of furniture.
 Walk BeforeTheCamera(std::function<double(double)> distance_m,
                      std::function<double(double)> angle) {
     return [=](double t) {
@@ -45,7 +44,7 @@ Walk BeforeTheCamera(std::function<double(double)> distance_m,
     };
 }
 
-// Stands still for three seconds, then makes up for it.
+// Stands still for three seconds, then catches up.
 double WithAStop(double t) {
     constexpr double kStop_s = 10, kGo_s = 13, kCatchUp = 1.5;
     if (t < kStop_s) return t;
@@ -62,7 +61,7 @@ StagedScene Stage(std::unique_ptr<AnalyticScene> scene, const Lighting& lighting
     return staged;
 }
 
-// A camera that stands and looks about a little.
+// A camera that stays in place and looks around a little.
 CameraPath Standing(const Vector3d& eye, const Vector3d& target, double duration_s) {
     CameraPath path;
     path.duration_s = duration_s;
@@ -114,7 +113,7 @@ StagedScene MakeChair() {
     add.Chair(Eigen::Isometry3d::Identity(), "chair 3", {70, 130, 90}, 721);
     scene->BeginMotion({});
     return Stage(std::move(scene), RoomLighting(),
-                 "a chair in a furnished room is put elsewhere and stays there",
+                 "a chair in a furnished room is moved and stays there",
                  Standing({1.35, 1.1, 1.5}, {3.2, 2.4, 0.55}, 14));
 }
 

@@ -1,4 +1,5 @@
-// What trackers fear: texture without structure, structure without texture, and neither.
+// Scenes that are difficult for trackers: texture without structure, structure without texture, and
+// neither.
 #include <cmath>
 #include <numbers>
 
@@ -9,7 +10,7 @@
 namespace tessera {
 namespace {
 
-// Sweeps of a hand in a box of `reach_m` around `eye`, the view following around `target`.
+// Hand-held sweeps within `reach_m` of `eye`, with the view following around `target`.
 CameraPath Sweep(const Eigen::Vector3d& eye, const Eigen::Vector3d& target,
                  const Eigen::Vector3d& reach_m, const Eigen::Vector3d& up) {
     CameraPath path;
@@ -25,7 +26,7 @@ CameraPath Sweep(const Eigen::Vector3d& eye, const Eigen::Vector3d& target,
     return path;
 }
 
-// Evenly lit, so that a face has one brightness.
+// Constant light, so that each face has one brightness.
 std::unique_ptr<AnalyticScene> FinishEven(std::unique_ptr<AnalyticScene> scene) {
     Lighting lighting;
     lighting.baked = false;
@@ -38,7 +39,7 @@ std::unique_ptr<AnalyticScene> FinishEven(std::unique_ptr<AnalyticScene> scene) 
 StagedScene MakeFloor() {
     auto scene = std::make_unique<AnalyticScene>();
     Furnisher add(*scene);
-    // A second, slower pattern keeps tile from looking like tile.
+    // A second, slower pattern makes the tiles distinguishable.
     add.Box(StandAt(0, 0, 0), {0, 0, -0.1}, {8, 8, 0.1},
             add.Repeat(PaintTiles({176, 150, 118}, {84, 74, 66}, 12, 1536, 95), 3.6));
     StagedScene staged;

@@ -110,7 +110,7 @@ StagedScene MakeRoom() {
     staged.path.duration_s = 24;
     staged.path.T_world_camera = [](double t) {
         const double a = 2 * std::numbers::pi * t / 24;
-        // Around the middle, looking across it and outwards, up and down a little.
+        // Circles around the middle, looking across it and outwards, moving up and down a little.
         const Eigen::Vector3d eye(2.45 - 0.75 * std::cos(a), 2.0 - 0.55 * std::sin(a),
                                   1.45 + 0.08 * std::sin(3 * a));
         const double look = a + 0.25 * std::sin(2 * a);
@@ -140,8 +140,8 @@ StagedScene MakeCorridor() {
     staged.description = "a corridor of 40 m, walked from end to end";
     staged.path.duration_s = kDuration;
     staged.path.T_world_camera = [](double t) {
-        // Constant pace; past the end the walk goes on backwards, so that any number of frames can
-        // be made.
+        // Constant pace. After the end the camera walks back, so that any number of frames can be
+        // rendered.
         const double lap = std::abs(std::remainder(t, 2 * kDuration)) / kDuration;
         const Eigen::Vector3d eye(1.0 + kWalk * lap, kWidth / 2 + 0.25 * std::sin(0.31 * t),
                                   1.45 + 0.03 * std::sin(2 * std::numbers::pi * 0.45 * t));

@@ -83,7 +83,7 @@ std::string SeenObjects::ObjectsJson() const {
                            {"frames_visible", counts_[i].frames},
                            {"max_pixels", counts_[i].max_pixels}});
     }
-    // A model's names are a user's bytes and need not be UTF-8.
+    // Names in a user's model need not be valid UTF-8.
     return objects.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 

@@ -1,5 +1,5 @@
-// What a synthetic sequence showed of each object, gathered frame by frame, and the texts made of
-// it. Owner thread only.
+// Statistics of each object over the frames of a synthetic sequence, and the text files made from
+// them. Owner thread only.
 #pragma once
 
 #include <cstdint>
@@ -13,15 +13,15 @@ namespace tessera {
 
 class SeenObjects {
   public:
-    // Refers to the scene; `seed` decides the detector's mistakes.
+    // Keeps a reference to the scene. `seed` determines the errors of the simulated detector.
     SeenObjects(const Scene& scene, std::uint64_t seed);
 
-    // One frame: counts pixels, and notes detections of at least 400 pixels (of 640x480; in
-    // proportion for others).
+    // Adds one frame: counts pixels, and records detections of instances with more than 400 pixels
+    // (at 640x480; scaled for other sizes).
     void Add(const RenderedView& view, std::int64_t frame, double stamp_s);
 
-    std::string ClassesText() const;     // classes.txt: "id name" a line
-    std::string ObjectsJson() const;     // objects.json: instances that were seen
+    std::string ClassesText() const;     // classes.txt: lines "id name"
+    std::string ObjectsJson() const;     // objects.json: the instances that were seen
     std::string DetectionsText() const;  // detections.txt
 
   private:
@@ -30,7 +30,7 @@ class SeenObjects {
     };
     const Scene& scene_;
     std::uint64_t seed_;
-    std::vector<Count> counts_;  // one an instance
+    std::vector<Count> counts_;  // one per instance
     std::string detections_;
 };
 

@@ -1,4 +1,4 @@
-// The depth half of the sensor model.
+// Depth part of the sensor model.
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
@@ -11,7 +11,7 @@ namespace tessera {
 namespace {
 
 constexpr std::uint64_t kDisparityStream = 1, kEdgeStream = 2;
-// Neighbouring pixels that differ by more than this share of the depth have an edge between them.
+// Neighbouring pixels whose depths differ by a larger share are separated by a discontinuity.
 constexpr float kEdgeShare = 0.03f;
 
 // Cubic B-spline weights at fraction t, scaled so that their squares sum to 1.
@@ -71,12 +71,12 @@ void SensorModel::SenseDepthRow(const RenderedView& view, std::int64_t frame, in
     const std::uint64_t edge_key = StreamKey(seed_, kEdgeStream, frame_key);
     const double focal_baseline = config_.focal_px * config_.baseline_m;
     const double step = config_.disparity_step_px;
-    double lit_until =
-        -1e9;  // the projector's rightmost column that a nearer surface on the left takes
+    // Rightmost projector column that is occluded by a nearer surface to the left.
+    double lit_until = -1e9;
     for (int x = 0; x < width; ++x) {
         out[x] = 0;
         if (!(truth(x, y) > 0)) continue;
-        // As the projector sees it, a surface lies further right, and the nearer the more so.
+        // In the projector's view a surface is shifted to the right, the nearer the more.
         const double projector_x = x + camera_.fx * config_.baseline_m / truth(x, y);
         const bool in_shadow = config_.shadow && projector_x < lit_until - 1.0;
         lit_until = std::max(lit_until, projector_x);
@@ -89,7 +89,7 @@ void SensorModel::SenseDepthRow(const RenderedView& view, std::int64_t frame, in
         };
         const int from_x = std::clamp(x + jitter(0), 0, width - 1);
         const int from_y = std::clamp(y + jitter(1), 0, truth.height() - 1);
-        // The jitter moves edges; smooth surfaces stay where they are.
+        // The jitter moves discontinuities only; smooth surfaces stay in place.
         const bool moved = IsEdge(truth(x, y), truth(from_x, from_y));
         const float z = moved ? truth(from_x, from_y) : truth(x, y);
         const float cosine = moved ? view.cos_incidence(from_x, from_y) : view.cos_incidence(x, y);

@@ -21,30 +21,32 @@ std::uint8_t Quantise(float grey) {
 
 void SensorModel::Config::Describe(ConfigParameters& p) {
     p.AddChoice("noise", noise, {{"none", NoiseModel::kNone}, {"kinect", NoiseModel::kKinect}},
-                "none: an ideal camera; kinect: all effects of this section");
+                "none: ideal camera; kinect: all effects of this section");
     p.Add("focal_px", focal_px, {50, 5000}, "px",
-          "depth sensor's focal length; disparity = focal_px * baseline_m / z");
-    p.Add("baseline_m", baseline_m, {0.005, 1}, "m", "distance of projector and depth camera");
+          "focal length of the depth sensor; disparity = focal_px * baseline_m / z");
+    p.Add("baseline_m", baseline_m, {0.005, 1}, "m", "distance between projector and depth camera");
     p.Add("disparity_std_px", disparity_std_px, {0, 2}, "px",
-          "noise of the disparity; depth noise grows with z^2");
+          "standard deviation of the disparity noise; the depth noise grows with z^2");
     p.Add("correlation_px", correlation_px, {0.5, 50}, "px",
-          "how far the disparity noise reaches in the image");
+          "correlation length of the disparity noise in the image");
     p.Add("disparity_step_px", disparity_step_px, {0, 2}, "px",
           "quantisation of the disparity, 0 = none");
-    p.Add("min_depth_m", min_depth_m, {0, 100}, "m", "nearer surfaces give no depth");
-    p.Add("max_depth_m", max_depth_m, {0.1, 1000}, "m", "farther surfaces give no depth");
-    p.Add("min_cos", min_cos, {0, 1}, "",
-          "surfaces seen flatter (cosine of the angle of incidence) give no depth");
-    p.Add("lateral_std_px", lateral_std_px, {0, 3}, "px", "raggedness of depth edges");
+    p.Add("min_depth_m", min_depth_m, {0, 100}, "m", "surfaces nearer than this have no depth");
+    p.Add("max_depth_m", max_depth_m, {0.1, 1000}, "m", "surfaces farther than this have no depth");
+    p.Add(
+        "min_cos", min_cos, {0, 1}, "",
+        "surfaces at more grazing angles (smaller cosine of the angle of incidence) have no depth");
+    p.Add("lateral_std_px", lateral_std_px, {0, 3}, "px",
+          "lateral jitter of depth discontinuities");
     p.Add("edge_dropout", edge_dropout, {0, 1}, "",
-          "probability that a pixel at a depth edge has no depth");
-    p.Add("shadow", shadow, "no depth where the projector's light is blocked");
-    p.Add("exposure_s", exposure_s, {0, 0.1}, "s", "exposure time: motion blur");
+          "probability that a pixel at a depth discontinuity has no depth");
+    p.Add("shadow", shadow, "no depth where the projector is occluded");
+    p.Add("exposure_s", exposure_s, {0, 0.1}, "s", "exposure time, causes motion blur");
     p.Add("colour_noise", colour_noise, {0, 50}, "grey levels",
-          "noise in the dark; 0.6 of it in bright parts");
-    p.Add("vignetting", vignetting, {0, 0.9}, "", "loss of brightness in the image's corners");
+          "standard deviation of the noise in dark areas; 0.6 times that in bright areas");
+    p.Add("vignetting", vignetting, {0, 0.9}, "", "share of brightness lost in the image corners");
     p.Add("exposure_drift", exposure_drift, {0, 0.5}, "",
-          "largest change of the brightness gain over time");
+          "largest relative change of the gain over time");
 }
 
 SensorModel::SensorModel(const Config& config, const PinholeCamera& camera, std::uint64_t seed)

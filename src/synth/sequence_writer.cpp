@@ -35,7 +35,7 @@ ColourImage Grey(const Image<Mobility>& mobility) {
     return grey;
 }
 
-// Depth noise stays below this share of the depth, jumps at edges above it.
+// Depth noise stays below this share of the depth; steps at discontinuities exceed it.
 constexpr float kSameSurface = 0.03f;
 
 class Writer {
@@ -90,7 +90,8 @@ Status Writer::WriteImages(const Frame& frame, const RenderedView& truth) {
 void Writer::Remember(const Frame& frame, const RenderedView& truth) {
     for (std::size_t i = 0; i < truth.patch.size(); ++i) {
         const float truth_m = truth.depth_m.data()[i], measured_m = frame.depth_m.data()[i];
-        // At a ragged edge the sensor gives a neighbour's depth: that surface was not seen here.
+        // At a ragged edge the sensor may measure a neighbouring surface. Then this surface was not
+        // seen here.
         const bool is_this_surface = std::abs(measured_m - truth_m) < kSameSurface * truth_m;
         if (truth.patch.data()[i] >= 0 && is_this_surface && measured_m <= kFarthestStored_m)
             seen_patches_[static_cast<std::size_t>(truth.patch.data()[i])] = true;

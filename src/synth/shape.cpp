@@ -13,7 +13,7 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 constexpr double kPi = std::numbers::pi;
 
-// The axes along u (right) and v (down) of the box's six faces, as sign * (axis index + 1).
+// Axes along u (right) and v (down) of the six box faces, as sign * (axis index + 1).
 struct FaceAxes {
     int u, v;
 };
@@ -34,7 +34,7 @@ std::optional<ShapeHit> IntersectBox(const Vector3d& half, const Vector3d& o, co
     double t_in = -std::numeric_limits<double>::infinity(), t_out = -t_in;
     int chart_in = 0, chart_out = 0;
     for (int i = 0; i < 3; ++i) {
-        // A ray along the slab must not make 0 * infinity.
+        // Avoids 0 * infinity for a ray parallel to the slab.
         const double inverse = 1.0 / (std::abs(d[i]) < 1e-300 ? std::copysign(1e-300, d[i]) : d[i]);
         const double a = (-half[i] - o[i]) * inverse, b = (half[i] - o[i]) * inverse;
         const double low = std::min(a, b), high = std::max(a, b);
@@ -48,8 +48,8 @@ std::optional<ShapeHit> IntersectBox(const Vector3d& half, const Vector3d& o, co
     return std::nullopt;
 }
 
-// Roots of |o + t d| = radius in the first `dimensions` coordinates, ascending; the sum of squares
-// is arranged so that far origins lose no digits.
+// Roots of |o + t d| = radius in the first `dimensions` coordinates, ascending. Computed from the
+// closest point, so that distant origins do not lose precision.
 template <int dimensions>
 std::optional<std::pair<double, double>> CircleRoots(const Vector3d& o, const Vector3d& d,
                                                      double radius) {
@@ -104,7 +104,7 @@ std::optional<ShapeHit> IntersectRectangle(const Vector3d& half, const Vector3d&
     return ShapeHit{t, 0};
 }
 
-// Outside: length of the positive part; inside: the largest (negative) component.
+// Outside: norm of the positive part. Inside: the largest (negative) component.
 template <class Vector>
 double BoxDistance(const Vector& q) {
     return q.cwiseMax(0.0).norm() + std::min(q.maxCoeff(), 0.0);

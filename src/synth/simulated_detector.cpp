@@ -11,9 +11,9 @@ namespace {
 
 constexpr std::uint64_t kDetectorStream = 5;
 constexpr double kProbability = 0.9, kProbabilityStd = 0.06;
-constexpr double kLeastShare = 400.0 / (640.0 * 480.0);  // of the image
+constexpr double kLeastShare = 400.0 / (640.0 * 480.0);  // of the image area
 
-// A class other than `right`, 0 apart.
+// Returns a class other than `right` and 0.
 int WrongClass(const Scene& scene, int right, std::uint64_t bits) {
     const int count = static_cast<int>(scene.class_names().size()) - 1;
     const int step = 1 + static_cast<int>(UniformFromBits(bits) * (count - 1));

@@ -1,6 +1,5 @@
-// What a detector would say of a scene's view, made from the truth with mistakes at known rates:
-// for sequences written to disk and for runs on built-in scenes. Pure functions of their arguments,
-// thread-safe.
+// Simulates an object detector from ground truth, with errors at given rates: for sequences written
+// to disk and for runs on built-in scenes. Pure functions, thread-safe.
 #pragma once
 
 #include <cstdint>
@@ -12,32 +11,31 @@
 
 namespace tessera {
 
-// The pixels of one instance; inclusive.
+// Pixel bounds of one instance, inclusive.
 struct InstanceBox {
     int x_min, y_min, x_max, y_max;
     std::int64_t pixels;
 };
-// One an instance of the scene, in their order; those not in view have no pixels.
+// Returns one box per instance of the scene, in order. Instances out of view have 0 pixels.
 std::vector<InstanceBox> FindInstanceBoxes(const Image<std::uint16_t>& instance,
                                            std::size_t instance_count);
 
-// Which instance each pixel's centre shows; 0 where that is the surroundings or nothing. Uses all
-// cores (TBB).
+// Returns the instance at each pixel centre; 0 for surroundings or no surface. Uses all cores
+// (TBB).
 Image<std::uint16_t> CastInstances(const Scene& scene, const PinholeCamera& camera,
                                    const Eigen::Isometry3d& T_world_camera, double time_s);
 
 struct DetectorMistakes {
-    double missed = 0.10, wrong_class = 0.03;  // shares
+    double missed = 0.10, wrong_class = 0.03;  // rates
 };
 
 struct SimulatedDetection {
     int instance = 0;
-    int class_id = 0;  // perhaps a wrong one
+    int class_id = 0;  // may be wrong
     double probability = 0;
     InstanceBox box{};
 };
-// Of instances with more than 400 pixels of a 640x480 image, in proportion for others; p = 0.9 +-
-// 0.06.
+// Detects instances with more than 400 pixels at 640x480, scaled for other sizes. p = 0.9 +- 0.06.
 std::vector<SimulatedDetection> SimulateDetections(const Scene& scene,
                                                    const std::vector<InstanceBox>& boxes,
                                                    std::size_t image_pixels, std::uint64_t seed,

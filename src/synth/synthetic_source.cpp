@@ -7,8 +7,9 @@
 namespace tessera {
 
 void SynthConfig::Describe(ConfigParameters& p) {
-    p.Add("frames", frames, {0, 10000000}, "", "number of frames, 0 = to the end of the motion");
-    p.Add("seed", seed, {0, 2147483647}, "", "of the sensor's noise");
+    p.Add("frames", frames, {0, 10000000}, "",
+          "number of frames; 0 = to the end of the camera path");
+    p.Add("seed", seed, {0, 2147483647}, "", "random seed of the sensor noise");
     p.Add("fps", fps, {0.1, 1000}, "1/s", "frames per second");
     p.Add("width", camera.width, {16, 8192}, "px", "image width");
     p.Add("height", camera.height, {16, 8192}, "px", "image height");
@@ -17,15 +18,13 @@ void SynthConfig::Describe(ConfigParameters& p) {
     p.Add("cx", camera.cx, {-8192, 16384}, "px", "principal point, x");
     p.Add("cy", camera.cy, {-8192, 16384}, "px", "principal point, y");
     p.Add("trajectory", trajectory,
-          "TUM trajectory file to move along, empty = the scene's own motion");
+          "TUM trajectory file for the camera; empty = the scene's own path");
     p.Add("trajectory_from_start", trajectory_from_start,
-          "move the trajectory so that it begins at the scene's own first pose; off: taken as it "
-          "is, in the scene's "
-          "world");
+          "on: move the trajectory so that it starts at the first pose of the scene's own path; "
+          "off: use its poses as they are, in the scene's world frame");
     p.AddChoice("model_up", model_up, {{"y", UpAxis::kY}, {"z", UpAxis::kZ}},
-                "which axis of an .obj model points upwards; only its own motion depends on it");
-    p.Add("speed", speed, {0.1, 10}, "",
-          "how many times as fast as its path says the camera moves");
+                "up axis of an .obj model; affects only the generated camera path");
+    p.Add("speed", speed, {0.1, 10}, "", "speed factor of the camera path");
     p.Section("rig", [this](ConfigParameters& s) { rig.Describe(s); });
     p.Section("sensor", [this](ConfigParameters& s) { sensor.Describe(s); });
 }

@@ -1,5 +1,5 @@
-// Synthetic scenes as a frame source: SOURCE `synthetic:NAME`, with exact poses and, for who asks,
-// all truth.
+// Synthetic scenes as a frame source: SOURCE `synthetic:NAME`, with exact poses and, on request,
+// all ground truth.
 #pragma once
 
 #include <memory>
@@ -16,15 +16,15 @@ namespace tessera {
 enum class UpAxis { kY, kZ };
 
 struct SynthConfig {
-    int frames = 0;  // 0: as long as the scene's motion (or the trajectory file) goes
-    int seed = 1;    // of the noise; the scenes and motions themselves are fixed
+    int frames = 0;  // 0: until the end of the scene's path or the trajectory file
+    int seed = 1;    // of the noise; scenes and paths are fixed
     double fps = 30;
     PinholeCamera camera;
-    std::string trajectory;  // TUM trajectory file; empty: the scene's own motion
-    bool trajectory_from_start =
-        false;  // begin at the scene's own first pose instead of the recorded one
-    UpAxis model_up = UpAxis::kZ;  // of an .obj model, for its own motion
-    double speed = 1;              // of the motion
+    std::string trajectory;  // TUM trajectory file; empty: the scene's own path
+    // Start at the first pose of the scene's own path instead of the recorded one.
+    bool trajectory_from_start = false;
+    UpAxis model_up = UpAxis::kZ;  // of an .obj model, for its generated path
+    double speed = 1;              // factor of the camera path
     CameraRig rig;
     SensorModel::Config sensor;
 
@@ -38,7 +38,7 @@ class SyntheticSource : public FrameSource {
 
     const SourceInfo& info() const override { return info_; }
     ReadResult Read(Frame& frame) override;
-    // Fills `truth` too: the ideal view that the frame was measured from.
+    // Also fills `truth`: the ideal view from which the frame was measured.
     ReadResult ReadWithTruth(Frame& frame, RenderedView& truth);
     bool Seek(std::int64_t index) override;
 
@@ -57,14 +57,14 @@ class SyntheticSource : public FrameSource {
     std::int64_t next_ = 0;
 };
 
-// The first frame's time stamp: file names made from stamps sort as text.
+// Time stamp of the first frame. File names made from the stamps sort as text.
 inline constexpr double kFirstStamp_s = 1000.0;
 
-// `name`: one of BuiltinSceneNames() or a path that ends in .obj, with or without "synthetic:"
-// before it. Errors name the scene or file, and for an unknown scene the known ones.
+// `name`: one of BuiltinSceneNames() or a path that ends in .obj, optionally preceded by
+// "synthetic:". Errors name the scene or the file; for an unknown scene they list the known ones.
 Result<std::unique_ptr<SyntheticSource>> OpenSynthetic(const std::string& name,
                                                        const SynthConfig& config);
-// The same as any other source.
+// The same, as a generic frame source.
 Result<std::unique_ptr<FrameSource>> OpenSyntheticScene(const std::string& name,
                                                         const SynthConfig& config);
 

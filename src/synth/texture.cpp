@@ -13,7 +13,8 @@ std::uint32_t Pack(std::uint32_t r, std::uint32_t g, std::uint32_t b) {
     return r | g << 8 | b << 16;
 }
 
-// Channels in 16-bit lanes, so that one multiplication or addition treats all three.
+// Spreads the channels into 16-bit lanes, so that one multiplication or addition processes all
+// three.
 std::uint64_t Spread(std::uint32_t texel) {
     return (texel & 0xffu) | (texel & 0xff00u) << 8 |
            static_cast<std::uint64_t>(texel & 0xff0000u) << 16;
@@ -27,19 +28,19 @@ std::uint32_t MeanOfFour(std::uint32_t a, std::uint32_t b, std::uint32_t c, std:
     return Pack(lane(0), lane(16), lane(32));
 }
 
-// Texel index and its neighbour for a position in texels, and the neighbour's weight in 1/16.
+// Index of a texel and its neighbour for a position in texels; weight of the neighbour in 1/16.
 struct Axis {
     int first, second;
     std::uint32_t weight;
 };
 
-// std::floor is a library call on the baseline instruction set.
+// std::floor is a library call with the baseline instruction set.
 int Floor(float x) {
     const int truncated = static_cast<int>(x);
     return truncated - (x < static_cast<float>(truncated) ? 1 : 0);
 }
 
-// `position` in [0, 1] of the image.
+// `position`: [0, 1] across the image.
 Axis Locate(float position, int size, Texture::Wrap wrap) {
     const float texel = position * static_cast<float>(size) - 0.5f;
     const int index = Floor(texel);
@@ -85,7 +86,8 @@ Texture::Texture(const ColourImage& image, Wrap wrap) : wrap_(wrap) {
     }
 }
 
-// All channels at once: four weights of sum 256 on eight-bit values fit the 16-bit lanes.
+// Processes all channels at once: four weights that sum to 256, times 8-bit values, fit into the
+// 16-bit lanes.
 RgbF Texture::SampleLevel(const Level& level, float u, float v) const {
     const Axis x = Locate(u, level.width, wrap_), y = Locate(v, level.height, wrap_);
     const std::uint32_t* row0 =

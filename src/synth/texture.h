@@ -1,5 +1,5 @@
-// A colour image with its mip pyramid: what the surfaces of synthetic scenes are painted with.
-// Immutable after construction, hence thread-safe.
+// A colour image with its mip pyramid, for the surfaces of synthetic scenes. Immutable after
+// construction, hence thread-safe.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace tessera {
 
-// Colour of a sample before quantisation, each channel in grey levels [0, 255].
+// Colour of a sample before quantisation, in grey levels [0, 255] per channel.
 struct RgbF {
     float r = 0, g = 0, b = 0;
 };
@@ -18,13 +18,13 @@ class Texture {
   public:
     enum class Wrap { kRepeat, kClamp };
 
-    // `image` must not be empty; 1x1 is a flat colour.
+    // `image` must not be empty; a 1x1 image is a flat colour.
     Texture(const ColourImage& image, Wrap wrap);
 
-    // Bilinear, in the pyramid's level whose texels are as large as the footprint or up to half of
-    // it: the renderer's several samples a pixel average the rest away. (u, v) run over [0, 1] from
-    // the image's top-left to its bottom-right corner, outside of which the image repeats or is
-    // continued; `footprint` is the sample's extent as a share of the image's width.
+    // Bilinear sample from the pyramid level whose texels are between half the footprint and the
+    // footprint in size; the renderer's samples per pixel average out the rest. (u, v) range over
+    // [0, 1] from the top-left to the bottom-right corner of the image. Outside, the image repeats
+    // or is clamped. `footprint`: extent of the sample as a share of the image width.
     RgbF Sample(float u, float v, float footprint) const;
 
     int width() const { return levels_.front().width; }
@@ -33,7 +33,7 @@ class Texture {
   private:
     struct Level {
         int width, height;
-        std::vector<std::uint32_t> texels;  // r, g, b from the lowest byte up
+        std::vector<std::uint32_t> texels;  // r, g, b from the lowest byte
     };
     RgbF SampleLevel(const Level& level, float u, float v) const;
 

@@ -18,7 +18,7 @@ Eigen::Vector2d Velocity(const Walk& walk, double time_s) {
     return (walk(time_s + kReach_s) - walk(time_s - kReach_s)) / (2 * kReach_s);
 }
 
-// Upright, the front (-y) ahead. Who stands looks along x.
+// Upright, with the front (-y) in the walking direction; along x when standing.
 Eigen::Isometry3d T_world_feet(const Walk& walk, double time_s) {
     const Eigen::Vector2d ahead = Velocity(walk, time_s) + Eigen::Vector2d(0.02, 0);
     const Eigen::Vector2d at = walk(time_s);
@@ -30,7 +30,7 @@ Eigen::Isometry3d T_world_feet(const Walk& walk, double time_s) {
     return T;
 }
 
-// A limb that hangs from a joint at that height and swings with the walk; `phase` 0 or pi.
+// A limb that hangs from a joint at height `joint_m` and swings with the walk. `phase`: 0 or pi.
 AnalyticScene::Motion Swing(const Walk& walk, double joint_m, double share, double phase) {
     return [=](double time_s) {
         const double pace = std::min(Velocity(walk, time_s).norm(), 1.0);

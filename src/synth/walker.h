@@ -1,4 +1,4 @@
-// A person of simple bodies who walks through a built-in scene: legs and arms swing with the pace.
+// A person made of simple bodies who walks through a built-in scene, with swinging legs and arms.
 #pragma once
 
 #include <functional>
@@ -8,10 +8,10 @@
 
 namespace tessera {
 
-// Where the walker is on the floor at each moment, metres; any time.
+// Position of the walker on the floor at a time, metres; any time is valid.
 using Walk = std::function<Eigen::Vector2d(double time_s)>;
 
-// 1.74 m tall, of class "person", facing where the walk leads. Owner thread only, while the scene
+// 1.74 m tall, class "person", facing in the walking direction. Owner thread only, while the scene
 // is being built.
 void AddWalker(AnalyticScene& scene, const std::string& name, const Walk& walk, Rgb8 shirt,
                Rgb8 trousers, std::uint64_t seed);

@@ -1,5 +1,5 @@
-// A GPU that keeps the map and does the work over its voxels, over rays through it and over a
-// frame's pixels and points, in the processor's place.
+// A GPU backend: keeps the map on the GPU and runs the work over voxels, rays, frame pixels and
+// points there instead of on the CPU.
 #pragma once
 
 #include <memory>
@@ -21,26 +21,27 @@ struct DeviceConfig {
     void Describe(ConfigParameters& parameters);
 };
 
-// Owner thread only, with all that it makes.
+// Owner thread only, including every object it creates.
 class Device {
   public:
     virtual ~Device() = default;
 
     virtual std::string name() const = 0;
-    // As PrepareFrame, but the images stay there, apart from the reduced ones, unless `bring`.
+    // Like PrepareFrame, but the images stay on the device unless `bring` is set. The reduced
+    // images always come back.
     virtual void Prepare(const Frame& frame, const PreparedFrame::Config& config, bool bring,
                          PreparedFrame& prepared) = 0;
-    // Fuses there. The device outlives it.
+    // Fuses on the device. The device outlives the integrator.
     virtual std::unique_ptr<Integrator> MakeIntegrator(const Integrator::Config& config,
                                                        const PinholeCamera& camera) = 0;
-    // Meshes the map that the integrator fuses into there. The device outlives it. Null: the
-    // processor meshes.
+    // Meshes the device copy of the map that the integrator fuses into. The device outlives it.
+    // Null: the CPU meshes.
     virtual std::unique_ptr<BlockMesher> MakeBlockMesher() = 0;
-    // Sums over the map that the integrator fuses into.
+    // Normal equations over the map that the integrator fuses into.
     virtual SdfSums& sdf_sums() = 0;
-    // The same of views of that map.
+    // The same over predicted views of that map.
     virtual IcpSums& icp_sums() = 0;
-    // Casts rays there, as RayCaster does; where there is no room nothing is seen.
+    // Casts rays on the device, as RayCaster does. If device memory runs out, the view is empty.
     virtual ViewPredictor& views() = 0;
 };
 

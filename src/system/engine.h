@@ -1,6 +1,6 @@
-// How frames are driven through their life: one after the other (lockstep_engine.h), or each stage
-// on a thread of its own while the camera goes on (live_engine.h). Whoever runs one takes what came
-// of the frames, in order.
+// Drives frames through tracking and mapping: one after the other (lockstep_engine.h), or with each
+// stage on its own thread while the camera keeps running (live_engine.h). The owner takes the
+// outcomes in order.
 #pragma once
 
 #include <atomic>
@@ -21,30 +21,30 @@
 
 namespace tessera {
 
-// One frame's end, or what else a run must hear of.
+// The result of one frame, or another event that the run must handle.
 struct FrameOutcome {
     enum class Kind {
-        kFrame,      // `report` and all that follows it hold
-        kSkipped,    // could not be read: `message`
-        kDropped,    // live: a newer one came before it was tracked
-        kMessage,    // for a person
-        kLabelsEnd,  // the detector broke: `message`
-        kReset,      // the map and the path begin anew
+        kFrame,      // `report` and all members after it are valid
+        kSkipped,    // the frame could not be read; see `message`
+        kDropped,    // live: a newer frame arrived before this one was tracked
+        kMessage,    // text for the user
+        kLabelsEnd,  // the detector failed; see `message`
+        kReset,      // the map and the trajectory start again
     };
     Kind kind = Kind::kFrame;
     std::string message;
     FrameReport report;
-    std::optional<Eigen::Isometry3d> T_world_camera_truth;  // in the source's world
-    // Live: well tracked, but mapping was busy.
+    std::optional<Eigen::Isometry3d> T_world_camera_truth;  // in the source's world frame
+    // Live: tracked well, but not fused because mapping was busy.
     bool fusion_dropped = false;
     // Latency: from the frame's arrival to its pose.
     double decode_ms = 0, mesh_ms = 0, latency_ms = 0;
-    double scan_ms = 0;  // making checkpoints, not writing them
-    // Keyframes, loops, the corrected map; 0 without.
+    double scan_ms = 0;  // building checkpoints, not writing them
+    // Keyframes, loop closure and map correction. 0 without loop closure.
     double loops_ms = 0;
     MapStatistics map;
-    std::optional<LabelReport> labels;  // of this frame, or live of an earlier one
-    std::vector<std::pair<const char*, std::size_t>> queues;  // name and how many wait in it
+    std::optional<LabelReport> labels;  // of this frame; in live mode possibly of an earlier one
+    std::vector<std::pair<const char*, std::size_t>> queues;  // queue name and length
 };
 
 struct EngineInput {
@@ -52,37 +52,37 @@ struct EngineInput {
     FrameSelection selection;
     RunConfig config;
     FramePlan plan;
-    ScanPlan scan;                            // without a file nothing is saved
-    Labelling labelling;                      // without a detector nothing is labelled
-    std::string record_path;                  // empty = nothing is recorded
+    ScanPlan scan;                            // without a file, nothing is saved
+    Labelling labelling;                      // without a detector, nothing is labelled
+    std::string record_path;                  // empty: no recording
     ViewerLink* viewer = nullptr;             // outlives the engine
-    Device* device = nullptr;                 // in the processor's place; outlives the engine
+    Device* device = nullptr;                 // null: CPU; outlives the engine
     const std::atomic<bool>* stop = nullptr;  // never null; outlives the engine
 };
 
 // Owner thread only.
 class Engine {
   public:
-    virtual ~Engine() = default;  // stops and joins, at any moment
+    virtual ~Engine() = default;  // stops and joins the threads; allowed at any time
 
-    // Waits for the next outcome. False: no more, because the source ended, a stop was asked for,
-    // or the source broke
-    // (`status`).
+    // Waits for the next outcome. Returns false at the end: the source ended, a stop was requested,
+    // or the source failed (see `status`).
     virtual bool Next(FrameOutcome& outcome) = 0;
     virtual const Status& status() const = 0;
-    virtual bool stopped() const = 0;  // on request, before the source's end
+    virtual bool stopped() const = 0;  // on request, before the source ended
 
-    // After Next gave false, once: the source and the map go, the whole mesh comes.
+    // Call once, after Next returned false. Releases the source and the map and returns the whole
+    // mesh.
     virtual TriangleMesh TakeMesh() = 0;
-    virtual std::string mesh_warning() const { return {}; }  // after TakeMesh; mostly empty
+    virtual std::string mesh_warning() const { return {}; }  // after TakeMesh; usually empty
     // After TakeMesh; empty without labels.
     virtual const std::vector<MapObject>& objects() const = 0;
     virtual MapStatistics map_statistics() const = 0;  // before TakeMesh
-    // After Next gave false: the tracked frames' poses as they are known at the end; empty: as they
-    // were given.
+    // After Next returned false: final poses of the tracked frames. Empty: the reported poses
+    // stand.
     virtual std::vector<StampedPose> CorrectedPath() const { return {}; }
-    // The same of the calibration; nothing where it was not to be refined, or where too little was
-    // seen for an estimate.
+    // After Next returned false: the refined calibration. Nothing if refinement is off or there was
+    // too little data for an estimate.
     virtual std::optional<CalibrationReport> calibration() const { return std::nullopt; }
 };
 

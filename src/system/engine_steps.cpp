@@ -27,14 +27,15 @@ std::string SaveMesh(const MappingStage& mapping, const std::string& path) {
 
 std::string SaveScan(const std::string& path, const SourceInfo& source, const RunConfig& config,
                      bool wait, std::vector<PathRecord>& past, std::optional<ScanStage>& scan) {
-    if (scan) return "the scan is being saved already: " + scan->path();
+    if (scan) return "the scan is already being saved: " + scan->path();
     if (config.loops.refine_calibration)
-        return "no scan is saved: with calibration.refine its frames would be of two calibrations";
+        return "cannot save a scan with calibration.refine: its frames would have two different "
+               "calibrations";
     Result<ScanPlan> plan = BeginScan(path, source, config);
     if (!plan.ok()) return plan.message();
     scan.emplace(std::move(plan.value()), config.scan, wait, config.loops.enabled);
     scan->AddPast(std::exchange(past, {}));
-    return "scan saved, and from now on as it goes: " + path;
+    return "scan saved; it is kept up to date from now on: " + path;
 }
 
 Status StartPaging(const PipelineConfig& config, const PinholeCamera& camera,
@@ -65,7 +66,7 @@ TriangleMesh TakeFinalMesh(MappingStage& mapping, std::optional<ScanStage>& scan
         return {};
     }
     const std::string path = scan->path();
-    scan.reset();  // what it keeps for checkpoints would have to fit beside the mesh
+    scan.reset();  // its checkpoint buffers would have to fit beside the mesh
     ReturnFreeMemory();
     return mapping.TakeStoredMesh(path, status);
 }

@@ -1,4 +1,4 @@
-// What both engines do the same way.
+// Steps that both engines share.
 #pragma once
 
 #include <optional>
@@ -11,34 +11,35 @@
 
 namespace tessera {
 
-// A folder by the recorder's thread, FILE.oni by the source itself; before the source's first
-// frame.
+// Starts recording to a folder (written by `recorder`'s thread) or to FILE.oni (written by the
+// source). Call before the source's first frame.
 Status StartRecording(const std::string& path, const RecordConfig& config, FrameSource& source,
                       RecorderThread& recorder);
 
-// Writes the mesh as it is now; returns how that went, for a person.
+// Writes the current mesh. Returns a message for the user.
 std::string SaveMesh(const MappingStage& mapping, const std::string& path);
 
-// A scan file in the midst of a run, `past` its frames so far: from now on there is a `scan`,
-// unless there was one. Returns how that went, for a person.
+// Starts a scan file in the middle of a run. `past` holds the run's frames so far. Sets `scan`
+// unless it is already set. Returns a message for the user.
 std::string SaveScan(const std::string& path, const SourceInfo& source, const RunConfig& config,
                      bool wait, std::vector<PathRecord>& past, std::optional<ScanStage>& scan);
 
-// Where the configuration has a memory limit: a stage for the map that is being saved to
+// If the configuration has a memory limit, creates the paging stage for the map that is saved to
 // `scan_path`.
 Status StartPaging(const PipelineConfig& config, const PinholeCamera& camera,
                    const std::string& scan_path, bool wait, std::unique_ptr<PagingStage>& paging);
 
-// A corrected map in place of the one so far, wherever parts of it are. `paging` may be null.
+// Replaces the map by the corrected one in every stage that holds part of it. `paging` may be null.
 void PutInPlace(LoopCloser::Correction correction, MappingStage& mapping,
                 std::optional<ScanStage>& scan, PagingStage* paging);
 
-// At the end, after ScanStage::Finish: of the map, wherever it is. `scan` and the map go; `paging`
-// may be null. An error goes to `status`, the mesh is then empty.
+// Call at the end, after ScanStage::Finish. Meshes the whole map, including its paged-out part.
+// Releases the map, and may release `scan`. `paging` may be null. On error sets `status` and
+// returns an empty mesh.
 TriangleMesh TakeFinalMesh(MappingStage& mapping, std::optional<ScanStage>& scan,
                            PagingStage* paging, Status& status);
 
-// Of a thread that waits for a person's next wish and for a signal that cannot wake it.
+// For a thread that polls for user commands and for a stop signal, which cannot wake it.
 void PauseBriefly();
 
 }  // namespace tessera

@@ -1,4 +1,4 @@
-// What was decided before a run about single frames: poses to fuse at, and switches of method.
+// Per-frame choices made before a run: poses to fuse at, and switches of the tracking method.
 #pragma once
 
 #include <string>
@@ -14,19 +14,18 @@ namespace tessera {
 class FramePlan {
   public:
     FramePlan() = default;
-    // `poses` empty: track. `poses_file` is for messages.
+    // `poses` empty: track. `poses_file` is used in messages only.
     FramePlan(std::vector<MethodSwitch> switches, std::vector<StampedPose> poses,
               const std::string& poses_file);
 
-    // Selects the frame's method; before Track, and before anybody asks whether that method reads
-    // the map.
+    // Selects the frame's tracking method. Call before Track and before TrackingStage::reads_map.
     void Select(const Frame& frame, TrackingStage& stage);
-    // TrackingStage::Track by the plan. Frames are to come in the source's order.
+    // Calls TrackingStage::Track according to the plan. Frames must come in the source's order.
     void Track(const Frame& frame, const BlockMap& map, TrackingStage& stage,
                TrackedFrame& tracked);
 
   private:
-    std::vector<MethodSwitch> switches_;  // by frame
+    std::vector<MethodSwitch> switches_;  // sorted by frame
     std::size_t next_switch_ = 0;
     std::vector<StampedPose> poses_;
     std::string poses_file_;

@@ -20,7 +20,7 @@ Result<Inspection> InspectFrame(const std::string& name, const RunConfig& config
         const ReadResult read = reader.Next(frame);
         if (read.status == ReadStatus::kEnd)
             return Status::Error(
-                fmt::format("{}: has no frame {} (see frames.csv or tessera info)", name, index));
+                fmt::format("{}: no frame {} (see frames.csv or tessera info)", name, index));
         if (read.status == ReadStatus::kError) return Status::Error(read.message);
         if (read.status == ReadStatus::kSkip || read.status == ReadStatus::kWait) continue;
         if (frame.index > index)

@@ -1,4 +1,4 @@
-// One frame of a source against the map of the frames before it, as a picture.
+// Renders one frame of a source next to the view predicted from the map of all earlier frames.
 #pragma once
 
 #include <cstdint>
@@ -13,12 +13,13 @@ namespace tessera {
 
 struct Inspection {
     ColourImage picture;  // render/view_picture.h
-    FrameReport report;   // of the frame that is shown
+    FrameReport report;   // of the inspected frame
 };
 
-// Tracks and fuses the frames before `frame` (an index as in frames.csv), tracks that one and
-// predicts the view at its pose, by the ray caster or the rasteriser as tracking.icp.prediction
-// says. Errors: bad source, no such frame, a frame that could not be read or was lost.
+// Tracks and fuses all frames before `frame` (an index as in frames.csv). Then tracks that frame
+// and predicts the view at its pose, with the ray caster or the rasteriser as
+// tracking.icp.prediction says. Errors: bad source, no such frame, or the frame could not be read
+// or was lost.
 Result<Inspection> InspectFrame(const std::string& source, const RunConfig& config,
                                 std::int64_t frame);
 

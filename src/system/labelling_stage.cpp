@@ -35,7 +35,7 @@ bool LabellingStage::Detect(const Frame& frame, LabelReport& report, std::string
     const auto detect = [&]() -> Result<std::vector<Detection>> {
         try {
             return detector_->Detect(frame);
-            // A detector that breaks its word must not end the run.
+            // An exception from a detector must not end the run.
         } catch (const std::exception& error) {
             return Status::Error(error.what());
         }
@@ -43,7 +43,7 @@ bool LabellingStage::Detect(const Frame& frame, LabelReport& report, std::string
     Result<std::vector<Detection>> found = detect();
     if (!found.ok()) {
         broken_ = true;
-        message = "labelling stops, the run goes on: " + found.message();
+        message = "labelling has stopped, the run continues: " + found.message();
         return false;
     }
     report = {};
@@ -60,7 +60,7 @@ bool LabellingStage::Detect(const Frame& frame, LabelReport& report, std::string
 
 void LabellingStage::WorkInBackground() {
     constexpr int kNice = 10;
-    // Linux: of this thread alone. Where it is refused the thread is as urgent as the others.
+    // Linux: affects only this thread. If it is refused, the thread keeps normal priority.
     static_cast<void>(setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNice));
     detector_->WorkInBackground();
 }

@@ -1,6 +1,6 @@
-// Runs a detector on frames: as a step of the caller's thread (lockstep), or on a thread of its
-// own, where the newest frame wins and the answer comes when it comes (live). A detector that
-// breaks is reported once; labelling then stops and the run goes on.
+// Runs a detector on frames: as a step on the caller's thread (lockstep), or on its own thread,
+// where the newest frame wins and answers arrive asynchronously (live). A detector failure is
+// reported once. Labelling then stops and the run continues.
 #pragma once
 
 #include <atomic>
@@ -17,11 +17,11 @@
 
 namespace tessera {
 
-// What a run hears of one detected frame.
+// The detector's result for one frame.
 struct LabelReport {
     double stamp_s = 0, colour_stamp_s = 0;
-    std::vector<Detection> detections;  // the wanted ones
-    // Of labels.dynamic's classes; without depth: none was detected.
+    std::vector<Detection> detections;  // wanted classes only
+    // Depth of detections in labels.dynamic's classes. Empty depth image: none was detected.
     MovingHint moving;
     VoteCount votes;
     double detect_ms = 0, vote_ms = 0;
@@ -37,10 +37,11 @@ class LabellingStage {
           config_(config),
           camera_(camera) {}
 
-    // False once the detector broke: `message` says so the first time and is empty later.
+    // Returns false after the detector has failed. `message` gives the error the first time and is
+    // empty after that.
     bool Detect(const Frame& frame, LabelReport& report, std::string& message);
-    // On the thread that will detect, beside tracking: one thread only, and behind the others where
-    // cores are short.
+    // Call on the detecting thread when it runs beside tracking: limits the detector to one thread
+    // and lowers its priority.
     void WorkInBackground();
 
   private:
@@ -51,10 +52,10 @@ class LabellingStage {
     bool broken_ = false;
 };
 
-// One thread, the mapping's, offers and takes.
+// Offer and TryTake: mapping thread only.
 class LabellingThread {
   public:
-    // A frame whose pose is known, and in which map.
+    // A frame with a known pose, and the version of the map that the pose refers to.
     struct Job {
         std::unique_ptr<Frame> frame;
         Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity();
@@ -63,14 +64,14 @@ class LabellingThread {
     struct Answer {
         Job job;
         LabelReport report;
-        std::string message;  // for a person; the report is then empty
+        std::string message;  // for the user; if set, the report is empty
     };
 
     // `mapping` is notified of answers.
     LabellingThread(LabellingStage stage, Wake& mapping);
-    ~LabellingThread();  // stops after the frame at hand, and joins
+    ~LabellingThread();  // joins after the current frame
 
-    // Returns the frame that is not needed: an older one that still waited, or this one once
+    // Returns a frame that is no longer needed: an older one that was still waiting, or this one if
     // labelling has stopped.
     std::unique_ptr<Frame> Offer(Job job);
     bool has_answer() const { return !answers_.empty(); }
@@ -84,7 +85,7 @@ class LabellingThread {
     NewestQueue<Job> jobs_{1, wake_};
     FifoQueue<Answer> answers_;
     std::atomic<bool> stop_{false}, broken_{false};
-    std::jthread thread_;  // last: ends before what it uses
+    std::jthread thread_;  // last: joins before the members it uses are destroyed
 };
 
 }  // namespace tessera

@@ -73,7 +73,7 @@ void LiveEngine::BeginLoops(std::optional<LoopCloser::Labels> labels) {
         LoopThread::Surroundings{frame_pool_, tracked_pool_, mapping_wake_, tracking_wake_});
 }
 
-// Before the threads: a resumed scan's map is the first news of the map.
+// Call before the threads start: a resumed scan's map is the first map update for tracking.
 Status LiveEngine::StartScan(ScanPlan plan) {
     if (plan.resumed) {
         saved_tracking_ = plan.resumed->tracking;
@@ -90,13 +90,13 @@ Status LiveEngine::StartScan(ScanPlan plan) {
     if (device_ != nullptr || mapping_.map().size() == 1) return Status::Ok();
     MapNews whole{delta_pool_.Take(), 0, nullptr};
     mapping_.CollectWhole(*whole.delta);
-    TESSERA_CHECK(map_news_.TryPush(std::move(whole)), "no room for the first news of the map");
+    TESSERA_CHECK(map_news_.TryPush(std::move(whole)), "no room for the first update of the map");
     return Status::Ok();
 }
 
 LiveEngine::~LiveEngine() {
     quit_.store(true);
-}  // reading ends, then tracking, then mapping: each empties its queue
+}  // reading ends first, then tracking, then mapping; each empties its queue
 
 bool LiveEngine::Next(FrameOutcome& outcome) {
     bool got = false;
@@ -105,7 +105,7 @@ bool LiveEngine::Next(FrameOutcome& outcome) {
 }
 
 TriangleMesh LiveEngine::TakeMesh() {
-    TESSERA_CHECK(mapping_done_.load(), "the mesh is taken before the end");
+    TESSERA_CHECK(mapping_done_.load(), "TakeMesh was called before the end");
     return TakeFinalMesh(mapping_, scan_, paging_.get(), status_);
 }
 
@@ -126,8 +126,8 @@ void LiveEngine::ReadFrames() {
     tracking_wake_.Notify();
 }
 
-// One look at the source; false at its end. A paused camera's frames are read and let go, a
-// recording waits.
+// Reads once from the source. Returns false at its end. While paused, a live camera's frames are
+// read and discarded; a recording waits.
 bool LiveEngine::ReadFrame() {
     if (control_.waiting() && !source_.live) {
         PauseBriefly();
@@ -160,9 +160,9 @@ bool LiveEngine::ReadFrame() {
     return true;
 }
 
-// A recorded frame's time comes as long after the first frame's as it was recorded.
+// Waits until a recorded frame is as long after the first frame as it was recorded.
 void LiveEngine::WaitUntilDue(double stamp_s) {
-    constexpr double kAfterAll_s = 1.0;  // a longer gap in the stamps is not waited for
+    constexpr double kAfterAll_s = 1.0;  // no waiting for longer gaps in the stamps
     const Clock::time_point now = Clock::now();
     if (first_stamp_s_) {
         const double wait_ms = 1000 * (stamp_s - *first_stamp_s_) / config_.live.playback_speed -
@@ -183,7 +183,7 @@ void LiveEngine::Obey(const ViewerCommand& command) {
         case ViewerCommand::Kind::kStopRecording: recorder_.Stop(); break;
         default:
             if (!commands_.TryPush(ViewerCommand(command)))
-                Tell(FrameOutcome::Kind::kMessage, "too many commands at once: one was left out");
+                Tell(FrameOutcome::Kind::kMessage, "too many commands at once: one was ignored");
     }
 }
 

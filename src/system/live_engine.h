@@ -1,7 +1,7 @@
-// The camera never waits: reading, tracking and mapping on a thread each, over bounded lock-free
-// queues; the newest frame wins and what is dropped is counted. With a device, whose commands one
-// thread gives, tracking's thread maps too, each frame before the next is tracked. docs/threads.md
-// has every queue's capacity and policy.
+// The camera never waits: reading, tracking and mapping each run on their own thread, connected by
+// bounded lock-free queues. The newest frame wins, and dropped frames are counted. With a device,
+// one thread issues all its commands: the tracking thread also maps, and maps each frame before it
+// tracks the next. docs/threads.md lists the capacity and policy of every queue.
 #pragma once
 
 #include <chrono>
@@ -23,7 +23,7 @@
 
 namespace tessera {
 
-// Where a source or a test is to be slow.
+// Simulates a slow source or a slow stage. No wait if `ms` <= 0.
 void WaitFor(double ms);
 
 class LiveEngine : public Engine {
@@ -53,31 +53,31 @@ class LiveEngine : public Engine {
         double decode_ms = 0;
         Clock::time_point arrival;
     };
-    // A tracked frame, or a command where there is none.
+    // A tracked frame, or a command if `tracked` is null.
     struct Task {
         std::unique_ptr<TrackedFrame> tracked;
         std::unique_ptr<Frame> frame;
         double decode_ms = 0, latency_ms = 0;
-        int corrections = 0;  // of the map that it was tracked in
-        // Where a lost camera was found to be, in that map.
+        int corrections = 0;  // number of corrections of the map it was tracked in
+        // Pose at which a lost camera was relocalised, in that map.
         std::optional<Eigen::Isometry3d> T_found_camera;
         ViewerCommand command;
     };
-    // What a fused frame changed, or a corrected map's whole field; `world` counts the resets
-    // before it.
+    // The blocks that a fused frame changed, or the whole field of a corrected map. `world` is the
+    // number of resets before it.
     struct MapNews {
         std::unique_ptr<MapDelta> delta;
         int world = 0;
         std::unique_ptr<BlockMap> field;
         Eigen::Isometry3d T_new_old = Eigen::Isometry3d::Identity();  // with `field`
     };
-    // What a detector says may move, in a frame that was tracked in that map.
+    // What a detector reports as movable, in a frame that was tracked in that map.
     struct Hint {
         MovingHint moving;
         Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity();
         MapVersion map;
     };
-    // What the tracking thread works with.
+    // State of the tracking thread.
     struct TrackingState {
         TrackingState(const RunConfig& config, const PinholeCamera& camera, Device* device)
             : stage(config.pipeline, camera, device),
@@ -85,26 +85,26 @@ class LiveEngine : public Engine {
               lost(config.loops, config.pipeline.motion.max_gap_s) {}
 
         TrackingStage stage;
-        std::unique_ptr<BlockMap> field;  // a copy of the map's; not used with a device
+        std::unique_ptr<BlockMap> field;  // copy of the map's field; unused with a device
         MapVersion version;               // of that copy
         LostCamera lost;
-        bool asked = false;  // where a lost camera is
+        bool asked = false;  // a relocalisation question is pending
     };
 
     void BeginLoops(std::optional<LoopCloser::Labels> labels);
     Status StartScan(ScanPlan plan);
 
-    // A frame's life, a function a thread: live_engine.cpp, live_tracking.cpp, live_mapping.cpp.
+    // One function per thread: live_engine.cpp, live_tracking.cpp, live_mapping.cpp.
     void ReadFrames();
     void TrackFrames();
     void MapFrames();
 
-    // Reading's.
+    // Reading thread.
     bool ReadFrame();
     void Obey(const ViewerCommand& command);
     void WaitUntilDue(double stamp_s);
     void Tell(FrameOutcome::Kind kind, const std::string& message);
-    // Tracking's.
+    // Tracking thread.
     void TrackFrame(NewFrame item, TrackingState& state);
     const BlockMap& MapToTrackIn(const TrackingState& state) const;
     void TakeMapNews(TrackingState& state);
@@ -114,7 +114,7 @@ class LiveEngine : public Engine {
     void CheckIfLost(TrackedFrame& tracked, TrackingState& state);
     void SaveTracking(const TrackingStage& stage, TrackedFrame& tracked) const;
     void Hand(Task task);
-    // Mapping's.
+    // Mapping thread.
     bool HasAnswers() const;
     bool MapNext();
     void EndMapping();
@@ -132,33 +132,35 @@ class LiveEngine : public Engine {
     void ObeyInMapping(const ViewerCommand& command);
 
     const RunConfig config_;
-    Device* const device_;  // null without; then tracking's, and all that is mapping's with it
-    FramePlan plan_;        // tracking's
+    // Null: CPU; with a device the tracking thread also owns all members marked "mapping".
+    Device* const device_;
+    FramePlan plan_;  // tracking
     ViewerLink* const viewer_;
     const std::atomic<bool>& stop_;
     std::string record_path_;
-    SelectedFrames frames_;    // reading's
-    RunControl control_;       // reading's
-    RecorderThread recorder_;  // reading's
+    SelectedFrames frames_;    // reading
+    RunControl control_;       // reading
+    RecorderThread recorder_;  // reading
     const SourceInfo source_;
-    MappingStage mapping_;           // mapping's; the owner's once it has ended
-    std::optional<ScanStage> scan_;  // mapping's; if it is to be saved
-    // Mapping's, with a window: for a scan that is saved from some time on.
+    MappingStage mapping_;           // mapping; the owner's after mapping has ended
+    std::optional<ScanStage> scan_;  // mapping; set if a scan is saved
+    // Mapping, with a window: frames so far, in case the user starts saving a scan mid-run.
     std::vector<PathRecord> past_;
-    std::atomic<bool> saving_{false};        // there is a scan: tracking tells its state
-    std::unique_ptr<PagingStage> paging_;    // mapping's; null without a memory limit
-    ResumeGate gate_;                        // tracking's
-    Bytes saved_tracking_;                   // tracking's, of a resumed scan
-    std::optional<StampedPose> saved_pose_;  // the same
-    std::optional<double> saved_stamp_s_;    // the same: of its last frame
-    ViewerFeed feed_;                        // mapping's
-    Status status_;                          // reading's; the owner's once all have ended
-    bool stopped_ = false;                   // the same
-    std::optional<double> first_stamp_s_;    // reading's
+    std::atomic<bool> saving_{false};        // a scan is being saved: tracking saves its state
+    std::unique_ptr<PagingStage> paging_;    // mapping; null without a memory limit
+    ResumeGate gate_;                        // tracking
+    Bytes saved_tracking_;                   // tracking; of a resumed scan
+    std::optional<StampedPose> saved_pose_;  // tracking; of a resumed scan
+    std::optional<double> saved_stamp_s_;    // tracking; of the resumed scan's last frame
+    ViewerFeed feed_;                        // mapping
+    Status status_;                          // reading; the owner's after all threads have ended
+    bool stopped_ = false;                   // reading; the owner's after all threads have ended
+    std::optional<double> first_stamp_s_;    // reading
     Clock::time_point first_time_;
-    int mapped_world_ = 0;                        // mapping's
-    double next_detection_s_ = 0;                 // mapping's
-    std::vector<Eigen::Isometry3d> corrections_;  // mapping's: of this world's map, T_new_old each
+    int mapped_world_ = 0;         // mapping
+    double next_detection_s_ = 0;  // mapping
+    // Mapping: T_new_old of each correction in this world.
+    std::vector<Eigen::Isometry3d> corrections_;
 
     Pool<Frame> frame_pool_;
     Pool<TrackedFrame> tracked_pool_;
@@ -166,16 +168,16 @@ class LiveEngine : public Engine {
     static constexpr std::size_t kTasks = 8, kCorrections = 3, kOutcomes = 4096;
     Wake tracking_wake_, own_mapping_wake_, outcome_wake_;
     Wake& mapping_wake_;
-    std::optional<LabelReport> labels_;                      // mapping's: for the next outcome
+    std::optional<LabelReport> labels_;                      // mapping: for the next outcome
     NewestQueue<NewFrame> new_frames_;                       // reading to tracking
     FifoQueue<ViewerCommand> commands_{16, tracking_wake_};  // reading to tracking
     FifoQueue<Task> tasks_{kTasks, mapping_wake_};           // tracking to mapping
     FifoQueue<MapNews> map_news_{kTasks + 2 + kCorrections, tracking_wake_};  // mapping to tracking
     NewestQueue<Hint> hints_{1, tracking_wake_};                              // mapping to tracking
-    // Reading and mapping to the owner.
+    // Reading, tracking and mapping to the owner.
     NewestQueue<FrameOutcome> outcomes_{kOutcomes, outcome_wake_};
-    std::unique_ptr<LabellingThread> labelling_;  // mapping's; null without labels
-    // Mapping's and tracking's; null without loop closure.
+    std::unique_ptr<LabellingThread> labelling_;  // mapping; null without labels
+    // Mapping and tracking; null without loop closure.
     std::unique_ptr<LoopThread> loops_;
     std::atomic<bool> show_prediction_{true};
     std::atomic<bool> quit_{false}, reading_done_{false}, tracking_done_{false},

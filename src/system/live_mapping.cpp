@@ -1,4 +1,5 @@
-// LiveEngine's mapping thread: tasks -> the map, its news, meshes, outcomes.
+// LiveEngine's mapping thread: takes tasks; updates the map, the meshes and tracking's copy of the
+// map; sends outcomes.
 #include "core/check.h"
 #include "core/stopwatch.h"
 #include "system/live_engine.h"
@@ -18,7 +19,7 @@ bool LiveEngine::HasAnswers() const {
     return (labelling_ && labelling_->has_answer()) || UpdateFits();
 }
 
-// What other threads have found, then a task. False: there was none.
+// Takes results from other threads, then one task. Returns false if there was no task.
 bool LiveEngine::MapNext() {
     if (labelling_) TakeLabels();
     if (loops_) TakeLoops();
@@ -84,8 +85,8 @@ void LiveEngine::MapFrame(Task& task) {
     Offer(task);
 }
 
-// What of the map is away comes back. A lost camera that was found where the map is away is tracked
-// there once it has come, when it is found again.
+// Loads paged-out parts of the map. If a lost camera was relocalised in a paged-out part, that part
+// is loaded now, and tracking succeeds there at a later relocalisation.
 void LiveEngine::Page(Task& task, FrameOutcome& outcome) {
     if (task.T_found_camera) {
         Carry(corrections_, task.corrections, *task.T_found_camera);
@@ -104,8 +105,8 @@ void LiveEngine::Save(const Task& task, FrameOutcome& outcome) {
     while (const auto message = scan_->TakeMessage()) Tell(FrameOutcome::Kind::kMessage, *message);
 }
 
-// What else is to be done with a frame once it is in the map: objects and loops are found in it, at
-// leisure.
+// After a frame was fused, passes it on to labelling and loop closure, which process it in the
+// background.
 void LiveEngine::Offer(Task& task) {
     const FrameReport& report = task.tracked->report;
     const MapVersion version{mapped_world_, static_cast<int>(corrections_.size())};
@@ -154,12 +155,12 @@ void LiveEngine::TakeLabels() {
     }
 }
 
-// There is room: each news answers a frame that tracking handed over after it had taken all news
-// before; corrections have room of their own (UpdateFits).
+// The queue has room: each update answers a frame that tracking sent after taking all earlier
+// updates, and corrections have reserved places (UpdateFits).
 void LiveEngine::SendMapNews() {
     MapNews news{delta_pool_.Take(), mapped_world_, nullptr};
     mapping_.CollectDelta(*news.delta);
-    TESSERA_CHECK(map_news_.TryPush(std::move(news)), "more news of the map than frames");
+    TESSERA_CHECK(map_news_.TryPush(std::move(news)), "more map updates than frames");
 }
 
 bool LiveEngine::UpdateFits() const {
@@ -172,7 +173,7 @@ void LiveEngine::TakeLoops() {
     TellLoopNews();
 }
 
-// The map in its new place, for mapping, for tracking unless it has ended, and for the scan.
+// Puts the corrected map in place for mapping and the scan, and for tracking unless it has ended.
 void LiveEngine::TakeUpdate(LoopThread::Update update, bool last) {
     if (update.world != mapped_world_) return;
     if (update.correction) {
@@ -183,14 +184,14 @@ void LiveEngine::TakeUpdate(LoopThread::Update update, bool last) {
         if (!last)
             TESSERA_CHECK(
                 map_news_.TryPush({nullptr, mapped_world_, std::move(update.field), T_new_old}),
-                "more corrections than there is room for");
+                "more corrections than the queue has room for");
         Tell(FrameOutcome::Kind::kMessage, "map corrected");
         feed_.SendMesh(mapping_);
     }
     if (scan_) scan_->AddLoops(std::move(update.news));
 }
 
-// The run is at its end: what is still to be corrected is waited for.
+// End of the run: waits for all pending corrections.
 void LiveEngine::EndLoops() {
     if (quit_.load()) return;
     loops_->Finish([this](const std::string& news) { Tell(FrameOutcome::Kind::kMessage, news); });

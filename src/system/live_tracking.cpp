@@ -1,4 +1,4 @@
-// LiveEngine's tracking thread: newest frames and the map's news -> tasks.
+// LiveEngine's tracking thread: takes new frames and map updates, sends tasks.
 #include "core/stopwatch.h"
 #include "system/live_engine.h"
 
@@ -78,7 +78,7 @@ const BlockMap& LiveEngine::MapToTrackIn(const TrackingState& state) const {
     return state.stage.reads_map() ? mapping_.map() : mapping_.blocks();
 }
 
-// With the frame, so that a checkpoint after it holds the state after it.
+// The state travels with its frame, so that a checkpoint after that frame contains it.
 void LiveEngine::SaveTracking(const TrackingStage& stage, TrackedFrame& tracked) const {
     tracked.tracking_state.clear();
     if (!saving_.load()) return;
@@ -126,7 +126,7 @@ void LiveEngine::CheckIfLost(TrackedFrame& tracked, TrackingState& state) {
     state.asked = loops_->Ask({state.version, tracked.report.stamp_s, std::move(copy)});
 }
 
-// Waits where mapping is far behind: it then leaves frames unfused until it has caught up.
+// Waits if mapping is far behind. Mapping then skips fusion until it has caught up.
 void LiveEngine::Hand(Task task) {
     tracking_wake_.Wait([&] { return tasks_.TryPush(std::move(task)); });
     if (device_ != nullptr) MapNext();

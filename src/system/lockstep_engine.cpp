@@ -80,7 +80,7 @@ bool LockstepEngine::Next(FrameOutcome& outcome) {
     return TakeMessage(outcome);
 }
 
-// A frame's life.
+// Runs one frame through the whole pipeline.
 void LockstepEngine::Process(FrameOutcome& outcome) {
     outcome.decode_ms = reader_->decode_ms();
     recorder_.Add(frame_);
@@ -126,7 +126,7 @@ void LockstepEngine::Save(FrameOutcome& outcome) {
     outcome.scan_ms = watch.LapMs();
 }
 
-// Before the frame is tracked and fused, as it may show people.
+// Runs before tracking and fusion, because the detections may mask people in the frame.
 void LockstepEngine::Detect() {
     detected_.reset();
     if (fused_frames_ % config_.labels.stride != 0) return;

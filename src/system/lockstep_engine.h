@@ -1,5 +1,5 @@
-// Every frame, each tracked against the map of all frames before it: the same bytes out on every
-// run and for any number of threads. Only decoding runs ahead.
+// Processes every frame. Each is tracked against the map of all earlier frames, so the output is
+// identical on every run and for any number of threads. Only decoding runs ahead.
 #pragma once
 
 #include "io/frame_reader.h"
@@ -29,11 +29,11 @@ class LockstepEngine : public Engine {
         return loops_ ? loops_->calibration() : std::nullopt;
     }
     MapStatistics map_statistics() const override { return StatisticsOf(mapping_.blocks()); }
-    // The map as it is between two calls of Next; before TakeMesh.
+    // The current map. Call between two calls of Next, before TakeMesh.
     const MappingStage& mapping() const { return mapping_; }
 
   private:
-    // Waits while paused. True if there is something to report.
+    // Waits while paused. Returns true if there is something to report.
     bool ObeyViewer(FrameOutcome& outcome);
     bool Obey(const ViewerCommand& command, FrameOutcome& outcome);
     void BeginLoops();
@@ -53,22 +53,22 @@ class LockstepEngine : public Engine {
     SourceInfo source_;
     TrackingStage tracking_;
     MappingStage mapping_;
-    std::optional<LoopStage> loops_;  // if they are to be closed
+    std::optional<LoopStage> loops_;  // set if loop closure is on
     std::optional<LoopCloser::Labels> loop_labels_;
-    std::optional<ScanStage> scan_;  // if it is to be saved
-    std::string scan_path_;          // the same from the beginning; else empty
-    std::vector<PathRecord> past_;   // with a window: for a scan that is saved from some time on
+    std::optional<ScanStage> scan_;  // set if a scan is saved
+    std::string scan_path_;          // of a scan saved from the start; else empty
+    std::vector<PathRecord> past_;   // with a window: in case the user starts saving a scan mid-run
     std::unique_ptr<PagingStage> paging_;  // null without a memory limit
     ResumeGate gate_;
     TrackedFrame tracked_;
     ViewerFeed feed_;
     RecorderThread recorder_;
     std::unique_ptr<LabellingStage> labelling_;  // null without labels
-    std::optional<LabelReport> detected_;        // in the frame at hand
+    std::optional<LabelReport> detected_;        // in the current frame
     std::string label_message_;
     std::optional<std::string> loops_message_;
     std::int64_t fused_frames_ = 0;
-    std::unique_ptr<FrameReader> reader_;  // null once the mesh was taken
+    std::unique_ptr<FrameReader> reader_;  // null after TakeMesh
     Frame frame_;
     Status status_;
     bool stopped_ = false;

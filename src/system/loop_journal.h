@@ -1,5 +1,5 @@
-// What loop closure has learnt since it was last asked, as a message: for a scan file that is
-// written on another thread.
+// What loop closure has learnt since the last query, as a message for the thread that writes the
+// scan file.
 #pragma once
 
 #include <utility>
@@ -10,31 +10,31 @@
 
 namespace tessera {
 
-// Copies: nothing in it belongs to anyone else.
+// Holds copies only.
 struct LoopNews {
     std::vector<LoopCloser::Passage> passages;  // new, in order
-    // New ones, and those in which objects were found since.
+    // New frames, and frames whose detections arrived since.
     std::vector<StoredFrame> frames;
     std::vector<Keyframe> keyframes;                   // new, in order
     std::vector<std::pair<int, KeyframePoses>> poses;  // of keyframes that are new or have moved
     LoopProgress progress;
 };
 
-// Owner thread only: the closer's. The first news are of all that the closer knows.
+// Owner thread only: the closer's. Without Begin, the first Take reports all that the closer has.
 class LoopJournal {
   public:
-    // All that the closer knows now is known.
+    // Marks all that the closer has now as already reported.
     void Begin(const LoopCloser& closer);
-    // A frame of which something became known later.
+    // Marks a frame whose detections arrived late.
     void Touch(std::int64_t frame_index) { touched_.push_back(frame_index); }
-    // At most so many new frames; the others come with later news.
+    // Returns at most `most_frames` new frames. The rest follow in later calls.
     LoopNews Take(const LoopCloser& closer, std::size_t most_frames = 4);
 
   private:
     std::size_t passages_ = 0;
     std::int64_t next_ordinal_ = 0;
-    std::vector<KeyframePoses> poses_;   // by keyframe, as they were told
-    std::vector<std::int64_t> touched_;  // by frame index
+    std::vector<KeyframePoses> poses_;   // by keyframe id, as last reported
+    std::vector<std::int64_t> touched_;  // frame indices
 };
 
 }  // namespace tessera

@@ -1,5 +1,5 @@
-// Loop closure and relocalisation between the two halves of a frame's life: the one place that
-// knows both stages and the LoopCloser.
+// Loop closure and relocalisation in the lockstep engine, between tracking and mapping. The only
+// place that knows both stages and the LoopCloser.
 #pragma once
 
 #include <functional>
@@ -13,34 +13,34 @@
 
 namespace tessera {
 
-// How the small fields that loops are checked in are made: as the map itself.
+// Settings of the small fields in which loops are verified: the same as the map's.
 FieldSettings FieldSettingsOf(const PipelineConfig& pipeline, const PinholeCamera& camera);
 
-// Owner thread only: the one that tracks and fuses.
+// Owner thread only: the thread that tracks and fuses.
 class LoopStage {
   public:
-    // `make_pager` as LoopCloser's.
+    // `make_pager`: see LoopCloser.
     LoopStage(const LoopConfig& config, const PipelineConfig& pipeline, const SourceInfo& source,
               std::optional<LoopCloser::Labels> labels, LoopCloser::MakePager make_pager);
 
-    // Before the first frame: goes on with an earlier run's loops. Unless the first frame follows
-    // soon after `last_stamp_s`, the camera counts as lost.
+    // Call before the first frame to continue an earlier run's loop closure. The camera counts as
+    // lost unless the first frame follows soon after `last_stamp_s`.
     void Resume(LoopCloser::Memory memory, double last_stamp_s);
 
-    // A lost camera is looked for among the places it has seen. After a loss only a pose that fits
-    // well, or that the place confirms, counts. `bring`: the map around a camera there is going to
-    // be read.
+    // Tries to relocalise a lost camera. After a loss, a pose is accepted only if it fits well or
+    // if relocalisation confirms it. `bring` is called before the map around a candidate pose is
+    // read.
     using BringAround = std::function<void(const Eigen::Isometry3d& T_world_camera)>;
     void AfterTracking(const Frame& frame, const BlockMap& map, TrackingStage& tracking,
                        TrackedFrame& tracked, const BringAround& bring);
-    // Keyframes and loops; `put` takes the corrected map when it is ready. Returns the milliseconds
-    // that it took, what AfterTracking took included.
+    // Adds keyframes and closes loops. Calls `put` with the corrected map when it is ready. Returns
+    // the time spent in ms, including AfterTracking.
     using PutMap = std::function<void(LoopCloser::Correction)>;
     double AfterFusion(const Frame& frame, TrackedFrame& tracked,
                        const std::optional<LabelReport>& labels, TrackingStage& tracking,
                        const PutMap& put);
-    // No more frames: whatever is still to be corrected. Once. Returns what a person should know,
-    // mostly empty.
+    // Call once, after the last frame: completes all pending corrections. Returns a message for the
+    // user, usually empty.
     std::string Finish(const PutMap& put);
 
     std::vector<StampedPose> Path() const { return closer_.Path(); }
@@ -57,7 +57,7 @@ class LoopStage {
     LoopCloser closer_;
     LoopJournal journal_;
     bool finished_ = false;
-    double lost_ms_ = 0;  // of the present frame
+    double lost_ms_ = 0;  // of the current frame
 };
 
 }  // namespace tessera

@@ -13,8 +13,8 @@
 namespace tessera {
 namespace {
 
-// Of this thread only (Linux). Its parallel loops run on it alone: no worker is kept from tracking
-// and mapping.
+// Linux: lowers the priority of this thread only. Its parallel loops also run on this thread alone,
+// so that they take no TBB workers from tracking and mapping.
 void StandBack() {
     constexpr int kNice = 10;
     setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNice);
@@ -48,7 +48,7 @@ LoopThread::~LoopThread() {
     wake_.Notify();
 }
 
-// ---- Mapping's.
+// ---- Mapping thread.
 
 void LoopThread::Offer(std::unique_ptr<TrackedFrame> tracked, std::unique_ptr<Frame> frame,
                        MapVersion map) {
@@ -107,10 +107,10 @@ void LoopThread::Finish(const std::function<void(const std::string&)>& tell) {
     thread_.join();
 }
 
-// ---- The thread's own.
+// ---- The loop thread itself.
 
 void LoopThread::Work() {
-    constexpr int kFramesAtOnce = 2;  // of a map that is made again: so long a question waits
+    constexpr int kFramesAtOnce = 2;  // of a map rebuild; a question waits at most this long
     while (true) {
         wake_.Wait([&] {
             return stop_.load() || finish_.load() || !questions_.empty() || !jobs_.empty() ||
@@ -134,11 +134,11 @@ void LoopThread::Work() {
     }
 }
 
-// At the run's end nobody else works any more: on all cores.
+// At the end of the run nothing else runs, so this uses all cores.
 void LoopThread::Conclude() {
     if (closer_->corrected())
         news_.Push(
-            fmt::format("the corrected path is gone over once more; where that moves the map, {} "
+            fmt::format("optimising the corrected path once more; where that moves the map, {} "
                         "frames are fused again",
                         closer_->store().frames().size()));
     std::string note;
@@ -186,7 +186,7 @@ void LoopThread::Reply(Question& question) {
     Answer answer;
     answer.map = question.map;
     answer.stamp_s = question.stamp_s;
-    // A question from before the last reset or correction is of no use any more.
+    // A question from before the last reset or correction is obsolete.
     if (question.map == MapVersion{world_, static_cast<int>(history_.size())})
         answer.T_world_camera = closer_->Relocalise(*question.frame, answer.note);
     TESSERA_CHECK(answers_.TryPush(std::move(answer)), "more answers than questions");
@@ -197,14 +197,14 @@ void LoopThread::TellTrouble() {
         news_.Push(std::move(trouble));
 }
 
-// What there is no room for is told later, together with what comes then.
+// News that does not fit is sent later, together with newer news.
 void LoopThread::Tell() {
     if (saved_.load() && updates_.size() < kUpdates - kCorrections - 1)
         Push({world_, std::nullopt, nullptr, journal_.Take(*closer_)});
 }
 
 void LoopThread::Push(Update update) {
-    TESSERA_CHECK(updates_.TryPush(std::move(update)), "more updates than there is room for");
+    TESSERA_CHECK(updates_.TryPush(std::move(update)), "more updates than the queue has room for");
 }
 
 void LoopThread::HandOver(LoopCloser::Correction change) {

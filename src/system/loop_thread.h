@@ -1,6 +1,6 @@
-// Loop closure beside a live run: a thread of low priority that owns the LoopCloser. Mapping offers
-// it what was fused and takes corrected maps from it; tracking asks it where a lost camera is.
-// Nobody waits for it.
+// Loop closure in a live run: a low-priority thread that owns the LoopCloser. Mapping offers it
+// fused frames and takes corrected maps from it. Tracking asks it where a lost camera is. No thread
+// waits for it before the end of the run.
 #pragma once
 
 #include <atomic>
@@ -22,17 +22,17 @@ class LoopThread {
         FieldSettings field;
         double depth_units_per_m = 5000;
         std::optional<LoopCloser::Labels> labels;
-        // Updates carry news, for a scan file; else from BeginNews on.
+        // Updates carry news for a scan file. If false, only after BeginNews.
         bool saved = false;
-        std::optional<LoopCloser::Memory> resumed;  // of an earlier scan that goes on
+        std::optional<LoopCloser::Memory> resumed;  // of an earlier scan that is continued
         LoopCloser::MakePager make_pager = {};
     };
-    // In this order they hold: news speak of the map as it is after the corrections before them and
-    // with them.
+    // Apply updates in order: `news` refers to the map after all earlier corrections and the one in
+    // this update.
     struct Update {
         int world = 0;
         std::optional<LoopCloser::Correction> correction;
-        // The corrected map once more, for tracking: Layers::kFieldOnly.
+        // A copy of the corrected map's field for tracking: Layers::kFieldOnly.
         std::unique_ptr<BlockMap> field;
         LoopNews news;
     };
@@ -46,11 +46,10 @@ class LoopThread {
         MapVersion map;
         double stamp_s = 0;
         std::optional<Eigen::Isometry3d> T_world_camera;
-        std::string note;  // for a person
+        std::string note;  // for the user
     };
 
-    // Where the storage of frames comes from and goes to, and whom to notify of what is there for
-    // them. All outlive this.
+    // Frame pools, and the threads to notify. All outlive the LoopThread.
     struct Surroundings {
         Pool<Frame>& frames;
         Pool<TrackedFrame>& tracked_frames;
@@ -61,29 +60,29 @@ class LoopThread {
     LoopThread(Settings settings, Surroundings surroundings);
     ~LoopThread();  // stops and joins
 
-    // ---- Mapping's.
-    // A tracked frame, after its fusion. Where too many wait only its pose is kept.
+    // ---- Mapping thread.
+    // Call for each tracked frame, after its fusion. If too many frames wait, only the pose is
+    // kept.
     void Offer(std::unique_ptr<TrackedFrame> tracked, std::unique_ptr<Frame> frame, MapVersion map);
     void OfferDetections(std::int64_t frame_index, std::vector<Detection> detections,
                          MapVersion map);
-    // Waits where very many jobs wait.
+    // Waits if the job queue is full.
     void Reset(MapVersion map);
-    // From now on updates carry news, the next ones of all so far.
+    // Updates carry news from now on. The next update covers everything so far.
     void BeginNews() { saved_.store(true); }
     bool has_update() const { return !updates_.empty(); }
     bool TryTake(Update& update);
-    // No more frames: waits until all is corrected, and tells meanwhile what a person should know.
-    // What is left comes as updates.
+    // Call after the last frame. Waits until all corrections are done and passes messages for the
+    // user to `tell` meanwhile. The remaining results arrive as updates.
     void Finish(const std::function<void(const std::string&)>& tell);
-    // After Finish: the tracked frames' poses as they are known, and what was found of the
-    // calibration.
+    // After Finish: the final poses of the tracked frames, and the refined calibration.
     std::vector<StampedPose> Path() const { return closer_->Path(); }
     const std::optional<CalibrationReport>& calibration() const { return closer_->calibration(); }
-    // For a person.
+    // For the user.
     bool TryTakeNews(std::string& news) { return news_.TryPop(news); }
     std::size_t waiting() const { return jobs_.size(); }
 
-    // ---- Tracking's. One question at a time.
+    // ---- Tracking thread. One question at a time.
     bool Ask(Question question) { return questions_.TryPush(std::move(question)); }
     bool TryTake(Answer& answer) { return answers_.TryPop(answer); }
     bool has_answer() const { return !answers_.empty(); }
@@ -95,7 +94,7 @@ class LoopThread {
         MapVersion map;
         double stamp_s = 0;
         Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity();
-        std::unique_ptr<TrackedFrame> tracked;  // null, as frame: only the pose counts
+        std::unique_ptr<TrackedFrame> tracked;  // null, like `frame`: only the pose is used
         std::unique_ptr<Frame> frame;
         std::int64_t frame_index = 0;
         std::vector<Detection> detections;
@@ -117,9 +116,9 @@ class LoopThread {
 
     Settings settings_;
     Surroundings around_;
-    // The last places are for corrections only.
+    // The last places in `updates_` are reserved for corrections.
     static constexpr std::size_t kJobs = 4096, kUpdates = 8, kCorrections = 3;
-    static constexpr int kWhole = 16;  // frames that wait with their images, some 6 MB each
+    static constexpr int kWhole = 16;  // waiting frames that keep their images, about 6 MB each
     Wake wake_;
     std::atomic<int> whole_{0};
     FifoQueue<Job> jobs_{kJobs, wake_};
@@ -128,12 +127,13 @@ class LoopThread {
     FifoQueue<Update> updates_;
     NewestQueue<std::string> news_;
     std::atomic<bool> finish_{false}, stop_{false}, ended_{false}, saved_;
-    // The thread's own; the caller's after Finish.
+    // The thread's; the caller's after Finish.
     std::unique_ptr<LoopCloser> closer_;
     LoopJournal journal_;
     int world_ = 0;
     std::vector<Eigen::Isometry3d> history_;  // corrections of this world
-    std::jthread thread_;                     // last: ends before what it uses
+    // Last: joins before the members it uses are destroyed.
+    std::jthread thread_;
 };
 
 }  // namespace tessera

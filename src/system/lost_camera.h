@@ -1,6 +1,6 @@
-// After a loss: when is the camera believed to be where tracking has it? A pose that fits somewhere
-// is not enough once the camera can be anywhere; it must have been found by its looks, or have come
-// back where it was lost.
+// Decides after a loss when to trust the tracked pose again. A good fit alone is not enough if the
+// camera can be anywhere: it must be relocalised by appearance, or be tracked again soon after the
+// loss.
 #pragma once
 
 #include <cmath>
@@ -16,12 +16,12 @@ class LostCamera {
   public:
     enum class Verdict { kTracking, kFoundAgain, kLost };
 
-    // `max_gap_s`: for so long after the last tracked frame the camera is thought to be near it.
+    // `max_gap_s`: for this long after the last tracked frame, the camera is assumed to be near its
+    // last pose.
     LostCamera(const LoopConfig& config, double max_gap_s)
         : config_(config), max_gap_s_(max_gap_s) {}
 
-    // Of each frame after it was tracked, once. kLost: whatever its status says, it is not to be
-    // believed.
+    // Call once for each frame, after tracking. kLost: do not trust the pose, whatever its status.
     Verdict Judge(const TrackedFrame& tracked) {
         const FrameReport& report = tracked.report;
         started_ = started_ || report.first;
@@ -39,19 +39,19 @@ class LostCamera {
         return Verdict::kFoundAgain;
     }
 
-    // An earlier scan goes on: unless the next frame follows soon on this time, the camera counts
-    // as lost.
+    // An earlier scan is resumed. The camera counts as lost unless the next frame follows soon
+    // after this time.
     void Resume(double last_seen_s) {
         last_seen_s_ = last_seen_s;
         started_ = resumed_ = true;
     }
 
-    // It was found otherwise, and tracked there.
+    // The camera was relocalised and tracked there.
     void Found(double stamp_s) {
         lost_ = false;
         last_seen_s_ = stamp_s;
     }
-    // At this time it was somewhere that tracking knows; that it fits there is still to be seen.
+    // The camera was relocalised at this time. Tracking must still confirm the pose.
     void Seen(double stamp_s) { last_seen_s_ = stamp_s; }
 
   private:
@@ -67,6 +67,6 @@ class LostCamera {
 };
 
 inline constexpr const char* kNotBelieved =
-    "nothing confirms that the camera is where it seems to be after the loss";
+    "nothing confirms the pose found after tracking was lost";
 
 }  // namespace tessera

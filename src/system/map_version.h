@@ -1,5 +1,5 @@
-// Which map a pose is in: loops correct a map and resets begin new ones while frames are under way
-// between threads.
+// Identifies the map that a pose refers to. Loops correct a map, and resets start new ones, while
+// frames are in transit between threads.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -10,15 +10,15 @@
 
 namespace tessera {
 
-// Resets begin new worlds, and within one loops correct the map so and so often.
+// `world` counts resets; `corrections` counts loop corrections within that world.
 struct MapVersion {
     int world = 0, corrections = 0;
 
     bool operator==(const MapVersion&) const = default;
 };
 
-// Brings the pose of a camera in a map after `from` corrections to the map after all of them,
-// T_new_old each.
+// Carries a camera pose from the map after `from` corrections to the map after all of them. Each
+// correction is a T_new_old.
 inline void Carry(const std::vector<Eigen::Isometry3d>& corrections, int from,
                   Eigen::Isometry3d& T_world_camera) {
     for (auto i = static_cast<std::size_t>(from); i < corrections.size(); ++i)

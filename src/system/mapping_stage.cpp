@@ -78,9 +78,9 @@ void MappingStage::Return(const BlockCopies& blocks, std::vector<BlockId>& ids) 
     ids.clear();
     for (std::size_t i = 0; i < blocks.size(); ++i) {
         TESSERA_CHECK(map_->Find(blocks.coords[i]) == kUnknownBlock,
-                      "a block came back that is there");
+                      "a block was returned that is already in the map");
         const BlockId id = map_->Allocate(blocks.coords[i], blocks.numbers[i]);
-        TESSERA_CHECK(id != kUnknownBlock, "no room for a block that was here before");
+        TESSERA_CHECK(id != kUnknownBlock, "no room for a block that was in the map before");
         blocks.Put(i, *map_, id);
         map_->MarkChanged(id, integrator_->revision());
         ids.push_back(id);
@@ -110,11 +110,11 @@ int MappingStage::UpdateMesher(Mesher& mesher, int budget_blocks) const {
 }
 
 std::string MappingStage::mesh_warning() const {
-    return device_refused_ ? "meshed on the processor: " + integrator_->limit() : "";
+    return device_refused_ ? "meshed on the CPU: " + integrator_->limit() : "";
 }
 
 int MappingStage::UpdateMesh(int budget_blocks, MeshUpdate& update) {
-    integrator_->Bring(*map_);  // the marks are made of voxels
+    integrator_->Bring(*map_);  // the vertex marks are computed from voxels
     const int waiting = UpdateMesher(mesher_, budget_blocks);
     update.voxel_size_m = map_->config().voxel_size_m;
     update.clear = std::exchange(mesh_cleared_, false);

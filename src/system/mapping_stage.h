@@ -1,5 +1,5 @@
-// The second half of a frame's life: fuse it, mesh what changed, tell the tracker's copy and the
-// viewer. The one owner and writer of the map.
+// The second half of the pipeline: fuses a frame, meshes what changed, and feeds the tracker's copy
+// of the map and the viewer. The only owner and writer of the map.
 #pragma once
 
 #include "mapping/map_delta.h"
@@ -11,106 +11,105 @@
 
 namespace tessera {
 
-// Blocks of the map's mesh that were made anew, to replace what the viewer has under the same ids.
+// Remeshed blocks, which replace the viewer's blocks with the same ids.
 struct MeshUpdate {
     double voxel_size_m = 0;
-    bool clear = false;  // first forget all that came before
+    bool clear = false;  // first discard all earlier blocks
     std::vector<GeometryBlock> blocks;
 };
 
 // Owner thread only.
 class MappingStage {
   public:
-    // `device` outlives the stage; null: all on the processor.
+    // `device` outlives the stage. Null: everything runs on the CPU.
     MappingStage(const PipelineConfig& config, const MeshConfig& meshing,
                  const PinholeCamera& camera, Device* device = nullptr);
 
-    // Puts the frame into the map, if it is to be, and reports that in it.
+    // Fuses the frame into the map if `to_fuse` is set, and fills in its fusion report.
     void Fuse(TrackedFrame& tracked);
 
-    // The map holds labels from here on; before the first frame.
+    // The map holds labels from now on. Call before the first frame.
     void EnableLabels(const LabelConfig& config, LabelClasses classes);
-    // Only with labels: votes detections into the map, with the pose and depth of the frame that
-    // was detected.
+    // With labels only: votes detections into the map, using the pose and depth of the frame in
+    // which they were detected.
     VoteCount Label(std::span<const Detection> detections, const DepthImage& depth_m,
                     const Eigen::Isometry3d& T_world_camera);
-    // With labels: the objects of the mesh that TakeMesh gave, once it did.
+    // With labels, after TakeMesh: the objects in its mesh.
     const std::vector<MapObject>& objects() const { return objects_; }
-    // With labels: the objects as far as they are known and meshed now; else none. Costs some
-    // milliseconds.
+    // With labels: the objects known and meshed so far; else none. Takes a few milliseconds.
     std::vector<MapObject> MeasureObjects() const;
-    // Another number whenever labels may have changed; 0 before the first, and always without
+    // Changes whenever labels may have changed. 0 before the first labels, and always without
     // labels.
     std::uint64_t labels_revision() const { return labels_revision_; }
 
     bool has_labels() const { return labels_ != nullptr; }
-    // Only with labels: what is known of objects besides the voxels. False: of other classes, or no
-    // such state.
+    // With labels only: label state that is not stored in voxels. LoadLabels returns false if the
+    // state is invalid or has other classes.
     void SaveLabels(StateWriter& state) const { labels_->SaveState(state); }
     bool LoadLabels(StateReader& state) { return labels_->LoadState(state); }
 
-    // Deltas are asked for from here on; before the first frame.
+    // Record changes for CollectDelta from now on. Call before the first frame.
     void KeepDeltas() { keep_deltas_ = true; }
-    // What changed since the last one, for a copy of the map's field; to be called after each Fuse,
-    // Release and Return.
+    // Collects the changes since the last call, for a copy of the map's field. Call after each
+    // Fuse, Release and Return.
     void CollectDelta(MapDelta& delta);
     bool has_delta() const { return !changed_.empty() || !block_changes_.empty(); }
 
-    // Blocks leave memory, and come back as they were under the ids that `ids` then has.
+    // Removes blocks from the map, and puts stored blocks back unchanged. Return writes their new
+    // ids to `ids`.
     void Release(std::span<const BlockId> blocks);
     void Return(const BlockCopies& blocks, std::vector<BlockId>& ids);
 
-    // All of the map, for a copy that is empty.
+    // Collects the whole map, for an empty copy.
     void CollectWhole(MapDelta& delta);
 
-    // Meshes again at most `budget_blocks` of what has changed; returns how many wait. `update`
-    // takes them.
+    // Remeshes at most `budget_blocks` changed blocks into `update`. Returns how many still wait.
     int UpdateMesh(int budget_blocks, MeshUpdate& update);
 
-    // The whole mesh up to the last frame fused, small pieces left out.
+    // The whole mesh up to the last fused frame, without small pieces.
     TriangleMesh Mesh() const;
-    // The same at the end: the map goes before the mesh is put together, so that both need not fit
-    // into memory.
+    // The final mesh. Releases the map before it assembles the mesh, so that both need not fit into
+    // memory.
     TriangleMesh TakeMesh();
-    // What a person should know of the meshes made since, in words; mostly empty.
+    // Warning about the meshes made so far, for the user; usually empty.
     std::string mesh_warning() const;
-    // The same where part of the map is in the scan file only, and all of it there. An error goes
-    // to `status`, the mesh is then empty.
+    // Like TakeMesh, if part of the map is only in the scan file. The file must hold the whole map.
+    // On error sets `status` and returns an empty mesh.
     TriangleMesh TakeStoredMesh(const std::string& scan_path, Status& status);
 
-    // The surface as the camera sees it from where it was, at 1/`step` of its resolution.
+    // The surface as seen by a camera at this pose, at 1/`step` of its resolution.
     void Predict(const Eigen::Isometry3d& T_world_camera, int step, PredictedView& view) const;
 
-    // In place of the map so far: one that was fused from the same frames elsewhere. `labels`: of
-    // that map, if this one has any. Whoever follows it by deltas needs a copy of the new field
-    // first.
+    // Replaces the map by one fused elsewhere from the same frames. `labels`: of the new map, if
+    // this one has labels. Whoever follows the map by deltas first needs a copy of the new field.
     void Replace(std::unique_ptr<BlockMap> map, std::unique_ptr<LabelMapper> labels);
 
-    // Before the first frame: goes on with a map that so many fused frames made.
+    // Call before the first frame to continue with a map made of `fused_frames` frames.
     void Resume(std::unique_ptr<BlockMap> map, std::uint32_t fused_frames);
     std::uint32_t fused_frames() const { return integrator_->revision(); }
 
-    // An empty map.
+    // Clears the map.
     void Reset();
 
-    // With a device it is asked for the voxels that changed.
+    // With a device: first downloads the changed voxels.
     const BlockMap& map() const;
-    // The same without: the blocks and their ids hold, their voxels may be on the device only.
+    // Does not download: blocks and ids are valid, but current voxels may be only on the device.
     const BlockMap& blocks() const { return *map_; }
 
   private:
-    // On the device where there is one with room for it; else the voxels are brought here.
+    // Meshes on the device if there is one with enough memory; else downloads the voxels and meshes
+    // on the CPU.
     int UpdateMesher(Mesher& mesher, int budget_blocks) const;
     void Place(std::unique_ptr<BlockMap> map);
     void ForgetDelta();
 
     PipelineConfig config_;
     PinholeCamera camera_;
-    std::unique_ptr<BlockMap> map_;  // null once the mesh was taken
+    std::unique_ptr<BlockMap> map_;  // null after TakeMesh
     std::unique_ptr<Integrator> integrator_;
-    ViewPredictor* device_views_;                 // null: views are cast here
-    std::unique_ptr<BlockMesher> device_mesher_;  // null: blocks are meshed here
-    mutable bool device_refused_ = false;         // to mesh: no room
+    ViewPredictor* device_views_;                 // null: views are cast on the CPU
+    std::unique_ptr<BlockMesher> device_mesher_;  // null: blocks are meshed on the CPU
+    mutable bool device_refused_ = false;         // the device had no memory to mesh
     Mesher mesher_;
     GeometryBuilder geometry_;
     std::unique_ptr<LabelMapper> labels_;  // null without labels
@@ -118,8 +117,9 @@ class MappingStage {
     std::uint64_t labels_revision_ = 0;
     bool keep_deltas_ = false;
     std::vector<BlockChange> block_changes_;  // since the last CollectDelta
-    std::vector<BlockId> changed_;            // the same: their field
-    bool mesh_cleared_ = false;               // since the last UpdateMesh
+    // Blocks whose field changed since the last CollectDelta.
+    std::vector<BlockId> changed_;
+    bool mesh_cleared_ = false;  // since the last UpdateMesh
 };
 
 }  // namespace tessera

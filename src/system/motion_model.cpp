@@ -6,12 +6,13 @@ namespace tessera {
 
 void MotionModel::Config::Describe(ConfigParameters& p) {
     p.Add("constant_velocity", constant_velocity,
-          "start each frame where constant velocity would have it; off starts at the last pose "
+          "start each frame at the pose predicted by constant velocity; off: at the last pose "
           "([B14], [D18])");
-    p.Add("max_gap_s", max_gap_s, {0.0, 60.0}, "s", "velocity is forgotten over longer gaps");
+    p.Add("max_gap_s", max_gap_s, {0.0, 60.0}, "s",
+          "the velocity is discarded if the gap between tracked frames is longer");
     p.Add("come_to_rest_s", come_to_rest_s, {0.0, 60.0}, "s",
-          "in degenerate frames the velocity falls to 37 % within this time, or motions that "
-          "nothing shows would go on for ever");
+          "in degenerate frames the velocity decays to 37 % within this time; otherwise unobserved "
+          "motion would continue for ever");
 }
 
 double MotionModel::SinceLast(double stamp_s) const {

@@ -1,5 +1,5 @@
-// Where the camera is expected next: constant body velocity over the last two tracked frames, which
-// comes to rest while frames are degenerate.
+// Predicts the next camera pose: constant body velocity over the last two tracked frames, decaying
+// to rest while frames are degenerate.
 #pragma once
 
 #include <optional>
@@ -12,10 +12,10 @@ namespace tessera {
 
 // What is doubtful about a tracked pose.
 struct PoseDoubt {
-    // The scene left some motion unconstrained; what is not seen any more is taken to come to rest.
+    // The scene leaves some motion unconstrained. The velocity then decays to rest.
     bool degenerate = false;
     bool poor = false;         // the pose may be wrong
-    double uncertainty_m = 0;  // TrackResult's
+    double uncertainty_m = 0;  // as in TrackResult
 };
 
 class MotionModel {
@@ -30,19 +30,20 @@ class MotionModel {
 
     explicit MotionModel(const Config& config) : config_(config) {}
 
-    // The last tracked pose; nothing before the first.
+    // The last tracked pose. Nothing before the first.
     const std::optional<StampedPose>& last() const { return last_; }
     const PoseDoubt& doubt() const { return doubt_; }  // of that pose
-    // Seconds since then; 0 if there is none, or if it is too long ago to say anything about
+    // Seconds since the last pose. 0 if there is none, or if the gap is too long to estimate a
     // velocity.
     double SinceLast(double stamp_s) const;
-    // The pose expected at a time; the last pose, or identity, where there is nothing to go by.
+    // The predicted pose at a time. The last pose if no velocity is known, identity if there is no
+    // pose.
     Eigen::Isometry3d Predict(double stamp_s) const;
     void Add(const StampedPose& pose, const PoseDoubt& doubt);
     void Clear();
     void SaveState(StateWriter& state) const;
     bool LoadState(StateReader& state);
-    // The world was moved: the camera's velocity is its own and stays.
+    // The world was moved. The velocity is in the body frame and does not change.
     void Move(const Eigen::Isometry3d& T_new_old) {
         if (last_) last_->T_world_camera = Normalised(T_new_old * last_->T_world_camera);
     }

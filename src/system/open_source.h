@@ -1,4 +1,4 @@
-// From what a person writes as SOURCE to a frame source.
+// Opens a frame source from the SOURCE argument.
 #pragma once
 
 #include <memory>
@@ -10,9 +10,9 @@
 
 namespace tessera {
 
-// "synthetic:NAME", a model "synthetic:FILE.obj", a camera "openni2:[URI]", "FILE.oni", or a folder
-// of images. Errors name the source and what can be given; kinds of source that this version does
-// not read are refused by name.
+// "synthetic:NAME", "synthetic:FILE.obj" (a model), "openni2:[URI]" (a camera), "FILE.oni",
+// "FILE.klg", "FILE.scan", or a folder of images. Errors name the source and list the kinds of
+// source that exist.
 Result<std::unique_ptr<FrameSource>> OpenSource(const std::string& name, const RunConfig& config);
 
 }  // namespace tessera

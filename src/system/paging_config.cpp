@@ -4,9 +4,9 @@ namespace tessera {
 
 void PagingConfig::Describe(ConfigParameters& p) {
     p.Add("memory_limit_mb", memory_limit_mb, {0.0, 1e6}, "MB",
-          "most memory of the map's blocks, 0 = no limit: what is far from the camera goes to the "
-          "file of --scan and comes back "
-          "before it is seen; what the camera may see from one place must fit");
+          "maximum memory for the map's blocks, 0 = no limit: blocks far from the camera are moved "
+          "to the file of --scan and loaded again before the camera sees them; all that the camera "
+          "may see from one place must fit");
 }
 
 }  // namespace tessera

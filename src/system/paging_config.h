@@ -1,4 +1,4 @@
-// How much of the map may be in memory at a time.
+// Limits how much of the map is kept in memory.
 #pragma once
 
 #include "core/config.h"

@@ -10,9 +10,10 @@
 namespace tessera {
 namespace {
 
-constexpr double kAhead_m = 1.0;     // so much before the camera may see a cube it is asked for
-constexpr std::int64_t kFrames = 8;  // after which a cube that was asked for is put in, lockstep
-constexpr std::size_t kMostPerFrame = 8;  // cubes that live puts in
+constexpr double kAhead_m = 1.0;  // a cube is requested this far before the camera may see it
+// Lockstep: a requested cube is inserted after this many frames.
+constexpr std::int64_t kFrames = 8;
+constexpr std::size_t kMostPerFrame = 8;  // live: maximum number of cubes inserted
 
 }  // namespace
 
@@ -27,7 +28,7 @@ double PagingStage::Outside(const BlockCoord& cube) const {
     return viewed_.Outside_m(*T_world_camera_, cube);
 }
 
-// What is near and away, and not asked for.
+// Collects the paged-out cubes that are near and not yet requested.
 void PagingStage::Plan() {
     wanted_.clear();
     for (Asked& asked : asked_) asked.outside_m = Outside(CubeOfKey(asked.key));
@@ -68,13 +69,13 @@ void PagingStage::Ask() {
     }
 }
 
-// Something that is to come is in what the camera may see, or at most so far outside.
+// Whether a cube still to be loaded is in what the camera may see, or at most `further_m` outside.
 bool PagingStage::Needs(double further_m) const {
     const auto needed = [&](const Asked& cube) { return cube.outside_m <= further_m; };
     return std::ranges::any_of(asked_, needed) || std::ranges::any_of(wanted_, needed);
 }
 
-// The next camera is as far from the last one as that was from the one before, about: tracking
+// The next camera is assumed about as far from the last as that was from the one before: tracking
 // starts there.
 void PagingStage::BeginFrame(MappingStage& mapping, ScanStage& scan) {
     ++frame_;
@@ -90,7 +91,7 @@ bool PagingStage::AfterTracking(TrackedFrame& tracked, MappingStage& mapping, Sc
     return !Bring(0, mapping, scan) && std::exchange(tracked.to_fuse, false);
 }
 
-// False: part of what the camera may see is not there.
+// Returns false if part of what the camera may see is missing.
 bool PagingStage::Bring(double further_m, MappingStage& mapping, ScanStage& scan) {
     if (!away_.empty()) {
         Plan();
@@ -115,8 +116,8 @@ void PagingStage::TakeWhatCame(double further_m, MappingStage& mapping, ScanStag
     }
 }
 
-// A cube that cannot be read back leaves a hole into which nothing may be fused; the rest of the
-// scan goes on.
+// A cube that cannot be read back leaves a hole into which nothing may be fused. The rest of the
+// scan continues.
 void PagingStage::Put(const StoredCube& cube, MappingStage& mapping, ScanStage& scan) {
     const auto expected = away_.extract(cube.key);
     if (cube.status.ok() && expected.mapped() == static_cast<std::int32_t>(cube.blocks.size())) {
@@ -126,11 +127,12 @@ void PagingStage::Put(const StoredCube& cube, MappingStage& mapping, ScanStage& 
     }
     lost_.push_back(cube.key);
     if (std::exchange(told_lost_, true)) return;
-    const Status status = cube.status.ok()
-                              ? DamagedScan(scan.path(), "blocks that left memory are missing")
-                              : cube.status;
+    const Status status =
+        cube.status.ok()
+            ? DamagedScan(scan.path(), "blocks that were moved out of memory are missing")
+            : cube.status;
     message_ =
-        status.message() + "; frames that see this part of the map are tracked, but not fused";
+        status.message() + "; frames that see this part of the map are tracked but not fused";
 }
 
 bool PagingStage::AllSaved(const ResidentCubes::Cube& cube, const BlockMap& map,
@@ -145,12 +147,12 @@ bool PagingStage::IsHeld(const BlockCoord& cube) const {
         held_, [&](const Held& held) { return viewed_.Outside_m(held.T_world_camera, cube) <= 0; });
 }
 
-// As many as are to go, of those that may; says so if they are too few.
+// Chooses enough cubes to release, among those that may be released. Warns if there are too few.
 std::vector<ResidentCubes::Cube> PagingStage::ChooseLeaving(const BlockMap& map,
                                                             const ScanStage& scan) {
     const auto bytes = static_cast<double>(map.bytes());
     const double block_bytes = bytes / static_cast<double>(map.count() + 1);
-    // With those that leave gone, and with all that may.
+    // Bytes left after releasing the chosen cubes, and after releasing all possible ones.
     double rest_bytes = bytes, least_bytes = bytes;
     std::vector<ResidentCubes::Cube> leaving;
     resident_.Gather(map);
@@ -165,9 +167,8 @@ std::vector<ResidentCubes::Cube> PagingStage::ChooseLeaving(const BlockMap& map,
     }
     if (least_bytes > limit_bytes_ && !std::exchange(told_small_, true))
         message_ = fmt::format(
-            "mapping.memory_limit_mb: {:.0f} MB are too few for what the camera may see from one "
-            "place, {:.0f} MB; "
-            "raise it, or lower frame.max_depth_m",
+            "mapping.memory_limit_mb: {:.0f} MB is not enough for what the camera may see from one "
+            "place, {:.0f} MB; raise the limit, or lower frame.max_depth_m",
             limit_bytes_ / 1e6, least_bytes / 1e6);
     return leaving;
 }
@@ -176,7 +177,7 @@ void PagingStage::Release(MappingStage& mapping, ScanStage& scan) {
     const BlockMap& map = mapping.map();
     if (store_ && scan.HasReplaced()) store_.reset();
     if (static_cast<double>(map.bytes()) <= limit_bytes_ || !T_world_camera_) return;
-    // In this order: a checkpoint that failed is no longer under way.
+    // The order matters: a failed checkpoint is no longer in progress.
     if ((!wait_ && !scan.idle()) || scan.failed()) return;
     const std::vector<ResidentCubes::Cube> leaving = ChooseLeaving(map, scan);
     if (leaving.empty()) return;
@@ -213,12 +214,15 @@ Status PagingStage::ReturnAll(MappingStage& mapping, ScanStage& scan) {
         Put(cube, mapping, scan);
     }
     return lost_.empty() ? Status::Ok()
-                         : DamagedScan(scan.path(), "blocks that left memory cannot be read back");
+                         : DamagedScan(scan.path(),
+                                       "blocks that were moved out of memory cannot be read back");
 }
 
 std::string PagingStage::Lacking(const ScanStage& scan) const {
     if (away_.empty() && lost_.empty()) return {};
-    return fmt::format("; without what is in {} only: `tessera export` has all", scan.path());
+    return fmt::format(
+        "; parts of the map that are only in {} are missing: `tessera export` writes all of it",
+        scan.path());
 }
 
 void PagingStage::Replaced(const Eigen::Isometry3d& T_new_old, const RebuildPaging& pager,
@@ -233,7 +237,7 @@ void PagingStage::Replaced(const Eigen::Isometry3d& T_new_old, const RebuildPagi
     scan.Replaced(mapping.map(), store_);
 }
 
-// What is away can be had from the file. True: or will be in a moment, where that is waited for.
+// Whether paged-out cubes can be read from the file. In lockstep, waits until they can.
 bool PagingStage::AwaitReplaced(MappingStage& mapping, ScanStage& scan) {
     if (!store_) return true;
     if (!scan.HasReplaced() && !scan.failed() && wait_) scan.Settle(mapping, true);
@@ -246,7 +250,7 @@ bool PagingStage::AwaitReplaced(MappingStage& mapping, ScanStage& scan) {
     return true;
 }
 
-// The file will never have it: from here on nothing is away.
+// The file will never hold the new map, so everything is loaded back from the store.
 void PagingStage::ReturnFromStore(MappingStage& mapping, ScanStage& scan) {
     StoredCube cube;
     for (const auto& [key, blocks] : store_->Cubes()) {

@@ -1,6 +1,6 @@
-// Keeps the map in memory within a limit: what lies far from the camera goes once it is in the scan
-// file, and comes back before the camera sees it. Moves whole cubes (scan/cube.h): each is wholly
-// in the map or wholly away.
+// Keeps the map in memory within a limit. Blocks far from the camera are removed once they are in
+// the scan file, and are loaded again before the camera sees them. Works on whole cubes
+// (scan/cube.h): each is either completely in the map or completely paged out.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -23,60 +23,62 @@ namespace tessera {
 // The map's owner thread only.
 class PagingStage {
   public:
-    // `wait` (lockstep): what the camera may see is waited for, and what comes and goes when
-    // depends on the poses only. Else nothing is waited for, and a frame must not be fused before
-    // all that it may see is there.
+    // `wait` (lockstep): waits for all that the camera may see, so that paging depends on the poses
+    // only. Otherwise never waits, and a frame must not be fused until all that it may see is
+    // loaded.
     PagingStage(const PipelineConfig& config, const PinholeCamera& camera,
                 std::unique_ptr<Pager> pager, bool wait);
 
-    // A new frame, of a camera about where it was last: asks for what comes near, takes what has
-    // come.
+    // Call at the start of a frame, when the camera is assumed near its last pose. Requests cubes
+    // that come near and inserts those that have arrived.
     void BeginFrame(MappingStage& mapping, ScanStage& scan);
-    // The same for where the frame's camera was found to be. Where part of what it may see is not
-    // there, the frame is not to be fused any more: no block may be there twice. True: so it was.
+    // The same at the tracked pose. If part of what the frame may see is not loaded, clears
+    // `to_fuse`, so that no block exists twice. Returns true if it did so.
     bool AfterTracking(TrackedFrame& tracked, MappingStage& mapping, ScanStage& scan);
-    // At the frame's end, what changed in it handed to `scan`: brings the map below its limit if it
-    // is above.
+    // Call at the end of a frame, after its changes were passed to `scan`. Brings the map below its
+    // limit.
     void Release(MappingStage& mapping, ScanStage& scan);
-    // What a fused frame's camera saw stays until LetGo, however far the camera goes: something of
-    // that frame is still to come.
+    // Keeps what this fused frame's camera saw in memory until LetGo: detections of that frame are
+    // still to come.
     void Hold(std::int64_t frame, const Eigen::Isometry3d& T_world_camera) {
         held_.push_back({frame, T_world_camera});
     }
-    // Of that frame and those before it nothing comes any more.
+    // Ends Hold for this frame and all earlier ones.
     void LetGo(std::int64_t frame);
-    // A corrected map is in place of the one so far, made with the pager (a RebuildPaging): what of
-    // it is away is where that has put it, until the file has it.
+    // A corrected map, built with `pager`, has replaced the map. Its paged-out part is in the
+    // pager's store until the file has it.
     void Replaced(const Eigen::Isometry3d& T_new_old, const RebuildPaging& pager,
                   MappingStage& mapping, ScanStage& scan);
-    // What a camera may see from there comes, and the camera is thought to be where it was: it may
-    // soon be tracked there. Lockstep.
+    // Lockstep: loads what a camera at this pose may see, because it may be tracked there next. The
+    // last known pose does not change.
     void BringAround(const Eigen::Isometry3d& T_world_camera, MappingStage& mapping,
                      ScanStage& scan);
-    // Live: it comes in the next frames, and stays for some seconds.
+    // Live: loads what a camera at this pose may see over the next frames, and keeps it for some
+    // seconds.
     void Expect(const Eigen::Isometry3d& T_world_camera) {
         expected_ = {frame_ + kExpectFrames, T_world_camera};
     }
-    // An empty map.
+    // Clears all state, for an empty map.
     void Reset();
-    // The end: nothing comes any more, the file is the writer's alone.
+    // End of the run: stops loading. From here on, only the writer uses the file.
     void Close() { pager_.reset(); }
 
-    // After Close, where the file takes nothing any more: all that is away, whatever the limit.
+    // After Close, if the file can no longer be written: loads everything back, regardless of the
+    // limit.
     Status ReturnAll(MappingStage& mapping, ScanStage& scan);
 
-    // Some blocks left the map, or did and came back: their ids are not in the order of their
+    // Blocks were removed from the map at least once. Ids may no longer be in the order of block
     // numbers.
     bool paged() const { return paged_; }
-    // What a mesh of the map lacks, for a person; empty if nothing.
+    // What a mesh of the map lacks, as text for the user. Empty if nothing.
     std::string Lacking(const ScanStage& scan) const;
     std::optional<std::string> TakeMessage() { return std::exchange(message_, std::nullopt); }
 
   private:
     struct Asked {
         std::int64_t key = 0;
-        double outside_m = 0;    // as last seen
-        std::int64_t frame = 0;  // that it was asked for in
+        double outside_m = 0;    // as last computed
+        std::int64_t frame = 0;  // in which it was requested
     };
     struct Held {
         std::int64_t frame = 0;
@@ -107,12 +109,12 @@ class PagingStage {
     const bool wait_;
     std::unique_ptr<Pager> pager_;
     std::unordered_map<std::int64_t, std::int32_t> away_;  // cube key to number of blocks
-    // Under way in order; to be asked for, the nearest first.
+    // Requested cubes in order; cubes to request, nearest first.
     std::deque<Asked> asked_, wanted_;
     std::vector<std::int64_t> lost_;                   // cubes that cannot be read back
     std::optional<Eigen::Isometry3d> T_world_camera_;  // last known
-    double step_m_ = 0;                                // between the last two
-    // Of a map that the file does not have yet; else null.
+    double step_m_ = 0;                                // between the last two poses
+    // Store of a corrected map that the file does not have yet; else null.
     std::shared_ptr<const CubeScratch> store_;
     std::optional<Held> expected_;  // until that frame
     std::deque<Held> held_;         // by increasing frame

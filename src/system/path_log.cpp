@@ -27,7 +27,7 @@ void PathLog::Place(LoopNews& news, ScanCheckpoint& into) {
         while (!waiting_.empty()) {
             auto [number, record] = waiting_.front();
             waiting_.pop_front();
-            // Else loop closure has left it out.
+            // Otherwise loop closure has skipped this frame.
             const bool here = record.stamp_s == passage.stamp_s;
             if (here) {
                 record.keyframe = passage.keyframe;

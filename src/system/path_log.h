@@ -1,5 +1,5 @@
-// The frames of a scan's path on their way into its file: with loop closure their places relative
-// to a keyframe are known some time after their fusion.
+// The frames of a scan's path on their way into its file. With loop closure, a frame's pose
+// relative to a keyframe is known only some time after its fusion.
 #pragma once
 
 #include <deque>
@@ -10,24 +10,24 @@
 
 namespace tessera {
 
-// As the map has it.
+// The pose is in the map frame.
 PathRecord RecordOf(const Frame& frame, const TrackedFrame& tracked);
 
 // Owner thread only: the map's.
 class PathLog {
   public:
-    // `loops`: tracked frames wait for their place.
+    // `loops`: tracked frames wait until loop closure places them.
     explicit PathLog(bool loops) : loops_(loops) {}
 
-    // A frame in the map as it is now, after all before; its number counts them.
+    // Adds a frame of the current map. `number` counts frames from 0, in order.
     void Add(std::int64_t number, const PathRecord& record, ScanCheckpoint& into);
-    // What is placed, and loop closure's frames under the same numbers.
+    // Writes the frames that loop closure has placed, and its stored frames under the same numbers.
     void Place(LoopNews& news, ScanCheckpoint& into);
-    // The map was corrected, and what waits with it.
+    // The map was corrected. Moves the waiting frames with it.
     void Move(const Eigen::Isometry3d& T_new_old);
-    // What waits, with its place in the map; it goes on waiting.
+    // Writes the waiting frames with their poses in the map. They keep waiting.
     void AddWaiting(ScanCheckpoint& into) const;
-    // A new world.
+    // Starts a new world.
     void Clear();
 
   private:

@@ -1,5 +1,5 @@
-// A frame's life on one thread: track, then fuse. Whoever drives it may step it frame by frame; the
-// threads of a live system (live_engine.h) run the same two stages.
+// The pipeline on one thread, frame by frame: track, then fuse. The threads of a live system
+// (live_engine.h) run the same two stages.
 #pragma once
 
 #include <optional>
@@ -16,8 +16,8 @@ class Pipeline {
              const MeshConfig& meshing = {}, Device* device = nullptr)
         : tracking_(config, camera, device), mapping_(config, meshing, camera, device) {}
 
-    // With a given pose the frame is fused there and not tracked. The world is the first fused
-    // frame's camera unless its pose is given.
+    // With a given pose, the frame is fused there and not tracked. The world frame is the first
+    // fused frame's camera unless its pose is given.
     FrameReport Process(const Frame& frame,
                         const std::optional<Eigen::Isometry3d>& given = std::nullopt) {
         tracking_.Track(frame, tracking_.reads_map() ? mapping_.map() : mapping_.blocks(), given,
@@ -26,7 +26,7 @@ class Pipeline {
         return tracked_.report;
     }
 
-    // From the next frame on; pose, velocity, brightness and map stay.
+    // Takes effect at the next frame. Pose, velocity, brightness and map are kept.
     void Select(TrackingMethod method) { tracking_.Select(method); }
     void SetFusing(bool on) { tracking_.SetFusing(on); }
     void Apply(const ViewerSettings& settings) { tracking_.Apply(settings); }

@@ -4,18 +4,18 @@ namespace tessera {
 
 void ShutterConfig::Describe(ConfigParameters& p) {
     p.Add("colour_delay", colour_delay,
-          "allow for the camera's motion between the depth and the colour image's time stamps");
+          "compensate for the camera's motion between the time stamps of the depth and colour "
+          "images");
     p.Add("depth_readout_s", depth_readout_s, {-0.1, 0.1}, "s",
-          "time from the depth image's first row to its last: the rolling shutter; 0 is a global "
-          "one");
-    p.Add("colour_readout_s", colour_readout_s, {-0.1, 0.1}, "s", "the same of the colour image");
+          "read-out time of the depth image, from its first row to its last (rolling shutter); 0 = "
+          "global shutter");
+    p.Add("colour_readout_s", colour_readout_s, {-0.1, 0.1}, "s", "the same for the colour image");
 }
 
 void DeviceConfig::Describe(ConfigParameters& p) {
     p.Add("device_memory_mb", memory_mb, {0.0, 1e6}, "MB",
-          "most memory that --device cuda takes on the GPU, 0 = nine tenths of what is free when "
-          "it starts; while the map grows "
-          "there, its largest layer is there twice");
+          "maximum GPU memory for --device cuda, 0 = 90 % of what is free at the start; while the "
+          "map grows, its largest layer exists twice");
 }
 
 void PipelineConfig::Describe(ConfigParameters& p) {

@@ -1,4 +1,4 @@
-// The settings of all that a frame passes through: sections frame, mapping, tracking.
+// Settings of the whole pipeline: sections frame, mapping, tracking, moving.
 #pragma once
 
 #include "core/config.h"
@@ -14,7 +14,7 @@
 
 namespace tessera {
 
-// When a frame's images and rows were taken.
+// When a frame's images and rows were exposed.
 struct ShutterConfig {
     bool colour_delay = true;
     double depth_readout_s = 0;

@@ -27,7 +27,7 @@ Status RebuildPaging::Bring(const Eigen::Isometry3d& T_world_camera, BlockMap& m
                 for (std::size_t i = 0; i < copies_.size(); ++i) {
                     ids.push_back(map.Allocate(copies_.coords[i], copies_.numbers[i]));
                     TESSERA_CHECK(ids.back() != kUnknownBlock,
-                                  "no room for a block that was here before");
+                                  "no room for a block that was in the map before");
                     copies_.Put(i, map, ids.back());
                 }
                 if (labels != nullptr) labels->Return(map, ids);
@@ -36,8 +36,8 @@ Status RebuildPaging::Bring(const Eigen::Isometry3d& T_world_camera, BlockMap& m
     return Status::Ok();
 }
 
-// Not where it has not changed since it came back: a block that came back has no revision until it
-// is fused into. Labels change without one.
+// Skips a cube that has not changed since it was loaded: a loaded block has revision 0 until it is
+// fused into. Label changes do not change the revision, so a map with labels is always stored.
 Status RebuildPaging::Store(const BlockMap& map, const ResidentCubes::Cube& cube) {
     const std::span<const BlockId> blocks = resident_.blocks(cube);
     const std::int64_t key = CubeKey(cube.cube);

@@ -1,5 +1,5 @@
-// Keeps a corrected map that is being made within the same limit as the map in use. The file of the
-// scan does not hear of it until it is whole.
+// Keeps a corrected map under construction within the same memory limit as the current map. The
+// scan file is not touched until the map is complete.
 #pragma once
 
 #include <functional>
@@ -23,11 +23,11 @@ class RebuildPaging : public MapPager {
                    LabelMapper* labels) override;
     Status Complete(const BlockMap& map) override;
 
-    // After Complete: all of the map.
+    // After Complete: holds the whole map.
     const std::shared_ptr<CubeScratch>& store() const { return store_; }
-    // The cubes that are there only, with how many blocks.
+    // Cubes that are only in the store, with their number of blocks.
     const std::map<std::int64_t, std::int32_t>& away() const { return away_; }
-    // Ids of the map are not in the order of their numbers.
+    // Ids of the map may not be in the order of block numbers.
     bool paged() const { return paged_; }
 
   private:
@@ -42,8 +42,8 @@ class RebuildPaging : public MapPager {
     bool paged_ = false;
 };
 
-// A new one for each map, in the folder of the scan; an empty function where the configuration has
-// no limit.
+// Creates a new pager for each map, in the scan's folder. An empty function if the configuration
+// has no limit.
 using MakeMapPager = std::function<Result<std::unique_ptr<MapPager>>()>;
 MakeMapPager RebuildPagers(const PipelineConfig& config, const PinholeCamera& camera,
                            const std::string& scan_path);

@@ -13,7 +13,8 @@ RecorderThread::~RecorderThread() { Stop(); }
 Status RecorderThread::Start(const std::string& folder) {
     if (!recording()) Stop();
     if (thread_.joinable())
-        return Status::Error(folder + ": not recorded: recording to " + folder_ + " is under way");
+        return Status::Error(folder + ": not recorded: a recording to " + folder_ +
+                             " is in progress");
     Result<std::unique_ptr<FrameRecorder>> recorder =
         FrameRecorder::Create(folder, source_, config_);
     if (!recorder.ok()) return recorder.status();
@@ -67,7 +68,7 @@ void RecorderThread::Stop() {
                 ? "recording: " + status.message()
                 : fmt::format("recorded {} frames in {}{}", recorder_->frames(), folder_,
                               dropped_ > 0
-                                  ? fmt::format("; {} left out, the disk is too slow", dropped_)
+                                  ? fmt::format("; {} dropped, the disk is too slow", dropped_)
                                   : std::string()));
     recorder_.reset();
 }

@@ -1,4 +1,4 @@
-// Records raw frames on a thread of its own, so that a slow disk never holds the camera up.
+// Records raw frames on a separate thread, so that a slow disk never blocks the camera.
 #pragma once
 
 #include <atomic>
@@ -16,21 +16,20 @@ namespace tessera {
 // Owner thread only.
 class RecorderThread {
   public:
-    // When more frames wait than the queue holds: `wait_when_full`, or the new frame is not
-    // recorded, and counted.
+    // If the queue is full: waits if `wait_when_full`; else drops the new frame and counts it.
     RecorderThread(const SourceInfo& source, const RecordConfig& config, bool wait_when_full);
-    ~RecorderThread();  // as Stop
+    ~RecorderThread();  // calls Stop
 
-    // A folder, made anew. An error leaves things as they were: also, if something is being
-    // recorded already.
+    // Creates the folder. An error changes nothing; recording already is an error.
     Status Start(const std::string& folder);
-    // Takes a copy.
+    // Copies the frame.
     void Add(const Frame& frame);
-    // Waits until all that was added is written.
+    // Waits until all added frames are written.
     void Stop();
     bool recording() const { return thread_.joinable() && !failed_.load(); }
 
-    // What a person should know, in order: where it goes, that it ended and why, how much is safe.
+    // Messages for the user, in order: where the recording goes, why it ended, how many frames were
+    // saved.
     std::optional<std::string> TakeMessage();
 
     std::size_t waiting() const { return frames_.size(); }
@@ -49,10 +48,10 @@ class RecorderThread {
     Wake nobody_;
     NewestQueue<std::string> messages_{16, nobody_};
     std::string folder_;
-    std::unique_ptr<FrameRecorder> recorder_;  // the thread's, while it runs
+    std::unique_ptr<FrameRecorder> recorder_;  // owned by the thread while it runs
     std::int64_t dropped_ = 0;
-    std::atomic<bool> done_{false};    // no more frames come
-    std::atomic<bool> failed_{false};  // nothing more is written
+    std::atomic<bool> done_{false};    // no more frames will be added
+    std::atomic<bool> failed_{false};  // writing has failed; nothing more is written
     std::jthread thread_;
 };
 

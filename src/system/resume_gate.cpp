@@ -12,9 +12,9 @@ void ResumeGate::Begin(std::span<const std::uint8_t> saved, const std::optional<
     closed_ = first_ = gated;
 }
 
-// A view of the last place is nearly all known, and fits: anywhere else a tracker that starts at
-// the last pose may settle in a wrong one that fits half-way. (fr1 rpy: median 7 mm, 94 % fitting;
-// a wrong place of the box room: 21 mm, 89 %.)
+// A view of the last place is almost completely known, and it fits. Elsewhere a tracker that starts
+// at the last pose may converge to a wrong pose that fits only in part. (fr1 rpy: median 7 mm, 94 %
+// inliers; a wrong place in the box room: 21 mm, 89 %.)
 bool ResumeGate::IsThere(const TrackResult& track) const {
     constexpr double kNear_m = 0.3, kNear_rad = 0.4, kKnown = 0.8, kFits = 0.85,
                      kDistance_m = 0.012;
@@ -34,12 +34,11 @@ void ResumeGate::AfterTracking(const Frame& frame, TrackingStage& tracking, Trac
     }
     if (IsThere(report.track)) {
         closed_ = false;
-        report.warning = "the scan goes on where it ended";
+        report.warning = "the scan continues where it ended";
     } else if (report.tracked()) {
         tracking.Disbelieve(
-            "the camera is not where the scan ended: show it what it saw there last; a scan with "
-            "--loop-closure on "
-            "goes on anywhere",
+            "the camera is not where the scan ended: show it what it saw last; a scan with "
+            "--loop-closure on can continue at any place it has seen",
             tracked);
     }
 }

@@ -1,6 +1,6 @@
-// A resumed scan without loop closure: where the camera does not follow at once on the last frame
-// it has to be shown what it saw last, and until it is found there nothing is believed, so that
-// nothing is fused in a wrong place.
+// Guards a resumed scan without loop closure. If the first frame does not follow soon after the
+// last one, the camera must be shown what it saw last. Until it is found there, all poses are
+// rejected, so that nothing is fused in a wrong place.
 #pragma once
 
 #include "system/tracking_stage.h"
@@ -12,14 +12,14 @@ class ResumeGate {
   public:
     explicit ResumeGate(double max_gap_s) : max_gap_s_(max_gap_s) {}
 
-    // The next frame is the first after one at that time. `tracking` is a saved state of the
-    // tracking stage; where it is none, the stage starts at the last pose. Without a last pose it
-    // starts a new world, and there is no gate.
+    // Call before the first frame. `saved` is a saved state of the tracking stage. If it is
+    // invalid, the stage starts at the last pose. Without a last pose it starts a new world and the
+    // gate stays open.
     void Begin(std::span<const std::uint8_t> saved, const std::optional<StampedPose>& last,
                bool gated, TrackingStage& tracking);
-    // A new world: there is no gate.
+    // A new world: opens the gate.
     void Open() { closed_ = false; }
-    // After each frame's tracking.
+    // Call after tracking each frame.
     void AfterTracking(const Frame& frame, TrackingStage& tracking, TrackedFrame& tracked);
 
   private:

@@ -15,9 +15,8 @@ Status CheckLoops(const RunRequest& request, const RunConfig& config) {
         return Status::Error("calibration.refine: needs --loop-closure on");
     if (refine && !request.scan_file.empty())
         return Status::Error(
-            "calibration.refine: not with --scan or --resume, whose frames are of one calibration; "
-            "run once "
-            "to find it, and scan with what it says");
+            "calibration.refine: not possible with --scan or --resume, whose frames share one "
+            "calibration; first find the calibration in a run without them, then scan with it");
     if (!config.loops.enabled) return Status::Ok();
     if (!PoseGraphAvailable())
         return Status::Error(
@@ -25,7 +24,8 @@ Status CheckLoops(const RunRequest& request, const RunConfig& config) {
             "again");
     if (!request.poses_file.empty())
         return Status::Error(
-            "--loop-closure on: with --poses the poses are given; leave one of the two out");
+            "--loop-closure on: not possible with --poses, which already gives the poses; leave "
+            "one of the two out");
     return Status::Ok();
 }
 
@@ -33,7 +33,8 @@ Status CheckPaging(const RunRequest& request, const RunConfig& config) {
     if (!config.pipeline.paging.enabled()) return Status::Ok();
     const std::string key = "mapping.memory_limit_mb: ";
     if (request.scan_file.empty())
-        return Status::Error(key + "what leaves memory goes to the scan file; give --scan FILE");
+        return Status::Error(
+            key + "blocks that leave memory are moved to the scan file; give --scan FILE");
     return Status::Ok();
 }
 
@@ -41,7 +42,8 @@ Status CheckDevice(const RunRequest& request, const RunConfig& config) {
     if (request.device == nullptr) return Status::Ok();
     if (config.pipeline.paging.enabled())
         return Status::Error(
-            "--device cuda: not yet with mapping.memory_limit_mb; leave one of the two out");
+            "--device cuda: not supported yet with mapping.memory_limit_mb; leave one of the two "
+            "out");
     return Status::Ok();
 }
 

@@ -6,24 +6,26 @@ namespace tessera {
 
 void LiveConfig::Describe(ConfigParameters& p) {
     p.Add("queue_frames", queue_frames, {1, 30}, "frames",
-          "how many may wait to be tracked before the oldest is dropped; more bridges hiccups and "
-          "adds delay");
+          "maximum number of frames waiting to be tracked before the oldest is dropped; more "
+          "bridge short stalls but add delay");
     p.Add("mesh_blocks", mesh_blocks, {1, 1000000}, "blocks",
-          "most blocks meshed again after a frame, for the window: about 5 us each on one core");
+          "maximum number of blocks remeshed after each frame for the window: about 5 us each on "
+          "one core");
     p.Add("playback_speed", playback_speed, {0.01, 1000.0}, "",
-          "recorded sources give their frames at this multiple of the recorded pace; cameras have "
-          "their own");
+          "playback speed of recorded sources, relative to the recorded pace; cameras keep their "
+          "own pace");
     p.Add("extra_tracking_ms", extra_tracking_ms, {0.0, 10000.0}, "ms",
-          "added to the tracking of each frame, to see what a slower machine would do");
-    p.Add("extra_mapping_ms", extra_mapping_ms, {0.0, 10000.0}, "ms", "the same for its fusion");
+          "added to the tracking time of each frame, to simulate a slower machine");
+    p.Add("extra_mapping_ms", extra_mapping_ms, {0.0, 10000.0}, "ms",
+          "added to the fusion time of each frame, to simulate a slower machine");
 }
 
 void ViewConfig::Describe(ConfigParameters& p) {
     p.Add("width", width, {320, 16384}, "px",
-          "of the window when it opens, on a display of usual density");
-    p.Add("height", height, {240, 16384}, "px", "the same of its height");
+          "initial width of the window, on a display of normal density");
+    p.Add("height", height, {240, 16384}, "px", "initial height of the window, likewise");
     p.Add("close_at_end", close_at_end,
-          "close the window when the run has ended; off: it stays until it is closed");
+          "close the window when the run ends; off: it stays open until the user closes it");
 }
 
 void RunConfig::Describe(ConfigParameters& p) {
@@ -38,14 +40,13 @@ void RunConfig::Describe(ConfigParameters& p) {
     p.Section("loops", [&](ConfigParameters& s) { loops.Describe(s); });
     p.Section("calibration", [&](ConfigParameters& s) {
         s.Add("check", check_camera,
-              "before a recording is run, find its focal length and centre from its first 8 "
-              "seconds: a camera.yaml that they "
-              "contradict is said and corrected for the run, a missing one made up for; off: what "
-              "is given counts");
+              "before a recording is run, estimate its focal length and centre from its first 8 "
+              "seconds. If they contradict camera.yaml, warn and use the estimate for this run; "
+              "without camera.yaml, use the estimate. off: use camera.yaml as it is");
         s.Add("refine", loops.refine_calibration,
-              "at the end, find focal length and disparity offset from the keyframes and, where "
-              "the scan shows that they are "
-              "off, make the map again with them; needs --loop-closure on");
+              "at the end, estimate focal length and disparity offset from the keyframes and, if "
+              "the scan shows that they are off, rebuild the map with the new values; needs "
+              "--loop-closure on");
     });
     p.Section("scan", [&](ConfigParameters& s) { scan.Describe(s); });
     p.Section("live", [&](ConfigParameters& s) { live.Describe(s); });
@@ -53,9 +54,9 @@ void RunConfig::Describe(ConfigParameters& p) {
     p.Section("record", [&](ConfigParameters& s) { record.Describe(s); });
     p.Section("run", [&](ConfigParameters& s) {
         s.Add("threads", threads, {0, 256}, "",
-              "threads of the parallel loops, 0 = one per core; results do not depend on it");
+              "threads for parallel loops, 0 = one per core; results do not depend on it");
         s.Add("read_ahead", read_ahead, {1, 64}, "frames",
-              "decoded ahead on a thread of their own; more helps only where reading stalls");
+              "frames decoded ahead on a separate thread; more help only if reading stalls");
     });
 }
 
@@ -85,15 +86,13 @@ std::string ConfigurationDocument() {
     ConfigParameters parameters;
     config.Describe(parameters);
     return "# Configuration\n\n"
-           "Made by `tessera config --markdown`; do not edit. A configuration file is YAML that "
-           "nests as the\n"
-           "sections below do; `--config FILE` reads it, `--set section.key=value` overrides one "
-           "key. A missing key\n"
-           "keeps its default, an unknown one is an error that names the nearest known key. "
-           "`tessera config` prints\n"
-           "the whole configuration as such a file, and every run saves the one that it used in "
-           "its run.json.\n"
-           "Presets that come with the program: `--config default`, `--config bylow2014`.\n" +
+           "Generated by `tessera config --markdown`; do not edit. A configuration file is YAML\n"
+           "with the sections below as nested maps. `--config FILE` reads one,\n"
+           "`--set section.key=value` overrides a single key. A missing key keeps its default. An\n"
+           "unknown key is an error that names the nearest known key. `tessera config` prints the\n"
+           "whole configuration as such a file, and every run saves the configuration it used in\n"
+           "its run.json. Built-in presets: `--config default`, `--config bylow2014`,\n"
+           "`--config diaz2018`, `--config labels`.\n" +
            parameters.ToMarkdown();
 }
 

@@ -1,4 +1,4 @@
-// Every setting of a run, described once: the configuration file, --set, run.json and
+// Every setting of a run, described once for the configuration file, --set, run.json and
 // docs/configuration.md.
 #pragma once
 
@@ -18,7 +18,7 @@
 
 namespace tessera {
 
-// Of --mode live.
+// For --mode live.
 struct LiveConfig {
     int queue_frames = 2;
     int mesh_blocks = 600;
@@ -28,7 +28,7 @@ struct LiveConfig {
     void Describe(ConfigParameters& parameters);
 };
 
-// Of --view.
+// For --view.
 struct ViewConfig {
     int width = 1280, height = 720;
     bool close_at_end = false;
@@ -49,24 +49,24 @@ struct RunConfig {
     LiveConfig live;
     ViewConfig view;
     bool check_camera = true;  // key calibration.check
-    int threads = 0;           // 0: as many as the machine has
+    int threads = 0;           // 0: one per core
     int read_ahead = 4;        // frames decoded ahead
 
-    // Sections source (source.openni in it), synthetic, frame, mapping, tracking, meshing, labels,
-    // loops, scan, live, view, record, run.
+    // Sections source (with source.openni), synthetic, frame, mapping, tracking, moving, meshing,
+    // labels, loops, calibration, scan, live, view, record, run.
     void Describe(ConfigParameters& parameters);
-    // Conditions between keys; the error names the key.
+    // Checks conditions between keys. The error names the key.
     Status Validate() const;
 };
 
-// A configuration that comes with the program (config/*.yaml, built in).
+// A built-in configuration (config/*.yaml).
 struct Preset {
     std::string name;
     std::string yaml;
 };
 const std::vector<Preset>& Presets();
 
-// A preset by its name, else the YAML file of that path. Nothing is changed on error.
+// Loads the preset of this name, else the YAML file at this path. An error changes nothing.
 Status LoadPresetOrFile(const std::string& name_or_path, ConfigParameters& parameters);
 
 // The text of docs/configuration.md.

@@ -1,5 +1,5 @@
-// What a person asks of a running system through its window: which frames may pass, and what else
-// is to be done.
+// Handles the user's commands from the viewer window: pause, resume and step here, all others for
+// the caller.
 #pragma once
 
 #include <optional>
@@ -9,13 +9,12 @@
 
 namespace tessera {
 
-// Owner thread only: the one that lets frames in. Without a viewer every frame passes.
+// Owner thread only: the thread that lets frames in. Without a viewer, every frame passes.
 class RunControl {
   public:
     explicit RunControl(ViewerLink* viewer) : viewer_(viewer) {}
 
-    // The next thing to be done that is not about which frames pass; nothing if there is none. To
-    // be called until then.
+    // The next command other than pause, resume and step. Call until it returns nothing.
     std::optional<ViewerCommand> TakeCommand() {
         ViewerCommand command;
         while (viewer_ != nullptr && viewer_->commands.TryPop(command)) {
@@ -32,7 +31,7 @@ class RunControl {
 
     bool waiting() const { return paused_ && steps_ == 0; }
 
-    // Whether a frame may pass now; a step is used up by it.
+    // Whether a frame may pass now. Uses up one step while paused.
     bool TakeTurn() {
         if (waiting()) return false;
         if (paused_) --steps_;

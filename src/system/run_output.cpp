@@ -131,7 +131,7 @@ Status RunOutput::WritePicture(const TriangleMesh& mesh) const {
 }
 
 Status RunOutput::WriteMesh(TriangleMesh mesh) const {
-    // More than it has pixels; rays cost some 100 bytes a triangle.
+    // More triangles than the picture has pixels; ray casting needs about 100 bytes per triangle.
     constexpr std::size_t kMostInPicture = 2'000'000;
     const Status status = WritePly(Path("mesh.ply"), mesh);
     if (mesh.triangles.size() > kMostInPicture) mesh = CoarseMeshOf(mesh, kMostInPicture / 2);

@@ -1,6 +1,6 @@
-// The folder that a run leaves: trajectory.txt and frames.csv grow frame by frame, so that a killed
-// run loses at most its last lines; the rest is written at the end, each file whole or not at all.
-// Owner thread only.
+// The output folder of a run. trajectory.txt and frames.csv grow frame by frame, so that a killed
+// run loses at most its last lines. The other files are written at the end, each completely or not
+// at all. Owner thread only.
 #pragma once
 
 #include <cstdio>
@@ -17,28 +17,28 @@ namespace tessera {
 
 class RunOutput {
   public:
-    // Makes the folder, removes what an earlier run left of the files below, and starts the growing
-    // ones. run.json says "unfinished" until Finish.
+    // Creates the folder, removes an earlier run's files, and starts the growing ones. run.json
+    // says "unfinished" until Finish.
     static Result<std::unique_ptr<RunOutput>> Open(const RunRequest& request,
                                                    const RunConfig& config,
                                                    const SourceInfo& source);
 
-    // One line of frames.csv; one of trajectory.txt if the frame was tracked. Both reach the system
-    // before return.
+    // Adds a line to frames.csv, and to trajectory.txt if the frame was tracked. Flushes both.
     Status AddFrame(const FrameReport& report, double decode_ms, double frame_ms);
 
-    // The frame's lines in detections.txt, after a line that says that it was looked at.
+    // Adds the frame's detections to detections.txt, after a line that marks the frame as
+    // processed.
     Status AddDetections(const LabelReport& report, const LabelClasses& classes);
-    // Lines of trajectory.txt of frames that were tracked before this run.
+    // Adds lines to trajectory.txt for frames tracked before this run.
     Status AddPath(const std::vector<StampedPose>& path);
-    // trajectory.txt anew, from poses that are known better now; whole or not at all.
+    // Rewrites trajectory.txt with corrected poses, completely or not at all.
     Status ReplacePath(const std::vector<StampedPose>& path);
 
-    // mesh.ply, and preview.png where the mesh has triangles: of a large one coarsened, and the
-    // mesh itself gone by then. The first error, but the other file is tried, too.
+    // Writes mesh.ply, and preview.png if the mesh has triangles. Coarsens a large mesh for the
+    // picture, after releasing the original. Tries both files and returns the first error.
     Status WriteMesh(TriangleMesh mesh) const;
 
-    // objects.json, timings.json, run.json; likewise.
+    // Writes objects.json, timings.json and run.json. Tries all and returns the first error.
     Status Finish(const RunSummary& summary);
 
   private:
@@ -56,7 +56,7 @@ class RunOutput {
 
     RunRequest request_;
     RunConfig config_;
-    File trajectory_, frames_, detections_;  // the last one with labels only
+    File trajectory_, frames_, detections_;  // detections_ with labels only
     std::vector<Eigen::Isometry3d> path_;    // T_world_camera of the tracked frames
 };
 

@@ -7,7 +7,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Paths and messages need not be UTF-8.
+// Paths and messages may not be valid UTF-8.
 std::string Dump(const Json& json) {
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
@@ -42,7 +42,7 @@ Json SourceJson(const SourceInfo& source) {
             {"notes", source.notes}};
 }
 
-// Focal lengths as found, used or not; the source's are those that were given.
+// The estimated focal lengths, used or not. Those under "source" are the given ones.
 Json CalibrationJson(const PinholeCamera& given, double offset_before_per_m,
                      const CalibrationReport& report) {
     const PinholeCamera found = Corrected(given, report.calibration);
@@ -58,7 +58,7 @@ Json CalibrationJson(const PinholeCamera& given, double offset_before_per_m,
         {"apart_mm", 1000 * report.rms_after_m}};
 }
 
-// What the recording says; "source" has what was used.
+// The estimate from the recording. "source" has the camera that was used.
 Json CameraJson(const CameraReport& report) {
     const CameraEstimate& e = report.estimate;
     return {

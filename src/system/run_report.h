@@ -1,4 +1,4 @@
-// What a run says of itself in JSON: timings.json and run.json (docs/outputs.md lists the keys).
+// JSON reports of a run: timings.json and run.json (docs/outputs.md lists the keys).
 #pragma once
 
 #include <string>
@@ -11,8 +11,8 @@ namespace tessera {
 // "median_ms", "p95_ms", "max_ms"}}, "map": {"blocks", "bytes", "bytes_per_voxel"}}
 std::string TimingsJson(const RunSummary& summary);
 
-// Command line, version, whole configuration, source, counts, how the run ended, ATE where the
-// source has truth.
+// Version, command line, configuration, source, counts, how the run ended, and ATE if the source
+// has ground truth.
 std::string RunJson(const RunRequest& request, RunConfig config, const RunSummary& summary);
 
 }  // namespace tessera

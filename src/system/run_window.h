@@ -1,4 +1,5 @@
-// What the thread that runs tells a window, besides what the map's owner does (viewer_feed.h).
+// Sends a run's outcomes to the viewer window. The map's owner sends meshes and images
+// (viewer_feed.h).
 #pragma once
 
 #include <string>
@@ -9,19 +10,19 @@
 
 namespace tessera {
 
-// Owner thread only: the one that takes an engine's outcomes. Without a window (null) nothing
-// happens.
+// Owner thread only: the thread that takes an engine's outcomes. Without a window (null), does
+// nothing.
 class RunWindow {
   public:
     explicit RunWindow(ViewerLink* viewer) : viewer_(viewer) {}
 
-    // `counts`: up to and with this frame. `T_world_camera_truth`: in the map's world, if it is
+    // `counts`: up to and including this frame. `T_world_camera_truth`: in the map's world, if
     // known.
     void Show(const FrameOutcome& outcome, const RunCounts& counts,
               const std::optional<Eigen::Isometry3d>& T_world_camera_truth);
     void Show(const LabelReport& report, const LabelClasses& classes);
     void EndLabels();
-    // At the end, when the map's owner has stopped.
+    // Call at the end, after the map's owner has stopped.
     void ShowObjects(const std::vector<MapObject>& objects);
     void Say(const std::string& text);
 

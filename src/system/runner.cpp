@@ -1,4 +1,4 @@
-// A run's beginning and end.
+// Start and end of a run.
 #include "system/runner.h"
 
 #include <algorithm>
@@ -12,14 +12,14 @@
 namespace tessera {
 namespace {
 
-// Learning begins from the rolling shutter that the recording's first seconds show, not from what
-// was given.
+// Starts the shutter estimation from the rolling shutter found in the recording's first seconds,
+// instead of the configured one.
 void BeginShutter(const CameraEstimate& estimate, PipelineConfig& config, SourceInfo& source) {
     const double given_s = config.shutter.colour_readout_s;
     if (!config.trackers.photometric.shutter.enabled || !estimate.shutter_shown(given_s)) return;
     config.trackers.photometric.shutter.readout_s = estimate.readout_s - given_s;
     source.notes.push_back(
-        fmt::format("rolling shutter: a colour image is read out over {:.1f} +- {:.1f} ms",
+        fmt::format("rolling shutter: read-out time of a colour image {:.1f} +- {:.1f} ms",
                     1000 * estimate.readout_s, 1000 * estimate.readout_sigma_s));
 }
 
@@ -32,7 +32,7 @@ Result<RunSummary> Runner::Run(const std::atomic<bool>& stop) {
         summary_.counts.frames == summary_.counts.skipped)
         status = Status::Error(
             request_.source + ": no frame could be read" +
-            (summary_.last_reason.empty() ? "" : "; the last: " + summary_.last_reason));
+            (summary_.last_reason.empty() ? "" : "; last error: " + summary_.last_reason));
     Status finished = Finish(status);
     if (!status.ok()) return status;
     if (!finished.ok()) return finished;
@@ -88,7 +88,8 @@ Result<ScanPlan> Runner::OpenScan() {
     if (request_.scan_file.empty()) return ScanPlan();
     if (!request_.poses_file.empty() && request_.resume)
         return Status::Error(
-            "--resume: with --poses the poses are given; leave one of the two out");
+            "--resume: not possible with --poses, which already gives the poses; leave one of the "
+            "two out");
     if (!request_.resume) return BeginScan(request_.scan_file, summary_.source, config_);
     Result<ScanPlan> plan =
         ResumeScan(request_.scan_file, summary_.source, config_, !request_.labels.empty());
@@ -101,8 +102,8 @@ Result<ScanPlan> Runner::OpenScan() {
     return plan;
 }
 
-// With the first frame and not before: a run that is refused says one line, and leaves the results
-// of an earlier one.
+// Called at the first outcome, not before: a run that is refused reports only its error and leaves
+// the results of an earlier run.
 Status Runner::Begin() {
     begun_ = true;
     if (!request_.output_folder.empty())
@@ -138,7 +139,7 @@ Status Runner::Finish(const Status& outcome) {
     return written;
 }
 
-// The poses, and the calibration, as they are known at the end.
+// Takes over the final poses and the refined calibration.
 Status Runner::Correct() {
     summary_.calibration = engine_->calibration();
     std::vector<StampedPose> path = engine_->CorrectedPath();

@@ -1,5 +1,5 @@
-// One run under way: opens what it needs, takes what the engine gives, keeps count, leaves the
-// files. run.h is its face.
+// One run in progress: opens the inputs, takes the engine's outcomes, keeps the counts and writes
+// the files. run.h is the public interface.
 #pragma once
 
 #include "core/stopwatch.h"
@@ -10,7 +10,7 @@
 
 namespace tessera {
 
-// Owner thread only; runs once. What it is given outlives it.
+// Owner thread only; runs once. All arguments outlive it.
 class Runner {
   public:
     Runner(const RunRequest& request, const RunConfig& config, const RunObserver& observer)
@@ -25,8 +25,8 @@ class Runner {
   private:
     Status Open(const std::atomic<bool>& stop);
     Result<ScanPlan> OpenScan();
-    // With the first frame and not before: a run that is refused says one line, and leaves the
-    // results of an earlier one.
+    // Called at the first outcome, not before: a run that is refused reports only its error and
+    // leaves the results of an earlier run.
     Status Begin();
 
     Status TakeOutcomes();
@@ -34,18 +34,18 @@ class Runner {
     Status TakeFrame(const FrameOutcome& outcome);
     Status TakeLabels(const LabelReport& report);
     void AddTimes(const FrameOutcome& outcome, double frame_ms);
-    // The source's truth in the map's world.
+    // The source's ground truth in the map's world.
     std::optional<Eigen::Isometry3d> TruthOf(const FrameOutcome& outcome) const;
-    // After a reset: the files, too, tell of the new world only.
+    // After a reset, the output files also cover only the new world.
     Status BeginAnew();
     Status OpenOutput();
     void Skip(const std::string& message);
     void Count(const FrameOutcome& outcome);
-    // A thousand lost frames in a row are one message, not a thousand.
+    // Warns only when the tracking status changes, not for every lost frame.
     void SayWhenItChanges(const FrameReport& report);
 
     Status Finish(const Status& outcome);
-    // The poses as they are known at the end.
+    // Takes over the final poses and the refined calibration.
     Status Correct();
     Status WriteMesh();
     std::int64_t Total() const;
@@ -54,9 +54,9 @@ class Runner {
     const RunRequest& request_;
     const RunConfig& config_;
     const RunObserver& observer_;
-    // What is still to be read: less than was asked for where a scan is resumed.
+    // Frames still to read: fewer than requested if a scan is resumed.
     FrameSelection selection_;
-    std::int64_t frames_before_ = 0;  // that a resumed scan has
+    std::int64_t frames_before_ = 0;  // frames in the resumed scan
     RunWindow window_;
     std::vector<StampedPose> truth_, estimate_;
     std::vector<std::string> camera_notes_, pose_notes_;

@@ -1,4 +1,4 @@
-// What a run does with each thing that the engine tells it.
+// How a run handles each outcome of the engine.
 #include <fmt/format.h>
 
 #include "system/runner.h"
@@ -83,7 +83,7 @@ std::optional<Eigen::Isometry3d> Runner::TruthOf(const FrameOutcome& outcome) co
            *outcome.T_world_camera_truth;
 }
 
-// After a reset: the files, too, tell of the new world only.
+// After a reset, the output files also cover only the new world.
 Status Runner::BeginAnew() {
     summary_.counts = {};
     if (summary_.labels) summary_.labels.emplace();
@@ -93,7 +93,7 @@ Status Runner::BeginAnew() {
     times_ = {};
     last_status_ = TrackStatus::kGood;
     last_degenerate_ = false;
-    Warn("reset: the map and the path begin anew");
+    Warn("reset: the map and the path start again");
     return output_ ? OpenOutput() : Status::Ok();
 }
 
@@ -119,20 +119,20 @@ void Runner::Count(const FrameOutcome& outcome) {
     SayWhenItChanges(report);
 }
 
-// A thousand lost frames in a row are one message, not a thousand.
+// Warns only when the tracking status changes, not for every lost frame.
 void Runner::SayWhenItChanges(const FrameReport& report) {
     const TrackResult& t = report.track;
     if (t.status != last_status_ || t.degenerate != last_degenerate_) {
         const std::string reason = t.reason.empty() ? "" : ": " + t.reason;
         if (t.status != TrackStatus::kGood)
             Warn(fmt::format("frame {}: {}{}", report.index,
-                             t.status == TrackStatus::kLost ? "lost" : "tracked badly, not fused",
+                             t.status == TrackStatus::kLost ? "lost" : "tracked poorly, not fused",
                              reason));
         else if (t.degenerate)
-            Warn(fmt::format("frame {}: degenerate, the scene leaves some motion open{}",
+            Warn(fmt::format("frame {}: degenerate, the scene leaves some motion unconstrained{}",
                              report.index, reason));
         else
-            Warn(fmt::format("frame {}: tracking well again", report.index));
+            Warn(fmt::format("frame {}: tracking is good again", report.index));
     }
     last_status_ = t.status;
     last_degenerate_ = t.degenerate;

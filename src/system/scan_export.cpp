@@ -17,7 +17,7 @@ RunConfig ConfigOf(const ScanMeta& meta) {
     RunConfig config;
     ConfigParameters parameters;
     config.Describe(parameters);
-    // Another version's keys: the defaults.
+    // Keys of another version that cannot be read keep their defaults.
     static_cast<void>(parameters.LoadYaml(meta.configuration, "scan"));
     config.pipeline.map = {.voxel_size_m = meta.voxel_size_m, .truncation_m = meta.truncation_m};
     return config;
@@ -60,8 +60,7 @@ Result<TriangleMesh> MeshOfScan(ScanContent& scan) {
         mapping.EnableLabels(config.labels, std::move(classes.value()));
         StateReader labels(scan.labels);
         if (!mapping.LoadLabels(labels))
-            return Status::Error(
-                "the scan's labels are of other classes than its configuration says");
+            return Status::Error("the scan's labels do not match the classes in its configuration");
     }
     mapping.Resume(std::move(scan.map), scan.progress.fused_frames);
     return mapping.TakeMesh();
@@ -100,8 +99,8 @@ Result<std::string> DescribeScan(const std::string& path) {
     const ScanContent& scan = content.value();
     const PinholeCamera& c = scan.meta.camera;
     std::string text = fmt::format(
-        "{}: scan, format version {}, begun by tessera {}, {}\n", path, kScanVersion,
-        scan.meta.program, scan.finished ? "complete" : "cut off: go on with it by --resume");
+        "{}: scan, format version {}, created by tessera {}, {}\n", path, kScanVersion,
+        scan.meta.program, scan.finished ? "complete" : "unfinished: continue it with --resume");
     text += fmt::format("source: {} ({})\n", scan.meta.source_name, scan.meta.source_kind);
     text += fmt::format("camera: {} x {}, fx {:.2f} fy {:.2f} cx {:.2f} cy {:.2f} px\n", c.width,
                         c.height, c.fx, c.fy, c.cx, c.cy);
@@ -128,7 +127,7 @@ Result<std::string> DescribeScan(const std::string& path) {
                                 static_cast<double>(bytes) / 1e6);
     }
     std::error_code ignored;
-    text += fmt::format("file: {:.2f} MB, all of it sound\n",
+    text += fmt::format("file: {:.2f} MB, no errors found\n",
                         static_cast<double>(std::filesystem::file_size(path, ignored)) / 1e6);
     return text;
 }

@@ -1,5 +1,5 @@
-// Out of a scan file: its mesh as a run would have written it, its frames as a folder, and what
-// `tessera info` says of it.
+// Exports from a scan file: its mesh as a run would write it, its frames as a folder, and its
+// description for `tessera info`.
 #pragma once
 
 #include <string>
@@ -10,19 +10,19 @@
 
 namespace tessera {
 
-// With labels where the scan has them. Meshing's settings are the ones that the scan was begun
-// with, where this version knows them. Takes the map.
+// Includes labels if the scan has them. Uses the meshing settings that the scan was created with,
+// as far as this version knows them. Takes the map.
 Result<TriangleMesh> MeshOfScan(ScanContent& scan);
 
-// The same of a file; `path`, if not null, gets the poses.
+// The same from a file. `path`, if not null, receives the poses.
 Result<TriangleMesh> MeshOfScanFile(const std::string& scan_path,
                                     std::vector<Eigen::Isometry3d>* path);
 
-// The stored raw frames as a new folder (TUM layout). An error if there are none; it says how to
-// keep them.
+// Writes the stored raw frames to a new folder (TUM layout). An error if there are none; it says
+// how to keep them.
 Status ExportFrames(const std::string& scan_path, const std::string& folder);
 
-// Some lines of text. Everything in the file is read and checked.
+// A few lines of text. Reads and checks the whole file.
 Result<std::string> DescribeScan(const std::string& path);
 
 }  // namespace tessera

@@ -22,12 +22,11 @@ std::vector<ScanKey> KeysOf(const ScanMeta& meta) {
 
 void ScanConfig::Describe(ConfigParameters& p) {
     p.Add("interval_s", interval_s, {0.05, 60.0}, "s",
-          "longest time between two checkpoints, by the clock and by the frames' stamps: what a "
-          "crash can cost");
+          "longest time between two checkpoints, by the clock or by the frames' stamps: the most "
+          "that a crash can lose");
     p.AddChoice("frames", frames, {{"loops", Frames::kLoops}, {"all", Frames::kAll}},
-                "raw frames in the file: loops keeps what loop closure keeps (none without), all "
-                "keeps every one, so that the "
-                "scan can be replayed: 0.25 MB a frame");
+                "raw frames in the file: loops = those that loop closure keeps (none without it); "
+                "all = every frame, so that the scan can be replayed, at 0.25 MB per frame");
 }
 
 Status TakeScanKeys(const std::string& path, ConfigParameters& parameters) {
@@ -49,8 +48,8 @@ Status CheckScanKeys(const std::string& path, ConfigParameters& parameters) {
         static_cast<void>(parameters.Set(key.key, key.value));
         if (found->get() != wanted)
             return Status::Error(
-                fmt::format("{}: {} is asked for, but {} was scanned with {}; leave it out, or "
-                            "begin another scan",
+                fmt::format("{}: {} was requested, but {} was scanned with {}; leave the key out, "
+                            "or start another scan",
                             key.key, wanted, path, found->get()));
     }
     return Status::Ok();
@@ -88,13 +87,13 @@ Result<ScanPlan> ResumeScan(const std::string& path, const SourceInfo& source,
     const PinholeCamera &was = scan.meta.camera, &is = source.camera;
     if (!(was == is))
         return Status::Error(fmt::format(
-            "{}: was made with a camera of {} x {}, fx {:.2f}; {} has {} x {}, fx {:.2f}: go on "
-            "with "
-            "the same camera, or begin another scan",
+            "{}: was made with a camera of {} x {}, fx {:.2f}, but {} has {} x {}, fx {:.2f}; use "
+            "the same camera, or start another scan",
             path, was.width, was.height, was.fx, source.name, is.width, is.height, is.fx));
     if (scan.progress.labels && !labels)
-        return Status::Error(
-            path + ": has labels, which would be lost; give --labels as when it was begun");
+        return Status::Error(path +
+                             ": has labels, which would be lost; give the same --labels as when "
+                             "the scan was created");
     ScanPlan plan;
     plan.file = std::move(file.value());
     plan.depth_units_per_m = scan.meta.depth_units_per_m;

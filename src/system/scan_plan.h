@@ -1,5 +1,5 @@
-// What is to be done with a scan file in a run, found out before the run begins: a new file, or one
-// to go on with.
+// How a run uses a scan file, decided before the run starts: a new file, or an existing one to
+// continue.
 #pragma once
 
 #include <memory>
@@ -13,27 +13,25 @@
 namespace tessera {
 
 struct ScanPlan {
-    std::unique_ptr<ScanFile> file;  // to write into; null: no scan
+    std::unique_ptr<ScanFile> file;  // to write to; null: no scan
     double depth_units_per_m = 5000;
-    std::optional<ScanContent> resumed;  // to go on with
+    std::optional<ScanContent> resumed;  // content to continue with
 };
 
-// Keys that a scan's file decides when it is resumed: what its blocks and frames were made with.
-// A configuration to start from, before --config and --set: the keys of the file in place of the
-// defaults.
+// Keys that are fixed by a resumed scan's file, because its blocks and frames were made with them.
+// TakeScanKeys: call before --config and --set. Replaces the defaults by the file's values.
 Status TakeScanKeys(const std::string& path, ConfigParameters& parameters);
-// After them: an error that names the key which contradicts the file.
+// CheckScanKeys: call after them. The error names the key that contradicts the file.
 Status CheckScanKeys(const std::string& path, ConfigParameters& parameters);
 
-// A new file for this source and configuration. Refused if it exists.
+// Creates a file for this source and configuration. Error if the file exists.
 Result<ScanPlan> BeginScan(const std::string& path, const SourceInfo& source, RunConfig config);
-// An existing one, all of it checked. `labels`: the run has labels. Refused: another camera, a scan
-// with labels without.
+// Opens an existing file and checks all of it. `labels`: the run has labels. Error if the camera
+// differs, or if the scan has labels and the run has none.
 Result<ScanPlan> ResumeScan(const std::string& path, const SourceInfo& source,
                             const RunConfig& config, bool labels);
 
-// Of a recorded source that the scan was made of: the part that is still to come. Count 0 if
-// nothing is.
+// The part of a recorded source that the scan does not have yet. Count 0 if none is left.
 FrameSelection RestOf(const FrameSelection& selection, const SourceInfo& source,
                       const ScanContent& resumed);
 

@@ -10,9 +10,9 @@
 namespace tessera {
 namespace {
 
-constexpr std::uint32_t kNever = ~0u;  // no block's revision: to be saved
+constexpr std::uint32_t kNever = ~0u;  // not a block's revision: the block must be saved
 
-// Frames that loop closure had not come to are where the map had them.
+// Frames that loop closure had not yet processed keep their pose in the map.
 LoopCloser::Memory LoopMemory(ScanContent& scan) {
     LoopCloser::Memory memory;
     memory.keyframes = std::move(scan.keyframes);
@@ -63,9 +63,8 @@ Status ScanStage::Resume(MappingStage& mapping) {
     StateReader labels(scan.labels);
     if (!scan.labels.empty() && !mapping.LoadLabels(labels))
         return Status::Error(path_ +
-                             ": its labels are of other classes; give the same --labels and "
-                             "labels.classes as when it was "
-                             "begun");
+                             ": its labels have other classes; give the same --labels and "
+                             "labels.classes as when the scan was created");
     loops_ = LoopMemory(scan);
     resumed_.reset();
     return Status::Ok();
@@ -112,14 +111,14 @@ bool ScanStage::Due(double stamp_s) const {
            (thread_.idle() || (wait_ && longer_s >= 2 * config_.interval_s));
 }
 
-// A copy, compressed by the writer. Where that is far behind frames are left out: memory is
-// bounded.
+// Keeps a copy, which the writer compresses. If the writer is far behind, frames are dropped to
+// bound the memory.
 void ScanStage::AddRaw(const Frame& frame) {
     constexpr std::size_t kMostRaw = 90;
     if (wait_ || pending_->raw_frames.size() < kMostRaw) {
         pending_->raw_frames.emplace_back(progress_.frames, std::make_unique<Frame>(frame));
     } else if (!std::exchange(left_out_, true)) {
-        message_ = "scan.frames: some frames are left out, the disk is too slow for all";
+        message_ = "scan.frames: some frames were dropped, the disk is too slow for all of them";
     }
 }
 
@@ -132,7 +131,8 @@ void ScanStage::Checkpoint(const MappingStage& mapping, bool finished) {
     thread_.WaitUntilIdle();
     path_log_.AddWaiting(*pending_);
     std::unique_ptr<ScanCheckpoint> next = thread_.Take();
-    // The one just written had room for blocks: the only large part needs to be there once.
+    // Reuse the block buffer of the checkpoint just written, so that this large part exists only
+    // once.
     std::swap(pending_->blocks, next->blocks);
     AddBlocks(mapping);
     progress_.fused_frames = mapping.fused_frames();
@@ -189,7 +189,7 @@ bool ScanStage::Settle(const MappingStage& mapping, bool checkpoint) {
     return !thread_.failed();
 }
 
-// Their ids may be other blocks' soon.
+// Their ids may soon be used by other blocks.
 void ScanStage::Released(std::span<const BlockId> blocks) { Touch(blocks); }
 
 void ScanStage::Returned(const BlockMap& map, std::span<const BlockId> blocks) {

@@ -1,5 +1,5 @@
-// Keeps a scan file up to date while a run goes on: watches what changes, and makes checkpoints of
-// it for the thread that writes them. Where a resumed scan's content comes into the stages.
+// Keeps a scan file up to date during a run: tracks changes and builds checkpoints for the writer
+// thread. Also restores a resumed scan's content.
 #pragma once
 
 #include <chrono>
@@ -17,36 +17,36 @@ namespace tessera {
 // The map's owner thread only.
 class ScanStage {
   public:
-    // With a file. `wait`: where the writer is late by more than an interval it is waited for; else
-    // the checkpoint is put off, and what has changed gathers. `loops`: with loop closure.
+    // `plan` has a file. `wait`: waits for the writer if it is late by more than an interval; else
+    // postpones the checkpoint and accumulates the changes. `loops`: loop closure is on.
     ScanStage(ScanPlan plan, const ScanConfig& config, bool wait, bool loops);
     ~ScanStage();
 
-    // Puts what a resumed file holds into map and labels; before the first frame. Does nothing for
-    // a new one. Errors name the file.
+    // Restores the map and labels of a resumed file. Call before the first frame. Does nothing for
+    // a new file. Errors name the file.
     Status Resume(MappingStage& mapping);
-    // What loop closure goes on with, after Resume; nothing for a new file.
+    // Call after Resume: the loop closure state to continue with. Nothing for a new file.
     std::optional<LoopCloser::Memory> TakeLoops() { return std::exchange(loops_, std::nullopt); }
 
-    // With a new file in the midst of a run: the frames so far, before the first AddFrame.
+    // For a new file started during a run: adds the earlier frames. Call before the first AddFrame.
     void AddPast(const std::vector<PathRecord>& path);
-    // A frame after its fusion and labels, with TrackedFrame::tracking_state; `labelled_frames`
-    // were offered to the detector so far.
+    // Adds a frame after its fusion and labelling, with TrackedFrame::tracking_state.
+    // `labelled_frames`: frames fused with labelling on so far (lockstep).
     void AddFrame(const Frame& frame, const TrackedFrame& tracked, std::int64_t labelled_frames);
-    // Another map, whole in `store` as it is now, is in place of the one so far: the next
-    // checkpoint is of it.
+    // A corrected map has replaced the map, and `store` holds all of it. The next checkpoint covers
+    // it.
     void Replaced(const BlockMap& map, std::shared_ptr<const CubeScratch> store);
     // That checkpoint is in the file.
     bool HasReplaced() const { return !pending_->stored && thread_.idle() && !thread_.failed(); }
-    // What loop closure made of it, or of frames before.
+    // Adds loop closure's results for this frame or earlier ones.
     void AddLoops(LoopNews news);
-    // After a correction of the map, which moved cameras in it.
+    // Moves camera poses after a correction of the map.
     void Move(const Eigen::Isometry3d& T_new_old) { path_log_.Move(T_new_old); }
-    // A checkpoint, if it is time.
+    // Writes a checkpoint if one is due.
     void SaveIfDue(const MappingStage& mapping);
-    // Blocks whose labels have changed, which does not count as a change of the block.
+    // Marks blocks whose labels have changed; that does not change a block's revision.
     void Touch(std::span<const BlockId> blocks);
-    // The file holds the block as it is, or a checkpoint that is under way.
+    // The current version of the block is in the file, or in a checkpoint being written.
     bool Has(const BlockMap& map, BlockId id) const {
         return static_cast<std::size_t>(id) < seen_revision_.size() &&
                seen_revision_[static_cast<std::size_t>(id)] == map.revision(id);
@@ -54,16 +54,16 @@ class ScanStage {
     // All checkpoints are in the file.
     bool idle() const { return thread_.idle(); }
     bool failed() const { return thread_.failed(); }
-    // Waits until they are; `checkpoint`: one more of what has changed since. False: the file takes
-    // nothing any more.
+    // Waits until all checkpoints are in the file. `checkpoint`: first makes another one. Returns
+    // false if the file can no longer be written.
     bool Settle(const MappingStage& mapping, bool checkpoint);
-    // Blocks that left the map and are in the file, and those that came back from it.
+    // Blocks that are in the file and were removed from the map, and blocks that were loaded again.
     void Released(std::span<const BlockId> blocks);
     void Returned(const BlockMap& map, std::span<const BlockId> blocks);
     const std::string& path() const { return path_; }
-    // The map and the path begin anew.
+    // The map and the path start again.
     void Reset();
-    // The last checkpoint, waited for. Once; a new file in which there is nothing goes.
+    // Writes the last checkpoint and waits for it. A new file without content is removed.
     void Finish(const MappingStage& mapping);
 
     std::optional<std::string> TakeMessage();
@@ -80,17 +80,17 @@ class ScanStage {
     ScanConfig config_;
     const bool wait_;
     const std::string path_;
-    bool saved_;                          // there is something in the file
-    std::optional<ScanContent> resumed_;  // until it is put into the stages
+    bool saved_;                          // the file has content
+    std::optional<ScanContent> resumed_;  // until Resume has restored it
     std::optional<LoopCloser::Memory> loops_;
     ScanThread thread_;
     std::unique_ptr<ScanCheckpoint> pending_;
     ScanProgress progress_;
     PathLog path_log_;
-    std::uint64_t map_identity_ = 0;            // of the map that the file has
-    std::vector<std::uint32_t> seen_revision_;  // by block: as the file has it
+    std::uint64_t map_identity_ = 0;            // of the map in the file
+    std::vector<std::uint32_t> seen_revision_;  // by block id: revision in the file
     std::vector<BlockId> changed_;
-    bool left_out_ = false;  // some raw frames, the writer being late
+    bool left_out_ = false;  // raw frames were dropped because the writer was late
     std::optional<std::string> message_;
     std::optional<double> last_stamp_s_;  // of the last checkpoint
     Clock::time_point last_time_;

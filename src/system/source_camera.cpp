@@ -15,14 +15,15 @@ namespace {
 constexpr double kWindow_s = 8, kEvery_s = 0.1, kShortest_s = 0.06;
 constexpr int kLeastViews = 12;
 constexpr std::int64_t kMostFrames = 100000;
-constexpr double kOtherCamera = 0.25;  // of the focal length: a scan of another camera than this
+// Of the focal length; beyond this the scan is of another camera.
+constexpr double kOtherCamera = 0.25;
 
 bool IsRecording(const std::string& name) {
     return !name.starts_with("synthetic:") && !name.starts_with("openni2:") &&
            !name.ends_with(".scan");
 }
 
-// With `camera` in place of the one that is given with the recording.
+// Opens the source with `camera` instead of the given one.
 Result<std::unique_ptr<FrameSource>> OpenWith(const std::string& name, RunConfig config,
                                               const std::optional<PinholeCamera>& camera) {
     if (camera) {
@@ -35,7 +36,7 @@ Result<std::unique_ptr<FrameSource>> OpenWith(const std::string& name, RunConfig
     return OpenSource(name, config);
 }
 
-// How many frames of the source make a tenth of a second, by the stamps of its first.
+// Number of source frames in a tenth of a second, from the stamps of its first frames.
 std::int64_t StrideOf(FrameSource& source, std::int64_t start) {
     constexpr int kProbes = 3;
     constexpr double kMost = 10;
@@ -54,7 +55,7 @@ std::int64_t StrideOf(FrameSource& source, std::int64_t start) {
                               : 1;
 }
 
-// Part of a selection, in frames of the source; nothing where that is too little to see.
+// The part of the selection to look at, in frames of the source. Nothing if it is too short.
 std::optional<FrameSelection> PartToSee(FrameSource& source, const FrameSelection& selection) {
     const std::int64_t all = source.info().frame_count;
     if (selection.start < 0 || selection.stride < 1 || (all >= 0 && selection.start >= all))
@@ -72,7 +73,7 @@ std::optional<FrameSelection> PartToSee(FrameSource& source, const FrameSelectio
                           stride};
 }
 
-// The source is used up. Nothing where it has too little to see.
+// Consumes the source. Nothing if it shows too little.
 std::optional<CameraEstimate> EstimateFrom(std::unique_ptr<FrameSource> source,
                                            const FrameSelection& selection) {
     const std::optional<FrameSelection> part = PartToSee(*source, selection);
@@ -95,7 +96,7 @@ std::optional<CameraEstimate> EstimateFrom(std::unique_ptr<FrameSource> source,
     return estimator.frames() < kLeastViews ? std::nullopt : estimator.Estimate();
 }
 
-// The scan's own camera, where the source's is nearly that.
+// The scan's own camera, if it differs slightly from the source's.
 std::optional<PinholeCamera> CameraOfScan(const std::string& path, const PinholeCamera& given) {
     const Result<ScanMeta> meta = ReadScanMeta(path);
     if (!meta.ok()) return std::nullopt;
@@ -112,25 +113,27 @@ std::string GivenBy(const std::string& name) {
 void Describe(const SourceInfo& given, const std::optional<CameraReport>& report,
               std::vector<std::string>& messages) {
     const std::string assumed =
-        fmt::format("a field of view of 60 degrees is assumed, fx {:.1f}", given.camera.fx);
+        fmt::format("assuming a field of view of 60 degrees, fx {:.1f}", given.camera.fx);
     if (!report) {
         if (!given.camera_known)
             messages.push_back(
-                "no camera.yaml, and this recording does not show the focal length: " + assumed);
+                "no camera.yaml, and the focal length cannot be estimated from this recording: " +
+                assumed);
         return;
     }
     const CameraEstimate& e = report->estimate;
     if (!given.camera_known)
         messages.push_back(
-            fmt::format("no camera.yaml: this recording says fx {:.1f} +- {:.1f}{}", e.found.fx,
-                        e.focal_sigma_px,
-                        report->used ? ", which is used; put a camera.yaml there if you know better"
-                                     : ", too little to go by: " + assumed));
+            fmt::format("no camera.yaml: the estimate from this recording is fx {:.1f} +- {:.1f}{}",
+                        e.found.fx, e.focal_sigma_px,
+                        report->used ? ", which is used; add a camera.yaml if you know better"
+                                     : ", which is too uncertain: " + assumed));
     else if (report->used)
-        messages.push_back(EstimateText(e, GivenBy(given.name)) + ": that is used");
+        messages.push_back(EstimateText(e, GivenBy(given.name)) + "; the estimate is used");
 }
 
-// Looks at the source and, where it shows another camera, once more through that one.
+// Estimates the camera and, if it differs from the given one, estimates again with the first
+// estimate.
 Result<std::optional<PinholeCamera>> FindCamera(const RunRequest& request, const RunConfig& config,
                                                 std::unique_ptr<FrameSource> source,
                                                 std::optional<CameraReport>& report) {
@@ -170,7 +173,7 @@ Result<CheckedSource> OpenCheckedSource(const RunRequest& request, const RunConf
         camera = CameraOfScan(request.scan_file, given.camera);
         if (camera)
             checked.messages.push_back(
-                fmt::format("{} says fx {:.1f}; the scan was made with {:.1f}, which is kept",
+                fmt::format("{} says fx {:.1f}, but the scan was made with {:.1f}, which is used",
                             GivenBy(given.name), given.camera.fx, camera->fx));
     } else {
         Result<std::optional<PinholeCamera>> found =

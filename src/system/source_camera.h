@@ -1,5 +1,5 @@
-// Opens a run's source with the camera that its own images show, where that is not the one that was
-// given.
+// Opens a run's source with the intrinsics estimated from its own images if they contradict the
+// given ones.
 #pragma once
 
 #include <memory>
@@ -15,14 +15,15 @@
 namespace tessera {
 
 struct CheckedSource {
-    std::unique_ptr<FrameSource> source;  // with the camera that is to be used, at its beginning
-    std::optional<CameraReport> camera;   // where it was looked for and found
-    std::vector<std::string> messages;    // for a person
+    std::unique_ptr<FrameSource> source;  // opened with the camera to use, at the first frame
+    std::optional<CameraReport> camera;   // if it was estimated
+    std::vector<std::string> messages;    // for the user
 };
 
-// Recordings only: a device's first frames are the run's, a built-in scene's camera is exact, a
-// scan keeps the camera that it was made with. Looks at the first seconds of the selection, at most
-// twice: again with the camera that was found, through its own lens. Errors are OpenSource's.
+// Estimates the camera for recordings only: the first frames of a live camera belong to the run, a
+// built-in scene's camera is exact, and a scan keeps the camera it was made with. Reads the first
+// seconds of the selection, at most twice; the second time with the camera that was found. Errors
+// are those of OpenSource.
 Result<CheckedSource> OpenCheckedSource(const RunRequest& request, const RunConfig& config);
 
 }  // namespace tessera

@@ -1,5 +1,4 @@
-// How long each stage of a run took, frame by frame, and what the process used. Plain values; owner
-// thread only.
+// Time per stage and frame, and the resources used by the process. Plain values; owner thread only.
 #pragma once
 
 #include <string>
@@ -10,18 +9,18 @@ namespace tessera {
 
 struct StageStatistics {
     double mean_ms = 0;
-    double median_ms = 0;  // of an even count: the mean of the two in the middle
-    double p95_ms = 0;     // nearest rank: at least 95 % are not longer
+    double median_ms = 0;  // for an even count, the mean of the middle two
+    double p95_ms = 0;     // nearest rank: at least 95 % of the durations are not longer
     double max_ms = 0;
 };
 
-// All zero for no durations.
+// All zero if there are no durations.
 StageStatistics SummariseDurations(std::vector<double> durations_ms);
 
 class StageTimes {
   public:
     void Add(const std::string& stage, double duration_ms);
-    // In the order in which the stages were first seen.
+    // In the order in which the stages first appeared.
     std::vector<std::pair<std::string, StageStatistics>> Summarise() const;
 
   private:
@@ -29,13 +28,13 @@ class StageTimes {
 };
 
 struct ProcessUsage {
-    double cpu_s = 0;        // user and system time of all threads since the process began
+    double cpu_s = 0;        // user and system time of all threads since the process started
     double peak_rss_mb = 0;  // 2^20 bytes
 };
 ProcessUsage MeasureProcess();
 
-// What was freed goes back to the system now, as far as the allocator can: before something large
-// is made that need not stand beside it. Costs some milliseconds. Thread-safe.
+// Returns freed memory to the system, as far as the allocator can. Call before making something
+// large. Takes a few milliseconds. Thread-safe.
 void ReturnFreeMemory();
 
 }  // namespace tessera

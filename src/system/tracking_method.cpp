@@ -25,14 +25,14 @@ const char* ToString(TrackingMethod method) {
 }
 
 void TrackersConfig::Describe(ConfigParameters& p) {
-    p.AddChoice("method", method, TrackingMethodNames(),
-                "sdf uses distances and intensities in the field ([B14]); sdf-geometric distances "
-                "only ([B13]); icp "
-                "aligns with a predicted view ([D18]); icp-rgb with its colours, too");
+    p.AddChoice(
+        "method", method, TrackingMethodNames(),
+        "sdf aligns with distances and intensities in the field ([B14]); sdf-geometric with "
+        "distances only ([B13]); icp with a predicted view ([D18]); icp-rgb also with its colours");
     p.Add("even_within_m", even_within_m, {0.0, 1.0}, "m",
-          "while the last frame knew its pose to this, points nearer than the view's median depth "
-          "weigh no more than points at it: "
-          "what moves close by must not outweigh the room");
+          "if the uncertainty of the last pose is at most this, points nearer than the view's "
+          "median depth weigh no more than points at that depth, so that nearby moving things do "
+          "not outweigh the room");
     p.Section("judge", [&](ConfigParameters& s) { judge.Describe(s); });
     p.Section("photometric", [&](ConfigParameters& s) { photometric.Describe(s); });
     p.Section("sdf", [&](ConfigParameters& s) { sdf.Describe(s); });
@@ -73,7 +73,7 @@ std::unique_ptr<Tracker> Trackers::Make(TrackingMethod method) {
         return std::make_unique<SdfTracker>(config_.sdf, camera_, judge, model_, colour,
                                             VectorPath::kAuto,
                                             device_ != nullptr ? &device_->sdf_sums() : nullptr);
-    std::unique_ptr<ViewPredictor> predictor;  // none where a device casts the rays itself
+    std::unique_ptr<ViewPredictor> predictor;  // none if a device casts the rays itself
     if (device_ == nullptr || config_.icp.prediction == IcpTracker::Prediction::kRaster)
         predictor = MakePredictor(config_.icp.prediction, note_);
     return std::make_unique<IcpTracker>(config_.icp, camera_, judge, model_, colour,

@@ -1,4 +1,5 @@
-// The methods by name, what they share, and how each is made: the one place that knows them all.
+// The tracking methods: their names, their shared state, and how each is created. The only place
+// that knows them all.
 #pragma once
 
 #include <array>
@@ -33,31 +34,32 @@ struct TrackersConfig {
     void Describe(ConfigParameters& parameters);
 };
 
-// The rasteriser where it is asked for and works here, else the ray caster; `note` says so in words
-// if it steps in.
+// The rasteriser if requested and available, else the ray caster. If it falls back, `note` says
+// why.
 std::unique_ptr<ViewPredictor> MakePredictor(IcpTracker::Prediction prediction, std::string& note);
 
-// All methods over one camera, switchable between two frames: what residuals teach is theirs
-// together. Owner thread only.
+// All methods for one camera, switchable between frames. They share the residual model. Owner
+// thread only.
 class Trackers {
   public:
-    // `device` outlives them; null: all on the processor.
+    // `device` outlives the trackers. Null: everything runs on the CPU.
     Trackers(const TrackersConfig& config, const PinholeCamera& camera, Device* device = nullptr);
 
     TrackingMethod method() const { return method_; }
     void Select(TrackingMethod method) { method_ = method; }
-    // Whether the selected method reads the voxels of TrackInput::map, not only the device's.
+    // Whether the selected method reads the voxels of TrackInput::map on the CPU.
     bool reads_map() const;
-    // By the selected method; made when it is first needed, on the thread that tracks.
+    // Uses the selected method, which is created on first use, on the tracking thread.
     TrackResult Track(const TrackInput& input);
-    // In place of the configuration's: learnt from the frames, or this, in m^2.
+    // Overrides the configuration: alpha is estimated from the frames, or fixed to this value, in
+    // m^2.
     void SetAlpha(bool automatic, double alpha) { model_.SetAlpha(automatic, alpha); }
-    // Forgets what was learnt, keeps the choices.
+    // Forgets what was learnt but keeps the settings.
     void Reset() { model_.Reset(); }
-    // What was learnt.
+    // The learnt state.
     void SaveState(StateWriter& state) const { model_.SaveState(state); }
     bool LoadState(StateReader& state) { return model_.LoadState(state); }
-    // What a person should know of how the methods came up, in words, once; mostly empty.
+    // A message for the user about how the methods were created. Returned once; usually empty.
     std::string TakeNote();
 
   private:

@@ -19,7 +19,7 @@ Integrator::View FusionView(const TrackResult& track) {
     return view;
 }
 
-// 0 without depth.
+// Returns 0 without depth.
 double MedianDepth(const DepthImage& depth_m) {
     std::vector<float> depths;
     for (std::size_t i = 0; i < depth_m.size(); ++i)
@@ -52,8 +52,8 @@ void TrackingStage::Track(const Frame& frame, const BlockMap& map,
     report.stamp_s = frame.stamp_s;
     report.method = trackers_.method();
 
-    // 1. Gate the depth, split the colour. What moved a moment ago does not say where the camera
-    // is.
+    // 1. Gate the depth and prepare the colour. What moved in earlier frames must not influence
+    // the pose.
     Stopwatch watch;
     const std::shared_ptr<const MovingMask> expected =
         given ? nullptr : ExpectMoving(frame.stamp_s);
@@ -66,7 +66,7 @@ void TrackingStage::Track(const Frame& frame, const BlockMap& map,
     report.valid_depth_fraction = static_cast<double>(prepared.valid_depth_pixels) /
                                   static_cast<double>(frame.depth_m.size());
 
-    // 2. Where was the camera?
+    // 2. Estimate the camera pose.
     motion_before_ = motion_;
     report.first = !motion_.last().has_value();
     if (prepared.valid_depth_pixels == 0) {
@@ -81,7 +81,7 @@ void TrackingStage::Track(const Frame& frame, const BlockMap& map,
         report.track.T_world_camera = *given;
         report.track.status = TrackStatus::kGood;
     } else if (report.first) {
-        report.track.status = TrackStatus::kGood;  // the first camera is the world
+        report.track.status = TrackStatus::kGood;  // the first camera defines the world frame
         aligner_.Align(prepared, Eigen::Isometry3d::Identity());
     } else {
         report.track = TrackFrame(frame, prepared, map);
@@ -95,11 +95,11 @@ void TrackingStage::Track(const Frame& frame, const BlockMap& map,
                      .poor = report.track.status == TrackStatus::kPoor,
                      .uncertainty_m = report.track.uncertainty_m});
 
-    // 3. What moves is no part of the map.
+    // 3. Mask what moves, so that it is not fused.
     LeaveOutMoving(frame, map, expected != nullptr, tracked);
     report.moving_ms = watch.LapMs();
 
-    // 4. Would it harm the map?
+    // 4. Decide whether to fuse.
     tracked.to_fuse = report.track.status == TrackStatus::kGood && (fusing_ || report.first);
     tracked.view = FusionView(report.track);
 }
@@ -173,7 +173,7 @@ void TrackingStage::Disbelieve(const std::string& reason, TrackedFrame& tracked)
 void TrackingStage::Relocate(const StampedPose& pose) {
     motion_.Clear();
     moving_.Clear();
-    aligner_.KeepNewest(true);  // nearer to that pose than what was seen before the loss
+    aligner_.KeepNewest(true);  // closer to that pose than the last frame before the loss
     motion_.Add(pose, {});
 }
 
@@ -193,16 +193,17 @@ TrackResult TrackingStage::TrackFrame(const Frame& frame, const PreparedFrame& p
          .map = map,
          .T_world_camera_starts = {T_world_expected, T_world_aligned},
          .T_world_camera_last = T_world_last,
-         // Nothing is a jump from a pose that may be wrong.
+         // With a doubtful last pose, a large step does not count as a jump.
          .since_last_s = motion_.doubt().poor ? 0 : motion_.SinceLast(frame.stamp_s),
          .motion = ShutterOf(frame),
          .nearest_m = NearestOfWeight(prepared)});
-    aligner_.KeepNewest(track.status != TrackStatus::kLost);  // as motion_ does
+    aligner_.KeepNewest(track.status != TrackStatus::kLost);  // same decision as for motion_
     return track;
 }
 
-// Who stands near and starts to walk must not outweigh the room behind: the nearer half of the view
-// weighs alike, unless the camera is so ill known that it needs what is near.
+// A nearby person who starts to walk must not outweigh the room behind. So points nearer than the
+// median depth get no extra weight, unless the pose is so uncertain that the near points are
+// needed.
 double TrackingStage::NearestOfWeight(const PreparedFrame& prepared) const {
     if (motion_.doubt().uncertainty_m > config_.trackers.even_within_m) return kNearestWeighed_m;
     return std::max(kNearestWeighed_m, MedianDepth(prepared.reduced.front().depth_m));

@@ -1,5 +1,5 @@
-// The first half of a frame's life: prepare it, find where the camera was, judge that. Reads the
-// map, never writes it.
+// The first half of the pipeline: prepares a frame, estimates the camera pose and judges it. Reads
+// the map, never writes it.
 #pragma once
 
 #include <memory>
@@ -19,16 +19,16 @@
 
 namespace tessera {
 
-// What became of one frame.
+// The result of one frame.
 struct FrameReport {
     std::int64_t index = 0;
     double stamp_s = 0;
     TrackingMethod method = TrackingMethod::kSdf;
-    TrackResult track;   // status good, with the given pose, when poses are given
+    TrackResult track;   // with given poses: status good and the given pose
     bool first = false;  // the frame that started the map
     bool fused = false;
     double valid_depth_fraction = 0;  // of the image, without what was expected to move
-    std::string warning;  // what a person should know of this frame, in words; mostly empty
+    std::string warning;              // for the user; usually empty
     Integrator::Report fusion;
     std::shared_ptr<const MovingMask> moving;  // null: nothing moves
     double prepare_ms = 0, track_ms = 0, moving_ms = 0;
@@ -36,64 +36,64 @@ struct FrameReport {
     bool tracked() const { return track.status != TrackStatus::kLost; }
 };
 
-// A frame between the two halves of its life, with all that fusion needs.
+// A frame between tracking and mapping, with all that fusion needs.
 struct TrackedFrame {
     PreparedFrame prepared;
     FrameReport report;
     Integrator::View view;
     bool to_fuse = false;
-    // TrackingStage::SaveState after this frame, while a scan is written.
+    // TrackingStage::SaveState after this frame. Filled while a scan is written.
     std::vector<std::uint8_t> tracking_state;
 };
 
 // Owner thread only.
 class TrackingStage {
   public:
-    // `device` outlives the stage; null: all on the processor.
+    // `device` outlives the stage. Null: everything runs on the CPU.
     TrackingStage(const PipelineConfig& config, const PinholeCamera& camera,
                   Device* device = nullptr);
 
-    // Into `tracked`, whose storage is used again. With a given pose the frame is not tracked. The
-    // world is the first frame's camera unless its pose is given; that frame is always to be fused,
-    // and must be in `map` when the next one comes. Nobody may write `map` meanwhile.
+    // Writes to `tracked` and reuses its storage. With a given pose, the frame is not tracked. The
+    // world frame is the first frame's camera unless its pose is given. The first frame is always
+    // fused and must be in `map` before the next call. Nothing may write to `map` during the call.
     void Track(const Frame& frame, const BlockMap& map,
                const std::optional<Eigen::Isometry3d>& given, TrackedFrame& tracked);
 
-    // What a detector says may move in the frame that comes next, or in an earlier one tracked to
-    // T_world_camera: not to be fused.
+    // What a detector reports as movable, in the next frame or in an earlier one tracked to
+    // T_world_camera. It is not fused.
     void GuideMoving(const MovingHint& hint,
                      const std::optional<Eigen::Isometry3d>& T_world_camera);
 
-    // Tracks the frame given last once more, from another place; only if it then fits well is its
-    // result taken, and true returned.
+    // Tracks the last frame again from another start pose. Takes the result and returns true only
+    // if it fits well.
     bool TrackFrom(const Frame& frame, const BlockMap& map, const Eigen::Isometry3d& T_world_camera,
                    TrackedFrame& tracked);
-    // The pose of the frame given last is not to be believed: it is lost.
+    // Rejects the pose of the last frame and marks the frame as lost.
     void Disbelieve(const std::string& reason, TrackedFrame& tracked);
-    // The camera was lost, and was found to have been here at that time.
+    // The lost camera was relocalised at this pose and time.
     void Relocate(const StampedPose& pose);
-    // The map was moved, the camera with it.
+    // The map was moved, and the camera with it.
     void Move(const Eigen::Isometry3d& T_new_old);
 
-    // Whether Track reads the voxels of `map`, not only the device's.
+    // Whether Track reads the voxels of `map` on the CPU.
     bool reads_map() const { return trackers_.reads_map(); }
 
-    // From the next frame on; pose, velocity, brightness and map stay.
+    // Takes effect at the next frame. Pose, velocity, brightness and map are kept.
     void Select(TrackingMethod method) { trackers_.Select(method); }
-    // With a device: frames' images are wanted on the processor, too.
+    // With a device: also copy each frame's images to the CPU.
     void BringImages() { bring_images_ = true; }
-    // Off: frames are tracked, but are not to be fused; the first always is.
+    // Off: frames are tracked but not fused. The first is always fused.
     void SetFusing(bool on) { fusing_ = on; }
     void Apply(const ViewerSettings& settings);
-    // Forgets the camera's way, not the settings: the next frame is a new world's first.
+    // Forgets the trajectory but keeps the settings. The next frame starts a new world.
     void Reset();
 
-    // All that the next frame's pose depends on besides the map and the settings: where the camera
-    // was and how it moved, what colour has taught, the last frame's reduced images. False: the
-    // bytes are no such state, and the camera's way is forgotten.
+    // All state that the next pose depends on, besides the map and the settings: the last pose and
+    // the motion, what was learnt from colour, and the last frame's reduced images. LoadState
+    // returns false if the state is invalid; the trajectory is then forgotten.
     void SaveState(StateWriter& state) const;
     bool LoadState(StateReader& state);
-    // As if the last frame had been tracked there, and nothing more were known of the way.
+    // As if the last frame had been tracked at this pose, with no other history.
     void StartAt(const StampedPose& last);
 
   private:

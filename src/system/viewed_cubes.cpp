@@ -6,13 +6,13 @@
 namespace tessera {
 namespace {
 
-// Fusion reads and writes so far around what is measured, and tracking around that.
+// Fusion reads and writes this far around the measured surface, and tracking beyond that.
 double MarginOf(const BlockMap::Config& map) {
-    constexpr double kPoses_m = 0.3;  // tracking tries poses around the one that it finds
+    constexpr double kPoses_m = 0.3;  // tracking tries poses around the one it finds
     return map.truncation_m + 2 * kBlockSide * map.voxel_size_m + kPoses_m;
 }
 
-// How far the camera measures.
+// The camera's measuring range.
 double RangeOf(const PipelineConfig& config, const PinholeCamera& camera) {
     double corner_m = 0;
     for (const double u : {-0.5, camera.width - 0.5})

@@ -1,5 +1,5 @@
-// Which cubes of a map (scan/cube.h) a camera may see, and which lie so far from it that they need
-// not be in memory.
+// Which cubes of a map (scan/cube.h) a camera may see, and which are far enough away to be removed
+// from memory.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -12,41 +12,42 @@
 
 namespace tessera {
 
-// Outside of what a camera may see cubes stay: else they would come and go.
+// Cubes this near to the camera's view stay in memory. Otherwise they would be removed and loaded
+// again and again.
 inline constexpr double kKeepAround_m = 1.25;
-inline constexpr double kRefill = 0.9;  // of a limit, that a release goes down to
+inline constexpr double kRefill = 0.9;  // a release goes down to this fraction of the limit
 
 // A value; thread-safe.
 class ViewedCubes {
   public:
     ViewedCubes(const PipelineConfig& config, const PinholeCamera& camera);
 
-    // How far a cube is from the half ball that tracking and fusion from there may read or write;
-    // at most 0: it is in it.
+    // Distance from a cube to the hemisphere that tracking and fusion at this pose may read or
+    // write. At most 0: the cube intersects it.
     double Outside_m(const Eigen::Isometry3d& T_world_camera, const BlockCoord& cube) const;
-    // The first and the last cube, along each axis, of a box around all that are at most so far
-    // outside.
+    // The first and the last cube, along each axis, of a box around all cubes with Outside_m <=
+    // `further_m`.
     std::pair<BlockCoord, BlockCoord> Around(const Eigen::Isometry3d& T_world_camera,
                                              double further_m) const;
 
   private:
     const double cube_m_;
     const double margin_m_;  // around what the camera sees
-    const double reach_m_;   // from the camera, the margin included
+    const double reach_m_;   // from the camera, including the margin
 };
 
-// The blocks of a map by cube. Owner thread only.
+// The blocks of a map, grouped by cube. Owner thread only.
 class ResidentCubes {
   public:
     struct Cube {
         double outside_m = 0;
         BlockCoord cube;
-        std::size_t first = 0, last = 0;  // of its blocks
+        std::size_t first = 0, last = 0;  // range of its blocks
     };
 
-    // All blocks of the map as it is now.
+    // Collects all blocks of the current map.
     void Gather(const BlockMap& map);
-    // The cubes that may leave, the farthest first.
+    // The cubes that may be removed, farthest first.
     std::vector<Cube> Farthest(const ViewedCubes& viewed,
                                const Eigen::Isometry3d& T_world_camera) const;
     // By increasing coordinate.

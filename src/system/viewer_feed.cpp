@@ -13,7 +13,7 @@ double ViewerFeed::Send(const Frame& frame, const FrameReport& report, MappingSt
     return SendMesh(mapping);
 }
 
-// While the window has not taken the meshes before, what changes waits in the mesher.
+// Until the window has taken the earlier meshes, changes wait in the mesher.
 double ViewerFeed::SendMesh(MappingStage& mapping) {
     if (viewer_ == nullptr || viewer_->meshes.size() >= viewer_->meshes.capacity()) return 0;
     Stopwatch watch;
@@ -24,8 +24,7 @@ double ViewerFeed::SendMesh(MappingStage& mapping) {
     return watch.LapMs();
 }
 
-// A person needs them twice a second at most; by the frames' stamps, so that lockstep sends the
-// same on every run.
+// At most twice a second, by the frames' stamps, so that lockstep sends the same on every run.
 void ViewerFeed::SendObjects(const MappingStage& mapping) {
     constexpr double kPeriod_s = 0.5;
     if (mapping.labels_revision() == objects_revision_ || !viewer_->objects.empty()) return;

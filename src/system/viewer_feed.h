@@ -1,5 +1,5 @@
-// Feeds the window from the thread that owns the map: meshes, objects and pictures, as fast as the
-// window takes them and no faster.
+// Feeds the window from the thread that owns the map: meshes, objects and images, only as fast as
+// the window takes them.
 #pragma once
 
 #include "system/mapping_stage.h"
@@ -7,18 +7,18 @@
 
 namespace tessera {
 
-// Owner thread only: the mapping stage's. Without a viewer it does nothing.
+// Owner thread only: the mapping stage's. Without a viewer, does nothing.
 class ViewerFeed {
   public:
-    // `mesh_blocks`: most blocks that one call may mesh.
+    // `mesh_blocks`: maximum number of blocks meshed per call.
     ViewerFeed(ViewerLink* viewer, int mesh_blocks) : viewer_(viewer), mesh_blocks_(mesh_blocks) {}
 
-    // After a frame; returns the milliseconds that meshing took.
+    // Call after each frame. Returns the meshing time in ms.
     double Send(const Frame& frame, const FrameReport& report, MappingStage& mapping);
-    // Whether pictures of the map are wanted along with the frame.
+    // Whether to send the predicted view of the map with the frame.
     void ShowPrediction(bool on) { show_prediction_ = on; }
 
-    // What changed since, of mesh and objects, also without a frame.
+    // Sends changes of the mesh and objects; also works without a frame.
     double SendMesh(MappingStage& mapping);
 
   private:

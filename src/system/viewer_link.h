@@ -1,6 +1,6 @@
-// All that passes between a running system and a person's window: what there is to see goes out,
-// what the person wants comes in. Values over bounded queues; neither side ever waits for the
-// other, and either may be gone.
+// Everything that passes between a running system and the viewer window: data to show goes out,
+// commands come in. Values over bounded queues. Neither side waits for the other, and either may be
+// absent.
 #pragma once
 
 #include <atomic>
@@ -23,28 +23,28 @@
 
 namespace tessera {
 
-// One frame as far as numbers go.
+// The numbers of one frame.
 struct FrameUpdate {
     FrameReport report;
     std::optional<Eigen::Isometry3d> T_world_camera_truth;  // in the map's world
     // Latency: from the frame's arrival to its pose.
     double decode_ms = 0, mesh_ms = 0, latency_ms = 0;
-    RunCounts counts;                                         // up to and with this frame
-    std::vector<std::pair<const char*, std::size_t>> queues;  // name and how many wait in it
+    RunCounts counts;                                         // up to and including this frame
+    std::vector<std::pair<const char*, std::size_t>> queues;  // queue name and length
     MapStatistics map;
-    // By a live source so far, because newer ones came.
+    // Frames dropped so far by a live source because newer ones arrived.
     std::int64_t dropped = 0;
 };
 
-// Pictures of one frame; large, so only the newest is kept.
+// Images of one frame. Large, so only the newest is kept.
 struct ImageUpdate {
     std::shared_ptr<const Frame> frame;        // never null
     std::shared_ptr<const MovingMask> moving;  // null: nothing moves
-    // The map from the frame's pose, smaller; null unless wanted.
+    // The map seen from the frame's pose, at lower resolution. Null unless requested.
     std::shared_ptr<const PredictedView> predicted;
 };
 
-// What the detector said of one frame.
+// The detector's result for one frame.
 struct LabelUpdate {
     struct Shown {
         DetectionBox box;  // pixels of the frame's colour image
@@ -52,47 +52,49 @@ struct LabelUpdate {
         float probability = 0;
         Rgb8 colour;  // of its class
     };
-    double stamp_s = 0;  // the frame's
+    double stamp_s = 0;  // of the frame
     double detect_ms = 0;
     std::vector<Shown> detections;
-    bool stopped = false;  // the detector broke and labelling is over; a message says why
+    // The detector failed and labelling has ended; a message gives the reason.
+    bool stopped = false;
 };
 
-// What a person asks for once.
+// One user command.
 struct ViewerCommand {
     enum class Kind {
         kPause,  // no further frames until kResume
         kResume,
         kStep,      // one frame, then pause
-        kReset,     // an empty map and trajectory; the next frame is the new world
+        kReset,     // clear the map and the trajectory; the next frame starts a new world
         kSaveMesh,  // to `path` (.ply)
-        kSaveScan,  // to `path` (.scan): all so far, and from now on as it goes
-        kRecord,    // keep the raw frames from now on, in `path`
+        kSaveScan,  // to `path` (.scan): everything so far, then continuously
+        kRecord,    // record the raw frames from now on, to `path`
         kStopRecording,
-        kStop,  // end the run, everything saved
+        kStop,  // end the run and save everything
     };
     Kind kind = Kind::kPause;
     std::string path;
 };
 
-// Made by the program, shared by the system's threads and the viewer's.
+// Created by the program. Shared by the system's threads and the viewer's.
 struct ViewerLink {
-    Wake viewer, system;  // who sleeps on what
+    Wake viewer, system;  // each side sleeps on its own
 
-    // System to viewer. Frames and messages: one thread pushes.
+    // System to viewer. One thread pushes frames and messages.
     NewestQueue<FrameUpdate> frames{256, viewer};
     NewestQueue<ImageUpdate> images{1, viewer};
-    FifoQueue<MeshUpdate> meshes{4, viewer};  // full: the changes wait at the mesher
-    // The thread that pushes frames.
+    FifoQueue<MeshUpdate> meshes{4, viewer};  // if full, changes stay in the mesher
+    // Pushed by the thread that pushes frames.
     NewestQueue<LabelUpdate> labels{64, viewer};
-    // All that there are, by number: the map's owner; at the end the other.
+    // All objects, by number. Pushed by the map's owner; at the end, by the thread that pushes
+    // frames.
     NewestQueue<std::vector<MapObject>> objects{1, viewer};
-    NewestQueue<std::string> messages{64, viewer};      // as a person reads them on the console
+    NewestQueue<std::string> messages{64, viewer};      // same text as on the console
     std::atomic<bool> ended{false};                     // the run is over and its files are written
-    std::atomic<bool> paused{false}, recording{false};  // as the system has obeyed
+    std::atomic<bool> paused{false}, recording{false};  // the state of the system
 
     // Viewer to system.
-    NewestQueue<ViewerSettings> settings{1, system};  // sent whole
+    NewestQueue<ViewerSettings> settings{1, system};  // all settings at once
     NewestQueue<ViewerCommand> commands{64, system};
 };
 

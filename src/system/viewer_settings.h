@@ -1,4 +1,4 @@
-// What a person may change while the system runs, in force from the next frame on.
+// Settings that the user can change during a run. They take effect at the next frame.
 #pragma once
 
 #include "system/tracking_method.h"
@@ -9,9 +9,9 @@ struct ViewerSettings {
     TrackingMethod method = TrackingMethod::kSdf;
     bool auto_alpha = true;
     double alpha = 0.03;     // m^2, unless auto_alpha
-    double max_depth_m = 5;  // farther measurements are left out
+    double max_depth_m = 5;  // farther measurements are ignored
     bool prealign = true;
-    bool fusing = true;           // off: track, but leave the map as it is
+    bool fusing = true;           // off: track without changing the map
     bool show_prediction = true;  // fill ImageUpdate::predicted
 };
 

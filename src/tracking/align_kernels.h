@@ -1,5 +1,5 @@
-// The prealignment's sums: the share of one point of the last image in what its intensity and its
-// depth say about the newest. AlignKernels works on lanes of points (scalar_lanes.h).
+// The prealignment's sums: what one point of the last image contributes, by its intensity and its
+// depth in the newest image. AlignKernels works on lanes of points (scalar_lanes.h).
 #pragma once
 
 #include "core/scalar_ops.h"
@@ -15,9 +15,9 @@ class AlignKernels {
     using Real = typename V::Real;
     using Mask = typename V::Mask;
 
-    // Adds what points [i, i + V::kCount) contribute to sums[], laid out as SumLayout with an
-    // offset but no gain. Weights are Huber's over the squared scale. kDistanceError has the sum of
-    // min((r / scale)^2, 4) over both kinds of residuals, kKnown their number.
+    // Adds the contributions of points [i, i + V::kCount) to sums[], laid out as SumLayout with an
+    // offset but no gain. Weights are Huber weights over the squared scale. kDistanceError holds
+    // the sum of min((r / scale)^2, 4) over both kinds of residuals, kKnown their number.
     TESSERA_HD_MEMBER static void AddPoints(const AlignArguments& a, int i, Real* sums) {
         const Projected<V> q = Project<V>(a, i);
         const Real z = V::Load(a.z + i), last = V::Load(a.intensity_of_point + i);

@@ -3,7 +3,7 @@
 namespace tessera {
 namespace {
 
-// What the found pose says about the residuals, and which sums are wanted.
+// Enters what depends on the found pose, and which sums to compute.
 void Enter(const FoundPose& found, const TrackResult& result, const ResidualModel& model,
            double distance_scale_m, ResidualArguments& a) {
     for (int i = 0; i < 3; ++i)
@@ -48,8 +48,8 @@ TrackResult Conclude(const TrackInput& input, const FoundPose& found, ResidualAr
         KnowledgeOf(information, judge.expected_within_m(), camera_local, found.scene_depth_m);
     result.uncertainty_m = knowledge.uncertainty_m;
 
-    // The prealignment leads, unless it is fooled: a hand that covers the view is an image that has
-    // jumped.
+    // The prealignment is the prior, unless it is fooled: a hand that covers the view looks like an
+    // image that has jumped.
     const Eigen::Isometry3d &T_world_moved = input.T_world_camera_starts.front(),
                             &T_world_aligned = input.T_world_camera_starts.back();
     const Eigen::Isometry3d& T_world_expected =

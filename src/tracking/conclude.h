@@ -1,5 +1,5 @@
-// What follows once a method has found a pose, the same for every method: how well the frame fits,
-// what it knows of its pose, and what it teaches.
+// The last step after a method has found a pose, the same for every method: evaluates how well the
+// frame fits and how well it constrains its pose, and updates the residual model.
 #pragma once
 
 #include <functional>
@@ -9,7 +9,7 @@
 
 namespace tessera {
 
-// As the sums of the finest level had it last. The local coordinates are those of the method's
+// The state at the last sums of the finest level. The local coordinates are those of the method's
 // increments.
 struct FoundPose {
     Eigen::Isometry3d T_world_local, T_local_camera;
@@ -19,12 +19,12 @@ struct FoundPose {
     int iterations = 0;
     PoseSums sums;
     SolverOptions options;    // of the last step
-    std::int64_t points = 0;  // with depth
-    bool valid = false;       // false: there is no such pose
+    std::int64_t points = 0;  // points with depth
+    bool valid = false;       // false: the method found no pose
 };
 
-// `residuals`: of the finest points (MakeResidualArguments). `sum`: SumResiduals, or a device that
-// has them. Owner thread only.
+// `residuals`: for the finest points (MakeResidualArguments). `sum`: SumResiduals, or a device that
+// holds the points. Owner thread only.
 TrackResult Conclude(const TrackInput& input, const FoundPose& found, ResidualArguments residuals,
                      const std::function<ResidualSums(const ResidualArguments&)>& sum,
                      double distance_scale_m, const TrackJudge& judge, ResidualModel& model);

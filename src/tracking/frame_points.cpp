@@ -11,7 +11,7 @@
 namespace tessera {
 namespace {
 
-// One of the frame's images, which may be on a device only.
+// One of the frame's images. Its pixels may be on a device only.
 PinholeImage WithCamera(const Image<float>& image, const PreparedFrame& frame,
                         const PinholeCamera& camera) {
     return {image.data(),

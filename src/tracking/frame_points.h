@@ -1,6 +1,6 @@
-// The points of one depth image, every `step`-th pixel in both directions, as the hot loop reads
-// them: one slot per sampled pixel, weight 0 where there is no depth. Slots are laid out row by
-// row, so that neighbours in the array are neighbours in the image.
+// The points of one depth image, at every `step`-th pixel in both directions, as the hot loop reads
+// them: one slot per sampled pixel, weight 0 where there is no depth. Slots are stored row by row,
+// so that neighbours in the array are neighbours in the image.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -13,34 +13,34 @@
 
 namespace tessera {
 
-// A point's weight: (1 m / depth)^exponent, at most that at nearest_m.
+// A point's weight: (1 m / depth)^exponent, limited to its value at nearest_m.
 struct DepthWeight {
     double exponent = 0, nearest_m = kNearestWeighed_m;
 };
 
-// Every step-th pixel's; intensities only if they are to be read and the frame has any. The images
-// stay the frame's.
+// Arguments for every step-th pixel. Includes intensities only if requested and if the frame has
+// any. Refers to the frame's images.
 PointArguments MakePointArguments(const PreparedFrame& frame, const PinholeCamera& camera,
                                   const FrameMotion& motion, int step, const DepthWeight& weight,
                                   bool intensities);
 
 class FramePoints {
   public:
-    // Points in the frame of the camera at the frame's instant, metres.
+    // Builds points in the camera frame at the frame's timestamp, metres.
     void Build(const PreparedFrame& frame, const PinholeCamera& camera, const FrameMotion& motion,
                int step, const DepthWeight& depth_weight);
-    // Reads the intensity of each point where the colour camera saw it at its own time; -1 where it
-    // saw nothing.
+    // Reads the intensity of each point where the colour camera saw it, at that camera's own time;
+    // -1 where it saw nothing.
     void SampleIntensity(const PreparedFrame& frame, const PinholeCamera& camera,
                          const FrameMotion& motion);
 
-    // The slots alone, for whoever fills them elsewhere; `valid` of them have a point. What the
-    // arrays hold is unspecified.
+    // Only lays out the slots, for points that are filled in elsewhere; `valid` of them have a
+    // point. The contents of the arrays are unspecified.
     void Lay(const PointArguments& arguments, std::int64_t valid);
 
-    // Normals of the measured surface in the camera frame, unit, towards the camera, from
+    // Normals of the measured surface, in the camera frame, unit, towards the camera, from
     // differences across radius_px pixels to each side ([D18] eq. 15 has radius 1, one-sided). A
-    // point without one, at a depth edge or a hole, loses its weight.
+    // point at a depth discontinuity or hole has no normal and loses its weight.
     void EstimateNormals(const PreparedFrame& frame, const PinholeCamera& camera, int radius_px);
 
     int width() const { return width_; }    // slots per row, a multiple of kPointPadding

@@ -1,5 +1,5 @@
-// What the ICP tracker's sums are told: the predicted view, the pose, the points and the energy, in
-// plain pointers and numbers, for the CPU's vector code and CUDA alike.
+// Arguments of the ICP tracker's sums: the predicted view, the pose, the points and the energy, as
+// plain pointers and numbers. Shared by the CPU's SIMD kernels and CUDA.
 #pragma once
 
 #include "tracking/view_arguments.h"
@@ -7,8 +7,8 @@
 namespace tessera {
 
 struct IcpArguments : ViewArguments {  // the image is the predicted view
-    const float* normal;               // three a pixel, unit
-    // Of the points; weight 0: no point.
+    const float* normal;               // three per pixel, unit
+    // The points; weight 0: no point.
     const float* normal_x;
     const float* normal_y;
     const float* normal_z;
@@ -20,11 +20,11 @@ struct IcpArguments : ViewArguments {  // the image is the predicted view
     float alpha;
     float gain, offset;
     float inlier_distance_m;  // for SumLayout::kInliers
-    // Residuals per point, NaN where there is none: those here, and (null at first) those at the
-    // pose before.
+    // Residuals per point, NaN where there is none: at this pose, and at the previous one (null at
+    // first).
     float* distance_residual;
     float* intensity_residual;
-    float* gradient[3];  // of the distances: the partner's normal
+    float* gradient[3];  // of the distances: the associated pixel's normal
     const float* distance_before;
     const float* intensity_before;
 };

@@ -1,6 +1,6 @@
-// The ICP tracker's sums: one point's share of [D18] eq. 17 and of its photometric companion. The
-// formulas beyond those of normal_equations.h are templates on the number type; IcpKernels puts
-// them together for lanes of points (scalar_lanes.h), for the CPU's vectors and CUDA alike.
+// The ICP tracker's sums: one point's contribution to [D18] eq. 17 and to the photometric term.
+// Formulas that normal_equations.h does not have are templates on the number type. IcpKernels
+// combines them for lanes of points (scalar_lanes.h), for the CPU's SIMD kernels and CUDA.
 #pragma once
 
 #include <limits>
@@ -20,7 +20,7 @@ TESSERA_HD F HuberCost(const F& residual, const F& scale) {
     return inner * (size + size - inner);
 }
 
-// The sums of lanes V of points.
+// The sums for lanes V of points.
 template <class V>
 class IcpKernels {
   public:
@@ -28,8 +28,8 @@ class IcpKernels {
     using Int = typename V::Int;
     using Mask = typename V::Mask;
 
-    // Adds what points [i, i + V::kCount) contribute to sums[], laid out as SumLayout, and writes
-    // their residuals.
+    // Adds the contributions of points [i, i + V::kCount) to sums[], laid out as SumLayout, and
+    // writes their residuals.
     TESSERA_HD_MEMBER static void AddPoints(const IcpArguments& a, int i, Real* sums) {
         const Real weight = V::Load(a.weight + i);
         const Projected<V> q = Project<V>(a, i);
@@ -48,7 +48,7 @@ class IcpKernels {
         return V::Select(m, v, Real(0.0f));
     }
 
-    // Stores the residuals and adds their energy and the energy before where both exist.
+    // Stores the residuals. Adds their energy and the previous energy, where both exist.
     TESSERA_HD_MEMBER static void AddEnergy(float* target, const float* before, int i,
                                             const Mask& valid, const Real& residual,
                                             const Real& scale, const Real& weight, Real* sums) {
@@ -62,8 +62,8 @@ class IcpKernels {
         Add(sums, L::kEnergyBefore, Masked(both, weight * HuberCost(old, scale)));
     }
 
-    // [D18] eq. 17-18: the residual to the tangent plane of the pixel's surface. Returns where
-    // there is a partner.
+    // [D18] eq. 17-18: the point-to-plane residual at the associated pixel. Returns which points
+    // have an association.
     TESSERA_HD_MEMBER static Mask AddDistance(const IcpArguments& a, int i, const Projected<V>& q,
                                               const Real& weight, Real* sums) {
         const Real u = V::Floor(q.u + Real(0.5f)), v = V::Floor(q.v + Real(0.5f));
@@ -101,7 +101,7 @@ class IcpKernels {
         return matched;
     }
 
-    // The same pixel's colour: r = predicted(projection of p) - (gain * image + offset).
+    // The photometric residual: r = predicted(projection of p) - (gain * image + offset).
     TESSERA_HD_MEMBER static void AddIntensity(const IcpArguments& a, int i, const Projected<V>& q,
                                                const Mask& matched, const Real& weight,
                                                Real* sums) {

@@ -1,4 +1,4 @@
-// The predicted view as the ICP tracker aligns with it: levels of half the size each.
+// The predicted view as a pyramid for the ICP tracker; each level has half the size of the last.
 #pragma once
 
 #include <vector>
@@ -12,22 +12,21 @@ namespace tessera {
 
 struct IcpModelLevel {
     PinholeCamera camera;
-    DepthImage depth_m;  // 0 where nothing is
+    DepthImage depth_m;  // 0 where there is no surface
     Image<Eigen::Vector3f> normal_camera;
-    Image<float> intensity;  // -1 where there is none, and beside jumps of the depth
+    Image<float> intensity;  // -1 where there is none, and beside depth discontinuities
 };
 
-// The camera of an image of half the size: its pixel i lies between the pixels 2 i and 2 i + 1 of
-// the fine one.
+// The camera of an image of half the size. Its pixel i lies between pixels 2 i and 2 i + 1 of the
+// fine image.
 PinholeCamera HalfOf(const PinholeCamera& fine);
 
-// Level 0 is the view; each further one holds means of two by two pixels where these are one
-// surface. Neighbours whose depths differ by more than jump_m are not. Storage in `levels` is used
-// again.
+// Level 0 is the view. Each further level holds means of two by two pixels that belong to one
+// surface; pixels whose depths differ by more than jump_m do not. Reuses the storage of `levels`.
 void BuildIcpModel(const PredictedView& view, int count, float jump_m,
                    std::vector<IcpModelLevel>& levels);
 
-// As the sums take it; its images are empty where a device has them.
+// Enters a level into the arguments. Its images are empty if a device has them.
 void SetModel(const IcpModelLevel& model, IcpArguments& arguments);
 
 }  // namespace tessera

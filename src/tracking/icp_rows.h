@@ -1,9 +1,9 @@
 // The hot loop of the ICP tracker behind plain pointers: projective association with the predicted
-// view and the normal equations, over a run of points. Compiled twice (portable, AVX2);
-// icp_tracker.cpp picks. No Eigen here.
+// view and the normal equations, over a range of points. Compiled twice (portable, AVX2);
+// icp_tracker.cpp selects the version. No Eigen here.
 //
-// Which points have partners changes with the pose. So that a step can be judged, energies are
-// summed over the residuals that exist at both poses.
+// The set of associated points changes with the pose. To judge a step, energies are summed over the
+// residuals that exist at both poses.
 #pragma once
 
 #include "tracking/icp_arguments.h"
@@ -11,8 +11,8 @@
 
 namespace tessera {
 
-// Adds the sums (SumLayout) over points [first, last), from a multiple of kTileItems to one of
-// kPointPadding, to sums[]. The same bytes on either path.
+// Adds the sums (SumLayout) over points [first, last) to sums[]. `first` is a multiple of
+// kTileItems, `last` of kPointPadding. Both versions give the same bytes.
 namespace baseline {
 void SumIcpPoints(const IcpArguments& arguments, int first, int last, double* sums);
 }

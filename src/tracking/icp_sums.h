@@ -1,5 +1,5 @@
-// Where the ICP tracker's view is predicted and its sums over points are taken, if not by the
-// processor: on a device that keeps the map.
+// Interface for predicting the ICP tracker's view and taking its sums outside the CPU, on a device
+// that holds the map.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -19,27 +19,25 @@ class IcpSums {
   public:
     virtual ~IcpSums() = default;
 
-    // The model that the next points are held against: as many levels as BuildIcpModel makes of
-    // what RayCaster predicts. The view is valid until somebody has another one predicted on the
-    // same device.
+    // Predicts the model for the next points: as many levels as BuildIcpModel makes of the view
+    // that RayCaster predicts. The view is valid until another one is predicted on the same device.
     virtual void Predict(const BlockMap& map, const PinholeCamera& camera,
                          const Eigen::Isometry3d& T_world_camera, float min_depth_m,
                          float max_depth_m, int levels, float jump_m) = 0;
-    // The same where the processor predicted it.
+    // The same for a model that the CPU predicted.
     virtual void SetModel(const std::vector<IcpModelLevel>& levels) = 0;
-    // The points that the next calls of Sum go over, and the level of the model that belongs to
-    // them: those of MakePointArguments' `points` of this frame with normals, in FramePoints' slots
-    // and with its bytes. How many have a weight; 0 also where there is no room. Nothing is kept
-    // yet.
+    // Sets the points for the next calls of Sum, and their level of the model: the points of
+    // MakePointArguments for this frame, with normals, in the slots of FramePoints and with its
+    // bytes. Returns how many have a weight; 0 also if there is no room. No residuals are kept yet.
     virtual std::int64_t SetPoints(const PreparedFrame& frame, const PointArguments& points,
                                    int level) = 0;
-    // What SumIcpPoints gives over all of them. Of the arguments no arrays are read; the energies
-    // are compared with the kept residuals where distance_before is not null.
+    // Gives the sums of SumIcpPoints over all points. Reads no arrays of `arguments`. Compares
+    // energies with the kept residuals if distance_before is not null.
     virtual PoseSums Sum(const IcpArguments& arguments) = 0;
-    // The last Sum's residuals are those to compare with from here on.
+    // Keeps the last Sum's residuals for comparison from here on.
     virtual void KeepResiduals() = 0;
-    // What SumResiduals gives of the points, the kept residuals and the frame. Of the arguments no
-    // arrays are read.
+    // Gives the result of SumResiduals for the points, the kept residuals and the frame. Reads no
+    // arrays of `arguments`.
     virtual ResidualSums SumResiduals(const ResidualArguments& arguments) = 0;
 };
 

@@ -9,7 +9,8 @@
 namespace tessera {
 namespace {
 
-// Of the energy, as predicted: less is converged, and whether it falls is left to rounding.
+// Fraction of the energy. A smaller predicted decrease counts as converged, because rounding would
+// decide whether the energy falls.
 constexpr double kLeastFall = 1e-6;
 constexpr double kAnotherView_m = 0.15, kAnotherView_rad = 0.15;
 constexpr double kIntensityGateScales = 5.0;
@@ -79,7 +80,7 @@ TrackResult IcpTracker::Track(const TrackInput& input) {
         config_.distance_scale_m, judge_, residual_model_);
 }
 
-// The view that the frame is aligned with. The camera's pose is sought in its frame.
+// Predicts the view that the frame is aligned with. The camera's pose is estimated in its frame.
 void IcpTracker::PredictAt(const TrackInput& input, const Eigen::Isometry3d& T_world_view,
                            State& state) {
     constexpr float kNear_m = 0.1f, kMargin_m = 0.5f;
@@ -103,8 +104,8 @@ void IcpTracker::PredictAt(const TrackInput& input, const Eigen::Isometry3d& T_w
                      jump_m);
 }
 
-// The start that fits best on the coarsest level. A view from elsewhere would show another part of
-// the map, so it is predicted again where the choice lies far from the first.
+// Chooses the start that fits best on the coarsest level. If it lies far from the predicted view,
+// predicts the view again, because it would show another part of the map.
 void IcpTracker::ChooseStart(const TrackInput& input, State& state) {
     const auto& starts = input.T_world_camera_starts;
     if (starts.size() < 2) return;
@@ -134,7 +135,7 @@ void IcpTracker::ChooseStart(const TrackInput& input, State& state) {
 void IcpTracker::PrepareLevel(const TrackInput& input, int level, State& state) {
     FramePoints& points = points_[static_cast<std::size_t>(level)];
     state.motion = use_colour_ ? residual_model_.Timed(input.motion) : input.motion;
-    if (input.since_last_s > 0)  // the velocity of the last interval, as far as this level knows it
+    if (input.since_last_s > 0)  // velocity since the last frame, at the present estimate
         state.motion.twist_per_s = Se3Log(input.T_world_camera_last.inverse() *
                                           view_.T_world_camera * state.T_view_camera) /
                                    input.since_last_s;
@@ -173,7 +174,7 @@ void IcpTracker::PrepareLevel(const TrackInput& input, int level, State& state) 
         residuals->Resize(points.count());
 }
 
-// At the state's pose and brightness.
+// Sums at the state's pose and brightness.
 PoseSums IcpTracker::SumAt(const FramePoints& points, Compare compare, State& state) {
     IcpArguments& a = state.arguments;
     SetPose(state.T_view_camera, a);
@@ -194,7 +195,7 @@ PoseSums IcpTracker::SumAt(const FramePoints& points, Compare compare, State& st
     });
 }
 
-// The last sum's.
+// Keeps the residuals of the last sum.
 void IcpTracker::KeepResiduals() {
     if (device_ != nullptr) return device_->KeepResiduals();
     std::swap(residuals_, trial_residuals_);
@@ -232,7 +233,7 @@ void IcpTracker::RunLevel(int level, State& state) {
     state.T_view_camera = Normalised(state.T_view_camera);
 }
 
-// Takes the step only if the energy falls and most points keep their partners.
+// Takes the step only if the energy falls and at least half of the inliers remain.
 void IcpTracker::TakeStep(const FramePoints& points, State& state) {
     State trial = state;
     trial.T_view_camera = Se3Exp(state.step.increment) * state.T_view_camera;

@@ -38,9 +38,9 @@ class IcpTracker : public Tracker {
         void Describe(ConfigParameters& parameters);
     };
 
-    // `model` outlives the tracker. Without `use_colour` it tracks by geometry alone. `device`
-    // outlives it, too; null sums here. `predictor` may be null where there is a device, which then
-    // predicts.
+    // `model` must outlive the tracker. Without `use_colour` it tracks by geometry alone. `device`
+    // must also outlive it; null takes the sums on the CPU. `predictor` may be null if there is a
+    // device, which then predicts.
     IcpTracker(const Config& config, const PinholeCamera& camera, const TrackJudge& judge,
                ResidualModel& model, bool use_colour, std::unique_ptr<ViewPredictor> predictor,
                VectorPath path = VectorPath::kAuto, IcpSums* device = nullptr);
@@ -48,13 +48,13 @@ class IcpTracker : public Tracker {
     TrackResult Track(const TrackInput& input) override;
 
   private:
-    struct State;  // of one call
+    struct State;  // of one call to Track
 
     void PredictAt(const TrackInput& input, const Eigen::Isometry3d& T_world_view, State& state);
     void ChooseStart(const TrackInput& input, State& state);
     void PrepareLevel(const TrackInput& input, int level, State& state);
     void RunLevel(int level, State& state);
-    enum class Compare { kWithNothing, kWithKept };  // energies, with those of the residuals
+    enum class Compare { kWithNothing, kWithKept };  // energies with those of the kept residuals
     PoseSums SumAt(const FramePoints& points, Compare compare, State& state);
     void KeepResiduals();
     void TakeStep(const FramePoints& points, State& state);
@@ -67,11 +67,12 @@ class IcpTracker : public Tracker {
     std::unique_ptr<ViewPredictor> predictor_;
     bool use_avx2_;
     IcpSums* device_;
-    // With a device that predicts: camera and pose only, as the model's levels.
+    // With a device that predicts: camera and pose only; the same for the levels of model_.
     PredictedView view_;
-    std::vector<IcpModelLevel> model_;            // per level
-    std::vector<FramePoints> points_;             // per level
-    PointResiduals residuals_, trial_residuals_;  // of a level: those kept, and the last sum's
+    std::vector<IcpModelLevel> model_;  // per level
+    std::vector<FramePoints> points_;   // per level
+    // of one level: the kept ones, and those of the last sum
+    PointResiduals residuals_, trial_residuals_;
 };
 
 }  // namespace tessera

@@ -16,17 +16,19 @@ namespace {
 
 constexpr float kIntensityScale = 0.04f, kDepthScale_m = 0.05f, kMostDepthError_m = 0.3f;
 constexpr double kUsual = 1.3, kUsualShare = 0.1, kClearlyBetter = 0.7;
-// Per level; motions that the images tell less well are left as guessed.
+// Per level. Motions that the images constrain less well keep the guess.
 constexpr double kHeld_m[] = {0.02, 0.01};
 
 }  // namespace
 
 void ImageAligner::Config::Describe(ConfigParameters& p) {
     p.Add("enabled", enabled,
-          "find a second start for the tracker from the frame before: helps fast motion");
-    p.Add("iterations", iterations, {1, 100}, "", "most steps on each of the two reduced levels");
+          "align with the previous frame to find another start for the tracker; helps with fast "
+          "motion");
+    p.Add("iterations", iterations, {1, 100}, "",
+          "maximum number of steps on each of the two reduced levels");
     p.Add("starts", starts, {0, 16}, "",
-          "best matches of an exhaustive search over rotations that are tried, too");
+          "number of best matches of an exhaustive search over rotations that are also tried");
 }
 
 ImageAligner::ImageAligner(const Config& config, const PinholeCamera& camera, VectorPath path)
@@ -77,7 +79,7 @@ bool ImageAligner::LoadState(StateReader& state) {
     return true;
 }
 
-// The pixels of `level` as points, for the frame that comes next.
+// Converts the pixels of `level` to points, to be aligned with the next frame.
 void ImageAligner::MakePoints(Level& level) {
     const PinholeCamera& c = level.camera;
     const auto pixels = static_cast<std::size_t>(c.width * c.height);
@@ -94,8 +96,8 @@ void ImageAligner::MakePoints(Level& level) {
         }
 }
 
-// Residuals of the last frame's points in the current images; increments multiply T_current_last
-// from the left.
+// The residuals of the last frame's points in the current images. Increments multiply
+// T_current_last from the left.
 ImageSystem ImageAligner::Linearise(const Level& last, const Level& current,
                                     const Eigen::Isometry3d& T_current_last, double offset) const {
     AlignArguments a{};
@@ -166,8 +168,8 @@ Eigen::Isometry3d ImageAligner::Align(const PreparedFrame& frame,
         usual_score_ += kUsualShare * (score - usual_score_);
         return best;
     }
-    // Not as good as usual: look farther. A far start must be clearly better, or a pattern that
-    // repeats would do.
+    // The score is worse than usual: search farther. A distant start must be clearly better,
+    // because a repeating pattern could also match.
     double best_score =
         score < std::numeric_limits<double>::infinity() ? kClearlyBetter * score : score;
     for (const Eigen::Vector3d& turn : SearchRotations(last_[0].intensity, current_[0].intensity,

@@ -1,7 +1,7 @@
-// Aligns a frame with the one before it on heavily reduced images: intensity and depth together,
-// all six motions. Not accurate, but it finds fast motions that the field's narrow band and the
-// texture's small basin would miss; trackers take its answer as one more start, beside the motion
-// model's.
+// Aligns a frame with the previous one on strongly reduced images: intensity and depth together,
+// six degrees of freedom. Not accurate, but it finds fast motions outside the small convergence
+// basins of the field's narrow band and of the texture. Trackers use its result as one more start,
+// beside that of the motion model.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -32,27 +32,26 @@ class ImageAligner {
     ImageAligner(const Config& config, const PinholeCamera& camera,
                  VectorPath path = VectorPath::kAuto);
 
-    // Takes `frame` as the newest and aligns it with the one kept before. `T_last_current_guess` is
-    // where to start. The result is T_last_current; the guess itself if there is nothing to align.
-    // Owner thread only.
+    // Takes `frame` as the newest and aligns it with the kept frame, starting from
+    // `T_last_current_guess`. Returns T_last_current, or the guess itself if there is nothing to
+    // align. Owner thread only.
     Eigen::Isometry3d Align(const PreparedFrame& frame,
                             const Eigen::Isometry3d& T_last_current_guess);
-    // Whether the newest frame is kept, as it is without a word, to align the next one with. False:
-    // where it was taken is not known, and the next one is aligned with the frame that this one was
-    // aligned with.
+    // Whether to keep the newest frame for aligning the next one (the default). Pass false if its
+    // pose is unknown. The next frame is then aligned with the same frame as this one.
     void KeepNewest(bool keep) { keep_newest_ = keep; }
     void Clear();
-    // The kept frame, reduced; 48 KB at 4:3.
+    // The state is the kept frame, reduced; 48 KB at 4:3.
     void SaveState(StateWriter& state) const;
     bool LoadState(StateReader& state);
-    // In place of the configuration's.
+    // Overrides the configuration.
     void Enable(bool on) {
         config_.enabled = on;
         if (!on) Clear();
     }
 
   private:
-    // One reduced image, and AlignArguments' points of it.
+    // One reduced image, and its points for AlignArguments.
     struct Level : PreparedFrame::Reduced {
         PinholeCamera camera;
         std::vector<float> x, y, z, intensity_of_point;

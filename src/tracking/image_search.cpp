@@ -9,12 +9,13 @@
 namespace tessera {
 namespace {
 
-constexpr int kReach_px = 9;  // at 40 x 30 and a Kinect's focal length 1.75 degrees each, 16 in all
+// 1.75 degrees each, 16 in all, at 40 x 30 and a Kinect's focal length
+constexpr int kReach_px = 9;
 constexpr int kShifts = 2 * kReach_px + 1;
 constexpr std::array<double, 3> kRolls_rad = {0.0, -0.1, 0.1};
 constexpr double kLeastOverlap = 0.4;
 
-// The image turned about the camera's optical axis by `roll_rad`; -1 where nothing lands.
+// The image rotated about the optical axis by `roll_rad`; -1 where nothing lands.
 Image<float> Roll(const Image<float>& image, const PinholeCamera& camera, double roll_rad) {
     if (roll_rad == 0) return image;
     Image<float> out(image.width(), image.height(), -1.0f);
@@ -34,7 +35,7 @@ Image<float> Roll(const Image<float>& image, const PinholeCamera& camera, double
     return out;
 }
 
-// Variance of current(x + dx, y + dy) - last(x, y): the mean, a change of exposure, drops out.
+// Variance of current(x + dx, y + dy) - last(x, y). The mean, a change of exposure, drops out.
 double DifferenceVariance(const Image<float>& last, const Image<float>& current, int dx, int dy) {
     float sum = 0, sum2 = 0, n = 0;
     for (int y = std::max(0, -dy); y < last.height() + std::min(0, -dy); ++y) {
@@ -83,7 +84,7 @@ std::vector<Eigen::Vector3d> SearchRotations(const Image<float>& last, const Ima
         if (!near_better) best.push_back(c);
     }
     std::vector<Eigen::Vector3d> rotations;
-    for (const Candidate& c : best)  // a turn by +y moves the image to the right, by +x up
+    for (const Candidate& c : best)  // a rotation by +y moves the image right, by +x up
         rotations.emplace_back(-c.dy / camera.fy, c.dx / camera.fx,
                                kRolls_rad[static_cast<std::size_t>(c.roll)]);
     return rotations;

@@ -1,6 +1,6 @@
-// The normal equations of aligning one reduced image with another, made of AlignKernels' sums: six
-// motions and an offset of the intensity. Eigenvalues of the Hessian are inverse variances for
-// errors as large as the residuals' scales.
+// The normal equations for aligning one reduced image with another, from the sums of AlignKernels:
+// six degrees of freedom and an intensity offset. The Hessian's eigenvalues are inverse variances
+// for errors as large as the residuals' scales.
 #pragma once
 
 #include <Eigen/Eigenvalues>
@@ -31,8 +31,8 @@ class ImageSystem {
         Vector6d twist;
         double offset;
     };
-    // The Gauss-Newton step. Along motions of the camera that are known less well than to `held_m`,
-    // a turn counting by how far it moves what is `scene_depth_m` away, it is zero.
+    // The Gauss-Newton step. It is zero along camera motions whose standard deviation exceeds
+    // `held_m`. A rotation counts by how far it moves a point at `scene_depth_m`.
     Step Solve(double scene_depth_m, double held_m) const {
         Vector6d to_metres = Vector6d::Ones();
         to_metres.head<3>() /= std::max(scene_depth_m, 0.1);
@@ -50,7 +50,7 @@ class ImageSystem {
         return {twist, -(offset_g_ + by_offset_.dot(twist)) / offset_H_};
     }
 
-    // A robust mean; few residuals mean little overlap, which is no merit.
+    // A robust mean. Few residuals mean little overlap and are penalised.
     double Score() const {
         return residuals_ > 100 ? error_ / residuals_ + 200.0 / residuals_
                                 : std::numeric_limits<double>::infinity();

@@ -1,5 +1,5 @@
-// Whether a step of Levenberg-Marquardt is taken and how the damping goes on: Nielsen's rule on the
-// gain ratio, the energy's fall over the predicted one.
+// Acceptance of Levenberg-Marquardt steps and the damping: Nielsen's rule on the gain ratio, the
+// decrease of the energy over the predicted one.
 #pragma once
 
 #include <algorithm>
@@ -11,8 +11,8 @@ class LevenbergMarquardt {
   public:
     double damping() const { return damping_; }  // SolverOptions::damping
 
-    // A step is taken only if the energy falls by it; the damping then eases with a good gain
-    // ratio, else it grows faster and faster.
+    // Accepts a step only if it decreases the energy. The damping then falls with a good gain
+    // ratio; otherwise it grows faster and faster.
     bool Accept(double fall, double predicted_fall) {
         if (!(fall > 0)) {
             damping_ = std::max(damping_, kLeastAfterFailure) * growth_;
@@ -26,7 +26,7 @@ class LevenbergMarquardt {
     }
 
   private:
-    static constexpr double kFirst = 1e-6;  // close to Gauss-Newton, which mostly works
+    static constexpr double kFirst = 1e-6;  // close to Gauss-Newton, which usually works
     static constexpr double kLeastAfterFailure = 1e-4, kGrowth = 2.0;
     double damping_ = kFirst, growth_ = kGrowth;
 };

@@ -1,6 +1,6 @@
-// What IcpModel makes of a predicted view, one pixel at a time. Host-device, shared by the CPU and
-// CUDA. Images row by row: depth in metres, 0 where nothing is; three floats of normal a pixel;
-// intensity < 0 where there is none.
+// Computes the levels of IcpModel from a predicted view, one pixel at a time. Host-device, shared
+// by the CPU code and CUDA. Images are stored row by row: depth in metres, 0 where there is no
+// surface; three floats of normal per pixel; intensity < 0 where there is none.
 #pragma once
 
 #include <cmath>
@@ -21,8 +21,8 @@ struct ModelImages {
     const float* intensity;
     int width, height;
 
-    // Whether (x, y) is at the border of a surface: it has no depth, or a neighbour has none or
-    // differs by more than jump_m. Colours are not to be trusted there.
+    // Whether (x, y) is at a depth discontinuity: it has no depth, or a neighbour has none or
+    // differs by more than jump_m. Colours are unreliable there.
     TESSERA_HD_MEMBER bool AtEdge(int x, int y, float jump_m) const {
         const float* here = depth_m + y * width + x;
         const float z = *here;
@@ -32,12 +32,12 @@ struct ModelImages {
                (y + 1 < height && Jumps(z, here[width], jump_m));
     }
 
-    // The intensity where it is to be trusted, else -1.
+    // The intensity where it is reliable, else -1.
     TESSERA_HD_MEMBER float TrustedIntensity(int x, int y, float jump_m) const {
         return AtEdge(x, y, jump_m) ? -1.0f : intensity[y * width + x];
     }
 
-    // The pixel (x, y) of an image of half the size: the mean of four, where they are of one
+    // Pixel (x, y) of an image of half the size: the mean of four pixels, if they belong to one
     // surface.
     TESSERA_HD_MEMBER ModelPixel Halved(int x, int y, float jump_m) const {
         const int first = 2 * y * width + 2 * x;
@@ -62,7 +62,7 @@ struct ModelImages {
     TESSERA_HD_MEMBER static bool Jumps(float here, float there, float jump_m) {
         return there <= 0 || abs(there - here) > jump_m;
     }
-    // Of one channel of four pixels.
+    // The sum of one channel over four pixels.
     TESSERA_HD_MEMBER static float Sum(const float* image, const int* at, int channels,
                                        int channel) {
         const auto value = [&](int k) { return image[channels * at[k] + channel]; };

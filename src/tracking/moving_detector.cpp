@@ -10,8 +10,8 @@ namespace tessera {
 namespace {
 
 using Marks = Image<std::uint8_t>;
-constexpr int kTileColumns = 128;  // about so many
-constexpr double kSpacing = 0.1;   // of remembered moments, in windows
+constexpr int kTileColumns = 128;  // approximately
+constexpr double kSpacing = 0.1;   // between remembered frames, in windows
 constexpr float kNearest_m = 0.1f;
 constexpr int kAround = 2, kExpectedAround = 3;  // tiles
 
@@ -91,7 +91,7 @@ void MovingDetector::Guide(const MovingHint& hint, float disparity_offset_per_m,
                            const std::optional<Eigen::Isometry3d>& T_world_camera) {
     TileView& view = memory_->hint;
     view.stamp_s = hint.stamp_s;
-    // Find knows better.
+    // If unknown, Find sets the pose.
     view.T_world_camera = T_world_camera.value_or(Eigen::Isometry3d::Identity());
     MakeTiles(hint.depth_m, step_, disparity_offset_per_m, view.depth_m);
 }
@@ -106,23 +106,22 @@ void MovingDetector::Clear() { *memory_ = {}; }
 
 void MovingDetector::Config::Describe(ConfigParameters& p) {
     p.Add("enabled", enabled,
-          "people and other moving things are neither tracked on nor fused (docs/moving.md); off "
-          "where nothing moves saves a twentieth of a frame");
+          "exclude people and other moving objects from tracking and fusion (docs/moving.md); "
+          "switch off in static scenes to save a twentieth of the time per frame");
     p.Add("window_s", window_s, {0.1, 10.0}, "s",
-          "what has stood still for so long belongs to the scene: shorter takes a moved chair in "
-          "sooner, longer bears slower movers");
+          "whatever has stood still for this long belongs to the scene; a shorter window accepts a "
+          "moved chair sooner, a longer one copes with slower movers");
     p.Add("margin_m", margin_m, {0.005, 1.0}, "m",
-          "depths nearer to each other than this plus margin_per_m times the squared depth are the "
-          "same: the sensor's noise and "
-          "the pose's");
+          "depths that differ by less than this plus margin_per_m times the squared depth count as "
+          "equal; covers sensor noise and pose errors");
     p.Add("margin_per_m", margin_per_m, {0.0, 0.1}, "1/m",
-          "see margin_m; 0.01 is three times a structured-light sensor's noise");
-    p.Add("min_area_m2", min_area_m2, {0.0, 10.0}, "m^2", "smaller regions do not count");
+          "see margin_m; 0.01 is three times the noise of a structured-light sensor");
+    p.Add("min_area_m2", min_area_m2, {0.0, 10.0}, "m^2", "smaller regions are ignored");
     p.Add("min_changed_fraction", min_changed_fraction, {0.01, 1.0}, "",
-          "share of a region that must have changed within window_s for it to count as moving");
+          "fraction of a region that must have changed within window_s for it to count as moving");
     p.Add("min_fitting_fraction", min_fitting_fraction, {0.0, 1.0}, "",
-          "nothing is taken for moving unless such a share of the rest fits the map: else the pose "
-          "is wrong");
+          "nothing counts as moving unless this fraction of the rest fits the map; otherwise the "
+          "pose is wrong");
 }
 
 }  // namespace tessera

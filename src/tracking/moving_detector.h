@@ -1,5 +1,5 @@
-// Finds what moves in a frame that was tracked: what stands where another moment of the last second
-// saw free space, and what hangs together with it before the map's surface. docs/moving.md has the
+// Finds moving objects in a tracked frame: what stands where an earlier frame of the last second
+// saw free space, and what is connected to it in front of the map's surface. docs/moving.md has the
 // rule and its reasons.
 #pragma once
 
@@ -14,7 +14,7 @@ namespace tessera {
 
 struct MovingMemory;
 
-// Owner thread only; TBB inside, the same result for any number of threads.
+// Owner thread only; uses TBB internally and gives the same result for any number of threads.
 class MovingDetector {
   public:
     struct Config {
@@ -29,10 +29,10 @@ class MovingDetector {
         void Describe(ConfigParameters& parameters);
     };
 
-    // What the detector is told besides the map.
+    // The detector's input besides the map.
     struct Input {
-        const DepthImage& depth_m;         // as the camera gave it
-        float disparity_offset_per_m = 0;  // to correct it by
+        const DepthImage& depth_m;         // as measured by the camera
+        float disparity_offset_per_m = 0;  // for the correction of depth_m
         float farthest_m = 5;              // the map holds nothing beyond
         double stamp_s = 0;
         Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity();
@@ -41,30 +41,30 @@ class MovingDetector {
     MovingDetector(const Config& config, const PinholeCamera& camera);
     ~MovingDetector();
 
-    // Null: nothing moves, and nothing of the map has gone. The map is asked, by `predictor`, only
-    // where two moments differ.
+    // Returns null if nothing moves and no surface of the map has disappeared. Queries the map,
+    // through `predictor`, only where two frames differ.
     std::shared_ptr<const MovingMask> Find(const Input& input, const BlockMap& map,
                                            ViewPredictor& predictor);
-    // What was found to move in the frame before, where a camera there would see it, and somewhat
-    // around: not to be tracked on. Null: nothing.
+    // The moving regions of the previous frame, as seen by a camera at this pose, with a margin.
+    // Tracking must skip them. Null if there are none.
     std::shared_ptr<const MovingMask> Expect(double stamp_s,
                                              const Eigen::Isometry3d& T_world_camera) const;
 
-    // What a detector says: it moves, however still it stands, until the window is over or the next
-    // hint comes. Of the frame that is given to Expect and Find next, or of an earlier one, which
-    // was tracked to T_world_camera.
+    // Takes a detector's hint. What it marks counts as moving, even if it stands still, until the
+    // window is over or the next hint arrives. The hint is for the next frame given to Expect and
+    // Find, or for an earlier frame that was tracked to T_world_camera.
     void Guide(const MovingHint& hint, float disparity_offset_per_m,
                const std::optional<Eigen::Isometry3d>& T_world_camera);
 
-    // The map was moved, the camera with it.
+    // Call this when the map is moved, and the camera with it.
     void Move(const Eigen::Isometry3d& T_new_old);
-    // Forgets the last second: where the camera is now says nothing of where it was.
+    // Forgets the last second. Call this when the camera's pose is unrelated to its earlier ones.
     void Clear();
 
   private:
     Config config_;
     int step_;
-    PinholeCamera camera_;  // the tiles'
+    PinholeCamera camera_;  // of the tile images
     std::unique_ptr<MovingMemory> memory_;
 };
 

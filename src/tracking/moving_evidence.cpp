@@ -13,18 +13,19 @@ namespace tessera {
 namespace {
 
 using Marks = Image<std::uint8_t>;
-constexpr double kAges[] = {0.3, 1.0};  // of the moments that a frame is compared with, in windows
-constexpr double kOld = 0.8;            // the same: what stood there so long ago stands still
-// An image is spread over about so much: blur, rolling shutter, stamps.
+constexpr double kAges[] = {0.3, 1.0};  // of the frames to compare with, in windows
+constexpr double kOld = 0.8;            // in windows; what stood there this long ago stands still
+// Approximate time over which an image is spread: blur, rolling shutter, timestamp errors.
 constexpr double kImageTime_s = 0.015;
-constexpr double kBody_m = 0.6;              // what hangs together reaches so far
+constexpr double kBody_m = 0.6;              // maximum reach of a connected body
 constexpr int kBeside = 4, kBesideHint = 1;  // tiles
 
 void Join(const Marks& more, Marks& marks) {
     for (std::size_t i = 0; i < marks.size(); ++i) marks.data()[i] |= more.data()[i];
 }
 
-// As if its edges had moved by so many tiles more: what it is compared with has edges that did.
+// Blurs the edges of `view` by this many more tiles, as many as those of the view it is compared
+// with.
 const TileView& Blurred(const TileView& view, int more, TileView& storage) {
     if (more == 0) return view;
     storage = view;
@@ -35,7 +36,7 @@ const TileView& Blurred(const TileView& view, int more, TileView& storage) {
 
 }  // namespace
 
-// Where a camera sees what a detector said to move. Empty: nothing was said within the window.
+// A detector's hint as seen by a camera at this pose. Empty if there was none within the window.
 DepthImage MovingMemory::CarriedHint(double stamp_s, const Eigen::Isometry3d& T_world_camera,
                                      const PinholeCamera& camera, double window_s) const {
     if (hint.depth_m.empty() || std::abs(stamp_s - hint.stamp_s) > window_s) return {};
@@ -70,7 +71,7 @@ void MovingMoments::Take(const MovingDetector::Input& input, int step) {
 std::vector<const TileView*> MovingMoments::ToCompare() const {
     std::vector<const TileView*> moments;
     for (const double age : kAges) {
-        const TileView* found = nullptr;  // the youngest that is old enough, or the oldest
+        const TileView* found = nullptr;  // the newest that is old enough, or the oldest
         for (const TileView& view : memory_.past)
             if (found == nullptr ||
                 view.stamp_s <= memory_.now.stamp_s - age * config_.window_s + 1e-4)
@@ -107,14 +108,14 @@ MovingChanges MovingMoments::Compare() const {
             const float left_m = parts[i].left_m.data()[at];
             if (left_m <= 0) continue;
             left.data()[at] = 1;
-            changes.left_m.data()[at] = left_m;  // the oldest moment's
+            changes.left_m.data()[at] = left_m;  // the oldest frame's value
         }
     }
     changes.any = HasCore(changes.came) || HasCore(left);
     const bool old =
         !moments.empty() && now.stamp_s - moments.back()->stamp_s >= kOld * config_.window_s;
     if (old && changes.any) MarkSame(now, *moments.back(), camera_, margin_, changes.there);
-    // Noise leaves in specks, a thing as a region.
+    // Noise disappears in specks, an object as a region.
     KeepRegions(changes.left_m, left, camera_, {config_.min_area_m2, 0}, left);
     for (std::size_t at = 0; at < left.size(); ++at)
         if (left.data()[at] == 0) changes.left_m.data()[at] = 0;
@@ -148,13 +149,13 @@ MovingEvidence MovingMoments::Weigh(const MovingChanges& changes, const DepthIma
             const bool left = changes.left_m(x, y) > 0, before = depth + off < nearest;
             if (before) e.candidates(x, y) = 1;
             if (before && left) e.seeds(x, y) = 1;
-            // near_m bears edges that are a little off.
+            // near_m tolerates edges that are a little off.
             e.gone(x, y) = map + off < now.near_m(x, y);
             if (e.candidates(x, y) != 0 || left) continue;
             ++known;
             fitting += nearest - off <= depth && depth <= farthest + off;
         }
-    // Where the rest does not fit the map either, it is the camera that is elsewhere.
+    // If the rest does not fit the map either, the camera pose is wrong.
     e.fits =
         static_cast<double>(fitting) >= config_.min_fitting_fraction * static_cast<double>(known);
     return e;

@@ -1,5 +1,5 @@
-// What a frame and the moments before it, the map and a detector say of each tile: the evidence
-// that MovingDetector decides by.
+// Evidence for each tile from a frame, the frames before it, the map and a detector. MovingDetector
+// decides by it.
 #pragma once
 
 #include <deque>
@@ -10,36 +10,36 @@
 
 namespace tessera {
 
-inline constexpr int kAskedTiles = 2;  // of so many in a row or column the map is asked at one
+inline constexpr int kAskedTiles = 2;  // one in this many tiles per row or column queries the map
 
-// What differs between a frame and the moments before.
+// Differences between a frame and the earlier ones.
 struct MovingChanges {
-    Image<std::uint8_t> came;   // stands in what was free space
-    DepthImage left_m;          // how far what left had been, where it had been
-    Image<std::uint8_t> there;  // stands where a surface was seen a window ago
+    Image<std::uint8_t> came;   // stands in former free space
+    DepthImage left_m;          // depth of what has left, where it was
+    Image<std::uint8_t> there;  // matches a surface seen one window ago
     bool any = false;
 };
 
 // What the frame and the map's view say about each tile.
 struct MovingEvidence {
     Image<std::uint8_t> candidates;  // may move
-    Image<std::uint8_t> seeds;       // of them, those that changed
-    Image<std::uint8_t> growing;     // hang together with what moves, if they touch it
-    Image<std::uint8_t> gone;        // the map's surface is seen through
+    Image<std::uint8_t> seeds;       // candidates that changed
+    Image<std::uint8_t> growing;     // move if they touch something that moves
+    Image<std::uint8_t> gone;        // the frame sees through the map's surface
     bool fits = false;               // the rest fits the map
 };
 
 struct MovingMemory {
     TileView now;
     std::deque<TileView> past;   // oldest first
-    Image<std::uint8_t> moving;  // in `now`; empty: nothing
-    TileView hint;               // depth where a detector says that something moves; empty: nowhere
+    Image<std::uint8_t> moving;  // in `now`; empty if nothing moves
+    TileView hint;  // depth where a detector marks something as moving; empty if nowhere
 
     DepthImage CarriedHint(double stamp_s, const Eigen::Isometry3d& T_world_camera,
                            const PinholeCamera& camera, double window_s) const;
 };
 
-// One frame against what is remembered.
+// Compares one frame with the remembered ones.
 class MovingMoments {
   public:
     MovingMoments(const MovingDetector::Config& config, const PinholeCamera& camera,

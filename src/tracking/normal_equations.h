@@ -1,11 +1,10 @@
-// One point's share of [B14] eq. 8-11: residuals, Jacobians, robust weights and normal equations.
-// Templates on the number type: the same lines run in vectors, in the tests' plain floats, and on a
-// GPU.
+// One point's contribution to [B14] eq. 8-11: residuals, Jacobians, robust weights and normal
+// equations. Templates on the number type: the same code runs in the SIMD kernels, in the tests
+// with plain floats, and on a GPU.
 //
-// The unknowns: a left increment (rotation, translation) of T_world_camera about a world point O
-// near the camera
-// ("local" coordinates are world coordinates minus O), and the frame's brightness: gain a, offset b
-// with field intensity ~ a * image intensity + b.
+// The unknowns are a left increment (rotation, translation) of T_world_camera about a world point O
+// near the camera ("local" coordinates are world coordinates minus O), and the frame's brightness:
+// gain a and offset b with field intensity ~ a * image intensity + b.
 #pragma once
 
 #include "core/scalar_ops.h"
@@ -13,12 +12,12 @@
 
 namespace tessera {
 
-// Arrays of points are padded to a multiple of this with points of weight 0.
+// Point arrays are padded to a multiple of this with points of weight 0.
 inline constexpr int kPointPadding = 8;
 
-// Sums over points. Symmetric matrices keep the upper triangle, row by row. Distances and
-// intensities are summed apart, and without alpha: what each of them knows about the pose does not
-// depend on how the two are weighed.
+// Sums over points. Symmetric matrices store the upper triangle, row by row. Distances and
+// intensities are summed separately and without alpha, so that the information of each about the
+// pose does not depend on their relative weight.
 struct SumLayout {
     // A pose term, at kDistance and at kIntensity: pose x pose (21), then pose x residual (6).
     static constexpr int kHessian = 0, kGradient = 21, kPoseTerm = 27;
@@ -32,10 +31,11 @@ struct SumLayout {
     static constexpr int kDistanceWeight = 73;      // sum of w
     static constexpr int kIntensityWeight = 74;
     static constexpr int kKnown = 75;     // points with a known distance
-    static constexpr int kInliers = 76;   // of these, with |r| below the inlier distance
+    static constexpr int kInliers = 76;   // of these, those with |r| below the inlier distance
     static constexpr int kColoured = 77;  // points with a known intensity
-    // Of methods that accept or reject steps: the robust energy ([B14] eq. 8, with alpha) over the
-    // residuals that exist here and at the pose before, and the energy that those had there.
+    // For methods that accept or reject steps: the robust energy ([B14] eq. 8, with alpha) of the
+    // residuals that exist both here and at the previous pose, and the energy of the same residuals
+    // there.
     static constexpr int kEnergy = 78;
     static constexpr int kEnergyBefore = 79;
     static constexpr int kCount = 80;

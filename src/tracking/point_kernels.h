@@ -1,6 +1,6 @@
-// What FramePoints makes of a pixel: its point at the frame's instant, weight, normal, and the
-// intensity that the colour camera saw there. Host-device, shared by the CPU and CUDA. Camera
-// frame, metres.
+// What FramePoints computes for a pixel: its point at the frame's timestamp, weight, normal, and
+// the intensity that the colour camera saw there. Host-device, shared by the CPU code and CUDA.
+// Camera frame, metres.
 #pragma once
 
 #include <cmath>
@@ -19,9 +19,9 @@ TESSERA_HD float RaySlope(int pixel, double centre_px, double focal_px) {
     return static_cast<float>((pixel - centre_px) / focal_px);
 }
 
-// A point of the camera time_s after the frame's instant, in the camera at that instant: to first
-// order p + time (omega x p + velocity). -time_s is the way back. `twist_per_s`: FrameMotion's,
-// (rotation, translation).
+// Transforms a point from the camera frame time_s after the frame's timestamp to the camera frame
+// at the timestamp, to first order: p + time (omega x p + velocity). Use -time_s for the inverse.
+// `twist_per_s`: (rotation, translation) of FrameMotion.
 TESSERA_HD CameraPoint Moved(const CameraPoint& p, const float* twist_per_s, float time_s) {
     const float* w = twist_per_s;
     return {p.x + time_s * (w[1] * p.z - w[2] * p.y + w[3]),
@@ -29,21 +29,21 @@ TESSERA_HD CameraPoint Moved(const CameraPoint& p, const float* twist_per_s, flo
             p.z + time_s * (w[0] * p.y - w[1] * p.x + w[5])};
 }
 
-constexpr double kNearestWeighed_m = 0.5;  // usually
+constexpr double kNearestWeighed_m = 0.5;  // default
 
-// z^exponent, z in metres, at most that of nearest_m.
+// max(z, nearest_m)^exponent, in metres.
 TESSERA_HD float PointWeight(float z_m, float exponent, float nearest_m) {
     const float z = max(z_m, nearest_m);
     return exponent == -2.0f ? 1.0f / (z * z) : std::pow(z, exponent);
 }
 
-// Three measured depths in a row that may belong to one surface.
+// Whether three measured depths in a row may belong to one surface.
 TESSERA_HD bool OneSurface(float before, float here, float after) {
-    constexpr float kBend = 0.03f;  // of the depth
+    constexpr float kBend = 0.03f;  // fraction of the depth
     return before > 0 && after > 0 && abs(before + after - 2 * here) < kBend * here;
 }
 
-// An image of depths or intensities, row by row, and its camera.
+// A depth or intensity image, row by row, and its camera.
 struct PinholeImage {
     const float* pixels;
     int width, height;
@@ -69,9 +69,9 @@ struct PinholeImage {
     }
 };
 
-// The normal of the depth image's surface at (u, v), unit, towards the camera, from differences
-// across radius_px pixels to each side ([D18] eq. 15). False where it has none: at a depth edge,
-// beside a hole.
+// The normal of the depth image's surface at (u, v): unit, towards the camera, from differences
+// across radius_px pixels to each side ([D18] eq. 15). Returns false if there is none: at a depth
+// discontinuity or beside a hole.
 TESSERA_HD bool NormalAt(const PinholeImage& depth, int u, int v, int radius_px,
                          CameraPoint& normal) {
     const int left = u > radius_px ? u - radius_px : 0, up = v > radius_px ? v - radius_px : 0;
@@ -92,7 +92,7 @@ TESSERA_HD bool NormalAt(const PinholeImage& depth, int u, int v, int radius_px,
     return true;
 }
 
-// What the image shows where a point falls; -1 where it shows nothing.
+// The image's value at a point's projection; -1 if there is none.
 TESSERA_HD float SampleAtPoint(const PinholeImage& image, const CameraPoint& p) {
     if (!(p.z > 0.05f)) return -1.0f;
     return image.Between(p.x / p.z * image.fx + image.cx, p.y / p.z * image.fy + image.cy);
@@ -101,20 +101,20 @@ TESSERA_HD float SampleAtPoint(const PinholeImage& image, const CameraPoint& p) 
 // Which points of a frame: those of every `step`-th pixel in both directions, in slots row by row.
 struct PointArguments {
     PinholeImage depth;      // metres, 0 = none
-    PinholeImage intensity;  // as large; `pixels` null: not to be read
+    PinholeImage intensity;  // same size; `pixels` null: not to be read
     double fx, fy, cx, cy;   // of the same camera, for RaySlope
     int step;
-    int width, height;  // slots per row, some of them to the right of the image, and rows
-    float depth_exponent, nearest_m;  // PointWeight's
-    int normal_radius_px;             // NormalAt's; 0: no normals
-    float twist_per_s[6];             // FrameMotion's, with its times
+    int width, height;                // slots per row (some lie right of the image), and rows
+    float depth_exponent, nearest_m;  // for PointWeight
+    int normal_radius_px;             // for NormalAt; 0: no normals
+    float twist_per_s[6];             // from FrameMotion, as are the times below
     bool still;                       // the twist is zero
     double depth_readout_s, colour_delay_s, colour_readout_s;
 };
 
-// What the points of one row share.
+// Values shared by the points of one row.
 struct PointRow {
-    int v;  // of the image
+    int v;  // row of the image
     float slope_y;
     float depth_time_s, colour_time_s;
 };
@@ -125,14 +125,14 @@ TESSERA_HD PointRow RowOfPoints(const PointArguments& a, int row) {
             static_cast<float>(a.colour_delay_s + RowTime(a.colour_readout_s, v, a.depth.height))};
 }
 
-// The point that the pixel in column u measured at this depth, at the frame's instant.
+// The point that the pixel in column u measured at this depth, at the frame's timestamp.
 TESSERA_HD CameraPoint PointOfPixel(const PointArguments& a, const PointRow& row, int u,
                                     float depth_m) {
     return Moved({RaySlope(u, a.cx, a.fx) * depth_m, row.slope_y * depth_m, depth_m}, a.twist_per_s,
                  row.depth_time_s);
 }
 
-// What the colour camera saw of that point at its own time; -1: nothing.
+// The intensity that the colour camera saw at this point, at its own time; -1: none.
 TESSERA_HD float IntensityOfPoint(const PointArguments& a, const PointRow& row, int u,
                                   const CameraPoint& p) {
     return a.still ? a.intensity.At(u, row.v)

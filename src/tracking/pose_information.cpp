@@ -8,7 +8,8 @@ namespace {
 
 using Patch = Eigen::Map<const Eigen::Matrix<double, DistanceSums::kSums, 1>>;
 
-// Products of different patches' sums over the products of their weights, times the block's weight.
+// The products of different patches' sums over the products of their weights, times the block's
+// weight.
 Matrix6d AgreedInBlock(const double* block) {
     Matrix6d own = Matrix6d::Zero();
     Vector6d sum = Vector6d::Zero();
@@ -22,7 +23,7 @@ Matrix6d AgreedInBlock(const double* block) {
         own_weights += patch(0) * patch(0);
     }
     const double products = weight * weight - own_weights;
-    // Of weight^2: nearly all of it in one patch says nothing about agreement.
+    // Fraction of weight^2: nearly all of the weight in one patch says nothing about agreement.
     constexpr double kLeastShare = 0.1;
     if (products <= kLeastShare * weight * weight) return Matrix6d::Zero();
     return (sum * sum.transpose() - own) * (weight / products);
@@ -59,7 +60,7 @@ Matrix6d PoseInformation(const ResidualSums& residuals, const PoseTerm& intensit
 
 double LeastDamping(const ResidualScales& scales, double expected_within_m, int level) {
     if (expected_within_m <= 0) return 0;
-    constexpr double kUsual_m2 = 1e-3;  // before the first frame has told
+    constexpr double kUsual_m2 = 1e-3;  // before the first frame
     const double variance = scales.distance_m2 > 0 ? scales.distance_m2 : kUsual_m2;
     return std::ldexp(variance, -2 * level) / (expected_within_m * expected_within_m);
 }
@@ -73,7 +74,8 @@ PoseKnowledge KnowledgeOf(const Matrix6d& information, double expected_within_m,
     knowledge.uncertainty_m = 1 / std::sqrt(std::max(values(0), 1 / (kUnknown_m * kUnknown_m)));
     const double expected =
         expected_within_m > 0 ? 1 / (expected_within_m * expected_within_m) : 0.0;
-    const Vector6d ratio = values / std::max(expected, 1e-12);  // of the variances
+    // variance of the prior over that of the motion
+    const Vector6d ratio = values / std::max(expected, 1e-12);
     const Vector6d open =
         expected > 0 ? Vector6d((1 / (1 + ratio.array().square())).matrix()) : Vector6d::Zero();
     const Matrix6d A = FromNormalised(camera_local, scene_depth_m);

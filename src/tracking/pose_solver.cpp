@@ -24,8 +24,7 @@ PoseTerm TermAt(const double* term) {
     return out;
 }
 
-// Gain and offset: their coupling to the pose, their Hessian and gradient, with the pull of the
-// prior.
+// Gain and offset: their coupling to the pose, their Hessian and gradient, including the prior.
 struct BrightnessTerm {
     Eigen::Matrix<double, 6, 2> B;
     Eigen::Matrix2d C, C_inverse;

@@ -1,6 +1,6 @@
-// What a frame's residuals teach, as sums over neighbourhoods of its finest points. Each kind of
-// sums is a struct: kSums sums for each of Groups(a), added up over Parts(a) in their order.
-// Host-device, shared by the CPU and CUDA; in double.
+// Sums over neighbourhoods of a frame's finest points, from which the residual model learns. Each
+// kind of sums is a struct: kSums sums for each of Groups(a), added up over Parts(a) in order.
+// Host-device, shared by the CPU code and CUDA; in double.
 #pragma once
 
 #include <cmath>
@@ -11,7 +11,8 @@
 namespace tessera {
 
 struct ResidualArguments {
-    // The points, row by row, every step-th pixel: FramePoints; residuals are NaN where unknown.
+    // The points, row by row, at every step-th pixel (FramePoints). Residuals are NaN where
+    // unknown.
     int width, height, step;
     const float *x, *y, *z, *intensity, *weight;
     const float *distance_residual, *intensity_residual;
@@ -20,17 +21,17 @@ struct ResidualArguments {
     const float* image;
     int image_width, image_height;
     double fx, fy, cx, cy;
-    double rotation[9];  // from the camera's axes to those of the gradients, row by row
-    double distance_scale_m, intensity_scale;  // Huber's, of the sums that found the pose
-    // FrameMotion of the points, the frame's gain, and Huber's scale of the shutter's sums.
+    double rotation[9];  // from the camera's axes to those of the gradients, row-major
+    double distance_scale_m, intensity_scale;  // Huber scales of the sums that found the pose
+    // FrameMotion of the points, the frame's gain, and the Huber scale of the shutter's sums.
     double twist_per_s[6];
     double colour_delay_s, colour_readout_s;
     double gain, residual_scale;
-    bool has_intensity, wants_shutter;  // which sums
+    bool has_intensity, wants_shutter;  // which sums to compute
 
     TESSERA_HD_MEMBER int At(int column, int row) const { return row * width + column; }
-    // A side of the patches that DistanceSums are of, in points: a fortieth of the image, whatever
-    // its resolution. Two by two of them are a block, over which errors are taken to be shared.
+    // Side of the patches of DistanceSums, in points: a fortieth of the image at any resolution.
+    // Two by two patches form a block, over which errors are assumed to be shared.
     TESSERA_HD_MEMBER int Patch() const { return width >= 80 ? (width + 20) / 40 : 2; }
     TESSERA_HD_MEMBER double HuberedWeight(int i, double residual, double scale) const {
         const double size = std::fabs(residual);
@@ -38,14 +39,14 @@ struct ResidualArguments {
     }
 };
 
-// Of a patch, the four of a block one after the other: weights, weight times Jacobian, and its
-// score, weight times Jacobian times distance. Jacobians are for increments about the camera in the
-// axes of the gradients (rotation, translation).
+// Sums of a patch; the four patches of a block are consecutive. The sums are the weight, the weight
+// times the Jacobian, and the score: the weight times the Jacobian times the distance. Jacobians
+// are for increments (rotation, translation) about the camera in the axes of the gradients.
 struct DistanceSums {
     static constexpr int kSums = 13, kJacobian = 1, kScore = 7;
     TESSERA_HD_MEMBER static int Columns(const ResidualArguments& a) {
         return a.width / (2 * a.Patch());
-    }  // of blocks
+    }  // in blocks
     TESSERA_HD_MEMBER static int Groups(const ResidualArguments& a) {
         return 4 * Columns(a) * (a.height / (2 * a.Patch()));
     }
@@ -79,9 +80,10 @@ struct DistanceSums {
     }
 };
 
-// Intensities of a block, with the image's gradient over depth (what a sideways move changes):
-// weighted residual times gradient, both directions; the gradients; their squares; the gradient's
-// product with the map's, at the same points, and the map's square.
+// Intensity sums of a block, with the image gradient divided by depth (the effect of a sideways
+// motion). All are weighted: residual times gradient, in both directions; the gradient, in both
+// directions; its square; its product with the map's gradient at the same points; and the square of
+// the map's gradient.
 struct ScoreSums {
     static constexpr int kSums = 7;
     TESSERA_HD_MEMBER static int Side(const ResidualArguments& a) { return 2 * a.Patch(); }
@@ -125,9 +127,9 @@ struct ScoreSums {
     }
 };
 
-// Of some rows of points, parts of a row: the normal equations of the colour image's delay and
-// read-out time, upper triangle (3), then the gradient (2). Some points of a row: enough, and
-// cheap.
+// Sums of a part of every kRowStep-th row of points: the normal equations of the colour image's
+// delay and read-out time, upper triangle (3), then the gradient (2). A subset of the points is
+// enough, and cheap.
 struct ShutterSums {
     static constexpr int kSums = 5;
     static constexpr int kRowStep = 3, kColumnStep = 2, kPart = 32;
@@ -155,7 +157,7 @@ struct ShutterSums {
         if (std::isnan(residual)) return;
         const double *turn = a.twist_per_s, *move = a.twist_per_s + 3;
         const double p[3] = {a.x[i], a.y[i], a.z[i]};
-        // Of the point, seen from the moving camera.
+        // The point's velocity as seen from the moving camera.
         const double velocity[3] = {-(turn[1] * p[2] - turn[2] * p[1] + move[0]),
                                     -(turn[2] * p[0] - turn[0] * p[2] + move[1]),
                                     -(turn[0] * p[1] - turn[1] * p[0] + move[2])};

@@ -8,12 +8,12 @@
 namespace tessera {
 namespace {
 
-// Errors are taken to be shared within regions of the image, not beyond: depth deformation,
-// calibration and exposure err over large parts of it (docs/information.md has how the variance
+// Errors are assumed to be shared within regions of the image, but not beyond: depth deformation,
+// calibration and exposure err over large parts of it (docs/information.md shows how the variance
 // grows with the region).
 constexpr int kRegionColumns = 5, kRegionRows = 4, kRegions = kRegionColumns * kRegionRows;
 constexpr int kLeastRegions = 5;
-constexpr double kShareOfFrame = 0.1;  // of a new frame in what is smoothed
+constexpr double kShareOfFrame = 0.1;  // weight of a new frame in smoothed values
 
 int RegionOf(int column, int columns, int row, int rows) {
     return row * kRegionRows / rows * kRegionColumns + column * kRegionColumns / columns;
@@ -33,8 +33,9 @@ struct Regions {
     }
 
     // The variance of a residual as it counts in a sum: the covariance of the regions' scores over
-    // the Hessian, at the place that fits these residuals best. For independent residuals it is
-    // their variance; errors that neighbours share make it larger. 0: there is too little.
+    // the Hessian, at the solution that fits these residuals best. For independent residuals this
+    // is their variance; correlated errors of neighbours make it larger. 0 if there are too few
+    // regions.
     double Variance() const {
         Vector score = Vector::Zero();
         Matrix H = Matrix::Zero(), covariance = Matrix::Zero();
@@ -45,7 +46,7 @@ struct Regions {
             seen += hessians[i].trace() > 0;
         }
         if (seen < kLeastRegions) return 0;
-        // Of the trace: a motion that nothing at all shows has no score either.
+        // Fraction of the trace. A motion that nothing observes has no score either.
         constexpr double kRegular = 1e-9;
         const Eigen::LDLT<Matrix> solver(H + kRegular * H.trace() * Matrix::Identity());
         const Vector best = solver.solve(score);
@@ -57,8 +58,8 @@ struct Regions {
     }
 };
 
-// From the sums over patches (DistanceSums). A patch's Hessian is that of its mean Jacobian.
-// `shared_m` is what a whole patch is wrong by though no residual shows it.
+// Distance variance from the sums over patches (DistanceSums). A patch's Hessian is that of its
+// mean Jacobian. `shared_m` is an error of the whole patch that no residual shows.
 double DistanceVariance(const ResidualEvidence& e, double shared_m) {
     Vector6d to_metres = Vector6d::Ones();
     to_metres.head<3>() /= e.scene_depth_m;
@@ -85,12 +86,12 @@ double DistanceVariance(const ResidualEvidence& e, double shared_m) {
     return variance > 0 ? variance + shared_m * shared_m * weights2 / weights : 0;
 }
 
-// From ScoreSums, whose scores are residual times image gradient over depth: errors at edges, where
-// the gradient is large, count as they pull. What a whole block is wrong by together
-// (`shading_error`, intensities in [0, 1]) is added: it hardly pulls where texture has gradients of
-// all signs, and a lot where the only gradient is shading, which residuals against a map of the
-// same shading do not show. `texture`: the share of the map's gradients that the frame's confirm;
-// noise of the two is independent.
+// Intensity variance from ScoreSums, whose scores are residual times image gradient over depth.
+// Errors at edges, where the gradient is large, count by their pull on the pose. Adds the error
+// that a whole block shares (`shading_error`, intensities in [0, 1]). That error hardly pulls where
+// texture has gradients of all signs, but strongly where shading is the only gradient, and
+// residuals against a map of the same shading do not show it. `texture`: the fraction of the map's
+// gradients that the frame's gradients confirm; the noise of the two is independent.
 double IntensityVariance(const ResidualEvidence& e, double shading_error, double& texture) {
     Regions<2> regions;
     double shading_scores2 = 0, information = 0, both = 0, map2 = 0;
@@ -112,10 +113,10 @@ double IntensityVariance(const ResidualEvidence& e, double shading_error, double
     return variance + shading_error * shading_error * shading_scores2 / information;
 }
 
-// The ratio of the variances, what the two kinds disagree about, the pose, included: it is an error
-// of theirs, too, which no scatter within one kind shows (calibration, time, deformation of the
-// whole image). It is shared out at the pose where both pull as their own errors say, whatever
-// alpha found the present one.
+// The ratio of the variances, including the disagreement of the two kinds about the pose. The
+// disagreement is also their error, which no scatter within one kind shows (calibration, time,
+// deformation of the whole image). It is shared between them at the pose where both pull according
+// to their own errors, whatever alpha found the present one.
 double RatioWithDisagreement(const PoseTerm& distances, const PoseTerm& intensities,
                              double distance, double intensity) {
     constexpr double kRegular = 1e-9;  // of the trace
@@ -124,7 +125,7 @@ double RatioWithDisagreement(const PoseTerm& distances, const PoseTerm& intensit
     const Vector6d to_both = (H + kRegular * H.trace() * Matrix6d::Identity())
                                  .ldlt()
                                  .solve(-(distances.g + alpha * intensities.g));
-    // A mean over the six motions, as Regions::Variance.
+    // A mean over the six motions, as in Regions::Variance.
     const auto pull = [&](const PoseTerm& term) {
         const Vector6d score = term.g + term.H * to_both;
         return score.dot((term.H + kRegular * term.H.trace() * Matrix6d::Identity())
@@ -158,8 +159,8 @@ void ResidualModel::SetAlpha(bool automatic, double alpha) {
 }
 
 // Each residual's weight is the inverse of its variance as it counts in the sum, so alpha in [B14]
-// eq. 8 is the ratio of the two. Plain variances would say that the geometry knows ten times more
-// than it does.
+// eq. 8 is the ratio of the two. Plain variances would overestimate the information from geometry
+// ten times.
 double ResidualModel::alpha() const {
     if (config_.alpha_mode == AlphaMode::kFixed || scales_.alpha <= 0) return config_.alpha;
     return std::min(scales_.alpha, config_.auto_alpha_max);
@@ -213,25 +214,23 @@ void ResidualModel::Config::Describe(ConfigParameters& p) {
                 {{"fixed", AlphaMode::kFixed}, {"auto", AlphaMode::kAuto}},
                 "fixed uses alpha; auto estimates it from the residuals of the frames so far");
     p.Add("alpha", alpha, {0.0, 100.0}, "m^2",
-          "photometric weight of [B14] eq. 8 (distances in metres, intensities in [0, 1]); 0 is "
-          "geometry only; auto "
-          "starts from it");
+          "photometric weight of [B14] eq. 8 (distances in metres, intensities in [0, 1]); 0 uses "
+          "geometry only; auto starts from this value");
     p.Add("shading_error", shading_error, {0.0, 1.0}, "",
-          "what intensities are taken to be wrong by over whole image regions (vignetting, moving "
-          "light, exposure); lowers "
-          "their weight where shading is the only texture");
+          "assumed error of intensities over whole image regions (vignetting, moving light, "
+          "exposure); lowers their weight where shading is the only texture");
     p.Add("surface_error_voxels", surface_error_voxels, {0.0, 1.0}, "voxels",
-          "what distances are taken to be wrong by over whole image regions, beyond what residuals "
-          "show");
+          "assumed error of distances over whole image regions, beyond what residuals show");
     p.Add("auto_alpha_max", auto_alpha_max, {1e-4, 100.0}, "m^2",
-          "auto: the largest alpha; where intensities lead, distances no longer show their own "
+          "auto: the largest alpha; if intensities dominate, distances no longer show their own "
           "errors");
     p.Add("intensity_scale", intensity_scale, {1e-3, 10.0}, "", "Huber scale of intensities");
     p.Add("brightness", brightness,
-          "estimate gain and offset of every frame, so that auto-exposure does not bend the path");
+          "estimate gain and offset of every frame, so that auto-exposure does not distort the "
+          "path");
     p.Add("brightness_prior", brightness_prior, {0.0, 10.0}, "",
-          "pull of gain 1 and offset 0, per unit of photometric weight; raise it where exposure is "
-          "fixed");
+          "weight of the prior gain 1 and offset 0, per unit of photometric weight; raise it if "
+          "exposure is fixed");
     p.Section("shutter", [&](ConfigParameters& s) { shutter.Describe(s); });
 }
 

@@ -1,7 +1,7 @@
-// What the residuals teach from frame to frame, whatever method tracks: how large the errors of
-// distances and intensities are, and so how the two are weighed; the brightness of the camera
-// against the map; when the colour image's rows were taken. One object serves all methods, so that
-// a switch between two frames loses nothing. docs/information.md has the derivation.
+// What the residuals teach from frame to frame, whatever the tracking method: the size of distance
+// and intensity errors, and hence their relative weight; the camera's brightness relative to the
+// map; when the colour image's rows were taken. One object serves all methods, so that a switch
+// between two frames loses nothing. docs/information.md has the derivation.
 #pragma once
 
 #include "core/config.h"
@@ -12,22 +12,22 @@
 
 namespace tessera {
 
-// Variances of residuals of weight 1 as they count in a sum over many points: neighbours err
-// together, so they are larger than the scatter of single residuals.
+// Variances of residuals of weight 1 in a sum over many points. Errors of neighbours are
+// correlated, so they are larger than the scatter of single residuals.
 struct ResidualScales {
     double distance_m2 = 0;  // 0: not known yet
     double intensity = 0;    // the same
-    // Share of the map's image gradients that the frame confirms; the rest is noise.
+    // Fraction of the map's image gradients that the frame confirms; the rest is noise.
     double texture = 1;
-    // Ratio of the two, what they disagree about shared out between them; 0: not known yet.
+    // Ratio of the two, with their disagreement shared between them; 0: not known yet.
     double alpha = 0;
 };
 
-// What one frame says about them.
+// What one frame says about the scales.
 struct ResidualEvidence {
     const ResidualArguments& arguments;
-    const ResidualSums& sums;  // of them
-    // At the pose that was found, Normalised to this depth.
+    const ResidualSums& sums;  // of `arguments`
+    // At the found pose, Normalised to scene_depth_m.
     const PoseTerm &distances, &intensities;
     double scene_depth_m, voxel_size_m;
 };
@@ -52,11 +52,11 @@ class ResidualModel {
     };
 
     explicit ResidualModel(const Config& config);
-    // Forgets what was learnt, not the configuration.
+    // Forgets what was learnt, but not the configuration.
     void Reset();
     void SaveState(StateWriter& state) const;
     bool LoadState(StateReader& state);
-    // In place of the configuration's: learnt from here on, or fixed at `alpha`, in m^2.
+    // Overrides the configuration: alpha is learnt from here on, or fixed at `alpha`, in m^2.
     void SetAlpha(bool automatic, double alpha);
 
     const Config& config() const { return config_; }
@@ -64,18 +64,18 @@ class ResidualModel {
     double alpha() const;                                     // in use, [B14] eq. 8
     double gain() const { return gain_; }  // of the last tracked frame: map = gain * image + offset
     double offset() const { return offset_; }
-    // The motion with the colour image's delay and read-out as learnt so far.
+    // The motion with the colour image's delay and read-out time as learnt so far.
     FrameMotion Timed(FrameMotion motion) const;
 
-    // Whether a frame with this motion and intensity residuals has something to tell about the
+    // Whether a frame with this motion and intensity residual carries information about the
     // shutter.
     bool WantsShutter(const FrameMotion& motion, double intensity_rms) const {
         return shutter_.Wants(motion, intensity_rms);
     }
-    // From any frame that fits the map.
+    // Learns from any frame that fits the map.
     void LearnScales(const ResidualEvidence& evidence);
-    // From a tracked frame. Where the pose is `degenerate` it explains what it should not, and the
-    // shutter is left alone.
+    // Learns from a tracked frame. A `degenerate` pose explains residuals that it should not; the
+    // shutter is then left alone.
     void LearnColour(const TrackResult& result, const ResidualSums& sums);
 
   private:

@@ -19,17 +19,17 @@ struct PointResiduals {
     void Resize(int points);
 };
 
-// One group after another; empty where not asked for.
+// Groups in order; empty if not requested.
 struct ResidualSums {
     std::vector<double> distances, scores, shutter;
 };
 
-// Of these points and their residuals. What the pose says, and which sums are wanted, is the
-// caller's to enter. The arrays stay whose they were.
+// Arguments for these points and residuals. The caller fills in what depends on the pose, and which
+// sums to compute. The arguments refer to the caller's arrays.
 ResidualArguments MakeResidualArguments(const PreparedFrame& frame, const PinholeCamera& camera,
                                         const FramePoints& points, const PointResiduals& residuals);
 
-// On all threads, the same bytes for any number of them.
+// Runs on all threads; the same bytes for any number of them.
 ResidualSums SumResiduals(const ResidualArguments& arguments);
 
 }  // namespace tessera

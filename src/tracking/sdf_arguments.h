@@ -1,5 +1,5 @@
-// What the SDF tracker's sums are told: the map, the pose, the points and the energy, in plain
-// pointers and numbers, for the CPU's vector code and CUDA alike.
+// Arguments of the SDF tracker's sums: the map, the pose, the points and the energy, as plain
+// pointers and numbers. Shared by the CPU's SIMD kernels and CUDA.
 #pragma once
 
 #include <cstdint>
@@ -25,8 +25,8 @@ struct SdfArguments : BlockMapView {
     float gain, offset;
     float distance_scale_m, intensity_scale;  // Huber
     float inlier_distance_m;                  // for SumLayout::kInliers
-    // If not null: residuals per point, NaN where unknown; with distances their gradients in the
-    // axes of the local coordinates.
+    // If not null: receive the residuals per point, NaN where unknown, and the distances' gradients
+    // in the axes of the local coordinates.
     float* distance_residual;
     float* intensity_residual;
     float* gradient[3];

@@ -1,5 +1,5 @@
-// The SDF tracker's sums: what one point adds to the normal equations of [B14] eq. 8. For lanes of
-// points (scalar_lanes.h), for the CPU's vectors and CUDA alike.
+// The SDF tracker's sums: one point's contribution to the normal equations of [B14] eq. 8. Works on
+// lanes of points (scalar_lanes.h), for the CPU's SIMD kernels and CUDA.
 #pragma once
 
 #include <limits>
@@ -10,7 +10,7 @@
 
 namespace tessera {
 
-// The sums of lanes V of points.
+// The sums for lanes V of points.
 template <class V>
 class SdfKernels {
   public:
@@ -18,8 +18,8 @@ class SdfKernels {
     using Int = typename V::Int;
     using Mask = typename V::Mask;
 
-    // Adds what points [i, i + V::kCount) contribute to sums[], laid out as SumLayout, and writes
-    // their residuals.
+    // Adds the contributions of points [i, i + V::kCount) to sums[], laid out as SumLayout, and
+    // writes their residuals.
     TESSERA_HD_MEMBER static void AddPoints(const SdfArguments& a, int i, Real* sums) {
         const Real x = V::Load(a.x + i), y = V::Load(a.y + i), z = V::Load(a.z + i);
         const Real weight = V::Load(a.weight + i);
@@ -52,8 +52,8 @@ class SdfKernels {
   private:
     using L = SumLayout;
 
-    // The words at the eight corners of the cells whose lowest voxels, counted from origin_block's
-    // first, are given.
+    // The words at the eight corners of cells. `voxel` is a cell's lowest voxel, relative to the
+    // first voxel of origin_block.
     TESSERA_HD_MEMBER static void GatherCorners(const SdfArguments& a, const Int* voxel,
                                                 const Mask& wanted, Int* words) {
         Int block[3], index[8];

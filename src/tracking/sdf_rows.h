@@ -1,5 +1,5 @@
-// The hot loop of the SDF tracker behind plain pointers: sums the normal equations over a run of
-// points. Compiled twice (portable, AVX2); sdf_tracker.cpp picks. No Eigen here.
+// The hot loop of the SDF tracker behind plain pointers: sums the normal equations over a range of
+// points. Compiled twice (portable, AVX2); sdf_tracker.cpp selects the version. No Eigen here.
 #pragma once
 
 #include "tracking/normal_equations.h"
@@ -7,8 +7,8 @@
 
 namespace tessera {
 
-// Adds the sums (SumLayout) over points [first, last), from a multiple of kTileItems to one of
-// kPointPadding, to sums[]. The same bytes on either path.
+// Adds the sums (SumLayout) over points [first, last) to sums[]. `first` is a multiple of
+// kTileItems, `last` of kPointPadding. Both versions give the same bytes.
 namespace baseline {
 void SumSdfPoints(const SdfArguments& arguments, int first, int last, double* sums);
 }

@@ -1,5 +1,4 @@
-// Where the SDF tracker's sums over points are taken, if not by the processor: on a device that
-// keeps the map.
+// Interface for taking the SDF tracker's sums outside the CPU, on a device that holds the map.
 #pragma once
 
 #include "mapping/block_map.h"
@@ -15,16 +14,17 @@ class SdfSums {
   public:
     virtual ~SdfSums() = default;
 
-    // The points that the next calls of Sum go over, in this map: those of MakePointArguments'
-    // `points` of this frame, in FramePoints' slots and with its bytes. How many have a weight; 0
-    // also where there is no room for them.
+    // Sets the points for the next calls of Sum, in this map: the points of MakePointArguments for
+    // this frame, in the slots of FramePoints and with its bytes. Returns how many have a weight; 0
+    // also if there is no room.
     virtual std::int64_t SetPoints(const BlockMap& map, const PreparedFrame& frame,
                                    const PointArguments& points) = 0;
-    // What SumSdfPoints gives over all of them. Of the arguments the map's and the points' arrays
-    // are not read.
+    // Gives the sums of SumSdfPoints over all points. Does not read the arrays of the map and of
+    // the points in `arguments`.
     virtual PoseSums Sum(const SdfArguments& arguments) = 0;
-    // What SumResiduals gives of those points, their residuals at the last Sum, whose arguments
-    // asked for them, and the frame. Of the arguments no arrays are read.
+    // Gives the result of SumResiduals for these points, their residuals at the last Sum, and the
+    // frame. The arguments of that Sum must have requested residuals. Reads no arrays of
+    // `arguments`.
     virtual ResidualSums SumResiduals(const ResidualArguments& arguments) = 0;
 };
 

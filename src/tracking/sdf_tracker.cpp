@@ -9,7 +9,7 @@ namespace {
 
 using L = SumLayout;
 
-// Copies a rigid motion with the voxel scale into the hot loop's arguments.
+// Copies a rigid motion, scaled to voxels, into the hot loop's arguments.
 void SetSdfPose(const Eigen::Isometry3d& T_world_camera, const Eigen::Vector3d& origin_m,
                 double voxel_m, SdfArguments& a) {
     const Eigen::Vector3d t = (T_world_camera.translation() - origin_m) / voxel_m;
@@ -83,7 +83,7 @@ TrackResult SdfTracker::Track(const TrackInput& input) {
         config_.distance_scale_m, judge_, residual_model_);
 }
 
-// Where there are none the level cannot be tracked; a device may have had no room for them.
+// Without points the level cannot be tracked. A device may have had no room for them.
 void SdfTracker::MakePoints(const TrackInput& input, int step, FramePoints& points,
                             State& state) const {
     const DepthWeight weight{config_.depth_exponent, input.nearest_m};
@@ -99,12 +99,12 @@ void SdfTracker::MakePoints(const TrackInput& input, int step, FramePoints& poin
     state.failed = points.valid() == 0;
 }
 
-// Points, their intensities and the map as the hot loop takes them, for every (finest_step_px <<
+// Prepares the points, their intensities and the map for the hot loop, at every (finest_step_px <<
 // level)-th pixel.
 void SdfTracker::PrepareLevel(const TrackInput& input, int level, State& state) {
     FramePoints& points = points_[static_cast<std::size_t>(level)];
     state.motion = use_colour_ ? residual_model_.Timed(input.motion) : input.motion;
-    if (input.since_last_s > 0)  // the velocity of the last interval, as far as this level knows it
+    if (input.since_last_s > 0)  // velocity since the last frame, at the present estimate
         state.motion.twist_per_s =
             Se3Log(input.T_world_camera_last.inverse() * state.T_world_camera) / input.since_last_s;
     MakePoints(input, config_.finest_step_px << level, points, state);
@@ -148,7 +148,7 @@ PoseSums SdfTracker::SumAt(const TrackInput& input, const FramePoints& points, S
     });
 }
 
-// The start that fits best on the coarsest level.
+// Chooses the start that fits best on the coarsest level.
 void SdfTracker::ChooseStart(const TrackInput& input, State& state) {
     if (state.failed || input.T_world_camera_starts.size() < 2) return;
     const FramePoints& points = points_.back();
@@ -203,19 +203,18 @@ void SdfTracker::Config::Describe(ConfigParameters& p) {
     p.Add("distance_scale_m", distance_scale_m, {1e-4, 1.0}, "m",
           "Huber scale of distances: larger residuals count linearly");
     p.Add("depth_exponent", depth_exponent, {0.0, 4.0}, "",
-          "a point's weight is (1 m / depth)^this: 4 is the inverse variance of structured light, "
-          "0 is [B14]");
+          "a point's weight is (1 m / depth)^depth_exponent; 4 is the inverse variance of "
+          "structured light, 0 is [B14]");
     p.Add("normalise", normalise,
-          "divide the field's distance by its gradient's length: distances measured along slanted "
-          "rays are too long; "
-          "off is [B14]");
+          "divide the field's distance by the length of its gradient, because distances measured "
+          "along slanted rays are too long; off is [B14]");
     p.Add("finest_step_px", finest_step_px, {1, 16}, "px",
-          "the finest level takes every so-manieth pixel in both directions");
-    p.Add("levels", levels, {1, 5}, "", "coarse to fine: each level doubles the step");
+          "pixel step of the finest level, in both directions");
+    p.Add("levels", levels, {1, 5}, "", "number of levels; each coarser level doubles the step");
     p.Add("coarse_iterations", coarse_iterations, {1, 100}, "",
-          "most Gauss-Newton steps on each coarse level");
+          "maximum number of Gauss-Newton steps on each coarse level");
     p.Add("fine_iterations", fine_iterations, {1, 100}, "",
-          "most Gauss-Newton steps on the finest level");
+          "maximum number of Gauss-Newton steps on the finest level");
 }
 
 }  // namespace tessera

@@ -27,8 +27,8 @@ class SdfTracker : public Tracker {
         void Describe(ConfigParameters& parameters);
     };
 
-    // `model` outlives the tracker. Without `use_colour` it tracks by geometry alone. `device`
-    // outlives it, too; null sums here.
+    // `model` must outlive the tracker. Without `use_colour` it tracks by geometry alone. `device`
+    // must also outlive it; null takes the sums on the CPU.
     SdfTracker(const Config& config, const PinholeCamera& camera, const TrackJudge& judge,
                ResidualModel& model, bool use_colour, VectorPath path = VectorPath::kAuto,
                SdfSums* device = nullptr);
@@ -36,7 +36,7 @@ class SdfTracker : public Tracker {
     TrackResult Track(const TrackInput& input) override;
 
   private:
-    struct State;  // of one call
+    struct State;  // of one call to Track
 
     void MakePoints(const TrackInput& input, int step, FramePoints& points, State& state) const;
     void PrepareLevel(const TrackInput& input, int level, State& state);

@@ -1,4 +1,4 @@
-// ViewArguments from camera and pose.
+// Fills ViewArguments from a camera and a pose.
 #pragma once
 
 #include <Eigen/Geometry>

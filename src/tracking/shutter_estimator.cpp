@@ -7,25 +7,24 @@
 namespace tessera {
 namespace {
 
-constexpr double kSharedError = 100.0;  // neighbouring residuals err together: so many count as one
-// Per frame: each step goes only part of the way, the pose takes the rest.
+// errors of neighbouring residuals are correlated: this many count as one
+constexpr double kSharedError = 100.0;
+// Per frame: each step goes only part of the way, because the pose takes the rest.
 constexpr double kMemory = 0.85;
 
 }  // namespace
 
 void ShutterEstimator::Config::Describe(ConfigParameters& p) {
     p.Add("enabled", enabled,
-          "learn the colour image's delay and rolling shutter from the residuals; off trusts the "
-          "time stamps and "
-          "colour_readout_s");
+          "learn the colour image's delay and rolling shutter from the residuals; off relies on "
+          "the timestamps and colour_readout_s");
     p.Add("delay_prior_s", delay_prior_s, {1e-6, 0.1}, "s",
-          "how far the delay may lie from the time stamps'");
+          "standard deviation of the delay from that of the timestamps");
     p.Add("readout_prior_s", readout_prior_s, {1e-6, 0.1}, "s",
-          "how far the read-out may lie from readout_s");
+          "standard deviation of the read-out time from readout_s");
     p.Add("readout_s", readout_s, {-0.05, 0.05}, "s",
-          "read-out time of the colour image, beyond colour_readout_s, from which learning begins; "
-          "calibration.check begins from "
-          "the recording's own");
+          "initial value of the colour image's read-out time, beyond colour_readout_s; "
+          "calibration.check starts from the recording's own");
 }
 
 void ShutterEstimator::Reset() {
@@ -48,7 +47,7 @@ bool ShutterEstimator::Wants(const FrameMotion& motion, double residual_scale) c
     return config_.enabled && !motion.twist_per_s.isZero() && residual_scale > 0;
 }
 
-// One Gauss-Newton step on all frames so far, of which only the newest has a gradient left:
+// One Gauss-Newton step on all frames so far, of which only the newest still has a gradient:
 // recursive least squares.
 void ShutterEstimator::Update(const std::vector<double>& sums, double residual_scale) {
     Eigen::Matrix2d H = Eigen::Matrix2d::Zero();

@@ -1,7 +1,6 @@
 // Learns, while the camera turns, when the rows of the colour image were really taken: a constant
-// delay beyond the time stamps and the read-out time of a rolling shutter. Both shear the image of
-// a moving camera, and what they shear shows in the photometric residuals. A global shutter is
-// learnt as zero.
+// delay beyond the timestamps, and the read-out time of a rolling shutter. Both shear the image of
+// a moving camera, which shows in the photometric residuals. A global shutter is learnt as zero.
 #pragma once
 
 #include <Eigen/Core>
@@ -27,17 +26,16 @@ class ShutterEstimator {
 
     explicit ShutterEstimator(const Config& config) : config_(config) { Reset(); }
 
-    // Whether a frame with this motion, and photometric residuals of this size, has something to
-    // tell.
+    // Whether a frame with this motion and photometric residuals of this size carries information.
     bool Wants(const FrameMotion& motion, double residual_scale) const;
-    // One tracked frame: ShutterSums (residual_kernels.h) of its residuals, map minus gain times
-    // image minus offset. Owner thread only.
+    // Learns from one tracked frame: ShutterSums (residual_kernels.h) of its residuals, which are
+    // map - (gain * image + offset). Owner thread only.
     void Update(const std::vector<double>& sums, double residual_scale);
     void Reset();
     void SaveState(StateWriter& state) const;
     bool LoadState(StateReader& state);
 
-    double delay_s() const { return estimate_(0); }    // to add to the time stamps' difference
+    double delay_s() const { return estimate_(0); }    // to add to the difference of timestamps
     double readout_s() const { return estimate_(1); }  // of the whole colour image
 
   private:

@@ -7,14 +7,14 @@ namespace tessera {
 namespace {
 
 using Marks = Image<std::uint8_t>;
-constexpr float kNearestCounted_m = 1.0f;  // noise is a few tiles, near and far
+constexpr float kNearestCounted_m = 1.0f;  // noise covers a few tiles, near and far
 
-// Neighbours on one surface: tiles of a slanted one differ, too.
+// Whether neighbours belong to one surface. Tiles of a slanted surface differ, too.
 bool Continuous(float a, float b) {
     return a > 0 && b > 0 && std::abs(a - b) < 0.05f + 0.03f * std::min(a, b);
 }
 
-// Neighbours on one body: a chin before a chest, an arm before a hip.
+// Whether neighbours belong to one body: a chin in front of a chest, an arm in front of a hip.
 bool HangTogether(float a, float b) { return a > 0 && b > 0 && std::abs(a - b) < 0.2f; }
 
 template <class Visit>
@@ -78,7 +78,7 @@ void GrowRegions(const DepthImage& depth_m, const Marks& allowed, const PinholeC
         int x, y;
         double way_m;
     };
-    std::vector<Tile> tiles;  // the nearest to the regions first, by and large
+    std::vector<Tile> tiles;  // roughly in order of distance from the regions
     for (int y = 0; y < marks.height(); ++y)
         for (int x = 0; x < marks.width(); ++x)
             if (marks(x, y) != 0) tiles.push_back({x, y, 0});

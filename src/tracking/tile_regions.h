@@ -1,4 +1,4 @@
-// Connected regions of tiles: noise makes specks, things make regions.
+// Connected regions of tiles. Noise forms specks, objects form larger regions.
 #pragma once
 
 #include <cstdint>
@@ -10,31 +10,32 @@
 
 namespace tessera {
 
-// Of marked tiles, those in regions that count.
+// Which regions of marked tiles count.
 struct RegionRule {
-    // Of the surface, seen face on; what is nearer than 1 m counts as if it were there.
+    // Area of the surface, seen face on. A surface nearer than 1 m counts as if it were at 1 m.
     double min_area_m2 = 0;
-    double min_seed_fraction = 0;  // of the region's tiles
+    double min_seed_fraction = 0;  // fraction of the region's tiles
 };
 
-// Whether 3 x 3 tiles are marked somewhere.
+// Whether 3 x 3 adjacent tiles are marked anywhere.
 bool HasCore(const Image<std::uint8_t>& marks);
 
-// Keeps the regions of `marks` whose neighbours' depths differ little, that are large enough, hold
-// enough of `seeds` and a core of 3 x 3 of them; the others' marks go. `camera` is the tiles'.
+// Keeps the regions of `marks` that are large enough and contain enough `seeds` and a core of 3 x 3
+// seeds. Clears all other marks. Neighbours belong to one region if their depths differ little.
+// `camera` is that of the tile image.
 void KeepRegions(const DepthImage& depth_m, const Image<std::uint8_t>& seeds,
                  const PinholeCamera& camera, const RegionRule& rule, Image<std::uint8_t>& marks);
 
-// Marks neighbours of marked tiles, and theirs, that `allowed` marks and whose depths differ by
-// less than 0.2 m: about as far as `reach_m`.
+// Grows the marked regions, up to about `reach_m`, into neighbours that `allowed` marks and whose
+// depths differ by less than 0.2 m.
 void GrowRegions(const DepthImage& depth_m, const Image<std::uint8_t>& allowed,
                  const PinholeCamera& camera, double reach_m, Image<std::uint8_t>& marks);
 
-// Marks tiles at most `reach` from where `other_m` has much the same depth, not 0.
+// Marks tiles at most `reach` from a tile where `other_m` is not 0 and has much the same depth.
 void MarkBeside(const DepthImage& depth_m, const DepthImage& other_m, int reach,
                 Image<std::uint8_t>& marks);
 
-// Marks all within `reach` tiles of a marked one.
+// Marks all tiles within `reach` tiles of a marked one.
 void Dilate(int reach, Image<std::uint8_t>& marks);
 
 }  // namespace tessera

@@ -26,7 +26,7 @@ float NearestOfTile(const DepthImage& depth_m, int step, int k, int l) {
     return 2 * valid >= step * step ? nearest : 0.0f;
 }
 
-// By rows, then by columns.
+// First along rows, then along columns.
 template <class Better>
 void BestAround(const DepthImage& tiles, int reach, DepthImage& out, float none,
                 const Better& better) {
@@ -50,8 +50,8 @@ void BestAround(const DepthImage& tiles, int reach, DepthImage& out, float none,
     }
 }
 
-// Visits each tile (x, y) of `from` that has depth and whose point a camera there sees: its depth
-// there, and in which tile.
+// Visits each tile (x, y) of `from` that has depth and whose point a camera at this pose sees.
+// Passes the point's depth and tile in that camera.
 template <class Visit>
 void ForSeen(const TileView& from, const Eigen::Isometry3d& T_world_camera,
              const PinholeCamera& camera, const Visit& visit) {

@@ -75,35 +75,35 @@ TrackStatus TrackJudge::Status(const TrackInput& input, TrackResult& result) con
         return because(
             kPoor, fmt::format("the depth is {:.1f} cm off the map", 100 * result.distance_rms_m));
     if (!Follows(input.T_world_camera_starts.front(), result.T_world_camera))
-        return because(kPoor, fmt::format("{:.2f} m and {:.2f} rad from where the motion led",
+        return because(kPoor, fmt::format("{:.2f} m and {:.2f} rad from the predicted pose",
                                           result.innovation_m, result.innovation_rad));
     return TrackStatus::kGood;
 }
 
 void TrackJudge::Config::Describe(ConfigParameters& p) {
     p.Add("degenerate_voxels", degenerate_voxels, {0.0, 100.0}, "voxels",
-          "a frame is called degenerate if some motion's standard deviation at the scene's depth "
-          "is larger");
+          "a frame is degenerate if the standard deviation of some motion, at the scene's depth, "
+          "is larger than this");
     p.Add("expected_within_m", expected_within_m, {0.0, 1.0}, "m",
-          "standard deviation of the pose that prealignment and motion model expect: a motion that "
-          "the frame knows less well "
-          "follows them; 0: no motion does");
+          "standard deviation of the pose that prealignment and motion model predict; motions that "
+          "the frame constrains less well follow the prediction; 0 disables this");
     p.Add("min_known_fraction", min_known_fraction, {0.0, 1.0}, "",
-          "lost if a smaller share of the depth lies in the map");
+          "tracking is lost if a smaller fraction of the depth lies in the map");
     p.Add("min_inlier_fraction", min_inlier_fraction, {0.0, 1.0}, "",
-          "lost if a smaller share of the known depth fits within half the truncation");
+          "tracking is lost if a smaller fraction of the known depth fits within half the "
+          "truncation");
     p.Add("good_inlier_fraction", good_inlier_fraction, {0.0, 1.0}, "",
-          "tracked, but not fused, if a smaller share fits");
+          "the frame is not fused if a smaller fraction of the known depth fits");
     p.Add("good_distance_rms_m", good_distance_rms_m, {0.0, 10.0}, "m",
-          "tracked, but not fused, if the robust residual of the depth is larger");
+          "the frame is not fused if the robust residual of the depth is larger");
     p.Add("max_jump_m", max_jump_m, {0.0, 100.0}, "m",
-          "lost if the camera moved farther since the last frame");
+          "tracking is lost if the camera moved farther since the last frame");
     p.Add("max_jump_rad", max_jump_rad, {0.0, 3.2}, "rad",
-          "lost if the camera turned more since the last frame");
+          "tracking is lost if the camera rotated more since the last frame");
     p.Add("good_innovation_m", good_innovation_m, {0.0, 100.0}, "m",
-          "tracked, but not fused, if the pose lies farther from the motion model's expectation");
+          "the frame is not fused if its pose is farther from the motion model's prediction");
     p.Add("good_innovation_rad", good_innovation_rad, {0.0, 3.2}, "rad",
-          "the same for the rotation");
+          "the frame is not fused if its rotation is farther from the motion model's prediction");
 }
 
 }  // namespace tessera

@@ -1,5 +1,5 @@
-// Whether a tracked frame may be trusted: the same rules for every method, from the sums at the
-// pose that it found.
+// Decides whether a tracked frame can be trusted: the same rules for every method, from the sums at
+// the pose that it found.
 #pragma once
 
 #include <cstdint>
@@ -30,20 +30,19 @@ class TrackJudge {
 
     explicit TrackJudge(const Config& config) : config_(config) {}
 
-    // Fills how well the frame fits the map. `sums` are the finest level's last, `points` how many
-    // points had depth there. False, with status and reason: it is lost.
+    // Fills in how well the frame fits the map. `sums` are the last ones of the finest level,
+    // `points` is the number of points with depth there. Returns false, with status and reason, if
+    // the track is lost.
     bool Fits(std::int64_t points, const PoseSums& sums, TrackResult& result) const;
-    // Fills status, reason and what else is to be said of a result that fits, whose pose and
-    // uncertainty are set.
+    // Fills in status, reason and the remaining fields of a result that fits. Its pose and
+    // uncertainty must be set.
     void Judge(const TrackInput& input, TrackResult& result) const;
 
-    // Whether a pose is as near to another, the motion model's, as that of a frame to be fused must
-    // be.
+    // Whether a pose is close enough to another, the motion model's, for its frame to be fused.
     bool Follows(const Eigen::Isometry3d& T_world_expected,
                  const Eigen::Isometry3d& T_world_camera) const;
 
-    // Standard deviation of the pose that is expected before a frame is looked at; 0: nothing is
-    // expected.
+    // Standard deviation of the pose prior before a frame is seen; 0: no prior.
     double expected_within_m() const { return config_.expected_within_m; }
 
   private:

@@ -1,4 +1,4 @@
-// What every tracking method takes and gives, so that methods can be switched between two frames.
+// Input and output of every tracking method, so that methods can be switched between two frames.
 // Trackers read the map and never write it.
 #pragma once
 
@@ -17,20 +17,21 @@ namespace tessera {
 struct TrackInput {
     const PreparedFrame& frame;
     const BlockMap& map;
-    // Where the camera may be: first the motion model's expectation, then perhaps others. A tracker
-    // starts from the one that fits best; along motions that the frame does not know the camera is
-    // where the last one has it. Not empty.
+    // Candidate camera poses: first the motion model's prediction, then perhaps others. A tracker
+    // starts from the one that fits best. Along motions that the frame does not constrain, the
+    // result stays at the last candidate, or at the first if the last is too far from it. Not
+    // empty.
     std::vector<Eigen::Isometry3d> T_world_camera_starts;
-    Eigen::Isometry3d T_world_camera_last;  // where it was at the last tracked frame
-    double since_last_s = 0;                // 0 if there is no such frame, or its pose was poor
-    // Delays and read-out times; the twist is the tracker's to fill.
+    Eigen::Isometry3d T_world_camera_last;  // the pose at the last tracked frame
+    double since_last_s = 0;                // 0 if there is none, or its pose was poor
+    // Delays and read-out times; the tracker fills in the twist.
     FrameMotion motion;
     double nearest_m = kNearestWeighed_m;  // nearer points have the weight of this depth
 };
 
 enum class TrackStatus {
-    kGood,  // fuse it
-    kPoor,  // a pose, but not to be trusted with the map: `reason` says why
+    kGood,  // may be fused
+    kPoor,  // has a pose, but must not be fused: `reason` says why
     kLost,  // no pose
 };
 const char* ToString(TrackStatus status);
@@ -39,16 +40,16 @@ struct TrackResult {
     Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity();
     FrameMotion motion;  // while the frame was taken
     TrackStatus status = TrackStatus::kLost;
-    std::string reason;  // in words, unless good
-    // Some motion is known less well than TrackJudge asks; it may still be good to fuse.
+    std::string reason;  // human-readable, unless good
+    // Some motion is constrained less well than TrackJudge requires. The frame may still be fused.
     bool degenerate = false;
-    double known_fraction = 0;   // of the points, those that lie where the map knows the distance
-    double inlier_fraction = 0;  // of the known points, those within half the truncation
+    double known_fraction = 0;   // fraction of the points where the map knows the distance
+    double inlier_fraction = 0;  // fraction of the known points within half the truncation
     double distance_rms_m = 0;   // robustly weighted
     double intensity_rms = 0;    // [0, 1]; 0 without photometric term
-    // Standard deviation of the motion that is known least, a turn counting at the scene's depth.
+    // Standard deviation of the least constrained motion. A rotation counts at the scene's depth.
     double uncertainty_m = 0;
-    double innovation_m = 0, innovation_rad = 0;  // from the motion model's expectation
+    double innovation_m = 0, innovation_rad = 0;  // from the motion model's prediction
     double alpha = 0;                             // photometric weight in use, [B14] eq. 8
     double gain = 1, offset = 0;                  // map intensity = gain * image intensity + offset
     int iterations = 0;
@@ -57,7 +58,7 @@ struct TrackResult {
 class Tracker {
   public:
     virtual ~Tracker() = default;
-    // Never throws; a lost track is a value. Owner thread only.
+    // Never throws; a lost track is a regular result. Owner thread only.
     virtual TrackResult Track(const TrackInput& input) = 0;
 };
 

@@ -1,15 +1,15 @@
-// Points held against an image from elsewhere, in plain pointers and numbers: what icp's sums and
-// the prealignment's share.
+// Points compared with an image from another pose, as plain pointers and numbers. Shared by the ICP
+// sums and the prealignment's.
 #pragma once
 
 namespace tessera {
 
 struct ViewArguments {
-    // The image, row by row, and its camera, in whose frame the pose is sought.
+    // The image, row by row, and its camera. The pose is estimated in this camera's frame.
     int width, height;
     float fx, fy, cx, cy;
-    const float* depth;      // metres along z, 0 where nothing is
-    const float* intensity;  // < 0 where there is none, or none to be trusted
+    const float* depth;      // metres along z, 0 where there is no surface
+    const float* intensity;  // < 0 where there is none, or an unreliable one
     // p_view [m] = rotation * p_point [m] + translation.
     float rotation[9];
     float translation[3];

@@ -1,5 +1,5 @@
-// Points projected into an image, and the image read there. Templates on the number type or on
-// lanes V (scalar_lanes.h), for the CPU's vectors and CUDA alike.
+// Projects points into an image and samples the image there. Templates on the number type or on
+// lanes V (scalar_lanes.h), for the CPU's SIMD kernels and CUDA.
 #pragma once
 
 #include "core/host_device.h"
@@ -7,7 +7,7 @@
 
 namespace tessera {
 
-// Between four pixels, (fu, fv) in [0, 1] from the first: value and slopes per pixel.
+// A sample between four pixels, (fu, fv) in [0, 1] from the first: value and slopes per pixel.
 template <class F>
 struct ImageSample {
     F value, du, dv;
@@ -20,8 +20,8 @@ TESSERA_HD ImageSample<F> Bilinear(const F& p00, const F& p10, const F& p01, con
     return {top + fv * (bottom - top), left + fv * (right - left), bottom - top};
 }
 
-// d(image)/d(point) of an image read where the point p (camera frame) projects: slopes times the
-// projection's derivative.
+// d(image)/d(point) where the point p (camera frame) projects into the image: slopes times the
+// derivative of the projection.
 template <class F>
 TESSERA_HD void ImageGradientInSpace(const F* p, const F& fx, const F& fy, const F& du, const F& dv,
                                      F* g) {
@@ -42,7 +42,7 @@ TESSERA_HD void Rotate(const float* rotation, const typename V::Real& x, const t
     }
 }
 
-// Points in an image's camera frame and where they fall in it.
+// Points in an image's camera frame and their projections.
 template <class V>
 struct Projected {
     typename V::Real p[3];
@@ -70,8 +70,8 @@ TESSERA_HD Projected<V> Project(const ViewArguments& a, int i) {
     return q;
 }
 
-// `image`, at least 2 x 2 pixels row by row, at (q.u, q.v); and the least of the four pixels
-// around.
+// A sample of `image`, at least 2 x 2 pixels row by row, at (q.u, q.v), and the least of the four
+// pixels around it.
 template <class V>
 struct ViewSample : ImageSample<typename V::Real> {
     typename V::Real least;

@@ -20,7 +20,7 @@ Rgb8 Interpolate(std::span<const Rgb8> stops, float position) {
     return {mix(a.r, b.r), mix(a.g, b.g), mix(a.b, b.b)};
 }
 
-// Each colour map's every shade, so that an image costs one look-up a pixel.
+// All shades of a colour map, so that an image needs only one look-up per pixel.
 template <Rgb8 (*Colour)(float)>
 const std::array<Rgb8, 256>& Shades() {
     static const std::array<Rgb8, 256> shades = [] {

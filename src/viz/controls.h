@@ -1,5 +1,4 @@
-// Where each control was drawn, by name, so that a test can click on it as a person does. Owner
-// thread only.
+// Records by name where each control was drawn, so that tests can click on it. Owner thread only.
 #pragma once
 
 #include <map>
@@ -13,7 +12,7 @@ namespace tessera {
 class Controls {
   public:
     void BeginFrame() { rects_.clear(); }
-    // The item that ImGui drew last.
+    // Records the item that ImGui drew last.
     void MarkLast(const std::string& name);
     void Mark(const std::string& name, const ControlRect& rect) { rects_[name] = rect; }
     std::optional<ControlRect> Find(const std::string& name) const {

@@ -7,15 +7,15 @@
 namespace tessera {
 namespace {
 
-// Of the process, as X11's handlers are.
+// Global, because X11's handlers apply to the whole process.
 std::atomic<bool> lost{false};
 
 void OnConnectionLost(void*, void*) { lost = true; }
 
-// In place of the one that says so on the console and ends the process.
+// Replaces the default handler, which prints an error and ends the process.
 int OnIoError(void*) { return 0; }
 
-// A request that failed (a window that another program closed, say) harms nobody.
+// Ignores failed requests (for example on a window that another program closed); they do no harm.
 int OnError(void*, void*) { return 0; }
 
 template <class Function>
@@ -25,7 +25,7 @@ Function Find(const char* name) {
 
 }  // namespace
 
-// By name, since GLFW may be one without X11.
+// Looks the functions up by name, because GLFW may be built without X11.
 void SurviveLossOfDisplay() {
     lost = false;
     const auto get_display = Find<void* (*)()>("glfwGetX11Display");

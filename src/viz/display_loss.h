@@ -1,12 +1,12 @@
-// What X11's client library does when the display server goes away is to end the process; a running
-// scan must not end like that.
+// Keeps the process alive when the display server goes away. By default X11's client library ends
+// the process, which would lose a running scan.
 #pragma once
 
 namespace tessera {
 
-// After the window is made, on its thread: from now on errors of X11 do not end the process, and
-// the loss of the connection is what DisplayIsLost tells. Does nothing on other window systems, and
-// with libX11 before 1.7 the loss still ends the process.
+// Call after the window was made, on its thread. From then on X11 errors do not end the process,
+// and DisplayIsLost reports the loss of the connection. Does nothing on other window systems. With
+// libX11 before 1.7 a lost connection still ends the process.
 void SurviveLossOfDisplay();
 bool DisplayIsLost();
 

@@ -7,8 +7,8 @@
 namespace tessera {
 namespace {
 
-// Both ends are cut at the near plane before the division, so that a line that passes the viewer
-// stays straight.
+// Clips both ends at the near plane before the perspective division, so that a line that passes the
+// viewer stays straight.
 constexpr const char* kLineVertexSource = R"(#version 330 core
 layout(location = 0) in vec3 start;
 layout(location = 1) in vec4 start_colour;
@@ -55,7 +55,7 @@ void GlLines::Append(std::span<const LineVertex> vertices) {
     count_ += vertices.size();
 }
 
-// One instance per line: its second end is the next vertex of the same buffer.
+// One instance per line. Its second end is the next vertex in the same buffer.
 void GlLines::Bind(bool connected) {
     glBindVertexArray(vertex_array_);
     glBindBuffer(GL_ARRAY_BUFFER, buffer_.name());

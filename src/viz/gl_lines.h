@@ -1,5 +1,5 @@
-// Lines of any width in 3D, which OpenGL's core profile does not have: each is drawn as a rectangle
-// that faces the picture. Made, used and destroyed with the OpenGL context current.
+// 3D lines of any width, which OpenGL's core profile lacks. Each line is drawn as a screen-facing
+// rectangle. Made, used and destroyed with the OpenGL context current.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -14,11 +14,11 @@
 namespace tessera {
 
 struct LineVertex {
-    std::array<float, 3> position_m;     // world
-    std::array<std::uint8_t, 4> colour;  // a = 0: no line from or to here
+    std::array<float, 3> position_m;     // world frame
+    std::array<std::uint8_t, 4> colour;  // a = 0: no line starts or ends here
 };
 
-// The vertices of one drawing on the card.
+// The vertices of one set of lines in GPU memory.
 class GlLines {
   public:
     GlLines();
@@ -47,8 +47,8 @@ class GlLineProgram {
         Eigen::Matrix4d clip_from_world;
         int width_px = 0, height_px = 0;
     };
-    // From each vertex to the next (`connected`), or from the first to the second, the third to the
-    // fourth and so on. `opacity` in [0, 1]. Depth test and blending are the caller's.
+    // Draws lines from each vertex to the next (`connected`), or between vertices 1 and 2, 3 and 4
+    // and so on. `opacity` in [0, 1]. The caller sets depth test and blending.
     void Draw(GlLines& lines, const View& view, bool connected, float width_px,
               float opacity) const;
 

@@ -1,5 +1,4 @@
-// An image on the graphics card, for ImGui. Made, used and destroyed with its OpenGL context
-// current.
+// An image in GPU memory, for ImGui. Made, used and destroyed with the OpenGL context current.
 #pragma once
 
 #include "core/image.h"

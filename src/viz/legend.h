@@ -1,4 +1,4 @@
-// A colour map's bar with the values at its ends. Inside an ImGui frame.
+// A colour bar with the values at its ends. Call inside an ImGui frame.
 #pragma once
 
 #include <imgui.h>
@@ -11,11 +11,11 @@ namespace tessera {
 
 struct Legend {
     Rgb8 (*colour)(float) = nullptr;
-    float from = 0, to = 1;  // of the colour map
+    float from = 0, to = 1;  // range of the colour map's argument
     std::string first, last;
 };
 
-// A bar along the lower edge of the area with its ends' values.
+// Draws the bar along the lower edge of the area, with the values at its ends.
 void DrawLegend(ImDrawList& list, const Legend& legend, const ImVec2& at, const ImVec2& size);
 
 }  // namespace tessera

@@ -28,8 +28,8 @@ void main() {
 }
 )";
 
-// One lamp at the viewer's left shoulder and a little light from the sky: enough for bare walls to
-// show their shape.
+// One lamp at the viewer's left shoulder and some light from the sky, so that bare walls still show
+// their shape.
 constexpr const char* kMeshFragmentSource = R"(#version 330 core
 in vec3 normal_world;
 in vec4 weighted_colour;
@@ -87,7 +87,7 @@ void MeshProgram::Use(const PinholeCamera& camera, const Eigen::Isometry3d& T_wo
                 static_cast<float>(camera.cy + 0.5));
     glUniform3fv(program_.Location("up"), 1, up_world.data());
     glUniform1i(program_.Location("shading"), static_cast<int>(shading));
-    static_assert(kWeightStops == 5, "the shader's array");
+    static_assert(kWeightStops == 5, "size of the shader's array");
     std::array<float, 3 * kWeightStops> stops;
     for (std::size_t i = 0; i < kWeightColours.size(); ++i) {
         const Rgb8& c = kWeightColours[i];

@@ -1,4 +1,4 @@
-// How the 3D view shades the mesh. Made, used and destroyed with the OpenGL context current.
+// Shader of the mesh in the 3D view. Made, used and destroyed with the OpenGL context current.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -14,10 +14,10 @@ class MeshProgram {
   public:
     static Result<MeshProgram> Create();
 
-    // Draws from now on for this camera; `up` is the world's, unit.
+    // Activates the program for this camera. `up`: unit vector in the world frame.
     void Use(const PinholeCamera& camera, const Eigen::Isometry3d& T_world_camera,
              const Eigen::Vector3d& up, Shading shading) const;
-    // For GlMeshStore::Draw.
+    // Uniform location, for GlMeshStore::Draw.
     int clip_from_position() const { return program_.Location("clip_from_position"); }
 
   private:

@@ -5,7 +5,7 @@
 namespace tessera {
 namespace {
 
-// The twelve edges, two vertices each.
+// Appends the twelve edges, two vertices each.
 void AppendEdges(const MapObject& object, std::vector<LineVertex>& vertices) {
     const std::array<std::uint8_t, 4> colour{object.colour.r, object.colour.g, object.colour.b,
                                              255};

@@ -1,4 +1,4 @@
-// The objects' oriented boxes in the 3D view. Made, used and destroyed with the OpenGL context
+// Oriented boxes of the objects in the 3D view. Made, used and destroyed with the OpenGL context
 // current.
 #pragma once
 
@@ -9,7 +9,7 @@ namespace tessera {
 
 class ObjectBoxes {
   public:
-    // Brings over what is new. True if anything changed.
+    // Takes over new objects and the selection. True if anything changed.
     bool Update(const ViewerState& state);
     void Draw(const GlLineProgram& program, const GlLineProgram::View& view, float opacity);
 

@@ -1,4 +1,4 @@
-// What a person sets and asks for.
+// The controls: settings and commands.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -20,10 +20,10 @@ void DrawMethods(ViewerState& state) {
         const char *label, *tip;
     };
     static constexpr Choice kChoices[] = {
-        {TrackingMethod::kSdf, "SDF + colour", "Distance field and intensities, [B14]  (1)"},
-        {TrackingMethod::kSdfGeometric, "SDF", "Distance field alone, [B13]  (2)"},
-        {TrackingMethod::kIcp, "ICP", "Point to plane against a predicted view, [D18]  (3)"},
-        {TrackingMethod::kIcpRgb, "ICP + colour", "The same with intensities  (4)"},
+        {TrackingMethod::kSdf, "SDF + colour", "Signed distance field and intensities, [B14]  (1)"},
+        {TrackingMethod::kSdfGeometric, "SDF", "Signed distance field only, [B13]  (2)"},
+        {TrackingMethod::kIcp, "ICP", "Point-to-plane ICP against a predicted view, [D18]  (3)"},
+        {TrackingMethod::kIcpRgb, "ICP + colour", "Point-to-plane ICP with intensities  (4)"},
     };
     GroupTitle("TRACKING");
     const float width = WidthOf(2);
@@ -45,8 +45,8 @@ void DrawSettings(ViewerState& state) {
     bool changed = false;
     ImGui::AlignTextToFramePadding();
     ImGui::TextUnformatted("Colour");
-    Tip("Weight of the photometric residual against the distances, alpha of [B14] eq. 8, in square "
-        "metres");
+    Tip("Weight of the photometric residual relative to the distances, alpha of [B14] eq. 8, in "
+        "square metres");
     ImGui::SameLine(label_width);
     changed |= MarkedCheckbox(controls, "alpha.auto", "auto", settings.auto_alpha);
     ImGui::SameLine();
@@ -60,19 +60,19 @@ void DrawSettings(ViewerState& state) {
     ImGui::EndDisabled();
     ImGui::AlignTextToFramePadding();
     ImGui::TextUnformatted("Max depth");
-    Tip("Farther measurements are left out");
+    Tip("Depth beyond this is ignored");
     ImGui::SameLine(label_width);
     changed |= MarkedSlider(controls, "max_depth", settings.max_depth_m, 0.5, 10, "%.1f m");
     if (ImGui::BeginTable("switches", 3, ImGuiTableFlags_SizingStretchProp)) {
         ImGui::TableNextColumn();
         changed |= MarkedCheckbox(controls, "fusing", "Fuse", settings.fusing);
-        Tip("Off: frames are tracked, but the map stays as it is");
+        Tip("Off: frames are tracked but not fused into the map");
         ImGui::TableNextColumn();
         changed |= MarkedCheckbox(controls, "prealign", "Prealign", settings.prealign);
-        Tip("Before tracking, turn the camera by the small images alone: for fast motion");
+        Tip("Estimate the rotation from small images before tracking; helps with fast motion");
         ImGui::TableNextColumn();
         changed |= MarkedCheckbox(controls, "prediction", "Predict", settings.show_prediction);
-        Tip("Show what the map predicts, beside the measured images");
+        Tip("Show the map's prediction beside the measured images");
         ImGui::EndTable();
     }
     if (changed) state.SendSettings();
@@ -86,27 +86,28 @@ void DrawCommands(ViewerState& state) {
     if (MarkedButton(controls, "pause", state.paused() ? "Resume" : "Pause", narrow,
                      state.paused()))
         state.TogglePause();
-    Tip("No further frames, or on again  (Space)");
+    Tip("Pause or resume  (Space)");
     ImGui::SameLine();
     if (MarkedButton(controls, "step", "Step", narrow)) state.Step();
-    Tip("One frame, then pause  (S)");
+    Tip("Process one frame, then pause  (S)");
     ImGui::SameLine();
     if (MarkedButton(controls, "reset", "Reset", narrow)) state.ask_reset = true;
-    Tip("An empty map and a new world, after a question  (R)");
+    Tip("Start over with an empty map; asks first  (R)");
     ImGui::SameLine();
     if (MarkedButton(controls, "record", state.recording() ? "Stop rec." : "Record", narrow,
                      state.recording()))
         state.ToggleRecording();
-    Tip("Keep the raw frames from now on  (V)");
+    Tip("Record the raw frames from now on  (V)");
     if (MarkedButton(controls, "save_mesh", "Save mesh", wide)) state.SaveMesh();
-    Tip("As .ply  (M)");
+    Tip("Save the mesh as .ply  (M)");
     ImGui::SameLine();
     if (MarkedButton(controls, "save_scan", "Save scan", wide)) state.SaveScan();
-    Tip("All so far, and from now on as it goes: a .scan that can be gone on with  (K)");
+    Tip("Save everything so far, and continuously from now on, to a .scan that can be resumed  "
+        "(K)");
     ImGui::SameLine();
     ImGui::EndDisabled();
     if (MarkedButton(controls, "screenshot", "Picture", wide)) state.want_screenshot = true;
-    Tip("This window as .png  (P)");
+    Tip("Save this window as .png  (P)");
 }
 
 }  // namespace
@@ -128,8 +129,8 @@ void DrawResetQuestion(ViewerState& state) {
                                 ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove |
                                     ImGuiWindowFlags_NoTitleBar))
         return;
-    HeadingText("Start anew?");
-    ImGui::TextUnformatted("The map and the path of this run are forgotten.");
+    HeadingText("Start over?");
+    ImGui::TextUnformatted("This discards the map and the path of this run.");
     ImGui::Dummy({0, Scaled(4)});
     const bool yes = MarkedButton(state.controls, "reset.confirm", "Reset", Scaled(120));
     ImGui::SameLine();

@@ -1,4 +1,4 @@
-// The keys and the pointer, listed.
+// The list of keys and mouse actions.
 #include "viz/panels.h"
 #include "viz/widgets.h"
 
@@ -7,32 +7,32 @@ namespace {
 
 struct Line {
     const char *keys, *meaning;
-    bool of_a_run = false;  // nothing to do with a finished mesh
+    bool of_a_run = false;  // not shown for a finished mesh
 };
 
 constexpr Line kLines[] = {
-    {"Drag", "turn the view around the point looked at"},
+    {"Drag", "rotate the view around the point of interest"},
     {"Shift or middle drag", "move the view"},
-    {"Wheel", "nearer, farther"},
-    {"Double click", "look at this point"},
-    {"F", "follow the sensor, or stay", true},
-    {"A", "see all of the mesh"},
+    {"Wheel", "zoom in and out"},
+    {"Double click", "centre the view on this point"},
+    {"F", "follow the sensor on/off", true},
+    {"A", "show all of the mesh"},
     {"C", "shading: colour, label, weight, grey, normal"},
-    {"W", "wireframe"},
-    {"D", "depth test"},
-    {"B", "objects' boxes and names"},
-    {"T", "ground truth", true},
+    {"W", "wireframe on/off"},
+    {"D", "depth test on/off"},
+    {"B", "object boxes and names on/off"},
+    {"T", "ground truth on/off", true},
     {"", "", true},
-    {"Space", "pause, resume", true},
-    {"S", "one frame, then pause", true},
-    {"R", "reset, after a question", true},
+    {"Space", "pause or resume", true},
+    {"S", "process one frame, then pause", true},
+    {"R", "reset (asks first)", true},
     {"1 2 3 4", "SDF + colour, SDF, ICP, ICP + colour", true},
     {"M", "save the mesh", true},
     {"K", "save the scan", true},
-    {"V", "record raw frames, stop recording", true},
-    {"P", "picture of this window"},
+    {"V", "start or stop recording raw frames", true},
+    {"P", "screenshot of this window"},
     {"H or F1", "this help"},
-    {"Q or Escape", "close; a running scan ends and is saved"},
+    {"Q or Escape", "close; a running scan stops and is saved"},
 };
 
 }  // namespace
@@ -47,7 +47,7 @@ void DrawHelp(ViewerState& state) {
     ImGui::Begin("help", nullptr,
                  ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize |
                      ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav);
-    HeadingText("Keys and pointer");
+    HeadingText("Keys and mouse");
     ImGui::Dummy({0, Scaled(2)});
     if (ImGui::BeginTable("keys", 2, ImGuiTableFlags_SizingFixedFit)) {
         for (const Line& line : kLines) {

@@ -1,4 +1,4 @@
-// What the camera measures beside what the map predicts.
+// Measured images next to the map's prediction.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,11 +11,11 @@
 namespace tessera {
 namespace {
 
-constexpr int kTexturePx = 320;  // wider than it is shown
+constexpr int kTexturePx = 320;  // wider than displayed
 
 int StepFor(int width) { return std::max(1, (width + kTexturePx - 1) / kTexturePx); }
 
-// Where the image was drawn; empty without one.
+// Returns where the image was drawn; empty without an image.
 ImVec4 DrawImage(const char* title, const GlTexture& texture, const ImVec2& size,
                  const char* missing, const Legend& legend) {
     ImDrawList& list = *ImGui::GetWindowDrawList();
@@ -23,7 +23,7 @@ ImVec4 DrawImage(const char* title, const GlTexture& texture, const ImVec2& size
     ImVec4 drawn{};
     list.AddRectFilled(at, to, IM_COL32(18, 20, 24, 255), Scaled(4));
     if (!texture.empty()) {
-        // As large as fits, without distortion.
+        // As large as possible without distortion.
         const auto width = static_cast<float>(texture.width()),
                    height = static_cast<float>(texture.height());
         const float scale = std::min(size.x / width, size.y / height);

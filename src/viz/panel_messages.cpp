@@ -1,4 +1,4 @@
-// The messages, the newest last and in view.
+// The list of messages, scrolled to the newest at the bottom.
 #include "viz/panels.h"
 #include "viz/widgets.h"
 
@@ -14,7 +14,7 @@ void DrawMessagesPanel(const ViewerState& state) {
     for (std::size_t i = 0; i < messages.size(); ++i)
         SmallText(i + 1 == messages.size() ? palette::kText : palette::kDim, messages[i]);
     ImGui::PopTextWrapPos();
-    // Unless the person has scrolled up to read.
+    // Unless the user has scrolled up.
     if (ImGui::GetScrollY() >= ImGui::GetScrollMaxY() - Scaled(20)) ImGui::SetScrollHereY(1);
     ImGui::PopStyleVar();
     ImGui::EndChild();

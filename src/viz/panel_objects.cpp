@@ -1,5 +1,4 @@
-// What the detector finds and what objects stand in the map: a list, names over the 3D view, boxes
-// over the image.
+// Detections and objects in the map: a list, names over the 3D view, boxes over the image.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,8 +9,8 @@
 namespace tessera {
 namespace {
 
-// Names on small plates with the colour's mark at their left, none over another: a later one goes
-// up until it is free.
+// Draws names on small plates with the object's colour at their left. Plates do not overlap: a
+// later one moves up until it is free.
 class NamePlates {
   public:
     NamePlates(ImDrawList& list, float opacity) : list_(list), opacity_(opacity) {}
@@ -40,7 +39,7 @@ class NamePlates {
         const auto in_the_way = [&](const ImVec4& other) {
             return plate.x < other.z && other.x < plate.z && plate.y < other.w && other.y < plate.w;
         };
-        // Each move is past one of the plates, so that this ends.
+        // Each step moves past one of the plates, so the loop terminates.
         for (auto other = std::ranges::find_if(drawn_, in_the_way); other != drawn_.end();
              other = std::ranges::find_if(drawn_, in_the_way)) {
             plate.w = other->y - 1;
@@ -59,11 +58,11 @@ void DrawDetector(const ViewerState& state) {
     const SystemView& system = state.system;
     ImGui::PushFont(SmallFont());
     if (!state.options.labelled)
-        LabelledValue("Detector", "off: run with --labels", palette::kDim);
+        LabelledValue("Detector", "off: run with --labels to enable", palette::kDim);
     else if (system.labels().stopped)
-        LabelledValue("Detector", "broken: see the messages", palette::kBad);
+        LabelledValue("Detector", "failed: see the messages", palette::kBad);
     else if (system.detections_per_s() <= 0)
-        LabelledValue("Detector", state.ended() ? "ended" : "waiting for its first answers",
+        LabelledValue("Detector", state.ended() ? "ended" : "waiting for the first detections",
                       palette::kDim);
     else
         LabelledValue("Detector",
@@ -72,7 +71,7 @@ void DrawDetector(const ViewerState& state) {
     ImGui::PopFont();
 }
 
-// One line: colour, number and class, probability, observations.
+// One row: colour, number and class, probability, observations.
 void DrawRow(ViewerState& state, SceneView& scene, const MapObject& object) {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
@@ -85,7 +84,7 @@ void DrawRow(ViewerState& state, SceneView& scene, const MapObject& object) {
         scene.camera().LookAt(object.centroid);
     }
     state.controls.MarkLast(name);
-    Tip("Look at it");
+    Tip("Centre the view on this object");
     const ImVec2 at = ImGui::GetItemRectMin(), to = ImGui::GetItemRectMax();
     const float middle = (at.y + to.y) / 2;
     ImGui::GetWindowDrawList()->AddRectFilled({at.x + Scaled(3), middle - Scaled(4)},
@@ -105,7 +104,7 @@ void DrawObjectsPanel(ViewerState& state, SceneView& scene) {
     state.controls.MarkLast("detector");
     const auto& objects = state.system.objects();
     if (objects.empty()) return;
-    // At most half of what is left: the rest is the messages'.
+    // At most half of the remaining space; the rest is for the messages.
     ImGui::PushFont(SmallFont());
     const float row = ImGui::GetTextLineHeight() + 2 * ImGui::GetStyle().CellPadding.y;
     const float height = std::min(static_cast<float>(objects.size()) * row + Scaled(2),
@@ -120,7 +119,7 @@ void DrawObjectsPanel(ViewerState& state, SceneView& scene) {
     ImGui::PopFont();
 }
 
-// Nearer ones first: they get the place that they want.
+// Nearer objects come first, so that they get their preferred position.
 void DrawObjectNames(const ViewerState& state, const SceneView& scene, const ControlRect& area) {
     if (!state.view.show_objects) return;
     struct Name {
@@ -145,7 +144,7 @@ void DrawObjectNames(const ViewerState& state, const SceneView& scene, const Con
     list.PopClipRect();
 }
 
-// They fade as the image goes on: a detector is late.
+// Detections fade as newer images arrive, because the detector lags behind.
 void DrawDetections(const ViewerState& state, const ImVec2& from, const ImVec2& to) {
     constexpr double kShown_s = 1.5;
     const LabelUpdate& labels = state.system.labels();

@@ -1,4 +1,4 @@
-// The recent past of a run's figures.
+// Rolling plots of the run's figures.
 #include <array>
 #include <vector>
 

@@ -1,4 +1,4 @@
-// How well the camera is tracked, in a light, words and numbers.
+// Tracking quality as a light, words and numbers.
 #include <fmt/format.h>
 
 #include "viz/panels.h"
@@ -14,7 +14,7 @@ struct Light {
 
 Light LightOf(const ViewerState& state) {
     if (!state.system.has_frame())
-        return state.ended() ? Light{palette::kIdle, "Ended", "no frame came"}
+        return state.ended() ? Light{palette::kIdle, "Ended", "no frame was received"}
                              : Light{palette::kIdle, "Waiting", "for the first frame"};
     const FrameReport& report = state.system.frame().report;
     const TrackResult& track = report.track;
@@ -23,10 +23,10 @@ Light LightOf(const ViewerState& state) {
         return {palette::kWarning, "Poor, not fused", track.reason};
     if (track.degenerate)
         return {palette::kWarning, "Degenerate",
-                track.reason.empty() ? "the scene leaves some motion open" : track.reason};
-    if (report.first) return {palette::kGood, "Started", "the first frame is the world"};
+                track.reason.empty() ? "the scene leaves some motion unconstrained" : track.reason};
+    if (report.first) return {palette::kGood, "Started", "the first frame defines the world frame"};
     return {palette::kGood, "Tracking",
-            report.fused ? "well; the frame went into the map" : "well; the map stays as it is"};
+            report.fused ? "good; frame fused" : "good; frame not fused"};
 }
 
 void DrawLight(const ViewerState& state) {

@@ -1,4 +1,4 @@
-// The 3D view: its picture, the pointer's work in it, and the few choices over it.
+// The 3D view: its picture, mouse control and toolbar.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -11,8 +11,8 @@
 namespace tessera {
 namespace {
 
-// The pointer turns, moves and zooms; a drag takes the camera from the sensor. True if it did
-// anything.
+// Rotates, pans and zooms with the mouse. A drag stops following the sensor. True if the mouse
+// changed the view.
 bool HandlePointer(ViewerState& state, SceneView& scene, const ControlRect& area) {
     const ImGuiIO& io = ImGui::GetIO();
     ViewCamera& camera = scene.camera();
@@ -65,24 +65,24 @@ void DrawToolbar(ViewerState& state, const ControlRect& area) {
     }
     ImGui::Dummy({Scaled(6), 0});
     ImGui::SameLine();
-    if (button("wireframe", "Wireframe", view.wireframe, "Triangles' edges only  (W)"))
+    if (button("wireframe", "Wireframe", view.wireframe,
+               "Show only the edges of the triangles  (W)"))
         view.wireframe = !view.wireframe;
     if (button("depth_test", "Depth test", view.depth_test,
-               "Off: what is behind shows through  (D)"))
+               "Off: hidden surfaces show through  (D)"))
         view.depth_test = !view.depth_test;
     if (state.options.labelled &&
-        button("objects", "Objects", view.show_objects, "Their boxes and names  (B)"))
+        button("objects", "Objects", view.show_objects, "Boxes and names of the objects  (B)"))
         view.show_objects = !view.show_objects;
-    if (state.link &&
-        button("truth", "Truth", view.show_truth, "Path of the ground truth, white  (T)"))
+    if (state.link && button("truth", "Truth", view.show_truth, "Ground-truth path, in white  (T)"))
         view.show_truth = !view.show_truth;
     ImGui::Dummy({Scaled(6), 0});
     ImGui::SameLine();
     if (state.link && button("follow", "Follow", view.follow, "Stay behind the sensor  (F)"))
         state.ToggleFollow();
-    if (button("view_all", "All", view.keep_all, "See all of the mesh, also as it grows  (A)"))
+    if (button("view_all", "All", view.keep_all, "Keep all of the mesh in view as it grows  (A)"))
         state.ViewAll();
-    if (button("help", "Help", state.show_help, "Keys and pointer  (H)"))
+    if (button("help", "Help", state.show_help, "Keys and mouse  (H)"))
         state.show_help = !state.show_help;
     ImGui::PopStyleVar();
     ImGui::PopFont();
@@ -97,7 +97,7 @@ bool DrawViewPanel(ViewerState& state, SceneView& scene, const ViewPanelFrame& f
     ImGui::PopStyleVar();
     ImGui::InvisibleButton("picture", {area.width, area.height},
                            ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonMiddle);
-    ImGui::SetItemAllowOverlap();  // the buttons over it are reached
+    ImGui::SetItemAllowOverlap();  // so that the buttons over it get input
     state.controls.MarkLast("view");
     const bool by_hand = HandlePointer(state, scene, area);
     if (state.view.keep_all) scene.ViewAll();

@@ -1,5 +1,5 @@
-// The window's parts, each in a file of its own (panel_*.cpp). Inside an ImGui frame; they read and
-// change the state.
+// The panels of the window, each in its own file (panel_*.cpp). Call inside an ImGui frame. They
+// read and change the state.
 #pragma once
 
 #include <imgui.h>
@@ -12,26 +12,26 @@ namespace tessera {
 
 void DrawStatusPanel(ViewerState& state, const SceneView& scene);  // inside the left column
 void DrawControlsPanel(ViewerState& state);                        // inside the left column
-// Inside the left column; a click looks at one.
+// Inside the left column; a click centres the view on an object.
 void DrawObjectsPanel(ViewerState& state, SceneView& scene);
-void DrawMessagesPanel(const ViewerState& state);  // the left column's rest
+void DrawMessagesPanel(const ViewerState& state);  // rest of the left column
 void DrawPlotsPanel(const ViewerState& state, const ControlRect& area);
-// Over everything, while wanted.
+// Drawn over everything, while active.
 void DrawHelp(ViewerState& state);
 void DrawResetQuestion(ViewerState& state);
 
-// Boxes that a detector gave, over a picture of the image at `from` to `to`.
+// Draws the newest detections over the image shown from `from` to `to`.
 void DrawDetections(const ViewerState& state, const ImVec2& from, const ImVec2& to);
-// The objects' names over the 3D view, whose picture fills `area`.
+// Draws the object names over the 3D view, which fills `area`.
 void DrawObjectNames(const ViewerState& state, const SceneView& scene, const ControlRect& area);
 
-// The 3D view and the pointer's work in it.
+// The 3D view and its mouse control.
 struct ViewPanelFrame {
     ControlRect area;
     bool may_redraw = true;
     bool smooth = false;
 };
-// True if the 3D view was drawn anew.
+// True if the 3D view was redrawn.
 bool DrawViewPanel(ViewerState& state, SceneView& scene, const ViewPanelFrame& frame);
 
 // Measured and predicted images. Made, used and destroyed with the OpenGL context current.

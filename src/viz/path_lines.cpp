@@ -17,8 +17,8 @@ LineVertex Vertex(const Eigen::Vector3f& p, const Colour& colour) {
     return {{p.x(), p.y(), p.z()}, colour};
 }
 
-// What `points` has more than `lines`, whose vertices are two where a piece begins: nothing leads
-// there.
+// Appends the points after the first `done` ones. Where a segment begins, appends a transparent
+// vertex first, so that no line leads to it.
 void AppendNew(const std::vector<SystemView::PathPoint>& points, std::size_t done,
                const Colour& good, GlLines& lines) {
     std::vector<LineVertex> vertices;
@@ -66,7 +66,7 @@ bool PathLines::Update(const ViewerState& state) {
     return changed;
 }
 
-// A pyramid 15 cm deep with a mark on its upper side.
+// Draws the sensor as a pyramid 15 cm deep, with a mark on its top side.
 void PathLines::SetOutline(const Eigen::Isometry3d& T_world_camera, const PinholeCamera& camera,
                            TrackStatus status) {
     constexpr double kDepthM = 0.15;

@@ -1,5 +1,5 @@
-// The lines of the 3D view: the path by tracking quality, the ground truth, the sensor's outline.
-// Made, used and destroyed with the OpenGL context current.
+// Lines of the 3D view: the path coloured by tracking quality, the ground truth, and the sensor's
+// outline. Made, used and destroyed with the OpenGL context current.
 #pragma once
 
 #include <vector>
@@ -11,9 +11,9 @@ namespace tessera {
 
 class PathLines {
   public:
-    // A path that does not grow, in place of the system's.
+    // Shows a fixed path instead of the system's.
     void SetPath(const std::vector<Eigen::Isometry3d>& path);
-    // Brings over what is new. True if anything changed.
+    // Takes over what is new. True if anything changed.
     bool Update(const ViewerState& state);
     void Draw(const GlLineProgram& program, const GlLineProgram::View& view, bool with_truth,
               float opacity);

@@ -34,7 +34,7 @@ void DrawCurve(ImDrawList& list, const PlotFrame& frame, const Curve& curve, boo
     for (std::size_t i = 0; i < points.size(); ++i) points[i] = frame.At(*curve.series, i);
     const ImU32 shade = (curve.colour & ~IM_COL32_A_MASK) | (44u << IM_COL32_A_SHIFT);
     const ImDrawListFlags flags = list.Flags;
-    list.Flags &= ~ImDrawListFlags_AntiAliasedFill;  // it would show the seams
+    list.Flags &= ~ImDrawListFlags_AntiAliasedFill;  // anti-aliasing would show seams
     if (filled)
         for (std::size_t i = 1; i < points.size(); ++i)
             list.AddQuadFilled({points[i - 1].x, frame.to.y}, points[i - 1], points[i],
@@ -43,7 +43,7 @@ void DrawCurve(ImDrawList& list, const PlotFrame& frame, const Curve& curve, boo
     list.AddPolyline(points.data(), static_cast<int>(points.size()), curve.colour, 0, Scaled(1.4f));
 }
 
-// Names and last values along the top, as far as there is room.
+// Draws names and last values along the top, as far as they fit.
 void DrawCurveNames(ImDrawList& list, std::span<const Curve> curves, ImVec2 at, float right) {
     for (const Curve& curve : curves) {
         const std::string text = fmt::format("{} {:.0f}", curve.name, curve.series->last());

@@ -1,4 +1,4 @@
-// A rolling plot: the newest value at the right edge. Inside an ImGui frame.
+// A rolling plot with the newest value at the right edge. Call inside an ImGui frame.
 #pragma once
 
 #include <imgui.h>
@@ -15,8 +15,8 @@ struct Curve {
     ImU32 colour = 0;
 };
 
-// Title, unit, axis from 0 to a round number (or to `axis_end`, if positive), the curves and their
-// last values; the values under the pointer in a tip.
+// Draws title, unit, an axis from 0 to a round number (or to `axis_end` if positive), the curves
+// and their last values. A tooltip shows the values under the mouse.
 void DrawPlot(const char* title, const char* unit, std::span<const Curve> curves,
               const ImVec2& size, float axis_end = 0);
 

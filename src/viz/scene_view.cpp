@@ -79,7 +79,7 @@ void SceneView::SetModel(const ViewedModel& model) {
     for (const Eigen::Vector3f& vertex : model.mesh.vertices)
         impl_->bounds.extend(vertex.cast<double>());
     const MeshView view = ChooseView(model.mesh, model.path);
-    // ChooseView took one of these two for up.
+    // ChooseView uses one of these two as up.
     const Eigen::Vector3d down = view.T_world_camera.linear().col(1);
     const Eigen::Vector3d up =
         -down.z() > down.y() ? Eigen::Vector3d(0, 0, 1) : Eigen::Vector3d(0, -1, 0);
@@ -130,7 +130,7 @@ bool SceneView::TakeMesh(ViewerLink& link, std::size_t most_bytes) {
     return any;
 }
 
-// Not for every small change, which would be seen.
+// Ignores small changes, which would be visible as jitter.
 void SceneView::Impl::StandUpright() {
     const auto found = up.Up();
     if (found && found->dot(camera.up()) < 0.9997) camera.SetUp(*found);
@@ -153,7 +153,7 @@ void SceneView::ViewAll() {
     Impl& s = *impl_;
     if (s.bounds.isEmpty()) return;
     const Eigen::Vector3d from = s.camera.T_world_camera().linear().col(2);
-    // Not for every block that is new, else the view would never stand still.
+    // Ignores small changes, or the view would never rest while the mesh grows.
     const double distance_m = 0.76 * s.bounds.diagonal().norm();
     if ((s.camera.target() - s.bounds.center()).norm() < 0.03 * distance_m &&
         std::abs(s.camera.distance_m() - distance_m) < 0.03 * distance_m)
@@ -204,7 +204,7 @@ void SceneView::Impl::DrawMesh(const ViewerState& state, const PinholeCamera& pi
     glDisable(GL_CULL_FACE);
 }
 
-// Once as far as they show, and once more, faintly, behind the surfaces.
+// Draws the lines twice: faintly where surfaces hide them, then fully where they are visible.
 void SceneView::Impl::DrawPaths(const ViewerState& state, const PinholeCamera& pinhole) {
     GlLineProgram::View view;
     view.clip_from_world =

@@ -1,4 +1,4 @@
-// The 3D view: mesh, paths and the sensor's outline, drawn into a picture. Made, used and destroyed
+// The 3D view: draws mesh, paths and the sensor's outline into a picture. Made, used and destroyed
 // with the OpenGL context current.
 #pragma once
 
@@ -16,18 +16,18 @@ class SceneView {
     static Result<std::unique_ptr<SceneView>> Create(bool is_software);
     ~SceneView();
 
-    // In place of a link's meshes.
+    // Shows a model instead of the link's meshes.
     void SetModel(const ViewedModel& model);
-    // Takes what the link has of the mesh, at most about `most_bytes` onto the card; the rest
-    // waits, at last in the mesher. True if anything came.
+    // Takes mesh updates from the link and uploads about `most_bytes` of them at most; the rest
+    // stays queued. True if anything arrived.
     bool TakeMesh(ViewerLink& link, std::size_t most_bytes);
-    // Moves the camera behind the sensor as the choices say. True if it moved.
+    // Moves the camera behind the sensor if following is on. True if it moved.
     bool Follow(const ViewerState& state, double since_s);
-    // So that all of the mesh shows, in the present direction.
+    // Moves the camera so that all of the mesh is visible, keeping the direction.
     void ViewAll();
 
-    // Draws if anything differs from the last picture; what the person did (`by_hand`, a choice,
-    // the size) at once, what the system did only if `may_redraw`. True if it drew.
+    // Draws if anything differs from the last picture. Changes by the user (`by_hand`, a choice,
+    // the size) are drawn at once, changes by the system only if `may_redraw`. True if it drew.
     struct Request {
         int width = 0, height = 0;  // pixels
         bool may_redraw = true, by_hand = false, smooth = false;
@@ -36,10 +36,10 @@ class SceneView {
     unsigned texture() const;
 
     ViewCamera& camera();
-    // The surface's point at a pixel of the picture, world frame.
+    // Returns the surface point at a pixel of the picture, world frame.
     std::optional<Eigen::Vector3d> PointAt(int x, int y) const;
-    // The pixel of the picture where a point of the world frame shows, whatever is before it, and
-    // its depth in metres; nothing if it is behind the camera.
+    // Projects a world point into the picture, ignoring occlusion. Returns pixel coordinates and
+    // depth in metres; empty if the point is behind the camera.
     std::optional<Eigen::Vector3d> PixelOf(const Eigen::Vector3d& p_world) const;
     std::size_t triangles() const;
 

@@ -3,8 +3,8 @@
 namespace tessera {
 namespace {
 
-// Adds now_s to the arrivals of the last `keep_s` seconds, at least two; how many a second that
-// makes.
+// Adds now_s to the arrivals of the last `keep_s` seconds (at least two are kept). Returns their
+// rate per second.
 double RateWith(double now_s, double keep_s, std::deque<double>& arrivals_s) {
     arrivals_s.push_back(now_s);
     while (arrivals_s.size() > 2 && now_s - arrivals_s.front() > keep_s) arrivals_s.pop_front();
@@ -95,7 +95,7 @@ void SystemView::AddToHistory() {
     add(h.fuse_ms, report.fusion.allocate_ms + report.fusion.fuse_ms);
     add(h.mesh_ms, frame_.mesh_ms);
     add(h.latency_ms, frame_.latency_ms);
-    // The first frame starts the map and is not measured against it.
+    // The first frame starts the map, so there is nothing to compare it with.
     add(h.inlier_percent, report.first ? 100 : 100 * report.track.inlier_fraction);
     add(h.rms_mm, 1000 * report.track.distance_rms_m);
     add(h.map_mb, static_cast<double>(frame_.map.bytes) / (1 << 20));

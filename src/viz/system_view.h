@@ -1,5 +1,5 @@
-// What the window knows of the running system: the newest of everything that came over the link,
-// and its recent past.
+// The window's knowledge of the running system: the newest of everything received over the link,
+// and its recent history.
 #pragma once
 
 #include <cstdint>
@@ -19,39 +19,38 @@ class SystemView {
     struct PathPoint {
         Eigen::Vector3f position_m;  // world
         TrackStatus status = TrackStatus::kGood;
-        bool follows = false;  // the point before is the frame before: nothing was lost between
+        // The previous point belongs to the previous frame; no tracking loss in between.
+        bool follows = false;
     };
     struct History {
         Series decode_ms, prepare_ms, track_ms, fuse_ms, mesh_ms, latency_ms;
         Series inlier_percent, rms_mm, map_mb, dropped;
-        std::map<std::string, Series> queued;  // by the queue's name
+        std::map<std::string, Series> queued;  // by queue name
     };
     static constexpr std::size_t kMostMessages = 500;
 
-    // Takes frames, pictures and messages; meshes go to the 3D view. `now_s`: any steady clock.
-    // True if anything came.
+    // Takes frames, images, labels and messages from the link; meshes go to the 3D view. `now_s`:
+    // any steady clock. True if anything arrived.
     bool Take(ViewerLink& link, double now_s);
-    // In place of a link's.
+    // Sets the objects, instead of those from a link.
     void SetObjects(std::vector<MapObject> objects);
-    // A message of the window's own.
+    // Adds a message of the window itself.
     void Say(const std::string& text);
 
     bool has_frame() const { return has_frame_; }
     const FrameUpdate& frame() const { return frame_; }
-    double fps() const { return fps_; }  // of the last seconds' frames
+    double fps() const { return fps_; }  // over the last seconds
     const std::vector<PathPoint>& path() const { return path_; }
     const std::vector<PathPoint>& truth() const { return truth_; }
-    std::uint64_t path_identity() const {
-        return path_identity_;
-    }                                                      // another one: the paths began anew
-    const ImageUpdate& images() const { return images_; }  // `frame` is null before the first
+    // Changes when the paths start over.
+    std::uint64_t path_identity() const { return path_identity_; }
+    const ImageUpdate& images() const { return images_; }  // `frame` is null before the first one
     std::uint64_t images_taken() const { return images_taken_; }
-    const std::vector<MapObject>& objects() const { return objects_; }  // by number
+    const std::vector<MapObject>& objects() const { return objects_; }  // sorted by number
     std::uint64_t objects_taken() const { return objects_taken_; }
-    const LabelUpdate& labels() const { return labels_; }  // the newest detections
-    double detections_per_s() const {
-        return detections_per_s_;
-    }  // frames detected, of the last seconds; 0: not known yet
+    const LabelUpdate& labels() const { return labels_; }  // with the newest detections
+    // Frames processed by the detector per second, over the last seconds; 0: not known yet.
+    double detections_per_s() const { return detections_per_s_; }
     const History& history() const { return history_; }
     const std::deque<std::string>& messages() const { return messages_; }  // oldest first
     std::uint64_t messages_said() const { return messages_said_; }

@@ -6,13 +6,13 @@
 namespace tessera {
 namespace {
 
-// Of this process's one ImGui context.
+// For the only ImGui context of this process.
 struct {
     float scale = 1;
     ImFont *small = nullptr, *heading = nullptr;
 } theme;
 
-// Debian's fonts-dejavu-core; ImGui's own font where that is missing.
+// Uses Debian's fonts-dejavu-core, or ImGui's own font if that is missing.
 ImFont* LoadFont(const char* file, float size_px) {
     const std::string path = std::string("/usr/share/fonts/truetype/dejavu/") + file;
     ImFontAtlas& atlas = *ImGui::GetIO().Fonts;

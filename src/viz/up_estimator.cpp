@@ -5,7 +5,7 @@
 namespace tessera {
 namespace {
 
-constexpr float kCosReach = 0.602f, kSinReach = 0.799f;  // of 53 degrees
+constexpr float kCosReach = 0.602f, kSinReach = 0.799f;  // cosine and sine of 53 degrees
 constexpr double kLeastNormals = 500, kLeastShare = 0.08;
 
 Eigen::Vector3f FromOctahedral(const std::array<std::int16_t, 2>& packed) {
@@ -34,7 +34,7 @@ void UpEstimator::Clear() {
 }
 
 void UpEstimator::Add(const BlockGeometry& geometry) {
-    // A direction needs no more than a few samples of a block.
+    // A few samples per block are enough to find a direction.
     for (std::size_t i = 0; i < geometry.vertices.size(); i += 8)
         Add(FromOctahedral(geometry.vertices[i].normal));
 }
@@ -52,8 +52,8 @@ void UpEstimator::Add(const Eigen::Vector3f& normal_world) {
 }
 
 std::optional<Eigen::Vector3d> UpEstimator::Up() const {
-    // A wall lies as far from the rough direction as the floor when that is 45 degrees off: the
-    // nearer one counts more.
+    // If the rough direction is off by 45 degrees, a wall is as close to it as the floor, so nearer
+    // directions count more.
     const auto weight = [&](const Bin& bin) {
         return bin.count * std::pow(bin.sum.normalized().dot(rough_.cast<double>()), 4);
     };

@@ -1,5 +1,6 @@
-// Which way is up, from the mesh alone: a run's world is its first camera, which somebody held
-// tilted. Floors, tables and seats agree on a direction near that camera's up. Owner thread only.
+// Estimates the up direction from the mesh alone. The world frame of a run is its first camera,
+// which is usually tilted. Floors, tables and seats share a direction near that camera's up. Owner
+// thread only.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -12,17 +13,17 @@ namespace tessera {
 
 class UpEstimator {
   public:
-    // Looks for a direction within 53 degrees of `roughly_up` (any length but 0).
+    // Searches within 53 degrees of `roughly_up` (any non-zero length).
     explicit UpEstimator(const Eigen::Vector3d& roughly_up);
 
     void Clear();
     void Add(const BlockGeometry& geometry);
     void Add(const Eigen::Vector3f& normal_world);
-    // Unit, world frame; nothing while too few surfaces agree.
+    // Unit vector in the world frame; empty while too few surfaces agree.
     std::optional<Eigen::Vector3d> Up() const;
 
   private:
-    static constexpr int kBins = 20;  // along either axis of the plane across `roughly_up`
+    static constexpr int kBins = 20;  // along both axes of the plane perpendicular to `roughly_up`
     struct Bin {
         Eigen::Vector3d sum = Eigen::Vector3d::Zero();
         double count = 0;

@@ -18,8 +18,8 @@ namespace {
 
 // After the last input or update, ImGui needs a few rounds until hovering and popups have settled.
 constexpr int kSettlingRounds = 3;
-// In software, on the processor that the system needs as well: while nobody moves the view it is
-// drawn anew at most this often, and never for more than this share of the time.
+// Software rendering uses CPU time that the system needs. Unless the user moves the view, it is
+// redrawn at most this often, and for at most this share of the time.
 constexpr double kSoftwareViewPeriodS = 0.25, kSoftwareShare = 0.1;
 
 struct Layout {
@@ -41,7 +41,7 @@ Layout LayOut(float width, float height, bool with_system) {
 
 }  // namespace
 
-// Members are destroyed from below: the window, with its context, last.
+// Members are destroyed in reverse order: the window with its context last.
 struct Viewer::Impl {
     Impl(std::unique_ptr<Window> opened, ViewerLink* link, const ViewerOptions& options)
         : window(std::move(opened)), state(link, options) {}
@@ -61,7 +61,7 @@ struct Viewer::Impl {
     double drawn_at_s = -1e9, view_drawn_at_s = -1e9, view_cost_s = 0, followed_at_s = 0;
     int rounds_to_draw = kSettlingRounds;
     bool sent_stop = false, ended_seen = false;
-    bool scene_waits = false;  // the last frame was drawn too soon for the 3D view
+    bool scene_waits = false;  // the last frame was too soon for redrawing the 3D view
 };
 
 namespace {
@@ -209,7 +209,7 @@ void Viewer::Impl::TakeScreenshot() {
     DrawFrame(true);
     const std::string path = state.NewFileName("scan", "png");
     const Status status = WriteColourImage(path, window->Read());
-    state.system.Say(status.ok() ? "picture saved: " + path : status.message());
+    state.system.Say(status.ok() ? "screenshot saved: " + path : status.message());
     rounds_to_draw = kSettlingRounds;
 }
 

@@ -1,5 +1,5 @@
-// The window: what a running system sends over a ViewerLink is shown, what the person does goes
-// back the same way.
+// The window: shows what a running system sends over a ViewerLink, and sends the user's input back
+// over it.
 #pragma once
 
 #include <memory>
@@ -15,51 +15,52 @@
 
 namespace tessera {
 
-// Of the mesh.
+// Shading of the mesh.
 enum class Shading {
-    kColour,  // the scene's
-    kLabel,   // by the objects' classes
-    kWeight,  // how often it was measured
+    kColour,  // colours of the scene
+    kLabel,   // classes of the objects
+    kWeight,  // how often a surface was measured
     kGrey,
     kNormal,
 };
 
 struct ViewerOptions {
-    std::string title;  // of what is scanned or shown
-    // Of the window at first, in pixels of a display of usual density.
+    std::string title;  // name of what is scanned or shown
+    // Initial size of the window, in pixels of a standard-density display.
     int width = 1280, height = 720;
-    // For screenshots, saved meshes and recordings; made when first needed.
+    // For screenshots, saved meshes and recordings; created when first needed.
     std::string output_folder = ".";
     PinholeCamera camera;        // of the frames
-    double truncation_m = 0.04;  // the map's: the residual's colours reach so far
-    bool labelled = false;       // whether there is a detector, or a model's mesh has labels
-    ViewerSettings settings;     // in force when the window opens
-    Shading shading = Shading::kColour;  // at first
-    // The sensor at first; else all of the mesh, until the person turns the view.
+    double truncation_m = 0.04;  // of the map; limit of the residual's colour scale
+    bool labelled = false;       // true if there is a detector, or if the model's mesh has labels
+    ViewerSettings settings;     // active when the window opens
+    Shading shading = Shading::kColour;  // initial
+    // Initially follow the sensor; otherwise show all of the mesh until the user moves the view.
     bool follow = true;
-    bool close_at_end = false;    // with ViewerLink::ended; else the person closes
-    double wait_s = 1.0 / 30;     // how long RunOnce may sleep when there is nothing to do
-    double double_click_s = 0.3;  // at most so long between the two clicks
-    double max_fps = 0;           // of drawing; 0: 60 on a graphics card, 15 in software
+    // When ViewerLink::ended is set; otherwise the user closes the window.
+    bool close_at_end = false;
+    double wait_s = 1.0 / 30;     // maximum sleep of RunOnce when there is nothing to do
+    double double_click_s = 0.3;  // maximum time between the two clicks
+    double max_fps = 0;           // drawing rate; 0: 60 on a GPU, 15 in software
 };
 
-// A mesh to look at, without a system: `tessera view`.
+// A mesh to display without a running system: `tessera view`.
 struct ViewedModel {
     TriangleMesh mesh;
-    std::vector<Eigen::Isometry3d> path;  // T_world_camera of a run; may be empty
-    std::vector<MapObject> objects;       // of its labels; may be empty
+    std::vector<Eigen::Isometry3d> path;  // T_world_camera of the run; may be empty
+    std::vector<MapObject> objects;       // matching the mesh's labels; may be empty
 };
 
-// Of a control in the window, in pixels from its top left corner.
+// Area of a control in the window, in pixels from the top left corner.
 struct ControlRect {
     float x = 0, y = 0, width = 0, height = 0;
 };
 
-// Main thread only: opened, run and destroyed there. One at a time in a process.
+// Main thread only: opened, run and destroyed there. Only one per process at a time.
 class Viewer {
   public:
-    // The link must outlive the viewer. Fails with one line where there is no display or no
-    // OpenGL 3.3, and where the build has no window; the caller may then go on without.
+    // The link must outlive the viewer. Fails with a one-line message if there is no display or no
+    // OpenGL 3.3, or if the build has no window. The caller may then continue without it.
     static Result<std::unique_ptr<Viewer>> Open(ViewerLink& link, const ViewerOptions& options);
     static Result<std::unique_ptr<Viewer>> OpenModel(ViewedModel model,
                                                      const ViewerOptions& options);
@@ -67,18 +68,19 @@ class Viewer {
     Viewer(const Viewer&) = delete;
     Viewer& operator=(const Viewer&) = delete;
 
-    // Until the window is closed, its display is lost, or the run has ended and
-    // options.close_at_end. On return the system was sent kStop, unless it had ended.
+    // Runs until the window is closed, the display is lost, or the run has ended with
+    // options.close_at_end. On return kStop was sent to the system, unless it had already ended.
     void Run();
-    // One round: takes what came, handles input, draws if anything changed. False once the window
-    // should close.
+    // One iteration: takes updates, handles input, draws if anything changed. Returns false when
+    // the window should close.
     bool RunOnce();
 
-    // What the window shows now, 3D view with smooth edges. Empty if the display is lost.
+    // Returns what the window currently shows, with an anti-aliased 3D view. Empty if the window is
+    // closing or minimised, or the display is lost.
     ColourImage Picture();
 
-    // Where a control or panel was last drawn, by its name (docs/window.md lists them); none while
-    // it is hidden.
+    // Returns where a control or panel was last drawn, by name (docs/window.md lists the names).
+    // Empty while it is hidden.
     std::optional<ControlRect> FindControl(const std::string& name) const;
 
   private:

@@ -1,4 +1,4 @@
-// In place of the window, in a build without ImGui, GLFW or OpenGL: says so.
+// Stub for builds without ImGui, GLFW or OpenGL; opening the window returns an error.
 #include "viz/viewer.h"
 
 namespace tessera {
@@ -6,8 +6,8 @@ namespace {
 
 Status Off() {
     return Status::Error(
-        "this build has no window: install libimgui-dev, libglfw3-dev and libepoxy-dev and build "
-        "again");
+        "this build has no window; install libimgui-dev, libglfw3-dev and libepoxy-dev and "
+        "rebuild");
 }
 
 }  // namespace
@@ -18,7 +18,7 @@ Result<std::unique_ptr<Viewer>> Viewer::OpenModel(ViewedModel, const ViewerOptio
     return Off();
 }
 Viewer::~Viewer() = default;
-// Never called: there is no object.
+// Never called, because no object exists.
 void Viewer::Run() {}
 bool Viewer::RunOnce() { return false; }
 ColourImage Viewer::Picture() { return {}; }

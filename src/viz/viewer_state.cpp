@@ -121,7 +121,7 @@ void ViewerState::OnKey(int key, int mods) {
 
 std::string ViewerState::NewFileName(const char* prefix, const char* extension) const {
     namespace fs = std::filesystem;
-    std::error_code ignored;  // whoever writes the file says what is wrong
+    std::error_code ignored;  // the code that writes the file reports the error
     fs::create_directories(options.output_folder, ignored);
     const std::string ending = *extension ? std::string(".") + extension : "";
     const std::string stem =

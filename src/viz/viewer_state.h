@@ -1,5 +1,5 @@
-// What the window's panels share: what they show, what the person has chosen, and what a control
-// does. A button and its key call the same function here.
+// State shared by the window's panels: what they show, the user's choices, and the actions of the
+// controls. A button and its key call the same function.
 #pragma once
 
 #include <string>
@@ -15,9 +15,9 @@ const char* ToString(Shading shading);
 
 struct ViewChoices {
     Shading shading = Shading::kColour;
-    bool keep_all = false;  // stay so far away that all of the mesh shows
+    bool keep_all = false;  // keep all of the mesh in view
     bool wireframe = false, depth_test = true, follow = true, show_truth = true;
-    bool show_objects = true;  // their boxes and names
+    bool show_objects = true;  // boxes and names
 };
 
 // Owner thread only.
@@ -29,7 +29,7 @@ struct ViewerState {
         view.keep_all = !given.follow;
     }
 
-    ViewerLink* const link;  // null: a model without a system
+    ViewerLink* const link;  // null: a model without a running system
     const ViewerOptions options;
     SystemView system;
     Controls controls;
@@ -41,23 +41,23 @@ struct ViewerState {
     bool ended() const { return !link || link->ended; }
     bool paused() const { return link && link->paused; }
     bool recording() const { return link && link->recording; }
-    // Settings are sent whole; to be called after a change of `settings`.
+    // Sends all settings; call after changing `settings`.
     void SendSettings();
     void SelectMethod(TrackingMethod method);
     void TogglePause();
     void Step();
-    void Reset();  // asked for and confirmed
+    void Reset();  // after the user confirmed
     void SaveMesh();
     void SaveScan();
     void ToggleRecording();
-    void CycleShading();  // over those that there is something to show for
+    void CycleShading();  // skips shadings without data
     bool CanShade(Shading shading) const;
     void ToggleFollow();
     void ViewAll();
-    // The window's keys: GLFW_KEY_* and GLFW_MOD_*.
+    // Handles a key of the window: GLFW_KEY_* and GLFW_MOD_*.
     void OnKey(int key, int mods);
-    // "DIR/PREFIX-YYYYMMDD-HHMMSS.EXTENSION", with a number where that exists already; makes the
-    // folder.
+    // Returns "DIR/PREFIX-YYYYMMDD-HHMMSS.EXTENSION", with a number appended if that exists.
+    // Creates the folder.
     std::string NewFileName(const char* prefix, const char* extension) const;
 
   private:

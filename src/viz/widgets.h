@@ -1,4 +1,4 @@
-// The few building blocks that all panels are made of. Inside an ImGui frame.
+// Widgets used by all panels. Call inside an ImGui frame.
 #pragma once
 
 #include <imgui.h>
@@ -10,7 +10,7 @@
 
 namespace tessera {
 
-// A fixed part of the window for as long as it lives.
+// A fixed part of the window; open for the lifetime of the object.
 class [[nodiscard]] Panel {
   public:
     Panel(const char* name, const ControlRect& area, ImGuiWindowFlags more = 0);
@@ -19,17 +19,17 @@ class [[nodiscard]] Panel {
     Panel& operator=(const Panel&) = delete;
 };
 
-// Text in another font or colour.
+// Draws text in another font or colour.
 void SmallText(ImU32 colour, const std::string& text);
 void HeadingText(const char* text);
-// A label and a thin line that open a group.
+// A label and a thin line at the start of a group.
 void GroupTitle(const char* text);
-// A label at the left edge, its value at the right one of the present column.
+// A label at the left edge of the current column, its value at the right edge.
 void LabelledValue(const char* label, const std::string& value, ImU32 colour = palette::kText);
-// For the item before, if the pointer rests on it.
+// Tooltip of the previous item, while the mouse is over it.
 void Tip(const char* text);
 
-// Marked by `name` in the controls.
+// Widgets that record their area as `name` in the controls.
 bool MarkedButton(Controls& controls, const char* name, const char* label, float width,
                   bool lit = false);
 bool MarkedCheckbox(Controls& controls, const char* name, const char* label, bool& value);

@@ -1,7 +1,7 @@
 #include "viz/window.h"
 
 #include <epoxy/gl.h>
-// After epoxy, which brings OpenGL's names.
+// After epoxy, which declares the OpenGL functions.
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <backends/imgui_impl_glfw.h>
@@ -21,7 +21,7 @@ namespace {
 std::string LastError() {
     const char* text = nullptr;
     glfwGetError(&text);
-    return text ? text : "no reason given";
+    return text ? text : "unknown reason";
 }
 
 Window& Self(GLFWwindow* window) { return *static_cast<Window*>(glfwGetWindowUserPointer(window)); }
@@ -48,17 +48,17 @@ Result<std::unique_ptr<Window>> Window::Open(const std::string& title, int width
 }
 
 Status Window::Create(const std::string& title, int width, int height) {
-    // EGL first, as the predicted views use it.
+    // Tries EGL first, because the predicted views use it.
     for (const int api : {GLFW_EGL_CONTEXT_API, GLFW_NATIVE_CONTEXT_API})
         if (!window_) window_ = CreateWithContext(api, title, width, height);
     if (!window_)
         return Status::Error(
-            fmt::format("the display has no OpenGL 3.3 window ({}): install libegl1, libgl1 and "
-                        "libgl1-mesa-dri, or run without --view",
+            fmt::format("the display cannot open an OpenGL 3.3 window ({}): install libegl1, "
+                        "libgl1 and libgl1-mesa-dri, or run without --view",
                         LastError()));
     SurviveLossOfDisplay();
     glfwMakeContextCurrent(window_);
-    glfwSwapInterval(0);  // the viewer has its own pace, and a hidden window must not hold it up
+    glfwSwapInterval(0);  // the viewer controls its own pace; a hidden window must not block it
     const auto* name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
     renderer_ = name ? name : "unnamed";
     is_software_ = renderer_.find("llvmpipe") != std::string::npos ||
@@ -70,14 +70,14 @@ Status Window::Create(const std::string& title, int width, int height) {
     SetCallbacks();
     ImGui::CreateContext();
     has_imgui_ = true;
-    ImGui::GetIO().IniFilename = nullptr;  // the layout is fixed, nothing is left behind
+    ImGui::GetIO().IniFilename = nullptr;  // the layout is fixed, so no settings are saved
     ApplyTheme(scale_);
     ImGui_ImplGlfw_InitForOpenGL(window_, true);
     ImGui_ImplOpenGL3_Init("#version 330 core");
     return Status::Ok();
 }
 
-// ImGui's are set after these and call them.
+// ImGui installs its callbacks after these and calls them.
 void Window::SetCallbacks() {
     glfwSetWindowUserPointer(window_, this);
     glfwSetKeyCallback(window_, [](GLFWwindow* window, int key, int, int action, int mods) {

@@ -1,5 +1,4 @@
-// The operating system's window with its OpenGL 3.3 context and ImGui in it. Knows nothing of what
-// is drawn.
+// An operating-system window with an OpenGL 3.3 context and ImGui. Independent of what is drawn.
 #pragma once
 
 #include <memory>
@@ -13,7 +12,7 @@ struct GLFWwindow;
 
 namespace tessera {
 
-// Main thread only, one at a time in a process. The context is current from Open on.
+// Main thread only, one per process at a time. The context is current once Open returns.
 class Window {
   public:
     struct Key {
@@ -21,24 +20,24 @@ class Window {
         int mods = 0;  // GLFW_MOD_*
     };
 
-    // `width` and `height` at usual density; larger on a denser display.
+    // `width` and `height` for a standard-density display; scaled up on denser displays.
     static Result<std::unique_ptr<Window>> Open(const std::string& title, int width, int height);
     ~Window();
     Window(const Window&) = delete;
     Window& operator=(const Window&) = delete;
 
-    // Sleeps until there is input, at most `wait_s`. True if there was any.
+    // Waits for input for at most `wait_s`. True if there was any.
     bool WaitForInput(double wait_s);
     bool ShouldClose() const;
-    // The keys pressed since the last call, in order.
+    // Returns the keys pressed since the last call, in order.
     std::vector<Key> TakeKeys();
 
-    // Around everything that ImGui draws. Nothing is shown before Show.
+    // Enclose everything that ImGui draws. Nothing is visible before Show.
     void BeginFrame();
     void EndFrame();
-    // Waits until it is drawn.
+    // Waits until drawing has finished.
     void Finish();
-    // What EndFrame has drawn.
+    // Returns what EndFrame has drawn.
     ColourImage Read() const;
     void Show();
 

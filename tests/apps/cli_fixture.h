@@ -1,4 +1,4 @@
-// The program itself, called as a person or a script calls it.
+// Runs the tessera program the way a user or a script does.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -38,7 +38,7 @@ class Cli : public testing::Test {
         return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, ReadAll(folder / "stdout"),
                 ReadAll(folder / "stderr")};
     }
-    // Bad input: exit code 2, one line that names the culprit.
+    // Bad input must give exit code 2 and one line on stderr that contains `named`.
     void ExpectRefused(const std::string& arguments, const std::string& named) const {
         const Outcome outcome = Call(arguments);
         EXPECT_EQ(outcome.exit_code, 2) << arguments << "\n" << outcome.err;
@@ -46,7 +46,7 @@ class Cli : public testing::Test {
                                                                                << outcome.err;
         EXPECT_NE(outcome.err.find(named), std::string::npos) << arguments << "\n" << outcome.err;
     }
-    // A run that takes a second.
+    // A run that takes about one second.
     static std::string SmallRun() {
         return "run synthetic:desk --set synthetic.width=160 --set synthetic.height=120 --set "
                "synthetic.fx=131 "

@@ -1,4 +1,4 @@
-// The contract of docs/design.md, section 8: options, exit codes, one line on stderr.
+// Tests the contract of docs/design.md, section 8: options, exit codes, one line on stderr.
 #include <signal.h>
 #include <unistd.h>
 
@@ -24,7 +24,7 @@ TEST_F(Cli, WithoutADisplayViewSaysSoAndGoesOn) {
     const Outcome outcome = Call(SmallRun() + "--frames 5 --view --out " + (folder / "out"),
                                  "env -u DISPLAY -u WAYLAND_DISPLAY ");
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-    EXPECT_NE(outcome.err.find("going on without"), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find("continuing without"), std::string::npos) << outcome.err;
     EXPECT_NE(outcome.out.find("5 frames, 5 tracked"), std::string::npos) << outcome.out;
 }
 
@@ -54,7 +54,7 @@ TEST_F(Cli, HelpEverywhere) {
     EXPECT_EQ(Call("--version").out.rfind("tessera ", 0), 0u);
 }
 
-// Before the run starts: nothing is written.
+// Refused before the run starts, so nothing is written.
 TEST_F(Cli, LabelsThatCannotBeAreRefused) {
     const auto refused = [&](const std::string& name, const std::string& content,
                              const std::string& named) {
@@ -158,7 +158,8 @@ TEST_F(Cli, LoopClosureIsRefusedWhereItCannotBe) {
     const std::string refine =
         "run synthetic:desk --set calibration.refine=true --out " + (folder / "refine");
     ExpectRefused(refine, "needs --loop-closure on");
-    ExpectRefused(refine + " --loop-closure on --scan " + (folder / "c.scan"), "not with --scan");
+    ExpectRefused(refine + " --loop-closure on --scan " + (folder / "c.scan"),
+                  "not possible with --scan");
 }
 
 TEST_F(Cli, SwitchNeedsAFrameAndAMethod) {
@@ -221,7 +222,7 @@ TEST_F(Cli, RunsAndEvaluates) {
     EXPECT_EQ(Call("render " + mesh + " --out " + (folder / "m.png") + " --width 64 --height 48")
                   .exit_code,
               0);
-    // Five frames are less than a second.
+    // Five frames span less than one second.
     ExpectRefused("eval rpe " + trajectory + " " + trajectory, trajectory);
     EXPECT_EQ(Call("eval rpe " + trajectory + " " + trajectory + " --delta 0.1").exit_code, 0);
 }
@@ -235,8 +236,8 @@ TEST_F(Cli, MostlyLostIsExitCode3) {
 }
 
 TEST_F(Cli, ADiskThatIsFullIsNamed) {
-    // No file may grow beyond 32 blocks of 512 bytes: room for run.json, not for the mesh. The same
-    // as a full disk, and needs no privileges.
+    // ulimit limits files to 32 blocks of 512 bytes: enough for run.json, not for the mesh. This
+    // acts like a full disk and needs no privileges.
     const std::string limited = "sh -c 'ulimit -f 32; exec " TESSERA_PROGRAM " \"$@\"' sh ";
     const std::string command = limited + SmallRun() + "--frames 5 --out " + (folder / "o") +
                                 " 2>" + (folder / "stderr") + " >/dev/null </dev/null";
@@ -244,11 +245,11 @@ TEST_F(Cli, ADiskThatIsFullIsNamed) {
     EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 2) << status;
     EXPECT_NE(ReadAll(folder / "stderr").find("mesh.ply"), std::string::npos)
         << ReadAll(folder / "stderr");
-    const auto trajectory = ReadTrajectory(folder / "o/trajectory.txt");  // what was written stays
+    const auto trajectory = ReadTrajectory(folder / "o/trajectory.txt");  // kept
     EXPECT_TRUE(trajectory.ok()) << trajectory.message();
 }
 
-// SIGINT or SIGTERM ends a run within two seconds, with everything written.
+// SIGINT or SIGTERM ends a run within two seconds, and all output is written.
 TEST_F(Cli, ASignalEndsTheRunWithEverythingWritten) {
     for (const auto& [signal_number, mode] : {std::pair{SIGTERM, "lockstep"},
                                               {SIGINT, "lockstep"},
@@ -265,7 +266,7 @@ TEST_F(Cli, ASignalEndsTheRunWithEverythingWritten) {
             execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
             _exit(127);
         }
-        // The second line of the trajectory says that frames are being tracked.
+        // Three lines in the trajectory file show that frames are being tracked.
         while (std::count_if(
                    std::istreambuf_iterator<char>(std::ifstream(out + "/trajectory.txt").rdbuf()),
                    {}, [](char c) { return c == '\n'; }) < 3)

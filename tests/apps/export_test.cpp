@@ -1,4 +1,4 @@
-// tessera export, as a person calls it: what each format holds is tested beside its writer.
+// Tests the command `tessera export`. The tests of each writer check the content of its format.
 #include "apps/cli_fixture.h"
 #include "io/mesh_io.h"
 
@@ -7,7 +7,7 @@ namespace {
 
 class Export : public Cli {
   protected:
-    // A scan and a run of four frames; raw frames are kept if asked for.
+    // Writes a run and a scan of four frames. `keep` can ask for raw frames.
     void Scan(const std::string& keep) const {
         const Outcome run = Call(SmallRun() + keep + " --frames 4 --out " + (folder / "run") +
                                  " --scan " + (folder / "a.scan"));
@@ -34,7 +34,7 @@ TEST_F(Export, WritesEveryFormatOutOfAScan) {
     ASSERT_EQ(Call("export " + (folder / "a.scan") + " --frames " + (folder / "raw")).exit_code, 0);
     EXPECT_TRUE(std::filesystem::exists(folder / "raw/camera.yaml"));
     ExpectRefused("export " + (folder / "a.scan") + " --colmap " + (folder / "cm"),
-                  "holds files already");
+                  "already contains files");
 }
 
 TEST_F(Export, AVolumeIsWrittenOrSaysWhatToInstall) {
@@ -71,7 +71,8 @@ TEST_F(Export, OfARunItWritesMeshCloudAndPathAndNamesWhatItLacks) {
 
 TEST_F(Export, RefusesWhatItCannotWrite) {
     ExpectRefused("export out", "nothing to export");
-    ExpectRefused("export out --mesh a.stl", "--mesh a.stl: a mesh is written as .ply, .obj, .glb");
+    ExpectRefused("export out --mesh a.stl",
+                  "--mesh a.stl: a mesh can be written as .ply, .obj, .glb");
     ExpectRefused("export /no/such.scan --mesh a.glb", "/no/such.scan");
     ExpectRefused("export a.scan --cloud a.obj", "--cloud a.obj");
     ExpectRefused("export a.scan --grid a.nvdb", "--grid a.nvdb");

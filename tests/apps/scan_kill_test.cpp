@@ -1,6 +1,6 @@
-// kill -9 at twenty random moments of a run: each file opens, has lost at most the last second, and
-// the run that goes on with it ends as the unbroken one. The same with loop closure on, live, and
-// with a third of the map away from memory.
+// Kills runs with SIGKILL at twenty random times. Each scan file must open and have lost at most
+// the last second, and the resumed run must end with the same result as an uninterrupted run. The
+// same is tested with loop closure, in live mode, and with a third of the map paged out.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/wait.h>
@@ -70,7 +70,7 @@ class KilledScan : public testing::Test {
         const auto ate = EvaluateAte(truth.value().poses, path.value().poses, {});
         return ate.ok() ? ate.value().error_m.rmse : 1;
     }
-    // Frames of which the run had written the trajectory's line by then.
+    // Number of frames in the trajectory file.
     static int LinesOf(const std::string& file) {
         std::ifstream lines(file);
         int count = -1;  // the header
@@ -98,7 +98,7 @@ class KilledScan : public testing::Test {
         for (const char* file : {"/mesh.ply", "/trajectory.txt"})
             EXPECT_TRUE(Bytes(folder / a + file) == Bytes(folder / b + file)) << file;
     }
-    // Of the map in memory at the run's end.
+    // Blocks in memory at the end of the run.
     int BlocksOf(const std::string& run) const {
         const std::string timings = Bytes(folder / run + "/timings.json"), key = "\"blocks\": ";
         const std::size_t at = timings.find(key);
@@ -114,7 +114,7 @@ class KilledScan : public testing::Test {
     std::string sequence = folder / "sequence";
     int frames = 150;
     std::vector<std::string> options;  // of every run
-    bool exact = true;                 // a resumed run's mesh and path are the unbroken one's bytes
+    bool exact = true;                 // resumed output equals an uninterrupted run's
 };
 
 void KilledScan::KillAndResume(int times) {
@@ -127,7 +127,7 @@ void KilledScan::KillAndResume(int times) {
         const std::string scan = folder / (std::to_string(i) + ".scan"), out = folder / "killed";
         const double kill_s =
             run_s * (0.1 + 0.9 * std::uniform_real_distribution<double>()(random));
-        // Or the trajectory of the run before counts as this one's.
+        // Otherwise the trajectory of the previous run would be counted.
         std::filesystem::remove_all(out);
         const Clock::time_point start = Clock::now();
         const pid_t child = Start(Arguments(out, {"--scan", scan}));
@@ -136,11 +136,11 @@ void KilledScan::KillAndResume(int times) {
         kill(child, SIGKILL);
         waitpid(child, nullptr, 0);
         const int tracked = LinesOf(out + "/trajectory.txt");
-        // Killed before it began: nothing was scanned.
+        // Killed before the scan file was created.
         if (!std::filesystem::exists(scan)) continue;
         const auto content = ReadScan(scan, {.map = true, .frames = true});
         ASSERT_TRUE(content.ok()) << content.message();
-        constexpr int kFramesOfASecond = 30;  // of stamps; by the clock it is less
+        constexpr int kFramesOfASecond = 30;  // by stamps; fewer by the clock
         EXPECT_GE(static_cast<int>(content.value().path.size()), tracked - kFramesOfASecond)
             << "killed after " << kill_s << " s";
         ASSERT_EQ(Call(Arguments(folder / "resumed", {"--resume", scan})), 0) << Log();
@@ -177,7 +177,7 @@ TEST_F(KilledScan, WithAThirdOfTheMapAway) {
     EXPECT_LT(3 * BlocksOf("whole"), 2 * BlocksOf("unlimited"));
 }
 
-// From the moment on at which the file has its name.
+// The file must be readable from the moment it has its final name.
 TEST_F(KilledScan, AsSoonAsTheFileIsThere) {
     frames = 2;
     sequence = "synthetic:corner";
@@ -197,8 +197,8 @@ TEST_F(KilledScan, AsSoonAsTheFileIsThere) {
     }
 }
 
-// Which frames a live run drops, its threads decide: it is as accurate as a run without
-// interruption can be.
+// Which frames a live run drops depends on thread timing, so the result cannot be compared byte for
+// byte. The resumed run must be as accurate as an uninterrupted one.
 TEST_F(KilledScan, LiveWithLoopClosure) {
     MakeSequence("desk", frames);
     const std::vector<std::string> live{"--mode", "live", "--loop-closure", "on"};

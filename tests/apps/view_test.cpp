@@ -1,4 +1,4 @@
-// tessera view, with and without a display.
+// Tests `tessera view`, with and without a display.
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
@@ -17,12 +17,12 @@ namespace {
 
 class View : public testing::Test {
   protected:
-    // A run's folder: a red square, metres, and a path before it.
+    // Writes the folder of a run: a red square, in metres, and a path in front of it.
     View() {
         TriangleMesh mesh;
         mesh.vertices = {{-1, -1, 3}, {1, -1, 3}, {1, 1, 3}, {-1, 1, 3}};
         mesh.colours.assign(4, Rgb8{220, 40, 30});
-        mesh.triangles = {{0, 3, 1}, {1, 3, 2}};  // seen from the origin
+        mesh.triangles = {{0, 3, 1}, {1, 3, 2}};  // wound to face the origin
         EXPECT_TRUE(WritePly(folder_ / "mesh.ply", mesh).ok());
         std::vector<StampedPose> poses(2);
         poses[1].stamp_s = 1;

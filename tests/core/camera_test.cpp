@@ -68,7 +68,7 @@ TEST(CameraFile, ANegativeFyIsTakenAsPositive) {
 
 struct BadFile {
     const char* text;
-    const char* named;  // what the message must name
+    const char* named;  // text that the message must contain
 };
 void PrintTo(const BadFile& bad, std::ostream* out) { *out << bad.named; }
 class CameraFileBad : public testing::TestWithParam<BadFile> {};

@@ -68,7 +68,7 @@ TEST_F(Config, BothEndsOfARangeAreAllowedAndNothingBeyond) {
 
 TEST_F(Config, ChoicesAndSwitchesNameWhatIsAllowed) {
     const Status weight = parameters.Set("mapping.weight", "linear");
-    EXPECT_EQ(weight.message(), "mapping.weight: 'linear' is none of constant | linear_exp");
+    EXPECT_EQ(weight.message(), "mapping.weight: 'linear' is not one of constant | linear_exp");
     EXPECT_FALSE(parameters.Set("tracking.gamma", "maybe").ok());
 }
 
@@ -82,7 +82,7 @@ TEST_F(Config, AnUnknownKeyNamesTheNearest) {
 }
 
 TEST_F(Config, MarkdownHoldsEveryKeyWithItsDefault) {
-    settings.voxel_size_m = 0.7;  // the default stays what it was when described
+    settings.voxel_size_m = 0.7;  // does not change the default described above
     const std::string markdown = parameters.ToMarkdown();
     EXPECT_NE(markdown.find("## mapping"), std::string::npos);
     EXPECT_NE(markdown.find("| `voxel_size_m` | 0.01 | m | [0.001, 1] | Edge of a voxel. |"),

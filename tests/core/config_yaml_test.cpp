@@ -1,4 +1,5 @@
-// The YAML side of core/config.h: nesting, all or nothing, round trips, hostile files.
+// Tests of the YAML side of core/config.h: nesting, all-or-nothing loading, round trips, hostile
+// files.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -88,7 +89,7 @@ TEST_F(ConfigYaml, HostileDepthAndAliasesAreRefusedQuickly) {
     EXPECT_FALSE(Load(std::string(100000, '[')).ok());
     EXPECT_FALSE(Load("a: {a: {a: {a: {a: {a: {a: {a: {a: {a: 1}}}}}}}}}}").ok());
 
-    std::string bomb = "l0: &l0 {}\n";  // 20 ^ 7 visits if it were followed
+    std::string bomb = "l0: &l0 {}\n";  // expands to 20^7 nodes if the aliases are followed
     for (int level = 1; level < 8; ++level) {
         bomb += fmt::format("l{0}: &l{0} {{", level);
         for (int i = 0; i < 20; ++i) bomb += fmt::format("k{}: *l{}, ", i, level - 1);

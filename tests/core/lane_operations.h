@@ -1,6 +1,6 @@
-// Every operation of lanes (core/scalar_lanes.h) on rows of numbers: compiled for vectors in
-// lane_operations.cpp, and for plain numbers in the test. Plain arrays: the vector code must share
-// nothing else with the test.
+// Applies every operation of core/scalar_lanes.h to arrays of numbers. lane_operations.cpp compiles
+// it with SIMD lanes, and the test compiles it with scalar lanes. The SIMD code and the test share
+// only these plain arrays.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace tessera::testing_support {
 
-inline constexpr int kLaneInputs = 1024;  // a multiple of any vector's width
+inline constexpr int kLaneInputs = 1024;  // a multiple of every SIMD width
 
 struct LaneInputs {
     float a[kLaneInputs], b[kLaneInputs];
@@ -100,7 +100,7 @@ TESSERA_HD void ApplyLaneOperations(const LaneInputs& in, LaneResults& out) {
     }
 }
 
-// Return the number of lanes.
+// Returns the number of lanes.
 namespace baseline {
 int ApplyLanes(const LaneInputs& in, LaneResults& out);
 }  // namespace baseline

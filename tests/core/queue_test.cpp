@@ -49,8 +49,8 @@ TEST(NewestQueue, TheOldestMakesRoom) {
     EXPECT_FALSE(queue.TryPop(item));
 }
 
-// Both sides sleep when they have nothing to do: the consumer on an empty queue, the producer on a
-// full one.
+// Both threads block when they have nothing to do: the consumer on an empty queue, the producer on
+// a full one.
 TEST(FifoQueue, AMillionItemsInOrderAcrossThreads) {
     Wake consumer, producer;
     FifoQueue<std::int64_t> queue(64, consumer);
@@ -69,8 +69,8 @@ TEST(FifoQueue, AMillionItemsInOrderAcrossThreads) {
     EXPECT_TRUE(queue.empty());
 }
 
-// What is popped and what was dropped are together what was pushed, both in order, and never more
-// than the capacity and one push under way are inside.
+// Every pushed item is either popped or dropped, both in order. The queue never holds more than its
+// capacity plus one push in progress.
 TEST(NewestQueue, AMillionItemsAreEachTakenOrDroppedOnce) {
     Wake consumer;
     NewestQueue<std::int64_t> queue(8, consumer);

@@ -1,5 +1,5 @@
-// The lanes of plain numbers: each operation at its edges, and against the vectors' twins on
-// numbers of all sizes.
+// Tests each scalar lane operation at its edge cases, and compares it with its SIMD counterpart on
+// numbers of all magnitudes.
 #include "core/scalar_lanes.h"
 
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ TEST(ScalarLanes, Edges) {
     EXPECT_EQ(S::Floor(-3.0f), -3.0f);
     EXPECT_EQ(S::Floor(-1e9f), -1e9f);
     EXPECT_EQ(S::ToInt(-1.75f), -1);
-    EXPECT_EQ(S::ToInt(2147483520.0f), 2147483520);  // the largest that fits
+    EXPECT_EQ(S::ToInt(2147483520.0f), 2147483520);  // the largest float that fits
     for (const float v :
          {2147483648.0f, -2147483648.0f, 1e20f, -1e20f, kInfinity, -kInfinity, kNan})
         EXPECT_EQ(S::ToInt(v), kLeast) << v;
@@ -39,7 +39,7 @@ TEST(ScalarLanes, Edges) {
     EXPECT_EQ(S::AsInt(0x80000000u) >> 16, -32768);
 }
 
-// Small and large numbers of both signs, whole ones, their neighbours, and what is none.
+// Small and large numbers of both signs, integers, values next to integers, and non-finite values.
 std::unique_ptr<LaneInputs> Inputs() {
     auto in = std::make_unique<LaneInputs>();
     std::uint32_t state = 20240607;

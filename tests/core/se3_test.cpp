@@ -10,8 +10,8 @@
 namespace tessera {
 namespace {
 
-// exp of the 4 x 4 twist matrix by its 20-term power series, of an eighth of it and then squared
-// three times.
+// exp of the 4 x 4 twist matrix: the 20-term power series of one eighth of it, then squared three
+// times.
 Eigen::Matrix4d SeriesExp(const Vector6d& twist) {
     Eigen::Matrix4d X = Eigen::Matrix4d::Zero();
     X.topLeftCorner<3, 3>() = Skew(twist.head<3>());
@@ -69,7 +69,7 @@ TEST(Se3, LogInvertsExp) {
         }
 }
 
-// At pi itself the axis may come back reversed; the motion must not.
+// At exactly pi the axis may come back reversed, but the motion must be the same.
 TEST(Se3, ExpInvertsLogAtPi) {
     std::mt19937 random(3);
     for (const double off : {0.0, 1e-15, -1e-9, 1e-9, 1e-4})
@@ -88,7 +88,7 @@ TEST(Se3, LogOfTheNegativeQuaternionIsTheSame) {
     EXPECT_NEAR(Se3Log(T)(0), -0.5, 1e-12);
 }
 
-// T_new = exp(increment) * T_old moves the camera in the world's axes, whatever way it looks.
+// T_new = exp(increment) * T_old moves the camera along the world axes, whatever its orientation.
 TEST(Se3, IncrementsMultiplyFromTheLeft) {
     Vector6d old_twist;
     old_twist << 0.4, -1.1, 0.2, 1, 2, 3;

@@ -14,7 +14,7 @@ TEST(Status, IsOkUntilToldOtherwise) {
     const Status error = Status::Error("a.yaml: bad");
     EXPECT_FALSE(error.ok());
     EXPECT_EQ(error.message(), "a.yaml: bad");
-    EXPECT_FALSE(Status::Error("").ok());  // an error without text is still one
+    EXPECT_FALSE(Status::Error("").ok());  // an error without text is still an error
 }
 
 TEST(Result, HoldsAValueOrTheReason) {

@@ -1,5 +1,5 @@
-// The first frames of the built-in desk, small, with their true poses: made once for all tests of a
-// program.
+// The first frames of the built-in desk at low resolution, with their true poses. Rendered once per
+// test program.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@
 
 namespace tessera::testing_support {
 
-// What a device may take: more than the desk needs.
+// A device memory limit that exceeds what the desk needs.
 inline constexpr std::size_t kPlenty = std::size_t{1} << 30;
 
 inline PinholeCamera DeskCamera() { return {160, 120, 131.25, 131.25, 79.5, 59.5}; }
@@ -23,7 +23,7 @@ inline PinholeCamera DeskCamera() { return {160, 120, 131.25, 131.25, 79.5, 59.5
 struct DeskFrame {
     Frame frame;
     PreparedFrame prepared;
-    Eigen::Isometry3d T_world_camera;  // the world is the first camera
+    Eigen::Isometry3d T_world_camera;  // the world frame is the first camera's
 };
 
 inline const std::vector<DeskFrame>& DeskFrames() {
@@ -44,7 +44,7 @@ inline const std::vector<DeskFrame>& DeskFrames() {
     return frames;
 }
 
-// The first so many frames at their true poses, by the processor.
+// Fuses the first `frames` frames at their true poses on the CPU.
 inline void FusedDesk(std::size_t frames, BlockMap& map) {
     Integrator integrator({}, DeskCamera());
     for (std::size_t i = 0; i < frames; ++i) {
@@ -54,7 +54,7 @@ inline void FusedDesk(std::size_t frames, BlockMap& map) {
     }
 }
 
-// To the bit.
+// Bit-exact comparison.
 inline void ExpectSameTrack(const TrackResult& track, const TrackResult& expected,
                             std::size_t frame) {
     EXPECT_EQ(track.status, expected.status) << frame << ": " << track.reason;

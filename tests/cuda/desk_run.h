@@ -1,4 +1,4 @@
-// A whole run over the desk's frames, and that two of them are one.
+// A complete run over the desk frames, and a check that two runs are identical.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace tessera::testing_support {
 
-// The device, null for the processor, outlives it.
+// `device` must outlive this object. Null means the CPU.
 struct DeskRun {
     DeskRun(const PipelineConfig& config, Device* device)
         : pipeline(config, DeskCamera(), {}, device) {
@@ -17,7 +17,7 @@ struct DeskRun {
             reports.push_back(pipeline.Process(frame.frame));
     }
 
-    // Whether the processor has voxels without asking for them.
+    // Whether the host map holds any voxels before they are requested.
     bool HasVoxels() {
         const BlockMap& map = pipeline.mapping().blocks();
         const FieldWord* begin = map.field(0);
@@ -29,7 +29,7 @@ struct DeskRun {
     std::vector<FrameReport> reports;
 };
 
-// To the bit: what was tracked and what was fused.
+// Bit-exact comparison of the tracking results and of the fused map.
 inline void ExpectSameRun(DeskRun& run, DeskRun& expected) {
     for (std::size_t i = 0; i < DeskFrames().size(); ++i) {
         ExpectSameTrack(run.reports[i].track, expected.reports[i].track, i);

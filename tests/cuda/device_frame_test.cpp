@@ -44,7 +44,7 @@ void ExpectSameFrame(const PreparedFrame& frame, const PreparedFrame& expected) 
     ExpectSameImage(frame.packed_colour, expected.packed_colour);
 }
 
-// Depths of every kind, in range and not, and any colours.
+// Depths of every kind, in range and out of range, and random colours.
 Frame AnyFrame(int width, int height, bool colour, std::uint32_t seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<float> depth(0.1f, 6.0f);
@@ -98,8 +98,8 @@ TEST(DeviceFrame, IsTheBytesOfThePreparedFrame) {
     ExpectSameFrame(made, expected);
 }
 
-// Nothing is copied to fuse and track what was made there, or a second time; what was made
-// elsewhere is.
+// A frame prepared on the device is not uploaded for fusion and tracking, and no frame is uploaded
+// twice. A frame prepared elsewhere is uploaded.
 TEST(DeviceFrame, IsThereWhenItWasMadeThere) {
     DeviceMemory memory(std::size_t{1} << 30);
     Stream stream;
@@ -121,11 +121,11 @@ TEST(DeviceFrame, IsThereWhenItWasMadeThere) {
     ASSERT_TRUE(on_device.Upload(other));
     stream.Wait();
     EXPECT_EQ(std::memcmp(on_device.depth_m(), other.depth_m.data(), 4 * other.depth_m.size()), 0);
-    EXPECT_FALSE(on_device.Upload(made)) << "its images are nowhere any more";
+    EXPECT_FALSE(on_device.Upload(made)) << "its images are no longer on the device";
     EXPECT_FALSE(on_device.Upload(PreparedFrame())) << "no frame";
 }
 
-// Where there is no room the processor does it.
+// When device memory is short, the CPU prepares the frame.
 TEST(DeviceFrame, IsMadeByTheProcessorWhereThereIsNoRoom) {
     DevicePipeline device("host", std::size_t{64} << 10);
     PreparedFrame made;

@@ -23,7 +23,8 @@ using testing_support::kPlenty;
 constexpr float kNear_m = 0.3f, kFar_m = 5.0f, kJump_m = 0.1f;
 constexpr int kLevels = 3;
 
-// The view of the desk's sixth frame from where the fifth was, and the points of the sixth.
+// The predicted view of the desk from the pose of its fifth frame, and the points of the sixth
+// frame.
 struct IcpRig {
     IcpRig() {
         FusedDesk(5, map);
@@ -45,7 +46,7 @@ struct IcpRig {
         return a;
     }
 
-    // At a pose that is so far off.
+    // At a pose that is off by `moved_m` along x.
     IcpArguments ArgumentsAt(float moved_m, bool compare, std::size_t level_of_model = 0) {
         const IcpModelLevel& level = model[level_of_model];
         IcpArguments a{};
@@ -96,7 +97,7 @@ TEST(DeviceIcp, ModelIsTheProcessorsToTheBit) {
     DevicePipeline device("host", kPlenty);
     DeviceIcp icp(device);
     icp.Predict(rig.map, rig.camera, rig.T_world_view, kNear_m, kFar_m, kLevels, kJump_m);
-    // Waits for the model, too.
+    // SetPoints also waits for the model.
     EXPECT_GT(icp.SetPoints(DeskFrames()[5].prepared, rig.PointsOf(0), 0), 0);
     ASSERT_EQ(icp.model().size(), rig.model.size());
     for (std::size_t i = 0; i < rig.model.size(); ++i) {
@@ -108,7 +109,7 @@ TEST(DeviceIcp, ModelIsTheProcessorsToTheBit) {
         EXPECT_EQ(std::memcmp(level.depth_m, expected.depth_m.data(), bytes), 0) << i;
         EXPECT_EQ(std::memcmp(level.normal, expected.normal_camera.data(), 3 * bytes), 0) << i;
         EXPECT_EQ(std::memcmp(level.intensity, expected.intensity.data(), bytes), 0) << i;
-        const float* begin = expected.intensity.data();  // some are to be trusted, some are not
+        const float* begin = expected.intensity.data();  // some pixels are trusted, some are not
         const auto untrusted = std::count(begin, begin + expected.intensity.size(), -1.0f);
         EXPECT_GT(untrusted, 50) << i;
         EXPECT_LT(untrusted, 0.75 * static_cast<double>(expected.intensity.size())) << i;
@@ -121,7 +122,8 @@ void ExpectSameSums(const PoseSums& sums, const PoseSums& expected) {
     EXPECT_EQ(std::memcmp(sums.value, expected.value, sizeof sums.value), 0);
 }
 
-// The same points, model and pose, alone and against the residuals of another pose.
+// The same points, model and pose, first alone and then compared with the residuals of another
+// pose.
 TEST(DeviceIcp, SumsAreTheProcessorsToTheBit) {
     IcpRig rig;
     DevicePipeline device("host", kPlenty);
@@ -139,10 +141,10 @@ TEST(DeviceIcp, SumsAreTheProcessorsToTheBit) {
               1e-3 * second[SumLayout::kEnergy]);
     for (int i = 0; i < 2; ++i)
         ExpectSameSums(icp.Sum(rig.ArgumentsAt(0, true)),
-                       second);  // what is not kept changes nothing
+                       second);  // residuals that are not kept change nothing
 
     std::vector<float> distance(rig.distance.size()), intensity(rig.intensity.size());
-    icp.TakeResiduals(distance, intensity);  // those kept
+    icp.TakeResiduals(distance, intensity);  // returns the kept residuals
     const std::size_t bytes = distance.size() * sizeof(float);
     EXPECT_EQ(std::memcmp(distance.data(), rig.kept_distance.data(), bytes), 0);
     EXPECT_EQ(std::memcmp(intensity.data(), rig.kept_intensity.data(), bytes), 0);
@@ -176,7 +178,7 @@ struct IcpTrackers : testing::TestWithParam<bool> {
 INSTANTIATE_TEST_SUITE_P(DeviceIcp, IcpTrackers, testing::Bool(),
                          [](const auto& test) { return test.param ? "IcpRgb" : "Icp"; });
 
-// One frame after the other against the same map, from the same starts.
+// Tracks consecutive frames against the same map, from the same starting poses.
 TEST_P(IcpTrackers, TracksAsTheProcessorDoes) {
     BlockMap map{BlockMap::Config()};
     FusedDesk(8, map);

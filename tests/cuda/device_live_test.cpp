@@ -1,4 +1,4 @@
-// Live on the host device: one thread tracks and maps.
+// Live runs on the host device, where one thread does both tracking and mapping.
 #include "cuda/desk_frames.h"
 #include "cuda/device_pipeline.h"
 #include "system/engine_fixture.h"
@@ -19,7 +19,7 @@ class DeviceLive : public EngineTest {
     DevicePipeline device{"host", std::size_t{1} << 30};
 };
 
-// Where no frame is dropped it is the processor's run frame by frame, to the bit.
+// If no frame is dropped, the result equals that of a lockstep run on the CPU, bit for bit.
 TEST_F(DeviceLive, IsTheLockstepRunWhereNoFrameIsDropped) {
     Make(false, {.count = 30});
     TakeAll();
@@ -55,7 +55,7 @@ TEST_F(DeviceLive, SlowWorkDropsOldFramesAndKeepsThePose) {
     }
 }
 
-// Everything at random, as Live.RandomCommandsDoNoHarm: for the sanitizers.
+// Sends random commands, like Live.RandomCommandsDoNoHarm. Meant for the sanitizers.
 TEST_F(DeviceLive, RandomCommandsDoNoHarm) {
     ViewerLink link;
     viewer = &link;
@@ -69,7 +69,7 @@ TEST_F(DeviceLive, RandomCommandsDoNoHarm) {
     engine->TakeMesh();
 }
 
-// Detections are looked for on another thread and voted into the map that the device has.
+// Another thread runs the detector. Its detections vote in the map on the device.
 TEST(DeviceLiveRun, LabelsWhatItScans) {
     DevicePipeline device("host", std::size_t{1} << 30);
     const TempFolder folder;

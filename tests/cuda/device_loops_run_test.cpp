@@ -1,4 +1,4 @@
-// Loop closure beside the host device: what it needs of the frames comes back.
+// Loop closure with the host device: the frame data that it needs is copied back.
 #include "cuda/desk_frames.h"
 #include "cuda/device_pipeline.h"
 #include "system/frame_list.h"
@@ -25,8 +25,8 @@ std::vector<FrameReport> RunFrames(const std::vector<Frame>& frames, Device* dev
     return reports;
 }
 
-// 2 s of a walk, 1.5 s of nothing, then the walk's middle once more: found by its features, as by
-// the processor alone.
+// 2 s of a walk, 1.5 s of empty frames, then the middle of the walk again. The camera is
+// relocalised by its features, as it is on the CPU alone.
 TEST(DeviceLoops, AKidnappedCameraIsFoundAsByTheProcessor) {
     std::vector<Frame> frames = RoomWalk(0, 60, 3);
     frames.insert(frames.end(), 45, Blank());

@@ -19,7 +19,7 @@ struct AddPowers {
     }
 };
 
-// The device's memory is the computer's.
+// Device memory is host memory here.
 std::array<double, 3> SumOf(const std::vector<float>& values) {
     const auto count = static_cast<int>(values.size());
     std::vector<double> tiles(TileRoom(count, 3));
@@ -46,7 +46,7 @@ TEST(SumTiles, IsTheSumForAnyCount) {
     }
 }
 
-// 2^24 + 1 is no float: what is added to 2^24 in single precision is lost, what in double is not.
+// 2^24 + 1 is not a float. Adding 1 to 2^24 is lost in single precision and kept in double.
 TEST(SumTiles, AddsInTheStatedOrder) {
     const auto sum = [](int large, int small) {
         std::vector<float> values(2 * kRunItems, 0.0f);
@@ -54,7 +54,7 @@ TEST(SumTiles, AddsInTheStatedOrder) {
         values[static_cast<std::size_t>(small)] = 1.0f;
         return SumOf(values)[1];
     };
-    EXPECT_EQ(sum(0, 1), 16777216.0);           // another lane of the tile
+    EXPECT_EQ(sum(0, 1), 16777216.0);           // another lane of the same tile
     EXPECT_EQ(sum(0, kTileLanes), 16777216.0);  // the same lane
     EXPECT_EQ(sum(0, kTileItems), 16777217.0);  // another tile
     EXPECT_EQ(sum(0, kRunItems), 16777217.0);   // another run

@@ -22,7 +22,7 @@ Integrator::View At(const DeskFrame& frame) {
     return view;
 }
 
-// A device with a map, and room for one frame's depth.
+// A device map and a buffer for the depth of one frame.
 struct MapRig {
     explicit MapRig(std::size_t limit_bytes = kPlenty)
         : memory(limit_bytes),
@@ -48,7 +48,7 @@ struct MapRig {
     DeviceMap map;
 };
 
-// The device's memory is the computer's.
+// Device memory is host memory here.
 void ExpectSameIndex(MapRig& rig, const BlockMap& map) {
     DeviceMap& device = rig.map;
     rig.stream.Wait();
@@ -133,7 +133,7 @@ TEST(DeviceMap, GrowsWithinItsLimitAndSaysWhereItEnds) {
     const DeviceMapView view = rig.map.view();
     for (std::int32_t id = 1; id < size; ++id) ASSERT_EQ(Find(view, CoordAt(view, id)), id);
     ASSERT_TRUE(rig.map.Clear());
-    EXPECT_FALSE(rig.Allocate(DeskFrames()[0]).added.empty());  // it begins anew
+    EXPECT_FALSE(rig.Allocate(DeskFrames()[0]).added.empty());  // the cleared map starts again
 }
 
 TEST(DeviceMap, GrowthAndDownloadLoseNoVoxel) {
@@ -149,7 +149,7 @@ TEST(DeviceMap, GrowthAndDownloadLoseNoVoxel) {
         rig.map.Load(map.size(), map.view().coords, map.field(0), map.weight(0), map.colour(0)));
     ExpectSameIndex(rig, map);
     const std::int32_t before = rig.map.size();
-    // The camera turns: new blocks until the pool has grown.
+    // The camera turns and allocates new blocks until the pool has grown.
     for (int turn = 1; turn <= 6; ++turn) {
         DeskFrame turned = DeskFrames()[0];
         turned.T_world_camera.rotate(Eigen::AngleAxisd(turn, Eigen::Vector3d::UnitY()));

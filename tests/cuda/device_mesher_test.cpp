@@ -32,8 +32,8 @@ std::vector<BlockId> AllBlocks(const BlockMap& map) {
     return ids;
 }
 
-// A cube of `side` blocks from `low` on in which every voxel is anything: unknown, too light, at
-// the end of the range, grey.
+// A cube of `side` blocks per edge, starting at `low`, with random voxels: some are unknown, have
+// too little weight, lie at the end of the range, or have no intensity.
 std::unique_ptr<const BlockMap> Noise(const BlockCoord& low, int side) {
     auto noise = std::make_unique<BlockMap>(BlockMap::Config{});
     BlockMap& map = *noise;
@@ -72,13 +72,13 @@ TEST(DeviceMesher, MakesTheBytesOfAFusedMapsMeshes) {
         view.T_world_camera = frame.T_world_camera;
         integrator.Integrate(frame.prepared, view, map);
     }
-    ASSERT_GT(map.size(), 2 * DeviceSurface::kMaxBlocks);  // several parts
+    ASSERT_GT(map.size(), 2 * DeviceSurface::kMaxBlocks);  // several batches
     for (const double min_weight : {0.0, 2.5})
         ExpectDeviceMeshes(map, AllBlocks(map), min_weight, 5000);
 }
 
-// Every configuration, within blocks and across their borders, beside the unknown and where the
-// weight is too low. Any blocks in any order.
+// Covers every configuration, within blocks and across their borders, next to unknown voxels and
+// where the weight is too low. The blocks may come in any order.
 TEST(DeviceMesher, MakesTheBytesOfNoise) {
     const std::unique_ptr<const BlockMap> noise = Noise({-2, -3, -1}, 4);
     const BlockMap& map = *noise;
@@ -113,7 +113,7 @@ TEST(DeviceMesher, AnEmptyMapIsAnEmptyMesh) {
     EXPECT_EQ(stage.mesh_warning(), "");
 }
 
-// A block that has no surface any more loses its mesh.
+// A block that no longer has a surface loses its mesh.
 TEST(DeviceMesher, TakesTheMeshAwayWhereThereIsNoSurface) {
     const std::unique_ptr<const BlockMap> map = Noise({0, 0, 0}, 1);
     DevicePipeline device("host", kPlenty);
@@ -121,7 +121,7 @@ TEST(DeviceMesher, TakesTheMeshAwayWhereThereIsNoSurface) {
     BlockMeshes meshes(2);
     meshes[1] = std::make_unique<BlockMesh>();
     const BlockId id = 1;
-    ASSERT_TRUE(mesher->MeshBlocks(*map, {&id, 1}, 200, meshes));  // more weight than any voxel has
+    ASSERT_TRUE(mesher->MeshBlocks(*map, {&id, 1}, 200, meshes));  // above every weight
     EXPECT_EQ(meshes[1], nullptr);
 }
 
@@ -151,7 +151,7 @@ TEST(DeviceMesher, TakesFewerBlocksAtOnceWhereMemoryIsShortAndRefusesWhereThereI
         Mesher refused({});
         EXPECT_EQ(refused.Update(map, Mesher::kNoLimit, mesher.get()), map.size() - 1);
         EXPECT_TRUE(refused.updated().empty());
-        EXPECT_EQ(refused.Update(map), 0);  // nothing was forgotten
+        EXPECT_EQ(refused.Update(map), 0);  // all blocks were still pending
         EXPECT_TRUE(
             SameBytes(refused.Assemble(), MeshOf(map, refused.config().min_component_triangles)));
     }
@@ -161,7 +161,7 @@ TriangleMesh MeshHere(const BlockMap& map) {
     return MeshOf(map, MeshConfig().min_component_triangles);
 }
 
-// Of what the device fused; nobody asks for the voxels.
+// Meshes what the device fused. The voxels are not copied to the host.
 TEST(MappingStage, MeshesOnTheDeviceWithoutItsVoxels) {
     DevicePipeline device("host", kPlenty);
     Pipeline pipeline({}, DeskCamera(), {}, &device);
@@ -178,14 +178,15 @@ TEST(MappingStage, MeshesOnTheDeviceWithoutItsVoxels) {
     for (BlockId id = 1; id < blocks.size(); ++id)
         ASSERT_TRUE(std::all_of(blocks.field(id), blocks.field(id) + kBlockVoxels,
                                 [](FieldWord w) { return w == kUnknownField; }));
-    const TriangleMesh expected = MeshHere(mapping.map());  // now they come over
+    const TriangleMesh expected = MeshHere(mapping.map());  // copies the voxels to the host
     EXPECT_TRUE(SameBytes(mesh, expected));
     EXPECT_TRUE(SameBytes(as_it_goes.Assemble(), expected));
     EXPECT_TRUE(SameBytes(mapping.TakeMesh(), expected));
     EXPECT_EQ(mapping.mesh_warning(), "");
 }
 
-// The device's memory is full of the map: the voxels come here, and a person hears of it.
+// The map fills the device memory. The voxels are copied to the host and meshed there, and a
+// warning is given.
 TEST(MappingStage, MeshesHereWhereTheDeviceHasNoRoomAndSaysSo) {
     int refused = 0;
     constexpr std::size_t kHalfMega = std::size_t{1} << 19;
@@ -199,7 +200,7 @@ TEST(MappingStage, MeshesHereWhereTheDeviceHasNoRoomAndSaysSo) {
         EXPECT_GT(mesh.triangles.size(), 1000u);
         if (warning.empty()) continue;
         ++refused;
-        EXPECT_NE(warning.find("meshed on the processor"), std::string::npos) << warning;
+        EXPECT_NE(warning.find("meshed on the CPU"), std::string::npos) << warning;
         EXPECT_NE(warning.find("mapping.device_memory_mb"), std::string::npos) << warning;
     }
     EXPECT_GT(refused, 0);

@@ -44,7 +44,7 @@ TEST(DeviceIntegrator, FusesTheBytesOfTheProcessor) {
         ASSERT_EQ(a.fused_blocks, b.fused_blocks);
         EXPECT_EQ(integrator.changed_blocks(), on_device->changed_blocks());
         EXPECT_EQ(integrator.added_blocks(), on_device->added_blocks());
-        if (i % 7 == 6) on_device->Bring(map);  // now and then, and what changes after it later
+        if (i % 7 == 6) on_device->Bring(map);  // from time to time
     }
     on_device->Bring(map);
     ExpectSameMap(map, expected);
@@ -135,7 +135,7 @@ TEST(DevicePipeline, SumsAreTheProcessorsToTheBit) {
     EXPECT_GT(learnt.shutter[5 * 10], 0);
 }
 
-// One frame after the other against the same map, from the same start.
+// Tracks consecutive frames against the same map, from the same start.
 TEST(DevicePipeline, TracksAsTheProcessorDoes) {
     BlockMap map{BlockMap::Config()};
     Integrator integrator({}, DeskCamera());

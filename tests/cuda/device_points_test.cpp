@@ -38,7 +38,8 @@ void ExpectSame(const FramePoints& points, const FramePoints& expected) {
     EXPECT_TRUE(Same(points.intensity, expected.intensity));
 }
 
-// What SetPoints and TakePoints give is what FramePoints makes, without normals and with them.
+// Checks that SetPoints and TakePoints give the same points as FramePoints, without and with
+// normals.
 void ExpectSamePoints(DevicePipeline& device, const PreparedFrame& frame,
                       const PinholeCamera& camera, const FrameMotion& motion, int step,
                       const DepthWeight& weight, bool intensities) {
@@ -75,8 +76,8 @@ TEST(DevicePoints, AreTheBytesOfFramePoints) {
                 }
 }
 
-// Sizes that no step divides, with slots beside the image; larger frames than before, and smaller
-// ones; none valid.
+// Image sizes that no step divides, with slots outside the image. Later frames are larger or
+// smaller than earlier ones, and some have no valid pixel.
 TEST(DevicePoints, OfImagesOfAnySize) {
     DevicePipeline device("host", std::size_t{1} << 30);
     for (const auto& [width, height] : {std::pair(61, 47), std::pair(83, 31), std::pair(5, 4)}) {
@@ -96,11 +97,11 @@ TEST(DevicePoints, OfImagesOfAnySize) {
         for (const int step : {1, 2, 5})
             ExpectSamePoints(device, prepared, camera, Moving(), step, {2.0}, true);
         frame.depth_m = DepthImage(width, height);
-        PrepareFrame(frame, {}, prepared);  // in the same memory
+        PrepareFrame(frame, {}, prepared);  // reuses the same memory
         ExpectSamePoints(device, prepared, camera, Moving(), 2, {2.0}, true);
         frame.colour = {};
         PrepareFrame(frame, {}, prepared);
-        // Asked for what is not there.
+        // Intensities are requested although the frame has no colour.
         ExpectSamePoints(device, prepared, camera, Moving(), 2, {2.0}, true);
     }
 }

@@ -1,4 +1,4 @@
-// Whole runs on the host device: the processor's, to the bit.
+// Complete runs on the host device. They equal the CPU runs bit for bit.
 #include <gtest/gtest.h>
 
 #include "cuda/desk_run.h"
@@ -53,7 +53,7 @@ struct ByIcp : ByMethod {};
 INSTANTIATE_TEST_SUITE_P(DeviceRuns, ByIcp,
                          testing::Values(TrackingMethod::kIcp, TrackingMethod::kIcpRgb), NameOf);
 
-// Without OpenGL the processor's ray caster steps in: predicted there in any case.
+// Without OpenGL the CPU's ray caster is used instead. In both cases the CPU predicts the view.
 TEST_P(ByIcp, IsTheProcessorsOnViewsThatTheProcessorDrew) {
     PipelineConfig config = Config();
     config.trackers.icp.prediction = IcpTracker::Prediction::kRaster;
@@ -64,7 +64,7 @@ TEST_P(ByIcp, IsTheProcessorsOnViewsThatTheProcessorDrew) {
     ExpectSameRun(run, expected);
 }
 
-// The frame of the switch is the first that reads the processor's voxels.
+// The first frame after the switch is the first to read the voxels on the host.
 TEST_P(ByIcp, ASwitchToAViewOfTheProcessorBringsTheVoxelsFirst) {
     DevicePipeline device("host", kPlenty);
     RunRequest request;
@@ -82,7 +82,7 @@ TEST_P(ByIcp, ASwitchToAViewOfTheProcessorBringsTheVoxelsFirst) {
     EXPECT_EQ(run.value().counts.tracked, 5) << run.value().last_reason;
 }
 
-// [B14]'s settings: their weights fall off as an exponential.
+// The settings of [B14], whose weights decay exponentially.
 TEST(DeviceRuns, IsTheProcessorsWithOtherWeights) {
     PipelineConfig config;
     config.fusion.distance_weight = DistanceWeight::kLinearExp;
@@ -105,7 +105,7 @@ TEST(DeviceRuns, SaysInOneLineThatItsMemoryIsFullAndGoesOn) {
     EXPECT_TRUE(run.reports.back().tracked());
 }
 
-// Frames are prepared once more without what moves.
+// Frames are prepared a second time without their moving regions.
 TEST(DeviceRuns, IsTheProcessorsWherePeopleWalk) {
     SynthConfig synthetic;
     synthetic.camera = {160, 120, 131, 131, 79.5, 59.5};
@@ -134,7 +134,7 @@ TEST(DeviceRuns, IsTheProcessorsWherePeopleWalk) {
     testing_support::ExpectSameMap(run.map(), expected.map());
 }
 
-// The window's picture, while the voxels are on the device only.
+// Predicts the view for the window while the voxels are only on the device.
 TEST(DeviceRuns, TheWindowsViewBringsNoVoxel) {
     PipelineConfig config;
     DevicePipeline device("host", kPlenty);

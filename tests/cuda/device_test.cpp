@@ -33,7 +33,7 @@ TEST(DeviceBuffer, GrowsWithoutLosingWhatIsToBeKept) {
     stream.Download(back.data(), buffer.data(), 3600);
     stream.Wait();
     EXPECT_TRUE(std::equal(back.begin(), back.end(), numbers.begin()));
-    EXPECT_FALSE(buffer.Reserve(stream, std::size_t{1} << 20, 900));  // no room: all as it was
+    EXPECT_FALSE(buffer.Reserve(stream, std::size_t{1} << 20, 900));  // no memory: nothing changes
     EXPECT_EQ(buffer.capacity(), 5000u);
 }
 
@@ -41,7 +41,7 @@ TEST(Stream, WhatWasGivenMayBeOverwrittenAndWhatComesIsThereAfterWait) {
     DeviceMemory memory(std::size_t{1} << 28);
     Stream stream;
     DeviceBuffer<std::uint8_t> buffer(memory);
-    const std::size_t bytes = (std::size_t{1} << 25) + 123;  // several pieces of the staging memory
+    const std::size_t bytes = (std::size_t{1} << 25) + 123;  // several staging buffers
     ASSERT_TRUE(buffer.Reserve(stream, bytes, 0));
     std::vector<std::uint8_t> sent(bytes), back(bytes), expected(bytes);
     for (std::size_t i = 0; i < bytes; ++i)

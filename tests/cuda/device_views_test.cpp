@@ -21,7 +21,7 @@ using testing_support::ExpectSameView;
 using testing_support::FusedDesk;
 using testing_support::kPlenty;
 
-// The device's memory is the computer's.
+// Device memory is host memory here.
 void ExpectSameRanges(const BlockMap& map, const PinholeCamera& camera,
                       const Eigen::Isometry3d& T_world_camera, float min_depth_m, float max_depth_m,
                       bool all_regions) {
@@ -49,7 +49,7 @@ TEST(FindRayRanges, AreTheProcessors) {
     }
 }
 
-// Blocks beside the camera that only the view's regions leave out.
+// Adds so many distant blocks that only the regions in view are searched.
 TEST(FindRayRanges, LookAtTheBlocksThatTheProcessorLooksAt) {
     BlockMap map{BlockMap::Config()};
     FusedDesk(1, map);
@@ -57,7 +57,7 @@ TEST(FindRayRanges, LookAtTheBlocksThatTheProcessorLooksAt) {
     ExpectSameRanges(map, DeskCamera(), Eigen::Isometry3d::Identity(), 0.1f, 1.5f, false);
 }
 
-// Where the camera was, where it was not, and between the blocks.
+// Poses of the camera, poses near them, and poses among the blocks.
 std::vector<Eigen::Isometry3d> Poses() {
     std::vector<Eigen::Isometry3d> poses;
     for (std::size_t i = 0; i < DeskFrames().size(); i += 3) {

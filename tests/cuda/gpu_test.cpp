@@ -1,4 +1,5 @@
-// What needs a GPU. Without one, or without the backend, every test here skips and says so.
+// Tests that need a GPU. Without a GPU or without the CUDA backend each of them skips with a
+// message.
 #include <gtest/gtest.h>
 
 #include <numeric>

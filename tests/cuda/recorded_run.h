@@ -1,4 +1,4 @@
-// A recording at full size on a device: the processor's results, byte for byte.
+// A full-size recording on a device gives the results of the CPU, byte for byte.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@
 
 namespace tessera::testing_support {
 
-// Where TUM's fr1 rpy should be.
+// The expected location of TUM's fr1 rpy.
 inline std::string RecordingFolder() {
     const char* data = std::getenv("TESSERA_DATA");
     return (data != nullptr ? data : std::string(TESSERA_SOURCE_DIR) + "/../shared/data") +
@@ -26,13 +26,13 @@ inline std::string HowToGetTheRecording() {
            "tum_fr1_rpy";
 }
 
-// More frames than the few that are tried each time: TESSERA_DEVICE_FRAMES, -1 = all.
+// Number of frames. TESSERA_DEVICE_FRAMES overrides the small default; -1 means all.
 inline std::int64_t RecordedFrames() {
     const char* frames = std::getenv("TESSERA_DEVICE_FRAMES");
     return frames != nullptr ? std::atoll(frames) : 12;
 }
 
-// The trajectory and the mesh that a run over the recording leaves. `device` null: the processor's.
+// The trajectory and the mesh written by a run on the recording. A null `device` means the CPU.
 inline std::array<std::string, 2> RecordedRun(TrackingMethod method, Device* device) {
     const TempFolder folder;
     RunRequest request;
@@ -61,8 +61,8 @@ inline std::array<std::string, 2> RecordedRun(TrackingMethod method, Device* dev
 
 inline void ExpectTheProcessorsRun(TrackingMethod method, Device& device) {
     const auto expected = RecordedRun(method, nullptr), results = RecordedRun(method, &device);
-    EXPECT_TRUE(results[0] == expected[0]) << "another trajectory";
-    EXPECT_TRUE(results[1] == expected[1]) << "another mesh";
+    EXPECT_TRUE(results[0] == expected[0]) << "the trajectories differ";
+    EXPECT_TRUE(results[1] == expected[1]) << "the meshes differ";
 }
 
 }  // namespace tessera::testing_support

@@ -1,4 +1,4 @@
-// Two maps, word by word.
+// Compares two maps word by word.
 #pragma once
 
 #include <gtest/gtest.h>

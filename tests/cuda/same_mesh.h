@@ -1,4 +1,4 @@
-// Block meshes, byte by byte.
+// Compares block meshes byte by byte.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -13,7 +13,8 @@ namespace tessera::testing_support {
 
 static_assert(sizeof(MeshVertex) == 12, "else it has bytes that nobody writes");
 
-// Those of the blocks are MeshBlock's, all others null. How many triangles they have.
+// Expects the meshes of `blocks` to equal those of MeshBlock, and all others to be null. Returns
+// the number of triangles.
 inline std::size_t ExpectMeshesOf(const BlockMap& map, std::span<const BlockId> blocks,
                                   double min_weight, const BlockMeshes& meshes) {
     std::size_t triangles = 0;

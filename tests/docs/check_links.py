@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Every local link and picture of the README and the pages under docs/ leads to a file.
+"""Checks that every local link and image of the README and the pages under docs/ leads to a file.
 
-Usage: check_links.py PROJECT_ROOT. Exit code 1 and one line per dead link otherwise.
+Usage: check_links.py PROJECT_ROOT. Prints one line per dead link and exits with 1 if there are any.
 """
 import pathlib
 import re

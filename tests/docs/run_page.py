@@ -1,11 +1,11 @@
-"""Runs the commands of a page of the documentation, as printed and in order, in a folder that stands for a fresh clone.
+"""Runs the commands of a documentation page, as printed and in order, in a folder that acts as a fresh clone.
 
 Usage: run_page.py PAGE.md TESSERA [--with TEXT=VALUE]... [--first COMMAND]... [--skip REGEX]
 
-Commands are the indented lines that begin as one (COMMAND below), a line that ends in "\\" with the next, and the blocks
-of Python. The page's placeholders (SOURCE, ...) take the values of --with; --first makes what the page takes for granted;
---skip names what needs a camera, a network or a window. Fails at the first command that does not exit with 0, if a file
-that it was told to write is not there, or if --skip skips nothing.
+Commands are the indented lines that match COMMAND below, and the Python blocks. A line that ends in "\\" continues on
+the next line. --with gives the values of the page's placeholders (SOURCE, ...). --first runs commands that the page
+assumes were run before. --skip matches commands that need a camera, a network or a window. Fails at the first command
+that does not exit with 0, if an output file of a command is missing, or if --skip matches nothing.
 """
 import argparse
 import os
@@ -33,7 +33,7 @@ def parse():
 
 
 def printed(page):
-    """The page's commands and Python blocks, in order; a block begins with its line ```python."""
+    """The commands and Python blocks of the page, in order. A block starts with its ```python line."""
     text = re.sub(r" *\\\n +", " ", pathlib.Path(page).read_text(encoding="utf-8"))
     lines = iter(text.splitlines())
     for line in lines:
@@ -47,7 +47,7 @@ def printed(page):
 
 
 def commands_of(page, options):
-    """What of it is to be run, placeholders filled in."""
+    """The commands to run, with placeholders filled in."""
     found = list(printed(page))
     kept = [line for line in found if not (options.skip and re.search(options.skip, line))]
     if not kept or (options.skip and len(kept) == len(found)):
@@ -59,13 +59,13 @@ def commands_of(page, options):
 
 
 def written(words):
-    """What a command's options say that it writes. `--frames 20` is a number of frames."""
+    """The paths that a command writes according to its options. `--frames 20` is a number of frames, not a path."""
     return [value for option, value in zip(words, words[1:])
             if option in WRITTEN_AFTER and "eval" not in words and not value.isdigit()]
 
 
 def lay_out(folder, tessera):
-    """The clone's parts under their names, `build/release` being the build that TESSERA is of."""
+    """Links the parts of the clone into the folder. `build/release` is the build that contains TESSERA."""
     for part in CLONE.iterdir():
         if part.name in ("bench", "config", "python", "scripts"):
             (folder / part.name).symlink_to(part)

@@ -1,4 +1,4 @@
-"""Writes a log as Logger2 does: three frames of a wall, depth and colour not packed. Usage: write_klg.py FILE.klg"""
+"""Writes a log in the format of Logger2: three frames of a wall, uncompressed. Usage: write_klg.py FILE.klg"""
 import struct
 import sys
 

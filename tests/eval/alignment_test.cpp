@@ -13,7 +13,8 @@ namespace {
 
 using Pairs = std::vector<PosePair>;
 
-// As associate.py: all pairs within the limit, sorted by difference, taken while both are free.
+// Works like associate.py: all pairs within the limit, sorted by difference. A pair is taken if
+// neither pose has been used.
 Pairs AssociateByHand(const std::vector<StampedPose>& a, const std::vector<StampedPose>& b,
                       double max_difference_s) {
     std::vector<std::tuple<double, std::size_t, std::size_t>> all;
@@ -35,9 +36,9 @@ Pairs AssociateByHand(const std::vector<StampedPose>& a, const std::vector<Stamp
 }
 
 TEST(Association, TheClosestFirst) {
-    // 1.008 is nearer to 1.010 than 1.000 is, which then goes without.
+    // 1.008 is nearer to 1.010 than 1.000 is, so 1.000 stays unpaired.
     EXPECT_EQ(AssociateByTime(PosesAt({1.010}), PosesAt({1.000, 1.008})), (Pairs{{0, 1}}));
-    // After 1.010-1.011 was taken, what remains meets across it.
+    // 1.010-1.011 is taken first. The remaining two are paired across it.
     EXPECT_EQ(AssociateByTime(PosesAt({1.000, 1.010}), PosesAt({1.011, 1.015})),
               (Pairs{{0, 1}, {1, 0}}));
     EXPECT_EQ(AssociateByTime(PosesAt({1.000, 1.010}), PosesAt({1.011, 1.021})), (Pairs{{1, 0}}));

@@ -25,8 +25,8 @@ TEST(Ate, ARigidOffsetIsNoError) {
     EXPECT_LT((product.matrix() - Eigen::Matrix4d::Identity()).norm(), 1e-12);
 }
 
-// A circle in x, y and an error of amplitude a along z with five periods per turn: the error is
-// orthogonal to every rigid motion of the circle, so that the alignment cannot take any of it.
+// A circle in x, y and an error of amplitude a along z with five periods per turn. The error is
+// orthogonal to every rigid motion of the circle, so the alignment cannot reduce it.
 TEST(Ate, ASinusoidalErrorInClosedForm) {
     constexpr double kAmplitude_m = 0.02;
     std::vector<StampedPose> reference, estimate;
@@ -41,12 +41,12 @@ TEST(Ate, ASinusoidalErrorInClosedForm) {
     ASSERT_TRUE(result.ok()) << result.message();
     const ErrorStatistics& error = result.value().error_m;
     EXPECT_NEAR(error.rmse, kAmplitude_m / std::sqrt(2.0), 1e-12);
-    EXPECT_NEAR(error.mean, kAmplitude_m * 2 / std::numbers::pi, 2e-6);  // a sum for an integral
+    EXPECT_NEAR(error.mean, kAmplitude_m * 2 / std::numbers::pi, 2e-6);  // sum, not integral
     EXPECT_NEAR(error.median, kAmplitude_m / std::sqrt(2.0), 1e-4);
     EXPECT_NEAR(error.max, kAmplitude_m, 1e-12);
 }
 
-// Twice the size is an error: no scale is fitted. For positions p the residual is p - mean(p).
+// No scale is fitted, so a factor of two is an error. For positions p the residual is p - mean(p).
 TEST(Ate, ScaleIsNotFitted) {
     const auto reference = WindingPath(100);
     auto estimate = reference;

@@ -1,4 +1,4 @@
-// The evaluation on real files. They are not part of the project: see README, "Data".
+// Tests of the evaluation on real data. The files are not part of the project: see README, "Data".
 #include <gtest/gtest.h>
 
 #include <cstdlib>

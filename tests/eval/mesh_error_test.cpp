@@ -13,7 +13,7 @@
 namespace tessera {
 namespace {
 
-// A sphere around the origin of rings x 2 rings cells.
+// A sphere around the origin with rings x 2 rings cells.
 TriangleMesh Sphere(double radius_m, std::uint32_t rings) {
     TriangleMesh mesh;
     const std::uint32_t sectors = 2 * rings;
@@ -35,7 +35,7 @@ TriangleMesh Sphere(double radius_m, std::uint32_t rings) {
     return mesh;
 }
 
-// Triangles at random overlap everywhere, which makes each look-up slow.
+// Random triangles overlap everywhere, which makes each nearest-point query slow.
 MeshErrorOptions FewSamples() {
     MeshErrorOptions options;
     options.completeness_samples = 500;
@@ -71,14 +71,15 @@ TEST(MeshError, SpheresOfDifferentRadius) {
 }
 
 TEST(MeshError, CompletenessIsTheCoveredShareOfTheArea) {
-    // The mesh covers x in [-1, 1] of the reference's [-2, 2]; 5 cm beyond still count.
+    // The mesh covers x in [-1, 1] of the reference's [-2, 2]. Points up to 5 cm beyond the mesh
+    // also count.
     TriangleMesh half = Square(2, 8, 0.03);
     for (Eigen::Vector3f& vertex : half.vertices) vertex.y() *= 2;
     const TriangleMesh reference = Square(4, 3, 0);
     const auto result = MeasureMeshError(half, reference);
     ASSERT_TRUE(result.ok());
     EXPECT_NEAR(result.value().completeness, (2 + 2 * 0.04) / 4, 5e-4);  // 4 cm: 3 up, 4 across
-    half.triangles.clear();  // its points alone are too sparse for that
+    half.triangles.clear();  // the vertices alone are too sparse to cover the area
     EXPECT_LT(MeasureMeshError(half, reference).value().completeness, 0.1);
     EXPECT_GT(MeasureMeshError(half, reference).value().completeness, 0.01);
 }
@@ -129,7 +130,7 @@ TEST(MeshError, NothingToMeasureIsAnError) {
 }
 
 TEST(SampleSurface, SpreadsEvenlyByArea) {
-    // Two triangles, areas 1 and 3.
+    // Two triangles with areas 1 and 3.
     TriangleMesh mesh;
     mesh.vertices = {{0, 0, 0}, {2, 0, 0}, {0, 1, 0}, {0, 0, 5}, {2, 0, 5}, {0, 3, 5}};
     mesh.triangles = {{0, 1, 2}, {3, 4, 5}};
@@ -141,7 +142,7 @@ TEST(SampleSurface, SpreadsEvenlyByArea) {
         EXPECT_LE(p.x() / 2 + p.y() / (first ? 1 : 3), 1 + 1e-9);
         EXPECT_GE(p.minCoeff(), 0);
         low += first;
-        near_x += p.x() < 1;  // holds three quarters of each triangle
+        near_x += p.x() < 1;  // three quarters of each triangle
     }
     EXPECT_EQ(low, 1000);
     EXPECT_NEAR(near_x, 3000, 20);

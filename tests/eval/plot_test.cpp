@@ -8,7 +8,7 @@
 namespace tessera {
 namespace {
 
-// Pixels in which blue leads, as in the estimate's curve.
+// Number of pixels in which blue dominates, as it does in the curve of the estimate.
 int BluePixels(const ColourImage& image, int x0, int y0, int x1, int y1) {
     int count = 0;
     for (int y = y0; y < y1; ++y)

@@ -16,13 +16,13 @@ TEST(Rpe, ARigidOffsetIsNoError) {
     ASSERT_TRUE(result.ok()) << result.message();
     EXPECT_LT(result.value().trans_m.max, 1e-12);
     EXPECT_LT(result.value().rot_rad.max, 1e-7);
-    // 100 poses, the last 30 have none a second later; of the 70th that is the last pose itself,
-    // which the TUM script leaves out.
+    // The last 30 of the 100 poses have no pose a second later. For the 70th, that is the last pose
+    // itself, which the TUM script leaves out.
     EXPECT_EQ(result.value().pairs.size(), 69u);
 }
 
-// An estimate that drifts by v m/s along x and w rad/s about its own axis errs by v * delta and
-// w * delta over any delta.
+// An estimate that drifts by v m/s along x and w rad/s about its own axis has errors of v * delta
+// and w * delta over any delta.
 TEST(Rpe, ConstantDriftInClosedForm) {
     std::vector<StampedPose> reference, estimate;
     for (int i = 0; i < 200; ++i) {
@@ -53,13 +53,13 @@ TEST(Rpe, ConstantDriftInClosedForm) {
 TEST(Rpe, GapsGiveNoPairs) {
     const auto reference = WindingPath(200);
     auto estimate = reference;
-    estimate.erase(estimate.begin() + 60, estimate.begin() + 120);  // 2 s are lost
+    estimate.erase(estimate.begin() + 60, estimate.begin() + 120);  // a gap of 2 s
     const auto result = EvaluateRpe(reference, estimate);
     ASSERT_TRUE(result.ok());
     for (const RpeResult::Pair& pair : result.value().pairs)
         EXPECT_NEAR(pair.end_s - pair.begin_s, 1.0, 0.1);
     EXPECT_LT(result.value().trans_m.max, 1e-12);
-    // A gap in the reference: its nearest pose is too far away in time to count.
+    // In the gap the nearest reference pose is too far away in time to count.
     const auto other = EvaluateRpe(estimate, reference);
     ASSERT_TRUE(other.ok());
     EXPECT_LT(other.value().trans_m.max, 0.2);

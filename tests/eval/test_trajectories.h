@@ -1,4 +1,4 @@
-// Trajectories made by hand for the tests of src/eval.
+// Synthetic trajectories for the tests of src/eval.
 #pragma once
 
 #include <cmath>
@@ -21,7 +21,7 @@ inline std::vector<StampedPose> PosesAt(const std::vector<double>& stamps_s) {
     return poses;
 }
 
-// A winding path at 30 Hz with turning cameras.
+// A winding path at 30 Hz with a rotating camera.
 inline std::vector<StampedPose> WindingPath(int count) {
     std::vector<StampedPose> poses;
     for (int i = 0; i < count; ++i) {
@@ -41,7 +41,7 @@ inline Eigen::Isometry3d SomeTransform() {
     return Se3Exp(twist);
 }
 
-// The same path in another world: T * T_world_camera.
+// The same path in another world frame: T * T_world_camera.
 inline std::vector<StampedPose> Moved(std::vector<StampedPose> poses, const Eigen::Isometry3d& T) {
     for (StampedPose& pose : poses) pose.T_world_camera = T * pose.T_world_camera;
     return poses;

@@ -1,5 +1,5 @@
-// docs/extending.md's examples: the smallest tracker, source and detector, each run as the product
-// runs its own.
+// The examples of docs/extending.md: a minimal tracker, source and detector, each called the way
+// the program calls its own.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,20 +12,20 @@
 namespace tessera {
 namespace {
 
-// A tracker: believes the motion model.
+// A tracker that follows the motion model.
 class MotionModelTracker : public Tracker {
   public:
     TrackResult Track(const TrackInput& input) override {
         TrackResult result;
         result.T_world_camera = input.T_world_camera_starts.front();
         result.motion = input.motion;
-        result.status = TrackStatus::kPoor;  // not to be fused: nothing was measured
+        result.status = TrackStatus::kPoor;  // not to be fused, because nothing was measured
         result.reason = "the motion model only";
         return result;
     }
 };
 
-// A source: a wall that comes nearer, in two seconds from 2 m to 1 m.
+// A source that shows an approaching wall: from 2 m to 1 m in two seconds.
 class NearingWall : public FrameSource {
   public:
     NearingWall() {
@@ -57,7 +57,7 @@ class NearingWall : public FrameSource {
     std::int64_t next_ = 0;
 };
 
-// A detector: whatever is red is a cup.
+// A detector that reports everything red as a cup.
 class RedThings : public Detector {
   public:
     Result<std::vector<Detection>> Detect(const Frame& frame) override {

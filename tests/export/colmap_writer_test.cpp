@@ -9,7 +9,7 @@ namespace {
 
 using namespace testing_support;
 
-// The lines that are no remarks.
+// All lines that are not comments.
 std::vector<std::string> Lines(const std::string& path) {
     std::vector<std::string> lines;
     std::stringstream text(ReadBytes(path));
@@ -18,7 +18,7 @@ std::vector<std::string> Lines(const std::string& path) {
     return lines;
 }
 
-// As COLMAP's documentation describes it: q turns and t moves from the world to the camera.
+// As in COLMAP's documentation: q rotates and t translates from the world to the camera frame.
 Eigen::Vector3d ToCamera(double w, const Eigen::Vector3d& q, const Eigen::Vector3d& t,
                          const Eigen::Vector3d& p) {
     return p + 2 * w * q.cross(p) + 2 * q.cross(q.cross(p)) + t;
@@ -80,9 +80,10 @@ TEST(Colmap, PointsAreTheMeshsInTheWorld) {
         ASSERT_TRUE(r == mesh.colours[i].r && g == mesh.colours[i].g && b == mesh.colours[i].b)
             << points[i];
     }
-    EXPECT_NE(
-        WriteColmap(folder / "a.scan", mesh, folder / "set").message().find("holds files already"),
-        std::string::npos);
+    EXPECT_NE(WriteColmap(folder / "a.scan", mesh, folder / "set")
+                  .message()
+                  .find("already contains files"),
+              std::string::npos);
 }
 
 }  // namespace

@@ -46,7 +46,7 @@ TEST(PosedFrames, NobodysPicturesAreWrittenOver) {
     EXPECT_TRUE(MakeImageFolder(folder / "new/images").ok());
     WriteBytes(folder / "new/images/000000.jpg", "mine");
     EXPECT_NE(
-        MakeImageFolder(folder / "new/images").message().find("new/images: holds files already"),
+        MakeImageFolder(folder / "new/images").message().find("new/images: already contains files"),
         std::string::npos);
     EXPECT_FALSE(MakeImageFolder(folder / "new/images/000000.jpg").ok());
 }

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Another program's readers see in .ply, .obj and .glb files the mesh that was written.
+"""Checks that Open3D reads the written mesh from .ply, .obj and .glb files.
 
 Usage: open3d_reads_meshes.py TESSERA   Runs a small scan with the program, exports it, and reads the files with
-Open3D. Exits with 77, which ctest takes as skipped, where Open3D is missing.
+Open3D. Exits with 77, which ctest treats as skipped, if Open3D is missing.
 """
 import os
 import subprocess
@@ -14,7 +14,7 @@ try:
     import numpy as np
     import open3d as o3d
 except ImportError:
-    # Debian's package belongs to Debian's Python, which need not be the first in PATH.
+    # Debian's package needs Debian's Python, which may not be the first on PATH.
     if os.path.realpath(sys.executable) != os.path.realpath(SYSTEM_PYTHON) and os.path.exists(SYSTEM_PYTHON):
         os.execv(SYSTEM_PYTHON, [SYSTEM_PYTHON, *sys.argv])
     print("skipped: needs Open3D (apt-get install python3-open3d)")
@@ -34,7 +34,7 @@ def srgb(linear):
 
 
 def corners(mesh):
-    """Every triangle's corners with their colours: independent of how a reader numbers vertices."""
+    """The corners of every triangle with their colours, independent of the reader's vertex order."""
     index = np.asarray(mesh.triangles)
     return np.asarray(mesh.vertices)[index], np.asarray(mesh.vertex_colors)[index]
 
@@ -54,8 +54,8 @@ def check(name, mesh, expected, decode=lambda colour: colour):
 
 
 def upright(mesh):
-    """A .glb's vertices in the run's world, whether the reader applied its node's half turn about x or not."""
-    if np.asarray(mesh.vertices)[:, 2].mean() < 0:  # what was scanned lies ahead, at positive z
+    """Transforms a .glb mesh into the run's world frame, whether or not the reader applied the node's half turn about x."""
+    if np.asarray(mesh.vertices)[:, 2].mean() < 0:  # the scanned scene lies at positive z
         mesh.transform(np.diag([1.0, -1.0, -1.0, 1.0]))
     return mesh
 

@@ -1,5 +1,5 @@
-// A scan file with raw frames of the exact little world at exactly known poses, and points of that
-// world's surface.
+// A scan file with raw frames of the box room at exactly known poses, and points on the room's
+// surface.
 #pragma once
 
 #include "io/image_io.h"
@@ -13,19 +13,19 @@ inline constexpr int kPosedFrames = 5, kLostFrame = 2;
 inline BoxRoom PosedRoom() {
     BoxRoom room;
     room.has_ball = true;
-    room.texture = 0.6;  // no colour is clipped
+    room.texture = 0.6;  // avoids clipped colours
     return room;
 }
 
 inline Eigen::Isometry3d PosedCamera(int frame) { return SmoothPath(20 * frame); }
 
-// Of different channels.
+// A colour whose channels differ.
 inline Rgb8 Warm(std::uint8_t grey) {
     return {grey, static_cast<std::uint8_t>(grey * 7 / 10),
             static_cast<std::uint8_t>(grey * 4 / 10)};
 }
 
-// Frame kLostFrame has no pose; depth is stored in steps of 0.2 mm.
+// Frame kLostFrame has no pose. Depth is stored in steps of 0.2 mm.
 inline void WritePosedScan(const std::string& path, bool with_frames = true) {
     ScanMeta meta = SmallMeta();
     meta.camera = SmallCamera();
@@ -54,7 +54,7 @@ inline void WritePosedScan(const std::string& path, bool with_frames = true) {
     writer.Close();
 }
 
-// What is seen at the centre of a pixel, in the world.
+// The surface point seen at the centre of a pixel, in the world frame.
 inline Eigen::Vector3d SeenAt(int frame, int u, int v) {
     const Eigen::Vector3d ray = PosedCamera(frame).linear() * SmallCamera().Unproject(u, v, 1.0);
     const Eigen::Vector3d origin = PosedCamera(frame).translation();
@@ -65,7 +65,7 @@ inline Rgb8 ColourAt(const Eigen::Vector3d& p_world) {
     return Warm(static_cast<std::uint8_t>(255.0 * PosedRoom().Intensity(p_world) + 0.5));
 }
 
-// `count` points of the surface, with their colours.
+// `count` surface points with their colours.
 inline TriangleMesh PointsOfTheRoom(int count) {
     TriangleMesh mesh;
     for (int i = 0; i < count; ++i) {
@@ -76,7 +76,7 @@ inline TriangleMesh PointsOfTheRoom(int count) {
     return mesh;
 }
 
-// Two images of one smooth pattern, one of them a JPEG.
+// Compares pixels of two images of the same smooth pattern. One image is a JPEG.
 inline void ExpectSimilar(const Rgb8& a, const Rgb8& b, int u, int v) {
     for (const int difference : {a.r - b.r, a.g - b.g, a.b - b.b})
         ASSERT_LE(std::abs(difference), 12) << u << ", " << v;

@@ -19,10 +19,11 @@ class Transforms : public testing::Test {
         ASSERT_TRUE(status.ok()) << status.message();
         json = nlohmann::json::parse(ReadBytes(folder / "set/transforms.json"));
     }
-    // The file's world, z up, from ours: to the right, ahead, up.
+    // Converts from our world (x right, y down, z ahead) to the file's world (x right, y ahead, z
+    // up).
     static Eigen::Vector3d Turned(const Eigen::Vector3d& p) { return {p.x(), p.z(), -p.y()}; }
-    // Where a point of the file's world is in an image, in pixels from its corner, and how far
-    // ahead.
+    // Projects a point of the file's world into an image. Returns the position in pixels from the
+    // image corner, and the depth.
     Eigen::Vector3d Project(const nlohmann::json& frame, const Eigen::Vector3d& p) const {
         Eigen::Matrix4d T;
         for (int r = 0; r < 4; ++r)
@@ -60,9 +61,9 @@ TEST_F(Transforms, EveryPixelIsWhereTheFileSaysInColourAndDepth) {
             for (int u = 3; u < 160; u += 9) {
                 const Eigen::Vector3d p = SeenAt(numbers[i], u, v);
                 const Eigen::Vector3d seen = Project(frame, Turned(p));
-                ASSERT_NEAR(seen.x(), u + 0.5, 1e-6);  // the centre of a pixel that begins at u
+                ASSERT_NEAR(seen.x(), u + 0.5, 1e-6);  // centre of the pixel
                 ASSERT_NEAR(seen.y(), v + 0.5, 1e-6);
-                // Two roundings.
+                // Tolerance for two roundings.
                 ASSERT_NEAR(depth.value()(u, v) * Number("integer_depth_scale"), seen.z(), 0.00061);
                 ExpectSimilar(colour.value()(u, v), ColourAt(p), u, v);
             }
@@ -92,7 +93,7 @@ TEST_F(Transforms, PointsLieInTheFilesWorldAndAppliedTransformLeadsBack) {
 TEST_F(Transforms, WhatIsThereAlreadyIsRefused) {
     ASSERT_NO_FATAL_FAILURE(Write());
     const Status again = WriteTransforms(scan, {}, folder / "set/other.json");
-    EXPECT_NE(again.message().find("set/images: holds files already"), std::string::npos)
+    EXPECT_NE(again.message().find("set/images: already contains files"), std::string::npos)
         << again.message();
     EXPECT_FALSE(std::filesystem::exists(folder / "set/other.json"));
 }

@@ -25,7 +25,7 @@ class VdbWriter : public ::testing::Test {
   protected:
     VdbWriter() { testing_support::Fill(map, sdf, {-4, -4, -4}, {4, 4, 4}, Paint); }
 
-    // The file's grids, by name.
+    // Reads the grid `name` from the file.
     openvdb::GridBase::Ptr Read(const std::string& name) const {
         openvdb::initialize();
         openvdb::io::File file(path);
@@ -63,7 +63,7 @@ TEST_F(VdbWriter, TheSurfaceIsTheMapsDistanceEverywhere) {
                     ASSERT_NEAR(value, distance_m, 1e-5);
                 } else {
                     ASSERT_FLOAT_EQ(std::abs(value), static_cast<float>(kTruncation_m));
-                    // Never seen, or deep behind the surface.
+                    // Either never seen, or far behind the surface.
                     ASSERT_TRUE(value > 0 || distance_m < 0);
                     inside += value < 0;
                 }
@@ -108,7 +108,7 @@ TEST_F(VdbWriter, WhatWasNeverSeenIsBackground) {
                      .isValueOn(origin.offsetBy(1, 2, 3)));
 }
 
-// OpenVDB itself tells files apart by an identity that it draws at random.
+// OpenVDB itself gives each file a random unique tag.
 TEST_F(VdbWriter, TheSameMapGivesTheSameBytesAndAnotherAnotherIdentity) {
     ASSERT_TRUE(WriteVdb(path, map).ok());
     ASSERT_TRUE(WriteVdb(folder / "again.vdb", map).ok());

@@ -1,5 +1,5 @@
-// A source that counts: frame i has stamp i and 4 x 3 pixels of depth i + 1; some of its frames are
-// skipped, before some it has to be waited.
+// A source whose frame i has stamp i and 4 x 3 pixels of depth i + 1. Some frames are skipped, and
+// some are preceded by a wait.
 #pragma once
 
 #include <atomic>
@@ -17,9 +17,9 @@ class CountingSource : public FrameSource {
         bool knows_count = true;
         bool seeks = true;
         std::set<std::int64_t> skipped = {};
-        std::set<std::int64_t> waits = {};                   // one kWait before each of these
-        std::function<void(std::int64_t)> before_read = {};  // may wait or throw
-        std::atomic<std::int64_t>* reads = nullptr;          // counts calls of Read
+        std::set<std::int64_t> waits = {};                   // one kWait before each of them
+        std::function<void(std::int64_t)> before_read = {};  // may block or throw
+        std::atomic<std::int64_t>* reads = nullptr;          // number of calls of Read
     };
 
     explicit CountingSource(Options options) : options_(std::move(options)) {

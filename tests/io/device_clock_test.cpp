@@ -27,7 +27,7 @@ TEST(DeviceClock, RefusesSingleStampsThatMakeNoSense) {
     EXPECT_EQ(clock.Read(0, 4000000, 0).verdict, Verdict::kBackwards);
     EXPECT_EQ(clock.Read(0, 15000001, 0).verdict, Verdict::kAbsurd);
     EXPECT_EQ(clock.Read(0, std::uint64_t{1} << 62, 0).verdict, Verdict::kAbsurd);
-    EXPECT_EQ(clock.Read(0, 15000000, 0).verdict, Verdict::kGood);  // as far ahead as it may be
+    EXPECT_EQ(clock.Read(0, 15000000, 0).verdict, Verdict::kGood);  // the largest accepted step
 }
 
 TEST(DeviceClock, ADeviceThatStartsAnewGoesOnInTime) {
@@ -39,7 +39,7 @@ TEST(DeviceClock, ADeviceThatStartsAnewGoesOnInTime) {
     EXPECT_NEAR(first.stamp_s, 7.5, 1e-9);
     EXPECT_NEAR(clock.Read(1, 1000 + kFrame_us, 102.5).stamp_s, 7.533333, 1e-9);
     clock.Restart();
-    EXPECT_GT(clock.Read(1, 3, 102.5).stamp_s, 7.533333);  // whatever the host's clock says
+    EXPECT_GT(clock.Read(1, 3, 102.5).stamp_s, 7.533333);  // at the same host time
 }
 
 TEST(DeviceClock, AClockThatWasSetIsFollowedAfterAFewStamps) {

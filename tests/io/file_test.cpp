@@ -101,7 +101,7 @@ TEST_F(FileTest, ReadsWithinBounds) {
     const std::string text(100000, 'x');
     ASSERT_TRUE(WriteTextFile(Path("a"), text).ok());
     EXPECT_EQ(ReadWholeFile(Path("a"), text.size()).value(), text);
-    EXPECT_NE(ReadWholeFile(Path("a"), text.size() - 1).message().find("more than 99999 bytes"),
+    EXPECT_NE(ReadWholeFile(Path("a"), text.size() - 1).message().find("larger than 99999 bytes"),
               std::string::npos);
     EXPECT_EQ(ReadWholeFile("/dev/null", 10).value(), "");
     EXPECT_FALSE(ReadWholeFile("/dev/zero", 1 << 20).ok());

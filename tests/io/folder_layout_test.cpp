@@ -27,7 +27,7 @@ bool HasNote(const FolderLayout& layout, const std::string& part) {
 }
 
 TEST(ReadFolderLayout, RecognisesTumListsAndTheirCameraFile) {
-    TemporaryFolder folder("rgbd_dataset_freiburg1_rpy");  // camera.yaml comes before the name
+    TemporaryFolder folder("rgbd_dataset_freiburg1_rpy");  // camera.yaml overrides the name
     WriteTumLists(folder);
     folder.WriteText("camera.yaml", kTenHertzCamera);
     const auto layout = Read(folder);
@@ -47,7 +47,7 @@ TEST(ReadFolderLayout, TakesThePublishedCameraOfANamedFolder) {
         ASSERT_TRUE(layout.ok()) << layout.message();
         EXPECT_EQ(layout.value().calibration.pinhole.fx, 520.9);
         EXPECT_EQ(layout.value().calibration.distortion.k3, 0.9172);
-        EXPECT_TRUE(HasNote(layout.value(), "published values of freiburg2"));
+        EXPECT_TRUE(HasNote(layout.value(), "published calibration of freiburg2"));
     }
 }
 
@@ -71,7 +71,7 @@ TEST(ReadFolderLayout, RecognisesATumRecordingUnderAnyNameByItsList) {
     ASSERT_TRUE(layout.ok()) << layout.message();
     EXPECT_TRUE(layout.value().camera_known);
     EXPECT_EQ(layout.value().calibration.pinhole.fx, 535.4);
-    EXPECT_TRUE(HasNote(layout.value(), "published values of freiburg3"));
+    EXPECT_TRUE(HasNote(layout.value(), "published calibration of freiburg3"));
 }
 
 TEST(ReadFolderLayout, RecognisesIclNuim) {
@@ -122,7 +122,7 @@ TEST(ReadFolderLayout, PairsAnyFolderWithACameraByName) {
     const auto layout = Read(folder);
     ASSERT_TRUE(layout.ok()) << layout.message();
     EXPECT_EQ(layout.value().kind, "image folder");
-    EXPECT_EQ(layout.value().frames[1].depth_stamp_s, 0.6);  // the camera's 10 frames a second
+    EXPECT_EQ(layout.value().frames[1].depth_stamp_s, 0.6);  // camera.yaml says 10 Hz
 }
 
 TEST(ReadFolderLayout, SaysWhatIsWrongWithTheFolder) {
@@ -137,10 +137,10 @@ TEST(ReadFolderLayout, SaysWhatIsWrongWithTheFolder) {
     std::filesystem::remove(folder.Path("rgb.txt"));
     folder.WriteText("seq-01/frame-000000.color.png", "");
     EXPECT_EQ(Read(folder).message(),
-              folder.path() + ": holds several sequences; give one of them, such as seq-01");
+              folder.path() + ": contains several sequences; give one of them, such as seq-01");
     std::filesystem::remove_all(folder.Path("seq-01"));
     folder.WriteText("notes.md", "");
-    EXPECT_NE(Read(folder).message().find("no sequence that is known here"), std::string::npos);
+    EXPECT_NE(Read(folder).message().find("not a known sequence layout"), std::string::npos);
 }
 
 TEST(ReadFolderLayout, NotesSingleAbsentFilesAndRefusesWhenAllAreAbsent) {
@@ -156,7 +156,7 @@ TEST(ReadFolderLayout, NotesSingleAbsentFilesAndRefusesWhenAllAreAbsent) {
                                        folder.Path("rgb/2.png") + "); they will be skipped"});
     std::filesystem::remove(folder.Path("depth/1.png"));
     EXPECT_EQ(Read(folder).message().find(folder.Path("depth/1.png") +
-                                          ": no such file, and none of the 2 frames"),
+                                          ": no such file; none of the 2 frames"),
               0u);
 }
 

@@ -10,7 +10,7 @@
 namespace tessera {
 namespace {
 
-// `count` frames of 32 x 24; frame i is (i + 1) metres away and has the red value 10 i.
+// Writes `count` frames of 32 x 24. Frame i has depth i + 1 metres and red value 10 i.
 void WriteSequence(const TemporaryFolder& folder, int count) {
     std::string depth_list, colour_list;
     for (int i = 0; i < count; ++i) {
@@ -80,11 +80,11 @@ TEST(FolderSource, CorrectsTheLensUnlessToldNotTo) {
     auto source = Open(folder);
     EXPECT_TRUE(source->info().rectified);
     ASSERT_EQ(source->Read(frame).status, ReadStatus::kOk);
-    EXPECT_EQ(frame.depth_m(0, 0), 0.0f);  // the lens put it outside of the raw image
+    EXPECT_EQ(frame.depth_m(0, 0), 0.0f);  // the lens model maps it outside the raw image
     EXPECT_EQ(frame.depth_m(16, 12), 1.0f);
     source = Open(folder, {.rectify = false});
     EXPECT_FALSE(source->info().rectified);
-    EXPECT_EQ(source->info().notes.back(), "the lens distortion is not corrected, as configured");
+    EXPECT_EQ(source->info().notes.back(), "lens distortion is not corrected, as configured");
     ASSERT_EQ(source->Read(frame).status, ReadStatus::kOk);
     EXPECT_EQ(frame.depth_m(0, 0), 1.0f);
 }
@@ -112,7 +112,7 @@ TEST(FolderSource, PassesGarbageDepthThrough) {
     EXPECT_EQ(frame.depth_m, DepthImage(32, 24, 0.0f));
 }
 
-// Each kind of broken image costs its frame, by name, and no other.
+// Each kind of broken image skips only its own frame, and the message names the file.
 TEST(FolderSource, SkipsBrokenFramesAndSaysWhy) {
     TemporaryFolder folder;
     WriteSequence(folder, 8);
@@ -162,7 +162,7 @@ TEST(FolderSource, IsRefusedWhereNoFrameIsUsable) {
         0u);
 }
 
-// 60 degrees across; TUM's depths are whole millimetres times five.
+// The assumed field of view is 60 degrees. TUM depths are whole millimetres times five.
 TEST(FolderSource, AssumesACameraWhereNobodyGaveOne) {
     for (const auto& [value, unit] :
          {std::pair<std::uint16_t, double>{1501, 1000}, {1500, 5000}, {7502, 5000}}) {

@@ -52,8 +52,8 @@ TEST(AddTruth, NotesWhatCannotBeUsedAndGoesOn) {
     EXPECT_EQ(layout.notes[0].find("ground truth is not used: "), 0u);
 }
 
-// A point before ICL-NUIM's camera, y up, projects with fy = -480; the same pixel and depth with
-// our fy = 480 must come out at the same place of the reflected world.
+// ICL-NUIM's camera has y up: a point projects with fy = -480. The same pixel and depth,
+// unprojected with our fy = 480, must give the same point in the reflected world.
 TEST(AddTruth, ReflectsIclNuimsPosesToOurAxes) {
     TemporaryFolder folder;
     folder.WriteText("livingRoom0.gt.freiburg", "7 0.5 0.25 -1.5 0.1 0.2 0.3 0.9273618495495703\n");

@@ -25,7 +25,7 @@ TEST(FrameReader, GivesEveryFrameInOrder) {
             if (index == 7) {
                 EXPECT_EQ(result.status, ReadStatus::kSkip);
                 EXPECT_EQ(result.message, "frame 7");
-                EXPECT_EQ(frame.index, 5);  // as it was
+                EXPECT_EQ(frame.index, 5);  // unchanged
                 continue;
             }
             ASSERT_EQ(result.status, ReadStatus::kOk);
@@ -43,7 +43,7 @@ TEST(FrameReader, ReusesTheStorageOfItsFrames) {
     Frame frame;
     std::set<const float*> storages;
     while (reader.Next(frame).status == ReadStatus::kOk) storages.insert(frame.depth_m.data());
-    EXPECT_LE(storages.size(), 4u);  // three in the ring and the caller's
+    EXPECT_LE(storages.size(), 4u);  // three in the ring and one of the caller
 }
 
 TEST(FrameReader, ReadsAtMostItsCapacityAhead) {
@@ -65,7 +65,8 @@ TEST(FrameReader, EndsAtAnyMoment) {
     }
 }
 
-// Many times, because whether the full ring's reader already waits is a matter of chance.
+// Repeated many times, because it is a matter of timing whether the reader thread already waits for
+// space in the full ring.
 TEST(FrameReader, EndsWhileItsRingIsFull) {
     for (int round = 0; round < 100; ++round) {
         std::atomic<std::int64_t> reads{0};
@@ -75,8 +76,8 @@ TEST(FrameReader, EndsWhileItsRingIsFull) {
     }
 }
 
-// The source waits until it is told to go on: Next waits meanwhile, and a stop from elsewhere ends
-// that wait.
+// The source blocks until go_on is set, so Next blocks too. A stop from another thread ends the
+// wait.
 TEST(FrameReader, AStopEndsAWaitingNext) {
     std::atomic<bool> reading{false}, go_on{false};
     FrameReader reader(Make({.before_read =
@@ -88,7 +89,7 @@ TEST(FrameReader, AStopEndsAWaitingNext) {
                        {});
     reading.wait(false);
     std::jthread stopper([&] {
-        for (int i = 0; i < 1000; ++i) std::this_thread::yield();  // for Next to be waiting
+        for (int i = 0; i < 1000; ++i) std::this_thread::yield();  // gives Next time to block
         reader.RequestStop();
     });
     Frame frame;
@@ -109,7 +110,8 @@ TEST(FrameReader, ErrorsAreFinal) {
     FrameReader reader(Make({.count = 10}), {.start = 10});
     Frame frame;
     EXPECT_EQ(reader.Next(frame).status, ReadStatus::kError);
-    EXPECT_EQ(reader.Next(frame).message, "counting: start frame 10 lies behind its 10 frames");
+    EXPECT_EQ(reader.Next(frame).message,
+              "counting: start frame 10 is past the end of its 10 frames");
 }
 
 TEST(FrameReader, AnExceptionInTheSourceIsAnError) {
@@ -134,7 +136,7 @@ TEST(FrameReader, PassesWaitingOn) {
     const ReadResult wait = reader.Next(frame);
     EXPECT_EQ(wait.status, ReadStatus::kWait);
     EXPECT_EQ(wait.message, "before 1");
-    EXPECT_EQ(frame.index, 0);  // as it was
+    EXPECT_EQ(frame.index, 0);  // unchanged
     EXPECT_EQ(reader.Next(frame).status, ReadStatus::kOk);
     EXPECT_EQ(frame.index, 1);
     EXPECT_EQ(reader.Next(frame).status, ReadStatus::kEnd);

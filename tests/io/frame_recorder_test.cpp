@@ -21,7 +21,7 @@ SourceInfo SomeSource() {
     return info;
 }
 
-// Depths of whole units; every stored value comes up.
+// Depths are whole units, and every stored value occurs.
 Frame SomeFrame(int index, bool with_truth = false) {
     Frame frame;
     frame.index = index;
@@ -72,7 +72,7 @@ TEST(FrameRecorder, WhatIsReadBackIsWhatWasGiven) {
             const Frame& read = frames[static_cast<std::size_t>(i)];
             const Frame given = SomeFrame(i, true);
             EXPECT_EQ(read.depth_m, given.depth_m);
-            EXPECT_NEAR(read.stamp_s, given.stamp_s, 6e-7);  // written in microseconds
+            EXPECT_NEAR(read.stamp_s, given.stamp_s, 6e-7);  // written with microsecond resolution
             EXPECT_NEAR(read.colour_stamp_s, given.colour_stamp_s, 6e-7);
             ASSERT_TRUE(read.T_world_camera);
             EXPECT_TRUE(read.T_world_camera->isApprox(*given.T_world_camera, 1e-9));
@@ -89,7 +89,7 @@ TEST(FrameRecorder, AtAnyMomentTheFolderIsReadable) {
     const auto recorder = Create(folder.Path("scan"));
     for (int i = 0; i < 3; ++i) {
         ASSERT_TRUE(recorder->Add(SomeFrame(i)).ok());
-        // Nothing was closed.
+        // The recorder has not been closed.
         EXPECT_EQ(ReadBack(folder.Path("scan")).size(), static_cast<std::size_t>(i + 1));
         EXPECT_EQ(recorder->frames(), i + 1);
     }
@@ -99,7 +99,7 @@ TEST(FrameRecorder, NeverOverwritesARecording) {
     TemporaryFolder folder;
     ASSERT_NE(Create(folder.Path("scan")), nullptr);
     EXPECT_EQ(FrameRecorder::Create(folder.Path("scan"), SomeSource()).message(),
-              folder.Path("scan") + ": holds a recording already; give a new folder's name");
+              folder.Path("scan") + ": already contains a recording; give a new folder name");
     folder.WriteText("file", "x");
     EXPECT_FALSE(FrameRecorder::Create(folder.Path("file"), SomeSource()).ok());
 }
@@ -110,20 +110,20 @@ TEST(FrameRecorder, FramesThatDoNotFitAreRefusedByName) {
     small.depth_m = DepthImage(32, 24);
     grey.colour = ColourImage();
     for (const auto& [frame, why] :
-         {std::pair{&small, "64 x 48 pixels"}, {&grey, "no colour"}, {&late, "its stamp"}}) {
+         {std::pair{&small, "64 x 48 pixels"}, {&grey, "no colour"}, {&late, "its time stamp"}}) {
         const auto recorder = Create(folder.Path(why));
         ASSERT_TRUE(recorder->Add(SomeFrame(0)).ok());
         const Status status = recorder->Add(*frame);
         EXPECT_NE(status.message().find(why), std::string::npos) << status.message();
         EXPECT_NE(status.message().find("; 1 frames are safe in"), std::string::npos)
             << status.message();
-        // The first error stays.
+        // The first error is kept.
         EXPECT_EQ(recorder->Add(SomeFrame(2)).message(), status.message());
     }
 }
 
-// No file may grow past a limit: as a disk that becomes full, first within an image, then within a
-// list.
+// A file size limit simulates a full disk. The first limit fails within an image, the second within
+// a list.
 TEST(FrameRecorder, AFullDiskLosesNothingThatWasSafe) {
     signal(SIGXFSZ, SIG_IGN);
     for (const rlim_t limit : {rlim_t{4500}, rlim_t{150}}) {
@@ -149,7 +149,7 @@ TEST(FrameRecorder, AFullDiskLosesNothingThatWasSafe) {
         ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &lowered), 0);
         Status status;
         for (int i = 2; i < 200 && status.ok(); ++i) {
-            // Large depth files; or lists that grow past the limit.
+            // Either large depth files, or lists that grow past the limit.
             Frame next = limit > 1000 ? SomeFrame(i) : frame;
             next.stamp_s = 20 + i;
             next.colour_stamp_s = 20 + i;

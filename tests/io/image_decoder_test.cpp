@@ -80,7 +80,7 @@ TEST(ImageDecoder, NamesTheFileThatIsNoImage) {
     EXPECT_EQ(decoder.ReadDepth(folder.Path("empty.png"), depth).message(),
               folder.Path("empty.png") + ": is empty");
     EXPECT_EQ(decoder.ReadColour(folder.Path("text.png"), colour).message(),
-              folder.Path("text.png") + ": is no image, or truncated or damaged");
+              folder.Path("text.png") + ": is not an image, or is truncated or damaged");
     EXPECT_EQ(
         decoder.ReadDepth(folder.Path("cut.png"), depth).message(),
         folder.Path("cut.png") + ": is truncated or damaged: too little data for 64 x 48 pixels");
@@ -93,7 +93,7 @@ TEST(ImageDecoder, RefusesLongSidesFromTheHeader) {
     ASSERT_TRUE(cv::imwrite(folder.Path("long.png"), cv::Mat(1, 8193, CV_16UC1, cv::Scalar(1))));
     Image<std::uint16_t> depth;
     EXPECT_EQ(ImageDecoder().ReadDepth(folder.Path("long.png"), depth).message(),
-              folder.Path("long.png") + ": 8193 x 1 pixels; at most 8192 a side are read");
+              folder.Path("long.png") + ": 8193 x 1 pixels; at most 8192 per side are supported");
     EXPECT_TRUE(depth.empty());
 }
 

@@ -1,4 +1,4 @@
-// png_encoder.h and jpeg_encoder.h, against our decoders and OpenCV's.
+// Checks png_encoder.h and jpeg_encoder.h against our decoders and those of OpenCV.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -76,8 +76,9 @@ TEST(JpegEncoder, ComesBackAlmost) {
 
 TEST(JpegEncoder, SaysWhatItRefuses) {
     std::vector<std::uint8_t> file;
-    EXPECT_NE(EncodeJpeg(ColourImage(70000, 1), 95, file).message().find("cannot be made a JPEG"),
-              std::string::npos);
+    EXPECT_NE(
+        EncodeJpeg(ColourImage(70000, 1), 95, file).message().find("cannot be encoded as JPEG"),
+        std::string::npos);
 }
 
 }  // namespace

@@ -42,10 +42,10 @@ TEST(ImageIo, SaysWhyNothingWasWritten) {
     TemporaryFolder folder;
     const ColourImage image(8, 8);
     EXPECT_EQ(WriteColourImage(folder.Path("a.unknown"), image).message(),
-              folder.Path("a.unknown") + ": is no image format that can be written; use .png");
+              folder.Path("a.unknown") + ": is not a supported image format; use .png");
     EXPECT_EQ(WriteColourImage(folder.Path("absent/a.png"), image).message(),
               folder.Path("absent/a.png") +
-                  ": cannot be written; is the folder there, writable and not full?");
+                  ": cannot be written; does the folder exist, is it writable, is the disk full?");
     EXPECT_EQ(WriteColourImage(folder.Path("a.png"), {}).message(),
               folder.Path("a.png") + ": there are no pixels to write");
 }

@@ -35,9 +35,9 @@ TEST(ReadImageLists, SkipsAndNotesWhatIsNoLine) {
     ASSERT_TRUE(images.ok()) << images.message();
     EXPECT_EQ(images.value().pairs.size(), 1u);
     ASSERT_EQ(images.value().notes.size(), 1u);
-    EXPECT_EQ(
-        images.value().notes[0],
-        folder.Path("depth.txt") + ": 5 lines are not 'stamp filename' (first: line 2); skipped");
+    EXPECT_EQ(images.value().notes[0],
+              folder.Path("depth.txt") +
+                  ": 5 lines are not of the form 'stamp filename' (first: line 2); skipped");
 }
 
 TEST(ReadImageLists, SortsAndDropsRepeatedStamps) {
@@ -67,9 +67,9 @@ TEST(ReadImageLists, SaysTheSmallestGapWhenNothingPairs) {
 TEST(ReadImageLists, RefusesListsWithoutALine) {
     TemporaryFolder folder;
     EXPECT_EQ(ReadLists(folder, "# nothing\n", "1.0 c1\n").message(),
-              folder.Path("depth.txt") + ": no line 'stamp filename' in it");
+              folder.Path("depth.txt") + ": no line of the form 'stamp filename'");
     EXPECT_EQ(ReadLists(folder, "1.0 d1\n", std::string("\x00\xff\x01\n\n\x02", 6)).message(),
-              folder.Path("rgb.txt") + ": no line 'stamp filename' in it");
+              folder.Path("rgb.txt") + ": no line of the form 'stamp filename'");
 }
 
 TEST(ReadAssociations, TakesDepthFirstOrSecond) {

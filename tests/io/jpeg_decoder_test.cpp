@@ -72,7 +72,7 @@ TEST(JpegDecoder, SurvivesRandomDamage) {
 TEST(JpegDecoder, RefusesLongSidesBeforeDecoding) {
     ColourImage image;
     EXPECT_EQ(DecodeJpeg(MakeJpeg(CV_8UC3), 74, image).message(),
-              "75 x 53 pixels; at most 74 a side are read");
+              "75 x 53 pixels; at most 74 per side are supported");
     EXPECT_TRUE(image.empty());
 }
 

@@ -146,12 +146,12 @@ TEST_F(Klg, WhatIsNoLogIsRefusedByName) {
     };
     refused("no such file");
     folder.WriteText("a.klg", "ab");
-    refused("is no .klg log");
+    refused("is not a .klg log");
     Write(-1, "");
-    refused("is no .klg log");
-    // Nothing is allocated for what it claims.
+    refused("is not a .klg log");
+    // A claimed frame count allocates no memory.
     Write(2'000'000'000, FrameOf(1, Depth(1), "").substr(0, 100));
-    refused("no whole frame");
+    refused("no complete frame");
     std::string huge;
     Put(huge, std::int64_t{1});
     Put(huge, std::int32_t{-7});

@@ -10,7 +10,7 @@
 namespace tessera {
 namespace {
 
-// Tests run side by side: each has a file of its own.
+// Tests run in parallel, so each uses its own file.
 std::string MeshPath() {
     return testing::TempDir() + "mesh_io_" +
            testing::UnitTest::GetInstance()->current_test_info()->name() + ".ply";
@@ -22,7 +22,7 @@ Result<TriangleMesh> ReadBytes(const std::string& bytes) {
     return ReadPly(path);
 }
 
-// The bytes of `value`, in either order.
+// The bytes of `value`, in little-endian or big-endian order.
 template <class T>
 std::string Bytes(T value, bool big_endian) {
     std::string bytes(reinterpret_cast<const char*>(&value), sizeof(T));
@@ -148,7 +148,7 @@ TEST(MeshIo, HugeCountsAreRefusedBeforeAllocation) {
             ASSERT_FALSE(result.ok());
             EXPECT_NE(result.message().find("claims"), std::string::npos) << result.message();
         }
-    // Without properties an element takes no bytes at all, whatever its count.
+    // An element without properties takes no bytes, whatever its count.
     const std::string head = "ply\nformat ascii 1.0\nelement vertex ";
     EXPECT_FALSE(ReadBytes(head + "18446744073709551615\nend_header\n").ok());
     EXPECT_FALSE(ReadBytes(head + "99999999999999999999\nproperty float x\nend_header\n").ok());

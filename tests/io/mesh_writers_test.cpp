@@ -34,7 +34,7 @@ std::string FileBytes(const std::string& path) {
     return bytes.ok() ? bytes.value() : "";
 }
 
-// A glTF file taken apart by hand.
+// A glTF file, parsed by hand.
 struct Glb {
     nlohmann::json json;
     std::string binary;
@@ -112,8 +112,8 @@ TEST(MeshWriters, GlbHoldsTheArraysBitForBit) {
     EXPECT_EQ(accessor["max"], nlohmann::json({1.0, 0.0, 0.25}));
 }
 
-// Camera up is up in a viewer, and what lies before the camera lies before the viewer, who looks
-// along -z.
+// The camera's up (-y) is up in a viewer. What lies in front of the camera lies in front of the
+// viewer, who looks along -z.
 TEST(MeshWriters, GlbStandsUpright) {
     const TempFolder folder;
     ASSERT_TRUE(WriteGlb(folder / "a.glb", LabelledTetrahedron()).ok());
@@ -128,8 +128,8 @@ TEST(MeshWriters, GlbStandsUpright) {
     EXPECT_LT((R_viewer_world * Eigen::Vector3d(1, 0, 0) - Eigen::Vector3d(1, 0, 0)).norm(), 1e-12);
 }
 
-// More colours than are converted at once, so that every value comes from every piece; the inverse
-// is the standard's.
+// More colours than one conversion batch holds, so that every value occurs in every batch. The
+// inverse follows the sRGB standard.
 TEST(MeshWriters, GlbColoursAreLinearAndComeBackExactly) {
     TriangleMesh mesh;
     for (std::size_t i = 0; i < 300000; ++i) {
@@ -218,7 +218,7 @@ TEST(MeshWriters, TheExtensionChoosesAndAnUnknownOneIsRefusedByName) {
         ASSERT_FALSE(none.ok()) << name;
         EXPECT_EQ(none.message(),
                   std::string(name) +
-                      ": a mesh is written as .ply, .obj, .glb; give one of these extensions");
+                      ": a mesh can be written as .ply, .obj, .glb; use one of these extensions");
     }
 }
 

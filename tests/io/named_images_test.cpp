@@ -7,7 +7,7 @@
 namespace tessera {
 namespace {
 
-// Only names matter here; the files are empty.
+// Only the names matter here, so the files are empty.
 void Touch(const TemporaryFolder& folder, const std::vector<std::string>& names) {
     for (const std::string& name : names) folder.WriteText(name, "");
 }
@@ -73,9 +73,9 @@ TEST(PairByName, PairsByOrderWhereNamesHaveNoNumbers) {
 TEST(PairByName, SaysWhyNothingPairs) {
     TemporaryFolder folder;
     Touch(folder, {"depth/1.png", "rgb/note.txt"});
-    EXPECT_EQ(Pair(folder).message(), folder.Path("rgb") + ": no images in it");
+    EXPECT_EQ(Pair(folder).message(), folder.Path("rgb") + ": contains no images");
     Touch(folder, {"rgb/2.png"});
-    EXPECT_NE(Pair(folder).message().find("cannot be paired by their names"), std::string::npos);
+    EXPECT_NE(Pair(folder).message().find("cannot be paired by name"), std::string::npos);
 }
 
 TEST(ReadSevenScenesNames, PairsByFrameNumber) {

@@ -40,7 +40,7 @@ int SlowPaeth(int a, int b, int c) {
     return pb <= pc ? b : c;
 }
 
-// The specification's filters, one byte at a time.
+// The filters of the PNG specification, one byte at a time.
 Bytes FilterRows(const Bytes& raw, std::size_t row_bytes, std::size_t step,
                  const std::vector<int>& filters) {
     Bytes filtered;
@@ -73,7 +73,7 @@ Bytes RandomBytes(std::size_t size, unsigned seed) {
     return bytes;
 }
 
-// A PNG whose data is spread over chunks of 100 bytes.
+// A PNG whose data is split into chunks of 100 bytes.
 Bytes MakePng(const Kind& kind, const Bytes& raw, const std::vector<int>& filters,
               int width = kWidth, int height = kHeight) {
     Bytes file = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
@@ -181,7 +181,7 @@ TEST(PngDecoder, RefusesAnUnknownFilter) {
               "row 1 has the unknown filter 5");
 }
 
-// A header of 8192 x 8192 over a few bytes must not take 128 MB.
+// A header of 8192 x 8192 followed by a few bytes must not allocate 128 MB.
 TEST(PngDecoder, RefusesMoreThanTheDataCanHoldBeforeAllocating) {
     const Bytes file = MakePng({1, 16}, RandomBytes(8192 * 2, 4), {0}, 8192, 8192);
     Image<std::uint16_t> depth;

@@ -27,7 +27,7 @@ TEST(ReadFileBytes, SaysWhatIsWrong) {
     EXPECT_EQ(ReadFileBytes(folder.Path("pipe"), 10, bytes).message(),
               folder.Path("pipe") + ": is not a regular file");
     EXPECT_EQ(ReadFileBytes(folder.Path("file"), 3, bytes).message(),
-              folder.Path("file") + ": 4 bytes are more than the 3 that are read");
+              folder.Path("file") + ": has 4 bytes; at most 3 bytes are read");
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
-// Golden values of the recorded sequences. Pairs and stamps: the TUM tool's associate.py. Depth and
-// PNG pixels: a decoder written from the PNG specification for this purpose alone. JPEG pixels:
-// OpenCV.
+// Reference values of the recorded sequences. Pairs and stamps come from the TUM tool associate.py.
+// Depth and PNG pixels come from a decoder that was written for this purpose from the PNG
+// specification. JPEG pixels come from OpenCV.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -94,7 +94,7 @@ TEST_F(RecordedSequences, Freiburg1RpyHasKnownPixels) {
     EXPECT_EQ(first.colour(320, 240), (Rgb8{26, 17, 20}));
     EXPECT_EQ(first.colour(100, 100), (Rgb8{18, 9, 26}));
     EXPECT_EQ(first.colour(500, 400), (Rgb8{244, 234, 233}));
-    // Halfway, by time, between the rows of 1305031229.5232 and .5332.
+    // Between the rows of 1305031229.5232 and .5332, interpolated by time.
     ASSERT_TRUE(first.T_world_camera.has_value());
     EXPECT_NEAR(first.T_world_camera->translation().x(), 1.3001 - 0.5584 * 0.0012, 1e-6);
     const Frame last = ReadFrame(*source, 693);
@@ -103,8 +103,8 @@ TEST_F(RecordedSequences, Freiburg1RpyHasKnownPixels) {
     EXPECT_NEAR(SumOfDepths_m(last), 2124426212 / 5000.0, 0.01);
 }
 
-// The lens correction invents no depth. It draws this camera's picture together, so that a rim is
-// left without.
+// The lens correction creates no new depth values. It shrinks this camera's image, so a rim has no
+// depth.
 TEST_F(RecordedSequences, Freiburg1RpyRectifiedKeepsItsDepths) {
     OPEN_OR_SKIP(source, "tum_fr1_rpy");
     const Frame rectified = ReadFrame(*source, 0);

@@ -15,7 +15,7 @@ CameraCalibration Freiburg1() {
         {640, 480, 517.3, 516.5, 318.6, 255.3}, {0.2624, -0.9531, -0.0054, 0.0026, 1.1633}, 5000.0};
 }
 
-// Where the lens puts the ideal pixel (u, v): the Brown-Conrady model, written out.
+// The raw position of the ideal pixel (u, v) in the Brown-Conrady model, written out.
 std::array<double, 2> Distort(const CameraCalibration& c, double u, double v) {
     const double x = (u - c.pinhole.cx) / c.pinhole.fx, y = (v - c.pinhole.cy) / c.pinhole.fy;
     const double r2 = x * x + y * y;
@@ -26,7 +26,7 @@ std::array<double, 2> Distort(const CameraCalibration& c, double u, double v) {
     return {xd * c.pinhole.fx + c.pinhole.cx, yd * c.pinhole.fy + c.pinhole.cy};
 }
 
-// Raw depth that tells its own pixel.
+// Raw depth that encodes its own pixel.
 Image<std::uint16_t> CountingDepth() {
     Image<std::uint16_t> raw(640, 480);
     for (std::size_t i = 0; i < raw.size(); ++i)
@@ -77,7 +77,7 @@ TEST(Rectifier, DepthIsTheNearestRawPixelOfTheLensModel) {
     for (int v = 0; v < 480; ++v)
         for (int u = 0; u < 640; ++u) {
             const auto [x, y] = Distort(calibration, u, v);
-            // Within a thousandth of a pixel of the border between two, either is right.
+            // Within a thousandth of a pixel of a pixel border, either neighbour is right.
             if (std::abs(x - std::floor(x) - 0.5) < 1e-3 ||
                 std::abs(y - std::floor(y) - 0.5) < 1e-3)
                 continue;
@@ -124,8 +124,8 @@ TEST(Rectifier, ColourIsBilinearAtTheLensModelsPlace) {
                 return (1 - b) * ((1 - a) * channel(raw(c, r)) + a * channel(raw(c + 1, r))) +
                        b * ((1 - a) * channel(raw(c, r + 1)) + a * channel(raw(c + 1, r + 1)));
             };
-            // OpenCV places to 1/32 pixel: on the 40-level checker of blue that is up to 2.5
-            // levels, and rounding.
+            // OpenCV rounds positions to 1/32 pixel. On the 40-level checkerboard of the blue
+            // channel that is up to 2.5 levels, plus rounding.
             ASSERT_NEAR(rectified(u, v).r, mix([](Rgb8 p) { return p.r; }), 1.01) << u << " " << v;
             ASSERT_NEAR(rectified(u, v).g, mix([](Rgb8 p) { return p.g; }), 1.01) << u << " " << v;
             ASSERT_NEAR(rectified(u, v).b, mix([](Rgb8 p) { return p.b; }), 3.5) << u << " " << v;

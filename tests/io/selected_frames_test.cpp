@@ -11,7 +11,7 @@ namespace {
 
 using Indices = std::vector<std::int64_t>;
 
-// Indices of the frames given; -1 - i for a skipped frame i.
+// Indices of the frames returned, and -1 - i for a skipped frame i.
 Indices ReadAll(const CountingSource::Options& options, const FrameSelection& selection) {
     SelectedFrames frames(std::make_unique<CountingSource>(options), selection);
     Indices indices;
@@ -62,13 +62,13 @@ TEST(SelectedFrames, RefusesImpossibleSelections) {
         EXPECT_EQ(frames.Next(frame).status, ReadStatus::kError);
         return result.message;
     };
-    EXPECT_EQ(message({.start = 10}), "counting: start frame 10 lies behind its 10 frames");
+    EXPECT_EQ(message({.start = 10}), "counting: start frame 10 is past the end of its 10 frames");
     EXPECT_EQ(message({.start = -1}), "counting: start frame -1 is negative");
     EXPECT_EQ(message({.stride = 0}), "counting: stride 0 is less than 1");
     EXPECT_EQ(message({.count = -2}), "counting: -2 frames cannot be read");
 }
 
-// Waiting is passed on and costs no frame, neither between the selected frames nor at one.
+// kWait is passed on, both between the selected frames and at one, and counts as no frame.
 TEST(SelectedFrames, WaitingIsNoFrame) {
     auto source = std::make_unique<CountingSource>(CountingSource::Options{
         .count = 10, .knows_count = false, .seeks = false, .waits = {0, 3, 4}});

@@ -11,7 +11,7 @@
 namespace tessera {
 namespace {
 
-// associate.py, written out: every candidate, sorted, each image once.
+// associate.py, written out: all candidates, sorted by gap, each image used once.
 std::vector<StampPair> PairSlowly(const std::vector<double>& depth,
                                   const std::vector<double>& colour, double max_gap_s) {
     std::vector<std::tuple<double, double, double, std::size_t, std::size_t>> candidates;
@@ -40,7 +40,7 @@ void ExpectSame(const std::vector<StampPair>& a, const std::vector<StampPair>& b
 }
 
 TEST(PairNearest, TakesTheClosestFirst) {
-    // In order of time, depth 0 would take colour 0; but colour 0 and depth 1 are closer.
+    // In time order, depth 0 would take colour 0. But colour 0 and depth 1 are closer.
     const std::vector<double> depth = {10.000, 10.018}, colour = {10.012, 10.030};
     const auto pairs = PairNearest(depth, colour, 0.02);
     ASSERT_EQ(pairs.size(), 1u);
@@ -78,7 +78,7 @@ TEST(PairNearest, AgreesWithTheSlowWayOnRandomLists) {
             list.erase(std::unique(list.begin(), list.end()), list.end());
             return list;
         };
-        // A coarse binary grid gives exact ties, a fine one none.
+        // A coarse binary grid gives exact ties, a fine one gives none.
         const double grid = seed % 2 == 0 ? 1.0 / 1024 : 0.000317;
         const auto depth = stamps(grid), colour = stamps(grid);
         SCOPED_TRACE(seed);

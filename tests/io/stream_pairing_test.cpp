@@ -17,7 +17,8 @@ struct Stamp {
     double stamp_s;
 };
 
-// What comes out while `arriving` goes in; images are marked with their stamps' milliseconds.
+// The pairs returned while the images `arriving` are pushed. Each image carries its stamp in
+// milliseconds.
 std::vector<std::pair<double, double>> Feed(StreamPairing& pairing,
                                             const std::vector<Stamp>& arriving, bool end = true) {
     std::vector<std::pair<double, double>> pairs;
@@ -89,8 +90,9 @@ TEST(StreamPairing, ClearForgetsWhatWaits) {
     EXPECT_EQ(pairing.depth_alone(), 0);
 }
 
-// Jitter, losses and different rates: the same pairs as pairing the whole lists at the end. In the
-// last rounds images lie halfway between two partners, and only what must hold is the same.
+// With jitter, losses and different rates, the pairs equal those of pairing the whole lists
+// afterwards. In the last rounds images lie halfway between two partners, and only the invariants
+// are checked.
 TEST(StreamPairing, AgreesWithThePairingOfWholeLists) {
     std::mt19937 random(7);
     std::uniform_real_distribution<double> jitter(-0.004, 0.004), share(0, 1);

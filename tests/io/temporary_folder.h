@@ -1,4 +1,5 @@
-// A folder of its own for one test, removed at its end, and the small images that tests put there.
+// A temporary folder for one test, removed when the test ends, and helpers to write small images
+// into it.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -13,13 +14,13 @@
 
 namespace tessera {
 
-// The camera.yaml of 32 x 24 pixels.
+// camera.yaml for 32 x 24 pixels.
 inline constexpr const char* kSmallCamera =
     "width: 32\nheight: 24\nfx: 30\nfy: 31\ncx: 15.5\ncy: 11.5\ndepth_scale: 1000\n";
 
 class TemporaryFolder {
   public:
-    // `name` is the folder's own name: some layouts are recognised by it.
+    // `name` is the last part of the path, because some layouts are recognised by it.
     explicit TemporaryFolder(const std::string& name = "sequence") {
         const auto* test = testing::UnitTest::GetInstance()->current_test_info();
         root_ = std::filesystem::path(testing::TempDir()) /
@@ -42,7 +43,7 @@ class TemporaryFolder {
         std::filesystem::create_directories((path_ / name).parent_path());
         std::ofstream(path_ / name, std::ios::binary) << text;
     }
-    // All pixels the same.
+    // All pixels have the same value.
     void WriteDepth(const std::string& name, int width, int height, std::uint16_t value) const {
         std::filesystem::create_directories((path_ / name).parent_path());
         ASSERT_TRUE(WriteDepthImage(Path(name), Image<std::uint16_t>(width, height, value)).ok());

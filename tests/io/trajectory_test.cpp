@@ -10,7 +10,7 @@
 namespace tessera {
 namespace {
 
-// Tests run side by side: each has a file of its own.
+// Tests run in parallel, so each uses its own file.
 std::string TrajectoryPath() {
     return testing::TempDir() + "trajectory_" +
            testing::UnitTest::GetInstance()->current_test_info()->name() + ".txt";
@@ -36,7 +36,7 @@ TEST(Trajectory, ReadsQuaternionAsXyzw) {
     ASSERT_EQ(result.value().poses.size(), 1u);
     const StampedPose& pose = result.value().poses[0];
     EXPECT_EQ(pose.stamp_s, 1.5);
-    // A quarter turn about z takes x to y.
+    // A quarter turn about z maps x to y.
     const Eigen::Vector3d p = pose.T_world_camera * Eigen::Vector3d::UnitX();
     EXPECT_LT((p - Eigen::Vector3d(1, 3, 3)).norm(), 1e-12);
 }
@@ -110,14 +110,14 @@ TEST(Trajectory, SkipsAndNotesBadLines) {
     ASSERT_TRUE(result.ok()) << result.message();
     const Trajectory& trajectory = result.value();
     ASSERT_EQ(trajectory.poses.size(), 2u);
-    EXPECT_EQ(trajectory.poses[0].T_world_camera.translation().x(), 0.0);  // the first of the two
+    EXPECT_EQ(trajectory.poses[0].T_world_camera.translation().x(), 0.0);  // the first duplicate
     EXPECT_EQ(trajectory.poses[1].stamp_s, 8.0);
     EXPECT_NEAR(trajectory.poses[1].T_world_camera(1, 0), 1.0, 1e-12);
     std::string notes;
     for (const std::string& note : trajectory.notes) notes += note + "\n";
     for (const char* expected :
          {":2: not a finite", ":3: not a finite", ":4: zero quaternion", ":5: 7 numbers",
-          ":6: more than 1000 km", ":7: stamp 1.000000 again", ":8: not a finite"})
+          ":6: more than 1000 km", ":7: repeated stamp 1.000000", ":8: not a finite"})
         EXPECT_NE(notes.find(expected), std::string::npos) << expected << "\nin\n" << notes;
 }
 
@@ -149,11 +149,11 @@ TEST(Trajectory, ALineCutOffAtTheEndIsSkipped) {
 TEST(Trajectory, ErrorsNameFileAndLine) {
     const auto words = ReadText("1 0 0 0 0 0 0 1\nstamp x y z\n");
     ASSERT_FALSE(words.ok());
-    EXPECT_NE(words.message().find(TrajectoryPath() + ":2: 'stamp' is no number"),
+    EXPECT_NE(words.message().find(TrajectoryPath() + ":2: 'stamp' is not a number"),
               std::string::npos)
         << words.message();
-    EXPECT_NE(ReadText("").message().find("no pose in it"), std::string::npos);
-    EXPECT_NE(ReadText("# only\n").message().find("no pose in it"), std::string::npos);
+    EXPECT_NE(ReadText("").message().find("contains no pose"), std::string::npos);
+    EXPECT_NE(ReadText("# only\n").message().find("contains no pose"), std::string::npos);
     EXPECT_NE(ReadText("1 nan 0 0 0 0 0 1\n").message().find("not a finite"), std::string::npos);
     EXPECT_FALSE(ReadTrajectory(testing::TempDir()).ok());
     EXPECT_FALSE(ReadTrajectory(testing::TempDir() + "absent.txt").ok());
@@ -189,7 +189,7 @@ TEST(Trajectory, InterpolatesNothingOutsideOrAcrossGaps) {
     EXPECT_FALSE(InterpolatePose(poses, 2.01, 10).has_value());
     EXPECT_FALSE(InterpolatePose(poses, std::nan(""), 10).has_value());
     EXPECT_FALSE(InterpolatePose({}, 1, 10).has_value());
-    EXPECT_EQ(InterpolatePose(poses, 2.0)->translation().x(), 2.0);  // on a pose: no gap
+    EXPECT_EQ(InterpolatePose(poses, 2.0)->translation().x(), 2.0);  // exact, so no gap
     EXPECT_EQ(InterpolatePose(poses, 1.0)->translation().x(), 1.0);
 }
 

@@ -1,4 +1,4 @@
-// Maps filled from formulas, so that tests know the exact answer without any fusion.
+// Maps filled from formulas, so that tests know the exact result without any fusion.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,9 +11,9 @@
 
 namespace tessera::testing_support {
 
-// Signed distance in metres of a world point, positive outside.
+// Signed distance in metres at a point in the world frame, positive outside.
 using Sdf = std::function<double(const Eigen::Vector3d&)>;
-// RGB in [0, 1] of a world point.
+// RGB in [0, 1] at a point in the world frame.
 using Paint = std::function<Eigen::Vector3d(const Eigen::Vector3d&)>;
 
 inline Sdf Sphere(const Eigen::Vector3d& centre, double radius_m) {
@@ -29,7 +29,7 @@ inline Sdf Box(const Eigen::Vector3d& centre, const Eigen::Vector3d& half_m) {
         return q.cwiseMax(0.0).norm() + std::min(q.maxCoeff(), 0.0);
     };
 }
-// Around the z axis through `centre`.
+// The torus axis is parallel to z and passes through `centre`.
 inline Sdf Torus(const Eigen::Vector3d& centre, double ring_m, double tube_m) {
     return [=](const Eigen::Vector3d& p) {
         const Eigen::Vector3d q = p - centre;
@@ -40,7 +40,7 @@ inline Sdf Union(const Sdf& a, const Sdf& b) {
     return [=](const Eigen::Vector3d& p) { return std::min(a(p), b(p)); };
 }
 
-// Well-mixed bits from a counter: the tests' only randomness.
+// A hash that turns a counter into well-mixed bits: the only source of randomness in the tests.
 inline std::uint32_t Mix(std::uint32_t v) {
     v = (v ^ v >> 16) * 0x7feb352du;
     v = (v ^ v >> 15) * 0x846ca68bu;
@@ -48,7 +48,8 @@ inline std::uint32_t Mix(std::uint32_t v) {
 }
 inline double Uniform(std::uint32_t counter) { return Mix(counter) / 4294967296.0; }
 
-// `distance` in truncations, clamped to [-1, 1]; intensity < 0: none.
+// `distance` is in units of the truncation distance and is clamped to [-1, 1]. intensity < 0 means
+// none.
 inline FieldWord PackField(double distance, double intensity = -1) {
     const auto steps = static_cast<std::int32_t>(
         std::lround(std::clamp(distance, -1.0, 1.0) * static_cast<double>(kDistanceSteps)));
@@ -71,7 +72,7 @@ inline Eigen::Vector3i WorldVoxel(const BlockCoord& c, int offset) {
     return {c.x * 8 + offset % 8, c.y * 8 + offset / 8 % 8, c.z * 8 + offset / 64};
 }
 
-// Writes a whole block, weight 1, and marks it.
+// Writes a whole block with weight 1 and marks it as changed.
 inline void FillBlock(BlockMap& map, BlockId id, const Sdf& sdf, const Paint& paint,
                       std::uint32_t revision) {
     for (int offset = 0; offset < kBlockVoxels; ++offset) {
@@ -85,8 +86,8 @@ inline void FillBlock(BlockMap& map, BlockId id, const Sdf& sdf, const Paint& pa
     map.MarkChanged(id, revision);
 }
 
-// Allocates and fills the blocks from `low` to `high`, both included, that the band around the
-// surface may touch.
+// Allocates and fills those blocks between `low` and `high`, both included, that the truncation
+// band may touch.
 inline void Fill(BlockMap& map, const Sdf& sdf, const BlockCoord& low, const BlockCoord& high,
                  const Paint& paint = nullptr, std::uint32_t revision = 1) {
     const double voxel = map.config().voxel_size_m;

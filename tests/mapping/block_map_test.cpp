@@ -48,7 +48,7 @@ TEST(BlockMap, NewBlocksAreUnknownAndFoundAgain) {
     EXPECT_EQ(map.revision(id), 42u);
 }
 
-// Far beyond the first table's size, over all signs, to the corners of what a coordinate can be.
+// Far beyond the initial table size, with all signs, up to the limits of a coordinate.
 TEST(BlockMap, GrowsToAHundredThousandBlocks) {
     BlockMap map{BlockMap::Config{}};
     std::set<BlockCoord> known;
@@ -58,7 +58,7 @@ TEST(BlockMap, GrowsToAHundredThousandBlocks) {
         const BlockId expected = static_cast<BlockId>(known.size());
         const BlockId id = map.Allocate(c);
         if (is_new) {
-            ASSERT_EQ(id, expected) << "ids are given in order";
+            ASSERT_EQ(id, expected) << "ids are assigned in order";
         }
         ASSERT_EQ(map.coord(id), c);
     }
@@ -75,7 +75,7 @@ TEST(BlockMap, GrowsToAHundredThousandBlocks) {
 TEST(BlockMap, NeighbourTableEqualsFind) {
     BlockMap map{BlockMap::Config{}};
     for (std::uint32_t i = 0; i < 3000; ++i) {
-        map.Allocate(RandomCoord(i, 8));  // 4096 places: most neighbours exist, some do not
+        map.Allocate(RandomCoord(i, 8));  // 4096 positions: most neighbours exist, some do not
         if (i % 500 != 499) continue;
         for (BlockId id = 1; id < map.size(); ++id)
             for (int slot = 0; slot < 8; ++slot) {
@@ -123,7 +123,7 @@ TEST(BlockMap, ClearForgetsEverything) {
     }
 }
 
-// Everything that can be asked of a map, against a list of what should be in it.
+// Compares everything that a map returns with the list of blocks it should hold.
 void ExpectExactly(const std::map<BlockCoord, std::int32_t>& numbers, const BlockMap& map) {
     ASSERT_EQ(map.count(), static_cast<std::int64_t>(numbers.size()));
     BlockId there = 0;
@@ -159,7 +159,7 @@ TEST(BlockMap, ReleasedBlocksAreGoneAndTheirIdsUsedAgain) {
     BlockId largest = 0;
     for (std::uint32_t i = 0; i < 40000; ++i) {
         const BlockCoord c = RandomCoord(i, i % 3 ? 9 : 14);
-        const bool grow = i / 5000 % 2 == 0;  // by turns more come than go, and more go
+        const bool grow = i / 5000 % 2 == 0;  // alternates between growing and shrinking
         if (const BlockId id = map.Find(c); id != kUnknownBlock && Mix(i) % 4 >= (grow ? 3u : 0u)) {
             map.Release(id);
             numbers.erase(c);
@@ -184,13 +184,13 @@ TEST(BlockMap, ReleasedBlocksAreGoneAndTheirIdsUsedAgain) {
     }
     EXPECT_GT(numbers.size(), 500u);
     EXPECT_EQ(map.size(), largest + 1);
-    EXPECT_LT(3 * map.size(), 2 * allocated) << "ids are used again";
+    EXPECT_LT(3 * map.size(), 2 * allocated) << "ids are reused";
     while (!numbers.empty()) {
         map.Release(map.Find(numbers.begin()->first));
         numbers.erase(numbers.begin());
     }
     ExpectExactly(numbers, map);
-    EXPECT_EQ(map.Allocate({1, 2, 3}), 1) << "the lowest first";
+    EXPECT_EQ(map.Allocate({1, 2, 3}), 1) << "the lowest free id first";
 }
 
 TEST(BlockMap, AReleasedBlockComesBackUnderItsNumber) {

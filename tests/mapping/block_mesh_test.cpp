@@ -12,7 +12,8 @@ using namespace testing_support;
 
 TEST(BlockMesh, SphereIsWatertightWithRightAreaAndVolume) {
     const double r = 0.3;
-    // Around the origin, so that blocks of every sign take part; off the voxels' raster and on it.
+    // Around the origin, so that blocks of every sign take part. One centre is off the voxel grid,
+    // one is on it.
     for (const Eigen::Vector3d& centre :
          {Eigen::Vector3d(.0031, -.0042, .0013), Eigen::Vector3d(0, 0, 0)}) {
         const TriangleMesh mesh = MeshOf(Sphere(centre, r), {-6, -6, -6}, {5, 5, 5});
@@ -40,7 +41,7 @@ TEST(BlockMesh, TopologyOfTorusAndTwoSpheres) {
     EXPECT_EQ(EulerCharacteristic(two), 4);
 }
 
-// The box's faces go exactly through voxels: distances of exactly zero.
+// The faces of the box pass exactly through voxels, so their distances are exactly zero.
 TEST(BlockMesh, SurfaceThroughVoxelsHasNoDegenerateTriangles) {
     const TriangleMesh mesh = MeshOf(Box({0, 0, 0}, {.2, .16, .1}), {-5, -5, -5}, {4, 4, 4});
     EXPECT_EQ(BadEdges(mesh), 0);
@@ -50,8 +51,9 @@ TEST(BlockMesh, SurfaceThroughVoxelsHasNoDegenerateTriangles) {
     EXPECT_NEAR(Volume(mesh), .4 * .32 * .2, 0.01 * .4 * .32 * .2);
 }
 
-// Independent noise at every voxel: all 256 configurations, all ambiguous faces. Inside the known
-// region every edge is used exactly twice; what is used once lies in the region's boundary.
+// Independent noise at every voxel gives all 256 configurations and all ambiguous faces. Every edge
+// inside the known region is used exactly once in each direction. Edges that are used once lie on
+// the boundary of the region.
 TEST(BlockMesh, NoiseHasNoCracks) {
     BlockMap map{BlockMap::Config{}};
     std::uint32_t counter = 0;
@@ -96,7 +98,7 @@ TEST(BlockMesh, ColourOfOneEndOrGrey) {
     const Sdf plane = Plane({0, 0, 1}, .0351);
     Fill(map, plane, {0, 0, 0}, {0, 0, 0});
     const BlockId id = map.Find({0, 0, 0});
-    // Left half: colour below the surface only, at z = 3.
+    // Left half: only the voxels below the surface, at z = 3, have colour.
     for (int y = 0; y < 8; ++y)
         for (int x = 0; x < 4; ++x) {
             const int offset = x + 8 * y + 64 * 3;
@@ -120,13 +122,12 @@ TEST(BlockMesh, OnlyCellsOfKnownAndWeightedVoxels) {
     config.min_weight = .5;
     Mesher mesher(config);
     mesher.Update(map);
-    EXPECT_EQ(mesher.Assemble().triangles.size(), 2 * 45u);  // without the four cells around it
+    EXPECT_EQ(mesher.Assemble().triangles.size(), 2 * 45u);  // minus the four cells around it
     map.field(id)[3 + 8 * 3 + 64 * 3] = kUnknownField;
     EXPECT_EQ(MeshOf(map).triangles.size(), 2 * 45u);
 }
 
-// Where the field jumps over its whole range between neighbours there is an occlusion's edge, not a
-// surface.
+// A jump over the whole range between neighbouring voxels is a depth discontinuity, not a surface.
 TEST(BlockMesh, JumpsFromFrontToBehindAreNoSurface) {
     BlockMap map{BlockMap::Config{}};
     const Sdf step = [](const Eigen::Vector3d& p) { return p.x() < .035 ? 1.0 : -1.0; };

@@ -10,7 +10,7 @@ namespace {
 using namespace testing_support;
 using Sampler = FieldSampler<BlockMapView>;
 
-// Blocks of random distances and intensities on both sides of zero; one is missing.
+// Blocks of random distances and intensities on both sides of zero. One block is missing.
 class FieldSamplerTest : public ::testing::Test {
   protected:
     FieldSamplerTest() {
@@ -24,7 +24,7 @@ class FieldSamplerTest : public ::testing::Test {
                 }
     }
     double Random() { return Uniform(++counter_); }
-    // In [-16, 15) voxels, known but for the missing block.
+    // In [-16, 15) voxels. All of it is known except the missing block.
     Eigen::Vector3d RandomPoint() {
         return Eigen::Vector3d(Random(), Random(), Random()) * 31 - Eigen::Vector3d::Constant(16);
     }
@@ -35,7 +35,7 @@ class FieldSamplerTest : public ::testing::Test {
         return map_.field(
             map_.Find(b))[v.x() - 8 * b.x + 8 * (v.y() - 8 * b.y) + 64 * (v.z() - 8 * b.z)];
     }
-    // The slow, obvious way. NaN where a corner is unknown.
+    // A slow, straightforward reference. NaN where a corner is unknown.
     template <class Decode>
     double Trilinear(const Eigen::Vector3d& p, const Decode& decode) const {
         const Eigen::Vector3d low = p.array().floor();
@@ -80,7 +80,7 @@ TEST_F(FieldSamplerTest, GradientAgreesWithCentralDifferences) {
     const double h = 0.01, voxel = .01;  // voxels, metres
     for (int i = 0; i < 5000; ++i) {
         Eigen::Vector3d p = RandomPoint();
-        // Inside a cell, away from its faces, where the gradient jumps.
+        // Keep inside a cell, away from its faces, where the gradient jumps.
         p = p.array().floor() + .05 + .9 * (p.array() - p.array().floor());
         const Eigen::Vector3f q = p.cast<float>();
         const FieldSample sample = sampler.Sample<true>(sampler.Locate(q.x(), q.y(), q.z()));
@@ -106,7 +106,7 @@ TEST_F(FieldSamplerTest, OriginMovesTheCoordinatesOnly) {
     Sampler world(map_.view(), {0, 0, 0}), local(map_.view(), {-2, 1, -1});
     for (int i = 0; i < 1000; ++i) {
         const Eigen::Vector3f p =
-            (RandomPoint() * 4).array().round().cast<float>() / 4;  // exact in floats
+            (RandomPoint() * 4).array().round().cast<float>() / 4;  // exact in float
         const FieldSample a = world.Sample<true>(world.Locate(p.x(), p.y(), p.z()));
         const FieldSample b = local.Sample<true>(local.Locate(p.x() + 16, p.y() - 8, p.z() + 8));
         ASSERT_EQ(a.has_distance, b.has_distance);
@@ -144,7 +144,7 @@ TEST_F(FieldSamplerTest, UnknownIsInvalid) {
     EXPECT_FALSE(sampler.Sample<true>(sampler.Locate(100, 0, 0)).has_distance);  // no block
     EXPECT_FALSE(sampler.Sample<true>(sampler.Locate(8, 8, 8)).has_distance);  // the missing block
     EXPECT_FALSE(
-        sampler.Sample<true>(sampler.Locate(7.5f, 7.5f, 7.5f)).has_distance);  // as neighbour
+        sampler.Sample<true>(sampler.Locate(7.5f, 7.5f, 7.5f)).has_distance);  // missing neighbour
     EXPECT_TRUE(sampler.Sample<true>(sampler.Locate(7.5f, 7.5f, 6.5f)).has_distance);
     const BlockId id = map_.Find({0, 0, 0});
     map_.field(id)[3 + 8 * 3 + 64 * 3] &= 0xffff0000u;  // no intensity
@@ -152,7 +152,7 @@ TEST_F(FieldSamplerTest, UnknownIsInvalid) {
     EXPECT_TRUE(grey.has_distance);
     EXPECT_FALSE(grey.has_intensity);
     EXPECT_FALSE(
-        sampler.Sample<false>(sampler.Locate(4.5f, 5.5f, 5.5f)).has_intensity);  // not asked
+        sampler.Sample<false>(sampler.Locate(4.5f, 5.5f, 5.5f)).has_intensity);  // not requested
     map_.field(id)[3 + 8 * 3 + 64 * 3] = kUnknownField | 5;
     EXPECT_FALSE(sampler.Sample<true>(sampler.Locate(2.5f, 2.5f, 2.5f)).has_distance);
 }

@@ -17,7 +17,7 @@ TEST(FrameKernels, DepthIsCorrectedAndGated) {
     EXPECT_FALSE(Coherent(2.0f, 1.9f));
 }
 
-// Grey has no chroma.
+// Grey has zero chroma.
 TEST(FrameKernels, ColourIsPackedAsLumaAndChroma) {
     EXPECT_FLOAT_EQ(Luma255({255, 255, 255}), 255.0f);
     EXPECT_FLOAT_EQ(Luma255({0, 200, 0}), 117.4f);
@@ -28,7 +28,8 @@ TEST(FrameKernels, ColourIsPackedAsLumaAndChroma) {
     EXPECT_EQ(red & 0xffffu, 0u);
 }
 
-// Half a step more than a byte holds: it must neither wrap round nor spill into its neighbour.
+// These chroma values are half a step above the largest byte. They must neither wrap around nor
+// spill into the neighbouring byte.
 TEST(FrameKernels, PureRedAndBlueHaveTheLargestChroma) {
     EXPECT_EQ(PackColour({255, 0, 0}, 0.0f) >> 24, 255u);
     // Cr: 128.5 - 0.114 * 255 / 1.402.
@@ -43,7 +44,7 @@ TEST(FrameKernels, SmoothingIsTheBinomialWithTheBorderRepeated) {
     EXPECT_EQ(SmoothAt(on, 1, 5), 2.0f);
     EXPECT_EQ(SmoothAt(beside, 2, 5), 2.0f);
     EXPECT_EQ(SmoothAt(beside, 3, 5), 1.0f);
-    // The pixel in the image's corner: (1 + 2) (1 + 2) of 16.
+    // The corner pixel has the weight (1 + 2) (1 + 2) / 16.
     EXPECT_EQ(SmoothAt(corner, 0, 3), 9.0f);
     EXPECT_EQ(SmoothAt({none, point, none}, 2, 3), 6.0f);
 }

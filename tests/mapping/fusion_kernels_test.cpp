@@ -7,12 +7,13 @@
 namespace tessera {
 namespace {
 
-// [B14] eq. 13, whose d is the negative of our signed distance; delta is the map's truncation.
+// [B14] eq. 13. Its d is the negative of our signed distance, and its delta is the map's truncation
+// distance.
 TEST(FusionKernels, LinearExpWeightIsEquation13) {
     constexpr float kEpsilon = 0.025f, kSigma = 60.0f;
-    EXPECT_FLOAT_EQ(LinearExpWeight(0.1f, kEpsilon, kSigma), 1.0f);     // in front
+    EXPECT_FLOAT_EQ(LinearExpWeight(0.1f, kEpsilon, kSigma), 1.0f);     // in front of the surface
     EXPECT_FLOAT_EQ(LinearExpWeight(-0.025f, kEpsilon, kSigma), 1.0f);  // d = epsilon
-    // D - epsilon = 0.1.
+    // d - epsilon = 0.1.
     EXPECT_NEAR(LinearExpWeight(-0.125f, kEpsilon, kSigma), std::exp(-60.0 * 0.01), 1e-6);
     EXPECT_NEAR(LinearExpWeight(-0.3f, kEpsilon, kSigma), std::exp(-60.0 * 0.275 * 0.275), 1e-6);
 }

@@ -1,4 +1,4 @@
-// The fusion of vectors against the same kernels one voxel at a time.
+// Compares the SIMD fusion with the same kernels applied one voxel at a time.
 #include "mapping/fusion_rows.h"
 
 #include <gtest/gtest.h>
@@ -15,8 +15,8 @@ namespace {
 
 constexpr int kWidth = 97, kHeight = 61, kBlocks = 64;
 
-// Blocks in front of a camera, full of random voxels, and a frame of random pixels, a fifth of them
-// without depth.
+// Blocks of random voxels in front of a camera, and a frame of random pixels. A fifth of the pixels
+// have no depth.
 struct Scene {
     std::vector<FieldWord> field;
     std::vector<std::uint16_t> weight;
@@ -25,7 +25,7 @@ struct Scene {
     std::vector<float> depth_m, gone_m;
     std::vector<std::uint32_t> packed_colour;
     FusionArguments a{};
-    bool gone = false;  // whether gone_m is given
+    bool gone = false;  // whether gone_m is passed on
 
     Scene() {
         std::uint32_t state = 4711;
@@ -99,8 +99,8 @@ void FuseOneByOne(const FusionArguments& a, const std::int32_t* blocks, std::int
 
 using Fuse = void (*)(const FusionArguments&, const std::int32_t*, std::int32_t);
 
-// How many voxels two ways of fusing leave different; `changed`: how many the first has changed at
-// all.
+// Number of voxels that differ after two ways of fusing. `changed` counts the voxels that the first
+// one changed.
 int Differing(const Scene& scene, Fuse one, Fuse other, int& changed) {
     Scene x = scene, y = scene;
     one(x.Arguments(), x.blocks.data(), kBlocks);
@@ -132,7 +132,7 @@ TEST_P(FusionRows, AreTheKernelsOneByOne) {
     int changed = 0;
     EXPECT_EQ(Differing(scene, FuseOneByOne, baseline::FuseBlocks, changed), 0);
     ASSERT_GT(changed, kBlocks * kBlockVoxels / 8);
-    if (!CpuHasAvx2()) GTEST_SKIP() << "no AVX2 here: only the portable path was checked";
+    if (!CpuHasAvx2()) GTEST_SKIP() << "this machine has no AVX2: tested only the portable path";
     EXPECT_EQ(Differing(scene, FuseOneByOne, avx2::FuseBlocks, changed), 0);
 }
 

@@ -40,7 +40,7 @@ Frame UniformFrame(const PinholeCamera& camera, float depth_m, Rgb8 colour) {
     return frame;
 }
 
-// Calls visit(point in metres, field word, weight word, colour word) for every voxel with a
+// Calls visit(point in metres, field word, weight word, colour word) for every voxel that has a
 // distance.
 template <class Visit>
 void ForKnownVoxels(const BlockMap& map, const Visit& visit) {
@@ -56,7 +56,8 @@ void ForKnownVoxels(const BlockMap& map, const Visit& visit) {
     }
 }
 
-// Somebody who stood at 1 m for ten seconds is gone after a third of one, where that is known.
+// A person stood at 1 m for ten seconds and has left. Where gone_m says so, a third of a second is
+// enough to clear the map.
 TEST(Integrator, ASurfaceThatIsGoneIsForgottenSoon) {
     const PinholeCamera camera = SmallCamera();
     for (const bool known : {false, true}) {
@@ -71,7 +72,7 @@ TEST(Integrator, ASurfaceThatIsGoneIsForgottenSoon) {
         ForKnownVoxels(map,
                        [&](const Eigen::Vector3d& p, FieldWord field, std::uint16_t, ColourWord) {
                            if (p.z() > 1.07 || p.head<2>().norm() > 0.2 * p.z())
-                               return;  // the image's middle
+                               return;  // only the centre of the image
                            (FieldDistance(field) > 0 ? free : solid) += 1;
                        });
         EXPECT_GT(free, 1000);
@@ -110,9 +111,9 @@ TEST(Integrator, WeightIsTheNumberOfFramesOverDepthSquared) {
 }
 
 TEST(Integrator, RoomMatchesTheExactFieldNearTheSurface) {
-    // The measured distance runs along the optical axis ([B14] eq. 12): at an angle it exceeds the
-    // exact one by at most 1 / cosine, so both vanish together and agree in sign. Slanted walls:
-    // within a tenth of the band after dividing.
+    // The measured distance runs along the optical axis ([B14] eq. 12). At an angle it exceeds the
+    // exact distance by a factor of at most 1 / cosine, so both have the same zero and the same
+    // sign.
     const PinholeCamera camera = SmallCamera();
     BoxRoom room;
     BlockMap map(MapConfig(0.02, 0.08));
@@ -123,7 +124,7 @@ TEST(Integrator, RoomMatchesTheExactFieldNearTheSurface) {
     int voxels = 0, off = 0;
     ForKnownVoxels(map, [&](const Eigen::Vector3d& p, FieldWord field, std::uint16_t, ColourWord) {
         const double exact = room.SignedDistance(p);
-        if (std::abs(p.z() - room.high.z()) > 0.06) return;  // the wall that the camera faces
+        if (std::abs(p.z() - room.high.z()) > 0.06) return;  // only the wall that the camera faces
         if (std::abs(p.x()) > 0.8 || std::abs(p.y()) > 0.6) return;
         ++voxels;
         off += std::abs(FieldDistance(field) * 0.08 - exact) > 0.004;
@@ -166,8 +167,7 @@ TEST(Integrator, BrightnessIsTakenBackToTheMaps) {
     });
 }
 
-// Eight-bit averages, and sixteen-bit ones rounded to nearest, stop moving once the weight is
-// large.
+// 8-bit averages, and 16-bit averages rounded to nearest, stop moving once the weight is large.
 TEST(Integrator, TenThousandFramesConverge) {
     const PinholeCamera camera{24, 18, 100, 100, 11.5, 8.5};
     BlockMap map(MapConfig(0.02, 0.04));
@@ -190,7 +190,7 @@ TEST(Integrator, TenThousandFramesConverge) {
         });
     EXPECT_GT(voxels, 100);
     EXPECT_LT(worst_distance, 2e-4);
-    EXPECT_LT(worst_colour, 4.0);  // one frame's chroma has 8 bits; the rest is the dither's spread
+    EXPECT_LT(worst_colour, 4.0);  // 8-bit chroma of one frame, plus the spread of the dither
 }
 
 TEST(Integrator, PortableAndAvx2Agree) {
@@ -214,8 +214,8 @@ TEST(Integrator, PortableAndAvx2Agree) {
             differ += HasDistance(a) != HasDistance(b) ||
                       std::abs(FieldDistance(a) - FieldDistance(b)) > 1e-3f;
         }
-    // Fused multiply-adds move a projection across a pixel's border now and then; the neighbouring
-    // pixel's depth differs.
+    // Fused multiply-adds occasionally move a projection across a pixel border, and the
+    // neighbouring pixel has a different depth.
     EXPECT_LT(differ, voxels / 1000);
 }
 
@@ -243,7 +243,7 @@ TEST(Integrator, FarFromTheOriginIsAsFine) {
     BlockMap map(MapConfig(0.02, 0.08));
     Integrator integrator({}, camera);
     Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
-    T.translation() << 409.6, -204.8, 1024.0;  // whole blocks
+    T.translation() << 409.6, -204.8, 1024.0;  // a whole number of blocks
     integrator.Integrate(Prepare(UniformFrame(camera, 1.0f, {90, 90, 90})), At(T), map);
     ForKnownVoxels(map, [&](const Eigen::Vector3d& p, FieldWord field, std::uint16_t, ColourWord) {
         ASSERT_NEAR(FieldDistance(field) * 0.08, std::clamp(1025.0 - p.z(), -0.08, 0.08), 1e-4);

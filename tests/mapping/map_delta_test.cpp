@@ -13,14 +13,14 @@ namespace {
 
 using namespace testing_support;
 
-// Fuses frames of a moving camera; after every second one the copy hears of what changed.
+// Fuses frames of a moving camera. Tell sends the changes since the last call to the copy.
 struct MovingMap {
     PinholeCamera camera = SmallCamera();
     BlockMap map{{.voxel_size_m = 0.02, .truncation_m = 0.08}};
     BlockMap copy{map.config(), BlockMap::Layers::kFieldOnly};
     Integrator integrator{{}, camera};
     std::vector<BlockChange> came_and_went;
-    std::vector<BlockId> back;  // blocks that were away: their field is news, too
+    std::vector<BlockId> back;  // blocks that returned to the map; the copy needs their field too
 
     void Fuse(int i) {
         BoxRoom room;
@@ -119,7 +119,7 @@ TEST(CopyField, IsTheWholeFieldUnderTheSameIdsAndNewToWhoeverLooks) {
             << id;
         ASSERT_NE(copy->revision(id), 0u);
     }
-    // The next delta goes on from there.
+    // The next delta continues from this copy.
     world.came_and_went.clear();
     world.Fuse(3);
     MapDelta delta;
@@ -132,7 +132,7 @@ TEST(CopyField, IsTheWholeFieldUnderTheSameIdsAndNewToWhoeverLooks) {
             << id;
 }
 
-// Whoever keeps what it made from the copy up to date by revisions sees every change.
+// A consumer that uses revisions to keep data derived from the copy up to date sees every change.
 TEST(MapDelta, AMeshOfTheCopyFollowsIt) {
     MovingMap world;
     Mesher of_map({}), of_copy({});
@@ -146,7 +146,7 @@ TEST(MapDelta, AMeshOfTheCopyFollowsIt) {
     ASSERT_GT(expected.triangles.size(), 1000u);
     EXPECT_EQ(actual.triangles, expected.triangles);
     EXPECT_EQ(actual.vertices, expected.vertices);
-    for (const Rgb8& c : actual.colours)  // its intensity without its chroma
+    for (const Rgb8& c : actual.colours)  // the copy has intensity but no chroma
         ASSERT_TRUE(c.r == c.g && c.g == c.b) << int{c.r} << " " << int{c.g} << " " << int{c.b};
 }
 

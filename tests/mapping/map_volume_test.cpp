@@ -16,7 +16,7 @@ TEST(MapVolume, ABlockThatReachesInsideMeetsIt) {
     volume.min_y_m = -1, volume.max_y_m = 1;
     volume.min_z_m = 0.5, volume.max_z_m = 3;
     EXPECT_TRUE(volume.Meets({0, 0, 1}, 0.5));
-    EXPECT_FALSE(volume.Meets({0, 0, 0}, 0.5));  // ends where the volume begins
+    EXPECT_FALSE(volume.Meets({0, 0, 0}, 0.5));  // the block ends where the volume begins
     EXPECT_TRUE(volume.Meets({0, 0, 1}, 0.4));   // 0.4 to 0.8 m
     EXPECT_TRUE(volume.Meets({-3, 0, 3}, 0.4));  // -1.2 to -0.8 m
     EXPECT_FALSE(volume.Meets({-4, 0, 3}, 0.4));
@@ -26,7 +26,7 @@ TEST(MapVolume, ABlockThatReachesInsideMeetsIt) {
 TEST(MapVolume, RefusesAnEmptyBoxByItsKey) {
     MapVolume volume;
     volume.max_y_m = volume.min_y_m;
-    EXPECT_TRUE(volume.Validate().ok());  // not in force
+    EXPECT_TRUE(volume.Validate().ok());  // bounded is false, so the box is not checked
     volume.bounded = true;
     const Status status = volume.Validate();
     ASSERT_FALSE(status.ok());

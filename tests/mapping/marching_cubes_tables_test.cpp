@@ -24,7 +24,7 @@ bool EdgeOnFace(int edge, int face) {
     return e.axis != face / 2 && CornerOnFace(e.corner, face);
 }
 
-// The edge at the same place on the opposite face of the cell.
+// The corresponding edge on the opposite face of the cell.
 int AcrossCell(int edge, int face_axis) {
     const CubeEdge e = CubeEdgeAt(edge);
     for (int other = 0; other < kCubeEdges; ++other) {
@@ -44,7 +44,7 @@ TEST(MarchingCubesTables, EdgesAreTheTwelvePairsOfAdjacentCorners) {
     EXPECT_EQ(pairs.size(), 12u);
 }
 
-// Cells of any two configurations that share a face's corners draw the same segments on it, in
+// Any two configurations whose cells share the corners of a face draw the same segments on it, in
 // opposite directions.
 TEST(MarchingCubesTables, NeighboursAgreeOnEveryFace) {
     int compared = 0;
@@ -65,8 +65,8 @@ TEST(MarchingCubesTables, NeighboursAgreeOnEveryFace) {
     EXPECT_EQ(compared, 3 * 256 * 16);
 }
 
-// In a cell, a side of a triangle either is a segment of a face, used once, or is interior, used
-// once each way.
+// Within a cell, a side of a triangle is either a segment on a face and used once, or interior and
+// used once in each direction.
 TEST(MarchingCubesTables, TrianglesFillTheSegmentsOfEveryConfiguration) {
     for (int configuration = 0; configuration < kCubeConfigurations; ++configuration) {
         std::map<Segment, int> sides;
@@ -83,7 +83,7 @@ TEST(MarchingCubesTables, TrianglesFillTheSegmentsOfEveryConfiguration) {
             EXPECT_EQ(sides.count({side.second, side.first}), 1u) << configuration;
             for (int face = 0; face < 6; ++face)
                 EXPECT_FALSE(EdgeOnFace(side.first, face) && EdgeOnFace(side.second, face))
-                    << configuration << ": a diagonal lies in face " << face;
+                    << configuration << ": a diagonal lies on face " << face;
         }
     }
 }
@@ -107,12 +107,12 @@ TEST(MarchingCubesTables, VerticesLieOnCrossedEdgesOnly) {
 TEST(MarchingCubesTables, OneInsideCornerFacesOutward) {
     const CubeCase& cell = CubeCases()[1];
     ASSERT_EQ(cell.triangle_count, 1);
-    // x, then y, then z edge of corner 0: counter-clockwise seen from (1, 1, 1).
+    // The x, y and z edges of corner 0: counter-clockwise when seen from (1, 1, 1).
     EXPECT_EQ(cell.triangles[0], (std::array<std::uint8_t, 3>{0, 4, 8}));
 }
 
 TEST(MarchingCubesTables, AmbiguousFaceSeparatesTheInsideCorners) {
-    EXPECT_EQ(CubeCases()[0b1001].triangle_count, 2);  // corners 0 and 3, diagonal on z = 0
+    EXPECT_EQ(CubeCases()[0b1001].triangle_count, 2);  // corners 0 and 3, diagonal at z = 0
     EXPECT_EQ(CubeCases()[0b01101001].triangle_count, 4);
 }
 

@@ -14,7 +14,7 @@ FieldWord Word(float distance, std::uint32_t intensity = 0) {
            intensity;
 }
 
-// Distances 0.1 (x - 2.25) + 0.2 (y - 2): the surface crosses x = 2.25 in row y = 2.
+// Distance 0.1 (x - 2.25) + 0.2 (y - 2): in row y = 2 the surface crosses at x = 2.25.
 std::vector<FieldWord> Slanted() {
     std::vector<FieldWord> words;
     for (int z = 0; z < ApronField::kSide; ++z)
@@ -43,7 +43,7 @@ TEST(MeshKernels, GradientsAreOneSidedBesideTheUnknown) {
         for (const int x : {2, 3}) words[ApronField::Index(x, y, 3)] = kUnknownField;
     const MeshVertex v = VertexOnEdge({words.data()}, 0, 2, 2, 3, kNoColour, kNoColour);
     EXPECT_LT((VertexNormal(v) - Eigen::Vector3f(1, 0, 0)).norm(), 1e-3f)
-        << "nothing is known of y";
+        << "the gradient in y is unknown";
 }
 
 TEST(MeshKernels, ColourIsTheOtherEndsWhereOneHasNone) {

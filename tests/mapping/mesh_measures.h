@@ -1,4 +1,4 @@
-// Meshes of maps and formulas, and what tests ask of them: topology, area, volume.
+// Meshes of maps and formulas, and the properties that tests check: topology, area, volume.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -12,7 +12,7 @@
 
 namespace tessera::testing_support {
 
-// How often each directed side of a triangle occurs.
+// Number of times each directed triangle side occurs.
 inline std::map<std::pair<std::uint32_t, std::uint32_t>, int> DirectedEdges(
     const TriangleMesh& mesh) {
     std::map<std::pair<std::uint32_t, std::uint32_t>, int> uses;
@@ -21,7 +21,8 @@ inline std::map<std::pair<std::uint32_t, std::uint32_t>, int> DirectedEdges(
     return uses;
 }
 
-// Edges that are not used exactly once in each direction, except where `allowed(a, b)`.
+// Number of edges that are not used exactly once in each direction. Edges with `allowed(a, b)` are
+// not counted.
 template <class Allowed>
 int BadEdges(const TriangleMesh& mesh, const Allowed& allowed) {
     const auto uses = DirectedEdges(mesh);
@@ -45,7 +46,7 @@ inline long EulerCharacteristic(const TriangleMesh& mesh) {
            static_cast<long>(mesh.triangles.size());
 }
 
-// Twice the area, along the outward normal.
+// A vector along the outward normal whose length is twice the area.
 inline Eigen::Vector3d TriangleCross(const TriangleMesh& mesh,
                                      const std::array<std::uint32_t, 3>& t) {
     const Eigen::Vector3d a = mesh.vertices[t[0]].cast<double>();
@@ -83,7 +84,7 @@ inline TriangleMesh MeshOf(const BlockMap& map, int min_component_triangles = 0)
     return mesher.Assemble();
 }
 
-// The same of a formula, at 1 cm voxels and 4 cm truncation.
+// The mesh of a formula, with 1 cm voxels and 4 cm truncation.
 inline TriangleMesh MeshOf(const Sdf& sdf, const BlockCoord& low, const BlockCoord& high,
                            const Paint& paint = nullptr) {
     BlockMap map{BlockMap::Config{}};

@@ -21,7 +21,7 @@ TEST(Mesher, SmallComponentsAreLeftOut) {
     EXPECT_EQ(filtered.normals.size(), filtered.vertices.size());
 }
 
-// A block's change concerns the 17 blocks whose mesh reads it, no more.
+// A change to a block affects only the 17 blocks whose mesh reads it.
 TEST(Mesher, ChangeReachesTheReadersOnly) {
     BlockMap map{BlockMap::Config{}};
     for (int z = -2; z <= 2; ++z)
@@ -36,8 +36,8 @@ TEST(Mesher, ChangeReachesTheReadersOnly) {
     EXPECT_EQ(mesher.Update(map, 0), kMeshReads);
 }
 
-// Random edits of single voxels, whole blocks, new blocks and blocks that go: whatever changed
-// where, the incremental mesh has the bytes of one made from scratch.
+// Random edits of single voxels and whole blocks, with blocks added and removed. The incremental
+// mesh always has the same bytes as a mesh built from scratch.
 TEST(Mesher, IncrementalEqualsFromScratch) {
     BlockMap map{BlockMap::Config{}};
     Mesher::Config config;
@@ -71,7 +71,7 @@ TEST(Mesher, IncrementalEqualsFromScratch) {
         map.MarkChanged(id, revision);
         const BlockId gone = map.Find({random(3) - 2, random(3) - 2, random(3) - 2});
         if (revision > 100 && gone != kUnknownBlock && random(8) == 0) map.Release(gone);
-        if (random(3) == 0) continue;  // several changes at once
+        if (random(3) == 0) continue;  // accumulates several changes
         incremental.Update(map);
         Mesher scratch(config);
         scratch.Update(map);
@@ -99,8 +99,8 @@ TEST(Mesher, BudgetSpreadsTheWorkAndEndsAtTheSameMesh) {
     EXPECT_TRUE(SameBytes(mesher.Assemble(), MeshOf(map, config.min_component_triangles)));
 }
 
-// The surface lies between the last voxels of one block and the first of the other, whose own cells
-// have none.
+// The surface lies between the last voxels of one block and the first voxels of the next. The cells
+// of the next block contain no surface.
 TEST(Mesher, ABlockWithoutSurfaceThatGoesTakesItsNeighboursSurfaceAlong) {
     BlockMap map{BlockMap::Config{}};
     Fill(map, Plane({1, 0, 0}, 7.5 * map.config().voxel_size_m), {0, 0, 0}, {1, 0, 0});
@@ -116,7 +116,8 @@ TEST(Mesher, ABlockWithoutSurfaceThatGoesTakesItsNeighboursSurfaceAlong) {
     EXPECT_TRUE(mesher.Assemble().triangles.empty());
 }
 
-// A neighbour meshed at another time may lack a vertex: the triangle is left out, nothing else.
+// A neighbour that was meshed at a different time may lack a vertex. Only that triangle is left
+// out.
 TEST(Mesher, StaleNeighboursMakeGapsNotGarbage) {
     BlockMap map{BlockMap::Config{}};
     Fill(map, Plane({0, 0, 1}, .0351), {0, 0, 0}, {1, 0, 0});

@@ -1,4 +1,4 @@
-// A frame that is prepared without what moves.
+// Tests of preparing a frame without its moving regions.
 #include "mapping/moving_mask.h"
 
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 namespace tessera {
 namespace {
 
-// 23 x 17 pixels in tiles of 5: the last ones hold what is left of a row or column.
+// 23 x 17 pixels in tiles of 5. The last tile of a row or column also holds the remaining pixels.
 struct MaskedFrame {
     Frame frame;
     MovingMask mask;
@@ -25,7 +25,7 @@ struct MaskedFrame {
         mask.moving = Image<std::uint8_t>(4, 3);
         mask.moving(1, 0) = mask.moving(3, 1) = mask.moving(0, 2) = mask.moving(3, 2) = 1;
     }
-    // By the definition of a tile.
+    // Follows the definition of a tile.
     bool Moves(int x, int y) const {
         return mask.moving(std::min(x / 5, 3), std::min(y / 5, 2)) != 0;
     }

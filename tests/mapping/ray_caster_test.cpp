@@ -10,12 +10,12 @@ namespace {
 
 using namespace testing_support;
 
-// 1 cm voxels: a tenth of a voxel is a millimetre.
+// Voxels are 1 cm, so a tenth of a voxel is 1 mm.
 constexpr double kTenthVoxel = 1e-3;
 
 PinholeCamera SmallCamera() { return {160, 120, 140, 145, 79.5, 60.5}; }
 
-// At `eye`, looking at `target`, turned about the optical axis.
+// A camera at `eye` that looks at `target`, rolled about the optical axis.
 Eigen::Isometry3d LookAt(const Eigen::Vector3d& eye, const Eigen::Vector3d& target,
                          double roll_rad = .3) {
     Eigen::Matrix3d R;
@@ -41,8 +41,8 @@ int CountHits(const PredictedView& view) {
     return hits;
 }
 
-// Depth along z at which the pixel's ray meets the sphere, 0 if it does not; cosine of the angle of
-// incidence.
+// Depth along z at which the ray of the pixel meets the sphere, 0 if it misses. Also returns the
+// cosine of the angle of incidence.
 double SphereDepth(const PinholeCamera& camera, const Eigen::Isometry3d& T_world_camera, int u,
                    int v, const Eigen::Vector3d& centre, double radius, double* cosine) {
     const Eigen::Vector3d ray = camera.Unproject(u, v, 1), c = T_world_camera.inverse() * centre;
@@ -89,8 +89,8 @@ TEST(RayCaster, SphereFromAllSides) {
     }
 }
 
-// A plane's field is linear: interpolation is exact, and so must every pixel be, across blocks and
-// at grazing angles.
+// The distance field of a plane is linear, so interpolation is exact. Every pixel must be exact
+// too, across blocks and at grazing angles.
 TEST(RayCaster, ObliquePlaneIsExact) {
     const Eigen::Vector3d normal = Eigen::Vector3d(.3, -.2, -1).normalized();
     BlockMap map{BlockMap::Config{}};
@@ -170,12 +170,12 @@ TEST(RayCaster, NothingToSee) {
     Fill(map, Sphere({0, 0, 0}, .3), {-6, -6, -6}, {5, 5, 5});
     caster.Predict(map, camera, LookAt({0, 0, -1}, {0, 0, 0}), .1f, 3.f, view);
     EXPECT_GT(CountHits(view), 3000);
-    caster.Predict(map, camera, LookAt({0, 0, -1}, {0, 0, -2}), .1f, 3.f, view);  // away from it
+    caster.Predict(map, camera, LookAt({0, 0, -1}, {0, 0, -2}), .1f, 3.f, view);  // looks away
     EXPECT_EQ(CountHits(view), 0);
-    caster.Predict(map, camera, LookAt({0, 0, -1}, {0, 0, 0}), .1f, .6f, view);  // too far
+    caster.Predict(map, camera, LookAt({0, 0, -1}, {0, 0, 0}), .1f, .6f, view);  // out of range
     EXPECT_EQ(CountHits(view), 0);
     caster.Predict(map, camera, LookAt({0, 0, 0}, {0, 0, 1}), .1f, 3.f,
-                   view);  // from inside: the back
+                   view);  // sees the back from inside
     EXPECT_EQ(CountHits(view), 0);
     for (std::size_t i = 0; i < view.depth_m.size(); ++i) {
         ASSERT_EQ(view.normal_camera.data()[i].norm(), 0);
@@ -184,8 +184,8 @@ TEST(RayCaster, NothingToSee) {
     }
 }
 
-// Unknown voxels are no surface, even where free space borders on them; nor is a jump over the
-// whole range.
+// Unknown voxels are no surface, even next to free space. A jump over the whole range is no surface
+// either.
 TEST(RayCaster, NoSurfaceAtUnknownSpaceNorAtJumps) {
     BlockMap map{BlockMap::Config{}};
     Fill(map, Plane({0, 0, -1}, 0), {-4, -4, -1}, {3, 3, 0});
@@ -201,8 +201,7 @@ TEST(RayCaster, NoSurfaceAtUnknownSpaceNorAtJumps) {
     EXPECT_EQ(CountHits(Cast(map, SmallCamera(), T, .1f, 3.f)), 0);
 }
 
-// The nearer surface wins although its band hides behind nothing; rays past its edge reach the
-// wall.
+// The nearer surface wins. Rays that pass its edge reach the wall.
 TEST(RayCaster, OccluderInFrontOfAWall) {
     BlockMap map{BlockMap::Config{}};
     Fill(map, Union(Sphere({0, 0, 0}, .1), Plane({0, 0, -1}, -.5)), {-12, -12, -2}, {11, 11, 7});

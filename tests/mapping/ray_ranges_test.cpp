@@ -9,11 +9,11 @@ void AddBlocksAround(bool with_far_blocks, BlockMap& map) {
     for (int z = -4; z < 24; z += 3)
         for (int y = -9; y < 9; y += 2)
             for (int x = -12; x < 12; x += 2) map.Allocate({x + z % 2, y, z});
-    if (with_far_blocks)  // so many that the view's regions are the shorter list
+    if (with_far_blocks)  // so many that the list of the view's regions is the shorter one
         for (int i = 0; i < 40000; ++i) map.Allocate({1000 + i % 200, i / 200, 500});
 }
 
-// What is far out of view changes nothing, whichever list of blocks is gone through.
+// Blocks far outside the view change nothing, whichever list of blocks is searched.
 TEST(RayRanges, FarBlocksChangeNothing) {
     const PinholeCamera camera{160, 120, 140, 145, 79.5, 60.5};
     const BlockMap::Config config{.voxel_size_m = 0.02, .truncation_m = 0.08};

@@ -1,5 +1,5 @@
-// The ray caster's vector code against a scalar oracle and against itself, on a map that has
-// everything: holes, missing blocks, noise, surfaces with and without colour.
+// Checks the SIMD ray caster against a scalar reference and against itself. The map has holes,
+// missing blocks, noise, and surfaces with and without colour.
 #include "mapping/ray_rows.h"
 
 #include <gtest/gtest.h>
@@ -20,11 +20,11 @@ using namespace testing_support;
 constexpr float kNear_m = 0.1f, kFar_m = 4.f;
 constexpr float kTenthVoxel_m = 1e-3f;
 
-// Not a multiple of a tile or a vector in width.
+// The width is not a multiple of the tile size or the SIMD width.
 PinholeCamera OddCamera() { return {205, 149, 190, 195, 101.5, 73.5}; }
 
-// Noise of a quarter of a voxel, a voxel in 50 unknown, a block in 20 missing, half of the rest
-// without colour.
+// Noise of a quarter voxel. One voxel in 50 is unknown, one block in 20 is missing, and half of the
+// others have no colour.
 BlockMap& RoughMap() {
     static BlockMap map{BlockMap::Config{}};
     if (map.size() > 1) return map;
@@ -57,7 +57,7 @@ std::vector<Eigen::Isometry3d> Views() {
     views[2].linear() =
         Eigen::AngleAxisd(-1.2, Eigen::Vector3d(1, .1, .2).normalized()).toRotationMatrix();
     views[2].translation() = Eigen::Vector3d(.1, -1.1, .3);
-    // Straight on: rays parallel to axes, objects near.
+    // Rays parallel to the axes, and objects close to the camera.
     views[3].translation() = Eigen::Vector3d(.1, -.2, -.35);
     return views;
 }
@@ -68,8 +68,8 @@ PredictedView CastOnPath(const Eigen::Isometry3d& T_world_camera, VectorPath pat
     return view;
 }
 
-// Where a bracket's end falls within rounding of a voxel's border or of a step's end, the two may
-// go on differently; so few pixels may differ, by anything.
+// If the end of a bracket falls within rounding error of a voxel border or of a step end, the two
+// walks may diverge. This fraction of the pixels may differ by any amount.
 constexpr double kMayDiffer = 1e-4;
 
 class RayRows : public ::testing::TestWithParam<VectorPath> {};
@@ -113,7 +113,8 @@ bool SameBytes(const Image<T>& a, const Image<T>& b) {
     return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
 }
 
-// The kernels one pixel at a time and without the vectors' cache of blocks: the same bytes.
+// The result has the same bytes as the kernels applied one pixel at a time without the SIMD block
+// cache.
 TEST_P(RayRows, AreTheKernelsOneByOne) {
     if (GetParam() == VectorPath::kAvx2 && !CpuHasAvx2())
         GTEST_SKIP() << "this machine has no AVX2";
@@ -138,14 +139,14 @@ TEST_P(RayRows, AreTheKernelsOneByOne) {
     }
 }
 
-// Axes of the camera along the world's: components of the rays' steps are exactly zero.
+// The camera axes are parallel to the world axes, so components of the ray steps are exactly zero.
 TEST(RayRowsPaths, RaysParallelToAxes) {
     BlockMap map{BlockMap::Config{}};
     Fill(map, Plane({0, 0, -1}, -.53), {-6, -6, 2}, {5, 5, 9});
     PinholeCamera camera{33, 17, 100, 100, 16, 8};
     PredictedView view;
     Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
-    T.translation() = Eigen::Vector3d(0, 0, -.56);  // on a block's corner
+    T.translation() = Eigen::Vector3d(0, 0, -.56);  // on a block corner
     for (const VectorPath path : {VectorPath::kBaseline, VectorPath::kAuto}) {
         RayCaster(path).Predict(map, camera, T, kNear_m, kFar_m, view);
         for (int v = 0; v < camera.height; ++v)

@@ -1,4 +1,4 @@
-// The oracle of the ray caster's vector code: the same walk, one ray at a time, in plain floats.
+// Reference for the SIMD ray caster: the same ray walk in scalar float, one ray at a time.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,7 +14,7 @@ namespace tessera::testing_support {
 class ScalarRayWalker {
   public:
     struct Hit {
-        float depth_m = 0;  // 0: none
+        float depth_m = 0;  // 0: no hit
         Eigen::Vector3f normal_camera = Eigen::Vector3f::Zero();
         float intensity = 0;  // only where all eight corners have one
         bool has_intensity = false;
@@ -35,7 +35,7 @@ class ScalarRayWalker {
         ranges_.Build(map, camera, T_world_camera, min_depth_m, max_depth_m);
     }
 
-    // The first surface seen from the front by pixel (u, v).
+    // The first front-facing surface along the ray of pixel (u, v).
     Hit Cast(int u, int v) {
         constexpr int kTile = kRayTilePx;
         const auto [first_m, last_m] =
@@ -84,7 +84,7 @@ class ScalarRayWalker {
         return sampler_.Locate(p.x(), p.y(), p.z());
     }
 
-    // Far from the surface the nearest voxel's, near it interpolated.
+    // The distance of the nearest voxel far from the surface, interpolated near the surface.
     Distance DistanceAt(const FieldCell& cell) const {
         const FieldWord word = sampler_.Nearest(cell);
         if (!HasDistance(word)) return {false, 0, 0};
@@ -108,7 +108,7 @@ class ScalarRayWalker {
         return std::max(least_z / metres_per_voxel_, 0.0f) + 1e-2f;
     }
 
-    // Regula falsi with the Illinois rule; 0 if there is no zero.
+    // Regula falsi with the Illinois rule. Returns 0 if there is no zero.
     float Refine(float a_z, float a_m, float b_z, float b_m) {
         if (a_m > 0.99f * truncation_m_ && b_m < -0.99f * truncation_m_) return 0;
         int last_side = 0;

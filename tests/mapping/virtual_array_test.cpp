@@ -8,7 +8,7 @@ namespace tessera {
 namespace {
 
 TEST(VirtualArray, ReadsZeroUntilWrittenAndNeverMoves) {
-    VirtualArray<std::uint32_t> array(std::size_t{1} << 30);  // 4 GB of addresses, not of memory
+    VirtualArray<std::uint32_t> array(std::size_t{1} << 30);  // 4 GB of address space only
     ASSERT_GE(array.max_size(), std::size_t{1} << 20);
     const std::uint32_t* data = array.data();
     const std::size_t last = array.max_size() - 1;
@@ -31,7 +31,7 @@ TEST(VirtualArray, ClearMakesZeros) {
     EXPECT_EQ(array[5], 3);
 }
 
-// More than any machine's address space: the wish is halved until it is granted.
+// A request larger than any address space is halved until it succeeds.
 TEST(VirtualArray, AsksForLessWhenRefused) {
     VirtualArray<std::uint64_t> array(std::size_t{1} << 50);
     EXPECT_GT(array.max_size(), 1u << 20);

@@ -13,8 +13,8 @@ namespace {
 using testing_support::BoxRoom;
 using testing_support::SmallCamera;
 
-// The slow truth: a block counts if any of its voxels projects onto a measured pixel that it does
-// not lie far behind.
+// A slow reference: a block counts if any of its voxels projects onto a pixel with depth and does
+// not lie more than the truncation distance behind the surface.
 bool AnyVoxelMayChange(const BlockMap& map, BlockId id, const PinholeCamera& camera,
                        const Eigen::Isometry3d& T_world_camera, const DepthImage& depth) {
     const BlockCoord c = map.coord(id);
@@ -38,7 +38,7 @@ TEST(VisibleBlocks, MissesNoBlockThatAVoxelCallsFor) {
     BoxRoom room;
     room.has_ball = true;
     BlockMap map({.voxel_size_m = 0.02, .truncation_m = 0.06});
-    for (int z = -16; z < 16; ++z)  // blocks everywhere, seen and unseen
+    for (int z = -16; z < 16; ++z)  // blocks both inside and outside the view
         for (int y = -8; y < 8; ++y)
             for (int x = -10; x < 10; ++x) (void)map.Allocate({x, y, z});
     Vector6d twist;
@@ -55,7 +55,7 @@ TEST(VisibleBlocks, MissesNoBlockThatAVoxelCallsFor) {
             ASSERT_TRUE(std::binary_search(found.begin(), found.end(), id)) << id;
         }
     EXPECT_GT(wanted, 500);
-    EXPECT_LT(static_cast<int>(found.size()), 2 * wanted);  // and does not just return everything
+    EXPECT_LT(static_cast<int>(found.size()), 2 * wanted);  // it must not return everything
 }
 
 }  // namespace

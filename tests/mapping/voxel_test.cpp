@@ -40,7 +40,7 @@ TEST(Voxel, ColourOfKnownWords) {
     EXPECT_EQ(ColourWeight(0xffffffffu), 255.9375f);
 }
 
-// Ten bits of chroma hold a colour to within a level of eight bits.
+// Packed chroma preserves a colour to within one 8-bit level.
 TEST(Voxel, ColourSurvivesPacking) {
     for (int i = 0; i < 1000; ++i) {
         const auto counter = static_cast<std::uint32_t>(3 * i);

@@ -60,7 +60,7 @@ std::vector<Listed> ReadList(const std::string& folder, const char* name) {
 
 class FolderFeed : public DeviceFeed {
   public:
-    // An empty string or what is wrong.
+    // Returns an empty string or the error.
     std::string Open(const std::string& folder, int preload) {
         depth_ = ReadList(folder, "depth.txt");
         colour_ = ReadList(folder, "rgb.txt");
@@ -96,7 +96,7 @@ class FolderFeed : public DeviceFeed {
             frame = kept_[shown];
         else
             Decode(shown, frame);
-        // Backwards the gaps come in their reverse order.
+        // On the way back the time gaps come in reverse order.
         const double lap_s = depth_.back().stamp_s - depth_.front().stamp_s;
         const double into_lap_s = lap % 2 == 0 ? depth_[shown].stamp_s - depth_.front().stamp_s
                                                : depth_.back().stamp_s - depth_[shown].stamp_s;

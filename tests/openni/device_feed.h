@@ -1,4 +1,4 @@
-// What a device of the test driver shows: frames by number, without end.
+// The images shown by a device of the test driver: an endless sequence of numbered frames.
 #pragma once
 
 #include <cstdint>
@@ -21,17 +21,17 @@ class DeviceFeed {
     virtual int height() const = 0;
     virtual double fx() const = 0;
     virtual double fy() const = 0;
-    // Frame `number` >= 0, stamps strictly increasing with it.
+    // Returns frame `number` >= 0. Stamps increase strictly with the number.
     virtual void Get(int number, FeedFrame& frame) = 0;
 };
 
-// The pattern of test_pattern.h at `rate_hz`, its first stamp 1 s.
+// The pattern of test_pattern.h at `rate_hz`. The first stamp is 1 s.
 std::unique_ptr<DeviceFeed> MakePatternFeed(double rate_hz);
 
-// A TUM-layout folder (rgb.txt, depth.txt, camera.yaml) at its recorded pace, to and fro so that
-// the motion stays smooth: frames 0, 1, ..., n-1, n-2, ..., 1, 0, 1, ... Null, with a line on
-// stderr, if it cannot be read. The first `preload` frames are decoded at once, the others whenever
-// they are shown.
+// Plays a TUM-layout folder (rgb.txt, depth.txt, camera.yaml) at its recorded pace, forwards and
+// backwards so that the motion stays smooth: frames 0, 1, ..., n-1, n-2, ..., 1, 0, 1, ... Returns
+// null, with a line on stderr, if the folder cannot be read. The first `preload` frames are decoded
+// at once, the others each time they are shown.
 std::unique_ptr<DeviceFeed> MakeFolderFeed(const std::string& folder, int preload);
 
 }  // namespace tessera::test_device

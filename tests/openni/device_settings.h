@@ -1,4 +1,4 @@
-// How the test driver's devices behave: read from the environment when the OpenNI2 runtime loads
+// Settings of the test driver's devices, read from the environment when the OpenNI2 runtime loads
 // the driver. test_driver.cpp lists the variables.
 #pragma once
 
@@ -53,10 +53,10 @@ struct DeviceSettings {
     }
 };
 
-// What is wrong with one image of one stream.
+// A fault injected into one image of one stream.
 enum class Fault { kNone, kDropped, kWrongSize, kNoData, kNoise, kBackwards, kAbsurdStamp };
 
-// 32 well mixed bits (splitmix64), the same for the same numbers.
+// 32 well-mixed bits (splitmix64) that depend only on a and b.
 inline std::uint32_t Mixed(std::uint64_t a, std::uint64_t b) {
     std::uint64_t z = a * 0x9e3779b97f4a7c15ULL + b * 0xbf58476d1ce4e5b9ULL + 0x94d049bb133111ebULL;
     z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;

@@ -1,6 +1,6 @@
-// Linked into the tests of AddressSanitizer builds: OpenNI2 2.2 and its player of .oni files never
-// free some of what they allocate when they start (device lists, event handles, codecs). Only what
-// they themselves allocate is let pass; leaks of the sources that use them are found as ever.
+// Linked into the tests of AddressSanitizer builds. OpenNI2 2.2 and its player of .oni files never
+// free some of their start-up allocations (device lists, event handles, codecs). Only allocations
+// made by these libraries are suppressed. Leaks in the sources that use them are still reported.
 #include <dlfcn.h>
 
 extern "C" const char* __lsan_default_suppressions() {
@@ -8,6 +8,6 @@ extern "C" const char* __lsan_default_suppressions() {
 }
 
 namespace {
-// OpenNI2 unloads its drivers; kept loaded, their leaks can be told by their names.
+// OpenNI2 unloads its drivers. The player stays loaded here, so that its leaks can be attributed.
 [[maybe_unused]] void* const kPlayer = dlopen(TESSERA_ONI_PLAYER, RTLD_NOW | RTLD_NODELETE);
 }  // namespace

@@ -1,4 +1,4 @@
-// .oni files: made by OpenNI2's recorder from the test device, read again.
+// Tests of .oni files, recorded by OpenNI2 from the test device and read back.
 #include <cstdlib>
 #include <filesystem>
 
@@ -10,7 +10,7 @@ namespace {
 
 class OniRecording : public OpenniTest {
   protected:
-    // So many frames of the device, as a file; closed when it returns.
+    // Records `frames` frames of the device into a file, which is closed on return.
     static Log Record(const std::string& path, std::size_t frames, bool lossless) {
         const auto source = Open();
         if (!source) return {};
@@ -36,8 +36,8 @@ TEST_F(OniRecording, IsReadBackBitForBit) {
     ASSERT_GE(log.frames.size(), 10u);
     EXPECT_EQ(static_cast<std::int64_t>(log.frames.size()), source->info().frame_count);
     ExpectIncreasingStamps(log.frames);
-    // The recorder begins a frame or two after the source, and starts the clock of each stream anew
-    // with its first frame: on a busy machine that need not be the same one.
+    // The recorder starts a frame or two after the source. It restarts the clock of each stream at
+    // that stream's first frame. On a busy machine the two streams may start at different frames.
     const auto first_of = [](const auto& is) {
         int first = 0;
         while (first < 12 && !is(first)) ++first;
@@ -96,14 +96,14 @@ TEST_F(OniRecording, OnlyCamerasRecordThemselves) {
     Record(folder.Path("a.oni"), 5, false);
     const auto source = Open(folder.Path("a.oni"));
     ASSERT_NE(source, nullptr);
-    EXPECT_EQ(
-        source->RecordTo("b.oni", true).message(),
-        "b.oni: only openni2: cameras record to .oni; give a folder's name to record this source");
+    EXPECT_EQ(source->RecordTo("b.oni", true).message(),
+              "b.oni: only openni2: cameras can record to .oni; give a folder name to record this "
+              "source");
     EXPECT_EQ(Open()->RecordTo("/no/such/folder/c.oni", true).message(),
-              "/no/such/folder/c.oni: cannot be written: its folder does not exist; make it or "
-              "choose another place");
+              "/no/such/folder/c.oni: cannot be written: the folder does not exist; create it or "
+              "choose another location");
     EXPECT_EQ(Open()->RecordTo(folder.Path("a.oni"), true).message(),
-              folder.Path("a.oni") + ": exists already; give a new name");
+              folder.Path("a.oni") + ": already exists; give a new name");
 }
 
 TEST_F(OniRecording, AFileThatIsNoRecordingIsRefused) {
@@ -119,7 +119,8 @@ TEST_F(OniRecording, AFileThatIsNoRecordingIsRefused) {
     EXPECT_EQ(message("none.oni"), folder.Path("none.oni") + ": no such file");
     EXPECT_EQ(message("folder.oni"), folder.Path("folder.oni") + ": is not a file");
     for (const char* name : {"text.oni", "empty.oni"})
-        EXPECT_NE(message(name).find("is no .oni recording"), std::string::npos) << message(name);
+        EXPECT_NE(message(name).find("is not an .oni recording"), std::string::npos)
+            << message(name);
 }
 
 TEST_F(OniRecording, AFileThatIsCutOffIsRefusedOrReadAsFarAsItGoes) {
@@ -142,7 +143,7 @@ TEST_F(OniRecording, AFileThatIsCutOffIsRefusedOrReadAsFarAsItGoes) {
         EXPECT_TRUE(log.ended) << kept << " of " << size;
         EXPECT_EQ(log.messages,
                   std::vector<std::string>{
-                      path + ": the recording has lost its end; what there is was read"});
+                      path + ": the recording is truncated; all frames in it were read"});
         EXPECT_LE(log.frames.size(), 7u);
     }
 }

@@ -1,4 +1,4 @@
-// What goes wrong with a camera while it scans.
+// Tests of camera faults during a scan.
 #include <chrono>
 
 #include "openni/openni_fixture.h"
@@ -24,10 +24,10 @@ TEST_F(OpenniFaults, ACameraThatIsUnpluggedAndComesBack) {
     EXPECT_EQ(log.messages,
               (std::vector<std::string>{"camera unplugged, waiting for it", "camera is back"}));
     ExpectIncreasingStamps(log.frames);
-    EXPECT_GT(log.frames[5].stamp_s - log.frames[4].stamp_s, 0.29);  // as long as it was away
+    EXPECT_GT(log.frames[5].stamp_s - log.frames[4].stamp_s, 0.29);  // the time the camera was away
     EXPECT_LT(log.frames[5].stamp_s - log.frames[4].stamp_s, 2.0);
     EXPECT_NEAR(log.frames[11].stamp_s - log.frames[5].stamp_s, 6 / 30.0, 1e-5);
-    // The driver's frame 5 went with the plug.
+    // The driver's frame 5 was lost when the camera was unplugged.
     EXPECT_EQ(Millimetres(log.frames[5]), ExpectedDepth(6));
 }
 
@@ -36,7 +36,7 @@ TEST_F(OpenniFaults, ANamedCameraIsWaitedForUnderItsName) {
     Set("VANISH_AT", 2);
     const auto source = Open("openni2:test://1");
     ASSERT_NE(source, nullptr);
-    const Log log = ReadFrames(*source, 5, 8);  // the other camera is not taken in its stead
+    const Log log = ReadFrames(*source, 5, 8);  // the other camera is not used instead
     EXPECT_EQ(log.frames.size(), 2u);
     EXPECT_EQ(log.messages,
               std::vector<std::string>{"openni2:test://1: camera unplugged, waiting for it"});
@@ -77,7 +77,7 @@ TEST_F(OpenniFaults, EachReadReturnsInTimeWhileTheCameraIsSilent) {
 }
 
 TEST_F(OpenniFaults, AStreamThatIsMissingIsNamed) {
-    Set("COLOUR_EVERY", 1000000);  // one colour image, and no more
+    Set("COLOUR_EVERY", 1000000);  // a single colour image
     Set("PACE", "real");
     const auto source = Open();
     ASSERT_NE(source, nullptr);
@@ -132,12 +132,12 @@ TEST_F(OpenniFaults, GarbageIsSkippedWithAReason) {
         ASSERT_LT(frame.stamp_s, 10);
         noise += Millimetres(frame) != ExpectedDepth(NumberOf(frame));
     }
-    EXPECT_LT(noise, 8);  // the source does not judge depths
+    EXPECT_LT(noise, 8);  // the source does not check depth values
     EXPECT_GT(log.skips.size(), 5u);
     std::string all;
     for (const std::string& why : log.skips) all += why + "\n";
     for (const char* kind : {"320 x 240 pixels instead of 640 x 480", "it is empty",
-                             "does not lie after", "is absurd"})
+                             "is not later than", "is implausible"})
         EXPECT_NE(all.find(kind), std::string::npos) << kind << " in\n" << all;
 }
 

@@ -1,5 +1,5 @@
-// A test against the OpenNI2 runtime and the test driver: sets the driver's environment, opens the
-// source, reads it.
+// Base of tests with the OpenNI2 runtime and the test driver. Sets the driver's environment, opens
+// the source and reads it.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -17,10 +17,10 @@ namespace tessera {
 
 class OpenniTest : public testing::Test {
   protected:
-    // Nothing depends on the clock unless a test asks for it.
+    // No timing dependence unless a test asks for it.
     OpenniTest() { Set("PACE", "fast"); }
 
-    // Before the source is opened. Each test is a process of its own.
+    // Must be called before the source is opened. Each test runs in its own process.
     static void Set(const std::string& name, const std::string& value) {
         setenv(("TESSERA_TEST_DEVICE_" + name).c_str(), value.c_str(), 1);
     }
@@ -35,7 +35,7 @@ class OpenniTest : public testing::Test {
 
     struct Log {
         std::vector<Frame> frames;
-        std::vector<std::string> skips, messages;  // kSkip's; kWait's that are not empty
+        std::vector<std::string> skips, messages;  // of kSkip; of kWait, if not empty
         bool ended = false;
         std::string Text() const {
             std::string text;
@@ -43,7 +43,8 @@ class OpenniTest : public testing::Test {
             return text;
         }
     };
-    // Until there are so many frames, the end, or so many results in all.
+    // Reads until there are `frames` frames, the source ends, or `most_results` results have been
+    // returned.
     static Log ReadFrames(FrameSource& source, std::size_t frames, int most_results = 1000) {
         Log log;
         Frame frame;
@@ -59,8 +60,7 @@ class OpenniTest : public testing::Test {
         return log;
     }
 
-    // The driver's number of the pattern that the depth shows, found by its stamp (first stamp 1 s,
-    // 30 a second).
+    // The driver's number of the pattern in this frame, computed from its stamp (30 Hz).
     static int NumberOf(const Frame& frame, double first_stamp_s = 1) {
         return static_cast<int>(std::lround(30 * (frame.stamp_s - first_stamp_s)));
     }

@@ -1,4 +1,4 @@
-// Whole runs on a camera, with what goes wrong in them.
+// Complete runs on a camera, with faults.
 #include <atomic>
 #include <chrono>
 
@@ -50,8 +50,8 @@ TEST_F(OpenniRun, StopsSoonWhileThereIsNoCamera) {
     EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - asked).count(), 1.5);
 }
 
-// What goes wrong with cameras, in a live run at 30 frames per second: nothing ends it. (The
-// pattern is no scene: whether it is tracked says nothing.)
+// Camera faults in a live run at 30 frames per second: none of them ends the run. (The pattern is
+// not a real scene, so tracking results mean nothing.)
 class OpenniLive : public OpenniRun {
   protected:
     OpenniLive() {

@@ -21,7 +21,7 @@ TEST_F(OpenniSource, SaysWhatTheCameraIs) {
     EXPECT_TRUE(info.notes.empty()) << info.notes.front();
     EXPECT_EQ(info.camera.width, 640);
     EXPECT_EQ(info.camera.height, 480);
-    EXPECT_NEAR(info.camera.fx, 525, 1e-3);  // the fields of view are floats
+    EXPECT_NEAR(info.camera.fx, 525, 1e-3);  // the fields of view are stored as float
     EXPECT_NEAR(info.camera.fy, 525, 1e-3);
     EXPECT_EQ(info.camera.cx, 319.5);
     EXPECT_EQ(info.camera.cy, 239.5);
@@ -77,9 +77,9 @@ TEST_F(OpenniSource, TakesTheNearestSizeThatTheDeviceHas) {
     const auto source = Open();
     ASSERT_NE(source, nullptr);
     ASSERT_EQ(source->info().notes.size(), 1u);
-    EXPECT_EQ(
-        source->info().notes[0],
-        "320 x 240 pixels, depth 30 and colour 30 times a second (640 x 480 x 30 were asked for)");
+    EXPECT_EQ(source->info().notes[0],
+              "320 x 240 pixels, depth at 30 and colour at 30 frames per second (requested: 640 x "
+              "480 at 30)");
     EXPECT_NEAR(source->info().camera.fx, 262.5, 1e-3);
     EXPECT_EQ(source->info().camera.cx, 159.5);
     const Log log = ReadFrames(*source, 2);
@@ -121,7 +121,8 @@ TEST_F(OpenniSource, DevicesAreFoundByTheirUri) {
     ASSERT_NE(source, nullptr);
     EXPECT_EQ(ReadFrames(*source, 1).frames.size(), 1u);
     const auto other = OpenOpenniSource("openni2:test://7", {});
-    EXPECT_EQ(other.message(), "openni2:test://7: no such camera; tessera doctor lists them");
+    EXPECT_EQ(other.message(),
+              "openni2:test://7: no such camera; tessera doctor lists the cameras");
 }
 
 TEST_F(OpenniSource, TwoCamerasAtATime) {
@@ -130,15 +131,15 @@ TEST_F(OpenniSource, TwoCamerasAtATime) {
     const auto second = Open("openni2:test://1");
     ASSERT_TRUE(first && second);
     EXPECT_EQ(ReadFrames(*first, 2).frames.size(), 2u);
-    first.reset();  // the runtime lives on
+    first.reset();  // the runtime stays initialised
     EXPECT_EQ(ReadFrames(*second, 3).frames.size(), 3u);
 }
 
 TEST_F(OpenniSource, NoCameraSaysWhatToDo) {
     Set("COUNT", 0);
     EXPECT_EQ(OpenOpenniSource("openni2:", {}).message(),
-              "openni2:: no camera found; is it plugged in, and may you use it? tessera doctor "
-              "says more");
+              "openni2:: no camera found; is it plugged in, and do you have permission to "
+              "use it? tessera doctor gives details");
 }
 
 TEST_F(OpenniSource, RunsByTheClock) {

@@ -1,4 +1,4 @@
-// A depth camera made of software: one device of the test driver, with its two streams.
+// A simulated depth camera: one device of the test driver, with its two streams.
 #pragma once
 
 #include <Driver/OniDriverAPI.h>
@@ -29,7 +29,7 @@ class TestStream : public oni::driver::StreamBase {
     void stop() override;
 
     bool depth() const { return depth_; }
-    // Hands the image to the runtime if the stream runs.
+    // Passes the image to the runtime if the stream is running.
     void Give(const FeedFrame& frame, int number, std::uint64_t stamp_us, Fault fault);
 
   private:
@@ -38,27 +38,27 @@ class TestStream : public oni::driver::StreamBase {
 
     TestDevice& device_;
     const bool depth_;
-    // Two, because the runtime asks for properties under a lock that it also takes when it is given
-    // a frame.
-    std::mutex giving_;  // of running_: after stop no frame is being given
+    // Two mutexes, because the runtime reads properties under a lock that it also takes when it
+    // receives a frame.
+    std::mutex giving_;  // guards running_; once stop returns, no frame is being passed on
     bool running_ = false;
-    std::mutex mutex_;  // of what follows
+    std::mutex mutex_;  // guards the members below
     OniVideoMode mode_;
     OniBool mirror_ = TRUE, auto_exposure_ = TRUE, auto_white_balance_ = TRUE;
 };
 
 class TestDevice : public oni::driver::DeviceBase {
   public:
-    // What the driver keeps while devices come and go.
+    // State that survives when devices are unplugged and return.
     struct Shared {
         DeviceSettings settings;
         std::unique_ptr<DeviceFeed> feed;
         int next = 0;           // number of the next frame
-        bool vanished = false;  // it does so once
+        bool vanished = false;  // it vanishes only once
         std::function<void(const std::string&)> log;
     };
 
-    // `vanish` is called when the device disappears.
+    // `vanish` is called when the device is unplugged.
     TestDevice(Shared& shared, std::function<void()> vanish);
     ~TestDevice() override;
 
@@ -71,7 +71,7 @@ class TestDevice : public oni::driver::DeviceBase {
         return id == ONI_DEVICE_PROPERTY_IMAGE_REGISTRATION;
     }
     OniBool isImageRegistrationModeSupported(OniImageRegistrationMode mode) override;
-    // The runtime calls it while someone waits for a frame: the pace "fast".
+    // The runtime calls this while a client waits for a frame. Used with PACE=fast.
     OniStatus tryManualTrigger() override;
 
     Shared& shared() { return shared_; }
@@ -80,23 +80,24 @@ class TestDevice : public oni::driver::DeviceBase {
 
   private:
     void Run(const std::stop_token& stop);
-    // The next frame's images to the streams that run; false once the device has vanished.
+    // Passes the next frame's images to the running streams. Returns false once the device has
+    // vanished.
     bool Tick();
 
     Shared& shared_;
     std::function<void()> vanish_;
-    std::mutex mutex_;  // of the streams and of ticking
+    std::mutex mutex_;  // guards the streams and the ticking
     std::condition_variable_any wake_;
     TestStream* depth_ = nullptr;
     TestStream* colour_ = nullptr;
     FeedFrame frame_;
-    std::uint64_t first_us_ = 0;  // the feed's stamp that is this device's second 1
+    std::uint64_t first_us_ = 0;  // the feed's stamp that maps to second 1 of this device
     bool ticked_ = false, gone_ = false;
     std::chrono::steady_clock::time_point begin_, stalled_until_;
     int registration_ = ONI_IMAGE_REGISTRATION_OFF;
     OniVideoMode modes_[2][2];
     OniSensorInfo sensors_[2];
-    std::jthread thread_;  // last: ends first
+    std::jthread thread_;  // last member: stops before the others are destroyed
 };
 
 }  // namespace tessera::test_device

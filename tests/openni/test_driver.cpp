@@ -1,32 +1,33 @@
-// An OpenNI2 driver without hardware: what the runtime loads in place of a camera's driver, for
-// tests and for trying the program without a camera. Its devices show a known pattern
-// (test_pattern.h) or a recorded folder.
+// An OpenNI2 driver without hardware. The runtime loads it instead of a camera's driver, for tests
+// and for trying the program without a camera. Its devices show a known pattern (test_pattern.h) or
+// a recorded folder.
 //
 // Use it with the program:
 //     LD_LIBRARY_PATH=build/release/tests/openni/runtime TESSERA_TEST_DEVICE_FOLDER=/a/tum/folder
 //     build/release/apps/tessera run openni2:
-// runtime/ holds a copy of the OpenNI2 library, because the library looks for its drivers beside
-// itself and nowhere else.
+// runtime/ holds a copy of the OpenNI2 library, because the library looks for drivers only next to
+// itself.
 //
-// Environment, read when the runtime is initialised; all begin with TESSERA_TEST_DEVICE_:
-//   COUNT=1             devices at the start, URIs test://0, test://1 ...
-//   FOLDER=             TUM-layout folder to play to and fro without end, at its recorded pace;
-//                       empty: the pattern
-//   PRELOAD=0           this many of its frames are decoded at the start, not when they are shown
-//   PACE=real           real: by the clock; fast: a frame whenever someone waits for one, so that
-//                       nothing depends on the clock
+// Environment variables, read when the runtime is initialised. All begin with TESSERA_TEST_DEVICE_:
+//   COUNT=1             number of devices at the start, with URIs test://0, test://1 ...
+//   FOLDER=             TUM-layout folder to play forwards and backwards without end, at its
+//                       recorded pace; empty: the pattern
+//   PRELOAD=0           this many of its frames are decoded at the start, the others when shown
+//   PACE=real           real: by the clock; fast: one frame whenever a client waits for one, so
+//                       that nothing depends on timing
 //   RATE=30             frames per second of the pattern
-//   COLOUR_EVERY=1      colour comes with every n-th depth image only
+//   COLOUR_EVERY=1      only every n-th depth image comes with a colour image
 //   COLOUR_DELAY_US=0   the colour stamps are this much later than the depth stamps
 //   SMALL=0             1: 320x240 is the only mode
 //   REGISTRATION=1      0: no depth-to-colour registration
 //   SYNC=0              1: frame sync is supported
-//   DROP=0 GARBAGE=0    per cent of the images that are left out; that are of a wrong size, empty,
-//                       noise, or have a stamp that goes back or is absurd (each image by itself,
-//                       seeded by SEED=1)
-//   STALL_AT=-1 STALL_MS=1500   before this frame nothing comes for this long
+//   DROP=0              per cent of the images that are dropped
+//   GARBAGE=0           per cent of the images that have a wrong size, are empty or noise, or have
+//                       a stamp that goes back or is absurd
+//   SEED=1              random seed of DROP and GARBAGE, which affect each image independently
+//   STALL_AT=-1 STALL_MS=1500   before this frame no image comes for this long
 //   VANISH_AT=-1 BACK_MS=-1     before this frame the device is unplugged; after this long it is
-//                               plugged in again (-1: never) and its clock starts anew
+//                               plugged in again (-1: never) and its clock restarts
 //   LOG=                file to which settings made by the program are appended: "depth mirror 0"
 #include <cstdio>
 #include <cstring>
@@ -110,7 +111,7 @@ class TestDriver : public oni::driver::DriverBase {
 
 }  // namespace tessera::test_device
 
-// OpenNI2's macro uses the allocation macros of a library that is not published with it.
+// OpenNI2's macro uses allocation macros of a library that is not published with it.
 #define XN_NEW(type, ...) new type(__VA_ARGS__)
 #define XN_DELETE(object) delete (object)
 ONI_EXPORT_DRIVER(tessera::test_device::TestDriver)

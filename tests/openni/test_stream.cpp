@@ -15,7 +15,7 @@ OniStatus Answer(T value, void* data, int* size) {
     return ONI_STATUS_OK;
 }
 
-// Every factor-th pixel.
+// Copies every factor-th pixel.
 template <int kChannels, class T>
 void Copy(const std::vector<T>& from, int from_width, const OniVideoMode& mode, int factor,
           void* to) {
@@ -81,7 +81,7 @@ OniStatus TestStream::getProperty(int id, void* data, int* size) {
         case ONI_STREAM_PROPERTY_VERTICAL_FOV:
             return Answer(static_cast<float>(2 * std::atan(0.5 * feed.height() / feed.fy())), data,
                           size);
-        // Without it the player of .oni files gives no frame of what was recorded.
+        // Without this property the player of .oni files returns no frame of a recording.
         case ONI_STREAM_PROPERTY_CROPPING:
             return Answer(OniCropping{FALSE, 0, 0, mode_.resolutionX, mode_.resolutionY}, data,
                           size);

@@ -1,5 +1,5 @@
-// How far a fit is to be believed, where the answer can be worked out by hand: one unknown, the
-// mean of the data.
+// Tests of a fit's uncertainty in a case with a closed-form answer: one unknown, the mean of the
+// data.
 #include "optimize/calibration_fit.h"
 
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 namespace tessera {
 namespace {
 
-// residual = unknown - y, at the solution; a pair each.
+// residual = unknown - y at the solution, with one pair per residual.
 CalibrationFit MeanOf(const std::vector<double>& y) {
     CalibrationFit fit;
     const double mean = std::accumulate(y.begin(), y.end(), 0.0) / static_cast<double>(y.size());
@@ -50,15 +50,16 @@ TEST(JackknifeSpread, OfOneValueAPartIsTheMeansStandardError) {
                 1e-12);
 }
 
-// The rows before the pairs are what is known before: they are never left out.
+// Rows before the pairs hold prior knowledge. They are never left out.
 TEST(JackknifeSpread, WhatIsKnownBeforeStaysIn) {
     CalibrationFit fit = MeanOf({0, 0, 1, 5});
-    fit.pairs.resize(2);  // the last two
+    fit.pairs.resize(2);  // for the last two rows
     EXPECT_NEAR(JackknifeSpread(fit, {0, 1}, 2)(0),
                 std::sqrt(0.5) * (5.0 / 3 - 1.0 / 3) / std::sqrt(2.0), 1e-12);
 }
 
-// What each pair says hangs on where it lies; the scatter alone is the same in every case.
+// The scatter of the residuals is the same in every test. Only the location of the pairs that
+// disagree differs.
 class WhereItLies : public testing::Test {
   protected:
     static constexpr std::size_t kPairs = 960;
@@ -81,7 +82,7 @@ class WhereItLies : public testing::Test {
         }
         return Deviations(fit)(0);
     }
-    const double scatter = 1 / std::sqrt(double{kPairs});  // of the mean, by the residuals alone
+    const double scatter = 1 / std::sqrt(double{kPairs});  // of the mean, from the residuals alone
 };
 
 TEST_F(WhereItLies, ScatterThatIsTheSameEverywhereCountsAsScatter) {

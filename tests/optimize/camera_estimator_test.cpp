@@ -1,5 +1,5 @@
-// A painted box of a room, seen without noise by a camera that turns in it, and that is not as it
-// is said to be.
+// A painted box-shaped room, seen without noise by a rotating camera whose given intrinsics may be
+// wrong.
 #include "optimize/camera_estimator.h"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ double Paint(const Eigen::Vector3d& p) {
            0.12 * std::sin(15 * p.x() - 4 * p.y() + 11 * p.z());
 }
 
-// The first view's frame where it is, with a slow shake so that turns are about all axes.
+// A frame on a slow, shaky path that starts near the origin and rotates about all axes.
 Frame View(int number, double readout_s) {
     const auto pose = [](double t) {
         return Eigen::Isometry3d(
@@ -150,14 +150,14 @@ TEST(CameraEstimate, IsBelievedBeyondItsDeviationsAndItsFloorOnly) {
     estimate.misfit_found = 1;
     estimate.focal_sigma_px = 0.1;
     estimate.centre_x_sigma_px = estimate.centre_y_sigma_px = 0.1;
-    estimate.found.fx *= 1.012;  // under the floor
+    estimate.found.fx *= 1.012;  // below the minimum change
     EXPECT_FALSE(estimate.shown());
     estimate.found.fx = 1.05 * kCamera.fx;
     EXPECT_TRUE(estimate.focal_shown());
-    estimate.focal_sigma_px = 3;  // 4.5 of them
+    estimate.focal_sigma_px = 3;  // the change is 4.5 standard deviations
     EXPECT_FALSE(estimate.shown());
     estimate.focal_sigma_px = 2;
-    estimate.misfit_found = 2.1;  // fits no better
+    estimate.misfit_found = 2.1;  // a worse fit than before
     EXPECT_FALSE(estimate.shown());
     EXPECT_EQ(EstimateText(estimate, "camera.yaml"),
               "camera.yaml says fx 270.0; this recording says 283.5 +- 2.0");

@@ -7,7 +7,7 @@
 namespace tessera {
 namespace {
 
-// A dark square on a bright plane one metre away: corners at known points.
+// A dark square on a bright plane one metre away, with corners at known points.
 PreparedFrame SquarePicture(float depth_m) {
     PreparedFrame frame;
     frame.has_colour = true;

@@ -58,7 +58,8 @@ TEST(FrameStore, OverItsLimitKeepsKeyframesAndAnEvenShareOfTheRest) {
     for (const std::int64_t o : ordinals) EXPECT_TRUE(o == 5 || o % store.stride() == 0) << o;
 }
 
-// Frames of an earlier process may be damaged: said, and the map is made of the others.
+// Frames stored by an earlier process may be damaged. Loading reports an error, and the map is
+// built from the others.
 TEST(FrameStore, DamagedFramesAreRefusedAndLeftOutOfAMap) {
     FrameStore whole(100000000, 5000);
     for (int i = 0; i < 4; ++i)
@@ -95,8 +96,8 @@ TEST(FrameStore, DamagedFramesAreRefusedAndLeftOutOfAMap) {
         ASSERT_TRUE(std::equal(a->weight(id), a->weight(id) + kBlockVoxels, b->weight(id))) << id;
 }
 
-// A map made in steps from the store is bit for bit what fusing the same frames at the new poses
-// gives, labels included.
+// A map rebuilt in steps from the store is bit for bit the map fused from the same frames at the
+// new poses, labels included.
 TEST(MapRebuild, EqualsAFreshFusion) {
     const BlockMap::Config config{.voxel_size_m = 0.04, .truncation_m = 0.16};
     const Eigen::Isometry3d moved = Se3Exp((Vector6d() << 0.02, 0.1, 0, 0.3, 0, -0.1).finished());
@@ -116,7 +117,7 @@ TEST(MapRebuild, EqualsAFreshFusion) {
     for (int i = 0; i < 6; ++i) {
         const Frame frame = FrameAt(i, false);
         const Eigen::Isometry3d T = SmoothPath(0).inverse() * SmoothPath(i);
-        if (i == 4) {  // a keyframe that comes while the map is being made
+        if (i == 4) {  // a keyframe that arrives during the rebuild
             EXPECT_FALSE(rebuild.Step(store, 3).value());
             rebuild.AddKeyframe(moved * moved);
         }

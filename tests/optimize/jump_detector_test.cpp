@@ -41,7 +41,7 @@ TEST(JumpDetector, AShakyHandIsTakenAsItIs) {
                 .Follow(Se3Exp((Vector6d() << shake(random), shake(random), 0, 0, 0, shake(random))
                                    .finished()))
                 .has_value();
-        jumps += jump && i >= 60;  // once it is known
+        jumps += jump && i >= 60;  // after the detector has learnt the shake
     }
     EXPECT_EQ(jumps, 0);
 }

@@ -7,7 +7,7 @@
 namespace tessera {
 namespace {
 
-// atan(1/2): half the picture of a camera with fx = width.
+// atan(1/2), half the field of view of a camera with fx = width.
 constexpr double kHalfAngle_rad = 0.4636476;
 
 PinholeCamera Wide() { return {160, 160, 160, 160, 79.5, 79.5}; }
@@ -28,16 +28,16 @@ TrackResult TrackedAt(const Eigen::Isometry3d& T) {
     return track;
 }
 
-// At 2 m the picture is 2 m wide: a step of 0.5 m to the side leaves three quarters of it.
+// At 2 m the image is 2 m wide, so a sideways step of 0.5 m leaves three quarters of it.
 TEST(ViewOverlap, OfAWallIsWhatTheStepLeaves) {
     const DepthImage depth(16, 16, 2.0f);
     const PinholeCamera view = Wide().Every(10);
     EXPECT_DOUBLE_EQ(ViewOverlap(depth, view, Shift(0)), 1.0);
     EXPECT_DOUBLE_EQ(ViewOverlap(depth, view, Shift(0.5)), 0.75);
     EXPECT_DOUBLE_EQ(ViewOverlap(depth, view, Shift(0, -1)), 0.5);
-    EXPECT_DOUBLE_EQ(ViewOverlap(depth, view, Shift(0, 0, -3)), 0.0);   // behind the other
+    EXPECT_DOUBLE_EQ(ViewOverlap(depth, view, Shift(0, 0, -3)), 0.0);   // behind the other camera
     EXPECT_DOUBLE_EQ(ViewOverlap(depth, view, Shift(0, 0, 0.3)), 1.0);  // 2.3 m instead of 2
-    // The same, but much smaller.
+    // Still in view, but the scale differs by more than a fifth.
     EXPECT_DOUBLE_EQ(ViewOverlap(depth, view, Shift(0, 0, 0.5)), 0.0);
     EXPECT_DOUBLE_EQ(ViewOverlap(DepthImage(16, 16, 0.0f), view, Shift(0)), 0.0);
 }
@@ -77,7 +77,7 @@ TEST(Keyframes, CountTheWayAndFollowThePoseGraph) {
     const Keyframe& second = keyframes.Add(7, 1.5, Wall(2), TrackedAt(turned));
     EXPECT_EQ(second.id, 1);
     EXPECT_EQ(second.frame_index, 7);
-    EXPECT_DOUBLE_EQ(second.way_m, 2);  // the jump is no way
+    EXPECT_DOUBLE_EQ(second.way_m, 2);  // the jump is not counted
     EXPECT_NEAR(second.turned_rad, 0.25, 1e-12);
     EXPECT_TRUE(second.T_map_camera.isApprox(turned));
     EXPECT_TRUE(second.T_world_camera.isApprox(Shift(0, 10) * turned));

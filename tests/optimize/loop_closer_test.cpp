@@ -1,4 +1,4 @@
-// Whole walks through a rendered room with a Kinect's noise.
+// Complete walks through a rendered room with Kinect noise.
 #include "optimize/loop_closer.h"
 
 #include <tbb/global_control.h>
@@ -14,10 +14,10 @@ using testing_support::RoomCamera;
 using testing_support::RoomWalk;
 using testing_support::Walker;
 
-// Once around, and a little on, every sixth frame.
+// One full turn and a little more, every sixth frame.
 std::vector<Frame> Round() { return RoomWalk(0, 120, 6); }
 
-// What odometry gets wrong between two frames: 1.5 mm and 0.05 degrees, always to the same side.
+// Odometry error between two frames: 1.5 mm and 0.05 degrees, always in the same direction.
 Eigen::Isometry3d Bias() { return Se3Exp((Vector6d() << 0, 0.0009, 0, 0.0015, 0, 0).finished()); }
 
 void WalkWithDrift(const std::vector<Frame>& frames, Walker& walker) {
@@ -36,7 +36,7 @@ TEST(LoopCloser, TakesAFifthOrLessOfTheDriftToTheEndAndTheMapFollows) {
     if (!PoseGraphAvailable()) GTEST_SKIP() << "this build has no Ceres: install libceres-dev";
     const std::vector<Frame> frames = Round();
     LoopConfig off;
-    off.min_votes = 1000;  // no candidate, no loop
+    off.min_votes = 1000;  // too many votes for any candidate, so no loops
     Walker without(off), with(LoopConfig{});
     WalkWithDrift(frames, without);
     WalkWithDrift(frames, with);
@@ -56,7 +56,7 @@ TEST(LoopCloser, TakesAFifthOrLessOfTheDriftToTheEndAndTheMapFollows) {
     EXPECT_GE(with.corrections, 1);
     EXPECT_EQ(without.corrections, 0);
 
-    // The map against a fresh fusion of the frames as they came, at the final poses.
+    // Compare the map with a fresh fusion of the original frames at the final poses.
     BlockMap fresh(with.settings.map);
     Integrator integrator(with.settings.fusion, RoomCamera());
     const std::vector<StampedPose> path = with.closer.Path();
@@ -86,7 +86,7 @@ TEST(LoopCloser, TakesAFifthOrLessOfTheDriftToTheEndAndTheMapFollows) {
     EXPECT_LE(p95, 0.5f);
 }
 
-// In a map that holds a place twice tracking slips from the one surface to the other.
+// If a map holds a surface twice, tracking can jump from one copy to the other.
 TEST(LoopCloser, AJumpWhileTheMapIsMadeAgainIsNoMotion) {
     if (!PoseGraphAvailable()) GTEST_SKIP() << "this build has no Ceres: install libceres-dev";
     const std::vector<Frame> frames = Round();
@@ -111,8 +111,8 @@ TEST(LoopCloser, AJumpWhileTheMapIsMadeAgainIsNoMotion) {
     EXPECT_LT((went.translation() - true_step.translation()).norm(), 0.03);
 }
 
-// A picture that is too wide for a JPEG; its keyframes hang on those of the map that is made again
-// all the same.
+// An image that is too wide for a JPEG is not stored. Its keyframes are still connected to those of
+// the rebuilt map.
 TEST(LoopCloser, FramesThatCannotBeStoredWhileTheMapIsMadeAgainAreTold) {
     if (!PoseGraphAvailable()) GTEST_SKIP() << "this build has no Ceres: install libceres-dev";
     const std::vector<Frame> frames = Round();
@@ -130,7 +130,8 @@ TEST(LoopCloser, FramesThatCannotBeStoredWhileTheMapIsMadeAgainAreTold) {
         if (lost) keyframes_lost += walker.closer.keyframes().size() - before;
     }
     EXPECT_GT(keyframes_lost, 0);
-    EXPECT_NE(walker.all_news.find("cannot be made a JPEG"), std::string::npos) << walker.all_news;
+    EXPECT_NE(walker.all_news.find("cannot be encoded as JPEG"), std::string::npos)
+        << walker.all_news;
     std::string note;
     walker.Take(walker.closer.Finish(note));
     EXPECT_EQ(walker.closer.Path().size(), frames.size());
@@ -154,7 +155,7 @@ TEST(LoopCloser, CorrectsToTheSameBytesForAnyNumberOfThreads) {
         EXPECT_EQ(paths[0][i].T_world_camera.matrix(), paths[1][i].T_world_camera.matrix()) << i;
 }
 
-// Loops between keyframes that lie in different rooms, 6 m apart.
+// Loops between keyframes in different rooms, which are 6 m apart.
 int FalseLoops(const LoopCloser& closer) {
     return static_cast<int>(std::ranges::count_if(closer.edges(), [&](const PoseEdge& edge) {
         const Eigen::Isometry3d &a = closer.keyframes()[edge.from].T_map_camera,
@@ -163,8 +164,8 @@ int FalseLoops(const LoopCloser& closer) {
     }));
 }
 
-// The second room is the first one again, picture by picture: only the way between them tells them
-// apart.
+// The second room repeats the images of the first one. Only the path between them distinguishes
+// them.
 TEST(LoopCloser, TwoIdenticalRoomsAreNotOne) {
     const std::vector<Frame> frames = RoomWalk(0, 20, 6);
     for (const double max_drift : {0.05, 10.0}) {
@@ -183,14 +184,14 @@ TEST(LoopCloser, TwoIdenticalRoomsAreNotOne) {
             EXPECT_EQ(FalseLoops(walker.closer), 0) << walker.all_news;
         else
             EXPECT_GT(FalseLoops(walker.closer) + walker.corrections, 0)
-                << "without the gate the test must fail";
+                << "without the gate there must be false loops";
         if (max_drift > 1) continue;
-        // A camera that was lost could be in either.
+        // After a tracking loss the camera could be in either room.
         PreparedFrame prepared;
         PrepareFrame(frames[8], walker.settings.preparation, prepared);
         std::string note;
         EXPECT_FALSE(walker.closer.Relocalise(prepared, note).has_value());
-        EXPECT_NE(note.find("could be"), std::string::npos) << note;
+        EXPECT_NE(note.find("ambiguous"), std::string::npos) << note;
     }
 }
 

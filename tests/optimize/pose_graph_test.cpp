@@ -9,7 +9,7 @@ Eigen::Isometry3d Pose(double a, double b, double c, double x, double y, double 
     return Se3Exp((Vector6d() << a, b, c, x, y, z).finished());
 }
 
-// Corners of a square, each turned by a quarter, and the walk's error at each step.
+// The corners of a square, each turned by a quarter, and a constant error at each step.
 class Square : public testing::Test {
   protected:
     void SetUp() override {
@@ -50,7 +50,7 @@ TEST_F(Square, ALoopBringsTheEndToTheStart) {
     const auto report = OptimisePoses(edges, poses);
     ASSERT_TRUE(report.ok()) << report.message();
     EXPECT_LT(report.value().final_cost, report.value().initial_cost);
-    EXPECT_TRUE(poses[0].isApprox(truth[0], 0));  // the first stays, to the bit
+    EXPECT_TRUE(poses[0].isApprox(truth[0], 0));  // the first pose is fixed
     EXPECT_LT((poses[4].translation() - truth[4].translation()).norm(), before / 20);
 }
 
@@ -74,8 +74,8 @@ TEST_F(Square, AWrongLoopAmongRightOnesPullsLittle) {
     EXPECT_LT((poses[4].translation() - truth[4].translation()).norm(), 0.01);
 }
 
-// Where the camera came back with drift, tracking jumps from the new surface to the old one; loops
-// on both sides of the jump tell that it did not move.
+// When the camera returns after drift, tracking jumps from the new surface to the old one. Loops on
+// both sides of the jump show that the camera did not move.
 TEST_F(Square, AJumpOfTrackingAmongLoopsIsNoMotion) {
     constexpr int kPoses = 20, kJump = 10;
     edges.clear();

@@ -88,7 +88,7 @@ TEST(MatchDescriptors, AreMutualAndClear) {
     const Descriptor x{1}, y{~std::uint64_t{0}, ~std::uint64_t{0}};
     const std::vector<Descriptor> old{x, y}, twice{x, x}, fresh{y, x};
     EXPECT_EQ(MatchDescriptors(old, fresh), (std::vector<std::pair<int, int>>{{0, 1}, {1, 0}}));
-    EXPECT_TRUE(MatchDescriptors(old, twice).empty());  // which of the two?
+    EXPECT_TRUE(MatchDescriptors(old, twice).empty());  // ambiguous: two equal candidates
 }
 
 }  // namespace

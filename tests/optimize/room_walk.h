@@ -1,5 +1,5 @@
-// A walk through the furnished room: frames with their true poses in the first camera's world,
-// rendered once.
+// A walk through the furnished room: frames with their true poses in the world of the first camera,
+// each rendered once.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -14,8 +14,8 @@ namespace tessera::testing_support {
 
 inline PinholeCamera RoomCamera() { return {320, 240, 262.5, 262.5, 159.5, 119.5}; }
 
-// Every `step`-th of the walk's 720 frames, from `first`; truth in the world of the whole walk's
-// first camera.
+// `count` of the walk's 720 frames: every `step`-th one from `first` on. The true poses are in the
+// world of the walk's first camera.
 inline std::vector<Frame> RoomWalk(int first, int count, int step) {
     SynthConfig config;
     config.camera = RoomCamera();
@@ -48,16 +48,16 @@ inline FieldSettings RoomSettings() {
     return settings;
 }
 
-// Frames at given poses into a LoopCloser and a map, as the system does it, and the map corrected
-// when it says so.
+// Adds frames at given poses to a LoopCloser and to a map, as the system does, and applies the
+// corrections.
 struct Walker {
     explicit Walker(const LoopConfig& config)
         : closer(config, settings, 5000),
           map(std::make_unique<BlockMap>(settings.map)),
           integrator(settings.fusion, settings.camera) {}
 
-    // The camera moves on by `T_last_camera`, as its odometry has it. `stored`: what is given to be
-    // stored, if not the frame.
+    // Moves the camera by `T_last_camera`, the odometry. If `stored` is given, it is stored in
+    // place of the frame.
     void Go(const Frame& frame, const Eigen::Isometry3d& T_last_camera,
             const Frame* stored = nullptr) {
         T_map_camera = Normalised(T_map_camera * T_last_camera);

@@ -1,5 +1,5 @@
-// A box of a room with pillars, seen without noise along a turn, by a camera that is not as it is
-// said to be.
+// A box-shaped room with pillars, seen without noise by a rotating camera whose given calibration
+// may be wrong.
 #include "optimize/self_calibration.h"
 
 #include <gtest/gtest.h>
@@ -22,8 +22,8 @@ const Box kPillars[] = {{{-0.9, -1.2, 1.4}, {-0.5, 0.3, 1.8}},
                         {{0.9, 0.2, 0.9}, {1.5, 1.4, 1.5}},
                         {{-1.4, 0.4, -0.8}, {-0.9, 1.4, 0.2}}};
 
-// How far along a ray it meets a box: where it leaves it, or where it comes in (infinity if it
-// misses).
+// Distances along a ray to the point where it leaves a box and to the point where it enters one
+// (infinity if it misses).
 double Leaves(const Box& box, const Eigen::Vector3d& from, const Eigen::Vector3d& ray) {
     double t = 1e9;
     for (int k = 0; k < 3; ++k)
@@ -41,7 +41,7 @@ double Enters(const Box& box, const Eigen::Vector3d& from, const Eigen::Vector3d
 
 class SelfCalibration : public testing::Test {
   protected:
-    // True depth, and where in the image (tangents).
+    // Takes the true depth and the image position (tangents), and returns the measured depth.
     using Sensor = std::function<double(double z, double x, double y)>;
     static constexpr int kViews = 18;
 
@@ -120,12 +120,12 @@ TEST_F(SelfCalibration, LeavesAGoodOneAndThePosesAlone) {
     EXPECT_FALSE(report.value().shown);
     EXPECT_NEAR(report.value().calibration.focal_scale, 1, 0.001);
     for (std::size_t i = 0; i < poses.size(); ++i) EXPECT_EQ(poses[i].matrix(), truth[i].matrix());
-    EXPECT_NE(CalibrationText(kCamera, 0, report.value()).find("the given one stays"),
+    EXPECT_NE(CalibrationText(kCamera, 0, report.value()).find("keeping the given values"),
               std::string::npos);
 }
 
-// A sensor that is bent in a way the model does not have; a model with a focal length alone would
-// call itself certain.
+// The sensor has a distortion that the model cannot represent. A model with only a focal length
+// would report a small uncertainty.
 TEST_F(SelfCalibration, IsNotMisledByAnErrorOfAnotherKind) {
     const Sensor sensor = [](double z, double x, double y) {
         return z * (1 + 0.012 * std::sin(4 * x) + 0.012 * std::sin(3 * y + z));
@@ -135,7 +135,7 @@ TEST_F(SelfCalibration, IsNotMisledByAnErrorOfAnotherKind) {
     EXPECT_FALSE(report.value().shown) << CalibrationText(kCamera, 0, report.value());
 }
 
-// A bare wall looks the same however it is measured.
+// A bare wall looks the same under every calibration.
 TEST_F(SelfCalibration, AWallAloneDoesNotShowIt) {
     const PinholeCamera off = Corrected(kCamera, {1.03, 0});
     std::vector<CalibrationView> views;

@@ -1,4 +1,4 @@
-"""A scene of few small frames, and a folder that goes away: what the tests of the Python module share."""
+"""Shared by the tests of the Python module: a scene of a few small frames, and a temporary folder."""
 import functools
 import os
 import pathlib
@@ -30,7 +30,7 @@ def all_frames():
 
 
 def small_frames(count=20):
-    """The scene's first frames, made once. Nobody changes their arrays."""
+    """The first frames of the scene, rendered once. Tests must not modify their arrays."""
     return all_frames()[:count]
 
 

@@ -1,4 +1,4 @@
-"""Files, sources, whole runs and figures through the Python module."""
+"""Tests of files, sources, complete runs and metrics through the Python module."""
 import json
 import unittest
 import warnings
@@ -48,7 +48,7 @@ class Trajectories(InFolder):
         rpe = tessera.evaluate_rpe(path, moved, delta_s=0.2)
         self.assertLess(rpe["rpe_trans_rmse_m"], 1e-9)
         self.assertEqual(rpe["delta_s"], 0.2)
-        # Twice as long a step: off by one step over one step's time along the straight part, and by more at the bend.
+        # With steps twice as long, the error per step is one step on the straight part and more at the bend.
         self.assertGreater(tessera.evaluate_rpe(path, line_path(0.5), delta_s=0.1)["rpe_trans_rmse_m"], 0.25 - 1e-9)
         with self.assertRaisesRegex(ValueError, "delta_s"):
             tessera.evaluate_rpe(path, moved, delta_s=0)
@@ -88,7 +88,7 @@ class Runs(InFolder):
         self.assertEqual(json.loads((self.folder / "out" / "timings.json").read_text())["frames"], 5)
         self.assertEqual(tessera.read_objects(self.folder / "out" / "objects.json"), [])
         self.assertEqual(len(tessera.read_trajectory(self.folder / "out" / "trajectory.txt")), 5)
-        with self.assertRaisesRegex(ValueError, "no built-in scene"):
+        with self.assertRaisesRegex(ValueError, "not a built-in scene"):
             tessera.run("synthetic:nowhere")
 
     def test_objects_of_a_run_with_labels(self):

@@ -1,4 +1,4 @@
-"""tessera.Scanner: the program's own bytes, values and refusals."""
+"""Tests of tessera.Scanner: the same bytes as the program, values, and errors."""
 import gc
 import threading
 import unittest
@@ -127,18 +127,18 @@ class Refused(unittest.TestCase):
         track = self.scanner.track
         colour = np.zeros((120, 160, 3), np.uint8)
         for other in ("uint16", "float64", ">f4"):
-            self.refuse(TypeError, f"depth_m: float32 in metres expected, not {other}", track, self.depth.astype(other),
+            self.refuse(TypeError, f"depth_m: expected float32 in metres, got {other}", track, self.depth.astype(other),
                         None, 0)
-        self.refuse(TypeError, "colour: uint8", track, self.depth, colour.astype(np.float32), 0)
-        self.refuse(ValueError, r"depth_m: shape \(120, 160\) expected, not \(160, 120\)", track, self.depth.T, None, 0)
-        self.refuse(ValueError, "colour: shape", track, self.depth, colour[..., :2], 0)
-        self.refuse(ValueError, "colour: shape", track, self.depth, colour[..., 0], 0)
+        self.refuse(TypeError, "colour: expected uint8", track, self.depth, colour.astype(np.float32), 0)
+        self.refuse(ValueError, r"depth_m: expected shape \(120, 160\), got \(160, 120\)", track, self.depth.T, None, 0)
+        self.refuse(ValueError, "colour: expected shape", track, self.depth, colour[..., :2], 0)
+        self.refuse(ValueError, "colour: expected shape", track, self.depth, colour[..., 0], 0)
         self.assertEqual(len(self.scanner.trajectory()), 0)
 
     def test_stamps(self):
-        self.refuse(ValueError, "not nan", self.scanner.track, self.depth, None, float("nan"))
+        self.refuse(ValueError, "finite", self.scanner.track, self.depth, None, float("nan"))
         self.scanner.track(self.depth, None, 1.5)
-        self.refuse(ValueError, "1.500000 is not after", self.scanner.track, self.depth, None, 1.5)
+        self.refuse(ValueError, "1.500000 is not later than", self.scanner.track, self.depth, None, 1.5)
         self.assertEqual(self.scanner.track(self.depth, None, 1.6).index, 1)
 
     def test_settings(self):
@@ -194,7 +194,7 @@ class Threads(unittest.TestCase):
         during = len(beats) - before
         done.set()
         thread.join()
-        self.assertGreater(during, 3)  # one, while another thread held the lock all the time
+        self.assertGreater(during, 3)  # about one if track() held the GIL all the time
 
 
 if __name__ == "__main__":

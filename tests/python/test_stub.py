@@ -1,4 +1,4 @@
-"""What __init__.pyi promises is what the module has, name by name and parameter by parameter."""
+"""Checks that __init__.pyi matches the module, name by name and parameter by parameter."""
 import ast
 import pathlib
 import re
@@ -8,14 +8,14 @@ from small_scene import tessera
 
 
 def parameters_of(function):
-    """Names and whether there is a default, of a function in the stub."""
+    """The parameters of a function in the stub: name, and whether it has a default."""
     names = [argument.arg for argument in function.args.args if argument.arg != "self"]
     required = len(names) - len(function.args.defaults)
     return [(name, i >= required) for i, name in enumerate(names)]
 
 
 def parameters_in(docstring):
-    """The same of a bound function, from the signature that its docstring begins with."""
+    """The same for a bound function, from the signature at the start of its docstring."""
     signature = docstring.splitlines()[0].rsplit(" -> ", 1)[0]
     parts = re.split(r"[(,] ?(?=\w+: )", signature)[1:]
     return [(part.split(":")[0], " = " in part) for part in parts if not part.startswith("self:")]

@@ -17,7 +17,7 @@ Eigen::Vector3d WorldPosition(const GeometryVertex& vertex, const BlockCoord& bl
                   Eigen::Vector3f(p[0], p[1], p[2]).cast<double>());
 }
 
-// All blocks together are the mesh that Mesher assembles, across blocks, sectors and signs.
+// Together the blocks equal the mesh assembled by Mesher, across blocks, sectors and signs.
 TEST(BlockGeometry, TogetherTheBlocksAreTheWholeMesh) {
     for (const Eigen::Vector3d& centre :
          {Eigen::Vector3d(.011, -.023, .031), Eigen::Vector3d(10.24, .0, -10.24)}) {
@@ -30,7 +30,7 @@ TEST(BlockGeometry, TogetherTheBlocksAreTheWholeMesh) {
         mesher.Update(map);
         const TriangleMesh whole = mesher.Assemble();
         BlockGeometry geometry;
-        std::size_t next = 0;  // both go by block, then by triangle
+        std::size_t next = 0;  // both are ordered by block, then by triangle
         for (const auto& mesh : mesher.block_meshes()) {
             if (!mesh) continue;
             geometry.Build(*mesh, mesher.block_meshes());
@@ -62,12 +62,12 @@ TEST(BlockGeometry, WithoutTheNeighbourItsTrianglesAreLeftOut) {
     const BlockMesh& mesh = *mesher.block_meshes()[static_cast<std::size_t>(map.Find({0, 0, 0}))];
     BlockGeometry geometry;
     geometry.Build(mesh, mesher.block_meshes());
-    // The last row of cells has no neighbour in y.
+    // The last row of cells has no neighbour block in y.
     EXPECT_EQ(geometry.indices.size(), 3u * 2 * 8 * 7);
     EXPECT_EQ(geometry.vertices.front().has_colour, 0);
     geometry.Build(mesh, {});
     EXPECT_EQ(geometry.indices.size(), 3u * 2 * 7 * 7);
-    geometry.Build(mesh, mesher.block_meshes());  // nothing stays from the call before
+    geometry.Build(mesh, mesher.block_meshes());  // nothing is left over from the previous call
     EXPECT_EQ(geometry.indices.size(), 3u * 2 * 8 * 7);
 }
 

@@ -33,7 +33,7 @@ TEST(ClosestPoint, TrianglesWithoutArea) {
     EXPECT_LT((ClosestOnTriangle(q, kA, kA, kB) - kB).norm(), 1e-15);
 }
 
-// No point of a fine grid over the triangle is nearer.
+// Checks that no point of a fine grid on the triangle is nearer.
 TEST(ClosestPoint, NoGridPointIsNearer) {
     TestRandom random(7);
     for (int n = 0; n < 200; ++n) {
@@ -48,7 +48,7 @@ TEST(ClosestPoint, NoGridPointIsNearer) {
                 nearest = std::min(nearest, (a + u * (b - a) + v * (c - a) - p).norm());
             }
         EXPECT_LE(distance, nearest + 1e-12);
-        EXPECT_GT(distance, nearest - 0.06);  // half of a cell's diagonal
+        EXPECT_GT(distance, nearest - 0.06);  // half the diagonal of a grid cell
     }
 }
 

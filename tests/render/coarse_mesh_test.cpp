@@ -35,14 +35,14 @@ double Area(const TriangleMesh& mesh) {
 }
 
 TEST(CoarseMesh, KeepsTheFirstVertexOfEachCell) {
-    // Cells of two quads, and the far edges.
+    // Cells of two quads, plus the far edges.
     const TriangleMesh coarse = CoarseMesh(Square(8), 0.25);
     ASSERT_EQ(coarse.vertices.size(), 25u);
     EXPECT_EQ(coarse.triangles.size(), 32u);
     EXPECT_TRUE(coarse.normals.empty());
     ASSERT_EQ(coarse.colours.size(), 25u);
     EXPECT_EQ(coarse.colours[1].r, 2);
-    EXPECT_NEAR(Area(coarse), 1, 1e-6) << "no hole, none turned over";
+    EXPECT_NEAR(Area(coarse), 1, 1e-6) << "no holes, no flipped triangles";
 }
 
 TEST(CoarseMesh, HasAboutAsManyTrianglesAsAskedFor) {
@@ -51,7 +51,7 @@ TEST(CoarseMesh, HasAboutAsManyTrianglesAsAskedFor) {
         const TriangleMesh coarse = CoarseMeshOf(mesh, most);
         EXPECT_LE(coarse.triangles.size(), most);
         EXPECT_GT(coarse.triangles.size(), most / 4);
-        EXPECT_NEAR(Area(coarse), 1, 0.2) << "less by up to a cell at two sides";
+        EXPECT_NEAR(Area(coarse), 1, 0.2) << "up to one cell less on two sides";
     }
 }
 

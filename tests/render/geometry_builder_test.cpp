@@ -12,7 +12,7 @@ namespace {
 
 using namespace testing_support;
 
-// A sphere over many blocks, of every octant.
+// A sphere that covers many blocks in every octant.
 class GeometryBuilderTest : public ::testing::Test {
   protected:
     GeometryBuilderTest() {
@@ -34,7 +34,7 @@ class GeometryBuilderTest : public ::testing::Test {
             return VertexMark{{1, 2, 3}, WeightStep(VertexWeight(map, owner, vertex))};
         };
     }
-    // What every block would be if it were made now.
+    // Compares every block with one built from scratch.
     void ExpectAllFresh(const std::string& after) {
         const auto& meshes = mesher.block_meshes();
         for (std::size_t id = 0; id < meshes.size(); ++id) {
@@ -55,7 +55,8 @@ class GeometryBuilderTest : public ::testing::Test {
     std::map<BlockId, BlockGeometry> copies;
 };
 
-// From the position alone: between which voxels of the whole map a vertex lies, and how far.
+// The expected weight follows from the vertex position alone: the two voxels it lies between, and
+// the fraction.
 TEST_F(GeometryBuilderTest, VerticesCarryTheWeightBetweenTheirVoxels) {
     Take();
     int checked = 0;
@@ -89,8 +90,8 @@ TEST(VertexWeight, TheScaleIsLogarithmic) {
     EXPECT_EQ(WeightStep(1e9f), 255);
 }
 
-// Only the marks of one block's voxels change: all copies of vertices beside them come anew, and
-// not the whole mesh.
+// If only the marks of one block's voxels change, all copies of the vertices near them are rebuilt,
+// but not the whole mesh.
 TEST_F(GeometryBuilderTest, MarkedAgainWithoutMeshingAgain) {
     Take();
     const std::size_t all = copies.size();

@@ -21,8 +21,8 @@ RenderStyle OnWhite() {
     return style;
 }
 
-// In z = 2, seen from the origin: x from -0.5 to 0.5 m, y from 0 to 1 m, so that its edges fall
-// on pixels 15 and 25 across, 15 and 25 down.
+// In the plane z = 2, facing the origin: x from -0.5 to 0.5 m and y from 0 to 1 m, so that its
+// edges pass through the centres of columns 15 and 25 and rows 15 and 25.
 TriangleMesh RedSquare() {
     TriangleMesh mesh;
     mesh.vertices = {{-0.5f, 0, 2}, {0.5f, 0, 2}, {0.5f, 1, 2}, {-0.5f, 1, 2}};
@@ -38,7 +38,7 @@ TEST(MeshPicture, ASquareCoversItsPixels) {
     ASSERT_EQ(image.height(), 30);
     for (int y = 0; y < 30; ++y)
         for (int x = 0; x < 40; ++x) {
-            // How much of the pixel lies inside: an edge runs through its middle.
+            // The fraction of the pixel inside the square. An edge passes through the pixel centre.
             const auto share = [](int i) {
                 return i == 15 || i == 25 ? 0.5 : (i > 15 && i < 25 ? 1.0 : 0.0);
             };
@@ -50,13 +50,13 @@ TEST(MeshPicture, ASquareCoversItsPixels) {
 }
 
 TEST(MeshPicture, TheCameraMovesTheOtherWay) {
-    // One pixel at 2 m is 0.1 m; the camera moves right, the square left.
+    // At 2 m one pixel is 0.1 m. The camera moves right, so the square moves left.
     Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity();
     T_world_camera.translation().x() = 0.4;
     const ColourImage image = RenderMesh(RedSquare(), SmallCamera(), T_world_camera, OnWhite());
     EXPECT_EQ(image(12, 20), kRed);
     EXPECT_EQ(image(22, 20), kWhite);
-    // By 0.4 pixels: the samples, a quarter pixel from the centre, change sides all at once.
+    // By 0.4 pixels. The samples are a quarter pixel from the centre, so they all change sides.
     T_world_camera.translation().x() = 0.04;
     const ColourImage near = RenderMesh(RedSquare(), SmallCamera(), T_world_camera, OnWhite());
     EXPECT_EQ(near(14, 20), kWhite);
@@ -79,11 +79,11 @@ TEST(MeshPicture, ShadingByAngleAndNormalColours) {
     TriangleMesh mesh = RedSquare();
     RenderStyle style = OnWhite();
     PinholeCamera straight = SmallCamera();
-    straight.cy = 5;  // the square in the middle of the view: nearly head on
+    straight.cy = 5;  // moves the square to the middle of the view, where it is seen almost head-on
     const Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
     style.shading = RenderStyle::Shading::kNormal;
     EXPECT_EQ(RenderMesh(mesh, straight, T, style)(20, 10), (Rgb8{128, 128, 0}));
-    mesh.normals.assign(4, Eigen::Vector3f(0, 1, 0));  // a mesh's own normals come first
+    mesh.normals.assign(4, Eigen::Vector3f(0, 1, 0));  // the mesh's own normals take precedence
     EXPECT_EQ(RenderMesh(mesh, straight, T, style)(20, 10), (Rgb8{128, 255, 128}));
     mesh.normals.clear();
     style.shading = RenderStyle::Shading::kShaded;
@@ -91,7 +91,7 @@ TEST(MeshPicture, ShadingByAngleAndNormalColours) {
     const int slanted = RenderMesh(mesh, straight, T, style)(20, 14).r;
     EXPECT_GT(head_on, 215);
     EXPECT_LT(slanted, head_on);
-    mesh.colours.clear();  // nothing to show: shaded instead
+    mesh.colours.clear();  // without colours the mesh is shaded
     style.shading = RenderStyle::Shading::kColour;
     EXPECT_EQ(RenderMesh(mesh, straight, T, style)(20, 6).r, head_on);
 }
@@ -115,7 +115,7 @@ TEST(MeshPicture, ThePathIsDrawnWhereItIs) {
     for (int x = 16; x < 25; ++x) EXPECT_LT(image(x, 15).r, 40) << x;
     EXPECT_EQ(image(12, 15), kWhite);
     EXPECT_EQ(image(20, 12), kWhite);
-    EXPECT_LT(image(35, 15).r, 40);  // on its way to behind the camera it leaves at the right
+    EXPECT_LT(image(35, 15).r, 40);  // leaves the image towards `behind`
 }
 
 TEST(MeshPicture, TheSameForAnyNumberOfThreads) {
@@ -133,7 +133,8 @@ TEST(MeshPicture, TheSameForAnyNumberOfThreads) {
     }
 }
 
-// The shares of the picture's half width and height at which the points appear.
+// Largest distance of the points from the image centre, as a fraction of half the width and half
+// the height.
 Eigen::Array2d MaxOffCentre(const MeshView& view, const std::vector<Eigen::Vector3f>& points) {
     Eigen::Array2d most = Eigen::Array2d::Zero();
     for (const Eigen::Vector3f& p : points) {
@@ -150,17 +151,17 @@ TEST(ChooseView, FillsThePictureAndLooksDownOnAFloor) {
     for (const double side_m : {0.2, 3.0, 50.0}) {
         const MeshView view = ChooseView(Square(side_m, 20, 1));
         const Eigen::Array2d most = MaxOffCentre(view, Square(side_m, 20, 1).vertices);
-        EXPECT_LT(most.maxCoeff(), 1.05) << side_m;  // outliers, one in a hundred, may stick out
+        EXPECT_LT(most.maxCoeff(), 1.05) << side_m;  // one outlier in a hundred may lie outside
         EXPECT_GT(most.maxCoeff(), 0.8) << side_m;
         EXPECT_GT(view.T_world_camera.translation().z(), 1);
         EXPECT_LT(view.T_world_camera.linear()(2, 2), -0.4);  // looks down
-        EXPECT_LT(view.T_world_camera.linear()(2, 1), 0);     // its down is the world's
+        EXPECT_LT(view.T_world_camera.linear()(2, 1), 0);     // is upright
         EXPECT_NEAR(view.T_world_camera.linear().determinant(), 1, 1e-9);
     }
 }
 
 TEST(ChooseView, LooksWhereTheCamerasLookedFromBehindAndAbove) {
-    // A wall in z = 4, cameras at the origin looking along +z with y down.
+    // A wall at z = 4. The cameras start at the origin and look along +z with y down.
     TriangleMesh wall = Square(4, 20, 4);
     std::vector<Eigen::Isometry3d> path(10, Eigen::Isometry3d::Identity());
     for (std::size_t i = 0; i < path.size(); ++i) path[i].translation().x() = 0.1 * double(i);
@@ -170,7 +171,7 @@ TEST(ChooseView, LooksWhereTheCamerasLookedFromBehindAndAbove) {
     EXPECT_LT(view.T_world_camera.translation().y(), 0);  // above
     std::vector<Eigen::Vector3f> positions;
     for (const auto& pose : path) positions.push_back(pose.translation().cast<float>());
-    EXPECT_LT(MaxOffCentre(view, positions).maxCoeff(), 1);  // the path is in the picture
+    EXPECT_LT(MaxOffCentre(view, positions).maxCoeff(), 1);  // the path is in the image
 }
 
 TEST(ChooseView, FarOutliersDoNotShrinkTheScene) {

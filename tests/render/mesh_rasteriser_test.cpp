@@ -19,7 +19,7 @@ double Median(std::vector<double> values) {
     return values.at(values.size() / 2);
 }
 
-// Marching cubes meets a plane exactly: so must every pixel, with any intrinsics.
+// Marching cubes reproduces a plane exactly, so every pixel must be exact for any intrinsics.
 TEST_F(MeshRasteriserTest, ObliquePlaneIsExact) {
     const Eigen::Vector3d normal = Eigen::Vector3d(.3, -.2, -1).normalized();
     BlockMap map{BlockMap::Config{}};
@@ -48,7 +48,7 @@ TEST_F(MeshRasteriserTest, ObliquePlaneIsExact) {
     }
 }
 
-// Whether the depth runs on smoothly around the pixel, by the ray cast view.
+// Whether the ray-cast depth is smooth around the pixel.
 bool IsInside(const PredictedView& view, int u, int v) {
     const float z = view.depth_m(u, v);
     for (int dv = -2; dv <= 2; ++dv)
@@ -112,9 +112,9 @@ TEST_F(MeshRasteriserTest, RowsAndColumnsLieWhereTheImagesDo) {
             }
     const int hits = CountHits(view);
     ASSERT_GT(hits, 400);
-    EXPECT_NEAR(u_sum / hits, 79.5 + .3 * 140, .8);  // right of the middle
-    EXPECT_NEAR(v_sum / hits, 60.5 - .2 * 145, .8);  // above it
-    // The sphere's left side faces left, its top upwards.
+    EXPECT_NEAR(u_sum / hits, 79.5 + .3 * 140, .8);  // right of the centre
+    EXPECT_NEAR(v_sum / hits, 60.5 - .2 * 145, .8);  // above the centre
+    // The left side of the sphere faces left and its top faces up.
     EXPECT_LT(view.normal_camera(111, 31).x(), -.4f);
     EXPECT_LT(view.normal_camera(121, 21).y(), -.4f);
 }
@@ -134,11 +134,11 @@ TEST_F(MeshRasteriserTest, NothingToSee) {
     EXPECT_EQ(CountHits(Draw(map, camera, LookAt({0, 0, -1}, {0, 0, 0}))), 0);
     Fill(map, Sphere({0, 0, 0}, .3), {-6, -6, -6}, {5, 5, 5});
     EXPECT_GT(CountHits(Draw(map, camera, LookAt({0, 0, -1}, {0, 0, 0}))), 3000);
-    // Away from it.
+    // Looks away from the surface.
     for (const PredictedView& view : {Draw(map, camera, LookAt({0, 0, -1}, {0, 0, -2})),
-                                      // Too far.
+                                      // Beyond the maximum depth.
                                       Draw(map, camera, LookAt({0, 0, -1}, {0, 0, 0}), .1f, .6f),
-                                      // Its back.
+                                      // Sees the back of the surface.
                                       Draw(map, camera, LookAt({0, 0, 0}, {0, 0, 1}))}) {
         EXPECT_EQ(CountHits(view), 0);
         for (std::size_t i = 0; i < view.depth_m.size(); ++i) {

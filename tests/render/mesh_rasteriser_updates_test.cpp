@@ -1,4 +1,4 @@
-// What changes between two views: the map, the camera, the thread, the context.
+// Tests of changes between two views: the map, the camera, the thread, the context.
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
@@ -12,8 +12,8 @@ namespace {
 
 using namespace testing_support;
 
-// What changed is drawn as if everything were new; and blocks that are meshed over and over use the
-// same memory.
+// After changes the result equals that of a fresh rasteriser. Blocks that are meshed repeatedly
+// reuse the same memory.
 TEST_F(MeshRasteriserTest, AfterChangesTheSameAsAFreshOne) {
     BlockMap map{BlockMap::Config{}};
     FillScene(map);
@@ -38,8 +38,9 @@ TEST_F(MeshRasteriserTest, AfterChangesTheSameAsAFreshOne) {
     EXPECT_LT(rasteriser_->bytes(), bytes + bytes / 3);
 }
 
-// A vertex's normal may change although the lower neighbour, which draws it too, reads nothing that
-// changed: that of the edge from (0, 0, 7) upwards reads the changed block, (-1, 0, 0) does not.
+// A vertex normal can change although the lower neighbour, which also draws the vertex, reads no
+// changed voxel. Here the normal on the edge from (0, 0, 7) upwards reads the changed block, while
+// block (-1, 0, 0) does not.
 TEST_F(MeshRasteriserTest, BorrowedVerticesFollowTheirOwners) {
     const Sdf plane = Plane({0, 0, -1}, -.075);
     BlockMap map{BlockMap::Config{}};
@@ -49,14 +50,14 @@ TEST_F(MeshRasteriserTest, BorrowedVerticesFollowTheirOwners) {
     const PredictedView before = Draw(map, SmallCamera(), T, .01f, 1.f);
     FillBlock(map, map.Find({0, -1, 1}), Plane({0, 0, -1}, -.079), nullptr, 2);
     const PredictedView changed = Draw(map, SmallCamera(), T, .01f, 1.f);
-    // Within (-1, 0, 0).
+    // This pixel lies in block (-1, 0, 0).
     EXPECT_FALSE(changed.normal_camera(75, 55) == before.normal_camera(75, 55));
     PredictedView expected;
     Make()->Predict(map, SmallCamera(), T, .01f, 1.f, expected);
     EXPECT_TRUE(SameBytes(changed, expected));
 }
 
-// What was uploaded before the buffers had to grow is still there.
+// Data uploaded before the buffers grew must still be there.
 TEST_F(MeshRasteriserTest, TheMapGrows) {
     BlockMap map{BlockMap::Config{}};
     FillScene(map);
@@ -116,7 +117,8 @@ TEST_F(MeshRasteriserTest, SameBytesForAnyNumberOfThreads) {
     EXPECT_TRUE(SameBytes(with_threads(1), with_threads(4)));
 }
 
-// The last one given back, two at a time, and used on another thread than it was made on.
+// The last context is released, two exist at the same time, and one is used on a different thread
+// than it was created on.
 TEST_F(MeshRasteriserTest, ContextsComeAndGo) {
     BlockMap map{BlockMap::Config{}};
     FillScene(map);

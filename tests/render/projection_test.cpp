@@ -8,7 +8,7 @@
 namespace tessera {
 namespace {
 
-// Window position in pixels and depth buffer value, as OpenGL makes them from clip space.
+// Window position in pixels and depth buffer value, as OpenGL computes them from clip space.
 Eigen::Vector3d Window(const PinholeCamera& camera, const Eigen::Vector4d& clip) {
     const Eigen::Vector3d ndc = clip.head<3>() / clip.w();
     return {(ndc.x() + 1) / 2 * camera.width, (ndc.y() + 1) / 2 * camera.height, (ndc.z() + 1) / 2};
@@ -40,8 +40,8 @@ TEST(Projection, MatrixAndDepthBufferAgree) {
         }
 }
 
-// [D18] eq. 13: with the principal point in the middle, the top and bottom of the image are VFOV
-// apart.
+// [D18] eq. 13: if the principal point is at the image centre, the top and bottom of the image are
+// VFOV apart.
 TEST(Projection, FieldOfView) {
     const PinholeCamera camera{640, 480, 525, 525, 319.5, 239.5};
     const double half = std::atan(.5 * 480 / 525);

@@ -1,4 +1,4 @@
-// Small meshes for tests, the same on every machine.
+// Small meshes for tests, identical on every machine.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 
 namespace tessera {
 
-// Numbers in [0, 1), always the same for a seed (splitmix64).
+// Numbers in [0, 1) that depend only on the seed (splitmix64).
 class TestRandom {
   public:
     explicit TestRandom(std::uint64_t seed) : state_(seed) {}
@@ -17,7 +17,7 @@ class TestRandom {
         z = (z ^ (z >> 27)) * 0x94d049bb133111ebull;
         return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1.0p-53;
     }
-    // In the cube from -half to half around the origin.
+    // A point in the cube from -half to half around the origin.
     Eigen::Vector3d Point(double half) {
         const double x = Next(), y = Next(), z = Next();
         return half * (2 * Eigen::Vector3d(x, y, z) - Eigen::Vector3d::Ones());
@@ -27,7 +27,7 @@ class TestRandom {
     std::uint64_t state_;
 };
 
-// Triangles between any three of the vertices, a few of them without area.
+// Triangles between random vertices. A few have no area.
 inline TriangleMesh RandomMesh(std::uint64_t seed, int vertices, int triangles) {
     TestRandom random(seed);
     TriangleMesh mesh;
@@ -40,7 +40,8 @@ inline TriangleMesh RandomMesh(std::uint64_t seed, int vertices, int triangles) 
     return mesh;
 }
 
-// A square of side `side_m` in z = z_m around the z axis, cut into cells x cells, normal +z.
+// A square of side `side_m` in the plane z = z_m around the z axis, divided into cells x cells,
+// with normal +z.
 inline TriangleMesh Square(double side_m, int cells, double z_m) {
     TriangleMesh mesh;
     const auto row = static_cast<std::uint32_t>(cells + 1);

@@ -32,7 +32,7 @@ TEST(RangePool, NothingNeedsNothing) {
     EXPECT_EQ(pool.used(), 0u);
 }
 
-// Two hundred blocks that change their sizes at random: never overlapping, and the pool stops
+// Two hundred blocks change their sizes randomly. They must never overlap, and the pool must stop
 // growing.
 TEST(RangePool, ReusesWhatWasGivenBack) {
     RangePool pool;

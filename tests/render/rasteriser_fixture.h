@@ -1,5 +1,5 @@
-// What the rasteriser's tests share: cameras, a painted scene without symmetry, and the rasteriser
-// itself, without which they skip.
+// Shared by the rasteriser tests: cameras, a painted scene without symmetry, and the rasteriser
+// itself. Without a rasteriser the tests skip.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -76,7 +76,7 @@ inline double SceneDistance(const Eigen::Vector3d& p) {
     return std::min({kTorus(p), kBall(p), .35 + .02 * std::sin(8 * p.x()) - p.z()});
 }
 
-// A scene without any symmetry, painted.
+// A painted scene without any symmetry.
 inline void FillScene(BlockMap& map, std::uint32_t revision = 1) {
     Fill(
         map, SceneDistance, {-9, -9, -4}, {8, 8, 5},

@@ -15,7 +15,7 @@ Vector3d Vertex(const TriangleMesh& mesh, std::uint32_t triangle, std::size_t co
     return mesh.vertices[mesh.triangles[triangle][corner]].cast<double>();
 }
 
-// The slow, obvious answer.
+// A slow, straightforward reference.
 double NearestByHand(const TriangleMesh& mesh, const Vector3d& p) {
     double nearest = std::numeric_limits<double>::infinity();
     for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i)
@@ -57,7 +57,7 @@ TEST(TriangleScene, NothingIsNearAnEmptyMesh) {
 TEST(TriangleScene, RaysGiveTriangleDistanceAndBarycentrics) {
     TriangleMesh mesh;
     mesh.vertices = {{0, 0, 2}, {0, 1, 2}, {1, 0, 2}};
-    mesh.triangles = {{0, 1, 2}};  // counter-clockwise seen from the origin
+    mesh.triangles = {{0, 1, 2}};  // counter-clockwise when seen from the origin
     const TriangleScene scene(mesh);
     const auto hits = scene.CastFour(
         Vector3f::Zero(),
@@ -71,7 +71,8 @@ TEST(TriangleScene, RaysGiveTriangleDistanceAndBarycentrics) {
     EXPECT_FALSE(hits[3].hit());
 }
 
-// Two squares, the nearer one facing away: culled, the ray goes on to the second.
+// Two triangles, of which the nearer one faces away. It is culled, and the ray continues to the
+// second.
 TEST(TriangleScene, RaysPassThroughBackFaces) {
     TriangleMesh mesh;
     mesh.vertices = {{-1, -1, 1}, {1, -1, 1}, {0, 1, 1}, {-1, -1, 2}, {1, -1, 2}, {0, 1, 2}};

@@ -14,7 +14,7 @@ namespace {
 
 using namespace testing_support;
 
-// So many blocks of hashed voxels; `seed` tells one map from another.
+// A map of `blocks` blocks of random voxels. `seed` makes maps distinguishable.
 std::unique_ptr<BlockMap> MapOf(int blocks, std::uint32_t seed) {
     auto map =
         std::make_unique<BlockMap>(BlockMap::Config{.voxel_size_m = 0.02, .truncation_m = 0.08});
@@ -42,7 +42,7 @@ TEST(CubeScratch, GivesBackWhatWasPutLastAndLeavesNoFile) {
     auto store = CubeScratch::Create(folder / "a.scan");
     ASSERT_TRUE(store.ok()) << store.message();
     PutAll(*MapOf(30, 1), *store.value());
-    const auto owned = MapOf(60, 1000);  // in place of the first ones, and more
+    const auto owned = MapOf(60, 1000);  // replaces the first blocks and adds more
     const BlockMap& map = *owned;
     PutAll(map, *store.value());
     BlockCopies copies;
@@ -72,10 +72,9 @@ TEST(CubeScratch, SaysWhereItCannotBeMade) {
     EXPECT_NE(store.message().find("/no/such/folder/a.scan"), std::string::npos);
 }
 
-// One map after the other takes all of a file's blocks' place, until the process is killed: in even
-// turns as it has begun to put one there, in odd ones once that is done. Maps of even and of odd
-// turns differ in every block and in their number; the file's is wholly one of the two, whichever
-// was under way.
+// A child process replaces all blocks of a file with one map after the other until it is killed: in
+// even turns just as a replacement starts, in odd turns just after it ends. Consecutive maps differ
+// in every block and in the number of blocks. The file must hold exactly one of the two.
 TEST(CubeScratch, AFileThatIsKilledHasTheOneMapOrTheOther) {
     constexpr int kBlocks[] = {150, 90};
     constexpr std::uint32_t kSeeds[] = {1, 5000};
@@ -110,7 +109,7 @@ TEST(CubeScratch, AFileThatIsKilledHasTheOneMapOrTheOther) {
         close(ends[1]);
         char told;
         for (int i = 0; i <= turn; ++i)
-            ASSERT_EQ(read(ends[0], &told, 1), 1) << "it ended by itself";
+            ASSERT_EQ(read(ends[0], &told, 1), 1) << "the child exited early";
         close(ends[0]);
         kill(child, SIGKILL);
         waitpid(child, nullptr, 0);
@@ -118,14 +117,14 @@ TEST(CubeScratch, AFileThatIsKilledHasTheOneMapOrTheOther) {
         ASSERT_TRUE(scan.ok()) << scan.message();
         const BlockMap& map = *scan.value().map;
         seen.insert(map.count());
-        if (map.count() == 36) continue;  // killed before the first: as it was
+        if (map.count() == 36) continue;  // killed before the first replacement: unchanged
         const int which = map.count() == kBlocks[0] ? 0 : 1;
         const auto expected = MapOf(kBlocks[which], kSeeds[which]);
         ASSERT_EQ(map.count(), expected->count());
         for (BlockId id = 1; id < map.size(); ++id)
             ASSERT_TRUE(SameBlock(map, id, *expected, expected->Find(map.coord(id))));
     }
-    EXPECT_GE(seen.size(), 2u) << "all were killed in the same map";
+    EXPECT_GE(seen.size(), 2u) << "every kill left the same map";
 }
 
 }  // namespace

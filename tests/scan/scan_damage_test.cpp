@@ -1,5 +1,5 @@
-// Bit flips and truncations at fixed seeds: never a crash, never a wrong map, and what is sound is
-// recovered.
+// Bit flips and truncations with fixed seeds. There must be no crash and no wrong map, and intact
+// data must be recovered.
 #include <filesystem>
 #include <set>
 
@@ -11,7 +11,7 @@ namespace {
 
 using namespace testing_support;
 
-// In place, and put right again: nothing is slower than writing a file a thousand times.
+// Overwrites one byte in place and restores it. Rewriting the file a thousand times would be slow.
 class WrongByte {
   public:
     WrongByte(const std::string& path, std::size_t at, char wrong, char right)
@@ -39,7 +39,7 @@ class ScanDamage : public testing::Test {
         path = scan.value().path;
     }
 
-    // True if it was read; it is then the same to the last bit.
+    // Returns true if the file was read. It must then be identical to the original.
     bool ReadIsRightOrRefused(const std::string& file) {
         Result<ScanContent> scan = ReadScan(file, {.map = true, .frames = true});
         if (!scan.ok()) {
@@ -51,8 +51,8 @@ class ScanDamage : public testing::Test {
         return true;
     }
 
-    // What repair gives can be read, and each block and pose of it is one that was there. Returns
-    // the blocks.
+    // A repaired file must be readable, and each of its blocks and poses must exist in the
+    // original. Returns the number of blocks.
     std::int64_t ExpectSoundRepair(const std::string& file) {
         const std::string out = folder / "repaired.scan";
         std::filesystem::remove(out);
@@ -95,8 +95,8 @@ TEST_F(ScanDamage, AThousandBitFlips) {
         ++repaired;
         blocks += ExpectSoundRepair(folder / "b.scan");
     }
-    EXPECT_GT(refused, 200);           // the rest fell on free space
-    EXPECT_GE(blocks, repaired * 35);  // of 36: a flip costs at most one
+    EXPECT_GT(refused, 200);           // the other flips hit free space
+    EXPECT_GE(blocks, repaired * 35);  // of 36 blocks: a flip costs at most one
 }
 
 TEST_F(ScanDamage, EveryByteOfTheHeaderAndTheFirstPages) {
@@ -129,8 +129,8 @@ TEST_F(ScanDamage, AHeaderOfZerosAndTablesThatAreNoneAreRepaired) {
     EXPECT_TRUE(SamePath(scan.value().path, path));
 }
 
-// A process that was killed: the journal holds the last checkpoints. Cut anywhere, what is left is
-// as of some checkpoint.
+// After a process is killed the journal holds the last checkpoints. If it is cut anywhere, the file
+// is in the state of one of the checkpoints.
 TEST_F(ScanDamage, ACutJournalIsAnEarlierCheckpoint) {
     std::string copy_from = folder / "d.scan";
     auto file = ScanFile::Create(copy_from, SmallMeta().Encode());

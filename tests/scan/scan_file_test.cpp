@@ -36,8 +36,8 @@ TEST(ScanFile, AnExistingFileIsNeverOverwritten) {
     EXPECT_EQ(ReadBytes(folder / "a.scan"), "mine");
 }
 
-// A killed run's file was removed, or moved, without its journal: SQLite would play that into the
-// new file.
+// The file of a killed run was removed or moved without its journal. SQLite would apply the journal
+// to the new file.
 TEST(ScanFile, TheJournalOfAFileThatIsGoneIsNotTakenForTheNewOnes) {
     TempFolder folder;
     WriteBytes(folder / "a.scan-wal", "of another");
@@ -58,7 +58,7 @@ TEST(ScanFile, TwoRunsCannotWriteIntoOne) {
     const auto second = ScanFile::OpenToWrite(folder / "a.scan");
     ASSERT_FALSE(second.ok());
     EXPECT_NE(second.message().find("another run"), std::string::npos) << second.message();
-    EXPECT_TRUE(ScanFile::OpenToRead(folder / "a.scan").ok());  // but looked at
+    EXPECT_TRUE(ScanFile::OpenToRead(folder / "a.scan").ok());  // reading is still possible
 }
 
 TEST(ScanFile, ATransactionThatIsNotCommittedIsNotThere) {
@@ -87,7 +87,7 @@ TEST(ScanFile, ATransactionThatIsNotCommittedIsNotThere) {
     EXPECT_EQ(keys, std::vector<std::int64_t>{0});
 }
 
-// Rows that SQLite finds nothing wrong with, but that are not what the last checkpoint left.
+// Rows that SQLite accepts but that differ from the last checkpoint.
 TEST(ScanFile, AMissingAnOldAndAStrangeRowAreFound) {
     TempFolder folder;
     WriteSmallScan(folder / "a.scan");
@@ -109,8 +109,8 @@ TEST(ScanFile, AMissingAnOldAndAStrangeRowAreFound) {
     }
 }
 
-// A write that the disk lost: each row is sound by itself, but one is of an earlier checkpoint.
-// Only the seal knows.
+// A write lost by the disk: each row is valid by itself, but one belongs to an earlier checkpoint.
+// Only the seal shows it.
 TEST(ScanFile, ARowOfAnEarlierCheckpointIsFound) {
     TempFolder folder;
     WriteSmallScan(folder / "old.scan", 12, 1);
@@ -128,7 +128,8 @@ TEST(ScanFile, ARowOfAnEarlierCheckpointIsFound) {
     }
     const auto scan = ReadScan(folder / "a.scan", {});
     ASSERT_FALSE(scan.ok());
-    EXPECT_NE(scan.message().find("some are old"), std::string::npos) << scan.message();
+    EXPECT_NE(scan.message().find("some rows are out of date"), std::string::npos)
+        << scan.message();
 }
 
 TEST(ScanFile, WhatIsNoScanIsRefusedInOneLine) {

@@ -10,7 +10,7 @@ namespace tessera {
 namespace {
 
 TEST(Crc64, IsCrc64Xz) {
-    const std::string text = "123456789";  // the catalogue's check value
+    const std::string text = "123456789";  // the check value published for this CRC
     const std::span bytes(reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
     EXPECT_EQ(Crc64(bytes), 0x995dc9bbdf1939faull);
     EXPECT_EQ(Crc64(bytes.subspan(4), Crc64(bytes.first(4))), Crc64(bytes));
@@ -48,7 +48,7 @@ TEST(ScanRow, ABlocksKeyIsItsCoordinate) {
                 keys.insert(BlockKey(c));
             }
     EXPECT_EQ(keys.size(), 7u * 7 * 7);
-    // The eight blocks of an even cube follow each other.
+    // The keys of the eight blocks of an even cube are consecutive.
     EXPECT_EQ(BlockKey({5, 7, 9}) - BlockKey({4, 6, 8}), 7);
 }
 

@@ -1,5 +1,5 @@
-// A small scan file with known content: blocks of hashed voxels, a path, states; written in several
-// checkpoints.
+// A small scan file with known content (blocks of random voxels, a path and states), written in
+// several checkpoints.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -49,8 +49,8 @@ inline PathRecord RecordOfFrame(int i) {
     return record;
 }
 
-// `blocks` blocks and 10 frames a checkpoint, `checkpoints` of them; each also writes the first
-// block anew.
+// Writes `checkpoints` checkpoints with `blocks` new blocks and 10 frames each. Each later
+// checkpoint also rewrites the first block.
 inline std::unique_ptr<BlockMap> WriteSmallScan(const std::string& path, int blocks = 12,
                                                 int checkpoints = 3) {
     auto owned =
@@ -90,7 +90,7 @@ inline bool SameBlock(const BlockMap& a, BlockId id_a, const BlockMap& b, BlockI
            std::memcmp(a.colour(id_a), b.colour(id_b), kBlockVoxels * sizeof(ColourWord)) == 0;
 }
 
-// Also the blocks' numbers.
+// Compares the block ids too.
 inline bool SameMap(const BlockMap& a, const BlockMap& b) {
     if (a.size() != b.size()) return false;
     for (BlockId id = 1; id < a.size(); ++id)

@@ -9,7 +9,7 @@ namespace {
 
 using namespace testing_support;
 
-// A room with a ball, seen from some places.
+// A room with a ball, fused from several views.
 std::unique_ptr<BlockMap> WriteRoom(const std::string& path) {
     auto map =
         std::make_unique<BlockMap>(BlockMap::Config{.voxel_size_m = 0.02, .truncation_m = 0.08});
@@ -56,8 +56,8 @@ TEST(StoredMesh, IsThatOfTheWholeMap) {
     }
 }
 
-// Two blocks of one number, and one of a number beyond all: what would be counted by it is bounded
-// by what is there.
+// Two blocks with the same number, or one with a number larger than any. Array sizes must be
+// bounded by the number of blocks in the file.
 TEST(StoredMesh, NumbersThatNoMapHasAreRefused) {
     for (const std::int32_t number :
          {1, 0, 2'000'000'000, std::numeric_limits<std::int32_t>::max()}) {

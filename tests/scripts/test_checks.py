@@ -1,4 +1,4 @@
-"""The checks of scripts/ find what they are there to find: each case is a small tree with one offence."""
+"""Tests of the checks in scripts/. Each case is a small source tree with one violation."""
 import pathlib
 import sys
 import tempfile

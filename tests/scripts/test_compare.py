@@ -1,4 +1,4 @@
-"""bench/compare: reading cameras and pairs, quaternions, bad input; what needs neither Open3D nor a run of tessera."""
+"""Tests of bench/compare that need neither Open3D nor a run of tessera: cameras, pairs, quaternions, bad input."""
 import importlib.machinery
 import importlib.util
 import math

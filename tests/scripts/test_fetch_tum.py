@@ -1,4 +1,4 @@
-"""scripts/fetch_tum.sh against file:// addresses: whole, broken off and resumed, wrong, misnamed. No network."""
+"""Tests of scripts/fetch_tum.sh with file:// URLs and no network: complete, resumed, wrong and misnamed downloads."""
 import hashlib
 import os
 import pathlib
@@ -61,7 +61,7 @@ class FetchTum(unittest.TestCase):
         self.to.mkdir()
         part = self.to / f"{NAME}.tgz.part"
         part.write_bytes(self.archive.read_bytes()[:40_000])
-        # The server's first part is now another: only a download that goes on yields the right file.
+        # The start of the file on the server has changed, so only a resumed download gives the right file.
         expected = self.sha256()
         self.archive.write_bytes(bytes(40_000) + self.archive.read_bytes()[40_000:])
         done = self.fetch("fr1/desk", known=expected)

@@ -1,5 +1,5 @@
-"""scripts/reproduce: the Markdown of canned figures, the own ATE against `tessera eval ate`, job reuse, the model of
-[D18] table 3, what generality judges, and two tables from end to end on a few frames. Usage: test_reproduce.py TESSERA
+"""Tests of scripts/reproduce: Markdown from fixed results, its own ATE against `tessera eval ate`, job reuse, the model
+of [D18] table 3, the generality criteria, and two tables end to end on a few frames. Usage: test_reproduce.py TESSERA
 """
 import io
 import json
@@ -54,7 +54,7 @@ class Markdown(unittest.TestCase):
 
 class Trajectories(Folder):
     def walk(self, noise):
-        """A random walk and an estimate of it: turned, moved, noisy, its clock off by less than the pairing allows."""
+        """A random walk and an estimate of it: rotated, shifted and noisy, with clock errors within the pairing limit."""
         rng = random.Random(7)
         turn, offset = (0.1, 0.7, -0.5, 0.5), (3.0, -2.0, 0.5)
         norm = math.sqrt(sum(k * k for k in turn))
@@ -159,9 +159,9 @@ class Generality(Folder):
                                          ((0.010, 1.0), (0.0151, 1.0), True),
                                          ((0.001, 1.0), (0.0019, 1.0), False),       # less than a millimetre
                                          ((0.010, 1.0), (0.010, 0.97), True),
-                                         ((0.010, 0.5), (0.010, 0.495), False),      # of what the defaults fuse
+                                         ((0.010, 0.5), (0.010, 0.495), False),      # relative to the defaults
                                          ((0.010, 1.0), (math.nan, 1.0), True),
-                                         ((0.300, 1.0, 1), (0.900, 1.0), False),     # ATE is chance
+                                         ((0.300, 1.0, 1), (0.900, 1.0), False),     # degenerate: ATE is random
                                          ((0.300, 1.0, 1), (0.300, 0.5), True)):
             self.assertEqual(self.change(default, changed).breaks(), breaks, (default, changed))
 
@@ -184,7 +184,7 @@ class Generality(Folder):
         self.assertRegex(text, r"\| corner_kinect \| \d\.\d\d \| \d\.\d\d \| \d\.\d\d \| (yes|no) \|\n")
         self.assertRegex(text, r"\| `mapping.voxel_size_m` \| \d\.\d\d \| [+-]\d\.\d\d \| corner_kinect, [x/] 1.5 \| \+0.0 \| – \| 0 \|\n")
         self.assertIn("- 11 runs.\n", text)
-        self.assertNotIn("voxel_size_m=", text)  # of the commands only the defaults'
+        self.assertNotIn("voxel_size_m=", text)  # only the commands of the defaults are listed
         self.assertFalse(list(self.root.rglob("mesh.ply")))
 
 

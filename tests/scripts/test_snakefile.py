@@ -1,4 +1,4 @@
-"""scripts/Snakefile plans one run per sequence and alpha and one table, and makes nothing while it plans.
+"""Checks that scripts/Snakefile plans one run per sequence and alpha and one table, and that planning writes nothing.
 Usage: test_snakefile.py TESSERA
 """
 import pathlib
@@ -21,7 +21,7 @@ class Snakefile(unittest.TestCase):
                  f"tessera={TESSERA}", f"out={folder}/out", "preset=default", "only=corner_kinect,floor_kinect"],
                 capture_output=True, text=True, check=False)
             self.assertEqual(done.returncode, 0, done.stderr)
-            # Two sequences: each is made once, then run at eleven alphas and at auto.
+            # Two sequences. Each is rendered once, then run at eleven alphas and at auto.
             self.assertRegex(done.stdout + done.stderr, re.compile(r"^job +26\b", re.MULTILINE))
             self.assertFalse((pathlib.Path(folder) / "out").exists())
 

@@ -1,4 +1,4 @@
-// A box on a table, seen at a slant, with exact and with noisy depth.
+// A box on a table, seen at an angle, with exact and with noisy depth.
 #include "semantics/depth_segment.h"
 
 #include <gtest/gtest.h>
@@ -18,8 +18,8 @@ struct View {
     PixelBox box{160, 120, 0, 0};
 };
 
-// The camera looks down at 45 degrees onto the plane y' = 0.7 (y' down); a box of 20 x 10 x 20 cm
-// stands on it. With `behind`, a wall far behind the table.
+// The camera looks down at 45 degrees onto the plane y' = 0.7 (y' down). A box of 20 x 10 x 20 cm
+// stands on it.
 View TableAndBox(double noise_m) {
     View view;
     std::mt19937 random(3);
@@ -67,7 +67,7 @@ TEST(DepthSegment, TheTableIsLeftOut) {
         EXPECT_GT(Iou(view, mask), 0.88) << noise_m;
         const double segment = Iou(view, mask);
         SegmentByMeanDepth(view.depth_m, view.box, mask);
-        EXPECT_GT(segment, Iou(view, mask) + 0.1) << noise_m;  // the paper's rule
+        EXPECT_GT(segment, Iou(view, mask) + 0.1) << noise_m;  // the rule used in the paper
     }
 }
 
@@ -121,7 +121,7 @@ void MakeWall(BlockMap& map) {
 
 const Image<std::uint8_t> kNothing(160, 120, 0);
 
-// Exactly the voxels within the band get one vote each.
+// Exactly the voxels within the truncation band get one vote each.
 TEST(VoteLabels, OnlyTheBandAroundTheSurface) {
     BlockMap map(kVoxels);
     MakeWall(map);
@@ -155,8 +155,8 @@ TEST(VoteLabels, OnlyTheBandAroundTheSurface) {
     EXPECT_GT(voxels, 500);
 }
 
-// The instance of a voxel in the middle after each of these frames: first claim and second claim of
-// all pixels, two ballots.
+// `vote` casts the same claims for all pixels, `times` times, and returns the instance of a voxel
+// in the middle. Each pixel has a first and a second claim on two ballots.
 TEST(VoteLabels, AVoxelsHolderCounts) {
     BlockMap map(kVoxels);
     MakeWall(map);
@@ -174,14 +174,16 @@ TEST(VoteLabels, AVoxelsHolderCounts) {
         return voxel.instance;
     };
     EXPECT_EQ(vote(6, 1, 0, {{5, 1}, {5, 2}}), 1);
-    // Claimed by 2, which covers the undetected 1: nothing changes.
+    // Claimed by 2, which covers the undetected 1: no change.
     EXPECT_EQ(vote(20, 2, 0, {{}, {5, 2, true, {1}}}), 1);
     EXPECT_EQ(voxel.instance_count, 6);
     EXPECT_EQ(voxel.count[0], 6);
-    // Claimed by both: by the one that holds it, if the other one has voxels of its own.
+    // Claimed by both: the vote goes to the instance that holds the voxel, if the other one has
+    // voxels of its own.
     EXPECT_EQ(vote(20, 2, 1, {{5, 1, true}, {5, 2, true}}), 1);
     EXPECT_EQ(voxel.instance_count, 26);
-    // Claimed by 2 alone, while 1 is seen elsewhere: three votes at once. 1 not seen at all: one.
+    // Claimed by 2 alone while 1 is seen elsewhere: three votes each. If 1 is not seen at all: one
+    // vote.
     EXPECT_EQ(vote(8, 2, 0, {{5, 1, true}, {5, 2, true}}), 1);
     EXPECT_EQ(voxel.instance_count, 2);
     EXPECT_EQ(vote(1, 2, 0, {{}, {5, 2, true}}), 1);

@@ -30,9 +30,9 @@ TEST(DetectionsFile, ByTheColourImagesStamp) {
     EXPECT_EQ(early[0].name, "cup");
     EXPECT_EQ(early[0].box, (DetectionBox{1, 2, 3, 4}));
     EXPECT_EQ(early[1].name, "tv");
-    frame.colour_stamp_s = 1000.2;  // nothing: then the depth image's
+    frame.colour_stamp_s = 1000.2;  // no detections, so those of the depth image are used
     EXPECT_EQ(file.value()->Detect(frame).value().size(), 1u);
-    frame.stamp_s = 1000.016;  // between two frames: neither's
+    frame.stamp_s = 1000.016;  // between two frames, so it matches neither
     EXPECT_TRUE(file.value()->Detect(frame).value().empty());
     frame.stamp_s = frame.colour_stamp_s = 2000;
     EXPECT_TRUE(file.value()->Detect(frame).value().empty());

@@ -1,5 +1,5 @@
-// A published network on a real image, and files that are none. They are not part of the project:
-// see README, "Data".
+// Tests of a published network on a real image, and of invalid files. The data is not part of the
+// project: see README, "Data".
 #include "semantics/dnn_detector.h"
 
 #include <gtest/gtest.h>
@@ -25,7 +25,7 @@ const std::string kModel = SharedPath("models/yolox_nano.onnx");
 class DnnDetectorTest : public testing::Test {
   protected:
     void SetUp() override {
-        if (!HasDnn()) GTEST_SKIP() << "this build has no networks";
+        if (!HasDnn()) GTEST_SKIP() << "this build has no networks: install libopencv-dnn-dev";
         if (!std::filesystem::exists(kModel))
             GTEST_SKIP() << kModel
                          << " is absent: YOLOX-nano as ONNX, from the YOLOX project's releases";
@@ -64,7 +64,7 @@ TEST_F(DnnDetectorTest, FindsTheDesksThings) {
     EXPECT_FALSE(detector.value()->Detect(frame).ok());
 }
 
-// A field of a protocol buffer: bytes, or a number.
+// A protocol buffer field that holds bytes or a number.
 std::string Field(int number, const std::string& bytes) {
     std::string text;
     text.push_back(static_cast<char>(number << 3 | 2));
@@ -77,7 +77,7 @@ std::string Field(int number, int value) {
     return text + static_cast<char>(value);
 }
 
-// ONNX: one Relu, whose output has its input's shape.
+// An ONNX network with a single Relu, whose output has the shape of its input.
 std::string ReluNetwork(int side) {
     const auto value = [&](const std::string& name) {
         std::string shape;
@@ -91,7 +91,7 @@ std::string ReluNetwork(int side) {
 }
 
 TEST(UnknownNetwork, IsOneLineWithItsShapes) {
-    if (!HasDnn()) GTEST_SKIP() << "this build has no networks";
+    if (!HasDnn()) GTEST_SKIP() << "this build has no networks: install libopencv-dnn-dev";
     TempFolder folder;
     std::ofstream(folder / "relu.onnx", std::ios::binary) << ReluNetwork(64);
     LabelConfig config;
@@ -118,7 +118,7 @@ TEST_F(DnnDetectorTest, WhatIsNoNetworkIsOneLine) {
     ExpectRefused(folder / "a.cfg", {}, "a.weights");
     LabelConfig config;
     config.names = folder / "names.txt";
-    ExpectRefused(kModel, config, "knows 80 classes");
+    ExpectRefused(kModel, config, "has 80 classes");
     config = {};
     config.family = ModelFamily::kYolov8;
     ExpectRefused(kModel, config, "labels.family");

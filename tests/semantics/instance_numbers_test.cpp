@@ -1,4 +1,4 @@
-// Objects keep their numbers when a corrected map is made (Instances::KeepNumbersOf).
+// Objects keep their numbers when the map is rebuilt (Instances::KeepNumbersOf).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 namespace tessera {
 namespace {
 
-// Two objects seen one after the other, each detection with a mark of its own.
+// Two objects seen one after the other. Each detection has its own mark.
 Instances TwoObjects(const std::vector<std::uint64_t>& first,
                      const std::vector<std::uint64_t>& second, bool swapped) {
     Instances instances({.min_observations = 3, .min_rate = 0.3});
@@ -66,11 +66,11 @@ TEST(InstanceNumbers, OneThatIsConfirmedLaterStillGetsItsNumber) {
     EXPECT_EQ(NumberOfClass(after, 6), 2);
     Instances strangers = TwoObjects({}, {11, 21, 31}, false);
     strangers.KeepNumbersOf(before);
-    EXPECT_EQ(NumberOfClass(strangers, 6), 3);  // 1 and 2 were others
+    EXPECT_EQ(NumberOfClass(strangers, 6), 3);  // 1 and 2 belong to other objects
 }
 
-// Two of a class, five metres apart, each seen eight times while the map shows neither, as `marks`
-// say.
+// Two objects of a class, five metres apart, each seen eight times while the map shows neither. The
+// marks of their detections start at `marks`.
 std::array<InstanceId, 2> Parts(Instances& instances, const std::array<std::uint64_t, 2>& marks) {
     std::array<InstanceId, 2> parts{};
     for (std::size_t part : {0u, 1u}) {
@@ -85,7 +85,7 @@ std::array<InstanceId, 2> Parts(Instances& instances, const std::array<std::uint
     return parts;
 }
 
-// They turn out to be one, of which the map shows `share`.
+// Joins the two parts, of which the map shows the fraction `share`.
 void Join(Instances& instances, const std::array<InstanceId, 2>& parts, double share) {
     ObservedObject both = Seen(5, {{parts[0], 50}, {parts[1], 48}}, static_cast<int>(55 / share));
     both.mark = 1;
@@ -99,7 +99,7 @@ TEST(InstanceNumbers, WhatWasJoinedIsKnownByTheDetectionsOfBoth) {
     const auto parts = Parts(before, {100, 200});
     Join(before, parts, 1.0);
     ASSERT_EQ(before.record(parts[0]).public_id, 2);
-    // Detections of the part that is gone.
+    // Detections of the part that was merged into the other.
     Instances after = TwoObjects({}, {200, 201, 202}, false);
     after.KeepNumbersOf(before);
     EXPECT_EQ(NumberOfClass(after, 6), 2);

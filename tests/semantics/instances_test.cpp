@@ -39,14 +39,15 @@ TEST(Instances, AWrongClassIsAVoteAndNotAnotherObject) {
     EXPECT_EQ(instances.ClassOf(id), 5);
     EXPECT_EQ(instances.last(), id);
     for (int i = 0; i < 20; ++i) instances.Match({Seen(4, {{id, 90}})}, {{id, {95}}});
-    EXPECT_EQ(instances.ClassOf(id), 4);  // more votes in the end
+    EXPECT_EQ(instances.ClassOf(id), 4);  // the new class has more votes in the end
     EXPECT_EQ(instances.record(id).public_id, 1);
 }
 
 TEST(Instances, ABusyRegionThatFitsNothingSaysNothing) {
     Instances instances({});
     const InstanceId a = Confirmed(instances, 5), b = Confirmed(instances, 5);
-    // Half on one, half on another large object of its class: neither of them nor a new one.
+    // Half on one and half on another large object of its class: it matches neither and creates no
+    // new object.
     EXPECT_EQ(instances.Match({Seen(5, {{a, 35}, {b, 30}})}, {{a, {1000}}, {b, {1000}}})[0], 0);
 }
 
@@ -57,8 +58,8 @@ TEST(Instances, WhatIsSeldomSeenIsDropped) {
     EXPECT_EQ(instances.Resolve(id), 0);
     const InstanceId kept = Confirmed(instances, 5);
     for (int i = 0; i < 100; ++i) instances.Match({}, {{kept, {95}}});
-    EXPECT_EQ(instances.Resolve(kept), kept);  // confirmed is confirmed,
-    EXPECT_FALSE(instances.stands(kept));      // but not shown
+    EXPECT_EQ(instances.Resolve(kept), kept);  // a confirmed object is kept,
+    EXPECT_FALSE(instances.stands(kept));      // but it is not shown
     for (int i = 0; i < 30; ++i) instances.Match({Seen(5, {{kept, 90}})}, {{kept, {95}}});
     EXPECT_TRUE(instances.stands(kept));
     EXPECT_EQ(instances.record(kept).public_id, 1);
@@ -93,8 +94,9 @@ Eigen::AlignedBox2d Pixels(double x_min, double y_min, double x_max, double y_ma
     return {Eigen::Vector2d(x_min, y_min), Eigen::Vector2d(x_max, y_max)};
 }
 
-// A book on a book: the lower one's box and segment hold both. In a frame where the upper one is
-// missed it is told by the outline, and the upper one keeps its voxels.
+// A book lies on another book. The box and segment of the lower one cover both. In a frame in which
+// the upper one is missed, the outline identifies the lower one, and the upper one keeps its
+// voxels.
 TEST(Instances, ADetectionIsTheOneWithItsOutlineAndSparesTheOneItCovers) {
     Instances instances({});
     const InstanceId upper = Confirmed(instances, 5), lower = Confirmed(instances, 5);
@@ -112,7 +114,8 @@ TEST(Instances, ADetectionIsTheOneWithItsOutlineAndSparesTheOneItCovers) {
     EXPECT_TRUE(instances.Covered(seen, visible, both).empty());
 }
 
-// All its voxels are still another's: it is known by its place, and not new in every frame.
+// All its voxels still belong to another object. It is recognised by its position instead of
+// becoming a new object in every frame.
 TEST(Instances, WhatTheMapDoesNotShowYetIsKnownByItsPlace) {
     Instances instances({});
     const InstanceId a = Confirmed(instances, 5);

@@ -15,7 +15,7 @@ const PinholeCamera kMapperCamera{
     .width = 160, .height = 120, .fx = 130, .fy = 130, .cx = 79.5, .cy = 59.5};
 constexpr Rgb8 kCup{1, 200, 3}, kBook{4, 5, 220};
 
-// A wall at 1 m that nobody measures again, and a detector's word on it.
+// A wall at 1 m that is not measured again, with detections on it.
 class LabelMapperTest : public ::testing::Test {
   protected:
     LabelMapperTest() {
@@ -42,7 +42,7 @@ class LabelMapperTest : public ::testing::Test {
                 colours.push_back(mapper->ColourOf(map, *mesh, vertex));
         return colours;
     }
-    // Renews what TakeRelabelled names, and expects all else to be as it was.
+    // Updates the blocks listed by TakeRelabelled, and expects all others to be unchanged.
     std::size_t Renew() {
         const std::vector<BlockId> relabelled = mapper->TakeRelabelled(map);
         for (const BlockId id : relabelled)
@@ -78,18 +78,18 @@ TEST_F(LabelMapperTest, WhatShowsDifferentlyIsNamedAlsoWhereNobodyVoted) {
         whole = Renew();
         EXPECT_EQ(CountOf(kCup) > 0, i + 1 >= config.min_observations) << i;
     }
-    EXPECT_EQ(Renew(), 0u);          // nothing was said since
+    EXPECT_EQ(Renew(), 0u);          // no votes since
     EXPECT_GT(CountOf(kCup), 2500);  // 80 x 60 pixels of 7.7 mm
     std::size_t most = 0, least = whole;
     for (int i = 0; i < 15; ++i) {
-        Label(2, 50);  // votes for the left part only
+        Label(2, 50);  // votes only for the left part
         const std::size_t named = Renew();
         most = std::max(most, named), least = std::min(least, named);
     }
-    EXPECT_EQ(CountOf(kCup), 0);  // the right part is of the same object
+    EXPECT_EQ(CountOf(kCup), 0);  // the right part belongs to the same object
     EXPECT_GT(CountOf(kBook), 2500);
     EXPECT_LT(least, whole);
-    EXPECT_EQ(most, whole);  // when it became a book
+    EXPECT_EQ(most, whole);  // in the frame in which it became a book
 }
 
 TEST_F(LabelMapperTest, LabelledVerticesAreThoseOfTheObject) {
@@ -101,7 +101,7 @@ TEST_F(LabelMapperTest, LabelledVerticesAreThoseOfTheObject) {
     ASSERT_EQ(objects.size(), 1u);
     EXPECT_EQ(objects[0].observations, 10);
     EXPECT_EQ(objects[0].vertices, CountOf(kCup));
-    // The middle of pixels 40 to 119 and 30 to 89.
+    // The centre of columns 40 to 119 and rows 30 to 89.
     EXPECT_NEAR(objects[0].centroid.x(), 0, 0.006);
     EXPECT_NEAR(objects[0].centroid.y(), 0, 0.006);
     EXPECT_NEAR(objects[0].centroid.z(), 1.003, 1e-4);
@@ -110,7 +110,7 @@ TEST_F(LabelMapperTest, LabelledVerticesAreThoseOfTheObject) {
     EXPECT_TRUE(mapper->TakeRelabelled(map).empty());
 }
 
-// Others' votes may leave so little of a false object.
+// Votes for other objects may leave this little of a false object.
 TEST_F(LabelMapperTest, ATenthOfWhatWasSeenIsNoObject) {
     for (int i = 0; i < 10; ++i) Label(1, 80);
     const TriangleMesh whole = mapper->LabelledVertices(map, mesher.block_meshes());

@@ -21,7 +21,8 @@ MapObject Cup() {
     return o;
 }
 
-// Two triangles that share an edge: the first the cup's, of the second one corner is not.
+// Two triangles that share an edge. The second belongs to the cup, the first has one corner that
+// does not.
 TriangleMesh TwoTriangles() {
     TriangleMesh mesh;
     mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}};

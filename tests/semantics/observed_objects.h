@@ -1,4 +1,4 @@
-// Objects as detections show them, for the tests of instances.
+// Observed objects for the tests of instances.
 #pragma once
 
 #include <map>
@@ -15,7 +15,7 @@ inline ObservedObject Seen(int class_id, std::map<InstanceId, int> overlaps = {}
     return {class_id, 0.9f, pixels, std::move(overlaps), kBox, {}, pixels};
 }
 
-// One object seen until it is confirmed, at a place of its own.
+// An object observed until it is confirmed, at its own position.
 inline InstanceId Confirmed(Instances& instances, int class_id) {
     ObservedObject seen = Seen(class_id);
     seen.box.translate(Eigen::Vector3d(2.0 * instances.last(), 0, 0));

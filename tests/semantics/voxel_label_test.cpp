@@ -23,7 +23,7 @@ TEST(VoxelLabel, TwoSlotsTheGreaterFirst) {
     EXPECT_EQ(v.class_id[1], 3);
     EXPECT_EQ(v.count[1], 2);
     EXPECT_EQ(ClassOf(v), 5);
-    EXPECT_EQ(ClassOf(After({3})), 0);  // one vote is none
+    EXPECT_EQ(ClassOf(After({3})), 0);  // a single vote does not count
     EXPECT_EQ(ClassOf(After({kBackgroundClass, kBackgroundClass})), 0);
 }
 
@@ -48,7 +48,7 @@ TEST(VoxelLabel, CountersSaturateAndTheSecondThenFades) {
     EXPECT_EQ(v.class_id[0], 1);
     EXPECT_EQ(v.count[0], 32);
     EXPECT_EQ(v.count[1], 255);
-    VoteForClass(2, v);  // eight times as many
+    VoteForClass(2, v);  // now eight times as many
     EXPECT_EQ(v.class_id[0], 2);
 }
 
@@ -62,14 +62,14 @@ TEST(VoxelLabel, AFifthOfWrongVotesFlipsNothingSettled) {
         EXPECT_EQ(After(votes, &flips).class_id[0], 1);
     }
     EXPECT_EQ(flips, 0);
-    std::vector<std::uint8_t> turned(20, 1);  // the count itself works: another class for good
+    std::vector<std::uint8_t> turned(20, 1);  // a lasting change of class does flip
     turned.insert(turned.end(), 160, 2);
     EXPECT_EQ(After(turned, &flips).class_id[0], 1);
     EXPECT_EQ(flips, 0);
     turned.push_back(2);
     EXPECT_EQ(After(turned, &flips).class_id[0], 2);
     EXPECT_EQ(flips, 1);
-    turned.assign(20, 1);  // background is told from objects by majority
+    turned.assign(20, 1);  // background is separated from objects by majority
     turned.insert(turned.end(), 21, kBackgroundClass);
     EXPECT_EQ(ClassOf(After(turned)), 0);
 }

@@ -7,7 +7,7 @@
 namespace tessera {
 namespace {
 
-// Input 32 px: 16 + 4 + 1 = 21 cells. Two classes.
+// An input of 32 px gives 16 + 4 + 1 = 21 cells. Two classes.
 constexpr int kInput = 32, kCells = 21;
 
 struct Outputs {
@@ -63,7 +63,7 @@ TEST(YoloOutputs, Yolov5CountsInPixels) {
 TEST(YoloOutputs, Yolov8ChannelsFirstWithMasks) {
     Outputs o;
     auto& v = o.Add({1, 4 + 2 + 32, kCells});
-    const float column[] = {10, 12, 4, 6, 0.1f, 0.6f, 1.0f};  // and the first mask's coefficient
+    const float column[] = {10, 12, 4, 6, 0.1f, 0.6f, 1.0f};  // the last is a mask coefficient
     for (int i = 0; i < 7; ++i) v[static_cast<std::size_t>(i * kCells + 5)] = column[i];
     auto& prototypes = o.Add({1, 32, 8, 8});
     std::fill_n(prototypes.begin(), 64, -1.0f);
@@ -112,7 +112,7 @@ TEST(YoloOutputs, NumbersThatAreNone) {
     const float rows[] = {0, 0, 100, 0, 1, 1, 0, nan, 0, 0, 0, 1, 1, 0, 0, 0, 0, 0, nan, 1, 0};
     std::copy(std::begin(rows), std::end(rows), v.begin());
     const auto layout = RecogniseOutputs(o.arrays, kInput, ModelFamily::kAuto);
-    // e^100 cells wide overflows.
+    // e^100 cells wide: the box overflows.
     EXPECT_TRUE(DecodeOutputs(layout.value(), o.arrays, 0.5f).empty());
 }
 

@@ -1,5 +1,5 @@
-// An exact little world for tests: the inside of a box with a smooth texture and perhaps a ball in
-// it. Renders depth and colour and knows its signed distance.
+// A synthetic scene with an exact solution: the inside of a box with a smooth texture and,
+// optionally, a ball. Renders depth and colour, and returns the exact signed distance.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -20,10 +20,10 @@ struct BoxRoom {
     bool has_ball = false;
     Eigen::Vector3d ball_centre{0.2, 0.1, 1.2};
     double ball_radius_m = 0.3;
-    double texture = 1.0;         // contrast; 0 is a room of one colour
-    bool only_back_wall = false;  // one plane, z = high.z(), and nothing else
+    double texture = 1.0;         // contrast; 0 gives a room of one colour
+    bool only_back_wall = false;  // only the plane z = high.z()
 
-    // Positive in the free inside of the room.
+    // Positive in the free space inside the room.
     double SignedDistance(const Eigen::Vector3d& p) const {
         if (only_back_wall) return high.z() - p.z();
         double d = std::min((p - low).minCoeff(), (high - p).minCoeff());
@@ -31,7 +31,7 @@ struct BoxRoom {
         return d;
     }
 
-    // Smooth in space: wavelengths of 15 to 60 cm.
+    // Smooth in space, with wavelengths of 15 to 60 cm.
     double Intensity(const Eigen::Vector3d& p) const {
         const double wave = std::sin(23 * p.x() + 11 * p.y()) +
                             std::sin(-9 * p.x() + 31 * p.y() + 13 * p.z()) +
@@ -39,8 +39,8 @@ struct BoxRoom {
         return 0.5 + texture * 0.13 * wave;
     }
 
-    // Distance along `ray` (any length) from `origin`, in units of the ray; both in the world
-    // frame.
+    // Distance along `ray` (any length) from `origin`, in units of the ray's length. Both are in
+    // the world frame.
     double Cast(const Eigen::Vector3d& origin, const Eigen::Vector3d& ray) const {
         double nearest = std::numeric_limits<double>::infinity();
         for (int axis = 0; axis < 3; ++axis) {
@@ -85,7 +85,7 @@ struct BoxRoom {
     }
 };
 
-// A smooth path with turns about and moves along every axis; pose i of a camera at 30 Hz.
+// Pose i of a camera at 30 Hz on a smooth path that rotates about and moves along every axis.
 inline Eigen::Isometry3d SmoothPath(int i, double speed = 1.0) {
     const double t = speed * i / 30.0;
     Vector6d twist;

@@ -1,4 +1,4 @@
-// The exact little world of the pipeline's tests as a source, painted in warm colours.
+// The box room as a frame source, painted in warm colours.
 #pragma once
 
 #include <functional>
@@ -11,10 +11,11 @@ namespace tessera::testing_support {
 class BoxRoomSource : public FrameSource {
   public:
     struct Options {
-        std::int64_t count = -1;  // -1: without end
-        bool live = false;        // says that it is a device
-        double speed = 1;         // of the camera
-        // What Read gives instead of the frame of that index, if it is not kOk; may wait.
+        std::int64_t count = -1;  // -1: endless
+        bool live = false;        // reports itself as a live device
+        double speed = 1;         // speed factor of the camera motion
+        // If this returns anything but kOk, Read returns it in place of the frame with that index.
+        // May block.
         std::function<ReadResult(std::int64_t index)> before_read = {};
     };
 

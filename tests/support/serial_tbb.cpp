@@ -1,7 +1,7 @@
-// Linked into the tests of ThreadSanitizer builds: TBB's loops run on the calling thread. Debian's
-// TBB is not built for ThreadSanitizer, which therefore cannot see that a loop ends before what
-// follows it, and reports every loop. The threads, queues and atomics of this project run as ever
-// and are watched.
+// Linked into the tests of ThreadSanitizer builds. Makes TBB loops run on the calling thread.
+// Debian's TBB is not built for ThreadSanitizer, so ThreadSanitizer cannot see that a loop ends
+// before the code after it runs, and would report every loop. The threads, queues and atomics of
+// this project still run in parallel and are checked.
 #include <tbb/global_control.h>
 
 namespace {

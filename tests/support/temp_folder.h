@@ -1,4 +1,5 @@
-// A folder of a test's own, gone with it: tests run side by side and must not share names.
+// A temporary folder that is deleted with its object. Tests run in parallel and must not share
+// names.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -12,7 +13,7 @@ namespace tessera {
 class TempFolder {
   public:
     TempFolder() : path_(::testing::TempDir() + "tessera_XXXXXX") {
-        if (mkdtemp(path_.data()) == nullptr) ADD_FAILURE() << "no temporary folder " << path_;
+        if (mkdtemp(path_.data()) == nullptr) ADD_FAILURE() << "cannot create folder " << path_;
     }
     ~TempFolder() {
         std::error_code ignored;
@@ -28,7 +29,7 @@ class TempFolder {
     std::string path_;
 };
 
-// One for the whole test program, which ctest starts anew for every test.
+// One folder for the whole test program. ctest starts a new process for every test.
 inline const std::string& ProcessFolder() {
     static const TempFolder folder;
     return folder.path();

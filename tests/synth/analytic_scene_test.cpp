@@ -24,7 +24,7 @@ double Area(const TriangleMesh& mesh) {
     return area;
 }
 
-// By the divergence theorem; positive only if the triangles face outwards.
+// Uses the divergence theorem. Positive only if the triangles face outwards.
 double Volume(const TriangleMesh& mesh) {
     double volume = 0;
     for (const auto& [a, b, c] : mesh.triangles)
@@ -69,7 +69,7 @@ TEST(AnalyticScene, TheReferenceMeshLiesOnTheSurface) {
             EXPECT_NEAR((ball.vertices[v].cast<double>() - centre).norm(), 0.35, 1e-6);
             middle += ball.vertices[v].cast<double>() / 3;
         }
-        EXPECT_GT((middle - centre).norm(), 0.35 - 0.001);  // chords stay within a millimetre
+        EXPECT_GT((middle - centre).norm(), 0.35 - 0.001);  // chords deviate by under 1 mm
         EXPECT_NEAR(*scene->SignedDistance(middle), 0, 0.001);
     }
 }

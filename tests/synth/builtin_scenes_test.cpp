@@ -16,9 +16,8 @@ TEST(BuiltinScenes, AnUnknownNameListsTheKnownOnes) {
     ASSERT_FALSE(scene.ok());
     EXPECT_EQ(
         scene.message(),
-        "'kitchen' is no built-in scene; there are desk, room, flat, corridor, floor, corner, "
-        "wall, people, chair, door, or give an .obj "
-        "file");
+        "'kitchen' is not a built-in scene; use one of desk, room, flat, corridor, floor, corner, "
+        "wall, people, chair, door, or give an .obj file");
 }
 
 TEST(BuiltinScenes, TheDeskHasItsObjects) {
@@ -35,7 +34,7 @@ TEST(BuiltinScenes, TheDeskHasItsObjects) {
     EXPECT_GE(classes.count("book"), 3u);
 }
 
-// A hand's motion: its speed, and that it stays outside of things.
+// The camera moves at the speed of a hand and keeps clear of the scene.
 TEST(BuiltinScenes, MotionsAreSmoothAndKeepClearOfTheScene) {
     for (const char* name : {"desk", "floor", "corner", "wall", "corridor", "flat"}) {
         const auto staged = MakeBuiltinScene(name);
@@ -68,8 +67,8 @@ TEST(BuiltinScenes, TheRoomsTurnEndsWhereItBegan) {
     EXPECT_LT(RotationAngle(first, last), 0.03);
 }
 
-// The mask is exact where the view without the movers differs from the one with them; the reference
-// holds none of them.
+// The mask marks exactly the pixels that change when the moving objects are removed. The reference
+// contains none of those objects.
 TEST(BuiltinScenes, WhatMovesIsMaskedAndNoPartOfTheReference) {
     const auto staged = MakeBuiltinScene("people");
     ASSERT_TRUE(staged.ok());

@@ -17,7 +17,7 @@ TEST(LookAt, ZPassesThroughTheTargetAndYPointsDown) {
     EXPECT_NEAR((T.linear() * Eigen::Vector3d::UnitY() - Eigen::Vector3d(0, 0, -1)).norm(), 0,
                 1e-12);
     EXPECT_NEAR(T.linear().determinant(), 1, 1e-12);
-    // Right of the view from south to north-east is south-east.
+    // With a view from the south towards the north-east, right is south-east.
     EXPECT_NEAR((T.linear() * Eigen::Vector3d::UnitX() - Eigen::Vector3d(0.8, -0.6, 0)).norm(), 0,
                 1e-12);
 }

@@ -20,7 +20,7 @@ CameraPath Still(const Eigen::Isometry3d& T_world_camera) {
 
 const PinholeCamera kCamera{96, 72, 90, 91, 47.5, 35.5};
 
-// A wall in the plane y = 2 with a red ball before it.
+// A wall in the plane y = 2 with a red ball in front of it.
 class WallAndBall : public testing::Test {
   protected:
     WallAndBall() {
@@ -39,7 +39,8 @@ class WallAndBall : public testing::Test {
 };
 
 TEST_F(WallAndBall, DepthIsAlongTheOpticalAxis) {
-    // Straight at the wall from 2 m: the same depth everywhere, though the rays' lengths differ.
+    // Seen head-on from 2 m, the wall has the same depth everywhere, although the ray lengths
+    // differ.
     RenderedView view;
     FrameRenderer(scene_, kCamera).Render(Still(LookAt({0, 0, 1}, {0, 2, 1})), 0, 0, view);
     EXPECT_FLOAT_EQ(view.depth_m(0, 0), 2.0f);
@@ -48,7 +49,7 @@ TEST_F(WallAndBall, DepthIsAlongTheOpticalAxis) {
                 1 / std::sqrt(1 + std::pow(47.5 / 90, 2) + std::pow(35.5 / 91, 2)), 1e-6);
 }
 
-// A shake to and fro about the vertical.
+// Oscillates about the vertical axis.
 Eigen::Isometry3d Shaken(double time_s) {
     return LookAt({0, 0, 1}, {0, 2, 1}) *
            Eigen::AngleAxisd(0.3 * std::sin(5 * time_s), Vector3d::UnitY());
@@ -59,7 +60,7 @@ TEST_F(WallAndBall, ARollingShutterReadsEachRowAtItsTime) {
     const CameraRig rig{.depth_readout_s = 0.02, .colour_readout_s = 0.03, .colour_delay_s = 0.01};
     RenderedView rolling, depth, colour;
     FrameRenderer(scene_, kCamera, rig).Render(path, 0.4, 0.008, rolling);
-    for (const int row : {0, 24, 68}) {  // of a band of four
+    for (const int row : {0, 24, 68}) {  // the first row of a band of four rows
         const double middle = (row + 1.5) / kCamera.height - 0.5;
         const FrameRenderer global(scene_, kCamera);
         global.Render(path, 0.4 + 0.02 * middle, 0.008, depth);

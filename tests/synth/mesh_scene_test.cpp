@@ -17,7 +17,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-// A picture of 2 m x 1 m in the plane z = 0: top left red, top right green, bottom left blue,
+// A 2 m x 1 m textured quad in the plane z = 0: top left red, top right green, bottom left blue,
 // bottom right white.
 class TexturedQuad : public testing::Test {
   protected:
@@ -108,7 +108,7 @@ TEST_F(TexturedQuad, AHitsPatchHoldsTheHit) {
         keep.at(static_cast<std::size_t>(scene_->PatchOf(hit))) = true;
         const TriangleMesh patch = scene_->PatchMesh(&keep);
         ASSERT_EQ(patch.triangles.size(), 1u);
-        // Inside: the three sub-triangles at p add up to the patch's area.
+        // If p is inside, the three sub-triangles at p add up to the area of the patch.
         const auto area = [](const Vector3d& a, const Vector3d& b, const Vector3d& c) {
             return 0.5 * (b - a).cross(c - a).norm();
         };

@@ -38,15 +38,15 @@ TEST(ObjModel, MissingMaterialsAreNoError) {
               static_cast<int>(model.value().materials.size()) - 1);
 }
 
-// Each ends in one line that names the file and the trouble.
+// Each case must give a one-line error that names the file and the problem.
 TEST(ObjModel, BadFilesAreRefusedInOneLine) {
     const std::pair<std::string, std::string> cases[] = {
-        {"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n", "names vertex 9, but there are 3"},
+        {"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n", "refers to vertex 9, but there are only 3"},
         {"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 -9\n", "bad"},
         {"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 2000000000\n", "bad"},
         {"v 0 0 0\nv 1 0 0\nv 0 1 0\n", "no triangles"},
         {"", "no triangles"},
-        {"v 0 0 0\nv 1e30 0 0\nv 0 1 0\nf 1 2 3\n", "no place in metres"},
+        {"v 0 0 0\nv 1e30 0 0\nv 0 1 0\nf 1 2 3\n", "check the model's units"},
         {"v 0 0 0\nv 1 0 0\nf 1 1 2\n", "no triangles"},
     };
     int number = 0;

@@ -41,8 +41,8 @@ TEST(SensorModel, NoneGivesTheTruth) {
     EXPECT_EQ(model.exposure_s(), 0);
 }
 
-// sigma_z = z^2 / (f b) * sqrt(sigma_d^2 + step^2 / 12), on a slope, where quantisation is spread
-// evenly.
+// sigma_z = z^2 / (f b) * sqrt(sigma_d^2 + step^2 / 12), on a slope, where the quantisation errors
+// are uniformly distributed.
 TEST(SensorModel, DepthNoiseGrowsWithTheSquareOfDepth) {
     const SensorModel::Config config = Kinect();
     const SensorModel model(config, kSensorCamera, 7);
@@ -100,7 +100,7 @@ TEST(SensorModel, NoDepthTooNearTooFarOrTooFlat) {
     RenderedView flat = FilledView(1.0f);
     flat.cos_incidence = Image<float>(160, 120, 0.15f);
     EXPECT_EQ(measured(flat), 0);
-    EXPECT_EQ(measured(FilledView(0.0f)), 0);  // nothing there
+    EXPECT_EQ(measured(FilledView(0.0f)), 0);  // nothing in view
 }
 
 TEST(SensorModel, TheProjectorsShadowFallsOnTheRightOfNearThings) {
@@ -112,7 +112,7 @@ TEST(SensorModel, TheProjectorsShadowFallsOnTheRightOfNearThings) {
         for (int x = 40; x < 60; ++x) view.depth_m(x, y) = 1.0f;
     DepthImage depth;
     model.SenseDepth(view, 0, depth);
-    // Shift between the two depths: f b (1 / 1 m - 1 / 2 m) = 131 * 0.075 / 2 = 4.9 px.
+    // Disparity between the two depths: f b (1 / 1 m - 1 / 2 m) = 131 * 0.075 / 2 = 4.9 px.
     for (int x = 60; x < 63; ++x) EXPECT_EQ(depth(x, 50), 0) << x;
     for (const int x : {30, 39, 40, 59, 66, 100}) EXPECT_GT(depth(x, 50), 0) << x;
 }

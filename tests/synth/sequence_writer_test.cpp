@@ -19,7 +19,7 @@
 namespace tessera {
 namespace {
 
-// A wall and two cups before it, one of them never in view.
+// A wall with a cup in front of it, and a second cup that is never in view.
 StagedScene TwoCups() {
     auto scene = std::make_unique<AnalyticScene>();
     Furnisher add(*scene);
@@ -111,9 +111,9 @@ TEST_F(WrittenSequence, TheReferenceIsTheSeenPartOnTheSurface) {
     const StagedScene staged = TwoCups();
     ASSERT_GT(reference.value().triangles.size(), 100u);
     for (const auto& v : reference.value().vertices) {
-        EXPECT_GT(v.y(), 0.5f);    // neither the cup behind the camera nor ...
-        EXPECT_LT(v.y(), 2.001f);  // ... the wall's other side
-        // The cup's handle reaches 3 mm into its side.
+        EXPECT_GT(v.y(), 0.5f);    // not the cup behind the camera
+        EXPECT_LT(v.y(), 2.001f);  // not the back of the wall
+        // The cup's handle reaches 3 mm into the cup's side.
         EXPECT_LT(*staged.scene->SignedDistance(v.cast<double>()), 1e-5);
         EXPECT_GT(*staged.scene->SignedDistance(v.cast<double>()), -0.004);
     }
@@ -151,7 +151,7 @@ TEST(SequenceWriter, AFolderThatCannotBeMadeIsAnError) {
     EXPECT_NE(summary.message().find("/proc/nowhere"), std::string::npos);
 }
 
-// The stated rates of the detector's mistakes, over many frames of one view.
+// Checks the stated error rates of the synthetic detector over many frames of one view.
 TEST(SeenObjects, DetectionsHaveTheirStatedMistakes) {
     AnalyticScene scene;
     Furnisher add(scene);

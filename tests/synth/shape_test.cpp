@@ -59,8 +59,8 @@ TEST(Shape, AHitLiesOnTheSurfaceAndNothingIsInFrontOfIt) {
             const Vector3d direction = (0.8 * Direction(i + 5000) - origin).normalized();
             const auto hit = Intersect(shape, origin, direction, 1e9);
             const double until = hit ? hit->t : 8.0;
-            // Sphere tracing along the exact distance never passes the surface: an independent
-            // oracle.
+            // Sphere tracing along the exact distance never passes the surface, which gives an
+            // independent reference.
             double t = 0, distance = 1;
             while (t < 8.0 && distance > 1e-9)
                 t += distance = SignedDistance(shape, origin + t * direction);
@@ -81,7 +81,7 @@ TEST(Shape, ChartsAndPointsAreInverseAndNormalsAreTheDistancesGradient) {
         for (int chart = 0; chart < ChartCount(shape.kind); ++chart) {
             const Vector2d size = ChartSize(shape, chart);
             for (int i = 1; i < 10; ++i) {
-                // Inside a cylinder's cap, which is a disc in its square.
+                // Inside a cylinder's cap, a disc within its square.
                 const Vector2d uv(size.x() * (0.2 + 0.06 * i), size.y() * (0.75 - 0.05 * i));
                 const Vector3d p = PointOnChart(shape, chart, uv);
                 EXPECT_NEAR((ChartPoint(shape, chart, p) - uv).norm(), 0, 1e-12);
@@ -91,7 +91,7 @@ TEST(Shape, ChartsAndPointsAreInverseAndNormalsAreTheDistancesGradient) {
                 EXPECT_NEAR(AlongNormal(shape, chart, p, Vector3d(1, 2, 3)),
                             normal.dot(Vector3d(1, 2, 3)), 1e-12);
                 EXPECT_NEAR(SignedDistance(shape, p + 0.01 * normal), 0.01, 1e-9);
-                // u to the right and v down, seen from outside: u x v points inwards.
+                // u points right and v down when seen from outside, so u x v points inwards.
                 const double h = 1e-6;
                 const Vector3d du = PointOnChart(shape, chart, uv + Vector2d(h, 0)) - p;
                 const Vector3d dv = PointOnChart(shape, chart, uv + Vector2d(0, h)) - p;

@@ -35,7 +35,7 @@ TEST(Texture, ClampContinuesTheBorderAndRepeatWraps) {
     EXPECT_FLOAT_EQ(clamped.Sample(7.0f, 0.25f, 0).r, 100);
     EXPECT_FLOAT_EQ(repeated.Sample(-0.25f, 0.25f, 0).r, 100);
     EXPECT_FLOAT_EQ(repeated.Sample(3.0f, 0.25f, 0).r,
-                    50);  // between the last column and the first
+                    50);  // halfway between the last and the first column
 }
 
 TEST(Texture, AWideFootprintGivesTheMean) {

@@ -1,6 +1,6 @@
-// The whole program's figures on sequences with ground truth: the defaults, every frame, SE(3)
-// alignment without scale. The bounds are the project's, not the present figures:
-// docs/benchmarks.md has those.
+// Accuracy of the whole program on sequences with ground truth: default settings, every frame,
+// SE(3) alignment without scale. The bounds are the project's requirements, not the current
+// results, which are in docs/benchmarks/README.md.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -57,7 +57,7 @@ RunSummary RunOn(const std::string& source, const std::string& out, std::int64_t
 
 class Recorded : public testing::Test {
   protected:
-    // The sequence's folder; skips the test where it is absent.
+    // Sets `sequence` to the folder of the sequence, and skips the test if it is absent.
     void Need(const std::string& name) {
         sequence = DataFolder(name);
         if (!fs::exists(sequence))
@@ -80,7 +80,7 @@ TEST_F(Recorded, Freiburg1RpyIsTrackedToTwoCentimetres) {
     EXPECT_LE(run.map.bytes_per_voxel, 12.0);
 }
 
-// Six frames a second; the camera turns by up to 22 degrees between two.
+// Six frames per second. The camera turns by up to 22 degrees between two frames.
 TEST_F(Recorded, Freiburg1RpyIsTrackedAtAFifthOfItsRate) {
     ASSERT_NO_FATAL_FAILURE(Need("tum_fr1_rpy"));
     if (IsSkipped()) return;
@@ -141,8 +141,8 @@ TEST_F(Recorded, GeometryAloneIsDegenerateOnAFloorAndSaysSo) {
     EXPECT_GT(run.ate->error_m.rmse, 0.05);
 }
 
-// A gate on a share of the Hessian's trace refused nearly all of these frames, and the frozen map
-// never came back.
+// A gate on a share of the Hessian's trace used to refuse nearly all of these frames, and the map
+// stayed frozen.
 TEST_F(Recorded, TeddyIsFusedFromItsFirstFrameToItsLast) {
     ASSERT_NO_FATAL_FAILURE(Need("tum_fr3_teddy_200"));
     if (IsSkipped()) return;
@@ -178,10 +178,10 @@ struct IcpCase {
 
 class IcpSequence : public Recorded, public testing::WithParamInterface<IcpCase> {};
 
-// [D18] section 3.2. InfiniTAM's best depth-only tracker has 36 mm on fr1_rpy. Where there is no
-// OpenGL, the rasteriser's place is taken by the ray caster, and the two runs agree for nothing.
-// Where nothing holds the camera (fr1 rpy, frames 38 to 58 with icp-rgb) they differ by chance, up
-// to 15 mm: so their medians are compared.
+// [D18] section 3.2. InfiniTAM's best depth-only tracker reaches 36 mm on fr1_rpy. Without OpenGL
+// the ray caster replaces the rasteriser, so the comparison of the two runs is trivial. Where the
+// pose is undetermined (fr1 rpy, frames 38 to 58 with icp-rgb) the runs differ randomly by up to 15
+// mm, so their medians are compared.
 TEST_P(IcpSequence, MeetsItsBoundFromEitherPrediction) {
     ASSERT_NO_FATAL_FAILURE(Need(GetParam().name));
     if (IsSkipped()) return;
@@ -218,8 +218,8 @@ INSTANTIATE_TEST_SUITE_P(All, IcpSequence,
                                                                                : "_icp_rgb");
                          });
 
-// What nothing shows follows the prealignment, which sees the texture; the floor is mapped all the
-// same.
+// Undetermined motions follow the prealignment, which uses the texture, so the floor is still
+// mapped correctly.
 TEST_F(Recorded, IcpOnAFloorIsDegenerateAndWithColourItIsHeld) {
     ASSERT_NO_FATAL_FAILURE(Need("house_floor"));
     if (IsSkipped()) return;
@@ -234,14 +234,14 @@ TEST_F(Recorded, IcpOnAFloorIsDegenerateAndWithColourItIsHeld) {
     EXPECT_LE(with_colour.ate->error_m.rmse, 0.002);
 }
 
-// How far a motion takes the points a metre ahead, at most.
+// Upper bound on how far a motion moves points at a distance of 1 m.
 double MotionSize(const Eigen::Isometry3d& T) {
     return T.translation().norm() + RotationAngle(T, Eigen::Isometry3d::Identity()) * 1.0;
 }
 
-// A switch is no jump: from the frame before to the frame of the switch the path moves as the truth
-// does, up to less than what the camera moves in one frame. (The methods' own estimates may lie a
-// centimetre apart.)
+// A switch must not make the path jump. From the frame before the switch to the frame of the switch
+// the path may deviate from the true motion by less than the camera moves in one frame. (The
+// estimates of the methods may differ by a centimetre.)
 TEST_F(Recorded, SwitchingMethodsKeepsPoseAndMap) {
     ASSERT_NO_FATAL_FAILURE(Need("tum_fr1_rpy"));
     if (IsSkipped()) return;
@@ -255,11 +255,11 @@ TEST_F(Recorded, SwitchingMethodsKeepsPoseAndMap) {
     ASSERT_TRUE(run.ok()) << run.message();
     EXPECT_EQ(run.value().counts.tracked, 694);
     ASSERT_TRUE(run.value().ate.has_value());
-    EXPECT_LE(run.value().ate->error_m.rmse, 0.025);  // icp alone, the worst of the three
+    EXPECT_LE(run.value().ate->error_m.rmse, 0.025);  // of icp, the worst of the three
     const auto truth = ReadTrajectory(sequence + "/groundtruth.txt");
     const auto path = ReadTrajectory(folder / "out/trajectory.txt");
     ASSERT_TRUE(truth.ok() && path.ok());
-    // Of the truth; how far off the path is.
+    // The size of the true motion, and the deviation of the path from it.
     const auto motion_at = [&](std::size_t i) -> std::pair<double, double> {
         const StampedPose &before = path.value().poses[i - 1], &after = path.value().poses[i];
         const auto true_before = InterpolatePose(truth.value().poses, before.stamp_s);
@@ -277,7 +277,8 @@ TEST_F(Recorded, SwitchingMethodsKeepsPoseAndMap) {
     }
 }
 
-// [D18] Table 1: 4.3 mm and 0.08 degrees on noise-free synthetic frames; here at most a millimetre.
+// [D18] Table 1 reports 4.3 mm and 0.08 degrees on noise-free synthetic frames. The bound here is 1
+// mm.
 TEST(Synthetic, NoiseFreeDeskIsTrackedToAMillimetre) {
     TempFolder folder;
     const RunSummary run = RunOn("synthetic:desk", folder / "out", 1, 0, 60);

@@ -1,4 +1,4 @@
-// An engine on the exact little world, its outcomes counted.
+// Runs an engine on the box room and stores its outcomes.
 #pragma once
 
 #include <fmt/format.h>
@@ -44,7 +44,7 @@ class EngineTest : public testing::Test {
             engine = std::make_unique<LockstepEngine>(Input(options));
     }
 
-    // The next outcome, also kept; false at the end.
+    // Takes and stores the next outcome. Returns false at the end.
     bool Next() {
         FrameOutcome outcome;
         if (!engine->Next(outcome)) return false;
@@ -71,8 +71,8 @@ class EngineTest : public testing::Test {
     }
     void Ask(Command kind, const std::string& path = {}) { viewer->commands.Push({kind, path}); }
 
-    // Everything that a person can ask for but a stop, with a window that takes what it is sent
-    // only now and then.
+    // Sends random commands, all kinds except stop, while a simulated window reads its queues only
+    // occasionally.
     void AskAtRandomToTheEnd(const TempFolder& folder) {
         std::mt19937 random(7);
         int saved = 0;
@@ -104,7 +104,7 @@ class EngineTest : public testing::Test {
         }
     }
 
-    // Off the true pose, in the world of the first camera.
+    // Distance from the true position, in the world of the first camera.
     static double Error_m(const FrameReport& report, double speed = 1) {
         const Eigen::Isometry3d truth =
             testing_support::SmoothPath(0, speed).inverse() *

@@ -1,4 +1,4 @@
-// A source of frames that a test has put together, at 30 Hz.
+// A source that returns a given list of frames at 30 Hz.
 #pragma once
 
 #include "io/frame_source.h"

@@ -7,7 +7,8 @@
 namespace tessera {
 namespace {
 
-// Answers for a while, then breaks, with an error or against its word with an exception.
+// Returns detections for a while, then fails with an error or, against its contract, with an
+// exception.
 class BreakingDetector : public Detector {
   public:
     BreakingDetector(int good, bool throws) : good_(good), throws_(throws) {}
@@ -38,7 +39,7 @@ Labelling Breaking(int good, bool throws) {
     return {std::move(detector), std::move(classes)};
 }
 
-// Sees a person in the middle of each frame, and a cup that the person holds.
+// Detects a person in the middle of each frame, and a cup that the person holds.
 class PersonDetector : public Detector {
   public:
     Result<std::vector<Detection>> Detect(const Frame& frame) override {
@@ -95,11 +96,11 @@ TEST_P(LabellingStageTest, SaysOnceThatTheDetectorBroke) {
     LabelReport report;
     std::string message;
     EXPECT_TRUE(stage.Detect({}, report, message));
-    ASSERT_EQ(report.detections.size(), 1u);  // wanted and probable
+    ASSERT_EQ(report.detections.size(), 1u);  // only the wanted class above the minimum probability
     EXPECT_EQ(report.detections[0].class_id, 1);
     EXPECT_TRUE(message.empty());
     EXPECT_FALSE(stage.Detect({}, report, message));
-    EXPECT_NE(message.find("labelling stops"), std::string::npos) << message;
+    EXPECT_NE(message.find("labelling has stopped"), std::string::npos) << message;
     EXPECT_FALSE(stage.Detect({}, report, message));
     EXPECT_TRUE(message.empty());
 }
@@ -122,11 +123,11 @@ TEST_P(LabellingStageTest, LiveTheScanGoesOn) {
     EXPECT_TRUE(engine->status().ok());
     EXPECT_EQ(Count(Kind::kFrame) + Count(Kind::kDropped), 20);
     EXPECT_EQ(Labelled(), 0);
-    EXPECT_LE(TimesSaid(), 1);  // none if the end comes before the answer
+    EXPECT_LE(TimesSaid(), 1);  // no message if the run ends before the detector returns
     EXPECT_GT(engine->TakeMesh().triangles.size(), 1000u);
 }
 
-// 20 frames are two thirds of a second by their stamps, however fast they come.
+// By their stamps, 20 frames span two thirds of a second, however fast they arrive.
 TEST_P(LabellingStageTest, LiveOnlySoManyFramesASecondAreDetectedIn) {
     config.live.queue_frames = 30;
     config.labels.max_rate_hz = 2;
@@ -137,7 +138,7 @@ TEST_P(LabellingStageTest, LiveOnlySoManyFramesASecondAreDetectedIn) {
     EXPECT_LE(Labelled(), 2);
 }
 
-// However still who stands there stands, and from the first frame on.
+// A person is masked from the first frame on, even when standing still.
 TEST_F(EngineTest, WhatADetectorCallsAPersonIsNotFusedInLockstep) {
     EngineInput input = Input({.count = 12});
     input.labelling = Person();
@@ -151,7 +152,7 @@ TEST_F(EngineTest, WhatADetectorCallsAPersonIsNotFusedInLockstep) {
         EXPECT_EQ(moving(moving.width() / 2, moving.height() / 2), 1) << o.report.index;
         EXPECT_EQ(moving(moving.width() / 12, moving.height() / 12), 0) << o.report.index;
         ASSERT_TRUE(o.labels.has_value()) << o.report.index;
-        ASSERT_EQ(o.labels->detections.size(), 1u) << o.report.index;  // the person is no object
+        ASSERT_EQ(o.labels->detections.size(), 1u) << o.report.index;  // without the person
         EXPECT_EQ(o.labels->detections[0].name, "cup");
     }
 }

@@ -1,5 +1,6 @@
-// Labels end to end against per-pixel truth: a built-in scene, and a rendered sequence with its
-// detections file, each with the mistakes as given and with 20 % wrong and 30 % missed.
+// End-to-end tests of labelling against per-pixel ground truth, on a built-in scene and on a
+// rendered sequence with its detections file. Each runs with the given detection errors, and with
+// 20 % wrong and 30 % missed.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -21,13 +22,13 @@ namespace {
 
 struct Mistakes {
     double missed, wrong, least_accuracy;
-    std::size_t least_objects;  // of the synthetic desk's 11
+    std::size_t least_objects;  // of the 11 objects of the synthetic desk
 };
 constexpr Mistakes kGiven{0.1, 0.03, 0.95, 11}, kHard{0.3, 0.2, 0.9, 10};
 
 class LabelsTest : public testing::Test {
   protected:
-    // Labels the source; the scores against `truth`.
+    // Labels the source and returns the scores against `truth`.
     LabelScores Score(const std::string& source, const std::string& labels,
                       const std::string& truth) {
         RunRequest request;
@@ -49,7 +50,7 @@ class LabelsTest : public testing::Test {
         EXPECT_TRUE(scores.ok()) << scores.message();
         return scores.ok() ? scores.value() : LabelScores{};
     }
-    // As a window would.
+    // Reads the queues, as a window would.
     void Watch() {
         MeshUpdate mesh;
         while (link.meshes.TryPop(mesh)) {
@@ -57,8 +58,8 @@ class LabelsTest : public testing::Test {
         std::vector<MapObject> objects;
         while (link.objects.TryPop(objects)) told.push_back(std::move(objects));
     }
-    // What was once told of under a number is at the same place ever after, unless it went for
-    // good; then no new number stands there.
+    // An object number keeps its place for as long as the object exists. If the object is removed,
+    // its number is not reused and no new number appears in its place.
     void ExpectConstantNumbers() const {
         ASSERT_GE(told.size(), 2u);
         const auto distance_m = [](const MapObject& a, const MapObject& b) {
@@ -96,11 +97,11 @@ class LabelsTest : public testing::Test {
 
 class SyntheticDesk : public LabelsTest, public testing::WithParamInterface<Mistakes> {};
 
-// The desk has a stack of three books, each two or three voxels thick: with a third missed and so
-// few frames, 10 of 11 will do.
+// The desk has a stack of three books, each two or three voxels thick. With a third of the
+// detections missed and so few frames, 10 of 11 objects are enough.
 TEST_P(SyntheticDesk, IsLabelledDespiteMistakes) {
     config.synthetic.frames = 60;
-    config.synthetic.fps = 6;  // the whole of the scene's motion
+    config.synthetic.fps = 6;  // covers the whole motion of the scene
     config.synthetic.camera.width = 320, config.synthetic.camera.height = 240;
     config.synthetic.camera.fx = config.synthetic.camera.fy = 262;
     config.synthetic.camera.cx = 159.5, config.synthetic.camera.cy = 119.5;
@@ -131,7 +132,7 @@ std::string Sequence() {
            "/house_desk";
 }
 
-// The file with further mistakes; the same on every machine.
+// Copies the file with added errors, which are the same on every machine.
 void MakeMistakes(const std::string& from, const std::string& to, const Mistakes& mistakes) {
     std::ifstream in(from);
     std::vector<std::vector<std::string>> lines;
@@ -181,8 +182,8 @@ TEST_F(HouseDesk, DetectionsAsGiven) {
     EXPECT_EQ(scores.recall_25, 1.0) << LabelScoresText(scores);
 }
 
-// Wrong "books" leave nothing behind: the surroundings of the true ones stay without a label. Two
-// of the books lie one upon the other.
+// Wrong "books" leave no trace: the surroundings of the true books stay unlabelled. One of the
+// books lies on top of another.
 TEST_F(HouseDesk, AFifthWrongAndAThirdMissed) {
     MakeMistakes(Sequence() + "/detections.txt", folder / "hard.txt", kHard);
     const LabelScores scores = Score(Sequence(), folder / "hard.txt", Sequence());

@@ -1,7 +1,8 @@
-// No latch: whatever the constants, frames that were not fused are followed by frames that are.
-// Trials change all constants of scripts/reproduction/constants.txt at once, each by a random
-// factor of up to 1.5 either way, and run the engine's two stages on small rendered sequences in
-// which a hand covers the camera for a moment. docs/generality.md has the protocol.
+// Tests that fusion never stops for good: whatever the constants, fusion resumes after frames that
+// were not fused. Each trial multiplies all constants of scripts/reproduction/constants.txt by
+// random factors of up to 1.5 in either direction, and runs the two stages of the engine on a small
+// rendered sequence in which a hand covers the camera for a short time. docs/generality.md
+// describes the protocol.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <tbb/parallel_for.h>
@@ -28,7 +29,7 @@ constexpr int kMostCovered = 8;
 constexpr int kTrials = 310;  // about 20 s on two cores
 constexpr PinholeCamera kCamera{120, 90, 98.5, 98.5, 59.5, 44.5};
 
-// key -> size, count or leave, as constants.txt says.
+// Maps each key in constants.txt to its kind: size, count or leave.
 std::map<std::string, std::string> ListedConstants() {
     std::map<std::string, std::string> kinds;
     std::ifstream file(TESSERA_SOURCE_DIR "/scripts/reproduction/constants.txt");
@@ -47,8 +48,8 @@ int NumberFromEnvironment(const char* name, int otherwise) {
     return text != nullptr ? std::atoi(text) : otherwise;
 }
 
-// At every third of a camera's frames: fast enough to be lost by a tracker that has stood still for
-// long.
+// Every third frame of a 30 Hz camera: fast enough that a tracker which stops fusing for long loses
+// the camera.
 std::vector<Frame> Rendered(const std::string& scene) {
     SynthConfig config;
     config.camera = kCamera;
@@ -62,9 +63,9 @@ std::vector<Frame> Rendered(const std::string& scene) {
     return frames;
 }
 
-// A hand before the camera for some frames: over some columns and too near to be measured, or over
-// the whole image. (A hand over a part of the image that is measured looks like a scene that moves,
-// and takes the camera along: docs/generality.md.)
+// A hand in front of the camera for some frames. It covers either some columns, too near to be
+// measured, or the whole image. (A measured hand in part of the image looks like a moving scene and
+// shifts the pose: docs/generality.md.)
 struct Hand {
     int from = 0, count = 0;
     int columns = 0;
@@ -84,10 +85,10 @@ struct Trial {
     PipelineConfig config;
     std::string scene;
     Hand hand;
-    std::string text;  // all that was drawn
+    std::string text;  // describes all random choices
 };
 
-// 3 cm voxels in place of 1: so small an image sees no finer.
+// 3 cm voxels instead of 1 cm, which match the low image resolution.
 PipelineConfig SmallConfig() {
     PipelineConfig config;
     config.map = {.voxel_size_m = 0.03, .truncation_m = 0.12};
@@ -129,7 +130,7 @@ class Latch : public testing::Test {
         return trial;
     }
 
-    // Empty, or what is wrong.
+    // Returns an empty string or the error.
     std::string Run(const Trial& trial) const {
         Pipeline pipeline(trial.config, kCamera);
         int unfused = 0;
@@ -152,7 +153,7 @@ class Latch : public testing::Test {
                                                                {"wall", Rendered("wall")}};
 };
 
-// A number that is added to the program is either changed here, or constants.txt says why not.
+// Every numeric setting must be either varied here or listed as left alone in constants.txt.
 TEST(ConstantsList, EveryNumberOfFrameMappingTrackingAndMovingIsListed) {
     PipelineConfig config;
     ConfigParameters parameters;
@@ -161,21 +162,22 @@ TEST(ConstantsList, EveryNumberOfFrameMappingTrackingAndMovingIsListed) {
     for (const ConfigParameters::Parameter& p : parameters.parameters())
         if (p.allowed.starts_with("[")) numbers.insert(p.key);
     for (const auto& [key, kind] : ListedConstants()) {
-        EXPECT_TRUE(numbers.erase(key) == 1) << key << " is no number of the configuration";
+        EXPECT_TRUE(numbers.erase(key) == 1) << key << " is not a numeric setting";
         EXPECT_TRUE(kind == "size" || kind == "count" || kind == "leave") << kind << " " << key;
     }
     for (const std::string& key : numbers)
         ADD_FAILURE() << key << " is missing in scripts/reproduction/constants.txt";
 }
 
-// TESSERA_LATCH_TRIALS: how many; TESSERA_LATCH_SEED: the first one's seed, to see a failure again.
+// TESSERA_LATCH_TRIALS sets the number of trials. TESSERA_LATCH_SEED sets the first seed, which
+// reproduces a failure.
 TEST_F(Latch, NoConstantsStopFusingForEver) {
     const int trials = NumberFromEnvironment("TESSERA_LATCH_TRIALS", kTrials);
     const int first = NumberFromEnvironment("TESSERA_LATCH_SEED", 1);
     std::printf("seeds %d to %d\n", first, first + trials - 1);
     std::vector<std::string> failures(static_cast<std::size_t>(trials));
     tbb::parallel_for(0, trials, [&](int i) {
-        tbb::task_arena alone(1);  // a trial is too small to be shared out
+        tbb::task_arena alone(1);  // a trial is too small to run on several threads
         alone.execute([&] { failures[static_cast<std::size_t>(i)] = Run(Draw(first + i)); });
     });
     for (const std::string& failure : failures) EXPECT_EQ(failure, "");

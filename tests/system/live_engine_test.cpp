@@ -12,7 +12,7 @@ namespace {
 
 class Live : public EngineTest {};
 
-// A device that gives its next frame when the last one is through: nothing need be dropped.
+// The source returns its next frame when the previous one is done, so no frame has to be dropped.
 TEST_F(Live, EveryFrameIsAccountedForAndTrackedToTheMillimetre) {
     config.live.queue_frames = 30;
     Make(true, {.count = 30});
@@ -32,12 +32,12 @@ TEST_F(Live, EveryFrameIsAccountedForAndTrackedToTheMillimetre) {
     EXPECT_GT(engine->TakeMesh().triangles.size(), 1000u);
 }
 
-// Mapping far slower than tracking: frames go on being tracked, not all of them are fused. How many
-// are depends on the machine.
+// If mapping is far slower than tracking, all frames are tracked but not all are fused. The number
+// of fused frames depends on the machine.
 TEST_F(Live, SlowMappingLeavesFramesUnfusedAndTracksThem) {
     config.live.playback_speed = 1;
-    config.live.extra_mapping_ms = 1000;  // tracking is faster on a slow machine, too
-    config.live.queue_frames = 45;        // every frame is tracked there
+    config.live.extra_mapping_ms = 1000;  // slower than tracking even on a slow machine
+    config.live.queue_frames = 45;        // no frame is dropped before tracking
     Make(true, {.count = 45, .speed = 0.3});
     TakeAll();
     std::int64_t unfused = 0, fused = 0;
@@ -56,8 +56,8 @@ TEST_F(Live, SlowMappingLeavesFramesUnfusedAndTracksThem) {
     EXPECT_EQ(fused + unfused, 45);
 }
 
-// Tracking ten times slower: frames are dropped, the newest are tracked, and the slow camera is not
-// lost.
+// If tracking is ten times too slow, old frames are dropped and the newest are tracked. The slow
+// camera is not lost.
 TEST_F(Live, SlowTrackingDropsOldFramesAndKeepsThePose) {
     config.live.playback_speed = 1;
     config.live.extra_tracking_ms = 330;
@@ -71,7 +71,7 @@ TEST_F(Live, SlowTrackingDropsOldFramesAndKeepsThePose) {
         EXPECT_TRUE(report->tracked()) << report->track.reason;
         EXPECT_LT(Error_m(*report, 0.3), 0.01) << "frame " << report->index;
     }
-    EXPECT_GE(Reports().back()->index, 57);  // the newest, not the next in line
+    EXPECT_GE(Reports().back()->index, 57);  // the newest frame, not the oldest waiting one
 }
 
 TEST_F(Live, BadFramesWaitsAndABrokenSourceAreTold) {
@@ -90,7 +90,7 @@ TEST_F(Live, BadFramesWaitsAndABrokenSourceAreTold) {
     EXPECT_NE(Messages().find("torn\n"), std::string::npos);
 }
 
-// As where the disk is full: the recording ends with a line, the scan goes on.
+// Acts like a full disk: the recording ends with a message, and the scan continues.
 TEST_F(Live, ARecordingThatFailsEndsAloneAndIsTold) {
     TempFolder folder;
     EngineInput input = Input({.count = 20, .before_read = [&](std::int64_t i) -> ReadResult {
@@ -112,7 +112,7 @@ TEST_F(Live, AStopEndsItSoonAndKeepsTheMap) {
     while (Reports().size() < 3) ASSERT_TRUE(Next());
     stop = true;
     TakeAll();
-    EXPECT_LE(Reports().size(), 25u);  // what waits between the threads is still done
+    EXPECT_LE(Reports().size(), 25u);  // frames already queued are still processed
     EXPECT_TRUE(engine->stopped());
     EXPECT_GT(engine->map_statistics().blocks, 100);
 }
@@ -132,7 +132,7 @@ TEST_F(Live, ViewerCommandsAreObeyed) {
     ViewerSettings settings;
     settings.method = TrackingMethod::kIcp;
     link.settings.Push(ViewerSettings(settings));
-    // Single frames may be lost where many were dropped before them.
+    // Single frames may be lost after many dropped frames.
     while (Reports().back()->method != TrackingMethod::kIcp || !Reports().back()->tracked())
         ASSERT_TRUE(Next());
     Ask(Command::kSaveMesh, folder / "now.ply");
@@ -143,13 +143,13 @@ TEST_F(Live, ViewerCommandsAreObeyed) {
     const std::size_t before = Reports().size();
     while (Reports().size() < before + 3 || !Reports().back()->tracked()) ASSERT_TRUE(Next());
     EXPECT_TRUE(Reports()[before]->first);
-    EXPECT_LT(Reports()[before]->track.T_world_camera.translation().norm(), 1e-12);  // a new world
+    EXPECT_LT(Reports()[before]->track.T_world_camera.translation().norm(), 1e-12);  // new world
     Ask(Command::kStop);
     TakeAll();
     EXPECT_TRUE(engine->stopped());
 }
 
-// Everything at random, with a window that takes what it is sent only now and then: for the
+// Sends random commands while a simulated window reads its queues only occasionally. Meant for the
 // sanitizers.
 TEST_F(Live, RandomCommandsDoNoHarm) {
     ViewerLink link;

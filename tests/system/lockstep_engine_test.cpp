@@ -11,7 +11,7 @@ namespace {
 
 class Lockstep : public EngineTest {};
 
-// A window that looks changes nothing of what is computed.
+// A viewer does not change any result.
 TEST_F(Lockstep, TheSameBytesWithAndWithoutAViewer) {
     Make(false, {.count = 12});
     TakeAll();
@@ -46,15 +46,15 @@ TEST_F(Lockstep, PauseStepResumeLetExactlySoManyFramesPass) {
     Ask(Command::kPause);
     Ask(Command::kStep);
     Ask(Command::kStep);
-    Ask(Command::kSaveMesh, "unwritable/nowhere.ply");  // obeyed while it is paused
+    Ask(Command::kSaveMesh, "unwritable/nowhere.ply");  // executed while paused
     Make(false, {.count = 6});
     ASSERT_TRUE(Next());
-    EXPECT_EQ(outcomes.back().kind, Kind::kMessage);  // nothing to save yet
+    EXPECT_EQ(outcomes.back().kind, Kind::kMessage);  // there is nothing to save yet
     ASSERT_TRUE(Next());
     ASSERT_TRUE(Next());
     EXPECT_EQ(Reports().size(), 2u);
     Ask(Command::kSaveMesh, "unwritable/nowhere.ply");
-    ASSERT_TRUE(Next());  // and no third frame
+    ASSERT_TRUE(Next());  // a message, not a third frame
     EXPECT_EQ(outcomes.back().kind, Kind::kMessage);
     EXPECT_NE(outcomes.back().message.find("unwritable/nowhere.ply"), std::string::npos)
         << outcomes.back().message;
@@ -103,7 +103,7 @@ TEST_F(Lockstep, WhatIsRecordedIsTheSourceAgain) {
         EXPECT_NEAR(actual.stamp_s, expected.stamp_s, 1e-6);
         ASSERT_EQ(actual.depth_m.size(), expected.depth_m.size());
         for (std::size_t k = 0; k < actual.depth_m.size();
-             ++k)  // the source's depth is no multiple of its unit
+             ++k)  // the source's depth is not rounded to recording units
             ASSERT_NEAR(actual.depth_m.data()[k], expected.depth_m.data()[k], 0.5 / 5000 + 1e-6);
     }
 }

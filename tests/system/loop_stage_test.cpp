@@ -1,4 +1,4 @@
-// Kidnapped cameras and whole runs with loop closure, in a rendered room with a Kinect's noise.
+// Kidnapped cameras and complete runs with loop closure, in a rendered room with Kinect noise.
 #include "system/loop_stage.h"
 
 #include <tbb/global_control.h>
@@ -39,7 +39,7 @@ Outcome RunFrames(const std::vector<Frame>& frames, bool loops = true) {
     return outcome;
 }
 
-// 2 s of the walk, 1.5 s of nothing, then what is given.
+// 2 s of the walk, 1.5 s of empty frames, then the frames in `then`.
 std::vector<Frame> Kidnap(const std::vector<Frame>& then) {
     std::vector<Frame> frames = RoomWalk(0, 60, 3);
     frames.insert(frames.end(), 45, Blank());
@@ -102,7 +102,7 @@ TEST(LoopStage, TheSameBytesForAnyNumberOfThreads) {
     EXPECT_EQ(outcomes[0].mesh.colours, outcomes[1].mesh.colours);
 }
 
-// Where nothing has to be corrected, loop closure changes nothing.
+// If there is no drift, loop closure changes nothing.
 TEST(LoopStage, AWalkWithoutDriftIsTheSameWithAndWithout) {
     const std::vector<Frame> frames = RoomWalk(0, 60, 3);
     const Outcome with = RunFrames(frames), without = RunFrames(frames, false);

@@ -1,5 +1,5 @@
-// Loop closure beside a live run: what the thread makes of a walk that drifts, and a camera that is
-// lost in mid-run.
+// Loop closure in a live run: the thread corrects a walk that drifts, and relocalises a camera that
+// is lost during the run.
 #include "system/loop_thread.h"
 
 #include <map>
@@ -16,7 +16,7 @@ using testing_support::RoomCamera;
 using testing_support::RoomSettings;
 using testing_support::RoomWalk;
 
-// Mapping's side of the thread: poses that drift, in whatever map there is by then.
+// Acts as the mapping thread. Its poses drift in the current map.
 class LoopThreadTest : public testing::Test {
   protected:
     void Go(const Frame& frame, const Eigen::Isometry3d& T_last_camera) {
@@ -32,8 +32,8 @@ class LoopThreadTest : public testing::Test {
         auto copy = frames.Take();
         *copy = frame;
         thread.Offer(std::move(tracked), std::move(copy), {0, corrections});
-        // The thread may be slow: frames that wait are not to pile up in a test that wants all of
-        // them.
+        // The thread may be slow. This test needs all frames, so it waits while too many are
+        // queued.
         mapping.Wait([&] { return thread.waiting() < 8; });
         TakeCorrections();
     }
@@ -48,7 +48,7 @@ class LoopThreadTest : public testing::Test {
             ++corrections;
         }
     }
-    // As a scan file keeps it.
+    // Stores the news as a scan file does.
     void Keep(const LoopNews& news) {
         passages.insert(passages.end(), news.passages.begin(), news.passages.end());
         for (const auto& [id, pose] : news.poses) poses[id] = pose;
@@ -94,7 +94,7 @@ TEST_F(LoopThreadTest, CorrectsAWalkThatDrifts) {
     const double before_m = (T_drifted.translation() - truth).norm();
     EXPECT_GT(before_m, 0.07);
     EXPECT_LT((path.back().T_world_camera.translation() - truth).norm(), before_m / 5);
-    // The news say all of it, moved keyframes included.
+    // The news must describe the whole path, including moved keyframes.
     ASSERT_EQ(passages.size(), path.size());
     EXPECT_EQ(poses.size(), keyframes);
     for (std::size_t i = 0; i < path.size(); ++i) {
@@ -131,7 +131,7 @@ TEST_F(LoopThreadTest, AResetForgetsAllAndAnOldQuestionHasNoAnswer) {
     thread.Reset({1, 0});
     mapping.Wait([&] { return thread.waiting() == 0; });
     EXPECT_FALSE(ask({0, 0}).T_world_camera.has_value());
-    EXPECT_FALSE(ask({1, 0}).T_world_camera.has_value());  // it has seen nothing yet
+    EXPECT_FALSE(ask({1, 0}).T_world_camera.has_value());  // no keyframe exists after the reset
     thread.Finish([](const std::string&) {});
     EXPECT_TRUE(thread.Path().empty());
 }
@@ -148,7 +148,8 @@ TEST(Carry, AppliesWhatCameSince) {
     }
 }
 
-// 2 s of a walk, 1.5 s of nothing, then a view of the beginning, held until it is known.
+// 2 s of a walk, 1.5 s of empty frames, then a view of the beginning, repeated until the camera is
+// relocalised.
 TEST(LiveEngineWithLoops, FindsAKidnappedCamera) {
     std::vector<Frame> frames = RoomWalk(0, 60, 3);
     frames.insert(frames.end(), 45, Blank());
@@ -158,7 +159,7 @@ TEST(LiveEngineWithLoops, FindsAKidnappedCamera) {
     EngineInput input;
     input.source = std::make_unique<FrameList>(std::move(frames));
     input.config.loops.enabled = true;
-    input.config.live.queue_frames = 30;  // however slow the machine, the walk is seen whole
+    input.config.live.queue_frames = 30;  // no frame of the walk is dropped, even on a slow machine
     input.config.pipeline.map = {.voxel_size_m = 0.02, .truncation_m = 0.08};
     input.config.pipeline.trackers.sdf.finest_step_px = 1;
     input.stop = &stop;

@@ -28,7 +28,7 @@ std::unique_ptr<BlockMap> Wall() {
     return map;
 }
 
-// By class name.
+// Object numbers by class name.
 std::map<std::string, int> Numbers(MappingStage& mapping) {
     MeshUpdate update;
     mapping.UpdateMesh(Mesher::kNoLimit, update);
@@ -37,7 +37,7 @@ std::map<std::string, int> Numbers(MappingStage& mapping) {
     return numbers;
 }
 
-// The corrected map meets the objects in another order.
+// The corrected map receives the objects in a different order.
 TEST(MappingStage, ObjectsKeepTheirNumbersInACorrectedMap) {
     LabelConfig config;
     config.classes = "cup book";

@@ -1,5 +1,5 @@
-// Maps that are corrected under a memory limit: a rendered room with a Kinect's noise, at poses
-// that drift until loops are closed.
+// Correction of maps under a memory limit: a rendered room with Kinect noise, at poses that drift
+// until loops are closed.
 #include <sys/resource.h>
 
 #include <csignal>
@@ -17,9 +17,9 @@ namespace {
 using testing_support::FrameList;
 using testing_support::RoomCamera;
 
-constexpr double kLimit_mb = 55;  // all of it are 80
+constexpr double kLimit_mb = 55;  // the whole map takes 80 MB
 
-// Once around through two rooms, and on in the first one.
+// Once around through two rooms, and back into the first.
 std::vector<Frame> Tour() {
     constexpr int kTourFrames = 120, kTourStep = 18;
     SynthConfig config;
@@ -95,7 +95,7 @@ class PagingLoops : public testing::Test {
         EXPECT_TRUE(engine->status().ok()) << engine->status().message();
         return mesh;
     }
-    // As an odometry that turns and shifts a little with each step.
+    // Odometry with a small constant rotation and translation error at each step.
     static std::vector<StampedPose> Drifted(const std::vector<Frame>& frames) {
         const Eigen::Isometry3d bias =
             Se3Exp((Vector6d() << 0, 0.0009, 0, 0.0015, 0, 0).finished());
@@ -159,13 +159,13 @@ TEST_F(PagingLoops, ACorrectedMapIsTheSameWithALimit) {
     const Result<TriangleMesh> exported = MeshOfScan(scan.value());
     ASSERT_TRUE(exported.ok()) << exported.message();
     ExpectSame(exported.value(), whole);
-    // Less than what the camera may see from one place: all else leaves at once, and comes back at
-    // the end of the tour.
+    // This limit is below what the camera may see from one position. Everything else is paged out
+    // at once and returns at the end of the tour.
     ExpectSame(Run(walk, false, 20), whole);
 }
 
-// As of a full disk, from where the first loop is found: neither the scan nor the corrected map can
-// be written.
+// Acts like a full disk from the first loop on: neither the scan nor the corrected map can be
+// written.
 TEST_F(PagingLoops, AFullDiskWhileTheMapIsMadeAgainLeavesTheMapAndCorrectsThePath) {
     const std::vector<Frame> walk = Tour();
     config.loops.enabled = false;
@@ -179,7 +179,7 @@ TEST_F(PagingLoops, AFullDiskWhileTheMapIsMadeAgainLeavesTheMapAndCorrectsThePat
     while (Next()) {
         if (full || said.find("loop closed") == std::string::npos) continue;
         full = true;
-        // Room for SQLite's index of its journal, which it had before.
+        // SQLite needs this much for its journal index, which already exists.
         const rlimit little{1 << 16, before.rlim_max};
         ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &little), 0);
     }
@@ -189,7 +189,7 @@ TEST_F(PagingLoops, AFullDiskWhileTheMapIsMadeAgainLeavesTheMapAndCorrectsThePat
     const TriangleMesh mesh = engine->TakeMesh();
     ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &before), 0);
     EXPECT_TRUE(engine->status().ok()) << engine->status().message();
-    const std::string given_up = "the map is no longer corrected, the path is";
+    const std::string given_up = "map correction stopped";
     const std::size_t at = said.find(given_up);
     ASSERT_NE(at, std::string::npos) << said;
     EXPECT_EQ(said.find(given_up, at + 1), std::string::npos) << said;
@@ -206,7 +206,7 @@ TEST_F(PagingLoops, AFullDiskWhileTheMapIsMadeAgainLeavesTheMapAndCorrectsThePat
               0.5 * off_m(Drifted(walk).back().T_world_camera));
 }
 
-// Which frames are fused hangs on the threads; what there is in the end is whole.
+// Which frames are fused depends on thread timing. The final map must be complete.
 TEST_F(PagingLoops, LiveTheMapIsCorrectedAndWhole) {
     config.live.playback_speed = 0.3;
     const TriangleMesh mesh = Run(Tour(), true, kLimit_mb);
@@ -216,7 +216,7 @@ TEST_F(PagingLoops, LiveTheMapIsCorrectedAndWhole) {
     ASSERT_TRUE(scan.ok()) << scan.message();
     EXPECT_GE(scan.value().map->count(), blocks_at_end);
     if (said.find("map corrected") == std::string::npos)
-        GTEST_SKIP() << "too slow a machine: no loop was closed";
+        GTEST_SKIP() << "the machine is too slow: no loop was closed";
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Maps larger than their memory limit, on the exact little world.
+// Maps that exceed their memory limit, in a long box room.
 #include "system/paging_stage.h"
 
 #include <cstdio>
@@ -18,7 +18,8 @@ using testing_support::BoxRoomSource;
 
 constexpr int kSteps = 45, kTurn = 8, kFrames = 2 * kSteps + kTurn;
 
-// Along a hall of 21 m, around, and back, the camera turned so far to the wall where x is largest.
+// Along a hall of 21 m, a turn at the end, and back. `aside_rad` turns the camera towards the wall
+// of largest x.
 Eigen::Isometry3d WalkPose(int i, double aside_rad = 0) {
     const int forth = std::min(i, kSteps), back = std::max(0, i - kSteps - kTurn);
     const double turned = std::numbers::pi * std::clamp(i - kSteps, 0, kTurn) / kTurn;
@@ -37,7 +38,7 @@ BoxRoom Hall() {
     return room;
 }
 
-// Finds a poster at two places of the right wall.
+// Detects a poster at two places on the right wall.
 class PosterDetector : public Detector {
   public:
     Result<std::vector<Detection>> Detect(const Frame& frame) override {
@@ -53,7 +54,8 @@ class PosterDetector : public Detector {
     const std::vector<std::string>& class_names() const override { return names_; }
 
   private:
-    // Its pixels in box and mask; false if it is not seen, or from far. The map ends nearer.
+    // Sets the box and mask of the poster. Returns false if it is out of view or too small. The map
+    // ends nearer than the 8 m limit used here.
     static bool Frames(const Frame& frame, double z_m, Detection& poster) {
         const PinholeCamera camera = testing_support::SmallCamera();
         Image<std::uint8_t> mask(camera.width, camera.height, 0);
@@ -84,8 +86,8 @@ class PosterDetector : public Detector {
 
 class HallSource : public FrameSource {
   public:
-    // `mapped`, if not null: frames that have come out of the engine, which the source is never two
-    // ahead of.
+    // `mapped`, if not null, counts the frames that have left the engine. The source stays at most
+    // one frame ahead of it.
     HallSource(const std::atomic<int>* mapped, double aside_rad)
         : mapped_(mapped), aside_rad_(aside_rad) {
         info_ = BoxRoomSource({.count = kFrames}).info();
@@ -154,7 +156,7 @@ class Paging : public EngineTest {
         EXPECT_TRUE(engine->status().ok()) << engine->status().message();
         return mesh;
     }
-    // So many frames from now.
+    // Takes `count` more frames.
     void TakeFrames(int count) {
         for (std::int64_t end = Count(Kind::kFrame) + count; Count(Kind::kFrame) < end;)
             ASSERT_TRUE(Next());
@@ -193,14 +195,14 @@ TEST_F(Paging, ALimitChangesNothingButTheMemory) {
     for (const FrameOutcome& o : outcomes)
         EXPECT_LT(static_cast<double>(o.map.bytes), 1e6 * kLimit_mb);
     EXPECT_EQ(Messages().find("memory_limit"), std::string::npos);
-    EXPECT_FALSE(std::filesystem::exists(path + "-wal")) << "the file is one again";
+    EXPECT_FALSE(std::filesystem::exists(path + "-wal")) << "the journal is merged into the file";
 
     {
         const Result<ScanContent> scan = ReadScan(path, {});
         ASSERT_TRUE(scan.ok()) << scan.message();
-        EXPECT_EQ(scan.value().map->count(), blocks) << "the file has all of it";
+        EXPECT_EQ(scan.value().map->count(), blocks) << "the file holds the whole map";
     }
-    // What comes and goes when hangs on nothing but the frames.
+    // The paging of blocks depends only on the frames.
     ASSERT_EQ(std::remove(path.c_str()), 0);
     const auto first = std::move(outcomes);
     Run(false, kLimit_mb);
@@ -231,7 +233,7 @@ TEST_F(Paging, LabelsAndObjectsAreTheSameWithALimit) {
     EXPECT_TRUE(exported.value().labels == whole.labels);
 }
 
-// What a window shows of the first poster is no less once it has left memory.
+// The first poster must not shrink in the window after it has been paged out.
 TEST_F(Paging, ObjectsInTheWindowDoNotShrinkWhileTheyAreAway) {
     labels = true;
     aside_rad = 0.6;
@@ -260,7 +262,7 @@ TEST_F(Paging, ObjectsInTheWindowDoNotShrinkWhileTheyAreAway) {
     EXPECT_LT((poster->box.max() - before[0].box.max()).norm(), 0.03);
 }
 
-// Some frames are not fused, where what they see is away, but no block is there twice or lost.
+// Some frames are not fused because their blocks are paged out. No block may be duplicated or lost.
 TEST_F(Paging, LiveKeepsTheLimitAndTheMap) {
     const TriangleMesh mesh = Run(true, 24);
     const Result<ScanContent> scan = ReadScan(path, {});
@@ -272,7 +274,7 @@ TEST_F(Paging, LiveKeepsTheLimitAndTheMap) {
     for (const Eigen::Vector3f& v : mesh.vertices)
         ASSERT_LT(std::abs(hall.SignedDistance(v.cast<double>())), 0.02) << v.transpose();
     if (2 * stored <= 3 * resident)
-        GTEST_SKIP() << "too slow a machine: what was to leave memory was not saved in time";
+        GTEST_SKIP() << "the machine is too slow: blocks were not saved in time to be paged out";
 }
 
 TEST_F(Paging, ALimitThatIsTooSmallIsSaidOnce) {
@@ -283,7 +285,7 @@ TEST_F(Paging, ALimitThatIsTooSmallIsSaidOnce) {
     EXPECT_EQ(said.find("memory_limit_mb", at + 20), std::string::npos);
 }
 
-// What lies between 2 and 4 m of the hall is damaged while it is away.
+// The blocks between 2 and 4 m of the hall are damaged while they are paged out.
 TEST_F(Paging, WhatCannotBeReadBackIsSaidOnceAndNothingIsFusedThere) {
     Start(false, 24);
     TakeFrames(kSteps + kTurn);
@@ -357,8 +359,7 @@ TEST_F(Paging, LiveCanBeLeftAtAnyTime) {
     }
 }
 
-// As of a full disk.
-// Given up where part of the map is away.
+// A locked database acts like a full disk. Saving stops while part of the map is paged out.
 TEST_F(Paging, AFileThatTakesNothingAnyMoreCostsMemoryButNoMap) {
     constexpr int kAfter = 12;  // frames
     const auto end = [&] {

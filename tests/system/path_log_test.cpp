@@ -14,7 +14,7 @@ PathRecord RecordAt(std::int64_t index, TrackStatus status = TrackStatus::kGood)
     return record;
 }
 
-// Four frames, the second one lost, numbered from 10 on.
+// Four frames, numbered from 10. The second one is lost.
 class PathLogTest : public testing::Test {
   protected:
     PathLogTest() {
@@ -66,14 +66,14 @@ TEST_F(PathLogTest, FramesOfLoopClosureTakeTheNumberOfTheirPathAndTheRawOnesPlac
     news.passages = {Passage(0, 0), Passage(2, 0)};
     news.frames.resize(2);
     news.frames[0].frame_index = 2;
-    news.frames[1].frame_index = 7;  // of no frame that is known
+    news.frames[1].frame_index = 7;  // matches no known frame
     log.Place(news, checkpoint);
     ASSERT_EQ(checkpoint.frames.size(), 1u);
     EXPECT_EQ(checkpoint.frames[0].first, 12);
     EXPECT_TRUE(checkpoint.frames[0].second.in_store);
     ASSERT_EQ(checkpoint.raw_frames.size(), 1u);
     EXPECT_EQ(checkpoint.raw_frames[0].first, 10);
-    // Later, when objects were found in it, once more.
+    // The frame is sent again after objects were found in it.
     LoopNews later;
     later.frames.resize(1);
     later.frames[0].frame_index = 0;

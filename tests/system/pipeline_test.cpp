@@ -46,7 +46,7 @@ TEST(Pipeline, FollowsASmoothPath) {
         const FrameReport report = pipeline.Process(RoomFrame(i));
         ASSERT_EQ(report.track.status, TrackStatus::kGood) << i << ": " << report.track.reason;
         EXPECT_TRUE(report.fused);
-        // The first camera is the world.
+        // The world frame is the first camera's.
         const Eigen::Isometry3d truth = SmoothPath(0).inverse() * SmoothPath(i);
         worst_m =
             std::max(worst_m, (truth.inverse() * report.track.T_world_camera).translation().norm());
@@ -54,8 +54,8 @@ TEST(Pipeline, FollowsASmoothPath) {
     EXPECT_LT(worst_m, 0.004);
 }
 
-// A hand before the camera for 0.7 s, while the camera steps back from a wall, out of reach of the
-// map's band: velocity says nothing any more, and neither do the frames of the hand.
+// A hand covers the camera for 0.7 s while the camera steps back from a wall by more than the
+// truncation band. Neither the old velocity nor the covered frames help to find it again.
 TEST(Pipeline, ACameraThatWasCoveredIsFoundWhereItHasMovedTo) {
     BoxRoom wall;
     wall.only_back_wall = true;
@@ -84,8 +84,8 @@ TEST(Pipeline, ACameraThatWasCoveredIsFoundWhereItHasMovedTo) {
     }
 }
 
-// A pose that is not to be trusted with the map is no measure for the next one either: what fits
-// well is no jump from it.
+// A pose that is not good enough for fusion does not constrain the next pose either. A good fit far
+// from it does not count as a jump.
 TEST(Pipeline, AfterAPoorPoseTheCameraMayBeAnywhere) {
     Pipeline pipeline(SmallConfig(), SmallCamera());
     BoxRoom room;
@@ -104,7 +104,8 @@ TEST(Pipeline, AfterAPoorPoseTheCameraMayBeAnywhere) {
     EXPECT_NEAR(report.track.T_world_camera.translation().x(), -0.12, 0.005);
 }
 
-// Each of these frames says why it is lost, leaves the map alone, and the next good one goes on.
+// Each bad frame is lost with a reason and leaves the map unchanged. The next good frame is
+// tracked.
 TEST(Pipeline, BadFramesAreLostWithAReasonAndHarmNothing) {
     Pipeline pipeline(SmallConfig(), SmallCamera());
     for (int i = 0; i < 10; ++i) pipeline.Process(RoomFrame(i));
@@ -158,8 +159,8 @@ TEST(Pipeline, AFrameWithoutColourIsTrackedByItsShape) {
     }
 }
 
-// Metres that the camera is off at the end, where two people are in view, and walk, from the first
-// frame on.
+// Position error in metres at the end of a sequence in which two people are in view and walk from
+// the first frame on.
 double OffAmongPeople(double even_within_m) {
     SynthConfig synthetic;
     synthetic.camera = {320, 240, 262.5, 262.5, 159.5, 119.5};

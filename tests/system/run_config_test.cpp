@@ -18,9 +18,9 @@ TEST(RunConfig, EveryParameterSaysWhatItDoes) {
     for (const auto& parameter : parameters.parameters()) {
         EXPECT_GT(parameter.documentation.size(), 10u) << parameter.key;
         EXPECT_EQ(parameter.documentation.find('|'), std::string::npos)
-            << parameter.key << ": breaks the table";
-        // A default that its own range refuses could not be read back from run.json or `tessera
-        // config`.
+            << parameter.key << ": breaks the Markdown table";
+        // A default outside its own range could not be read back from run.json or from the output
+        // of `tessera config`.
         EXPECT_TRUE(parameter.set(parameter.default_value).ok()) << parameter.key;
     }
 }

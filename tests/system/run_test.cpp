@@ -1,4 +1,4 @@
-// A whole run on a small synthetic sequence, and what it leaves behind in good and bad ends.
+// A complete run on a small synthetic sequence, and the files it leaves after success and failure.
 #include "system/run.h"
 
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ std::string ReadAll(const std::string& path) {
 
 class Run : public testing::Test {
   protected:
-    // Few small frames: this tests the run, not the tracker.
+    // Few small frames, because this tests the run, not the tracker.
     Run() {
         config.synthetic.camera = {160, 120, 131.25, 131.25, 79.5, 59.5};
         config.synthetic.frames = 6;
@@ -66,9 +66,8 @@ TEST_F(Run, GoesOnWithoutACameraAndSaysWhatItAssumes) {
     EXPECT_NEAR(run.value().source.camera.fx, 80 * std::sqrt(3.0), 1e-9);
     ASSERT_FALSE(warnings.empty());
     EXPECT_EQ(warnings.front(),
-              "no camera.yaml, and this recording does not show the focal length: a field of view "
-              "of 60 degrees is "
-              "assumed, fx 138.6");
+              "no camera.yaml, and the focal length cannot be estimated from this recording: "
+              "assuming a field of view of 60 degrees, fx 138.6");
 }
 
 TEST_F(Run, BeginsWithTheRollingShutterThatTheRecordingShows) {
@@ -162,7 +161,7 @@ TEST_F(Run, TheTrajectoryGrowsFrameByFrame) {
     observer.on_frame = [&](const RunCounts&, std::int64_t) {
         sizes.push_back(fs::file_size(Out("trajectory.txt")));
         EXPECT_EQ(Json("run.json").at("exit"), "unfinished");
-        EXPECT_FALSE(fs::exists(Out("mesh.ply")));  // not even one that an earlier run left
+        EXPECT_FALSE(fs::exists(Out("mesh.ply")));  // not even one from an earlier run
     };
     fs::create_directories(request.output_folder);
     std::ofstream(Out("mesh.ply")) << "stale";
@@ -183,7 +182,7 @@ TEST_F(Run, FusesAtGivenPosesOnly) {
     const auto run = Execute();
     ASSERT_TRUE(run.ok()) << run.message();
     EXPECT_EQ(run.value().counts.tracked, 4);
-    EXPECT_EQ(run.value().counts.lost, 2);  // no pose near their time
+    EXPECT_EQ(run.value().counts.lost, 2);  // no pose near their time stamps
     const auto given = ReadTrajectory(Out("trajectory.txt"));
     ASSERT_TRUE(given.ok());
     for (std::size_t i = 0; i < poses.size(); ++i)
@@ -217,7 +216,7 @@ TEST_F(Run, ARefusedRunSaysOneThingAndLeavesEarlierResults) {
     ASSERT_TRUE(Execute().ok());
     const std::string mesh = ReadAll(Out("mesh.ply"));
     request.selection.start = 1000;
-    observer.on_open = [](const SourceInfo&) { ADD_FAILURE() << "said something"; };
+    observer.on_open = [](const SourceInfo&) { ADD_FAILURE() << "on_open was called"; };
     EXPECT_NE(Execute().message().find("1000"), std::string::npos);
     EXPECT_TRUE(ReadAll(Out("mesh.ply")) == mesh);
 }

@@ -1,5 +1,4 @@
-// Scans with loop closure that are saved and gone on with, in a rendered room with a Kinect's
-// noise.
+// Scans with loop closure that are saved and resumed, in a rendered room with Kinect noise.
 #include <cstring>
 
 #include "support/temp_folder.h"
@@ -13,12 +12,12 @@ namespace {
 using testing_support::FrameList;
 using testing_support::RoomWalk;
 
-// In lockstep, and live.
+// The parameter selects live mode.
 class ScanLoops : public testing::TestWithParam<bool> {
   protected:
     ScanLoops() {
-        // No frame is dropped, and all are fused, on a slow machine too: this is not about
-        // overload.
+        // Overload is not tested here: no frame is dropped and all are fused, even on a slow
+        // machine.
         config.live.queue_frames = 100;
         config.live.playback_speed = 0.3;
         config.loops.enabled = true;
@@ -59,7 +58,7 @@ class ScanLoops : public testing::TestWithParam<bool> {
     TempFolder folder;
     std::string path = folder / "a.scan";
     std::vector<StampedPose> corrected;
-    std::size_t look_after = 0;  // frames: then the file is read while it is written
+    std::size_t look_after = 0;  // frames after which the file is read during the run
     Result<ScanContent> early = Status::Error("not read");
 };
 
@@ -68,7 +67,7 @@ TEST_P(ScanLoops, KeyframesFramesAndLoopsComeBackAndALostCameraIsFoundByThem) {
     config.scan.interval_s = 0.1;
     look_after = 40;
     Run(walk, 0, false);
-    // Whatever moment a crash may leave: all of the path, and what loop closure had come to.
+    // After a crash at any time the file holds the whole path and the state of loop closure.
     ASSERT_TRUE(early.ok()) << early.message();
     EXPECT_GT(early.value().path.size(), 10u);
     EXPECT_GT(early.value().keyframes.size(), 1u);
@@ -87,9 +86,9 @@ TEST_P(ScanLoops, KeyframesFramesAndLoopsComeBackAndALostCameraIsFoundByThem) {
     ASSERT_EQ(stored.size(), before.size());
     for (std::size_t i = 0; i < stored.size(); ++i)
         EXPECT_EQ(stored[i].T_world_camera.matrix(), before[i].T_world_camera.matrix()) << i;
-    // Ten seconds later the camera sees what it saw at the beginning, not at the end. Live it is
-    // held there until it is found, beside the first keyframe: of the later frames a slow machine
-    // may not have kept the images.
+    // Ten seconds later the camera sees the beginning of the walk, not its end. In live mode it
+    // stays near the first keyframe until it is relocalised, because a slow machine may not have
+    // stored the images of later frames.
     const std::vector<Frame> again =
         GetParam() ? std::vector<Frame>(300, RoomWalk(2, 1, 1).front()) : RoomWalk(21, 10, 1);
     stop_when_tracked = GetParam();
@@ -108,7 +107,7 @@ TEST_P(ScanLoops, KeyframesFramesAndLoopsComeBackAndALostCameraIsFoundByThem) {
             again[i].T_world_camera->inverse() * reports[i].track.T_world_camera;
         EXPECT_LT(off.translation().norm(), 0.02) << i;
     }
-    EXPECT_EQ(corrected.size(), before.size() + tracked);  // the path of the whole scan
+    EXPECT_EQ(corrected.size(), before.size() + tracked);  // the path covers the whole scan
 }
 
 TEST_P(ScanLoops, WhereNothingWasSeenTheCameraStaysLostAndTheMapAsItWas) {

@@ -1,4 +1,4 @@
-// Runs that are saved and gone on with, on the exact little world.
+// Runs in the box room that are saved and resumed.
 #include "system/scan_stage.h"
 
 #include "support/temp_folder.h"
@@ -14,7 +14,7 @@ using testing_support::SmoothPath;
 
 class Scan : public EngineTest {
   protected:
-    // The engine runs to its end; the mesh that it would write.
+    // Runs the engine to the end and returns the mesh that it would write.
     TriangleMesh Run(bool live, ScanPlan plan, const Source::Options& options,
                      std::int64_t start = 0) {
         EngineInput input = Input(options);
@@ -67,8 +67,9 @@ TEST_F(Scan, SavingChangesNothingAndTheFileHoldsTheSameMesh) {
     ExpectSame(mesh.value(), alone);
 }
 
-// Byte for byte: map, poses, motion, brightness and shutter go on as if nothing had been. With an
-// interval of 0 the last frame's checkpoint comes before the end's, which has nothing new to say.
+// The map, poses, motion, brightness and shutter of a resumed run are byte for byte those of an
+// uninterrupted run. With an interval of 0 the checkpoint of the last frame precedes the final one,
+// which then has nothing new to write.
 class ResumedScan : public Scan, public testing::WithParamInterface<double> {};
 
 TEST_P(ResumedScan, IsTheUnbrokenOne) {
@@ -93,7 +94,7 @@ TEST_P(ResumedScan, IsTheUnbrokenOne) {
 
 INSTANTIATE_TEST_SUITE_P(CheckpointsInterval, ResumedScan, testing::Values(0.0, 1.0));
 
-// Asked for after some frames: as if it had been saved from the first one on.
+// A save requested after some frames gives the same file as saving from the first frame on.
 TEST_F(Scan, SavedFromTheMiddleOnItIsTheWholeScan) {
     Run(false, New(), {.count = 24});
     ScanContent whole = Content();
@@ -107,7 +108,7 @@ TEST_F(Scan, SavedFromTheMiddleOnItIsTheWholeScan) {
     Ask(Command::kSaveScan, folder / "c.scan");
     TakeAll();
     EXPECT_NE(Messages().find("scan saved"), std::string::npos) << Messages();
-    EXPECT_NE(Messages().find("is being saved already"), std::string::npos) << Messages();
+    EXPECT_NE(Messages().find("is already being saved"), std::string::npos) << Messages();
     EXPECT_FALSE(std::filesystem::exists(folder / "c.scan"));
     ScanContent middle = Content();
     ExpectSame(MeshOfScan(middle).value(), MeshOfScan(whole).value());
@@ -141,7 +142,7 @@ TEST_F(Scan, LiveItIsSavedWhenAPersonAsksForIt) {
 TEST_F(Scan, LiveASavedScanIsGoneOnWith) {
     const double speed = 1;
     config.live.playback_speed = 1;
-    config.live.queue_frames = 30;  // no frame is dropped, however slow the machine
+    config.live.queue_frames = 30;  // no frame is dropped, even on a slow machine
     Run(true, New(), {.count = 20, .speed = speed});
     const ScanContent first = Content();
     ASSERT_GT(first.path.size(), 5u);
@@ -156,25 +157,25 @@ TEST_F(Scan, LiveASavedScanIsGoneOnWith) {
     EXPECT_EQ(Content().path.size(), first.path.size() + Reports().size());
 }
 
-// After a gap nothing is believed but what fits well; the map does not change until then.
+// After a gap only a good fit is accepted. Until then the map does not change.
 TEST_F(Scan, AfterAGapTheCameraIsFoundWhereTheScanEndedAndNowhereElse) {
-    // With this weight of colour the tracker settles in a wrong place at first, which the gate has
-    // to refuse.
+    // With this colour weight the tracker first converges to a wrong pose, which the gate must
+    // refuse.
     config.pipeline.trackers.photometric.alpha_mode = ResidualModel::AlphaMode::kFixed;
     config.pipeline.trackers.photometric.alpha = 0.05;
     Run(false, New(), {.count = 20});
     const BlockId blocks = Content().map->size();
-    // 13 s later, some turned and moved views, and then one near the last.
+    // 13 s later: first some rotated and moved views, then one near the last view.
     Run(false, Again(), {.count = 420, .speed = 6}, 400);
     const auto tracked = std::ranges::count_if(
         Reports(), [](const FrameReport* report) { return report->tracked(); });
     EXPECT_FALSE(Reports().front()->tracked());
-    EXPECT_LE(tracked, 15);  // of 20; the first is refused
+    EXPECT_LE(tracked, 15);  // of 20; the first one is refused
     for (const FrameReport* report : Reports())
         EXPECT_TRUE(!report->tracked() || Error_m(*report, 6) < 0.005)
             << report->index << " " << Error_m(*report, 6);
     EXPECT_TRUE(tracked > 0 || Content().map->size() == blocks);
-    // Back where it ended: frame 19's view, at once.
+    // Resume where the scan ended, with views near frame 19.
     config.scan.interval_s = 0.1;
     Run(false, Again(), {.count = 30}, 15);
     ASSERT_FALSE(Reports().empty());

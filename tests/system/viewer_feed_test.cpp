@@ -1,4 +1,5 @@
-// What the window gets of labels: colours that are those of the labelled mesh, and objects.
+// Tests what the window receives about labels: the objects, and colours equal to those of the
+// labelled mesh.
 #include "system/viewer_feed.h"
 
 #include <map>
@@ -10,8 +11,8 @@
 namespace tessera {
 namespace {
 
-// Sees one thing on the wall: for a while it takes it for a cup, then for ever for a book, of which
-// it sees the left half.
+// Detects one object on the wall: first as a cup, then always as a book, of which it sees only the
+// left half.
 class FickleDetector : public Detector {
   public:
     Result<std::vector<Detection>> Detect(const Frame& frame) override {
@@ -33,7 +34,7 @@ class FickleDetector : public Detector {
     std::vector<std::string> names_{"cup", "book"};
 };
 
-// Of a voxel, to tell vertices apart by their places: a thousandth is the least distance.
+// Steps per voxel that distinguish vertex positions. Vertices are at least 1/1000 voxel apart.
 constexpr float kSteps = 2000;
 constexpr Rgb8 kCup{1, 200, 3}, kBook{4, 5, 220};
 
@@ -51,7 +52,7 @@ class ViewerFeedTest : public EngineTest {
         input.labelling = {std::move(detector), std::move(classes)};
         engine = std::make_unique<LockstepEngine>(std::move(input));
     }
-    // Takes what came as the window does.
+    // Reads the queues as the window does.
     void TakeMeshes() {
         MeshUpdate update;
         while (link.meshes.TryPop(update)) {
@@ -66,7 +67,7 @@ class ViewerFeedTest : public EngineTest {
         TakeMeshes();
         return more;
     }
-    // By place, so that borrowed copies count once.
+    // Indexed by position, so that copies in neighbouring blocks count once.
     std::map<std::tuple<int, int, int>, Rgb8> Colours() const {
         std::map<std::tuple<int, int, int>, Rgb8> colours;
         for (const auto& [id, block] : blocks) {
@@ -97,8 +98,8 @@ class ViewerFeedTest : public EngineTest {
     std::vector<std::vector<MapObject>> sent;
 };
 
-// The object is confirmed, then changes its class, while one half gets no votes: what was sent
-// block by block is at any time what the whole mesh says.
+// The object is confirmed, then changes its class while one half gets no votes. The data sent block
+// by block must always match the whole mesh.
 TEST_F(ViewerFeedTest, ColoursByLabelAreThoseOfTheMesh) {
     MakeLabelled(30);
     std::int64_t most_cups = 0;
@@ -114,7 +115,7 @@ TEST_F(ViewerFeedTest, ColoursByLabelAreThoseOfTheMesh) {
         const auto there = colours.find({static_cast<int>(std::lround(at.x())),
                                          static_cast<int>(std::lround(at.y())),
                                          static_cast<int>(std::lround(at.z()))});
-        if (there == colours.end()) continue;  // its rounded place is another one
+        if (there == colours.end()) continue;  // rounded to a different position
         ++found;
         books += mesh.labels[i].class_id != 0;
         const Rgb8 expected =

@@ -23,7 +23,7 @@ namespace {
 using L = SumLayout;
 using SumAligned = void (*)(const AlignArguments&, int, int, double*);
 
-// A wavy image with holes in depth and colour, and points around what it shows.
+// A wavy image with holes in depth and colour, and points near its surface.
 struct TwoImages {
     static constexpr int kWidth = 40, kHeight = 30, kPoints = 1200;
     std::vector<float> depth, intensity, x, y, z, last;
@@ -70,7 +70,7 @@ std::vector<SumAligned> AlignPaths() {
     return paths;
 }
 
-// In double, with Jacobians by central differences, and plain if and else.
+// Reference in double precision, with central-difference Jacobians and plain branches.
 class SlowSums {
   public:
     explicit SlowSums(const TwoImages& images) : images_(images) {}
@@ -83,7 +83,8 @@ class SlowSums {
   private:
     using Vector7d = Eigen::Matrix<double, 7, 1>;
 
-    // Read between the four pixels of the cell at (u0, v0), beyond it, too.
+    // Interpolates bilinearly between the four pixels of the cell at (u0, v0), and extrapolates
+    // beyond it.
     struct Cell {
         int u0, v0;
         std::array<double, 4> pixel;
@@ -176,7 +177,7 @@ TEST(AlignRows, AreTheSlowSumsWithDerivativesByCentralDifferences) {
     }
 }
 
-// Every lane of the vectors does what the kernels do one point at a time: the same bytes.
+// Every SIMD lane gives the same bytes as the kernel applied to one point at a time.
 TEST(AlignRows, AreTheKernelsOneByOne) {
     const TwoImages images;
     PoseSums one_by_one;

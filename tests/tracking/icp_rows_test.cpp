@@ -23,7 +23,7 @@ float Random(std::uint32_t& state) {
     return static_cast<float>(state >> 8) / static_cast<float>(1 << 24);
 }
 
-// A bumpy wall seen by a small camera, with holes and pixels without colour; and points near it.
+// A bumpy wall seen by a small camera, with holes and pixels without colour, and points near it.
 struct Scene {
     static constexpr int kWidth = 40, kHeight = 30, kPoints = 2048;
     std::vector<float> depth, normal, intensity;
@@ -88,7 +88,7 @@ struct Scene {
     }
 };
 
-// The same sums, slowly: one point at a time, in double.
+// Reference for the sums: one point at a time, in double precision.
 class SlowIcpSums {
   public:
     explicit SlowIcpSums(const Scene& scene) : s_(scene), a_(scene.a) {
@@ -200,7 +200,7 @@ TEST_P(IcpRows, AgreeWithTheSlowSums) {
     }
 }
 
-// Every lane of the vectors does what the kernels do one point at a time: the same bytes.
+// Every SIMD lane gives the same bytes as the kernel applied to one point at a time.
 TEST_P(IcpRows, AreTheKernelsOneByOne) {
     Scene expected;
     expected.a.alpha = GetParam();
@@ -225,7 +225,7 @@ TEST_P(IcpRows, AreTheKernelsOneByOne) {
 
 INSTANTIATE_TEST_SUITE_P(Alpha, IcpRows, testing::Values(0.0f, 0.1f));
 
-// Between two poses only residuals that exist at both are compared.
+// The energies of two poses include only residuals that exist at both.
 TEST(IcpRows, EnergiesOfTwoPosesAreOverTheSamePoints) {
     for (const SumFunction sum : Paths()) {
         Scene here;
@@ -262,12 +262,13 @@ TEST(IcpRows, EnergiesOfTwoPosesAreOverTheSamePoints) {
     }
 }
 
-// d(residual)/d(increment) of both terms, the partner held: against central differences.
+// Checks d(residual)/d(increment) of both terms against central differences, with a fixed
+// correspondence.
 TEST(IcpKernels, JacobiansMatchCentralDifferences) {
     const Eigen::Vector3d p(0.21, -0.13, 1.4), n = Eigen::Vector3d(0.2, -0.3, -1).normalized(),
                                                partner(0.2, -0.1, 1.43);
     const double pixel[4] = {0.3, 0.5, 0.45, 0.2}, fx = 200, fy = 210;
-    const auto sample = [&](const Eigen::Vector3d& q) {  // around the pixel that p falls on
+    const auto sample = [&](const Eigen::Vector3d& q) {  // around the pixel onto which p projects
         const double u = fx * q.x() / q.z() - fx * p.x() / p.z() + 0.4,
                      v = fy * q.y() / q.z() - fy * p.y() / p.z() + 0.6;
         return Bilinear<double>(pixel[0], pixel[1], pixel[2], pixel[3], u, v);

@@ -43,11 +43,11 @@ Vector6d Twist(double a, double b, double c, double d, double e, double f) {
 INSTANTIATE_TEST_SUITE_P(ImageAligner, FromRest,
                          // 6.6 degrees and 7 cm between two frames.
                          testing::Values(Twist(0.06, -0.09, 0.05, 0.05, -0.03, 0.04),
-                                         // 14 degrees, as at 400 a second.
+                                         // 14 degrees, as at 400 degrees per second.
                                          Twist(0.01, 0.25, 0.02, 0.05, -0.02, 0.01),
                                          Twist(0.01, -0.25, 0.02, -0.05, 0.02, 0.01)));
 
-// What a wall's noise says about motion along it is not worth as much as the guess.
+// On a bare wall, noise says less about motion along the wall than the guess does.
 TEST(ImageAligner, AlongABareWallKeepsTheGuess) {
     BoxRoom room;
     room.only_back_wall = true;
@@ -85,8 +85,8 @@ TEST(ImageAligner, WithoutAnythingToAlignReturnsTheGuess) {
     EXPECT_TRUE(aligner.Align(Prepare(frame), guess).isApprox(guess, 1e-6));
 }
 
-// Something was held before the camera, which moved meanwhile: what comes after is aligned with
-// what was seen before.
+// An object covers the camera while the camera moves. The next frame is aligned with the last frame
+// before the object.
 TEST(ImageAligner, AFrameThatIsNotKeptIsPassedOver) {
     BoxRoom room;
     room.has_ball = true;
@@ -118,7 +118,7 @@ TEST(ImageAligner, AFrameThatIsNotKeptIsPassedOver) {
     }
 }
 
-// A strip has few rows to reduce: two are left, or there is nothing to read between.
+// A strip has few rows to reduce. At least two must remain, because interpolation needs two.
 TEST(ImageAligner, AStripIsAlignedWithinItsImage) {
     const PinholeCamera camera{1024, 32, 800, 800, 511.5, 15.5};
     BoxRoom room;
@@ -141,12 +141,12 @@ TEST(ImageSearch, FindsAShiftToThePixelAndItsSign) {
     for (int y = 0; y < 30; ++y)
         for (int x = 0; x < 40; ++x) {
             last(x, y) = texture(x, y);
-            // The content moved by (+3, -2), and got brighter.
+            // The content moved by (+3, -2) and got brighter.
             current(x, y) = 0.1f + texture(x - 3, y + 2);
         }
     const auto rotations = SearchRotations(last, current, camera, 1);
     ASSERT_EQ(rotations.size(), 1u);
-    // A rotation taking last camera coordinates to current ones that moves the image right and up.
+    // A rotation from the last to the current camera coordinates moves the image right and up.
     const Eigen::Vector3d p =
         Se3Exp((Vector6d() << rotations[0], Eigen::Vector3d::Zero()).finished()) *
         camera.Unproject(19.5, 14.5, 1.0);

@@ -36,8 +36,8 @@ TEST(LevenbergMarquardt, FailuresInARowGrowFasterAndFaster) {
     EXPECT_DOUBLE_EQ(lm.damping() / two, 8);
 }
 
-// Rosenbrock's valley, where Gauss-Newton's full step first goes up: the energy never rises, and
-// the bottom is found.
+// Rosenbrock's valley, where the first full Gauss-Newton step increases the energy. The energy must
+// never rise, and the minimum must be found.
 TEST(LevenbergMarquardt, DescendsACurvedValley) {
     double x = -1.2, y = 1.0, energy = 1e9;
     LevenbergMarquardt lm;

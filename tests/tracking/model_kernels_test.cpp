@@ -7,8 +7,8 @@
 namespace tessera {
 namespace {
 
-// 4 x 2 pixels: a wall at 1 m, in the right half rising by 5 cm a row and without colour in one
-// pixel.
+// 4 x 2 pixels of a wall at 1 m. The right half is 5 cm farther in the second row, and one pixel
+// has no colour.
 struct Images {
     std::vector<float> depth_m = {1, 1, 1.0f, 1.0f, 1, 1, 1.05f, 1.05f};
     std::vector<float> intensity = {0.1f, 0.2f, 0.5f, -1, 0.3f, 0.4f, 0.5f, 0.5f};
@@ -37,7 +37,7 @@ TEST(ModelKernels, EdgesAreJumpsAndHoles) {
     Images images;
     EXPECT_FALSE(images.view().AtEdge(3, 0, 0.06f));
     EXPECT_TRUE(images.view().AtEdge(3, 0, 0.04f));
-    EXPECT_FALSE(images.view().AtEdge(0, 1, 0.04f)) << "the image's border is none";
+    EXPECT_FALSE(images.view().AtEdge(0, 1, 0.04f)) << "the image border is no edge";
     images.depth_m[0] = 0;
     EXPECT_TRUE(images.view().AtEdge(0, 0, 1.0f));
     EXPECT_TRUE(images.view().AtEdge(0, 1, 1.0f));

@@ -1,4 +1,4 @@
-// What moves before a wall, with exact images and a map that is the wall.
+// Objects that move in front of a wall, with exact depth images and a map of the wall.
 #include "tracking/moving_detector.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ constexpr float kWall_m = 3.0f, kBox_m = 1.5f;
 constexpr double kFrame_s = 1.0 / 30;
 const PinholeCamera kCamera{kWidth, kHeight, 105, 105, 63.5, 47.5};
 
-// A rectangle of pixels at a depth before the wall.
+// A rectangle of pixels at a depth in front of the wall.
 struct Box {
     int left = 0, right = 0, top = 0, bottom = 0;
     float depth_m = kBox_m;
@@ -29,7 +29,7 @@ DepthImage View(const Box& box) {
     return depth_m;
 }
 
-// The columns of a pillar before a round wall, from a camera in the middle that has turned by
+// A pillar in front of a cylindrical wall, seen from the centre by a camera that has turned by
 // `yaw_rad`.
 DepthImage RoundView(double yaw_rad) {
     DepthImage depth_m(kWidth, kHeight);
@@ -44,13 +44,13 @@ DepthImage RoundView(double yaw_rad) {
 
 void HideRows(int rows, DepthImage& depth_m) { std::fill_n(depth_m.data(), rows * kWidth, 0.0f); }
 
-// The map is the wall, and perhaps a box; of the camera's places only the one along its axis
-// counts.
+// A map of the wall and, optionally, a box. Of the camera position only the translation along z
+// matters.
 class WallAndBox : public ViewPredictor {
   public:
     Box box;
     int unknown_rows = 0;  // at the top
-    bool round = false;    // RoundView's, in place of all this
+    bool round = false;    // predicts RoundView instead
     void Predict(const BlockMap&, const PinholeCamera& camera,
                  const Eigen::Isometry3d& T_world_camera, float, float,
                  PredictedView& view) override {
@@ -76,7 +76,7 @@ class MovingDetectorTest : public ::testing::Test {
             {.depth_m = depth_m, .stamp_s = stamp_s_, .T_world_camera = T_world_camera_}, map_,
             wall_);
     }
-    // A box as wide as half a metre, `way` pixels along.
+    // A box 35 pixels (half a metre) wide, shifted right by `way` pixels.
     static Box BoxAt(double way) {
         const int left = 20 + static_cast<int>(std::lround(way));
         return {left, left + 35, 10, 90};
@@ -93,7 +93,7 @@ TEST_F(MovingDetectorTest, NothingMovesInAStaticView) {
     for (int i = 0; i < 60; ++i) EXPECT_EQ(See(View(BoxAt(0))), nullptr) << i;
 }
 
-// At 1 m/s, 2.3 pixels a frame.
+// 1 m/s, or 2.3 pixels per frame.
 TEST_F(MovingDetectorTest, AWalkerIsMaskedWholeAndTheWallIsNot) {
     for (int i = 0; i < 10; ++i) See(View({}));
     for (int i = 0; i < 24; ++i) {
@@ -108,11 +108,12 @@ TEST_F(MovingDetectorTest, AWalkerIsMaskedWholeAndTheWallIsNot) {
                 false_alarms += !box.Has(x, y) && masked;
             }
         EXPECT_EQ(missed, 0) << i;
-        EXPECT_LT(false_alarms, 5 * 2 * (35 + 80)) << i;  // a rim of the tiles around
+        EXPECT_LT(false_alarms, 5 * 2 * (35 + 80)) << i;  // a rim of neighbouring tiles
     }
 }
 
-// There from the first frame: nobody has seen what is behind it, and the map has it.
+// The person is there from the first frame on. What is behind has never been seen, and the map
+// contains the person.
 TEST_F(MovingDetectorTest, AWalkerOfTheFirstFrameIsFoundByWhereItWas) {
     wall_.box = BoxAt(0);
     std::shared_ptr<const MovingMask> mask;
@@ -121,11 +122,11 @@ TEST_F(MovingDetectorTest, AWalkerOfTheFirstFrameIsFoundByWhereItWas) {
     const Box box = BoxAt(2.3 * 23);
     EXPECT_EQ(mask->moving((box.left + box.right) / 2, 50), 1);
     EXPECT_GT(mask->gone_tiles, 20 * 60);
-    EXPECT_FLOAT_EQ(mask->gone_m(30, 50), kWall_m);  // where it was
-    EXPECT_EQ(mask->gone_m(120, 50), 0);             // where nothing was
+    EXPECT_FLOAT_EQ(mask->gone_m(30, 50), kWall_m);  // where the person was
+    EXPECT_EQ(mask->gone_m(120, 50), 0);             // where nobody was
 }
 
-// Nobody knows what is behind the head, and it is 15 cm behind the chest.
+// The background of the head is unknown, and the head is 15 cm behind the chest.
 TEST_F(MovingDetectorTest, AHeadGoesWithItsBody) {
     constexpr int kUnknown = 30;
     wall_.unknown_rows = kUnknown;
@@ -147,8 +148,8 @@ TEST_F(MovingDetectorTest, AHeadGoesWithItsBody) {
     }
 }
 
-// The map has a box that went while nobody looked; it is seen through, but only someone else who
-// walks makes the detector ask the map.
+// The map contains a box that was removed while it was out of view. The camera sees through it, but
+// the detector queries the map only once someone else moves.
 TEST_F(MovingDetectorTest, WhatWentUnseenIsGone) {
     wall_.box = BoxAt(0);
     for (int i = 0; i < 30; ++i) EXPECT_EQ(See(View({})), nullptr) << i;
@@ -164,7 +165,7 @@ TEST_F(MovingDetectorTest, WhatADetectorSaysMovesHoweverStillItStands) {
     DepthImage hinted_m(kWidth, kHeight, 0.0f);
     for (int y = box.top; y < box.bottom; ++y)
         std::fill(hinted_m.row(y) + box.left, hinted_m.row(y) + box.right, kBox_m);
-    detector_.Guide({hinted_m, stamp_s_ + kFrame_s}, 0, std::nullopt);  // of the first frame
+    detector_.Guide({hinted_m, stamp_s_ + kFrame_s}, 0, std::nullopt);  // given for the first frame
     for (int i = 0; i < 25; ++i) {
         const auto expected = detector_.Expect(stamp_s_ + kFrame_s, T_world_camera_);
         const auto mask = See(View(box));
@@ -179,7 +180,8 @@ TEST_F(MovingDetectorTest, WhatADetectorSaysMovesHoweverStillItStands) {
                 ASSERT_LE(mask->moving(x, y), near) << i << ": " << x << " " << y;
             }
     }
-    // What was said a window ago no longer counts, nor does it where something else stands.
+    // A detection older than the window no longer counts. It does not count either where the depth
+    // now differs.
     for (int i = 0; i < 10; ++i) See(View(box));
     EXPECT_EQ(See(View(box)), nullptr);
     detector_.Guide({hinted_m, stamp_s_}, 0, T_world_camera_);
@@ -196,7 +198,7 @@ TEST_F(MovingDetectorTest, WhatHasStoodStillForTheWindowBelongsToTheScene) {
     const Box stands = BoxAt(2.3 * 14);
     std::shared_ptr<const MovingMask> mask;
     for (int i = 0; i < 15; ++i) mask = See(View(stands));
-    EXPECT_NE(mask, nullptr);  // after half a second not yet
+    EXPECT_NE(mask, nullptr);  // not yet after half a second
     for (int i = 0; i < 18; ++i) mask = See(View(stands));
     EXPECT_TRUE(mask == nullptr || mask->moving_tiles == 0);
 }
@@ -207,7 +209,7 @@ TEST_F(MovingDetectorTest, APoseThatIsOffIsNoMovement) {
     for (int i = 0; i < 10; ++i) EXPECT_EQ(See(View(BoxAt(0))), nullptr) << i;
 }
 
-// A rolling shutter shows the edges where the camera looked up to 15 ms before or after.
+// A rolling shutter shows the edges where they were up to 15 ms earlier or later.
 TEST_F(MovingDetectorTest, EdgesThatATurnHasShiftedDoNotMove) {
     wall_.round = true;
     for (int i = 0; i < 30; ++i) EXPECT_EQ(See(RoundView(0)), nullptr) << i;
@@ -225,7 +227,7 @@ TEST_F(MovingDetectorTest, SpecksDoNotCount) {
     }
 }
 
-// A tenth of the view, but at 0.4 m only 10 cm wide and high.
+// 5 % of the view, but at 0.4 m only 10 cm wide and high.
 TEST_F(MovingDetectorTest, ANearHandIsMasked) {
     for (int i = 0; i < 10; ++i) See(View({}));
     for (int i = 0; i < 10; ++i) {
@@ -236,7 +238,7 @@ TEST_F(MovingDetectorTest, ANearHandIsMasked) {
     }
 }
 
-// A crumb that is smaller than three by three tiles; the other walks somewhere else.
+// The old object is smaller than three by three tiles. A person walks elsewhere.
 TEST_F(MovingDetectorTest, ACrumbThatIsSeenThroughIsGone) {
     wall_.box = {100, 102, 40, 42};
     for (int i = 0; i < 30; ++i) See(View({}));

@@ -9,8 +9,8 @@
 namespace tessera {
 namespace {
 
-// A trilinear cell stands for any field: residual and Jacobian against central differences of the
-// whole chain increment -> moved point -> interpolation.
+// A trilinear cell stands for any field. Compares the residual and its Jacobian with central
+// differences of the whole chain: increment -> moved point -> interpolation.
 struct Cell {
     double corner[8] = {0.3, -0.2, 0.5, 0.1, -0.4, 0.7, 0.2, -0.1};
 
@@ -56,8 +56,7 @@ TEST(HuberWeight, IsOneInsideAndFallsOutside) {
     EXPECT_FLOAT_EQ(HuberWeight(0.2f, 0.02f), 0.1f);
 }
 
-// E(x) = w (r + J x)^2 / 2 for the brightness unknowns: the sums must be the gradient and Hessian
-// of it.
+// E(x) = w (r + J x)^2 / 2 for the brightness unknowns. The sums must be its gradient and Hessian.
 TEST(AddBrightnessTerm, MatchesThePhotometricResidual) {
     using L = SumLayout;
     const double j[6] = {0.1, -0.2, 0.3, 0.4, 0.5, -0.6};

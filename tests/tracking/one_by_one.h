@@ -1,4 +1,5 @@
-// The trackers' sums by their kernels one point at a time: what vectors and CUDA must agree with.
+// Computes the trackers' sums with their kernels, one point at a time. The SIMD and CUDA code must
+// agree with them.
 #pragma once
 
 #include "core/scalar_lanes.h"

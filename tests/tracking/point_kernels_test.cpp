@@ -19,7 +19,7 @@ TEST(PointKernels, WeightFallsWithDepthFromHalfAMetreOn) {
     EXPECT_FLOAT_EQ(PointWeight(4.0f, -2.0f, 2.0f), 0.0625f);
 }
 
-// To first order the body twist's exponential, and back again.
+// Moved is the exponential of the body twist to first order. A negative time inverts it.
 TEST(PointKernels, MovedIsTheMotionToFirstOrder) {
     Vector6d twist;
     twist << 0.3, -0.2, 0.4, 0.1, 0.5, -0.3;
@@ -33,7 +33,7 @@ TEST(PointKernels, MovedIsTheMotionToFirstOrder) {
     EXPECT_NEAR(Moved(moved, floats.data(), -kTime_s).x, 0.4, 3e-7);
 }
 
-// The plane z = 1 + x / 2, and a hole in it.
+// The plane z = 1 + x / 2 with a hole.
 TEST(PointKernels, NormalOfAPlanePointsTowardsTheCamera) {
     PinholeImage image{nullptr, 9, 7, 20, 20, 4, 3};
     std::vector<float> depth;
@@ -46,10 +46,10 @@ TEST(PointKernels, NormalOfAPlanePointsTowardsTheCamera) {
     EXPECT_NEAR(n.x, 0.5 / std::sqrt(1.25), 1e-6);
     EXPECT_NEAR(n.y, 0, 1e-6);
     EXPECT_NEAR(n.z, -1 / std::sqrt(1.25), 1e-6);
-    EXPECT_TRUE(NormalAt(image, 0, 6, 1, n));  // in the corner, one-sided
-    EXPECT_FALSE(NormalAt(image, 5, 3, 2, n)) << "beside the hole";
+    EXPECT_TRUE(NormalAt(image, 0, 6, 1, n));  // a corner, with one-sided differences
+    EXPECT_FALSE(NormalAt(image, 5, 3, 2, n)) << "next to the hole";
     depth[3 * 9 + 1] = 3;
-    EXPECT_FALSE(NormalAt(image, 3, 3, 2, n)) << "beside an edge";
+    EXPECT_FALSE(NormalAt(image, 3, 3, 2, n)) << "next to an edge";
 }
 
 TEST(PointKernels, ImagesAreReadBetweenPixelsAndNotOutside) {
@@ -58,7 +58,7 @@ TEST(PointKernels, ImagesAreReadBetweenPixelsAndNotOutside) {
     EXPECT_FLOAT_EQ(image.Between(0.5f, 1.25f), 13.0f);
     EXPECT_EQ(image.Between(-0.01f, 0), -1.0f);
     EXPECT_EQ(image.Between(1, 2), -1.0f);
-    EXPECT_FLOAT_EQ(SampleAtPoint(image, {0.01f, -0.02f, 2}), 6.5f);  // at (1.5, 0.5)
+    EXPECT_FLOAT_EQ(SampleAtPoint(image, {0.01f, -0.02f, 2}), 6.5f);  // pixel (1.5, 0.5)
     EXPECT_EQ(SampleAtPoint(image, {0, 0, -1}), -1.0f);
     EXPECT_FLOAT_EQ(RaySlope(7, 3.0, 8.0), 0.5f);
 }

@@ -1,4 +1,5 @@
-// What a frame knows about its pose: figures that follow from exact geometry and known noise.
+// Tests of how well a frame determines its pose. The values follow from exact geometry and known
+// noise.
 #include "tracking/pose_information.h"
 
 #include <gtest/gtest.h>
@@ -9,8 +10,8 @@
 namespace tessera {
 namespace {
 
-// Patches of unit weight that see planes with these normals from the camera, 1 m ahead; each normal
-// with noise of its own.
+// Patches of unit weight on planes with these normals, seen by the camera from 1 m. Each normal has
+// its own noise.
 std::vector<double> Patches(int blocks, const std::vector<Eigen::Vector3d>& normals, double noise) {
     std::mt19937 random(5);
     std::normal_distribution<double> normal;
@@ -33,8 +34,8 @@ Vector6d Eigenvalues(const Matrix6d& m) {
     return Eigen::SelfAdjointEigenSolver<Matrix6d>(m).eigenvalues();
 }
 
-// A wall holds three motions. Noise of its normals makes the other three look held if patches are
-// squared (0.01 x 400), and does not where different patches are multiplied.
+// A wall determines three motions. Noise in its normals makes the other three look determined if
+// patches are squared (0.01 x 400), but not if different patches are multiplied.
 TEST(AgreedHessian, NoiseOfNormalsIsNoInformation) {
     const std::vector<double> wall = Patches(100, {{0, 0, -1}}, 0.1);
     Matrix6d squared = Matrix6d::Zero();
@@ -58,7 +59,7 @@ TEST(AgreedHessian, IsTheHessianWhereThereIsNoNoise) {
     EXPECT_TRUE(AgreedHessian(corner).isApprox(hessian, 1e-12));
 }
 
-// 400 points of weight 1, errors of 1 cm: a wall's distance is known to 1 cm / 20.
+// 400 points of weight 1 with errors of 1 cm determine the distance of a wall to 1 cm / 20.
 TEST(PoseInformation, IsInMetresAndGrowsWithEveryResidual) {
     ResidualSums residuals;
     residuals.distances = Patches(100, {{0, 0, -1}}, 0);
@@ -74,12 +75,13 @@ TEST(PoseInformation, IsInMetresAndGrowsWithEveryResidual) {
     const Matrix6d both = PoseInformation(residuals, intensities, scales, 2.0);
     EXPECT_NEAR(1 / std::sqrt(both(3, 3)), 0.005, 1e-9);
     EXPECT_GE(Eigenvalues(both - geometry)(0), -1e-6);
-    scales.texture = 0.25;  // of which three quarters are noise
+    scales.texture = 0.25;  // three quarters of it are noise
     EXPECT_NEAR(1 / std::sqrt(PoseInformation(residuals, intensities, scales, 2.0)(3, 3)), 0.01,
                 1e-9);
 }
 
-// Known to 1 mm along x, to 1 cm, as well as expected, along y, not at all else.
+// x is known to 1 mm, y to 1 cm, which equals the prior's standard deviation, and the other motions
+// are unknown.
 TEST(PoseKnowledge, MotionsFollowWhatWasExpectedAsFarAsTheFrameDoesNotKnowThem) {
     Matrix6d information = Matrix6d::Zero();
     information(3, 3) = 1e6;
@@ -95,7 +97,7 @@ TEST(PoseKnowledge, MotionsFollowWhatWasExpectedAsFarAsTheFrameDoesNotKnowThem) 
                 1e-9);
 }
 
-// As if so many points as the finest level has were weighed against the expectation.
+// The same as weighing the points of the finest level against the prior.
 TEST(PoseKnowledge, LeastDampingIsThatOfTheExpectation) {
     ResidualScales scales;
     scales.distance_m2 = 4e-4;

@@ -1,4 +1,4 @@
-// The step from the sums, and what keeps it small where nothing holds it.
+// Tests of the step computed from the sums, and of the damping of undetermined motions.
 #include "tracking/pose_solver.h"
 
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ PoseStep Solve(const PoseSums& sums, double alpha, double least_damping) {
     return SolvePoseStep(sums, options, 1, 0, Eigen::Vector3d::Zero(), 1.0);
 }
 
-// Distances ask for 1 cm along x, intensities for 3 cm; alpha weighs them.
+// Distances ask for 1 cm along x, intensities for 3 cm. alpha weighs the two.
 TEST(PoseSolver, WeighsTheTwoKindsByAlpha) {
     const Vector6d ones = Vector6d::Ones(), h_c = 2 * ones;
     PoseSums sums;
@@ -50,12 +50,12 @@ TEST(PoseSolver, WhatNothingShowsDoesNotRunAway) {
     EXPECT_FALSE(Solve(PoseSums(), 0, 1e-3).valid);
 }
 
-// Brightness takes its share: a pose gradient that gain and offset explain alone moves nothing.
+// If gain and offset alone explain the pose gradient, the pose does not move.
 TEST(PoseSolver, BrightnessIsEliminated) {
     PoseSums sums;
     SetTerm(Vector6d::Ones(), Vector6d::Zero(), L::kDistance, sums);
     SetTerm(Vector6d::Ones(), V(0, 0, 0, 0.05, 0, 0), L::kIntensity, sums);
-    sums.value[L::kCoupling + 2 * 3 + 1] = 0.5;  // x with the offset
+    sums.value[L::kCoupling + 2 * 3 + 1] = 0.5;  // couples x with the offset
     sums.value[L::kBrightness] = sums.value[L::kBrightness + 2] = 1;
     sums.value[L::kBrightnessGradient + 1] = 0.1;  // 0.05 = 0.5 * 0.1
     SolverOptions options;

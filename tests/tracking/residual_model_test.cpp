@@ -15,8 +15,8 @@ namespace {
 
 using namespace testing_support;
 
-// What is learnt from residuals of a textured room, bounds out of the way. All points see all
-// motions: gradients turn about.
+// Scales learnt from the residuals of a textured room, with bounds that have no effect. The
+// gradients vary in direction, so all points determine all motions.
 class LearntScales : public testing::Test {
   protected:
     LearntScales() {
@@ -68,7 +68,7 @@ class LearntScales : public testing::Test {
     PoseTerm distances_, intensities_;
 };
 
-// Independent errors: the plain variances, 4e-6 m^2 and 4e-4, and their ratio.
+// For independent errors: the plain variances, 4e-6 m^2 and 4e-4, and their ratio.
 TEST_F(LearntScales, AreTheVariancesOfIndependentErrors) {
     const ResidualScales scales = Learn();
     EXPECT_NEAR(scales.distance_m2, 4e-6, 1.5e-6);
@@ -76,8 +76,8 @@ TEST_F(LearntScales, AreTheVariancesOfIndependentErrors) {
     EXPECT_NEAR(model_->alpha(), 0.01, 0.007);
 }
 
-// Errors that neighbours share count more the more neighbours share them; here 32 x 32 do, about
-// half a region across.
+// Errors shared by neighbours count more the more neighbours share them. Here 32 x 32 points do,
+// about half a region across.
 TEST_F(LearntScales, GrowWithErrorsThatNeighboursShare) {
     const double alone = Learn().distance_m2;
     std::normal_distribution<float> noise;
@@ -90,7 +90,7 @@ TEST_F(LearntScales, GrowWithErrorsThatNeighboursShare) {
     EXPECT_GT(Learn().distance_m2, 50 * alone);
 }
 
-// As where edges are blurred or displaced: the errors pull all one way at each edge, though their
+// As at blurred or displaced edges: the errors at each edge all pull in one direction, though their
 // sum is zero.
 TEST_F(LearntScales, ErrorsAlongTheImageGradientCountAsTheyPull) {
     const double before = Learn().intensity;
@@ -103,12 +103,12 @@ TEST_F(LearntScales, ErrorsAlongTheImageGradientCountAsTheyPull) {
     EXPECT_GT(Learn().intensity, 3 * before);
 }
 
-// The same gradient everywhere, up and down by turns or only up: what a block is wrong by together
-// cancels, or counts 256 times.
+// All gradients have the same size and either alternate in sign or all point the same way. The
+// shading errors of a block cancel, or count 256 times.
 TEST_F(LearntScales, ShadingErrorCountsWhereShadingIsTheOnlyTexture) {
     config_.shading_error = 0.02;
     std::ranges::fill(residuals_.intensity, 0.0f);
-    residuals_.intensity[Index(3, 3)] = 1e-3f;  // some error
+    residuals_.intensity[Index(3, 3)] = 1e-3f;  // not all zero
     const auto learn_from = [&](const auto& intensity_of) {
         for (int i = 0; i < points_.count(); ++i) {
             points_.z[static_cast<std::size_t>(i)] = 1;
@@ -121,7 +121,7 @@ TEST_F(LearntScales, ShadingErrorCountsWhereShadingIsTheOnlyTexture) {
     EXPECT_NEAR(learn_from([](int x) { return x; }), 256 * 4e-4, 2e-3);
 }
 
-// The map is the image and noise of its own: half of its gradients' square.
+// The map is the image plus its own noise, so half of the squared gradients are noise.
 TEST_F(LearntScales, NoiseInTheMapIsNoTexture) {
     std::normal_distribution<float> noise;
     for (float& i : points_.intensity) i = 0.5f + 0.05f * noise(random_);
@@ -130,16 +130,16 @@ TEST_F(LearntScales, NoiseInTheMapIsNoTexture) {
     EXPECT_NEAR(Learn().texture, 1, 0.01);
     for (float& r : residuals_.intensity) r = 0.05f * noise(random_);
     EXPECT_NEAR(Learn().texture, 0.5, 0.05);
-    for (int i = 0; i < points_.count(); ++i)  // a map that shows nothing of the image
+    for (int i = 0; i < points_.count(); ++i)  // a map unrelated to the image
         residuals_.intensity[static_cast<std::size_t>(i)] =
             0.05f * noise(random_) - (points_.intensity[static_cast<std::size_t>(i)] - 0.5f);
     EXPECT_LT(Learn().texture, 0.05);
 }
 
-// What the two kinds disagree about raises the variance of the one that gives way.
+// Disagreement between the two kinds raises the variance of the kind with less information.
 TEST_F(LearntScales, DisagreementIsSharedOut) {
     const double agreed = (Learn(), model_->alpha());
-    distances_.H *= 1e3;  // they lead
+    distances_.H *= 1e3;  // distances dominate
     distances_.g = -distances_.H * Vector6d::Constant(0.05);
     EXPECT_LT((Learn(), model_->alpha()), 0.5 * agreed);
     distances_.H = Matrix6d::Identity();
@@ -160,7 +160,7 @@ TEST_F(LearntScales, AlphaStaysWithinItsBoundAndWhereItIsFixed) {
     EXPECT_DOUBLE_EQ(model_->alpha(), 0.25);
 }
 
-// Where the pose is not held, it explains what it should not.
+// Where the pose is undetermined, it absorbs errors that are not its own.
 TEST_F(LearntScales, DegenerateFramesTeachNothingAboutTheShutter) {
     ResidualSums sums = Sums();
     arguments_.wants_shutter = true;

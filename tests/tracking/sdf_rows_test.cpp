@@ -17,7 +17,7 @@ namespace {
 
 using L = SumLayout;
 
-// Fills every voxel of the blocks in a cube with a smooth field; leaves one block out and one voxel
+// Fills every voxel of a cube of blocks with a smooth field. One block is missing and one voxel is
 // unknown.
 void Fill(BlockMap& map) {
     for (int z = -2; z <= 2; ++z)
@@ -58,7 +58,7 @@ struct Points {
     }
 };
 
-// The same sums, slowly: one point at a time, one hash look-up per corner, in double.
+// Reference for the sums: one point at a time, one hash look-up per corner, in double precision.
 PoseSums SlowSdfSums(const BlockMap& map, const Points& points, const SdfArguments& a) {
     PoseSums sums;
     const auto word = [&](int x, int y, int z) {
@@ -181,7 +181,7 @@ TEST_P(SdfRows, AgreeWithTheSlowSums) {
     PoseSums one_by_one;
     testing_support::SumOneByOne<SdfKernels<ScalarLanes>>(a, 0, 4096, one_by_one.value);
     expect_the_same_bytes(one_by_one);
-    if (!CpuHasAvx2()) GTEST_SKIP() << "no AVX2 here: only the portable path was checked";
+    if (!CpuHasAvx2()) GTEST_SKIP() << "this machine has no AVX2: tested only the portable path";
     PoseSums vector;
     avx2::SumSdfPoints(a, 0, 4096, vector.value);
     expect_the_same_bytes(vector);

@@ -25,16 +25,16 @@ TEST(SdfTracker, ExposureChangeIsExplainedByBrightness) {
     config.brightness_prior = 1e-3;
     const TestTracker tracker = FineSdf(config);
     const TrackResult result = world.Track(*tracker, prepared, SmoothPath(19), SmoothPath(19));
-    // map = gain * image + offset, so gain = 1 / 0.8 and offset = -10 / 255 / 0.8, up to the
-    // prior's pull.
+    // map = gain * image + offset, so gain = 1 / 0.8 and offset = -10 / 255 / 0.8, except for the
+    // effect of the prior.
     EXPECT_NEAR(result.gain, 1.25, 0.07);
     EXPECT_LT((T_true.inverse() * result.T_world_camera).translation().norm(), 0.002);
 }
 
-// The colour image of a moving camera, taken 15 ms after the depth image.
+// The colour image of a moving camera is taken 15 ms after the depth image.
 TEST(SdfTracker, ColourDelayIsAllowedFor) {
     BoxRoom room;
-    room.only_back_wall = true;  // only colour holds the sideways motion
+    room.only_back_wall = true;  // only colour determines the sideways motion
     const World world(room);
     Vector6d step;  // per frame
     step << 0, 0.02, 0, 0.02, 0, 0;

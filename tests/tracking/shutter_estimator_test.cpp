@@ -15,11 +15,11 @@ namespace {
 using testing_support::BoxRoom;
 using testing_support::SmallCamera;
 
-// A camera turning in a textured room, whose colour rows are each taken at their own time. The
-// poses are known, so the residuals come from the shutter alone.
+// A camera that rotates in a textured room and takes each colour row at its own time. The poses are
+// known, so the residuals come only from the shutter.
 class Shutter : public testing::Test {
   protected:
-    // The image of a camera whose colour comes `delay_s` late and is read out over `readout_s`.
+    // An image whose colour is `delay_s` late and read out over `readout_s`.
     Frame Render(const Eigen::Isometry3d& T, const Vector6d& twist, double delay_s,
                  double readout_s) const {
         Frame frame = room.Render(camera, T);

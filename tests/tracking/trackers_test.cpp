@@ -1,4 +1,4 @@
-// What every tracking method must do alike.
+// Requirements that every tracking method must meet.
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
@@ -9,7 +9,7 @@ namespace {
 
 using namespace testing_support;
 
-// No offset, then plus and minus each axis: 3 cm and 30 mrad, most of the band.
+// No offset, then plus and minus each axis: 3 cm and 30 mrad, most of the truncation band.
 std::vector<Vector6d> ThirteenStarts() {
     std::vector<Vector6d> starts = {Vector6d::Zero()};
     for (int axis = 0; axis < 6; ++axis)
@@ -41,7 +41,8 @@ TEST_P(EveryTracker, ThirteenStartsComeBack) {
     }
 }
 
-// [B14]'s main claim: one textured plane holds all six motions with colour, three without.
+// [B14]'s main claim: with colour, one textured plane determines all six motions; without colour,
+// three.
 TEST_P(EveryTracker, PlaneIsHeldByItsTextureOnly) {
     BoxRoom room;
     room.only_back_wall = true;
@@ -57,11 +58,11 @@ TEST_P(EveryTracker, PlaneIsHeldByItsTextureOnly) {
     } else {
         EXPECT_TRUE(result.degenerate);
         EXPECT_EQ(result.status, TrackStatus::kGood)
-            << "depth fits: fusing it changes nothing of the wall";
+            << "the depth fits, so fusion does not change the wall";
     }
 }
 
-// Before a bare wall, which shows neither where along it the camera is nor how it has rolled.
+// A bare wall, which determines neither the camera's position along it nor its roll.
 struct BareWall {
     const World world{[] {
         BoxRoom room;
@@ -85,8 +86,9 @@ struct BareWall {
                                  .since_last_s = 1.0 / 30,
                                  .motion = {}});
     }
-    // Along the wall and about its normal as it was expected, but for the few per cent that the
-    // field's rounding still claims to know (here of 7 cm between two starts); held otherwise.
+    // Motion along the wall and about its normal must follow the prediction, apart from the few per
+    // cent that rounding of the field appears to determine (here of 7 cm between two starts). The
+    // distance from the wall is determined.
     void ExpectAsExpected(const TrackResult& result, const Eigen::Isometry3d& T_expected) const {
         EXPECT_TRUE(result.degenerate);
         const Eigen::Vector3d along =
@@ -107,7 +109,7 @@ TEST_P(EveryTracker, WhatNothingShowsIsAsExpected) {
         T_aligned);
 }
 
-// A hand that comes before the camera is an image that has jumped. The motion model is not fooled.
+// A hand in front of the camera makes the image jump. The motion model is unaffected.
 TEST_P(EveryTracker, APrealignmentThatLeapsIsNotFollowed) {
     const BareWall wall;
     const Eigen::Isometry3d T_moved = wall.Beside(-0.02, 0.03, 0, -0.03);
@@ -129,8 +131,8 @@ TEST_P(EveryTracker, BareRoomIsHeldByItsShape) {
     EXPECT_LT((T_true.inverse() * result.T_world_camera).translation().norm(), 0.002);
 }
 
-// A start whose rotation is not quite one (a product of many poses) must not feed its error into
-// the next.
+// A start whose rotation is not quite orthonormal (a product of many poses) must not pass on its
+// error.
 TEST_P(EveryTracker, PosesStayRigid) {
     BoxRoom room;
     room.has_ball = true;

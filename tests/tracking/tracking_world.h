@@ -1,5 +1,5 @@
-// What the trackers' tests share: a map fused from exact views of a box room, and each method as
-// the tests set it up.
+// Shared by the tracker tests: a map fused from exact views of a box room, and each tracking method
+// as the tests configure it.
 #pragma once
 
 #include <memory>
@@ -20,7 +20,7 @@ inline PreparedFrame Prepare(const Frame& frame) {
     return prepared;
 }
 
-// A map fused from exact views, and the camera that made it.
+// A map fused from exact views, and the camera used for them.
 struct World {
     BoxRoom room;
     PinholeCamera camera = SmallCamera();
@@ -52,7 +52,7 @@ struct World {
     }
 };
 
-// A tracker and the state that it shares with others.
+// A tracker and the residual model it uses.
 struct TestTracker {
     std::unique_ptr<ResidualModel> model;
     std::unique_ptr<Tracker> tracker;
@@ -66,7 +66,7 @@ inline ResidualModel::Config FixedAlpha(double alpha) {
     return config;
 }
 
-// Every pixel, until it has converged.
+// Uses every pixel and iterates until converged.
 inline TestTracker FineSdf(const ResidualModel::Config& photometric) {
     SdfTracker::Config config;
     config.finest_step_px = 1;
@@ -91,7 +91,7 @@ inline TestTracker FineIcp(
     return t;
 }
 
-// By the command line's name.
+// `method` is the name used on the command line.
 inline TestTracker FineTracker(const std::string& method) {
     if (method == "sdf") return FineSdf(FixedAlpha(0.1));
     if (method == "sdf-geometric") return FineSdf(FixedAlpha(0.0));

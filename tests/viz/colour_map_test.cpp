@@ -41,12 +41,12 @@ TEST(ColourMap, ResidualComparesTheSameDirections) {
     predicted.SetNothing();
     std::fill_n(predicted.depth_m.data(), predicted.depth_m.size(), 2.0f);
     DepthImage measured(8, 6, 2.0f);
-    measured(5, 3) = 1.5f;  // nearest to the small view's pixel (2, 1), which looks to (4.5, 2.5)
+    measured(5, 3) = 1.5f;  // nearest to (4.5, 2.5), the ray of the small view's (2, 1)
     measured(0, 0) = 0;
     predicted.depth_m(3, 2) = 0;
     const ColourImage colours = ResidualColours(measured, camera, predicted, 0.04f);
     EXPECT_EQ(colours(2, 1), DivergingColour(-1));          // in front of the map
-    EXPECT_EQ(colours(1, 1), DivergingColour(1.0f / 255));  // equal, to the shade
+    EXPECT_EQ(colours(1, 1), DivergingColour(1.0f / 255));  // equal, within one step
     EXPECT_EQ(colours(3, 2), kNothingShown);
 }
 

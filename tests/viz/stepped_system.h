@@ -1,5 +1,5 @@
-// A system behind a viewer's link that a test steps by hand: the real pipeline and mesher, on the
-// test's own thread. Remembers every command and setting.
+// A system behind a viewer link that a test steps by hand: the real pipeline and mesher, run on the
+// test's thread. It stores every command and setting.
 #pragma once
 
 #include <memory>
@@ -16,7 +16,7 @@
 
 namespace tessera::testing_support {
 
-// Colours by label: of the world's left half (x < 0), and of the rest.
+// Label colours of the left half of the world (x < 0) and of the rest.
 inline constexpr Rgb8 kLeftLabel{240, 20, 30}, kNoLabel{150, 150, 150};
 
 class SteppedSystem {
@@ -24,8 +24,8 @@ class SteppedSystem {
     SteppedSystem(ViewerLink& link, std::unique_ptr<FrameSource> source,
                   const PipelineConfig& config);
 
-    // Does what came over the link; then, unless paused, one frame. False at the source's end or
-    // after kStop.
+    // Handles what came over the link and then, unless paused, processes one frame. Returns false
+    // at the end of the source or after kStop.
     bool Step();
 
     const PinholeCamera& camera() const { return source_->info().camera; }

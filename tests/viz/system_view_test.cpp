@@ -22,7 +22,7 @@ TEST(SystemView, TheDetectorsRateIsOfTheLastSeconds) {
         EXPECT_DOUBLE_EQ(view.detections_per_s(), i == 0 ? 0 : 2);
     }
     link.labels.Push(LabelUpdate{});
-    view.Take(link, 13.5);  // four seconds later: of the eleven intervals before only two count
+    view.Take(link, 13.5);  // 4 s later only 2 of the 11 earlier intervals count
     EXPECT_DOUBLE_EQ(view.detections_per_s(), 3 / 5.0);
 }
 

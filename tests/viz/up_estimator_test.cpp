@@ -16,7 +16,7 @@ void AddMany(UpEstimator& estimator, const Eigen::Vector3d& normal, int n) {
 }
 
 TEST(UpEstimator, FindsTheFloorBesideTheWalls) {
-    // A camera held 43 degrees downwards: y of the world is not down.
+    // The camera is tilted 43 degrees downwards, so the world's y axis does not point down.
     const double tilt = 43 * M_PI / 180;
     const Eigen::Vector3d up(0, -std::cos(tilt), -std::sin(tilt));
     const Eigen::Vector3d wall = Eigen::Vector3d(0, std::sin(tilt), -std::cos(tilt));

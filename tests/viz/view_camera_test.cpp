@@ -80,7 +80,7 @@ TEST(ViewCamera, FollowsFromBehindAndAbove) {
     const Vector3d seen = PixelOf(camera, sensor.translation());
     EXPECT_GT(seen.z(), 0);
     EXPECT_NEAR(seen.x(), 319.5, 1e-6);
-    // Half a second later it has gone most of the way after a jump, and never past.
+    // Half a second after a jump the view has covered most of the distance. It never overshoots.
     sensor.translation().x() = 3;
     const double before = camera.eye().x();
     for (int i = 0; i < 15; ++i) camera.Follow(sensor, 1.0 / 30);

@@ -1,4 +1,4 @@
-// Every control, clicked by a real pointer, and what the system is told.
+// Clicks every control with real pointer events and checks what the system receives.
 #include <X11/keysym.h>
 
 #include <filesystem>
@@ -29,7 +29,7 @@ TEST_F(ViewerControls, MethodsAreSelected) {
 
 TEST_F(ViewerControls, AlphaIsAutomaticOrSet) {
     Frames(2);
-    Click("alpha", 0.9f);  // greyed out
+    Click("alpha", 0.9f);  // disabled
     EXPECT_EQ(LastSettings(), nullptr);
     Click("alpha.auto");
     ASSERT_NE(LastSettings(), nullptr);
@@ -63,7 +63,7 @@ TEST_F(ViewerControls, SwitchesAndDepth) {
     EXPECT_GT(LastSettings()->max_depth_m, 0.5);
     Click("fusing");
     EXPECT_TRUE(LastSettings()->fusing);
-    EXPECT_FALSE(LastSettings()->prealign);  // sent whole
+    EXPECT_FALSE(LastSettings()->prealign);  // all settings are sent together
 }
 
 TEST_F(ViewerControls, PauseStepAndResume) {
@@ -95,7 +95,7 @@ TEST_F(ViewerControls, ResetIsAskedFor) {
     Click("reset.confirm");
     EXPECT_EQ(Commands(), std::vector{Kind::kReset});
     EXPECT_FALSE(viewer_->FindControl("reset.confirm"));
-    Click("pause");  // nothing is in the way any more
+    Click("pause");  // the dialog no longer blocks clicks
     EXPECT_EQ(Commands(), (std::vector{Kind::kReset, Kind::kPause}));
 }
 
@@ -109,7 +109,7 @@ TEST_F(ViewerControls, TheMeshIsSaved) {
     const auto mesh = ReadPly(path);
     ASSERT_TRUE(mesh.ok()) << mesh.message();
     EXPECT_GT(mesh.value().triangles.size(), 1000u);
-    Click("save_mesh");  // another name, also within the same second
+    Click("save_mesh");  // the name differs even within the same second
     Commands();
     EXPECT_NE(system_->commands().back().path, path);
 }
@@ -134,10 +134,10 @@ TEST_F(ViewerControls, RecordingBeginsAndEnds) {
 
 TEST_F(ViewerControls, KeysDoWhatButtonsDo) {
     Frames(1);
-    MoveTo("view");  // without a window manager the keys go to the window under the pointer
+    MoveTo("view");  // without a window manager, keys go to the window under the pointer
     for (const unsigned long key : {XK_space, XK_space, XK_s, XK_m, XK_k, XK_v, XK_v}) {
         Key(key);
-        system_->Step();  // what a key does next may depend on what the system has done
+        system_->Step();  // the effect of a key may depend on the state of the system
     }
     EXPECT_EQ(Commands(), (std::vector{Kind::kPause, Kind::kResume, Kind::kStep, Kind::kSaveMesh,
                                        Kind::kSaveScan, Kind::kRecord, Kind::kStopRecording}));
@@ -165,7 +165,7 @@ TEST_F(ViewerControls, HelpComesAndGoes) {
     EXPECT_FALSE(viewer_->FindControl("help.panel"));
 }
 
-// Once the run is over there is nobody to tell.
+// After the end of the run no system receives commands.
 TEST_F(ViewerControls, AfterTheEndNothingIsSent) {
     Frames(2);
     link_.ended = true;

@@ -1,5 +1,5 @@
-// How a window ends: closed by the person, by the run's end, or with its display; and where there
-// is none.
+// Ways a window ends: closed by the user, by the end of the run, or by the loss of its display.
+// Also tests opening a window without a display.
 #include <X11/keysym.h>
 
 #include <cstdlib>
@@ -33,7 +33,7 @@ class ViewerEnd : public testing_support::WindowTest {
 
 TEST_F(ViewerEnd, TheCloseButtonStopsTheRun) {
     Frames(2);
-    // With the button down on the view and frames on their way.
+    // Close while a mouse button is held down on the view and frames are still arriving.
     MoveTo("view");
     display_->Press(1);
     Rounds(1);
@@ -75,7 +75,7 @@ TEST_F(ViewerEnd, ClosesAtTheEndIfAsked) {
     EXPECT_TRUE(link_.commands.empty());
 }
 
-// The server dies; the process must not.
+// The X server dies. The process must survive.
 TEST_F(ViewerEnd, TheLossOfTheDisplayIsAClose) {
     Frames(2);
     display_->Kill();

@@ -1,4 +1,4 @@
-// What the window shows.
+// Tests of the window's image.
 #include <X11/keysym.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace {
 
 class ViewerPicture : public testing_support::WindowTest {
   protected:
-    // Of the 3D view's pixels, the share for which the predicate holds.
+    // Fraction of the 3D view's pixels for which the predicate holds.
     template <class Predicate>
     double Share(const ColourImage& picture, Predicate predicate) {
         const ControlRect view = Find("view");
@@ -59,7 +59,7 @@ TEST_F(ViewerPicture, AScreenshotIsSavedAndToldOf) {
     ASSERT_TRUE(picture.ok()) << picture.message();
     ASSERT_EQ(picture.value().width(), 1280);
     ASSERT_EQ(picture.value().height(), 720);
-    // The box room: warm colours, which no part of the window's own has.
+    // The box room has warm colours, which occur nowhere else in the window.
     EXPECT_GT(Share(picture.value(), [](const Rgb8& c) { return c.r > c.b + 15 && c.r > 70; }),
               0.05);
     Key(XK_p);
@@ -77,10 +77,10 @@ TEST_F(ViewerPicture, ShadingByButtonAndKey) {
                      [](const Rgb8& c) { return c.r > 90 && c.r > 3 * c.g && c.r > 3 * c.b; });
     };
     const double colour = coloured(), red_of_scene = red();
-    Click("shading.Label");  // half of the room has one
+    Click("shading.Label");  // half of the room has a label
     const double labelled = red();
     EXPECT_GT(labelled, red_of_scene + 0.05);
-    Click("shading.Weight");  // seen once or twice: of the dark end
+    Click("shading.Weight");  // seen once or twice, so the dark end of the scale
     EXPECT_LT(red(), 0.01);
     EXPECT_GT(Share(viewer_->Picture(), [](const Rgb8& c) { return c.b > c.r + 20 && c.b > 60; }),
               0.15);
@@ -88,7 +88,7 @@ TEST_F(ViewerPicture, ShadingByButtonAndKey) {
     const double grey = coloured();
     Click("shading.Normal");
     const double normal = coloured();
-    EXPECT_LT(grey, 0.03);  // the lines only
+    EXPECT_LT(grey, 0.03);  // only the lines
     EXPECT_GT(colour, grey);
     EXPECT_GT(normal, 2 * grey + 0.05);
     Key(XK_c);
@@ -98,8 +98,8 @@ TEST_F(ViewerPicture, ShadingByButtonAndKey) {
 constexpr Rgb8 kMagenta{255, 0, 255};
 bool IsMagenta(const Rgb8& c) { return c.r > 150 && c.b > 150 && c.g < 90; }
 
-// Its box and name show; a click in the list brings it to the middle, another shading keeps it, the
-// key hides it.
+// The object's box and name show. A click in the list centres the object. They stay with another
+// shading, and the key hides them.
 TEST_F(ViewerPicture, AnObjectIsListedBoxedAndLookedAt) {
     Frames(3);
     const auto magenta = [&] { return Share(viewer_->Picture(), IsMagenta); };
@@ -138,7 +138,8 @@ TEST_F(ViewerPicture, AnObjectIsListedBoxedAndLookedAt) {
     EXPECT_FALSE(viewer_->FindControl("object.7"));
 }
 
-// Over the image of their frame; an old answer is not shown over a new image.
+// Detections are drawn over the image of their frame. Old detections are not shown over a new
+// image.
 TEST_F(ViewerPicture, DetectionsShowOverTheImage) {
     Frames(2);
     const auto magenta = [&] {

@@ -13,7 +13,7 @@
 namespace tessera::testing_support {
 namespace {
 
-// The number that Xvfb writes when it is ready; nothing if it ends before.
+// Reads the display number that Xvfb writes when it is ready. Returns nothing if Xvfb exits first.
 std::string ReadLine(int pipe_end) {
     std::string line;
     char c = 0;
@@ -60,7 +60,7 @@ VirtualDisplay::~VirtualDisplay() {
 void VirtualDisplay::Kill() {
     kill(server_, SIGKILL);
     waitpid(server_, nullptr, 0);
-    server_ = -1;  // the connection can no longer be closed
+    server_ = -1;  // the server is gone, so the connection cannot be closed
     unsetenv("DISPLAY");
 }
 

@@ -1,4 +1,4 @@
-// A window on a virtual display over a stepped system, and a person's hands.
+// A window on a virtual display, connected to a stepped system, with simulated user input.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -33,7 +33,7 @@ class WindowTest : public testing::Test {
         options.labelled = true;
         options.wait_s = 0;
         options.max_fps = 1e9;
-        options.double_click_s = 1e3;  // however slow the machine is
+        options.double_click_s = 1e3;  // works on slow machines too
         auto viewer = Viewer::Open(link_, options);
         ASSERT_TRUE(viewer.ok()) << viewer.message();
         viewer_ = std::move(viewer.value());
@@ -44,13 +44,13 @@ class WindowTest : public testing::Test {
     void Rounds(int n) {
         for (int i = 0; i < n; ++i) ASSERT_TRUE(viewer_->RunOnce());
     }
-    // Rounds of the window, of a bounded number, until the condition holds.
+    // Runs the window until the condition holds, at most `most` times.
     bool Until(const std::function<bool()>& condition, int most = 300) {
         for (int i = 0; i < most && !condition(); ++i)
             if (!viewer_->RunOnce()) return condition();
         return condition();
     }
-    // The system goes on by so many frames and the window shows them.
+    // Steps the system by n frames and waits until the window has taken them.
     void Frames(int n) {
         for (int i = 0; i < n; ++i) {
             ASSERT_TRUE(system_->Step());
@@ -63,7 +63,7 @@ class WindowTest : public testing::Test {
         EXPECT_TRUE(rect) << "no control " << name;
         return rect.value_or(ControlRect{});
     }
-    // `along` in [0, 1] from the control's left edge.
+    // `along` in [0, 1] is the position from the left edge of the control.
     void MoveTo(const std::string& name, float along = 0.5f) {
         const ControlRect rect = Find(name);
         display_->MoveTo(rect.x + along * rect.width, rect.y + rect.height / 2);
@@ -81,7 +81,7 @@ class WindowTest : public testing::Test {
         display_->ReleaseKey(keysym);
         Rounds(4);
     }
-    // What the system was told, after one more step of it.
+    // The commands that the system has received after one more step.
     std::vector<ViewerCommand::Kind> Commands() {
         system_->Step();
         std::vector<ViewerCommand::Kind> kinds;

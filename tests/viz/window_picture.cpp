@@ -1,4 +1,4 @@
-// Makes docs/images/window.png: the window on a scan, half-way. Needs a display; under Xvfb:
+// Makes docs/images/window.png: the window in the middle of a scan. Needs a display. With Xvfb:
 //   xvfb-run -a -s "-screen 0 1280x720x24" build/release/tests/viz/window_picture
 //   docs/images/window.png synthetic:desk 200
 // Usage: window_picture PICTURE.png SOURCE FRAMES [LABELS|none [colour|label|weight [follow]]]
@@ -59,7 +59,7 @@ int MakePicture(const Arguments& a) {
     observer.on_frame = [&](const RunCounts& counts, std::int64_t) {
         if (counts.frames < a.frames) return;
         reached = true;
-        taken.wait(false);  // the run stands still for the picture
+        taken.wait(false);  // the run pauses for the screenshot
         stop = true;
     };
     std::optional<Result<RunSummary>> run;
