@@ -68,23 +68,33 @@ function(tessera_vector_source library file)
     endforeach()
 endfunction()
 
-# All unit test programs, as needed for a sanitizer build.
-add_custom_target(tessera_unit_tests)
+# The test programs that a sanitizer build needs.
+add_custom_target(tessera_sanitized_tests)
+# Each test program writes its results here as XML. scripts/summarise_tests.py counts the tests.
+set(TESSERA_TEST_RESULTS ${CMAKE_BINARY_DIR}/test_results)
 
-# tessera_test(NAME SOURCES... LINK libs... LABEL unit|data|slow [SERIAL]) declares a GoogleTest
-# program, with one ctest entry per test. SERIAL is for tests that depend on timing: no other test
-# runs at the same time.
+# tessera_test(NAME SOURCES... LINK libs... [LABEL unit|data|slow|app|window] [THREADS] [SERIAL]
+#              [SHARDS n] [RELEASE_ONLY patterns...]) declares a GoogleTest program. It is one ctest
+# entry, not one per test, because a process takes 0.2 s to start, and longer with a sanitizer.
+# SHARDS splits a long program into n entries that may run at the same time. SERIAL is for programs
+# that depend on timing: no other test runs at the same time.
+#
+# The sanitizers run the unit programs: ASan all of them, TSan those with THREADS, which start
+# threads of their own. TBB's loops are serial under TSan (tests/support/serial_tbb.cpp), so it has
+# nothing to find in the others. RELEASE_ONLY lists tests, as GoogleTest filters, that the sanitizers
+# skip: long accuracy runs over code that shorter tests also cover.
 function(tessera_test name)
-    cmake_parse_arguments(ARG "SERIAL" "LABEL" "SOURCES;LINK" ${ARGN})
+    cmake_parse_arguments(ARG "SERIAL;THREADS" "LABEL;SHARDS" "SOURCES;LINK;RELEASE_ONLY" ${ARGN})
     if(NOT ARG_LABEL)
         set(ARG_LABEL unit)
+    endif()
+    if(NOT ARG_SHARDS)
+        set(ARG_SHARDS 1)
     endif()
     add_executable(${name} ${ARG_SOURCES})
     target_include_directories(${name} PRIVATE ${CMAKE_SOURCE_DIR}/tests)
     target_link_libraries(${name} PRIVATE ${ARG_LINK} GTest::gtest_main tessera_options)
-    if(TESSERA_SANITIZE)
-        target_compile_options(${name} PRIVATE -O1)  # compiles a third faster; the code under test stays at -O2
-    endif()
+    target_compile_options(${name} PRIVATE -O1)  # compiles faster; the code under test keeps its level
     if(TESSERA_SANITIZE MATCHES address)
         target_sources(${name} PRIVATE ${CMAKE_SOURCE_DIR}/tests/support/leaks.cpp)
         target_link_libraries(${name} PRIVATE ${CMAKE_DL_LIBS})
@@ -93,8 +103,26 @@ function(tessera_test name)
         target_sources(${name} PRIVATE ${CMAKE_SOURCE_DIR}/tests/support/serial_tbb.cpp)
         target_link_libraries(${name} PRIVATE TBB::tbb)
     endif()
-    if(ARG_LABEL STREQUAL unit)
-        add_dependencies(tessera_unit_tests ${name})
+
+    set(labels ${ARG_LABEL})
+    set(filter "")
+    if(ARG_LABEL STREQUAL unit AND (ARG_THREADS OR NOT TESSERA_SANITIZE MATCHES thread))
+        add_dependencies(tessera_sanitized_tests ${name})
+        list(APPEND labels sanitized)
     endif()
-    gtest_discover_tests(${name} NO_PRETTY_VALUES DISCOVERY_TIMEOUT 60 PROPERTIES LABELS ${ARG_LABEL} TIMEOUT 900 RUN_SERIAL ${ARG_SERIAL})
+    if(TESSERA_SANITIZE AND ARG_RELEASE_ONLY)
+        list(JOIN ARG_RELEASE_ONLY ":" patterns)
+        set(filter --gtest_filter=-${patterns})
+    endif()
+    math(EXPR last "${ARG_SHARDS} - 1")
+    foreach(shard RANGE ${last})
+        set(entry ${name})
+        if(ARG_SHARDS GREATER 1)
+            set(entry ${name}.${shard})
+        endif()
+        add_test(NAME ${entry} COMMAND ${name} --gtest_brief=1
+            --gtest_output=xml:${TESSERA_TEST_RESULTS}/${entry}.xml ${filter})
+        set_tests_properties(${entry} PROPERTIES LABELS "${labels}" TIMEOUT 900 RUN_SERIAL ${ARG_SERIAL}
+            ENVIRONMENT "GTEST_TOTAL_SHARDS=${ARG_SHARDS};GTEST_SHARD_INDEX=${shard}")
+    endforeach()
 endfunction()

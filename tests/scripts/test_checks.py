@@ -71,13 +71,32 @@ class Style(Tree):
 
 
 class Summary(Tree):
-    def test_counts_and_missing_stages(self):
-        self.write("s.xml", '<testsuite><testcase name="a" status="run"/>'
-                            '<testcase name="b" status="fail"><failure/>'
-                            '<system-out>why</system-out></testcase>'
-                            '<testcase name="c" status="notrun"><skipped/></testcase></testsuite>')
-        self.assertEqual(summarise_tests.read_stage(self.root / "s.xml"), (1, {"b": "why"}, ["c"]))
+    def test_counts_programs_by_their_tests_and_scripts_by_their_entry(self):
+        self.write("s/ctest.xml", '<testsuite><testcase name="script" status="run"/>'
+                                  '<testcase name="absent" status="notrun"><skipped/></testcase>'
+                                  '<testcase name="broken" status="fail"><failure/><system-out>why</system-out></testcase>'
+                                  '<testcase name="program" status="fail"><failure/></testcase></testsuite>')
+        self.write("s/program.xml", '<testsuites><testsuite><testcase name="A" classname="C" status="run"/>'
+                                    '<testcase name="B" classname="C" status="run"><failure message="b is not 2"/></testcase>'
+                                    '<testcase name="D" classname="C" status="run"><skipped message="no data"/></testcase>'
+                                    '<testcase name="E" classname="C" status="notrun"/></testsuite></testsuites>')
+        results = summarise_tests.read_stage(self.root / "s")
+        self.assertEqual(results.passed, 2)
+        self.assertEqual(results.failed, {"broken": "why", "C.B": "b is not 2"})
+        self.assertEqual(results.skipped, ["absent", "C.D", "C.E"])
+
+    def test_a_program_that_ends_badly_has_failed_although_its_tests_passed(self):
+        self.write("s/ctest.xml", '<testsuite><testcase name="program" status="fail"><failure/>'
+                                  '<system-out>leak</system-out></testcase>'
+                                  '<testcase name="crashed" status="fail"><failure/></testcase></testsuite>')
+        self.write("s/program.xml", '<testsuites><testcase name="A" classname="C" status="run"/></testsuites>')
+        results = summarise_tests.read_stage(self.root / "s")
+        self.assertEqual((results.passed, results.failed), (1, {"program": "leak", "crashed": ""}))
+
+    def test_a_stage_that_is_missing_or_empty_has_failed(self):
         self.assertEqual(summarise_tests.main([str(self.root / "absent")]), 1)
+        self.write("s/ctest.xml", "<testsuite/>")
+        self.assertEqual(summarise_tests.main([str(self.root / "s")]), 1)
 
 
 if __name__ == "__main__":
