@@ -2,8 +2,8 @@
 // templates in scalar float, one point or voxel at a time. The baseline for the SIMD code.
 #pragma once
 
-#include "mapping/fusion_rows.h"
-#include "tracking/sdf_rows.h"
+#include "mapping/fusion_simd.h"
+#include "tracking/sdf_simd.h"
 
 namespace tessera::bench {
 

@@ -25,7 +25,7 @@ std::string TemporaryName(const std::string& target) {
     return fmt::format("{}.{}-{}.tmp", target, getpid(), counter.fetch_add(1));
 }
 
-std::string BehindLinks(const std::string& path) {
+std::string ResolveSymlinks(const std::string& path) {
     std::error_code error;
     if (!fs::is_symlink(path, error)) return path;
     const fs::path target = fs::weakly_canonical(path, error);
@@ -49,7 +49,7 @@ std::string WriteErrorText(int error) {
     }
 }
 
-AtomicFile::AtomicFile(const std::string& path) : path_(path), target_(BehindLinks(path)) {
+AtomicFile::AtomicFile(const std::string& path) : path_(path), target_(ResolveSymlinks(path)) {
     struct stat info {};
     const bool exists = stat(target_.c_str(), &info) == 0;
     if (exists && S_ISDIR(info.st_mode)) {

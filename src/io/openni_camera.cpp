@@ -136,7 +136,7 @@ OpenniCamera::Arrival OpenniCamera::Wait(double seconds, Image<std::uint16_t>& d
     openni::VideoFrameRef image;
     if (openni::OpenNI::waitForAnyStream(both, 2, &ready, milliseconds) != openni::STATUS_OK ||
         ready < 0 || both[ready]->readFrame(&image) != openni::STATUS_OK || !image.isValid()) {
-        if (is_recording_ && runtime_->CameToItsEnd(about_.uri)) arrival.event = Event::kEnd;
+        if (is_recording_ && runtime_->ReachedEnd(about_.uri)) arrival.event = Event::kEnd;
         return arrival;
     }
     const bool is_depth = ready == 0;

@@ -102,7 +102,7 @@ bool OpenniRuntime::WasUnplugged(const std::string& uri) const {
     return impl_->unplugged.contains(uri);
 }
 
-bool OpenniRuntime::CameToItsEnd(const std::string& uri) const {
+bool OpenniRuntime::ReachedEnd(const std::string& uri) const {
     const std::lock_guard lock(impl_->mutex);
     return impl_->ended.contains(uri);
 }

@@ -29,7 +29,7 @@ class OpenniRuntime {
     // Device events since Watch(uri): the device was unplugged, or the recording reached its end.
     void Watch(const std::string& uri);
     bool WasUnplugged(const std::string& uri) const;
-    bool CameToItsEnd(const std::string& uri) const;
+    bool ReachedEnd(const std::string& uri) const;
 
     // Returns when a device is plugged in or unplugged, or after `seconds`.
     void WaitForChange(double seconds);

@@ -8,7 +8,7 @@
 
 #include "core/stopwatch.h"
 #include "mapping/allocation_kernels.h"
-#include "mapping/fusion_rows.h"
+#include "mapping/fusion_simd.h"
 
 namespace tessera {
 namespace {

@@ -188,8 +188,8 @@ void PrepareDepth(const DepthImage& raw_m, bool has_colour, const PreparedFrame:
 
 }  // namespace
 
-void PrepareDepthAgain(const Frame& frame, const PreparedFrame::Config& config, PreparedFrame& p,
-                       const MovingMask* moving) {
+void RemaskDepth(const Frame& frame, const PreparedFrame::Config& config, PreparedFrame& p,
+                 const MovingMask* moving) {
     PrepareDepth(frame.depth_m, p.has_colour, config, moving, p);
     for (std::size_t level = 0; level < p.reduced.size(); ++level)
         ReduceDepth(p, level, p.reduced[level].depth_m);

@@ -60,8 +60,8 @@ int ReductionOf(int width, int height, std::size_t level);
 void PrepareFrame(const Frame& frame, const PreparedFrame::Config& config, PreparedFrame& prepared,
                   const MovingMask* moving = nullptr);
 // The same with another mask, for a frame that is prepared already. Keeps its colour.
-void PrepareDepthAgain(const Frame& frame, const PreparedFrame::Config& config,
-                       PreparedFrame& prepared, const MovingMask* moving);
+void RemaskDepth(const Frame& frame, const PreparedFrame::Config& config, PreparedFrame& prepared,
+                 const MovingMask* moving);
 // Attaches a mask to a frame that was prepared without the depth of moving pixels.
 void SetMoving(std::shared_ptr<const MovingMask> moving, PreparedFrame& prepared);
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mapping/ray_rows.h"
+#include "mapping/ray_simd.h"
 
 namespace tessera {
 namespace {

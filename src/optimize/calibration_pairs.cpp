@@ -85,7 +85,7 @@ std::optional<PlanePair> PairFinder::Find(const DepthImage& from, const DepthIma
 
 // True if the surface normals constrain the relative motion of two views in every direction. If all
 // surfaces lie in one plane, the tracked poses would determine the calibration.
-bool HoldsTheViews(std::span<const PlanePair> pairs) {
+bool ConstrainsMotion(std::span<const PlanePair> pairs) {
     // Smallest eigenvalue of the normals' scatter matrix, per pair.
     constexpr double kLeastShare = 0.02;
     Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
@@ -122,7 +122,7 @@ std::vector<PlanePair> FindPlanePairs(const PinholeCamera& camera,
         const std::size_t first = pairs.size();
         one_way(edge.from, edge.to);
         one_way(edge.to, edge.from);
-        if (!HoldsTheViews(std::span(pairs).subspan(first))) pairs.resize(first);
+        if (!ConstrainsMotion(std::span(pairs).subspan(first))) pairs.resize(first);
     }
     return pairs;
 }

@@ -75,7 +75,7 @@ class Fit {
     }
 
     // Excludes pairs whose motion was not found.
-    void LeaveOutBad() {
+    void RejectOutlierPairs() {
         std::vector<double> scales;
         for (const CameraPair& pair : pairs_)
             if (pair.usable) scales.push_back(pair.scale);
@@ -206,9 +206,9 @@ CameraFit FitCamera(const std::vector<CameraView>& views, const PinholeCamera& g
     fit.Refine(0, 6, false);
     fit.Refine(0, 8, true);
     fit.Refine(1, 8, true);
-    fit.LeaveOutBad();
+    fit.RejectOutlierPairs();
     fit.Refine(2, 5, true);
-    fit.LeaveOutBad();
+    fit.RejectOutlierPairs();
     fit.HoldScales();
     result.misfit_found = fit.Refine(2, 8, true);
     result.unknowns = fit.unknowns();

@@ -25,8 +25,8 @@ FieldVerdict FieldCheck::Check(std::span<const NearFrame> old_frames, const Fres
     verdict.T_old_new = forward.T_world_camera;
     if (verdict.reason = Fault(forward); !verdict.reason.empty()) return verdict;
     verdict.closed_before = fresh.T_old_new_expected &&
-                            ShareThatFits(fresh.prepared, *fresh.T_old_new_expected) >=
-                                kAsWell * ShareThatFits(fresh.prepared, forward.T_world_camera);
+                            InlierShare(fresh.prepared, *fresh.T_old_new_expected) >=
+                                kAsWell * InlierShare(fresh.prepared, forward.T_world_camera);
 
     map_.Clear();
     Integrator::View view;
@@ -83,8 +83,8 @@ TrackResult FieldCheck::Track(const PreparedFrame& frame, const FrameMotion& mot
 
 // Share of the points inside the known field that lie within half the truncation distance of its
 // surface.
-double FieldCheck::ShareThatFits(const PreparedFrame& frame,
-                                 const Eigen::Isometry3d& T_field_camera) const {
+double FieldCheck::InlierShare(const PreparedFrame& frame,
+                               const Eigen::Isometry3d& T_field_camera) const {
     constexpr int kStep = 8;
     FieldSampler sampler(map_.view(), BlockCoord{0, 0, 0});
     const double per_voxel = 1 / settings_.map.voxel_size_m;

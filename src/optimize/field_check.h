@@ -67,7 +67,7 @@ class FieldCheck {
     bool Load(const StoredFrame& stored, FrameStore& store);  // false if damaged
     TrackResult Track(const PreparedFrame& frame, const FrameMotion& motion,
                       const Eigen::Isometry3d& T_field_camera);
-    double ShareThatFits(const PreparedFrame& frame, const Eigen::Isometry3d& T_field_camera) const;
+    double InlierShare(const PreparedFrame& frame, const Eigen::Isometry3d& T_field_camera) const;
     std::string Fault(const TrackResult& track) const;
 
     FieldSettings settings_;

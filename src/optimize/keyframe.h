@@ -24,8 +24,9 @@ struct Keyframe {
     Features features;
     DepthImage depth_m;  // reduced, with camera `view`
     PinholeCamera view;
-    double way_m = 0, turned_rad = 0;  // distance and rotation that the camera covered before it
-    double inlier_fraction = 0;        // TrackResult::inlier_fraction of its frame
+    double path_length_m = 0,
+           turned_rad = 0;       // distance and rotation that the camera covered before it
+    double inlier_fraction = 0;  // TrackResult::inlier_fraction of its frame
 };
 
 }  // namespace tessera

@@ -60,7 +60,7 @@ Keyframe& Keyframes::Add(std::int64_t frame_index, double stamp_s, const Prepare
     next.features = ExtractFeatures(frame, camera_, max_features_);
     next.view = camera_.Every(kKeyframeReduction);
     next.depth_m = ReducedDepth(frame.depth_m, kKeyframeReduction);
-    next.way_m = way_m_;
+    next.path_length_m = way_m_;
     next.turned_rad = turned_rad_;
     next.inlier_fraction = track.inlier_fraction;
     return keyframes_.emplace_back(std::move(next));
@@ -69,7 +69,7 @@ Keyframe& Keyframes::Add(std::int64_t frame_index, double stamp_s, const Prepare
 void Keyframes::Resume(std::vector<Keyframe> keyframes) {
     keyframes_ = std::move(keyframes);
     if (keyframes_.empty()) return;
-    way_m_ = last().way_m;
+    way_m_ = last().path_length_m;
     turned_rad_ = last().turned_rad;
     T_map_last_ = last().T_map_camera;
     followed_ = true;

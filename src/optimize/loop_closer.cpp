@@ -106,10 +106,10 @@ void LoopCloser::Link(int from, int to, const Eigen::Isometry3d& T_map_to) {
     constexpr double kTwice = 10.0;  // factor where tracking may have jumped
     const double trust =
         (b.inlier_fraction < config_.min_fit ? 2.0 : 1.0) * (rebuild_ || swapped_ ? kTwice : 1.0);
-    edges_.push_back({from, to, Normalised(a.T_map_camera.inverse() * T_map_to),
-                      trust * (0.002 + 0.01 * std::min(1.0, b.way_m - before.way_m)),
-                      trust * (0.002 + 0.01 * std::min(1.0, b.turned_rad - before.turned_rad)),
-                      false});
+    edges_.push_back(
+        {from, to, Normalised(a.T_map_camera.inverse() * T_map_to),
+         trust * (0.002 + 0.01 * std::min(1.0, b.path_length_m - before.path_length_m)),
+         trust * (0.002 + 0.01 * std::min(1.0, b.turned_rad - before.turned_rad)), false});
 }
 
 std::string LoopCloser::SeekLoop(const Keyframe& fresh, const PreparedFrame& prepared,
@@ -205,7 +205,7 @@ std::optional<Eigen::Isometry3d> LoopCloser::Relocalise(const PreparedFrame& fra
 
 std::vector<StampedPose> LoopCloser::Path() const {
     std::vector<StampedPose> path;
-    for (const Passage& p : passages_)
+    for (const PathPose& p : passages_)
         path.push_back(
             {p.stamp_s, Normalised(keyframes_[p.keyframe].T_world_camera * p.T_keyframe_camera)});
     return path;

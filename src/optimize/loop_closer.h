@@ -33,7 +33,7 @@ class LoopCloser {
         Eigen::Isometry3d T_new_old = Eigen::Isometry3d::Identity();
     };
 
-    struct Passage {  // a tracked frame
+    struct PathPose {  // a tracked frame
         double stamp_s = 0;
         int keyframe = 0;
         Eigen::Isometry3d T_keyframe_camera;
@@ -42,7 +42,7 @@ class LoopCloser {
     struct Memory {
         std::vector<Keyframe> keyframes;
         std::vector<PoseEdge> edges;
-        std::vector<Passage> passages;
+        std::vector<PathPose> passages;
         std::vector<StoredFrame> frames;  // by increasing ordinal
         std::int64_t next_ordinal = 0;
         int loops = 0;
@@ -82,7 +82,7 @@ class LoopCloser {
     // True if Step has work to do.
     bool HasWork() const { return rebuild_ != nullptr || moved_; }
     // Returns once why the map is no longer corrected; usually empty.
-    std::string TakeTrouble() { return std::exchange(trouble_, {}); }
+    std::string TakeError() { return std::exchange(trouble_, {}); }
     // At the end of a run: makes all remaining corrections, and refines the calibration if
     // configured. `note`: message for the user about the calibration.
     std::optional<Correction> Finish(std::string& note);
@@ -91,7 +91,7 @@ class LoopCloser {
     std::vector<StampedPose> Path() const;
     const Keyframes& keyframes() const { return keyframes_; }
     const std::vector<PoseEdge>& edges() const { return edges_; }
-    const std::vector<Passage>& passages() const { return passages_; }
+    const std::vector<PathPose>& passages() const { return passages_; }
     int loops() const { return loops_; }
     bool corrected() const { return corrected_; }
     const FrameStore& store() const { return store_; }
@@ -106,13 +106,13 @@ class LoopCloser {
     std::string SeekLoop(const Keyframe& fresh, const PreparedFrame& prepared,
                          const FrameMotion& motion);
     std::string CloseLoop(const Keyframe& old, const Keyframe& fresh, const FieldVerdict& verdict);
-    double FarthestOff_m(const std::vector<Eigen::Isometry3d>& T_map_keyframe) const;
+    double MaxDisplacement_m(const std::vector<Eigen::Isometry3d>& T_map_keyframe) const;
     Status Optimise();
     Status LoadViews(std::vector<CalibrationView>& views);
     Status Calibrate();
     bool BeginRebuild(double tolerance_m);
     std::optional<Correction> StepRebuild(int frames);
-    void GiveUp(const Status& why);
+    void StopRebuilding(const Status& why);
 
     LoopConfig config_;
     FieldSettings settings_;
@@ -124,7 +124,7 @@ class LoopCloser {
     FrameStore store_;
     LoopVerifier verifier_;
     std::vector<PoseEdge> edges_;
-    std::vector<Passage> passages_;
+    std::vector<PathPose> passages_;
     std::unique_ptr<MapRebuild> rebuild_;  // null if the map is up to date
     std::optional<int> relocalised_at_;    // keyframe to which the next one is linked
     int loops_ = 0;

@@ -11,7 +11,7 @@ namespace tessera {
 
 // Largest displacement of any point within 2 m of a keyframe, between a map made with these
 // keyframe poses and the pose graph.
-double LoopCloser::FarthestOff_m(const std::vector<Eigen::Isometry3d>& T_map_keyframe) const {
+double LoopCloser::MaxDisplacement_m(const std::vector<Eigen::Isometry3d>& T_map_keyframe) const {
     constexpr double kReach_m = 2.0;
     double farthest = 0;
     for (int i = 0; i < keyframes_.size(); ++i) {
@@ -33,12 +33,12 @@ bool LoopCloser::BeginRebuild(double tolerance_m) {
         map.push_back(keyframes_[i].T_map_camera);
         graph.push_back(keyframes_[i].T_world_camera);
     }
-    if (FarthestOff_m(map) < tolerance_m) return false;
+    if (MaxDisplacement_m(map) < tolerance_m) return false;
     std::unique_ptr<MapPager> pager;
     if (make_pager_) {
         Result<std::unique_ptr<MapPager>> made = make_pager_();
         if (!made.ok()) {
-            GiveUp(made.status());
+            StopRebuilding(made.status());
             return false;
         }
         pager = std::move(made.value());
@@ -61,7 +61,7 @@ std::optional<LoopCloser::Correction> LoopCloser::Step(int frames) {
 
 std::optional<LoopCloser::Correction> LoopCloser::StepRebuild(int frames) {
     const Result<bool> done = rebuild_->Step(store_, frames);
-    if (!done.ok()) GiveUp(done.status());
+    if (!done.ok()) StopRebuilding(done.status());
     if (!done.ok() || !done.value()) return std::nullopt;
     Correction correction;
     correction.map = rebuild_->TakeMap();
@@ -78,7 +78,7 @@ std::optional<LoopCloser::Correction> LoopCloser::StepRebuild(int frames) {
     return correction;
 }
 
-void LoopCloser::GiveUp(const Status& why) {
+void LoopCloser::StopRebuilding(const Status& why) {
     rebuild_.reset();
     broken_ = true;
     trouble_ = "map correction stopped, the trajectory is still corrected: " + why.message();
@@ -101,7 +101,8 @@ std::optional<LoopCloser::Correction> LoopCloser::Finish(std::string& note) {
     if (!corrected_) return last;
     const double tolerance_m = settings_.map.voxel_size_m / 10;
     // Discards a rebuild with outdated poses.
-    if (rebuild_ && FarthestOff_m(rebuild_->T_world_keyframe()) >= tolerance_m) rebuild_.reset();
+    if (rebuild_ && MaxDisplacement_m(rebuild_->T_world_keyframe()) >= tolerance_m)
+        rebuild_.reset();
     while (BeginRebuild(tolerance_m))
         if (auto next = StepRebuild(std::numeric_limits<int>::max())) last = std::move(next);
     return last;

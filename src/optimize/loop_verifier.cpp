@@ -13,8 +13,9 @@ Drift DriftOf(const Keyframe& old, const Keyframe& fresh, const Eigen::Isometry3
     Drift drift;
     drift.off_m = (T_old_estimate.translation() - T_old_new.translation()).norm();
     drift.off_rad = RotationAngle(T_old_estimate, T_old_new);
-    drift.possible = drift.off_m <= kAlways + max_drift * (fresh.way_m - old.way_m) &&
-                     drift.off_rad <= kAlways + max_drift * (fresh.turned_rad - old.turned_rad);
+    drift.possible =
+        drift.off_m <= kAlways + max_drift * (fresh.path_length_m - old.path_length_m) &&
+        drift.off_rad <= kAlways + max_drift * (fresh.turned_rad - old.turned_rad);
     return drift;
 }
 

@@ -40,7 +40,7 @@ void Sync(const std::string& path) {
 }
 
 // Returns why the file cannot be a scan, judging by its first bytes; empty if it can be one.
-std::string WhyNoScan(const std::string& path) {
+std::string NotAScanReason(const std::string& path) {
     std::error_code ignored;
     if (!Exists(path)) return "no such file";
     if (std::filesystem::is_directory(path, ignored)) return "is a folder, not a scan";
@@ -115,7 +115,7 @@ Result<std::unique_ptr<ScanFile>> ScanFile::Create(const std::string& path,
 
 Result<std::unique_ptr<ScanFile>> ScanFile::OpenToRead(const std::string& path) {
     if (!ScanAvailable()) return Status::Error(path + ": " + kScanUnavailable);
-    if (const std::string why = WhyNoScan(path); !why.empty())
+    if (const std::string why = NotAScanReason(path); !why.empty())
         return Status::Error(path + ": " + why);
     std::unique_ptr<ScanFile> file(new ScanFile());
     Result<std::unique_ptr<Database>> database = Database::Open(path, Database::Access::kRead);
@@ -130,7 +130,7 @@ Result<std::unique_ptr<ScanFile>> ScanFile::OpenToRead(const std::string& path) 
 
 Result<std::unique_ptr<ScanFile>> ScanFile::OpenToWrite(const std::string& path) {
     if (!ScanAvailable()) return Status::Error(path + ": " + kScanUnavailable);
-    if (const std::string why = WhyNoScan(path); !why.empty())
+    if (const std::string why = NotAScanReason(path); !why.empty())
         return Status::Error(path + ": " + why);
     std::unique_ptr<ScanFile> file(new ScanFile());
     if (Status locked = file->Lock(path); !locked.ok()) return locked;

@@ -218,7 +218,8 @@ Bytes EncodeKeyframe(const Keyframe& keyframe) {
     StateWriter state(bytes);
     state.Put(keyframe.frame_index);
     state.Put(keyframe.stamp_s);
-    for (const double value : {keyframe.way_m, keyframe.turned_rad, keyframe.inlier_fraction})
+    for (const double value :
+         {keyframe.path_length_m, keyframe.turned_rad, keyframe.inlier_fraction})
         state.Put(value);
     state.PutArray(std::span<const Descriptor>(keyframe.features.descriptors));
     static_assert(sizeof(Eigen::Vector3f) == 3 * sizeof(float));
@@ -235,7 +236,7 @@ bool DecodeKeyframe(std::span<const std::uint8_t> bytes, const PinholeCamera& ca
     std::vector<float> points, depth;
     state.Get(keyframe.frame_index);
     state.Get(keyframe.stamp_s);
-    for (double* value : {&keyframe.way_m, &keyframe.turned_rad, &keyframe.inlier_fraction})
+    for (double* value : {&keyframe.path_length_m, &keyframe.turned_rad, &keyframe.inlier_fraction})
         if (!state.Get(*value) || !std::isfinite(*value)) return false;
     state.GetArray(keyframe.features.descriptors);
     state.GetArray(points);

@@ -30,8 +30,8 @@ PixelBox PixelsOf(const DetectionBox& box, int width, int height) {
     return pixels.empty() ? PixelBox{} : pixels;
 }
 
-std::vector<Detection> TakeDynamic(const LabelClasses& classes, double min_probability,
-                                   std::vector<Detection>& detections) {
+std::vector<Detection> ExtractDynamic(const LabelClasses& classes, double min_probability,
+                                      std::vector<Detection>& detections) {
     const auto rest =
         std::stable_partition(detections.begin(), detections.end(),
                               [&](const Detection& d) { return !classes.IsDynamic(d.name); });
@@ -44,8 +44,8 @@ std::vector<Detection> TakeDynamic(const LabelClasses& classes, double min_proba
     return dynamic;
 }
 
-void KeepWanted(const LabelClasses& classes, double min_probability,
-                std::vector<Detection>& detections) {
+void FilterWanted(const LabelClasses& classes, double min_probability,
+                  std::vector<Detection>& detections) {
     for (Detection& detection : detections) detection.class_id = classes.IdOf(detection.name);
     std::erase_if(detections, [&](const Detection& d) {
         return d.class_id == 0 || !(d.probability >= static_cast<float>(min_probability));

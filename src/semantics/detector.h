@@ -24,7 +24,7 @@ float BoxOverlap(const DetectionBox& a, const DetectionBox& b);
 
 struct Detection {
     std::string name;       // the detector's name of the class
-    int class_id = 0;       // index in LabelClasses; 0 until KeepWanted sets it
+    int class_id = 0;       // index in LabelClasses; 0 until FilterWanted sets it
     float probability = 0;  // [0, 1]
     DetectionBox box;
     // Over the whole pixels of the box (PixelsOf), 1 = object. Empty if the detector gives no mask.
@@ -57,11 +57,11 @@ class Detector {
 
 // Moves detections of labels.dynamic classes out of `detections`. Returns those with at least
 // `min_probability`.
-std::vector<Detection> TakeDynamic(const LabelClasses& classes, double min_probability,
-                                   std::vector<Detection>& detections);
+std::vector<Detection> ExtractDynamic(const LabelClasses& classes, double min_probability,
+                                      std::vector<Detection>& detections);
 // Keeps detections of wanted classes with at least `min_probability`, sets class_id and sorts by
 // decreasing probability.
-void KeepWanted(const LabelClasses& classes, double min_probability,
-                std::vector<Detection>& detections);
+void FilterWanted(const LabelClasses& classes, double min_probability,
+                  std::vector<Detection>& detections);
 
 }  // namespace tessera

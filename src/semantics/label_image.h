@@ -19,7 +19,7 @@ struct LabelImage {
 };
 
 // Where boxes overlap, the smaller object is in front of the larger one or on it. If two classes
-// share nearly the same box, the more probable one counts. `detections`: as sorted by KeepWanted,
+// share nearly the same box, the more probable one counts. `detections`: as sorted by FilterWanted,
 // boxes in pixels of the depth image. Uses all cores (TBB).
 void MakeLabelImage(const DepthImage& depth_m, const PinholeCamera& camera,
                     std::span<const Detection> detections, LabelRegion region, LabelImage& labels);

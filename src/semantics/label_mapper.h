@@ -24,7 +24,7 @@ class LabelMapper {
     LabelMapper(const LabelConfig& config, LabelClasses classes, const PinholeCamera& camera,
                 float max_depth_m = std::numeric_limits<float>::max());
 
-    // `detections`: as returned by KeepWanted, for the frame with this depth and pose. The frame
+    // `detections`: as returned by FilterWanted, for the frame with this depth and pose. The frame
     // need not be the last one fused. The map must have labels.
     VoteCount Label(std::span<const Detection> detections, const DepthImage& depth_m,
                     const Eigen::Isometry3d& T_world_camera, BlockMap& map);

@@ -179,12 +179,12 @@ void AnalyticScene::Finish(const Lighting& lighting) {
             if (lighting.baked && parts_[part].motion < 0)
                 BakeChart(lighting, part, i);
             else
-                LightEvenly(parts_[part], i);
+                SetConstantLight(parts_[part], i);
         }
     });
 }
 
-void AnalyticScene::LightEvenly(Part& part, int chart) {
+void AnalyticScene::SetConstantLight(Part& part, int chart) {
     const Eigen::Vector2d centre = 0.5 * ChartSize(part.shape, chart);
     const Eigen::Vector3d normal =
         part.shape.T_world_shape.linear() *

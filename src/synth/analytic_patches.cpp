@@ -39,7 +39,7 @@ Eigen::Vector3d AnalyticScene::PatchCorner(const Shape& shape, int number, const
     return rim;
 }
 
-void AnalyticScene::LayPatches(Part& part) {
+void AnalyticScene::Tessellate(Part& part) {
     const Shape& shape = part.shape;
     const double radius = shape.half_size_m.x();
     for (int i = 0; i < ChartCount(shape.kind); ++i) {

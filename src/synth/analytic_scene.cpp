@@ -35,7 +35,7 @@ int AnalyticScene::AddShape(const Shape& shape, const Paint& paint) {
     part.radius_m = shape.half_size_m.norm();
     part.instance = current_instance_;
     part.motion = current_motion_;
-    LayPatches(part);
+    Tessellate(part);
     for (int corner = 0; corner < 8 && part.motion < 0; ++corner) {
         const Eigen::Vector3d sign((corner & 1) ? 1 : -1, (corner & 2) ? 1 : -1,
                                    (corner & 4) ? 1 : -1);

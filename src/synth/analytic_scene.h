@@ -102,9 +102,9 @@ class AnalyticScene : public Scene {
                              const Eigen::Vector3d& p, const Eigen::Vector3d& normal,
                              std::uint64_t key);
     void BakeChart(const Lighting& lighting, std::size_t part, int chart);
-    static void LightEvenly(Part& part, int chart);
+    static void SetConstantLight(Part& part, int chart);
     float LightAt(const Chart& chart, float u, float v) const;
-    void LayPatches(Part& part);
+    void Tessellate(Part& part);
     static Eigen::Vector3d PatchCorner(const Shape& shape, int number, const Chart& chart,
                                        int column, int row);
     void AppendChart(const Shape& shape, int number, const Chart& chart,

@@ -36,7 +36,7 @@ Eigen::Isometry3d Tremor(double time_s) {
     return Se3Exp(twist);
 }
 
-CameraPath Hastened(CameraPath path, double speed) {
+CameraPath SpedUp(CameraPath path, double speed) {
     return {
         [at = std::move(path.T_world_camera), speed](double time_s) { return at(speed * time_s); },
         path.duration_s / speed};

@@ -26,7 +26,7 @@ Eigen::Isometry3d LookAt(const Eigen::Vector3d& eye, const Eigen::Vector3d& targ
 Eigen::Isometry3d Tremor(double time_s);
 
 // Returns the same path, `speed` times as fast.
-CameraPath Hastened(CameraPath path, double speed);
+CameraPath SpedUp(CameraPath path, double speed);
 
 // Reads a trajectory and interpolates it, starting at its first pose. With `T_world_start`,
 // transforms it so that it starts there.

@@ -25,7 +25,7 @@ int MeshScene::Divisions(std::size_t triangle) const {
                       kMaxDivisions);
 }
 
-void MeshScene::LayPatches() {
+void MeshScene::Tessellate() {
     for (;; patch_m_ *= 2) {
         first_patch_ = {0};
         for (std::size_t i = 0; i < model_.triangles.size(); ++i) {

@@ -113,7 +113,7 @@ MeshScene::MeshScene(ObjModel model)
     tracer_->Build(model_);
     ReadTextures();
     NameInstances();
-    LayPatches();
+    Tessellate();
     const Eigen::Vector3f sun = Eigen::Vector3f(0.35f, 0.5f, 0.8f).normalized();
     for (const ObjModel::Triangle& t : model_.triangles) {
         const Eigen::Vector3f a = model_.vertices[t.vertices[0]];

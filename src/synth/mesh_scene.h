@@ -50,7 +50,7 @@ class MeshScene : public Scene {
 
     void ReadTextures();
     void NameInstances();
-    void LayPatches();
+    void Tessellate();
     int Divisions(std::size_t triangle) const;
     void AppendTriangle(std::size_t triangle, const std::vector<bool>* keep,
                         TriangleMesh& mesh) const;

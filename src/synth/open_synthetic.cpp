@@ -54,7 +54,7 @@ Result<std::unique_ptr<SyntheticSource>> OpenSynthetic(const std::string& name,
         staged.value().path = std::move(path.value());
     }
     if (config.speed != 1)
-        staged.value().path = Hastened(std::move(staged.value().path), config.speed);
+        staged.value().path = SpedUp(std::move(staged.value().path), config.speed);
     return std::make_unique<SyntheticSource>(name, std::move(staged.value()), config);
 }
 

@@ -91,16 +91,16 @@ void FurnishSecondRoom(Furnisher& add) {
                add.Repeat(PaintNoise({64, 112, 58}, 120, 256, 499), 0.59));
 }
 
-// A point `way_m` along the loop through both doorways, and the heading there.
+// A point `path_length_m` along the loop through both doorways, and the heading there.
 struct RingPoint {
     double x = 0, y = 0, heading = 0;
 };
-RingPoint AlongRing(double way_m) {
+RingPoint AlongRing(double path_length_m) {
     constexpr double kLeft = 2.1, kRight = 11.9, kFront = 1.3, kBack = 4.7, kTurn = 1.2;
     constexpr double kLong = kRight - kLeft - 2 * kTurn, kShort = kBack - kFront - 2 * kTurn,
                      kArc = std::numbers::pi / 2 * kTurn;
     const double ring = 2 * (kLong + kShort) + 4 * kArc;
-    double s = std::fmod(std::fmod(way_m, ring) + ring, ring);
+    double s = std::fmod(std::fmod(path_length_m, ring) + ring, ring);
     const double lengths[] = {kLong, kShort, kLong, kShort};
     RingPoint p{kLeft + kTurn, kFront, 0};
     for (const double length : lengths) {

@@ -33,8 +33,8 @@ double TurningHeading(double t) {
 
 // A walk to and fro in front of the camera, at the given distance and angle to its heading, limited
 // to the area free of furniture.
-Walk BeforeTheCamera(std::function<double(double)> distance_m,
-                     std::function<double(double)> angle) {
+Walk WalkInFrontOfCamera(std::function<double(double)> distance_m,
+                         std::function<double(double)> angle) {
     return [=](double t) {
         const double direction = TurningHeading(t) + angle(t);
         const Vector3d eye = TurningEye(t);
@@ -45,7 +45,7 @@ Walk BeforeTheCamera(std::function<double(double)> distance_m,
 }
 
 // Stands still for three seconds, then catches up.
-double WithAStop(double t) {
+double WithPause(double t) {
     constexpr double kStop_s = 10, kGo_s = 13, kCatchUp = 1.5;
     if (t < kStop_s) return t;
     return t < kGo_s ? kStop_s : std::min(kStop_s + kCatchUp * (t - kGo_s), t);
@@ -84,11 +84,12 @@ StagedScene MakePeople() {
     const auto near = [](double t) { return 1.05 + 0.3 * std::sin(0.71 * t + 0.4); };
     const auto far = [](double t) { return 1.75 + 0.35 * std::sin(0.47 * t); };
     AddWalker(*scene, "person 1",
-              BeforeTheCamera(near, [](double t) { return -0.85 * std::cos(0.83 * t); }),
+              WalkInFrontOfCamera(near, [](double t) { return -0.85 * std::cos(0.83 * t); }),
               {170, 60, 60}, {50, 60, 96}, 701);
-    const Walk second = BeforeTheCamera(far, [](double t) { return -1.1 * std::cos(0.61 * t); });
+    const Walk second =
+        WalkInFrontOfCamera(far, [](double t) { return -1.1 * std::cos(0.61 * t); });
     AddWalker(
-        *scene, "person 2", [second](double t) { return second(WithAStop(t)); }, {60, 120, 90},
+        *scene, "person 2", [second](double t) { return second(WithPause(t)); }, {60, 120, 90},
         {70, 66, 60}, 711);
     CameraPath path;
     path.duration_s = kTurn_s;

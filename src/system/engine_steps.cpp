@@ -71,6 +71,6 @@ TriangleMesh TakeFinalMesh(MappingStage& mapping, std::optional<ScanStage>& scan
     return mapping.TakeStoredMesh(path, status);
 }
 
-void PauseBriefly() { std::this_thread::sleep_for(std::chrono::milliseconds(10)); }
+void SleepBriefly() { std::this_thread::sleep_for(std::chrono::milliseconds(10)); }
 
 }  // namespace tessera

@@ -40,6 +40,6 @@ TriangleMesh TakeFinalMesh(MappingStage& mapping, std::optional<ScanStage>& scan
                            PagingStage* paging, Status& status);
 
 // For a thread that polls for user commands and for a stop signal, which cannot wake it.
-void PauseBriefly();
+void SleepBriefly();
 
 }  // namespace tessera

@@ -51,9 +51,9 @@ bool LabellingStage::Detect(const Frame& frame, LabelReport& report, std::string
     report.colour_stamp_s = frame.colour_stamp_s;
     report.detections = std::move(found.value());
     const std::vector<Detection> dynamic =
-        TakeDynamic(classes_, config_.min_probability, report.detections);
+        ExtractDynamic(classes_, config_.min_probability, report.detections);
     report.moving = HintOf(frame, camera_, dynamic, config_.region);
-    KeepWanted(classes_, config_.min_probability, report.detections);
+    FilterWanted(classes_, config_.min_probability, report.detections);
     report.detect_ms = watch.LapMs();
     return true;
 }

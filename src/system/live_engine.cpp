@@ -88,9 +88,10 @@ Status LiveEngine::StartScan(ScanPlan plan) {
         !status.ok())
         return status;
     if (device_ != nullptr || mapping_.map().size() == 1) return Status::Ok();
-    MapNews whole{delta_pool_.Take(), 0, nullptr};
+    MapUpdate whole{delta_pool_.Take(), 0, nullptr};
     mapping_.CollectWhole(*whole.delta);
-    TESSERA_CHECK(map_news_.TryPush(std::move(whole)), "no room for the first update of the map");
+    TESSERA_CHECK(map_updates_.TryPush(std::move(whole)),
+                  "no room for the first update of the map");
     return Status::Ok();
 }
 
@@ -113,15 +114,15 @@ TriangleMesh LiveEngine::TakeMesh() {
 
 void LiveEngine::ReadFrames() {
     while (!quit_.load() && !stopped_ && ReadFrame()) {
-        while (const auto command = control_.TakeCommand()) Obey(*command);
+        while (const auto command = control_.TakeCommand()) Execute(*command);
         while (const auto message = recorder_.TakeMessage())
-            Tell(FrameOutcome::Kind::kMessage, *message);
+            Report(FrameOutcome::Kind::kMessage, *message);
         if (viewer_ != nullptr) viewer_->recording.store(recorder_.recording());
         stopped_ = stopped_ || stop_.load();
     }
     recorder_.Stop();
     while (const auto message = recorder_.TakeMessage())
-        Tell(FrameOutcome::Kind::kMessage, *message);
+        Report(FrameOutcome::Kind::kMessage, *message);
     reading_done_.store(true);
     tracking_wake_.Notify();
 }
@@ -130,7 +131,7 @@ void LiveEngine::ReadFrames() {
 // read and discarded; a recording waits.
 bool LiveEngine::ReadFrame() {
     if (control_.waiting() && !source_.live) {
-        PauseBriefly();
+        SleepBriefly();
         first_stamp_s_.reset();
         return true;
     }
@@ -141,9 +142,9 @@ bool LiveEngine::ReadFrame() {
     switch (read.status) {
         case ReadStatus::kError: status_ = Status::Error(read.message); return false;
         case ReadStatus::kEnd: return false;
-        case ReadStatus::kSkip: Tell(FrameOutcome::Kind::kSkipped, read.message); break;
+        case ReadStatus::kSkip: Report(FrameOutcome::Kind::kSkipped, read.message); break;
         case ReadStatus::kWait:
-            if (!read.message.empty()) Tell(FrameOutcome::Kind::kMessage, read.message);
+            if (!read.message.empty()) Report(FrameOutcome::Kind::kMessage, read.message);
             break;
         case ReadStatus::kOk:
             if (!source_.live) WaitUntilDue(item.frame->stamp_s);
@@ -152,7 +153,7 @@ bool LiveEngine::ReadFrame() {
             item.arrival = Clock::now();
             if (auto dropped = new_frames_.Push(std::move(item))) {
                 frame_pool_.Give(std::move(dropped->frame));
-                Tell(FrameOutcome::Kind::kDropped, {});
+                Report(FrameOutcome::Kind::kDropped, {});
             }
             return true;
     }
@@ -173,21 +174,21 @@ void LiveEngine::WaitUntilDue(double stamp_s) {
     first_time_ = now;
 }
 
-void LiveEngine::Obey(const ViewerCommand& command) {
+void LiveEngine::Execute(const ViewerCommand& command) {
     switch (command.kind) {
         case ViewerCommand::Kind::kStop: stopped_ = true; break;
         case ViewerCommand::Kind::kRecord:
             if (Status status = recorder_.Start(command.path); !status.ok())
-                Tell(FrameOutcome::Kind::kMessage, status.message());
+                Report(FrameOutcome::Kind::kMessage, status.message());
             break;
         case ViewerCommand::Kind::kStopRecording: recorder_.Stop(); break;
         default:
             if (!commands_.TryPush(ViewerCommand(command)))
-                Tell(FrameOutcome::Kind::kMessage, "too many commands at once: one was ignored");
+                Report(FrameOutcome::Kind::kMessage, "too many commands at once: one was ignored");
     }
 }
 
-void LiveEngine::Tell(FrameOutcome::Kind kind, const std::string& message) {
+void LiveEngine::Report(FrameOutcome::Kind kind, const std::string& message) {
     FrameOutcome outcome;
     outcome.kind = kind;
     outcome.message = message;

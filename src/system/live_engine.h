@@ -65,7 +65,7 @@ class LiveEngine : public Engine {
     };
     // The blocks that a fused frame changed, or the whole field of a corrected map. `world` is the
     // number of resets before it.
-    struct MapNews {
+    struct MapUpdate {
         std::unique_ptr<MapDelta> delta;
         int world = 0;
         std::unique_ptr<BlockMap> field;
@@ -101,26 +101,26 @@ class LiveEngine : public Engine {
 
     // Reading thread.
     bool ReadFrame();
-    void Obey(const ViewerCommand& command);
+    void Execute(const ViewerCommand& command);
     void WaitUntilDue(double stamp_s);
-    void Tell(FrameOutcome::Kind kind, const std::string& message);
+    void Report(FrameOutcome::Kind kind, const std::string& message);
     // Tracking thread.
     void TrackFrame(NewFrame item, TrackingState& state);
     const BlockMap& MapToTrackIn(const TrackingState& state) const;
-    void TakeMapNews(TrackingState& state);
+    void ApplyMapUpdates(TrackingState& state);
     void TakeHint(TrackingState& state);
     void ResetTracking(TrackingState& state);
-    std::optional<Eigen::Isometry3d> HearWhereItIs(double stamp_s, TrackingState& state);
+    std::optional<Eigen::Isometry3d> TakeRelocalisation(double stamp_s, TrackingState& state);
     void CheckIfLost(TrackedFrame& tracked, TrackingState& state);
     void SaveTracking(const TrackingStage& stage, TrackedFrame& tracked) const;
-    void Hand(Task task);
+    void SendTask(Task task);
     // Mapping thread.
     bool HasAnswers() const;
     bool MapNext();
     void EndMapping();
     void MapFrame(Task& task);
     void Page(Task& task, FrameOutcome& outcome);
-    void SendMapNews();
+    void SendMapUpdate();
     void Save(const Task& task, FrameOutcome& outcome);
     void Offer(Task& task);
     void TakeLabels();
@@ -128,8 +128,8 @@ class LiveEngine : public Engine {
     void TakeLoops();
     void TakeUpdate(LoopThread::Update update, bool last);
     void EndLoops();
-    void TellLoopNews();
-    void ObeyInMapping(const ViewerCommand& command);
+    void ReportLoopMessages();
+    void ExecuteInMapping(const ViewerCommand& command);
 
     const RunConfig config_;
     // Null: CPU; with a device the tracking thread also owns all members marked "mapping".
@@ -172,8 +172,9 @@ class LiveEngine : public Engine {
     NewestQueue<NewFrame> new_frames_;                       // reading to tracking
     FifoQueue<ViewerCommand> commands_{16, tracking_wake_};  // reading to tracking
     FifoQueue<Task> tasks_{kTasks, mapping_wake_};           // tracking to mapping
-    FifoQueue<MapNews> map_news_{kTasks + 2 + kCorrections, tracking_wake_};  // mapping to tracking
-    NewestQueue<Hint> hints_{1, tracking_wake_};                              // mapping to tracking
+    FifoQueue<MapUpdate> map_updates_{kTasks + 2 + kCorrections,
+                                      tracking_wake_};  // mapping to tracking
+    NewestQueue<Hint> hints_{1, tracking_wake_};        // mapping to tracking
     // Reading, tracking and mapping to the owner.
     NewestQueue<FrameOutcome> outcomes_{kOutcomes, outcome_wake_};
     std::unique_ptr<LabellingThread> labelling_;  // mapping; null without labels

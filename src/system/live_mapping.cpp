@@ -29,7 +29,7 @@ bool LiveEngine::MapNext() {
     if (task.tracked)
         MapFrame(task);
     else
-        ObeyInMapping(task.command);
+        ExecuteInMapping(task.command);
     return true;
 }
 
@@ -38,12 +38,12 @@ void LiveEngine::EndMapping() {
     if (paging_) {
         paging_->Close();
         if (const auto message = paging_->TakeMessage())
-            Tell(FrameOutcome::Kind::kMessage, *message);
+            Report(FrameOutcome::Kind::kMessage, *message);
     }
     if (scan_) {
         scan_->Finish(mapping_);
         while (const auto message = scan_->TakeMessage())
-            Tell(FrameOutcome::Kind::kMessage, *message);
+            Report(FrameOutcome::Kind::kMessage, *message);
     }
     mapping_done_.store(true);
     outcome_wake_.Notify();
@@ -61,7 +61,7 @@ void LiveEngine::MapFrame(Task& task) {
     Carry(corrections_, task.corrections, tracked.view.T_world_camera);
     if (paging_) Page(task, outcome);
     mapping_.Fuse(tracked);
-    if (device_ == nullptr && (tracked.report.fused || mapping_.has_delta())) SendMapNews();
+    if (device_ == nullptr && (tracked.report.fused || mapping_.has_delta())) SendMapUpdate();
     if (tracked.report.fused) WaitFor(config_.live.extra_mapping_ms);
     feed_.ShowPrediction(show_prediction_.load());
     outcome.mesh_ms = feed_.Send(*task.frame, tracked.report, mapping_);
@@ -94,7 +94,7 @@ void LiveEngine::Page(Task& task, FrameOutcome& outcome) {
     }
     paging_->BeginFrame(mapping_, *scan_);
     if (paging_->AfterTracking(*task.tracked, mapping_, *scan_)) outcome.fusion_dropped = true;
-    if (const auto message = paging_->TakeMessage()) Tell(FrameOutcome::Kind::kMessage, *message);
+    if (const auto message = paging_->TakeMessage()) Report(FrameOutcome::Kind::kMessage, *message);
 }
 
 void LiveEngine::Save(const Task& task, FrameOutcome& outcome) {
@@ -102,7 +102,8 @@ void LiveEngine::Save(const Task& task, FrameOutcome& outcome) {
     scan_->AddFrame(*task.frame, *task.tracked, 0);
     scan_->SaveIfDue(mapping_);
     outcome.scan_ms = watch.LapMs();
-    while (const auto message = scan_->TakeMessage()) Tell(FrameOutcome::Kind::kMessage, *message);
+    while (const auto message = scan_->TakeMessage())
+        Report(FrameOutcome::Kind::kMessage, *message);
 }
 
 // After a frame was fused, passes it on to labelling and loop closure, which process it in the
@@ -134,8 +135,8 @@ void LiveEngine::TakeLabels() {
     LabellingThread::Answer answer;
     while (labelling_->TryTake(answer)) {
         LabellingThread::Job& job = answer.job;
-        if (paging_ && job.map.world == mapped_world_) paging_->LetGo(job.frame->index);
-        if (!answer.message.empty()) Tell(FrameOutcome::Kind::kLabelsEnd, answer.message);
+        if (paging_ && job.map.world == mapped_world_) paging_->ReleaseHold(job.frame->index);
+        if (!answer.message.empty()) Report(FrameOutcome::Kind::kLabelsEnd, answer.message);
         if (answer.message.empty() && job.map.world == mapped_world_) {
             Stopwatch watch;
             Carry(corrections_, job.map.corrections, job.T_world_camera);
@@ -157,20 +158,20 @@ void LiveEngine::TakeLabels() {
 
 // The queue has room: each update answers a frame that tracking sent after taking all earlier
 // updates, and corrections have reserved places (UpdateFits).
-void LiveEngine::SendMapNews() {
-    MapNews news{delta_pool_.Take(), mapped_world_, nullptr};
+void LiveEngine::SendMapUpdate() {
+    MapUpdate news{delta_pool_.Take(), mapped_world_, nullptr};
     mapping_.CollectDelta(*news.delta);
-    TESSERA_CHECK(map_news_.TryPush(std::move(news)), "more map updates than frames");
+    TESSERA_CHECK(map_updates_.TryPush(std::move(news)), "more map updates than frames");
 }
 
 bool LiveEngine::UpdateFits() const {
-    return loops_ && loops_->has_update() && map_news_.size() < kCorrections;
+    return loops_ && loops_->has_update() && map_updates_.size() < kCorrections;
 }
 
 void LiveEngine::TakeLoops() {
     LoopThread::Update update;
     while (UpdateFits() && loops_->TryTake(update)) TakeUpdate(std::move(update), false);
-    TellLoopNews();
+    ReportLoopMessages();
 }
 
 // Puts the corrected map in place for mapping and the scan, and for tracking unless it has ended.
@@ -183,9 +184,9 @@ void LiveEngine::TakeUpdate(LoopThread::Update update, bool last) {
         if (scan_) scan_->Move(T_new_old);
         if (!last)
             TESSERA_CHECK(
-                map_news_.TryPush({nullptr, mapped_world_, std::move(update.field), T_new_old}),
+                map_updates_.TryPush({nullptr, mapped_world_, std::move(update.field), T_new_old}),
                 "more corrections than the queue has room for");
-        Tell(FrameOutcome::Kind::kMessage, "map corrected");
+        Report(FrameOutcome::Kind::kMessage, "map corrected");
         feed_.SendMesh(mapping_);
     }
     if (scan_) scan_->AddLoops(std::move(update.news));
@@ -194,17 +195,17 @@ void LiveEngine::TakeUpdate(LoopThread::Update update, bool last) {
 // End of the run: waits for all pending corrections.
 void LiveEngine::EndLoops() {
     if (quit_.load()) return;
-    loops_->Finish([this](const std::string& news) { Tell(FrameOutcome::Kind::kMessage, news); });
+    loops_->Finish([this](const std::string& news) { Report(FrameOutcome::Kind::kMessage, news); });
     LoopThread::Update update;
     while (loops_->TryTake(update)) TakeUpdate(std::move(update), true);
 }
 
-void LiveEngine::TellLoopNews() {
+void LiveEngine::ReportLoopMessages() {
     std::string news;
-    while (loops_->TryTakeNews(news)) Tell(FrameOutcome::Kind::kMessage, news);
+    while (loops_->TryTakeChanges(news)) Report(FrameOutcome::Kind::kMessage, news);
 }
 
-void LiveEngine::ObeyInMapping(const ViewerCommand& command) {
+void LiveEngine::ExecuteInMapping(const ViewerCommand& command) {
     if (command.kind == ViewerCommand::Kind::kReset) {
         ++mapped_world_;
         corrections_.clear();
@@ -214,13 +215,13 @@ void LiveEngine::ObeyInMapping(const ViewerCommand& command) {
         if (scan_) scan_->Reset();
         past_.clear();
         if (paging_) paging_->Reset();
-        Tell(FrameOutcome::Kind::kReset, {});
+        Report(FrameOutcome::Kind::kReset, {});
     } else if (command.kind == ViewerCommand::Kind::kSaveMesh) {
-        Tell(FrameOutcome::Kind::kMessage,
-             SaveMesh(mapping_, command.path) + (paging_ ? paging_->Lacking(*scan_) : ""));
+        Report(FrameOutcome::Kind::kMessage,
+               SaveMesh(mapping_, command.path) + (paging_ ? paging_->MissingText(*scan_) : ""));
     } else if (command.kind == ViewerCommand::Kind::kSaveScan) {
-        Tell(FrameOutcome::Kind::kMessage,
-             SaveScan(command.path, source_, config_, false, past_, scan_));
+        Report(FrameOutcome::Kind::kMessage,
+               SaveScan(command.path, source_, config_, false, past_, scan_));
         if (scan_ && !saving_.exchange(true) && loops_) loops_->BeginNews();
     }
     feed_.SendMesh(mapping_);

@@ -11,7 +11,7 @@ using Milliseconds = std::chrono::duration<double, std::milli>;
 
 void LiveEngine::TrackFrames() {
     TrackingState state(config_, source_.camera, device_);
-    if (loops_) state.stage.BringImages();
+    if (loops_) state.stage.KeepImages();
     gate_.Begin(saved_tracking_, saved_pose_, loops_ == nullptr, state.stage);
     if (saved_stamp_s_) state.lost.Resume(*saved_stamp_s_);
     while (true) {
@@ -26,7 +26,7 @@ void LiveEngine::TrackFrames() {
             if (command.kind == ViewerCommand::Kind::kReset) ResetTracking(state);
             Task task;
             task.command = command;
-            Hand(std::move(task));
+            SendTask(std::move(task));
         } else if (new_frames_.TryPop(item)) {
             TrackFrame(std::move(item), state);
         } else if (reading_done_.load() && new_frames_.empty() && commands_.empty()) {
@@ -52,11 +52,11 @@ void LiveEngine::TrackFrame(NewFrame item, TrackingState& state) {
         state.stage.Apply(settings);
         show_prediction_.store(settings.show_prediction);
     }
-    TakeMapNews(state);
+    ApplyMapUpdates(state);
     TakeHint(state);
     Task task;
     task.tracked = tracked_pool_.Take();
-    if (loops_) task.T_found_camera = HearWhereItIs(item.frame->stamp_s, state);
+    if (loops_) task.T_found_camera = TakeRelocalisation(item.frame->stamp_s, state);
     plan_.Select(*item.frame, state.stage);
     plan_.Track(*item.frame, MapToTrackIn(state), state.stage, *task.tracked);
     gate_.AfterTracking(*item.frame, state.stage, *task.tracked);
@@ -68,9 +68,9 @@ void LiveEngine::TrackFrame(NewFrame item, TrackingState& state) {
     task.latency_ms = Milliseconds(Clock::now() - item.arrival).count();
     task.corrections = state.version.corrections;
     const bool first = task.tracked->report.first;
-    Hand(std::move(task));
+    SendTask(std::move(task));
     // The next frame needs a map.
-    if (first && device_ == nullptr) tracking_wake_.Wait([&] { return !map_news_.empty(); });
+    if (first && device_ == nullptr) tracking_wake_.Wait([&] { return !map_updates_.empty(); });
 }
 
 const BlockMap& LiveEngine::MapToTrackIn(const TrackingState& state) const {
@@ -86,9 +86,9 @@ void LiveEngine::SaveTracking(const TrackingStage& stage, TrackedFrame& tracked)
     stage.SaveState(state);
 }
 
-void LiveEngine::TakeMapNews(TrackingState& state) {
-    MapNews news;
-    while (map_news_.TryPop(news)) {
+void LiveEngine::ApplyMapUpdates(TrackingState& state) {
+    MapUpdate news;
+    while (map_updates_.TryPop(news)) {
         const bool ours = news.world == state.version.world;
         if (ours && news.field) {
             state.field = std::move(news.field);
@@ -104,15 +104,16 @@ void LiveEngine::TakeMapNews(TrackingState& state) {
 void LiveEngine::TakeHint(TrackingState& state) {
     Hint hint;
     if (hints_.TryPop(hint) && hint.map == state.version)
-        state.stage.GuideMoving(hint.moving, hint.T_world_camera);
+        state.stage.HintMoving(hint.moving, hint.T_world_camera);
 }
 
-std::optional<Eigen::Isometry3d> LiveEngine::HearWhereItIs(double stamp_s, TrackingState& state) {
+std::optional<Eigen::Isometry3d> LiveEngine::TakeRelocalisation(double stamp_s,
+                                                                TrackingState& state) {
     LoopThread::Answer answer;
     if (!loops_->TryTake(answer)) return std::nullopt;
     state.asked = false;
     if (!answer.T_world_camera || answer.map != state.version) return std::nullopt;
-    Tell(FrameOutcome::Kind::kMessage, answer.note);
+    Report(FrameOutcome::Kind::kMessage, answer.note);
     state.stage.Relocate({answer.stamp_s, *answer.T_world_camera});
     state.lost.Seen(stamp_s);
     return answer.T_world_camera;
@@ -120,14 +121,14 @@ std::optional<Eigen::Isometry3d> LiveEngine::HearWhereItIs(double stamp_s, Track
 
 void LiveEngine::CheckIfLost(TrackedFrame& tracked, TrackingState& state) {
     if (state.lost.Judge(tracked) != LostCamera::Verdict::kLost) return;
-    if (tracked.report.tracked()) state.stage.Disbelieve(kNotBelieved, tracked);
+    if (tracked.report.tracked()) state.stage.RejectPose(kPoseUnconfirmed, tracked);
     if (state.asked || tracked.prepared.valid_depth_pixels == 0) return;
     auto copy = std::make_unique<PreparedFrame>(tracked.prepared);
     state.asked = loops_->Ask({state.version, tracked.report.stamp_s, std::move(copy)});
 }
 
 // Waits if mapping is far behind. Mapping then skips fusion until it has caught up.
-void LiveEngine::Hand(Task task) {
+void LiveEngine::SendTask(Task task) {
     tracking_wake_.Wait([&] { return tasks_.TryPush(std::move(task)); });
     if (device_ != nullptr) MapNext();
 }

@@ -52,7 +52,7 @@ bool LockstepEngine::Next(FrameOutcome& outcome) {
     outcome = {};
     bool ended = !status_.ok();
     while (!ended) {
-        if (ObeyViewer(outcome)) return true;
+        if (HandleViewer(outcome)) return true;
         if (stopped_) break;
         const ReadResult read = reader_->Next(frame_);
         outcome.message = read.message;
@@ -75,7 +75,7 @@ bool LockstepEngine::Next(FrameOutcome& outcome) {
             !note.empty())
             loops_message_ = std::move(note);
     if (paging_) paging_->Close();
-    if (scan_ && loops_) scan_->AddLoops(loops_->TakeNews());
+    if (scan_ && loops_) scan_->AddLoops(loops_->TakeChanges());
     if (scan_) scan_->Finish(mapping_);
     return TakeMessage(outcome);
 }
@@ -94,7 +94,7 @@ void LockstepEngine::Process(FrameOutcome& outcome) {
         loops_->AfterTracking(frame_, mapping_.map(), tracking_, tracked_,
                               [this](const Eigen::Isometry3d& T_world_camera) {
                                   if (paging_)
-                                      paging_->BringAround(T_world_camera, mapping_, *scan_);
+                                      paging_->LoadAround(T_world_camera, mapping_, *scan_);
                               });
     if (paging_) outcome.fusion_dropped = paging_->AfterTracking(tracked_, mapping_, *scan_);
     mapping_.Fuse(tracked_);
@@ -121,7 +121,7 @@ void LockstepEngine::Save(FrameOutcome& outcome) {
     StateWriter state(tracked_.tracking_state);
     tracking_.SaveState(state);
     scan_->AddFrame(frame_, tracked_, fused_frames_);
-    if (loops_) scan_->AddLoops(loops_->TakeNews());
+    if (loops_) scan_->AddLoops(loops_->TakeChanges());
     scan_->SaveIfDue(mapping_);
     outcome.scan_ms = watch.LapMs();
 }
@@ -132,7 +132,7 @@ void LockstepEngine::Detect() {
     if (fused_frames_ % config_.labels.stride != 0) return;
     LabelReport report;
     if (!labelling_->Detect(frame_, report, label_message_)) return;
-    if (!report.moving.depth_m.empty()) tracking_.GuideMoving(report.moving, std::nullopt);
+    if (!report.moving.depth_m.empty()) tracking_.HintMoving(report.moving, std::nullopt);
     detected_ = std::move(report);
 }
 
@@ -147,7 +147,7 @@ void LockstepEngine::Label(FrameOutcome& outcome) {
 
 void LockstepEngine::BeginLoops() {
     if (!config_.loops.enabled) return;
-    tracking_.BringImages();
+    tracking_.KeepImages();
     loops_.emplace(config_.loops, config_.pipeline, source_, loop_labels_,
                    RebuildPagers(config_.pipeline, source_.camera, scan_path_));
 }
@@ -172,7 +172,7 @@ bool LockstepEngine::TakeMessage(FrameOutcome& outcome) {
     return true;
 }
 
-bool LockstepEngine::ObeyViewer(FrameOutcome& outcome) {
+bool LockstepEngine::HandleViewer(FrameOutcome& outcome) {
     while (true) {
         if (TakeMessage(outcome)) return true;
         ViewerSettings settings;
@@ -181,18 +181,18 @@ bool LockstepEngine::ObeyViewer(FrameOutcome& outcome) {
             feed_.ShowPrediction(settings.show_prediction);
         }
         if (const auto command = control_.TakeCommand()) {
-            if (Obey(*command, outcome)) return true;
+            if (Execute(*command, outcome)) return true;
             continue;
         }
         if (viewer_ != nullptr) viewer_->recording.store(recorder_.recording());
         stopped_ = stopped_ || stop_.load();
         if (stopped_ || control_.TakeTurn()) return false;
         feed_.SendMesh(mapping_);
-        PauseBriefly();
+        SleepBriefly();
     }
 }
 
-bool LockstepEngine::Obey(const ViewerCommand& command, FrameOutcome& outcome) {
+bool LockstepEngine::Execute(const ViewerCommand& command, FrameOutcome& outcome) {
     outcome.kind = FrameOutcome::Kind::kMessage;
     switch (command.kind) {
         case ViewerCommand::Kind::kReset:
@@ -208,7 +208,7 @@ bool LockstepEngine::Obey(const ViewerCommand& command, FrameOutcome& outcome) {
             return true;
         case ViewerCommand::Kind::kSaveMesh:
             outcome.message =
-                SaveMesh(mapping_, command.path) + (paging_ ? paging_->Lacking(*scan_) : "");
+                SaveMesh(mapping_, command.path) + (paging_ ? paging_->MissingText(*scan_) : "");
             return true;
         case ViewerCommand::Kind::kSaveScan:
             outcome.message = SaveScan(command.path, source_, config_, true, past_, scan_);

@@ -34,8 +34,8 @@ class LockstepEngine : public Engine {
 
   private:
     // Waits while paused. Returns true if there is something to report.
-    bool ObeyViewer(FrameOutcome& outcome);
-    bool Obey(const ViewerCommand& command, FrameOutcome& outcome);
+    bool HandleViewer(FrameOutcome& outcome);
+    bool Execute(const ViewerCommand& command, FrameOutcome& outcome);
     void BeginLoops();
     void PutMap(LoopCloser::Correction correction);
     bool TakeMessage(FrameOutcome& outcome);

@@ -14,8 +14,8 @@ void LoopJournal::Begin(const LoopCloser& closer) {
         poses_.push_back({keyframes[id].T_map_camera, keyframes[id].T_world_camera});
 }
 
-LoopNews LoopJournal::Take(const LoopCloser& closer, std::size_t most_frames) {
-    LoopNews news;
+LoopChanges LoopJournal::Take(const LoopCloser& closer, std::size_t most_frames) {
+    LoopChanges news;
     news.passages.assign(closer.passages().begin() + static_cast<std::ptrdiff_t>(passages_),
                          closer.passages().end());
     passages_ = closer.passages().size();

@@ -11,8 +11,8 @@
 namespace tessera {
 
 // Holds copies only.
-struct LoopNews {
-    std::vector<LoopCloser::Passage> passages;  // new, in order
+struct LoopChanges {
+    std::vector<LoopCloser::PathPose> passages;  // new, in order
     // New frames, and frames whose detections arrived since.
     std::vector<StoredFrame> frames;
     std::vector<Keyframe> keyframes;                   // new, in order
@@ -28,7 +28,7 @@ class LoopJournal {
     // Marks a frame whose detections arrived late.
     void Touch(std::int64_t frame_index) { touched_.push_back(frame_index); }
     // Returns at most `most_frames` new frames. The rest follow in later calls.
-    LoopNews Take(const LoopCloser& closer, std::size_t most_frames = 4);
+    LoopChanges Take(const LoopCloser& closer, std::size_t most_frames = 4);
 
   private:
     std::size_t passages_ = 0;

@@ -42,7 +42,7 @@ void LoopStage::Resume(LoopCloser::Memory memory, double last_stamp_s) {
 }
 
 void LoopStage::AfterTracking(const Frame& frame, const BlockMap& map, TrackingStage& tracking,
-                              TrackedFrame& tracked, const BringAround& bring) {
+                              TrackedFrame& tracked, const LoadAround& bring) {
     lost_ms_ = 0;
     if (camera_.Judge(tracked) != LostCamera::Verdict::kLost) return;
     FrameReport& report = tracked.report;
@@ -56,7 +56,7 @@ void LoopStage::AfterTracking(const Frame& frame, const BlockMap& map, TrackingS
         if (T_map_camera && tracking.TrackFrom(frame, map, *T_map_camera, tracked))
             return camera_.Found(frame.stamp_s);
     }
-    if (report.tracked()) tracking.Disbelieve(kNotBelieved, tracked);
+    if (report.tracked()) tracking.RejectPose(kPoseUnconfirmed, tracked);
 }
 
 double LoopStage::AfterFusion(const Frame& frame, TrackedFrame& tracked,
@@ -73,7 +73,7 @@ double LoopStage::AfterFusion(const Frame& frame, TrackedFrame& tracked,
         put(std::move(*correction));
         AddNote("map corrected", report.warning);
     }
-    AddNote(closer_.TakeTrouble(), report.warning);
+    AddNote(closer_.TakeError(), report.warning);
     return lost_ms_ + watch.LapMs();
 }
 
@@ -81,7 +81,7 @@ std::string LoopStage::Finish(const PutMap& put) {
     std::string note;
     if (std::exchange(finished_, true)) return note;
     if (auto correction = closer_.Finish(note)) put(std::move(*correction));
-    AddNote(closer_.TakeTrouble(), note);
+    AddNote(closer_.TakeError(), note);
     return note;
 }
 

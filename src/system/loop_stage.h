@@ -30,9 +30,9 @@ class LoopStage {
     // Tries to relocalise a lost camera. After a loss, a pose is accepted only if it fits well or
     // if relocalisation confirms it. `bring` is called before the map around a candidate pose is
     // read.
-    using BringAround = std::function<void(const Eigen::Isometry3d& T_world_camera)>;
+    using LoadAround = std::function<void(const Eigen::Isometry3d& T_world_camera)>;
     void AfterTracking(const Frame& frame, const BlockMap& map, TrackingStage& tracking,
-                       TrackedFrame& tracked, const BringAround& bring);
+                       TrackedFrame& tracked, const LoadAround& bring);
     // Adds keyframes and closes loops. Calls `put` with the corrected map when it is ready. Returns
     // the time spent in ms, including AfterTracking.
     using PutMap = std::function<void(LoopCloser::Correction)>;
@@ -46,7 +46,7 @@ class LoopStage {
     std::vector<StampedPose> Path() const { return closer_.Path(); }
     const std::optional<CalibrationReport>& calibration() const { return closer_.calibration(); }
     // For a scan file.
-    LoopNews TakeNews() {
+    LoopChanges TakeChanges() {
         return finished_ ? journal_.Take(closer_, closer_.store().frames().size())
                          : journal_.Take(closer_);
     }

@@ -15,7 +15,7 @@ namespace {
 
 // Linux: lowers the priority of this thread only. Its parallel loops also run on this thread alone,
 // so that they take no TBB workers from tracking and mapping.
-void StandBack() {
+void LowerPriority() {
     constexpr int kNice = 10;
     setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNice);
 }
@@ -35,7 +35,7 @@ LoopThread::LoopThread(Settings settings, Surroundings surroundings)
         journal_.Begin(*closer_);
     }
     thread_ = std::jthread([this] {
-        StandBack();
+        LowerPriority();
         tbb::task_arena(1).execute([this] { Work(); });
         if (!stop_.load()) Conclude();
         ended_.store(true);
@@ -124,13 +124,13 @@ void LoopThread::Work() {
         } else if (jobs_.TryPop(job)) {
             around_.mapping.Notify();
             Do(job);
-            Tell();
+            Report();
         } else if (finish_.load()) {
             return;
         } else if (auto change = closer_->Step(kFramesAtOnce)) {
             HandOver(std::move(*change));
         }
-        TellTrouble();
+        ReportProblems();
     }
 }
 
@@ -144,7 +144,7 @@ void LoopThread::Conclude() {
     std::string note;
     if (auto change = closer_->Finish(note)) HandOver(std::move(*change));
     if (!note.empty()) news_.Push(std::move(note));
-    TellTrouble();
+    ReportProblems();
     if (saved_.load())
         Push({world_, std::nullopt, nullptr,
               journal_.Take(*closer_, closer_->store().frames().size())});
@@ -192,13 +192,13 @@ void LoopThread::Reply(Question& question) {
     TESSERA_CHECK(answers_.TryPush(std::move(answer)), "more answers than questions");
 }
 
-void LoopThread::TellTrouble() {
-    if (std::string trouble = closer_->TakeTrouble(); !trouble.empty())
+void LoopThread::ReportProblems() {
+    if (std::string trouble = closer_->TakeError(); !trouble.empty())
         news_.Push(std::move(trouble));
 }
 
 // News that does not fit is sent later, together with newer news.
-void LoopThread::Tell() {
+void LoopThread::Report() {
     if (saved_.load() && updates_.size() < kUpdates - kCorrections - 1)
         Push({world_, std::nullopt, nullptr, journal_.Take(*closer_)});
 }

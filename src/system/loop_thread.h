@@ -34,7 +34,7 @@ class LoopThread {
         std::optional<LoopCloser::Correction> correction;
         // A copy of the corrected map's field for tracking: Layers::kFieldOnly.
         std::unique_ptr<BlockMap> field;
-        LoopNews news;
+        LoopChanges news;
     };
     // A lost camera's frame, and the answer: its pose, or nothing.
     struct Question {
@@ -79,7 +79,7 @@ class LoopThread {
     std::vector<StampedPose> Path() const { return closer_->Path(); }
     const std::optional<CalibrationReport>& calibration() const { return closer_->calibration(); }
     // For the user.
-    bool TryTakeNews(std::string& news) { return news_.TryPop(news); }
+    bool TryTakeChanges(std::string& news) { return news_.TryPop(news); }
     std::size_t waiting() const { return jobs_.size(); }
 
     // ---- Tracking thread. One question at a time.
@@ -109,8 +109,8 @@ class LoopThread {
     void Do(Job& job);
     void AddFrame(Job& job);
     void Reply(Question& question);
-    void Tell();
-    void TellTrouble();
+    void Report();
+    void ReportProblems();
     void Push(Update update);
     void HandOver(LoopCloser::Correction change);
 

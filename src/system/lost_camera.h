@@ -66,7 +66,7 @@ class LostCamera {
     bool started_ = false, lost_ = false, resumed_ = false;
 };
 
-inline constexpr const char* kNotBelieved =
+inline constexpr const char* kPoseUnconfirmed =
     "nothing confirms the pose found after tracking was lost";
 
 }  // namespace tessera

@@ -97,14 +97,14 @@ bool PagingStage::Bring(double further_m, MappingStage& mapping, ScanStage& scan
         Plan();
         if (AwaitReplaced(mapping, scan)) {
             Ask();
-            TakeWhatCame(further_m, mapping, scan);
+            InsertLoaded(further_m, mapping, scan);
         }
     }
     return !Needs(0) && std::ranges::none_of(
                             lost_, [&](std::int64_t key) { return Outside(CubeOfKey(key)) <= 0; });
 }
 
-void PagingStage::TakeWhatCame(double further_m, MappingStage& mapping, ScanStage& scan) {
+void PagingStage::InsertLoaded(double further_m, MappingStage& mapping, ScanStage& scan) {
     for (std::size_t taken = 0; !asked_.empty() && (wait_ || taken < kMostPerFrame); ++taken) {
         if (wait_ && !Needs(further_m) && frame_ - asked_.front().frame < kFrames) return;
         std::unique_ptr<StoredCube> cube = wait_ ? pager_->Take() : pager_->TryTake();
@@ -195,7 +195,7 @@ void PagingStage::Release(MappingStage& mapping, ScanStage& scan) {
     }
 }
 
-void PagingStage::LetGo(std::int64_t frame) {
+void PagingStage::ReleaseHold(std::int64_t frame) {
     while (!held_.empty() && held_.front().frame <= frame) held_.pop_front();
 }
 
@@ -218,7 +218,7 @@ Status PagingStage::ReturnAll(MappingStage& mapping, ScanStage& scan) {
                                        "blocks that were moved out of memory cannot be read back");
 }
 
-std::string PagingStage::Lacking(const ScanStage& scan) const {
+std::string PagingStage::MissingText(const ScanStage& scan) const {
     if (away_.empty() && lost_.empty()) return {};
     return fmt::format(
         "; parts of the map that are only in {} are missing: `tessera export` writes all of it",
@@ -262,8 +262,8 @@ void PagingStage::ReturnFromStore(MappingStage& mapping, ScanStage& scan) {
     store_.reset();
 }
 
-void PagingStage::BringAround(const Eigen::Isometry3d& T_world_camera, MappingStage& mapping,
-                              ScanStage& scan) {
+void PagingStage::LoadAround(const Eigen::Isometry3d& T_world_camera, MappingStage& mapping,
+                             ScanStage& scan) {
     const auto here = std::exchange(T_world_camera_, T_world_camera);
     Bring(0, mapping, scan);
     T_world_camera_ = here;

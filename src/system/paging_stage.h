@@ -38,21 +38,21 @@ class PagingStage {
     // Call at the end of a frame, after its changes were passed to `scan`. Brings the map below its
     // limit.
     void Release(MappingStage& mapping, ScanStage& scan);
-    // Keeps what this fused frame's camera saw in memory until LetGo: detections of that frame are
-    // still to come.
+    // Keeps what this fused frame's camera saw in memory until ReleaseHold: detections of that
+    // frame are still to come.
     void Hold(std::int64_t frame, const Eigen::Isometry3d& T_world_camera) {
         held_.push_back({frame, T_world_camera});
     }
     // Ends Hold for this frame and all earlier ones.
-    void LetGo(std::int64_t frame);
+    void ReleaseHold(std::int64_t frame);
     // A corrected map, built with `pager`, has replaced the map. Its paged-out part is in the
     // pager's store until the file has it.
     void Replaced(const Eigen::Isometry3d& T_new_old, const RebuildPaging& pager,
                   MappingStage& mapping, ScanStage& scan);
     // Lockstep: loads what a camera at this pose may see, because it may be tracked there next. The
     // last known pose does not change.
-    void BringAround(const Eigen::Isometry3d& T_world_camera, MappingStage& mapping,
-                     ScanStage& scan);
+    void LoadAround(const Eigen::Isometry3d& T_world_camera, MappingStage& mapping,
+                    ScanStage& scan);
     // Live: loads what a camera at this pose may see over the next frames, and keeps it for some
     // seconds.
     void Expect(const Eigen::Isometry3d& T_world_camera) {
@@ -71,7 +71,7 @@ class PagingStage {
     // numbers.
     bool paged() const { return paged_; }
     // What a mesh of the map lacks, as text for the user. Empty if nothing.
-    std::string Lacking(const ScanStage& scan) const;
+    std::string MissingText(const ScanStage& scan) const;
     std::optional<std::string> TakeMessage() { return std::exchange(message_, std::nullopt); }
 
   private:
@@ -97,7 +97,7 @@ class PagingStage {
     void Want(const BlockCoord& cube);
     void Ask();
     bool Needs(double further_m) const;
-    void TakeWhatCame(double further_m, MappingStage& mapping, ScanStage& scan);
+    void InsertLoaded(double further_m, MappingStage& mapping, ScanStage& scan);
     void Put(const StoredCube& cube, MappingStage& mapping, ScanStage& scan);
     std::vector<ResidentCubes::Cube> ChooseLeaving(const BlockMap& map, const ScanStage& scan);
     bool AllSaved(const ResidentCubes::Cube& cube, const BlockMap& map,

@@ -22,8 +22,8 @@ void PathLog::Add(std::int64_t number, const PathRecord& record, ScanCheckpoint&
         into.path.emplace_back(number, record);
 }
 
-void PathLog::Place(LoopNews& news, ScanCheckpoint& into) {
-    for (const LoopCloser::Passage& passage : news.passages)
+void PathLog::Place(LoopChanges& news, ScanCheckpoint& into) {
+    for (const LoopCloser::PathPose& passage : news.passages)
         while (!waiting_.empty()) {
             auto [number, record] = waiting_.front();
             waiting_.pop_front();

@@ -22,7 +22,7 @@ class PathLog {
     // Adds a frame of the current map. `number` counts frames from 0, in order.
     void Add(std::int64_t number, const PathRecord& record, ScanCheckpoint& into);
     // Writes the frames that loop closure has placed, and its stored frames under the same numbers.
-    void Place(LoopNews& news, ScanCheckpoint& into);
+    void Place(LoopChanges& news, ScanCheckpoint& into);
     // The map was corrected. Moves the waiting frames with it.
     void Move(const Eigen::Isometry3d& T_new_old);
     // Writes the waiting frames with their poses in the map. They keep waiting.

@@ -36,7 +36,7 @@ void ResumeGate::AfterTracking(const Frame& frame, TrackingStage& tracking, Trac
         closed_ = false;
         report.warning = "the scan continues where it ended";
     } else if (report.tracked()) {
-        tracking.Disbelieve(
+        tracking.RejectPose(
             "the camera is not where the scan ended: show it what it saw last; a scan with "
             "--loop-closure on can continue at any place it has seen",
             tracked);

@@ -42,7 +42,7 @@ class Runner {
     void Skip(const std::string& message);
     void Count(const FrameOutcome& outcome);
     // Warns only when the tracking status changes, not for every lost frame.
-    void SayWhenItChanges(const FrameReport& report);
+    void WarnOnStatusChange(const FrameReport& report);
 
     Status Finish(const Status& outcome);
     // Takes over the final poses and the refined calibration.

@@ -116,11 +116,11 @@ void Runner::Count(const FrameOutcome& outcome) {
     n.degenerate += report.track.degenerate;
     if (!report.tracked()) summary_.last_reason = report.track.reason;
     if (!report.warning.empty()) Warn(fmt::format("frame {}: {}", report.index, report.warning));
-    SayWhenItChanges(report);
+    WarnOnStatusChange(report);
 }
 
 // Warns only when the tracking status changes, not for every lost frame.
-void Runner::SayWhenItChanges(const FrameReport& report) {
+void Runner::WarnOnStatusChange(const FrameReport& report) {
     const TrackResult& t = report.track;
     if (t.status != last_status_ || t.degenerate != last_degenerate_) {
         const std::string reason = t.reason.empty() ? "" : ": " + t.reason;

@@ -90,7 +90,7 @@ void ScanStage::AddPast(const std::vector<PathRecord>& path) {
     }
 }
 
-void ScanStage::AddLoops(LoopNews news) {
+void ScanStage::AddLoops(LoopChanges news) {
     if (thread_.failed()) return;
     path_log_.Place(news, *pending_);
     std::ranges::move(news.keyframes, std::back_inserter(pending_->keyframes));

@@ -39,7 +39,7 @@ class ScanStage {
     // That checkpoint is in the file.
     bool HasReplaced() const { return !pending_->stored && thread_.idle() && !thread_.failed(); }
     // Adds loop closure's results for this frame or earlier ones.
-    void AddLoops(LoopNews news);
+    void AddLoops(LoopChanges news);
     // Moves camera poses after a correction of the map.
     void Move(const Eigen::Isometry3d& T_new_old) { path_log_.Move(T_new_old); }
     // Writes a checkpoint if one is due.

@@ -96,7 +96,7 @@ void TrackingStage::Track(const Frame& frame, const BlockMap& map,
                      .uncertainty_m = report.track.uncertainty_m});
 
     // 3. Mask what moves, so that it is not fused.
-    LeaveOutMoving(frame, map, expected != nullptr, tracked);
+    MaskMoving(frame, map, expected != nullptr, tracked);
     report.moving_ms = watch.LapMs();
 
     // 4. Decide whether to fuse.
@@ -107,21 +107,21 @@ void TrackingStage::Track(const Frame& frame, const BlockMap& map,
 void TrackingStage::PrepareOnDevice(const Frame& frame, const MovingMask* moving,
                                     PreparedFrame& prepared) {
     device_->Prepare(moving != nullptr ? WithoutMoving(*moving, frame) : frame, config_.frame,
-                     bring_images_, prepared);
+                     keep_images_, prepared);
 }
 
 std::shared_ptr<const MovingMask> TrackingStage::ExpectMoving(double stamp_s) const {
     if (!config_.moving.enabled || !motion_.last()) return nullptr;
-    return moving_.Expect(stamp_s, motion_.Predict(stamp_s));
+    return moving_.PredictMask(stamp_s, motion_.Predict(stamp_s));
 }
 
-void TrackingStage::GuideMoving(const MovingHint& hint,
-                                const std::optional<Eigen::Isometry3d>& T_world_camera) {
-    moving_.Guide(hint, static_cast<float>(config_.frame.disparity_offset_per_m), T_world_camera);
+void TrackingStage::HintMoving(const MovingHint& hint,
+                               const std::optional<Eigen::Isometry3d>& T_world_camera) {
+    moving_.SetHint(hint, static_cast<float>(config_.frame.disparity_offset_per_m), T_world_camera);
 }
 
-void TrackingStage::LeaveOutMoving(const Frame& frame, const BlockMap& map, bool hidden,
-                                   TrackedFrame& tracked) {
+void TrackingStage::MaskMoving(const Frame& frame, const BlockMap& map, bool hidden,
+                               TrackedFrame& tracked) {
     ViewPredictor& predictor = device_ != nullptr ? device_->views() : caster_;
     const FrameReport& report = tracked.report;
     if (config_.moving.enabled && report.track.status == TrackStatus::kGood)
@@ -136,7 +136,7 @@ void TrackingStage::LeaveOutMoving(const Frame& frame, const BlockMap& map, bool
     const MovingMask* moving = moves ? report.moving.get() : nullptr;
     if ((moves || hidden) && device_ != nullptr) PrepareOnDevice(frame, moving, tracked.prepared);
     if ((moves || hidden) && device_ == nullptr)
-        PrepareDepthAgain(frame, config_.frame, tracked.prepared, moving);
+        RemaskDepth(frame, config_.frame, tracked.prepared, moving);
     if (report.moving) SetMoving(report.moving, tracked.prepared);
 }
 
@@ -148,7 +148,7 @@ bool TrackingStage::TrackFrom(const Frame& frame, const BlockMap& map,
                                          .T_world_camera_starts = {T_world_camera},
                                          .T_world_camera_last = T_world_camera,
                                          .since_last_s = 0,
-                                         .motion = ShutterOf(frame)});
+                                         .motion = FrameMotionOf(frame)});
     tracked.report.track_ms += watch.LapMs();
     if (track.status != TrackStatus::kGood || track.degenerate) return false;
     tracked.report.track = std::move(track);
@@ -161,7 +161,7 @@ bool TrackingStage::TrackFrom(const Frame& frame, const BlockMap& map,
     return true;
 }
 
-void TrackingStage::Disbelieve(const std::string& reason, TrackedFrame& tracked) {
+void TrackingStage::RejectPose(const std::string& reason, TrackedFrame& tracked) {
     motion_ = motion_before_;
     aligner_.KeepNewest(false);
     moving_.Clear();
@@ -195,8 +195,8 @@ TrackResult TrackingStage::TrackFrame(const Frame& frame, const PreparedFrame& p
          .T_world_camera_last = T_world_last,
          // With a doubtful last pose, a large step does not count as a jump.
          .since_last_s = motion_.doubt().poor ? 0 : motion_.SinceLast(frame.stamp_s),
-         .motion = ShutterOf(frame),
-         .nearest_m = NearestOfWeight(prepared)});
+         .motion = FrameMotionOf(frame),
+         .nearest_m = MinWeightDepth(prepared)});
     aligner_.KeepNewest(track.status != TrackStatus::kLost);  // same decision as for motion_
     return track;
 }
@@ -204,12 +204,12 @@ TrackResult TrackingStage::TrackFrame(const Frame& frame, const PreparedFrame& p
 // A nearby person who starts to walk must not outweigh the room behind. So points nearer than the
 // median depth get no extra weight, unless the pose is so uncertain that the near points are
 // needed.
-double TrackingStage::NearestOfWeight(const PreparedFrame& prepared) const {
-    if (motion_.doubt().uncertainty_m > config_.trackers.even_within_m) return kNearestWeighed_m;
-    return std::max(kNearestWeighed_m, MedianDepth(prepared.reduced.front().depth_m));
+double TrackingStage::MinWeightDepth(const PreparedFrame& prepared) const {
+    if (motion_.doubt().uncertainty_m > config_.trackers.even_within_m) return kMinWeightDepth_m;
+    return std::max(kMinWeightDepth_m, MedianDepth(prepared.reduced.front().depth_m));
 }
 
-FrameMotion TrackingStage::ShutterOf(const Frame& frame) const {
+FrameMotion TrackingStage::FrameMotionOf(const Frame& frame) const {
     FrameMotion motion;
     motion.colour_delay_s =
         config_.shutter.colour_delay ? frame.colour_stamp_s - frame.stamp_s : 0.0;

@@ -61,15 +61,14 @@ class TrackingStage {
 
     // What a detector reports as movable, in the next frame or in an earlier one tracked to
     // T_world_camera. It is not fused.
-    void GuideMoving(const MovingHint& hint,
-                     const std::optional<Eigen::Isometry3d>& T_world_camera);
+    void HintMoving(const MovingHint& hint, const std::optional<Eigen::Isometry3d>& T_world_camera);
 
     // Tracks the last frame again from another start pose. Takes the result and returns true only
     // if it fits well.
     bool TrackFrom(const Frame& frame, const BlockMap& map, const Eigen::Isometry3d& T_world_camera,
                    TrackedFrame& tracked);
     // Rejects the pose of the last frame and marks the frame as lost.
-    void Disbelieve(const std::string& reason, TrackedFrame& tracked);
+    void RejectPose(const std::string& reason, TrackedFrame& tracked);
     // The lost camera was relocalised at this pose and time.
     void Relocate(const StampedPose& pose);
     // The map was moved, and the camera with it.
@@ -81,7 +80,7 @@ class TrackingStage {
     // Takes effect at the next frame. Pose, velocity, brightness and map are kept.
     void Select(TrackingMethod method) { trackers_.Select(method); }
     // With a device: also copy each frame's images to the CPU.
-    void BringImages() { bring_images_ = true; }
+    void KeepImages() { keep_images_ = true; }
     // Off: frames are tracked but not fused. The first is always fused.
     void SetFusing(bool on) { fusing_ = on; }
     void Apply(const ViewerSettings& settings);
@@ -99,11 +98,10 @@ class TrackingStage {
   private:
     TrackResult TrackFrame(const Frame& frame, const PreparedFrame& prepared, const BlockMap& map);
     std::shared_ptr<const MovingMask> ExpectMoving(double stamp_s) const;
-    void LeaveOutMoving(const Frame& frame, const BlockMap& map, bool hidden,
-                        TrackedFrame& tracked);
+    void MaskMoving(const Frame& frame, const BlockMap& map, bool hidden, TrackedFrame& tracked);
     void PrepareOnDevice(const Frame& frame, const MovingMask* moving, PreparedFrame& prepared);
-    double NearestOfWeight(const PreparedFrame& prepared) const;
-    FrameMotion ShutterOf(const Frame& frame) const;
+    double MinWeightDepth(const PreparedFrame& prepared) const;
+    FrameMotion FrameMotionOf(const Frame& frame) const;
 
     PipelineConfig config_;
     PinholeCamera camera_;
@@ -113,7 +111,7 @@ class TrackingStage {
     RayCaster caster_;
     Trackers trackers_;
     Device* device_;
-    bool fusing_ = true, bring_images_ = false;
+    bool fusing_ = true, keep_images_ = false;
 };
 
 }  // namespace tessera

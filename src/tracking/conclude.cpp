@@ -44,8 +44,8 @@ TrackResult Conclude(const TrackInput& input, const FoundPose& found, ResidualAr
         {a, sums, distances, intensities, found.scene_depth_m, input.map.config().voxel_size_m});
     const Matrix6d information =
         PoseInformation(sums, intensities, model.scales(), found.scene_depth_m);
-    const PoseKnowledge knowledge =
-        KnowledgeOf(information, judge.expected_within_m(), camera_local, found.scene_depth_m);
+    const PoseUncertainty knowledge = ComputeUncertainty(information, judge.expected_within_m(),
+                                                         camera_local, found.scene_depth_m);
     result.uncertainty_m = knowledge.uncertainty_m;
 
     // The prealignment is the prior, unless it is fooled: a hand that covers the view looks like an

@@ -49,7 +49,7 @@ PointArguments MakePointArguments(const PreparedFrame& frame, const PinholeCamer
     return a;
 }
 
-void FramePoints::Lay(const PointArguments& a, std::int64_t valid) {
+void FramePoints::Allocate(const PointArguments& a, std::int64_t valid) {
     step_ = a.step;
     width_ = a.width;
     height_ = a.height;
@@ -61,7 +61,7 @@ void FramePoints::Lay(const PointArguments& a, std::int64_t valid) {
 void FramePoints::Build(const PreparedFrame& frame, const PinholeCamera& camera,
                         const FrameMotion& motion, int step, const DepthWeight& depth_weight) {
     const PointArguments a = MakePointArguments(frame, camera, motion, step, depth_weight, false);
-    Lay(a, 0);
+    Allocate(a, 0);
     for (auto* values : {&x, &y, &z, &weight})
         values->assign(static_cast<std::size_t>(count()), 0.0f);
     intensity.assign(static_cast<std::size_t>(count()), -1.0f);

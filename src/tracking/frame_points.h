@@ -15,7 +15,7 @@ namespace tessera {
 
 // A point's weight: (1 m / depth)^exponent, limited to its value at nearest_m.
 struct DepthWeight {
-    double exponent = 0, nearest_m = kNearestWeighed_m;
+    double exponent = 0, nearest_m = kMinWeightDepth_m;
 };
 
 // Arguments for every step-th pixel. Includes intensities only if requested and if the frame has
@@ -36,7 +36,7 @@ class FramePoints {
 
     // Only lays out the slots, for points that are filled in elsewhere; `valid` of them have a
     // point. The contents of the arrays are unspecified.
-    void Lay(const PointArguments& arguments, std::int64_t valid);
+    void Allocate(const PointArguments& arguments, std::int64_t valid);
 
     // Normals of the measured surface, in the camera frame, unit, towards the camera, from
     // differences across radius_px pixels to each side ([D18] eq. 15 has radius 1, one-sided). A

@@ -145,7 +145,7 @@ void IcpTracker::PrepareLevel(const TrackInput& input, int level, State& state) 
         PointArguments a =
             MakePointArguments(input.frame, camera_, state.motion, step, weight, state.alpha > 0);
         a.normal_radius_px = config_.normal_radius_px;
-        points.Lay(a, device_->SetPoints(input.frame, a, level));
+        points.Allocate(a, device_->SetPoints(input.frame, a, level));
     } else {
         points.Build(input.frame, camera_, state.motion, step, weight);
         points.EstimateNormals(input.frame, camera_, config_.normal_radius_px);

@@ -11,7 +11,7 @@
 #include "tracking/conclude.h"
 #include "tracking/frame_points.h"
 #include "tracking/icp_model.h"
-#include "tracking/icp_rows.h"
+#include "tracking/icp_simd.h"
 #include "tracking/icp_sums.h"
 #include "tracking/levenberg_marquardt.h"
 #include "tracking/tracker.h"

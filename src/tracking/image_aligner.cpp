@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "core/se3.h"
-#include "tracking/align_rows.h"
+#include "tracking/align_simd.h"
 #include "tracking/image_search.h"
 #include "tracking/image_system.h"
 #include "tracking/point_kernels.h"

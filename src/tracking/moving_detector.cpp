@@ -27,16 +27,16 @@ MovingDetector::MovingDetector(const Config& config, const PinholeCamera& camera
       step_(std::max(
           1, static_cast<int>(std::lround(static_cast<double>(camera.width) / kTileColumns)))),
       camera_(camera.Every(step_)),
-      memory_(std::make_unique<MovingMemory>()) {}
+      memory_(std::make_unique<MovingHistory>()) {}
 
 MovingDetector::~MovingDetector() = default;
 
 std::shared_ptr<const MovingMask> MovingDetector::Find(const Input& input, const BlockMap& map,
                                                        ViewPredictor& predictor) {
-    MovingMemory& m = *memory_;
-    MovingMoments moments(config_, camera_, m);
-    moments.Take(input, step_);
-    const MovingChanges changes = moments.Compare();
+    MovingHistory& m = *memory_;
+    MovingAnalysis moments(config_, camera_, m);
+    moments.Ingest(input, step_);
+    const DepthChanges changes = moments.Compare();
     if (m.past.empty() || m.now.stamp_s - m.past.back().stamp_s >= kSpacing * config_.window_s)
         m.past.push_back(m.now);
     if (m.hint.stamp_s == input.stamp_s) m.hint.T_world_camera = input.T_world_camera;
@@ -45,9 +45,9 @@ std::shared_ptr<const MovingMask> MovingDetector::Find(const Input& input, const
     std::shared_ptr<MovingMask> mask;
     if (changes.any || !hinted_m.empty()) {
         PredictedView view;
-        predictor.Predict(map, camera_.Every(kAskedTiles), input.T_world_camera, kNearest_m,
+        predictor.Predict(map, camera_.Every(kMapQueryStride), input.T_world_camera, kNearest_m,
                           1.2f * input.farthest_m, view);
-        MovingEvidence evidence = moments.Weigh(changes, hinted_m, view.depth_m);
+        MovingEvidence evidence = moments.Evaluate(changes, hinted_m, view.depth_m);
         if (!evidence.fits)
             evidence.candidates = evidence.seeds = evidence.gone =
                 Marks(camera_.width, camera_.height);
@@ -68,15 +68,15 @@ std::shared_ptr<const MovingMask> MovingDetector::Find(const Input& input, const
     return mask;
 }
 
-std::shared_ptr<const MovingMask> MovingDetector::Expect(
+std::shared_ptr<const MovingMask> MovingDetector::PredictMask(
     double stamp_s, const Eigen::Isometry3d& T_world_camera) const {
     constexpr double kLongest_s = 0.2;  // between two frames
-    const MovingMemory& m = *memory_;
+    const MovingHistory& m = *memory_;
     const bool moved = !m.moving.empty() && std::abs(stamp_s - m.now.stamp_s) <= kLongest_s;
     DepthImage carried_m = m.CarriedHint(stamp_s, T_world_camera, camera_, config_.window_s);
     if (!moved && carried_m.empty()) return nullptr;
     if (carried_m.empty()) carried_m = DepthImage(camera_.width, camera_.height);
-    if (moved) Carry(m.now, m.moving, T_world_camera, camera_, carried_m);
+    if (moved) ReprojectMarks(m.now, m.moving, T_world_camera, camera_, carried_m);
     auto mask = std::make_shared<MovingMask>();
     mask->step = step_;
     mask->moving = Marks(camera_.width, camera_.height);
@@ -87,8 +87,8 @@ std::shared_ptr<const MovingMask> MovingDetector::Expect(
     return mask;
 }
 
-void MovingDetector::Guide(const MovingHint& hint, float disparity_offset_per_m,
-                           const std::optional<Eigen::Isometry3d>& T_world_camera) {
+void MovingDetector::SetHint(const MovingHint& hint, float disparity_offset_per_m,
+                             const std::optional<Eigen::Isometry3d>& T_world_camera) {
     TileView& view = memory_->hint;
     view.stamp_s = hint.stamp_s;
     // If unknown, Find sets the pose.

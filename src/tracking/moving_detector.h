@@ -12,7 +12,7 @@
 
 namespace tessera {
 
-struct MovingMemory;
+struct MovingHistory;
 
 // Owner thread only; uses TBB internally and gives the same result for any number of threads.
 class MovingDetector {
@@ -47,14 +47,14 @@ class MovingDetector {
                                            ViewPredictor& predictor);
     // The moving regions of the previous frame, as seen by a camera at this pose, with a margin.
     // Tracking must skip them. Null if there are none.
-    std::shared_ptr<const MovingMask> Expect(double stamp_s,
-                                             const Eigen::Isometry3d& T_world_camera) const;
+    std::shared_ptr<const MovingMask> PredictMask(double stamp_s,
+                                                  const Eigen::Isometry3d& T_world_camera) const;
 
     // Takes a detector's hint. What it marks counts as moving, even if it stands still, until the
     // window is over or the next hint arrives. The hint is for the next frame given to Expect and
     // Find, or for an earlier frame that was tracked to T_world_camera.
-    void Guide(const MovingHint& hint, float disparity_offset_per_m,
-               const std::optional<Eigen::Isometry3d>& T_world_camera);
+    void SetHint(const MovingHint& hint, float disparity_offset_per_m,
+                 const std::optional<Eigen::Isometry3d>& T_world_camera);
 
     // Call this when the map is moved, and the camera with it.
     void Move(const Eigen::Isometry3d& T_new_old);
@@ -65,7 +65,7 @@ class MovingDetector {
     Config config_;
     int step_;
     PinholeCamera camera_;  // of the tile images
-    std::unique_ptr<MovingMemory> memory_;
+    std::unique_ptr<MovingHistory> memory_;
 };
 
 }  // namespace tessera

@@ -30,28 +30,28 @@ const TileView& Blurred(const TileView& view, int more, TileView& storage) {
     if (more == 0) return view;
     storage = view;
     storage.blur += more;
-    NearestAround(storage.depth_m, 1 + storage.blur, storage.near_m);
+    NearestInWindow(storage.depth_m, 1 + storage.blur, storage.near_m);
     return storage;
 }
 
 }  // namespace
 
 // A detector's hint as seen by a camera at this pose. Empty if there was none within the window.
-DepthImage MovingMemory::CarriedHint(double stamp_s, const Eigen::Isometry3d& T_world_camera,
-                                     const PinholeCamera& camera, double window_s) const {
+DepthImage MovingHistory::CarriedHint(double stamp_s, const Eigen::Isometry3d& T_world_camera,
+                                      const PinholeCamera& camera, double window_s) const {
     if (hint.depth_m.empty() || std::abs(stamp_s - hint.stamp_s) > window_s) return {};
     if (stamp_s == hint.stamp_s) return hint.depth_m;
     DepthImage carried_m(camera.width, camera.height);
-    Carry(hint, Marks(camera.width, camera.height, 1), T_world_camera, camera, carried_m);
+    ReprojectMarks(hint, Marks(camera.width, camera.height, 1), T_world_camera, camera, carried_m);
     return carried_m;
 }
 
-int MovingMoments::Blur(double turned_rad, double since_s) const {
+int MovingAnalysis::Blur(double turned_rad, double since_s) const {
     return std::min(6, static_cast<int>(turned_rad / since_s * kImageTime_s * camera_.fx + 0.5));
 }
 
-void MovingMoments::Take(const MovingDetector::Input& input, int step) {
-    MovingMemory& m = memory_;
+void MovingAnalysis::Ingest(const MovingDetector::Input& input, int step) {
+    MovingHistory& m = memory_;
     const double since_s = input.stamp_s - m.now.stamp_s;
     const bool follows = !m.now.depth_m.empty() && since_s > 0 && since_s < config_.window_s;
     if (!follows) {
@@ -63,12 +63,12 @@ void MovingMoments::Take(const MovingDetector::Input& input, int step) {
     m.now.T_world_camera = input.T_world_camera;
     m.now.stamp_s = input.stamp_s;
     MakeTiles(input.depth_m, step, input.disparity_offset_per_m, m.now.depth_m);
-    NearestAround(m.now.depth_m, 1 + m.now.blur, m.now.near_m);
+    NearestInWindow(m.now.depth_m, 1 + m.now.blur, m.now.near_m);
     while (!m.past.empty() && m.past.front().stamp_s < input.stamp_s - 1.1 * config_.window_s)
         m.past.pop_front();
 }
 
-std::vector<const TileView*> MovingMoments::ToCompare() const {
+std::vector<const TileView*> MovingAnalysis::ToCompare() const {
     std::vector<const TileView*> moments;
     for (const double age : kAges) {
         const TileView* found = nullptr;  // the newest that is old enough, or the oldest
@@ -82,12 +82,12 @@ std::vector<const TileView*> MovingMoments::ToCompare() const {
     return moments;
 }
 
-MovingChanges MovingMoments::Compare() const {
+DepthChanges MovingAnalysis::Compare() const {
     const TileView& now = memory_.now;
     const std::vector<const TileView*> moments = ToCompare();
-    std::array<MovingChanges, std::size(kAges)> parts;
+    std::array<DepthChanges, std::size(kAges)> parts;
     tbb::parallel_for(std::size_t{0}, 2 * moments.size(), [&](std::size_t i) {
-        MovingChanges& part = parts[i / 2];
+        DepthChanges& part = parts[i / 2];
         const TileView& past = *moments[i / 2];
         TileView storage;
         if (i % 2 == 0) {
@@ -95,10 +95,10 @@ MovingChanges MovingMoments::Compare() const {
             MarkFree(now, Blurred(past, now.blur, storage), camera_, margin_, part.came);
         } else {
             part.left_m = DepthImage(camera_.width, camera_.height);
-            FindLeft(past, Blurred(now, past.blur, storage), camera_, margin_, part.left_m);
+            FindDeparted(past, Blurred(now, past.blur, storage), camera_, margin_, part.left_m);
         }
     });
-    MovingChanges changes;
+    DepthChanges changes;
     changes.came = changes.there = Marks(camera_.width, camera_.height);
     changes.left_m = DepthImage(camera_.width, camera_.height);
     Marks left = changes.came;
@@ -122,24 +122,25 @@ MovingChanges MovingMoments::Compare() const {
     return changes;
 }
 
-MovingEvidence MovingMoments::Weigh(const MovingChanges& changes, const DepthImage& hinted_m,
-                                    const DepthImage& predicted_m) const {
+MovingEvidence MovingAnalysis::Evaluate(const DepthChanges& changes, const DepthImage& hinted_m,
+                                        const DepthImage& predicted_m) const {
     const int width = camera_.width, height = camera_.height;
     const TileView& now = memory_.now;
     DepthImage nearest_m, farthest_m;
-    NearestAround(predicted_m, 1, nearest_m);
-    FarthestAround(predicted_m, 1, farthest_m);
+    NearestInWindow(predicted_m, 1, nearest_m);
+    FarthestInWindow(predicted_m, 1, farthest_m);
     const int last_x = predicted_m.width() - 1, last_y = predicted_m.height() - 1;
     MovingEvidence e;
     e.seeds = changes.came;
-    MarkBeside(now.depth_m, changes.left_m, kBeside, e.seeds);
-    MarkBeside(now.depth_m, hinted_m, kBesideHint, e.seeds);
+    MarkNear(now.depth_m, changes.left_m, kBeside, e.seeds);
+    MarkNear(now.depth_m, hinted_m, kBesideHint, e.seeds);
     e.candidates = e.seeds;
     e.growing = e.gone = Marks(width, height);
     std::int64_t known = 0, fitting = 0;
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {
-            const int u = std::min(x / kAskedTiles, last_x), v = std::min(y / kAskedTiles, last_y);
+            const int u = std::min(x / kMapQueryStride, last_x),
+                      v = std::min(y / kMapQueryStride, last_y);
             const float depth = now.depth_m(x, y), map = predicted_m(u, v);
             if (depth <= 0) continue;
             e.growing(x, y) = changes.there(x, y) == 0;
@@ -161,7 +162,7 @@ MovingEvidence MovingMoments::Weigh(const MovingChanges& changes, const DepthIma
     return e;
 }
 
-void MovingMoments::Decide(MovingEvidence& e) {
+void MovingAnalysis::Decide(MovingEvidence& e) {
     const DepthImage& depth_m = memory_.now.depth_m;
     KeepRegions(depth_m, e.seeds, camera_, {config_.min_area_m2, config_.min_changed_fraction},
                 e.candidates);

@@ -10,10 +10,11 @@
 
 namespace tessera {
 
-inline constexpr int kAskedTiles = 2;  // one in this many tiles per row or column queries the map
+inline constexpr int kMapQueryStride =
+    2;  // one in this many tiles per row or column queries the map
 
 // Differences between a frame and the earlier ones.
-struct MovingChanges {
+struct DepthChanges {
     Image<std::uint8_t> came;   // stands in former free space
     DepthImage left_m;          // depth of what has left, where it was
     Image<std::uint8_t> there;  // matches a surface seen one window ago
@@ -29,7 +30,7 @@ struct MovingEvidence {
     bool fits = false;               // the rest fits the map
 };
 
-struct MovingMemory {
+struct MovingHistory {
     TileView now;
     std::deque<TileView> past;   // oldest first
     Image<std::uint8_t> moving;  // in `now`; empty if nothing moves
@@ -40,19 +41,19 @@ struct MovingMemory {
 };
 
 // Compares one frame with the remembered ones.
-class MovingMoments {
+class MovingAnalysis {
   public:
-    MovingMoments(const MovingDetector::Config& config, const PinholeCamera& camera,
-                  MovingMemory& memory)
+    MovingAnalysis(const MovingDetector::Config& config, const PinholeCamera& camera,
+                   MovingHistory& memory)
         : config_(config),
           camera_(camera),
           margin_{static_cast<float>(config.margin_m), static_cast<float>(config.margin_per_m)},
           memory_(memory) {}
 
-    void Take(const MovingDetector::Input& input, int step);
-    MovingChanges Compare() const;
-    MovingEvidence Weigh(const MovingChanges& changes, const DepthImage& hinted_m,
-                         const DepthImage& predicted_m) const;
+    void Ingest(const MovingDetector::Input& input, int step);
+    DepthChanges Compare() const;
+    MovingEvidence Evaluate(const DepthChanges& changes, const DepthImage& hinted_m,
+                            const DepthImage& predicted_m) const;
     void Decide(MovingEvidence& evidence);
 
   private:
@@ -62,7 +63,7 @@ class MovingMoments {
     const MovingDetector::Config& config_;
     const PinholeCamera& camera_;
     DepthMargin margin_;
-    MovingMemory& memory_;
+    MovingHistory& memory_;
 };
 
 }  // namespace tessera

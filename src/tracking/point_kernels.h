@@ -29,7 +29,7 @@ TESSERA_HD CameraPoint Moved(const CameraPoint& p, const float* twist_per_s, flo
             p.z + time_s * (w[0] * p.y - w[1] * p.x + w[5])};
 }
 
-constexpr double kNearestWeighed_m = 0.5;  // default
+constexpr double kMinWeightDepth_m = 0.5;  // default
 
 // max(z, nearest_m)^exponent, in metres.
 TESSERA_HD float PointWeight(float z_m, float exponent, float nearest_m) {

@@ -65,12 +65,12 @@ double LeastDamping(const ResidualScales& scales, double expected_within_m, int 
     return std::ldexp(variance, -2 * level) / (expected_within_m * expected_within_m);
 }
 
-PoseKnowledge KnowledgeOf(const Matrix6d& information, double expected_within_m,
-                          const Eigen::Vector3d& camera_local, double scene_depth_m) {
+PoseUncertainty ComputeUncertainty(const Matrix6d& information, double expected_within_m,
+                                   const Eigen::Vector3d& camera_local, double scene_depth_m) {
     const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(information);
     const Vector6d values = eigen.eigenvalues().cwiseMax(0.0);
     constexpr double kUnknown_m = 1000;
-    PoseKnowledge knowledge;
+    PoseUncertainty knowledge;
     knowledge.uncertainty_m = 1 / std::sqrt(std::max(values(0), 1 / (kUnknown_m * kUnknown_m)));
     const double expected =
         expected_within_m > 0 ? 1 / (expected_within_m * expected_within_m) : 0.0;

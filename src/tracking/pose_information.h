@@ -26,7 +26,7 @@ Matrix6d AgreedHessian(const std::vector<double>& distance_sums);
 // less well and leaves the others alone.
 double LeastDamping(const ResidualScales& scales, double expected_within_m, int level);
 
-struct PoseKnowledge {
+struct PoseUncertainty {
     double uncertainty_m = 0;  // standard deviation of the least constrained motion
     // Maps a left increment about the local origin to the part of it that should keep its prior:
     // the fraction v^2 / (1 + v^2) of a motion whose variance is v times that of the prior.
@@ -34,7 +34,7 @@ struct PoseKnowledge {
 };
 // `expected_within_m`: standard deviation of the pose prior before the frame, for all motions; 0:
 // no prior.
-PoseKnowledge KnowledgeOf(const Matrix6d& information, double expected_within_m,
-                          const Eigen::Vector3d& camera_local, double scene_depth_m);
+PoseUncertainty ComputeUncertainty(const Matrix6d& information, double expected_within_m,
+                                   const Eigen::Vector3d& camera_local, double scene_depth_m);
 
 }  // namespace tessera

@@ -5,7 +5,7 @@
 #include "tracking/frame_points.h"
 #include "tracking/pose_solver.h"
 #include "tracking/residual_sums.h"
-#include "tracking/sdf_rows.h"
+#include "tracking/sdf_simd.h"
 
 namespace tessera {
 

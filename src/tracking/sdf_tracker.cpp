@@ -90,7 +90,7 @@ void SdfTracker::MakePoints(const TrackInput& input, int step, FramePoints& poin
     if (device_ != nullptr) {
         const PointArguments a =
             MakePointArguments(input.frame, camera_, state.motion, step, weight, state.alpha > 0);
-        points.Lay(a, device_->SetPoints(input.map, input.frame, a));
+        points.Allocate(a, device_->SetPoints(input.map, input.frame, a));
         if (points.valid() == 0) state.step.valid = false;
     } else {
         points.Build(input.frame, camera_, state.motion, step, weight);

@@ -7,7 +7,7 @@
 #include "core/cpu.h"
 #include "tracking/conclude.h"
 #include "tracking/frame_points.h"
-#include "tracking/sdf_rows.h"
+#include "tracking/sdf_simd.h"
 #include "tracking/sdf_sums.h"
 #include "tracking/tracker.h"
 

@@ -15,7 +15,7 @@ bool Continuous(float a, float b) {
 }
 
 // Whether neighbours belong to one body: a chin in front of a chest, an arm in front of a hip.
-bool HangTogether(float a, float b) { return a > 0 && b > 0 && std::abs(a - b) < 0.2f; }
+bool SameBody(float a, float b) { return a > 0 && b > 0 && std::abs(a - b) < 0.2f; }
 
 template <class Visit>
 void ForNeighbours(const Marks& marks, int x, int y, const Visit& visit) {
@@ -76,7 +76,7 @@ void GrowRegions(const DepthImage& depth_m, const Marks& allowed, const PinholeC
                  double reach_m, Marks& marks) {
     struct Tile {
         int x, y;
-        double way_m;
+        double path_length_m;
     };
     std::vector<Tile> tiles;  // roughly in order of distance from the regions
     for (int y = 0; y < marks.height(); ++y)
@@ -84,19 +84,19 @@ void GrowRegions(const DepthImage& depth_m, const Marks& allowed, const PinholeC
             if (marks(x, y) != 0) tiles.push_back({x, y, 0});
     for (std::size_t i = 0; i < tiles.size(); ++i) {
         const Tile from = tiles[i];
-        const double way_m = from.way_m + depth_m(from.x, from.y) / camera.fx;
-        if (way_m > reach_m) continue;
+        const double path_length_m = from.path_length_m + depth_m(from.x, from.y) / camera.fx;
+        if (path_length_m > reach_m) continue;
         ForNeighbours(marks, from.x, from.y, [&](int u, int v) {
             if (marks(u, v) != 0 || allowed(u, v) == 0 ||
-                !HangTogether(depth_m(from.x, from.y), depth_m(u, v)))
+                !SameBody(depth_m(from.x, from.y), depth_m(u, v)))
                 return;
             marks(u, v) = 1;
-            tiles.push_back({u, v, way_m});
+            tiles.push_back({u, v, path_length_m});
         });
     }
 }
 
-void MarkBeside(const DepthImage& depth_m, const DepthImage& other_m, int reach, Marks& marks) {
+void MarkNear(const DepthImage& depth_m, const DepthImage& other_m, int reach, Marks& marks) {
     for (int y = 0; y < other_m.height(); ++y)
         for (int x = 0; x < other_m.width(); ++x) {
             if (other_m(x, y) <= 0) continue;

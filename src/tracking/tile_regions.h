@@ -32,8 +32,8 @@ void GrowRegions(const DepthImage& depth_m, const Image<std::uint8_t>& allowed,
                  const PinholeCamera& camera, double reach_m, Image<std::uint8_t>& marks);
 
 // Marks tiles at most `reach` from a tile where `other_m` is not 0 and has much the same depth.
-void MarkBeside(const DepthImage& depth_m, const DepthImage& other_m, int reach,
-                Image<std::uint8_t>& marks);
+void MarkNear(const DepthImage& depth_m, const DepthImage& other_m, int reach,
+              Image<std::uint8_t>& marks);
 
 // Marks all tiles within `reach` tiles of a marked one.
 void Dilate(int reach, Image<std::uint8_t>& marks);

@@ -53,8 +53,8 @@ void BestAround(const DepthImage& tiles, int reach, DepthImage& out, float none,
 // Visits each tile (x, y) of `from` that has depth and whose point a camera at this pose sees.
 // Passes the point's depth and tile in that camera.
 template <class Visit>
-void ForSeen(const TileView& from, const Eigen::Isometry3d& T_world_camera,
-             const PinholeCamera& camera, const Visit& visit) {
+void ForEachVisibleTile(const TileView& from, const Eigen::Isometry3d& T_world_camera,
+                        const PinholeCamera& camera, const Visit& visit) {
     const Eigen::Isometry3f T = (T_world_camera.inverse() * from.T_world_camera).cast<float>();
     const Eigen::Matrix3f R = T.linear();
     const Eigen::Vector3f t = T.translation();
@@ -91,45 +91,49 @@ void MakeTiles(const DepthImage& depth_m, int step, float disparity_offset_per_m
     });
 }
 
-void NearestAround(const DepthImage& tiles, int reach, DepthImage& nearest) {
+void NearestInWindow(const DepthImage& tiles, int reach, DepthImage& nearest) {
     BestAround(tiles, reach, nearest, kNone, [](float a, float b) { return std::min(a, b); });
 }
 
-void FarthestAround(const DepthImage& tiles, int reach, DepthImage& farthest) {
+void FarthestInWindow(const DepthImage& tiles, int reach, DepthImage& farthest) {
     BestAround(tiles, reach, farthest, 0.0f, [](float a, float b) { return std::max(a, b); });
 }
 
 void MarkFree(const TileView& from, const TileView& to, const PinholeCamera& camera,
               const DepthMargin& margin, Image<std::uint8_t>& of_from) {
-    ForSeen(from, to.T_world_camera, camera, [&](int x, int y, float depth_m, int k, int l) {
-        const float seen = to.near_m(k, l);
-        if (seen > depth_m + margin(seen)) of_from(x, y) = 1;
-    });
+    ForEachVisibleTile(from, to.T_world_camera, camera,
+                       [&](int x, int y, float depth_m, int k, int l) {
+                           const float seen = to.near_m(k, l);
+                           if (seen > depth_m + margin(seen)) of_from(x, y) = 1;
+                       });
 }
 
 void MarkSame(const TileView& from, const TileView& to, const PinholeCamera& camera,
               const DepthMargin& margin, Image<std::uint8_t>& of_from) {
-    ForSeen(from, to.T_world_camera, camera, [&](int x, int y, float depth_m, int k, int l) {
-        const float nearest = to.near_m(k, l), there = to.depth_m(k, l), off = margin(depth_m);
-        if (there > 0 && nearest - off <= depth_m && depth_m <= there + off) of_from(x, y) = 1;
-    });
+    ForEachVisibleTile(
+        from, to.T_world_camera, camera, [&](int x, int y, float depth_m, int k, int l) {
+            const float nearest = to.near_m(k, l), there = to.depth_m(k, l), off = margin(depth_m);
+            if (there > 0 && nearest - off <= depth_m && depth_m <= there + off) of_from(x, y) = 1;
+        });
 }
 
-void FindLeft(const TileView& past, const TileView& now, const PinholeCamera& camera,
-              const DepthMargin& margin, DepthImage& left_m) {
-    ForSeen(past, now.T_world_camera, camera, [&](int, int, float depth_m, int k, int l) {
-        const float seen = now.near_m(k, l);
-        if (seen <= depth_m + margin(seen)) return;
-        if (left_m(k, l) <= 0 || depth_m < left_m(k, l)) left_m(k, l) = depth_m;
-    });
+void FindDeparted(const TileView& past, const TileView& now, const PinholeCamera& camera,
+                  const DepthMargin& margin, DepthImage& left_m) {
+    ForEachVisibleTile(past, now.T_world_camera, camera,
+                       [&](int, int, float depth_m, int k, int l) {
+                           const float seen = now.near_m(k, l);
+                           if (seen <= depth_m + margin(seen)) return;
+                           if (left_m(k, l) <= 0 || depth_m < left_m(k, l)) left_m(k, l) = depth_m;
+                       });
 }
 
-void Carry(const TileView& from, const Image<std::uint8_t>& marked,
-           const Eigen::Isometry3d& T_world_camera, const PinholeCamera& camera,
-           DepthImage& carried_m) {
-    ForSeen(from, T_world_camera, camera, [&](int x, int y, float depth_m, int k, int l) {
-        if (marked(x, y) != 0) carried_m(k, l) = depth_m;
-    });
+void ReprojectMarks(const TileView& from, const Image<std::uint8_t>& marked,
+                    const Eigen::Isometry3d& T_world_camera, const PinholeCamera& camera,
+                    DepthImage& carried_m) {
+    ForEachVisibleTile(from, T_world_camera, camera,
+                       [&](int x, int y, float depth_m, int k, int l) {
+                           if (marked(x, y) != 0) carried_m(k, l) = depth_m;
+                       });
 }
 
 }  // namespace tessera

@@ -31,9 +31,9 @@ struct DepthMargin {
 void MakeTiles(const DepthImage& depth_m, int step, float disparity_offset_per_m,
                DepthImage& tiles);
 // The nearest of the tiles at most `reach` away in both directions; 0 where `tiles` is 0.
-void NearestAround(const DepthImage& tiles, int reach, DepthImage& nearest);
+void NearestInWindow(const DepthImage& tiles, int reach, DepthImage& nearest);
 // The same for the farthest.
-void FarthestAround(const DepthImage& tiles, int reach, DepthImage& farthest);
+void FarthestInWindow(const DepthImage& tiles, int reach, DepthImage& farthest);
 
 // Marks each tile of `from` whose point lies in the free space that `to` saw. `camera` is that of
 // the tile images. Here and below, images have the size of the tile images, and existing marks
@@ -42,15 +42,15 @@ void MarkFree(const TileView& from, const TileView& to, const PinholeCamera& cam
               const DepthMargin& margin, Image<std::uint8_t>& of_from);
 // For each tile of `now`: the depth, seen from `now`, of the nearest surface that `past` saw in
 // what is free space now.
-void FindLeft(const TileView& past, const TileView& now, const PinholeCamera& camera,
-              const DepthMargin& margin, DepthImage& left_m);
+void FindDeparted(const TileView& past, const TileView& now, const PinholeCamera& camera,
+                  const DepthMargin& margin, DepthImage& left_m);
 // Marks each tile of `from` at whose point `to` also saw a surface.
 void MarkSame(const TileView& from, const TileView& to, const PinholeCamera& camera,
               const DepthMargin& margin, Image<std::uint8_t>& of_from);
 // Projects the points of marked tiles of `from` into a camera at this pose and enters their depths.
 // Other depths stay.
-void Carry(const TileView& from, const Image<std::uint8_t>& marked,
-           const Eigen::Isometry3d& T_world_camera, const PinholeCamera& camera,
-           DepthImage& carried_m);
+void ReprojectMarks(const TileView& from, const Image<std::uint8_t>& marked,
+                    const Eigen::Isometry3d& T_world_camera, const PinholeCamera& camera,
+                    DepthImage& carried_m);
 
 }  // namespace tessera

@@ -26,7 +26,7 @@ struct TrackInput {
     double since_last_s = 0;                // 0 if there is none, or its pose was poor
     // Delays and read-out times; the tracker fills in the twist.
     FrameMotion motion;
-    double nearest_m = kNearestWeighed_m;  // nearer points have the weight of this depth
+    double nearest_m = kMinWeightDepth_m;  // nearer points have the weight of this depth
 };
 
 enum class TrackStatus {

@@ -26,7 +26,7 @@ Function Find(const char* name) {
 }  // namespace
 
 // Looks the functions up by name, because GLFW may be built without X11.
-void SurviveLossOfDisplay() {
+void HandleDisplayLoss() {
     lost = false;
     const auto get_display = Find<void* (*)()>("glfwGetX11Display");
     void* display = get_display ? get_display() : nullptr;

@@ -7,7 +7,7 @@ namespace tessera {
 // Call after the window was made, on its thread. From then on X11 errors do not end the process,
 // and DisplayIsLost reports the loss of the connection. Does nothing on other window systems. With
 // libX11 before 1.7 a lost connection still ends the process.
-void SurviveLossOfDisplay();
+void HandleDisplayLoss();
 bool DisplayIsLost();
 
 }  // namespace tessera

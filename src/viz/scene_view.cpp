@@ -31,7 +31,7 @@ struct SceneView::Impl {
         Request request;
     };
     void StandUpright();
-    bool ChosenAnew(const ViewerState& state, const Request& request) const;
+    bool ChoicesChanged(const ViewerState& state, const Request& request) const;
     void DrawMesh(const ViewerState& state, const PinholeCamera& pinhole);
     void DrawPaths(const ViewerState& state, const PinholeCamera& pinhole);
 
@@ -161,7 +161,7 @@ void SceneView::ViewAll() {
     s.camera.Place(s.bounds.center() - distance_m * from, s.bounds.center());
 }
 
-bool SceneView::Impl::ChosenAnew(const ViewerState& state, const Request& request) const {
+bool SceneView::Impl::ChoicesChanged(const ViewerState& state, const Request& request) const {
     const ViewChoices &a = state.view, &b = drawn.choices;
     return request.width != drawn.request.width || request.height != drawn.request.height ||
            request.smooth != drawn.request.smooth || a.shading != b.shading ||
@@ -175,7 +175,7 @@ bool SceneView::Draw(const ViewerState& state, const Request& request) {
     s.changed |= s.boxes.Update(state);
     const bool moved = !s.camera.T_world_camera().isApprox(s.drawn.T_world_view, 1e-7);
     const bool at_once = request.may_redraw || (moved && request.by_hand);
-    if (!s.ChosenAnew(state, request) && !((moved || s.changed) && at_once)) return false;
+    if (!s.ChoicesChanged(state, request) && !((moved || s.changed) && at_once)) return false;
     s.changed = false;
     s.drawn = {s.camera.T_world_camera(), state.view, request};
     const PinholeCamera pinhole = ViewCamera::Camera(request.width, request.height);

@@ -56,7 +56,7 @@ Status Window::Create(const std::string& title, int width, int height) {
             fmt::format("the display cannot open an OpenGL 3.3 window ({}): install libegl1, "
                         "libgl1 and libgl1-mesa-dri, or run without --view",
                         LastError()));
-    SurviveLossOfDisplay();
+    HandleDisplayLoss();
     glfwMakeContextCurrent(window_);
     glfwSwapInterval(0);  // the viewer controls its own pace; a hidden window must not block it
     const auto* name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));

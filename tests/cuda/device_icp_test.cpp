@@ -8,7 +8,7 @@
 #include "cuda/desk_frames.h"
 #include "cuda/device_pipeline.h"
 #include "mapping/ray_caster.h"
-#include "tracking/icp_rows.h"
+#include "tracking/icp_simd.h"
 #include "tracking/icp_tracker.h"
 #include "tracking/set_view.h"
 

@@ -48,7 +48,7 @@ void ExpectSamePoints(DevicePipeline& device, const PreparedFrame& frame,
     FramePoints expected, points;
     expected.Build(frame, camera, motion, step, weight);
     if (intensities) expected.SampleIntensity(frame, camera, motion);
-    points.Lay(a, device.SetPoints(map, frame, a));
+    points.Allocate(a, device.SetPoints(map, frame, a));
     device.TakePoints(points);
     ExpectSame(points, expected);
 
@@ -56,7 +56,7 @@ void ExpectSamePoints(DevicePipeline& device, const PreparedFrame& frame,
     expected.Build(frame, camera, motion, step, weight);
     expected.EstimateNormals(frame, camera, a.normal_radius_px);
     if (intensities) expected.SampleIntensity(frame, camera, motion);
-    points.Lay(a, device.icp_sums().SetPoints(frame, a, 0));
+    points.Allocate(a, device.icp_sums().SetPoints(frame, a, 0));
     device.icp_sums().TakePoints(points);
     ExpectSame(points, expected);
 }

@@ -55,7 +55,7 @@ TEST(MovingMask, AFrameIsPreparedAgainWithAnotherAndKeepsItsColour) {
     PreparedFrame whole, again;
     PrepareFrame(masked.frame, {}, whole);
     PrepareFrame(masked.frame, {}, again, &masked.mask);
-    PrepareDepthAgain(masked.frame, {}, again, nullptr);
+    RemaskDepth(masked.frame, {}, again, nullptr);
     EXPECT_EQ(again.valid_depth_pixels, 23 * 17);
     EXPECT_NE(again.identity, whole.identity);
     for (std::size_t i = 0; i < whole.depth_m.size(); ++i) {

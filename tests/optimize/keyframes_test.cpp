@@ -77,7 +77,7 @@ TEST(Keyframes, CountTheWayAndFollowThePoseGraph) {
     const Keyframe& second = keyframes.Add(7, 1.5, Wall(2), TrackedAt(turned));
     EXPECT_EQ(second.id, 1);
     EXPECT_EQ(second.frame_index, 7);
-    EXPECT_DOUBLE_EQ(second.way_m, 2);  // the jump is not counted
+    EXPECT_DOUBLE_EQ(second.path_length_m, 2);  // the jump is not counted
     EXPECT_NEAR(second.turned_rad, 0.25, 1e-12);
     EXPECT_TRUE(second.T_map_camera.isApprox(turned));
     EXPECT_TRUE(second.T_world_camera.isApprox(Shift(0, 10) * turned));

@@ -223,7 +223,7 @@ TEST(LoopCloser, FindsALostCameraToTheCentimetreAndRefusesAnUnknownPlace) {
 TEST(DriftOf, GrowsWithTheWay) {
     Keyframe old, fresh;
     fresh.T_world_camera = Eigen::Translation3d(1, 0, 0);
-    fresh.way_m = 10;
+    fresh.path_length_m = 10;
     const Eigen::Isometry3d measured(Eigen::Translation3d(0.4, 0, 0));
     EXPECT_DOUBLE_EQ(DriftOf(old, fresh, measured, 0.05).off_m, 0.6);
     EXPECT_TRUE(DriftOf(old, fresh, measured, 0.05).possible);  // 0.15 + 0.05 * 10

@@ -27,7 +27,7 @@ TEST(PixelsOf, AnyNumbers) {
     EXPECT_LE(PixelsOf({-huge, -huge, huge, huge}, 640, 480).x_end, 640);
 }
 
-TEST(KeepWanted, ByClassAndProbabilityMostProbableFirst) {
+TEST(FilterWanted, ByClassAndProbabilityMostProbableFirst) {
     const LabelClasses classes = LabelClasses::Make({}, {}).value();
     std::vector<Detection> detections = {
         {"cup", 0, 0.5f, {}, {}},
@@ -35,20 +35,20 @@ TEST(KeepWanted, ByClassAndProbabilityMostProbableFirst) {
         {"dog", 0, 0.9f, {}, {}},
         {"book", 0, 0.49f, {}, {}},
         {"cup", 0, std::numeric_limits<float>::quiet_NaN(), {}, {}}};
-    KeepWanted(classes, 0.5, detections);
+    FilterWanted(classes, 0.5, detections);
     ASSERT_EQ(detections.size(), 2u);
     EXPECT_EQ(detections[0].class_id, 1);
     EXPECT_EQ(detections[1].class_id, 5);
 }
 
-TEST(TakeDynamic, LeavesTheRestInItsOrder) {
+TEST(ExtractDynamic, LeavesTheRestInItsOrder) {
     const LabelClasses classes = LabelClasses::Make({}, {}).value();
     std::vector<Detection> detections = {{"cup", 0, 0.5f, {}, {}},
                                          {"person", 0, 0.9f, {}, {}},
                                          {"dog", 0, 0.9f, {}, {}},
                                          {"person", 0, 0.4f, {}, {}},
                                          {"book", 0, 0.1f, {}, {}}};
-    const std::vector<Detection> dynamic = TakeDynamic(classes, 0.5, detections);
+    const std::vector<Detection> dynamic = ExtractDynamic(classes, 0.5, detections);
     ASSERT_EQ(dynamic.size(), 1u);
     EXPECT_FLOAT_EQ(dynamic[0].probability, 0.9f);
     ASSERT_EQ(detections.size(), 3u);

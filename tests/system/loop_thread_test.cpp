@@ -49,7 +49,7 @@ class LoopThreadTest : public testing::Test {
         }
     }
     // Stores the news as a scan file does.
-    void Keep(const LoopNews& news) {
+    void Keep(const LoopChanges& news) {
         passages.insert(passages.end(), news.passages.begin(), news.passages.end());
         for (const auto& [id, pose] : news.poses) poses[id] = pose;
         for (const StoredFrame& frame : news.frames) stored[frame.ordinal] = frame;
@@ -63,7 +63,7 @@ class LoopThreadTest : public testing::Test {
     Pool<TrackedFrame> tracked_frames;
     LoopThread thread{{LoopConfig{}, settings, 5000, std::nullopt, true, std::nullopt},
                       {frames, tracked_frames, mapping, tracking}};
-    std::vector<LoopCloser::Passage> passages;
+    std::vector<LoopCloser::PathPose> passages;
     std::map<int, KeyframePoses> poses;
     std::map<std::int64_t, StoredFrame> stored;
     std::size_t keyframes = 0;

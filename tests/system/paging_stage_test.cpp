@@ -96,7 +96,7 @@ class HallSource : public FrameSource {
     ReadResult Read(Frame& frame) override {
         if (next_ == kFrames) return {ReadStatus::kEnd, {}};
         if (mapped_ != nullptr && next_ > *mapped_) {
-            PauseBriefly();
+            SleepBriefly();
             return {ReadStatus::kWait, {}};
         }
         frame = room_.Render(info_.camera, WalkPose(next_, aside_rad_), next_ / 30.0);

@@ -165,9 +165,10 @@ TEST_F(MovingDetectorTest, WhatADetectorSaysMovesHoweverStillItStands) {
     DepthImage hinted_m(kWidth, kHeight, 0.0f);
     for (int y = box.top; y < box.bottom; ++y)
         std::fill(hinted_m.row(y) + box.left, hinted_m.row(y) + box.right, kBox_m);
-    detector_.Guide({hinted_m, stamp_s_ + kFrame_s}, 0, std::nullopt);  // given for the first frame
+    detector_.SetHint({hinted_m, stamp_s_ + kFrame_s}, 0,
+                      std::nullopt);  // given for the first frame
     for (int i = 0; i < 25; ++i) {
-        const auto expected = detector_.Expect(stamp_s_ + kFrame_s, T_world_camera_);
+        const auto expected = detector_.PredictMask(stamp_s_ + kFrame_s, T_world_camera_);
         const auto mask = See(View(box));
         ASSERT_NE(expected, nullptr) << i;
         ASSERT_NE(mask, nullptr) << i;
@@ -184,7 +185,7 @@ TEST_F(MovingDetectorTest, WhatADetectorSaysMovesHoweverStillItStands) {
     // now differs.
     for (int i = 0; i < 10; ++i) See(View(box));
     EXPECT_EQ(See(View(box)), nullptr);
-    detector_.Guide({hinted_m, stamp_s_}, 0, T_world_camera_);
+    detector_.SetHint({hinted_m, stamp_s_}, 0, T_world_camera_);
     EXPECT_EQ(detector_.Find({.depth_m = View({}),
                               .stamp_s = stamp_s_ + kFrame_s,
                               .T_world_camera = T_world_camera_},
@@ -251,15 +252,15 @@ TEST_F(MovingDetectorTest, ACrumbThatIsSeenThroughIsGone) {
 TEST_F(MovingDetectorTest, WhatMovedIsExpectedAgain) {
     for (int i = 0; i < 10; ++i) See(View({}));
     for (int i = 0; i < 10; ++i) See(View(BoxAt(2.3 * i)));
-    const auto expected = detector_.Expect(stamp_s_ + kFrame_s, T_world_camera_);
+    const auto expected = detector_.PredictMask(stamp_s_ + kFrame_s, T_world_camera_);
     ASSERT_NE(expected, nullptr);
     const Box next = BoxAt(2.3 * 10);
     for (int y = next.top; y < next.bottom; ++y)
         for (int x = next.left; x < next.right; ++x)
             ASSERT_EQ(expected->moving(x, y), 1) << x << " " << y;
-    EXPECT_EQ(detector_.Expect(stamp_s_ + 1, T_world_camera_), nullptr);
+    EXPECT_EQ(detector_.PredictMask(stamp_s_ + 1, T_world_camera_), nullptr);
     detector_.Clear();
-    EXPECT_EQ(detector_.Expect(stamp_s_ + kFrame_s, T_world_camera_), nullptr);
+    EXPECT_EQ(detector_.PredictMask(stamp_s_ + kFrame_s, T_world_camera_), nullptr);
 }
 
 }  // namespace

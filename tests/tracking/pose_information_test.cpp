@@ -82,23 +82,25 @@ TEST(PoseInformation, IsInMetresAndGrowsWithEveryResidual) {
 
 // x is known to 1 mm, y to 1 cm, which equals the prior's standard deviation, and the other motions
 // are unknown.
-TEST(PoseKnowledge, MotionsFollowWhatWasExpectedAsFarAsTheFrameDoesNotKnowThem) {
+TEST(PoseUncertainty, MotionsFollowWhatWasExpectedAsFarAsTheFrameDoesNotKnowThem) {
     Matrix6d information = Matrix6d::Zero();
     information(3, 3) = 1e6;
     information(4, 4) = 1e4;
-    const PoseKnowledge knowledge = KnowledgeOf(information, 0.01, Eigen::Vector3d::Zero(), 1.0);
+    const PoseUncertainty knowledge =
+        ComputeUncertainty(information, 0.01, Eigen::Vector3d::Zero(), 1.0);
     EXPECT_GT(knowledge.uncertainty_m, 100);
     Vector6d expected;
     expected << 1, 1, 1, 1 / 10001.0, 0.5, 1;
     EXPECT_TRUE(Matrix6d(knowledge.open).isApprox(Matrix6d(expected.asDiagonal()), 1e-9));
-    EXPECT_TRUE(KnowledgeOf(information, 0, Eigen::Vector3d::Zero(), 1.0).open.isZero(1e-12));
+    EXPECT_TRUE(
+        ComputeUncertainty(information, 0, Eigen::Vector3d::Zero(), 1.0).open.isZero(1e-12));
     information.diagonal().setConstant(1e4);
-    EXPECT_NEAR(KnowledgeOf(information, 0.01, Eigen::Vector3d(1, 2, 3), 2.0).uncertainty_m, 0.01,
-                1e-9);
+    EXPECT_NEAR(ComputeUncertainty(information, 0.01, Eigen::Vector3d(1, 2, 3), 2.0).uncertainty_m,
+                0.01, 1e-9);
 }
 
 // The same as weighing the points of the finest level against the prior.
-TEST(PoseKnowledge, LeastDampingIsThatOfTheExpectation) {
+TEST(PoseUncertainty, LeastDampingIsThatOfTheExpectation) {
     ResidualScales scales;
     scales.distance_m2 = 4e-4;
     EXPECT_DOUBLE_EQ(LeastDamping(scales, 0.01, 0), 4);

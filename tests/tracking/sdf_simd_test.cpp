@@ -1,4 +1,4 @@
-#include "tracking/sdf_rows.h"
+#include "tracking/sdf_simd.h"
 
 #include <gtest/gtest.h>
 

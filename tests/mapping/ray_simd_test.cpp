@@ -1,6 +1,6 @@
 // Checks the SIMD ray caster against a scalar reference and against itself. The map has holes,
 // missing blocks, noise, and surfaces with and without colour.
-#include "mapping/ray_rows.h"
+#include "mapping/ray_simd.h"
 
 #include <gtest/gtest.h>
 

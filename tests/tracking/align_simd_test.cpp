@@ -1,4 +1,4 @@
-#include "tracking/align_rows.h"
+#include "tracking/align_simd.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "mapping/fusion_rows.h"
+#include "mapping/fusion_simd.h"
 
 #include "core/vector_lanes.h"
 #include "mapping/fusion_kernels.h"

@@ -1,4 +1,4 @@
-#include "mapping/ray_rows.h"
+#include "mapping/ray_simd.h"
 
 #include "core/vector_lanes.h"
 #include "mapping/block_cache.h"

@@ -1,5 +1,5 @@
 // Compares the SIMD fusion with the same kernels applied one voxel at a time.
-#include "mapping/fusion_rows.h"
+#include "mapping/fusion_simd.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "tracking/icp_rows.h"
+#include "tracking/icp_simd.h"
 
 #include "core/tile_sums.h"
 #include "core/vector_lanes.h"

@@ -6,7 +6,7 @@
 
 namespace tessera {
 
-// Like SumSdfPoints (sdf_rows.h), with the sums of AlignKernels.
+// Like SumSdfPoints (sdf_simd.h), with the sums of AlignKernels.
 namespace baseline {
 void SumAlignedPoints(const AlignArguments& arguments, int first, int last, double* sums);
 }
