@@ -114,6 +114,10 @@ function(tessera_test name)
         list(JOIN ARG_RELEASE_ONLY ":" patterns)
         set(filter --gtest_filter=-${patterns})
     endif()
+    set(cost 0)
+    if(ARG_LABEL MATCHES "slow|data|app")
+        set(cost 100)  # ctest starts these first, so that none is left alone at the end
+    endif()
     math(EXPR last "${ARG_SHARDS} - 1")
     foreach(shard RANGE ${last})
         set(entry ${name})
@@ -122,7 +126,7 @@ function(tessera_test name)
         endif()
         add_test(NAME ${entry} COMMAND ${name} --gtest_brief=1
             --gtest_output=xml:${TESSERA_TEST_RESULTS}/${entry}.xml ${filter})
-        set_tests_properties(${entry} PROPERTIES LABELS "${labels}" TIMEOUT 900 RUN_SERIAL ${ARG_SERIAL}
+        set_tests_properties(${entry} PROPERTIES LABELS "${labels}" TIMEOUT 900 RUN_SERIAL ${ARG_SERIAL} COST ${cost}
             ENVIRONMENT "GTEST_TOTAL_SHARDS=${ARG_SHARDS};GTEST_SHARD_INDEX=${shard}")
     endforeach()
 endfunction()

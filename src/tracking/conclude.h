@@ -12,7 +12,8 @@ namespace tessera {
 // The state at the last sums of the finest level. The local coordinates are those of the method's
 // increments.
 struct FoundPose {
-    Eigen::Isometry3d T_world_local, T_local_camera;
+    Eigen::Isometry3d T_world_local = Eigen::Isometry3d::Identity();
+    Eigen::Isometry3d T_local_camera = Eigen::Isometry3d::Identity();
     double scene_depth_m = 1;
     FrameMotion motion;
     double alpha = 0, gain = 1, offset = 0;

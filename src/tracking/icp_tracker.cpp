@@ -17,18 +17,11 @@ constexpr double kIntensityGateScales = 5.0;
 
 }  // namespace
 
-struct IcpTracker::State {
-    Eigen::Isometry3d T_view_camera = Eigen::Isometry3d::Identity();
-    FrameMotion motion;
-    double gain = 1, offset = 0;
-    double alpha = 0;
-    double scene_depth_m = 1;
+// The local frame is the predicted view's.
+struct IcpTracker::State : FoundPose {
     IcpArguments arguments{};
-    SolverOptions options;
     LevenbergMarquardt damping;
-    PoseSums sums;
     PoseStep step;
-    int iterations = 0;
     bool failed = false;
 };
 
@@ -59,21 +52,11 @@ TrackResult IcpTracker::Track(const TrackInput& input) {
         PrepareLevel(input, level, state);
         if (!state.failed) RunLevel(level, state);
     }
+    state.T_world_local = view_.T_world_camera;
+    state.points = points_[0].valid();
+    state.valid = state.step.valid;
     return Conclude(
-        input,
-        {.T_world_local = view_.T_world_camera,
-         .T_local_camera = state.T_view_camera,
-         .scene_depth_m = state.scene_depth_m,
-         .motion = state.motion,
-         .alpha = state.alpha,
-         .gain = state.gain,
-         .offset = state.offset,
-         .iterations = state.iterations,
-         .sums = state.sums,
-         .options = state.options,
-         .points = points_[0].valid(),
-         .valid = state.step.valid},
-        MakeResidualArguments(input.frame, camera_, points_[0], residuals_),
+        input, state, MakeResidualArguments(input.frame, camera_, points_[0], residuals_),
         [this](const ResidualArguments& a) {
             return device_ != nullptr ? device_->SumResiduals(a) : SumResiduals(a);
         },
@@ -88,7 +71,7 @@ void IcpTracker::PredictAt(const TrackInput& input, const Eigen::Isometry3d& T_w
     const float far_m = 1.2f * input.frame.farthest_m + kMargin_m,
                 jump_m = static_cast<float>(config_.distance_gate_m);
     const PinholeCamera camera = camera_.Every(config_.finest_step_px);
-    state.T_view_camera.setIdentity();
+    state.T_local_camera.setIdentity();
     if (predictor_ != nullptr) {
         predictor_->Predict(input.map, camera, Normalised(T_world_view), near_m, far_m, view_);
         BuildIcpModel(view_, config_.levels, jump_m, model_);
@@ -114,22 +97,22 @@ void IcpTracker::ChooseStart(const TrackInput& input, State& state) {
     const FramePoints& points = points_.back();
     const Eigen::Isometry3d T_view_world = view_.T_world_camera.inverse();
     double best = std::numeric_limits<double>::infinity();
-    Eigen::Isometry3d T_best = state.T_view_camera;
+    Eigen::Isometry3d T_best = state.T_local_camera;
     for (const Eigen::Isometry3d& T_world_camera : starts) {
-        state.T_view_camera = Normalised(T_view_world * T_world_camera);
+        state.T_local_camera = Normalised(T_view_world * T_world_camera);
         const PoseSums sums = SumAt(points, Compare::kWithNothing, state);
         const double misfit =
             Misfit(sums, sums[SumLayout::kInliers], static_cast<double>(points.valid()),
                    config_.distance_scale_m, state.alpha);
         if (misfit >= best) continue;
         best = misfit;
-        T_best = state.T_view_camera;
+        T_best = state.T_local_camera;
     }
-    state.T_view_camera = T_best;
-    if (state.T_view_camera.translation().norm() < kAnotherView_m &&
-        RotationAngle(state.T_view_camera, Eigen::Isometry3d::Identity()) < kAnotherView_rad)
+    state.T_local_camera = T_best;
+    if (state.T_local_camera.translation().norm() < kAnotherView_m &&
+        RotationAngle(state.T_local_camera, Eigen::Isometry3d::Identity()) < kAnotherView_rad)
         return;
-    PredictAt(input, view_.T_world_camera * state.T_view_camera, state);
+    PredictAt(input, view_.T_world_camera * state.T_local_camera, state);
 }
 
 void IcpTracker::PrepareLevel(const TrackInput& input, int level, State& state) {
@@ -137,7 +120,7 @@ void IcpTracker::PrepareLevel(const TrackInput& input, int level, State& state) 
     state.motion = use_colour_ ? residual_model_.Timed(input.motion) : input.motion;
     if (input.since_last_s > 0)  // velocity since the last frame, at the present estimate
         state.motion.twist_per_s = Se3Log(input.T_world_camera_last.inverse() *
-                                          view_.T_world_camera * state.T_view_camera) /
+                                          view_.T_world_camera * state.T_local_camera) /
                                    input.since_last_s;
     const int step = config_.finest_step_px << level;
     const DepthWeight weight{config_.depth_exponent, input.nearest_m};
@@ -177,7 +160,7 @@ void IcpTracker::PrepareLevel(const TrackInput& input, int level, State& state) 
 // Sums at the state's pose and brightness.
 PoseSums IcpTracker::SumAt(const FramePoints& points, Compare compare, State& state) {
     IcpArguments& a = state.arguments;
-    SetPose(state.T_view_camera, a);
+    SetPose(state.T_local_camera, a);
     a.gain = static_cast<float>(state.gain);
     a.offset = static_cast<float>(state.offset);
     a.distance_residual = trial_residuals_.distance_m.data();
@@ -221,7 +204,7 @@ void IcpTracker::RunLevel(int level, State& state) {
     for (int i = 0; i < iterations; ++i) {
         options.damping = state.damping.damping();
         state.step = SolvePoseStep(state.sums, options, state.gain, state.offset,
-                                   state.T_view_camera.translation(), state.scene_depth_m);
+                                   state.T_local_camera.translation(), state.scene_depth_m);
         state.failed = !state.step.valid;
         if (state.failed) return;
         if (state.step.predicted_decrease < kLeastFall * state.sums[SumLayout::kEnergy]) break;
@@ -230,13 +213,13 @@ void IcpTracker::RunLevel(int level, State& state) {
             state.step.increment.tail<3>().norm() < tolerance)
             break;
     }
-    state.T_view_camera = Normalised(state.T_view_camera);
+    state.T_local_camera = Normalised(state.T_local_camera);
 }
 
 // Takes the step only if the energy falls and at least half of the inliers remain.
 void IcpTracker::TakeStep(const FramePoints& points, State& state) {
     State trial = state;
-    trial.T_view_camera = Se3Exp(state.step.increment) * state.T_view_camera;
+    trial.T_local_camera = Se3Exp(state.step.increment) * state.T_local_camera;
     trial.gain = std::clamp(state.gain + state.step.gain_change, 0.5, 2.0);
     trial.offset = std::clamp(state.offset + state.step.offset_change, -0.3, 0.3);
     trial.sums = SumAt(points, Compare::kWithKept, trial);

@@ -51,8 +51,8 @@ class MovingDetector {
                                                   const Eigen::Isometry3d& T_world_camera) const;
 
     // Takes a detector's hint. What it marks counts as moving, even if it stands still, until the
-    // window is over or the next hint arrives. The hint is for the next frame given to Expect and
-    // Find, or for an earlier frame that was tracked to T_world_camera.
+    // window is over or the next hint arrives. The hint is for the next frame given to PredictMask
+    // and Find, or for an earlier frame that was tracked to T_world_camera.
     void SetHint(const MovingHint& hint, float disparity_offset_per_m,
                  const std::optional<Eigen::Isometry3d>& T_world_camera);
 

@@ -22,18 +22,11 @@ void SetSdfPose(const Eigen::Isometry3d& T_world_camera, const Eigen::Vector3d& 
 
 }  // namespace
 
-struct SdfTracker::State {
+struct SdfTracker::State : FoundPose {
     Eigen::Isometry3d T_world_camera;
-    FrameMotion motion;
     Eigen::Vector3d origin_m;
-    double gain = 1, offset = 0;
-    double alpha = 0;
-    double scene_depth_m = 1;
     SdfArguments arguments{};
-    PoseSums sums;
-    SolverOptions options;
     PoseStep step;
-    int iterations = 0;
     bool failed = false;
 };
 
@@ -61,22 +54,12 @@ TrackResult SdfTracker::Track(const TrackInput& input) {
         if (level == config_.levels - 1) ChooseStart(input, state);
         if (!state.failed) RunLevel(input, level, state);
     }
-    const Eigen::Isometry3d T_world_local(Eigen::Translation3d(state.origin_m));
+    state.T_world_local = Eigen::Isometry3d(Eigen::Translation3d(state.origin_m));
+    state.T_local_camera = state.T_world_local.inverse() * state.T_world_camera;
+    state.points = points_[0].valid();
+    state.valid = state.step.valid;
     return Conclude(
-        input,
-        {.T_world_local = T_world_local,
-         .T_local_camera = T_world_local.inverse() * state.T_world_camera,
-         .scene_depth_m = state.scene_depth_m,
-         .motion = state.motion,
-         .alpha = state.alpha,
-         .gain = state.gain,
-         .offset = state.offset,
-         .iterations = state.iterations,
-         .sums = state.sums,
-         .options = state.options,
-         .points = points_[0].valid(),
-         .valid = state.step.valid},
-        MakeResidualArguments(input.frame, camera_, points_[0], residuals_),
+        input, state, MakeResidualArguments(input.frame, camera_, points_[0], residuals_),
         [this](const ResidualArguments& a) {
             return device_ != nullptr ? device_->SumResiduals(a) : SumResiduals(a);
         },

@@ -156,8 +156,8 @@ TEST_F(Recorded, ThreadsAndRunsDoNotChangeAByte) {
     ASSERT_NO_FATAL_FAILURE(Need("tum_fr1_rpy"));
     if (IsSkipped()) return;
     std::string trajectory, mesh;
-    for (const int threads : {1, 2, 4, 2}) {
-        RunOn(sequence, folder / "out", 1, threads, 60);
+    for (const int threads : {1, 4, 4}) {
+        RunOn(sequence, folder / "out", 1, threads, 40);
         const std::string t = ReadAll(folder / "out/trajectory.txt"),
                           m = ReadAll(folder / "out/mesh.ply");
         ASSERT_FALSE(t.empty());
@@ -179,9 +179,9 @@ struct IcpCase {
 class IcpSequence : public Recorded, public testing::WithParamInterface<IcpCase> {};
 
 // [D18] section 3.2. InfiniTAM's best depth-only tracker reaches 36 mm on fr1_rpy. Without OpenGL
-// the ray caster replaces the rasteriser, so the comparison of the two runs is trivial. Where the
-// pose is undetermined (fr1 rpy, frames 38 to 58 with icp-rgb) the runs differ randomly by up to 15
-// mm, so their medians are compared.
+// the ray caster replaces the rasteriser, so the comparison of the two runs is trivial. The run with
+// drawn views ends after 100 frames. Where the pose is undetermined (fr1 rpy, frames 38 to 58 with
+// icp-rgb) the runs differ randomly by up to 15 mm, so their medians are compared.
 TEST_P(IcpSequence, MeetsItsBoundFromEitherPrediction) {
     ASSERT_NO_FATAL_FAILURE(Need(GetParam().name));
     if (IsSkipped()) return;
@@ -191,7 +191,9 @@ TEST_P(IcpSequence, MeetsItsBoundFromEitherPrediction) {
         RunConfig config;
         config.pipeline.trackers.method = GetParam().method;
         config.pipeline.trackers.icp.prediction = prediction;
-        const RunSummary run = RunWith(config, sequence, folder / "out");
+        const bool drawn = prediction == IcpTracker::Prediction::kRaster;
+        const RunSummary run =
+            RunWith(config, sequence, folder / "out", {.count = drawn ? 100 : -1});
         EXPECT_EQ(run.counts.tracked, run.counts.frames);
         ASSERT_TRUE(run.ate.has_value());
         EXPECT_LE(run.ate->error_m.rmse, GetParam().ate_m);
@@ -199,7 +201,7 @@ TEST_P(IcpSequence, MeetsItsBoundFromEitherPrediction) {
         ASSERT_TRUE(path.ok()) << path.message();
         paths.push_back(std::move(path.value()));
     }
-    const auto apart = EvaluateAte(paths[0].poses, paths[1].poses, {});
+    const auto apart = EvaluateAte(paths[1].poses, paths[0].poses, {});
     ASSERT_TRUE(apart.ok()) << apart.message();
     EXPECT_LE(apart.value().error_m.median, 0.001);
 }
@@ -248,12 +250,13 @@ TEST_F(Recorded, SwitchingMethodsKeepsPoseAndMap) {
     RunRequest request;
     request.source = sequence;
     request.output_folder = folder / "out";
+    request.selection.count = 400;
     request.switches = {
         {100, TrackingMethod::kIcp}, {200, TrackingMethod::kSdf}, {300, TrackingMethod::kIcpRgb}};
     const std::atomic<bool> stop{false};
     const auto run = ExecuteRun(request, {}, {}, stop);
     ASSERT_TRUE(run.ok()) << run.message();
-    EXPECT_EQ(run.value().counts.tracked, 694);
+    EXPECT_EQ(run.value().counts.tracked, 400);
     ASSERT_TRUE(run.value().ate.has_value());
     EXPECT_LE(run.value().ate->error_m.rmse, 0.025);  // of icp, the worst of the three
     const auto truth = ReadTrajectory(sequence + "/groundtruth.txt");

@@ -26,7 +26,7 @@ constexpr double kFactor = 1.5;
 constexpr int kFrames = 40;
 constexpr int kMostUnfused = kFrames / 3;  // at the end of a run
 constexpr int kMostCovered = 8;
-constexpr int kTrials = 310;  // about 20 s on two cores
+constexpr int kTrials = 150;  // about 10 s on two cores
 constexpr PinholeCamera kCamera{120, 90, 98.5, 98.5, 59.5, 44.5};
 
 // Maps each key in constants.txt to its kind: size, count or leave.
