@@ -56,7 +56,7 @@ void AddInspectCommand(CLI::App& app, CommandContext& context) {
         ->type_name("PICTURE.png");
     command
         ->add_option("--tracker", a->tracker, "Tracking method, as tracking.method (default sdf)")
-        ->check(CLI::IsMember({"sdf", "sdf-geometric", "icp", "icp-rgb"}));
+        ->check(CLI::IsMember(TrackingMethodNames()));
     a->config.AddTo(*command);
     command->callback([a, &context] { context.exit_code = ExitCode(Inspect(*a)); });
 }

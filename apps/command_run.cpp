@@ -34,15 +34,13 @@ Result<MethodSwitch> ParseSwitch(const std::string& text) {
     const auto [rest, error] = std::from_chars(text.data(), end, change.frame);
     const bool number =
         colon != std::string::npos && error == std::errc() && rest == end && change.frame >= 0;
-    for (const auto& [name, method] : TrackingMethodNames()) {
-        if (!number || text.substr(colon + 1) != name) continue;
-        change.method = method;
-        return change;
-    }
-    return Status::Error(fmt::format(
-        "--switch {}: expected FRAME:METHOD, such as 100:icp; methods: sdf, sdf-geometric, "
-        "icp, icp-rgb",
-        text));
+    const auto method = number ? TrackingMethodOf(text.substr(colon + 1)) : std::nullopt;
+    if (!method)
+        return Status::Error(
+            fmt::format("--switch {}: expected FRAME:METHOD, such as 100:icp; methods: {}", text,
+                        fmt::join(TrackingMethodNames(), ", ")));
+    change.method = *method;
+    return change;
 }
 
 // Sets the configuration first, then the options that correspond to a single key.
@@ -130,7 +128,7 @@ void AddRunCommand(CLI::App& app, CommandContext& context) {
     a->config.AddTo(*command);
     command
         ->add_option("--tracker", a->tracker, "Tracking method, as tracking.method (default sdf)")
-        ->check(CLI::IsMember({"sdf", "sdf-geometric", "icp", "icp-rgb"}));
+        ->check(CLI::IsMember(TrackingMethodNames()));
     command
         ->add_option(
             "--switch", a->switches,

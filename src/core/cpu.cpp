@@ -11,4 +11,8 @@ bool CpuHasAvx2() {
 #endif
 }
 
+bool UsesAvx2(VectorPath path) {
+    return path == VectorPath::kAvx2 || (path == VectorPath::kAuto && CpuHasAvx2());
+}
+
 }  // namespace tessera

@@ -8,5 +8,15 @@ namespace tessera {
 enum class VectorPath { kAuto, kBaseline, kAvx2 };
 
 bool CpuHasAvx2();
+// Whether `path` means the AVX2 code on this CPU.
+bool UsesAvx2(VectorPath path);
 
 }  // namespace tessera
+
+// The build of a SIMD function (tessera_vector_source in cmake/TesseraTargets.cmake) for `path` on
+// this CPU: a pointer to avx2::function or baseline::function.
+#ifdef TESSERA_HAVE_AVX2
+#define TESSERA_SIMD(path, function) (UsesAvx2(path) ? &avx2::function : &baseline::function)
+#else
+#define TESSERA_SIMD(path, function) (static_cast<void>(path), &baseline::function)
+#endif

@@ -52,10 +52,7 @@ void Integrator::Config::Describe(ConfigParameters& p) {
 }
 
 Integrator::Integrator(const Config& config, const PinholeCamera& camera, VectorPath path)
-    : config_(config),
-      camera_(camera),
-      changed_(&none_),
-      use_avx2_(path == VectorPath::kAvx2 || (path == VectorPath::kAuto && CpuHasAvx2())) {}
+    : config_(config), camera_(camera), changed_(&none_), path_(path) {}
 
 BandWalk MakeBandWalk(const PreparedFrame& frame, const PinholeCamera& camera,
                       const Eigen::Isometry3d& T_world_camera, const BlockMap::Config& map) {
@@ -201,11 +198,7 @@ void Integrator::Fuse(const PreparedFrame& frame, const View& view, BlockMap& ma
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, blocks.size(), 64),
                       [&](const auto& range) {
                           const auto count = static_cast<std::int32_t>(range.size());
-#ifdef TESSERA_HAVE_AVX2
-                          if (use_avx2_)
-                              return avx2::FuseBlocks(a, blocks.data() + range.begin(), count);
-#endif
-                          baseline::FuseBlocks(a, blocks.data() + range.begin(), count);
+                          TESSERA_SIMD(path_, FuseBlocks)(a, blocks.data() + range.begin(), count);
                       });
     for (const BlockId id : blocks) map.MarkChanged(id, revision_);
     report.fused_blocks = static_cast<std::int64_t>(blocks.size());

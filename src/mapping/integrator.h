@@ -86,7 +86,7 @@ class Integrator {
     std::vector<BlockId> none_;
 
   private:
-    bool use_avx2_;
+    VectorPath path_;
     VisibleBlocks visible_;
     std::vector<std::vector<BlockCoord>> missing_;  // per band of rows
     std::vector<BlockCoord> new_blocks_;

@@ -58,8 +58,7 @@ RayArguments RayArgumentsFor(const BlockMap& map, PredictedView& view) {
     return a;
 }
 
-RayCaster::RayCaster(VectorPath path)
-    : use_avx2_(path == VectorPath::kAvx2 || (path == VectorPath::kAuto && CpuHasAvx2())) {}
+RayCaster::RayCaster(VectorPath path) : path_(path) {}
 
 void RayCaster::Predict(const BlockMap& map, const PinholeCamera& camera,
                         const Eigen::Isometry3d& T_world_camera, float min_depth_m,
@@ -81,10 +80,7 @@ void RayCaster::CastRow(const RayArguments& arguments, int y) const {
         tiles.push_back({x * kTile, std::min((x + 1) * kTile, arguments.width), y * kTile,
                          std::min((y + 1) * kTile, arguments.height), first_m, last_m});
     }
-#ifdef TESSERA_HAVE_AVX2
-    if (use_avx2_) return avx2::CastTiles(arguments, tiles.data(), ranges_.width);
-#endif
-    baseline::CastTiles(arguments, tiles.data(), ranges_.width);
+    TESSERA_SIMD(path_, CastTiles)(arguments, tiles.data(), ranges_.width);
 }
 
 }  // namespace tessera

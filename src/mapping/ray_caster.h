@@ -40,7 +40,7 @@ class RayCaster : public ViewPredictor {
   private:
     void CastRow(const RayArguments& arguments, int y) const;
 
-    bool use_avx2_;
+    VectorPath path_;
     RayRanges ranges_;
 };
 

@@ -7,26 +7,28 @@
 
 namespace tessera {
 
-std::vector<std::pair<std::string, TrackingMethod>> TrackingMethodNames() {
-    return {{"sdf", TrackingMethod::kSdf},
-            {"sdf-geometric", TrackingMethod::kSdfGeometric},
-            {"icp", TrackingMethod::kIcp},
-            {"icp-rgb", TrackingMethod::kIcpRgb}};
+const char* ToString(TrackingMethod method) {
+    return kTrackingMethods[static_cast<std::size_t>(method)].name;
 }
 
-const char* ToString(TrackingMethod method) {
-    switch (method) {
-        case TrackingMethod::kSdf: return "sdf";
-        case TrackingMethod::kSdfGeometric: return "sdf-geometric";
-        case TrackingMethod::kIcp: return "icp";
-        case TrackingMethod::kIcpRgb: return "icp-rgb";
-    }
-    return "?";
+std::vector<std::string> TrackingMethodNames() {
+    std::vector<std::string> names;
+    for (const TrackingMethodInfo& info : kTrackingMethods) names.emplace_back(info.name);
+    return names;
+}
+
+std::optional<TrackingMethod> TrackingMethodOf(std::string_view name) {
+    for (const TrackingMethodInfo& info : kTrackingMethods)
+        if (name == info.name) return info.method;
+    return std::nullopt;
 }
 
 void TrackersConfig::Describe(ConfigParameters& p) {
+    std::vector<std::pair<std::string, TrackingMethod>> methods;
+    for (const TrackingMethodInfo& info : kTrackingMethods)
+        methods.emplace_back(info.name, info.method);
     p.AddChoice(
-        "method", method, TrackingMethodNames(),
+        "method", method, methods,
         "sdf aligns with distances and intensities in the field ([B14]); sdf-geometric with "
         "distances only ([B13]); icp with a predicted view ([D18]); icp-rgb also with its colours");
     p.Add("even_within_m", even_within_m, {0.0, 1.0}, "m",

@@ -4,7 +4,10 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "core/camera.h"
 #include "core/config.h"
@@ -18,10 +21,29 @@
 namespace tessera {
 
 enum class TrackingMethod { kSdf, kSdfGeometric, kIcp, kIcpRgb };
-inline constexpr int kTrackingMethods = 4;
+
+// What a person sees of a method: its name in commands and files, its button in the window and the
+// button's tooltip.
+struct TrackingMethodInfo {
+    TrackingMethod method;
+    const char *name, *label, *tip;
+};
+// All methods, in the order of the enumeration.
+inline constexpr std::array kTrackingMethods = {
+    TrackingMethodInfo{TrackingMethod::kSdf, "sdf", "SDF + colour",
+                       "Signed distance field and intensities, [B14]"},
+    TrackingMethodInfo{TrackingMethod::kSdfGeometric, "sdf-geometric", "SDF",
+                       "Signed distance field only, [B13]"},
+    TrackingMethodInfo{TrackingMethod::kIcp, "icp", "ICP",
+                       "Point-to-plane ICP against a predicted view, [D18]"},
+    TrackingMethodInfo{TrackingMethod::kIcpRgb, "icp-rgb", "ICP + colour",
+                       "Point-to-plane ICP with intensities"},
+};
 const char* ToString(TrackingMethod method);
 // The names, in the order of the enumeration.
-std::vector<std::pair<std::string, TrackingMethod>> TrackingMethodNames();
+std::vector<std::string> TrackingMethodNames();
+// Empty if no method has that name.
+std::optional<TrackingMethod> TrackingMethodOf(std::string_view name);
 
 struct TrackersConfig {
     TrackingMethod method = TrackingMethod::kSdf;
@@ -70,7 +92,7 @@ class Trackers {
     Device* device_;
     TrackingMethod method_;
     ResidualModel model_;
-    std::array<std::unique_ptr<Tracker>, kTrackingMethods> trackers_;
+    std::array<std::unique_ptr<Tracker>, kTrackingMethods.size()> trackers_;
     std::string note_;
 };
 

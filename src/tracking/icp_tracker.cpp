@@ -34,7 +34,7 @@ IcpTracker::IcpTracker(const Config& config, const PinholeCamera& camera, const 
       residual_model_(model),
       use_colour_(use_colour),
       predictor_(std::move(predictor)),
-      use_avx2_(path == VectorPath::kAvx2 || (path == VectorPath::kAuto && CpuHasAvx2())),
+      path_(path),
       device_(device),
       points_(static_cast<std::size_t>(config.levels)) {}
 
@@ -171,10 +171,7 @@ PoseSums IcpTracker::SumAt(const FramePoints& points, Compare compare, State& st
     ++state.iterations;
     if (device_ != nullptr) return device_->Sum(a);
     return SumPoints(points.count(), [&](int first, int last, double* sums) {
-#ifdef TESSERA_HAVE_AVX2
-        if (use_avx2_) return avx2::SumIcpPoints(a, first, last, sums);
-#endif
-        baseline::SumIcpPoints(a, first, last, sums);
+        TESSERA_SIMD(path_, SumIcpPoints)(a, first, last, sums);
     });
 }
 

@@ -65,7 +65,7 @@ class IcpTracker : public Tracker {
     ResidualModel& residual_model_;
     bool use_colour_;
     std::unique_ptr<ViewPredictor> predictor_;
-    bool use_avx2_;
+    VectorPath path_;
     IcpSums* device_;
     // With a device that predicts: camera and pose only; the same for the levels of model_.
     PredictedView view_;

@@ -32,9 +32,7 @@ void ImageAligner::Config::Describe(ConfigParameters& p) {
 }
 
 ImageAligner::ImageAligner(const Config& config, const PinholeCamera& camera, VectorPath path)
-    : config_(config),
-      camera_(camera),
-      use_avx2_(path == VectorPath::kAvx2 || (path == VectorPath::kAuto && CpuHasAvx2())) {}
+    : config_(config), camera_(camera), path_(path) {}
 
 void ImageAligner::Clear() {
     has_last_ = has_current_ = false;
@@ -115,10 +113,7 @@ ImageSystem ImageAligner::Linearise(const Level& last, const Level& current,
     a.intensity_scale = kIntensityScale;
     return ImageSystem(
         SumPoints(static_cast<int>(last.x.size()), [&](int first, int last_point, double* sums) {
-#ifdef TESSERA_HAVE_AVX2
-            if (use_avx2_) return avx2::SumAlignedPoints(a, first, last_point, sums);
-#endif
-            baseline::SumAlignedPoints(a, first, last_point, sums);
+            TESSERA_SIMD(path_, SumAlignedPoints)(a, first, last_point, sums);
         }));
 }
 

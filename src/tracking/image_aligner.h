@@ -67,7 +67,7 @@ class ImageAligner {
 
     Config config_;
     PinholeCamera camera_;
-    bool use_avx2_;
+    VectorPath path_;
     Levels last_, current_;
     bool has_last_ = false, has_current_ = false, keep_newest_ = true;
     double scene_depth_m_ = 0;

@@ -37,7 +37,7 @@ SdfTracker::SdfTracker(const Config& config, const PinholeCamera& camera, const 
       judge_(judge),
       residual_model_(model),
       use_colour_(use_colour),
-      use_avx2_(path == VectorPath::kAvx2 || (path == VectorPath::kAuto && CpuHasAvx2())),
+      path_(path),
       device_(device),
       points_(static_cast<std::size_t>(config.levels)) {}
 
@@ -124,10 +124,7 @@ PoseSums SdfTracker::SumAt(const TrackInput& input, const FramePoints& points, S
     state.arguments.offset = static_cast<float>(state.offset);
     if (device_ != nullptr) return device_->Sum(state.arguments);
     return SumPoints(points.count(), [&](int first, int last, double* sums) {
-#ifdef TESSERA_HAVE_AVX2
-        if (use_avx2_) return avx2::SumSdfPoints(state.arguments, first, last, sums);
-#endif
-        baseline::SumSdfPoints(state.arguments, first, last, sums);
+        TESSERA_SIMD(path_, SumSdfPoints)(state.arguments, first, last, sums);
     });
 }
 

@@ -49,7 +49,7 @@ class SdfTracker : public Tracker {
     TrackJudge judge_;
     ResidualModel& residual_model_;
     bool use_colour_;
-    bool use_avx2_;
+    VectorPath path_;
     SdfSums* device_;
     std::vector<FramePoints> points_;  // per level
     PointResiduals residuals_;         // of the finest level

@@ -15,26 +15,17 @@ float WidthOf(int columns) {
 }
 
 void DrawMethods(ViewerState& state) {
-    struct Choice {
-        TrackingMethod method;
-        const char *label, *tip;
-    };
-    static constexpr Choice kChoices[] = {
-        {TrackingMethod::kSdf, "SDF + colour", "Signed distance field and intensities, [B14]  (1)"},
-        {TrackingMethod::kSdfGeometric, "SDF", "Signed distance field only, [B13]  (2)"},
-        {TrackingMethod::kIcp, "ICP", "Point-to-plane ICP against a predicted view, [D18]  (3)"},
-        {TrackingMethod::kIcpRgb, "ICP + colour", "Point-to-plane ICP with intensities  (4)"},
-    };
+    constexpr int kColumns = 2;
     GroupTitle("TRACKING");
-    const float width = WidthOf(2);
-    for (const Choice& choice : kChoices) {
-        const std::string name = fmt::format("method.{}", ToString(choice.method));
-        if (MarkedButton(state.controls, name.c_str(), choice.label, width,
-                         state.settings.method == choice.method))
-            state.SelectMethod(choice.method);
-        Tip(choice.tip);
-        if (choice.method == TrackingMethod::kSdf || choice.method == TrackingMethod::kIcp)
-            ImGui::SameLine();
+    const float width = WidthOf(kColumns);
+    int number = 0;  // the key that selects the method
+    for (const TrackingMethodInfo& info : kTrackingMethods) {
+        if (number++ % kColumns != 0) ImGui::SameLine();
+        const std::string name = fmt::format("method.{}", info.name);
+        if (MarkedButton(state.controls, name.c_str(), info.label, width,
+                         state.settings.method == info.method))
+            state.SelectMethod(info.method);
+        Tip(fmt::format("{}  ({})", info.tip, number).c_str());
     }
 }
 

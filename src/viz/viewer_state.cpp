@@ -87,6 +87,9 @@ void ViewerState::ViewAll() {
 
 void ViewerState::OnKey(int key, int mods) {
     if (mods & (GLFW_MOD_CONTROL | GLFW_MOD_ALT | GLFW_MOD_SUPER)) return;
+    const auto method = static_cast<std::size_t>(key - GLFW_KEY_1);
+    if (key >= GLFW_KEY_1 && method < kTrackingMethods.size())
+        return SelectMethod(kTrackingMethods[method].method);
     switch (key) {
         case GLFW_KEY_SPACE: return TogglePause();
         case GLFW_KEY_S: return Step();
@@ -95,10 +98,6 @@ void ViewerState::OnKey(int key, int mods) {
         case GLFW_KEY_K: return SaveScan();
         case GLFW_KEY_V: return ToggleRecording();
         case GLFW_KEY_P: want_screenshot = true; return;
-        case GLFW_KEY_1: return SelectMethod(TrackingMethod::kSdf);
-        case GLFW_KEY_2: return SelectMethod(TrackingMethod::kSdfGeometric);
-        case GLFW_KEY_3: return SelectMethod(TrackingMethod::kIcp);
-        case GLFW_KEY_4: return SelectMethod(TrackingMethod::kIcpRgb);
         case GLFW_KEY_F: return ToggleFollow();
         case GLFW_KEY_A: return ViewAll();
         case GLFW_KEY_C: return CycleShading();

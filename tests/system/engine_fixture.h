@@ -87,7 +87,7 @@ class EngineTest : public testing::Test {
                 case 5:
                 case 6: {
                     ViewerSettings settings;
-                    settings.method = static_cast<TrackingMethod>(random() % kTrackingMethods);
+                    settings.method = kTrackingMethods[random() % kTrackingMethods.size()].method;
                     settings.prealign = random() % 2 == 0;
                     settings.fusing = random() % 4 != 0;
                     viewer->settings.Push(std::move(settings));
