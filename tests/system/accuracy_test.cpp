@@ -174,14 +174,16 @@ struct IcpCase {
     const char* name;
     TrackingMethod method;
     double ate_m;
+    std::int64_t drawn_frames = -1;  // of the run with drawn views; -1: all
 };
 
 class IcpSequence : public Recorded, public testing::WithParamInterface<IcpCase> {};
 
 // [D18] section 3.2. InfiniTAM's best depth-only tracker reaches 36 mm on fr1_rpy. Without OpenGL
-// the ray caster replaces the rasteriser, so the comparison of the two runs is trivial. The run with
-// drawn views ends after 100 frames. Where the pose is undetermined (fr1 rpy, frames 38 to 58 with
-// icp-rgb) the runs differ randomly by up to 15 mm, so their medians are compared.
+// the ray caster replaces the rasteriser, so the comparison of the two runs is trivial. On
+// fr1 rpy the run with drawn views is short: it must agree with the other one, whose bound is for
+// the whole recording. Where the pose is undetermined (fr1 rpy, frames 38 to 58 with icp-rgb) the
+// runs differ randomly by up to 15 mm, so their medians are compared.
 TEST_P(IcpSequence, MeetsItsBoundFromEitherPrediction) {
     ASSERT_NO_FATAL_FAILURE(Need(GetParam().name));
     if (IsSkipped()) return;
@@ -192,11 +194,12 @@ TEST_P(IcpSequence, MeetsItsBoundFromEitherPrediction) {
         config.pipeline.trackers.method = GetParam().method;
         config.pipeline.trackers.icp.prediction = prediction;
         const bool drawn = prediction == IcpTracker::Prediction::kRaster;
-        const RunSummary run =
-            RunWith(config, sequence, folder / "out", {.count = drawn ? 100 : -1});
+        const RunSummary run = RunWith(config, sequence, folder / "out",
+                                       {.count = drawn ? GetParam().drawn_frames : -1});
         EXPECT_EQ(run.counts.tracked, run.counts.frames);
         ASSERT_TRUE(run.ate.has_value());
-        EXPECT_LE(run.ate->error_m.rmse, GetParam().ate_m);
+        if (!drawn || GetParam().drawn_frames < 0)
+            EXPECT_LE(run.ate->error_m.rmse, GetParam().ate_m);
         auto path = ReadTrajectory(folder / "out/trajectory.txt");
         ASSERT_TRUE(path.ok()) << path.message();
         paths.push_back(std::move(path.value()));
@@ -206,19 +209,18 @@ TEST_P(IcpSequence, MeetsItsBoundFromEitherPrediction) {
     EXPECT_LE(apart.value().error_m.median, 0.001);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, IcpSequence,
-                         testing::Values(IcpCase{"tum_fr1_rpy", TrackingMethod::kIcp, 0.036},
-                                         IcpCase{"tum_fr1_rpy", TrackingMethod::kIcpRgb, 0.025},
-                                         IcpCase{"house_desk", TrackingMethod::kIcp, 0.006},
-                                         IcpCase{"house_desk", TrackingMethod::kIcpRgb, 0.004},
-                                         IcpCase{"house_wall_plain", TrackingMethod::kIcp, 0.006},
-                                         IcpCase{"house_wall_plain", TrackingMethod::kIcpRgb,
-                                                 0.004}),
-                         [](const auto& test) {
-                             return std::string(test.param.name) +
-                                    (test.param.method == TrackingMethod::kIcp ? "_icp"
-                                                                               : "_icp_rgb");
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    All, IcpSequence,
+    testing::Values(IcpCase{"tum_fr1_rpy", TrackingMethod::kIcp, 0.036, 100},
+                    IcpCase{"tum_fr1_rpy", TrackingMethod::kIcpRgb, 0.025, 100},
+                    IcpCase{"house_desk", TrackingMethod::kIcp, 0.006},
+                    IcpCase{"house_desk", TrackingMethod::kIcpRgb, 0.004},
+                    IcpCase{"house_wall_plain", TrackingMethod::kIcp, 0.006},
+                    IcpCase{"house_wall_plain", TrackingMethod::kIcpRgb, 0.004}),
+    [](const auto& test) {
+        return std::string(test.param.name) +
+               (test.param.method == TrackingMethod::kIcp ? "_icp" : "_icp_rgb");
+    });
 
 // Undetermined motions follow the prealignment, which uses the texture, so the floor is still
 // mapped correctly.

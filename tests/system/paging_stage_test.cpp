@@ -280,7 +280,7 @@ TEST_F(Paging, LiveKeepsTheLimitAndTheMap) {
 TEST_F(Paging, ALimitThatIsTooSmallIsSaidOnce) {
     Run(false, 1);
     const std::string said = Messages();
-    const std::size_t at = said.find("mapping.memory_limit_mb: 1 MB are too few");
+    const std::size_t at = said.find("mapping.memory_limit_mb: 1 MB is not enough");
     ASSERT_NE(at, std::string::npos) << said;
     EXPECT_EQ(said.find("memory_limit_mb", at + 20), std::string::npos);
 }
