@@ -198,8 +198,9 @@ TEST_P(IcpSequence, MeetsItsBoundFromEitherPrediction) {
                                        {.count = drawn ? GetParam().drawn_frames : -1});
         EXPECT_EQ(run.counts.tracked, run.counts.frames);
         ASSERT_TRUE(run.ate.has_value());
-        if (!drawn || GetParam().drawn_frames < 0)
+        if (!drawn || GetParam().drawn_frames < 0) {
             EXPECT_LE(run.ate->error_m.rmse, GetParam().ate_m);
+        }
         auto path = ReadTrajectory(folder / "out/trajectory.txt");
         ASSERT_TRUE(path.ok()) << path.message();
         paths.push_back(std::move(path.value()));
