@@ -190,8 +190,7 @@ TEST_F(KilledScan, AsSoonAsTheFileIsThere) {
         const Clock::time_point latest = Clock::now() + std::chrono::seconds(60);
         while (!std::filesystem::exists(scan) && Clock::now() < latest) std::this_thread::yield();
         const Clock::time_point there = Clock::now();
-        while (Clock::now() < there + std::chrono::microseconds(50 * i))
-            std::this_thread::yield();
+        while (Clock::now() < there + std::chrono::microseconds(50 * i)) std::this_thread::yield();
         kill(child, SIGKILL);
         waitpid(child, nullptr, 0);
         const auto content = ReadScan(scan, {.map = true, .frames = true});

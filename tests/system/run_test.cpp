@@ -92,7 +92,7 @@ TEST_F(Run, BeginsWithTheRollingShutterThatTheRecordingShows) {
     ASSERT_TRUE(told.ok() && told.value().ate && seen.value().ate && unseen.value().ate);
     EXPECT_NEAR(seen.value().camera->estimate.readout_s, 0.03, 0.004);
     EXPECT_NE(
-        seen.value().source.notes.back().find("rolling shutter: a colour image is read out over"),
+        seen.value().source.notes.back().find("rolling shutter: read-out time of a colour image"),
         std::string::npos);
     EXPECT_EQ(seen.value().ate->error_m.rmse, told.value().ate->error_m.rmse);
     EXPECT_NE(seen.value().ate->error_m.rmse, unseen.value().ate->error_m.rmse);
