@@ -103,7 +103,8 @@ class Latch : public testing::Test {
         Trial trial;
         do {
             trial.config = SmallConfig();
-            trial.config.trackers.method = kTrackingMethods[static_cast<std::size_t>(below(kTrackingMethods.size()))].method;
+            trial.config.trackers.method =
+                kTrackingMethods[static_cast<std::size_t>(below(kTrackingMethods.size()))].method;
             trial.scene = std::next(scenes_.begin(), below(scenes_.size()))->first;
             Hand& hand = trial.hand;
             hand = {1 + below(kFrames / 2), below(kMostCovered + 1),
