@@ -74,17 +74,18 @@ add_custom_target(tessera_sanitized_tests)
 set(TESSERA_TEST_RESULTS ${CMAKE_BINARY_DIR}/test_results)
 
 # tessera_test(NAME SOURCES... LINK libs... [LABEL unit|data|slow|app|window] [THREADS] [SERIAL]
-#              [SHARDS n] [RELEASE_ONLY patterns...]) declares a GoogleTest program. It is one ctest
-# entry, not one per test, because a process takes 0.2 s to start, and longer with a sanitizer.
-# SHARDS splits a long program into n entries that may run at the same time. SERIAL is for programs
-# that depend on timing: no other test runs at the same time.
+#              [ISOLATED] [SHARDS n] [RELEASE_ONLY patterns...]) declares a GoogleTest program. It is
+# one ctest entry, not one per test, because a process takes 0.2 s to start. SHARDS splits a long
+# program into n entries that may run at the same time. ISOLATED gives each test a process: for
+# libraries that cannot be started twice in one. Sanitized tests are isolated, too. SERIAL is for
+# programs that depend on timing: no other test runs at the same time.
 #
 # The sanitizers run the unit programs: ASan all of them, TSan those with THREADS, which start
 # threads of their own. TBB's loops are serial under TSan (tests/support/serial_tbb.cpp), so it has
 # nothing to find in the others. RELEASE_ONLY lists tests, as GoogleTest filters, that the sanitizers
 # skip: long accuracy runs over code that shorter tests also cover.
 function(tessera_test name)
-    cmake_parse_arguments(ARG "SERIAL;THREADS" "LABEL;SHARDS" "SOURCES;LINK;RELEASE_ONLY" ${ARGN})
+    cmake_parse_arguments(ARG "SERIAL;THREADS;ISOLATED" "LABEL;SHARDS" "SOURCES;LINK;RELEASE_ONLY" ${ARGN})
     if(NOT ARG_LABEL)
         set(ARG_LABEL unit)
     endif()
@@ -104,15 +105,20 @@ function(tessera_test name)
         target_link_libraries(${name} PRIVATE TBB::tbb)
     endif()
 
-    set(labels ${ARG_LABEL})
+    set(label ${ARG_LABEL})
     set(filter "")
     if(ARG_LABEL STREQUAL unit AND (ARG_THREADS OR NOT TESSERA_SANITIZE MATCHES thread))
         add_dependencies(tessera_sanitized_tests ${name})
-        list(APPEND labels sanitized)
+        set(label unit-sanitized)  # ctest -L unit and ctest -L sanitized both find it
     endif()
     if(TESSERA_SANITIZE AND ARG_RELEASE_ONLY)
         list(JOIN ARG_RELEASE_ONLY ":" patterns)
-        set(filter --gtest_filter=-${patterns})
+        set(filter "-${patterns}")
+    endif()
+    if(ARG_ISOLATED OR TESSERA_SANITIZE)
+        gtest_discover_tests(${name} NO_PRETTY_VALUES DISCOVERY_TIMEOUT 60 TEST_FILTER "${filter}"
+            PROPERTIES LABELS ${label} TIMEOUT 900 RUN_SERIAL ${ARG_SERIAL})
+        return()
     endif()
     set(cost 0)
     if(ARG_LABEL MATCHES "slow|data|app")
@@ -125,8 +131,8 @@ function(tessera_test name)
             set(entry ${name}.${shard})
         endif()
         add_test(NAME ${entry} COMMAND ${name} --gtest_brief=1
-            --gtest_output=xml:${TESSERA_TEST_RESULTS}/${entry}.xml ${filter})
-        set_tests_properties(${entry} PROPERTIES LABELS "${labels}" TIMEOUT 900 RUN_SERIAL ${ARG_SERIAL} COST ${cost}
+            --gtest_output=xml:${TESSERA_TEST_RESULTS}/${entry}.xml)
+        set_tests_properties(${entry} PROPERTIES LABELS ${label} TIMEOUT 900 RUN_SERIAL ${ARG_SERIAL} COST ${cost}
             ENVIRONMENT "GTEST_TOTAL_SHARDS=${ARG_SHARDS};GTEST_SHARD_INDEX=${shard}")
     endforeach()
 endfunction()
