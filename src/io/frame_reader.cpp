@@ -1,80 +1,71 @@
 #include "io/frame_reader.h"
 
-#include <chrono>
 #include <exception>
 #include <utility>
 
 #include "core/check.h"
+#include "core/stopwatch.h"
 
 namespace tessera {
+namespace {
+
+std::size_t CheckedCapacity(int capacity) {
+    TESSERA_CHECK(capacity >= 1, "capacity {}", capacity);
+    return static_cast<std::size_t>(capacity);
+}
+
+bool EndsReading(const ReadResult& result) {
+    return result.status == ReadStatus::kEnd || result.status == ReadStatus::kError;
+}
+
+}  // namespace
 
 FrameReader::FrameReader(std::unique_ptr<FrameSource> source, const FrameSelection& selection,
                          int capacity)
-    : frames_(std::move(source), selection), info_(frames_.info()) {
-    TESSERA_CHECK(capacity >= 1, "capacity {}", capacity);
-    slots_.resize(static_cast<std::size_t>(capacity));
-    thread_ = std::jthread([this] { ReadAhead(); });
+    : frames_(std::move(source), selection),
+      info_(frames_.info()),
+      filled_(CheckedCapacity(capacity), taker_),
+      worker_(filled_.capacity(), [this](std::unique_ptr<Slot>& slot) { Fill(std::move(slot)); }) {
+    for (int i = 0; i < capacity; ++i) worker_.TryPush(std::make_unique<Slot>());
 }
 
 FrameReader::~FrameReader() { RequestStop(); }
 
 void FrameReader::RequestStop() {
     stop_.store(true);
-    Signal();
+    taker_.Notify();
 }
 
-void FrameReader::Signal() {
-    events_.fetch_add(1);
-    events_.notify_all();
+void FrameReader::Fill(std::unique_ptr<Slot> slot) {
+    if (ended_ || stop_.load()) return;
+    Stopwatch watch;
+    slot->result = ReadInto(slot->frame);
+    slot->decode_ms = watch.LapMs();
+    ended_ = EndsReading(slot->result);
+    TESSERA_CHECK(filled_.TryPush(std::move(slot)), "more slots than the capacity");
 }
 
-// Reads the event counter before the condition, so that a change after the check ends the wait.
-template <class Condition>
-void FrameReader::WaitUntil(Condition condition) {
-    while (true) {
-        const std::uint32_t seen = events_.load();
-        if (stop_.load() || condition()) return;
-        events_.wait(seen);
-    }
-}
-
-void FrameReader::ReadAhead() {
-    for (std::uint64_t number = 0;; ++number) {
-        WaitUntil([&] { return number - taken_.load() < slots_.size(); });
-        if (stop_.load()) return;
-        Slot& target = slot(number);
-        const auto begin = std::chrono::steady_clock::now();
-        target.result = ReadInto(target);
-        const std::chrono::duration<double, std::milli> taken =
-            std::chrono::steady_clock::now() - begin;
-        target.decode_ms = taken.count();
-        const ReadStatus status = target.result.status;  // once written_ advances, Next owns it
-        written_.store(number + 1);
-        Signal();
-        if (status == ReadStatus::kEnd || status == ReadStatus::kError) return;
-    }
-}
-
-ReadResult FrameReader::ReadInto(Slot& target) {
+ReadResult FrameReader::ReadInto(Frame& frame) {
     try {
-        return frames_.Next(target.frame);
+        return frames_.Next(frame);
     } catch (const std::exception& error) {  // out of memory; a source throws nothing else
         return {ReadStatus::kError, info_.name + ": reading failed: " + error.what()};
     }
 }
 
 ReadResult FrameReader::Next(Frame& frame) {
-    const std::uint64_t number = taken_.load();
-    WaitUntil([&] { return written_.load() > number; });
+    std::unique_ptr<Slot> slot;
+    if (!last_) taker_.Wait([&] { return stop_.load() || filled_.TryPop(slot); });
     if (stop_.load()) return {ReadStatus::kEnd, {}};
-    Slot& source = slot(number);
-    decode_ms_ = source.decode_ms;
-    if (source.result.status == ReadStatus::kEnd || source.result.status == ReadStatus::kError)
-        return source.result;  // stays in its slot: final
-    if (source.result.status == ReadStatus::kOk) std::swap(frame, source.frame);
-    ReadResult result = std::move(source.result);
-    taken_.store(number + 1);
-    Signal();
+    if (last_) return last_->result;
+    decode_ms_ = slot->decode_ms;
+    if (EndsReading(slot->result)) {
+        last_ = std::move(slot);
+        return last_->result;
+    }
+    if (slot->result.status == ReadStatus::kOk) std::swap(frame, slot->frame);
+    ReadResult result = std::move(slot->result);
+    worker_.TryPush(std::move(slot));
     return result;
 }
 

@@ -1,13 +1,11 @@
-// Reads and decodes ahead of the pipeline on its own thread, into a bounded ring of slots. Frame
-// storage is recycled, so nothing is allocated in steady state.
+// Reads and decodes ahead of the pipeline on its own thread. Frame storage is recycled, so nothing
+// is allocated in steady state.
 #pragma once
 
 #include <atomic>
-#include <cstdint>
 #include <memory>
-#include <thread>
-#include <vector>
 
+#include "core/worker.h"
 #include "io/frame_source.h"
 #include "io/selected_frames.h"
 
@@ -41,29 +39,25 @@ class FrameReader {
     void RequestStop();
 
   private:
+    // A frame's storage: empty on its way to the worker, filled on its way back.
     struct Slot {
         Frame frame;
         ReadResult result;
         double decode_ms = 0;
     };
 
-    void ReadAhead();
-    ReadResult ReadInto(Slot& slot);
-    Slot& slot(std::uint64_t number) { return slots_[number % slots_.size()]; }
-    void Signal();
-    template <class Condition>
-    void WaitUntil(Condition condition);
+    void Fill(std::unique_ptr<Slot> slot);
+    ReadResult ReadInto(Frame& frame);
 
-    SelectedFrames frames_;  // reader thread only, once it runs
+    SelectedFrames frames_;  // the worker's
     const SourceInfo info_;
-    std::vector<Slot> slots_;
-    std::atomic<std::uint64_t> written_{0};  // slots filled so far; set by the reader thread
-    std::atomic<std::uint64_t> taken_{0};    // slots emptied so far; set by Next
+    bool ended_ = false;  // the worker's
     std::atomic<bool> stop_{false};
-    // Incremented with each change of the three above; waiters wait on it.
-    std::atomic<std::uint32_t> events_{0};
+    Wake taker_;
+    FifoQueue<std::unique_ptr<Slot>> filled_;
+    std::unique_ptr<Slot> last_;  // the end or an error, once it was taken
     double decode_ms_ = 0;
-    std::jthread thread_;  // last member: ends before anything it uses
+    Worker<std::unique_ptr<Slot>> worker_;
 };
 
 }  // namespace tessera

@@ -1,12 +1,10 @@
 // Reads cubes back from the scan file on its own thread, so that nobody has to wait for the disk.
 #pragma once
 
-#include <atomic>
 #include <memory>
-#include <thread>
 
 #include "core/pool.h"
-#include "core/queue.h"
+#include "core/worker.h"
 #include "scan/cube_reader.h"
 
 namespace tessera {
@@ -17,14 +15,13 @@ struct StoredCube {
     Status status;  // if an error, `blocks` is invalid
 };
 
-// Owner thread only.
+// Owner thread only. Destroying it waits for the current cube.
 class Pager {
   public:
     // Largest number of cubes that may be requested and not yet taken.
     static constexpr std::size_t kMostAsked = 16;
 
     explicit Pager(std::unique_ptr<CubeReader> reader);
-    ~Pager();  // finishes the current cube, then joins
 
     // Requests a cube; cubes are delivered in the order requested. Fewer than kMostAsked must be
     // under way.
@@ -39,16 +36,14 @@ class Pager {
     void Give(std::unique_ptr<StoredCube> cube) { pool_.Give(std::move(cube)); }
 
   private:
-    void ReadAll();
+    void Read(std::int64_t cube_key);
 
-    std::unique_ptr<CubeReader> reader_;  // used by the reader thread only
-    Wake wake_, owner_wake_;
+    std::unique_ptr<CubeReader> reader_;  // the worker's
     Pool<StoredCube> pool_;
-    FifoQueue<std::int64_t> asked_{kMostAsked, wake_};
-    FifoQueue<std::unique_ptr<StoredCube>> read_{kMostAsked, owner_wake_};
-    std::size_t under_way_ = 0;  // owner thread only
-    std::atomic<bool> done_{false};
-    std::jthread thread_;
+    Wake owner_;
+    FifoQueue<std::unique_ptr<StoredCube>> read_{kMostAsked, owner_};
+    std::size_t under_way_ = 0;
+    Worker<std::int64_t> worker_;
 };
 
 }  // namespace tessera

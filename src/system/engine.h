@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/mesh.h"
+#include "core/notices.h"
 #include "core/status.h"
 #include "io/frame_source.h"
 #include "system/frame_plan.h"
@@ -74,7 +75,6 @@ class Engine {
     // Call once, after Next returned false. Releases the source and the map and returns the whole
     // mesh.
     virtual TriangleMesh TakeMesh() = 0;
-    virtual std::string mesh_warning() const { return {}; }  // after TakeMesh; usually empty
     // After TakeMesh; empty without labels.
     virtual const std::vector<MapObject>& objects() const = 0;
     virtual MapStatistics map_statistics() const = 0;  // before TakeMesh
@@ -84,6 +84,13 @@ class Engine {
     // After Next returned false: the refined calibration. Nothing if refinement is off or there was
     // too little data for an estimate.
     virtual std::optional<CalibrationReport> calibration() const { return std::nullopt; }
+
+    // Messages for the user that Next has not returned, for example of TakeMesh.
+    std::optional<std::string> TakeNotice() { return notices_.Take(); }
+
+  protected:
+    Wake outcome_wake_;  // Next sleeps here
+    Notices notices_{outcome_wake_};
 };
 
 }  // namespace tessera

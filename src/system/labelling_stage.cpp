@@ -1,10 +1,8 @@
 #include "system/labelling_stage.h"
 
-#include <sys/resource.h>
-#include <unistd.h>
-
 #include <exception>
 
+#include "core/check.h"
 #include "core/stopwatch.h"
 
 namespace tessera {
@@ -58,42 +56,23 @@ bool LabellingStage::Detect(const Frame& frame, LabelReport& report, std::string
     return true;
 }
 
-void LabellingStage::WorkInBackground() {
-    constexpr int kNice = 10;
-    // Linux: affects only this thread. If it is refused, the thread keeps normal priority.
-    static_cast<void>(setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNice));
-    detector_->WorkInBackground();
-}
-
 LabellingThread::LabellingThread(LabellingStage stage, Wake& mapping)
-    : stage_(std::move(stage)), answers_(2, mapping), thread_([this] { Work(); }) {}
-
-LabellingThread::~LabellingThread() {
-    stop_.store(true);
-    wake_.Notify();
-}
+    : stage_(std::move(stage)),
+      answers_(kUntaken + 2, mapping),
+      worker_(1, [this](Job& job) { Detect(job); },
+              {.low_priority = true, .begin = [this] { stage_.WorkInBackground(); }}) {}
 
 std::unique_ptr<Frame> LabellingThread::Offer(Job job) {
-    if (broken_.load()) return std::move(job.frame);
-    auto dropped = jobs_.Push(std::move(job));
+    if (broken_.load() || answers_.size() >= kUntaken) return std::move(job.frame);
+    auto dropped = worker_.PushNewest(std::move(job));
     return dropped ? std::move(dropped->frame) : nullptr;
 }
 
-bool LabellingThread::TryTake(Answer& answer) {
-    if (!answers_.TryPop(answer)) return false;
-    wake_.Notify();
-    return true;
-}
-
-void LabellingThread::Work() {
-    stage_.WorkInBackground();
-    while (!stop_.load()) {
-        wake_.Wait([&] { return !jobs_.empty() || stop_.load(); });
-        Answer answer;
-        if (stop_.load() || !jobs_.TryPop(answer.job)) continue;
-        if (!stage_.Detect(*answer.job.frame, answer.report, answer.message)) broken_.store(true);
-        wake_.Wait([&] { return answers_.TryPush(std::move(answer)) || stop_.load(); });
-    }
+void LabellingThread::Detect(Job& job) {
+    Answer answer;
+    answer.job = std::move(job);
+    if (!stage_.Detect(*answer.job.frame, answer.report, answer.message)) broken_.store(true);
+    TESSERA_CHECK(answers_.TryPush(std::move(answer)), "more answers than jobs");
 }
 
 }  // namespace tessera

@@ -5,11 +5,10 @@
 
 #include <atomic>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "core/frame.h"
-#include "core/queue.h"
+#include "core/worker.h"
 #include "mapping/moving_mask.h"
 #include "semantics/label_votes.h"
 #include "semantics/open_detector.h"
@@ -40,9 +39,8 @@ class LabellingStage {
     // Returns false after the detector has failed. `message` gives the error the first time and is
     // empty after that.
     bool Detect(const Frame& frame, LabelReport& report, std::string& message);
-    // Call on the detecting thread when it runs beside tracking: limits the detector to one thread
-    // and lowers its priority.
-    void WorkInBackground();
+    // Call on the detecting thread when it runs beside tracking: limits the detector to it.
+    void WorkInBackground() { detector_->WorkInBackground(); }
 
   private:
     std::unique_ptr<Detector> detector_;
@@ -69,23 +67,23 @@ class LabellingThread {
 
     // `mapping` is notified of answers.
     LabellingThread(LabellingStage stage, Wake& mapping);
-    ~LabellingThread();  // joins after the current frame
 
     // Returns a frame that is no longer needed: an older one that was still waiting, or this one if
-    // labelling has stopped.
+    // labelling has stopped or two answers have not been taken yet.
     std::unique_ptr<Frame> Offer(Job job);
     bool has_answer() const { return !answers_.empty(); }
-    bool TryTake(Answer& answer);
+    bool TryTake(Answer& answer) { return answers_.TryPop(answer); }
 
   private:
-    void Work();
+    void Detect(Job& job);
+
+    static constexpr std::size_t kUntaken = 2;
 
     LabellingStage stage_;
-    Wake wake_;
-    NewestQueue<Job> jobs_{1, wake_};
+    // Room for the untaken, a job in progress and one that waits.
     FifoQueue<Answer> answers_;
-    std::atomic<bool> stop_{false}, broken_{false};
-    std::jthread thread_;  // last: joins before the members it uses are destroyed
+    std::atomic<bool> broken_{false};
+    Worker<Job, NewestQueue> worker_;
 };
 
 }  // namespace tessera

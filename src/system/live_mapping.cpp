@@ -1,230 +1,259 @@
-// LiveEngine's mapping thread: takes tasks; updates the map, the meshes and tracking's copy of the
-// map; sends outcomes.
+#include "system/live_mapping.h"
+
 #include "core/check.h"
-#include "core/stopwatch.h"
-#include "system/live_engine.h"
+#include "system/loop_stage.h"
 
 namespace tessera {
 
-void LiveEngine::MapFrames() {
-    while (true) {
-        mapping_wake_.Wait(
-            [&] { return !tasks_.empty() || tracking_done_.load() || HasAnswers(); });
-        if (!MapNext() && tracking_done_.load() && tasks_.empty()) break;
+LiveMapping::LiveMapping(const RunConfig& config, const SourceInfo& source, Device* device,
+                         ViewerLink* viewer, LiveLinks& links, Notices& notices)
+    : config_(config),
+      source_(source),
+      one_thread_(device != nullptr),
+      links_(links),
+      life_(config, source, device, viewer, false, notices) {
+    if (!one_thread_) life_.stage().KeepDeltas();
+}
+
+// ---- The start.
+
+Status LiveMapping::Start(Labelling labelling, ScanPlan plan) {
+    std::optional<LoopCloser::Labels> labels;
+    if (labelling.detector) {
+        labels = LoopCloser::Labels{config_.labels, labelling.classes};
+        StartLabels(std::move(labelling));
     }
-    EndMapping();
+    if (plan.file) {
+        links_.saving.store(true);
+        if (Status status = life_.StartScan(std::move(plan)); !status.ok()) return status;
+        if (!one_thread_ && life_.stage().map().size() > 1) SendWholeMap();
+    }
+    if (config_.loops.enabled) StartLoops(std::move(labels));
+    if (!one_thread_)
+        worker_.emplace(
+            LiveLinks::kTasks,
+            [this](MappingTask& task) {
+                TakeAnswers();
+                Process(task);
+            },
+            WorkerOptions{.wake = &links_.mapping,
+                          .has_idle_work = [this] { return HasAnswers(); },
+                          .idle = [this] { TakeAnswers(); },
+                          .end = [this](bool) { End(); }});
+    return Status::Ok();
 }
 
-bool LiveEngine::HasAnswers() const {
-    return (labelling_ && labelling_->has_answer()) || UpdateFits();
+void LiveMapping::StartLabels(Labelling labelling) {
+    life_.stage().EnableLabels(config_.labels, labelling.classes);
+    labelling_ = std::make_unique<LabellingThread>(
+        LabellingStage(std::move(labelling.detector), std::move(labelling.classes), config_.labels,
+                       source_.camera),
+        links_.mapping);
 }
 
-// Takes results from other threads, then one task. Returns false if there was no task.
-bool LiveEngine::MapNext() {
-    if (labelling_) TakeLabels();
-    if (loops_) TakeLoops();
-    Task task;
-    if (!tasks_.TryPop(task)) return false;
-    tracking_wake_.Notify();
+void LiveMapping::SendWholeMap() {
+    MapUpdate whole{links_.deltas.Take(), 0, nullptr};
+    life_.stage().CollectWhole(*whole.delta);
+    TESSERA_CHECK(links_.map_updates.TryPush(std::move(whole)),
+                  "no room for the first update of the map");
+}
+
+void LiveMapping::StartLoops(std::optional<LoopCloser::Labels> labels) {
+    LoopThread::Settings settings{config_.loops,
+                                  FieldSettingsOf(config_.pipeline, source_.camera),
+                                  source_.depth_units_per_m,
+                                  std::move(labels),
+                                  life_.saving(),
+                                  life_.TakeLoops()};
+    if (life_.saving())
+        settings.make_pager = RebuildPagers(config_.pipeline, source_.camera, life_.scan_path());
+    loops_ = std::make_unique<LoopThread>(
+        std::move(settings),
+        LoopThread::Surroundings{links_.frames, links_.tracked_frames, links_.mapping,
+                                 links_.tracking, links_.notices});
+}
+
+// ---- Tracking thread.
+
+void LiveMapping::Send(MappingTask task) {
+    if (worker_) return worker_->PushOrWait(std::move(task));
+    Process(task);
+}
+
+void LiveMapping::Finish() {
+    if (worker_) return worker_->Finish();
+    End();
+}
+
+// ---- The life of a frame.
+
+void LiveMapping::Process(MappingTask& task) {
     if (task.tracked)
         MapFrame(task);
     else
-        ExecuteInMapping(task.command);
-    return true;
+        Execute(task.command);
 }
 
-void LiveEngine::EndMapping() {
-    if (loops_) EndLoops();
-    if (paging_) {
-        paging_->Close();
-        if (const auto message = paging_->TakeMessage())
-            Report(FrameOutcome::Kind::kMessage, *message);
-    }
-    if (scan_) {
-        scan_->Finish(mapping_);
-        while (const auto message = scan_->TakeMessage())
-            Report(FrameOutcome::Kind::kMessage, *message);
-    }
-    mapping_done_.store(true);
-    outcome_wake_.Notify();
-}
-
-void LiveEngine::MapFrame(Task& task) {
+void LiveMapping::MapFrame(MappingTask& task) {
     constexpr std::size_t kBehind = 2;
     TrackedFrame& tracked = *task.tracked;
     FrameOutcome outcome;
-    if (tasks_.size() >= kBehind && tracked.to_fuse && !tracked.report.first) {
+    if (worker_ && worker_->waiting() >= kBehind && tracked.to_fuse && !tracked.report.first) {
         tracked.to_fuse = false;
         outcome.fusion_dropped = true;
     }
     Carry(corrections_, task.corrections, tracked.report.track.T_world_camera);
     Carry(corrections_, task.corrections, tracked.view.T_world_camera);
-    if (paging_) Page(task, outcome);
-    mapping_.Fuse(tracked);
-    if (device_ == nullptr && (tracked.report.fused || mapping_.has_delta())) SendMapUpdate();
+    // If a lost camera was relocalised in a paged-out part, that part is loaded now, and tracking
+    // succeeds there at a later relocalisation.
+    if (task.T_found_camera && life_.paging() != nullptr) {
+        Carry(corrections_, task.corrections, *task.T_found_camera);
+        life_.paging()->Expect(*task.T_found_camera);
+    }
+    life_.Begin();
+    life_.Fuse(tracked, outcome);
+    if (!one_thread_ && (tracked.report.fused || life_.stage().has_delta())) SendMapUpdate();
     if (tracked.report.fused) WaitFor(config_.live.extra_mapping_ms);
-    feed_.ShowPrediction(show_prediction_.load());
-    outcome.mesh_ms = feed_.Send(*task.frame, tracked.report, mapping_);
-    if (scan_)
-        Save(task, outcome);
-    else if (viewer_ != nullptr)
-        past_.push_back(RecordOf(*task.frame, tracked));
-    if (paging_) paging_->Release(mapping_, *scan_);
-    outcome.report = tracked.report;
-    outcome.T_world_camera_truth = task.frame->T_world_camera;
+    life_.Record(*task.frame, tracked, 0, outcome);
+    life_.Save(outcome);
+    life_.feed().ShowPrediction(links_.show_prediction.load());
+    life_.Report(*task.frame, tracked, outcome);
     outcome.decode_ms = task.decode_ms;
     outcome.latency_ms = task.latency_ms;
-    outcome.map = map_statistics();
     outcome.labels = std::exchange(labels_, std::nullopt);
-    outcome.queues = {{"to tracking", new_frames_.size()},
-                      {"to mapping", tasks_.size()},
-                      {"to recorder", recorder_.waiting()}};
+    outcome.queues = {{"to tracking", links_.new_frames.load()},
+                      {"to mapping", worker_ ? worker_->waiting() : 0},
+                      {"to recorder", links_.to_recorder.load()}};
     if (loops_) outcome.queues.emplace_back("to loops", loops_->waiting());
-    if (scan_) outcome.queues.emplace_back("to scan", scan_->waiting());
-    outcomes_.Push(std::move(outcome));
+    if (life_.saving()) outcome.queues.emplace_back("to scan", life_.checkpoints_waiting());
+    links_.outcomes.Push(std::move(outcome));
     Offer(task);
 }
 
-// Loads paged-out parts of the map. If a lost camera was relocalised in a paged-out part, that part
-// is loaded now, and tracking succeeds there at a later relocalisation.
-void LiveEngine::Page(Task& task, FrameOutcome& outcome) {
-    if (task.T_found_camera) {
-        Carry(corrections_, task.corrections, *task.T_found_camera);
-        paging_->Expect(*task.T_found_camera);
-    }
-    paging_->BeginFrame(mapping_, *scan_);
-    if (paging_->AfterTracking(*task.tracked, mapping_, *scan_)) outcome.fusion_dropped = true;
-    if (const auto message = paging_->TakeMessage()) Report(FrameOutcome::Kind::kMessage, *message);
+// The queue has room: each update answers a frame that tracking sent after taking all earlier
+// updates, and corrections have reserved places (UpdateFits).
+void LiveMapping::SendMapUpdate() {
+    MapUpdate update{links_.deltas.Take(), world_, nullptr};
+    life_.stage().CollectDelta(*update.delta);
+    TESSERA_CHECK(links_.map_updates.TryPush(std::move(update)), "more map updates than frames");
 }
 
-void LiveEngine::Save(const Task& task, FrameOutcome& outcome) {
-    Stopwatch watch;
-    scan_->AddFrame(*task.frame, *task.tracked, 0);
-    scan_->SaveIfDue(mapping_);
-    outcome.scan_ms = watch.LapMs();
-    while (const auto message = scan_->TakeMessage())
-        Report(FrameOutcome::Kind::kMessage, *message);
-}
-
-// After a frame was fused, passes it on to labelling and loop closure, which process it in the
-// background.
-void LiveEngine::Offer(Task& task) {
+// Passes the frame on to labelling and loop closure, which process it in the background.
+void LiveMapping::Offer(MappingTask& task) {
     const FrameReport& report = task.tracked->report;
-    const MapVersion version{mapped_world_, static_cast<int>(corrections_.size())};
     if (labelling_ && report.fused && report.stamp_s >= next_detection_s_) {
         next_detection_s_ = report.stamp_s + 1 / config_.labels.max_rate_hz;
-        std::unique_ptr<Frame> frame = frame_pool_.Take();
+        std::unique_ptr<Frame> frame = links_.frames.Take();
         if (loops_)
             *frame = *task.frame;
         else
             std::swap(frame, task.frame);
         const Frame* offered = frame.get();
         std::unique_ptr<Frame> needless =
-            labelling_->Offer({std::move(frame), report.track.T_world_camera, version});
-        if (paging_ && needless.get() != offered)
-            paging_->Hold(report.index, report.track.T_world_camera);
-        frame_pool_.Give(std::move(needless));
+            labelling_->Offer({std::move(frame), report.track.T_world_camera, version()});
+        if (life_.paging() != nullptr && needless.get() != offered)
+            life_.paging()->Hold(report.index, report.track.T_world_camera);
+        links_.frames.Give(std::move(needless));
     }
     if (loops_ && report.tracked())
-        loops_->Offer(std::move(task.tracked), std::move(task.frame), version);
-    frame_pool_.Give(std::move(task.frame));
-    tracked_pool_.Give(std::move(task.tracked));
+        loops_->Offer(std::move(task.tracked), std::move(task.frame), version());
+    links_.frames.Give(std::move(task.frame));
+    links_.tracked_frames.Give(std::move(task.tracked));
 }
 
-void LiveEngine::TakeLabels() {
+// ---- What other threads answer.
+
+bool LiveMapping::HasAnswers() const {
+    return (labelling_ && labelling_->has_answer()) || UpdateFits();
+}
+
+void LiveMapping::TakeAnswers() {
+    if (labelling_) TakeLabels();
+    if (loops_) TakeLoops();
+}
+
+void LiveMapping::TakeLabels() {
     LabellingThread::Answer answer;
     while (labelling_->TryTake(answer)) {
-        LabellingThread::Job& job = answer.job;
-        if (paging_ && job.map.world == mapped_world_) paging_->ReleaseHold(job.frame->index);
-        if (!answer.message.empty()) Report(FrameOutcome::Kind::kLabelsEnd, answer.message);
-        if (answer.message.empty() && job.map.world == mapped_world_) {
-            Stopwatch watch;
-            Carry(corrections_, job.map.corrections, job.T_world_camera);
-            answer.report.votes =
-                mapping_.Label(answer.report.detections, job.frame->depth_m, job.T_world_camera);
-            answer.report.vote_ms = watch.LapMs();
-            if (!answer.report.moving.depth_m.empty())
-                hints_.Push({std::move(answer.report.moving),
-                             job.T_world_camera,
-                             {mapped_world_, static_cast<int>(corrections_.size())}});
-            if (scan_) scan_->Touch(answer.report.votes.blocks);
-            if (loops_)
-                loops_->OfferDetections(job.frame->index, answer.report.detections, job.map);
-            labels_ = std::move(answer.report);
-        }
-        frame_pool_.Give(std::move(job.frame));
+        if (answer.job.map.world == world_ && life_.paging() != nullptr)
+            life_.paging()->ReleaseHold(answer.job.frame->index);
+        if (!answer.message.empty())
+            links_.Report(FrameOutcome::Kind::kLabelsEnd, answer.message);
+        else if (answer.job.map.world == world_)
+            TakeLabels(answer);
+        links_.frames.Give(std::move(answer.job.frame));
     }
 }
 
-// The queue has room: each update answers a frame that tracking sent after taking all earlier
-// updates, and corrections have reserved places (UpdateFits).
-void LiveEngine::SendMapUpdate() {
-    MapUpdate news{delta_pool_.Take(), mapped_world_, nullptr};
-    mapping_.CollectDelta(*news.delta);
-    TESSERA_CHECK(map_updates_.TryPush(std::move(news)), "more map updates than frames");
+void LiveMapping::TakeLabels(LabellingThread::Answer& answer) {
+    LabellingThread::Job& job = answer.job;
+    Carry(corrections_, job.map.corrections, job.T_world_camera);
+    life_.Label(job.frame->depth_m, job.T_world_camera, answer.report);
+    if (!answer.report.moving.depth_m.empty())
+        links_.hints.Push({std::move(answer.report.moving), job.T_world_camera, version()});
+    if (loops_) loops_->OfferDetections(job.frame->index, answer.report.detections, job.map);
+    labels_ = std::move(answer.report);
 }
 
-bool LiveEngine::UpdateFits() const {
-    return loops_ && loops_->has_update() && map_updates_.size() < kCorrections;
+bool LiveMapping::UpdateFits() const {
+    return loops_ && loops_->has_update() && links_.map_updates.size() < LiveLinks::kCorrections;
 }
 
-void LiveEngine::TakeLoops() {
+void LiveMapping::TakeLoops() {
     LoopThread::Update update;
     while (UpdateFits() && loops_->TryTake(update)) TakeUpdate(std::move(update), false);
-    ReportLoopMessages();
 }
 
 // Puts the corrected map in place for mapping and the scan, and for tracking unless it has ended.
-void LiveEngine::TakeUpdate(LoopThread::Update update, bool last) {
-    if (update.world != mapped_world_) return;
+void LiveMapping::TakeUpdate(LoopThread::Update update, bool last) {
+    if (update.world != world_) return;
     if (update.correction) {
         const Eigen::Isometry3d T_new_old = update.correction->T_new_old;
-        PutInPlace(std::move(*update.correction), mapping_, scan_, paging_.get());
+        life_.PutMap(std::move(*update.correction));
         corrections_.push_back(T_new_old);
-        if (scan_) scan_->Move(T_new_old);
         if (!last)
             TESSERA_CHECK(
-                map_updates_.TryPush({nullptr, mapped_world_, std::move(update.field), T_new_old}),
+                links_.map_updates.TryPush({nullptr, world_, std::move(update.field), T_new_old}),
                 "more corrections than the queue has room for");
-        Report(FrameOutcome::Kind::kMessage, "map corrected");
-        feed_.SendMesh(mapping_);
+        links_.notices.Tell("map corrected");
+        life_.SendMesh();
     }
-    if (scan_) scan_->AddLoops(std::move(update.news));
+    life_.AddLoops(std::move(update.news));
 }
 
-// End of the run: waits for all pending corrections.
-void LiveEngine::EndLoops() {
-    if (quit_.load()) return;
-    loops_->Finish([this](const std::string& news) { Report(FrameOutcome::Kind::kMessage, news); });
-    LoopThread::Update update;
-    while (loops_->TryTake(update)) TakeUpdate(std::move(update), true);
-}
+// ---- Commands of the user.
 
-void LiveEngine::ReportLoopMessages() {
-    std::string news;
-    while (loops_->TryTakeChanges(news)) Report(FrameOutcome::Kind::kMessage, news);
-}
-
-void LiveEngine::ExecuteInMapping(const ViewerCommand& command) {
-    if (command.kind == ViewerCommand::Kind::kReset) {
-        ++mapped_world_;
-        corrections_.clear();
-        next_detection_s_ = 0;
-        mapping_.Reset();
-        if (loops_) loops_->Reset({mapped_world_, 0});
-        if (scan_) scan_->Reset();
-        past_.clear();
-        if (paging_) paging_->Reset();
-        Report(FrameOutcome::Kind::kReset, {});
-    } else if (command.kind == ViewerCommand::Kind::kSaveMesh) {
-        Report(FrameOutcome::Kind::kMessage,
-               SaveMesh(mapping_, command.path) + (paging_ ? paging_->MissingText(*scan_) : ""));
-    } else if (command.kind == ViewerCommand::Kind::kSaveScan) {
-        Report(FrameOutcome::Kind::kMessage,
-               SaveScan(command.path, source_, config_, false, past_, scan_));
-        if (scan_ && !saving_.exchange(true) && loops_) loops_->BeginNews();
+void LiveMapping::Execute(const ViewerCommand& command) {
+    switch (command.kind) {
+        case ViewerCommand::Kind::kReset: Reset(); break;
+        case ViewerCommand::Kind::kSaveMesh: life_.SaveMesh(command.path); break;
+        case ViewerCommand::Kind::kSaveScan:
+            life_.SaveScan(command.path);
+            if (life_.saving() && !links_.saving.exchange(true) && loops_) loops_->BeginNews();
+            break;
+        default: break;
     }
-    feed_.SendMesh(mapping_);
+    life_.SendMesh();
+}
+
+void LiveMapping::Reset() {
+    ++world_;
+    corrections_.clear();
+    next_detection_s_ = 0;
+    if (loops_) loops_->Reset(version());
+    life_.Reset();
+    links_.Report(FrameOutcome::Kind::kReset, {});
+}
+
+// ---- The end.
+
+void LiveMapping::End() {
+    if (loops_ && !links_.quit.load()) {
+        loops_->Finish();
+        LoopThread::Update update;
+        while (loops_->TryTake(update)) TakeUpdate(std::move(update), true);
+    }
+    life_.Finish();
 }
 
 }  // namespace tessera

@@ -1,136 +1,142 @@
-// LiveEngine's tracking thread: takes new frames and map updates, sends tasks.
-#include "core/stopwatch.h"
-#include "system/live_engine.h"
+#include "system/live_tracking.h"
 
 namespace tessera {
-namespace {
 
-using Milliseconds = std::chrono::duration<double, std::milli>;
-
-}  // namespace
-
-void LiveEngine::TrackFrames() {
-    TrackingState state(config_, source_.camera, device_);
-    if (loops_) state.stage.KeepImages();
-    gate_.Begin(saved_tracking_, saved_pose_, loops_ == nullptr, state.stage);
-    if (saved_stamp_s_) state.lost.Resume(*saved_stamp_s_);
-    while (true) {
-        tracking_wake_.Wait([&] {
-            return !commands_.empty() || !new_frames_.empty() || reading_done_.load() ||
-                   (device_ != nullptr && HasAnswers());
-        });
-        if (device_ != nullptr) MapNext();
-        ViewerCommand command;
-        NewFrame item;
-        if (commands_.TryPop(command)) {
-            if (command.kind == ViewerCommand::Kind::kReset) ResetTracking(state);
-            Task task;
-            task.command = command;
-            SendTask(std::move(task));
-        } else if (new_frames_.TryPop(item)) {
-            TrackFrame(std::move(item), state);
-        } else if (reading_done_.load() && new_frames_.empty() && commands_.empty()) {
-            break;
-        }
-    }
-    tracking_done_.store(true);
-    if (device_ != nullptr) return EndMapping();
-    mapping_wake_.Notify();
+LiveTracking::State::State(const Settings& settings, FramePlan plan)
+    : life(settings.config, settings.camera, settings.device, std::move(plan)),
+      field(std::make_unique<BlockMap>(settings.config.pipeline.map, BlockMap::Layers::kFieldOnly)),
+      lost(settings.config.loops, settings.config.pipeline.motion.max_gap_s) {
+    if (!settings.resume) return;
+    life.Resume(*settings.resume);
+    lost.Resume(settings.resume->last_stamp_s);
 }
 
-void LiveEngine::ResetTracking(TrackingState& state) {
-    state.version = {state.version.world + 1, 0};
-    state.stage.Reset();
-    gate_.Open();
-    state.field->Clear();
-    state.lost = LostCamera(config_.loops, config_.pipeline.motion.max_gap_s);
+LiveTracking::LiveTracking(Settings settings, FramePlan plan, LiveLinks& links,
+                           LiveMapping& mapping)
+    : settings_(std::move(settings)),
+      plan_(std::move(plan)),
+      links_(links),
+      mapping_(mapping),
+      loops_(mapping.loops()),
+      worker_(
+          static_cast<std::size_t>(settings_.config.live.queue_frames),
+          [this](NewFrame& item) {
+              TakeCommands();
+              mapping_.TakeAnswersHere();
+              Track(item);
+          },
+          {.wake = &links_.tracking,
+           .has_idle_work = [this] { return !commands_.empty() || mapping_.HasAnswersToTake(); },
+           .idle =
+               [this] {
+                   mapping_.TakeAnswersHere();
+                   TakeCommands();
+               },
+           .begin = [this] { state_.emplace(settings_, std::move(plan_)); },
+           .end =
+               [this](bool) {
+                   TakeCommands();
+                   state_.reset();
+                   mapping_.Finish();
+               }}) {}
+
+void LiveTracking::TakeCommands() {
+    ViewerCommand command;
+    while (commands_.TryPop(command)) {
+        if (command.kind == ViewerCommand::Kind::kReset) Reset();
+        MappingTask task;
+        task.command = std::move(command);
+        mapping_.Send(std::move(task));
+    }
 }
 
-void LiveEngine::TrackFrame(NewFrame item, TrackingState& state) {
-    ViewerSettings settings;
-    if (viewer_ != nullptr && viewer_->settings.TryPop(settings)) {
-        state.stage.Apply(settings);
-        show_prediction_.store(settings.show_prediction);
-    }
-    ApplyMapUpdates(state);
-    TakeHint(state);
-    Task task;
-    task.tracked = tracked_pool_.Take();
-    if (loops_) task.T_found_camera = TakeRelocalisation(item.frame->stamp_s, state);
-    plan_.Select(*item.frame, state.stage);
-    plan_.Track(*item.frame, MapToTrackIn(state), state.stage, *task.tracked);
-    gate_.AfterTracking(*item.frame, state.stage, *task.tracked);
-    if (loops_) CheckIfLost(*task.tracked, state);
-    SaveTracking(state.stage, *task.tracked);
-    WaitFor(config_.live.extra_tracking_ms);
-    task.frame = std::move(item.frame);
+void LiveTracking::Reset() {
+    state_->version = {state_->version.world + 1, 0};
+    state_->life.Reset();
+    state_->field->Clear();
+    state_->lost = LostCamera(settings_.config.loops, settings_.config.pipeline.motion.max_gap_s);
+}
+
+// ---- The life of a frame.
+
+void LiveTracking::Track(NewFrame& item) {
+    const Frame& frame = *item.frame;
+    FrameTracking& life = state_->life;
+    TakeSettings();
+    ApplyMapUpdates();
+    TakeHint();
+    MappingTask task;
+    task.tracked = links_.tracked_frames.Take();
+    task.T_found_camera = TakeRelocalisation(frame.stamp_s);
+    life.Begin(frame);
+    life.Track(frame, MapToTrackIn(), *task.tracked);
+    CheckIfLost(*task.tracked);
+    task.tracked->tracking_state.clear();
+    if (links_.saving.load()) life.SaveState(*task.tracked);
+    WaitFor(settings_.config.live.extra_tracking_ms);
     task.decode_ms = item.decode_ms;
-    task.latency_ms = Milliseconds(Clock::now() - item.arrival).count();
-    task.corrections = state.version.corrections;
+    task.latency_ms =
+        std::chrono::duration<double, std::milli>(LiveClock::now() - item.arrival).count();
+    task.corrections = state_->version.corrections;
+    task.frame = std::move(item.frame);
     const bool first = task.tracked->report.first;
-    SendTask(std::move(task));
+    mapping_.Send(std::move(task));
     // The next frame needs a map.
-    if (first && device_ == nullptr) tracking_wake_.Wait([&] { return !map_updates_.empty(); });
+    if (first && settings_.device == nullptr)
+        links_.tracking.Wait([&] { return !links_.map_updates.empty(); });
 }
 
-const BlockMap& LiveEngine::MapToTrackIn(const TrackingState& state) const {
-    if (device_ == nullptr) return *state.field;
-    return state.stage.reads_map() ? mapping_.map() : mapping_.blocks();
+const BlockMap& LiveTracking::MapToTrackIn() const {
+    return settings_.device == nullptr ? *state_->field : mapping_.MapFor(state_->life.stage());
 }
 
-// The state travels with its frame, so that a checkpoint after that frame contains it.
-void LiveEngine::SaveTracking(const TrackingStage& stage, TrackedFrame& tracked) const {
-    tracked.tracking_state.clear();
-    if (!saving_.load()) return;
-    StateWriter state(tracked.tracking_state);
-    stage.SaveState(state);
+void LiveTracking::TakeSettings() {
+    ViewerSettings settings;
+    if (settings_.viewer == nullptr || !settings_.viewer->settings.TryPop(settings)) return;
+    state_->life.stage().Apply(settings);
+    links_.show_prediction.store(settings.show_prediction);
 }
 
-void LiveEngine::ApplyMapUpdates(TrackingState& state) {
-    MapUpdate news;
-    while (map_updates_.TryPop(news)) {
-        const bool ours = news.world == state.version.world;
-        if (ours && news.field) {
-            state.field = std::move(news.field);
-            state.stage.Move(news.T_new_old);
-            ++state.version.corrections;
+void LiveTracking::ApplyMapUpdates() {
+    MapUpdate update;
+    while (links_.map_updates.TryPop(update)) {
+        const bool ours = update.world == state_->version.world;
+        if (ours && update.field) {
+            state_->field = std::move(update.field);
+            state_->life.stage().Move(update.T_new_old);
+            ++state_->version.corrections;
         } else if (ours) {
-            ApplyDelta(*news.delta, *state.field);
+            ApplyDelta(*update.delta, *state_->field);
         }
-        delta_pool_.Give(std::move(news.delta));
+        links_.deltas.Give(std::move(update.delta));
     }
 }
 
-void LiveEngine::TakeHint(TrackingState& state) {
-    Hint hint;
-    if (hints_.TryPop(hint) && hint.map == state.version)
-        state.stage.HintMoving(hint.moving, hint.T_world_camera);
+void LiveTracking::TakeHint() {
+    LiveHint hint;
+    if (links_.hints.TryPop(hint) && hint.map == state_->version)
+        state_->life.stage().HintMoving(hint.moving, hint.T_world_camera);
 }
 
-std::optional<Eigen::Isometry3d> LiveEngine::TakeRelocalisation(double stamp_s,
-                                                                TrackingState& state) {
+// ---- A lost camera.
+
+std::optional<Eigen::Isometry3d> LiveTracking::TakeRelocalisation(double stamp_s) {
     LoopThread::Answer answer;
-    if (!loops_->TryTake(answer)) return std::nullopt;
-    state.asked = false;
-    if (!answer.T_world_camera || answer.map != state.version) return std::nullopt;
-    Report(FrameOutcome::Kind::kMessage, answer.note);
-    state.stage.Relocate({answer.stamp_s, *answer.T_world_camera});
-    state.lost.Seen(stamp_s);
+    if (loops_ == nullptr || !loops_->TryTake(answer)) return std::nullopt;
+    state_->asked = false;
+    if (!answer.T_world_camera || answer.map != state_->version) return std::nullopt;
+    links_.notices.Tell(answer.note);
+    state_->life.stage().Relocate({answer.stamp_s, *answer.T_world_camera});
+    state_->lost.Seen(stamp_s);
     return answer.T_world_camera;
 }
 
-void LiveEngine::CheckIfLost(TrackedFrame& tracked, TrackingState& state) {
-    if (state.lost.Judge(tracked) != LostCamera::Verdict::kLost) return;
-    if (tracked.report.tracked()) state.stage.RejectPose(kPoseUnconfirmed, tracked);
-    if (state.asked || tracked.prepared.valid_depth_pixels == 0) return;
+void LiveTracking::CheckIfLost(TrackedFrame& tracked) {
+    if (loops_ == nullptr || state_->lost.Judge(tracked) != LostCamera::Verdict::kLost) return;
+    if (tracked.report.tracked()) state_->life.stage().RejectPose(kPoseUnconfirmed, tracked);
+    if (state_->asked || tracked.prepared.valid_depth_pixels == 0) return;
     auto copy = std::make_unique<PreparedFrame>(tracked.prepared);
-    state.asked = loops_->Ask({state.version, tracked.report.stamp_s, std::move(copy)});
-}
-
-// Waits if mapping is far behind. Mapping then skips fusion until it has caught up.
-void LiveEngine::SendTask(Task task) {
-    tracking_wake_.Wait([&] { return tasks_.TryPush(std::move(task)); });
-    if (device_ != nullptr) MapNext();
+    state_->asked = loops_->Ask({state_->version, tracked.report.stamp_s, std::move(copy)});
 }
 
 }  // namespace tessera

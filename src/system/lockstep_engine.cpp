@@ -1,27 +1,20 @@
 #include "system/lockstep_engine.h"
 
-#include "core/stopwatch.h"
-#include "io/mesh_io.h"
-
 namespace tessera {
 
 LockstepEngine::LockstepEngine(EngineInput input)
     : config_(input.config),
-      plan_(std::move(input.plan)),
       viewer_(input.viewer),
       stop_(*input.stop),
       control_(input.viewer),
       source_(input.source->info()),
-      tracking_(config_.pipeline, source_.camera, input.device),
-      mapping_(config_.pipeline, config_.meshing, source_.camera, input.device),
-      gate_(config_.pipeline.motion.max_gap_s),
-      feed_(input.viewer, config_.live.mesh_blocks),
-      recorder_(source_, config_.record, true) {
-    if (!input.record_path.empty())
-        status_ = StartRecording(input.record_path, config_.record, *input.source, recorder_);
+      tracking_(config_, source_.camera, input.device, std::move(input.plan)),
+      mapping_(config_, source_, input.device, input.viewer, true, notices_),
+      recorder_(source_, config_.record, true, notices_) {
+    if (!input.record_path.empty()) status_ = recorder_.Start(input.record_path, *input.source);
     if (!status_.ok()) return;
     if (input.labelling.detector) {
-        mapping_.EnableLabels(config_.labels, input.labelling.classes);
+        mapping_.stage().EnableLabels(config_.labels, input.labelling.classes);
         loop_labels_ = LoopCloser::Labels{config_.labels, input.labelling.classes};
         labelling_ = std::make_unique<LabellingStage>(std::move(input.labelling.detector),
                                                       std::move(input.labelling.classes),
@@ -35,17 +28,22 @@ LockstepEngine::LockstepEngine(EngineInput input)
 }
 
 Status LockstepEngine::StartScan(ScanPlan plan) {
-    double last_stamp_s = 0;
+    TrackingResume resume;
     if (plan.resumed) {
-        gate_.Begin(plan.resumed->tracking, plan.resumed->LastPose(), !loops_, tracking_);
-        fused_frames_ = plan.resumed->progress.labelled_frames;
-        last_stamp_s = plan.resumed->progress.last_stamp_s;
+        resume = TrackingResume::Of(*plan.resumed);
+        tracking_.Resume(resume);
+        labelled_frames_ = plan.resumed->progress.labelled_frames;
     }
-    scan_.emplace(std::move(plan), config_.scan, true, loops_.has_value());
-    if (Status status = scan_->Resume(mapping_); !status.ok()) return status;
-    if (auto memory = scan_->TakeLoops(); memory && loops_)
-        loops_->Resume(std::move(*memory), last_stamp_s);
-    return StartPaging(config_.pipeline, source_.camera, scan_->path(), true, paging_);
+    Status status = mapping_.StartScan(std::move(plan));
+    if (auto memory = mapping_.TakeLoops(); memory && loops_)
+        loops_->Resume(std::move(*memory), resume.last_stamp_s);
+    return status;
+}
+
+void LockstepEngine::BeginLoops() {
+    if (!config_.loops.enabled) return;
+    loops_.emplace(config_.loops, config_.pipeline, source_, loop_labels_,
+                   RebuildPagers(config_.pipeline, source_.camera, scan_path_));
 }
 
 bool LockstepEngine::Next(FrameOutcome& outcome) {
@@ -67,118 +65,83 @@ bool LockstepEngine::Next(FrameOutcome& outcome) {
             case ReadStatus::kEnd: ended = true;
         }
     }
-    if (reader_) reader_->RequestStop();
-    recorder_.Stop();
-    if (loops_)
-        if (std::string note =
-                loops_->Finish([this](auto correction) { PutMap(std::move(correction)); });
-            !note.empty())
-            loops_message_ = std::move(note);
-    if (paging_) paging_->Close();
-    if (scan_ && loops_) scan_->AddLoops(loops_->TakeChanges());
-    if (scan_) scan_->Finish(mapping_);
+    Finish();
     return TakeMessage(outcome);
 }
 
-// Runs one frame through the whole pipeline.
+// ---- The life of a frame.
+
 void LockstepEngine::Process(FrameOutcome& outcome) {
     outcome.decode_ms = reader_->decode_ms();
     recorder_.Add(frame_);
-    if (paging_) paging_->BeginFrame(mapping_, *scan_);
-    if (labelling_) Detect();
-    plan_.Select(frame_, tracking_);
-    plan_.Track(frame_, tracking_.reads_map() ? mapping_.map() : mapping_.blocks(), tracking_,
-                tracked_);
-    gate_.AfterTracking(frame_, tracking_, tracked_);
-    if (loops_)
-        loops_->AfterTracking(frame_, mapping_.map(), tracking_, tracked_,
-                              [this](const Eigen::Isometry3d& T_world_camera) {
-                                  if (paging_)
-                                      paging_->LoadAround(T_world_camera, mapping_, *scan_);
-                              });
-    if (paging_) outcome.fusion_dropped = paging_->AfterTracking(tracked_, mapping_, *scan_);
-    mapping_.Fuse(tracked_);
-    if (detected_ && tracked_.report.fused) Label(outcome);
-    if (labelling_) fused_frames_ += tracked_.report.fused;
-    if (loops_)
-        outcome.loops_ms =
-            loops_->AfterFusion(frame_, tracked_, outcome.labels, tracking_,
-                                [this](auto correction) { PutMap(std::move(correction)); });
-    if (scan_)
-        Save(outcome);
-    else if (viewer_ != nullptr)
-        past_.push_back(RecordOf(frame_, tracked_));
-    if (paging_) paging_->Release(mapping_, *scan_);
-    outcome.report = tracked_.report;
-    outcome.T_world_camera_truth = frame_.T_world_camera;
-    outcome.mesh_ms = feed_.Send(frame_, outcome.report, mapping_);
-    outcome.map = map_statistics();
-}
-
-void LockstepEngine::Save(FrameOutcome& outcome) {
-    Stopwatch watch;
-    tracked_.tracking_state.clear();
-    StateWriter state(tracked_.tracking_state);
-    tracking_.SaveState(state);
-    scan_->AddFrame(frame_, tracked_, fused_frames_);
-    if (loops_) scan_->AddLoops(loops_->TakeChanges());
-    scan_->SaveIfDue(mapping_);
-    outcome.scan_ms = watch.LapMs();
+    mapping_.Begin();
+    Detect();
+    tracking_.Begin(frame_);
+    tracking_.Track(frame_, mapping_.MapFor(tracking_.stage()), tracked_);
+    RelocaliseIfLost();
+    mapping_.Fuse(tracked_, outcome);
+    Label(outcome);
+    CloseLoops(outcome);
+    if (mapping_.saving()) tracking_.SaveState(tracked_);
+    mapping_.Record(frame_, tracked_, labelled_frames_, outcome);
+    if (loops_ && mapping_.saving()) mapping_.AddLoops(loops_->TakeChanges());
+    mapping_.Save(outcome);
+    mapping_.Report(frame_, tracked_, outcome);
 }
 
 // Runs before tracking and fusion, because the detections may mask people in the frame.
 void LockstepEngine::Detect() {
     detected_.reset();
-    if (fused_frames_ % config_.labels.stride != 0) return;
+    if (!labelling_ || labelled_frames_ % config_.labels.stride != 0) return;
     LabelReport report;
-    if (!labelling_->Detect(frame_, report, label_message_)) return;
-    if (!report.moving.depth_m.empty()) tracking_.HintMoving(report.moving, std::nullopt);
+    if (!labelling_->Detect(frame_, report, labels_end_)) return;
+    if (!report.moving.depth_m.empty()) tracking_.stage().HintMoving(report.moving, std::nullopt);
     detected_ = std::move(report);
 }
 
 void LockstepEngine::Label(FrameOutcome& outcome) {
-    Stopwatch watch;
-    detected_->votes =
-        mapping_.Label(detected_->detections, frame_.depth_m, tracked_.report.track.T_world_camera);
-    detected_->vote_ms = watch.LapMs();
-    if (scan_) scan_->Touch(detected_->votes.blocks);
+    if (!labelling_ || !tracked_.report.fused) return;
+    ++labelled_frames_;
+    if (!detected_) return;
+    mapping_.Label(frame_.depth_m, tracked_.report.track.T_world_camera, *detected_);
     outcome.labels = std::exchange(detected_, std::nullopt);
 }
 
-void LockstepEngine::BeginLoops() {
-    if (!config_.loops.enabled) return;
-    tracking_.KeepImages();
-    loops_.emplace(config_.loops, config_.pipeline, source_, loop_labels_,
-                   RebuildPagers(config_.pipeline, source_.camera, scan_path_));
+void LockstepEngine::RelocaliseIfLost() {
+    if (!loops_) return;
+    loops_->AfterTracking(frame_, mapping_.stage().map(), tracking_.stage(), tracked_,
+                          [this](const auto& pose) { mapping_.LoadAround(pose); });
 }
 
-void LockstepEngine::PutMap(LoopCloser::Correction correction) {
-    PutInPlace(std::move(correction), mapping_, scan_, paging_.get());
+void LockstepEngine::CloseLoops(FrameOutcome& outcome) {
+    if (!loops_) return;
+    outcome.loops_ms =
+        loops_->AfterFusion(frame_, tracked_, outcome.labels, tracking_.stage(),
+                            [this](auto correction) { mapping_.PutMap(std::move(correction)); });
 }
+
+// ---- The user.
 
 bool LockstepEngine::TakeMessage(FrameOutcome& outcome) {
-    std::optional<std::string> message = recorder_.TakeMessage();
-    if (!message && scan_) message = scan_->TakeMessage();
-    if (!message && paging_) message = paging_->TakeMessage();
-    if (!message) message = std::exchange(loops_message_, std::nullopt);
-    if (message) {
+    if (std::optional<std::string> message = notices_.Take()) {
         outcome.kind = FrameOutcome::Kind::kMessage;
         outcome.message = std::move(*message);
         return true;
     }
-    if (label_message_.empty()) return false;
+    if (labels_end_.empty()) return false;
     outcome.kind = FrameOutcome::Kind::kLabelsEnd;
-    outcome.message = std::exchange(label_message_, {});
+    outcome.message = std::exchange(labels_end_, {});
     return true;
 }
 
+// Waits while paused. Returns true if there is something to report.
 bool LockstepEngine::HandleViewer(FrameOutcome& outcome) {
     while (true) {
         if (TakeMessage(outcome)) return true;
         ViewerSettings settings;
         if (viewer_ != nullptr && viewer_->settings.TryPop(settings)) {
-            tracking_.Apply(settings);
-            feed_.ShowPrediction(settings.show_prediction);
+            tracking_.stage().Apply(settings);
+            mapping_.feed().ShowPrediction(settings.show_prediction);
         }
         if (const auto command = control_.TakeCommand()) {
             if (Execute(*command, outcome)) return true;
@@ -187,42 +150,45 @@ bool LockstepEngine::HandleViewer(FrameOutcome& outcome) {
         if (viewer_ != nullptr) viewer_->recording.store(recorder_.recording());
         stopped_ = stopped_ || stop_.load();
         if (stopped_ || control_.TakeTurn()) return false;
-        feed_.SendMesh(mapping_);
-        SleepBriefly();
+        mapping_.SendMesh();
+        RunControl::SleepBriefly();
     }
 }
 
+// Returns true if there is something to report besides messages.
 bool LockstepEngine::Execute(const ViewerCommand& command, FrameOutcome& outcome) {
-    outcome.kind = FrameOutcome::Kind::kMessage;
     switch (command.kind) {
         case ViewerCommand::Kind::kReset:
             tracking_.Reset();
-            gate_.Open();
             mapping_.Reset();
             BeginLoops();
-            if (scan_) scan_->Reset();
-            past_.clear();
-            if (paging_) paging_->Reset();
-            feed_.SendMesh(mapping_);
             outcome.kind = FrameOutcome::Kind::kReset;
             return true;
-        case ViewerCommand::Kind::kSaveMesh:
-            outcome.message =
-                SaveMesh(mapping_, command.path) + (paging_ ? paging_->MissingText(*scan_) : "");
-            return true;
-        case ViewerCommand::Kind::kSaveScan:
-            outcome.message = SaveScan(command.path, source_, config_, true, past_, scan_);
-            return true;
+        case ViewerCommand::Kind::kSaveMesh: mapping_.SaveMesh(command.path); break;
+        case ViewerCommand::Kind::kSaveScan: mapping_.SaveScan(command.path); break;
         case ViewerCommand::Kind::kRecord:
-            if (Status status = recorder_.Start(command.path); !status.ok()) {
-                outcome.message = status.message();
-                return true;
-            }
-            return false;
-        case ViewerCommand::Kind::kStopRecording: recorder_.Stop(); return false;
-        case ViewerCommand::Kind::kStop: stopped_ = true; return false;
-        default: return false;
+            if (Status status = recorder_.Start(command.path); !status.ok())
+                notices_.Tell(status.message());
+            break;
+        case ViewerCommand::Kind::kStopRecording: recorder_.Stop(); break;
+        case ViewerCommand::Kind::kStop: stopped_ = true; break;
+        default: break;
     }
+    return false;
+}
+
+// ---- The end.
+
+void LockstepEngine::Finish() {
+    if (std::exchange(finished_, true)) return;
+    if (reader_) reader_->RequestStop();
+    recorder_.Stop();
+    if (loops_) {
+        notices_.Tell(
+            loops_->Finish([this](auto correction) { mapping_.PutMap(std::move(correction)); }));
+        if (mapping_.saving()) mapping_.AddLoops(loops_->TakeChanges());
+    }
+    mapping_.Finish();
 }
 
 std::vector<StampedPose> LockstepEngine::CorrectedPath() const {
@@ -231,7 +197,7 @@ std::vector<StampedPose> LockstepEngine::CorrectedPath() const {
 
 TriangleMesh LockstepEngine::TakeMesh() {
     reader_.reset();
-    return TakeFinalMesh(mapping_, scan_, paging_.get(), status_);
+    return mapping_.TakeMesh(status_);
 }
 
 }  // namespace tessera

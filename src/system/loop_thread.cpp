@@ -1,9 +1,6 @@
 #include "system/loop_thread.h"
 
 #include <fmt/format.h>
-#include <sys/resource.h>
-#include <tbb/task_arena.h>
-#include <unistd.h>
 
 #include <utility>
 
@@ -11,42 +8,20 @@
 #include "mapping/map_delta.h"
 
 namespace tessera {
-namespace {
-
-// Linux: lowers the priority of this thread only. Its parallel loops also run on this thread alone,
-// so that they take no TBB workers from tracking and mapping.
-void LowerPriority() {
-    constexpr int kNice = 10;
-    setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNice);
-}
-
-}  // namespace
 
 LoopThread::LoopThread(Settings settings, Surroundings surroundings)
     : settings_(std::move(settings)),
       around_(surroundings),
       answers_(2, around_.tracking),
       updates_(kUpdates, around_.mapping),
-      news_(64, around_.mapping),
-      saved_(settings_.saved) {
-    BeginWorld(0);
-    if (auto memory = std::exchange(settings_.resumed, std::nullopt)) {
-        closer_->Resume(std::move(*memory));
-        journal_.Begin(*closer_);
-    }
-    thread_ = std::jthread([this] {
-        LowerPriority();
-        tbb::task_arena(1).execute([this] { Work(); });
-        if (!stop_.load()) Conclude();
-        ended_.store(true);
-        around_.mapping.Notify();
-    });
-}
-
-LoopThread::~LoopThread() {
-    stop_.store(true);
-    wake_.Notify();
-}
+      saved_(settings_.saved),
+      worker_(kJobs, [this](Job& job) { alone_.execute([&] { Do(job); }); },
+              {.low_priority = true,
+               .wake = &wake_,
+               .has_idle_work = [this] { return HasIdleWork(); },
+               .idle = [this] { alone_.execute([this] { WorkIdly(); }); },
+               .begin = [this] { Begin(); },
+               .end = [this](bool finished) { finished ? Conclude() : void(); }}) {}
 
 // ---- Mapping thread.
 
@@ -62,7 +37,7 @@ void LoopThread::Offer(std::unique_ptr<TrackedFrame> tracked, std::unique_ptr<Fr
         job.tracked = std::move(tracked);
         job.frame = std::move(frame);
     }
-    if (!jobs_.TryPush(std::move(job))) {
+    if (!worker_.TryPush(std::move(job))) {
         if (whole) whole_.fetch_sub(1);
         tracked = std::move(job.tracked);
         frame = std::move(job.frame);
@@ -78,72 +53,51 @@ void LoopThread::OfferDetections(std::int64_t frame_index, std::vector<Detection
     job.map = map;
     job.frame_index = frame_index;
     job.detections = std::move(detections);
-    jobs_.TryPush(std::move(job));
+    worker_.TryPush(std::move(job));
 }
 
 void LoopThread::Reset(MapVersion map) {
     Job job;
     job.kind = Job::Kind::kReset;
     job.map = map;
-    around_.mapping.Wait([&] { return jobs_.TryPush(std::move(job)); });
+    worker_.PushOrWait(std::move(job));
 }
 
 bool LoopThread::TryTake(Update& update) {
     if (!updates_.TryPop(update)) return false;
-    wake_.Notify();
+    wake_.Notify();  // there is room for another correction
     return true;
-}
-
-void LoopThread::Finish(const std::function<void(const std::string&)>& tell) {
-    finish_.store(true);
-    wake_.Notify();
-    std::string news;
-    while (true) {
-        around_.mapping.Wait([this] { return ended_.load() || !news_.empty(); });
-        const bool ended = ended_.load();
-        while (news_.TryPop(news)) tell(news);
-        if (ended) break;
-    }
-    thread_.join();
 }
 
 // ---- The loop thread itself.
 
-void LoopThread::Work() {
-    constexpr int kFramesAtOnce = 2;  // of a map rebuild; a question waits at most this long
-    while (true) {
-        wake_.Wait([&] {
-            return stop_.load() || finish_.load() || !questions_.empty() || !jobs_.empty() ||
-                   MayCorrect();
-        });
-        Question question;
-        Job job;
-        if (stop_.load()) return;
-        if (questions_.TryPop(question)) {
-            Reply(question);
-        } else if (jobs_.TryPop(job)) {
-            around_.mapping.Notify();
-            Do(job);
-            Report();
-        } else if (finish_.load()) {
-            return;
-        } else if (auto change = closer_->Step(kFramesAtOnce)) {
-            HandOver(std::move(*change));
-        }
-        ReportProblems();
+void LoopThread::Begin() {
+    BeginWorld(0);
+    if (auto memory = std::exchange(settings_.resumed, std::nullopt)) {
+        closer_->Resume(std::move(*memory));
+        journal_.Begin(*closer_);
     }
+}
+
+bool LoopThread::HasIdleWork() const { return !questions_.empty() || MayCorrect(); }
+
+void LoopThread::WorkIdly() {
+    constexpr int kFramesAtOnce = 2;  // of a map rebuild; a question waits at most this long
+    if (!Reply())
+        if (auto change = closer_->Step(kFramesAtOnce)) HandOver(std::move(*change));
+    ReportProblems();
 }
 
 // At the end of the run nothing else runs, so this uses all cores.
 void LoopThread::Conclude() {
     if (closer_->corrected())
-        news_.Push(
+        around_.notices.Tell(
             fmt::format("optimising the corrected path once more; where that moves the map, {} "
                         "frames are fused again",
                         closer_->store().frames().size()));
     std::string note;
     if (auto change = closer_->Finish(note)) HandOver(std::move(*change));
-    if (!note.empty()) news_.Push(std::move(note));
+    around_.notices.Tell(std::move(note));
     ReportProblems();
     if (saved_.load())
         Push({world_, std::nullopt, nullptr,
@@ -160,13 +114,18 @@ void LoopThread::BeginWorld(int world) {
 }
 
 void LoopThread::Do(Job& job) {
+    around_.mapping.Notify();  // there is room
+    Reply();
     switch (job.kind) {
-        case Job::Kind::kReset: return BeginWorld(job.map.world);
+        case Job::Kind::kReset: BeginWorld(job.map.world); break;
         case Job::Kind::kDetections:
             closer_->AddDetections(job.frame_index, std::move(job.detections));
-            return journal_.Touch(job.frame_index);
-        case Job::Kind::kFrame: return AddFrame(job);
+            journal_.Touch(job.frame_index);
+            break;
+        case Job::Kind::kFrame: AddFrame(job);
     }
+    Report();
+    ReportProblems();
 }
 
 void LoopThread::AddFrame(Job& job) {
@@ -176,13 +135,16 @@ void LoopThread::AddFrame(Job& job) {
     tracked.report.track.T_world_camera = tracked.view.T_world_camera = job.T_world_camera;
     const std::string news =
         closer_->Add(*job.frame, tracked.prepared, tracked.report.track, tracked.view, true);
-    if (!news.empty()) news_.Push(fmt::format("frame {}: {}", job.frame->index, news));
+    if (!news.empty()) around_.notices.Tell(fmt::format("frame {}: {}", job.frame->index, news));
     whole_.fetch_sub(1);
     around_.tracked_frames.Give(std::move(job.tracked));
     around_.frames.Give(std::move(job.frame));
 }
 
-void LoopThread::Reply(Question& question) {
+// Returns false if there was no question.
+bool LoopThread::Reply() {
+    Question question;
+    if (!questions_.TryPop(question)) return false;
     Answer answer;
     answer.map = question.map;
     answer.stamp_s = question.stamp_s;
@@ -190,12 +152,10 @@ void LoopThread::Reply(Question& question) {
     if (question.map == MapVersion{world_, static_cast<int>(history_.size())})
         answer.T_world_camera = closer_->Relocalise(*question.frame, answer.note);
     TESSERA_CHECK(answers_.TryPush(std::move(answer)), "more answers than questions");
+    return true;
 }
 
-void LoopThread::ReportProblems() {
-    if (std::string trouble = closer_->TakeError(); !trouble.empty())
-        news_.Push(std::move(trouble));
-}
+void LoopThread::ReportProblems() { around_.notices.Tell(closer_->TakeError()); }
 
 // News that does not fit is sent later, together with newer news.
 void LoopThread::Report() {

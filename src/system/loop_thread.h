@@ -3,12 +3,13 @@
 // waits for it before the end of the run.
 #pragma once
 
-#include <atomic>
-#include <functional>
-#include <thread>
+#include <tbb/task_arena.h>
 
+#include <atomic>
+
+#include "core/notices.h"
 #include "core/pool.h"
-#include "core/queue.h"
+#include "core/worker.h"
 #include "system/loop_journal.h"
 #include "system/map_version.h"
 #include "system/tracking_stage.h"
@@ -49,16 +50,16 @@ class LoopThread {
         std::string note;  // for the user
     };
 
-    // Frame pools, and the threads to notify. All outlive the LoopThread.
+    // Frame pools, the threads to notify, and who tells the user. All outlive the LoopThread.
     struct Surroundings {
         Pool<Frame>& frames;
         Pool<TrackedFrame>& tracked_frames;
         Wake& mapping;
         Wake& tracking;
+        Notices& notices;
     };
 
     LoopThread(Settings settings, Surroundings surroundings);
-    ~LoopThread();  // stops and joins
 
     // ---- Mapping thread.
     // Call for each tracked frame, after its fusion. If too many frames wait, only the pose is
@@ -72,15 +73,13 @@ class LoopThread {
     void BeginNews() { saved_.store(true); }
     bool has_update() const { return !updates_.empty(); }
     bool TryTake(Update& update);
-    // Call after the last frame. Waits until all corrections are done and passes messages for the
-    // user to `tell` meanwhile. The remaining results arrive as updates.
-    void Finish(const std::function<void(const std::string&)>& tell);
+    // Call after the last frame. Waits until all corrections are done. The remaining results arrive
+    // as updates.
+    void Finish() { worker_.Finish(); }
     // After Finish: the final poses of the tracked frames, and the refined calibration.
     std::vector<StampedPose> Path() const { return closer_->Path(); }
     const std::optional<CalibrationReport>& calibration() const { return closer_->calibration(); }
-    // For the user.
-    bool TryTakeChanges(std::string& news) { return news_.TryPop(news); }
-    std::size_t waiting() const { return jobs_.size(); }
+    std::size_t waiting() const { return worker_.waiting(); }
 
     // ---- Tracking thread. One question at a time.
     bool Ask(Question question) { return questions_.TryPush(std::move(question)); }
@@ -100,7 +99,9 @@ class LoopThread {
         std::vector<Detection> detections;
     };
 
-    void Work();
+    void Begin();
+    bool HasIdleWork() const;
+    void WorkIdly();
     void Conclude();
     void BeginWorld(int world);
     bool MayCorrect() const {
@@ -108,7 +109,7 @@ class LoopThread {
     }
     void Do(Job& job);
     void AddFrame(Job& job);
-    void Reply(Question& question);
+    bool Reply();
     void Report();
     void ReportProblems();
     void Push(Update update);
@@ -119,21 +120,21 @@ class LoopThread {
     // The last places in `updates_` are reserved for corrections.
     static constexpr std::size_t kJobs = 4096, kUpdates = 8, kCorrections = 3;
     static constexpr int kWhole = 16;  // waiting frames that keep their images, about 6 MB each
-    Wake wake_;
     std::atomic<int> whole_{0};
-    FifoQueue<Job> jobs_{kJobs, wake_};
+    Wake wake_;
     FifoQueue<Question> questions_{1, wake_};
     FifoQueue<Answer> answers_;
     FifoQueue<Update> updates_;
-    NewestQueue<std::string> news_;
-    std::atomic<bool> finish_{false}, stop_{false}, ended_{false}, saved_;
+    std::atomic<bool> saved_;
     // The thread's; the caller's after Finish.
     std::unique_ptr<LoopCloser> closer_;
     LoopJournal journal_;
     int world_ = 0;
     std::vector<Eigen::Isometry3d> history_;  // corrections of this world
-    // Last: joins before the members it uses are destroyed.
-    std::jthread thread_;
+    // Parallel loops run on this thread alone, so that they take no TBB workers from tracking and
+    // mapping.
+    tbb::task_arena alone_{1};
+    Worker<Job> worker_;
 };
 
 }  // namespace tessera

@@ -18,10 +18,11 @@ constexpr std::size_t kMostPerFrame = 8;  // live: maximum number of cubes inser
 }  // namespace
 
 PagingStage::PagingStage(const PipelineConfig& config, const PinholeCamera& camera,
-                         std::unique_ptr<Pager> pager, bool wait)
+                         std::unique_ptr<Pager> pager, bool wait, Notices& notices)
     : limit_bytes_(config.paging.memory_limit_mb * 1e6),
       viewed_(config, camera),
       wait_(wait),
+      notices_(notices),
       pager_(std::move(pager)) {}
 
 double PagingStage::Outside(const BlockCoord& cube) const {
@@ -131,8 +132,8 @@ void PagingStage::Put(const StoredCube& cube, MappingStage& mapping, ScanStage& 
         cube.status.ok()
             ? DamagedScan(scan.path(), "blocks that were moved out of memory are missing")
             : cube.status;
-    message_ =
-        status.message() + "; frames that see this part of the map are tracked but not fused";
+    notices_.Tell(status.message() +
+                  "; frames that see this part of the map are tracked but not fused");
 }
 
 bool PagingStage::AllSaved(const ResidentCubes::Cube& cube, const BlockMap& map,
@@ -166,10 +167,10 @@ std::vector<ResidentCubes::Cube> PagingStage::ChooseLeaving(const BlockMap& map,
         leaving.push_back(cube);
     }
     if (least_bytes > limit_bytes_ && !std::exchange(told_small_, true))
-        message_ = fmt::format(
+        notices_.Tell(fmt::format(
             "mapping.memory_limit_mb: {:.0f} MB is not enough for what the camera may see from one "
             "place, {:.0f} MB; raise the limit, or lower frame.max_depth_m",
-            limit_bytes_ / 1e6, least_bytes / 1e6);
+            limit_bytes_ / 1e6, least_bytes / 1e6));
     return leaving;
 }
 

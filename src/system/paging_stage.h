@@ -26,8 +26,9 @@ class PagingStage {
     // `wait` (lockstep): waits for all that the camera may see, so that paging depends on the poses
     // only. Otherwise never waits, and a frame must not be fused until all that it may see is
     // loaded.
+    // `notices` outlives the stage.
     PagingStage(const PipelineConfig& config, const PinholeCamera& camera,
-                std::unique_ptr<Pager> pager, bool wait);
+                std::unique_ptr<Pager> pager, bool wait, Notices& notices);
 
     // Call at the start of a frame, when the camera is assumed near its last pose. Requests cubes
     // that come near and inserts those that have arrived.
@@ -72,7 +73,6 @@ class PagingStage {
     bool paged() const { return paged_; }
     // What a mesh of the map lacks, as text for the user. Empty if nothing.
     std::string MissingText(const ScanStage& scan) const;
-    std::optional<std::string> TakeMessage() { return std::exchange(message_, std::nullopt); }
 
   private:
     struct Asked {
@@ -107,6 +107,7 @@ class PagingStage {
     const double limit_bytes_;
     const ViewedCubes viewed_;
     const bool wait_;
+    Notices& notices_;
     std::unique_ptr<Pager> pager_;
     std::unordered_map<std::int64_t, std::int32_t> away_;  // cube key to number of blocks
     // Requested cubes in order; cubes to request, nearest first.
@@ -122,7 +123,6 @@ class PagingStage {
     std::vector<BlockId> ids_;
     std::int64_t frame_ = 0;
     bool paged_ = false, told_small_ = false, told_lost_ = false;
-    std::optional<std::string> message_;
 };
 
 }  // namespace tessera

@@ -5,14 +5,14 @@
 namespace tessera {
 
 RecorderThread::RecorderThread(const SourceInfo& source, const RecordConfig& config,
-                               bool wait_when_full)
-    : source_(source), config_(config), wait_when_full_(wait_when_full) {}
+                               bool wait_when_full, Notices& notices)
+    : source_(source), config_(config), wait_when_full_(wait_when_full), notices_(notices) {}
 
 RecorderThread::~RecorderThread() { Stop(); }
 
 Status RecorderThread::Start(const std::string& folder) {
     if (!recording()) Stop();
-    if (thread_.joinable())
+    if (worker_)
         return Status::Error(folder + ": not recorded: a recording to " + folder_ +
                              " is in progress");
     Result<std::unique_ptr<FrameRecorder>> recorder =
@@ -21,49 +21,44 @@ Status RecorderThread::Start(const std::string& folder) {
     recorder_ = std::move(recorder.value());
     folder_ = folder;
     dropped_ = 0;
-    done_.store(false);
     failed_.store(false);
-    messages_.Push("recording to " + folder);
-    thread_ = std::jthread([this] { WriteFrames(); });
+    notices_.Tell("recording to " + folder);
+    worker_.emplace(kCapacity, [this](std::unique_ptr<Frame>& frame) { Write(std::move(frame)); });
     return Status::Ok();
+}
+
+Status RecorderThread::Start(const std::string& path, FrameSource& source) {
+    if (!path.ends_with(".oni")) return Start(path);
+    return source.RecordTo(path, config_.colour == RecordConfig::Colour::kPng);
 }
 
 void RecorderThread::Add(const Frame& frame) {
     if (!recording()) return;
     std::unique_ptr<Frame> copy = pool_.Take();
     *copy = frame;
-    if (wait_when_full_)
-        return adder_.Wait([&] { return failed_.load() || frames_.TryPush(std::move(copy)); });
-    if (frames_.TryPush(std::move(copy))) return;
+    if (wait_when_full_) return worker_->PushOrWait(std::move(copy));
+    if (worker_->TryPush(std::move(copy))) return;
     ++dropped_;
     pool_.Give(std::move(copy));
 }
 
-void RecorderThread::WriteFrames() {
-    while (true) {
-        std::unique_ptr<Frame> frame;
-        writer_.Wait([&] { return frames_.TryPop(frame) || done_.load(); });
-        if (!frame && !frames_.TryPop(frame)) return;
-        adder_.Notify();
-        if (!failed_.load()) {
-            if (Status status = recorder_->Add(*frame); !status.ok()) {
-                failed_.store(true);
-                adder_.Notify();
-                messages_.Push("recording ended: " + status.message());
-            }
+void RecorderThread::Write(std::unique_ptr<Frame> frame) {
+    if (!failed_.load()) {
+        if (Status status = recorder_->Add(*frame); !status.ok()) {
+            failed_.store(true);
+            notices_.Tell("recording ended: " + status.message());
         }
-        pool_.Give(std::move(frame));
     }
+    pool_.Give(std::move(frame));
 }
 
 void RecorderThread::Stop() {
-    if (!thread_.joinable()) return;
-    done_.store(true);
-    writer_.Notify();
-    thread_.join();
+    if (!worker_) return;
+    worker_->Finish();
+    worker_.reset();
     const Status status = recorder_->Finish();
     if (!failed_.load())
-        messages_.Push(
+        notices_.Tell(
             !status.ok()
                 ? "recording: " + status.message()
                 : fmt::format("recorded {} frames in {}{}", recorder_->frames(), folder_,
@@ -71,12 +66,6 @@ void RecorderThread::Stop() {
                                   ? fmt::format("; {} dropped, the disk is too slow", dropped_)
                                   : std::string()));
     recorder_.reset();
-}
-
-std::optional<std::string> RecorderThread::TakeMessage() {
-    std::string message;
-    if (!messages_.TryPop(message)) return std::nullopt;
-    return message;
 }
 
 }  // namespace tessera

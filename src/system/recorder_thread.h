@@ -3,12 +3,11 @@
 
 #include <atomic>
 #include <memory>
-#include <optional>
 #include <string>
-#include <thread>
 
+#include "core/notices.h"
 #include "core/pool.h"
-#include "core/queue.h"
+#include "core/worker.h"
 #include "io/frame_recorder.h"
 
 namespace tessera {
@@ -17,42 +16,39 @@ namespace tessera {
 class RecorderThread {
   public:
     // If the queue is full: waits if `wait_when_full`; else drops the new frame and counts it.
-    RecorderThread(const SourceInfo& source, const RecordConfig& config, bool wait_when_full);
+    // `notices` is told where the recording goes, why it ended and how many frames were saved. It
+    // outlives the object.
+    RecorderThread(const SourceInfo& source, const RecordConfig& config, bool wait_when_full,
+                   Notices& notices);
     ~RecorderThread();  // calls Stop
 
     // Creates the folder. An error changes nothing; recording already is an error.
     Status Start(const std::string& folder);
+    // Call before the source's first frame: the same, or lets the source itself record to FILE.oni.
+    Status Start(const std::string& path, FrameSource& source);
     // Copies the frame.
     void Add(const Frame& frame);
     // Waits until all added frames are written.
     void Stop();
-    bool recording() const { return thread_.joinable() && !failed_.load(); }
+    bool recording() const { return worker_ && !failed_.load(); }
 
-    // Messages for the user, in order: where the recording goes, why it ended, how many frames were
-    // saved.
-    std::optional<std::string> TakeMessage();
-
-    std::size_t waiting() const { return frames_.size(); }
+    std::size_t waiting() const { return worker_ ? worker_->waiting() : 0; }
 
   private:
-    void WriteFrames();
+    void Write(std::unique_ptr<Frame> frame);
 
     static constexpr std::size_t kCapacity = 32;
 
     const SourceInfo source_;
     const RecordConfig config_;
     const bool wait_when_full_;
-    Wake writer_, adder_;
+    Notices& notices_;
     Pool<Frame> pool_;
-    FifoQueue<std::unique_ptr<Frame>> frames_{kCapacity, writer_};
-    Wake nobody_;
-    NewestQueue<std::string> messages_{16, nobody_};
     std::string folder_;
-    std::unique_ptr<FrameRecorder> recorder_;  // owned by the thread while it runs
+    std::unique_ptr<FrameRecorder> recorder_;  // the worker's, while there is one
     std::int64_t dropped_ = 0;
-    std::atomic<bool> done_{false};    // no more frames will be added
     std::atomic<bool> failed_{false};  // writing has failed; nothing more is written
-    std::jthread thread_;
+    std::optional<Worker<std::unique_ptr<Frame>>> worker_;
 };
 
 }  // namespace tessera

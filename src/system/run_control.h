@@ -2,8 +2,10 @@
 // the caller.
 #pragma once
 
+#include <chrono>
 #include <optional>
 #include <string>
+#include <thread>
 
 #include "system/viewer_link.h"
 
@@ -28,6 +30,9 @@ class RunControl {
         }
         return std::nullopt;
     }
+
+    // For a thread that polls for commands and for a stop signal, which cannot wake it.
+    static void SleepBriefly() { std::this_thread::sleep_for(std::chrono::milliseconds(10)); }
 
     bool waiting() const { return paused_ && steps_ == 0; }
 

@@ -153,7 +153,7 @@ Status Runner::WriteMesh() {
     const bool sound = engine_->status().ok();
     TriangleMesh mesh = engine_->TakeMesh();
     if (sound && !engine_->status().ok()) return engine_->status();
-    if (const std::string warning = engine_->mesh_warning(); !warning.empty()) Warn(warning);
+    while (const auto notice = engine_->TakeNotice()) Warn(*notice);
     if (summary_.labels) summary_.labels->objects = engine_->objects();
     if (summary_.labels) window_.ShowObjects(engine_->objects());
     times_.Add("mesh", watch.LapMs());

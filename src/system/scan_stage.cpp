@@ -40,13 +40,15 @@ LoopCloser::Memory LoopMemory(ScanContent& scan) {
 
 }  // namespace
 
-ScanStage::ScanStage(ScanPlan plan, const ScanConfig& config, bool wait, bool loops)
+ScanStage::ScanStage(ScanPlan plan, const ScanConfig& config, bool wait, bool loops,
+                     Notices& notices)
     : config_(config),
       wait_(wait),
       path_(plan.file->path()),
       saved_(plan.resumed.has_value()),
       resumed_(std::move(plan.resumed)),
-      thread_(std::make_unique<ScanWriter>(std::move(plan.file), plan.depth_units_per_m)),
+      notices_(notices),
+      thread_(std::make_unique<ScanWriter>(std::move(plan.file), plan.depth_units_per_m), notices),
       pending_(thread_.Take()),
       path_log_(loops) {}
 
@@ -118,13 +120,9 @@ void ScanStage::AddRaw(const Frame& frame) {
     if (wait_ || pending_->raw_frames.size() < kMostRaw) {
         pending_->raw_frames.emplace_back(progress_.frames, std::make_unique<Frame>(frame));
     } else if (!std::exchange(left_out_, true)) {
-        message_ = "scan.frames: some frames were dropped, the disk is too slow for all of them";
+        notices_.Tell(
+            "scan.frames: some frames were dropped, the disk is too slow for all of them");
     }
-}
-
-std::optional<std::string> ScanStage::TakeMessage() {
-    if (message_) return std::exchange(message_, std::nullopt);
-    return thread_.TakeMessage();
 }
 
 void ScanStage::Checkpoint(const MappingStage& mapping, bool finished) {

@@ -19,7 +19,8 @@ class ScanStage {
   public:
     // `plan` has a file. `wait`: waits for the writer if it is late by more than an interval; else
     // postpones the checkpoint and accumulates the changes. `loops`: loop closure is on.
-    ScanStage(ScanPlan plan, const ScanConfig& config, bool wait, bool loops);
+    // `notices` outlives the stage.
+    ScanStage(ScanPlan plan, const ScanConfig& config, bool wait, bool loops, Notices& notices);
     ~ScanStage();
 
     // Restores the map and labels of a resumed file. Call before the first frame. Does nothing for
@@ -66,7 +67,6 @@ class ScanStage {
     // Writes the last checkpoint and waits for it. A new file without content is removed.
     void Finish(const MappingStage& mapping);
 
-    std::optional<std::string> TakeMessage();
     std::size_t waiting() const { return thread_.waiting(); }
 
   private:
@@ -83,6 +83,7 @@ class ScanStage {
     bool saved_;                          // the file has content
     std::optional<ScanContent> resumed_;  // until Resume has restored it
     std::optional<LoopCloser::Memory> loops_;
+    Notices& notices_;
     ScanThread thread_;
     std::unique_ptr<ScanCheckpoint> pending_;
     ScanProgress progress_;
@@ -90,8 +91,7 @@ class ScanStage {
     std::uint64_t map_identity_ = 0;            // of the map in the file
     std::vector<std::uint32_t> seen_revision_;  // by block id: revision in the file
     std::vector<BlockId> changed_;
-    bool left_out_ = false;  // raw frames were dropped because the writer was late
-    std::optional<std::string> message_;
+    bool left_out_ = false;               // raw frames were dropped because the writer was late
     std::optional<double> last_stamp_s_;  // of the last checkpoint
     Clock::time_point last_time_;
     bool finished_ = false;

@@ -61,8 +61,9 @@ class LoopThreadTest : public testing::Test {
     Wake mapping, tracking;
     Pool<Frame> frames;
     Pool<TrackedFrame> tracked_frames;
+    Notices notices{mapping};
     LoopThread thread{{LoopConfig{}, settings, 5000, std::nullopt, true, std::nullopt},
-                      {frames, tracked_frames, mapping, tracking}};
+                      {frames, tracked_frames, mapping, tracking, notices}};
     std::vector<LoopCloser::PathPose> passages;
     std::map<int, KeyframePoses> poses;
     std::map<std::int64_t, StoredFrame> stored;
@@ -84,8 +85,9 @@ TEST_F(LoopThreadTest, CorrectsAWalkThatDrifts) {
         T_drifted = T_drifted * step;
         Go(walk[i], step);
     }
+    thread.Finish();
     std::string news;
-    thread.Finish([&news](const std::string& one) { news += one + "\n"; });
+    while (const auto notice = notices.Take()) news += *notice + "\n";
     TakeCorrections();
     EXPECT_GE(corrections, 1);
     const std::vector<StampedPose> path = thread.Path();
@@ -132,7 +134,7 @@ TEST_F(LoopThreadTest, AResetForgetsAllAndAnOldQuestionHasNoAnswer) {
     mapping.Wait([&] { return thread.waiting() == 0; });
     EXPECT_FALSE(ask({0, 0}).T_world_camera.has_value());
     EXPECT_FALSE(ask({1, 0}).T_world_camera.has_value());  // no keyframe exists after the reset
-    thread.Finish([](const std::string&) {});
+    thread.Finish();
     EXPECT_TRUE(thread.Path().empty());
 }
 

@@ -7,7 +7,7 @@
 
 #include "support/temp_folder.h"
 #include "system/engine_fixture.h"
-#include "system/engine_steps.h"
+#include "system/run_control.h"
 #include "system/scan_export.h"
 
 namespace tessera {
@@ -96,7 +96,7 @@ class HallSource : public FrameSource {
     ReadResult Read(Frame& frame) override {
         if (next_ == kFrames) return {ReadStatus::kEnd, {}};
         if (mapped_ != nullptr && next_ > *mapped_) {
-            SleepBriefly();
+            RunControl::SleepBriefly();
             return {ReadStatus::kWait, {}};
         }
         frame = room_.Render(info_.camera, WalkPose(next_, aside_rad_), next_ / 30.0);

@@ -1,0 +1,165 @@
+#include "system/frame_mapping.h"
+
+#include <fmt/format.h>
+
+#include "core/stopwatch.h"
+#include "io/mesh_io.h"
+#include "system/timings.h"
+
+namespace tessera {
+
+FrameMapping::FrameMapping(const RunConfig& config, const SourceInfo& source, Device* device,
+                           ViewerLink* viewer, bool wait, Notices& notices)
+    : config_(config),
+      source_(source),
+      has_viewer_(viewer != nullptr),
+      wait_(wait),
+      notices_(notices),
+      stage_(config.pipeline, config.meshing, source.camera, device),
+      feed_(viewer, config.live.mesh_blocks) {}
+
+Status FrameMapping::StartScan(ScanPlan plan) {
+    scan_.emplace(std::move(plan), config_.scan, wait_, config_.loops.enabled, notices_);
+    if (Status status = scan_->Resume(stage_); !status.ok()) return status;
+    return StartPaging();
+}
+
+Status FrameMapping::StartPaging() {
+    if (!config_.pipeline.paging.enabled()) return Status::Ok();
+    Result<std::unique_ptr<CubeReader>> reader = CubeReader::Open(scan_->path());
+    if (!reader.ok()) return reader.status();
+    paging_ = std::make_unique<PagingStage>(config_.pipeline, source_.camera,
+                                            std::make_unique<Pager>(std::move(reader.value())),
+                                            wait_, notices_);
+    return Status::Ok();
+}
+
+std::optional<LoopCloser::Memory> FrameMapping::TakeLoops() {
+    return scan_ ? scan_->TakeLoops() : std::nullopt;
+}
+
+// ---- A frame.
+
+void FrameMapping::Begin() {
+    if (paging_) paging_->BeginFrame(stage_, *scan_);
+}
+
+void FrameMapping::Fuse(TrackedFrame& tracked, FrameOutcome& outcome) {
+    if (paging_ && paging_->AfterTracking(tracked, stage_, *scan_)) outcome.fusion_dropped = true;
+    stage_.Fuse(tracked);
+}
+
+void FrameMapping::Label(const DepthImage& depth_m, const Eigen::Isometry3d& T_world_camera,
+                         LabelReport& report) {
+    Stopwatch watch;
+    report.votes = stage_.Label(report.detections, depth_m, T_world_camera);
+    report.vote_ms = watch.LapMs();
+    if (scan_) scan_->Touch(report.votes.blocks);
+}
+
+void FrameMapping::Record(const Frame& frame, const TrackedFrame& tracked,
+                          std::int64_t labelled_frames, FrameOutcome& outcome) {
+    Stopwatch watch;
+    if (scan_)
+        scan_->AddFrame(frame, tracked, labelled_frames);
+    else if (has_viewer_)
+        past_.push_back(RecordOf(frame, tracked));
+    outcome.scan_ms = watch.LapMs();
+}
+
+void FrameMapping::AddLoops(LoopChanges changes) {
+    if (scan_) scan_->AddLoops(std::move(changes));
+}
+
+void FrameMapping::Save(FrameOutcome& outcome) {
+    Stopwatch watch;
+    if (scan_) scan_->SaveIfDue(stage_);
+    outcome.scan_ms += watch.LapMs();
+    if (paging_) paging_->Release(stage_, *scan_);
+}
+
+void FrameMapping::Report(const Frame& frame, const TrackedFrame& tracked, FrameOutcome& outcome) {
+    outcome.report = tracked.report;
+    outcome.T_world_camera_truth = frame.T_world_camera;
+    outcome.mesh_ms = feed_.Send(frame, tracked.report, stage_);
+    outcome.map = StatisticsOf(stage_.blocks());
+}
+
+// ---- Loop closure.
+
+void FrameMapping::PutMap(LoopCloser::Correction correction) {
+    stage_.Replace(std::move(correction.map), std::move(correction.labels));
+    if (paging_)
+        paging_->Replaced(correction.T_new_old,
+                          static_cast<const RebuildPaging&>(*correction.pager), stage_, *scan_);
+    if (scan_) scan_->Move(correction.T_new_old);
+}
+
+void FrameMapping::LoadAround(const Eigen::Isometry3d& T_world_camera) {
+    if (paging_) paging_->LoadAround(T_world_camera, stage_, *scan_);
+}
+
+// ---- Commands of the user.
+
+void FrameMapping::Reset() {
+    stage_.Reset();
+    if (scan_) scan_->Reset();
+    past_.clear();
+    if (paging_) paging_->Reset();
+    SendMesh();
+}
+
+void FrameMapping::SaveMesh(const std::string& path) {
+    notices_.Tell(WriteMesh(path) + (paging_ ? paging_->MissingText(*scan_) : ""));
+}
+
+std::string FrameMapping::WriteMesh(const std::string& path) const {
+    const TriangleMesh mesh = stage_.Mesh();
+    if (mesh.triangles.empty()) return "no surface to save yet";
+    const Status status = WritePly(path, mesh);
+    if (!status.ok()) return status.message();
+    return fmt::format("saved {}: {} triangles", path, mesh.triangles.size());
+}
+
+void FrameMapping::SaveScan(const std::string& path) { notices_.Tell(StartScanNow(path)); }
+
+std::string FrameMapping::StartScanNow(const std::string& path) {
+    if (scan_) return "the scan is already being saved: " + scan_->path();
+    if (config_.loops.refine_calibration)
+        return "cannot save a scan with calibration.refine: its frames would have two different "
+               "calibrations";
+    Result<ScanPlan> plan = BeginScan(path, source_, config_);
+    if (!plan.ok()) return plan.message();
+    scan_.emplace(std::move(plan.value()), config_.scan, wait_, config_.loops.enabled, notices_);
+    scan_->AddPast(std::exchange(past_, {}));
+    return "scan saved; it is kept up to date from now on: " + path;
+}
+
+// ---- The end.
+
+void FrameMapping::Finish() {
+    if (paging_) paging_->Close();
+    if (scan_) scan_->Finish(stage_);
+}
+
+TriangleMesh FrameMapping::TakeMesh(Status& status) {
+    TriangleMesh mesh = MakeFinalMesh(status);
+    notices_.Tell(stage_.mesh_warning());
+    return mesh;
+}
+
+TriangleMesh FrameMapping::MakeFinalMesh(Status& status) {
+    if (!paging_ || !paging_->paged()) return stage_.TakeMesh();
+    if (scan_->failed()) {
+        const Status returned = paging_->ReturnAll(stage_, *scan_);
+        if (returned.ok()) return stage_.TakeMesh();
+        if (status.ok()) status = returned;
+        return {};
+    }
+    const std::string path = scan_->path();
+    scan_.reset();  // its checkpoint buffers would have to fit beside the mesh
+    ReturnFreeMemory();
+    return stage_.TakeStoredMesh(path, status);
+}
+
+}  // namespace tessera

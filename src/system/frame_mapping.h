@@ -1,0 +1,102 @@
+// The mapping half of a frame's life, the same in both modes (frame_tracking.h is the other half):
+// the map, and what follows it: the scan file, the memory limit and the window.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/notices.h"
+#include "optimize/loop_closer.h"
+#include "system/engine.h"
+#include "system/mapping_stage.h"
+#include "system/paging_stage.h"
+#include "system/scan_stage.h"
+#include "system/viewer_feed.h"
+
+namespace tessera {
+
+// The thread that maps owns it. Messages for the user go to `notices`.
+class FrameMapping {
+  public:
+    // `wait` (lockstep): waits for the scan file where live would postpone. `device` (null: CPU),
+    // `viewer` (may be null) and `notices` outlive the object.
+    FrameMapping(const RunConfig& config, const SourceInfo& source, Device* device,
+                 ViewerLink* viewer, bool wait, Notices& notices);
+
+    // ---- Before the first frame.
+    // Saves a scan from now on. Restores the map of one that is continued.
+    Status StartScan(ScanPlan plan);
+    // After StartScan: the loop closure state to continue with. Nothing for a new file.
+    std::optional<LoopCloser::Memory> TakeLoops();
+
+    // ---- A frame, in this order.
+    // Loads what the camera may see near its last pose. Lockstep calls it before tracking.
+    void Begin();
+    // Fuses the frame, unless part of what it may see is not loaded.
+    void Fuse(TrackedFrame& tracked, FrameOutcome& outcome);
+    // Votes a frame's detections into the map. The depth and the pose are of the frame in which
+    // they were detected.
+    void Label(const DepthImage& depth_m, const Eigen::Isometry3d& T_world_camera,
+               LabelReport& report);
+    // For the scan file: the frame, then what loop closure has learnt from it or earlier ones.
+    // `labelled_frames`: see ScanStage.
+    void Record(const Frame& frame, const TrackedFrame& tracked, std::int64_t labelled_frames,
+                FrameOutcome& outcome);
+    void AddLoops(LoopChanges changes);
+    // Writes a checkpoint if one is due, and brings the map below its memory limit.
+    void Save(FrameOutcome& outcome);
+    // Shows the frame in the window and completes its outcome.
+    void Report(const Frame& frame, const TrackedFrame& tracked, FrameOutcome& outcome);
+
+    // ---- Loop closure.
+    // Replaces the map by a corrected one.
+    void PutMap(LoopCloser::Correction correction);
+    // Lockstep: loads what a camera at this pose may see.
+    void LoadAround(const Eigen::Isometry3d& T_world_camera);
+
+    // ---- Commands of the user.
+    void Reset();
+    void SaveMesh(const std::string& path);
+    // Saves the whole run so far, and what comes, to a new scan file.
+    void SaveScan(const std::string& path);
+
+    // ---- The end.
+    // Call after the last frame: writes what the scan file lacks.
+    void Finish();
+    // Call once, after Finish. Releases the map. On error sets `status` and returns an empty mesh.
+    TriangleMesh TakeMesh(Status& status);
+
+    MappingStage& stage() { return stage_; }
+    const MappingStage& stage() const { return stage_; }
+    // The map for a tracker on this thread.
+    const BlockMap& MapFor(const TrackingStage& tracking) const {
+        return tracking.reads_map() ? stage_.map() : stage_.blocks();
+    }
+    PagingStage* paging() { return paging_.get(); }  // null without a memory limit
+    bool saving() const { return scan_.has_value(); }
+    std::string scan_path() const { return scan_ ? scan_->path() : std::string(); }
+    std::size_t checkpoints_waiting() const { return scan_ ? scan_->waiting() : 0; }
+    ViewerFeed& feed() { return feed_; }
+    void SendMesh() { feed_.SendMesh(stage_); }
+
+  private:
+    Status StartPaging();
+    TriangleMesh MakeFinalMesh(Status& status);
+    std::string WriteMesh(const std::string& path) const;
+    std::string StartScanNow(const std::string& path);
+
+    const RunConfig config_;
+    const SourceInfo source_;
+    const bool has_viewer_, wait_;
+    Notices& notices_;
+    MappingStage stage_;
+    std::optional<ScanStage> scan_;        // set if a scan is saved
+    std::unique_ptr<PagingStage> paging_;  // null without a memory limit
+    // With a window: frames so far, in case the user starts saving a scan mid-run.
+    std::vector<PathRecord> past_;
+    ViewerFeed feed_;
+};
+
+}  // namespace tessera

@@ -1,0 +1,71 @@
+// The tracking half of a frame's life, the same in both modes (frame_mapping.h is the other half).
+#pragma once
+
+#include <optional>
+
+#include "scan/scan_content.h"
+#include "system/frame_plan.h"
+#include "system/resume_gate.h"
+#include "system/run_config.h"
+#include "system/tracking_stage.h"
+
+namespace tessera {
+
+// Where tracking continues an earlier scan.
+struct TrackingResume {
+    Bytes state;  // TrackingStage::SaveState
+    std::optional<StampedPose> last;
+    double last_stamp_s = 0;
+
+    static TrackingResume Of(const ScanContent& scan) {
+        return {scan.tracking, scan.LastPose(), scan.progress.last_stamp_s};
+    }
+};
+
+// The thread that tracks owns it.
+class FrameTracking {
+  public:
+    FrameTracking(const RunConfig& config, const PinholeCamera& camera, Device* device,
+                  FramePlan plan)
+        : plan_(std::move(plan)),
+          stage_(config.pipeline, camera, device),
+          gate_(config.pipeline.motion.max_gap_s),
+          loops_(config.loops.enabled) {
+        if (loops_) stage_.KeepImages();
+    }
+
+    // Call before the first frame.
+    void Resume(const TrackingResume& resume) {
+        gate_.Begin(resume.state, resume.last, !loops_, stage_);
+    }
+
+    // A frame: first selects its method, which decides what map it needs, then tracks.
+    void Begin(const Frame& frame) { plan_.Select(frame, stage_); }
+    void Track(const Frame& frame, const BlockMap& map, TrackedFrame& tracked) {
+        plan_.Track(frame, map, stage_, tracked);
+        gate_.AfterTracking(frame, stage_, tracked);
+    }
+    // For a scan file: the state travels with its frame, so that a checkpoint after that frame
+    // contains it.
+    void SaveState(TrackedFrame& tracked) const {
+        tracked.tracking_state.clear();
+        StateWriter state(tracked.tracking_state);
+        stage_.SaveState(state);
+    }
+
+    // Starts a new world.
+    void Reset() {
+        stage_.Reset();
+        gate_.Open();
+    }
+    TrackingStage& stage() { return stage_; }
+    const TrackingStage& stage() const { return stage_; }
+
+  private:
+    FramePlan plan_;
+    TrackingStage stage_;
+    ResumeGate gate_;
+    const bool loops_;
+};
+
+}  // namespace tessera

@@ -1,0 +1,77 @@
+// The mapping thread of a live run: takes tracked frames and commands; updates the map, the meshes
+// and tracking's copy of the map; sends outcomes.
+#pragma once
+
+#include "core/worker.h"
+#include "system/frame_mapping.h"
+#include "system/live_links.h"
+#include "system/loop_thread.h"
+
+namespace tessera {
+
+// With a device, one thread issues all its commands: the functions of the mapping thread then run
+// on the tracking thread, which maps each frame before it tracks the next.
+class LiveMapping {
+  public:
+    // `links` and the others outlive the object.
+    LiveMapping(const RunConfig& config, const SourceInfo& source, Device* device,
+                ViewerLink* viewer, LiveLinks& links, Notices& notices);
+
+    // Prepares labels, the scan and loop closure, then starts the thread. A resumed scan's map is
+    // the first map update for tracking.
+    Status Start(Labelling labelling, ScanPlan plan);
+
+    // ---- Tracking thread.
+    // Waits if mapping is far behind. It then skips fusion until it has caught up.
+    void Send(MappingTask task);
+    // With a device: takes what other threads have answered.
+    bool HasAnswersToTake() const { return !worker_ && HasAnswers(); }
+    void TakeAnswersHere() {
+        if (!worker_) TakeAnswers();
+    }
+    // Call after the last task: maps what waits, closes pending loops and completes the scan file.
+    void Finish();
+    LoopThread* loops() const { return loops_.get(); }  // null without loop closure
+    // With a device: the map to track in.
+    const BlockMap& MapFor(const TrackingStage& tracking) const { return life_.MapFor(tracking); }
+
+    // ---- The owner, after the end.
+    FrameMapping& life() { return life_; }
+    const FrameMapping& life() const { return life_; }
+
+  private:
+    void StartLabels(Labelling labelling);
+    void StartLoops(std::optional<LoopCloser::Labels> labels);
+    void SendWholeMap();
+
+    bool HasAnswers() const;
+    void TakeAnswers();
+    void Process(MappingTask& task);
+    void MapFrame(MappingTask& task);
+    void SendMapUpdate();
+    void Offer(MappingTask& task);
+    void TakeLabels();
+    void TakeLabels(LabellingThread::Answer& answer);
+    bool UpdateFits() const;
+    void TakeLoops();
+    void TakeUpdate(LoopThread::Update update, bool last);
+    void Execute(const ViewerCommand& command);
+    void Reset();
+    void End();
+    MapVersion version() const { return {world_, static_cast<int>(corrections_.size())}; }
+
+    const RunConfig config_;
+    const SourceInfo source_;
+    const bool one_thread_;
+    LiveLinks& links_;
+    FrameMapping life_;
+    int world_ = 0;                               // number of resets
+    std::vector<Eigen::Isometry3d> corrections_;  // T_new_old of each correction in this world
+    double next_detection_s_ = 0;
+    std::optional<LabelReport> labels_;           // for the next outcome
+    std::unique_ptr<LabellingThread> labelling_;  // null without labels
+    std::unique_ptr<LoopThread> loops_;           // null without loop closure
+    std::optional<Worker<MappingTask>> worker_;   // none with a device
+};
+
+}  // namespace tessera

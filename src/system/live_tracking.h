@@ -1,0 +1,67 @@
+// The tracking thread of a live run: takes new frames, commands and map updates; sends tasks to
+// mapping.
+#pragma once
+
+#include "core/worker.h"
+#include "system/frame_tracking.h"
+#include "system/live_links.h"
+#include "system/live_mapping.h"
+#include "system/lost_camera.h"
+
+namespace tessera {
+
+class LiveTracking {
+  public:
+    struct Settings {
+        RunConfig config;
+        PinholeCamera camera;
+        Device* device = nullptr;
+        ViewerLink* viewer = nullptr;
+        std::optional<TrackingResume> resume;
+    };
+
+    // Starts the thread. All that it refers to outlives it.
+    LiveTracking(Settings settings, FramePlan plan, LiveLinks& links, LiveMapping& mapping);
+
+    // ---- Reading thread.
+    // Returns the frame dropped to make room, if any.
+    std::optional<NewFrame> Push(NewFrame frame) { return worker_.PushNewest(std::move(frame)); }
+    // Returns false if too many commands wait.
+    bool Push(ViewerCommand command) { return commands_.TryPush(std::move(command)); }
+    std::size_t waiting() const { return worker_.waiting(); }
+    // Call after the last frame: tracks what waits, then lets mapping finish.
+    void Finish() { worker_.Finish(); }
+
+  private:
+    // The thread's own: made and destroyed on it.
+    struct State {
+        State(const Settings& settings, FramePlan plan);
+
+        FrameTracking life;
+        std::unique_ptr<BlockMap> field;  // copy of the map's field; unused with a device
+        MapVersion version;               // of that copy
+        LostCamera lost;
+        bool asked = false;  // a relocalisation question is pending
+    };
+
+    void TakeCommands();
+    void Reset();
+    void Track(NewFrame& item);
+    const BlockMap& MapToTrackIn() const;
+    void TakeSettings();
+    void ApplyMapUpdates();
+    void TakeHint();
+    std::optional<Eigen::Isometry3d> TakeRelocalisation(double stamp_s);
+    void CheckIfLost(TrackedFrame& tracked);
+
+    const Settings settings_;
+    FramePlan plan_;  // until the thread takes it
+    LiveLinks& links_;
+    LiveMapping& mapping_;
+    LoopThread* const loops_;  // null without loop closure
+    FifoQueue<ViewerCommand> commands_{16, links_.tracking};
+    std::optional<State> state_;
+    Worker<NewFrame, NewestQueue> worker_;
+};
+
+}  // namespace tessera
