@@ -12,7 +12,7 @@
 #include "io/mesh_io.h"
 #include "io/mesh_writers.h"
 #include "io/trajectory.h"
-#include "system/scan_export.h"
+#include "run/scan_export.h"
 
 namespace tessera {
 namespace {

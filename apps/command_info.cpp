@@ -5,8 +5,8 @@
 
 #include "command.h"
 #include "config_options.h"
-#include "system/open_source.h"
-#include "system/scan_export.h"
+#include "run/open_source.h"
+#include "run/scan_export.h"
 
 namespace tessera {
 namespace {

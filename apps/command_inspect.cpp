@@ -5,7 +5,7 @@
 #include "command.h"
 #include "config_options.h"
 #include "io/image_io.h"
-#include "system/inspect.h"
+#include "run/inspect.h"
 
 namespace tessera {
 namespace {

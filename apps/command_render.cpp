@@ -8,8 +8,8 @@
 #include "io/mesh_io.h"
 #include "io/trajectory.h"
 #include "render/mesh_picture.h"
+#include "run/scan_export.h"
 #include "semantics/objects_file.h"
-#include "system/scan_export.h"
 
 namespace tessera {
 namespace {

@@ -7,10 +7,10 @@
 #include "config_options.h"
 #include "console.h"
 #include "cuda/open_device.h"
+#include "run/run.h"
 #include "run_in_window.h"
 #include "run_text.h"
 #include "stop_signal.h"
-#include "system/run.h"
 #include "system/scan_plan.h"
 
 namespace tessera {

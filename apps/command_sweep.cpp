@@ -9,8 +9,8 @@
 #include "config_options.h"
 #include "console.h"
 #include "io/file.h"
+#include "run/run.h"
 #include "stop_signal.h"
-#include "system/run.h"
 
 namespace tessera {
 namespace {

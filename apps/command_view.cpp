@@ -7,8 +7,8 @@
 #include "io/image_io.h"
 #include "io/mesh_io.h"
 #include "io/trajectory.h"
+#include "run/scan_export.h"
 #include "semantics/objects_file.h"
-#include "system/scan_export.h"
 #include "viz/viewer.h"
 
 namespace tessera {

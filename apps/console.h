@@ -5,7 +5,7 @@
 #include <string>
 
 #include "core/stopwatch.h"
-#include "system/run.h"
+#include "run/run.h"
 
 namespace tessera {
 

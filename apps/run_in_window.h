@@ -5,7 +5,7 @@
 #include <atomic>
 
 #include "console.h"
-#include "system/run.h"
+#include "run/run.h"
 
 namespace tessera {
 

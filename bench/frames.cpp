@@ -13,9 +13,9 @@
 #include "core/stopwatch.h"
 #include "cuda/open_device.h"
 #include "io/frame_reader.h"
-#include "system/open_source.h"
+#include "run/open_source.h"
+#include "run/timings.h"
 #include "system/pipeline.h"
-#include "system/timings.h"
 
 namespace tessera {
 namespace {

@@ -15,7 +15,7 @@
 
 #include "io/frame_reader.h"
 #include "mapping/mesher.h"
-#include "system/open_source.h"
+#include "run/open_source.h"
 #include "system/pipeline.h"
 
 namespace tessera {

@@ -9,7 +9,7 @@
 #include "bindings.h"
 #include "configure.h"
 #include "errors.h"
-#include "system/open_source.h"
+#include "run/open_source.h"
 
 namespace tessera::python {
 namespace py = pybind11;

@@ -4,7 +4,7 @@
 #include "bindings.h"
 #include "configure.h"
 #include "errors.h"
-#include "system/run.h"
+#include "run/run.h"
 
 namespace tessera::python {
 namespace py = pybind11;

@@ -4,8 +4,8 @@
 
 #include "core/stopwatch.h"
 #include "errors.h"
+#include "run/run.h"
 #include "semantics/open_detector.h"
-#include "system/run.h"
 
 namespace tessera::python {
 namespace {

@@ -14,11 +14,14 @@
 #include "core/notices.h"
 #include "core/status.h"
 #include "io/frame_source.h"
+#include "optimize/calibration_report.h"
 #include "system/frame_plan.h"
 #include "system/labelling_stage.h"
-#include "system/run.h"
+#include "system/mapping_stage.h"
+#include "system/run_config.h"
 #include "system/scan_plan.h"
 #include "system/tracking_stage.h"
+#include "system/viewer_link.h"
 
 namespace tessera {
 

@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
+#include "core/process.h"
 #include "core/stopwatch.h"
 #include "io/mesh_io.h"
-#include "system/timings.h"
 
 namespace tessera {
 

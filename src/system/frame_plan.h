@@ -5,10 +5,15 @@
 #include <vector>
 
 #include "io/trajectory.h"
-#include "system/run.h"
 #include "system/tracking_stage.h"
 
 namespace tessera {
+
+// Takes effect at the first frame whose index is at least `frame`.
+struct MethodSwitch {
+    std::int64_t frame = 0;
+    TrackingMethod method = TrackingMethod::kSdf;
+};
 
 // Owner thread only.
 class FramePlan {

@@ -11,6 +11,16 @@
 
 namespace tessera {
 
+struct MapStatistics {
+    std::int64_t blocks = 0;
+    std::size_t bytes = 0;
+    double bytes_per_voxel = 0;
+};
+
+inline MapStatistics StatisticsOf(const BlockMap& map) {
+    return {map.count(), map.bytes(), map.bytes_per_voxel()};
+}
+
 // Remeshed blocks, which replace the viewer's blocks with the same ids.
 struct MeshUpdate {
     double voxel_size_m = 0;

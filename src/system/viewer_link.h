@@ -17,11 +17,23 @@
 #include "semantics/detector.h"
 #include "semantics/map_object.h"
 #include "system/mapping_stage.h"
-#include "system/run.h"
 #include "system/tracking_stage.h"
 #include "system/viewer_settings.h"
 
 namespace tessera {
+
+// Frames since the start or the last reset.
+struct RunCounts {
+    std::int64_t frames = 0;   // read, including skipped frames
+    std::int64_t tracked = 0;  // with a pose: lines of the trajectory
+    std::int64_t fused = 0;
+    std::int64_t poor = 0;        // tracked, but not well enough to fuse
+    std::int64_t lost = 0;        // no pose
+    std::int64_t skipped = 0;     // could not be read
+    std::int64_t dropped = 0;     // live: a newer frame arrived before this one was tracked
+    std::int64_t unfused = 0;     // live: tracked well, but mapping was busy
+    std::int64_t degenerate = 0;  // the scene left some motion unconstrained
+};
 
 // The numbers of one frame.
 struct FrameUpdate {

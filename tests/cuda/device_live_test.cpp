@@ -1,8 +1,8 @@
 // Live runs on the host device, where one thread does both tracking and mapping.
 #include "cuda/desk_frames.h"
 #include "cuda/device_pipeline.h"
+#include "run/run.h"
 #include "system/engine_fixture.h"
-#include "system/run.h"
 
 namespace tessera::host {
 namespace {

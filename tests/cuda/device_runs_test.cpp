@@ -4,8 +4,8 @@
 #include "cuda/desk_run.h"
 #include "cuda/device_pipeline.h"
 #include "mapping/ray_caster.h"
+#include "run/run.h"
 #include "synth/synthetic_source.h"
-#include "system/run.h"
 
 namespace tessera::host {
 namespace {

@@ -8,8 +8,8 @@
 #include <fstream>
 #include <sstream>
 
+#include "run/run.h"
 #include "support/temp_folder.h"
-#include "system/run.h"
 
 namespace tessera::testing_support {
 

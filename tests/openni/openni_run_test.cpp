@@ -4,7 +4,7 @@
 
 #include "io/openni_devices.h"
 #include "openni/openni_fixture.h"
-#include "system/run.h"
+#include "run/run.h"
 
 namespace tessera {
 namespace {

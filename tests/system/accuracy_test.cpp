@@ -12,8 +12,8 @@
 #include "eval/mesh_error.h"
 #include "io/mesh_io.h"
 #include "io/trajectory.h"
+#include "run/run.h"
 #include "support/temp_folder.h"
-#include "system/run.h"
 
 namespace tessera {
 namespace {

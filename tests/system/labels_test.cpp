@@ -12,9 +12,9 @@
 #include <sstream>
 
 #include "eval/label_scores.h"
+#include "run/run.h"
 #include "support/temp_folder.h"
 #include "synth/sequence_writer.h"
-#include "system/run.h"
 #include "system/viewer_link.h"
 
 namespace tessera {

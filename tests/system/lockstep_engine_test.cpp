@@ -2,9 +2,9 @@
 
 #include <cstring>
 
+#include "run/open_source.h"
 #include "support/temp_folder.h"
 #include "system/engine_fixture.h"
-#include "system/open_source.h"
 
 namespace tessera {
 namespace {

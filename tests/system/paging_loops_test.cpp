@@ -5,11 +5,11 @@
 #include <csignal>
 
 #include "optimize/pose_graph.h"
+#include "run/scan_export.h"
 #include "support/temp_folder.h"
 #include "system/frame_list.h"
 #include "system/live_engine.h"
 #include "system/lockstep_engine.h"
-#include "system/scan_export.h"
 
 namespace tessera {
 namespace {

@@ -5,10 +5,10 @@
 #include <filesystem>
 #include <numbers>
 
+#include "run/scan_export.h"
 #include "support/temp_folder.h"
 #include "system/engine_fixture.h"
 #include "system/run_control.h"
-#include "system/scan_export.h"
 
 namespace tessera {
 namespace {

@@ -1,10 +1,10 @@
 // Runs in the box room that are saved and resumed.
 #include "system/scan_stage.h"
 
+#include "run/open_source.h"
+#include "run/scan_export.h"
 #include "support/temp_folder.h"
 #include "system/engine_fixture.h"
-#include "system/open_source.h"
-#include "system/scan_export.h"
 
 namespace tessera {
 namespace {

@@ -10,7 +10,8 @@
 #include <thread>
 
 #include "io/image_io.h"
-#include "system/open_source.h"
+#include "run/open_source.h"
+#include "run/run.h"
 #include "system/viewer_link.h"
 #include "viz/viewer.h"
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "system/run.h"
+#include "run/run.h"
 
 namespace tessera {
 

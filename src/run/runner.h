@@ -2,11 +2,12 @@
 // the files. run.h is the public interface.
 #pragma once
 
+#include "core/process.h"
 #include "core/stopwatch.h"
+#include "run/run.h"
+#include "run/run_output.h"
+#include "run/run_window.h"
 #include "system/engine.h"
-#include "system/run.h"
-#include "system/run_output.h"
-#include "system/run_window.h"
 
 namespace tessera {
 

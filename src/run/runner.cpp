@@ -1,13 +1,13 @@
 // Start and end of a run.
-#include "system/runner.h"
+#include "run/runner.h"
 
 #include <algorithm>
 
 #include "io/trajectory.h"
+#include "run/source_camera.h"
 #include "system/live_engine.h"
 #include "system/lockstep_engine.h"
 #include "system/scan_plan.h"
-#include "system/source_camera.h"
 
 namespace tessera {
 namespace {

@@ -14,20 +14,13 @@
 #include "io/frame_source.h"
 #include "optimize/calibration_report.h"
 #include "optimize/camera_estimate.h"
+#include "run/timings.h"
 #include "semantics/map_object.h"
+#include "system/frame_plan.h"
 #include "system/run_config.h"
-#include "system/timings.h"
+#include "system/viewer_link.h"
 
 namespace tessera {
-
-// Takes effect at the first frame whose index is at least `frame`.
-struct MethodSwitch {
-    std::int64_t frame = 0;
-    TrackingMethod method = TrackingMethod::kSdf;
-};
-
-class Device;
-struct ViewerLink;
 
 struct RunRequest {
     std::string source;
@@ -47,26 +40,6 @@ struct RunRequest {
     Device* device = nullptr;               // null: CPU; outlives the run
     std::vector<std::string> command_line;  // as given, for run.json
 };
-
-struct RunCounts {
-    std::int64_t frames = 0;   // read, including skipped frames
-    std::int64_t tracked = 0;  // with a pose: lines of the trajectory
-    std::int64_t fused = 0;
-    std::int64_t poor = 0;        // tracked, but not well enough to fuse
-    std::int64_t lost = 0;        // no pose
-    std::int64_t skipped = 0;     // could not be read
-    std::int64_t dropped = 0;     // live: a newer frame arrived before this one was tracked
-    std::int64_t unfused = 0;     // live: tracked well, but mapping was busy
-    std::int64_t degenerate = 0;  // the scene left some motion unconstrained
-};
-
-struct MapStatistics {
-    std::int64_t blocks = 0;
-    std::size_t bytes = 0;
-    double bytes_per_voxel = 0;
-};
-
-MapStatistics StatisticsOf(const BlockMap& map);
 
 struct LabelSummary {
     std::int64_t frames = 0;      // frames that the detector processed

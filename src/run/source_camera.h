@@ -10,7 +10,7 @@
 #include "core/status.h"
 #include "io/frame_source.h"
 #include "optimize/camera_estimate.h"
-#include "system/run.h"
+#include "run/run.h"
 
 namespace tessera {
 

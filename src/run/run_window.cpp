@@ -1,4 +1,4 @@
-#include "system/run_window.h"
+#include "run/run_window.h"
 
 namespace tessera {
 

@@ -1,5 +1,5 @@
 // A complete run on a small synthetic sequence, and the files it leaves after success and failure.
-#include "system/run.h"
+#include "run/run.h"
 
 #include <gtest/gtest.h>
 

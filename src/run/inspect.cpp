@@ -1,8 +1,8 @@
-#include "system/inspect.h"
+#include "run/inspect.h"
 
 #include "io/frame_reader.h"
 #include "render/view_picture.h"
-#include "system/open_source.h"
+#include "run/open_source.h"
 #include "system/pipeline.h"
 
 namespace tessera {

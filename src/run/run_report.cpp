@@ -1,4 +1,4 @@
-#include "system/run_report.h"
+#include "run/run_report.h"
 
 #include <nlohmann/json.hpp>
 

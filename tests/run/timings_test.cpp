@@ -1,6 +1,8 @@
-#include "system/timings.h"
+#include "run/timings.h"
 
 #include <gtest/gtest.h>
+
+#include "core/process.h"
 
 namespace tessera {
 namespace {

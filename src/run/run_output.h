@@ -9,8 +9,8 @@
 
 #include "core/mesh.h"
 #include "core/status.h"
+#include "run/run.h"
 #include "system/labelling_stage.h"
-#include "system/run.h"
 #include "system/tracking_stage.h"
 
 namespace tessera {

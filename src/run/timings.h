@@ -1,4 +1,4 @@
-// Time per stage and frame, and the resources used by the process. Plain values; owner thread only.
+// Time per stage and frame. Plain values; owner thread only.
 #pragma once
 
 #include <string>
@@ -26,15 +26,5 @@ class StageTimes {
   private:
     std::vector<std::pair<std::string, std::vector<double>>> durations_ms_;
 };
-
-struct ProcessUsage {
-    double cpu_s = 0;        // user and system time of all threads since the process started
-    double peak_rss_mb = 0;  // 2^20 bytes
-};
-ProcessUsage MeasureProcess();
-
-// Returns freed memory to the system, as far as the allocator can. Call before making something
-// large. Takes a few milliseconds. Thread-safe.
-void ReturnFreeMemory();
 
 }  // namespace tessera

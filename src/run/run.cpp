@@ -1,10 +1,10 @@
-#include "system/run.h"
+#include "run/run.h"
 
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
 #include "optimize/pose_graph.h"
-#include "system/runner.h"
+#include "run/runner.h"
 
 namespace tessera {
 namespace {
@@ -54,10 +54,6 @@ Status CheckRun(const RunRequest& request, const RunConfig& config) {
                                  CheckPaging(request, config), CheckDevice(request, config)})
         if (!status.ok()) return status;
     return Status::Ok();
-}
-
-MapStatistics StatisticsOf(const BlockMap& map) {
-    return {map.count(), map.bytes(), map.bytes_per_voxel()};
 }
 
 Result<RunSummary> ExecuteRun(const RunRequest& request, const RunConfig& config,

@@ -1,7 +1,4 @@
-#include "system/timings.h"
-
-#include <malloc.h>
-#include <sys/resource.h>
+#include "run/timings.h"
 
 #include <algorithm>
 #include <cmath>
@@ -36,22 +33,6 @@ std::vector<std::pair<std::string, StageStatistics>> StageTimes::Summarise() con
     for (const auto& [stage, durations] : durations_ms_)
         summary.emplace_back(stage, SummariseDurations(durations));
     return summary;
-}
-
-ProcessUsage MeasureProcess() {
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    const auto seconds = [](const timeval& t) {
-        return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
-    };
-    return {seconds(usage.ru_utime) + seconds(usage.ru_stime),
-            static_cast<double>(usage.ru_maxrss) / 1024.0};
-}
-
-void ReturnFreeMemory() {
-#ifdef __GLIBC__
-    malloc_trim(0);
-#endif
 }
 
 }  // namespace tessera

@@ -1,4 +1,4 @@
-#include "system/source_camera.h"
+#include "run/source_camera.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,8 +6,8 @@
 
 #include "io/frame_reader.h"
 #include "optimize/camera_estimator.h"
+#include "run/open_source.h"
 #include "scan/scan_content.h"
-#include "system/open_source.h"
 
 namespace tessera {
 namespace {

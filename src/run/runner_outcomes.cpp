@@ -1,7 +1,7 @@
 // How a run handles each outcome of the engine.
 #include <fmt/format.h>
 
-#include "system/runner.h"
+#include "run/runner.h"
 
 namespace tessera {
 

@@ -1,4 +1,4 @@
-#include "system/open_source.h"
+#include "run/open_source.h"
 
 #include <gtest/gtest.h>
 

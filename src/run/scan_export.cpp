@@ -1,4 +1,4 @@
-#include "system/scan_export.h"
+#include "run/scan_export.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "system/run_output.h"
+#include "run/run_output.h"
 
 #include <cerrno>
 #include <cstring>
@@ -10,8 +10,8 @@
 #include "io/trajectory.h"
 #include "render/coarse_mesh.h"
 #include "render/mesh_picture.h"
+#include "run/run_report.h"
 #include "semantics/detections_file.h"
-#include "system/run_report.h"
 
 namespace tessera {
 namespace {
