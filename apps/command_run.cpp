@@ -77,9 +77,9 @@ Status Configure(const Arguments& a, RunConfig& config) {
 int Run(const Arguments& a) {
     RunConfig config;
     if (Status status = Configure(a, config); !status.ok()) return Fail(status);
-    std::unique_ptr<Device> device;
+    std::unique_ptr<Backend> device;
     if (a.device == "cuda") {  // auto means the CPU until the CUDA backend has run on a GPU
-        Result<std::unique_ptr<Device>> opened = OpenGpu(config.pipeline.device);
+        Result<std::unique_ptr<Backend>> opened = OpenGpu(config.pipeline.device);
         if (!opened.ok()) return Fail(opened.status());
         device = std::move(opened.value());
     }
@@ -108,6 +108,106 @@ int Run(const Arguments& a) {
     return kExitMostlyLost;
 }
 
+void AddSource(CLI::App& command, Arguments& a) {
+    command
+        .add_option("SOURCE", a.request.source,
+                    "Folder (TUM RGB-D, ICL-NUIM, 7-Scenes, or images with a camera.yaml), "
+                    "openni2: (a depth camera; openni2:URI for a specific one), FILE.oni, "
+                    "FILE.klg, FILE.scan (the frames stored in a scan), or synthetic:NAME (desk, "
+                    "room, flat, corridor, floor, corner, wall, people, chair, door)")
+        ->required();
+    command.add_option("--out", a.request.output_folder, "Folder for the results")
+        ->type_name("DIR")
+        ->capture_default_str();
+    a.config.AddTo(command);
+}
+
+void AddMethod(CLI::App& command, Arguments& a) {
+    command.add_option("--tracker", a.tracker, "Tracking method, as tracking.method (default sdf)")
+        ->check(CLI::IsMember(TrackingMethodNames()));
+    command
+        .add_option(
+            "--switch", a.switches,
+            "Switch to another tracking method at this frame (index as in frames.csv); repeatable")
+        ->type_name("FRAME:METHOD")
+        ->allow_extra_args(false);
+    command
+        .add_option(
+            "--alpha", a.alpha,
+            "Weight of the photometric residual in m^2, or auto; sets tracking.photometric.alpha")
+        ->type_name("A|auto");
+}
+
+void AddFrames(CLI::App& command, Arguments& a) {
+    command.add_option("--start", a.request.selection.start, "First frame, counted from 0")
+        ->check(CLI::NonNegativeNumber)
+        ->capture_default_str();
+    command
+        .add_option("--frames", a.request.selection.count,
+                    "Number of frames to read (default: all)")
+        ->check(CLI::PositiveNumber);
+    command.add_option("--stride", a.request.selection.stride, "Use every Nth frame")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+    command
+        .add_option("--threads", a.threads,
+                    "Threads for parallel loops, 0 = one per core; sets run.threads")
+        ->check(CLI::Range(0, 256));
+    command
+        .add_option("--poses", a.request.poses_file,
+                    "Do not track; fuse at the poses of this TUM trajectory (seconds, metres)")
+        ->type_name("FILE");
+    command
+        .add_option("--mode", a.mode,
+                    "lockstep: every frame, in order; live: the newest frame wins, at the pace of "
+                    "the camera or recording")
+        ->check(CLI::IsMember({"lockstep", "live"}))
+        ->capture_default_str();
+}
+
+void AddLabelsAndLoops(CLI::App& command, Arguments& a) {
+    command
+        .add_option(
+            "--labels", a.labels,
+            "Label objects with this network (.onnx, or .cfg with .weights beside it), with a "
+            "detections file, or with synthetic: the ground truth of a synthetic: source")
+        ->type_name("MODEL|DETECTIONS|none")
+        ->capture_default_str();
+    command
+        .add_option("--loop-closure", a.loop_closure,
+                    "Close loops: correct path and map when the camera returns to a known place, "
+                    "and relocalise after tracking is lost; sets loops.enabled (default off)")
+        ->check(CLI::IsMember({"on", "off"}));
+    command.add_flag("--view", a.view,
+                     "Open a window; without a display the run continues without one");
+}
+
+void AddFilesAndDevice(CLI::App& command, Arguments& a) {
+    command
+        .add_option("--record", a.request.record_path,
+                    "Record the raw frames to this new folder (TUM layout, exact depth), or to "
+                    "FILE.oni with an OpenNI2 camera")
+        ->type_name("PATH");
+    CLI::Option* scan = command
+                            .add_option("--scan", a.scan,
+                                        "Save the scan continuously to this new file; a killed "
+                                        "run loses at most the last second")
+                            ->type_name("FILE");
+    command
+        .add_option(
+            "--resume", a.resume,
+            "Continue a saved scan, and save to the same file; voxel size and truncation are those "
+            "of the scan; frames of the same recording that are already in it are skipped")
+        ->type_name("FILE")
+        ->excludes(scan);
+    command
+        .add_option("--device", a.device,
+                    "Where to compute map and tracking: auto uses the CPU; cuda uses the first "
+                    "NVIDIA GPU (experimental, not yet tested on one)")
+        ->check(CLI::IsMember({"auto", "cpu", "cuda"}))
+        ->capture_default_str();
+}
+
 }  // namespace
 
 void AddRunCommand(CLI::App& app, CommandContext& context) {
@@ -115,92 +215,8 @@ void AddRunCommand(CLI::App& app, CommandContext& context) {
     a->request.output_folder = "out";
     CLI::App* command = app.add_subcommand(
         "run", "Track and fuse a source; write trajectory, mesh, picture and timings");
-    command
-        ->add_option("SOURCE", a->request.source,
-                     "Folder (TUM RGB-D, ICL-NUIM, 7-Scenes, or images with a camera.yaml), "
-                     "openni2: (a depth camera; openni2:URI for a specific one), FILE.oni, "
-                     "FILE.klg, FILE.scan (the frames stored in a scan), or synthetic:NAME (desk, "
-                     "room, flat, corridor, floor, corner, wall, people, chair, door)")
-        ->required();
-    command->add_option("--out", a->request.output_folder, "Folder for the results")
-        ->type_name("DIR")
-        ->capture_default_str();
-    a->config.AddTo(*command);
-    command
-        ->add_option("--tracker", a->tracker, "Tracking method, as tracking.method (default sdf)")
-        ->check(CLI::IsMember(TrackingMethodNames()));
-    command
-        ->add_option(
-            "--switch", a->switches,
-            "Switch to another tracking method at this frame (index as in frames.csv); repeatable")
-        ->type_name("FRAME:METHOD")
-        ->allow_extra_args(false);
-    command
-        ->add_option(
-            "--alpha", a->alpha,
-            "Weight of the photometric residual in m^2, or auto; sets tracking.photometric.alpha")
-        ->type_name("A|auto");
-    command->add_option("--start", a->request.selection.start, "First frame, counted from 0")
-        ->check(CLI::NonNegativeNumber)
-        ->capture_default_str();
-    command
-        ->add_option("--frames", a->request.selection.count,
-                     "Number of frames to read (default: all)")
-        ->check(CLI::PositiveNumber);
-    command->add_option("--stride", a->request.selection.stride, "Use every Nth frame")
-        ->check(CLI::PositiveNumber)
-        ->capture_default_str();
-    command
-        ->add_option("--threads", a->threads,
-                     "Threads for parallel loops, 0 = one per core; sets run.threads")
-        ->check(CLI::Range(0, 256));
-    command
-        ->add_option("--poses", a->request.poses_file,
-                     "Do not track; fuse at the poses of this TUM trajectory (seconds, metres)")
-        ->type_name("FILE");
-    command
-        ->add_option("--mode", a->mode,
-                     "lockstep: every frame, in order; live: the newest frame wins, at the pace of "
-                     "the camera or recording")
-        ->check(CLI::IsMember({"lockstep", "live"}))
-        ->capture_default_str();
-    command
-        ->add_option(
-            "--labels", a->labels,
-            "Label objects with this network (.onnx, or .cfg with .weights beside it), with a "
-            "detections file, or with synthetic: the ground truth of a synthetic: source")
-        ->type_name("MODEL|DETECTIONS|none")
-        ->capture_default_str();
-    command
-        ->add_option("--loop-closure", a->loop_closure,
-                     "Close loops: correct path and map when the camera returns to a known place, "
-                     "and relocalise after tracking is lost; sets loops.enabled (default off)")
-        ->check(CLI::IsMember({"on", "off"}));
-    command->add_flag("--view", a->view,
-                      "Open a window; without a display the run continues without one");
-    command
-        ->add_option("--record", a->request.record_path,
-                     "Record the raw frames to this new folder (TUM layout, exact depth), or to "
-                     "FILE.oni with an OpenNI2 camera")
-        ->type_name("PATH");
-    CLI::Option* scan = command
-                            ->add_option("--scan", a->scan,
-                                         "Save the scan continuously to this new file; a killed "
-                                         "run loses at most the last second")
-                            ->type_name("FILE");
-    command
-        ->add_option(
-            "--resume", a->resume,
-            "Continue a saved scan, and save to the same file; voxel size and truncation are those "
-            "of the scan; frames of the same recording that are already in it are skipped")
-        ->type_name("FILE")
-        ->excludes(scan);
-    command
-        ->add_option("--device", a->device,
-                     "Where to compute map and tracking: auto uses the CPU; cuda uses the first "
-                     "NVIDIA GPU (experimental, not yet tested on one)")
-        ->check(CLI::IsMember({"auto", "cpu", "cuda"}))
-        ->capture_default_str();
+    for (const auto add : {AddSource, AddMethod, AddFrames, AddLabelsAndLoops, AddFilesAndDevice})
+        add(*command, *a);
     command->callback([a, &context] {
         a->request.command_line = context.arguments;
         context.exit_code = Run(*a);

@@ -54,7 +54,7 @@ std::uint64_t Hash(std::uint64_t hash, const Eigen::Matrix4d& pose) {
     return hash;
 }
 
-void RunOnce(const Recording& recording, const RunConfig& config, Device* device) {
+void RunOnce(const Recording& recording, const RunConfig& config, Backend* device) {
     Pipeline pipeline(config.pipeline, recording.camera, config.meshing, device);
     StageTimes times;
     std::uint64_t hash = 0xcbf29ce484222325u;
@@ -85,9 +85,9 @@ Status Run(const Options& options) {
     config.Describe(parameters);
     if (Status status = options.config.Apply(parameters); !status.ok()) return status;
     if (Status status = config.Validate(); !status.ok()) return status;
-    std::unique_ptr<Device> device;
+    std::unique_ptr<Backend> device;
     if (options.device == "cuda") {
-        Result<std::unique_ptr<Device>> opened = OpenGpu(config.pipeline.device);
+        Result<std::unique_ptr<Backend>> opened = OpenGpu(config.pipeline.device);
         if (!opened.ok()) return opened.status();
         device = std::move(opened.value());
     }

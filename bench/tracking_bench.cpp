@@ -64,8 +64,7 @@ using SumKernel = void (*)(const SdfArguments&, int, int, double*);
 // rows.
 void SumPoints(benchmark::State& state, SumKernel kernel, bool use_intensity) {
     FramePoints points;
-    points.Build(RoomPrepared(0), FullCamera(), {}, kStep_px, {2.0});
-    points.SampleIntensity(RoomPrepared(0), FullCamera(), {});
+    points.Build(MakePointArguments(RoomPrepared(0), FullCamera(), {}, kStep_px, {2.0}, true));
     const SdfArguments a = ArgumentsFor(points, StartBeside(TruePose(4)), use_intensity);
     PoseSums sums, expected;
     baseline::SumSdfPoints(a, 0, points.count(), expected.value);
@@ -110,7 +109,8 @@ void Track(benchmark::State& state, VectorPath path, double alpha) {
     config.alpha_mode = ResidualModel::AlphaMode::kFixed;
     config.alpha = alpha;
     ResidualModel model(config);
-    SdfTracker tracker({}, FullCamera(), TrackJudge({}), model, true, path);
+    CpuSdfSums sums(path);
+    SdfTracker tracker({}, FullCamera(), TrackJudge({}), model, true, &sums);
     const Eigen::Isometry3d start = StartBeside(TruePose(4));
     const TrackInput input{.frame = RoomPrepared(0),
                            .map = RoomMap(),

@@ -32,19 +32,30 @@ DeviceIcp::Images DeviceIcp::ImagesOf(int level) {
 }
 
 void DeviceIcp::Predict(const BlockMap& map, const PinholeCamera& camera,
-                        const Eigen::Isometry3d& T_world_camera, float min_depth_m,
-                        float max_depth_m, int levels, float jump_m) {
+                        const Eigen::Isometry3d& T_world_camera, const ModelRange& range,
+                        int levels, PredictedView& view, std::vector<IcpModelLevel>& model) {
+    view.camera = camera;
+    view.T_world_camera = T_world_camera;
+    model.resize(static_cast<std::size_t>(levels));
+    for (std::size_t i = 0; i < model.size(); ++i)
+        model[i].camera = i == 0 ? camera : HalfOf(model[i - 1].camera);
+    CastModel(map, camera, T_world_camera, range, levels);
+}
+
+void DeviceIcp::CastModel(const BlockMap& map, const PinholeCamera& camera,
+                          const Eigen::Isometry3d& T_world_camera, const ModelRange& range,
+                          int levels) {
     if (!ReserveModel(camera, levels) ||
-        !device_.views_.Cast(map, camera, T_world_camera, min_depth_m, max_depth_m))
+        !device_.views_.Cast(map, camera, T_world_camera, range.near_m, range.far_m))
         return;
     ModelImages finest = device_.views_.images();
-    TrustIntensities(device_.stream_, finest, jump_m, ImagesOf(0).intensity);
+    TrustIntensities(device_.stream_, finest, range.jump_m, ImagesOf(0).intensity);
     finest.intensity = ImagesOf(0).intensity;
     model_.push_back(finest);
     for (int i = 1; i < levels; ++i) {
         const ModelImages fine = model_.back();
         const auto [depth_m, normal, intensity] = ImagesOf(i);
-        HalveModel(device_.stream_, fine, jump_m, depth_m, normal, intensity);
+        HalveModel(device_.stream_, fine, range.jump_m, depth_m, normal, intensity);
         model_.push_back({depth_m, normal, intensity, fine.width / 2, fine.height / 2});
     }
 }
@@ -61,23 +72,26 @@ void DeviceIcp::SetModel(const std::vector<IcpModelLevel>& levels) {
     }
 }
 
-std::int64_t DeviceIcp::SetPoints(const PreparedFrame& frame, const PointArguments& points,
-                                  int level) {
+void DeviceIcp::SetPoints(const PreparedFrame& frame, const PointArguments& arguments, int level,
+                          FramePoints& slots) {
     level_ = static_cast<std::size_t>(level);
     has_intensities_ = false;
     points_.Clear();
+    const bool room = ReserveSums(arguments.width * arguments.height);
+    slots.Allocate(arguments, room ? device_.MakePoints(frame, arguments, points_) : 0);
+}
+
+bool DeviceIcp::ReserveSums(int points) {
     Stream& stream = device_.stream_;
-    const int count = points.width * points.height;
-    if (!residuals_.ReserveScratch(stream, 2 * kPointResiduals * static_cast<std::size_t>(count)) ||
-        !sum_tiles_.ReserveScratch(stream, TilesOfPoints(count)) ||
-        !sums_.Reserve(stream, SumLayout::kCount, 0))
-        return 0;
-    return device_.MakePoints(frame, points, points_);
+    const auto count = static_cast<std::size_t>(points);
+    return residuals_.ReserveScratch(stream, 2 * kPointResiduals * count) &&
+           sum_tiles_.ReserveScratch(stream, TilesOfPoints(points)) &&
+           sums_.Reserve(stream, SumLayout::kCount, 0);
 }
 
 void DeviceIcp::TakePoints(FramePoints& points) { device_.Download(points_, points); }
 
-PoseSums DeviceIcp::Sum(const IcpArguments& arguments) {
+PoseSums DeviceIcp::Sum(const IcpArguments& arguments, int) {
     PoseSums sums;
     if (points_.count() == 0 || model_.empty()) return sums;
     IcpArguments a = arguments;
@@ -105,8 +119,6 @@ PoseSums DeviceIcp::Sum(const IcpArguments& arguments) {
     device_.stream_.Wait();
     return sums;
 }
-
-void DeviceIcp::KeepResiduals() { kept_ = 1 - kept_; }
 
 ResidualSums DeviceIcp::SumResiduals(const ResidualArguments& arguments) {
     return device_.SumResidualsOf(arguments, points_, Residuals(kept_, 0));

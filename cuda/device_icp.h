@@ -16,13 +16,13 @@ class DeviceIcp : public IcpSums {
     explicit DeviceIcp(DevicePipeline& device);
 
     void Predict(const BlockMap& map, const PinholeCamera& camera,
-                 const Eigen::Isometry3d& T_world_camera, float min_depth_m, float max_depth_m,
-                 int levels, float jump_m) override;
+                 const Eigen::Isometry3d& T_world_camera, const ModelRange& range, int levels,
+                 PredictedView& view, std::vector<IcpModelLevel>& model) override;
     void SetModel(const std::vector<IcpModelLevel>& levels) override;
-    std::int64_t SetPoints(const PreparedFrame& frame, const PointArguments& points,
-                           int level) override;
-    PoseSums Sum(const IcpArguments& arguments) override;
-    void KeepResiduals() override;
+    void SetPoints(const PreparedFrame& frame, const PointArguments& arguments, int level,
+                   FramePoints& slots) override;
+    PoseSums Sum(const IcpArguments& arguments, int points) override;
+    void KeepResiduals(PointResiduals&, PointResiduals&) override { kept_ = 1 - kept_; }
     ResidualSums SumResiduals(const ResidualArguments& arguments) override;
 
     // Like those of DevicePipeline, for the kept residuals.
@@ -35,6 +35,9 @@ class DeviceIcp : public IcpSums {
   private:
     // Makes room for the images of this many levels, the finest of this size. ImagesOf returns the
     // images of a level.
+    void CastModel(const BlockMap& map, const PinholeCamera& camera,
+                   const Eigen::Isometry3d& T_world_camera, const ModelRange& range, int levels);
+    [[nodiscard]] bool ReserveSums(int points);
     [[nodiscard]] bool ReserveModel(const PinholeCamera& finest, int levels);
     struct Images {
         float *depth_m, *normal, *intensity;

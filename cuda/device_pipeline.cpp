@@ -21,9 +21,11 @@ DevicePipeline::DevicePipeline(std::string name, std::size_t limit_bytes)
       views_(*this),
       icp_(*this) {}
 
-void DevicePipeline::Prepare(const Frame& frame, const PreparedFrame::Config& config, bool bring,
-                             PreparedFrame& prepared) {
-    if (!frame_.Prepare(frame, config, bring, prepared)) PrepareFrame(frame, config, prepared);
+void DevicePipeline::Prepare(const Frame& frame, const PreparedFrame::Config& config,
+                             const MovingMask* moving, bool keep_images, PreparedFrame& prepared) {
+    const Frame masked = moving != nullptr ? WithoutMoving(*moving, frame) : Frame();
+    const Frame& seen = moving != nullptr ? masked : frame;
+    if (!frame_.Prepare(seen, config, keep_images, prepared)) PrepareFrame(seen, config, prepared);
 }
 
 std::unique_ptr<Integrator> DevicePipeline::MakeIntegrator(const Integrator::Config& config,
@@ -56,13 +58,13 @@ bool DevicePipeline::ReserveSums(int points) {
            residuals_.ReserveScratch(stream_, kPointResiduals * count);
 }
 
-std::int64_t DevicePipeline::SetPoints(const BlockMap& map, const PreparedFrame& frame,
-                                       const PointArguments& points) {
+void DevicePipeline::SetPoints(const BlockMap& map, const PreparedFrame& frame,
+                               const PointArguments& arguments, FramePoints& slots) {
     has_distance_residual_ = has_intensity_residual_ = false;
     points_.Clear();
     // Without room there are no points, and the frame is lost.
-    if (MirrorOf(map) == nullptr || !ReserveSums(points.width * points.height)) return 0;
-    return MakePoints(frame, points, points_);
+    const bool room = MirrorOf(map) != nullptr && ReserveSums(arguments.width * arguments.height);
+    slots.Allocate(arguments, room ? MakePoints(frame, arguments, points_) : 0);
 }
 
 std::int64_t DevicePipeline::MakePoints(const PreparedFrame& frame, const PointArguments& arguments,
@@ -75,7 +77,7 @@ std::int64_t DevicePipeline::MakePoints(const PreparedFrame& frame, const PointA
     return points.Build(a);
 }
 
-PoseSums DevicePipeline::Sum(const SdfArguments& arguments) {
+PoseSums DevicePipeline::Sum(const SdfArguments& arguments, int) {
     PoseSums sums;
     if (points_.count() == 0) return sums;
     SdfArguments a = arguments;

@@ -10,19 +10,24 @@
 #include "cuda/device_points.h"
 #include "cuda/device_residuals.h"
 #include "cuda/device_views.h"
-#include "system/device.h"
+#include "system/backend.h"
 
 namespace tessera::TESSERA_DEVICE {
 
 // Owner thread only, including everything that it makes.
-class DevicePipeline : public Device, public SdfSums {
+class DevicePipeline : public Backend, public SdfSums {
   public:
     // `limit_bytes`: limit of all device memory in use.
     DevicePipeline(std::string name, std::size_t limit_bytes);
 
     std::string name() const override { return name_; }
-    void Prepare(const Frame& frame, const PreparedFrame::Config& config, bool bring,
-                 PreparedFrame& prepared) override;
+    bool on_device() const override { return true; }
+    void Prepare(const Frame& frame, const PreparedFrame::Config& config, const MovingMask* moving,
+                 bool keep_images, PreparedFrame& prepared) override;
+    void Remask(const Frame& frame, const PreparedFrame::Config& config, const MovingMask* moving,
+                bool keep_images, PreparedFrame& prepared) override {
+        Prepare(frame, config, moving, keep_images, prepared);
+    }
     std::unique_ptr<Integrator> MakeIntegrator(const Integrator::Config& config,
                                                const PinholeCamera& camera) override;
     std::unique_ptr<BlockMesher> MakeBlockMesher() override;
@@ -30,9 +35,9 @@ class DevicePipeline : public Device, public SdfSums {
     DeviceIcp& icp_sums() override { return icp_; }
     ViewPredictor& views() override { return views_; }
 
-    std::int64_t SetPoints(const BlockMap& map, const PreparedFrame& frame,
-                           const PointArguments& points) override;
-    PoseSums Sum(const SdfArguments& arguments) override;
+    void SetPoints(const BlockMap& map, const PreparedFrame& frame, const PointArguments& arguments,
+                   FramePoints& slots) override;
+    PoseSums Sum(const SdfArguments& arguments, int points) override;
     ResidualSums SumResiduals(const ResidualArguments& arguments) override;
 
     // For inspection: copies the points without their normals into arrays that Lay has made, and

@@ -34,7 +34,7 @@ std::string DescribeGpus() {
     return text + " (used only with --device cuda; not yet tested on a GPU)";
 }
 
-Result<std::unique_ptr<Device>> OpenGpu(const DeviceConfig& config) {
+Result<std::unique_ptr<Backend>> OpenGpu(const DeviceConfig& config) {
     const char* reason = nullptr;
     Gpu gpu;
     if (CountGpus(reason) == 0 || !UseGpu(0, gpu, reason))
@@ -53,7 +53,7 @@ Result<std::unique_ptr<Device>> OpenGpu(const DeviceConfig& config) {
             "--device cuda: {}: cannot use {} MB; set mapping.device_memory_mb to at least {} MB "
             "and at most the free memory",
             Describe(gpu), limit / kMega, kLeastBytes / kMega));
-    return std::unique_ptr<Device>(
+    return std::unique_ptr<Backend>(
         std::make_unique<TESSERA_DEVICE::DevicePipeline>(gpu.name, limit));
 }
 

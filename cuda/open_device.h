@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "system/device.h"
+#include "system/backend.h"
 
 namespace tessera {
 
@@ -13,6 +13,6 @@ namespace tessera {
 std::string DescribeGpus();
 
 // Opens the first GPU. The error says why there is none and what to do.
-Result<std::unique_ptr<Device>> OpenGpu(const DeviceConfig& config);
+Result<std::unique_ptr<Backend>> OpenGpu(const DeviceConfig& config);
 
 }  // namespace tessera

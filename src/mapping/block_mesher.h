@@ -1,4 +1,4 @@
-// Interface for meshing blocks outside the CPU, on a device that holds the map.
+// Meshes blocks: on the CPU, or on a device that holds the map.
 #pragma once
 
 #include <span>
@@ -15,11 +15,17 @@ class BlockMesher {
   public:
     virtual ~BlockMesher() = default;
 
-    // Stores the result of MeshBlock for each of the blocks under its id. None of the blocks may be
-    // free. Reads voxels only from the device's copy of the map. Returns false if the device has no
-    // room; some blocks may then be stored already.
+    // Stores the result of MeshBlock for each of the blocks under its id; null if it is free. A
+    // device reads its own copy of the map, and none of the blocks may be free. Returns false if
+    // the device has no room; some blocks may then be stored already.
     [[nodiscard]] virtual bool MeshBlocks(const BlockMap& map, std::span<const BlockId> blocks,
                                           double min_weight, BlockMeshes& meshes) = 0;
+};
+
+class CpuBlockMesher : public BlockMesher {
+  public:
+    [[nodiscard]] bool MeshBlocks(const BlockMap& map, std::span<const BlockId> blocks,
+                                  double min_weight, BlockMeshes& meshes) override;
 };
 
 }  // namespace tessera

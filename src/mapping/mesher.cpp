@@ -10,28 +10,28 @@
 
 namespace tessera {
 
-int Mesher::Update(const BlockMap& map, int budget_blocks, BlockMesher* device) {
+bool CpuBlockMesher::MeshBlocks(const BlockMap& map, std::span<const BlockId> blocks,
+                                double min_weight, BlockMeshes& meshes) {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, blocks.size(), 8), [&](const auto& range) {
+        for (std::size_t i = range.begin(); i < range.end(); ++i)
+            meshes[static_cast<std::size_t>(blocks[i])] =
+                map.IsFree(blocks[i]) ? nullptr : MeshBlock(map, blocks[i], min_weight);
+    });
+    return true;
+}
+
+int Mesher::Update(const BlockMap& map, int budget_blocks, BlockMesher& block_mesher) {
     voxel_size_m_ = map.config().voxel_size_m;
     FindChanged(map);
     std::size_t count =
         std::min(pending_.size(), static_cast<std::size_t>(std::max(budget_blocks, 0)));
-    if (device == nullptr)
-        MeshHere(map, {pending_.data(), count});
-    else if (!device->MeshBlocks(map, {pending_.data(), count}, config_.min_weight, meshes_))
+    if (!block_mesher.MeshBlocks(map, {pending_.data(), count}, config_.min_weight, meshes_))
         count = 0;
     const auto done = pending_.begin() + static_cast<std::ptrdiff_t>(count);
     updated_.assign(pending_.begin(), done);
     pending_.erase(pending_.begin(), done);
     for (const BlockId id : updated_) is_pending_[static_cast<std::size_t>(id)] = 0;
     return remaining();
-}
-
-void Mesher::MeshHere(const BlockMap& map, std::span<const BlockId> blocks) {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, blocks.size(), 8), [&](const auto& range) {
-        for (std::size_t i = range.begin(); i < range.end(); ++i)
-            meshes_[static_cast<std::size_t>(blocks[i])] =
-                map.IsFree(blocks[i]) ? nullptr : MeshBlock(map, blocks[i], config_.min_weight);
-    });
 }
 
 // Appends to pending_ every block that reads a block with a new revision, and every id that now

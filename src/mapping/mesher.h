@@ -25,9 +25,13 @@ class Mesher {
     // block (kMeshReadOffsets) whose BlockMap::revision differs from the last one seen. So the
     // writer of the map must use a new revision after each Update. Meshes at most `budget_blocks`,
     // oldest first, and returns how many remain. Nobody may write the map meanwhile. Blocks may be
-    // allocated and released between calls; call Clear for another map. If `device` is given, it
-    // does the meshing, and the map must not release blocks; if it has no room, no block is done.
-    int Update(const BlockMap& map, int budget_blocks = kNoLimit, BlockMesher* device = nullptr);
+    // allocated and released between calls; call Clear for another map. If a device's block mesher
+    // has no room, no block is done.
+    int Update(const BlockMap& map, int budget_blocks, BlockMesher& block_mesher);
+    int Update(const BlockMap& map, int budget_blocks = kNoLimit) {
+        CpuBlockMesher on_cpu;
+        return Update(map, budget_blocks, on_cpu);
+    }
 
     // The whole mesh, with normals and colours. Blocks share vertices, which are ordered by block
     // id and edge; unused vertices are left out. While blocks remain to be done, there may be gaps
@@ -46,7 +50,6 @@ class Mesher {
     std::size_t bytes() const;  // memory of all block meshes
 
   private:
-    void MeshHere(const BlockMap& map, std::span<const BlockId> blocks);
     void FindChanged(const BlockMap& map);
     void AddReaders(const BlockMap& map, const BlockCoord& block);
 

@@ -37,7 +37,7 @@ struct RunRequest {
     std::string poses_file;  // TUM trajectory: fuse at its poses, no tracking; empty: track
     std::vector<MethodSwitch> switches;     // for the same frame, the last one wins
     std::string output_folder;              // empty: no output and no mesh
-    Device* device = nullptr;               // null: CPU; outlives the run
+    Backend* device = nullptr;              // null: CPU; outlives the run
     std::vector<std::string> command_line;  // as given, for run.json
 };
 

@@ -60,7 +60,7 @@ struct EngineInput {
     Labelling labelling;                      // without a detector, nothing is labelled
     std::string record_path;                  // empty: no recording
     ViewerLink* viewer = nullptr;             // outlives the engine
-    Device* device = nullptr;                 // null: CPU; outlives the engine
+    Backend* device = nullptr;                // null: CPU; outlives the engine
     const std::atomic<bool>* stop = nullptr;  // never null; outlives the engine
 };
 

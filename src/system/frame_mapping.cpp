@@ -8,7 +8,7 @@
 
 namespace tessera {
 
-FrameMapping::FrameMapping(const RunConfig& config, const SourceInfo& source, Device* device,
+FrameMapping::FrameMapping(const RunConfig& config, const SourceInfo& source, Backend* device,
                            ViewerLink* viewer, bool wait, Notices& notices)
     : config_(config),
       source_(source),

@@ -22,7 +22,7 @@ class FrameMapping {
   public:
     // `wait` (lockstep): waits for the scan file where live would postpone. `device` (null: CPU),
     // `viewer` (may be null) and `notices` outlive the object.
-    FrameMapping(const RunConfig& config, const SourceInfo& source, Device* device,
+    FrameMapping(const RunConfig& config, const SourceInfo& source, Backend* device,
                  ViewerLink* viewer, bool wait, Notices& notices);
 
     // ---- Before the first frame.

@@ -25,7 +25,7 @@ struct TrackingResume {
 // The thread that tracks owns it.
 class FrameTracking {
   public:
-    FrameTracking(const RunConfig& config, const PinholeCamera& camera, Device* device,
+    FrameTracking(const RunConfig& config, const PinholeCamera& camera, Backend* device,
                   FramePlan plan)
         : plan_(std::move(plan)),
           stage_(config.pipeline, camera, device),

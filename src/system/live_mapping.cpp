@@ -5,7 +5,7 @@
 
 namespace tessera {
 
-LiveMapping::LiveMapping(const RunConfig& config, const SourceInfo& source, Device* device,
+LiveMapping::LiveMapping(const RunConfig& config, const SourceInfo& source, Backend* device,
                          ViewerLink* viewer, LiveLinks& links, Notices& notices)
     : config_(config),
       source_(source),
@@ -159,66 +159,6 @@ void LiveMapping::Offer(MappingTask& task) {
         loops_->Offer(std::move(task.tracked), std::move(task.frame), version());
     links_.frames.Give(std::move(task.frame));
     links_.tracked_frames.Give(std::move(task.tracked));
-}
-
-// ---- What other threads answer.
-
-bool LiveMapping::HasAnswers() const {
-    return (labelling_ && labelling_->has_answer()) || UpdateFits();
-}
-
-void LiveMapping::TakeAnswers() {
-    if (labelling_) TakeLabels();
-    if (loops_) TakeLoops();
-}
-
-void LiveMapping::TakeLabels() {
-    LabellingThread::Answer answer;
-    while (labelling_->TryTake(answer)) {
-        if (answer.job.map.world == world_ && life_.paging() != nullptr)
-            life_.paging()->ReleaseHold(answer.job.frame->index);
-        if (!answer.message.empty())
-            links_.Report(FrameOutcome::Kind::kLabelsEnd, answer.message);
-        else if (answer.job.map.world == world_)
-            TakeLabels(answer);
-        links_.frames.Give(std::move(answer.job.frame));
-    }
-}
-
-void LiveMapping::TakeLabels(LabellingThread::Answer& answer) {
-    LabellingThread::Job& job = answer.job;
-    Carry(corrections_, job.map.corrections, job.T_world_camera);
-    life_.Label(job.frame->depth_m, job.T_world_camera, answer.report);
-    if (!answer.report.moving.depth_m.empty())
-        links_.hints.Push({std::move(answer.report.moving), job.T_world_camera, version()});
-    if (loops_) loops_->OfferDetections(job.frame->index, answer.report.detections, job.map);
-    labels_ = std::move(answer.report);
-}
-
-bool LiveMapping::UpdateFits() const {
-    return loops_ && loops_->has_update() && links_.map_updates.size() < LiveLinks::kCorrections;
-}
-
-void LiveMapping::TakeLoops() {
-    LoopThread::Update update;
-    while (UpdateFits() && loops_->TryTake(update)) TakeUpdate(std::move(update), false);
-}
-
-// Puts the corrected map in place for mapping and the scan, and for tracking unless it has ended.
-void LiveMapping::TakeUpdate(LoopThread::Update update, bool last) {
-    if (update.world != world_) return;
-    if (update.correction) {
-        const Eigen::Isometry3d T_new_old = update.correction->T_new_old;
-        life_.PutMap(std::move(*update.correction));
-        corrections_.push_back(T_new_old);
-        if (!last)
-            TESSERA_CHECK(
-                links_.map_updates.TryPush({nullptr, world_, std::move(update.field), T_new_old}),
-                "more corrections than the queue has room for");
-        links_.notices.Tell("map corrected");
-        life_.SendMesh();
-    }
-    life_.AddLoops(std::move(update.news));
 }
 
 // ---- Commands of the user.

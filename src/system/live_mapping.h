@@ -14,7 +14,7 @@ namespace tessera {
 class LiveMapping {
   public:
     // `links` and the others outlive the object.
-    LiveMapping(const RunConfig& config, const SourceInfo& source, Device* device,
+    LiveMapping(const RunConfig& config, const SourceInfo& source, Backend* device,
                 ViewerLink* viewer, LiveLinks& links, Notices& notices);
 
     // Prepares labels, the scan and loop closure, then starts the thread. A resumed scan's map is

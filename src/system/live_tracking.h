@@ -15,7 +15,7 @@ class LiveTracking {
     struct Settings {
         RunConfig config;
         PinholeCamera camera;
-        Device* device = nullptr;
+        Backend* device = nullptr;
         ViewerLink* viewer = nullptr;
         std::optional<TrackingResume> resume;
     };

@@ -5,21 +5,19 @@
 #include <algorithm>
 
 #include "core/check.h"
-#include "mapping/ray_caster.h"
 #include "render/vertex_weight.h"
 #include "scan/stored_mesh.h"
 
 namespace tessera {
 
 MappingStage::MappingStage(const PipelineConfig& config, const MeshConfig& meshing,
-                           const PinholeCamera& camera, Device* device)
+                           const PinholeCamera& camera, Backend* device)
     : config_(config),
       camera_(camera),
       map_(std::make_unique<BlockMap>(config.map)),
-      integrator_(device != nullptr ? device->MakeIntegrator(config.fusion, camera)
-                                    : std::make_unique<Integrator>(config.fusion, camera)),
-      device_views_(device != nullptr ? &device->views() : nullptr),
-      device_mesher_(device != nullptr ? device->MakeBlockMesher() : nullptr),
+      backend_(device),
+      integrator_(backend_->MakeIntegrator(config.fusion, camera)),
+      block_mesher_(backend_->MakeBlockMesher()),
       mesher_(meshing) {}
 
 void MappingStage::Fuse(TrackedFrame& tracked) {
@@ -101,11 +99,9 @@ void MappingStage::CollectWhole(MapDelta& delta) {
 }
 
 int MappingStage::UpdateMesher(Mesher& mesher, int budget_blocks) const {
-    if (device_mesher_) {
-        const int waiting = mesher.Update(*map_, budget_blocks, device_mesher_.get());
-        if (waiting == 0 || budget_blocks <= 0 || !mesher.updated().empty()) return waiting;
-        device_refused_ = true;
-    }
+    const int waiting = mesher.Update(*map_, budget_blocks, *block_mesher_);
+    if (waiting == 0 || budget_blocks <= 0 || !mesher.updated().empty()) return waiting;
+    device_refused_ = true;
     return mesher.Update(map(), budget_blocks);
 }
 
@@ -179,10 +175,7 @@ void MappingStage::Predict(const Eigen::Isometry3d& T_world_camera, int step,
                            PredictedView& view) const {
     constexpr float kNear_m = 0.1f;
     const float far_m = 1.2f * static_cast<float>(config_.frame.max_depth_m);
-    if (device_views_ != nullptr)
-        return device_views_->Predict(*map_, camera_.Every(step), T_world_camera, kNear_m, far_m,
-                                      view);
-    RayCaster().Predict(*map_, camera_.Every(step), T_world_camera, kNear_m, far_m, view);
+    backend_->views().Predict(*map_, camera_.Every(step), T_world_camera, kNear_m, far_m, view);
 }
 
 void MappingStage::Replace(std::unique_ptr<BlockMap> map, std::unique_ptr<LabelMapper> labels) {

@@ -33,7 +33,7 @@ class MappingStage {
   public:
     // `device` outlives the stage. Null: everything runs on the CPU.
     MappingStage(const PipelineConfig& config, const MeshConfig& meshing,
-                 const PinholeCamera& camera, Device* device = nullptr);
+                 const PinholeCamera& camera, Backend* device = nullptr);
 
     // Fuses the frame into the map if `to_fuse` is set, and fills in its fusion report.
     void Fuse(TrackedFrame& tracked);
@@ -116,10 +116,10 @@ class MappingStage {
     PipelineConfig config_;
     PinholeCamera camera_;
     std::unique_ptr<BlockMap> map_;  // null after TakeMesh
+    BackendOf backend_;
     std::unique_ptr<Integrator> integrator_;
-    ViewPredictor* device_views_;                 // null: views are cast on the CPU
-    std::unique_ptr<BlockMesher> device_mesher_;  // null: blocks are meshed on the CPU
-    mutable bool device_refused_ = false;         // the device had no memory to mesh
+    std::unique_ptr<BlockMesher> block_mesher_;
+    mutable bool device_refused_ = false;  // the device had no memory to mesh
     Mesher mesher_;
     GeometryBuilder geometry_;
     std::unique_ptr<LabelMapper> labels_;  // null without labels

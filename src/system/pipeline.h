@@ -13,7 +13,7 @@ namespace tessera {
 class Pipeline {
   public:
     Pipeline(const PipelineConfig& config, const PinholeCamera& camera,
-             const MeshConfig& meshing = {}, Device* device = nullptr)
+             const MeshConfig& meshing = {}, Backend* device = nullptr)
         : tracking_(config, camera, device), mapping_(config, meshing, camera, device) {}
 
     // With a given pose, the frame is fused there and not tracked. The world frame is the first

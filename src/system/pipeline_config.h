@@ -5,7 +5,7 @@
 #include "mapping/block_map.h"
 #include "mapping/integrator.h"
 #include "mapping/prepared_frame.h"
-#include "system/device.h"
+#include "system/backend.h"
 #include "system/motion_model.h"
 #include "system/paging_config.h"
 #include "system/tracking_method.h"

@@ -41,16 +41,17 @@ void TrackersConfig::Describe(ConfigParameters& p) {
     p.Section("icp", [&](ConfigParameters& s) { icp.Describe(s); });
 }
 
-Trackers::Trackers(const TrackersConfig& config, const PinholeCamera& camera, Device* device)
+Trackers::Trackers(const TrackersConfig& config, const PinholeCamera& camera, Backend& backend)
     : config_(config),
       camera_(camera),
-      device_(device),
+      backend_(backend),
       method_(config.method),
       model_(config.photometric) {}
 
 bool Trackers::reads_map() const {
     const bool icp = method_ == TrackingMethod::kIcp || method_ == TrackingMethod::kIcpRgb;
-    return device_ == nullptr || (icp && config_.icp.prediction == IcpTracker::Prediction::kRaster);
+    return !backend_.on_device() ||
+           (icp && config_.icp.prediction == IcpTracker::Prediction::kRaster);
 }
 
 TrackResult Trackers::Track(const TrackInput& input) {
@@ -73,14 +74,12 @@ std::unique_ptr<Tracker> Trackers::Make(TrackingMethod method) {
     const bool colour = method == TrackingMethod::kSdf || method == TrackingMethod::kIcpRgb;
     if (method == TrackingMethod::kSdf || method == TrackingMethod::kSdfGeometric)
         return std::make_unique<SdfTracker>(config_.sdf, camera_, judge, model_, colour,
-                                            VectorPath::kAuto,
-                                            device_ != nullptr ? &device_->sdf_sums() : nullptr);
-    std::unique_ptr<ViewPredictor> predictor;  // none if a device casts the rays itself
-    if (device_ == nullptr || config_.icp.prediction == IcpTracker::Prediction::kRaster)
+                                            &backend_.sdf_sums());
+    std::unique_ptr<ViewPredictor> predictor;  // none: the backend casts the rays
+    if (config_.icp.prediction == IcpTracker::Prediction::kRaster)
         predictor = MakePredictor(config_.icp.prediction, note_);
     return std::make_unique<IcpTracker>(config_.icp, camera_, judge, model_, colour,
-                                        std::move(predictor), VectorPath::kAuto,
-                                        device_ != nullptr ? &device_->icp_sums() : nullptr);
+                                        std::move(predictor), &backend_.icp_sums());
 }
 
 std::string Trackers::TakeNote() { return std::exchange(note_, {}); }

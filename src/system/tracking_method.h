@@ -11,7 +11,7 @@
 
 #include "core/camera.h"
 #include "core/config.h"
-#include "system/device.h"
+#include "system/backend.h"
 #include "tracking/icp_tracker.h"
 #include "tracking/residual_model.h"
 #include "tracking/sdf_tracker.h"
@@ -65,7 +65,7 @@ std::unique_ptr<ViewPredictor> MakePredictor(IcpTracker::Prediction prediction, 
 class Trackers {
   public:
     // `device` outlives the trackers. Null: everything runs on the CPU.
-    Trackers(const TrackersConfig& config, const PinholeCamera& camera, Device* device = nullptr);
+    Trackers(const TrackersConfig& config, const PinholeCamera& camera, Backend& backend);
 
     TrackingMethod method() const { return method_; }
     void Select(TrackingMethod method) { method_ = method; }
@@ -89,7 +89,7 @@ class Trackers {
 
     TrackersConfig config_;
     PinholeCamera camera_;
-    Device* device_;
+    Backend& backend_;
     TrackingMethod method_;
     ResidualModel model_;
     std::array<std::unique_ptr<Tracker>, kTrackingMethods.size()> trackers_;

@@ -33,15 +33,15 @@ double MedianDepth(const DepthImage& depth_m) {
 }  // namespace
 
 TrackingStage::TrackingStage(const PipelineConfig& config, const PinholeCamera& camera,
-                             Device* device)
+                             Backend* device)
     : config_(config),
       camera_(camera),
       motion_(config.motion),
       motion_before_(config.motion),
       aligner_(config.prealign, camera),
       moving_(config.moving, camera),
-      trackers_(config.trackers, camera, device),
-      device_(device) {}
+      backend_(device),
+      trackers_(config.trackers, camera, *backend_) {}
 
 void TrackingStage::Track(const Frame& frame, const BlockMap& map,
                           const std::optional<Eigen::Isometry3d>& given, TrackedFrame& tracked) {
@@ -57,16 +57,29 @@ void TrackingStage::Track(const Frame& frame, const BlockMap& map,
     Stopwatch watch;
     const std::shared_ptr<const MovingMask> expected =
         given ? nullptr : ExpectMoving(frame.stamp_s);
-    if (device_ != nullptr) {
-        PrepareOnDevice(frame, expected.get(), prepared);
-    } else {
-        PrepareFrame(frame, config_.frame, prepared, expected.get());
-    }
+    backend_->Prepare(frame, config_.frame, expected.get(), keep_images_, prepared);
     report.prepare_ms = watch.LapMs();
     report.valid_depth_fraction = static_cast<double>(prepared.valid_depth_pixels) /
                                   static_cast<double>(frame.depth_m.size());
 
     // 2. Estimate the camera pose.
+    EstimatePose(frame, map, given, tracked);
+    report.track_ms = watch.LapMs();
+
+    // 3. Mask what moves, so that it is not fused.
+    MaskMoving(frame, map, expected != nullptr, tracked);
+    report.moving_ms = watch.LapMs();
+
+    // 4. Decide whether to fuse.
+    tracked.to_fuse = report.track.status == TrackStatus::kGood && (fusing_ || report.first);
+    tracked.view = FusionView(report.track);
+}
+
+void TrackingStage::EstimatePose(const Frame& frame, const BlockMap& map,
+                                 const std::optional<Eigen::Isometry3d>& given,
+                                 TrackedFrame& tracked) {
+    const PreparedFrame& prepared = tracked.prepared;
+    FrameReport& report = tracked.report;
     motion_before_ = motion_;
     report.first = !motion_.last().has_value();
     if (prepared.valid_depth_pixels == 0) {
@@ -88,26 +101,11 @@ void TrackingStage::Track(const Frame& frame, const BlockMap& map,
         report.warning = trackers_.TakeNote();
     }
     report.first = report.first && report.tracked();
-    report.track_ms = watch.LapMs();
     if (report.tracked())
         motion_.Add({frame.stamp_s, report.track.T_world_camera},
                     {.degenerate = report.track.degenerate,
                      .poor = report.track.status == TrackStatus::kPoor,
                      .uncertainty_m = report.track.uncertainty_m});
-
-    // 3. Mask what moves, so that it is not fused.
-    MaskMoving(frame, map, expected != nullptr, tracked);
-    report.moving_ms = watch.LapMs();
-
-    // 4. Decide whether to fuse.
-    tracked.to_fuse = report.track.status == TrackStatus::kGood && (fusing_ || report.first);
-    tracked.view = FusionView(report.track);
-}
-
-void TrackingStage::PrepareOnDevice(const Frame& frame, const MovingMask* moving,
-                                    PreparedFrame& prepared) {
-    device_->Prepare(moving != nullptr ? WithoutMoving(*moving, frame) : frame, config_.frame,
-                     keep_images_, prepared);
 }
 
 std::shared_ptr<const MovingMask> TrackingStage::ExpectMoving(double stamp_s) const {
@@ -122,7 +120,6 @@ void TrackingStage::HintMoving(const MovingHint& hint,
 
 void TrackingStage::MaskMoving(const Frame& frame, const BlockMap& map, bool hidden,
                                TrackedFrame& tracked) {
-    ViewPredictor& predictor = device_ != nullptr ? device_->views() : caster_;
     const FrameReport& report = tracked.report;
     if (config_.moving.enabled && report.track.status == TrackStatus::kGood)
         tracked.report.moving = moving_.Find(
@@ -131,12 +128,11 @@ void TrackingStage::MaskMoving(const Frame& frame, const BlockMap& map, bool hid
              .farthest_m = static_cast<float>(config_.frame.max_depth_m),
              .stamp_s = frame.stamp_s,
              .T_world_camera = report.track.T_world_camera},
-            map, predictor);
+            map, backend_->views());
     const bool moves = report.moving && report.moving->moving_tiles > 0;
     const MovingMask* moving = moves ? report.moving.get() : nullptr;
-    if ((moves || hidden) && device_ != nullptr) PrepareOnDevice(frame, moving, tracked.prepared);
-    if ((moves || hidden) && device_ == nullptr)
-        RemaskDepth(frame, config_.frame, tracked.prepared, moving);
+    if (moves || hidden)
+        backend_->Remask(frame, config_.frame, moving, keep_images_, tracked.prepared);
     if (report.moving) SetMoving(report.moving, tracked.prepared);
 }
 

@@ -9,8 +9,7 @@
 #include "core/frame.h"
 #include "mapping/integrator.h"
 #include "mapping/prepared_frame.h"
-#include "mapping/ray_caster.h"
-#include "system/device.h"
+#include "system/backend.h"
 #include "system/motion_model.h"
 #include "system/pipeline_config.h"
 #include "system/viewer_settings.h"
@@ -51,7 +50,7 @@ class TrackingStage {
   public:
     // `device` outlives the stage. Null: everything runs on the CPU.
     TrackingStage(const PipelineConfig& config, const PinholeCamera& camera,
-                  Device* device = nullptr);
+                  Backend* device = nullptr);
 
     // Writes to `tracked` and reuses its storage. With a given pose, the frame is not tracked. The
     // world frame is the first frame's camera unless its pose is given. The first frame is always
@@ -96,10 +95,11 @@ class TrackingStage {
     void StartAt(const StampedPose& last);
 
   private:
+    void EstimatePose(const Frame& frame, const BlockMap& map,
+                      const std::optional<Eigen::Isometry3d>& given, TrackedFrame& tracked);
     TrackResult TrackFrame(const Frame& frame, const PreparedFrame& prepared, const BlockMap& map);
     std::shared_ptr<const MovingMask> ExpectMoving(double stamp_s) const;
     void MaskMoving(const Frame& frame, const BlockMap& map, bool hidden, TrackedFrame& tracked);
-    void PrepareOnDevice(const Frame& frame, const MovingMask* moving, PreparedFrame& prepared);
     double MinWeightDepth(const PreparedFrame& prepared) const;
     FrameMotion FrameMotionOf(const Frame& frame) const;
 
@@ -108,9 +108,8 @@ class TrackingStage {
     MotionModel motion_, motion_before_;  // after and before the last frame
     ImageAligner aligner_;
     MovingDetector moving_;
-    RayCaster caster_;
+    BackendOf backend_;
     Trackers trackers_;
-    Device* device_;
     bool fusing_ = true, keep_images_ = false;
 };
 

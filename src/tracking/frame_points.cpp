@@ -58,9 +58,13 @@ void FramePoints::Allocate(const PointArguments& a, std::int64_t valid) {
         values->resize(static_cast<std::size_t>(count()));
 }
 
-void FramePoints::Build(const PreparedFrame& frame, const PinholeCamera& camera,
-                        const FrameMotion& motion, int step, const DepthWeight& depth_weight) {
-    const PointArguments a = MakePointArguments(frame, camera, motion, step, depth_weight, false);
+void FramePoints::Build(const PointArguments& a) {
+    BuildRows(a);
+    if (a.normal_radius_px > 0) EstimateNormals(a);
+    if (a.intensity.width > 0) SampleIntensity(a);
+}
+
+void FramePoints::BuildRows(const PointArguments& a) {
     Allocate(a, 0);
     for (auto* values : {&x, &y, &z, &weight})
         values->assign(static_cast<std::size_t>(count()), 0.0f);
@@ -68,9 +72,9 @@ void FramePoints::Build(const PreparedFrame& frame, const PinholeCamera& camera,
     std::vector<std::int64_t> valid(static_cast<std::size_t>(height_), 0);
     tbb::parallel_for(0, height_, [&](int row) {
         const PointRow r = RowOfPoints(a, row);
-        const float* line = frame.depth_m.row(r.v);
+        const float* line = a.depth.pixels + static_cast<std::ptrdiff_t>(r.v) * a.depth.width;
         std::size_t at = static_cast<std::size_t>(row) * static_cast<std::size_t>(width_);
-        for (int u = step / 2; u < a.depth.width; u += step, ++at) {
+        for (int u = a.step / 2; u < a.depth.width; u += a.step, ++at) {
             const float d = line[u];
             if (d <= 0) continue;
             const CameraPoint p = PointOfPixel(a, r, u, d);
@@ -84,11 +88,9 @@ void FramePoints::Build(const PreparedFrame& frame, const PinholeCamera& camera,
     valid_ = std::accumulate(valid.begin(), valid.end(), std::int64_t{0});
 }
 
-void FramePoints::EstimateNormals(const PreparedFrame& frame, const PinholeCamera& camera,
-                                  int radius_px) {
+void FramePoints::EstimateNormals(const PointArguments& a) {
     for (auto* values : {&normal_x, &normal_y, &normal_z})
         values->assign(static_cast<std::size_t>(count()), 0.0f);
-    const PinholeImage depth = WithCamera(frame.depth_m, frame, camera);
     std::vector<std::int64_t> dropped(static_cast<std::size_t>(height_), 0);
     tbb::parallel_for(0, height_, [&](int row) {
         for (int column = 0; column < width_; ++column) {
@@ -96,7 +98,8 @@ void FramePoints::EstimateNormals(const PreparedFrame& frame, const PinholeCamer
                                   static_cast<std::size_t>(column);
             if (weight[i] <= 0) continue;
             CameraPoint n;
-            if (!NormalAt(depth, column * step_ + step_ / 2, ImageRow(row), radius_px, n)) {
+            if (!NormalAt(a.depth, column * step_ + step_ / 2, ImageRow(row), a.normal_radius_px,
+                          n)) {
                 weight[i] = 0;
                 ++dropped[static_cast<std::size_t>(row)];
                 continue;
@@ -109,10 +112,7 @@ void FramePoints::EstimateNormals(const PreparedFrame& frame, const PinholeCamer
     valid_ -= std::accumulate(dropped.begin(), dropped.end(), std::int64_t{0});
 }
 
-void FramePoints::SampleIntensity(const PreparedFrame& frame, const PinholeCamera& camera,
-                                  const FrameMotion& motion) {
-    if (!frame.has_colour) return;
-    const PointArguments a = MakePointArguments(frame, camera, motion, step_, {}, true);
+void FramePoints::SampleIntensity(const PointArguments& a) {
     tbb::parallel_for(0, height_, [&](int row) {
         const PointRow r = RowOfPoints(a, row);
         std::size_t i = static_cast<std::size_t>(row) * static_cast<std::size_t>(width_);

@@ -26,22 +26,18 @@ PointArguments MakePointArguments(const PreparedFrame& frame, const PinholeCamer
 
 class FramePoints {
   public:
-    // Builds points in the camera frame at the frame's timestamp, metres.
-    void Build(const PreparedFrame& frame, const PinholeCamera& camera, const FrameMotion& motion,
-               int step, const DepthWeight& depth_weight);
-    // Reads the intensity of each point where the colour camera saw it, at that camera's own time;
-    // -1 where it saw nothing.
-    void SampleIntensity(const PreparedFrame& frame, const PinholeCamera& camera,
-                         const FrameMotion& motion);
+    // Builds points in the camera frame at the frame's timestamp, metres, and what the arguments
+    // ask for besides:
+    // - Normals of the measured surface, in the camera frame, unit, towards the camera, from
+    //   differences across normal_radius_px pixels to each side ([D18] eq. 15 has radius 1,
+    //   one-sided). A point at a depth discontinuity or hole has no normal and loses its weight.
+    // - The intensity of each point where the colour camera saw it, at that camera's own time; -1
+    //   where it saw nothing, and without intensities.
+    void Build(const PointArguments& arguments);
 
     // Only lays out the slots, for points that are filled in elsewhere; `valid` of them have a
     // point. The contents of the arrays are unspecified.
     void Allocate(const PointArguments& arguments, std::int64_t valid);
-
-    // Normals of the measured surface, in the camera frame, unit, towards the camera, from
-    // differences across radius_px pixels to each side ([D18] eq. 15 has radius 1, one-sided). A
-    // point at a depth discontinuity or hole has no normal and loses its weight.
-    void EstimateNormals(const PreparedFrame& frame, const PinholeCamera& camera, int radius_px);
 
     int width() const { return width_; }    // slots per row, a multiple of kPointPadding
     int height() const { return height_; }  // rows
@@ -51,9 +47,13 @@ class FramePoints {
     std::int64_t valid() const { return valid_; }
 
     std::vector<float> x, y, z, intensity, weight;
-    std::vector<float> normal_x, normal_y, normal_z;  // of the last EstimateNormals
+    std::vector<float> normal_x, normal_y, normal_z;  // if asked for
 
   private:
+    void BuildRows(const PointArguments& arguments);
+    void EstimateNormals(const PointArguments& arguments);
+    void SampleIntensity(const PointArguments& arguments);
+
     int width_ = 0, height_ = 0, step_ = 1;
     std::int64_t valid_ = 0;
 };

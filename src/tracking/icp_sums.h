@@ -1,11 +1,13 @@
-// Interface for predicting the ICP tracker's view and taking its sums outside the CPU, on a device
-// that holds the map.
+// The ICP tracker's predicted model and its work over all points, on the CPU or on a device that
+// holds the map.
 #pragma once
 
 #include <Eigen/Geometry>
 #include <vector>
 
+#include "core/cpu.h"
 #include "mapping/block_map.h"
+#include "mapping/ray_caster.h"
 #include "tracking/frame_points.h"
 #include "tracking/icp_arguments.h"
 #include "tracking/icp_model.h"
@@ -14,31 +16,56 @@
 
 namespace tessera {
 
+// Depth limits of a predicted view, in metres along z, and the depth step that ends a surface.
+struct ModelRange {
+    float near_m = 0, far_m = 0, jump_m = 0;
+};
+
 // Owner thread only.
 class IcpSums {
   public:
     virtual ~IcpSums() = default;
 
-    // Predicts the model for the next points: as many levels as BuildIcpModel makes of the view
-    // that RayCaster predicts. The view is valid until another one is predicted on the same device.
+    // Casts the view from this pose and makes as many levels of a model of it (BuildIcpModel). A
+    // device keeps the images, until another view is predicted on it; `view` and `model` then
+    // contain cameras and the pose only.
     virtual void Predict(const BlockMap& map, const PinholeCamera& camera,
-                         const Eigen::Isometry3d& T_world_camera, float min_depth_m,
-                         float max_depth_m, int levels, float jump_m) = 0;
-    // The same for a model that the CPU predicted.
+                         const Eigen::Isometry3d& T_world_camera, const ModelRange& range,
+                         int levels, PredictedView& view, std::vector<IcpModelLevel>& model) = 0;
+    // Takes a model that was predicted in another way.
     virtual void SetModel(const std::vector<IcpModelLevel>& levels) = 0;
-    // Sets the points for the next calls of Sum, and their level of the model: the points of
-    // MakePointArguments for this frame, with normals, in the slots of FramePoints and with its
-    // bytes. Returns how many have a weight; 0 also if there is no room. No residuals are kept yet.
-    virtual std::int64_t SetPoints(const PreparedFrame& frame, const PointArguments& points,
-                                   int level) = 0;
-    // Gives the sums of SumIcpPoints over all points. Reads no arrays of `arguments`. Compares
-    // energies with the kept residuals if distance_before is not null.
-    virtual PoseSums Sum(const IcpArguments& arguments) = 0;
-    // Keeps the last Sum's residuals for comparison from here on.
-    virtual void KeepResiduals() = 0;
-    // Gives the result of SumResiduals for the points, the kept residuals and the frame. Reads no
-    // arrays of `arguments`.
+    // Makes the frame's points for the next calls of Sum, against this level of the model, and lays
+    // out their slots. A device keeps the points and leaves the slots' contents unspecified;
+    // without room for them, no point is valid. No residuals are kept yet.
+    virtual void SetPoints(const PreparedFrame& frame, const PointArguments& arguments, int level,
+                           FramePoints& slots) = 0;
+    // The sums of SumIcpPoints over all `points` slots. Compares energies with the kept residuals
+    // if distance_before is not null. A device reads no arrays of `arguments`.
+    virtual PoseSums Sum(const IcpArguments& arguments, int points) = 0;
+    // Keeps the residuals of the last Sum, `last`, for comparison from here on.
+    virtual void KeepResiduals(PointResiduals& kept, PointResiduals& last) = 0;
+    // SumResiduals for the points, the kept residuals and the frame. A device reads no arrays of
+    // `arguments`.
     virtual ResidualSums SumResiduals(const ResidualArguments& arguments) = 0;
+};
+
+class CpuIcpSums : public IcpSums {
+  public:
+    explicit CpuIcpSums(VectorPath path = VectorPath::kAuto) : path_(path), caster_(path) {}
+
+    void Predict(const BlockMap& map, const PinholeCamera& camera,
+                 const Eigen::Isometry3d& T_world_camera, const ModelRange& range, int levels,
+                 PredictedView& view, std::vector<IcpModelLevel>& model) override;
+    void SetModel(const std::vector<IcpModelLevel>&) override {}
+    void SetPoints(const PreparedFrame& frame, const PointArguments& arguments, int level,
+                   FramePoints& slots) override;
+    PoseSums Sum(const IcpArguments& arguments, int points) override;
+    void KeepResiduals(PointResiduals& kept, PointResiduals& last) override;
+    ResidualSums SumResiduals(const ResidualArguments& arguments) override;
+
+  private:
+    VectorPath path_;
+    RayCaster caster_;
 };
 
 }  // namespace tessera

@@ -27,15 +27,15 @@ struct IcpTracker::State : FoundPose {
 
 IcpTracker::IcpTracker(const Config& config, const PinholeCamera& camera, const TrackJudge& judge,
                        ResidualModel& model, bool use_colour,
-                       std::unique_ptr<ViewPredictor> predictor, VectorPath path, IcpSums* device)
+                       std::unique_ptr<ViewPredictor> predictor, IcpSums* sums)
     : config_(config),
       camera_(camera),
       judge_(judge),
       residual_model_(model),
       use_colour_(use_colour),
       predictor_(std::move(predictor)),
-      path_(path),
-      device_(device),
+      own_sums_(sums != nullptr ? nullptr : std::make_unique<CpuIcpSums>()),
+      sums_(sums != nullptr ? *sums : *own_sums_),
       points_(static_cast<std::size_t>(config.levels)) {}
 
 TrackResult IcpTracker::Track(const TrackInput& input) {
@@ -57,9 +57,7 @@ TrackResult IcpTracker::Track(const TrackInput& input) {
     state.valid = state.step.valid;
     return Conclude(
         input, state, MakeResidualArguments(input.frame, camera_, points_[0], residuals_),
-        [this](const ResidualArguments& a) {
-            return device_ != nullptr ? device_->SumResiduals(a) : SumResiduals(a);
-        },
+        [this](const ResidualArguments& a) { return sums_.SumResiduals(a); },
         config_.distance_scale_m, judge_, residual_model_);
 }
 
@@ -67,24 +65,18 @@ TrackResult IcpTracker::Track(const TrackInput& input) {
 void IcpTracker::PredictAt(const TrackInput& input, const Eigen::Isometry3d& T_world_view,
                            State& state) {
     constexpr float kNear_m = 0.1f, kMargin_m = 0.5f;
-    const float near_m = std::max(kNear_m, 0.7f * input.frame.nearest_m - kMargin_m);
-    const float far_m = 1.2f * input.frame.farthest_m + kMargin_m,
-                jump_m = static_cast<float>(config_.distance_gate_m);
+    const ModelRange range{std::max(kNear_m, 0.7f * input.frame.nearest_m - kMargin_m),
+                           1.2f * input.frame.farthest_m + kMargin_m,
+                           static_cast<float>(config_.distance_gate_m)};
     const PinholeCamera camera = camera_.Every(config_.finest_step_px);
     state.T_local_camera.setIdentity();
-    if (predictor_ != nullptr) {
-        predictor_->Predict(input.map, camera, Normalised(T_world_view), near_m, far_m, view_);
-        BuildIcpModel(view_, config_.levels, jump_m, model_);
-        if (device_ != nullptr) device_->SetModel(model_);
-        return;
-    }
-    view_.camera = camera;
-    view_.T_world_camera = Normalised(T_world_view);
-    model_.resize(points_.size());
-    for (std::size_t i = 0; i < model_.size(); ++i)
-        model_[i].camera = i == 0 ? camera : HalfOf(model_[i - 1].camera);
-    device_->Predict(input.map, camera, view_.T_world_camera, near_m, far_m, config_.levels,
-                     jump_m);
+    const Eigen::Isometry3d T_world_camera = Normalised(T_world_view);
+    if (predictor_ == nullptr)
+        return sums_.Predict(input.map, camera, T_world_camera, range, config_.levels, view_,
+                             model_);
+    predictor_->Predict(input.map, camera, T_world_camera, range.near_m, range.far_m, view_);
+    BuildIcpModel(view_, config_.levels, range.jump_m, model_);
+    sums_.SetModel(model_);
 }
 
 // Chooses the start that fits best on the coarsest level. If it lies far from the predicted view,
@@ -124,16 +116,10 @@ void IcpTracker::PrepareLevel(const TrackInput& input, int level, State& state) 
                                    input.since_last_s;
     const int step = config_.finest_step_px << level;
     const DepthWeight weight{config_.depth_exponent, input.nearest_m};
-    if (device_ != nullptr) {
-        PointArguments a =
-            MakePointArguments(input.frame, camera_, state.motion, step, weight, state.alpha > 0);
-        a.normal_radius_px = config_.normal_radius_px;
-        points.Allocate(a, device_->SetPoints(input.frame, a, level));
-    } else {
-        points.Build(input.frame, camera_, state.motion, step, weight);
-        points.EstimateNormals(input.frame, camera_, config_.normal_radius_px);
-        if (state.alpha > 0) points.SampleIntensity(input.frame, camera_, state.motion);
-    }
+    PointArguments points_arguments =
+        MakePointArguments(input.frame, camera_, state.motion, step, weight, state.alpha > 0);
+    points_arguments.normal_radius_px = config_.normal_radius_px;
+    sums_.SetPoints(input.frame, points_arguments, level, points);
     state.failed = points.valid() == 0;
     IcpArguments& a = state.arguments;
     a = {};
@@ -169,16 +155,7 @@ PoseSums IcpTracker::SumAt(const FramePoints& points, Compare compare, State& st
     a.distance_before = compare == Compare::kWithKept ? residuals_.distance_m.data() : nullptr;
     a.intensity_before = compare == Compare::kWithKept ? residuals_.intensity.data() : nullptr;
     ++state.iterations;
-    if (device_ != nullptr) return device_->Sum(a);
-    return SumPoints(points.count(), [&](int first, int last, double* sums) {
-        TESSERA_SIMD(path_, SumIcpPoints)(a, first, last, sums);
-    });
-}
-
-// Keeps the residuals of the last sum.
-void IcpTracker::KeepResiduals() {
-    if (device_ != nullptr) return device_->KeepResiduals();
-    std::swap(residuals_, trial_residuals_);
+    return sums_.Sum(a, points.count());
 }
 
 // Levenberg-Marquardt on [D18] eq. 25.

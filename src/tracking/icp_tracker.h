@@ -6,12 +6,10 @@
 #include <memory>
 #include <vector>
 
-#include "core/cpu.h"
 #include "mapping/predicted_view.h"
 #include "tracking/conclude.h"
 #include "tracking/frame_points.h"
 #include "tracking/icp_model.h"
-#include "tracking/icp_simd.h"
 #include "tracking/icp_sums.h"
 #include "tracking/levenberg_marquardt.h"
 #include "tracking/tracker.h"
@@ -38,12 +36,12 @@ class IcpTracker : public Tracker {
         void Describe(ConfigParameters& parameters);
     };
 
-    // `model` must outlive the tracker. Without `use_colour` it tracks by geometry alone. `device`
-    // must also outlive it; null takes the sums on the CPU. `predictor` may be null if there is a
-    // device, which then predicts.
+    // `model` must outlive the tracker. Without `use_colour` it tracks by geometry alone.
+    // `predictor` predicts the views; null: `sums` casts them. `sums`, if given, must also outlive
+    // the tracker; null: a CpuIcpSums of its own.
     IcpTracker(const Config& config, const PinholeCamera& camera, const TrackJudge& judge,
-               ResidualModel& model, bool use_colour, std::unique_ptr<ViewPredictor> predictor,
-               VectorPath path = VectorPath::kAuto, IcpSums* device = nullptr);
+               ResidualModel& model, bool use_colour,
+               std::unique_ptr<ViewPredictor> predictor = nullptr, IcpSums* sums = nullptr);
 
     TrackResult Track(const TrackInput& input) override;
 
@@ -56,7 +54,7 @@ class IcpTracker : public Tracker {
     void RunLevel(int level, State& state);
     enum class Compare { kWithNothing, kWithKept };  // energies with those of the kept residuals
     PoseSums SumAt(const FramePoints& points, Compare compare, State& state);
-    void KeepResiduals();
+    void KeepResiduals() { sums_.KeepResiduals(residuals_, trial_residuals_); }
     void TakeStep(const FramePoints& points, State& state);
 
     Config config_;
@@ -65,9 +63,8 @@ class IcpTracker : public Tracker {
     ResidualModel& residual_model_;
     bool use_colour_;
     std::unique_ptr<ViewPredictor> predictor_;
-    VectorPath path_;
-    IcpSums* device_;
-    // With a device that predicts: camera and pose only; the same for the levels of model_.
+    std::unique_ptr<IcpSums> own_sums_;
+    IcpSums& sums_;
     PredictedView view_;
     std::vector<IcpModelLevel> model_;  // per level
     std::vector<FramePoints> points_;   // per level

@@ -1,11 +1,12 @@
-// Interface for taking the SDF tracker's sums outside the CPU, on a device that holds the map.
+// The SDF tracker's work over all points, on the CPU or on a device that holds the map.
 #pragma once
 
+#include "core/cpu.h"
 #include "mapping/block_map.h"
 #include "tracking/frame_points.h"
 #include "tracking/pose_solver.h"
 #include "tracking/residual_sums.h"
-#include "tracking/sdf_simd.h"
+#include "tracking/sdf_arguments.h"
 
 namespace tessera {
 
@@ -14,18 +15,30 @@ class SdfSums {
   public:
     virtual ~SdfSums() = default;
 
-    // Sets the points for the next calls of Sum, in this map: the points of MakePointArguments for
-    // this frame, in the slots of FramePoints and with its bytes. Returns how many have a weight; 0
-    // also if there is no room.
-    virtual std::int64_t SetPoints(const BlockMap& map, const PreparedFrame& frame,
-                                   const PointArguments& points) = 0;
-    // Gives the sums of SumSdfPoints over all points. Does not read the arrays of the map and of
-    // the points in `arguments`.
-    virtual PoseSums Sum(const SdfArguments& arguments) = 0;
-    // Gives the result of SumResiduals for these points, their residuals at the last Sum, and the
-    // frame. The arguments of that Sum must have requested residuals. Reads no arrays of
-    // `arguments`.
+    // Makes the frame's points for the next calls of Sum, in this map, and lays out their slots. A
+    // device keeps the points and leaves the slots' contents unspecified; without room for them, no
+    // point is valid.
+    virtual void SetPoints(const BlockMap& map, const PreparedFrame& frame,
+                           const PointArguments& arguments, FramePoints& slots) = 0;
+    // The sums of SumSdfPoints over all `points` slots. A device does not read the arrays of the
+    // map and of the points in `arguments`.
+    virtual PoseSums Sum(const SdfArguments& arguments, int points) = 0;
+    // SumResiduals for these points, their residuals at the last Sum, and the frame. The arguments
+    // of that Sum must have requested residuals. A device reads no arrays of `arguments`.
     virtual ResidualSums SumResiduals(const ResidualArguments& arguments) = 0;
+};
+
+class CpuSdfSums : public SdfSums {
+  public:
+    explicit CpuSdfSums(VectorPath path = VectorPath::kAuto) : path_(path) {}
+
+    void SetPoints(const BlockMap& map, const PreparedFrame& frame, const PointArguments& arguments,
+                   FramePoints& slots) override;
+    PoseSums Sum(const SdfArguments& arguments, int points) override;
+    ResidualSums SumResiduals(const ResidualArguments& arguments) override;
+
+  private:
+    VectorPath path_;
 };
 
 }  // namespace tessera

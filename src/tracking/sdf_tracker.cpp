@@ -31,14 +31,14 @@ struct SdfTracker::State : FoundPose {
 };
 
 SdfTracker::SdfTracker(const Config& config, const PinholeCamera& camera, const TrackJudge& judge,
-                       ResidualModel& model, bool use_colour, VectorPath path, SdfSums* device)
+                       ResidualModel& model, bool use_colour, SdfSums* sums)
     : config_(config),
       camera_(camera),
       judge_(judge),
       residual_model_(model),
       use_colour_(use_colour),
-      path_(path),
-      device_(device),
+      own_sums_(sums != nullptr ? nullptr : std::make_unique<CpuSdfSums>()),
+      sums_(sums != nullptr ? *sums : *own_sums_),
       points_(static_cast<std::size_t>(config.levels)) {}
 
 TrackResult SdfTracker::Track(const TrackInput& input) {
@@ -60,26 +60,19 @@ TrackResult SdfTracker::Track(const TrackInput& input) {
     state.valid = state.step.valid;
     return Conclude(
         input, state, MakeResidualArguments(input.frame, camera_, points_[0], residuals_),
-        [this](const ResidualArguments& a) {
-            return device_ != nullptr ? device_->SumResiduals(a) : SumResiduals(a);
-        },
+        [this](const ResidualArguments& a) { return sums_.SumResiduals(a); },
         config_.distance_scale_m, judge_, residual_model_);
 }
 
 // Without points the level cannot be tracked. A device may have had no room for them.
-void SdfTracker::MakePoints(const TrackInput& input, int step, FramePoints& points,
-                            State& state) const {
+void SdfTracker::MakePoints(const TrackInput& input, int step, FramePoints& points, State& state) {
     const DepthWeight weight{config_.depth_exponent, input.nearest_m};
-    if (device_ != nullptr) {
-        const PointArguments a =
-            MakePointArguments(input.frame, camera_, state.motion, step, weight, state.alpha > 0);
-        points.Allocate(a, device_->SetPoints(input.map, input.frame, a));
-        if (points.valid() == 0) state.step.valid = false;
-    } else {
-        points.Build(input.frame, camera_, state.motion, step, weight);
-        if (state.alpha > 0) points.SampleIntensity(input.frame, camera_, state.motion);
-    }
+    sums_.SetPoints(
+        input.map, input.frame,
+        MakePointArguments(input.frame, camera_, state.motion, step, weight, state.alpha > 0),
+        points);
     state.failed = points.valid() == 0;
+    if (state.failed) state.step.valid = false;
 }
 
 // Prepares the points, their intensities and the map for the hot loop, at every (finest_step_px <<
@@ -117,15 +110,12 @@ void SdfTracker::PrepareLevel(const TrackInput& input, int level, State& state) 
     for (std::size_t k = 0; k < 3; ++k) a.gradient[k] = residuals_.gradient[k].data();
 }
 
-PoseSums SdfTracker::SumAt(const TrackInput& input, const FramePoints& points, State& state) const {
+PoseSums SdfTracker::SumAt(const TrackInput& input, const FramePoints& points, State& state) {
     SetSdfPose(state.T_world_camera, state.origin_m, input.map.config().voxel_size_m,
                state.arguments);
     state.arguments.gain = static_cast<float>(state.gain);
     state.arguments.offset = static_cast<float>(state.offset);
-    if (device_ != nullptr) return device_->Sum(state.arguments);
-    return SumPoints(points.count(), [&](int first, int last, double* sums) {
-        TESSERA_SIMD(path_, SumSdfPoints)(state.arguments, first, last, sums);
-    });
+    return sums_.Sum(state.arguments, points.count());
 }
 
 // Chooses the start that fits best on the coarsest level.

@@ -2,12 +2,11 @@
 // ([B14] eq. 8-11; alpha = 0 gives [B13]), coarse to fine over subsampled points.
 #pragma once
 
+#include <memory>
 #include <vector>
 
-#include "core/cpu.h"
 #include "tracking/conclude.h"
 #include "tracking/frame_points.h"
-#include "tracking/sdf_simd.h"
 #include "tracking/sdf_sums.h"
 #include "tracking/tracker.h"
 
@@ -27,30 +26,29 @@ class SdfTracker : public Tracker {
         void Describe(ConfigParameters& parameters);
     };
 
-    // `model` must outlive the tracker. Without `use_colour` it tracks by geometry alone. `device`
-    // must also outlive it; null takes the sums on the CPU.
+    // `model` must outlive the tracker. Without `use_colour` it tracks by geometry alone. `sums`,
+    // if given, must also outlive it; null: a CpuSdfSums of its own.
     SdfTracker(const Config& config, const PinholeCamera& camera, const TrackJudge& judge,
-               ResidualModel& model, bool use_colour, VectorPath path = VectorPath::kAuto,
-               SdfSums* device = nullptr);
+               ResidualModel& model, bool use_colour, SdfSums* sums = nullptr);
 
     TrackResult Track(const TrackInput& input) override;
 
   private:
     struct State;  // of one call to Track
 
-    void MakePoints(const TrackInput& input, int step, FramePoints& points, State& state) const;
+    void MakePoints(const TrackInput& input, int step, FramePoints& points, State& state);
     void PrepareLevel(const TrackInput& input, int level, State& state);
     void ChooseStart(const TrackInput& input, State& state);
     void RunLevel(const TrackInput& input, int level, State& state);
-    PoseSums SumAt(const TrackInput& input, const FramePoints& points, State& state) const;
+    PoseSums SumAt(const TrackInput& input, const FramePoints& points, State& state);
 
     Config config_;
     PinholeCamera camera_;
     TrackJudge judge_;
     ResidualModel& residual_model_;
     bool use_colour_;
-    VectorPath path_;
-    SdfSums* device_;
+    std::unique_ptr<SdfSums> own_sums_;
+    SdfSums& sums_;
     std::vector<FramePoints> points_;  // per level
     PointResiduals residuals_;         // of the finest level
 };

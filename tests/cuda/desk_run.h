@@ -11,7 +11,7 @@ namespace tessera::testing_support {
 
 // `device` must outlive this object. Null means the CPU.
 struct DeskRun {
-    DeskRun(const PipelineConfig& config, Device* device)
+    DeskRun(const PipelineConfig& config, Backend* device)
         : pipeline(config, DeskCamera(), {}, device) {
         for (const DeskFrame& frame : DeskFrames())
             reports.push_back(pipeline.Process(frame.frame));

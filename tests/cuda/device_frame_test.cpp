@@ -83,10 +83,10 @@ TEST(DeviceFrame, IsTheBytesOfThePreparedFrame) {
                 config.disparity_offset_per_m = blur % 2 == 0 ? 0.0 : 0.003;
                 PrepareFrame(frame, config, expected);
                 ASSERT_GT(expected.valid_depth_pixels, 10);
-                device.Prepare(frame, config, true, made);
+                device.Prepare(frame, config, nullptr, true, made);
                 ExpectSameFrame(made, expected);
                 EXPECT_NE(made.identity, expected.identity);
-                device.Prepare(frame, config, false, made);
+                device.Prepare(frame, config, nullptr, false, made);
                 ExpectSameReduced(made, expected);
                 EXPECT_TRUE(made.depth_m.empty() && made.intensity.empty() &&
                             made.packed_colour.empty());
@@ -94,7 +94,7 @@ TEST(DeviceFrame, IsTheBytesOfThePreparedFrame) {
     Frame none;
     none.depth_m = DepthImage(32, 24, 0.0f);
     PrepareFrame(none, {}, expected);
-    device.Prepare(none, {}, true, made);
+    device.Prepare(none, {}, nullptr, true, made);
     ExpectSameFrame(made, expected);
 }
 
@@ -129,7 +129,7 @@ TEST(DeviceFrame, IsThereWhenItWasMadeThere) {
 TEST(DeviceFrame, IsMadeByTheProcessorWhereThereIsNoRoom) {
     DevicePipeline device("host", std::size_t{64} << 10);
     PreparedFrame made;
-    device.Prepare(DeskFrames()[3].frame, {}, false, made);
+    device.Prepare(DeskFrames()[3].frame, {}, nullptr, false, made);
     ExpectSameFrame(made, DeskFrames()[3].prepared);
 }
 

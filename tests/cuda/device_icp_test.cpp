@@ -31,10 +31,7 @@ struct IcpRig {
         PredictedView view;
         RayCaster().Predict(map, camera, T_world_view, kNear_m, kFar_m, view);
         BuildIcpModel(view, kLevels, kJump_m, model);
-        const PreparedFrame& frame = DeskFrames()[5].prepared;
-        points.Build(frame, DeskCamera(), {}, 2, {2.0});
-        points.EstimateNormals(frame, DeskCamera(), 4);
-        points.SampleIntensity(frame, DeskCamera(), {});
+        points.Build(PointsOf(0));
         distance.resize(static_cast<std::size_t>(points.count()));
         intensity = kept_distance = kept_intensity = distance;
     }
@@ -44,6 +41,20 @@ struct IcpRig {
             MakePointArguments(DeskFrames()[5].prepared, DeskCamera(), {}, 2 << level, {2.0}, true);
         a.normal_radius_px = 4;
         return a;
+    }
+
+    void PredictOn(DeviceIcp& icp) const {
+        PredictedView view;
+        std::vector<IcpModelLevel> levels;
+        icp.Predict(map, camera, T_world_view, {kNear_m, kFar_m, kJump_m}, kLevels, view, levels);
+        ASSERT_EQ(levels.size(), model.size());
+        for (std::size_t i = 0; i < model.size(); ++i) EXPECT_EQ(levels[i].camera, model[i].camera);
+    }
+    // Returns how many are valid.
+    std::int64_t SetPoints(DeviceIcp& icp, int level) const {
+        FramePoints slots;
+        icp.SetPoints(DeskFrames()[5].prepared, PointsOf(level), level, slots);
+        return slots.valid();
     }
 
     // At a pose that is off by `moved_m` along x.
@@ -96,9 +107,9 @@ TEST(DeviceIcp, ModelIsTheProcessorsToTheBit) {
     const IcpRig rig;
     DevicePipeline device("host", kPlenty);
     DeviceIcp icp(device);
-    icp.Predict(rig.map, rig.camera, rig.T_world_view, kNear_m, kFar_m, kLevels, kJump_m);
+    rig.PredictOn(icp);
     // SetPoints also waits for the model.
-    EXPECT_GT(icp.SetPoints(DeskFrames()[5].prepared, rig.PointsOf(0), 0), 0);
+    EXPECT_GT(rig.SetPoints(icp, 0), 0);
     ASSERT_EQ(icp.model().size(), rig.model.size());
     for (std::size_t i = 0; i < rig.model.size(); ++i) {
         const ModelImages& level = icp.model()[i];
@@ -128,19 +139,20 @@ TEST(DeviceIcp, SumsAreTheProcessorsToTheBit) {
     IcpRig rig;
     DevicePipeline device("host", kPlenty);
     DeviceIcp icp(device);
-    icp.Predict(rig.map, rig.camera, rig.T_world_view, kNear_m, kFar_m, kLevels, kJump_m);
-    EXPECT_EQ(icp.SetPoints(DeskFrames()[5].prepared, rig.PointsOf(0), 0), rig.points.valid());
+    rig.PredictOn(icp);
+    EXPECT_EQ(rig.SetPoints(icp, 0), rig.points.valid());
     const PoseSums first = rig.Expected(rig.ArgumentsAt(0.004f, false));
     EXPECT_EQ(first[SumLayout::kEnergyBefore], 0);
-    ExpectSameSums(icp.Sum(rig.ArgumentsAt(0.004f, false)), first);
+    ExpectSameSums(icp.Sum(rig.ArgumentsAt(0.004f, false), rig.points.count()), first);
     std::swap(rig.distance, rig.kept_distance);
     std::swap(rig.intensity, rig.kept_intensity);
-    icp.KeepResiduals();
+    PointResiduals unused;
+    icp.KeepResiduals(unused, unused);
     const PoseSums second = rig.Expected(rig.ArgumentsAt(0, true));
     EXPECT_GT(std::abs(second[SumLayout::kEnergyBefore] - second[SumLayout::kEnergy]),
               1e-3 * second[SumLayout::kEnergy]);
     for (int i = 0; i < 2; ++i)
-        ExpectSameSums(icp.Sum(rig.ArgumentsAt(0, true)),
+        ExpectSameSums(icp.Sum(rig.ArgumentsAt(0, true), rig.points.count()),
                        second);  // residuals that are not kept change nothing
 
     std::vector<float> distance(rig.distance.size()), intensity(rig.intensity.size());
@@ -148,7 +160,7 @@ TEST(DeviceIcp, SumsAreTheProcessorsToTheBit) {
     const std::size_t bytes = distance.size() * sizeof(float);
     EXPECT_EQ(std::memcmp(distance.data(), rig.kept_distance.data(), bytes), 0);
     EXPECT_EQ(std::memcmp(intensity.data(), rig.kept_intensity.data(), bytes), 0);
-    icp.KeepResiduals();
+    icp.KeepResiduals(unused, unused);
     icp.TakeResiduals(distance, intensity);
     EXPECT_EQ(std::memcmp(distance.data(), rig.distance.data(), bytes), 0);
     EXPECT_EQ(std::memcmp(intensity.data(), rig.intensity.data(), bytes), 0);
@@ -158,14 +170,14 @@ TEST(DeviceIcp, AModelOfTheProcessorGivesTheSameSums) {
     IcpRig rig;
     DevicePipeline device("host", kPlenty), other("host", kPlenty);
     DeviceIcp predicted(device), uploaded(other);
-    predicted.Predict(rig.map, rig.camera, rig.T_world_view, kNear_m, kFar_m, kLevels, kJump_m);
+    rig.PredictOn(predicted);
     uploaded.SetModel(rig.model);
     for (int level = 0; level < kLevels; ++level) {
         const IcpArguments a = rig.ArgumentsAt(0, false, static_cast<std::size_t>(level));
         std::int64_t valid = 0;
-        for (DeviceIcp* icp : {&predicted, &uploaded})
-            valid = icp->SetPoints(DeskFrames()[5].prepared, rig.PointsOf(level), level);
-        const PoseSums x = predicted.Sum(a), y = uploaded.Sum(a);
+        for (DeviceIcp* icp : {&predicted, &uploaded}) valid = rig.SetPoints(*icp, level);
+        const PoseSums x = predicted.Sum(a, rig.points.count()),
+                       y = uploaded.Sum(a, rig.points.count());
         EXPECT_GT(x[SumLayout::kInliers], 0.5 * static_cast<double>(valid)) << level;
         EXPECT_EQ(std::memcmp(x.value, y.value, sizeof x.value), 0) << level;
     }
@@ -186,7 +198,7 @@ TEST_P(IcpTrackers, TracksAsTheProcessorDoes) {
     const TrackJudge judge({});
     ResidualModel model({}), device_model({});
     IcpTracker expected({}, DeskCamera(), judge, model, colour(), std::make_unique<RayCaster>());
-    IcpTracker tracker({}, DeskCamera(), judge, device_model, colour(), nullptr, VectorPath::kAuto,
+    IcpTracker tracker({}, DeskCamera(), judge, device_model, colour(), nullptr,
                        &device.icp_sums());
     for (std::size_t i = 8; i < 14; ++i) {
         const Eigen::Isometry3d& last = DeskFrames()[i - 1].T_world_camera;
@@ -204,7 +216,7 @@ TEST_P(IcpTrackers, IsLostWhereTheModelHasNoRoom) {
     DevicePipeline device("host", std::size_t{1} << 20);
     ResidualModel model({});
     IcpTracker tracker({}, DeskCamera(), TrackJudge({}), model, colour(), nullptr,
-                       VectorPath::kAuto, &device.icp_sums());
+                       &device.icp_sums());
     const Eigen::Isometry3d& last = DeskFrames()[2].T_world_camera;
     const TrackResult result =
         tracker.Track({DeskFrames()[3].prepared, map, {last, last}, last, 1.0 / 30, {}});

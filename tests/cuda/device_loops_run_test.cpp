@@ -9,7 +9,7 @@ namespace {
 
 using namespace testing_support;
 
-std::vector<FrameReport> RunFrames(const std::vector<Frame>& frames, Device* device) {
+std::vector<FrameReport> RunFrames(const std::vector<Frame>& frames, Backend* device) {
     const std::atomic<bool> stop{false};
     EngineInput input;
     input.config.loops.enabled = true;

@@ -74,8 +74,8 @@ TEST(DevicePipeline, SumsAreTheProcessorsToTheBit) {
         integrator.Integrate(DeskFrames()[i].prepared, MovingView(DeskFrames()[i]), map);
     const PreparedFrame& frame = DeskFrames()[5].prepared;
     FramePoints points;
-    points.Build(frame, DeskCamera(), {}, 2, {2.0});
-    points.SampleIntensity(frame, DeskCamera(), {});
+    const PointArguments arguments = MakePointArguments(frame, DeskCamera(), {}, 2, {2.0}, true);
+    points.Build(arguments);
     SdfArguments a{};
     static_cast<BlockMapView&>(a) = map.view();
     for (int i = 0; i < 3; ++i) a.rotation[4 * i] = 1 / a.voxel_size_m;
@@ -99,10 +99,10 @@ TEST(DevicePipeline, SumsAreTheProcessorsToTheBit) {
         baseline::SumSdfPoints(a, begin, end, sums);
     });
     DevicePipeline device("host", kPlenty);
-    EXPECT_EQ(
-        device.SetPoints(map, frame, MakePointArguments(frame, DeskCamera(), {}, 2, {2.0}, true)),
-        points.valid());
-    const PoseSums sums = device.Sum(a);
+    FramePoints slots;
+    device.SetPoints(map, frame, arguments, slots);
+    EXPECT_EQ(slots.valid(), points.valid());
+    const PoseSums sums = device.Sum(a, slots.count());
     EXPECT_GT(expected[SumLayout::kKnown], 1000);
     EXPECT_GT(expected[SumLayout::kColoured], 1000);
     EXPECT_EQ(std::memcmp(sums.value, expected.value, sizeof sums.value), 0);
@@ -143,7 +143,7 @@ TEST(DevicePipeline, TracksAsTheProcessorDoes) {
     const TrackJudge judge({});
     ResidualModel model({}), device_model({});
     SdfTracker expected({}, DeskCamera(), judge, model, true);
-    SdfTracker tracker({}, DeskCamera(), judge, device_model, true, VectorPath::kAuto, &device);
+    SdfTracker tracker({}, DeskCamera(), judge, device_model, true, &device);
     for (std::size_t i = 0; i < 8; ++i)
         integrator.Integrate(DeskFrames()[i].prepared, MovingView(DeskFrames()[i]), map);
     for (std::size_t i = 8; i < 14; ++i) {

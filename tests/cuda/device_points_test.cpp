@@ -46,17 +46,14 @@ void ExpectSamePoints(DevicePipeline& device, const PreparedFrame& frame,
     const BlockMap map{BlockMap::Config()};
     PointArguments a = MakePointArguments(frame, camera, motion, step, weight, intensities);
     FramePoints expected, points;
-    expected.Build(frame, camera, motion, step, weight);
-    if (intensities) expected.SampleIntensity(frame, camera, motion);
-    points.Allocate(a, device.SetPoints(map, frame, a));
+    expected.Build(a);
+    device.SetPoints(map, frame, a, points);
     device.TakePoints(points);
     ExpectSame(points, expected);
 
     a.normal_radius_px = 2;
-    expected.Build(frame, camera, motion, step, weight);
-    expected.EstimateNormals(frame, camera, a.normal_radius_px);
-    if (intensities) expected.SampleIntensity(frame, camera, motion);
-    points.Allocate(a, device.icp_sums().SetPoints(frame, a, 0));
+    expected.Build(a);
+    device.icp_sums().SetPoints(frame, a, 0, points);
     device.icp_sums().TakePoints(points);
     ExpectSame(points, expected);
 }
@@ -114,11 +111,13 @@ TEST(DevicePoints, AreNoneWhereThereIsNoRoom) {
     for (std::size_t limit = std::size_t{10} << 20; limit < std::size_t{20} << 20;
          limit += std::size_t{1} << 16) {
         DevicePipeline device("host", limit);
-        const std::int64_t valid = device.SetPoints(map, frame, a);
+        FramePoints slots;
+        device.SetPoints(map, frame, a, slots);
+        const std::int64_t valid = slots.valid();
         none += valid == 0;
         all += valid == frame.valid_depth_pixels;
         EXPECT_TRUE(valid == 0 || valid == frame.valid_depth_pixels) << valid;
-        EXPECT_EQ(device.Sum({})[SumLayout::kKnown], 0);
+        EXPECT_EQ(device.Sum({}, 0)[SumLayout::kKnown], 0);
     }
     EXPECT_GT(none, 0u);
     EXPECT_GT(all, 0u);

@@ -20,12 +20,12 @@ using testing_support::DeskFrames;
 class Gpu : public testing::Test {
   protected:
     void SetUp() override {
-        Result<std::unique_ptr<Device>> opened = OpenGpu({});
+        Result<std::unique_ptr<Backend>> opened = OpenGpu({});
         if (!opened.ok()) GTEST_SKIP() << opened.message();
         device_ = std::move(opened.value());
     }
 
-    std::unique_ptr<Device> device_;
+    std::unique_ptr<Backend> device_;
 };
 
 TEST_F(Gpu, FusesTheBytesOfTheProcessor) {

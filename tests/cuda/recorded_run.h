@@ -33,7 +33,7 @@ inline std::int64_t RecordedFrames() {
 }
 
 // The trajectory and the mesh written by a run on the recording. A null `device` means the CPU.
-inline std::array<std::string, 2> RecordedRun(TrackingMethod method, Device* device) {
+inline std::array<std::string, 2> RecordedRun(TrackingMethod method, Backend* device) {
     const TempFolder folder;
     RunRequest request;
     request.source = RecordingFolder();
@@ -59,7 +59,7 @@ inline std::array<std::string, 2> RecordedRun(TrackingMethod method, Device* dev
     return results;
 }
 
-inline void ExpectTheProcessorsRun(TrackingMethod method, Device& device) {
+inline void ExpectTheProcessorsRun(TrackingMethod method, Backend& device) {
     const auto expected = RecordedRun(method, nullptr), results = RecordedRun(method, &device);
     EXPECT_TRUE(results[0] == expected[0]) << "the trajectories differ";
     EXPECT_TRUE(results[1] == expected[1]) << "the meshes differ";

@@ -21,8 +21,7 @@ class LearntScales : public testing::Test {
   protected:
     LearntScales() {
         PrepareFrame(room_.Render(camera_, Eigen::Isometry3d::Identity()), {}, frame_);
-        points_.Build(frame_, camera_, {}, 1, {});
-        points_.SampleIntensity(frame_, camera_, {});
+        points_.Build(MakePointArguments(frame_, camera_, {}, 1, {}, true));
         residuals_.Resize(points_.count());
         config_.auto_alpha_max = 100;
         config_.shading_error = config_.surface_error_voxels = 0;

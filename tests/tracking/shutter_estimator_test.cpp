@@ -51,8 +51,7 @@ class Shutter : public testing::Test {
             motion.colour_delay_s = estimator.delay_s();
             motion.colour_readout_s = estimator.readout_s();
             FramePoints points;
-            points.Build(prepared, camera, motion, 1, {2.0});
-            points.SampleIntensity(prepared, camera, motion);
+            points.Build(MakePointArguments(prepared, camera, motion, 1, {2.0}, true));
             PointResiduals residuals;
             residuals.Resize(points.count());
             std::ranges::fill(residuals.distance_m, std::numeric_limits<float>::quiet_NaN());

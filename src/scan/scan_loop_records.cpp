@@ -1,0 +1,213 @@
+// Records of frames and of loop closure.
+#include <algorithm>
+#include <cmath>
+
+#include "scan/scan_records.h"
+
+namespace tessera {
+namespace {
+
+void PutDetections(const std::optional<std::vector<Detection>>& detections, StateWriter& state) {
+    state.Put(detections.has_value());
+    if (!detections) return;
+    state.Put(static_cast<std::uint32_t>(detections->size()));
+    for (const Detection& d : *detections) {
+        state.Put(d.name);
+        state.Put(static_cast<std::int32_t>(d.class_id));
+        for (const float value :
+             {d.probability, d.box.x_min, d.box.y_min, d.box.x_max, d.box.y_max})
+            state.Put(value);
+        state.Put(static_cast<std::int32_t>(d.mask.width()));
+        state.PutArray(std::span<const std::uint8_t>(d.mask.data(), d.mask.size()));
+    }
+}
+
+bool GetDetection(StateReader& state, Detection& d) {
+    std::int32_t class_id = 0, mask_width = 0;
+    std::vector<std::uint8_t> mask;
+    state.Get(d.name);
+    state.Get(class_id);
+    for (float* value : {&d.probability, &d.box.x_min, &d.box.y_min, &d.box.x_max, &d.box.y_max})
+        if (!state.Get(*value) || !std::isfinite(*value)) return false;
+    state.Get(mask_width);
+    if (!state.GetArray(mask) || class_id < 0 || class_id > LabelClasses::kMost) return false;
+    d.class_id = class_id;
+    if (mask.empty()) return true;
+    if (mask_width <= 0 || mask.size() % static_cast<std::size_t>(mask_width) != 0) return false;
+    d.mask.Resize(mask_width, static_cast<int>(mask.size() / static_cast<std::size_t>(mask_width)));
+    std::ranges::copy(mask, d.mask.data());
+    return true;
+}
+
+bool GetDetections(StateReader& state, std::optional<std::vector<Detection>>& detections) {
+    bool there = false;
+    std::uint32_t count = 0;
+    if (!state.Get(there)) return false;
+    if (!there) return true;
+    if (!state.Get(count)) return false;
+    detections.emplace();
+    for (std::uint32_t i = 0; i < count; ++i)
+        if (!GetDetection(state, detections->emplace_back())) return false;
+    return true;
+}
+
+void PutMotion(const FrameMotion& motion, StateWriter& state) {
+    state.Put(motion.twist_per_s);
+    for (const double value :
+         {motion.colour_delay_s, motion.depth_readout_s, motion.colour_readout_s})
+        state.Put(value);
+}
+
+bool GetMotion(StateReader& state, FrameMotion& motion) {
+    if (!state.Get(motion.twist_per_s)) return false;
+    for (double* value :
+         {&motion.colour_delay_s, &motion.depth_readout_s, &motion.colour_readout_s})
+        if (!state.Get(*value) || !std::isfinite(*value)) return false;
+    return true;
+}
+
+}  // namespace
+
+Bytes FrameRecord::Encode() const {
+    Bytes bytes;
+    bytes.reserve(stored.depth_png.size() + stored.colour_jpeg.size() + 512);
+    StateWriter state(bytes);
+    state.Put(index);
+    state.Put(stamp_s);
+    state.Put(colour_stamp_s);
+    state.Put(in_store);
+    state.Put(stored.ordinal);
+    state.Put(stored.keyframe);
+    state.Put(stored.is_keyframe);
+    state.Put(stored.T_keyframe_camera);
+    state.Put(stored.view.T_world_camera);
+    PutMotion(stored.view.motion, state);
+    for (const float value :
+         {stored.view.gain, stored.view.offset, stored.view.weight, stored.view.colour_weight})
+        state.Put(value);
+    state.PutArray(std::span<const std::uint8_t>(stored.depth_png));
+    state.PutArray(std::span<const std::uint8_t>(stored.colour_jpeg));
+    PutDetections(stored.detections, state);
+    return bytes;
+}
+
+bool FrameRecord::Decode(std::span<const std::uint8_t> bytes) {
+    StateReader state(bytes);
+    state.Get(index);
+    state.Get(stamp_s);
+    state.Get(colour_stamp_s);
+    state.Get(in_store);
+    state.Get(stored.ordinal);
+    state.Get(stored.keyframe);
+    state.Get(stored.is_keyframe);
+    state.Get(stored.T_keyframe_camera);
+    state.Get(stored.view.T_world_camera);
+    if (!GetMotion(state, stored.view.motion)) return false;
+    for (float* value :
+         {&stored.view.gain, &stored.view.offset, &stored.view.weight, &stored.view.colour_weight})
+        if (!state.Get(*value) || !std::isfinite(*value)) return false;
+    state.GetArray(stored.depth_png);
+    state.GetArray(stored.colour_jpeg);
+    stored.frame_index = index;
+    if (!GetDetections(state, stored.detections)) return false;
+    return state.at_end() && std::isfinite(stamp_s) && std::isfinite(colour_stamp_s) &&
+           stored.ordinal >= 0 && stored.keyframe >= 0;
+}
+
+Bytes KeyframePoses::Encode() const {
+    Bytes bytes;
+    StateWriter state(bytes);
+    state.Put(T_map_camera);
+    state.Put(T_world_camera);
+    return bytes;
+}
+
+bool KeyframePoses::Decode(std::span<const std::uint8_t> bytes) {
+    StateReader state(bytes);
+    return state.Get(T_map_camera) && state.Get(T_world_camera) && state.at_end();
+}
+
+Bytes EncodeKeyframe(const Keyframe& keyframe) {
+    Bytes bytes;
+    StateWriter state(bytes);
+    state.Put(keyframe.frame_index);
+    state.Put(keyframe.stamp_s);
+    for (const double value :
+         {keyframe.path_length_m, keyframe.turned_rad, keyframe.inlier_fraction})
+        state.Put(value);
+    state.PutArray(std::span<const Descriptor>(keyframe.features.descriptors));
+    static_assert(sizeof(Eigen::Vector3f) == 3 * sizeof(float));
+    state.PutArray(std::span<const float>(
+        keyframe.features.p_camera.empty() ? nullptr : keyframe.features.p_camera[0].data(),
+        3 * keyframe.features.p_camera.size()));
+    state.PutArray(std::span<const float>(keyframe.depth_m.data(), keyframe.depth_m.size()));
+    return bytes;
+}
+
+bool DecodeKeyframe(std::span<const std::uint8_t> bytes, const PinholeCamera& camera,
+                    Keyframe& keyframe) {
+    StateReader state(bytes);
+    std::vector<float> points, depth;
+    state.Get(keyframe.frame_index);
+    state.Get(keyframe.stamp_s);
+    for (double* value : {&keyframe.path_length_m, &keyframe.turned_rad, &keyframe.inlier_fraction})
+        if (!state.Get(*value) || !std::isfinite(*value)) return false;
+    state.GetArray(keyframe.features.descriptors);
+    state.GetArray(points);
+    state.GetArray(depth);
+    keyframe.view = camera.Every(kKeyframeReduction);
+    keyframe.depth_m.Resize(keyframe.view.width, keyframe.view.height);
+    if (!state.at_end() || points.size() != 3 * keyframe.features.size() ||
+        depth.size() != keyframe.depth_m.size())
+        return false;
+    for (const std::vector<float>* values : {&points, &depth})
+        for (const float value : *values)
+            if (!std::isfinite(value)) return false;
+    keyframe.features.p_camera.clear();
+    for (std::size_t i = 0; i < points.size(); i += 3)
+        keyframe.features.p_camera.emplace_back(points[i], points[i + 1], points[i + 2]);
+    std::copy(depth.begin(), depth.end(), keyframe.depth_m.data());
+    return std::isfinite(keyframe.stamp_s);
+}
+
+Bytes LoopProgress::Encode() const {
+    Bytes bytes;
+    StateWriter state(bytes);
+    state.Put(next_ordinal);
+    state.Put(loops);
+    state.Put(corrected);
+    state.Put(static_cast<std::uint64_t>(edges.size()));
+    for (const PoseEdge& edge : edges) {
+        state.Put(edge.from);
+        state.Put(edge.to);
+        state.Put(edge.T_from_to);
+        state.Put(edge.sigma_m);
+        state.Put(edge.sigma_rad);
+        state.Put(edge.loop);
+    }
+    return bytes;
+}
+
+bool LoopProgress::Decode(std::span<const std::uint8_t> bytes) {
+    StateReader state(bytes);
+    std::uint64_t count = 0;
+    state.Get(next_ordinal);
+    state.Get(loops);
+    state.Get(corrected);
+    state.Get(count);
+    edges.clear();
+    for (; state.ok() && count > 0; --count) {
+        PoseEdge edge;
+        state.Get(edge.from);
+        state.Get(edge.to);
+        state.Get(edge.T_from_to);
+        state.Get(edge.sigma_m);
+        state.Get(edge.sigma_rad);
+        state.Get(edge.loop);
+        if (!state.ok() || !(edge.sigma_m > 0) || !(edge.sigma_rad > 0)) return false;
+        edges.push_back(edge);
+    }
+    return state.at_end() && next_ordinal >= 0 && loops >= 0;
+}
+
+}  // namespace tessera
