@@ -106,7 +106,7 @@ TEST(DeviceMesher, AnEmptyMapIsAnEmptyMesh) {
     BlockMeshes meshes(1);
     EXPECT_TRUE(mesher->MeshBlocks(map, {}, 0, meshes));
     Mesher of_map({});
-    EXPECT_EQ(of_map.Update(map, Mesher::kNoLimit, mesher.get()), 0);
+    EXPECT_EQ(of_map.Update(map, Mesher::kNoLimit, *mesher), 0);
     EXPECT_TRUE(of_map.Assemble().vertices.empty());
     MappingStage stage({}, {}, DeskCamera(), &device);
     EXPECT_TRUE(stage.TakeMesh().vertices.empty());
@@ -149,7 +149,7 @@ TEST(DeviceMesher, TakesFewerBlocksAtOnceWhereMemoryIsShortAndRefusesWhereThereI
         const std::unique_ptr<BlockMesher> mesher = device->MakeBlockMesher();
         EXPECT_FALSE(mesher->MeshBlocks(map, blocks, 0, meshes));
         Mesher refused({});
-        EXPECT_EQ(refused.Update(map, Mesher::kNoLimit, mesher.get()), map.size() - 1);
+        EXPECT_EQ(refused.Update(map, Mesher::kNoLimit, *mesher), map.size() - 1);
         EXPECT_TRUE(refused.updated().empty());
         EXPECT_EQ(refused.Update(map), 0);  // all blocks were still pending
         EXPECT_TRUE(
@@ -169,7 +169,7 @@ TEST(MappingStage, MeshesOnTheDeviceWithoutItsVoxels) {
     const std::unique_ptr<BlockMesher> mesher = device.MakeBlockMesher();
     for (const DeskFrame& frame : DeskFrames()) {
         pipeline.Process(frame.frame);
-        as_it_goes.Update(pipeline.mapping().blocks(), Mesher::kNoLimit, mesher.get());
+        as_it_goes.Update(pipeline.mapping().blocks(), Mesher::kNoLimit, *mesher);
     }
     MappingStage& mapping = pipeline.mapping();
     const TriangleMesh mesh = mapping.Mesh();

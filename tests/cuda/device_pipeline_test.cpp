@@ -6,6 +6,7 @@
 
 #include "cuda/desk_frames.h"
 #include "cuda/same_map.h"
+#include "tracking/sdf_simd.h"
 #include "tracking/sdf_tracker.h"
 
 namespace tessera::host {
