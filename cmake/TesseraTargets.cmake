@@ -21,6 +21,13 @@ target_compile_options(tessera_options INTERFACE -Wall -Wextra -Wshadow -Wconver
 if(TESSERA_SANITIZE)
     target_compile_options(tessera_options INTERFACE -fsanitize=${TESSERA_SANITIZE}
         -fno-omit-frame-pointer -fno-sanitize-recover=all)
+    if(TESSERA_SANITIZE MATCHES undefined)
+        # ASan finds null pointers and objects that are too small by itself. These checks stand at
+        # every access to memory and take a third of the compile time. Alignment is checked in
+        # targets with the property TESSERA_CHECKS_ALIGNMENT: those that read bytes from outside.
+        target_compile_options(tessera_options INTERFACE -fno-sanitize=null,object-size
+            $<$<NOT:$<BOOL:$<TARGET_PROPERTY:TESSERA_CHECKS_ALIGNMENT>>>:-fno-sanitize=alignment>)
+    endif()
     target_link_options(tessera_options INTERFACE -fsanitize=${TESSERA_SANITIZE})
     # The same as without a sanitizer. Otherwise Eigen's out-of-line functions allocate one way here
     # and Ceres' static library frees another way.
@@ -74,18 +81,19 @@ add_custom_target(tessera_sanitized_tests)
 set(TESSERA_TEST_RESULTS ${CMAKE_BINARY_DIR}/test_results)
 
 # tessera_test(NAME SOURCES... LINK libs... [LABEL unit|data|slow|app|window] [THREADS] [SERIAL]
-#              [ISOLATED] [SHARDS n] [RELEASE_ONLY patterns...]) declares a GoogleTest program. It is
+#              [ISOLATED] [SHARDS n] [LONG patterns...]) declares a GoogleTest program. It is
 # one ctest entry, not one per test, because a process takes 0.2 s to start. SHARDS splits a long
 # program into n entries that may run at the same time. ISOLATED gives each test a process: for
-# libraries that cannot be started twice in one. Sanitized tests are isolated, too. SERIAL is for
-# programs that depend on timing: no other test runs at the same time.
+# libraries that cannot be started twice in one. SERIAL is for programs that depend on timing: no
+# other test runs at the same time.
 #
 # The sanitizers run the unit programs: ASan all of them, TSan those with THREADS, which start
 # threads of their own. TBB's loops are serial under TSan (tests/support/serial_tbb.cpp), so it has
-# nothing to find in the others. RELEASE_ONLY lists tests, as GoogleTest filters, that the sanitizers
-# skip: long accuracy runs over code that shorter tests also cover.
+# nothing to find in the others. LONG lists tests, as GoogleTest filters, that take seconds: they are
+# an entry of their own with the label slow, and the sanitizers skip them, because shorter tests cover
+# the same code.
 function(tessera_test name)
-    cmake_parse_arguments(ARG "SERIAL;THREADS;ISOLATED" "LABEL;SHARDS" "SOURCES;LINK;RELEASE_ONLY" ${ARGN})
+    cmake_parse_arguments(ARG "SERIAL;THREADS;ISOLATED" "LABEL;SHARDS" "SOURCES;LINK;LONG" ${ARGN})
     if(NOT ARG_LABEL)
         set(ARG_LABEL unit)
     endif()
@@ -111,18 +119,17 @@ function(tessera_test name)
         add_dependencies(tessera_sanitized_tests ${name})
         set(label unit-sanitized)  # ctest -L unit and ctest -L sanitized both find it
     endif()
-    if(TESSERA_SANITIZE AND ARG_RELEASE_ONLY)
-        list(JOIN ARG_RELEASE_ONLY ":" patterns)
+    if(ARG_LONG)
+        list(JOIN ARG_LONG ":" patterns)
         set(filter "-${patterns}")
+        if(NOT TESSERA_SANITIZE)
+            tessera_test_entry(${name}.long ${name} slow "${patterns}" 1 0)
+        endif()
     endif()
-    if(ARG_ISOLATED OR TESSERA_SANITIZE)
+    if(ARG_ISOLATED)
         gtest_discover_tests(${name} NO_PRETTY_VALUES DISCOVERY_TIMEOUT 60 TEST_FILTER "${filter}"
             PROPERTIES LABELS ${label} TIMEOUT 900 RUN_SERIAL ${ARG_SERIAL})
         return()
-    endif()
-    set(cost 0)
-    if(ARG_LABEL MATCHES "slow|data|app")
-        set(cost 100)  # ctest starts these first, so that none is left alone at the end
     endif()
     math(EXPR last "${ARG_SHARDS} - 1")
     foreach(shard RANGE ${last})
@@ -130,9 +137,23 @@ function(tessera_test name)
         if(ARG_SHARDS GREATER 1)
             set(entry ${name}.${shard})
         endif()
-        add_test(NAME ${entry} COMMAND ${name} --gtest_brief=1
-            --gtest_output=xml:${TESSERA_TEST_RESULTS}/${entry}.xml)
-        set_tests_properties(${entry} PROPERTIES LABELS ${label} TIMEOUT 900 RUN_SERIAL ${ARG_SERIAL} COST ${cost}
-            ENVIRONMENT "GTEST_TOTAL_SHARDS=${ARG_SHARDS};GTEST_SHARD_INDEX=${shard}")
+        tessera_test_entry(${entry} ${name} ${label} "${filter}" ${ARG_SHARDS} ${shard})
+        set_tests_properties(${entry} PROPERTIES RUN_SERIAL ${ARG_SERIAL})
     endforeach()
+endfunction()
+
+# A ctest entry that runs the tests of `filter` (empty: all) in one shard of a program.
+function(tessera_test_entry entry program label filter shards shard)
+    set(filter_argument "")
+    if(filter)
+        set(filter_argument --gtest_filter=${filter})
+    endif()
+    set(cost 0)
+    if(label MATCHES "slow|data|app")
+        set(cost 100)  # ctest starts these first, so that none is left alone at the end
+    endif()
+    add_test(NAME ${entry} COMMAND ${program} --gtest_brief=1 ${filter_argument}
+        --gtest_output=xml:${TESSERA_TEST_RESULTS}/${entry}.xml)
+    set_tests_properties(${entry} PROPERTIES LABELS ${label} TIMEOUT 900 COST ${cost}
+        ENVIRONMENT "GTEST_TOTAL_SHARDS=${shards};GTEST_SHARD_INDEX=${shard}")
 endfunction()

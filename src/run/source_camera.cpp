@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <optional>
 
 #include "io/frame_reader.h"
@@ -18,9 +19,10 @@ constexpr std::int64_t kMostFrames = 100000;
 // Of the focal length; beyond this the scan is of another camera.
 constexpr double kOtherCamera = 0.25;
 
+// A file or folder of images. Not a scan, a scene or a camera.
 bool IsRecording(const std::string& name) {
-    return !name.starts_with("synthetic:") && !name.starts_with("openni2:") &&
-           !name.ends_with(".scan");
+    std::error_code ignored;
+    return std::filesystem::exists(name, ignored) && !name.ends_with(".scan");
 }
 
 // Opens the source with `camera` instead of the given one.

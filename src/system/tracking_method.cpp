@@ -72,9 +72,14 @@ std::unique_ptr<ViewPredictor> MakePredictor(IcpTracker::Prediction prediction, 
 std::unique_ptr<Tracker> Trackers::Make(TrackingMethod method) {
     const TrackJudge judge(config_.judge);
     const bool colour = method == TrackingMethod::kSdf || method == TrackingMethod::kIcpRgb;
-    if (method == TrackingMethod::kSdf || method == TrackingMethod::kSdfGeometric)
-        return std::make_unique<SdfTracker>(config_.sdf, camera_, judge, model_, colour,
-                                            &backend_.sdf_sums());
+    switch (method) {
+        case TrackingMethod::kSdf:
+        case TrackingMethod::kSdfGeometric:
+            return std::make_unique<SdfTracker>(config_.sdf, camera_, judge, model_, colour,
+                                                &backend_.sdf_sums());
+        case TrackingMethod::kIcp:
+        case TrackingMethod::kIcpRgb: break;
+    }
     std::unique_ptr<ViewPredictor> predictor;  // none: the backend casts the rays
     if (config_.icp.prediction == IcpTracker::Prediction::kRaster)
         predictor = MakePredictor(config_.icp.prediction, note_);

@@ -26,7 +26,7 @@ constexpr Line kLines[] = {
     {"Space", "pause or resume", true},
     {"S", "process one frame, then pause", true},
     {"R", "reset (asks first)", true},
-    {"1 2 3 4", "tracking method, in the order of the buttons", true},
+    {"1 2 ...", "tracking method, in the order of the buttons", true},
     {"M", "save the mesh", true},
     {"K", "save the scan", true},
     {"V", "start or stop recording raw frames", true},
