@@ -23,7 +23,6 @@ class Notices {
         if (!messages_.TryPop(text)) return std::nullopt;
         return text;
     }
-    bool empty() const { return messages_.empty(); }
 
   private:
     static constexpr std::size_t kCapacity = 256;

@@ -1,5 +1,6 @@
 // Bounded lock-free queues between threads. They differ in what they do when full. Neither blocks:
-// an idle consumer sleeps on its Wake (wake.h), and every push notifies it.
+// an idle consumer sleeps on its Wake (wake.h), and every push notifies it. While a push is under
+// way, `empty` may be false although TryPop gives nothing yet.
 #pragma once
 
 #include <concurrentqueue/concurrentqueue.h>

@@ -41,11 +41,16 @@ void LiveEngine::Run() {
 
 bool LiveEngine::Next(FrameOutcome& outcome) {
     bool got = false;
+    std::optional<std::string> notice;
     outcome_wake_.Wait([&] {
-        return !notices_.empty() || (got = links_.outcomes.TryPop(outcome)) || ended_.load();
+        // Read before the queues: whatever was pushed before the end is found. A queue that is not
+        // empty may have nothing to give yet.
+        const bool ended = ended_.load();
+        got = links_.outcomes.TryPop(outcome);
+        if (!got) notice = notices_.Take();
+        return got || notice || ended;
     });
-    if (got || links_.outcomes.TryPop(outcome)) return true;
-    std::optional<std::string> notice = notices_.Take();
+    if (got) return true;
     if (!notice) return false;
     outcome = {};
     outcome.kind = FrameOutcome::Kind::kMessage;

@@ -83,7 +83,7 @@ void LiveTracking::Track(NewFrame& item) {
     mapping_.Send(std::move(task));
     // The next frame needs a map.
     if (first && settings_.device == nullptr)
-        links_.tracking.Wait([&] { return !links_.map_updates.empty(); });
+        links_.tracking.Wait([this] { return ApplyMapUpdates(); });
 }
 
 const BlockMap& LiveTracking::MapToTrackIn() const {
@@ -97,8 +97,10 @@ void LiveTracking::TakeSettings() {
     links_.show_prediction.store(settings.show_prediction);
 }
 
-void LiveTracking::ApplyMapUpdates() {
+// Returns whether there was any.
+bool LiveTracking::ApplyMapUpdates() {
     MapUpdate update;
+    bool any = false;
     while (links_.map_updates.TryPop(update)) {
         const bool ours = update.world == state_->version.world;
         if (ours && update.field) {
@@ -109,7 +111,9 @@ void LiveTracking::ApplyMapUpdates() {
             ApplyDelta(*update.delta, *state_->field);
         }
         links_.deltas.Give(std::move(update.delta));
+        any = true;
     }
+    return any;
 }
 
 void LiveTracking::TakeHint() {

@@ -49,7 +49,7 @@ class LiveTracking {
     void Track(NewFrame& item);
     const BlockMap& MapToTrackIn() const;
     void TakeSettings();
-    void ApplyMapUpdates();
+    bool ApplyMapUpdates();
     void TakeHint();
     std::optional<Eigen::Isometry3d> TakeRelocalisation(double stamp_s);
     void CheckIfLost(TrackedFrame& tracked);

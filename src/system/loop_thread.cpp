@@ -83,7 +83,7 @@ bool LoopThread::HasIdleWork() const { return !questions_.empty() || MayCorrect(
 
 void LoopThread::WorkIdly() {
     constexpr int kFramesAtOnce = 2;  // of a map rebuild; a question waits at most this long
-    if (!Reply())
+    if (!Reply() && MayCorrect())
         if (auto change = closer_->Step(kFramesAtOnce)) HandOver(std::move(*change));
     ReportProblems();
 }

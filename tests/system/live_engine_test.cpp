@@ -97,6 +97,20 @@ TEST_F(Live, BadFramesWaitsAndABrokenSourceAreTold) {
     EXPECT_NE(Messages().find("torn\n"), std::string::npos);
 }
 
+// Next must not take a message that is just being told for the end of the run.
+TEST_F(Live, ManyMessagesEndNothing) {
+    config.live.queue_frames = 1000;
+    Make(true, {.count = 60, .before_read = [told = 0](std::int64_t) mutable -> ReadResult {
+                    if (++told % 500 != 0) return {ReadStatus::kWait, "camera unplugged"};
+                    return {};
+                }});
+    TakeAll();
+    EXPECT_EQ(Count(Kind::kFrame), 60);
+    EXPECT_GT(Count(Kind::kMessage), 60);
+    EXPECT_TRUE(engine->status().ok());
+    EXPECT_GT(engine->TakeMesh().triangles.size(), 0u);
+}
+
 // Acts like a full disk: the recording ends with a message, and the scan continues.
 TEST_F(Live, ARecordingThatFailsEndsAloneAndIsTold) {
     TempFolder folder;
