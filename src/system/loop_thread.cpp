@@ -115,7 +115,6 @@ void LoopThread::BeginWorld(int world) {
 
 void LoopThread::Do(Job& job) {
     around_.mapping.Notify();  // there is room
-    Reply();
     switch (job.kind) {
         case Job::Kind::kReset: BeginWorld(job.map.world); break;
         case Job::Kind::kDetections:
@@ -126,6 +125,7 @@ void LoopThread::Do(Job& job) {
     }
     Report();
     ReportProblems();
+    Reply();  // before the next job: a lost camera does not wait for a long queue
 }
 
 void LoopThread::AddFrame(Job& job) {
