@@ -44,7 +44,7 @@ constexpr double kSlowMapping_ms = 300;
 TEST_F(Live, SlowMappingLeavesFramesUnfusedAndTracksThem) {
     config.live.playback_speed = 1;
     config.live.extra_mapping_ms = kSlowMapping_ms;
-    config.live.queue_frames = 45;        // no frame is dropped before tracking
+    config.live.queue_frames = 45;  // no frame is dropped before tracking
     Make(true, {.count = 45, .speed = 0.3});
     TakeAll();
     std::int64_t unfused = 0, fused = 0;
