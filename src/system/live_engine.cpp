@@ -7,7 +7,7 @@ namespace tessera {
 LiveEngine::LiveEngine(EngineInput input)
     : links_(input.device != nullptr, notices_, outcome_wake_),
       reading_(input, links_),
-      mapping_(input.config, reading_.source(), input.device, input.viewer, links_, notices_) {
+      mapping_(input.config, reading_.source(), input.device, input.viewer, links_) {
     status_ = Start(input);
     if (status_.ok())
         reading_thread_ = std::jthread([this] { Run(); });

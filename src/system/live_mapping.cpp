@@ -6,12 +6,12 @@
 namespace tessera {
 
 LiveMapping::LiveMapping(const RunConfig& config, const SourceInfo& source, Backend* device,
-                         ViewerLink* viewer, LiveLinks& links, Notices& notices)
+                         ViewerLink* viewer, LiveLinks& links)
     : config_(config),
       source_(source),
       one_thread_(device != nullptr),
       links_(links),
-      life_(config, source, device, viewer, false, notices) {
+      life_(config, source, device, viewer, false, links.notices) {
     if (!one_thread_) life_.stage().KeepDeltas();
 }
 

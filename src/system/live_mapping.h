@@ -15,7 +15,7 @@ class LiveMapping {
   public:
     // `links` and the others outlive the object.
     LiveMapping(const RunConfig& config, const SourceInfo& source, Backend* device,
-                ViewerLink* viewer, LiveLinks& links, Notices& notices);
+                ViewerLink* viewer, LiveLinks& links);
 
     // Prepares labels, the scan and loop closure, then starts the thread. A resumed scan's map is
     // the first map update for tracking.

@@ -84,7 +84,6 @@ class LoopThread {
     // ---- Tracking thread. One question at a time.
     bool Ask(Question question) { return questions_.TryPush(std::move(question)); }
     bool TryTake(Answer& answer) { return answers_.TryPop(answer); }
-    bool has_answer() const { return !answers_.empty(); }
 
   private:
     struct Job {
