@@ -74,6 +74,7 @@ std::int64_t DevicePipeline::MakePoints(const PreparedFrame& frame, const PointA
     PointArguments a = arguments;
     a.depth.pixels = frame_.depth_m();
     if (a.intensity.width > 0) a.intensity.pixels = frame_.intensity();
+    if (a.chroma) a.packed_colour = frame_.packed_colour();
     return points.Build(a);
 }
 
@@ -87,6 +88,11 @@ PoseSums DevicePipeline::Sum(const SdfArguments& arguments, int) {
     a.z = points_.z();
     a.intensity = points_.intensity();
     a.weight = points_.weight();
+    if (a.colour != nullptr) {
+        a.cb = points_.cb();
+        a.cr = points_.cr();
+        a.colour = map_->view().colour;
+    }
     has_distance_residual_ = a.distance_residual != nullptr;
     has_intensity_residual_ = a.intensity_residual != nullptr;
     float* const residuals = residuals_.data();
@@ -133,6 +139,10 @@ void DevicePipeline::Download(const DevicePoints& from, FramePoints& points) {
     stream_.Download(points.z.data(), from.z(), bytes);
     stream_.Download(points.intensity.data(), from.intensity(), bytes);
     stream_.Download(points.weight.data(), from.weight(), bytes);
+    if (!points.cb.empty()) {
+        stream_.Download(points.cb.data(), from.cb(), bytes);
+        stream_.Download(points.cr.data(), from.cr(), bytes);
+    }
     stream_.Wait();
 }
 

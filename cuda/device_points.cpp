@@ -9,7 +9,7 @@ namespace point_bodies {
 // Per slot; counts those with a point.
 struct MakePoint {
     PointArguments arguments;
-    float *x, *y, *z, *intensity, *weight, *normal_x, *normal_y, *normal_z;
+    float *x, *y, *z, *intensity, *weight, *normal_x, *normal_y, *normal_z, *cb, *cr;
 
     TESSERA_HD_MEMBER void operator()(int i, float* sums) const {
         const PointArguments& a = arguments;
@@ -21,7 +21,7 @@ struct MakePoint {
         y[i] = p.y;
         z[i] = p.z;
         bool valid = d > 0;
-        if (a.normal_radius_px > 0) {
+        if (a.normal_radius_px >= 0) {
             CameraPoint n{0, 0, 0};
             valid = valid && NormalAt(a.depth, u, row.v, a.normal_radius_px, n);
             normal_x[i] = n.x;
@@ -31,6 +31,11 @@ struct MakePoint {
         weight[i] = valid ? PointWeight(d, a.depth_exponent, a.nearest_m) : 0.0f;
         intensity[i] =
             valid && a.intensity.pixels != nullptr ? IntensityOfPoint(a, row, u, p) : -1.0f;
+        if (a.chroma) {
+            const Chroma c = intensity[i] >= 0 ? ChromaOfPoint(a, row, u, p) : Chroma{0, 0};
+            cb[i] = c.cb;
+            cr[i] = c.cr;
+        }
         if (valid) sums[0] += 1.0f;
     }
 };
@@ -45,28 +50,32 @@ DevicePoints::DevicePoints(DeviceMemory& memory, Stream& stream)
       intensity_(memory),
       weight_(memory),
       normals_(memory),
+      chroma_(memory),
       tiles_(memory),
       valid_(memory) {}
 
-bool DevicePoints::Reserve(std::size_t points, bool normals) {
+bool DevicePoints::Reserve(std::size_t points, bool normals, bool chroma) {
     bool room = valid_.Reserve(stream_, 1, 0) &&
                 tiles_.ReserveScratch(stream_, TileRoom(static_cast<int>(points), 1));
     for (auto* buffer : {&x_, &y_, &z_, &intensity_, &weight_})
         room = room && buffer->ReserveScratch(stream_, points);
-    return room && (!normals || normals_.ReserveScratch(stream_, 3 * points));
+    return room && (!normals || normals_.ReserveScratch(stream_, 3 * points)) &&
+           (!chroma || chroma_.ReserveScratch(stream_, 2 * points));
 }
 
 std::int64_t DevicePoints::Build(const PointArguments& a) {
     const int count = a.width * a.height;
-    const bool normals = a.normal_radius_px > 0;
+    const bool normals = a.normal_radius_px >= 0;
     count_ = 0;
-    if (!Reserve(static_cast<std::size_t>(count), normals)) return 0;
+    if (!Reserve(static_cast<std::size_t>(count), normals, a.chroma)) return 0;
     count_ = count;
-    float* n = normals_.data();
+    float* const n = normals_.data();
+    float* const c = chroma_.data();
     SumTiles<1>(stream_, count,
                 point_bodies::MakePoint{a, x_.data(), y_.data(), z_.data(), intensity_.data(),
                                         weight_.data(), n, normals ? n + count : nullptr,
-                                        normals ? n + 2 * count : nullptr},
+                                        normals ? n + 2 * count : nullptr, c,
+                                        a.chroma ? c + count : nullptr},
                 tiles_.data(), valid_.data());
     double valid = 0;
     stream_.Download(&valid, valid_.data(), sizeof valid);

@@ -25,16 +25,18 @@ class DevicePoints {
     const float* z() const { return z_.data(); }
     const float* intensity() const { return intensity_.data(); }
     const float* weight() const { return weight_.data(); }
+    const float* cb() const { return chroma_.data(); }  // unspecified if none was requested
+    const float* cr() const { return chroma_.data() + count_; }
     const float* normal_x() const { return normals_.data(); }  // unspecified if none were requested
     const float* normal_y() const { return normals_.data() + count_; }
     const float* normal_z() const { return normals_.data() + 2 * count_; }
 
   private:
-    [[nodiscard]] bool Reserve(std::size_t points, bool normals);
+    [[nodiscard]] bool Reserve(std::size_t points, bool normals, bool chroma);
 
     Stream& stream_;
     int count_ = 0;
-    DeviceBuffer<float> x_, y_, z_, intensity_, weight_, normals_;
+    DeviceBuffer<float> x_, y_, z_, intensity_, weight_, normals_, chroma_;
     DeviceBuffer<double> tiles_, valid_;
 };
 

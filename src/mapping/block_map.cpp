@@ -75,8 +75,7 @@ void BlockMap::EnableLabels() {
 
 void BlockMap::InitialiseBlock(BlockId id, const BlockCoord& c, std::int32_t number) {
     std::fill_n(field(id), kBlockVoxels, kUnknownField);
-    if (layers_ == Layers::kAll || id == kUnknownBlock)
-        std::fill_n(colour(id), kBlockVoxels, kNoColour);
+    if (has_colours() || id == kUnknownBlock) std::fill_n(colour(id), kBlockVoxels, kNoColour);
     std::int32_t* coords = coords_.data() + 4 * static_cast<std::size_t>(id);
     coords[0] = c.x;
     coords[1] = c.y;
@@ -207,10 +206,9 @@ BlockId BlockMap::neighbour(BlockId id, int dx, int dy, int dz) const {
 }
 
 std::size_t BlockMap::bytes() const {
-    const std::size_t per_voxel =
-        sizeof(FieldWord) +
-        (layers_ == Layers::kAll ? sizeof(std::uint16_t) + sizeof(ColourWord) : 0) +
-        (labels_ ? sizeof(VoxelLabel) : 0);
+    const std::size_t per_voxel = sizeof(FieldWord) + (has_colours() ? sizeof(ColourWord) : 0) +
+                                  (layers_ == Layers::kAll ? sizeof(std::uint16_t) : 0) +
+                                  (labels_ ? sizeof(VoxelLabel) : 0);
     const std::size_t per_block =
         kBlockVoxels * per_voxel + (8 + 4 + 1) * sizeof(std::int32_t) + sizeof(BlockId);
     return static_cast<std::size_t>(count() + 1) * per_block +

@@ -34,9 +34,9 @@ class BlockMap {
         Status Validate() const;
     };
 
-    // Which layers a map stores. A reader's copy needs only the field; its weights then read as
-    // zero and its colours as grey.
-    enum class Layers { kAll, kFieldOnly };
+    // Which layers a map stores. A reader's copy needs only the field, and colours if it aligns
+    // chroma. Weights that are not stored read as zero, colours as grey.
+    enum class Layers { kAll, kFieldAndColour, kFieldOnly };
 
     explicit BlockMap(const Config& config, Layers layers = Layers::kAll);
 
@@ -83,8 +83,12 @@ class BlockMap {
     const std::uint16_t* weight(BlockId id) const { return weight_.data() + Offset(id); }
     ColourWord* colour(BlockId id) { return colour_.data() + Offset(id); }
     const ColourWord* colour(BlockId id) const {
-        return colour_.data() + (layers_ == Layers::kAll ? Offset(id) : 0);
+        return colour_.data() + (has_colours() ? Offset(id) : 0);
     }
+    Layers layers() const { return layers_; }
+    bool has_colours() const { return layers_ != Layers::kFieldOnly; }
+    // All blocks' colours, indexed like view().field; null if they are not stored.
+    const ColourWord* colours() const { return has_colours() ? colour_.data() : nullptr; }
 
     // Adds the label layer, which takes memory only where it is written. Call this while the map is
     // empty.

@@ -11,6 +11,7 @@ namespace tessera {
 namespace {
 
 constexpr std::size_t kFieldBytes = kBlockVoxels * sizeof(FieldWord);
+constexpr std::size_t kColourBytes = kBlockVoxels * sizeof(ColourWord);
 constexpr std::size_t kGrain = 64;
 
 template <class Copy>
@@ -24,21 +25,26 @@ void ForEachChanged(std::size_t count, const Copy& copy) {
 
 std::size_t MapDelta::bytes() const {
     return blocks.capacity() * sizeof(BlockChange) + changed.capacity() * sizeof(BlockId) +
-           field.capacity() * sizeof(FieldWord);
+           field.capacity() * sizeof(FieldWord) + colour.capacity() * sizeof(ColourWord);
 }
 
-void CollectDelta(const BlockMap& map, std::span<const BlockChange> blocks,
+void CollectDelta(const BlockMap& map, BlockMap::Layers layers, std::span<const BlockChange> blocks,
                   std::span<const BlockId> changed, std::uint32_t revision, MapDelta& delta) {
+    const bool colours = layers != BlockMap::Layers::kFieldOnly;
     delta.revision = revision;
     delta.blocks.assign(blocks.begin(), blocks.end());
     delta.changed.assign(changed.begin(), changed.end());
     delta.field.resize(changed.size() * kBlockVoxels);
+    delta.colour.resize(colours ? changed.size() * kBlockVoxels : 0);
     ForEachChanged(changed.size(), [&](std::size_t i) {
-        std::memcpy(delta.field.data() + i * kBlockVoxels, map.field(changed[i]), kFieldBytes);
+        const std::size_t at = i * kBlockVoxels;
+        std::memcpy(delta.field.data() + at, map.field(changed[i]), kFieldBytes);
+        if (colours) std::memcpy(delta.colour.data() + at, map.colour(changed[i]), kColourBytes);
     });
 }
 
-void CollectWhole(const BlockMap& map, std::uint32_t revision, MapDelta& delta) {
+void CollectWhole(const BlockMap& map, BlockMap::Layers layers, std::uint32_t revision,
+                  MapDelta& delta) {
     TESSERA_CHECK(map.count() == map.size() - 1,
                   "CollectWhole needs a map without releases; it has {} blocks and {} ids",
                   map.count(), map.size());
@@ -48,16 +54,17 @@ void CollectWhole(const BlockMap& map, std::uint32_t revision, MapDelta& delta) 
         blocks.push_back({id, false, map.coord(id)});
         all.push_back(id);
     }
-    CollectDelta(map, blocks, all, revision, delta);
+    CollectDelta(map, layers, blocks, all, revision, delta);
 }
 
-std::unique_ptr<BlockMap> CopyField(const BlockMap& map) {
+std::unique_ptr<BlockMap> CopyLayers(const BlockMap& map, BlockMap::Layers layers) {
     constexpr std::uint32_t kNoDeltas = std::numeric_limits<std::uint32_t>::max();
-    auto copy = std::make_unique<BlockMap>(map.config(), BlockMap::Layers::kFieldOnly);
+    auto copy = std::make_unique<BlockMap>(map.config(), layers);
     for (BlockId id = 1; id < map.size(); ++id) {
         if (map.IsFree(id)) continue;
         copy->AllocateAs(id, map.coord(id));
         std::memcpy(copy->field(id), map.field(id), kFieldBytes);
+        if (copy->has_colours()) std::memcpy(copy->colour(id), map.colour(id), kColourBytes);
         copy->MarkChanged(id, kNoDeltas);
     }
     return copy;
@@ -71,8 +78,10 @@ void ApplyDelta(const MapDelta& delta, BlockMap& copy) {
         if (change.released) copy.Release(id);
     }
     ForEachChanged(delta.changed.size(), [&](std::size_t i) {
-        std::memcpy(copy.field(delta.changed[i]), delta.field.data() + i * kBlockVoxels,
-                    kFieldBytes);
+        const std::size_t at = i * kBlockVoxels;
+        std::memcpy(copy.field(delta.changed[i]), delta.field.data() + at, kFieldBytes);
+        if (copy.has_colours())
+            std::memcpy(copy.colour(delta.changed[i]), delta.colour.data() + at, kColourBytes);
         copy.MarkChanged(delta.changed[i], delta.revision);
     });
 }

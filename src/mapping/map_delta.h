@@ -19,27 +19,29 @@ struct BlockChange {
     BlockCoord coord;
 };
 
-// The field of changed blocks, and the blocks that were allocated or released. Weights and colours
-// stay with the map's owner.
+// The field of changed blocks, their colours if asked for, and the blocks that were allocated or
+// released. Weights stay with the map's owner.
 struct MapDelta {
     std::uint32_t revision = 0;
     std::vector<BlockChange> blocks;  // in order
     std::vector<BlockId> changed;     // blocks whose field follows, including new ones
     std::vector<FieldWord> field;     // kBlockVoxels for each changed block
+    std::vector<ColourWord> colour;   // the same, or empty
 
     std::size_t bytes() const;
 };
 
-// `blocks`: the blocks allocated or released since the last delta. Reuses the storage of `delta`.
-// Nobody may write the map meanwhile.
-void CollectDelta(const BlockMap& map, std::span<const BlockChange> blocks,
+// `layers` are those of the copy, `blocks` the blocks allocated or released since the last delta.
+// Reuses the storage of `delta`. Nobody may write the map meanwhile.
+void CollectDelta(const BlockMap& map, BlockMap::Layers layers, std::span<const BlockChange> blocks,
                   std::span<const BlockId> changed, std::uint32_t revision, MapDelta& delta);
 
 // Collects a whole map for an empty copy. The map must not have released any block yet.
-void CollectWhole(const BlockMap& map, std::uint32_t revision, MapDelta& delta);
+void CollectWhole(const BlockMap& map, BlockMap::Layers layers, std::uint32_t revision,
+                  MapDelta& delta);
 
-// Copies the whole field at once, with the same ids.
-std::unique_ptr<BlockMap> CopyField(const BlockMap& map);
+// Copies these layers of the whole map at once, with the same ids. Not for kAll.
+std::unique_ptr<BlockMap> CopyLayers(const BlockMap& map, BlockMap::Layers layers);
 
 // Brings `copy` up to date. Apply every delta exactly once, in the order of collection, starting
 // from an empty map.

@@ -4,7 +4,8 @@ namespace tessera {
 
 LiveTracking::State::State(const Settings& settings, FramePlan plan)
     : life(settings.config, settings.camera, settings.device, std::move(plan)),
-      field(std::make_unique<BlockMap>(settings.config.pipeline.map, BlockMap::Layers::kFieldOnly)),
+      field(std::make_unique<BlockMap>(settings.config.pipeline.map,
+                                       settings.config.pipeline.trackers.layers())),
       lost(settings.config.loops, settings.config.pipeline.motion.max_gap_s) {
     if (!settings.resume) return;
     life.Resume(*settings.resume);

@@ -38,7 +38,7 @@ class LiveTracking {
         State(const Settings& settings, FramePlan plan);
 
         FrameTracking life;
-        std::unique_ptr<BlockMap> field;  // copy of the map's field; unused with a device
+        std::unique_ptr<BlockMap> field;  // copy of what tracking reads; unused with a device
         MapVersion version;               // of that copy
         LostCamera lost;
         bool asked = false;  // a relocalisation question is pending

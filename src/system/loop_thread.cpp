@@ -170,7 +170,7 @@ void LoopThread::Push(Update update) {
 void LoopThread::HandOver(LoopCloser::Correction change) {
     history_.push_back(change.T_new_old);
     Update update{world_, std::move(change), nullptr, {}};
-    update.field = CopyField(*update.correction->map);
+    update.field = CopyLayers(*update.correction->map, settings_.tracked_layers);
     if (saved_.load()) update.news = journal_.Take(*closer_);
     Push(std::move(update));
 }

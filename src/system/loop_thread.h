@@ -27,13 +27,14 @@ class LoopThread {
         bool saved = false;
         std::optional<LoopCloser::Memory> resumed;  // of an earlier scan that is continued
         LoopCloser::MakePager make_pager = {};
+        BlockMap::Layers tracked_layers = BlockMap::Layers::kFieldOnly;  // of Update::field
     };
     // Apply updates in order: `news` refers to the map after all earlier corrections and the one in
     // this update.
     struct Update {
         int world = 0;
         std::optional<LoopCloser::Correction> correction;
-        // A copy of the corrected map's field for tracking: Layers::kFieldOnly.
+        // A copy of what tracking reads of the corrected map.
         std::unique_ptr<BlockMap> field;
         LoopChanges news;
     };

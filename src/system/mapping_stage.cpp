@@ -60,7 +60,8 @@ void MappingStage::CollectDelta(MapDelta& delta) {
     std::ranges::sort(changed_);
     changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());
     std::erase_if(changed_, [this](BlockId id) { return map_->IsFree(id); });
-    tessera::CollectDelta(map(), block_changes_, changed_, integrator_->revision(), delta);
+    tessera::CollectDelta(map(), config_.trackers.layers(), block_changes_, changed_,
+                          integrator_->revision(), delta);
     ForgetDelta();
 }
 
@@ -94,7 +95,7 @@ void MappingStage::ForgetDelta() {
 }
 
 void MappingStage::CollectWhole(MapDelta& delta) {
-    tessera::CollectWhole(map(), integrator_->revision(), delta);
+    tessera::CollectWhole(map(), config_.trackers.layers(), integrator_->revision(), delta);
     ForgetDelta();
 }
 

@@ -54,6 +54,10 @@ struct TrackersConfig {
     IcpTracker::Config icp;
 
     void Describe(ConfigParameters& parameters);
+    // What a copy of the map needs for these trackers.
+    BlockMap::Layers layers() const {
+        return sdf.chroma ? BlockMap::Layers::kFieldAndColour : BlockMap::Layers::kFieldOnly;
+    }
 };
 
 // The rasteriser if requested and available, else the ray caster. If it falls back, `note` says

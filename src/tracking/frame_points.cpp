@@ -27,11 +27,13 @@ PinholeImage WithCamera(const Image<float>& image, const PreparedFrame& frame,
 
 PointArguments MakePointArguments(const PreparedFrame& frame, const PinholeCamera& camera,
                                   const FrameMotion& motion, int step, const DepthWeight& weight,
-                                  bool intensities) {
+                                  bool intensities, bool chroma) {
     const auto sampled = [step](int pixels) { return (pixels + step - 1 - step / 2) / step; };
     PointArguments a{};
     a.depth = WithCamera(frame.depth_m, frame, camera);
     if (intensities && frame.has_colour) a.intensity = WithCamera(frame.intensity, frame, camera);
+    a.chroma = intensities && chroma && frame.has_colour;
+    if (a.chroma) a.packed_colour = frame.packed_colour.data();
     a.fx = camera.fx;
     a.fy = camera.fy;
     a.cx = camera.cx;
@@ -41,6 +43,7 @@ PointArguments MakePointArguments(const PreparedFrame& frame, const PinholeCamer
     a.height = sampled(frame.height);
     a.depth_exponent = static_cast<float>(-weight.exponent);
     a.nearest_m = static_cast<float>(weight.nearest_m);
+    a.normal_radius_px = -1;
     for (int i = 0; i < 6; ++i) a.twist_per_s[i] = static_cast<float>(motion.twist_per_s(i));
     a.still = motion.twist_per_s.isZero();
     a.depth_readout_s = motion.depth_readout_s;
@@ -56,12 +59,14 @@ void FramePoints::Allocate(const PointArguments& a, std::int64_t valid) {
     valid_ = valid;
     for (auto* values : {&x, &y, &z, &weight, &intensity})
         values->resize(static_cast<std::size_t>(count()));
+    for (auto* values : {&cb, &cr})
+        values->resize(a.chroma ? static_cast<std::size_t>(count()) : 0);
 }
 
 void FramePoints::Build(const PointArguments& a) {
     BuildRows(a);
-    if (a.normal_radius_px > 0) EstimateNormals(a);
-    if (a.intensity.width > 0) SampleIntensity(a);
+    if (a.normal_radius_px >= 0) EstimateNormals(a);
+    if (a.intensity.width > 0) SampleColour(a);
 }
 
 void FramePoints::BuildRows(const PointArguments& a) {
@@ -112,14 +117,21 @@ void FramePoints::EstimateNormals(const PointArguments& a) {
     valid_ -= std::accumulate(dropped.begin(), dropped.end(), std::int64_t{0});
 }
 
-void FramePoints::SampleIntensity(const PointArguments& a) {
+void FramePoints::SampleColour(const PointArguments& a) {
+    for (auto* values : {&cb, &cr}) std::fill(values->begin(), values->end(), 0.0f);
     tbb::parallel_for(0, height_, [&](int row) {
         const PointRow r = RowOfPoints(a, row);
         std::size_t i = static_cast<std::size_t>(row) * static_cast<std::size_t>(width_);
-        for (int column = 0; column < width_; ++column, ++i)
-            if (weight[i] > 0)
-                intensity[i] =
-                    IntensityOfPoint(a, r, column * step_ + step_ / 2, {x[i], y[i], z[i]});
+        for (int column = 0; column < width_; ++column, ++i) {
+            if (weight[i] <= 0) continue;
+            const int u = column * step_ + step_ / 2;
+            const CameraPoint p{x[i], y[i], z[i]};
+            intensity[i] = IntensityOfPoint(a, r, u, p);
+            if (!a.chroma || intensity[i] < 0) continue;
+            const Chroma chroma = ChromaOfPoint(a, r, u, p);
+            cb[i] = chroma.cb;
+            cr[i] = chroma.cr;
+        }
     });
 }
 

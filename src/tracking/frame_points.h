@@ -18,21 +18,22 @@ struct DepthWeight {
     double exponent = 0, nearest_m = kMinWeightDepth_m;
 };
 
-// Arguments for every step-th pixel. Includes intensities only if requested and if the frame has
-// any. Refers to the frame's images.
+// Arguments for every step-th pixel. Includes intensities, and chroma besides, only if requested
+// and if the frame has colour. Refers to the frame's images.
 PointArguments MakePointArguments(const PreparedFrame& frame, const PinholeCamera& camera,
                                   const FrameMotion& motion, int step, const DepthWeight& weight,
-                                  bool intensities);
+                                  bool intensities, bool chroma = false);
 
 class FramePoints {
   public:
     // Builds points in the camera frame at the frame's timestamp, metres, and what the arguments
     // ask for besides:
     // - Normals of the measured surface, in the camera frame, unit, towards the camera, from
-    //   differences across normal_radius_px pixels to each side ([D18] eq. 15 has radius 1,
-    //   one-sided). A point at a depth discontinuity or hole has no normal and loses its weight.
+    //   differences across normal_radius_px pixels (NormalAt). A point at a depth discontinuity or
+    //   hole has no normal and loses its weight.
     // - The intensity of each point where the colour camera saw it, at that camera's own time; -1
-    //   where it saw nothing, and without intensities.
+    //   where it saw nothing, and without intensities. Chroma in the units of voxel.h, where there
+    //   is an intensity.
     void Build(const PointArguments& arguments);
 
     // Only lays out the slots, for points that are filled in elsewhere; `valid` of them have a
@@ -47,12 +48,13 @@ class FramePoints {
     std::int64_t valid() const { return valid_; }
 
     std::vector<float> x, y, z, intensity, weight;
-    std::vector<float> normal_x, normal_y, normal_z;  // if asked for
+    std::vector<float> normal_x, normal_y, normal_z;  // if asked for, as are these:
+    std::vector<float> cb, cr;
 
   private:
     void BuildRows(const PointArguments& arguments);
     void EstimateNormals(const PointArguments& arguments);
-    void SampleIntensity(const PointArguments& arguments);
+    void SampleColour(const PointArguments& arguments);
 
     int width_ = 0, height_ = 0, step_ = 1;
     std::int64_t valid_ = 0;

@@ -22,9 +22,9 @@ void IcpTracker::Config::Describe(ConfigParameters& p) {
           "associations of points farther apart than this are rejected");
     p.Add("normal_gate_rad", normal_gate_rad, {0.01, 1.57}, "rad",
           "associations whose normals differ by more than this are rejected");
-    p.Add("normal_radius_px", normal_radius_px, {1, 32}, "px",
+    p.Add("normal_radius_px", normal_radius_px, {0, 32}, "px",
           "normals of the measured surface come from differences across this many pixels to each "
-          "side");
+          "side; 0: from the differences to the next pixel, [D18] eq. 15");
     p.Add("distance_scale_m", distance_scale_m, {1e-4, 10.0}, "m",
           "Huber scale of distances: larger residuals count linearly; a scale above the gate gives "
           "least squares, as in [D18]");

@@ -70,21 +70,39 @@ TESSERA_HD void AddPoseTerm(const F* j, const F& residual, const F& w, F* term) 
     }
 }
 
-// The brightness terms of the photometric residual r = field - (a * image + b): dr/da = -image,
+// The photometric residual of [B14] eq. 6 and 7 is the square root of sum_c s_c e_c^2 over the
+// errors e_c of R, G and B, with the weights s_c of luma. With e_Y = sum_c s_c e_c and the chroma
+// errors e_Cb = (e_B - e_Y) / 1.772 and e_Cr = (e_R - e_Y) / 1.402 the sum is
+//     e_Y^2 + a e_Cb^2 + 2 b e_Cb e_Cr + c e_Cr^2
+//       = e_Y^2 + (u e_Cb + v e_Cr)^2 + (w e_Cr)^2,
+// a = 0.114 * 1.772^2 + (0.114 * 1.772)^2 / 0.587, b = 0.114 * 1.772 * 0.299 * 1.402 / 0.587,
+// c = 0.299 * 1.402^2 + (0.299 * 1.402)^2 / 0.587, u = sqrt(a), v = b / u, w = sqrt(c - v^2).
+struct ChromaWeights {
+    static constexpr float kU = 0.65381684f, kV = 0.22064473f, kW = 0.91563967f;
+};
+
+// The gain's terms of a residual r = field - a * image: dr/da = -image.
+template <class F>
+TESSERA_HD void AddGainTerm(const F* j, const F& residual, const F& image, const F& w, F* sums) {
+    using L = SumLayout;
+    const F wi = w * image;
+    for (int row = 0; row < 6; ++row)
+        sums[L::kCoupling + 2 * row] = sums[L::kCoupling + 2 * row] - wi * j[row];
+    sums[L::kBrightness] = sums[L::kBrightness] + wi * image;
+    sums[L::kBrightnessGradient] = sums[L::kBrightnessGradient] - wi * residual;
+}
+
+// The brightness terms of the intensity residual r = field - (a * image + b): dr/da = -image,
 // dr/db = -1.
 template <class F>
 TESSERA_HD void AddBrightnessTerm(const F* j, const F& residual, const F& image, const F& w,
                                   F* sums) {
     using L = SumLayout;
-    const F wi = w * image;
-    for (int row = 0; row < 6; ++row) {
-        sums[L::kCoupling + 2 * row] = sums[L::kCoupling + 2 * row] - wi * j[row];
+    AddGainTerm(j, residual, image, w, sums);
+    for (int row = 0; row < 6; ++row)
         sums[L::kCoupling + 2 * row + 1] = sums[L::kCoupling + 2 * row + 1] - w * j[row];
-    }
-    sums[L::kBrightness] = sums[L::kBrightness] + wi * image;
-    sums[L::kBrightness + 1] = sums[L::kBrightness + 1] + wi;
+    sums[L::kBrightness + 1] = sums[L::kBrightness + 1] + w * image;
     sums[L::kBrightness + 2] = sums[L::kBrightness + 2] + w;
-    sums[L::kBrightnessGradient] = sums[L::kBrightnessGradient] - wi * residual;
     sums[L::kBrightnessGradient + 1] = sums[L::kBrightnessGradient + 1] - w * residual;
 }
 

@@ -4,9 +4,11 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
 
 #include "core/row_time.h"
 #include "core/scalar_ops.h"
+#include "mapping/fusion_arguments.h"
 
 namespace tessera {
 
@@ -70,13 +72,14 @@ struct PinholeImage {
 };
 
 // The normal of the depth image's surface at (u, v): unit, towards the camera, from differences
-// across radius_px pixels to each side ([D18] eq. 15). Returns false if there is none: at a depth
-// discontinuity or beside a hole.
+// across radius_px pixels to each side; with radius 0 from the differences to the next pixel ([D18]
+// eq. 15). Returns false if there is none: at a depth discontinuity or beside a hole.
 TESSERA_HD bool NormalAt(const PinholeImage& depth, int u, int v, int radius_px,
                          CameraPoint& normal) {
     const int left = u > radius_px ? u - radius_px : 0, up = v > radius_px ? v - radius_px : 0;
-    const int right = u + radius_px < depth.width ? u + radius_px : depth.width - 1;
-    const int down = v + radius_px < depth.height ? v + radius_px : depth.height - 1;
+    const int ahead = radius_px > 0 ? radius_px : 1;
+    const int right = u + ahead < depth.width ? u + ahead : depth.width - 1;
+    const int down = v + ahead < depth.height ? v + ahead : depth.height - 1;
     const float d = depth.At(u, v);
     if (!OneSurface(depth.At(left, v), d, depth.At(right, v)) ||
         !OneSurface(depth.At(u, up), d, depth.At(u, down)))
@@ -102,11 +105,14 @@ TESSERA_HD float SampleAtPoint(const PinholeImage& image, const CameraPoint& p) 
 struct PointArguments {
     PinholeImage depth;      // metres, 0 = none
     PinholeImage intensity;  // same size; `pixels` null: not to be read
-    double fx, fy, cx, cy;   // of the same camera, for RaySlope
+    // Whether the points need chroma too, and the same pixels as PackColour packs them.
+    bool chroma;
+    const std::uint32_t* packed_colour;
+    double fx, fy, cx, cy;  // of the same camera, for RaySlope
     int step;
     int width, height;                // slots per row (some lie right of the image), and rows
     float depth_exponent, nearest_m;  // for PointWeight
-    int normal_radius_px;             // for NormalAt; 0: no normals
+    int normal_radius_px;             // for NormalAt; negative: no normals
     float twist_per_s[6];             // from FrameMotion, as are the times below
     bool still;                       // the twist is zero
     double depth_readout_s, colour_delay_s, colour_readout_s;
@@ -132,11 +138,42 @@ TESSERA_HD CameraPoint PointOfPixel(const PointArguments& a, const PointRow& row
                  row.depth_time_s);
 }
 
+// The chroma of a packed colour pixel, in the units of voxel.h: Cb = (B - Y) / 1.772, Cr = (R - Y)
+// / 1.402.
+struct Chroma {
+    float cb, cr;
+};
+TESSERA_HD Chroma ChromaOfPacked(std::uint32_t pixel) {
+    return {static_cast<float>(static_cast<int>(pixel >> 16 & 255u) - 128) * (1.0f / kPackedChroma),
+            static_cast<float>(static_cast<int>(pixel >> 24) - 128) * (1.0f / kPackedChroma)};
+}
+
 // The intensity that the colour camera saw at this point, at its own time; -1: none.
 TESSERA_HD float IntensityOfPoint(const PointArguments& a, const PointRow& row, int u,
                                   const CameraPoint& p) {
     return a.still ? a.intensity.At(u, row.v)
                    : SampleAtPoint(a.intensity, Moved(p, a.twist_per_s, -row.colour_time_s));
+}
+
+// The chroma there. Requires that the point has an intensity.
+TESSERA_HD Chroma ChromaOfPoint(const PointArguments& a, const PointRow& row, int u,
+                                const CameraPoint& p) {
+    const std::uint32_t* const pixels = a.packed_colour;
+    const int width = a.intensity.width;
+    if (a.still) return ChromaOfPacked(pixels[row.v * width + u]);
+    const CameraPoint q = Moved(p, a.twist_per_s, -row.colour_time_s);
+    const float column = q.x / q.z * a.intensity.fx + a.intensity.cx;
+    const float line = q.y / q.z * a.intensity.fy + a.intensity.cy;
+    const int x = static_cast<int>(column), y = static_cast<int>(line);
+    const float fu = column - static_cast<float>(x), fv = line - static_cast<float>(y);
+    const std::uint32_t* const first = pixels + y * width + x;
+    const Chroma c00 = ChromaOfPacked(first[0]), c10 = ChromaOfPacked(first[1]);
+    const Chroma c01 = ChromaOfPacked(first[width]), c11 = ChromaOfPacked(first[width + 1]);
+    const auto between = [fu, fv](float v00, float v10, float v01, float v11) {
+        const float top = v00 + fu * (v10 - v00), bottom = v01 + fu * (v11 - v01);
+        return top + fv * (bottom - top);
+    };
+    return {between(c00.cb, c10.cb, c01.cb, c11.cb), between(c00.cr, c10.cr, c01.cr, c11.cr)};
 }
 
 }  // namespace tessera

@@ -19,6 +19,11 @@ struct SdfArguments : BlockMapView {
     const float* z;
     const float* intensity;  // < 0 where there is none
     const float* weight;
+    // For the chroma residuals: the points' chroma and the map's colours. `colour` null: intensity
+    // only.
+    const float* cb;
+    const float* cr;
+    const ColourWord* colour;
     // The residuals.
     bool use_intensity;
     bool normalise;  // divide distances by their gradient's length where it exceeds 1

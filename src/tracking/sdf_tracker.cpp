@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/check.h"
+
 namespace tessera {
 namespace {
 
@@ -67,10 +69,10 @@ TrackResult SdfTracker::Track(const TrackInput& input) {
 // Without points the level cannot be tracked. A device may have had no room for them.
 void SdfTracker::MakePoints(const TrackInput& input, int step, FramePoints& points, State& state) {
     const DepthWeight weight{config_.depth_exponent, input.nearest_m};
-    sums_.SetPoints(
-        input.map, input.frame,
-        MakePointArguments(input.frame, camera_, state.motion, step, weight, state.alpha > 0),
-        points);
+    sums_.SetPoints(input.map, input.frame,
+                    MakePointArguments(input.frame, camera_, state.motion, step, weight,
+                                       state.alpha > 0, config_.chroma),
+                    points);
     state.failed = points.valid() == 0;
     if (state.failed) state.step.valid = false;
 }
@@ -99,6 +101,12 @@ void SdfTracker::PrepareLevel(const TrackInput& input, int level, State& state) 
     a.intensity = points.intensity.data();
     a.weight = points.weight.data();
     a.use_intensity = state.alpha > 0;
+    if (a.use_intensity && config_.chroma) {
+        TESSERA_CHECK(input.map.has_colours(), "chroma is aligned with a map without colours");
+        a.cb = points.cb.data();
+        a.cr = points.cr.data();
+        a.colour = input.map.colours();
+    }
     a.normalise = config_.normalise;
     a.distance_scale_m = static_cast<float>(config_.distance_scale_m);
     a.intensity_scale = static_cast<float>(residual_model_.config().intensity_scale);
@@ -170,14 +178,19 @@ void SdfTracker::RunLevel(const TrackInput& input, int level, State& state) {
 }
 
 void SdfTracker::Config::Describe(ConfigParameters& p) {
-    p.Add("distance_scale_m", distance_scale_m, {1e-4, 1.0}, "m",
-          "Huber scale of distances: larger residuals count linearly");
+    p.Add("distance_scale_m", distance_scale_m, {1e-4, 10.0}, "m",
+          "Huber scale of distances: larger residuals count linearly; a scale above the truncation "
+          "gives least squares, as in [B14]");
     p.Add("depth_exponent", depth_exponent, {0.0, 4.0}, "",
           "a point's weight is (1 m / depth)^depth_exponent; 4 is the inverse variance of "
           "structured light, 0 is [B14]");
     p.Add("normalise", normalise,
           "divide the field's distance by the length of its gradient, because distances measured "
           "along slanted rays are too long; off is [B14]");
+    p.Add(
+        "chroma", chroma,
+        "align chroma as well as luma: the weighted error of all three colour channels, [B14] eq. "
+        "6 and 7; helps where neighbouring colours are equally bright");
     p.Add("finest_step_px", finest_step_px, {1, 16}, "px",
           "pixel step of the finest level, in both directions");
     p.Add("levels", levels, {1, 5}, "", "number of levels; each coarser level doubles the step");

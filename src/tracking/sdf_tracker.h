@@ -18,6 +18,7 @@ class SdfTracker : public Tracker {
         double distance_scale_m = 0.02;
         double depth_exponent = 2.0;
         bool normalise = true;
+        bool chroma = false;
         int finest_step_px = 2;
         int levels = 3;
         int coarse_iterations = 20;

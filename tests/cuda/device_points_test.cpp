@@ -36,15 +36,18 @@ void ExpectSame(const FramePoints& points, const FramePoints& expected) {
     EXPECT_TRUE(Same(points.z, expected.z));
     EXPECT_TRUE(Same(points.weight, expected.weight));
     EXPECT_TRUE(Same(points.intensity, expected.intensity));
+    EXPECT_TRUE(Same(points.cb, expected.cb));
+    EXPECT_TRUE(Same(points.cr, expected.cr));
 }
 
 // Checks that SetPoints and TakePoints give the same points as FramePoints, without and with
-// normals.
+// normals. Chroma is requested with intensities.
 void ExpectSamePoints(DevicePipeline& device, const PreparedFrame& frame,
                       const PinholeCamera& camera, const FrameMotion& motion, int step,
                       const DepthWeight& weight, bool intensities) {
     const BlockMap map{BlockMap::Config()};
-    PointArguments a = MakePointArguments(frame, camera, motion, step, weight, intensities);
+    PointArguments a =
+        MakePointArguments(frame, camera, motion, step, weight, intensities, intensities);
     FramePoints expected, points;
     expected.Build(a);
     device.SetPoints(map, frame, a, points);

@@ -82,11 +82,12 @@ TEST_P(ByIcp, ASwitchToAViewOfTheProcessorBringsTheVoxelsFirst) {
     EXPECT_EQ(run.value().counts.tracked, 5) << run.value().last_reason;
 }
 
-// The settings of [B14], whose weights decay exponentially.
-TEST(DeviceRuns, IsTheProcessorsWithOtherWeights) {
+// The settings of [B14], whose weights decay exponentially, and which aligns three colour channels.
+TEST(DeviceRuns, IsTheProcessorsWithOtherWeightsAndChroma) {
     PipelineConfig config;
     config.fusion.distance_weight = DistanceWeight::kLinearExp;
     config.fusion.colour_weighting = ColourWeighting::kCosine;
+    config.trackers.sdf.chroma = true;
     DeskRun expected(config, nullptr);
     DevicePipeline device("host", kPlenty);
     DeskRun run(config, &device);

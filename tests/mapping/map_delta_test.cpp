@@ -15,12 +15,14 @@ using namespace testing_support;
 
 // Fuses frames of a moving camera. Tell sends the changes since the last call to the copy.
 struct MovingMap {
+    BlockMap::Layers layers = BlockMap::Layers::kFieldOnly;
     PinholeCamera camera = SmallCamera();
     BlockMap map{{.voxel_size_m = 0.02, .truncation_m = 0.08}};
-    BlockMap copy{map.config(), BlockMap::Layers::kFieldOnly};
+    BlockMap copy{map.config(), layers};
     Integrator integrator{{}, camera};
-    std::vector<BlockChange> came_and_went;
-    std::vector<BlockId> back;  // blocks that returned to the map; the copy needs their field too
+    std::vector<BlockChange> came_and_went = {};
+    std::vector<BlockId> back =
+        {};  // blocks that returned to the map; the copy needs their field too
 
     void Fuse(int i) {
         BoxRoom room;
@@ -49,7 +51,7 @@ struct MovingMap {
         MapDelta delta;
         std::vector<BlockId> changed = integrator.changed_blocks();
         changed.insert(changed.end(), back.begin(), back.end());
-        CollectDelta(map, came_and_went, changed, integrator.revision(), delta);
+        CollectDelta(map, copy.layers(), came_and_went, changed, integrator.revision(), delta);
         came_and_went.clear();
         back.clear();
         ApplyDelta(delta, copy);
@@ -74,6 +76,19 @@ TEST(MapDelta, TheCopyIsTheMapsFieldWordForWord) {
         }
     }
     EXPECT_LT(world.copy.bytes(), 0.6 * static_cast<double>(world.map.bytes()));
+}
+
+TEST(MapDelta, ACopyWithColoursHasThoseToo) {
+    MovingMap world{BlockMap::Layers::kFieldAndColour};
+    for (int i = 0; i < 4; ++i) {
+        world.Fuse(i);
+        world.Tell();
+        for (BlockId id = 0; id < world.map.size(); ++id)
+            ASSERT_EQ(std::memcmp(world.copy.colour(id), world.map.colour(id),
+                                  kBlockVoxels * sizeof(ColourWord)),
+                      0)
+                << "block " << id << " after frame " << i;
+    }
 }
 
 TEST(MapDelta, ACopyFollowsBlocksThatGoAndComeBack) {
@@ -106,10 +121,10 @@ TEST(MapDelta, ACopyFollowsBlocksThatGoAndComeBack) {
     }
 }
 
-TEST(CopyField, IsTheWholeFieldUnderTheSameIdsAndNewToWhoeverLooks) {
+TEST(CopyLayers, AreTheWholeLayersUnderTheSameIdsAndNewToWhoeverLooks) {
     MovingMap world;
     for (int i = 0; i < 3; ++i) world.Fuse(i);
-    const std::unique_ptr<BlockMap> copy = CopyField(world.map);
+    const std::unique_ptr<BlockMap> copy = CopyLayers(world.map, BlockMap::Layers::kFieldAndColour);
     ASSERT_EQ(copy->size(), world.map.size());
     for (BlockId id = 1; id < world.map.size(); ++id) {
         ASSERT_EQ(copy->coord(id), world.map.coord(id));
@@ -117,14 +132,18 @@ TEST(CopyField, IsTheWholeFieldUnderTheSameIdsAndNewToWhoeverLooks) {
         ASSERT_EQ(
             std::memcmp(copy->field(id), world.map.field(id), kBlockVoxels * sizeof(FieldWord)), 0)
             << id;
+        ASSERT_EQ(
+            std::memcmp(copy->colour(id), world.map.colour(id), kBlockVoxels * sizeof(ColourWord)),
+            0)
+            << id;
         ASSERT_NE(copy->revision(id), 0u);
     }
     // The next delta continues from this copy.
     world.came_and_went.clear();
     world.Fuse(3);
     MapDelta delta;
-    CollectDelta(world.map, world.came_and_went, world.integrator.changed_blocks(),
-                 world.integrator.revision(), delta);
+    CollectDelta(world.map, BlockMap::Layers::kFieldAndColour, world.came_and_went,
+                 world.integrator.changed_blocks(), world.integrator.revision(), delta);
     ApplyDelta(delta, *copy);
     for (BlockId id = 1; id < world.map.size(); ++id)
         ASSERT_EQ(

@@ -32,6 +32,21 @@ TEST_F(Live, EveryFrameIsAccountedForAndTrackedToTheMillimetre) {
     EXPECT_GT(engine->TakeMesh().triangles.size(), 1000u);
 }
 
+// Tracking has its own copy of the map's colours.
+TEST_F(Live, ChromaIsTrackedInTheCopyOfTheMap) {
+    config.pipeline.trackers.sdf.chroma = true;
+    Make(true, {.count = 12});
+    TakeAll();
+    const auto reports = Reports();
+    ASSERT_FALSE(reports.empty());
+    for (const FrameReport* report : reports) {
+        EXPECT_TRUE(report->tracked()) << report->track.reason;
+        if (!report->first) {
+            EXPECT_GT(report->track.alpha, 0);
+        }
+    }
+}
+
 // Slower than tracking, even on a busy machine and under ThreadSanitizer.
 #ifdef __SANITIZE_THREAD__
 constexpr double kSlowMapping_ms = 1000;

@@ -36,17 +36,6 @@ TEST(RunConfig, EveryPresetLoadsAndIsValid) {
     }
 }
 
-TEST(RunConfig, Bylow2014HasThePapersWeights) {
-    RunConfig config;
-    ConfigParameters parameters;
-    config.Describe(parameters);
-    ASSERT_TRUE(LoadPresetOrFile("bylow2014", parameters).ok());
-    EXPECT_EQ(config.pipeline.map.truncation_m, 0.3);  // delta
-    EXPECT_EQ(config.pipeline.fusion.epsilon_m, 0.025);
-    EXPECT_EQ(config.pipeline.fusion.distance_weight, DistanceWeight::kLinearExp);
-    EXPECT_EQ(config.pipeline.fusion.colour_weighting, ColourWeighting::kCosine);
-}
-
 TEST(RunConfig, AnUnknownPresetNamesTheKnownOnes) {
     ConfigParameters parameters;
     EXPECT_EQ(LoadPresetOrFile("bylow", parameters).message(),

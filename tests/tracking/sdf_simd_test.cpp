@@ -33,6 +33,11 @@ void Fill(BlockMap& map) {
                     const auto distance = static_cast<std::int32_t>(std::lround(32767 * d));
                     const auto intensity = static_cast<std::uint32_t>(1 + std::lround(65534 * c));
                     map.field(id)[i] = static_cast<std::uint32_t>(distance) << 16 | intensity;
+                    const double cb = 0.3 * std::sin(0.09 * px + 0.04 * pz),
+                                 cr = 0.2 * std::cos(0.06 * py - 0.1 * pz);
+                    map.colour(id)[i] =
+                        static_cast<std::uint32_t>(std::lround(512 + 1022 * cb)) |
+                        static_cast<std::uint32_t>(std::lround(512 + 1022 * cr)) << 10 | 16u << 20;
                 }
             }
     map.field(map.Find({0, 0, 0}))[100] = kUnknownField;
@@ -40,7 +45,7 @@ void Fill(BlockMap& map) {
 }
 
 struct Points {
-    std::vector<float> x, y, z, intensity, weight;
+    std::vector<float> x, y, z, intensity, weight, cb, cr;
 
     explicit Points(int count) {
         std::uint32_t state = 12345;
@@ -55,16 +60,25 @@ struct Points {
             intensity.push_back(i % 7 == 0 ? -1.0f : random());
             weight.push_back(i % 5 == 0 ? 0.0f : 0.5f + random());
         }
+        for (int i = 0; i < count; ++i) {
+            cb.push_back(0.6f * (random() - 0.5f));
+            cr.push_back(0.6f * (random() - 0.5f));
+        }
     }
 };
 
+// R, G and B as the shares of luma and chroma in them, unclamped.
+Eigen::Vector3d RgbOf(double y, double cb, double cr) {
+    const double r = y + 1.402 * cr, b = y + 1.772 * cb;
+    return {r, (y - 0.299 * r - 0.114 * b) / 0.587, b};
+}
+
 // Reference for the sums: one point at a time, one hash look-up per corner, in double precision.
+// The photometric error is that of [B14] eq. 6 and 7: of R, G and B, weighted. Without chroma, luma
+// stands for all three.
 PoseSums SlowSdfSums(const BlockMap& map, const Points& points, const SdfArguments& a) {
+    const double share[3] = {0.299, 0.587, 0.114};
     PoseSums sums;
-    const auto word = [&](int x, int y, int z) {
-        const BlockId id = map.Find({x >> 3, y >> 3, z >> 3});
-        return map.field(id)[(x & 7) + 8 * (y & 7) + 64 * (z & 7)];
-    };
     for (std::size_t i = 0; i < points.x.size(); ++i) {
         if (points.weight[i] <= 0) continue;
         const double p_camera[3] = {points.x[i], points.y[i], points.z[i]};
@@ -75,47 +89,71 @@ PoseSums SlowSdfSums(const BlockMap& map, const Points& points, const SdfArgumen
             p[k] = q[k] * a.voxel_size_m;
         }
         const int cell[3] = {int(std::floor(q[0])), int(std::floor(q[1])), int(std::floor(q[2]))};
-        double distance[8], intensity[8];
+        double distance[8], rgb[3][8];
         bool known = true, coloured = points.intensity[i] >= 0;
         for (int c = 0; c < 8; ++c) {
-            const FieldWord w = word(8 * a.origin_block[0] + cell[0] + (c & 1),
-                                     8 * a.origin_block[1] + cell[1] + (c >> 1 & 1),
-                                     8 * a.origin_block[2] + cell[2] + (c >> 2));
+            const int x = 8 * a.origin_block[0] + cell[0] + (c & 1),
+                      y = 8 * a.origin_block[1] + cell[1] + (c >> 1 & 1),
+                      z = 8 * a.origin_block[2] + cell[2] + (c >> 2);
+            const BlockId id = map.Find({x >> 3, y >> 3, z >> 3});
+            const int at = (x & 7) + 8 * (y & 7) + 64 * (z & 7);
+            const FieldWord w = map.field(id)[at];
             known = known && HasDistance(w);
             coloured = coloured && HasIntensity(w);
             distance[c] = FieldDistance(w);
-            intensity[c] = FieldIntensity(w);
+            const ColourWord colour = a.colour != nullptr ? map.colour(id)[at] : kNoColour;
+            const Eigen::Vector3d corner =
+                RgbOf(FieldIntensity(w), ((colour & 1023) - 512.0) / 1022,
+                      ((colour >> 10 & 1023) - 512.0) / 1022);
+            for (int k = 0; k < 3; ++k) rgb[k][c] = corner(k);
         }
         if (!known) continue;
         const double weight = points.weight[i];
-        const auto add = [&](const double* corner, double unit, double scale, bool photometric) {
+        // A residual at this point and its Jacobian.
+        struct Term {
+            double r, j[6];
+        };
+        const auto term = [&](const double* corner, double unit, double measured) {
             const auto s =
                 Trilinear<double>(corner, q[0] - cell[0], q[1] - cell[1], q[2] - cell[2]);
             const double slope = unit / a.voxel_size_m;
             const double g[3] = {s.gx * slope, s.gy * slope, s.gz * slope};
-            double r = s.value * unit;
-            if (photometric) r -= a.gain * points.intensity[i] + a.offset;
-            const double w = weight * std::min(1.0, scale / std::abs(r));
-            double j[6];
-            PointJacobian(p, g, j);
-            AddPoseTerm(j, r, w, sums.value + (photometric ? L::kIntensity : L::kDistance));
-            if (photometric) AddBrightnessTerm(j, r, double(points.intensity[i]), w, sums.value);
-            sums.value[photometric ? L::kIntensityError : L::kDistanceError] += w * r * r;
-            sums.value[photometric ? L::kIntensityWeight : L::kDistanceWeight] += w;
-            if (photometric) {
-                sums.value[L::kColoured] += 1;
-            } else {
-                sums.value[L::kKnown] += 1;
-                sums.value[L::kInliers] += std::abs(r) < a.inlier_distance_m;
-            }
+            Term t{s.value * unit - measured, {}};
+            PointJacobian(p, g, t.j);
+            return t;
         };
-        add(distance, a.truncation_m, a.distance_scale_m, false);
-        if (a.use_intensity && coloured) add(intensity, 1.0, a.intensity_scale, true);
+        const Term d = term(distance, a.truncation_m, 0);
+        const double wd = weight * std::min(1.0, a.distance_scale_m / std::abs(d.r));
+        AddPoseTerm(d.j, d.r, wd, sums.value + L::kDistance);
+        sums.value[L::kDistanceError] += wd * d.r * d.r;
+        sums.value[L::kDistanceWeight] += wd;
+        sums.value[L::kKnown] += 1;
+        sums.value[L::kInliers] += std::abs(d.r) < a.inlier_distance_m;
+        if (!a.use_intensity || !coloured) continue;
+        const bool chroma = a.colour != nullptr;
+        const Eigen::Vector3d image =
+            RgbOf(points.intensity[i], chroma ? points.cb[i] : 0, chroma ? points.cr[i] : 0);
+        Term channel[3];
+        double error2 = 0;
+        for (int k = 0; k < 3; ++k) {
+            channel[k] = term(rgb[k], 1.0, a.gain * image(k) + a.offset);
+            error2 += share[k] * channel[k].r * channel[k].r;
+        }
+        const double w = weight * std::min(1.0, a.intensity_scale / std::sqrt(error2));
+        for (int k = 0; k < 3; ++k) {
+            AddPoseTerm(channel[k].j, channel[k].r, share[k] * w, sums.value + L::kIntensity);
+            AddBrightnessTerm(channel[k].j, channel[k].r, image(k), share[k] * w, sums.value);
+        }
+        sums.value[L::kIntensityError] += w * error2;
+        sums.value[L::kIntensityWeight] += w;
+        sums.value[L::kColoured] += 1;
     }
     return sums;
 }
 
-class SdfRows : public testing::TestWithParam<bool> {};
+enum class Colour { kNone, kIntensity, kChroma };
+
+class SdfRows : public testing::TestWithParam<Colour> {};
 
 TEST_P(SdfRows, AgreeWithTheSlowSums) {
     BlockMap map({.voxel_size_m = 0.01, .truncation_m = 0.04});
@@ -136,7 +174,12 @@ TEST_P(SdfRows, AgreeWithTheSlowSums) {
     a.z = points.z.data();
     a.intensity = points.intensity.data();
     a.weight = points.weight.data();
-    a.use_intensity = GetParam();
+    a.use_intensity = GetParam() != Colour::kNone;
+    if (GetParam() == Colour::kChroma) {
+        a.cb = points.cb.data();
+        a.cr = points.cr.data();
+        a.colour = map.colours();
+    }
     a.gain = 1.1f;
     a.offset = -0.03f;
     a.distance_scale_m = 0.015f;
@@ -187,7 +230,8 @@ TEST_P(SdfRows, AgreeWithTheSlowSums) {
     expect_the_same_bytes(vector);
 }
 
-INSTANTIATE_TEST_SUITE_P(Intensity, SdfRows, testing::Bool());
+INSTANTIATE_TEST_SUITE_P(Colours, SdfRows,
+                         testing::Values(Colour::kNone, Colour::kIntensity, Colour::kChroma));
 
 }  // namespace
 }  // namespace tessera

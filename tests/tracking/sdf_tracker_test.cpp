@@ -31,6 +31,44 @@ TEST(SdfTracker, ExposureChangeIsExplainedByBrightness) {
     EXPECT_LT((T_true.inverse() * result.T_world_camera).translation().norm(), 0.002);
 }
 
+// Paints the texture in chroma: grey level g becomes a colour of luma 0.5, red where g is high and
+// cyan where it is low.
+void PaintAtEqualLuma(Frame& frame) {
+    for (std::size_t i = 0; i < frame.colour.size(); ++i) {
+        Rgb8& c = frame.colour.data()[i];
+        const double r = c.r, green = (127.5 - 0.299 * r - 0.114 * 127.5) / 0.587;
+        c = {c.r, static_cast<std::uint8_t>(green + 0.5), 128};
+    }
+}
+
+// [B14] eq. 6 sees texture of equal luma; luma alone sees only its rounding.
+TEST(SdfTracker, ChromaShowsMotionAlongAWallOfEqualLuma) {
+    BoxRoom room;
+    room.only_back_wall = true;
+    World world(room);
+    world.map.Clear();
+    Integrator integrator({}, world.camera);
+    for (int i = 0; i < 12; ++i) {
+        Integrator::View view;
+        view.T_world_camera = SmoothPath(6 * i);
+        Frame frame = world.room.Render(world.camera, view.T_world_camera);
+        PaintAtEqualLuma(frame);
+        integrator.Integrate(Prepare(frame), view, world.map);
+    }
+    const Eigen::Isometry3d T_true = SmoothPath(20);
+    Frame frame = world.room.Render(world.camera, T_true);
+    PaintAtEqualLuma(frame);
+    const PreparedFrame prepared = Prepare(frame);
+    const Eigen::Isometry3d T_start = T_true * Eigen::Translation3d(0.012, 0.008, 0);
+    const auto error = [&](bool chroma) {
+        const TestTracker tracker = FineSdf(FixedAlpha(0.3), chroma);
+        const TrackResult result = world.Track(*tracker, prepared, T_start, T_start);
+        return (T_true.inverse() * result.T_world_camera).translation().norm();
+    };
+    EXPECT_LT(error(true), 0.003);
+    EXPECT_GT(error(false), 0.005);
+}
+
 // The colour image of a moving camera is taken 15 ms after the depth image.
 TEST(SdfTracker, ColourDelayIsAllowedFor) {
     BoxRoom room;

@@ -67,8 +67,9 @@ inline ResidualModel::Config FixedAlpha(double alpha) {
 }
 
 // Uses every pixel and iterates until converged.
-inline TestTracker FineSdf(const ResidualModel::Config& photometric) {
+inline TestTracker FineSdf(const ResidualModel::Config& photometric, bool chroma = false) {
     SdfTracker::Config config;
+    config.chroma = chroma;
     config.finest_step_px = 1;
     config.fine_iterations = 30;
     TestTracker t;
