@@ -27,8 +27,13 @@ class Document:
         if self.protocol:
             parts.append("## Protocol\n\n" + "\n".join(f"- {line}" for line in self.protocol) + "\n")
         parts.append("## Commands\n\n" + "\n".join(f"    {line}" for line in self.commands) + "\n")
-        parts.append(f"Versions: {version}; Python {platform.python_version()}; {platform.machine()}.\n")
+        parts.append(footer(version))
         return "\n".join(parts)
+
+
+def footer(version):
+    """The last line of each file. `version`: the program's."""
+    return f"Versions: {version}; Python {platform.python_version()}; {platform.machine()}.\n"
 
 
 def table(header, rows):

@@ -12,6 +12,7 @@ class Run:
         counts = self.json["counts"]
         self.frames, self.degenerate = counts["frames"], counts["degenerate"]
         self.tracked = counts["tracked"] / max(1, counts["frames"])
+        self.fused = counts["fused"] / max(1, counts["frames"])
         self.ate_m = (self.json.get("ate") or {}).get("ate_rmse_m", float("nan"))
 
     def ate_cell(self):
@@ -27,6 +28,8 @@ def used(sequence):
 
 STAND_IN_NOTE = ("A stand-in is a different scene from the paper's, so its ratio only shows whether the order of "
                  "magnitude agrees. If the TUM RGB-D sequence is in `--tum`, the row is measured on it.")
+PART_NOTE = ("A recording of which only a part is here says so in \"measured on\". The papers' figures are for the whole "
+             "recording.")
 ATE_PROTOCOL = ("ATE RMSE in metres, SE(3) alignment without scale, pairs within 0.02 s, all tracked frames; lockstep, "
                 "so every frame is used and the figures are the same on every run and for any number of threads; no "
                 "loop closure unless stated.")

@@ -9,7 +9,7 @@ import pathlib
 from .document import Document, number, ratio
 from .figures import Run
 from .jobs import with_needs
-from .sources import QUICK_FRAMES, recorded, run, synthetic
+from .sources import recorded, run, synthetic, wanted
 
 RENDERED = ["desk", "corner", "floor", "wall", "room"]
 STRIDES = [1, 2, 4]
@@ -31,7 +31,6 @@ class FigureRun(Run):
             (self.folder / file).unlink(missing_ok=True)
         self.job = job
         self.is_default = not {"--alpha", "--set"} & set(job.arguments[job.arguments.index(AS_GIVEN) + 1:])
-        self.fused = self.json["counts"]["fused"] / max(1, self.frames)
 
     def cell(self):
         """ATE in mm. In brackets the shares tracked and fused, if not all frames were fused."""
@@ -69,12 +68,12 @@ def constants(path=pathlib.Path(__file__).with_name("constants.txt")):
 
 def sequences(bench):
     found = recorded(bench) + [synthetic(bench, scene, "kinect") for scene in RENDERED]
-    return [one for one in found if not bench.only or one.name in bench.only]
+    return [one for one in found if wanted(bench, one)]
 
 
 def frames(bench, stride):
     """The same duration of each recording for every stride."""
-    count = QUICK_FRAMES if bench.quick else bench.frames
+    count = bench.sample.frames or bench.frames
     return ("--frames", str(math.ceil(count / stride))) if count else ()
 
 

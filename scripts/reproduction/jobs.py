@@ -11,6 +11,8 @@ import subprocess
 import sys
 import time
 
+from .sample import WHOLE
+
 DONE = "done.json"
 ENDED_LOST = 3  # tessera's exit code if fewer than half of the frames were tracked: a result, not an error
 
@@ -31,31 +33,38 @@ class Job:
 
 class Workbench:
     """Runs jobs of one tessera in one folder. Owner thread only. Several processes may share the folder if no two run
-    the same job."""
+    the same job. Each job's key holds the program's sha256, so figures of two programs never meet in one table."""
 
-    def __init__(self, tessera, out, tum=None, quick=False, log=sys.stderr):
+    def __init__(self, tessera, out, tum=None, sample=WHOLE, log=sys.stderr):
         self.tessera = pathlib.Path(tessera).resolve()
         self.out = pathlib.Path(out).resolve()
         self.tum = pathlib.Path(tum).resolve() if tum else None
-        self.quick = quick
+        self.sample = sample
         self.preset, self.only = None, ()   # options --preset and --only
+        self.network = None                 # option --labels: path of a model
         self.parts, self.frames = (), None  # options --parts and --frames
         self.log = log
+        self.digest = self._digest()
         self.version = self._version()
+
+    def _digest(self):
+        return hashlib.sha256(self.tessera.read_bytes()).hexdigest()
 
     def _version(self):
         """The program's version and the start of its sha256, so that a changed build counts as different."""
         text = subprocess.run([self.tessera, "--version"], capture_output=True, text=True, check=True).stdout.strip()
-        return f"{text}, sha256 {hashlib.sha256(self.tessera.read_bytes()).hexdigest()[:12]}"
+        return f"{text}, sha256 {self.digest[:12]}"
 
     def folder(self, name):
         return self.out / "jobs" / name
 
     def shown(self, job):
-        """The command without paths of this machine: $OUT for --out and $TUM for --tum."""
+        """The command without paths of this machine: $OUT for --out, $TUM for --tum and the file name of --labels."""
         words = " ".join(["tessera", *job.arguments])
         if self.tum:
             words = words.replace(str(self.tum), "$TUM")
+        if self.network:
+            words = words.replace(self.network, pathlib.Path(self.network).name)
         return words.replace(str(self.out), "$OUT")
 
     def key(self, job):
@@ -80,9 +89,12 @@ class Workbench:
         folder = self.folder(job.name)
         if self.is_done(job):
             return folder
+        if self._digest() != self.digest:
+            raise JobFailed(f"{self.tessera}: built anew in the meantime, so the tables would mix two programs; run the "
+                            "same command again")
         shutil.rmtree(folder, ignore_errors=True)
         folder.mkdir(parents=True)
-        busy, start = busy_cores(), time.monotonic()
+        busy, start = busy_cores() if self.sample == WHOLE else 0.0, time.monotonic()
         print(f"{job.name} ...", end="", flush=True, file=self.log)
         ended = subprocess.run([self.tessera, *job.arguments], capture_output=True, text=True, check=False)
         seconds = time.monotonic() - start

@@ -50,6 +50,12 @@ D18_TABLE2 = {
     "fr1 xyz": [.036, .026, .017, .011, None, .010],
 }
 
+# Recordings that [D18] does not have, on the whole recording.
+PUBLISHED_ELSEWHERE = {
+    "fr1 rpy": "DVO-SLAM has 0.020 and ORB-SLAM3 0.022 there (table 2 of arXiv:2505.19420), DROID-SLAM 0.026.",
+    "fr3 teddy": "[B14] has fr1 teddy, which is another recording. We know of no published figure for this part.",
+}
+
 # [D18] table 3: vertex to triangle, cm.
 D18_TABLE3 = {"Max. error": 6.213, "Mean error": 1.4482, "Standard dev.": 1.1938}
 

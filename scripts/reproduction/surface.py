@@ -1,5 +1,6 @@
-"""[D18] table 3 and figure 15: a virtual camera circles a model in steps of 10 degrees; the mesh error is measured."""
+"""[D18] table 3, figures 14 and 15: a virtual camera circles a model in steps of 10 degrees; the mesh error is measured."""
 import math
+import shutil
 
 from . import bust
 from .bylow import commands
@@ -7,11 +8,13 @@ from .document import Document, number, ratio
 from .figures import Run
 from .jobs import Job
 from .papers import D18_TABLE3
+from .pictures import SIZE, add, render
 
 DISTANCE_M = 1.3
 FPS = 30
 STEP_DEG = 10
 ELEVATIONS_DEG = (0, 10, 20, 30, 40)
+COARSE_MODEL = (40, 60)  # rings and columns for a short run
 VERTICAL_AZIMUTHS_DEG = (0, 90, 180, 270)
 
 
@@ -68,12 +71,12 @@ def write_scan(bench, target):
     """Writes the paper's steps as frames, and a path of two circles with ten frames per step for tracking."""
     folder = bench.out / "model"
     steps = views()
-    if bench.quick:
+    if bench.sample.frames:
         steps = steps[:6]
     (folder / "steps.txt").write_text("\n".join(pose_line(i, *v, target, 1) for i, v in enumerate(steps)) + "\n")
     around = [(a, 10) for a in range(0, 361, STEP_DEG)] + [(a, 30) for a in range(0, 361, STEP_DEG)]
     around = around[:37] + [(360, 20)] + around[37:]
-    around = around[:4] if bench.quick else around
+    around = around[:4] if bench.sample.frames else around
     (folder / "walk.txt").write_text("\n".join(pose_line(i, *v, target, 10) for i, v in enumerate(around)) + "\n")
 
 
@@ -81,7 +84,7 @@ def scan(bench, name):
     """The job that renders the model along one of the two trajectories, and the folder of its sequence."""
     sequence = bench.folder(f"data/bust_{name}") / "sequence"
     model, path = str(bench.out / "model/bust.obj"), str(bench.out / f"model/{name}.txt")
-    arguments = ("synth", model, "--trajectory", path, "--out", str(sequence))
+    arguments = ("synth", model, "--trajectory", path, *bench.sample.camera, "--out", str(sequence))
     return Job(f"data/bust_{name}", arguments, inputs=(model, path)), sequence
 
 
@@ -95,7 +98,7 @@ def measured(bench, name, label, options, known):
     return fused, Job(score_name, (
         "eval", "mesh", str(sequence / "reference.ply"), str(out / "mesh.ply"), "--align",
         str(sequence / "groundtruth.txt"), str(out / "trajectory.txt"), "--json", str(score / "mesh.json"), "--picture",
-        str(score / "error.png")), (fused,))
+        str(score / "error.jpg")), (fused,))
 
 
 D18 = ("--config", "diaz2018", "--set", "mapping.volume.bounded=false")
@@ -110,10 +113,21 @@ ROWS = [("diaz2018, true poses", "steps", "diaz2018", D18, True),
 PICTURED = ("diaz2018", "default")
 
 
+def figure14(bench, document, fused):
+    """The model and its reconstruction. Returns the jobs that render them."""
+    reference = str(scan(bench, "steps")[1] / "reference.ply")
+    name = "pictures/d18-figure14a"
+    model = Job(name, ("render", reference, *SIZE, "--shading", "grey", "--out",
+                       str(bench.folder(name) / "d18-figure14a.jpg")), fused.needs)
+    return [add(bench, document, model, "Figure 14: (a) the model"),
+            add(bench, document, render(bench, fused, "d18-figure14b.jpg", *SIZE, "--shading", "grey"),
+                "Figure 14: (b) its reconstruction, diaz2018, true poses")]
+
+
 def table3(bench):
-    document = Document("[D18] Table 3, figure 15: geometric accuracy, a virtual camera around a loaded model")
+    document = Document("[D18] Table 3, figures 14 and 15: geometric accuracy, a virtual camera around a loaded model")
     (bench.out / "model").mkdir(parents=True, exist_ok=True)
-    write_scan(bench, bust.write(bench.out / "model/bust.obj"))
+    write_scan(bench, bust.write(bench.out / "model/bust.obj", *COARSE_MODEL if bench.sample.frames else ()))
     rows, jobs = [], []
     for title, name, label, options, known in ROWS:
         fused, score = measured(bench, name, label, options, known)
@@ -123,9 +137,11 @@ def table3(bench):
         rows.append([title, *(number(value, 3) for value in ours), ratio(ours[1], D18_TABLE3["Mean error"]),
                      f"{100 * result['completeness_5cm']:.0f} %", Run(bench, fused).ate_cell() if not known else "–"])
         if label in PICTURED:
-            file = f"d18-figure15-{label}.png"
-            (bench.out / file).write_bytes((bench.folder(score.name) / "error.png").read_bytes())
-            document.pictures.append((file, f"Distance to the model: {title}"))
+            file = f"d18-figure15-{label}.jpg"
+            shutil.copyfile(bench.folder(score.name) / "error.jpg", bench.out / file)
+            document.pictures.append((file, f"Figure 15: distance to the model, {title}"))
+        if label == "diaz2018":
+            jobs += figure14(bench, document, fused)
     rows.insert(0, ["[D18]", *(number(value, 3) for value in D18_TABLE3.values()), "–", "–", "–"])
     header = ["", "max. error", "mean error", "standard dev.", "ratio of the means", "of the model within 5 cm",
               "ATE [m]"]

@@ -6,6 +6,7 @@ import json
 import math
 import pathlib
 import random
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -16,8 +17,9 @@ import unittest.mock
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "scripts"))
 sys.dont_write_bytecode = True
-from reproduction import bust, diaz, document, generality, sources, surface, trajectories  # noqa: E402
+from reproduction import bust, diaz, document, generality, surface, trajectories  # noqa: E402
 from reproduction.jobs import Job, JobFailed, Workbench  # noqa: E402
+from reproduction.sample import Sample  # noqa: E402
 
 TESSERA = None
 
@@ -142,6 +144,15 @@ class Jobs(Folder):
         self.assertTrue(bench.is_done(jobs[1]))
         self.assertNotIn(str(self.root), bench.shown(jobs[1]))
 
+    def test_a_program_built_anew_is_refused(self):
+        program = self.root / "tessera"
+        shutil.copy(TESSERA, program)
+        bench = Workbench(program, self.root / "out", log=io.StringIO())
+        with open(program, "ab") as file:
+            file.write(b"x")
+        with self.assertRaisesRegex(JobFailed, "built anew"):
+            bench.run(Job("x", ("config",)))
+
     def test_refusal_is_passed_on(self):
         with self.assertRaisesRegex(JobFailed, "nowhere"):
             self.bench().run(Job("x", ("run", "nowhere")))
@@ -174,11 +185,10 @@ class Generality(Folder):
         self.assertEqual(by_key["tracking.icp.fine_iterations"].tracker(), "icp-rgb")
 
     def test_the_tables(self):
-        bench = Workbench(TESSERA, self.root / "out", quick=True, log=io.StringIO())
+        bench = Workbench(TESSERA, self.root / "out", sample=Sample(frames=8), log=io.StringIO())
         bench.only = ["corner_kinect"]
         few = [constant for constant in generality.constants() if constant.key == "mapping.voxel_size_m"]
-        with unittest.mock.patch.multiple(generality, QUICK_FRAMES=8, STRIDES=[1, 2], ALPHAS=[0.05], constants=lambda: few), \
-                unittest.mock.patch.object(sources, "QUICK_FRAMES", 8):
+        with unittest.mock.patch.multiple(generality, STRIDES=[1, 2], ALPHAS=[0.05], constants=lambda: few):
             text = generality.generality(bench).markdown(bench.version)
         self.assertRegex(text, r"\| corner_kinect \| 1 \| 8 \|( \d\.\d\d \|){4}\n\| corner_kinect \| 2 \| 4 \|( \d\.\d\d \|){4}\n")
         self.assertRegex(text, r"\| corner_kinect \| \d\.\d\d \| \d\.\d\d \| \d\.\d\d \| (yes|no) \|\n")
@@ -190,9 +200,8 @@ class Generality(Folder):
 
 class EndToEnd(Folder):
     def test_a_table(self):
-        bench = Workbench(TESSERA, self.root / "out", quick=True, log=io.StringIO())
-        with unittest.mock.patch.object(sources, "QUICK_FRAMES", 10):
-            text = diaz.table5(bench).markdown(bench.version)
+        bench = Workbench(TESSERA, self.root / "out", sample=Sample(frames=10), log=io.StringIO())
+        text = diaz.table5(bench).markdown(bench.version)
         self.assertRegex(text, r"\| Tracking \| 68.4 \|( \d+\.\d \|){3}( \d+\.\d\d \|){3}\n")
         self.assertIn("tessera synth desk --noise none --out $OUT/jobs/data/desk_none/sequence --frames 10\n", text)
         self.assertNotIn(str(self.root), text)
