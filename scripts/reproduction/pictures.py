@@ -1,4 +1,4 @@
-"""The papers' pictures of reconstructions: [B14] figures 6 to 8, [D18] figures 10, 13, 16 and 17."""
+"""The papers' pictures of reconstructions: [B14] figures 6 to 8, [D18] figures 10, 13 and 17."""
 import dataclasses
 import pathlib
 import shutil
@@ -63,7 +63,7 @@ def b14_figures(bench):
 
 
 def d18_figures(bench):
-    document = Document("[D18] figures 10, 13, 16 and 17: reconstructions with the scene's colours and by object")
+    document = Document("[D18] figures 10, 13 and 17: reconstructions with the scene's colours and by object")
     desk = labels_job(bench, "segment").needs[0]
     cells, jobs = [described(bench, "10", "synthetic:desk, no noise", desk)], [desk]
     view = from_pose(bench, desk, DESK_POSE)
@@ -74,10 +74,7 @@ def d18_figures(bench):
         if bench.network:
             labelled = run(bench, real, "network", "--labels", bench.network)
             scanned = dataclasses.replace(labelled, inputs=(bench.network,))
-        cells.append(described(bench, "13, 16, 17", real.kind, scanned))
-        photo = first_image(real)
-        shutil.copyfile(photo, bench.out / f"d18-figure16{photo.suffix}")
-        document.pictures.append((f"d18-figure16{photo.suffix}", "Figure 16: the first colour image of the real desk"))
+        cells.append(described(bench, "13, 17", real.kind, scanned))
         view, jobs = from_pose(bench, scanned, 0), [*jobs, scanned]
         if bench.network:
             jobs += both_shadings(bench, document, scanned, view, "d18-figure17", "Figures 13 and 17: the real desk")
@@ -85,7 +82,7 @@ def d18_figures(bench):
             picture = render(bench, scanned, "d18-figure13.jpg", *view)
             jobs.append(add(bench, document, picture, "Figure 13: the real desk, the scene's colours"))
     document.tables = [("", ["figure", "measured on", "ATE [m]", "objects in the map"], cells)]
-    document.notes = [PART_NOTE] + ([] if real else ["Figures 13, 16 and 17 need fr1 desk or fr1 xyz (the same desk) in "
+    document.notes = [PART_NOTE] + ([] if real else ["Figures 13 and 17 need fr1 desk or fr1 xyz (the same desk) in "
                                                      "--tum."])
     if real and not bench.network:
         document.notes.append("Figure 17 needs a network: --labels MODEL (scripts/fetch_models.sh).")
@@ -110,11 +107,3 @@ def recorded_desk(bench):
     """The recording of TUM's desk in --tum, or None."""
     found = [find(bench, name) for name in ("fr1 desk", "fr1 xyz")]
     return next((sequence for sequence in found if sequence.recording), None)
-
-
-def first_image(sequence):
-    folder = pathlib.Path(sequence.path)
-    for line in (folder / "rgb.txt").read_text(encoding="utf-8").splitlines():
-        if line.strip() and not line.startswith("#"):
-            return folder / line.split()[1]
-    raise ValueError(f"{folder / 'rgb.txt'}: names no image")
