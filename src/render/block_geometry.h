@@ -17,6 +17,12 @@ namespace tessera {
 struct VertexMark {
     Rgb8 label_colour;        // colour of the object's class, or a grey
     std::uint8_t weight = 0;  // WeightStep of the map's weight at the vertex
+
+    // For a predicted view, which needs a label and neither of the above: the label's low byte is
+    // in red, its high byte in green.
+    static VertexMark OfLabel(std::uint16_t label) {
+        return {{static_cast<std::uint8_t>(label & 255), static_cast<std::uint8_t>(label >> 8), 0}};
+    }
 };
 // Computes the mark of a vertex of `owner`. Called from many threads at once.
 using MarkVertex =

@@ -22,6 +22,7 @@ void SetGeometryAttributes();
 //   layout(location = 0) in vec3 position;  // voxels; multiply by the uniform that Draw sets
 //   layout(location = 1) in vec2 normal;    // octahedral, 32767 = 1; world, out of the surface
 //   layout(location = 2) in vec4 colour;    // a = 0: the surface has no colour here
+//   layout(location = 3) in vec4 mark;      // VertexMark, 1 = 255
 class GlMeshStore {
   public:
     GlMeshStore();

@@ -16,7 +16,9 @@ Result<std::unique_ptr<GlContext>> GlContext::Create() { return Off(); }
 GlContext::~GlContext() = default;
 
 struct MeshRasteriser::Impl {};
-Result<std::unique_ptr<MeshRasteriser>> MeshRasteriser::Create(const MeshConfig&) { return Off(); }
+Result<std::unique_ptr<MeshRasteriser>> MeshRasteriser::Create(const MeshConfig&, LabelVertex) {
+    return Off();
+}
 MeshRasteriser::~MeshRasteriser() = default;
 // Never called: no object exists.
 void MeshRasteriser::Predict(const BlockMap&, const PinholeCamera&, const Eigen::Isometry3d&, float,
@@ -27,10 +29,12 @@ const Status& MeshRasteriser::status() const {
     static const Status status = Off();
     return status;
 }
-const MeshRasteriser::Timings& MeshRasteriser::timings() const {
-    static const Timings timings;
-    return timings;
+const Image<std::uint16_t>& MeshRasteriser::labels() const {
+    static const Image<std::uint16_t> labels;
+    return labels;
 }
+void MeshRasteriser::LabelAgain(std::span<const BlockId>) {}
+MeshRasteriser::Timings MeshRasteriser::TakeTimings() { return {}; }
 std::string MeshRasteriser::renderer() const { return {}; }
 std::size_t MeshRasteriser::bytes() const { return 0; }
 

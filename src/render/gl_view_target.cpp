@@ -7,14 +7,14 @@
 
 namespace tessera {
 
-GlViewTarget::GlViewTarget() {
+GlViewTarget::GlViewTarget(bool labels) : labels_(labels) {
     glGenFramebuffers(1, &framebuffer_);
-    glGenRenderbuffers(kImages, images_);
+    glGenRenderbuffers(kAttachments, images_);
 }
 
 GlViewTarget::~GlViewTarget() {
     glDeleteFramebuffers(1, &framebuffer_);
-    glDeleteRenderbuffers(kImages, images_);
+    glDeleteRenderbuffers(kAttachments, images_);
 }
 
 Status GlViewTarget::Begin(int width, int height) {
@@ -27,6 +27,8 @@ Status GlViewTarget::Begin(int width, int height) {
     glClearBufferfv(GL_COLOR, kSurface, kNothing);
     glClearBufferfv(GL_COLOR, kColour, kNothing);
     glClearBufferfv(GL_DEPTH, 0, &kFar);
+    constexpr GLuint kNoLabel[4] = {};
+    if (labels_) glClearBufferuiv(GL_COLOR, kLabel, kNoLabel);
     return Status::Ok();
 }
 
@@ -40,16 +42,18 @@ Status GlViewTarget::Resize(int width, int height) {
                         height, most));
     while (glGetError() != GL_NO_ERROR) {
     }
-    const auto attach = [&](Image image, GLenum format, GLenum attachment) {
+    const auto attach = [&](Attachment image, GLenum format, GLenum attachment) {
         glBindRenderbuffer(GL_RENDERBUFFER, images_[image]);
         glRenderbufferStorage(GL_RENDERBUFFER, format, width, height);
         glFramebufferRenderbuffer(GL_FRAMEBUFFER, attachment, GL_RENDERBUFFER, images_[image]);
     };
     attach(kSurface, GL_RGBA32F, GL_COLOR_ATTACHMENT0);
     attach(kColour, GL_RGBA8, GL_COLOR_ATTACHMENT1);
+    if (labels_) attach(kLabel, GL_R16UI, GL_COLOR_ATTACHMENT2);
     attach(kDepth, GL_DEPTH_COMPONENT32F, GL_DEPTH_ATTACHMENT);
-    constexpr GLenum kOutputs[] = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
-    glDrawBuffers(2, kOutputs);
+    constexpr GLenum kOutputs[] = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1,
+                                   GL_COLOR_ATTACHMENT2};
+    glDrawBuffers(labels_ ? 3 : 2, kOutputs);
     if (glGetError() != GL_NO_ERROR ||
         glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
         return Status::Error(fmt::format(
@@ -84,6 +88,14 @@ void GlViewTarget::ReadBack(float near_m, float far_m, PredictedView& view) {
             view.colour.data()[i] = seen ? Rgb8{colour[0], colour[1], colour[2]} : Rgb8{};
         }
     });
+}
+
+void GlViewTarget::ReadLabels(Image<std::uint16_t>& labels) {
+    labels.Resize(width_, height_);
+    glReadBuffer(GL_COLOR_ATTACHMENT2);
+    glPixelStorei(GL_PACK_ALIGNMENT, sizeof(std::uint16_t));
+    glReadPixels(0, 0, width_, height_, GL_RED_INTEGER, GL_UNSIGNED_SHORT, labels.data());
+    glPixelStorei(GL_PACK_ALIGNMENT, 4);
 }
 
 }  // namespace tessera

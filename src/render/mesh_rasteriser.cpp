@@ -3,6 +3,7 @@
 #include <epoxy/gl.h>
 
 #include <optional>
+#include <utility>
 
 #include "core/stopwatch.h"
 #include "mapping/mesher.h"
@@ -16,7 +17,9 @@
 namespace tessera {
 namespace {
 
-constexpr const char* kVertexSource = R"(#version 330 core
+// Both sources follow this, and with labels a line that defines LABELS.
+constexpr const char* kVersion = "#version 330 core\n";
+constexpr const char* kVertexSource = R"(
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec2 normal;
 layout(location = 2) in vec4 colour;
@@ -24,6 +27,10 @@ uniform mat4 clip_from_position;
 uniform mat3 camera_from_world;
 out vec3 normal_camera;
 out vec4 weighted_colour;
+#ifdef LABELS
+layout(location = 3) in vec4 mark;
+flat out uint vertex_label;
+#endif
 
 void main() {
     gl_Position = clip_from_position * vec4(position, 1);
@@ -32,15 +39,22 @@ void main() {
     if (n.z < 0) n.xy = (1 - abs(e.yx)) * vec2(e.x < 0 ? -1 : 1, e.y < 0 ? -1 : 1);
     normal_camera = camera_from_world * normalize(n);
     weighted_colour = vec4(colour.rgb * colour.a, colour.a);
+#ifdef LABELS
+    vertex_label = uint(mark.r * 255 + 0.5) + 256u * uint(mark.g * 255 + 0.5);
+#endif
 }
 )";
 
 // Weights colours by the surrounding vertices that have one, as RayCaster does with voxels.
-constexpr const char* kFragmentSource = R"(#version 330 core
+constexpr const char* kFragmentSource = R"(
 in vec3 normal_camera;
 in vec4 weighted_colour;
 layout(location = 0) out vec4 surface;
 layout(location = 1) out vec4 colour;
+#ifdef LABELS
+flat in uint vertex_label;
+layout(location = 2) out uint label;
+#endif
 
 void main() {
     vec3 n = normal_camera / max(length(normal_camera), 1e-6);
@@ -48,6 +62,9 @@ void main() {
     vec3 rgb = has_colour ? weighted_colour.rgb / weighted_colour.a : vec3(128.0 / 255.0);
     surface = vec4(n, has_colour ? dot(rgb, vec3(0.299, 0.587, 0.114)) : -1.0);
     colour = vec4(rgb, 1);
+#ifdef LABELS
+    label = vertex_label;
+#endif
 }
 )";
 
@@ -55,8 +72,8 @@ void main() {
 
 // Members are destroyed from the bottom up: the context is the last one, and current until then.
 struct MeshRasteriser::Impl {
-    explicit Impl(const MeshConfig& config, std::unique_ptr<GlContext> gl)
-        : context(std::move(gl)), mesher(config) {}
+    Impl(const MeshConfig& config, LabelVertex label, std::unique_ptr<GlContext> gl)
+        : context(std::move(gl)), mesher(config), label_vertex(std::move(label)) {}
     ~Impl() {
         const auto scope = context->MakeCurrent();
         target.reset();
@@ -69,26 +86,31 @@ struct MeshRasteriser::Impl {
 
     std::unique_ptr<GlContext> context;
     Mesher mesher;
+    const LabelVertex label_vertex;  // empty without labels
     GeometryBuilder builder;
     std::uint64_t map_identity = 0;
     std::optional<GlProgram> program;
     int clip_from_position = -1, camera_from_world = -1;
     std::optional<GlMeshStore> store;
     std::optional<GlViewTarget> target;
+    Image<std::uint16_t> labels;
     Status status;
     Timings timings;
 };
 
 Status MeshRasteriser::Impl::Initialise() {
     const auto scope = context->MakeCurrent();
-    Result<GlProgram> made = GlProgram::Create(kVertexSource, kFragmentSource);
+    const bool labelled = label_vertex != nullptr;
+    const std::string start = std::string(kVersion) + (labelled ? "#define LABELS\n" : "");
+    Result<GlProgram> made =
+        GlProgram::Create((start + kVertexSource).c_str(), (start + kFragmentSource).c_str());
     if (!made.ok())
         return Status::Error(fmt::format("{}: {}", context->renderer(), made.message()));
     program.emplace(std::move(made.value()));
     clip_from_position = program->Location("clip_from_position");
     camera_from_world = program->Location("camera_from_world");
     store.emplace();
-    target.emplace();
+    target.emplace(labelled);
     return Status::Ok();
 }
 
@@ -96,14 +118,20 @@ Status MeshRasteriser::Impl::Initialise() {
 void MeshRasteriser::Impl::TakeOver(const BlockMap& map) {
     if (map.identity() != map_identity) {
         mesher.Clear();
+        builder.Clear();
         store->Clear();
         map_identity = map.identity();
     }
     Stopwatch watch;
     mesher.Update(map);
-    timings.mesh_ms = watch.LapMs();
-    store->Replace(map.config().voxel_size_m, builder.Build(map, mesher));
-    timings.upload_ms = watch.LapMs();
+    timings.mesh_ms += watch.LapMs();
+    MarkVertex mark;
+    if (label_vertex)
+        mark = [&](const BlockMesh& owner, const BlockMesh::Vertex& vertex) {
+            return VertexMark::OfLabel(label_vertex(map, owner, vertex));
+        };
+    store->Replace(map.config().voxel_size_m, builder.Build(map, mesher, mark));
+    timings.upload_ms += watch.LapMs();
 }
 
 void MeshRasteriser::Impl::Draw(const PredictedView& view, float min_depth_m, float max_depth_m) {
@@ -119,10 +147,11 @@ void MeshRasteriser::Impl::Draw(const PredictedView& view, float min_depth_m, fl
                 clip_from_position);
 }
 
-Result<std::unique_ptr<MeshRasteriser>> MeshRasteriser::Create(const MeshConfig& config) {
+Result<std::unique_ptr<MeshRasteriser>> MeshRasteriser::Create(const MeshConfig& config,
+                                                               LabelVertex label) {
     Result<std::unique_ptr<GlContext>> context = GlContext::Create();
     if (!context.ok()) return context.status();
-    auto impl = std::make_unique<Impl>(config, std::move(context.value()));
+    auto impl = std::make_unique<Impl>(config, std::move(label), std::move(context.value()));
     if (const Status status = impl->Initialise(); !status.ok()) return status;
     return std::unique_ptr<MeshRasteriser>(new MeshRasteriser(std::move(impl)));
 }
@@ -141,17 +170,25 @@ void MeshRasteriser::Predict(const BlockMap& map, const PinholeCamera& camera,
     impl_->status = impl_->target->Begin(camera.width, camera.height);
     if (!impl_->status.ok()) {
         view.SetNothing();
+        impl_->labels.Resize(0, 0);
         return;
     }
     Stopwatch watch;
     impl_->Draw(view, min_depth_m, max_depth_m);
-    impl_->timings.draw_ms = watch.LapMs();
+    impl_->timings.draw_ms += watch.LapMs();
     impl_->target->ReadBack(min_depth_m, max_depth_m, view);
-    impl_->timings.read_back_ms = watch.LapMs();
+    if (impl_->label_vertex) impl_->target->ReadLabels(impl_->labels);
+    impl_->timings.read_back_ms += watch.LapMs();
 }
 
 const Status& MeshRasteriser::status() const { return impl_->status; }
-const MeshRasteriser::Timings& MeshRasteriser::timings() const { return impl_->timings; }
+const Image<std::uint16_t>& MeshRasteriser::labels() const { return impl_->labels; }
+void MeshRasteriser::LabelAgain(std::span<const BlockId> blocks) {
+    impl_->builder.MarkAgain(blocks);
+}
+MeshRasteriser::Timings MeshRasteriser::TakeTimings() {
+    return std::exchange(impl_->timings, Timings());
+}
 std::string MeshRasteriser::renderer() const { return impl_->context->renderer(); }
 std::size_t MeshRasteriser::bytes() const { return impl_->mesher.bytes() + impl_->store->bytes(); }
 

@@ -66,6 +66,12 @@ void LabelConfig::Describe(ConfigParameters& p) {
         {{"segment", LabelRegion::kSegment}, {"mean-depth", LabelRegion::kMeanDepth}},
         "which pixels of a box belong to the object: its connected depth segment (or the model's "
         "mask), or all that are not deeper than the mean depth of the box ([D18])");
+    p.AddChoice(
+        "prediction", prediction,
+        {{"raycast", LabelPrediction::kRayCast}, {"raster", LabelPrediction::kRaster}},
+        "source of the view with which detections are compared: ray casting of the labelled "
+        "field, or its mesh drawn by OpenGL ([D18]); without OpenGL the ray caster is used "
+        "instead");
     p.Add("band_voxels", band_voxels, {0.9, 10.0}, "voxels",
           "voxels this close to the surface get votes");
     p.Add("min_observations", min_observations, {1, 1000}, "",

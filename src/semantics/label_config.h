@@ -21,6 +21,9 @@ enum class LabelRegion {
     kMeanDepth,  // all that is not deeper than the mean depth of the box: [D18] 3.3
 };
 
+// Source of the view that shows which instances the map has where ([D18] 3.4).
+enum class LabelPrediction { kRayCast, kRaster };
+
 // How to decode a network's outputs (yolo_outputs.h).
 enum class ModelFamily { kAuto, kYolox, kYolov5, kYolov8, kDarknet };
 
@@ -33,6 +36,7 @@ struct LabelConfig {
     std::string dynamic = "person";  // names as in `classes`, without colours
     double min_probability = 0.5;    // [D18] 3.3
     LabelRegion region = LabelRegion::kSegment;
+    LabelPrediction prediction = LabelPrediction::kRayCast;
     double band_voxels = 1.5;
     int min_observations = 6;
     double min_rate = 0.3;

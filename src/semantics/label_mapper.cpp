@@ -1,14 +1,10 @@
 #include "semantics/label_mapper.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
 #include <set>
-
-#include "semantics/label_near.h"
 
 namespace tessera {
 namespace {
@@ -54,6 +50,7 @@ LabelMapper::LabelMapper(const LabelConfig& config, LabelClasses classes,
       camera_(camera),
       max_depth_m_(max_depth_m),
       step_px_(std::max(1, camera.width / kSampledColumns)),
+      instance_view_(config.prediction),
       instances_(InstanceConfig(config)) {}
 
 VoteCount LabelMapper::Label(std::span<const Detection> detections, const DepthImage& measured_m,
@@ -82,6 +79,7 @@ VoteCount LabelMapper::Label(std::span<const Detection> detections, const DepthI
     const double band_m = config_.band_voxels * map.config().voxel_size_m;
     VoteCount count =
         VoteLabels(image_, ballots, joined, depth_m, camera_, T_world_camera, band_m, map);
+    instance_view_.Voted(count.blocks);
     KnowBlocks(map);
     for (const BlockId id : count.blocks) votes_[static_cast<std::size_t>(id)] = Votes::kNew;
     return count;
@@ -98,19 +96,10 @@ const DepthImage& LabelMapper::WithinReach(const DepthImage& depth_m, float fart
 
 void LabelMapper::PredictInstances(const Eigen::Isometry3d& T_world_camera, float farthest_m,
                                    const BlockMap& map) {
-    const PinholeCamera camera = camera_.Every(step_px_);
-    ray_caster_.Predict(map, camera, T_world_camera, kNear_m, std::max(2 * kNear_m, farthest_m),
-                        view_);
-    predicted_.Resize(camera.width, camera.height);
-    tbb::parallel_for(0, camera.height, [&](int y) {
-        for (int x = 0; x < camera.width; ++x) {
-            const float z = view_.depth_m(x, y);
-            predicted_(x, y) =
-                z > 0 ? instances_.Resolve(
-                            LabelNear(map, T_world_camera * camera.Unproject(x, y, z)).instance)
-                      : InstanceId{0};
-        }
-    });
+    instance_view_.Predict(map, camera_.Every(step_px_), T_world_camera, kNear_m,
+                           std::max(2 * kNear_m, farthest_m), predicted_);
+    std::transform(predicted_.data(), predicted_.data() + predicted_.size(), predicted_.data(),
+                   [this](InstanceId voted) { return instances_.Resolve(voted); });
 }
 
 std::map<InstanceId, VisibleObject> LabelMapper::Visible() const {

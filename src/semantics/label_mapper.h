@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "mapping/block_mesh.h"
-#include "mapping/ray_caster.h"
+#include "semantics/instance_view.h"
 #include "semantics/instances.h"
 #include "semantics/label_votes.h"
 #include "semantics/map_object.h"
@@ -64,6 +64,8 @@ class LabelMapper {
     // on average, are discarded and their labels cleared.
     std::vector<MapObject> Objects(double voxel_size_m, TriangleMesh& labelled) const;
 
+    // Why `config.prediction` is not used; usually empty. Known after the first Label.
+    const std::string& warning() const { return instance_view_.warning(); }
     const LabelClasses& classes() const { return classes_; }
     const Instances& instances() const { return instances_; }
     // For a mapper that labelled a corrected map with the same detections: its objects keep their
@@ -98,8 +100,7 @@ class LabelMapper {
     PinholeCamera camera_;
     float max_depth_m_;
     int step_px_;  // of the sampled views
-    RayCaster ray_caster_;
-    PredictedView view_;
+    InstanceView instance_view_;
     Image<InstanceId> predicted_;
     LabelImage image_;
     DepthImage near_m_;  // the frame's depth without what is too far

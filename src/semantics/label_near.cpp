@@ -25,4 +25,17 @@ VoxelLabel LabelNear(const BlockMap& map, const Eigen::Vector3d& p_world) {
     return label != nullptr ? *label : VoxelLabel{};
 }
 
+VoxelLabel LabelNear(const BlockMap& map, const BlockMesh& owner, const BlockMesh::Vertex& vertex) {
+    const int offset = vertex.edge % kBlockVoxels, axis = vertex.edge / kBlockVoxels;
+    const int stride = 1 << 3 * axis;
+    const bool leaves = (offset / stride) % kBlockSide == kBlockSide - 1;
+    const BlockId next = owner.blocks[leaves ? std::size_t{1} << axis : 0];
+    const VoxelLabel& lower = map.label(owner.blocks[0])[offset];
+    const VoxelLabel& upper =
+        map.label(next)[leaves ? offset - (kBlockSide - 1) * stride : offset + stride];
+    const bool nearer_upper = vertex.fraction >= 1 << 15;
+    const VoxelLabel &nearest = nearer_upper ? upper : lower, &other = nearer_upper ? lower : upper;
+    return nearest.count[0] > 0 ? nearest : other;
+}
+
 }  // namespace tessera

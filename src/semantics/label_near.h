@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-#include "mapping/block_map.h"
+#include "mapping/block_mesh.h"
 
 namespace tessera {
 
@@ -11,5 +11,9 @@ namespace tessera {
 // along the axis on which the point lies farthest from the voxel centre. Metres, world frame.
 // Thread-safe while no other thread writes to the map.
 VoxelLabel LabelNear(const BlockMap& map, const Eigen::Vector3d& p_world);
+
+// The same at a vertex of `owner`, which was meshed from the map as it is now. Needs no search for
+// the block.
+VoxelLabel LabelNear(const BlockMap& map, const BlockMesh& owner, const BlockMesh::Vertex& vertex);
 
 }  // namespace tessera

@@ -54,6 +54,8 @@ void FrameMapping::Label(const DepthImage& depth_m, const Eigen::Isometry3d& T_w
     Stopwatch watch;
     report.votes = stage_.Label(report.detections, depth_m, T_world_camera);
     report.vote_ms = watch.LapMs();
+    if (std::string warning = stage_.labels_warning(); warning != labels_warning_)
+        notices_.Tell(labels_warning_ = std::move(warning));
     if (scan_) scan_->Touch(report.votes.blocks);
 }
 

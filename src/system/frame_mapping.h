@@ -96,6 +96,7 @@ class FrameMapping {
     std::unique_ptr<PagingStage> paging_;  // null without a memory limit
     // With a window: frames so far, in case the user starts saving a scan mid-run.
     std::vector<PathRecord> past_;
+    std::string labels_warning_;  // as last told
     ViewerFeed feed_;
 };
 

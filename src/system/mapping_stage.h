@@ -44,6 +44,8 @@ class MappingStage {
     // which they were detected.
     VoteCount Label(std::span<const Detection> detections, const DepthImage& depth_m,
                     const Eigen::Isometry3d& T_world_camera);
+    // Warning about how labels are predicted, for the user; usually empty.
+    std::string labels_warning() const { return labels_ ? labels_->warning() : ""; }
     // With labels, after TakeMesh: the objects in its mesh.
     const std::vector<MapObject>& objects() const { return objects_; }
     // With labels: the objects known and meshed so far; else none. Takes a few milliseconds.
