@@ -143,9 +143,9 @@ def table5(bench):
     document.notes = [
         "[D18] used a GeForce 960M; ours runs on the CPU.",
         "Ours: tracking includes preparing the frame and the predicted view (rasterised with incremental meshing "
-        "for `diaz2018`, ray cast for `icp`, none for `sdf`). Marching cubes is the whole mesh once, after the last "
-        "frame, so there is no ratio. TOTAL is from the completion of one frame to the next, including decoding. "
-        "Stages overlap."]
+        "for `diaz2018`, ray cast for `icp`, none for `sdf`). Rasterization is a part of it: uploading, drawing and "
+        "reading back. Marching cubes is the whole mesh once, after the last frame, so there is no ratio. TOTAL is from "
+        "the completion of one frame to the next, including decoding. Stages overlap."]
     if busy > 0.2:
         document.notes.append(f"The machine was busy with other work during these measurements (up to {busy:.1f} cores "
                               "in use just before a run), so they are upper bounds. docs/benchmarks/README.md has "

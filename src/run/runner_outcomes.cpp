@@ -71,6 +71,7 @@ void Runner::AddTimes(const FrameOutcome& outcome, double frame_ms) {
                                     {"allocate", report.fusion.allocate_ms},
                                     {"fuse", report.fusion.fuse_ms}})
         times_.Add(stage, ms);
+    if (report.rasterise_ms > 0) times_.Add("rasterise", report.rasterise_ms);
     if (request_.live) times_.Add("latency", outcome.latency_ms);
     if (!request_.scan_file.empty()) times_.Add("scan", outcome.scan_ms);
     if (config_.loops.enabled && !request_.live) times_.Add("loops", outcome.loops_ms);

@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "mapping/ray_caster.h"
-#include "render/mesh_rasteriser.h"
 
 namespace tessera {
 
@@ -83,10 +82,21 @@ std::unique_ptr<Tracker> Trackers::Make(TrackingMethod method) {
     std::unique_ptr<ViewPredictor> predictor;  // none: the backend casts the rays
     if (config_.icp.prediction == IcpTracker::Prediction::kRaster)
         predictor = MakePredictor(config_.icp.prediction, note_);
+    if (auto* rasteriser = dynamic_cast<MeshRasteriser*>(predictor.get()))
+        rasterisers_.push_back(rasteriser);
     return std::make_unique<IcpTracker>(config_.icp, camera_, judge, model_, colour,
                                         std::move(predictor), &backend_.icp_sums());
 }
 
 std::string Trackers::TakeNote() { return std::exchange(note_, {}); }
+
+double Trackers::TakeRasterise_ms() {
+    double sum_ms = 0;
+    for (MeshRasteriser* rasteriser : rasterisers_) {
+        const MeshRasteriser::Timings timings = rasteriser->TakeTimings();
+        sum_ms += timings.upload_ms + timings.draw_ms + timings.read_back_ms;
+    }
+    return sum_ms;
+}
 
 }  // namespace tessera

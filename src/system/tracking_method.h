@@ -11,6 +11,7 @@
 
 #include "core/camera.h"
 #include "core/config.h"
+#include "render/mesh_rasteriser.h"
 #include "system/backend.h"
 #include "tracking/icp_tracker.h"
 #include "tracking/residual_model.h"
@@ -87,6 +88,9 @@ class Trackers {
     bool LoadState(StateReader& state) { return model_.LoadState(state); }
     // A message for the user about how the methods were created. Returned once; usually empty.
     std::string TakeNote();
+    // Time since the last call for uploading, drawing and reading back rasterised views; 0 if there
+    // were none.
+    double TakeRasterise_ms();
 
   private:
     std::unique_ptr<Tracker> Make(TrackingMethod method);
@@ -97,6 +101,7 @@ class Trackers {
     TrackingMethod method_;
     ResidualModel model_;
     std::array<std::unique_ptr<Tracker>, kTrackingMethods.size()> trackers_;
+    std::vector<MeshRasteriser*> rasterisers_;  // owned by trackers_
     std::string note_;
 };
 

@@ -11,12 +11,10 @@ namespace tessera {
 namespace {
 
 Integrator::View FusionView(const TrackResult& track) {
-    Integrator::View view;
-    view.T_world_camera = track.T_world_camera;
-    view.motion = track.motion;
-    view.gain = static_cast<float>(track.gain);
-    view.offset = static_cast<float>(track.offset);
-    return view;
+    return {.T_world_camera = track.T_world_camera,
+            .motion = track.motion,
+            .gain = static_cast<float>(track.gain),
+            .offset = static_cast<float>(track.offset)};
 }
 
 // Returns 0 without depth.
@@ -65,6 +63,7 @@ void TrackingStage::Track(const Frame& frame, const BlockMap& map,
     // 2. Estimate the camera pose.
     EstimatePose(frame, map, given, tracked);
     report.track_ms = watch.LapMs();
+    report.rasterise_ms = trackers_.TakeRasterise_ms();
 
     // 3. Mask what moves, so that it is not fused.
     MaskMoving(frame, map, expected != nullptr, tracked);
@@ -146,6 +145,7 @@ bool TrackingStage::TrackFrom(const Frame& frame, const BlockMap& map,
                                          .since_last_s = 0,
                                          .motion = FrameMotionOf(frame)});
     tracked.report.track_ms += watch.LapMs();
+    tracked.report.rasterise_ms += trackers_.TakeRasterise_ms();
     if (track.status != TrackStatus::kGood || track.degenerate) return false;
     tracked.report.track = std::move(track);
     motion_.Clear();

@@ -31,6 +31,7 @@ struct FrameReport {
     Integrator::Report fusion;
     std::shared_ptr<const MovingMask> moving;  // null: nothing moves
     double prepare_ms = 0, track_ms = 0, moving_ms = 0;
+    double rasterise_ms = 0;  // part of track_ms: see Trackers::TakeRasterise_ms
 
     bool tracked() const { return track.status != TrackStatus::kLost; }
 };

@@ -11,6 +11,7 @@
 
 #include "io/mesh_io.h"
 #include "io/trajectory.h"
+#include "render/mesh_rasteriser.h"
 #include "support/temp_folder.h"
 
 namespace tessera {
@@ -131,6 +132,18 @@ TEST_F(Run, LeavesEveryFileOfTheContract) {
     EXPECT_EQ(json.at("configuration").at("tracking.method"), "sdf");
     EXPECT_EQ(json.at("source").at("kind"), run.value().source.kind);
     EXPECT_TRUE(json.at("ate").at("ate_rmse_m").is_number());
+}
+
+TEST_F(Run, RasterisingIsAStageOnlyIfItIsUsed) {
+    if (const auto made = MeshRasteriser::Create({}); !made.ok()) GTEST_SKIP() << made.message();
+    config.pipeline.trackers.method = TrackingMethod::kIcp;
+    ASSERT_TRUE(Execute().ok());
+    EXPECT_FALSE(Json("timings.json").at("stages").contains("rasterise"));
+    config.pipeline.trackers.icp.prediction = IcpTracker::Prediction::kRaster;
+    ASSERT_TRUE(Execute().ok());
+    const auto stages = Json("timings.json").at("stages");
+    EXPECT_GT(stages.at("rasterise").at("median_ms"), 0);
+    EXPECT_LT(stages.at("rasterise").at("max_ms"), stages.at("track").at("max_ms"));
 }
 
 TEST_F(Run, TheSameBytesForAnyNumberOfThreads) {

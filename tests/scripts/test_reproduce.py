@@ -203,6 +203,7 @@ class EndToEnd(Folder):
         bench = Workbench(TESSERA, self.root / "out", sample=Sample(frames=10), log=io.StringIO())
         text = diaz.table5(bench).markdown(bench.version)
         self.assertRegex(text, r"\| Tracking \| 68.4 \|( \d+\.\d \|){3}( \d+\.\d\d \|){3}\n")
+        self.assertRegex(text, r"\| Rasterization \| 8.7 \| (\d+\.\d|–) \| – \| – \|")
         self.assertIn("tessera synth desk --noise none --out $OUT/jobs/data/desk_none/sequence --frames 10\n", text)
         self.assertNotIn(str(self.root), text)
 
