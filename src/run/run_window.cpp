@@ -29,6 +29,10 @@ void RunWindow::Show(const LabelReport& report, const LabelClasses& classes) {
     viewer_->labels.Push(std::move(update));
 }
 
+void RunWindow::Show(const LabelClasses& classes) {
+    if (viewer_ != nullptr) viewer_->classes.Push(LabelClasses(classes));
+}
+
 void RunWindow::EndLabels() {
     if (viewer_ == nullptr) return;
     LabelUpdate update;

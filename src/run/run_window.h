@@ -21,6 +21,8 @@ class RunWindow {
     void Show(const FrameOutcome& outcome, const RunCounts& counts,
               const std::optional<Eigen::Isometry3d>& T_world_camera_truth);
     void Show(const LabelReport& report, const LabelClasses& classes);
+    // Call at the start of a run with labels.
+    void Show(const LabelClasses& classes);
     void EndLabels();
     // Call at the end, after the map's owner has stopped.
     void ShowObjects(const std::vector<MapObject>& objects);

@@ -61,6 +61,7 @@ Status Runner::Open(const std::atomic<bool>& stop) {
         if (!opened.ok()) return opened.status();
         labelling = std::move(opened.value());
         class_names_ = labelling.classes;
+        window_.Show(class_names_);
         summary_.labels.emplace();
     }
     Result<ScanPlan> scan = OpenScan();

@@ -85,7 +85,8 @@ bool Instances::stands(InstanceId id) const {
 }
 
 std::vector<InstanceId> Instances::Match(const std::vector<ObservedObject>& observed,
-                                         const std::map<InstanceId, VisibleObject>& visible) {
+                                         const std::map<InstanceId, VisibleObject>& visible,
+                                         const ClassSet& not_sought) {
     std::vector<InstanceId> match(observed.size(), 0);
     Assign(observed, visible, match);
     const std::set<InstanceId> claimed(match.begin(), match.end());
@@ -96,9 +97,11 @@ std::vector<InstanceId> Instances::Match(const std::vector<ObservedObject>& obse
             if (!claimed.contains(id) && ClassOf(id) == observed[i].class_id) busy += pixels;
         if (busy < kFree * observed[i].pixels) match[i] = Add();
     }
-    for (const auto& [id, seen] : visible)
-        if (seen.pixels >= kLeastVisible || std::ranges::find(match, id) != match.end())
+    for (const auto& [id, seen] : visible) {
+        const bool sought = !not_sought[static_cast<std::size_t>(ClassOf(id))];
+        if ((sought && seen.pixels >= kLeastVisible) || std::ranges::find(match, id) != match.end())
             ++records_[id].visible_frames;
+    }
     for (std::size_t i = 0; i < observed.size(); ++i)
         if (match[i] != 0) Update(match[i], observed[i], At(visible, match[i]).pixels);
     GatherEvidence(observed, visible, match);

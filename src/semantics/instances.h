@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "core/state_stream.h"
+#include "semantics/label_config.h"
 
 namespace tessera {
 
@@ -69,9 +70,12 @@ class Instances {
     explicit Instances(const Config& config) : config_(config) {}
 
     // Processes the detections of one frame. `visible`: what the predicted view shows of each
-    // instance. Returns the instance of each detection, 0 if the detection is ignored.
+    // instance. `not_sought`: classes that were not looked for, so that it says nothing about their
+    // instances that they were not detected. Returns the instance of each detection, 0 if the
+    // detection is ignored.
     std::vector<InstanceId> Match(const std::vector<ObservedObject>& observed,
-                                  const std::map<InstanceId, VisibleObject>& visible);
+                                  const std::map<InstanceId, VisibleObject>& visible,
+                                  const ClassSet& not_sought = {});
 
     // Returns the instances that the detection covers almost fully and that no detection of this
     // frame matches. These are missed objects in front of it or on it. Instances of other classes

@@ -2,6 +2,7 @@
 // configuration. Not modified after reading; thread-safe to read.
 #pragma once
 
+#include <bitset>
 #include <cstdint>
 #include <map>
 #include <set>
@@ -88,6 +89,15 @@ class LabelClasses {
     std::map<std::string, int> ids_;
     std::map<std::string, std::string> aliases_;
     std::set<std::string> dynamic_;
+};
+
+using ClassSet = std::bitset<LabelClasses::kMost + 1>;  // by number
+
+// What can be changed during a run.
+struct LabelSettings {
+    bool on = true;  // off: no further frame is passed to the detector
+    LabelPrediction prediction = LabelPrediction::kRayCast;
+    ClassSet ignored;  // classes whose detections are dropped
 };
 
 // Neighbouring numbers get distinct colours; the colour of n never changes.

@@ -65,7 +65,7 @@ VoteCount LabelMapper::Label(std::span<const Detection> detections, const DepthI
     const std::map<InstanceId, VisibleObject> visible = Visible();
     // 3. Match detections with instances.
     const std::vector<ObservedObject> observed = Observe(detections, depth_m, T_world_camera);
-    const std::vector<InstanceId> match = instances_.Match(observed, visible);
+    const std::vector<InstanceId> match = instances_.Match(observed, visible, ignored_);
     // 4. Vote.
     std::vector<Ballot> ballots(detections.size());
     for (std::size_t i = 0; i < match.size(); ++i)

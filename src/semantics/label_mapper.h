@@ -24,6 +24,13 @@ class LabelMapper {
     LabelMapper(const LabelConfig& config, LabelClasses classes, const PinholeCamera& camera,
                 float max_depth_m = std::numeric_limits<float>::max());
 
+    // From the next Label on. `settings.prediction` replaces that of the configuration. Objects of
+    // ignored classes stay, although they are no longer detected.
+    void Apply(const LabelSettings& settings) {
+        instance_view_.Select(settings.prediction);
+        ignored_ = settings.ignored;
+    }
+
     // `detections`: as returned by FilterWanted, for the frame with this depth and pose. The frame
     // need not be the last one fused. The map must have labels.
     VoteCount Label(std::span<const Detection> detections, const DepthImage& depth_m,
@@ -101,6 +108,7 @@ class LabelMapper {
     float max_depth_m_;
     int step_px_;  // of the sampled views
     InstanceView instance_view_;
+    ClassSet ignored_;
     Image<InstanceId> predicted_;
     LabelImage image_;
     DepthImage near_m_;  // the frame's depth without what is too far

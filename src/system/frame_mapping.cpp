@@ -16,7 +16,9 @@ FrameMapping::FrameMapping(const RunConfig& config, const SourceInfo& source, Ba
       wait_(wait),
       notices_(notices),
       stage_(config.pipeline, config.meshing, source.camera, device),
-      feed_(viewer, config.live.mesh_blocks) {}
+      feed_(viewer, config.live.mesh_blocks) {
+    label_settings_.prediction = config.labels.prediction;
+}
 
 Status FrameMapping::StartScan(ScanPlan plan) {
     scan_.emplace(std::move(plan), config_.scan, wait_, config_.loops.enabled, notices_);
@@ -52,6 +54,10 @@ void FrameMapping::Fuse(TrackedFrame& tracked, FrameOutcome& outcome) {
 void FrameMapping::Label(const DepthImage& depth_m, const Eigen::Isometry3d& T_world_camera,
                          LabelReport& report) {
     Stopwatch watch;
+    std::erase_if(report.detections, [this](const Detection& d) {
+        return label_settings_.ignored[static_cast<std::size_t>(d.class_id)];
+    });
+    stage_.Apply(label_settings_);
     report.votes = stage_.Label(report.detections, depth_m, T_world_camera);
     report.vote_ms = watch.LapMs();
     if (std::string warning = stage_.labels_warning(); warning != labels_warning_)

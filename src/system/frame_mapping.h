@@ -36,8 +36,8 @@ class FrameMapping {
     void Begin();
     // Fuses the frame, unless part of what it may see is not loaded.
     void Fuse(TrackedFrame& tracked, FrameOutcome& outcome);
-    // Votes a frame's detections into the map. The depth and the pose are of the frame in which
-    // they were detected.
+    // Votes a frame's detections into the map, without those of ignored classes. The depth and the
+    // pose are of the frame in which they were detected.
     void Label(const DepthImage& depth_m, const Eigen::Isometry3d& T_world_camera,
                LabelReport& report);
     // For the scan file: the frame, then what loop closure has learnt from it or earlier ones.
@@ -57,6 +57,9 @@ class FrameMapping {
     void LoadAround(const Eigen::Isometry3d& T_world_camera);
 
     // ---- Commands of the user.
+    // Replaces `config.labels.prediction` from the next Label on.
+    void Apply(const LabelSettings& settings) { label_settings_ = settings; }
+    bool labelling() const { return label_settings_.on; }
     void Reset();
     void SaveMesh(const std::string& path);
     // Saves the whole run so far, and what comes, to a new scan file.
@@ -96,6 +99,7 @@ class FrameMapping {
     std::unique_ptr<PagingStage> paging_;  // null without a memory limit
     // With a window: frames so far, in case the user starts saving a scan mid-run.
     std::vector<PathRecord> past_;
+    LabelSettings label_settings_;
     std::string labels_warning_;  // as last told
     ViewerFeed feed_;
 };

@@ -36,6 +36,7 @@ struct MappingTask {
     int corrections = 0;  // number of corrections of the map it was tracked in
     // Pose at which a lost camera was relocalised, in that map.
     std::optional<Eigen::Isometry3d> T_found_camera;
+    std::optional<LabelSettings> labels;  // if they changed
     ViewerCommand command;
 };
 

@@ -111,6 +111,7 @@ void LiveMapping::MapFrame(MappingTask& task) {
         Carry(corrections_, task.corrections, *task.T_found_camera);
         life_.paging()->Expect(*task.T_found_camera);
     }
+    if (task.labels) life_.Apply(*task.labels);
     life_.Begin();
     life_.Fuse(tracked, outcome);
     if (!one_thread_ && (tracked.report.fused || life_.stage().has_delta())) SendMapUpdate();
@@ -142,7 +143,7 @@ void LiveMapping::SendMapUpdate() {
 // Passes the frame on to labelling and loop closure, which process it in the background.
 void LiveMapping::Offer(MappingTask& task) {
     const FrameReport& report = task.tracked->report;
-    if (labelling_ && report.fused && report.stamp_s >= next_detection_s_) {
+    if (labelling_ && life_.labelling() && report.fused && report.stamp_s >= next_detection_s_) {
         next_detection_s_ = report.stamp_s + 1 / config_.labels.max_rate_hz;
         std::unique_ptr<Frame> frame = links_.frames.Take();
         if (loops_)

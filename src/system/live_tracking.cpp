@@ -68,6 +68,7 @@ void LiveTracking::Track(NewFrame& item) {
     TakeHint();
     MappingTask task;
     task.tracked = links_.tracked_frames.Take();
+    task.labels = std::exchange(state_->labels, std::nullopt);
     task.T_found_camera = TakeRelocalisation(frame.stamp_s);
     life.Begin(frame);
     life.Track(frame, MapToTrackIn(), *task.tracked);
@@ -96,6 +97,7 @@ void LiveTracking::TakeSettings() {
     if (settings_.viewer == nullptr || !settings_.viewer->settings.TryPop(settings)) return;
     state_->life.stage().Apply(settings);
     links_.show_prediction.store(settings.show_prediction);
+    state_->labels = settings.labels;
 }
 
 // Returns whether there was any.

@@ -41,7 +41,8 @@ class LiveTracking {
         std::unique_ptr<BlockMap> field;  // copy of what tracking reads; unused with a device
         MapVersion version;               // of that copy
         LostCamera lost;
-        bool asked = false;  // a relocalisation question is pending
+        bool asked = false;                   // a relocalisation question is pending
+        std::optional<LabelSettings> labels;  // new ones for mapping
     };
 
     void TakeCommands();

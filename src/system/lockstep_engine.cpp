@@ -92,7 +92,8 @@ void LockstepEngine::Process(FrameOutcome& outcome) {
 // Runs before tracking and fusion, because the detections may mask people in the frame.
 void LockstepEngine::Detect() {
     detected_.reset();
-    if (!labelling_ || labelled_frames_ % config_.labels.stride != 0) return;
+    if (!labelling_ || !mapping_.labelling()) return;
+    if (labelled_frames_ % config_.labels.stride != 0) return;
     LabelReport report;
     if (!labelling_->Detect(frame_, report, labels_end_)) return;
     if (!report.moving.depth_m.empty()) tracking_.stage().HintMoving(report.moving, std::nullopt);
@@ -100,7 +101,7 @@ void LockstepEngine::Detect() {
 }
 
 void LockstepEngine::Label(FrameOutcome& outcome) {
-    if (!labelling_ || !tracked_.report.fused) return;
+    if (!labelling_ || !mapping_.labelling() || !tracked_.report.fused) return;
     ++labelled_frames_;
     if (!detected_) return;
     mapping_.Label(frame_.depth_m, tracked_.report.track.T_world_camera, *detected_);
@@ -141,6 +142,7 @@ bool LockstepEngine::HandleViewer(FrameOutcome& outcome) {
         ViewerSettings settings;
         if (viewer_ != nullptr && viewer_->settings.TryPop(settings)) {
             tracking_.stage().Apply(settings);
+            mapping_.Apply(settings.labels);
             mapping_.feed().ShowPrediction(settings.show_prediction);
         }
         if (const auto command = control_.TakeCommand()) {

@@ -44,6 +44,8 @@ class MappingStage {
     // which they were detected.
     VoteCount Label(std::span<const Detection> detections, const DepthImage& depth_m,
                     const Eigen::Isometry3d& T_world_camera);
+    // With labels only: for the calls of Label from now on.
+    void Apply(const LabelSettings& settings) { labels_->Apply(settings); }
     // Warning about how labels are predicted, for the user; usually empty.
     std::string labels_warning() const { return labels_ ? labels_->warning() : ""; }
     // With labels, after TakeMesh: the objects in its mesh.

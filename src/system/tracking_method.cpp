@@ -47,6 +47,13 @@ Trackers::Trackers(const TrackersConfig& config, const PinholeCamera& camera, Ba
       method_(config.method),
       model_(config.photometric) {}
 
+void Trackers::Select(IcpTracker::Prediction prediction) {
+    if (std::exchange(config_.icp.prediction, prediction) == prediction) return;
+    rasterisers_.clear();
+    for (const TrackingMethod method : {TrackingMethod::kIcp, TrackingMethod::kIcpRgb})
+        trackers_[static_cast<std::size_t>(method)].reset();
+}
+
 bool Trackers::reads_map() const {
     const bool icp = method_ == TrackingMethod::kIcp || method_ == TrackingMethod::kIcpRgb;
     return !backend_.on_device() ||

@@ -74,6 +74,8 @@ class Trackers {
 
     TrackingMethod method() const { return method_; }
     void Select(TrackingMethod method) { method_ = method; }
+    // Takes effect at the next Track, with new trackers; what was learnt is kept.
+    void Select(IcpTracker::Prediction prediction);
     // Whether the selected method reads the voxels of TrackInput::map on the CPU.
     bool reads_map() const;
     // Uses the selected method, which is created on first use, on the tracking thread.

@@ -198,8 +198,7 @@ TrackResult TrackingStage::TrackFrame(const Frame& frame, const PreparedFrame& p
 }
 
 // A nearby person who starts to walk must not outweigh the room behind. So points nearer than the
-// median depth get no extra weight, unless the pose is so uncertain that the near points are
-// needed.
+// median depth get no extra weight, unless the pose is so uncertain that it needs them.
 double TrackingStage::MinWeightDepth(const PreparedFrame& prepared) const {
     if (motion_.doubt().uncertainty_m > config_.trackers.even_within_m) return kMinWeightDepth_m;
     return std::max(kMinWeightDepth_m, MedianDepth(prepared.reduced.front().depth_m));
@@ -216,6 +215,7 @@ FrameMotion TrackingStage::FrameMotionOf(const Frame& frame) const {
 
 void TrackingStage::Apply(const ViewerSettings& settings) {
     trackers_.Select(settings.method);
+    trackers_.Select(settings.prediction);
     trackers_.SetAlpha(settings.auto_alpha, settings.alpha);
     config_.frame.max_depth_m = settings.max_depth_m;
     aligner_.Enable(settings.prealign);

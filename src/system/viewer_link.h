@@ -98,6 +98,7 @@ struct ViewerLink {
     FifoQueue<MeshUpdate> meshes{4, viewer};  // if full, changes stay in the mesher
     // Pushed by the thread that pushes frames.
     NewestQueue<LabelUpdate> labels{64, viewer};
+    NewestQueue<LabelClasses> classes{1, viewer};  // of a run with labels, at its start
     // All objects, by number. Pushed by the map's owner; at the end, by the thread that pushes
     // frames.
     NewestQueue<std::vector<MapObject>> objects{1, viewer};

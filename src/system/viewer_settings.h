@@ -1,6 +1,7 @@
 // Settings that the user can change during a run. They take effect at the next frame.
 #pragma once
 
+#include "semantics/label_config.h"
 #include "system/tracking_method.h"
 
 namespace tessera {
@@ -13,6 +14,8 @@ struct ViewerSettings {
     bool prealign = true;
     bool fusing = true;           // off: track without changing the map
     bool show_prediction = true;  // fill ImageUpdate::predicted
+    IcpTracker::Prediction prediction = IcpTracker::Prediction::kRayCast;
+    LabelSettings labels;  // of a run with labels
 };
 
 }  // namespace tessera

@@ -64,6 +64,10 @@ void DrawSettings(ViewerState& state) {
         ImGui::TableNextColumn();
         changed |= MarkedCheckbox(controls, "prediction", "Predict", settings.show_prediction);
         Tip("Show the map's prediction beside the measured images");
+        ImGui::TableNextColumn();
+        bool raster = settings.prediction == IcpTracker::Prediction::kRaster;
+        if (MarkedCheckbox(controls, "raster", "Raster", raster)) state.RasteriseViews(raster);
+        Tip("ICP and labels: views drawn by OpenGL from the mesh, [D18], instead of cast rays");
         ImGui::EndTable();
     }
     if (changed) state.SendSettings();

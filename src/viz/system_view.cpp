@@ -42,6 +42,7 @@ bool SystemView::TakeLabels(ViewerLink& link, double now_s) {
         labels_ = std::move(labels);
         any = true;
     }
+    any |= link.classes.TryPop(classes_);
     std::vector<MapObject> objects;
     while (link.objects.TryPop(objects)) {
         SetObjects(std::move(objects));

@@ -48,7 +48,8 @@ class SystemView {
     std::uint64_t images_taken() const { return images_taken_; }
     const std::vector<MapObject>& objects() const { return objects_; }  // sorted by number
     std::uint64_t objects_taken() const { return objects_taken_; }
-    const LabelUpdate& labels() const { return labels_; }  // with the newest detections
+    const LabelUpdate& labels() const { return labels_; }     // with the newest detections
+    const LabelClasses& classes() const { return classes_; }  // none without labels
     // Frames processed by the detector per second, over the last seconds; 0: not known yet.
     double detections_per_s() const { return detections_per_s_; }
     const History& history() const { return history_; }
@@ -68,6 +69,7 @@ class SystemView {
     std::uint64_t path_identity_ = 1, images_taken_ = 0, messages_said_ = 0;
     ImageUpdate images_;
     LabelUpdate labels_;
+    LabelClasses classes_;
     std::vector<MapObject> objects_;
     std::uint64_t objects_taken_ = 0;
     std::deque<double> detected_s_;

@@ -35,6 +35,17 @@ void ViewerState::SelectMethod(TrackingMethod method) {
     SendSettings();
 }
 
+void ViewerState::RasteriseViews(bool on) {
+    settings.prediction = on ? IcpTracker::Prediction::kRaster : IcpTracker::Prediction::kRayCast;
+    settings.labels.prediction = on ? LabelPrediction::kRaster : LabelPrediction::kRayCast;
+    SendSettings();
+}
+
+void ViewerState::UseClass(int id, bool on) {
+    settings.labels.ignored[static_cast<std::size_t>(id)] = !on;
+    SendSettings();
+}
+
 void ViewerState::TogglePause() {
     if (ended()) return;
     Send(paused() ? ViewerCommand::Kind::kResume : ViewerCommand::Kind::kPause);

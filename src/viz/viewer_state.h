@@ -44,6 +44,9 @@ struct ViewerState {
     // Sends all settings; call after changing `settings`.
     void SendSettings();
     void SelectMethod(TrackingMethod method);
+    // Rasterised or ray cast, for ICP and for labels.
+    void RasteriseViews(bool on);
+    void UseClass(int id, bool on);
     void TogglePause();
     void Step();
     void Reset();  // after the user confirmed

@@ -92,6 +92,20 @@ TEST_F(LabelMapperTest, WhatShowsDifferentlyIsNamedAlsoWhereNobodyVoted) {
     EXPECT_EQ(most, whole);  // in the frame in which it became a book
 }
 
+// An object that is in view but not detected is withheld after a while, unless its class is
+// ignored.
+TEST_F(LabelMapperTest, ObjectsOfAnIgnoredClassStay) {
+    for (int i = 0; i < 10; ++i) Label(1, 80);
+    const auto objects_after = [&](const LabelSettings& settings) {
+        mapper->Apply(settings);
+        for (int i = 0; i < 80; ++i) mapper->Label({}, depth, Eigen::Isometry3d::Identity(), map);
+        TriangleMesh labelled = mapper->LabelledVertices(map, mesher.block_meshes());
+        return mapper->Objects(0.01, labelled).size();
+    };
+    EXPECT_EQ(objects_after({.ignored = 1 << 1}), 1u);
+    EXPECT_EQ(objects_after({}), 0u);
+}
+
 TEST_F(LabelMapperTest, LabelledVerticesAreThoseOfTheObject) {
     for (int i = 0; i < 10; ++i) Label(1, 80);
     Renew();

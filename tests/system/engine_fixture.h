@@ -90,6 +90,7 @@ class EngineTest : public testing::Test {
                     settings.method = kTrackingMethods[random() % kTrackingMethods.size()].method;
                     settings.prealign = random() % 2 == 0;
                     settings.fusing = random() % 4 != 0;
+                    settings.labels.on = random() % 2 == 0;
                     viewer->settings.Push(std::move(settings));
                     break;
                 }

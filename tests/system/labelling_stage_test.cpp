@@ -168,6 +168,44 @@ TEST_F(EngineTest, WhatADetectorCallsAPersonIsNotFusedLiveOnceItAnswered) {
     EXPECT_GT(masked, 0);
 }
 
+// The user switches labelling off, and on again without cups.
+class SwitchedLabelling : public EngineTest, public testing::WithParamInterface<bool> {};
+
+TEST_P(SwitchedLabelling, FollowsTheSettings) {
+    ViewerLink link;
+    viewer = &link;
+    config.labels.max_rate_hz = 1000;
+    EngineInput input = Input({.live = true});
+    input.labelling = Person();
+    const auto cup = static_cast<std::size_t>(input.labelling.classes.IdOf("cup"));
+    if (GetParam())
+        engine = std::make_unique<LiveEngine>(std::move(input));
+    else
+        engine = std::make_unique<LockstepEngine>(std::move(input));
+    const auto next_count = [&] {
+        while (Next())
+            if (outcomes.back().labels) return outcomes.back().labels->detections.size();
+        return std::size_t{99};
+    };
+    EXPECT_EQ(next_count(), 1u);
+    ViewerSettings settings;
+    settings.labels.on = false;
+    link.settings.Push(ViewerSettings(settings));
+    // Live, frames that were on their way are still labelled.
+    for (int quiet = 0; quiet < 30; quiet += outcomes.back().kind == Kind::kFrame) {
+        ASSERT_TRUE(Next());
+        ASSERT_LT(Reports().size(), 200u) << "labelling goes on";
+        if (outcomes.back().labels) quiet = 0;
+    }
+    settings.labels.on = true;
+    settings.labels.ignored[cup] = true;
+    link.settings.Push(ViewerSettings(settings));
+    EXPECT_EQ(next_count(), 0u);
+    Ask(Command::kStop);
+    TakeAll();
+}
+
+INSTANTIATE_TEST_SUITE_P(LockstepAndLive, SwitchedLabelling, testing::Bool());
 INSTANTIATE_TEST_SUITE_P(ByErrorAndByException, LabellingStageTest, testing::Bool());
 
 }  // namespace

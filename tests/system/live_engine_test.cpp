@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <future>
 
+#include "render/mesh_rasteriser.h"
 #include "support/temp_folder.h"
 #include "system/engine_fixture.h"
 
@@ -183,6 +184,35 @@ TEST_F(Live, ViewerCommandsAreObeyed) {
     Ask(Command::kStop);
     TakeAll();
     EXPECT_TRUE(engine->stopped());
+}
+
+// The user switches ICP's predicted view, here and in lockstep.
+TEST_F(Live, ThePredictedViewIsSwitchedAsInLockstep) {
+    if (const auto made = MeshRasteriser::Create({}); !made.ok()) GTEST_SKIP() << made.message();
+    ViewerLink link;
+    viewer = &link;
+    config.pipeline.trackers.method = TrackingMethod::kIcp;
+    for (const bool live : {false, true}) {
+        outcomes.clear();
+        Make(live, {.live = true});
+        while (Reports().size() < 3) ASSERT_TRUE(Next());
+        EXPECT_EQ(Reports().back()->rasterise_ms, 0);
+        ViewerSettings settings;
+        settings.method = TrackingMethod::kIcp;
+        for (const auto prediction :
+             {IcpTracker::Prediction::kRaster, IcpTracker::Prediction::kRayCast}) {
+            settings.prediction = prediction;
+            link.settings.Push(ViewerSettings(settings));
+            const bool raster = prediction == IcpTracker::Prediction::kRaster;
+            while ((Reports().back()->rasterise_ms > 0) != raster) {
+                ASSERT_TRUE(Next());
+                ASSERT_LT(Reports().size(), 200u) << "the views stay as they are";
+            }
+            EXPECT_TRUE(live || Reports().back()->tracked());
+        }
+        Ask(Command::kStop);
+        TakeAll();
+    }
 }
 
 // Sends random commands while a simulated window reads its queues only occasionally. Meant for the

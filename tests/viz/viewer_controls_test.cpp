@@ -66,6 +66,29 @@ TEST_F(ViewerControls, SwitchesAndDepth) {
     EXPECT_FALSE(LastSettings()->prealign);  // all settings are sent together
 }
 
+TEST_F(ViewerControls, ViewsAreRasterisedAndClassesChosen) {
+    LabelConfig config;
+    config.classes = "cup book";
+    link_.classes.Push(LabelClasses(LabelClasses::Make(config, {}).value()));
+    Frames(1);
+    Click("raster");
+    ASSERT_NE(LastSettings(), nullptr);
+    EXPECT_EQ(LastSettings()->prediction, IcpTracker::Prediction::kRaster);
+    EXPECT_EQ(LastSettings()->labels.prediction, LabelPrediction::kRaster);
+    Click("raster");
+    EXPECT_EQ(LastSettings()->prediction, IcpTracker::Prediction::kRayCast);
+    EXPECT_EQ(LastSettings()->labels.prediction, LabelPrediction::kRayCast);
+    Click("labelling");
+    EXPECT_FALSE(LastSettings()->labels.on);
+    EXPECT_FALSE(viewer_->FindControl("class.book"));
+    Click("classes");
+    Click("class.book");
+    EXPECT_TRUE(LastSettings()->labels.ignored[2]);
+    EXPECT_EQ(LastSettings()->labels.ignored.count(), 1u);
+    Click("class.book");
+    EXPECT_TRUE(LastSettings()->labels.ignored.none());
+}
+
 TEST_F(ViewerControls, PauseStepAndResume) {
     Frames(2);
     Click("pause");
