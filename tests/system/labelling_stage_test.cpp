@@ -169,10 +169,13 @@ TEST_F(EngineTest, WhatADetectorCallsAPersonIsNotFusedLiveOnceItAnswered) {
 }
 
 // The user switches labelling off, and on again without cups.
-class SwitchedLabelling : public EngineTest, public testing::WithParamInterface<bool> {};
+class SwitchedLabelling : public EngineTest, public testing::WithParamInterface<bool> {
+  protected:
+    void TearDown() override { engine.reset(); }  // the link must outlive it
+    ViewerLink link;
+};
 
 TEST_P(SwitchedLabelling, FollowsTheSettings) {
-    ViewerLink link;
     viewer = &link;
     config.labels.max_rate_hz = 1000;
     EngineInput input = Input({.live = true});
