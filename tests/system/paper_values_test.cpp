@@ -47,6 +47,12 @@ PaperPage ReadPage(const std::string& preset) {
     return page;
 }
 
+// The label settings that [D18] speaks of.
+std::set<std::string> LabelKeys() {
+    return {"labels.classes", "labels.min_probability", "labels.region", "labels.prediction",
+            "labels.dynamic"};
+}
+
 class Paper : public testing::TestWithParam<const char*> {};
 
 TEST_P(Paper, SaysWhereEveryValueIsFrom) {
@@ -58,7 +64,7 @@ TEST_P(Paper, SaysWhereEveryValueIsFrom) {
     ASSERT_FALSE(page.value.empty()) << "docs/papers.md has no section ## " << GetParam();
     std::set<std::string> known;
     for (const ConfigParameters::Parameter& p : parameters.parameters()) {
-        bool relevant = p.key == "loops.enabled" || p.key == "labels.region";
+        bool relevant = LabelKeys().contains(p.key) || p.key == "loops.enabled";
         for (const char* section : {"frame.", "mapping.", "tracking.", "moving.", "calibration."})
             relevant = relevant || p.key.starts_with(section);
         if (!relevant) continue;
