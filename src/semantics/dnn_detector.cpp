@@ -133,14 +133,8 @@ Detection DnnDetector::ToFrame(const RawDetection& raw, int width, int height) c
                           static_cast<float>(height - 1));
     };
     d.box = {column(raw.x_min), row(raw.y_min), column(raw.x_max), row(raw.y_max)};
-    if (layout_.masks_output < 0) return d;
-    const PixelBox pixels = PixelsOf(d.box, width, height);
-    d.mask.Resize(pixels.width(), pixels.height());
-    for (int y = 0; y < pixels.height(); ++y)
-        for (int x = 0; x < pixels.width(); ++x)
-            d.mask(x, y) = MaskAt(layout_, outputs_, raw,
-                                  static_cast<float>((x + pixels.x_begin + 0.5) * scale_x_),
-                                  static_cast<float>((y + pixels.y_begin + 0.5) * scale_y_));
+    if (layout_.masks_output >= 0)
+        d.mask = MaskOf(layout_, outputs_, raw, PixelsOf(d.box, width, height), scale_x_, scale_y_);
     return d;
 }
 

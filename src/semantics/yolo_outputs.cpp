@@ -135,6 +135,17 @@ void DecodeYolov8(const OutputArray& output, const YoloLayout& layout, float lea
     }
 }
 
+// Two neighbouring cells of the prototypes and the second one's part.
+struct CellMix {
+    int first = 0, second = 0;
+    float part = 0;
+};
+CellMix MixAt(double input_px, int side) {
+    const double cell = std::clamp(input_px / 4 - 0.5, 0.0, side - 1.0);
+    const int first = static_cast<int>(cell);
+    return {first, std::min(first + 1, side - 1), static_cast<float>(cell - first)};
+}
+
 }  // namespace
 
 Result<YoloLayout> RecogniseOutputs(const std::vector<OutputArray>& outputs, int input_px,
@@ -192,17 +203,35 @@ void SuppressOverlaps(float overlap, std::vector<RawDetection>& detections) {
     detections = std::move(kept);
 }
 
-bool MaskAt(const YoloLayout& layout, const std::vector<OutputArray>& outputs,
-            const RawDetection& detection, float x, float y) {
+Image<std::uint8_t> MaskOf(const YoloLayout& layout, const std::vector<OutputArray>& outputs,
+                           const RawDetection& detection, const PixelBox& pixels, double scale_x,
+                           double scale_y) {
     const OutputArray& prototypes = outputs[static_cast<std::size_t>(layout.masks_output)];
     const int side = prototypes.shape[2];
-    const int column = std::clamp(static_cast<int>(x / 4), 0, side - 1),
-              row = std::clamp(static_cast<int>(y / 4), 0, side - 1);
-    float sum = 0;
+    std::vector<CellMix> columns, rows;
+    for (int x = pixels.x_begin; x < pixels.x_end; ++x)
+        columns.push_back(MixAt((x + 0.5) * scale_x, side));
+    for (int y = pixels.y_begin; y < pixels.y_end; ++y)
+        rows.push_back(MixAt((y + 0.5) * scale_y, side));
+    Image<std::uint8_t> mask(pixels.width(), pixels.height(), 0);
+    if (pixels.empty()) return mask;
+    Image<float> logits(side, side, 0.0f);
     for (int m = 0; m < layout.mask_coefficients; ++m)
-        sum += detection.mask_coefficients[static_cast<std::size_t>(m)] *
-               prototypes.data[(m * side + row) * side + column];
-    return sum > 0;  // the sigmoid's 0.5
+        for (int row = rows.front().first; row <= rows.back().second; ++row)
+            for (int column = columns.front().first; column <= columns.back().second; ++column)
+                logits(column, row) += detection.mask_coefficients[static_cast<std::size_t>(m)] *
+                                       prototypes.data[(m * side + row) * side + column];
+    for (int y = 0; y < mask.height(); ++y)
+        for (int x = 0; x < mask.width(); ++x) {
+            const CellMix &u = columns[static_cast<std::size_t>(x)],
+                          &v = rows[static_cast<std::size_t>(y)];
+            const float upper =
+                            std::lerp(logits(u.first, v.first), logits(u.second, v.first), u.part),
+                        lower = std::lerp(logits(u.first, v.second), logits(u.second, v.second),
+                                          u.part);
+            mask(x, y) = std::lerp(upper, lower, v.part) > 0;  // the sigmoid's 0.5
+        }
+    return mask;
 }
 
 }  // namespace tessera

@@ -53,8 +53,12 @@ std::vector<RawDetection> DecodeOutputs(const YoloLayout& layout,
 // by decreasing probability.
 void SuppressOverlaps(float overlap, std::vector<RawDetection>& detections);
 
-// Evaluates the mask at input pixel (x, y); true inside.
-bool MaskAt(const YoloLayout& layout, const std::vector<OutputArray>& outputs,
-            const RawDetection& detection, float x, float y);
+// The object's mask, 1 inside, over the pixels `pixels` of a frame that the network saw with
+// `scale_x` and `scale_y` input pixels per frame pixel: sigmoid(coefficients * prototypes) > 0.5,
+// the product interpolated linearly between the prototypes' cells of 4 x 4 input pixels. Only for
+// layouts with masks.
+Image<std::uint8_t> MaskOf(const YoloLayout& layout, const std::vector<OutputArray>& outputs,
+                           const RawDetection& detection, const PixelBox& pixels, double scale_x,
+                           double scale_y);
 
 }  // namespace tessera

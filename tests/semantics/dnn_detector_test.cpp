@@ -10,6 +10,7 @@
 
 #include "io/file.h"
 #include "io/image_io.h"
+#include "semantics/made_up_network.h"
 #include "support/temp_folder.h"
 
 namespace tessera {
@@ -64,30 +65,10 @@ TEST_F(DnnDetectorTest, FindsTheDesksThings) {
     EXPECT_FALSE(detector.value()->Detect(frame).ok());
 }
 
-// A protocol buffer field that holds bytes or a number.
-std::string Field(int number, const std::string& bytes) {
-    std::string text;
-    text.push_back(static_cast<char>(number << 3 | 2));
-    text.push_back(static_cast<char>(bytes.size()));
-    return text.append(bytes);
-}
-std::string Field(int number, int value) {
-    std::string text(1, static_cast<char>(number << 3));
-    for (; value > 127; value >>= 7) text += static_cast<char>(value | 128);
-    return text + static_cast<char>(value);
-}
-
 // An ONNX network with a single Relu, whose output has the shape of its input.
 std::string ReluNetwork(int side) {
-    const auto value = [&](const std::string& name) {
-        std::string shape;
-        for (const int size : {1, 3, side, side}) shape += Field(1, Field(1, size));
-        return Field(1, name) + Field(2, Field(1, Field(1, 1) + Field(2, shape)));
-    };
-    const std::string node = Field(1, "x") + Field(2, "y") + Field(4, "Relu");
-    const std::string graph =
-        Field(1, node) + Field(2, "g") + Field(11, value("x")) + Field(12, value("y"));
-    return Field(1, 7) + Field(7, graph) + Field(8, Field(1, "") + Field(2, 11));
+    return OnnxModel(OnnxNode("Relu", {"x"}, "y"), "", {OnnxValue("x", {1, 3, side, side})},
+                     {OnnxValue("y", {1, 3, side, side})});
 }
 
 TEST(UnknownNetwork, IsOneLineWithItsShapes) {

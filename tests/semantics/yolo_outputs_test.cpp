@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 
 namespace tessera {
 namespace {
@@ -74,8 +75,58 @@ TEST(YoloOutputs, Yolov8ChannelsFirstWithMasks) {
     EXPECT_EQ(layout.value().classes, 2);
     const auto found = DecodeOutputs(layout.value(), o.arrays, 0.5f);
     ExpectOne(found, 1, 0.6f, 8, 9, 12, 15);
-    EXPECT_TRUE(MaskAt(layout.value(), o.arrays, found[0], 9, 13));
-    EXPECT_FALSE(MaskAt(layout.value(), o.arrays, found[0], 13, 13));
+    const Image<std::uint8_t> mask =
+        MaskOf(layout.value(), o.arrays, found[0], {8, 9, 13, 16}, 1, 1);
+    EXPECT_EQ(mask.width(), 5);
+    EXPECT_EQ(mask.height(), 7);
+    EXPECT_EQ(mask(1, 4), 1);
+    EXPECT_EQ(mask(4, 4), 0);
+}
+
+// The slow way: every pixel's product of 32 coefficients at the four cells around it.
+bool InMask(const Outputs& o, const RawDetection& d, double x, double y) {
+    const int side = o.arrays[1].shape[2];
+    double logit = 0;
+    for (int row = 0; row < side; ++row)
+        for (int column = 0; column < side; ++column) {
+            const auto weight = [side](double at, int cell) {
+                at = std::min(std::max(at / 4, 0.5), side - 0.5);  // cell i's centre is i + 0.5
+                return std::max(0.0, 1 - std::abs(at - cell - 0.5));
+            };
+            for (int m = 0; m < 32; ++m)
+                logit += weight(x, column) * weight(y, row) *
+                         d.mask_coefficients[static_cast<std::size_t>(m)] *
+                         o.arrays[1].data[(m * side + row) * side + column];
+        }
+    return 1 / (1 + std::exp(-logit)) > 0.5;
+}
+
+TEST(YoloOutputs, MasksAsComputedSlowly) {
+    Outputs o;
+    std::mt19937 random(7);
+    std::normal_distribution<float> normal;
+    o.Add({1, 4 + 2 + 32, kCells});
+    for (float& value : o.Add({1, 32, 8, 8})) value = normal(random);
+    const auto layout = RecogniseOutputs(o.arrays, kInput, ModelFamily::kAuto);
+    ASSERT_TRUE(layout.ok()) << layout.message();
+    RawDetection detection;
+    for (int m = 0; m < 32; ++m) detection.mask_coefficients.push_back(normal(random));
+    // A frame of 80 x 60 pixels, up to its edges.
+    const double scale = 0.4;
+    int inside = 0;
+    for (const PixelBox& box : {PixelBox{0, 0, 80, 60}, PixelBox{13, 7, 14, 30}}) {
+        const auto mask = MaskOf(layout.value(), o.arrays, detection, box, scale, scale);
+        for (int y = 0; y < box.height(); ++y)
+            for (int x = 0; x < box.width(); ++x) {
+                EXPECT_EQ(mask(x, y) != 0, InMask(o, detection, (x + box.x_begin + 0.5) * scale,
+                                                  (y + box.y_begin + 0.5) * scale))
+                    << x << " " << y;
+                inside += mask(x, y);
+            }
+    }
+    EXPECT_GT(inside, 1000);
+    EXPECT_LT(inside, 4000);
+    EXPECT_TRUE(MaskOf(layout.value(), o.arrays, detection, {}, scale, scale).empty());
 }
 
 TEST(YoloOutputs, DarknetIsRelative) {
