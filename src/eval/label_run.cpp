@@ -1,9 +1,9 @@
 #include "eval/label_run.h"
 
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "eval/alignment.h"
+#include "eval/detection_run.h"
 #include "eval/mesh_error.h"
 #include "io/file.h"
 #include "io/mesh_io.h"
@@ -27,36 +27,18 @@ Status ReadObjects(const std::string& path, RunLabels& run) {
     return Status::Ok();
 }
 
-Status ReadDetections(const std::string& path, RunLabels& run) {
-    const Result<std::string> text = ReadWholeFile(path, std::size_t{1} << 30);
-    if (!text.ok()) return Status::Error(text.message() + "; was the run made with --labels?");
-    std::istringstream lines(text.value());
-    double frame = 0;
-    for (std::string line; std::getline(lines, line);) {
-        std::istringstream words(line);
-        if (line.starts_with("# frame ")) {
-            words.ignore(8);
-            if (words >> frame) run.frames[frame];
-            continue;
-        }
-        RunDetection d;
-        double stamp_s = 0;
-        if (line.starts_with('#') || !(words >> stamp_s >> d.name >> d.probability >> d.x_min >>
-                                       d.y_min >> d.x_max >> d.y_max))
-            continue;
-        run.frames[stamp_s].push_back(d);
-        run.wanted.insert(d.name);
-    }
-    return run.frames.empty() ? Status::Error(path + ": contains no frames") : Status::Ok();
-}
-
 }  // namespace
 
-Result<RunLabels> ReadLabelRun(const std::string& folder, const LabelTruth& truth) {
+Result<RunLabels> ReadLabelRun(const std::string& folder, LabelTruth& truth) {
     RunLabels run;
     if (Status status = ReadObjects(folder + "/objects.json", run); !status.ok()) return status;
-    if (Status status = ReadDetections(folder + "/detections.txt", run); !status.ok())
-        return status;
+    const Result<Detections> detections = ReadDetections(folder, {});
+    if (!detections.ok()) return detections.status();
+    Rename(detections.value().aliases, truth);
+    Result<std::vector<ScoredImage>> images = PairWithTruth(truth, detections.value().rows, folder);
+    if (!images.ok()) return images.status();
+    run.images = std::move(images.value());
+    run.wanted = detections.value().looked_for;
     Result<TriangleMesh> mesh = ReadPly(folder + "/mesh.ply");
     if (!mesh.ok()) return mesh.status();
     if (mesh.value().labels.empty())

@@ -10,71 +10,18 @@ namespace tessera {
 namespace {
 
 constexpr std::size_t kLookedUpFrames = 100;  // of the ground truth, to label the vertices
-constexpr double kSameBox = 0.5;
 constexpr double kStray = 0.005;
 
-// ---- [D18] Table 4.
-
-struct TrueBox {
-    int class_id = 0, pixels = 0;
-    double x_min = 1e9, y_min = 1e9, x_max = -1, y_max = -1;
-};
-
-std::map<int, TrueBox> TrueBoxes(const TruthImages& images) {
-    std::map<int, TrueBox> boxes;
-    for (int y = 0; y < images.instance.height(); ++y)
-        for (int x = 0; x < images.instance.width(); ++x) {
-            if (images.instance(x, y) == 0) continue;
-            TrueBox& box = boxes[images.instance(x, y)];
-            box.class_id = images.class_id(x, y);
-            ++box.pixels;
-            box.x_min = std::min<double>(box.x_min, x), box.x_max = std::max<double>(box.x_max, x);
-            box.y_min = std::min<double>(box.y_min, y), box.y_max = std::max<double>(box.y_max, y);
-        }
-    return boxes;
-}
-
-double Overlap(const TrueBox& a, const RunDetection& b) {
-    const double width = std::min(a.x_max, b.x_max) - std::max(a.x_min, b.x_min) + 1;
-    const double height = std::min(a.y_max, b.y_max) - std::max(a.y_min, b.y_min) + 1;
-    if (width <= 0 || height <= 0) return 0;
-    const double areas = (a.x_max - a.x_min + 1) * (a.y_max - a.y_min + 1) +
-                         (b.x_max - b.x_min + 1) * (b.y_max - b.y_min + 1);
-    return width * height / (areas - width * height);
-}
-
-void CountDetections(const std::map<int, TrueBox>& boxes,
-                     const std::vector<RunDetection>& detections, const LabelTruth& truth,
-                     LabelScores& scores) {
-    const double least_pixels = 400.0 / (640 * 480) * truth.camera.width * truth.camera.height;
-    for (const auto& [instance, box] : boxes) {
-        const auto name = truth.class_names.find(box.class_id);
-        const auto score = name == truth.class_names.end() ? scores.classes.end()
-                                                           : scores.classes.find(name->second);
-        if (score == scores.classes.end() || box.pixels <= least_pixels) continue;
-        ++score->second.visible;
-        const auto best = std::ranges::max_element(
-            detections, {}, [&](const RunDetection& d) { return Overlap(box, d); });
-        if (best == detections.end() || Overlap(box, *best) < kSameBox) continue;
-        ++score->second.detected;
-        score->second.correct += best->name == name->second;
-        score->second.probability_sum += best->probability;
+// [D18] Table 4, by class.
+void AddDetectionScores(const RunLabels& run, LabelScores& scores) {
+    for (const auto& [instance, object] : ScoreDetections(run.images, run.wanted, 0).objects) {
+        ClassScore& score = scores.classes[object.class_name];
+        score.visible += object.visible;
+        score.detected += object.detected;
+        score.correct += object.right;
+        score.probability_sum += object.probability_sum;
     }
 }
-
-Status ScoreDetections(const LabelTruth& truth, const RunLabels& run, LabelScores& scores) {
-    TruthImages images;
-    for (std::size_t i = 0; i < truth.poses.size(); ++i) {
-        const double stamp_s = truth.poses[i].stamp_s;
-        const auto near = run.frames.lower_bound(stamp_s - 0.002);
-        if (near == run.frames.end() || near->first > stamp_s + 0.002) continue;
-        if (Status status = ReadTruthImages(truth, i, images); !status.ok()) return status;
-        CountDetections(TrueBoxes(images), near->second, truth, scores);
-    }
-    return Status::Ok();
-}
-
-// ---- Vertices and instances.
 
 std::string NameOf(const std::map<int, std::string>& names, int id) {
     const auto found = names.find(id);
@@ -215,8 +162,7 @@ Result<LabelScores> EvaluateLabels(const std::string& sequence, const std::strin
     if (!run.ok()) return run.status();
     LabelScores scores;
     for (const std::string& name : run.value().wanted) scores.classes[name];
-    if (Status status = ScoreDetections(truth.value(), run.value(), scores); !status.ok())
-        return status;
+    AddDetectionScores(run.value(), scores);
     std::vector<VertexLabel> labels;
     std::vector<std::uint8_t> seen;
     const std::size_t stride =
@@ -227,6 +173,10 @@ Result<LabelScores> EvaluateLabels(const std::string& sequence, const std::strin
     ScoreVertices(truth.value(), run.value(), labels, seen, scores);
     ScoreInstances(truth.value(), run.value(),
                    Gather(truth.value(), run.value(), labels, seen, scores), scores);
+    std::erase_if(scores.classes, [](const auto& entry) {
+        const ClassScore& score = entry.second;
+        return score.visible == 0 && score.vertices == 0 && score.labelled == 0;
+    });
     return scores;
 }
 

@@ -18,11 +18,9 @@ namespace tessera {
 
 // Scores of one class: [D18] Table 4, and vertex counts.
 struct ClassScore {
-    std::int64_t visible = 0;  // instances in processed frames (over 400 pixels of 640x480)
-    // Of those, instances matched by a detection of any class (box IoU of at least 0.5).
-    std::int64_t detected = 0;
-    std::int64_t correct = 0;                           // of those, detections of the right class
-    double probability_sum = 0;                         // over the detected
+    // Sums over the objects of the class (detection_scores.h, ObjectScore).
+    std::int64_t visible = 0, detected = 0, correct = 0;
+    double probability_sum = 0;
     std::int64_t vertices = 0, labelled = 0, both = 0;  // ground truth, run, both
 
     double Pt() const {

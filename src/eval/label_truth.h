@@ -1,5 +1,5 @@
-// Ground-truth labels of a sequence: class and instance images, with poses. Used by label_run.cpp
-// and label_scores.cpp.
+// Ground-truth labels of a sequence: class and instance images, with poses. Used by label_run.cpp,
+// label_scores.cpp and detection_run.cpp.
 #pragma once
 
 #include <map>
@@ -9,6 +9,8 @@
 #include "core/camera.h"
 #include "core/mesh.h"
 #include "core/se3.h"
+#include "core/status.h"
+#include "eval/detection_scores.h"
 
 namespace tessera {
 
@@ -31,6 +33,18 @@ struct TruthImages {
     Image<std::uint16_t> class_id, instance;
 };
 Status ReadTruthImages(const LabelTruth& truth, std::size_t frame, TruthImages& images);
+
+// Renames the truth's classes.
+void Rename(const ClassAliases& aliases, LabelTruth& truth);
+
+// The image's objects of named classes, by instance. Those of up to 400 pixels (of 640x480; more or
+// fewer for other sizes) do not count.
+std::vector<TrueObject> ObjectsOf(const LabelTruth& truth, const TruthImages& images);
+
+// Pairs the images that the detector looked at (within 2 ms; all if `rows.frames` is empty) with
+// its detections. Errors name the image or, with `path`, the detections.
+Result<std::vector<ScoredImage>> PairWithTruth(const LabelTruth& truth, const DetectionRows& rows,
+                                               const std::string& path);
 
 // Finds each vertex's most frequent label in every `stride`-th frame. If no frame saw a vertex, its
 // label is VertexLabel{} and `seen` is 0. `mesh` is in the ground truth's world.

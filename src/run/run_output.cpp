@@ -4,6 +4,7 @@
 #include <cstring>
 #include <filesystem>
 
+#include "io/detections_text.h"
 #include "io/file.h"
 #include "io/image_io.h"
 #include "io/mesh_io.h"
@@ -40,11 +41,26 @@ std::string FrameLine(const FrameReport& r, double decode_ms, double frame_ms) {
         r.fusion.allocate_ms, r.fusion.fuse_ms, frame_ms, reason);
 }
 
+// What was looked for, so that `tessera eval` can tell a class that was never found from one that
+// nobody asked for.
+std::string DetectionsHeader(const RunConfig& config, const LabelClasses& classes) {
+    std::string header =
+        "# stamp class probability xmin ymin xmax ymax; '# frame STAMP' before each frame looked "
+        "at\n# classes";
+    for (int id = 1; id <= classes.count(); ++id)
+        if (classes.CanBeFound(id)) header += " " + classes.name(id);
+    header += "\n# aliases";
+    const ClassAliases aliases = ParseAliases(config.labels.aliases).value();
+    for (const auto& [from, to] : aliases) header += " " + from + "=" + to;
+    return header + "\n";
+}
+
 }  // namespace
 
 Result<std::unique_ptr<RunOutput>> RunOutput::Open(const RunRequest& request,
                                                    const RunConfig& config,
-                                                   const SourceInfo& source) {
+                                                   const SourceInfo& source,
+                                                   const LabelClasses& classes) {
     if (Status status = PrepareOutputFolder(request.output_folder); !status.ok()) return status;
     std::unique_ptr<RunOutput> output(new RunOutput(request, config));
     std::error_code ignored;
@@ -62,9 +78,7 @@ Result<std::unique_ptr<RunOutput>> RunOutput::Open(const RunRequest& request,
           output->OpenGrowing("frames.csv", kFramesHeader, output->frames_)})
         if (!status.ok()) return status;
     if (!request.labels.empty())
-        if (Status status = output->OpenGrowing("detections.txt",
-                                                "# stamp class probability xmin ymin xmax ymax; '# "
-                                                "frame STAMP' before each frame looked at\n",
+        if (Status status = output->OpenGrowing("detections.txt", DetectionsHeader(config, classes),
                                                 output->detections_);
             !status.ok())
             return status;

@@ -18,10 +18,11 @@ namespace tessera {
 class RunOutput {
   public:
     // Creates the folder, removes an earlier run's files, and starts the growing ones. run.json
-    // says "unfinished" until Finish.
+    // says "unfinished" until Finish. `classes`: those to label; empty without labels.
     static Result<std::unique_ptr<RunOutput>> Open(const RunRequest& request,
                                                    const RunConfig& config,
-                                                   const SourceInfo& source);
+                                                   const SourceInfo& source,
+                                                   const LabelClasses& classes);
 
     // Adds a line to frames.csv, and to trajectory.txt if the frame was tracked. Flushes both.
     Status AddFrame(const FrameReport& report, double decode_ms, double frame_ms);

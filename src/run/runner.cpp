@@ -116,7 +116,8 @@ Status Runner::Begin() {
 }
 
 Status Runner::OpenOutput() {
-    Result<std::unique_ptr<RunOutput>> output = RunOutput::Open(request_, config_, summary_.source);
+    Result<std::unique_ptr<RunOutput>> output =
+        RunOutput::Open(request_, config_, summary_.source, class_names_);
     if (!output.ok()) return output.status();
     output_ = std::move(output.value());
     return output_->AddPath(estimate_);

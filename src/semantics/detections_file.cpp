@@ -1,62 +1,34 @@
 #include "semantics/detections_file.h"
 
-#include <algorithm>
 #include <cmath>
 #include <set>
-#include <sstream>
 
-#include "io/file.h"
+#include "io/detections_text.h"
 
 namespace tessera {
 namespace {
 
-constexpr std::size_t kMaxFileBytes = std::size_t{1} << 30;
 constexpr double kSameTime_s = 0.002;
-constexpr float kFarthestPixel = 1e6f;
-
-// Returns what is wrong with the line, or an empty string.
-std::string ParseLine(const std::string& line, double& stamp_s, Detection& d) {
-    std::istringstream words(line);
-    std::string rest;
-    DetectionBox& b = d.box;
-    if (!(words >> stamp_s >> d.name >> d.probability >> b.x_min >> b.y_min >> b.x_max >>
-          b.y_max) ||
-        words >> rest)
-        return "expected 'stamp class probability xmin ymin xmax ymax'";
-    if (!std::isfinite(stamp_s)) return "the stamp is not finite";
-    if (!(d.probability >= 0 && d.probability <= 1))
-        return fmt::format("probability {} is not in [0, 1]", d.probability);
-    for (const float pixel : {b.x_min, b.y_min, b.x_max, b.y_max})
-        if (!(std::abs(pixel) <= kFarthestPixel))
-            return fmt::format("pixel {} is out of range", pixel);
-    if (b.Area() <= 0) return "the box is empty: xmax < xmin or ymax < ymin";
-    return {};
-}
 
 }  // namespace
 
 Result<std::unique_ptr<DetectionsFile>> DetectionsFile::Read(const std::string& path) {
-    const Result<std::string> text = ReadWholeFile(path, kMaxFileBytes);
-    if (!text.ok()) return text.status();
-    auto file = std::make_unique<DetectionsFile>();
-    std::set<std::string> names;
-    std::istringstream lines(text.value());
-    int number = 0;
-    for (std::string line; std::getline(lines, line);) {
-        ++number;
-        line.resize(std::min(line.find('#'), line.size()));
-        if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
-        double stamp_s = 0;
-        Detection detection;
-        if (const std::string why = ParseLine(line, stamp_s, detection); !why.empty())
-            return Status::Error(fmt::format("{}:{}: {}", path, number, why));
-        names.insert(detection.name);
-        file->by_stamp_[stamp_s].push_back(std::move(detection));
-    }
-    if (names.empty())
+    Result<DetectionRows> read = ReadDetectionRows(path);
+    if (!read.ok()) return read.status();
+    if (read.value().rows.empty())
         return Status::Error(path +
                              ": contains no detections; expected lines 'stamp class probability "
                              "xmin ymin xmax ymax'");
+    auto file = std::make_unique<DetectionsFile>();
+    std::set<std::string> names;
+    for (const DetectionRow& row : read.value().rows) {
+        Detection detection;
+        detection.name = row.name;
+        detection.probability = row.probability;
+        detection.box = row.box;
+        names.insert(row.name);
+        file->by_stamp_[row.stamp_s].push_back(std::move(detection));
+    }
     file->names_.assign(names.begin(), names.end());
     return file;
 }

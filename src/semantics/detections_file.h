@@ -1,5 +1,4 @@
-// Precomputed detections, as in [D18]: lines "stamp class probability xmin ymin xmax ymax" with
-// inclusive pixel bounds. "_" stands for a blank in a class name; '#' starts a comment.
+// Precomputed detections, as in [D18], from a file (io/detections_text.h has its form).
 #pragma once
 
 #include <map>

@@ -6,18 +6,6 @@
 
 namespace tessera {
 
-float DetectionBox::Area() const {
-    const float width = x_max - x_min + 1, height = y_max - y_min + 1;
-    return width > 0 && height > 0 ? width * height : 0.0f;
-}
-
-float BoxOverlap(const DetectionBox& a, const DetectionBox& b) {
-    const DetectionBox both{std::max(a.x_min, b.x_min), std::max(a.y_min, b.y_min),
-                            std::min(a.x_max, b.x_max), std::min(a.y_max, b.y_max)};
-    const float common = both.Area(), all = a.Area() + b.Area() - common;
-    return all > 0 ? common / all : 0.0f;
-}
-
 PixelBox PixelsOf(const DetectionBox& box, int width, int height) {
     const auto whole = [](float value, int end) {
         return std::isfinite(value) ? static_cast<int>(std::lround(

@@ -8,19 +8,10 @@
 
 #include "core/frame.h"
 #include "core/status.h"
+#include "io/detections_text.h"
 #include "semantics/label_config.h"
 
 namespace tessera {
-
-// In pixels of the frame's images, inclusive at both ends.
-struct DetectionBox {
-    float x_min = 0, y_min = 0, x_max = 0, y_max = 0;
-
-    float Area() const;  // 0 if the box is empty
-    bool operator==(const DetectionBox&) const = default;
-};
-// Intersection over union, [0, 1].
-float BoxOverlap(const DetectionBox& a, const DetectionBox& b);
 
 struct Detection {
     std::string name;       // the detector's name of the class

@@ -12,6 +12,7 @@
 #include "core/config.h"
 #include "core/image.h"
 #include "core/status.h"
+#include "io/detections_text.h"
 
 namespace tessera {
 
@@ -74,6 +75,9 @@ class LabelClasses {
     // True for classes of labels.dynamic, by the same name rules. They are kept out of the map and
     // its labels.
     bool IsDynamic(const std::string& detector_name) const;
+    // False if the detector has no name for this class, as far as `known` says, or if the class is
+    // dynamic.
+    bool CanBeFound(int id) const;
 
     int count() const { return static_cast<int>(names_.size()) - 1; }
     // `id` in [0, count].
@@ -87,8 +91,9 @@ class LabelClasses {
     std::vector<std::string> names_{""};
     std::vector<Rgb8> colours_{Rgb8{90, 90, 90}};
     std::map<std::string, int> ids_;
-    std::map<std::string, std::string> aliases_;
+    ClassAliases aliases_;
     std::set<std::string> dynamic_;
+    std::set<int> known_ids_;  // empty: all
 };
 
 using ClassSet = std::bitset<LabelClasses::kMost + 1>;  // by number

@@ -7,13 +7,6 @@
 namespace tessera {
 namespace {
 
-TEST(BoxOverlap, OfInclusivePixels) {
-    EXPECT_FLOAT_EQ(BoxOverlap({0, 0, 9, 9}, {0, 0, 9, 9}), 1);
-    EXPECT_FLOAT_EQ(BoxOverlap({0, 0, 9, 9}, {5, 0, 14, 9}), 50.0f / 150);
-    EXPECT_FLOAT_EQ(BoxOverlap({0, 0, 9, 9}, {10, 0, 19, 9}), 0);
-    EXPECT_FLOAT_EQ(BoxOverlap({0, 0, -5, -5}, {0, 0, -5, -5}), 0);
-}
-
 TEST(PixelsOf, AnyNumbers) {
     const PixelBox box = PixelsOf({-5, 2.4f, 700, 3.6f}, 640, 480);
     EXPECT_EQ(box.x_begin, 0);

@@ -69,5 +69,32 @@ TEST(LabelConfig, InputMustFitTheStrides) {
     EXPECT_TRUE(config.Validate().ok());
 }
 
+// Any detector's names can become ours, also names with blanks and several for one class.
+TEST(LabelClasses, NamesOfAnotherDetector) {
+    LabelConfig config;
+    config.classes = "cup keyboard";
+    config.aliases = "coffee_mug=cup mug=cup computer_key_board=keyboard";
+    const std::vector<std::string> known = {"coffee mug", "mug", "computer key board", "pen"};
+    const auto classes = LabelClasses::Make(config, known);
+    ASSERT_TRUE(classes.ok()) << classes.message();
+    EXPECT_EQ(classes.value().IdOf("coffee mug"), 1);
+    EXPECT_EQ(classes.value().IdOf("mug"), 1);
+    EXPECT_EQ(classes.value().IdOf("computer key board"), 2);
+    EXPECT_EQ(classes.value().IdOf("pen"), 0);
+    config.classes = "all";
+    EXPECT_EQ(LabelClasses::Make(config, known).value().count(), 3);
+}
+
+TEST(LabelClasses, WhatTheDetectorCanFind) {
+    LabelConfig config;
+    config.classes = "cup computer book person";
+    const LabelClasses classes = LabelClasses::Make(config, {"cup", "tv", "person"}).value();
+    EXPECT_TRUE(classes.CanBeFound(1));
+    EXPECT_TRUE(classes.CanBeFound(2));   // as tv
+    EXPECT_FALSE(classes.CanBeFound(3));  // it has no books
+    EXPECT_FALSE(classes.CanBeFound(4));  // dynamic
+    EXPECT_TRUE(LabelClasses::Make(config, {}).value().CanBeFound(3));
+}
+
 }  // namespace
 }  // namespace tessera

@@ -11,6 +11,7 @@
 #include <set>
 #include <sstream>
 
+#include "eval/detection_run.h"
 #include "eval/label_scores.h"
 #include "run/run.h"
 #include "support/temp_folder.h"
@@ -115,6 +116,12 @@ TEST_P(SyntheticDesk, IsLabelledDespiteMistakes) {
     EXPECT_GT(scores.accuracy, GetParam().least_accuracy) << LabelScoresText(scores);
     EXPECT_EQ(scores.instances.size(), 11u);
     EXPECT_LE(scores.found_objects, 11);
+    const auto detector = EvaluateDetections(folder / "truth", folder / "run", {}, 0.5);
+    ASSERT_TRUE(detector.ok()) << detector.message();
+    EXPECT_EQ(detector.value().images, 60);
+    EXPECT_NEAR(detector.value().all.Recall(), (1 - GetParam().missed) * (1 - GetParam().wrong),
+                0.05)
+        << DetectionScoresText(detector.value());
     std::set<int> found;
     for (const InstanceScore& i : scores.instances)
         if (i.right_class) found.insert(i.found);
