@@ -6,6 +6,7 @@ from .bylow import commands
 from .document import Document, number, ratio
 from .figures import ATE_PROTOCOL, PART_NOTE, STAND_IN_NOTE, Run, used
 from .jobs import Job
+from .network import network_tables
 from .papers import (D18_TABLE1, D18_TABLE1_RMSE_PERCENT_OF_WAY, D18_TABLE2, D18_TABLE2_SYSTEMS, D18_TABLE4,
                      D18_TABLE5, PUBLISHED_ELSEWHERE)
 from .sources import frames, rows, run, synthetic
@@ -114,10 +115,14 @@ def table4(bench):
          [[rule, f"{100 * s['accuracy']:.2f} %", f"{100 * s['object_accuracy']:.1f} %", number(s["mean_iou"], 3),
            f"{s['found_objects']} of {len(s['instances'])}", f"{s['precision_25']:.2f}, {s['recall_25']:.2f}",
            number(100 * (s["centroid_error_mean_m"] or math.nan), 2)] for rule, s in scores.items()])]
+    tables, made = network_tables(bench)
+    document.tables += tables
+    if not tables:
+        document.notes.append("A network's rows need --labels MODEL (scripts/fetch_models.sh).")
     document.protocol = ["`tessera eval labels` against the scene's true classes and instances. Pt: share of "
                          "detections in the frames that show the object with over 400 pixels. Pc: share of correct "
                          "classes in those."]
-    document.commands = commands(bench, jobs.values())
+    document.commands = commands(bench, [*jobs.values(), *made])
     return document
 
 
