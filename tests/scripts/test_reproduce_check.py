@@ -152,7 +152,7 @@ class OneProgram(Folder):
         exec(compile((ROOT / "scripts/reproduce").read_text(), "reproduce", "exec"), reproduce.__dict__)
         reproduce.TABLES = {"a": lambda _: Document("Table A"), "b": lambda _: Document("Table B")}
         with contextlib.redirect_stdout(io.StringIO()):
-            reproduce.write_all(types.SimpleNamespace(out=self.root, version="tessera 1, sha256 aa", sample=WHOLE))
+            reproduce.write_all(types.SimpleNamespace(only=(), out=self.root, version="tessera 1, sha256 aa", sample=WHOLE))
         text = (self.root / index.FILE).read_text()
         self.assertIn("by one program: tessera 1, sha256 aa.", text)
         self.assertIn("| [b](b.md) | Table B |\n", text)
