@@ -20,6 +20,9 @@ struct Detection {
     DetectionBox box;
     // Over the whole pixels of the box (PixelsOf), 1 = object. Empty if the detector gives no mask.
     Image<std::uint8_t> mask;
+    // Describes what the object looks like, for open vocabularies: any length, the same for all
+    // detections of a detector. Empty if the detector gives none.
+    std::vector<float> embedding = {};
 };
 
 struct PixelBox {

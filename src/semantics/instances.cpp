@@ -157,6 +157,7 @@ void Instances::Update(InstanceId id, const ObservedObject& observed, int visibl
     r.box.extend(observed.box);
     r.area_m2 += observed.area_m2;
     AddMarks({observed.mark}, r);
+    AddEmbedding(observed.embedding, observed.probability, r);
 }
 
 // Confirms an instance after enough observations. Drops it if it is in view often enough without.
@@ -234,6 +235,7 @@ void Instances::Join(InstanceId a, InstanceId b) {
     kept.box.extend(gone.box);
     kept.area_m2 += gone.area_m2;
     AddMarks(gone.marks, kept);
+    AddEmbedding(gone.embedding, 1.0, kept);
     if (kept.number_before == 0) kept.number_before = gone.number_before;
     gone.merged_into = a;
 }

@@ -34,8 +34,9 @@ struct ObservedObject {
     Eigen::AlignedBox2d image_box = {};  // the detector's box, pixels
     // Those of `pixels` that no smaller detection claims.
     int own_pixels = 0;
-    double area_m2 = 0;      // of the sampled pixels, as if seen face on
-    std::uint64_t mark = 0;  // identifies this detection
+    double area_m2 = 0;                  // of the sampled pixels, as if seen face on
+    std::uint64_t mark = 0;              // identifies this detection
+    std::vector<double> embedding = {};  // the detection's
 };
 
 // What the predicted view shows of an instance.
@@ -57,7 +58,8 @@ struct InstanceRecord {
     // The smallest marks of its detections, increasing. A sample that does not depend on their
     // order.
     std::vector<std::uint64_t> marks;
-    int number_before = 0;  // set by KeepNumbersOf; becomes public_id on confirmation
+    int number_before = 0;          // set by KeepNumbersOf; becomes public_id on confirmation
+    std::vector<double> embedding;  // sum over its detections, weighted by their probability
 };
 
 // Owner thread only.
@@ -103,6 +105,9 @@ class Instances {
     int ClassOf(InstanceId id) const;
     // Mean probability of the detections of that class, times their share of all detections.
     double Probability(InstanceId id) const;
+    // Mean of its detections' embeddings, weighted by their probability, of length 1. Empty if no
+    // detection had one.
+    std::vector<float> Embedding(InstanceId id) const;
     void SaveState(StateWriter& state) const;
     bool LoadState(StateReader& state);
     InstanceId last() const { return static_cast<InstanceId>(records_.size() - 1); }
@@ -124,6 +129,11 @@ class Instances {
                         const std::map<InstanceId, VisibleObject>& visible,
                         const std::vector<InstanceId>& match);
     void Join(InstanceId a, InstanceId b);
+    static void AddEmbedding(const std::vector<double>& embedding, double weight,
+                             InstanceRecord& record);
+    // At the end of the state, and only if there are any: older programs wrote none.
+    void SaveEmbeddings(StateWriter& state) const;
+    static bool LoadEmbeddings(StateReader& state, std::vector<InstanceRecord>& records);
     static void AddMarks(const std::vector<std::uint64_t>& marks, InstanceRecord& record);
 
     Config config_;

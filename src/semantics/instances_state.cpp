@@ -35,6 +35,7 @@ void Instances::SaveState(StateWriter& state) const {
         state.Put(evidence.apart);
     }
     state.Put(last_public_);
+    SaveEmbeddings(state);
 }
 
 bool Instances::LoadState(StateReader& state) {
@@ -77,7 +78,9 @@ bool Instances::LoadState(StateReader& state) {
         if (pair.first >= records.size() || pair.second >= records.size()) return false;
         evidence[pair] = found;
     }
-    if (!state.Get(last_public_) || !state.at_end()) return false;
+    int last_public = 0;
+    if (!state.Get(last_public) || !LoadEmbeddings(state, records)) return false;
+    last_public_ = last_public;
     records_ = std::move(records);
     evidence_ = std::move(evidence);
     return true;

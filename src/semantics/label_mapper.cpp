@@ -152,6 +152,8 @@ std::vector<ObservedObject> LabelMapper::Observe(std::span<const Detection> dete
         observed[i].class_id = detections[i].class_id;
         observed[i].probability = detections[i].probability;
         observed[i].mark = MarkOf(detections[i]);
+        observed[i].embedding.assign(detections[i].embedding.begin(),
+                                     detections[i].embedding.end());
         observed[i].box = BoxWithoutStrays(points[i]);
         const DetectionBox& box = detections[i].box;
         observed[i].image_box = {Eigen::Vector2d(box.x_min, box.y_min),

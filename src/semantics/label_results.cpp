@@ -153,6 +153,7 @@ std::vector<MapObject> LabelMapper::Objects(double voxel_size_m, TriangleMesh& l
         object.colour = classes_.colour(object.class_id);
         object.probability = instances_.Probability(id);
         object.observations = instances_.record(id).observations;
+        object.embedding = instances_.Embedding(id);
         objects.push_back(std::move(object));
         least_m2[objects.back().id] =
             std::max(kLeastArea_m2, kLeastSeenShare * instances_.SeenArea_m2(id));

@@ -116,6 +116,7 @@ std::string ObjectsJson(const std::vector<MapObject>& objects) {
              {"obb_centre", Rounded(o.T_world_oriented.translation())},
              {"obb_size", Rounded(o.oriented_size)},
              {"obb_quaternion_xyzw", {q.x(), q.y(), q.z(), q.w()}}});
+        if (!o.embedding.empty()) list.back()["embedding"] = o.embedding;
     }
     return list.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }

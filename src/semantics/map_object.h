@@ -25,6 +25,7 @@ struct MapObject {
     // Centre and axes of the oriented box.
     Eigen::Isometry3d T_world_oriented = Eigen::Isometry3d::Identity();
     Eigen::Vector3d oriented_size = Eigen::Vector3d::Zero();
+    std::vector<float> embedding;  // of length 1; empty if the detector gives none
 };
 
 // Fills centroid, boxes and vertex count of object `id` from the vertices with that instance. The

@@ -40,6 +40,7 @@ MapObject ToObject(const Json& json) {
                                                      q.at(1).get<double>(), q.at(2).get<double>())
                                       .normalized()
                                       .toRotationMatrix();
+    if (json.contains("embedding")) o.embedding = json.at("embedding").get<std::vector<float>>();
     return o;
 }
 

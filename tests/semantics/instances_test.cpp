@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
+
 #include "semantics/observed_objects.h"
 
 namespace tessera {
@@ -150,6 +153,51 @@ TEST(Instances, GoOnFromASavedState) {
     for (std::size_t size = 0; size < bytes.size(); ++size) {
         StateReader cut(std::span<const std::uint8_t>(bytes).first(size));
         EXPECT_FALSE(Instances({}).LoadState(cut)) << size;
+    }
+}
+
+ObservedObject SeenLike(std::map<InstanceId, int> overlaps, std::vector<double> embedding,
+                        float probability) {
+    ObservedObject o = Seen(5, std::move(overlaps));
+    o.probability = probability;
+    o.embedding = std::move(embedding);
+    return o;
+}
+
+TEST(Instances, AnEmbeddingIsTheWeightedMeanOfItsDetections) {
+    Instances instances({});
+    const InstanceId id = instances.Match({SeenLike({}, {1, 0, 0}, 1.0f)}, {})[0];
+    EXPECT_EQ(instances.Embedding(id), (std::vector<float>{1, 0, 0}));
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    for (const std::vector<double>& embedding :
+         {std::vector<double>{0, 8, 0}, {}, {1, 2}, {nan, 0, 0}})
+        ASSERT_EQ(instances.Match({SeenLike({{id, 90}}, embedding, 0.5f)}, {{id, {95}}})[0], id);
+    // (1, 0, 0) + 0.5 (0, 8, 0); the others have no length of 3, or are not finite.
+    const std::vector<float> mean = instances.Embedding(id);
+    ASSERT_EQ(mean.size(), 3u);
+    EXPECT_NEAR(mean[0], 1 / std::sqrt(17.0), 1e-6);
+    EXPECT_NEAR(mean[1], 4 / std::sqrt(17.0), 1e-6);
+}
+
+TEST(Instances, EmbeddingsAreSavedAndAnOlderStateHasNone) {
+    Instances instances({}), older({});
+    const InstanceId id = instances.Match({SeenLike({}, {3, 4}, 1.0f), Seen(7)}, {})[0];
+    older.Match({Seen(5), Seen(7)}, {});
+    std::vector<std::uint8_t> bytes, older_bytes;
+    StateWriter writer(bytes), older_writer(older_bytes);
+    instances.SaveState(writer);
+    older.SaveState(older_writer);
+    EXPECT_LT(older_bytes.size(), bytes.size());
+    Instances resumed({});
+    StateReader reader(bytes), older_reader(older_bytes);
+    ASSERT_TRUE(resumed.LoadState(reader));
+    EXPECT_EQ(resumed.Embedding(id), (std::vector<float>{0.6f, 0.8f}));
+    ASSERT_TRUE(resumed.LoadState(older_reader));
+    EXPECT_TRUE(resumed.Embedding(id).empty());
+    // Cut anywhere but where an older state ends, it is refused.
+    for (std::size_t size = 0; size < bytes.size(); ++size) {
+        StateReader cut(std::span<const std::uint8_t>(bytes).first(size));
+        EXPECT_EQ(Instances({}).LoadState(cut), size == older_bytes.size()) << size;
     }
 }
 

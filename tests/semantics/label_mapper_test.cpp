@@ -33,6 +33,7 @@ class LabelMapperTest : public ::testing::Test {
         d.probability = 0.9f;
         d.box = {40, 30, 39.0f + static_cast<float>(width), 89};
         d.mask = Image<std::uint8_t>(width, 60, 1);
+        d.embedding = {0.0f, 2.0f};
         mapper->Label({&d, 1}, depth, Eigen::Isometry3d::Identity(), map);
     }
     std::vector<Rgb8> ColoursOf(BlockId id) const {
@@ -114,6 +115,7 @@ TEST_F(LabelMapperTest, LabelledVerticesAreThoseOfTheObject) {
     const auto objects = mapper->Objects(0.01, labelled);
     ASSERT_EQ(objects.size(), 1u);
     EXPECT_EQ(objects[0].observations, 10);
+    EXPECT_EQ(objects[0].embedding, (std::vector<float>{0, 1}));
     EXPECT_EQ(objects[0].vertices, CountOf(kCup));
     // The centre of columns 40 to 119 and rows 30 to 89.
     EXPECT_NEAR(objects[0].centroid.x(), 0, 0.006);

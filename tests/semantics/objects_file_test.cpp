@@ -18,6 +18,7 @@ MapObject Cup() {
     o.T_world_oriented =
         Eigen::Translation3d(1, 2, 3) * Eigen::AngleAxisd(0.5, Eigen::Vector3d::UnitZ());
     o.oriented_size = {0.1, 0.2, 0.3};
+    o.embedding = {0.6f, -0.8f};
     return o;
 }
 
@@ -48,7 +49,15 @@ TEST(ObjectsFile, ReadsWhatWasWritten) {
     EXPECT_TRUE(o.centroid.isApprox(cup.centroid));
     EXPECT_TRUE(o.box.isApprox(cup.box));
     EXPECT_TRUE(o.oriented_size.isApprox(cup.oriented_size));
+    EXPECT_EQ(o.embedding, cup.embedding);
     EXPECT_TRUE(o.T_world_oriented.isApprox(cup.T_world_oriented, 1e-9));
+}
+
+TEST(ObjectsFile, AnEmbeddingIsThereOnlyIfTheDetectorGivesOne) {
+    MapObject cup = Cup();
+    EXPECT_NE(ObjectsJson({cup}).find("embedding"), std::string::npos);
+    cup.embedding.clear();
+    EXPECT_EQ(ObjectsJson({cup}).find("embedding"), std::string::npos);
 }
 
 TEST(ObjectsFile, WhatIsNoneIsOneLine) {
