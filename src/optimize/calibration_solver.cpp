@@ -144,12 +144,12 @@ Status Solve(ceres::Problem& problem) {
 
 Result<CalibrationEstimate> Solver::Run() {
     constexpr int kRounds = 6;
-    constexpr std::size_t kLeastPairs = 2000;
+    constexpr std::size_t kFewestPairs = 2000;
     CalibrationEstimate estimate;
     for (int round = 0; round < kRounds; ++round) {
         pairs_ =
             FindPlanePairs(problem_.camera, problem_.views, problem_.edges, Poses(), unknowns_);
-        if (pairs_.size() < kLeastPairs)
+        if (pairs_.size() < kFewestPairs)
             return Status::Error(
                 "calibration: keeping the given values, too little was seen from two places");
         if (round == 0) estimate.rms_before_m = Rms_m();
