@@ -23,7 +23,7 @@ FrameMotion Moving() {
 
 bool Same(const std::vector<float>& values, const std::vector<float>& others) {
     return values.size() == others.size() &&
-           std::memcmp(values.data(), others.data(), 4 * values.size()) == 0;
+           (values.empty() || std::memcmp(values.data(), others.data(), 4 * values.size()) == 0);
 }
 
 void ExpectSame(const FramePoints& points, const FramePoints& expected) {
