@@ -13,6 +13,10 @@ namespace {
 constexpr double kDeviations = 6;
 // Shares of the focal length and of the image width.
 constexpr double kFocalFloor = 0.0125, kCentreFloor = 0.006;
+// No calibration is this far off, as a share of the focal length. An estimate that is comes from a
+// recording whose only texture is shading, which moves with the camera (a bare corner: 430 +- 1.8
+// px for 525).
+constexpr double kFocalCeiling = 0.1;
 constexpr double kReadoutFloor_s = 0.002;  // at 1 rad/s half a pixel at the image border
 constexpr double kUsefulFocal = 0.02;      // largest sigma, as a share of the focal length
 
@@ -23,8 +27,9 @@ bool Beyond(double difference, double sigma, double floor) {
 }  // namespace
 
 bool CameraEstimate::focal_shown() const {
-    return misfit_found < misfit_given &&
-           Beyond(found.fx - given.fx, focal_sigma_px, kFocalFloor * given.fx);
+    const double difference = found.fx - given.fx;
+    return misfit_found < misfit_given && std::abs(difference) < kFocalCeiling * given.fx &&
+           Beyond(difference, focal_sigma_px, kFocalFloor * given.fx);
 }
 
 bool CameraEstimate::centre_shown() const {
