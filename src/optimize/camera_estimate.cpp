@@ -27,9 +27,13 @@ bool Beyond(double difference, double sigma, double floor) {
 }  // namespace
 
 bool CameraEstimate::focal_shown() const {
-    const double difference = found.fx - given.fx;
-    return misfit_found < misfit_given && std::abs(difference) < kFocalCeiling * given.fx &&
-           Beyond(difference, focal_sigma_px, kFocalFloor * given.fx);
+    return misfit_found < misfit_given &&
+           Beyond(found.fx - given.fx, focal_sigma_px, kFocalFloor * given.fx);
+}
+
+bool CameraEstimate::shown() const {
+    return std::abs(found.fx - given.fx) < kFocalCeiling * given.fx &&
+           (focal_shown() || centre_shown());
 }
 
 bool CameraEstimate::centre_shown() const {

@@ -22,7 +22,8 @@ struct CameraEstimate {
     // wrong.
     bool focal_shown() const;
     bool centre_shown() const;
-    bool shown() const { return focal_shown() || centre_shown(); }
+    // True if one of them is, unless the focal length is too far off to be believed.
+    bool shown() const;
     // True if the read-out time differs from the given one.
     bool shutter_shown(double given_readout_s) const;
     // True if the estimate is good enough to use when nothing is known about the camera.

@@ -155,7 +155,9 @@ TEST(CameraEstimate, IsBelievedBeyondItsDeviationsAndItsFloorOnly) {
     estimate.found.fx = 1.05 * kCamera.fx;
     EXPECT_TRUE(estimate.focal_shown());
     estimate.found.fx = 0.89 * kCamera.fx;  // no calibration is this far off
+    estimate.found.cx += 20;                // and this is not to be believed either
     EXPECT_FALSE(estimate.shown());
+    estimate.found = kCamera;
     estimate.found.fx = 1.05 * kCamera.fx;
     estimate.focal_sigma_px = 3;  // the change is 4.5 standard deviations
     EXPECT_FALSE(estimate.shown());
