@@ -63,6 +63,10 @@ Status Configure(const Arguments& a, RunConfig& config) {
             if (Status status = parameters.Set("tracking.photometric.alpha", a.alpha); !status.ok())
                 return Status::Error("--alpha: " + status.message());
     }
+    if (a.loop_closure == "on" && !a.request.poses_file.empty())
+        return Status::Error(
+            "--loop-closure on: not possible with --poses, which already gives the poses; leave "
+            "one of the two out");
     if (!a.loop_closure.empty())
         if (Status status =
                 parameters.Set("loops.enabled", a.loop_closure == "on" ? "true" : "false");
@@ -176,7 +180,8 @@ void AddLabelsAndLoops(CLI::App& command, Arguments& a) {
     command
         .add_option("--loop-closure", a.loop_closure,
                     "Close loops: correct path and map when the camera returns to a known place, "
-                    "and relocalise after tracking is lost; sets loops.enabled (default off)")
+                    "and relocalise after tracking is lost; sets loops.enabled (default on; off "
+                    "with --poses)")
         ->check(CLI::IsMember({"on", "off"}));
     command.add_flag("--view", a.view,
                      "Open a window; without a display the run continues without one");

@@ -136,7 +136,9 @@ def short(sequence):
 
 
 def run(bench, sequence, label, *options):
-    """The job that runs `tessera run` on a sequence. `label` identifies its settings."""
+    """The job that runs `tessera run` on a sequence, as the papers do without loop closure unless an option says
+    otherwise. `label` identifies its settings."""
     name = f"runs/{sequence.name}/{label}"
-    return Job(name, ("run", sequence.path, *sequence.options, *options, "--out", str(bench.folder(name))),
+    loops = () if "--loop-closure" in options else ("--loop-closure", "off")
+    return Job(name, ("run", sequence.path, *sequence.options, *options, *loops, "--out", str(bench.folder(name))),
                sequence.needs)

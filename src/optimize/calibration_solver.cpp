@@ -69,8 +69,7 @@ class Solver {
 void Solver::Fill(ceres::Problem& problem) {
     constexpr double kDoubt = 10.0, kLoss = 2.0;  // standard deviations
     for (PoseEdge edge : problem_.edges) {
-        edge.sigma_m *= kDoubt;
-        edge.sigma_rad *= kDoubt;
+        edge.root_information /= kDoubt;
         problem.AddResidualBlock(new PriorCost(new EdgePrior{edge}), nullptr, Rotation(edge.from),
                                  Place(edge.from), Rotation(edge.to), Place(edge.to));
     }

@@ -1,6 +1,7 @@
 #include "optimize/frame_store.h"
 
 #include <fmt/format.h>
+#include <tbb/parallel_invoke.h>
 
 #include <algorithm>
 #include <cmath>
@@ -29,12 +30,15 @@ Status FrameStore::Add(const Frame& frame, int keyframe, bool is_keyframe,
                        return static_cast<std::uint16_t>(
                            z * units < 65535.0f ? std::lround(std::max(z, 0.0f) * units) : 0);
                    });
-    encoder_.EncodeDepth(raw_depth_, stored.depth_png);
+    Status encoded;
+    tbb::parallel_invoke([&] { encoder_.EncodeDepth(raw_depth_, stored.depth_png); },
+                         [&] {
+                             if (!frame.colour.empty())
+                                 encoded =
+                                     EncodeJpeg(frame.colour, kJpegQuality, stored.colour_jpeg);
+                         });
+    if (!encoded.ok()) return encoded;
     stored.depth_png.shrink_to_fit();
-    if (!frame.colour.empty())
-        if (Status status = EncodeJpeg(frame.colour, kJpegQuality, stored.colour_jpeg);
-            !status.ok())
-            return status;
     stored.colour_jpeg.shrink_to_fit();
     bytes_ += stored.bytes();
     frames_.push_back(std::move(stored));

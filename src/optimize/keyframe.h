@@ -4,14 +4,29 @@
 
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <optional>
+#include <vector>
 
 #include "core/camera.h"
 #include "core/image.h"
+#include "core/se3.h"
+#include "optimize/dense_view.h"
 #include "optimize/features.h"
 
 namespace tessera {
 
 inline constexpr int kKeyframeReduction = 16;  // of Keyframe::depth_m relative to the image
+
+// What is known about the relative pose of two keyframes that see the same surface.
+struct Overlap {
+    int with = 0;  // the earlier keyframe
+    // By direct alignment of the two views.
+    Eigen::Isometry3d T_with_this_aligned = Eigen::Isometry3d::Identity();
+    // Inverse covariance of a right increment of it, as its residuals have it; ViewAlignment.
+    Matrix6d information = Matrix6d::Zero();
+    // As both were tracked in the same map; empty if this keyframe was tracked elsewhere.
+    std::optional<Eigen::Isometry3d> T_with_this_tracked;
+};
 
 struct Keyframe {
     int id = 0;  // index in the list of keyframes
@@ -24,6 +39,11 @@ struct Keyframe {
     Features features;
     DepthImage depth_m;  // reduced, with camera `view`
     PinholeCamera view;
+    ReducedView reduced;
+    // Standard deviation of the camera's motion while the rows of its frame were read, which an
+    // alignment of the views takes for one pose; 0 for a global shutter.
+    double skew_m = 0, skew_rad = 0;
+    std::vector<Overlap> overlaps;  // with earlier keyframes
     double path_length_m = 0,
            turned_rad = 0;       // distance and rotation that the camera covered before it
     double inlier_fraction = 0;  // TrackResult::inlier_fraction of its frame

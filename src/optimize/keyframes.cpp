@@ -1,5 +1,8 @@
 #include "optimize/keyframes.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "core/se3.h"
 
 namespace tessera {
@@ -47,7 +50,7 @@ bool Keyframes::Wanted(const PreparedFrame& frame, const Eigen::Isometry3d& T_ma
 }
 
 Keyframe& Keyframes::Add(std::int64_t frame_index, double stamp_s, const PreparedFrame& frame,
-                         const TrackResult& track) {
+                         const TrackResult& track, const FrameMotion& motion) {
     Keyframe next;
     next.id = size();
     next.frame_index = frame_index;
@@ -60,6 +63,12 @@ Keyframe& Keyframes::Add(std::int64_t frame_index, double stamp_s, const Prepare
     next.features = ExtractFeatures(frame, camera_, max_features_);
     next.view = camera_.Every(kKeyframeReduction);
     next.depth_m = ReducedDepth(frame.depth_m, kKeyframeReduction);
+    next.reduced = MakeReducedView(frame);
+    // Rows are spread evenly over the read-out.
+    const double spread_s =
+        std::max(motion.depth_readout_s, motion.colour_readout_s) / std::sqrt(12.0);
+    next.skew_rad = spread_s * motion.twist_per_s.head<3>().norm();
+    next.skew_m = spread_s * motion.twist_per_s.tail<3>().norm();
     next.path_length_m = way_m_;
     next.turned_rad = turned_rad_;
     next.inlier_fraction = track.inlier_fraction;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/camera.h"
+#include "core/frame_motion.h"
 #include "mapping/prepared_frame.h"
 #include "optimize/keyframe.h"
 #include "tracking/tracker.h"
@@ -34,8 +35,9 @@ class Keyframes {
     // True if the frame, the last one followed, should become a keyframe.
     bool Wanted(const PreparedFrame& frame, const Eigen::Isometry3d& T_map_camera) const;
     // Sets its T_world_camera from the last keyframe's and their relative pose in the map.
+    // `motion`: while it was captured.
     Keyframe& Add(std::int64_t frame_index, double stamp_s, const PreparedFrame& frame,
-                  const TrackResult& track);
+                  const TrackResult& track, const FrameMotion& motion = {});
     // The map was moved, and the last pose with it; the path continues from there.
     void Move(const Eigen::Isometry3d& T_new_old) { T_map_last_ = T_new_old * T_map_last_; }
 

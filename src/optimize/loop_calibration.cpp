@@ -39,7 +39,7 @@ Status LoopCloser::Calibrate() {
         if (i < 2) continue;
         const Eigen::Isometry3d T_before_i =
             Normalised(keyframes_[i - 2].T_world_camera.inverse() * poses.back());
-        edges.push_back({i - 2, i, T_before_i, kNothing, kNothing, false});
+        edges.push_back({i - 2, i, T_before_i, RootInformation(kNothing, kNothing), false});
     }
     const auto report = RefineCalibration(settings_.camera, views, edges, poses);
     if (!report.ok()) return report.status();

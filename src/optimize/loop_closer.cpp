@@ -13,6 +13,15 @@ namespace {
 
 std::size_t Bytes(double megabytes) { return static_cast<std::size_t>(megabytes * 1e6); }
 
+// True if direct alignment has already found the place: the field check, which costs a hundred
+// times as much, would say the same.
+bool Aligned(const Keyframe& fresh, const Keyframe& old) {
+    constexpr int kBeside = 2;
+    return std::ranges::any_of(fresh.overlaps, [&](const Overlap& overlap) {
+        return std::abs(overlap.with - old.id) <= kBeside;
+    });
+}
+
 }  // namespace
 
 LoopCloser::LoopCloser(const LoopConfig& config, const FieldSettings& settings,
@@ -23,7 +32,8 @@ LoopCloser::LoopCloser(const LoopConfig& config, const FieldSettings& settings,
       make_pager_(std::move(make_pager)),
       keyframes_(settings.camera, config.max_overlap, config.max_features),
       store_(Bytes(config.memory_limit_mb), depth_units_per_m),
-      verifier_(settings, config) {}
+      verifier_(settings, config),
+      overlaps_(settings.camera) {}
 
 void LoopCloser::Resume(Memory memory) {
     keyframes_.Resume(std::move(memory.keyframes));
@@ -47,14 +57,16 @@ std::string LoopCloser::Add(const Frame& frame, const PreparedFrame& prepared,
     std::string news;
     const Eigen::Isometry3d& T_map_camera = track.T_world_camera;
     keyframes_.Follow(T_map_camera);
-    // If the map holds some places twice, or was just replaced, tracking may jump from one surface
-    // to the other. In that case a new keyframe starts here, linked at the pose where the camera
-    // was expected.
+    // Where the map holds a place twice, tracking may jump from one surface to the other. A new
+    // keyframe starts there, so that the frames on both sides can move apart. If the map is known
+    // to be like this, the keyframe is linked at the pose where the camera was expected.
     const std::optional<Eigen::Isometry3d> expected = jumps_.Follow(T_map_camera);
-    const bool jumped = expected && (rebuild_ || swapped_) && !relocalised_at_;
+    const bool jumped = expected && !relocalised_at_;
     const bool keyframe =
         fused && (relocalised_at_ || jumped || keyframes_.Wanted(prepared, T_map_camera));
-    if (keyframe) AddKeyframe(frame, prepared, track, jumped ? *expected : T_map_camera);
+    if (keyframe)
+        AddKeyframe(frame, prepared, track, view.motion,
+                    jumped && outdated() ? *expected : T_map_camera, jumped || outdated());
     if (keyframes_.empty()) return news;
     const Keyframe& last = keyframes_.last();
     AddPassage(frame.stamp_s, T_map_camera);
@@ -63,7 +75,9 @@ std::string LoopCloser::Add(const Frame& frame, const PreparedFrame& prepared,
         store_.Add(prepared.moving ? WithoutMoving(*prepared.moving, frame) : frame, last.id,
                    keyframe, passages_.back().T_keyframe_camera, view);
     if (keyframe && stored.ok()) {
+        if (config_.overlaps) overlaps_.Find(keyframes_, last.id, true);
         news = SeekLoop(last, prepared, view.motion);
+        if (news.empty()) news = SeekDrift(last);
         index_.Add(last.id, last.features.descriptors);
     }
     if (keyframe && rebuild_) {
@@ -87,37 +101,40 @@ void LoopCloser::AddPassage(double stamp_s, const Eigen::Isometry3d& T_map_camer
 }
 
 void LoopCloser::AddKeyframe(const Frame& frame, const PreparedFrame& prepared,
-                             const TrackResult& track, const Eigen::Isometry3d& T_map_expected) {
+                             const TrackResult& track, const FrameMotion& motion,
+                             const Eigen::Isometry3d& T_map_expected, bool doubtful) {
     const bool first = keyframes_.empty();
-    Keyframe& fresh = keyframes_.Add(frame.index, frame.stamp_s, prepared, track);
+    Keyframe& fresh = keyframes_.Add(frame.index, frame.stamp_s, prepared, track, motion);
     if (!first) {
         const int from = relocalised_at_.value_or(fresh.id - 1);
         fresh.T_world_camera = Normalised(keyframes_[from].T_world_camera *
                                           keyframes_[from].T_map_camera.inverse() * T_map_expected);
-        Link(from, fresh.id, T_map_expected);
+        Link(from, fresh.id, T_map_expected, doubtful);
     }
     relocalised_at_.reset();
     swapped_ = false;
 }
 
-void LoopCloser::Link(int from, int to, const Eigen::Isometry3d& T_map_to) {
+void LoopCloser::Link(int from, int to, const Eigen::Isometry3d& T_map_to, bool doubtful) {
     const Keyframe &a = keyframes_[from], &b = keyframes_[to], &before = keyframes_[to - 1];
     // Drift of tracking against the map: a constant per keyframe plus a share of the distance.
-    constexpr double kTwice = 10.0;  // factor where tracking may have jumped
+    constexpr double kDoubtful = 10.0;  // factor where tracking may have jumped
     const double trust =
-        (b.inlier_fraction < config_.min_fit ? 2.0 : 1.0) * (rebuild_ || swapped_ ? kTwice : 1.0);
-    edges_.push_back(
-        {from, to, Normalised(a.T_map_camera.inverse() * T_map_to),
-         trust * (0.002 + 0.01 * std::min(1.0, b.path_length_m - before.path_length_m)),
-         trust * (0.002 + 0.01 * std::min(1.0, b.turned_rad - before.turned_rad)), false});
+        (b.inlier_fraction < config_.min_fit ? 2.0 : 1.0) * (doubtful ? kDoubtful : 1.0);
+    const double sigma_m = 0.002 + 0.01 * std::min(1.0, b.path_length_m - before.path_length_m),
+                 sigma_rad = 0.002 + 0.01 * std::min(1.0, b.turned_rad - before.turned_rad);
+    edges_.push_back({from, to, Normalised(a.T_map_camera.inverse() * T_map_to),
+                      RootInformation(trust * sigma_rad, trust * sigma_m), false});
 }
 
 std::string LoopCloser::SeekLoop(const Keyframe& fresh, const PreparedFrame& prepared,
                                  const FrameMotion& motion) {
     const auto candidates = index_.Query(fresh.features.descriptors, fresh.id - config_.min_gap,
                                          config_.candidates, config_.min_votes);
+    const bool judged = CovarianceFactor(keyframes_).has_value();  // SeekDrift will
     for (const PlaceIndex::Candidate& candidate : candidates) {
         const Keyframe& old = keyframes_[candidate.keyframe];
+        if (judged && Aligned(fresh, old)) continue;
         const FieldVerdict verdict =
             verifier_.VerifyLoop(keyframes_, old, fresh, prepared, motion, store_);
         if (verdict.accepted) return CloseLoop(old, fresh, verdict);
@@ -133,26 +150,15 @@ std::string LoopCloser::CloseLoop(const Keyframe& old, const Keyframe& fresh,
     const Eigen::Isometry3d T_old_new =
         verdict.closed_before ? Normalised(old.T_map_camera.inverse() * fresh.T_map_camera)
                               : verdict.T_old_new;
-    edges_.push_back({old.id, fresh.id, T_old_new, kSigma_m, kSigma_rad, true});
+    edges_.push_back({old.id, fresh.id, T_old_new, RootInformation(kSigma_rad, kSigma_m), true});
     ++loops_;
     const Drift drift = DriftOf(old, fresh, T_old_new, config_.max_drift);
     if (drift.off_m < config_.min_correction_m && drift.off_rad < config_.min_correction_m)
         return {};
-    corrected_ = true;
     if (Status solved = Optimise(); !solved.ok()) return solved.message();
-    return fmt::format("loop closed with frame {}: {:.1f} cm and {:.1f} degrees off",
-                       old.frame_index, 100 * drift.off_m, drift.off_rad * 57.29578);
-}
-
-// On error the keyframes do not move.
-Status LoopCloser::Optimise() {
-    std::vector<Eigen::Isometry3d> poses;
-    for (int i = 0; i < keyframes_.size(); ++i) poses.push_back(keyframes_[i].T_world_camera);
-    if (const auto report = OptimisePoses(edges_, poses); !report.ok()) return report.status();
-    for (int i = 0; i < keyframes_.size(); ++i)
-        keyframes_[i].T_world_camera = poses[static_cast<std::size_t>(i)];
-    moved_ = true;
-    return Status::Ok();
+    corrected_ = true;
+    if (Status solved = OptimiseAgain(); !solved.ok()) return solved.message();
+    return ClosedText(old, drift);
 }
 
 // Returns the place that explains the view best, if it does so much better than all others.

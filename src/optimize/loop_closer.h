@@ -16,6 +16,7 @@
 #include "optimize/keyframes.h"
 #include "optimize/loop_verifier.h"
 #include "optimize/map_rebuild.h"
+#include "optimize/overlaps.h"
 #include "optimize/place_index.h"
 #include "optimize/pose_graph.h"
 
@@ -100,14 +101,22 @@ class LoopCloser {
 
   private:
     void AddKeyframe(const Frame& frame, const PreparedFrame& prepared, const TrackResult& track,
-                     const Eigen::Isometry3d& T_map_expected);
-    void Link(int from, int to, const Eigen::Isometry3d& T_map_to);
+                     const FrameMotion& motion, const Eigen::Isometry3d& T_map_expected,
+                     bool doubtful);
+    void Link(int from, int to, const Eigen::Isometry3d& T_map_to, bool doubtful);
     void AddPassage(double stamp_s, const Eigen::Isometry3d& T_map_camera);
     std::string SeekLoop(const Keyframe& fresh, const PreparedFrame& prepared,
                          const FrameMotion& motion);
     std::string CloseLoop(const Keyframe& old, const Keyframe& fresh, const FieldVerdict& verdict);
+    std::string SeekDrift(const Keyframe& fresh);
+    std::string ClosedText(const Keyframe& old, const Drift& drift) const;
+    // The map in use is about to be replaced, or just was: it may hold places twice.
+    bool outdated() const { return rebuild_ || swapped_; }
+    std::vector<Eigen::Isometry3d> GraphPoses() const;
+    void SetGraphPoses(const std::vector<Eigen::Isometry3d>& T_world_keyframe);
     double MaxDisplacement_m(const std::vector<Eigen::Isometry3d>& T_map_keyframe) const;
     Status Optimise();
+    Status OptimiseAgain();
     Status LoadViews(std::vector<CalibrationView>& views);
     Status Calibrate();
     bool BeginRebuild(double tolerance_m);
@@ -123,6 +132,7 @@ class LoopCloser {
     PlaceIndex index_;
     FrameStore store_;
     LoopVerifier verifier_;
+    OverlapFinder overlaps_;
     std::vector<PoseEdge> edges_;
     std::vector<PathPose> passages_;
     std::unique_ptr<MapRebuild> rebuild_;  // null if the map is up to date

@@ -8,6 +8,9 @@ void LoopConfig::Describe(ConfigParameters& p) {
     p.Add("max_overlap", max_overlap, {0.1, 0.99}, "",
           "add a keyframe when the view shares less than this fraction with the last one; more "
           "keyframes find more loops but cost more time");
+    p.Add("overlaps", overlaps,
+          "align keyframes that see the same surface directly; finds drift that tracking hides by "
+          "sliding onto the old surface");
     p.Add("max_features", max_features, {100, 5000}, "", "ORB features per keyframe");
     p.Add("memory_limit_mb", memory_limit_mb, {10.0, 1e6}, "MB",
           "for the compressed frames from which a corrected map is built; above it every second "

@@ -2,12 +2,14 @@
 #pragma once
 
 #include "core/config.h"
+#include "optimize/pose_graph.h"
 
 namespace tessera {
 
 struct LoopConfig {
-    bool enabled = false;
+    bool enabled = PoseGraphAvailable();
     double max_overlap = 0.8;
+    bool overlaps = true;
     int max_features = 800;
     double memory_limit_mb = 1500;
     int min_gap = 8;

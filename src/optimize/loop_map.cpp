@@ -28,11 +28,8 @@ double LoopCloser::MaxDisplacement_m(const std::vector<Eigen::Isometry3d>& T_map
 bool LoopCloser::BeginRebuild(double tolerance_m) {
     if (rebuild_) return true;
     if (broken_ || !corrected_) return false;
-    std::vector<Eigen::Isometry3d> map, graph;
-    for (int i = 0; i < keyframes_.size(); ++i) {
-        map.push_back(keyframes_[i].T_map_camera);
-        graph.push_back(keyframes_[i].T_world_camera);
-    }
+    std::vector<Eigen::Isometry3d> map, graph = GraphPoses();
+    for (int i = 0; i < keyframes_.size(); ++i) map.push_back(keyframes_[i].T_map_camera);
     if (MaxDisplacement_m(map) < tolerance_m) return false;
     std::unique_ptr<MapPager> pager;
     if (make_pager_) {
@@ -55,7 +52,8 @@ bool LoopCloser::BeginRebuild(double tolerance_m) {
 
 std::optional<LoopCloser::Correction> LoopCloser::Step(int frames) {
     moved_ = false;
-    if (!BeginRebuild(settings_.map.voxel_size_m / 2)) return std::nullopt;
+    // Surfaces closer than that are one surface to tracking; what is left waits for the end.
+    if (!BeginRebuild(settings_.map.truncation_m)) return std::nullopt;
     return StepRebuild(frames);
 }
 
@@ -86,7 +84,7 @@ void LoopCloser::StopRebuilding(const Status& why) {
 
 std::optional<LoopCloser::Correction> LoopCloser::Finish(std::string& note) {
     std::optional<Correction> last;
-    if (corrected_) static_cast<void>(Optimise());  // on error the earlier correction remains
+    if (corrected_ && Optimise().ok()) static_cast<void>(OptimiseAgain());  // else as it was
     if (config_.refine_calibration && !keyframes_.empty()) {
         const FieldSettings given = settings_;
         const Status status = Calibrate();
@@ -99,7 +97,7 @@ std::optional<LoopCloser::Correction> LoopCloser::Finish(std::string& note) {
         }
     }
     if (!corrected_) return last;
-    const double tolerance_m = settings_.map.voxel_size_m / 10;
+    const double tolerance_m = settings_.map.voxel_size_m / 2;
     // Discards a rebuild with outdated poses.
     if (rebuild_ && MaxDisplacement_m(rebuild_->T_world_keyframe()) >= tolerance_m)
         rebuild_.reset();

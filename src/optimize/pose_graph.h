@@ -14,12 +14,18 @@ namespace tessera {
 struct PoseEdge {
     int from = 0, to = 0;
     Eigen::Isometry3d T_from_to = Eigen::Isometry3d::Identity();
-    double sigma_m = 0.01, sigma_rad = 0.01;  // standard deviation along and about each axis
-    bool loop = false;                        // not from consecutive tracking
+    // Square root R of the inverse covariance R^T R of a right increment (rotation, translation).
+    Matrix6d root_information = Matrix6d::Identity();
+    bool loop = false;  // not from consecutive tracking
 };
 
-// Residual of one edge in standard deviations: rotation (twice the vector part of the error
-// quaternion), then translation, of T_from_to^-1 T_world_from^-1 T_world_to.
+// Root of the information of independent increments with these standard deviations about and along
+// each axis.
+Matrix6d RootInformation(double sigma_rad, double sigma_m);
+
+// Residual of one edge in standard deviations: root_information times the error, which is the
+// rotation (twice the vector part of the error quaternion), then the translation, of
+// T_from_to^-1 T_world_from^-1 T_world_to.
 Vector6d EdgeResidual(const PoseEdge& edge, const Eigen::Isometry3d& T_world_from,
                       const Eigen::Isometry3d& T_world_to);
 

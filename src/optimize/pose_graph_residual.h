@@ -23,9 +23,11 @@ void EdgeResidualOf(const PoseEdge& edge, const T* rotation_from, const T* trans
     if (q_error.w() < T(0)) q_error.coeffs() = -q_error.coeffs();
     const Vector t_error =
         edge_inverse * (t_from_to - edge.T_from_to.translation().template cast<T>());
+    Eigen::Matrix<T, 6, 1> error;
+    error.template head<3>() = q_error.vec() * T(2);
+    error.template tail<3>() = t_error;
     Eigen::Map<Eigen::Matrix<T, 6, 1>> r(residual);
-    r.template head<3>() = q_error.vec() * T(2 / edge.sigma_rad);
-    r.template tail<3>() = t_error * T(1 / edge.sigma_m);
+    r = edge.root_information.template cast<T>() * error;
 }
 
 }  // namespace tessera

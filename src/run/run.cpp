@@ -22,10 +22,6 @@ Status CheckLoops(const RunRequest& request, const RunConfig& config) {
         return Status::Error(
             "--loop-closure on: this build has no pose graph; install libceres-dev and build "
             "again");
-    if (!request.poses_file.empty())
-        return Status::Error(
-            "--loop-closure on: not possible with --poses, which already gives the poses; leave "
-            "one of the two out");
     return Status::Ok();
 }
 
@@ -58,7 +54,10 @@ Status CheckRun(const RunRequest& request, const RunConfig& config) {
 
 Result<RunSummary> ExecuteRun(const RunRequest& request, const RunConfig& config,
                               const RunObserver& observer, const std::atomic<bool>& stop) {
-    Runner runner(request, config, observer);
+    RunConfig effective = config;
+    if (!request.poses_file.empty())
+        effective.loops.enabled = false;  // there is nothing to correct
+    Runner runner(request, effective, observer);
     if (config.threads == 0) return runner.Run(stop);
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                     static_cast<std::size_t>(config.threads));

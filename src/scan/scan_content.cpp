@@ -114,6 +114,9 @@ Status ReadStates(ScanFile& file, ScanContent& content) {
         if (edge.from < 0 || edge.to < 0 || edge.from >= keyframes || edge.to >= keyframes ||
             edge.from == edge.to)
             return DamagedScan(file.path(), "loops");
+    for (const Keyframe& keyframe : content.keyframes)
+        for (const Overlap& overlap : keyframe.overlaps)
+            if (overlap.with >= keyframe.id) return DamagedScan(file.path(), "keyframes");
     return Status::Ok();
 }
 

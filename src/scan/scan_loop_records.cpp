@@ -1,4 +1,4 @@
-// Records of frames and of loop closure.
+// Records of frames and of the pose graph.
 #include <algorithm>
 #include <cmath>
 
@@ -127,49 +127,6 @@ bool KeyframePoses::Decode(std::span<const std::uint8_t> bytes) {
     return state.Get(T_map_camera) && state.Get(T_world_camera) && state.at_end();
 }
 
-Bytes EncodeKeyframe(const Keyframe& keyframe) {
-    Bytes bytes;
-    StateWriter state(bytes);
-    state.Put(keyframe.frame_index);
-    state.Put(keyframe.stamp_s);
-    for (const double value :
-         {keyframe.path_length_m, keyframe.turned_rad, keyframe.inlier_fraction})
-        state.Put(value);
-    state.PutArray(std::span<const Descriptor>(keyframe.features.descriptors));
-    static_assert(sizeof(Eigen::Vector3f) == 3 * sizeof(float));
-    state.PutArray(std::span<const float>(
-        keyframe.features.p_camera.empty() ? nullptr : keyframe.features.p_camera[0].data(),
-        3 * keyframe.features.p_camera.size()));
-    state.PutArray(std::span<const float>(keyframe.depth_m.data(), keyframe.depth_m.size()));
-    return bytes;
-}
-
-bool DecodeKeyframe(std::span<const std::uint8_t> bytes, const PinholeCamera& camera,
-                    Keyframe& keyframe) {
-    StateReader state(bytes);
-    std::vector<float> points, depth;
-    state.Get(keyframe.frame_index);
-    state.Get(keyframe.stamp_s);
-    for (double* value : {&keyframe.path_length_m, &keyframe.turned_rad, &keyframe.inlier_fraction})
-        if (!state.Get(*value) || !std::isfinite(*value)) return false;
-    state.GetArray(keyframe.features.descriptors);
-    state.GetArray(points);
-    state.GetArray(depth);
-    keyframe.view = camera.Every(kKeyframeReduction);
-    keyframe.depth_m.Resize(keyframe.view.width, keyframe.view.height);
-    if (!state.at_end() || points.size() != 3 * keyframe.features.size() ||
-        depth.size() != keyframe.depth_m.size())
-        return false;
-    for (const std::vector<float>* values : {&points, &depth})
-        for (const float value : *values)
-            if (!std::isfinite(value)) return false;
-    keyframe.features.p_camera.clear();
-    for (std::size_t i = 0; i < points.size(); i += 3)
-        keyframe.features.p_camera.emplace_back(points[i], points[i + 1], points[i + 2]);
-    std::copy(depth.begin(), depth.end(), keyframe.depth_m.data());
-    return std::isfinite(keyframe.stamp_s);
-}
-
 Bytes LoopProgress::Encode() const {
     Bytes bytes;
     StateWriter state(bytes);
@@ -181,8 +138,7 @@ Bytes LoopProgress::Encode() const {
         state.Put(edge.from);
         state.Put(edge.to);
         state.Put(edge.T_from_to);
-        state.Put(edge.sigma_m);
-        state.Put(edge.sigma_rad);
+        state.Put(edge.root_information);
         state.Put(edge.loop);
     }
     return bytes;
@@ -196,15 +152,27 @@ bool LoopProgress::Decode(std::span<const std::uint8_t> bytes) {
     state.Get(corrected);
     state.Get(count);
     edges.clear();
+    // Format 1 had two standard deviations instead of a matrix.
+    constexpr std::size_t kHeader = 21, kEdgeOfFormat1 = 153;
+    const bool format1 = bytes.size() >= kHeader &&
+                         (bytes.size() - kHeader) / kEdgeOfFormat1 == count &&
+                         (bytes.size() - kHeader) % kEdgeOfFormat1 == 0;
     for (; state.ok() && count > 0; --count) {
         PoseEdge edge;
         state.Get(edge.from);
         state.Get(edge.to);
         state.Get(edge.T_from_to);
-        state.Get(edge.sigma_m);
-        state.Get(edge.sigma_rad);
+        if (format1) {
+            double sigma_m = 0, sigma_rad = 0;
+            state.Get(sigma_m);
+            state.Get(sigma_rad);
+            if (!(sigma_m > 0) || !(sigma_rad > 0)) return false;
+            edge.root_information = RootInformation(sigma_rad, sigma_m);
+        } else {
+            state.Get(edge.root_information);
+        }
         state.Get(edge.loop);
-        if (!state.ok() || !(edge.sigma_m > 0) || !(edge.sigma_rad > 0)) return false;
+        if (!state.ok()) return false;
         edges.push_back(edge);
     }
     return state.at_end() && next_ordinal >= 0 && loops >= 0;

@@ -109,7 +109,9 @@ class Repair {
             KeyframePoses poses;
             if (Load(ScanTable::kPoses, key, row) && poses.Decode(row.data)) poses_[key] = poses;
             whole = whole && Load(ScanTable::kKeyframes, key, row) &&
-                    DecodeKeyframe(row.data, meta_.camera, keyframe);
+                    DecodeKeyframe(row.data, meta_.camera, keyframe) &&
+                    std::ranges::all_of(keyframe.overlaps,
+                                        [&](const Overlap& o) { return o.with < key; });
         }
         for (const PoseEdge& edge : loops_.edges)
             whole = whole && edge.from >= 0 && edge.to >= 0 && edge.from != edge.to &&

@@ -13,7 +13,7 @@ namespace tessera {
 
 inline constexpr std::int32_t kScanApplicationId = 0x54455353;  // "TESS", in the file's header
 // Increment for every change that an older program would read wrongly.
-inline constexpr int kScanVersion = 1;
+inline constexpr int kScanVersion = 2;
 inline constexpr std::size_t kScanPageBytes = 16384;
 inline constexpr std::size_t kMaxRowBytes = std::size_t{64} << 20;  // no valid row is larger
 

@@ -9,9 +9,12 @@ void LoopJournal::Begin(const LoopCloser& closer) {
     next_ordinal_ = closer.store().next_ordinal();
     touched_.clear();
     poses_.clear();
+    overlaps_.clear();
     const Keyframes& keyframes = closer.keyframes();
-    for (int id = 0; id < keyframes.size(); ++id)
+    for (int id = 0; id < keyframes.size(); ++id) {
         poses_.push_back({keyframes[id].T_map_camera, keyframes[id].T_world_camera});
+        overlaps_.push_back(keyframes[id].overlaps.size());
+    }
 }
 
 LoopChanges LoopJournal::Take(const LoopCloser& closer, std::size_t most_frames) {
@@ -34,12 +37,15 @@ LoopChanges LoopJournal::Take(const LoopCloser& closer, std::size_t most_frames)
     for (int id = 0; id < keyframes.size(); ++id) {
         const KeyframePoses poses{keyframes[id].T_map_camera, keyframes[id].T_world_camera};
         const auto at = static_cast<std::size_t>(id);
-        if (at == poses_.size()) {
-            news.keyframes.push_back(keyframes[id]);
+        const std::size_t overlaps = keyframes[id].overlaps.size();
+        const bool fresh = at == poses_.size();
+        if (fresh) {
             poses_.emplace_back();
-        } else if (poses_[at] == poses) {
-            continue;
+            overlaps_.emplace_back();
         }
+        if (fresh || overlaps != overlaps_[at]) news.keyframes.push_back(keyframes[id]);
+        overlaps_[at] = overlaps;
+        if (!fresh && poses_[at] == poses) continue;
         poses_[at] = poses;
         news.poses.emplace_back(id, poses);
     }

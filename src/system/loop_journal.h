@@ -15,7 +15,7 @@ struct LoopChanges {
     std::vector<LoopCloser::PathPose> passages;  // new, in order
     // New frames, and frames whose detections arrived since.
     std::vector<StoredFrame> frames;
-    std::vector<Keyframe> keyframes;                   // new, in order
+    std::vector<Keyframe> keyframes;                   // new, or with new overlaps; in order
     std::vector<std::pair<int, KeyframePoses>> poses;  // of keyframes that are new or have moved
     LoopProgress progress;
 };
@@ -34,6 +34,7 @@ class LoopJournal {
     std::size_t passages_ = 0;
     std::int64_t next_ordinal_ = 0;
     std::vector<KeyframePoses> poses_;   // by keyframe id, as last reported
+    std::vector<std::size_t> overlaps_;  // of each keyframe, as last reported
     std::vector<std::int64_t> touched_;  // frame indices
 };
 

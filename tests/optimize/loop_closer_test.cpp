@@ -37,6 +37,7 @@ TEST(LoopCloser, TakesAFifthOrLessOfTheDriftToTheEndAndTheMapFollows) {
     const std::vector<Frame> frames = Round();
     LoopConfig off;
     off.min_votes = 1000;  // too many votes for any candidate, so no loops
+    off.overlaps = false;
     Walker without(off), with(LoopConfig{});
     WalkWithDrift(frames, without);
     WalkWithDrift(frames, with);
@@ -147,6 +148,8 @@ TEST(LoopCloser, CorrectsToTheSameBytesForAnyNumberOfThreads) {
                                         static_cast<std::size_t>(threads));
         Walker walker(LoopConfig{});
         WalkWithDrift(frames, walker);
+        std::string note;
+        walker.Take(walker.closer.Finish(note));
         EXPECT_GE(walker.corrections, 1);
         paths[threads / 2] = walker.closer.Path();
     }

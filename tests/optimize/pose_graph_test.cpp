@@ -21,7 +21,7 @@ class Square : public testing::Test {
         drifted.push_back(truth[0]);
         for (int i = 0; i < 4; ++i) {
             const Eigen::Isometry3d measured = step * Pose(0, 0, 0.03, 0.05, 0.02, 0);
-            edges.push_back({i, i + 1, measured, 0.02, 0.02, false});
+            edges.push_back({i, i + 1, measured, RootInformation(0.02, 0.02), false});
             drifted.push_back(drifted.back() * measured);
         }
     }
@@ -31,20 +31,21 @@ class Square : public testing::Test {
 
 TEST_F(Square, ResidualIsZeroWhereTheEdgeIsMetAndCountsDeviations) {
     EXPECT_LT(EdgeResidual(edges[1], drifted[1], drifted[2]).norm(), 1e-9);
-    const Vector6d r = EdgeResidual({0, 1, Eigen::Isometry3d::Identity(), 0.5, 0.1, false},
-                                    truth[0], truth[0] * Pose(0, 0, 0.001, 0, 1, 0));
+    const Vector6d r =
+        EdgeResidual({0, 1, Eigen::Isometry3d::Identity(), RootInformation(0.1, 0.5), false},
+                     truth[0], truth[0] * Pose(0, 0, 0.001, 0, 1, 0));
     EXPECT_NEAR(r(2), 0.01, 1e-6);
     EXPECT_NEAR(r(4), 2, 1e-2);
 }
 
 TEST_F(Square, JacobianAgreesWithCentralDifferences) {
-    const PoseEdge edge{0, 1, Pose(0.5, -0.2, 0.8, 1, 2, 3), 0.1, 0.2, false};
+    const PoseEdge edge{0, 1, Pose(0.5, -0.2, 0.8, 1, 2, 3), RootInformation(0.2, 0.1), false};
     EXPECT_LT(EdgeJacobianError(edge, Pose(-0.4, 0.3, 0.2, 1, 0, 2), Pose(0.3, 0.1, 0.9, 2, 2, 4)),
               1e-7);
 }
 
 TEST_F(Square, ALoopBringsTheEndToTheStart) {
-    edges.push_back({0, 4, truth[0].inverse() * truth[4], 0.001, 0.001, true});
+    edges.push_back({0, 4, truth[0].inverse() * truth[4], RootInformation(0.001, 0.001), true});
     const double before = (drifted[4].translation() - truth[4].translation()).norm();
     auto poses = drifted;
     const auto report = OptimisePoses(edges, poses);
@@ -58,7 +59,8 @@ TEST_F(Square, ExactEdgesGiveTheTruthFromAnywhere) {
     edges.clear();
     for (int i = 0; i < 5; ++i)
         for (int j = i + 1; j < 5; ++j)
-            edges.push_back({i, j, truth[i].inverse() * truth[j], 0.01, 0.01, j > i + 1});
+            edges.push_back(
+                {i, j, truth[i].inverse() * truth[j], RootInformation(0.01, 0.01), j > i + 1});
     auto poses = drifted;
     ASSERT_TRUE(OptimisePoses(edges, poses).ok());
     for (int i = 0; i < 5; ++i) EXPECT_LT(Se3Log(poses[i].inverse() * truth[i]).norm(), 1e-6) << i;
@@ -66,9 +68,9 @@ TEST_F(Square, ExactEdgesGiveTheTruthFromAnywhere) {
 
 TEST_F(Square, AWrongLoopAmongRightOnesPullsLittle) {
     for (int i = 0; i < 4; ++i) edges[i].T_from_to = truth[i].inverse() * truth[i + 1];
-    edges.push_back({0, 4, truth[0].inverse() * truth[4], 0.01, 0.01, true});
-    edges.push_back(
-        {1, 4, truth[1].inverse() * truth[4] * Pose(0, 0, 0, 0, 3, 0), 0.01, 0.01, true});
+    edges.push_back({0, 4, truth[0].inverse() * truth[4], RootInformation(0.01, 0.01), true});
+    edges.push_back({1, 4, truth[1].inverse() * truth[4] * Pose(0, 0, 0, 0, 3, 0),
+                     RootInformation(0.01, 0.01), true});
     auto poses = truth;
     ASSERT_TRUE(OptimisePoses(edges, poses).ok());
     EXPECT_LT((poses[4].translation() - truth[4].translation()).norm(), 0.01);
@@ -84,10 +86,11 @@ TEST_F(Square, AJumpOfTrackingAmongLoopsIsNoMotion) {
     for (int i = 0; i + 1 < kPoses; ++i) {
         const Eigen::Isometry3d jump =
             i == kJump ? Pose(0, 0, 0, 0, 0.06, 0) : Eigen::Isometry3d::Identity();
-        edges.push_back({i, i + 1, truth[i].inverse() * truth[i + 1] * jump, 0.003, 0.003, false});
+        edges.push_back({i, i + 1, truth[i].inverse() * truth[i + 1] * jump,
+                         RootInformation(0.003, 0.003), false});
     }
     for (int i = kJump - 3; i <= kJump + 4; ++i)
-        edges.push_back({0, i, truth[0].inverse() * truth[i], 0.01, 0.005, true});
+        edges.push_back({0, i, truth[0].inverse() * truth[i], RootInformation(0.005, 0.01), true});
     auto poses = truth;
     ASSERT_TRUE(OptimisePoses(edges, poses).ok());
     for (int i = 0; i < kPoses; ++i)

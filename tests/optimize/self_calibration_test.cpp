@@ -57,7 +57,8 @@ class SelfCalibration : public testing::Test {
             poses.push_back(T);
             for (int before : {i - 1, i - 2})
                 if (before >= 0)
-                    edges.push_back({before, i, Eigen::Isometry3d::Identity(), 0.01, 0.01, false});
+                    edges.push_back({before, i, Eigen::Isometry3d::Identity(),
+                                     RootInformation(0.01, 0.01), false});
         }
         truth = poses;
         for (PoseEdge& edge : edges)

@@ -153,7 +153,7 @@ TEST(ScanFile, WhatIsNoScanIsRefusedInOneLine) {
         auto database = Database::Open(folder / "c.scan", Database::Access::kWrite);
         ASSERT_TRUE(database.value()->Execute(sql).ok());
     };
-    change("PRAGMA user_version = 2");
+    change("PRAGMA user_version = 3");
     expect(folder / "c.scan", "newer tessera");
     change("PRAGMA application_id = 7");
     expect(folder / "c.scan", "another program");

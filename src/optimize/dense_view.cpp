@@ -1,0 +1,140 @@
+#include "optimize/dense_view.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "optimize/camera_view.h"
+
+namespace tessera {
+namespace {
+
+// A cell whose depths differ by a larger share lies across a discontinuity.
+constexpr float kCellSmooth = 0.04f;
+constexpr float kGrazing = 0.2f;  // cosine between ray and normal
+
+// Axial noise of a structured-light sensor (Nguyen et al. 2012).
+float SigmaOf(float z) { return 0.0012f + 0.0019f * (z - 0.4f) * (z - 0.4f); }
+
+struct Cell {
+    float sum = 0, nearest = 1e9f, farthest = 0, luma = 0;
+    int known = 0, lit = 0;
+
+    void Add(float z, float intensity) {
+        if (z > 0) {
+            sum += z;
+            nearest = std::min(nearest, z);
+            farthest = std::max(farthest, z);
+            ++known;
+        }
+        if (intensity >= 0) {
+            luma += intensity;
+            ++lit;
+        }
+    }
+    float depth_m(int least) const {
+        return known >= least && farthest - nearest < kCellSmooth * nearest
+                   ? sum / static_cast<float>(known)
+                   : 0.0f;
+    }
+    float intensity() const { return lit > 0 ? luma / static_cast<float>(lit) : -1.0f; }
+};
+
+// The cell of n x n pixels at (x, y) of the reduced image. `intensity` may be empty.
+Cell CellAt(const DepthImage& depth_m, const Image<float>& intensity, int n, int x, int y) {
+    Cell cell;
+    for (int j = n * y; j < n * y + n; ++j)
+        for (int i = n * x; i < n * x + n; ++i)
+            cell.Add(depth_m(i, j), intensity.empty() ? -1.0f : intensity(i, j));
+    return cell;
+}
+
+DenseView::Level Halved(const DenseView::Level& fine) {
+    DenseView::Level level;
+    level.camera = Averaged(fine.camera, 2);
+    level.depth_m.Resize(level.camera.width, level.camera.height);
+    level.intensity.Resize(level.camera.width, level.camera.height);
+    for (int y = 0; y < level.camera.height; ++y)
+        for (int x = 0; x < level.camera.width; ++x) {
+            const Cell cell = CellAt(fine.depth_m, fine.intensity, 2, x, y);
+            level.depth_m(x, y) = cell.depth_m(2);
+            level.intensity(x, y) = cell.intensity();
+        }
+    return level;
+}
+
+Eigen::Vector3f PointAt(const DenseView::Level& level, int x, int y) {
+    return level.camera.Unproject(x, y, level.depth_m(x, y)).cast<float>();
+}
+
+// Normal of the plane through the four neighbours; zero at borders, discontinuities and grazing
+// angles.
+Eigen::Vector3f NormalAt(const DenseView::Level& level, int x, int y) {
+    const DepthImage& d = level.depth_m;
+    const float here = d(x, y), left = d(x - 1, y), right = d(x + 1, y), up = d(x, y - 1),
+                down = d(x, y + 1);
+    if (here <= 0 || left <= 0 || right <= 0 || up <= 0 || down <= 0)
+        return Eigen::Vector3f::Zero();
+    const float bend = 0.5f * kCellSmooth * here;
+    if (std::abs(left + right - 2 * here) > bend || std::abs(up + down - 2 * here) > bend)
+        return Eigen::Vector3f::Zero();
+    const Eigen::Vector3f along = PointAt(level, x + 1, y) - PointAt(level, x - 1, y),
+                          across = PointAt(level, x, y + 1) - PointAt(level, x, y - 1);
+    const Eigen::Vector3f normal = across.cross(along).normalized();  // towards the camera
+    return -normal.dot(PointAt(level, x, y).normalized()) > kGrazing ? normal
+                                                                     : Eigen::Vector3f::Zero();
+}
+
+// `step`: every step-th cell in both directions becomes a point.
+void FindPoints(DenseView::Level& level, int step) {
+    level.normal.Resize(level.camera.width, level.camera.height);
+    std::fill_n(level.normal.data(), level.normal.size(), Eigen::Vector3f::Zero());
+    for (int y = 1; y + 1 < level.camera.height; ++y)
+        for (int x = 1; x + 1 < level.camera.width; ++x) {
+            const Eigen::Vector3f normal = NormalAt(level, x, y);
+            level.normal(x, y) = normal;
+            if (x % step == step / 2 && y % step == step / 2 && !normal.isZero())
+                level.points.push_back({PointAt(level, x, y), normal, level.intensity(x, y),
+                                        SigmaOf(level.depth_m(x, y))});
+        }
+}
+
+}  // namespace
+
+ReducedView MakeReducedView(const PreparedFrame& frame) {
+    ReducedView view;
+    const int n = std::max(1, (frame.width + ReducedView::kColumns / 2) / ReducedView::kColumns);
+    view.reduction = n;
+    view.depth.Resize(frame.width / n, frame.height / n);
+    if (frame.has_colour) view.luma.Resize(view.depth.width(), view.depth.height());
+    for (int y = 0; y < view.depth.height(); ++y)
+        for (int x = 0; x < view.depth.width(); ++x) {
+            const Cell cell = CellAt(frame.depth_m, frame.intensity, n, x, y);
+            const float units = cell.depth_m((n * n + 1) / 2) * ReducedView::kUnitsPerM;
+            view.depth(x, y) = static_cast<std::uint16_t>(units < 65535 ? std::lround(units) : 0);
+            if (frame.has_colour)
+                view.luma(x, y) = static_cast<std::uint8_t>(
+                    std::clamp(std::lround(255 * cell.intensity()), 0L, 255L));
+        }
+    return view;
+}
+
+DenseView MakeDenseView(const ReducedView& view, const PinholeCamera& camera) {
+    DenseView dense;
+    DenseView::Level& finest = dense.levels.back();
+    finest.camera = Averaged(camera, view.reduction);
+    finest.depth_m.Resize(view.depth.width(), view.depth.height());
+    finest.intensity.Resize(view.depth.width(), view.depth.height());
+    for (std::size_t i = 0; i < view.depth.size(); ++i) {
+        finest.depth_m.data()[i] =
+            static_cast<float>(view.depth.data()[i]) / ReducedView::kUnitsPerM;
+        finest.intensity.data()[i] =
+            view.luma.empty() ? -1.0f : static_cast<float>(view.luma.data()[i]) / 255.0f;
+    }
+    for (const std::size_t coarse : {1, 0}) dense.levels[coarse] = Halved(dense.levels[coarse + 1]);
+    FindPoints(dense.levels[0], 1);
+    FindPoints(dense.levels[1], 1);
+    FindPoints(dense.levels[2], 2);
+    return dense;
+}
+
+}  // namespace tessera

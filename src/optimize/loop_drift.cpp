@@ -1,0 +1,84 @@
+// Drift that direct alignment shows, and the solution of LoopCloser's pose graph.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "optimize/loop_closer.h"
+
+namespace tessera {
+
+// Corrects the path if direct alignment shows that tracking is off.
+std::string LoopCloser::SeekDrift(const Keyframe& fresh) {
+    const std::optional<double> factor = CovarianceFactor(keyframes_);
+    if (!factor) return {};
+    // Two alignments with older keyframes must say so: one may be wrong, and neighbours in time
+    // show no drift.
+    constexpr int kRecent = 3, kWitnesses = 2;
+    int witnesses = 0;
+    const Keyframe* old = nullptr;
+    Drift drift;
+    for (int id = fresh.id; id > std::max(0, fresh.id - kRecent); --id)
+        for (const Overlap& overlap : keyframes_[id].overlaps) {
+            if (!IsOlder(overlap, id) || !Contradicts(overlap, *factor)) continue;
+            const Drift implied = DriftOf(keyframes_[overlap.with], keyframes_[id],
+                                          overlap.T_with_this_aligned, config_.max_drift);
+            if (!implied.possible || implied.off_m < config_.min_correction_m) continue;
+            ++witnesses;
+            if (implied.off_m <= drift.off_m) continue;
+            old = &keyframes_[overlap.with];
+            drift = implied;
+        }
+    if (old == nullptr || witnesses < kWitnesses) return {};
+    const std::vector<Eigen::Isometry3d> before = GraphPoses();
+    if (Status solved = Optimise(); !solved.ok()) return solved.message();
+    if (!corrected_ && MaxDisplacement_m(before) < config_.min_correction_m) {
+        SetGraphPoses(before);  // nothing that matters: tracking is more accurate
+        return {};
+    }
+    const bool first = !std::exchange(corrected_, true);
+    loops_ += first;
+    if (Status solved = OptimiseAgain(); !solved.ok()) return solved.message();
+    return first ? ClosedText(*old, drift) : std::string();
+}
+
+std::string LoopCloser::ClosedText(const Keyframe& old, const Drift& drift) const {
+    return fmt::format("loop closed with frame {}: {:.1f} cm and {:.1f} degrees off",
+                       old.frame_index, 100 * drift.off_m, drift.off_rad * 57.29578);
+}
+
+std::vector<Eigen::Isometry3d> LoopCloser::GraphPoses() const {
+    std::vector<Eigen::Isometry3d> poses;
+    for (int i = 0; i < keyframes_.size(); ++i) poses.push_back(keyframes_[i].T_world_camera);
+    return poses;
+}
+
+void LoopCloser::SetGraphPoses(const std::vector<Eigen::Isometry3d>& T_world_keyframe) {
+    for (int i = 0; i < keyframes_.size(); ++i)
+        keyframes_[i].T_world_camera = T_world_keyframe[static_cast<std::size_t>(i)];
+    moved_ = true;
+}
+
+// On error the keyframes do not move.
+Status LoopCloser::Optimise() {
+    std::vector<PoseEdge> edges = edges_;
+    if (const std::optional<double> factor = CovarianceFactor(keyframes_)) {
+        const std::vector<PoseEdge> overlaps = OverlapEdges(keyframes_, *factor);
+        edges.insert(edges.end(), overlaps.begin(), overlaps.end());
+    }
+    std::vector<Eigen::Isometry3d> poses = GraphPoses();
+    if (const auto report = OptimisePoses(edges, poses); !report.ok()) return report.status();
+    SetGraphPoses(poses);
+    return Status::Ok();
+}
+
+// Looks for overlaps that the corrected poses show for the first time, newest keyframes first.
+Status LoopCloser::OptimiseAgain() {
+    constexpr int kMostNew = 60;
+    int found = 0;
+    for (int id = keyframes_.size() - 1; config_.overlaps && id > 0 && found < kMostNew; --id)
+        found += overlaps_.Find(keyframes_, id, false);
+    return found > 0 ? Optimise() : Status::Ok();
+}
+
+}  // namespace tessera

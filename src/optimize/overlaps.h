@@ -1,0 +1,55 @@
+// Constraints from every overlap: keyframes that see the same surface are aligned directly, and
+// what the alignment says is weighed against how they were tracked.
+#pragma once
+
+#include <list>
+#include <vector>
+
+#include "optimize/dense_view.h"
+#include "optimize/keyframes.h"
+#include "optimize/pose_graph.h"
+
+namespace tessera {
+
+// Finds the overlaps of keyframes. Owner thread only.
+class OverlapFinder {
+  public:
+    explicit OverlapFinder(const PinholeCamera& camera) : camera_(camera) {}
+
+    // Aligns keyframe `id` with earlier ones that see the same surface according to the pose graph,
+    // and adds the overlaps to it that it does not have yet: with the last few keyframes, and with
+    // the older ones that share most. `tracked`: T_map_camera of both are from tracking. Returns
+    // the number of new overlaps.
+    int Find(Keyframes& keyframes, int id, bool tracked);
+
+  private:
+    struct Cached {
+        int id = 0;
+        DenseView view;
+    };
+
+    std::vector<int> Candidates(const Keyframes& keyframes, int id) const;
+    const DenseView& ViewOf(const Keyframe& keyframe);
+
+    PinholeCamera camera_;
+    std::list<Cached> cache_;  // most recently used first
+};
+
+// Errors that are the same in many views (a lens, a rolling shutter, a bent depth) are not in an
+// alignment's own covariance. Returns the factor by which the covariances must grow to explain how
+// alignments with the last few keyframes differ from tracking (three quarters of them; a slide
+// spoils fewer). At least 1; empty while there are too few.
+std::optional<double> CovarianceFactor(const Keyframes& keyframes);
+
+// True if the other keyframe is not one of the last few before `id`.
+bool IsOlder(const Overlap& overlap, int id);
+
+// True if the alignment and tracking exclude each other, given the factor.
+bool Contradicts(const Overlap& overlap, double factor);
+
+// Edges for the pose graph. Where alignment contradicts tracking (two surfaces lie side by side in
+// the map, or tracking has slid from one to the other) the alignment counts, elsewhere the mean of
+// both, by their covariances.
+std::vector<PoseEdge> OverlapEdges(const Keyframes& keyframes, double factor);
+
+}  // namespace tessera

@@ -1,0 +1,114 @@
+#include "optimize/view_alignment.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace tessera {
+namespace {
+
+const PinholeCamera kViewCamera{640, 480, 525, 525, 319.5, 239.5};
+
+// A room's corner with a ball in it, painted with smooth waves; exact. World: the first camera.
+double DepthAlong(const Eigen::Vector3d& from, const Eigen::Vector3d& along) {
+    double nearest = 1e9;
+    const auto plane = [&](const Eigen::Vector3d& normal, double offset) {
+        const double t = (offset - normal.dot(from)) / normal.dot(along);
+        if (t > 0) nearest = std::min(nearest, t);
+    };
+    plane({0, 0, 1}, 2.5);
+    plane({1, 0, 0.2}, 1.6);
+    plane({0, 1, 0.1}, 1.2);
+    const Eigen::Vector3d to_ball = from - Eigen::Vector3d(-0.3, 0.1, 1.9);
+    const double b = to_ball.dot(along), c = to_ball.squaredNorm() - 0.35 * 0.35;
+    const double a = along.squaredNorm(), root = b * b - a * c;
+    if (root > 0) nearest = std::min(nearest, (-b - std::sqrt(root)) / a);
+    return nearest;
+}
+
+double Paint(const Eigen::Vector3d& p) {
+    return 0.5 + 0.2 * std::sin(9 * p.x() + 3 * p.z()) + 0.2 * std::sin(8 * p.y() - 2 * p.x());
+}
+
+// `bare`: only the far wall, without paint. `gain`: of the light.
+DenseView ViewFrom(const Eigen::Isometry3d& T_world_camera, bool bare = false, double gain = 1) {
+    PreparedFrame frame;
+    frame.width = kViewCamera.width;
+    frame.height = kViewCamera.height;
+    frame.has_colour = true;
+    frame.depth_m.Resize(frame.width, frame.height);
+    frame.intensity.Resize(frame.width, frame.height);
+    for (int y = 0; y < frame.height; ++y)
+        for (int x = 0; x < frame.width; ++x) {
+            const Eigen::Vector3d ray = T_world_camera.linear() * kViewCamera.Unproject(x, y, 1);
+            const Eigen::Vector3d eye = T_world_camera.translation();
+            const double z = bare ? (2.5 - eye.z()) / ray.z() : DepthAlong(eye, ray);
+            frame.depth_m(x, y) = static_cast<float>(z);
+            frame.intensity(x, y) = static_cast<float>(bare ? 0.5 : gain * Paint(eye + z * ray));
+        }
+    return MakeDenseView(MakeReducedView(frame), kViewCamera);
+}
+
+Eigen::Isometry3d Moved(double turn, double shift) {
+    Vector6d twist;
+    twist << 0.3 * turn, turn, -0.2 * turn, shift, 0.4 * shift, -0.5 * shift;
+    return Se3Exp(twist);
+}
+
+// From none and from plus and minus each axis.
+class Starts : public testing::TestWithParam<int> {};
+
+TEST_P(Starts, ExactViewsAreAlignedToATenthOfAPixel) {
+    const Eigen::Isometry3d T_a_b = Moved(0.12, 0.2);
+    Vector6d off = Vector6d::Zero();
+    if (GetParam() > 0) {
+        const int axis = (GetParam() - 1) / 2;
+        off(axis) = (GetParam() % 2 == 0 ? 1 : -1) * (axis < 3 ? 0.04 : 0.08);
+    }
+    const DenseView a = ViewFrom(Eigen::Isometry3d::Identity()), b = ViewFrom(T_a_b);
+    const ViewAlignment aligned = AlignViews(a, b, T_a_b * Se3Exp(off));
+    ASSERT_TRUE(aligned.converged);
+    EXPECT_LT((aligned.T_a_b.translation() - T_a_b.translation()).norm(), 0.002);
+    EXPECT_LT(RotationAngle(aligned.T_a_b, T_a_b), 0.001);
+    EXPECT_GT(aligned.overlap, 0.5);
+    EXPECT_GT(aligned.fit, 0.8);
+}
+INSTANTIATE_TEST_SUITE_P(Thirteen, Starts, testing::Range(0, 13));
+
+TEST(ViewAlignment, BothDirectionsAgree) {
+    const Eigen::Isometry3d T_a_b = Moved(-0.1, 0.15);
+    const DenseView a = ViewFrom(Eigen::Isometry3d::Identity()), b = ViewFrom(T_a_b);
+    const Eigen::Isometry3d there = AlignViews(a, b, T_a_b).T_a_b,
+                            back = AlignViews(b, a, T_a_b.inverse()).T_a_b;
+    EXPECT_LT((there * back).translation().norm(), 1e-4);
+    EXPECT_LT(RotationAngle(there * back, Eigen::Isometry3d::Identity()), 1e-4);
+}
+
+TEST(ViewAlignment, OtherLightDoesNotMatter) {
+    const Eigen::Isometry3d T_a_b = Moved(0.1, 0.1);
+    const ViewAlignment aligned =
+        AlignViews(ViewFrom(Eigen::Isometry3d::Identity()), ViewFrom(T_a_b, false, 0.6), T_a_b);
+    ASSERT_TRUE(aligned.converged);
+    EXPECT_LT((aligned.T_a_b.translation() - T_a_b.translation()).norm(), 0.002);
+}
+
+// A bare wall determines its distance and two rotations, nothing else.
+TEST(ViewAlignment, ABareWallLeavesThreeMotionsOpen) {
+    const DenseView wall = ViewFrom(Eigen::Isometry3d::Identity(), true);
+    const ViewAlignment aligned = AlignViews(wall, wall, Eigen::Isometry3d::Identity());
+    const Matrix6d& I = aligned.information;
+    EXPECT_GT(I(5, 5), 1e4);  // along the view
+    EXPECT_LT(I(3, 3), 1e-3 * I(5, 5));
+    EXPECT_LT(I(4, 4), 1e-3 * I(5, 5));
+    EXPECT_LT(I(2, 2), 1e-3 * I(0, 0));
+}
+
+TEST(ViewAlignment, ViewsOfDifferentPlacesAreNotAligned) {
+    const Eigen::Isometry3d away = Moved(0, 0) * Eigen::AngleAxisd(2.5, Eigen::Vector3d::UnitY());
+    const ViewAlignment aligned =
+        AlignViews(ViewFrom(Eigen::Isometry3d::Identity()), DenseView(), away);
+    EXPECT_FALSE(aligned.converged);
+}
+
+}  // namespace
+}  // namespace tessera
