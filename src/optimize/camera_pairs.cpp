@@ -19,15 +19,15 @@ struct Candidate {
 };
 
 // Share of the points of `from` that project into the image of `to`, and their mean inverse depth.
-struct Overlap {
+struct PairOverlap {
     double share = 0, inverse_depth = 0;
 };
-Overlap OverlapOf(const CameraView& from, const PinholeCamera& camera,
-                  const Eigen::Isometry3d& T_to_from) {
+PairOverlap OverlapOf(const CameraView& from, const PinholeCamera& camera,
+                      const Eigen::Isometry3d& T_to_from) {
     const CameraView::Level& level = from.levels.front();
     const PinholeCamera c = Averaged(camera, level.reduction);
     int count = 0, inside = 0;
-    Overlap overlap;
+    PairOverlap overlap;
     for (std::size_t i = 0; i < level.points.size(); i += 4) {
         const CameraViewPoint& point = level.points[i];
         ++count;
@@ -59,7 +59,7 @@ std::vector<CameraPair> ChoosePairs(const std::vector<CameraView>& views,
             const Eigen::Isometry3d T_to_from = motion(from, to);
             const double turn = Eigen::AngleAxisd(T_to_from.linear()).angle();
             if (turn < kLeastTurn_rad || turn > kMostTurn_rad) continue;
-            const Overlap overlap =
+            const PairOverlap overlap =
                 OverlapOf(views[static_cast<std::size_t>(from)], camera, T_to_from);
             if (overlap.share < kLeastOverlap) continue;
             const double parallax = T_to_from.translation().norm() * overlap.inverse_depth;

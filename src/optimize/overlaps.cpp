@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kNear = 4;   // keyframes back: never seen at two different times
 constexpr int kOlder = 8;  // at most this many older ones
-constexpr double kLeastOverlap = 0.3, kLeastFit = 0.5;
+constexpr double kLeastShared = 0.3, kLeastFit = 0.5;
 // Tracking against the map, between two keyframes that see the same surface.
 constexpr double kTracked_m = 0.002, kTracked_rad = 0.002;
 // What the alignments' covariance leaves out at least.
@@ -35,7 +35,7 @@ double Shared(const Keyframe& a, const Keyframe& b) {
     const Eigen::Isometry3d T_a_b = Between(a.T_world_camera, b.T_world_camera);
     if (!MayOverlap(T_a_b)) return 0;
     const double one_way = ViewOverlap(b.depth_m, b.view, T_a_b);
-    if (one_way < kLeastOverlap) return 0;
+    if (one_way < kLeastShared) return 0;
     return std::min(one_way, ViewOverlap(a.depth_m, a.view, T_a_b.inverse()));
 }
 
@@ -94,7 +94,7 @@ int OverlapFinder::Find(Keyframes& keyframes, int id, bool tracked) {
         const DenseView& b = ViewOf(fresh);
         const ViewAlignment aligned =
             AlignViews(ViewOf(old), b, Between(old.T_world_camera, fresh.T_world_camera));
-        if (!aligned.converged || aligned.overlap < 0.7 * kLeastOverlap || aligned.fit < kLeastFit)
+        if (!aligned.converged || aligned.overlap < 0.7 * kLeastShared || aligned.fit < kLeastFit)
             continue;
         const Matrix6d information =
             WithErrors(aligned.information, std::hypot(old.skew_rad, fresh.skew_rad),
@@ -118,7 +118,7 @@ std::vector<int> OverlapFinder::Candidates(const Keyframes& keyframes, int id) c
     for (int with = id - 1; with >= 0; --with) {
         if (keyframes[with].reduced.empty() || std::ranges::count(known, with) > 0) continue;
         const double shared = Shared(keyframes[with], fresh);
-        if (shared < kLeastOverlap) continue;
+        if (shared < kLeastShared) continue;
         if (id - with <= kNear)
             chosen.push_back(with);
         else
