@@ -1,0 +1,87 @@
+#include "scan/scan_records.h"
+
+#include <gtest/gtest.h>
+
+namespace tessera {
+namespace {
+
+const PinholeCamera kRecordCamera{64, 48, 60, 60, 31.5, 23.5};
+
+Keyframe SomeKeyframe() {
+    Keyframe keyframe;
+    keyframe.stamp_s = 4.5;
+    keyframe.depth_m.Resize(4, 3);
+    std::fill_n(keyframe.depth_m.data(), keyframe.depth_m.size(), 2.0f);
+    keyframe.reduced.reduction = 2;
+    keyframe.reduced.depth.Resize(32, 24);
+    keyframe.reduced.luma.Resize(32, 24);
+    for (int i = 0; i < 32 * 24; ++i) {
+        keyframe.reduced.depth.data()[i] = static_cast<std::uint16_t>(37 * i);
+        keyframe.reduced.luma.data()[i] = static_cast<std::uint8_t>(i);
+    }
+    keyframe.skew_m = 0.25;
+    keyframe.skew_rad = 0.5;
+    Overlap overlap;
+    overlap.with = 3;
+    overlap.T_with_this_aligned = Eigen::Translation3d(1, 2, 3);
+    overlap.information = 7 * Matrix6d::Identity();
+    keyframe.overlaps.push_back(overlap);
+    overlap.T_with_this_tracked = Eigen::Isometry3d(Eigen::Translation3d(4, 5, 6));
+    keyframe.overlaps.push_back(overlap);
+    return keyframe;
+}
+
+TEST(ScanRecords, AKeyframeComesBackWithItsViewAndOverlaps) {
+    const Keyframe keyframe = SomeKeyframe();
+    const Bytes bytes = EncodeKeyframe(keyframe);
+    Keyframe back;
+    ASSERT_TRUE(DecodeKeyframe(bytes, kRecordCamera, back));
+    EXPECT_EQ(EncodeKeyframe(back), bytes);
+    ASSERT_EQ(back.overlaps.size(), 2u);
+    EXPECT_EQ(back.overlaps[0].with, 3);
+    EXPECT_FALSE(back.overlaps[0].T_with_this_tracked.has_value());
+    EXPECT_EQ(back.overlaps[1].T_with_this_tracked->translation().z(), 6);
+    EXPECT_EQ(back.reduced.depth(1, 1), 37 * 33);
+    EXPECT_EQ(back.skew_rad, 0.5);
+}
+
+// Cut off anywhere, it is refused, except where a keyframe of format 1 ended.
+TEST(ScanRecords, ACutOffKeyframeIsRefused) {
+    const Bytes bytes = EncodeKeyframe(SomeKeyframe());
+    int accepted = 0;
+    for (std::size_t size = 0; size < bytes.size(); ++size) {
+        Keyframe back;
+        if (!DecodeKeyframe(std::span(bytes).first(size), kRecordCamera, back)) continue;
+        ++accepted;
+        EXPECT_TRUE(back.reduced.empty());
+        EXPECT_TRUE(back.overlaps.empty());
+    }
+    EXPECT_EQ(accepted, 1);
+}
+
+TEST(ScanRecords, EdgesOfFormat1AreRead) {
+    Bytes bytes;
+    StateWriter state(bytes);
+    state.Put(std::int64_t{9});
+    state.Put(std::int32_t{2});
+    state.Put(true);
+    state.Put(std::uint64_t{1});
+    state.Put(4);
+    state.Put(5);
+    state.Put(Eigen::Isometry3d(Eigen::Translation3d(1, 2, 3)));
+    state.Put(0.5);   // metres
+    state.Put(0.25);  // radians
+    state.Put(true);
+    LoopProgress progress;
+    ASSERT_TRUE(progress.Decode(bytes));
+    ASSERT_EQ(progress.edges.size(), 1u);
+    EXPECT_EQ(progress.edges[0].root_information, RootInformation(0.25, 0.5));
+    const Bytes now = progress.Encode();
+    LoopProgress again;
+    ASSERT_TRUE(again.Decode(now));
+    EXPECT_EQ(again.edges[0].root_information, progress.edges[0].root_information);
+    EXPECT_EQ(again.edges[0].T_from_to.matrix(), progress.edges[0].T_from_to.matrix());
+}
+
+}  // namespace
+}  // namespace tessera
