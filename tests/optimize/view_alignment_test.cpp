@@ -78,10 +78,17 @@ INSTANTIATE_TEST_SUITE_P(Thirteen, Starts, testing::Range(0, 13));
 TEST(ViewAlignment, BothDirectionsAgree) {
     const Eigen::Isometry3d T_a_b = Moved(-0.1, 0.15);
     const DenseView a = ViewFrom(Eigen::Isometry3d::Identity()), b = ViewFrom(T_a_b);
-    const Eigen::Isometry3d there = AlignViews(a, b, T_a_b).T_a_b,
-                            back = AlignViews(b, a, T_a_b.inverse()).T_a_b;
+    const ViewAlignment forth = AlignViews(a, b, T_a_b),
+                        reverse = AlignViews(b, a, T_a_b.inverse());
+    const Eigen::Isometry3d there = forth.T_a_b, back = reverse.T_a_b;
     EXPECT_LT((there * back).translation().norm(), 1e-4);
     EXPECT_LT(RotationAngle(there * back, Eigen::Isometry3d::Identity()), 1e-4);
+    // A right increment x of T_a_b is the right increment -Ad(T_a_b) x of T_b_a.
+    Matrix6d adjoint = Matrix6d::Zero();
+    adjoint.topLeftCorner<3, 3>() = adjoint.bottomRightCorner<3, 3>() = there.linear();
+    adjoint.bottomLeftCorner<3, 3>() = Skew(there.translation()) * there.linear();
+    const Matrix6d moved = adjoint.transpose() * reverse.information * adjoint;
+    EXPECT_LT((moved - forth.information).norm(), 0.02 * forth.information.norm());
 }
 
 TEST(ViewAlignment, OtherLightDoesNotMatter) {
