@@ -126,7 +126,7 @@ TEST_F(Cli, AScanIsSavedLookedAtGoneOnWithHandedOutAndRepaired) {
                   "--resume");
     ExpectRefused(SmallRun() + "--set mapping.voxel_size_m=0.05 --resume " + scan,
                   "mapping.voxel_size_m");
-    ExpectRefused(SmallRun() + "--loop-closure on --resume " + scan, "loops.enabled");
+    ExpectRefused(SmallRun() + "--loop-closure off --resume " + scan, "loops.enabled");
     const Outcome info = Call("info " + scan);
     EXPECT_EQ(info.exit_code, 0) << info.err;
     EXPECT_NE(info.out.find("complete"), std::string::npos) << info.out;
@@ -159,9 +159,8 @@ TEST_F(Cli, LoopClosureIsRefusedWhereItCannotBe) {
     ExpectRefused("run synthetic:desk --loop-closure on --poses " + poses, "--loop-closure on");
     const std::string refine =
         "run synthetic:desk --set calibration.refine=true --out " + (folder / "refine");
-    ExpectRefused(refine, "needs --loop-closure on");
-    ExpectRefused(refine + " --loop-closure on --scan " + (folder / "c.scan"),
-                  "not possible with --scan");
+    ExpectRefused(refine + " --loop-closure off", "needs --loop-closure on");
+    ExpectRefused(refine + " --scan " + (folder / "c.scan"), "not possible with --scan");
 }
 
 TEST_F(Cli, SwitchNeedsAFrameAndAMethod) {
