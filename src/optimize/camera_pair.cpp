@@ -3,28 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "optimize/bilinear.h"
+
 namespace tessera {
 namespace {
 
 // Depths that differ by a larger share belong to different surfaces.
 constexpr double kNearestPoint_m = 0.1, kOccluded = 0.1;
 constexpr double kLeastScale = 0.003;
-
-// Bilinear interpolation.
-struct Sample {
-    double value, du, dv;
-    float least;
-};
-Sample SampleAt(const Image<float>& image, double u, double v) {
-    const int u0 = static_cast<int>(u), v0 = static_cast<int>(v);
-    const double fu = u - u0, fv = v - v0;
-    const float *top = image.row(v0) + u0, *bottom = image.row(v0 + 1) + u0;
-    const double above = top[0] + fu * (top[1] - top[0]),
-                 below = bottom[0] + fu * (bottom[1] - bottom[0]);
-    return {above + fv * (below - above),
-            (1 - fv) * (top[1] - top[0]) + fv * (bottom[1] - bottom[0]), below - above,
-            std::min(std::min(top[0], top[1]), std::min(bottom[0], bottom[1]))};
-}
 
 // Velocity of a point in the frame of a camera that moves with `velocity`, scaled by the row's
 // share of the read-out time.
@@ -68,9 +54,9 @@ bool EvaluatePoint(const CameraViewPoint& point, const CameraView::Level& to,
     const Eigen::Vector2d pixel = c.Project(q);
     if (!(pixel.x() >= 1 && pixel.y() >= 1 && pixel.x() < c.width - 2 && pixel.y() < c.height - 2))
         return false;
-    const Sample depth = SampleAt(to.depth_m, pixel.x(), pixel.y());
+    const BilinearSample depth = SampleBilinear(to.depth_m, pixel.x(), pixel.y());
     if (depth.least <= 0 || std::abs(depth.value - q.z()) > kOccluded * q.z()) return false;
-    const Sample seen = SampleAt(to.intensity, pixel.x(), pixel.y());
+    const BilinearSample seen = SampleBilinear(to.intensity, pixel.x(), pixel.y());
     residual.value = seen.value - (1 + pair.gain) * point.intensity - pair.offset;
 
     const double inverse_z = 1 / q.z(), x = pixel.x() - c.cx, y = pixel.y() - c.cy;

@@ -22,7 +22,8 @@ struct Overlap {
     int with = 0;  // the earlier keyframe
     // By direct alignment of the two views.
     Eigen::Isometry3d T_with_this_aligned = Eigen::Isometry3d::Identity();
-    // Inverse covariance of a right increment of it, as its residuals have it; ViewAlignment.
+    // Inverse covariance of a right increment of it: of the alignment's residuals, of a floor, and
+    // of both frames' skew.
     Matrix6d information = Matrix6d::Zero();
     // As both were tracked in the same map; empty if this keyframe was tracked elsewhere.
     std::optional<Eigen::Isometry3d> T_with_this_tracked;

@@ -42,22 +42,17 @@ double Shared(const Keyframe& a, const Keyframe& b) {
 // The information of a measurement with independent errors of these standard deviations besides its
 // own.
 Matrix6d WithErrors(const Matrix6d& information, double sigma_rad, double sigma_m) {
-    if (sigma_rad <= 0 || sigma_m <= 0) return information;
     const Matrix6d root = RootInformation(sigma_rad, sigma_m);
-    const Matrix6d floor = (root.transpose() * root).inverse();
+    const Matrix6d covariance = (root.transpose() * root).inverse();
     const Matrix6d result =
-        (Matrix6d::Identity() + information * floor).partialPivLu().solve(information);
+        (Matrix6d::Identity() + information * covariance).partialPivLu().solve(information);
     return 0.5 * (result + result.transpose());
 }
 
-Matrix6d WithFloor(const Matrix6d& information) {
-    return WithErrors(information, kFloor_rad, kFloor_m);
-}
-
-double SquaredDistance(const Overlap& overlap, const Matrix6d& information) {
+double SquaredDistance(const Overlap& overlap) {
     const Vector6d off =
         Se3Log(overlap.T_with_this_aligned.inverse() * *overlap.T_with_this_tracked);
-    return off.dot(information * off);
+    return off.dot(overlap.information * off);
 }
 
 Matrix6d Root(const Matrix6d& information) {
@@ -68,7 +63,7 @@ Matrix6d Root(const Matrix6d& information) {
 
 PoseEdge EdgeOf(const Overlap& overlap, int to, double factor) {
     PoseEdge edge{overlap.with, to, overlap.T_with_this_aligned, Matrix6d::Identity(), true};
-    const Matrix6d aligned = WithFloor(overlap.information) / factor;
+    const Matrix6d aligned = overlap.information / factor;
     edge.root_information = Root(aligned);
     if (!overlap.T_with_this_tracked || Contradicts(overlap, factor)) return edge;
     const Matrix6d root = RootInformation(kTracked_rad, kTracked_m);
@@ -97,8 +92,8 @@ int OverlapFinder::Find(Keyframes& keyframes, int id, bool tracked) {
         if (!aligned.converged || aligned.overlap < 0.7 * kLeastShared || aligned.fit < kLeastFit)
             continue;
         const Matrix6d information =
-            WithErrors(aligned.information, std::hypot(old.skew_rad, fresh.skew_rad),
-                       std::hypot(old.skew_m, fresh.skew_m));
+            WithErrors(aligned.information, std::hypot(kFloor_rad, old.skew_rad, fresh.skew_rad),
+                       std::hypot(kFloor_m, old.skew_m, fresh.skew_m));
         Overlap overlap{with, aligned.T_a_b, information, std::nullopt};
         if (tracked) overlap.T_with_this_tracked = Between(old.T_map_camera, fresh.T_map_camera);
         fresh.overlaps.push_back(overlap);
@@ -156,7 +151,7 @@ std::optional<double> CovarianceFactor(const Keyframes& keyframes) {
     for (int id = 0; id < keyframes.size(); ++id)
         for (const Overlap& overlap : keyframes[id].overlaps)
             if (overlap.T_with_this_tracked && !IsOlder(overlap, id))
-                squares.push_back(SquaredDistance(overlap, WithFloor(overlap.information)));
+                squares.push_back(SquaredDistance(overlap));
     if (squares.size() < kFewest) return std::nullopt;
     const auto quartile = squares.begin() + static_cast<std::ptrdiff_t>(3 * squares.size() / 4);
     std::ranges::nth_element(squares, quartile);
@@ -166,8 +161,7 @@ std::optional<double> CovarianceFactor(const Keyframes& keyframes) {
 bool IsOlder(const Overlap& overlap, int id) { return id - overlap.with > kNear; }
 
 bool Contradicts(const Overlap& overlap, double factor) {
-    return overlap.T_with_this_tracked &&
-           SquaredDistance(overlap, WithFloor(overlap.information)) > kSurely * factor;
+    return overlap.T_with_this_tracked && SquaredDistance(overlap) > kSurely * factor;
 }
 
 std::vector<PoseEdge> OverlapEdges(const Keyframes& keyframes, double factor) {

@@ -6,6 +6,8 @@
 #include <numbers>
 #include <vector>
 
+#include "optimize/bilinear.h"
+
 namespace tessera {
 namespace {
 
@@ -15,7 +17,7 @@ using SumMatrix = Eigen::Matrix<double, kUnknowns, kUnknowns>;
 
 constexpr double kSameNormal = 0.8;
 constexpr double kGateSigmas = 4;  // standard deviations
-constexpr double kLeastIntensityScale = 0.01;
+constexpr double kLeastDistanceScale = 0.3, kLeastIntensityScale = 0.01;
 // Residuals of neighbouring points are correlated: this many count as one.
 constexpr double kCorrelated = 10;
 
@@ -42,21 +44,6 @@ struct Sums {
         gradient += j * (w * r);
     }
 };
-
-struct Bilinear {
-    double value = 0, du = 0, dv = 0;
-    bool known = false;
-};
-Bilinear Interpolate(const Image<float>& image, double u, double v) {
-    const int u0 = static_cast<int>(u), v0 = static_cast<int>(v);
-    const double fu = u - u0, fv = v - v0;
-    const float *top = image.row(v0) + u0, *bottom = image.row(v0 + 1) + u0;
-    const double above = top[0] + fu * (top[1] - top[0]),
-                 below = bottom[0] + fu * (bottom[1] - bottom[0]);
-    return {above + fv * (below - above),
-            (1 - fv) * (top[1] - top[0]) + fv * (bottom[1] - bottom[0]), below - above,
-            std::min({top[0], top[1], bottom[0], bottom[1]}) >= 0};
-}
 
 // Points of `from` in `to`. The increment is a left one of T_to_from; `to_unknown` maps the common
 // unknown to it.
@@ -93,8 +80,8 @@ void AddOneWay(const DenseView::Level& from, const DenseView::Level& to,
         sums.Add(j, r, scales.distance);
 
         if (point.intensity < 0) continue;
-        const Bilinear seen = Interpolate(to.intensity, pixel.x(), pixel.y());
-        if (!seen.known) continue;
+        const BilinearSample seen = SampleBilinear(to.intensity, pixel.x(), pixel.y());
+        if (seen.least < 0) continue;
         const double inverse_z = 1 / q.z(), dx = pixel.x() - c.cx, dy = pixel.y() - c.cy;
         const Eigen::Vector3d g(seen.du * c.fx * inverse_z, seen.dv * c.fy * inverse_z,
                                 -(seen.du * dx + seen.dv * dy) * inverse_z);
@@ -148,10 +135,10 @@ ViewAlignment AlignViews(const DenseView& a, const DenseView& b, const Eigen::Is
     Vector6d step = Vector6d::Zero();
     for (std::size_t level = 0; level < a.levels.size(); ++level)
         for (int i = 0; i < kIterations[level]; ++i) {
-            // The unknown is a right increment of T_a_b.
+            // The unknown is a right increment x of T_a_b: T_a_b exp(x) = exp(Ad(T_a_b) x) T_a_b,
+            // and its inverse is exp(-x) T_b_a.
             forth = back = Sums();
             const Eigen::Isometry3d T_b_a = result.T_a_b.inverse();
-            // T_b_a exp(-x)... : exp(-x) T_b_a is a left increment of -x.
             AddOneWay(a.levels[level], b.levels[level], T_b_a, -Matrix6d::Identity(), true,
                       brightness, scales, kGates_m[level], forth);
             AddOneWay(b.levels[level], a.levels[level], result.T_a_b, Adjoint(result.T_a_b), false,
@@ -164,14 +151,12 @@ ViewAlignment AlignViews(const DenseView& a, const DenseView& b, const Eigen::Is
             forth.intensities.insert(forth.intensities.end(), back.intensities.begin(),
                                      back.intensities.end());
             if (static_cast<int>(forth.distances.size()) < kLeastPoints) return result;
-            result.scale = ScaleOf(forth.distances);
-            result.intensity_scale = ScaleOf(forth.intensities);
-            scales.distance = std::max(result.scale, 0.3);
-            scales.intensity = std::max(result.intensity_scale, kLeastIntensityScale);
+            scales.distance = std::max(ScaleOf(forth.distances), kLeastDistanceScale);
+            scales.intensity = std::max(ScaleOf(forth.intensities), kLeastIntensityScale);
             SumMatrix damped = hessian;
             damped.diagonal() *= 1 + 1e-6;
             damped.diagonal().array() += 1e-3;
-            SumVector all = -damped.ldlt().solve(gradient);
+            const SumVector all = -damped.ldlt().solve(gradient);
             step = all.head<6>();
             if (!all.allFinite()) return result;
             const double size = std::max(step.head<3>().norm(), step.tail<3>().norm());

@@ -17,8 +17,6 @@ struct ViewAlignment {
     Matrix6d information = Matrix6d::Zero();
     double overlap = 0;  // share of the points that the other view sees; the smaller of the two
     double fit = 0;      // share of these whose residual is within three standard deviations
-    double scale = 0;    // of the distances, in units of the sensor's noise
-    double intensity_scale = 0;
 };
 
 // Starts from T_a_b. Thread-safe.

@@ -99,7 +99,7 @@ Result<std::string> DescribeScan(const std::string& path) {
     const ScanContent& scan = content.value();
     const PinholeCamera& c = scan.meta.camera;
     std::string text = fmt::format(
-        "{}: scan, format version {}, created by tessera {}, {}\n", path, kScanVersion,
+        "{}: scan, format version {}, created by tessera {}, {}\n", path, file.version(),
         scan.meta.program, scan.finished ? "complete" : "unfinished: continue it with --resume");
     text += fmt::format("source: {} ({})\n", scan.meta.source_name, scan.meta.source_kind);
     text += fmt::format("camera: {} x {}, fx {:.2f} fy {:.2f} cx {:.2f} cy {:.2f} px\n", c.width,

@@ -181,6 +181,7 @@ Status ScanFile::CheckHeader() {
             "the file is damaged: tessera scan repair {} --out NEW.scan)",
             path(), version.value(), kScanVersion, path()));
     if (version.value() < 1) return DamagedScan(path(), "no format version");
+    version_ = version.value();
     std::string tables;
     for (const ScanTable table : kScanTables)
         tables += fmt::format(" OR sql = '{}'", TableSql(table));

@@ -52,6 +52,8 @@ class ScanFile {
 
     const std::string& path() const { return database_->path(); }
     const ScanSeal& seal() const { return seal_; }
+    // Format version of the file. Writing to an older one makes it the newest.
+    std::int64_t version() const { return version_; }
 
     // Reads every row of a table by increasing key. Checks each row against its checksum and, at
     // the end, the row count and checksum sum against the seal. Stops early if `take` returns an
@@ -86,6 +88,7 @@ class ScanFile {
     Status Failed(const std::string& doing) const;
 
     bool fresh_ = false;  // made by Create
+    std::int64_t version_ = kScanVersion;
     // Holds the lock that keeps other writers out. Must outlive the database: closing this file
     // descriptor drops SQLite's locks.
     int lock_ = -1;

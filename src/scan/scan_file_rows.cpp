@@ -149,8 +149,12 @@ Status ScanFile::Commit(bool finished) {
     next_.finished = finished;
     const std::vector<std::uint8_t> seal = next_.Encode();
     if (Status status = Put(ScanTable::kState, kSealKey, seal); !status.ok()) return status;
-    if (Status status = database_->Execute("COMMIT"); !status.ok())
-        return Abandon("cannot be written");
+    // Older programs must not read what this one writes.
+    const std::string sql = version_ < kScanVersion
+                                ? fmt::format("PRAGMA user_version={}; COMMIT", kScanVersion)
+                                : "COMMIT";
+    if (Status status = database_->Execute(sql); !status.ok()) return Abandon("cannot be written");
+    version_ = kScanVersion;
     seal_ = next_;
     return Status::Ok();
 }

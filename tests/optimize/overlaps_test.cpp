@@ -18,7 +18,7 @@ Keyframes Chain(const std::vector<double>& off_m) {
     for (std::size_t i = 0; i < list.size(); ++i) {
         list[i].id = static_cast<int>(i);
         if (i == 0) continue;
-        list[i].overlaps.push_back(Measured(off_m[i - 1], 1e6));
+        list[i].overlaps.push_back(Measured(off_m[i - 1], 0.5e6));
         list[i].overlaps.back().with = static_cast<int>(i) - 1;
     }
     Keyframes keyframes(PinholeCamera{}, 0.8, 100);
@@ -31,7 +31,7 @@ TEST(Overlaps, TooFewSayNothingAboutTheirErrors) {
     EXPECT_TRUE(CovarianceFactor(Chain(std::vector<double>(40, 0.001))).has_value());
 }
 
-// Information 1e6 / m^2 and the floor of 1 mm: a standard deviation of 1.414 mm.
+// Information 0.5e6 / m^2: a standard deviation of 1.414 mm.
 TEST(Overlaps, TheFactorIsTheUpperQuartileOfTheSquaredDifferences) {
     EXPECT_DOUBLE_EQ(*CovarianceFactor(Chain(std::vector<double>(41, 0.0005))), 1.0);
     std::vector<double> off(41, 0.0141421);
@@ -40,9 +40,9 @@ TEST(Overlaps, TheFactorIsTheUpperQuartileOfTheSquaredDifferences) {
 }
 
 TEST(Overlaps, ContradictionGrowsWithTheFactor) {
-    EXPECT_FALSE(Contradicts(Measured(0.005, 1e6), 1));
-    EXPECT_TRUE(Contradicts(Measured(0.008, 1e6), 1));  // 5.7 standard deviations
-    EXPECT_FALSE(Contradicts(Measured(0.008, 1e6), 10));
+    EXPECT_FALSE(Contradicts(Measured(0.005, 0.5e6), 1));
+    EXPECT_TRUE(Contradicts(Measured(0.008, 0.5e6), 1));  // 5.7 standard deviations
+    EXPECT_FALSE(Contradicts(Measured(0.008, 0.5e6), 10));
     Overlap untracked = Measured(1, 1e6);
     untracked.T_with_this_tracked.reset();
     EXPECT_FALSE(Contradicts(untracked, 1));

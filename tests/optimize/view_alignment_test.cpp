@@ -112,9 +112,9 @@ TEST(ViewAlignment, ABareWallLeavesThreeMotionsOpen) {
 
 TEST(ViewAlignment, ViewsOfDifferentPlacesAreNotAligned) {
     const Eigen::Isometry3d away = Moved(0, 0) * Eigen::AngleAxisd(2.5, Eigen::Vector3d::UnitY());
-    const ViewAlignment aligned =
-        AlignViews(ViewFrom(Eigen::Isometry3d::Identity()), DenseView(), away);
-    EXPECT_FALSE(aligned.converged);
+    const DenseView here = ViewFrom(Eigen::Isometry3d::Identity());
+    EXPECT_FALSE(AlignViews(here, ViewFrom(away), away).converged);
+    EXPECT_FALSE(AlignViews(here, DenseView(), Moved(0, 0)).converged);
 }
 
 }  // namespace

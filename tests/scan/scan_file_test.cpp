@@ -159,5 +159,22 @@ TEST(ScanFile, WhatIsNoScanIsRefusedInOneLine) {
     expect(folder / "c.scan", "another program");
 }
 
+TEST(ScanFile, WritingToAnOlderFormatMakesItTheNewest) {
+    TempFolder folder;
+    WriteSmallScan(folder / "a.scan");
+    {
+        auto database = Database::Open(folder / "a.scan", Database::Access::kWrite);
+        ASSERT_TRUE(database.value()->Execute("PRAGMA user_version = 1").ok());
+    }
+    const auto version = [&] { return ScanFile::OpenToRead(folder / "a.scan").value()->version(); };
+    EXPECT_EQ(version(), 1);
+    auto file = std::move(ScanFile::OpenToWrite(folder / "a.scan").value());
+    ASSERT_TRUE(file->Begin().ok());
+    EXPECT_EQ(version(), 1);
+    ASSERT_TRUE(file->Commit(true).ok());
+    file->Close();
+    EXPECT_EQ(version(), kScanVersion);
+}
+
 }  // namespace
 }  // namespace tessera
