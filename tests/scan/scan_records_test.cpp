@@ -46,8 +46,12 @@ TEST(ScanRecords, AKeyframeComesBackWithItsViewAndOverlaps) {
 }
 
 // Cut off anywhere, it is refused, except where a keyframe of format 1 ended.
-TEST(ScanRecords, ACutOffKeyframeIsRefused) {
+TEST(ScanRecords, AKeyframeThatIsCutOffOrTooLongIsRefused) {
     const Bytes bytes = EncodeKeyframe(SomeKeyframe());
+    Bytes longer = bytes;
+    longer.push_back(0);
+    Keyframe none;
+    EXPECT_FALSE(DecodeKeyframe(longer, kRecordCamera, none));
     int accepted = 0;
     for (std::size_t size = 0; size < bytes.size(); ++size) {
         Keyframe back;
