@@ -40,7 +40,7 @@ class Integrator {
         Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity();
         FrameMotion motion;
         float gain = 1.0f, offset = 0.0f;  // map intensity = gain * image intensity + offset
-        float weight = 1.0f;               // for the whole frame, in (0, 1]
+        float weight = 1.0f;  // for the whole frame, in (0, 1]; their sum for an average of frames
         float colour_weight = 1.0f;
     };
 

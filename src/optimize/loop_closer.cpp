@@ -31,6 +31,7 @@ LoopCloser::LoopCloser(const LoopConfig& config, const FieldSettings& settings,
       labels_(std::move(labels)),
       make_pager_(std::move(make_pager)),
       keyframes_(settings.camera, config.max_overlap, config.max_features),
+      average_(settings.camera),
       store_(Bytes(config.memory_limit_mb), depth_units_per_m),
       verifier_(settings, config),
       overlaps_(settings.camera) {}
@@ -72,8 +73,7 @@ std::string LoopCloser::Add(const Frame& frame, const PreparedFrame& prepared,
     AddPassage(frame.stamp_s, T_map_camera);
     if (!fused) return news;
     const Status stored =
-        store_.Add(prepared.moving ? WithoutMoving(*prepared.moving, frame) : frame, last.id,
-                   keyframe, passages_.back().T_keyframe_camera, view);
+        Store(prepared.moving ? WithoutMoving(*prepared.moving, frame) : frame, keyframe, view);
     if (keyframe && stored.ok()) {
         if (config_.overlaps) overlaps_.Find(keyframes_, last.id, true);
         news = SeekLoop(last, prepared, view.motion);
@@ -87,6 +87,27 @@ std::string LoopCloser::Add(const Frame& frame, const PreparedFrame& prepared,
                                          before.T_world_camera.inverse() * last.T_world_camera));
     }
     return stored.ok() ? news : stored.message();
+}
+
+// Keeps a frame of the last keyframe for corrected maps. Not averaged: the keyframe's own, which
+// calibration compares with others; and all if objects are labelled, because detections belong to
+// one image.
+Status LoopCloser::Store(const Frame& frame, bool keyframe, const Integrator::View& view) {
+    const Eigen::Isometry3d& T_keyframe_camera = passages_.back().T_keyframe_camera;
+    const int id = keyframes_.last().id;
+    const bool alone = keyframe || labels_ || !config_.average_frames;
+    if (!alone && average_.Add(frame, T_keyframe_camera, view)) return Status::Ok();
+    if (Status stored = StoreAverage(); !stored.ok()) return stored;
+    if (alone) return store_.Add(frame, id, keyframe, T_keyframe_camera, view);
+    average_.Begin(frame, T_keyframe_camera, view);
+    average_keyframe_ = id;
+    return Status::Ok();
+}
+
+Status LoopCloser::StoreAverage() {
+    if (average_.empty()) return Status::Ok();
+    return store_.Add(average_.Take(), average_keyframe_, false, average_.T_keyframe_camera(),
+                      average_.view());
 }
 
 void LoopCloser::Pass(double stamp_s, const Eigen::Isometry3d& T_map_camera) {
@@ -134,7 +155,12 @@ std::string LoopCloser::SeekLoop(const Keyframe& fresh, const PreparedFrame& pre
     const bool judged = CovarianceFactor(keyframes_).has_value();  // SeekDrift will
     for (const PlaceIndex::Candidate& candidate : candidates) {
         const Keyframe& old = keyframes_[candidate.keyframe];
-        if (judged && Aligned(fresh, old)) continue;
+        if (judged) {
+            if (Aligned(fresh, old)) continue;
+            if (const auto T_old_new = verifier_.MatchKeyframes(old, fresh).T_old_new)
+                overlaps_.Align(keyframes_, fresh.id, old.id, *T_old_new, true);
+            continue;
+        }
         const FieldVerdict verdict =
             verifier_.VerifyLoop(keyframes_, old, fresh, prepared, motion, store_);
         if (verdict.accepted) return CloseLoop(old, fresh, verdict);

@@ -12,6 +12,7 @@
 
 #include "optimize/calibration_report.h"
 #include "optimize/calibration_view.h"
+#include "optimize/frame_average.h"
 #include "optimize/jump_detector.h"
 #include "optimize/keyframes.h"
 #include "optimize/loop_verifier.h"
@@ -105,6 +106,8 @@ class LoopCloser {
                      bool doubtful);
     void Link(int from, int to, const Eigen::Isometry3d& T_map_to, bool doubtful);
     void AddPassage(double stamp_s, const Eigen::Isometry3d& T_map_camera);
+    Status Store(const Frame& frame, bool keyframe, const Integrator::View& view);
+    Status StoreAverage();
     std::string SeekLoop(const Keyframe& fresh, const PreparedFrame& prepared,
                          const FrameMotion& motion);
     std::string CloseLoop(const Keyframe& old, const Keyframe& fresh, const FieldVerdict& verdict);
@@ -130,6 +133,8 @@ class LoopCloser {
     Keyframes keyframes_;
     JumpDetector jumps_;
     PlaceIndex index_;
+    FrameAverage average_;  // of the latest frames, not stored yet
+    int average_keyframe_ = 0;
     FrameStore store_;
     LoopVerifier verifier_;
     OverlapFinder overlaps_;

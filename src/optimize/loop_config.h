@@ -24,6 +24,8 @@ struct LoopConfig {
     double min_correction_m = 0.02;
     int rebuild_frames = 20;
     bool refine_calibration = false;  // key calibration.refine
+    // No key: false if a scan keeps every frame, because these are then the frames in the file.
+    bool average_frames = true;
 
     void Describe(ConfigParameters& parameters);
 };

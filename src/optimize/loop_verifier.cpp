@@ -19,28 +19,36 @@ Drift DriftOf(const Keyframe& old, const Keyframe& fresh, const Eigen::Isometry3
     return drift;
 }
 
+LoopVerifier::Match LoopVerifier::MatchKeyframes(const Keyframe& old, const Keyframe& fresh) const {
+    const FeatureMatch match = MatchFeatures(old.features, fresh.features, config_);
+    if (!match.accepted)
+        return {std::nullopt, fmt::format("{} features fit, spread over {:.2f} m", match.inliers,
+                                          match.spread_m)};
+    const Drift drift = DriftOf(old, fresh, match.T_old_new, config_.max_drift);
+    if (!drift.possible)
+        return {std::nullopt, fmt::format("it implies a drift of {:.2f} m and {:.2f} rad",
+                                          drift.off_m, drift.off_rad)};
+    return {match.T_old_new, {}};
+}
+
 FieldVerdict LoopVerifier::VerifyLoop(const Keyframes& keyframes, const Keyframe& old,
                                       const Keyframe& fresh, const PreparedFrame& prepared,
                                       const FrameMotion& motion, FrameStore& store) {
-    FieldVerdict refused;
-    const FeatureMatch match = MatchFeatures(old.features, fresh.features, config_);
-    const Drift drift = DriftOf(old, fresh, match.T_old_new, config_.max_drift);
-    if (!match.accepted)
-        refused.reason =
-            fmt::format("{} features fit, spread over {:.2f} m", match.inliers, match.spread_m);
-    else if (!drift.possible)
-        refused.reason = fmt::format("it implies a drift of {:.2f} m and {:.2f} rad", drift.off_m,
-                                     drift.off_rad);
-    if (!refused.reason.empty()) return refused;
+    const Match match = MatchKeyframes(old, fresh);
+    if (!match.T_old_new) {
+        FieldVerdict refused;
+        refused.reason = match.reason;
+        return refused;
+    }
     const Eigen::Isometry3d T_old_new_expected = old.T_map_camera.inverse() * fresh.T_map_camera;
-    if (NothingToCorrect(match.T_old_new, T_old_new_expected)) {
+    if (NothingToCorrect(*match.T_old_new, T_old_new_expected)) {
         FieldVerdict closed;
         closed.accepted = closed.closed_before = true;
         closed.T_old_new = T_old_new_expected;
         return closed;
     }
     return field_.Check(FramesNear(keyframes, old.id, store),
-                        {prepared, motion, match.T_old_new, T_old_new_expected}, store);
+                        {prepared, motion, *match.T_old_new, T_old_new_expected}, store);
 }
 
 // Features and map agree so well that the field check, which costs a hundred times as much, could

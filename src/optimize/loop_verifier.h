@@ -25,6 +25,12 @@ class LoopVerifier {
     LoopVerifier(const FieldSettings& settings, const LoopConfig& config)
         : config_(config), field_(settings, config) {}
 
+    struct Match {
+        std::optional<Eigen::Isometry3d> T_old_new;
+        std::string reason;  // why there is none
+    };
+    // By features, if the drift that follows is plausible.
+    Match MatchKeyframes(const Keyframe& old, const Keyframe& fresh) const;
     // For a keyframe `fresh`, made from the frame `prepared`.
     FieldVerdict VerifyLoop(const Keyframes& keyframes, const Keyframe& old, const Keyframe& fresh,
                             const PreparedFrame& prepared, const FrameMotion& motion,

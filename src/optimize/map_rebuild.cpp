@@ -32,6 +32,13 @@ Result<bool> MapRebuild::Step(FrameStore& store, int frames) {
     return done;
 }
 
+int MapRebuild::Left(const FrameStore& store) const {
+    const std::vector<StoredFrame>& stored = store.frames();
+    return static_cast<int>(
+        stored.end() -
+        std::ranges::lower_bound(stored, next_ordinal_, {}, &StoredFrame::ordinal));
+}
+
 // Fuses the loaded frame.
 Status MapRebuild::Fuse(const StoredFrame& stored) {
     Integrator::View view = stored.view;

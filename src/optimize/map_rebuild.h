@@ -30,6 +30,8 @@ class MapRebuild {
     // Fuses at most `frames` more. Returns true if none is left and the map can be taken. Errors
     // come from the pager; after one the map must not be used.
     Result<bool> Step(FrameStore& store, int frames);
+    // Frames that are not fused yet.
+    int Left(const FrameStore& store) const;
     std::unique_ptr<BlockMap> TakeMap() { return std::move(map_); }
     std::unique_ptr<LabelMapper> TakeLabels() { return std::move(labels_); }
     std::unique_ptr<MapPager> TakePager() { return std::move(pager_); }

@@ -80,32 +80,38 @@ PoseEdge EdgeOf(const Overlap& overlap, int to, double factor) {
 }  // namespace
 
 int OverlapFinder::Find(Keyframes& keyframes, int id, bool tracked) {
-    Keyframe& fresh = keyframes[id];
-    if (fresh.reduced.empty()) return 0;
     int found = 0;
-    for (const int with : Candidates(keyframes, id)) {
-        const Keyframe& old = keyframes[with];
-        // The newest view first: it stays in the cache.
-        const DenseView& b = ViewOf(fresh);
-        const ViewAlignment aligned =
-            AlignViews(ViewOf(old), b, Between(old.T_world_camera, fresh.T_world_camera));
-        if (!aligned.converged || aligned.overlap < 0.7 * kLeastShared || aligned.fit < kLeastFit)
-            continue;
-        const Matrix6d information =
-            WithErrors(aligned.information, std::hypot(kFloor_rad, old.skew_rad, fresh.skew_rad),
-                       std::hypot(kFloor_m, old.skew_m, fresh.skew_m));
-        Overlap overlap{with, aligned.T_a_b, information, std::nullopt};
-        if (tracked) overlap.T_with_this_tracked = Between(old.T_map_camera, fresh.T_map_camera);
-        fresh.overlaps.push_back(overlap);
-        ++found;
-    }
+    for (const int with : Candidates(keyframes, id))
+        found += Align(keyframes, id, with,
+                       Between(keyframes[with].T_world_camera, keyframes[id].T_world_camera),
+                       tracked);
     return found;
+}
+
+bool OverlapFinder::Align(Keyframes& keyframes, int id, int with,
+                          const Eigen::Isometry3d& T_with_this, bool tracked) {
+    const Keyframe& old = keyframes[with];
+    Keyframe& fresh = keyframes[id];
+    if (old.reduced.empty() || fresh.reduced.empty()) return false;
+    // The newest view first: it stays in the cache.
+    const DenseView& b = ViewOf(fresh);
+    const ViewAlignment aligned = AlignViews(ViewOf(old), b, T_with_this);
+    if (!aligned.converged || aligned.overlap < 0.7 * kLeastShared || aligned.fit < kLeastFit)
+        return false;
+    const Matrix6d information =
+        WithErrors(aligned.information, std::hypot(kFloor_rad, old.skew_rad, fresh.skew_rad),
+                   std::hypot(kFloor_m, old.skew_m, fresh.skew_m));
+    Overlap overlap{with, aligned.T_a_b, information, std::nullopt};
+    if (tracked) overlap.T_with_this_tracked = Between(old.T_map_camera, fresh.T_map_camera);
+    fresh.overlaps.push_back(overlap);
+    return true;
 }
 
 // The last few that share enough, then older ones, those that share most first. Of neighbours in
 // time only one: the other would add little.
 std::vector<int> OverlapFinder::Candidates(const Keyframes& keyframes, int id) const {
     const Keyframe& fresh = keyframes[id];
+    if (fresh.reduced.empty()) return {};
     std::vector<int> chosen;
     std::vector<std::pair<double, int>> older;
     std::vector<int> known;

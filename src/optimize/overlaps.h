@@ -21,6 +21,10 @@ class OverlapFinder {
     // the older ones that share most. `tracked`: T_map_camera of both are from tracking. Returns
     // the number of new overlaps.
     int Find(Keyframes& keyframes, int id, bool tracked);
+    // Aligns keyframe `id` with an earlier one, starting from T_with_this. Returns true if it has
+    // the overlap now.
+    bool Align(Keyframes& keyframes, int id, int with, const Eigen::Isometry3d& T_with_this,
+               bool tracked);
 
   private:
     struct Cached {

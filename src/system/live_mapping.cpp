@@ -59,7 +59,7 @@ void LiveMapping::SendWholeMap() {
 }
 
 void LiveMapping::StartLoops(std::optional<LoopCloser::Labels> labels) {
-    LoopThread::Settings settings{config_.loops,
+    LoopThread::Settings settings{config_.EffectiveLoops(),
                                   FieldSettingsOf(config_.pipeline, source_.camera),
                                   source_.depth_units_per_m,
                                   std::move(labels),

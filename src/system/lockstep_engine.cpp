@@ -42,7 +42,7 @@ Status LockstepEngine::StartScan(ScanPlan plan) {
 
 void LockstepEngine::BeginLoops() {
     if (!config_.loops.enabled) return;
-    loops_.emplace(config_.loops, config_.pipeline, source_, loop_labels_,
+    loops_.emplace(config_.EffectiveLoops(), config_.pipeline, source_, loop_labels_,
                    RebuildPagers(config_.pipeline, source_.camera, scan_path_));
 }
 

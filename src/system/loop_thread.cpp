@@ -31,8 +31,13 @@ void LoopThread::Offer(std::unique_ptr<TrackedFrame> tracked, std::unique_ptr<Fr
     job.map = map;
     job.stamp_s = tracked->report.stamp_s;
     job.T_world_camera = tracked->report.track.T_world_camera;
-    const bool whole = tracked->report.fused && whole_.load() < kWhole;
+    // The more frames wait, the fewer are kept whole: a stretch of the path that the thread is late
+    // for is still covered.
+    const int waiting = whole_.load();
+    const int every = waiting < kAllWhole ? 1 : 2 << (waiting - kAllWhole) / 2;
+    const bool whole = tracked->report.fused && waiting < kWhole && ++since_whole_ >= every;
     if (whole) {
+        since_whole_ = 0;
         whole_.fetch_add(1);
         job.tracked = std::move(tracked);
         job.frame = std::move(frame);

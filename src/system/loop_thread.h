@@ -119,8 +119,10 @@ class LoopThread {
     Surroundings around_;
     // The last places in `updates_` are reserved for corrections.
     static constexpr std::size_t kJobs = 4096, kUpdates = 8, kCorrections = 3;
-    static constexpr int kWhole = 16;  // waiting frames that keep their images, about 6 MB each
+    // Waiting frames that keep their images, about 6 MB each: all of the first, fewer of the rest.
+    static constexpr int kWhole = 16, kAllWhole = 8;
     std::atomic<int> whole_{0};
+    int since_whole_ = 0;  // the mapping thread's: fused frames since the last that was kept whole
     Wake wake_;
     FifoQueue<Question> questions_{1, wake_};
     FifoQueue<Answer> answers_;

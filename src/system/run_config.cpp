@@ -60,6 +60,12 @@ void RunConfig::Describe(ConfigParameters& p) {
     });
 }
 
+LoopConfig RunConfig::EffectiveLoops() const {
+    LoopConfig effective = loops;
+    effective.average_frames = scan.frames != ScanConfig::Frames::kAll;
+    return effective;
+}
+
 Status RunConfig::Validate() const {
     if (Status status = source.Validate(); !status.ok()) return status;
     if (Status status = synthetic.Validate(); !status.ok()) return status;

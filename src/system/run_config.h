@@ -55,6 +55,8 @@ struct RunConfig {
     // Sections source (with source.openni), synthetic, frame, mapping, tracking, moving, meshing,
     // labels, loops, calibration, scan, live, view, record, run.
     void Describe(ConfigParameters& parameters);
+    // `loops`, with what follows from other sections.
+    LoopConfig EffectiveLoops() const;
     // Checks conditions between keys. The error names the key.
     Status Validate() const;
 };

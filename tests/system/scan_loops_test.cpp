@@ -80,7 +80,10 @@ TEST_P(ScanLoops, KeyframesFramesAndLoopsComeBackAndALostCameraIsFoundByThem) {
     EXPECT_GT(scan.value().keyframes.size(), 3u);
     EXPECT_EQ(scan.value().loops.edges.size() >= scan.value().keyframes.size() - 1, true);
     EXPECT_EQ(scan.value().path.size(), 60u);
-    EXPECT_EQ(scan.value().frames.size(), GetParam() ? scan.value().loops.next_ordinal : 60);
+    EXPECT_EQ(scan.value().frames.size(), scan.value().loops.next_ordinal);
+    float weight = 0;  // every frame is there, alone or in an average
+    for (const FrameRecord& frame : scan.value().frames) weight += frame.stored.view.weight;
+    EXPECT_TRUE(GetParam() ? weight <= 60 : weight == 60) << weight;
     EXPECT_GT(scan.value().frames.size(), 20u);
     const std::vector<StampedPose> stored = scan.value().Path();
     ASSERT_EQ(stored.size(), before.size());
