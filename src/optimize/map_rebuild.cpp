@@ -35,8 +35,7 @@ Result<bool> MapRebuild::Step(FrameStore& store, int frames) {
 int MapRebuild::Left(const FrameStore& store) const {
     const std::vector<StoredFrame>& stored = store.frames();
     return static_cast<int>(
-        stored.end() -
-        std::ranges::lower_bound(stored, next_ordinal_, {}, &StoredFrame::ordinal));
+        stored.end() - std::ranges::lower_bound(stored, next_ordinal_, {}, &StoredFrame::ordinal));
 }
 
 // Fuses the loaded frame.

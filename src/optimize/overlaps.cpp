@@ -82,9 +82,9 @@ PoseEdge EdgeOf(const Overlap& overlap, int to, double factor) {
 int OverlapFinder::Find(Keyframes& keyframes, int id, bool tracked) {
     int found = 0;
     for (const int with : Candidates(keyframes, id))
-        found += Align(keyframes, id, with,
-                       Between(keyframes[with].T_world_camera, keyframes[id].T_world_camera),
-                       tracked);
+        found +=
+            Align(keyframes, id, with,
+                  Between(keyframes[with].T_world_camera, keyframes[id].T_world_camera), tracked);
     return found;
 }
 
