@@ -11,8 +11,8 @@
 namespace tessera {
 namespace {
 
-constexpr int kMost = 5;
-constexpr double kMost_m = 0.03, kMost_rad = 0.05;
+constexpr int kMost = 8;
+constexpr double kMost_m = 0.05, kMost_rad = 0.08;
 // Structured light's noise is 1.5 to 3 mm / m^2; the two poses add a few millimetres.
 constexpr DepthMargin kMargin{.least_m = 0.01f, .per_m = 0.01f};
 

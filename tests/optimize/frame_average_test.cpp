@@ -118,15 +118,15 @@ TEST(FrameAverage, EndsWhenTheCameraHasMovedOrEnoughAreIn) {
     FrameAverage average(SmallCamera());
     EXPECT_FALSE(average.Add(frame, here, {}));  // no first frame
     average.Begin(frame, here, {});
-    EXPECT_FALSE(average.Add(frame, Eigen::Isometry3d(Eigen::Translation3d(0.04, 0, 0)), {}));
+    EXPECT_FALSE(average.Add(frame, Eigen::Isometry3d(Eigen::Translation3d(0.06, 0, 0)), {}));
     EXPECT_FALSE(average.Add(
-        frame, Eigen::Isometry3d(Eigen::AngleAxisd(0.06, Eigen::Vector3d::UnitY())), {}));
+        frame, Eigen::Isometry3d(Eigen::AngleAxisd(0.09, Eigen::Vector3d::UnitY())), {}));
     Frame grey = frame;
     grey.colour = {};
     EXPECT_FALSE(average.Add(grey, here, {}));
     int added = 0;
     while (average.Add(frame, here, {})) ++added;
-    EXPECT_EQ(added, 4);
+    EXPECT_EQ(added, 7);
     average.Take();
     EXPECT_TRUE(average.empty());
     EXPECT_FALSE(average.Add(frame, here, {}));
