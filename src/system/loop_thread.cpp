@@ -31,11 +31,8 @@ void LoopThread::Offer(std::unique_ptr<TrackedFrame> tracked, std::unique_ptr<Fr
     job.map = map;
     job.stamp_s = tracked->report.stamp_s;
     job.T_world_camera = tracked->report.track.T_world_camera;
-    // The more frames wait, the fewer are kept whole: a stretch of the path that the thread is late
-    // for is still covered.
-    const int waiting = whole_.load();
-    const int every = waiting < kAllWhole ? 1 : 2 << (waiting - kAllWhole) / 2;
-    const bool whole = tracked->report.fused && waiting < kWhole && ++since_whole_ >= every;
+    const int one_in = KeptOneIn(whole_.load());
+    const bool whole = tracked->report.fused && one_in > 0 && ++since_whole_ >= one_in;
     if (whole) {
         since_whole_ = 0;
         whole_.fetch_add(1);

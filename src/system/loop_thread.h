@@ -81,6 +81,12 @@ class LoopThread {
     std::vector<StampedPose> Path() const { return closer_->Path(); }
     const std::optional<CalibrationReport>& calibration() const { return closer_->calibration(); }
     std::size_t waiting() const { return worker_.waiting(); }
+    // Of the fused frames offered while this many wait whole, one in how many is kept whole: a
+    // stretch of the path for which the thread is late is still covered. 0 for none.
+    static int KeptOneIn(int waiting) {
+        if (waiting >= kWhole) return 0;
+        return waiting < kAllWhole ? 1 : 2 << (waiting - kAllWhole) / 2;
+    }
 
     // ---- Tracking thread. One question at a time.
     bool Ask(Question question) { return questions_.TryPush(std::move(question)); }

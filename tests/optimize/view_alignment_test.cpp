@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "optimize/overlaps.h"
+
 namespace tessera {
 namespace {
 
@@ -34,8 +36,8 @@ double Paint(const Eigen::Vector3d& p) {
 enum class Scene { kCorner, kBareWall, kPaintedWall };
 
 // `gain`: of the light.
-DenseView ViewFrom(const Eigen::Isometry3d& T_world_camera, Scene scene = Scene::kCorner,
-                   double gain = 1) {
+ReducedView ReducedFrom(const Eigen::Isometry3d& T_world_camera, Scene scene = Scene::kCorner,
+                        double gain = 1) {
     PreparedFrame frame;
     frame.width = kViewCamera.width;
     frame.height = kViewCamera.height;
@@ -52,7 +54,12 @@ DenseView ViewFrom(const Eigen::Isometry3d& T_world_camera, Scene scene = Scene:
             frame.intensity(x, y) =
                 static_cast<float>(scene == Scene::kBareWall ? 0.5 : gain * Paint(eye + z * ray));
         }
-    return MakeDenseView(MakeReducedView(frame), kViewCamera);
+    return MakeReducedView(frame);
+}
+
+DenseView ViewFrom(const Eigen::Isometry3d& T_world_camera, Scene scene = Scene::kCorner,
+                   double gain = 1) {
+    return MakeDenseView(ReducedFrom(T_world_camera, scene, gain), kViewCamera);
 }
 
 Eigen::Isometry3d Moved(double turn, double shift) {
@@ -126,6 +133,28 @@ TEST(ViewAlignment, ViewsOfDifferentPlacesAreNotAligned) {
     const DenseView here = ViewFrom(Eigen::Isometry3d::Identity());
     EXPECT_FALSE(AlignViews(here, ViewFrom(away), away).converged);
     EXPECT_FALSE(AlignViews(here, DenseView(), Moved(0, 0)).converged);
+}
+
+// A place that features propose is aligned from there, wherever the graph has the two keyframes.
+TEST(OverlapFinder, AlignsFromThePoseThatItIsGiven) {
+    const Eigen::Isometry3d T_a_b = Moved(0.12, 0.2);
+    const Eigen::Isometry3d T_tracked = T_a_b * Eigen::Translation3d(1.5, 0, 0);
+    std::vector<Keyframe> list(2);
+    list[0].reduced = ReducedFrom(Eigen::Isometry3d::Identity());
+    list[1].id = 1;
+    list[1].reduced = ReducedFrom(T_a_b);
+    list[1].T_map_camera = list[1].T_world_camera = T_tracked;
+    Keyframes keyframes(kViewCamera, 0.8, 100);
+    keyframes.Resume(std::move(list));
+    OverlapFinder finder(kViewCamera);
+    EXPECT_FALSE(finder.Align(keyframes, 1, 0, T_tracked, true));
+    EXPECT_TRUE(keyframes[1].overlaps.empty());
+    ASSERT_TRUE(finder.Align(keyframes, 1, 0, T_a_b * Se3Exp(Vector6d::Constant(0.02)), true));
+    ASSERT_EQ(keyframes[1].overlaps.size(), 1u);
+    const Overlap& overlap = keyframes[1].overlaps[0];
+    EXPECT_EQ(overlap.with, 0);
+    EXPECT_LT((overlap.T_with_this_aligned.translation() - T_a_b.translation()).norm(), 0.002);
+    EXPECT_TRUE(overlap.T_with_this_tracked->isApprox(T_tracked, 1e-9));
 }
 
 }  // namespace

@@ -115,6 +115,16 @@ TEST_F(LoopThreadTest, CorrectsAWalkThatDrifts) {
     EXPECT_NE(news.find(" frames are fused again"), std::string::npos) << news;
 }
 
+// With eight frames whole and the rest thinned, the thread may be late for 60 frames, two seconds.
+TEST(LoopThreadQueue, KeepsFewerFramesTheMoreWait) {
+    int covered = 0;
+    for (int waiting = 0; LoopThread::KeptOneIn(waiting) > 0; ++waiting)
+        covered += LoopThread::KeptOneIn(waiting);
+    EXPECT_EQ(LoopThread::KeptOneIn(7), 1);
+    EXPECT_EQ(LoopThread::KeptOneIn(8), 2);
+    EXPECT_GE(covered, 60);
+}
+
 TEST_F(LoopThreadTest, AResetForgetsAllAndAnOldQuestionHasNoAnswer) {
     const std::vector<Frame> walk = RoomWalk(0, 4, 6);  // the first is a keyframe
     for (std::size_t i = 0; i < walk.size(); ++i)
