@@ -46,7 +46,7 @@ void AddSeenFrom(const DepthImage& first_m, const DepthImage& depth_m, const Pin
             if (!same(a[0]) || !same(a[1]) || !same(b[0]) || !same(b[1])) continue;
             const float seen =
                 (1 - fv) * (a[0] + fu * (a[1] - a[0])) + fv * (b[0] + fu * (b[1] - b[0]));
-            sum[x] += z + (seen - p.z());
+            sum[x] += z + seen - p.z();
             count[x] += 1;
         }
     });

@@ -1,7 +1,6 @@
 // Consecutive frames of a camera that hardly moves, averaged into one: the view of the first, its
-// depth with less noise, its weight that of all. A map is made again from a few of these as well as
-// from every frame, and several times as fast ("keyframe fusion", Maier, Stueckler and Cremers,
-// 3DV 2015).
+// depth with less noise, its weight that of all. A map is made again from these at least as well as
+// from every frame, and faster ("keyframe fusion", Maier, Stueckler and Cremers, 3DV 2015).
 #pragma once
 
 #include <Eigen/Geometry>
