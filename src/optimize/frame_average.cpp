@@ -25,28 +25,40 @@ void AddSeenFrom(const DepthImage& first_m, const DepthImage& depth_m, const Pin
     const Eigen::Vector3f t = T_this_first.translation().cast<float>();
     const auto fx = static_cast<float>(camera.fx), fy = static_cast<float>(camera.fy),
                cx = static_cast<float>(camera.cx), cy = static_cast<float>(camera.cy);
+    Eigen::Matrix3f K;
+    K << fx, 0, cx, 0, fy, cy, 0, 0, 1;
+    const Eigen::Vector3f offset = K * t;
+    const float* pixels = depth_m.data();
+    const std::ptrdiff_t width = depth_m.width();
     const auto right = static_cast<float>(depth_m.width() - 1),
                below = static_cast<float>(depth_m.height() - 1);
     tbb::parallel_for(0, first_m.height(), [&](int y) {
-        const Eigen::Vector3f row = R.col(1) * ((static_cast<float>(y) - cy) / fy) + R.col(2);
+        // The ray of pixel x, in this frame's pixels and metres: left + x * step.
+        const Eigen::Vector3f step = K * R.col(0) / fx,
+                              left = K * (R.col(1) * ((static_cast<float>(y) - cy) / fy) +
+                                          R.col(2) - R.col(0) * (cx / fx));
         const float* z_first = first_m.row(y);
         float *sum = sum_m.row(y), *count = samples.row(y);
         for (int x = 0; x < first_m.width(); ++x) {
             const float z = z_first[x];
-            const Eigen::Vector3f p =
-                z * (R.col(0) * ((static_cast<float>(x) - cx) / fx) + row) + t;
-            if (!(z > 0) || !(p.z() > 0)) continue;
-            const float u = fx * p.x() / p.z() + cx, v = fy * p.y() / p.z() + cy;
-            if (!(u >= 0 && v >= 0 && u < right && v < below)) continue;
+            if (!(z > 0)) continue;
+            const auto column = static_cast<float>(x);
+            const float expected = z * (left.z() + column * step.z()) + offset.z(),
+                        inverse = 1 / expected;
+            const float u = (z * (left.x() + column * step.x()) + offset.x()) * inverse,
+                        v = (z * (left.y() + column * step.y()) + offset.y()) * inverse;
+            if (!(expected > 0 && u >= 0 && v >= 0 && u < right && v < below)) continue;
             const int u0 = static_cast<int>(u), v0 = static_cast<int>(v);
             const float fu = u - static_cast<float>(u0), fv = v - static_cast<float>(v0);
-            const float *a = depth_m.row(v0) + u0, *b = depth_m.row(v0 + 1) + u0;
+            const float* a = pixels + v0 * width + u0;
+            const float* b = a + width;
             const float most = kMargin(z);
-            const auto same = [&](float seen) { return std::abs(seen - p.z()) < most; };
-            if (!same(a[0]) || !same(a[1]) || !same(b[0]) || !same(b[1])) continue;
+            const float nearest = std::min(std::min(a[0], a[1]), std::min(b[0], b[1])),
+                        farthest = std::max(std::max(a[0], a[1]), std::max(b[0], b[1]));
+            if (!(nearest > expected - most && farthest < expected + most)) continue;
             const float seen =
                 (1 - fv) * (a[0] + fu * (a[1] - a[0])) + fv * (b[0] + fu * (b[1] - b[0]));
-            sum[x] += z + seen - p.z();
+            sum[x] += z + seen - expected;
             count[x] += 1;
         }
     });
