@@ -110,6 +110,11 @@ Status LoopCloser::StoreAverage() {
                       average_.view());
 }
 
+// The same where nobody awaits a status: a map without these frames is still a map.
+void LoopCloser::StoreLatest() {
+    if (Status stored = StoreAverage(); !stored.ok()) trouble_ = stored.message();
+}
+
 void LoopCloser::Pass(double stamp_s, const Eigen::Isometry3d& T_map_camera) {
     keyframes_.Follow(T_map_camera);
     jumps_.Follow(T_map_camera);
@@ -152,7 +157,7 @@ std::string LoopCloser::SeekLoop(const Keyframe& fresh, const PreparedFrame& pre
                                  const FrameMotion& motion) {
     const auto candidates = index_.Query(fresh.features.descriptors, fresh.id - config_.min_gap,
                                          config_.candidates, config_.min_votes);
-    const bool judged = CovarianceFactor(keyframes_).has_value();  // SeekDrift will
+    const bool judged = CovarianceFactor(keyframes_).has_value();  // by SeekDrift
     for (const PlaceIndex::Candidate& candidate : candidates) {
         const Keyframe& old = keyframes_[candidate.keyframe];
         if (judged) {

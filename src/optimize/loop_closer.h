@@ -83,7 +83,8 @@ class LoopCloser {
     std::optional<Correction> Step(int frames);
     // True if Step has work to do.
     bool HasWork() const { return rebuild_ != nullptr || moved_; }
-    // Returns once why the map is no longer corrected; usually empty.
+    // Returns once why the map is no longer corrected, or why frames are missing from it; usually
+    // empty.
     std::string TakeError() { return std::exchange(trouble_, {}); }
     // At the end of a run: makes all remaining corrections, and refines the calibration if
     // configured. `note`: message for the user about the calibration.
@@ -108,6 +109,7 @@ class LoopCloser {
     void AddPassage(double stamp_s, const Eigen::Isometry3d& T_map_camera);
     Status Store(const Frame& frame, bool keyframe, const Integrator::View& view);
     Status StoreAverage();
+    void StoreLatest();
     std::string SeekLoop(const Keyframe& fresh, const PreparedFrame& prepared,
                          const FrameMotion& motion);
     std::string CloseLoop(const Keyframe& old, const Keyframe& fresh, const FieldVerdict& verdict);

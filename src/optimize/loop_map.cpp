@@ -59,9 +59,7 @@ std::optional<LoopCloser::Correction> LoopCloser::Step(int frames) {
 
 std::optional<LoopCloser::Correction> LoopCloser::StepRebuild(int frames) {
     // The map in use holds the latest frames, too.
-    if (rebuild_->Left(store_) <= frames)
-        if (Status stored = StoreAverage(); !stored.ok()) StopRebuilding(stored);
-    if (!rebuild_) return std::nullopt;
+    if (rebuild_->Left(store_) <= frames) StoreLatest();
     const Result<bool> done = rebuild_->Step(store_, frames);
     if (!done.ok()) StopRebuilding(done.status());
     if (!done.ok() || !done.value()) return std::nullopt;
@@ -88,7 +86,7 @@ void LoopCloser::StopRebuilding(const Status& why) {
 
 std::optional<LoopCloser::Correction> LoopCloser::Finish(std::string& note) {
     std::optional<Correction> last;
-    if (Status stored = StoreAverage(); !stored.ok()) note = stored.message();
+    StoreLatest();
     if (corrected_ && Optimise().ok()) static_cast<void>(OptimiseAgain());  // else as it was
     if (config_.refine_calibration && !keyframes_.empty()) {
         const FieldSettings given = settings_;

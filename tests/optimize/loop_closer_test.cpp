@@ -163,6 +163,25 @@ TEST(LoopCloser, ACorrectedMapHasEveryFrame) {
     EXPECT_FLOAT_EQ(weight, static_cast<float>(gone));
 }
 
+// The latest frames cannot be stored: the map is corrected without them.
+TEST(LoopCloser, AMapIsCorrectedWithoutFramesThatCannotBeStored) {
+    if (!PoseGraphAvailable()) GTEST_SKIP() << "this build has no Ceres: install libceres-dev";
+    const std::vector<Frame> frames = Round();
+    Walker walker(LoopConfig{});
+    for (std::size_t i = 0; i < frames.size() && walker.corrections == 0; ++i) {
+        Eigen::Isometry3d step = Eigen::Isometry3d::Identity();
+        if (i > 0)
+            step = frames[i - 1].T_world_camera->inverse() * *frames[i].T_world_camera * Bias();
+        walker.Go(frames[i], step);
+        Frame wide = frames[i];
+        wide.colour.Resize(70000, 1);
+        // A new average begins after 6 cm.
+        for (double away_m = 0.06; walker.corrections == 0 && walker.closer.HasWork(); away_m = 0)
+            walker.Go(frames[i], Eigen::Isometry3d(Eigen::Translation3d(away_m, 0, 0)), &wide);
+    }
+    EXPECT_EQ(walker.corrections, 1);
+}
+
 TEST(LoopCloser, CorrectsToTheSameBytesForAnyNumberOfThreads) {
     if (!PoseGraphAvailable()) GTEST_SKIP() << "this build has no Ceres: install libceres-dev";
     const std::vector<Frame> frames = Round();
