@@ -21,7 +21,11 @@ struct Arguments {
     ConfigOptions config;
     std::string tracker, alpha, loop_closure;
     int threads = -1;
-    std::string device = "auto", mode = "lockstep", labels = "none", scan, resume;
+    std::string device = "auto", mode = "lockstep", labels = "none", scan, resume, localise_only;
+
+    // The existing scan to start from; empty if there is none.
+    const std::string& existing() const { return resume.empty() ? localise_only : resume; }
+
     std::vector<std::string> switches;
     bool view = false;
 };
@@ -47,8 +51,8 @@ Result<MethodSwitch> ParseSwitch(const std::string& text) {
 Status Configure(const Arguments& a, RunConfig& config) {
     ConfigParameters parameters;
     config.Describe(parameters);
-    if (!a.resume.empty())
-        if (Status status = TakeScanKeys(a.resume, parameters); !status.ok()) return status;
+    if (!a.existing().empty())
+        if (Status status = TakeScanKeys(a.existing(), parameters); !status.ok()) return status;
     if (Status status = a.config.Apply(parameters); !status.ok()) return status;
     if (!a.tracker.empty())
         if (Status status = parameters.Set("tracking.method", a.tracker); !status.ok())
@@ -75,7 +79,7 @@ Status Configure(const Arguments& a, RunConfig& config) {
     if (a.threads >= 0)
         if (Status status = parameters.Set("run.threads", std::to_string(a.threads)); !status.ok())
             return status;
-    return a.resume.empty() ? Status::Ok() : CheckScanKeys(a.resume, parameters);
+    return a.existing().empty() ? Status::Ok() : CheckScanKeys(a.existing(), parameters);
 }
 
 int Run(const Arguments& a) {
@@ -91,7 +95,8 @@ int Run(const Arguments& a) {
     request.device = device.get();
     request.live = a.mode == "live";
     request.resume = !a.resume.empty();
-    request.scan_file = request.resume ? a.resume : a.scan;
+    request.localise_only = !a.localise_only.empty();
+    request.scan_file = a.existing().empty() ? a.scan : a.existing();
     if (a.labels != "none") request.labels = a.labels;
     for (const std::string& text : a.switches) {
         const Result<MethodSwitch> change = ParseSwitch(text);
@@ -198,13 +203,20 @@ void AddFilesAndDevice(CLI::App& command, Arguments& a) {
                                         "Save the scan continuously to this new file; a killed "
                                         "run loses at most the last second")
                             ->type_name("FILE");
+    CLI::Option* resume =
+        command
+            .add_option("--resume", a.resume,
+                        "Continue a saved scan, from any place that it has seen, and save to the "
+                        "same file; voxel size and truncation are those of the scan; frames of "
+                        "the same recording that are already in it are skipped")
+            ->type_name("FILE")
+            ->excludes(scan);
     command
-        .add_option(
-            "--resume", a.resume,
-            "Continue a saved scan, and save to the same file; voxel size and truncation are those "
-            "of the scan; frames of the same recording that are already in it are skipped")
+        .add_option("--localise-only", a.localise_only,
+                    "Track the camera in a saved scan, which is only read; nothing is fused")
         ->type_name("FILE")
-        ->excludes(scan);
+        ->excludes(scan)
+        ->excludes(resume);
     command
         .add_option("--device", a.device,
                     "Where to compute map and tracking: auto uses the CPU; cuda uses the first "

@@ -156,6 +156,16 @@ std::string TrajectoryLine(const StampedPose& pose) {
                        t.x(), t.y(), t.z(), q.x(), q.y(), q.z(), q.w());
 }
 
+std::vector<std::vector<StampedPose>> SplitByClock(const std::vector<StampedPose>& poses) {
+    std::vector<std::vector<StampedPose>> parts(1);
+    for (const StampedPose& pose : poses) {
+        if (!parts.back().empty() && StartsAgain(parts.back().back().stamp_s, pose.stamp_s))
+            parts.emplace_back();
+        parts.back().push_back(pose);
+    }
+    return parts;
+}
+
 Status WriteTrajectory(const std::string& path, const std::vector<StampedPose>& poses) {
     std::string text = "# stamp tx ty tz qx qy qz qw (T_world_camera; seconds, metres)\n";
     for (const StampedPose& pose : poses) text += TrajectoryLine(pose) + '\n';

@@ -29,6 +29,12 @@ Status WriteTrajectory(const std::string& path, const std::vector<StampedPose>& 
 // appended to the name.
 Status WriteKittiPoses(const std::string& path, const std::vector<StampedPose>& poses);
 
+// True if the clock started again between two poses that follow each other: another recording.
+inline bool StartsAgain(double before_s, double after_s) { return after_s < before_s - 1; }
+// Splits the path of a scan of several recordings where the clock starts again. At least one part,
+// which may be empty.
+std::vector<std::vector<StampedPose>> SplitByClock(const std::vector<StampedPose>& poses);
+
 // Returns one line of a TUM file, without newline: stamp with 6 decimals, translation and
 // quaternion with 9.
 std::string TrajectoryLine(const StampedPose& pose);

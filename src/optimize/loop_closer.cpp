@@ -1,9 +1,6 @@
 #include "optimize/loop_closer.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <functional>
 #include <utility>
 
 #include "core/se3.h"
@@ -48,9 +45,22 @@ void LoopCloser::Resume(Memory memory) {
                 return !labels_ || d.class_id < 1 || d.class_id > labels_->classes.count();
             });
     store_.Resume(std::move(memory.frames), memory.next_ordinal);
+    MakeMissingViews();
     loops_ = memory.loops;
     corrected_ = memory.corrected;
     moved_ = true;
+}
+
+// Old scan files have no reduced views.
+void LoopCloser::MakeMissingViews() {
+    Frame frame;
+    PreparedFrame prepared;
+    for (const StoredFrame& stored : store_.frames()) {
+        if (!stored.is_keyframe || !keyframes_[stored.keyframe].reduced.empty()) continue;
+        if (store_.LoadPrepared(stored, settings_.camera, settings_.preparation, frame, prepared)
+                .ok())
+            keyframes_[stored.keyframe].reduced = MakeReducedView(prepared);
+    }
 }
 
 std::string LoopCloser::Add(const Frame& frame, const PreparedFrame& prepared,
@@ -190,54 +200,6 @@ std::string LoopCloser::CloseLoop(const Keyframe& old, const Keyframe& fresh,
     corrected_ = true;
     if (Status solved = OptimiseAgain(); !solved.ok()) return solved.message();
     return ClosedText(old, drift);
-}
-
-// Returns the place that explains the view best, if it does so much better than all others.
-std::optional<Eigen::Isometry3d> LoopCloser::Relocalise(const PreparedFrame& frame,
-                                                        std::string& note) {
-    constexpr double kApart_m = 0.3, kApart_rad = 0.3, kAsWell = 0.6;
-    // Factor compared with a loop: no prior pose narrows down the search.
-    constexpr int kManyCandidates = 4;
-    struct Place {
-        int keyframe = 0;
-        Eigen::Isometry3d T_map_camera;
-        double explained = 0;
-    };
-    const Features features = ExtractFeatures(frame, settings_.camera, config_.max_features);
-    std::vector<Place> places;
-    relocalised_at_.reset();
-    for (const auto& candidate :
-         index_.Query(features.descriptors, keyframes_.size(), kManyCandidates * config_.candidates,
-                      config_.min_votes)) {
-        const Keyframe& old = keyframes_[candidate.keyframe];
-        const FeatureMatch match = MatchFeatures(old.features, features, config_);
-        if (!match.accepted) continue;
-        const Eigen::Isometry3d T_guess = old.T_map_camera * match.T_old_new;
-        const auto same = [&](const Place& place) {
-            return (place.T_map_camera.translation() - T_guess.translation()).norm() <= kApart_m &&
-                   RotationAngle(place.T_map_camera, T_guess) <= kApart_rad;
-        };
-        if (std::ranges::any_of(places, same)) continue;
-        const FieldVerdict verdict =
-            verifier_.VerifyPlace(keyframes_, old, frame, match.T_old_new, store_);
-        if (verdict.accepted)
-            places.push_back(
-                {old.id, Normalised(old.T_map_camera * verdict.T_old_new), verdict.explained});
-    }
-    if (places.empty()) return std::nullopt;
-    std::ranges::stable_sort(places, std::greater{}, &Place::explained);
-    const Place& best = places.front();
-    if (places.size() > 1 && places[1].explained >= kAsWell * best.explained) {
-        note = fmt::format("ambiguous place: frame {} or frame {}",
-                           keyframes_[best.keyframe].frame_index,
-                           keyframes_[places[1].keyframe].frame_index);
-        return std::nullopt;
-    }
-    relocalised_at_ = best.keyframe;
-    note = fmt::format("relocalised at frame {}", keyframes_[best.keyframe].frame_index);
-    keyframes_.Jump();
-    jumps_.Reset();
-    return best.T_map_camera;
 }
 
 std::vector<StampedPose> LoopCloser::Path() const {

@@ -102,6 +102,16 @@ class LoopCloser {
     const std::optional<CalibrationReport>& calibration() const { return calibration_; }
 
   private:
+    // Where a lost camera may be.
+    struct Place {
+        int keyframe = 0;
+        Eigen::Isometry3d T_old_new, T_map_camera;  // of the lost camera's frame
+        double explained = 0;                       // FieldVerdict::explained
+    };
+
+    void MakeMissingViews();
+    std::vector<Place> PlacesOf(const PreparedFrame& frame);
+    const Place* BestOf(std::vector<Place>& places, const PreparedFrame& frame, std::string& note);
     void AddKeyframe(const Frame& frame, const PreparedFrame& prepared, const TrackResult& track,
                      const FrameMotion& motion, const Eigen::Isometry3d& T_map_expected,
                      bool doubtful);

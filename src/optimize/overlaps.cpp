@@ -5,8 +5,6 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "optimize/view_alignment.h"
-
 namespace tessera {
 namespace {
 

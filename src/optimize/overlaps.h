@@ -8,6 +8,7 @@
 #include "optimize/dense_view.h"
 #include "optimize/keyframes.h"
 #include "optimize/pose_graph.h"
+#include "optimize/view_alignment.h"
 
 namespace tessera {
 
@@ -26,6 +27,16 @@ class OverlapFinder {
     bool Align(Keyframes& keyframes, int id, int with, const Eigen::Isometry3d& T_with_this,
                bool tracked);
 
+    // Aligns any view with a keyframe, starting from T_keyframe_view. Does not converge if the
+    // keyframe has no reduced view.
+    ViewAlignment AlignView(const Keyframe& keyframe, const DenseView& view,
+                            const Eigen::Isometry3d& T_keyframe_view) {
+        return keyframe.reduced.empty() ? ViewAlignment()
+                                        : AlignViews(ViewOf(keyframe), view, T_keyframe_view);
+    }
+    // Of a keyframe with a reduced view. Valid until the next call.
+    const DenseView& ViewOf(const Keyframe& keyframe);
+
   private:
     struct Cached {
         int id = 0;
@@ -33,7 +44,6 @@ class OverlapFinder {
     };
 
     std::vector<int> Candidates(const Keyframes& keyframes, int id) const;
-    const DenseView& ViewOf(const Keyframe& keyframe);
 
     PinholeCamera camera_;
     std::list<Cached> cache_;  // most recently used first

@@ -1,5 +1,6 @@
 #include "run/run.h"
 
+#include <fmt/format.h>
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
@@ -25,12 +26,30 @@ Status CheckLoops(const RunRequest& request, const RunConfig& config) {
     return Status::Ok();
 }
 
+Status CheckScan(const RunRequest& request) {
+    const bool given = !request.poses_file.empty();
+    if (given && (request.resume || request.localise_only))
+        return Status::Error(fmt::format(
+            "{}: not possible with --poses, which already gives the poses; leave one of the two "
+            "out",
+            request.resume ? "--resume" : "--localise-only"));
+    if (request.localise_only && !request.labels.empty())
+        return Status::Error(
+            "--localise-only: changes nothing in the map, so it cannot label objects; leave "
+            "--labels out");
+    return Status::Ok();
+}
+
 Status CheckPaging(const RunRequest& request, const RunConfig& config) {
     if (!config.pipeline.paging.enabled()) return Status::Ok();
     const std::string key = "mapping.memory_limit_mb: ";
     if (request.scan_file.empty())
         return Status::Error(
             key + "blocks that leave memory are moved to the scan file; give --scan FILE");
+    if (request.localise_only)
+        return Status::Error(key +
+                             "not possible with --localise-only, which only reads the scan; leave "
+                             "one of the two out");
     return Status::Ok();
 }
 
@@ -46,7 +65,7 @@ Status CheckDevice(const RunRequest& request, const RunConfig& config) {
 }  // namespace
 
 Status CheckRun(const RunRequest& request, const RunConfig& config) {
-    for (const Status& status : {config.Validate(), CheckLoops(request, config),
+    for (const Status& status : {config.Validate(), CheckLoops(request, config), CheckScan(request),
                                  CheckPaging(request, config), CheckDevice(request, config)})
         if (!status.ok()) return status;
     return Status::Ok();

@@ -31,9 +31,11 @@ struct RunRequest {
     std::string record_path;
     ViewerLink* viewer = nullptr;  // outlives the run
     FrameSelection selection;
-    std::string labels;      // a network, a detections file, or "synthetic"; empty: no labels
-    std::string scan_file;   // written during the run; empty: none
-    bool resume = false;     // continue the existing scan_file; else create it
+    std::string labels;     // a network, a detections file, or "synthetic"; empty: no labels
+    std::string scan_file;  // written during the run; empty: none
+    bool resume = false;    // continue the existing scan_file; else create it
+    // Track the camera in the existing scan_file, which is only read. Not with `resume`.
+    bool localise_only = false;
     std::string poses_file;  // TUM trajectory: fuse at its poses, no tracking; empty: track
     std::vector<MethodSwitch> switches;     // for the same frame, the last one wins
     std::string output_folder;              // empty: no output and no mesh

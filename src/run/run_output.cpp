@@ -24,6 +24,9 @@ constexpr const char* kFramesHeader =
     "blocks,fused_blocks,decode_ms,prepare_ms,"
     "track_ms,moving_ms,allocate_ms,fuse_ms,frame_ms,reason\n";
 
+constexpr const char* kTrajectoryHeader =
+    "# stamp_s tx ty tz qx qy qz qw: T_world_camera, metres\n";
+
 std::string FrameLine(const FrameReport& r, double decode_ms, double frame_ms) {
     const TrackResult& t = r.track;
     std::string reason = t.reason;
@@ -67,14 +70,13 @@ Result<std::unique_ptr<RunOutput>> RunOutput::Open(const RunRequest& request,
     for (const char* name :
          {"mesh.ply", "preview.png", "objects.json", "timings.json", "detections.txt"})
         std::filesystem::remove(output->Path(name), ignored);
+    for (int clock = 1; std::filesystem::remove(output->EarlierPath(clock), ignored);) ++clock;
     RunSummary unfinished;
     unfinished.source = source;
     unfinished.exit = "unfinished";
     for (const Status& status :
          {WriteTextFile(output->Path("run.json"), RunJson(request, config, unfinished)),
-          output->OpenGrowing("trajectory.txt",
-                              "# stamp_s tx ty tz qx qy qz qw: T_world_camera, metres\n",
-                              output->trajectory_),
+          output->OpenGrowing("trajectory.txt", kTrajectoryHeader, output->trajectory_),
           output->OpenGrowing("frames.csv", kFramesHeader, output->frames_)})
         if (!status.ok()) return status;
     if (!request.labels.empty())
@@ -102,13 +104,9 @@ Status RunOutput::Append(const std::string& name, const std::string& line, File&
 }
 
 Status RunOutput::AddFrame(const FrameReport& report, double decode_ms, double frame_ms) {
-    if (report.tracked()) {
-        path_.push_back(report.track.T_world_camera);
-        const std::string line =
-            TrajectoryLine({report.stamp_s, report.track.T_world_camera}) + "\n";
-        if (Status status = Append("trajectory.txt", line, trajectory_); !status.ok())
+    if (report.tracked())
+        if (Status status = AddPath({{report.stamp_s, report.track.T_world_camera}}); !status.ok())
             return status;
-    }
     return Append("frames.csv", FrameLine(report, decode_ms, frame_ms), frames_);
 }
 
@@ -122,17 +120,43 @@ Status RunOutput::AddDetections(const LabelReport& report, const LabelClasses& c
 Status RunOutput::AddPath(const std::vector<StampedPose>& path) {
     std::string lines;
     for (const StampedPose& pose : path) {
+        if (!path_.empty() && StartsAgain(last_stamp_s_, pose.stamp_s)) {
+            if (Status status = Append("trajectory.txt", lines, trajectory_); !status.ok())
+                return status;
+            if (Status status = BeginClock(); !status.ok()) return status;
+            lines.clear();
+        }
+        last_stamp_s_ = pose.stamp_s;
         path_.push_back(pose.T_world_camera);
         lines += TrajectoryLine(pose) + "\n";
     }
     return lines.empty() ? Status::Ok() : Append("trajectory.txt", lines, trajectory_);
 }
 
+std::string RunOutput::EarlierPath(int clock) const {
+    return Path(fmt::format("trajectory_{}.txt", clock));
+}
+
+// The poses so far are from recordings with another clock: they move to a file of their own.
+Status RunOutput::BeginClock() {
+    std::error_code error;
+    std::filesystem::rename(Path("trajectory.txt"), EarlierPath(++clocks_), error);
+    if (error)
+        return Status::Error(
+            fmt::format("{}: cannot be written: {}", EarlierPath(clocks_), error.message()));
+    return OpenGrowing("trajectory.txt", kTrajectoryHeader, trajectory_);
+}
+
 Status RunOutput::ReplacePath(const std::vector<StampedPose>& path) {
     path_.clear();
     for (const StampedPose& pose : path) path_.push_back(pose.T_world_camera);
     trajectory_.reset();
-    return WriteTrajectory(Path("trajectory.txt"), path);
+    const std::vector<std::vector<StampedPose>> parts = SplitByClock(path);
+    for (std::size_t i = 0; i + 1 < parts.size(); ++i)
+        if (Status status = WriteTrajectory(EarlierPath(static_cast<int>(i) + 1), parts[i]);
+            !status.ok())
+            return status;
+    return WriteTrajectory(Path("trajectory.txt"), parts.back());
 }
 
 Status RunOutput::WritePicture(const TriangleMesh& mesh) const {

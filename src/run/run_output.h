@@ -30,9 +30,11 @@ class RunOutput {
     // Adds the frame's detections to detections.txt, after a line that marks the frame as
     // processed.
     Status AddDetections(const LabelReport& report, const LabelClasses& classes);
-    // Adds lines to trajectory.txt for frames tracked before this run.
+    // Adds lines to trajectory.txt for frames tracked before this run. Where the clock starts
+    // again, the lines so far move to trajectory_1.txt and so on.
     Status AddPath(const std::vector<StampedPose>& path);
-    // Rewrites trajectory.txt with corrected poses, completely or not at all.
+    // Rewrites trajectory.txt, and those of earlier clocks, with corrected poses, each completely
+    // or not at all.
     Status ReplacePath(const std::vector<StampedPose>& path);
 
     // Writes mesh.ply, and preview.png if the mesh has triangles. Coarsens a large mesh for the
@@ -51,6 +53,8 @@ class RunOutput {
     RunOutput(const RunRequest& request, const RunConfig& config)
         : request_(request), config_(config) {}
     std::string Path(const std::string& name) const { return request_.output_folder + "/" + name; }
+    std::string EarlierPath(int clock) const;
+    Status BeginClock();
     Status OpenGrowing(const std::string& name, const std::string& header, File& file);
     Status Append(const std::string& name, const std::string& line, File& file);
     Status WritePicture(const TriangleMesh& mesh) const;
@@ -59,6 +63,8 @@ class RunOutput {
     RunConfig config_;
     File trajectory_, frames_, detections_;  // detections_ with labels only
     std::vector<Eigen::Isometry3d> path_;    // T_world_camera of the tracked frames
+    double last_stamp_s_ = 0;                // of path_
+    int clocks_ = 0;                         // files of earlier clocks
 };
 
 }  // namespace tessera

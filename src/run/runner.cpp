@@ -23,6 +23,12 @@ void BeginShutter(const CameraEstimate& estimate, PipelineConfig& config, Source
                     1000 * estimate.readout_s, 1000 * estimate.readout_sigma_s));
 }
 
+// Nothing is fused, so a camera that leaves the map drifts: it must be lost instead.
+void StayInTheMap(RunConfig& config) {
+    double& least = config.pipeline.trackers.judge.min_known_fraction;
+    least = std::max(least, config.loops.min_known_fraction);
+}
+
 }  // namespace
 
 Result<RunSummary> Runner::Run(const std::atomic<bool>& stop) {
@@ -67,6 +73,7 @@ Status Runner::Open(const std::atomic<bool>& stop) {
     Result<ScanPlan> scan = OpenScan();
     if (!scan.ok()) return scan.status();
     RunConfig config = config_;
+    if (request_.localise_only) StayInTheMap(config);
     if (summary_.camera) BeginShutter(summary_.camera->estimate, config.pipeline, summary_.source);
     EngineInput input{std::move(source),
                       selection_,
@@ -87,10 +94,7 @@ Status Runner::Open(const std::atomic<bool>& stop) {
 
 Result<ScanPlan> Runner::OpenScan() {
     if (request_.scan_file.empty()) return ScanPlan();
-    if (!request_.poses_file.empty() && request_.resume)
-        return Status::Error(
-            "--resume: not possible with --poses, which already gives the poses; leave one of the "
-            "two out");
+    if (request_.localise_only) return OpenToLocalise(request_.scan_file, summary_.source, config_);
     if (!request_.resume) return BeginScan(request_.scan_file, summary_.source, config_);
     Result<ScanPlan> plan =
         ResumeScan(request_.scan_file, summary_.source, config_, !request_.labels.empty());
@@ -133,12 +137,18 @@ Status Runner::Finish(const Status& outcome) {
     s.peak_rss_mb = MeasureProcess().peak_rss_mb;
     s.stages = times_.Summarise();
     if (request_.poses_file.empty())
-        if (Result<AteResult> ate =
-                EvaluateAte(truth_, estimate_, {.frames = frames_before_ + s.counts.frames});
-            ate.ok())
-            s.ate = std::move(ate.value());
+        if (Result<AteResult> ate = Evaluate(); ate.ok()) s.ate = std::move(ate.value());
     if (Status status = output_ ? output_->Finish(s) : Status::Ok(); written.ok()) written = status;
     return written;
+}
+
+// If this recording's clock began before the scan's last frame, its frames alone can be told apart
+// by their stamps.
+Result<AteResult> Runner::Evaluate() const {
+    const auto paths = SplitByClock(estimate_), truths = SplitByClock(truth_);
+    const bool whole = paths.size() == 1 && truths.size() == 1;
+    return EvaluateAte(truths.back(), paths.back(),
+                       {.frames = summary_.counts.frames + (whole ? frames_before_ : 0)});
 }
 
 // Takes over the final poses and the refined calibration.

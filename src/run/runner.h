@@ -47,6 +47,7 @@ class Runner {
 
     Status Finish(const Status& outcome);
     // Takes over the final poses and the refined calibration.
+    Result<AteResult> Evaluate() const;
     Status Correct();
     Status WriteMesh();
     std::int64_t Total() const;

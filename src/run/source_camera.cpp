@@ -171,7 +171,7 @@ Result<CheckedSource> OpenCheckedSource(const RunRequest& request, const RunConf
         return checked;
     }
     std::optional<PinholeCamera> camera;
-    if (request.resume) {
+    if (request.resume || request.localise_only) {
         camera = CameraOfScan(request.scan_file, given.camera);
         if (camera)
             checked.messages.push_back(

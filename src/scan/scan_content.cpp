@@ -105,6 +105,10 @@ Status ReadStates(ScanFile& file, ScanContent& content) {
         if (!read.ok()) return read.status();
         *bytes = std::move(read.value());
     }
+    const Result<Bytes> source = ReadState(file, ScanStateKey::kSource);
+    if (!source.ok()) return source.status();
+    content.source_name.assign(source.value().begin(), source.value().end());
+    if (content.source_name.empty()) content.source_name = content.meta.source_name;
     const Result<Bytes> loops = ReadState(file, ScanStateKey::kLoops);
     if (!loops.ok()) return loops.status();
     if (!loops.value().empty() && !content.loops.Decode(loops.value()))

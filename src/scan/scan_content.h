@@ -23,6 +23,7 @@ struct ScanContent {
     std::vector<Keyframe> keyframes;
     std::vector<FrameRecord> frames;  // if requested, by increasing time
     LoopProgress loops;
+    std::string source_name;  // of the last session, to which progress.last_index belongs
     // Saved states of TrackingStage and LabelMapper; may be empty.
     Bytes tracking, labels;
 

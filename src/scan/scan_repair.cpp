@@ -226,7 +226,8 @@ class Repair {
         };
         if (Status status = put(ScanStateKey::kProgress, progress.Encode()); !status.ok())
             return status;
-        for (const ScanStateKey key : {ScanStateKey::kTracking, ScanStateKey::kLabels})
+        for (const ScanStateKey key :
+             {ScanStateKey::kTracking, ScanStateKey::kLabels, ScanStateKey::kSource})
             if (load(key)) {
                 const Bytes data(row.data.begin(), row.data.end());
                 if (Status status = put(key, data); !status.ok()) return status;

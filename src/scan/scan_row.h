@@ -34,7 +34,15 @@ const char* ToString(ScanTable table);  // its name in the file
 inline std::size_t IndexOf(ScanTable table) { return static_cast<std::size_t>(table) - 1; }
 
 // Keys of ScanTable::kState. kMeta has only key 0.
-enum class ScanStateKey : std::int64_t { kSeal, kProgress, kTracking, kLoops, kLabels, kMetaCopy };
+enum class ScanStateKey : std::int64_t {
+    kSeal,
+    kProgress,
+    kTracking,
+    kLoops,
+    kLabels,
+    kMetaCopy,
+    kSource  // name of the last session's source; none if that is the first session's
+};
 inline constexpr std::int64_t kSealKey = static_cast<std::int64_t>(ScanStateKey::kSeal);
 
 // `data` belongs to the reader and is valid until its next row.

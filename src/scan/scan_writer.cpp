@@ -14,6 +14,7 @@ void ScanCheckpoint::Clear() {
     raw_frames.clear();
     keyframes.clear();
     poses.clear();
+    source.clear();
     tracking.clear();
     labels.clear();
     stored.reset();
@@ -75,6 +76,11 @@ Status ScanWriter::PutRows(const ScanCheckpoint& c) {
             return status;
     if (Status status = PutState(ScanStateKey::kProgress, c.progress.Encode()); !status.ok())
         return status;
+    if (!c.source.empty())
+        if (Status status =
+                PutState(ScanStateKey::kSource, Bytes(c.source.begin(), c.source.end()));
+            !status.ok())
+            return status;
     for (const auto& [state_key, bytes] :
          {std::pair{ScanStateKey::kTracking, &c.tracking}, {ScanStateKey::kLabels, &c.labels}})
         if (!bytes->empty() || c.clear_all)

@@ -27,6 +27,7 @@ struct ScanCheckpoint {
     std::vector<Keyframe> keyframes;  // new ones
     std::vector<std::pair<int, KeyframePoses>> poses;
     ScanProgress progress;
+    std::string source;      // empty: keep what the file has
     Bytes tracking, labels;  // empty: keep what the file has
     std::optional<LoopProgress> loops;
     bool finished = false;

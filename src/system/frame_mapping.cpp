@@ -5,6 +5,7 @@
 #include "core/process.h"
 #include "core/stopwatch.h"
 #include "io/mesh_io.h"
+#include "system/scan_restore.h"
 
 namespace tessera {
 
@@ -21,6 +22,10 @@ FrameMapping::FrameMapping(const RunConfig& config, const SourceInfo& source, Ba
 }
 
 Status FrameMapping::StartScan(ScanPlan plan) {
+    if (plan.only_localise()) {
+        loops_ = TakeLoopMemory(*plan.resumed);
+        return RestoreMap({}, *plan.resumed, stage_);
+    }
     scan_.emplace(std::move(plan), config_.scan, wait_, config_.loops.enabled, notices_);
     if (Status status = scan_->Resume(stage_); !status.ok()) return status;
     return StartPaging();
@@ -37,7 +42,7 @@ Status FrameMapping::StartPaging() {
 }
 
 std::optional<LoopCloser::Memory> FrameMapping::TakeLoops() {
-    return scan_ ? scan_->TakeLoops() : std::nullopt;
+    return scan_ ? scan_->TakeLoops() : std::exchange(loops_, std::nullopt);
 }
 
 // ---- A frame.

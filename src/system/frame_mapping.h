@@ -26,7 +26,8 @@ class FrameMapping {
                  ViewerLink* viewer, bool wait, Notices& notices);
 
     // ---- Before the first frame.
-    // Saves a scan from now on. Restores the map of one that is continued.
+    // Saves a scan from now on, unless the camera is only to be localised. Restores the map of one
+    // that is continued.
     Status StartScan(ScanPlan plan);
     // After StartScan: the loop closure state to continue with. Nothing for a new file.
     std::optional<LoopCloser::Memory> TakeLoops();
@@ -95,8 +96,9 @@ class FrameMapping {
     const bool has_viewer_, wait_;
     Notices& notices_;
     MappingStage stage_;
-    std::optional<ScanStage> scan_;        // set if a scan is saved
-    std::unique_ptr<PagingStage> paging_;  // null without a memory limit
+    std::optional<ScanStage> scan_;            // set if a scan is saved
+    std::optional<LoopCloser::Memory> loops_;  // of a scan in which the camera is only localised
+    std::unique_ptr<PagingStage> paging_;      // null without a memory limit
     // With a window: frames so far, in case the user starts saving a scan mid-run.
     std::vector<PathRecord> past_;
     LabelSettings label_settings_;

@@ -3,10 +3,10 @@
 
 #include <optional>
 
-#include "scan/scan_content.h"
 #include "system/frame_plan.h"
 #include "system/resume_gate.h"
 #include "system/run_config.h"
+#include "system/scan_plan.h"
 #include "system/tracking_stage.h"
 
 namespace tessera {
@@ -16,9 +16,11 @@ struct TrackingResume {
     Bytes state;  // TrackingStage::SaveState
     std::optional<StampedPose> last;
     double last_stamp_s = 0;
+    bool only_localise = false;
 
-    static TrackingResume Of(const ScanContent& scan) {
-        return {scan.tracking, scan.LastPose(), scan.progress.last_stamp_s};
+    static TrackingResume Of(const ScanPlan& plan) {
+        const ScanContent& scan = *plan.resumed;
+        return {scan.tracking, scan.LastPose(), scan.progress.last_stamp_s, plan.only_localise()};
     }
 };
 
@@ -37,6 +39,7 @@ class FrameTracking {
     // Call before the first frame.
     void Resume(const TrackingResume& resume) {
         gate_.Begin(resume.state, resume.last, !loops_, stage_);
+        if (resume.only_localise) stage_.OnlyTrack();
     }
 
     // A frame: first selects its method, which decides what map it needs, then tracks.

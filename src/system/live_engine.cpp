@@ -20,7 +20,7 @@ Status LiveEngine::Start(EngineInput& input) {
         if (Status status = reading_.StartRecording(input.record_path); !status.ok()) return status;
     LiveTracking::Settings tracking{input.config, reading_.source().camera, input.device,
                                     input.viewer, std::nullopt};
-    if (input.scan.resumed) tracking.resume = TrackingResume::Of(*input.scan.resumed);
+    if (input.scan.resumed) tracking.resume = TrackingResume::Of(input.scan);
     if (Status status = mapping_.Start(std::move(input.labelling), std::move(input.scan));
         !status.ok())
         return status;
@@ -64,7 +64,8 @@ TriangleMesh LiveEngine::TakeMesh() {
 }
 
 std::vector<StampedPose> LiveEngine::CorrectedPath() const {
-    return mapping_.loops() != nullptr ? mapping_.loops()->Path() : std::vector<StampedPose>();
+    return mapping_.loops() != nullptr && !mapping_.only_localise() ? mapping_.loops()->Path()
+                                                                    : std::vector<StampedPose>();
 }
 
 std::optional<CalibrationReport> LiveEngine::calibration() const {

@@ -23,8 +23,9 @@ Status LiveMapping::Start(Labelling labelling, ScanPlan plan) {
         labels = LoopCloser::Labels{config_.labels, labelling.classes};
         StartLabels(std::move(labelling));
     }
-    if (plan.file) {
-        links_.saving.store(true);
+    only_localise_ = plan.only_localise();
+    if (plan.file || only_localise_) {
+        links_.saving.store(!only_localise_);
         if (Status status = life_.StartScan(std::move(plan)); !status.ok()) return status;
         if (!one_thread_ && life_.stage().map().size() > 1) SendWholeMap();
     }
@@ -157,7 +158,7 @@ void LiveMapping::Offer(MappingTask& task) {
             life_.paging()->Hold(report.index, report.track.T_world_camera);
         links_.frames.Give(std::move(needless));
     }
-    if (loops_ && report.tracked())
+    if (loops_ && report.tracked() && !only_localise_)
         loops_->Offer(std::move(task.tracked), std::move(task.frame), version());
     links_.frames.Give(std::move(task.frame));
     links_.tracked_frames.Give(std::move(task.tracked));
@@ -190,7 +191,7 @@ void LiveMapping::Reset() {
 // ---- The end.
 
 void LiveMapping::End() {
-    if (loops_ && !links_.quit.load()) {
+    if (loops_ && !links_.quit.load() && !only_localise_) {
         loops_->Finish();
         LoopThread::Update update;
         while (loops_->TryTake(update)) TakeUpdate(std::move(update), true);

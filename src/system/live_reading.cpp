@@ -23,7 +23,9 @@ LiveReading::LiveReading(EngineInput& input, LiveLinks& links)
       frames_(std::move(input.source), input.selection),
       source_(frames_.info()),
       control_(input.viewer),
-      recorder_(source_, input.config.record, false, links.notices) {}
+      recorder_(source_, input.config.record, false, links.notices) {
+    if (input.scan.only_localise()) control_.KeepMap(links.notices);
+}
 
 Status LiveReading::StartRecording(const std::string& path) {
     return recorder_.Start(path, frames_.source());

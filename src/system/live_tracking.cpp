@@ -6,7 +6,8 @@ LiveTracking::State::State(const Settings& settings, FramePlan plan)
     : life(settings.config, settings.camera, settings.device, std::move(plan)),
       field(std::make_unique<BlockMap>(settings.config.pipeline.map,
                                        settings.config.pipeline.trackers.layers())),
-      lost(settings.config.loops, settings.config.pipeline.motion.max_gap_s) {
+      lost(settings.config.loops, settings.config.pipeline.motion.max_gap_s),
+      place(settings.camera) {
     if (!settings.resume) return;
     life.Resume(*settings.resume);
     lost.Resume(settings.resume->last_stamp_s);
@@ -56,6 +57,7 @@ void LiveTracking::Reset() {
     state_->life.Reset();
     state_->field->Clear();
     state_->lost = LostCamera(settings_.config.loops, settings_.config.pipeline.motion.max_gap_s);
+    state_->place = PlaceCheck(settings_.camera);
 }
 
 // ---- The life of a frame.
@@ -109,6 +111,7 @@ bool LiveTracking::ApplyMapUpdates() {
         if (ours && update.field) {
             state_->field = std::move(update.field);
             state_->life.stage().Move(update.T_new_old);
+            state_->place.Move(update.T_new_old);
             ++state_->version.corrections;
         } else if (ours) {
             ApplyDelta(*update.delta, *state_->field);
@@ -131,7 +134,17 @@ std::optional<Eigen::Isometry3d> LiveTracking::TakeRelocalisation(double stamp_s
     LoopThread::Answer answer;
     if (loops_ == nullptr || !loops_->TryTake(answer)) return std::nullopt;
     state_->asked = false;
-    if (!answer.T_world_camera || answer.map != state_->version) return std::nullopt;
+    if (answer.map != state_->version) return std::nullopt;
+    if (answer.check) {
+        if (!state_->place.Answer(answer.T_world_camera)) {
+            state_->lost.Lose();
+            links_.notices.Tell(kPlaceRefuted);
+        } else if (!state_->place.open()) {
+            links_.notices.Tell(kPlaceConfirmed);
+        }
+        return std::nullopt;
+    }
+    if (!answer.T_world_camera || !state_->lost.lost()) return std::nullopt;
     links_.notices.Tell(answer.note);
     state_->life.stage().Relocate({answer.stamp_s, *answer.T_world_camera});
     state_->lost.Seen(stamp_s);
@@ -139,11 +152,30 @@ std::optional<Eigen::Isometry3d> LiveTracking::TakeRelocalisation(double stamp_s
 }
 
 void LiveTracking::CheckIfLost(TrackedFrame& tracked) {
-    if (loops_ == nullptr || state_->lost.Judge(tracked) != LostCamera::Verdict::kLost) return;
+    if (loops_ == nullptr) return;
+    const bool by_appearance = state_->lost.relocalised();
+    const LostCamera::Verdict verdict = state_->lost.Judge(tracked);
+    if (verdict != LostCamera::Verdict::kLost) {
+        if (by_appearance && !state_->lost.relocalised())
+            state_->place.Begin(tracked.prepared, tracked.report.track.T_world_camera);
+        return CheckPlace(tracked);
+    }
     if (tracked.report.tracked()) state_->life.stage().RejectPose(kPoseUnconfirmed, tracked);
-    if (state_->asked || tracked.prepared.valid_depth_pixels == 0) return;
+    if (!state_->asked && tracked.prepared.valid_depth_pixels > 0) Ask(tracked, false);
+}
+
+void LiveTracking::CheckPlace(TrackedFrame& tracked) {
+    if (!state_->place.open() || !tracked.report.tracked()) return;
+    tracked.to_fuse = false;
+    const Eigen::Isometry3d& T_world_camera = tracked.report.track.T_world_camera;
+    if (state_->asked || !state_->place.Due(T_world_camera)) return;
+    state_->place.Ask(tracked.prepared, T_world_camera);
+    Ask(tracked, true);
+}
+
+void LiveTracking::Ask(const TrackedFrame& tracked, bool check) {
     auto copy = std::make_unique<PreparedFrame>(tracked.prepared);
-    state_->asked = loops_->Ask({state_->version, tracked.report.stamp_s, std::move(copy)});
+    state_->asked = loops_->Ask({state_->version, tracked.report.stamp_s, std::move(copy), check});
 }
 
 }  // namespace tessera

@@ -7,6 +7,7 @@
 #include "system/live_links.h"
 #include "system/live_mapping.h"
 #include "system/lost_camera.h"
+#include "system/place_check.h"
 
 namespace tessera {
 
@@ -41,6 +42,7 @@ class LiveTracking {
         std::unique_ptr<BlockMap> field;  // copy of what tracking reads; unused with a device
         MapVersion version;               // of that copy
         LostCamera lost;
+        PlaceCheck place;
         bool asked = false;                   // a relocalisation question is pending
         std::optional<LabelSettings> labels;  // new ones for mapping
     };
@@ -54,6 +56,8 @@ class LiveTracking {
     void TakeHint();
     std::optional<Eigen::Isometry3d> TakeRelocalisation(double stamp_s);
     void CheckIfLost(TrackedFrame& tracked);
+    void CheckPlace(TrackedFrame& tracked);
+    void Ask(const TrackedFrame& tracked, bool check);
 
     const Settings settings_;
     FramePlan plan_;  // until the thread takes it

@@ -21,8 +21,10 @@ LockstepEngine::LockstepEngine(EngineInput input)
                                                       config_.labels, source_.camera);
     }
     if (input.scan.file) scan_path_ = input.scan.file->path();
+    only_localise_ = input.scan.only_localise();
+    if (only_localise_) control_.KeepMap(notices_);
     BeginLoops();
-    if (input.scan.file) status_ = StartScan(std::move(input.scan));
+    if (input.scan.file || only_localise_) status_ = StartScan(std::move(input.scan));
     reader_ =
         std::make_unique<FrameReader>(std::move(input.source), input.selection, config_.read_ahead);
 }
@@ -30,7 +32,7 @@ LockstepEngine::LockstepEngine(EngineInput input)
 Status LockstepEngine::StartScan(ScanPlan plan) {
     TrackingResume resume;
     if (plan.resumed) {
-        resume = TrackingResume::Of(*plan.resumed);
+        resume = TrackingResume::Of(plan);
         tracking_.Resume(resume);
         labelled_frames_ = plan.resumed->progress.labelled_frames;
     }
@@ -115,7 +117,7 @@ void LockstepEngine::RelocaliseIfLost() {
 }
 
 void LockstepEngine::CloseLoops(FrameOutcome& outcome) {
-    if (!loops_) return;
+    if (!loops_ || only_localise_) return;
     outcome.loops_ms =
         loops_->AfterFusion(frame_, tracked_, outcome.labels, tracking_.stage(),
                             [this](auto correction) { mapping_.PutMap(std::move(correction)); });
@@ -185,7 +187,7 @@ void LockstepEngine::Finish() {
     if (std::exchange(finished_, true)) return;
     if (reader_) reader_->RequestStop();
     recorder_.Stop();
-    if (loops_) {
+    if (loops_ && !only_localise_) {
         notices_.Tell(
             loops_->Finish([this](auto correction) { mapping_.PutMap(std::move(correction)); }));
         if (mapping_.saving()) mapping_.AddLoops(loops_->TakeChanges());
@@ -194,7 +196,7 @@ void LockstepEngine::Finish() {
 }
 
 std::vector<StampedPose> LockstepEngine::CorrectedPath() const {
-    return loops_ ? loops_->Path() : std::vector<StampedPose>();
+    return loops_ && !only_localise_ ? loops_->Path() : std::vector<StampedPose>();
 }
 
 TriangleMesh LockstepEngine::TakeMesh() {

@@ -55,6 +55,7 @@ class LockstepEngine : public Engine {
     FrameMapping mapping_;
     std::optional<LoopStage> loops_;  // set if loop closure is on
     std::optional<LoopCloser::Labels> loop_labels_;
+    bool only_localise_ = false;
     std::string scan_path_;  // of a scan saved from the start; else empty
     RecorderThread recorder_;
     std::unique_ptr<LabellingStage> labelling_;  // null without labels

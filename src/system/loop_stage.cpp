@@ -32,6 +32,7 @@ LoopStage::LoopStage(const LoopConfig& config, const PipelineConfig& pipeline,
                      LoopCloser::MakePager make_pager)
     : config_(config),
       camera_(config, pipeline.motion.max_gap_s),
+      place_(source.camera),
       closer_(config, FieldSettingsOf(pipeline, source.camera), source.depth_units_per_m,
               std::move(labels), std::move(make_pager)) {}
 
@@ -44,19 +45,38 @@ void LoopStage::Resume(LoopCloser::Memory memory, double last_stamp_s) {
 void LoopStage::AfterTracking(const Frame& frame, const BlockMap& map, TrackingStage& tracking,
                               TrackedFrame& tracked, const LoadAround& bring) {
     lost_ms_ = 0;
-    if (camera_.Judge(tracked) != LostCamera::Verdict::kLost) return;
+    if (camera_.Judge(tracked) != LostCamera::Verdict::kLost) return Check(tracking, tracked);
     FrameReport& report = tracked.report;
     if (tracked.prepared.valid_depth_pixels > 0) {
         Stopwatch watch;
         std::string note;
         const auto T_map_camera = closer_.Relocalise(tracked.prepared, note);
         lost_ms_ = watch.LapMs();
-        AddNote(note, report.warning);
         if (T_map_camera) bring(*T_map_camera);
-        if (T_map_camera && tracking.TrackFrom(frame, map, *T_map_camera, tracked))
-            return camera_.Found(frame.stamp_s);
+        if (T_map_camera && tracking.TrackFrom(frame, map, *T_map_camera, tracked)) {
+            camera_.Found(frame.stamp_s);
+            place_.Begin(tracked.prepared, report.track.T_world_camera);
+            tracked.to_fuse = false;
+            return AddNote(note, report.warning);
+        }
+        if (!T_map_camera) AddNote(note, report.warning);
     }
     if (report.tracked()) tracking.RejectPose(kPoseUnconfirmed, tracked);
+}
+
+void LoopStage::Check(TrackingStage& tracking, TrackedFrame& tracked) {
+    if (!place_.open() || !tracked.report.tracked()) return;
+    tracked.to_fuse = false;
+    const Eigen::Isometry3d T_map_camera = tracked.report.track.T_world_camera;
+    if (!place_.Due(T_map_camera)) return;
+    Stopwatch watch;
+    std::string ignored;
+    place_.Ask(tracked.prepared, T_map_camera);
+    const bool possible = place_.Answer(closer_.Relocalise(tracked.prepared, ignored));
+    lost_ms_ = watch.LapMs();
+    if (possible) return AddNote(place_.open() ? "" : kPlaceConfirmed, tracked.report.warning);
+    camera_.Lose();
+    tracking.RejectPose(kPlaceRefuted, tracked);
 }
 
 double LoopStage::AfterFusion(const Frame& frame, TrackedFrame& tracked,
@@ -70,6 +90,7 @@ double LoopStage::AfterFusion(const Frame& frame, TrackedFrame& tracked,
     if (labels) closer_.AddDetections(frame.index, labels->detections);
     if (auto correction = closer_.Step(config_.rebuild_frames)) {
         tracking.Move(correction->T_new_old);
+        place_.Move(correction->T_new_old);
         put(std::move(*correction));
         AddNote("map corrected", report.warning);
     }

@@ -9,6 +9,7 @@
 #include "system/labelling_stage.h"
 #include "system/loop_journal.h"
 #include "system/lost_camera.h"
+#include "system/place_check.h"
 #include "system/tracking_stage.h"
 
 namespace tessera {
@@ -30,6 +31,7 @@ class LoopStage {
     // Tries to relocalise a lost camera. After a loss, a pose is accepted only if it fits well or
     // if relocalisation confirms it. `bring` is called before the map around a candidate pose is
     // read.
+    // A place found by appearance is checked with a second view before anything is fused.
     using LoadAround = std::function<void(const Eigen::Isometry3d& T_world_camera)>;
     void AfterTracking(const Frame& frame, const BlockMap& map, TrackingStage& tracking,
                        TrackedFrame& tracked, const LoadAround& bring);
@@ -52,8 +54,11 @@ class LoopStage {
     }
 
   private:
+    void Check(TrackingStage& tracking, TrackedFrame& tracked);
+
     LoopConfig config_;
     LostCamera camera_;
+    PlaceCheck place_;
     LoopCloser closer_;
     LoopJournal journal_;
     bool finished_ = false;

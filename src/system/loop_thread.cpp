@@ -150,6 +150,7 @@ bool LoopThread::Reply() {
     Answer answer;
     answer.map = question.map;
     answer.stamp_s = question.stamp_s;
+    answer.check = question.check;
     // A question from before the last reset or correction is obsolete.
     if (question.map == MapVersion{world_, static_cast<int>(history_.size())})
         answer.T_world_camera = closer_->Relocalise(*question.frame, answer.note);

@@ -38,17 +38,20 @@ class LoopThread {
         std::unique_ptr<BlockMap> field;
         LoopChanges news;
     };
-    // A lost camera's frame, and the answer: its pose, or nothing.
+    // A frame of a lost camera, or of one that was just found, and the answer: its pose, or
+    // nothing.
     struct Question {
         MapVersion map;
         double stamp_s = 0;
         std::unique_ptr<PreparedFrame> frame;
+        bool check = false;  // of a place found before
     };
     struct Answer {
         MapVersion map;
         double stamp_s = 0;
         std::optional<Eigen::Isometry3d> T_world_camera;
-        std::string note;  // for the user
+        std::string note;    // for the user
+        bool check = false;  // as in the question
     };
 
     // Frame pools, the threads to notify, and who tells the user. All outlive the LoopThread.

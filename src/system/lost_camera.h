@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "optimize/loop_config.h"
@@ -32,9 +33,11 @@ class LostCamera {
             if (report.tracked()) last_seen_s_ = report.stamp_s;
             return Verdict::kTracking;
         }
-        const bool lately = report.stamp_s - last_seen_s_ <= max_gap_s_;
+        const bool lately = std::abs(report.stamp_s - last_seen_s_) <= max_gap_s_;
         if (!FitsWell(report.track) || !(lately || !tracked.prepared.has_colour))
             return Verdict::kLost;
+        // What the view leaves open is as it was when the camera was relocalised.
+        if (relocalised_ && report.track.degenerate) return Verdict::kLost;
         Found(report.stamp_s);
         return Verdict::kFoundAgain;
     }
@@ -48,11 +51,23 @@ class LostCamera {
 
     // The camera was relocalised and tracked there.
     void Found(double stamp_s) {
-        lost_ = false;
+        lost_ = relocalised_ = false;
         last_seen_s_ = stamp_s;
     }
+    // The place where the camera was found was wrong.
+    void Lose() {
+        lost_ = true;
+        last_seen_s_ = std::numeric_limits<double>::lowest();
+    }
     // The camera was relocalised at this time. Tracking must still confirm the pose.
-    void Seen(double stamp_s) { last_seen_s_ = stamp_s; }
+    void Seen(double stamp_s) {
+        last_seen_s_ = stamp_s;
+        relocalised_ = true;
+    }
+
+    bool lost() const { return lost_; }
+    // By appearance, and not confirmed by tracking yet.
+    bool relocalised() const { return relocalised_; }
 
   private:
     bool FitsWell(const TrackResult& track) const {
@@ -64,9 +79,12 @@ class LostCamera {
     double max_gap_s_;
     double last_seen_s_ = 0;
     bool started_ = false, lost_ = false, resumed_ = false;
+    bool relocalised_ = false;
 };
 
-inline constexpr const char* kPoseUnconfirmed =
-    "nothing confirms the pose found after tracking was lost";
+inline constexpr const char *kPoseUnconfirmed =
+                                "nothing confirms the pose found after tracking was lost",
+                            *kPlaceConfirmed = "a second view confirms the place",
+                            *kPlaceRefuted = "other views show that this is another place";
 
 }  // namespace tessera

@@ -7,6 +7,7 @@
 #include <string>
 #include <thread>
 
+#include "core/notices.h"
 #include "system/viewer_link.h"
 
 namespace tessera {
@@ -25,11 +26,19 @@ class RunControl {
                 case Kind::kPause: SetPaused(true); break;
                 case Kind::kResume: SetPaused(false); break;
                 case Kind::kStep: ++steps_, SetPaused(true); break;
+                case Kind::kReset:
+                case Kind::kSaveScan:
+                    if (refusals_ == nullptr) return command;
+                    refusals_->Tell("--localise-only: the map and the scan stay as they are");
+                    break;
                 default: return command;
             }
         }
         return std::nullopt;
     }
+
+    // Refuses what would change the map, and says so in `notices`, which outlives the object.
+    void KeepMap(Notices& notices) { refusals_ = &notices; }
 
     // For a thread that polls for commands and for a stop signal, which cannot wake it.
     static void SleepBriefly() { std::this_thread::sleep_for(std::chrono::milliseconds(10)); }
@@ -51,6 +60,7 @@ class RunControl {
     }
 
     ViewerLink* viewer_;
+    Notices* refusals_ = nullptr;
     bool paused_ = false;
     int steps_ = 0;
 };

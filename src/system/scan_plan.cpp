@@ -18,6 +18,15 @@ std::vector<ScanKey> KeysOf(const ScanMeta& meta) {
             {"loops.enabled", meta.loops ? "true" : "false"}};
 }
 
+Status CheckCamera(const std::string& path, const ScanMeta& meta, const SourceInfo& source) {
+    const PinholeCamera &was = meta.camera, &is = source.camera;
+    if (was == is) return Status::Ok();
+    return Status::Error(fmt::format(
+        "{}: was made with a camera of {} x {}, fx {:.2f}, but {} has {} x {}, fx {:.2f}; use the "
+        "same camera, or start another scan",
+        path, was.width, was.height, was.fx, source.name, is.width, is.height, is.fx));
+}
+
 }  // namespace
 
 void ScanConfig::Describe(ConfigParameters& p) {
@@ -84,18 +93,29 @@ Result<ScanPlan> ResumeScan(const std::string& path, const SourceInfo& source,
         ReadScan(*file.value(), {.map = true, .frames = config.loops.enabled, .labels = labels});
     if (!content.ok()) return content.status();
     ScanContent& scan = content.value();
-    const PinholeCamera &was = scan.meta.camera, &is = source.camera;
-    if (!(was == is))
-        return Status::Error(fmt::format(
-            "{}: was made with a camera of {} x {}, fx {:.2f}, but {} has {} x {}, fx {:.2f}; use "
-            "the same camera, or start another scan",
-            path, was.width, was.height, was.fx, source.name, is.width, is.height, is.fx));
+    if (Status status = CheckCamera(path, scan.meta, source); !status.ok()) return status;
     if (scan.progress.labels && !labels)
         return Status::Error(path +
                              ": has labels, which would be lost; give the same --labels as when "
                              "the scan was created");
     ScanPlan plan;
     plan.file = std::move(file.value());
+    plan.depth_units_per_m = scan.meta.depth_units_per_m;
+    plan.source_name = source.name;
+    plan.resumed = std::move(scan);
+    return plan;
+}
+
+Result<ScanPlan> OpenToLocalise(const std::string& path, const SourceInfo& source,
+                                const RunConfig& config) {
+    Result<ScanContent> content = ReadScan(path, {.map = true, .frames = config.loops.enabled});
+    if (!content.ok()) return content.status();
+    ScanContent& scan = content.value();
+    if (Status status = CheckCamera(path, scan.meta, source); !status.ok()) return status;
+    if (!scan.LastPose())
+        return Status::Error(path + ": nothing was tracked in this scan; give a scan with a map");
+    scan.labels.clear();  // a labelling stage's state, and there is none
+    ScanPlan plan;
     plan.depth_units_per_m = scan.meta.depth_units_per_m;
     plan.resumed = std::move(scan);
     return plan;
@@ -104,7 +124,7 @@ Result<ScanPlan> ResumeScan(const std::string& path, const SourceInfo& source,
 FrameSelection RestOf(const FrameSelection& selection, const SourceInfo& source,
                       const ScanContent& resumed) {
     const std::int64_t last = resumed.progress.last_index;
-    if (source.live || source.name != resumed.meta.source_name || last < selection.start ||
+    if (source.live || source.name != resumed.source_name || last < selection.start ||
         selection.stride < 1)
         return selection;
     FrameSelection rest = selection;

@@ -13,9 +13,13 @@
 namespace tessera {
 
 struct ScanPlan {
-    std::unique_ptr<ScanFile> file;  // to write to; null: no scan
+    std::unique_ptr<ScanFile> file;  // to write to; null: nothing is saved
     double depth_units_per_m = 5000;
-    std::optional<ScanContent> resumed;  // content to continue with
+    std::string source_name;
+    std::optional<ScanContent> resumed;  // content to continue with; without a file: to stay in
+
+    // The camera is only tracked in the scan's map. Nothing changes the map or the scan.
+    bool only_localise() const { return resumed && !file; }
 };
 
 // Keys that are fixed by a resumed scan's file, because its blocks and frames were made with them.
@@ -30,6 +34,11 @@ Result<ScanPlan> BeginScan(const std::string& path, const SourceInfo& source, Ru
 // differs, or if the scan has labels and the run has none.
 Result<ScanPlan> ResumeScan(const std::string& path, const SourceInfo& source,
                             const RunConfig& config, bool labels);
+
+// Reads all of an existing file, to track a camera in its map without changing it. Error if the
+// camera differs, or if nothing was tracked in the scan.
+Result<ScanPlan> OpenToLocalise(const std::string& path, const SourceInfo& source,
+                                const RunConfig& config);
 
 // The part of a recorded source that the scan does not have yet. Count 0 if none is left.
 FrameSelection RestOf(const FrameSelection& selection, const SourceInfo& source,

@@ -7,36 +7,12 @@
 #include <iterator>
 #include <utility>
 
+#include "system/scan_restore.h"
+
 namespace tessera {
 namespace {
 
 constexpr std::uint32_t kNever = ~0u;  // not a block's revision: the block must be saved
-
-// Frames that loop closure had not yet processed keep their pose in the map.
-LoopCloser::Memory LoopMemory(ScanContent& scan) {
-    LoopCloser::Memory memory;
-    memory.keyframes = std::move(scan.keyframes);
-    memory.edges = std::move(scan.loops.edges);
-    for (const PathRecord& record : scan.path) {
-        if (!record.tracked() || memory.keyframes.empty()) continue;
-        if (record.keyframe >= 0) {
-            memory.passages.push_back({record.stamp_s, record.keyframe, record.T_reference_camera});
-        } else if (!memory.passages.empty()) {
-            const int last = memory.passages.back().keyframe;
-            const Eigen::Isometry3d& T_map_keyframe =
-                memory.keyframes[static_cast<std::size_t>(last)].T_map_camera;
-            memory.passages.push_back(
-                {record.stamp_s, last,
-                 Normalised(T_map_keyframe.inverse() * record.T_reference_camera)});
-        }
-    }
-    for (FrameRecord& frame : scan.frames)
-        if (frame.in_store) memory.frames.push_back(std::move(frame.stored));
-    memory.next_ordinal = scan.loops.next_ordinal;
-    memory.loops = scan.loops.loops;
-    memory.corrected = scan.loops.corrected;
-    return memory;
-}
 
 }  // namespace
 
@@ -46,6 +22,7 @@ ScanStage::ScanStage(ScanPlan plan, const ScanConfig& config, bool wait, bool lo
       wait_(wait),
       path_(plan.file->path()),
       saved_(plan.resumed.has_value()),
+      source_(plan.source_name),
       resumed_(std::move(plan.resumed)),
       notices_(notices),
       thread_(std::make_unique<ScanWriter>(std::move(plan.file), plan.depth_units_per_m), notices),
@@ -61,13 +38,8 @@ Status ScanStage::Resume(MappingStage& mapping) {
     map_identity_ = scan.map->identity();
     for (BlockId id = 0; id < scan.map->size(); ++id)
         seen_revision_.push_back(scan.map->revision(id));
-    mapping.Resume(std::move(scan.map), scan.progress.fused_frames);
-    StateReader labels(scan.labels);
-    if (!scan.labels.empty() && !mapping.LoadLabels(labels))
-        return Status::Error(path_ +
-                             ": its labels have other classes; give the same --labels and "
-                             "labels.classes as when the scan was created");
-    loops_ = LoopMemory(scan);
+    if (Status status = RestoreMap(path_, scan, mapping); !status.ok()) return status;
+    loops_ = TakeLoopMemory(scan);
     resumed_.reset();
     return Status::Ok();
 }
@@ -140,6 +112,7 @@ void ScanStage::Checkpoint(const MappingStage& mapping, bool finished) {
         mapping.SaveLabels(state);
     }
     pending_->progress = progress_;
+    pending_->source = source_;
     pending_->finished = finished;
     last_stamp_s_ = progress_.last_stamp_s;
     last_time_ = Clock::now();

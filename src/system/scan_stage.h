@@ -81,6 +81,7 @@ class ScanStage {
     const bool wait_;
     const std::string path_;
     bool saved_;                          // the file has content
+    const std::string source_;            // empty for a new file, whose meta row has it
     std::optional<ScanContent> resumed_;  // until Resume has restored it
     std::optional<LoopCloser::Memory> loops_;
     Notices& notices_;

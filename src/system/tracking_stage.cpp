@@ -70,7 +70,7 @@ void TrackingStage::Track(const Frame& frame, const BlockMap& map,
     report.moving_ms = watch.LapMs();
 
     // 4. Decide whether to fuse.
-    tracked.to_fuse = report.track.status == TrackStatus::kGood && (fusing_ || report.first);
+    tracked.to_fuse = report.track.status == TrackStatus::kGood && Fuses(report.first);
     tracked.view = FusionView(report.track);
 }
 
@@ -152,7 +152,7 @@ bool TrackingStage::TrackFrom(const Frame& frame, const BlockMap& map,
     moving_.Clear();
     motion_.Add({frame.stamp_s, tracked.report.track.T_world_camera}, {});
     aligner_.KeepNewest(true);
-    tracked.to_fuse = fusing_;
+    tracked.to_fuse = Fuses(false);
     tracked.view = FusionView(tracked.report.track);
     return true;
 }

@@ -83,6 +83,8 @@ class TrackingStage {
     void KeepImages() { keep_images_ = true; }
     // Off: frames are tracked but not fused. The first is always fused.
     void SetFusing(bool on) { fusing_ = on; }
+    // From now on nothing is fused, whatever the settings.
+    void OnlyTrack() { only_track_ = true; }
     void Apply(const ViewerSettings& settings);
     // Forgets the trajectory but keeps the settings. The next frame starts a new world.
     void Reset();
@@ -103,6 +105,7 @@ class TrackingStage {
     void MaskMoving(const Frame& frame, const BlockMap& map, bool hidden, TrackedFrame& tracked);
     double MinWeightDepth(const PreparedFrame& prepared) const;
     FrameMotion FrameMotionOf(const Frame& frame) const;
+    bool Fuses(bool first) const { return !only_track_ && (fusing_ || first); }
 
     PipelineConfig config_;
     PinholeCamera camera_;
@@ -111,7 +114,7 @@ class TrackingStage {
     MovingDetector moving_;
     BackendOf backend_;
     Trackers trackers_;
-    bool fusing_ = true, keep_images_ = false;
+    bool fusing_ = true, only_track_ = false, keep_images_ = false;
 };
 
 }  // namespace tessera

@@ -154,6 +154,38 @@ TEST_F(Cli, AScanIsSavedLookedAtGoneOnWithHandedOutAndRepaired) {
     EXPECT_EQ(Call("info " + (folder / "b.scan")).exit_code, 0);
 }
 
+// Another recording of the same place goes on with a scan, or is localised in it. Both recordings'
+// clocks begin at the same time.
+TEST_F(Cli, ASecondSessionHasAPathOfItsOwn) {
+    const std::string scan = folder / "a.scan", second = folder / "second";
+    const std::string small = "--set mapping.voxel_size_m=0.02 ";
+    ASSERT_EQ(Call("synth desk --frames 24 --out " + second).exit_code, 0);
+    ASSERT_EQ(Call("run synthetic:desk --frames 40 " + small + "--out " + (folder / "first") +
+                   " --scan " + scan)
+                  .exit_code,
+              0);
+    const Outcome localised =
+        Call("run " + second + " --out " + (folder / "l") + " --localise-only " + scan);
+    EXPECT_EQ(localised.exit_code, 0) << localised.err;
+    EXPECT_NE(localised.out.find("24 frames, 24 tracked, 0 fused"), std::string::npos)
+        << localised.out << localised.err;
+    EXPECT_EQ(ReadTrajectory(folder / "l/trajectory.txt").value().poses.size(), 24u);
+    const Outcome resumed =
+        Call("run " + second + " --frames 10 --out " + (folder / "r") + " --resume " + scan);
+    EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
+    EXPECT_NE(resumed.out.find("10 pairs"), std::string::npos) << resumed.out;
+    EXPECT_EQ(ReadTrajectory(folder / "r/trajectory.txt").value().poses.size(), 10u);
+    EXPECT_EQ(ReadTrajectory(folder / "r/trajectory_1.txt").value().poses.size(), 40u);
+    // What is left of the second recording, not of the first.
+    const Outcome rest = Call("run " + second + " --out " + (folder / "r") + " --resume " + scan);
+    EXPECT_NE(rest.out.find("14 frames, 14 tracked"), std::string::npos) << rest.out << rest.err;
+    EXPECT_EQ(ReadTrajectory(folder / "r/trajectory.txt").value().poses.size(), 24u);
+    ExpectRefused("run " + second + " --localise-only " + scan + " --labels synthetic",
+                  "--localise-only");
+    ExpectRefused("run " + second + " --localise-only " + scan + " --resume " + scan,
+                  "--localise-only");
+}
+
 TEST_F(Cli, LoopClosureIsRefusedWhereItCannotBe) {
     const std::string poses = folder / "poses.txt";
     std::ofstream(poses) << "0 0 0 0 0 0 0 1\n";

@@ -169,6 +169,18 @@ TEST(Trajectory, NotesAreBounded) {
     EXPECT_NE(result.value().notes.back().find("950 more"), std::string::npos);
 }
 
+TEST(Trajectory, IsSplitWhereTheClockStartsAgain) {
+    std::vector<StampedPose> poses;
+    for (const double stamp_s : {10.0, 10.1, 10.05, 900.0, 10.0, 10.1, 3.0})  // 10.05: jitter
+        poses.push_back({stamp_s, Eigen::Isometry3d::Identity()});
+    const auto parts = SplitByClock(poses);
+    ASSERT_EQ(parts.size(), 3u);
+    EXPECT_EQ(parts[0].size(), 4u);
+    EXPECT_EQ(parts[1].size(), 2u);
+    EXPECT_EQ(parts[2].front().stamp_s, 3.0);
+    EXPECT_EQ(SplitByClock({}).size(), 1u);
+}
+
 TEST(Trajectory, InterpolatesHalfWay) {
     const Eigen::Quaterniond quarter(Eigen::AngleAxisd(M_PI / 2, Eigen::Vector3d::UnitZ()));
     const std::vector<StampedPose> poses = {Pose(1.0, {0, 0, 0}, Eigen::Quaterniond::Identity()),

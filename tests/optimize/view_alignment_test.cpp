@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 
 #include "optimize/overlaps.h"
+#include "optimize/texture_correlation.h"
 
 namespace tessera {
 namespace {
@@ -35,9 +37,8 @@ double Paint(const Eigen::Vector3d& p) {
 // The walls are the far one only.
 enum class Scene { kCorner, kBareWall, kPaintedWall };
 
-// `gain`: of the light.
-ReducedView ReducedFrom(const Eigen::Isometry3d& T_world_camera, Scene scene = Scene::kCorner,
-                        double gain = 1) {
+ReducedView ReducedFrom(const Eigen::Isometry3d& T_world_camera, Scene scene,
+                        const std::function<double(const Eigen::Vector3d&)>& paint) {
     PreparedFrame frame;
     frame.width = kViewCamera.width;
     frame.height = kViewCamera.height;
@@ -52,9 +53,21 @@ ReducedView ReducedFrom(const Eigen::Isometry3d& T_world_camera, Scene scene = S
                 scene == Scene::kCorner ? DepthAlong(eye, ray) : (2.5 - eye.z()) / ray.z();
             frame.depth_m(x, y) = static_cast<float>(z);
             frame.intensity(x, y) =
-                static_cast<float>(scene == Scene::kBareWall ? 0.5 : gain * Paint(eye + z * ray));
+                static_cast<float>(scene == Scene::kBareWall ? 0.5 : paint(eye + z * ray));
         }
     return MakeReducedView(frame);
+}
+
+// `gain`: of the light.
+ReducedView ReducedFrom(const Eigen::Isometry3d& T_world_camera, Scene scene = Scene::kCorner,
+                        double gain = 1) {
+    return ReducedFrom(T_world_camera, scene,
+                       [=](const Eigen::Vector3d& p) { return gain * Paint(p); });
+}
+
+DenseView ViewOf(const Eigen::Isometry3d& T_world_camera,
+                 const std::function<double(const Eigen::Vector3d&)>& paint) {
+    return MakeDenseView(ReducedFrom(T_world_camera, Scene::kCorner, paint), kViewCamera);
 }
 
 DenseView ViewFrom(const Eigen::Isometry3d& T_world_camera, Scene scene = Scene::kCorner,
@@ -133,6 +146,31 @@ TEST(ViewAlignment, ViewsOfDifferentPlacesAreNotAligned) {
     const DenseView here = ViewFrom(Eigen::Isometry3d::Identity());
     EXPECT_FALSE(AlignViews(here, ViewFrom(away), away).converged);
     EXPECT_FALSE(AlignViews(here, DenseView(), Moved(0, 0)).converged);
+}
+
+// In another light, which falls off to one side, the same paint correlates; other paint on the same
+// walls does not.
+TEST(TextureCorrelation, TellsPaintFromLight) {
+    const auto painted = [](const Eigen::Isometry3d& T_world_camera, unsigned seed,
+                            double fall_off) {
+        // Patches of 4 cm, each of one shade.
+        return ViewOf(T_world_camera, [=](const Eigen::Vector3d& p) {
+            const auto cell = [](double v) {
+                return static_cast<unsigned>(std::floor(25 * v) + 500);
+            };
+            const unsigned shade = (cell(p.x()) * 73856093u ^ cell(p.y()) * 19349663u ^
+                                    cell(p.z()) * 83492791u ^ seed) *
+                                   2654435761u;
+            return (0.3 + 0.4 * (shade >> 16 & 255) / 255.0) * (0.9 - fall_off * p.x());
+        });
+    };
+    const Eigen::Isometry3d T_a_b = Moved(0.05, 0.1);
+    const DenseView a = painted(Eigen::Isometry3d::Identity(), 1, 0);
+    EXPECT_GT(TextureCorrelation(a, painted(T_a_b, 1, 0), T_a_b), 0.85);
+    EXPECT_GT(TextureCorrelation(a, painted(T_a_b, 1, 0.25), T_a_b), 0.85);
+    EXPECT_LT(std::abs(TextureCorrelation(a, painted(T_a_b, 2, 0), T_a_b)), 0.2);
+    const Eigen::Isometry3d away = Moved(0, 0) * Eigen::AngleAxisd(2.5, Eigen::Vector3d::UnitY());
+    EXPECT_EQ(TextureCorrelation(a, painted(away, 1, 0), away), 0);
 }
 
 // A place that features propose is aligned from there, wherever the graph has the two keyframes.

@@ -1,5 +1,7 @@
 // Scans with loop closure that are saved and resumed, in a rendered room with Kinect noise.
 #include <cstring>
+#include <fstream>
+#include <iterator>
 
 #include "support/temp_folder.h"
 #include "system/frame_list.h"
@@ -11,6 +13,11 @@ namespace {
 
 using testing_support::FrameList;
 using testing_support::RoomWalk;
+
+std::string FileBytes(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
 
 // The parameter selects live mode.
 class ScanLoops : public testing::TestWithParam<bool> {
@@ -24,14 +31,17 @@ class ScanLoops : public testing::TestWithParam<bool> {
         config.pipeline.map = {.voxel_size_m = 0.02, .truncation_m = 0.08};
         config.pipeline.trackers.sdf.finest_step_px = 1;
     }
-    std::vector<FrameReport> Run(const std::vector<Frame>& frames, double first_stamp_s,
-                                 bool resume) {
+    enum class Use { kBegin, kResume, kLocalise };
+
+    std::vector<FrameReport> Run(const std::vector<Frame>& frames, double first_stamp_s, Use use) {
         EngineInput input;
         input.source = std::make_unique<FrameList>(frames, first_stamp_s);
         input.config = config;
         input.stop = &stop;
-        Result<ScanPlan> plan = resume ? ResumeScan(path, input.source->info(), config, false)
-                                       : BeginScan(path, input.source->info(), config);
+        const SourceInfo& source = input.source->info();
+        Result<ScanPlan> plan = use == Use::kBegin    ? BeginScan(path, source, config)
+                                : use == Use::kResume ? ResumeScan(path, source, config, false)
+                                                      : OpenToLocalise(path, source, config);
         EXPECT_TRUE(plan.ok()) << plan.message();
         input.scan = std::move(plan.value());
         std::unique_ptr<Engine> engine;
@@ -49,6 +59,7 @@ class ScanLoops : public testing::TestWithParam<bool> {
         }
         EXPECT_TRUE(engine->status().ok()) << engine->status().message();
         corrected = engine->CorrectedPath();
+        map_blocks = static_cast<BlockId>(engine->map_statistics().blocks);
         return reports;
     }
 
@@ -58,6 +69,7 @@ class ScanLoops : public testing::TestWithParam<bool> {
     TempFolder folder;
     std::string path = folder / "a.scan";
     std::vector<StampedPose> corrected;
+    BlockId map_blocks = 0;
     std::size_t look_after = 0;  // frames after which the file is read during the run
     Result<ScanContent> early = Status::Error("not read");
 };
@@ -66,7 +78,7 @@ TEST_P(ScanLoops, KeyframesFramesAndLoopsComeBackAndALostCameraIsFoundByThem) {
     const std::vector<Frame> walk = RoomWalk(0, 60, 3);
     config.scan.interval_s = 0.1;
     look_after = 40;
-    Run(walk, 0, false);
+    Run(walk, 0, Use::kBegin);
     // After a crash at any time the file holds the whole path and the state of loop closure.
     ASSERT_TRUE(early.ok()) << early.message();
     EXPECT_GT(early.value().path.size(), 10u);
@@ -95,7 +107,7 @@ TEST_P(ScanLoops, KeyframesFramesAndLoopsComeBackAndALostCameraIsFoundByThem) {
     const std::vector<Frame> again =
         GetParam() ? std::vector<Frame>(300, RoomWalk(2, 1, 1).front()) : RoomWalk(21, 10, 1);
     stop_when_tracked = GetParam();
-    const std::vector<FrameReport> reports = Run(again, 12, true);
+    const std::vector<FrameReport> reports = Run(again, 12, Use::kResume);
     if (!GetParam()) {
         ASSERT_EQ(reports.size(), again.size());
         EXPECT_TRUE(reports[0].tracked()) << reports[0].track.reason;
@@ -114,9 +126,9 @@ TEST_P(ScanLoops, KeyframesFramesAndLoopsComeBackAndALostCameraIsFoundByThem) {
 }
 
 TEST_P(ScanLoops, WhereNothingWasSeenTheCameraStaysLostAndTheMapAsItWas) {
-    Run(RoomWalk(0, 20, 2), 0, false);
+    Run(RoomWalk(0, 20, 2), 0, Use::kBegin);
     const Result<ScanContent> before = ReadScan(path, {});
-    const std::vector<FrameReport> reports = Run(RoomWalk(360, 5, 2), 12, true);
+    const std::vector<FrameReport> reports = Run(RoomWalk(360, 5, 2), 12, Use::kResume);
     for (const FrameReport& report : reports) EXPECT_FALSE(report.tracked());
     const Result<ScanContent> after = ReadScan(path, {});
     ASSERT_TRUE(before.ok() && after.ok());
@@ -125,6 +137,30 @@ TEST_P(ScanLoops, WhereNothingWasSeenTheCameraStaysLostAndTheMapAsItWas) {
         ASSERT_EQ(std::memcmp(after.value().map->field(id), before.value().map->field(id),
                               kBlockVoxels * sizeof(FieldWord)),
                   0);
+}
+
+TEST_P(ScanLoops, LocalisedOnlyTheCameraIsTrackedAndTheScanStaysByteForByte) {
+    const std::vector<Frame> walk = RoomWalk(0, 40, 2);
+    Run(walk, 0, Use::kBegin);
+    const std::string before = FileBytes(path);
+    const BlockId blocks = ReadScan(path, {}).value().map->size();
+    // Its clock is earlier, and it begins in the middle.
+    const std::vector<Frame> again = RoomWalk(31, 30, 1);
+    const std::vector<FrameReport> reports = Run(again, -50, Use::kLocalise);
+    ASSERT_EQ(reports.size(), again.size());
+    int tracked = 0;
+    for (std::size_t i = 0; i < reports.size(); ++i) {
+        EXPECT_FALSE(reports[i].fused);
+        if (!reports[i].tracked()) continue;
+        ++tracked;
+        const Eigen::Isometry3d off =
+            again[i].T_world_camera->inverse() * reports[i].track.T_world_camera;
+        EXPECT_LT(off.translation().norm(), 0.02) << i;
+    }
+    EXPECT_GE(tracked, GetParam() ? 5 : 30);  // live, the answer takes a moment
+    EXPECT_EQ(map_blocks, blocks - 1);
+    EXPECT_TRUE(corrected.empty());
+    EXPECT_EQ(FileBytes(path), before);
 }
 
 INSTANTIATE_TEST_SUITE_P(LockstepAndLive, ScanLoops, testing::Bool());

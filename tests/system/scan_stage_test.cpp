@@ -240,7 +240,7 @@ TEST_F(Scan, WhatContradictsTheFileIsRefusedByItsKey) {
 
 TEST_F(Scan, OfTheSameRecordingOnlyTheRestIsRead) {
     ScanContent scan;
-    scan.meta.source_name = "box room";
+    scan.source_name = "box room";
     scan.progress.last_index = 17;
     SourceInfo info;
     info.name = "box room";

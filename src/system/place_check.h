@@ -1,0 +1,60 @@
+// A camera that was relocalised may be in another room of the same kind. It is tracked, but nothing
+// is fused until a second view, which shares less than half with the first, is found where the
+// camera was tracked to.
+#pragma once
+
+#include <optional>
+
+#include "optimize/keyframes.h"
+
+namespace tessera {
+
+// Owner thread only: the thread that tracks.
+class PlaceCheck {
+  public:
+    explicit PlaceCheck(const PinholeCamera& camera) : camera_(camera) {}
+
+    // The camera was relocalised and tracked there.
+    void Begin(const PreparedFrame& frame, const Eigen::Isometry3d& T_map_camera) {
+        failed_ = 0;
+        open_ = true;
+        Ask(frame, T_map_camera);
+    }
+    // Nothing is fused.
+    bool open() const { return open_; }
+    // The camera sees enough that is new to ask where this is.
+    bool Due(const Eigen::Isometry3d& T_map_camera) const {
+        return open_ && ViewOverlap(seen_m_, camera_.Every(kKeyframeReduction),
+                                    T_map_camera.inverse() * T_map_seen_) < kNewView;
+    }
+    // This frame is looked for among the keyframes.
+    void Ask(const PreparedFrame& frame, const Eigen::Isometry3d& T_map_camera) {
+        seen_m_ = ReducedDepth(frame.depth_m, kKeyframeReduction);
+        T_map_seen_ = T_map_camera;
+    }
+    // Where the frame of the last Ask was found. Returns false if the place has been refuted: too
+    // many views were found elsewhere or nowhere.
+    [[nodiscard]] bool Answer(const std::optional<Eigen::Isometry3d>& T_map_found) {
+        const bool there =
+            T_map_found &&
+            (T_map_found->translation() - T_map_seen_.translation()).norm() <= kSame &&
+            RotationAngle(*T_map_found, T_map_seen_) <= kSame;
+        open_ = !there && ++failed_ < kMostFailed;
+        return there || open_;
+    }
+    // The map was moved.
+    void Move(const Eigen::Isometry3d& T_new_old) { T_map_seen_ = T_new_old * T_map_seen_; }
+
+  private:
+    static constexpr double kNewView = 0.5;
+    static constexpr double kSame = 0.1;  // metres and radians
+    static constexpr int kMostFailed = 3;
+
+    PinholeCamera camera_;
+    bool open_ = false;
+    int failed_ = 0;
+    DepthImage seen_m_;  // of the last view that was looked for, reduced
+    Eigen::Isometry3d T_map_seen_ = Eigen::Isometry3d::Identity();
+};
+
+}  // namespace tessera

@@ -1,0 +1,45 @@
+#include "system/scan_restore.h"
+
+#include <utility>
+
+#include "core/se3.h"
+
+namespace tessera {
+
+Status RestoreMap(const std::string& path, ScanContent& scan, MappingStage& mapping) {
+    mapping.Resume(std::move(scan.map), scan.progress.fused_frames);
+    StateReader labels(scan.labels);
+    if (!scan.labels.empty() && !mapping.LoadLabels(labels))
+        return Status::Error(path +
+                             ": its labels have other classes; give the same --labels and "
+                             "labels.classes as when the scan was created");
+    return Status::Ok();
+}
+
+// Frames that loop closure had not yet processed keep their pose in the map.
+LoopCloser::Memory TakeLoopMemory(ScanContent& scan) {
+    LoopCloser::Memory memory;
+    memory.keyframes = std::move(scan.keyframes);
+    memory.edges = std::move(scan.loops.edges);
+    for (const PathRecord& record : scan.path) {
+        if (!record.tracked() || memory.keyframes.empty()) continue;
+        if (record.keyframe >= 0) {
+            memory.passages.push_back({record.stamp_s, record.keyframe, record.T_reference_camera});
+        } else if (!memory.passages.empty()) {
+            const int last = memory.passages.back().keyframe;
+            const Eigen::Isometry3d& T_map_keyframe =
+                memory.keyframes[static_cast<std::size_t>(last)].T_map_camera;
+            memory.passages.push_back(
+                {record.stamp_s, last,
+                 Normalised(T_map_keyframe.inverse() * record.T_reference_camera)});
+        }
+    }
+    for (FrameRecord& frame : scan.frames)
+        if (frame.in_store) memory.frames.push_back(std::move(frame.stored));
+    memory.next_ordinal = scan.loops.next_ordinal;
+    memory.loops = scan.loops.loops;
+    memory.corrected = scan.loops.corrected;
+    return memory;
+}
+
+}  // namespace tessera

@@ -1,0 +1,101 @@
+#include "system/place_check.h"
+
+#include <gtest/gtest.h>
+
+#include "system/lost_camera.h"
+
+namespace tessera {
+namespace {
+
+const PinholeCamera kPlaceCamera{320, 240, 260, 260, 159.5, 119.5};
+
+// A wall 2 m away that fills the view; moving by 1 m along it leaves less than half of the view.
+PreparedFrame SeenWall() {
+    PreparedFrame frame;
+    frame.width = kPlaceCamera.width;
+    frame.height = kPlaceCamera.height;
+    frame.depth_m = DepthImage(frame.width, frame.height, 2.0f);
+    return frame;
+}
+
+Eigen::Isometry3d AlongX(double x_m) { return Eigen::Isometry3d(Eigen::Translation3d(x_m, 0, 0)); }
+
+TEST(PlaceCheck, AsksOnlyWhereMostOfTheViewIsNew) {
+    PlaceCheck check(kPlaceCamera);
+    EXPECT_FALSE(check.open());
+    EXPECT_FALSE(check.Due(AlongX(5)));
+    check.Begin(SeenWall(), AlongX(0));
+    EXPECT_TRUE(check.open());
+    EXPECT_FALSE(check.Due(AlongX(1.0)));
+    EXPECT_TRUE(check.Due(AlongX(1.5)));  // the view is 2.46 m wide
+    check.Ask(SeenWall(), AlongX(1.5));
+    EXPECT_FALSE(check.Due(AlongX(1.5)));
+    check.Move(AlongX(10));  // the map was corrected
+    EXPECT_FALSE(check.Due(AlongX(11.5)));
+    EXPECT_TRUE(check.Due(AlongX(1.5)));
+}
+
+TEST(PlaceCheck, ASecondViewThereConfirms) {
+    PlaceCheck check(kPlaceCamera);
+    check.Begin(SeenWall(), AlongX(0));
+    check.Ask(SeenWall(), AlongX(1.5));
+    EXPECT_TRUE(check.Answer(AlongX(1.55)));
+    EXPECT_FALSE(check.open());
+}
+
+TEST(PlaceCheck, ThreeViewsElsewhereOrNowhereRefute) {
+    PlaceCheck check(kPlaceCamera);
+    check.Begin(SeenWall(), AlongX(0));
+    check.Ask(SeenWall(), AlongX(1.5));
+    EXPECT_TRUE(check.Answer(std::nullopt));
+    EXPECT_TRUE(check.open());
+    check.Ask(SeenWall(), AlongX(3));
+    EXPECT_TRUE(check.Answer(AlongX(3.2)));
+    check.Ask(SeenWall(), AlongX(4.5));
+    EXPECT_FALSE(check.Answer(std::nullopt));
+    EXPECT_FALSE(check.open());
+    check.Begin(SeenWall(), AlongX(9));  // found again: counts anew
+    check.Ask(SeenWall(), AlongX(10.5));
+    EXPECT_TRUE(check.Answer(std::nullopt));
+}
+
+TrackedFrame TrackedAt(double stamp_s, bool degenerate = false) {
+    TrackedFrame tracked;
+    tracked.report.stamp_s = stamp_s;
+    tracked.report.track.status = TrackStatus::kGood;
+    tracked.report.track.inlier_fraction = tracked.report.track.known_fraction = 0.9;
+    tracked.report.track.degenerate = degenerate;
+    tracked.prepared.has_colour = true;
+    return tracked;
+}
+
+using Verdict = LostCamera::Verdict;
+
+// Another recording may begin at an earlier time.
+TEST(LostCamera, AfterAPauseItIsLostWhicheverWayTheClockGoes) {
+    for (const double stamp_s : {90.0, 110.0}) {
+        LostCamera camera(LoopConfig{}, 0.5);
+        camera.Resume(100);
+        EXPECT_EQ(camera.Judge(TrackedAt(stamp_s)), Verdict::kLost) << stamp_s;
+        EXPECT_TRUE(camera.lost());
+    }
+    LostCamera camera(LoopConfig{}, 0.5);
+    camera.Resume(100);
+    EXPECT_EQ(camera.Judge(TrackedAt(100.1)), Verdict::kTracking);
+}
+
+TEST(LostCamera, WhereTheViewLeavesAMotionOpenARelocalisedPoseIsNotTrusted) {
+    LostCamera camera(LoopConfig{}, 0.5);
+    camera.Resume(100);
+    EXPECT_EQ(camera.Judge(TrackedAt(110)), Verdict::kLost);
+    camera.Seen(110.1);
+    EXPECT_EQ(camera.Judge(TrackedAt(110.2, true)), Verdict::kLost);
+    EXPECT_TRUE(camera.relocalised());
+    EXPECT_EQ(camera.Judge(TrackedAt(110.3)), Verdict::kFoundAgain);
+    EXPECT_FALSE(camera.relocalised());
+    camera.Lose();
+    EXPECT_EQ(camera.Judge(TrackedAt(110.4)), Verdict::kLost);
+}
+
+}  // namespace
+}  // namespace tessera
