@@ -3,13 +3,14 @@
 #include <memory>
 
 #include "command.h"
+#include "run/scan_merge.h"
 #include "scan/scan_repair.h"
 
 namespace tessera {
 namespace {
 
 struct Arguments {
-    std::string scan, out;
+    std::string scan, second, out;
 };
 
 int RepairTo(const Arguments& a) {
@@ -23,6 +24,18 @@ int RepairTo(const Arguments& a) {
     return kExitDone;
 }
 
+int MergeTo(const Arguments& a) {
+    const Result<MergeReport> merged = MergeScans(a.scan, a.second, a.out);
+    if (!merged.ok()) return Fail(merged.status());
+    const MergeReport& report = merged.value();
+    fmt::print(
+        "{}: {} frames, {} blocks, {} keyframes; {} keyframes of {} were found in {}, {} "
+        "alignments across\n",
+        a.out, report.frames, report.blocks, report.keyframes, report.places, a.second, a.scan,
+        report.overlaps);
+    return kExitDone;
+}
+
 }  // namespace
 
 void AddScanCommand(CLI::App& app, CommandContext& context) {
@@ -33,6 +46,13 @@ void AddScanCommand(CLI::App& app, CommandContext& context) {
         "repair", "Recover what is intact in a damaged scan into a new file");
     repair->add_option("SCAN", a->scan, "Damaged file; not modified")->required();
     repair->add_option("--out", a->out, "New file")->required()->type_name("FILE");
+    CLI::App* merge = command->add_subcommand(
+        "merge", "Merge two scans that overlap into a new one, in the world of the first");
+    merge->add_option("FIRST", a->scan, "Scan with loop closure; not modified")->required();
+    merge->add_option("SECOND", a->second, "Scan with the same camera and voxels; not modified")
+        ->required();
+    merge->add_option("--out", a->out, "New file")->required()->type_name("FILE");
+    merge->callback([a, &context] { context.exit_code = MergeTo(*a); });
     repair->callback([a, &context] { context.exit_code = RepairTo(*a); });
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <string_view>
 
 #include "io/file.h"
@@ -166,10 +167,25 @@ std::vector<std::vector<StampedPose>> SplitByClock(const std::vector<StampedPose
     return parts;
 }
 
+std::string NumberedPath(const std::string& path, int number) {
+    const std::filesystem::path whole(path);
+    return (whole.parent_path() /
+            fmt::format("{}_{}{}", whole.stem().string(), number, whole.extension().string()))
+        .string();
+}
+
 Status WriteTrajectory(const std::string& path, const std::vector<StampedPose>& poses) {
-    std::string text = "# stamp tx ty tz qx qy qz qw (T_world_camera; seconds, metres)\n";
-    for (const StampedPose& pose : poses) text += TrajectoryLine(pose) + '\n';
-    return WriteTextFile(path, text);
+    const auto parts = SplitByClock(poses);
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        std::string text = "# stamp tx ty tz qx qy qz qw (T_world_camera; seconds, metres)\n";
+        for (const StampedPose& pose : parts[i]) text += TrajectoryLine(pose) + '\n';
+        const bool last = i + 1 == parts.size();
+        if (Status status =
+                WriteTextFile(last ? path : NumberedPath(path, static_cast<int>(i) + 1), text);
+            !status.ok())
+            return status;
+    }
+    return Status::Ok();
 }
 
 Status WriteKittiPoses(const std::string& path, const std::vector<StampedPose>& poses) {

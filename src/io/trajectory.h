@@ -22,7 +22,10 @@ struct Trajectory {
 // error.
 Result<Trajectory> ReadTrajectory(const std::string& path);
 
+// Where the clock starts again, the poses before go to files of their own: NAME_1.txt and so on.
 Status WriteTrajectory(const std::string& path, const std::vector<StampedPose>& poses);
+// "a/NAME.txt" becomes "a/NAME_2.txt".
+std::string NumberedPath(const std::string& path, int number);
 
 // KITTI odometry format: per pose, the first three rows of T_world_camera, twelve numbers, row by
 // row. The format has no stamps; they are written one per line to a second file with ".times"

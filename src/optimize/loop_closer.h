@@ -90,6 +90,10 @@ class LoopCloser {
     // configured. `note`: message for the user about the calibration.
     std::optional<Correction> Finish(std::string& note);
 
+    // Outside a run: optimises with every overlap that can be found, and makes the map again from
+    // all stored frames.
+    Result<Correction> MakeAgain();
+
     // Corrected poses of all frames, in order.
     std::vector<StampedPose> Path() const;
     const Keyframes& keyframes() const { return keyframes_; }
@@ -131,6 +135,7 @@ class LoopCloser {
     void SetGraphPoses(const std::vector<Eigen::Isometry3d>& T_world_keyframe);
     double MaxDisplacement_m(const std::vector<Eigen::Isometry3d>& T_map_keyframe) const;
     Status Optimise();
+    int FindOverlaps();
     Status OptimiseAgain();
     Status LoadViews(std::vector<CalibrationView>& views);
     Status Calibrate();

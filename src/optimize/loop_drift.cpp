@@ -73,12 +73,15 @@ Status LoopCloser::Optimise() {
 }
 
 // Looks for overlaps that the corrected poses show for the first time, newest keyframes first.
-Status LoopCloser::OptimiseAgain() {
+// Returns their number.
+int LoopCloser::FindOverlaps() {
     constexpr int kMostNew = 60;
     int found = 0;
     for (int id = keyframes_.size() - 1; config_.overlaps && id > 0 && found < kMostNew; --id)
         found += overlaps_.Find(keyframes_, id, false);
-    return found > 0 ? Optimise() : Status::Ok();
+    return found;
 }
+
+Status LoopCloser::OptimiseAgain() { return FindOverlaps() > 0 ? Optimise() : Status::Ok(); }
 
 }  // namespace tessera

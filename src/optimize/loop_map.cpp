@@ -109,4 +109,18 @@ std::optional<LoopCloser::Correction> LoopCloser::Finish(std::string& note) {
     return last;
 }
 
+Result<LoopCloser::Correction> LoopCloser::MakeAgain() {
+    constexpr int kMostRounds = 100;
+    corrected_ = true;
+    for (int round = 0; round < kMostRounds; ++round) {
+        const bool last = FindOverlaps() == 0;
+        if (Status solved = Optimise(); !solved.ok()) return solved;
+        if (last) break;
+    }
+    std::optional<Correction> made;
+    if (BeginRebuild(-1)) made = StepRebuild(std::numeric_limits<int>::max());
+    if (!made) return Status::Error(TakeError());
+    return std::move(*made);
+}
+
 }  // namespace tessera

@@ -134,7 +134,7 @@ Status RunOutput::AddPath(const std::vector<StampedPose>& path) {
 }
 
 std::string RunOutput::EarlierPath(int clock) const {
-    return Path(fmt::format("trajectory_{}.txt", clock));
+    return NumberedPath(Path("trajectory.txt"), clock);
 }
 
 // The poses so far are from recordings with another clock: they move to a file of their own.
@@ -151,12 +151,7 @@ Status RunOutput::ReplacePath(const std::vector<StampedPose>& path) {
     path_.clear();
     for (const StampedPose& pose : path) path_.push_back(pose.T_world_camera);
     trajectory_.reset();
-    const std::vector<std::vector<StampedPose>> parts = SplitByClock(path);
-    for (std::size_t i = 0; i + 1 < parts.size(); ++i)
-        if (Status status = WriteTrajectory(EarlierPath(static_cast<int>(i) + 1), parts[i]);
-            !status.ok())
-            return status;
-    return WriteTrajectory(Path("trajectory.txt"), parts.back());
+    return WriteTrajectory(Path("trajectory.txt"), path);
 }
 
 Status RunOutput::WritePicture(const TriangleMesh& mesh) const {

@@ -13,16 +13,6 @@
 namespace tessera {
 namespace {
 
-RunConfig ConfigOf(const ScanMeta& meta) {
-    RunConfig config;
-    ConfigParameters parameters;
-    config.Describe(parameters);
-    // Keys of another version that cannot be read keep their defaults.
-    static_cast<void>(parameters.LoadYaml(meta.configuration, "scan"));
-    config.pipeline.map = {.voxel_size_m = meta.voxel_size_m, .truncation_m = meta.truncation_m};
-    return config;
-}
-
 double LengthOf(const std::vector<StampedPose>& path) {
     double length_m = 0;
     for (std::size_t i = 1; i < path.size(); ++i)
@@ -50,6 +40,16 @@ std::string MapText(const ScanContent& scan) {
 }
 
 }  // namespace
+
+RunConfig ConfigOf(const ScanMeta& meta) {
+    RunConfig config;
+    ConfigParameters parameters;
+    config.Describe(parameters);
+    // Keys of another version that cannot be read keep their defaults.
+    static_cast<void>(parameters.LoadYaml(meta.configuration, "scan"));
+    config.pipeline.map = {.voxel_size_m = meta.voxel_size_m, .truncation_m = meta.truncation_m};
+    return config;
+}
 
 Result<TriangleMesh> MeshOfScan(ScanContent& scan) {
     const RunConfig config = ConfigOf(scan.meta);

@@ -7,8 +7,12 @@
 #include "core/mesh.h"
 #include "core/status.h"
 #include "scan/scan_content.h"
+#include "system/run_config.h"
 
 namespace tessera {
+
+// The settings that the scan was created with, as far as this version knows them.
+RunConfig ConfigOf(const ScanMeta& meta);
 
 // Includes labels if the scan has them. Uses the meshing settings that the scan was created with,
 // as far as this version knows them. Takes the map.

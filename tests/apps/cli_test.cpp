@@ -45,7 +45,8 @@ TEST_F(Cli, AWholeRunInAWindow) {
 TEST_F(Cli, HelpEverywhere) {
     for (const char* command :
          {"", "run", "eval", "eval ate", "eval rpe", "eval mesh", "eval labels", "eval detections",
-          "synth", "sweep", "sweep alpha", "render", "objects", "view", "info", "doctor", "config"})
+          "synth", "sweep", "sweep alpha", "render", "objects", "view", "info", "doctor", "config",
+          "scan repair", "scan merge"})
         for (const char* flag : {" -h", " --help"}) {
             const Outcome outcome = Call(std::string(command) + flag);
             EXPECT_EQ(outcome.exit_code, 0) << command;
@@ -180,6 +181,12 @@ TEST_F(Cli, ASecondSessionHasAPathOfItsOwn) {
     const Outcome rest = Call("run " + second + " --out " + (folder / "r") + " --resume " + scan);
     EXPECT_NE(rest.out.find("14 frames, 14 tracked"), std::string::npos) << rest.out << rest.err;
     EXPECT_EQ(ReadTrajectory(folder / "r/trajectory.txt").value().poses.size(), 24u);
+    const Outcome other = Call("run " + second + " --out " + (folder / "o") + " --scan " +
+                               (folder / "b.scan") + " " + small);
+    ASSERT_EQ(other.exit_code, 0) << other.err;
+    ExpectRefused("scan merge " + scan + " " + (folder / "b.scan") + " --out " + scan, scan);
+    ExpectRefused("scan merge " + scan + " " + (folder / "no.scan") + " --out " + (folder / "c"),
+                  "no.scan");
     ExpectRefused("run " + second + " --localise-only " + scan + " --labels synthetic",
                   "--localise-only");
     ExpectRefused("run " + second + " --localise-only " + scan + " --resume " + scan,

@@ -179,6 +179,11 @@ TEST(Trajectory, IsSplitWhereTheClockStartsAgain) {
     EXPECT_EQ(parts[1].size(), 2u);
     EXPECT_EQ(parts[2].front().stamp_s, 3.0);
     EXPECT_EQ(SplitByClock({}).size(), 1u);
+    const std::string path = testing::TempDir() + "clocks.txt";
+    ASSERT_TRUE(WriteTrajectory(path, poses).ok());
+    EXPECT_EQ(ReadTrajectory(NumberedPath(path, 1)).value().poses.size(), 4u);
+    EXPECT_EQ(ReadTrajectory(testing::TempDir() + "clocks_2.txt").value().poses.size(), 2u);
+    EXPECT_EQ(ReadTrajectory(path).value().poses.size(), 1u);
 }
 
 TEST(Trajectory, InterpolatesHalfWay) {
