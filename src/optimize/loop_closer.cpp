@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/se3.h"
+#include "optimize/texture_correlation.h"
 
 namespace tessera {
 namespace {
@@ -170,17 +171,28 @@ std::string LoopCloser::SeekLoop(const Keyframe& fresh, const PreparedFrame& pre
     const bool judged = CovarianceFactor(keyframes_).has_value();  // by SeekDrift
     for (const PlaceIndex::Candidate& candidate : candidates) {
         const Keyframe& old = keyframes_[candidate.keyframe];
+        if (judged && Aligned(fresh, old)) continue;
+        const LoopVerifier::Match match = verifier_.MatchKeyframes(old, fresh);
+        if (!match.T_old_new ||
+            (match.ask_for_texture && !ShowTheSame(old, fresh, *match.T_old_new)))
+            continue;
         if (judged) {
-            if (Aligned(fresh, old)) continue;
-            if (const auto T_old_new = verifier_.MatchKeyframes(old, fresh).T_old_new)
-                overlaps_.Align(keyframes_, fresh.id, old.id, *T_old_new, true);
+            overlaps_.Align(keyframes_, fresh.id, old.id, *match.T_old_new, true);
             continue;
         }
-        const FieldVerdict verdict =
-            verifier_.VerifyLoop(keyframes_, old, fresh, prepared, motion, store_);
+        const FieldVerdict verdict = verifier_.VerifyLoop(keyframes_, old, fresh, *match.T_old_new,
+                                                          prepared, motion, store_);
         if (verdict.accepted) return CloseLoop(old, fresh, verdict);
     }
     return {};
+}
+
+bool LoopCloser::ShowTheSame(const Keyframe& old, const Keyframe& fresh,
+                             const Eigen::Isometry3d& T_old_new) {
+    if (fresh.reduced.empty()) return false;
+    const DenseView& view = overlaps_.ViewOf(fresh);
+    const ViewAlignment aligned = overlaps_.AlignView(old, view, T_old_new);
+    return aligned.converged && SameTexture(overlaps_.ViewOf(old), view, aligned.T_a_b);
 }
 
 // Keeps the tracked pose if tracking has already closed the loop: the full map is more accurate

@@ -126,6 +126,8 @@ class LoopCloser {
     void StoreLatest();
     std::string SeekLoop(const Keyframe& fresh, const PreparedFrame& prepared,
                          const FrameMotion& motion);
+    bool ShowTheSame(const Keyframe& old, const Keyframe& fresh,
+                     const Eigen::Isometry3d& T_old_new);
     std::string CloseLoop(const Keyframe& old, const Keyframe& fresh, const FieldVerdict& verdict);
     std::string SeekDrift(const Keyframe& fresh);
     std::string ClosedText(const Keyframe& old, const Drift& drift) const;

@@ -23,7 +23,7 @@ std::string LoopCloser::SeekDrift(const Keyframe& fresh) {
             if (!IsOlder(overlap, id) || !Contradicts(overlap, *factor)) continue;
             const Drift implied = DriftOf(keyframes_[overlap.with], keyframes_[id],
                                           overlap.T_with_this_aligned, config_.max_drift);
-            if (!implied.possible || implied.off_m < config_.min_correction_m) continue;
+            if (!implied.conceivable || implied.off_m < config_.min_correction_m) continue;
             ++witnesses;
             if (implied.off_m <= drift.off_m) continue;
             old = &keyframes_[overlap.with];

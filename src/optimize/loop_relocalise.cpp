@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
 
 #include "core/se3.h"
@@ -27,7 +26,6 @@ bool SamePlace(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
 std::vector<LoopCloser::Place> LoopCloser::PlacesOf(const PreparedFrame& frame) {
     // Factor compared with a loop: no prior pose narrows down the search.
     constexpr int kManyCandidates = 4;
-    const double least_correlation = std::sqrt(0.5);
     const Features features = ExtractFeatures(frame, settings_.camera, config_.max_features);
     const DenseView view = MakeDenseView(MakeReducedView(frame), settings_.camera);
     std::vector<Place> places;
@@ -45,7 +43,7 @@ std::vector<LoopCloser::Place> LoopCloser::PlacesOf(const PreparedFrame& frame) 
         const ViewAlignment aligned = overlaps_.AlignView(old, view, match.T_old_new);
         if (!aligned.converged || aligned.overlap < config_.min_known_fraction ||
             aligned.fit < config_.min_fit ||
-            TextureCorrelation(overlaps_.ViewOf(old), view, aligned.T_a_b) < least_correlation)
+            !SameTexture(overlaps_.ViewOf(old), view, aligned.T_a_b))
             continue;
         places.push_back({old.id, aligned.T_a_b, old.T_map_camera * aligned.T_a_b, 0});
     }

@@ -9,13 +9,16 @@ namespace tessera {
 Drift DriftOf(const Keyframe& old, const Keyframe& fresh, const Eigen::Isometry3d& T_old_new,
               double max_drift) {
     constexpr double kAlways = 0.15;  // metres and radians
+    constexpr double kApart_m = 0.8, kApart_rad = 0.35;
     const Eigen::Isometry3d T_old_estimate = old.T_world_camera.inverse() * fresh.T_world_camera;
     Drift drift;
     drift.off_m = (T_old_estimate.translation() - T_old_new.translation()).norm();
     drift.off_rad = RotationAngle(T_old_estimate, T_old_new);
-    drift.possible =
-        drift.off_m <= kAlways + max_drift * (fresh.path_length_m - old.path_length_m) &&
-        drift.off_rad <= kAlways + max_drift * (fresh.turned_rad - old.turned_rad);
+    const double share_m = max_drift * (fresh.path_length_m - old.path_length_m),
+                 share_rad = max_drift * (fresh.turned_rad - old.turned_rad);
+    drift.possible = drift.off_m <= kAlways + share_m && drift.off_rad <= kAlways + share_rad;
+    drift.conceivable =
+        drift.off_m <= kApart_m + share_m && drift.off_rad <= kApart_rad + share_rad;
     return drift;
 }
 
@@ -25,30 +28,25 @@ LoopVerifier::Match LoopVerifier::MatchKeyframes(const Keyframe& old, const Keyf
         return {std::nullopt, fmt::format("{} features fit, spread over {:.2f} m", match.inliers,
                                           match.spread_m)};
     const Drift drift = DriftOf(old, fresh, match.T_old_new, config_.max_drift);
-    if (!drift.possible)
+    if (!drift.conceivable)
         return {std::nullopt, fmt::format("it implies a drift of {:.2f} m and {:.2f} rad",
                                           drift.off_m, drift.off_rad)};
-    return {match.T_old_new, {}};
+    return {match.T_old_new, {}, !drift.possible};
 }
 
 FieldVerdict LoopVerifier::VerifyLoop(const Keyframes& keyframes, const Keyframe& old,
-                                      const Keyframe& fresh, const PreparedFrame& prepared,
-                                      const FrameMotion& motion, FrameStore& store) {
-    const Match match = MatchKeyframes(old, fresh);
-    if (!match.T_old_new) {
-        FieldVerdict refused;
-        refused.reason = match.reason;
-        return refused;
-    }
+                                      const Keyframe& fresh, const Eigen::Isometry3d& T_old_new,
+                                      const PreparedFrame& prepared, const FrameMotion& motion,
+                                      FrameStore& store) {
     const Eigen::Isometry3d T_old_new_expected = old.T_map_camera.inverse() * fresh.T_map_camera;
-    if (NothingToCorrect(*match.T_old_new, T_old_new_expected)) {
+    if (NothingToCorrect(T_old_new, T_old_new_expected)) {
         FieldVerdict closed;
         closed.accepted = closed.closed_before = true;
         closed.T_old_new = T_old_new_expected;
         return closed;
     }
     return field_.Check(FramesNear(keyframes, old.id, store),
-                        {prepared, motion, *match.T_old_new, T_old_new_expected}, store);
+                        {prepared, motion, T_old_new, T_old_new_expected}, store);
 }
 
 // Features and map agree so well that the field check, which costs a hundred times as much, could

@@ -9,10 +9,13 @@
 
 namespace tessera {
 
-// Drift of the odometry that a loop implies, and whether it is plausible.
+// Drift of the odometry that a loop implies.
 struct Drift {
     double off_m = 0, off_rad = 0;
-    bool possible = false;
+    bool possible = false;  // for the distance and rotation covered since
+    // Larger, but still less than two rooms of one kind lie apart: to be believed if the texture is
+    // the same.
+    bool conceivable = false;
 };
 
 // Between two keyframes, if their true relative pose is T_old_new.
@@ -27,14 +30,15 @@ class LoopVerifier {
 
     struct Match {
         std::optional<Eigen::Isometry3d> T_old_new;
-        std::string reason;  // why there is none
+        std::string reason;            // why there is none
+        bool ask_for_texture = false;  // the drift is conceivable only
     };
-    // By features, if the drift that follows is plausible.
+    // By features, if the drift that follows is conceivable.
     Match MatchKeyframes(const Keyframe& old, const Keyframe& fresh) const;
-    // For a keyframe `fresh`, made from the frame `prepared`.
+    // For a keyframe `fresh`, made from the frame `prepared`, which features place at T_old_new.
     FieldVerdict VerifyLoop(const Keyframes& keyframes, const Keyframe& old, const Keyframe& fresh,
-                            const PreparedFrame& prepared, const FrameMotion& motion,
-                            FrameStore& store);
+                            const Eigen::Isometry3d& T_old_new, const PreparedFrame& prepared,
+                            const FrameMotion& motion, FrameStore& store);
     // Field check only, for a frame of a lost camera that the features place at T_old_new.
     FieldVerdict VerifyPlace(const Keyframes& keyframes, const Keyframe& old,
                              const PreparedFrame& fresh, const Eigen::Isometry3d& T_old_new,

@@ -13,4 +13,10 @@ namespace tessera {
 // they share too few pixels. Thread-safe.
 double TextureCorrelation(const DenseView& a, const DenseView& b, const Eigen::Isometry3d& T_a_b);
 
+// Either view explains more than half of the variance of the other's fine texture.
+inline bool SameTexture(const DenseView& a, const DenseView& b, const Eigen::Isometry3d& T_a_b) {
+    const double correlation = TextureCorrelation(a, b, T_a_b);
+    return correlation > 0 && correlation * correlation > 0.5;
+}
+
 }  // namespace tessera

@@ -87,6 +87,33 @@ TEST(LoopCloser, TakesAFifthOrLessOfTheDriftToTheEndAndTheMapFollows) {
     EXPECT_LE(p95, 0.5f);
 }
 
+// Tracking slips by half a metre and ten degrees, which is more than a walk of 4 m explains.
+TEST(LoopCloser, FindsAndClosesALargeSlip) {
+    if (!PoseGraphAvailable()) GTEST_SKIP() << "this build has no Ceres: install libceres-dev";
+    const std::vector<Frame> frames = Round();
+    Walker walker(LoopConfig{});
+    const auto drifted = [&](std::size_t i) {
+        const double share = std::clamp((static_cast<double>(i) - 60) / 10, 0.0, 1.0);
+        const Vector6d drift = (Vector6d() << 0, 0.1745, 0, 0.3, 0.1, 0.39).finished() * share;
+        return Normalised(Se3Exp(drift) * *frames[i].T_world_camera);
+    };
+    for (std::size_t i = 0; i < frames.size(); ++i)
+        walker.Go(frames[i],
+                  i == 0 ? Eigen::Isometry3d::Identity() : drifted(i - 1).inverse() * drifted(i));
+    std::string note;
+    walker.Take(walker.closer.Finish(note));
+    const double before_m = (drifted(frames.size() - 1).translation() -
+                             frames.back().T_world_camera->translation())
+                                .norm(),
+                 after_m = EndError_m(frames, walker.closer.Path());
+    std::cout << "end-point error " << 1000 * before_m << " mm without, " << 1000 * after_m
+              << " mm with\n"
+              << walker.all_news;
+    EXPECT_GT(before_m, 0.45);
+    EXPECT_LE(after_m, 0.02);
+    EXPECT_GE(walker.corrections, 1);
+}
+
 // If a map holds a surface twice, tracking can jump from one copy to the other.
 TEST(LoopCloser, AJumpWhileTheMapIsMadeAgainIsNoMotion) {
     if (!PoseGraphAvailable()) GTEST_SKIP() << "this build has no Ceres: install libceres-dev";
@@ -278,6 +305,12 @@ TEST(DriftOf, GrowsWithTheWay) {
     EXPECT_FALSE(DriftOf(old, fresh, turned, 0.05).possible);
     fresh.turned_rad = 2;
     EXPECT_TRUE(DriftOf(old, fresh, turned, 0.05).possible);
+    // A metre is neither: rooms of one kind lie farther apart than what is conceivable.
+    const Eigen::Isometry3d half(Eigen::Translation3d(0.3, 0, 0)),
+        metre(Eigen::Translation3d(-0.4, 0, 0));
+    EXPECT_FALSE(DriftOf(old, fresh, half, 0.05).possible);
+    EXPECT_TRUE(DriftOf(old, fresh, half, 0.05).conceivable);
+    EXPECT_FALSE(DriftOf(old, fresh, metre, 0.05).conceivable);  // 1.4 m > 0.8 + 0.05 * 10
 }
 
 }  // namespace
