@@ -26,6 +26,7 @@ ViewerOptions OptionsFor(const RunRequest& request, const RunConfig& config,
     options.settings.alpha = trackers.photometric.alpha;
     options.settings.max_depth_m = config.pipeline.frame.max_depth_m;
     options.settings.prealign = config.pipeline.prealign.enabled;
+    if (config.loops.enabled && request.poses_file.empty()) options.settings.loops = true;
     options.settings.prediction = trackers.icp.prediction;
     options.settings.labels.prediction = config.labels.prediction;
     return options;

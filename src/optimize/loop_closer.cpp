@@ -87,8 +87,8 @@ std::string LoopCloser::Add(const Frame& frame, const PreparedFrame& prepared,
         Store(prepared.moving ? WithoutMoving(*prepared.moving, frame) : frame, keyframe, view);
     if (keyframe && stored.ok()) {
         if (config_.overlaps) overlaps_.Find(keyframes_, last.id, true);
-        news = SeekLoop(last, prepared, view.motion);
-        if (news.empty()) news = SeekDrift(last);
+        if (seeking_) news = SeekLoop(last, prepared, view.motion);
+        if (seeking_ && news.empty()) news = SeekDrift(last);
         index_.Add(last.id, last.features.descriptors);
     }
     if (keyframe && rebuild_) {

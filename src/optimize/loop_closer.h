@@ -74,6 +74,8 @@ class LoopCloser {
     void AddDetections(std::int64_t frame_index, std::vector<Detection> detections) {
         store_.AddDetections(frame_index, std::move(detections));
     }
+    // Off: frames are kept, but no loop is closed and no corrected map is made before the end.
+    void SetSeeking(bool on) { seeking_ = on; }
     // For a tracked frame of which only the pose is kept.
     void Pass(double stamp_s, const Eigen::Isometry3d& T_map_camera);
     // Returns T_map_camera for a frame of a lost camera. Empty if the place is unknown or
@@ -82,7 +84,7 @@ class LoopCloser {
     // Works on the corrected map: fuses at most this many stored frames into it.
     std::optional<Correction> Step(int frames);
     // True if Step has work to do.
-    bool HasWork() const { return rebuild_ != nullptr || moved_; }
+    bool HasWork() const { return seeking_ && (rebuild_ != nullptr || moved_); }
     // Returns once why the map is no longer corrected, or why frames are missing from it; usually
     // empty.
     std::string TakeError() { return std::exchange(trouble_, {}); }
@@ -164,6 +166,7 @@ class LoopCloser {
     int loops_ = 0;
     bool corrected_ = false;  // at least one loop was worth correcting
     std::optional<CalibrationReport> calibration_;
+    bool seeking_ = true;
     bool broken_ = false;  // no further map can be built
     std::string trouble_;
     bool moved_ = false;    // keyframes moved since the last Step

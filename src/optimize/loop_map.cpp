@@ -51,6 +51,7 @@ bool LoopCloser::BeginRebuild(double tolerance_m) {
 }
 
 std::optional<LoopCloser::Correction> LoopCloser::Step(int frames) {
+    if (!seeking_) return std::nullopt;
     moved_ = false;
     // Surfaces closer than that are one surface to tracking; what is left waits for the end.
     if (!BeginRebuild(settings_.map.truncation_m)) return std::nullopt;
@@ -87,7 +88,8 @@ void LoopCloser::StopRebuilding(const Status& why) {
 std::optional<LoopCloser::Correction> LoopCloser::Finish(std::string& note) {
     std::optional<Correction> last;
     StoreLatest();
-    if (corrected_ && Optimise().ok()) static_cast<void>(OptimiseAgain());  // else as it was
+    if (seeking_ && corrected_ && Optimise().ok())
+        static_cast<void>(OptimiseAgain());  // else as it was
     if (config_.refine_calibration && !keyframes_.empty()) {
         const FieldSettings given = settings_;
         const Status status = Calibrate();

@@ -100,6 +100,8 @@ void LiveTracking::TakeSettings() {
     state_->life.stage().Apply(settings);
     links_.show_prediction.store(settings.show_prediction);
     state_->labels = settings.labels;
+    state_->seeking = settings.loops.value_or(true);
+    if (loops_ != nullptr) loops_->SetSeeking(state_->seeking);
 }
 
 // Returns whether there was any.
@@ -152,7 +154,7 @@ std::optional<Eigen::Isometry3d> LiveTracking::TakeRelocalisation(double stamp_s
 }
 
 void LiveTracking::CheckIfLost(TrackedFrame& tracked) {
-    if (loops_ == nullptr) return;
+    if (loops_ == nullptr || !state_->seeking) return;
     const bool by_appearance = state_->lost.relocalised();
     const LostCamera::Verdict verdict = state_->lost.Judge(tracked);
     if (verdict != LostCamera::Verdict::kLost) {

@@ -43,6 +43,7 @@ class LiveTracking {
         MapVersion version;               // of that copy
         LostCamera lost;
         PlaceCheck place;
+        bool seeking = true;                  // loops are switched on
         bool asked = false;                   // a relocalisation question is pending
         std::optional<LabelSettings> labels;  // new ones for mapping
     };

@@ -145,6 +145,7 @@ bool LockstepEngine::HandleViewer(FrameOutcome& outcome) {
         if (viewer_ != nullptr && viewer_->settings.TryPop(settings)) {
             tracking_.stage().Apply(settings);
             mapping_.Apply(settings.labels);
+            if (loops_) loops_->Switch(settings.loops.value_or(true));
             mapping_.feed().ShowPrediction(settings.show_prediction);
         }
         if (const auto command = control_.TakeCommand()) {

@@ -45,6 +45,7 @@ void LoopStage::Resume(LoopCloser::Memory memory, double last_stamp_s) {
 void LoopStage::AfterTracking(const Frame& frame, const BlockMap& map, TrackingStage& tracking,
                               TrackedFrame& tracked, const LoadAround& bring) {
     lost_ms_ = 0;
+    if (!on_) return;
     if (camera_.Judge(tracked) != LostCamera::Verdict::kLost) return Check(tracking, tracked);
     FrameReport& report = tracked.report;
     if (tracked.prepared.valid_depth_pixels > 0) {

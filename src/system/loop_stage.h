@@ -28,6 +28,12 @@ class LoopStage {
     // lost unless the first frame follows soon after `last_stamp_s`.
     void Resume(LoopCloser::Memory memory, double last_stamp_s);
 
+    // Off: neither closes loops nor looks for a lost camera.
+    void Switch(bool on) {
+        on_ = on;
+        closer_.SetSeeking(on);
+    }
+
     // Tries to relocalise a lost camera. After a loss, a pose is accepted only if it fits well or
     // if relocalisation confirms it. `bring` is called before the map around a candidate pose is
     // read.
@@ -61,7 +67,7 @@ class LoopStage {
     PlaceCheck place_;
     LoopCloser closer_;
     LoopJournal journal_;
-    bool finished_ = false;
+    bool on_ = true, finished_ = false;
     double lost_ms_ = 0;  // of the current frame
 };
 

@@ -117,6 +117,7 @@ void LoopThread::BeginWorld(int world) {
 
 void LoopThread::Do(Job& job) {
     around_.mapping.Notify();  // there is room
+    closer_->SetSeeking(seeking_.load());
     switch (job.kind) {
         case Job::Kind::kReset: BeginWorld(job.map.world); break;
         case Job::Kind::kDetections:

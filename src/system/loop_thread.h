@@ -73,6 +73,8 @@ class LoopThread {
                          MapVersion map);
     // Waits if the job queue is full.
     void Reset(MapVersion map);
+    // Any thread. Off: no loop is closed.
+    void SetSeeking(bool on) { seeking_.store(on); }
     // Updates carry news from now on. The next update covers everything so far.
     void BeginNews() { saved_.store(true); }
     bool has_update() const { return !updates_.empty(); }
@@ -114,7 +116,7 @@ class LoopThread {
     void Conclude();
     void BeginWorld(int world);
     bool MayCorrect() const {
-        return closer_->HasWork() && updates_.size() < kUpdates - kCorrections;
+        return seeking_.load() && closer_->HasWork() && updates_.size() < kUpdates - kCorrections;
     }
     void Do(Job& job);
     void AddFrame(Job& job);
@@ -137,6 +139,7 @@ class LoopThread {
     FifoQueue<Answer> answers_;
     FifoQueue<Update> updates_;
     std::atomic<bool> saved_;
+    std::atomic<bool> seeking_{true};
     // The thread's; the caller's after Finish.
     std::unique_ptr<LoopCloser> closer_;
     LoopJournal journal_;

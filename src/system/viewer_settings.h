@@ -1,6 +1,8 @@
 // Settings that the user can change during a run. They take effect at the next frame.
 #pragma once
 
+#include <optional>
+
 #include "semantics/label_config.h"
 #include "system/tracking_method.h"
 
@@ -12,7 +14,9 @@ struct ViewerSettings {
     double alpha = 0.03;     // m^2, unless auto_alpha
     double max_depth_m = 5;  // farther measurements are ignored
     bool prealign = true;
-    bool fusing = true;           // off: track without changing the map
+    bool fusing = true;  // off: track without changing the map
+    // Off: no loop is closed and no lost camera looked for. Empty: so for the whole run.
+    std::optional<bool> loops;
     bool show_prediction = true;  // fill ImageUpdate::predicted
     IcpTracker::Prediction prediction = IcpTracker::Prediction::kRayCast;
     LabelSettings labels;  // of a run with labels

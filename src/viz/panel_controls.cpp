@@ -58,6 +58,11 @@ void DrawSettings(ViewerState& state) {
         ImGui::TableNextColumn();
         changed |= MarkedCheckbox(controls, "fusing", "Fuse", settings.fusing);
         Tip("Off: frames are tracked but not fused into the map");
+        if (settings.loops) {
+            ImGui::TableNextColumn();
+            changed |= MarkedCheckbox(controls, "loops", "Loops", *settings.loops);
+            Tip("Off: no loop is closed, and a lost camera is not looked for");
+        }
         ImGui::TableNextColumn();
         changed |= MarkedCheckbox(controls, "prealign", "Prealign", settings.prealign);
         Tip("Estimate the rotation from small images before tracking; helps with fast motion");

@@ -114,6 +114,30 @@ TEST(LoopCloser, FindsAndClosesALargeSlip) {
     EXPECT_GE(walker.corrections, 1);
 }
 
+TEST(LoopCloser, SwitchedOffItClosesNothingUntilItIsOnAgain) {
+    if (!PoseGraphAvailable()) GTEST_SKIP() << "this build has no Ceres: install libceres-dev";
+    const std::vector<Frame> frames = Round();
+    for (const bool on_again : {false, true}) {
+        Walker walker(LoopConfig{});
+        walker.closer.SetSeeking(false);
+        const auto step = [&](std::size_t i) {
+            return Eigen::Isometry3d(frames[i - 1].T_world_camera->inverse() *
+                                     *frames[i].T_world_camera * Bias());
+        };
+        for (std::size_t i = 0; i < frames.size(); ++i) {
+            EXPECT_FALSE(walker.closer.HasWork());
+            walker.Go(frames[i], i == 0 ? Eigen::Isometry3d::Identity() : step(i));
+        }
+        EXPECT_EQ(walker.corrections, 0);
+        walker.closer.SetSeeking(on_again);
+        for (std::size_t i = 1; i < 30; ++i) walker.Go(frames[i], step(i));
+        std::string note;
+        walker.Take(walker.closer.Finish(note));
+        EXPECT_EQ(walker.corrections > 0, on_again);
+        EXPECT_EQ(walker.closer.loops() > 0, on_again);
+    }
+}
+
 // If a map holds a surface twice, tracking can jump from one copy to the other.
 TEST(LoopCloser, AJumpWhileTheMapIsMadeAgainIsNoMotion) {
     if (!PoseGraphAvailable()) GTEST_SKIP() << "this build has no Ceres: install libceres-dev";

@@ -54,6 +54,9 @@ TEST_F(ViewerControls, SwitchesAndDepth) {
     Click("fusing");
     ASSERT_NE(LastSettings(), nullptr);
     EXPECT_FALSE(LastSettings()->fusing);
+    EXPECT_EQ(LastSettings()->loops, true);
+    Click("loops");
+    EXPECT_EQ(LastSettings()->loops, false);
     Click("prealign");
     EXPECT_FALSE(LastSettings()->prealign);
     Click("prediction");

@@ -31,6 +31,7 @@ class WindowTest : public testing::Test {
         options.camera = system_->camera();
         options.truncation_m = 0.16;
         options.labelled = true;
+        options.settings.loops = true;
         options.wait_s = 0;
         options.max_fps = 1e9;
         options.double_click_s = 1e3;  // works on slow machines too
