@@ -1,5 +1,6 @@
 // tessera eval: measures the error of a result against ground truth.
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <numbers>
@@ -8,6 +9,7 @@
 #include "eval/alignment.h"
 #include "eval/ate.h"
 #include "eval/detection_run.h"
+#include "eval/drift.h"
 #include "eval/label_scores.h"
 #include "eval/mesh_error.h"
 #include "eval/plot.h"
@@ -71,6 +73,33 @@ Status EvalRpe(const Arguments& a, const RpeOptions& options) {
         r.delta_s, r.trans_m.rmse, r.trans_m.median, r.trans_m.max, degrees * r.rot_rad.rmse,
         degrees * r.rot_rad.median, degrees * r.rot_rad.max, r.pairs.size());
     return a.json.empty() ? Status::Ok() : WriteTextFile(a.json, RpeJson(r));
+}
+
+// Where a run left its path as tracked, if it corrected it.
+std::string TrackedBeside(const std::string& estimate) {
+    const auto path = std::filesystem::path(estimate).parent_path() / "trajectory_tracked.txt";
+    std::error_code ignored;
+    return std::filesystem::exists(path, ignored) ? path.string() : estimate;
+}
+
+Status EvalDrift(const Arguments& a, const std::string& tracked) {
+    const auto both = ReadBoth(a.reference, a.estimate);
+    if (!both.ok()) return both.status();
+    const auto& [reference, estimate] = both.value();
+    const Result<DriftResult> drift = EvaluateDrift(reference.poses, estimate.poses);
+    if (!drift.ok()) return Status::Error(a.estimate + ": " + drift.message());
+    fmt::print("{}", DriftText(drift.value()));
+    if (!a.json.empty())
+        if (Status status = WriteTextFile(a.json, DriftJson(drift.value())); !status.ok())
+            return status;
+    if (a.picture.empty()) return Status::Ok();
+    const std::string before = tracked.empty() ? TrackedBeside(a.estimate) : tracked;
+    const Result<Trajectory> path = ReadTrajectory(before);
+    if (!path.ok()) return path.status();
+    const Result<ColourImage> plot =
+        PlotCorrection(reference.poses, path.value().poses, estimate.poses, a.estimate);
+    if (!plot.ok()) return Status::Error(before + ": " + plot.message());
+    return WriteColourImage(a.picture, plot.value());
 }
 
 Status PaintErrors(const std::string& path, TriangleMesh mesh, const MeshErrorResult& error) {
@@ -206,6 +235,22 @@ void AddEvalCommand(CLI::App& app, CommandContext& context) {
         ->capture_default_str();
     rpe->callback(
         [a, rpe_options, &context] { context.exit_code = ExitCode(EvalRpe(*a, *rpe_options)); });
+
+    auto tracked = std::make_shared<std::string>();
+    CLI::App* drift = AddEvaluation(
+        *eval, *a, "drift",
+        "Relative pose error by the distance travelled, and what is left where the camera returns "
+        "(TUM trajectories)",
+        "ESTIMATE");
+    drift->add_option("--plot", a->picture, "Plot the path before and after its correction")
+        ->type_name("FILE.png");
+    drift
+        ->add_option("--tracked", *tracked,
+                     "The path before its correction (default: trajectory_tracked.txt beside "
+                     "ESTIMATE)")
+        ->type_name("FILE");
+    drift->callback(
+        [a, tracked, &context] { context.exit_code = ExitCode(EvalDrift(*a, *tracked)); });
 
     CLI::App* mesh = AddEvaluation(*eval, *a, "mesh",
                                    "Surface error in metres, from the mesh's vertices to the "

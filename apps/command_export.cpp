@@ -3,10 +3,12 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
+#include <numbers>
 
 #include "command.h"
 #include "export/colmap_writer.h"
 #include "export/image_set.h"
+#include "export/level.h"
 #include "export/transforms_json.h"
 #include "export/vdb_writer.h"
 #include "io/mesh_io.h"
@@ -21,12 +23,13 @@ namespace fs = std::filesystem;
 
 struct Arguments {
     std::string input, mesh, cloud, grid, trajectory, kitti, frames, colmap;
+    bool level = false;
 
     bool WantsTransforms() const { return fs::path(frames).extension() == ".json"; }
     bool NeedsMesh() const {
-        return !mesh.empty() || !cloud.empty() || !colmap.empty() || WantsTransforms();
+        return level || !mesh.empty() || !cloud.empty() || !colmap.empty() || WantsTransforms();
     }
-    bool NeedsPath() const { return !trajectory.empty() || !kitti.empty(); }
+    bool NeedsPath() const { return level || !trajectory.empty() || !kitti.empty(); }
     // Whether an output needs data that only a scan file has.
     bool NeedsScan() const { return !grid.empty() || NeedsFrames(); }
     bool NeedsFrames() const { return !frames.empty() || !colmap.empty(); }
@@ -79,6 +82,10 @@ Status Check(const Arguments& a, bool is_run) {
         return Status::Error(a.input +
                              ": the folder of a run has no map and no raw frames; --grid, --frames "
                              "and --colmap need a FILE.scan");
+    if (a.level && a.NeedsScan())
+        return Status::Error(
+            "--level: turns meshes, clouds and paths only; leave --grid, --frames and --colmap "
+            "out");
     if (!a.mesh.empty())
         if (const Result<MeshFormat> format = MeshFormatOf(a.mesh); !format.ok())
             return Status::Error("--mesh " + format.message());
@@ -95,7 +102,10 @@ Status Check(const Arguments& a, bool is_run) {
 
 Status Write(const Arguments& a, const Content& content) {
     if (!a.mesh.empty())
-        if (Status status = MeshFormatOf(a.mesh).value().write(a.mesh, content.mesh); !status.ok())
+        if (Status status = MeshFormatOf(a.mesh).value().write(
+                a.mesh, a.level && fs::path(a.mesh).extension() == ".glb" ? WithYDown(content.mesh)
+                                                                          : content.mesh);
+            !status.ok())
             return status;
     if (!a.cloud.empty())
         if (Status status = WritePlyCloud(a.cloud, content.mesh); !status.ok()) return status;
@@ -111,12 +121,27 @@ Status Write(const Arguments& a, const Content& content) {
     return a.frames.empty() ? Status::Ok() : ExportFrames(a.input, a.frames);
 }
 
+Status Turn(const std::string& input, Content& content) {
+    const Result<Level> level = FindLevel(content.mesh, content.path);
+    if (!level.ok()) return Status::Error("--level: " + input + ": " + level.message());
+    const Level& found = level.value();
+    fmt::print(
+        "level: the first camera was tilted by {:.2f} degrees; taken from {} vertices, "
+        "{:.1f} mm about their plane\n",
+        found.tilt_rad * 180 / std::numbers::pi, found.points, 1000 * found.roughness_m);
+    MakeLevel(found, content.mesh, content.path);
+    return Status::Ok();
+}
+
 Status Export(const Arguments& a) {
     std::error_code ignored;
     const bool is_run = fs::is_directory(a.input, ignored);
     if (Status status = Check(a, is_run); !status.ok()) return status;
-    const Result<Content> content = is_run ? FromRun(a) : FromScan(a);
-    return content.ok() ? Write(a, content.value()) : content.status();
+    Result<Content> content = is_run ? FromRun(a) : FromScan(a);
+    if (!content.ok()) return content.status();
+    if (a.level)
+        if (Status status = Turn(a.input, content.value()); !status.ok()) return status;
+    return Write(a, content.value());
 }
 
 }  // namespace
@@ -147,6 +172,9 @@ void AddExportCommand(CLI::App& app, CommandContext& context) {
         "Raw frames with their poses and points of the mesh, as a COLMAP text model; images in "
         "images/",
         "DIR");
+    command->add_flag("--level", a->level,
+                      "z up and the floor at z = 0 for --mesh, --cloud, --trajectory and --kitti, "
+                      "instead of the first camera's axes; found from the floor");
     command->callback([a, &context] { context.exit_code = ExitCode(Export(*a)); });
 }
 

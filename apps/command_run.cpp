@@ -123,7 +123,7 @@ void AddSource(CLI::App& command, Arguments& a) {
                     "Folder (TUM RGB-D, ICL-NUIM, 7-Scenes, or images with a camera.yaml), "
                     "openni2: (a depth camera; openni2:URI for a specific one), FILE.oni, "
                     "FILE.klg, FILE.scan (the frames stored in a scan), or synthetic:NAME (desk, "
-                    "room, flat, corridor, floor, corner, wall, people, chair, door)")
+                    "room, flat, walk, corridor, floor, corner, wall, people, chair, door)")
         ->required();
     command.add_option("--out", a.request.output_folder, "Folder for the results")
         ->type_name("DIR")

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <numbers>
 #include <utility>
 
 namespace tessera {
@@ -16,6 +17,20 @@ std::string AteText(const AteResult& ate) {
         e.rmse, e.mean, e.median, e.max, ate.pairs.size(), 100 * ate.tracked_fraction);
     if (!ate.warning.empty()) text += "note: " + ate.warning + "\n";
     return text;
+}
+
+std::string DriftText(const DriftResult& drift) {
+    const double degrees = 180 / std::numbers::pi;
+    std::string text = fmt::format("path {:.2f} m; relative error (RMSE) over\n", drift.path_m);
+    for (const DriftResult::OverDistance& d : drift.over_distance)
+        text += fmt::format("{:8.0f} m  {:7.3f} %  {:7.4f} deg/m  {} pairs\n", d.distance_m,
+                            100 * d.trans_fraction, degrees * d.rot_rad_per_m, d.pairs);
+    if (drift.revisits.empty()) return text + "no place was visited twice\n";
+    return text + fmt::format(
+                      "revisits: {}, translation RMSE {:.4f} m (max {:.4f}), rotation RMSE "
+                      "{:.3f} deg\n",
+                      drift.revisits.size(), drift.revisit_m.rmse, drift.revisit_m.max,
+                      degrees * drift.revisit_rad.rmse);
 }
 
 std::string LabelsText(const LabelSummary& labels, double wall_s) {

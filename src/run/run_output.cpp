@@ -1,5 +1,6 @@
 #include "run/run_output.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -67,8 +68,8 @@ Result<std::unique_ptr<RunOutput>> RunOutput::Open(const RunRequest& request,
     if (Status status = PrepareOutputFolder(request.output_folder); !status.ok()) return status;
     std::unique_ptr<RunOutput> output(new RunOutput(request, config));
     std::error_code ignored;
-    for (const char* name :
-         {"mesh.ply", "preview.png", "objects.json", "timings.json", "detections.txt"})
+    for (const char* name : {"mesh.ply", "preview.png", "objects.json", "timings.json",
+                             "detections.txt", "trajectory_tracked.txt"})
         std::filesystem::remove(output->Path(name), ignored);
     for (int clock = 1; std::filesystem::remove(output->EarlierPath(clock), ignored);) ++clock;
     RunSummary unfinished;
@@ -148,9 +149,19 @@ Status RunOutput::BeginClock() {
 }
 
 Status RunOutput::ReplacePath(const std::vector<StampedPose>& path) {
+    constexpr double kSame_m = 1e-6;
+    trajectory_.reset();
+    const bool corrected =
+        !std::ranges::equal(path, path_, [](const StampedPose& a, const Eigen::Isometry3d& b) {
+            return (a.T_world_camera.translation() - b.translation()).norm() <= kSame_m;
+        });
+    if (corrected) {
+        std::error_code ignored;  // without it, the path before the correction is not kept
+        std::filesystem::copy_file(Path("trajectory.txt"), Path("trajectory_tracked.txt"),
+                                   std::filesystem::copy_options::overwrite_existing, ignored);
+    }
     path_.clear();
     for (const StampedPose& pose : path) path_.push_back(pose.T_world_camera);
-    trajectory_.reset();
     return WriteTrajectory(Path("trajectory.txt"), path);
 }
 

@@ -33,7 +33,8 @@ class RunOutput {
     // Adds lines to trajectory.txt for frames tracked before this run. Where the clock starts
     // again, the lines so far move to trajectory_1.txt and so on.
     Status AddPath(const std::vector<StampedPose>& path);
-    // Rewrites trajectory.txt, and those of earlier clocks, with corrected poses, each completely
+    // Keeps the path as tracked in trajectory_tracked.txt if the new one differs. Rewrites
+    // trajectory.txt, and those of earlier clocks, with corrected poses, each completely
     // or not at all.
     Status ReplacePath(const std::vector<StampedPose>& path);
 

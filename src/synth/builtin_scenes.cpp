@@ -8,10 +8,11 @@
 namespace tessera {
 namespace {
 
-constexpr std::array<std::pair<const char*, StagedScene (*)()>, 10> kScenes = {{
+constexpr std::array<std::pair<const char*, StagedScene (*)()>, 11> kScenes = {{
     {"desk", MakeDesk},
     {"room", MakeRoom},
     {"flat", MakeFlat},
+    {"walk", MakeWalk},
     {"corridor", MakeCorridor},
     {"floor", MakeFloor},
     {"corner", MakeCorner},

@@ -17,13 +17,15 @@ struct StagedScene {
     std::string description;
 };
 
-// desk, room, flat, corridor, floor, corner, wall, people, chair, door: in order of presentation.
+// desk, room, flat, walk, corridor, floor, corner, wall, people, chair, door: in order of
+// presentation.
 std::vector<std::string> BuiltinSceneNames();
 
 // World frame: z up, the floor at z = 0. An unknown name is an error that lists the known ones.
 //   desk      a desk in a room's corner: two monitors, keyboard, laptop, books, cups. 10 s, 2 m.
 //   room      5 m x 4 m, furnished; one turn that ends where it began. 24 s.
 //   flat      two furnished rooms of 7 m x 6 m, joined by two doorways; once around, 30 m. 80 s.
+//   walk      the flat, three rounds in both directions, 100 m. 126 s.
 //   corridor  40 m long with doors, pillars, posters and chairs; walked from end to end. 88 s.
 //   floor     only a patterned floor: texture without structure. 10 s.
 //   corner    three bare bright walls: structure without texture. 10 s.
@@ -38,6 +40,7 @@ Result<StagedScene> MakeBuiltinScene(const std::string& name);
 StagedScene MakeDesk();
 StagedScene MakeRoom();
 StagedScene MakeFlat();
+StagedScene MakeWalk();
 StagedScene MakeCorridor();
 StagedScene MakeFloor();
 StagedScene MakeCorner();

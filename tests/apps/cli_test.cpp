@@ -44,9 +44,10 @@ TEST_F(Cli, AWholeRunInAWindow) {
 
 TEST_F(Cli, HelpEverywhere) {
     for (const char* command :
-         {"", "run", "eval", "eval ate", "eval rpe", "eval mesh", "eval labels", "eval detections",
-          "synth", "sweep", "sweep alpha", "render", "objects", "view", "info", "doctor", "config",
-          "scan repair", "scan merge"})
+         {"",           "run",         "eval",        "eval ate",        "eval rpe",
+          "eval drift", "eval mesh",   "eval labels", "eval detections", "synth",
+          "sweep",      "sweep alpha", "render",      "objects",         "view",
+          "info",       "doctor",      "config",      "scan repair",     "scan merge"})
         for (const char* flag : {" -h", " --help"}) {
             const Outcome outcome = Call(std::string(command) + flag);
             EXPECT_EQ(outcome.exit_code, 0) << command;
@@ -99,6 +100,7 @@ TEST_F(Cli, BadArgumentsAreOneLineAndExitCode2) {
     ExpectRefused("run /no/such/folder --out " + (folder / "o"), "/no/such/folder");
     ExpectRefused("run synthetic:desk --out /proc/no", "/proc/no");
     ExpectRefused("eval ate /no/reference.txt /no/estimate.txt", "/no/reference.txt");
+    ExpectRefused("eval drift /no/reference.txt /no/estimate.txt", "/no/reference.txt");
     ExpectRefused("eval mesh /no/a.ply /no/b.ply", "/no/a.ply");
     ExpectRefused("eval detections /no/desk /no/detections.txt", "/no/desk");
     ExpectRefused("eval detections /no/desk /no/detections.txt --aliases tv", "--aliases: 'tv'");

@@ -14,10 +14,10 @@ namespace {
 TEST(BuiltinScenes, AnUnknownNameListsTheKnownOnes) {
     const auto scene = MakeBuiltinScene("kitchen");
     ASSERT_FALSE(scene.ok());
-    EXPECT_EQ(
-        scene.message(),
-        "'kitchen' is not a built-in scene; use one of desk, room, flat, corridor, floor, corner, "
-        "wall, people, chair, door, or give an .obj file");
+    EXPECT_EQ(scene.message(),
+              "'kitchen' is not a built-in scene; use one of desk, room, flat, walk, corridor, "
+              "floor, corner, "
+              "wall, people, chair, door, or give an .obj file");
 }
 
 TEST(BuiltinScenes, TheDeskHasItsObjects) {
@@ -55,6 +55,37 @@ TEST(BuiltinScenes, MotionsAreSmoothAndKeepClearOfTheScene) {
         EXPECT_GT(fastest, 0.1) << name;
         EXPECT_LT(fastest_turn, 40 * std::numbers::pi / 180) << name;
     }
+}
+
+// Three rounds through the flat: the camera comes back to where it began at three different times,
+// twice in the direction in which it left.
+TEST(BuiltinScenes, TheWalkReturnsThreeTimes) {
+    const auto walk = MakeBuiltinScene("walk");
+    ASSERT_TRUE(walk.ok());
+    const CameraPath& path = walk.value().path;
+    constexpr double kStep = 1.0 / 30;
+    const Eigen::Isometry3d first = path.T_world_camera(0);
+    Eigen::Isometry3d last = first;
+    double length_m = 0, away_since_m = 0;
+    int returns = 0;
+    for (double t = kStep; t < path.duration_s; t += kStep) {
+        const Eigen::Isometry3d T = path.T_world_camera(t);
+        const double step_m = (T.translation() - last.translation()).norm();
+        length_m += step_m;
+        EXPECT_LT(step_m / kStep, 0.95) << t;
+        EXPECT_LT(RotationAngle(last, T) / kStep, 100 * std::numbers::pi / 180) << t;
+        EXPECT_GT(*walk.value().scene->SignedDistance(T.translation()), 0.2) << t;
+        last = T;
+        if ((T.translation() - first.translation()).head<2>().norm() > 2.5) {
+            away_since_m += step_m;
+        } else if (away_since_m > 15) {
+            ++returns;
+            away_since_m = 0;
+        }
+    }
+    EXPECT_EQ(returns, 3);
+    EXPECT_GT(length_m, 95);
+    EXPECT_LT(length_m, 110);
 }
 
 TEST(BuiltinScenes, TheRoomsTurnEndsWhereItBegan) {
