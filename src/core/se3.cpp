@@ -62,6 +62,13 @@ Vector6d Se3Log(const Eigen::Isometry3d& T) {
     return twist;
 }
 
+Matrix6d Adjoint(const Eigen::Isometry3d& T) {
+    Matrix6d result = Matrix6d::Zero();
+    result.topLeftCorner<3, 3>() = result.bottomRightCorner<3, 3>() = T.linear();
+    result.bottomLeftCorner<3, 3>() = Skew(T.translation()) * T.linear();
+    return result;
+}
+
 double RotationAngle(const Eigen::Isometry3d& A, const Eigen::Isometry3d& B) {
     return Eigen::AngleAxisd(A.linear().transpose() * B.linear()).angle();
 }

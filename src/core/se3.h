@@ -24,6 +24,9 @@ Eigen::Isometry3d Normalised(const Eigen::Isometry3d& T);
 // Skew(a) * b == a x b.
 Eigen::Matrix3d Skew(const Eigen::Vector3d& a);
 
+// The same motion on the other side: Se3Exp(Adjoint(T) * twist) * T == T * Se3Exp(twist).
+Matrix6d Adjoint(const Eigen::Isometry3d& T);
+
 // The angle of the rotation between two poses, radians in [0, pi].
 double RotationAngle(const Eigen::Isometry3d& A, const Eigen::Isometry3d& B);
 

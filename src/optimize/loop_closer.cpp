@@ -168,7 +168,7 @@ std::string LoopCloser::SeekLoop(const Keyframe& fresh, const PreparedFrame& pre
                                  const FrameMotion& motion) {
     const auto candidates = index_.Query(fresh.features.descriptors, fresh.id - config_.min_gap,
                                          config_.candidates, config_.min_votes);
-    const bool judged = CovarianceFactor(keyframes_).has_value();  // by SeekDrift
+    const bool judged = AlignedFactor(keyframes_).has_value();  // by SeekDrift
     for (const PlaceIndex::Candidate& candidate : candidates) {
         const Keyframe& old = keyframes_[candidate.keyframe];
         if (judged && Aligned(fresh, old)) continue;

@@ -138,6 +138,7 @@ class LoopCloser {
     std::vector<Eigen::Isometry3d> GraphPoses() const;
     void SetGraphPoses(const std::vector<Eigen::Isometry3d>& T_world_keyframe);
     double MaxDisplacement_m(const std::vector<Eigen::Isometry3d>& T_map_keyframe) const;
+    std::optional<CovarianceFactors> Factors() const;
     Status Optimise();
     int FindOverlaps();
     Status OptimiseAgain();

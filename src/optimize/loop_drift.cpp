@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "optimize/loop_closer.h"
@@ -10,7 +11,7 @@ namespace tessera {
 
 // Corrects the path if direct alignment shows that tracking is off.
 std::string LoopCloser::SeekDrift(const Keyframe& fresh) {
-    const std::optional<double> factor = CovarianceFactor(keyframes_);
+    const std::optional<double> factor = AlignedFactor(keyframes_);
     if (!factor) return {};
     // Two alignments with older keyframes must say so: one may be wrong, and neighbours in time
     // show no drift.
@@ -59,11 +60,20 @@ void LoopCloser::SetGraphPoses(const std::vector<Eigen::Isometry3d>& T_world_key
     moved_ = true;
 }
 
+// Tracking's usual drift is believed until a loop was worth correcting with it.
+std::optional<CovarianceFactors> LoopCloser::Factors() const {
+    if (corrected_) return FindCovarianceFactors(keyframes_, edges_);
+    const std::optional<double> aligned = AlignedFactor(keyframes_);
+    return aligned ? std::optional<CovarianceFactors>({*aligned, 1}) : std::nullopt;
+}
+
 // On error the keyframes do not move.
 Status LoopCloser::Optimise() {
     std::vector<PoseEdge> edges = edges_;
-    if (const std::optional<double> factor = CovarianceFactor(keyframes_)) {
-        const std::vector<PoseEdge> overlaps = OverlapEdges(keyframes_, *factor);
+    if (const std::optional<CovarianceFactors> factors = Factors()) {
+        for (PoseEdge& edge : edges)
+            if (!edge.loop) edge.root_information /= std::sqrt(factors->tracked);
+        const std::vector<PoseEdge> overlaps = OverlapEdges(keyframes_, *factors);
         edges.insert(edges.end(), overlaps.begin(), overlaps.end());
     }
     std::vector<Eigen::Isometry3d> poses = GraphPoses();
@@ -82,6 +92,10 @@ int LoopCloser::FindOverlaps() {
     return found;
 }
 
-Status LoopCloser::OptimiseAgain() { return FindOverlaps() > 0 ? Optimise() : Status::Ok(); }
+// Once a loop was corrected, with the overlaps and the covariances that it shows.
+Status LoopCloser::OptimiseAgain() {
+    if (Status solved = Optimise(); !solved.ok()) return solved;
+    return FindOverlaps() > 0 ? Optimise() : Status::Ok();
+}
 
 }  // namespace tessera

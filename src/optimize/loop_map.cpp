@@ -88,8 +88,7 @@ void LoopCloser::StopRebuilding(const Status& why) {
 std::optional<LoopCloser::Correction> LoopCloser::Finish(std::string& note) {
     std::optional<Correction> last;
     StoreLatest();
-    if (seeking_ && corrected_ && Optimise().ok())
-        static_cast<void>(OptimiseAgain());  // else as it was
+    if (seeking_ && corrected_) static_cast<void>(OptimiseAgain());  // else as it was
     if (config_.refine_calibration && !keyframes_.empty()) {
         const FieldSettings given = settings_;
         const Status status = Calibrate();

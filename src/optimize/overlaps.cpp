@@ -15,8 +15,9 @@ constexpr double kLeastShared = 0.3, kLeastFit = 0.5;
 constexpr double kTracked_m = 0.002, kTracked_rad = 0.002;
 // What the alignments' covariance leaves out at least.
 constexpr double kFloor_m = 0.001, kFloor_rad = 0.0005;
-// The 99.9th and the 75th percentile of a chi-squared variable with six degrees of freedom.
-constexpr double kSurely = 22.5, kUpperQuartile = 7.84;
+
+// The 99.9th percentile of a chi-squared variable with six degrees of freedom.
+constexpr double kSurely = 22.5;
 
 Eigen::Isometry3d Between(const Eigen::Isometry3d& from, const Eigen::Isometry3d& to) {
     return Normalised(from.inverse() * to);
@@ -47,24 +48,19 @@ Matrix6d WithErrors(const Matrix6d& information, double sigma_rad, double sigma_
     return 0.5 * (result + result.transpose());
 }
 
-double SquaredDistance(const Overlap& overlap) {
-    const Vector6d off =
-        Se3Log(overlap.T_with_this_aligned.inverse() * *overlap.T_with_this_tracked);
-    return off.dot(overlap.information * off);
-}
-
 Matrix6d Root(const Matrix6d& information) {
     // A view may leave motions open: a tiny prior keeps the factor defined.
     const Matrix6d regular = information + 1e-3 * Matrix6d::Identity();
     return Eigen::LLT<Matrix6d>(regular).matrixU();
 }
 
-PoseEdge EdgeOf(const Overlap& overlap, int to, double factor) {
+PoseEdge EdgeOf(const Overlap& overlap, int to, const CovarianceFactors& factors) {
     PoseEdge edge{overlap.with, to, overlap.T_with_this_aligned, Matrix6d::Identity(), true};
-    const Matrix6d aligned = overlap.information / factor;
+    const Matrix6d aligned = overlap.information / factors.aligned;
     edge.root_information = Root(aligned);
-    if (!overlap.T_with_this_tracked || Contradicts(overlap, factor)) return edge;
-    const Matrix6d root = RootInformation(kTracked_rad, kTracked_m);
+    if (!overlap.T_with_this_tracked || Contradicts(overlap, factors.aligned)) return edge;
+    const double more = std::sqrt(factors.tracked);
+    const Matrix6d root = RootInformation(more * kTracked_rad, more * kTracked_m);
     const Matrix6d both = aligned + root.transpose() * root;
     const Vector6d off =
         Se3Log(overlap.T_with_this_tracked->inverse() * overlap.T_with_this_aligned);
@@ -149,30 +145,26 @@ const DenseView& OverlapFinder::ViewOf(const Keyframe& keyframe) {
     return cache_.front().view;
 }
 
-std::optional<double> CovarianceFactor(const Keyframes& keyframes) {
-    constexpr std::size_t kFewest = 40;
-    std::vector<double> squares;
-    for (int id = 0; id < keyframes.size(); ++id)
-        for (const Overlap& overlap : keyframes[id].overlaps)
-            if (overlap.T_with_this_tracked && !IsOlder(overlap, id))
-                squares.push_back(SquaredDistance(overlap));
-    if (squares.size() < kFewest) return std::nullopt;
-    const auto quartile = squares.begin() + static_cast<std::ptrdiff_t>(3 * squares.size() / 4);
-    std::ranges::nth_element(squares, quartile);
-    return std::max(1.0, *quartile / kUpperQuartile);
+double SquaredDifference(const Overlap& overlap) {
+    const Vector6d off = TrackedOff(overlap);
+    return off.dot(overlap.information * off);
 }
 
 bool IsOlder(const Overlap& overlap, int id) { return id - overlap.with > kNear; }
 
-bool Contradicts(const Overlap& overlap, double factor) {
-    return overlap.T_with_this_tracked && SquaredDistance(overlap) > kSurely * factor;
+Vector6d TrackedOff(const Overlap& overlap) {
+    return Se3Log(overlap.T_with_this_aligned.inverse() * *overlap.T_with_this_tracked);
 }
 
-std::vector<PoseEdge> OverlapEdges(const Keyframes& keyframes, double factor) {
+bool Contradicts(const Overlap& overlap, double factor) {
+    return overlap.T_with_this_tracked && SquaredDifference(overlap) > kSurely * factor;
+}
+
+std::vector<PoseEdge> OverlapEdges(const Keyframes& keyframes, const CovarianceFactors& factors) {
     std::vector<PoseEdge> edges;
     for (int id = 0; id < keyframes.size(); ++id)
         for (const Overlap& overlap : keyframes[id].overlaps)
-            edges.push_back(EdgeOf(overlap, id, factor));
+            edges.push_back(EdgeOf(overlap, id, factors));
     return edges;
 }
 

@@ -5,6 +5,7 @@
 #include <list>
 #include <vector>
 
+#include "optimize/covariance_factors.h"
 #include "optimize/dense_view.h"
 #include "optimize/keyframes.h"
 #include "optimize/pose_graph.h"
@@ -49,21 +50,22 @@ class OverlapFinder {
     std::list<Cached> cache_;  // most recently used first
 };
 
-// Errors that are the same in many views (a lens, a rolling shutter, a bent depth) are not in an
-// alignment's own covariance. Returns the factor by which the covariances must grow to explain how
-// alignments with the last few keyframes differ from tracking (three quarters of them; a slide
-// spoils fewer). At least 1; empty while there are too few.
-std::optional<double> CovarianceFactor(const Keyframes& keyframes);
-
 // True if the other keyframe is not one of the last few before `id`.
 bool IsOlder(const Overlap& overlap, int id);
 
-// True if the alignment and tracking exclude each other, given the factor.
+// How tracking differs from the alignment: a right increment of T_with_this_aligned. For an overlap
+// that was tracked.
+Vector6d TrackedOff(const Overlap& overlap);
+
+// The square of it in standard deviations of the alignment.
+double SquaredDifference(const Overlap& overlap);
+
+// True if the alignment and tracking exclude each other. `factor`: CovarianceFactors::aligned.
 bool Contradicts(const Overlap& overlap, double factor);
 
 // Edges for the pose graph. Where alignment contradicts tracking (two surfaces lie side by side in
 // the map, or tracking has slid from one to the other) the alignment counts, elsewhere the mean of
 // both, by their covariances.
-std::vector<PoseEdge> OverlapEdges(const Keyframes& keyframes, double factor);
+std::vector<PoseEdge> OverlapEdges(const Keyframes& keyframes, const CovarianceFactors& factors);
 
 }  // namespace tessera

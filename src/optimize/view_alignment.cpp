@@ -112,13 +112,6 @@ double ScaleOf(std::vector<float>& sizes) {
     return 1.4826 * *middle;
 }
 
-Matrix6d Adjoint(const Eigen::Isometry3d& T) {  // exp(Ad x) T = T exp(x)
-    Matrix6d adjoint = Matrix6d::Zero();
-    adjoint.topLeftCorner<3, 3>() = adjoint.bottomRightCorner<3, 3>() = T.linear();
-    adjoint.bottomLeftCorner<3, 3>() = Skew(T.translation()) * T.linear();
-    return adjoint;
-}
-
 }  // namespace
 
 ViewAlignment AlignViews(const DenseView& a, const DenseView& b, const Eigen::Isometry3d& T_a_b) {

@@ -112,6 +112,12 @@ TEST(Se3, IncrementsMultiplyFromTheLeft) {
     }
 }
 
+TEST(Se3, TheAdjointMovesAMotionToTheOtherSide) {
+    const Vector6d twist = (Vector6d() << 0.2, -0.1, 0.4, 0.3, 0.5, -0.2).finished();
+    const Eigen::Isometry3d T = Se3Exp((Vector6d() << -0.5, 1.1, 0.3, 2, -1, 0.7).finished());
+    EXPECT_TRUE((Se3Exp(Adjoint(T) * twist) * T).isApprox(T * Se3Exp(twist), 1e-12));
+}
+
 TEST(Se3, NormalisedIsRigidAndKeepsWhatIs) {
     Vector6d twist;
     twist << 0.3, -0.2, 0.5, 1, 2, 3;

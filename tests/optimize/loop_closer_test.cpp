@@ -87,13 +87,14 @@ TEST(LoopCloser, TakesAFifthOrLessOfTheDriftToTheEndAndTheMapFollows) {
     EXPECT_LE(p95, 0.5f);
 }
 
-// Tracking slips by half a metre and ten degrees, which is more than a walk of 4 m explains.
-TEST(LoopCloser, FindsAndClosesALargeSlip) {
+// Tracking drifts by half a metre and ten degrees, which is more than a walk of 4 m explains,
+// from frame `first` on in so many steps.
+void ExpectALargeDriftIsClosed(int first, int steps) {
     if (!PoseGraphAvailable()) GTEST_SKIP() << "this build has no Ceres: install libceres-dev";
     const std::vector<Frame> frames = Round();
     Walker walker(LoopConfig{});
     const auto drifted = [&](std::size_t i) {
-        const double share = std::clamp((static_cast<double>(i) - 60) / 10, 0.0, 1.0);
+        const double share = std::clamp((static_cast<double>(i) - first) / steps, 0.0, 1.0);
         const Vector6d drift = (Vector6d() << 0, 0.1745, 0, 0.3, 0.1, 0.39).finished() * share;
         return Normalised(Se3Exp(drift) * *frames[i].T_world_camera);
     };
@@ -113,6 +114,11 @@ TEST(LoopCloser, FindsAndClosesALargeSlip) {
     EXPECT_LE(after_m, 0.02);
     EXPECT_GE(walker.corrections, 1);
 }
+
+TEST(LoopCloser, FindsAndClosesALargeSlip) { ExpectALargeDriftIsClosed(60, 10); }
+
+// Each alignment with a neighbour then contradicts tracking.
+TEST(LoopCloser, FindsAndClosesALargeSteadyDrift) { ExpectALargeDriftIsClosed(0, 119); }
 
 TEST(LoopCloser, SwitchedOffItClosesNothingUntilItIsOnAgain) {
     if (!PoseGraphAvailable()) GTEST_SKIP() << "this build has no Ceres: install libceres-dev";

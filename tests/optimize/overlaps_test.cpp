@@ -27,16 +27,45 @@ Keyframes Chain(const std::vector<double>& off_m) {
 }
 
 TEST(Overlaps, TooFewSayNothingAboutTheirErrors) {
-    EXPECT_FALSE(CovarianceFactor(Chain(std::vector<double>(39, 0.001))).has_value());
-    EXPECT_TRUE(CovarianceFactor(Chain(std::vector<double>(40, 0.001))).has_value());
+    EXPECT_FALSE(AlignedFactor(Chain(std::vector<double>(39, 0.001))).has_value());
+    EXPECT_TRUE(AlignedFactor(Chain(std::vector<double>(40, 0.001))).has_value());
 }
 
 // Information 0.5e6 / m^2: a standard deviation of 1.414 mm.
 TEST(Overlaps, TheFactorIsTheUpperQuartileOfTheSquaredDifferences) {
-    EXPECT_DOUBLE_EQ(*CovarianceFactor(Chain(std::vector<double>(41, 0.0005))), 1.0);
+    EXPECT_DOUBLE_EQ(*AlignedFactor(Chain(std::vector<double>(41, 0.0005))), 1.0);
     std::vector<double> off(41, 0.0141421);
     off[3] = 0.5;  // one outlier
-    EXPECT_NEAR(*CovarianceFactor(Chain(off)), 100 / 7.84, 0.1);
+    EXPECT_NEAR(*AlignedFactor(Chain(off)), 100 / 7.84, 0.1);
+}
+
+// Each of 41 keyframes was tracked 10 mm from its alignment with the one before, and `older_off_m`
+// from that with the eighth before.
+CovarianceFactors FactorsOf(double older_off_m) {
+    Keyframes keyframes = Chain(std::vector<double>(41, 0.01));
+    std::vector<PoseEdge> edges;
+    for (int id = 1; id < keyframes.size(); ++id) {
+        edges.push_back({id - 1, id, Eigen::Isometry3d::Identity(), RootInformation(0.002, 0.002)});
+        if (id < 8) continue;
+        Overlap older = Measured(older_off_m, 0.5e6);
+        older.with = id - 8;
+        keyframes[id].overlaps.push_back(older);
+    }
+    edges.push_back({0, 41, Eigen::Isometry3d::Identity(), RootInformation(1, 1), true});
+    return *FindCovarianceFactors(keyframes, edges);
+}
+
+TEST(Overlaps, ErrorsThatDoNotAddUpAreTheAlignments) {
+    const CovarianceFactors factors = FactorsOf(0.01);
+    EXPECT_NEAR(factors.aligned, 50 / 7.84, 0.01);
+    EXPECT_EQ(factors.tracked, 1);
+}
+
+// 80 mm in eight keyframes; the alignments take 2 mm^2 times 6.38 of it, each keyframe 4 mm^2.
+TEST(Overlaps, ErrorsThatAddUpAreTrackings) {
+    const CovarianceFactors factors = FactorsOf(0.08);
+    EXPECT_NEAR(factors.tracked, (6400 / 7.84 - 2 * 6.38) / (8 * 4), 0.2);
+    EXPECT_EQ(factors.aligned, 1);
 }
 
 TEST(Overlaps, ContradictionGrowsWithTheFactor) {
@@ -49,16 +78,16 @@ TEST(Overlaps, ContradictionGrowsWithTheFactor) {
 }
 
 TEST(Overlaps, AnEdgeIsTheMeanUnlessTrackingIsExcluded) {
-    const std::vector<PoseEdge> near = OverlapEdges(Chain({0.003}), 1);
+    const std::vector<PoseEdge> near = OverlapEdges(Chain({0.003}), {});
     ASSERT_EQ(near.size(), 1u);
     // Tracking 2 mm, alignment 1.414 mm: a third of the difference.
     EXPECT_NEAR(near[0].T_from_to.translation().x(), 0.001, 1e-5);
     EXPECT_NEAR(near[0].root_information(3, 3), std::sqrt(0.5e6), 5);
-    const std::vector<PoseEdge> far = OverlapEdges(Chain({0.1}), 1);
+    const std::vector<PoseEdge> far = OverlapEdges(Chain({0.1}), {});
     EXPECT_NEAR(far[0].T_from_to.translation().x(), 0, 1e-9);
     EXPECT_NEAR(far[0].root_information(3, 3), std::sqrt(0.5e6), 5);
     // With a large factor tracking counts.
-    EXPECT_NEAR(OverlapEdges(Chain({0.003}), 100)[0].T_from_to.translation().x(), 0.003, 1e-4);
+    EXPECT_NEAR(OverlapEdges(Chain({0.003}), {100, 1})[0].T_from_to.translation().x(), 0.003, 1e-4);
 }
 
 }  // namespace
