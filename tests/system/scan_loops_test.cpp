@@ -140,12 +140,12 @@ TEST_P(ScanLoops, WhereNothingWasSeenTheCameraStaysLostAndTheMapAsItWas) {
 }
 
 TEST_P(ScanLoops, LocalisedOnlyTheCameraIsTrackedAndTheScanStaysByteForByte) {
-    const std::vector<Frame> walk = RoomWalk(0, 40, 2);
+    const std::vector<Frame> walk = RoomWalk(0, 60, 3);
     Run(walk, 0, Use::kBegin);
     const std::string before = FileBytes(path);
     const BlockId blocks = ReadScan(path, {}).value().map->size();
-    // Its clock is earlier, and it begins in the middle.
-    const std::vector<Frame> again = RoomWalk(31, 30, 1);
+    // Its clock is earlier, it begins in the middle, and it turns far enough to confirm the place.
+    const std::vector<Frame> again = RoomWalk(31, 45, 3);
     const std::vector<FrameReport> reports = Run(again, -50, Use::kLocalise);
     ASSERT_EQ(reports.size(), again.size());
     int tracked = 0;
