@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "optimize/loop_closer.h"
 
@@ -31,14 +30,17 @@ std::string LoopCloser::SeekDrift(const Keyframe& fresh) {
             drift = implied;
         }
     if (old == nullptr || witnesses < kWitnesses) return {};
-    const std::vector<Eigen::Isometry3d> before = GraphPoses();
-    if (Status solved = Optimise(); !solved.ok()) return solved.message();
-    if (!corrected_ && MaxDisplacement_m(before) < config_.min_correction_m) {
-        SetGraphPoses(before);  // nothing that matters: tracking is more accurate
-        return {};
+    const bool first = !corrected_;
+    if (first) {
+        const std::vector<Eigen::Isometry3d> before = GraphPoses();
+        if (Status solved = Optimise(); !solved.ok()) return solved.message();
+        if (MaxDisplacement_m(before) < config_.min_correction_m) {
+            SetGraphPoses(before);  // nothing that matters: tracking is more accurate
+            return {};
+        }
+        corrected_ = true;
+        ++loops_;
     }
-    const bool first = !std::exchange(corrected_, true);
-    loops_ += first;
     if (Status solved = OptimiseAgain(); !solved.ok()) return solved.message();
     return first ? ClosedText(*old, drift) : std::string();
 }
