@@ -52,7 +52,7 @@ Status WriteColmap(const std::string& scan_path, const TriangleMesh& mesh,
     Status written = frames.value()->ForEach([&](const PosedFrame& frame) {
         const std::string file_name = frame.name + ".jpg";
         images += ImageLines(++id, frame.T_world_camera, file_name);
-        return WriteImageFile(folder + "/images/" + file_name, frame.stored.colour_jpeg);
+        return WriteImageFile(folder + "/images/" + file_name, frame.images->colour_jpeg);
     });
     if (!written.ok()) return written;
     if (Status status = WriteTextFile(folder + "/points3D.txt", PointsText(mesh)); !status.ok())

@@ -30,9 +30,11 @@ Status PosedFrames::ForEach(const std::function<Status(const PosedFrame&)>& take
             !record.Decode(row.data))
             return DamagedScan(file_->path(), fmt::format("frames {}", row.key));
         const auto T_world_camera = scan_.PoseOf(scan_.path[static_cast<std::size_t>(row.key)]);
-        if (!T_world_camera || record.stored.colour_jpeg.empty()) return Status::Ok();
+        const auto images = record.stored.images.Read();
+        if (!images.ok()) return images.status();
+        if (!T_world_camera || images.value()->colour_jpeg.empty()) return Status::Ok();
         ++taken;
-        return take({fmt::format("{:06}", row.key), *T_world_camera, std::move(record.stored)});
+        return take({fmt::format("{:06}", row.key), *T_world_camera, images.value()});
     });
     if (!read.ok()) return read;
     if (taken == 0)

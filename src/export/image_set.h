@@ -18,7 +18,7 @@ namespace tessera {
 struct PosedFrame {
     std::string name;  // its number on the scan's path, six digits
     Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity();
-    StoredFrame stored;  // its images, encoded
+    std::shared_ptr<const EncodedImages> images;
 };
 
 // Owner thread only. Errors name the file. If the scan has no raw frames, or none with a pose and

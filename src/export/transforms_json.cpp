@@ -46,8 +46,8 @@ class DepthFiles {
     DepthFiles(const PinholeCamera& camera, double units_per_m)
         : camera_(camera), decoder_(0, units_per_m) {}
 
-    Status Write(const StoredFrame& stored, const std::string& path) {
-        if (Status status = decoder_.Load(stored, frame_); !status.ok()) return status;
+    Status Write(const EncodedImages& images, const std::string& path) {
+        if (Status status = decoder_.Decode(images, frame_); !status.ok()) return status;
         if (frame_.depth_m.width() != camera_.width || frame_.depth_m.height() != camera_.height)
             return Status::Error("does not have the camera's size");
         StoreDepth(frame_.depth_m, kDepthUnitsPerMetre, depth_mm_);
@@ -78,10 +78,10 @@ Status WriteFrames(PosedFrames& frames, const std::string& folder, Json& list) {
     return frames.ForEach([&](const PosedFrame& frame) {
         const std::string colour_name = "images/" + frame.name + ".jpg",
                           depth_name = "depth/" + frame.name + ".png";
-        if (Status status = WriteImageFile(folder + colour_name, frame.stored.colour_jpeg);
+        if (Status status = WriteImageFile(folder + colour_name, frame.images->colour_jpeg);
             !status.ok())
             return status;
-        if (Status status = depth.Write(frame.stored, folder + depth_name); !status.ok())
+        if (Status status = depth.Write(*frame.images, folder + depth_name); !status.ok())
             return Status::Error("frame " + frame.name + ": " + status.message());
         const Eigen::Isometry3d T = ZUpFromWorld() * frame.T_world_camera * T_opencv_opengl;
         list.push_back({{"file_path", colour_name},

@@ -20,9 +20,10 @@ Status FrameStore::Add(const Frame& frame, int keyframe, bool is_keyframe,
                        const Eigen::Isometry3d& T_keyframe_camera, const Integrator::View& view) {
     const std::int64_t ordinal = next_ordinal_++;
     if (!is_keyframe && ordinal % stride_ != 0) return Status::Ok();
-    StoredFrame stored{ordinal, keyframe,      is_keyframe,          T_keyframe_camera,
-                       view,    frame.stamp_s, frame.colour_stamp_s, {},
-                       {},      frame.index,   std::nullopt};
+    StoredFrame stored{ordinal,     keyframe,      is_keyframe,          T_keyframe_camera,
+                       view,        frame.stamp_s, frame.colour_stamp_s, {},
+                       frame.index, std::nullopt};
+    EncodedImages images;
     raw_depth_.Resize(frame.depth_m.width(), frame.depth_m.height());
     const float units = static_cast<float>(depth_units_per_m_);
     std::transform(frame.depth_m.data(), frame.depth_m.data() + frame.depth_m.size(),
@@ -31,16 +32,15 @@ Status FrameStore::Add(const Frame& frame, int keyframe, bool is_keyframe,
                            z * units < 65535.0f ? std::lround(std::max(z, 0.0f) * units) : 0);
                    });
     Status encoded;
-    tbb::parallel_invoke([&] { encoder_.EncodeDepth(raw_depth_, stored.depth_png); },
+    tbb::parallel_invoke([&] { encoder_.EncodeDepth(raw_depth_, images.depth_png); },
                          [&] {
                              if (!frame.colour.empty())
                                  encoded =
-                                     EncodeJpeg(frame.colour, kJpegQuality, stored.colour_jpeg);
+                                     EncodeJpeg(frame.colour, kJpegQuality, images.colour_jpeg);
                          });
     if (!encoded.ok()) return encoded;
-    stored.depth_png.shrink_to_fit();
-    stored.colour_jpeg.shrink_to_fit();
-    bytes_ += stored.bytes();
+    stored.images = scratch_.Keep(std::move(images));
+    bytes_ += stored.memory_bytes();
     frames_.push_back(std::move(stored));
     while (bytes_ > limit_bytes_ && stride_ < (1 << 20)) Thin();
     return Status::Ok();
@@ -62,7 +62,7 @@ void FrameStore::AddDetections(std::int64_t frame_index, std::vector<Detection> 
 void FrameStore::Resume(std::vector<StoredFrame> frames, std::int64_t next_ordinal) {
     frames_ = std::move(frames);
     next_ordinal_ = first_own_ = next_ordinal;
-    for (const StoredFrame& f : frames_) bytes_ += f.bytes();
+    for (const StoredFrame& f : frames_) bytes_ += f.memory_bytes();
     while (bytes_ > limit_bytes_ && stride_ < (1 << 20)) Thin();
 }
 
@@ -71,24 +71,30 @@ void FrameStore::Thin() {
     std::erase_if(frames_,
                   [&](const StoredFrame& f) { return !f.is_keyframe && f.ordinal % stride_ != 0; });
     bytes_ = 0;
-    for (const StoredFrame& f : frames_) bytes_ += f.bytes();
+    for (const StoredFrame& f : frames_) bytes_ += f.memory_bytes();
 }
 
 Status FrameStore::Load(const StoredFrame& stored, Frame& frame) {
     frame.index = stored.ordinal;
-    const auto header = ReadPngHeader(stored.depth_png);
+    const auto read = stored.images.Read();
+    if (!read.ok()) return read.status();
+    return Decode(*read.value(), frame);
+}
+
+Status FrameStore::Decode(const EncodedImages& images, Frame& frame) {
+    const auto header = ReadPngHeader(images.depth_png);
     if (!header) return Status::Error("a stored depth image is not a PNG file");
-    if (Status status = decoder_.DecodeDepth(stored.depth_png, *header, raw_depth_); !status.ok())
+    if (Status status = decoder_.DecodeDepth(images.depth_png, *header, raw_depth_); !status.ok())
         return status;
     frame.depth_m.Resize(raw_depth_.width(), raw_depth_.height());
     const float metres = static_cast<float>(1 / depth_units_per_m_);
     std::transform(raw_depth_.data(), raw_depth_.data() + raw_depth_.size(), frame.depth_m.data(),
                    [&](std::uint16_t raw) { return static_cast<float>(raw) * metres; });
-    if (stored.colour_jpeg.empty()) {
+    if (images.colour_jpeg.empty()) {
         frame.colour = {};
         return Status::Ok();
     }
-    return DecodeJpeg(stored.colour_jpeg, kMaxSide_px, frame.colour);
+    return DecodeJpeg(images.colour_jpeg, kMaxSide_px, frame.colour);
 }
 
 Status FrameStore::LoadPrepared(const StoredFrame& stored, const PinholeCamera& camera,

@@ -1,4 +1,4 @@
-// The frames fused into the map, compressed in memory, each with its pose relative to a keyframe.
+// The frames fused into the map, compressed, each with its pose relative to a keyframe.
 // The map is rebuilt from them when keyframes have moved.
 #pragma once
 
@@ -13,6 +13,7 @@
 #include "io/png_decoder.h"
 #include "io/png_encoder.h"
 #include "mapping/integrator.h"
+#include "optimize/stored_images.h"
 #include "semantics/detector.h"
 
 namespace tessera {
@@ -24,24 +25,25 @@ struct StoredFrame {
     Eigen::Isometry3d T_keyframe_camera = Eigen::Isometry3d::Identity();
     Integrator::View view;  // as it was fused, except for the pose
     double stamp_s = 0, colour_stamp_s = 0;
-    std::vector<std::uint8_t> depth_png, colour_jpeg;  // colour_jpeg is empty without colour
+    StoredImages images;
     std::int64_t frame_index = 0;
     // As voted into the map; empty if the detector did not process the frame.
     std::optional<std::vector<Detection>> detections;
 
-    std::size_t bytes() const {
-        return sizeof(StoredFrame) + depth_png.capacity() + colour_jpeg.capacity();
-    }
+    std::size_t memory_bytes() const { return sizeof(StoredFrame) + images.memory_bytes(); }
 };
 
 // Owner thread only.
 class FrameStore {
   public:
-    // Above the limit it drops every second frame, then every second of the rest, and so on, so
-    // that the remaining frames cover the whole scan. Depth is stored in steps of 1 /
-    // `depth_units_per_m`, colour as JPEG.
-    FrameStore(std::size_t limit_bytes, double depth_units_per_m)
-        : limit_bytes_(limit_bytes), depth_units_per_m_(depth_units_per_m) {}
+    // Images are kept in `scratch`. Of those that it leaves in memory, every second is dropped
+    // above the limit, then every second of the rest, and so on, so that the remaining frames cover
+    // the whole scan. Depth is stored in steps of 1 / `depth_units_per_m`, colour as JPEG.
+    FrameStore(std::size_t memory_limit_bytes, double depth_units_per_m,
+               ImageScratch scratch = ImageScratch())
+        : limit_bytes_(memory_limit_bytes),
+          depth_units_per_m_(depth_units_per_m),
+          scratch_(std::move(scratch)) {}
 
     // `T_keyframe_camera` is the identity for the frame of the keyframe. Returns errors of the
     // encoder.
@@ -54,6 +56,8 @@ class FrameStore {
     // Loads index (the ordinal), colour and depth. Reuses the storage of `frame` and leaves its
     // other fields unchanged.
     Status Load(const StoredFrame& stored, Frame& frame);
+    // The same for colour and depth alone.
+    Status Decode(const EncodedImages& images, Frame& frame);
     // Loads the frame and prepares it for tracking and fusion. Frames of an earlier process may be
     // damaged: returns decoder errors, and an error if the image size differs from the camera's.
     Status LoadPrepared(const StoredFrame& stored, const PinholeCamera& camera,
@@ -65,7 +69,9 @@ class FrameStore {
     // Sorted by ordinal.
     const std::vector<StoredFrame>& frames() const { return frames_; }
     std::int64_t next_ordinal() const { return next_ordinal_; }
-    std::size_t bytes() const { return bytes_; }
+    std::size_t memory_bytes() const { return bytes_; }
+    // Returns once why images are kept in memory; usually empty.
+    std::string TakeTrouble() { return scratch_.TakeTrouble(); }
     // Of the stored ordinals; 1 until the limit is first reached.
     int stride() const { return stride_; }
 
@@ -74,6 +80,7 @@ class FrameStore {
 
     std::size_t limit_bytes_, bytes_ = 0;
     double depth_units_per_m_;
+    ImageScratch scratch_;
     std::int64_t next_ordinal_ = 0;
     // First ordinal of this process; earlier frames were resumed, and their frame indices may
     // repeat.

@@ -97,6 +97,7 @@ std::string LoopCloser::Add(const Frame& frame, const PreparedFrame& prepared,
         rebuild_->AddKeyframe(Normalised(rebuild_->T_world_keyframe().back() *
                                          before.T_world_camera.inverse() * last.T_world_camera));
     }
+    if (std::string trouble = store_.TakeTrouble(); !trouble.empty()) trouble_ = std::move(trouble);
     return stored.ok() ? news : stored.message();
 }
 

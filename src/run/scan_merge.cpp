@@ -62,7 +62,9 @@ Status CopyFrames(Part& part, const Offsets& by, ScanFile& out) {
             return DamagedScan(part.file->path(), fmt::format("frames {}", row.key));
         record.stored.keyframe += by.keyframe;
         record.stored.ordinal += by.ordinal;
-        return out.Put(ScanTable::kFrames, row.key + by.path, record.Encode());
+        const Result<Bytes> bytes = record.Encode();
+        if (!bytes.ok()) return bytes.status();
+        return out.Put(ScanTable::kFrames, row.key + by.path, bytes.value());
     });
 }
 

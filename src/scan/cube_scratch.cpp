@@ -1,15 +1,10 @@
 #include "scan/cube_scratch.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstdlib>
 #include <cstring>
 
-#include "io/file.h"
 #include "scan/checksum.h"
 
 namespace tessera {
@@ -21,48 +16,16 @@ struct RowHead {
     std::uint64_t bytes = 0;
 };
 
-bool WriteAll(int file, const std::uint8_t* bytes, std::size_t count, std::uint64_t offset) {
-    while (count > 0) {
-        const ssize_t written = ::pwrite(file, bytes, count, static_cast<off_t>(offset));
-        if (written < 0 && errno == EINTR) continue;
-        if (written <= 0) return false;
-        bytes += written;
-        count -= static_cast<std::size_t>(written);
-        offset += static_cast<std::uint64_t>(written);
-    }
-    return true;
-}
-
-bool ReadAll(int file, std::uint8_t* bytes, std::size_t count, std::uint64_t offset) {
-    while (count > 0) {
-        const ssize_t got = ::pread(file, bytes, count, static_cast<off_t>(offset));
-        if (got < 0 && errno == EINTR) continue;
-        if (got == 0) errno = EIO;  // the file is shorter than what was written
-        if (got <= 0) return false;
-        bytes += got;
-        count -= static_cast<std::size_t>(got);
-        offset += static_cast<std::uint64_t>(got);
-    }
-    return true;
-}
-
 }  // namespace
 
 Result<std::shared_ptr<CubeScratch>> CubeScratch::Create(const std::string& beside_path) {
-    std::string name = beside_path + ".XXXXXX";
-    const int file = ::mkostemp(name.data(), O_CLOEXEC);
-    if (file < 0)
-        return Status::Error(fmt::format("{}: cannot create a temporary file next to it: {}",
-                                         beside_path, WriteErrorText(errno)));
-    ::unlink(name.c_str());
-    return std::shared_ptr<CubeScratch>(new CubeScratch(file, beside_path));
+    Result<std::shared_ptr<TemporaryFile>> file = TemporaryFile::CreateBeside(beside_path);
+    if (!file.ok()) return file.status();
+    return std::shared_ptr<CubeScratch>(new CubeScratch(std::move(file.value()), beside_path));
 }
 
-CubeScratch::~CubeScratch() { ::close(file_); }
-
-Status CubeScratch::Error(const std::string& doing, int error) const {
-    return Status::Error(fmt::format("{}: the temporary file of the rebuilt map {}: {}", path_,
-                                     doing, WriteErrorText(error)));
+Status CubeScratch::Error(const std::string& what) const {
+    return Status::Error(fmt::format("{}: the temporary file of the rebuilt map {}", path_, what));
 }
 
 // Takes the smallest gap that is large enough; otherwise appends at the end.
@@ -104,8 +67,8 @@ Status CubeScratch::Put(std::int64_t cube_key, const BlockCopies& blocks) {
     Place place = Room(rows_.size());
     place.blocks = static_cast<std::int32_t>(blocks.size());
     place.checksum = Crc64(rows_);
-    if (!WriteAll(file_, rows_.data(), rows_.size(), place.offset))
-        return Error("cannot be written", errno);
+    if (Status status = file_->Write(rows_, place.offset); !status.ok())
+        return Error(status.message());
     places_[cube_key] = place;
     return Status::Ok();
 }
@@ -113,9 +76,9 @@ Status CubeScratch::Put(std::int64_t cube_key, const BlockCopies& blocks) {
 Status CubeScratch::ReadRows(const Place& place, std::vector<std::uint8_t>& rows,
                              const TakeRow& take) const {
     rows.resize(place.bytes);
-    if (!ReadAll(file_, rows.data(), rows.size(), place.offset))
-        return Error("cannot be read", errno);
-    if (Crc64(rows) != place.checksum) return Error("was damaged", EIO);
+    if (Status status = file_->Read(rows, place.offset); !status.ok())
+        return Error(status.message());
+    if (Crc64(rows) != place.checksum) return Error("was damaged; check the disk");
     for (std::size_t at = 0; at < rows.size();) {
         RowHead head;
         std::memcpy(&head, rows.data() + at, sizeof(head));
@@ -131,11 +94,12 @@ Status CubeScratch::Read(std::int64_t cube_key, BlockCopies& blocks) const {
     blocks.Clear();
     std::vector<std::uint8_t> rows;
     BlockCodec codec;
-    return ReadRows(
-        places_.at(cube_key), rows, [&](std::int64_t key, std::span<const std::uint8_t> data) {
-            return codec.Decode(data, CoordOfKey(key), blocks) ? Status::Ok()
-                                                               : Error("was damaged", EIO);
-        });
+    return ReadRows(places_.at(cube_key), rows,
+                    [&](std::int64_t key, std::span<const std::uint8_t> data) {
+                        return codec.Decode(data, CoordOfKey(key), blocks)
+                                   ? Status::Ok()
+                                   : Error("was damaged; check the disk");
+                    });
 }
 
 std::map<std::int64_t, std::int32_t> CubeScratch::Cubes() const {

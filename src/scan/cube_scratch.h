@@ -8,6 +8,7 @@
 #include <memory>
 #include <string>
 
+#include "io/temporary_file.h"
 #include "scan/block_codec.h"
 #include "scan/cube.h"
 
@@ -18,9 +19,6 @@ class CubeScratch {
   public:
     // Creates the file next to `beside_path`. Errors name that path, what is wrong and what to do.
     static Result<std::shared_ptr<CubeScratch>> Create(const std::string& beside_path);
-    ~CubeScratch();
-    CubeScratch(const CubeScratch&) = delete;
-    CubeScratch& operator=(const CubeScratch&) = delete;
 
     // Stores all blocks of a cube and replaces its previous blocks.
     Status Put(std::int64_t cube_key, const BlockCopies& blocks);
@@ -41,13 +39,14 @@ class CubeScratch {
         std::int32_t blocks = 0;
     };
 
-    CubeScratch(int file, std::string beside_path) : file_(file), path_(std::move(beside_path)) {}
+    CubeScratch(std::shared_ptr<TemporaryFile> file, std::string beside_path)
+        : file_(std::move(file)), path_(std::move(beside_path)) {}
 
     Place Room(std::uint64_t bytes);
     Status ReadRows(const Place& place, std::vector<std::uint8_t>& rows, const TakeRow& take) const;
-    Status Error(const std::string& doing, int error) const;
+    Status Error(const std::string& what) const;
 
-    int file_;
+    std::shared_ptr<TemporaryFile> file_;
     std::string path_;
     std::map<std::int64_t, Place> places_;
     std::multimap<std::uint64_t, std::uint64_t> free_;  // capacity to offset

@@ -125,9 +125,13 @@ Status ReadStates(ScanFile& file, ScanContent& content) {
 }
 
 Status ReadFrames(ScanFile& file, ScanContent& content) {
+    ImageScratch scratch;
     return ReadScanFrames(file, [&](FrameRecord&& record) {
         if (record.in_store && record.stored.keyframe >= static_cast<int>(content.keyframes.size()))
             return DamagedScan(file.path(), "frames without a keyframe");
+        const auto images = record.stored.images.Read();
+        if (!images.ok()) return images.status();
+        record.stored.images = scratch.Keep(*images.value());
         content.frames.push_back(std::move(record));
         return Status::Ok();
     });

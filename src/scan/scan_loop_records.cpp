@@ -68,9 +68,11 @@ bool GetMotion(StateReader& state, FrameMotion& motion) {
 
 }  // namespace
 
-Bytes FrameRecord::Encode() const {
+Result<Bytes> FrameRecord::Encode() const {
+    const auto images = stored.images.Read();
+    if (!images.ok()) return images.status();
     Bytes bytes;
-    bytes.reserve(stored.depth_png.size() + stored.colour_jpeg.size() + 512);
+    bytes.reserve(images.value()->bytes() + 512);
     StateWriter state(bytes);
     state.Put(index);
     state.Put(stamp_s);
@@ -85,8 +87,8 @@ Bytes FrameRecord::Encode() const {
     for (const float value :
          {stored.view.gain, stored.view.offset, stored.view.weight, stored.view.colour_weight})
         state.Put(value);
-    state.PutArray(std::span<const std::uint8_t>(stored.depth_png));
-    state.PutArray(std::span<const std::uint8_t>(stored.colour_jpeg));
+    state.PutArray(std::span<const std::uint8_t>(images.value()->depth_png));
+    state.PutArray(std::span<const std::uint8_t>(images.value()->colour_jpeg));
     PutDetections(stored.detections, state);
     return bytes;
 }
@@ -106,8 +108,10 @@ bool FrameRecord::Decode(std::span<const std::uint8_t> bytes) {
     for (float* value :
          {&stored.view.gain, &stored.view.offset, &stored.view.weight, &stored.view.colour_weight})
         if (!state.Get(*value) || !std::isfinite(*value)) return false;
-    state.GetArray(stored.depth_png);
-    state.GetArray(stored.colour_jpeg);
+    EncodedImages images;
+    state.GetArray(images.depth_png);
+    state.GetArray(images.colour_jpeg);
+    stored.images = StoredImages(std::move(images));
     stored.frame_index = index;
     if (!GetDetections(state, stored.detections)) return false;
     return state.at_end() && std::isfinite(stamp_s) && std::isfinite(colour_stamp_s) &&

@@ -71,8 +71,9 @@ struct FrameRecord {
     bool in_store = false;
     StoredFrame stored;
 
-    Bytes Encode() const;
-    // Does not decode the images.
+    // Returns an error if the images cannot be read from their temporary file.
+    Result<Bytes> Encode() const;
+    // Does not decode the images, and leaves them in memory.
     bool Decode(std::span<const std::uint8_t> bytes);
 };
 

@@ -111,7 +111,7 @@ class Repair {
             whole = whole && Load(ScanTable::kKeyframes, key, row) &&
                     DecodeKeyframe(row.data, meta_.camera, keyframe) &&
                     std::ranges::all_of(keyframe.overlaps,
-                                        [&](const Overlap& o) { return o.with < key; });
+                                        [id = key](const Overlap& o) { return o.with < id; });
         }
         for (const PoseEdge& edge : loops_.edges)
             whole = whole && edge.from >= 0 && edge.to >= 0 && edge.from != edge.to &&
@@ -196,7 +196,9 @@ class Repair {
             if (!meta_.loops) record.in_store = false;
             if (record.in_store && record.stored.keyframe >= static_cast<int>(poses_.size()))
                 continue;
-            if (Status status = file_->Put(ScanTable::kFrames, new_key_[key], record.Encode());
+            const Result<Bytes> bytes = record.Encode();
+            if (!bytes.ok()) return bytes.status();
+            if (Status status = file_->Put(ScanTable::kFrames, new_key_[key], bytes.value());
                 !status.ok())
                 return status;
             ++report_.frames;

@@ -55,17 +55,14 @@ Status ScanWriter::PutRows(const ScanCheckpoint& c) {
     for (const auto& [number, record] : c.path)
         if (Status status = file_->Put(ScanTable::kPath, number, record.Encode()); !status.ok())
             return status;
+    // Skips images that cannot be read or encoded; the scan does not depend on them.
+    const auto put_frame = [this](std::int64_t number, const Result<Bytes>& record) {
+        return record.ok() ? file_->Put(ScanTable::kFrames, number, record.value()) : Status::Ok();
+    };
     for (const auto& [number, record] : c.frames)
-        if (Status status = file_->Put(ScanTable::kFrames, number, record.Encode()); !status.ok())
-            return status;
-    for (const auto& [number, frame] : c.raw_frames) {
-        const Result<FrameRecord> record = Compress(*frame);
-        // Skip images that cannot be encoded; the scan does not depend on them.
-        if (!record.ok()) continue;
-        if (Status status = file_->Put(ScanTable::kFrames, number, record.value().Encode());
-            !status.ok())
-            return status;
-    }
+        if (Status status = put_frame(number, record.Encode()); !status.ok()) return status;
+    for (const auto& [number, frame] : c.raw_frames)
+        if (Status status = put_frame(number, Compress(*frame)); !status.ok()) return status;
     for (const Keyframe& keyframe : c.keyframes)
         if (Status status =
                 file_->Put(ScanTable::kKeyframes, keyframe.id, EncodeKeyframe(keyframe));
@@ -92,19 +89,21 @@ Status ScanWriter::PutState(ScanStateKey key, const Bytes& bytes) {
     return file_->Put(ScanTable::kState, static_cast<std::int64_t>(key), bytes);
 }
 
-Result<FrameRecord> ScanWriter::Compress(const Frame& frame) {
+Result<Bytes> ScanWriter::Compress(const Frame& frame) {
     constexpr int kJpegQuality = 92;
     FrameRecord record;
     record.index = frame.index;
     record.stamp_s = frame.stamp_s;
     record.colour_stamp_s = frame.colour_stamp_s;
     StoreDepth(frame.depth_m, depth_units_per_m_, raw_depth_);
-    png_.EncodeDepth(raw_depth_, record.stored.depth_png);
+    EncodedImages images;
+    png_.EncodeDepth(raw_depth_, images.depth_png);
     if (!frame.colour.empty())
-        if (Status status = EncodeJpeg(frame.colour, kJpegQuality, record.stored.colour_jpeg);
+        if (Status status = EncodeJpeg(frame.colour, kJpegQuality, images.colour_jpeg);
             !status.ok())
             return status;
-    return record;
+    record.stored.images = StoredImages(std::move(images));
+    return record.Encode();
 }
 
 }  // namespace tessera

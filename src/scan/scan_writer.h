@@ -50,7 +50,7 @@ class ScanWriter {
   private:
     Status PutRows(const ScanCheckpoint& checkpoint);
     Status PutState(ScanStateKey key, const Bytes& bytes);
-    Result<FrameRecord> Compress(const Frame& frame);
+    Result<Bytes> Compress(const Frame& frame);
 
     std::unique_ptr<ScanFile> file_;
     double depth_units_per_m_;

@@ -21,7 +21,7 @@ TEST(PosedFrames, AreThoseWithAPoseInOrder) {
                         EXPECT_TRUE(frame.T_world_camera.isApprox(
                             PosedCamera(std::stoi(frame.name)), 1e-12))
                             << frame.name;
-                        EXPECT_FALSE(frame.stored.depth_png.empty());
+                        EXPECT_FALSE(frame.images->depth_png.empty());
                         return Status::Ok();
                     })
                     .ok());

@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "io/file.h"
+#include "core/input_file.h"
 #include "mapping/analytic_fields.h"
 #include "support/temp_folder.h"
 

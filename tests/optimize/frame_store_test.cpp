@@ -42,14 +42,15 @@ TEST(FrameStore, GivesDepthBackExactlyAndColourNearly) {
 }
 
 TEST(FrameStore, OverItsLimitKeepsKeyframesAndAnEvenShareOfTheRest) {
-    FrameStore unlimited(100000000, 5000);
+    const auto in_memory = [] { return ImageScratch("/absent"); };
+    FrameStore unlimited(100000000, 5000, in_memory());
     for (int i = 0; i < 8; ++i)
         ASSERT_TRUE(unlimited.Add(FrameAt(i), 0, i == 0, Eigen::Isometry3d::Identity(), {}).ok());
-    FrameStore store(unlimited.bytes() / 2, 5000);
+    FrameStore store(unlimited.memory_bytes() / 2, 5000, in_memory());
     for (int i = 0; i < 32; ++i)
         ASSERT_TRUE(
             store.Add(FrameAt(i), 0, i == 0 || i == 5, Eigen::Isometry3d::Identity(), {}).ok());
-    EXPECT_LE(store.bytes(), unlimited.bytes() / 2);
+    EXPECT_LE(store.memory_bytes(), unlimited.memory_bytes() / 2);
     EXPECT_GT(store.stride(), 4);
     EXPECT_EQ(store.next_ordinal(), 32);
     std::vector<std::int64_t> ordinals;
@@ -66,8 +67,12 @@ TEST(FrameStore, DamagedFramesAreRefusedAndLeftOutOfAMap) {
         ASSERT_TRUE(
             whole.Add(FrameAt(i), 0, i == 0, SmoothPath(0).inverse() * SmoothPath(i), {}).ok());
     std::vector<StoredFrame> frames = whole.frames();
-    frames[1].depth_png.resize(frames[1].depth_png.size() / 2);
-    frames[2].colour_jpeg.assign(30, 7);
+    EncodedImages half = *frames[1].images.Read().value(),
+                  garbage = *frames[2].images.Read().value();
+    half.depth_png.resize(half.depth_png.size() / 2);
+    garbage.colour_jpeg.assign(30, 7);
+    frames[1].images = StoredImages(std::move(half));
+    frames[2].images = StoredImages(std::move(garbage));
     FrameStore damaged(100000000, 5000), sound(100000000, 5000);
     sound.Resume({frames[0], frames[3]}, 4);
     damaged.Resume(std::move(frames), 4);
