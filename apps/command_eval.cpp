@@ -39,7 +39,7 @@ Result<std::pair<Trajectory, Trajectory>> ReadBoth(const std::string& reference,
     if (!b.ok()) return b.status();
     for (const Trajectory* trajectory : {&a.value(), &b.value()})
         for (const std::string& note : trajectory->notes)
-            fmt::print(stderr, "tessera: note: {}\n", note);
+            fmt::print(stderr, "tessera: note: {}\n", Printable(note));
     return std::pair{std::move(a.value()), std::move(b.value())};
 }
 

@@ -5,6 +5,7 @@
 
 #include "command.h"
 #include "config_options.h"
+#include "core/printable.h"
 #include "run/open_source.h"
 #include "run/scan_export.h"
 
@@ -18,14 +19,16 @@ struct Arguments {
 
 void PrintSource(const SourceInfo& info) {
     const PinholeCamera& c = info.camera;
-    fmt::print("{}: {}\n", info.name, info.kind);
+    fmt::print("{}: {}\n", Printable(info.name), Printable(info.kind));
     if (info.frame_count >= 0)
         fmt::print("frames: {} pairs of colour and depth, {:.3g} per second\n", info.frame_count,
                    info.fps);
     fmt::print("camera: {} x {}, fx {:.2f} fy {:.2f} cx {:.2f} cy {:.2f} px{}\n", c.width, c.height,
                c.fx, c.fy, c.cx, c.cy, info.rectified ? ", lens distortion corrected" : "");
     fmt::print("ground truth: {}\n", info.has_truth ? "yes" : "no");
-    for (const std::string& note : info.notes) fmt::print("note: {}\n", note);
+    for (const std::string& note : info.notes) fmt::print("note: {}\n", Printable(note));
+    for (const std::string& warning : info.warnings)
+        fmt::print("warning: {}\n", Printable(warning));
 }
 
 // The depth range of the first readable frame shows whether depth_scale is right.
@@ -36,7 +39,7 @@ void PrintFirstFrame(FrameSource& source) {
     int waits = 0;
     do {
         read = source.Read(frame);
-        if (!read.message.empty()) fmt::print("note: {}\n", read.message);
+        if (!read.message.empty()) fmt::print("note: {}\n", Printable(read.message));
         waits += read.status == ReadStatus::kWait;
     } while (read.status == ReadStatus::kSkip ||
              (read.status == ReadStatus::kWait && waits < kMostWaits));

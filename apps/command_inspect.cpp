@@ -28,7 +28,7 @@ Status Inspect(const Arguments& a) {
     if (!result.ok()) return result.status();
     const FrameReport& report = result.value().report;
     const TrackResult& t = report.track;
-    if (!report.warning.empty()) fmt::print(stderr, "tessera: {}\n", report.warning);
+    if (!report.warning.empty()) fmt::print(stderr, "tessera: {}\n", Printable(report.warning));
     fmt::print(
         "frame {} by {}: {}{}{}; depth {:.1f} mm, intensity {:.3f} (robust rms); {:.0f} % in the "
         "map, {:.0f} % of it inliers\n",

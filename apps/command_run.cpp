@@ -113,7 +113,7 @@ int Run(const Arguments& a) {
     fmt::print("{}", RunText(request, summary));
     if (2 * summary.counts.tracked >= summary.counts.frames) return kExitDone;
     fmt::print(stderr, "tessera: only {} of {} frames tracked; last reason: {}\n",
-               summary.counts.tracked, summary.counts.frames, summary.last_reason);
+               summary.counts.tracked, summary.counts.frames, Printable(summary.last_reason));
     return kExitMostlyLost;
 }
 

@@ -6,18 +6,20 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "core/printable.h"
+
 namespace tessera {
 
 Console::Console() : is_terminal_(isatty(STDERR_FILENO) == 1) {}
 
 void Console::Info(const std::string& text) {
     ClearBar();
-    spdlog::info("{}", text);
+    spdlog::info("{}", Printable(text));
 }
 
 void Console::Warning(const std::string& text) {
     ClearBar();
-    spdlog::warn("{}", text);
+    spdlog::warn("{}", Printable(text));
 }
 
 void Console::ClearBar() {
@@ -52,6 +54,7 @@ RunObserver Console::Observer() {
     RunObserver observer;
     observer.on_open = [this](const SourceInfo& source) {
         for (const std::string& note : source.notes) Info(note);
+        for (const std::string& warning : source.warnings) Warning(warning);
     };
     observer.on_warning = [this](const std::string& text) { Warning(text); };
     observer.on_frame = [this](const RunCounts& counts, std::int64_t total) {

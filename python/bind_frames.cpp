@@ -133,6 +133,7 @@ void BindFrames(py::module_& module) {
                                               : std::optional(f.info().frame_count);
                                })
         .def_property_readonly("notes", [](const Frames& f) { return f.info().notes; })
+        .def_property_readonly("warnings", [](const Frames& f) { return f.info().warnings; })
         .def("__iter__", [](const py::object& self) { return self; })
         .def("__next__", &NextFrame);
     module.def(

@@ -196,6 +196,9 @@ class Frames(Iterator[Frame]):
     @property
     def notes(self) -> List[str]:
         """Notes about the source: unpaired images, repeated stamps, ..."""
+    @property
+    def warnings(self) -> List[str]:
+        """Signs that the source is not read as it was meant: most images unused, ..."""
     def __next__(self) -> Frame: ...
 
 class RunResult:

@@ -49,13 +49,14 @@ struct LensDistortion {
 struct CameraCalibration {
     PinholeCamera pinhole;
     LensDistortion distortion;
-    double depth_scale = 5000.0;  // stored depth value / depth_scale = metres
-    double fps = 30.0;            // frames per second, for sources without time stamps
+    double depth_scale = 5000.0;    // stored depth value / depth_scale = metres
+    double fps = 30.0;              // frames per second, for sources without time stamps
+    bool depth_scale_given = true;  // false: depth_scale is the default
 };
 
 // Reads width, height, fx, fy, cx, cy, distortion (4 or 5 numbers), depth_scale, fps. The sign of a
-// negative fy (ICL-NUIM) is dropped. Unknown keys, missing intrinsics and implausible values are
-// errors that name the file and the key.
+// negative fy (ICL-NUIM) is dropped. Unknown or repeated keys, missing intrinsics and implausible
+// values are errors that name the file, the key and the value.
 Result<CameraCalibration> ReadCameraFile(const std::string& path);
 
 // Returns the text of a camera.yaml file. Every value round-trips exactly.

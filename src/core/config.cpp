@@ -31,8 +31,8 @@ Status SetNumber(const std::string& key, Number& value, ConfigParameters::Range 
     const auto number = ParseNumber<Number>(text);
     const char* kind = std::is_integral_v<Number> ? "a whole number" : "a number";
     if (!number || !std::isfinite(static_cast<double>(*number)))
-        return Status::Error(
-            fmt::format("{}: '{}' is not {} (allowed: {})", key, text, kind, allowed));
+        return Status::Error(fmt::format("{}: '{}' is not {} (allowed: {})", key,
+                                         Printable(text, kQuotedBytes), kind, allowed));
     if (*number < range.minimum || *number > range.maximum)
         return Status::Error(
             fmt::format("{}: {} is out of range (allowed: {})", key, text, allowed));
@@ -99,8 +99,8 @@ void ConfigParameters::Add(const std::string& key, bool& value, const std::strin
                       const bool yes = text == "true" || text == "on" || text == "yes";
                       const bool no = text == "false" || text == "off" || text == "no";
                       if (!yes && !no)
-                          return Status::Error(
-                              fmt::format("{}: '{}' is neither true nor false", full, text));
+                          return Status::Error(fmt::format("{}: '{}' is neither true nor false",
+                                                           full, Printable(text, kQuotedBytes)));
                       value = yes;
                       return Status::Ok();
                   }});
@@ -124,8 +124,9 @@ void ConfigParameters::AddChoiceByName(const std::string& key,
     AddParameter({key, "", Join(names), documentation, "", std::move(get),
                   [=, full = prefix_ + key](const std::string& text) {
                       if (std::find(names.begin(), names.end(), text) == names.end())
-                          return Status::Error(
-                              fmt::format("{}: '{}' is not one of {}", full, text, Join(names)));
+                          return Status::Error(fmt::format("{}: '{}' is not one of {}", full,
+                                                           Printable(text, kQuotedBytes),
+                                                           Join(names)));
                       set(text);
                       return Status::Ok();
                   }});

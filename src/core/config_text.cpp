@@ -1,11 +1,11 @@
 // Configuration as text: YAML input and output, and the tables of docs/configuration.md.
 #include <yaml-cpp/yaml.h>
 
-#include <filesystem>
-#include <fstream>
+#include <set>
 #include <sstream>
 
 #include "core/config.h"
+#include "core/input_file.h"
 
 namespace tessera {
 namespace {
@@ -15,10 +15,13 @@ namespace {
 Status Flatten(const YAML::Node& node, const std::string& prefix, int depth, int& visits_left,
                std::vector<std::pair<std::string, std::string>>& leaves) {
     if (depth > 8) return Status::Error(prefix + ": nested too deeply");
+    std::set<std::string> seen;
     for (const auto& entry : node) {
         if (--visits_left < 0) return Status::Error(prefix + ": too many entries");
+        if (!entry.first.IsScalar()) return Status::Error(prefix + ": a key is not a word");
         const std::string key =
-            prefix + (prefix.empty() ? "" : ".") + entry.first.as<std::string>();
+            prefix + (prefix.empty() ? "" : ".") + Printable(entry.first.Scalar(), kQuotedBytes);
+        if (!seen.insert(key).second) return Status::Error(key + ": is given twice");
         if (entry.second.IsMap()) {
             if (Status status = Flatten(entry.second, key, depth + 1, visits_left, leaves);
                 !status.ok())
@@ -58,7 +61,8 @@ Status ConfigParameters::LoadYaml(const std::string& yaml, const std::string& na
         if (Status status = Flatten(root, "", 0, visits_left, leaves); !status.ok())
             return Status::Error(name + ": " + status.message());
     } catch (const YAML::Exception& error) {
-        return Status::Error(fmt::format("{}: not valid YAML: {}", name, error.what()));
+        return Status::Error(
+            fmt::format("{}: not valid YAML: {}", name, Printable(error.what(), 200)));
     }
     std::vector<std::string> before;
     for (const Parameter& parameter : parameters_) before.push_back(parameter.get());
@@ -72,13 +76,9 @@ Status ConfigParameters::LoadYaml(const std::string& yaml, const std::string& na
 }
 
 Status ConfigParameters::LoadYamlFile(const std::string& path) {
-    std::error_code ignored;
-    std::ifstream file(path);
-    if (!file || std::filesystem::is_directory(path, ignored))
-        return Status::Error(path + ": cannot be read");
-    std::stringstream text;
-    text << file.rdbuf();
-    return LoadYaml(text.str(), path);
+    constexpr std::size_t kMostBytes = 1 << 20;
+    const Result<std::string> text = ReadWholeFile(path, kMostBytes);
+    return text.ok() ? LoadYaml(text.value(), path) : text.status();
 }
 
 std::string ConfigParameters::ToYaml() const {

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/check.h"
+#include "core/printable.h"
 
 namespace tessera {
 
@@ -15,15 +16,15 @@ class [[nodiscard]] Status {
   public:
     Status() = default;  // success
     static Status Ok() { return {}; }
-    static Status Error(std::string message) {
+    static Status Error(const std::string& message) {
         Status status;
         status.failed_ = true;
-        status.message_ = std::move(message);
+        status.message_ = Printable(message);
         return status;
     }
 
     bool ok() const { return !failed_; }
-    // The error text; empty on success.
+    // The error text, safe to print whatever a file put into it; empty on success.
     const std::string& message() const { return message_; }
 
   private:

@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "core/input_file.h"
 #include "eval/alignment.h"
-#include "io/file.h"
 
 namespace tessera {
 

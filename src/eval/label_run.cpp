@@ -2,10 +2,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/input_file.h"
 #include "eval/alignment.h"
 #include "eval/detection_run.h"
 #include "eval/mesh_error.h"
-#include "io/file.h"
 #include "io/mesh_io.h"
 #include "io/trajectory.h"
 

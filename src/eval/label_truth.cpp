@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <sstream>
 
-#include "io/file.h"
+#include "core/input_file.h"
 #include "io/image_io.h"
 #include "io/trajectory.h"
 

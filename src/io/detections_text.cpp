@@ -4,7 +4,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "io/file.h"
+#include "core/input_file.h"
 
 namespace tessera {
 namespace {

@@ -4,13 +4,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <atomic>
 #include <cerrno>
-#include <cstdio>
 #include <filesystem>
-#include <memory>
-#include <new>
 #include <system_error>
 
 namespace tessera {
@@ -129,38 +125,6 @@ Status PrepareOutputFolder(const std::string& path) {
     return Status::Error(
         fmt::format("{}: cannot write to the folder ({}); choose another one with --out", path,
                     status.message()));
-}
-
-Result<std::string> ReadWholeFile(const std::string& path, std::size_t max_bytes) {
-    const auto fail = [&](const std::string& why) { return Status::Error(path + ": " + why); };
-    struct stat info {};
-    if (stat(path.c_str(), &info) != 0)
-        return fail(errno == ENOENT ? "no such file" : "cannot be read: " + WriteErrorText(errno));
-    if (S_ISDIR(info.st_mode)) return fail("is a folder; give a file");
-    const auto too_large = [&] { return fail(fmt::format("is larger than {} bytes", max_bytes)); };
-    const auto claimed = static_cast<std::size_t>(std::max<off_t>(info.st_size, 0));
-    if (claimed > max_bytes) return too_large();
-
-    using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
-    const File file(std::fopen(path.c_str(), "rb"), &std::fclose);
-    if (!file) return fail("cannot be read: " + std::generic_category().message(errno));
-    try {
-        std::string bytes;
-        std::size_t wanted = std::min(claimed, max_bytes) + 1;  // one extra, to detect the end
-        while (true) {
-            const std::size_t have = bytes.size();
-            bytes.resize(wanted);
-            const std::size_t got = std::fread(bytes.data() + have, 1, wanted - have, file.get());
-            bytes.resize(have + got);
-            if (bytes.size() > max_bytes) return too_large();
-            if (bytes.size() < wanted) break;
-            wanted = std::min(2 * wanted + 65536, max_bytes + 1);
-        }
-        if (std::ferror(file.get())) return fail("cannot be read completely");
-        return bytes;
-    } catch (const std::bad_alloc&) {
-        return fail("does not fit in memory");
-    }
 }
 
 }  // namespace tessera

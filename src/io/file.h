@@ -1,4 +1,5 @@
-// Atomic file writing, bounded file reading, and preparation of output folders.
+// Atomic file writing and preparation of output folders. Files are read through
+// core/input_file.h.
 #pragma once
 
 #include <cstddef>
@@ -20,10 +21,6 @@ std::string WriteErrorText(int error);
 
 // Creates the folder (and its parents) and checks that it is writable.
 Status PrepareOutputFolder(const std::string& path);
-
-// Returns the file's bytes. It is an error if the path is a folder, cannot be read, or has more
-// than max_bytes, whatever size the file reports.
-Result<std::string> ReadWholeFile(const std::string& path, std::size_t max_bytes);
 
 // Like WriteTextFile, but in pieces: nothing appears at `path` before Commit succeeds. Owner thread
 // only.

@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
+#include <sstream>
 
+#include "core/input_file.h"
 #include "io/folder_truth.h"
 #include "io/image_lists.h"
 #include "io/named_images.h"
@@ -83,12 +84,14 @@ bool IsIclFolder(const fs::path& folder, Layout layout) {
 // 'rgbd_dataset_freiburg1_rpy.bag'".
 std::string BagName(const fs::path& folder) {
     constexpr std::size_t kLongest = 1000;
-    std::ifstream list(folder / "rgb.txt");
+    const Result<InputFile> list = InputFile::Open((folder / "rgb.txt").string());
+    if (!list.ok()) return {};
+    std::vector<std::uint8_t> bytes(std::min<std::uint64_t>(kLongest, list.value().size()));
+    if (!list.value().ReadAt(0, bytes).ok()) return {};
+    std::istringstream lines(std::string(bytes.begin(), bytes.end()));
     std::string line;
-    for (int i = 0; i < 2 && std::getline(list, line); ++i)
-        if (line.size() < kLongest && line.starts_with('#') &&
-            line.find("rgbd_dataset_") != std::string::npos)
-            return line;
+    for (int i = 0; i < 2 && std::getline(lines, line); ++i)
+        if (line.starts_with('#') && line.find("rgbd_dataset_") != std::string::npos) return line;
     return {};
 }
 
@@ -107,6 +110,11 @@ Result<std::optional<CameraCalibration>> FindCamera(const fs::path& folder,
     if (Exists(file)) {
         const Result<CameraCalibration> read = ReadCameraFile(file.string());
         if (!read.ok()) return read.status();
+        if (!read.value().depth_scale_given)
+            notes.push_back(fmt::format(
+                "camera.yaml has no depth_scale: assuming {} stored units per metre; correct it if "
+                "depths come out too long or too short",
+                read.value().depth_scale));
         return std::optional(read.value());
     }
     const std::string name = PublishedName(folder, published);
@@ -130,6 +138,25 @@ Result<ImagePairs> ReadPairs(const fs::path& folder, Layout layout, double fps,
         case Layout::kNamedImages: break;
     }
     return PairByName(folder.string(), FindImageFolders(folder.string()), fps, max_pair_gap_s);
+}
+
+// Stamps that are damaged, or in another unit than seconds, leave few pairs or leap.
+void WarnOfStamps(const ImagePairs& images, std::vector<std::string>& warnings) {
+    constexpr double kLongestPause_s = 60;
+    const std::vector<ImagePair>& pairs = images.pairs;
+    if (2 * pairs.size() < images.listed)
+        warnings.push_back(fmt::format(
+            "only {} of {} depth images are used; are their time stamps right, and in seconds?",
+            pairs.size(), images.listed));
+    std::size_t leaps = 0, first = 0;
+    for (std::size_t i = 1; i < pairs.size(); ++i)
+        if (pairs[i].depth_stamp_s - pairs[i - 1].depth_stamp_s > kLongestPause_s && leaps++ == 0)
+            first = i;
+    if (leaps > 0)
+        warnings.push_back(fmt::format(
+            "time stamps leap by more than {} s, {} time{} (first: by {:.6g} s before {})",
+            kLongestPause_s, leaps, leaps == 1 ? "" : "s",
+            pairs[first].depth_stamp_s - pairs[first - 1].depth_stamp_s, pairs[first].depth));
 }
 
 Status AddFrames(const fs::path& folder, const std::vector<ImagePair>& pairs,
@@ -194,6 +221,7 @@ Result<FolderLayout> ReadFolderLayout(const std::string& path, double max_pair_g
     const ImagePairs& found = images.value();
     result.notes.insert(result.notes.end(), found.notes.begin(), found.notes.end());
     if (Status status = AddFrames(folder, found.pairs, result); !status.ok()) return status;
+    if (!StampsAreFrameNumbers(found.pairs)) WarnOfStamps(found, result.warnings);
     AddTruth(path, StampsAreFrameNumbers(found.pairs), result);
     return result;
 }

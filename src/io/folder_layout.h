@@ -26,6 +26,8 @@ struct FolderLayout {
     std::uint16_t invalid_depth = 0;  // a stored value that means "no measurement", besides 0
     std::vector<FolderFrame> frames;  // strictly increasing depth stamps, at least one
     std::vector<std::string> notes;   // things the user should know
+    // Signs that the recording is not read as it was meant.
+    std::vector<std::string> warnings;
 };
 
 // Layouts are tried in this order:

@@ -27,6 +27,7 @@ class FolderSource : public FrameSource {
             std::any_of(layout_.frames.begin(), layout_.frames.end(),
                         [](const FolderFrame& frame) { return frame.T_world_camera.has_value(); });
         info_.notes = layout_.notes;
+        info_.warnings = layout_.warnings;
         if (!info_.rectified && !layout_.calibration.distortion.IsZero())
             info_.notes.push_back("lens distortion is not corrected, as configured");
     }
@@ -69,21 +70,24 @@ class FolderSource : public FrameSource {
   private:
     // Decodes the frame's raw images and checks that they have the calibration's size.
     Status Decode(const FolderFrame& listed) {
-        if (Status status = decoder_.ReadDepth(listed.depth_path, depth_); !status.ok())
+        if (Status status = Load(listed.depth_path, "the camera", "; correct camera.yaml");
+            !status.ok())
             return status;
-        if (Status status = decoder_.ReadColour(listed.colour_path, colour_); !status.ok())
+        if (Status status = decoder_.DecodeDepth(depth_); !status.ok()) return status;
+        if (Status status = Load(listed.colour_path, "its depth image", ""); !status.ok())
             return status;
-        if (depth_.width() != colour_.width() || depth_.height() != colour_.height())
-            return Status::Error(
-                fmt::format("{}: {} x {} pixels, but its colour image {} has {} x {}",
-                            listed.depth_path, depth_.width(), depth_.height(), listed.colour_path,
-                            colour_.width(), colour_.height()));
-        if (depth_.width() != info_.camera.width || depth_.height() != info_.camera.height)
-            return Status::Error(
-                fmt::format("{}: {} x {} pixels, but the camera has {} x {}; correct camera.yaml",
-                            listed.depth_path, depth_.width(), depth_.height(), info_.camera.width,
-                            info_.camera.height));
-        return Status::Ok();
+        return decoder_.DecodeColour(colour_);
+    }
+
+    // Loads an image that must have the camera's size.
+    Status Load(const std::string& path, const char* other, const char* advice) {
+        const Result<ImageSize> size = decoder_.Load(path);
+        if (!size.ok()) return size.status();
+        const auto [width, height] = size.value();
+        const PinholeCamera& c = info_.camera;
+        if (width == c.width && height == c.height) return Status::Ok();
+        return Status::Error(fmt::format("{}: {} x {} pixels, but {} has {} x {}{}", path, width,
+                                         height, other, c.width, c.height, advice));
     }
 
     FolderLayout layout_;

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <sstream>
 
-#include "io/read_file.h"
+#include "core/input_file.h"
 #include "io/trajectory.h"
 
 namespace tessera {

@@ -45,6 +45,8 @@ struct SourceInfo {
     bool has_truth = false;
     // Things the user should know: unpaired images, repeated stamps, ...
     std::vector<std::string> notes;
+    // Signs that the source is not read as it was meant: most images unused, stamps that jump, ...
+    std::vector<std::string> warnings;
 };
 
 class FrameSource {

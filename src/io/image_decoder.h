@@ -8,6 +8,7 @@
 
 #include "core/image.h"
 #include "core/status.h"
+#include "io/image_header.h"
 #include "io/png_decoder.h"
 
 namespace tessera {
@@ -16,21 +17,29 @@ namespace tessera {
 // it; the image is then unspecified. Never throws.
 class ImageDecoder {
   public:
-    // Largest image side. PNG and JPEG files that exceed it are refused from the header alone.
+    // Largest image side.
     static constexpr int kMaxSide_px = 8192;
 
-    // Reads 8-bit colour or grey: PNG, JPEG, or any other format OpenCV reads. Grey is copied to
-    // all three channels.
-    Status ReadColour(const std::string& path, ColourImage& image);
-    // Reads raw 16-bit, single-channel values. The error for any other image states its bits and
+    // Reads the file, and returns the image's size from its header: PNG, JPEG, PNM, BMP or TIFF.
+    // Other formats and larger images are refused; nothing is decoded yet.
+    Result<ImageSize> Load(const std::string& path);
+    // These decode the loaded file. 8-bit colour or grey; grey is copied to all three channels.
+    Status DecodeColour(ColourImage& image);
+    // Raw 16-bit, single-channel values. The error for any other image states its bits and
     // channels.
+    Status DecodeDepth(Image<std::uint16_t>& image);
+
+    // Load and decode an image of any size.
+    Status ReadColour(const std::string& path, ColourImage& image);
     Status ReadDepth(const std::string& path, Image<std::uint16_t>& image);
 
   private:
-    Status DecodeColour(ColourImage& image);
-    Status DecodeDepth(Image<std::uint16_t>& image);
+    Status DecodeLoadedColour(ColourImage& image);
+    Status DecodeLoadedDepth(Image<std::uint16_t>& image);
 
     PngDecoder png_;
+    std::string path_;
+    ImageSize size_;  // of the loaded file
     std::vector<std::uint8_t> file_;
 };
 

@@ -8,13 +8,15 @@
 #include <span>
 #include <string_view>
 
-#include "io/read_file.h"
+#include "core/input_file.h"
 #include "io/stamp_pairing.h"
 
 namespace tessera {
 namespace {
 
 constexpr std::size_t kMaxListBytes = std::size_t{256} << 20;  // two days at 30 Hz
+
+constexpr double kLatestStamp_s = 1e12;  // 30,000 years; a larger number is not in seconds
 
 struct ListedImage {
     double stamp_s;
@@ -36,7 +38,8 @@ std::vector<std::string_view> SplitWords(std::string_view line) {
 std::optional<double> ParseStamp(std::string_view word) {
     double stamp_s = 0;
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), stamp_s);
-    if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(stamp_s))
+    if (error != std::errc() || end != word.data() + word.size() ||
+        !(std::abs(stamp_s) <= kLatestStamp_s))
         return std::nullopt;
     return stamp_s;
 }
@@ -89,17 +92,20 @@ void SortByStamp(const std::string& path, double Entry::*stamp, std::vector<Entr
     entries.erase(last, entries.end());
 }
 
-Result<std::vector<ListedImage>> ReadList(const std::string& path,
-                                          std::vector<std::string>& notes) {
+Result<std::vector<ListedImage>> ReadList(const std::string& path, std::vector<std::string>& notes,
+                                          std::size_t& listed) {
     std::vector<ListedImage> images;
     const auto use = [&](std::span<const std::string_view> words) {
         const auto stamp_s = ParseStamp(words[0]);
         if (!stamp_s || words.size() < 2) return false;
-        images.push_back({*stamp_s, std::string(words[1])});
+        // All that follows the stamp: names may contain blanks.
+        images.push_back(
+            {*stamp_s, std::string(words[1].data(), words.back().data() + words.back().size())});
         return true;
     };
     if (Status status = ForEachLine(path, "stamp filename", use, notes); !status.ok())
         return status;
+    listed = images.size();
     SortByStamp(path, &ListedImage::stamp_s, images, notes);
     return images;
 }
@@ -122,9 +128,10 @@ bool NamesDepth(std::string_view name) {
 Result<ImagePairs> ReadImageLists(const std::string& depth_list, const std::string& colour_list,
                                   double max_gap_s) {
     ImagePairs result;
-    const auto depth = ReadList(depth_list, result.notes);
+    std::size_t listed_colour = 0;
+    const auto depth = ReadList(depth_list, result.notes, result.listed);
     if (!depth.ok()) return depth.status();
-    const auto colour = ReadList(colour_list, result.notes);
+    const auto colour = ReadList(colour_list, result.notes, listed_colour);
     if (!colour.ok()) return colour.status();
     const std::vector<double> depth_s = Stamps(depth.value()), colour_s = Stamps(colour.value());
     for (const StampPair& pair : PairNearest(depth_s, colour_s, max_gap_s)) {
@@ -165,6 +172,7 @@ Result<ImagePairs> ReadAssociations(const std::string& list) {
     if (Status status = ForEachLine(list, "stamp depth/file stamp rgb/file", use, result.notes);
         !status.ok())
         return status;
+    result.listed = result.pairs.size();
     SortByStamp(list, &ImagePair::depth_stamp_s, result.pairs, result.notes);
     return result;
 }

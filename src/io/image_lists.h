@@ -17,9 +17,11 @@ struct ImagePair {
 struct ImagePairs {
     std::vector<ImagePair> pairs;    // strictly increasing depth stamps
     std::vector<std::string> notes;  // what was skipped, sorted or left over, with counts
+    std::size_t listed = 0;          // depth images that were there to be paired
 };
 
-// Reads two lists of lines "stamp filename" ('#' starts a comment) and pairs them by nearest time
+// Reads two lists of lines "stamp filename" ('#' starts a comment; the name may contain blanks) and
+// pairs them by nearest time
 // (stamp_pairing.h). Malformed lines and repeated stamps are skipped, unordered lists are sorted;
 // each is reported in the notes. It is an error if a list has no usable line, or if no two images
 // are less than max_gap_s apart.

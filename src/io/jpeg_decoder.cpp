@@ -9,6 +9,8 @@
 namespace tessera {
 namespace {
 
+constexpr int kMostScans = 100;  // usual progressive images have ten
+
 static_assert(sizeof(Rgb8) == 3, "decoded rows are written in place");
 
 // libjpeg's state. libjpeg reports errors through longjmp, so the functions that call setjmp must
@@ -17,6 +19,7 @@ struct Decompressor {
     jpeg_decompress_struct info{};
     jpeg_error_mgr errors{};
     std::jmp_buf on_error{};
+    bool too_many_scans = false;
     int damage = 0;  // code of the first warning that means lost pixels
 
     Decompressor() {
@@ -39,6 +42,8 @@ struct Decompressor {
     Decompressor& operator=(const Decompressor&) = delete;
 
     Status LastError() {
+        if (too_many_scans)
+            return Status::Error(fmt::format("has more than {} scans; save it again", kMostScans));
         char text[JMSG_LENGTH_MAX];
         if (damage != 0) errors.msg_code = damage;
         errors.format_message(reinterpret_cast<j_common_ptr>(&info), text);
@@ -58,6 +63,14 @@ bool ReadHeader(Decompressor& d, std::span<const std::uint8_t> file) {
 bool ReadRows(Decompressor& d, Rgb8* pixels) {
     if (setjmp(d.on_error) != 0) return false;
     d.info.out_color_space = JCS_EXT_RGB;
+    jpeg_progress_mgr progress{};
+    progress.progress_monitor = [](j_common_ptr common) {
+        auto* self = static_cast<Decompressor*>(common->client_data);
+        if (self->info.input_scan_number <= kMostScans) return;
+        self->too_many_scans = true;
+        std::longjmp(self->on_error, 1);
+    };
+    d.info.progress = &progress;
     jpeg_start_decompress(&d.info);
     while (d.info.output_scanline < d.info.output_height) {
         constexpr JDIMENSION kRows = 8;
@@ -75,6 +88,13 @@ bool ReadRows(Decompressor& d, Rgb8* pixels) {
 }
 
 }  // namespace
+
+std::optional<ImageSize> ReadJpegSize(std::span<const std::uint8_t> file) {
+    Decompressor d;
+    if (!ReadHeader(d, file) || d.info.image_width == 0 || d.info.image_height == 0)
+        return std::nullopt;
+    return ImageSize{static_cast<int>(d.info.image_width), static_cast<int>(d.info.image_height)};
+}
 
 bool IsJpeg(std::span<const std::uint8_t> file) {
     return file.size() >= 3 && file[0] == 0xff && file[1] == 0xd8 && file[2] == 0xff;

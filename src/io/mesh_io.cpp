@@ -8,7 +8,7 @@
 #include <new>
 #include <string_view>
 
-#include "io/file.h"
+#include "core/input_file.h"
 #include "io/ply_header.h"
 #include "io/ply_scalars.h"
 
@@ -125,8 +125,8 @@ Status ReadVertices(const PlyElement& element, Scalars& scalars, TriangleMesh& m
 
 // Splits a polygon into a triangle fan around its first corner.
 template <class Scalars>
-void ReadPolygon(const PlyProperty& property, Scalars& scalars, TriangleMesh& mesh) {
-    const std::uint64_t corners = scalars.ReadCount(property.count_type);
+void ReadPolygon(const PlyProperty& property, std::uint64_t corners, Scalars& scalars,
+                 TriangleMesh& mesh) {
     std::array<std::uint32_t, 3> triangle{};
     for (std::uint64_t i = 0; i < corners && scalars.ok(); ++i) {
         const double index = scalars.Read(property.type);
@@ -139,29 +139,46 @@ void ReadPolygon(const PlyProperty& property, Scalars& scalars, TriangleMesh& me
     }
 }
 
+// A fan needs up to twelve times the polygon's bytes, so polygons have at most as many corners as
+// there are vertices, and the mesh at most 2^31 triangles.
 template <class Scalars>
-void ReadFaces(const PlyElement& element, Scalars& scalars, TriangleMesh& mesh) {
+Status ReadFaces(const PlyElement& element, std::uint64_t vertices, Scalars& scalars,
+                 TriangleMesh& mesh) {
+    if (element.count > kMaxIndex) return Status::Error("has more than 2^31 faces");
     mesh.triangles.reserve(element.count);
     for (std::uint64_t i = 0; i < element.count && scalars.ok(); ++i)
         for (const PlyProperty& property : element.properties) {
-            if (property.is_list &&
-                (property.name == "vertex_indices" || property.name == "vertex_index"))
-                ReadPolygon(property, scalars, mesh);
-            else
+            if (!property.is_list ||
+                (property.name != "vertex_indices" && property.name != "vertex_index")) {
                 SkipProperty(property, scalars);
+                continue;
+            }
+            const std::uint64_t corners = scalars.ReadCount(property.count_type);
+            if (corners > vertices)
+                return Status::Error(
+                    fmt::format("face {} has {} corners, but there are only {} vertices", i,
+                                corners, vertices));
+            if (mesh.triangles.size() + corners > kMaxIndex)
+                return Status::Error("has more than 2^31 triangles");
+            ReadPolygon(property, corners, scalars, mesh);
         }
+    return Status::Ok();
 }
 
 template <class Scalars>
 Status ReadBody(const PlyHeader& header, Scalars scalars, TriangleMesh& mesh) {
     bool has_vertices = false;
+    std::uint64_t vertices = 0;
+    for (const PlyElement& element : header.elements)
+        if (element.name == "vertex") vertices = element.count;
     for (const PlyElement& element : header.elements) {
         if (element.properties.empty()) continue;
         if (element.name == "vertex") {
             if (std::exchange(has_vertices, true)) return Status::Error("has two vertex lists");
             if (Status status = ReadVertices(element, scalars, mesh); !status.ok()) return status;
         } else if (element.name == "face") {
-            ReadFaces(element, scalars, mesh);
+            if (Status status = ReadFaces(element, vertices, scalars, mesh); !status.ok())
+                return status;
         } else {
             for (std::uint64_t i = 0; i < element.count && scalars.ok(); ++i)
                 for (const PlyProperty& property : element.properties)

@@ -147,6 +147,7 @@ Result<ImagePairs> ReadSevenScenesNames(const std::string& folder, double fps) {
     if (result.pairs.empty())
         return Status::Error(folder +
                              ": no frame-NNNNNN.color.png has a matching frame-NNNNNN.depth.png");
+    result.listed = depth.size();
     NoteUnpaired(depth.size(), colour.size(), result);
     return result;
 }
@@ -187,6 +188,7 @@ Result<ImagePairs> PairByName(const std::string& folder, const ImageFolders& fol
                         "matching images the same number, or write rgb.txt and depth.txt with "
                         "lines 'stamp filename'",
                         folder, depth.size(), folders.depth, colour.size(), folders.colour));
+    result.listed = depth.size();
     NoteUnpaired(depth.size(), colour.size(), result);
     for (ImagePair& pair : result.pairs) {
         pair.depth = folders.depth + "/" + pair.depth;

@@ -1,10 +1,10 @@
 #include "io/openni_source.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
-#include <filesystem>
-#include <fstream>
 
+#include "core/input_file.h"
 #include "io/device_clock.h"
 #include "io/openni_camera.h"
 #include "io/stream_pairing.h"
@@ -235,13 +235,11 @@ class OpenniSource : public FrameSource {
 
 // Checks that the file starts like an .oni file.
 Status CheckRecording(const std::string& path) {
-    std::error_code ignored;
-    if (!std::filesystem::exists(path, ignored)) return Status::Error(path + ": no such file");
-    if (!std::filesystem::is_regular_file(path, ignored))
-        return Status::Error(path + ": is not a file");
-    char magic[4] = {};
-    std::ifstream file(path, std::ios::binary);
-    if (!file.read(magic, sizeof(magic)) || std::string(magic, 4) != "NI10")
+    const Result<InputFile> file = InputFile::Open(path);
+    if (!file.ok()) return file.status();
+    std::array<std::uint8_t, 4> magic{};
+    if (file.value().size() < magic.size() || !file.value().ReadAt(0, magic).ok() ||
+        std::string(magic.begin(), magic.end()) != "NI10")
         return Status::Error(path + ": is not an .oni recording (it does not start with NI10)");
     return Status::Ok();
 }

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <string_view>
 
+#include "core/input_file.h"
 #include "io/file.h"
 
 namespace tessera {
@@ -55,7 +56,7 @@ NumberLine ParseNumbers(std::string_view line) {
         double value = 0;
         const auto [end, error] = std::from_chars(first, word.data() + word.size(), value);
         if (end != word.data() + word.size() || error == std::errc::invalid_argument) {
-            result.bad_word = word.substr(0, 40);
+            result.bad_word = word;
             return result;
         }
         if (error == std::errc::result_out_of_range) value = std::nan("");
@@ -128,7 +129,7 @@ Result<Trajectory> ReadTrajectory(const std::string& path) {
                 fmt::format("{}:{}: '{}' is not a number; expected 'stamp tx ty tz qx qy qz qw' "
                             "(comments start "
                             "with #)",
-                            path, number, parsed.bad_word));
+                            path, number, Printable(parsed.bad_word, kQuotedBytes)));
         if (parsed.count == 0 && parsed.bad_word.empty()) continue;
         NumberedPose pose{{}, number};
         const std::string why =

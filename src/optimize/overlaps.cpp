@@ -124,7 +124,7 @@ std::vector<int> OverlapFinder::Candidates(const Keyframes& keyframes, int id) c
         static_cast<int>(std::ranges::count_if(known, [&](int with) { return id - with > kNear; }));
     for (const auto& [shared, with] : older) {
         if (count >= kOlder) break;
-        if (std::ranges::any_of(known, [&](int other) { return std::abs(other - with) < 2; }))
+        if (std::ranges::any_of(known, [at = with](int other) { return std::abs(other - at) < 2; }))
             continue;
         known.push_back(with);
         chosen.push_back(with);

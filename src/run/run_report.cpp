@@ -39,7 +39,8 @@ Json SourceJson(const SourceInfo& source) {
             {"fps", source.fps},
             {"rectified", source.rectified},
             {"has_truth", source.has_truth},
-            {"notes", source.notes}};
+            {"notes", source.notes},
+            {"warnings", source.warnings}};
 }
 
 // The estimated focal lengths, used or not. Those under "source" are the given ones.

@@ -5,10 +5,12 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
+
+#include "core/input_file.h"
 
 namespace tessera {
 namespace {
@@ -39,15 +41,18 @@ void Sync(const std::string& path) {
     ::close(file);
 }
 
-// Returns why the file cannot be a scan, judging by its first bytes; empty if it can be one.
-std::string NotAScanReason(const std::string& path) {
-    std::error_code ignored;
-    if (!Exists(path)) return "no such file";
-    if (std::filesystem::is_directory(path, ignored)) return "is a folder, not a scan";
-    std::ifstream file(path, std::ios::binary);
-    char magic[16] = {};
-    if (!file.read(magic, sizeof(magic))) return "is not a scan (too short)";
-    return std::memcmp(magic, "SQLite format 3", 16) == 0 ? "" : "is not a scan";
+// Returns an error if the file cannot be a scan, judging by its first bytes.
+Status CheckScan(const std::string& path) {
+    if (!ScanAvailable()) return Status::Error(path + ": " + kScanUnavailable);
+    std::array<std::uint8_t, 16> magic{};
+    const Result<InputFile> file = InputFile::Open(path);
+    if (!file.ok()) return file.status();
+    if (file.value().size() < magic.size())
+        return Status::Error(path + ": is not a scan (too short)");
+    if (Status status = file.value().ReadAt(0, magic); !status.ok()) return status;
+    return std::memcmp(magic.data(), "SQLite format 3", magic.size()) == 0
+               ? Status::Ok()
+               : Status::Error(path + ": is not a scan");
 }
 
 }  // namespace
@@ -114,9 +119,7 @@ Result<std::unique_ptr<ScanFile>> ScanFile::Create(const std::string& path,
 }
 
 Result<std::unique_ptr<ScanFile>> ScanFile::OpenToRead(const std::string& path) {
-    if (!ScanAvailable()) return Status::Error(path + ": " + kScanUnavailable);
-    if (const std::string why = NotAScanReason(path); !why.empty())
-        return Status::Error(path + ": " + why);
+    if (Status status = CheckScan(path); !status.ok()) return status;
     std::unique_ptr<ScanFile> file(new ScanFile());
     Result<std::unique_ptr<Database>> database = Database::Open(path, Database::Access::kRead);
     if (!database.ok()) return database.status();
@@ -129,9 +132,7 @@ Result<std::unique_ptr<ScanFile>> ScanFile::OpenToRead(const std::string& path) 
 }
 
 Result<std::unique_ptr<ScanFile>> ScanFile::OpenToWrite(const std::string& path) {
-    if (!ScanAvailable()) return Status::Error(path + ": " + kScanUnavailable);
-    if (const std::string why = NotAScanReason(path); !why.empty())
-        return Status::Error(path + ": " + why);
+    if (Status status = CheckScan(path); !status.ok()) return status;
     std::unique_ptr<ScanFile> file(new ScanFile());
     if (Status locked = file->Lock(path); !locked.ok()) return locked;
     Result<std::unique_ptr<Database>> database = Database::Open(path, Database::Access::kWrite);

@@ -8,7 +8,7 @@
 #include <opencv2/imgproc.hpp>
 #include <sstream>
 
-#include "io/file.h"
+#include "core/input_file.h"
 #include "semantics/coco_names.h"
 #include "semantics/yolo_outputs.h"
 

@@ -6,7 +6,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "io/file.h"
+#include "core/input_file.h"
 
 namespace tessera {
 namespace {

@@ -6,13 +6,18 @@
 #include <cmath>
 #include <exception>
 #include <filesystem>
-#include <fstream>
+#include <map>
+#include <sstream>
+#include <utility>
+
+#include "core/input_file.h"
 
 namespace tessera {
 namespace {
 
 constexpr float kFarthest = 1e5f;  // metres; beyond it single precision cannot resolve millimetres
 constexpr float kLargestUv = 1e4f;
+constexpr std::size_t kMaxModelBytes = std::size_t{4} << 30, kMaxMaterialBytes = 16 << 20;
 
 std::uint8_t ToByte(float share) {
     return static_cast<std::uint8_t>(
@@ -102,10 +107,31 @@ Status TakeShape(const std::string& path, const tinyobj::attrib_t& attributes,
     return Status::Ok();
 }
 
+// Reads the material files that a model names, next to it.
+class MaterialFiles : public tinyobj::MaterialReader {
+  public:
+    explicit MaterialFiles(std::string prefix) : prefix_(std::move(prefix)) {}
+
+    bool operator()(const std::string& name, std::vector<tinyobj::material_t>* materials,
+                    std::map<std::string, int>* numbers, std::string* warning,
+                    std::string* problem) override {
+        const Result<std::string> text = ReadWholeFile(prefix_ + name, kMaxMaterialBytes);
+        if (!text.ok()) {
+            *warning += text.message() + "\n";
+            return false;
+        }
+        std::istringstream lines(text.value());
+        tinyobj::LoadMtl(numbers, materials, &lines, warning, problem);
+        return true;
+    }
+
+  private:
+    std::string prefix_;
+};
+
 Result<ObjModel> Parse(const std::string& path) {
-    std::error_code error;
-    if (!std::filesystem::is_regular_file(path, error))
-        return Status::Error(path + ": no such file; give a Wavefront .obj model");
+    const Result<std::string> text = ReadWholeFile(path, kMaxModelBytes);
+    if (!text.ok()) return Status::Error(text.message() + " (a Wavefront .obj model is needed)");
     const std::string folder = std::filesystem::path(path).parent_path().string();
     const std::string prefix = folder.empty() ? "" : folder + "/";
     tinyobj::attrib_t attributes;
@@ -113,8 +139,10 @@ Result<ObjModel> Parse(const std::string& path) {
     std::vector<tinyobj::material_t> materials;
     std::string warning, problem;
     // The parser does not triangulate: it would do so before the indices are checked.
-    if (!tinyobj::LoadObj(&attributes, &shapes, &materials, &warning, &problem, path.c_str(),
-                          prefix.c_str(), false)) {
+    std::istringstream lines(text.value());
+    MaterialFiles files(prefix);
+    if (!tinyobj::LoadObj(&attributes, &shapes, &materials, &warning, &problem, &lines, &files,
+                          false)) {
         problem = problem.substr(0, problem.find('\n'));
         return Status::Error(fmt::format("{}: not a readable .obj model{}{}", path,
                                          problem.empty() ? "" : ": ", problem));

@@ -33,7 +33,10 @@ TEST(Camera, ImplausibleValuesAreNamed) {
     EXPECT_TRUE(CheckPlausible(PinholeCamera{}).ok());
     EXPECT_EQ(CheckPlausible(PinholeCamera{.fx = 0}).message(), "fx: 0 is not plausible");
     EXPECT_EQ(CheckPlausible(PinholeCamera{.width = 8}).message(), "width: 8 is not plausible");
-    EXPECT_EQ(CheckPlausible(PinholeCamera{.cy = -960}).message(), "cy: -960 is not plausible");
+    EXPECT_EQ(CheckPlausible(PinholeCamera{.cx = 641}).message(),
+              "cx: 641 is not plausible, it is outside the image (0 to 640)");
+    EXPECT_EQ(CheckPlausible(PinholeCamera{.cy = -1}).message(),
+              "cy: -1 is not plausible, it is outside the image (0 to 480)");
 }
 
 TEST(CameraFile, ReadsEveryKey) {
@@ -55,9 +58,10 @@ TEST(CameraFile, DefaultsAreTumsAndAnIdealLens) {
     EXPECT_EQ(camera.value().depth_scale, 5000);
     EXPECT_EQ(camera.value().fps, 30);
     EXPECT_TRUE(camera.value().distortion.IsZero());
-    const auto four = ReadText(std::string(kIntrinsics) + "distortion: [1, 2, 3, 4]\n");
-    ASSERT_TRUE(four.ok());
-    EXPECT_EQ(four.value().distortion, (LensDistortion{1, 2, 3, 4, 0}));
+    EXPECT_FALSE(camera.value().depth_scale_given);
+    const auto four = ReadText(std::string(kIntrinsics) + "distortion: [0.1, 0.2, 0.3, 0.4]\n");
+    ASSERT_TRUE(four.ok()) << four.message();
+    EXPECT_EQ(four.value().distortion, (LensDistortion{0.1, 0.2, 0.3, 0.4, 0}));
 }
 
 TEST(CameraFile, ANegativeFyIsTakenAsPositive) {
@@ -90,7 +94,16 @@ INSTANTIATE_TEST_SUITE_P(
         BadFile{"fx: 500\nfy: 510\ncy: 230\n", "'cx' is missing"},
         BadFile{"fx: 500\nfy: 510\ncx: 310\n", "'cy' is missing"},
         BadFile{"fx: 500\nfy: 510\ncx: 310\ncy: 230\nk1: 2\n", "unknown key 'k1'"},
-        BadFile{"fx: wide\nfy: 510\ncx: 310\ncy: 230\n", "fx"},
+        BadFile{"fx: wide\nfy: 510\ncx: 310\ncy: 230\n", "fx: 'wide' is not a number"},
+        BadFile{"fx: [1]\nfy: 510\ncx: 310\ncy: 230\n", "fx: a list is not a number"},
+        BadFile{"fx: 500\nfy: 510\ncx: 310\ncy: 230\nfx: 501\n", "fx: is given twice"},
+        BadFile{"fx: 500\nfy: 510\ncx: 310\ncy: 230\nwidth: 640.5\n",
+                "width: '640.5' is not a whole"},
+        BadFile{"fx: 500\nfy: 510\ncx: 310\ncy: 230\n\"\\e[2J\": 1\n", "unknown key '\\x1b[2J'"},
+        BadFile{"fx: 500\nfy: 510\ncx: 310\ncy: 230\ndistortion: [1e30, 0, 0, 0]\n",
+                "distortion: is not plausible"},
+        BadFile{"fx: 500\nfy: 510\ncx: 310\ncy: 230\ndistortion: [0, 0, 0, few]\n",
+                "distortion: 'few' is not a number"},
         BadFile{"fx: 0\nfy: 510\ncx: 310\ncy: 230\n", "fx"},
         BadFile{"fx: -500\nfy: 510\ncx: 310\ncy: 230\n", "fx"},
         BadFile{"fx: 500\nfy: .nan\ncx: 310\ncy: 230\n", "fy"},
@@ -109,7 +122,28 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(CameraFile, AMissingFileIsNamed) {
     const auto camera = ReadCameraFile("/no/such/camera.yaml");
     ASSERT_FALSE(camera.ok());
-    EXPECT_EQ(camera.message(), "/no/such/camera.yaml: cannot be read");
+    EXPECT_EQ(camera.message(), "/no/such/camera.yaml: no such file");
+}
+
+TEST(CameraFile, DeepNestingAndGarbageAreRefusedInOneReadableLine) {
+    for (const std::string& text :
+         {std::string(5000, '['), "fx: " + std::string(5000, '{'),
+          std::string("\x1b[31m\x00\xff", 7), "fx: 1\n" + std::string(70000, ' ')}) {
+        const auto camera = ReadText(text);
+        ASSERT_FALSE(camera.ok());
+        EXPECT_LT(camera.message().size(), 400u);
+        EXPECT_EQ(camera.message().find('\x1b'), std::string::npos);
+    }
+}
+
+// The published lenses of TUM's cameras, and a wide one.
+TEST(CameraFile, RealLensesArePlausible) {
+    for (const char* lens :
+         {"[0.2624, -0.9531, -0.0054, 0.0026, 1.1633]",
+          "[0.2312, -0.7849, -0.0033, -0.0001, 0.9172]", "[-0.35, 0.12, 0, 0]"}) {
+        const auto camera = ReadText(std::string(kIntrinsics) + "distortion: " + lens + "\n");
+        EXPECT_TRUE(camera.ok()) << camera.message();
+    }
 }
 
 }  // namespace

@@ -98,12 +98,24 @@ TEST_F(ConfigYaml, HostileDepthAndAliasesAreRefusedQuickly) {
     EXPECT_FALSE(Load(bomb).ok());
 }
 
+TEST_F(ConfigYaml, KeysAndValuesFromOutsideAreShownSafely) {
+    EXPECT_EQ(Load("a: {x: 4, x: 5}").message(), "my.yaml: a.x: is given twice");
+    for (const std::string& text :
+         {std::string("a: {x: \"\\e[2J\"}"), std::string("\x1b[2J: 3"),
+          "a: {x: " + std::string(5000, 'y') + "}", std::string(5000, 'k') + ": 3"}) {
+        const std::string message = Load(text).message();
+        EXPECT_EQ(message.find('\x1b'), std::string::npos);
+        EXPECT_GT(message.size(), 10u);
+        EXPECT_LT(message.size(), 300u);
+    }
+}
+
 TEST_F(ConfigYaml, FilesThatCannotBeReadAreNamed) {
     const TempFolder folder;
-    for (const std::string& path : {folder / "no_such_file.yaml", folder.path()}) {
-        const Status status = parameters.LoadYamlFile(path);
-        EXPECT_EQ(status.message(), path + ": cannot be read");
-    }
+    EXPECT_EQ(parameters.LoadYamlFile(folder / "none.yaml").message(),
+              folder / "none.yaml: no such file");
+    EXPECT_EQ(parameters.LoadYamlFile(folder.path()).message(),
+              folder.path() + ": is a folder; give a file");
     std::ofstream(folder / "my.yaml") << "a: {x: 4}\n";
     EXPECT_TRUE(parameters.LoadYamlFile(folder / "my.yaml").ok());
     EXPECT_EQ(x, 4);

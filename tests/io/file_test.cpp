@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "core/input_file.h"
+
 namespace tessera {
 namespace {
 
@@ -95,18 +97,6 @@ TEST_F(FileTest, RefusesAFolderThatCannotBeWrittenTo) {
     const Status status = PrepareOutputFolder("/proc/self");
     ASSERT_FALSE(status.ok());
     EXPECT_NE(status.message().find("/proc/self"), std::string::npos);
-}
-
-TEST_F(FileTest, ReadsWithinBounds) {
-    const std::string text(100000, 'x');
-    ASSERT_TRUE(WriteTextFile(Path("a"), text).ok());
-    EXPECT_EQ(ReadWholeFile(Path("a"), text.size()).value(), text);
-    EXPECT_NE(ReadWholeFile(Path("a"), text.size() - 1).message().find("larger than 99999 bytes"),
-              std::string::npos);
-    EXPECT_EQ(ReadWholeFile("/dev/null", 10).value(), "");
-    EXPECT_FALSE(ReadWholeFile("/dev/zero", 1 << 20).ok());
-    EXPECT_NE(ReadWholeFile(Path("b"), 1).message().find("no such file"), std::string::npos);
-    EXPECT_NE(ReadWholeFile(folder_.string(), 1).message().find("is a folder"), std::string::npos);
 }
 
 }  // namespace

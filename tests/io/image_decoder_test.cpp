@@ -80,12 +80,14 @@ TEST(ImageDecoder, NamesTheFileThatIsNoImage) {
     EXPECT_EQ(decoder.ReadDepth(folder.Path("empty.png"), depth).message(),
               folder.Path("empty.png") + ": is empty");
     EXPECT_EQ(decoder.ReadColour(folder.Path("text.png"), colour).message(),
-              folder.Path("text.png") + ": is not an image, or is truncated or damaged");
+              folder.Path("text.png") +
+                  ": is not an image, or is truncated or damaged (read are PNG, JPEG, PNM, BMP and "
+                  "TIFF)");
     EXPECT_EQ(
         decoder.ReadDepth(folder.Path("cut.png"), depth).message(),
         folder.Path("cut.png") + ": is truncated or damaged: too little data for 64 x 48 pixels");
     EXPECT_EQ(decoder.ReadDepth(folder.Path("absent.png"), depth).message(),
-              folder.Path("absent.png") + ": cannot be read: no such file");
+              folder.Path("absent.png") + ": no such file");
 }
 
 TEST(ImageDecoder, RefusesLongSidesFromTheHeader) {

@@ -28,6 +28,23 @@ TEST(ReadImageLists, ReadsCommentsBlankLinesAndCarriageReturns) {
     EXPECT_TRUE(images.value().notes.empty());
 }
 
+TEST(ReadImageLists, NamesMayContainBlanks) {
+    TemporaryFolder folder;
+    const auto images =
+        ReadLists(folder, "1.0 depth/my  room 1.png \r\n", "1.0\trgb/a b.jpg # not this\n");
+    ASSERT_TRUE(images.ok()) << images.message();
+    EXPECT_EQ(images.value().pairs[0].depth, "depth/my  room 1.png");
+    EXPECT_EQ(images.value().pairs[0].colour, "rgb/a b.jpg");
+}
+
+TEST(ReadImageLists, StampsThatAreNoTimeAreSkipped) {
+    TemporaryFolder folder;
+    const auto images = ReadLists(folder, "1.0 d1\n1e300 d2\n-1e13 d3\n", "1.0 c1\n");
+    ASSERT_TRUE(images.ok()) << images.message();
+    EXPECT_EQ(images.value().pairs.size(), 1u);
+    EXPECT_EQ(images.value().notes.size(), 1u);
+}
+
 TEST(ReadImageLists, SkipsAndNotesWhatIsNoLine) {
     TemporaryFolder folder;
     const auto images =

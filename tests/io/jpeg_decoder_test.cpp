@@ -55,6 +55,21 @@ TEST(JpegDecoder, RefusesTruncatedData) {
     }
 }
 
+// A progressive image of many empty scans: each costs as much as a whole image, and a few bytes.
+TEST(JpegDecoder, RefusesManyScans) {
+    Bytes file;
+    cv::imencode(".jpg", SmoothPicture(CV_8UC1), file, {cv::IMWRITE_JPEG_PROGRESSIVE, 1});
+    ColourImage image;
+    ASSERT_TRUE(DecodeJpeg(file, kLimit_px, image).ok());
+    // The last scan again and again, before the end mark.
+    const Bytes mark{0xff, 0xda};
+    const auto last = std::find_end(file.begin(), file.end(), mark.begin(), mark.end());
+    const Bytes scan(last, file.end() - 2);
+    for (int i = 0; i < 2000; ++i) file.insert(file.end() - 2, scan.begin(), scan.end());
+    EXPECT_EQ(DecodeJpeg(file, kLimit_px, image).message(),
+              "has more than 100 scans; save it again");
+}
+
 TEST(JpegDecoder, SurvivesRandomDamage) {
     const Bytes file = MakeJpeg(CV_8UC3);
     std::mt19937 random(5);

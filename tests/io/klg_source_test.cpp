@@ -115,10 +115,44 @@ TEST_F(Klg, WhatWasCutOffOrDoesNotGrowIsNoted) {
         const auto source = Open();
         ASSERT_TRUE(source.ok()) << source.message();
         EXPECT_EQ(source.value()->info().frame_count, 1);
-        ASSERT_EQ(source.value()->info().notes.size(), 2u);
-        EXPECT_NE(source.value()->info().notes[0].find("2 of its 3"), std::string::npos);
-        EXPECT_NE(source.value()->info().notes[1].find("1 of 2"), std::string::npos);
+        ASSERT_EQ(source.value()->info().warnings.size(), 2u);
+        EXPECT_NE(source.value()->info().warnings[0].find("2 of its 3"), std::string::npos);
+        EXPECT_NE(source.value()->info().warnings[1].find("1 of 2"), std::string::npos);
     }
+}
+
+TEST_F(Klg, OneDamagedStampCostsOneFrame) {
+    std::string frames;
+    for (const double stamp_us : {10., 20., 1e12, 30., 40., 35., 50., -7., 60.})
+        frames += FrameOf(static_cast<std::int64_t>(stamp_us), Depth(1), "");
+    Write(9, frames);
+    const auto source = Open();
+    ASSERT_TRUE(source.ok()) << source.message();
+    EXPECT_EQ(
+        source.value()->info().warnings,
+        std::vector<std::string>{"3 of 9 frames are dropped: their time stamps do not increase"});
+    std::vector<double> stamps_us;
+    while (source.value()->Read(frame).status == ReadStatus::kOk)
+        stamps_us.push_back(std::round(frame.stamp_s * 1e6));
+    EXPECT_EQ(stamps_us, (std::vector<double>{10, 20, 30, 35, 50, 60}));
+}
+
+// The file has two billion bytes of nothing, and none of them is allocated.
+TEST_F(Klg, AFrameLargerThanTheCamerasEndsTheLog) {
+    std::string huge;
+    Put(huge, std::int64_t{2});
+    Put(huge, std::int32_t{2'000'000'000});
+    Put(huge, std::int32_t{0});
+    Write(5, FrameOf(1, Depth(1), "") + huge);
+    std::filesystem::resize_file(folder.Path("a.klg"), 2'000'010'000);
+    const auto source = Open();
+    ASSERT_TRUE(source.ok()) << source.message();
+    EXPECT_EQ(source.value()->info().warnings,
+              (std::vector<std::string>{"the log is damaged: frame 1 has 2000000000 bytes of depth "
+                                        "and 0 of colour",
+                                        "the log is truncated: 1 of its 5 frames are present"}));
+    EXPECT_EQ(source.value()->Read(frame).status, ReadStatus::kOk);
+    EXPECT_EQ(source.value()->Read(frame).status, ReadStatus::kEnd);
 }
 
 TEST_F(Klg, ADamagedFrameIsSkippedAlone) {

@@ -11,7 +11,7 @@
 #include <tiny_gltf.h>
 #endif
 
-#include "io/file.h"
+#include "core/input_file.h"
 #include "io/mesh_io.h"
 #include "support/temp_folder.h"
 

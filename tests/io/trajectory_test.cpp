@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <sstream>
 
+#include "core/input_file.h"
 #include "io/file.h"
 
 namespace tessera {

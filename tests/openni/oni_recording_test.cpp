@@ -117,7 +117,7 @@ TEST_F(OniRecording, AFileThatIsNoRecordingIsRefused) {
         return OpenOpenniSource(folder.Path(name), {}).message();
     };
     EXPECT_EQ(message("none.oni"), folder.Path("none.oni") + ": no such file");
-    EXPECT_EQ(message("folder.oni"), folder.Path("folder.oni") + ": is not a file");
+    EXPECT_EQ(message("folder.oni"), folder.Path("folder.oni") + ": is a folder; give a file");
     for (const char* name : {"text.oni", "empty.oni"})
         EXPECT_NE(message(name).find("is not an .oni recording"), std::string::npos)
             << message(name);

@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "io/file.h"
+#include "core/input_file.h"
 #include "io/image_io.h"
 #include "semantics/made_up_network.h"
 #include "support/temp_folder.h"

@@ -61,7 +61,7 @@ TEST(ObjModel, BadFilesAreRefusedInOneLine) {
         EXPECT_EQ(model.message().find('\n'), std::string::npos) << model.message();
     }
     EXPECT_EQ(ReadObj("/nowhere/a.obj").message(),
-              "/nowhere/a.obj: no such file; give a Wavefront .obj model");
+              "/nowhere/a.obj: no such file (a Wavefront .obj model is needed)");
     EXPECT_FALSE(ReadObj(testing::TempDir()).ok());
 }
 
