@@ -110,10 +110,13 @@ int Run(const Arguments& a) {
     }();
     if (!result.ok()) return Fail(result.status());
     const RunSummary& summary = result.value();
-    fmt::print("{}", RunText(request, summary));
+    std::fputs(RunText(request, summary).c_str(), stdout);
     if (2 * summary.counts.tracked >= summary.counts.frames) return kExitDone;
-    fmt::print(stderr, "tessera: only {} of {} frames tracked; last reason: {}\n",
-               summary.counts.tracked, summary.counts.frames, Printable(summary.last_reason));
+    std::fputs(
+        fmt::format("tessera: only {} of {} frames tracked; last reason: {}\n",
+                    summary.counts.tracked, summary.counts.frames, Printable(summary.last_reason))
+            .c_str(),
+        stderr);
     return kExitMostlyLost;
 }
 

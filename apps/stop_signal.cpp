@@ -15,8 +15,13 @@ const std::atomic<bool>& StopOnSignal() {
     struct sigaction action {};
     action.sa_handler = [](int) { stop_requested.store(true); };
     action.sa_flags = static_cast<int>(SA_RESETHAND);
-    sigaction(SIGINT, &action, nullptr);
-    sigaction(SIGTERM, &action, nullptr);
+    for (const int signal_number : {SIGINT, SIGTERM, SIGHUP}) {
+        struct sigaction before {};
+        sigaction(signal_number, nullptr, &before);
+        if (before.sa_handler != SIG_IGN) sigaction(signal_number, &action, nullptr);
+    }
+    // Whoever reads the messages may be gone; the run goes on.
+    std::signal(SIGPIPE, SIG_IGN);
     return stop_requested;
 }
 

@@ -292,28 +292,40 @@ TEST_F(Cli, ADiskThatIsFullIsNamed) {
     EXPECT_TRUE(trajectory.ok()) << trajectory.message();
 }
 
-// SIGINT or SIGTERM ends a run within two seconds, and all output is written.
+// Starts a run of many seconds. Returns once frames are being tracked.
+pid_t StartLongRun(const std::string& arguments, const std::string& out) {
+    const pid_t child = fork();
+    if (child == 0) {
+        (void)!freopen("/dev/null", "w", stdout);
+        (void)!freopen("/dev/null", "w", stderr);
+        const std::string command = "exec " + arguments + " --out " + out;
+        execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
+        _exit(127);
+    }
+    const auto lines = [&] {
+        const std::string text = ReadAll(out + "/trajectory.txt");
+        return std::count(text.begin(), text.end(), '\n');
+    };
+    while (lines() < 3)
+        if (waitpid(child, nullptr, WNOHANG) != 0) {
+            ADD_FAILURE() << "ended before it could be stopped";
+            return -1;
+        }
+    return child;
+}
+
+// The first signal ends a run within two seconds, and all output is written.
 TEST_F(Cli, ASignalEndsTheRunWithEverythingWritten) {
     for (const auto& [signal_number, mode] : {std::pair{SIGTERM, "lockstep"},
                                               {SIGINT, "lockstep"},
+                                              {SIGHUP, "lockstep"},
                                               {SIGTERM, "live"},
                                               {SIGINT, "live"}}) {
         const std::string out = folder / (mode + std::to_string(signal_number));
-        const pid_t child = fork();
-        ASSERT_GE(child, 0);
-        if (child == 0) {
-            (void)!freopen("/dev/null", "w", stdout);
-            (void)!freopen("/dev/null", "w", stderr);
-            const std::string command = std::string("exec ") + TESSERA_PROGRAM + " " + SmallRun() +
-                                        "--mode " + mode + " --out " + out;
-            execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
-            _exit(127);
-        }
-        // Three lines in the trajectory file show that frames are being tracked.
-        while (std::count_if(
-                   std::istreambuf_iterator<char>(std::ifstream(out + "/trajectory.txt").rdbuf()),
-                   {}, [](char c) { return c == '\n'; }) < 3)
-            if (waitpid(child, nullptr, WNOHANG) != 0) FAIL() << "ended before it could be stopped";
+        const pid_t child = StartLongRun(std::string(TESSERA_PROGRAM) + " " + SmallRun() +
+                                             "--set synthetic.speed=0.1 --mode " + mode,
+                                         out);
+        ASSERT_GT(child, 0);
         kill(child, signal_number);
         int status = 0;
         ASSERT_EQ(waitpid(child, &status, 0), child);
@@ -321,6 +333,41 @@ TEST_F(Cli, ASignalEndsTheRunWithEverythingWritten) {
         EXPECT_NE(ReadAll(out + "/run.json").find("\"stopped\""), std::string::npos);
         EXPECT_TRUE(std::filesystem::exists(out + "/mesh.ply"));
     }
+}
+
+TEST_F(Cli, TheSameSignalAgainEndsAtOnceAndTheScanIsWhole) {
+    const std::string scan = folder / "a.scan";
+    const pid_t child = StartLongRun(std::string(TESSERA_PROGRAM) + " " + SmallRun() +
+                                         "--set synthetic.speed=0.1 --scan " + scan,
+                                     folder / "o");
+    ASSERT_GT(child, 0);
+    kill(child, SIGINT);
+    kill(child, SIGINT);
+    int status = 0;
+    ASSERT_EQ(waitpid(child, &status, 0), child);
+    // The two may arrive as one.
+    EXPECT_TRUE(WIFSIGNALED(status) || WEXITSTATUS(status) == 0) << status;
+    if (!std::filesystem::exists(scan)) return;  // ended before the first checkpoint
+    const Outcome info = Call("info " + scan);
+    EXPECT_EQ(info.exit_code, 0) << info.err;
+}
+
+TEST_F(Cli, ARunOutlivesItsTerminalAndWhoeverReadsItsMessages) {
+    const pid_t child = StartLongRun("nohup " + std::string(TESSERA_PROGRAM) + " " + SmallRun() +
+                                         "--frames 400 --set synthetic.speed=0.1",
+                                     folder / "o");
+    ASSERT_GT(child, 0);
+    kill(child, SIGHUP);
+    int status = 0;
+    ASSERT_EQ(waitpid(child, &status, 0), child);
+    EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << status;
+    EXPECT_NE(ReadAll(folder / "o/run.json").find("\"finished\""), std::string::npos);
+    const std::string command = std::string("(") + TESSERA_PROGRAM + " " + SmallRun() +
+                                "--frames 20 --out " + (folder / "p") + "; echo $? >" +
+                                (folder / "code") + ") 2>&1 | true";
+    (void)!std::system(command.c_str());
+    EXPECT_EQ(ReadAll(folder / "code"), "0\n");
+    EXPECT_NE(ReadAll(folder / "p/run.json").find("\"finished\""), std::string::npos);
 }
 
 TEST_F(Cli, ConfigRoundTrips) {
