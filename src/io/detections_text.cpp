@@ -76,7 +76,8 @@ Result<ClassAliases> ParseAliases(const std::string& text) {
         const std::size_t equals = std::min(word.find('='), word.size());
         const std::string from = word.substr(0, equals);
         const std::string to = equals < word.size() ? word.substr(equals + 1) : "";
-        if (from.empty() || to.empty()) return Status::Error("'" + word + "' is not NAME=NAME");
+        if (from.empty() || to.empty())
+            return Status::Error("'" + Printable(word, kQuotedBytes) + "' is not NAME=NAME");
         aliases[from] = to;
     }
     return aliases;

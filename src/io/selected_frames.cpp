@@ -57,6 +57,11 @@ ReadResult SelectedFrames::Advance(Frame& frame) {
     if (result.status == ReadStatus::kWait) return result;
     ++position_;
     ++given_;
+    if (result.status == ReadStatus::kOk && !order_.Accepts(frame.stamp_s))
+        return {ReadStatus::kSkip,
+                fmt::format("{}: frame {}: its time stamp, {:.3f} s, is before that of the frame "
+                            "before it, {:.3f} s",
+                            source_->info().name, frame.index, frame.stamp_s, order_.last_s())};
     return result;
 }
 

@@ -80,8 +80,7 @@ std::optional<Eigen::Isometry3d> LoopCloser::Relocalise(const PreparedFrame& fra
     const Place* best = BestOf(places, frame, note);
     if (best == nullptr) return std::nullopt;
     relocalised_at_ = best->keyframe;
-    note = fmt::format("relocalised at frame {}; nothing is fused until a second view confirms it",
-                       keyframes_[best->keyframe].frame_index);
+    note = fmt::format("relocalised at frame {}", keyframes_[best->keyframe].frame_index);
     keyframes_.Jump();
     jumps_.Reset();
     return Normalised(best->T_map_camera);

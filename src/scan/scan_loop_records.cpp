@@ -172,6 +172,7 @@ bool LoopProgress::Decode(std::span<const std::uint8_t> bytes) {
             state.Get(sigma_rad);
             if (!(sigma_m > 0) || !(sigma_rad > 0)) return false;
             edge.root_information = RootInformation(sigma_rad, sigma_m);
+            if (!edge.root_information.allFinite()) return false;
         } else {
             state.Get(edge.root_information);
         }

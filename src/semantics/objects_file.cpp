@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 
 #include "core/input_file.h"
 
@@ -18,11 +19,19 @@ Eigen::Vector3d ToVector(const Json& json) {
                            json.at(2).get<double>());
 }
 
+// The library converts a number beyond the range of int without a check.
+int ToInt(const Json& json) {
+    const double value = json.get<double>();
+    if (value != std::trunc(value) || std::abs(value) > std::numeric_limits<int>::max())
+        throw std::out_of_range(fmt::format("{} is not a whole number", value));
+    return static_cast<int>(value);
+}
+
 // Throws a JSON exception if a field is missing or has the wrong type.
 MapObject ToObject(const Json& json) {
     MapObject o;
-    o.id = json.at("id");
-    o.class_id = json.at("class_id");
+    o.id = ToInt(json.at("id"));
+    o.class_id = ToInt(json.at("class_id"));
     o.class_name = json.at("class");
     const std::string colour = json.at("colour");
     const unsigned long rgb =
@@ -30,7 +39,7 @@ MapObject ToObject(const Json& json) {
     o.colour = {static_cast<std::uint8_t>(rgb >> 16), static_cast<std::uint8_t>(rgb >> 8),
                 static_cast<std::uint8_t>(rgb)};
     o.probability = json.at("probability");
-    o.observations = json.at("observations");
+    o.observations = ToInt(json.at("observations"));
     o.centroid = ToVector(json.at("centroid"));
     o.box = Eigen::AlignedBox3d(ToVector(json.at("aabb_min")), ToVector(json.at("aabb_max")));
     o.oriented_size = ToVector(json.at("obb_size"));
@@ -61,7 +70,8 @@ Result<std::vector<MapObject>> ReadObjects(const std::string& path) {
     try {
         for (const Json& object : json) objects.push_back(ToObject(object));
     } catch (const std::exception& error) {
-        return Status::Error(fmt::format("{}: object {}: {}", path, objects.size(), error.what()));
+        return Status::Error(
+            fmt::format("{}: object {}: {}", path, objects.size(), Printable(error.what(), 200)));
     }
     return objects;
 }

@@ -27,6 +27,7 @@ void SynthConfig::Describe(ConfigParameters& p) {
     p.Add("speed", speed, {0.1, 10}, "", "speed factor of the camera path");
     p.Section("rig", [this](ConfigParameters& s) { rig.Describe(s); });
     p.Section("sensor", [this](ConfigParameters& s) { sensor.Describe(s); });
+    p.Section("faults", [this](ConfigParameters& s) { faults.Describe(s); });
 }
 
 Status SynthConfig::Validate() const {
@@ -41,7 +42,8 @@ SyntheticSource::SyntheticSource(std::string name, StagedScene staged, const Syn
     : config_(config),
       staged_(std::move(staged)),
       renderer_(*staged_.scene, config.camera, config.rig),
-      sensor_(config.sensor, config.camera, static_cast<std::uint64_t>(config.seed)) {
+      sensor_(config.sensor, config.camera, static_cast<std::uint64_t>(config.seed)),
+      faults_(config.faults, config.camera, static_cast<std::uint64_t>(config.seed)) {
     info_.name = std::move(name);
     info_.kind = "synthetic scene";
     info_.camera = config.camera;
@@ -60,7 +62,11 @@ bool SyntheticSource::Seek(std::int64_t index) {
     return true;
 }
 
-ReadResult SyntheticSource::Read(Frame& frame) { return ReadFrame(frame, view_, false); }
+ReadResult SyntheticSource::Read(Frame& frame) {
+    ReadResult read = ReadFrame(frame, view_, false);
+    if (read.status == ReadStatus::kOk) faults_.Apply(frame);
+    return read;
+}
 
 ReadResult SyntheticSource::ReadWithTruth(Frame& frame, RenderedView& truth) {
     return ReadFrame(frame, truth, true);

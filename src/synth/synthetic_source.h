@@ -8,6 +8,7 @@
 #include "core/config.h"
 #include "io/frame_source.h"
 #include "synth/builtin_scenes.h"
+#include "synth/frame_faults.h"
 #include "synth/frame_renderer.h"
 #include "synth/sensor_model.h"
 
@@ -27,6 +28,7 @@ struct SynthConfig {
     double speed = 1;              // factor of the camera path
     CameraRig rig;
     SensorModel::Config sensor;
+    FrameFaults::Config faults;
 
     void Describe(ConfigParameters& parameters);
     Status Validate() const;
@@ -38,7 +40,7 @@ class SyntheticSource : public FrameSource {
 
     const SourceInfo& info() const override { return info_; }
     ReadResult Read(Frame& frame) override;
-    // Also fills `truth`: the ideal view from which the frame was measured.
+    // Also fills `truth`: the ideal view from which the frame was measured. Without faults.
     ReadResult ReadWithTruth(Frame& frame, RenderedView& truth);
     bool Seek(std::int64_t index) override;
 
@@ -52,6 +54,7 @@ class SyntheticSource : public FrameSource {
     StagedScene staged_;
     FrameRenderer renderer_;
     SensorModel sensor_;
+    FrameFaults faults_;
     SourceInfo info_;
     RenderedView view_;
     std::int64_t next_ = 0;

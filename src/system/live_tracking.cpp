@@ -114,6 +114,7 @@ bool LiveTracking::ApplyMapUpdates() {
             state_->field = std::move(update.field);
             state_->life.stage().Move(update.T_new_old);
             state_->place.Move(update.T_new_old);
+            state_->lost.Move(update.T_new_old);
             ++state_->version.corrections;
         } else if (ours) {
             ApplyDelta(*update.delta, *state_->field);
@@ -158,8 +159,12 @@ void LiveTracking::CheckIfLost(TrackedFrame& tracked) {
     const bool by_appearance = state_->lost.relocalised();
     const LostCamera::Verdict verdict = state_->lost.Judge(tracked);
     if (verdict != LostCamera::Verdict::kLost) {
-        if (by_appearance && !state_->lost.relocalised())
-            state_->place.Begin(tracked.prepared, tracked.report.track.T_world_camera);
+        const StampedPose found{tracked.report.stamp_s, tracked.report.track.T_world_camera};
+        if (by_appearance && !state_->lost.relocalised() &&
+            (state_->place.open() || !state_->lost.CanReach(found))) {
+            state_->place.Begin(tracked.prepared, found.T_world_camera);
+            links_.notices.Tell(kPlaceUnconfirmed);
+        }
         return CheckPlace(tracked);
     }
     if (tracked.report.tracked()) state_->life.stage().RejectPose(kPoseUnconfirmed, tracked);

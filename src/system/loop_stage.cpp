@@ -55,9 +55,13 @@ void LoopStage::AfterTracking(const Frame& frame, const BlockMap& map, TrackingS
         lost_ms_ = watch.LapMs();
         if (T_map_camera) bring(*T_map_camera);
         if (T_map_camera && tracking.TrackFrom(frame, map, *T_map_camera, tracked)) {
+            const StampedPose found{frame.stamp_s, report.track.T_world_camera};
+            if (place_.open() || !camera_.CanReach(found)) {
+                place_.Begin(tracked.prepared, found.T_world_camera);
+                tracked.to_fuse = false;
+                AddNote(kPlaceUnconfirmed, note);
+            }
             camera_.Found(frame.stamp_s);
-            place_.Begin(tracked.prepared, report.track.T_world_camera);
-            tracked.to_fuse = false;
             return AddNote(note, report.warning);
         }
         if (!T_map_camera) AddNote(note, report.warning);
@@ -92,6 +96,7 @@ double LoopStage::AfterFusion(const Frame& frame, TrackedFrame& tracked,
     if (auto correction = closer_.Step(config_.rebuild_frames)) {
         tracking.Move(correction->T_new_old);
         place_.Move(correction->T_new_old);
+        camera_.Move(correction->T_new_old);
         put(std::move(*correction));
         AddNote("map corrected", report.warning);
     }

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "optimize/loop_config.h"
@@ -30,7 +31,10 @@ class LostCamera {
             lost_ = std::abs(report.stamp_s - last_seen_s_) > max_gap_s_;
         lost_ = (lost_ || !report.tracked()) && started_ && !report.first;
         if (!lost_) {
-            if (report.tracked()) last_seen_s_ = report.stamp_s;
+            if (report.tracked()) {
+                last_seen_s_ = report.stamp_s;
+                before_ = {report.stamp_s, report.track.T_world_camera};
+            }
             return Verdict::kTracking;
         }
         const bool lately = std::abs(report.stamp_s - last_seen_s_) <= max_gap_s_;
@@ -54,9 +58,24 @@ class LostCamera {
         lost_ = relocalised_ = false;
         last_seen_s_ = stamp_s;
     }
+    // Whether the camera can have got there from where it was tracked last: there is then no other
+    // place to mistake this one for.
+    bool CanReach(const StampedPose& found) const {
+        constexpr double kLongest_s = 2, kFastest_m_per_s = 1, kNear_m = 0.2;
+        const double gap_s = before_ ? std::abs(found.stamp_s - before_->stamp_s) : 0;
+        if (!before_ || gap_s > kLongest_s) return false;
+        const double way_m =
+            (found.T_world_camera.translation() - before_->T_world_camera.translation()).norm();
+        return way_m <= kNear_m + kFastest_m_per_s * gap_s;
+    }
+    // The map was moved.
+    void Move(const Eigen::Isometry3d& T_new_old) {
+        if (before_) before_->T_world_camera = Normalised(T_new_old * before_->T_world_camera);
+    }
     // The place where the camera was found was wrong.
     void Lose() {
         lost_ = true;
+        before_.reset();
         last_seen_s_ = std::numeric_limits<double>::lowest();
     }
     // The camera was relocalised at this time. Tracking must still confirm the pose.
@@ -78,12 +97,15 @@ class LostCamera {
     LoopConfig config_;
     double max_gap_s_;
     double last_seen_s_ = 0;
+    std::optional<StampedPose> before_;  // the last pose that was tracked and not doubted
     bool started_ = false, lost_ = false, resumed_ = false;
     bool relocalised_ = false;
 };
 
 inline constexpr const char *kPoseUnconfirmed =
                                 "nothing confirms the pose found after tracking was lost",
+                            *kPlaceUnconfirmed =
+                                "nothing is fused until a second view confirms the place",
                             *kPlaceConfirmed = "a second view confirms the place",
                             *kPlaceRefuted = "other views show that this is another place";
 

@@ -64,7 +64,13 @@ bool MotionModel::LoadState(StateReader& state) {
         last_.emplace();
         if (!state.Get(last_->stamp_s) || !state.Get(last_->T_world_camera)) return false;
     }
-    return state.Get(velocity_) && state.Get(doubt_.poor) && state.Get(doubt_.uncertainty_m);
+    constexpr double kFastest_per_s = 1e3, kFarthest_m = 1e6;
+    const bool read =
+        state.Get(velocity_) && state.Get(doubt_.poor) && state.Get(doubt_.uncertainty_m);
+    return read && (!velocity_ || velocity_->norm() <= kFastest_per_s) &&
+           (!last_ || (std::isfinite(last_->stamp_s) &&
+                       last_->T_world_camera.translation().norm() <= kFarthest_m)) &&
+           std::isfinite(doubt_.uncertainty_m);
 }
 
 }  // namespace tessera

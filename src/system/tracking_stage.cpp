@@ -98,6 +98,10 @@ void TrackingStage::EstimatePose(const Frame& frame, const BlockMap& map,
     } else {
         report.track = TrackFrame(frame, prepared, map);
         report.warning = trackers_.TakeNote();
+        if (!report.track.T_world_camera.matrix().allFinite()) {
+            report.track = {};
+            report.track.reason = "the pose is not a number";
+        }
     }
     report.first = report.first && report.tracked();
     if (report.tracked())

@@ -57,10 +57,12 @@ void ImageAligner::SaveState(StateWriter& state) const {
 }
 
 bool ImageAligner::LoadState(StateReader& state) {
+    constexpr float kLargestPixel = 1e3f;  // metres, or intensity
     Clear();
     keep_newest_ = true;
     bool has_kept = false;
-    if (!state.Get(has_kept) || !state.Get(usual_score_)) return false;
+    if (!state.Get(has_kept) || !state.Get(usual_score_) || !std::isfinite(usual_score_))
+        return false;
     if (!has_kept) return true;
     std::vector<float> pixels;
     for (std::size_t i = 0; i < current_.size(); ++i) {
@@ -68,7 +70,9 @@ bool ImageAligner::LoadState(StateReader& state) {
         level.camera = ReducedCamera(i);
         for (Image<float>* image : {&level.intensity, &level.depth_m}) {
             image->Resize(level.camera.width, level.camera.height);
-            if (!state.GetArray(pixels) || pixels.size() != image->size()) return false;
+            if (!state.GetArray(pixels) || pixels.size() != image->size() ||
+                !std::ranges::all_of(pixels, [](float p) { return std::abs(p) <= kLargestPixel; }))
+                return false;
             std::copy(pixels.begin(), pixels.end(), image->data());
         }
         MakePoints(level);

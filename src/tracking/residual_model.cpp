@@ -174,9 +174,10 @@ void ResidualModel::SaveState(StateWriter& state) const {
 }
 
 bool ResidualModel::LoadState(StateReader& state) {
+    constexpr double kLargest = 1e6;
     for (double* value : {&gain_, &offset_, &scales_.distance_m2, &scales_.intensity,
                           &scales_.texture, &scales_.alpha})
-        if (!state.Get(*value) || !std::isfinite(*value)) return false;
+        if (!state.Get(*value) || !(std::abs(*value) <= kLargest)) return false;
     return shutter_.LoadState(state);
 }
 

@@ -40,7 +40,8 @@ void ShutterEstimator::SaveState(StateWriter& state) const {
 }
 
 bool ShutterEstimator::LoadState(StateReader& state) {
-    return state.Get(estimate_) && state.Get(information_);
+    constexpr double kLongest_s = 1;
+    return state.Get(estimate_) && state.Get(information_) && estimate_.norm() <= kLongest_s;
 }
 
 bool ShutterEstimator::Wants(const FrameMotion& motion, double residual_scale) const {

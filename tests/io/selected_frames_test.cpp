@@ -52,6 +52,45 @@ TEST(SelectedFrames, SkippedFramesCountAndKeepTheirPlace) {
     }
 }
 
+TEST(StampOrder, RefusesALateFrameButNotAClockThatWasSetBack) {
+    const auto accepted = [](const std::vector<double>& stamps_s) {
+        StampOrder order;
+        std::string text;
+        for (const double stamp_s : stamps_s) text += order.Accepts(stamp_s) ? '+' : '-';
+        return text;
+    };
+    EXPECT_EQ(accepted({1, 2, 2, 3}), "++++");
+    EXPECT_EQ(accepted({1, 2, 1.5, 3, 4}), "++-++");
+    EXPECT_EQ(accepted({1, 2, 1.5, 3, 2.5, 4}), "++-+-+");
+    EXPECT_EQ(accepted({100, 101, 0, 1, 2, 3}), "++-+++");
+    EXPECT_EQ(accepted({100, 5, 4, 3, 3.5, 4}), "+---++");
+}
+
+TEST(SelectedFrames, SkipsAFrameThatComesLate) {
+    struct LateSource : CountingSource {
+        using CountingSource::CountingSource;
+        ReadResult Read(Frame& frame) override {
+            const ReadResult read = CountingSource::Read(frame);
+            frame.stamp_s = frame.index == 3 ? 0.5 : static_cast<double>(frame.index);
+            return read;
+        }
+    };
+    SelectedFrames frames(std::make_unique<LateSource>(CountingSource::Options{.count = 6}), {});
+    Indices indices;
+    Frame frame;
+    for (int i = 0; i < 6; ++i) {
+        const ReadResult result = frames.Next(frame);
+        indices.push_back(result.status == ReadStatus::kOk ? frame.index : -1);
+        if (result.status == ReadStatus::kSkip) {
+            EXPECT_NE(result.message.find("frame 3: its time stamp, 0.500 s, is before that of the "
+                                          "frame before it, 2.000 s"),
+                      std::string::npos)
+                << result.message;
+        }
+    }
+    EXPECT_EQ(indices, (Indices{0, 1, 2, -1, 4, 5}));
+}
+
 TEST(SelectedFrames, RefusesImpossibleSelections) {
     const auto message = [](const FrameSelection& selection) {
         SelectedFrames frames(std::make_unique<CountingSource>(CountingSource::Options{}),

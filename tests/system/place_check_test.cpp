@@ -84,6 +84,29 @@ TEST(LostCamera, AfterAPauseItIsLostWhicheverWayTheClockGoes) {
     EXPECT_EQ(camera.Judge(TrackedAt(100.1)), Verdict::kTracking);
 }
 
+// Soon after a loss there is no other place that this one could be mistaken for.
+TEST(LostCamera, CanReachWhatIsNearAndSoon) {
+    LostCamera camera(LoopConfig{}, 0.5);
+    EXPECT_FALSE(camera.CanReach({100, AlongX(0)}));  // was never anywhere
+    TrackedFrame before = TrackedAt(100);
+    before.report.track.T_world_camera = AlongX(3);
+    before.report.first = true;
+    ASSERT_EQ(camera.Judge(before), Verdict::kTracking);
+    EXPECT_TRUE(camera.CanReach({100.6, AlongX(3.7)}));
+    EXPECT_FALSE(camera.CanReach({100.6, AlongX(4)}));  // faster than one walks
+    EXPECT_FALSE(camera.CanReach({103, AlongX(3)}));    // too long ago
+    camera.Move(AlongX(10));
+    EXPECT_TRUE(camera.CanReach({100.6, AlongX(13.7)}));
+    // A frame of the lost camera says nothing.
+    TrackedFrame lost = TrackedAt(101);
+    lost.report.track.status = TrackStatus::kLost;
+    lost.report.track.T_world_camera = AlongX(50);
+    EXPECT_EQ(camera.Judge(lost), Verdict::kLost);
+    EXPECT_FALSE(camera.CanReach({101, AlongX(50)}));
+    camera.Lose();
+    EXPECT_FALSE(camera.CanReach({100.6, AlongX(13)}));
+}
+
 TEST(LostCamera, WhereTheViewLeavesAMotionOpenARelocalisedPoseIsNotTrusted) {
     LostCamera camera(LoopConfig{}, 0.5);
     camera.Resume(100);
