@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <new>
 
@@ -38,7 +39,29 @@ int ReportParseError(const CLI::App& app, const CLI::ParseError& error) {
     return Fail(Status::Error(fmt::format("{} (see {} -h)", error.what(), command)));
 }
 
+constexpr const char* kOutOfMemory =
+    "out of memory; what was written so far is kept, and a scan can be continued with --resume. "
+    "Use "
+    "larger voxels (mapping.voxel_size_m) or a limit (mapping.memory_limit_mb with --scan)";
+
+// An exception that leaves a thread. None but std::bad_alloc does, unless there is a bug.
+[[noreturn]] void EndWithoutMemory() {
+    try {
+        if (std::current_exception()) std::rethrow_exception(std::current_exception());
+    } catch (const std::bad_alloc&) {
+        std::fputs("tessera: ", stderr);
+        std::fputs(kOutOfMemory, stderr);
+        std::fputs("\n", stderr);
+        std::_Exit(kExitBadInput);
+    } catch (const std::exception& error) {
+        std::fputs(error.what(), stderr);
+    } catch (...) {
+    }
+    std::abort();
+}
+
 int Main(int argc, char** argv) {
+    std::set_terminate(EndWithoutMemory);
     spdlog::set_default_logger(spdlog::stderr_color_mt("tessera"));
     spdlog::set_pattern("%^%l%$: %v");
     // A file that cannot grow is a write error, not the end of the program.
@@ -81,7 +104,7 @@ int main(int argc, char** argv) {
     try {
         return tessera::Main(argc, argv);
     } catch (const std::bad_alloc&) {
-        return tessera::Fail(tessera::Status::Error("out of memory"));
+        return tessera::Fail(tessera::Status::Error(tessera::kOutOfMemory));
     } catch (const std::exception& error) {
         return tessera::Fail(tessera::Status::Error(error.what()));
     }

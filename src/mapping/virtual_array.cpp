@@ -2,7 +2,7 @@
 
 #include <sys/mman.h>
 
-#include "core/check.h"
+#include <new>
 
 namespace tessera {
 
@@ -15,7 +15,7 @@ VirtualMemory::VirtualMemory(std::size_t bytes) : bytes_(bytes) {
             data_ = static_cast<std::byte*>(memory);
             break;
         }
-        TESSERA_CHECK(bytes_ > kLeast, "no address space left for {} bytes", bytes_);
+        if (bytes_ <= kLeast) throw std::bad_alloc();
         bytes_ /= 2;  // address space may be limited (ulimit -v); a smaller map is better than none
     }
     madvise(data_, bytes_, MADV_HUGEPAGE);  // otherwise gathers over many blocks miss the TLB

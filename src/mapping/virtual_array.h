@@ -11,7 +11,7 @@ namespace tessera {
 class VirtualMemory {
   public:
     // Reserves `bytes` of address space (no memory yet). Halves the request until the system grants
-    // it.
+    // it; throws std::bad_alloc if it does not grant a megabyte.
     explicit VirtualMemory(std::size_t bytes);
     ~VirtualMemory();
     VirtualMemory(const VirtualMemory&) = delete;

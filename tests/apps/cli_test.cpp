@@ -335,6 +335,18 @@ TEST_F(Cli, ASignalEndsTheRunWithEverythingWritten) {
     }
 }
 
+// Whichever thread it happens on, and whatever asked for the memory.
+TEST_F(Cli, OutOfMemoryIsOneLine) {
+    for (const int limit_mb : {100, 200, 300}) {
+        const std::string within = "ulimit -d " + std::to_string(1000 * limit_mb) + "; ";
+        const Outcome outcome = Call(SmallRun() + "--out " + (folder / "o"), within);
+        EXPECT_EQ(outcome.exit_code, 2) << outcome.err;
+        EXPECT_NE(outcome.err.find("tessera: out of memory; what was written so far is kept"),
+                  std::string::npos)
+            << outcome.err;
+    }
+}
+
 TEST_F(Cli, TheSameSignalAgainEndsAtOnceAndTheScanIsWhole) {
     const std::string scan = folder / "a.scan";
     const pid_t child = StartLongRun(std::string(TESSERA_PROGRAM) + " " + SmallRun() +
