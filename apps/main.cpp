@@ -41,27 +41,24 @@ int ReportParseError(const CLI::App& app, const CLI::ParseError& error) {
 
 constexpr const char* kOutOfMemory =
     "out of memory; what was written so far is kept, and a scan can be continued with --resume. "
-    "Use "
-    "larger voxels (mapping.voxel_size_m) or a limit (mapping.memory_limit_mb with --scan)";
+    "Use larger voxels (mapping.voxel_size_m) or a limit (mapping.memory_limit_mb with --scan)";
 
 // An exception that leaves a thread. None but std::bad_alloc does, unless there is a bug.
-[[noreturn]] void EndWithoutMemory() {
+[[noreturn]] void EndUncaught() {
     try {
         if (std::current_exception()) std::rethrow_exception(std::current_exception());
     } catch (const std::bad_alloc&) {
-        std::fputs("tessera: ", stderr);
-        std::fputs(kOutOfMemory, stderr);
-        std::fputs("\n", stderr);
+        std::fprintf(stderr, "tessera: %s\n", kOutOfMemory);
         std::_Exit(kExitBadInput);
     } catch (const std::exception& error) {
-        std::fputs(error.what(), stderr);
+        std::fprintf(stderr, "tessera: %s\n", error.what());
     } catch (...) {
     }
     std::abort();
 }
 
 int Main(int argc, char** argv) {
-    std::set_terminate(EndWithoutMemory);
+    std::set_terminate(EndUncaught);
     spdlog::set_default_logger(spdlog::stderr_color_mt("tessera"));
     spdlog::set_pattern("%^%l%$: %v");
     // A file that cannot grow is a write error, not the end of the program.

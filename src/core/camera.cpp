@@ -17,8 +17,7 @@ Status NotPlausible(const char* key, double value) {
     return Status::Error(fmt::format("{}: {} is not plausible", key, value));
 }
 
-// How far the lens moves a point of the image's border, in image diagonals; a wide lens reaches a
-// third.
+// How far the lens moves a point of the image's border, in image diagonals.
 double LargestShift(const CameraCalibration& c) {
     const PinholeCamera& p = c.pinhole;
     const LensDistortion& d = c.distortion;

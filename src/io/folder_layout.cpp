@@ -146,8 +146,8 @@ void WarnOfStamps(const ImagePairs& images, std::vector<std::string>& warnings) 
     const std::vector<ImagePair>& pairs = images.pairs;
     if (2 * pairs.size() < images.listed)
         warnings.push_back(fmt::format(
-            "only {} of {} depth images are used; are their time stamps right, and in seconds?",
-            pairs.size(), images.listed));
+            "only {} of {} depth images {} used; are the time stamps right, and in seconds?",
+            pairs.size(), images.listed, pairs.size() == 1 ? "is" : "are"));
     std::size_t leaps = 0, first = 0;
     for (std::size_t i = 1; i < pairs.size(); ++i)
         if (pairs[i].depth_stamp_s - pairs[i - 1].depth_stamp_s > kLongestPause_s && leaps++ == 0)

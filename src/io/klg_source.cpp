@@ -23,13 +23,18 @@ namespace fs = std::filesystem;
 Result<CameraCalibration> FindKlgCamera(const std::string& path, std::vector<std::string>& notes) {
     const fs::path file = fs::path(path).parent_path() / "camera.yaml";
     std::error_code ignored;
-    if (fs::exists(file, ignored)) return ReadCameraFile(file.string());
+    constexpr double kMillimetres = 1000;  // the unit of .klg logs
+    if (fs::exists(file, ignored)) {
+        Result<CameraCalibration> read = ReadCameraFile(file.string());
+        if (read.ok() && !read.value().depth_scale_given) read.value().depth_scale = kMillimetres;
+        return read;
+    }
     notes.push_back(
         "no camera.yaml next to the log: assuming a focal length of 528 pixels; add a camera.yaml "
         "if this is a different camera");
     CameraCalibration calibration;
     calibration.pinhole = {.width = 640, .height = 480, .fx = 528, .fy = 528, .cx = 320, .cy = 240};
-    calibration.depth_scale = 1000;
+    calibration.depth_scale = kMillimetres;
     return calibration;
 }
 

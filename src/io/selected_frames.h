@@ -33,7 +33,7 @@ class SelectedFrames {
 
     FrameSource& source() { return *source_; }
     const SourceInfo& info() const { return source_->info(); }
-    // Returns the next selected frame. One whose time stamp comes too late is skipped. A frame that
+    // Returns the next selected frame. One with a time stamp in the past is skipped. A frame that
     // is skipped counts towards
     // selection.count; kWait is passed on and does not count. An invalid selection, or one that
     // starts past the source's end, returns kError with what to do. kEnd and kError are final.

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <sstream>
+
 #include "io/temporary_folder.h"
 
 namespace tessera {
@@ -24,6 +26,35 @@ bool HasNote(const FolderLayout& layout, const std::string& part) {
     for (const std::string& note : layout.notes)
         if (note.find(part) != std::string::npos) return true;
     return false;
+}
+
+TEST(FolderLayout, WarnsOfStampsThatCannotBeRight) {
+    TemporaryFolder folder;
+    folder.WriteText("camera.yaml", kSmallCamera);
+    const auto warnings = [&](const std::string& stamps) {
+        std::istringstream words(stamps);
+        std::string depth, colour;
+        int i = 0;
+        for (std::string stamp; words >> stamp; ++i) {
+            depth += stamp + " depth/" + std::to_string(i) + ".png\n";
+            colour += stamp + " rgb/" + std::to_string(i) + ".png\n";
+            folder.WriteText("depth/" + std::to_string(i) + ".png", "");
+            folder.WriteText("rgb/" + std::to_string(i) + ".png", "");
+        }
+        folder.WriteText("depth.txt", depth);
+        folder.WriteText("rgb.txt", colour);
+        const auto layout = ReadFolderLayout(folder.path(), 0.02);
+        EXPECT_TRUE(layout.ok()) << layout.message();
+        return layout.ok() ? layout.value().warnings : std::vector<std::string>{};
+    };
+    EXPECT_TRUE(warnings("1.5 1.53 1.56 1.6").empty());
+    EXPECT_EQ(warnings("1.5 1.5 1.5 1.5 1.5 1.5"),
+              std::vector<std::string>{"only 1 of 6 depth images is used; are the time stamps "
+                                       "right, and in seconds?"});
+    EXPECT_EQ(
+        warnings("1.5 1.53 1e9 1000000000.03"),
+        std::vector<std::string>{"time stamps leap by more than 60 s, 1 time (first: by 1e+09 "
+                                 "s before depth/2.png)"});
 }
 
 TEST(ReadFolderLayout, RecognisesTumListsAndTheirCameraFile) {

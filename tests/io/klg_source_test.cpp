@@ -197,6 +197,15 @@ TEST_F(Klg, WhatIsNoLogIsRefusedByName) {
     refused("64 x 48");
 }
 
+TEST_F(Klg, DepthIsInMillimetresUnlessTheCameraFileSaysOtherwise) {
+    folder.WriteText("camera.yaml", "width: 32\nheight: 24\nfx: 30\nfy: 31\ncx: 15.5\ncy: 11.5\n");
+    Write(1, FrameOf(1, Depth(1), ""));
+    const auto source = Open();
+    ASSERT_TRUE(source.ok()) << source.message();
+    ASSERT_EQ(source.value()->Read(frame).status, ReadStatus::kOk);
+    EXPECT_FLOAT_EQ(frame.depth_m(0, 0), 1);
+}
+
 TEST_F(Klg, WithoutACameraFileTheUsualOneIsAssumedAndNoted) {
     std::filesystem::remove(folder.Path("camera.yaml"));
     Write(1, FrameOf(1, std::string(std::size_t{640} * 480 * 2, '\1'), ""));
