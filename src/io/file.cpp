@@ -95,10 +95,12 @@ Status AtomicFile::Commit(Sync sync) {
         Fail("cannot be written");
     Close();
     if (status_.ok() && !temporary_.empty()) {
-        if (rename(temporary_.c_str(), target_.c_str()) == 0)
+        if (rename(temporary_.c_str(), target_.c_str()) == 0) {
             temporary_.clear();
-        else
+            if (sync == Sync::kNow) SyncFolderOf(target_);
+        } else {
             Fail("cannot be replaced");
+        }
     }
     return status_;
 }
@@ -107,6 +109,15 @@ Status WriteTextFile(const std::string& path, const std::string& text) {
     AtomicFile file(path);
     file.Write(text);
     return file.Commit();
+}
+
+void SyncFolderOf(const std::string& path) {
+    const fs::path folder = fs::path(path).parent_path();
+    const int file =
+        open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (file < 0) return;
+    (void)fsync(file);
+    close(file);
 }
 
 Status PrepareOutputFolder(const std::string& path) {

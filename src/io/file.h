@@ -19,6 +19,10 @@ Status WriteTextFile(const std::string& path, const std::string& text);
 // space or choose another location".
 std::string WriteErrorText(int error);
 
+// Syncs the folder that holds `path`, so that a file made or renamed there survives a power cut.
+// File systems that cannot do it are left alone.
+void SyncFolderOf(const std::string& path);
+
 // Creates the folder (and its parents) and checks that it is writable.
 Status PrepareOutputFolder(const std::string& path);
 

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <numeric>
 
+#include "io/file.h"
 #include "optimize/session_join.h"
 #include "run/scan_export.h"
 #include "scan/scan_writer.h"
@@ -119,6 +120,7 @@ class PartialFile {
     Status Complete() {
         std::error_code error;
         std::filesystem::rename(partial_, path_, error);
+        if (!error) SyncFolderOf(path_);
         return error
                    ? Status::Error(fmt::format("{}: cannot be written: {}", path_, error.message()))
                    : Status::Ok();

@@ -93,6 +93,11 @@ Status Database::Error(const std::string& doing) const {
     return Status::Error(fmt::format("{}: {}: {}", path_, doing, what));
 }
 
+bool Database::needs_writer() const {
+    const int code = sqlite3_extended_errcode(handle_);
+    return code == SQLITE_READONLY_ROLLBACK || code == SQLITE_READONLY_RECOVERY;
+}
+
 bool Database::damaged() const {
     const int code = sqlite3_errcode(handle_) & 0xff;
     return code == SQLITE_CORRUPT || code == SQLITE_NOTADB || code == SQLITE_FORMAT ||

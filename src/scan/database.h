@@ -65,6 +65,8 @@ class Database {
     const std::string& path() const { return path_; }
     // An error with SQLite's message for the last failure.
     Status Error(const std::string& doing) const;
+    // True if the last error was that only a writer can make the file readable again.
+    bool needs_writer() const;
     // True if the last error concerns the file's content, not reading or writing it.
     bool damaged() const;
 

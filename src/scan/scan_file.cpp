@@ -11,6 +11,7 @@
 #include <filesystem>
 
 #include "core/input_file.h"
+#include "io/file.h"
 
 namespace tessera {
 namespace {
@@ -34,6 +35,12 @@ bool HasContent(const std::string& path) {
     return !error && bytes > 0;
 }
 
+void RemoveWithJournals(const std::string& path) {
+    std::error_code ignored;
+    for (const char* ending : {"", "-wal", "-shm", "-journal"})
+        std::filesystem::remove(path + ending, ignored);
+}
+
 void Sync(const std::string& path) {
     const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
     if (file < 0) return;
@@ -41,18 +48,31 @@ void Sync(const std::string& path) {
     ::close(file);
 }
 
-// Returns an error if the file cannot be a scan, judging by its first bytes.
+// Returns an error if the file cannot be a scan, judging by its first bytes. After a power cut its
+// journal may have better ones.
 Status CheckScan(const std::string& path) {
     if (!ScanAvailable()) return Status::Error(path + ": " + kScanUnavailable);
     std::array<std::uint8_t, 16> magic{};
     const Result<InputFile> file = InputFile::Open(path);
     if (!file.ok()) return file.status();
+    if (HasContent(path + "-wal") || HasContent(path + "-journal")) return Status::Ok();
     if (file.value().size() < magic.size())
         return Status::Error(path + ": is not a scan (too short)");
     if (Status status = file.value().ReadAt(0, magic); !status.ok()) return status;
     return std::memcmp(magic.data(), "SQLite format 3", magic.size()) == 0
                ? Status::Ok()
                : Status::Error(path + ": is not a scan");
+}
+
+// The run that wrote the file ended while SQLite put its journal away. Only a writer can finish it.
+Status FinishEnd(const std::string& path) {
+    Result<std::unique_ptr<Database>> database = Database::Open(path, Database::Access::kWrite);
+    if (!database.ok()) return database.status();
+    const Result<std::int64_t> finished = database.value()->Number("PRAGMA application_id");
+    return finished.ok() ? Status::Ok()
+                         : database.value()->Error(
+                               "its last run was cut off while it ended; open "
+                               "it once where it can be written");
 }
 
 }  // namespace
@@ -74,9 +94,7 @@ Result<std::unique_ptr<ScanFile>> ScanFile::Create(const std::string& path,
                              ": is the journal of a scan that is no longer here; put it back next "
                              "to its file, or remove it");
     const std::string unfinished = path + ".new";
-    std::error_code ignored;
-    for (const char* ending : {"", "-wal", "-shm"})
-        std::filesystem::remove(unfinished + ending, ignored);
+    RemoveWithJournals(unfinished);
     {
         Result<std::unique_ptr<Database>> database =
             Database::Open(unfinished, Database::Access::kCreate);
@@ -106,13 +124,14 @@ Result<std::unique_ptr<ScanFile>> ScanFile::Create(const std::string& path,
         if (made.ok()) made = file->database_->Execute("PRAGMA journal_mode=WAL");
         if (!made.ok()) {
             file.reset();
-            std::filesystem::remove(unfinished, ignored);
+            RemoveWithJournals(unfinished);
             return made;
         }
     }
     Sync(unfinished);
     if (std::rename(unfinished.c_str(), path.c_str()) != 0)
         return Status::Error(fmt::format("{}: cannot be created: {}", path, std::strerror(errno)));
+    SyncFolderOf(path);
     Result<std::unique_ptr<ScanFile>> made = OpenToWrite(path);
     if (made.ok()) made.value()->fresh_ = true;
     return made;
@@ -124,6 +143,8 @@ Result<std::unique_ptr<ScanFile>> ScanFile::OpenToRead(const std::string& path) 
     Result<std::unique_ptr<Database>> database = Database::Open(path, Database::Access::kRead);
     if (!database.ok()) return database.status();
     file->database_ = std::move(database.value());
+    if (!file->database_->Number("PRAGMA application_id").ok() && file->database_->needs_writer())
+        if (Status status = FinishEnd(path); !status.ok()) return status;
     // Reads one consistent state of the file, even while another process writes to it.
     if (Status begun = file->database_->Execute("BEGIN"); !begun.ok()) return begun;
     if (Status status = file->CheckHeader(); !status.ok()) return status;
@@ -140,7 +161,7 @@ Result<std::unique_ptr<ScanFile>> ScanFile::OpenToWrite(const std::string& path)
     file->database_ = std::move(database.value());
     if (Status status = file->CheckHeader(); !status.ok()) return status;
     if (Status status = file->database_->Execute(
-            "PRAGMA journal_mode=WAL; PRAGMA synchronous=NORMAL; "
+            "PRAGMA journal_mode=WAL; PRAGMA synchronous=FULL; "
             "PRAGMA journal_size_limit=67108864; PRAGMA cache_size=-16384;");
         !status.ok())
         return status;
@@ -151,10 +172,9 @@ Result<std::unique_ptr<ScanFile>> ScanFile::OpenToWrite(const std::string& path)
 
 ScanFile::~ScanFile() {
     statements_ = {};
-    std::error_code ignored;
     const std::string empty = fresh_ && seal_.checkpoint == 0 ? path() : "";
     database_.reset();
-    if (!empty.empty()) std::filesystem::remove(empty, ignored);
+    if (!empty.empty()) RemoveWithJournals(empty);
     if (lock_ >= 0) ::close(lock_);
 }
 

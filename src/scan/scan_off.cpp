@@ -27,6 +27,7 @@ Result<DatabaseStatement> Database::Prepare(const std::string&) {
     return Status::Error(kScanUnavailable);
 }
 Status Database::Error(const std::string&) const { return Status::Error(kScanUnavailable); }
+bool Database::needs_writer() const { return false; }
 bool Database::damaged() const { return false; }
 
 struct Compressor::Contexts {};
