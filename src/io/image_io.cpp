@@ -1,8 +1,11 @@
 #include "io/image_io.h"
 
+#include <filesystem>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
+#include <vector>
 
+#include "io/file.h"
 #include "io/image_decoder.h"
 #include "io/jpeg_encoder.h"
 
@@ -17,14 +20,17 @@ cv::Mat Wrap(const Image<T>& image, int type) {
 
 Status WritePixels(const std::string& path, const cv::Mat& pixels) {
     if (pixels.empty()) return Status::Error(path + ": there are no pixels to write");
+    std::vector<std::uint8_t> bytes;
     try {
-        if (cv::imwrite(path, pixels, {cv::IMWRITE_JPEG_QUALITY, kFineJpegQuality}))
-            return Status::Ok();
+        const std::string ending = std::filesystem::path(path).extension().string();
+        cv::imencode(ending, pixels, bytes, {cv::IMWRITE_JPEG_QUALITY, kFineJpegQuality});
     } catch (const cv::Exception&) {  // the extension is unknown
-        return Status::Error(path + ": is not a supported image format; use .png");
+        bytes.clear();
     }
-    return Status::Error(
-        path + ": cannot be written; does the folder exist, is it writable, is the disk full?");
+    if (bytes.empty()) return Status::Error(path + ": is not a supported image format; use .png");
+    AtomicFile file(path);
+    file.Write({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    return file.Commit(AtomicFile::Sync::kLater);
 }
 
 }  // namespace

@@ -1,8 +1,6 @@
 #include "run/run_output.h"
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
 
 #include "io/detections_text.h"
@@ -88,42 +86,39 @@ Result<std::unique_ptr<RunOutput>> RunOutput::Open(const RunRequest& request,
     return output;
 }
 
-Status RunOutput::OpenGrowing(const std::string& name, const std::string& header, File& file) {
-    file.reset(std::fopen(Path(name).c_str(), "w"));
-    if (!file)
-        return Status::Error(
-            fmt::format("{}: cannot be written: {}", Path(name), std::strerror(errno)));
-    return Append(name, header, file);
+Status RunOutput::OpenGrowing(const std::string& name, const std::string& header, Lines& lines) {
+    lines.waiting.clear();
+    if (Status status = lines.file.Open(Path(name)); !status.ok()) return status;
+    return lines.Append(header);
 }
 
-Status RunOutput::Append(const std::string& name, const std::string& line, File& file) {
-    if (std::fwrite(line.data(), 1, line.size(), file.get()) != line.size() ||
-        std::fflush(file.get()) != 0)
-        return Status::Error(
-            fmt::format("{}: cannot be written: {}", Path(name), std::strerror(errno)));
-    return Status::Ok();
+Status RunOutput::Lines::Append(const std::string& lines) {
+    waiting += lines;
+    if (waiting.empty()) return Status::Ok();
+    const Status status = file.Append(waiting);
+    if (status.ok()) waiting.clear();
+    return status;
 }
 
 Status RunOutput::AddFrame(const FrameReport& report, double decode_ms, double frame_ms) {
-    if (report.tracked())
-        if (Status status = AddPath({{report.stamp_s, report.track.T_world_camera}}); !status.ok())
-            return status;
-    return Append("frames.csv", FrameLine(report, decode_ms, frame_ms), frames_);
+    Status path;
+    if (report.tracked()) path = AddPath({{report.stamp_s, report.track.T_world_camera}});
+    const Status frame = frames_.Append(FrameLine(report, decode_ms, frame_ms));
+    return path.ok() ? frame : path;
 }
 
 Status RunOutput::AddDetections(const LabelReport& report, const LabelClasses& classes) {
     std::string lines = fmt::format("# frame {:.6f}\n", report.colour_stamp_s);
     for (const Detection& d : report.detections)
         lines += DetectionLine(report.colour_stamp_s, classes.name(d.class_id), d) + "\n";
-    return Append("detections.txt", lines, detections_);
+    return detections_.Append(lines);
 }
 
 Status RunOutput::AddPath(const std::vector<StampedPose>& path) {
     std::string lines;
     for (const StampedPose& pose : path) {
         if (!path_.empty() && StartsAgain(last_stamp_s_, pose.stamp_s)) {
-            if (Status status = Append("trajectory.txt", lines, trajectory_); !status.ok())
-                return status;
+            if (Status status = trajectory_.Append(lines); !status.ok()) return status;
             if (Status status = BeginClock(); !status.ok()) return status;
             lines.clear();
         }
@@ -131,7 +126,7 @@ Status RunOutput::AddPath(const std::vector<StampedPose>& path) {
         path_.push_back(pose.T_world_camera);
         lines += TrajectoryLine(pose) + "\n";
     }
-    return lines.empty() ? Status::Ok() : Append("trajectory.txt", lines, trajectory_);
+    return trajectory_.Append(lines);
 }
 
 std::string RunOutput::EarlierPath(int clock) const {
@@ -150,7 +145,7 @@ Status RunOutput::BeginClock() {
 
 Status RunOutput::ReplacePath(const std::vector<StampedPose>& path) {
     constexpr double kSame_m = 1e-6;
-    trajectory_.reset();
+    (void)trajectory_.Append("");
     const bool corrected =
         !std::ranges::equal(path, path_, [](const StampedPose& a, const Eigen::Isometry3d& b) {
             return (a.T_world_camera.translation() - b.translation()).norm() <= kSame_m;
@@ -162,6 +157,7 @@ Status RunOutput::ReplacePath(const std::vector<StampedPose>& path) {
     }
     path_.clear();
     for (const StampedPose& pose : path) path_.push_back(pose.T_world_camera);
+    trajectory_.waiting.clear();
     return WriteTrajectory(Path("trajectory.txt"), path);
 }
 
@@ -188,6 +184,7 @@ Status RunOutput::Finish(const RunSummary& summary) {
     const auto keep_first = [&](const Status& status) {
         if (first.ok()) first = status;
     };
+    for (Lines* lines : {&trajectory_, &frames_, &detections_}) keep_first(lines->Append(""));
     keep_first(WriteTextFile(Path("timings.json"), TimingsJson(summary)));
     keep_first(WriteTextFile(
         Path("objects.json"),

@@ -1,14 +1,15 @@
 // The output folder of a run. trajectory.txt and frames.csv grow frame by frame, so that a killed
-// run loses at most its last lines. The other files are written at the end, each completely or not
-// at all. Owner thread only.
+// run loses at most its last lines. Lines that find no room on the disk wait in memory, and are
+// written with the next ones. The other files are written at the end, each completely or not at
+// all. Owner thread only.
 #pragma once
 
-#include <cstdio>
 #include <memory>
 #include <string>
 
 #include "core/mesh.h"
 #include "core/status.h"
+#include "io/growing_file.h"
 #include "run/run.h"
 #include "system/labelling_stage.h"
 #include "system/tracking_stage.h"
@@ -24,7 +25,8 @@ class RunOutput {
                                                    const SourceInfo& source,
                                                    const LabelClasses& classes);
 
-    // Adds a line to frames.csv, and to trajectory.txt if the frame was tracked. Flushes both.
+    // Adds a line to frames.csv, and to trajectory.txt if the frame was tracked. An error says
+    // which one has lines that wait.
     Status AddFrame(const FrameReport& report, double decode_ms, double frame_ms);
 
     // Adds the frame's detections to detections.txt, after a line that marks the frame as
@@ -42,30 +44,32 @@ class RunOutput {
     // picture, after releasing the original. Tries both files and returns the first error.
     Status WriteMesh(TriangleMesh mesh) const;
 
-    // Writes objects.json, timings.json and run.json. Tries all and returns the first error.
+    // Writes the lines that wait, objects.json, timings.json and run.json. Tries all and returns
+    // the first error.
     Status Finish(const RunSummary& summary);
 
   private:
-    struct FileCloser {
-        void operator()(std::FILE* file) const { std::fclose(file); }
+    struct Lines {
+        GrowingFile file;
+        std::string waiting;  // not written yet
+
+        Status Append(const std::string& lines);
     };
-    using File = std::unique_ptr<std::FILE, FileCloser>;
 
     RunOutput(const RunRequest& request, const RunConfig& config)
         : request_(request), config_(config) {}
     std::string Path(const std::string& name) const { return request_.output_folder + "/" + name; }
     std::string EarlierPath(int clock) const;
     Status BeginClock();
-    Status OpenGrowing(const std::string& name, const std::string& header, File& file);
-    Status Append(const std::string& name, const std::string& line, File& file);
+    Status OpenGrowing(const std::string& name, const std::string& header, Lines& lines);
     Status WritePicture(const TriangleMesh& mesh) const;
 
     RunRequest request_;
     RunConfig config_;
-    File trajectory_, frames_, detections_;  // detections_ with labels only
-    std::vector<Eigen::Isometry3d> path_;    // T_world_camera of the tracked frames
-    double last_stamp_s_ = 0;                // of path_
-    int clocks_ = 0;                         // files of earlier clocks
+    Lines trajectory_, frames_, detections_;  // detections_ with labels only
+    std::vector<Eigen::Isometry3d> path_;     // T_world_camera of the tracked frames
+    double last_stamp_s_ = 0;                 // of path_
+    int clocks_ = 0;                          // files of earlier clocks
 };
 
 }  // namespace tessera

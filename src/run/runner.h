@@ -2,6 +2,8 @@
 // the files. run.h is the public interface.
 #pragma once
 
+#include <set>
+
 #include "core/process.h"
 #include "core/stopwatch.h"
 #include "run/run.h"
@@ -32,14 +34,16 @@ class Runner {
 
     Status TakeOutcomes();
     Status Take(const FrameOutcome& outcome);
-    Status TakeFrame(const FrameOutcome& outcome);
-    Status TakeLabels(const LabelReport& report);
+    void TakeFrame(const FrameOutcome& outcome);
+    void TakeLabels(const LabelReport& report);
     void AddTimes(const FrameOutcome& outcome, double frame_ms);
     // The source's ground truth in the map's world.
     std::optional<Eigen::Isometry3d> TruthOf(const FrameOutcome& outcome) const;
     // After a reset, the output files also cover only the new world.
     Status BeginAnew();
     Status OpenOutput();
+    // A run goes on without the lines that find no room on the disk. Said once per file.
+    void KeepGoing(const Status& written);
     void Skip(const std::string& message);
     void Count(const FrameOutcome& outcome);
     // Warns only when the tracking status changes, not for every lost frame.
@@ -70,6 +74,7 @@ class Runner {
     RunSummary summary_;
     TrackStatus last_status_ = TrackStatus::kGood;
     bool last_degenerate_ = false;
+    std::set<std::string> told_;  // errors from writing
     bool begun_ = false;
 };
 

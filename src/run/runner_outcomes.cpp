@@ -26,7 +26,7 @@ Status Runner::TakeOutcomes() {
 Status Runner::Take(const FrameOutcome& outcome) {
     using Kind = FrameOutcome::Kind;
     switch (outcome.kind) {
-        case Kind::kFrame: return TakeFrame(outcome);
+        case Kind::kFrame: TakeFrame(outcome); break;
         case Kind::kSkipped: Skip(outcome.message); break;
         case Kind::kDropped: ++summary_.counts.frames, ++summary_.counts.dropped; break;
         case Kind::kMessage: Warn(outcome.message); break;
@@ -36,7 +36,7 @@ Status Runner::Take(const FrameOutcome& outcome) {
     return Status::Ok();
 }
 
-Status Runner::TakeFrame(const FrameOutcome& outcome) {
+void Runner::TakeFrame(const FrameOutcome& outcome) {
     const FrameReport& report = outcome.report;
     Count(outcome);
     if (outcome.T_world_camera_truth)
@@ -45,12 +45,16 @@ Status Runner::TakeFrame(const FrameOutcome& outcome) {
     const double frame_ms = frame_watch_.LapMs();
     AddTimes(outcome, frame_ms);
     window_.Show(outcome, summary_.counts, TruthOf(outcome));
-    if (outcome.labels)
-        if (Status status = TakeLabels(*outcome.labels); !status.ok()) return status;
-    return output_ ? output_->AddFrame(report, outcome.decode_ms, frame_ms) : Status::Ok();
+    if (outcome.labels) TakeLabels(*outcome.labels);
+    if (output_) KeepGoing(output_->AddFrame(report, outcome.decode_ms, frame_ms));
 }
 
-Status Runner::TakeLabels(const LabelReport& report) {
+void Runner::KeepGoing(const Status& written) {
+    if (!written.ok() && told_.insert(written.message()).second)
+        Warn(written.message() + "; the run goes on and tries again");
+}
+
+void Runner::TakeLabels(const LabelReport& report) {
     times_.Add("detect", report.detect_ms);
     times_.Add("label", report.vote_ms);
     ++summary_.labels->frames;
@@ -58,7 +62,7 @@ Status Runner::TakeLabels(const LabelReport& report) {
     summary_.labels->flips += report.votes.flips;
     summary_.labels->settled += report.votes.settled;
     window_.Show(report, class_names_);
-    return output_ ? output_->AddDetections(report, class_names_) : Status::Ok();
+    if (output_) KeepGoing(output_->AddDetections(report, class_names_));
 }
 
 void Runner::AddTimes(const FrameOutcome& outcome, double frame_ms) {

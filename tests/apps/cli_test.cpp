@@ -364,6 +364,22 @@ TEST_F(Cli, TheSameSignalAgainEndsAtOnceAndTheScanIsWhole) {
     EXPECT_EQ(info.exit_code, 0) << info.err;
 }
 
+TEST_F(Cli, ASecondProgramCannotWriteIntoTheScan) {
+    const std::string scan = folder / "a.scan";
+    const pid_t child = StartLongRun(std::string(TESSERA_PROGRAM) + " " + SmallRun() +
+                                         "--set synthetic.speed=0.1 --scan " + scan,
+                                     folder / "o");
+    ASSERT_GT(child, 0);
+    ExpectRefused(SmallRun() + "--resume " + scan, "another run is writing to it");
+    ExpectRefused(SmallRun() + "--scan " + scan, "already exists");
+    EXPECT_EQ(Call("info " + scan).exit_code, 0);
+    kill(child, SIGINT);
+    int status = 0;
+    ASSERT_EQ(waitpid(child, &status, 0), child);
+    EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << status;
+    EXPECT_EQ(Call("info " + scan).exit_code, 0);
+}
+
 TEST_F(Cli, ARunOutlivesItsTerminalAndWhoeverReadsItsMessages) {
     const pid_t child = StartLongRun("nohup " + std::string(TESSERA_PROGRAM) + " " + SmallRun() +
                                          "--frames 400 --set synthetic.speed=0.1",
