@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/memory.h"
 #include "core/stopwatch.h"
 #include "mapping/allocation_kernels.h"
 #include "mapping/fusion_simd.h"
@@ -132,15 +133,33 @@ void Integrator::Allocate(const PreparedFrame& frame, const View& view, BlockMap
     std::sort(new_blocks_.begin(), new_blocks_.end());
     new_blocks_.erase(std::unique(new_blocks_.begin(), new_blocks_.end()), new_blocks_.end());
     const auto wanted = static_cast<std::int64_t>(new_blocks_.size());
+    const std::int64_t room = RoomFor(wanted, map);
     for (const BlockCoord& c : new_blocks_) {
         if (report.new_blocks >= config_.max_new_blocks) break;
-        const BlockId id = map.Allocate(c);
+        const BlockId id = report.new_blocks < room ? map.Allocate(c) : kUnknownBlock;
         report.map_full = id == kUnknownBlock;
         if (report.map_full) break;
         added_.push_back(id);
         ++report.new_blocks;
     }
     report.refused_blocks = wanted - report.new_blocks;
+}
+
+std::int64_t Integrator::RoomFor(std::int64_t wanted, const BlockMap& map) {
+    if (wanted <= sure_blocks_) {
+        sure_blocks_ -= wanted;
+        return wanted;
+    }
+    constexpr double kMb = 1 << 20, kLeastFree_mb = 128;
+    // A block, its mesh, and its copy in a checkpoint.
+    constexpr double kCopies = 3;
+    constexpr std::int64_t kMostUnchecked = 4096;
+    const double others_mb = kLeastFree_mb + (kCopies - 1) * static_cast<double>(map.bytes()) / kMb;
+    const double block_mb = kCopies * kBlockVoxels * map.bytes_per_voxel() / kMb;
+    const auto room =
+        static_cast<std::int64_t>(std::clamp((FreeMemoryMb() - others_mb) / block_mb, 0.0, 1e9));
+    sure_blocks_ = std::clamp<std::int64_t>((room - wanted) / 2, 0, kMostUnchecked);
+    return room;
 }
 
 FusionArguments MakeFusionArguments(const PreparedFrame& frame, const Integrator::View& view,

@@ -71,7 +71,7 @@ class Integrator {
     // their voxels, are always up to date with the last Integrate.
     virtual void Bring(BlockMap&) {}
     // Describes the limit behind map_full.
-    virtual std::string limit() const { return "the map is full"; }
+    virtual std::string limit() const { return "there is no more room for the map"; }
 
   protected:
     virtual void Allocate(const PreparedFrame& frame, const View& view, BlockMap& map,
@@ -86,8 +86,12 @@ class Integrator {
     std::vector<BlockId> none_;
 
   private:
+    // The number of new blocks for which there is memory; `wanted` suffices.
+    std::int64_t RoomFor(std::int64_t wanted, const BlockMap& map);
+
     VectorPath path_;
     VisibleBlocks visible_;
+    std::int64_t sure_blocks_ = 0;                  // these need no further look at the free memory
     std::vector<std::vector<BlockCoord>> missing_;  // per band of rows
     std::vector<BlockCoord> new_blocks_;
 };

@@ -4,6 +4,7 @@
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
+#include "core/memory.h"
 #include "optimize/pose_graph.h"
 #include "run/runner.h"
 
@@ -77,6 +78,7 @@ Result<RunSummary> ExecuteRun(const RunRequest& request, const RunConfig& config
     if (!request.poses_file.empty())
         effective.loops.enabled = false;  // there is nothing to correct
     Runner runner(request, effective, observer);
+    SetMemoryLimit(config.memory_limit_mb);
     if (config.threads == 0) return runner.Run(stop);
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                     static_cast<std::size_t>(config.threads));

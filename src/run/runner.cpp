@@ -89,6 +89,7 @@ Status Runner::Open(const std::atomic<bool>& stop) {
         engine_ = std::make_unique<LiveEngine>(std::move(input));
     else
         engine_ = std::make_unique<LockstepEngine>(std::move(input));
+    if (const std::string warning = MemoryWarning(config_); !warning.empty()) Warn(warning);
     frame_watch_ = Stopwatch();  // the check of the camera is no frame's time
     return Status::Ok();
 }

@@ -6,6 +6,7 @@
 
 #include "core/process.h"
 #include "core/stopwatch.h"
+#include "run/memory_watch.h"
 #include "run/run.h"
 #include "run/run_output.h"
 #include "run/run_window.h"
@@ -21,7 +22,8 @@ class Runner {
           config_(config),
           observer_(observer),
           selection_(request.selection),
-          window_(request.viewer) {}
+          window_(request.viewer),
+          memory_(config) {}
 
     Result<RunSummary> Run(const std::atomic<bool>& stop);
 
@@ -64,6 +66,7 @@ class Runner {
     FrameSelection selection_;
     std::int64_t frames_before_ = 0;  // frames in the resumed scan
     RunWindow window_;
+    MemoryWatch memory_;
     std::vector<StampedPose> truth_, estimate_;
     std::vector<std::string> camera_notes_, pose_notes_;
     LabelClasses class_names_;

@@ -47,6 +47,10 @@ void Runner::TakeFrame(const FrameOutcome& outcome) {
     window_.Show(outcome, summary_.counts, TruthOf(outcome));
     if (outcome.labels) TakeLabels(*outcome.labels);
     if (output_) KeepGoing(output_->AddFrame(report, outcome.decode_ms, frame_ms));
+    if (const auto reason = memory_.Check(outcome.map)) {
+        Warn(*reason);
+        engine_->Stop();
+    }
 }
 
 void Runner::KeepGoing(const Status& written) {

@@ -73,6 +73,8 @@ class Engine {
     // or the source failed (see `status`).
     virtual bool Next(FrameOutcome& outcome) = 0;
     virtual const Status& status() const = 0;
+    // Ends the run as the user's stop does: Next soon returns false.
+    virtual void Stop() = 0;
     virtual bool stopped() const = 0;  // on request, before the source ended
 
     // Call once, after Next returned false. Releases the source and the map and returns the whole

@@ -17,6 +17,7 @@ class LiveEngine : public Engine {
 
     bool Next(FrameOutcome& outcome) override;
     const Status& status() const override { return status_; }
+    void Stop() override { reading_.Stop(); }
     bool stopped() const override { return reading_.stopped(); }
     TriangleMesh TakeMesh() override;
     const std::vector<MapObject>& objects() const override {

@@ -35,7 +35,7 @@ void LiveReading::Run(LiveTracking& tracking) {
     while (!links_.quit.load() && !stopped_ && ReadFrame(tracking)) {
         while (const auto command = control_.TakeCommand()) Execute(*command, tracking);
         if (viewer_ != nullptr) viewer_->recording.store(recorder_.recording());
-        stopped_ = stopped_ || stop_.load();
+        stopped_ = stopped_ || stop_.load() || asked_to_stop_.load();
     }
     recorder_.Stop();
 }

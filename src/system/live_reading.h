@@ -25,6 +25,7 @@ class LiveReading {
     // After Run. An error of the source; `stopped`: on request, before the source ended.
     const Status& status() const { return status_; }
     bool stopped() const { return stopped_; }
+    void Stop() { asked_to_stop_.store(true); }  // from any thread
 
   private:
     bool ReadFrame(LiveTracking& tracking);
@@ -42,6 +43,7 @@ class LiveReading {
     RecorderThread recorder_;
     Status status_;
     bool stopped_ = false;
+    std::atomic<bool> asked_to_stop_{false};
     std::optional<double> first_stamp_s_;
     LiveClock::time_point first_time_;
 };

@@ -18,6 +18,7 @@ class LockstepEngine : public Engine {
 
     bool Next(FrameOutcome& outcome) override;
     const Status& status() const override { return status_; }
+    void Stop() override { stopped_ = true; }
     bool stopped() const override { return stopped_; }
     TriangleMesh TakeMesh() override;
     const std::vector<MapObject>& objects() const override { return mapping_.stage().objects(); }

@@ -57,6 +57,9 @@ void RunConfig::Describe(ConfigParameters& p) {
               "threads for parallel loops, 0 = one per core; results do not depend on it");
         s.Add("read_ahead", read_ahead, {1, 64}, "frames",
               "frames decoded ahead on a separate thread; more help only if reading stalls");
+        s.Add("memory_limit_mb", memory_limit_mb, {0, 1e7}, "MB",
+              "the run ends, and writes everything, before the whole process takes more; 0: what "
+              "the machine or its container has");
     });
 }
 

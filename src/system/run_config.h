@@ -48,9 +48,10 @@ struct RunConfig {
     ScanConfig scan;
     LiveConfig live;
     ViewConfig view;
-    bool check_camera = true;  // key calibration.check
-    int threads = 0;           // 0: one per core
-    int read_ahead = 4;        // frames decoded ahead
+    bool check_camera = true;    // key calibration.check
+    int threads = 0;             // 0: one per core
+    int read_ahead = 4;          // frames decoded ahead
+    double memory_limit_mb = 0;  // of the whole process; 0: what the machine gives
 
     // Sections source (with source.openni), synthetic, frame, mapping, tracking, moving, meshing,
     // labels, loops, calibration, scan, live, view, record, run.

@@ -2,7 +2,10 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <nlohmann/json.hpp>
+
 #include "apps/cli_fixture.h"
+#include "io/mesh_io.h"
 #include "io/trajectory.h"
 
 namespace tessera {
@@ -345,6 +348,26 @@ TEST_F(Cli, OutOfMemoryIsOneLine) {
                   std::string::npos)
             << outcome.err;
     }
+}
+
+TEST_F(Cli, ARunEndsInOrderBeforeMemoryIsUsedUp) {
+    const std::string small_voxels =
+        "--set mapping.voxel_size_m=0.01 --set mapping.truncation_m=0.04 --set synthetic.speed=4 ";
+    const Outcome run = Call(
+        "run synthetic:room --loop-closure off --set run.memory_limit_mb=600 "
+        "--mode lockstep --frames 300 " +
+        small_voxels + "--out " + (folder / "o"));
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_NE(run.err.find("are free last for about"), std::string::npos) << run.err;
+    EXPECT_NE(run.err.find("memory is nearly used up"), std::string::npos) << run.err;
+    const auto trajectory = ReadTrajectory(folder / "o/trajectory.txt");
+    ASSERT_TRUE(trajectory.ok()) << trajectory.message();
+    EXPECT_GT(trajectory.value().poses.size(), 5u);
+    EXPECT_LT(trajectory.value().poses.size(), 300u);
+    EXPECT_TRUE(ReadPly(folder / "o/mesh.ply").ok());
+    const auto run_json = nlohmann::json::parse(ReadAll(folder / "o/run.json"));
+    EXPECT_EQ(run_json["exit"], "stopped");
+    EXPECT_LT(nlohmann::json::parse(ReadAll(folder / "o/timings.json"))["peak_rss_mb"], 600);
 }
 
 TEST_F(Cli, TheSameSignalAgainEndsAtOnceAndTheScanIsWhole) {

@@ -45,7 +45,8 @@ TEST(ImageIo, SaysWhyNothingWasWritten) {
               folder.Path("a.unknown") + ": is not a supported image format; use .png");
     EXPECT_EQ(WriteColourImage(folder.Path("absent/a.png"), image).message(),
               folder.Path("absent/a.png") +
-                  ": cannot be written; does the folder exist, is it writable, is the disk full?");
+                  ": cannot be written: the folder does not exist; create it or choose another "
+                  "location");
     EXPECT_EQ(WriteColourImage(folder.Path("a.png"), {}).message(),
               folder.Path("a.png") + ": there are no pixels to write");
 }

@@ -19,7 +19,7 @@ struct DeviceSettings {
     bool small = false, registration = true, sync = false;
     int drop_percent = 0, garbage_percent = 0, seed = 1;
     int stall_at = -1, stall_ms = 1500;
-    int vanish_at = -1, back_ms = -1;
+    int vanish_at = -1, vanish_every = 0, back_ms = -1;
     std::string log;
 
     static DeviceSettings FromEnvironment() {
@@ -47,6 +47,7 @@ struct DeviceSettings {
         s.stall_at = number("STALL_AT", s.stall_at);
         s.stall_ms = number("STALL_MS", s.stall_ms);
         s.vanish_at = number("VANISH_AT", s.vanish_at);
+        s.vanish_every = number("VANISH_EVERY", s.vanish_every);
         s.back_ms = number("BACK_MS", s.back_ms);
         s.log = text("LOG");
         return s;

@@ -98,8 +98,11 @@ bool TestDevice::Tick() {
     if (gone_) return false;
     if (now < stalled_until_) return true;
     const int number = shared_.next++;
-    if (number == s.vanish_at && !shared_.vanished) {
-        gone_ = shared_.vanished = true;
+    if ((number == s.vanish_at ||
+         (s.vanish_every > 0 && number > 0 && number % s.vanish_every == 0)) &&
+        number > shared_.vanished_at) {
+        gone_ = true;
+        shared_.vanished_at = number;
         lock.unlock();
         vanish_();
         return false;

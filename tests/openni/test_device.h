@@ -53,8 +53,8 @@ class TestDevice : public oni::driver::DeviceBase {
     struct Shared {
         DeviceSettings settings;
         std::unique_ptr<DeviceFeed> feed;
-        int next = 0;           // number of the next frame
-        bool vanished = false;  // it vanishes only once
+        int next = 0;          // number of the next frame
+        int vanished_at = -1;  // it vanishes only once at a frame
         std::function<void(const std::string&)> log;
     };
 

@@ -28,6 +28,7 @@
 //   STALL_AT=-1 STALL_MS=1500   before this frame no image comes for this long
 //   VANISH_AT=-1 BACK_MS=-1     before this frame the device is unplugged; after this long it is
 //                               plugged in again (-1: never) and its clock restarts
+//   VANISH_EVERY=0      this happens again and again, every so many frames
 //   LOG=                file to which settings made by the program are appended: "depth mirror 0"
 #include <cstdio>
 #include <cstring>

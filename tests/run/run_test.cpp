@@ -11,6 +11,7 @@
 
 #include "io/mesh_io.h"
 #include "io/trajectory.h"
+#include "mapping/map_estimate.h"
 #include "render/mesh_rasteriser.h"
 #include "support/temp_folder.h"
 
@@ -203,6 +204,29 @@ TEST_F(Run, FusesAtGivenPosesOnly) {
             (given.value().poses[i].T_world_camera.matrix() - poses[i].T_world_camera.matrix())
                 .norm(),
             1e-6);
+}
+
+// The estimate of the map's memory against maps of a known surface.
+TEST_F(Run, TheMapTakesAboutAsMuchMemoryAsEstimated) {
+    for (const auto& [voxel_m, truncation_m] :
+         {std::pair{0.04, 0.16}, {0.02, 0.08}, {0.02, 0.16}}) {
+        SCOPED_TRACE(fmt::format("voxels of {} m, truncation {} m", voxel_m, truncation_m));
+        config.pipeline.map.voxel_size_m = voxel_m;
+        config.pipeline.map.truncation_m = truncation_m;
+        const auto summary = ExecuteRun(request, config, observer, stop);
+        ASSERT_TRUE(summary.ok()) << summary.message();
+        const TriangleMesh mesh = ReadPly(folder / "out/mesh.ply").value();
+        double area_m2 = 0;
+        for (const auto& [a, b, c] : mesh.triangles) {
+            const Eigen::Vector3f u = mesh.vertices[b] - mesh.vertices[a];
+            area_m2 += 0.5 * u.cross(mesh.vertices[c] - mesh.vertices[a]).norm();
+        }
+        const double ratio = static_cast<double>(summary.value().map.bytes) /
+                             (area_m2 * MapBytesPerSquareMetre(voxel_m, truncation_m));
+        EXPECT_GT(ratio, 1 / 1.5);
+        EXPECT_LT(ratio, 1.5);
+        RecordProperty("ratio", std::to_string(ratio));
+    }
 }
 
 TEST_F(Run, WithoutAFolderNothingIsWritten) {

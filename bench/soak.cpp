@@ -1,0 +1,256 @@
+// A live run of many minutes with a restless user: at random it resets, switches the tracker, saves
+// meshes and scans, records, pauses, and turns fusion and loops off and on. Prints, for each part
+// of the run, the memory and how long frames waited for their pose. scripts/soak starts it with a
+// camera that is unplugged now and then.
+// Usage: soak [SOURCE] [--minutes M] [--seed N] [--labels MODEL] [--out DIR] [--config NAME|FILE]
+// [--set KEY=VALUE]
+#include <fmt/format.h>
+#include <malloc.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <map>
+#include <random>
+#include <thread>
+#include <vector>
+
+#include "../apps/config_options.h"
+#include "core/stopwatch.h"
+#include "run/run.h"
+#include "run/timings.h"
+
+namespace tessera {
+namespace {
+
+constexpr int kParts = 6;
+constexpr double kMostWait_ms = 250, kMostGrowth = 0.02;
+
+struct Options {
+    std::string source = "openni2:", labels, out = "build/soak";
+    double minutes = 30;
+    unsigned seed = 1;
+    ConfigOptions config;
+};
+
+double RssMb() {
+    long pages = 0, resident = 0;
+    if (std::FILE* file = std::fopen("/proc/self/statm", "r")) {
+        if (std::fscanf(file, "%ld %ld", &pages, &resident) != 2) resident = 0;
+        std::fclose(file);
+    }
+    return static_cast<double>(resident) * static_cast<double>(sysconf(_SC_PAGESIZE)) / (1 << 20);
+}
+
+// One part of the run.
+struct Part {
+    std::vector<double> rss_mb, wait_ms;
+    int lost = 0;
+};
+
+// The user and the window in one. Owns its thread's data; the run sees only the link.
+class RestlessUser {
+  public:
+    RestlessUser(const Options& options, const RunConfig& config, ViewerLink& link)
+        : options_(options), link_(link), random_(options.seed) {
+        settings_.labels.prediction = config.labels.prediction;
+        settings_.loops = config.loops.enabled;
+    }
+
+    // Until the time is over, then asks the run to end.
+    void Use() {
+        const Stopwatch watch;
+        const double whole_s = 60 * options_.minutes;
+        double next_sample_s = 0;
+        while (watch.ElapsedMs() < 1000 * whole_s && !link_.ended.load()) {
+            const double now_s = watch.ElapsedMs() / 1000;
+            Part& part = parts_[static_cast<std::size_t>(
+                std::min(kParts - 1, static_cast<int>(kParts * now_s / whole_s)))];
+            TakeWhatIsShown(part);
+            if (now_s >= next_sample_s) {
+                part.rss_mb.push_back(RssMb());
+                next_sample_s = now_s + 1;
+            }
+            Act(now_s);
+            std::this_thread::sleep_for(std::chrono::milliseconds(kStep_ms));
+        }
+        Send(ViewerCommand::Kind::kResume, "");
+        Send(ViewerCommand::Kind::kStop, "");
+    }
+
+    // Returns whether the run kept its promises.
+    bool Report() const {
+        fmt::print("{:>4} {:>8} {:>8} {:>6} {:>8} {:>8} {:>8}\n", "part", "RSS MB", "max MB",
+                   "frames", "wait ms", "95 % ms", "max ms");
+        double longest_ms = 0;
+        for (int i = 0; i < kParts; ++i) {
+            const Part& part = parts_[static_cast<std::size_t>(i)];
+            const StageStatistics rss = SummariseDurations(part.rss_mb);
+            const StageStatistics wait = SummariseDurations(part.wait_ms);
+            longest_ms = std::max(longest_ms, wait.max_ms);
+            fmt::print("{:>4} {:>8.0f} {:>8.0f} {:>6} {:>8.1f} {:>8.1f} {:>8.1f}\n", i + 1,
+                       rss.median_ms, rss.max_ms, part.wait_ms.size(), wait.median_ms, wait.p95_ms,
+                       wait.max_ms);
+        }
+        for (const auto& [name, count] : acts_) fmt::print("{} {}, ", count, name);
+        const double first = SummariseDurations(parts_[1].rss_mb).median_ms;
+        const double last = SummariseDurations(parts_[kParts - 1].rss_mb).median_ms;
+        fmt::print("memory {:+.1f} % from part 2 to {}, longest wait {:.0f} ms\n",
+                   100 * (last / first - 1), kParts, longest_ms);
+        return last / first - 1 <= kMostGrowth && longest_ms <= kMostWait_ms;
+    }
+
+  private:
+    static constexpr int kStep_ms = 20;
+    static constexpr double kReset_s = 60;
+
+    void TakeWhatIsShown(Part& part) {
+        FrameUpdate frame;
+        while (link_.frames.TryPop(frame)) {
+            part.wait_ms.push_back(frame.latency_ms);
+            if (frame.latency_ms > kMostWait_ms) TellLong(frame);
+            part.lost += !frame.report.tracked();
+        }
+        ImageUpdate image;
+        MeshUpdate mesh;
+        std::vector<MapObject> objects;
+        LabelUpdate labels;
+        std::string message;
+        while (link_.images.TryPop(image)) {
+        }
+        while (link_.meshes.TryPop(mesh)) {
+        }
+        while (link_.objects.TryPop(objects)) {
+        }
+        while (link_.labels.TryPop(labels)) {
+        }
+        while (link_.messages.TryPop(message)) {
+        }
+    }
+
+    static void TellLong(const FrameUpdate& frame) {
+        const FrameReport& r = frame.report;
+        fmt::print(stderr,
+                   "frame {} waited {:.0f} ms: prepare {:.0f}, track {:.0f} ({}), allocate {:.0f}, "
+                   "fuse {:.0f}\n",
+                   r.index, frame.latency_ms, r.prepare_ms, r.track_ms, ToString(r.method),
+                   r.fusion.allocate_ms, r.fusion.fuse_ms);
+    }
+
+    void Send(ViewerCommand::Kind kind, const std::string& path) {
+        link_.commands.Push({kind, path});
+    }
+
+    // True once in `every_s` on average.
+    bool Sometimes(double every_s, const char* name) {
+        if (std::uniform_real_distribution<>(0, 1)(random_) >= 0.001 * kStep_ms / every_s)
+            return false;
+        ++acts_[name];
+        return true;
+    }
+
+    void Act(double now_s) {
+        using Kind = ViewerCommand::Kind;
+        if (now_s < resume_s_) return;
+        if (resume_s_ > 0) Send(Kind::kResume, ""), resume_s_ = 0;
+        // At fixed times, so that the parts can be compared.
+        if (now_s >= next_reset_s_) {
+            ++acts_["resets"];
+            next_reset_s_ += kReset_s;
+            Send(Kind::kReset, "");
+        }
+        if (Sometimes(20, "meshes saved")) Send(Kind::kSaveMesh, options_.out + "/saved.ply");
+        if (Sometimes(40, "recordings begun or ended")) {
+            const std::string path = fmt::format("{}/recorded{}", options_.out, recordings_ % 2);
+            if (!recording_) std::filesystem::remove_all(path);
+            Send(recording_ ? Kind::kStopRecording : Kind::kRecord, path);
+            recordings_ += recording_;
+            recording_ = !recording_;
+        }
+        if (Sometimes(30, "pauses")) Send(Kind::kPause, ""), resume_s_ = now_s + 1;
+        bool changed = false;
+        if (Sometimes(5, "switches of the tracker")) {
+            constexpr std::array kMethods{TrackingMethod::kSdf, TrackingMethod::kSdfGeometric,
+                                          TrackingMethod::kIcp, TrackingMethod::kIcpRgb};
+            settings_.method = kMethods[random_() % kMethods.size()];
+            changed = true;
+        }
+        if (settings_.fusing ? Sometimes(30, "times without fusion")
+                             : Sometimes(3, "times with it"))
+            settings_.fusing ^= true, changed = true;
+        if (Sometimes(30, "switches of loops") && settings_.loops)
+            settings_.loops = !*settings_.loops, changed = true;
+        if (Sometimes(30, "switches of the prealignment"))
+            settings_.prealign ^= true, changed = true;
+        if (changed) link_.settings.Push(ViewerSettings(settings_));
+    }
+
+    const Options& options_;
+    ViewerLink& link_;
+    std::mt19937 random_;
+    ViewerSettings settings_;
+    std::array<Part, kParts> parts_;
+    std::map<std::string, int> acts_;
+    double resume_s_ = 0, next_reset_s_ = kReset_s;
+    int recordings_ = 0;
+    bool recording_ = false;
+};
+
+Result<bool> Run(const Options& options) {
+    RunConfig config;
+    ConfigParameters parameters;
+    config.Describe(parameters);
+    if (Status status = options.config.Apply(parameters); !status.ok()) return status;
+    if (Status status = config.Validate(); !status.ok()) return status;
+    std::filesystem::remove_all(options.out);
+    ViewerLink link;
+    RunRequest request;
+    request.source = options.source;
+    request.live = true;
+    request.viewer = &link;
+    request.labels = options.labels;
+    request.output_folder = options.out;
+    request.scan_file = options.out + "/soak.scan";
+    std::filesystem::create_directories(options.out);
+    std::map<std::string, int> warnings;
+    RunObserver observer;
+    observer.on_warning = [&](const std::string& text) {
+        // Numbers differ from one to the next.
+        std::string kind;
+        for (const char c : text)
+            if (c < '0' || c > '9') kind += c;
+        if (++warnings[kind] <= 3) fmt::print(stderr, "warning: {}\n", text);
+    };
+    RestlessUser user(options, config, link);
+    std::jthread thread([&] { user.Use(); });
+    const std::atomic<bool> stop{false};
+    const Result<RunSummary> summary = ExecuteRun(request, config, observer, stop);
+    link.ended = true;
+    thread.join();
+    if (!summary.ok()) return summary.status();
+    const RunCounts& n = summary.value().counts;
+    fmt::print("since the last reset: {} frames, {} tracked, {} fused, {} dropped, {} not fused\n",
+               n.frames, n.tracked, n.fused, n.dropped, n.unfused);
+    return user.Report();
+}
+
+}  // namespace
+}  // namespace tessera
+
+int main(int argc, char** argv) {
+    CLI::App app("A live run with a restless user");
+    tessera::Options options;
+    app.add_option("SOURCE", options.source, "As tessera run");
+    app.add_option("--minutes", options.minutes, "How long")->check(CLI::PositiveNumber);
+    app.add_option("--seed", options.seed, "Of the user");
+    app.add_option("--labels", options.labels, "As tessera run");
+    app.add_option("--out", options.out, "Folder, which is emptied first");
+    options.config.AddTo(app);
+    CLI11_PARSE(app, argc, argv);
+    const tessera::Result<bool> kept = tessera::Run(options);
+    if (!kept.ok()) fmt::print(stderr, "{}\n", kept.message());
+    return !kept.ok() ? 2 : kept.value() ? 0 : 1;
+}
