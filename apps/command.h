@@ -30,6 +30,7 @@ void AddConfigCommand(CLI::App& app, CommandContext& context);
 void AddDoctorCommand(CLI::App& app, CommandContext& context);
 void AddEvalCommand(CLI::App& app, CommandContext& context);
 void AddExportCommand(CLI::App& app, CommandContext& context);
+void AddHelpCommand(CLI::App& app, CommandContext& context);
 void AddInfoCommand(CLI::App& app, CommandContext& context);
 void AddInspectCommand(CLI::App& app, CommandContext& context);
 void AddObjectsCommand(CLI::App& app, CommandContext& context);
@@ -40,6 +41,8 @@ void AddSweepCommand(CLI::App& app, CommandContext& context);
 void AddSynthCommand(CLI::App& app, CommandContext& context);
 void AddViewCommand(CLI::App& app, CommandContext& context);
 
+// The error for a word that is no command. Names the nearest one, if one is near.
+Status UnknownCommand(const CLI::App& app, const std::string& word);
 // Prints the error as one line on stderr and returns kExitBadInput.
 int Fail(const Status& error);
 // Returns kExitDone, or the result of Fail.

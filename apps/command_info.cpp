@@ -7,6 +7,7 @@
 #include "config_options.h"
 #include "core/printable.h"
 #include "run/open_source.h"
+#include "run/other_files.h"
 #include "run/scan_export.h"
 
 namespace tessera {
@@ -71,10 +72,15 @@ int Info(const Arguments& a) {
         fmt::print("{}", text.value());
         return kExitDone;
     }
+    if (const std::string other = DescribeOtherFile(a.source); !other.empty()) {
+        fmt::print("{}: {}\n", Printable(a.source), Printable(other));
+        return kExitDone;
+    }
     Result<std::unique_ptr<FrameSource>> source = OpenSource(a.source, config);
     if (!source.ok()) return Fail(source.status());
     PrintSource(source.value()->info());
     PrintFirstFrame(*source.value());
+    fmt::print("to scan it: tessera run {} --out DIR\n", Printable(a.source));
     return kExitDone;
 }
 
@@ -82,10 +88,8 @@ int Info(const Arguments& a) {
 
 void AddInfoCommand(CLI::App& app, CommandContext& context) {
     auto a = std::make_shared<Arguments>();
-    CLI::App* command = app.add_subcommand("info", "Describe a source or a scan file");
-    command
-        ->add_option("SOURCE", a->source,
-                     "Folder, openni2:[URI], FILE.oni, FILE.klg, FILE.scan or synthetic:NAME")
+    CLI::App* command = app.add_subcommand("info", "Say what a source, a file or a folder is");
+    command->add_option("SOURCE", a->source, "A source, as for run, or any other file or folder")
         ->required();
     a->config.AddTo(*command);
     command->callback([a, &context] { context.exit_code = Info(*a); });

@@ -7,6 +7,7 @@
 #include "config_options.h"
 #include "console.h"
 #include "cuda/open_device.h"
+#include "run/open_source.h"
 #include "run/run.h"
 #include "run_in_window.h"
 #include "run_text.h"
@@ -21,7 +22,7 @@ struct Arguments {
     ConfigOptions config;
     std::string tracker, alpha, loop_closure;
     int threads = -1;
-    std::string device = "auto", mode = "lockstep", labels = "none", scan, resume, localise_only;
+    std::string device = "auto", mode = "auto", labels = "none", scan, resume, localise_only;
 
     // The existing scan to start from; empty if there is none.
     const std::string& existing() const { return resume.empty() ? localise_only : resume; }
@@ -93,7 +94,10 @@ int Run(const Arguments& a) {
     }
     RunRequest request = a.request;
     request.device = device.get();
-    request.live = a.mode == "live";
+    const bool by_default = a.mode == "auto";
+    request.live = by_default ? IsLiveSource(request.source) : a.mode == "live";
+    if (by_default && request.live)
+        std::fputs("info: live, as for every camera; --mode lockstep drops no frame\n", stderr);
     request.resume = !a.resume.empty();
     request.localise_only = !a.localise_only.empty();
     request.scan_file = a.existing().empty() ? a.scan : a.existing();
@@ -111,12 +115,12 @@ int Run(const Arguments& a) {
     if (!result.ok()) return Fail(result.status());
     const RunSummary& summary = result.value();
     std::fputs(RunText(request, summary).c_str(), stdout);
-    if (2 * summary.counts.tracked >= summary.counts.frames) return kExitDone;
-    std::fputs(
-        fmt::format("tessera: only {} of {} frames tracked; last reason: {}\n",
-                    summary.counts.tracked, summary.counts.frames, Printable(summary.last_reason))
-            .c_str(),
-        stderr);
+    const std::int64_t looked_at = summary.counts.frames - summary.counts.dropped;
+    if (2 * summary.counts.tracked >= looked_at) return kExitDone;
+    std::fputs(fmt::format("tessera: only {} of {} frames tracked; last reason: {}\n",
+                           summary.counts.tracked, looked_at, Printable(summary.last_reason))
+                   .c_str(),
+               stderr);
     return kExitMostlyLost;
 }
 
@@ -125,8 +129,9 @@ void AddSource(CLI::App& command, Arguments& a) {
         .add_option("SOURCE", a.request.source,
                     "Folder (TUM RGB-D, ICL-NUIM, 7-Scenes, or images with a camera.yaml), "
                     "openni2: (a depth camera; openni2:URI for a specific one), FILE.oni, "
-                    "FILE.klg, FILE.scan (the frames stored in a scan), or synthetic:NAME (desk, "
-                    "room, flat, walk, corridor, floor, corner, wall, people, chair, door)")
+                    "FILE.klg, FILE.scan (the frames stored in a scan), pipe:- or pipe:SOCKET "
+                    "(frames from another program), or synthetic:NAME (desk, room, flat, walk, "
+                    "corridor, floor, corner, wall, people, chair, door)")
         ->required();
     command.add_option("--out", a.request.output_folder, "Folder for the results")
         ->type_name("DIR")
@@ -172,8 +177,8 @@ void AddFrames(CLI::App& command, Arguments& a) {
     command
         .add_option("--mode", a.mode,
                     "lockstep: every frame, in order; live: the newest frame wins, at the pace of "
-                    "the camera or recording")
-        ->check(CLI::IsMember({"lockstep", "live"}))
+                    "the camera or recording; auto: live for a camera, else lockstep")
+        ->check(CLI::IsMember({"auto", "lockstep", "live"}))
         ->capture_default_str();
 }
 

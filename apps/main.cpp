@@ -29,8 +29,7 @@ int ReportParseError(const CLI::App& app, const CLI::ParseError& error) {
     if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) return app.exit(error);
     // CLI11 only reports that a subcommand is missing.
     if (app.get_subcommands().empty() && !app.remaining().empty())
-        return Fail(Status::Error(fmt::format(
-            "unknown command or option '{}' (tessera -h lists them)", app.remaining().front())));
+        return Fail(UnknownCommand(app, app.remaining().front()));
     std::string command = "tessera";
     for (const CLI::App* used = &app; !used->get_subcommands().empty();) {
         used = used->get_subcommands().front();
@@ -86,6 +85,7 @@ int Main(int argc, char** argv) {
     AddInfoCommand(app, context);
     AddDoctorCommand(app, context);
     AddConfigCommand(app, context);
+    AddHelpCommand(app, context);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

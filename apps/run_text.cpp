@@ -56,6 +56,12 @@ std::string RunText(const RunRequest& request, const RunSummary& s) {
             "live: {} frames dropped for newer ones, {} tracked but not fused because mapping was "
             "busy\n",
             n.dropped, n.unfused);
+    if (request.live && 20 * (n.dropped + n.unfused) > n.frames)
+        text += fmt::format(
+            "note: frames came every {:.0f} ms, faster than this machine maps; larger voxels "
+            "(mapping.voxel_size_m), --loop-closure off or fewer labels (labels.max_rate_hz) "
+            "help\n",
+            1000 / s.source.fps);
     if (s.ate) text += AteText(*s.ate);
     double median_ms = 0;
     for (const auto& [stage, statistics] : s.stages)

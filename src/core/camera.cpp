@@ -124,13 +124,17 @@ Result<CameraCalibration> ReadCameraFile(const std::string& path) {
     constexpr std::size_t kMostBytes = 64 << 10;
     const Result<std::string> text = ReadWholeFile(path, kMostBytes);
     if (!text.ok()) return text.status();
+    return ParseCameraText(text.value(), path);
+}
+
+Result<CameraCalibration> ParseCameraText(const std::string& text, const std::string& name) {
     CameraCalibration calibration;
     try {
-        if (Status status = ParseCamera(YAML::Load(text.value()), calibration); !status.ok())
-            return Status::Error(path + ": " + status.message());
+        if (Status status = ParseCamera(YAML::Load(text), calibration); !status.ok())
+            return Status::Error(name + ": " + status.message());
     } catch (const YAML::Exception& error) {
         return Status::Error(
-            fmt::format("{}: is not valid YAML: {}", path, Printable(error.what(), 200)));
+            fmt::format("{}: is not valid YAML: {}", name, Printable(error.what(), 200)));
     }
     return calibration;
 }

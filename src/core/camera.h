@@ -59,6 +59,9 @@ struct CameraCalibration {
 // values are errors that name the file, the key and the value.
 Result<CameraCalibration> ReadCameraFile(const std::string& path);
 
+// The same from text; errors name it so.
+Result<CameraCalibration> ParseCameraText(const std::string& text, const std::string& name);
+
 // Returns the text of a camera.yaml file. Every value round-trips exactly.
 std::string CameraFileText(const CameraCalibration& calibration);
 

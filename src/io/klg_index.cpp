@@ -6,6 +6,8 @@
 #include <iterator>
 #include <span>
 
+#include "io/klg_frame.h"
+
 namespace tessera {
 namespace {
 
@@ -13,17 +15,6 @@ template <class Value>
 std::span<std::uint8_t> BytesOf(Value& value) {
     return {reinterpret_cast<std::uint8_t*>(&value), sizeof(value)};
 }
-
-// The most bytes that a camera's frame can have: stored as it is, or as damaged data that grew.
-struct FrameLimits {
-    explicit FrameLimits(const PinholeCamera& camera) {
-        constexpr std::int64_t kHeaders = 65536;
-        const std::int64_t pixels = std::int64_t{camera.width} * camera.height;
-        depth_bytes = pixels * 2 + pixels / 8 + kHeaders;
-        colour_bytes = pixels * 6 + kHeaders;
-    }
-    std::int64_t depth_bytes = 0, colour_bytes = 0;
-};
 
 // The longest subsequence of increasing stamps, so that one damaged stamp costs one frame.
 std::vector<KlgEntry> WithIncreasingStamps(const std::vector<KlgEntry>& entries) {
@@ -49,12 +40,6 @@ std::vector<KlgEntry> WithIncreasingStamps(const std::vector<KlgEntry>& entries)
 }  // namespace
 
 Result<KlgIndex> ReadKlgIndex(const InputFile& file, const PinholeCamera& camera) {
-    const FrameLimits limits(camera);
-    struct Header {
-        std::int64_t stamp_us;
-        std::int32_t depth_bytes, colour_bytes;
-    };
-    static_assert(sizeof(Header) == 16);
     std::int32_t count = 0;
     if (file.size() < sizeof(count) || !file.ReadAt(0, BytesOf(count)).ok() || count < 0)
         return Status::Error(file.path() +
@@ -62,11 +47,10 @@ Result<KlgIndex> ReadKlgIndex(const InputFile& file, const PinholeCamera& camera
     KlgIndex index;
     std::vector<KlgEntry> entries;
     std::uint64_t at = sizeof(count);
-    while (std::ssize(entries) < count && at + sizeof(Header) <= file.size()) {
-        Header header{};
+    while (std::ssize(entries) < count && at + sizeof(KlgHeader) <= file.size()) {
+        KlgHeader header;
         if (Status status = file.ReadAt(at, BytesOf(header)); !status.ok()) return status;
-        if (header.depth_bytes <= 0 || header.depth_bytes > limits.depth_bytes ||
-            header.colour_bytes < 0 || header.colour_bytes > limits.colour_bytes) {
+        if (!header.Fits(camera)) {
             const std::string what =
                 fmt::format("frame {} has {} bytes of depth and {} of colour", entries.size(),
                             header.depth_bytes, header.colour_bytes);
@@ -80,7 +64,7 @@ Result<KlgIndex> ReadKlgIndex(const InputFile& file, const PinholeCamera& camera
         }
         KlgEntry entry;
         entry.stamp_us = header.stamp_us;
-        entry.offset = at + sizeof(Header);
+        entry.offset = at + sizeof(KlgHeader);
         entry.depth_bytes = static_cast<std::uint32_t>(header.depth_bytes);
         entry.colour_bytes = static_cast<std::uint32_t>(header.colour_bytes);
         at = entry.offset + entry.depth_bytes + entry.colour_bytes;

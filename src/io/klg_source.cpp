@@ -1,19 +1,14 @@
 #include "io/klg_source.h"
 
 #include <fmt/format.h>
-#include <libdeflate.h>
 
-#include <algorithm>
-#include <cstring>
 #include <filesystem>
 #include <vector>
 
 #include "core/input_file.h"
-#include "io/image_decoder.h"
-#include "io/jpeg_decoder.h"
+#include "io/klg_frame.h"
 #include "io/klg_index.h"
 #include "io/nominal_camera.h"
-#include "io/rectifier.h"
 
 namespace tessera {
 namespace {
@@ -45,15 +40,14 @@ class KlgSource : public FrameSource {
         : path_(file.path()),
           file_(std::move(file)),
           entries_(std::move(index.entries)),
-          swap_red_blue_(config.swap_red_blue),
-          rectifier_(calibration, {.correct_distortion = config.rectify}) {
+          decoder_(calibration, {config.rectify, config.swap_red_blue}) {
         info_.name = path_;
         info_.kind = ".klg log";
         info_.camera = calibration.pinhole;
         info_.frame_count = static_cast<std::int64_t>(entries_.size());
         info_.fps = calibration.fps;
         info_.depth_units_per_m = calibration.depth_scale;
-        info_.rectified = rectifier_.active();
+        info_.rectified = decoder_.rectifies();
         info_.notes = std::move(notes);
         info_.warnings = std::move(index.warnings);
     }
@@ -63,13 +57,14 @@ class KlgSource : public FrameSource {
     ReadResult Read(Frame& frame) override {
         if (next_ >= entries_.size()) return {ReadStatus::kEnd, {}};
         const std::size_t index = next_++;
-        if (Status status = Decode(entries_[index]); !status.ok())
+        Status status = Load(entries_[index]);
+        if (status.ok()) status = decoder_.Decode(bytes_, DepthBytes(index), frame);
+        if (!status.ok())
             return {ReadStatus::kSkip,
                     fmt::format("{}: frame {}: {}", path_, index, status.message())};
         frame.index = static_cast<std::int64_t>(index);
         frame.stamp_s = frame.colour_stamp_s = static_cast<double>(entries_[index].stamp_us) * 1e-6;
         frame.T_world_camera.reset();
-        rectifier_.Fill(depth_, colour_, frame);
         return {};
     }
 
@@ -80,77 +75,27 @@ class KlgSource : public FrameSource {
     }
 
     Status Probe() {
-        Status status = Decode(entries_.front());
+        Status status = Load(entries_.front());
+        if (status.ok()) status = decoder_.Decode(bytes_, DepthBytes(0));
         return status.ok() ? status
                            : Status::Error(fmt::format("{}: frame 0: {}", path_, status.message()));
     }
 
   private:
-    Status Decode(const KlgEntry& entry) {
+    Status Load(const KlgEntry& entry) {
         bytes_.resize(std::size_t{entry.depth_bytes} + entry.colour_bytes);
-        if (Status status = file_.ReadAt(entry.offset, bytes_); !status.ok()) return status;
-        const std::span<const std::uint8_t> all(bytes_);
-        if (Status status = DecodeDepth(all.first(entry.depth_bytes)); !status.ok()) return status;
-        return DecodeColour(all.subspan(entry.depth_bytes));
+        return file_.ReadAt(entry.offset, bytes_);
     }
-
-    Status DecodeDepth(std::span<const std::uint8_t> bytes) {
-        depth_.Resize(info_.camera.width, info_.camera.height);
-        const std::size_t size = depth_.size() * sizeof(std::uint16_t);
-        if (bytes.size() == size) {
-            std::memcpy(depth_.data(), bytes.data(), size);
-            return Status::Ok();
-        }
-        if (libdeflate_zlib_decompress(inflater_.get(), bytes.data(), bytes.size(), depth_.data(),
-                                       size, nullptr) != LIBDEFLATE_SUCCESS)
-            return Status::Error(
-                fmt::format("depth is damaged, or its size is not {} x {} pixels (set the size in "
-                            "camera.yaml next to the log)",
-                            info_.camera.width, info_.camera.height));
-        return Status::Ok();
+    std::int32_t DepthBytes(std::size_t index) const {
+        return static_cast<std::int32_t>(entries_[index].depth_bytes);
     }
-
-    Status DecodeColour(std::span<const std::uint8_t> bytes) {
-        colour_.Resize(bytes.empty() ? 0 : info_.camera.width,
-                       bytes.empty() ? 0 : info_.camera.height);
-        if (bytes.size() == colour_.size() * sizeof(Rgb8)) {
-            if (!bytes.empty()) std::memcpy(colour_.data(), bytes.data(), bytes.size());
-        } else if (Status status = DecodeCompressed(bytes); !status.ok()) {
-            return Status::Error("colour " + status.message());
-        }
-        if (swap_red_blue_)
-            std::for_each_n(colour_.data(), colour_.size(), [](Rgb8& c) { std::swap(c.r, c.b); });
-        return Status::Ok();
-    }
-
-    Status DecodeCompressed(std::span<const std::uint8_t> bytes) {
-        const PinholeCamera& c = info_.camera;
-        const auto size = ReadJpegSize(bytes);
-        if (size && *size != ImageSize{c.width, c.height})
-            return Status::Error(
-                fmt::format("has {} x {} pixels, but the camera has {} x {}; correct camera.yaml "
-                            "next to the log",
-                            size->width, size->height, c.width, c.height));
-        return DecodeJpeg(bytes, ImageDecoder::kMaxSide_px, colour_);
-    }
-
-    struct FreeInflater {
-        void operator()(libdeflate_decompressor* inflater) const {
-            libdeflate_free_decompressor(inflater);
-        }
-    };
 
     std::string path_;
     InputFile file_;
     std::vector<KlgEntry> entries_;
-    bool swap_red_blue_;
-    Rectifier rectifier_;
+    KlgFrameDecoder decoder_;
     SourceInfo info_;
-    std::unique_ptr<libdeflate_decompressor, FreeInflater> inflater_{
-        libdeflate_alloc_decompressor()};
     std::vector<std::uint8_t> bytes_;
-    Image<std::uint16_t> depth_;
-    ColourImage colour_;
     std::size_t next_ = 0;
 };
 

@@ -1,28 +1,57 @@
 #include "run/open_source.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
 #include <filesystem>
 
 #include "io/klg_source.h"
 #include "io/openni_source.h"
+#include "io/pipe_source.h"
+#include "run/other_files.h"
 #include "scan/scan_source.h"
 
 namespace tessera {
+namespace {
+
+// Why a name that is no file is no source either.
+std::string NameProblem(const std::string& name) {
+    const std::size_t colon = name.find(':');
+    const std::string scheme = name.substr(0, colon);
+    const bool word = colon != std::string::npos && colon > 1 &&
+                      std::ranges::all_of(scheme, [](unsigned char c) { return std::isalnum(c); });
+    if (!word) return "no such folder";
+    for (const char* camera : {"realsense", "orbbec", "kinect", "k4a", "oak", "depthai", "v4l2"})
+        if (scheme == camera)
+            return scheme +
+                   ": is not a kind of source; cameras without OpenNI2 send their frames to pipe:- "
+                   "(docs/camera.md)";
+    return scheme + ": is not a kind of source";
+}
+
+}  // namespace
+
+bool IsLiveSource(const std::string& name) {
+    return name.starts_with("openni2:") || name.starts_with("pipe:");
+}
 
 Result<std::unique_ptr<FrameSource>> OpenSource(const std::string& name, const RunConfig& config) {
     if (name.starts_with("synthetic:")) return OpenSyntheticScene(name, config.synthetic);
     if (name.starts_with("openni2:") || name.ends_with(".oni"))
         return OpenOpenniSource(name, config.openni);
+    if (name.starts_with("pipe:")) return OpenPipeSource(name, config.source);
     if (name.ends_with(".scan")) return ScanSource::Open(name);
     if (name.ends_with(".klg")) return OpenKlgSource(name, config.source);
+    constexpr const char* kSources =
+        "a source is a folder, FILE.oni, FILE.klg, FILE.scan, openni2:, pipe:- or synthetic:NAME";
     std::error_code ignored;
     if (!std::filesystem::exists(name, ignored))
-        return Status::Error(name +
-                             ": no such folder (a source is a folder, FILE.oni, FILE.klg, "
-                             "FILE.scan, openni2: or synthetic:NAME)");
+        return Status::Error(fmt::format("{}: {} ({})", name, NameProblem(name), kSources));
+    if (const std::string other = DescribeOtherFile(name); !other.empty())
+        return Status::Error(fmt::format("{}: is no source of frames: {}", name, other));
     if (!std::filesystem::is_directory(name, ignored))
-        return Status::Error(name +
-                             ": is a file; a source is a folder, FILE.oni, FILE.klg, FILE.scan, "
-                             "openni2: or synthetic:NAME");
+        return Status::Error(fmt::format("{}: is a file; {}", name, kSources));
     return OpenFolderSource(name, config.source);
 }
 

@@ -10,9 +10,12 @@
 
 namespace tessera {
 
+// Whether the source is a camera, which does not wait for the program.
+bool IsLiveSource(const std::string& name);
+
 // "synthetic:NAME", "synthetic:FILE.obj" (a model), "openni2:[URI]" (a camera), "FILE.oni",
-// "FILE.klg", "FILE.scan", or a folder of images. Errors name the source and list the kinds of
-// source that exist.
+// "pipe:-", "pipe:PATH" (frames from another program), "FILE.klg", "FILE.scan", or a folder of
+// images. Errors name the source and list the kinds of source that exist.
 Result<std::unique_ptr<FrameSource>> OpenSource(const std::string& name, const RunConfig& config);
 
 }  // namespace tessera

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/check.h"
 #include "core/process.h"
 #include "core/stopwatch.h"
 #include "io/mesh_io.h"
@@ -123,15 +124,18 @@ void FrameMapping::Reset() {
 }
 
 void FrameMapping::SaveMesh(const std::string& path) {
-    notices_.Tell(WriteMesh(path) + (paging_ ? paging_->MissingText(*scan_) : ""));
+    if (!mesh_writer_) mesh_writer_.emplace(1, [this](SavedMesh& saved) { WriteMesh(saved); });
+    if (!mesh_writer_->idle()) return notices_.Tell("a mesh is still being saved; try again later");
+    SavedMesh saved{path, paging_ ? paging_->MissingText(*scan_) : "", stage_.Mesh()};
+    if (saved.mesh.triangles.empty()) return notices_.Tell("no surface to save yet");
+    TESSERA_CHECK(mesh_writer_->TryPush(std::move(saved)), "an idle thread has no room");
 }
 
-std::string FrameMapping::WriteMesh(const std::string& path) const {
-    const TriangleMesh mesh = stage_.Mesh();
-    if (mesh.triangles.empty()) return "no surface to save yet";
-    const Status status = WritePly(path, mesh);
-    if (!status.ok()) return status.message();
-    return fmt::format("saved {}: {} triangles", path, mesh.triangles.size());
+void FrameMapping::WriteMesh(const SavedMesh& saved) {
+    const Status status = WritePly(saved.path, saved.mesh);
+    notices_.Tell(status.ok() ? fmt::format("saved {}: {} triangles{}", saved.path,
+                                            saved.mesh.triangles.size(), saved.note)
+                              : status.message());
 }
 
 void FrameMapping::SaveScan(const std::string& path) { notices_.Tell(StartScanNow(path)); }
@@ -151,6 +155,7 @@ std::string FrameMapping::StartScanNow(const std::string& path) {
 // ---- The end.
 
 void FrameMapping::Finish() {
+    if (mesh_writer_) mesh_writer_->Finish();
     if (paging_) paging_->Close();
     if (scan_) scan_->Finish(stage_);
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/notices.h"
+#include "core/worker.h"
 #include "optimize/loop_closer.h"
 #include "system/engine.h"
 #include "system/mapping_stage.h"
@@ -62,6 +63,7 @@ class FrameMapping {
     void Apply(const LabelSettings& settings) { label_settings_ = settings; }
     bool labelling() const { return label_settings_.on; }
     void Reset();
+    // Makes the mesh here, and writes it on a thread of its own.
     void SaveMesh(const std::string& path);
     // Saves the whole run so far, and what comes, to a new scan file.
     void SaveScan(const std::string& path);
@@ -88,7 +90,11 @@ class FrameMapping {
   private:
     Status StartPaging();
     TriangleMesh MakeFinalMesh(Status& status);
-    std::string WriteMesh(const std::string& path) const;
+    struct SavedMesh {
+        std::string path, note;
+        TriangleMesh mesh;
+    };
+    void WriteMesh(const SavedMesh& saved);
     std::string StartScanNow(const std::string& path);
 
     const RunConfig config_;
@@ -104,6 +110,7 @@ class FrameMapping {
     LabelSettings label_settings_;
     std::string labels_warning_;  // as last told
     ViewerFeed feed_;
+    std::optional<Worker<SavedMesh>> mesh_writer_;  // from the first use on
 };
 
 }  // namespace tessera

@@ -88,6 +88,10 @@ TEST_F(Cli, AMeshWithoutLabelsIsNotShownByLabel) {
 
 TEST_F(Cli, BadArgumentsAreOneLineAndExitCode2) {
     ExpectRefused("", "subcommand");
+    ExpectRefused("rnu synthetic:desk", "did you mean run?");
+    ExpectRefused("xxxxxx", "unknown command or option 'xxxxxx' (tessera -h lists them)");
+    ExpectRefused("run realsense:", "realsense: is not a kind of source; cameras without OpenNI2");
+    ExpectRefused("run gopher:desk", "pipe:- or synthetic:NAME");
     ExpectRefused("walk", "walk");
     ExpectRefused("run", "SOURCE");
     ExpectRefused("run synthetic:desk --nonsense", "--nonsense");
@@ -434,6 +438,13 @@ TEST_F(Cli, InfoAndDoctorSayWhatThereIs) {
     EXPECT_EQ(info.exit_code, 0) << info.err;
     EXPECT_NE(info.out.find("640 x 480"), std::string::npos) << info.out;
     EXPECT_NE(info.out.find("depth in"), std::string::npos) << info.out;
+    EXPECT_NE(info.out.find("tessera run synthetic:desk --out DIR"), std::string::npos);
+    std::ofstream(folder / "a.ply") << "ply";
+    const Outcome mesh = Call("info " + (folder / "a.ply"));
+    EXPECT_EQ(mesh.exit_code, 0) << mesh.err;
+    EXPECT_NE(mesh.out.find("a mesh; tessera view"), std::string::npos) << mesh.out;
+    EXPECT_NE(Call("help run").out.find("--loop-closure"), std::string::npos);
+    ExpectRefused("help rnu", "did you mean run?");
     const Outcome doctor = Call("doctor");
     EXPECT_EQ(doctor.exit_code, 0);
     EXPECT_NE(doctor.out.find("CUDA"), std::string::npos);

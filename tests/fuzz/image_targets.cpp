@@ -1,4 +1,5 @@
 // Images and logs of images.
+#include <fcntl.h>
 #include <libdeflate.h>
 
 #include <algorithm>
@@ -8,6 +9,7 @@
 #include "fuzz/fuzz_target.h"
 #include "io/image_decoder.h"
 #include "io/klg_source.h"
+#include "io/pipe_source.h"
 
 namespace tessera::fuzz {
 namespace {
@@ -132,6 +134,44 @@ void ReadLog(std::span<const std::uint8_t> bytes) {
     }
 }
 
+// A camera and two frames, one of them compressed.
+Bytes SomeStream() {
+    const std::string camera = "width: 16\nheight: 12\nfx: 15\nfy: 15\ncx: 8\ncy: 6\n";
+    Bytes stream = BytesOf("TESSERA1");
+    Append(stream, static_cast<std::uint32_t>(camera.size()));
+    stream.insert(stream.end(), camera.begin(), camera.end());
+    const Bytes depth(16 * 12 * 2, 3), colour(16 * 12 * 3, 5), jpeg = [] {
+        Bytes file;
+        cv::imencode(".jpg", cv::Mat(12, 16, CV_8UC3, cv::Scalar(1, 2, 3)), file);
+        return file;
+    }();
+    std::int64_t stamp_us = 0;
+    for (const Bytes* second : {&colour, &jpeg}) {
+        Append(stream, stamp_us += 33333);
+        Append(stream, static_cast<std::int32_t>(depth.size()));
+        Append(stream, static_cast<std::int32_t>(second->size()));
+        stream.insert(stream.end(), depth.begin(), depth.end());
+        stream.insert(stream.end(), second->begin(), second->end());
+    }
+    return stream;
+}
+
+void ReadStream(std::span<const std::uint8_t> bytes) {
+    const BytesAsFile file(bytes);
+    const auto source =
+        OpenPipeSource("pipe:x", ByteStream(open(file.path().c_str(), O_RDONLY)), {}, 1);
+    CheckError(source.status(), "pipe:x");
+    if (!source.ok()) return;
+    const PinholeCamera& camera = source.value()->info().camera;
+    Frame frame;
+    for (ReadResult read; read.status != ReadStatus::kEnd; read = source.value()->Read(frame)) {
+        TESSERA_CHECK(read.status != ReadStatus::kWait, "waits for a file");
+        if (read.status == ReadStatus::kSkip) CheckError(Status::Error(read.message), "pipe:x");
+        TESSERA_CHECK(frame.depth_m.empty() || frame.depth_m.width() == camera.width,
+                      "{} pixels wide", frame.depth_m.width());
+    }
+}
+
 }  // namespace
 
 std::vector<FuzzTarget> ImageTargets() {
@@ -172,6 +212,7 @@ std::vector<FuzzTarget> ImageTargets() {
          },
          Decode},
         {"klg", [] { return std::vector<Bytes>{SomeLog()}; }, ReadLog, 300},
+        {"pipe", [] { return std::vector<Bytes>{SomeStream()}; }, ReadStream, 1000},
     };
 }
 

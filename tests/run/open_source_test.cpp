@@ -24,12 +24,43 @@ TEST(OpenSource, WhatIsWrongIsNamed) {
     };
     EXPECT_EQ(message("/no/such"),
               "/no/such: no such folder (a source is a folder, FILE.oni, FILE.klg, FILE.scan, "
-              "openni2: or synthetic:NAME)");
+              "openni2:, pipe:- or synthetic:NAME)");
+    EXPECT_NE(message("gopher:x").find("gopher: is not a kind of source (a source is"),
+              std::string::npos);
+    EXPECT_NE(message("realsense:").find("send their frames to pipe:-"), std::string::npos);
     EXPECT_NE(message(folder / "file.txt").find("is a file"), std::string::npos);
     EXPECT_NE(message("synthetic:dsk").find("desk"), std::string::npos) << message("synthetic:dsk");
     EXPECT_NE(message(folder.path()).find(folder.path()), std::string::npos);  // an empty folder
     EXPECT_EQ(message("a.klg"), "a.klg: no such file");
     EXPECT_NE(message("a.scan").find("a.scan"), std::string::npos) << message("a.scan");
+}
+
+TEST(OpenSource, OtherFilesAreSaidToBeWhatTheyAre) {
+    const TempFolder folder;
+    const auto expect = [&](const std::string& name, const std::string& text,
+                            const std::string& words) {
+        std::ofstream(folder / name) << text;
+        const std::string message = OpenSource(folder / name, RunConfig()).message();
+        EXPECT_EQ(message.find((folder / name) + ": is no source of frames: "), 0u) << message;
+        EXPECT_NE(message.find(words), std::string::npos) << message;
+    };
+    expect("a.ply", "", "tessera view " + (folder / "a.ply") + " shows it");
+    expect("b.BAG", "", "pipe:-");
+    expect("c.onnx", "", "tessera run SOURCE --labels " + (folder / "c.onnx"));
+    expect("d.txt", "1 0 0 0 0 0 0 1\n2 0 0 0 0 0 0 1\n", "a path of 2 poses");
+    expect("camera.yaml", "width: 32\nheight: 24\nfx: 30\nfy: 30\ncx: 16\ncy: 12\n",
+           "a camera file");
+    expect("e.yaml", "mapping:\n  voxel_size_m: 0.02\n", "--config " + (folder / "e.yaml"));
+    std::ofstream(folder / "run.json") << "{}";
+    EXPECT_NE(OpenSource(folder.path(), RunConfig()).message().find("the results of a run"),
+              std::string::npos);
+}
+
+TEST(OpenSource, CamerasAreLive) {
+    for (const char* name : {"openni2:", "openni2:test://0", "pipe:-", "pipe:/tmp/a.sock"})
+        EXPECT_TRUE(IsLiveSource(name)) << name;
+    for (const char* name : {"a.oni", "folder", "synthetic:desk", "a.scan"})
+        EXPECT_FALSE(IsLiveSource(name)) << name;
 }
 
 }  // namespace

@@ -1,0 +1,74 @@
+# cmake --install, find_package(Tessera), and Debian packages (cpack). The last file of the build.
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+set(documents ${CMAKE_INSTALL_DATAROOTDIR}/doc/tessera)
+
+# The program: with its manual page and completion, made by the program itself.
+set(made ${CMAKE_BINARY_DIR}/installed)
+add_custom_command(OUTPUT ${made}/tessera.1 ${made}/tessera.bash
+    COMMAND ${CMAKE_COMMAND} -E make_directory ${made}
+    COMMAND tessera help --manual > ${made}/tessera.1
+    COMMAND tessera help --completion > ${made}/tessera.bash
+    DEPENDS tessera VERBATIM)
+add_custom_target(tessera_manual ALL DEPENDS ${made}/tessera.1 ${made}/tessera.bash)
+install(TARGETS tessera RUNTIME COMPONENT program)
+install(FILES ${made}/tessera.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program)
+install(FILES ${made}/tessera.bash DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/bash-completion/completions
+    RENAME tessera COMPONENT program)
+install(FILES LICENSE README.md CHANGELOG.md DESTINATION ${documents} COMPONENT program)
+install(DIRECTORY docs/ DESTINATION ${documents} COMPONENT program
+    FILES_MATCHING PATTERN "*.md" PATTERN "results" EXCLUDE PATTERN "images" EXCLUDE)
+install(PROGRAMS python/examples/realsense.py python/examples/azure_kinect.py python/examples/orbbec.py
+    python/examples/oak.py python/examples/ros2_topics.py DESTINATION ${documents}/examples COMPONENT program)
+install(FILES python/examples/stream.py DESTINATION ${documents}/examples COMPONENT program)
+
+# The Python package, where Debian's interpreter finds it.
+if(TESSERA_PYTHON)
+    install(TARGETS tessera_python LIBRARY DESTINATION lib/python3/dist-packages/tessera COMPONENT python)
+    install(FILES python/tessera/__init__.py python/tessera/__init__.pyi python/tessera/live.py python/tessera/py.typed
+        python/examples/stream.py DESTINATION lib/python3/dist-packages/tessera COMPONENT python)
+endif()
+
+# The libraries, for find_package(Tessera).
+get_property(libraries GLOBAL PROPERTY TESSERA_LIBRARIES)
+list(REMOVE_ITEM libraries tessera_viz tessera_vdb)  # of the program alone
+install(TARGETS ${libraries} tessera_options EXPORT TesseraTargets ARCHIVE COMPONENT development)
+set(package ${CMAKE_INSTALL_LIBDIR}/cmake/Tessera)
+install(EXPORT TesseraTargets NAMESPACE Tessera:: DESTINATION ${package} COMPONENT development)
+configure_package_config_file(cmake/TesseraConfig.cmake.in ${CMAKE_BINARY_DIR}/TesseraConfig.cmake
+    INSTALL_DESTINATION ${package})
+write_basic_package_version_file(${CMAKE_BINARY_DIR}/TesseraConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${CMAKE_BINARY_DIR}/TesseraConfig.cmake ${CMAKE_BINARY_DIR}/TesseraConfigVersion.cmake
+    cmake/TesseraDependencies.cmake DESTINATION ${package} COMPONENT development)
+foreach(folder core io mapping synth render tracking semantics eval optimize scan export system run)
+    install(DIRECTORY src/${folder} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/tessera COMPONENT development
+        FILES_MATCHING PATTERN "*.h")
+endforeach()
+
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME tessera)
+set(CPACK_PACKAGE_CONTACT "The Tessera authors <tessera@localhost>")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "dense RGB-D SLAM")
+set(CPACK_STRIP_FILES ON)
+set(CPACK_DEBIAN_COMPRESSION_TYPE zstd)
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_COMPONENTS_ALL program development)
+if(TESSERA_PYTHON)
+    list(APPEND CPACK_COMPONENTS_ALL python)
+endif()
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME tessera)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION graphics)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-tessera)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3, python3-numpy")
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libtessera-dev)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SHLIBDEPS OFF)
+file(STRINGS scripts/packages.txt lines REGEX "^lib.*-dev$")
+list(REMOVE_ITEM lines libgtest-dev libbenchmark-dev libxtst-dev libtinygltf-dev libcli11-dev)
+list(JOIN lines ", " CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS)
+include(CPack)

@@ -1,0 +1,80 @@
+#include "run/other_files.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <filesystem>
+
+#include "core/camera.h"
+#include "io/trajectory.h"
+
+namespace tessera {
+namespace {
+
+namespace fs = std::filesystem;
+
+// "{}" stands for the path.
+struct Kind {
+    const char* ending;
+    const char* what;
+};
+
+constexpr const char* kSend =
+    "this format is not read; play it with a program that sends its frames to pipe:- "
+    "(docs/camera.md)";
+
+constexpr std::array kKinds{
+    Kind{".ply", "a mesh; tessera view {} shows it"},
+    Kind{".obj",
+         "a mesh; tessera run synthetic:{} scans it, tessera render {} --out P.png shows it"},
+    Kind{".glb", "a mesh for other programs"},
+    Kind{".onnx", "a detection network; tessera run SOURCE --labels {} uses it"},
+    Kind{".weights", "the weights of a detection network; give its .cfg file to --labels"},
+    Kind{".bag", "a ROS 1 or RealSense recording; "},
+    Kind{".mcap", "a ROS 2 recording; "},
+    Kind{".db3", "a ROS 2 recording; "},
+    Kind{".mkv", "a video, perhaps of an Azure Kinect; "},
+    Kind{".r3d", "a Record3D recording; "},
+    Kind{".sens", "a ScanNet recording; "},
+    Kind{".png", "an image; a source is the folder of a whole recording"},
+    Kind{".jpg", "an image; a source is the folder of a whole recording"}};
+
+std::string DescribeText(const std::string& path, const std::string& ending) {
+    if (ending == ".yaml" || ending == ".yml")
+        return ReadCameraFile(path).ok()
+                   ? "a camera file; it belongs beside the folders depth and rgb of a recording"
+                   : fmt::format("a configuration; tessera run SOURCE --config {} uses it", path);
+    if (ending != ".txt") return "";
+    const Result<Trajectory> path_file = ReadTrajectory(path);
+    return path_file.ok() ? fmt::format("a path of {} poses; tessera eval ate TRUTH {} measures it",
+                                        path_file.value().poses.size(), path)
+                          : "";
+}
+
+}  // namespace
+
+std::string DescribeOtherFile(const std::string& path) {
+    std::error_code ignored;
+    if (fs::is_directory(path, ignored))
+        return fs::exists(fs::path(path) / "run.json", ignored) &&
+                       !fs::exists(fs::path(path) / "rgb.txt", ignored)
+                   ? fmt::format("the results of a run; tessera view {} shows them", path)
+                   : "";
+    if (!fs::is_regular_file(path, ignored)) return "";
+    std::string ending = fs::path(path).extension().string();
+    std::ranges::transform(ending, ending.begin(),
+                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    for (const Kind& kind : kKinds) {
+        if (ending != kind.ending) continue;
+        std::string text = kind.what;
+        if (text.ends_with("; ")) return text + kSend;
+        for (std::size_t at; (at = text.find("{}")) != std::string::npos;)
+            text.replace(at, 2, path);
+        return text;
+    }
+    return DescribeText(path, ending);
+}
+
+}  // namespace tessera

@@ -1,0 +1,131 @@
+"""The senders in python/examples, each against a stand-in for its camera's package."""
+import os
+import pathlib
+import struct
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import numpy as np
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+EXAMPLES = ROOT / "python/examples"
+sys.path[:0] = [str(ROOT / "tests/python/stand_ins"), str(EXAMPLES)]
+
+import frames  # noqa: E402
+from stream import FrameSender  # noqa: E402
+
+
+def run_example(name):
+    """Returns what the example sends, in a process of its own."""
+    script = (f"import sys, runpy; sys.path[:0] = {sys.path[:2]!r}; sys.argv = ['x', '-']\n"
+              f"from frames import NoMoreFrames\n"
+              f"try:\n    runpy.run_path({str(EXAMPLES / name)!r})\nexcept NoMoreFrames:\n    pass\n")
+    return subprocess.run([sys.executable, "-c", script], stdout=subprocess.PIPE, check=True).stdout
+
+
+def parse(stream):
+    """Returns the camera's lines and the frames (stamp in seconds, depth, colour) of a stream."""
+    assert stream[:8] == b"TESSERA1", stream[:20]
+    length, = struct.unpack_from("<I", stream, 8)
+    camera = dict(line.split(": ") for line in stream[12:12 + length].decode().splitlines())
+    size = (int(camera["height"]), int(camera["width"]))
+    at, found = 12 + length, []
+    while at < len(stream):
+        stamp_us, depth_bytes, colour_bytes = struct.unpack_from("<qii", stream, at)
+        at += 16
+        depth = np.frombuffer(stream, np.uint16, depth_bytes // 2, at).reshape(size)
+        colour = np.frombuffer(stream, np.uint8, colour_bytes, at + depth_bytes).reshape(size + (3,))
+        at += depth_bytes + colour_bytes
+        found.append((1e-6 * stamp_us, depth, colour))
+    return camera, found
+
+
+class Senders(unittest.TestCase):
+    def check(self, name, width=frames.WIDTH, height=frames.HEIGHT):
+        camera, found = parse(run_example(name))
+        self.assertEqual((int(camera["width"]), int(camera["height"])), (width, height))
+        self.assertEqual([float(camera[key]) for key in ("fx", "fy", "cx", "cy")],
+                         [frames.FX, frames.FY, frames.CX, frames.CY])
+        self.assertEqual(float(camera["depth_scale"]), 1000)
+        self.assertNotIn("distortion", camera)
+        self.assertEqual(len(found), 2)
+        for number, (stamp_s, depth, colour) in enumerate(found):
+            self.assertAlmostEqual(stamp_s, frames.STAMPS_S[number], places=5)
+            np.testing.assert_array_equal(depth, frames.depth_mm(number, width, height))
+            np.testing.assert_array_equal(colour, frames.colour_rgb(number, width, height))
+
+    def test_realsense(self):
+        self.check("realsense.py")
+
+    def test_azure_kinect(self):
+        try:
+            import cv2  # noqa: F401
+        except ImportError:
+            self.skipTest("no OpenCV for Python: apt-get install python3-opencv")
+        self.check("azure_kinect.py", 1280, 720)
+
+    def test_orbbec(self):
+        self.check("orbbec.py")
+
+    def test_oak(self):
+        self.check("oak.py")
+
+    def test_ros2_topics(self):
+        self.check("ros2_topics.py")
+
+
+class Sender(unittest.TestCase):
+    def test_wrong_arrays_are_named(self):
+        with tempfile.TemporaryFile() as file:
+            sender = FrameSender.__new__(FrameSender)
+            sender._size, sender._compress, sender._file = (4, 6), False, file
+            for depth, colour, word in ((np.zeros((4, 6)), None, "depth"),
+                                        (np.zeros((6, 4), np.uint16), None, "depth"),
+                                        (np.zeros((4, 6), np.uint16), np.zeros((4, 6), np.uint8), "colour")):
+                with self.assertRaisesRegex(ValueError, word):
+                    sender.send(0, depth, colour)
+
+    def test_a_live_scan(self):
+        import tessera.live
+        size = {"synthetic.width": 160, "synthetic.height": 120, "synthetic.fx": 131, "synthetic.fy": 131,
+                "synthetic.cx": 79.5, "synthetic.cy": 59.5}
+        scene = list(tessera.frames("synthetic:desk", settings={"synthetic.frames": 12, **size}))
+        with tempfile.TemporaryDirectory() as folder:
+            out = folder + "/o"
+            with tessera.live.Live(scene[0].camera, out, options=["--mode", "lockstep"], depth_scale=5000,
+                                   settings={"mapping.voxel_size_m": 0.04, "mapping.truncation_m": 0.16}) as live:
+                for frame in scene:
+                    live.push(np.round(5000 * frame.depth_m).astype(np.uint16), frame.colour, frame.stamp_s)
+            self.assertEqual(len(live.trajectory().stamps_s), 12)
+            self.assertGreater(len(live.mesh().triangles), 1000)
+            with self.assertRaises((BrokenPipeError, ValueError)):
+                live.push(np.zeros((120, 160), np.uint16), None, 99.0)
+            failing = tessera.live.Live(scene[0].camera, out, options=["--tracker", "none"])
+            with self.assertRaisesRegex(RuntimeError, "exit code 2"):
+                failing.finish()
+
+    def test_the_program_scans_what_is_sent(self):
+        """Over a socket, with compressed depth, in both modes."""
+        import tessera
+        settings = {"synthetic.frames": 12, "synthetic.width": 160, "synthetic.height": 120, "synthetic.fx": 131,
+                    "synthetic.fy": 131, "synthetic.cx": 79.5, "synthetic.cy": 59.5}
+        scene = list(tessera.frames("synthetic:desk", settings=settings))
+        with tempfile.TemporaryDirectory() as folder:
+            socket = os.path.join(folder, "camera.sock")
+            program = subprocess.Popen(
+                [os.environ["TESSERA_PROGRAM"], "run", f"pipe:{socket}", "--frames", "12", "--mode", "lockstep",
+                 "--set", "mapping.voxel_size_m=0.04", "--set", "mapping.truncation_m=0.16", "--out", folder + "/o"],
+                stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+            sender = FrameSender(socket, 160, 120, 131, 131, 79.5, 59.5, depth_scale=5000, compress=True)
+            for frame in scene:
+                sender.send(frame.stamp_s, np.round(5000 * frame.depth_m).astype(np.uint16), frame.colour)
+            out, err = program.communicate()
+            self.assertEqual(program.returncode, 0, err)
+            self.assertIn("12 frames, 12 tracked", out)
+            self.assertEqual(len(tessera.read_trajectory(folder + "/o/trajectory.txt").stamps_s), 12)
+
+
+if __name__ == "__main__":
+    unittest.main()
