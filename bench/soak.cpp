@@ -164,6 +164,8 @@ class RestlessUser {
         // At fixed times, so that the parts can be compared.
         if (now_s >= next_reset_s_) {
             ++acts_["resets"];
+            fmt::print(stderr, "before reset {}: RSS {:.0f}, heap {:.0f} MB\n", acts_["resets"],
+                       RssMb(), HeapMb());
             next_reset_s_ += options_.reset_s;
             Send(Kind::kReset, "");
         }

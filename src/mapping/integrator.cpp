@@ -134,6 +134,7 @@ void Integrator::Allocate(const PreparedFrame& frame, const View& view, BlockMap
     new_blocks_.erase(std::unique(new_blocks_.begin(), new_blocks_.end()), new_blocks_.end());
     const auto wanted = static_cast<std::int64_t>(new_blocks_.size());
     const std::int64_t room = RoomFor(wanted, map);
+    report.no_memory = room < std::min<std::int64_t>(wanted, config_.max_new_blocks);
     for (const BlockCoord& c : new_blocks_) {
         if (report.new_blocks >= config_.max_new_blocks) break;
         const BlockId id = report.new_blocks < room ? map.Allocate(c) : kUnknownBlock;

@@ -47,6 +47,7 @@ class Integrator {
     struct Report {
         std::int64_t new_blocks = 0;
         std::int64_t refused_blocks = 0;  // exceeded max_new_blocks or the map's capacity
+        bool no_memory = false;           // blocks were refused because the system has too little
         bool map_full = false;            // the map's capacity is exhausted
         std::int64_t fused_blocks = 0;
         double allocate_ms = 0, fuse_ms = 0;

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/check.h"
+#include "core/refill.h"
 
 namespace tessera {
 namespace {
@@ -34,8 +35,8 @@ void CollectDelta(const BlockMap& map, BlockMap::Layers layers, std::span<const 
     delta.revision = revision;
     delta.blocks.assign(blocks.begin(), blocks.end());
     delta.changed.assign(changed.begin(), changed.end());
-    delta.field.resize(changed.size() * kBlockVoxels);
-    delta.colour.resize(colours ? changed.size() * kBlockVoxels : 0);
+    Refill(changed.size() * kBlockVoxels, delta.field);
+    Refill(colours ? changed.size() * kBlockVoxels : 0, delta.colour);
     ForEachChanged(changed.size(), [&](std::size_t i) {
         const std::size_t at = i * kBlockVoxels;
         std::memcpy(delta.field.data() + at, map.field(changed[i]), kFieldBytes);

@@ -33,19 +33,19 @@ std::string MemoryWarning(const RunConfig& config) {
         1000 * map.voxel_size_m, mb_per_m2, free_mb / 1024, lasts_m2, kRoom_m2, kCure);
 }
 
-std::optional<std::string> MemoryWatch::Check(const MapStatistics& map) {
-    if (told_ || since_check_.ElapsedMs() < kInterval_ms) return std::nullopt;
+std::optional<std::string> MemoryWatch::Check(const MapStatistics& map, bool refused) {
+    if (told_ || (!refused && since_check_.ElapsedMs() < kInterval_ms)) return std::nullopt;
     since_check_ = Stopwatch();
     // A corrected map is made beside the old one.
     const double needed_mb =
         kReserve_mb + (kMeshPerMap + (loops_ ? 1 : 0)) * static_cast<double>(map.bytes) / kMb;
     const double free_mb = FreeMemoryMb();
-    if (free_mb > needed_mb) return std::nullopt;
+    if (!refused && free_mb > needed_mb) return std::nullopt;
     told_ = true;
     return fmt::format(
-        "memory is nearly used up: {:.0f} MB are free, and the end of the run needs up to {:.0f}; "
+        "memory is nearly used up: {:.0f} MB are free, and the end of the run may need as much; "
         "the run ends here, and everything is written; {}",
-        free_mb, needed_mb, kCure);
+        free_mb, kCure);
 }
 
 }  // namespace tessera

@@ -19,9 +19,10 @@ class MemoryWatch {
   public:
     explicit MemoryWatch(const RunConfig& config) : loops_(config.loops.enabled) {}
 
-    // Call it after each frame. Once, when what is free no longer exceeds what the end of the run
-    // needs, it returns why the run must end.
-    std::optional<std::string> Check(const MapStatistics& map);
+    // Call it after each frame. `refused`: new blocks were, for want of memory. Once, when that
+    // happens, or what is free no longer exceeds what the end of the run needs, it returns why the
+    // run must end.
+    std::optional<std::string> Check(const MapStatistics& map, bool refused);
 
   private:
     const bool loops_;

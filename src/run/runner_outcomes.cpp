@@ -47,7 +47,7 @@ void Runner::TakeFrame(const FrameOutcome& outcome) {
     window_.Show(outcome, summary_.counts, TruthOf(outcome));
     if (outcome.labels) TakeLabels(*outcome.labels);
     if (output_) KeepGoing(output_->AddFrame(report, outcome.decode_ms, frame_ms));
-    if (const auto reason = memory_.Check(outcome.map)) {
+    if (const auto reason = memory_.Check(outcome.map, report.fusion.no_memory)) {
         Warn(*reason);
         engine_->Stop();
     }

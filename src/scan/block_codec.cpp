@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "core/refill.h"
+
 namespace tessera {
 namespace {
 
@@ -37,27 +39,16 @@ std::size_t ContentBytes(std::span<const std::uint8_t> row) {
                                                                     : 0;
 }
 
-// Growing a vector keeps old and new storage at once and doubles the capacity. No element needs to
-// be kept here, so reallocate exactly.
-template <class T>
-void Fit(std::size_t count, std::vector<T>& values) {
-    if (count > values.capacity()) {
-        values = std::vector<T>();
-        values.reserve(count);
-    }
-    values.resize(count);
-}
-
 }  // namespace
 
 void BlockCopies::Copy(const BlockMap& map, std::span<const BlockId> blocks) {
     const std::size_t voxels = blocks.size() * kBlockVoxels;
-    Fit(blocks.size(), numbers);
-    Fit(blocks.size(), coords);
-    Fit(voxels, field);
-    Fit(voxels, weight);
-    Fit(voxels, colour);
-    Fit(map.has_labels() ? voxels : 0, labels);
+    Refill(blocks.size(), numbers);
+    Refill(blocks.size(), coords);
+    Refill(voxels, field);
+    Refill(voxels, weight);
+    Refill(voxels, colour);
+    Refill(map.has_labels() ? voxels : 0, labels);
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, blocks.size(), 64),
                       [&](const auto& range) {
                           for (std::size_t i = range.begin(); i < range.end(); ++i) {
