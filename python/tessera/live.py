@@ -38,13 +38,19 @@ class Live:
         self._out = os.fspath(out)
         self._lock = threading.Lock()
         self._process = subprocess.Popen(words, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=None)
-        self._sender = FrameSender(self._process.stdin, camera.width, camera.height, camera.fx, camera.fy, camera.cx,
-                                   camera.cy, depth_scale=depth_scale)
+        self._sender = None
+        try:
+            self._sender = FrameSender(self._process.stdin, camera.width, camera.height, camera.fx, camera.fy,
+                                       camera.cx, camera.cy, depth_scale=depth_scale)
+        except BrokenPipeError:  # the program has refused its options: finish says so
+            pass
 
     def push(self, depth: np.ndarray, colour: Optional[np.ndarray], stamp_s: float) -> None:
         """Sends one frame: `depth` (height, width) uint16, 0 where nothing was measured; `colour` (height, width, 3)
         uint8 RGB or None. Thread-safe. Raises ValueError for other arrays, and BrokenPipeError if the scan has ended."""
         with self._lock:
+            if self._sender is None:
+                raise BrokenPipeError("the scan has ended")
             self._sender.send(stamp_s, depth, colour)
 
     def finish(self) -> str:

@@ -63,7 +63,7 @@ class Install(unittest.TestCase):
 
     def test_a_wheel_in_a_new_environment(self):
         try:
-            import ensurepip, setuptools, wheel  # noqa: E401, F401
+            import ensurepip, pip, setuptools, wheel  # noqa: E401, F401
         except ImportError:
             self.skipTest("apt-get install python3-venv python3-pip python3-setuptools python3-wheel")
         if not list((BUILD / "python/tessera").glob("_tessera*.so")):
@@ -88,6 +88,8 @@ class Install(unittest.TestCase):
         print(f"{wheels[0].name}: {wheels[0].stat().st_size / 2**20:.1f} MB, imported in {said.split()[-1]} ms")
 
     def test_the_debian_packages(self):
+        if not (shutil.which("dpkg-shlibdeps") and shutil.which("file")):
+            self.skipTest("apt-get install dpkg-dev file")
         folder = pathlib.Path(self._folder.name)
         call("cpack", "--config", BUILD / "CPackConfig.cmake", "-B", folder / "packages")
         packages = {re.match(r"[a-z0-9-]+", p.name)[0]: p for p in (folder / "packages").glob("*.deb")}

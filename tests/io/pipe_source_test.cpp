@@ -6,7 +6,9 @@
 #include <sys/un.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <cstring>
+#include <functional>
 #include <thread>
 
 #include "io/file.h"
@@ -196,6 +198,14 @@ TEST(PipeSource, NothingCame) {
     close(ends.sender);
 }
 
+/// Tries again until it holds, for at most 30 seconds: a fault fails the test, it never hangs it.
+bool Eventually(const std::function<bool()>& holds) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+    while (!holds())
+        if (std::chrono::steady_clock::now() > end) return false;
+    return true;
+}
+
 class Socket : public testing::Test {
   protected:
     int Connect() const {
@@ -203,8 +213,10 @@ class Socket : public testing::Test {
         address.sun_family = AF_UNIX;
         std::strcpy(address.sun_path, path.c_str());
         const int file = socket(AF_UNIX, SOCK_STREAM, 0);
-        while (connect(file, reinterpret_cast<sockaddr*>(&address), sizeof(address)) != 0) {
-        }
+        const auto connected = [&] {
+            return connect(file, reinterpret_cast<sockaddr*>(&address), sizeof(address)) == 0;
+        };
+        EXPECT_TRUE(Eventually(connected));
         return file;
     }
     static void Send(int file, const std::string& bytes) {
@@ -238,8 +250,10 @@ TEST_F(Socket, AnotherSenderGoesOnWhereOneWent) {
         const int file = Connect();
         Send(file, greeting);
         ReadResult read;
-        while (read = source.value()->Read(frame), read.message.empty())
-            ASSERT_EQ(read.status, ReadStatus::kWait);
+        EXPECT_TRUE(Eventually([&] {
+            read = source.value()->Read(frame);
+            return !read.message.empty();
+        }));
         EXPECT_EQ(read.status, ReadStatus::kWait);
         EXPECT_NE(read.message.find(why), std::string::npos) << read.message;
         close(file);
@@ -248,8 +262,7 @@ TEST_F(Socket, AnotherSenderGoesOnWhereOneWent) {
     expect_left(Greeting("depth_scale: 5000\n"), "another camera than the first");
     const int last = Connect();
     Send(last, Greeting() + FrameOf(2));
-    while (source.value()->Read(frame).status != ReadStatus::kOk) {
-    }
+    ASSERT_TRUE(Eventually([&] { return source.value()->Read(frame).status == ReadStatus::kOk; }));
     ExpectFrame(frame, 2);
     close(last);
     source.value().reset();
