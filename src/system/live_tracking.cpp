@@ -147,7 +147,12 @@ std::optional<Eigen::Isometry3d> LiveTracking::TakeRelocalisation(double stamp_s
         }
         return std::nullopt;
     }
-    if (!answer.T_world_camera || !state_->lost.lost()) return std::nullopt;
+    if (!answer.T_world_camera) return std::nullopt;
+    if (!state_->lost.lost()) {
+        if (!state_->T_doubted || SamePlace(*state_->T_doubted, *answer.T_world_camera))
+            return std::nullopt;
+        state_->lost.Doubt();
+    }
     links_.notices.Tell(answer.note);
     state_->life.stage().Relocate({answer.stamp_s, *answer.T_world_camera});
     state_->lost.Seen(stamp_s);
@@ -165,8 +170,13 @@ void LiveTracking::CheckIfLost(TrackedFrame& tracked) {
             state_->place.Begin(tracked.prepared, found.T_world_camera);
             links_.notices.Tell(kPlaceUnconfirmed);
         }
+        if (verdict == LostCamera::Verdict::kDoubtful && !state_->asked && !state_->place.open()) {
+            state_->T_doubted = found.T_world_camera;
+            Ask(tracked, false);
+        }
         return CheckPlace(tracked);
     }
+    state_->T_doubted.reset();
     if (tracked.report.tracked()) state_->life.stage().RejectPose(kPoseUnconfirmed, tracked);
     if (!state_->asked && tracked.prepared.valid_depth_pixels > 0) Ask(tracked, false);
 }

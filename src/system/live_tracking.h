@@ -43,8 +43,10 @@ class LiveTracking {
         MapVersion version;               // of that copy
         LostCamera lost;
         PlaceCheck place;
-        bool seeking = true;                  // loops are switched on
-        bool asked = false;                   // a relocalisation question is pending
+        bool seeking = true;  // loops are switched on
+        bool asked = false;   // a relocalisation question is pending
+        // Where a camera that is tracked poorly was thought to be when it was asked for.
+        std::optional<Eigen::Isometry3d> T_doubted;
         std::optional<LabelSettings> labels;  // new ones for mapping
     };
 

@@ -46,7 +46,9 @@ void LoopStage::AfterTracking(const Frame& frame, const BlockMap& map, TrackingS
                               TrackedFrame& tracked, const LoadAround& bring) {
     lost_ms_ = 0;
     if (!on_) return;
-    if (camera_.Judge(tracked) != LostCamera::Verdict::kLost) return Check(tracking, tracked);
+    const LostCamera::Verdict verdict = camera_.Judge(tracked);
+    const bool lost = verdict == LostCamera::Verdict::kLost;
+    if (!lost && verdict != LostCamera::Verdict::kDoubtful) return Check(tracking, tracked);
     FrameReport& report = tracked.report;
     if (tracked.prepared.valid_depth_pixels > 0) {
         Stopwatch watch;
@@ -64,9 +66,9 @@ void LoopStage::AfterTracking(const Frame& frame, const BlockMap& map, TrackingS
             camera_.Found(frame.stamp_s);
             return AddNote(note, report.warning);
         }
-        if (!T_map_camera) AddNote(note, report.warning);
+        if (lost && !T_map_camera) AddNote(note, report.warning);
     }
-    if (report.tracked()) tracking.RejectPose(kPoseUnconfirmed, tracked);
+    if (lost && report.tracked()) tracking.RejectPose(kPoseUnconfirmed, tracked);
 }
 
 void LoopStage::Check(TrackingStage& tracking, TrackedFrame& tracked) {

@@ -38,12 +38,14 @@ void MotionModel::Add(const StampedPose& pose, const PoseDoubt& doubt) {
         *velocity_ *= config_.come_to_rest_s > 0 ? std::exp(-gap_s / config_.come_to_rest_s) : 0.0;
     last_ = pose;
     doubt_ = doubt;
+    lost_frames_ = 0;
 }
 
 void MotionModel::Clear() {
     last_.reset();
     velocity_.reset();
     doubt_ = {};
+    lost_frames_ = 0;
 }
 
 void MotionModel::SaveState(StateWriter& state) const {
@@ -55,6 +57,7 @@ void MotionModel::SaveState(StateWriter& state) const {
     state.Put(velocity_);
     state.Put(doubt_.poor);
     state.Put(doubt_.uncertainty_m);
+    state.Put(lost_frames_);
 }
 
 bool MotionModel::LoadState(StateReader& state) {
@@ -65,9 +68,10 @@ bool MotionModel::LoadState(StateReader& state) {
         if (!state.Get(last_->stamp_s) || !state.Get(last_->T_world_camera)) return false;
     }
     constexpr double kFastest_per_s = 1e3, kFarthest_m = 1e6;
-    const bool read =
-        state.Get(velocity_) && state.Get(doubt_.poor) && state.Get(doubt_.uncertainty_m);
-    return read && (!velocity_ || velocity_->norm() <= kFastest_per_s) &&
+    const bool read = state.Get(velocity_) && state.Get(doubt_.poor) &&
+                      state.Get(doubt_.uncertainty_m) && state.Get(lost_frames_);
+    return read && lost_frames_ >= 0 && lost_frames_ <= kMostLost &&
+           (!velocity_ || velocity_->norm() <= kFastest_per_s) &&
            (!last_ || (std::isfinite(last_->stamp_s) &&
                        last_->T_world_camera.translation().norm() <= kFarthest_m)) &&
            std::isfinite(doubt_.uncertainty_m);

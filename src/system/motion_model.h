@@ -2,6 +2,7 @@
 // to rest while frames are degenerate.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 
 #include "core/config.h"
@@ -40,6 +41,10 @@ class MotionModel {
     // pose.
     Eigen::Isometry3d Predict(double stamp_s) const;
     void Add(const StampedPose& pose, const PoseDoubt& doubt);
+    // A frame without a pose.
+    void AddLost() { lost_frames_ = std::min(lost_frames_ + 1, kMostLost); }
+    // Since the last pose, at most a thousand.
+    int lost_frames() const { return lost_frames_; }
     void Clear();
     void SaveState(StateWriter& state) const;
     bool LoadState(StateReader& state);
@@ -53,6 +58,8 @@ class MotionModel {
     std::optional<StampedPose> last_;
     std::optional<Vector6d> velocity_;  // body twist per second
     PoseDoubt doubt_;
+    static constexpr int kMostLost = 1000;
+    int lost_frames_ = 0;
 };
 
 }  // namespace tessera

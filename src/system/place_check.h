@@ -9,6 +9,12 @@
 
 namespace tessera {
 
+// Whether two poses of a camera are one place, found twice: within 10 cm and 6 degrees.
+inline bool SamePlace(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
+    constexpr double kSame = 0.1;  // metres and radians
+    return (a.translation() - b.translation()).norm() <= kSame && RotationAngle(a, b) <= kSame;
+}
+
 // Owner thread only: the thread that tracks.
 class PlaceCheck {
   public:
@@ -35,10 +41,7 @@ class PlaceCheck {
     // Where the frame of the last Ask was found. Returns false if the place has been refuted: too
     // many views were found elsewhere or nowhere.
     [[nodiscard]] bool Answer(const std::optional<Eigen::Isometry3d>& T_map_found) {
-        const bool there =
-            T_map_found &&
-            (T_map_found->translation() - T_map_seen_.translation()).norm() <= kSame &&
-            RotationAngle(*T_map_found, T_map_seen_) <= kSame;
+        const bool there = T_map_found && SamePlace(*T_map_found, T_map_seen_);
         open_ = !there && ++failed_ < kMostFailed;
         return there || open_;
     }
@@ -47,7 +50,6 @@ class PlaceCheck {
 
   private:
     static constexpr double kNewView = 0.5;
-    static constexpr double kSame = 0.1;  // metres and radians
     static constexpr int kMostFailed = 3;
 
     PinholeCamera camera_;

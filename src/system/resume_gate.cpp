@@ -1,5 +1,7 @@
 #include "system/resume_gate.h"
 
+#include "system/lost_camera.h"
+
 namespace tessera {
 
 void ResumeGate::Begin(std::span<const std::uint8_t> saved, const std::optional<StampedPose>& last,
@@ -12,14 +14,9 @@ void ResumeGate::Begin(std::span<const std::uint8_t> saved, const std::optional<
     closed_ = first_ = gated;
 }
 
-// A view of the last place is almost completely known, and it fits. Elsewhere a tracker that starts
-// at the last pose may converge to a wrong pose that fits only in part. (fr1 rpy: median 7 mm, 94 %
-// inliers; a wrong place in the box room: 21 mm, 89 %.)
 bool ResumeGate::IsThere(const TrackResult& track) const {
-    constexpr double kNear_m = 0.3, kNear_rad = 0.4, kKnown = 0.8, kFits = 0.85,
-                     kDistance_m = 0.012;
-    return track.status == TrackStatus::kGood && track.known_fraction >= kKnown &&
-           track.inlier_fraction >= kFits && track.distance_rms_m <= kDistance_m &&
+    constexpr double kNear_m = 0.3, kNear_rad = 0.4;
+    return track.status == TrackStatus::kGood && FitsCompletely(track) &&
            RotationAngle(T_world_last_, track.T_world_camera) <= kNear_rad &&
            (T_world_last_.translation() - track.T_world_camera.translation()).norm() <= kNear_m;
 }

@@ -109,6 +109,8 @@ void TrackingStage::EstimatePose(const Frame& frame, const BlockMap& map,
                     {.degenerate = report.track.degenerate,
                      .poor = report.track.status == TrackStatus::kPoor,
                      .uncertainty_m = report.track.uncertainty_m});
+    else
+        motion_.AddLost();
 }
 
 std::shared_ptr<const MovingMask> TrackingStage::ExpectMoving(double stamp_s) const {
@@ -163,6 +165,7 @@ bool TrackingStage::TrackFrom(const Frame& frame, const BlockMap& map,
 
 void TrackingStage::RejectPose(const std::string& reason, TrackedFrame& tracked) {
     motion_ = motion_before_;
+    motion_.AddLost();
     aligner_.KeepNewest(false);
     moving_.Clear();
     tracked.report.track.status = TrackStatus::kLost;
@@ -195,6 +198,7 @@ TrackResult TrackingStage::TrackFrame(const Frame& frame, const PreparedFrame& p
          .T_world_camera_last = T_world_last,
          // With a doubtful last pose, a large step does not count as a jump.
          .since_last_s = motion_.doubt().poor ? 0 : motion_.SinceLast(frame.stamp_s),
+         .frames_since_last = 1 + motion_.lost_frames(),
          .motion = FrameMotionOf(frame),
          .nearest_m = MinWeightDepth(prepared)});
     aligner_.KeepNewest(track.status != TrackStatus::kLost);  // same decision as for motion_

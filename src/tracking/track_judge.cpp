@@ -65,8 +65,9 @@ TrackStatus TrackJudge::Status(const TrackInput& input, TrackResult& result) con
     const Eigen::Isometry3d jump = input.T_world_camera_last.inverse() * result.T_world_camera;
     const double moved_m = jump.translation().norm();
     const double turned_rad = RotationAngle(input.T_world_camera_last, result.T_world_camera);
+    const int frames = input.frames_since_last;
     if (input.since_last_s > 0 &&
-        (moved_m > config_.max_jump_m || turned_rad > config_.max_jump_rad))
+        (moved_m > frames * config_.max_jump_m || turned_rad > frames * config_.max_jump_rad))
         return because(TrackStatus::kLost,
                        fmt::format("jumped by {:.2f} m and {:.2f} rad", moved_m, turned_rad));
     if (result.inlier_fraction < config_.good_inlier_fraction)
@@ -97,9 +98,9 @@ void TrackJudge::Config::Describe(ConfigParameters& p) {
     p.Add("good_distance_rms_m", good_distance_rms_m, {0.0, 10.0}, "m",
           "the frame is not fused if the robust residual of the depth is larger");
     p.Add("max_jump_m", max_jump_m, {0.0, 100.0}, "m",
-          "tracking is lost if the camera moved farther since the last frame");
+          "tracking is lost if the camera moved farther from one frame to the next");
     p.Add("max_jump_rad", max_jump_rad, {0.0, 3.2}, "rad",
-          "tracking is lost if the camera rotated more since the last frame");
+          "tracking is lost if the camera rotated more from one frame to the next");
     p.Add("good_innovation_m", good_innovation_m, {0.0, 100.0}, "m",
           "the frame is not fused if its pose is farther from the motion model's prediction");
     p.Add("good_innovation_rad", good_innovation_rad, {0.0, 3.2}, "rad",

@@ -24,6 +24,7 @@ struct TrackInput {
     std::vector<Eigen::Isometry3d> T_world_camera_starts;
     Eigen::Isometry3d T_world_camera_last;  // the pose at the last tracked frame
     double since_last_s = 0;                // 0 if there is none, or its pose was poor
+    int frames_since_last = 1;              // more if frames between were lost
     // Delays and read-out times; the tracker fills in the twist.
     FrameMotion motion;
     double nearest_m = kMinWeightDepth_m;  // nearer points have the weight of this depth

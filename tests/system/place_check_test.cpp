@@ -93,8 +93,8 @@ TEST(LostCamera, CanReachWhatIsNearAndSoon) {
     before.report.first = true;
     ASSERT_EQ(camera.Judge(before), Verdict::kTracking);
     EXPECT_TRUE(camera.CanReach({100.6, AlongX(3.7)}));
-    EXPECT_FALSE(camera.CanReach({100.6, AlongX(4)}));  // faster than one walks
-    EXPECT_FALSE(camera.CanReach({103, AlongX(3)}));    // too long ago
+    EXPECT_FALSE(camera.CanReach({100.6, AlongX(4.1)}));  // faster than one walks
+    EXPECT_FALSE(camera.CanReach({103, AlongX(3)}));      // too long ago
     camera.Move(AlongX(10));
     EXPECT_TRUE(camera.CanReach({100.6, AlongX(13.7)}));
     // A frame of the lost camera says nothing.
@@ -118,6 +118,48 @@ TEST(LostCamera, WhereTheViewLeavesAMotionOpenARelocalisedPoseIsNotTrusted) {
     EXPECT_FALSE(camera.relocalised());
     camera.Lose();
     EXPECT_EQ(camera.Judge(TrackedAt(110.4)), Verdict::kLost);
+}
+
+// A frame of a camera at x, this many frames after the beginning.
+TrackedFrame FrameAt(int frame, double x_m, TrackStatus status) {
+    TrackedFrame tracked;
+    tracked.prepared.has_colour = true;
+    tracked.report.stamp_s = frame / 30.0;
+    tracked.report.first = frame == 0;
+    tracked.report.track = {.T_world_camera = AlongX(x_m),
+                            .status = status,
+                            .known_fraction = 0.9,
+                            .inlier_fraction = 0.9};
+    return tracked;
+}
+
+TEST(PoorlyTrackedCamera, IsLookedForAfterAWhile) {
+    LostCamera camera(LoopConfig{}, 0.5);
+    EXPECT_EQ(camera.Judge(FrameAt(0, 0, TrackStatus::kGood)), LostCamera::Verdict::kTracking);
+    for (int i = 1; i < 40; ++i)
+        EXPECT_EQ(camera.Judge(FrameAt(i, 0, TrackStatus::kPoor)),
+                  i <= 16 ? LostCamera::Verdict::kTracking : LostCamera::Verdict::kDoubtful)
+            << i;
+    EXPECT_EQ(camera.Judge(FrameAt(40, 0, TrackStatus::kGood)), LostCamera::Verdict::kTracking);
+    EXPECT_EQ(camera.Judge(FrameAt(41, 0, TrackStatus::kPoor)), LostCamera::Verdict::kTracking);
+    camera.Doubt();
+    EXPECT_TRUE(camera.lost());
+}
+
+// Where the motion model expects a camera that was at a wrong pose says nothing: it fits, and it
+// can have got there.
+TEST(ALostCamera, IsFoundByItsFitWhereItCanHaveGot) {
+    LostCamera camera(LoopConfig{}, 0.5);
+    camera.Judge(FrameAt(0, 0, TrackStatus::kGood));
+    EXPECT_EQ(camera.Judge(FrameAt(1, 0, TrackStatus::kLost)), LostCamera::Verdict::kLost);
+    EXPECT_EQ(camera.Judge(FrameAt(30, 1.5, TrackStatus::kPoor)), LostCamera::Verdict::kLost);
+    TrackedFrame in_part = FrameAt(31, 1.1, TrackStatus::kPoor);
+    in_part.report.track.inlier_fraction = 0.8;  // as at a wrong place
+    EXPECT_EQ(camera.Judge(in_part), LostCamera::Verdict::kLost);
+    EXPECT_EQ(camera.Judge(FrameAt(31, 1.1, TrackStatus::kPoor)), LostCamera::Verdict::kFoundAgain);
+    camera.Judge(FrameAt(32, 1.1, TrackStatus::kGood));
+    EXPECT_EQ(camera.Judge(FrameAt(33, 1.1, TrackStatus::kLost)), LostCamera::Verdict::kLost);
+    EXPECT_EQ(camera.Judge(FrameAt(33 + 61, 1.1, TrackStatus::kGood)), LostCamera::Verdict::kLost);
 }
 
 }  // namespace

@@ -178,5 +178,28 @@ INSTANTIATE_TEST_SUITE_P(Methods, EveryTracker,
                              return name;
                          });
 
+// If frames between were lost, it can have moved farther.
+TEST(TrackJudge, AllowsAJumpForEachFrameSinceTheLastPose) {
+    const BlockMap map({});
+    const PreparedFrame frame;
+    const TrackJudge judge(TrackJudge::Config{.max_jump_m = 0.3, .max_jump_rad = 0.5});
+    const auto status_after = [&](double moved_m, int frames) {
+        const Eigen::Isometry3d T_moved(Eigen::Translation3d(moved_m, 0, 0));
+        TrackResult result{.T_world_camera = T_moved, .inlier_fraction = 1};
+        judge.Judge({.frame = frame,
+                     .map = map,
+                     .T_world_camera_starts = {T_moved},
+                     .T_world_camera_last = Eigen::Isometry3d::Identity(),
+                     .since_last_s = 0.03 * frames,
+                     .frames_since_last = frames},
+                    result);
+        return result.status;
+    };
+    EXPECT_EQ(status_after(0.29, 1), TrackStatus::kGood);
+    EXPECT_EQ(status_after(0.31, 1), TrackStatus::kLost);
+    EXPECT_EQ(status_after(0.31, 2), TrackStatus::kGood);
+    EXPECT_EQ(status_after(0.61, 2), TrackStatus::kLost);
+}
+
 }  // namespace
 }  // namespace tessera
