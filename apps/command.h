@@ -26,6 +26,7 @@ struct CommandContext {
 
 // Each function adds its subcommand to `app`. A parsed subcommand runs immediately and stores its
 // exit code. The context must outlive the parsing.
+void AddCalibrateCommand(CLI::App& app, CommandContext& context);
 void AddConfigCommand(CLI::App& app, CommandContext& context);
 void AddDoctorCommand(CLI::App& app, CommandContext& context);
 void AddEvalCommand(CLI::App& app, CommandContext& context);

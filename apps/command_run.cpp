@@ -126,12 +126,14 @@ int Run(const Arguments& a) {
 
 void AddSource(CLI::App& command, Arguments& a) {
     command
-        .add_option("SOURCE", a.request.source,
-                    "Folder (TUM RGB-D, ICL-NUIM, 7-Scenes, or images with a camera.yaml), "
-                    "openni2: (a depth camera; openni2:URI for a specific one), FILE.oni, "
-                    "FILE.klg, FILE.scan (the frames stored in a scan), pipe:- or pipe:SOCKET "
-                    "(frames from another program), or synthetic:NAME (desk, room, flat, walk, "
-                    "corridor, floor, corner, wall, people, chair, door)")
+        .add_option(
+            "SOURCE", a.request.source,
+            "Folder (TUM RGB-D, ICL-NUIM, 7-Scenes, or images with a camera.yaml), "
+            "openni2: (a depth camera; openni2:URI for a specific one), FILE.oni, "
+            "FILE.klg, FILE.scan (the frames stored in a scan), .bag, .mcap, .db3, .mkv, .r3d or "
+            ".sens (docs/recordings.md), pipe:- or pipe:SOCKET "
+            "(frames from another program), or synthetic:NAME (desk, room, flat, walk, "
+            "corridor, floor, corner, wall, people, chair, door)")
         ->required();
     command.add_option("--out", a.request.output_folder, "Folder for the results")
         ->type_name("DIR")

@@ -84,6 +84,7 @@ int Main(int argc, char** argv) {
     AddScanCommand(app, context);
     AddInfoCommand(app, context);
     AddDoctorCommand(app, context);
+    AddCalibrateCommand(app, context);
     AddConfigCommand(app, context);
     AddHelpCommand(app, context);
     try {

@@ -2,7 +2,7 @@
 # The core's dependencies are required. For an optional one that is missing, a message says what is
 # off.
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
-find_package(OpenCV 4.5 REQUIRED COMPONENTS core imgproc imgcodecs calib3d features2d)
+find_package(OpenCV 4.5 REQUIRED COMPONENTS core imgproc imgcodecs calib3d features2d aruco)
 find_package(OpenCV 4.5 QUIET OPTIONAL_COMPONENTS dnn)
 if(TARGET opencv_dnn)
     set(TESSERA_DNN ON)
@@ -86,6 +86,21 @@ if(SQLITE_FOUND AND ZSTD_FOUND)
 else()
     set(TESSERA_SCAN OFF)
     message(STATUS "tessera: scan files off (install pkg-config, libsqlite3-dev and libzstd-dev)")
+endif()
+
+# Recordings of other programs: ROS bags, phones, Azure Kinect, ScanNet.
+find_package(OpenCV 4.5 QUIET OPTIONAL_COMPONENTS videoio)
+find_package(BZip2 QUIET)
+if(PkgConfig_FOUND)
+    pkg_check_modules(LZ4 IMPORTED_TARGET liblz4)
+    pkg_check_modules(ZIP IMPORTED_TARGET libzip)
+endif()
+if(SQLITE_FOUND AND ZSTD_FOUND AND LZ4_FOUND AND ZIP_FOUND AND BZIP2_FOUND AND TARGET opencv_videoio)
+    set(TESSERA_RECORDINGS ON)
+else()
+    set(TESSERA_RECORDINGS OFF)
+    message(STATUS "tessera: recordings of ROS, RealSense, Azure Kinect and phones off (install libsqlite3-dev, "
+        "libzstd-dev, liblz4-dev, libbz2-dev and libzip-dev)")
 endif()
 
 # Volumes for other programs. Off under ThreadSanitizer, because the writer uses no threads of ours

@@ -30,10 +30,13 @@ struct ReadResult {
 };
 
 struct SourceInfo {
-    std::string name;               // as the user gave it
-    std::string kind;               // "TUM folder", "synthetic scene", ...
-    PinholeCamera camera;           // camera model of the delivered frames (after rectification)
-    bool camera_known = true;       // false: camera unknown, `camera` is a guess
+    std::string name;          // as the user gave it
+    std::string kind;          // "TUM folder", "synthetic scene", ...
+    PinholeCamera camera;      // camera model of the delivered frames (after rectification)
+    bool camera_known = true;  // false: camera unknown, `camera` is a guess
+    // False: depth and colour come from two cameras, and were brought into register by their known
+    // calibration. One estimate for both would be wrong.
+    bool one_camera = true;
     std::int64_t frame_count = -1;  // number of pairs, -1 if not known beforehand
     double fps = 30;
     // A live device delivers frames at its own rate and drops those not read in time. Its Read
@@ -41,6 +44,8 @@ struct SourceInfo {
     bool live = false;
     // Units per metre of the source's own integer depth; depth_m is a multiple of this step.
     double depth_units_per_m = 5000;
+    // Where a calibration of this very camera is looked for; "": nowhere.
+    std::string calibration_file;
     bool rectified = false;  // lens distortion was corrected
     bool has_truth = false;
     // Things the user should know: unpaired images, repeated stamps, ...

@@ -113,6 +113,11 @@ Result<std::unique_ptr<OpenniCamera>> OpenniCamera::Open(std::shared_ptr<OpenniR
                                        OpenniErrorText() + ")");
     const openni::DeviceInfo& info = streams->device.getDeviceInfo();
     about.name = std::string(info.getVendor()) + " " + info.getName();
+    char serial[64]{};
+    int bytes = sizeof(serial) - 1;
+    if (!is_recording && streams->device.getProperty(openni::DEVICE_PROPERTY_SERIAL_NUMBER, serial,
+                                                     &bytes) == openni::STATUS_OK)
+        about.serial = serial;
     const OpenniStreams parts{streams->device, streams->depth, streams->colour};
     if (Status status = SetUpOpenniStreams(parts, is_recording, config, about); !status.ok())
         return status;

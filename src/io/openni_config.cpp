@@ -10,6 +10,9 @@ void OpenniConfig::Describe(ConfigParameters& p) {
     p.Add("fy", fy, {0, 1e5}, "px", "focal length along y; 0 takes it from the device");
     p.Add("cx", cx, {0, 16384}, "px", "principal point, x; 0 takes the image centre");
     p.Add("cy", cy, {0, 16384}, "px", "principal point, y; 0 takes the image centre");
+    p.Add("calibration", calibration,
+          "camera file, as tessera calibrate writes it; empty takes the one that is kept for the "
+          "camera's serial number, if there is one; none takes the device's own values");
     p.Add("registration", registration,
           "let the device register depth to its colour camera; turn it off if its registration is "
           "broken; colours are then offset from their surface");

@@ -1,6 +1,8 @@
 // Settings for OpenNI2 cameras and recordings.
 #pragma once
 
+#include <string>
+
 #include "core/config.h"
 #include "core/status.h"
 
@@ -11,6 +13,8 @@ struct OpenniConfig {
 
     // In pixels. 0 = from the device's field of view and the image centre.
     double fx = 0, fy = 0, cx = 0, cy = 0;
+    // A camera file; "": that of the camera's serial number, if there is one; "none".
+    std::string calibration;
     bool registration = true;  // the device registers depth to the colour camera
     bool frame_sync = true;    // the device captures both images at the same time
     bool auto_exposure = true, auto_white_balance = true;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "io/camera_store.h"
 #include "io/openni_modes.h"
 
 namespace tessera {
@@ -86,11 +87,6 @@ PinholeCamera CameraOf(const OpenniStreams& s, const OpenniConfig& config,
                 "the device reports no usable field of view; using a Kinect's focal length (set "
                 "source.openni.fx and fy)");
     }
-    for (const auto& [wanted, value] : {std::pair{config.fx, &camera.fx},
-                                        {config.fy, &camera.fy},
-                                        {config.cx, &camera.cx},
-                                        {config.cy, &camera.cy}})
-        if (wanted > 0) *value = wanted;
     return camera;
 }
 
@@ -118,6 +114,28 @@ Status CheckModes(const OpenniStreams& s, OpenniCamera::About& about) {
     return Status::Ok();
 }
 
+// The device's own values or those of a camera file, and what the configuration says.
+Status FindCalibrationOf(const OpenniConfig& config, OpenniCamera::About& about) {
+    about.calibration.pinhole = about.camera;
+    about.calibration.depth_scale = about.depth_units_per_m;
+    const auto stored =
+        FindCalibration(config.calibration, about.serial, about.camera.width, about.camera.height);
+    if (!stored.ok()) return stored.status();
+    if (stored.value()) {
+        about.calibration = stored.value()->calibration;
+        if (!about.calibration.depth_scale_given)
+            about.calibration.depth_scale = about.depth_units_per_m;
+        about.notes.push_back("calibration from " + stored.value()->path);
+    }
+    PinholeCamera& camera = about.calibration.pinhole;
+    for (const auto& [wanted, value] : {std::pair{config.fx, &camera.fx},
+                                        {config.fy, &camera.fy},
+                                        {config.cx, &camera.cx},
+                                        {config.cy, &camera.cy}})
+        if (wanted > 0) *value = wanted;
+    return {};
+}
+
 }  // namespace
 
 Status SetUpOpenniStreams(const OpenniStreams& s, bool is_recording, const OpenniConfig& config,
@@ -142,7 +160,7 @@ Status SetUpOpenniStreams(const OpenniStreams& s, bool is_recording, const Openn
                 "mirroring");
     if (Status status = CheckModes(s, about); !status.ok()) return status;
     about.camera = CameraOf(s, config, about);
-    return Status::Ok();
+    return FindCalibrationOf(config, about);
 }
 
 Status StartOpenniStreams(const OpenniStreams& s, bool is_recording, const OpenniConfig& config,

@@ -5,8 +5,10 @@
 #include <chrono>
 
 #include "core/input_file.h"
+#include "io/camera_store.h"
 #include "io/device_clock.h"
 #include "io/openni_camera.h"
+#include "io/rectifier.h"
 #include "io/stream_pairing.h"
 
 namespace tessera {
@@ -44,6 +46,7 @@ class OpenniSource : public FrameSource {
           runtime_(std::move(runtime)),
           camera_(std::move(camera)),
           about_(camera_->about()),
+          rectifier_(about_.calibration, {}),
           pairing_(config.max_pair_gap_s, about_.shortest_period_s),
           clock_(is_recording ? kLargestPause_s : kLargestJump_s),
           heard_depth_s_(Now_s()),
@@ -51,11 +54,13 @@ class OpenniSource : public FrameSource {
           prefix_(any_device ? "" : name + ": ") {
         info_.name = name;
         info_.kind = is_recording ? ".oni recording" : about_.name + " (OpenNI2 camera)";
-        info_.camera = about_.camera;
+        info_.camera = about_.calibration.pinhole;
+        info_.rectified = rectifier_.active();
+        info_.calibration_file = CalibrationPath(about_.serial);
         info_.frame_count = about_.frame_count;
         info_.fps = about_.fps;
         info_.live = !is_recording || config.playback == OpenniConfig::Playback::kRecorded;
-        info_.depth_units_per_m = about_.depth_units_per_m;
+        info_.depth_units_per_m = about_.calibration.depth_scale;
         info_.notes = about_.notes;
     }
 
@@ -100,13 +105,7 @@ class OpenniSource : public FrameSource {
         frame.stamp_s = pair_.depth_stamp_s;
         frame.colour_stamp_s = pair_.colour_stamp_s;
         frame.T_world_camera.reset();
-        std::swap(frame.colour, pair_.colour);
-        frame.depth_m.Resize(pair_.depth.width(), pair_.depth.height());
-        const auto units_per_metre = static_cast<float>(info_.depth_units_per_m);
-        const std::uint16_t* from = pair_.depth.data();
-        float* to = frame.depth_m.data();
-        for (std::size_t i = 0; i < pair_.depth.size(); ++i)
-            to[i] = static_cast<float>(from[i]) / units_per_metre;
+        rectifier_.Fill(pair_.depth, pair_.colour, frame);
         return true;
     }
 
@@ -218,6 +217,7 @@ class OpenniSource : public FrameSource {
     std::shared_ptr<OpenniRuntime> runtime_;
     std::unique_ptr<OpenniCamera> camera_;  // null while unplugged
     OpenniCamera::About about_;             // of the current or last camera
+    Rectifier rectifier_;
     SourceInfo info_;
     StreamPairing pairing_;
     DeviceClock clock_;

@@ -9,6 +9,7 @@
 #include "io/klg_source.h"
 #include "io/openni_source.h"
 #include "io/pipe_source.h"
+#include "recordings/open_recording.h"
 #include "run/other_files.h"
 #include "scan/scan_source.h"
 
@@ -44,10 +45,12 @@ Result<std::unique_ptr<FrameSource>> OpenSource(const std::string& name, const R
     if (name.ends_with(".scan")) return ScanSource::Open(name);
     if (name.ends_with(".klg")) return OpenKlgSource(name, config.source);
     constexpr const char* kSources =
-        "a source is a folder, FILE.oni, FILE.klg, FILE.scan, openni2:, pipe:- or synthetic:NAME";
+        "a source is a folder, FILE.oni, .klg, .bag, .mcap, .db3, .mkv, .r3d, .sens or .scan, "
+        "openni2:, pipe:- or synthetic:NAME";
     std::error_code ignored;
     if (!std::filesystem::exists(name, ignored))
         return Status::Error(fmt::format("{}: {} ({})", name, NameProblem(name), kSources));
+    if (IsRecording(name)) return OpenRecording(name, config.source);
     if (const std::string other = DescribeOtherFile(name); !other.empty())
         return Status::Error(fmt::format("{}: is no source of frames: {}", name, other));
     if (!std::filesystem::is_directory(name, ignored))

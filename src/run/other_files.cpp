@@ -21,10 +21,6 @@ struct Kind {
     const char* what;
 };
 
-constexpr const char* kSend =
-    "this format is not read; play it with a program that sends its frames to pipe:- "
-    "(docs/camera.md)";
-
 constexpr std::array kKinds{
     Kind{".ply", "a mesh; tessera view {} shows it"},
     Kind{".obj",
@@ -32,12 +28,6 @@ constexpr std::array kKinds{
     Kind{".glb", "a mesh for other programs"},
     Kind{".onnx", "a detection network; tessera run SOURCE --labels {} uses it"},
     Kind{".weights", "the weights of a detection network; give its .cfg file to --labels"},
-    Kind{".bag", "a ROS 1 or RealSense recording; "},
-    Kind{".mcap", "a ROS 2 recording; "},
-    Kind{".db3", "a ROS 2 recording; "},
-    Kind{".mkv", "a video, perhaps of an Azure Kinect; "},
-    Kind{".r3d", "a Record3D recording; "},
-    Kind{".sens", "a ScanNet recording; "},
     Kind{".png", "an image; a source is the folder of a whole recording"},
     Kind{".jpg", "an image; a source is the folder of a whole recording"}};
 
@@ -69,7 +59,6 @@ std::string DescribeOtherFile(const std::string& path) {
     for (const Kind& kind : kKinds) {
         if (ending != kind.ending) continue;
         std::string text = kind.what;
-        if (text.ends_with("; ")) return text + kSend;
         for (std::size_t at; (at = text.find("{}")) != std::string::npos;)
             text.replace(at, 2, path);
         return text;

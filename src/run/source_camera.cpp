@@ -7,6 +7,7 @@
 
 #include "io/frame_reader.h"
 #include "optimize/camera_estimator.h"
+#include "recordings/open_recording.h"
 #include "run/open_source.h"
 #include "scan/scan_content.h"
 
@@ -20,7 +21,7 @@ constexpr std::int64_t kMostFrames = 100000;
 constexpr double kOtherCamera = 0.25;
 
 // A file or folder of images. Not a scan, a scene or a camera.
-bool IsRecording(const std::string& name) {
+bool IsFileOrFolder(const std::string& name) {
     std::error_code ignored;
     return std::filesystem::exists(name, ignored) && !name.ends_with(".scan");
 }
@@ -109,7 +110,8 @@ std::optional<PinholeCamera> CameraOfScan(const std::string& path, const Pinhole
 }
 
 std::string GivenBy(const std::string& name) {
-    return name.ends_with(".oni") ? "the device" : "camera.yaml";
+    if (name.ends_with(".oni")) return "the device";
+    return IsRecording(name) ? "the recording" : "camera.yaml";
 }
 
 void Describe(const SourceInfo& given, const std::optional<CameraReport>& report,
@@ -166,7 +168,8 @@ Result<CheckedSource> OpenCheckedSource(const RunRequest& request, const RunConf
     Result<std::unique_ptr<FrameSource>> opened = OpenSource(request.source, config);
     if (!opened.ok()) return opened.status();
     const SourceInfo given = opened.value()->info();
-    if (!config.check_camera || given.live || !IsRecording(request.source)) {
+    if (!config.check_camera || given.live || !given.one_camera ||
+        !IsFileOrFolder(request.source)) {
         checked.source = std::move(opened.value());
         return checked;
     }

@@ -21,9 +21,9 @@ struct CheckedSource {
 };
 
 // Estimates the camera for recordings only: the first frames of a live camera belong to the run, a
-// built-in scene's camera is exact, and a scan keeps the camera it was made with. Reads the first
-// seconds of the selection, at most twice; the second time with the camera that was found. Errors
-// are those of OpenSource.
+// built-in scene's camera is exact, and a scan keeps the camera it was made with. Depth and colour
+// of two cameras would need two estimates. Reads the first seconds of the selection, at most twice;
+// the second time with the camera that was found. Errors are those of OpenSource.
 Result<CheckedSource> OpenCheckedSource(const RunRequest& request, const RunConfig& config);
 
 }  // namespace tessera

@@ -203,7 +203,7 @@ TEST_P(IcpTrackers, TracksAsTheProcessorDoes) {
     for (std::size_t i = 8; i < 14; ++i) {
         const Eigen::Isometry3d& last = DeskFrames()[i - 1].T_world_camera;
         const Eigen::Isometry3d away = last * Eigen::Translation3d(0.02, 0.01, -0.02);
-        const TrackInput input{DeskFrames()[i].prepared, map, {away, last}, last, 1.0 / 30, {}};
+        const TrackInput input{DeskFrames()[i].prepared, map, {away, last}, last, 1.0 / 30, 1, {}};
         const TrackResult a = expected.Track(input);
         testing_support::ExpectSameTrack(tracker.Track(input), a, i);
         EXPECT_EQ(a.intensity_rms > 0, colour());
@@ -219,7 +219,7 @@ TEST_P(IcpTrackers, IsLostWhereTheModelHasNoRoom) {
                        &device.icp_sums());
     const Eigen::Isometry3d& last = DeskFrames()[2].T_world_camera;
     const TrackResult result =
-        tracker.Track({DeskFrames()[3].prepared, map, {last, last}, last, 1.0 / 30, {}});
+        tracker.Track({DeskFrames()[3].prepared, map, {last, last}, last, 1.0 / 30, 1, {}});
     EXPECT_EQ(result.status, TrackStatus::kLost);
 }
 

@@ -149,7 +149,7 @@ TEST(DevicePipeline, TracksAsTheProcessorDoes) {
         integrator.Integrate(DeskFrames()[i].prepared, MovingView(DeskFrames()[i]), map);
     for (std::size_t i = 8; i < 14; ++i) {
         const Eigen::Isometry3d& last = DeskFrames()[i - 1].T_world_camera;
-        const TrackInput input{DeskFrames()[i].prepared, map, {last}, last, 1.0 / 30, {}};
+        const TrackInput input{DeskFrames()[i].prepared, map, {last}, last, 1.0 / 30, 1, {}};
         const TrackResult a = expected.Track(input);
         testing_support::ExpectSameTrack(tracker.Track(input), a, i);
     }

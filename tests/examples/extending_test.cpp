@@ -87,7 +87,7 @@ TEST(Extending, ATrackerIsAskedOncePerFrame) {
     MotionModelTracker tracker;
     Tracker& used = tracker;
     const TrackResult result =
-        used.Track({frame, map, {expected}, Eigen::Isometry3d::Identity(), 0, {}});
+        used.Track({frame, map, {expected}, Eigen::Isometry3d::Identity(), 0, 1, {}});
     EXPECT_EQ(result.T_world_camera.translation().x(), 0.1);
     EXPECT_STREQ(ToString(result.status), ToString(TrackStatus::kPoor));
     EXPECT_FALSE(result.reason.empty());

@@ -17,8 +17,11 @@ namespace tessera {
 
 class OpenniTest : public testing::Test {
   protected:
-    // No timing dependence unless a test asks for it.
-    OpenniTest() { Set("PACE", "fast"); }
+    // No timing dependence unless a test asks for it. No calibrations of the user.
+    OpenniTest() {
+        Set("PACE", "fast");
+        setenv("XDG_CONFIG_HOME", "/nonexistent", 1);
+    }
 
     // Must be called before the source is opened. Each test runs in its own process.
     static void Set(const std::string& name, const std::string& value) {

@@ -60,6 +60,44 @@ TEST_F(OpenniSource, TheConfiguredIntrinsicsComeFirst) {
     EXPECT_EQ(source->info().camera.cy, 250);
 }
 
+TEST_F(OpenniSource, TheCalibrationOfItsSerialNumberIsUsed) {
+    const TemporaryFolder folder;
+    setenv("XDG_CONFIG_HOME", folder.path().c_str(), 1);
+    const std::string path = folder.Path("tessera/cameras/TEST_0042.yaml");
+    EXPECT_EQ(Open()->info().calibration_file, path);
+    const std::string camera =
+        "width: 640\nheight: 480\nfx: 510\nfy: 511\ncx: 320\ncy: 240\n"
+        "distortion: [0.1, 0, 0, 0, 0]\ndepth_scale: 990\n";
+    folder.WriteText("tessera/cameras/TEST_0042.yaml", camera);
+    OpenniConfig config;
+    config.cy = 250;
+    auto source = Open("openni2:", config);
+    ASSERT_NE(source, nullptr);
+    EXPECT_EQ(source->info().camera, (PinholeCamera{640, 480, 510, 511, 320, 250}));
+    EXPECT_TRUE(source->info().rectified);
+    EXPECT_EQ(source->info().depth_units_per_m, 990);
+    EXPECT_EQ(source->info().notes, std::vector<std::string>{"calibration from " + path});
+    const Log log = ReadFrames(*source, 1);
+    ASSERT_EQ(log.frames.size(), 1u);
+    // The principal point does not move.
+    EXPECT_EQ(log.frames[0].depth_m(320, 250),
+              static_cast<float>(test_device::PatternDepth(0, 320, 250)) / 990.0f);
+    EXPECT_NE(log.frames[0].colour, ExpectedColour(0));
+    source.reset();
+
+    config.calibration = "none";
+    EXPECT_EQ(Open("openni2:", config)->info().depth_units_per_m, 1000);
+    config.calibration = folder.Path("absent.yaml");
+    EXPECT_NE(OpenOpenniSource("openni2:", config).message().find("absent.yaml"),
+              std::string::npos);
+    config.calibration = "";
+    folder.WriteText("tessera/cameras/TEST_0042.yaml", kSmallCamera);
+    EXPECT_NE(OpenOpenniSource("openni2:", config)
+                  .message()
+                  .find("is for images of 32 x 24, but the camera delivers 640 x 480"),
+              std::string::npos);
+}
+
 TEST_F(OpenniSource, SetsTheDeviceUp) {
     TemporaryFolder folder;
     Set("LOG", folder.Path("log"));

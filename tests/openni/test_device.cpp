@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <string_view>
 
 namespace tessera::test_device {
 
@@ -55,6 +56,12 @@ OniStatus TestDevice::setProperty(int id, const void* data, int size) {
 }
 
 OniStatus TestDevice::getProperty(int id, void* data, int* size) {
+    constexpr std::string_view kSerial = "TEST 0042";
+    if (id == ONI_DEVICE_PROPERTY_SERIAL_NUMBER && *size > static_cast<int>(kSerial.size())) {
+        std::memcpy(data, kSerial.data(), kSerial.size());
+        *size = static_cast<int>(kSerial.size());
+        return ONI_STATUS_OK;
+    }
     if (id != ONI_DEVICE_PROPERTY_IMAGE_REGISTRATION ||
         *size < static_cast<int>(sizeof(registration_)))
         return ONI_STATUS_NOT_SUPPORTED;

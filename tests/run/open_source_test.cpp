@@ -23,8 +23,8 @@ TEST(OpenSource, WhatIsWrongIsNamed) {
         return OpenSource(name, RunConfig()).message();
     };
     EXPECT_EQ(message("/no/such"),
-              "/no/such: no such folder (a source is a folder, FILE.oni, FILE.klg, FILE.scan, "
-              "openni2:, pipe:- or synthetic:NAME)");
+              "/no/such: no such folder (a source is a folder, FILE.oni, .klg, .bag, .mcap, .db3, "
+              ".mkv, .r3d, .sens or .scan, openni2:, pipe:- or synthetic:NAME)");
     EXPECT_NE(message("gopher:x").find("gopher: is not a kind of source (a source is"),
               std::string::npos);
     EXPECT_NE(message("realsense:").find("send their frames to pipe:-"), std::string::npos);
@@ -45,7 +45,6 @@ TEST(OpenSource, OtherFilesAreSaidToBeWhatTheyAre) {
         EXPECT_NE(message.find(words), std::string::npos) << message;
     };
     expect("a.ply", "", "tessera view " + (folder / "a.ply") + " shows it");
-    expect("b.BAG", "", "pipe:-");
     expect("c.onnx", "", "tessera run SOURCE --labels " + (folder / "c.onnx"));
     expect("d.txt", "1 0 0 0 0 0 0 1\n2 0 0 0 0 0 0 1\n", "a path of 2 poses");
     expect("camera.yaml", "width: 32\nheight: 24\nfx: 30\nfy: 30\ncx: 16\ncy: 12\n",
@@ -54,6 +53,16 @@ TEST(OpenSource, OtherFilesAreSaidToBeWhatTheyAre) {
     std::ofstream(folder / "run.json") << "{}";
     EXPECT_NE(OpenSource(folder.path(), RunConfig()).message().find("the results of a run"),
               std::string::npos);
+}
+
+TEST(OpenSource, RecordingsOfOtherProgramsAreOpened) {
+    const TempFolder folder;
+    for (const char* name : {"a.BAG", "b.mcap", "c.db3", "d.mkv", "e.r3d", "f.sens"}) {
+        std::ofstream(folder / name) << "no recording";
+        const std::string message = OpenSource(folder / name, RunConfig()).message();
+        EXPECT_EQ(message.find((folder / name) + ": "), 0u) << message;
+        EXPECT_EQ(message.find("a source is"), std::string::npos) << message;
+    }
 }
 
 TEST(OpenSource, CamerasAreLive) {

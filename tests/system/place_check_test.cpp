@@ -126,10 +126,10 @@ TrackedFrame FrameAt(int frame, double x_m, TrackStatus status) {
     tracked.prepared.has_colour = true;
     tracked.report.stamp_s = frame / 30.0;
     tracked.report.first = frame == 0;
-    tracked.report.track = {.T_world_camera = AlongX(x_m),
-                            .status = status,
-                            .known_fraction = 0.9,
-                            .inlier_fraction = 0.9};
+    TrackResult& track = tracked.report.track;
+    track.T_world_camera = AlongX(x_m);
+    track.status = status;
+    track.known_fraction = track.inlier_fraction = 0.9;
     return tracked;
 }
 

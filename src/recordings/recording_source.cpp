@@ -1,0 +1,135 @@
+#include "recordings/recording_source.h"
+
+#include <fmt/format.h>
+
+#include <optional>
+
+#include "io/nominal_camera.h"
+#include "io/rectifier.h"
+#include "recordings/colour_registration.h"
+#include "recordings/phone_depth.h"
+
+namespace tessera {
+namespace {
+
+// The recording's cameras with what the configuration says.
+RecordingInfo Configured(RecordingInfo info, const FolderSourceConfig& config) {
+    if (config.depth_scale > 0) info.depth_camera.depth_scale = config.depth_scale;
+    if (config.camera) {
+        info.depth_camera.pinhole = WithSizeOf(info.depth_camera.pinhole, *config.camera);
+        const PinholeCamera& colour = info.colour_camera.pinhole;
+        if (info.T_colour_depth.matrix().isIdentity(1e-9))
+            info.colour_camera.pinhole =
+                ScaledTo(info.depth_camera.pinhole, colour.width, colour.height);
+    }
+    if (!config.rectify) info.depth_camera.distortion = info.colour_camera.distortion = {};
+    return info;
+}
+
+class RecordingSource : public FrameSource {
+  public:
+    RecordingSource(const std::string& path, std::unique_ptr<Recording> recording,
+                    RecordingInfo info)
+        : recording_(std::move(recording)),
+          recorded_(std::move(info)),
+          rectifier_(recorded_.depth_camera, {}) {
+        if (!IsRegistered(recorded_))
+            registration_.emplace(recorded_, recorded_.depth_camera.pinhole);
+        info_.name = path;
+        info_.kind = recorded_.kind;
+        info_.camera = recorded_.depth_camera.pinhole;
+        info_.camera_known = recorded_.camera_known;
+        info_.one_camera = recorded_.T_colour_depth.matrix().isIdentity(1e-9);
+        info_.frame_count = std::ssize(recorded_.pairs);
+        info_.fps = recorded_.fps;
+        info_.depth_units_per_m = recorded_.depth_camera.depth_scale;
+        info_.rectified = rectifier_.active() || !recorded_.colour_camera.distortion.IsZero();
+        info_.notes = recorded_.notes;
+        info_.warnings = recorded_.warnings;
+    }
+
+    const SourceInfo& info() const override { return info_; }
+
+    ReadResult Read(Frame& frame) override {
+        if (next_ >= info_.frame_count) return {ReadStatus::kEnd, {}};
+        const std::int64_t index = next_++;
+        if (Status status = Load(index); !status.ok())
+            return {ReadStatus::kSkip,
+                    fmt::format("{}: frame {}: {}", info_.name, index, status.message())};
+        if (registration_ && !colour_.empty()) {
+            rectifier_.Depth(depth_, frame.depth_m);
+            registration_->Register(colour_, frame.depth_m, frame.colour);
+        } else {
+            rectifier_.Fill(depth_, colour_, frame);
+        }
+        const RecordedPair& pair = recorded_.pairs[static_cast<std::size_t>(index)];
+        frame.index = index;
+        frame.stamp_s = pair.depth_stamp_s;
+        frame.colour_stamp_s = pair.colour_stamp_s;
+        frame.T_world_camera.reset();
+        return {};
+    }
+
+    bool Seek(std::int64_t index) override {
+        if (index < 0 || index > info_.frame_count) return false;
+        next_ = index;
+        return true;
+    }
+
+    // The first pairs decide: if none can be loaded, the whole recording is not what it seems.
+    Status Probe() {
+        constexpr std::int64_t kTried = 5;
+        Status first;
+        for (std::int64_t i = 0; i < std::min(kTried, info_.frame_count); ++i) {
+            Status status = Load(i);
+            if (status.ok()) return status;
+            if (first.ok()) first = std::move(status);
+        }
+        return Status::Error(
+            fmt::format("{}: {}", info_.name,
+                        first.ok() ? "no pair of depth and colour images" : first.message()));
+    }
+
+  private:
+    Status Load(std::int64_t index) {
+        Status status = recording_->Load(static_cast<std::size_t>(index), depth_, colour_);
+        if (!status.ok()) return status;
+        if (Status size =
+                SizeIs("depth", depth_.width(), depth_.height(), recorded_.depth_camera.pinhole);
+            !size.ok())
+            return size;
+        if (colour_.empty()) return {};
+        return SizeIs("colour", colour_.width(), colour_.height(), recorded_.colour_camera.pinhole);
+    }
+    static Status SizeIs(const char* which, int width, int height, const PinholeCamera& camera) {
+        if (width == camera.width && height == camera.height) return {};
+        return Status::Error(fmt::format("{} has {} x {} pixels, but its camera has {} x {}", which,
+                                         width, height, camera.width, camera.height));
+    }
+
+    std::unique_ptr<Recording> recording_;
+    const RecordingInfo recorded_;
+    Rectifier rectifier_;
+    std::optional<ColourRegistration> registration_;
+    SourceInfo info_;
+    Image<std::uint16_t> depth_;
+    ColourImage colour_;
+    std::int64_t next_ = 0;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<FrameSource>> MakeRecordingSource(const std::string& path,
+                                                         std::unique_ptr<Recording> recording,
+                                                         const FolderSourceConfig& config) {
+    if (Status status = config.Validate(); !status.ok()) return status;
+    RecordingInfo info = Configured(recording->info(), config);
+    for (const CameraCalibration* camera : {&info.depth_camera, &info.colour_camera})
+        if (Status status = CheckPlausible(camera->pinhole); !status.ok())
+            return Status::Error(path + ": its calibration: " + status.message());
+    auto source = std::make_unique<RecordingSource>(path, std::move(recording), std::move(info));
+    if (Status status = source->Probe(); !status.ok()) return status;
+    return std::unique_ptr<FrameSource>(std::move(source));
+}
+
+}  // namespace tessera

@@ -1,0 +1,147 @@
+#include "recordings/ros_choice.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <tuple>
+
+#include "recordings/phone_depth.h"
+
+namespace tessera {
+namespace {
+
+// "/camera/depth" of "/camera/depth/image_raw/compressedDepth" and of "/camera/depth/image_raw";
+// "/device_0/sensor_0/Depth_0" of "/device_0/sensor_0/Depth_0/image/data".
+std::string RosPrefix(const RosStream& stream) {
+    std::string name = stream.topic;
+    const auto drop_last = [&name] { name.resize(std::min(name.rfind('/'), name.size())); };
+    if (stream.is_compressed) drop_last();
+    if (name.ends_with("/image/data")) drop_last();
+    drop_last();
+    return name;
+}
+
+std::string RosFrame(const RosStream& stream) {
+    return stream.frame_id == kRealsenseFrame ? RosPrefix(stream) : stream.frame_id;
+}
+
+std::ptrdiff_t CommonPrefix(const std::string& a, const std::string& b) {
+    return std::ranges::mismatch(a, b).in1 - a.begin();
+}
+
+bool IsInfrared(const RosStream& stream) {
+    return stream.topic.find("/infra") != std::string::npos ||
+           stream.topic.find("/Infrared") != std::string::npos ||
+           stream.topic.find("/ir/") != std::string::npos;
+}
+
+// The camera of a topic: the CameraInfo beside it, or else one of its frame.
+const RosCamera* RosCameraOf(const RosContents& contents, const RosStream& stream) {
+    const std::string prefix = RosPrefix(stream);
+    for (const char* name : {"/camera_info", "/info/camera_info"})
+        if (const auto found = contents.cameras.find(prefix + name);
+            found != contents.cameras.end())
+            return &found->second;
+    if (stream.frame_id == kRealsenseFrame) return nullptr;
+    for (const auto& [topic, camera] : contents.cameras)
+        if (camera.frame_id == stream.frame_id) return &camera;
+    return nullptr;
+}
+
+// A horizontal field of view of 60 degrees, as for folders without a camera.
+PinholeCamera AssumedPinhole(const RosStream& stream) {
+    const double f_px = stream.width / 2.0 / std::tan(std::numbers::pi / 6);
+    return {stream.width,
+            stream.height,
+            f_px,
+            f_px,
+            (stream.width - 1) / 2.0,
+            (stream.height - 1) / 2.0};
+}
+
+CameraCalibration CalibrationOf(const RosContents& contents, const RosStream& stream,
+                                RecordingInfo& info) {
+    CameraCalibration calibration;
+    const RosCamera* camera = RosCameraOf(contents, stream);
+    if (camera == nullptr) {
+        info.camera_known = false;
+        info.notes.push_back(fmt::format(
+            "{}: no camera_info: assuming a field of view of 60 degrees", stream.topic));
+        calibration.pinhole = AssumedPinhole(stream);
+    } else if (stream.topic.find("rect") != std::string::npos) {
+        calibration.pinhole = camera->rectified;
+    } else {
+        calibration = camera->raw;
+        if (!camera->warning.empty())
+            info.warnings.push_back(fmt::format("{}: {}", stream.topic, camera->warning));
+    }
+    if (calibration.pinhole.width > 0 && calibration.pinhole.height > 0)
+        calibration.pinhole = ScaledTo(calibration.pinhole, stream.width, stream.height);
+    calibration.depth_scale = stream.depth_scale;
+    return calibration;
+}
+
+std::optional<Eigen::Isometry3d> BetweenStreams(const RosContents& contents,
+                                                const RosStream& colour, const RosStream& depth) {
+    if (RosFrame(colour) == RosFrame(depth)) return Eigen::Isometry3d::Identity();
+    if (depth.frame_id != kRealsenseFrame)
+        return contents.transforms.Between(colour.frame_id, depth.frame_id);
+    const auto T_colour_device = contents.realsense_extrinsics.find(RosPrefix(colour));
+    const auto T_depth_device = contents.realsense_extrinsics.find(RosPrefix(depth));
+    if (T_colour_device == contents.realsense_extrinsics.end() ||
+        T_depth_device == contents.realsense_extrinsics.end())
+        return std::nullopt;
+    return T_colour_device->second * T_depth_device->second.inverse();
+}
+
+}  // namespace
+
+RosChoice ChooseRosStreams(const RosContents& contents) {
+    RosChoice choice;
+    const auto colour_in_frame = [&](const RosStream& depth) {
+        return std::ranges::any_of(contents.streams, [&](const RosStream& stream) {
+            return !stream.is_depth && !IsInfrared(stream) && RosFrame(stream) == RosFrame(depth);
+        });
+    };
+    const auto depth_rank = [&](const RosStream& stream) {
+        return std::tuple(colour_in_frame(stream), stream.images.size(), !stream.is_compressed);
+    };
+    const auto colour_rank = [&](const RosStream& stream) {
+        return std::tuple(!stream.is_grey, RosFrame(stream) == RosFrame(*choice.depth),
+                          CommonPrefix(stream.topic, choice.depth->topic), stream.images.size(),
+                          !stream.is_compressed);
+    };
+    for (const RosStream& stream : contents.streams)
+        if (stream.is_depth &&
+            (choice.depth == nullptr || depth_rank(stream) > depth_rank(*choice.depth)))
+            choice.depth = &stream;
+    if (choice.depth == nullptr) return choice;
+    for (const RosStream& stream : contents.streams)
+        if (!stream.is_depth && !IsInfrared(stream) &&
+            (choice.colour == nullptr || colour_rank(stream) > colour_rank(*choice.colour)))
+            choice.colour = &stream;
+    return choice;
+}
+
+void FindRosCameras(const RosContents& contents, const RosChoice& choice, RecordingInfo& info) {
+    info.depth_camera = CalibrationOf(contents, *choice.depth, info);
+    if (choice.colour == nullptr) {
+        info.colour_camera = info.depth_camera;
+        info.notes.push_back(fmt::format("depth from {}; no colour images", choice.depth->topic));
+        return;
+    }
+    info.colour_camera = CalibrationOf(contents, *choice.colour, info);
+    info.notes.push_back(
+        fmt::format("depth from {}, colour from {}", choice.depth->topic, choice.colour->topic));
+    if (const auto T = BetweenStreams(contents, *choice.colour, *choice.depth))
+        info.T_colour_depth = *T;
+    else
+        info.warnings.push_back(
+            fmt::format("how the cameras {} and {} stand to each other is not in the recording: "
+                        "they are taken as one",
+                        RosFrame(*choice.depth), RosFrame(*choice.colour)));
+}
+
+}  // namespace tessera

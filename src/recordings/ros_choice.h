@@ -1,0 +1,23 @@
+// Which topics of a ROS recording are the depth and the colour images, and how their cameras stand
+// to each other.
+#pragma once
+
+#include "recordings/recording.h"
+#include "recordings/ros_contents.h"
+
+namespace tessera {
+
+struct RosChoice {
+    const RosStream* depth = nullptr;
+    const RosStream* colour = nullptr;  // nullptr: none
+};
+
+// Depth: a topic in whose frame there is also colour, which is then registered; then the one with
+// the most images. Colour: rather than grey, of the depth's frame, and with the longest name in
+// common. `depth` is nullptr if there is none.
+RosChoice ChooseRosStreams(const RosContents& contents);
+
+// Fills in the cameras, T_colour_depth, camera_known, notes and warnings.
+void FindRosCameras(const RosContents& contents, const RosChoice& choice, RecordingInfo& info);
+
+}  // namespace tessera

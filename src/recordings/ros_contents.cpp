@@ -1,0 +1,155 @@
+#include "recordings/ros_contents.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "recordings/ros_images.h"
+#include "recordings/ros_lens.h"
+
+namespace tessera {
+namespace {
+
+PinholeCamera RosPinhole(const RosCameraInfo& info, double fx, double fy, double cx, double cy) {
+    constexpr std::uint32_t kMost = 65535;
+    return {.width = static_cast<int>(std::min(info.width, kMost)),
+            .height = static_cast<int>(std::min(info.height, kMost)),
+            .fx = fx,
+            .fy = fy,
+            .cx = cx,
+            .cy = cy};
+}
+
+// sensor_msgs/CameraInfo.msg says what the numbers mean.
+RosCamera CameraOf(const RosCameraInfo& info) {
+    RosCamera camera;
+    camera.frame_id = std::string(info.header.frame_id);
+    camera.raw.pinhole = RosPinhole(info, info.k[0], info.k[4], info.k[2], info.k[5]);
+    camera.rectified = info.p[0] > 0 ? RosPinhole(info, info.p[0], info.p[5], info.p[2], info.p[6])
+                                     : camera.raw.pinhole;
+    RosLens lens = RosLensOf(info);
+    camera.raw.distortion = lens.lens;
+    camera.warning = std::move(lens.warning);
+    return camera;
+}
+
+// Takes messages, and keeps what the recording needs.
+class RosScan {
+  public:
+    RosScan(MessageFile& file, std::size_t number, RosContents& contents)
+        : file_(file), number_(number), contents_(contents) {}
+
+    Status Run() {
+        return file_.ForEach([this](const MessageTopic& topic, const MessagePlace& place,
+                                    ByteView head) { Take(topic, place, head); });
+    }
+
+  private:
+    void Take(const MessageTopic& topic, const MessagePlace& place, ByteView head) {
+        if (topic.type == "sensor_msgs/Image" || topic.type == "sensor_msgs/CompressedImage")
+            TakeImage(topic, place, head);
+        else if (topic.type == "sensor_msgs/CameraInfo")
+            TakeCamera(topic, place);
+        else if (topic.type == "tf2_msgs/TFMessage" || topic.type == "tf/tfMessage")
+            TakeTransforms(topic, place);
+        else if (topic.type == "geometry_msgs/Transform" && topic.name.starts_with("/device_"))
+            TakeExtrinsics(topic, place);
+    }
+
+    void TakeImage(const MessageTopic& topic, const MessagePlace& place, ByteView head) {
+        const auto header = ParseHeader(topic.serialisation, head);
+        if (!header) return;
+        auto stream = std::ranges::find(contents_.streams, topic.name, &RosStream::topic);
+        if (stream == contents_.streams.end()) {
+            contents_.streams.push_back(FirstImage(topic, place));
+            stream = std::prev(contents_.streams.end());
+        }
+        if (stream->width > 0) stream->images.push_back({header->stamp_s, number_, place});
+    }
+
+    // Width 0 if its images are of no use.
+    RosStream FirstImage(const MessageTopic& topic, const MessagePlace& place) {
+        RosStream stream;
+        stream.topic = topic.name;
+        stream.serialisation = topic.serialisation;
+        if (!file_.Read(place, message_).ok()) return stream;
+        stream.is_compressed = topic.type == "sensor_msgs/CompressedImage";
+        if (stream.is_compressed)
+            DescribeCompressed(stream);
+        else if (const auto image = ParseImage(topic.serialisation, message_))
+            Describe(*image, stream);
+        return stream;
+    }
+    static void Describe(const RosImage& image, RosStream& stream) {
+        stream.is_depth = IsDepthEncoding(image.encoding);
+        if (!stream.is_depth && !IsColourEncoding(image.encoding)) return;
+        stream.is_grey = image.encoding == "mono8" || image.encoding == "8UC1";
+        stream.frame_id = std::string(image.header.frame_id);
+        stream.width = static_cast<int>(image.width);
+        stream.height = static_cast<int>(image.height);
+        stream.depth_scale = RosDepthScale(image.encoding);
+        if (image.depth_unit_m > 1e-6f && image.depth_unit_m < 0.1f)
+            stream.depth_scale = 1 / static_cast<double>(image.depth_unit_m);
+    }
+    void DescribeCompressed(RosStream& stream) {
+        const auto image = ParseCompressedImage(stream.serialisation, message_);
+        if (!image) return;
+        stream.frame_id = std::string(image->header.frame_id);
+        stream.is_depth = image->format.find("compressedDepth") != std::string_view::npos ||
+                          stream.topic.ends_with("/compressedDepth");
+        stream.depth_scale = RosDepthScale(image->format);
+        if (stream.is_depth && DecodeRosDepth(*image, depth_).ok()) {
+            stream.width = depth_.width();
+            stream.height = depth_.height();
+        } else if (!stream.is_depth && DecodeRosColour(*image, colour_).ok()) {
+            stream.width = colour_.width();
+            stream.height = colour_.height();
+        }
+    }
+
+    void TakeCamera(const MessageTopic& topic, const MessagePlace& place) {
+        if (contents_.cameras.contains(topic.name) || !file_.Read(place, message_).ok()) return;
+        if (const auto info = ParseCameraInfo(topic.serialisation, message_))
+            contents_.cameras.emplace(topic.name, CameraOf(*info));
+    }
+    void TakeTransforms(const MessageTopic& topic, const MessagePlace& place) {
+        if (!file_.Read(place, message_).ok()) return;
+        const bool is_static = topic.name.ends_with("tf_static");
+        for (const RosTransform& transform : ParseTransforms(topic.serialisation, message_))
+            contents_.transforms.Add(transform, is_static);
+    }
+    void TakeExtrinsics(const MessageTopic& topic, const MessagePlace& place) {
+        const std::size_t end = topic.name.find("/tf/");
+        if (end == std::string::npos || !file_.Read(place, message_).ok()) return;
+        if (const auto T_stream_device = ParseTransform(topic.serialisation, message_))
+            contents_.realsense_extrinsics.try_emplace(topic.name.substr(0, end), *T_stream_device);
+    }
+
+    MessageFile& file_;
+    std::size_t number_;
+    RosContents& contents_;
+    std::vector<std::uint8_t> message_;
+    Image<std::uint16_t> depth_;
+    ColourImage colour_;
+};
+
+void SortByStamp(RosStream& stream) {
+    std::ranges::stable_sort(stream.images, {}, &RosImagePlace::stamp_s);
+    const auto repeated = std::ranges::unique(stream.images, {}, &RosImagePlace::stamp_s);
+    stream.images.erase(repeated.begin(), repeated.end());
+}
+
+}  // namespace
+
+RosContents ScanRosFiles(std::span<const std::unique_ptr<MessageFile>> files) {
+    RosContents contents;
+    for (std::size_t i = 0; i < files.size(); ++i)
+        if (const Status status = RosScan(*files[i], i, contents).Run(); !status.ok())
+            contents.warnings.push_back(
+                fmt::format("damaged or cut off: {}; what comes before is read", status.message()));
+    std::erase_if(contents.streams, [](const RosStream& stream) { return stream.images.empty(); });
+    std::ranges::for_each(contents.streams, SortByStamp);
+    return contents;
+}
+
+}  // namespace tessera

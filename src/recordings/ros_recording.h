@@ -1,0 +1,17 @@
+// Recordings of ROS: a .bag of ROS 1, also as RealSense's own tools write it, or a .mcap or .db3
+// of ROS 2, or the folder that holds some of these.
+#pragma once
+
+#include <string>
+
+#include "recordings/recording.h"
+
+namespace tessera {
+
+// Whether the folder is a ROS 2 recording: it holds a .mcap or .db3 file.
+bool IsRosFolder(const std::string& path);
+
+// Images are paired by the stamps in their headers, less than max_pair_gap_s apart.
+RecordingResult OpenRosRecording(const std::string& path, double max_pair_gap_s);
+
+}  // namespace tessera

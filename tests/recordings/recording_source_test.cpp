@@ -1,0 +1,108 @@
+#include "recordings/recording_source.h"
+
+#include <gtest/gtest.h>
+
+namespace tessera {
+namespace {
+
+constexpr PinholeCamera kSmallCamera{32, 24, 30, 30, 15.5, 11.5};
+
+// Ten pairs; pair 3 is damaged, pair 4 has another size.
+class MadeUpRecording : public Recording {
+  public:
+    MadeUpRecording() {
+        info_.kind = "made up";
+        info_.depth_camera.pinhole = info_.colour_camera.pinhole = kSmallCamera;
+        info_.depth_camera.depth_scale = 1000;
+        for (int i = 0; i < 10; ++i) info_.pairs.push_back({0.1 * i, 0.1 * i + 0.01});
+    }
+    const RecordingInfo& info() const override { return info_; }
+    Status Load(std::size_t index, Image<std::uint16_t>& depth, ColourImage& colour) override {
+        if (index == 3) return Status::Error("a damaged message");
+        depth.Resize(index == 4 ? 16 : 32, 24);
+        std::fill_n(depth.data(), depth.size(), static_cast<std::uint16_t>(1000 + index));
+        colour.Resize(info_.colour_camera.pinhole.width, info_.colour_camera.pinhole.height);
+        std::fill_n(colour.data(), colour.size(), Rgb8{static_cast<std::uint8_t>(index), 0, 0});
+        return {};
+    }
+    RecordingInfo info_;
+};
+
+std::unique_ptr<FrameSource> MadeUpSource(std::unique_ptr<MadeUpRecording> recording,
+                                          const FolderSourceConfig& config = {}) {
+    auto source = MakeRecordingSource("/made/up", std::move(recording), config);
+    EXPECT_TRUE(source.ok()) << source.message();
+    return std::move(source.value());
+}
+
+TEST(RecordingSource, DeliversFramesInMetresAndSkipsBadOnes) {
+    const auto source = MadeUpSource(std::make_unique<MadeUpRecording>());
+    EXPECT_EQ(source->info().frame_count, 10);
+    EXPECT_EQ(source->info().kind, "made up");
+    Frame frame;
+    for (int i = 0; i < 10; ++i) {
+        const ReadResult read = source->Read(frame);
+        if (i == 3) {
+            EXPECT_EQ(read.status, ReadStatus::kSkip);
+            EXPECT_EQ(read.message, "/made/up: frame 3: a damaged message");
+            continue;
+        }
+        if (i == 4) {
+            EXPECT_EQ(read.message,
+                      "/made/up: frame 4: depth has 16 x 24 pixels, but its camera has 32 x 24");
+            continue;
+        }
+        ASSERT_EQ(read.status, ReadStatus::kOk) << read.message;
+        EXPECT_EQ(frame.index, i);
+        EXPECT_DOUBLE_EQ(frame.stamp_s, 0.1 * i);
+        EXPECT_DOUBLE_EQ(frame.colour_stamp_s, 0.1 * i + 0.01);
+        EXPECT_FLOAT_EQ(frame.depth_m(5, 5), 1 + 0.001f * static_cast<float>(i));
+        EXPECT_EQ(frame.colour(5, 5).r, i);
+    }
+    EXPECT_EQ(source->Read(frame).status, ReadStatus::kEnd);
+    ASSERT_TRUE(source->Seek(7));
+    ASSERT_EQ(source->Read(frame).status, ReadStatus::kOk);
+    EXPECT_EQ(frame.index, 7);
+    EXPECT_FALSE(source->Seek(11));
+}
+
+TEST(RecordingSource, ColourOfAnotherSizeIsBroughtIntoTheDepthView) {
+    auto recording = std::make_unique<MadeUpRecording>();
+    recording->info_.colour_camera.pinhole = {64, 48, 60, 60, 31.5, 23.5};
+    const auto source = MadeUpSource(std::move(recording));
+    Frame frame;
+    ASSERT_EQ(source->Read(frame).status, ReadStatus::kOk);
+    EXPECT_EQ(frame.colour.width(), 32);
+    EXPECT_EQ(frame.colour.height(), 24);
+}
+
+TEST(RecordingSource, TheConfigurationReplacesTheCameraAndTheUnit) {
+    FolderSourceConfig config;
+    config.camera = PinholeCamera{640, 480, 40, 41, 16, 12};
+    config.depth_scale = 500;
+    auto recording = std::make_unique<MadeUpRecording>();
+    recording->info_.colour_camera.pinhole = {64, 48, 60, 60, 31.5, 23.5};
+    const auto source = MadeUpSource(std::move(recording), config);
+    EXPECT_EQ(source->info().camera, (PinholeCamera{32, 24, 40, 41, 16, 12}));
+    Frame frame;
+    ASSERT_EQ(source->Read(frame).status, ReadStatus::kOk);
+    EXPECT_FLOAT_EQ(frame.depth_m(5, 5), 2);
+}
+
+TEST(RecordingSource, ARecordingWithoutGoodPairsIsRefused) {
+    auto recording = std::make_unique<MadeUpRecording>();
+    recording->info_.depth_camera.pinhole = {30, 24, 30, 30, 15.5, 11.5};
+    const auto source = MakeRecordingSource("/made/up", std::move(recording), {});
+    EXPECT_EQ(source.message(), "/made/up: depth has 32 x 24 pixels, but its camera has 30 x 24");
+    recording = std::make_unique<MadeUpRecording>();
+    recording->info_.pairs.clear();
+    EXPECT_EQ(MakeRecordingSource("/made/up", std::move(recording), {}).message(),
+              "/made/up: no pair of depth and colour images");
+    recording = std::make_unique<MadeUpRecording>();
+    recording->info_.depth_camera.pinhole.fx = 0;
+    EXPECT_EQ(MakeRecordingSource("/made/up", std::move(recording), {}).message(),
+              "/made/up: its calibration: fx: 0 is not plausible");
+}
+
+}  // namespace
+}  // namespace tessera

@@ -1,0 +1,23 @@
+// Writes ROS 2 recordings from the published formats only: CDR, MCAP (mcap.dev/spec) and rosbag2's
+// SQLite schema. No program in Debian writes them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace tessera::ros_test {
+
+struct Message {
+    std::string topic, type;  // "sensor_msgs/msg/Image"
+    std::int64_t time_ns = 0;
+    std::string data;  // CDR
+};
+
+// The same content as write_bag.py's "plain".
+std::vector<Message> PlainMessages();
+
+// `compression`: "", "lz4" or "zstd". A chunk holds four messages.
+std::string McapOf(const std::vector<Message>& messages, const std::string& compression);
+void WriteDb3(const std::string& path, const std::vector<Message>& messages);
+
+}  // namespace tessera::ros_test

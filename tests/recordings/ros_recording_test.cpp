@@ -1,0 +1,251 @@
+// Bags are written by Debian's rosbag (write_bag.py), ROS 2 recordings by ros2_writer.h.
+#include "recordings/ros_recording.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <random>
+
+#include "io/temporary_folder.h"
+#include "recordings/ros2_writer.h"
+#include "recordings/ros_images_of.h"
+
+namespace tessera {
+namespace {
+
+using namespace ros_test;
+
+constexpr double kRosGap_s = 0.02;
+
+void WriteRosFile(const std::string& path, const std::string& content) {
+    std::ofstream(path, std::ios::binary) << content;
+}
+
+std::string RosFileContent(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+// False if rosbag is not installed.
+bool WriteBag(const std::string& path, const std::string& variant, const std::string& compression) {
+    const std::string script = std::string(TESSERA_SOURCE_DIR) + "/tests/recordings/write_bag.py";
+    const int state = std::system(
+        ("/usr/bin/python3 " + script + " " + path + " " + variant + " " + compression).c_str());
+    EXPECT_TRUE(state == 0 || WEXITSTATUS(state) == 77);
+    return state == 0;
+}
+
+#define WRITE_BAG_OR_SKIP(path, variant, compression) \
+    if (!WriteBag(path, variant, compression))        \
+    GTEST_SKIP()                                      \
+        << "needs rosbag: apt-get install python3-rosbag python3-sensor-msgs python3-tf2-msgs"
+
+// T_colour_depth of the recordings: the colour camera is 15 mm to the right and turned about y.
+Eigen::Isometry3d ExpectedTransform() {
+    Eigen::Isometry3d T_depth_colour = Eigen::Isometry3d::Identity();
+    T_depth_colour.linear() = Eigen::Quaterniond(0.8, 0, 0.6, 0).toRotationMatrix();
+    T_depth_colour.translation() = Eigen::Vector3d(0.015, 0, 0);
+    return T_depth_colour.inverse();
+}
+
+template <class Pixels>
+bool SamePixels(const Pixels& a, const Pixels& b) {
+    return a.width() == b.width() && a.height() == b.height() &&
+           std::equal(a.data(), a.data() + a.size(), b.data());
+}
+
+void ExpectAllImages(Recording& recording, int frames = kFrames) {
+    ASSERT_EQ(recording.info().pairs.size(), static_cast<std::size_t>(frames));
+    Image<std::uint16_t> depth;
+    ColourImage colour;
+    for (const int i : {4, 0, 2, 1, 3}) {
+        if (i >= frames) continue;
+        const Status status = recording.Load(static_cast<std::size_t>(i), depth, colour);
+        ASSERT_TRUE(status.ok()) << status.message();
+        EXPECT_TRUE(SamePixels(depth, DepthOf(i))) << i;
+        EXPECT_TRUE(SamePixels(colour, ColourOf(i))) << i;
+        EXPECT_NEAR(recording.info().pairs[static_cast<std::size_t>(i)].depth_stamp_s, StampOf(i),
+                    1e-9);
+    }
+}
+
+void ExpectPlainRecording(const std::string& path) {
+    RecordingResult recording = OpenRosRecording(path, kRosGap_s);
+    ASSERT_TRUE(recording.ok()) << recording.message();
+    ExpectAllImages(*recording.value());
+    const RecordingInfo& info = recording.value()->info();
+    EXPECT_EQ(info.depth_camera.pinhole,
+              (PinholeCamera{kDepthWidth, kDepthHeight, 60.5, 61.5, 31.25, 23.75}));
+    EXPECT_EQ(info.colour_camera.pinhole,
+              (PinholeCamera{kColourWidth, kColourHeight, 91, 92, 47.5, 35.25}));
+    EXPECT_EQ(info.colour_camera.distortion, (LensDistortion{0.1, -0.05, 0.001, -0.002, 0.01}));
+    EXPECT_TRUE(info.depth_camera.distortion.IsZero());
+    EXPECT_TRUE(info.T_colour_depth.isApprox(ExpectedTransform(), 1e-12));
+    EXPECT_EQ(info.depth_camera.depth_scale, 1000);
+    EXPECT_TRUE(info.camera_known);
+    EXPECT_TRUE(info.warnings.empty()) << info.warnings.front();
+    EXPECT_NEAR(info.fps, 10, 1e-6);
+    EXPECT_NEAR(info.pairs[1].colour_stamp_s, StampOf(1) + 0.004, 1e-9);
+}
+
+TEST(RosRecording, ReadsBagsInEachCompression) {
+    TemporaryFolder folder;
+    for (const char* compression : {"none", "bz2", "lz4"}) {
+        SCOPED_TRACE(compression);
+        const std::string path = folder.Path(compression) + ".bag";
+        WRITE_BAG_OR_SKIP(path, "plain", compression);
+        ExpectPlainRecording(path);
+    }
+}
+
+TEST(RosRecording, ReadsMcapInEachCompression) {
+    TemporaryFolder folder;
+    for (const char* compression : {"", "lz4", "zstd"}) {
+        SCOPED_TRACE(compression);
+        const std::string path = folder.Path("recording.mcap");
+        WriteRosFile(path, McapOf(PlainMessages(), compression));
+        ExpectPlainRecording(path);
+    }
+}
+
+TEST(RosRecording, ReadsDb3) {
+    TemporaryFolder folder;
+    WriteDb3(folder.Path("recording.db3"), PlainMessages());
+    ExpectPlainRecording(folder.Path("recording.db3"));
+}
+
+TEST(RosRecording, ReadsTheFilesOfAFolderInOrder) {
+    TemporaryFolder folder;
+    const std::vector<Message> messages = PlainMessages();
+    const auto middle = messages.begin() + 7;
+    WriteRosFile(folder.Path("r_9.mcap"), McapOf({messages.begin(), middle}, "zstd"));
+    WriteRosFile(folder.Path("r_10.mcap"), McapOf({middle, messages.end()}, "zstd"));
+    EXPECT_TRUE(IsRosFolder(folder.path()));
+    ExpectPlainRecording(folder.path());
+}
+
+TEST(RosRecording, DepthInMetresIsRegisteredWhereTheFramesAreOne) {
+    TemporaryFolder folder;
+    WRITE_BAG_OR_SKIP(folder.Path("a.bag"), "float", "none");
+    RecordingResult recording = OpenRosRecording(folder.Path("a.bag"), kRosGap_s);
+    ASSERT_TRUE(recording.ok()) << recording.message();
+    const RecordingInfo& info = recording.value()->info();
+    EXPECT_TRUE(info.T_colour_depth.isApprox(Eigen::Isometry3d::Identity()));
+    EXPECT_EQ(info.colour_camera.pinhole, info.depth_camera.pinhole);
+    EXPECT_EQ(info.depth_camera.depth_scale, 5000);
+    Image<std::uint16_t> depth;
+    ColourImage colour;
+    ASSERT_TRUE(recording.value()->Load(3, depth, colour).ok());
+    const Image<std::uint16_t> expected = DepthOf(3);
+    for (std::size_t i = 0; i < depth.size(); ++i)
+        ASSERT_EQ(depth.data()[i], 5 * expected.data()[i]);
+}
+
+TEST(RosRecording, ReadsCompressedImagesAndRectifiedCameras) {
+    TemporaryFolder folder;
+    WRITE_BAG_OR_SKIP(folder.Path("a.bag"), "compressed", "lz4");
+    RecordingResult recording = OpenRosRecording(folder.Path("a.bag"), kRosGap_s);
+    ASSERT_TRUE(recording.ok()) << recording.message();
+    ExpectAllImages(*recording.value());
+    // "rect": the projection matrix counts, not the raw camera.
+    EXPECT_EQ(recording.value()->info().depth_camera.pinhole,
+              (PinholeCamera{kDepthWidth, kDepthHeight, 59.5, 60.5, 31.25, 23.75}));
+}
+
+TEST(RosRecording, ReadsRealsenseBags) {
+    TemporaryFolder folder;
+    WRITE_BAG_OR_SKIP(folder.Path("a.bag"), "realsense", "lz4");
+    RecordingResult recording = OpenRosRecording(folder.Path("a.bag"), kRosGap_s);
+    ASSERT_TRUE(recording.ok()) << recording.message();
+    ExpectAllImages(*recording.value());
+    const RecordingInfo& info = recording.value()->info();
+    EXPECT_NEAR(info.depth_camera.depth_scale, 2000, 1e-3);
+    // From the device to the colour camera, after the way back from the depth camera.
+    Eigen::Isometry3d T_colour_depth = Eigen::Isometry3d::Identity();
+    T_colour_depth.linear() = Eigen::Quaterniond(0.8, 0, 0.6, 0).toRotationMatrix();
+    T_colour_depth.translation() =
+        Eigen::Vector3d(0.6, 0, 0) - T_colour_depth.linear() * Eigen::Vector3d(0.5, 0, 0);
+    EXPECT_TRUE(info.T_colour_depth.isApprox(T_colour_depth, 1e-12));
+    // The inverse model's k1 has about the opposite sign.
+    EXPECT_NEAR(info.colour_camera.distortion.k1, -0.1, 0.03);
+    EXPECT_TRUE(info.warnings.empty()) << info.warnings.front();
+}
+
+TEST(RosRecording, AFileThatIsCutOffIsReadUpToThere) {
+    TemporaryFolder folder;
+    const std::string whole = McapOf(PlainMessages(), "zstd");
+    WriteRosFile(folder.Path("a.mcap"), whole.substr(0, whole.size() * 6 / 10));
+    RecordingResult recording = OpenRosRecording(folder.Path("a.mcap"), kRosGap_s);
+    ASSERT_TRUE(recording.ok()) << recording.message();
+    const std::size_t pairs = recording.value()->info().pairs.size();
+    EXPECT_GE(pairs, 1u);
+    EXPECT_LT(pairs, static_cast<std::size_t>(kFrames));
+    ExpectAllImages(*recording.value(), static_cast<int>(pairs));
+    ASSERT_EQ(recording.value()->info().warnings.size(), 1u);
+    EXPECT_TRUE(recording.value()->info().warnings[0].starts_with("damaged or cut off"));
+}
+
+TEST(RosRecording, SaysWhatIsMissing) {
+    TemporaryFolder folder;
+    std::vector<Message> messages = PlainMessages();
+    std::erase_if(messages, [](const Message& m) { return m.topic == "/cam/depth/image_raw"; });
+    WriteRosFile(folder.Path("a.mcap"), McapOf(messages, ""));
+    EXPECT_TRUE(OpenRosRecording(folder.Path("a.mcap"), kRosGap_s)
+                    .message()
+                    .starts_with(folder.Path("a.mcap") + ": no depth images"));
+    WriteRosFile(folder.Path("b.mcap"), McapOf(PlainMessages(), ""));
+    EXPECT_NE(OpenRosRecording(folder.Path("b.mcap"), 0.001).message().find("0.004 s apart"),
+              std::string::npos);
+    WriteRosFile(folder.Path("c.bag"), "#ROSBAG V1.2\n");
+    EXPECT_NE(OpenRosRecording(folder.Path("c.bag"), kRosGap_s).message().find("rosbag fix"),
+              std::string::npos);
+    messages = PlainMessages();
+    std::erase_if(messages, [](const Message& m) { return m.topic == "/tf_static"; });
+    WriteRosFile(folder.Path("d.mcap"), McapOf(messages, ""));
+    RecordingResult recording = OpenRosRecording(folder.Path("d.mcap"), kRosGap_s);
+    ASSERT_TRUE(recording.ok()) << recording.message();
+    ASSERT_EQ(recording.value()->info().warnings.size(), 1u);
+    EXPECT_NE(recording.value()->info().warnings[0].find("taken as one"), std::string::npos);
+}
+
+// Opens the file and loads all images, with four bits turned over in the part from `first` on.
+void ReadDamaged(const std::string& path, std::string content, std::size_t first, std::size_t bytes,
+                 unsigned seed) {
+    std::minstd_rand random(seed + 1);
+    for (int i = 0; i < 4; ++i)
+        content[first + random() % bytes] ^= static_cast<char>(1 << random() % 8);
+    WriteRosFile(path, content);
+    RecordingResult recording = OpenRosRecording(path, kRosGap_s);
+    if (!recording.ok()) return;
+    Image<std::uint16_t> depth;
+    ColourImage colour;
+    for (std::size_t i = 0; i < recording.value()->info().pairs.size(); ++i)
+        (void)recording.value()->Load(i, depth, colour).ok();
+}
+
+// Damage gives an error, fewer images or other pixels, never a crash or a huge allocation. The
+// first part has the heads of chunks, records and messages.
+TEST(RosRecording, DamagedFilesAreNoDanger) {
+    TemporaryFolder folder;
+    for (const char* compression : {"", "lz4", "zstd"}) {
+        const std::string good = McapOf(PlainMessages(), compression);
+        for (unsigned seed = 0; seed < 60; ++seed)
+            ReadDamaged(folder.Path("a.mcap"), good, 0, seed % 2 ? good.size() : 2000, seed);
+    }
+}
+
+TEST(RosRecording, DamagedBagsAreNoDanger) {
+    TemporaryFolder folder;
+    const std::string path = folder.Path("a.bag");
+    for (const char* compression : {"none", "bz2"}) {
+        WRITE_BAG_OR_SKIP(path, "plain", compression);
+        const std::string good = RosFileContent(path);
+        for (unsigned seed = 0; seed < 60; ++seed)
+            ReadDamaged(path, good, 13, seed % 2 ? good.size() - 13 : 5000, seed);
+    }
+}
+
+}  // namespace
+}  // namespace tessera
