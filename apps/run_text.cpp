@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <initializer_list>
 #include <map>
 #include <numbers>
 #include <utility>
@@ -46,6 +47,24 @@ std::string LabelsText(const LabelSummary& labels, double wall_s) {
     return text + "\n";
 }
 
+// What tracking and mapping take. Often the source is slower: a built-in scene is rendered while it
+// is read.
+std::string SpeedText(const RunSummary& s) {
+    const auto median_ms = [&](std::initializer_list<const char*> stages) {
+        double sum_ms = 0;
+        for (const auto& [stage, statistics] : s.stages)
+            if (std::ranges::find(stages, stage) != stages.end()) sum_ms += statistics.median_ms;
+        return sum_ms;
+    };
+    std::string text = fmt::format(
+        "median {:.1f} ms to track a frame and {:.1f} ms to fuse it; {:.1f} frames/s",
+        median_ms({"prepare", "track"}), median_ms({"moving", "allocate", "fuse"}), s.fps);
+    const double reading_ms = median_ms({"decode"});
+    if (2 * reading_ms > median_ms({"frame"}))
+        text += fmt::format(", because the source takes {:.1f} ms", reading_ms);
+    return text + "\n";
+}
+
 std::string RunText(const RunRequest& request, const RunSummary& s) {
     const RunCounts& n = s.counts;
     std::string text =
@@ -63,25 +82,22 @@ std::string RunText(const RunRequest& request, const RunSummary& s) {
             "help\n",
             1000 / s.source.fps);
     if (s.ate) text += AteText(*s.ate);
-    double median_ms = 0;
-    for (const auto& [stage, statistics] : s.stages)
-        if (stage == "frame") median_ms = statistics.median_ms;
+    text += SpeedText(s);
     constexpr double kMegabyte = 1024.0 * 1024.0;
     text += fmt::format(
-        "{:.1f} frames/s, median {:.1f} ms per frame; map {} blocks, {:.0f} MB ({:.1f} bytes per "
-        "voxel); peak memory {:.0f} MB\n",
-        s.fps, median_ms, s.map.blocks, static_cast<double>(s.map.bytes) / kMegabyte,
-        s.map.bytes_per_voxel, s.peak_rss_mb);
+        "map {} blocks, {:.0f} MB ({:.1f} bytes per voxel); peak memory {:.0f} MB\n", s.map.blocks,
+        static_cast<double>(s.map.bytes) / kMegabyte, s.map.bytes_per_voxel, s.peak_rss_mb);
     if (s.labels) text += LabelsText(*s.labels, s.wall_s);
     std::error_code ignored;  // an empty mesh has no picture
-    for (const auto& [file, what] : {std::pair{"trajectory.txt", "camera path, TUM format"},
-                                     {"mesh.ply", "coloured mesh"},
-                                     {"preview.png", "picture of the mesh"},
-                                     {"objects.json", "labelled objects, with boxes"},
-                                     {"detections.txt", "detections by frame"},
-                                     {"timings.json", "time per stage"},
-                                     {"run.json", "settings and statistics of this run"}})
-        if (std::filesystem::exists(request.output_folder + "/" + file, ignored))
+    for (const auto& [file, what] :
+         {std::pair{"trajectory.txt", "camera path, TUM format"},
+          {"mesh.ply", "coloured mesh"},
+          {"preview.png", "picture of the mesh"},
+          {s.labels ? "objects.json" : "", "labelled objects, with boxes"},
+          {"detections.txt", "detections by frame"},
+          {"timings.json", "time per stage"},
+          {"run.json", "settings and statistics of this run"}})
+        if (*file != '\0' && std::filesystem::exists(request.output_folder + "/" + file, ignored))
             text += fmt::format("  {}/{}  {}\n", request.output_folder, file, what);
     return text;
 }

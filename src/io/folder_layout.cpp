@@ -9,6 +9,7 @@
 #include "io/folder_truth.h"
 #include "io/image_lists.h"
 #include "io/named_images.h"
+#include "io/open3d_camera.h"
 #include "io/published_cameras.h"
 
 namespace tessera {
@@ -116,6 +117,12 @@ Result<std::optional<CameraCalibration>> FindCamera(const fs::path& folder,
                 "depths come out too long or too short",
                 read.value().depth_scale));
         return std::optional(read.value());
+    }
+    const auto open3d = ReadOpen3dCamera(folder.string());
+    if (!open3d.ok()) return open3d.status();
+    if (open3d.value()) {
+        notes.push_back(fmt::format("camera from {}, depth in millimetres", open3d.value()->file));
+        return std::optional(open3d.value()->calibration);
     }
     const std::string name = PublishedName(folder, published);
     std::optional<CameraCalibration> camera = PublishedCamera(name);

@@ -39,11 +39,11 @@ struct FolderLayout {
 // - 7-Scenes: frame-NNNNNN.color.png, .depth.png, .pose.txt. Colour is not registered to depth in
 //   this data set and is used as it is: colours are offset by up to a few centimetres.
 // - A folder with subfolders depth/ and rgb/ (colour/, color/, image/, images/), paired by name.
-// Camera: camera.yaml if present; otherwise the published values, identified by the folder's name
-// (freiburg1, 2, 3), by the bag name in the first two lines of rgb.txt, or by the layout; otherwise
-// unknown (nominal_camera.h). Ground truth: groundtruth.txt, or the layout's own. Unusable ground
-// truth is reported in the notes. So are files that the lists name but that are missing; if all are
-// missing, that is an error.
+// Camera: camera.yaml if present; otherwise Open3D's (open3d_camera.h); otherwise the published
+// values, identified by the folder's name (freiburg1, 2, 3), by the bag name in the first two lines
+// of rgb.txt, or by the layout; otherwise unknown (nominal_camera.h). Ground truth:
+// groundtruth.txt, or the layout's own. Unusable ground truth is reported in the notes. So are
+// files that the lists name but that are missing; if all are missing, that is an error.
 Result<FolderLayout> ReadFolderLayout(const std::string& folder, double max_pair_gap_s);
 
 }  // namespace tessera

@@ -61,6 +61,8 @@ class RosScan {
         if (!header) return;
         auto stream = std::ranges::find(contents_.streams, topic.name, &RosStream::topic);
         if (stream == contents_.streams.end()) {
+            constexpr std::size_t kMostTopics = 1000;
+            if (contents_.streams.size() >= kMostTopics) return;
             contents_.streams.push_back(FirstImage(topic, place));
             stream = std::prev(contents_.streams.end());
         }

@@ -50,7 +50,7 @@ struct RosContents {
     std::vector<std::string> warnings;
 };
 
-// Damage ends the walk through a file, with a warning.
+// Damage ends the walk through a file, with a warning. At most 1000 image topics.
 RosContents ScanRosFiles(std::span<const std::unique_ptr<MessageFile>> files);
 
 }  // namespace tessera

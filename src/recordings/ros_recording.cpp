@@ -153,6 +153,11 @@ RecordingResult OpenRosRecording(const std::string& path, double max_pair_gap_s)
     const auto& colour = choice.colour == nullptr ? depth : choice.colour->images;
     for (const StampPair& pair : pairs)
         info.pairs.push_back({depth[pair.depth].stamp_s, colour[pair.colour].stamp_s});
+    if (pairs.size() < depth.size())
+        info.notes.push_back(
+            fmt::format("{} of {} depth images have no colour image within {:.0f} ms and are not "
+                        "used (source.max_pair_gap_s)",
+                        depth.size() - pairs.size(), depth.size(), 1000 * max_pair_gap_s));
     if (depth.size() > 1)
         info.fps =
             static_cast<double>(depth.size() - 1) / (depth.back().stamp_s - depth.front().stamp_s);

@@ -9,8 +9,8 @@ namespace tessera::fuzz {
 
 std::vector<FuzzTarget> FuzzTargets() {
     std::vector<FuzzTarget> all;
-    for (const auto& some :
-         {ImageTargets(), ModelTargets(), TextTargets(), ScanTargets(), StateTargets()})
+    for (const auto& some : {ImageTargets(), ModelTargets(), TextTargets(), ScanTargets(),
+                             StateTargets(), RecordingTargets()})
         all.insert(all.end(), some.begin(), some.end());
     return all;
 }

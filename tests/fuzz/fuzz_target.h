@@ -29,6 +29,8 @@ std::vector<FuzzTarget> ModelTargets();
 std::vector<FuzzTarget> TextTargets();
 std::vector<FuzzTarget> ScanTargets();
 std::vector<FuzzTarget> StateTargets();
+// None if the build has no recordings of other programs.
+std::vector<FuzzTarget> RecordingTargets();
 
 // The bytes as a regular file without a place on a disk.
 class BytesAsFile {

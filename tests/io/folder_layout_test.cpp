@@ -28,6 +28,35 @@ bool HasNote(const FolderLayout& layout, const std::string& part) {
     return false;
 }
 
+TEST(FolderLayout, TakesTheCameraOfOpen3dFolders) {
+    TemporaryFolder folder;
+    folder.WriteText("depth/00001.png", "");
+    folder.WriteText("color/00001.jpg", "");
+    const auto write = [&](const std::string& matrix) {
+        folder.WriteText("intrinsic.json",
+                         R"({"width": 640, "height": 480, "intrinsic_matrix": )" + matrix + "}");
+    };
+    write("[525.5, 0, 0, 0, 526.5, 0, 319.25, 239.75, 1]");
+    const auto layout = Read(folder);
+    ASSERT_TRUE(layout.ok()) << layout.message();
+    EXPECT_TRUE(layout.value().camera_known);
+    EXPECT_EQ(layout.value().calibration.pinhole,
+              (PinholeCamera{640, 480, 525.5, 526.5, 319.25, 239.75}));
+    EXPECT_EQ(layout.value().calibration.depth_scale, 1000);
+    EXPECT_TRUE(HasNote(layout.value(), "camera from intrinsic.json, depth in millimetres"));
+
+    const std::string path = folder.Path("intrinsic.json");
+    write("[525.5, 0, 0]");
+    EXPECT_EQ(Read(folder).message().find(path + ": fy: "), 0u) << Read(folder).message();
+    for (const char* text : {"", "[]", "{", R"({"width": "640"})"}) {
+        folder.WriteText("intrinsic.json", text);
+        EXPECT_EQ(Read(folder).message(),
+                  path + ": has no width, height and intrinsic_matrix of 9 numbers");
+    }
+    folder.WriteText("camera.yaml", kSmallCamera);  // comes first
+    EXPECT_EQ(Read(folder).value().calibration.pinhole.width, 32);
+}
+
 TEST(FolderLayout, WarnsOfStampsThatCannotBeRight) {
     TemporaryFolder folder;
     folder.WriteText("camera.yaml", kSmallCamera);

@@ -187,6 +187,18 @@ TEST(RosRecording, AFileThatIsCutOffIsReadUpToThere) {
     EXPECT_TRUE(recording.value()->info().warnings[0].starts_with("damaged or cut off"));
 }
 
+TEST(RosRecording, CountsDepthImagesWithoutColour) {
+    TemporaryFolder folder;
+    std::vector<Message> messages = PlainMessages();
+    messages.pop_back();  // the last colour image
+    WriteRosFile(folder.Path("a.mcap"), McapOf(messages, ""));
+    RecordingResult recording = OpenRosRecording(folder.Path("a.mcap"), kRosGap_s);
+    ASSERT_TRUE(recording.ok()) << recording.message();
+    ExpectAllImages(*recording.value(), kFrames - 1);
+    EXPECT_TRUE(recording.value()->info().notes.back().starts_with(
+        "1 of 5 depth images have no colour image within 20 ms"));
+}
+
 TEST(RosRecording, SaysWhatIsMissing) {
     TemporaryFolder folder;
     std::vector<Message> messages = PlainMessages();
