@@ -13,6 +13,7 @@
 #include "export/vdb_writer.h"
 #include "io/openni_devices.h"
 #include "optimize/pose_graph.h"
+#include "recordings/open_recording.h"
 #include "render/gl_context.h"
 #include "scan/database.h"
 #include "semantics/dnn_detector.h"
@@ -69,10 +70,13 @@ int Doctor() {
     PrintCameras(ListOpenniDevices());
     fmt::print("window       {}\n", Window());
     fmt::print("loop closure {}\n",
-               PoseGraphAvailable() ? "on request" : "off: install libceres-dev and build again");
+               PoseGraphAvailable() ? "on" : "off: install libceres-dev and build again");
     fmt::print("scan files   {}\n",
                ScanAvailable() ? "on" : std::string("off: ") + kScanUnavailable);
     PrintExports();
+    fmt::print("recordings   {}\n", RecordingsAvailable()
+                                        ? ".bag .mcap .db3 .mkv .r3d .sens, folders of phone apps"
+                                        : std::string("off: ") + kRecordingsUnavailable);
     fmt::print("labels       {}\n", HasDnn()
                                         ? "networks (.onnx, Darknet), detections files"
                                         : "detections files; networks need OpenCV's dnn module");

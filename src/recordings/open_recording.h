@@ -10,6 +10,12 @@
 
 namespace tessera {
 
+// Whether this build reads recordings. If not, OpenRecording returns an error that includes
+// kRecordingsUnavailable.
+bool RecordingsAvailable();
+inline constexpr const char* kRecordingsUnavailable =
+    "install libzip-dev, liblz4-dev, libbz2-dev, libzstd-dev and libsqlite3-dev, and build again";
+
 // Judged by a file's ending and by the files in a folder.
 bool IsRecording(const std::string& path);
 

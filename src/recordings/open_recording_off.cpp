@@ -4,6 +4,8 @@
 
 namespace tessera {
 
+bool RecordingsAvailable() { return false; }
+
 bool IsRecording(const std::string& path) {
     for (const char* ending : {".bag", ".mcap", ".db3", ".mkv", ".r3d", ".sens"})
         if (EndingOf(path) == ending) return true;
@@ -13,9 +15,7 @@ bool IsRecording(const std::string& path) {
 Result<std::unique_ptr<FrameSource>> OpenRecording(const std::string& path,
                                                    const FolderSourceConfig&) {
     return Status::Error(path +
-                         ": this program was built without recordings of other programs (install "
-                         "libzip-dev, liblz4-dev, libbz2-dev, libzstd-dev and libsqlite3-dev, then "
-                         "build again)");
+                         ": recordings of other programs are off: " + kRecordingsUnavailable);
 }
 
 }  // namespace tessera

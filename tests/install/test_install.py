@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Installs into an empty folder what was built, and uses it: the program, a consumer of the libraries, the Python
 package, the Debian packages. Usage: test_install.py BUILD_DIR"""
+import importlib.util
 import os
 import pathlib
 import re
@@ -62,9 +63,8 @@ class Install(unittest.TestCase):
         self.assertRegex(said, r"^\d+\.\d+\.\d+$")
 
     def test_a_wheel_in_a_new_environment(self):
-        try:
-            import ensurepip, pip, setuptools, wheel  # noqa: E401, F401
-        except ImportError:
+        # Imported one after the other, pip and setuptools want two different distutils.
+        if not all(importlib.util.find_spec(name) for name in ("ensurepip", "pip", "setuptools", "wheel")):
             self.skipTest("apt-get install python3-venv python3-pip python3-setuptools python3-wheel")
         if not list((BUILD / "python/tessera").glob("_tessera*.so")):
             self.skipTest("this build has no Python module")
