@@ -35,6 +35,11 @@ double UnitOf(const std::vector<std::uint16_t>& values, double middle) {
 
 }  // namespace
 
+PinholeCamera NominalPinhole(int width, int height) {
+    const double f_px = 0.5 * width / std::tan(0.5 * kFieldOfView_rad);
+    return {width, height, f_px, f_px, 0.5 * (width - 1), 0.5 * (height - 1)};
+}
+
 Status AssumeCamera(FolderLayout& layout) {
     constexpr std::size_t kProbes = 5, kEvery = 7;
     ImageDecoder decoder;
@@ -56,9 +61,7 @@ Status AssumeCamera(FolderLayout& layout) {
                 values.push_back(value);
     }
     if (camera.width == 0) return first;
-    camera.fx = camera.fy = 0.5 * camera.width / std::tan(0.5 * kFieldOfView_rad);
-    camera.cx = 0.5 * (camera.width - 1);
-    camera.cy = 0.5 * (camera.height - 1);
+    camera = NominalPinhole(camera.width, camera.height);
     const double middle = MiddleValue(values), unit = UnitOf(values, middle);
     layout.calibration.pinhole = camera;
     layout.calibration.depth_scale = unit;

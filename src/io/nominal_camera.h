@@ -6,6 +6,9 @@
 
 namespace tessera {
 
+// A horizontal field of view of 60 degrees and a centred principal point.
+PinholeCamera NominalPinhole(int width, int height);
+
 // Fills in the calibration of a layout with an unknown camera. Assumes a horizontal field of view
 // of 60 degrees, a centred principal point, no distortion, and the depth unit (1000 or 5000 values
 // per metre) that makes the median depth typical of a room. The depth unit is reported in the

@@ -37,12 +37,9 @@ class Db3File : public MessageFile {
         if (!rows) return Failed();
         int state;
         while ((state = sqlite3_step(rows.get())) == SQLITE_ROW) {
-            std::string type = Db3Text(rows.get(), 2);
-            if (const std::size_t at = type.find("/msg/"); at != std::string::npos)
-                type.erase(at, 4);
             if (Db3Text(rows.get(), 3) != "cdr") continue;
-            topics_[sqlite3_column_int64(rows.get(), 0)] =
-                MessageTopic{Db3Text(rows.get(), 1), type, RosSerialisation::kCdr};
+            topics_[sqlite3_column_int64(rows.get(), 0)] = MessageTopic{
+                Db3Text(rows.get(), 1), RosTypeOf(Db3Text(rows.get(), 2)), RosSerialisation::kCdr};
         }
         return state == SQLITE_DONE ? Status::Ok() : Failed();
     }

@@ -56,12 +56,6 @@ class McapFields {
     bool ok_ = true;
 };
 
-// "sensor_msgs/msg/Image" and "sensor_msgs/Image" are one type.
-std::string RosTypeOf(std::string name) {
-    if (const std::size_t at = name.find("/msg/"); at != std::string::npos) name.erase(at, 4);
-    return name;
-}
-
 class McapFile : public MessageFile {
   public:
     explicit McapFile(InputFile file) : store_(std::move(file)) {

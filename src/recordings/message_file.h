@@ -18,6 +18,12 @@ struct MessageTopic {
     RosSerialisation serialisation = RosSerialisation::kRos1;
 };
 
+// "sensor_msgs/Image" of "sensor_msgs/msg/Image".
+inline std::string RosTypeOf(std::string name) {
+    if (const std::size_t at = name.find("/msg/"); at != std::string::npos) name.erase(at, 4);
+    return name;
+}
+
 // Where a message is; what the numbers mean is the file's own business.
 struct MessagePlace {
     std::uint64_t chunk = 0, offset = 0;

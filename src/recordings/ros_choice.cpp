@@ -3,10 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 #include <tuple>
 
+#include "io/nominal_camera.h"
 #include "recordings/phone_depth.h"
 
 namespace tessera {
@@ -50,17 +49,6 @@ const RosCamera* RosCameraOf(const RosContents& contents, const RosStream& strea
     return nullptr;
 }
 
-// A horizontal field of view of 60 degrees, as for folders without a camera.
-PinholeCamera AssumedPinhole(const RosStream& stream) {
-    const double f_px = stream.width / 2.0 / std::tan(std::numbers::pi / 6);
-    return {stream.width,
-            stream.height,
-            f_px,
-            f_px,
-            (stream.width - 1) / 2.0,
-            (stream.height - 1) / 2.0};
-}
-
 CameraCalibration CalibrationOf(const RosContents& contents, const RosStream& stream,
                                 RecordingInfo& info) {
     CameraCalibration calibration;
@@ -69,7 +57,7 @@ CameraCalibration CalibrationOf(const RosContents& contents, const RosStream& st
         info.camera_known = false;
         info.notes.push_back(fmt::format(
             "{}: no camera_info: assuming a field of view of 60 degrees", stream.topic));
-        calibration.pinhole = AssumedPinhole(stream);
+        calibration.pinhole = NominalPinhole(stream.width, stream.height);
     } else if (stream.topic.find("rect") != std::string::npos) {
         calibration.pinhole = camera->rectified;
     } else {

@@ -8,6 +8,7 @@
 
 #include "io/stamp_pairing.h"
 #include "recordings/endings.h"
+#include "recordings/recorded_stamps.h"
 #include "recordings/ros_choice.h"
 #include "recordings/ros_images.h"
 
@@ -158,9 +159,7 @@ RecordingResult OpenRosRecording(const std::string& path, double max_pair_gap_s)
             fmt::format("{} of {} depth images have no colour image within {:.0f} ms and are not "
                         "used (source.max_pair_gap_s)",
                         depth.size() - pairs.size(), depth.size(), 1000 * max_pair_gap_s));
-    if (depth.size() > 1)
-        info.fps =
-            static_cast<double>(depth.size() - 1) / (depth.back().stamp_s - depth.front().stamp_s);
+    info.fps = MedianFps(info.pairs, info.fps);
     return std::unique_ptr<Recording>(std::make_unique<RosRecording>(
         std::move(files), std::move(contents), choice, std::move(pairs), std::move(info)));
 }

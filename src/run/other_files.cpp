@@ -2,13 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
-#include <cctype>
 #include <filesystem>
 
 #include "core/camera.h"
 #include "io/trajectory.h"
+#include "recordings/endings.h"
 
 namespace tessera {
 namespace {
@@ -53,9 +52,7 @@ std::string DescribeOtherFile(const std::string& path) {
                    ? fmt::format("the results of a run; tessera view {} shows them", path)
                    : "";
     if (!fs::is_regular_file(path, ignored)) return "";
-    std::string ending = fs::path(path).extension().string();
-    std::ranges::transform(ending, ending.begin(),
-                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const std::string ending = EndingOf(path);
     for (const Kind& kind : kKinds) {
         if (ending != kind.ending) continue;
         std::string text = kind.what;
