@@ -17,7 +17,7 @@ endif()
 # SIMD, on every CPU and on a GPU.
 add_library(tessera_options INTERFACE)
 target_compile_options(tessera_options INTERFACE -Wall -Wextra -Wshadow -Wconversion
-    -Wno-sign-conversion -Wno-restrict -ffp-contract=off $<$<BOOL:${TESSERA_WERROR}>:-Werror>)
+    -Wno-sign-conversion $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict> -ffp-contract=off $<$<BOOL:${TESSERA_WERROR}>:-Werror>)
 if(TESSERA_SANITIZE)
     target_compile_options(tessera_options INTERFACE -fsanitize=${TESSERA_SANITIZE}
         -fno-omit-frame-pointer -fno-sanitize-recover=all)
@@ -82,20 +82,20 @@ add_custom_target(tessera_sanitized_tests)
 # Each test program writes its results here as XML. scripts/summarise_tests.py counts the tests.
 set(TESSERA_TEST_RESULTS ${CMAKE_BINARY_DIR}/test_results)
 
-# tessera_test(NAME SOURCES... LINK libs... [LABEL unit|data|slow|app|window] [THREADS] [SERIAL]
-#              [ISOLATED] [SHARDS n] [LONG patterns...]) declares a GoogleTest program. It is
+# tessera_test(NAME SOURCES... LINK libs... [LABEL unit|data|slow|app|window] [THREADS patterns...]
+#              [SERIAL] [ISOLATED] [SHARDS n] [LONG patterns...]) declares a GoogleTest program. It is
 # one ctest entry, not one per test, because a process takes 0.2 s to start. SHARDS splits a long
 # program into n entries that may run at the same time. ISOLATED gives each test a process: for
 # libraries that cannot be started twice in one. SERIAL is for programs that depend on timing: no
 # other test runs at the same time.
 #
-# The sanitizers run the unit programs: ASan all of them, TSan those with THREADS, which start
-# threads of their own. TBB's loops are serial under TSan (tests/support/serial_tbb.cpp), so it has
-# nothing to find in the others. LONG lists tests, as GoogleTest filters, that take seconds: they are
-# an entry of their own with the label slow, and the sanitizers skip them, because shorter tests cover
-# the same code.
+# The sanitizers run the unit programs: ASan all of them, TSan those with THREADS, which lists the
+# tests, as GoogleTest filters, that start threads of ours. TBB's loops are serial under TSan
+# (tests/support/serial_tbb.cpp), so it has nothing to find in the others. LONG lists tests that take
+# seconds: they are an entry of their own with the label slow, and the sanitizers skip them, because
+# shorter tests cover the same code.
 function(tessera_test name)
-    cmake_parse_arguments(ARG "SERIAL;THREADS;ISOLATED" "LABEL;SHARDS" "SOURCES;LINK;LONG" ${ARGN})
+    cmake_parse_arguments(ARG "SERIAL;ISOLATED" "LABEL;SHARDS" "SOURCES;LINK;LONG;THREADS" ${ARGN})
     if(NOT ARG_LABEL)
         set(ARG_LABEL unit)
     endif()
@@ -121,9 +121,12 @@ function(tessera_test name)
         add_dependencies(tessera_sanitized_tests ${name})
         set(label unit-sanitized)  # ctest -L unit and ctest -L sanitized both find it
     endif()
+    if(TESSERA_SANITIZE MATCHES thread)
+        list(JOIN ARG_THREADS ":" filter)
+    endif()
     if(ARG_LONG)
         list(JOIN ARG_LONG ":" patterns)
-        set(filter "-${patterns}")
+        string(APPEND filter "-${patterns}")
         if(NOT TESSERA_SANITIZE)
             tessera_test_entry(${name}.long ${name} slow "${patterns}" 1 0)
         endif()

@@ -167,9 +167,10 @@ class MkvWalk {
             content_.resize(
                 static_cast<std::size_t>(std::min<std::uint64_t>(part, file_.size() - from)));
             if (!file_.ReadAt(from, content_).ok()) return false;
-            const auto found = std::ranges::search(content_, kId);
-            if (!found.empty()) {
-                from += static_cast<std::uint64_t>(found.begin() - content_.begin());
+            const auto found =
+                std::search(content_.begin(), content_.end(), kId.begin(), kId.end());
+            if (found != content_.end()) {
+                from += static_cast<std::uint64_t>(found - content_.begin());
                 if (++damages_ == 1) first_damage_ = at;
                 skipped_ += from - at;
                 at = from;
@@ -195,12 +196,14 @@ class MkvWalk {
     void FinishTracks() {
         for (MkvTrack& track : index_.tracks) {
             std::ranges::stable_sort(track.blocks, {}, &MkvBlock::stamp_ns);
-            const auto repeated = std::ranges::unique(track.blocks, {}, &MkvBlock::stamp_ns);
-            if (!repeated.empty())
+            const auto repeated = std::unique(
+                track.blocks.begin(), track.blocks.end(),
+                [](const MkvBlock& a, const MkvBlock& b) { return a.stamp_ns == b.stamp_ns; });
+            if (repeated != track.blocks.end())
                 index_.warnings.push_back(
                     fmt::format("{} images of the track {} repeat a time stamp and are dropped",
-                                repeated.size(), track.name));
-            track.blocks.erase(repeated.begin(), repeated.end());
+                                track.blocks.end() - repeated, track.name));
+            track.blocks.erase(repeated, track.blocks.end());
         }
     }
 

@@ -73,8 +73,10 @@ std::vector<NumberedFile> NumberedFiles(const std::string& folder, std::string_v
         if (std::string_view(at + 1, last) == extension) files.push_back(std::move(file));
     }
     std::ranges::sort(files, {}, [](const NumberedFile& f) { return std::tie(f.number, f.name); });
-    const auto doubled = std::ranges::unique(files, {}, &NumberedFile::number);
-    files.erase(doubled.begin(), doubled.end());
+    const auto doubled = std::unique(
+        files.begin(), files.end(),
+        [](const NumberedFile& a, const NumberedFile& b) { return a.number == b.number; });
+    files.erase(doubled, files.end());
     return files;
 }
 

@@ -137,8 +137,10 @@ class RosScan {
 
 void SortByStamp(RosStream& stream) {
     std::ranges::stable_sort(stream.images, {}, &RosImagePlace::stamp_s);
-    const auto repeated = std::ranges::unique(stream.images, {}, &RosImagePlace::stamp_s);
-    stream.images.erase(repeated.begin(), repeated.end());
+    const auto repeated = std::unique(
+        stream.images.begin(), stream.images.end(),
+        [](const RosImagePlace& a, const RosImagePlace& b) { return a.stamp_s == b.stamp_s; });
+    stream.images.erase(repeated, stream.images.end());
 }
 
 }  // namespace

@@ -96,8 +96,8 @@ std::vector<StrayStamp> ReadStrayStamps(const std::string& path) {
         if (cells.size() <= std::max(stamp_at, frame_at)) continue;
         const std::optional<double> stamp_s = StrayNumber(cells[stamp_at]);
         const std::optional<double> frame = StrayNumber(cells[frame_at]);
-        constexpr double kMostFrames = 1e12;
-        if (stamp_s && frame && *frame >= 0 && *frame <= kMostFrames)
+        constexpr double kMostFrameNumber = 1e12;
+        if (stamp_s && frame && *frame >= 0 && *frame <= kMostFrameNumber)
             stamps.push_back({static_cast<std::uint64_t>(*frame), *stamp_s});
     }
     std::ranges::stable_sort(stamps, {}, &StrayStamp::frame);

@@ -38,6 +38,12 @@ class Cli : public testing::Test {
         return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, ReadAll(folder / "stdout"),
                 ReadAll(folder / "stderr")};
     }
+    // What a command prints that must exit with 0.
+    std::string Succeeds(const std::string& arguments) const {
+        const Outcome outcome = Call(arguments);
+        EXPECT_EQ(outcome.exit_code, 0) << arguments << "\n" << outcome.err;
+        return outcome.out;
+    }
     // Bad input must give exit code 2 and one line on stderr that contains `named`.
     void ExpectRefused(const std::string& arguments, const std::string& named) const {
         const Outcome outcome = Call(arguments);

@@ -1,4 +1,4 @@
-// Kills runs with SIGKILL at twenty random times. Each scan file must open and have lost at most
+// Kills runs with SIGKILL at random times. Each scan file must open and have lost at most
 // the last second, and the resumed run must end with the same result as an uninterrupted run. The
 // same is tested with loop closure, in live mode, and with a third of the map paged out.
 #include <gtest/gtest.h>
@@ -156,7 +156,7 @@ void KilledScan::KillAndResume(int times) {
 TEST_F(KilledScan, NothingIsLostButTheLastSecond) {
     MakeSequence("desk", frames);
     const char* kills = std::getenv("TESSERA_KILLS");
-    KillAndResume(kills != nullptr ? std::atoi(kills) : 6);
+    KillAndResume(kills != nullptr ? std::atoi(kills) : 4);
 }
 
 TEST_F(KilledScan, WithLoopClosure) {
@@ -174,7 +174,7 @@ TEST_F(KilledScan, WithAThirdOfTheMapAway) {
     ASSERT_EQ(Call(Arguments(folder / "unlimited", {"--scan", folder / "unlimited.scan"})), 0)
         << Log();
     options.insert(options.end(), {"--set", "mapping.memory_limit_mb=10"});
-    KillAndResume(3);
+    KillAndResume(2);
     ExpectSame("unlimited", "whole");
     EXPECT_LT(3 * BlocksOf("whole"), 2 * BlocksOf("unlimited"));
 }

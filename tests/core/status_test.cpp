@@ -35,7 +35,7 @@ TEST(Result, CarriesMoveOnlyValues) {
 }
 
 TEST(ResultDeath, MisuseIsABug) {
-    EXPECT_DEATH(Result<int>(Status::Ok()), "needs an error");
+    EXPECT_DEATH(Result<int>{Status::Ok()}, "needs an error");
     const Result<int> bad = Status::Error("no such file");
     EXPECT_DEATH((void)bad.value(), "no such file");
 }

@@ -80,7 +80,7 @@ TEST_F(MkvDamage, DamagedBytesDoNoHarm) {
     const std::size_t head = whole.find({0x1f, 0x43, '\xb6', 0x75}) + 100;
     std::mt19937 random(20);
     int opened = 0, loaded = 0;
-    for (int i = 0; i < 500; ++i) {
+    for (int i = 0; i < 200; ++i) {
         std::string bytes = whole;
         for (int k = 0; k < 1 + i % 3; ++k) {
             const std::size_t reach = i % 4 == 0 ? bytes.size() : head;
@@ -93,8 +93,8 @@ TEST_F(MkvDamage, DamagedBytesDoNoHarm) {
         for (std::size_t p = 0; p < recording.value()->info().pairs.size(); ++p)
             if (recording.value()->Load(p, depth, colour).ok()) ++loaded;
     }
-    EXPECT_GT(opened, 200);
-    EXPECT_GT(loaded, 200);
+    EXPECT_GT(opened, 80);
+    EXPECT_GT(loaded, 80);
 }
 
 }  // namespace
