@@ -78,9 +78,12 @@ int Main(int argc, char** argv) {
     AddSweepCommand(app, context);
     AddInspectCommand(app, context);
     AddRenderCommand(app, context);
+    AddReportCommand(app, context);
+    AddMapsCommand(app, context);
     AddObjectsCommand(app, context);
     AddViewCommand(app, context);
     AddExportCommand(app, context);
+    AddFinishCommand(app, context);
     AddScanCommand(app, context);
     AddInfoCommand(app, context);
     AddDoctorCommand(app, context);

@@ -66,6 +66,15 @@ else()
     message(STATUS "tessera: OpenNI2 cameras and .oni recordings off (install libopenni2-dev)")
 endif()
 
+# Fewer triangles for finished models.
+find_package(meshoptimizer QUIET CONFIG)
+if(meshoptimizer_FOUND)
+    set(TESSERA_DECIMATION ON)
+else()
+    set(TESSERA_DECIMATION OFF)
+    message(STATUS "tessera: decimation of finished models off (install libmeshoptimizer-dev)")
+endif()
+
 # The pose graph. Ceres' package file searches for its own build dependencies, so it may fail
 # although Ceres is installed.
 find_package(Ceres 2.1 QUIET)
@@ -103,20 +112,20 @@ else()
         "libzstd-dev, liblz4-dev, libbz2-dev and libzip-dev)")
 endif()
 
-# Volumes for other programs. Off under ThreadSanitizer, because the writer uses no threads of ours
-# and OpenVDB's threads are not instrumented.
+# Volumes for other programs. Off under the sanitizers: the writer uses no threads of ours, and
+# OpenVDB's headers take minutes to compile.
 find_path(OPENVDB_INCLUDE openvdb/openvdb.h)
 find_library(OPENVDB_LIBRARY openvdb)
 find_path(IMATH_INCLUDE half.h PATH_SUFFIXES Imath)
 find_library(IMATH_LIBRARY Imath)
-if(OPENVDB_INCLUDE AND OPENVDB_LIBRARY AND IMATH_INCLUDE AND IMATH_LIBRARY AND NOT TESSERA_SANITIZE MATCHES thread)
+if(OPENVDB_INCLUDE AND OPENVDB_LIBRARY AND IMATH_INCLUDE AND IMATH_LIBRARY AND NOT TESSERA_SANITIZE)
     set(TESSERA_VDB ON)
     add_library(tessera_openvdb INTERFACE)
     target_include_directories(tessera_openvdb SYSTEM INTERFACE ${OPENVDB_INCLUDE} ${IMATH_INCLUDE})
     target_link_libraries(tessera_openvdb INTERFACE ${OPENVDB_LIBRARY} ${IMATH_LIBRARY} TBB::tbb)
 else()
     set(TESSERA_VDB OFF)
-    message(STATUS "tessera: export of .vdb volumes off (install libopenvdb-dev; ThreadSanitizer is not supported)")
+    message(STATUS "tessera: export of .vdb volumes off (install libopenvdb-dev; sanitizers are not supported)")
 endif()
 
 # The Python module, built for Debian's interpreter and headers, even if another Python is first on

@@ -41,7 +41,7 @@ configure_package_config_file(cmake/TesseraConfig.cmake.in ${CMAKE_BINARY_DIR}/T
 write_basic_package_version_file(${CMAKE_BINARY_DIR}/TesseraConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_BINARY_DIR}/TesseraConfig.cmake ${CMAKE_BINARY_DIR}/TesseraConfigVersion.cmake
     cmake/TesseraDependencies.cmake DESTINATION ${package} COMPONENT development)
-foreach(folder core io recordings mapping synth render tracking semantics eval optimize scan export system run)
+foreach(folder core io recordings mapping synth render tracking semantics eval optimize finish report scan export system run)
     install(DIRECTORY src/${folder} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/tessera COMPONENT development
         FILES_MATCHING PATTERN "*.h")
 endforeach()
@@ -69,6 +69,6 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libtessera-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SHLIBDEPS OFF)
 file(STRINGS scripts/packages.txt lines REGEX "^lib.*-dev$")
-list(REMOVE_ITEM lines libgtest-dev libbenchmark-dev libxtst-dev libtinygltf-dev libcli11-dev)
+list(REMOVE_ITEM lines libgtest-dev libbenchmark-dev libxtst-dev libtinygltf-dev liboctomap-dev libcli11-dev)
 list(JOIN lines ", " CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS)
 include(CPack)

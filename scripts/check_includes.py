@@ -8,7 +8,7 @@ import pathlib
 import re
 import sys
 
-ORDER = [["core"], ["io", "mapping"], ["synth", "render", "recordings"], ["tracking", "semantics", "eval"], ["optimize"], ["scan"],
+ORDER = [["core"], ["io", "mapping"], ["synth", "render", "recordings"], ["tracking", "semantics", "eval", "finish"], ["optimize", "report"], ["scan"],
          ["export"], ["system"], ["run", "viz", "cuda"], ["apps"]]
 RANK = {folder: rank for rank, folders in enumerate(ORDER) for folder in folders}
 SUFFIXES = {".h", ".cpp", ".cu", ".cuh", ".inl"}

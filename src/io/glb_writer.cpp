@@ -7,8 +7,11 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "core/check.h"
 #include "io/file.h"
+#include "io/jpeg_encoder.h"
 #include "io/mesh_writers.h"
+#include "io/textured_mesh.h"
 
 namespace tessera {
 namespace {
@@ -20,7 +23,7 @@ static_assert(sizeof(Eigen::Vector3f) == 12 && sizeof(std::array<std::uint32_t, 
 constexpr std::uint32_t kMagic = 0x46546c67, kVersion = 2, kJsonChunk = 0x4e4f534a,
                         kBinaryChunk = 0x004e4942;
 constexpr int kFloat = 5126, kUnsignedShort = 5123, kUnsignedInt = 5125, kArrayBuffer = 34962,
-              kElementBuffer = 34963;
+              kElementBuffer = 34963, kLinear = 9729;
 constexpr std::size_t kColoursAtOnce = 1 << 17;
 
 // With alpha, so that each element is aligned to four bytes.
@@ -42,6 +45,16 @@ std::array<std::uint16_t, 256> LinearOfSrgb() {
     return table;
 }
 
+// What is written. `uv` and `jpeg` belong to a textured mesh, whose vertex colours are left out.
+struct GlbContent {
+    const TriangleMesh& mesh;
+    const std::vector<Eigen::Vector2f>* uv = nullptr;
+    std::vector<std::uint8_t> jpeg;
+
+    bool textured() const { return uv != nullptr; }
+    std::size_t padding() const { return (4 - jpeg.size() % 4) % 4; }
+};
+
 // Collects the JSON descriptions of the arrays: their position in the binary chunk and their
 // format.
 class Arrays {
@@ -56,6 +69,12 @@ class Arrays {
         accessors_.push_back(std::move(accessor));
         bytes_ += bytes;
         return number;
+    }
+    // Bytes that are no array. Returns the view's index.
+    int AddImage(std::size_t bytes) {
+        views_.push_back({{"buffer", 0}, {"byteOffset", bytes_}, {"byteLength", bytes}});
+        bytes_ += (bytes + 3) / 4 * 4;
+        return static_cast<int>(views_.size()) - 1;
     }
     std::size_t bytes() const { return bytes_; }
     const nlohmann::json& views() const { return views_; }
@@ -79,14 +98,18 @@ nlohmann::json PositionAccessor(const TriangleMesh& mesh) {
 }
 
 // The arrays must be in the order in which WriteArrays writes them.
-nlohmann::json Describe(const TriangleMesh& mesh, Arrays& arrays) {
+nlohmann::json Describe(const GlbContent& content, Arrays& arrays) {
+    const TriangleMesh& mesh = content.mesh;
     const std::size_t count = mesh.vertices.size();
     nlohmann::json attributes;
     attributes["POSITION"] = arrays.Add(count, 12 * count, kArrayBuffer, PositionAccessor(mesh));
     if (!mesh.normals.empty())
         attributes["NORMAL"] = arrays.Add(count, 12 * count, kArrayBuffer,
                                           {{"componentType", kFloat}, {"type", "VEC3"}});
-    if (!mesh.colours.empty())
+    if (content.textured())
+        attributes["TEXCOORD_0"] = arrays.Add(count, 8 * count, kArrayBuffer,
+                                              {{"componentType", kFloat}, {"type", "VEC2"}});
+    else if (!mesh.colours.empty())
         attributes["COLOR_0"] =
             arrays.Add(count, sizeof(Colour16) * count, kArrayBuffer,
                        {{"componentType", kUnsignedShort}, {"type", "VEC4"}, {"normalized", true}});
@@ -96,23 +119,33 @@ nlohmann::json Describe(const TriangleMesh& mesh, Arrays& arrays) {
     return {{"attributes", attributes}, {"indices", indices}, {"material", 0}, {"mode", 4}};
 }
 
-std::string Json(const TriangleMesh& mesh, std::size_t& binary_bytes) {
+std::string Json(const GlbContent& content, std::size_t& binary_bytes) {
     Arrays arrays;
-    const nlohmann::json primitive = Describe(mesh, arrays);
+    const nlohmann::json primitive = Describe(content, arrays);
+    const int image = content.textured() ? arrays.AddImage(content.jpeg.size()) : -1;
     binary_bytes = arrays.bytes();
-    const nlohmann::json surface = {
+    nlohmann::json surface = {
         {"name", "scanned surface"},
         {"pbrMetallicRoughness", {{"metallicFactor", 0.0}, {"roughnessFactor", 1.0}}}};
     const nlohmann::json node = {{"name", "scan"}, {"mesh", 0}, {"rotation", {1.0, 0.0, 0.0, 0.0}}};
-    const nlohmann::json file = {{"asset", {{"version", "2.0"}, {"generator", "tessera"}}},
-                                 {"scene", 0},
-                                 {"scenes", {{{"nodes", {0}}}}},
-                                 {"nodes", {node}},
-                                 {"materials", {surface}},
-                                 {"meshes", {{{"primitives", {primitive}}}}},
-                                 {"buffers", {{{"byteLength", binary_bytes}}}},
-                                 {"bufferViews", arrays.views()},
-                                 {"accessors", arrays.accessors()}};
+    nlohmann::json file = {{"asset", {{"version", "2.0"}, {"generator", "tessera"}}},
+                           {"scene", 0},
+                           {"scenes", {{{"nodes", {0}}}}},
+                           {"nodes", {node}},
+                           {"materials", {surface}},
+                           {"meshes", {{{"primitives", {primitive}}}}},
+                           {"buffers", {{{"byteLength", binary_bytes}}}},
+                           {"bufferViews", arrays.views()},
+                           {"accessors", arrays.accessors()}};
+    if (content.textured()) {
+        surface["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", 0}};
+        surface["extensions"]["KHR_materials_unlit"] = nlohmann::json::object();
+        file["materials"] = {surface};
+        file["extensionsUsed"] = {"KHR_materials_unlit"};
+        file["images"] = {{{"bufferView", image}, {"mimeType", "image/jpeg"}}};
+        file["samplers"] = {{{"magFilter", kLinear}, {"minFilter", kLinear}}};
+        file["textures"] = {{{"source", 0}, {"sampler", 0}}};
+    }
     std::string text = file.dump();
     text.resize((text.size() + 3) / 4 * 4, ' ');
     return text;
@@ -137,22 +170,27 @@ void WriteColours(AtomicFile& file, const std::vector<Rgb8>& colours) {
     }
 }
 
-void WriteArrays(AtomicFile& file, const TriangleMesh& mesh) {
+void WriteArrays(AtomicFile& file, const GlbContent& content) {
+    const TriangleMesh& mesh = content.mesh;
     file.Write(BytesOf(mesh.vertices, mesh.vertices.size()));
     file.Write(BytesOf(mesh.normals, mesh.normals.size()));
-    WriteColours(file, mesh.colours);
+    if (content.textured())
+        file.Write(BytesOf(*content.uv, content.uv->size()));
+    else
+        WriteColours(file, mesh.colours);
     file.Write(BytesOf(mesh.triangles, mesh.triangles.size()));
+    file.Write(BytesOf(content.jpeg, content.jpeg.size()));
+    file.Write(std::string(content.padding(), '\0'));
 }
 
-}  // namespace
-
-Status WriteGlb(const std::string& path, const TriangleMesh& mesh) {
+Status Write(const std::string& path, const GlbContent& content) {
+    const TriangleMesh& mesh = content.mesh;
     CheckVertexProperties(mesh);
     if (mesh.triangles.empty())
         return Status::Error(path +
                              ": the mesh is empty, which glTF cannot represent; write it as .ply");
     std::size_t binary_bytes = 0;
-    const std::string json = Json(mesh, binary_bytes);
+    const std::string json = Json(content, binary_bytes);
     const std::size_t bytes = 12 + 8 + json.size() + 8 + binary_bytes;
     if (bytes > std::numeric_limits<std::uint32_t>::max())
         return Status::Error(path +
@@ -161,8 +199,23 @@ Status WriteGlb(const std::string& path, const TriangleMesh& mesh) {
     WriteNumbers(file, {kMagic, kVersion, bytes, json.size(), kJsonChunk});
     file.Write(json);
     WriteNumbers(file, {binary_bytes, kBinaryChunk});
-    WriteArrays(file, mesh);
+    WriteArrays(file, content);
     return file.Commit();
+}
+
+}  // namespace
+
+Status WriteGlb(const std::string& path, const TriangleMesh& mesh) {
+    return Write(path, {mesh, nullptr, {}});
+}
+
+Status WriteTexturedGlb(const std::string& path, const TexturedMesh& model) {
+    TESSERA_CHECK(model.uv.size() == model.mesh.vertices.size(), "{} of {}", model.uv.size(),
+                  model.mesh.vertices.size());
+    GlbContent content{model.mesh, &model.uv, {}};
+    if (Status status = EncodeJpeg(model.texture, kFineJpegQuality, content.jpeg); !status.ok())
+        return Status::Error(path + ": " + status.message());
+    return Write(path, content);
 }
 
 }  // namespace tessera

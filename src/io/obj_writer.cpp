@@ -1,10 +1,14 @@
 #include <fmt/compile.h>
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <iterator>
 
+#include "core/check.h"
 #include "io/file.h"
+#include "io/image_io.h"
 #include "io/mesh_writers.h"
+#include "io/textured_mesh.h"
 
 namespace tessera {
 namespace {
@@ -34,6 +38,11 @@ class LineBuffer {
     std::string text_;
 };
 
+void AddNormals(const TriangleMesh& mesh, LineBuffer& lines) {
+    for (const Eigen::Vector3f& n : mesh.normals)
+        lines.Add(FMT_COMPILE("vn {:.4f} {:.4f} {:.4f}\n"), n.x(), n.y(), n.z());
+}
+
 void AddVertices(const TriangleMesh& mesh, LineBuffer& lines) {
     for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
         const Eigen::Vector3f& v = mesh.vertices[i];
@@ -45,16 +54,23 @@ void AddVertices(const TriangleMesh& mesh, LineBuffer& lines) {
         lines.Add(FMT_COMPILE("v {:.6f} {:.6f} {:.6f} {:.4f} {:.4f} {:.4f}\n"), v.x(), v.y(), v.z(),
                   c.r / 255.0, c.g / 255.0, c.b / 255.0);
     }
-    for (const Eigen::Vector3f& n : mesh.normals)
-        lines.Add(FMT_COMPILE("vn {:.4f} {:.4f} {:.4f}\n"), n.x(), n.y(), n.z());
+    AddNormals(mesh, lines);
 }
 
-// OBJ indices start at 1.
-void AddFaces(const TriangleMesh& mesh, LineBuffer& lines) {
+// OBJ's (0, 0) is the bottom-left corner of the image.
+void AddTextureCoordinates(const std::vector<Eigen::Vector2f>& uv, LineBuffer& lines) {
+    for (const Eigen::Vector2f& at : uv)
+        lines.Add(FMT_COMPILE("vt {:.6f} {:.6f}\n"), at.x(), 1 - at.y());
+}
+
+// OBJ indices start at 1. `textured`: the vertices have texture coordinates and normals.
+void AddFaces(const TriangleMesh& mesh, bool textured, LineBuffer& lines) {
     for (const auto& [a, b, c] : mesh.triangles) {
         const std::uint64_t i = std::uint64_t{a} + 1, j = std::uint64_t{b} + 1,
                             k = std::uint64_t{c} + 1;
-        if (mesh.normals.empty())
+        if (textured)
+            lines.Add(FMT_COMPILE("f {}/{}/{} {}/{}/{} {}/{}/{}\n"), i, i, i, j, j, j, k, k, k);
+        else if (mesh.normals.empty())
             lines.Add(FMT_COMPILE("f {} {} {}\n"), i, j, k);
         else
             lines.Add(FMT_COMPILE("f {}//{} {}//{} {}//{}\n"), i, i, j, j, k, k);
@@ -71,7 +87,35 @@ Status WriteObj(const std::string& path, const TriangleMesh& mesh) {
         lines.Add(FMT_COMPILE("# made by tessera, metres; {} vertices, {} triangles\n"),
                   mesh.vertices.size(), mesh.triangles.size());
         AddVertices(mesh, lines);
-        AddFaces(mesh, lines);
+        AddFaces(mesh, false, lines);
+    }
+    return file.Commit();
+}
+
+Status WriteTexturedObj(const std::string& path, const TexturedMesh& model) {
+    const TriangleMesh& mesh = model.mesh;
+    TESSERA_CHECK(model.uv.size() == mesh.vertices.size() && mesh.normals.size() == model.uv.size(),
+                  "{}, {}, {}", model.uv.size(), mesh.vertices.size(), mesh.normals.size());
+    const std::filesystem::path stem = std::filesystem::path(path).replace_extension();
+    const std::string name = stem.filename().string();
+    if (Status status = WriteColourImage(stem.string() + ".png", model.texture); !status.ok())
+        return status;
+    if (Status status = WriteTextFile(
+            stem.string() + ".mtl",
+            fmt::format("newmtl surface\nKd 1 1 1\nKa 0 0 0\nillum 0\nmap_Kd {}.png\n", name));
+        !status.ok())
+        return status;
+    AtomicFile file(path);
+    {
+        LineBuffer lines(file);
+        lines.Add(FMT_COMPILE("# made by tessera, metres; {} vertices, {} triangles\n"),
+                  mesh.vertices.size(), mesh.triangles.size());
+        lines.Add(FMT_COMPILE("mtllib {}.mtl\nusemtl surface\n"), name);
+        for (const Eigen::Vector3f& v : mesh.vertices)
+            lines.Add(FMT_COMPILE("v {:.6f} {:.6f} {:.6f}\n"), v.x(), v.y(), v.z());
+        AddNormals(mesh, lines);
+        AddTextureCoordinates(model.uv, lines);
+        AddFaces(mesh, true, lines);
     }
     return file.Commit();
 }

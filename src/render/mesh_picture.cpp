@@ -26,12 +26,28 @@ Rgb8 ToRgb(const Vector3f& c) {
     return {byte(c.x()), byte(c.y()), byte(c.z())};
 }
 
+// The texture's colour, 0..255, bilinear; (0, 0) is its top-left corner.
+Vector3f Sample(const ColourImage& texture, const Eigen::Vector2f& uv) {
+    const float u = std::clamp(uv.x() * static_cast<float>(texture.width()) - 0.5f, 0.0f,
+                               static_cast<float>(texture.width() - 1));
+    const float v = std::clamp(uv.y() * static_cast<float>(texture.height()) - 0.5f, 0.0f,
+                               static_cast<float>(texture.height() - 1));
+    const int x = static_cast<int>(u), y = static_cast<int>(v);
+    const int right = std::min(x + 1, texture.width() - 1),
+              below = std::min(y + 1, texture.height() - 1);
+    const float fx = u - static_cast<float>(x), fy = v - static_cast<float>(y);
+    return (1 - fy) * ((1 - fx) * ToVector(texture(x, y)) + fx * ToVector(texture(right, y))) +
+           fy * ((1 - fx) * ToVector(texture(x, below)) + fx * ToVector(texture(right, below)));
+}
+
 // Shades a ray's hit on the mesh. Colours are 0..255.
 class Shader {
   public:
-    Shader(const TriangleMesh& mesh, Shading shading) : mesh_(mesh), shading_(shading) {
+    // `model` is null for a mesh without a texture.
+    Shader(const TriangleMesh& mesh, const TexturedMesh* model, Shading shading)
+        : mesh_(mesh), model_(model), shading_(shading) {
         const bool wants_colours = shading == Shading::kColour || shading == Shading::kLitColour;
-        if (mesh.colours.empty() && wants_colours) shading_ = Shading::kShaded;
+        if (mesh.colours.empty() && model == nullptr && wants_colours) shading_ = Shading::kShaded;
     }
 
     Vector3f operator()(const RayHit& hit, const Vector3f& direction) const {
@@ -51,6 +67,11 @@ class Shader {
     using Weights = std::array<float, 3>;
 
     Vector3f Colour(const Corners& corners, const Weights& weights) const {
+        if (model_ != nullptr) {
+            Eigen::Vector2f uv = Eigen::Vector2f::Zero();
+            for (std::size_t i = 0; i < 3; ++i) uv += weights[i] * model_->uv[corners[i]];
+            return Sample(model_->texture, uv);
+        }
         Vector3f colour = Vector3f::Zero();
         for (std::size_t i = 0; i < 3; ++i)
             colour += weights[i] * ToVector(mesh_.colours[corners[i]]);
@@ -69,19 +90,18 @@ class Shader {
     }
 
     const TriangleMesh& mesh_;
+    const TexturedMesh* model_;
     Shading shading_;
 };
 
 // Positions of the four samples of a pixel, relative to its centre.
 constexpr double kSamples[4][2] = {{-0.25, -0.25}, {0.25, -0.25}, {-0.25, 0.25}, {0.25, 0.25}};
 
-}  // namespace
-
-ColourImage RenderMesh(const TriangleMesh& mesh, const PinholeCamera& camera,
-                       const Eigen::Isometry3d& T_world_camera, const RenderStyle& style) {
+ColourImage Render(const TriangleMesh& mesh, const TexturedMesh* model, const PinholeCamera& camera,
+                   const Eigen::Isometry3d& T_world_camera, const RenderStyle& style) {
     TESSERA_CHECK(camera.width > 0 && camera.height > 0, "{} x {}", camera.width, camera.height);
     const TriangleScene scene(mesh);
-    const Shader shade(mesh, style.shading);
+    const Shader shade(mesh, model, style.shading);
     const Vector3f origin = T_world_camera.translation().cast<float>();
     ColourImage image(camera.width, camera.height);
     const auto render_row = [&](int y) {
@@ -109,6 +129,18 @@ ColourImage RenderMesh(const TriangleMesh& mesh, const PinholeCamera& camera,
     DrawPath(camera, T_world_camera, style, image);
     DrawBoxes(camera, T_world_camera, style, image);
     return image;
+}
+
+}  // namespace
+
+ColourImage RenderMesh(const TriangleMesh& mesh, const PinholeCamera& camera,
+                       const Eigen::Isometry3d& T_world_camera, const RenderStyle& style) {
+    return Render(mesh, nullptr, camera, T_world_camera, style);
+}
+
+ColourImage RenderTextured(const TexturedMesh& model, const PinholeCamera& camera,
+                           const Eigen::Isometry3d& T_world_camera, const RenderStyle& style) {
+    return Render(model.mesh, &model, camera, T_world_camera, style);
 }
 
 }  // namespace tessera

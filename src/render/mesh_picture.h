@@ -10,6 +10,7 @@
 #include "core/camera.h"
 #include "core/image.h"
 #include "core/mesh.h"
+#include "io/textured_mesh.h"
 
 namespace tessera {
 
@@ -44,6 +45,10 @@ struct RenderStyle {
 // or far limit. Uses the mesh's normals, or those of the triangles if it has none. Thread-safe.
 ColourImage RenderMesh(const TriangleMesh& mesh, const PinholeCamera& camera,
                        const Eigen::Isometry3d& T_world_camera, const RenderStyle& style = {});
+
+// The same of a textured mesh: its texture in place of vertex colours.
+ColourImage RenderTextured(const TexturedMesh& model, const PinholeCamera& camera,
+                           const Eigen::Isometry3d& T_world_camera, const RenderStyle& style = {});
 
 struct MeshView {
     PinholeCamera camera;

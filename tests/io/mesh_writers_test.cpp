@@ -12,7 +12,9 @@
 #endif
 
 #include "core/input_file.h"
+#include "io/image_io.h"
 #include "io/mesh_io.h"
+#include "io/textured_mesh.h"
 #include "support/temp_folder.h"
 
 namespace tessera {
@@ -185,6 +187,55 @@ TEST(MeshWriters, GlbIsReadByTinyGltf) {
               0);
     EXPECT_EQ(model.materials.at(0).pbrMetallicRoughness.metallicFactor, 0);
 #endif
+}
+
+TexturedMesh PaintedTetrahedron() {
+    TexturedMesh model;
+    model.mesh = LabelledTetrahedron();
+    model.uv = {{0.25f, 0.125f}, {1, 0}, {0, 1}, {0.5f, 0.5f}};
+    model.texture = ColourImage(8, 16, Rgb8{200, 100, 50});
+    return model;
+}
+
+TEST(MeshWriters, ATexturedGlbHasItsCoordinatesAndImage) {
+    const TexturedMesh model = PaintedTetrahedron();
+    const TempFolder folder;
+    ASSERT_TRUE(WriteTexturedGlb(folder / "a.glb", model).ok());
+    const Glb glb = TakeApart(FileBytes(folder / "a.glb"));
+    const auto uv = glb.Values<float>(glb.Attribute("TEXCOORD_0"), 2);
+    for (std::size_t i = 0; i < 4; ++i)
+        EXPECT_EQ(Eigen::Vector2f(uv[2 * i], uv[2 * i + 1]), model.uv[i]);
+    EXPECT_FALSE(glb.json["meshes"][0]["primitives"][0]["attributes"].contains("COLOR_0"));
+    EXPECT_EQ(glb.binary.size() % 4, 0u);
+#ifdef TESSERA_HAVE_TINYGLTF
+    tinygltf::TinyGLTF reader;
+    tinygltf::Model read;
+    std::string error, warning;
+    ASSERT_TRUE(reader.LoadBinaryFromFile(&read, &error, &warning, folder / "a.glb")) << error;
+    EXPECT_EQ(error + warning, "");
+    EXPECT_EQ(read.materials.at(0).pbrMetallicRoughness.baseColorTexture.index, 0);
+    const tinygltf::Image& image = read.images.at(0);
+    ASSERT_EQ(image.width, 8);
+    ASSERT_EQ(image.height, 16);
+    EXPECT_NEAR(image.image.at(0), 200, 4);
+    EXPECT_NEAR(image.image.at(1), 100, 4);
+#endif
+}
+
+TEST(MeshWriters, ATexturedObjHasItsMaterialAndImage) {
+    const TexturedMesh model = PaintedTetrahedron();
+    const TempFolder folder;
+    ASSERT_TRUE(WriteTexturedObj(folder / "a.obj", model).ok());
+    const std::string text = FileBytes(folder / "a.obj");
+    EXPECT_NE(text.find("\nmtllib a.mtl\nusemtl surface\nv 0.000000 0.000000 0.000000\n"),
+              std::string::npos)
+        << text;
+    EXPECT_NE(text.find("\nvt 0.250000 0.875000\n"), std::string::npos) << text;  // v points up
+    EXPECT_NE(text.find("\nf 1/1/1 3/3/3 2/2/2\n"), std::string::npos) << text;
+    EXPECT_NE(FileBytes(folder / "a.mtl").find("map_Kd a.png\n"), std::string::npos);
+    const Result<ColourImage> image = ReadColourImage(folder / "a.png");
+    ASSERT_TRUE(image.ok()) << image.message();
+    EXPECT_EQ(image.value(), model.texture);
 }
 
 TEST(MeshWriters, AnEmptyMeshIsNoGlb) {

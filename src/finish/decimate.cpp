@@ -1,0 +1,67 @@
+#include "finish/decimate.h"
+
+#include <meshoptimizer.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "finish/mesh_edges.h"
+
+namespace tessera {
+namespace {
+
+using Triangles = std::vector<std::array<std::uint32_t, 3>>;
+
+// Decimates some of a mesh's triangles; where they border on nothing or on others, the border
+// stays.
+Triangles Thin(const TriangleMesh& mesh, const Triangles& triangles, double error_m, double share,
+               unsigned int options, double& reached_m) {
+    static_assert(sizeof(triangles[0]) == 3 * sizeof(unsigned int) &&
+                  sizeof(mesh.vertices[0]) == 3 * sizeof(float));
+    const float* positions = mesh.vertices.front().data();
+    const std::size_t stride = sizeof(mesh.vertices[0]);
+    // meshoptimizer's errors are shares of the mesh's extent.
+    const float extent_m = meshopt_simplifyScale(positions, mesh.vertices.size(), stride);
+    const auto target = static_cast<std::size_t>(share * static_cast<double>(triangles.size()));
+    float reached = 0;
+    Triangles kept(triangles.size());
+    const std::size_t count =
+        meshopt_simplify(kept.front().data(), triangles.front().data(), 3 * triangles.size(),
+                         positions, mesh.vertices.size(), stride, 3 * target,
+                         static_cast<float>(error_m) / extent_m, options, &reached);
+    kept.resize(count / 3);
+    reached_m = std::max(reached_m, static_cast<double>(reached) * static_cast<double>(extent_m));
+    return kept;
+}
+
+}  // namespace
+
+bool DecimationAvailable() { return true; }
+
+double Decimate(TriangleMesh& mesh, const std::vector<float>& sigmas_m, double error_m,
+                double share) {
+    // Classes of triangles: up to error_m, twice it, four times it ...
+    std::vector<Triangles> classes;
+    for (const auto& triangle : mesh.triangles) {
+        float sigma_m = 0;
+        for (const std::uint32_t v : triangle) sigma_m = std::max(sigma_m, sigmas_m[v]);
+        const double doublings =
+            std::log2(std::max(0.5 * static_cast<double>(sigma_m) / error_m, 1.0));
+        const auto number = static_cast<std::size_t>(std::min(doublings, 30.0));
+        if (number >= classes.size()) classes.resize(number + 1);
+        classes[number].push_back(triangle);
+    }
+    double reached_m = 0;
+    mesh.triangles.clear();
+    for (std::size_t i = 0; i < classes.size(); ++i) {
+        if (classes[i].empty()) continue;
+        const unsigned int options = classes.size() > 1 ? meshopt_SimplifyLockBorder : 0;
+        const Triangles kept = Thin(mesh, classes[i], std::ldexp(error_m, static_cast<int>(i)),
+                                    share, options, reached_m);
+        mesh.triangles.insert(mesh.triangles.end(), kept.begin(), kept.end());
+    }
+    DropUnusedVertices(mesh);
+    return reached_m;
+}
+
+}  // namespace tessera

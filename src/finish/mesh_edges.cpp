@@ -1,0 +1,69 @@
+#include "finish/mesh_edges.h"
+
+#include <algorithm>
+#include <tuple>
+
+namespace tessera {
+namespace {
+
+struct HalfEdge {
+    std::uint32_t low, high;  // vertices
+    std::uint32_t triangle, side;
+    bool operator<(const HalfEdge& o) const {
+        return std::tie(low, high, triangle) < std::tie(o.low, o.high, o.triangle);
+    }
+};
+
+template <class T>
+void Keep(std::vector<T>& values, const std::vector<std::uint32_t>& number_of, std::size_t count) {
+    if (values.empty()) return;
+    for (std::size_t i = 0; i < number_of.size(); ++i)
+        if (number_of[i] != kNoTriangle) values[number_of[i]] = values[i];
+    values.resize(count);
+}
+
+}  // namespace
+
+std::vector<std::array<std::uint32_t, 3>> TriangleNeighbours(const TriangleMesh& mesh) {
+    std::vector<HalfEdge> edges;
+    edges.reserve(3 * mesh.triangles.size());
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
+        for (std::uint32_t k = 0; k < 3; ++k) {
+            const auto [low, high] =
+                std::minmax(mesh.triangles[t][k], mesh.triangles[t][(k + 1) % 3]);
+            edges.push_back({low, high, t, k});
+        }
+    std::sort(edges.begin(), edges.end());
+    std::vector<std::array<std::uint32_t, 3>> neighbours(mesh.triangles.size(),
+                                                         {kNoTriangle, kNoTriangle, kNoTriangle});
+    for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
+        const HalfEdge &a = edges[i], &b = edges[i + 1];
+        if (a.low != b.low || a.high != b.high) continue;
+        neighbours[a.triangle][a.side] = b.triangle;
+        neighbours[b.triangle][b.side] = a.triangle;
+        ++i;
+    }
+    return neighbours;
+}
+
+void DropUnusedVertices(TriangleMesh& mesh) {
+    std::vector<std::uint32_t> number_of(mesh.vertices.size(), kNoTriangle);
+    for (const auto& triangle : mesh.triangles)
+        for (const std::uint32_t vertex : triangle) number_of[vertex] = 0;
+    std::uint32_t count = 0;
+    for (std::uint32_t& number : number_of)
+        if (number == 0) number = count++;
+    Keep(mesh.vertices, number_of, count);
+    Keep(mesh.normals, number_of, count);
+    Keep(mesh.colours, number_of, count);
+    Keep(mesh.labels, number_of, count);
+    for (auto& triangle : mesh.triangles)
+        for (std::uint32_t& vertex : triangle) vertex = number_of[vertex];
+}
+
+Eigen::Vector3f AreaNormal(const TriangleMesh& mesh, const std::array<std::uint32_t, 3>& triangle) {
+    const Eigen::Vector3f& a = mesh.vertices[triangle[0]];
+    return 0.5f * (mesh.vertices[triangle[1]] - a).cross(mesh.vertices[triangle[2]] - a);
+}
+
+}  // namespace tessera

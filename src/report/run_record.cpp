@@ -1,0 +1,111 @@
+#include "report/run_record.h"
+
+#include <nlohmann/json.hpp>
+
+#include "core/input_file.h"
+
+namespace tessera {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Sets `value` if the key is there. A value of another type throws.
+template <class T>
+void Take(const Json& json, const char* key, T& value) {
+    const auto found = json.find(key);
+    if (found != json.end() && !found->is_null()) value = found->get<T>();
+}
+
+Json Child(const Json& json, const char* key) {
+    const auto found = json.find(key);
+    return found != json.end() && found->is_object() ? *found : Json::object();
+}
+
+void TakeSource(const Json& json, RunRecord& record) {
+    Take(json, "name", record.source_name);
+    Take(json, "kind", record.source_kind);
+    Take(json, "has_truth", record.has_truth);
+    Take(json, "warnings", record.warnings);
+    RunRecord::Camera camera;
+    const Json given = Child(json, "camera");
+    Take(given, "width", camera.width);
+    Take(given, "height", camera.height);
+    Take(given, "fx", camera.fx);
+    Take(given, "fy", camera.fy);
+    if (camera.width > 0 && camera.height > 0 && camera.fx > 0 && camera.fy > 0)
+        record.camera = camera;
+}
+
+void TakeAte(const Json& json, RunRecord& record) {
+    if (json.empty()) return;
+    RunRecord::Ate& ate = record.ate.emplace();
+    Take(json, "ate_rmse_m", ate.rmse_m);
+    Take(json, "ate_mean_m", ate.mean_m);
+    Take(json, "ate_median_m", ate.median_m);
+    Take(json, "ate_max_m", ate.max_m);
+    Take(json, "pairs", ate.pairs);
+}
+
+RunRecord ToRecord(const Json& json) {
+    RunRecord record;
+    Take(json, "version", record.version);
+    Take(json, "exit", record.exit);
+    Take(json, "command_line", record.command_line);
+    TakeSource(Child(json, "source"), record);
+    TakeAte(Child(json, "ate"), record);
+    const Json counts = Child(json, "counts"), configuration = Child(json, "configuration");
+    for (const auto& [name, count] : counts.items())
+        record.counts.emplace_back(name, count.get<std::int64_t>());
+    for (const auto& [key, value] : configuration.items())
+        record.configuration.emplace_back(
+            key, value.is_string() ? value.get<std::string>() : value.dump());
+    return record;
+}
+
+RunTimes ToTimes(const Json& json) {
+    RunTimes times;
+    Take(json, "wall_s", times.wall_s);
+    Take(json, "fps", times.fps);
+    Take(json, "peak_rss_mb", times.peak_rss_mb);
+    double bytes = 0;
+    Take(Child(json, "map"), "bytes", bytes);
+    times.map_mb = bytes / 1e6;
+    const Json stages = Child(json, "stages");
+    for (const auto& [name, stage] : stages.items()) {
+        RunTimes::Stage& s = times.stages.emplace_back();
+        s.name = name;
+        Take(stage, "mean_ms", s.mean_ms);
+        Take(stage, "median_ms", s.median_ms);
+        Take(stage, "p95_ms", s.p95_ms);
+        Take(stage, "max_ms", s.max_ms);
+    }
+    return times;
+}
+
+// Reads a JSON object and converts it.
+template <class T>
+Result<T> ReadAs(const std::string& path, T (*convert)(const Json&)) {
+    const Result<std::string> text = ReadWholeFile(path, std::size_t{1} << 26);
+    if (!text.ok()) return text.status();
+    const Json json = Json::parse(text.value(), nullptr, false);
+    if (!json.is_object()) return Status::Error(path + ": is not a JSON object; repeat the run");
+    try {
+        return convert(json);
+    } catch (const nlohmann::json::exception& error) {
+        return Status::Error(fmt::format("{}: {}", path, Printable(error.what(), 200)));
+    }
+}
+
+}  // namespace
+
+std::optional<std::int64_t> RunRecord::Count(const std::string& name) const {
+    for (const auto& [key, count] : counts)
+        if (key == name) return count;
+    return std::nullopt;
+}
+
+Result<RunRecord> ReadRunRecord(const std::string& path) { return ReadAs(path, ToRecord); }
+
+Result<RunTimes> ReadRunTimes(const std::string& path) { return ReadAs(path, ToTimes); }
+
+}  // namespace tessera

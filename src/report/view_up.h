@@ -1,0 +1,16 @@
+// Which way is up in a run's world, for the first view of its model.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "core/mesh.h"
+#include "core/se3.h"
+
+namespace tessera {
+
+// Unit vector. The mean of the cameras' upper sides, then the direction of the floors and tables
+// near it, if the mesh shows enough of them. Without poses: the mesh's -y. Thread-safe.
+Eigen::Vector3d EstimateUp(const TriangleMesh& mesh, const std::vector<StampedPose>& path);
+
+}  // namespace tessera

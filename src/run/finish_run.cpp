@@ -1,0 +1,144 @@
+#include "run/finish_run.h"
+
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <unordered_map>
+
+#include "core/input_file.h"
+#include "export/level.h"
+#include "io/frame_reader.h"
+#include "io/mesh_io.h"
+#include "io/trajectory.h"
+#include "run/open_source.h"
+#include "run/scan_export.h"
+#include "scan/scan_source.h"
+
+namespace tessera {
+namespace {
+
+constexpr std::size_t kMostJsonBytes = std::size_t{1} << 24;
+
+struct Input {
+    TriangleMesh mesh;
+    std::unique_ptr<FrameSource> frames;
+    std::vector<StampedPose> path;
+};
+
+Result<Input> FromScan(const std::string& path) {
+    Input input;
+    Result<std::unique_ptr<FrameSource>> frames = ScanSource::Open(path);
+    if (!frames.ok()) return frames.status();
+    input.frames = std::move(frames.value());
+    Result<ScanContent> scan = ReadScan(path, {});
+    if (!scan.ok()) return scan.status();
+    input.path = scan.value().Path();
+    Result<TriangleMesh> mesh = MeshOfScan(scan.value());
+    if (!mesh.ok()) return mesh.status();
+    input.mesh = std::move(mesh.value());
+    return input;
+}
+
+// The run's source, opened with the run's settings.
+Result<std::unique_ptr<FrameSource>> SourceOf(const std::string& folder, const std::string& name) {
+    const std::string file = folder + "/run.json";
+    const Result<std::string> text = ReadWholeFile(file, kMostJsonBytes);
+    if (!text.ok()) return text.status();
+    const nlohmann::json json = nlohmann::json::parse(text.value(), nullptr, false);
+    const nlohmann::json::json_pointer source_name("/source/name"), settings("/configuration");
+    if (!json.is_object() || !json.contains(source_name) || !json[source_name].is_string() ||
+        !json.contains(settings) || !json[settings].is_object())
+        return Status::Error(file + ": is no run.json of this program; repeat the run");
+    RunConfig config;
+    ConfigParameters parameters;
+    config.Describe(parameters);
+    for (const auto& [key, value] : json[settings].items())  // other versions' keys do not matter
+        if (key.starts_with("source.") || key.starts_with("synthetic."))
+            static_cast<void>(
+                parameters.Set(key, value.is_string() ? value.get<std::string>() : value.dump()));
+    if (!name.empty()) return OpenSource(name, config);
+    const std::string source = json[source_name];
+    if (IsLiveSource(source))
+        return Status::Error(folder + ": its frames came from a camera (" + source +
+                             ") and are gone; scan with --scan FILE.scan, and finish this file");
+    Result<std::unique_ptr<FrameSource>> opened = OpenSource(source, config);
+    if (!opened.ok())
+        return Status::Error(opened.message() + "; if it has moved, name it with --source");
+    return opened;
+}
+
+Result<Input> FromRun(const std::string& folder, const std::string& source) {
+    Input input;
+    Result<TriangleMesh> mesh = ReadPly(folder + "/mesh.ply");
+    if (!mesh.ok()) return mesh.status();
+    input.mesh = std::move(mesh.value());
+    Result<Trajectory> path = ReadTrajectory(folder + "/trajectory.txt");
+    if (!path.ok()) return path.status();
+    input.path = std::move(path.value().poses);
+    Result<std::unique_ptr<FrameSource>> frames = SourceOf(folder, source);
+    if (!frames.ok()) return frames.status();
+    input.frames = std::move(frames.value());
+    return input;
+}
+
+// Poses by time stamp, in the microseconds of a trajectory file.
+class Poses {
+  public:
+    explicit Poses(const std::vector<StampedPose>& path) {
+        for (const StampedPose& pose : path)
+            poses_.try_emplace(Key(pose.stamp_s), pose.T_world_camera);
+    }
+    std::optional<Eigen::Isometry3d> At(double stamp_s) const {
+        for (const std::int64_t near : {0, -1, 1})
+            if (const auto found = poses_.find(Key(stamp_s) + near); found != poses_.end())
+                return found->second;
+        return std::nullopt;
+    }
+
+  private:
+    static std::int64_t Key(double stamp_s) { return std::llround(1e6 * stamp_s); }
+    std::unordered_map<std::int64_t, Eigen::Isometry3d> poses_;
+};
+
+}  // namespace
+
+Result<FinishedModel> FinishRun(const FinishRequest& request, const FinishProgress& progress) {
+    const std::string& path = request.input;
+    std::error_code ignored;
+    const bool is_run = std::filesystem::is_directory(path, ignored);
+    if (!is_run && !request.source.empty())
+        return Status::Error("--source: a scan file has its frames; leave --source out");
+    Result<Input> input = is_run ? FromRun(path, request.source) : FromScan(path);
+    if (!input.ok()) return input.status();
+    if (request.level) {
+        const Result<Level> level = FindLevel(input.value().mesh, input.value().path);
+        if (!level.ok()) return Status::Error("--level: " + path + ": " + level.message());
+        MakeLevel(level.value(), input.value().mesh, input.value().path);
+    }
+    const SourceInfo info = input.value().frames->info();
+    const Poses poses(input.value().path);
+    FrameReader reader(std::move(input.value().frames), {});
+    Status failed = Status::Ok();
+    std::int64_t posed = 0;
+    const auto next = [&](Frame& frame) {
+        ReadResult read;
+        do read = reader.Next(frame);
+        while (read.status == ReadStatus::kSkip || read.status == ReadStatus::kWait);
+        if (read.status == ReadStatus::kError) failed = Status::Error(read.message);
+        if (read.status != ReadStatus::kOk) return false;
+        frame.T_world_camera = poses.At(frame.stamp_s);
+        posed += frame.T_world_camera.has_value() && !frame.colour.empty();
+        return true;
+    };
+    Result<FinishedModel> finished =
+        FinishModel(std::move(input.value().mesh), info.camera, input.value().path, next,
+                    info.frame_count, request.options, progress);
+    if (!failed.ok()) return failed;
+    if (!finished.ok()) return Status::Error(path + ": " + finished.message());
+    if (posed == 0)
+        return Status::Error(path + ": no frame of " + info.name +
+                             " has both colour and a pose of the path; is it the run's source?");
+    return finished;
+}
+
+}  // namespace tessera

@@ -1,0 +1,116 @@
+#include "finish/finish.h"
+
+#include <gtest/gtest.h>
+
+#include "finish/decimate.h"
+#include "finish/meshes.h"
+#include "finish/wall_frames.h"
+
+namespace tessera {
+namespace {
+
+using testing_support::Append;
+using testing_support::Square;
+using testing_support::WallCamera;
+using testing_support::WallFrame;
+using testing_support::WallPaint;
+
+// The wall, with a crumb in front of it.
+TriangleMesh Wall() {
+    TriangleMesh mesh = Square({-0.25f, -0.25f, 0}, {1, 0, 0}, {0, 1, 0}, 0.5f, 30);
+    for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+        const Eigen::Array3f paint = WallPaint(mesh.vertices[i].x(), mesh.vertices[i].y());
+        mesh.colours[i] = {static_cast<std::uint8_t>(paint[0]), static_cast<std::uint8_t>(paint[1]),
+                           static_cast<std::uint8_t>(paint[2])};
+    }
+    Append(mesh, Square({0, 0, -0.3f}, {1, 0, 0}, {0, 1, 0}, 0.02f, 2));
+    return mesh;
+}
+
+NextPosedFrame Frames(int count) {
+    return [count, i = 0](Frame& frame) mutable {
+        if (i == count) return false;
+        // The exposure changes; every fifth frame has no pose.
+        frame = WallFrame({-0.3 + 0.06 * i, 0.02 * i, -0.9}, 0.1 - 0.02 * i,
+                          Eigen::Array3f::Constant(1 - 0.04f * static_cast<float>(i)));
+        if (i % 5 == 4) frame.T_world_camera.reset();
+        ++i;
+        return true;
+    };
+}
+
+const std::vector<StampedPose>& Path() {
+    static const std::vector<StampedPose> path = [] {
+        std::vector<StampedPose> poses;
+        Frame frame;
+        for (NextPosedFrame next = Frames(10); next(frame);)
+            if (frame.T_world_camera)
+                poses.push_back({static_cast<double>(poses.size()), *frame.T_world_camera});
+        return poses;
+    }();
+    return path;
+}
+
+Eigen::Array3f ColourAt(const TexturedMesh& model, std::size_t vertex) {
+    const Eigen::Vector2f at = model.uv[vertex];
+    const Rgb8 c =
+        model.texture(static_cast<int>(at.x() * static_cast<float>(model.texture.width())),
+                      static_cast<int>(at.y() * static_cast<float>(model.texture.height())));
+    return {static_cast<float>(c.r), static_cast<float>(c.g), static_cast<float>(c.b)};
+}
+
+TEST(Finish, AWallIsCleanedThinnedAndPainted) {
+    std::vector<double> shares;
+    const Result<FinishedModel> finished = FinishModel(Wall(), WallCamera(), Path(), Frames(10), 10,
+                                                       {}, [&](const char*, double share) {
+                                                           shares.push_back(share);
+                                                           return true;
+                                                       });
+    ASSERT_TRUE(finished.ok()) << finished.message();
+    const FinishReport& report = finished.value().report;
+    const TexturedMesh& model = finished.value().model;
+    EXPECT_EQ(report.triangles_before, 1808u);
+    EXPECT_EQ(report.islands.islands, 1u);
+    EXPECT_EQ(report.charts, 1u);
+    EXPECT_EQ(report.frames, 10);
+    EXPECT_GT(report.views, 2);
+    EXPECT_LE(report.views, 8);
+    EXPECT_GT(report.seen_share, 0.95);
+    if (DecimationAvailable()) EXPECT_LE(model.mesh.triangles.size(), 190u);
+    ASSERT_EQ(model.uv.size(), model.mesh.vertices.size());
+    for (std::size_t i = 0; i < model.uv.size(); ++i) {
+        const Eigen::Vector3f& p = model.mesh.vertices[i];
+        EXPECT_EQ(p.z(), 0);
+        // A texel is 6 mm here, as the pixels are: six levels of the paint.
+        EXPECT_LT((ColourAt(model, i) - WallPaint(p.x(), p.y())).abs().maxCoeff(), 12)
+            << p.transpose();
+    }
+    EXPECT_TRUE(std::ranges::is_sorted(shares));
+    EXPECT_EQ(shares.back(), 1);
+}
+
+TEST(Finish, CanBeCancelledAtEachStep) {
+    for (int at = 0; at < 6; ++at) {
+        int steps = 0;
+        const Result<FinishedModel> finished =
+            FinishModel(Wall(), WallCamera(), Path(), Frames(10), 10, {},
+                        [&](const char*, double) { return steps++ < at; });
+        ASSERT_FALSE(finished.ok());
+        EXPECT_EQ(finished.message(), "cancelled");
+        EXPECT_EQ(steps, at + 1);
+    }
+}
+
+TEST(Finish, AMeshWithoutColoursIsPaintedAndAnEmptyOneIsAnError) {
+    TriangleMesh mesh = Wall();
+    mesh.colours.clear();
+    const auto go_on = [](const char*, double) { return true; };
+    const Result<FinishedModel> finished =
+        FinishModel(mesh, WallCamera(), Path(), Frames(1), 1, {}, go_on);
+    ASSERT_TRUE(finished.ok());
+    EXPECT_GT(finished.value().report.seen_share, 0.5);
+    EXPECT_FALSE(FinishModel({}, WallCamera(), Path(), Frames(1), 1, {}, go_on).ok());
+}
+
+}  // namespace
+}  // namespace tessera

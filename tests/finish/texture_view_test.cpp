@@ -1,0 +1,111 @@
+#include "finish/texture_view.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "finish/meshes.h"
+#include "finish/wall_frames.h"
+
+namespace tessera {
+namespace {
+
+using Eigen::Vector3f;
+using testing_support::Square;
+using testing_support::WallCamera;
+using testing_support::WallFrame;
+using testing_support::WallPaint;
+
+const Vector3f kOut(0, 0, -1);
+
+TEST(TextureView, ShowsTheColourOfThePlace) {
+    const TextureView view = MakeTextureView(WallCamera(), WallFrame({0.1, 0.05, -1}, 0.2));
+    int seen_points = 0;
+    for (float x = -1; x < 1; x += 0.043f)
+        for (float y = -1; y < 1; y += 0.037f) {
+            const SeenColour seen = See(view, {x, y, 0}, kOut);
+            if (seen.weight <= 0) continue;
+            ++seen_points;
+            EXPECT_LT((seen.rgb - WallPaint(x, y)).abs().maxCoeff(), 2) << x << " " << y;
+        }
+    EXPECT_GT(seen_points, 200);
+}
+
+TEST(TextureView, NotFromBehindNorObliquelyNorOutside) {
+    const TextureView view = MakeTextureView(WallCamera(), WallFrame({0, 0, -1}, 0));
+    EXPECT_GT(See(view, {0, 0, 0}, kOut).weight, 0);
+    EXPECT_EQ(See(view, {0, 0, 0}, -kOut).weight, 0);
+    EXPECT_EQ(See(view, {0, 0, 0}, Vector3f(1, 0, -0.1f).normalized()).weight, 0);
+    EXPECT_EQ(See(view, {2, 0, 0}, kOut).weight, 0);
+    EXPECT_EQ(See(view, {0, 0, -2}, kOut).weight, 0);
+}
+
+// Whoever walks by has another depth; a surface behind the wall, too.
+TEST(TextureView, NotWhatTheDepthContradicts) {
+    Frame frame = WallFrame({0, 0, -1}, 0);
+    for (int v = 0; v < 120; ++v)
+        for (int u = 0; u < 40; ++u) frame.depth_m(u, v) = 0.6f;
+    for (int v = 0; v < 120; ++v) frame.depth_m(120, v) = 0;
+    const TextureView view = MakeTextureView(WallCamera(), frame);
+    const auto at = [&](double u) {
+        return See(view, WallCamera().Unproject(u, 60, 1).cast<float>() - Vector3f(0, 0, 1), kOut)
+            .weight;
+    };
+    EXPECT_EQ(at(20), 0);
+    EXPECT_EQ(at(120), 0);
+    EXPECT_GT(at(80), 0);
+    EXPECT_EQ(See(view, {0, 0, 0.1f}, kOut).weight, 0);
+    EXPECT_GT(See(view, {0, 0, 0.005f}, kOut).weight, 0);  // the map's error
+    // Towards the jump and the hole the trust falls.
+    EXPECT_LT(at(42), 0.1f * at(80));
+    EXPECT_LT(at(118), 0.05f * at(80));
+}
+
+TEST(TextureView, NearAndStraightCountsMore) {
+    const TextureView near = MakeTextureView(WallCamera(), WallFrame({0, 0, -0.7}, 0)),
+                      far = MakeTextureView(WallCamera(), WallFrame({0, 0, -1.4}, 0)),
+                      oblique = MakeTextureView(WallCamera(), WallFrame({-0.7, 0, -0.7}, 0.78));
+    const float straight = See(near, {0, 0, 0}, kOut).weight;
+    EXPECT_NEAR(straight / See(far, {0, 0, 0}, kOut).weight, std::pow(4, 3), 1);
+    EXPECT_GT(straight, 8 * See(oblique, {0, 0, 0}, kOut).weight);
+}
+
+TEST(TextureView, TheGainIsThatOfTheModelsColours) {
+    TriangleMesh wall = Square({-0.5f, -0.4f, 0}, {1, 0, 0}, {0, 1, 0}, 0.9f, 40);
+    for (std::size_t i = 0; i < wall.vertices.size(); ++i) {
+        const Eigen::Array3f paint = WallPaint(wall.vertices[i].x(), wall.vertices[i].y());
+        wall.colours[i] = {static_cast<std::uint8_t>(paint[0]), static_cast<std::uint8_t>(paint[1]),
+                           static_cast<std::uint8_t>(paint[2])};
+    }
+    const Eigen::Array3f exposure(0.8f, 0.7f, 1.1f);
+    TextureView view = MakeTextureView(WallCamera(), WallFrame({0, 0, -1}, 0, exposure));
+    EstimateGain(wall, view);
+    EXPECT_LT((view.gain * exposure - 1).abs().maxCoeff(), 0.02f) << view.gain.transpose();
+    TextureView elsewhere = MakeTextureView(WallCamera(), WallFrame({5, 0, -1}, 0, exposure));
+    elsewhere.gain.setConstant(3);
+    EstimateGain(wall, elsewhere);
+    EXPECT_TRUE((elsewhere.gain == 1).all());
+}
+
+TEST(Sharpness, FallsWithBlur) {
+    std::mt19937 random(5);
+    ColourImage sharp(60, 40);
+    for (std::size_t i = 0; i < sharp.size(); ++i)
+        sharp.data()[i].g = static_cast<std::uint8_t>(random() % 256);
+    ColourImage blurred = sharp;
+    for (int y = 0; y < sharp.height(); ++y)
+        for (int x = 1; x + 1 < sharp.width(); ++x)
+            blurred(x, y).g = static_cast<std::uint8_t>(
+                (sharp(x - 1, y).g + sharp(x, y).g + sharp(x + 1, y).g) / 3);
+    EXPECT_LT(Sharpness(blurred), 0.7 * Sharpness(sharp));
+    // Steps of 100 of the green, which is 150/256 of the luma, across alone.
+    ColourImage stripes(60, 40);
+    for (int y = 0; y < 40; ++y)
+        for (int x = 0; x < 60; ++x) stripes(x, y).g = x % 2 == 0 ? 0 : 100;
+    EXPECT_NEAR(Sharpness(stripes), 100 * 150 / 256.0, 1e-9);
+    EXPECT_EQ(Sharpness(ColourImage(30, 20, Rgb8{9, 9, 9})), 0);
+    EXPECT_EQ(Sharpness(ColourImage()), 0);
+}
+
+}  // namespace
+}  // namespace tessera

@@ -1,0 +1,150 @@
+// Whole models of a rendered desk, seen from places between the camera's.
+#include "run/finish_run.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+
+#include "io/mesh_io.h"
+#include "io/trajectory.h"
+#include "render/mesh_picture.h"
+#include "run/run.h"
+#include "support/temp_folder.h"
+#include "synth/sequence_writer.h"
+#include "synth/synthetic_source.h"
+
+namespace tessera {
+namespace {
+
+constexpr Rgb8 kNothing{255, 0, 255};
+
+RenderStyle Plain() {
+    RenderStyle style;
+    style.background_top = style.background_bottom = kNothing;
+    return style;
+}
+
+// Squared error per channel over the pixels where both pictures show something.
+struct Errors {
+    double vertex = 0, texture = 0;
+    std::int64_t pixels = 0;
+
+    void Add(const ColourImage& truth, const ColourImage& by_vertex,
+             const ColourImage& by_texture) {
+        const auto square = [](const Rgb8& a, const Rgb8& b) {
+            const int r = a.r - b.r, g = a.g - b.g, bl = a.b - b.b;
+            return (r * r + g * g + bl * bl) / 3.0;
+        };
+        for (std::size_t i = 0; i < truth.size(); ++i) {
+            if (by_vertex.data()[i] == kNothing || by_texture.data()[i] == kNothing) continue;
+            vertex += square(truth.data()[i], by_vertex.data()[i]);
+            texture += square(truth.data()[i], by_texture.data()[i]);
+            ++pixels;
+        }
+    }
+    static double Psnr(double sum, std::int64_t count) {
+        return 10 * std::log10(255.0 * 255.0 * static_cast<double>(count) / sum);
+    }
+};
+
+class FinishedDesk : public testing::Test {
+  protected:
+    // The run takes the frames with even numbers; of the others, some are looked at.
+    void SetUp() override {
+        config.synthetic.frames = 150;
+        auto source = OpenSynthetic("synthetic:desk", config.synthetic);
+        ASSERT_TRUE(source.ok()) << source.message();
+        camera = source.value()->info().camera;
+        Frame frame;
+        while (source.value()->Read(frame).status == ReadStatus::kOk)
+            if (frame.index % 30 == 15) left_out.push_back(frame);
+    }
+    RunSummary Run(const std::string& scan) {
+        RunRequest request;
+        request.source = "synthetic:desk";
+        request.output_folder = folder / "run";
+        request.selection.stride = 2;
+        request.scan_file = scan;
+        const std::atomic<bool> stop{false};
+        const auto run = ExecuteRun(request, config, {}, stop);
+        EXPECT_TRUE(run.ok()) << run.message();
+        return run.ok() ? run.value() : RunSummary{};
+    }
+    Result<FinishedModel> Finish(const std::string& input) {
+        return FinishRun({.input = input}, [](const char*, double) { return true; });
+    }
+
+    TempFolder folder;
+    RunConfig config;
+    PinholeCamera camera;
+    std::vector<Frame> left_out;
+};
+
+TEST_F(FinishedDesk, IsSharperThanVertexColoursAtOtherPlaces) {
+    Run("");
+    const Result<FinishedModel> finished = Finish(folder / "run");
+    ASSERT_TRUE(finished.ok()) << finished.message();
+    const auto mesh = ReadPly(folder / "run/mesh.ply");
+    const auto path = ReadTrajectory(folder / "run/trajectory.txt");
+    ASSERT_TRUE(mesh.ok() && path.ok());
+    Errors errors;
+    for (const Frame& frame : left_out) {
+        const auto T_world_camera = InterpolatePose(path.value().poses, frame.stamp_s);
+        ASSERT_TRUE(T_world_camera);
+        errors.Add(frame.colour, RenderMesh(mesh.value(), camera, *T_world_camera, Plain()),
+                   RenderTextured(finished.value().model, camera, *T_world_camera, Plain()));
+    }
+    const double vertex_db = Errors::Psnr(errors.vertex, errors.pixels),
+                 texture_db = Errors::Psnr(errors.texture, errors.pixels);
+    std::cout << "PSNR " << vertex_db << " dB by vertex colours, " << texture_db
+              << " dB by texture\n";
+    EXPECT_GT(texture_db, vertex_db + 4);
+    const FinishReport& report = finished.value().report;
+    EXPECT_GT(report.seen_share, 0.9);
+    EXPECT_EQ(report.frames, 150);
+}
+
+TEST_F(FinishedDesk, AScanIsFinishedByItsOwnFrames) {
+    config.scan.frames = ScanConfig::Frames::kAll;
+    config.synthetic.frames = 40;
+    Run(folder / "desk.scan");
+    const Result<FinishedModel> finished = Finish(folder / "desk.scan");
+    ASSERT_TRUE(finished.ok()) << finished.message();
+    EXPECT_EQ(finished.value().report.frames, 20);
+    EXPECT_GT(finished.value().report.views, 0);
+    EXPECT_GT(finished.value().report.seen_share, 0.8);
+}
+
+TEST_F(FinishedDesk, WhatIsMissingIsNamed) {
+    const auto said = [&](const std::string& input, const std::string& source) {
+        const auto result =
+            FinishRun({.input = input, .source = source}, [](const char*, double) { return true; });
+        EXPECT_FALSE(result.ok());
+        return result.message();
+    };
+    EXPECT_NE(said(folder / "none.scan", "").find("none.scan"), std::string::npos);
+    EXPECT_NE(said(folder / "none.scan", "synthetic:desk").find("--source"), std::string::npos);
+    EXPECT_NE(said(folder / ".", "").find("mesh.ply"), std::string::npos);
+    config.synthetic.frames = 6;
+    Run("");
+    EXPECT_NE(said(folder / "run", "synthetic:nothing").find("nothing"), std::string::npos);
+    EXPECT_NE(said(folder / "run", folder / "away").find("away"), std::string::npos);
+    // Another recording, whose frames have other times.
+    config.synthetic.fps = 7;
+    auto other = OpenSynthetic("synthetic:corner", config.synthetic);
+    ASSERT_TRUE(other.ok());
+    Frame first;
+    other.value()->Read(first);
+    ASSERT_TRUE(WriteSequence(*other.value(), folder / "other", {}).ok());
+    std::filesystem::remove(folder / "run/trajectory.txt");
+    ASSERT_TRUE(
+        WriteTrajectory(folder / "run/trajectory.txt", {{1000.5, Eigen::Isometry3d::Identity()}})
+            .ok());
+    EXPECT_NE(said(folder / "run", folder / "other").find("is it the run's source?"),
+              std::string::npos);
+}
+
+}  // namespace
+}  // namespace tessera
