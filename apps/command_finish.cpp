@@ -1,4 +1,6 @@
 // tessera finish: a clean, textured model from a scan or a run.
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <memory>
 
@@ -41,8 +43,13 @@ Status Finish(const Arguments& a) {
                    kDecimationUnavailable);
     if (Status status = PrepareOutputFolder(a.out); !status.ok()) return status;
     const std::atomic<bool>& stop = StopOnSignal();
-    const auto progress = [&](const char*, double) { return !stop.load(); };
+    const bool terminal = isatty(STDERR_FILENO) == 1;
+    const auto progress = [&](const char* step, double share) {
+        if (terminal) fmt::print(stderr, "\r{:3.0f} % {:<12}", 100 * share, step);
+        return !stop.load();
+    };
     const Result<FinishedModel> finished = FinishRun(request, progress);
+    if (terminal) fmt::print(stderr, "\r{:<18}\r", "");
     if (!finished.ok()) return finished.status();
     const TexturedMesh& model = finished.value().model;
     Print(finished.value().report, model);

@@ -140,11 +140,13 @@ std::string Json(const GlbContent& content, std::size_t& binary_bytes) {
     if (content.textured()) {
         surface["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", 0}};
         surface["extensions"]["KHR_materials_unlit"] = nlohmann::json::object();
-        file["materials"] = {surface};
-        file["extensionsUsed"] = {"KHR_materials_unlit"};
-        file["images"] = {{{"bufferView", image}, {"mimeType", "image/jpeg"}}};
-        file["samplers"] = {{{"magFilter", kLinear}, {"minFilter", kLinear}}};
-        file["textures"] = {{{"source", 0}, {"sampler", 0}}};
+        // Braces alone are an array for one compiler and a copy for another.
+        using nlohmann::json;
+        file["materials"] = json::array({surface});
+        file["extensionsUsed"] = json::array({"KHR_materials_unlit"});
+        file["images"] = json::array({json{{"bufferView", image}, {"mimeType", "image/jpeg"}}});
+        file["samplers"] = json::array({json{{"magFilter", kLinear}, {"minFilter", kLinear}}});
+        file["textures"] = json::array({json{{"source", 0}, {"sampler", 0}}});
     }
     std::string text = file.dump();
     text.resize((text.size() + 3) / 4 * 4, ' ');

@@ -38,12 +38,13 @@ void TakeSource(const Json& json, RunRecord& record) {
 
 void TakeAte(const Json& json, RunRecord& record) {
     if (json.empty()) return;
-    RunRecord::Ate& ate = record.ate.emplace();
+    RunRecord::Ate ate;
     Take(json, "ate_rmse_m", ate.rmse_m);
     Take(json, "ate_mean_m", ate.mean_m);
     Take(json, "ate_median_m", ate.median_m);
     Take(json, "ate_max_m", ate.max_m);
     Take(json, "pairs", ate.pairs);
+    record.ate = ate;
 }
 
 RunRecord ToRecord(const Json& json) {

@@ -188,7 +188,7 @@ class IcpSequence : public Recorded, public testing::WithParamInterface<IcpCase>
 TEST_P(IcpSequence, MeetsItsBoundFromEitherPrediction) {
     ASSERT_NO_FATAL_FAILURE(Need(GetParam().name));
     if (IsSkipped()) return;
-    constexpr std::int64_t kFrames = 300, kDrawnFrames = 80;
+    constexpr std::int64_t kFrames = 300, kDrawnFrames = 100;
     const auto run = [&](IcpTracker::Prediction prediction, std::int64_t count) {
         RunConfig config;
         config.pipeline.trackers.method = GetParam().method;
