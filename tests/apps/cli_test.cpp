@@ -167,9 +167,12 @@ TEST_F(Cli, AScanIsSavedLookedAtGoneOnWithHandedOutAndRepaired) {
 TEST_F(Cli, ASecondSessionHasAPathOfItsOwn) {
     const std::string scan = folder / "a.scan", second = folder / "second";
     const std::string small = "--set mapping.voxel_size_m=0.02 ";
-    ASSERT_EQ(Call("synth desk --frames 24 --out " + second).exit_code, 0);
-    ASSERT_EQ(Call("run synthetic:desk --frames 40 " + small + "--out " + (folder / "first") +
-                   " --scan " + scan)
+    const std::string camera =
+        "--set synthetic.width=320 --set synthetic.height=240 --set synthetic.fx=262.5 "
+        "--set synthetic.fy=262.5 --set synthetic.cx=159.5 --set synthetic.cy=119.5 ";
+    ASSERT_EQ(Call("synth desk --frames 24 " + camera + "--out " + second).exit_code, 0);
+    ASSERT_EQ(Call("run synthetic:desk --frames 40 " + camera + small + "--out " +
+                   (folder / "first") + " --scan " + scan)
                   .exit_code,
               0);
     const Outcome localised =
