@@ -108,6 +108,7 @@ Result<FinishedModel> FinishModel(TriangleMesh mesh, const PinholeCamera& camera
     const auto bake = [&](const std::optional<Frame>& frame) {
         if (!frame) return;
         TextureView view = MakeTextureView(camera, *frame);
+        view.blur_px = MotionBlur_px(path, frame->stamp_s, camera);
         if (has_colours) EstimateGain(scanned, view);
         baker.Add(view);
         ++report.views;

@@ -18,7 +18,8 @@ using Eigen::Vector3f;
 constexpr float kMap_m = 0.01f;
 constexpr float kLeastCosine = 0.2f;
 constexpr float kLeastTrust = 0.03f;  // of what no view shows far from an edge
-constexpr float kFar_px = 7;          // from an edge: full trust
+constexpr float kSaturated = 250;
+constexpr float kFar_px = 7;  // from an edge: full trust
 
 bool Jumps(float a, float b) { return a <= 0 || b <= 0 || std::abs(a - b) > 0.03f + 0.02f * a; }
 
@@ -79,13 +80,28 @@ SeenColour See(const TextureView& view, const Vector3f& p_world, const Vector3f&
     const int near_x = static_cast<int>(u + 0.5f), near_y = static_cast<int>(v + 0.5f);
     const float measured = view.depth_m(near_x, near_y);
     if (measured <= 0 || std::abs(measured - z) > kMap_m + 3 * DepthSigma_m(z)) return seen;
-    const float quality = facing * facing / (z * z) * view.trust(near_x, near_y);
-    seen.weight = quality * quality * quality;
     const float fx = u - static_cast<float>(x), fy = v - static_cast<float>(y);
     const Rgb8 *top = view.colour.row(y) + x, *bottom = view.colour.row(y + 1) + x;
     seen.rgb = (1 - fy) * ((1 - fx) * ToArray(top[0]) + fx * ToArray(top[1])) +
                fy * ((1 - fx) * ToArray(bottom[0]) + fx * ToArray(bottom[1]));
+    const float trust =
+        view.trust(near_x, near_y) * (seen.rgb.maxCoeff() < kSaturated ? 1.0f : 0.1f);
+    const float quality = facing * facing / (z * z * (1 + view.blur_px)) * trust;
+    seen.weight = quality * quality * quality;
     return seen;
+}
+
+float MotionBlur_px(std::span<const StampedPose> path, double stamp_s,
+                    const PinholeCamera& camera) {
+    constexpr double kExposure_s = 1.0 / 60, kLongest_s = 0.2;
+    const auto after = std::ranges::upper_bound(path, stamp_s, {}, &StampedPose::stamp_s);
+    auto before = std::ranges::lower_bound(path, stamp_s, {}, &StampedPose::stamp_s);
+    if (after == path.end() || before == path.begin()) return 0;
+    --before;
+    const double time_s = after->stamp_s - before->stamp_s;
+    if (time_s > kLongest_s) return 0;
+    const double turn_rad = RotationAngle(before->T_world_camera, after->T_world_camera);
+    return static_cast<float>(turn_rad / time_s * kExposure_s * camera.fx);
 }
 
 void EstimateGain(const TriangleMesh& mesh, TextureView& view) {

@@ -7,6 +7,7 @@
 #include "core/camera.h"
 #include "core/frame.h"
 #include "core/mesh.h"
+#include "core/se3.h"
 
 namespace tessera {
 
@@ -22,6 +23,7 @@ struct TextureView {
     // register.
     Image<float> trust;
     Eigen::Array3f gain = Eigen::Array3f::Ones();  // the model's colours / this frame's
+    float blur_px = 0;                             // length of the motion blur
 };
 
 struct SeenColour {
@@ -35,10 +37,15 @@ TextureView MakeTextureView(const PinholeCamera& camera, const Frame& frame);
 // What the view shows of the surface point p_world with normal n_world (unit). It does if the
 // frame's own depth there is the point's, within the noise of a depth camera: so neither what hides
 // the point nor who walks by gets onto it. The weight is the number of pixels per area of the
-// surface, times the cosine of the angle from which it is seen, times the trust, all cubed: sharper
-// views win, and the colour has no steps where one takes over from another. Thread-safe.
+// surface, less by the blur, times the cosine of the angle from which it is seen, times the trust,
+// all cubed: sharper views win, and the colour has no steps where one takes over from another.
+// Saturated pixels have a tenth of the trust. Thread-safe.
 SeenColour See(const TextureView& view, const Eigen::Vector3f& p_world,
                const Eigen::Vector3f& n_world);
+
+// Length of the blur of a frame at `stamp_s`, pixels, from how fast the camera turned there and an
+// exposure of a sixtieth of a second. 0 where the path has no neighbours within 0.2 s. Thread-safe.
+float MotionBlur_px(std::span<const StampedPose> path, double stamp_s, const PinholeCamera& camera);
 
 // Sets the gain: the median, per channel, of a mesh vertex's colour over that which the view shows
 // of it. It removes most of automatic exposure and white balance. 1 if the view shows fewer than

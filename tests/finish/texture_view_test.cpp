@@ -70,6 +70,30 @@ TEST(TextureView, NearAndStraightCountsMore) {
     EXPECT_GT(straight, 8 * See(oblique, {0, 0, 0}, kOut).weight);
 }
 
+TEST(TextureView, BlurredAndSaturatedViewsCountLess) {
+    TextureView view = MakeTextureView(WallCamera(), WallFrame({0, 0, -1}, 0));
+    const float sharp = See(view, {0, 0, 0}, kOut).weight;
+    view.blur_px = 1;
+    EXPECT_NEAR(See(view, {0, 0, 0}, kOut).weight / sharp, 1 / 8.0, 1e-4);
+    view.blur_px = 0;
+    for (int v = 55; v < 65; ++v)
+        for (int u = 75; u < 85; ++u) view.colour(u, v).g = 255;
+    EXPECT_NEAR(See(view, {0, 0, 0}, kOut).weight / sharp, 1 / 1000.0, 1e-6);
+}
+
+// Half a radian a second, frames a thirtieth apart.
+TEST(TextureView, TheBlurIsThatOfTheTurn) {
+    std::vector<StampedPose> path;
+    for (int i = 0; i < 10; ++i)
+        path.push_back({i / 30.0, *WallFrame({0, 0, -1}, 0.5 * i / 30.0).T_world_camera});
+    EXPECT_NEAR(MotionBlur_px(path, 5 / 30.0, WallCamera()), 0.5 / 60 * 150, 1e-3);
+    EXPECT_NEAR(MotionBlur_px(path, 5.5 / 30.0, WallCamera()), 0.5 / 60 * 150, 1e-3);
+    EXPECT_EQ(MotionBlur_px(path, 0, WallCamera()), 0);
+    EXPECT_EQ(MotionBlur_px(path, 9 / 30.0, WallCamera()), 0);
+    path.erase(path.begin() + 2, path.begin() + 9);
+    EXPECT_EQ(MotionBlur_px(path, 5 / 30.0, WallCamera()), 0);  // a gap
+}
+
 TEST(TextureView, TheGainIsThatOfTheModelsColours) {
     TriangleMesh wall = Square({-0.5f, -0.4f, 0}, {1, 0, 0}, {0, 1, 0}, 0.9f, 40);
     for (std::size_t i = 0; i < wall.vertices.size(); ++i) {
