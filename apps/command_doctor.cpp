@@ -11,6 +11,7 @@
 #include "core/cpu.h"
 #include "cuda/open_device.h"
 #include "export/vdb_writer.h"
+#include "finish/decimate.h"
 #include "io/openni_devices.h"
 #include "optimize/pose_graph.h"
 #include "recordings/open_recording.h"
@@ -48,6 +49,9 @@ void PrintExports() {
     fmt::print("exports      meshes .ply .obj .glb, point clouds, paths (TUM, KITTI), {}{}\n",
                "images for nerfstudio and COLMAP", volumes);
     if (!VdbAvailable()) fmt::print("             .vdb {}\n", kVdbUnavailable);
+    fmt::print("             maps for robots (.yaml .bt .npy), finished models, reports (.html)\n");
+    if (!DecimationAvailable())
+        fmt::print("             decimation of finished models {}\n", kDecimationUnavailable);
 }
 
 int Doctor() {
