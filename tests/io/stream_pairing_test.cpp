@@ -17,6 +17,9 @@ struct Stamp {
     double stamp_s;
 };
 
+// The low bits of a whole number of milliseconds.
+std::uint8_t Low8(double ms) { return static_cast<std::uint8_t>(static_cast<int>(ms)); }
+
 // The pairs returned while the images `arriving` are pushed. Each image carries its stamp in
 // milliseconds.
 std::vector<std::pair<double, double>> Feed(StreamPairing& pairing,
@@ -27,14 +30,13 @@ std::vector<std::pair<double, double>> Feed(StreamPairing& pairing,
         while (pairing.Next(pair)) {
             EXPECT_EQ(pair.depth(0, 0),
                       static_cast<std::uint16_t>(1000 * pair.depth_stamp_s + 0.5));
-            EXPECT_EQ(pair.colour(0, 0).r,
-                      static_cast<std::uint8_t>(1000 * pair.colour_stamp_s + 0.5));
+            EXPECT_EQ(pair.colour(0, 0).r, Low8(1000 * pair.colour_stamp_s + 0.5));
             pairs.emplace_back(pair.depth_stamp_s, pair.colour_stamp_s);
         }
     };
     for (const Stamp& s : arriving) {
         Image<std::uint16_t> depth(1, 1, static_cast<std::uint16_t>(1000 * s.stamp_s + 0.5));
-        ColourImage colour(1, 1, {static_cast<std::uint8_t>(1000 * s.stamp_s + 0.5), 0, 0});
+        ColourImage colour(1, 1, {Low8(1000 * s.stamp_s + 0.5), 0, 0});
         if (s.depth)
             pairing.AddDepth(s.stamp_s, depth);
         else

@@ -128,6 +128,13 @@ TEST_F(OniRecording, AFileThatIsCutOffIsRefusedOrReadAsFarAsItGoes) {
     Set("PACE", "real");
     Record(folder.Path("a.oni"), 6, false);
     const auto size = std::filesystem::file_size(folder.Path("a.oni"));
+    // The recorder goes on for as long as the camera takes to stop.
+    std::size_t recorded = 0;
+    {
+        const auto whole = OpenOpenniSource(folder.Path("a.oni"), {});
+        ASSERT_TRUE(whole.ok()) << whole.message();
+        recorded = ReadFrames(*whole.value(), 1000, 60).frames.size();
+    }
     for (const std::uintmax_t kept : {std::uintmax_t{20}, size / 2}) {
         const std::string path = folder.Path("cut.oni");
         std::filesystem::copy_file(folder.Path("a.oni"), path,
@@ -144,7 +151,7 @@ TEST_F(OniRecording, AFileThatIsCutOffIsRefusedOrReadAsFarAsItGoes) {
         EXPECT_EQ(log.messages,
                   std::vector<std::string>{
                       path + ": the recording is truncated; all frames in it were read"});
-        EXPECT_LE(log.frames.size(), 7u);
+        EXPECT_LE(log.frames.size(), recorded);
     }
 }
 

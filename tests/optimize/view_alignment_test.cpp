@@ -156,7 +156,7 @@ TEST(TextureCorrelation, TellsPaintFromLight) {
         // Patches of 4 cm, each of one shade.
         return ViewOf(T_world_camera, [=](const Eigen::Vector3d& p) {
             const auto cell = [](double v) {
-                return static_cast<unsigned>(std::floor(25 * v) + 500);
+                return static_cast<unsigned>(static_cast<std::int64_t>(std::floor(25 * v)) + 500);
             };
             const unsigned shade = (cell(p.x()) * 73856093u ^ cell(p.y()) * 19349663u ^
                                     cell(p.z()) * 83492791u ^ seed) *
