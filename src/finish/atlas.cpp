@@ -9,9 +9,12 @@
 namespace tessera {
 namespace {
 
+constexpr double kLargest = 1 << 20;  // texels; fits into no texture
+
 Eigen::Vector2i BoxOf(const Chart& chart, double texel_m) {
     const auto side = [&](float metres) {
-        return static_cast<int>(std::ceil(metres / texel_m)) + 1 + 2 * Atlas::kMargin;
+        return static_cast<int>(std::min(std::ceil(metres / texel_m), kLargest)) + 1 +
+               2 * Atlas::kMargin;
     };
     return {side(chart.size_m.x()), side(chart.size_m.y())};
 }

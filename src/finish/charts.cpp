@@ -16,7 +16,8 @@ using Eigen::Vector3f;
 
 // A triangle that is seen more obliquely along the chart's direction gets a chart of its own.
 constexpr float kLeastFacing = 0.15f;
-constexpr float kInside = -0.05f;  // an overlap counts from this far inside, in cells
+constexpr float kMostCells = 8192;  // a side of the grid on which overlaps are looked for
+constexpr float kInside = -0.05f;   // an overlap counts from this far inside, in cells
 
 class ChartCutter {
   public:
@@ -114,7 +115,17 @@ class ChartCutter {
     // Puts out what lies over a triangle before it, or is seen too obliquely. The first stays.
     void KeepDisjoint(const Chart& chart, std::vector<std::uint32_t>& triangles,
                       std::deque<std::uint32_t>& seeds) {
+        if (triangles.size() == 1) return;
         const float per_m = static_cast<float>(1 / options_.cell_m);
+        // Only the first triangle may be so large; then it is a chart by itself.
+        if (per_m * chart.size_m.maxCoeff() > kMostCells) {
+            for (std::size_t i = 1; i < triangles.size(); ++i) {
+                taken_[triangles[i]] = false;
+                seeds.push_back(triangles[i]);
+            }
+            triangles.resize(1);
+            return;
+        }
         const Vector3f out = chart.down.cross(chart.right);
         Image<std::uint8_t> covered(static_cast<int>(chart.size_m.x() * per_m) + 3,
                                     static_cast<int>(chart.size_m.y() * per_m) + 3);

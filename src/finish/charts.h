@@ -31,11 +31,13 @@ struct Chart {
 };
 
 struct ChartOptions {
-    // Largest angle between a triangle's normal and the mean of its chart while this grows. At 55
-    // degrees a texel is stretched by at most 1.7.
+    // Largest angle between a triangle's normal and the mean of its chart when it joins. A texel is
+    // stretched by 1.7 there; by 6.7 at most, because the mean moves as the chart grows.
     double max_angle_rad = 55 * 3.14159265358979 / 180;
-    double max_side_m = 1.5;  // charts stay within a ball of this diameter
-    double cell_m = 0.003;    // two triangles overlap where both cover the centre of a cell
+    // Charts stay within a ball of this diameter about their first triangle's first corner; only
+    // this triangle may be larger.
+    double max_side_m = 1.5;
+    double cell_m = 0.003;  // two triangles overlap where both cover the centre of a cell
 };
 
 // Grows charts from seeds over shared edges, in the order of the triangles. Each triangle is in

@@ -12,8 +12,8 @@ namespace {
 
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
-// Decimates some of a mesh's triangles; where they border on nothing or on others, the border
-// stays.
+// Decimates some of a mesh's triangles. With meshopt_SimplifyLockBorder among the options, the
+// edges stay where these triangles border on nothing or on others.
 Triangles Thin(const TriangleMesh& mesh, const Triangles& triangles, double error_m, double share,
                unsigned int options, double& reached_m) {
     static_assert(sizeof(triangles[0]) == 3 * sizeof(unsigned int) &&

@@ -4,8 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "core/depth_noise.h"
 #include "finish/decimate.h"
-#include "finish/noise.h"
+#include "finish/nearest_depth.h"
 #include "finish/smooth.h"
 #include "finish/texture_baker.h"
 #include "finish/view_choice.h"
@@ -80,6 +81,8 @@ Result<FinishedModel> FinishModel(TriangleMesh mesh, const PinholeCamera& camera
     FinishedModel finished;
     FinishReport& report = finished.report;
     report.triangles_before = mesh.triangles.size();
+    if (mesh.normals.size() != mesh.vertices.size())
+        return Status::Error("the mesh has no normals; repeat the run");
     const bool has_colours = !mesh.colours.empty();
     if (!has_colours) mesh.colours.assign(mesh.vertices.size(), Rgb8{180, 180, 180});
     const TriangleMesh scanned = mesh;  // its colours are the reference of the gains

@@ -51,7 +51,7 @@ using FinishProgress = std::function<bool(const char* step, double share)>;
 
 // `path`: where the camera was, in the mesh's world. `mesh` has normals; where it has colours, the
 // texture's exposure is theirs. `frames` is how many frames there are, about. Errors: an empty
-// mesh, too many pieces for a texture, cancelled.
+// mesh, one without normals, too many pieces for a texture, cancelled.
 Result<FinishedModel> FinishModel(TriangleMesh mesh, const PinholeCamera& camera,
                                   std::span<const StampedPose> path, const NextPosedFrame& next,
                                   std::int64_t frames, const FinishOptions& options,

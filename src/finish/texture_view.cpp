@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <vector>
 
-#include "finish/noise.h"
+#include "core/depth_noise.h"
 
 namespace tessera {
 namespace {

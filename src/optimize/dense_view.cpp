@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/depth_noise.h"
 #include "optimize/camera_view.h"
 
 namespace tessera {
@@ -11,9 +12,6 @@ namespace {
 // A cell whose depths differ by a larger share lies across a discontinuity.
 constexpr float kCellSmooth = 0.04f;
 constexpr float kGrazing = 0.2f;  // cosine between ray and normal
-
-// Axial noise of a structured-light sensor (Nguyen et al. 2012).
-float SigmaOf(float z) { return 0.0012f + 0.0019f * (z - 0.4f) * (z - 0.4f); }
 
 struct Cell {
     float sum = 0, nearest = 1e9f, farthest = 0, luma = 0;
@@ -94,7 +92,7 @@ void FindPoints(DenseView::Level& level, int step) {
             level.normal(x, y) = normal;
             if (x % step == step / 2 && y % step == step / 2 && !normal.isZero())
                 level.points.push_back({PointAt(level, x, y), normal, level.intensity(x, y),
-                                        SigmaOf(level.depth_m(x, y))});
+                                        DepthSigma_m(level.depth_m(x, y))});
         }
 }
 

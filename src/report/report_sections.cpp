@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <map>
 
+#include "core/path_length.h"
 #include "report/page_parts.h"
 #include "report/page_text.h"
 #include "report/report_charts.h"
@@ -16,15 +17,6 @@ namespace {
 std::string Tile(const std::string& value, const std::string& name, const std::string& more = {}) {
     return fmt::format("<div><b>{}</b><span>{}</span><small>{}</small></div>\n", EscapeHtml(value),
                        EscapeHtml(name), EscapeHtml(more));
-}
-
-double PathLength(const std::vector<StampedPose>& path) {
-    double length_m = 0;
-    for (std::size_t i = 1; i < path.size(); ++i)
-        length_m +=
-            (path[i].T_world_camera.translation() - path[i - 1].T_world_camera.translation())
-                .norm();
-    return length_m;
 }
 
 std::string FrameTiles(const RunRecord& record) {
@@ -92,7 +84,7 @@ std::string TilesHtml(const ReportData& data, const TriangleMesh& shown, std::si
     if (data.record) tiles += FrameTiles(*data.record);
     if (data.path.size() > 1) {
         const TimeRange range = TimeRangeOf(data);
-        tiles += Tile(LengthText(PathLength(data.path)), "camera path",
+        tiles += Tile(LengthText(PathLength_m(data.path)), "camera path",
                       "in " + DurationText(range.end_s - range.begin_s));
     }
     tiles += ErrorTile(data);

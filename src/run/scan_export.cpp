@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <filesystem>
 
+#include "core/path_length.h"
 #include "io/frame_recorder.h"
 #include "scan/scan_source.h"
 #include "system/mapping_stage.h"
@@ -12,15 +13,6 @@
 
 namespace tessera {
 namespace {
-
-double LengthOf(const std::vector<StampedPose>& path) {
-    double length_m = 0;
-    for (std::size_t i = 1; i < path.size(); ++i)
-        length_m +=
-            (path[i].T_world_camera.translation() - path[i - 1].T_world_camera.translation())
-                .norm();
-    return length_m;
-}
 
 std::string MapText(const ScanContent& scan) {
     const BlockMap& map = *scan.map;
@@ -106,7 +98,7 @@ Result<std::string> DescribeScan(const std::string& path) {
                         c.height, c.fx, c.fy, c.cx, c.cy);
     const std::vector<StampedPose> poses = scan.Path();
     text += fmt::format("path: {} frames, {} tracked, {:.2f} m", scan.path.size(), poses.size(),
-                        LengthOf(poses));
+                        PathLength_m(poses));
     if (!scan.path.empty())
         text += fmt::format(", {:.6f} to {:.6f} s", scan.path.front().stamp_s,
                             scan.path.back().stamp_s);

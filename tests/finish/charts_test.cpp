@@ -90,5 +90,19 @@ TEST(Charts, WhatIsLargeIsCutAndWhatHasNoAreaHasAPlace) {
     for (const Chart& chart : charts) EXPECT_LE(chart.size_m.maxCoeff(), 1.5f + 1e-4f);
 }
 
+// A triangle of a kilometre takes no grid of a kilometre.
+TEST(Charts, AHugeTriangleIsAChartByItself) {
+    TriangleMesh mesh = Square({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 0.1f, 1);
+    mesh.vertices.push_back({0, -1000, 0});
+    mesh.normals.push_back(mesh.normals[0]);
+    mesh.colours.push_back({});
+    mesh.triangles.insert(mesh.triangles.begin(), {0, 1, 4});
+    const std::vector<Chart> charts = CutCharts(mesh, {.cell_m = 0.002});
+    ASSERT_EQ(charts.size(), 2u);
+    EXPECT_EQ(charts[0].triangles, std::vector<std::uint32_t>{0});
+    EXPECT_EQ(charts[1].triangles.size(), 2u);
+    EXPECT_FALSE(PackCharts({Chart{{}, {}, {}, {}, {1e30f, 1}}}, 0.002, 4096).ok());
+}
+
 }  // namespace
 }  // namespace tessera

@@ -110,6 +110,9 @@ TEST(Finish, AMeshWithoutColoursIsPaintedAndAnEmptyOneIsAnError) {
     ASSERT_TRUE(finished.ok());
     EXPECT_GT(finished.value().report.seen_share, 0.5);
     EXPECT_FALSE(FinishModel({}, WallCamera(), Path(), Frames(1), 1, {}, go_on).ok());
+    mesh.normals.clear();
+    const auto without = FinishModel(mesh, WallCamera(), Path(), Frames(1), 1, {}, go_on);
+    EXPECT_NE(without.message().find("has no normals"), std::string::npos);
 }
 
 }  // namespace

@@ -9,7 +9,6 @@
 namespace tessera {
 namespace {
 
-using testing_support::Append;
 using testing_support::Square;
 using testing_support::WallCamera;
 using testing_support::WallFrame;

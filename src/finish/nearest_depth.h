@@ -1,4 +1,4 @@
-// How near the camera came to the places of a scanned surface, and how uncertain they are.
+// How near the camera came to the places of a scanned surface.
 #pragma once
 
 #include <span>
@@ -9,13 +9,6 @@
 #include "core/se3.h"
 
 namespace tessera {
-
-// Standard deviation of a depth camera's measurement at `depth_m`, metres: axial noise of a Kinect
-// (Nguyen et al. 2012), which measures from 0.4 m on.
-inline float DepthSigma_m(float depth_m) {
-    const float beyond_m = depth_m > 0.4f ? depth_m - 0.4f : 0.0f;
-    return 0.0012f + 0.0019f * beyond_m * beyond_m;
-}
 
 // Per vertex, the depth at which the nearest of the poses has it in its image, metres; what hides
 // it is not looked at. Vertices that no pose has get the largest of the others. At most 300 poses

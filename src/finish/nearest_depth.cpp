@@ -1,4 +1,4 @@
-#include "finish/noise.h"
+#include "finish/nearest_depth.h"
 
 #include <tbb/parallel_for.h>
 

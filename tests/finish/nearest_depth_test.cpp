@@ -1,4 +1,4 @@
-#include "finish/noise.h"
+#include "finish/nearest_depth.h"
 
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@ TriangleMesh Points(const std::vector<Eigen::Vector3f>& points) {
     return mesh;
 }
 
-TEST(Noise, TheNearestPoseThatHasThePlaceInItsImageCounts) {
+TEST(NearestDepth, TheNearestPoseThatHasThePlaceInItsImageCounts) {
     Eigen::Isometry3d back = Eigen::Isometry3d::Identity(), turned = Eigen::Isometry3d::Identity();
     back.translation().z() = -2;
     turned.linear() = Eigen::AngleAxisd(3.14159, Eigen::Vector3d::UnitY()).toRotationMatrix();
@@ -30,7 +30,7 @@ TEST(Noise, TheNearestPoseThatHasThePlaceInItsImageCounts) {
     EXPECT_NEAR(depths_m[3], 3, 1e-4f);  // the largest of the others
 }
 
-TEST(Noise, OfALongPathOnlySomePosesAreUsed) {
+TEST(NearestDepth, OfALongPathOnlySomePosesAreUsed) {
     std::vector<StampedPose> path;
     for (int i = 0; i < 1000; ++i) {
         Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
@@ -40,12 +40,6 @@ TEST(Noise, OfALongPathOnlySomePosesAreUsed) {
     const auto depths_m = NearestDepths_m(Points({{0, 0, 1}}), WallCamera(), path);
     EXPECT_NEAR(depths_m[0], 1, 0.01f);
     EXPECT_NEAR(NearestDepths_m(Points({{0, 0, 1}}), WallCamera(), {})[0], 0.4f, 1e-6f);
-}
-
-TEST(Noise, IsTheFormula) {
-    EXPECT_NEAR(DepthSigma_m(0.4f), 0.0012f, 1e-7f);
-    EXPECT_NEAR(DepthSigma_m(0.2f), 0.0012f, 1e-7f);
-    EXPECT_NEAR(DepthSigma_m(3.4f), 0.0012f + 0.0019f * 9, 1e-6f);
 }
 
 }  // namespace
