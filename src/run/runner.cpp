@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "io/trajectory.h"
+#include "run/noise_band.h"
 #include "run/source_camera.h"
 #include "system/live_engine.h"
 #include "system/lockstep_engine.h"
@@ -60,6 +61,10 @@ Status Runner::Open(const std::atomic<bool>& stop) {
     summary_.source = source->info();
     summary_.camera = checked.value().camera;
     camera_notes_ = std::move(checked.value().messages);
+    if (!request_.resume && !request_.localise_only)  // a scan keeps its band
+        if (std::string note = FitBandToNoise(request_.selection, config_.pipeline, source);
+            !note.empty())
+            camera_notes_.push_back(std::move(note));
     Labelling labelling;
     if (!request_.labels.empty()) {
         Result<Labelling> opened =

@@ -60,7 +60,7 @@ class Runner {
     void Warn(const std::string& text);
 
     const RunRequest& request_;
-    const RunConfig& config_;
+    RunConfig config_;  // with the band that fits the camera
     const RunObserver& observer_;
     // Frames still to read: fewer than requested if a scan is resumed.
     FrameSelection selection_;

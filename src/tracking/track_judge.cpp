@@ -72,7 +72,8 @@ TrackStatus TrackJudge::Status(const TrackInput& input, TrackResult& result) con
                        fmt::format("jumped by {:.2f} m and {:.2f} rad", moved_m, turned_rad));
     if (result.inlier_fraction < config_.good_inlier_fraction)
         return because(kPoor, Misfit(result));
-    if (result.distance_rms_m > config_.good_distance_rms_m)
+    if (result.distance_rms_m >
+        config_.good_distance_share * input.map.config().truncation_m)
         return because(
             kPoor, fmt::format("the depth is {:.1f} cm off the map", 100 * result.distance_rms_m));
     if (!Follows(input.T_world_camera_starts.front(), result.T_world_camera))
@@ -95,8 +96,9 @@ void TrackJudge::Config::Describe(ConfigParameters& p) {
           "truncation");
     p.Add("good_inlier_fraction", good_inlier_fraction, {0.0, 1.0}, "",
           "the frame is not fused if a smaller fraction of the known depth fits");
-    p.Add("good_distance_rms_m", good_distance_rms_m, {0.0, 10.0}, "m",
-          "the frame is not fused if the robust residual of the depth is larger");
+    p.Add("good_distance_share", good_distance_share, {0.0, 10.0}, "",
+          "the frame is not fused if the robust residual of the depth is larger than this share of "
+          "the truncation");
     p.Add("max_jump_m", max_jump_m, {0.0, 100.0}, "m",
           "tracking is lost if the camera moved farther from one frame to the next");
     p.Add("max_jump_rad", max_jump_rad, {0.0, 3.2}, "rad",

@@ -19,7 +19,7 @@ class TrackJudge {
         double min_known_fraction = 0.1;
         double min_inlier_fraction = 0.2;
         double good_inlier_fraction = 0.35;
-        double good_distance_rms_m = 0.03;
+        double good_distance_share = 0.75;
         double max_jump_m = 0.3;
         double max_jump_rad = 0.5;
         double good_innovation_m = 0.2;

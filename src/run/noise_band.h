@@ -1,0 +1,20 @@
+// Fits the map's band to the camera: distances that scatter beyond it would bend the surface, and
+// the frame would not fit its own map.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "io/frame_source.h"
+#include "system/pipeline_config.h"
+
+namespace tessera {
+
+// Looks at the frame at the selection's start and at one in each of the next seconds, or, where the
+// source cannot seek, at its next frame, which it then delivers again. Widens
+// config.map.truncation_m to `band_sigmas` standard deviations of the depth, up to four times, if
+// it is clearly less. Returns a message for the user, usually empty.
+std::string FitBandToNoise(const FrameSelection& selection, PipelineConfig& config,
+                           std::unique_ptr<FrameSource>& source);
+
+}  // namespace tessera
