@@ -27,7 +27,7 @@ struct PipelineConfig {
     PreparedFrame::Config frame;
     BlockMap::Config map;
     // The band is at least this many standard deviations of the depth in the first views; 0: as given.
-    double band_sigmas = 3;
+    double band_sigmas = 4;
     Integrator::Config fusion;
     PagingConfig paging;
     DeviceConfig device;
