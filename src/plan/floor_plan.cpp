@@ -11,7 +11,7 @@ namespace tessera {
 namespace {
 
 constexpr double kLeastNoise_m = 0.005, kMostNoise_m = 0.03;
-constexpr double kShortEnd_m = 0.5;  // of a wall whose other face was not seen so far
+constexpr double kShortEnd_m = 1;  // of a wall whose other face was not seen so far
 
 PlanWall WallOf(const WallStrip& strip, const Interval& part, bool both) {
     PlanWall wall;

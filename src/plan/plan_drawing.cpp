@@ -41,11 +41,15 @@ bool Repeats(const PlanDimension& a, const PlanDimension& b) {
 }
 
 bool OnARoom(const FloorPlan& plan, const PlanWall& wall) {
-    const Eigen::Vector2d middle = (wall.begin + wall.end) / 2;
-    const double behind_m = wall.thickness_m.value_or(0) / 2 + 0.1;
+    const double before_m = wall.thickness_m.value_or(0) / 2 + 0.1;
     return std::ranges::any_of(plan.rooms, [&](const PlanRoom& room) {
-        return Contains(room.outline, middle + behind_m * wall.normal) ||
-               (wall.thickness_m && Contains(room.outline, middle - behind_m * wall.normal));
+        for (const double share : {0.2, 0.5, 0.8}) {
+            const Eigen::Vector2d p = wall.begin + share * (wall.end - wall.begin);
+            if (Contains(room.outline, p + before_m * wall.normal) ||
+                Contains(room.outline, p - before_m * wall.normal))
+                return true;
+        }
+        return false;
     });
 }
 

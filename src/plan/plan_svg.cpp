@@ -10,7 +10,7 @@
 namespace tessera {
 namespace {
 
-constexpr double kMargin_mm = 12, kFooter_mm = 24, kPaper_mm = 380;
+constexpr double kMargin_mm = 12, kFooter_mm = 24, kPaper_mm = 300;
 constexpr const char* kThin = R"(stroke="#222" stroke-width="0.18")";
 constexpr const char* kWallFill = "fill=\"#2c2f36\" stroke=\"#2c2f36\" stroke-width=\"0.1\"";
 constexpr const char* kFaceFill = "fill=\"#8b9099\" stroke=\"#2c2f36\" stroke-width=\"0.1\"";
@@ -24,13 +24,23 @@ double ScaleFor(const Eigen::AlignedBox2d& bounds) {
     return 2000;
 }
 
+// In a room or under its walls.
+bool InARoom(const FloorPlan& plan, const Eigen::Vector2d& p) {
+    constexpr double kWall = 0.15;
+    return std::ranges::any_of(plan.rooms, [&](const PlanRoom& room) {
+        for (const double x : {-kWall, kWall})
+            for (const double y : {-kWall, kWall})
+                if (Contains(room.outline, p + Eigen::Vector2d(x, y))) return true;
+        return false;
+    });
+}
+
 // Floor that is in no room, in squares of 10 cm, joined along x.
 void DrawOpenFloor(const FloorPlan& plan, SvgCanvas& canvas) {
     constexpr double kSquare = 0.1;
     std::map<std::pair<int, int>, int> squares;  // y, x
     for (const Eigen::Vector2d& cell : plan.floor_cells)
-        if (std::ranges::none_of(
-                plan.rooms, [&](const PlanRoom& room) { return Contains(room.outline, cell); }))
+        if (!InARoom(plan, cell))
             ++squares[{static_cast<int>(std::floor(cell.y() / kSquare)),
                        static_cast<int>(std::floor(cell.x() / kSquare))}];
     std::vector<Polygon2d> runs;

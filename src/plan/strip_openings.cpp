@@ -195,8 +195,12 @@ void JoinCorners(const PlanEvidence& evidence, std::vector<WallStrip>& strips) {
                 if (taken) continue;
                 const GapEvidence look = Look(evidence, strip, columns, gap);
                 const Gap is = Classify(look, gap, true);
-                if (is == Gap::kOpening) strip.openings.push_back({gap, look.lintel_m});
-                if (is == Gap::kWall) end = *at;
+                const bool known =
+                    std::ranges::any_of(strip.openings, [&](const StripOpening& opening) {
+                        return opening.along.Overlap(gap) > gap.Length() / 2;
+                    });
+                if (is == Gap::kOpening && !known) strip.openings.push_back({gap, look.lintel_m});
+                if (is == Gap::kWall && !known) end = *at;
             }
         std::erase_if(strip.solid, [](const Interval& part) { return part.Length() <= 0; });
         strip.solid = Joined(std::move(strip.solid), 1e-6);

@@ -9,7 +9,7 @@ namespace {
 HeightBits BinsWithin(double low_m, double high_m) {
     HeightBits bits = 0;
     for (int k = 0; k < 64; ++k)
-        if (k * kHeightBin_m >= low_m && (k == 63 || (k + 1) * kHeightBin_m <= high_m))
+        if (k * kHeightBin_m >= low_m && (k + 1) * kHeightBin_m <= high_m)
             bits |= HeightBits{1} << k;
     return bits;
 }
@@ -45,9 +45,13 @@ WallColumns ColumnsOf(const PlanEvidence& evidence, const PlanLine& line,
 }
 
 ColumnReader::ColumnReader(const PlanEvidence& evidence)
-    : low_(BinsWithin(evidence.LowFrom_m(), evidence.LowTo_m())),
-      high_(BinsWithin(evidence.Reach_m(), HUGE_VAL)),
-      low_end_(static_cast<int>(evidence.LowTo_m() / kHeightBin_m)) {}
+    : low_(BinsWithin(evidence.LowFrom_m(), evidence.LowTo_m())) {
+    // What begins at the ceiling is the ceiling's.
+    constexpr double kBelowCeiling_m = 0.05;
+    const double top_m = evidence.ceiling_m ? *evidence.ceiling_m - kBelowCeiling_m : HUGE_VAL;
+    high_ = BinsWithin(evidence.Reach_m(), top_m);
+    above_ = BinsWithin(evidence.LowTo_m(), top_m);
+}
 
 bool ColumnReader::Solid(HeightBits bits) const {
     return 10 * std::popcount(bits & low_) >= 3 * std::popcount(low_) && low_ != 0;
@@ -56,8 +60,7 @@ bool ColumnReader::Solid(HeightBits bits) const {
 bool ColumnReader::High(HeightBits bits) const { return (bits & high_) != 0; }
 
 std::optional<double> ColumnReader::Lintel_m(HeightBits bits) const {
-    if (low_end_ >= 63) return std::nullopt;
-    const HeightBits above = bits >> low_end_ << low_end_;
+    const HeightBits above = bits & above_;
     if (above == 0) return std::nullopt;
     return kHeightBin_m * std::countr_zero(above);
 }

@@ -51,8 +51,7 @@ class ColumnReader {
     std::optional<double> Lintel_m(HeightBits bits) const;
 
   private:
-    HeightBits low_ = 0, high_ = 0;
-    int low_end_ = 0;
+    HeightBits low_ = 0, high_ = 0, above_ = 0;
 };
 
 }  // namespace tessera

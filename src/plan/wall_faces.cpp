@@ -128,14 +128,16 @@ void Snap(const PlanEvidence& evidence, std::vector<WallFace>& faces) {
     }
 }
 
-// A noisy wall has a weak copy close to itself.
+// A noisy wall has weak copies close to itself: behind it or before it, or before it and facing it,
+// where nobody could look from.
 bool IsCopy(const WallFace& face, const WallFace& larger, double noise_m) {
-    if (face.line.normal.dot(larger.line.normal) < std::cos(2 * kMostTurn)) return false;
-    const double middle = (face.along.low + face.along.high) / 2;
-    const Eigen::Vector2d p = face.line.At(middle);
-    return std::abs(larger.line.Distance(p)) < 0.05 + 4 * noise_m &&
-           face.area_m2 < 0.3 * larger.area_m2 &&
-           larger.along.Overlap(face.along) > 0.5 * face.along.Length();
+    constexpr double kParallel = 0.9945, kNoRoom_m = 0.15;
+    const double facing = face.line.normal.dot(larger.line.normal);
+    if (std::abs(facing) < kParallel || face.area_m2 > 0.3 * larger.area_m2) return false;
+    const double off_m = larger.line.Distance(face.line.At((face.along.low + face.along.high) / 2));
+    const Interval along = facing > 0 ? face.along : Interval{-face.along.high, -face.along.low};
+    return larger.along.Overlap(along) > 0.5 * along.Length() &&
+           (facing > 0 ? std::abs(off_m) < 0.05 + 4 * noise_m : off_m > 0 && off_m < kNoRoom_m);
 }
 
 }  // namespace

@@ -52,6 +52,21 @@ std::optional<double> Thickness(const WallFace& front, const WallFace& back) {
     return thickness_m;
 }
 
+// The sides of an opening, as deep as the wall is thick, belong to that wall.
+bool IsReveal(const WallStrip& strip, const std::vector<WallStrip>& strips) {
+    constexpr double kSquare = 0.2, kSlack_m = 0.03;
+    if (strip.thickness_m > 0) return false;
+    const Eigen::Vector2d begin = strip.front.At(strip.solid.front().low),
+                          end = strip.front.At(strip.solid.back().high);
+    return std::ranges::any_of(strips, [&](const WallStrip& wall) {
+        const double low = std::min(wall.front.Distance(begin), wall.front.Distance(end)),
+                     high = std::max(wall.front.Distance(begin), wall.front.Distance(end));
+        return wall.thickness_m > 0 &&
+               std::abs(wall.front.normal.dot(strip.front.normal)) < kSquare && high < kSlack_m &&
+               low > -wall.thickness_m - kSlack_m;
+    });
+}
+
 }  // namespace
 
 std::vector<WallStrip> FindWallStrips(const PlanEvidence& evidence, std::vector<WallFace> faces,
@@ -78,6 +93,8 @@ std::vector<WallStrip> FindWallStrips(const PlanEvidence& evidence, std::vector<
         FindSolid(evidence, strip);
         if (!strip.solid.empty()) strips.push_back(std::move(strip));
     }
+    const std::vector<WallStrip> all = strips;
+    std::erase_if(strips, [&](const WallStrip& strip) { return IsReveal(strip, all); });
     JoinCorners(evidence, strips);
     return strips;
 }
