@@ -15,7 +15,8 @@ constexpr double kShortEnd_m = 1;  // of a wall whose other face was not seen so
 
 PlanWall WallOf(const WallStrip& strip, const Interval& part, bool both) {
     PlanWall wall;
-    const bool front = both || OverlapWith(strip.front_seen, part) >= part.Length() / 2;
+    const bool front =
+        both || strip.thickness_m == 0 || OverlapWith(strip.front_seen, part) >= part.Length() / 2;
     const double back_m = both ? strip.thickness_m / 2 : front ? 0 : strip.thickness_m;
     wall.begin = strip.front.At(part.low) - back_m * strip.front.normal;
     wall.end = strip.front.At(part.high) - back_m * strip.front.normal;

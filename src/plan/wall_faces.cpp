@@ -128,16 +128,16 @@ void Snap(const PlanEvidence& evidence, std::vector<WallFace>& faces) {
     }
 }
 
-// A noisy wall has weak copies close to itself: behind it or before it, or before it and facing it,
-// where nobody could look from.
-bool IsCopy(const WallFace& face, const WallFace& larger, double noise_m) {
-    constexpr double kParallel = 0.9945, kNoRoom_m = 0.15;
+// A noisy or drifted wall has weak copies close to itself; pictures and pilasters look like them.
+// One that faces the wall is no surface at all: nobody could look from there.
+bool IsCopy(const WallFace& face, const WallFace& larger) {
+    constexpr double kParallel = 0.9945, kClose_m = 0.15;
     const double facing = face.line.normal.dot(larger.line.normal);
     if (std::abs(facing) < kParallel || face.area_m2 > 0.3 * larger.area_m2) return false;
     const double off_m = larger.line.Distance(face.line.At((face.along.low + face.along.high) / 2));
     const Interval along = facing > 0 ? face.along : Interval{-face.along.high, -face.along.low};
-    return larger.along.Overlap(along) > 0.5 * along.Length() &&
-           (facing > 0 ? std::abs(off_m) < 0.05 + 4 * noise_m : off_m > 0 && off_m < kNoRoom_m);
+    return larger.along.Overlap(along) > 0.5 * along.Length() && std::abs(off_m) < kClose_m &&
+           (facing > 0 || off_m > 0);
 }
 
 }  // namespace
@@ -170,9 +170,8 @@ std::vector<WallFace> FindWallFaces(const PlanEvidence& evidence, const WallFace
     Snap(evidence, faces);
     std::vector<WallFace> kept;
     for (WallFace& face : faces)
-        if (std::ranges::none_of(kept, [&](const WallFace& larger) {
-                return IsCopy(face, larger, options.noise_m);
-            }))
+        if (std::ranges::none_of(kept,
+                                 [&](const WallFace& larger) { return IsCopy(face, larger); }))
             kept.push_back(std::move(face));
     return kept;
 }

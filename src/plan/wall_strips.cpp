@@ -54,7 +54,7 @@ std::optional<double> Thickness(const WallFace& front, const WallFace& back) {
 
 // The sides of an opening, as deep as the wall is thick, belong to that wall.
 bool IsReveal(const WallStrip& strip, const std::vector<WallStrip>& strips) {
-    constexpr double kSquare = 0.2, kSlack_m = 0.03;
+    constexpr double kSquare = 0.2, kSlack_m = 0.1;
     if (strip.thickness_m > 0) return false;
     const Eigen::Vector2d begin = strip.front.At(strip.solid.front().low),
                           end = strip.front.At(strip.solid.back().high);
