@@ -20,8 +20,9 @@ FloorPlan PlanOf(const TriangleMesh& mesh, const std::vector<StampedPose>& path,
     return plan.ok() ? plan.value() : FloorPlan{};
 }
 
-// The rooms of TwoRooms, wherever they lie, to a centimetre and a third of a per cent.
-void ExpectTwoRooms(const FloorPlan& plan) {
+// The rooms of TwoRooms, moved by T, to a centimetre and a third of a per cent.
+void ExpectTwoRooms(const FloorPlan& plan,
+                    const Eigen::Isometry3d& T = Eigen::Isometry3d::Identity()) {
     ASSERT_EQ(plan.rooms.size(), 2U);
     EXPECT_NEAR(plan.rooms[0].area_m2, 12, 0.04);
     EXPECT_NEAR(plan.rooms[0].perimeter_m, 14, 0.03);
@@ -29,6 +30,13 @@ void ExpectTwoRooms(const FloorPlan& plan) {
     EXPECT_EQ(plan.rooms[0].outline.size(), 4U);
     ASSERT_EQ(plan.openings.size(), 1U);
     EXPECT_NEAR(plan.openings[0].Width(), 0.9, 0.01);
+    for (const double y : {1.0, 1.9}) {
+        const Eigen::Vector2d side =
+            (plan.T_plan_world * T * Eigen::Vector3d(4.06, y, 0)).head<2>();
+        EXPECT_LT(
+            std::min((side - plan.openings[0].begin).norm(), (side - plan.openings[0].end).norm()),
+            0.01);
+    }
     ASSERT_TRUE(plan.openings[0].thickness_m && plan.openings[0].height_m);
     EXPECT_NEAR(*plan.openings[0].thickness_m, 0.12, 0.003);
     EXPECT_NEAR(*plan.openings[0].height_m, 2.0, 0.06);
@@ -48,7 +56,7 @@ TEST(FloorPlan, MeasuresTwoRoomsAndTheDoorBetweenThem) {
 
 TEST(FloorPlan, HoldsForARoomTurnedAndTilted) {
     TriangleMesh mesh = TwoRooms();
-    std::vector<StampedPose> path = UprightPath();
+    std::vector<StampedPose> path = UprightPath(1.1);
     Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
     T.linear() = (Eigen::AngleAxisd(30 * std::numbers::pi / 180, Eigen::Vector3d::UnitZ()) *
                   Eigen::AngleAxisd(0.1, Eigen::Vector3d::UnitX()))
@@ -56,7 +64,7 @@ TEST(FloorPlan, HoldsForARoomTurnedAndTilted) {
     T.translation() = Eigen::Vector3d(3, -2, 1);
     Move(T, mesh, path);
     const FloorPlan plan = PlanOf(mesh, path);
-    ExpectTwoRooms(plan);
+    ExpectTwoRooms(plan, T);
     // In the plan, walls run along the axes; the transform takes the world there.
     for (const PlanWall& wall : plan.walls)
         EXPECT_LT(std::min(std::abs(wall.normal.x()), std::abs(wall.normal.y())), 0.002);

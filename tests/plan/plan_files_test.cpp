@@ -32,6 +32,12 @@ TEST(PlanObjects, DrawTheirBoxFromAbove) {
     EXPECT_EQ(plan.objects[0].outline.size(), 4U);
     EXPECT_NEAR(SignedArea(plan.objects[0].outline), 0.5 * 0.4, 1e-6);
     EXPECT_NEAR(plan.objects[0].high_m, 0.9, 0.01);
+    const Eigen::Isometry3d T = plan.T_plan_world * Eigen::Translation3d(1, 1, 0.45) *
+                                Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitZ());
+    const Eigen::Vector2d corner = (T * Eigen::Vector3d(0.25, 0.2, 0)).head<2>();
+    EXPECT_TRUE(std::ranges::any_of(plan.objects[0].outline, [&](const Eigen::Vector2d& p) {
+        return (p - corner).norm() < 1e-3;
+    }));
 }
 
 TEST(PlanJson, HoldsWhatWasMeasured) {
