@@ -49,7 +49,9 @@ void PrintExports() {
     fmt::print("exports      meshes .ply .obj .glb, point clouds, paths (TUM, KITTI), {}{}\n",
                "images for nerfstudio and COLMAP", volumes);
     if (!VdbAvailable()) fmt::print("             .vdb {}\n", kVdbUnavailable);
-    fmt::print("             maps for robots (.yaml .bt .npy), finished models, reports (.html)\n");
+    fmt::print(
+        "             maps for robots (.yaml .bt .npy), floor plans (.svg .dxf), finished models, "
+        "reports (.html)\n");
     if (!DecimationAvailable())
         fmt::print("             decimation of finished models {}\n", kDecimationUnavailable);
 }

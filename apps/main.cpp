@@ -77,6 +77,7 @@ int Main(int argc, char** argv) {
     AddSynthCommand(app, context);
     AddSweepCommand(app, context);
     AddInspectCommand(app, context);
+    AddPlanCommand(app, context);
     AddRenderCommand(app, context);
     AddReportCommand(app, context);
     AddMapsCommand(app, context);

@@ -41,7 +41,7 @@ configure_package_config_file(cmake/TesseraConfig.cmake.in ${CMAKE_BINARY_DIR}/T
 write_basic_package_version_file(${CMAKE_BINARY_DIR}/TesseraConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_BINARY_DIR}/TesseraConfig.cmake ${CMAKE_BINARY_DIR}/TesseraConfigVersion.cmake
     cmake/TesseraDependencies.cmake DESTINATION ${package} COMPONENT development)
-foreach(folder core io recordings mapping synth render tracking semantics eval optimize finish report scan export system run)
+foreach(folder core io recordings mapping synth render tracking semantics eval optimize finish report scan export plan system run)
     install(DIRECTORY src/${folder} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/tessera COMPONENT development
         FILES_MATCHING PATTERN "*.h")
 endforeach()

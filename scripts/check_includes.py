@@ -9,7 +9,7 @@ import re
 import sys
 
 ORDER = [["core"], ["io", "mapping"], ["synth", "render", "recordings"], ["tracking", "semantics", "eval", "finish"], ["optimize", "report"], ["scan"],
-         ["export"], ["system"], ["run", "viz", "cuda"], ["apps"]]
+         ["export"], ["plan", "system"], ["run", "viz", "cuda"], ["apps"]]
 RANK = {folder: rank for rank, folders in enumerate(ORDER) for folder in folders}
 SUFFIXES = {".h", ".cpp", ".cu", ".cuh", ".inl"}
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]')

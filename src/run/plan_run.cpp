@@ -1,0 +1,95 @@
+#include "run/plan_run.h"
+
+#include <filesystem>
+#include <optional>
+
+#include "io/mesh_io.h"
+#include "io/trajectory.h"
+#include "plan/plan_objects.h"
+#include "run/scan_export.h"
+#include "semantics/objects_file.h"
+
+namespace tessera {
+namespace {
+
+struct PlanInput {
+    TriangleMesh mesh;
+    std::vector<StampedPose> path;
+    std::vector<MapObject> objects;
+};
+
+// A camera that is held upright in a world whose `up` is up: a mesh has no path to tell.
+Result<StampedPose> UprightCamera(const std::string& up) {
+    const bool down = up.starts_with('-');
+    const std::size_t axis = std::string("xyz").find(down ? up.substr(1) : up);
+    if (up.size() != (down ? 2U : 1U) || axis == std::string::npos)
+        return Status::Error("--up: \"" + up + "\" is no direction; use x, y, z, -x, -y or -z");
+    const Eigen::Vector3d y =
+        (down ? 1.0 : -1.0) * Eigen::Vector3d::Unit(static_cast<Eigen::Index>(axis));
+    // It looks along y if that is level, so that a level mesh is not turned.
+    const Eigen::Vector3d z = axis == 1 ? Eigen::Vector3d::UnitX() : Eigen::Vector3d::UnitY();
+    StampedPose pose;
+    pose.T_world_camera.linear() << y.cross(z), y, z;
+    return pose;
+}
+
+Result<PlanInput> FromMesh(const std::string& path, const std::string& up) {
+    PlanInput input;
+    const Result<StampedPose> pose = UprightCamera(up.empty() ? "z" : up);
+    if (!pose.ok()) return pose.status();
+    input.path.push_back(pose.value());
+    Result<TriangleMesh> mesh = ReadPly(path);
+    if (!mesh.ok()) return mesh.status();
+    input.mesh = std::move(mesh.value());
+    return input;
+}
+
+Result<PlanInput> FromFolder(const std::string& folder) {
+    PlanInput input;
+    Result<TriangleMesh> mesh = ReadPly(folder + "/mesh.ply");
+    if (!mesh.ok()) return mesh.status();
+    input.mesh = std::move(mesh.value());
+    Result<Trajectory> path = ReadTrajectory(folder + "/trajectory.txt");
+    if (!path.ok()) return path.status();
+    input.path = std::move(path.value().poses);
+    const std::string file = folder + "/objects.json";
+    std::error_code ignored;
+    if (!std::filesystem::exists(file, ignored)) return input;
+    Result<std::vector<MapObject>> objects = ReadObjects(file);
+    if (!objects.ok()) return objects.status();
+    input.objects = std::move(objects.value());
+    return input;
+}
+
+Result<PlanInput> FromScanFile(const std::string& path) {
+    PlanInput input;
+    Result<ScanContent> scan = ReadScan(path, {});
+    if (!scan.ok()) return scan.status();
+    input.path = scan.value().Path();
+    Result<TriangleMesh> mesh = MeshOfScan(scan.value());
+    if (!mesh.ok()) return mesh.status();
+    input.mesh = std::move(mesh.value());
+    return input;
+}
+
+}  // namespace
+
+Result<FloorPlan> PlanOfRun(const PlanRequest& request) {
+    std::error_code ignored;
+    const std::string& path = request.input;
+    const bool is_mesh = std::filesystem::path(path).extension() == ".ply";
+    if (!is_mesh && !request.up.empty())
+        return Status::Error("--up: a run and a scan know which way is up; leave --up out");
+    Result<PlanInput> input = is_mesh ? FromMesh(path, request.up)
+                              : std::filesystem::is_directory(path, ignored) ? FromFolder(path)
+                                                                             : FromScanFile(path);
+    if (!input.ok()) return input.status();
+    Result<FloorPlan> plan = MakeFloorPlan(input.value().mesh, input.value().path, request.options);
+    if (!plan.ok())
+        return Status::Error(path + ": " + plan.message() +
+                             (is_mesh ? " (which way is up: --up)" : ""));
+    AddObjects(input.value().objects, plan.value());
+    return plan;
+}
+
+}  // namespace tessera
