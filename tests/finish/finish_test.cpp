@@ -61,21 +61,21 @@ Eigen::Array3f ColourAt(const TexturedMesh& model, std::size_t vertex) {
 
 TEST(Finish, AWallIsCleanedThinnedAndPainted) {
     std::vector<double> shares;
-    const Result<FinishedModel> finished = FinishModel(Wall(), WallCamera(), Path(), Frames(10), 10,
-                                                       {}, [&](const char*, double share) {
-                                                           shares.push_back(share);
-                                                           return true;
-                                                       });
+    const Result<FinishedModel> finished = FinishModel(
+        Wall(), WallCamera(), Path(), {{}, Frames(10), 10}, {}, [&](const char*, double share) {
+            shares.push_back(share);
+            return true;
+        });
     ASSERT_TRUE(finished.ok()) << finished.message();
     const FinishReport& report = finished.value().report;
     const TexturedMesh& model = finished.value().model;
     EXPECT_EQ(report.triangles_before, 1808u);
     EXPECT_EQ(report.islands.islands, 1u);
-    EXPECT_EQ(report.charts, 1u);
+    EXPECT_EQ(report.model().charts, 1u);
     EXPECT_EQ(report.frames, 10);
     EXPECT_GT(report.views, 2);
     EXPECT_LE(report.views, 8);
-    EXPECT_GT(report.seen_share, 0.95);
+    EXPECT_GT(report.model().seen_share, 0.95);
     if (DecimationAvailable()) EXPECT_LE(model.mesh.triangles.size(), 190u);
     ASSERT_EQ(model.uv.size(), model.mesh.vertices.size());
     for (std::size_t i = 0; i < model.uv.size(); ++i) {
@@ -93,7 +93,7 @@ TEST(Finish, CanBeCancelledAtEachStep) {
     for (int at = 0; at < 6; ++at) {
         int steps = 0;
         const Result<FinishedModel> finished =
-            FinishModel(Wall(), WallCamera(), Path(), Frames(10), 10, {},
+            FinishModel(Wall(), WallCamera(), Path(), {{}, Frames(10), 10}, {},
                         [&](const char*, double) { return steps++ < at; });
         ASSERT_FALSE(finished.ok());
         EXPECT_EQ(finished.message(), "cancelled");
@@ -106,12 +106,12 @@ TEST(Finish, AMeshWithoutColoursIsPaintedAndAnEmptyOneIsAnError) {
     mesh.colours.clear();
     const auto go_on = [](const char*, double) { return true; };
     const Result<FinishedModel> finished =
-        FinishModel(mesh, WallCamera(), Path(), Frames(1), 1, {}, go_on);
+        FinishModel(mesh, WallCamera(), Path(), {{}, Frames(1), 1}, {}, go_on);
     ASSERT_TRUE(finished.ok());
-    EXPECT_GT(finished.value().report.seen_share, 0.5);
-    EXPECT_FALSE(FinishModel({}, WallCamera(), Path(), Frames(1), 1, {}, go_on).ok());
+    EXPECT_GT(finished.value().report.model().seen_share, 0.5);
+    EXPECT_FALSE(FinishModel({}, WallCamera(), Path(), {{}, Frames(1), 1}, {}, go_on).ok());
     mesh.normals.clear();
-    const auto without = FinishModel(mesh, WallCamera(), Path(), Frames(1), 1, {}, go_on);
+    const auto without = FinishModel(mesh, WallCamera(), Path(), {{}, Frames(1), 1}, {}, go_on);
     EXPECT_NE(without.message().find("has no normals"), std::string::npos);
 }
 
