@@ -31,10 +31,11 @@ void Print(const FinishReport& r) {
                r.islands.islands, r.islands.triangles, r.islands.area_m2);
     fmt::print("flaps: {} triangles removed that frames look through, {} of the fringe\n",
                r.flaps.triangles, r.flaps.fringe);
+    const ClosedHoles& h = r.holes;
     fmt::print(
-        "holes: {} closed ({:.3f} m2); open: {} larger, {} uneven, {} that frames look "
+        "holes: {} closed ({:.3f} m2); open: {} larger, {} uneven, {} folded, {} that frames look "
         "through\n",
-        r.holes.closed, r.holes.area_m2, r.holes.large, r.holes.uneven, r.holes.through);
+        h.closed, h.area_m2, h.large, h.uneven, h.folded, h.through);
     for (const LevelReport& level : r.levels)
         fmt::print(
             "{}: {} triangles, surface moved by up to about {:.1f} mm; texture {} x {}, texels of "

@@ -6,20 +6,18 @@
 #include "core/depth_noise.h"
 #include "finish/mesh_edges.h"
 #include "finish/nearest_depth.h"
+#include "finish/noise_factor.h"
 #include "finish/smooth.h"
 
 namespace tessera {
 namespace {
 
-// The noise of a mean falls with the root of what is averaged.
 std::vector<int> RoundsOf(const std::vector<float>& sigmas_m, int rounds) {
     std::vector<int> of_vertex;
     of_vertex.reserve(sigmas_m.size());
-    for (const float sigma_m : sigmas_m) {
-        const float relative = sigma_m / 0.002f;
-        of_vertex.push_back(static_cast<int>(
-            std::lround(std::min(relative * relative, 20.0f) * static_cast<float>(rounds))));
-    }
+    for (const float sigma_m : sigmas_m)
+        of_vertex.push_back(
+            static_cast<int>(std::lround(NoiseFactor(sigma_m) * static_cast<float>(rounds))));
     return of_vertex;
 }
 
@@ -41,8 +39,8 @@ CleanSurface Clean(TriangleMesh mesh, const PinholeCamera& camera,
     CleanSurface surface;
     surface.mesh = std::move(mesh);
     if (options.remove_flaps) report.flaps = RemoveFlaps(surface.mesh, evidence);
-    report.islands = RemoveIslands(surface.mesh, options.least_island_m2);
     AddSigmas(surface.mesh, 0, camera, path, surface.sigmas_m);
+    report.islands = RemoveIslands(surface.mesh, options.least_island_m2, surface.sigmas_m);
     Smooth(surface.mesh, RoundsOf(surface.sigmas_m, options.smoothing_rounds));
     surface.first_filled = surface.mesh.triangles.size();
     if (options.hole_m > 0) {

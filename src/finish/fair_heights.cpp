@@ -78,6 +78,7 @@ std::optional<std::vector<double>> FairHeights(const PolygonMesh& mesh, std::spa
             SlopeJump jump;
             if (!jump.AddTriangle(mesh, t, k, across, 1, {0, 1, 2})) continue;
             if (beyond == PolygonMesh::kNone) {
+                if (slopes.empty()) continue;
                 jump.known = -0.5 * (slopes[a] + slopes[b]).dot(across);
                 add(jump, edge.squaredNorm(), 3);
                 continue;

@@ -83,7 +83,6 @@ class Finisher {
             lower.error_m = report.error_m + DecimateTo(mesh, 0.25);
             finished_.report.levels.push_back(lower);
             options.texel_m *= 2;
-            options.texture_side = std::max(options.texture_side / 2, 64);
         }
     }
 

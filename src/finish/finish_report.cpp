@@ -20,6 +20,7 @@ std::string FinishReportJson(const FinishReport& r) {
                                   {"outer", h.outer},
                                   {"larger", h.large},
                                   {"uneven", h.uneven},
+                                  {"folded", h.folded},
                                   {"seen_through", h.through},
                                   {"closed", h.closed},
                                   {"border_m", h.border_m},

@@ -19,9 +19,10 @@ using Eigen::Vector3d;
 constexpr std::size_t kMostEdges = 1000;
 constexpr double kLeastAgreement = 0.5;  // cosine: of the rim's normals to the plane's
 constexpr double kMostAverse = 0.1;      // share of the rim that may be turned farther away
-constexpr double kMostThrough = 0.25;    // share of the new surface that frames look through
+// Shares of the new surface: that frames look through, and that they have measured.
+constexpr double kMostThrough = 0.25, kLeastConfirmed = 0.75;
 
-enum class Outcome { kOuter, kLarge, kUneven, kThrough, kClosed };
+enum class Outcome { kOuter, kLarge, kUneven, kFolded, kThrough, kClosed };
 
 struct Patch {
     Outcome outcome = Outcome::kUneven;
@@ -38,12 +39,17 @@ class HoleCloser {
         for (std::size_t i = 0; i < loop_.size(); ++i)
             patch.border_m += (Point(i + 1) - Point(i)).norm();
         patch.outcome = Measure(size_m);
-        if (patch.outcome != Outcome::kClosed) return patch;
-        patch.outcome = Outcome::kUneven;
+        const bool even = patch.outcome == Outcome::kClosed;
+        if (!even && (patch.outcome != Outcome::kUneven || evidence.frames() == 0)) return patch;
+        if (even) patch.outcome = Outcome::kFolded;
         const std::vector<Vector2d> polygon = Flatten();
         const auto plane = MeshPolygon(polygon, patch.border_m / static_cast<double>(loop_.size()));
-        if (!plane || !Raise(*plane, patch)) return patch;
-        patch.outcome = LooksThrough(patch, evidence) ? Outcome::kThrough : Outcome::kClosed;
+        if (!plane || !Raise(*plane, even, patch)) return patch;
+        const Shares shares = Compare(patch, evidence);
+        if (shares.through > kMostThrough)
+            patch.outcome = Outcome::kThrough;
+        else if (even || shares.confirmed > kLeastConfirmed)
+            patch.outcome = Outcome::kClosed;
         return patch;
     }
 
@@ -101,12 +107,12 @@ class HoleCloser {
                          : Vector2d(0, 0);
     }
 
-    bool Raise(const PolygonMesh& plane, Patch& patch) const {
+    bool Raise(const PolygonMesh& plane, bool even, Patch& patch) const {
         std::vector<double> rim;
         std::vector<Vector2d> slopes;
         for (std::size_t i = 0; i < loop_.size(); ++i) {
             rim.push_back((Point(i) - centre_).dot(up_));
-            slopes.push_back(Slope(i));
+            if (even) slopes.push_back(Slope(i));
         }
         const auto heights = FairHeights(plane, rim, slopes);
         if (!heights) return false;
@@ -162,17 +168,22 @@ class HoleCloser {
         if (!mesh_.labels.empty()) patch.labels.push_back(mesh_.labels[loop_[nearest]]);
     }
 
+    struct Shares {  // of the new surface
+        double through = 0, confirmed = 0;
+    };
     // At the middles of the triangles.
-    bool LooksThrough(const Patch& patch, const FrameEvidence& evidence) const {
-        double through_m2 = 0;
+    Shares Compare(const Patch& patch, const FrameEvidence& evidence) const {
+        Shares shares;
         for (const auto& triangle : patch.mesh.triangles) {
             const Eigen::Vector3f &a = Vertex(patch, triangle[0]), &b = Vertex(patch, triangle[1]),
                                   &c = Vertex(patch, triangle[2]);
             const Evidence there = evidence.At((a + b + c) / 3);
-            if (there.seen_through > there.confirmed)
-                through_m2 += 0.5 * static_cast<double>((b - a).cross(c - a).norm());
+            const double share =
+                0.5 * static_cast<double>((b - a).cross(c - a).norm()) / patch.area_m2;
+            if (there.seen_through > there.confirmed) shares.through += share;
+            if (there.confirmed > there.seen_through) shares.confirmed += share;
         }
-        return through_m2 > kMostThrough * patch.area_m2;
+        return shares;
     }
 
     const TriangleMesh& mesh_;
@@ -217,6 +228,7 @@ ClosedHoles CloseHoles(TriangleMesh& mesh, double size_m, const FrameEvidence& e
             case Outcome::kOuter: ++holes.outer; break;
             case Outcome::kLarge: ++holes.large; break;
             case Outcome::kUneven: ++holes.uneven; break;
+            case Outcome::kFolded: ++holes.folded; break;
             case Outcome::kThrough: ++holes.through; break;
             case Outcome::kClosed: {
                 ++holes.closed;

