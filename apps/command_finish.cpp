@@ -33,9 +33,11 @@ void Print(const FinishReport& r) {
                r.flaps.triangles, r.flaps.fringe);
     const ClosedHoles& h = r.holes;
     fmt::print(
-        "holes: {} closed ({:.3f} m2); open: {} larger, {} uneven, {} folded, {} that frames look "
+        "holes: {} closed ({:.3f} m2, {:.0f} % of their border); open: {} larger, {} uneven, {} "
+        "folded, {} that frames look "
         "through\n",
-        h.closed, h.area_m2, h.large, h.uneven, h.folded, h.through);
+        h.closed, h.area_m2, 100 * h.closed_border_m / std::max(h.hole_border_m, 1e-9), h.large,
+        h.uneven, h.folded, h.through);
     for (const LevelReport& level : r.levels)
         fmt::print(
             "{}: {} triangles, surface moved by up to about {:.1f} mm; texture {} x {}, texels of "

@@ -24,6 +24,7 @@ std::string FinishReportJson(const FinishReport& r) {
                                   {"seen_through", h.through},
                                   {"closed", h.closed},
                                   {"border_m", h.border_m},
+                                  {"hole_border_m", h.hole_border_m},
                                   {"closed_border_m", h.closed_border_m},
                                   {"area_m2", h.area_m2},
                                   {"triangles", h.triangles}});

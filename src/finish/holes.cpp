@@ -224,6 +224,8 @@ ClosedHoles CloseHoles(TriangleMesh& mesh, double size_m, const FrameEvidence& e
     for (std::size_t i = 0; i < loops.size(); ++i) {
         const Patch& patch = patches[i];
         holes.border_m += patch.border_m;
+        if (patch.outcome != Outcome::kOuter && patch.outcome != Outcome::kLarge)
+            holes.hole_border_m += patch.border_m;
         switch (patch.outcome) {
             case Outcome::kOuter: ++holes.outer; break;
             case Outcome::kLarge: ++holes.large; break;

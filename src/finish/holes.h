@@ -18,9 +18,10 @@ struct ClosedHoles {
     std::size_t folded = 0;   // cross themselves, as seen from the front
     std::size_t through = 0;  // frames look through
     std::size_t closed = 0;
-    double border_m = 0, closed_border_m = 0;  // length of all loops, and of the closed ones
-    double area_m2 = 0;                        // of the new surface
-    std::size_t triangles = 0;                 // of the new surface
+    // Lengths: of all loops; of those that are neither outer nor large; of the closed ones.
+    double border_m = 0, hole_border_m = 0, closed_border_m = 0;
+    double area_m2 = 0;         // of the new surface
+    std::size_t triangles = 0;  // of the new surface
 };
 
 // Closes the loops that are up to size_m across (between any two of their vertices), and appends
