@@ -13,7 +13,8 @@ namespace tessera {
 struct FinishOptions {
     CleanOptions clean;
     LevelOptions texture;
-    int lower_levels = 0;  // of detail: each has a quarter of the triangles, and texels twice as wide
+    int lower_levels =
+        0;  // of detail: each has a quarter of the triangles, and texels twice as wide
 };
 
 struct FinishedModel {

@@ -1,5 +1,6 @@
 #include "finish/mesh_edges.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <tuple>
 
