@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <cmath>
+#include <ctime>
 #include <numbers>
 
 #include "finish/boundary_loops.h"
@@ -199,11 +199,11 @@ TEST(Holes, HostileMeshesTakeLittle) {
     strip.triangles.push_back({8, 9, 10});
     strip.triangles.push_back({9, 8, 10});
     strip.vertices[100] = Eigen::Vector3f::Constant(std::numeric_limits<float>::quiet_NaN());
-    const auto start = std::chrono::steady_clock::now();
+    const std::clock_t start = std::clock();  // of the processor: others may use it, too
     const std::size_t before = strip.triangles.size();
     EXPECT_LE(CloseHoles(strip, 10, {}).closed, 4u);
     EXPECT_LE(strip.triangles.size(), before + 20);
-    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(10));
+    EXPECT_LT(std::clock() - start, 10 * CLOCKS_PER_SEC);
 }
 
 // Every loop is as long as is closed at all, and as jagged as can be.
