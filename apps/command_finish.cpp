@@ -7,8 +7,11 @@
 #include "command.h"
 #include "export/level.h"
 #include "finish/decimate.h"
+#include "finish/shell.h"
 #include "io/file.h"
 #include "io/image_io.h"
+#include "io/mesh_io.h"
+#include "io/mesh_writers.h"
 #include "render/mesh_picture.h"
 #include "run/finish_run.h"
 #include "stop_signal.h"
@@ -19,25 +22,66 @@ namespace {
 struct Arguments {
     FinishRequest request;
     std::string out;
-    bool keep_triangles = false;
+    bool keep_triangles = false, keep_flaps = false;
+    double watertight_m = 0;
 };
 
-void Print(const FinishReport& r, const TexturedMesh& model) {
+void Print(const FinishReport& r) {
     fmt::print("{} triangles; {} islands of {} triangles removed ({:.3f} m2)\n", r.triangles_before,
                r.islands.islands, r.islands.triangles, r.islands.area_m2);
-    if (r.decimation_error_m > 0)
-        fmt::print("{} triangles left; surface moved by up to about {:.1f} mm\n",
-                   model.mesh.triangles.size(), 1000 * r.decimation_error_m);
+    fmt::print("flaps: {} triangles removed that frames look through, {} of the fringe\n",
+               r.flaps.triangles, r.flaps.fringe);
+    const ClosedHoles& h = r.holes;
     fmt::print(
-        "texture: {} x {}, texels of {:.1f} mm in {} charts; {} of {} frames, which show {:.1f} % "
-        "of it\n",
-        model.texture.width(), model.texture.height(), 1000 * r.texel_m, r.charts, r.views,
-        r.frames, 100 * r.seen_share);
+        "holes: {} closed ({:.3f} m2, {:.0f} % of their border); open: {} larger, {} uneven, {} "
+        "folded, {} that frames look "
+        "through\n",
+        h.closed, h.area_m2, 100 * h.closed_border_m / std::max(h.hole_border_m, 1e-9), h.large,
+        h.uneven, h.folded, h.through);
+    for (const LevelReport& level : r.levels)
+        fmt::print(
+            "{}: {} triangles, surface moved by up to about {:.1f} mm; texture {} x {}, texels of "
+            "{:.1f} mm in {} charts, {:.1f} % of it seen\n",
+            &level == &r.levels.front() ? "model" : "lower level", level.triangles,
+            1000 * level.error_m, level.width, level.height, 1000 * level.texel_m, level.charts,
+            100 * level.seen_share);
+    fmt::print("texture from {} of {} frames\n", r.views, r.frames);
+}
+
+// The models of all levels, and what else was asked for.
+Status WriteModels(const Arguments& a, const FinishedModel& finished) {
+    const auto upright = [&](const TexturedMesh& model) {
+        TexturedMesh turned = model;
+        if (a.request.level) turned.mesh = WithYDown(std::move(turned.mesh));
+        return turned;
+    };
+    const TexturedMesh& model = finished.model;
+    const MeshView view = ChooseView(model.mesh);
+    for (Status status : {WriteTexturedGlb(a.out + "/model.glb", upright(model)),
+                          WriteTexturedObj(a.out + "/model.obj", model),
+                          WriteColourImage(a.out + "/preview.png",
+                                           RenderTextured(model, view.camera, view.T_world_camera)),
+                          WriteTextFile(a.out + "/finish.json", FinishReportJson(finished.report)),
+                          WritePly(a.out + "/filled.ply", finished.filled)})
+        if (!status.ok()) return status;
+    for (std::size_t i = 0; i < finished.lower_levels.size(); ++i) {
+        Status status = WriteTexturedGlb(fmt::format("{}/model_lod{}.glb", a.out, i + 1),
+                                         upright(finished.lower_levels[i]));
+        if (!status.ok()) return status;
+    }
+    if (a.watertight_m <= 0) return Status::Ok();
+    const Shell shell = MakeShell(finished.surface, a.watertight_m);
+    fmt::print("watertight.obj: {} closed pieces, {} open ones as plates\n", shell.closed_pieces,
+               shell.open_pieces);
+    return WriteObj(a.out + "/watertight.obj", shell.mesh);
 }
 
 Status Finish(const Arguments& a) {
     FinishRequest request = a.request;
-    if (a.keep_triangles) request.options.decimation_share = 1;
+    request.options.clean.remove_flaps = !a.keep_flaps;
+    if (a.keep_triangles) request.options.clean.decimation_share = 1;
+    if (!DecimationAvailable() && request.options.lower_levels > 0)
+        return Status::Error(fmt::format("--levels: decimation is {}", kDecimationUnavailable));
     if (!a.keep_triangles && !DecimationAvailable())
         fmt::print(stderr, "tessera: all triangles are kept: decimation is {}\n",
                    kDecimationUnavailable);
@@ -51,18 +95,8 @@ Status Finish(const Arguments& a) {
     const Result<FinishedModel> finished = FinishRun(request, progress);
     if (terminal) fmt::print(stderr, "\r{:<18}\r", "");
     if (!finished.ok()) return finished.status();
-    const TexturedMesh& model = finished.value().model;
-    Print(finished.value().report, model);
-    const MeshView view = ChooseView(model.mesh);
-    TexturedMesh upright = model;
-    if (request.level) upright.mesh = WithYDown(std::move(upright.mesh));
-    for (Status status :
-         {WriteTexturedGlb(a.out + "/model.glb", upright),
-          WriteTexturedObj(a.out + "/model.obj", model),
-          WriteColourImage(a.out + "/preview.png",
-                           RenderTextured(model, view.camera, view.T_world_camera))})
-        if (!status.ok()) return status;
-    return Status::Ok();
+    Print(finished.value().report);
+    return WriteModels(a, finished.value());
 }
 
 }  // namespace
@@ -81,17 +115,24 @@ void AddFinishCommand(CLI::App& app, CommandContext& context) {
                      "The run's recording, if it has moved since (default: as in run.json)")
         ->type_name("SOURCE");
     command
-        ->add_option("--island", a->request.options.least_island_m2,
+        ->add_option("--island", a->request.options.clean.least_island_m2,
                      "Remove loose pieces of less surface than this, square metres")
         ->check(CLI::NonNegativeNumber)
         ->capture_default_str();
     command
-        ->add_option("--smoothing", a->request.options.smoothing_rounds,
+        ->add_option("--smoothing", a->request.options.clean.smoothing_rounds,
                      "Rounds of smoothing; 0 leaves the surface as it was fused")
         ->check(CLI::Range(0, 1000))
         ->capture_default_str();
     command
-        ->add_option("--error", a->request.options.decimation_error_m,
+        ->add_option("--close-holes", a->request.options.clean.hole_m,
+                     "Close holes up to this size, metres; 0 leaves all open")
+        ->check(CLI::Range(0.0, 2.0))
+        ->capture_default_str();
+    command->add_flag("--keep-flaps", a->keep_flaps,
+                      "Keep surface that frames look through, and the fringe of the border");
+    command
+        ->add_option("--error", a->request.options.clean.decimation_error_m,
                      "Remove triangles while the surface moves by less than this, metres")
         ->check(CLI::NonNegativeNumber)
         ->capture_default_str();
@@ -99,12 +140,21 @@ void AddFinishCommand(CLI::App& app, CommandContext& context) {
                       "z up and the floor at z = 0, instead of the first camera's axes");
     command->add_flag("--keep-triangles", a->keep_triangles, "Remove no triangles");
     command
-        ->add_option("--texel", a->request.options.texel_m,
+        ->add_option("--levels", a->request.options.lower_levels,
+                     "Lower levels of detail, model_lod1.glb ...: each a quarter of the triangles")
+        ->check(CLI::Range(0, 6))
+        ->capture_default_str();
+    command
+        ->add_option("--watertight", a->watertight_m,
+                     "Write watertight.obj, too: open surfaces become plates so thick, metres")
+        ->check(CLI::Range(0.0001, 1.0));
+    command
+        ->add_option("--texel", a->request.options.texture.texel_m,
                      "Side of a texel on the surface, metres; larger if the texture does not fit")
         ->check(CLI::Range(0.0002, 0.1))
         ->capture_default_str();
     command
-        ->add_option("--texture", a->request.options.texture_side,
+        ->add_option("--texture", a->request.options.texture.texture_side,
                      "Largest side of the texture, texels")
         ->check(CLI::Range(256, 8192))
         ->capture_default_str();

@@ -10,6 +10,8 @@
 namespace tessera {
 namespace {
 
+constexpr double kAnyError_m = 1e6;
+
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
 // Decimates some of a mesh's triangles. With meshopt_SimplifyLockBorder among the options, the
@@ -60,6 +62,14 @@ double Decimate(TriangleMesh& mesh, const std::vector<float>& sigmas_m, double e
                                     share, options, reached_m);
         mesh.triangles.insert(mesh.triangles.end(), kept.begin(), kept.end());
     }
+    DropUnusedVertices(mesh);
+    return reached_m;
+}
+
+double DecimateTo(TriangleMesh& mesh, double share) {
+    if (mesh.triangles.empty()) return 0;
+    double reached_m = 0;
+    mesh.triangles = Thin(mesh, mesh.triangles, kAnyError_m, share, 0, reached_m);
     DropUnusedVertices(mesh);
     return reached_m;
 }

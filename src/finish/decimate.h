@@ -21,4 +21,8 @@ inline constexpr const char* kDecimationUnavailable =
 double Decimate(TriangleMesh& mesh, const std::vector<float>& sigmas_m, double error_m,
                 double share);
 
+// Removes triangles until `share` of them is left, or as many as the surface's connections need,
+// whatever the error. Returns it, metres. Thread-safe.
+double DecimateTo(TriangleMesh& mesh, double share);
+
 }  // namespace tessera

@@ -1,5 +1,6 @@
 #include "finish/mesh_edges.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <tuple>
 
@@ -47,6 +48,11 @@ std::vector<std::array<std::uint32_t, 3>> TriangleNeighbours(const TriangleMesh&
 }
 
 void DropUnusedVertices(TriangleMesh& mesh) {
+    std::vector<float> none;
+    DropUnusedVertices(mesh, none);
+}
+
+void DropUnusedVertices(TriangleMesh& mesh, std::vector<float>& property) {
     std::vector<std::uint32_t> number_of(mesh.vertices.size(), kNoTriangle);
     for (const auto& triangle : mesh.triangles)
         for (const std::uint32_t vertex : triangle) number_of[vertex] = 0;
@@ -57,6 +63,7 @@ void DropUnusedVertices(TriangleMesh& mesh) {
     Keep(mesh.normals, number_of, count);
     Keep(mesh.colours, number_of, count);
     Keep(mesh.labels, number_of, count);
+    Keep(property, number_of, count);
     for (auto& triangle : mesh.triangles)
         for (std::uint32_t& vertex : triangle) vertex = number_of[vertex];
 }

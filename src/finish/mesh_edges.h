@@ -18,6 +18,8 @@ std::vector<std::array<std::uint32_t, 3>> TriangleNeighbours(const TriangleMesh&
 // Drops the vertices that no triangle uses, with all their properties, and keeps the order of the
 // others.
 void DropUnusedVertices(TriangleMesh& mesh);
+// `property`: one per vertex, or none.
+void DropUnusedVertices(TriangleMesh& mesh, std::vector<float>& property);
 
 // The triangle's normal times its area, out of the surface.
 Eigen::Vector3f AreaNormal(const TriangleMesh& mesh, const std::array<std::uint32_t, 3>& triangle);

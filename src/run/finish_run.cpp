@@ -100,6 +100,63 @@ class Poses {
     std::unordered_map<std::int64_t, Eigen::Isometry3d> poses_;
 };
 
+// Reads a source's frames twice, with their poses: some of them, then all. Owner thread only.
+class FinishFrameReader {
+  public:
+    FinishFrameReader(std::unique_ptr<FrameSource> source, const std::vector<StampedPose>& path)
+        : info_(source->info()), source_(std::move(source)), poses_(path) {
+        stride_ = (info_.frame_count + FrameEvidence::kMostFrames - 1) / FrameEvidence::kMostFrames;
+    }
+
+    const SourceInfo& info() const { return info_; }
+    // Why reading has failed.
+    const Status& status() const { return failed_; }
+    // How many of all frames have colour and a pose.
+    std::int64_t posed() const { return posed_; }
+
+    // A source that cannot go back to its start, or whose length is not known, has no sample.
+    bool NextOfSample(Frame& frame) {
+        while (next_ < info_.frame_count) {
+            if (!source_->Seek(next_)) return false;
+            next_ += stride_;
+            const ReadResult read = source_->Read(frame);
+            if (read.status == ReadStatus::kSkip || read.status == ReadStatus::kWait) continue;
+            if (read.status == ReadStatus::kError) failed_ = Status::Error(read.message);
+            if (read.status != ReadStatus::kOk) return false;
+            frame.T_world_camera = poses_.At(frame.stamp_s);
+            return true;
+        }
+        return false;
+    }
+
+    // On a thread of its own, ahead.
+    bool Next(Frame& frame) {
+        if (!failed_.ok()) return false;
+        if (source_) {
+            if (next_ > 0 && !source_->Seek(0))
+                failed_ = Status::Error(info_.name + ": cannot be read twice");
+            if (!failed_.ok()) return false;
+            reader_ = std::make_unique<FrameReader>(std::move(source_), FrameSelection{});
+        }
+        ReadResult read;
+        do read = reader_->Next(frame);
+        while (read.status == ReadStatus::kSkip || read.status == ReadStatus::kWait);
+        if (read.status == ReadStatus::kError) failed_ = Status::Error(read.message);
+        if (read.status != ReadStatus::kOk) return false;
+        frame.T_world_camera = poses_.At(frame.stamp_s);
+        posed_ += frame.T_world_camera.has_value() && !frame.colour.empty();
+        return true;
+    }
+
+  private:
+    const SourceInfo info_;
+    std::unique_ptr<FrameSource> source_;  // until the reader has it
+    std::unique_ptr<FrameReader> reader_;
+    const Poses poses_;
+    Status failed_;
+    std::int64_t stride_ = 1, next_ = 0, posed_ = 0;
+};
+
 }  // namespace
 
 Result<FinishedModel> FinishRun(const FinishRequest& request, const FinishProgress& progress) {
@@ -115,27 +172,16 @@ Result<FinishedModel> FinishRun(const FinishRequest& request, const FinishProgre
         if (!level.ok()) return Status::Error("--level: " + path + ": " + level.message());
         MakeLevel(level.value(), input.value().mesh, input.value().path);
     }
-    const SourceInfo info = input.value().frames->info();
-    const Poses poses(input.value().path);
-    FrameReader reader(std::move(input.value().frames), {});
-    Status failed = Status::Ok();
-    std::int64_t posed = 0;
-    const auto next = [&](Frame& frame) {
-        ReadResult read;
-        do read = reader.Next(frame);
-        while (read.status == ReadStatus::kSkip || read.status == ReadStatus::kWait);
-        if (read.status == ReadStatus::kError) failed = Status::Error(read.message);
-        if (read.status != ReadStatus::kOk) return false;
-        frame.T_world_camera = poses.At(frame.stamp_s);
-        posed += frame.T_world_camera.has_value() && !frame.colour.empty();
-        return true;
-    };
+    FinishFrameReader reader(std::move(input.value().frames), input.value().path);
+    const SourceInfo info = reader.info();
+    const FinishFrames frames{[&](Frame& frame) { return reader.NextOfSample(frame); },
+                              [&](Frame& frame) { return reader.Next(frame); }, info.frame_count};
     Result<FinishedModel> finished =
-        FinishModel(std::move(input.value().mesh), info.camera, input.value().path, next,
-                    info.frame_count, request.options, progress);
-    if (!failed.ok()) return failed;
+        FinishModel(std::move(input.value().mesh), info.camera, input.value().path, frames,
+                    request.options, progress);
+    if (!reader.status().ok()) return reader.status();
     if (!finished.ok()) return Status::Error(path + ": " + finished.message());
-    if (posed == 0)
+    if (reader.posed() == 0)
         return Status::Error(path + ": no frame of " + info.name +
                              " has both colour and a pose of the path; is it the run's source?");
     return finished;

@@ -56,6 +56,21 @@ TEST_F(Decimation, ASphereStaysWithinTheError) {
     EXPECT_NEAR(static_cast<double>(shared.triangles.size()), 0.5 * static_cast<double>(before), 4);
 }
 
+TEST_F(Decimation, ALowerLevelHasItsShareWhateverTheError) {
+    TriangleMesh mesh = Sphere(0.5f, 60);
+    const std::size_t before = mesh.triangles.size();
+    const double first = DecimateTo(mesh, 0.25);
+    EXPECT_NEAR(static_cast<double>(mesh.triangles.size()), 0.25 * static_cast<double>(before), 4);
+    EXPECT_GT(first, 1e-5);
+    const double second = DecimateTo(mesh, 0.25);
+    EXPECT_GT(second, first);
+    for (const auto& [a, b, c] : mesh.triangles)
+        EXPECT_NEAR(((mesh.vertices[a] + mesh.vertices[b] + mesh.vertices[c]) / 3).norm(), 0.5,
+                    10 * second);
+    TriangleMesh empty;
+    EXPECT_EQ(DecimateTo(empty, 0.25), 0);
+}
+
 // Half of a plane with ripples of 4 mm was measured to 1 mm, half to 16 mm.
 TEST_F(Decimation, WhereDepthIsNoisyMoreIsGivenUp) {
     TriangleMesh mesh = Square({0, 0, 2}, {1, 0, 0}, {0, 1, 0}, 1.0f, 40);

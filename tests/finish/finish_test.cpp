@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "finish/decimate.h"
 #include "finish/meshes.h"
 #include "finish/wall_frames.h"
@@ -61,21 +63,21 @@ Eigen::Array3f ColourAt(const TexturedMesh& model, std::size_t vertex) {
 
 TEST(Finish, AWallIsCleanedThinnedAndPainted) {
     std::vector<double> shares;
-    const Result<FinishedModel> finished = FinishModel(Wall(), WallCamera(), Path(), Frames(10), 10,
-                                                       {}, [&](const char*, double share) {
-                                                           shares.push_back(share);
-                                                           return true;
-                                                       });
+    const Result<FinishedModel> finished = FinishModel(
+        Wall(), WallCamera(), Path(), {{}, Frames(10), 10}, {}, [&](const char*, double share) {
+            shares.push_back(share);
+            return true;
+        });
     ASSERT_TRUE(finished.ok()) << finished.message();
     const FinishReport& report = finished.value().report;
     const TexturedMesh& model = finished.value().model;
     EXPECT_EQ(report.triangles_before, 1808u);
     EXPECT_EQ(report.islands.islands, 1u);
-    EXPECT_EQ(report.charts, 1u);
+    EXPECT_EQ(report.model().charts, 1u);
     EXPECT_EQ(report.frames, 10);
     EXPECT_GT(report.views, 2);
     EXPECT_LE(report.views, 8);
-    EXPECT_GT(report.seen_share, 0.95);
+    EXPECT_GT(report.model().seen_share, 0.95);
     if (DecimationAvailable()) EXPECT_LE(model.mesh.triangles.size(), 190u);
     ASSERT_EQ(model.uv.size(), model.mesh.vertices.size());
     for (std::size_t i = 0; i < model.uv.size(); ++i) {
@@ -89,11 +91,61 @@ TEST(Finish, AWallIsCleanedThinnedAndPainted) {
     EXPECT_EQ(shares.back(), 1);
 }
 
+// A hole of 6 cm, a board that was carried off before the other frames, and lower levels.
+TEST(Finish, HolesAreClosedFlapsGoAndLowerLevelsAreLighter) {
+    TriangleMesh mesh = Wall();
+    std::erase_if(mesh.triangles, [&](const auto& t) {
+        return (mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]]).norm() < 0.09f;
+    });
+    Append(mesh, Square({-0.1f, -0.1f, -0.2f}, {1, 0, 0}, {0, 1, 0}, 0.15f, 10));
+    FinishOptions options;
+    options.lower_levels = 2;
+    options.clean.decimation_share = 1;
+    const auto finish = [&] {
+        auto finished = FinishModel(mesh, WallCamera(), Path(), {Frames(10), Frames(10), 10},
+                                    options, [](const char*, double) { return true; });
+        EXPECT_TRUE(finished.ok()) << finished.message();
+        return std::move(finished.value());
+    };
+    const FinishedModel finished = finish();
+    const FinishReport& report = finished.report;
+    EXPECT_EQ(report.evidence_frames, 8u);
+    EXPECT_GE(report.flaps.triangles, 200u);  // the board, and the crumb
+    EXPECT_EQ(report.holes.closed, 1u);
+    EXPECT_NEAR(report.holes.area_m2, 3.14 * 0.03 * 0.03, 8e-4);
+    EXPECT_FALSE(finished.filled.triangles.empty());
+    for (const Eigen::Vector3f& v : finished.model.mesh.vertices) EXPECT_NEAR(v.z(), 0, 1e-5);
+    EXPECT_GT(report.model().seen_share, 0.95);
+    ASSERT_EQ(report.levels.size(), 3u);
+    ASSERT_EQ(finished.lower_levels.size(), 2u);
+    for (std::size_t i = 0; DecimationAvailable() && i < 2; ++i) {
+        const TexturedMesh& level = finished.lower_levels[i];
+        const LevelReport &lower = report.levels[i + 1], &above = report.levels[i];
+        EXPECT_EQ(level.mesh.triangles.size(), lower.triangles);
+        EXPECT_LE(lower.triangles, above.triangles / 4 + 1);
+        EXPECT_GE(lower.texel_m, 1.9 * above.texel_m);
+        EXPECT_GE(lower.error_m, above.error_m);
+        EXPECT_GT(lower.seen_share, 0.95);
+        std::size_t wrong = 0;  // corners of slivers without texels
+        for (std::size_t v = 0; v < level.uv.size(); ++v) {
+            const Eigen::Vector3f& p = level.mesh.vertices[v];
+            wrong += (ColourAt(level, v) - WallPaint(p.x(), p.y())).abs().maxCoeff() > 40;
+        }
+        EXPECT_LE(wrong, level.uv.size() / 20);
+    }
+    options.clean.hole_m = 0;
+    options.clean.remove_flaps = false;
+    const FinishedModel kept = finish();
+    EXPECT_EQ(kept.report.holes.closed, 0u);
+    EXPECT_EQ(kept.report.flaps.triangles, 0u);
+    EXPECT_TRUE(kept.filled.triangles.empty());
+}
+
 TEST(Finish, CanBeCancelledAtEachStep) {
     for (int at = 0; at < 6; ++at) {
         int steps = 0;
         const Result<FinishedModel> finished =
-            FinishModel(Wall(), WallCamera(), Path(), Frames(10), 10, {},
+            FinishModel(Wall(), WallCamera(), Path(), {{}, Frames(10), 10}, {},
                         [&](const char*, double) { return steps++ < at; });
         ASSERT_FALSE(finished.ok());
         EXPECT_EQ(finished.message(), "cancelled");
@@ -106,12 +158,12 @@ TEST(Finish, AMeshWithoutColoursIsPaintedAndAnEmptyOneIsAnError) {
     mesh.colours.clear();
     const auto go_on = [](const char*, double) { return true; };
     const Result<FinishedModel> finished =
-        FinishModel(mesh, WallCamera(), Path(), Frames(1), 1, {}, go_on);
+        FinishModel(mesh, WallCamera(), Path(), {{}, Frames(1), 1}, {}, go_on);
     ASSERT_TRUE(finished.ok());
-    EXPECT_GT(finished.value().report.seen_share, 0.5);
-    EXPECT_FALSE(FinishModel({}, WallCamera(), Path(), Frames(1), 1, {}, go_on).ok());
+    EXPECT_GT(finished.value().report.model().seen_share, 0.5);
+    EXPECT_FALSE(FinishModel({}, WallCamera(), Path(), {{}, Frames(1), 1}, {}, go_on).ok());
     mesh.normals.clear();
-    const auto without = FinishModel(mesh, WallCamera(), Path(), Frames(1), 1, {}, go_on);
+    const auto without = FinishModel(mesh, WallCamera(), Path(), {{}, Frames(1), 1}, {}, go_on);
     EXPECT_NE(without.message().find("has no normals"), std::string::npos);
 }
 

@@ -39,6 +39,17 @@ TEST(Islands, TheLargestStaysHoweverSmall) {
     EXPECT_EQ(RemoveIslands(empty, 1).islands, 0u);
 }
 
+TEST(Islands, WhereDepthIsNoisyLargerOnesGo) {
+    TriangleMesh mesh = Square({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 1.0f, 10);
+    Append(mesh, Square({0, 0, 1}, {1, 0, 0}, {0, 1, 0}, 0.2f, 2));  // 0.04 m2
+    Append(mesh, Square({0, 0, 2}, {1, 0, 0}, {0, 1, 0}, 0.2f, 2));
+    std::vector<float> sigmas_m(mesh.vertices.size(), 0.002f);
+    for (std::size_t v = 130; v < sigmas_m.size(); ++v) sigmas_m[v] = 0.005f;  // of the last
+    EXPECT_EQ(RemoveIslands(mesh, 0.01, sigmas_m).islands, 1u);
+    EXPECT_EQ(mesh.vertices.size(), 130u);
+    EXPECT_EQ(sigmas_m, std::vector<float>(130, 0.002f));
+}
+
 // Pieces that meet in a vertex only are two.
 TEST(Islands, AVertexDoesNotJoin) {
     TriangleMesh mesh = Square({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 1.0f, 1);

@@ -111,7 +111,7 @@ TEST_F(FinishedDesk, IsSharperThanVertexColoursAtOtherPlaces) {
               << " dB by texture\n";
     EXPECT_GT(texture_db, vertex_db + 4);
     const FinishReport& report = finished.value().report;
-    EXPECT_GT(report.seen_share, 0.85);
+    EXPECT_GT(report.model().seen_share, 0.85);
     EXPECT_EQ(report.frames, 60);
 }
 
@@ -123,7 +123,7 @@ TEST_F(FinishedDesk, AScanIsFinishedByItsOwnFrames) {
     ASSERT_TRUE(finished.ok()) << finished.message();
     EXPECT_EQ(finished.value().report.frames, 20);
     EXPECT_GT(finished.value().report.views, 0);
-    EXPECT_GT(finished.value().report.seen_share, 0.8);
+    EXPECT_GT(finished.value().report.model().seen_share, 0.8);
 }
 
 TEST_F(FinishedDesk, WhatIsMissingIsNamed) {
