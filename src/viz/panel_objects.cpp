@@ -57,7 +57,7 @@ class NamePlates {
 void DrawDetector(const ViewerState& state) {
     const SystemView& system = state.system;
     ImGui::PushFont(SmallFont());
-    if (!state.options.labelled)
+    if (!state.labelled())
         LabelledValue("Detector", "off: run with --labels to enable", palette::kDim);
     else if (system.labels().stopped)
         LabelledValue("Detector", "failed: see the messages", palette::kBad);
@@ -73,12 +73,12 @@ void DrawDetector(const ViewerState& state) {
 
 // Labelling on and off, and the classes whose detections count.
 void DrawLabelSettings(ViewerState& state) {
-    if (!state.options.labelled || state.link == nullptr) return;
+    if (!state.labelled() || state.link == nullptr) return;
     ImGui::BeginDisabled(state.ended());
-    if (MarkedCheckbox(state.controls, "labelling", "Label", state.settings.labels.on))
+    if (MarkedCheckbox(state.controls, "labelling", "Label objects", state.settings.labels.on))
         state.SendSettings();
     Tip("Off: nothing is detected; labels stay as they are");
-    ImGui::SameLine(Scaled(88));
+    ImGui::SameLine(Scaled(150));
     if (MarkedButton(state.controls, "classes", "Classes", Scaled(88))) ImGui::OpenPopup("classes");
     Tip("The classes that are labelled from now on");
     ImGui::SetNextWindowSizeConstraints({0, 0}, {Scaled(240), Scaled(300)});

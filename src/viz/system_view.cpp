@@ -64,6 +64,7 @@ void SystemView::Say(const std::string& text) {
 
 void SystemView::Add(FrameUpdate&& update, double now_s) {
     const FrameReport& report = update.report;
+    recent_.Add(update, now_s);
     if (report.first) {
         path_.clear();
         truth_.clear();

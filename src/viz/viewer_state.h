@@ -5,12 +5,13 @@
 #include <string>
 
 #include "viz/controls.h"
+#include "viz/quality.h"
 #include "viz/system_view.h"
 #include "viz/viewer.h"
 
 namespace tessera {
 
-inline constexpr int kShadings = 5;
+inline constexpr int kShadings = 6;
 const char* ToString(Shading shading);
 
 struct ViewChoices {
@@ -18,6 +19,9 @@ struct ViewChoices {
     bool keep_all = false;  // keep all of the mesh in view
     bool wireframe = false, depth_test = true, follow = true, show_truth = true;
     bool show_objects = true;  // boxes and names
+    bool coverage = true;      // kScan: show the coverage instead of colours alone
+    bool camera_image = true;  // kScan: what the camera sees, in a corner
+    bool first_person = false;  // look from the camera's place instead of from behind it
 };
 
 // Owner thread only.
@@ -27,13 +31,16 @@ struct ViewerState {
         view.shading = given.shading;
         view.follow = given.follow;
         view.keep_all = !given.follow;
+        view_kind = to_system ? given.view_kind : ViewKind::kExpert;
     }
 
     ViewerLink* const link;  // null: a model without a running system
     const ViewerOptions options;
     SystemView system;
     Controls controls;
+    ViewKind view_kind = ViewKind::kExpert;
     ViewChoices view;
+    double now_s = 0;  // of this round, on the window's clock
     ViewerSettings settings;  // as last sent
     int selected_object = 0;  // MapObject::id; 0: none
     bool ask_reset = false, show_help = false, close = false, want_screenshot = false;
@@ -41,6 +48,14 @@ struct ViewerState {
     bool ended() const { return !link || link->ended; }
     bool paused() const { return link && link->paused; }
     bool recording() const { return link && link->recording; }
+    // The system, or what it left, can still be saved.
+    bool can_save() const { return link && (!link->ended || link->keeps_map); }
+    // Objects are labelled, since the start or since a detector was chosen.
+    bool labelled() const { return options.labelled || system.classes().count() > 0; }
+    // A question is on screen. It gets all keys, and the mouse.
+    bool asks() const { return ask_reset; }
+    Shading shading() const;
+    Quality quality() const;
     // Sends all settings; call after changing `settings`.
     void SendSettings();
     void SelectMethod(TrackingMethod method);
@@ -56,7 +71,9 @@ struct ViewerState {
     void CycleShading();  // skips shadings without data
     bool CanShade(Shading shading) const;
     void ToggleFollow();
+    void ToggleFirstPerson();
     void ViewAll();
+    void SwitchView();  // between kScan and kExpert
     // Handles a key of the window: GLFW_KEY_* and GLFW_MOD_*.
     void OnKey(int key, int mods);
     // Returns "DIR/PREFIX-YYYYMMDD-HHMMSS.EXTENSION", with a number appended if that exists.
@@ -65,6 +82,7 @@ struct ViewerState {
 
   private:
     void Send(ViewerCommand::Kind kind, const std::string& path = {});
+    void Answer(int key);
 };
 
 }  // namespace tessera

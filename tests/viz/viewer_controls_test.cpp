@@ -191,6 +191,43 @@ TEST_F(ViewerControls, HelpComesAndGoes) {
     EXPECT_FALSE(viewer_->FindControl("help.panel"));
 }
 
+// No key and no click gets past the question to the run beneath.
+TEST_F(ViewerControls, AQuestionHoldsKeyboardAndMouse) {
+    Frames(3);
+    MoveTo("view");
+    Key(XK_r);
+    ASSERT_TRUE(viewer_->FindControl("reset.confirm"));
+    for (const unsigned long key : {XK_space, XK_m, XK_2, XK_q, XK_Tab})
+        Key(key);
+    for (const char* name : {"pause", "method.icp"}) Click(name);
+    EXPECT_TRUE(Commands().empty());
+    EXPECT_EQ(LastSettings(), nullptr);
+    EXPECT_TRUE(viewer_->FindControl("reset.confirm"));
+    EXPECT_TRUE(viewer_->FindControl("method.icp"));  // still the expert view
+    Key(XK_Escape);
+    EXPECT_FALSE(viewer_->FindControl("reset.confirm"));
+    EXPECT_TRUE(Commands().empty());
+    Key(XK_space);  // reaches the run again
+    EXPECT_EQ(Commands(), std::vector{Kind::kPause});
+    Key(XK_r);
+    Key(XK_Return);
+    EXPECT_EQ(Commands(), (std::vector{Kind::kPause, Kind::kReset}));
+}
+
+// The map of an ended run can still be saved, if whoever ran it keeps it.
+TEST_F(ViewerControls, SavingIsPossibleAfterTheEnd) {
+    Frames(2);
+    link_.keeps_map = true;
+    link_.ended = true;
+    Rounds(4);
+    Click("save_mesh");
+    Key(XK_k);
+    Click("pause");
+    std::vector<Kind> kinds;
+    for (ViewerCommand command; link_.commands.TryPop(command);) kinds.push_back(command.kind);
+    EXPECT_EQ(kinds, (std::vector{Kind::kSaveMesh, Kind::kSaveScan}));
+}
+
 // After the end of the run no system receives commands.
 TEST_F(ViewerControls, AfterTheEndNothingIsSent) {
     Frames(2);
