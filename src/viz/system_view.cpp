@@ -42,7 +42,10 @@ bool SystemView::TakeLabels(ViewerLink& link, double now_s) {
         labels_ = std::move(labels);
         any = true;
     }
-    any |= link.classes.TryPop(classes_);
+    if (link.classes.TryPop(classes_)) {  // a detector is in use, perhaps after another failed
+        labels_.stopped = false;
+        any = true;
+    }
     std::vector<MapObject> objects;
     while (link.objects.TryPop(objects)) {
         SetObjects(std::move(objects));

@@ -47,6 +47,13 @@ void ViewerState::UseClass(int id, bool on) {
     SendSettings();
 }
 
+// Labelling that was off begins again.
+void ViewerState::UseDetector(const std::string& name) {
+    settings.detector = name;
+    settings.labels.on = true;
+    SendSettings();
+}
+
 void ViewerState::TogglePause() {
     if (ended()) return;
     Send(paused() ? ViewerCommand::Kind::kResume : ViewerCommand::Kind::kPause);

@@ -2,6 +2,7 @@
 // controls. A button and its key call the same function.
 #pragma once
 
+#include <array>
 #include <string>
 
 #include "viz/controls.h"
@@ -42,6 +43,7 @@ struct ViewerState {
     ViewChoices view;
     double now_s = 0;  // of this round, on the window's clock
     ViewerSettings settings;  // as last sent
+    std::array<char, 1024> typed_path{};  // of a detector
     int selected_object = 0;  // MapObject::id; 0: none
     bool ask_reset = false, show_help = false, close = false, want_screenshot = false;
 
@@ -62,6 +64,11 @@ struct ViewerState {
     // Rasterised or ray cast, for ICP and for labels.
     void RasteriseViews(bool on);
     void UseClass(int id, bool on);
+    void UseDetector(const std::string& name);
+    // The one in use, or last chosen; empty: none.
+    const std::string& detector() const {
+        return settings.detector.empty() ? options.detector : settings.detector;
+    }
     void TogglePause();
     void Step();
     void Reset();  // after the user confirmed

@@ -92,6 +92,29 @@ TEST_F(ViewerControls, ViewsAreRasterisedAndClassesChosen) {
     EXPECT_TRUE(LastSettings()->labels.ignored.none());
 }
 
+class ViewerDetectors : public ViewerControls {
+  protected:
+    void SetUp() override {
+        first_options_.models = {"models/a.onnx", "models/b.onnx"};
+        ViewerControls::SetUp();
+    }
+};
+
+TEST_F(ViewerDetectors, ADetectorIsChosenFromTheListOrByItsPath) {
+    Frames(1);
+    Click("detector.choose");
+    Click("detector.b.onnx");
+    ASSERT_NE(LastSettings(), nullptr);
+    EXPECT_EQ(LastSettings()->detector, "models/b.onnx");
+    EXPECT_FALSE(viewer_->FindControl("detector.path"));  // the list has closed
+    Click("detector.choose");
+    Click("detector.path");
+    for (const unsigned long key : {XK_q, XK_period, XK_c, XK_f, XK_g}) Key(key);
+    Key(XK_Return);
+    EXPECT_EQ(LastSettings()->detector, "q.cfg");  // q, in a text, is no key of the window
+    EXPECT_TRUE(Commands().empty());
+}
+
 TEST_F(ViewerControls, PauseStepAndResume) {
     Frames(2);
     Click("pause");
