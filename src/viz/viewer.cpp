@@ -67,7 +67,7 @@ struct Viewer::Impl {
     Stopwatch clock;
     double drawn_at_s = -1e9, view_drawn_at_s = -1e9, view_cost_s = 0, followed_at_s = 0;
     int rounds_to_draw = kSettlingRounds;
-    bool sent_stop = false, ended_seen = false;
+    bool sent_stop = false, ended_seen = false, paused_seen = false;
     bool scene_waits = false;  // the last frame was too soon for redrawing the 3D view
 };
 
@@ -143,8 +143,10 @@ bool Viewer::Impl::RunOnce() {
         if (state.system.Take(*link, now_s)) rounds_to_draw = std::max(rounds_to_draw, 1);
         constexpr std::size_t kBytesPerRound = std::size_t{4} << 20;
         if (scene->TakeMesh(*link, kBytesPerRound)) rounds_to_draw = std::max(rounds_to_draw, 1);
-        if (state.ended() && !ended_seen) rounds_to_draw = kSettlingRounds;
+        if (state.ended() != ended_seen || state.paused() != paused_seen)
+            rounds_to_draw = kSettlingRounds;
         ended_seen = state.ended();
+        paused_seen = state.paused();
         // Words about silence, and hints that go.
         if (!ended_seen && now_s - drawn_at_s > kLongest_s)
             rounds_to_draw = std::max(rounds_to_draw, 1);

@@ -47,7 +47,7 @@ class DetectorChangeLabelling : public EngineTest, public testing::WithParamInte
         config.labels.max_rate_hz = 1000;
         EngineInput input = Input({.live = true});
         input.open_detector = OpenOneThing;
-        if (with_labels) input.labelling = OpenOneThing("cup").value();
+        if (with_labels) input.labelling = std::move(OpenOneThing("cup").value());
         if (GetParam())
             engine = std::make_unique<LiveEngine>(std::move(input));
         else
@@ -113,7 +113,9 @@ TEST_P(DetectorChangeLabelling, ARunWithoutLabelsBeginsThem) {
     ASSERT_TRUE(Detects("book"));
     ASSERT_EQ(Count(Kind::kLabelsBegin), 1);
     for (const FrameOutcome& o : outcomes)
-        if (o.kind == Kind::kLabelsBegin) EXPECT_EQ(o.classes->count(), 2);
+        if (o.kind == Kind::kLabelsBegin) {
+            EXPECT_EQ(o.classes->count(), 2);
+        }
     for (int i = 0; i < 12; ++i) ASSERT_TRUE(Detects("book"));
     End();
     const TriangleMesh mesh = engine->TakeMesh();

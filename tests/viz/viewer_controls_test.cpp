@@ -110,7 +110,7 @@ TEST_F(ViewerDetectors, ADetectorIsChosenFromTheListOrByItsPath) {
     Click("detector.choose");
     Click("detector.path");
     for (const unsigned long key : {XK_q, XK_period, XK_c, XK_f, XK_g}) Key(key);
-    Key(XK_Return);
+    Click("detector.use");
     EXPECT_EQ(LastSettings()->detector, "q.cfg");  // q, in a text, is no key of the window
     EXPECT_TRUE(Commands().empty());
 }
