@@ -77,20 +77,19 @@ Status Runner::Open(const std::atomic<bool>& stop) {
     RunConfig config = config_;
     if (request_.localise_only) StayInTheMap(config);
     if (summary_.camera) BeginShutter(summary_.camera->estimate, config.pipeline, summary_.source);
-    EngineInput input{std::move(source),
-                      selection_,
-                      std::move(config),
-                      FramePlan(request_.switches, std::move(given), request_.poses_file),
-                      std::move(scan.value()),
-                      std::move(labelling),
-                      [source = request_.source, synthetic = config_.synthetic,
-                       labels = config_.labels](const std::string& name) {
-                          return OpenLabelling(name, source, synthetic, labels);
-                      },
-                      request_.record_path,
-                      request_.viewer,
-                      request_.device,
-                      &stop};
+    EngineInput input{
+        std::move(source),
+        selection_,
+        std::move(config),
+        FramePlan(request_.switches, std::move(given), request_.poses_file),
+        std::move(scan.value()),
+        std::move(labelling),
+        [source = request_.source, synthetic = config_.synthetic, labels = config_.labels](
+            const std::string& name) { return OpenLabelling(name, source, synthetic, labels); },
+        request_.record_path,
+        request_.viewer,
+        request_.device,
+        &stop};
     if (request_.live)
         engine_ = std::make_unique<LiveEngine>(std::move(input));
     else

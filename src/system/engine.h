@@ -28,13 +28,13 @@ namespace tessera {
 // The result of one frame, or another event that the run must handle.
 struct FrameOutcome {
     enum class Kind {
-        kFrame,      // `report` and all members after it are valid
-        kSkipped,    // the frame could not be read; see `message`
-        kDropped,    // live: a newer frame arrived before this one was tracked
-        kMessage,    // text for the user
+        kFrame,        // `report` and all members after it are valid
+        kSkipped,      // the frame could not be read; see `message`
+        kDropped,      // live: a newer frame arrived before this one was tracked
+        kMessage,      // text for the user
         kLabelsEnd,    // the detector failed; see `message`
         kLabelsBegin,  // another detector is in use; see `classes`
-        kReset,      // the map and the trajectory start again
+        kReset,        // the map and the trajectory start again
     };
     Kind kind = Kind::kFrame;
     std::string message;

@@ -22,7 +22,7 @@ Status LiveEngine::Start(EngineInput& input) {
                                     input.viewer, std::nullopt};
     if (input.scan.resumed) tracking.resume = TrackingResume::Of(input.scan);
     if (Status status = mapping_.Start(std::move(input.labelling), std::move(input.open_detector),
-                                         std::move(input.scan));
+                                       std::move(input.scan));
         !status.ok())
         return status;
     tracking_.emplace(std::move(tracking), std::move(input.plan), links_, mapping_);

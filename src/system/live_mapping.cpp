@@ -154,7 +154,8 @@ void LiveMapping::SendMapUpdate() {
 // Passes the frame on to labelling and loop closure, which process it in the background.
 void LiveMapping::Offer(MappingTask& task) {
     const FrameReport& report = task.tracked->report;
-    if (labelling_ && life_.stage().has_labels() && life_.labelling() && report.fused && report.stamp_s >= next_detection_s_) {
+    if (labelling_ && life_.stage().has_labels() && life_.labelling() && report.fused &&
+        report.stamp_s >= next_detection_s_) {
         next_detection_s_ = report.stamp_s + 1 / config_.labels.max_rate_hz;
         std::unique_ptr<Frame> frame = links_.frames.Take();
         if (loops_)

@@ -76,8 +76,8 @@ class LiveMapping {
     std::optional<LabelReport> labels_;           // for the next outcome
     std::unique_ptr<LabellingThread> labelling_;  // null without labels
     OpenDetectorFunction open_detector_;
-    std::unique_ptr<LoopThread> loops_;           // null without loop closure
-    std::optional<Worker<MappingTask>> worker_;   // none with a device
+    std::unique_ptr<LoopThread> loops_;          // null without loop closure
+    std::optional<Worker<MappingTask>> worker_;  // none with a device
 };
 
 }  // namespace tessera

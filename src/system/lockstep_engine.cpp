@@ -155,8 +155,7 @@ void LockstepEngine::Apply(const ViewerSettings& settings) {
 
 // The run waits until it is open. Also without labels so far: then they begin here.
 void LockstepEngine::ChangeDetector(const std::string& name) {
-    if (!labelling_)
-        labelling_ = std::make_unique<LabellingStage>(config_.labels, source_.camera);
+    if (!labelling_) labelling_ = std::make_unique<LabellingStage>(config_.labels, source_.camera);
     DetectorChange change = labelling_->Change(name, open_detector_);
     notices_.Tell(std::move(change.message));
     if (!change.classes) return;

@@ -69,8 +69,8 @@ class LockstepEngine : public Engine {
     std::string detector_;                       // as last chosen
     OpenDetectorFunction open_detector_;
     std::shared_ptr<const LabelClasses> labels_begin_;  // of another detector, until reported
-    std::int64_t labelled_frames_ = 0;           // fused with labelling on
-    std::unique_ptr<FrameReader> reader_;        // null after TakeMesh
+    std::int64_t labelled_frames_ = 0;                  // fused with labelling on
+    std::unique_ptr<FrameReader> reader_;               // null after TakeMesh
     Frame frame_;
     TrackedFrame tracked_;
     Status status_;

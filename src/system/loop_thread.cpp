@@ -108,8 +108,7 @@ void LoopThread::Conclude() {
     if (auto change = closer_->Finish(note)) HandOver(std::move(*change));
     around_.notices.Tell(std::move(note));
     ReportProblems();
-    if (saved_.load())
-        Push({world_, std::nullopt, nullptr, TakeNews()});
+    if (saved_.load()) Push({world_, std::nullopt, nullptr, TakeNews()});
 }
 
 void LoopThread::BeginWorld(int world) {

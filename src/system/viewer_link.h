@@ -102,9 +102,9 @@ struct ViewerLink {
     // All objects, by number. Pushed by the map's owner; at the end, by the thread that pushes
     // frames.
     NewestQueue<std::vector<MapObject>> objects{1, viewer};
-    NewestQueue<std::string> messages{64, viewer};      // same text as on the console
-    std::atomic<bool> ended{false};                     // the run is over and its files are written
-    std::atomic<bool> keeps_map{false};                 // it is over, and its map can still be saved
+    NewestQueue<std::string> messages{64, viewer};  // same text as on the console
+    std::atomic<bool> ended{false};                 // the run is over and its files are written
+    std::atomic<bool> keeps_map{false};             // it is over, and its map can still be saved
     std::atomic<bool> paused{false}, recording{false};  // the state of the system
 
     // Viewer to system.

@@ -62,9 +62,8 @@ ControlRect DrawLegendItems(ImDrawList& list, std::span<const LegendItem> items,
             list.AddRectFilledMultiColor(low, high, IM_COL32(96, 156, 210, 255),
                                          IM_COL32(206, 190, 160, 255), IM_COL32(120, 170, 110, 255),
                                          IM_COL32(150, 110, 170, 255));
-        list.AddText(font, font->FontSize,
-                     {at.x + mark + pad, middle - 0.55f * font->FontSize}, palette::kText,
-                     item.text.c_str());
+        list.AddText(font, font->FontSize, {at.x + mark + pad, middle - 0.55f * font->FontSize},
+                     palette::kText, item.text.c_str());
         at.y += row;
     }
     return {from.x, from.y, size.x, size.y};

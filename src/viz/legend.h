@@ -1,4 +1,5 @@
-// Legends: a colour bar with the values at its ends, and a list of colours. Call inside an ImGui frame.
+// Legends: a colour bar with the values at its ends, and a list of colours. Call inside an ImGui
+// frame.
 #pragma once
 
 #include <imgui.h>

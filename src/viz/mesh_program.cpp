@@ -57,7 +57,7 @@ void main() {
     vec3 grey = vec3(0.80, 0.81, 0.83) * (0.16 + 0.16 * sky) + vec3(0.60, 0.585, 0.56) * lamp;
     vec3 scene = grey;
     if (weighted_colour.a > 1e-3)
-        scene = weighted_colour.rgb / weighted_colour.a * (0.62 + 0.12 * sky + 0.38 * lamp);
+        scene = weighted_colour.rgb / weighted_colour.a * (0.6 + 0.1 * sky + 0.3 * lamp);  // at most 1: whites stay
     if (shading == 0) {
         pixel = vec4(scene, 1);
     } else if (shading == 5) {

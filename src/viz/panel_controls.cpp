@@ -36,7 +36,8 @@ void DrawSettings(ViewerState& state) {
     bool changed = false;
     ImGui::AlignTextToFramePadding();
     ImGui::TextUnformatted("Colour counts");
-    Tip("How much the picture counts against the shape in tracking: alpha of [B14] eq. 8, in square "
+    Tip("How much the picture counts against the shape in tracking: alpha of [B14] eq. 8, in "
+        "square "
         "metres");
     ImGui::SameLine(label_width);
     changed |= MarkedCheckbox(controls, "alpha.auto", "auto", settings.auto_alpha);
@@ -61,19 +62,23 @@ void DrawSettings(ViewerState& state) {
         if (settings.loops) {
             ImGui::TableNextColumn();
             changed |= MarkedCheckbox(controls, "loops", "Close loops", *settings.loops);
-            Tip("On: where the camera comes back to a known place, path and map are corrected, and a lost "
+            Tip("On: where the camera comes back to a known place, path and map are corrected, and "
+                "a lost "
                 "camera is found again");
         }
         ImGui::TableNextColumn();
         changed |= MarkedCheckbox(controls, "prealign", "Align rotation first", settings.prealign);
         Tip("Finds the rotation in small images before tracking; helps when the camera turns fast");
         ImGui::TableNextColumn();
-        changed |= MarkedCheckbox(controls, "prediction", "Show prediction", settings.show_prediction);
+        changed |=
+            MarkedCheckbox(controls, "prediction", "Show prediction", settings.show_prediction);
         Tip("The depth that the map predicts, beside the measured images");
         ImGui::TableNextColumn();
         bool raster = settings.prediction == IcpTracker::Prediction::kRaster;
-        if (MarkedCheckbox(controls, "raster", "OpenGL views", raster)) state.RasteriseViews(raster);
-        Tip("What ICP and labels compare with is drawn by OpenGL from the mesh, [D18]; off: by casting "
+        if (MarkedCheckbox(controls, "raster", "OpenGL views", raster))
+            state.RasteriseViews(raster);
+        Tip("What ICP and labels compare with is drawn by OpenGL from the mesh, [D18]; off: by "
+            "casting "
             "rays into the map");
         ImGui::EndTable();
     }

@@ -34,7 +34,8 @@ void DrawLabelSettings(ViewerState& state) {
         state.SendSettings();
     Tip("Off: nothing is detected; labels stay as they are");
     ImGui::SameLine(Scaled(144));
-    if (MarkedButton(state.controls, "classes", "Classes", ImGui::GetContentRegionAvail().x)) ImGui::OpenPopup("classes");
+    if (MarkedButton(state.controls, "classes", "Classes", ImGui::GetContentRegionAvail().x))
+        ImGui::OpenPopup("classes");
     Tip("The classes that are labelled from now on");
     ImGui::SetNextWindowSizeConstraints({0, 0}, {Scaled(240), Scaled(300)});
     if (ImGui::BeginPopup("classes")) {

@@ -95,7 +95,8 @@ void ImagesPanel::Draw(ViewerState& state, const ControlRect& area) {
     DrawDetections(state, {colour.x, colour.y}, {colour.z, colour.w});
     DrawImage("Measured depth", depth_, {width, height}, waiting, depth);
     DrawImage("Predicted depth", predicted_, {width, height}, unpredicted, depth);
-    DrawImage("Measured minus predicted", residual_, {width, height}, unpredicted, difference);
+    DrawImage(area.width < Scaled(190) ? "Difference" : "Measured minus predicted", residual_,
+              {width, height}, unpredicted, difference);
 }
 
 }  // namespace tessera

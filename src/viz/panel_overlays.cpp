@@ -28,17 +28,14 @@ void DrawScaleBar(ViewerState& state, SceneView& scene, const ControlRect& area,
     ImFont* const font = SmallFont();
     const float text_width = font->CalcTextSizeA(font->FontSize, 1e4f, 0, text.c_str()).x;
     const float y = area.y + area.height - Scaled(14), x = right - Scaled(14) - width;
-    for (const float shift : {1.0f, 0.0f}) {
-        const ImU32 colour = shift > 0 ? IM_COL32(0, 0, 0, 160) : palette::kText;
-        const float line = Scaled(1.5f);
-        list.AddLine({x + shift, y + shift}, {x + width + shift, y + shift}, colour, line);
-        for (const float end : {x, x + width})
-            list.AddLine({end + shift, y - Scaled(5) + shift}, {end + shift, y + shift}, colour,
-                         line);
-        list.AddText(font, font->FontSize,
-                     {x + (width - text_width) / 2 + shift, y - Scaled(18) + shift}, colour,
-                     text.c_str());
-    }
+    const float pad = Scaled(6), line = Scaled(1.5f);
+    list.AddRectFilled({x - pad, y - Scaled(20)}, {x + width + pad, y + pad},
+                       IM_COL32(14, 16, 19, 170), Scaled(5));
+    list.AddLine({x, y}, {x + width, y}, palette::kText, line);
+    for (const float end : {x, x + width})
+        list.AddLine({end, y - Scaled(5)}, {end, y}, palette::kText, line);
+    list.AddText(font, font->FontSize, {x + (width - text_width) / 2, y - Scaled(18)},
+                 palette::kText, text.c_str());
     state.controls.Mark("scale_bar", {x, y - Scaled(18), width, Scaled(18)});
 }
 

@@ -22,8 +22,7 @@ void DrawStrip(ViewerState& state, const SceneView& scene, const ControlRect& ar
     ImFont *const bold = HeadingFont(), *const plain = ImGui::GetFont();
     const ImVec2 title_at{area.x + Scaled(46), middle - 0.55f * bold->FontSize};
     list.AddText(bold, bold->FontSize, title_at, palette::kText, quality.title.c_str());
-    const float title_width =
-        bold->CalcTextSizeA(bold->FontSize, 1e4f, 0, quality.title.c_str()).x;
+    const float title_width = bold->CalcTextSizeA(bold->FontSize, 1e4f, 0, quality.title.c_str()).x;
     const std::string fact =
         scene.triangles() == 0
             ? ""
@@ -34,8 +33,8 @@ void DrawStrip(ViewerState& state, const SceneView& scene, const ControlRect& ar
     list.AddText(plain, plain->FontSize, {fact_x, text_y}, palette::kDim, fact.c_str());
     const float reason_x = title_at.x + title_width + Scaled(14);
     const ImVec4 clip{reason_x, area.y, fact_x - Scaled(12), area.y + area.height};
-    list.AddText(plain, plain->FontSize, {reason_x, text_y}, palette::kDim,
-                 quality.reason.c_str(), nullptr, 0, &clip);
+    list.AddText(plain, plain->FontSize, {reason_x, text_y}, palette::kDim, quality.reason.c_str(),
+                 nullptr, 0, &clip);
     ImGui::Dummy({area.width - 2 * ImGui::GetStyle().WindowPadding.x, Scaled(20)});
     Tip((quality.title + ": " + quality.reason).c_str());
     state.controls.Mark("status", area);
@@ -85,8 +84,7 @@ void DrawViewButtons(ViewerState& state, float width) {
     Controls& controls = state.controls;
     ViewChoices& view = state.view;
     const auto button = [&](const char* name, const char* label, bool lit, const char* tip) {
-        const bool pressed =
-            MarkedButton(controls, name, label, width, lit, Scaled(kButtonHeight));
+        const bool pressed = MarkedButton(controls, name, label, width, lit, Scaled(kButtonHeight));
         Tip(tip);
         ImGui::SameLine();
         return pressed;
@@ -157,10 +155,10 @@ void ScanPanel::Update(const ViewerState& state) {
     depth_ = SharesOf(frame.depth_m, state.settings.max_depth_m);
     constexpr int kWidth_px = 320;
     const int step = std::max(1, (frame.depth_m.width() + kWidth_px - 1) / kWidth_px);
-    colour_.Set(frame.colour.empty()
-                    ? DepthColours(frame.depth_m, static_cast<float>(state.settings.max_depth_m),
-                                   step)
-                    : ShrinkColour(frame.colour, step));
+    colour_.Set(
+        frame.colour.empty()
+            ? DepthColours(frame.depth_m, static_cast<float>(state.settings.max_depth_m), step)
+            : ShrinkColour(frame.colour, step));
 }
 
 std::optional<ScanHint> ScanPanel::Hint(const ViewerState& state, const SceneView& scene) const {
@@ -186,9 +184,8 @@ void ScanPanel::DrawInset(ViewerState& state, const ControlRect& view) {
     const ImVec2 to{view.x + view.width - Scaled(12), view.y + view.height - Scaled(12)};
     const ImVec2 from{to.x - width, to.y - height};
     ImDrawList& list = *ImGui::GetWindowDrawList();
-    list.AddImageRounded(
-        reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(colour_.name())), from, to,
-        {0, 0}, {1, 1}, IM_COL32_WHITE, Scaled(6));
+    list.AddImageRounded(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(colour_.name())),
+                         from, to, {0, 0}, {1, 1}, IM_COL32_WHITE, Scaled(6));
     list.AddRect(from, to, IM_COL32(255, 255, 255, 70), Scaled(6), 0, Scaled(1));
     state.controls.Mark("camera_image", {from.x, from.y, width, height});
 }

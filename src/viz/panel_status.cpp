@@ -22,8 +22,8 @@ void DrawLight(const ViewerState& state) {
     const float note_width =
         SmallFont()->CalcTextSizeA(SmallFont()->FontSize, 1e4f, 0, note.c_str()).x;
     list.AddText(SmallFont(), SmallFont()->FontSize,
-                 {at.x + size.x - note_width - Scaled(10), at.y + Scaled(13)},
-                 palette::kBad, note.c_str());
+                 {at.x + size.x - note_width - Scaled(10), at.y + Scaled(13)}, palette::kBad,
+                 note.c_str());
     const float wrap = size.x - Scaled(52);
     const ImVec4 clip{at.x, at.y, at.x + size.x, at.y + size.y};
     list.AddText(SmallFont(), SmallFont()->FontSize, {at.x + Scaled(42), at.y + Scaled(31)},

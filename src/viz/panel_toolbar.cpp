@@ -23,8 +23,11 @@ static_assert(std::size(kShadingTexts) == kShadings);
 class ButtonRow {
   public:
     ButtonRow(Controls& controls, const ControlRect& area)
-        : controls_(controls), left_(area.x + Scaled(10)), right_(area.x + area.width - Scaled(10)),
-          x_(left_), y_(area.y + Scaled(10)) {}
+        : controls_(controls),
+          left_(area.x + Scaled(10)),
+          right_(area.x + area.width - Scaled(10)),
+          x_(left_),
+          y_(area.y + Scaled(10)) {}
 
     bool Button(const char* name, const char* label, bool lit, const char* tip) {
         const float padding = 2 * ImGui::GetStyle().FramePadding.x, gap = Scaled(4);

@@ -13,7 +13,7 @@ namespace tessera {
 
 void DrawStatusPanel(ViewerState& state, const SceneView& scene);  // inside the left column
 void DrawControlsPanel(ViewerState& state);                        // inside the left column
-void DrawDetectorPanel(ViewerState& state);  // inside the left column
+void DrawDetectorPanel(ViewerState& state);                        // inside the left column
 // Inside the left column; a click centres the view on an object.
 void DrawObjectsPanel(ViewerState& state, SceneView& scene);
 void DrawMessagesPanel(const ViewerState& state);  // rest of the left column

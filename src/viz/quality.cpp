@@ -40,7 +40,8 @@ Quality OfGoodFrame(const QualitySigns& s) {
                 report.track.reason.empty() ? "the scene shows too little shape here"
                                             : report.track.reason};
     if (!s.fusing)
-        return {Level::kWarning, "Tracking only", "nothing is added to the map: that is switched off"};
+        return {Level::kWarning, "Tracking only",
+                "nothing is added to the map: that is switched off"};
     if (IsMany(s.recent.unfused, s.recent.frames))
         return {Level::kWarning, "Map is behind",
                 Percent(s.recent.unfused, s.recent.frames) +

@@ -20,7 +20,7 @@ struct QualitySigns {
     RunCounts recent;                    // RecentFrames::counts
     double silent_s = 0;                 // RecentFrames::SilentFor_s
     bool ended = false, paused = false;
-    bool fusing = true;             // as set by the user
+    bool fusing = true;  // as set by the user
     bool detector_failed = false;
 };
 

@@ -10,7 +10,7 @@ namespace tessera {
 
 class RecentFrames {
   public:
-    static constexpr double kSpan_s = 2;    // of the counts
+    static constexpr double kSpan_s = 2;      // of the counts
     static constexpr double kMotion_s = 0.4;  // of the speeds, by the frames' stamps
 
     // `now_s`: any steady clock.

@@ -58,7 +58,8 @@ std::optional<ScanHint> HintFor(const ScanSigns& s) {
     }
     if (s.status == TrackStatus::kPoor)
         return ScanHint{4, "Tracking is poor: point back at where you were"};
-    if (s.degenerate) return ScanHint{2, "Little shape here: bring a corner or an object into view"};
+    if (s.degenerate)
+        return ScanHint{2, "Little shape here: bring a corner or an object into view"};
     if (s.thin_share > kMuchThin && s.frames > kSettled)
         return ScanHint{1, "Red and orange surfaces are thin: go over them once more"};
     return std::nullopt;

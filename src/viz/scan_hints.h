@@ -26,8 +26,8 @@ struct ScanSigns {
     int width_px = 640;
     DepthShares depth;
     double max_depth_m = 5;
-    double thin_share = 0;       // of the surface: measured too little (coverage.h)
-    std::int64_t frames = 0;     // so far
+    double thin_share = 0;    // of the surface: measured too little (coverage.h)
+    std::int64_t frames = 0;  // so far
 };
 
 // Length of the blur in the colour image, pixels, for an exposure of a sixtieth of a second.

@@ -9,8 +9,7 @@ namespace tessera {
 void SceneMesh::SetModel(const ViewedModel& model, const Eigen::Vector3d& up) {
     model_.Set(model.mesh, model.mesh.labels.empty() ? std::vector<Rgb8>()
                                                      : CategoryColours(model.mesh, model.objects));
-    for (const Eigen::Vector3f& vertex : model.mesh.vertices)
-        bounds_.extend(vertex.cast<double>());
+    for (const Eigen::Vector3f& vertex : model.mesh.vertices) bounds_.extend(vertex.cast<double>());
     up_ = UpEstimator(up);
     for (const Eigen::Vector3f& normal : model.mesh.normals) up_.Add(normal);
 }

@@ -52,13 +52,12 @@ struct SceneView::Impl {
 };
 
 Result<std::unique_ptr<SceneView>> SceneView::Create(bool is_software,
-                                                        const CoverageLevels& levels) {
+                                                     const CoverageLevels& levels) {
     Result<MeshProgram> mesh = MeshProgram::Create();
     if (!mesh.ok()) return mesh.status();
     Result<GlLineProgram> line = GlLineProgram::Create();
     if (!line.ok()) return line.status();
-    return std::unique_ptr<SceneView>(new SceneView(
-        std::make_unique<Impl>(
+    return std::unique_ptr<SceneView>(new SceneView(std::make_unique<Impl>(
         std::move(mesh.value()), std::move(line.value()), is_software, levels)));
 }
 

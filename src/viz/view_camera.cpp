@@ -44,9 +44,7 @@ void ViewCamera::Turn(double right_rad, double down_rad) {
     target_ += from - eye();
 }
 
-void ViewCamera::Walk(double forward_m) {
-    target_ += forward_m * (target_ - eye()).normalized();
-}
+void ViewCamera::Walk(double forward_m) { target_ += forward_m * (target_ - eye()).normalized(); }
 
 double ViewCamera::PixelSize_m(double height_px) const {
     return 2 * distance_m_ * std::tan(kHeightRad / 2) / height_px;

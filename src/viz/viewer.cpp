@@ -84,8 +84,8 @@ Result<std::unique_ptr<Viewer>> Viewer::Open(ViewerLink& link, const ViewerOptio
     Result<std::unique_ptr<Window>> window = OpenWindow(options);
     if (!window.ok()) return window.status();
     auto impl = std::make_unique<Impl>(std::move(window.value()), &link, options);
-    Result<std::unique_ptr<SceneView>> scene = SceneView::Create(
-        impl->window->is_software(), CoverageLevels::Of(options.max_weight));
+    Result<std::unique_ptr<SceneView>> scene =
+        SceneView::Create(impl->window->is_software(), CoverageLevels::Of(options.max_weight));
     if (!scene.ok()) return scene.status();
     impl->scene = std::move(scene.value());
     if (options.view_kind == ViewKind::kScan) impl->scene->camera().Zoom(kNearer);
@@ -98,8 +98,8 @@ Result<std::unique_ptr<Viewer>> Viewer::OpenModel(ViewedModel model, const Viewe
     ViewerOptions with_labels = options;
     with_labels.labelled = !model.mesh.labels.empty();
     auto impl = std::make_unique<Impl>(std::move(window.value()), nullptr, with_labels);
-    Result<std::unique_ptr<SceneView>> scene = SceneView::Create(
-        impl->window->is_software(), CoverageLevels::Of(options.max_weight));
+    Result<std::unique_ptr<SceneView>> scene =
+        SceneView::Create(impl->window->is_software(), CoverageLevels::Of(options.max_weight));
     if (!scene.ok()) return scene.status();
     impl->scene = std::move(scene.value());
     impl->state.view.follow = false;
@@ -199,7 +199,7 @@ void Viewer::Impl::DrawFrame(bool smooth) {
 
 bool Viewer::Impl::DrawPanels(bool may_redraw, bool smooth) {
     const bool drawn = state.view_kind == ViewKind::kScan ? DrawScan(may_redraw, smooth)
-                                                     : DrawExpert(may_redraw, smooth);
+                                                          : DrawExpert(may_redraw, smooth);
     DrawHelp(state);
     DrawResetQuestion(state);
     return drawn;
@@ -209,12 +209,11 @@ bool Viewer::Impl::DrawScan(bool may_redraw, bool smooth) {
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     const ScanPanel::Layout layout = ScanPanel::LayOut(size.x, size.y);
     scan.Update(state);
-    const bool drawn =
-        DrawViewPanel(state, *scene,
-                      {.area = layout.view,
-                       .inset_width = scan.inset_width(state, layout.view),
-                       .may_redraw = may_redraw,
-                       .smooth = smooth});
+    const bool drawn = DrawViewPanel(state, *scene,
+                                     {.area = layout.view,
+                                      .inset_width = scan.inset_width(state, layout.view),
+                                      .may_redraw = may_redraw,
+                                      .smooth = smooth});
     scan.Draw(state, *scene, layout);
     return drawn;
 }

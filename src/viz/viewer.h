@@ -41,11 +41,11 @@ struct ViewerOptions {
     double truncation_m = 0.04;  // of the map; limit of the residual's colour scale
     bool labelled = false;       // true if there is a detector, or if the model's mesh has labels
     double max_weight = 128;     // of the map's voxels; sets the levels of the coverage
-    std::string detector;             // in use when the window opens, as for --labels; may be empty
-    std::vector<std::string> models;  // to choose from
-    ViewerSettings settings;     // active when the window opens
+    std::string detector;        // in use when the window opens, as for --labels; may be empty
+    std::vector<std::string> models;         // to choose from
+    ViewerSettings settings;                 // active when the window opens
     ViewKind view_kind = ViewKind::kExpert;  // initial; without a running system always kExpert
-    Shading shading = Shading::kColour;  // initial
+    Shading shading = Shading::kColour;      // initial
     // Initially follow the sensor; otherwise show all of the mesh until the user moves the view.
     bool follow = true;
     // When ViewerLink::ended is set; otherwise the user closes the window.

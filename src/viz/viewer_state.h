@@ -19,9 +19,9 @@ struct ViewChoices {
     Shading shading = Shading::kColour;
     bool keep_all = false;  // keep all of the mesh in view
     bool wireframe = false, depth_test = true, follow = true, show_truth = true;
-    bool show_objects = true;  // boxes and names
-    bool coverage = true;      // kScan: show the coverage instead of colours alone
-    bool camera_image = true;  // kScan: what the camera sees, in a corner
+    bool show_objects = true;   // boxes and names
+    bool coverage = true;       // kScan: show the coverage instead of colours alone
+    bool camera_image = true;   // kScan: what the camera sees, in a corner
     bool first_person = false;  // look from the camera's place instead of from behind it
 };
 
@@ -41,10 +41,10 @@ struct ViewerState {
     Controls controls;
     ViewKind view_kind = ViewKind::kExpert;
     ViewChoices view;
-    double now_s = 0;  // of this round, on the window's clock
-    ViewerSettings settings;  // as last sent
+    double now_s = 0;                     // of this round, on the window's clock
+    ViewerSettings settings;              // as last sent
     std::array<char, 1024> typed_path{};  // of a detector
-    int selected_object = 0;  // MapObject::id; 0: none
+    int selected_object = 0;              // MapObject::id; 0: none
     bool ask_reset = false, show_help = false, close = false, want_screenshot = false;
 
     bool ended() const { return !link || link->ended; }

@@ -49,7 +49,8 @@ Result<std::unique_ptr<Window>> Window::Open(const std::string& title, int width
 }
 
 Status Window::Create(const std::string& title, int width, int height, double scale) {
-    if (scale > 0) width = static_cast<int>(width * scale), height = static_cast<int>(height * scale);
+    if (scale > 0)
+        width = static_cast<int>(width * scale), height = static_cast<int>(height * scale);
     // Tries EGL first, because the predicted views use it.
     for (const int api : {GLFW_EGL_CONTEXT_API, GLFW_NATIVE_CONTEXT_API})
         if (!window_) window_ = CreateWithContext(api, title, width, height);

@@ -81,10 +81,10 @@ TEST(ScanHints, AreShownLongEnoughToBeRead) {
     const ScanHint slow{5, "slower"}, thin{1, "thin"};
     EXPECT_EQ(holder.Update(std::nullopt, 0), "");
     EXPECT_EQ(holder.Update(thin, 1), "thin");
-    EXPECT_EQ(holder.Update(slow, 1.1), "slower");      // more urgent
-    EXPECT_EQ(holder.Update(thin, 1.2), "slower");      // less
+    EXPECT_EQ(holder.Update(slow, 1.1), "slower");  // more urgent
+    EXPECT_EQ(holder.Update(thin, 1.2), "slower");  // less
     EXPECT_EQ(holder.Update(std::nullopt, 2.5), "slower");
-    EXPECT_EQ(holder.Update(slow, 2.55), "slower");     // again: the time starts anew
+    EXPECT_EQ(holder.Update(slow, 2.55), "slower");  // again: the time starts anew
     EXPECT_EQ(holder.Update(std::nullopt, 4.0), "slower");
     EXPECT_EQ(holder.Update(std::nullopt, 4.1), "");
 }

@@ -220,8 +220,7 @@ TEST_F(ViewerControls, AQuestionHoldsKeyboardAndMouse) {
     MoveTo("view");
     Key(XK_r);
     ASSERT_TRUE(viewer_->FindControl("reset.confirm"));
-    for (const unsigned long key : {XK_space, XK_m, XK_2, XK_q, XK_Tab})
-        Key(key);
+    for (const unsigned long key : {XK_space, XK_m, XK_2, XK_q, XK_Tab}) Key(key);
     for (const char* name : {"pause", "method.icp"}) Click(name);
     EXPECT_TRUE(Commands().empty());
     EXPECT_EQ(LastSettings(), nullptr);

@@ -1,5 +1,5 @@
-// Makes docs/images/window.png and scan_view.png: the window in the middle of a run. Needs a display.
-// With Xvfb:
+// Makes docs/images/window.png and scan_view.png: the window in the middle of a run. Needs a
+// display. With Xvfb:
 //   xvfb-run -a -s "-screen 0 1280x720x24" build/release/tests/viz/window_picture
 //   docs/images/window.png synthetic:desk 200 labels=synthetic label
 // Usage: window_picture PICTURE.png SOURCE FRAMES [labels=MODEL] [colour|label|weight|coverage]
@@ -73,7 +73,8 @@ int Fail(const std::string& message) {
 int MakePicture(const Arguments& a) {
     RunConfig config;
     if (!a.tracker.empty())
-        config.pipeline.trackers.method = TrackingMethodOf(a.tracker).value_or(TrackingMethod::kSdf);
+        config.pipeline.trackers.method =
+            TrackingMethodOf(a.tracker).value_or(TrackingMethod::kSdf);
     const auto source = OpenSource(a.source, config);
     if (!source.ok()) return Fail(source.message());
     ViewerLink link;
