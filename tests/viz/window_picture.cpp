@@ -1,7 +1,7 @@
 // Makes docs/images/window.png and scan_view.png: the window in the middle of a run. Needs a
 // display. With Xvfb:
 //   xvfb-run -a -s "-screen 0 1280x720x24" build/release/tests/viz/window_picture
-//   docs/images/window.png synthetic:desk 200 labels=synthetic label
+//   docs/images/window.png synthetic:desk 40 labels=synthetic coverage follow
 // Usage: window_picture PICTURE.png SOURCE FRAMES [labels=MODEL] [colour|label|weight|coverage]
 //        [follow] [scan] [scale=S] [size=WxH] [tracker=METHOD]
 #include <atomic>
@@ -57,6 +57,7 @@ ViewerOptions OptionsOf(const Arguments& a, const RunConfig& config, const Sourc
     options.camera = source.camera;
     options.truncation_m = config.pipeline.map.truncation_m;
     options.labelled = !a.labels.empty();
+    options.detector = a.labels;
     options.settings.loops = true;
     options.shading = a.shading;
     options.view_kind = a.view_kind;
