@@ -1,12 +1,29 @@
 #include "run_in_window.h"
 
+#include <filesystem>
 #include <future>
+#include <set>
 #include <thread>
 
 #include "viz/viewer.h"
 
 namespace tessera {
 namespace {
+
+// Networks in the folder of the one given, and in ./models: what can be chosen in the window.
+std::vector<std::string> ModelsBeside(const std::string& given) {
+    namespace fs = std::filesystem;
+    std::set<std::string> found;
+    for (const fs::path& folder : {fs::path(given).parent_path(), fs::path("models")}) {
+        std::error_code error;
+        if (folder.empty()) continue;
+        for (const auto& entry : fs::directory_iterator(folder, error))
+            if (const auto end = entry.path().extension(); end == ".onnx" || end == ".cfg")
+                found.insert(entry.path().string());
+    }
+    if (!given.empty()) found.insert(given);
+    return {found.begin(), found.end()};
+}
 
 ViewerOptions OptionsFor(const RunRequest& request, const RunConfig& config,
                          const SourceInfo& source) {
@@ -20,6 +37,10 @@ ViewerOptions OptionsFor(const RunRequest& request, const RunConfig& config,
     options.truncation_m = config.pipeline.map.truncation_m;
     const TrackersConfig& trackers = config.pipeline.trackers;
     options.labelled = !request.labels.empty();
+    options.detector = request.labels;
+    options.models = ModelsBeside(request.labels);
+    options.max_weight = config.pipeline.fusion.max_weight;
+    if (source.live) options.view_kind = ViewKind::kScan;
     options.settings.method = trackers.method;
     options.settings.auto_alpha =
         trackers.photometric.alpha_mode == ResidualModel::AlphaMode::kAuto;
@@ -37,6 +58,7 @@ ViewerOptions OptionsFor(const RunRequest& request, const RunConfig& config,
 Result<RunSummary> ExecuteRunInWindow(RunRequest request, const RunConfig& config, Console& console,
                                       const std::atomic<bool>& stop) {
     ViewerLink link;
+    link.open.store(true);
     request.viewer = &link;
     std::promise<std::optional<SourceInfo>> opened;
     std::atomic<bool> is_open{false};
@@ -60,6 +82,7 @@ Result<RunSummary> ExecuteRunInWindow(RunRequest request, const RunConfig& confi
         else
             console.Warning("no window: " + viewer.message() + "; continuing without one");
     }
+    link.open.store(false);
     run.join();
     return std::move(*result);
 }

@@ -68,7 +68,7 @@ void BlockMap::Clear() {
 }
 
 void BlockMap::EnableLabels() {
-    TESSERA_CHECK(size_ == 1, "labels enabled in a map of {} blocks", size_);
+    TESSERA_CHECK(!labels_, "labels enabled twice");
     labels_.emplace(kMaxBlocks * kBlockVoxels);
     max_size_ = std::min(max_size_, labels_->max_size() / kBlockVoxels);
 }

@@ -90,8 +90,8 @@ class BlockMap {
     // All blocks' colours, indexed like view().field; null if they are not stored.
     const ColourWord* colours() const { return has_colours() ? colour_.data() : nullptr; }
 
-    // Adds the label layer, which takes memory only where it is written. Call this while the map is
-    // empty.
+    // Adds the label layer, which takes memory only where it is written. Call at most once. The
+    // blocks so far have no labels.
     void EnableLabels();
     bool has_labels() const { return labels_.has_value(); }
     // Only if has_labels().

@@ -74,6 +74,8 @@ class LoopCloser {
     void AddDetections(std::int64_t frame_index, std::vector<Detection> detections) {
         store_.AddDetections(frame_index, std::move(detections));
     }
+    // Corrected maps that are begun from now on have labels.
+    void EnableLabels(Labels labels) { labels_ = std::move(labels); }
     // Off: frames are kept, but no loop is closed and no corrected map is made before the end.
     void SetSeeking(bool on) { seeking_ = on; }
     // For a tracked frame of which only the pose is kept.

@@ -79,11 +79,12 @@ Result<std::unique_ptr<RunOutput>> RunOutput::Open(const RunRequest& request,
           output->OpenGrowing("frames.csv", kFramesHeader, output->frames_)})
         if (!status.ok()) return status;
     if (!request.labels.empty())
-        if (Status status = output->OpenGrowing("detections.txt", DetectionsHeader(config, classes),
-                                                output->detections_);
-            !status.ok())
-            return status;
+        if (Status status = output->BeginDetections(classes); !status.ok()) return status;
     return output;
+}
+
+Status RunOutput::BeginDetections(const LabelClasses& classes) {
+    return OpenGrowing("detections.txt", DetectionsHeader(config_, classes), detections_);
 }
 
 Status RunOutput::OpenGrowing(const std::string& name, const std::string& header, Lines& lines) {

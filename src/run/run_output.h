@@ -29,6 +29,8 @@ class RunOutput {
     // which one has lines that wait.
     Status AddFrame(const FrameReport& report, double decode_ms, double frame_ms);
 
+    // Begins detections.txt, in a run that was opened without labels.
+    Status BeginDetections(const LabelClasses& classes);
     // Adds the frame's detections to detections.txt, after a line that marks the frame as
     // processed.
     Status AddDetections(const LabelReport& report, const LabelClasses& classes);

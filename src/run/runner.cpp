@@ -8,6 +8,7 @@
 #include "run/source_camera.h"
 #include "system/live_engine.h"
 #include "system/lockstep_engine.h"
+#include "system/run_control.h"
 #include "system/scan_plan.h"
 
 namespace tessera {
@@ -41,6 +42,7 @@ Result<RunSummary> Runner::Run(const std::atomic<bool>& stop) {
             request_.source + ": no frame could be read" +
             (summary_.last_reason.empty() ? "" : "; last error: " + summary_.last_reason));
     Status finished = Finish(status);
+    ServeWindow(stop);
     if (!status.ok()) return status;
     if (!finished.ok()) return finished;
     return std::move(summary_);
@@ -80,16 +82,19 @@ Status Runner::Open(const std::atomic<bool>& stop) {
     RunConfig config = config_;
     if (request_.localise_only) StayInTheMap(config);
     if (summary_.camera) BeginShutter(summary_.camera->estimate, config.pipeline, summary_.source);
-    EngineInput input{std::move(source),
-                      selection_,
-                      std::move(config),
-                      FramePlan(request_.switches, std::move(given), request_.poses_file),
-                      std::move(scan.value()),
-                      std::move(labelling),
-                      request_.record_path,
-                      request_.viewer,
-                      request_.device,
-                      &stop};
+    EngineInput input{
+        std::move(source),
+        selection_,
+        std::move(config),
+        FramePlan(request_.switches, std::move(given), request_.poses_file),
+        std::move(scan.value()),
+        std::move(labelling),
+        [source = request_.source, synthetic = config_.synthetic, labels = config_.labels](
+            const std::string& name) { return OpenLabelling(name, source, synthetic, labels); },
+        request_.record_path,
+        request_.viewer,
+        request_.device,
+        &stop};
     if (request_.live)
         engine_ = std::make_unique<LiveEngine>(std::move(input));
     else
@@ -149,6 +154,23 @@ Status Runner::Finish(const Status& outcome) {
     return written;
 }
 
+void Runner::ServeWindow(const std::atomic<bool>& stop) {
+    ViewerLink* const link = request_.viewer;
+    if (link == nullptr || !link->open.load() || stop.load()) return;
+    link->keeps_map.store(engine_->has_map());
+    link->ended.store(true);
+    while (link->open.load() && !stop.load()) {
+        ViewerCommand command;
+        if (!link->commands.TryPop(command)) {
+            RunControl::SleepBriefly();
+            continue;
+        }
+        if (engine_->has_map()) engine_->Save(command);
+        while (const auto notice = engine_->TakeNotice()) Warn(*notice);
+    }
+    link->keeps_map.store(false);
+}
+
 // If this recording's clock began before the scan's last frame, its frames alone can be told apart
 // by their stamps.
 Result<AteResult> Runner::Evaluate() const {
@@ -170,6 +192,7 @@ Status Runner::Correct() {
 Status Runner::WriteMesh() {
     Stopwatch watch;
     const bool sound = engine_->status().ok();
+    if (request_.viewer != nullptr && request_.viewer->open.load()) engine_->KeepMap();
     TriangleMesh mesh = engine_->TakeMesh();
     if (sound && !engine_->status().ok()) return engine_->status();
     while (const auto notice = engine_->TakeNotice()) Warn(*notice);

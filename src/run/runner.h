@@ -38,6 +38,8 @@ class Runner {
     Status Take(const FrameOutcome& outcome);
     void TakeFrame(const FrameOutcome& outcome);
     void TakeLabels(const LabelReport& report);
+    // Another detector is in use, or the first.
+    Status BeginLabels(const LabelClasses& classes);
     void AddTimes(const FrameOutcome& outcome, double frame_ms);
     // The source's ground truth in the map's world.
     std::optional<Eigen::Isometry3d> TruthOf(const FrameOutcome& outcome) const;
@@ -52,6 +54,8 @@ class Runner {
     void WarnOnStatusChange(const FrameReport& report);
 
     Status Finish(const Status& outcome);
+    // While a window is open, what the ended run holds can be saved.
+    void ServeWindow(const std::atomic<bool>& stop);
     // Takes over the final poses and the refined calibration.
     Result<AteResult> Evaluate() const;
     Status Correct();

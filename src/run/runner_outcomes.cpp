@@ -30,6 +30,7 @@ Status Runner::Take(const FrameOutcome& outcome) {
         case Kind::kSkipped: Skip(outcome.message); break;
         case Kind::kDropped: ++summary_.counts.frames, ++summary_.counts.dropped; break;
         case Kind::kMessage: Warn(outcome.message); break;
+        case Kind::kLabelsBegin: return BeginLabels(*outcome.classes);
         case Kind::kLabelsEnd: Warn(outcome.message), window_.EndLabels(); break;
         case Kind::kReset: return BeginAnew();
     }
@@ -56,6 +57,14 @@ void Runner::TakeFrame(const FrameOutcome& outcome) {
 void Runner::KeepGoing(const Status& written) {
     if (!written.ok() && told_.insert(written.message()).second)
         Warn(written.message() + "; the run goes on and tries again");
+}
+
+Status Runner::BeginLabels(const LabelClasses& classes) {
+    class_names_ = classes;
+    window_.Show(class_names_);
+    if (summary_.labels) return Status::Ok();
+    summary_.labels.emplace();
+    return output_ ? output_->BeginDetections(class_names_) : Status::Ok();
 }
 
 void Runner::TakeLabels(const LabelReport& report) {
@@ -103,7 +112,10 @@ Status Runner::BeginAnew() {
     last_status_ = TrackStatus::kGood;
     last_degenerate_ = false;
     Warn("reset: the map and the path start again");
-    return output_ ? OpenOutput() : Status::Ok();
+    if (!output_) return Status::Ok();
+    if (Status status = OpenOutput(); !status.ok()) return status;
+    const bool chosen_later = summary_.labels && request_.labels.empty();
+    return chosen_later ? output_->BeginDetections(class_names_) : Status::Ok();
 }
 
 void Runner::Skip(const std::string& message) {

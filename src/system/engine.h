@@ -28,12 +28,13 @@ namespace tessera {
 // The result of one frame, or another event that the run must handle.
 struct FrameOutcome {
     enum class Kind {
-        kFrame,      // `report` and all members after it are valid
-        kSkipped,    // the frame could not be read; see `message`
-        kDropped,    // live: a newer frame arrived before this one was tracked
-        kMessage,    // text for the user
-        kLabelsEnd,  // the detector failed; see `message`
-        kReset,      // the map and the trajectory start again
+        kFrame,        // `report` and all members after it are valid
+        kSkipped,      // the frame could not be read; see `message`
+        kDropped,      // live: a newer frame arrived before this one was tracked
+        kMessage,      // text for the user
+        kLabelsEnd,    // the detector failed; see `message`
+        kLabelsBegin,  // another detector is in use; see `classes`
+        kReset,        // the map and the trajectory start again
     };
     Kind kind = Kind::kFrame;
     std::string message;
@@ -47,6 +48,7 @@ struct FrameOutcome {
     // Keyframes, loop closure and map correction. 0 without loop closure.
     double loops_ms = 0;
     MapStatistics map;
+    std::shared_ptr<const LabelClasses> classes;  // of the run, with kLabelsBegin
     std::optional<LabelReport> labels;  // of this frame; in live mode possibly of an earlier one
     std::vector<std::pair<const char*, std::size_t>> queues;  // queue name and length
 };
@@ -58,6 +60,7 @@ struct EngineInput {
     FramePlan plan;
     ScanPlan scan;                            // without a file, nothing is saved
     Labelling labelling;                      // without a detector, nothing is labelled
+    OpenDetectorFunction open_detector = {};  // empty: no other detector can be chosen
     std::string record_path;                  // empty: no recording
     ViewerLink* viewer = nullptr;             // outlives the engine
     Backend* device = nullptr;                // null: CPU; outlives the engine
@@ -80,6 +83,12 @@ class Engine {
     // Call once, after Next returned false. Releases the source and the map and returns the whole
     // mesh.
     virtual TriangleMesh TakeMesh() = 0;
+    // Before TakeMesh: it is to keep the map, so that Save works. With a memory limit it may not.
+    void KeepMap() { keep_map_ = true; }
+    virtual bool has_map() const = 0;
+    // After Next returned false, if the map is there: kSaveMesh and kSaveScan, as during the run.
+    // Returns when the file is written.
+    virtual void Save(const ViewerCommand& command) = 0;
     // After TakeMesh; empty without labels.
     virtual const std::vector<MapObject>& objects() const = 0;
     virtual MapStatistics map_statistics() const = 0;  // before TakeMesh
@@ -94,6 +103,7 @@ class Engine {
     std::optional<std::string> TakeNotice() { return notices_.Take(); }
 
   protected:
+    bool keep_map_ = false;
     Wake outcome_wake_;  // Next sleeps here
     Notices notices_{outcome_wake_};
 };

@@ -160,14 +160,30 @@ void FrameMapping::Finish() {
     if (scan_) scan_->Finish(stage_);
 }
 
-TriangleMesh FrameMapping::TakeMesh(Status& status) {
-    TriangleMesh mesh = MakeFinalMesh(status);
+void FrameMapping::SaveAfterEnd(const ViewerCommand& command,
+                                const std::function<LoopChanges()>& learnt) {
+    if (command.kind == ViewerCommand::Kind::kSaveMesh) {
+        mesh_writer_.reset();  // it has ended
+        SaveMesh(command.path);
+        if (mesh_writer_) mesh_writer_->Finish();
+    }
+    if (command.kind != ViewerCommand::Kind::kSaveScan) return;
+    if (scan_) return notices_.Tell("the scan is already saved: " + scan_->path());
+    const std::string answer = StartScanNow(command.path);
+    if (!scan_) return notices_.Tell(answer);
+    scan_->AddLoops(learnt());
+    scan_->Finish(stage_);
+    notices_.Tell("scan saved: " + command.path);
+}
+
+TriangleMesh FrameMapping::TakeMesh(Status& status, bool keep_map) {
+    TriangleMesh mesh = MakeFinalMesh(status, keep_map);
     notices_.Tell(stage_.mesh_warning());
     return mesh;
 }
 
-TriangleMesh FrameMapping::MakeFinalMesh(Status& status) {
-    if (!paging_ || !paging_->paged()) return stage_.TakeMesh();
+TriangleMesh FrameMapping::MakeFinalMesh(Status& status, bool keep_map) {
+    if (!paging_ || !paging_->paged()) return stage_.TakeMesh(keep_map);
     if (scan_->failed()) {
         const Status returned = paging_->ReturnAll(stage_, *scan_);
         if (returned.ok()) return stage_.TakeMesh();

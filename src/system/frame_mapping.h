@@ -2,6 +2,7 @@
 // the map, and what follows it: the scan file, the memory limit and the window.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -72,7 +73,11 @@ class FrameMapping {
     // Call after the last frame: writes what the scan file lacks.
     void Finish();
     // Call once, after Finish. Releases the map. On error sets `status` and returns an empty mesh.
-    TriangleMesh TakeMesh(Status& status);
+    // `keep_map`: does not release it, unless part of it is only in the scan file.
+    TriangleMesh TakeMesh(Status& status, bool keep_map = false);
+    // After Finish, while the stage has a map: what the user asks to be saved then. `learnt`: by
+    // loop closure, all of it.
+    void SaveAfterEnd(const ViewerCommand& command, const std::function<LoopChanges()>& learnt);
 
     MappingStage& stage() { return stage_; }
     const MappingStage& stage() const { return stage_; }
@@ -89,7 +94,7 @@ class FrameMapping {
 
   private:
     Status StartPaging();
-    TriangleMesh MakeFinalMesh(Status& status);
+    TriangleMesh MakeFinalMesh(Status& status, bool keep_map);
     struct SavedMesh {
         std::string path, note;
         TriangleMesh mesh;

@@ -1,5 +1,8 @@
 #include "system/labelling_stage.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <exception>
 
 #include "core/check.h"
@@ -28,7 +31,7 @@ MovingHint HintOf(const Frame& frame, const PinholeCamera& camera,
 
 bool LabellingStage::Detect(const Frame& frame, LabelReport& report, std::string& message) {
     message.clear();
-    if (broken_) return false;
+    if (broken_ || !detector_) return false;
     Stopwatch watch;
     const auto detect = [&]() -> Result<std::vector<Detection>> {
         try {
@@ -56,11 +59,50 @@ bool LabellingStage::Detect(const Frame& frame, LabelReport& report, std::string
     return true;
 }
 
-LabellingThread::LabellingThread(LabellingStage stage, Wake& mapping)
+Status LabellingStage::Check(const Detector& detector) const {
+    const std::vector<std::string>& names = detector.class_names();
+    const auto is_known = [this](const std::string& name) {
+        return classes_.IdOf(name) != 0 || classes_.IsDynamic(name);
+    };
+    if (classes_.count() == 0 || names.empty() || std::ranges::any_of(names, is_known))
+        return Status::Ok();
+    return Status::Error("it knows none of the classes of this run");
+}
+
+DetectorChange LabellingStage::Change(const std::string& name, const OpenDetectorFunction& open) {
+    const auto refused = [&](const std::string& why) {
+        return DetectorChange{fmt::format("the detector was not changed: {}", why), nullptr};
+    };
+    if (!open) return refused("this run cannot open another");
+    const auto opened = [&]() -> Result<Labelling> {
+        try {
+            return open(name);
+        } catch (const std::exception& error) {
+            return Status::Error(name + ": " + error.what());
+        }
+    };
+    Result<Labelling> labelling = opened();
+    if (!labelling.ok()) return refused(labelling.message());
+    if (Status status = Check(*labelling.value().detector); !status.ok())
+        return refused(name + ": " + status.message());
+    detector_ = std::move(labelling.value().detector);
+    if (classes_.count() == 0) classes_ = std::move(labelling.value().classes);
+    broken_ = false;
+    if (in_background_) detector_->WorkInBackground();
+    return {"objects are detected with " + name, std::make_shared<const LabelClasses>(classes_)};
+}
+
+LabellingThread::LabellingThread(LabellingStage stage, OpenDetectorFunction open, Wake& mapping)
     : stage_(std::move(stage)),
+      open_(std::move(open)),
+      changes_(4, mapping),
       answers_(kUntaken + 2, mapping),
       worker_(1, [this](Job& job) { Detect(job); },
-              {.low_priority = true, .begin = [this] { stage_.WorkInBackground(); }}) {}
+              {.low_priority = true,
+               .wake = &wake_,
+               .has_idle_work = [this] { return !wanted_.empty(); },
+               .idle = [this] { ChangeIfWanted(); },
+               .begin = [this] { stage_.WorkInBackground(); }}) {}
 
 std::unique_ptr<Frame> LabellingThread::Offer(Job job) {
     if (broken_.load() || answers_.size() >= kUntaken) return std::move(job.frame);
@@ -68,7 +110,16 @@ std::unique_ptr<Frame> LabellingThread::Offer(Job job) {
     return dropped ? std::move(dropped->frame) : nullptr;
 }
 
+void LabellingThread::ChangeIfWanted() {
+    std::string name;
+    if (!wanted_.TryPop(name)) return;
+    DetectorChange change = stage_.Change(name, open_);
+    if (change.classes) broken_.store(false);
+    changes_.Push(std::move(change));
+}
+
 void LabellingThread::Detect(Job& job) {
+    ChangeIfWanted();
     Answer answer;
     answer.job = std::move(job);
     if (!stage_.Detect(*answer.job.frame, answer.report, answer.message)) broken_.store(true);

@@ -4,6 +4,8 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,9 +28,22 @@ struct LabelReport {
     double detect_ms = 0, vote_ms = 0;
 };
 
+// Opens a detector by its name, as given to --labels. Called on the thread that detects.
+using OpenDetectorFunction = std::function<Result<Labelling>(const std::string& name)>;
+
+// What came of the choice of another detector.
+struct DetectorChange {
+    std::string message;  // for the user
+    // Of the run, if the detector is in use now. Null: the one before stays.
+    std::shared_ptr<const LabelClasses> classes;
+};
+
 // Owner thread only.
 class LabellingStage {
   public:
+    // Without a detector yet.
+    LabellingStage(const LabelConfig& config, const PinholeCamera& camera)
+        : LabellingStage(nullptr, {}, config, camera) {}
     LabellingStage(std::unique_ptr<Detector> detector, LabelClasses classes,
                    const LabelConfig& config, const PinholeCamera& camera)
         : detector_(std::move(detector)),
@@ -39,15 +54,23 @@ class LabellingStage {
     // Returns false after the detector has failed. `message` gives the error the first time and is
     // empty after that.
     bool Detect(const Frame& frame, LabelReport& report, std::string& message);
+    // Replaces the detector. The classes stay those of the first one, because the map's labels are
+    // numbered by them; the new one must know one of them.
+    DetectorChange Change(const std::string& name, const OpenDetectorFunction& open);
     // Call on the detecting thread when it runs beside tracking: limits the detector to it.
-    void WorkInBackground() { detector_->WorkInBackground(); }
+    void WorkInBackground() {
+        in_background_ = true;
+        if (detector_) detector_->WorkInBackground();
+    }
 
   private:
-    std::unique_ptr<Detector> detector_;
+    Status Check(const Detector& detector) const;
+
+    std::unique_ptr<Detector> detector_;  // null: none was chosen yet
     LabelClasses classes_;
     LabelConfig config_;
     PinholeCamera camera_;
-    bool broken_ = false;
+    bool broken_ = false, in_background_ = false;
 };
 
 // Offer and TryTake: mapping thread only.
@@ -65,21 +88,29 @@ class LabellingThread {
         std::string message;  // for the user; if set, the report is empty
     };
 
-    // `mapping` is notified of answers.
-    LabellingThread(LabellingStage stage, Wake& mapping);
+    // `mapping` is notified of answers. `open`: see Change.
+    LabellingThread(LabellingStage stage, OpenDetectorFunction open, Wake& mapping);
 
     // Returns a frame that is no longer needed: an older one that was still waiting, or this one if
     // labelling has stopped or two answers have not been taken yet.
     std::unique_ptr<Frame> Offer(Job job);
-    bool has_answer() const { return !answers_.empty(); }
+    bool has_answer() const { return !answers_.empty() || !changes_.empty(); }
     bool TryTake(Answer& answer) { return answers_.TryPop(answer); }
+    // Opens another detector, while the present one goes on; see LabellingStage::Change.
+    void Change(std::string name) { wanted_.Push(std::move(name)); }
+    bool TryTake(DetectorChange& change) { return changes_.TryPop(change); }
 
   private:
     void Detect(Job& job);
+    void ChangeIfWanted();
 
     static constexpr std::size_t kUntaken = 2;
 
     LabellingStage stage_;
+    const OpenDetectorFunction open_;
+    Wake wake_;
+    NewestQueue<std::string> wanted_{1, wake_};
+    NewestQueue<DetectorChange> changes_;
     // Room for the untaken, a job in progress and one that waits.
     FifoQueue<Answer> answers_;
     std::atomic<bool> broken_{false};

@@ -13,7 +13,22 @@ void LiveMapping::TakeAnswers() {
     if (loops_) TakeLoops();
 }
 
+void LiveMapping::TakeDetector(DetectorChange& change) {
+    links_.notices.Tell(std::move(change.message));
+    if (!change.classes) return;
+    if (!life_.stage().has_labels()) {
+        life_.stage().EnableLabels(config_.labels, *change.classes);
+        if (loops_) loops_->EnableLabels({config_.labels, *change.classes});
+    }
+    FrameOutcome outcome;
+    outcome.kind = FrameOutcome::Kind::kLabelsBegin;
+    outcome.classes = std::move(change.classes);
+    links_.outcomes.Push(std::move(outcome));
+}
+
 void LiveMapping::TakeLabels() {
+    DetectorChange change;
+    while (labelling_->TryTake(change)) TakeDetector(change);
     LabellingThread::Answer answer;
     while (labelling_->TryTake(answer)) {
         if (answer.job.map.world == world_ && life_.paging() != nullptr)

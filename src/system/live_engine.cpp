@@ -21,7 +21,8 @@ Status LiveEngine::Start(EngineInput& input) {
     LiveTracking::Settings tracking{input.config, reading_.source().camera, input.device,
                                     input.viewer, std::nullopt};
     if (input.scan.resumed) tracking.resume = TrackingResume::Of(input.scan);
-    if (Status status = mapping_.Start(std::move(input.labelling), std::move(input.scan));
+    if (Status status = mapping_.Start(std::move(input.labelling), std::move(input.open_detector),
+                                       std::move(input.scan));
         !status.ok())
         return status;
     tracking_.emplace(std::move(tracking), std::move(input.plan), links_, mapping_);
@@ -60,7 +61,7 @@ bool LiveEngine::Next(FrameOutcome& outcome) {
 
 TriangleMesh LiveEngine::TakeMesh() {
     TESSERA_CHECK(ended_.load(), "TakeMesh was called before the end");
-    return mapping_.life().TakeMesh(status_);
+    return mapping_.life().TakeMesh(status_, keep_map_);
 }
 
 std::vector<StampedPose> LiveEngine::CorrectedPath() const {

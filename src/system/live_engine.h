@@ -20,6 +20,8 @@ class LiveEngine : public Engine {
     void Stop() override { reading_.Stop(); }
     bool stopped() const override { return reading_.stopped(); }
     TriangleMesh TakeMesh() override;
+    bool has_map() const override { return mapping_.life().stage().has_map(); }
+    void Save(const ViewerCommand& command) override { mapping_.Save(command); }
     const std::vector<MapObject>& objects() const override {
         return mapping_.life().stage().objects();
     }

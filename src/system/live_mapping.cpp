@@ -17,7 +17,8 @@ LiveMapping::LiveMapping(const RunConfig& config, const SourceInfo& source, Back
 
 // ---- The start.
 
-Status LiveMapping::Start(Labelling labelling, ScanPlan plan) {
+Status LiveMapping::Start(Labelling labelling, OpenDetectorFunction open_detector, ScanPlan plan) {
+    open_detector_ = std::move(open_detector);
     std::optional<LoopCloser::Labels> labels;
     if (labelling.detector) {
         labels = LoopCloser::Labels{config_.labels, labelling.classes};
@@ -49,7 +50,15 @@ void LiveMapping::StartLabels(Labelling labelling) {
     labelling_ = std::make_unique<LabellingThread>(
         LabellingStage(std::move(labelling.detector), std::move(labelling.classes), config_.labels,
                        source_.camera),
-        links_.mapping);
+        open_detector_, links_.mapping);
+}
+
+// Also without labels so far: then they begin when it is open.
+void LiveMapping::ChangeDetector(const std::string& name) {
+    if (!labelling_)
+        labelling_ = std::make_unique<LabellingThread>(
+            LabellingStage(config_.labels, source_.camera), open_detector_, links_.mapping);
+    labelling_->Change(name);
 }
 
 void LiveMapping::SendWholeMap() {
@@ -113,6 +122,7 @@ void LiveMapping::MapFrame(MappingTask& task) {
         life_.paging()->Expect(*task.T_found_camera);
     }
     if (task.labels) life_.Apply(*task.labels);
+    if (!task.detector.empty()) ChangeDetector(task.detector);
     life_.Begin();
     life_.Fuse(tracked, outcome);
     if (!one_thread_ && (tracked.report.fused || life_.stage().has_delta())) SendMapUpdate();
@@ -144,7 +154,8 @@ void LiveMapping::SendMapUpdate() {
 // Passes the frame on to labelling and loop closure, which process it in the background.
 void LiveMapping::Offer(MappingTask& task) {
     const FrameReport& report = task.tracked->report;
-    if (labelling_ && life_.labelling() && report.fused && report.stamp_s >= next_detection_s_) {
+    if (labelling_ && life_.stage().has_labels() && life_.labelling() && report.fused &&
+        report.stamp_s >= next_detection_s_) {
         next_detection_s_ = report.stamp_s + 1 / config_.labels.max_rate_hz;
         std::unique_ptr<Frame> frame = links_.frames.Take();
         if (loops_)
@@ -197,6 +208,10 @@ void LiveMapping::End() {
         while (loops_->TryTake(update)) TakeUpdate(std::move(update), true);
     }
     life_.Finish();
+}
+
+void LiveMapping::Save(const ViewerCommand& command) {
+    life_.SaveAfterEnd(command, [this] { return loops_ ? loops_->TakeNews() : LoopChanges(); });
 }
 
 }  // namespace tessera

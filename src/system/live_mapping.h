@@ -19,7 +19,7 @@ class LiveMapping {
 
     // Prepares labels, the scan and loop closure, then starts the thread. A resumed scan's map is
     // the first map update for tracking.
-    Status Start(Labelling labelling, ScanPlan plan);
+    Status Start(Labelling labelling, OpenDetectorFunction open_detector, ScanPlan plan);
 
     // ---- Tracking thread.
     // Waits if mapping is far behind. It then skips fusion until it has caught up.
@@ -37,11 +37,13 @@ class LiveMapping {
     const BlockMap& MapFor(const TrackingStage& tracking) const { return life_.MapFor(tracking); }
 
     // ---- The owner, after the end.
+    void Save(const ViewerCommand& command);
     FrameMapping& life() { return life_; }
     const FrameMapping& life() const { return life_; }
 
   private:
     void StartLabels(Labelling labelling);
+    void ChangeDetector(const std::string& name);
     void StartLoops(std::optional<LoopCloser::Labels> labels);
     void SendWholeMap();
 
@@ -53,6 +55,7 @@ class LiveMapping {
     void Offer(MappingTask& task);
     void TakeLabels();
     void TakeLabels(LabellingThread::Answer& answer);
+    void TakeDetector(DetectorChange& change);
     bool UpdateFits() const;
     void TakeLoops();
     void TakeUpdate(LoopThread::Update update, bool last);
@@ -72,8 +75,9 @@ class LiveMapping {
     double next_detection_s_ = 0;
     std::optional<LabelReport> labels_;           // for the next outcome
     std::unique_ptr<LabellingThread> labelling_;  // null without labels
-    std::unique_ptr<LoopThread> loops_;           // null without loop closure
-    std::optional<Worker<MappingTask>> worker_;   // none with a device
+    OpenDetectorFunction open_detector_;
+    std::unique_ptr<LoopThread> loops_;          // null without loop closure
+    std::optional<Worker<MappingTask>> worker_;  // none with a device
 };
 
 }  // namespace tessera

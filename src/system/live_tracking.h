@@ -48,6 +48,8 @@ class LiveTracking {
         // Where a camera that is tracked poorly was thought to be when it was asked for.
         std::optional<Eigen::Isometry3d> T_doubted;
         std::optional<LabelSettings> labels;  // new ones for mapping
+        std::string detector;                 // as last chosen
+        bool detector_changed = false;        // since the last task for mapping
     };
 
     void TakeCommands();

@@ -20,6 +20,7 @@ LockstepEngine::LockstepEngine(EngineInput input)
                                                       std::move(input.labelling.classes),
                                                       config_.labels, source_.camera);
     }
+    open_detector_ = std::move(input.open_detector);
     if (input.scan.file) scan_path_ = input.scan.file->path();
     only_localise_ = input.scan.only_localise();
     if (only_localise_) control_.KeepMap(notices_);
@@ -94,7 +95,7 @@ void LockstepEngine::Process(FrameOutcome& outcome) {
 // Runs before tracking and fusion, because the detections may mask people in the frame.
 void LockstepEngine::Detect() {
     detected_.reset();
-    if (!labelling_ || !mapping_.labelling()) return;
+    if (!mapping_.stage().has_labels() || !mapping_.labelling()) return;
     if (labelled_frames_ % config_.labels.stride != 0) return;
     LabelReport report;
     if (!labelling_->Detect(frame_, report, labels_end_)) return;
@@ -103,7 +104,7 @@ void LockstepEngine::Detect() {
 }
 
 void LockstepEngine::Label(FrameOutcome& outcome) {
-    if (!labelling_ || !mapping_.labelling() || !tracked_.report.fused) return;
+    if (!mapping_.stage().has_labels() || !mapping_.labelling() || !tracked_.report.fused) return;
     ++labelled_frames_;
     if (!detected_) return;
     mapping_.Label(frame_.depth_m, tracked_.report.track.T_world_camera, *detected_);
@@ -131,10 +132,39 @@ bool LockstepEngine::TakeMessage(FrameOutcome& outcome) {
         outcome.message = std::move(*message);
         return true;
     }
+    if (labels_begin_) {
+        outcome.kind = FrameOutcome::Kind::kLabelsBegin;
+        outcome.classes = std::exchange(labels_begin_, nullptr);
+        return true;
+    }
     if (labels_end_.empty()) return false;
     outcome.kind = FrameOutcome::Kind::kLabelsEnd;
     outcome.message = std::exchange(labels_end_, {});
     return true;
+}
+
+void LockstepEngine::Apply(const ViewerSettings& settings) {
+    tracking_.stage().Apply(settings);
+    mapping_.Apply(settings.labels);
+    if (loops_) loops_->Switch(settings.loops.value_or(true));
+    mapping_.feed().ShowPrediction(settings.show_prediction);
+    if (std::exchange(detector_, settings.detector) != settings.detector &&
+        !settings.detector.empty())
+        ChangeDetector(settings.detector);
+}
+
+// The run waits until it is open. Also without labels so far: then they begin here.
+void LockstepEngine::ChangeDetector(const std::string& name) {
+    if (!labelling_) labelling_ = std::make_unique<LabellingStage>(config_.labels, source_.camera);
+    DetectorChange change = labelling_->Change(name, open_detector_);
+    notices_.Tell(std::move(change.message));
+    if (!change.classes) return;
+    if (!mapping_.stage().has_labels()) {
+        mapping_.stage().EnableLabels(config_.labels, *change.classes);
+        loop_labels_ = LoopCloser::Labels{config_.labels, *change.classes};
+        if (loops_) loops_->EnableLabels(*loop_labels_);
+    }
+    labels_begin_ = std::move(change.classes);
 }
 
 // Waits while paused. Returns true if there is something to report.
@@ -143,10 +173,8 @@ bool LockstepEngine::HandleViewer(FrameOutcome& outcome) {
         if (TakeMessage(outcome)) return true;
         ViewerSettings settings;
         if (viewer_ != nullptr && viewer_->settings.TryPop(settings)) {
-            tracking_.stage().Apply(settings);
-            mapping_.Apply(settings.labels);
-            if (loops_) loops_->Switch(settings.loops.value_or(true));
-            mapping_.feed().ShowPrediction(settings.show_prediction);
+            Apply(settings);
+            continue;  // there may be something to tell
         }
         if (const auto command = control_.TakeCommand()) {
             if (Execute(*command, outcome)) return true;
@@ -202,7 +230,12 @@ std::vector<StampedPose> LockstepEngine::CorrectedPath() const {
 
 TriangleMesh LockstepEngine::TakeMesh() {
     reader_.reset();
-    return mapping_.TakeMesh(status_);
+    return mapping_.TakeMesh(status_, keep_map_);
+}
+
+void LockstepEngine::Save(const ViewerCommand& command) {
+    mapping_.SaveAfterEnd(command,
+                          [this] { return loops_ ? loops_->TakeChanges() : LoopChanges(); });
 }
 
 }  // namespace tessera

@@ -21,6 +21,8 @@ class LockstepEngine : public Engine {
     void Stop() override { stopped_ = true; }
     bool stopped() const override { return stopped_; }
     TriangleMesh TakeMesh() override;
+    bool has_map() const override { return mapping_.stage().has_map(); }
+    void Save(const ViewerCommand& command) override;
     const std::vector<MapObject>& objects() const override { return mapping_.stage().objects(); }
     std::vector<StampedPose> CorrectedPath() const override;
     std::optional<CalibrationReport> calibration() const override {
@@ -43,6 +45,8 @@ class LockstepEngine : public Engine {
     void CloseLoops(FrameOutcome& outcome);
 
     bool TakeMessage(FrameOutcome& outcome);
+    void Apply(const ViewerSettings& settings);
+    void ChangeDetector(const std::string& name);
     bool HandleViewer(FrameOutcome& outcome);
     bool Execute(const ViewerCommand& command, FrameOutcome& outcome);
     void Finish();
@@ -62,8 +66,11 @@ class LockstepEngine : public Engine {
     std::unique_ptr<LabellingStage> labelling_;  // null without labels
     std::optional<LabelReport> detected_;        // in the current frame
     std::string labels_end_;                     // why the detector failed, until it is reported
-    std::int64_t labelled_frames_ = 0;           // fused with labelling on
-    std::unique_ptr<FrameReader> reader_;        // null after TakeMesh
+    std::string detector_;                       // as last chosen
+    OpenDetectorFunction open_detector_;
+    std::shared_ptr<const LabelClasses> labels_begin_;  // of another detector, until reported
+    std::int64_t labelled_frames_ = 0;                  // fused with labelling on
+    std::unique_ptr<FrameReader> reader_;               // null after TakeMesh
     Frame frame_;
     TrackedFrame tracked_;
     Status status_;

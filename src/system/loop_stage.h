@@ -51,6 +51,7 @@ class LoopStage {
     // user, usually empty.
     std::string Finish(const PutMap& put);
 
+    void EnableLabels(LoopCloser::Labels labels) { closer_.EnableLabels(std::move(labels)); }
     std::vector<StampedPose> Path() const { return closer_.Path(); }
     const std::optional<CalibrationReport>& calibration() const { return closer_.calibration(); }
     // For a scan file.

@@ -65,6 +65,13 @@ void LoopThread::Reset(MapVersion map) {
     worker_.PushOrWait(std::move(job));
 }
 
+void LoopThread::EnableLabels(LoopCloser::Labels labels) {
+    Job job;
+    job.kind = Job::Kind::kLabels;
+    job.labels = std::move(labels);
+    worker_.PushOrWait(std::move(job));
+}
+
 bool LoopThread::TryTake(Update& update) {
     if (!updates_.TryPop(update)) return false;
     wake_.Notify();  // there is room for another correction
@@ -101,9 +108,7 @@ void LoopThread::Conclude() {
     if (auto change = closer_->Finish(note)) HandOver(std::move(*change));
     around_.notices.Tell(std::move(note));
     ReportProblems();
-    if (saved_.load())
-        Push({world_, std::nullopt, nullptr,
-              journal_.Take(*closer_, closer_->store().frames().size())});
+    if (saved_.load()) Push({world_, std::nullopt, nullptr, TakeNews()});
 }
 
 void LoopThread::BeginWorld(int world) {
@@ -120,6 +125,10 @@ void LoopThread::Do(Job& job) {
     closer_->SetSeeking(seeking_.load());
     switch (job.kind) {
         case Job::Kind::kReset: BeginWorld(job.map.world); break;
+        case Job::Kind::kLabels:
+            settings_.labels = std::move(job.labels);
+            closer_->EnableLabels(*settings_.labels);
+            break;
         case Job::Kind::kDetections:
             closer_->AddDetections(job.frame_index, std::move(job.detections));
             journal_.Touch(job.frame_index);

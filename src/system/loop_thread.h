@@ -73,6 +73,8 @@ class LoopThread {
                          MapVersion map);
     // Waits if the job queue is full.
     void Reset(MapVersion map);
+    // Corrected maps that are begun after the frames so far have labels.
+    void EnableLabels(LoopCloser::Labels labels);
     // Any thread. Off: no loop is closed.
     void SetSeeking(bool on) { seeking_.store(on); }
     // Updates carry news from now on. The next update covers everything so far.
@@ -85,6 +87,8 @@ class LoopThread {
     // After Finish: the final poses of the tracked frames, and the refined calibration.
     std::vector<StampedPose> Path() const { return closer_->Path(); }
     const std::optional<CalibrationReport>& calibration() const { return closer_->calibration(); }
+    // After Finish: all that a scan file does not have yet.
+    LoopChanges TakeNews() { return journal_.Take(*closer_, closer_->store().frames().size()); }
     std::size_t waiting() const { return worker_.waiting(); }
     // Of the fused frames offered while this many wait whole, one in how many is kept whole: a
     // stretch of the path for which the thread is late is still covered. 0 for none.
@@ -99,7 +103,7 @@ class LoopThread {
 
   private:
     struct Job {
-        enum class Kind { kFrame, kDetections, kReset };
+        enum class Kind { kFrame, kDetections, kReset, kLabels };
         Kind kind = Kind::kFrame;
         MapVersion map;
         double stamp_s = 0;
@@ -108,6 +112,7 @@ class LoopThread {
         std::unique_ptr<Frame> frame;
         std::int64_t frame_index = 0;
         std::vector<Detection> detections;
+        std::optional<LoopCloser::Labels> labels;
     };
 
     void Begin();

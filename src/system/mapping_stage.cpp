@@ -44,7 +44,7 @@ const BlockMap& MappingStage::map() const {
 }
 
 void MappingStage::EnableLabels(const LabelConfig& config, LabelClasses classes) {
-    map_->EnableLabels();
+    if (!map_->has_labels()) map_->EnableLabels();  // that of a scan may have them
     labels_ = std::make_unique<LabelMapper>(config, std::move(classes), camera_,
                                             static_cast<float>(config_.frame.max_depth_m));
 }
@@ -141,15 +141,15 @@ TriangleMesh MappingStage::Mesh() const {
     return mesh;
 }
 
-TriangleMesh MappingStage::TakeMesh() {
+TriangleMesh MappingStage::TakeMesh(bool keep_map) {
     UpdateMesher(mesher_, Mesher::kNoLimit);
-    if (!labels_) map_.reset();
+    if (!labels_ && !keep_map) map_.reset();
     TriangleMesh mesh = mesher_.Assemble();
-    mesher_.Clear();
+    if (!keep_map) mesher_.Clear();
     if (labels_) {
         labels_->LabelVertices(*map_, mesh);
         objects_ = labels_->Objects(map_->config().voxel_size_m, mesh);
-        map_.reset();
+        if (!keep_map) map_.reset();
     }
     return mesh;
 }
@@ -181,8 +181,13 @@ void MappingStage::Predict(const Eigen::Isometry3d& T_world_camera, int step,
 
 void MappingStage::Replace(std::unique_ptr<BlockMap> map, std::unique_ptr<LabelMapper> labels) {
     Place(std::move(map));
-    if (labels && labels_) labels->KeepNumbersOf(*labels_);
-    labels_ = std::move(labels);
+    if (labels_ && !labels) {
+        map_->EnableLabels();
+        labels_->Reset();
+    } else {
+        if (labels && labels_) labels->KeepNumbersOf(*labels_);
+        labels_ = std::move(labels);
+    }
     integrator_->MarkAllChanged(*map_);
 }
 

@@ -38,7 +38,7 @@ class MappingStage {
     // Fuses the frame into the map if `to_fuse` is set, and fills in its fusion report.
     void Fuse(TrackedFrame& tracked);
 
-    // The map holds labels from now on. Call before the first frame.
+    // The map holds labels from now on.
     void EnableLabels(const LabelConfig& config, LabelClasses classes);
     // With labels only: votes detections into the map, using the pose and depth of the frame in
     // which they were detected.
@@ -82,9 +82,10 @@ class MappingStage {
 
     // The whole mesh up to the last fused frame, without small pieces.
     TriangleMesh Mesh() const;
-    // The final mesh. Releases the map before it assembles the mesh, so that both need not fit into
-    // memory.
-    TriangleMesh TakeMesh();
+    // The final mesh. Unless the map is to be kept, releases it before it assembles the mesh, so
+    // that both need not fit into memory.
+    TriangleMesh TakeMesh(bool keep_map = false);
+    bool has_map() const { return map_ != nullptr; }
     // Warning about the meshes made so far, for the user; usually empty.
     std::string mesh_warning() const;
     // Like TakeMesh, if part of the map is only in the scan file. The file must hold the whole map.
@@ -95,7 +96,8 @@ class MappingStage {
     void Predict(const Eigen::Isometry3d& T_world_camera, int step, PredictedView& view) const;
 
     // Replaces the map by one fused elsewhere from the same frames. `labels`: of the new map, if
-    // this one has labels. Whoever follows the map by deltas first needs a copy of the new field.
+    // this one has labels; null if the new one was begun before that. Whoever follows the map by
+    // deltas first needs a copy of the new field.
     void Replace(std::unique_ptr<BlockMap> map, std::unique_ptr<LabelMapper> labels);
 
     // Call before the first frame to continue with a map made of `fused_frames` frames.

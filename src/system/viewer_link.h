@@ -102,11 +102,13 @@ struct ViewerLink {
     // All objects, by number. Pushed by the map's owner; at the end, by the thread that pushes
     // frames.
     NewestQueue<std::vector<MapObject>> objects{1, viewer};
-    NewestQueue<std::string> messages{64, viewer};      // same text as on the console
-    std::atomic<bool> ended{false};                     // the run is over and its files are written
+    NewestQueue<std::string> messages{64, viewer};  // same text as on the console
+    std::atomic<bool> ended{false};                 // the run is over and its files are written
+    std::atomic<bool> keeps_map{false};             // it is over, and its map can still be saved
     std::atomic<bool> paused{false}, recording{false};  // the state of the system
 
     // Viewer to system.
+    std::atomic<bool> open{false};  // a window is open, or will be: the run waits for it at its end
     NewestQueue<ViewerSettings> settings{1, system};  // all settings at once
     NewestQueue<ViewerCommand> commands{64, system};
 };

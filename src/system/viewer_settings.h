@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "semantics/label_config.h"
 #include "system/tracking_method.h"
@@ -20,6 +21,8 @@ struct ViewerSettings {
     bool show_prediction = true;  // fill ImageUpdate::predicted
     IcpTracker::Prediction prediction = IcpTracker::Prediction::kRayCast;
     LabelSettings labels;  // of a run with labels
+    // As for --labels: what to detect objects with from now on. Empty, or what it was: no change.
+    std::string detector;
 };
 
 }  // namespace tessera

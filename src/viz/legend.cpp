@@ -1,5 +1,7 @@
 #include "viz/legend.h"
 
+#include <algorithm>
+
 #include "viz/theme.h"
 
 namespace tessera {
@@ -36,6 +38,35 @@ void DrawLegend(ImDrawList& list, const Legend& legend, const ImVec2& at, const 
                                      {left + position(i + 1) * (right - left), y + Scaled(10)}, a,
                                      b, b, a);
     }
+}
+
+ControlRect DrawLegendItems(ImDrawList& list, std::span<const LegendItem> items,
+                            const ImVec2& bottom_left) {
+    ImFont* const font = SmallFont();
+    const float row = font->FontSize + Scaled(5), pad = Scaled(7), mark = Scaled(14);
+    float widest = 0;
+    for (const LegendItem& item : items)
+        widest =
+            std::max(widest, font->CalcTextSizeA(font->FontSize, 1e4f, 0, item.text.c_str()).x);
+    const ImVec2 size{3 * pad + mark + widest, row * static_cast<float>(items.size()) + pad};
+    const ImVec2 from{bottom_left.x, bottom_left.y - size.y};
+    list.AddRectFilled(from, {from.x + size.x, from.y + size.y}, IM_COL32(14, 16, 19, 170),
+                       Scaled(5));
+    ImVec2 at{from.x + pad, from.y + 0.5f * pad};
+    for (const LegendItem& item : items) {
+        const float middle = at.y + 0.5f * row, half = Scaled(item.line ? 1.2f : 5.0f);
+        const ImVec2 low{at.x, middle - half}, high{at.x + mark, middle + half};
+        if (item.colour != 0)
+            list.AddRectFilled(low, high, item.colour, item.line ? 0 : Scaled(2));
+        else  // a few colours for all
+            list.AddRectFilledMultiColor(low, high, IM_COL32(96, 156, 210, 255),
+                                         IM_COL32(206, 190, 160, 255), IM_COL32(120, 170, 110, 255),
+                                         IM_COL32(150, 110, 170, 255));
+        list.AddText(font, font->FontSize, {at.x + mark + pad, middle - 0.55f * font->FontSize},
+                     palette::kText, item.text.c_str());
+        at.y += row;
+    }
+    return {from.x, from.y, size.x, size.y};
 }
 
 }  // namespace tessera

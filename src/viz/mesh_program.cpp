@@ -39,6 +39,8 @@ uniform vec4 intrinsics;  // fx, fy, cx, cy of OpenGL's pixel positions
 uniform vec3 up;
 uniform int shading;       // Shading's numbers
 uniform vec3 weight_colours[5];
+uniform vec2 coverage;  // CoverageLevels in [0, 1]
+uniform vec3 once_colour, thin_colour;
 out vec4 pixel;
 
 vec3 weight_colour(float weight) {
@@ -53,9 +55,17 @@ void main() {
     vec3 to_lamp = world_from_camera * normalize(-normalize(ray) + vec3(-0.35, -0.45, 0));
     float lamp = max(dot(n, to_lamp), 0), sky = 0.5 + 0.5 * dot(n, up);
     vec3 grey = vec3(0.80, 0.81, 0.83) * (0.16 + 0.16 * sky) + vec3(0.60, 0.585, 0.56) * lamp;
-    if (shading == 0 && weighted_colour.a > 1e-3) {
-        vec3 rgb = weighted_colour.rgb / weighted_colour.a;
-        pixel = vec4(rgb * (0.62 + 0.12 * sky + 0.38 * lamp), 1);
+    vec3 scene = grey;
+    if (weighted_colour.a > 1e-3)
+        scene = weighted_colour.rgb / weighted_colour.a * (0.6 + 0.1 * sky + 0.3 * lamp);  // at most 1: whites stay
+    if (shading == 0) {
+        pixel = vec4(scene, 1);
+    } else if (shading == 5) {
+        float missing = 1 - smoothstep(0.85 * coverage.y, coverage.y, marked.a);
+        vec3 sign = mix(once_colour, thin_colour,
+                        smoothstep(0.8 * coverage.x, 1.2 * coverage.x, marked.a));
+        float bright = dot(scene, vec3(0.3, 0.6, 0.1));
+        pixel = vec4(mix(scene, sign * (0.55 + 0.6 * bright), 0.8 * missing), 1);
     } else if (shading == 1) {
         pixel = vec4(marked.rgb * (0.5 + 0.14 * sky + 0.42 * lamp), 1);
     } else if (shading == 2) {
@@ -77,7 +87,7 @@ Result<MeshProgram> MeshProgram::Create() {
 }
 
 void MeshProgram::Use(const PinholeCamera& camera, const Eigen::Isometry3d& T_world_camera,
-                      const Eigen::Vector3d& up, Shading shading) const {
+                      const Eigen::Vector3d& up, const Look& look) const {
     program_.Use();
     const Eigen::Matrix3f rotation = T_world_camera.linear().cast<float>();
     const Eigen::Vector3f up_world = up.cast<float>();
@@ -86,7 +96,15 @@ void MeshProgram::Use(const PinholeCamera& camera, const Eigen::Isometry3d& T_wo
                 static_cast<float>(camera.fy), static_cast<float>(camera.cx + 0.5),
                 static_cast<float>(camera.cy + 0.5));
     glUniform3fv(program_.Location("up"), 1, up_world.data());
-    glUniform1i(program_.Location("shading"), static_cast<int>(shading));
+    glUniform1i(program_.Location("shading"), static_cast<int>(look.shading));
+    glUniform2f(program_.Location("coverage"), static_cast<float>(look.levels.once) / 255,
+                static_cast<float>(look.levels.well) / 255);
+    const auto set_colour = [&](const char* name, const Rgb8& c) {
+        glUniform3f(program_.Location(name), static_cast<float>(c.r) / 255,
+                    static_cast<float>(c.g) / 255, static_cast<float>(c.b) / 255);
+    };
+    set_colour("once_colour", kOnceColour);
+    set_colour("thin_colour", kThinColour);
     static_assert(kWeightStops == 5, "size of the shader's array");
     std::array<float, 3 * kWeightStops> stops;
     for (std::size_t i = 0; i < kWeightColours.size(); ++i) {

@@ -6,6 +6,7 @@
 #include "core/camera.h"
 #include "core/status.h"
 #include "render/gl_program.h"
+#include "viz/coverage.h"
 #include "viz/viewer_state.h"
 
 namespace tessera {
@@ -14,9 +15,13 @@ class MeshProgram {
   public:
     static Result<MeshProgram> Create();
 
+    struct Look {
+        Shading shading = Shading::kColour;
+        CoverageLevels levels;
+    };
     // Activates the program for this camera. `up`: unit vector in the world frame.
     void Use(const PinholeCamera& camera, const Eigen::Isometry3d& T_world_camera,
-             const Eigen::Vector3d& up, Shading shading) const;
+             const Eigen::Vector3d& up, const Look& look) const;
     // Uniform location, for GlMeshStore::Draw.
     int clip_from_position() const { return program_.Location("clip_from_position"); }
 

@@ -32,12 +32,13 @@ void DrawMethods(ViewerState& state) {
 void DrawSettings(ViewerState& state) {
     ViewerSettings& settings = state.settings;
     Controls& controls = state.controls;
-    const float label_width = Scaled(88);
+    const float label_width = Scaled(104);
     bool changed = false;
     ImGui::AlignTextToFramePadding();
-    ImGui::TextUnformatted("Colour");
-    Tip("Weight of the photometric residual relative to the distances, alpha of [B14] eq. 8, in "
-        "square metres");
+    ImGui::TextUnformatted("Colour counts");
+    Tip("How much the picture counts against the shape in tracking: alpha of [B14] eq. 8, in "
+        "square "
+        "metres");
     ImGui::SameLine(label_width);
     changed |= MarkedCheckbox(controls, "alpha.auto", "auto", settings.auto_alpha);
     ImGui::SameLine();
@@ -50,64 +51,76 @@ void DrawSettings(ViewerState& state) {
     }
     ImGui::EndDisabled();
     ImGui::AlignTextToFramePadding();
-    ImGui::TextUnformatted("Max depth");
-    Tip("Depth beyond this is ignored");
+    ImGui::TextUnformatted("Largest depth");
+    Tip("What is measured farther away than this is ignored");
     ImGui::SameLine(label_width);
     changed |= MarkedSlider(controls, "max_depth", settings.max_depth_m, 0.5, 10, "%.1f m");
-    if (ImGui::BeginTable("switches", 3, ImGuiTableFlags_SizingStretchProp)) {
+    if (ImGui::BeginTable("switches", 2, ImGuiTableFlags_SizingFixedFit)) {
         ImGui::TableNextColumn();
-        changed |= MarkedCheckbox(controls, "fusing", "Fuse", settings.fusing);
-        Tip("Off: frames are tracked but not fused into the map");
+        changed |= MarkedCheckbox(controls, "fusing", "Add to the map", settings.fusing);
+        Tip("Off: the camera is tracked, but the map stays as it is");
         if (settings.loops) {
             ImGui::TableNextColumn();
-            changed |= MarkedCheckbox(controls, "loops", "Loops", *settings.loops);
-            Tip("Off: no loop is closed, and a lost camera is not looked for");
+            changed |= MarkedCheckbox(controls, "loops", "Close loops", *settings.loops);
+            Tip("On: where the camera comes back to a known place, path and map are corrected, and "
+                "a lost "
+                "camera is found again");
         }
         ImGui::TableNextColumn();
-        changed |= MarkedCheckbox(controls, "prealign", "Prealign", settings.prealign);
-        Tip("Estimate the rotation from small images before tracking; helps with fast motion");
+        changed |= MarkedCheckbox(controls, "prealign", "Align rotation first", settings.prealign);
+        Tip("Finds the rotation in small images before tracking; helps when the camera turns fast");
         ImGui::TableNextColumn();
-        changed |= MarkedCheckbox(controls, "prediction", "Predict", settings.show_prediction);
-        Tip("Show the map's prediction beside the measured images");
+        changed |=
+            MarkedCheckbox(controls, "prediction", "Show prediction", settings.show_prediction);
+        Tip("The depth that the map predicts, beside the measured images");
         ImGui::TableNextColumn();
         bool raster = settings.prediction == IcpTracker::Prediction::kRaster;
-        if (MarkedCheckbox(controls, "raster", "Raster", raster)) state.RasteriseViews(raster);
-        Tip("ICP and labels: views drawn by OpenGL from the mesh, [D18], instead of cast rays");
+        if (MarkedCheckbox(controls, "raster", "OpenGL views", raster))
+            state.RasteriseViews(raster);
+        Tip("What ICP and labels compare with is drawn by OpenGL from the mesh, [D18]; off: by "
+            "casting "
+            "rays into the map");
         ImGui::EndTable();
     }
     if (changed) state.SendSettings();
 }
 
+void DrawSaving(ViewerState& state) {
+    Controls& controls = state.controls;
+    const float width = WidthOf(3);
+    ImGui::BeginDisabled(!state.can_save());
+    if (MarkedButton(controls, "save_mesh", "Save mesh", width)) state.SaveMesh();
+    Tip("Save the mesh as .ply, also after the end  (M)");
+    ImGui::SameLine();
+    if (MarkedButton(controls, "save_scan", "Save scan", width)) state.SaveScan();
+    Tip("Save everything so far, and what comes, to a .scan that can be continued  (K)");
+    ImGui::SameLine();
+    ImGui::EndDisabled();
+    if (MarkedButton(controls, "screenshot", "Picture", width)) state.want_screenshot = true;
+    Tip("Save this window as .png  (P)");
+}
+
 void DrawCommands(ViewerState& state) {
     Controls& controls = state.controls;
     GroupTitle("RUN");
-    const float narrow = WidthOf(4), wide = WidthOf(3);
+    const float width = WidthOf(4);
     ImGui::BeginDisabled(state.ended());
-    if (MarkedButton(controls, "pause", state.paused() ? "Resume" : "Pause", narrow,
-                     state.paused()))
+    if (MarkedButton(controls, "pause", state.paused() ? "Go on" : "Pause", width, state.paused()))
         state.TogglePause();
-    Tip("Pause or resume  (Space)");
+    Tip("Pause, or go on  (Space)");
     ImGui::SameLine();
-    if (MarkedButton(controls, "step", "Step", narrow)) state.Step();
+    if (MarkedButton(controls, "step", "Step", width)) state.Step();
     Tip("Process one frame, then pause  (S)");
     ImGui::SameLine();
-    if (MarkedButton(controls, "reset", "Reset", narrow)) state.ask_reset = true;
+    if (MarkedButton(controls, "reset", "Reset", width)) state.ask_reset = true;
     Tip("Start over with an empty map; asks first  (R)");
     ImGui::SameLine();
-    if (MarkedButton(controls, "record", state.recording() ? "Stop rec." : "Record", narrow,
+    if (MarkedButton(controls, "record", state.recording() ? "Stop rec." : "Record", width,
                      state.recording()))
         state.ToggleRecording();
     Tip("Record the raw frames from now on  (V)");
-    if (MarkedButton(controls, "save_mesh", "Save mesh", wide)) state.SaveMesh();
-    Tip("Save the mesh as .ply  (M)");
-    ImGui::SameLine();
-    if (MarkedButton(controls, "save_scan", "Save scan", wide)) state.SaveScan();
-    Tip("Save everything so far, and continuously from now on, to a .scan that can be resumed  "
-        "(K)");
-    ImGui::SameLine();
     ImGui::EndDisabled();
-    if (MarkedButton(controls, "screenshot", "Picture", wide)) state.want_screenshot = true;
-    Tip("Save this window as .png  (P)");
+    DrawSaving(state);
 }
 
 }  // namespace
@@ -118,29 +131,6 @@ void DrawControlsPanel(ViewerState& state) {
     DrawSettings(state);
     ImGui::EndDisabled();
     DrawCommands(state);
-}
-
-void DrawResetQuestion(ViewerState& state) {
-    if (!state.ask_reset) return;
-    const ImVec2 size = ImGui::GetIO().DisplaySize;
-    ImGui::SetNextWindowPos({size.x / 2, size.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
-    ImGui::OpenPopup("Reset");
-    if (!ImGui::BeginPopupModal("Reset", nullptr,
-                                ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove |
-                                    ImGuiWindowFlags_NoTitleBar))
-        return;
-    HeadingText("Start over?");
-    ImGui::TextUnformatted("This discards the map and the path of this run.");
-    ImGui::Dummy({0, Scaled(4)});
-    const bool yes = MarkedButton(state.controls, "reset.confirm", "Reset", Scaled(120));
-    ImGui::SameLine();
-    const bool no = MarkedButton(state.controls, "reset.cancel", "Keep", Scaled(120));
-    if (yes) state.Reset();
-    if (yes || no) {
-        state.ask_reset = false;
-        ImGui::CloseCurrentPopup();
-    }
-    ImGui::EndPopup();
 }
 
 }  // namespace tessera

@@ -90,12 +90,13 @@ void ImagesPanel::Draw(ViewerState& state, const ControlRect& area) {
                        fmt::format("{:.1f} m", state.settings.max_depth_m)};
     const std::string reach = fmt::format("{:.0f} mm", 1000 * state.options.truncation_m);
     const Legend difference{DivergingColour, -1, 1, "-" + reach, "+" + reach};
-    const ImVec4 colour = DrawImage("Colour", colour_, {width, height},
+    const ImVec4 colour = DrawImage("Camera", colour_, {width, height},
                                     state.system.images().frame ? "no colour" : waiting, {});
     DrawDetections(state, {colour.x, colour.y}, {colour.z, colour.w});
-    DrawImage("Depth", depth_, {width, height}, waiting, depth);
+    DrawImage("Measured depth", depth_, {width, height}, waiting, depth);
     DrawImage("Predicted depth", predicted_, {width, height}, unpredicted, depth);
-    DrawImage("Measured minus predicted", residual_, {width, height}, unpredicted, difference);
+    DrawImage(area.width < Scaled(190) ? "Difference" : "Measured minus predicted", residual_,
+              {width, height}, unpredicted, difference);
 }
 
 }  // namespace tessera

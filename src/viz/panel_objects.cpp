@@ -1,4 +1,4 @@
-// Detections and objects in the map: a list, names over the 3D view, boxes over the image.
+// Objects in the map and detections: a list, names over the 3D view, boxes over the image.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -54,47 +54,6 @@ class NamePlates {
     std::vector<ImVec4> drawn_;
 };
 
-void DrawDetector(const ViewerState& state) {
-    const SystemView& system = state.system;
-    ImGui::PushFont(SmallFont());
-    if (!state.options.labelled)
-        LabelledValue("Detector", "off: run with --labels to enable", palette::kDim);
-    else if (system.labels().stopped)
-        LabelledValue("Detector", "failed: see the messages", palette::kBad);
-    else if (system.detections_per_s() <= 0)
-        LabelledValue("Detector", state.ended() ? "ended" : "waiting for the first detections",
-                      palette::kDim);
-    else
-        LabelledValue("Detector",
-                      fmt::format("{:.1f} images/s, {:.0f} ms each", system.detections_per_s(),
-                                  system.labels().detect_ms));
-    ImGui::PopFont();
-}
-
-// Labelling on and off, and the classes whose detections count.
-void DrawLabelSettings(ViewerState& state) {
-    if (!state.options.labelled || state.link == nullptr) return;
-    ImGui::BeginDisabled(state.ended());
-    if (MarkedCheckbox(state.controls, "labelling", "Label", state.settings.labels.on))
-        state.SendSettings();
-    Tip("Off: nothing is detected; labels stay as they are");
-    ImGui::SameLine(Scaled(88));
-    if (MarkedButton(state.controls, "classes", "Classes", Scaled(88))) ImGui::OpenPopup("classes");
-    Tip("The classes that are labelled from now on");
-    ImGui::SetNextWindowSizeConstraints({0, 0}, {Scaled(240), Scaled(300)});
-    if (ImGui::BeginPopup("classes")) {
-        const LabelClasses& classes = state.system.classes();
-        for (int id = 1; id <= classes.count(); ++id) {
-            bool used = !state.settings.labels.ignored[static_cast<std::size_t>(id)];
-            const std::string& name = classes.name(id);
-            if (MarkedCheckbox(state.controls, ("class." + name).c_str(), name.c_str(), used))
-                state.UseClass(id, used);
-        }
-        ImGui::EndPopup();
-    }
-    ImGui::EndDisabled();
-}
-
 // One row: colour, number and class, probability, observations.
 void DrawRow(ViewerState& state, SceneView& scene, const MapObject& object) {
     ImGui::TableNextRow();
@@ -124,9 +83,7 @@ void DrawRow(ViewerState& state, SceneView& scene, const MapObject& object) {
 
 void DrawObjectsPanel(ViewerState& state, SceneView& scene) {
     GroupTitle("OBJECTS");
-    DrawDetector(state);
-    state.controls.MarkLast("detector");
-    DrawLabelSettings(state);
+    DrawDetectorPanel(state);
     const auto& objects = state.system.objects();
     if (objects.empty()) return;
     // At most half of the remaining space; the rest is for the messages.

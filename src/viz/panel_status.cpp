@@ -7,51 +7,22 @@
 namespace tessera {
 namespace {
 
-struct Light {
-    ImU32 colour = palette::kIdle;
-    std::string title, reason;
-};
-
-Light LightOf(const ViewerState& state) {
-    if (!state.system.has_frame())
-        return state.ended() ? Light{palette::kIdle, "Ended", "no frame was received"}
-                             : Light{palette::kIdle, "Waiting", "for the first frame"};
-    const FrameReport& report = state.system.frame().report;
-    const TrackResult& track = report.track;
-    if (track.status == TrackStatus::kLost) return {palette::kBad, "Lost", track.reason};
-    if (track.status == TrackStatus::kPoor)
-        return {palette::kWarning, "Poor, not fused", track.reason};
-    if (track.degenerate)
-        return {palette::kWarning, "Degenerate",
-                track.reason.empty() ? "the scene leaves some motion unconstrained" : track.reason};
-    if (report.first) return {palette::kGood, "Started", "the first frame defines the world frame"};
-    return {palette::kGood, "Tracking",
-            report.fused ? "good; frame fused" : "good; frame not fused"};
-}
-
 void DrawLight(const ViewerState& state) {
-    const Light light = LightOf(state);
+    const Quality light = state.quality();
+    const ImU32 colour = ColourOf(light.level);
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const ImVec2 size{ImGui::GetContentRegionAvail().x, Scaled(58)};
-    const auto faded = [&](unsigned alpha) {
-        return (light.colour & ~IM_COL32_A_MASK) | (alpha << IM_COL32_A_SHIFT);
-    };
-    list.AddRectFilled(at, {at.x + size.x, at.y + size.y}, faded(26), Scaled(6));
-    const ImVec2 centre{at.x + Scaled(22), at.y + Scaled(20)};
-    list.AddCircleFilled(centre, Scaled(11), faded(60));
-    list.AddCircleFilled(centre, Scaled(6.5f), light.colour);
-    const std::string note = state.ended()       ? "ended"
-                             : state.paused()    ? "paused"
-                             : state.recording() ? "recording"
-                                                 : "";
+    const ImU32 faded = (colour & ~IM_COL32_A_MASK) | (26u << IM_COL32_A_SHIFT);
+    list.AddRectFilled(at, {at.x + size.x, at.y + size.y}, faded, Scaled(6));
+    DrawLamp(list, {at.x + Scaled(22), at.y + Scaled(20)}, colour);
+    const std::string note = state.recording() ? "recording" : "";
     list.AddText(HeadingFont(), HeadingFont()->FontSize, {at.x + Scaled(42), at.y + Scaled(10)},
                  palette::kText, light.title.c_str());
     const float note_width =
         SmallFont()->CalcTextSizeA(SmallFont()->FontSize, 1e4f, 0, note.c_str()).x;
     list.AddText(SmallFont(), SmallFont()->FontSize,
-                 {at.x + size.x - note_width - Scaled(10), at.y + Scaled(13)},
-                 state.recording() && !state.paused() ? palette::kBad : palette::kDim,
+                 {at.x + size.x - note_width - Scaled(10), at.y + Scaled(13)}, palette::kBad,
                  note.c_str());
     const float wrap = size.x - Scaled(52);
     const ImVec4 clip{at.x, at.y, at.x + size.x, at.y + size.y};

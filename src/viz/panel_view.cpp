@@ -1,15 +1,22 @@
-// The 3D view: its picture, mouse control and toolbar.
+// The 3D view: its picture and mouse control.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 
-#include "viz/colour_map.h"
-#include "viz/legend.h"
 #include "viz/panels.h"
 #include "viz/widgets.h"
 
 namespace tessera {
 namespace {
+
+// In first person the wheel walks.
+void Zoom(ViewerState& state, ViewCamera& camera, float steps) {
+    constexpr double kStep_m = 0.15;
+    state.view.keep_all = false;
+    if (!state.view.first_person) return camera.Zoom(std::pow(0.88, steps));
+    state.view.follow = false;
+    camera.Walk(kStep_m * steps);
+}
 
 // Rotates, pans and zooms with the mouse. A drag stops following the sensor. True if the mouse
 // changed the view.
@@ -22,15 +29,15 @@ bool HandlePointer(ViewerState& state, SceneView& scene, const ControlRect& area
     const bool moves = io.MouseDelta.x != 0 || io.MouseDelta.y != 0;
     if ((left || middle) && moves) {
         state.view.follow = state.view.keep_all = false;
+        constexpr double kRadPerPx = 0.007, kTurnRadPerPx = 0.003;
         if (middle || io.KeyShift)
             camera.Pan(io.MouseDelta.x, io.MouseDelta.y, area.height);
+        else if (state.view.first_person)
+            camera.Turn(-kTurnRadPerPx * io.MouseDelta.x, -kTurnRadPerPx * io.MouseDelta.y);
         else
-            camera.Rotate(0.007 * io.MouseDelta.x, 0.007 * io.MouseDelta.y);
+            camera.Rotate(kRadPerPx * io.MouseDelta.x, kRadPerPx * io.MouseDelta.y);
     }
-    if (hovered && io.MouseWheel != 0) {
-        camera.Zoom(std::pow(0.88, io.MouseWheel));
-        state.view.keep_all = false;
-    }
+    if (hovered && io.MouseWheel != 0) Zoom(state, camera, io.MouseWheel);
     if (hovered && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
         const ImVec2 scale = io.DisplayFramebufferScale;
         const auto x = static_cast<int>((io.MousePos.x - area.x) * scale.x);
@@ -42,50 +49,6 @@ bool HandlePointer(ViewerState& state, SceneView& scene, const ControlRect& area
     }
     return left || middle ||
            (hovered && (io.MouseWheel != 0 || ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)));
-}
-
-void DrawToolbar(ViewerState& state, const ControlRect& area) {
-    Controls& controls = state.controls;
-    ViewChoices& view = state.view;
-    ImGui::SetCursorScreenPos({area.x + Scaled(10), area.y + Scaled(10)});
-    ImGui::PushFont(SmallFont());
-    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {Scaled(4), Scaled(4)});
-    const auto button = [&](const char* name, const char* label, bool lit, const char* tip) {
-        const bool pressed = MarkedButton(controls, name, label, 0, lit);
-        Tip(tip);
-        ImGui::SameLine();
-        return pressed;
-    };
-    for (int i = 0; i < kShadings; ++i) {
-        const auto shading = static_cast<Shading>(i);
-        if (!state.CanShade(shading)) continue;
-        const std::string name = std::string("shading.") + ToString(shading);
-        if (button(name.c_str(), ToString(shading), view.shading == shading, "Shading  (C)"))
-            view.shading = shading;
-    }
-    ImGui::Dummy({Scaled(6), 0});
-    ImGui::SameLine();
-    if (button("wireframe", "Wireframe", view.wireframe,
-               "Show only the edges of the triangles  (W)"))
-        view.wireframe = !view.wireframe;
-    if (button("depth_test", "Depth test", view.depth_test,
-               "Off: hidden surfaces show through  (D)"))
-        view.depth_test = !view.depth_test;
-    if (state.options.labelled &&
-        button("objects", "Objects", view.show_objects, "Boxes and names of the objects  (B)"))
-        view.show_objects = !view.show_objects;
-    if (state.link && button("truth", "Truth", view.show_truth, "Ground-truth path, in white  (T)"))
-        view.show_truth = !view.show_truth;
-    ImGui::Dummy({Scaled(6), 0});
-    ImGui::SameLine();
-    if (state.link && button("follow", "Follow", view.follow, "Stay behind the sensor  (F)"))
-        state.ToggleFollow();
-    if (button("view_all", "All", view.keep_all, "Keep all of the mesh in view as it grows  (A)"))
-        state.ViewAll();
-    if (button("help", "Help", state.show_help, "Keys and mouse  (H)"))
-        state.show_help = !state.show_help;
-    ImGui::PopStyleVar();
-    ImGui::PopFont();
 }
 
 }  // namespace
@@ -115,11 +78,9 @@ bool DrawViewPanel(ViewerState& state, SceneView& scene, const ViewPanelFrame& f
     list.AddImage(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(scene.texture())), from,
                   to);
     DrawObjectNames(state, scene, area);
-    if (state.view.shading == Shading::kWeight)
-        DrawLegend(list, {WeightColour, 0, 1, "weight 0", "255, logarithmic"},
-                   {area.x, area.y + area.height - Scaled(34)},
-                   {std::min(Scaled(360), area.width), Scaled(34)});
-    DrawToolbar(state, area);
+    if (scene.triangles() > 0)
+        DrawOverlays(state, scene, area, area.x + area.width - frame.inset_width);
+    if (state.view_kind == ViewKind::kExpert) DrawToolbar(state, area);
     return drawn;
 }
 

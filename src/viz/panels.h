@@ -5,6 +5,7 @@
 #include <imgui.h>
 
 #include "viz/gl_texture.h"
+#include "viz/scan_hints.h"
 #include "viz/scene_view.h"
 #include "viz/viewer_state.h"
 
@@ -12,6 +13,7 @@ namespace tessera {
 
 void DrawStatusPanel(ViewerState& state, const SceneView& scene);  // inside the left column
 void DrawControlsPanel(ViewerState& state);                        // inside the left column
+void DrawDetectorPanel(ViewerState& state);                        // inside the left column
 // Inside the left column; a click centres the view on an object.
 void DrawObjectsPanel(ViewerState& state, SceneView& scene);
 void DrawMessagesPanel(const ViewerState& state);  // rest of the left column
@@ -25,14 +27,44 @@ void DrawDetections(const ViewerState& state, const ImVec2& from, const ImVec2& 
 // Draws the object names over the 3D view, which fills `area`.
 void DrawObjectNames(const ViewerState& state, const SceneView& scene, const ControlRect& area);
 
+// Drawn over the 3D view, which fills `area`: the buttons of the expert window; the legends and the
+// scale bar, which ends at `right`.
+void DrawToolbar(ViewerState& state, const ControlRect& area);
+void DrawOverlays(ViewerState& state, SceneView& scene, const ControlRect& area, float right);
+
 // The 3D view and its mouse control.
 struct ViewPanelFrame {
     ControlRect area;
+    float inset_width = 0;  // kept free at the right edge of its lower end
     bool may_redraw = true;
     bool smooth = false;
 };
 // True if the 3D view was redrawn.
 bool DrawViewPanel(ViewerState& state, SceneView& scene, const ViewPanelFrame& frame);
+
+// The scan view around the 3D view. Made, used and destroyed with the OpenGL context current.
+class ScanPanel {
+  public:
+    struct Layout {
+        ControlRect strip, view, bar;
+    };
+    static Layout LayOut(float width, float height);
+
+    // Takes a new image, if there is one. Call before the others in each frame.
+    void Update(const ViewerState& state);
+    // What the camera's image needs at the right edge of the 3D view; 0 while it is hidden.
+    float inset_width(const ViewerState& state, const ControlRect& view) const;
+    void Draw(ViewerState& state, const SceneView& scene, const Layout& layout);
+
+  private:
+    std::optional<ScanHint> Hint(const ViewerState& state, const SceneView& scene) const;
+    void DrawInset(ViewerState& state, const ControlRect& view);
+
+    std::uint64_t taken_ = 0;
+    GlTexture colour_;
+    DepthShares depth_;
+    HintHolder holder_;
+};
 
 // Measured and predicted images. Made, used and destroyed with the OpenGL context current.
 class ImagesPanel {

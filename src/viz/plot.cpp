@@ -95,8 +95,9 @@ void DrawPlot(const char* title, const char* unit, std::span<const Curve> curves
     } else if (!curves.empty()) {
         const std::string value =
             fmt::format("{} {}", ValueText(curves[0].series->last(), unit), unit);
-        list.AddText({right - ImGui::CalcTextSize(value.c_str()).x, at.y}, palette::kText,
-                     value.c_str());
+        const float from = right - ImGui::CalcTextSize(value.c_str()).x;
+        if (from > at.x + title_width + Scaled(6))  // else only the tooltip shows it
+            list.AddText({from, at.y}, palette::kText, value.c_str());
     }
     list.AddRectFilled(frame.from, frame.to, IM_COL32(18, 20, 24, 255), Scaled(3));
     const float middle = 0.5f * (frame.from.y + frame.to.y);

@@ -2,17 +2,14 @@
 
 #include <epoxy/gl.h>
 
-#include "render/gl_mesh_store.h"
-#include "render/gl_triangle_mesh.h"
 #include "render/mesh_picture.h"
 #include "render/projection.h"
-#include "semantics/objects_file.h"
 #include "viz/gl_lines.h"
 #include "viz/mesh_program.h"
 #include "viz/object_boxes.h"
 #include "viz/path_lines.h"
+#include "viz/scene_mesh.h"
 #include "viz/scene_target.h"
-#include "viz/up_estimator.h"
 
 namespace tessera {
 namespace {
@@ -22,12 +19,18 @@ constexpr double kNearM = 0.05, kFarM = 500;
 }  // namespace
 
 struct SceneView::Impl {
-    Impl(MeshProgram mesh_program, GlLineProgram line_program, bool software)
-        : is_software(software), program(std::move(mesh_program)), lines(std::move(line_program)) {}
+    Impl(MeshProgram mesh_program, GlLineProgram line_program, bool software,
+         const CoverageLevels& coverage_levels)
+        : is_software(software),
+          program(std::move(mesh_program)),
+          lines(std::move(line_program)),
+          levels(coverage_levels),
+          mesh(coverage_levels) {}
 
     struct Drawn {
         Eigen::Isometry3d T_world_view = Eigen::Isometry3d::Identity();
         ViewChoices choices;
+        Shading shading = Shading::kColour;
         Request request;
     };
     void StandUpright();
@@ -38,101 +41,60 @@ struct SceneView::Impl {
     bool is_software;
     MeshProgram program;
     GlLineProgram lines;
-    GlMeshStore store;
-    GlTriangleMesh model;
+    const CoverageLevels levels;
+    SceneMesh mesh;
     PathLines paths;
     ObjectBoxes boxes;
     SceneTarget target;
     ViewCamera camera;
-    UpEstimator up{{0, -1, 0}};
     bool followed = false, changed = true;
     Drawn drawn;
-
-    MeshUpdate pending;
-    std::size_t pending_done = 0;
-    Eigen::AlignedBox3d bounds;  // of the mesh, metres
 };
 
-Result<std::unique_ptr<SceneView>> SceneView::Create(bool is_software) {
+Result<std::unique_ptr<SceneView>> SceneView::Create(bool is_software,
+                                                     const CoverageLevels& levels) {
     Result<MeshProgram> mesh = MeshProgram::Create();
     if (!mesh.ok()) return mesh.status();
     Result<GlLineProgram> line = GlLineProgram::Create();
     if (!line.ok()) return line.status();
-    return std::unique_ptr<SceneView>(new SceneView(
-        std::make_unique<Impl>(std::move(mesh.value()), std::move(line.value()), is_software)));
+    return std::unique_ptr<SceneView>(new SceneView(std::make_unique<Impl>(
+        std::move(mesh.value()), std::move(line.value()), is_software, levels)));
 }
 
 SceneView::SceneView(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 SceneView::~SceneView() = default;
 
+const Coverage& SceneView::coverage() const { return impl_->mesh.coverage(); }
 ViewCamera& SceneView::camera() { return impl_->camera; }
 unsigned SceneView::texture() const { return impl_->target.texture(); }
-std::size_t SceneView::triangles() const {
-    return impl_->store.triangles() + impl_->model.triangles();
-}
+std::size_t SceneView::triangles() const { return impl_->mesh.triangles(); }
 
 void SceneView::SetModel(const ViewedModel& model) {
-    impl_->model.Set(model.mesh, model.mesh.labels.empty()
-                                     ? std::vector<Rgb8>()
-                                     : CategoryColours(model.mesh, model.objects));
-    impl_->paths.SetPath(model.path);
-    for (const Eigen::Vector3f& vertex : model.mesh.vertices)
-        impl_->bounds.extend(vertex.cast<double>());
     const MeshView view = ChooseView(model.mesh, model.path);
     // ChooseView uses one of these two as up.
     const Eigen::Vector3d down = view.T_world_camera.linear().col(1);
     const Eigen::Vector3d up =
         -down.z() > down.y() ? Eigen::Vector3d(0, 0, 1) : Eigen::Vector3d(0, -1, 0);
-    impl_->up = UpEstimator(up);
-    for (const Eigen::Vector3f& normal : model.mesh.normals) impl_->up.Add(normal);
-    impl_->camera.SetUp(impl_->up.Up().value_or(up));
+    impl_->mesh.SetModel(model, up);
+    impl_->paths.SetPath(model.path);
+    impl_->camera.SetUp(impl_->mesh.Up().value_or(up));
     const Eigen::Vector3d eye = view.T_world_camera.translation(),
                           forward = view.T_world_camera.linear().col(2);
-    const double ahead = std::max((impl_->bounds.center() - eye).dot(forward), 0.1);
+    const double ahead = std::max((impl_->mesh.bounds().center() - eye).dot(forward), 0.1);
     impl_->camera.Place(eye, eye + ahead * forward);
     impl_->changed = true;
 }
 
 bool SceneView::TakeMesh(ViewerLink& link, std::size_t most_bytes) {
-    Impl& s = *impl_;
-    std::size_t bytes = 0;
-    bool any = false;
-    while (bytes < most_bytes) {
-        if (s.pending_done == s.pending.blocks.size()) {
-            s.pending_done = 0;
-            s.pending.blocks.clear();
-            if (!link.meshes.TryPop(s.pending)) break;
-            if (s.pending.clear) {
-                s.store.Clear();
-                s.bounds.setEmpty();
-                s.up.Clear();
-            }
-            any = true;
-        }
-        const std::size_t first = s.pending_done;
-        for (; s.pending_done < s.pending.blocks.size() && bytes < most_bytes; ++s.pending_done) {
-            const GeometryBlock& block = s.pending.blocks[s.pending_done];
-            bytes += block.geometry.vertices.size() * sizeof(GeometryVertex) +
-                     block.geometry.indices.size() * 2 + 64;
-            if (block.geometry.indices.empty()) continue;
-            s.up.Add(block.geometry);
-            const Eigen::Vector3d corner(block.coord.x, block.coord.y, block.coord.z);
-            s.bounds.extend(corner * kBlockSide * s.pending.voxel_size_m);
-            s.bounds.extend((corner + Eigen::Vector3d::Ones()) * kBlockSide *
-                            s.pending.voxel_size_m);
-        }
-        s.store.Replace(s.pending.voxel_size_m,
-                        std::span(s.pending.blocks).subspan(first, s.pending_done - first));
-        any = true;
-    }
-    s.changed |= any;
-    if (any) s.StandUpright();
+    const bool any = impl_->mesh.Take(link, most_bytes);
+    impl_->changed |= any;
+    if (any) impl_->StandUpright();
     return any;
 }
 
 // Ignores small changes, which would be visible as jitter.
 void SceneView::Impl::StandUpright() {
-    const auto found = up.Up();
+    const auto found = mesh.Up();
     if (found && found->dot(camera.up()) < 0.9997) camera.SetUp(*found);
 }
 
@@ -143,28 +105,33 @@ bool SceneView::Follow(const ViewerState& state, double since_s) {
     }
     if (!state.system.has_frame() || !state.system.frame().report.tracked()) return false;
     const Eigen::Vector3d before = impl_->camera.eye();
-    impl_->camera.Follow(state.system.frame().report.track.T_world_camera,
-                         impl_->followed ? since_s : -1);
+    const Eigen::Isometry3d& T_world_sensor = state.system.frame().report.track.T_world_camera;
+    const double step_s = impl_->followed ? since_s : -1;
+    if (state.view.first_person)
+        impl_->camera.FollowInside(T_world_sensor, step_s);
+    else
+        impl_->camera.Follow(T_world_sensor, step_s);
     impl_->followed = true;
     return (impl_->camera.eye() - before).norm() > 1e-3;
 }
 
 void SceneView::ViewAll() {
     Impl& s = *impl_;
-    if (s.bounds.isEmpty()) return;
+    const Eigen::AlignedBox3d& bounds = s.mesh.bounds();
+    if (bounds.isEmpty()) return;
     const Eigen::Vector3d from = s.camera.T_world_camera().linear().col(2);
     // Ignores small changes, or the view would never rest while the mesh grows.
-    const double distance_m = 0.76 * s.bounds.diagonal().norm();
-    if ((s.camera.target() - s.bounds.center()).norm() < 0.03 * distance_m &&
+    const double distance_m = 0.76 * bounds.diagonal().norm();
+    if ((s.camera.target() - bounds.center()).norm() < 0.03 * distance_m &&
         std::abs(s.camera.distance_m() - distance_m) < 0.03 * distance_m)
         return;
-    s.camera.Place(s.bounds.center() - distance_m * from, s.bounds.center());
+    s.camera.Place(bounds.center() - distance_m * from, bounds.center());
 }
 
 bool SceneView::Impl::ChoicesChanged(const ViewerState& state, const Request& request) const {
     const ViewChoices &a = state.view, &b = drawn.choices;
     return request.width != drawn.request.width || request.height != drawn.request.height ||
-           request.smooth != drawn.request.smooth || a.shading != b.shading ||
+           request.smooth != drawn.request.smooth || state.shading() != drawn.shading ||
            a.wireframe != b.wireframe || a.depth_test != b.depth_test ||
            a.show_truth != b.show_truth || a.show_objects != b.show_objects;
 }
@@ -177,7 +144,7 @@ bool SceneView::Draw(const ViewerState& state, const Request& request) {
     const bool at_once = request.may_redraw || (moved && request.by_hand);
     if (!s.ChoicesChanged(state, request) && !((moved || s.changed) && at_once)) return false;
     s.changed = false;
-    s.drawn = {s.camera.T_world_camera(), state.view, request};
+    s.drawn = {s.camera.T_world_camera(), state.view, state.shading(), request};
     const PinholeCamera pinhole = ViewCamera::Camera(request.width, request.height);
     s.target.Begin(request.width, request.height, request.smooth || !s.is_software ? 4 : 1);
     s.DrawMesh(state, pinhole);
@@ -196,10 +163,9 @@ void SceneView::Impl::DrawMesh(const ViewerState& state, const PinholeCamera& pi
     glDisable(GL_SCISSOR_TEST);
     if (state.view.wireframe) glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
     const Eigen::Isometry3d& T_world_view = drawn.T_world_view;
-    program.Use(pinhole, T_world_view, camera.up(), state.view.shading);
+    program.Use(pinhole, T_world_view, camera.up(), {drawn.shading, levels});
     const Eigen::Matrix4d clip = ClipFromCamera(pinhole, kNearM, kFarM);
-    store.Draw(clip, T_world_view, program.clip_from_position());
-    model.Draw(clip, T_world_view, program.clip_from_position());
+    mesh.Draw(clip, T_world_view, program.clip_from_position());
     glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
     glDisable(GL_CULL_FACE);
 }

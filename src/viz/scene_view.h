@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "core/status.h"
+#include "viz/coverage.h"
 #include "viz/view_camera.h"
 #include "viz/viewer_state.h"
 
@@ -13,7 +14,9 @@ namespace tessera {
 
 class SceneView {
   public:
-    static Result<std::unique_ptr<SceneView>> Create(bool is_software);
+    // `levels`: of the coverage.
+    static Result<std::unique_ptr<SceneView>> Create(bool is_software,
+                                                     const CoverageLevels& levels);
     ~SceneView();
 
     // Shows a model instead of the link's meshes.
@@ -42,6 +45,7 @@ class SceneView {
     // depth in metres; empty if the point is behind the camera.
     std::optional<Eigen::Vector3d> PixelOf(const Eigen::Vector3d& p_world) const;
     std::size_t triangles() const;
+    const Coverage& coverage() const;  // of the meshes from the link
 
   private:
     struct Impl;

@@ -42,7 +42,10 @@ bool SystemView::TakeLabels(ViewerLink& link, double now_s) {
         labels_ = std::move(labels);
         any = true;
     }
-    any |= link.classes.TryPop(classes_);
+    if (link.classes.TryPop(classes_)) {  // a detector is in use, perhaps after another failed
+        labels_.stopped = false;
+        any = true;
+    }
     std::vector<MapObject> objects;
     while (link.objects.TryPop(objects)) {
         SetObjects(std::move(objects));
@@ -64,6 +67,7 @@ void SystemView::Say(const std::string& text) {
 
 void SystemView::Add(FrameUpdate&& update, double now_s) {
     const FrameReport& report = update.report;
+    recent_.Add(update, now_s);
     if (report.first) {
         path_.clear();
         truth_.clear();

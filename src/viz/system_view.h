@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "system/viewer_link.h"
+#include "viz/recent_frames.h"
 #include "viz/series.h"
 
 namespace tessera {
@@ -52,6 +53,7 @@ class SystemView {
     const LabelClasses& classes() const { return classes_; }  // none without labels
     // Frames processed by the detector per second, over the last seconds; 0: not known yet.
     double detections_per_s() const { return detections_per_s_; }
+    const RecentFrames& recent() const { return recent_; }
     const History& history() const { return history_; }
     const std::deque<std::string>& messages() const { return messages_; }  // oldest first
     std::uint64_t messages_said() const { return messages_said_; }
@@ -74,6 +76,7 @@ class SystemView {
     std::uint64_t objects_taken_ = 0;
     std::deque<double> detected_s_;
     double detections_per_s_ = 0;
+    RecentFrames recent_;
     History history_;
     std::deque<std::string> messages_;
 };

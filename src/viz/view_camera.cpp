@@ -37,8 +37,21 @@ void ViewCamera::Rotate(double right_rad, double down_rad) {
     elevation_rad_ = std::clamp(elevation_rad_ + down_rad, -kSteepestRad, kSteepestRad);
 }
 
+void ViewCamera::Turn(double right_rad, double down_rad) {
+    const Eigen::Vector3d from = eye();
+    azimuth_rad_ -= right_rad;
+    elevation_rad_ = std::clamp(elevation_rad_ + down_rad, -kSteepestRad, kSteepestRad);
+    target_ += from - eye();
+}
+
+void ViewCamera::Walk(double forward_m) { target_ += forward_m * (target_ - eye()).normalized(); }
+
+double ViewCamera::PixelSize_m(double height_px) const {
+    return 2 * distance_m_ * std::tan(kHeightRad / 2) / height_px;
+}
+
 void ViewCamera::Pan(double right_px, double down_px, double height_px) {
-    const double metres_per_px = 2 * distance_m_ * std::tan(kHeightRad / 2) / height_px;
+    const double metres_per_px = PixelSize_m(height_px);
     const Eigen::Matrix3d axes = T_world_camera().linear();
     target_ -= metres_per_px * (right_px * axes.col(0) + down_px * axes.col(1));
 }
@@ -52,7 +65,17 @@ void ViewCamera::Follow(const Eigen::Isometry3d& T_world_sensor, double since_s)
     const Eigen::Vector3d sensor = T_world_sensor.translation(),
                           forward = T_world_sensor.linear().col(2);
     const Eigen::Vector3d wanted_eye = sensor + follow_scale_ * (0.7 * up_ - 1.1 * forward);
-    const Eigen::Vector3d wanted_target = sensor + 1.0 * forward;
+    Approach(wanted_eye, sensor + 1.0 * forward, since_s);
+}
+
+void ViewCamera::FollowInside(const Eigen::Isometry3d& T_world_sensor, double since_s) {
+    const Eigen::Vector3d sensor = T_world_sensor.translation(),
+                          forward = T_world_sensor.linear().col(2);
+    Approach(sensor, sensor + 1.0 * forward, since_s);
+}
+
+void ViewCamera::Approach(const Eigen::Vector3d& wanted_eye, const Eigen::Vector3d& wanted_target,
+                          double since_s) {
     const double part = since_s < 0 ? 1 : 1 - std::exp(-since_s / 0.3);
     const Eigen::Vector3d from = eye();
     Place(from + part * (wanted_eye - from), target_ + part * (wanted_target - target_));
@@ -72,6 +95,14 @@ Eigen::Isometry3d ViewCamera::T_world_camera() const {
     T.linear().col(2) = forward;
     T.translation() = at;
     return T;
+}
+
+double ScaleBarLength_m(double most_m) {
+    if (!(most_m > 0)) return 0;
+    const double power = std::pow(10.0, std::floor(std::log10(most_m)));
+    for (const double factor : {5.0, 2.0})
+        if (factor * power <= most_m) return factor * power;
+    return power;
 }
 
 PinholeCamera ViewCamera::Camera(int width, int height) {

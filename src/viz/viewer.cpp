@@ -18,6 +18,10 @@ namespace {
 
 // After the last input or update, ImGui needs a few rounds until hovering and popups have settled.
 constexpr int kSettlingRounds = 3;
+// A running system's window is drawn at least this often.
+constexpr double kLongest_s = 1;
+// Who scans looks at what is before the camera.
+constexpr double kNearer = 0.65;
 // Software rendering uses CPU time that the system needs. Unless the user moves the view, it is
 // redrawn at most this often, and for at most this share of the time.
 constexpr double kSoftwareViewPeriodS = 0.25, kSoftwareShare = 0.1;
@@ -28,8 +32,8 @@ struct Layout {
 
 Layout LayOut(float width, float height, bool with_system) {
     if (!with_system) return {.left = {}, .view = {0, 0, width, height}, .plots = {}, .images = {}};
-    const float left = std::min(Scaled(292), 0.4f * width),
-                right = std::min(Scaled(232), 0.3f * width);
+    const float left = std::min(Scaled(300), 0.4f * width),
+                right = std::clamp(0.18f * width, Scaled(150), Scaled(232));
     const float plots = std::min(Scaled(158), 0.35f * height);
     const float middle = std::max(width - left - right - 2, 1.0f),
                 view = std::max(height - plots - 1, 1.0f);
@@ -49,6 +53,8 @@ struct Viewer::Impl {
     bool RunOnce();
     void DrawFrame(bool smooth);
     bool DrawPanels(bool may_redraw, bool smooth);
+    bool DrawScan(bool may_redraw, bool smooth);
+    bool DrawExpert(bool may_redraw, bool smooth);
     bool MayRedrawView(double now_s) const;
     void TakeScreenshot();
     double FramePeriodS() const;
@@ -57,10 +63,11 @@ struct Viewer::Impl {
     ViewerState state;
     std::unique_ptr<SceneView> scene;
     ImagesPanel images;
+    ScanPanel scan;
     Stopwatch clock;
     double drawn_at_s = -1e9, view_drawn_at_s = -1e9, view_cost_s = 0, followed_at_s = 0;
     int rounds_to_draw = kSettlingRounds;
-    bool sent_stop = false, ended_seen = false;
+    bool sent_stop = false, ended_seen = false, paused_seen = false;
     bool scene_waits = false;  // the last frame was too soon for redrawing the 3D view
 };
 
@@ -68,7 +75,7 @@ namespace {
 
 Result<std::unique_ptr<Window>> OpenWindow(const ViewerOptions& options) {
     const std::string title = options.title.empty() ? "Tessera" : options.title + " - Tessera";
-    return Window::Open(title, options.width, options.height);
+    return Window::Open(title, options.width, options.height, options.scale);
 }
 
 }  // namespace
@@ -77,9 +84,11 @@ Result<std::unique_ptr<Viewer>> Viewer::Open(ViewerLink& link, const ViewerOptio
     Result<std::unique_ptr<Window>> window = OpenWindow(options);
     if (!window.ok()) return window.status();
     auto impl = std::make_unique<Impl>(std::move(window.value()), &link, options);
-    Result<std::unique_ptr<SceneView>> scene = SceneView::Create(impl->window->is_software());
+    Result<std::unique_ptr<SceneView>> scene =
+        SceneView::Create(impl->window->is_software(), CoverageLevels::Of(options.max_weight));
     if (!scene.ok()) return scene.status();
     impl->scene = std::move(scene.value());
+    if (options.view_kind == ViewKind::kScan) impl->scene->camera().Zoom(kNearer);
     return std::unique_ptr<Viewer>(new Viewer(std::move(impl)));
 }
 
@@ -89,7 +98,8 @@ Result<std::unique_ptr<Viewer>> Viewer::OpenModel(ViewedModel model, const Viewe
     ViewerOptions with_labels = options;
     with_labels.labelled = !model.mesh.labels.empty();
     auto impl = std::make_unique<Impl>(std::move(window.value()), nullptr, with_labels);
-    Result<std::unique_ptr<SceneView>> scene = SceneView::Create(impl->window->is_software());
+    Result<std::unique_ptr<SceneView>> scene =
+        SceneView::Create(impl->window->is_software(), CoverageLevels::Of(options.max_weight));
     if (!scene.ok()) return scene.status();
     impl->scene = std::move(scene.value());
     impl->state.view.follow = false;
@@ -127,14 +137,19 @@ double Viewer::Impl::FramePeriodS() const {
 bool Viewer::Impl::RunOnce() {
     ImGui::GetIO().MouseDoubleClickTime = static_cast<float>(state.options.double_click_s);
     if (window->WaitForInput(state.options.wait_s)) rounds_to_draw = kSettlingRounds;
-    const double now_s = clock.ElapsedMs() / 1000;
+    const double now_s = state.now_s = clock.ElapsedMs() / 1000;
     ViewerLink* const link = state.link;
     if (link) {
         if (state.system.Take(*link, now_s)) rounds_to_draw = std::max(rounds_to_draw, 1);
         constexpr std::size_t kBytesPerRound = std::size_t{4} << 20;
         if (scene->TakeMesh(*link, kBytesPerRound)) rounds_to_draw = std::max(rounds_to_draw, 1);
-        if (state.ended() && !ended_seen) rounds_to_draw = kSettlingRounds;
+        if (state.ended() != ended_seen || state.paused() != paused_seen)
+            rounds_to_draw = kSettlingRounds;
         ended_seen = state.ended();
+        paused_seen = state.paused();
+        // Words about silence, and hints that go.
+        if (!ended_seen && now_s - drawn_at_s > kLongest_s)
+            rounds_to_draw = std::max(rounds_to_draw, 1);
     }
     for (const Window::Key& key : window->TakeKeys()) {
         if (!ImGui::GetIO().WantTextInput) state.OnKey(key.key, key.mods);
@@ -183,23 +198,41 @@ void Viewer::Impl::DrawFrame(bool smooth) {
 }
 
 bool Viewer::Impl::DrawPanels(bool may_redraw, bool smooth) {
+    const bool drawn = state.view_kind == ViewKind::kScan ? DrawScan(may_redraw, smooth)
+                                                          : DrawExpert(may_redraw, smooth);
+    DrawHelp(state);
+    DrawResetQuestion(state);
+    return drawn;
+}
+
+bool Viewer::Impl::DrawScan(bool may_redraw, bool smooth) {
+    const ImVec2 size = ImGui::GetIO().DisplaySize;
+    const ScanPanel::Layout layout = ScanPanel::LayOut(size.x, size.y);
+    scan.Update(state);
+    const bool drawn = DrawViewPanel(state, *scene,
+                                     {.area = layout.view,
+                                      .inset_width = scan.inset_width(state, layout.view),
+                                      .may_redraw = may_redraw,
+                                      .smooth = smooth});
+    scan.Draw(state, *scene, layout);
+    return drawn;
+}
+
+bool Viewer::Impl::DrawExpert(bool may_redraw, bool smooth) {
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     const Layout layout = LayOut(size.x, size.y, state.link != nullptr);
     const bool drawn = DrawViewPanel(
         state, *scene, {.area = layout.view, .may_redraw = may_redraw, .smooth = smooth});
-    if (state.link) {
-        {
-            const Panel left("left", layout.left);
-            DrawStatusPanel(state, *scene);
-            DrawControlsPanel(state);
-            DrawObjectsPanel(state, *scene);
-            DrawMessagesPanel(state);
-        }
-        images.Draw(state, layout.images);
-        DrawPlotsPanel(state, layout.plots);
+    if (!state.link) return drawn;
+    {
+        const Panel left("left", layout.left);
+        DrawStatusPanel(state, *scene);
+        DrawControlsPanel(state);
+        DrawObjectsPanel(state, *scene);
+        DrawMessagesPanel(state);
     }
-    DrawHelp(state);
-    DrawResetQuestion(state);
+    images.Draw(state, layout.images);
+    DrawPlotsPanel(state, layout.plots);
     return drawn;
 }
 

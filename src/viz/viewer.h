@@ -22,6 +22,13 @@ enum class Shading {
     kWeight,  // how often a surface was measured
     kGrey,
     kNormal,
+    kCoverage,  // the scene's colours where it is well measured, else orange or red (coverage.h)
+};
+
+// What the window consists of.
+enum class ViewKind {
+    kScan,    // a large 3D view, one line about quality, a few large buttons
+    kExpert,  // also instruments, images and all settings
 };
 
 struct ViewerOptions {
@@ -33,8 +40,12 @@ struct ViewerOptions {
     PinholeCamera camera;        // of the frames
     double truncation_m = 0.04;  // of the map; limit of the residual's colour scale
     bool labelled = false;       // true if there is a detector, or if the model's mesh has labels
-    ViewerSettings settings;     // active when the window opens
-    Shading shading = Shading::kColour;  // initial
+    double max_weight = 128;     // of the map's voxels; sets the levels of the coverage
+    std::string detector;        // in use when the window opens, as for --labels; may be empty
+    std::vector<std::string> models;         // to choose from
+    ViewerSettings settings;                 // active when the window opens
+    ViewKind view_kind = ViewKind::kExpert;  // initial; without a running system always kExpert
+    Shading shading = Shading::kColour;      // initial
     // Initially follow the sensor; otherwise show all of the mesh until the user moves the view.
     bool follow = true;
     // When ViewerLink::ended is set; otherwise the user closes the window.
@@ -42,6 +53,7 @@ struct ViewerOptions {
     double wait_s = 1.0 / 30;     // maximum sleep of RunOnce when there is nothing to do
     double double_click_s = 0.3;  // maximum time between the two clicks
     double max_fps = 0;           // drawing rate; 0: 60 on a GPU, 15 in software
+    double scale = 0;             // of text and sizes; 0: the display's
 };
 
 // A mesh to display without a running system: `tessera view`.

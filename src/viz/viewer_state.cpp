@@ -17,12 +17,13 @@ const char* ToString(Shading shading) {
         case Shading::kWeight: return "Weight";
         case Shading::kGrey: return "Grey";
         case Shading::kNormal: return "Normal";
+        case Shading::kCoverage: return "Coverage";
     }
     return "";
 }
 
 void ViewerState::Send(ViewerCommand::Kind kind, const std::string& path) {
-    if (!ended()) link->commands.Push({kind, path});
+    link->commands.Push({kind, path});
 }
 
 void ViewerState::SendSettings() {
@@ -46,6 +47,13 @@ void ViewerState::UseClass(int id, bool on) {
     SendSettings();
 }
 
+// Labelling that was off begins again.
+void ViewerState::UseDetector(const std::string& name) {
+    settings.detector = name;
+    settings.labels.on = true;
+    SendSettings();
+}
+
 void ViewerState::TogglePause() {
     if (ended()) return;
     Send(paused() ? ViewerCommand::Kind::kResume : ViewerCommand::Kind::kPause);
@@ -55,14 +63,16 @@ void ViewerState::Step() {
     if (!ended()) Send(ViewerCommand::Kind::kStep);
 }
 
-void ViewerState::Reset() { Send(ViewerCommand::Kind::kReset); }
+void ViewerState::Reset() {
+    if (!ended()) Send(ViewerCommand::Kind::kReset);
+}
 
 void ViewerState::SaveMesh() {
-    if (!ended()) Send(ViewerCommand::Kind::kSaveMesh, NewFileName("mesh", "ply"));
+    if (can_save()) Send(ViewerCommand::Kind::kSaveMesh, NewFileName("mesh", "ply"));
 }
 
 void ViewerState::SaveScan() {
-    if (!ended()) Send(ViewerCommand::Kind::kSaveScan, NewFileName("saved", "scan"));
+    if (can_save()) Send(ViewerCommand::Kind::kSaveScan, NewFileName("saved", "scan"));
 }
 
 void ViewerState::ToggleRecording() {
@@ -74,14 +84,19 @@ void ViewerState::ToggleRecording() {
 }
 
 void ViewerState::CycleShading() {
+    if (view_kind == ViewKind::kScan) {
+        view.coverage = !view.coverage;
+        return;
+    }
     do view.shading = static_cast<Shading>((static_cast<int>(view.shading) + 1) % kShadings);
     while (!CanShade(view.shading));
 }
 
 bool ViewerState::CanShade(Shading shading) const {
     switch (shading) {
-        case Shading::kLabel: return options.labelled;
-        case Shading::kWeight: return link != nullptr;
+        case Shading::kLabel: return labelled();
+        case Shading::kWeight:
+        case Shading::kCoverage: return link != nullptr;
         default: return true;
     }
 }
@@ -91,13 +106,45 @@ void ViewerState::ToggleFollow() {
     view.keep_all = false;
 }
 
+void ViewerState::ToggleFirstPerson() {
+    view.first_person = !view.first_person;
+    if (view.first_person) view.keep_all = false;
+}
+
 void ViewerState::ViewAll() {
-    view.follow = false;
+    view.follow = view.first_person = false;
     view.keep_all = true;
+}
+
+void ViewerState::SwitchView() {
+    if (link) view_kind = view_kind == ViewKind::kScan ? ViewKind::kExpert : ViewKind::kScan;
+}
+
+Shading ViewerState::shading() const {
+    if (view_kind == ViewKind::kExpert) return view.shading;
+    return view.coverage ? Shading::kCoverage : Shading::kColour;
+}
+
+Quality ViewerState::quality() const {
+    return QualityOf({.frame = system.has_frame() ? &system.frame() : nullptr,
+                      .recent = system.recent().counts(),
+                      .silent_s = system.recent().SilentFor_s(now_s),
+                      .ended = ended(),
+                      .paused = paused(),
+                      .fusing = settings.fusing,
+                      .detector_failed = system.labels().stopped});
+}
+
+// A question is answered by its own keys; all others do nothing.
+void ViewerState::Answer(int key) {
+    const bool yes = key == GLFW_KEY_ENTER || key == GLFW_KEY_KP_ENTER || key == GLFW_KEY_Y;
+    if (yes) Reset();
+    if (yes || key == GLFW_KEY_ESCAPE || key == GLFW_KEY_N) ask_reset = false;
 }
 
 void ViewerState::OnKey(int key, int mods) {
     if (mods & (GLFW_MOD_CONTROL | GLFW_MOD_ALT | GLFW_MOD_SUPER)) return;
+    if (asks()) return Answer(key);
     const auto method = static_cast<std::size_t>(key - GLFW_KEY_1);
     if (key >= GLFW_KEY_1 && method < kTrackingMethods.size())
         return SelectMethod(kTrackingMethods[method].method);
@@ -109,7 +156,10 @@ void ViewerState::OnKey(int key, int mods) {
         case GLFW_KEY_K: return SaveScan();
         case GLFW_KEY_V: return ToggleRecording();
         case GLFW_KEY_P: want_screenshot = true; return;
+        case GLFW_KEY_TAB: return SwitchView();
         case GLFW_KEY_F: return ToggleFollow();
+        case GLFW_KEY_E: return ToggleFirstPerson();
+        case GLFW_KEY_I: view.camera_image = !view.camera_image; return;
         case GLFW_KEY_A: return ViewAll();
         case GLFW_KEY_C: return CycleShading();
         case GLFW_KEY_W: view.wireframe = !view.wireframe; return;
@@ -119,10 +169,8 @@ void ViewerState::OnKey(int key, int mods) {
         case GLFW_KEY_H:
         case GLFW_KEY_F1: show_help = !show_help; return;
         case GLFW_KEY_ESCAPE:
-            if (show_help || ask_reset)
-                show_help = ask_reset = false;
-            else
-                close = true;
+            if (!show_help) close = true;
+            show_help = false;
             return;
         case GLFW_KEY_Q: close = true; return;
         default: return;

@@ -2,22 +2,27 @@
 // controls. A button and its key call the same function.
 #pragma once
 
+#include <array>
 #include <string>
 
 #include "viz/controls.h"
+#include "viz/quality.h"
 #include "viz/system_view.h"
 #include "viz/viewer.h"
 
 namespace tessera {
 
-inline constexpr int kShadings = 5;
+inline constexpr int kShadings = 6;
 const char* ToString(Shading shading);
 
 struct ViewChoices {
     Shading shading = Shading::kColour;
     bool keep_all = false;  // keep all of the mesh in view
     bool wireframe = false, depth_test = true, follow = true, show_truth = true;
-    bool show_objects = true;  // boxes and names
+    bool show_objects = true;   // boxes and names
+    bool coverage = true;       // kScan: show the coverage instead of colours alone
+    bool camera_image = true;   // kScan: what the camera sees, in a corner
+    bool first_person = false;  // look from the camera's place instead of from behind it
 };
 
 // Owner thread only.
@@ -27,26 +32,43 @@ struct ViewerState {
         view.shading = given.shading;
         view.follow = given.follow;
         view.keep_all = !given.follow;
+        view_kind = to_system ? given.view_kind : ViewKind::kExpert;
     }
 
     ViewerLink* const link;  // null: a model without a running system
     const ViewerOptions options;
     SystemView system;
     Controls controls;
+    ViewKind view_kind = ViewKind::kExpert;
     ViewChoices view;
-    ViewerSettings settings;  // as last sent
-    int selected_object = 0;  // MapObject::id; 0: none
+    double now_s = 0;                     // of this round, on the window's clock
+    ViewerSettings settings;              // as last sent
+    std::array<char, 1024> typed_path{};  // of a detector
+    int selected_object = 0;              // MapObject::id; 0: none
     bool ask_reset = false, show_help = false, close = false, want_screenshot = false;
 
     bool ended() const { return !link || link->ended; }
     bool paused() const { return link && link->paused; }
     bool recording() const { return link && link->recording; }
+    // The system, or what it left, can still be saved.
+    bool can_save() const { return link && (!link->ended || link->keeps_map); }
+    // Objects are labelled, since the start or since a detector was chosen.
+    bool labelled() const { return options.labelled || system.classes().count() > 0; }
+    // A question is on screen. It gets all keys, and the mouse.
+    bool asks() const { return ask_reset; }
+    Shading shading() const;
+    Quality quality() const;
     // Sends all settings; call after changing `settings`.
     void SendSettings();
     void SelectMethod(TrackingMethod method);
     // Rasterised or ray cast, for ICP and for labels.
     void RasteriseViews(bool on);
     void UseClass(int id, bool on);
+    void UseDetector(const std::string& name);
+    // The one in use, or last chosen; empty: none.
+    const std::string& detector() const {
+        return settings.detector.empty() ? options.detector : settings.detector;
+    }
     void TogglePause();
     void Step();
     void Reset();  // after the user confirmed
@@ -56,7 +78,9 @@ struct ViewerState {
     void CycleShading();  // skips shadings without data
     bool CanShade(Shading shading) const;
     void ToggleFollow();
+    void ToggleFirstPerson();
     void ViewAll();
+    void SwitchView();  // between kScan and kExpert
     // Handles a key of the window: GLFW_KEY_* and GLFW_MOD_*.
     void OnKey(int key, int mods);
     // Returns "DIR/PREFIX-YYYYMMDD-HHMMSS.EXTENSION", with a number appended if that exists.
@@ -65,6 +89,7 @@ struct ViewerState {
 
   private:
     void Send(ViewerCommand::Kind kind, const std::string& path = {});
+    void Answer(int key);
 };
 
 }  // namespace tessera

@@ -61,13 +61,30 @@ void Tip(const char* text) {
     if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) ImGui::SetTooltip("%s", text);
 }
 
-bool MarkedButton(Controls& controls, const char* name, const char* label, float width, bool lit) {
+ImU32 ColourOf(QualityLevel level) {
+    switch (level) {
+        case QualityLevel::kIdle: return palette::kIdle;
+        case QualityLevel::kGood: return palette::kGood;
+        case QualityLevel::kWarning: return palette::kWarning;
+        case QualityLevel::kBad: return palette::kBad;
+    }
+    return palette::kIdle;
+}
+
+void DrawLamp(ImDrawList& list, const ImVec2& centre, ImU32 colour) {
+    const ImU32 halo = (colour & ~IM_COL32_A_MASK) | (60u << IM_COL32_A_SHIFT);
+    list.AddCircleFilled(centre, Scaled(11), halo);
+    list.AddCircleFilled(centre, Scaled(6.5f), colour);
+}
+
+bool MarkedButton(Controls& controls, const char* name, const char* label, float width, bool lit,
+                  float height) {
     if (lit) {
         ImGui::PushStyleColor(ImGuiCol_Button, palette::kLit);
         ImGui::PushStyleColor(ImGuiCol_ButtonHovered, palette::kLit);
     }
     ImGui::PushID(name);
-    const bool pressed = ImGui::Button(label, {width, 0});
+    const bool pressed = ImGui::Button(label, {width, height});
     ImGui::PopID();
     if (lit) ImGui::PopStyleColor(2);
     controls.MarkLast(name);

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "viz/controls.h"
+#include "viz/quality.h"
 #include "viz/theme.h"
 
 namespace tessera {
@@ -29,9 +30,13 @@ void LabelledValue(const char* label, const std::string& value, ImU32 colour = p
 // Tooltip of the previous item, while the mouse is over it.
 void Tip(const char* text);
 
+// The traffic light of a quality.
+ImU32 ColourOf(QualityLevel level);
+void DrawLamp(ImDrawList& list, const ImVec2& centre, ImU32 colour);
+
 // Widgets that record their area as `name` in the controls.
 bool MarkedButton(Controls& controls, const char* name, const char* label, float width,
-                  bool lit = false);
+                  bool lit = false, float height = 0);
 bool MarkedCheckbox(Controls& controls, const char* name, const char* label, bool& value);
 bool MarkedSlider(Controls& controls, const char* name, double& value, double least, double most,
                   const char* format, bool logarithmic = false);

@@ -40,14 +40,17 @@ GLFWwindow* CreateWithContext(int api, const std::string& title, int width, int 
 
 }  // namespace
 
-Result<std::unique_ptr<Window>> Window::Open(const std::string& title, int width, int height) {
+Result<std::unique_ptr<Window>> Window::Open(const std::string& title, int width, int height,
+                                             double scale) {
     if (!glfwInit()) return Status::Error("no display: set DISPLAY or run without --view");
     std::unique_ptr<Window> window(new Window);
-    if (Status status = window->Create(title, width, height); !status.ok()) return status;
+    if (Status status = window->Create(title, width, height, scale); !status.ok()) return status;
     return window;
 }
 
-Status Window::Create(const std::string& title, int width, int height) {
+Status Window::Create(const std::string& title, int width, int height, double scale) {
+    if (scale > 0)
+        width = static_cast<int>(width * scale), height = static_cast<int>(height * scale);
     // Tries EGL first, because the predicted views use it.
     for (const int api : {GLFW_EGL_CONTEXT_API, GLFW_NATIVE_CONTEXT_API})
         if (!window_) window_ = CreateWithContext(api, title, width, height);
@@ -65,7 +68,7 @@ Status Window::Create(const std::string& title, int width, int height) {
                    renderer_.find("softpipe") != std::string::npos;
     float scale_y = 1;
     glfwGetWindowContentScale(window_, &scale_, &scale_y);
-    scale_ = std::clamp(scale_, 1.0f, 4.0f);
+    scale_ = std::clamp(scale > 0 ? static_cast<float>(scale) : scale_, 1.0f, 4.0f);
 
     SetCallbacks();
     ImGui::CreateContext();

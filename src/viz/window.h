@@ -21,7 +21,9 @@ class Window {
     };
 
     // `width` and `height` for a standard-density display; scaled up on denser displays.
-    static Result<std::unique_ptr<Window>> Open(const std::string& title, int width, int height);
+    // `scale`: of text and sizes; 0: the display's.
+    static Result<std::unique_ptr<Window>> Open(const std::string& title, int width, int height,
+                                                double scale = 0);
     ~Window();
     Window(const Window&) = delete;
     Window& operator=(const Window&) = delete;
@@ -48,7 +50,7 @@ class Window {
 
   private:
     Window() = default;
-    Status Create(const std::string& title, int width, int height);
+    Status Create(const std::string& title, int width, int height, double scale);
     void SetCallbacks();
 
     GLFWwindow* window_ = nullptr;

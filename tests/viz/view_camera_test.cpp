@@ -61,6 +61,42 @@ TEST(ViewCamera, ZoomIsBounded) {
     EXPECT_EQ(camera.distance_m(), 500);
 }
 
+TEST(ViewCamera, FirstPersonTurnsAroundTheEyeAndWalks) {
+    ViewCamera camera({0, -1, 0});
+    camera.Place({0, 0, 0}, {0, 0, 2});
+    const Vector3d ahead(0, 0, 5);
+    camera.Turn(0.1, 0);  // to the right: what was ahead moves to the left
+    EXPECT_LT(camera.eye().norm(), 1e-9);
+    EXPECT_LT(PixelOf(camera, ahead).x(), 319);
+    EXPECT_NEAR(PixelOf(camera, ahead).y(), 239.5, 1e-6);
+    camera.Turn(-0.1, 0.1);  // down: it moves up
+    EXPECT_LT(PixelOf(camera, ahead).y(), 239);
+    camera.Place({0, 0, 0}, {0, 0, 2});
+    camera.Walk(0.5);
+    EXPECT_TRUE(camera.eye().isApprox(Vector3d(0, 0, 0.5), 1e-9));
+    EXPECT_NEAR(camera.distance_m(), 2, 1e-9);
+}
+
+TEST(ViewCamera, FollowsInsideTheSensor) {
+    ViewCamera camera({0, -1, 0});
+    Eigen::Isometry3d sensor = Eigen::Isometry3d::Identity();
+    sensor.translation() = Vector3d(2, 0, 5);
+    camera.FollowInside(sensor, -1);
+    EXPECT_TRUE(camera.eye().isApprox(sensor.translation(), 1e-9));
+    EXPECT_NEAR(PixelOf(camera, Vector3d(2, 0, 9)).x(), 319.5, 1e-6);
+}
+
+TEST(ViewCamera, AScaleBarIsARoundLength) {
+    EXPECT_DOUBLE_EQ(ScaleBarLength_m(0.73), 0.5);
+    EXPECT_DOUBLE_EQ(ScaleBarLength_m(0.27), 0.2);
+    EXPECT_DOUBLE_EQ(ScaleBarLength_m(19), 10);
+    EXPECT_EQ(ScaleBarLength_m(0), 0);
+    ViewCamera camera;
+    camera.Place({0, 0, 0}, {0, 0, 2});
+    const double pixel_m = PixelOf(camera, {0.1, 0, 2}).x() - PixelOf(camera, {0, 0, 2}).x();
+    EXPECT_NEAR(std::abs(pixel_m) * camera.PixelSize_m(480), 0.1, 1e-9);
+}
+
 TEST(ViewCamera, ANewUpKeepsThePlace) {
     ViewCamera camera({0, -1, 0});
     camera.Place({1, -1, -3}, {0.2, 0, 0.1});

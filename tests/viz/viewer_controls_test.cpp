@@ -92,6 +92,29 @@ TEST_F(ViewerControls, ViewsAreRasterisedAndClassesChosen) {
     EXPECT_TRUE(LastSettings()->labels.ignored.none());
 }
 
+class ViewerDetectors : public ViewerControls {
+  protected:
+    void SetUp() override {
+        first_options_.models = {"models/a.onnx", "models/b.onnx"};
+        ViewerControls::SetUp();
+    }
+};
+
+TEST_F(ViewerDetectors, ADetectorIsChosenFromTheListOrByItsPath) {
+    Frames(1);
+    Click("detector.choose");
+    Click("detector.b.onnx");
+    ASSERT_NE(LastSettings(), nullptr);
+    EXPECT_EQ(LastSettings()->detector, "models/b.onnx");
+    EXPECT_FALSE(viewer_->FindControl("detector.path"));  // the list has closed
+    Click("detector.choose");
+    Click("detector.path");
+    for (const unsigned long key : {XK_q, XK_period, XK_c, XK_f, XK_g}) Key(key);
+    Click("detector.use");
+    EXPECT_EQ(LastSettings()->detector, "q.cfg");  // q, in a text, is no key of the window
+    EXPECT_TRUE(Commands().empty());
+}
+
 TEST_F(ViewerControls, PauseStepAndResume) {
     Frames(2);
     Click("pause");
@@ -189,6 +212,42 @@ TEST_F(ViewerControls, HelpComesAndGoes) {
     EXPECT_TRUE(viewer_->FindControl("help.panel"));
     Click("help.close");
     EXPECT_FALSE(viewer_->FindControl("help.panel"));
+}
+
+// No key and no click gets past the question to the run beneath.
+TEST_F(ViewerControls, AQuestionHoldsKeyboardAndMouse) {
+    Frames(3);
+    MoveTo("view");
+    Key(XK_r);
+    ASSERT_TRUE(viewer_->FindControl("reset.confirm"));
+    for (const unsigned long key : {XK_space, XK_m, XK_2, XK_q, XK_Tab}) Key(key);
+    for (const char* name : {"pause", "method.icp"}) Click(name);
+    EXPECT_TRUE(Commands().empty());
+    EXPECT_EQ(LastSettings(), nullptr);
+    EXPECT_TRUE(viewer_->FindControl("reset.confirm"));
+    EXPECT_TRUE(viewer_->FindControl("method.icp"));  // still the expert view
+    Key(XK_Escape);
+    EXPECT_FALSE(viewer_->FindControl("reset.confirm"));
+    EXPECT_TRUE(Commands().empty());
+    Key(XK_space);  // reaches the run again
+    EXPECT_EQ(Commands(), std::vector{Kind::kPause});
+    Key(XK_r);
+    Key(XK_Return);
+    EXPECT_EQ(Commands(), (std::vector{Kind::kPause, Kind::kReset}));
+}
+
+// The map of an ended run can still be saved, if whoever ran it keeps it.
+TEST_F(ViewerControls, SavingIsPossibleAfterTheEnd) {
+    Frames(2);
+    link_.keeps_map = true;
+    link_.ended = true;
+    Rounds(4);
+    Click("save_mesh");
+    Key(XK_k);
+    Click("pause");
+    std::vector<Kind> kinds;
+    for (ViewerCommand command; link_.commands.TryPop(command);) kinds.push_back(command.kind);
+    EXPECT_EQ(kinds, (std::vector{Kind::kSaveMesh, Kind::kSaveScan}));
 }
 
 // After the end of the run no system receives commands.

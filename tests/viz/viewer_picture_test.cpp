@@ -91,7 +91,9 @@ TEST_F(ViewerPicture, ShadingByButtonAndKey) {
     EXPECT_LT(grey, 0.03);  // only the lines
     EXPECT_GT(colour, grey);
     EXPECT_GT(normal, 2 * grey + 0.05);
+    Key(XK_c);  // the coverage
     Key(XK_c);
+    MoveTo("view", 0.05f);  // no tooltip over the view
     EXPECT_NEAR(coloured(), colour, 0.01);
 }
 
@@ -170,9 +172,11 @@ TEST_F(ViewerPicture, WireframeShowsThrough) {
         return Share(viewer_->Picture(), [](const Rgb8& c) { return !IsBackground(c); });
     };
     Click("view_all");
+    MoveTo("view", 0.05f);  // no tooltip over the view
     const double filled = covered();
     Click("wireframe");
     EXPECT_NE(covered(), filled);
+    MoveTo("view", 0.05f);
     Key(XK_w);
     EXPECT_NEAR(covered(), filled, 1e-9);
 }

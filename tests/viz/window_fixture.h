@@ -25,7 +25,7 @@ class WindowTest : public testing::Test {
         config.map.voxel_size_m = 0.04;
         config.map.truncation_m = 0.16;
         system_ = std::make_unique<SteppedSystem>(link_, std::make_unique<BoxRoomSource>(), config);
-        ViewerOptions options;
+        ViewerOptions options = first_options_;
         options.title = "test";
         options.output_folder = folder_.path();
         options.camera = system_->camera();
@@ -97,6 +97,7 @@ class WindowTest : public testing::Test {
     }
 
     TempFolder folder_;
+    ViewerOptions first_options_;  // a test's own, completed by SetUp
     ViewerLink link_;
     std::unique_ptr<VirtualDisplay> display_;
     std::unique_ptr<SteppedSystem> system_;

@@ -1,7 +1,9 @@
-// Makes docs/images/window.png: the window in the middle of a scan. Needs a display. With Xvfb:
+// Makes docs/images/window.png and scan_view.png: the window in the middle of a run. Needs a
+// display. With Xvfb:
 //   xvfb-run -a -s "-screen 0 1280x720x24" build/release/tests/viz/window_picture
-//   docs/images/window.png synthetic:desk 200
-// Usage: window_picture PICTURE.png SOURCE FRAMES [LABELS|none [colour|label|weight [follow]]]
+//   docs/images/window.png synthetic:desk 40 labels=synthetic coverage follow
+// Usage: window_picture PICTURE.png SOURCE FRAMES [labels=MODEL] [colour|label|weight|coverage]
+//        [follow] [scan] [scale=S] [size=WxH] [tracker=METHOD]
 #include <atomic>
 #include <cstdio>
 #include <cstdlib>
@@ -19,20 +21,46 @@ namespace tessera {
 namespace {
 
 struct Arguments {
-    std::string picture, source, labels, shading;
+    std::string picture, source, labels, tracker;
     std::int64_t frames = 0;
+    Shading shading = Shading::kColour;
+    ViewKind view_kind = ViewKind::kExpert;
     bool follow = false;
+    double scale = 0;
+    int width = 1280, height = 720;
 };
+
+Arguments Parse(int argc, char** argv) {
+    Arguments a;
+    a.picture = argv[1], a.source = argv[2], a.frames = std::atoll(argv[3]);
+    for (int i = 4; i < argc; ++i) {
+        const std::string word = argv[i], value = word.substr(word.find('=') + 1);
+        if (word.starts_with("labels=")) a.labels = value;
+        if (word.starts_with("tracker=")) a.tracker = value;
+        if (word.starts_with("scale=")) a.scale = std::atof(value.c_str());
+        if (word.starts_with("size=")) std::sscanf(value.c_str(), "%dx%d", &a.width, &a.height);
+        if (word == "label") a.shading = Shading::kLabel;
+        if (word == "weight") a.shading = Shading::kWeight;
+        if (word == "coverage") a.shading = Shading::kCoverage;
+        if (word == "scan") a.view_kind = ViewKind::kScan;
+        if (word == "follow") a.follow = true;
+    }
+    return a;
+}
 
 ViewerOptions OptionsOf(const Arguments& a, const RunConfig& config, const SourceInfo& source) {
     ViewerOptions options;
     options.title = a.source;
+    options.width = a.width;
+    options.height = a.height;
+    options.scale = a.scale;
     options.camera = source.camera;
     options.truncation_m = config.pipeline.map.truncation_m;
     options.labelled = !a.labels.empty();
-    options.shading = a.shading == "label"    ? Shading::kLabel
-                      : a.shading == "weight" ? Shading::kWeight
-                                              : Shading::kColour;
+    options.detector = a.labels;
+    options.settings.loops = true;
+    options.shading = a.shading;
+    options.view_kind = a.view_kind;
     options.follow = a.follow;
     options.wait_s = 0;
     return options;
@@ -44,7 +72,10 @@ int Fail(const std::string& message) {
 }
 
 int MakePicture(const Arguments& a) {
-    const RunConfig config;
+    RunConfig config;
+    if (!a.tracker.empty())
+        config.pipeline.trackers.method =
+            TrackingMethodOf(a.tracker).value_or(TrackingMethod::kSdf);
     const auto source = OpenSource(a.source, config);
     if (!source.ok()) return Fail(source.message());
     ViewerLink link;
@@ -82,9 +113,5 @@ int MakePicture(const Arguments& a) {
 }  // namespace tessera
 
 int main(int argc, char** argv) {
-    if (argc < 4) return 2;
-    const auto optional = [&](int i) { return std::string(argc > i ? argv[i] : ""); };
-    const std::string labels = optional(4);
-    return tessera::MakePicture({argv[1], argv[2], labels == "none" ? "" : labels, optional(5),
-                                 std::atoll(argv[3]), optional(6) == "follow"});
+    return argc < 4 ? 2 : tessera::MakePicture(tessera::Parse(argc, argv));
 }

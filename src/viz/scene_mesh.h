@@ -1,0 +1,47 @@
+// What the 3D view shows of the surface: the meshes of a running system as they arrive, or one
+// finished mesh. Made, used and destroyed with the OpenGL context current.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <optional>
+
+#include "render/gl_mesh_store.h"
+#include "render/gl_triangle_mesh.h"
+#include "viz/coverage.h"
+#include "viz/up_estimator.h"
+#include "viz/viewer.h"
+
+namespace tessera {
+
+class SceneMesh {
+  public:
+    explicit SceneMesh(const CoverageLevels& levels) : coverage_(levels) {}
+
+    // Shows a model instead of the link's meshes. `up`: roughly, in the world frame.
+    void SetModel(const ViewedModel& model, const Eigen::Vector3d& up);
+    // Takes mesh updates from the link and uploads about `most_bytes` of them at most; the rest
+    // stays queued. True if anything arrived.
+    bool Take(ViewerLink& link, std::size_t most_bytes);
+    // `location`: of the uniform clip_from_position.
+    void Draw(const Eigen::Matrix4d& clip, const Eigen::Isometry3d& T_world_view, int location);
+
+    const Eigen::AlignedBox3d& bounds() const { return bounds_; }  // metres
+    // Empty while too few surfaces agree.
+    std::optional<Eigen::Vector3d> Up() const { return up_.Up(); }
+    const Coverage& coverage() const { return coverage_; }  // of the meshes from the link
+    std::size_t triangles() const { return store_.triangles() + model_.triangles(); }
+
+  private:
+    bool NextUpdate(ViewerLink& link);
+    std::size_t Upload(std::size_t most_bytes);
+
+    GlMeshStore store_;
+    GlTriangleMesh model_;
+    MeshUpdate pending_;
+    std::size_t pending_done_ = 0;
+    Eigen::AlignedBox3d bounds_;
+    UpEstimator up_{{0, -1, 0}};
+    Coverage coverage_;
+};
+
+}  // namespace tessera

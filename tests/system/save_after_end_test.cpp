@@ -1,0 +1,62 @@
+// What the user saves after a run has ended, while its window is still open.
+#include <filesystem>
+
+#include "io/mesh_io.h"
+#include "run/scan_export.h"
+#include "system/engine_fixture.h"
+
+namespace tessera {
+namespace {
+
+class SaveAfterEnd : public EngineTest, public testing::WithParamInterface<bool> {
+  protected:
+    void TearDown() override { engine.reset(); }  // the link must outlive it
+    std::string Notices() {
+        std::string all;
+        while (const auto notice = engine->TakeNotice()) all += *notice + "\n";
+        return all;
+    }
+    ViewerLink link;
+    TempFolder folder;
+};
+
+TEST_P(SaveAfterEnd, MeshAndScanAreThoseOfTheRun) {
+    viewer = &link;
+    config.live.queue_frames = 30;  // no frame is dropped, even on a slow machine
+    Make(GetParam(), {.count = 12});
+    TakeAll();
+    engine->KeepMap();
+    const TriangleMesh mesh = engine->TakeMesh();
+    ASSERT_TRUE(engine->has_map());
+    engine->Save({Command::kSaveMesh, folder / "late.ply"});
+    engine->Save({Command::kSaveMesh, folder / "again.ply"});
+    engine->Save({Command::kSaveScan, folder / "late.scan"});
+    engine->Save({Command::kSaveScan, folder / "more.scan"});
+    const std::string said = Notices();
+    EXPECT_NE(said.find("scan saved: " + (folder / "late.scan")), std::string::npos) << said;
+    EXPECT_NE(said.find("already saved"), std::string::npos) << said;
+    EXPECT_FALSE(std::filesystem::exists(folder / "more.scan"));
+    for (const char* name : {"late.ply", "again.ply"}) {
+        const auto saved = ReadPly(folder / name);
+        ASSERT_TRUE(saved.ok()) << saved.message();
+        EXPECT_EQ(saved.value().triangles.size(), mesh.triangles.size()) << name;
+    }
+    std::vector<Eigen::Isometry3d> path;
+    const auto stored = MeshOfScanFile(folder / "late.scan", &path);
+    ASSERT_TRUE(stored.ok()) << stored.message();
+    EXPECT_EQ(stored.value().triangles.size(), mesh.triangles.size());
+    EXPECT_EQ(path.size(), Reports().size());
+}
+
+TEST_P(SaveAfterEnd, WithoutAWindowTheMapIsReleased) {
+    Make(GetParam(), {.count = 3});
+    TakeAll();
+    EXPECT_TRUE(engine->has_map());
+    engine->TakeMesh();
+    EXPECT_FALSE(engine->has_map());
+}
+
+INSTANTIATE_TEST_SUITE_P(LockstepAndLive, SaveAfterEnd, testing::Bool());
+
+}  // namespace
+}  // namespace tessera
