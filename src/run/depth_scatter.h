@@ -17,8 +17,8 @@ struct DepthScatter {
 // deviate from a line is noise wherever the scene is locally flat: the median over the image's rows
 // and columns, at a distance at which stereo's and structured light's noise no longer is the same
 // (12 of 640 columns). Edges and texture are tails that the median leaves out; a scene of small
-// objects only adds to it. `depth_m`: 0 where nothing was measured; beyond `max_depth_m` it does not
-// count. Thread-safe.
+// objects only adds to it. `depth_m`: 0 where nothing was measured; beyond `max_depth_m` it does
+// not count. Thread-safe.
 DepthScatter MeasureDepthScatter(const Image<float>& depth_m, double max_depth_m);
 
 }  // namespace tessera

@@ -103,7 +103,8 @@ std::string FitBandToNoise(const FrameSelection& selection, PipelineConfig& conf
     if (needed_m < kClearly * given_m) return {};
     config.map.truncation_m = needed_m;
     return fmt::format(
-        "this camera's depth scatters by {:.0f} mm at {:.1f} m: the map's band is {:.0f} mm instead "
+        "this camera's depth scatters by {:.0f} mm at {:.1f} m: the map's band is {:.0f} mm "
+        "instead "
         "of {:.0f}",
         1000 * seen.sigma_m, seen.depth_m, 1000 * needed_m, 1000 * given_m);
 }

@@ -72,8 +72,7 @@ TrackStatus TrackJudge::Status(const TrackInput& input, TrackResult& result) con
                        fmt::format("jumped by {:.2f} m and {:.2f} rad", moved_m, turned_rad));
     if (result.inlier_fraction < config_.good_inlier_fraction)
         return because(kPoor, Misfit(result));
-    if (result.distance_rms_m >
-        config_.good_distance_share * input.map.config().truncation_m)
+    if (result.distance_rms_m > config_.good_distance_share * input.map.config().truncation_m)
         return because(
             kPoor, fmt::format("the depth is {:.1f} cm off the map", 100 * result.distance_rms_m));
     if (!Follows(input.T_world_camera_starts.front(), result.T_world_camera))

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "run/depth_scatter.h"
+#include "run/run.h"
 
 namespace tessera {
 namespace {
@@ -134,6 +135,24 @@ TEST_F(NoiseBand, LosesNoFrame) {
             EXPECT_EQ(frame.depth_m, NoisyCorner(160, 0.005, static_cast<unsigned>(i)));
         }
     }
+}
+
+// A small stereo camera's depth: with the band as given, icp fuses one frame of them.
+TEST(NoisyCamera, IsTrackedByIcp) {
+    RunConfig config;
+    config.synthetic.camera = {212, 120, 154, 154, 105.5, 59.5};
+    config.synthetic.frames = 20;
+    config.synthetic.sensor.noise = NoiseModel::kKinect;
+    config.synthetic.sensor.focal_px = 425;
+    config.synthetic.sensor.baseline_m = 0.05;
+    config.synthetic.sensor.disparity_std_px = 0.1;
+    config.synthetic.sensor.correlation_px = 3;
+    config.pipeline.trackers.method = TrackingMethod::kIcpRgb;
+    RunRequest request;
+    request.source = "synthetic:room";
+    const auto run = ExecuteRun(request, config, {}, {});
+    ASSERT_TRUE(run.ok()) << run.message();
+    EXPECT_GE(run.value().counts.fused, 18);
 }
 
 }  // namespace
