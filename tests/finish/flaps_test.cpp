@@ -69,6 +69,14 @@ TEST(Flaps, WhatFramesLookThroughGoes) {
     EXPECT_EQ(mesh.triangles, plane.triangles);
 }
 
+TEST(Flaps, WhatMoreFramesMeasureStays) {
+    FrameEvidence evidence;
+    for (int i = 0; i < 5; ++i) evidence.Add(kCamera, PlaneFrame(i < 3 ? 40 : 0, 160));
+    TriangleMesh board = Square({-0.2f, -0.1f, -0.5f}, {1, 0, 0}, {0, 1, 0}, 0.05f, 5);
+    EXPECT_EQ(RemoveFlaps(board, evidence).triangles, 0u);
+    EXPECT_EQ(board.triangles.size(), 48u);
+}
+
 TEST(Flaps, SpikesAndStripsGoTheSurfaceStays) {
     TriangleMesh mesh = Square({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 1.0f, 10);
     RemoveFlaps(mesh, {});

@@ -95,6 +95,11 @@ TEST(PolygonMesh, WhatIsNoPolygonIsRefused) {
     EXPECT_FALSE(MeshPolygon(eight, 0.1));
     EXPECT_FALSE(MeshPolygon(line, 0.1));
     EXPECT_FALSE(MeshPolygon(touching, 0.1));
+    // A spike through the side beyond, and a corner that is wound round twice.
+    const std::vector<Vector2d> spike{{0, 0}, {4, 0}, {4, 2}, {2.1, 2}, {2, -1}, {1.9, 2}, {0, 2}},
+        curl{{0, 0}, {4, 0}, {4, 3}, {1, 3}, {1, 1}, {3, 1}, {3, 4}, {0, 4}};
+    EXPECT_FALSE(MeshPolygon(spike, 0.1));
+    EXPECT_FALSE(MeshPolygon(curl, 0.1));
     EXPECT_FALSE(MeshPolygon(std::vector<Vector2d>{{0, 0}, {1, 0}}, 0.1));
     EXPECT_FALSE(MeshPolygon(std::vector<Vector2d>(5, {1, 1}), 0.1));
     EXPECT_FALSE(MeshPolygon(std::vector<Vector2d>{{0, 0}, {1, 0}, {NAN, 1}}, 0.1));

@@ -68,6 +68,10 @@ TEST(Shell, WhatDoesNotFitTogetherIsTakenApart) {
     EXPECT_TRUE(IsClosed(shell.mesh, 2));
     EXPECT_GE(shell.mesh.triangles.size(), 12u);
     EXPECT_TRUE(MakeShell({}, 0.05).mesh.triangles.empty());
+    mesh.triangles = {{0, 1, 2}, {0, 1, 3}};  // they disagree about inside and outside
+    const Shell plates = MakeShell(mesh, 0.05);
+    EXPECT_TRUE(IsClosed(plates.mesh));
+    EXPECT_EQ(plates.open_pieces, 2u);
 }
 
 }  // namespace
