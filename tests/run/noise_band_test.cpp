@@ -104,11 +104,11 @@ TEST_F(NoiseBand, StaysWhereTheCameraIsGood) {
     EXPECT_EQ(config.map.truncation_m, 0.04);
 }
 
-TEST_F(NoiseBand, IsTwoStandardDeviationsOfABadCamera) {
+TEST_F(NoiseBand, IsFourStandardDeviationsOfABadCamera) {
     for (const bool live : {false, true}) {
         config.map.truncation_m = 0.04;
         EXPECT_NE(Fit(0.005, live), "");
-        EXPECT_NEAR(config.map.truncation_m, 2 * SigmaOf(0.005), 0.15 * config.map.truncation_m);
+        EXPECT_NEAR(config.map.truncation_m, 4 * SigmaOf(0.005), 0.15 * config.map.truncation_m);
     }
 }
 
