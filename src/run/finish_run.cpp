@@ -8,10 +8,8 @@
 #include "core/input_file.h"
 #include "export/level.h"
 #include "io/frame_reader.h"
-#include "io/mesh_io.h"
-#include "io/trajectory.h"
 #include "run/open_source.h"
-#include "run/scan_export.h"
+#include "run/scanned.h"
 #include "scan/scan_source.h"
 
 namespace tessera {
@@ -20,23 +18,16 @@ namespace {
 constexpr std::size_t kMostJsonBytes = std::size_t{1} << 24;
 
 struct Input {
-    TriangleMesh mesh;
+    Scanned scanned;
     std::unique_ptr<FrameSource> frames;
-    std::vector<StampedPose> path;
 };
 
 Result<Input> FromScan(const std::string& path) {
-    Input input;
     Result<std::unique_ptr<FrameSource>> frames = ScanSource::Open(path);
     if (!frames.ok()) return frames.status();
-    input.frames = std::move(frames.value());
-    Result<ScanContent> scan = ReadScan(path, {});
-    if (!scan.ok()) return scan.status();
-    input.path = scan.value().Path();
-    Result<TriangleMesh> mesh = MeshOfScan(scan.value());
-    if (!mesh.ok()) return mesh.status();
-    input.mesh = std::move(mesh.value());
-    return input;
+    Result<Scanned> scanned = ReadScanFile(path);
+    if (!scanned.ok()) return scanned.status();
+    return Input{std::move(scanned.value()), std::move(frames.value())};
 }
 
 // The run's source, opened with the run's settings.
@@ -68,17 +59,11 @@ Result<std::unique_ptr<FrameSource>> SourceOf(const std::string& folder, const s
 }
 
 Result<Input> FromRun(const std::string& folder, const std::string& source) {
-    Input input;
-    Result<TriangleMesh> mesh = ReadPly(folder + "/mesh.ply");
-    if (!mesh.ok()) return mesh.status();
-    input.mesh = std::move(mesh.value());
-    Result<Trajectory> path = ReadTrajectory(folder + "/trajectory.txt");
-    if (!path.ok()) return path.status();
-    input.path = std::move(path.value().poses);
+    Result<Scanned> scanned = ReadRunFolder(folder);
+    if (!scanned.ok()) return scanned.status();
     Result<std::unique_ptr<FrameSource>> frames = SourceOf(folder, source);
     if (!frames.ok()) return frames.status();
-    input.frames = std::move(frames.value());
-    return input;
+    return Input{std::move(scanned.value()), std::move(frames.value())};
 }
 
 // Poses by time stamp, in the microseconds of a trajectory file.
@@ -167,18 +152,18 @@ Result<FinishedModel> FinishRun(const FinishRequest& request, const FinishProgre
         return Status::Error("--source: a scan file has its frames; leave --source out");
     Result<Input> input = is_run ? FromRun(path, request.source) : FromScan(path);
     if (!input.ok()) return input.status();
+    Scanned& scanned = input.value().scanned;
     if (request.level) {
-        const Result<Level> level = FindLevel(input.value().mesh, input.value().path);
+        const Result<Level> level = FindLevel(scanned.mesh, scanned.path);
         if (!level.ok()) return Status::Error("--level: " + path + ": " + level.message());
-        MakeLevel(level.value(), input.value().mesh, input.value().path);
+        MakeLevel(level.value(), scanned.mesh, scanned.path);
     }
-    FinishFrameReader reader(std::move(input.value().frames), input.value().path);
+    FinishFrameReader reader(std::move(input.value().frames), scanned.path);
     const SourceInfo info = reader.info();
     const FinishFrames frames{[&](Frame& frame) { return reader.NextOfSample(frame); },
                               [&](Frame& frame) { return reader.Next(frame); }, info.frame_count};
-    Result<FinishedModel> finished =
-        FinishModel(std::move(input.value().mesh), info.camera, input.value().path, frames,
-                    request.options, progress);
+    Result<FinishedModel> finished = FinishModel(std::move(scanned.mesh), info.camera, scanned.path,
+                                                 frames, request.options, progress);
     if (!reader.status().ok()) return reader.status();
     if (!finished.ok()) return Status::Error(path + ": " + finished.message());
     if (reader.posed() == 0)

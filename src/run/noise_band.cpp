@@ -14,6 +14,7 @@ namespace tessera {
 namespace {
 
 constexpr int kViews = 8, kTries = 20;
+constexpr int kWaits = 4;  // half a second each
 constexpr std::int64_t kLeastSamples = 1000;
 // A band that is wider by less changes nothing that could be measured.
 constexpr double kClearly = 1.25, kAtMost = 4;
@@ -49,14 +50,16 @@ class ReplayedSource : public FrameSource {
     std::deque<Past> past_;
 };
 
-// Reads on to the next frame. Returns false if there is none.
-bool NextFrame(FrameSource& source, std::deque<ReplayedSource::Past>& past) {
-    for (int i = 0; i < kTries; ++i) {
+// Reads on to the next frame. Returns false if there is none, or none in time.
+bool NextFrame(FrameSource& source, const std::atomic<bool>& stop,
+               std::deque<ReplayedSource::Past>& past) {
+    for (int i = 0, waits = 0; i < kTries && waits < kWaits && !stop.load(); ++i) {
         ReplayedSource::Past next;
         next.result = source.Read(next.frame);
         const ReadStatus status = next.result.status;
         past.push_back(std::move(next));
         if (status == ReadStatus::kOk) return true;
+        waits += status == ReadStatus::kWait;
         if (status == ReadStatus::kEnd || status == ReadStatus::kError) return false;
     }
     return false;
@@ -70,12 +73,12 @@ DepthScatter Typical(std::vector<DepthScatter> views) {
 }
 
 DepthScatter LookAt(const FrameSelection& selection, double max_depth_m,
-                    std::unique_ptr<FrameSource>& source) {
+                    const std::atomic<bool>& stop, std::unique_ptr<FrameSource>& source) {
     const SourceInfo info = source->info();
     std::vector<DepthScatter> views;
     std::deque<ReplayedSource::Past> past;
     const auto look = [&] {
-        if (!NextFrame(*source, past)) return false;
+        if (!NextFrame(*source, stop, past)) return false;
         const DepthScatter seen = MeasureDepthScatter(past.back().frame.depth_m, max_depth_m);
         if (seen.samples >= kLeastSamples) views.push_back(seen);
         return true;
@@ -95,9 +98,9 @@ DepthScatter LookAt(const FrameSelection& selection, double max_depth_m,
 }  // namespace
 
 std::string FitBandToNoise(const FrameSelection& selection, PipelineConfig& config,
-                           std::unique_ptr<FrameSource>& source) {
+                           std::unique_ptr<FrameSource>& source, const std::atomic<bool>& stop) {
     if (config.band_sigmas <= 0) return {};
-    const DepthScatter seen = LookAt(selection, config.frame.max_depth_m, source);
+    const DepthScatter seen = LookAt(selection, config.frame.max_depth_m, stop, source);
     const double given_m = config.map.truncation_m,
                  needed_m = std::min(config.band_sigmas * seen.sigma_m, kAtMost * given_m);
     if (needed_m < kClearly * given_m) return {};

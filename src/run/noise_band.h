@@ -2,6 +2,7 @@
 // the frame would not fit its own map.
 #pragma once
 
+#include <atomic>
 #include <memory>
 #include <string>
 
@@ -11,10 +12,11 @@
 namespace tessera {
 
 // Looks at the frame at the selection's start and at one in each of the next seconds, or, where the
-// source cannot seek, at its next frame, which it then delivers again. Widens
-// config.map.truncation_m to `band_sigmas` standard deviations of the depth, up to four times, if
-// it is clearly less. Returns a message for the user, usually empty.
+// source cannot seek, at its next frame, which it then delivers again. Waits about two seconds at
+// most for a silent camera, and not once `stop` is set. Widens config.map.truncation_m to
+// `band_sigmas` standard deviations of the depth, up to four times, if it is clearly less. Returns
+// a message for the user, usually empty.
 std::string FitBandToNoise(const FrameSelection& selection, PipelineConfig& config,
-                           std::unique_ptr<FrameSource>& source);
+                           std::unique_ptr<FrameSource>& source, const std::atomic<bool>& stop);
 
 }  // namespace tessera

@@ -4,17 +4,15 @@
 #include <optional>
 
 #include "io/mesh_io.h"
-#include "io/trajectory.h"
 #include "plan/plan_objects.h"
-#include "run/scan_export.h"
+#include "run/scanned.h"
 #include "semantics/objects_file.h"
 
 namespace tessera {
 namespace {
 
 struct PlanInput {
-    TriangleMesh mesh;
-    std::vector<StampedPose> path;
+    Scanned scanned;
     std::vector<MapObject> objects;
 };
 
@@ -37,21 +35,17 @@ Result<PlanInput> FromMesh(const std::string& path, const std::string& up) {
     PlanInput input;
     const Result<StampedPose> pose = UprightCamera(up.empty() ? "z" : up);
     if (!pose.ok()) return pose.status();
-    input.path.push_back(pose.value());
+    input.scanned.path.push_back(pose.value());
     Result<TriangleMesh> mesh = ReadPly(path);
     if (!mesh.ok()) return mesh.status();
-    input.mesh = std::move(mesh.value());
+    input.scanned.mesh = std::move(mesh.value());
     return input;
 }
 
 Result<PlanInput> FromFolder(const std::string& folder) {
-    PlanInput input;
-    Result<TriangleMesh> mesh = ReadPly(folder + "/mesh.ply");
-    if (!mesh.ok()) return mesh.status();
-    input.mesh = std::move(mesh.value());
-    Result<Trajectory> path = ReadTrajectory(folder + "/trajectory.txt");
-    if (!path.ok()) return path.status();
-    input.path = std::move(path.value().poses);
+    Result<Scanned> scanned = ReadRunFolder(folder);
+    if (!scanned.ok()) return scanned.status();
+    PlanInput input{std::move(scanned.value()), {}};
     const std::string file = folder + "/objects.json";
     std::error_code ignored;
     if (!std::filesystem::exists(file, ignored)) return input;
@@ -62,14 +56,9 @@ Result<PlanInput> FromFolder(const std::string& folder) {
 }
 
 Result<PlanInput> FromScanFile(const std::string& path) {
-    PlanInput input;
-    Result<ScanContent> scan = ReadScan(path, {});
-    if (!scan.ok()) return scan.status();
-    input.path = scan.value().Path();
-    Result<TriangleMesh> mesh = MeshOfScan(scan.value());
-    if (!mesh.ok()) return mesh.status();
-    input.mesh = std::move(mesh.value());
-    return input;
+    Result<Scanned> scanned = ReadScanFile(path);
+    if (!scanned.ok()) return scanned.status();
+    return PlanInput{std::move(scanned.value()), {}};
 }
 
 }  // namespace
@@ -84,7 +73,8 @@ Result<FloorPlan> PlanOfRun(const PlanRequest& request) {
                               : std::filesystem::is_directory(path, ignored) ? FromFolder(path)
                                                                              : FromScanFile(path);
     if (!input.ok()) return input.status();
-    Result<FloorPlan> plan = MakeFloorPlan(input.value().mesh, input.value().path, request.options);
+    Result<FloorPlan> plan =
+        MakeFloorPlan(input.value().scanned.mesh, input.value().scanned.path, request.options);
     if (!plan.ok())
         return Status::Error(path + ": " + plan.message() +
                              (is_mesh ? " (which way is up: --up)" : ""));

@@ -64,7 +64,7 @@ Status Runner::Open(const std::atomic<bool>& stop) {
     summary_.camera = checked.value().camera;
     camera_notes_ = std::move(checked.value().messages);
     if (!request_.resume && !request_.localise_only)  // a scan keeps its band
-        if (std::string note = FitBandToNoise(request_.selection, config_.pipeline, source);
+        if (std::string note = FitBandToNoise(request_.selection, config_.pipeline, source, stop);
             !note.empty())
             camera_notes_.push_back(std::move(note));
     Labelling labelling;

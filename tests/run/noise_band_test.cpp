@@ -89,13 +89,14 @@ class NoiseBand : public testing::Test {
     NoiseBand() { config.frame.max_depth_m = kFarthest_m; }
     std::string Fit(double sigma_per_m, bool live) {
         source = std::make_unique<NoisySource>(sigma_per_m, live);
-        return FitBandToNoise({}, config, source);
+        return FitBandToNoise({}, config, source, stop);
     }
     double SigmaOf(double sigma_per_m) const {
         return MeasureDepthScatter(NoisyCorner(160, sigma_per_m), kFarthest_m).sigma_m;
     }
 
     PipelineConfig config;
+    std::atomic<bool> stop{false};
     std::unique_ptr<FrameSource> source;
 };
 
@@ -153,6 +154,28 @@ TEST(NoisyCamera, IsTrackedByIcp) {
     const auto run = ExecuteRun(request, config, {}, {});
     ASSERT_TRUE(run.ok()) << run.message();
     EXPECT_GE(run.value().counts.fused, 18);
+}
+
+// A camera that gives nothing, as a source that waits half a second each time.
+class SilentSource : public NoisySource {
+  public:
+    SilentSource() : NoisySource(0, true) {}
+    ReadResult Read(Frame&) override {
+        ++reads;
+        return {ReadStatus::kWait, {}};
+    }
+    int reads = 0;
+};
+
+TEST_F(NoiseBand, DoesNotWaitLongForASilentCamera) {
+    for (const bool stopped : {false, true}) {
+        auto silent = std::make_unique<SilentSource>();
+        const int& reads = silent->reads;
+        source = std::move(silent);
+        stop = stopped;
+        EXPECT_EQ(FitBandToNoise({}, config, source, stop), "");
+        EXPECT_EQ(reads, stopped ? 0 : 4);
+    }
 }
 
 }  // namespace

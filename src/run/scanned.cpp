@@ -1,0 +1,24 @@
+#include "run/scanned.h"
+
+#include "io/mesh_io.h"
+#include "run/scan_export.h"
+
+namespace tessera {
+
+Result<Scanned> ReadRunFolder(const std::string& folder) {
+    Result<TriangleMesh> mesh = ReadPly(folder + "/mesh.ply");
+    if (!mesh.ok()) return mesh.status();
+    Result<Trajectory> path = ReadTrajectory(folder + "/trajectory.txt");
+    if (!path.ok()) return path.status();
+    return Scanned{std::move(mesh.value()), std::move(path.value().poses)};
+}
+
+Result<Scanned> ReadScanFile(const std::string& path) {
+    Result<ScanContent> scan = ReadScan(path, {});
+    if (!scan.ok()) return scan.status();
+    Result<TriangleMesh> mesh = MeshOfScan(scan.value());
+    if (!mesh.ok()) return mesh.status();
+    return Scanned{std::move(mesh.value()), scan.value().Path()};
+}
+
+}  // namespace tessera
