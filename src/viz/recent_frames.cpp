@@ -1,5 +1,7 @@
 #include "viz/recent_frames.h"
 
+#include "core/se3.h"
+
 namespace tessera {
 
 void RecentFrames::Add(const FrameUpdate& update, double now_s) {
@@ -41,10 +43,10 @@ void RecentFrames::Move(const FrameReport& report) {
     if (span_s <= 0) return;
     double way_m = 0, angle_rad = 0;
     for (std::size_t i = 1; i < places_.size(); ++i) {
-        const Eigen::Isometry3d step =
-            places_[i - 1].T_world_camera.inverse() * places_[i].T_world_camera;
-        way_m += step.translation().norm();
-        angle_rad += Eigen::AngleAxisd(step.linear()).angle();
+        const Eigen::Isometry3d &from = places_[i - 1].T_world_camera,
+                                &to = places_[i].T_world_camera;
+        way_m += (to.translation() - from.translation()).norm();
+        angle_rad += RotationAngle(from, to);
     }
     speed_m_s_ = way_m / span_s;
     turn_rad_s_ = angle_rad / span_s;
