@@ -3,10 +3,14 @@
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <set>
 #include <type_traits>
+#include <utility>
+#include <vector>
 
 #include "core/input_file.h"
 
@@ -18,9 +22,7 @@ Status NotPlausible(const char* key, double value) {
 }
 
 // How far the lens moves a point of the image's border, in image diagonals.
-double LargestShift(const CameraCalibration& c) {
-    const PinholeCamera& p = c.pinhole;
-    const LensDistortion& d = c.distortion;
+double LargestShift(const PinholeCamera& p, const LensDistortion& d) {
     double largest = 0;
     for (const double u : {0.0, 0.5 * p.width, 1.0 * p.width})
         for (const double v : {0.0, 0.5 * p.height, 1.0 * p.height}) {
@@ -34,17 +36,23 @@ double LargestShift(const CameraCalibration& c) {
     return largest / std::hypot(p.width, p.height);
 }
 
-Status CheckPlausible(const CameraCalibration& c) {
+Status CheckLens(const PinholeCamera& pinhole, const LensDistortion& lens) {
     constexpr double kLargestShift = 1.0;
-    if (Status status = CheckPlausible(c.pinhole); !status.ok()) return status;
-    if (!(LargestShift(c) <= kLargestShift))
-        return Status::Error(
-            "distortion: is not plausible, it moves the image's border by more than its diagonal "
-            "(expected k1, k2, p1, p2, k3 as OpenCV gives them)");
+    if (Status status = CheckPlausible(pinhole); !status.ok()) return status;
+    if (LargestShift(pinhole, lens) <= kLargestShift) return Status::Ok();
+    return Status::Error(
+        "distortion: is not plausible, it moves the image's border by more than its diagonal "
+        "(expected k1, k2, p1, p2, k3 as OpenCV gives them)");
+}
+
+Status CheckCalibration(const CameraCalibration& c) {
+    if (Status status = CheckLens(c.pinhole, c.distortion); !status.ok()) return status;
     if (!(c.depth_scale > 0 && c.depth_scale < 1e7))
         return NotPlausible("depth_scale", c.depth_scale);
     if (!(c.fps > 0 && c.fps < 1e4)) return NotPlausible("fps", c.fps);
-    return Status::Ok();
+    if (!c.colour) return Status::Ok();
+    const Status colour = CheckLens(c.colour->pinhole, c.colour->distortion);
+    return colour.ok() ? colour : Status::Error("colour: " + colour.message());
 }
 
 // A value as it is in the file, for a message.
@@ -68,40 +76,98 @@ Status ReadLens(const YAML::Node& node, LensDistortion& lens) {
     return Status::Ok();
 }
 
-Status ReadEntry(const std::string& key, const YAML::Node& value, CameraCalibration& c) {
-    PinholeCamera& p = c.pinhole;
-    const std::map<std::string, double*> numbers = {
-        {"fx", &p.fx}, {"fy", &p.fy},   {"cx", &p.cx},
-        {"cy", &p.cy}, {"fps", &c.fps}, {"depth_scale", &c.depth_scale}};
-    if (const auto number = numbers.find(key); number != numbers.end())
-        return Read(value, *number->second);
-    if (key == "width" || key == "height") return Read(value, key == "width" ? p.width : p.height);
-    return ReadLens(value, c.distortion);
+// As in trajectories: tx, ty, tz in metres, and a unit quaternion qx, qy, qz, qw.
+Status ReadTransform(const YAML::Node& node, Eigen::Isometry3d& T) {
+    constexpr double kUnitWithin = 1e-3, kFarthest_m = 1;
+    std::array<double, 7> n{};
+    if (!node.IsSequence() || node.size() != n.size())
+        return Status::Error("needs tx, ty, tz, qx, qy, qz, qw");
+    for (std::size_t i = 0; i < n.size(); ++i)
+        if (Status status = Read(node[i], n[i]); !status.ok()) return status;
+    const Eigen::Quaterniond q(n[6], n[3], n[4], n[5]);
+    if (!(std::abs(q.norm() - 1) < kUnitWithin))
+        return Status::Error("qx, qy, qz, qw is no rotation: its length is not 1");
+    T.linear() = q.normalized().toRotationMatrix();
+    T.translation() = Eigen::Vector3d(n[0], n[1], n[2]);
+    if (T.translation().norm() < kFarthest_m) return Status::Ok();
+    return Status::Error("is not plausible, the cameras are more than a metre apart");
 }
 
-Status ParseCamera(const YAML::Node& root, CameraCalibration& c) {
-    const std::set<std::string> known = {"width", "height", "fx",          "fy",        "cx",
-                                         "cy",    "fps",    "depth_scale", "distortion"};
-    std::set<std::string> seen;
+// The keys of a map, in the order in which a message lists them, and how each value is read.
+using Entries = std::vector<std::pair<std::string, std::function<Status(const YAML::Node&)>>>;
+
+template <class Number>
+std::function<Status(const YAML::Node&)> Into(Number& number) {
+    return [&number](const YAML::Node& node) { return Read(node, number); };
+}
+
+Entries LensEntries(PinholeCamera& p, LensDistortion& lens) {
+    return {{"width", Into(p.width)},
+            {"height", Into(p.height)},
+            {"fx", Into(p.fx)},
+            {"fy", Into(p.fy)},
+            {"cx", Into(p.cx)},
+            {"cy", Into(p.cy)},
+            {"distortion", [&lens](const YAML::Node& node) { return ReadLens(node, lens); }}};
+}
+
+// `seen`: the keys that are there. fx, fy, cx and cy must be.
+Status ReadCamera(const YAML::Node& root, const Entries& entries, std::set<std::string>& seen) {
     if (!root.IsMap()) return Status::Error("expected 'key: value' lines");
     for (const auto& entry : root) {
         const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : "?";
         const std::string shown = Printable(key, kQuotedBytes);
-        if (!known.contains(key))
-            return Status::Error(
-                fmt::format("unknown key '{}' (known: width, height, fx, fy, cx, cy, distortion, "
-                            "depth_scale, fps)",
-                            shown));
+        const auto known = std::find_if(entries.begin(), entries.end(),
+                                        [&](const auto& e) { return e.first == key; });
+        if (known == entries.end()) {
+            std::string list;
+            for (const auto& e : entries) list += (list.empty() ? "" : ", ") + e.first;
+            return Status::Error(fmt::format("unknown key '{}' (known: {})", shown, list));
+        }
         if (!seen.insert(key).second) return Status::Error(shown + ": is given twice");
-        if (Status status = ReadEntry(key, entry.second, c); !status.ok())
+        if (Status status = known->second(entry.second); !status.ok())
             return Status::Error(shown + ": " + status.message());
     }
     for (const char* key : {"cx", "cy", "fx", "fy"})
         if (!seen.contains(key)) return Status::Error(fmt::format("'{}' is missing", key));
+    return Status::Ok();
+}
+
+Status ReadColour(const YAML::Node& root, ColourCamera& colour) {
+    Entries entries = LensEntries(colour.pinhole, colour.distortion);
+    entries.emplace_back("T_colour_depth", [&](const YAML::Node& node) {
+        return ReadTransform(node, colour.T_colour_depth);
+    });
+    std::set<std::string> seen;
+    return ReadCamera(root, entries, seen);
+}
+
+Status ParseCamera(const YAML::Node& root, CameraCalibration& c) {
+    Entries entries = LensEntries(c.pinhole, c.distortion);
+    entries.emplace_back("depth_scale", Into(c.depth_scale));
+    entries.emplace_back("fps", Into(c.fps));
+    entries.emplace_back(
+        "colour", [&](const YAML::Node& node) { return ReadColour(node, c.colour.emplace()); });
+    std::set<std::string> seen;
+    if (Status status = ReadCamera(root, entries, seen); !status.ok()) return status;
     c.depth_scale_given = seen.contains("depth_scale");
     // ICL-NUIM's intrinsics have the y axis pointing up, but its images do not.
     c.pinhole.fy = std::abs(c.pinhole.fy);
-    return CheckPlausible(c);
+    return CheckCalibration(c);
+}
+
+// The lines of a camera's keys, each after `indent`.
+std::string LensText(const PinholeCamera& p, const LensDistortion& d, const std::string& indent) {
+    std::string text;
+    for (const auto& [key, pixels] : {std::pair("width", p.width), std::pair("height", p.height)})
+        text += fmt::format("{}{}: {}\n", indent, key, pixels);
+    for (const auto& [key, value] : {std::pair("fx", p.fx), std::pair("fy", p.fy),
+                                     std::pair("cx", p.cx), std::pair("cy", p.cy)})
+        text += fmt::format("{}{}: {}\n", indent, key, value);
+    if (!d.IsZero())
+        text += fmt::format("{}distortion: [{}, {}, {}, {}, {}]\n", indent, d.k1, d.k2, d.p1, d.p2,
+                            d.k3);
+    return text;
 }
 
 }  // namespace
@@ -139,15 +205,15 @@ Result<CameraCalibration> ParseCameraText(const std::string& text, const std::st
     return calibration;
 }
 
-std::string CameraFileText(const CameraCalibration& calibration) {
-    const PinholeCamera& p = calibration.pinhole;
-    const LensDistortion& d = calibration.distortion;
-    const std::string lens = d.IsZero() ? ""
-                                        : fmt::format("distortion: [{}, {}, {}, {}, {}]\n", d.k1,
-                                                      d.k2, d.p1, d.p2, d.k3);
-    return fmt::format(
-        "width: {}\nheight: {}\nfx: {}\nfy: {}\ncx: {}\ncy: {}\n{}depth_scale: {}\nfps: {}\n",
-        p.width, p.height, p.fx, p.fy, p.cx, p.cy, lens, calibration.depth_scale, calibration.fps);
+std::string CameraFileText(const CameraCalibration& c) {
+    std::string text = LensText(c.pinhole, c.distortion, "") +
+                       fmt::format("depth_scale: {}\nfps: {}\n", c.depth_scale, c.fps);
+    if (!c.colour) return text;
+    const Eigen::Quaterniond q(c.colour->T_colour_depth.linear());
+    const Eigen::Vector3d t = c.colour->T_colour_depth.translation();
+    return text + "colour:\n" + LensText(c.colour->pinhole, c.colour->distortion, "  ") +
+           fmt::format("  T_colour_depth: [{}, {}, {}, {}, {}, {}, {}]\n", t.x(), t.y(), t.z(),
+                       q.x(), q.y(), q.z(), q.w());
 }
 
 }  // namespace tessera

@@ -2,7 +2,8 @@
 // the lens distortion given in the calibration file before they hand out an image.
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <optional>
 #include <string>
 
 #include "core/status.h"
@@ -45,6 +46,14 @@ struct LensDistortion {
     bool operator==(const LensDistortion&) const = default;
 };
 
+// A colour camera beside the depth camera, whose images are not registered to depth.
+struct ColourCamera {
+    PinholeCamera pinhole;  // its image size may differ from the depth camera's
+    LensDistortion distortion;
+    // From the depth camera's frame to the colour camera's.
+    Eigen::Isometry3d T_colour_depth = Eigen::Isometry3d::Identity();
+};
+
 // Contents of a camera.yaml file.
 struct CameraCalibration {
     PinholeCamera pinhole;
@@ -52,17 +61,19 @@ struct CameraCalibration {
     double depth_scale = 5000.0;    // stored depth value / depth_scale = metres
     double fps = 30.0;              // frames per second, for sources without time stamps
     bool depth_scale_given = true;  // false: depth_scale is the default
+    std::optional<ColourCamera> colour = std::nullopt;  // nullopt: registered to depth
 };
 
-// Reads width, height, fx, fy, cx, cy, distortion (4 or 5 numbers), depth_scale, fps. The sign of a
-// negative fy (ICL-NUIM) is dropped. Unknown or repeated keys, missing intrinsics and implausible
-// values are errors that name the file, the key and the value.
+// Reads width, height, fx, fy, cx, cy, distortion (4 or 5 numbers), depth_scale, fps, and colour
+// (docs/conventions.md). The sign of a negative fy (ICL-NUIM) is dropped. Unknown or repeated keys,
+// missing intrinsics and implausible values are errors that name the file, the key and the value.
 Result<CameraCalibration> ReadCameraFile(const std::string& path);
 
 // The same from text; errors name it so.
 Result<CameraCalibration> ParseCameraText(const std::string& text, const std::string& name);
 
-// Returns the text of a camera.yaml file. Every value round-trips exactly.
+// Returns the text of a camera.yaml file. Every value round-trips exactly, but the rotation of a
+// colour camera only to rounding errors.
 std::string CameraFileText(const CameraCalibration& calibration);
 
 }  // namespace tessera

@@ -7,6 +7,8 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "io/colour_registration.h"
+
 namespace tessera {
 
 std::string CalibrationPath(const std::string& serial) {
@@ -37,6 +39,8 @@ Result<std::optional<StoredCalibration>> FindCalibration(const std::string& name
             "{}: is for images of {} x {}, but the camera delivers {} x {}; calibrate it again, or "
             "set source.openni.calibration=none",
             path, camera.width, camera.height, width, height));
+    if (Status status = CheckOneSize(read.value()); !status.ok())
+        return Status::Error(path + ": " + status.message());
     return Found(StoredCalibration{path, read.value()});
 }
 

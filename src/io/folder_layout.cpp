@@ -201,7 +201,6 @@ std::string Characterise(const fs::path& folder, Layout layout, FolderLayout& re
         constexpr std::uint16_t kSevenScenesInvalid = 65535;
         result.kind = "7-Scenes sequence";
         result.invalid_depth = kSevenScenesInvalid;
-        result.notes.push_back("7-Scenes: colour is not registered to depth and is used as it is");
         return "seven_scenes";
     }
     result.kind = layout == Layout::kNamedImages ? "image folder" : "TUM RGB-D folder";
@@ -222,6 +221,11 @@ Result<FolderLayout> ReadFolderLayout(const std::string& path, double max_pair_g
     if (!calibration.ok()) return calibration.status();
     result.camera_known = calibration.value().has_value();
     result.calibration = calibration.value().value_or(CameraCalibration());
+    const bool own = Exists(folder / "camera.yaml");
+    result.registration_known = own || !result.calibration.colour;
+    if (!result.registration_known)
+        result.notes.push_back(
+            "7-Scenes: colour is registered to depth by the calibration of another Kinect");
 
     const auto images = ReadPairs(folder, layout.value(), result.calibration.fps, max_pair_gap_s);
     if (!images.ok()) return images.status();

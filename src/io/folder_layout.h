@@ -23,6 +23,7 @@ struct FolderLayout {
     CameraCalibration calibration;
     // False if the camera is unknown. The calibration then holds nothing but its frame rate.
     bool camera_known = true;
+    bool registration_known = true;   // false: the colour camera's place is another device's
     std::uint16_t invalid_depth = 0;  // a stored value that means "no measurement", besides 0
     std::vector<FolderFrame> frames;  // strictly increasing depth stamps, at least one
     std::vector<std::string> notes;   // things the user should know
@@ -37,7 +38,7 @@ struct FolderLayout {
 //   left-handed world (hence its negative fy). They are reflected into ours:
 //   T_world_camera = M T M with M = diag(1, -1, 1).
 // - 7-Scenes: frame-NNNNNN.color.png, .depth.png, .pose.txt. Colour is not registered to depth in
-//   this data set and is used as it is: colours are offset by up to a few centimetres.
+//   this data set, and its calibration is not published: that of another Kinect is used.
 // - A folder with subfolders depth/ and rgb/ (colour/, color/, image/, images/), paired by name.
 // Camera: camera.yaml if present; otherwise Open3D's (open3d_camera.h); otherwise the published
 // values, identified by the folder's name (freiburg1, 2, 3), by the bag name in the first two lines

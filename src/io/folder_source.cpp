@@ -19,6 +19,8 @@ class FolderSource : public FrameSource {
         info_.kind = layout_.kind;
         info_.camera = layout_.calibration.pinhole;
         info_.camera_known = layout_.camera_known;
+        info_.registration_known = layout_.registration_known;
+        info_.one_camera = !layout_.calibration.colour;
         info_.frame_count = static_cast<std::int64_t>(layout_.frames.size());
         info_.fps = layout_.calibration.fps;
         info_.depth_units_per_m = layout_.calibration.depth_scale;
@@ -28,7 +30,7 @@ class FolderSource : public FrameSource {
                         [](const FolderFrame& frame) { return frame.T_world_camera.has_value(); });
         info_.notes = layout_.notes;
         info_.warnings = layout_.warnings;
-        if (!info_.rectified && !layout_.calibration.distortion.IsZero())
+        if (!config.rectify && !layout_.calibration.distortion.IsZero())
             info_.notes.push_back("lens distortion is not corrected, as configured");
     }
 
@@ -70,24 +72,30 @@ class FolderSource : public FrameSource {
   private:
     // Decodes the frame's raw images and checks that they have the calibration's size.
     Status Decode(const FolderFrame& listed) {
-        if (Status status = Load(listed.depth_path, "the camera", "; correct camera.yaml");
+        const PinholeCamera& c = info_.camera;
+        if (Status status =
+                Load(listed.depth_path, {c.width, c.height}, "the camera", "; correct camera.yaml");
             !status.ok())
             return status;
         if (Status status = decoder_.DecodeDepth(depth_); !status.ok()) return status;
-        if (Status status = Load(listed.colour_path, "its depth image", ""); !status.ok())
+        const bool one_camera = info_.one_camera;
+        if (Status status = Load(listed.colour_path, rectifier_.colour_size(),
+                                 one_camera ? "its depth image" : "the colour camera",
+                                 one_camera ? "" : "; correct camera.yaml");
+            !status.ok())
             return status;
         return decoder_.DecodeColour(colour_);
     }
 
-    // Loads an image that must have the camera's size.
-    Status Load(const std::string& path, const char* other, const char* advice) {
+    // Loads an image that must have `expected` pixels, as `other` has.
+    Status Load(const std::string& path, const ImageSize& expected, const char* other,
+                const char* advice) {
         const Result<ImageSize> size = decoder_.Load(path);
         if (!size.ok()) return size.status();
         const auto [width, height] = size.value();
-        const PinholeCamera& c = info_.camera;
-        if (width == c.width && height == c.height) return Status::Ok();
+        if (size.value() == expected) return Status::Ok();
         return Status::Error(fmt::format("{}: {} x {} pixels, but {} has {} x {}{}", path, width,
-                                         height, other, c.width, c.height, advice));
+                                         height, other, expected.width, expected.height, advice));
     }
 
     FolderLayout layout_;
@@ -135,6 +143,7 @@ Result<std::unique_ptr<FrameSource>> OpenFolderSource(const std::string& path,
     CameraCalibration& calibration = layout.value().calibration;
     if (config.depth_scale > 0) calibration.depth_scale = config.depth_scale;
     if (config.camera) calibration.pinhole = WithSizeOf(calibration.pinhole, *config.camera);
+    MoveColour(config.colour_shift_px, calibration);
     auto source = std::make_unique<FolderSource>(path, std::move(layout.value()), config);
     if (Status status = source->Probe(); !status.ok()) return status;
     return std::unique_ptr<FrameSource>(std::move(source));

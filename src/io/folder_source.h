@@ -21,6 +21,9 @@ struct FolderSourceConfig {
     // Overrides the camera file's pinhole. Set by the program; not a configuration key. Its image
     // size is ignored, and the camera file's lens distortion still applies.
     std::optional<PinholeCamera> camera = std::nullopt;
+    // Corrects the registration: colour lies this far right of and below where depth puts it, in
+    // depth pixels. Set by the program; not a configuration key.
+    Eigen::Vector2d colour_shift_px = Eigen::Vector2d::Zero();
 
     void Describe(ConfigParameters& parameters);
     Status Validate() const;

@@ -37,7 +37,8 @@ struct SourceInfo {
     // False: depth and colour come from two cameras, and were brought into register by their known
     // calibration. One estimate for both would be wrong.
     bool one_camera = true;
-    std::int64_t frame_count = -1;  // number of pairs, -1 if not known beforehand
+    bool registration_known = true;  // false: how colour lies on depth is a guess
+    std::int64_t frame_count = -1;   // number of pairs, -1 if not known beforehand
     double fps = 30;
     // A live device delivers frames at its own rate and drops those not read in time. Its Read
     // returns at least every half second, with kWait if there is no frame.
@@ -46,7 +47,7 @@ struct SourceInfo {
     double depth_units_per_m = 5000;
     // Where a calibration of this very camera is looked for; "": nowhere.
     std::string calibration_file;
-    bool rectified = false;  // lens distortion was corrected
+    bool rectified = false;  // a lens was corrected, or colour registered to depth
     bool has_truth = false;
     // Things the user should know: unpaired images, repeated stamps, ...
     std::vector<std::string> notes;

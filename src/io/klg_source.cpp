@@ -44,6 +44,7 @@ class KlgSource : public FrameSource {
         info_.name = path_;
         info_.kind = ".klg log";
         info_.camera = calibration.pinhole;
+        info_.one_camera = !calibration.colour;
         info_.frame_count = static_cast<std::int64_t>(entries_.size());
         info_.fps = calibration.fps;
         info_.depth_units_per_m = calibration.depth_scale;
@@ -112,6 +113,9 @@ Result<std::unique_ptr<FrameSource>> OpenKlgSource(const std::string& path,
     if (config.depth_scale > 0) calibration.value().depth_scale = config.depth_scale;
     if (config.camera)
         calibration.value().pinhole = WithSizeOf(calibration.value().pinhole, *config.camera);
+    if (Status status = CheckOneSize(calibration.value()); !status.ok())
+        return Status::Error(path + ": its camera.yaml: " + status.message());
+    MoveColour(config.colour_shift_px, calibration.value());
     Result<KlgIndex> index = ReadKlgIndex(file.value(), calibration.value().pinhole);
     if (!index.ok()) return index.status();
     auto source = std::make_unique<KlgSource>(std::move(file.value()), std::move(index.value()),

@@ -105,6 +105,7 @@ class PipeSource : public FrameSource {
         Result<CameraCalibration> camera =
             ParseCameraText(std::string(bytes_.begin(), bytes_.end()), "its camera");
         if (!camera.ok()) return camera.status();
+        if (Status status = CheckOneSize(camera.value()); !status.ok()) return status;
         CameraCalibration& calibration = camera.value();
         if (!calibration.depth_scale_given) calibration.depth_scale = 1000;  // millimetres
         if (config_.depth_scale > 0) calibration.depth_scale = config_.depth_scale;
@@ -120,6 +121,7 @@ class PipeSource : public FrameSource {
         info_.name = name_;
         info_.kind = "stream of frames";
         info_.camera = calibration.pinhole;
+        info_.one_camera = !calibration.colour;
         info_.fps = calibration.fps;
         info_.live = true;
         info_.depth_units_per_m = calibration.depth_scale;

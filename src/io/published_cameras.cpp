@@ -16,8 +16,17 @@ std::optional<CameraCalibration> PublishedCamera(std::string_view name) {
         return CameraCalibration{{640, 480, 535.4, 539.2, 320.1, 247.6}, {}, kTumDepthScale};
     if (name == "icl_nuim")
         return CameraCalibration{{640, 480, 481.2, 480.0, 319.5, 239.5}, {}, kTumDepthScale};
-    if (name == "seven_scenes")
-        return CameraCalibration{{640, 480, 585.0, 585.0, 320.0, 240.0}, {}, kMillimetres};
+    if (name == "seven_scenes") {
+        CameraCalibration camera{{640, 480, 585.0, 585.0, 320.0, 240.0}, {}, kMillimetres};
+        ColourCamera& colour = camera.colour.emplace();
+        colour.pinhole = {640, 480, 525.0, 525.0, 320.0, 240.0};
+        colour.T_colour_depth.linear() =
+            Eigen::Quaterniond(0.999983, 0.004081, -0.003947, -0.001354)
+                .normalized()
+                .toRotationMatrix();
+        colour.T_colour_depth.translation() = Eigen::Vector3d(-0.0256, 0.0001, 0.0020);
+        return camera;
+    }
     return std::nullopt;
 }
 

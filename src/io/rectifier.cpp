@@ -32,6 +32,11 @@ struct Rectifier::ColourMaps {
 
 Rectifier::Rectifier(const CameraCalibration& calibration, const Options& options)
     : calibration_(calibration), invalid_depth_(options.invalid_depth) {
+    if (calibration.colour) {
+        ColourCamera colour = *calibration.colour;
+        if (!options.correct_distortion) colour.distortion = {};
+        registration_.emplace(colour, calibration.pinhole);
+    }
     const LensDistortion& d = calibration.distortion;
     if (d.IsZero() || !options.correct_distortion) return;
     const PinholeCamera& p = calibration.pinhole;
@@ -49,10 +54,16 @@ Rectifier::~Rectifier() = default;
 Rectifier::Rectifier(Rectifier&&) noexcept = default;
 Rectifier& Rectifier::operator=(Rectifier&&) noexcept = default;
 
+ImageSize Rectifier::colour_size() const {
+    return registration_ ? registration_->raw_size()
+                         : ImageSize{calibration_.pinhole.width, calibration_.pinhole.height};
+}
+
 void Rectifier::Colour(const ColourImage& raw, ColourImage& rectified) const {
     const PinholeCamera& p = calibration_.pinhole;
     TESSERA_CHECK(raw.width() == p.width && raw.height() == p.height, "{} x {}", raw.width(),
                   raw.height());
+    TESSERA_CHECK(!registration_, "colour of an unregistered camera needs its depth");
     if (!active()) {
         rectified = raw;
         return;
@@ -75,7 +86,7 @@ void Rectifier::Depth(const Image<std::uint16_t>& raw, DepthImage& depth_m) cons
     const auto metres = [&](std::uint16_t stored) {
         return stored == invalid_depth_ ? 0.0f : static_cast<float>(stored) / units_per_metre;
     };
-    if (!active()) {
+    if (depth_source_.empty()) {
         for (std::size_t i = 0; i < raw.size(); ++i) to[i] = metres(from[i]);
         return;
     }
@@ -84,10 +95,11 @@ void Rectifier::Depth(const Image<std::uint16_t>& raw, DepthImage& depth_m) cons
         to[i] = source[i] < 0 ? 0.0f : metres(from[source[i]]);
 }
 
-void Rectifier::Fill(const Image<std::uint16_t>& raw_depth, ColourImage& raw_colour,
-                     Frame& frame) const {
+void Rectifier::Fill(const Image<std::uint16_t>& raw_depth, ColourImage& raw_colour, Frame& frame) {
     Depth(raw_depth, frame.depth_m);
-    if (active() && raw_colour.size() > 0)
+    if (registration_ && raw_colour.size() > 0)
+        registration_->Register(raw_colour, frame.depth_m, frame.colour);
+    else if (active() && raw_colour.size() > 0)
         Colour(raw_colour, frame.colour);
     else
         std::swap(frame.colour, raw_colour);

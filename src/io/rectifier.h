@@ -1,14 +1,16 @@
-// Converts raw camera images to what the rest of the program uses: an ideal pinhole camera and
-// depth in metres. Each image takes one pass over precomputed tables.
+// Converts raw camera images to what the rest of the program uses: an ideal pinhole camera, colour
+// registered to depth, and depth in metres.
 #pragma once
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/camera.h"
 #include "core/frame.h"
 #include "core/image.h"
+#include "io/colour_registration.h"
 
 namespace tessera {
 
@@ -25,19 +27,22 @@ class Rectifier {
     Rectifier(Rectifier&&) noexcept;
     Rectifier& operator=(Rectifier&&) noexcept;
 
-    // True if pixels move: the calibration has distortion and it is to be corrected.
-    bool active() const { return !depth_source_.empty(); }
+    // True if pixels move: a lens is to be corrected, or colour registered to depth.
+    bool active() const { return !depth_source_.empty() || registration_.has_value(); }
+    // The size that raw colour images must have.
+    ImageSize colour_size() const;
 
     // `raw` has the calibration's size; the output is resized to it. The intrinsics do not change.
     // Bilinear interpolation. Beyond the edge of the raw image, its border pixels are replicated
-    // (depth marks these pixels as unmeasured).
+    // (depth marks these pixels as unmeasured). Not for a calibration with a colour camera of its
+    // own.
     void Colour(const ColourImage& raw, ColourImage& rectified) const;
     // Takes the nearest pixel and never interpolates: a mean across a depth discontinuity is a
     // surface that does not exist. 0 outside the raw image. Metres = stored / depth_scale.
     void Depth(const Image<std::uint16_t>& raw, DepthImage& depth_m) const;
     // Converts both images into a frame. If active() is false, `raw_colour` is swapped with the
     // frame's colour image. Empty colour stays empty.
-    void Fill(const Image<std::uint16_t>& raw_depth, ColourImage& raw_colour, Frame& frame) const;
+    void Fill(const Image<std::uint16_t>& raw_depth, ColourImage& raw_colour, Frame& frame);
 
   private:
     CameraCalibration calibration_;
@@ -46,6 +51,7 @@ class Rectifier {
     std::vector<std::int32_t> depth_source_;
     struct ColourMaps;
     std::unique_ptr<ColourMaps> colour_maps_;
+    std::optional<ColourRegistration> registration_;
 };
 
 }  // namespace tessera

@@ -33,6 +33,13 @@ struct RecordingInfo {
     std::vector<std::string> notes, warnings;  // as in SourceInfo
 };
 
+// Whether both images are of one camera and size, so that nothing needs to be registered.
+inline bool IsRegistered(const RecordingInfo& info) {
+    return info.depth_camera.pinhole == info.colour_camera.pinhole &&
+           info.depth_camera.distortion == info.colour_camera.distortion &&
+           info.T_colour_depth.matrix().isIdentity(1e-9);
+}
+
 // Owner thread only. Content is not trusted: damage is a Status, and nothing allocates more than
 // the file's size or 8192 x 8192 pixels. Never throws.
 class Recording {

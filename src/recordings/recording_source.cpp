@@ -2,15 +2,21 @@
 
 #include <fmt/format.h>
 
-#include <optional>
-
 #include "io/nominal_camera.h"
 #include "io/rectifier.h"
-#include "recordings/colour_registration.h"
 #include "recordings/phone_depth.h"
 
 namespace tessera {
 namespace {
+
+// The calibration of the depth images, with the colour camera where it is another one.
+CameraCalibration CalibrationOf(const RecordingInfo& info) {
+    CameraCalibration calibration = info.depth_camera;
+    if (!IsRegistered(info))
+        calibration.colour = ColourCamera{info.colour_camera.pinhole, info.colour_camera.distortion,
+                                          info.T_colour_depth};
+    return calibration;
+}
 
 // The recording's cameras with what the configuration says.
 RecordingInfo Configured(RecordingInfo info, const FolderSourceConfig& config) {
@@ -29,12 +35,10 @@ RecordingInfo Configured(RecordingInfo info, const FolderSourceConfig& config) {
 class RecordingSource : public FrameSource {
   public:
     RecordingSource(const std::string& path, std::unique_ptr<Recording> recording,
-                    RecordingInfo info)
+                    RecordingInfo info, const CameraCalibration& calibration)
         : recording_(std::move(recording)),
           recorded_(std::move(info)),
-          rectifier_(recorded_.depth_camera, {}) {
-        if (!IsRegistered(recorded_))
-            registration_.emplace(recorded_, recorded_.depth_camera.pinhole);
+          rectifier_(calibration, {}) {
         info_.name = path;
         info_.kind = recorded_.kind;
         info_.camera = recorded_.depth_camera.pinhole;
@@ -43,7 +47,7 @@ class RecordingSource : public FrameSource {
         info_.frame_count = std::ssize(recorded_.pairs);
         info_.fps = recorded_.fps;
         info_.depth_units_per_m = recorded_.depth_camera.depth_scale;
-        info_.rectified = rectifier_.active() || !recorded_.colour_camera.distortion.IsZero();
+        info_.rectified = rectifier_.active();
         info_.notes = recorded_.notes;
         info_.warnings = recorded_.warnings;
     }
@@ -56,12 +60,7 @@ class RecordingSource : public FrameSource {
         if (Status status = Load(index); !status.ok())
             return {ReadStatus::kSkip,
                     fmt::format("{}: frame {}: {}", info_.name, index, status.message())};
-        if (registration_ && !colour_.empty()) {
-            rectifier_.Depth(depth_, frame.depth_m);
-            registration_->Register(colour_, frame.depth_m, frame.colour);
-        } else {
-            rectifier_.Fill(depth_, colour_, frame);
-        }
+        rectifier_.Fill(depth_, colour_, frame);
         const RecordedPair& pair = recorded_.pairs[static_cast<std::size_t>(index)];
         frame.index = index;
         frame.stamp_s = pair.depth_stamp_s;
@@ -110,7 +109,6 @@ class RecordingSource : public FrameSource {
     std::unique_ptr<Recording> recording_;
     const RecordingInfo recorded_;
     Rectifier rectifier_;
-    std::optional<ColourRegistration> registration_;
     SourceInfo info_;
     Image<std::uint16_t> depth_;
     ColourImage colour_;
@@ -127,7 +125,10 @@ Result<std::unique_ptr<FrameSource>> MakeRecordingSource(const std::string& path
     for (const CameraCalibration* camera : {&info.depth_camera, &info.colour_camera})
         if (Status status = CheckPlausible(camera->pinhole); !status.ok())
             return Status::Error(path + ": its calibration: " + status.message());
-    auto source = std::make_unique<RecordingSource>(path, std::move(recording), std::move(info));
+    CameraCalibration calibration = CalibrationOf(info);
+    MoveColour(config.colour_shift_px, calibration);
+    auto source =
+        std::make_unique<RecordingSource>(path, std::move(recording), std::move(info), calibration);
     if (Status status = source->Probe(); !status.ok()) return status;
     return std::unique_ptr<FrameSource>(std::move(source));
 }

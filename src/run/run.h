@@ -14,6 +14,7 @@
 #include "io/frame_source.h"
 #include "optimize/calibration_report.h"
 #include "optimize/camera_estimate.h"
+#include "optimize/colour_shift.h"
 #include "run/timings.h"
 #include "semantics/map_object.h"
 #include "system/frame_plan.h"
@@ -65,6 +66,7 @@ struct RunSummary {
     std::optional<CalibrationReport> calibration;
     // With calibration.check, if the recording reveals its camera.
     std::optional<CameraReport> camera;
+    std::optional<ColourShift> colour_shift;  // the same for the registration of colour
     std::optional<AteResult> ate;  // against the source's ground truth; none with given poses
     std::string exit;              // "finished", "stopped", or "failed: ..."
     std::string last_reason;       // of the last lost frame

@@ -76,6 +76,15 @@ Json CameraJson(const CameraReport& report) {
         {"pairs", e.pairs}};
 }
 
+Json ColourShiftJson(const ColourShift& shift) {
+    return {{"known", shift.known},
+            {"used", shift.used},
+            {"x_px", shift.x_px},
+            {"y_px", shift.y_px},
+            {"sigma_px", {{"x", shift.sigma_x_px}, {"y", shift.sigma_y_px}}},
+            {"frames", shift.frames}};
+}
+
 }  // namespace
 
 std::string TimingsJson(const RunSummary& summary) {
@@ -136,6 +145,7 @@ std::string RunJson(const RunRequest& request, RunConfig config, const RunSummar
             CalibrationJson(summary.source.camera, config.pipeline.frame.disparity_offset_per_m,
                             *summary.calibration);
     if (summary.camera) json["camera_estimate"] = CameraJson(*summary.camera);
+    if (summary.colour_shift) json["colour_shift"] = ColourShiftJson(*summary.colour_shift);
     if (summary.ate) json["ate"] = Json::parse(AteJson(*summary.ate), nullptr, false);
     json["configuration"] = ConfigurationJson(config);
     return Dump(json);

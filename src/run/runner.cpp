@@ -62,6 +62,7 @@ Status Runner::Open(const std::atomic<bool>& stop) {
     std::unique_ptr<FrameSource> source = std::move(checked.value().source);
     summary_.source = source->info();
     summary_.camera = checked.value().camera;
+    summary_.colour_shift = checked.value().colour;
     camera_notes_ = std::move(checked.value().messages);
     if (!request_.resume && !request_.localise_only)  // a scan keeps its band
         if (std::string note = FitBandToNoise(request_.selection, config_.pipeline, source, stop);

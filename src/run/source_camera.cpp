@@ -7,6 +7,7 @@
 
 #include "io/frame_reader.h"
 #include "optimize/camera_estimator.h"
+#include "optimize/colour_shift.h"
 #include "recordings/open_recording.h"
 #include "run/open_source.h"
 #include "scan/scan_content.h"
@@ -76,13 +77,20 @@ std::optional<FrameSelection> PartToSee(FrameSource& source, const FrameSelectio
                           stride};
 }
 
-// Consumes the source. Nothing if it shows too little.
-std::optional<CameraEstimate> EstimateFrom(std::unique_ptr<FrameSource> source,
-                                           const FrameSelection& selection) {
+// What the first seconds show. Nothing where they show too little.
+struct Seen {
+    std::optional<CameraEstimate> camera;
+    std::optional<ColourShift> colour;
+};
+
+// Consumes the source.
+Seen LookAt(std::unique_ptr<FrameSource> source, const FrameSelection& selection, bool one_camera) {
     const std::optional<FrameSelection> part = PartToSee(*source, selection);
-    if (!part) return std::nullopt;
+    if (!part) return {};
     const SourceInfo info = source->info();
     CameraEstimator estimator(info.camera);
+    ColourShiftEstimator registration;
+    int views = 0;
     FrameReader reader(std::move(source), *part);
     Frame frame;
     std::optional<double> first_s, last_s;
@@ -94,9 +102,13 @@ std::optional<CameraEstimate> EstimateFrom(std::unique_ptr<FrameSource> source,
         if (frame.stamp_s > *first_s + kWindow_s) break;
         if (last_s && frame.stamp_s < *last_s + kShortest_s) continue;
         last_s = frame.stamp_s;
-        estimator.Add(frame);
+        if (views++ % 2 == 0) registration.Add(frame);
+        if (one_camera) estimator.Add(frame);
     }
-    return estimator.frames() < kLeastViews ? std::nullopt : estimator.Estimate();
+    Seen seen{.colour = registration.Estimate()};
+    if (estimator.frames() >= kLeastViews) seen.camera = estimator.Estimate();
+    if (seen.colour) seen.colour->known = info.registration_known;
+    return seen;
 }
 
 // The scan's own camera, if it differs slightly from the source's.
@@ -136,13 +148,11 @@ void Describe(const SourceInfo& given, const std::optional<CameraReport>& report
         messages.push_back(EstimateText(e, GivenBy(given.name)) + "; the estimate is used");
 }
 
-// Estimates the camera and, if it differs from the given one, estimates again with the first
-// estimate.
+// Looks again with the first estimate if that differs from the given camera.
 Result<std::optional<PinholeCamera>> FindCamera(const RunRequest& request, const RunConfig& config,
-                                                std::unique_ptr<FrameSource> source,
+                                                const SourceInfo& given,
+                                                const std::optional<CameraEstimate>& first,
                                                 std::optional<CameraReport>& report) {
-    const SourceInfo given = source->info();
-    std::optional<CameraEstimate> first = EstimateFrom(std::move(source), request.selection);
     const auto to_use = [&](const CameraEstimate& estimate) -> std::optional<PinholeCamera> {
         const bool used = given.camera_known ? estimate.shown() : estimate.useful();
         report = CameraReport{estimate, given.camera_known, used};
@@ -154,11 +164,25 @@ Result<std::optional<PinholeCamera>> FindCamera(const RunRequest& request, const
     Result<std::unique_ptr<FrameSource>> again = OpenWith(request.source, config, camera);
     if (!again.ok()) return again.status();
     std::optional<CameraEstimate> second =
-        EstimateFrom(std::move(again.value()), request.selection);
+        LookAt(std::move(again.value()), request.selection, true).camera;
     if (!second) return camera;
     second->given = given.camera;
     second->misfit_given = first->misfit_given;
     return to_use(*second);
+}
+
+// Corrects the registration in `config` if the images contradict it, and looks again.
+Status CorrectRegistration(const RunRequest& request, const SourceInfo& given, RunConfig& config,
+                           Seen& seen, std::optional<ColourShift>& report) {
+    report = seen.colour;
+    const bool by_device = request.source.ends_with(".oni");  // OpenNI registers by itself
+    if (!report || !report->shown() || by_device) return Status::Ok();
+    report->used = true;
+    config.source.colour_shift_px = {report->x_px, report->y_px};
+    Result<std::unique_ptr<FrameSource>> again = OpenSource(request.source, config);
+    if (!again.ok()) return again.status();
+    seen = LookAt(std::move(again.value()), request.selection, given.one_camera);
+    return Status::Ok();
 }
 
 }  // namespace
@@ -168,11 +192,17 @@ Result<CheckedSource> OpenCheckedSource(const RunRequest& request, const RunConf
     Result<std::unique_ptr<FrameSource>> opened = OpenSource(request.source, config);
     if (!opened.ok()) return opened.status();
     const SourceInfo given = opened.value()->info();
-    if (!config.check_camera || given.live || !given.one_camera ||
-        !IsFileOrFolder(request.source)) {
+    if (!config.check_camera || given.live || !IsFileOrFolder(request.source)) {
         checked.source = std::move(opened.value());
         return checked;
     }
+    RunConfig corrected = config;
+    Seen seen = LookAt(std::move(opened.value()), request.selection, given.one_camera);
+    if (Status status = CorrectRegistration(request, given, corrected, seen, checked.colour);
+        !status.ok())
+        return status;
+    if (checked.colour && checked.colour->used)
+        checked.messages.push_back(ColourShiftText(*checked.colour) + ": corrected");
     std::optional<PinholeCamera> camera;
     if (request.resume || request.localise_only) {
         camera = CameraOfScan(request.scan_file, given.camera);
@@ -180,14 +210,14 @@ Result<CheckedSource> OpenCheckedSource(const RunRequest& request, const RunConf
             checked.messages.push_back(
                 fmt::format("{} says fx {:.1f}, but the scan was made with {:.1f}, which is used",
                             GivenBy(given.name), given.camera.fx, camera->fx));
-    } else {
+    } else if (given.one_camera) {
         Result<std::optional<PinholeCamera>> found =
-            FindCamera(request, config, std::move(opened.value()), checked.camera);
+            FindCamera(request, corrected, given, seen.camera, checked.camera);
         if (!found.ok()) return found.status();
         camera = found.value();
         Describe(given, checked.camera, checked.messages);
     }
-    opened = OpenWith(request.source, config, camera);
+    opened = OpenWith(request.source, corrected, camera);
     if (!opened.ok()) return opened.status();
     checked.source = std::move(opened.value());
     return checked;

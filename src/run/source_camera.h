@@ -1,5 +1,5 @@
-// Opens a run's source with the intrinsics estimated from its own images if they contradict the
-// given ones.
+// Opens a run's source with the intrinsics and the registration of colour estimated from its own
+// images if they contradict the given ones.
 #pragma once
 
 #include <memory>
@@ -10,6 +10,7 @@
 #include "core/status.h"
 #include "io/frame_source.h"
 #include "optimize/camera_estimate.h"
+#include "optimize/colour_shift.h"
 #include "run/run.h"
 
 namespace tessera {
@@ -17,13 +18,14 @@ namespace tessera {
 struct CheckedSource {
     std::unique_ptr<FrameSource> source;  // opened with the camera to use, at the first frame
     std::optional<CameraReport> camera;   // if it was estimated
+    std::optional<ColourShift> colour;    // if it was estimated
     std::vector<std::string> messages;    // for the user
 };
 
 // Estimates the camera for recordings only: the first frames of a live camera belong to the run, a
-// built-in scene's camera is exact, and a scan keeps the camera it was made with. Depth and colour
-// of two cameras would need two estimates. Reads the first seconds of the selection, at most twice;
-// the second time with the camera that was found. Errors are those of OpenSource.
+// built-in scene's camera is exact, and a scan keeps the camera it was made with. Intrinsics of two
+// cameras would need two estimates; of those only the registration is checked. Reads the first
+// seconds of the selection, and again with what was found. Errors are those of OpenSource.
 Result<CheckedSource> OpenCheckedSource(const RunRequest& request, const RunConfig& config);
 
 }  // namespace tessera

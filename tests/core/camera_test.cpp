@@ -50,6 +50,32 @@ TEST(CameraFile, ReadsEveryKey) {
     EXPECT_EQ(camera.value().fps, 25);
 }
 
+constexpr const char* kColour =
+    "colour: {fx: 600, fy: 601, cx: 330, cy: 250, T_colour_depth: [-0.025, 0.001, 0.002, 0, 0.6, "
+    "0, 0.8]}\n";
+
+TEST(CameraFile, AColourCameraOfItsOwn) {
+    EXPECT_FALSE(ReadText(kIntrinsics).value().colour);
+    const auto read = ReadText(std::string(kIntrinsics) + kColour);
+    ASSERT_TRUE(read.ok()) << read.message();
+    const ColourCamera& colour = *read.value().colour;
+    EXPECT_EQ(colour.pinhole, (PinholeCamera{640, 480, 600, 601, 330, 250}));
+    EXPECT_EQ(colour.T_colour_depth.translation(), Eigen::Vector3d(-0.025, 0.001, 0.002));
+    // A rotation about y by twice the angle whose sine is 0.6.
+    EXPECT_LT(
+        (colour.T_colour_depth.linear() * Eigen::Vector3d(0, 0, 1) - Eigen::Vector3d(0.96, 0, 0.28))
+            .norm(),
+        1e-12);
+    CameraCalibration written = read.value();
+    written.colour->distortion = {0.1, -0.2, 0.003, -0.004, 0.5};
+    written.colour->pinhole.width = 720;
+    const auto again = ReadText(CameraFileText(written));
+    ASSERT_TRUE(again.ok()) << again.message();
+    EXPECT_EQ(again.value().colour->pinhole, written.colour->pinhole);
+    EXPECT_EQ(again.value().colour->distortion, written.colour->distortion);
+    EXPECT_TRUE(again.value().colour->T_colour_depth.isApprox(colour.T_colour_depth, 1e-12));
+}
+
 TEST(CameraFile, DefaultsAreTumsAndAnIdealLens) {
     const auto camera = ReadText(kIntrinsics);
     ASSERT_TRUE(camera.ok()) << camera.message();
@@ -117,6 +143,20 @@ INSTANTIATE_TEST_SUITE_P(
         BadFile{"fx: 500\nfy: 510\ncx: 310\ncy: 230\ndistortion: [1, 2]\n", "distortion"},
         BadFile{"fx: 500\nfy: 510\ncx: 310\ncy: 230\ndistortion: [1, 2, .nan, 4]\n", "distortion"},
         BadFile{"fx: 500\nfy: 510\ncx: 310\ncy: 230\ndistortion: 3\n", "distortion"},
+        BadFile{"fx: 500\nfy: 510\ncx: 310\ncy: 230\ncolour: yes\n", "colour: expected 'key: "},
+        BadFile{"fx: 500\nfy: 510\ncx: 310\ncy: 230\ncolour: {fx: 1}\n", "colour: 'cx' is missing"},
+        BadFile{"fx: 500\nfy: 510\ncx: 310\ncy: 230\ncolour: {fx: 0, fy: 9, cx: 1, cy: 1}\n",
+                "colour: fx: 0 is not"},
+        BadFile{"fx: 500\nfy: 510\ncx: 310\ncy: 230\ncolour: {fps: 3}\n",
+                "colour: unknown key 'fps'"},
+        BadFile{"fx: 500\nfy: 510\ncx: 310\ncy: 230\ncolour: {T_colour_depth: [1, 2]}\n",
+                "colour: T_colour_depth: needs tx"},
+        BadFile{"fx: 500\nfy: 510\ncx: 310\ncy: 230\n"
+                "colour: {T_colour_depth: [0, 0, 0, 0, 0, 0, 2]}\n",
+                "T_colour_depth: qx, qy, qz, qw is no rotation"},
+        BadFile{"fx: 500\nfy: 510\ncx: 310\ncy: 230\n"
+                "colour: {T_colour_depth: [3, 0, 0, 0, 0, 0, 1]}\n",
+                "T_colour_depth: is not plausible"},
         BadFile{"[1, 2]: 3\n", "/camera.yaml"}));
 
 TEST(CameraFile, AMissingFileIsNamed) {

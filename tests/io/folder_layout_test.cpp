@@ -169,7 +169,13 @@ TEST(ReadFolderLayout, RecognisesSevenScenes) {
     EXPECT_EQ(layout.value().calibration.depth_scale, 1000);
     EXPECT_EQ(layout.value().calibration.pinhole.fx, 585);
     EXPECT_EQ(layout.value().invalid_depth, 65535);
-    EXPECT_TRUE(HasNote(layout.value(), "not registered"));
+    ASSERT_TRUE(layout.value().calibration.colour);
+    EXPECT_EQ(layout.value().calibration.colour->pinhole.fx, 525);
+    EXPECT_FALSE(layout.value().registration_known);
+    EXPECT_TRUE(HasNote(layout.value(), "another Kinect"));
+    folder.WriteText("camera.yaml", std::string(kTenHertzCamera));
+    EXPECT_TRUE(Read(folder).value().registration_known);
+    EXPECT_FALSE(Read(folder).value().calibration.colour);
 }
 
 TEST(ReadFolderLayout, PairsAnyFolderWithACameraByName) {

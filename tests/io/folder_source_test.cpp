@@ -89,6 +89,39 @@ TEST(FolderSource, CorrectsTheLensUnlessToldNotTo) {
     EXPECT_EQ(frame.depth_m(0, 0), 1.0f);
 }
 
+// The colour camera is twice as large and sits 0.1 m to the right.
+TEST(FolderSource, RegistersAColourCameraOfItsOwn) {
+    TemporaryFolder folder;
+    WriteSequence(folder, 1);
+    ColourImage ramp(64, 48);
+    for (int v = 0; v < 48; ++v)
+        for (int u = 0; u < 64; ++u)
+            ramp(u, v) = {static_cast<std::uint8_t>(4 * u), static_cast<std::uint8_t>(5 * v), 0};
+    ASSERT_TRUE(WriteColourImage(folder.Path("rgb/0.png"), ramp).ok());
+    EXPECT_FALSE(OpenFolderSource(folder.path(), {}).ok());  // of another size than depth
+    folder.WriteText("camera.yaml", std::string(kSmallCamera) +
+                                        "colour: {width: 64, height: 48, fx: 30, fy: 31, cx: 30, "
+                                        "cy: 20, T_colour_depth: [-0.1, 0, 0, 0, 0, 0, 1]}\n");
+    auto source = Open(folder);
+    ASSERT_NE(source, nullptr);
+    EXPECT_FALSE(source->info().one_camera);
+    EXPECT_TRUE(source->info().rectified);
+    Frame frame;
+    ASSERT_EQ(source->Read(frame).status, ReadStatus::kOk);
+    // Depth 1 m: (16, 12) is seen at 16 - 15.5 + 30 - 3 and 12 - 11.5 + 20.
+    EXPECT_EQ(frame.depth_m(16, 12), 1.0f);
+    EXPECT_EQ(frame.colour.width(), 32);
+    EXPECT_NEAR(frame.colour(16, 12).r, 4 * 27.5, 1);
+    EXPECT_NEAR(frame.colour(16, 12).g, 5 * 20.5, 1);
+    source = Open(folder, {.colour_shift_px = {2, -1}});
+    ASSERT_EQ(source->Read(frame).status, ReadStatus::kOk);
+    EXPECT_NEAR(frame.colour(16, 12).r, 4 * 29.5, 1);
+    EXPECT_NEAR(frame.colour(16, 12).g, 5 * 19.5, 1);
+    folder.WriteColour("rgb/0.png", 32, 24, {});
+    EXPECT_NE(OpenFolderSource(folder.path(), {}).message().find("the colour camera has 64 x 48"),
+              std::string::npos);
+}
+
 TEST(FolderSource, TheConfiguredDepthScaleComesFirst) {
     TemporaryFolder folder;
     WriteSequence(folder, 1);

@@ -19,6 +19,12 @@ TEST(PublishedCamera, AgreesWithTheFilesInConfig) {
         EXPECT_EQ(written.value().distortion, published->distortion) << entry.path();
         EXPECT_EQ(written.value().depth_scale, published->depth_scale) << entry.path();
         EXPECT_EQ(written.value().fps, published->fps) << entry.path();
+        ASSERT_EQ(written.value().colour.has_value(), published->colour.has_value());
+        if (published->colour) {
+            EXPECT_EQ(written.value().colour->pinhole, published->colour->pinhole);
+            EXPECT_TRUE(written.value().colour->T_colour_depth.isApprox(
+                published->colour->T_colour_depth, 1e-12));
+        }
         ++files;
     }
     EXPECT_EQ(files, 5);

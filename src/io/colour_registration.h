@@ -2,16 +2,21 @@
 // place beside it. The depth stays as it was measured.
 #pragma once
 
+#include "core/camera.h"
 #include "core/image.h"
-#include "recordings/recording.h"
+#include "core/status.h"
+#include "io/image_header.h"
 
 namespace tessera {
 
 // Keeps its buffers between images. Owner thread only.
 class ColourRegistration {
   public:
-    // The cameras of `info`. `depth_camera`: of the depth images after rectification.
-    ColourRegistration(const RecordingInfo& info, const PinholeCamera& depth_camera);
+    // `depth_camera`: of the depth images after rectification.
+    ColourRegistration(const ColourCamera& colour, const PinholeCamera& depth_camera);
+
+    // The size that raw colour images must have.
+    ImageSize raw_size() const { return raw_size_; }
 
     // Samples `raw_colour`, an image of the colour camera with its distortion, for each pixel of
     // `depth_m`. Depth that the colour camera does not see is removed. Where nothing was measured,
@@ -21,7 +26,9 @@ class ColourRegistration {
 
   private:
     const ColourImage& Shrunk(const ColourImage& raw_colour);
+    void RegisterRow(const ColourImage& source, int y, float* depth_m, Rgb8* colour) const;
 
+    ImageSize raw_size_;
     PinholeCamera depth_camera_, colour_camera_;  // the latter of the shrunk images
     LensDistortion distortion_;
     Eigen::Isometry3d T_colour_depth_;
@@ -29,7 +36,11 @@ class ColourRegistration {
     ColourImage shrunk_;
 };
 
-// Whether both images are of one camera and size, so that nothing needs to be registered.
-bool IsRegistered(const RecordingInfo& info);
+// Lets the colour of each depth pixel be taken `shift_px` depth pixels farther right and down. A
+// colour camera of its own is turned, about the same centre; else one is added.
+void MoveColour(const Eigen::Vector2d& shift_px, CameraCalibration& calibration);
+
+// An error if the colour images have another size than depth, for formats in which they cannot.
+Status CheckOneSize(const CameraCalibration& calibration);
 
 }  // namespace tessera
