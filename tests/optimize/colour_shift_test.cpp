@@ -1,31 +1,13 @@
-// A box in front of a wall, both of even colours, seen without noise from many places. Colour is
-// moved by a known number of pixels.
 #include "optimize/colour_shift.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "optimize/box_view.h"
+
 namespace tessera {
 namespace {
-
-constexpr int kWidth = 640, kHeight = 480;
-
-// `shadow_px`: columns without depth left of the box, as beside a structured-light projector's.
-Frame BoxView(int number, int shift_x, int shift_y, int shadow_px = 0) {
-    Frame frame;
-    frame.depth_m = DepthImage(kWidth, kHeight, 3.0f);
-    frame.colour = ColourImage(kWidth, kHeight, {90, 120, 80});
-    const int left = 180 + 7 * number, top = 120 + 5 * (number % 9), side = 150 + number;
-    for (int v = top; v < top + side; ++v) {
-        for (int u = left - shadow_px; u < left; ++u) frame.depth_m(u, v) = 0;
-        for (int u = left; u < left + side; ++u) {
-            frame.depth_m(u, v) = 1.5f;
-            frame.colour(u + shift_x, v + shift_y) = {200, 60, 40};
-        }
-    }
-    return frame;
-}
 
 std::optional<ColourShift> ShiftOf(int x, int y, int shadow_px = 0) {
     ColourShiftEstimator estimator;
@@ -39,7 +21,7 @@ TEST(ColourShift, FindsHowFarColourWasMoved) {
         ASSERT_TRUE(shift);
         EXPECT_NEAR(shift->x_px, x, 0.5) << x << ' ' << y;
         EXPECT_NEAR(shift->y_px, y, 0.5) << x << ' ' << y;
-        EXPECT_EQ(shift->width_px, kWidth);
+        EXPECT_EQ(shift->width_px, kBoxViewWidth);
         EXPECT_EQ(shift->shown(), x != 0);
     }
 }
@@ -73,7 +55,7 @@ TEST(ColourShift, SaysNothingWithoutEdgesThatMeet) {
     EXPECT_FALSE(none.Estimate());
     for (int i = 0; i < 16; ++i) {
         Frame frame = BoxView(i, 0, 0);
-        frame.depth_m = DepthImage(kWidth, kHeight, 3.0f);
+        frame.depth_m = DepthImage(kBoxViewWidth, kBoxViewHeight, 3.0f);
         flat.Add(frame);
         frame = BoxView(i, 0, 0);
         frame.colour = {};

@@ -1,0 +1,83 @@
+#include "run/source_camera.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "io/image_io.h"
+#include "optimize/box_view.h"
+#include "support/temp_folder.h"
+
+namespace tessera {
+namespace {
+
+constexpr int kViews = 16;
+
+// A recording at 5 Hz whose colour lies `x`, `y` pixels beside its depth.
+void WriteBoxViews(const TempFolder& folder, int x, int y) {
+    for (const char* name : {"depth", "rgb"}) std::filesystem::create_directories(folder / name);
+    std::ofstream depths(folder / "depth.txt"), colours(folder / "rgb.txt");
+    for (int i = 0; i < kViews; ++i) {
+        const Frame frame = BoxView(i, x, y);
+        Image<std::uint16_t> stored(frame.depth_m.width(), frame.depth_m.height());
+        std::transform(frame.depth_m.data(), frame.depth_m.data() + stored.size(), stored.data(),
+                       [](float z_m) { return static_cast<std::uint16_t>(1000 * z_m); });
+        const std::string number = std::to_string(i) + ".png";
+        ASSERT_TRUE(WriteDepthImage(folder / ("depth/" + number), stored).ok());
+        ASSERT_TRUE(WriteColourImage(folder / ("rgb/" + number), frame.colour).ok());
+        depths << 0.2 * i << " depth/" << number << '\n';
+        colours << 0.2 * i << " rgb/" << number << '\n';
+    }
+    std::ofstream(folder / "camera.yaml")
+        << "fx: 525\nfy: 525\ncx: 319.5\ncy: 239.5\ndepth_scale: 1000\n";
+}
+
+// Pixels whose colour is that of the box and whose depth is not, or the other way round.
+int PixelsBesideTheirSurface(FrameSource& source) {
+    Frame frame;
+    EXPECT_EQ(source.Read(frame).status, ReadStatus::kOk);
+    int wrong = 0;
+    for (std::size_t i = 0; i < frame.depth_m.size(); ++i)
+        wrong += (frame.depth_m.data()[i] == 1.5f) != (frame.colour.data()[i].r > 145);
+    return wrong;
+}
+
+TEST(OpenCheckedSource, PutsColourBackOntoItsSurface) {
+    const TempFolder folder;
+    WriteBoxViews(folder, 14, -9);
+    RunRequest request;
+    request.source = folder.path();
+    RunConfig config;
+    Result<CheckedSource> checked = OpenCheckedSource(request, config);
+    ASSERT_TRUE(checked.ok()) << checked.message();
+    ASSERT_TRUE(checked.value().colour);
+    EXPECT_TRUE(checked.value().colour->used);
+    EXPECT_NEAR(checked.value().colour->x_px, 14, 0.5);
+    ASSERT_EQ(checked.value().messages.size(), 1u);
+    EXPECT_NE(checked.value().messages[0].find("px right of and"), std::string::npos);
+    const int perimeter_px = 4 * 150;
+    EXPECT_LT(PixelsBesideTheirSurface(*checked.value().source), perimeter_px);
+
+    config.check_camera = false;
+    checked = OpenCheckedSource(request, config);
+    ASSERT_TRUE(checked.ok()) << checked.message();
+    EXPECT_FALSE(checked.value().colour);
+    EXPECT_GT(PixelsBesideTheirSurface(*checked.value().source), 5 * perimeter_px);
+}
+
+TEST(OpenCheckedSource, LeavesARightRegistrationAlone) {
+    const TempFolder folder;
+    WriteBoxViews(folder, 0, 0);
+    RunRequest request;
+    request.source = folder.path();
+    const Result<CheckedSource> checked = OpenCheckedSource(request, RunConfig());
+    ASSERT_TRUE(checked.ok()) << checked.message();
+    ASSERT_TRUE(checked.value().colour);
+    EXPECT_FALSE(checked.value().colour->used);
+    EXPECT_TRUE(checked.value().source->info().one_camera);
+    EXPECT_EQ(PixelsBesideTheirSurface(*checked.value().source), 0);
+}
+
+}  // namespace
+}  // namespace tessera
