@@ -50,6 +50,8 @@ Status CheckCalibration(const CameraCalibration& c) {
     if (!(c.depth_scale > 0 && c.depth_scale < 1e7))
         return NotPlausible("depth_scale", c.depth_scale);
     if (!(c.fps > 0 && c.fps < 1e4)) return NotPlausible("fps", c.fps);
+    if (!(c.vignetting > -0.5 && c.vignetting < 0.9))
+        return NotPlausible("vignetting", c.vignetting);
     if (!c.colour) return Status::Ok();
     const Status colour = CheckLens(c.colour->pinhole, c.colour->distortion);
     return colour.ok() ? colour : Status::Error("colour: " + colour.message());
@@ -146,6 +148,7 @@ Status ParseCamera(const YAML::Node& root, CameraCalibration& c) {
     Entries entries = LensEntries(c.pinhole, c.distortion);
     entries.emplace_back("depth_scale", Into(c.depth_scale));
     entries.emplace_back("fps", Into(c.fps));
+    entries.emplace_back("vignetting", Into(c.vignetting));
     entries.emplace_back(
         "colour", [&](const YAML::Node& node) { return ReadColour(node, c.colour.emplace()); });
     std::set<std::string> seen;
@@ -208,6 +211,7 @@ Result<CameraCalibration> ParseCameraText(const std::string& text, const std::st
 std::string CameraFileText(const CameraCalibration& c) {
     std::string text = LensText(c.pinhole, c.distortion, "") +
                        fmt::format("depth_scale: {}\nfps: {}\n", c.depth_scale, c.fps);
+    if (c.vignetting != 0) text += fmt::format("vignetting: {}\n", c.vignetting);
     if (!c.colour) return text;
     const Eigen::Quaterniond q(c.colour->T_colour_depth.linear());
     const Eigen::Vector3d t = c.colour->T_colour_depth.translation();

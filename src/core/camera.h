@@ -61,12 +61,16 @@ struct CameraCalibration {
     double depth_scale = 5000.0;    // stored depth value / depth_scale = metres
     double fps = 30.0;              // frames per second, for sources without time stamps
     bool depth_scale_given = true;  // false: depth_scale is the default
+    // Share of the brightness that colour images lose in their corners; it grows with the square of
+    // the distance from the image's centre. Negative: the corners are too bright.
+    double vignetting = 0;
     std::optional<ColourCamera> colour = std::nullopt;  // nullopt: registered to depth
 };
 
-// Reads width, height, fx, fy, cx, cy, distortion (4 or 5 numbers), depth_scale, fps, and colour
-// (docs/conventions.md). The sign of a negative fy (ICL-NUIM) is dropped. Unknown or repeated keys,
-// missing intrinsics and implausible values are errors that name the file, the key and the value.
+// Reads width, height, fx, fy, cx, cy, distortion (4 or 5 numbers), depth_scale, fps,
+// vignetting, and colour (docs/conventions.md). The sign of a negative fy (ICL-NUIM) is dropped.
+// Unknown or repeated keys, missing intrinsics and implausible values are errors that name the
+// file, the key and the value.
 Result<CameraCalibration> ReadCameraFile(const std::string& path);
 
 // The same from text; errors name it so.

@@ -133,6 +133,14 @@ Status FolderSourceConfig::Validate() const {
         fmt::format("source.depth_scale: {} must be 0 or at least {}", depth_scale, kLeast));
 }
 
+CameraCalibration Configured(CameraCalibration calibration, const FolderSourceConfig& config) {
+    if (config.depth_scale > 0) calibration.depth_scale = config.depth_scale;
+    if (config.camera) calibration.pinhole = WithSizeOf(calibration.pinhole, *config.camera);
+    calibration.vignetting += config.vignetting;
+    MoveColour(config.colour_shift_px, calibration);
+    return calibration;
+}
+
 Result<std::unique_ptr<FrameSource>> OpenFolderSource(const std::string& path,
                                                       const FolderSourceConfig& config) {
     if (Status status = config.Validate(); !status.ok()) return status;
@@ -140,10 +148,7 @@ Result<std::unique_ptr<FrameSource>> OpenFolderSource(const std::string& path,
     if (!layout.ok()) return layout.status();
     if (!layout.value().camera_known)
         if (Status status = AssumeCamera(layout.value()); !status.ok()) return status;
-    CameraCalibration& calibration = layout.value().calibration;
-    if (config.depth_scale > 0) calibration.depth_scale = config.depth_scale;
-    if (config.camera) calibration.pinhole = WithSizeOf(calibration.pinhole, *config.camera);
-    MoveColour(config.colour_shift_px, calibration);
+    layout.value().calibration = Configured(layout.value().calibration, config);
     auto source = std::make_unique<FolderSource>(path, std::move(layout.value()), config);
     if (Status status = source->Probe(); !status.ok()) return status;
     return std::unique_ptr<FrameSource>(std::move(source));

@@ -24,10 +24,15 @@ struct FolderSourceConfig {
     // Corrects the registration: colour lies this far right of and below where depth puts it, in
     // depth pixels. Set by the program; not a configuration key.
     Eigen::Vector2d colour_shift_px = Eigen::Vector2d::Zero();
+    // Added to the camera file's. Set by the program; not a configuration key.
+    double vignetting = 0;
 
     void Describe(ConfigParameters& parameters);
     Status Validate() const;
 };
+
+// The calibration with what the configuration overrides.
+CameraCalibration Configured(CameraCalibration calibration, const FolderSourceConfig& config);
 
 // Reads the folder's layout and decodes a few of its frames. If none is usable, the error names the
 // file and what to do. The source can seek. A frame that cannot be read returns kSkip. The source

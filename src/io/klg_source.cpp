@@ -110,12 +110,9 @@ Result<std::unique_ptr<FrameSource>> OpenKlgSource(const std::string& path,
     std::vector<std::string> notes;
     Result<CameraCalibration> calibration = FindKlgCamera(path, notes);
     if (!calibration.ok()) return calibration.status();
-    if (config.depth_scale > 0) calibration.value().depth_scale = config.depth_scale;
-    if (config.camera)
-        calibration.value().pinhole = WithSizeOf(calibration.value().pinhole, *config.camera);
     if (Status status = CheckOneSize(calibration.value()); !status.ok())
         return Status::Error(path + ": its camera.yaml: " + status.message());
-    MoveColour(config.colour_shift_px, calibration.value());
+    calibration.value() = Configured(calibration.value(), config);
     Result<KlgIndex> index = ReadKlgIndex(file.value(), calibration.value().pinhole);
     if (!index.ok()) return index.status();
     auto source = std::make_unique<KlgSource>(std::move(file.value()), std::move(index.value()),

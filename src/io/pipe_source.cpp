@@ -108,8 +108,7 @@ class PipeSource : public FrameSource {
         if (Status status = CheckOneSize(camera.value()); !status.ok()) return status;
         CameraCalibration& calibration = camera.value();
         if (!calibration.depth_scale_given) calibration.depth_scale = 1000;  // millimetres
-        if (config_.depth_scale > 0) calibration.depth_scale = config_.depth_scale;
-        if (config_.camera) calibration.pinhole = WithSizeOf(calibration.pinhole, *config_.camera);
+        calibration = Configured(calibration, config_);
         const std::string text = CameraFileText(calibration);
         if (!camera_text_.empty())
             return text == camera_text_

@@ -1,5 +1,5 @@
 // Converts raw camera images to what the rest of the program uses: an ideal pinhole camera, colour
-// registered to depth, and depth in metres.
+// registered to depth and as bright in the corners as in the middle, and depth in metres.
 #pragma once
 
 #include <cstdint>
@@ -32,19 +32,20 @@ class Rectifier {
     // The size that raw colour images must have.
     ImageSize colour_size() const;
 
-    // `raw` has the calibration's size; the output is resized to it. The intrinsics do not change.
-    // Bilinear interpolation. Beyond the edge of the raw image, its border pixels are replicated
-    // (depth marks these pixels as unmeasured). Not for a calibration with a colour camera of its
-    // own.
+    // `raw` has the calibration's size; the output is resized to it. Only for an evenly bright
+    // image: Fill evens it out. The intrinsics do not change. Bilinear interpolation. Beyond the
+    // edge of the raw image, its border pixels are replicated (depth marks these pixels as
+    // unmeasured). Not for a calibration with a colour camera of its own.
     void Colour(const ColourImage& raw, ColourImage& rectified) const;
     // Takes the nearest pixel and never interpolates: a mean across a depth discontinuity is a
     // surface that does not exist. 0 outside the raw image. Metres = stored / depth_scale.
     void Depth(const Image<std::uint16_t>& raw, DepthImage& depth_m) const;
-    // Converts both images into a frame. If active() is false, `raw_colour` is swapped with the
-    // frame's colour image. Empty colour stays empty.
+    // Converts both images into a frame. `raw_colour` is used up. Empty colour stays empty.
     void Fill(const Image<std::uint16_t>& raw_depth, ColourImage& raw_colour, Frame& frame);
 
   private:
+    void EvenOut(ColourImage& raw_colour) const;
+
     CameraCalibration calibration_;
     std::uint16_t invalid_depth_;
     // Index of the raw pixel for each pixel, -1 = outside. Empty if pixels do not move.
@@ -52,6 +53,8 @@ class Rectifier {
     struct ColourMaps;
     std::unique_ptr<ColourMaps> colour_maps_;
     std::optional<ColourRegistration> registration_;
+    // Per channel of each raw colour pixel, in 256ths. Empty without vignetting.
+    std::vector<std::uint16_t> brighter_;
 };
 
 }  // namespace tessera

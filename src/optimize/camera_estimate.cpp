@@ -18,7 +18,9 @@ constexpr double kFocalFloor = 0.0125, kCentreFloor = 0.006;
 // px for 525).
 constexpr double kFocalCeiling = 0.1;
 constexpr double kReadoutFloor_s = 0.002;  // at 1 rad/s half a pixel at the image border
-constexpr double kUsefulFocal = 0.02;      // largest sigma, as a share of the focal length
+constexpr double kVignettingFloor = 0.03;  // twice what intensities err by as it is
+constexpr double kLeastVignetting = -0.3, kMostVignetting = 0.7;
+constexpr double kUsefulFocal = 0.02;  // largest sigma, as a share of the focal length
 
 bool Beyond(double difference, double sigma, double floor) {
     return sigma > 0 && std::abs(difference) > std::max(kDeviations * sigma, floor);
@@ -31,9 +33,15 @@ bool CameraEstimate::focal_shown() const {
            Beyond(found.fx - given.fx, focal_sigma_px, kFocalFloor * given.fx);
 }
 
-bool CameraEstimate::shown() const {
-    return std::abs(found.fx - given.fx) < kFocalCeiling * given.fx &&
-           (focal_shown() || centre_shown());
+bool CameraEstimate::shown() const { return plausible() && (focal_shown() || centre_shown()); }
+
+bool CameraEstimate::plausible() const {
+    return std::abs(found.fx - given.fx) < kFocalCeiling * given.fx;
+}
+
+bool CameraEstimate::vignetting_shown() const {
+    return Beyond(vignetting, vignetting_sigma, kVignettingFloor) &&
+           vignetting > kLeastVignetting && vignetting < kMostVignetting;
 }
 
 bool CameraEstimate::centre_shown() const {

@@ -14,6 +14,9 @@ struct CameraEstimate {
     double focal_sigma_px = 0, centre_x_sigma_px = 0, centre_y_sigma_px = 0;
     // Read-out time of the colour image's rolling shutter, first row to last.
     double readout_s = 0, readout_sigma_s = 0;
+    // Share of the brightness that is lost in the image's corners, as a square of the distance from
+    // the image's centre. Negative: a correction that goes too far.
+    double vignetting = 0, vignetting_sigma = 0;
     // Robust photometric error per point, with the given and with the estimated camera.
     double misfit_given = 0, misfit_found = 0;
     int pairs = 0;  // number of compared view pairs
@@ -24,7 +27,12 @@ struct CameraEstimate {
     bool centre_shown() const;
     // True if one of them is, unless the focal length is too far off to be believed.
     bool shown() const;
-    // True if the read-out time differs from the given one.
+    // False: the focal length is that far off.
+    bool plausible() const;
+    // True if the corners are clearly darker or brighter.
+    bool vignetting_shown() const;
+    // True if the read-out time differs from the given one. Check first that the focal length is
+    // plausible, if one was given: a fit that went astray has a wrong read-out time, too.
     bool shutter_shown(double given_readout_s) const;
     // True if the estimate is good enough to use when nothing is known about the camera.
     bool useful() const;
@@ -34,6 +42,12 @@ struct CameraEstimate {
 struct CameraReport {
     CameraEstimate estimate;
     bool known = true;  // false: the camera was not given, `estimate.given` is a guess
+    bool used = false;
+};
+
+// For run.json: how much darker the corners are.
+struct VignettingReport {
+    double share = 0, sigma = 0;
     bool used = false;
 };
 

@@ -47,6 +47,8 @@ std::optional<CameraEstimate> CameraEstimator::Estimate() const {
     estimate.centre_y_sigma_px = fit.deviations(2) * camera_.width;
     estimate.readout_s = fit.unknowns.readout_s;
     estimate.readout_sigma_s = fit.deviations(3);
+    estimate.vignetting = fit.unknowns.vignetting;
+    estimate.vignetting_sigma = fit.deviations(4);
     estimate.misfit_given = fit.misfit_given;
     estimate.misfit_found = fit.misfit_found;
     estimate.pairs = fit.pairs;

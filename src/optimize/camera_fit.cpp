@@ -18,8 +18,9 @@ constexpr double kLeastSeen = 0.25;  // share of a view's points that the other 
 constexpr double kWorstScale = 1.8;
 constexpr double kLongestStep_rad = 0.1;  // per iteration
 // Prior standard deviations of the camera: log focal length, centre in image widths, read-out time
-// in seconds. Residuals of neighbouring pixels are correlated, so a hundred count as one.
-constexpr double kBefore[kCount] = {0.2, 0.01, 0.01, 0.02};
+// in seconds, vignetting. Residuals of neighbouring pixels are correlated, so a hundred count as
+// one.
+constexpr double kBefore[kCount] = {0.2, 0.01, 0.01, 0.02, 0.3};
 constexpr double kTogether = 100;
 
 using Vector = CameraFit::Vector;
@@ -115,7 +116,8 @@ class Fit {
 
   private:
     Vector State() const {
-        return {unknowns_.log_focal, unknowns_.centre_x, unknowns_.centre_y, unknowns_.readout_s};
+        return {unknowns_.log_focal, unknowns_.centre_x, unknowns_.centre_y, unknowns_.readout_s,
+                unknowns_.vignetting};
     }
 
     double Linearise(int level) {
@@ -215,7 +217,8 @@ CameraFit FitCamera(const std::vector<CameraView>& views, const PinholeCamera& g
     result.pairs = fit.usable();
     if (result.pairs < kLeastPairs) return CameraFit{};
     result.deviations = fit.Deviations();
-    // Misfit of the given camera, with its own motions but the estimated read-out time.
+    // Misfit of the given camera, with its own motions but the estimated read-out time and
+    // vignetting.
     CameraUnknowns as_given = result.unknowns;
     as_given.log_focal = as_given.centre_x = as_given.centre_y = 0;
     fit.Set(as_given);

@@ -18,6 +18,22 @@ Eigen::Vector3d RowMotion(const Vector6d& velocity, double row, const Eigen::Vec
     return row * (velocity.head<3>().cross(p) + velocity.tail<3>());
 }
 
+// Brightness at a pixel relative to the centre, and its derivatives.
+struct Falloff {
+    double value, du, dv;
+    double radius2;  // 1 in the corners
+
+    Falloff(const PinholeCamera& c, double u, double v, double vignetting) {
+        const double x = u - 0.5 * (c.width - 1), y = v - 0.5 * (c.height - 1);
+        const double corner2 =
+            0.25 * ((c.width - 1.0) * (c.width - 1.0) + (c.height - 1.0) * (c.height - 1.0));
+        radius2 = (x * x + y * y) / corner2;
+        value = std::max(1 - vignetting * radius2, 0.05);
+        du = -2 * vignetting * x / corner2;
+        dv = -2 * vignetting * y / corner2;
+    }
+};
+
 }  // namespace
 
 PinholeCamera CameraUnknowns::Applied(const PinholeCamera& given) const {
@@ -34,12 +50,14 @@ void CameraUnknowns::Add(const Eigen::Matrix<double, kCount, 1>& step) {
     centre_x += step(1);
     centre_y += step(2);
     readout_s += step(3);
+    vignetting = std::clamp(vignetting + step(4), -0.5, 0.9);
 }
 
 bool EvaluatePoint(const CameraViewPoint& point, const CameraView::Level& to,
-                   const PinholeCamera& camera, const CameraPair& pair, double readout_s,
-                   CameraPairResidual& residual) {
+                   const PinholeCamera& camera, const CameraPair& pair,
+                   const CameraUnknowns& unknowns, CameraPairResidual& residual) {
     const PinholeCamera& c = camera;
+    const double readout_s = unknowns.readout_s;
     Eigen::Vector3d p = c.Unproject(point.u, point.v, point.depth_m);
     const Eigen::Vector3d moved_from =
         RowMotion(pair.velocity_from, static_cast<double>(point.v) / c.height - 0.5, p);
@@ -56,8 +74,15 @@ bool EvaluatePoint(const CameraViewPoint& point, const CameraView::Level& to,
         return false;
     const BilinearSample depth = SampleBilinear(to.depth_m, pixel.x(), pixel.y());
     if (depth.least <= 0 || std::abs(depth.value - q.z()) > kOccluded * q.z()) return false;
-    const BilinearSample seen = SampleBilinear(to.intensity, pixel.x(), pixel.y());
-    residual.value = seen.value - (1 + pair.gain) * point.intensity - pair.offset;
+    const BilinearSample sample = SampleBilinear(to.intensity, pixel.x(), pixel.y());
+    const Falloff there(c, pixel.x(), pixel.y(), unknowns.vignetting),
+        here(c, point.u, point.v, unknowns.vignetting);
+    const BilinearSample seen{sample.value / there.value,
+                              (sample.du - sample.value * there.du / there.value) / there.value,
+                              (sample.dv - sample.value * there.dv / there.value) / there.value,
+                              sample.least};
+    const double intensity = point.intensity / here.value;
+    residual.value = seen.value - (1 + pair.gain) * intensity - pair.offset;
 
     const double inverse_z = 1 / q.z(), x = pixel.x() - c.cx, y = pixel.y() - c.cy;
     const Eigen::Vector3d by_q(seen.du * c.fx * inverse_z, seen.dv * c.fy * inverse_z,
@@ -66,12 +91,14 @@ bool EvaluatePoint(const CameraViewPoint& point, const CameraView::Level& to,
     auto& j = residual.jacobian;
     j.head<3>() = q.cross(by_q);
     j.segment<3>(3) = by_q;
-    j(6) = -point.intensity;
+    j(6) = -intensity;
     j(7) = -1;
     j(8) = seen.du * x + seen.dv * y - by_p.x() * p.x() - by_p.y() * p.y();
     j(9) = (seen.du - by_p.x() * point.depth_m / c.fx) * c.width;
     j(10) = (seen.dv - by_p.y() * point.depth_m / c.fy) * c.width;
     j(11) = by_p.dot(moved_from) - by_q.dot(moved_to);
+    j(12) = seen.value * there.radius2 / there.value -
+            (1 + pair.gain) * intensity * here.radius2 / here.value;
     return true;
 }
 
@@ -86,7 +113,7 @@ CameraPairSums SumPair(const CameraView& from, const CameraView& to, int level,
     CameraPairResidual residual;
     for (const CameraViewPoint& point : from.levels[at].points) {
         ++sums.points;
-        if (!EvaluatePoint(point, seen, reduced, pair, unknowns.readout_s, residual)) continue;
+        if (!EvaluatePoint(point, seen, reduced, pair, unknowns, residual)) continue;
         ++sums.used;
         sizes.push_back(std::abs(residual.value));
         // Student's t weights with few degrees of freedom: moving, specular or occluded points get

@@ -13,12 +13,15 @@ namespace tessera {
 
 // Unknowns of the camera, relative to the given camera.
 struct CameraUnknowns {
-    static constexpr int kCount = 4;
+    static constexpr int kCount = 5;
 
     double log_focal = 0;               // common factor of fx and fy
     double centre_x = 0, centre_y = 0;  // shift of the principal point, in image widths
     // Time between the first and the last row of a rolling shutter; 0 for a global shutter.
     double readout_s = 0;
+    // Share of the brightness that is lost in the image's corners; it grows with the square of the
+    // distance from the image's centre.
+    double vignetting = 0;
 
     PinholeCamera Applied(const PinholeCamera& given) const;
     void Add(const Eigen::Matrix<double, kCount, 1>& step);
@@ -56,9 +59,10 @@ struct CameraPairResidual {
     double value = 0;
     CameraPairSums::Vector jacobian = CameraPairSums::Vector::Zero();
 };
+// `camera`: with the unknowns applied, at the level's resolution.
 bool EvaluatePoint(const CameraViewPoint& point, const CameraView::Level& to,
-                   const PinholeCamera& camera, const CameraPair& pair, double readout_s,
-                   CameraPairResidual& residual);
+                   const PinholeCamera& camera, const CameraPair& pair,
+                   const CameraUnknowns& unknowns, CameraPairResidual& residual);
 
 // `camera`: the given one, at full resolution.
 CameraPairSums SumPair(const CameraView& from, const CameraView& to, int level,

@@ -126,6 +126,7 @@ Result<std::unique_ptr<FrameSource>> MakeRecordingSource(const std::string& path
         if (Status status = CheckPlausible(camera->pinhole); !status.ok())
             return Status::Error(path + ": its calibration: " + status.message());
     CameraCalibration calibration = CalibrationOf(info);
+    calibration.vignetting += config.vignetting;
     MoveColour(config.colour_shift_px, calibration);
     auto source =
         std::make_unique<RecordingSource>(path, std::move(recording), std::move(info), calibration);

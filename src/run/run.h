@@ -66,6 +66,7 @@ struct RunSummary {
     std::optional<CalibrationReport> calibration;
     // With calibration.check, if the recording reveals its camera.
     std::optional<CameraReport> camera;
+    std::optional<VignettingReport> vignetting;
     std::optional<ColourShift> colour_shift;  // the same for the registration of colour
     std::optional<AteResult> ate;  // against the source's ground truth; none with given poses
     std::string exit;              // "finished", "stopped", or "failed: ..."

@@ -145,6 +145,8 @@ std::string RunJson(const RunRequest& request, RunConfig config, const RunSummar
             CalibrationJson(summary.source.camera, config.pipeline.frame.disparity_offset_per_m,
                             *summary.calibration);
     if (summary.camera) json["camera_estimate"] = CameraJson(*summary.camera);
+    if (const auto& v = summary.vignetting)
+        json["vignetting"] = {{"used", v->used}, {"share", v->share}, {"sigma", v->sigma}};
     if (summary.colour_shift) json["colour_shift"] = ColourShiftJson(*summary.colour_shift);
     if (summary.ate) json["ate"] = Json::parse(AteJson(*summary.ate), nullptr, false);
     json["configuration"] = ConfigurationJson(config);

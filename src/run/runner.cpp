@@ -16,7 +16,9 @@ namespace {
 
 // Starts the shutter estimation from the rolling shutter found in the recording's first seconds,
 // instead of the configured one.
-void BeginShutter(const CameraEstimate& estimate, PipelineConfig& config, SourceInfo& source) {
+void BeginShutter(const CameraReport& report, PipelineConfig& config, SourceInfo& source) {
+    const CameraEstimate& estimate = report.estimate;
+    if (report.known && !estimate.plausible()) return;
     const double given_s = config.shutter.colour_readout_s;
     if (!config.trackers.photometric.shutter.enabled || !estimate.shutter_shown(given_s)) return;
     config.trackers.photometric.shutter.readout_s = estimate.readout_s - given_s;
@@ -63,6 +65,7 @@ Status Runner::Open(const std::atomic<bool>& stop) {
     summary_.source = source->info();
     summary_.camera = checked.value().camera;
     summary_.colour_shift = checked.value().colour;
+    summary_.vignetting = checked.value().vignetting;
     camera_notes_ = std::move(checked.value().messages);
     if (!request_.resume && !request_.localise_only)  // a scan keeps its band
         if (std::string note = FitBandToNoise(request_.selection, config_.pipeline, source, stop);
@@ -82,7 +85,7 @@ Status Runner::Open(const std::atomic<bool>& stop) {
     if (!scan.ok()) return scan.status();
     RunConfig config = config_;
     if (request_.localise_only) StayInTheMap(config);
-    if (summary_.camera) BeginShutter(summary_.camera->estimate, config.pipeline, summary_.source);
+    if (summary_.camera) BeginShutter(*summary_.camera, config.pipeline, summary_.source);
     EngineInput input{
         std::move(source),
         selection_,

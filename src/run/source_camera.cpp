@@ -20,6 +20,9 @@ constexpr int kLeastViews = 12;
 constexpr std::int64_t kMostFrames = 100000;
 // Of the focal length; beyond this the scan is of another camera.
 constexpr double kOtherCamera = 0.25;
+// Vignetting beyond this is estimated once more on the corrected images: the first estimate is a
+// few percent of itself too small. A second look takes as long as the first, up to 2 s.
+constexpr double kLookAgain = 0.12;
 
 // A file or folder of images. Not a scan, a scene or a camera.
 bool IsFileOrFolder(const std::string& name) {
@@ -171,17 +174,37 @@ Result<std::optional<PinholeCamera>> FindCamera(const RunRequest& request, const
     return to_use(*second);
 }
 
-// Corrects the registration in `config` if the images contradict it, and looks again.
-Status CorrectRegistration(const RunRequest& request, const SourceInfo& given, RunConfig& config,
-                           Seen& seen, std::optional<ColourShift>& report) {
-    report = seen.colour;
+// Corrects the registration and the brightness of colour in `config` if the images show errors, and
+// looks again if they are large.
+Status CorrectColour(const RunRequest& request, const SourceInfo& given, RunConfig& config,
+                     Seen& seen, CheckedSource& checked) {
     const bool by_device = request.source.ends_with(".oni");  // OpenNI registers by itself
-    if (!report || !report->shown() || by_device) return Status::Ok();
-    report->used = true;
-    config.source.colour_shift_px = {report->x_px, report->y_px};
+    checked.colour = seen.colour;
+    if (seen.camera)
+        checked.vignetting =
+            VignettingReport{seen.camera->vignetting, seen.camera->vignetting_sigma};
+    if (by_device) return Status::Ok();
+    if (checked.colour && checked.colour->shown()) {
+        checked.colour->used = true;
+        config.source.colour_shift_px = {checked.colour->x_px, checked.colour->y_px};
+        checked.messages.push_back(ColourShiftText(*checked.colour) + ": corrected");
+    }
+    const bool believed = seen.camera && (seen.camera->plausible() || !given.camera_known);
+    if (believed && seen.camera->vignetting_shown()) {
+        VignettingReport& v = *checked.vignetting;
+        v.used = true;
+        config.source.vignetting = v.share;
+        checked.messages.push_back(fmt::format(
+            "the image's corners are {:.1f} +- {:.1f} % {} than its middle: corrected",
+            100 * std::abs(v.share), 100 * v.sigma, v.share > 0 ? "darker" : "brighter"));
+    }
+    const bool moved = checked.colour && checked.colour->used;
+    if (!moved && std::abs(config.source.vignetting) < kLookAgain) return Status::Ok();
     Result<std::unique_ptr<FrameSource>> again = OpenSource(request.source, config);
     if (!again.ok()) return again.status();
     seen = LookAt(std::move(again.value()), request.selection, given.one_camera);
+    if (config.source.vignetting != 0 && seen.camera && seen.camera->plausible())
+        config.source.vignetting = checked.vignetting->share += seen.camera->vignetting;
     return Status::Ok();
 }
 
@@ -198,11 +221,8 @@ Result<CheckedSource> OpenCheckedSource(const RunRequest& request, const RunConf
     }
     RunConfig corrected = config;
     Seen seen = LookAt(std::move(opened.value()), request.selection, given.one_camera);
-    if (Status status = CorrectRegistration(request, given, corrected, seen, checked.colour);
-        !status.ok())
+    if (Status status = CorrectColour(request, given, corrected, seen, checked); !status.ok())
         return status;
-    if (checked.colour && checked.colour->used)
-        checked.messages.push_back(ColourShiftText(*checked.colour) + ": corrected");
     std::optional<PinholeCamera> camera;
     if (request.resume || request.localise_only) {
         camera = CameraOfScan(request.scan_file, given.camera);

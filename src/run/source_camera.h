@@ -1,5 +1,5 @@
-// Opens a run's source with the intrinsics and the registration of colour estimated from its own
-// images if they contradict the given ones.
+// Opens a run's source with the intrinsics, the registration of colour and the vignetting estimated
+// from its own images if they contradict the given ones.
 #pragma once
 
 #include <memory>
@@ -19,7 +19,8 @@ struct CheckedSource {
     std::unique_ptr<FrameSource> source;  // opened with the camera to use, at the first frame
     std::optional<CameraReport> camera;   // if it was estimated
     std::optional<ColourShift> colour;    // if it was estimated
-    std::vector<std::string> messages;    // for the user
+    std::optional<VignettingReport> vignetting;
+    std::vector<std::string> messages;  // for the user
 };
 
 // Estimates the camera for recordings only: the first frames of a live camera belong to the run, a

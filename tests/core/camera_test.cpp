@@ -42,12 +42,14 @@ TEST(Camera, ImplausibleValuesAreNamed) {
 TEST(CameraFile, ReadsEveryKey) {
     const auto camera =
         ReadText(std::string("width: 320\nheight: 240\n") + kIntrinsics +
-                 "distortion: [0.1, -0.2, 0.003, -0.004, 0.5]\ndepth_scale: 1000\nfps: 25\n");
+                 "distortion: [0.1, -0.2, 0.003, -0.004, 0.5]\ndepth_scale: 1000\nfps: 25\n"
+                 "vignetting: 0.2\n");
     ASSERT_TRUE(camera.ok()) << camera.message();
     EXPECT_EQ(camera.value().pinhole, (PinholeCamera{320, 240, 500, 510, 310, 230}));
     EXPECT_EQ(camera.value().distortion, (LensDistortion{0.1, -0.2, 0.003, -0.004, 0.5}));
     EXPECT_EQ(camera.value().depth_scale, 1000);
     EXPECT_EQ(camera.value().fps, 25);
+    EXPECT_EQ(camera.value().vignetting, 0.2);
 }
 
 constexpr const char* kColour =
@@ -67,11 +69,13 @@ TEST(CameraFile, AColourCameraOfItsOwn) {
             .norm(),
         1e-12);
     CameraCalibration written = read.value();
+    written.vignetting = 0.1;
     written.colour->distortion = {0.1, -0.2, 0.003, -0.004, 0.5};
     written.colour->pinhole.width = 720;
     const auto again = ReadText(CameraFileText(written));
     ASSERT_TRUE(again.ok()) << again.message();
     EXPECT_EQ(again.value().colour->pinhole, written.colour->pinhole);
+    EXPECT_EQ(again.value().vignetting, 0.1);
     EXPECT_EQ(again.value().colour->distortion, written.colour->distortion);
     EXPECT_TRUE(again.value().colour->T_colour_depth.isApprox(colour.T_colour_depth, 1e-12));
 }
@@ -143,6 +147,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadFile{"fx: 500\nfy: 510\ncx: 310\ncy: 230\ndistortion: [1, 2]\n", "distortion"},
         BadFile{"fx: 500\nfy: 510\ncx: 310\ncy: 230\ndistortion: [1, 2, .nan, 4]\n", "distortion"},
         BadFile{"fx: 500\nfy: 510\ncx: 310\ncy: 230\ndistortion: 3\n", "distortion"},
+        BadFile{"fx: 500\nfy: 510\ncx: 310\ncy: 230\nvignetting: 1\n", "vignetting: 1 is not"},
         BadFile{"fx: 500\nfy: 510\ncx: 310\ncy: 230\ncolour: yes\n", "colour: expected 'key: "},
         BadFile{"fx: 500\nfy: 510\ncx: 310\ncy: 230\ncolour: {fx: 1}\n", "colour: 'cx' is missing"},
         BadFile{"fx: 500\nfy: 510\ncx: 310\ncy: 230\ncolour: {fx: 0, fy: 9, cx: 1, cy: 1}\n",

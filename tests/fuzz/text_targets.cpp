@@ -115,8 +115,11 @@ std::vector<FuzzTarget> TextTargets() {
     };
     CameraCalibration lens;
     lens.distortion = {0.1, -0.2, 0.001, 0.002, 0.3};
+    CameraCalibration two = lens;
+    two.colour.emplace().T_colour_depth.translation().x() = -0.025;
     return {
-        {"camera", text({CameraFileText({}), CameraFileText(lens)}), ReadCamera},
+        {"camera", text({CameraFileText({}), CameraFileText(lens), CameraFileText(two)}),
+         ReadCamera},
         {"config", text({SomeConfiguration(), "mapping: {voxel_size_m: 0.02}\n"}),
          ReadConfiguration, 500},
         {"trajectory",

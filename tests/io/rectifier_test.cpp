@@ -57,6 +57,32 @@ TEST(Rectifier, SwitchedOffLeavesTheImages) {
     EXPECT_TRUE(Rectifier(Freiburg1(), {}).active());
 }
 
+// What a lens with 30 % vignetting makes of an even grey, and of white.
+TEST(Rectifier, EvensOutDarkCorners) {
+    CameraCalibration calibration = Freiburg1();
+    calibration.distortion = {};
+    calibration.vignetting = 0.3;
+    ColourImage raw(640, 480);
+    for (int v = 0; v < 480; ++v)
+        for (int u = 0; u < 640; ++u) {
+            const double r = std::hypot(u - 319.5, v - 239.5) / std::hypot(319.5, 239.5);
+            const auto grey = static_cast<std::uint8_t>(std::lround(180 * (1 - 0.3 * r * r)));
+            raw(u, v) = {grey, 255, 0};
+        }
+    Frame frame;
+    Rectifier rectifier(calibration, {});
+    rectifier.Fill(Image<std::uint16_t>(640, 480, 5000), raw, frame);
+    for (int v = 0; v < 480; v += 3)
+        for (int u = 0; u < 640; u += 3) {
+            EXPECT_NEAR(frame.colour(u, v).r, 180, 1.5) << u << ' ' << v;
+            EXPECT_EQ(frame.colour(u, v).g, 255);
+            EXPECT_EQ(frame.colour(u, v).b, 0);
+        }
+    ColourImage none;
+    rectifier.Fill(Image<std::uint16_t>(640, 480, 5000), none, frame);
+    EXPECT_TRUE(frame.colour.empty());
+}
+
 TEST(Rectifier, TakesTheInvalidValueOut) {
     for (bool correct : {false, true}) {
         const Rectifier rectifier(Freiburg1(),

@@ -1,5 +1,4 @@
-// A painted box-shaped room, seen without noise by a rotating camera whose given intrinsics may be
-// wrong.
+// A painted room, seen by a camera whose given intrinsics may be wrong.
 #include "optimize/camera_estimator.h"
 
 #include <gtest/gtest.h>
@@ -7,53 +6,18 @@
 #include <cmath>
 
 #include "optimize/camera_pair.h"
+#include "optimize/painted_room.h"
 
 namespace tessera {
 namespace {
 
-const PinholeCamera kCamera{320, 240, 270, 270, 159.5, 119.5};
-const Eigen::Vector3d kHalfRoom(2.0, 1.3, 2.4);
+using painted_room::kCamera;
+using painted_room::View;
 
-double Paint(const Eigen::Vector3d& p) {
-    return 0.5 + 0.16 * std::sin(9 * p.x() + 2 * p.z()) * std::sin(8 * p.y() + 1) +
-           0.14 * std::sin(7 * p.z() - 5 * p.y()) +
-           0.12 * std::sin(15 * p.x() - 4 * p.y() + 11 * p.z());
-}
-
-// A frame on a slow, shaky path that starts near the origin and rotates about all axes.
-Frame View(int number, double readout_s) {
-    const auto pose = [](double t) {
-        return Eigen::Isometry3d(
-            Eigen::Translation3d(0.1 * std::sin(t), 0.05 * std::cos(1.7 * t),
-                                 0.1 * std::sin(0.8 * t)) *
-            Eigen::AngleAxisd(0.35 * std::sin(0.9 * t), Eigen::Vector3d::UnitY()) *
-            Eigen::AngleAxisd(0.25 * std::sin(1.4 * t + 0.5), Eigen::Vector3d::UnitX()) *
-            Eigen::AngleAxisd(0.15 * std::sin(0.6 * t), Eigen::Vector3d::UnitZ()));
-    };
-    Frame frame;
-    frame.stamp_s = frame.colour_stamp_s = 0.1 * number;
-    frame.colour.Resize(kCamera.width, kCamera.height);
-    frame.depth_m.Resize(kCamera.width, kCamera.height);
-    for (int v = 0; v < kCamera.height; ++v) {
-        const Eigen::Isometry3d T = pose(frame.stamp_s + readout_s * (v / 240.0 - 0.5));
-        for (int u = 0; u < kCamera.width; ++u) {
-            const Eigen::Vector3d ray = T.linear() * kCamera.Unproject(u, v, 1);
-            double z = 1e9;
-            for (int k = 0; k < 3; ++k)
-                z = std::min(
-                    z, ((ray(k) > 0 ? kHalfRoom(k) : -kHalfRoom(k)) - T.translation()(k)) / ray(k));
-            const auto grey =
-                static_cast<std::uint8_t>(std::lround(255 * Paint(T.translation() + z * ray)));
-            frame.colour(u, v) = {grey, grey, grey};
-            frame.depth_m(u, v) = static_cast<float>(z);
-        }
-    }
-    return frame;
-}
-
-std::optional<CameraEstimate> Estimate(const PinholeCamera& given, double readout_s = 0) {
+std::optional<CameraEstimate> Estimate(const PinholeCamera& given, double readout_s = 0,
+                                       double vignetting = 0) {
     CameraEstimator estimator(given);
-    for (int i = 0; i < 36; ++i) estimator.Add(View(i, readout_s));
+    for (int i = 0; i < 36; ++i) estimator.Add(View(i, readout_s, vignetting));
     return estimator.Estimate();
 }
 
@@ -88,6 +52,20 @@ TEST(CameraEstimator, LeavesARightCameraAlone) {
     EXPECT_NEAR(estimate->found.fx, kCamera.fx, 0.002 * kCamera.fx);
     EXPECT_NEAR(estimate->readout_s, 0, 0.002);
     EXPECT_FALSE(estimate->shutter_shown(0));
+    EXPECT_NEAR(estimate->vignetting, 0, 0.005);
+    EXPECT_FALSE(estimate->vignetting_shown());
+}
+
+TEST(CameraEstimator, FindsDarkCornersAndIsNotMisledByThem) {
+    for (const double vignetting : {0.25, -0.1}) {
+        const auto estimate = Estimate(kCamera, 0, vignetting);
+        ASSERT_TRUE(estimate);
+        EXPECT_NEAR(estimate->vignetting, vignetting, 0.01);
+        EXPECT_TRUE(estimate->vignetting_shown());
+        EXPECT_FALSE(estimate->shown());
+        EXPECT_NEAR(estimate->found.fx, kCamera.fx, 0.004 * kCamera.fx);
+        EXPECT_FALSE(estimate->shutter_shown(0));
+    }
 }
 
 TEST(CameraEstimator, IsNotMisledByARollingShutter) {
@@ -112,9 +90,11 @@ TEST(CameraPair, DerivativesAreThoseOfDifferences) {
     pair.T_to_from = Se3Exp((Vector6d() << 0.01, -0.02, 0.015, 0.02, 0.01, -0.03).finished());
     pair.velocity_from << 0.3, -0.2, 0.1, 0.1, 0.2, 0.05;
     pair.velocity_to << -0.1, 0.4, 0.2, 0.05, -0.1, 0.1;
+    CameraUnknowns start;
+    start.vignetting = 0.2;
     const auto value = [&](const CameraViewPoint& point, int unknown, double step) {
         CameraPair moved = pair;
-        CameraUnknowns unknowns;
+        CameraUnknowns unknowns = start;
         Eigen::Matrix<double, CameraPairSums::kAll, 1> d =
             Eigen::Matrix<double, CameraPairSums::kAll, 1>::Zero();
         d(unknown) = step;
@@ -123,8 +103,8 @@ TEST(CameraPair, DerivativesAreThoseOfDifferences) {
         moved.offset += d(7);
         unknowns.Add(d.tail<CameraUnknowns::kCount>());
         CameraPairResidual residual;
-        EXPECT_TRUE(EvaluatePoint(point, seen, unknowns.Applied(kCamera), moved, unknowns.readout_s,
-                                  residual));
+        EXPECT_TRUE(
+            EvaluatePoint(point, seen, unknowns.Applied(kCamera), moved, unknowns, residual));
         return residual.value;
     };
     constexpr double kStep = 1e-7;
@@ -132,7 +112,7 @@ TEST(CameraPair, DerivativesAreThoseOfDifferences) {
     for (std::size_t i = 0; i < from.levels.back().points.size(); i += 97) {
         const CameraViewPoint& point = from.levels.back().points[i];
         CameraPairResidual residual;
-        if (!EvaluatePoint(point, seen, kCamera, pair, 0, residual)) continue;
+        if (!EvaluatePoint(point, seen, start.Applied(kCamera), pair, start, residual)) continue;
         for (int k = 0; k < CameraPairSums::kAll; ++k) {
             const double difference =
                 (value(point, k, kStep) - value(point, k, -kStep)) / (2 * kStep);
@@ -141,6 +121,19 @@ TEST(CameraPair, DerivativesAreThoseOfDifferences) {
         ++compared;
     }
     EXPECT_GT(compared, 10);
+}
+
+TEST(CameraEstimate, BelievesInVignettingThatACameraCanHave) {
+    CameraEstimate estimate;
+    estimate.vignetting_sigma = 0.01;
+    for (const auto& [share, believed] :
+         {std::pair(0.05, false), {0.07, true}, {0.72, false}, {-0.1, true}, {-0.35, false}}) {
+        estimate.vignetting = share;
+        EXPECT_EQ(estimate.vignetting_shown(), believed) << share;
+    }
+    estimate.vignetting_sigma = 0.001;
+    estimate.vignetting = 0.02;
+    EXPECT_FALSE(estimate.vignetting_shown());
 }
 
 TEST(CameraEstimate, IsBelievedBeyondItsDeviationsAndItsFloorOnly) {
@@ -152,11 +145,13 @@ TEST(CameraEstimate, IsBelievedBeyondItsDeviationsAndItsFloorOnly) {
     estimate.centre_x_sigma_px = estimate.centre_y_sigma_px = 0.1;
     estimate.found.fx *= 1.012;  // below the minimum change
     EXPECT_FALSE(estimate.shown());
+    EXPECT_TRUE(estimate.plausible());
     estimate.found.fx = 1.05 * kCamera.fx;
     EXPECT_TRUE(estimate.focal_shown());
     estimate.found.fx = 0.89 * kCamera.fx;  // no calibration is this far off
     estimate.found.cx += 20;                // and this is not to be believed either
     EXPECT_FALSE(estimate.shown());
+    EXPECT_FALSE(estimate.plausible());
     estimate.found = kCamera;
     estimate.found.fx = 1.05 * kCamera.fx;
     estimate.focal_sigma_px = 3;  // the change is 4.5 standard deviations

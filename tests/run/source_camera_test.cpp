@@ -4,9 +4,11 @@
 
 #include <filesystem>
 #include <fstream>
+#include <vector>
 
 #include "io/image_io.h"
 #include "optimize/box_view.h"
+#include "optimize/painted_room.h"
 #include "support/temp_folder.h"
 
 namespace tessera {
@@ -14,23 +16,29 @@ namespace {
 
 constexpr int kViews = 16;
 
-// A recording at 5 Hz whose colour lies `x`, `y` pixels beside its depth.
-void WriteBoxViews(const TempFolder& folder, int x, int y) {
+void WriteViews(const TempFolder& folder, const std::vector<Frame>& frames,
+                const CameraCalibration& camera) {
     for (const char* name : {"depth", "rgb"}) std::filesystem::create_directories(folder / name);
     std::ofstream depths(folder / "depth.txt"), colours(folder / "rgb.txt");
-    for (int i = 0; i < kViews; ++i) {
-        const Frame frame = BoxView(i, x, y);
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+        const Frame& frame = frames[i];
         Image<std::uint16_t> stored(frame.depth_m.width(), frame.depth_m.height());
         std::transform(frame.depth_m.data(), frame.depth_m.data() + stored.size(), stored.data(),
                        [](float z_m) { return static_cast<std::uint16_t>(1000 * z_m); });
         const std::string number = std::to_string(i) + ".png";
         ASSERT_TRUE(WriteDepthImage(folder / ("depth/" + number), stored).ok());
         ASSERT_TRUE(WriteColourImage(folder / ("rgb/" + number), frame.colour).ok());
-        depths << 0.2 * i << " depth/" << number << '\n';
-        colours << 0.2 * i << " rgb/" << number << '\n';
+        depths << 0.1 * static_cast<double>(i) << " depth/" << number << '\n';
+        colours << 0.1 * static_cast<double>(i) << " rgb/" << number << '\n';
     }
-    std::ofstream(folder / "camera.yaml")
-        << "fx: 525\nfy: 525\ncx: 319.5\ncy: 239.5\ndepth_scale: 1000\n";
+    std::ofstream(folder / "camera.yaml") << CameraFileText(camera);
+}
+
+// Colour lies `x`, `y` pixels beside its depth.
+void WriteBoxViews(const TempFolder& folder, int x, int y) {
+    std::vector<Frame> frames;
+    for (int i = 0; i < kViews; ++i) frames.push_back(BoxView(i, x, y));
+    WriteViews(folder, frames, {.depth_scale = 1000});
 }
 
 // Pixels whose colour is that of the box and whose depth is not, or the other way round.
@@ -77,6 +85,29 @@ TEST(OpenCheckedSource, LeavesARightRegistrationAlone) {
     EXPECT_FALSE(checked.value().colour->used);
     EXPECT_TRUE(checked.value().source->info().one_camera);
     EXPECT_EQ(PixelsBesideTheirSurface(*checked.value().source), 0);
+}
+
+TEST(OpenCheckedSource, EvensOutDarkCorners) {
+    const TempFolder folder;
+    std::vector<Frame> frames;
+    for (int i = 0; i < 36; ++i) frames.push_back(painted_room::View(i, 0, 0.25));
+    // Part of it is known.
+    WriteViews(folder, frames,
+               {.pinhole = painted_room::kCamera, .depth_scale = 1000, .vignetting = 0.05});
+    RunRequest request;
+    request.source = folder.path();
+    const Result<CheckedSource> checked = OpenCheckedSource(request, RunConfig());
+    ASSERT_TRUE(checked.ok()) << checked.message();
+    ASSERT_TRUE(checked.value().vignetting);
+    EXPECT_TRUE(checked.value().vignetting->used);
+    EXPECT_NEAR(checked.value().vignetting->share, 0.2, 0.02);
+    ASSERT_EQ(checked.value().messages.size(), 1u);
+    EXPECT_NE(checked.value().messages[0].find("% darker than its middle"), std::string::npos);
+    Frame frame;
+    ASSERT_EQ(checked.value().source->Read(frame).status, ReadStatus::kOk);
+    const Frame even = painted_room::View(0, 0);
+    for (const auto& [u, v] : {std::pair(0, 0), {319, 239}, {160, 120}, {5, 235}})
+        EXPECT_NEAR(frame.colour(u, v).r, even.colour(u, v).r, 4) << u << ' ' << v;
 }
 
 }  // namespace
