@@ -105,6 +105,7 @@ void DrawCommand(StartState& state) {
         ImGui::PopFont();
     }
     state.controls.MarkLast("command");
+    if (!words.empty()) state.controls.MarkLast("command." + words[1]);  // run or view
     Tip("The command that does the same");
     ImGui::SameLine();
     ImGui::BeginDisabled(words.empty());

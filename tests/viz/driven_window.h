@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 
+#include "core/stopwatch.h"
 #include "viz/viewer.h"
 #include "viz/virtual_display.h"
 
@@ -32,6 +33,13 @@ class DrivenWindow : public testing::Test {
     bool Until(const std::function<bool()>& condition, int most = 300) {
         for (int i = 0; i < most && !condition(); ++i)
             if (!RunOnce()) return condition();
+        return condition();
+    }
+    // The same for what needs time: at most so many seconds.
+    bool Within(double seconds, const std::function<bool()>& condition) {
+        const Stopwatch watch;
+        while (!condition() && watch.ElapsedMs() < 1000 * seconds)
+            if (!RunOnce()) break;
         return condition();
     }
     ControlRect Find(const std::string& name) const {

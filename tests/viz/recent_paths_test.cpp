@@ -56,7 +56,9 @@ TEST_F(RecentPaths, WhatIsNoListIsEmpty) {
     EXPECT_TRUE(ReadRecentPaths(file_).empty());
     EXPECT_TRUE(ReadRecentPaths("").empty());
     EXPECT_TRUE(ReadRecentPaths(folder_.path()).empty());
-    Write(std::string(2'000'000, '/'));
+    std::string long_list;
+    while (long_list.size() < 2'000'000) long_list += "/a/path/of/a/run\n";
+    Write(long_list);
     EXPECT_TRUE(ReadRecentPaths(file_).empty());
     AddRecentPath("", "/a");
     AddRecentPath("/proc/no/recent", "/a");
