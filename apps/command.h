@@ -2,6 +2,8 @@
 // and prints.
 #pragma once
 
+#include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -13,15 +15,26 @@ class App;
 
 namespace tessera {
 
+class Window;
+
 inline constexpr int kExitDone = 0;
 // Bad input or arguments; one line on stderr gives the reason.
 inline constexpr int kExitBadInput = 2;
 inline constexpr int kExitMostlyLost = 3;  // fewer than half of the frames tracked
 
-// Shared between the commands and main.
+// Shared between the commands and main, or the window that calls a command (start_window.h).
 struct CommandContext {
-    std::vector<std::string> arguments;  // the whole command line
-    int exit_code = kExitDone;           // set by the command that ran
+    std::vector<std::string> arguments = {};  // the whole command line
+    int exit_code = kExitDone;                // set by the command that ran
+    std::string error = {};                   // why it failed; empty: it did not
+    // The window to go on in; null: a command opens its own.
+    std::shared_ptr<Window> window = {};
+    // While a run opens its source: called again and again, on the main thread. False: the window
+    // was closed. May be empty.
+    std::function<bool()> while_opening = {};
+
+    // Sets error and exit code; prints the error.
+    void Finish(const Status& status, int code = kExitDone);
 };
 
 // Each function adds its subcommand to `app`. A parsed subcommand runs immediately and stores its

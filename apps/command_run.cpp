@@ -83,13 +83,14 @@ Status Configure(const Arguments& a, RunConfig& config) {
     return a.existing().empty() ? Status::Ok() : CheckScanKeys(a.existing(), parameters);
 }
 
-int Run(const Arguments& a) {
+// The exit code.
+Result<int> Run(const Arguments& a, const CommandContext& context) {
     RunConfig config;
-    if (Status status = Configure(a, config); !status.ok()) return Fail(status);
+    if (Status status = Configure(a, config); !status.ok()) return status;
     std::unique_ptr<Backend> device;
     if (a.device == "cuda") {  // auto means the CPU until the CUDA backend has run on a GPU
         Result<std::unique_ptr<Backend>> opened = OpenGpu(config.pipeline.device);
-        if (!opened.ok()) return Fail(opened.status());
+        if (!opened.ok()) return opened.status();
         device = std::move(opened.value());
     }
     RunRequest request = a.request;
@@ -104,15 +105,17 @@ int Run(const Arguments& a) {
     if (a.labels != "none") request.labels = a.labels;
     for (const std::string& text : a.switches) {
         const Result<MethodSwitch> change = ParseSwitch(text);
-        if (!change.ok()) return Fail(change.status());
+        if (!change.ok()) return change.status();
         request.switches.push_back(change.value());
     }
     Result<RunSummary> result = [&] {
         Console console;
-        if (a.view) return ExecuteRunInWindow(request, config, console, StopOnSignal());
+        if (a.view)
+            return ExecuteRunInWindow(request, config, console, StopOnSignal(),
+                                      {context.window, context.while_opening});
         return ExecuteRun(request, config, console.Observer(), StopOnSignal());
     }();
-    if (!result.ok()) return Fail(result.status());
+    if (!result.ok()) return result.status();
     const RunSummary& summary = result.value();
     std::fputs(RunText(request, summary).c_str(), stdout);
     const std::int64_t looked_at = summary.counts.frames - summary.counts.dropped;
@@ -246,7 +249,8 @@ void AddRunCommand(CLI::App& app, CommandContext& context) {
         add(*command, *a);
     command->callback([a, &context] {
         a->request.command_line = context.arguments;
-        context.exit_code = Run(*a);
+        const Result<int> code = Run(*a, context);
+        context.Finish(code.status(), code.ok() ? code.value() : kExitBadInput);
     });
 }
 

@@ -7,8 +7,10 @@
 #include "io/image_io.h"
 #include "io/mesh_io.h"
 #include "io/trajectory.h"
+#include "run/open_source.h"
 #include "run/scan_export.h"
 #include "semantics/objects_file.h"
+#include "start_window.h"
 #include "viz/viewer.h"
 
 namespace tessera {
@@ -24,11 +26,14 @@ struct Arguments {
 // The files to read: the mesh, and the trajectory beside it if there is one.
 struct Files {
     std::string mesh, trajectory, objects;
+    std::string run;  // the folder of the run; empty: none
 };
 
 Result<Files> FindFiles(const Arguments& a) {
     std::error_code ignored;
-    Files files{a.path, a.trajectory, {}};
+    if (a.path.empty())
+        return Status::Error("view: --screenshot and --trajectory need a PATH to show");
+    Files files{a.path, a.trajectory, {}, {}};
     if (a.path.starts_with("synthetic:") || a.path.starts_with("openni2:") ||
         a.path.ends_with(".oni") || a.path.ends_with(".klg"))
         return Status::Error(fmt::format(
@@ -42,8 +47,10 @@ Result<Files> FindFiles(const Arguments& a) {
             fmt::format("{}: has no mesh.ply, so it is not the folder of a run; to view a source, "
                         "use: tessera run {} --view",
                         a.path, a.path));
-    if (files.trajectory.empty() && fs::exists(folder / "trajectory.txt", ignored))
+    if (files.trajectory.empty() && fs::exists(folder / "trajectory.txt", ignored)) {
         files.trajectory = (folder / "trajectory.txt").string();
+        files.run = a.path;
+    }
     if (fs::exists(folder / "objects.json", ignored))
         files.objects = (folder / "objects.json").string();
     return files;
@@ -71,12 +78,32 @@ Result<ViewedModel> Read(const Files& files) {
     return model;
 }
 
-Status View(const Arguments& a) {
+// What the run read, opened as it did. Empty if that is a camera.
+FrameImages::Open SourceOf(const TimeLine& line) {
+    if (line.source.empty() || IsLiveSource(line.source)) return {};
+    return [name = line.source,
+            configuration = line.configuration]() -> Result<std::unique_ptr<FrameSource>> {
+        RunConfig config;
+        ConfigParameters parameters;
+        config.Describe(parameters);
+        for (const auto& [key, value] : configuration)
+            static_cast<void>(parameters.Set(key, value));  // of another version: the default
+        return OpenSource(name, config);
+    };
+}
+
+Status View(const Arguments& a, const CommandContext& context) {
     const Result<Files> files = FindFiles(a);
     if (!files.ok()) return files.status();
     Result<ViewedModel> model = Read(files.value());
     if (!model.ok()) return model.status();
     ViewerOptions options;
+    if (!files.value().run.empty()) model.value().time_line = ReadTimeLine(files.value().run);
+    if (const auto& line = model.value().time_line) {
+        model.value().open_source = SourceOf(*line);
+        if (line->camera) options.camera = *line->camera;
+    }
+    options.window = context.window;
     options.title = a.path;
     options.width = a.width;
     options.height = a.height;
@@ -91,12 +118,12 @@ Status View(const Arguments& a) {
 
 void AddViewCommand(CLI::App& app, CommandContext& context) {
     auto a = std::make_shared<Arguments>();
-    CLI::App* command =
-        app.add_subcommand("view", "Show a mesh in a window, with the path of a run");
-    command
-        ->add_option("PATH", a->path,
-                     "PLY file, folder of a run (mesh.ply, trajectory.txt), or FILE.scan")
-        ->required();
+    CLI::App* command = app.add_subcommand(
+        "view", "Show a mesh or a run in a window, or choose there what to scan");
+    command->add_option(
+        "PATH", a->path,
+        "PLY file, folder of a run (mesh.ply, trajectory.txt), or FILE.scan; without "
+        "it, a window to choose what to scan or to show");
     command
         ->add_option("--trajectory", a->trajectory,
                      "TUM trajectory to draw, metres (default: that of the run)")
@@ -111,7 +138,12 @@ void AddViewCommand(CLI::App& app, CommandContext& context) {
     command->add_option("--height", a->height, "Height of the window in pixels")
         ->check(CLI::Range(240, 8192))
         ->capture_default_str();
-    command->callback([a, &context] { context.exit_code = ExitCode(View(*a)); });
+    command->callback([a, &context] {
+        if (a->path.empty() && a->screenshot.empty() && a->trajectory.empty())
+            context.exit_code = StartInWindow(context, a->width, a->height);
+        else
+            context.Finish(View(*a, context));
+    });
 }
 
 }  // namespace tessera

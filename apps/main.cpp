@@ -23,6 +23,11 @@ int Fail(const Status& error) {
 
 int ExitCode(const Status& status) { return status.ok() ? kExitDone : Fail(status); }
 
+void CommandContext::Finish(const Status& status, int code) {
+    error = status.message();
+    exit_code = status.ok() ? code : Fail(status);
+}
+
 namespace {
 
 int ReportParseError(const CLI::App& app, const CLI::ParseError& error) {

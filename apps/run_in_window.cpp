@@ -1,29 +1,14 @@
 #include "run_in_window.h"
 
-#include <filesystem>
+#include <chrono>
 #include <future>
-#include <set>
 #include <thread>
 
+#include "models_beside.h"
 #include "viz/viewer.h"
 
 namespace tessera {
 namespace {
-
-// Networks in the folder of the one given, and in ./models: what can be chosen in the window.
-std::vector<std::string> ModelsBeside(const std::string& given) {
-    namespace fs = std::filesystem;
-    std::set<std::string> found;
-    for (const fs::path& folder : {fs::path(given).parent_path(), fs::path("models")}) {
-        std::error_code error;
-        if (folder.empty()) continue;
-        for (const auto& entry : fs::directory_iterator(folder, error))
-            if (const auto end = entry.path().extension(); end == ".onnx" || end == ".cfg")
-                found.insert(entry.path().string());
-    }
-    if (!given.empty()) found.insert(given);
-    return {found.begin(), found.end()};
-}
 
 ViewerOptions OptionsFor(const RunRequest& request, const RunConfig& config,
                          const SourceInfo& source) {
@@ -53,10 +38,23 @@ ViewerOptions OptionsFor(const RunRequest& request, const RunConfig& config,
     return options;
 }
 
+// Keeps the window alive until the run has opened its source, or was refused. Closing it stops the
+// run.
+void WaitInWindow(const std::future<std::optional<SourceInfo>>& opening,
+                  const std::function<bool()>& while_opening, ViewerLink& link) {
+    bool stopped = false;
+    while (opening.wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
+        if (stopped)
+            static_cast<void>(opening.wait_for(std::chrono::milliseconds(50)));
+        else if (!while_opening())
+            stopped = true, link.commands.Push({ViewerCommand::Kind::kStop, {}});
+    }
+}
+
 }  // namespace
 
 Result<RunSummary> ExecuteRunInWindow(RunRequest request, const RunConfig& config, Console& console,
-                                      const std::atomic<bool>& stop) {
+                                      const std::atomic<bool>& stop, const GivenWindow& given) {
     ViewerLink link;
     link.open.store(true);
     request.viewer = &link;
@@ -73,9 +71,12 @@ Result<RunSummary> ExecuteRunInWindow(RunRequest request, const RunConfig& confi
         link.ended.store(true);
         if (!is_open.exchange(true)) opened.set_value(std::nullopt);
     });
-    if (const std::optional<SourceInfo> source = opened.get_future().get()) {
-        Result<std::unique_ptr<Viewer>> viewer =
-            Viewer::Open(link, OptionsFor(request, config, *source));
+    std::future<std::optional<SourceInfo>> opening = opened.get_future();
+    if (given.while_opening) WaitInWindow(opening, given.while_opening, link);
+    if (const std::optional<SourceInfo> source = opening.get()) {
+        ViewerOptions options = OptionsFor(request, config, *source);
+        options.window = given.window;
+        Result<std::unique_ptr<Viewer>> viewer = Viewer::Open(link, options);
         if (viewer.ok())
             while (viewer.value()->RunOnce() && !(link.ended.load() && stop.load())) {
             }

@@ -38,9 +38,12 @@ bool ToNumber(std::string_view text, double& value) {
 struct NumberColumn {
     const char* name;
     double FrameRow::*value;
+    bool optional = false;
 };
 constexpr std::array kNumbers{NumberColumn{"stamp_s", &FrameRow::stamp_s},
                               NumberColumn{"inlier_fraction", &FrameRow::inlier_fraction},
+                              NumberColumn{"distance_rms_m", &FrameRow::distance_rms_m, true},
+                              NumberColumn{"decode_ms", &FrameRow::decode_ms, true},
                               NumberColumn{"prepare_ms", &FrameRow::prepare_ms},
                               NumberColumn{"track_ms", &FrameRow::track_ms},
                               NumberColumn{"moving_ms", &FrameRow::moving_ms},
@@ -57,7 +60,7 @@ class Columns {
         for (const char* name : {"index", "status", "fused", "degenerate", "method", "reason"})
             if (Find(name) == header_.size()) return name;
         for (const NumberColumn& column : kNumbers)
-            if (Find(column.name) == header_.size()) return column.name;
+            if (!column.optional && !Has(column)) return column.name;
         return nullptr;
     }
     // Returns what is wrong with the line; empty if it was read.
@@ -65,7 +68,7 @@ class Columns {
         if (fields.size() != header_.size())
             return fmt::format("{} values instead of {}", fields.size(), header_.size());
         for (const NumberColumn& column : kNumbers)
-            if (!ToNumber(fields[Find(column.name)], row.*column.value))
+            if (Has(column) && !ToNumber(fields[Find(column.name)], row.*column.value))
                 return fmt::format("{} is not a number", column.name);
         double index = 0;
         if (!ToNumber(fields[Find("index")], index) || std::abs(index) > 1e15)
@@ -84,6 +87,7 @@ class Columns {
     }
 
   private:
+    bool Has(const NumberColumn& column) const { return Find(column.name) < header_.size(); }
     std::size_t Find(std::string_view name) const {
         return static_cast<std::size_t>(std::ranges::find(header_, name) - header_.begin());
     }

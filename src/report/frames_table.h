@@ -17,7 +17,9 @@ struct FrameRow {
     FrameState state = FrameState::kLost;
     bool degenerate = false;
     double inlier_fraction = 0;
+    double distance_rms_m = 0;  // 0 in a file without it
     // Of the stages in their order, and of the whole frame, waiting for its decoding included.
+    double decode_ms = 0;  // 0 in a file without it
     double prepare_ms = 0, track_ms = 0, moving_ms = 0, allocate_ms = 0, fuse_ms = 0, frame_ms = 0;
     std::string method, reason;  // reason: of a frame that is lost or poor
 };

@@ -32,6 +32,8 @@ void TakeSource(const Json& json, RunRecord& record) {
     Take(given, "height", camera.height);
     Take(given, "fx", camera.fx);
     Take(given, "fy", camera.fy);
+    Take(given, "cx", camera.cx);
+    Take(given, "cy", camera.cy);
     if (camera.width > 0 && camera.height > 0 && camera.fx > 0 && camera.fy > 0)
         record.camera = camera;
 }

@@ -14,7 +14,7 @@ namespace tessera {
 struct RunRecord {
     struct Camera {
         int width = 0, height = 0;
-        double fx = 0, fy = 0;
+        double fx = 0, fy = 0, cx = 0, cy = 0;
     };
     struct Ate {
         double rmse_m = 0, mean_m = 0, median_m = 0, max_m = 0;

@@ -129,6 +129,7 @@ Status Runner::Begin() {
     begun_ = true;
     if (!request_.output_folder.empty())
         if (Status status = OpenOutput(); !status.ok()) return status;
+    opened_ = true;
     if (observer_.on_open) observer_.on_open(summary_.source);
     for (const std::string& note : camera_notes_) Warn(note);
     for (const std::string& note : pose_notes_) Warn(note);
@@ -158,9 +159,10 @@ Status Runner::Finish(const Status& outcome) {
     return written;
 }
 
+// A window opens when the source has: a run that was refused before has none to wait for.
 void Runner::ServeWindow(const std::atomic<bool>& stop) {
     ViewerLink* const link = request_.viewer;
-    if (link == nullptr || !link->open.load() || stop.load()) return;
+    if (!opened_ || link == nullptr || !link->open.load() || stop.load()) return;
     link->keeps_map.store(engine_->has_map());
     link->ended.store(true);
     while (link->open.load() && !stop.load()) {

@@ -81,8 +81,8 @@ class Runner {
     RunSummary summary_;
     TrackStatus last_status_ = TrackStatus::kGood;
     bool last_degenerate_ = false;
-    std::set<std::string> told_;  // errors from writing
-    bool begun_ = false;
+    std::set<std::string> told_;           // errors from writing
+    bool begun_ = false, opened_ = false;  // opened_: the observer knows
 };
 
 }  // namespace tessera

@@ -7,7 +7,8 @@ namespace {
 
 struct Line {
     const char *keys, *meaning;
-    bool of_a_run = false;  // not shown for a finished mesh
+    bool of_a_run = false;     // not shown for a finished mesh
+    bool of_a_replay = false;  // shown with a time line only
 };
 
 constexpr Line kLines[] = {
@@ -16,7 +17,11 @@ constexpr Line kLines[] = {
     {"Wheel", "zoom in and out"},
     {"Double click", "centre the view on this point"},
     {"Tab", "scan view or expert view", true},
+    {"Left, Right", "a frame back or on; with Shift ten", false, true},
+    {"Home, End", "the first or the last frame", false, true},
+    {"Space", "play or pause", false, true},
     {"F", "stay with the camera on/off", true},
+    {"F", "stay with the camera on/off", false, true},
     {"E", "first person on/off: drag looks around, the wheel walks"},
     {"A", "show all of the mesh"},
     {"C", "the next shading; in the scan view: coverage on/off"},
@@ -54,7 +59,7 @@ void DrawHelp(ViewerState& state) {
     ImGui::Dummy({0, Scaled(2)});
     if (ImGui::BeginTable("keys", 2, ImGuiTableFlags_SizingFixedFit)) {
         for (const Line& line : kLines) {
-            if (line.of_a_run && !state.link) continue;
+            if ((line.of_a_run && !state.link) || (line.of_a_replay && !state.replay)) continue;
             ImGui::TableNextColumn();
             ImGui::PushStyleColor(ImGuiCol_Text, palette::kAccent);
             ImGui::TextUnformatted(line.keys);

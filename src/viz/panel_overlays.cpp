@@ -46,6 +46,10 @@ std::vector<LegendItem> CoverageItems() {
 }
 
 std::vector<LegendItem> PathItems(const ViewerState& state) {
+    if (state.replay)
+        return {
+            {palette::kAccent, "path so far", true},
+            {(palette::kAccent & ~IM_COL32_A_MASK) | (128u << IM_COL32_A_SHIFT), "the rest", true}};
     if (!state.link) return {};
     std::vector<LegendItem> items{{palette::kAccent, "path of the camera", true}};
     if (state.view_kind == ViewKind::kScan) return items;

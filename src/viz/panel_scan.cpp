@@ -143,9 +143,27 @@ ScanPanel::Layout ScanPanel::LayOut(float width, float height) {
             .bar = {0, strip + view, width, bar}};
 }
 
-float ScanPanel::inset_width(const ViewerState& state, const ControlRect& view) const {
-    if (!state.view.camera_image || colour_.empty() || state.ended()) return 0;
+float InsetWidth(const ViewerState& state, const GlTexture& image, const ControlRect& view) {
+    if (!state.view.camera_image || image.empty()) return 0;
     return std::min(Scaled(232), 0.26f * view.width) + Scaled(12);
+}
+
+void DrawInset(ViewerState& state, const GlTexture& image, const ControlRect& view) {
+    const float width = InsetWidth(state, image, view) - Scaled(12);
+    if (width <= 0) return;
+    const float height =
+        width * static_cast<float>(image.height()) / static_cast<float>(std::max(image.width(), 1));
+    const ImVec2 to{view.x + view.width - Scaled(12), view.y + view.height - Scaled(12)};
+    const ImVec2 from{to.x - width, to.y - height};
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.AddImageRounded(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(image.name())),
+                         from, to, {0, 0}, {1, 1}, IM_COL32_WHITE, Scaled(6));
+    list.AddRect(from, to, IM_COL32(255, 255, 255, 70), Scaled(6), 0, Scaled(1));
+    state.controls.Mark("camera_image", {from.x, from.y, width, height});
+}
+
+float ScanPanel::inset_width(const ViewerState& state, const ControlRect& view) const {
+    return state.ended() ? 0 : InsetWidth(state, colour_, view);
 }
 
 void ScanPanel::Update(const ViewerState& state) {
@@ -176,26 +194,12 @@ std::optional<ScanHint> ScanPanel::Hint(const ViewerState& state, const SceneVie
                     .frames = frame.counts.frames});
 }
 
-void ScanPanel::DrawInset(ViewerState& state, const ControlRect& view) {
-    const float width = inset_width(state, view) - Scaled(12);
-    if (width <= 0) return;
-    const float height = width * static_cast<float>(colour_.height()) /
-                         static_cast<float>(std::max(colour_.width(), 1));
-    const ImVec2 to{view.x + view.width - Scaled(12), view.y + view.height - Scaled(12)};
-    const ImVec2 from{to.x - width, to.y - height};
-    ImDrawList& list = *ImGui::GetWindowDrawList();
-    list.AddImageRounded(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(colour_.name())),
-                         from, to, {0, 0}, {1, 1}, IM_COL32_WHITE, Scaled(6));
-    list.AddRect(from, to, IM_COL32(255, 255, 255, 70), Scaled(6), 0, Scaled(1));
-    state.controls.Mark("camera_image", {from.x, from.y, width, height});
-}
-
 void ScanPanel::Draw(ViewerState& state, const SceneView& scene, const Layout& layout) {
     DrawStrip(state, scene, layout.strip);
     DrawBar(state, layout.bar);
     if (state.asks() || state.show_help) return;
     const Panel view("view", layout.view, ImGuiWindowFlags_NoScrollWithMouse);  // adds to it
-    DrawInset(state, layout.view);
+    if (!state.ended()) DrawInset(state, colour_, layout.view);
     if (!state.system.has_frame() || state.ended() || state.paused())
         holder_ = {};  // no advice for a camera that is not used
     else

@@ -79,7 +79,8 @@ void DrawToolbar(ViewerState& state, const ControlRect& area) {
                                  "The path as the recording gives it, in white  (T)"))
         view.show_truth = !view.show_truth;
     row.Gap();
-    if (state.link && row.Button("follow", "Follow", view.follow, "Stay with the camera  (F)"))
+    if ((state.link || state.replay) &&
+        row.Button("follow", "Follow", view.follow, "Stay with the camera  (F)"))
         state.ToggleFollow();
     if (row.Button("first_person", "First person", view.first_person,
                    "Look around from one place instead of turning the scene  (E)"))

@@ -32,6 +32,11 @@ void DrawObjectNames(const ViewerState& state, const SceneView& scene, const Con
 void DrawToolbar(ViewerState& state, const ControlRect& area);
 void DrawOverlays(ViewerState& state, SceneView& scene, const ControlRect& area, float right);
 
+// What the camera sees, in the lower right corner of the 3D view, and the width to keep free for
+// it: 0 without an image, or while it is hidden.
+float InsetWidth(const ViewerState& state, const GlTexture& image, const ControlRect& view);
+void DrawInset(ViewerState& state, const GlTexture& image, const ControlRect& view);
+
 // The 3D view and its mouse control.
 struct ViewPanelFrame {
     ControlRect area;
@@ -58,12 +63,35 @@ class ScanPanel {
 
   private:
     std::optional<ScanHint> Hint(const ViewerState& state, const SceneView& scene) const;
-    void DrawInset(ViewerState& state, const ControlRect& view);
 
     std::uint64_t taken_ = 0;
     GlTexture colour_;
     DepthShares depth_;
     HintHolder holder_;
+};
+
+// The time line of a finished run, with the figures and the image of its frame. Made, used and
+// destroyed with the OpenGL context current.
+class TimeLinePanel {
+  public:
+    // `open`: the run's source; empty: no images.
+    void Begin(FrameImages::Open open);
+    // Asks for the frame's image and takes one that has come. True if it has.
+    bool Update(const ViewerState& state);
+    static float Height();
+    float inset_width(const ViewerState& state, const ControlRect& view) const {
+        return InsetWidth(state, shown(state), view);
+    }
+    // `view`: the area of the 3D view, in which the image stands.
+    void Draw(ViewerState& state, const SceneView& scene, const ControlRect& area,
+              const ControlRect& view);
+
+  private:
+    const GlTexture& shown(const ViewerState& state) const;
+
+    std::optional<FrameImages> images_;
+    std::int64_t asked_ = -1, has_ = -1;
+    GlTexture colour_, none_;
 };
 
 // Measured and predicted images. Made, used and destroyed with the OpenGL context current.

@@ -41,7 +41,33 @@ void PathLines::SetPath(const std::vector<Eigen::Isometry3d>& path) {
     if (!vertices.empty()) path_.Append(vertices);
 }
 
+bool PathLines::UpdateReplay(const ViewerState& state) {
+    const Replay& replay = *state.replay;
+    if (walked_to_ == replay.position()) return false;
+    walked_to_ = replay.position();
+    std::vector<LineVertex> vertices;
+    bool follows = false;
+    for (std::size_t i = 0; i <= replay.position(); ++i) {
+        const TimeLineFrame& frame = replay.line().frames[i];
+        if (frame.T_world_camera) {
+            const Eigen::Vector3f at = frame.T_world_camera->translation().cast<float>();
+            if (!follows) vertices.push_back(Vertex(at, kNone));
+            vertices.push_back(Vertex(at, kPath));
+        }
+        follows = frame.T_world_camera.has_value();
+    }
+    walked_.Clear();
+    if (!vertices.empty()) walked_.Append(vertices);
+    const FrameState frame_state = replay.frame().row.state;
+    SetOutline(replay.T_world_camera(), state.options.camera,
+               frame_state == FrameState::kFused     ? TrackStatus::kGood
+               : frame_state == FrameState::kTracked ? TrackStatus::kPoor
+                                                     : TrackStatus::kLost);
+    return true;
+}
+
 bool PathLines::Update(const ViewerState& state) {
+    if (state.replay) return UpdateReplay(state);
     const SystemView& system = state.system;
     if (!system.has_frame()) return false;
     if (path_identity_ != system.path_identity()) {
@@ -99,7 +125,10 @@ void PathLines::SetOutline(const Eigen::Isometry3d& T_world_camera, const Pinhol
 void PathLines::Draw(const GlLineProgram& program, const GlLineProgram::View& view, bool with_truth,
                      float opacity) {
     if (with_truth) program.Draw(truth_, view, true, Scaled(1.5f), opacity);
-    program.Draw(path_, view, true, Scaled(2.2f), opacity);
+    constexpr float kAhead = 0.5f;  // of a replay: where the camera has not been yet
+    program.Draw(path_, view, true, Scaled(walked_to_ ? 1.5f : 2.2f),
+                 walked_to_ ? kAhead * opacity : opacity);
+    program.Draw(walked_, view, true, Scaled(2.6f), opacity);
     program.Draw(outline_, view, false, Scaled(2), opacity);
 }
 

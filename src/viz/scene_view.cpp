@@ -103,9 +103,14 @@ bool SceneView::Follow(const ViewerState& state, double since_s) {
         impl_->followed = false;
         return false;
     }
-    if (!state.system.has_frame() || !state.system.frame().report.tracked()) return false;
+    const auto sensor = [&]() -> const Eigen::Isometry3d* {
+        if (state.replay) return &state.replay->T_world_camera();
+        const bool tracked = state.system.has_frame() && state.system.frame().report.tracked();
+        return tracked ? &state.system.frame().report.track.T_world_camera : nullptr;
+    }();
+    if (!sensor) return false;
+    const Eigen::Isometry3d& T_world_sensor = *sensor;
     const Eigen::Vector3d before = impl_->camera.eye();
-    const Eigen::Isometry3d& T_world_sensor = state.system.frame().report.track.T_world_camera;
     const double step_s = impl_->followed ? since_s : -1;
     if (state.view.first_person)
         impl_->camera.FollowInside(T_world_sensor, step_s);

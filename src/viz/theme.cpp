@@ -9,7 +9,7 @@ namespace {
 // For the only ImGui context of this process.
 struct {
     float scale = 1;
-    ImFont *small = nullptr, *heading = nullptr;
+    ImFont *small = nullptr, *heading = nullptr, *title = nullptr;
 } theme;
 
 // Uses Debian's fonts-dejavu-core, or ImGui's own font if that is missing.
@@ -66,6 +66,7 @@ void ApplyTheme(float scale) {
     LoadFont("DejaVuSans.ttf", 13.5f * scale);
     theme.small = LoadFont("DejaVuSans.ttf", 11 * scale);
     theme.heading = LoadFont("DejaVuSans-Bold.ttf", 15 * scale);
+    theme.title = LoadFont("DejaVuSans-Bold.ttf", 22 * scale);
 
     ImGuiStyle& style = ImGui::GetStyle();
     style = ImGuiStyle();
@@ -87,5 +88,6 @@ void ApplyTheme(float scale) {
 float Scaled(float size) { return size * theme.scale; }
 ImFont* SmallFont() { return theme.small; }
 ImFont* HeadingFont() { return theme.heading; }
+ImFont* TitleFont() { return theme.title; }
 
 }  // namespace tessera

@@ -17,6 +17,7 @@ inline ImU32 Packed(const Rgb8& c, unsigned alpha = 255) { return IM_COL32(c.r, 
 
 ImFont* SmallFont();
 ImFont* HeadingFont();
+ImFont* TitleFont();  // of the start screen
 
 namespace palette {
 inline constexpr ImU32 kGood = IM_COL32(78, 201, 134, 255);

@@ -7,6 +7,7 @@
 
 #include "core/stopwatch.h"
 #include "io/image_io.h"
+#include "viz/expert_layout.h"
 #include "viz/panels.h"
 #include "viz/scene_view.h"
 #include "viz/viewer_state.h"
@@ -26,31 +27,17 @@ constexpr double kNearer = 0.65;
 // redrawn at most this often, and for at most this share of the time.
 constexpr double kSoftwareViewPeriodS = 0.25, kSoftwareShare = 0.1;
 
-struct Layout {
-    ControlRect left, view, plots, images;
-};
-
-Layout LayOut(float width, float height, bool with_system) {
-    if (!with_system) return {.left = {}, .view = {0, 0, width, height}, .plots = {}, .images = {}};
-    const float left = std::min(Scaled(300), 0.4f * width),
-                right = std::clamp(0.18f * width, Scaled(150), Scaled(232));
-    const float plots = std::min(Scaled(158), 0.35f * height);
-    const float middle = std::max(width - left - right - 2, 1.0f),
-                view = std::max(height - plots - 1, 1.0f);
-    return {.left = {0, 0, left, height},
-            .view = {left + 1, 0, middle, view},
-            .plots = {left + 1, view + 1, middle, plots},
-            .images = {width - right, 0, right, height}};
-}
-
 }  // namespace
 
 // Members are destroyed in reverse order: the window with its context last.
 struct Viewer::Impl {
-    Impl(std::unique_ptr<Window> opened, ViewerLink* link, const ViewerOptions& options)
+    Impl(std::shared_ptr<Window> opened, ViewerLink* link, const ViewerOptions& options)
         : window(std::move(opened)), state(link, options) {}
 
+    static Result<std::unique_ptr<Impl>> Make(ViewerLink* link, const ViewerOptions& options);
     bool RunOnce();
+    void TakeFromLink(ViewerLink& link);
+    void DrawAtLeast(int rounds) { rounds_to_draw = std::max(rounds_to_draw, rounds); }
     void DrawFrame(bool smooth);
     bool DrawPanels(bool may_redraw, bool smooth);
     bool DrawScan(bool may_redraw, bool smooth);
@@ -59,54 +46,55 @@ struct Viewer::Impl {
     void TakeScreenshot();
     double FramePeriodS() const;
 
-    std::unique_ptr<Window> window;
+    std::shared_ptr<Window> window;
     ViewerState state;
     std::unique_ptr<SceneView> scene;
     ImagesPanel images;
     ScanPanel scan;
+    TimeLinePanel time_line;
     Stopwatch clock;
-    double drawn_at_s = -1e9, view_drawn_at_s = -1e9, view_cost_s = 0, followed_at_s = 0;
+    double drawn_at_s = -1e9, view_drawn_at_s = -1e9, view_cost_s = 0, before_s = 0;
     int rounds_to_draw = kSettlingRounds;
     bool sent_stop = false, ended_seen = false, paused_seen = false;
     bool scene_waits = false;  // the last frame was too soon for redrawing the 3D view
 };
 
-namespace {
-
-Result<std::unique_ptr<Window>> OpenWindow(const ViewerOptions& options) {
+Result<std::unique_ptr<Viewer::Impl>> Viewer::Impl::Make(ViewerLink* link,
+                                                         const ViewerOptions& options) {
     const std::string title = options.title.empty() ? "Tessera" : options.title + " - Tessera";
-    return Window::Open(title, options.width, options.height, options.scale);
-}
-
-}  // namespace
-
-Result<std::unique_ptr<Viewer>> Viewer::Open(ViewerLink& link, const ViewerOptions& options) {
-    Result<std::unique_ptr<Window>> window = OpenWindow(options);
+    Result<std::shared_ptr<Window>> window =
+        Window::OpenOrKeep(options.window, title, options.width, options.height, options.scale);
     if (!window.ok()) return window.status();
-    auto impl = std::make_unique<Impl>(std::move(window.value()), &link, options);
+    auto impl = std::make_unique<Impl>(std::move(window.value()), link, options);
     Result<std::unique_ptr<SceneView>> scene =
         SceneView::Create(impl->window->is_software(), CoverageLevels::Of(options.max_weight));
     if (!scene.ok()) return scene.status();
     impl->scene = std::move(scene.value());
-    if (options.view_kind == ViewKind::kScan) impl->scene->camera().Zoom(kNearer);
-    return std::unique_ptr<Viewer>(new Viewer(std::move(impl)));
+    return impl;
+}
+
+Result<std::unique_ptr<Viewer>> Viewer::Open(ViewerLink& link, const ViewerOptions& options) {
+    Result<std::unique_ptr<Impl>> impl = Impl::Make(&link, options);
+    if (!impl.ok()) return impl.status();
+    if (options.view_kind == ViewKind::kScan) impl.value()->scene->camera().Zoom(kNearer);
+    return std::unique_ptr<Viewer>(new Viewer(std::move(impl.value())));
 }
 
 Result<std::unique_ptr<Viewer>> Viewer::OpenModel(ViewedModel model, const ViewerOptions& options) {
-    Result<std::unique_ptr<Window>> window = OpenWindow(options);
-    if (!window.ok()) return window.status();
     ViewerOptions with_labels = options;
     with_labels.labelled = !model.mesh.labels.empty();
-    auto impl = std::make_unique<Impl>(std::move(window.value()), nullptr, with_labels);
-    Result<std::unique_ptr<SceneView>> scene =
-        SceneView::Create(impl->window->is_software(), CoverageLevels::Of(options.max_weight));
-    if (!scene.ok()) return scene.status();
-    impl->scene = std::move(scene.value());
-    impl->state.view.follow = false;
-    if (model.mesh.colours.empty()) impl->state.view.shading = Shading::kGrey;
-    impl->scene->SetModel(model);
-    impl->state.system.SetObjects(std::move(model.objects));
-    return std::unique_ptr<Viewer>(new Viewer(std::move(impl)));
+    Result<std::unique_ptr<Impl>> made = Impl::Make(nullptr, with_labels);
+    if (!made.ok()) return made.status();
+    Impl& impl = *made.value();
+    impl.state.view.follow = false;
+    if (model.mesh.colours.empty()) impl.state.view.shading = Shading::kGrey;
+    impl.scene->SetModel(model);
+    impl.state.system.SetObjects(std::move(model.objects));
+    if (model.time_line) {
+        impl.state.replay.emplace(std::move(*model.time_line));
+        impl.time_line.Begin(std::move(model.open_source));
+    }
+    return std::unique_ptr<Viewer>(new Viewer(std::move(made.value())));
 }
 
 Viewer::Viewer(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -134,36 +122,39 @@ double Viewer::Impl::FramePeriodS() const {
     return window->is_software() ? 1.0 / 15 : 1.0 / 60;
 }
 
+void Viewer::Impl::TakeFromLink(ViewerLink& link) {
+    if (state.system.Take(link, state.now_s)) DrawAtLeast(1);
+    constexpr std::size_t kBytesPerRound = std::size_t{4} << 20;
+    if (scene->TakeMesh(link, kBytesPerRound)) DrawAtLeast(1);
+    if (state.ended() != ended_seen || state.paused() != paused_seen) DrawAtLeast(kSettlingRounds);
+    ended_seen = state.ended();
+    paused_seen = state.paused();
+    // Words about silence, and hints that go.
+    if (!ended_seen && state.now_s - drawn_at_s > kLongest_s) DrawAtLeast(1);
+}
+
 bool Viewer::Impl::RunOnce() {
     ImGui::GetIO().MouseDoubleClickTime = static_cast<float>(state.options.double_click_s);
     if (window->WaitForInput(state.options.wait_s)) rounds_to_draw = kSettlingRounds;
     const double now_s = state.now_s = clock.ElapsedMs() / 1000;
     ViewerLink* const link = state.link;
-    if (link) {
-        if (state.system.Take(*link, now_s)) rounds_to_draw = std::max(rounds_to_draw, 1);
-        constexpr std::size_t kBytesPerRound = std::size_t{4} << 20;
-        if (scene->TakeMesh(*link, kBytesPerRound)) rounds_to_draw = std::max(rounds_to_draw, 1);
-        if (state.ended() != ended_seen || state.paused() != paused_seen)
-            rounds_to_draw = kSettlingRounds;
-        ended_seen = state.ended();
-        paused_seen = state.paused();
-        // Words about silence, and hints that go.
-        if (!ended_seen && now_s - drawn_at_s > kLongest_s)
-            rounds_to_draw = std::max(rounds_to_draw, 1);
-    }
+    const double since_s = std::min(now_s - before_s, 1.0);
+    before_s = now_s;
+    if (link) TakeFromLink(*link);
+    if (state.replay && state.replay->Advance(since_s)) DrawAtLeast(1);
+    if (time_line.Update(state)) DrawAtLeast(1);
     for (const Window::Key& key : window->TakeKeys()) {
         if (!ImGui::GetIO().WantTextInput) state.OnKey(key.key, key.mods);
         rounds_to_draw = kSettlingRounds;
     }
-    if (scene->Follow(state, std::min(now_s - followed_at_s, 0.2)))
-        rounds_to_draw = std::max(rounds_to_draw, 1);
-    followed_at_s = now_s;
+    if (scene->Follow(state, std::min(since_s, 0.2))) DrawAtLeast(1);
 
     if (state.close || window->ShouldClose() ||
         (ended_seen && link && state.options.close_at_end)) {
         if (link && !link->ended && !sent_stop)
             link->commands.Push({ViewerCommand::Kind::kStop, {}});
         sent_stop = true;
+        window->SetShown(false);
         return false;
     }
     if (rounds_to_draw > 0 && now_s - drawn_at_s >= FramePeriodS() && !window->is_minimised()) {
@@ -172,14 +163,14 @@ bool Viewer::Impl::RunOnce() {
         DrawFrame(false);
         window->Show();
     } else if (window->is_software() && scene_waits) {
-        rounds_to_draw = std::max(rounds_to_draw, MayRedrawView(now_s) ? 1 : 0);
+        DrawAtLeast(MayRedrawView(now_s) ? 1 : 0);
     }
     if (state.want_screenshot) TakeScreenshot();
     return true;
 }
 
 bool Viewer::Impl::MayRedrawView(double now_s) const {
-    if (!window->is_software() || state.options.max_fps > 0) return true;
+    if (!window->is_software() || state.options.max_fps > 0 || !state.link) return true;
     return now_s - view_drawn_at_s >= std::max(kSoftwareViewPeriodS, view_cost_s / kSoftwareShare);
 }
 
@@ -220,9 +211,15 @@ bool Viewer::Impl::DrawScan(bool may_redraw, bool smooth) {
 
 bool Viewer::Impl::DrawExpert(bool may_redraw, bool smooth) {
     const ImVec2 size = ImGui::GetIO().DisplaySize;
-    const Layout layout = LayOut(size.x, size.y, state.link != nullptr);
-    const bool drawn = DrawViewPanel(
-        state, *scene, {.area = layout.view, .may_redraw = may_redraw, .smooth = smooth});
+    const ExpertLayout layout = LayOutExpert(size.x, size.y, state.link != nullptr,
+                                             state.replay ? TimeLinePanel::Height() : 0);
+    const bool drawn =
+        DrawViewPanel(state, *scene,
+                      {.area = layout.view,
+                       .inset_width = state.replay ? time_line.inset_width(state, layout.view) : 0,
+                       .may_redraw = may_redraw,
+                       .smooth = smooth});
+    if (state.replay) time_line.Draw(state, *scene, layout.time_line, layout.view);
     if (!state.link) return drawn;
     {
         const Panel left("left", layout.left);

@@ -12,8 +12,12 @@
 #include "core/mesh.h"
 #include "core/status.h"
 #include "system/viewer_link.h"
+#include "viz/frame_images.h"
+#include "viz/time_line.h"
 
 namespace tessera {
+
+class Window;
 
 // Shading of the mesh.
 enum class Shading {
@@ -54,6 +58,8 @@ struct ViewerOptions {
     double double_click_s = 0.3;  // maximum time between the two clicks
     double max_fps = 0;           // drawing rate; 0: 60 on a GPU, 15 in software
     double scale = 0;             // of text and sizes; 0: the display's
+    // Go on in this window (StartScreen::window) instead of opening one.
+    std::shared_ptr<Window> window;
 };
 
 // A mesh to display without a running system: `tessera view`.
@@ -61,6 +67,8 @@ struct ViewedModel {
     TriangleMesh mesh;
     std::vector<Eigen::Isometry3d> path;  // T_world_camera of the run; may be empty
     std::vector<MapObject> objects;       // matching the mesh's labels; may be empty
+    std::optional<TimeLine> time_line;    // of the run; shown below the mesh
+    FrameImages::Open open_source;        // with a time line: what the run read; may be empty
 };
 
 // Area of a control in the window, in pixels from the top left corner.

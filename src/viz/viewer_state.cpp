@@ -102,7 +102,7 @@ bool ViewerState::CanShade(Shading shading) const {
 }
 
 void ViewerState::ToggleFollow() {
-    view.follow = !view.follow && link;
+    view.follow = !view.follow && (link || replay);
     view.keep_all = false;
 }
 
@@ -142,9 +142,22 @@ void ViewerState::Answer(int key) {
     if (yes || key == GLFW_KEY_ESCAPE || key == GLFW_KEY_N) ask_reset = false;
 }
 
+bool ViewerState::OnReplayKey(int key, int mods) {
+    const int frames = mods & GLFW_MOD_SHIFT ? 10 : 1;
+    switch (key) {
+        case GLFW_KEY_SPACE: replay->TogglePlaying(); return true;
+        case GLFW_KEY_LEFT: replay->Step(-frames); return true;
+        case GLFW_KEY_RIGHT: replay->Step(frames); return true;
+        case GLFW_KEY_HOME: replay->GoTo(0); return true;
+        case GLFW_KEY_END: replay->GoTo(replay->last()); return true;
+        default: return false;
+    }
+}
+
 void ViewerState::OnKey(int key, int mods) {
     if (mods & (GLFW_MOD_CONTROL | GLFW_MOD_ALT | GLFW_MOD_SUPER)) return;
     if (asks()) return Answer(key);
+    if (replay && OnReplayKey(key, mods)) return;
     const auto method = static_cast<std::size_t>(key - GLFW_KEY_1);
     if (key >= GLFW_KEY_1 && method < kTrackingMethods.size())
         return SelectMethod(kTrackingMethods[method].method);

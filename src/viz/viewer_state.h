@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 
 #include "viz/controls.h"
@@ -38,6 +39,7 @@ struct ViewerState {
     ViewerLink* const link;  // null: a model without a running system
     const ViewerOptions options;
     SystemView system;
+    std::optional<Replay> replay;  // of a finished run
     Controls controls;
     ViewKind view_kind = ViewKind::kExpert;
     ViewChoices view;
@@ -89,6 +91,7 @@ struct ViewerState {
 
   private:
     void Send(ViewerCommand::Kind kind, const std::string& path = {});
+    bool OnReplayKey(int key, int mods);  // true: it was one of the time line's
     void Answer(int key);
 };
 

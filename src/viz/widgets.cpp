@@ -57,6 +57,18 @@ void LabelledValue(const char* label, const std::string& value, ImU32 colour) {
     ImGui::PopStyleColor();
 }
 
+std::string FittedText(const std::string& text, float width) {
+    if (ImGui::CalcTextSize(text.c_str()).x <= width) return text;
+    std::string fitted = "...";
+    for (std::size_t begin = 1; begin < text.size(); ++begin) {
+        if ((static_cast<unsigned char>(text[begin]) & 0xC0) == 0x80)
+            continue;  // within a character
+        fitted = "..." + text.substr(begin);
+        if (ImGui::CalcTextSize(fitted.c_str()).x <= width) break;
+    }
+    return fitted;
+}
+
 void Tip(const char* text) {
     if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) ImGui::SetTooltip("%s", text);
 }

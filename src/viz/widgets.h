@@ -27,6 +27,8 @@ void HeadingText(const char* text);
 void GroupTitle(const char* text);
 // A label at the left edge of the current column, its value at the right edge.
 void LabelledValue(const char* label, const std::string& value, ImU32 colour = palette::kText);
+// The text, or its end after "..." if it is wider than that in the current font.
+std::string FittedText(const std::string& text, float width);
 // Tooltip of the previous item, while the mouse is over it.
 void Tip(const char* text);
 

@@ -48,6 +48,18 @@ Result<std::unique_ptr<Window>> Window::Open(const std::string& title, int width
     return window;
 }
 
+Result<std::shared_ptr<Window>> Window::OpenOrKeep(std::shared_ptr<Window> given,
+                                                   const std::string& title, int width, int height,
+                                                   double scale) {
+    if (given) {
+        given->SetTitle(title);
+        return given;
+    }
+    Result<std::unique_ptr<Window>> window = Open(title, width, height, scale);
+    if (!window.ok()) return window.status();
+    return std::shared_ptr<Window>(std::move(window.value()));
+}
+
 Status Window::Create(const std::string& title, int width, int height, double scale) {
     if (scale > 0)
         width = static_cast<int>(width * scale), height = static_cast<int>(height * scale);
@@ -85,7 +97,9 @@ void Window::SetCallbacks() {
     glfwSetWindowUserPointer(window_, this);
     glfwSetKeyCallback(window_, [](GLFWwindow* window, int key, int, int action, int mods) {
         Self(window).had_input_ = true;
-        if (action == GLFW_PRESS) Self(window).keys_.push_back({key, mods});
+        const bool arrow = key >= GLFW_KEY_RIGHT && key <= GLFW_KEY_UP;
+        if (action == GLFW_PRESS || (action == GLFW_REPEAT && arrow))
+            Self(window).keys_.push_back({key, mods});
     });
     glfwSetCursorPosCallback(
         window_, [](GLFWwindow* window, double, double) { Self(window).had_input_ = true; });
@@ -125,6 +139,8 @@ bool Window::WaitForInput(double wait_s) {
 
 bool Window::ShouldClose() const { return glfwWindowShouldClose(window_) || DisplayIsLost(); }
 
+void Window::Close() { glfwSetWindowShouldClose(window_, GLFW_TRUE); }
+
 std::vector<Window::Key> Window::TakeKeys() { return std::exchange(keys_, {}); }
 
 bool Window::is_minimised() const {
@@ -161,6 +177,16 @@ ColourImage Window::Read() const {
     glPixelStorei(GL_PACK_ALIGNMENT, 4);
     for (int y = 0; y < height; ++y) std::copy_n(image.row(height - 1 - y), width, turned.row(y));
     return turned;
+}
+
+void Window::SetTitle(const std::string& title) { glfwSetWindowTitle(window_, title.c_str()); }
+
+void Window::SetShown(bool shown) {
+    if (DisplayIsLost()) return;
+    if (shown)
+        glfwShowWindow(window_);
+    else
+        glfwHideWindow(window_);
 }
 
 void Window::Finish() { glFinish(); }

@@ -24,6 +24,10 @@ class Window {
     // `scale`: of text and sizes; 0: the display's.
     static Result<std::unique_ptr<Window>> Open(const std::string& title, int width, int height,
                                                 double scale = 0);
+    // `given` with this title, if there is one; else a new window.
+    static Result<std::shared_ptr<Window>> OpenOrKeep(std::shared_ptr<Window> given,
+                                                      const std::string& title, int width,
+                                                      int height, double scale = 0);
     ~Window();
     Window(const Window&) = delete;
     Window& operator=(const Window&) = delete;
@@ -31,7 +35,12 @@ class Window {
     // Waits for input for at most `wait_s`. True if there was any.
     bool WaitForInput(double wait_s);
     bool ShouldClose() const;
-    // Returns the keys pressed since the last call, in order.
+    void Close();  // from now on it should
+    void SetTitle(const std::string& title);
+    // A window that others go on in is hidden once it is closed, or it would stand there unmoved.
+    void SetShown(bool shown);
+    // Returns the keys pressed since the last call, in order. An arrow key that is held comes again
+    // and again.
     std::vector<Key> TakeKeys();
 
     // Enclose everything that ImGui draws. Nothing is visible before Show.

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <thread>
 
 #include "io/mesh_io.h"
 #include "io/trajectory.h"
@@ -256,6 +257,24 @@ TEST_F(Run, ARefusedRunSaysOneThingAndLeavesEarlierResults) {
     observer.on_open = [](const SourceInfo&) { ADD_FAILURE() << "on_open was called"; };
     EXPECT_NE(Execute().message().find("1000"), std::string::npos);
     EXPECT_TRUE(ReadAll(Out("mesh.ply")) == mesh);
+}
+
+// Its window never opens, so nobody would close it.
+TEST_F(Run, ARefusedRunDoesNotWaitForAWindow) {
+    ViewerLink link;
+    link.open = true;
+    request.viewer = &link;
+    request.output_folder = "/proc/no";
+    std::atomic<bool> done{false};
+    std::jthread watch([&] {
+        for (int i = 0; i < 600 && !done; ++i)
+            std::this_thread::sleep_for(std::chrono::milliseconds(50));
+        stop = !done;
+    });
+    const auto run = Execute();
+    done = true;
+    EXPECT_FALSE(run.ok());
+    EXPECT_FALSE(stop);
 }
 
 TEST_F(Run, DepthsOutOfRangeAreNamedOnceAndLost) {

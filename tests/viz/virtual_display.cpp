@@ -23,7 +23,7 @@ std::string ReadLine(int pipe_end) {
 
 }  // namespace
 
-std::unique_ptr<VirtualDisplay> VirtualDisplay::Start(std::string& why) {
+std::unique_ptr<VirtualDisplay> VirtualDisplay::Start(std::string& why, const std::string& size) {
     int ends[2];
     if (pipe(ends) != 0) return nullptr;
     std::unique_ptr<VirtualDisplay> display(new VirtualDisplay);
@@ -32,8 +32,8 @@ std::unique_ptr<VirtualDisplay> VirtualDisplay::Start(std::string& why) {
         close(ends[0]);
         (void)!freopen("/dev/null", "w", stderr);
         const std::string fd = std::to_string(ends[1]);
-        execlp("Xvfb", "Xvfb", "-displayfd", fd.c_str(), "-screen", "0", "1280x800x24", "-nolisten",
-               "tcp", nullptr);
+        execlp("Xvfb", "Xvfb", "-displayfd", fd.c_str(), "-screen", "0", (size + "x24").c_str(),
+               "-nolisten", "tcp", nullptr);
         _exit(127);
     }
     close(ends[1]);
@@ -89,28 +89,32 @@ void VirtualDisplay::ReleaseKey(unsigned long keysym) {
     XSync(connection_, False);
 }
 
-bool VirtualDisplay::AskToClose(const std::string& title) {
-    Window root = 0, parent = 0, *windows = nullptr;
+unsigned long VirtualDisplay::FindWindow(const std::string& title) const {
+    ::Window root = 0, parent = 0, *windows = nullptr, found = 0;
     unsigned count = 0;
-    bool found = false;
     XQueryTree(connection_, DefaultRootWindow(connection_), &root, &parent, &windows, &count);
     for (unsigned i = 0; i < count && !found; ++i) {
         char* name = nullptr;
-        found = XFetchName(connection_, windows[i], &name) && name && title == name;
+        if (XFetchName(connection_, windows[i], &name) && name && title == name) found = windows[i];
         if (name) XFree(name);
-        if (!found) continue;
-        XEvent event{};
-        event.xclient.type = ClientMessage;
-        event.xclient.window = windows[i];
-        event.xclient.message_type = XInternAtom(connection_, "WM_PROTOCOLS", False);
-        event.xclient.format = 32;
-        event.xclient.data.l[0] =
-            static_cast<long>(XInternAtom(connection_, "WM_DELETE_WINDOW", False));
-        XSendEvent(connection_, windows[i], False, NoEventMask, &event);
     }
     if (windows) XFree(windows);
-    XSync(connection_, False);
     return found;
+}
+
+bool VirtualDisplay::AskToClose(const std::string& title) {
+    const ::Window window = FindWindow(title);
+    if (!window) return false;
+    XEvent event{};
+    event.xclient.type = ClientMessage;
+    event.xclient.window = window;
+    event.xclient.message_type = XInternAtom(connection_, "WM_PROTOCOLS", False);
+    event.xclient.format = 32;
+    event.xclient.data.l[0] =
+        static_cast<long>(XInternAtom(connection_, "WM_DELETE_WINDOW", False));
+    XSendEvent(connection_, window, False, NoEventMask, &event);
+    XSync(connection_, False);
+    return true;
 }
 
 }  // namespace tessera::testing_support

@@ -14,8 +14,9 @@ namespace tessera::testing_support {
 class VirtualDisplay {
   public:
     // Starts the server and sets DISPLAY. Returns null, with the reason in `why`, if Xvfb is
-    // missing or does not start.
-    static std::unique_ptr<VirtualDisplay> Start(std::string& why);
+    // missing or does not start. `size`: of the screen, in pixels.
+    static std::unique_ptr<VirtualDisplay> Start(std::string& why,
+                                                 const std::string& size = "1280x800");
     ~VirtualDisplay();
 
     // Screen pixels. Without a window manager the window begins at (0, 0). On return the server has
@@ -25,6 +26,7 @@ class VirtualDisplay {
     void Release(int button);
     void PressKey(unsigned long keysym);
     void ReleaseKey(unsigned long keysym);
+    bool HasWindow(const std::string& title) const { return FindWindow(title) != 0; }
     // Acts like the close button of a window manager, on the first window with this title.
     bool AskToClose(const std::string& title);
     // Ends the server at once. Afterwards only the destructor may be called.
@@ -32,6 +34,7 @@ class VirtualDisplay {
 
   private:
     VirtualDisplay() = default;
+    unsigned long FindWindow(const std::string& title) const;  // the first; 0: none
 
     pid_t server_ = -1;
     _XDisplay* connection_ = nullptr;

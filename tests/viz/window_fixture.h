@@ -1,26 +1,21 @@
 // A window on a virtual display, connected to a stepped system, with simulated user input.
 #pragma once
 
-#include <gtest/gtest.h>
-
-#include <functional>
 #include <memory>
 #include <string>
 
 #include "support/box_room_source.h"
 #include "support/temp_folder.h"
+#include "viz/driven_window.h"
 #include "viz/stepped_system.h"
-#include "viz/viewer.h"
-#include "viz/virtual_display.h"
 
 namespace tessera::testing_support {
 
-class WindowTest : public testing::Test {
+class WindowTest : public DrivenWindow {
   protected:
     void SetUp() override {
-        std::string why;
-        display_ = VirtualDisplay::Start(why);
-        if (!display_) GTEST_SKIP() << why;
+        DrivenWindow::SetUp();
+        if (!display_) return;
         PipelineConfig config;
         config.map.voxel_size_m = 0.04;
         config.map.truncation_m = 0.16;
@@ -42,14 +37,9 @@ class WindowTest : public testing::Test {
     }
     void TearDown() override { viewer_.reset(); }
 
-    void Rounds(int n) {
-        for (int i = 0; i < n; ++i) ASSERT_TRUE(viewer_->RunOnce());
-    }
-    // Runs the window until the condition holds, at most `most` times.
-    bool Until(const std::function<bool()>& condition, int most = 300) {
-        for (int i = 0; i < most && !condition(); ++i)
-            if (!viewer_->RunOnce()) return condition();
-        return condition();
+    bool RunOnce() override { return viewer_->RunOnce(); }
+    std::optional<ControlRect> FindControl(const std::string& name) const override {
+        return viewer_->FindControl(name);
     }
     // Steps the system by n frames and waits until the window has taken them.
     void Frames(int n) {
@@ -58,29 +48,6 @@ class WindowTest : public testing::Test {
             ASSERT_TRUE(Until([&] { return link_.meshes.empty() && link_.frames.empty(); }));
         }
         Rounds(3);
-    }
-    ControlRect Find(const std::string& name) {
-        const auto rect = viewer_->FindControl(name);
-        EXPECT_TRUE(rect) << "no control " << name;
-        return rect.value_or(ControlRect{});
-    }
-    // `along` in [0, 1] is the position from the left edge of the control.
-    void MoveTo(const std::string& name, float along = 0.5f) {
-        const ControlRect rect = Find(name);
-        display_->MoveTo(rect.x + along * rect.width, rect.y + rect.height / 2);
-        Rounds(3);
-    }
-    void Click(const std::string& name, float along = 0.5f) {
-        MoveTo(name, along);
-        display_->Press(1);
-        Rounds(2);
-        display_->Release(1);
-        Rounds(4);
-    }
-    void Key(unsigned long keysym) {
-        display_->PressKey(keysym);
-        display_->ReleaseKey(keysym);
-        Rounds(4);
     }
     // The commands that the system has received after one more step.
     std::vector<ViewerCommand::Kind> Commands() {
@@ -99,7 +66,6 @@ class WindowTest : public testing::Test {
     TempFolder folder_;
     ViewerOptions first_options_;  // a test's own, completed by SetUp
     ViewerLink link_;
-    std::unique_ptr<VirtualDisplay> display_;
     std::unique_ptr<SteppedSystem> system_;
     std::unique_ptr<Viewer> viewer_;
 };
