@@ -136,7 +136,8 @@ Status FolderSourceConfig::Validate() const {
 CameraCalibration Configured(CameraCalibration calibration, const FolderSourceConfig& config) {
     if (config.depth_scale > 0) calibration.depth_scale = config.depth_scale;
     if (config.camera) calibration.pinhole = WithSizeOf(calibration.pinhole, *config.camera);
-    calibration.vignetting += config.vignetting;
+    constexpr double kLeast = -0.5, kMost = 0.9;  // as a camera file's
+    calibration.vignetting = std::clamp(calibration.vignetting + config.vignetting, kLeast, kMost);
     MoveColour(config.colour_shift_px, calibration);
     return calibration;
 }

@@ -126,8 +126,10 @@ Result<std::unique_ptr<FrameSource>> MakeRecordingSource(const std::string& path
         if (Status status = CheckPlausible(camera->pinhole); !status.ok())
             return Status::Error(path + ": its calibration: " + status.message());
     CameraCalibration calibration = CalibrationOf(info);
-    calibration.vignetting += config.vignetting;
-    MoveColour(config.colour_shift_px, calibration);
+    FolderSourceConfig colour;  // the rest is in `info` already
+    colour.vignetting = config.vignetting;
+    colour.colour_shift_px = config.colour_shift_px;
+    calibration = Configured(calibration, colour);
     auto source =
         std::make_unique<RecordingSource>(path, std::move(recording), std::move(info), calibration);
     if (Status status = source->Probe(); !status.ok()) return status;

@@ -9,6 +9,7 @@
 #include "export/level.h"
 #include "io/frame_reader.h"
 #include "run/open_source.h"
+#include "run/run_corrections.h"
 #include "run/scanned.h"
 #include "scan/scan_source.h"
 
@@ -47,6 +48,7 @@ Result<std::unique_ptr<FrameSource>> SourceOf(const std::string& folder, const s
         if (key.starts_with("source.") || key.starts_with("synthetic."))
             static_cast<void>(
                 parameters.Set(key, value.is_string() ? value.get<std::string>() : value.dump()));
+    UseCorrections(text.value(), config);
     if (!name.empty()) return OpenSource(name, config);
     const std::string source = json[source_name];
     if (IsLiveSource(source))

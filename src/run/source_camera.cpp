@@ -108,7 +108,8 @@ Seen LookAt(std::unique_ptr<FrameSource> source, const FrameSelection& selection
         if (views++ % 2 == 0) registration.Add(frame);
         if (one_camera) estimator.Add(frame);
     }
-    Seen seen{.colour = registration.Estimate()};
+    Seen seen;
+    seen.colour = registration.Estimate();
     if (estimator.frames() >= kLeastViews) seen.camera = estimator.Estimate();
     if (seen.colour) seen.colour->known = info.registration_known;
     return seen;

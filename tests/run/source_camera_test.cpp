@@ -9,6 +9,7 @@
 #include "io/image_io.h"
 #include "optimize/box_view.h"
 #include "optimize/painted_room.h"
+#include "run/run_corrections.h"
 #include "support/temp_folder.h"
 
 namespace tessera {
@@ -38,7 +39,9 @@ void WriteViews(const TempFolder& folder, const std::vector<Frame>& frames,
 void WriteBoxViews(const TempFolder& folder, int x, int y) {
     std::vector<Frame> frames;
     for (int i = 0; i < kViews; ++i) frames.push_back(BoxView(i, x, y));
-    WriteViews(folder, frames, {.depth_scale = 1000});
+    CameraCalibration camera;
+    camera.depth_scale = 1000;
+    WriteViews(folder, frames, camera);
 }
 
 // Pixels whose colour is that of the box and whose depth is not, or the other way round.
@@ -74,6 +77,26 @@ TEST(OpenCheckedSource, PutsColourBackOntoItsSurface) {
     EXPECT_GT(PixelsBesideTheirSurface(*checked.value().source), 5 * perimeter_px);
 }
 
+TEST(UseCorrections, TakesWhatARunHasUsed) {
+    RunConfig config;
+    UseCorrections(R"({"source": {"camera": {"width": 64, "height": 48, "fx": 60, "fy": 61,
+                       "cx": 31, "cy": 23}}, "vignetting": {"used": true, "share": 0.2},
+                       "colour_shift": {"used": true, "x_px": 5.5, "y_px": -4}})",
+                   config);
+    EXPECT_EQ(config.source.camera, (PinholeCamera{64, 48, 60, 61, 31, 23}));
+    EXPECT_EQ(config.source.vignetting, 0.2);
+    EXPECT_EQ(config.source.colour_shift_px, Eigen::Vector2d(5.5, -4));
+    for (const char* text : {"", "[1]", R"({"source": {"camera": {"width": "a"}}})",
+                             R"({"vignetting": {"used": false, "share": 0.2}})",
+                             R"({"vignetting": 3, "colour_shift": {"used": 1, "x_px": 5}})"}) {
+        RunConfig same;
+        UseCorrections(text, same);
+        EXPECT_FALSE(same.source.camera);
+        EXPECT_EQ(same.source.vignetting, 0);
+        EXPECT_TRUE(same.source.colour_shift_px.isZero());
+    }
+}
+
 TEST(OpenCheckedSource, LeavesARightRegistrationAlone) {
     const TempFolder folder;
     WriteBoxViews(folder, 0, 0);
@@ -91,9 +114,11 @@ TEST(OpenCheckedSource, EvensOutDarkCorners) {
     const TempFolder folder;
     std::vector<Frame> frames;
     for (int i = 0; i < 36; ++i) frames.push_back(painted_room::View(i, 0, 0.25));
-    // Part of it is known.
-    WriteViews(folder, frames,
-               {.pinhole = painted_room::kCamera, .depth_scale = 1000, .vignetting = 0.05});
+    CameraCalibration camera;
+    camera.pinhole = painted_room::kCamera;
+    camera.depth_scale = 1000;
+    camera.vignetting = 0.05;  // part of it is known
+    WriteViews(folder, frames, camera);
     RunRequest request;
     request.source = folder.path();
     const Result<CheckedSource> checked = OpenCheckedSource(request, RunConfig());
