@@ -14,8 +14,8 @@ struct CameraEstimate {
     double focal_sigma_px = 0, centre_x_sigma_px = 0, centre_y_sigma_px = 0;
     // Read-out time of the colour image's rolling shutter, first row to last.
     double readout_s = 0, readout_sigma_s = 0;
-    // Share of the brightness that is lost in the image's corners, as a square of the distance from
-    // the image's centre. Negative: a correction that goes too far.
+    // Share of the brightness that is lost in the image's corners; it grows with the square of the
+    // distance from the image's centre. Negative: the corners are too bright.
     double vignetting = 0, vignetting_sigma = 0;
     // Robust photometric error per point, with the given and with the estimated camera.
     double misfit_given = 0, misfit_found = 0;

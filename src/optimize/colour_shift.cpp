@@ -20,7 +20,8 @@ constexpr int kParts = 8;
 // The best shift is so many standard deviations of the search better than a typical one.
 constexpr double kContrast = 3;
 constexpr double kDeviations = 6;
-// Shares of the width. Depth edges of real cameras lie up to 0.5 % off; see docs/calibration.md.
+// Shares of the width. Where the registration is right, estimates are up to 0.5 % off
+// (docs/benchmarks/calibration.md).
 constexpr double kFloor = 0.01, kFloorOfGuess = 0.005;
 
 constexpr std::array<std::pair<int, int>, 4> kAhead = {{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
@@ -67,7 +68,7 @@ Image<float> EdgeStrength(const Image<float>& luma, int dx, int dy) {
 }
 
 // Whether a near surface ends at (x, y) in this direction: it goes on behind, and the next depth
-// ahead is clearly farther. The pixel is `margin` away from the border.
+// ahead is clearly farther. (x, y) is at least kShadow pixels away from the border.
 bool EndsAt(const DepthImage& depth_m, int x, int y, int dx, int dy) {
     const float z_m = depth_m(x, y);
     if (!(z_m > kNearest_m) || !(z_m < kFarthest_m)) return false;

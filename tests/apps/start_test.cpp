@@ -121,6 +121,14 @@ class StartProgram : public testing::Test {
         program_ = -1;
         return WIFEXITED(status) ? WEXITSTATUS(status) : -2;
     }
+    void ShowAndCloseTheFinishedScan() {
+        Click("entry.done");
+        Click("open");
+        ASSERT_TRUE(Within(30, [&] { return display_->HasWindow("done - Tessera"); }))
+            << TextOf("stderr");
+        ASSERT_TRUE(display_->AskToClose("done - Tessera"));
+        EXPECT_EQ(Exit(), 0) << TextOf("stderr");
+    }
     // The folder that the run made; empty: none.
     static fs::path Results() {
         for (const auto& entry : fs::directory_iterator("."))
@@ -157,14 +165,7 @@ TEST_F(StartProgram, ARecordingIsScannedToItsEnd) {
                                                "--view"}));
 }
 
-TEST_F(StartProgram, AFinishedScanIsShown) {
-    Click("entry.done");
-    Click("open");
-    ASSERT_TRUE(Within(30, [&] { return display_->HasWindow("done - Tessera"); }))
-        << TextOf("stderr");
-    ASSERT_TRUE(display_->AskToClose("done - Tessera"));
-    EXPECT_EQ(Exit(), 0) << TextOf("stderr");
-}
+TEST_F(StartProgram, AFinishedScanIsShown) { ShowAndCloseTheFinishedScan(); }
 
 // What is refused when the run begins is said on the screen, and another choice can be made.
 TEST_F(StartProgram, AfterAnErrorTheScreenStays) {
@@ -178,12 +179,7 @@ TEST_F(StartProgram, AfterAnErrorTheScreenStays) {
     ASSERT_TRUE(Within(60, [] { return TextOf("stderr").find("/proc/no") != std::string::npos; }));
     Pause();
     ASSERT_TRUE(display_->HasWindow("Tessera"));
-    Click("entry.done");
-    Click("open");
-    ASSERT_TRUE(Within(30, [&] { return display_->HasWindow("done - Tessera"); }))
-        << TextOf("stderr");
-    ASSERT_TRUE(display_->AskToClose("done - Tessera"));
-    EXPECT_EQ(Exit(), 0) << TextOf("stderr");
+    ShowAndCloseTheFinishedScan();
 }
 
 TEST_F(StartProgram, ClosedWithoutAChoiceNothingIsDone) {
