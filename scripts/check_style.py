@@ -1,6 +1,8 @@
 #!/usr/bin/env python3
 """Checks the style rules of this project. Files over 250 lines give a warning, over 500 an error. Headers under src/
-must not include heavy third-party headers, so that rebuilds stay short and the library interfaces independent. C++ and
+must not include heavy third-party headers, so that rebuilds stay short and the library interfaces independent. Source
+files of one folder under src/ must not define constants of the same name, because unity builds compile them together,
+in batches that differ from build to build. C++ and
 CUDA must be formatted according to .clang-format. Only Debian 12's clang-format 14 is used, because other versions
 differ; if it is missing, the check is skipped with a warning.
 
@@ -76,10 +78,30 @@ def findings(root):
                     yield True, f"{where}:{number}: {match.group(1)} belongs in the .cpp file"
 
 
+def constants_of(text):
+    """Names of the constants (kName) that a source file defines outside of functions and classes."""
+    text = re.sub(r"//.*", "", text)
+    for definition in re.findall(r"^(?:static )?(?:constexpr|const) [^;]*;", text, re.MULTILINE):
+        yield from re.findall(r"\b(k[A-Z]\w*)(?:\[\w*\])*\s*[={]", definition)
+
+
+def constant_findings(root):
+    """Yields (is_failure, text) for each constant that another file of its folder defines, too."""
+    first = {}
+    for path in files_of(root, {".cpp"}):
+        where = path.relative_to(root)
+        if where.parts[0] != "src":
+            continue
+        for name in constants_of(path.read_text(encoding="utf-8")):
+            other = first.setdefault((path.parent, name), where)
+            if other != where:
+                yield True, f"{where}: {name} is also in {other.name}"
+
+
 def main(arguments):
     root = pathlib.Path(arguments[0] if arguments else ".").resolve()
     failed = False
-    for is_failure, text in [*findings(root), *format_findings(root)]:
+    for is_failure, text in [*findings(root), *constant_findings(root), *format_findings(root)]:
         print(("error: " if is_failure else "warning: ") + text)
         failed = failed or is_failure
     return 1 if failed else 0

@@ -20,7 +20,7 @@ static_assert(std::endian::native == std::endian::little, "glTF files are little
 static_assert(sizeof(Eigen::Vector3f) == 12 && sizeof(std::array<std::uint32_t, 3>) == 12,
               "arrays are written as raw memory");
 
-constexpr std::uint32_t kMagic = 0x46546c67, kVersion = 2, kJsonChunk = 0x4e4f534a,
+constexpr std::uint32_t kGlbMagic = 0x46546c67, kVersion = 2, kJsonChunk = 0x4e4f534a,
                         kBinaryChunk = 0x004e4942;
 constexpr int kFloat = 5126, kUnsignedShort = 5123, kUnsignedInt = 5125, kArrayBuffer = 34962,
               kElementBuffer = 34963, kLinear = 9729;
@@ -198,7 +198,7 @@ Status Write(const std::string& path, const GlbContent& content) {
         return Status::Error(path +
                              ": the mesh exceeds the 4 GiB limit of a glTF file; write it as .ply");
     AtomicFile file(path);
-    WriteNumbers(file, {kMagic, kVersion, bytes, json.size(), kJsonChunk});
+    WriteNumbers(file, {kGlbMagic, kVersion, bytes, json.size(), kJsonChunk});
     file.Write(json);
     WriteNumbers(file, {binary_bytes, kBinaryChunk});
     WriteArrays(file, content);

@@ -8,8 +8,8 @@
 namespace tessera {
 namespace {
 
-constexpr int kColumns = 320;  // of the images that are compared
-constexpr float kNearest_m = 0.3f, kFarthest_m = 4;
+constexpr int kShiftColumns = 320;  // of the images that are compared
+constexpr float kNearestEdge_m = 0.3f, kFarthestEdge_m = 4;
 // What lies behind an edge is farther by more than this share, and at most so many columns away; a
 // shadow may lie between. In front of the edge the surface goes on for some columns.
 constexpr float kStep = 1.08f, kLevel = 0.03f;
@@ -19,7 +19,7 @@ constexpr float kWeakEdge = 4;                        // grey levels per column 
 constexpr int kParts = 8;
 // The best shift is so many standard deviations of the search better than a typical one.
 constexpr double kContrast = 3;
-constexpr double kDeviations = 6;
+constexpr double kShiftDeviations = 6;
 // Shares of the width. Where the registration is right, estimates are up to 0.5 % off
 // (docs/benchmarks/calibration.md).
 constexpr double kFloor = 0.01, kFloorOfGuess = 0.005;
@@ -71,7 +71,7 @@ Image<float> EdgeStrength(const Image<float>& luma, int dx, int dy) {
 // ahead is clearly farther. (x, y) is at least kShadow pixels away from the border.
 bool EndsAt(const DepthImage& depth_m, int x, int y, int dx, int dy) {
     const float z_m = depth_m(x, y);
-    if (!(z_m > kNearest_m) || !(z_m < kFarthest_m)) return false;
+    if (!(z_m > kNearestEdge_m) || !(z_m < kFarthestEdge_m)) return false;
     for (int k = 1; k <= kSurface; ++k)
         if (!(std::abs(depth_m(x - k * dx, y - k * dy) - z_m) < kLevel * z_m)) return false;
     for (int k = 1; k <= kShadow; ++k)
@@ -84,8 +84,8 @@ bool EndsAt(const DepthImage& depth_m, int x, int y, int dx, int dy) {
 
 bool ColourShift::shown() const {
     const double floor_px = (known ? kFloor : kFloorOfGuess) * width_px;
-    return std::abs(x_px) > std::max(kDeviations * sigma_x_px, floor_px) ||
-           std::abs(y_px) > std::max(kDeviations * sigma_y_px, floor_px);
+    return std::abs(x_px) > std::max(kShiftDeviations * sigma_x_px, floor_px) ||
+           std::abs(y_px) > std::max(kShiftDeviations * sigma_y_px, floor_px);
 }
 
 std::string ColourShiftText(const ColourShift& s) {
@@ -104,19 +104,19 @@ void ColourShiftEstimator::Evidence::Add(const Evidence& other) {
 
 void ColourShiftEstimator::Add(const Frame& frame) {
     if (frame.colour.empty() || frame.colour.width() != frame.depth_m.width()) return;
-    step_px_ = std::max(1, frame.depth_m.width() / kColumns);
+    step_px_ = std::max(1, frame.depth_m.width() / kShiftColumns);
     width_px_ = frame.depth_m.width();
     const SmallView view = Shrink(frame, step_px_);
     const int width = view.luma.width(), height = view.luma.height();
-    constexpr int kMargin = kRadius + 1;
-    static_assert(kMargin > kShadow);
+    constexpr int kBorder = kRadius + 1;
+    static_assert(kBorder > kShadow);
     const Image<float> across = EdgeStrength(view.luma, 1, 0), down = EdgeStrength(view.luma, 0, 1);
     Evidence evidence;
     for (std::size_t d = 0; d < kDirections; ++d) {
         const auto [dx, dy] = kAhead[d];
         std::vector<std::pair<int, int>> ends;
-        for (int y = kMargin; y < height - kMargin; ++y)
-            for (int x = kMargin; x < width - kMargin; ++x)
+        for (int y = kBorder; y < height - kBorder; ++y)
+            for (int x = kBorder; x < width - kBorder; ++x)
                 if (EndsAt(view.depth_m, x, y, dx, dy)) ends.emplace_back(x, y);
         const std::size_t every = 1 + ends.size() / kMostEdges;
         const Image<float>& strength = dx != 0 ? across : down;

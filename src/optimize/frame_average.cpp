@@ -11,10 +11,10 @@
 namespace tessera {
 namespace {
 
-constexpr int kMost = 8;
+constexpr int kMostFrames = 8;
 constexpr double kMost_m = 0.05, kMost_rad = 0.08;
 // Structured light's noise is 1.5 to 3 mm / m^2; the two poses add a few millimetres.
-constexpr DepthMargin kMargin{.least_m = 0.01f, .per_m = 0.01f};
+constexpr DepthMargin kSameSurface{.least_m = 0.01f, .per_m = 0.01f};
 
 // For each pixel of `first`, adds the depth that `depth_m` shows of the same surface: where a pixel
 // falls, bilinear between four measurements of one surface.
@@ -52,7 +52,7 @@ void AddSeenFrom(const DepthImage& first_m, const DepthImage& depth_m, const Pin
             const float fu = u - static_cast<float>(u0), fv = v - static_cast<float>(v0);
             const float* a = pixels + v0 * width + u0;
             const float* b = a + width;
-            const float most = kMargin(z);
+            const float most = kSameSurface(z);
             const float nearest = std::min(std::min(a[0], a[1]), std::min(b[0], b[1])),
                         farthest = std::max(std::max(a[0], a[1]), std::max(b[0], b[1]));
             if (!(nearest > expected - most && farthest < expected + most)) continue;
@@ -80,7 +80,7 @@ void FrameAverage::Begin(const Frame& frame, const Eigen::Isometry3d& T_keyframe
 bool FrameAverage::Add(const Frame& frame, const Eigen::Isometry3d& T_keyframe_camera,
                        const Integrator::View& view) {
     const Eigen::Isometry3d T_this_first = T_keyframe_camera.inverse() * T_keyframe_camera_;
-    if (count_ == 0 || count_ == kMost || T_this_first.translation().norm() > kMost_m ||
+    if (count_ == 0 || count_ == kMostFrames || T_this_first.translation().norm() > kMost_m ||
         RotationAngle(T_this_first, Eigen::Isometry3d::Identity()) > kMost_rad ||
         frame.colour.empty() != frame_.colour.empty())
         return false;

@@ -69,6 +69,16 @@ class Style(Tree):
         self.write("src/io/a.cpp", "#include <opencv2/core.hpp>\n")
         self.assertEqual(len(list(check_style.findings(self.root))), 1)
 
+    def test_constants_are_unique_in_a_folder(self):
+        self.write("src/io/a.cpp", "constexpr float kOne = 1, kTwo[] = {2, 3};\nconstexpr Pair kThree{\n    1, 2};\n"
+                                   "void F() {\n    constexpr int kLocal = 1;\n}\n")
+        self.write("src/io/b.cpp", "// constexpr int kOne = 1;\nvoid G() {\n    constexpr int kLocal = kTwo[0];\n}\n")
+        self.write("src/core/c.cpp", "constexpr float kOne = 1;\n")
+        self.assertEqual(list(check_style.constant_findings(self.root)), [])
+        self.write("src/io/d.cpp", "constexpr int kTwo[1] = {1};\n\nconstexpr int kThree = 3;\n")
+        self.assertEqual([text for _, text in check_style.constant_findings(self.root)],
+                         ["src/io/d.cpp: kTwo is also in a.cpp", "src/io/d.cpp: kThree is also in a.cpp"])
+
 
 class Summary(Tree):
     def test_counts_programs_by_their_tests_and_scripts_by_their_entry(self):

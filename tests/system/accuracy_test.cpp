@@ -181,14 +181,14 @@ struct IcpCase {
 class IcpSequence : public Recorded, public testing::WithParamInterface<IcpCase> {};
 
 // [D18] section 3.2. InfiniTAM's best depth-only tracker reaches 36 mm on fr1_rpy. The bound is for
-// the first 300 frames on ray-cast views; the run with drawn views is short, because it must only
-// agree with the other one. (Without OpenGL the ray caster replaces the rasteriser, so the
-// comparison is trivial.) Where the pose is undetermined (fr1 rpy, frames 38 to 58 with icp-rgb)
-// the runs differ randomly by up to 15 mm, so their medians are compared.
+// the first 300 frames on ray-cast views. The run with drawn views must agree with them on 30
+// frames: from frame 31 on the pose on fr1_rpy is undetermined for a while with icp-rgb, and any
+// two runs differ there randomly by up to 20 mm. (Without OpenGL the ray caster replaces the
+// rasteriser, so the comparison is trivial.)
 TEST_P(IcpSequence, MeetsItsBoundFromEitherPrediction) {
     ASSERT_NO_FATAL_FAILURE(Need(GetParam().name));
     if (IsSkipped()) return;
-    constexpr std::int64_t kFrames = 300, kDrawnFrames = 100;
+    constexpr std::int64_t kFrames = 300, kDrawnFrames = 30;
     const auto run = [&](IcpTracker::Prediction prediction, std::int64_t count) {
         RunConfig config;
         config.check_camera = false;  // it sees more in more frames, and the images would differ
@@ -210,7 +210,7 @@ TEST_P(IcpSequence, MeetsItsBoundFromEitherPrediction) {
     run(IcpTracker::Prediction::kRaster, kDrawnFrames);
     const auto apart = EvaluateAte(path(), cast_path, {});
     ASSERT_TRUE(apart.ok()) << apart.message();
-    EXPECT_LE(apart.value().error_m.median, 0.001);
+    EXPECT_LE(apart.value().error_m.median, 0.0005);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, IcpSequence,
