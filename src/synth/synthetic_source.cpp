@@ -31,9 +31,12 @@ void SynthConfig::Describe(ConfigParameters& p) {
 }
 
 Status SynthConfig::Validate() const {
+    if (const Status status = CheckPlausible(camera); !status.ok())
+        return Status::Error("synthetic." + status.message() +
+                             "; set fx, fy, cx and cy along with width and height");
     if (sensor.min_depth_m >= sensor.max_depth_m)
         return Status::Error(
-            fmt::format("synth.sensor.min_depth_m: {} m is not below max_depth_m, {} m",
+            fmt::format("synthetic.sensor.min_depth_m: {} m is not below max_depth_m, {} m",
                         sensor.min_depth_m, sensor.max_depth_m));
     return Status::Ok();
 }

@@ -183,7 +183,8 @@ TEST_F(KilledScan, WithAThirdOfTheMapAway) {
 TEST_F(KilledScan, AsSoonAsTheFileIsThere) {
     frames = 2;
     sequence = "synthetic:corner";
-    options = {"--set", "synthetic.width=64", "--set", "synthetic.height=48"};
+    options = {"--set", "synthetic.width=64", "--set", "synthetic.height=48",
+               "--set", "synthetic.cx=31.5",  "--set", "synthetic.cy=23.5"};
     for (int i = 0; i < 20; ++i) {
         const std::string scan = folder / (std::to_string(i) + ".scan");
         const pid_t child = Start(Arguments(folder / "killed", {"--scan", scan}));

@@ -133,8 +133,8 @@ class Model(unittest.TestCase):
 class Jobs(Folder):
     def test_finished_jobs_are_reused_and_changed_ones_repeated(self):
         bench = self.bench()
-        jobs = [Job("corner", ("synth", "corner", "--frames", str(n), "--set", "synthetic.width=80", "--set",
-                               "synthetic.height=60", "--out", str(bench.folder("corner") / "s"))) for n in (2, 3)]
+        jobs = [Job("corner", ("synth", "corner", "--frames", str(n), "--set", "synthetic.fps=10", "--out",
+                               str(bench.folder("corner") / "s"))) for n in (2, 3)]
         bench.run(jobs[0])
         stamp = (bench.folder("corner") / "done.json").stat().st_mtime_ns
         bench.run(jobs[0])

@@ -109,6 +109,9 @@ TEST(SyntheticSource, BadNamesAndFilesAreErrors) {
     config = Small();
     config.sensor.min_depth_m = 6;
     EXPECT_NE(OpenSyntheticScene("wall", config).message().find("min_depth_m"), std::string::npos);
+    config = {};
+    config.camera.width = 160;  // the centre stays where 640 columns have it
+    EXPECT_NE(OpenSyntheticScene("wall", config).message().find("synthetic.cx"), std::string::npos);
 }
 
 TEST(SynthConfig, DescribesEveryKey) {
