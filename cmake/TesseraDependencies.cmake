@@ -66,6 +66,16 @@ else()
     message(STATUS "tessera: OpenNI2 cameras and .oni recordings off (install libopenni2-dev)")
 endif()
 
+# The Kinect, which OpenNI2's own drivers do not support.
+find_path(FREENECT_INCLUDE libfreenect.h PATH_SUFFIXES libfreenect)
+find_library(FREENECT_LIBRARY freenect)
+if(TESSERA_OPENNI2 AND FREENECT_INCLUDE AND FREENECT_LIBRARY)
+    set(TESSERA_KINECT ON)
+else()
+    set(TESSERA_KINECT OFF)
+    message(STATUS "tessera: driver for the Kinect off (install libopenni2-dev and libfreenect-dev)")
+endif()
+
 # Fewer triangles for finished models.
 find_package(meshoptimizer QUIET CONFIG)
 if(meshoptimizer_FOUND)

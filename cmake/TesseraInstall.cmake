@@ -23,6 +23,11 @@ install(PROGRAMS python/examples/realsense.py python/examples/azure_kinect.py py
     python/examples/oak.py python/examples/ros2_topics.py DESTINATION ${documents}/examples COMPONENT program)
 install(FILES python/examples/stream.py DESTINATION ${documents}/examples COMPONENT program)
 
+# The Kinect's driver, in the folder where Debian's OpenNI2 looks for drivers if the prefix is /usr.
+if(TESSERA_KINECT)
+    install(TARGETS tessera_kinect LIBRARY DESTINATION lib/${CMAKE_LIBRARY_ARCHITECTURE}/OpenNI2/Drivers COMPONENT program)
+endif()
+
 # The Python package, where Debian's interpreter finds it.
 if(TESSERA_PYTHON)
     install(TARGETS tessera_python LIBRARY DESTINATION lib/python3/dist-packages/tessera COMPONENT python)
@@ -69,6 +74,7 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libtessera-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SHLIBDEPS OFF)
 file(STRINGS scripts/packages.txt lines REGEX "^lib.*-dev$")
-list(REMOVE_ITEM lines libgtest-dev libbenchmark-dev libxtst-dev libtinygltf-dev liboctomap-dev libcli11-dev)
+list(REMOVE_ITEM lines libgtest-dev libbenchmark-dev libxtst-dev libtinygltf-dev liboctomap-dev libcli11-dev
+    libfreenect-dev)
 list(JOIN lines ", " CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS)
 include(CPack)

@@ -18,7 +18,7 @@ from concurrent.futures import ThreadPoolExecutor
 
 WARN_LINES = 250
 FAIL_LINES = 500
-FOLDERS = ["src", "apps", "python", "tests", "bench", "cuda", "scripts", "cmake"]
+FOLDERS = ["src", "apps", "drivers", "python", "tests", "bench", "cuda", "scripts", "cmake"]
 FORMATTED = {".h", ".cpp", ".cu", ".cuh"}
 SUFFIXES = FORMATTED | {".py", ".sh", ".cmake"}
 FORMATTER_VERSION = 14

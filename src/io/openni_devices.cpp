@@ -38,14 +38,13 @@ bool HasDriver(const std::string& folder, const std::string& part) {
     return false;
 }
 
-bool HasUdevRules() {
+// `library`: the package with the camera's rules, without its version.
+bool HasUdevRules(const std::string& library) {
     std::error_code error;
     for (const char* folder : {"/lib/udev/rules.d", "/usr/lib/udev/rules.d", "/etc/udev/rules.d"})
         for (const auto& entry : fs::directory_iterator(folder, error)) {
             const std::string name = entry.path().filename().string();
-            if (name.find("openni") != std::string::npos ||
-                name.find("primesense") != std::string::npos)
-                return true;
+            if (name.find(library) != std::string::npos) return true;
         }
     return false;
 }
@@ -54,15 +53,17 @@ void AdviseOn(const UsbCamera& camera, const std::string& driver_folder,
               std::vector<std::string>& advice) {
     advice.push_back(fmt::format("on USB: {}, {}", camera.name, camera.path));
     if (!camera.writable)
-        advice.push_back(HasUdevRules() ? "  no permission to use it: unplug it and plug it in "
-                                          "again so that the udev rules apply"
-                                        : "  no permission to use it: udev rules are missing; "
-                                          "install the package libopenni2-0 and plug it in again");
-    else if (camera.needs_freenect && !HasDriver(driver_folder, "Freenect"))
         advice.push_back(
-            "  needs libfreenect's OpenNI2 driver, which Debian does not package (see "
-            "docs/camera.md), in " +
-            driver_folder);
+            HasUdevRules(camera.needs_freenect ? "freenect" : "openni")
+                ? "  no permission to use it: unplug it and plug it in again so that the udev "
+                  "rules "
+                  "apply"
+                : fmt::format("  no permission to use it: udev rules are missing; install the "
+                              "package {} and plug it in again",
+                              camera.needs_freenect ? "libfreenect0.5" : "libopenni2-0"));
+    else if (camera.needs_freenect && !HasDriver(driver_folder, "Freenect"))
+        advice.push_back("  needs the driver libTesseraFreenect.so.0 (see docs/camera.md) in " +
+                         driver_folder);
     else
         advice.push_back(
             "  it does not respond: is another program using it? If not, plug it in again, at "

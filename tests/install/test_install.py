@@ -47,6 +47,11 @@ class Install(unittest.TestCase):
         self.assertEqual(answer.strip(), "--loop-closure")
         self.assertTrue((self.prefix / "share/doc/tessera/guide.md").exists())
 
+    def test_the_kinects_driver_where_openni2_looks(self):
+        if not (BUILD / "drivers/kinect/libTesseraFreenect.so.0").exists():
+            self.skipTest("apt-get install libfreenect-dev")
+        self.assertEqual(len(list(self.prefix.glob("lib/*-linux-gnu/OpenNI2/Drivers/libTesseraFreenect.so.0"))), 1)
+
     def test_a_program_finds_the_libraries(self):
         build = pathlib.Path(self._folder.name) / "consumer"
         call("cmake", "-S", HERE / "consumer", "-B", build, "-G", "Ninja", f"-DCMAKE_PREFIX_PATH={self.prefix}",
