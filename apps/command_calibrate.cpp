@@ -12,7 +12,7 @@
 namespace tessera {
 namespace {
 
-struct Arguments {
+struct CalibrateArguments {
     CalibrateRequest request;
     double square_mm = 36;
     std::string out, print;
@@ -37,7 +37,7 @@ void PrintResult(const CalibrationResult& result) {
 
 // Where --out says, or where the camera's calibration is looked for, or else camera.yaml. Does not
 // replace a file without --force: the calibration is printed, and so is not lost.
-Status Write(const Arguments& a, const Calibrated& calibrated) {
+Status Write(const CalibrateArguments& a, const Calibrated& calibrated) {
     const std::string text = CameraFileText(calibrated.result.calibration);
     const std::string path = !a.out.empty()             ? a.out
                              : !calibrated.file.empty() ? calibrated.file
@@ -56,7 +56,7 @@ Status Write(const Arguments& a, const Calibrated& calibrated) {
     return written;
 }
 
-int Calibrate(Arguments& a) {
+int Calibrate(CalibrateArguments& a) {
     a.request.board.square_m = a.square_mm / 1000;
     if (!a.print.empty()) {
         const Status written = WriteTextFile(a.print, a.request.board.Svg());
@@ -88,7 +88,7 @@ int Calibrate(Arguments& a) {
 }  // namespace
 
 void AddCalibrateCommand(CLI::App& app, CommandContext& context) {
-    auto a = std::make_shared<Arguments>();
+    auto a = std::make_shared<CalibrateArguments>();
     CLI::App* command = app.add_subcommand(
         "calibrate",
         "Estimate focal length, centre, lens distortion and depth unit from frames "

@@ -10,12 +10,12 @@
 namespace tessera {
 namespace {
 
-struct Arguments {
+struct ConfigArguments {
     ConfigOptions config;
     bool markdown = false;
 };
 
-int PrintConfig(const Arguments& a) {
+int PrintConfig(const ConfigArguments& a) {
     RunConfig config;
     ConfigParameters parameters;
     config.Describe(parameters);
@@ -28,7 +28,7 @@ int PrintConfig(const Arguments& a) {
 }  // namespace
 
 void AddConfigCommand(CLI::App& app, CommandContext& context) {
-    auto a = std::make_shared<Arguments>();
+    auto a = std::make_shared<ConfigArguments>();
     CLI::App* command =
         app.add_subcommand("config", "Print the whole configuration as YAML, or check a file");
     a->config.AddTo(*command);

@@ -8,24 +8,22 @@
 #include "command.h"
 #include "eval/alignment.h"
 #include "eval/ate.h"
-#include "eval/detection_run.h"
 #include "eval/drift.h"
-#include "eval/label_scores.h"
 #include "eval/mesh_error.h"
 #include "eval/plot.h"
 #include "eval/rpe.h"
+#include "eval_objects.h"
 #include "io/file.h"
 #include "io/image_io.h"
 #include "io/mesh_io.h"
 #include "io/trajectory.h"
 #include "render/mesh_picture.h"
 #include "run_text.h"
-#include "semantics/label_config.h"
 
 namespace tessera {
 namespace {
 
-struct Arguments {
+struct EvalArguments {
     std::string reference, estimate, json, picture;
     std::vector<std::string> align;  // trajectories of the reference and of the run
 };
@@ -43,7 +41,7 @@ Result<std::pair<Trajectory, Trajectory>> ReadBoth(const std::string& reference,
     return std::pair{std::move(a.value()), std::move(b.value())};
 }
 
-Status EvalAte(const Arguments& a) {
+Status EvalAte(const EvalArguments& a) {
     const auto both = ReadBoth(a.reference, a.estimate);
     if (!both.ok()) return both.status();
     const auto& [reference, estimate] = both.value();
@@ -58,7 +56,7 @@ Status EvalAte(const Arguments& a) {
                              : WriteColourImage(a.picture, PlotAte(ate.value(), a.estimate));
 }
 
-Status EvalRpe(const Arguments& a, const RpeOptions& options) {
+Status EvalRpe(const EvalArguments& a, const RpeOptions& options) {
     const auto both = ReadBoth(a.reference, a.estimate);
     if (!both.ok()) return both.status();
     const auto& [reference, estimate] = both.value();
@@ -82,7 +80,7 @@ std::string TrackedBeside(const std::string& estimate) {
     return std::filesystem::exists(path, ignored) ? path.string() : estimate;
 }
 
-Status EvalDrift(const Arguments& a, const std::string& tracked) {
+Status EvalDrift(const EvalArguments& a, const std::string& tracked) {
     const auto both = ReadBoth(a.reference, a.estimate);
     if (!both.ok()) return both.status();
     const auto& [reference, estimate] = both.value();
@@ -113,7 +111,7 @@ Status PaintErrors(const std::string& path, TriangleMesh mesh, const MeshErrorRe
     return WriteColourImage(path, image);
 }
 
-Status EvalMesh(const Arguments& a) {
+Status EvalMesh(const EvalArguments& a) {
     const Result<TriangleMesh> reference = ReadPly(a.reference);
     if (!reference.ok()) return reference.status();
     const Result<TriangleMesh> mesh = ReadPly(a.estimate);
@@ -143,64 +141,7 @@ Status EvalMesh(const Arguments& a) {
     return a.picture.empty() ? Status::Ok() : PaintErrors(a.picture, mesh.value(), r);
 }
 
-Status EvalLabels(const Arguments& a) {
-    const Result<LabelScores> scores = EvaluateLabels(a.reference, a.estimate);
-    if (!scores.ok()) return scores.status();
-    fmt::print("{}", LabelScoresText(scores.value()));
-    return a.json.empty() ? Status::Ok() : WriteTextFile(a.json, LabelScoresJson(scores.value()));
-}
-
-struct DetectionArguments {
-    double min_probability = LabelConfig().min_probability;
-    std::string aliases = LabelConfig().aliases;
-};
-
-Status EvalDetections(const Arguments& a, const DetectionArguments& d) {
-    const Result<ClassAliases> aliases = ParseAliases(d.aliases);
-    if (!aliases.ok()) return Status::Error("--aliases: " + aliases.message());
-    const Result<DetectionScores> scores =
-        EvaluateDetections(a.reference, a.estimate, aliases.value(), d.min_probability);
-    if (!scores.ok()) return scores.status();
-    fmt::print("{}", DetectionScoresText(scores.value()));
-    return a.json.empty() ? Status::Ok()
-                          : WriteTextFile(a.json, DetectionScoresJson(scores.value()));
-}
-
-// Adds an evaluation against a sequence with a true class and instance per pixel.
-CLI::App* AddObjectEvaluation(CLI::App& eval, Arguments& a, const char* name, const char* text) {
-    CLI::App* command = eval.add_subcommand(name, text);
-    command
-        ->add_option("SEQUENCE", a.reference,
-                     "Folder with labels/, instances/, classes.txt, groundtruth.txt, as tessera "
-                     "synth writes it")
-        ->required();
-    command->add_option("--json", a.json, "Write the figures to this file")->type_name("FILE");
-    return command;
-}
-
-void AddDetections(CLI::App& eval, std::shared_ptr<Arguments> a, CommandContext& context) {
-    auto d = std::make_shared<DetectionArguments>();
-    CLI::App* command =
-        AddObjectEvaluation(eval, *a, "detections",
-                            "Evaluate a detector by the true boxes of a sequence: precision, "
-                            "recall, AP50 by class; [D18] Table 4 by object");
-    command
-        ->add_option("DETECTIONS", a->estimate,
-                     "detections.txt, or the folder of a run with --labels")
-        ->required();
-    command
-        ->add_option("--min-probability", d->min_probability,
-                     "Count detections from this probability on; AP50 uses all that the file has")
-        ->check(CLI::Range(0.0, 1.0))
-        ->capture_default_str();
-    command
-        ->add_option("--aliases", d->aliases,
-                     "Rename classes, as labels.aliases, on both sides; a run's file knows its own")
-        ->capture_default_str();
-    command->callback([a, d, &context] { context.exit_code = ExitCode(EvalDetections(*a, *d)); });
-}
-
-CLI::App* AddEvaluation(CLI::App& eval, Arguments& a, const char* name, const char* text,
+CLI::App* AddEvaluation(CLI::App& eval, EvalArguments& a, const char* name, const char* text,
                         const char* estimate) {
     CLI::App* command = eval.add_subcommand(name, text);
     command->add_option("REFERENCE", a.reference, "Ground truth")->required();
@@ -212,7 +153,7 @@ CLI::App* AddEvaluation(CLI::App& eval, Arguments& a, const char* name, const ch
 }  // namespace
 
 void AddEvalCommand(CLI::App& app, CommandContext& context) {
-    auto a = std::make_shared<Arguments>();
+    auto a = std::make_shared<EvalArguments>();
     auto rpe_options = std::make_shared<RpeOptions>();
     CLI::App* eval = app.add_subcommand(
         "eval", "Evaluate a trajectory, a mesh, labels or detections against ground truth");
@@ -265,13 +206,7 @@ void AddEvalCommand(CLI::App& app, CommandContext& context) {
         ->type_name("FILE.png");
     mesh->callback([a, &context] { context.exit_code = ExitCode(EvalMesh(*a)); });
 
-    CLI::App* labels =
-        AddObjectEvaluation(*eval, *a, "labels",
-                            "Evaluate the labels of a run's map by the true classes and instances "
-                            "of a sequence");
-    labels->add_option("RUN_DIR", a->estimate, "Folder of a run with --labels")->required();
-    labels->callback([a, &context] { context.exit_code = ExitCode(EvalLabels(*a)); });
-    AddDetections(*eval, a, context);
+    AddObjectEvaluations(*eval, context);
 }
 
 }  // namespace tessera

@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Arguments {
+struct ExportArguments {
     std::string input, mesh, cloud, grid, trajectory, kitti, frames, colmap;
     bool level = false;
 
@@ -41,7 +41,7 @@ struct Content {
     std::vector<StampedPose> path;
 };
 
-Result<Content> FromScan(const Arguments& a) {
+Result<Content> FromScan(const ExportArguments& a) {
     if (a.NeedsFrames())  // check before anything is written
         if (const auto frames = PosedFrames::Open(a.input); !frames.ok()) return frames.status();
     Result<ScanContent> scan = ReadScan(a.input, {.map = a.NeedsMesh() || !a.grid.empty()});
@@ -57,7 +57,7 @@ Result<Content> FromScan(const Arguments& a) {
     return content;
 }
 
-Result<Content> FromRun(const Arguments& a) {
+Result<Content> FromRun(const ExportArguments& a) {
     Content content;
     if (a.NeedsMesh()) {
         Result<TriangleMesh> mesh = ReadPly(a.input + "/mesh.ply");
@@ -73,7 +73,7 @@ Result<Content> FromRun(const Arguments& a) {
 }
 
 // Checks the arguments before anything is read or written.
-Status Check(const Arguments& a, bool is_run) {
+Status Check(const ExportArguments& a, bool is_run) {
     if (!a.NeedsMesh() && !a.NeedsPath() && !a.NeedsScan())
         return Status::Error(
             "nothing to export; give --mesh, --cloud, --grid, --trajectory, --kitti, --frames or "
@@ -100,7 +100,7 @@ Status Check(const Arguments& a, bool is_run) {
     return Status::Ok();
 }
 
-Status Write(const Arguments& a, const Content& content) {
+Status Write(const ExportArguments& a, const Content& content) {
     if (!a.mesh.empty())
         if (Status status = MeshFormatOf(a.mesh).value().write(
                 a.mesh, a.level && fs::path(a.mesh).extension() == ".glb" ? WithYDown(content.mesh)
@@ -133,7 +133,7 @@ Status Turn(const std::string& input, Content& content) {
     return Status::Ok();
 }
 
-Status Export(const Arguments& a) {
+Status Export(const ExportArguments& a) {
     std::error_code ignored;
     const bool is_run = fs::is_directory(a.input, ignored);
     if (Status status = Check(a, is_run); !status.ok()) return status;
@@ -147,7 +147,7 @@ Status Export(const Arguments& a) {
 }  // namespace
 
 void AddExportCommand(CLI::App& app, CommandContext& context) {
-    auto a = std::make_shared<Arguments>();
+    auto a = std::make_shared<ExportArguments>();
     CLI::App* command = app.add_subcommand(
         "export", "Export the mesh, map, path or raw frames of a scan file or a run");
     const auto add = [&](const char* name, std::string& value, const char* what, const char* type) {

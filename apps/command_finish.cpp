@@ -19,7 +19,7 @@
 namespace tessera {
 namespace {
 
-struct Arguments {
+struct FinishArguments {
     FinishRequest request;
     std::string out;
     bool keep_triangles = false, keep_flaps = false;
@@ -49,7 +49,7 @@ void Print(const FinishReport& r) {
 }
 
 // The models of all levels, and what else was asked for.
-Status WriteModels(const Arguments& a, const FinishedModel& finished) {
+Status WriteModels(const FinishArguments& a, const FinishedModel& finished) {
     const auto upright = [&](const TexturedMesh& model) {
         TexturedMesh turned = model;
         if (a.request.level) turned.mesh = WithYDown(std::move(turned.mesh));
@@ -76,7 +76,7 @@ Status WriteModels(const Arguments& a, const FinishedModel& finished) {
     return WriteObj(a.out + "/watertight.obj", shell.mesh);
 }
 
-Status Finish(const Arguments& a) {
+Status Finish(const FinishArguments& a) {
     FinishRequest request = a.request;
     request.options.clean.remove_flaps = !a.keep_flaps;
     if (a.keep_triangles) request.options.clean.decimation_share = 1;
@@ -102,7 +102,7 @@ Status Finish(const Arguments& a) {
 }  // namespace
 
 void AddFinishCommand(CLI::App& app, CommandContext& context) {
-    auto a = std::make_shared<Arguments>();
+    auto a = std::make_shared<FinishArguments>();
     CLI::App* command = app.add_subcommand(
         "finish", "Make a clean, textured model of a scan file or a run: model.glb, model.obj");
     command

@@ -10,7 +10,7 @@
 namespace tessera {
 namespace {
 
-struct Arguments {
+struct HelpArguments {
     std::string command;
     bool manual = false, completion = false;
 };
@@ -82,7 +82,7 @@ std::string Completion(const CLI::App& app) {
     return script;
 }
 
-int Help(const CLI::App& app, const Arguments& a) {
+int Help(const CLI::App& app, const HelpArguments& a) {
     if (a.manual || a.completion) {
         fmt::print("{}", a.manual ? ManualPage(app) : Completion(app));
         return kExitDone;
@@ -129,7 +129,7 @@ Status UnknownCommand(const CLI::App& app, const std::string& word) {
 }
 
 void AddHelpCommand(CLI::App& app, CommandContext& context) {
-    auto a = std::make_shared<Arguments>();
+    auto a = std::make_shared<HelpArguments>();
     CLI::App* command = app.add_subcommand("help", "Print the help of a command");
     command->add_option("COMMAND", a->command, "The command");
     command->add_flag("--manual", a->manual, "Print a manual page (troff) instead");

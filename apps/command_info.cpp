@@ -13,7 +13,7 @@
 namespace tessera {
 namespace {
 
-struct Arguments {
+struct InfoArguments {
     std::string source;
     ConfigOptions config;
 };
@@ -61,7 +61,7 @@ void PrintFirstFrame(FrameSource& source) {
         depths.front(), depths.back(), depths[depths.size() / 2]);
 }
 
-int Info(const Arguments& a) {
+int Info(const InfoArguments& a) {
     RunConfig config;
     ConfigParameters parameters;
     config.Describe(parameters);
@@ -87,7 +87,7 @@ int Info(const Arguments& a) {
 }  // namespace
 
 void AddInfoCommand(CLI::App& app, CommandContext& context) {
-    auto a = std::make_shared<Arguments>();
+    auto a = std::make_shared<InfoArguments>();
     CLI::App* command = app.add_subcommand("info", "Say what a source, a file or a folder is");
     command->add_option("SOURCE", a->source, "A source, as for run, or any other file or folder")
         ->required();

@@ -10,13 +10,13 @@
 namespace tessera {
 namespace {
 
-struct Arguments {
+struct InspectArguments {
     std::string source, out, tracker;
     std::int64_t frame = 0;
     ConfigOptions config;
 };
 
-Status Inspect(const Arguments& a) {
+Status Inspect(const InspectArguments& a) {
     RunConfig config;
     ConfigParameters parameters;
     config.Describe(parameters);
@@ -41,7 +41,7 @@ Status Inspect(const Arguments& a) {
 }  // namespace
 
 void AddInspectCommand(CLI::App& app, CommandContext& context) {
-    auto a = std::make_shared<Arguments>();
+    auto a = std::make_shared<InspectArguments>();
     CLI::App* command = app.add_subcommand("inspect",
                                            "Compare one frame with the map in a picture: measured "
                                            "and predicted colour and depth, and residuals");

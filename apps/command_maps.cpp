@@ -11,7 +11,7 @@
 namespace tessera {
 namespace {
 
-struct Arguments {
+struct MapsArguments {
     std::string scan;
     RobotMaps maps;
     std::vector<double> box, heights;
@@ -34,7 +34,7 @@ Result<Level> LevelOf(const std::string& path) {
     return level;
 }
 
-Status Maps(const Arguments& a) {
+Status Maps(const MapsArguments& a) {
     RobotMaps maps = a.maps;
     if (!a.box.empty())
         maps.box_m = Eigen::AlignedBox3d(Eigen::Vector3d(a.box[0], a.box[1], a.box[2]),
@@ -64,7 +64,7 @@ Status Maps(const Arguments& a) {
 }  // namespace
 
 void AddMapsCommand(CLI::App& app, CommandContext& context) {
-    auto a = std::make_shared<Arguments>();
+    auto a = std::make_shared<MapsArguments>();
     CLI::App* command = app.add_subcommand(
         "maps", "Maps for robots of a scan file: 2D map for ROS, OctoMap, distance field");
     command->add_option("SCAN", a->scan, "FILE.scan")->required();

@@ -12,7 +12,7 @@
 namespace tessera {
 namespace {
 
-struct Arguments {
+struct PlanArguments {
     PlanRequest request;
     std::string out, title;
 };
@@ -37,7 +37,7 @@ void Print(const FloorPlan& plan) {
                    plan.floor_m2);
 }
 
-Status Plan(const Arguments& a) {
+Status Plan(const PlanArguments& a) {
     if (Status status = PrepareOutputFolder(a.out); !status.ok()) return status;
     const Result<FloorPlan> plan = PlanOfRun(a.request);
     if (!plan.ok()) return plan.status();
@@ -50,7 +50,7 @@ Status Plan(const Arguments& a) {
 }  // namespace
 
 void AddPlanCommand(CLI::App& app, CommandContext& context) {
-    auto a = std::make_shared<Arguments>();
+    auto a = std::make_shared<PlanArguments>();
     CLI::App* command = app.add_subcommand(
         "plan",
         "Floor plan with measures of a run, a scan or a mesh: plan.svg, plan.dxf, plan.json");

@@ -16,7 +16,7 @@ namespace {
 
 enum class Shading { kColour, kLit, kGrey, kNormal, kLabel };
 
-struct Arguments {
+struct RenderArguments {
     std::string mesh, out, trajectory, objects;
     int width = 1280, height = 960;
     std::int64_t pose = -1;
@@ -41,7 +41,7 @@ NamedBox ToBox(const MapObject& o) {
 
 // Applies category colours, and the boxes and names from the given objects.json. With category
 // colours, the default is the objects.json beside the mesh.
-Status ApplyLabels(const Arguments& a, TriangleMesh& mesh, RenderStyle& style) {
+Status ApplyLabels(const RenderArguments& a, TriangleMesh& mesh, RenderStyle& style) {
     const bool by_label = a.shading == Shading::kLabel;
     if (by_label && mesh.labels.empty())
         return Status::Error(a.mesh + ": has no labels; repeat the run with --labels");
@@ -62,7 +62,7 @@ Status ApplyLabels(const Arguments& a, TriangleMesh& mesh, RenderStyle& style) {
 }
 
 // A view from a camera pose, 70 degrees wide.
-MeshView ViewOfPose(const Arguments& a, const Eigen::Isometry3d& T_world_camera) {
+MeshView ViewOfPose(const RenderArguments& a, const Eigen::Isometry3d& T_world_camera) {
     MeshView view;
     view.T_world_camera = T_world_camera;
     view.camera.width = a.width, view.camera.height = a.height;
@@ -71,7 +71,7 @@ MeshView ViewOfPose(const Arguments& a, const Eigen::Isometry3d& T_world_camera)
     return view;
 }
 
-Status Render(const Arguments& a) {
+Status Render(const RenderArguments& a) {
     Result<TriangleMesh> mesh =
         a.mesh.ends_with(".scan") ? MeshOfScanFile(a.mesh, nullptr) : ReadPly(a.mesh);
     if (!mesh.ok()) return mesh.status();
@@ -102,7 +102,7 @@ Status Render(const Arguments& a) {
 }  // namespace
 
 void AddRenderCommand(CLI::App& app, CommandContext& context) {
-    auto a = std::make_shared<Arguments>();
+    auto a = std::make_shared<RenderArguments>();
     CLI::App* command =
         app.add_subcommand("render", "Render a mesh; the view is chosen to show all of it");
     command->add_option("MESH", a->mesh, "PLY file, or FILE.scan")->required();

@@ -9,7 +9,7 @@
 namespace tessera {
 namespace {
 
-struct Arguments {
+struct ReportArguments {
     std::string run, out = "report.html", truth;
     std::size_t triangles = ReportOptions().most_triangles;
 };
@@ -25,7 +25,7 @@ std::vector<KnownSetting> KnownSettings() {
     return known;
 }
 
-Status Report(const Arguments& a) {
+Status Report(const ReportArguments& a) {
     ReportOptions options;
     options.truth = a.truth;
     options.settings = KnownSettings();
@@ -44,7 +44,7 @@ Status Report(const Arguments& a) {
 }  // namespace
 
 void AddReportCommand(CLI::App& app, CommandContext& context) {
-    auto a = std::make_shared<Arguments>();
+    auto a = std::make_shared<ReportArguments>();
     CLI::App* command = app.add_subcommand(
         "report",
         "Write one HTML file that shows a run: model, path, errors, times, objects, settings");

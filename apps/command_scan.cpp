@@ -9,11 +9,11 @@
 namespace tessera {
 namespace {
 
-struct Arguments {
+struct ScanArguments {
     std::string scan, second, out;
 };
 
-int RepairTo(const Arguments& a) {
+int RepairTo(const ScanArguments& a) {
     const Result<RepairReport> repaired = RepairScan(a.scan, a.out);
     if (!repaired.ok()) return Fail(repaired.status());
     const RepairReport& report = repaired.value();
@@ -24,7 +24,7 @@ int RepairTo(const Arguments& a) {
     return kExitDone;
 }
 
-int MergeTo(const Arguments& a) {
+int MergeTo(const ScanArguments& a) {
     const Result<MergeReport> merged = MergeScans(a.scan, a.second, a.out);
     if (!merged.ok()) return Fail(merged.status());
     const MergeReport& report = merged.value();
@@ -39,7 +39,7 @@ int MergeTo(const Arguments& a) {
 }  // namespace
 
 void AddScanCommand(CLI::App& app, CommandContext& context) {
-    auto a = std::make_shared<Arguments>();
+    auto a = std::make_shared<ScanArguments>();
     CLI::App* command = app.add_subcommand("scan", "Maintain scan files");
     command->require_subcommand(1);
     CLI::App* repair = command->add_subcommand(

@@ -15,7 +15,7 @@
 namespace tessera {
 namespace {
 
-struct Arguments {
+struct SweepArguments {
     std::vector<std::string> sources;
     std::string values = "0:1:0.1", out;
     std::int64_t frames = -1, stride = 1;
@@ -43,7 +43,7 @@ Result<std::vector<double>> ParseValues(const std::string& text) {
     return values;
 }
 
-Result<Row> RunOne(const Arguments& a, const std::string& source, double alpha,
+Result<Row> RunOne(const SweepArguments& a, const std::string& source, double alpha,
                    const std::atomic<bool>& stop) {
     RunConfig config;
     ConfigParameters parameters;
@@ -88,7 +88,7 @@ Status WriteRows(const std::string& folder, const std::vector<Row>& rows) {
         json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
 }
 
-Status Sweep(const Arguments& a) {
+Status Sweep(const SweepArguments& a) {
     const Result<std::vector<double>> values = ParseValues(a.values);
     if (!values.ok()) return values.status();
     if (!a.out.empty())
@@ -114,7 +114,7 @@ Status Sweep(const Arguments& a) {
 }  // namespace
 
 void AddSweepCommand(CLI::App& app, CommandContext& context) {
-    auto a = std::make_shared<Arguments>();
+    auto a = std::make_shared<SweepArguments>();
     CLI::App* sweep =
         app.add_subcommand("sweep", "Run sources repeatedly with different values of a setting");
     sweep->require_subcommand(1);

@@ -13,13 +13,13 @@
 namespace tessera {
 namespace {
 
-struct Arguments {
+struct SynthArguments {
     std::string scene, out, trajectory, noise;
     int frames = 0, seed = -1;
     ConfigOptions config;
 };
 
-Status Configure(const Arguments& a, RunConfig& config) {
+Status Configure(const SynthArguments& a, RunConfig& config) {
     ConfigParameters parameters;
     config.Describe(parameters);
     if (Status status = a.config.Apply(parameters); !status.ok()) return status;
@@ -29,7 +29,7 @@ Status Configure(const Arguments& a, RunConfig& config) {
     return a.noise.empty() ? Status::Ok() : parameters.Set("synthetic.sensor.noise", a.noise);
 }
 
-Status Synth(const Arguments& a) {
+Status Synth(const SynthArguments& a) {
     RunConfig config;
     if (Status status = Configure(a, config); !status.ok()) return status;
     Result<std::unique_ptr<SyntheticSource>> source = OpenSynthetic(a.scene, config.synthetic);
@@ -53,7 +53,7 @@ Status Synth(const Arguments& a) {
 }  // namespace
 
 void AddSynthCommand(CLI::App& app, CommandContext& context) {
-    auto a = std::make_shared<Arguments>();
+    auto a = std::make_shared<SynthArguments>();
     CLI::App* command = app.add_subcommand(
         "synth", "Write a synthetic sequence with exact poses, labels and surface");
     std::string names;

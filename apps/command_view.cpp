@@ -8,6 +8,7 @@
 #include "io/mesh_io.h"
 #include "io/trajectory.h"
 #include "run/open_source.h"
+#include "run/run_source.h"
 #include "run/scan_export.h"
 #include "semantics/objects_file.h"
 #include "start_window.h"
@@ -18,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Arguments {
+struct ViewRequest {
     std::string path, trajectory, screenshot;
     int width = 1280, height = 720;
 };
@@ -29,7 +30,7 @@ struct Files {
     std::string run;  // the folder of the run; empty: none
 };
 
-Result<Files> FindFiles(const Arguments& a) {
+Result<Files> FindFiles(const ViewRequest& a) {
     std::error_code ignored;
     if (a.path.empty())
         return Status::Error("view: --screenshot and --trajectory need a PATH to show");
@@ -78,21 +79,13 @@ Result<ViewedModel> Read(const Files& files) {
     return model;
 }
 
-// What the run read, opened as it did. Empty if that is a camera.
-FrameImages::Open SourceOf(const TimeLine& line) {
-    if (line.source.empty() || IsLiveSource(line.source)) return {};
-    return [name = line.source,
-            configuration = line.configuration]() -> Result<std::unique_ptr<FrameSource>> {
-        RunConfig config;
-        ConfigParameters parameters;
-        config.Describe(parameters);
-        for (const auto& [key, value] : configuration)
-            static_cast<void>(parameters.Set(key, value));  // of another version: the default
-        return OpenSource(name, config);
-    };
+// What the run read. Empty if that is a camera.
+FrameImages::Open SourceOf(const RunRecord& run) {
+    if (run.source_name.empty() || IsLiveSource(run.source_name)) return {};
+    return [run] { return OpenSourceOf(run); };
 }
 
-Status View(const Arguments& a, const CommandContext& context) {
+Status View(const ViewRequest& a, const CommandContext& context) {
     const Result<Files> files = FindFiles(a);
     if (!files.ok()) return files.status();
     Result<ViewedModel> model = Read(files.value());
@@ -100,8 +93,8 @@ Status View(const Arguments& a, const CommandContext& context) {
     ViewerOptions options;
     if (!files.value().run.empty()) model.value().time_line = ReadTimeLine(files.value().run);
     if (const auto& line = model.value().time_line) {
-        model.value().open_source = SourceOf(*line);
-        if (line->camera) options.camera = *line->camera;
+        model.value().open_source = SourceOf(line->run);
+        if (line->run.camera) options.camera = *line->run.camera;
     }
     options.window = context.window;
     options.title = a.path;
@@ -117,7 +110,7 @@ Status View(const Arguments& a, const CommandContext& context) {
 }  // namespace
 
 void AddViewCommand(CLI::App& app, CommandContext& context) {
-    auto a = std::make_shared<Arguments>();
+    auto a = std::make_shared<ViewRequest>();
     CLI::App* command = app.add_subcommand(
         "view", "Show a mesh or a run in a window, or choose there what to scan");
     command->add_option(

@@ -26,7 +26,7 @@ void TakeSource(const Json& json, RunRecord& record) {
     Take(json, "kind", record.source_kind);
     Take(json, "has_truth", record.has_truth);
     Take(json, "warnings", record.warnings);
-    RunRecord::Camera camera;
+    PinholeCamera camera{0, 0, 0, 0, 0, 0};
     const Json given = Child(json, "camera");
     Take(given, "width", camera.width);
     Take(given, "height", camera.height);
@@ -34,8 +34,21 @@ void TakeSource(const Json& json, RunRecord& record) {
     Take(given, "fy", camera.fy);
     Take(given, "cx", camera.cx);
     Take(given, "cy", camera.cy);
-    if (camera.width > 0 && camera.height > 0 && camera.fx > 0 && camera.fy > 0)
-        record.camera = camera;
+    if (CheckPlausible(camera).ok()) record.camera = camera;
+}
+
+// What the run found about its camera, as far as it was used.
+void TakeCorrections(const Json& json, RunRecord& record) {
+    const auto used = [&](const char* name) {
+        bool is_used = false;
+        const Json found = Child(json, name);
+        Take(found, "used", is_used);
+        return is_used ? found : Json::object();
+    };
+    Take(used("vignetting"), "share", record.vignetting);
+    const Json shift = used("colour_shift");
+    Take(shift, "x_px", record.colour_shift_px[0]);
+    Take(shift, "y_px", record.colour_shift_px[1]);
 }
 
 void TakeAte(const Json& json, RunRecord& record) {
@@ -55,6 +68,7 @@ RunRecord ToRecord(const Json& json) {
     Take(json, "exit", record.exit);
     Take(json, "command_line", record.command_line);
     TakeSource(Child(json, "source"), record);
+    TakeCorrections(json, record);
     TakeAte(Child(json, "ate"), record);
     const Json counts = Child(json, "counts"), configuration = Child(json, "configuration");
     for (const auto& [name, count] : counts.items())

@@ -1,21 +1,19 @@
 // run.json and timings.json of a run (docs/outputs.md lists their keys).
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "core/camera.h"
 #include "core/status.h"
 
 namespace tessera {
 
 struct RunRecord {
-    struct Camera {
-        int width = 0, height = 0;
-        double fx = 0, fy = 0, cx = 0, cy = 0;
-    };
     struct Ate {
         double rmse_m = 0, mean_m = 0, median_m = 0, max_m = 0;
         std::int64_t pairs = 0;
@@ -23,7 +21,9 @@ struct RunRecord {
 
     std::string version, exit;
     std::string source_name, source_kind;
-    std::optional<Camera> camera;
+    std::optional<PinholeCamera> camera;             // as used; empty if it is not plausible
+    double vignetting = 0;                           // as corrected; 0: not
+    std::array<double, 2> colour_shift_px = {0, 0};  // as corrected; right and down; 0: not
     bool has_truth = false;
     std::vector<std::string> command_line, warnings;
     std::vector<std::pair<std::string, std::int64_t>> counts;  // "frames", "tracked", "lost", ...

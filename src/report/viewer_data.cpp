@@ -101,7 +101,7 @@ std::string ViewerData(const ReportData& data, const TriangleMesh& mesh) {
                  {"objects", BoxesJson(data.objects)},
                  {"frames", FramesJson(data, begin_s)}};
     if (data.record && data.record->camera) {
-        const RunRecord::Camera& camera = *data.record->camera;
+        const PinholeCamera& camera = *data.record->camera;
         json["camera"] = {camera.width / camera.fx, camera.height / camera.fy};
     }
     Floats poses, tracked, truth;

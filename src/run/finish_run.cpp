@@ -2,21 +2,17 @@
 
 #include <cmath>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <unordered_map>
 
-#include "core/input_file.h"
 #include "export/level.h"
 #include "io/frame_reader.h"
 #include "run/open_source.h"
-#include "run/run_corrections.h"
+#include "run/run_source.h"
 #include "run/scanned.h"
 #include "scan/scan_source.h"
 
 namespace tessera {
 namespace {
-
-constexpr std::size_t kMostJsonBytes = std::size_t{1} << 24;
 
 struct Input {
     Scanned scanned;
@@ -31,41 +27,18 @@ Result<Input> FromScan(const std::string& path) {
     return Input{std::move(scanned.value()), std::move(frames.value())};
 }
 
-// The run's source, opened with the run's settings.
-Result<std::unique_ptr<FrameSource>> SourceOf(const std::string& folder, const std::string& name) {
-    const std::string file = folder + "/run.json";
-    const Result<std::string> text = ReadWholeFile(file, kMostJsonBytes);
-    if (!text.ok()) return text.status();
-    const nlohmann::json json = nlohmann::json::parse(text.value(), nullptr, false);
-    const nlohmann::json::json_pointer source_name("/source/name"), settings("/configuration");
-    if (!json.is_object() || !json.contains(source_name) || !json[source_name].is_string() ||
-        !json.contains(settings) || !json[settings].is_object())
-        return Status::Error(file + ": is no run.json of this program; repeat the run");
-    RunConfig config;
-    ConfigParameters parameters;
-    config.Describe(parameters);
-    for (const auto& [key, value] : json[settings].items())  // other versions' keys do not matter
-        if (key.starts_with("source.") || key.starts_with("synthetic."))
-            static_cast<void>(
-                parameters.Set(key, value.is_string() ? value.get<std::string>() : value.dump()));
-    UseCorrections(text.value(), config);
-    if (!name.empty()) return OpenSource(name, config);
-    const std::string source = json[source_name];
-    if (IsLiveSource(source))
-        return Status::Error(folder + ": its frames came from a camera (" + source +
-                             ") and are gone; scan with --scan FILE.scan, and finish this file");
-    Result<std::unique_ptr<FrameSource>> opened = OpenSource(source, config);
-    if (!opened.ok())
-        return Status::Error(opened.message() + "; if it has moved, name it with --source");
-    return opened;
-}
-
 Result<Input> FromRun(const std::string& folder, const std::string& source) {
     Result<Scanned> scanned = ReadRunFolder(folder);
     if (!scanned.ok()) return scanned.status();
-    Result<std::unique_ptr<FrameSource>> frames = SourceOf(folder, source);
-    if (!frames.ok()) return frames.status();
-    return Input{std::move(scanned.value()), std::move(frames.value())};
+    const Result<RunRecord> record = ReadRunRecord(folder + "/run.json");
+    if (!record.ok()) return record.status();
+    Result<std::unique_ptr<FrameSource>> frames = OpenSourceOf(record.value(), source);
+    if (frames.ok()) return Input{std::move(scanned.value()), std::move(frames.value())};
+    if (!source.empty()) return frames.status();
+    return Status::Error(folder + ": " + frames.message() + "; " +
+                         (IsLiveSource(record.value().source_name)
+                              ? "scan with --scan FILE.scan, and finish this file"
+                              : "if it has moved, name it with --source"));
 }
 
 // Poses by time stamp, in the microseconds of a trajectory file.

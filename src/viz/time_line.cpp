@@ -71,18 +71,6 @@ std::vector<TimeLineFrame> PosesAsFrames(const std::vector<std::vector<StampedPo
     return frames;
 }
 
-void TakeRecord(const std::string& folder, TimeLine& line) {
-    Result<RunRecord> record = ReadRunRecord(folder + "/run.json");
-    if (!record.ok()) return;
-    line.source = record.value().source_name;
-    line.configuration = std::move(record.value().configuration);
-    const auto& camera = record.value().camera;
-    if (!camera) return;
-    line.camera = PinholeCamera{camera->width, camera->height, camera->fx,
-                                camera->fy,    camera->cx,     camera->cy};
-    if (!CheckPlausible(*line.camera).ok()) line.camera.reset();
-}
-
 }  // namespace
 
 std::optional<TimeLine> ReadTimeLine(const std::string& folder) {
@@ -99,7 +87,8 @@ std::optional<TimeLine> ReadTimeLine(const std::string& folder) {
     if (!line.has_figures) line.frames = PosesAsFrames(paths);
     if (line.frames.size() < 2) return std::nullopt;
     AddTimes(line.frames);
-    TakeRecord(folder, line);
+    if (Result<RunRecord> run = ReadRunRecord(folder + "/run.json"); run.ok())
+        line.run = std::move(run.value());
     return line;
 }
 

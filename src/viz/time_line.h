@@ -4,13 +4,12 @@
 
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
-#include "core/camera.h"
 #include "core/se3.h"
 #include "core/status.h"
 #include "report/frames_table.h"
+#include "report/run_record.h"
 
 namespace tessera {
 
@@ -21,12 +20,9 @@ struct TimeLineFrame {
 };
 
 struct TimeLine {
-    std::vector<TimeLineFrame> frames;    // never empty
-    bool has_figures = false;             // there is a frames.csv
-    std::optional<PinholeCamera> camera;  // of the frames, if run.json tells
-    std::string source;                   // as given to the run; empty: unknown
-    // The run's configuration: keys and values, as run.json has them.
-    std::vector<std::pair<std::string, std::string>> configuration;
+    std::vector<TimeLineFrame> frames;  // never empty
+    bool has_figures = false;           // there is a frames.csv
+    RunRecord run;                      // run.json; all defaults where it is missing
 };
 
 // Of a run's folder. Without frames.csv, each pose is a frame. nullopt: the folder has no

@@ -9,7 +9,6 @@
 #include "io/image_io.h"
 #include "optimize/box_view.h"
 #include "optimize/painted_room.h"
-#include "run/run_corrections.h"
 #include "support/temp_folder.h"
 
 namespace tessera {
@@ -75,26 +74,6 @@ TEST(OpenCheckedSource, PutsColourBackOntoItsSurface) {
     ASSERT_TRUE(checked.ok()) << checked.message();
     EXPECT_FALSE(checked.value().colour);
     EXPECT_GT(PixelsBesideTheirSurface(*checked.value().source), 5 * perimeter_px);
-}
-
-TEST(UseCorrections, TakesWhatARunHasUsed) {
-    RunConfig config;
-    UseCorrections(R"({"source": {"camera": {"width": 64, "height": 48, "fx": 60, "fy": 61,
-                       "cx": 31, "cy": 23}}, "vignetting": {"used": true, "share": 0.2},
-                       "colour_shift": {"used": true, "x_px": 5.5, "y_px": -4}})",
-                   config);
-    EXPECT_EQ(config.source.camera, (PinholeCamera{64, 48, 60, 61, 31, 23}));
-    EXPECT_EQ(config.source.vignetting, 0.2);
-    EXPECT_EQ(config.source.colour_shift_px, Eigen::Vector2d(5.5, -4));
-    for (const char* text : {"", "[1]", R"({"source": {"camera": {"width": "a"}}})",
-                             R"({"vignetting": {"used": false, "share": 0.2}})",
-                             R"({"vignetting": 3, "colour_shift": {"used": 1, "x_px": 5}})"}) {
-        RunConfig same;
-        UseCorrections(text, same);
-        EXPECT_FALSE(same.source.camera);
-        EXPECT_EQ(same.source.vignetting, 0);
-        EXPECT_TRUE(same.source.colour_shift_px.isZero());
-    }
 }
 
 TEST(OpenCheckedSource, LeavesARightRegistrationAlone) {

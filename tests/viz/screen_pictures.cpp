@@ -89,7 +89,7 @@ Status TimeLinePicture(const Arguments& a, testing_support::VirtualDisplay& disp
     ViewerOptions options;
     options.width = a.width;
     options.height = a.height;
-    if (model.time_line->camera) options.camera = *model.time_line->camera;
+    if (model.time_line->run.camera) options.camera = *model.time_line->run.camera;
     auto viewer = Viewer::OpenModel(std::move(model), options);
     if (!viewer.ok()) return viewer.status();
     const Find find = [&](const std::string& name) { return viewer.value()->FindControl(name); };

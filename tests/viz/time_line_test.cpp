@@ -47,10 +47,10 @@ TEST_F(TimeLineFiles, FramesHaveTheirPosesAndFigures) {
     EXPECT_NEAR(line->frames[4].at_s, 0.4, 1e-6);
     ASSERT_TRUE(line->frames[7].T_world_camera);
     EXPECT_NEAR(line->frames[7].T_world_camera->translation().x(), 0.35, 1e-6);
-    ASSERT_TRUE(line->camera);
-    EXPECT_EQ(line->camera->width, 640);
-    EXPECT_EQ(line->source, "made up");
-    ASSERT_FALSE(line->configuration.empty());
+    ASSERT_TRUE(line->run.camera);
+    EXPECT_EQ(line->run.camera->width, 640);
+    EXPECT_EQ(line->run.source_name, "made up");
+    ASSERT_FALSE(line->run.configuration.empty());
 }
 
 TEST_F(TimeLineFiles, LostFramesHaveNoPose) {
@@ -69,7 +69,7 @@ TEST_F(TimeLineFiles, WithoutFramesThePosesAreTheFrames) {
     ASSERT_TRUE(line);
     EXPECT_EQ(line->frames.size(), 3u);
     EXPECT_FALSE(line->has_figures);
-    EXPECT_FALSE(line->camera);
+    EXPECT_FALSE(line->run.camera);
     EXPECT_DOUBLE_EQ(line->frames[2].at_s, 1);
     EXPECT_EQ(line->frames[2].row.index, 2);
 }
