@@ -13,15 +13,16 @@
 namespace tessera {
 
 struct OpenniCamera::Streams {
-    // Closed in reverse order: recorder, streams, device.
     openni::Device device;
     openni::VideoStream depth, colour;
     openni::Recorder recorder;
 
+    // The streams stop first: if an image arrives while the recorder is destroyed, the library may
+    // wait for itself for ever.
     ~Streams() {
-        recorder.destroy();
         for (openni::VideoStream* stream : {&depth, &colour})
             if (stream->isValid()) stream->stop();
+        recorder.destroy();
         depth.destroy();
         colour.destroy();
         device.close();
