@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """Checks the style rules of this project. Files over 250 lines give a warning, over 500 an error. Headers under src/
 must not include heavy third-party headers, so that rebuilds stay short and the library interfaces independent. Source
-files of one folder under src/ must not define constants of the same name, because unity builds compile them together,
-in batches that differ from build to build. C++ and
-CUDA must be formatted according to .clang-format. Only Debian 12's clang-format 14 is used, because other versions
-differ; if it is missing, the check is skipped with a warning.
+files of one folder under src/ or apps/ must not define constants of the same name, because unity builds compile them
+together, in batches that differ from build to build. C++ and CUDA must be formatted according to .clang-format. Only
+Debian 12's clang-format 14 is used, because other versions differ; if it is missing, the check is skipped with a
+warning.
 
 Usage: check_style.py [ROOT]   Prints one line per finding; exits with 1 on any error.
 """
@@ -90,7 +90,7 @@ def constant_findings(root):
     first = {}
     for path in files_of(root, {".cpp"}):
         where = path.relative_to(root)
-        if where.parts[0] != "src":
+        if where.parts[0] not in ("src", "apps"):
             continue
         for name in constants_of(path.read_text(encoding="utf-8")):
             other = first.setdefault((path.parent, name), where)

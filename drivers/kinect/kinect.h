@@ -4,6 +4,7 @@
 
 #include <Driver/OniDriverAPI.h>
 
+#include <atomic>
 #include <map>
 #include <memory>
 #include <mutex>

@@ -1,7 +1,8 @@
 // An OpenNI2 driver for the Kinects that OpenNI2's own drivers do not support. OpenNI2 loads it
 // from its folder of drivers; Tessera then sees these cameras as openni2:.
-#include <algorithm>
 #include <cstdio>
+#include <map>
+#include <string>
 
 #include "kinect/kinect.h"
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <iterator>
 #include <utility>
 
 namespace tessera::kinect {
@@ -73,7 +74,7 @@ void UsbThread::Run(const std::stop_token& stop) {
         next_look = now + kBetweenLooks;
         // Counting does not disturb a camera that runs; reading its serial number may.
         const bool same = Locked([this] { return freenect_num_devices(context_) == count_; });
-        if (!healthy || !same) LookForChanges();
+        if (!same) LookForChanges();
         // The error of a camera that was unplugged comes again and again until it is closed.
         if (!healthy) std::this_thread::sleep_for(std::chrono::microseconds(kWait_us));
     }

@@ -74,10 +74,15 @@ class Style(Tree):
                                    "void F() {\n    constexpr int kLocal = 1;\n}\n")
         self.write("src/io/b.cpp", "// constexpr int kOne = 1;\nvoid G() {\n    constexpr int kLocal = kTwo[0];\n}\n")
         self.write("src/core/c.cpp", "constexpr float kOne = 1;\n")
+        self.write("apps/c.cpp", "constexpr float kOne = 1;\n")
+        self.write("tests/io/d.cpp", "constexpr float kOne = 1;\n")
+        self.write("tests/io/e.cpp", "constexpr float kOne = 1;\n")
         self.assertEqual(list(check_style.constant_findings(self.root)), [])
         self.write("src/io/d.cpp", "constexpr int kTwo[1] = {1};\n\nconstexpr int kThree = 3;\n")
+        self.write("apps/d.cpp", "constexpr float kOne = 1;\n")
         self.assertEqual([text for _, text in check_style.constant_findings(self.root)],
-                         ["src/io/d.cpp: kTwo is also in a.cpp", "src/io/d.cpp: kThree is also in a.cpp"])
+                         ["src/io/d.cpp: kTwo is also in a.cpp", "src/io/d.cpp: kThree is also in a.cpp",
+                          "apps/d.cpp: kOne is also in c.cpp"])
 
 
 class Summary(Tree):
