@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/depth_noise.h"
+#include "core/quantile.h"
 
 namespace tessera {
 namespace {
@@ -123,9 +124,7 @@ void EstimateGain(const TriangleMesh& mesh, TextureView& view) {
     view.gain.setOnes();
     if (ratios[0].size() < kLeast) return;
     for (std::size_t c = 0; c < 3; ++c) {
-        const auto middle = ratios[c].begin() + static_cast<std::ptrdiff_t>(ratios[c].size() / 2);
-        std::nth_element(ratios[c].begin(), middle, ratios[c].end());
-        view.gain[static_cast<Eigen::Index>(c)] = *middle;
+        view.gain[static_cast<Eigen::Index>(c)] = Median(ratios[c]);
     }
 }
 

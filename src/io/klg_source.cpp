@@ -18,10 +18,10 @@ namespace fs = std::filesystem;
 Result<CameraCalibration> FindKlgCamera(const std::string& path, std::vector<std::string>& notes) {
     const fs::path file = fs::path(path).parent_path() / "camera.yaml";
     std::error_code ignored;
-    constexpr double kMillimetres = 1000;  // the unit of .klg logs
+    constexpr double kKlgDepthScale = 1000;
     if (fs::exists(file, ignored)) {
         Result<CameraCalibration> read = ReadCameraFile(file.string());
-        if (read.ok() && !read.value().depth_scale_given) read.value().depth_scale = kMillimetres;
+        if (read.ok() && !read.value().depth_scale_given) read.value().depth_scale = kKlgDepthScale;
         return read;
     }
     notes.push_back(
@@ -29,7 +29,7 @@ Result<CameraCalibration> FindKlgCamera(const std::string& path, std::vector<std
         "if this is a different camera");
     CameraCalibration calibration;
     calibration.pinhole = {.width = 640, .height = 480, .fx = 528, .fy = 528, .cx = 320, .cy = 240};
-    calibration.depth_scale = kMillimetres;
+    calibration.depth_scale = kKlgDepthScale;
     return calibration;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/quantile.h"
 #include "io/image_decoder.h"
 
 namespace tessera {
@@ -13,14 +14,6 @@ constexpr double kFieldOfView_rad = std::numbers::pi / 3;
 constexpr double kMillimetres = 1000, kTum = 5000;  // common stored depth values of one metre
 constexpr double kUsual_m = 1.5;                    // median depth of a room
 constexpr double kNearest_m = 0.3, kFarthest_m = 8;
-
-// Returns the median; 0 if there are no values.
-double MiddleValue(std::vector<std::uint16_t>& values) {
-    if (values.empty()) return 0;
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
 
 // TUM's files hold whole millimetres times five. Otherwise, choose the unit that makes the depth
 // more typical of a room.
@@ -62,7 +55,7 @@ Status AssumeCamera(FolderLayout& layout) {
     }
     if (camera.width == 0) return first;
     camera = NominalPinhole(camera.width, camera.height);
-    const double middle = MiddleValue(values), unit = UnitOf(values, middle);
+    const double middle = values.empty() ? 0 : Median(values), unit = UnitOf(values, middle);
     layout.calibration.pinhole = camera;
     layout.calibration.depth_scale = unit;
     layout.notes.push_back(

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/quantile.h"
 #include "optimize/pose_graph_residual.h"
 #include "optimize/pose_node.h"
 #include "optimize/solver_options.h"
@@ -129,8 +130,7 @@ double Solver::Rms_m() const {
           &residual);
         off_m.push_back(std::abs(residual) * p.sigma_m);
     }
-    std::ranges::nth_element(off_m, off_m.begin() + static_cast<std::ptrdiff_t>(off_m.size() / 2));
-    return 1.4826 * off_m[off_m.size() / 2];
+    return 1.4826 * Median(off_m);
 }
 
 Status Solve(ceres::Problem& problem) {

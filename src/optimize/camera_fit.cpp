@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/quantile.h"
+
 namespace tessera {
 namespace {
 
@@ -81,10 +83,8 @@ class Fit {
         for (const CameraPair& pair : pairs_)
             if (pair.usable) scales.push_back(pair.scale);
         if (scales.empty()) return;
-        const auto middle = scales.begin() + static_cast<std::ptrdiff_t>(scales.size() / 2);
-        std::nth_element(scales.begin(), middle, scales.end());
-        for (CameraPair& pair : pairs_)
-            pair.usable = pair.usable && pair.scale <= kWorstScale * *middle;
+        const double worst = kWorstScale * Median(scales);
+        for (CameraPair& pair : pairs_) pair.usable = pair.usable && pair.scale <= worst;
     }
 
     int usable() const {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/quantile.h"
 #include "optimize/bilinear.h"
 
 namespace tessera {
@@ -126,9 +127,7 @@ CameraPairSums SumPair(const CameraView& from, const CameraView& to, int level,
     }
     sums.hessian.triangularView<Eigen::Lower>() = sums.hessian.transpose();
     if (sizes.empty()) return sums;
-    const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-    std::nth_element(sizes.begin(), middle, sizes.end());
-    sums.scale = std::max(1.4826 * *middle, kLeastScale);
+    sums.scale = std::max(1.4826 * Median(sizes), kLeastScale);
     return sums;
 }
 

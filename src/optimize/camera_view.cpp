@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/quantile.h"
+
 namespace tessera {
 namespace {
 
@@ -92,19 +94,9 @@ std::uint8_t RegionOf(const Level& level, int x, int y, float du, float dv, floa
         upright);
 }
 
-float MiddleDepth(const DepthImage& depth_m) {
-    std::vector<float> known;
-    std::copy_if(depth_m.data(), depth_m.data() + depth_m.size(), std::back_inserter(known),
-                 [](float z) { return z > 0; });
-    if (known.empty()) return 0;
-    const auto middle = known.begin() + static_cast<std::ptrdiff_t>(known.size() / 2);
-    std::nth_element(known.begin(), middle, known.end());
-    return *middle;
-}
-
 void FindPoints(Level& level) {
     const Image<float>& image = level.intensity;
-    const float middle_m = MiddleDepth(level.depth_m);
+    const float middle_m = MedianDepth(level.depth_m);
     for (int y = 2; y < image.height() - 2; ++y)
         for (int x = 2; x < image.width() - 2; ++x) {
             const float du = 0.5f * (image(x + 1, y) - image(x - 1, y)),

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/quantile.h"
 #include "optimize/overlaps.h"
 
 namespace tessera {
@@ -38,16 +39,10 @@ std::vector<Matrix6d> TrackedFromTheFirst(const Keyframes& keyframes,
     return sums;
 }
 
-double UpperQuartile(std::vector<double> values) {
-    const auto at = values.begin() + static_cast<std::ptrdiff_t>(3 * values.size() / 4);
-    std::ranges::nth_element(values, at);
-    return *at;
-}
-
 double UpperQuartile(const std::vector<Difference>& differences, const CovarianceFactors& factors) {
     std::vector<double> squares;
     for (const Difference& difference : differences) squares.push_back(difference.Squared(factors));
-    return UpperQuartile(std::move(squares));
+    return Quantile(squares, 0.75);
 }
 
 // Sets `factor`, which is part of `factors`, to the least one, 1 or more, that explains three
@@ -76,7 +71,7 @@ std::optional<double> AlignedFactor(const Keyframes& keyframes) {
             if (overlap.T_with_this_tracked && !IsOlder(overlap, id))
                 squares.push_back(SquaredDifference(overlap));
     if (squares.size() < kFewest) return std::nullopt;
-    return std::max(1.0, UpperQuartile(squares) / kUpperQuartile);
+    return std::max(1.0, Quantile(squares, 0.75) / kUpperQuartile);
 }
 
 std::optional<CovarianceFactors> FindCovarianceFactors(const Keyframes& keyframes,

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <vector>
 
+#include "core/quantile.h"
 #include "optimize/bilinear.h"
 
 namespace tessera {
@@ -105,11 +106,8 @@ void AddOneWay(const DenseView::Level& from, const DenseView::Level& to,
 }
 
 // Robust standard deviation of absolute values.
-double ScaleOf(std::vector<float>& sizes) {
-    if (sizes.empty()) return 0;
-    const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-    std::nth_element(sizes.begin(), middle, sizes.end());
-    return 1.4826 * *middle;
+double ScaleOf(const std::vector<float>& sizes) {
+    return sizes.empty() ? 0 : 1.4826 * Median(sizes);
 }
 
 }  // namespace

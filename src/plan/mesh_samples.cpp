@@ -7,6 +7,8 @@
 #include <array>
 #include <cmath>
 
+#include "core/quantile.h"
+
 namespace tessera {
 namespace {
 
@@ -26,9 +28,7 @@ Eigen::Vector3f MiddleOf(const TriangleMesh& mesh) {
         for (std::size_t i = 0; i < mesh.vertices.size(); i += step)
             if (mesh.vertices[i].allFinite()) values.push_back(mesh.vertices[i][axis]);
         if (values.empty()) return middle;
-        const auto half = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-        std::nth_element(values.begin(), half, values.end());
-        middle[axis] = *half;
+        middle[axis] = Median(values);
     }
     return middle;
 }

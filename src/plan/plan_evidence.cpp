@@ -4,6 +4,8 @@
 #include <cmath>
 #include <map>
 
+#include "core/quantile.h"
+
 namespace tessera {
 namespace {
 
@@ -44,9 +46,7 @@ double TopOf(const std::vector<UprightPoint>& points) {
     if (points.empty()) return 0;
     std::vector<float> heights;
     for (const UprightPoint& point : points) heights.push_back(point.height_m);
-    const auto at = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() * 99 / 100);
-    std::nth_element(heights.begin(), at, heights.end());
-    return static_cast<double>(*at);
+    return static_cast<double>(Quantile(heights, 0.99));
 }
 
 }  // namespace

@@ -9,6 +9,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "core/quantile.h"
+
 namespace tessera {
 namespace {
 
@@ -80,9 +82,7 @@ std::array<double, 4> R3dIntrinsics(const R3dNumbers& numbers) {
     for (std::size_t i = 0; i < 4; ++i) {
         std::vector<double> values;
         for (std::size_t at = i; at < frames.size(); at += 4) values.push_back(frames[at]);
-        const auto middle = values.begin() + std::ssize(values) / 2;
-        std::ranges::nth_element(values, middle);
-        medians[i] = *middle;
+        medians[i] = Median(values);
     }
     return medians;
 }

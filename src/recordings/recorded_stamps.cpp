@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/quantile.h"
+
 namespace tessera {
 
 std::vector<RecordedPair> EvenlyStamped(std::size_t count, double fps) {
@@ -26,9 +28,7 @@ double MedianFps(std::span<const RecordedPair> pairs, double otherwise) {
     gaps_s.reserve(pairs.size());
     for (std::size_t i = 1; i < pairs.size(); ++i)
         gaps_s.push_back(pairs[i].depth_stamp_s - pairs[i - 1].depth_stamp_s);
-    const auto middle = gaps_s.begin() + std::ssize(gaps_s) / 2;
-    std::ranges::nth_element(gaps_s, middle);
-    return 1 / *middle;
+    return 1 / Median(gaps_s);
 }
 
 }  // namespace tessera

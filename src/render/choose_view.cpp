@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/quantile.h"
 #include "render/mesh_picture.h"
 
 namespace tessera {
@@ -57,13 +58,6 @@ Outlook OutlookOfSurface(const TriangleMesh& mesh) {
     }
     const Vector3d up = faces_up > 0 ? Vector3d(Vector3d::UnitZ()) : Vector3d(-Vector3d::UnitY());
     return {up, mean.norm() > 0 ? FromAbove(-mean, up) : FromAbove(up.unitOrthogonal(), up)};
-}
-
-double Quantile(std::vector<double> values, double share) {
-    const auto nth = values.begin() +
-                     static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-    std::nth_element(values.begin(), nth, values.end());
-    return *nth;
 }
 
 // Points in the camera's axes, relative to the world's origin.

@@ -8,18 +8,14 @@
 #include <opencv2/imgproc.hpp>
 #include <set>
 
+#include "core/quantile.h"
+
 namespace tessera {
 namespace {
 
 constexpr std::size_t kLeastCorners = 8;
 constexpr int kCells = 5;  // in a row of the coverage
 constexpr int kUnknowns = 9;
-
-double MedianOf(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::ranges::nth_element(values, middle);
-    return *middle;
-}
 
 cv::Point2f ToCv(const Eigen::Vector2d& p) {
     return {static_cast<float>(p.x()), static_cast<float>(p.y())};
@@ -57,7 +53,7 @@ struct CameraCalibrator::Poses {
     bool DropOutliers() {
         constexpr double kOutlier = 3;
         std::vector<double> all(errors.begin<double>(), errors.end<double>());
-        const double most = kOutlier * MedianOf(all);
+        const double most = kOutlier * Median(all);
         std::vector<std::size_t> kept;
         for (std::size_t i = 0; i < used.size(); ++i)
             if (all[i] <= most) kept.push_back(used[i]);
@@ -184,15 +180,15 @@ void CameraCalibrator::FindDepthFactor(const Poses& poses, CalibrationResult& re
         for (std::size_t s = 0; s < samples.size(); ++s)
             ratios.push_back(distance / normal.dot(Eigen::Vector3d(rays[s].x, rays[s].y, 1)) /
                              samples[s].z_m);
-        factors.push_back(MedianOf(std::move(ratios)));
+        factors.push_back(Median(ratios));
     }
     if (factors.size() < kLeastViews) return;
-    result.depth_factor = MedianOf(factors);
+    result.depth_factor = Median(factors);
     std::vector<double> deviations;
     for (const double factor : factors)
         deviations.push_back(std::abs(factor - *result.depth_factor));
     constexpr double kSigmaOfMad = 1.4826, kMedianLoss = 1.2533;
-    const double of_mean = kSigmaOfMad * kMedianLoss * MedianOf(deviations) /
+    const double of_mean = kSigmaOfMad * kMedianLoss * Median(deviations) /
                            std::sqrt(static_cast<double>(factors.size()));
     // A focal length that is 1 % too long puts the board 1 % too far away.
     result.depth_factor_sigma =

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "core/quantile.h"
+
 namespace tessera {
 namespace {
 
@@ -11,12 +13,6 @@ constexpr int kColumns = 640, kApart = 12;  // pixels between two of the three, 
 constexpr int kEvery = 3;                   // rows and columns that are looked at
 // Median of |x| for a normal x of variance 6: that of a - 2 b + c, each of variance 1.
 const double kMedianOfThree = 0.6745 * std::sqrt(6.0);
-
-float Median(std::vector<float>& values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
 
 }  // namespace
 

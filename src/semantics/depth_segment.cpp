@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/quantile.h"
 #include "semantics/ring_planes.h"
 
 namespace tessera {
@@ -116,13 +117,6 @@ class Pieces {
     std::vector<std::pair<int, int>> stack_;
 };
 
-float Quantile(std::vector<float> values, float share) {
-    const auto at =
-        values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<float>(values.size() - 1));
-    std::nth_element(values.begin(), at, values.end());
-    return *at;
-}
-
 float InsideShare(const Piece& piece) {
     return static_cast<float>(piece.inside) /
            static_cast<float>(std::max(1, piece.inside + piece.outside));
@@ -139,13 +133,13 @@ std::vector<std::uint8_t> ChoosePieces(const std::vector<Piece>& pieces, float w
         if (score > best) best = score, main = i;
     }
     if (best <= 0) return chosen;
-    const float around_m = std::max(
-        kSameDepth_m, kDepthShare * width_per_depth * Quantile(pieces[main].depths_m, 0.5f));
-    const float near_m = Quantile(pieces[main].depths_m, 0.05f) - around_m;
-    const float far_m = Quantile(pieces[main].depths_m, 0.95f) + around_m;
+    const float around_m =
+        std::max(kSameDepth_m, kDepthShare * width_per_depth * Median(pieces[main].depths_m));
+    const float near_m = Quantile(pieces[main].depths_m, 0.05) - around_m;
+    const float far_m = Quantile(pieces[main].depths_m, 0.95) + around_m;
     for (std::size_t i = 0; i < pieces.size(); ++i) {
         if (pieces[i].inside == 0) continue;
-        const float middle_m = Quantile(pieces[i].depths_m, 0.5f);
+        const float middle_m = Median(pieces[i].depths_m);
         chosen[i + 1] = i == main || (InsideShare(pieces[i]) >= kInsideShare && middle_m > near_m &&
                                       middle_m < far_m);
     }

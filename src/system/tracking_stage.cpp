@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "core/quantile.h"
 #include "core/stopwatch.h"
 
 namespace tessera {
@@ -15,17 +16,6 @@ Integrator::View FusionView(const TrackResult& track) {
             .motion = track.motion,
             .gain = static_cast<float>(track.gain),
             .offset = static_cast<float>(track.offset)};
-}
-
-// Returns 0 without depth.
-double MedianDepth(const DepthImage& depth_m) {
-    std::vector<float> depths;
-    for (std::size_t i = 0; i < depth_m.size(); ++i)
-        if (depth_m.data()[i] > 0) depths.push_back(depth_m.data()[i]);
-    if (depths.empty()) return 0;
-    const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
-    std::nth_element(depths.begin(), middle, depths.end());
-    return *middle;
 }
 
 }  // namespace
@@ -209,7 +199,7 @@ TrackResult TrackingStage::TrackFrame(const Frame& frame, const PreparedFrame& p
 // median depth get no extra weight, unless the pose is so uncertain that it needs them.
 double TrackingStage::MinWeightDepth(const PreparedFrame& prepared) const {
     if (motion_.doubt().uncertainty_m > config_.trackers.even_within_m) return kMinWeightDepth_m;
-    return std::max(kMinWeightDepth_m, MedianDepth(prepared.reduced.front().depth_m));
+    return std::max<double>(kMinWeightDepth_m, MedianDepth(prepared.reduced.front().depth_m));
 }
 
 FrameMotion TrackingStage::FrameMotionOf(const Frame& frame) const {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "core/quantile.h"
+
 namespace tessera {
 namespace {
 
@@ -32,9 +34,7 @@ DepthShares SharesOf(const DepthImage& depth_m, double max_depth_m) {
     shares.valid = static_cast<double>(valid.size()) / static_cast<double>(all);
     shares.too_far = static_cast<double>(too_far) / static_cast<double>(all);
     if (valid.empty()) return shares;
-    const auto middle = valid.begin() + static_cast<std::ptrdiff_t>(valid.size() / 2);
-    std::nth_element(valid.begin(), middle, valid.end());
-    shares.median_m = *middle;
+    shares.median_m = Median(valid);
     return shares;
 }
 

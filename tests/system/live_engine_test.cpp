@@ -70,8 +70,12 @@ TEST_F(Live, SlowMappingLeavesFramesUnfusedAndTracksThem) {
         fused += o.report.fused;
         EXPECT_TRUE(o.report.tracked()) << o.report.track.reason;
         EXPECT_LT(Error_m(o.report, 0.3), 0.01) << "frame " << o.report.index;
-        for (const auto& [name, waiting] : o.queues)
-            EXPECT_LE(waiting, std::string_view(name) == "to tracking" ? 45u : 8u) << name;
+        for (const auto& [name, waiting] : o.queues) {
+            // A job of the loops is little more than a pose; few of them keep images (KeptOneIn).
+            const bool few =
+                name == std::string("to mapping") || name == std::string("to recorder");
+            EXPECT_LE(waiting, few ? 8u : 45u) << name;
+        }
     }
     EXPECT_EQ(Count(Kind::kFrame), 45);
     EXPECT_GT(unfused, 10);
