@@ -4,7 +4,9 @@
 #include <cmath>
 
 #include "core/depth_noise.h"
+#include "optimize/bilinear.h"
 #include "optimize/camera_view.h"
+#include "optimize/colour_time.h"
 
 namespace tessera {
 namespace {
@@ -44,6 +46,23 @@ Cell CellAt(const DepthImage& depth_m, const Image<float>& intensity, int n, int
         for (int i = n * x; i < n * x + n; ++i)
             cell.Add(depth_m(i, j), intensity.empty() ? -1.0f : intensity(i, j));
     return cell;
+}
+
+// Adds the intensities of the cell's surface. Returns false if it is not in the colour image.
+bool AddColour(const Image<float>& intensity, const PinholeCamera& camera,
+               const FrameMotion& motion, int n, int x, int y, Cell& cell) {
+    const Eigen::Vector2d centre(n * x + 0.5 * (n - 1), n * y + 0.5 * (n - 1));
+    const Eigen::Vector2d shift =
+        ColourPixel(camera, motion, centre,
+                    cell.known > 0 ? cell.sum / static_cast<float>(cell.known) : 0) -
+        centre;
+    const double left = n * x + shift.x(), top = n * y + shift.y();
+    if (!(left >= 0 && top >= 0 && left + n < intensity.width() && top + n < intensity.height()))
+        return false;
+    for (int j = 0; j < n; ++j)
+        for (int i = 0; i < n; ++i)
+            cell.Add(0, static_cast<float>(SampleBilinear(intensity, left + i, top + j).value));
+    return true;
 }
 
 DenseView::Level Halved(const DenseView::Level& fine) {
@@ -98,16 +117,20 @@ void FindPoints(DenseView::Level& level, int step) {
 
 }  // namespace
 
-ReducedView MakeReducedView(const PreparedFrame& frame) {
+ReducedView MakeReducedView(const PreparedFrame& frame, const PinholeCamera& camera,
+                            const FrameMotion& motion) {
     ReducedView view;
     const int n = std::max(1, (frame.width + ReducedView::kColumns / 2) / ReducedView::kColumns);
     view.reduction = n;
     view.depth.Resize(frame.width / n, frame.height / n);
     if (frame.has_colour) view.luma.Resize(view.depth.width(), view.depth.height());
+    const bool moves = frame.has_colour && !motion.twist_per_s.isZero();
+    const Image<float> none;
     for (int y = 0; y < view.depth.height(); ++y)
         for (int x = 0; x < view.depth.width(); ++x) {
-            const Cell cell = CellAt(frame.depth_m, frame.intensity, n, x, y);
-            const float units = cell.depth_m((n * n + 1) / 2) * ReducedView::kUnitsPerM;
+            Cell cell = CellAt(frame.depth_m, moves ? none : frame.intensity, n, x, y);
+            float units = cell.depth_m((n * n + 1) / 2) * ReducedView::kUnitsPerM;
+            if (moves && !AddColour(frame.intensity, camera, motion, n, x, y, cell)) units = 0;
             view.depth(x, y) = static_cast<std::uint16_t>(units < 65535 ? std::lround(units) : 0);
             if (frame.has_colour)
                 view.luma(x, y) = static_cast<std::uint8_t>(

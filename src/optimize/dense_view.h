@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/camera.h"
+#include "core/frame_motion.h"
 #include "core/image.h"
 #include "mapping/prepared_frame.h"
 
@@ -25,8 +26,11 @@ struct ReducedView {
     bool empty() const { return depth.empty(); }
 };
 
+// `camera`: of the frame. Each depth gets the intensity of its own surface, whose place in the
+// colour image follows from `motion`; where that is outside the image, there is no depth.
 // Thread-safe.
-ReducedView MakeReducedView(const PreparedFrame& frame);
+ReducedView MakeReducedView(const PreparedFrame& frame, const PinholeCamera& camera,
+                            const FrameMotion& motion);
 
 // A point of a view, with its surface normal and its intensity.
 struct ViewPoint {

@@ -41,8 +41,8 @@ struct Keyframe {
     DepthImage depth_m;  // reduced, with camera `view`
     PinholeCamera view;
     ReducedView reduced;
-    // Standard deviation of the camera's motion while the rows of its frame were read, which an
-    // alignment of the views takes for one pose; 0 for a global shutter.
+    // Standard deviation of the camera's motion while the rows of its frame were read; 0 for a
+    // global shutter. Colour is put right for it (MakeReducedView), the rows of depth are not.
     double skew_m = 0, skew_rad = 0;
     std::vector<Overlap> overlaps;  // with earlier keyframes
     double path_length_m = 0,

@@ -63,7 +63,7 @@ Keyframe& Keyframes::Add(std::int64_t frame_index, double stamp_s, const Prepare
     next.features = ExtractFeatures(frame, camera_, max_features_);
     next.view = camera_.Every(kKeyframeReduction);
     next.depth_m = ReducedDepth(frame.depth_m, kKeyframeReduction);
-    next.reduced = MakeReducedView(frame);
+    next.reduced = MakeReducedView(frame, camera_, motion);
     // Rows are spread evenly over the read-out.
     const double spread_s =
         std::max(motion.depth_readout_s, motion.colour_readout_s) / std::sqrt(12.0);

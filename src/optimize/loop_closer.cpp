@@ -60,7 +60,8 @@ void LoopCloser::MakeMissingViews() {
         if (!stored.is_keyframe || !keyframes_[stored.keyframe].reduced.empty()) continue;
         if (store_.LoadPrepared(stored, settings_.camera, settings_.preparation, frame, prepared)
                 .ok())
-            keyframes_[stored.keyframe].reduced = MakeReducedView(prepared);
+            keyframes_[stored.keyframe].reduced =
+                MakeReducedView(prepared, settings_.camera, stored.view.motion);
     }
 }
 

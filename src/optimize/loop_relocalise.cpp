@@ -27,7 +27,8 @@ std::vector<LoopCloser::Place> LoopCloser::PlacesOf(const PreparedFrame& frame) 
     // Factor compared with a loop: no prior pose narrows down the search.
     constexpr int kManyCandidates = 4;
     const Features features = ExtractFeatures(frame, settings_.camera, config_.max_features);
-    const DenseView view = MakeDenseView(MakeReducedView(frame), settings_.camera);
+    const DenseView view =
+        MakeDenseView(MakeReducedView(frame, settings_.camera, {}), settings_.camera);
     std::vector<Place> places;
     for (const auto& candidate :
          index_.Query(features.descriptors, keyframes_.size(), kManyCandidates * config_.candidates,
