@@ -85,7 +85,9 @@ TEST_P(ScanLoops, KeyframesFramesAndLoopsComeBackAndALostCameraIsFoundByThem) {
     ASSERT_TRUE(early.ok()) << early.message();
     EXPECT_GT(early.value().path.size(), 10u);
     EXPECT_GT(early.value().keyframes.size(), 1u);
-    EXPECT_GT(early.value().frames.size(), 5u);
+    // Each keyframe's frame is stored. In live mode a slow machine stores few others.
+    EXPECT_GE(early.value().frames.size(),
+              GetParam() ? early.value().keyframes.size() : std::size_t{6});
     for (const PathRecord& record : early.value().path)
         EXPECT_TRUE(record.tracked()) << record.index;
     const std::vector<StampedPose> before = corrected;
@@ -98,7 +100,8 @@ TEST_P(ScanLoops, KeyframesFramesAndLoopsComeBackAndALostCameraIsFoundByThem) {
     float weight = 0;  // every frame is there, alone or in an average
     for (const FrameRecord& frame : scan.value().frames) weight += frame.stored.view.weight;
     EXPECT_TRUE(GetParam() ? weight <= 60 : weight == 60) << weight;
-    EXPECT_GT(scan.value().frames.size(), 20u);
+    EXPECT_GE(scan.value().frames.size(),
+              GetParam() ? scan.value().keyframes.size() : std::size_t{21});
     const std::vector<StampedPose> stored = scan.value().Path();
     ASSERT_EQ(stored.size(), before.size());
     for (std::size_t i = 0; i < stored.size(); ++i)
