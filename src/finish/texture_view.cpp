@@ -123,9 +123,7 @@ void EstimateGain(const TriangleMesh& mesh, TextureView& view) {
     }
     view.gain.setOnes();
     if (ratios[0].size() < kLeast) return;
-    for (std::size_t c = 0; c < 3; ++c) {
-        view.gain[static_cast<Eigen::Index>(c)] = Median(ratios[c]);
-    }
+    for (std::size_t c = 0; c < 3; ++c) view.gain[static_cast<Eigen::Index>(c)] = Median(ratios[c]);
 }
 
 double Sharpness(const ColourImage& image) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/quantile.h"
 #include "optimize/bilinear.h"
@@ -127,7 +128,7 @@ CameraPairSums SumPair(const CameraView& from, const CameraView& to, int level,
     }
     sums.hessian.triangularView<Eigen::Lower>() = sums.hessian.transpose();
     if (sizes.empty()) return sums;
-    sums.scale = std::max(1.4826 * Median(sizes), kLeastScale);
+    sums.scale = std::max(1.4826 * Median(std::move(sizes)), kLeastScale);
     return sums;
 }
 

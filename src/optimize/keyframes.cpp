@@ -64,7 +64,7 @@ Keyframe& Keyframes::Add(std::int64_t frame_index, double stamp_s, const Prepare
     next.view = camera_.Every(kKeyframeReduction);
     next.depth_m = ReducedDepth(frame.depth_m, kKeyframeReduction);
     next.reduced = MakeReducedView(frame, camera_, motion);
-    // Rows are spread evenly over the read-out.
+    // Rows are spread evenly over the read-out. Depth's is seldom known: colour's stands for it.
     const double spread_s =
         std::max(motion.depth_readout_s, motion.colour_readout_s) / std::sqrt(12.0);
     next.skew_rad = spread_s * motion.twist_per_s.head<3>().norm();

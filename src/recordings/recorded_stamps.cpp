@@ -1,6 +1,5 @@
 #include "recordings/recorded_stamps.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "core/quantile.h"

@@ -1,6 +1,5 @@
 #include "viz/scan_hints.h"
 
-#include <algorithm>
 #include <vector>
 
 #include "core/quantile.h"

@@ -166,7 +166,7 @@ TEST(ReducedView, ColourIsThatOfTheSurfaceWhenItsDepthWasMeasured) {
         const PreparedFrame frame = FrameOf(T, scene, Paint, motion);
         const ReducedView moved = MakeReducedView(frame, kViewCamera, motion),
                           ignored = MakeReducedView(frame, kViewCamera, {});
-        // Away from the ball's edge, behind which another surface was seen.
+        // A few are off: at the ball's edge, colour shows another surface than depth.
         int pixels = 0, outside = 0, off = 0, ignored_off = 0;
         for (std::size_t i = 0; i < still.depth.size(); ++i) {
             const auto difference = [&](const ReducedView& view) {

@@ -122,6 +122,8 @@ TEST(LoopThreadQueue, KeepsFewerFramesTheMoreWait) {
         covered += LoopThread::KeptOneIn(waiting);
     EXPECT_EQ(LoopThread::KeptOneIn(7), 1);
     EXPECT_EQ(LoopThread::KeptOneIn(8), 2);
+    EXPECT_EQ(LoopThread::KeptOneIn(15), 16);
+    EXPECT_EQ(LoopThread::KeptOneIn(16), 0);  // no more than sixteen keep their images
     EXPECT_GE(covered, 60);
 }
 

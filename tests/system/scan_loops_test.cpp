@@ -23,10 +23,10 @@ std::string FileBytes(const std::string& path) {
 class ScanLoops : public testing::TestWithParam<bool> {
   protected:
     ScanLoops() {
-        // Overload is not tested here: no frame is dropped and all are fused, even on a slow
-        // machine.
+        // Overload is not tested here: no frame is dropped, all are fused, and the thread that
+        // closes loops keeps up, even on a machine that is busy with other work.
         config.live.queue_frames = 100;
-        config.live.playback_speed = 0.3;
+        config.live.playback_speed = 0.1;
         config.loops.enabled = true;
         config.pipeline.map = {.voxel_size_m = 0.02, .truncation_m = 0.08};
         config.pipeline.trackers.sdf.finest_step_px = 1;
@@ -51,12 +51,10 @@ class ScanLoops : public testing::TestWithParam<bool> {
             engine = std::make_unique<LockstepEngine>(std::move(input));
         FrameOutcome outcome;
         std::vector<FrameReport> reports;
-        int tracked_frames = 0;
         while (engine->Next(outcome)) {
             if (outcome.kind != FrameOutcome::Kind::kFrame) continue;
             reports.push_back(outcome.report);
-            tracked_frames += outcome.report.tracked();
-            if (tracked_frames == stop_after_tracked) stop.store(true);
+            if (stop_when_tracked && outcome.report.tracked()) stop.store(true);
             if (reports.size() == look_after) early = ReadScan(path, {.map = true, .frames = true});
         }
         EXPECT_TRUE(engine->status().ok()) << engine->status().message();
@@ -67,7 +65,7 @@ class ScanLoops : public testing::TestWithParam<bool> {
 
     RunConfig config;
     std::atomic<bool> stop{false};
-    int stop_after_tracked = -1;  // frames
+    bool stop_when_tracked = false;
     TempFolder folder;
     std::string path = folder / "a.scan";
     std::vector<StampedPose> corrected;
@@ -85,9 +83,7 @@ TEST_P(ScanLoops, KeyframesFramesAndLoopsComeBackAndALostCameraIsFoundByThem) {
     ASSERT_TRUE(early.ok()) << early.message();
     EXPECT_GT(early.value().path.size(), 10u);
     EXPECT_GT(early.value().keyframes.size(), 1u);
-    // Each keyframe's frame is stored. In live mode a slow machine stores few others.
-    EXPECT_GE(early.value().frames.size(),
-              GetParam() ? early.value().keyframes.size() : std::size_t{6});
+    EXPECT_GT(early.value().frames.size(), 5u);
     for (const PathRecord& record : early.value().path)
         EXPECT_TRUE(record.tracked()) << record.index;
     const std::vector<StampedPose> before = corrected;
@@ -100,8 +96,7 @@ TEST_P(ScanLoops, KeyframesFramesAndLoopsComeBackAndALostCameraIsFoundByThem) {
     float weight = 0;  // every frame is there, alone or in an average
     for (const FrameRecord& frame : scan.value().frames) weight += frame.stored.view.weight;
     EXPECT_TRUE(GetParam() ? weight <= 60 : weight == 60) << weight;
-    EXPECT_GE(scan.value().frames.size(),
-              GetParam() ? scan.value().keyframes.size() : std::size_t{21});
+    EXPECT_GT(scan.value().frames.size(), 20u);
     const std::vector<StampedPose> stored = scan.value().Path();
     ASSERT_EQ(stored.size(), before.size());
     for (std::size_t i = 0; i < stored.size(); ++i)
@@ -111,7 +106,7 @@ TEST_P(ScanLoops, KeyframesFramesAndLoopsComeBackAndALostCameraIsFoundByThem) {
     // stored the images of later frames.
     const std::vector<Frame> again =
         GetParam() ? std::vector<Frame>(300, RoomWalk(2, 1, 1).front()) : RoomWalk(21, 10, 1);
-    if (GetParam()) stop_after_tracked = 1;
+    stop_when_tracked = GetParam();
     const std::vector<FrameReport> reports = Run(again, 12, Use::kResume);
     if (!GetParam()) {
         ASSERT_EQ(reports.size(), again.size());
@@ -150,14 +145,9 @@ TEST_P(ScanLoops, LocalisedOnlyTheCameraIsTrackedAndTheScanStaysByteForByte) {
     const std::string before = FileBytes(path);
     const BlockId blocks = ReadScan(path, {}).value().map->size();
     // Its clock is earlier, it begins in the middle, and it turns far enough to confirm the place.
-    // In live mode it stands still near the first keyframe, as above.
-    const std::vector<Frame> again =
-        GetParam() ? std::vector<Frame>(300, RoomWalk(2, 1, 1).front()) : RoomWalk(31, 45, 3);
-    if (GetParam()) stop_after_tracked = 5;
+    const std::vector<Frame> again = RoomWalk(31, 45, 3);
     const std::vector<FrameReport> reports = Run(again, -50, Use::kLocalise);
-    if (!GetParam()) {
-        ASSERT_EQ(reports.size(), again.size());
-    }
+    ASSERT_EQ(reports.size(), again.size());
     int tracked = 0;
     for (std::size_t i = 0; i < reports.size(); ++i) {
         EXPECT_FALSE(reports[i].fused);
@@ -167,7 +157,7 @@ TEST_P(ScanLoops, LocalisedOnlyTheCameraIsTrackedAndTheScanStaysByteForByte) {
             again[i].T_world_camera->inverse() * reports[i].track.T_world_camera;
         EXPECT_LT(off.translation().norm(), 0.02) << i;
     }
-    EXPECT_GE(tracked, GetParam() ? 5 : 30);
+    EXPECT_GE(tracked, GetParam() ? 5 : 30);  // live, the answer takes a moment
     EXPECT_EQ(map_blocks, blocks - 1);
     EXPECT_TRUE(corrected.empty());
     EXPECT_EQ(FileBytes(path), before);
