@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <sstream>
 
+#include "core/frame.h"
 #include "core/input_file.h"
 #include "io/folder_truth.h"
 #include "io/image_lists.h"
@@ -135,11 +136,11 @@ Result<std::optional<CameraCalibration>> FindCamera(const fs::path& folder,
 }
 
 Result<ImagePairs> ReadPairs(const fs::path& folder, Layout layout, double fps,
-                             double max_pair_gap_s) {
+                             double max_pair_gap_s, double colour_delay_s) {
     switch (layout) {
         case Layout::kLists:
             return ReadImageLists((folder / "depth.txt").string(), (folder / "rgb.txt").string(),
-                                  max_pair_gap_s);
+                                  max_pair_gap_s, colour_delay_s);
         case Layout::kAssociations: return ReadAssociations((folder / "associations.txt").string());
         case Layout::kSevenScenes: return ReadSevenScenesNames(folder.string(), fps);
         case Layout::kNamedImages: break;
@@ -209,7 +210,8 @@ std::string Characterise(const fs::path& folder, Layout layout, FolderLayout& re
 
 }  // namespace
 
-Result<FolderLayout> ReadFolderLayout(const std::string& path, double max_pair_gap_s) {
+Result<FolderLayout> ReadFolderLayout(const std::string& path, double max_pair_gap_s,
+                                      double colour_delay_s) {
     if (Status status = CheckFolder(path); !status.ok()) return status;
     const fs::path folder(path);
     const Result<Layout> layout = RecogniseLayout(folder);
@@ -227,13 +229,20 @@ Result<FolderLayout> ReadFolderLayout(const std::string& path, double max_pair_g
         result.notes.push_back(
             "7-Scenes: colour is registered to depth by the calibration of another Kinect");
 
-    const auto images = ReadPairs(folder, layout.value(), result.calibration.fps, max_pair_gap_s);
+    auto images =
+        ReadPairs(folder, layout.value(), result.calibration.fps, max_pair_gap_s, colour_delay_s);
     if (!images.ok()) return images.status();
-    const ImagePairs& found = images.value();
+    ImagePairs& found = images.value();
+    const bool numbered = StampsAreFrameNumbers(found.pairs);
+    if (!numbered) {
+        result.colour_delay_s = colour_delay_s;
+        for (ImagePair& pair : found.pairs)
+            CorrectStamps(colour_delay_s, pair.depth_stamp_s, pair.colour_stamp_s);
+    }
     result.notes.insert(result.notes.end(), found.notes.begin(), found.notes.end());
     if (Status status = AddFrames(folder, found.pairs, result); !status.ok()) return status;
-    if (!StampsAreFrameNumbers(found.pairs)) WarnOfStamps(found, result.warnings);
-    AddTruth(path, StampsAreFrameNumbers(found.pairs), result);
+    if (!numbered) WarnOfStamps(found, result.warnings);
+    AddTruth(path, numbered, result);
     return result;
 }
 

@@ -25,6 +25,7 @@ struct FolderLayout {
     bool camera_known = true;
     bool registration_known = true;   // false: the colour camera's place is another device's
     std::uint16_t invalid_depth = 0;  // a stored value that means "no measurement", besides 0
+    double colour_delay_s = 0;        // by which the frames' stamps are corrected
     std::vector<FolderFrame> frames;  // strictly increasing depth stamps, at least one
     std::vector<std::string> notes;   // things the user should know
     // Signs that the recording is not read as it was meant.
@@ -44,7 +45,10 @@ struct FolderLayout {
 // values, identified by the folder's name (freiburg1, 2, 3), by the bag name in the first two lines
 // of rgb.txt, or by the layout; otherwise unknown (nominal_camera.h). Ground truth:
 // groundtruth.txt, or the layout's own. Unusable ground truth is reported in the notes. So are
-// files that the lists name but that are missing; if all are missing, that is an error.
-Result<FolderLayout> ReadFolderLayout(const std::string& folder, double max_pair_gap_s);
+// files that the lists name but that are missing; if all are missing, that is an error. Time stamps
+// are corrected by `colour_delay_s` (frame.h) before images are paired, unless they are frame
+// numbers.
+Result<FolderLayout> ReadFolderLayout(const std::string& folder, double max_pair_gap_s,
+                                      double colour_delay_s = 0);
 
 }  // namespace tessera

@@ -45,6 +45,7 @@ class FolderSource : public FrameSource {
         frame.index = static_cast<std::int64_t>(index);
         frame.stamp_s = listed.depth_stamp_s;
         frame.colour_stamp_s = listed.colour_stamp_s;
+        frame.colour_delay_s = layout_.colour_delay_s;
         frame.T_world_camera = listed.T_world_camera;
         rectifier_.Fill(depth_, colour_, frame);
         return {};
@@ -121,6 +122,9 @@ void FolderSourceConfig::Describe(ConfigParameters& p) {
         "depth_scale", depth_scale, {0.0, 1e6}, "",
         "stored depth value that corresponds to one metre; 0 takes it from the camera file; set it "
         "if depths come out too long or too short");
+    p.Add("colour_delay_s", colour_delay_s, {-0.1, 0.1}, "s",
+          "how much later than its time stamps say colour was taken, seen from depth; "
+          "calibration.check adds what it finds");
     p.Add("swap_red_blue", swap_red_blue,
           "for .klg logs: some loggers store the colour channels in the opposite order; turn it on "
           "if faces look blue");
@@ -145,7 +149,8 @@ CameraCalibration Configured(CameraCalibration calibration, const FolderSourceCo
 Result<std::unique_ptr<FrameSource>> OpenFolderSource(const std::string& path,
                                                       const FolderSourceConfig& config) {
     if (Status status = config.Validate(); !status.ok()) return status;
-    Result<FolderLayout> layout = ReadFolderLayout(path, config.max_pair_gap_s);
+    Result<FolderLayout> layout =
+        ReadFolderLayout(path, config.max_pair_gap_s, config.colour_delay_s);
     if (!layout.ok()) return layout.status();
     if (!layout.value().camera_known)
         if (Status status = AssumeCamera(layout.value()); !status.ok()) return status;

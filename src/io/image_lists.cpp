@@ -126,7 +126,7 @@ bool NamesDepth(std::string_view name) {
 }  // namespace
 
 Result<ImagePairs> ReadImageLists(const std::string& depth_list, const std::string& colour_list,
-                                  double max_gap_s) {
+                                  double max_gap_s, double colour_delay_s) {
     ImagePairs result;
     std::size_t listed_colour = 0;
     const auto depth = ReadList(depth_list, result.notes, result.listed);
@@ -134,7 +134,7 @@ Result<ImagePairs> ReadImageLists(const std::string& depth_list, const std::stri
     const auto colour = ReadList(colour_list, result.notes, listed_colour);
     if (!colour.ok()) return colour.status();
     const std::vector<double> depth_s = Stamps(depth.value()), colour_s = Stamps(colour.value());
-    for (const StampPair& pair : PairNearest(depth_s, colour_s, max_gap_s)) {
+    for (const StampPair& pair : PairNearest(depth_s, colour_s, max_gap_s, colour_delay_s)) {
         const ListedImage& d = depth.value()[pair.depth];
         const ListedImage& c = colour.value()[pair.colour];
         result.pairs.push_back({d.stamp_s, c.stamp_s, d.name, c.name});

@@ -24,9 +24,10 @@ struct ImagePairs {
 // pairs them by nearest time
 // (stamp_pairing.h). Malformed lines and repeated stamps are skipped, unordered lists are sorted;
 // each is reported in the notes. It is an error if a list has no usable line, or if no two images
-// are less than max_gap_s apart.
+// are less than max_gap_s apart. `colour_delay_s`: colour was taken so much later than its stamps
+// say; the stamps are not changed.
 Result<ImagePairs> ReadImageLists(const std::string& depth_list, const std::string& colour_list,
-                                  double max_gap_s);
+                                  double max_gap_s, double colour_delay_s = 0);
 
 // Reads lines "stamp filename stamp filename". The depth image is the one with "depth" in its name,
 // first or second. The pairs are taken as they are, however far apart their stamps.

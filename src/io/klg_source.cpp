@@ -40,7 +40,8 @@ class KlgSource : public FrameSource {
         : path_(file.path()),
           file_(std::move(file)),
           entries_(std::move(index.entries)),
-          decoder_(calibration, {config.rectify, config.swap_red_blue}) {
+          decoder_(calibration, {config.rectify, config.swap_red_blue}),
+          colour_delay_s_(config.colour_delay_s) {
         info_.name = path_;
         info_.kind = ".klg log";
         info_.camera = calibration.pinhole;
@@ -65,6 +66,8 @@ class KlgSource : public FrameSource {
                     fmt::format("{}: frame {}: {}", path_, index, status.message())};
         frame.index = static_cast<std::int64_t>(index);
         frame.stamp_s = frame.colour_stamp_s = static_cast<double>(entries_[index].stamp_us) * 1e-6;
+        frame.colour_delay_s = colour_delay_s_;
+        CorrectStamps(colour_delay_s_, frame.stamp_s, frame.colour_stamp_s);
         frame.T_world_camera.reset();
         return {};
     }
@@ -95,6 +98,7 @@ class KlgSource : public FrameSource {
     InputFile file_;
     std::vector<KlgEntry> entries_;
     KlgFrameDecoder decoder_;
+    const double colour_delay_s_;
     SourceInfo info_;
     std::vector<std::uint8_t> bytes_;
     std::size_t next_ = 0;

@@ -52,8 +52,12 @@ struct Candidate {
 // be closer to one of them. So only neighbours are candidates, and removing a pair creates one new
 // candidate.
 std::vector<StampPair> PairNearest(std::span<const double> depth_stamps_s,
-                                   std::span<const double> colour_stamps_s, double max_gap_s) {
-    std::vector<Item> items = Merge(depth_stamps_s, colour_stamps_s);
+                                   std::span<const double> colour_stamps_s, double max_gap_s,
+                                   double colour_delay_s) {
+    std::vector<double> colour_s(colour_stamps_s.begin(), colour_stamps_s.end());
+    for (double& stamp_s : colour_s) stamp_s += colour_delay_s;
+    max_gap_s += std::abs(colour_delay_s);
+    std::vector<Item> items = Merge(depth_stamps_s, colour_s);
     std::priority_queue<Candidate, std::vector<Candidate>, std::greater<>> candidates;
     const auto consider = [&](std::size_t first, std::size_t second) {
         if (first == kNoItem || second == kNoItem ||

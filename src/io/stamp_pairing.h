@@ -15,8 +15,12 @@ struct StampPair {
 // then the closest of the rest, and so on. Each image is used once. Ties are broken by the earlier
 // colour stamp, then the earlier depth stamp. The result is sorted by depth stamp. Both lists must
 // be strictly increasing and finite. O(n log n), however dense the stamps are. Thread-safe.
+// `colour_delay_s`: colour was taken so much later than its stamps say. Images that were taken at
+// nearly the same time are paired; max_gap_s becomes greater by it, so that no image is without a
+// partner only for that.
 std::vector<StampPair> PairNearest(std::span<const double> depth_stamps_s,
-                                   std::span<const double> colour_stamps_s, double max_gap_s);
+                                   std::span<const double> colour_stamps_s, double max_gap_s,
+                                   double colour_delay_s = 0);
 
 // The smallest distance between a stamp of one list and a stamp of the other; infinity if either is
 // empty.

@@ -8,14 +8,7 @@
 namespace tessera {
 namespace {
 
-constexpr int kShiftColumns = 320;  // of the images that are compared
-constexpr float kNearestEdge_m = 0.3f, kFarthestEdge_m = 4;
-// What lies behind an edge is farther by more than this share, and at most so many columns away; a
-// shadow may lie between. In front of the edge the surface goes on for some columns.
-constexpr float kStep = 1.08f, kLevel = 0.03f;
-constexpr int kShadow = 12, kSurface = 3;
-constexpr int kMostEdges = 1000, kFewestEdges = 200;  // per direction: of a frame, of all frames
-constexpr float kWeakEdge = 4;                        // grey levels per column that count half
+constexpr int kFewestEdges = 200;  // per direction, of all frames
 constexpr int kParts = 8;
 // The best shift is so many standard deviations of the search better than a typical one.
 constexpr double kContrast = 3;
@@ -23,62 +16,6 @@ constexpr double kShiftDeviations = 6;
 // Shares of the width. Where the registration is right, estimates are up to 0.5 % off
 // (docs/benchmarks/calibration.md).
 constexpr double kFloor = 0.01, kFloorOfGuess = 0.005;
-
-constexpr std::array<std::pair<int, int>, 4> kAhead = {{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
-
-// Every step-th pixel. Luma is smoothed before by 1-2-1 in both directions.
-struct SmallView {
-    DepthImage depth_m;
-    Image<float> luma;
-};
-
-SmallView Shrink(const Frame& frame, int step) {
-    const int width = frame.depth_m.width() / step, height = frame.depth_m.height() / step;
-    const auto luma = [&](int x, int y) {
-        const Rgb8 c = frame.colour(std::clamp(x, 0, frame.colour.width() - 1),
-                                    std::clamp(y, 0, frame.colour.height() - 1));
-        return 0.299f * static_cast<float>(c.r) + 0.587f * static_cast<float>(c.g) +
-               0.114f * static_cast<float>(c.b);
-    };
-    SmallView view{DepthImage(width, height), Image<float>(width, height)};
-    constexpr std::array<float, 3> kWeights = {0.25f, 0.5f, 0.25f};
-    for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x) {
-            const int u = x * step + step / 2, v = y * step + step / 2;
-            view.depth_m(x, y) = frame.depth_m(u, v);
-            float sum = 0;
-            for (int j = -1; j <= 1; ++j)
-                for (int i = -1; i <= 1; ++i)
-                    sum += kWeights[static_cast<std::size_t>(i + 1)] *
-                           kWeights[static_cast<std::size_t>(j + 1)] * luma(u + i, v + j);
-            view.luma(x, y) = sum;
-        }
-    return view;
-}
-
-// Strength of luma's edges across `dx`, `dy`, from 0 to 1. 0 at the border.
-Image<float> EdgeStrength(const Image<float>& luma, int dx, int dy) {
-    Image<float> strength(luma.width(), luma.height());
-    for (int y = 1; y < luma.height() - 1; ++y)
-        for (int x = 1; x < luma.width() - 1; ++x) {
-            const float slope = std::abs(luma(x + dx, y + dy) - luma(x - dx, y - dy)) / 2;
-            strength(x, y) = slope / (slope + kWeakEdge);
-        }
-    return strength;
-}
-
-// Whether a near surface ends at (x, y) in this direction: it goes on behind, and the next depth
-// ahead is clearly farther. (x, y) is at least kShadow pixels away from the border.
-bool EndsAt(const DepthImage& depth_m, int x, int y, int dx, int dy) {
-    const float z_m = depth_m(x, y);
-    if (!(z_m > kNearestEdge_m) || !(z_m < kFarthestEdge_m)) return false;
-    for (int k = 1; k <= kSurface; ++k)
-        if (!(std::abs(depth_m(x - k * dx, y - k * dy) - z_m) < kLevel * z_m)) return false;
-    for (int k = 1; k <= kShadow; ++k)
-        if (const float ahead_m = depth_m(x + k * dx, y + k * dy); ahead_m > 0)
-            return ahead_m > kStep * z_m;
-    return false;
-}
 
 }  // namespace
 
@@ -102,29 +39,18 @@ void ColourShiftEstimator::Evidence::Add(const Evidence& other) {
     }
 }
 
-void ColourShiftEstimator::Add(const Frame& frame) {
-    if (frame.colour.empty() || frame.colour.width() != frame.depth_m.width()) return;
-    step_px_ = std::max(1, frame.depth_m.width() / kShiftColumns);
-    width_px_ = frame.depth_m.width();
-    const SmallView view = Shrink(frame, step_px_);
-    const int width = view.luma.width(), height = view.luma.height();
-    constexpr int kBorder = kRadius + 1;
-    static_assert(kBorder > kShadow);
-    const Image<float> across = EdgeStrength(view.luma, 1, 0), down = EdgeStrength(view.luma, 0, 1);
+void ColourShiftEstimator::Add(const EdgeView& view) {
+    if (view.empty()) return;
+    static_assert(kRadius < EdgeView::kBorder);
+    step_px_ = view.step_px;
+    width_px_ = view.across.width() * view.step_px;
     Evidence evidence;
     for (std::size_t d = 0; d < kDirections; ++d) {
-        const auto [dx, dy] = kAhead[d];
-        std::vector<std::pair<int, int>> ends;
-        for (int y = kBorder; y < height - kBorder; ++y)
-            for (int x = kBorder; x < width - kBorder; ++x)
-                if (EndsAt(view.depth_m, x, y, dx, dy)) ends.emplace_back(x, y);
-        const std::size_t every = 1 + ends.size() / kMostEdges;
-        const Image<float>& strength = dx != 0 ? across : down;
-        for (std::size_t e = 0; e < ends.size(); e += every) {
-            const auto [x, y] = ends[e];
+        const Image<float>& strength = view.Strength(d);
+        for (const EdgeView::End& end : view.ends[d]) {
             float* sum = evidence.strength[d].data();
             for (int j = -kRadius; j <= kRadius; ++j) {
-                const float* row = strength.row(y + j) + x - kRadius;
+                const float* row = strength.row(end.y + j) + end.x - kRadius;
                 for (int i = 0; i < kSide; ++i) *sum++ += row[i];
             }
             ++evidence.edges[d];

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "core/frame.h"
+#include "optimize/edge_view.h"
 
 namespace tessera {
 
@@ -35,8 +35,8 @@ std::string ColourShiftText(const ColourShift& shift);
 // Owner thread only. Stores 27 kB per frame.
 class ColourShiftEstimator {
   public:
-    // Ignores frames without colour. All frames have one size.
-    void Add(const Frame& frame);
+    // All frames have one size. Ignores empty views.
+    void Add(const EdgeView& view);
 
     // Nothing if there are too few edges, if they meet nowhere better than elsewhere, or only at
     // the end of the search, a sixteenth of the image's width in each direction.
@@ -44,7 +44,7 @@ class ColourShiftEstimator {
 
   private:
     static constexpr int kRadius = 20, kSide = 2 * kRadius + 1;  // of the search, in steps
-    static constexpr int kDirections = 4;
+    static constexpr std::size_t kDirections = EdgeView::kAhead.size();
     // For each direction in which a surface ends, and for each shift: the sum of the colour edges'
     // strength over the depth edges.
     struct Evidence {

@@ -27,7 +27,7 @@ RecordingResult WithoutConfig(const std::string& path, const FolderSourceConfig&
 }
 
 RecordingResult OpenRos(const std::string& path, const FolderSourceConfig& config) {
-    return OpenRosRecording(path, config.max_pair_gap_s);
+    return OpenRosRecording(path, config.max_pair_gap_s, config.colour_delay_s);
 }
 
 constexpr std::array kRecordingKinds{

@@ -35,10 +35,11 @@ RecordingInfo Configured(RecordingInfo info, const FolderSourceConfig& config) {
 class RecordingSource : public FrameSource {
   public:
     RecordingSource(const std::string& path, std::unique_ptr<Recording> recording,
-                    RecordingInfo info, const CameraCalibration& calibration)
+                    RecordingInfo info, const CameraCalibration& calibration, double colour_delay_s)
         : recording_(std::move(recording)),
           recorded_(std::move(info)),
-          rectifier_(calibration, {}) {
+          rectifier_(calibration, {}),
+          colour_delay_s_(colour_delay_s) {
         info_.name = path;
         info_.kind = recorded_.kind;
         info_.camera = recorded_.depth_camera.pinhole;
@@ -65,6 +66,8 @@ class RecordingSource : public FrameSource {
         frame.index = index;
         frame.stamp_s = pair.depth_stamp_s;
         frame.colour_stamp_s = pair.colour_stamp_s;
+        frame.colour_delay_s = colour_delay_s_;
+        CorrectStamps(colour_delay_s_, frame.stamp_s, frame.colour_stamp_s);
         frame.T_world_camera.reset();
         return {};
     }
@@ -109,6 +112,7 @@ class RecordingSource : public FrameSource {
     std::unique_ptr<Recording> recording_;
     const RecordingInfo recorded_;
     Rectifier rectifier_;
+    const double colour_delay_s_;
     SourceInfo info_;
     Image<std::uint16_t> depth_;
     ColourImage colour_;
@@ -130,8 +134,8 @@ Result<std::unique_ptr<FrameSource>> MakeRecordingSource(const std::string& path
     colour.vignetting = config.vignetting;
     colour.colour_shift_px = config.colour_shift_px;
     calibration = Configured(calibration, colour);
-    auto source =
-        std::make_unique<RecordingSource>(path, std::move(recording), std::move(info), calibration);
+    auto source = std::make_unique<RecordingSource>(path, std::move(recording), std::move(info),
+                                                    calibration, config.colour_delay_s);
     if (Status status = source->Probe(); !status.ok()) return status;
     return std::unique_ptr<FrameSource>(std::move(source));
 }

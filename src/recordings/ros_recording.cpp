@@ -25,9 +25,10 @@ std::vector<double> StampsOf(const RosStream& stream) {
     return stamps_s;
 }
 
-std::vector<StampPair> PairsOf(const RosChoice& choice, double max_gap_s) {
+std::vector<StampPair> PairsOf(const RosChoice& choice, double max_gap_s, double colour_delay_s) {
     const std::vector<double> depth_s = StampsOf(*choice.depth);
-    if (choice.colour != nullptr) return PairNearest(depth_s, StampsOf(*choice.colour), max_gap_s);
+    if (choice.colour != nullptr)
+        return PairNearest(depth_s, StampsOf(*choice.colour), max_gap_s, colour_delay_s);
     std::vector<StampPair> pairs(depth_s.size());
     for (std::size_t i = 0; i < pairs.size(); ++i) pairs[i] = {i, i};
     return pairs;
@@ -128,7 +129,8 @@ bool IsRosFolder(const std::string& path) {
     return fs::is_directory(path, ignored) && !RosFilesAt(path).empty();
 }
 
-RecordingResult OpenRosRecording(const std::string& path, double max_pair_gap_s) {
+RecordingResult OpenRosRecording(const std::string& path, double max_pair_gap_s,
+                                 double colour_delay_s) {
     const std::vector<std::string> names = RosFilesAt(path);
     MessageFiles files;
     for (const std::string& name : names) {
@@ -139,7 +141,7 @@ RecordingResult OpenRosRecording(const std::string& path, double max_pair_gap_s)
     RosContents contents = ScanRosFiles(files);
     const RosChoice choice = ChooseRosStreams(contents);
     std::vector<StampPair> pairs;
-    if (choice.depth != nullptr) pairs = PairsOf(choice, max_pair_gap_s);
+    if (choice.depth != nullptr) pairs = PairsOf(choice, max_pair_gap_s, colour_delay_s);
     if (pairs.empty()) {
         const Status nothing = NoRosPairs(path, choice);
         return contents.warnings.empty()

@@ -12,6 +12,8 @@ namespace tessera {
 bool IsRosFolder(const std::string& path);
 
 // Images are paired by the stamps in their headers, less than max_pair_gap_s apart.
-RecordingResult OpenRosRecording(const std::string& path, double max_pair_gap_s);
+// `colour_delay_s`: colour was taken so much later than its stamps say.
+RecordingResult OpenRosRecording(const std::string& path, double max_pair_gap_s,
+                                 double colour_delay_s = 0);
 
 }  // namespace tessera

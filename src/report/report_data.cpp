@@ -121,7 +121,8 @@ class Reader {
             return poses;
         data_.truth = data_.record->source_name;
         constexpr double kMaxPairGap_s = 0.02;
-        const Result<FolderLayout> layout = ReadFolderLayout(data_.truth, kMaxPairGap_s);
+        const Result<FolderLayout> layout =
+            ReadFolderLayout(data_.truth, kMaxPairGap_s, data_.record->colour_delay_s);
         if (!layout.ok()) return layout.status();
         for (const FolderFrame& frame : layout.value().frames)
             if (frame.T_world_camera) poses.push_back({frame.depth_stamp_s, *frame.T_world_camera});

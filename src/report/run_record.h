@@ -21,8 +21,9 @@ struct RunRecord {
 
     std::string version, exit;
     std::string source_name, source_kind;
-    std::optional<PinholeCamera> camera;             // as used; empty if it is not plausible
-    double vignetting = 0;                           // as corrected; 0: not
+    std::optional<PinholeCamera> camera;  // as used; empty if it is not plausible
+    double vignetting = 0;                // as corrected; 0: not
+    double colour_delay_s = 0;            // the source's setting and what was found beyond it
     std::array<double, 2> colour_shift_px = {0, 0};  // as corrected; right and down; 0: not
     bool has_truth = false;
     std::vector<std::string> command_line, warnings;

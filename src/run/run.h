@@ -14,6 +14,7 @@
 #include "io/frame_source.h"
 #include "optimize/calibration_report.h"
 #include "optimize/camera_estimate.h"
+#include "optimize/colour_delay.h"
 #include "optimize/colour_shift.h"
 #include "run/timings.h"
 #include "semantics/map_object.h"
@@ -68,6 +69,7 @@ struct RunSummary {
     std::optional<CameraReport> camera;
     std::optional<VignettingReport> vignetting;
     std::optional<ColourShift> colour_shift;  // the same for the registration of colour
+    std::optional<ColourDelay> colour_delay;  // and for its time stamps
     std::optional<AteResult> ate;  // against the source's ground truth; none with given poses
     std::string exit;              // "finished", "stopped", or "failed: ..."
     std::string last_reason;       // of the last lost frame

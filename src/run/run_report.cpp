@@ -85,6 +85,14 @@ Json ColourShiftJson(const ColourShift& shift) {
             {"frames", shift.frames}};
 }
 
+Json ColourDelayJson(const ColourDelay& delay) {
+    return {{"used", delay.used},
+            {"delay_ms", 1000 * delay.delay_s},
+            {"delay_sigma_ms", 1000 * delay.delay_sigma_s},
+            {"readout_difference_ms", 1000 * delay.readout_s},
+            {"readout_difference_sigma_ms", 1000 * delay.readout_sigma_s}};
+}
+
 }  // namespace
 
 std::string TimingsJson(const RunSummary& summary) {
@@ -148,6 +156,7 @@ std::string RunJson(const RunRequest& request, RunConfig config, const RunSummar
     if (const auto& v = summary.vignetting)
         json["vignetting"] = {{"used", v->used}, {"share", v->share}, {"sigma", v->sigma}};
     if (summary.colour_shift) json["colour_shift"] = ColourShiftJson(*summary.colour_shift);
+    if (summary.colour_delay) json["colour_delay"] = ColourDelayJson(*summary.colour_delay);
     if (summary.ate) json["ate"] = Json::parse(AteJson(*summary.ate), nullptr, false);
     json["configuration"] = ConfigurationJson(config);
     return Dump(json);

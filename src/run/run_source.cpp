@@ -13,6 +13,7 @@ RunConfig SourceSettings(const RunRecord& run) {
             static_cast<void>(parameters.Set(key, value));
     config.source.camera = run.camera;
     config.source.vignetting = run.vignetting;
+    config.source.colour_delay_s = run.colour_delay_s;
     config.source.colour_shift_px = {run.colour_shift_px[0], run.colour_shift_px[1]};
     return config;
 }

@@ -27,6 +27,15 @@ void BeginShutter(const CameraReport& report, PipelineConfig& config, SourceInfo
                     1000 * estimate.readout_s, 1000 * estimate.readout_sigma_s));
 }
 
+// After BeginShutter.
+void BeginDepthShutter(const ColourDelay& delay, PipelineConfig& config, SourceInfo& source) {
+    const double colour_s =
+        config.shutter.colour_readout_s + config.trackers.photometric.shutter.readout_s;
+    if (config.shutter.depth_readout_s != 0 || !delay.DepthRolls(colour_s)) return;
+    config.shutter.depth_readout_s = colour_s;
+    source.notes.push_back("rolling shutter: depth is read row by row, as colour is");
+}
+
 // Nothing is fused, so a camera that leaves the map drifts: it must be lost instead.
 void StayInTheMap(RunConfig& config) {
     double& least = config.pipeline.trackers.judge.min_known_fraction;
@@ -65,6 +74,7 @@ Status Runner::Open(const std::atomic<bool>& stop) {
     summary_.source = source->info();
     summary_.camera = checked.value().camera;
     summary_.colour_shift = checked.value().colour;
+    summary_.colour_delay = checked.value().delay;
     summary_.vignetting = checked.value().vignetting;
     camera_notes_ = std::move(checked.value().messages);
     if (!request_.resume && !request_.localise_only)  // a scan keeps its band
@@ -86,6 +96,8 @@ Status Runner::Open(const std::atomic<bool>& stop) {
     RunConfig config = config_;
     if (request_.localise_only) StayInTheMap(config);
     if (summary_.camera) BeginShutter(*summary_.camera, config.pipeline, summary_.source);
+    if (summary_.colour_delay)
+        BeginDepthShutter(*summary_.colour_delay, config.pipeline, summary_.source);
     EngineInput input{
         std::move(source),
         selection_,

@@ -5,19 +5,14 @@
 #include <filesystem>
 #include <optional>
 
-#include "io/frame_reader.h"
-#include "optimize/camera_estimator.h"
-#include "optimize/colour_shift.h"
 #include "recordings/open_recording.h"
+#include "run/first_seconds.h"
 #include "run/open_source.h"
 #include "scan/scan_content.h"
 
 namespace tessera {
 namespace {
 
-constexpr double kWindow_s = 8, kEvery_s = 0.1, kShortest_s = 0.06;
-constexpr int kLeastViews = 12;
-constexpr std::int64_t kMostFrames = 100000;
 // Of the focal length; beyond this the scan is of another camera.
 constexpr double kOtherCamera = 0.25;
 // Vignetting beyond this is estimated once more on the corrected images: the first estimate is a
@@ -41,78 +36,6 @@ Result<std::unique_ptr<FrameSource>> OpenWith(const std::string& name, RunConfig
         config.openni.cy = camera->cy;
     }
     return OpenSource(name, config);
-}
-
-// Number of source frames in a tenth of a second, from the stamps of its first frames.
-std::int64_t StrideOf(FrameSource& source, std::int64_t start) {
-    constexpr int kProbes = 3;
-    constexpr double kMost = 10;
-    if (start > 0 && !source.Seek(start)) return 1;
-    double shortest_s = kEvery_s;
-    std::optional<double> last_s;
-    Frame frame;
-    for (int i = 0; i < kProbes; ++i) {
-        if (source.Read(frame).status != ReadStatus::kOk) continue;
-        if (last_s && frame.stamp_s > *last_s)
-            shortest_s = std::min(shortest_s, frame.stamp_s - *last_s);
-        last_s = frame.stamp_s;
-    }
-    return source.Seek(start) ? static_cast<std::int64_t>(
-                                    std::clamp(std::round(kEvery_s / shortest_s), 1.0, kMost))
-                              : 1;
-}
-
-// The part of the selection to look at, in frames of the source. Nothing if it is too short.
-std::optional<FrameSelection> PartToSee(FrameSource& source, const FrameSelection& selection) {
-    const std::int64_t all = source.info().frame_count;
-    if (selection.start < 0 || selection.stride < 1 || (all >= 0 && selection.start >= all))
-        return std::nullopt;
-    std::int64_t frames = all < 0 ? -1 : all - selection.start;
-    if (selection.count >= 0) {
-        const std::int64_t asked = selection.count > kMostFrames
-                                       ? kMostFrames
-                                       : selection.count * std::min(selection.stride, kMostFrames);
-        frames = frames < 0 ? asked : std::min(frames, asked);
-    }
-    if (frames >= 0 && frames < kLeastViews) return std::nullopt;
-    const std::int64_t stride = StrideOf(source, selection.start);
-    return FrameSelection{selection.start, frames < 0 ? -1 : (frames + stride - 1) / stride,
-                          stride};
-}
-
-// What the first seconds show. Nothing where they show too little.
-struct Seen {
-    std::optional<CameraEstimate> camera;
-    std::optional<ColourShift> colour;
-};
-
-// Consumes the source.
-Seen LookAt(std::unique_ptr<FrameSource> source, const FrameSelection& selection, bool one_camera) {
-    const std::optional<FrameSelection> part = PartToSee(*source, selection);
-    if (!part) return {};
-    const SourceInfo info = source->info();
-    CameraEstimator estimator(info.camera);
-    ColourShiftEstimator registration;
-    int views = 0;
-    FrameReader reader(std::move(source), *part);
-    Frame frame;
-    std::optional<double> first_s, last_s;
-    while (true) {
-        const ReadResult read = reader.Next(frame);
-        if (read.status == ReadStatus::kEnd || read.status == ReadStatus::kError) break;
-        if (read.status != ReadStatus::kOk) continue;
-        if (!first_s) first_s = frame.stamp_s;
-        if (frame.stamp_s > *first_s + kWindow_s) break;
-        if (last_s && frame.stamp_s < *last_s + kShortest_s) continue;
-        last_s = frame.stamp_s;
-        if (views++ % 2 == 0) registration.Add(frame);
-        if (one_camera) estimator.Add(frame);
-    }
-    Seen seen;
-    seen.colour = registration.Estimate();
-    if (estimator.frames() >= kLeastViews) seen.camera = estimator.Estimate();
-    if (seen.colour) seen.colour->known = info.registration_known;
-    return seen;
 }
 
 // The scan's own camera, if it differs slightly from the source's.
@@ -168,17 +91,17 @@ Result<std::optional<PinholeCamera>> FindCamera(const RunRequest& request, const
     Result<std::unique_ptr<FrameSource>> again = OpenWith(request.source, config, camera);
     if (!again.ok()) return again.status();
     std::optional<CameraEstimate> second =
-        LookAt(std::move(again.value()), request.selection, true).camera;
+        LookAtFirstSeconds(std::move(again.value()), request.selection, true).camera;
     if (!second) return camera;
     second->given = given.camera;
     second->misfit_given = first->misfit_given;
     return to_use(*second);
 }
 
-// Corrects the registration and the brightness of colour in `config` if the images show errors, and
-// looks again if they are large.
+// Corrects the registration, the time stamps and the brightness of colour in `config` if the images
+// show errors, and looks again if they are large.
 Status CorrectColour(const RunRequest& request, const SourceInfo& given, RunConfig& config,
-                     Seen& seen, CheckedSource& checked) {
+                     FirstSeconds& seen, CheckedSource& checked) {
     const bool by_device = request.source.ends_with(".oni");  // OpenNI registers by itself
     checked.colour = seen.colour;
     if (seen.camera)
@@ -189,6 +112,12 @@ Status CorrectColour(const RunRequest& request, const SourceInfo& given, RunConf
         checked.colour->used = true;
         config.source.colour_shift_px = {checked.colour->x_px, checked.colour->y_px};
         checked.messages.push_back(ColourShiftText(*checked.colour) + ": corrected");
+    }
+    checked.delay = seen.delay;
+    if (checked.delay && checked.delay->shown()) {
+        checked.delay->used = true;
+        config.source.colour_delay_s += checked.delay->delay_s;
+        checked.messages.push_back(ColourDelayText(*checked.delay) + ": corrected");
     }
     const bool believed = seen.camera && (seen.camera->plausible() || !given.camera_known);
     if (believed && seen.camera->vignetting_shown()) {
@@ -203,7 +132,7 @@ Status CorrectColour(const RunRequest& request, const SourceInfo& given, RunConf
     if (!moved && std::abs(config.source.vignetting) < kLookAgain) return Status::Ok();
     Result<std::unique_ptr<FrameSource>> again = OpenSource(request.source, config);
     if (!again.ok()) return again.status();
-    seen = LookAt(std::move(again.value()), request.selection, given.one_camera);
+    seen = LookAtFirstSeconds(std::move(again.value()), request.selection, given.one_camera);
     if (config.source.vignetting != 0 && seen.camera && seen.camera->plausible())
         config.source.vignetting = checked.vignetting->share += seen.camera->vignetting;
     return Status::Ok();
@@ -221,7 +150,8 @@ Result<CheckedSource> OpenCheckedSource(const RunRequest& request, const RunConf
         return checked;
     }
     RunConfig corrected = config;
-    Seen seen = LookAt(std::move(opened.value()), request.selection, given.one_camera);
+    FirstSeconds seen =
+        LookAtFirstSeconds(std::move(opened.value()), request.selection, given.one_camera);
     if (Status status = CorrectColour(request, given, corrected, seen, checked); !status.ok())
         return status;
     std::optional<PinholeCamera> camera;

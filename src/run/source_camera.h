@@ -1,5 +1,5 @@
-// Opens a run's source with the intrinsics, the registration of colour and the vignetting estimated
-// from its own images if they contradict the given ones.
+// Opens a run's source with the intrinsics, the registration, the delay and the vignetting of
+// colour estimated from its own images if they contradict the given ones.
 #pragma once
 
 #include <memory>
@@ -10,6 +10,7 @@
 #include "core/status.h"
 #include "io/frame_source.h"
 #include "optimize/camera_estimate.h"
+#include "optimize/colour_delay.h"
 #include "optimize/colour_shift.h"
 #include "run/run.h"
 
@@ -19,14 +20,16 @@ struct CheckedSource {
     std::unique_ptr<FrameSource> source;  // opened with the camera to use, at the first frame
     std::optional<CameraReport> camera;   // if it was estimated
     std::optional<ColourShift> colour;    // if it was estimated
+    std::optional<ColourDelay> delay;     // if it was estimated
     std::optional<VignettingReport> vignetting;
     std::vector<std::string> messages;  // for the user
 };
 
 // Estimates the camera for recordings only: the first frames of a live camera belong to the run, a
 // built-in scene's camera is exact, and a scan keeps the camera it was made with. Intrinsics of two
-// cameras would need two estimates; of those only the registration is checked. Reads the first
-// seconds of the selection, and again with what was found. Errors are those of OpenSource.
+// cameras would need two estimates; of those only the registration and the time stamps are checked.
+// Reads the first seconds of the selection, and again with what was found. Errors are those of
+// OpenSource.
 Result<CheckedSource> OpenCheckedSource(const RunRequest& request, const RunConfig& config);
 
 }  // namespace tessera

@@ -20,7 +20,8 @@ namespace tessera {
 
 // The detector's result for one frame.
 struct LabelReport {
-    double stamp_s = 0, colour_stamp_s = 0;
+    double stamp_s = 0;
+    double colour_stamp_s = 0;          // as recorded, not as corrected
     std::vector<Detection> detections;  // wanted classes only
     // Depth of detections in labels.dynamic's classes. Empty depth image: none was detected.
     MovingHint moving;

@@ -99,6 +99,27 @@ TEST(ReadFolderLayout, RecognisesTumListsAndTheirCameraFile) {
     EXPECT_TRUE(layout.value().notes.empty());
 }
 
+TEST(ReadFolderLayout, CorrectsTimeStampsThatContradictEachOther) {
+    TemporaryFolder folder;
+    WriteTumLists(folder);
+    folder.WriteText("depth.txt", "1.00 depth/1.png\n1.04 depth/2.png\n");
+    folder.WriteText("rgb.txt", "1.02 rgb/1.png\n");
+    folder.WriteText("groundtruth.txt",
+                     "0.9 0 0 0 0 0 0 1\n0.91 1 0 0 0 0 0 1\n1 10 0 0 0 0 0 1\n"
+                     "1.01 11 0 0 0 0 0 1\n1.02 12 0 0 0 0 0 1\n"
+                     "1.03 13 0 0 0 0 0 1\n1.04 14 0 0 0 0 0 1\n");
+    const auto layout = ReadFolderLayout(folder.path(), 0.03, 0.018);
+    ASSERT_TRUE(layout.ok()) << layout.message();
+    EXPECT_EQ(layout.value().colour_delay_s, 0.018);
+    ASSERT_EQ(layout.value().frames.size(), 1u);
+    const FolderFrame& frame = layout.value().frames[0];
+    EXPECT_EQ(frame.depth_path, folder.Path("depth/2.png"));
+    EXPECT_NEAR(frame.depth_stamp_s, 1.031, 1e-9);
+    EXPECT_NEAR(frame.colour_stamp_s, 1.029, 1e-9);
+    ASSERT_TRUE(frame.T_world_camera);
+    EXPECT_NEAR(frame.T_world_camera->translation().x(), 13.1, 1e-6);
+}
+
 TEST(ReadFolderLayout, TakesThePublishedCameraOfANamedFolder) {
     TemporaryFolder folder("rgbd_dataset_freiburg2_desk");
     WriteTumLists(folder);

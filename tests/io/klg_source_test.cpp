@@ -73,6 +73,17 @@ class Klg : public ::testing::Test {
     Frame frame;
 };
 
+TEST_F(Klg, CorrectsTheTimeStamps) {
+    Write(1, FrameOf(1'500'000, Depth(1), Colour()));
+    config.colour_delay_s = 0.02;
+    const auto source = Open();
+    ASSERT_TRUE(source.ok()) << source.message();
+    ASSERT_EQ(source.value()->Read(frame).status, ReadStatus::kOk);
+    EXPECT_EQ(frame.colour_delay_s, 0.02);
+    EXPECT_NEAR(frame.stamp_s, 1.49, 1e-12);
+    EXPECT_NEAR(frame.colour_stamp_s, 1.51, 1e-12);
+}
+
 TEST_F(Klg, DepthAndColourRawAndPacked) {
     Write(4, FrameOf(1'500'000, Depth(1), Colour()) + FrameOf(1'600'000, Zlib(Depth(2)), Jpeg(32)) +
                  FrameOf(1'700'000, Depth(3), "") + FrameOf(1'800'000, Zlib(Depth(4)), Colour()));

@@ -56,6 +56,20 @@ TEST(PairNearest, TakesWhatIsLeftAcrossATakenPair) {
     EXPECT_EQ(pairs[1].colour, 0u);
 }
 
+// Colour 0 was taken with depth 1. The last depth has a partner because its stamps allow it.
+TEST(PairNearest, TakesWhatWasTakenAtTheSameTime) {
+    const std::vector<double> depth = {0.000, 0.033, 1.000}, colour = {0.013, 0.046, 1.015};
+    auto pairs = PairNearest(depth, colour, 0.02, 0.02);
+    ASSERT_EQ(pairs.size(), 2u);
+    EXPECT_EQ(pairs[0].depth, 1u);
+    EXPECT_EQ(pairs[0].colour, 0u);
+    EXPECT_EQ(pairs[1].depth, 2u);
+    EXPECT_EQ(pairs[1].colour, 2u);
+    pairs = PairNearest(depth, colour, 0.02);
+    ASSERT_EQ(pairs.size(), 3u);
+    EXPECT_EQ(pairs[1].colour, 1u);
+}
+
 TEST(PairNearest, TheGapIsStrict) {
     const std::vector<double> depth = {0.0}, colour = {0.25};
     EXPECT_TRUE(PairNearest(depth, colour, 0.25).empty());

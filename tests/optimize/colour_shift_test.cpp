@@ -11,7 +11,7 @@ namespace {
 
 std::optional<ColourShift> ShiftOf(int x, int y, int shadow_px = 0) {
     ColourShiftEstimator estimator;
-    for (int i = 0; i < 16; ++i) estimator.Add(BoxView(i, x, y, shadow_px));
+    for (int i = 0; i < 16; ++i) estimator.Add(MakeEdgeView(BoxView(i, x, y, shadow_px)));
     return estimator.Estimate();
 }
 
@@ -56,10 +56,10 @@ TEST(ColourShift, SaysNothingWithoutEdgesThatMeet) {
     for (int i = 0; i < 16; ++i) {
         Frame frame = BoxView(i, 0, 0);
         frame.depth_m = DepthImage(kBoxViewWidth, kBoxViewHeight, 3.0f);
-        flat.Add(frame);
+        flat.Add(MakeEdgeView(frame));
         frame = BoxView(i, 0, 0);
         frame.colour = {};
-        no_colour.Add(frame);
+        no_colour.Add(MakeEdgeView(frame));
     }
     EXPECT_FALSE(flat.Estimate());
     EXPECT_FALSE(no_colour.Estimate());

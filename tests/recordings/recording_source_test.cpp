@@ -66,6 +66,17 @@ TEST(RecordingSource, DeliversFramesInMetresAndSkipsBadOnes) {
     EXPECT_FALSE(source->Seek(11));
 }
 
+TEST(RecordingSource, CorrectsTheTimeStamps) {
+    const auto source =
+        MadeUpSource(std::make_unique<MadeUpRecording>(), {.colour_delay_s = -0.006});
+    Frame frame;
+    ASSERT_TRUE(source->Seek(2));
+    ASSERT_EQ(source->Read(frame).status, ReadStatus::kOk);
+    EXPECT_EQ(frame.colour_delay_s, -0.006);
+    EXPECT_NEAR(frame.stamp_s, 0.203, 1e-12);
+    EXPECT_NEAR(frame.colour_stamp_s, 0.207, 1e-12);
+}
+
 TEST(RecordingSource, ColourOfAnotherSizeIsBroughtIntoTheDepthView) {
     auto recording = std::make_unique<MadeUpRecording>();
     recording->info_.colour_camera.pinhole = {64, 48, 60, 60, 31.5, 23.5};

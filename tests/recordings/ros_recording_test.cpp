@@ -199,6 +199,17 @@ TEST(RosRecording, CountsDepthImagesWithoutColour) {
         "1 of 5 depth images have no colour image within 20 ms"));
 }
 
+// Each depth image gets the colour image before it, whose stamp is 96 ms earlier.
+TEST(RosRecording, PairsWhatWasTakenAtTheSameTime) {
+    TemporaryFolder folder;
+    WriteRosFile(folder.Path("a.mcap"), McapOf(PlainMessages(), ""));
+    const RecordingResult recording = OpenRosRecording(folder.Path("a.mcap"), kRosGap_s, 0.095);
+    ASSERT_TRUE(recording.ok()) << recording.message();
+    const RecordedPair& first = recording.value()->info().pairs[0];
+    EXPECT_NEAR(first.depth_stamp_s, StampOf(1), 1e-9);
+    EXPECT_NEAR(first.colour_stamp_s, StampOf(0) + 0.004, 1e-9);
+}
+
 TEST(RosRecording, SaysWhatIsMissing) {
     TemporaryFolder folder;
     std::vector<Message> messages = PlainMessages();

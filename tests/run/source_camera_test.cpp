@@ -9,6 +9,7 @@
 #include "io/image_io.h"
 #include "optimize/box_view.h"
 #include "optimize/painted_room.h"
+#include "optimize/squares_view.h"
 #include "support/temp_folder.h"
 
 namespace tessera {
@@ -87,6 +88,35 @@ TEST(OpenCheckedSource, LeavesARightRegistrationAlone) {
     EXPECT_FALSE(checked.value().colour->used);
     EXPECT_TRUE(checked.value().source->info().one_camera);
     EXPECT_EQ(PixelsBesideTheirSurface(*checked.value().source), 0);
+}
+
+TEST(OpenCheckedSource, CorrectsTheTimeStamps) {
+    const TempFolder folder;
+    std::vector<Frame> frames;
+    for (int i = 0; i < 40; ++i) frames.push_back(squares_view::View(0.1 * i, 0.015));
+    CameraCalibration camera;
+    camera.pinhole = squares_view::kCamera;
+    camera.depth_scale = 1000;
+    WriteViews(folder, frames, camera);
+    RunRequest request;
+    request.source = folder.path();
+    RunConfig config;
+    config.source.colour_delay_s = 0.005;  // part of it is known
+    const Result<CheckedSource> checked = OpenCheckedSource(request, config);
+    ASSERT_TRUE(checked.ok()) << checked.message();
+    ASSERT_TRUE(checked.value().delay);
+    EXPECT_TRUE(checked.value().delay->used);
+    EXPECT_NEAR(checked.value().delay->delay_s, 0.01, 0.001);
+    ASSERT_FALSE(checked.value().messages.empty());
+    EXPECT_NE(checked.value().messages[0].find("later than its time stamps say: corrected"),
+              std::string::npos);
+    FrameSource& source = *checked.value().source;
+    Frame frame;
+    ASSERT_TRUE(source.Seek(20));
+    ASSERT_EQ(source.Read(frame).status, ReadStatus::kOk);
+    EXPECT_NEAR(frame.colour_delay_s, 0.015, 0.001);
+    EXPECT_NEAR(frame.stamp_s, 2 - frame.colour_delay_s / 2, 1e-9);
+    EXPECT_NEAR(frame.colour_stamp_s, 2 + frame.colour_delay_s / 2, 1e-9);
 }
 
 TEST(OpenCheckedSource, EvensOutDarkCorners) {

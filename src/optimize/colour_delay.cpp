@@ -1,0 +1,224 @@
+#include "optimize/colour_delay.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace tessera {
+namespace {
+
+// The search.
+constexpr int kDelays = 81, kReadouts = 9;
+constexpr double kDelayStep_s = 0.001, kReadoutStep_s = 0.01;
+constexpr std::size_t kDelayParts = 8;
+constexpr std::size_t kMostEnds = 300, kFewestEnds = 200;  // per direction: of a view, of all views
+constexpr double kLongestStep_s = 0.25;                    // between views
+constexpr double kDelayDeviations = 6, kRollsDeviations = 2;
+// Where edges move by less than a pixel, estimates are up to half of this off
+// (docs/benchmarks/calibration.md).
+constexpr double kLeastDelay_s = 0.002;
+
+constexpr std::size_t kDirections = EdgeView::kAhead.size();
+
+// For each direction: the strength of colour's edges at depth's, by read-out time and delay.
+struct Evidence {
+    std::array<std::array<double, kDelays * kReadouts>, kDirections> strength{};
+    std::array<double, kDirections> ends{};
+
+    void Add(const Evidence& other) {
+        for (std::size_t d = 0; d < kDirections; ++d) {
+            ends[d] += other.ends[d];
+            for (std::size_t i = 0; i < strength[d].size(); ++i)
+                strength[d][i] += other.strength[d][i];
+        }
+    }
+};
+
+struct Peak {
+    double delay_s, readout_s;
+};
+
+Image<float> Smoothed(const Image<float>& image) {
+    Image<float> result(image.width(), image.height());
+    for (int y = 1; y < image.height() - 1; ++y)
+        for (int x = 1; x < image.width() - 1; ++x) {
+            const auto row = [&](int v) {
+                return image(x - 1, v) + 2 * image(x, v) + image(x + 1, v);
+            };
+            result(x, y) = (row(y - 1) + 2 * row(y) + row(y + 1)) / 16;
+        }
+    return result;
+}
+
+// Bilinear; 0 outside.
+float At(const Image<float>& image, float x, float y) {
+    if (!(x >= 0 && y >= 0)) return 0;
+    const int i = static_cast<int>(x), j = static_cast<int>(y);
+    if (i + 1 >= image.width() || j + 1 >= image.height()) return 0;
+    const float a = x - static_cast<float>(i), b = y - static_cast<float>(j);
+    const float *top = image.row(j) + i, *bottom = image.row(j + 1) + i;
+    return (1 - b) * ((1 - a) * top[0] + a * top[1]) + b * ((1 - a) * bottom[0] + a * bottom[1]);
+}
+
+// How fast an end moves in the view, pixels per second.
+Eigen::Vector2f Flow(const EdgeView::End& end, int step_px, const PinholeCamera& camera,
+                     const Vector6d& velocity) {
+    const Eigen::Vector3d p =
+        camera.Unproject(end.x * step_px + step_px / 2, end.y * step_px + step_px / 2, end.depth_m);
+    const Eigen::Vector3d v = -(velocity.head<3>().cross(p) + velocity.tail<3>()) / p.z();
+    return {static_cast<float>(camera.fx * (v.x() - p.x() / p.z() * v.z()) / step_px),
+            static_cast<float>(camera.fy * (v.y() - p.y() / p.z() * v.z()) / step_px)};
+}
+
+void AddView(const EdgeView& view, double stamped_s, const PinholeCamera& camera,
+             const Vector6d& velocity, Evidence& evidence) {
+    for (std::size_t d = 0; d < kDirections; ++d) {
+        const Image<float>& strength = view.Strength(d);
+        const std::size_t every = 1 + view.ends[d].size() / kMostEnds;
+        for (std::size_t e = 0; e < view.ends[d].size(); e += every) {
+            const EdgeView::End& end = view.ends[d][e];
+            const Eigen::Vector2f flow = Flow(end, view.step_px, camera, velocity);
+            // Colour's edge is between the last pixel of the surface and the next one.
+            const float x = end.x + 0.5f * static_cast<float>(EdgeView::kAhead[d].first),
+                        y = end.y + 0.5f * static_cast<float>(EdgeView::kAhead[d].second);
+            const double row = (end.y + 0.5) / strength.height() - 0.5;
+            double* sum = evidence.strength[d].data();
+            for (int r = 0; r < kReadouts; ++r)
+                for (int k = 0; k < kDelays; ++k) {
+                    const auto t = static_cast<float>(stamped_s + (k - kDelays / 2) * kDelayStep_s +
+                                                      row * (r - kReadouts / 2) * kReadoutStep_s);
+                    *sum++ += At(strength, x + t * flow.x(), y + t * flow.y());
+                }
+            ++evidence.ends[d];
+        }
+    }
+}
+
+std::optional<Peak> Best(const Evidence& evidence) {
+    std::array<double, kDelays * kReadouts> score{};
+    bool enough = false;
+    for (std::size_t d = 0; d < kDirections; ++d) {
+        // A shadow of the depth camera only cancels out against the opposite direction.
+        if (std::min(evidence.ends[d], evidence.ends[d ^ 1]) < kFewestEnds) continue;
+        enough = true;
+        for (std::size_t i = 0; i < score.size(); ++i)
+            score[i] += evidence.strength[d][i] / evidence.ends[d];
+    }
+    if (!enough) return std::nullopt;
+    const auto best = static_cast<int>(std::ranges::max_element(score) - score.begin());
+    const int k = best % kDelays, r = best / kDelays;
+    if (k == 0 || r == 0 || k == kDelays - 1 || r == kReadouts - 1) return std::nullopt;
+    // The top of the parabola through three values.
+    const auto between = [&](int apart) {
+        const double before = score[static_cast<std::size_t>(best - apart)],
+                     after = score[static_cast<std::size_t>(best + apart)],
+                     bend = before - 2 * score[static_cast<std::size_t>(best)] + after;
+        return bend < 0 ? 0.5 * (before - after) / bend : 0;
+    };
+    return Peak{(k - kDelays / 2 + between(1)) * kDelayStep_s,
+                (r - kReadouts / 2 + between(kDelays)) * kReadoutStep_s};
+}
+
+}  // namespace
+
+bool ColourDelay::shown() const {
+    return std::abs(delay_s) > std::max(kDelayDeviations * delay_sigma_s, kLeastDelay_s);
+}
+
+bool ColourDelay::DepthRolls(double colour_readout_s) const {
+    const double at_once = readout_s - colour_readout_s;
+    const double least = kRollsDeviations * readout_sigma_s;
+    return at_once * at_once - readout_s * readout_s > least * least;
+}
+
+std::string ColourDelayText(const ColourDelay& d) {
+    return fmt::format("colour was taken {:.1f} +- {:.1f} ms {} than its time stamps say",
+                       1000 * std::abs(d.delay_s), 1000 * d.delay_sigma_s,
+                       d.delay_s > 0 ? "later" : "earlier");
+}
+
+ColourDelayEstimator::ColourDelayEstimator(const PinholeCamera& camera)
+    : camera_(camera), aligner_({}, camera) {}
+
+void ColourDelayEstimator::Add(const Frame& frame, const EdgeView& edges) {
+    if (edges.empty()) return;
+    PrepareFrame(frame, {}, prepared_);
+    T_last_current_ = aligner_.Align(prepared_, T_last_current_);
+    View view{frame.stamp_s, frame.colour_stamp_s - frame.stamp_s, Se3Log(T_last_current_), edges};
+    // Otherwise edges would be stronger where the place of a pixel's middle is asked for.
+    view.edges.across = Smoothed(edges.across);
+    view.edges.down = Smoothed(edges.down);
+    views_.push_back(std::move(view));
+}
+
+// The twists of a cubic spline through the views' poses. Plain differences would be 20 % too small
+// for motions that change at 2 Hz.
+std::vector<std::optional<Vector6d>> ColourDelayEstimator::Velocities() const {
+    std::vector<std::optional<Vector6d>> velocities(views_.size());
+    const auto gap_s = [&](std::size_t i) { return views_[i].stamp_s - views_[i - 1].stamp_s; };
+    const auto mean = [&](std::size_t i) { return Vector6d(views_[i].step / gap_s(i)); };
+    for (std::size_t first = 0, last; first < views_.size(); first = last + 1) {
+        last = first;
+        while (last + 1 < views_.size() && gap_s(last + 1) > 0 && gap_s(last + 1) < kLongestStep_s)
+            ++last;
+        if (last < first + 2) continue;
+        // The ends have the mean velocity of their step, and are not used. Between them a
+        // tridiagonal system, solved from the front to the back.
+        std::vector<double> factors(last - first, 0);
+        std::vector<Vector6d> rests(last - first, mean(first + 1));
+        for (std::size_t i = first + 1; i < last; ++i) {
+            const std::size_t at = i - first;
+            const double before = gap_s(i), after = gap_s(i + 1),
+                         pivot = 2 * (before + after) - after * factors[at - 1];
+            factors[at] = before / pivot;
+            rests[at] =
+                (3 * (after * mean(i) + before * mean(i + 1)) - after * rests[at - 1]) / pivot;
+        }
+        Vector6d next = mean(last);
+        for (std::size_t i = last - 1; i > first; --i)
+            velocities[i] = next = rests[i - first] - factors[i - first] * next;
+    }
+    return velocities;
+}
+
+std::optional<ColourDelay> ColourDelayEstimator::Estimate() const {
+    const std::vector<std::optional<Vector6d>> velocities = Velocities();
+    std::vector<std::size_t> used;
+    for (std::size_t i = 0; i < views_.size(); ++i)
+        if (velocities[i]) used.push_back(i);
+    std::array<Evidence, kDelayParts> parts;
+    tbb::parallel_for(std::size_t{0}, kDelayParts, [&](std::size_t part) {
+        for (std::size_t i = 0; i < used.size(); ++i)
+            if (const View& view = views_[used[i]]; i * kDelayParts / used.size() == part)
+                AddView(view.edges, view.colour_delay_s, camera_, *velocities[used[i]],
+                        parts[part]);
+    });
+    const auto without = [&](std::size_t left_out) {
+        Evidence rest;
+        for (std::size_t part = 0; part < kDelayParts; ++part)
+            if (part != left_out) rest.Add(parts[part]);
+        return Best(rest);
+    };
+    const std::optional<Peak> all = without(kDelayParts);
+    if (!all) return std::nullopt;
+    // Jackknife.
+    Peak mean{0, 0}, square{0, 0};
+    for (std::size_t part = 0; part < kDelayParts; ++part) {
+        const std::optional<Peak> rest = without(part);
+        if (!rest) return std::nullopt;
+        mean.delay_s += rest->delay_s / kDelayParts;
+        mean.readout_s += rest->readout_s / kDelayParts;
+        square.delay_s += rest->delay_s * rest->delay_s / kDelayParts;
+        square.readout_s += rest->readout_s * rest->readout_s / kDelayParts;
+    }
+    const auto sigma = [](double square_, double mean_) {
+        return std::sqrt((kDelayParts - 1) * std::max(0.0, square_ - mean_ * mean_));
+    };
+    return ColourDelay{all->delay_s, all->readout_s, sigma(square.delay_s, mean.delay_s),
+                       sigma(square.readout_s, mean.readout_s)};
+}
+
+}  // namespace tessera

@@ -1,0 +1,66 @@
+// How much later than its time stamp says a recording's colour was taken, seen from depth. While
+// the camera turns, colour's edges lie beside those of depth, by their speed in the image times the
+// delay. The delay under which the edges of many frames meet best is the answer. A rolling shutter
+// adds to it in proportion to the row, if depth is not read in the same way.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/camera.h"
+#include "core/se3.h"
+#include "optimize/edge_view.h"
+#include "tracking/image_aligner.h"
+
+namespace tessera {
+
+struct ColourDelay {
+    double delay_s = 0;    // between the middle rows, beyond the time stamps
+    double readout_s = 0;  // colour's read-out time minus depth's
+    // Standard deviations, from how the estimate changes when eighths of the recording are left
+    // out.
+    double delay_sigma_s = 0, readout_sigma_s = 0;
+    bool used = false;
+
+    // True if the images contradict the time stamps by more than such an estimate can be wrong.
+    bool shown() const;
+    // True if it is more likely that depth is read row by row, as colour is in this time, than that
+    // all rows of depth are taken at once.
+    bool DepthRolls(double colour_readout_s) const;
+};
+
+// "colour was taken 20.4 +- 1.2 ms later than its time stamps say".
+std::string ColourDelayText(const ColourDelay& delay);
+
+// Owner thread only. Stores about 0.2 MB per frame.
+class ColourDelayEstimator {
+  public:
+    explicit ColourDelayEstimator(const PinholeCamera& camera);
+
+    // In time order, about ten per second. `edges`: of the frame, ignored if empty.
+    void Add(const Frame& frame, const EdgeView& edges);
+
+    // Works in parallel; the result does not depend on the number of threads. Nothing if there are
+    // too few edges in either direction, or if they meet best at the end of the search: 40 ms, for
+    // both values.
+    std::optional<ColourDelay> Estimate() const;
+
+  private:
+    struct View {
+        double stamp_s = 0, colour_delay_s = 0;
+        Vector6d step = Vector6d::Zero();  // twist from the last view
+        EdgeView edges;                    // smoothed; without strengths where there are no ends
+    };
+
+    // Body twists per second, of views whose neighbours are near in time.
+    std::vector<std::optional<Vector6d>> Velocities() const;
+
+    PinholeCamera camera_;
+    ImageAligner aligner_;
+    PreparedFrame prepared_;
+    Eigen::Isometry3d T_last_current_ = Eigen::Isometry3d::Identity();
+    std::vector<View> views_;
+};
+
+}  // namespace tessera

@@ -1,0 +1,88 @@
+#include "run/first_seconds.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "io/frame_reader.h"
+#include "optimize/camera_estimator.h"
+
+namespace tessera {
+namespace {
+
+constexpr double kWindow_s = 8, kEvery_s = 0.1, kShortest_s = 0.06;
+constexpr int kLeastViews = 12;
+constexpr std::int64_t kMostFrames = 100000;
+
+// Number of source frames in a tenth of a second, from the stamps of its first frames.
+std::int64_t StrideOf(FrameSource& source, std::int64_t start) {
+    constexpr int kProbes = 3;
+    constexpr double kMost = 10;
+    if (start > 0 && !source.Seek(start)) return 1;
+    double shortest_s = kEvery_s;
+    std::optional<double> last_s;
+    Frame frame;
+    for (int i = 0; i < kProbes; ++i) {
+        if (source.Read(frame).status != ReadStatus::kOk) continue;
+        if (last_s && frame.stamp_s > *last_s)
+            shortest_s = std::min(shortest_s, frame.stamp_s - *last_s);
+        last_s = frame.stamp_s;
+    }
+    return source.Seek(start) ? static_cast<std::int64_t>(
+                                    std::clamp(std::round(kEvery_s / shortest_s), 1.0, kMost))
+                              : 1;
+}
+
+// The part of the selection to look at, in frames of the source. Nothing if it is too short.
+std::optional<FrameSelection> PartToSee(FrameSource& source, const FrameSelection& selection) {
+    const std::int64_t all = source.info().frame_count;
+    if (selection.start < 0 || selection.stride < 1 || (all >= 0 && selection.start >= all))
+        return std::nullopt;
+    std::int64_t frames = all < 0 ? -1 : all - selection.start;
+    if (selection.count >= 0) {
+        const std::int64_t asked = selection.count > kMostFrames
+                                       ? kMostFrames
+                                       : selection.count * std::min(selection.stride, kMostFrames);
+        frames = frames < 0 ? asked : std::min(frames, asked);
+    }
+    if (frames >= 0 && frames < kLeastViews) return std::nullopt;
+    const std::int64_t stride = StrideOf(source, selection.start);
+    return FrameSelection{selection.start, frames < 0 ? -1 : (frames + stride - 1) / stride,
+                          stride};
+}
+
+}  // namespace
+
+FirstSeconds LookAtFirstSeconds(std::unique_ptr<FrameSource> source,
+                                const FrameSelection& selection, bool one_camera) {
+    const std::optional<FrameSelection> part = PartToSee(*source, selection);
+    if (!part) return {};
+    const SourceInfo info = source->info();
+    CameraEstimator estimator(info.camera);
+    ColourShiftEstimator registration;
+    ColourDelayEstimator delay(info.camera);
+    int views = 0;
+    FrameReader reader(std::move(source), *part);
+    Frame frame;
+    std::optional<double> first_s, last_s;
+    while (true) {
+        const ReadResult read = reader.Next(frame);
+        if (read.status == ReadStatus::kEnd || read.status == ReadStatus::kError) break;
+        if (read.status != ReadStatus::kOk) continue;
+        if (!first_s) first_s = frame.stamp_s;
+        if (frame.stamp_s > *first_s + kWindow_s) break;
+        if (last_s && frame.stamp_s < *last_s + kShortest_s) continue;
+        last_s = frame.stamp_s;
+        const EdgeView edges = MakeEdgeView(frame);
+        if (views++ % 2 == 0) registration.Add(edges);
+        delay.Add(frame, edges);
+        if (one_camera) estimator.Add(frame);
+    }
+    FirstSeconds seen;
+    seen.colour = registration.Estimate();
+    seen.delay = delay.Estimate();
+    if (estimator.frames() >= kLeastViews) seen.camera = estimator.Estimate();
+    if (seen.colour) seen.colour->known = info.registration_known;
+    return seen;
+}
+
+}  // namespace tessera

@@ -1,0 +1,27 @@
+// What a recording's first seconds show about its camera.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "io/frame_source.h"
+#include "io/selected_frames.h"
+#include "optimize/camera_estimate.h"
+#include "optimize/colour_delay.h"
+#include "optimize/colour_shift.h"
+
+namespace tessera {
+
+// Nothing where they show too little.
+struct FirstSeconds {
+    std::optional<CameraEstimate> camera;
+    std::optional<ColourShift> colour;
+    std::optional<ColourDelay> delay;
+};
+
+// Reads the first eight seconds of the selection, ten frames of each. Consumes the source.
+// `one_camera`: colour and depth are of one camera, whose intrinsics are estimated.
+FirstSeconds LookAtFirstSeconds(std::unique_ptr<FrameSource> source,
+                                const FrameSelection& selection, bool one_camera);
+
+}  // namespace tessera
