@@ -16,51 +16,39 @@ constexpr double kDelayStep_s = 0.001, kReadoutStep_s = 0.01;
 constexpr std::size_t kDelayParts = 8;
 constexpr std::size_t kMostEnds = 300, kFewestEnds = 200;  // per direction: of a view, of all views
 constexpr double kLongestStep_s = 0.25;                    // between views
-constexpr double kDelayDeviations = 6, kRollsDeviations = 2;
-// Where edges move by less than a pixel, estimates are up to half of this off
-// (docs/benchmarks/calibration.md).
+constexpr double kDelayDeviations = 6, kCertainDeviations = 2, kRollsDeviations = 2;
+// Most estimates are right to a millisecond (docs/benchmarks/shutter.md).
 constexpr double kLeastDelay_s = 0.002;
 
 constexpr std::size_t kDirections = EdgeView::kAhead.size();
-
-// For each direction: the strength of colour's edges at depth's, by read-out time and delay.
-struct Evidence {
-    std::array<std::array<double, kDelays * kReadouts>, kDirections> strength{};
-    std::array<double, kDirections> ends{};
-
-    void Add(const Evidence& other) {
-        for (std::size_t d = 0; d < kDirections; ++d) {
-            ends[d] += other.ends[d];
-            for (std::size_t i = 0; i < strength[d].size(); ++i)
-                strength[d][i] += other.strength[d][i];
-        }
-    }
-};
 
 struct Peak {
     double delay_s, readout_s;
 };
 
-Image<float> Smoothed(const Image<float>& image) {
-    Image<float> result(image.width(), image.height());
+Image<std::uint8_t> Smoothed(const Image<float>& image) {
+    Image<std::uint8_t> result(image.width(), image.height());
     for (int y = 1; y < image.height() - 1; ++y)
         for (int x = 1; x < image.width() - 1; ++x) {
             const auto row = [&](int v) {
                 return image(x - 1, v) + 2 * image(x, v) + image(x + 1, v);
             };
-            result(x, y) = (row(y - 1) + 2 * row(y) + row(y + 1)) / 16;
+            result(x, y) = static_cast<std::uint8_t>(
+                std::lround(255 * (row(y - 1) + 2 * row(y) + row(y + 1)) / 16));
         }
     return result;
 }
 
 // Bilinear; 0 outside.
-float At(const Image<float>& image, float x, float y) {
+float At(const Image<std::uint8_t>& image, float x, float y) {
     if (!(x >= 0 && y >= 0)) return 0;
     const int i = static_cast<int>(x), j = static_cast<int>(y);
     if (i + 1 >= image.width() || j + 1 >= image.height()) return 0;
     const float a = x - static_cast<float>(i), b = y - static_cast<float>(j);
-    const float *top = image.row(j) + i, *bottom = image.row(j + 1) + i;
-    return (1 - b) * ((1 - a) * top[0] + a * top[1]) + b * ((1 - a) * bottom[0] + a * bottom[1]);
+    const auto between = [&](const std::uint8_t* row) {
+        return (1 - a) * static_cast<float>(row[0]) + a * static_cast<float>(row[1]);
+    };
+    return (1 - b) * between(image.row(j) + i) + b * between(image.row(j + 1) + i);
 }
 
 // How fast an end moves in the view, pixels per second.
@@ -73,59 +61,54 @@ Eigen::Vector2f Flow(const EdgeView::End& end, int step_px, const PinholeCamera&
             static_cast<float>(camera.fy * (v.y() - p.y() / p.z() * v.z()) / step_px)};
 }
 
-void AddView(const EdgeView& view, double stamped_s, const PinholeCamera& camera,
-             const Vector6d& velocity, Evidence& evidence) {
-    for (std::size_t d = 0; d < kDirections; ++d) {
-        const Image<float>& strength = view.Strength(d);
-        const std::size_t every = 1 + view.ends[d].size() / kMostEnds;
-        for (std::size_t e = 0; e < view.ends[d].size(); e += every) {
-            const EdgeView::End& end = view.ends[d][e];
-            const Eigen::Vector2f flow = Flow(end, view.step_px, camera, velocity);
-            // Colour's edge is between the last pixel of the surface and the next one.
-            const float x = end.x + 0.5f * static_cast<float>(EdgeView::kAhead[d].first),
-                        y = end.y + 0.5f * static_cast<float>(EdgeView::kAhead[d].second);
-            const double row = (end.y + 0.5) / strength.height() - 0.5;
-            double* sum = evidence.strength[d].data();
-            for (int r = 0; r < kReadouts; ++r)
-                for (int k = 0; k < kDelays; ++k) {
-                    const auto t = static_cast<float>(stamped_s + (k - kDelays / 2) * kDelayStep_s +
-                                                      row * (r - kReadouts / 2) * kReadoutStep_s);
-                    *sum++ += At(strength, x + t * flow.x(), y + t * flow.y());
-                }
-            ++evidence.ends[d];
+}  // namespace
+
+// For each direction: the strength of colour's edges at depth's, by read-out time and delay.
+struct ColourDelayEstimator::Evidence {
+    std::array<std::array<double, kDelays * kReadouts>, kDirections> strength{};
+    std::array<double, kDirections> ends{};
+
+    void Add(const Evidence& other) {
+        for (std::size_t d = 0; d < kDirections; ++d) {
+            ends[d] += other.ends[d];
+            for (std::size_t i = 0; i < strength[d].size(); ++i)
+                strength[d][i] += other.strength[d][i];
         }
     }
-}
 
-std::optional<Peak> Best(const Evidence& evidence) {
-    std::array<double, kDelays * kReadouts> score{};
-    bool enough = false;
-    for (std::size_t d = 0; d < kDirections; ++d) {
-        // A shadow of the depth camera only cancels out against the opposite direction.
-        if (std::min(evidence.ends[d], evidence.ends[d ^ 1]) < kFewestEnds) continue;
-        enough = true;
-        for (std::size_t i = 0; i < score.size(); ++i)
-            score[i] += evidence.strength[d][i] / evidence.ends[d];
+    // Nothing if there are too few ends, or if the best is at the end of the search.
+    std::optional<Peak> Best() const {
+        std::array<double, kDelays * kReadouts> score{};
+        bool enough = false;
+        for (std::size_t d = 0; d < kDirections; ++d) {
+            // A shadow of the depth camera only cancels out against the opposite direction.
+            if (std::min(ends[d], ends[d ^ 1]) < kFewestEnds) continue;
+            enough = true;
+            for (std::size_t i = 0; i < score.size(); ++i) score[i] += strength[d][i] / ends[d];
+        }
+        if (!enough) return std::nullopt;
+        const auto best = static_cast<int>(std::ranges::max_element(score) - score.begin());
+        const int k = best % kDelays, r = best / kDelays;
+        if (k == 0 || r == 0 || k == kDelays - 1 || r == kReadouts - 1) return std::nullopt;
+        // The top of the parabola through three values.
+        const auto between = [&](int apart) {
+            const double before = score[static_cast<std::size_t>(best - apart)],
+                         after = score[static_cast<std::size_t>(best + apart)],
+                         bend = before - 2 * score[static_cast<std::size_t>(best)] + after;
+            return bend < 0 ? 0.5 * (before - after) / bend : 0;
+        };
+        return Peak{(k - kDelays / 2 + between(1)) * kDelayStep_s,
+                    (r - kReadouts / 2 + between(kDelays)) * kReadoutStep_s};
     }
-    if (!enough) return std::nullopt;
-    const auto best = static_cast<int>(std::ranges::max_element(score) - score.begin());
-    const int k = best % kDelays, r = best / kDelays;
-    if (k == 0 || r == 0 || k == kDelays - 1 || r == kReadouts - 1) return std::nullopt;
-    // The top of the parabola through three values.
-    const auto between = [&](int apart) {
-        const double before = score[static_cast<std::size_t>(best - apart)],
-                     after = score[static_cast<std::size_t>(best + apart)],
-                     bend = before - 2 * score[static_cast<std::size_t>(best)] + after;
-        return bend < 0 ? 0.5 * (before - after) / bend : 0;
-    };
-    return Peak{(k - kDelays / 2 + between(1)) * kDelayStep_s,
-                (r - kReadouts / 2 + between(kDelays)) * kReadoutStep_s};
-}
-
-}  // namespace
+};
 
 bool ColourDelay::shown() const {
     return std::abs(delay_s) > std::max(kDelayDeviations * delay_sigma_s, kLeastDelay_s);
+}
+
+double ColourDelay::certain_s() const {
+    const double size_s = std::abs(delay_s) - kCertainDeviations * delay_sigma_s;
+    return std::copysign(std::max(0.0, size_s), delay_s);
 }
 
 bool ColourDelay::DepthRolls(double colour_readout_s) const {
@@ -147,11 +130,35 @@ void ColourDelayEstimator::Add(const Frame& frame, const EdgeView& edges) {
     if (edges.empty()) return;
     PrepareFrame(frame, {}, prepared_);
     T_last_current_ = aligner_.Align(prepared_, T_last_current_);
-    View view{frame.stamp_s, frame.colour_stamp_s - frame.stamp_s, Se3Log(T_last_current_), edges};
-    // Otherwise edges would be stronger where the place of a pixel's middle is asked for.
-    view.edges.across = Smoothed(edges.across);
-    view.edges.down = Smoothed(edges.down);
-    views_.push_back(std::move(view));
+    // Smoothed: otherwise edges would be stronger where the place of a pixel's middle is asked for.
+    views_.push_back({frame.stamp_s, frame.colour_stamp_s - frame.stamp_s, Se3Log(T_last_current_),
+                      edges.step_px, edges.ends, Smoothed(edges.across), Smoothed(edges.down)});
+}
+
+void ColourDelayEstimator::AddView(const View& view, const Vector6d& velocity,
+                                   Evidence& evidence) const {
+    for (std::size_t d = 0; d < kDirections; ++d) {
+        const Image<std::uint8_t>& strength =
+            EdgeView::kAhead[d].first != 0 ? view.across : view.down;
+        const std::size_t every = 1 + view.ends[d].size() / kMostEnds;
+        for (std::size_t e = 0; e < view.ends[d].size(); e += every) {
+            const EdgeView::End& end = view.ends[d][e];
+            const Eigen::Vector2f flow = Flow(end, view.step_px, camera_, velocity);
+            // Colour's edge is between the last pixel of the surface and the next one.
+            const float x = end.x + 0.5f * static_cast<float>(EdgeView::kAhead[d].first),
+                        y = end.y + 0.5f * static_cast<float>(EdgeView::kAhead[d].second);
+            const double row = (end.y + 0.5) / strength.height() - 0.5;
+            double* sum = evidence.strength[d].data();
+            for (int r = 0; r < kReadouts; ++r)
+                for (int k = 0; k < kDelays; ++k) {
+                    const auto t =
+                        static_cast<float>(view.stamped_delay_s + (k - kDelays / 2) * kDelayStep_s +
+                                           row * (r - kReadouts / 2) * kReadoutStep_s);
+                    *sum++ += At(strength, x + t * flow.x(), y + t * flow.y());
+                }
+            ++evidence.ends[d];
+        }
+    }
 }
 
 // The twists of a cubic spline through the views' poses. Plain differences would be 20 % too small
@@ -193,14 +200,13 @@ std::optional<ColourDelay> ColourDelayEstimator::Estimate() const {
     tbb::parallel_for(std::size_t{0}, kDelayParts, [&](std::size_t part) {
         for (std::size_t i = 0; i < used.size(); ++i)
             if (const View& view = views_[used[i]]; i * kDelayParts / used.size() == part)
-                AddView(view.edges, view.colour_delay_s, camera_, *velocities[used[i]],
-                        parts[part]);
+                AddView(view, *velocities[used[i]], parts[part]);
     });
     const auto without = [&](std::size_t left_out) {
         Evidence rest;
         for (std::size_t part = 0; part < kDelayParts; ++part)
             if (part != left_out) rest.Add(parts[part]);
-        return Best(rest);
+        return rest.Best();
     };
     const std::optional<Peak> all = without(kDelayParts);
     if (!all) return std::nullopt;

@@ -4,6 +4,8 @@
 // adds to it in proportion to the row, if depth is not read in the same way.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,6 +27,9 @@ struct ColourDelay {
 
     // True if the images contradict the time stamps by more than such an estimate can be wrong.
     bool shown() const;
+    // What is certain of it: two standard deviations less. Too much is worse than too little, of
+    // which tracking learns the rest.
+    double certain_s() const;
     // True if it is more likely that depth is read row by row, as colour is in this time, than that
     // all rows of depth are taken at once.
     bool DepthRolls(double colour_readout_s) const;
@@ -33,7 +38,7 @@ struct ColourDelay {
 // "colour was taken 20.4 +- 1.2 ms later than its time stamps say".
 std::string ColourDelayText(const ColourDelay& delay);
 
-// Owner thread only. Stores about 0.2 MB per frame.
+// Owner thread only. Stores about 0.2 MB per frame at 640 x 480.
 class ColourDelayEstimator {
   public:
     explicit ColourDelayEstimator(const PinholeCamera& camera);
@@ -48,11 +53,16 @@ class ColourDelayEstimator {
 
   private:
     struct View {
-        double stamp_s = 0, colour_delay_s = 0;
+        double stamp_s = 0;
+        double stamped_delay_s = 0;        // of colour
         Vector6d step = Vector6d::Zero();  // twist from the last view
-        EdgeView edges;                    // smoothed; without strengths where there are no ends
+        int step_px = 1;
+        std::array<std::vector<EdgeView::End>, EdgeView::kAhead.size()> ends;
+        Image<std::uint8_t> across, down;  // EdgeView's, smoothed, in 255ths
     };
+    struct Evidence;
 
+    void AddView(const View& view, const Vector6d& velocity, Evidence& evidence) const;
     // Body twists per second, of views whose neighbours are near in time.
     std::vector<std::optional<Vector6d>> Velocities() const;
 

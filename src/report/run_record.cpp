@@ -48,7 +48,7 @@ void TakeCorrections(const Json& json, RunRecord& record) {
     Take(used("vignetting"), "share", record.vignetting);
     double given_s = 0, found_ms = 0;
     Take(Child(json, "configuration"), "source.colour_delay_s", given_s);
-    Take(used("colour_delay"), "delay_ms", found_ms);
+    Take(used("colour_delay"), "corrected_ms", found_ms);
     record.colour_delay_s = given_s + found_ms / 1000;
     const Json shift = used("colour_shift");
     Take(shift, "x_px", record.colour_shift_px[0]);

@@ -88,6 +88,7 @@ Json ColourShiftJson(const ColourShift& shift) {
 Json ColourDelayJson(const ColourDelay& delay) {
     return {{"used", delay.used},
             {"delay_ms", 1000 * delay.delay_s},
+            {"corrected_ms", 1000 * (delay.used ? delay.certain_s() : 0)},
             {"delay_sigma_ms", 1000 * delay.delay_sigma_s},
             {"readout_difference_ms", 1000 * delay.readout_s},
             {"readout_difference_sigma_ms", 1000 * delay.readout_sigma_s}};

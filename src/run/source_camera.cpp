@@ -116,8 +116,10 @@ Status CorrectColour(const RunRequest& request, const SourceInfo& given, RunConf
     checked.delay = seen.delay;
     if (checked.delay && checked.delay->shown()) {
         checked.delay->used = true;
-        config.source.colour_delay_s += checked.delay->delay_s;
-        checked.messages.push_back(ColourDelayText(*checked.delay) + ": corrected");
+        config.source.colour_delay_s += checked.delay->certain_s();
+        checked.messages.push_back(fmt::format("{}: corrected by {:.1f} ms",
+                                               ColourDelayText(*checked.delay),
+                                               1000 * std::abs(checked.delay->certain_s())));
     }
     const bool believed = seen.camera && (seen.camera->plausible() || !given.camera_known);
     if (believed && seen.camera->vignetting_shown()) {

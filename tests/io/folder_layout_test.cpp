@@ -120,6 +120,16 @@ TEST(ReadFolderLayout, CorrectsTimeStampsThatContradictEachOther) {
     EXPECT_NEAR(frame.T_world_camera->translation().x(), 13.1, 1e-6);
 }
 
+TEST(ReadFolderLayout, FrameNumbersAreNoTimeStampsToCorrect) {
+    TemporaryFolder folder;
+    WriteTumLists(folder);
+    const auto layout = ReadFolderLayout(folder.path(), 0.02, 0.018);
+    ASSERT_TRUE(layout.ok()) << layout.message();
+    EXPECT_EQ(layout.value().colour_delay_s, 0);
+    EXPECT_EQ(layout.value().frames[1].depth_stamp_s, 2);
+    EXPECT_EQ(layout.value().frames[1].colour_stamp_s, 2);
+}
+
 TEST(ReadFolderLayout, TakesThePublishedCameraOfANamedFolder) {
     TemporaryFolder folder("rgbd_dataset_freiburg2_desk");
     WriteTumLists(folder);

@@ -55,6 +55,9 @@ TEST(ColourDelay, IsShownWhereItIsClearAndLarge) {
     EXPECT_TRUE((ColourDelay{.delay_s = -0.0025, .delay_sigma_s = 0.0004}).shown());
     EXPECT_FALSE((ColourDelay{.delay_s = -0.0025, .delay_sigma_s = 0.0005}).shown());
     EXPECT_FALSE((ColourDelay{.delay_s = 0.0015, .delay_sigma_s = 0.0001}).shown());
+    EXPECT_NEAR((ColourDelay{.delay_s = -0.009, .delay_sigma_s = 0.001}).certain_s(), -0.007,
+                1e-12);
+    EXPECT_EQ((ColourDelay{.delay_s = 0.001, .delay_sigma_s = 0.001}).certain_s(), 0);
     EXPECT_EQ(ColourDelayText({.delay_s = -0.0041, .delay_sigma_s = 0.0004}),
               "colour was taken 4.1 +- 0.4 ms earlier than its time stamps say");
 }

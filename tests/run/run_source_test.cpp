@@ -22,7 +22,7 @@ TEST(SourceSettings, AreWhatTheRunHasUsed) {
         R"({"source": {"camera": {"width": 64, "height": 48, "fx": 60, "fy": 61, "cx": 31, "cy": 23}},
             "vignetting": {"used": true, "share": 0.2},
             "colour_shift": {"used": true, "x_px": 5.5, "y_px": -4},
-            "colour_delay": {"used": true, "delay_ms": 8},
+            "colour_delay": {"used": true, "delay_ms": 9, "corrected_ms": 8},
             "configuration": {"synthetic.speed": 2.5, "source.colour_delay_s": 0.01, "source.unheard_of": 1, "mapping.voxel_size_m": 0.5}})"));
     EXPECT_EQ(config.source.camera, (PinholeCamera{64, 48, 60, 61, 31, 23}));
     EXPECT_EQ(config.source.vignetting, 0.2);
@@ -36,7 +36,7 @@ TEST(SourceSettings, LeaveOutWhatWasNotUsed) {
     for (const char* json :
          {"{}", R"({"source": {"camera": {"width": 64}}})",
           R"({"vignetting": {"used": false, "share": 0.2}, "colour_shift": {"x_px": 5}})",
-          R"({"colour_delay": {"used": false, "delay_ms": 8}})",
+          R"({"colour_delay": {"used": false, "corrected_ms": 8}})",
           R"({"vignetting": 3, "colour_shift": [], "colour_delay": 1})"}) {
         const RunConfig config = SourceSettings(Record(json));
         EXPECT_FALSE(config.source.camera) << json;

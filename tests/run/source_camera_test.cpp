@@ -108,15 +108,42 @@ TEST(OpenCheckedSource, CorrectsTheTimeStamps) {
     EXPECT_TRUE(checked.value().delay->used);
     EXPECT_NEAR(checked.value().delay->delay_s, 0.01, 0.001);
     ASSERT_FALSE(checked.value().messages.empty());
-    EXPECT_NE(checked.value().messages[0].find("later than its time stamps say: corrected"),
+    EXPECT_NE(checked.value().messages[0].find("later than its time stamps say: corrected by"),
               std::string::npos);
     FrameSource& source = *checked.value().source;
     Frame frame;
     ASSERT_TRUE(source.Seek(20));
     ASSERT_EQ(source.Read(frame).status, ReadStatus::kOk);
-    EXPECT_NEAR(frame.colour_delay_s, 0.015, 0.001);
+    EXPECT_NEAR(frame.colour_delay_s, 0.015, 0.0015);
+    EXPECT_DOUBLE_EQ(frame.colour_delay_s, 0.005 + checked.value().delay->certain_s());
     EXPECT_NEAR(frame.stamp_s, 2 - frame.colour_delay_s / 2, 1e-9);
     EXPECT_NEAR(frame.colour_stamp_s, 2 + frame.colour_delay_s / 2, 1e-9);
+}
+
+// Colour of this camera is said to be read in 30 ms, and no row of it lies beside depth's.
+TEST(OpenCheckedSource, TellsWhetherDepthIsReadRowByRow) {
+    const TempFolder folder;
+    std::vector<Frame> frames;
+    for (int i = 0; i < 40; ++i) frames.push_back(squares_view::View(0.1 * i, 0));
+    CameraCalibration camera;
+    camera.pinhole = squares_view::kCamera;
+    camera.depth_scale = 1000;
+    WriteViews(folder, frames, camera);
+    RunRequest request;
+    request.source = folder.path();
+    for (const double readout_s : {0.0, 0.03}) {
+        RunConfig config;
+        config.pipeline.shutter.colour_readout_s = readout_s;
+        const std::atomic<bool> stop{false};
+        const Result<RunSummary> run = ExecuteRun(request, config, {}, stop);
+        ASSERT_TRUE(run.ok()) << run.message();
+        ASSERT_TRUE(run.value().colour_delay);
+        EXPECT_FALSE(run.value().colour_delay->used);
+        const bool rolls = std::ranges::any_of(run.value().source.notes, [](const std::string& n) {
+            return n.find("depth is read row by row") != std::string::npos;
+        });
+        EXPECT_EQ(rolls, readout_s > 0);
+    }
 }
 
 TEST(OpenCheckedSource, EvensOutDarkCorners) {
