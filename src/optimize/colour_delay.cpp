@@ -14,6 +14,8 @@ namespace {
 constexpr int kDelays = 81, kReadouts = 9;
 constexpr double kDelayStep_s = 0.001, kReadoutStep_s = 0.01;
 constexpr std::size_t kDelayParts = 8;
+// Fewer say nothing about how the estimate changes from part to part.
+constexpr std::size_t kFewestViews = 3 * kDelayParts;
 constexpr std::size_t kMostEnds = 300, kFewestEnds = 200;  // per direction: of a view, of all views
 constexpr double kLongestStep_s = 0.25;                    // between views
 constexpr double kDelayDeviations = 6, kCertainDeviations = 2, kRollsDeviations = 2;
@@ -196,6 +198,7 @@ std::optional<ColourDelay> ColourDelayEstimator::Estimate() const {
     std::vector<std::size_t> used;
     for (std::size_t i = 0; i < views_.size(); ++i)
         if (velocities[i]) used.push_back(i);
+    if (used.size() < kFewestViews) return std::nullopt;
     std::array<Evidence, kDelayParts> parts;
     tbb::parallel_for(std::size_t{0}, kDelayParts, [&](std::size_t part) {
         for (std::size_t i = 0; i < used.size(); ++i)

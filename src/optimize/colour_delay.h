@@ -46,9 +46,9 @@ class ColourDelayEstimator {
     // In time order, about ten per second. `edges`: of the frame, ignored if empty.
     void Add(const Frame& frame, const EdgeView& edges);
 
-    // Works in parallel; the result does not depend on the number of threads. Nothing if there are
-    // too few edges in either direction, or if they meet best at the end of the search: 40 ms, for
-    // both values.
+    // Works in parallel; the result does not depend on the number of threads. Nothing if fewer than
+    // 24 views lie between two others, if there are too few edges in either direction, or if they
+    // meet best at the end of the search: 40 ms, for both values.
     std::optional<ColourDelay> Estimate() const;
 
   private:

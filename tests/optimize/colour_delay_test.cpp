@@ -11,9 +11,9 @@ using squares_view::kCamera;
 
 // Colour's stamps say `stamped_s` of the delay. The camera moves at `speed` times its usual one.
 std::optional<ColourDelay> Estimate(double delay_s, double readout_s = 0, double stamped_s = 0,
-                                    double speed = 1) {
+                                    double speed = 1, int views = 40) {
     ColourDelayEstimator estimator(kCamera);
-    for (int i = 0; i < 40; ++i) {
+    for (int i = 0; i < views; ++i) {
         Frame frame = squares_view::View(0.1 * i * speed, delay_s * speed, readout_s * speed);
         frame.stamp_s = 0.1 * i;
         frame.colour_stamp_s = frame.stamp_s + stamped_s;
@@ -48,6 +48,8 @@ TEST(ColourDelay, IsBeyondTheTimeStamps) {
 TEST(ColourDelay, IsNotKnownWhenNothingMovesOrTheSearchEnds) {
     EXPECT_FALSE(Estimate(0.01, 0, 0, 0));
     EXPECT_FALSE(Estimate(0.06));
+    EXPECT_FALSE(Estimate(0.01, 0, 0, 1, 25));
+    EXPECT_TRUE(Estimate(0.01, 0, 0, 1, 26));
     EXPECT_FALSE(ColourDelayEstimator(kCamera).Estimate());
 }
 
