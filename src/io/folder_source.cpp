@@ -122,9 +122,10 @@ void FolderSourceConfig::Describe(ConfigParameters& p) {
         "depth_scale", depth_scale, {0.0, 1e6}, "",
         "stored depth value that corresponds to one metre; 0 takes it from the camera file; set it "
         "if depths come out too long or too short");
-    p.Add("colour_delay_s", colour_delay_s, {-0.1, 0.1}, "s",
-          "how much later than its time stamps say colour was taken, seen from depth; "
-          "calibration.check adds what it finds");
+    p.Add(
+        "colour_delay_s", colour_delay_s, {-0.1, 0.1}, "s",
+        "how much later than its time stamps say a recording's colour was taken, seen from depth; "
+        "calibration.check adds what it finds");
     p.Add("swap_red_blue", swap_red_blue,
           "for .klg logs: some loggers store the colour channels in the opposite order; turn it on "
           "if faces look blue");

@@ -43,9 +43,10 @@ Image<std::uint8_t> Smoothed(const Image<float>& image) {
 
 // Bilinear; 0 outside.
 float At(const Image<std::uint8_t>& image, float x, float y) {
-    if (!(x >= 0 && y >= 0)) return 0;
+    const auto last_x = static_cast<float>(image.width() - 1),
+               last_y = static_cast<float>(image.height() - 1);
+    if (!(x >= 0 && y >= 0 && x < last_x && y < last_y)) return 0;
     const int i = static_cast<int>(x), j = static_cast<int>(y);
-    if (i + 1 >= image.width() || j + 1 >= image.height()) return 0;
     const float a = x - static_cast<float>(i), b = y - static_cast<float>(j);
     const auto between = [&](const std::uint8_t* row) {
         return (1 - a) * static_cast<float>(row[0]) + a * static_cast<float>(row[1]);
