@@ -68,6 +68,25 @@ Labelling Person() {
     return {std::move(detector), std::move(classes)};
 }
 
+TEST(LabellingStage, ReportsTheTimeOfColourAsRecorded) {
+    Labelling labelling = Breaking(1, false);
+    LabelConfig config;
+    config.classes = "cup";
+    LabellingStage stage(std::move(labelling.detector), std::move(labelling.classes), config,
+                         {64, 48, 50, 50, 31.5, 23.5});
+    Frame frame;
+    frame.stamp_s = 10;
+    frame.colour_stamp_s = 10.01;
+    frame.colour_delay_s = 0.02;
+    CorrectStamps(frame.colour_delay_s, frame.stamp_s, frame.colour_stamp_s);
+    frame.colour = ColourImage(64, 48, Rgb8{90, 90, 90});
+    LabelReport report;
+    std::string message;
+    ASSERT_TRUE(stage.Detect(frame, report, message)) << message;
+    EXPECT_EQ(report.stamp_s, frame.stamp_s);
+    EXPECT_NEAR(report.colour_stamp_s, 10.01, 1e-9);
+}
+
 class LabellingStageTest : public EngineTest, public testing::WithParamInterface<bool> {
   protected:
     void MakeLabelling(bool live, int good) {
