@@ -7,12 +7,10 @@
 namespace tessera {
 namespace {
 
-using squares_view::kCamera;
-
 // Colour's stamps say `stamped_s` of the delay. The camera moves at `speed` times its usual one.
 std::optional<ColourDelay> Estimate(double delay_s, double readout_s = 0, double stamped_s = 0,
                                     double speed = 1, int views = 40) {
-    ColourDelayEstimator estimator(kCamera);
+    ColourDelayEstimator estimator(squares_view::kCamera);
     for (int i = 0; i < views; ++i) {
         Frame frame = squares_view::View(0.1 * i * speed, delay_s * speed, readout_s * speed);
         frame.stamp_s = 0.1 * i;
@@ -50,7 +48,7 @@ TEST(ColourDelay, IsNotKnownWhenNothingMovesOrTheSearchEnds) {
     EXPECT_FALSE(Estimate(0.06));
     EXPECT_FALSE(Estimate(0.01, 0, 0, 1, 25));
     EXPECT_TRUE(Estimate(0.01, 0, 0, 1, 26));
-    EXPECT_FALSE(ColourDelayEstimator(kCamera).Estimate());
+    EXPECT_FALSE(ColourDelayEstimator(squares_view::kCamera).Estimate());
 }
 
 TEST(ColourDelay, IsShownWhereItIsClearAndLarge) {
