@@ -28,7 +28,7 @@ struct MakePoint {
             normal_y[i] = n.y;
             normal_z[i] = n.z;
         }
-        weight[i] = valid ? PointWeight(d, a.depth_exponent, a.nearest_m) : 0.0f;
+        weight[i] = valid ? PointWeight(d, a.noise_depth_m, a.nearest_m) : 0.0f;
         intensity[i] =
             valid && a.intensity.pixels != nullptr ? IntensityOfPoint(a, row, u, p) : -1.0f;
         if (a.chroma) {

@@ -41,7 +41,7 @@ PointArguments MakePointArguments(const PreparedFrame& frame, const PinholeCamer
     a.step = step;
     a.width = (sampled(frame.width) + kPointPadding - 1) / kPointPadding * kPointPadding;
     a.height = sampled(frame.height);
-    a.depth_exponent = static_cast<float>(-weight.exponent);
+    a.noise_depth_m = static_cast<float>(weight.noise_depth_m);
     a.nearest_m = static_cast<float>(weight.nearest_m);
     a.normal_radius_px = -1;
     for (int i = 0; i < 6; ++i) a.twist_per_s[i] = static_cast<float>(motion.twist_per_s(i));
@@ -86,7 +86,7 @@ void FramePoints::BuildRows(const PointArguments& a) {
             x[at] = p.x;
             y[at] = p.y;
             z[at] = p.z;
-            weight[at] = PointWeight(d, a.depth_exponent, a.nearest_m);
+            weight[at] = PointWeight(d, a.noise_depth_m, a.nearest_m);
             ++valid[static_cast<std::size_t>(row)];
         }
     });

@@ -13,9 +13,9 @@
 
 namespace tessera {
 
-// A point's weight: (1 m / depth)^exponent, limited to its value at nearest_m.
+// Of PointWeight.
 struct DepthWeight {
-    double exponent = 0, nearest_m = kMinWeightDepth_m;
+    double noise_depth_m = 0, nearest_m = kMinWeightDepth_m;
 };
 
 // Arguments for every step-th pixel. Includes intensities, and chroma besides, only if requested

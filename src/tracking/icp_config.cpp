@@ -28,9 +28,10 @@ void IcpTracker::Config::Describe(ConfigParameters& p) {
     p.Add("distance_scale_m", distance_scale_m, {1e-4, 10.0}, "m",
           "Huber scale of distances: larger residuals count linearly; a scale above the gate gives "
           "least squares, as in [D18]");
-    p.Add("depth_exponent", depth_exponent, {0.0, 4.0}, "",
-          "a point's weight is (1 m / depth)^depth_exponent; 4 is the inverse variance of "
-          "structured light, 0 is [D18]");
+    p.Add("noise_depth_m", noise_depth_m, {0.0, 100.0}, "m",
+          "a point's weight is the inverse variance of its distance: nearer than this most of the "
+          "error is one of direction, which grows with depth, farther away one of disparity, which "
+          "grows with its square; 0: equal weights, [D18]");
 }
 
 }  // namespace tessera

@@ -115,7 +115,7 @@ void IcpTracker::PrepareLevel(const TrackInput& input, int level, State& state) 
                                           view_.T_world_camera * state.T_local_camera) /
                                    input.since_last_s;
     const int step = config_.finest_step_px << level;
-    const DepthWeight weight{config_.depth_exponent, input.nearest_m};
+    const DepthWeight weight{config_.noise_depth_m, input.nearest_m};
     PointArguments points_arguments =
         MakePointArguments(input.frame, camera_, state.motion, step, weight, state.alpha > 0);
     points_arguments.normal_radius_px = config_.normal_radius_px;

@@ -31,7 +31,7 @@ class IcpTracker : public Tracker {
         double normal_gate_rad = 0.8;
         int normal_radius_px = 4;
         double distance_scale_m = 0.02;
-        double depth_exponent = 2.0;
+        double noise_depth_m = 2.0;
 
         void Describe(ConfigParameters& parameters);
     };

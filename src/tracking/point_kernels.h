@@ -33,10 +33,13 @@ TESSERA_HD CameraPoint Moved(const CameraPoint& p, const float* twist_per_s, flo
 
 constexpr double kMinWeightDepth_m = 0.5;  // default
 
-// max(z, nearest_m)^exponent, in metres.
-TESSERA_HD float PointWeight(float z_m, float exponent, float nearest_m) {
-    const float z = max(z_m, nearest_m);
-    return exponent == -2.0f ? 1.0f / (z * z) : std::pow(z, exponent);
+// The inverse variance of a point's distance, up to a factor, in metres: an error of direction
+// grows with the depth, that of disparity with its square; at noise_depth_m they are equal. Points
+// nearer than nearest_m have its weight. With noise_depth_m = 0 all weigh the same.
+TESSERA_HD float PointWeight(float z_m, float noise_depth_m, float nearest_m) {
+    if (noise_depth_m <= 0) return 1.0f;
+    const float z = max(z_m, nearest_m), r = z / noise_depth_m;
+    return 1.0f / (z * z * (1.0f + r * r));
 }
 
 // Whether three measured depths in a row may belong to one surface.
@@ -110,11 +113,11 @@ struct PointArguments {
     const std::uint32_t* packed_colour;
     double fx, fy, cx, cy;  // of the same camera, for RaySlope
     int step;
-    int width, height;                // slots per row (some lie right of the image), and rows
-    float depth_exponent, nearest_m;  // for PointWeight
-    int normal_radius_px;             // for NormalAt; negative: no normals
-    float twist_per_s[6];             // from FrameMotion, as are the times below
-    bool still;                       // the twist is zero
+    int width, height;               // slots per row (some lie right of the image), and rows
+    float noise_depth_m, nearest_m;  // for PointWeight
+    int normal_radius_px;            // for NormalAt; negative: no normals
+    float twist_per_s[6];            // from FrameMotion, as are the times below
+    bool still;                      // the twist is zero
     double depth_readout_s, colour_delay_s, colour_readout_s;
 };
 

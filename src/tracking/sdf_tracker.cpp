@@ -68,7 +68,7 @@ TrackResult SdfTracker::Track(const TrackInput& input) {
 
 // Without points the level cannot be tracked. A device may have had no room for them.
 void SdfTracker::MakePoints(const TrackInput& input, int step, FramePoints& points, State& state) {
-    const DepthWeight weight{config_.depth_exponent, input.nearest_m};
+    const DepthWeight weight{config_.noise_depth_m, input.nearest_m};
     sums_.SetPoints(input.map, input.frame,
                     MakePointArguments(input.frame, camera_, state.motion, step, weight,
                                        state.alpha > 0, config_.chroma),
@@ -181,9 +181,10 @@ void SdfTracker::Config::Describe(ConfigParameters& p) {
     p.Add("distance_scale_m", distance_scale_m, {1e-4, 10.0}, "m",
           "Huber scale of distances: larger residuals count linearly; a scale above the truncation "
           "gives least squares, as in [B14]");
-    p.Add("depth_exponent", depth_exponent, {0.0, 4.0}, "",
-          "a point's weight is (1 m / depth)^depth_exponent; 4 is the inverse variance of "
-          "structured light, 0 is [B14]");
+    p.Add("noise_depth_m", noise_depth_m, {0.0, 100.0}, "m",
+          "a point's weight is the inverse variance of its distance: nearer than this most of the "
+          "error is one of direction, which grows with depth, farther away one of disparity, which "
+          "grows with its square; 0: equal weights, [B14]");
     p.Add("normalise", normalise,
           "divide the field's distance by the length of its gradient, because distances measured "
           "along slanted rays are too long; off is [B14]");

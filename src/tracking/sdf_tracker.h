@@ -16,7 +16,7 @@ class SdfTracker : public Tracker {
   public:
     struct Config {
         double distance_scale_m = 0.02;
-        double depth_exponent = 2.0;
+        double noise_depth_m = 2.0;
         bool normalise = true;
         bool chroma = false;
         int finest_step_px = 2;

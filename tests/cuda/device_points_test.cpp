@@ -66,13 +66,13 @@ TEST(DevicePoints, AreTheBytesOfFramePoints) {
     std::size_t i = 0;
     for (const int step : {1, 2, 3, 8})
         for (const FrameMotion& motion : {FrameMotion(), Moving()})
-            for (const double depth_exponent : {2.0, 3.5})
+            for (const double noise_depth_m : {0.0, 2.0})
                 for (const bool intensities : {true, false}) {
                     SCOPED_TRACE(::testing::Message()
-                                 << step << ", " << depth_exponent << ", " << intensities);
+                                 << step << ", " << noise_depth_m << ", " << intensities);
                     ExpectSamePoints(device, DeskFrames()[i++ / 2 % DeskFrames().size()].prepared,
                                      DeskCamera(), motion, step,
-                                     {depth_exponent, intensities ? 0.5 : 1.5}, intensities);
+                                     {noise_depth_m, intensities ? 0.5 : 1.5}, intensities);
                 }
 }
 

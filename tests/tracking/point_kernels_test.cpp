@@ -10,13 +10,15 @@
 namespace tessera {
 namespace {
 
-TEST(PointKernels, WeightFallsWithDepthFromHalfAMetreOn) {
-    EXPECT_FLOAT_EQ(PointWeight(2.0f, -2.0f, 0.5f), 0.25f);
-    EXPECT_FLOAT_EQ(PointWeight(0.1f, -2.0f, 0.5f), 4.0f);
-    EXPECT_FLOAT_EQ(PointWeight(4.0f, -0.5f, 0.5f), 0.5f);
-    EXPECT_FLOAT_EQ(PointWeight(0.1f, -1.0f, 0.5f), 2.0f);
-    EXPECT_FLOAT_EQ(PointWeight(1.0f, -2.0f, 2.0f), 0.25f);
-    EXPECT_FLOAT_EQ(PointWeight(4.0f, -2.0f, 2.0f), 0.0625f);
+TEST(PointKernels, WeightIsTheInverseVarianceFromHalfAMetreOn) {
+    // 1 / (z^2 + z^4 / noise_depth^2)
+    EXPECT_FLOAT_EQ(PointWeight(2.0f, 2.0f, 0.5f), 1 / 8.0f);
+    EXPECT_FLOAT_EQ(PointWeight(4.0f, 2.0f, 0.5f), 1 / 80.0f);
+    EXPECT_FLOAT_EQ(PointWeight(4.0f, 1.0f, 0.5f), 1 / 272.0f);
+    EXPECT_FLOAT_EQ(PointWeight(0.1f, 2.0f, 0.5f), 1 / 0.265625f);
+    EXPECT_FLOAT_EQ(PointWeight(1.0f, 2.0f, 2.0f), 1 / 8.0f);
+    EXPECT_FLOAT_EQ(PointWeight(0.1f, 0.0f, 0.5f), 1.0f);
+    EXPECT_FLOAT_EQ(PointWeight(4.0f, 0.0f, 0.5f), 1.0f);
 }
 
 // Moved is the exponential of the body twist to first order. A negative time inverts it.
