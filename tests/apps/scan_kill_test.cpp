@@ -173,7 +173,7 @@ TEST_F(KilledScan, WithAThirdOfTheMapAway) {
     options = {"--stride", std::to_string(kStride), "--set", "frame.max_depth_m=3"};
     ASSERT_EQ(Call(Arguments(folder / "unlimited", {"--scan", folder / "unlimited.scan"})), 0)
         << Log();
-    options.insert(options.end(), {"--set", "mapping.memory_limit_mb=10"});
+    options.insert(options.end(), {"--set", "mapping.memory_limit_mb=9"});
     KillAndResume(2);
     ExpectSame("unlimited", "whole");
     EXPECT_LT(3 * BlocksOf("whole"), 2 * BlocksOf("unlimited"));
