@@ -13,7 +13,7 @@
 
 namespace tessera {
 
-// Of PointWeight.
+// What PointWeight needs besides the depth.
 struct DepthWeight {
     double noise_depth_m = 0, nearest_m = kMinWeightDepth_m;
 };
