@@ -1,6 +1,7 @@
 #include "finish/decimate.h"
 
 #include <meshoptimizer.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,24 +15,41 @@ constexpr double kAnyError_m = 1e6;
 
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
-// Decimates some of a mesh's triangles. With meshopt_SimplifyLockBorder among the options, the
-// edges stay where these triangles border on nothing or on others.
-Triangles Thin(const TriangleMesh& mesh, const Triangles& triangles, double error_m, double share,
+// Decimates some of a mesh's triangles, and raises `reached_m` to the error. With
+// meshopt_SimplifyLockBorder among the options, the edges stay where these triangles border on
+// nothing or on others.
+Triangles Thin(const TriangleMesh& mesh, Triangles triangles, double error_m, double share,
                unsigned int options, double& reached_m) {
+    // Only the vertices that they use: meshoptimizer's tables are as long as the list.
+    constexpr std::uint32_t kUnused = 0xffffffffu;
+    std::vector<std::uint32_t> number_of(mesh.vertices.size(), kUnused), used;
+    for (const auto& triangle : triangles)
+        for (const std::uint32_t vertex : triangle) number_of[vertex] = 0;
+    for (std::uint32_t v = 0; v < number_of.size(); ++v) {
+        if (number_of[v] == kUnused) continue;
+        number_of[v] = static_cast<std::uint32_t>(used.size());
+        used.push_back(v);
+    }
+    for (auto& triangle : triangles)
+        for (std::uint32_t& vertex : triangle) vertex = number_of[vertex];
+    std::vector<Eigen::Vector3f> points;
+    for (const std::uint32_t vertex : used) points.push_back(mesh.vertices[vertex]);
     static_assert(sizeof(triangles[0]) == 3 * sizeof(unsigned int) &&
-                  sizeof(mesh.vertices[0]) == 3 * sizeof(float));
-    const float* positions = mesh.vertices.front().data();
-    const std::size_t stride = sizeof(mesh.vertices[0]);
-    // meshoptimizer's errors are shares of the mesh's extent.
-    const float extent_m = meshopt_simplifyScale(positions, mesh.vertices.size(), stride);
+                  sizeof(points[0]) == 3 * sizeof(float));
+    const float* positions = points.front().data();
+    const std::size_t stride = sizeof(points[0]);
+    // meshoptimizer's errors are shares of the extent.
+    const float extent_m = meshopt_simplifyScale(positions, points.size(), stride);
     const auto target = static_cast<std::size_t>(share * static_cast<double>(triangles.size()));
     float reached = 0;
     Triangles kept(triangles.size());
     const std::size_t count =
         meshopt_simplify(kept.front().data(), triangles.front().data(), 3 * triangles.size(),
-                         positions, mesh.vertices.size(), stride, 3 * target,
+                         positions, points.size(), stride, 3 * target,
                          static_cast<float>(error_m) / extent_m, options, &reached);
     kept.resize(count / 3);
+    for (auto& triangle : kept)
+        for (std::uint32_t& vertex : triangle) vertex = used[vertex];
     reached_m = std::max(reached_m, static_cast<double>(reached) * static_cast<double>(extent_m));
     return kept;
 }
@@ -53,23 +71,24 @@ double Decimate(TriangleMesh& mesh, const std::vector<float>& sigmas_m, double e
         if (number >= classes.size()) classes.resize(number + 1);
         classes[number].push_back(triangle);
     }
-    double reached_m = 0;
+    const unsigned int options = classes.size() > 1 ? meshopt_SimplifyLockBorder : 0;
+    std::vector<double> reached_m(classes.size());
+    tbb::parallel_for(std::size_t{0}, classes.size(), [&](std::size_t i) {
+        if (classes[i].empty()) return;
+        classes[i] = Thin(mesh, std::move(classes[i]), std::ldexp(error_m, static_cast<int>(i)),
+                          share, options, reached_m[i]);
+    });
     mesh.triangles.clear();
-    for (std::size_t i = 0; i < classes.size(); ++i) {
-        if (classes[i].empty()) continue;
-        const unsigned int options = classes.size() > 1 ? meshopt_SimplifyLockBorder : 0;
-        const Triangles kept = Thin(mesh, classes[i], std::ldexp(error_m, static_cast<int>(i)),
-                                    share, options, reached_m);
+    for (const Triangles& kept : classes)
         mesh.triangles.insert(mesh.triangles.end(), kept.begin(), kept.end());
-    }
     DropUnusedVertices(mesh);
-    return reached_m;
+    return reached_m.empty() ? 0 : *std::ranges::max_element(reached_m);
 }
 
 double DecimateTo(TriangleMesh& mesh, double share) {
     if (mesh.triangles.empty()) return 0;
     double reached_m = 0;
-    mesh.triangles = Thin(mesh, mesh.triangles, kAnyError_m, share, 0, reached_m);
+    mesh.triangles = Thin(mesh, std::move(mesh.triangles), kAnyError_m, share, 0, reached_m);
     DropUnusedVertices(mesh);
     return reached_m;
 }

@@ -1,8 +1,11 @@
 #include "finish/finish.h"
 
+#include <tbb/task_group.h>
+
 #include <algorithm>
 
 #include "finish/decimate.h"
+#include "finish/path_motion.h"
 #include "finish/view_choice.h"
 
 namespace tessera {
@@ -88,25 +91,44 @@ class Finisher {
 
     // False: cancelled. `scanned`: the mesh whose colours the frames are made to match, or null.
     bool Paint(const TriangleMesh* scanned) {
+        ViewChoice choice(path_, camera_);
+        // Each view is painted while the next one is read and made.
+        TextureView view;
+        tbb::task_group painting;
         const auto paint = [&](const std::optional<Frame>& frame) {
             if (!frame) return;
-            TextureView view = MakeTextureView(camera_, *frame);
-            view.blur_px = MotionBlur_px(path_, frame->stamp_s, camera_);
-            if (scanned != nullptr) EstimateGain(*scanned, view);
-            for (TexturedLevel& level : levels_) level.Add(view);
+            TextureView next = MakeTextureView(camera_, *frame, MotionOf(*frame));
+            if (scanned != nullptr) EstimateGain(*scanned, next);
+            painting.wait();
+            view = std::move(next);
+            painting.run([&] {
+                for (TexturedLevel& level : levels_) level.Add(view);
+            });
             ++finished_.report.views;
         };
-        ViewChoice choice;
-        FinishReport& report = finished_.report;
-        for (Frame frame; frames_.all(frame); ++report.frames) {
-            if (frame.T_world_camera && !frame.colour.empty()) paint(choice.Offer(frame));
-            const double read = static_cast<double>(report.frames + 1) /
-                                static_cast<double>(std::max<std::int64_t>(frames_.count, 1));
-            if (!progress_("textured", kLaidOut + (1 - kLaidOut) * std::min(read, 1.0)))
+        const auto candidates = static_cast<double>(choice.stamps_s().size());
+        const NextPosedFrame next = frames_.at(choice.stamps_s());
+        for (Frame frame; next(frame);) {
+            const std::optional<std::size_t> number = choice.Find(frame);
+            if (!number) continue;
+            ++finished_.report.frames;
+            if (frame.T_world_camera && !frame.colour.empty()) paint(choice.Offer(frame, *number));
+            const double read = static_cast<double>(*number + 1) / candidates;
+            if (!progress_("textured", kLaidOut + (1 - kLaidOut) * read)) {
+                painting.wait();
                 return false;
+            }
         }
         paint(choice.Last());
+        painting.wait();
         return true;
+    }
+
+    FrameMotion MotionOf(const Frame& frame) const {
+        return {.twist_per_s = TwistAt(path_, frame.stamp_s),
+                .colour_delay_s = frame.colour_stamp_s - frame.stamp_s,
+                .depth_readout_s = frames_.depth_readout_s,
+                .colour_readout_s = frames_.colour_readout_s};
     }
 
     const PinholeCamera& camera_;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <vector>
 
 #include "core/frame.h"
 #include "finish/clean_surface.h"
@@ -32,11 +33,14 @@ using NextPosedFrame = std::function<bool(Frame&)>;
 using FinishProgress = std::function<bool(const char* step, double share)>;
 
 struct FinishFrames {
-    // Up to FrameEvidence::kMostFrames of all, spread evenly; read before `all`. They tell what
-    // they look through. May be null: then nothing is known about that.
+    // Up to FrameEvidence::kMostFrames of all, spread evenly; read before any of `at`. They tell
+    // what they look through. May be null: then nothing is known about that.
     NextPosedFrame sample;
-    NextPosedFrame all;
+    // Reads the frames at these time stamps, which increase, and possibly others between them.
+    std::function<NextPosedFrame(const std::vector<double>& stamps_s)> at;
     std::int64_t count = 0;  // of all, about
+    // What the source's rows took to be read; 0: at one time.
+    double depth_readout_s = 0, colour_readout_s = 0;
 };
 
 // `path`: where the camera was, in the mesh's world. `mesh` has normals; where it has colours, the

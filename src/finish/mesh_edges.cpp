@@ -1,18 +1,20 @@
 #include "finish/mesh_edges.h"
 
+#include <tbb/parallel_for.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <numeric>
+#include <span>
 #include <tuple>
 
 namespace tessera {
 namespace {
 
+// A side of a triangle, by the one of its vertices that has the larger number.
 struct HalfEdge {
-    std::uint32_t low, high;  // vertices
+    std::uint32_t high;
     std::uint32_t triangle, side;
-    bool operator<(const HalfEdge& o) const {
-        return std::tie(low, high, triangle) < std::tie(o.low, o.high, o.triangle);
-    }
 };
 
 template <class T>
@@ -26,24 +28,34 @@ void Keep(std::vector<T>& values, const std::vector<std::uint32_t>& number_of, s
 }  // namespace
 
 std::vector<std::array<std::uint32_t, 3>> TriangleNeighbours(const TriangleMesh& mesh) {
-    std::vector<HalfEdge> edges;
-    edges.reserve(3 * mesh.triangles.size());
-    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
-        for (std::uint32_t k = 0; k < 3; ++k) {
-            const auto [low, high] =
-                std::minmax(mesh.triangles[t][k], mesh.triangles[t][(k + 1) % 3]);
-            edges.push_back({low, high, t, k});
-        }
-    std::sort(edges.begin(), edges.end());
+    const auto for_each_side = [&](const auto& take) {
+        for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
+            for (std::uint32_t k = 0; k < 3; ++k) {
+                const auto [low, high] =
+                    std::minmax(mesh.triangles[t][k], mesh.triangles[t][(k + 1) % 3]);
+                take(low, HalfEdge{high, t, k});
+            }
+    };
+    // The sides of each vertex, one list after the other: of v from first[v] to first[v + 1].
+    std::vector<std::size_t> first(mesh.vertices.size() + 2);
+    for_each_side([&](std::uint32_t low, const HalfEdge&) { ++first[low + 2]; });
+    std::partial_sum(first.begin(), first.end(), first.begin());
+    std::vector<HalfEdge> edges(3 * mesh.triangles.size());
+    for_each_side([&](std::uint32_t low, const HalfEdge& edge) { edges[first[low + 1]++] = edge; });
     std::vector<std::array<std::uint32_t, 3>> neighbours(mesh.triangles.size(),
                                                          {kNoTriangle, kNoTriangle, kNoTriangle});
-    for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
-        const HalfEdge &a = edges[i], &b = edges[i + 1];
-        if (a.low != b.low || a.high != b.high) continue;
-        neighbours[a.triangle][a.side] = b.triangle;
-        neighbours[b.triangle][b.side] = a.triangle;
-        ++i;
-    }
+    tbb::parallel_for(std::size_t{0}, mesh.vertices.size(), [&](std::size_t v) {
+        const std::span<HalfEdge> sides(edges.data() + first[v], first[v + 1] - first[v]);
+        std::ranges::sort(sides, {},
+                          [](const HalfEdge& e) { return std::tuple(e.high, e.triangle, e.side); });
+        for (std::size_t i = 0; i + 1 < sides.size(); ++i) {
+            const HalfEdge &a = sides[i], &b = sides[i + 1];
+            if (a.high != b.high) continue;
+            neighbours[a.triangle][a.side] = b.triangle;
+            neighbours[b.triangle][b.side] = a.triangle;
+            ++i;
+        }
+    });
     return neighbours;
 }
 

@@ -53,19 +53,26 @@ void Smooth(TriangleMesh& mesh, const std::vector<int>& rounds) {
     const int most = rounds.empty() ? 0 : *std::ranges::max_element(rounds);
     if (most <= 0) return;
     const Neighbours neighbours = NeighboursOf(mesh);
-    std::vector<Eigen::Vector3f> before;
-    for (int round = 0; round < most; ++round)
+    std::vector<std::uint32_t> moving;
+    for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v)
+        if (rounds[v] > 0 && neighbours.first[v] < neighbours.first[v + 1]) moving.push_back(v);
+    std::vector<Eigen::Vector3f> after = mesh.vertices;
+    for (int round = 0; round < most; ++round) {
+        std::erase_if(moving, [&](std::uint32_t v) { return rounds[v] <= round; });
         for (const float share : {kForward, kBack}) {
-            before = mesh.vertices;
-            tbb::parallel_for(std::size_t{0}, mesh.vertices.size(), [&](std::size_t v) {
+            const std::vector<Eigen::Vector3f>& before = mesh.vertices;
+            tbb::parallel_for(std::size_t{0}, moving.size(), [&](std::size_t i) {
+                const std::uint32_t v = moving[i];
                 const std::uint32_t first = neighbours.first[v], last = neighbours.first[v + 1];
-                if (round >= rounds[v] || first == last) return;
                 Eigen::Vector3f mean = Eigen::Vector3f::Zero();
-                for (std::uint32_t i = first; i < last; ++i) mean += before[neighbours.vertices[i]];
+                for (std::uint32_t k = first; k < last; ++k) mean += before[neighbours.vertices[k]];
                 mean /= static_cast<float>(last - first);
-                mesh.vertices[v] += share * (mean - before[v]);
+                after[v] = before[v] + share * (mean - before[v]);
             });
+            tbb::parallel_for(std::size_t{0}, moving.size(),
+                              [&](std::size_t i) { mesh.vertices[moving[i]] = after[moving[i]]; });
         }
+    }
     mesh.normals.assign(mesh.vertices.size(), Eigen::Vector3f::Zero());
     for (const auto& triangle : mesh.triangles) {
         const Eigen::Vector3f normal = AreaNormal(mesh, triangle);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "finish/cover.h"
 
@@ -18,25 +19,6 @@ Rgb8 ToRgb(const Eigen::Array3f& c) {
         return static_cast<std::uint8_t>(std::lround(std::clamp(x, 0.0f, 255.0f)));
     };
     return {byte(c[0]), byte(c[1]), byte(c[2])};
-}
-
-// False: nothing of the box is in front of the camera and within its image.
-bool MaySee(const TextureView& view, const Eigen::AlignedBox3f& box) {
-    const Eigen::Vector3f centre = view.T_camera_world * box.center();
-    const float radius = 0.5f * box.diagonal().norm();
-    if (centre.z() < -radius) return false;
-    const PinholeCamera& c = view.camera;
-    // Planes through the centre of projection and the image's sides.
-    const auto beyond = [&](double from, double focal, float at, float sign) {
-        const Eigen::Vector2f inward =
-            Eigen::Vector2f(sign * static_cast<float>(focal), -sign * static_cast<float>(from))
-                .normalized();
-        return inward.x() * at + inward.y() * centre.z() < -radius;
-    };
-    return !beyond(-c.cx, c.fx, centre.x(), 1) &&
-           !beyond(c.width - 1 - c.cx, c.fx, centre.x(), -1) &&
-           !beyond(-c.cy, c.fy, centre.y(), 1) &&
-           !beyond(c.height - 1 - c.cy, c.fy, centre.y(), -1);
 }
 
 }  // namespace
@@ -86,16 +68,15 @@ void TextureBaker::AddTexels(const TriangleMesh& mesh, const Chart& chart, std::
 
 void TextureBaker::AddPieces(std::size_t first) {
     for (std::size_t i = first; i < texels_.size(); i += kPieceTexels) {
-        Piece piece{i, std::min(i + kPieceTexels, texels_.size()), {}};
-        for (std::size_t k = piece.first; k < piece.last; ++k) piece.box.extend(texels_[k].point);
-        pieces_.push_back(piece);
+        const std::size_t last = std::min(i + kPieceTexels, texels_.size());
+        pieces_.push_back({i, last, PatchOf(std::span(texels_).subspan(i, last - i))});
     }
 }
 
 void TextureBaker::Add(const TextureView& view) {
     tbb::parallel_for(std::size_t{0}, pieces_.size(), [&](std::size_t i) {
         const Piece& piece = pieces_[i];
-        if (!MaySee(view, piece.box)) return;
+        if (!MayShow(view, piece.patch)) return;
         for (std::size_t k = piece.first; k < piece.last; ++k) {
             const SeenColour seen = See(view, texels_[k].point, texels_[k].normal);
             if (seen.weight <= 0) continue;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "finish/atlas.h"
+#include "finish/patch.h"
 #include "finish/texture_view.h"
 
 namespace tessera {
@@ -32,7 +33,7 @@ class TextureBaker {
     };
     struct Piece {                // of a chart
         std::size_t first, last;  // texels
-        Eigen::AlignedBox3f box;
+        Patch patch;
     };
     void AddTexels(const TriangleMesh& mesh, const Chart& chart, std::size_t number,
                    const Atlas& atlas, Image<std::uint8_t>& covered);

@@ -4,15 +4,19 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <opencv2/imgproc.hpp>
+#include <optional>
 #include <vector>
 
 #include "core/depth_noise.h"
 #include "core/quantile.h"
+#include "finish/path_motion.h"
 
 namespace tessera {
 namespace {
 
 using Eigen::Array3f;
+using Eigen::Vector2f;
 using Eigen::Vector3f;
 
 // How far a point of the map may be from a frame's depth, besides that noise.
@@ -22,87 +26,104 @@ constexpr float kLeastTrust = 0.03f;  // of what no view shows far from an edge
 constexpr float kSaturated = 250;
 constexpr float kFar_px = 7;  // from an edge: full trust
 
+constexpr float kMoves_m = 0.2f;  // at most, while the rows are read
+
+float Margin_m(float z_m) { return kMap_m + 3 * DepthSigma_m(z_m); }
+
 bool Jumps(float a, float b) { return a <= 0 || b <= 0 || std::abs(a - b) > 0.03f + 0.02f * a; }
 
-// Distance in pixels (of steps to the 8 neighbours), at most kFar_px, from pixels at a jump.
-Image<float> FromEdges(const DepthImage& depth) {
+// 0 to 1: the distance in pixels (of steps to the 8 neighbours) from pixels at a jump, of kFar_px.
+Image<float> TrustOf(const DepthImage& depth) {
     const int width = depth.width(), height = depth.height();
-    Image<float> far(width, height, kFar_px);
-    const auto edge = [&](int x, int y, int dx, int dy) {
-        return Jumps(depth(x, y), depth(x + dx, y + dy));
-    };
+    cv::Mat calm(height, width, CV_8U), far_px;
+    for (int y = 0; y < height; ++y) {
+        const float* const row = depth.row(y);
+        const float* const below = depth.row(std::min(y + 1, height - 1));
+        auto* const out = calm.ptr<std::uint8_t>(y);
+        for (int x = 0; x < width; ++x)
+            out[x] = row[x] > 0 && !Jumps(row[x], row[std::min(x + 1, width - 1)]) &&
+                     !Jumps(row[x], below[x]);
+    }
+    cv::distanceTransform(calm, far_px, cv::DIST_C, 3);
+    Image<float> trust(width, height);
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x)
-            if (depth(x, y) <= 0 || (x + 1 < width && edge(x, y, 1, 0)) ||
-                (y + 1 < height && edge(x, y, 0, 1)))
-                far(x, y) = 0;
-    const auto relax = [&](int x, int y, int dx, int dy) {
-        if (far.Contains(x + dx, y + dy)) far(x, y) = std::min(far(x, y), far(x + dx, y + dy) + 1);
-    };
-    for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x)
-            for (const auto& [dx, dy] : {std::array{-1, 0}, {-1, -1}, {0, -1}, {1, -1}})
-                relax(x, y, dx, dy);
-    for (int y = height - 1; y >= 0; --y)
-        for (int x = width - 1; x >= 0; --x)
-            for (const auto& [dx, dy] : {std::array{1, 0}, {1, 1}, {0, 1}, {-1, 1}})
-                relax(x, y, dx, dy);
-    return far;
+            trust(x, y) = std::clamp(far_px.at<float>(y, x) / kFar_px, kLeastTrust, 1.0f);
+    return trust;
+}
+
+// Of a point in the camera's frame; nullopt where it is not well within the image.
+inline std::optional<Vector2f> PixelOf(const TextureView& view, const Vector3f& p_camera) {
+    if (p_camera.z() < 0.1f) return std::nullopt;
+    const float per_z = 1 / p_camera.z();
+    const Vector2f at(view.fx * p_camera.x() * per_z + view.cx,
+                      view.fy * p_camera.y() * per_z + view.cy);
+    if (!(at.x() >= 1 && at.y() >= 1 && at.x() < static_cast<float>(view.camera.width - 2) &&
+          at.y() < static_cast<float>(view.camera.height - 2)))
+        return std::nullopt;
+    return at;
 }
 
 }  // namespace
 
-TextureView MakeTextureView(const PinholeCamera& camera, const Frame& frame) {
+TextureView MakeTextureView(const PinholeCamera& camera, const Frame& frame,
+                            const FrameMotion& motion) {
     TextureView view;
     view.camera = camera;
+    view.fx = static_cast<float>(camera.fx);
+    view.fy = static_cast<float>(camera.fy);
+    view.cx = static_cast<float>(camera.cx);
+    view.cy = static_cast<float>(camera.cy);
     view.T_camera_world = frame.T_world_camera->inverse().cast<float>();
+    view.centre_world = frame.T_world_camera->translation().cast<float>();
+    view.turning_per_s = motion.twist_per_s.head<3>().cast<float>();
+    view.moving_per_s = motion.twist_per_s.tail<3>().cast<float>();
+    view.depth_readout_s = static_cast<float>(motion.depth_readout_s);
+    view.colour_delay_s = static_cast<float>(motion.colour_delay_s);
+    view.colour_readout_s = static_cast<float>(motion.colour_readout_s);
     view.colour = frame.colour;
     view.depth_m = frame.depth_m;
-    view.trust = FromEdges(frame.depth_m);
-    for (float& t : std::span(view.trust.data(), view.trust.size()))
-        t = std::max(t / kFar_px, kLeastTrust);
+    for (const float depth_m : std::span(view.depth_m.data(), view.depth_m.size()))
+        view.farthest_m = std::max(view.farthest_m, depth_m);
+    view.farthest_m += 2 * Margin_m(view.farthest_m) + kMoves_m;
+    view.trust = TrustOf(frame.depth_m);
+    view.blur_px = MotionBlur_px(motion.twist_per_s, camera);
     return view;
 }
 
 SeenColour See(const TextureView& view, const Vector3f& p_world, const Vector3f& n_world) {
     SeenColour seen;
+    const Vector3f ray = p_world - view.centre_world;
+    const float away = ray.dot(n_world);
+    if (away >= 0 || away * away < kLeastCosine * kLeastCosine * ray.squaredNorm()) return seen;
     const Vector3f p = view.T_camera_world * p_world;
-    const float z = p.z();
-    if (z < 0.1f) return seen;
-    const PinholeCamera& camera = view.camera;
-    const float u = p.x() / z * static_cast<float>(camera.fx) + static_cast<float>(camera.cx);
-    const float v = p.y() / z * static_cast<float>(camera.fy) + static_cast<float>(camera.cy);
-    if (!(u >= 1 && v >= 1 && u < static_cast<float>(camera.width - 2) &&
-          v < static_cast<float>(camera.height - 2)))
-        return seen;
-    const float facing = -(view.T_camera_world.linear() * n_world).dot(p) / p.norm();
-    if (facing < kLeastCosine) return seen;
-    const int x = static_cast<int>(u), y = static_cast<int>(v);
-    const int near_x = static_cast<int>(u + 0.5f), near_y = static_cast<int>(v + 0.5f);
-    const float measured = view.depth_m(near_x, near_y);
-    if (measured <= 0 || std::abs(measured - z) > kMap_m + 3 * DepthSigma_m(z)) return seen;
-    const float fx = u - static_cast<float>(x), fy = v - static_cast<float>(y);
+    const std::optional<Vector2f> at = PixelOf(view, p);
+    if (!at) return seen;
+    // Where the moving camera had the point when it read the row.
+    const Vector3f velocity = view.turning_per_s.cross(p) + view.moving_per_s;
+    const float row = at->y() / static_cast<float>(view.camera.height) - 0.5f;
+    const Vector3f p_depth = p - row * view.depth_readout_s * velocity;
+    const std::optional<Vector2f> depth_at = PixelOf(view, p_depth);
+    if (!depth_at) return seen;
+    const int near_x = static_cast<int>(depth_at->x() + 0.5f),
+              near_y = static_cast<int>(depth_at->y() + 0.5f);
+    const float z = p_depth.z(), measured = view.depth_m(near_x, near_y);
+    if (measured <= 0 || std::abs(measured - z) > Margin_m(z)) return seen;
+    const std::optional<Vector2f> colour_at =
+        PixelOf(view, p - (view.colour_delay_s + row * view.colour_readout_s) * velocity);
+    if (!colour_at) return seen;
+    const int x = static_cast<int>(colour_at->x()), y = static_cast<int>(colour_at->y());
+    const float fx = colour_at->x() - static_cast<float>(x),
+                fy = colour_at->y() - static_cast<float>(y);
     const Rgb8 *top = view.colour.row(y) + x, *bottom = view.colour.row(y + 1) + x;
     seen.rgb = (1 - fy) * ((1 - fx) * ToArray(top[0]) + fx * ToArray(top[1])) +
                fy * ((1 - fx) * ToArray(bottom[0]) + fx * ToArray(bottom[1]));
     const float trust =
         view.trust(near_x, near_y) * (seen.rgb.maxCoeff() < kSaturated ? 1.0f : 0.1f);
-    const float quality = facing * facing / (z * z * (1 + view.blur_px)) * trust;
+    const float facing2 = away * away / ray.squaredNorm();
+    const float quality = facing2 / (z * z * (1 + view.blur_px)) * trust;
     seen.weight = quality * quality * quality;
     return seen;
-}
-
-float MotionBlur_px(std::span<const StampedPose> path, double stamp_s,
-                    const PinholeCamera& camera) {
-    constexpr double kExposure_s = 1.0 / 60, kLongest_s = 0.2;
-    const auto after = std::ranges::upper_bound(path, stamp_s, {}, &StampedPose::stamp_s);
-    auto before = std::ranges::lower_bound(path, stamp_s, {}, &StampedPose::stamp_s);
-    if (after == path.end() || before == path.begin()) return 0;
-    --before;
-    const double time_s = after->stamp_s - before->stamp_s;
-    if (time_s > kLongest_s) return 0;
-    const double turn_rad = RotationAngle(before->T_world_camera, after->T_world_camera);
-    return static_cast<float>(turn_rad / time_s * kExposure_s * camera.fx);
 }
 
 void EstimateGain(const TriangleMesh& mesh, TextureView& view) {

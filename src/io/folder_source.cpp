@@ -57,6 +57,12 @@ class FolderSource : public FrameSource {
         return true;
     }
 
+    std::vector<double> Stamps_s() const override {
+        std::vector<double> stamps_s;
+        for (const FolderFrame& frame : layout_.frames) stamps_s.push_back(frame.depth_stamp_s);
+        return stamps_s;
+    }
+
     // Decodes a few frames, spread over the sequence. If none is usable, returns the first error.
     Status Probe() {
         constexpr std::size_t kProbes = 5;

@@ -47,6 +47,8 @@ struct SourceInfo {
     double depth_units_per_m = 5000;
     // Where a calibration of this very camera is looked for; "": nowhere.
     std::string calibration_file;
+    // Read-out times of the images, as tracking has found them before; 0: not known.
+    double depth_readout_s = 0, colour_readout_s = 0;
     bool rectified = false;  // a lens was corrected, or colour registered to depth
     bool has_truth = false;
     // Things the user should know: unpaired images, repeated stamps, ...
@@ -64,6 +66,8 @@ class FrameSource {
     // Makes the next Read return frame `index` of the source's list. Returns false if the source
     // cannot seek or the index is out of range.
     virtual bool Seek(std::int64_t index) = 0;
+    // stamp_s of every frame, in Seek's order; empty where they are not known before reading.
+    virtual std::vector<double> Stamps_s() const { return {}; }
     // Lets the source itself record everything it delivers into this .oni file, until it ends or is
     // unplugged. Call it before the first Read. Without `lossless_colour`, colour is stored as
     // JPEG, a tenth of the size; depth is always exact. Only OpenNI2 cameras support this. Others

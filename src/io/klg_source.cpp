@@ -78,6 +78,16 @@ class KlgSource : public FrameSource {
         return true;
     }
 
+    std::vector<double> Stamps_s() const override {
+        std::vector<double> stamps_s;
+        for (const KlgEntry& entry : entries_) {
+            double depth_s = static_cast<double>(entry.stamp_us) * 1e-6, colour_s = depth_s;
+            CorrectStamps(colour_delay_s_, depth_s, colour_s);
+            stamps_s.push_back(depth_s);
+        }
+        return stamps_s;
+    }
+
     Status Probe() {
         Status status = Load(entries_.front());
         if (status.ok()) status = decoder_.Decode(bytes_, DepthBytes(0));

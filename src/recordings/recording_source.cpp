@@ -78,6 +78,16 @@ class RecordingSource : public FrameSource {
         return true;
     }
 
+    std::vector<double> Stamps_s() const override {
+        std::vector<double> stamps_s;
+        for (const RecordedPair& pair : recorded_.pairs) {
+            double depth_s = pair.depth_stamp_s, colour_s = pair.colour_stamp_s;
+            CorrectStamps(colour_delay_s_, depth_s, colour_s);
+            stamps_s.push_back(depth_s);
+        }
+        return stamps_s;
+    }
+
     // The first pairs decide: if none can be loaded, the whole recording is not what it seems.
     Status Probe() {
         constexpr std::int64_t kTried = 5;

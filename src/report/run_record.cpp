@@ -50,6 +50,11 @@ void TakeCorrections(const Json& json, RunRecord& record) {
     Take(Child(json, "configuration"), "source.colour_delay_s", given_s);
     Take(used("colour_delay"), "corrected_ms", found_ms);
     record.colour_delay_s = given_s + found_ms / 1000;
+    double depth_ms = 0, colour_ms = 0;
+    Take(Child(json, "shutter"), "depth_readout_ms", depth_ms);
+    Take(Child(json, "shutter"), "colour_readout_ms", colour_ms);
+    record.depth_readout_s = depth_ms / 1000;
+    record.colour_readout_s = colour_ms / 1000;
     const Json shift = used("colour_shift");
     Take(shift, "x_px", record.colour_shift_px[0]);
     Take(shift, "y_px", record.colour_shift_px[1]);

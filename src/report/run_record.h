@@ -24,7 +24,8 @@ struct RunRecord {
     std::optional<PinholeCamera> camera;  // as used; empty if it is not plausible
     double vignetting = 0;                // as corrected; 0: not
     double colour_delay_s = 0;            // the source's setting and what was found beyond it
-    std::array<double, 2> colour_shift_px = {0, 0};  // as corrected; right and down; 0: not
+    double depth_readout_s = 0, colour_readout_s = 0;  // with which tracking began
+    std::array<double, 2> colour_shift_px = {0, 0};    // as corrected; right and down; 0: not
     bool has_truth = false;
     std::vector<std::string> command_line, warnings;
     std::vector<std::pair<std::string, std::int64_t>> counts;  // "frames", "tracked", "lost", ...

@@ -1,10 +1,12 @@
 #include "run/finish_run.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <unordered_map>
 
 #include "export/level.h"
+#include "io/chosen_frames.h"
 #include "io/frame_reader.h"
 #include "run/open_source.h"
 #include "run/run_source.h"
@@ -17,6 +19,7 @@ namespace {
 struct Input {
     Scanned scanned;
     std::unique_ptr<FrameSource> frames;
+    double depth_readout_s = 0, colour_readout_s = 0;
 };
 
 Result<Input> FromScan(const std::string& path) {
@@ -24,7 +27,9 @@ Result<Input> FromScan(const std::string& path) {
     if (!frames.ok()) return frames.status();
     Result<Scanned> scanned = ReadScanFile(path);
     if (!scanned.ok()) return scanned.status();
-    return Input{std::move(scanned.value()), std::move(frames.value())};
+    const SourceInfo& info = frames.value()->info();
+    return Input{std::move(scanned.value()), std::move(frames.value()), info.depth_readout_s,
+                 info.colour_readout_s};
 }
 
 Result<Input> FromRun(const std::string& folder, const std::string& source) {
@@ -33,7 +38,9 @@ Result<Input> FromRun(const std::string& folder, const std::string& source) {
     const Result<RunRecord> record = ReadRunRecord(folder + "/run.json");
     if (!record.ok()) return record.status();
     Result<std::unique_ptr<FrameSource>> frames = OpenSourceOf(record.value(), source);
-    if (frames.ok()) return Input{std::move(scanned.value()), std::move(frames.value())};
+    if (frames.ok())
+        return Input{std::move(scanned.value()), std::move(frames.value()),
+                     record.value().depth_readout_s, record.value().colour_readout_s};
     if (!source.empty()) return frames.status();
     return Status::Error(folder + ": " + frames.message() + "; " +
                          (IsLiveSource(record.value().source_name)
@@ -60,44 +67,42 @@ class Poses {
     std::unordered_map<std::int64_t, Eigen::Isometry3d> poses_;
 };
 
-// Reads a source's frames twice, with their poses: some of them, then all. Owner thread only.
+// Reads frames of a source, with their poses, ahead on a thread of its own: first some of all, then
+// those at given times. Owner thread only.
 class FinishFrameReader {
   public:
     FinishFrameReader(std::unique_ptr<FrameSource> source, const std::vector<StampedPose>& path)
-        : info_(source->info()), source_(std::move(source)), poses_(path) {
-        stride_ = (info_.frame_count + FrameEvidence::kMostFrames - 1) / FrameEvidence::kMostFrames;
-    }
+        : info_(source->info()), source_(std::move(source)), poses_(path) {}
 
     const SourceInfo& info() const { return info_; }
     // Why reading has failed.
     const Status& status() const { return failed_; }
-    // How many of all frames have colour and a pose.
+    // How many of the frames read have colour and a pose.
     std::int64_t posed() const { return posed_; }
 
     // A source that cannot go back to its start, or whose length is not known, has no sample.
-    bool NextOfSample(Frame& frame) {
-        while (next_ < info_.frame_count) {
-            if (!source_->Seek(next_)) return false;
-            next_ += stride_;
-            const ReadResult read = source_->Read(frame);
-            if (read.status == ReadStatus::kSkip || read.status == ReadStatus::kWait) continue;
-            if (read.status == ReadStatus::kError) failed_ = Status::Error(read.message);
-            if (read.status != ReadStatus::kOk) return false;
-            frame.T_world_camera = poses_.At(frame.stamp_s);
-            return true;
-        }
-        return false;
+    void BeginSample() {
+        const std::int64_t stride =
+            (info_.frame_count + FrameEvidence::kMostFrames - 1) / FrameEvidence::kMostFrames;
+        std::vector<std::int64_t> indices;
+        for (std::int64_t i = 0; i < info_.frame_count; i += stride) indices.push_back(i);
+        Begin(std::move(indices));
     }
 
-    // On a thread of its own, ahead.
+    // All frames, where the source does not know their time stamps.
+    void BeginAt(const std::vector<double>& stamps_s) {
+        const std::vector<double> known_s = source_->Stamps_s();
+        std::vector<std::int64_t> indices;
+        for (std::size_t i = 0; i < known_s.size(); ++i)
+            if (IsAt(known_s[i], stamps_s)) indices.push_back(static_cast<std::int64_t>(i));
+        if (known_s.empty())
+            for (std::int64_t i = 0; i < info_.frame_count; ++i) indices.push_back(i);
+        if (info_.frame_count >= 0 && source_->Seek(0)) return Begin(std::move(indices));
+        reader_ = std::make_unique<FrameReader>(std::move(source_), FrameSelection{});
+    }
+
     bool Next(Frame& frame) {
-        if (!failed_.ok()) return false;
-        if (source_) {
-            if (next_ > 0 && !source_->Seek(0))
-                failed_ = Status::Error(info_.name + ": cannot be read twice");
-            if (!failed_.ok()) return false;
-            reader_ = std::make_unique<FrameReader>(std::move(source_), FrameSelection{});
-        }
+        if (!failed_.ok() || !reader_) return false;
         ReadResult read;
         do read = reader_->Next(frame);
         while (read.status == ReadStatus::kSkip || read.status == ReadStatus::kWait);
@@ -109,12 +114,24 @@ class FinishFrameReader {
     }
 
   private:
+    static bool IsAt(double stamp_s, const std::vector<double>& stamps_s) {
+        constexpr double kSame_s = 1.5e-6;  // a trajectory file has microseconds
+        const auto near = std::ranges::lower_bound(stamps_s, stamp_s - kSame_s);
+        return near != stamps_s.end() && *near <= stamp_s + kSame_s;
+    }
+    void Begin(std::vector<std::int64_t> indices) {
+        reader_.reset();
+        if (indices.empty()) return;
+        reader_ = std::make_unique<FrameReader>(
+            std::make_unique<ChosenFrames>(*source_, std::move(indices)), FrameSelection{});
+    }
+
     const SourceInfo info_;
-    std::unique_ptr<FrameSource> source_;  // until the reader has it
-    std::unique_ptr<FrameReader> reader_;
+    std::unique_ptr<FrameSource> source_;  // null if the reader has it
+    std::unique_ptr<FrameReader> reader_;  // of the source
     const Poses poses_;
     Status failed_;
-    std::int64_t stride_ = 1, next_ = 0, posed_ = 0;
+    std::int64_t posed_ = 0;
 };
 
 }  // namespace
@@ -135,8 +152,17 @@ Result<FinishedModel> FinishRun(const FinishRequest& request, const FinishProgre
     }
     FinishFrameReader reader(std::move(input.value().frames), scanned.path);
     const SourceInfo info = reader.info();
-    const FinishFrames frames{[&](Frame& frame) { return reader.NextOfSample(frame); },
-                              [&](Frame& frame) { return reader.Next(frame); }, info.frame_count};
+    const NextPosedFrame next = [&](Frame& frame) { return reader.Next(frame); };
+    reader.BeginSample();
+    FinishFrames frames;
+    frames.sample = next;
+    frames.at = [&](const std::vector<double>& stamps_s) {
+        reader.BeginAt(stamps_s);
+        return next;
+    };
+    frames.count = info.frame_count;
+    frames.depth_readout_s = input.value().depth_readout_s;
+    frames.colour_readout_s = input.value().colour_readout_s;
     Result<FinishedModel> finished = FinishModel(std::move(scanned.mesh), info.camera, scanned.path,
                                                  frames, request.options, progress);
     if (!reader.status().ok()) return reader.status();

@@ -70,6 +70,8 @@ struct RunSummary {
     std::optional<VignettingReport> vignetting;
     std::optional<ColourShift> colour_shift;  // the same for the registration of colour
     std::optional<ColourDelay> colour_delay;  // and for its time stamps
+    // Read-out times of the images with which tracking began.
+    double depth_readout_s = 0, colour_readout_s = 0;
     std::optional<AteResult> ate;  // against the source's ground truth; none with given poses
     std::string exit;              // "finished", "stopped", or "failed: ..."
     std::string last_reason;       // of the last lost frame

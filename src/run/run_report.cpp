@@ -158,6 +158,8 @@ std::string RunJson(const RunRequest& request, RunConfig config, const RunSummar
         json["vignetting"] = {{"used", v->used}, {"share", v->share}, {"sigma", v->sigma}};
     if (summary.colour_shift) json["colour_shift"] = ColourShiftJson(*summary.colour_shift);
     if (summary.colour_delay) json["colour_delay"] = ColourDelayJson(*summary.colour_delay);
+    json["shutter"] = {{"depth_readout_ms", 1000 * summary.depth_readout_s},
+                       {"colour_readout_ms", 1000 * summary.colour_readout_s}};
     if (summary.ate) json["ate"] = Json::parse(AteJson(*summary.ate), nullptr, false);
     json["configuration"] = ConfigurationJson(config);
     return Dump(json);

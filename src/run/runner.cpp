@@ -98,6 +98,9 @@ Status Runner::Open(const std::atomic<bool>& stop) {
     if (summary_.camera) BeginShutter(*summary_.camera, config.pipeline, summary_.source);
     if (summary_.colour_delay)
         BeginDepthShutter(*summary_.colour_delay, config.pipeline, summary_.source);
+    summary_.depth_readout_s = config.pipeline.shutter.depth_readout_s;
+    summary_.colour_readout_s = config.pipeline.shutter.colour_readout_s +
+                                config.pipeline.trackers.photometric.shutter.readout_s;
     EngineInput input{
         std::move(source),
         selection_,

@@ -48,7 +48,21 @@ Result<std::unique_ptr<FrameSource>> ScanSource::Open(const std::string& path) {
     if (static_cast<std::int64_t>(keys.size()) < frames)
         source->info_.notes.push_back(
             fmt::format("{} of the scan's {} frames are in the file", keys.size(), frames));
+    source->FindReadouts();
     return std::unique_ptr<FrameSource>(std::move(source));
+}
+
+// Frames that are kept for corrected maps have them.
+void ScanSource::FindReadouts() {
+    constexpr std::size_t kMostTried = 200;
+    FrameRecord record;
+    for (std::size_t i = keys_.size(); i-- > 0 && keys_.size() - i <= kMostTried;) {
+        const Result<Bytes> bytes = file_->ReadOne(ScanTable::kFrames, keys_[i]);
+        if (!bytes.ok() || !record.Decode(bytes.value()) || !record.in_store) continue;
+        info_.depth_readout_s = record.stored.view.motion.depth_readout_s;
+        info_.colour_readout_s = record.stored.view.motion.colour_readout_s;
+        return;
+    }
 }
 
 ReadResult ScanSource::Read(Frame& frame) {
@@ -79,6 +93,13 @@ bool ScanSource::Seek(std::int64_t index) {
     if (index < 0 || index > static_cast<std::int64_t>(keys_.size())) return false;
     next_ = static_cast<std::size_t>(index);
     return true;
+}
+
+std::vector<double> ScanSource::Stamps_s() const {
+    std::vector<double> stamps_s;
+    for (const std::int64_t key : keys_)
+        stamps_s.push_back(path_[static_cast<std::size_t>(key)].stamp_s);
+    return stamps_s;
 }
 
 }  // namespace tessera

@@ -18,8 +18,10 @@ class ScanSource : public FrameSource {
     const SourceInfo& info() const override { return info_; }
     ReadResult Read(Frame& frame) override;
     bool Seek(std::int64_t index) override;
+    std::vector<double> Stamps_s() const override;
 
   private:
+    void FindReadouts();
     explicit ScanSource(std::unique_ptr<ScanFile> file, const ScanContent& content);
 
     std::unique_ptr<ScanFile> file_;

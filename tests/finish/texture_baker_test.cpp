@@ -48,17 +48,18 @@ class BakedWall : public testing::Test {
 TEST_F(BakedWall, HasThePaintOnIt) {
     TextureBaker baker(mesh, charts, atlas);
     EXPECT_EQ(baker.SeenShare(), 0);
-    baker.Add(MakeTextureView(WallCamera(), WallFrame({-0.1, 0, -0.9}, 0.1)));
-    baker.Add(MakeTextureView(WallCamera(), WallFrame({0.2, 0.1, -0.8}, -0.2)));
+    baker.Add(MakeTextureView(WallCamera(), WallFrame({-0.1, 0, -0.9}, 0.1), {}));
+    baker.Add(MakeTextureView(WallCamera(), WallFrame({0.2, 0.1, -0.8}, -0.2), {}));
     EXPECT_GT(baker.SeenShare(), 0.99);
     EXPECT_LT(WorstError(baker.Texture()), 3);
 }
 
 TEST_F(BakedWall, ExposuresAreMadeEqual) {
     TextureBaker baker(mesh, charts, atlas);
-    TextureView bright = MakeTextureView(WallCamera(), WallFrame({-0.1, 0, -0.9}, 0.1)),
-                dark = MakeTextureView(WallCamera(), WallFrame({0.2, 0.1, -0.8}, -0.2,
-                                                               Eigen::Array3f::Constant(0.6f)));
+    TextureView bright = MakeTextureView(WallCamera(), WallFrame({-0.1, 0, -0.9}, 0.1), {}),
+                dark = MakeTextureView(
+                    WallCamera(), WallFrame({0.2, 0.1, -0.8}, -0.2, Eigen::Array3f::Constant(0.6f)),
+                    {});
     dark.gain.setConstant(1 / 0.6f);
     baker.Add(bright);
     baker.Add(dark);
@@ -67,7 +68,7 @@ TEST_F(BakedWall, ExposuresAreMadeEqual) {
 
 TEST_F(BakedWall, WhatNoViewShowsHasTheMeshsColourAndTheRestTheMean) {
     TextureBaker baker(mesh, charts, atlas);
-    baker.Add(MakeTextureView(WallCamera(), WallFrame({5, 0, -0.9}, 0)));
+    baker.Add(MakeTextureView(WallCamera(), WallFrame({5, 0, -0.9}, 0), {}));
     EXPECT_EQ(baker.SeenShare(), 0);
     const ColourImage texture = baker.Texture();
     for (std::size_t i = 0; i < texture.size(); ++i)
@@ -77,7 +78,7 @@ TEST_F(BakedWall, WhatNoViewShowsHasTheMeshsColourAndTheRestTheMean) {
 // A bilinear filter at the rim reads only texels that were filled.
 TEST_F(BakedWall, TheGutterIsFilled) {
     TextureBaker baker(mesh, charts, atlas);
-    baker.Add(MakeTextureView(WallCamera(), WallFrame({0, 0, -0.9}, 0)));
+    baker.Add(MakeTextureView(WallCamera(), WallFrame({0, 0, -0.9}, 0), {}));
     const ColourImage texture = baker.Texture();
     const Rgb8 between = texture(atlas.width - 1, atlas.height - 1);
     for (const Eigen::Vector3f& p : mesh.vertices) {
@@ -97,8 +98,8 @@ TEST_F(BakedWall, TheSameBytesForAnyNumberOfThreads) {
     for (const std::size_t threads : {1u, 3u}) {
         const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
         TextureBaker baker(mesh, charts, atlas);
-        baker.Add(MakeTextureView(WallCamera(), WallFrame({-0.1, 0, -0.9}, 0.1)));
-        baker.Add(MakeTextureView(WallCamera(), WallFrame({0.2, 0.1, -0.8}, -0.2)));
+        baker.Add(MakeTextureView(WallCamera(), WallFrame({-0.1, 0, -0.9}, 0.1), {}));
+        baker.Add(MakeTextureView(WallCamera(), WallFrame({0.2, 0.1, -0.8}, -0.2), {}));
         if (first.empty()) first = baker.Texture();
         EXPECT_EQ(baker.Texture(), first);
     }

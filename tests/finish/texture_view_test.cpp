@@ -5,6 +5,7 @@
 #include <random>
 
 #include "finish/meshes.h"
+#include "finish/path_motion.h"
 #include "finish/wall_frames.h"
 
 namespace tessera {
@@ -19,7 +20,7 @@ using testing_support::WallPaint;
 const Vector3f kOut(0, 0, -1);
 
 TEST(TextureView, ShowsTheColourOfThePlace) {
-    const TextureView view = MakeTextureView(WallCamera(), WallFrame({0.1, 0.05, -1}, 0.2));
+    const TextureView view = MakeTextureView(WallCamera(), WallFrame({0.1, 0.05, -1}, 0.2), {});
     int seen_points = 0;
     for (float x = -1; x < 1; x += 0.043f)
         for (float y = -1; y < 1; y += 0.037f) {
@@ -32,7 +33,7 @@ TEST(TextureView, ShowsTheColourOfThePlace) {
 }
 
 TEST(TextureView, NotFromBehindNorObliquelyNorOutside) {
-    const TextureView view = MakeTextureView(WallCamera(), WallFrame({0, 0, -1}, 0));
+    const TextureView view = MakeTextureView(WallCamera(), WallFrame({0, 0, -1}, 0), {});
     EXPECT_GT(See(view, {0, 0, 0}, kOut).weight, 0);
     EXPECT_EQ(See(view, {0, 0, 0}, -kOut).weight, 0);
     EXPECT_EQ(See(view, {0, 0, 0}, Vector3f(1, 0, -0.1f).normalized()).weight, 0);
@@ -46,7 +47,7 @@ TEST(TextureView, NotWhatTheDepthContradicts) {
     for (int v = 0; v < 120; ++v)
         for (int u = 0; u < 40; ++u) frame.depth_m(u, v) = 0.6f;
     for (int v = 0; v < 120; ++v) frame.depth_m(120, v) = 0;
-    const TextureView view = MakeTextureView(WallCamera(), frame);
+    const TextureView view = MakeTextureView(WallCamera(), frame, {});
     const auto at = [&](double u) {
         return See(view, WallCamera().Unproject(u, 60, 1).cast<float>() - Vector3f(0, 0, 1), kOut)
             .weight;
@@ -62,16 +63,16 @@ TEST(TextureView, NotWhatTheDepthContradicts) {
 }
 
 TEST(TextureView, NearAndStraightCountsMore) {
-    const TextureView near = MakeTextureView(WallCamera(), WallFrame({0, 0, -0.7}, 0)),
-                      far = MakeTextureView(WallCamera(), WallFrame({0, 0, -1.4}, 0)),
-                      oblique = MakeTextureView(WallCamera(), WallFrame({-0.7, 0, -0.7}, 0.78));
+    const TextureView near = MakeTextureView(WallCamera(), WallFrame({0, 0, -0.7}, 0), {}),
+                      far = MakeTextureView(WallCamera(), WallFrame({0, 0, -1.4}, 0), {}),
+                      oblique = MakeTextureView(WallCamera(), WallFrame({-0.7, 0, -0.7}, 0.78), {});
     const float straight = See(near, {0, 0, 0}, kOut).weight;
     EXPECT_NEAR(straight / See(far, {0, 0, 0}, kOut).weight, std::pow(4, 3), 1);
     EXPECT_GT(straight, 8 * See(oblique, {0, 0, 0}, kOut).weight);
 }
 
 TEST(TextureView, BlurredAndSaturatedViewsCountLess) {
-    TextureView view = MakeTextureView(WallCamera(), WallFrame({0, 0, -1}, 0));
+    TextureView view = MakeTextureView(WallCamera(), WallFrame({0, 0, -1}, 0), {});
     const float sharp = See(view, {0, 0, 0}, kOut).weight;
     view.blur_px = 1;
     EXPECT_NEAR(See(view, {0, 0, 0}, kOut).weight / sharp, 1 / 8.0, 1e-4);
@@ -81,17 +82,66 @@ TEST(TextureView, BlurredAndSaturatedViewsCountLess) {
     EXPECT_NEAR(See(view, {0, 0, 0}, kOut).weight / sharp, 1 / 1000.0, 1e-6);
 }
 
+// Each row of each image is rendered where the camera was when it read the row.
+TEST(TextureView, AMovingCameraSeesEachRowAtItsTime) {
+    const PinholeCamera camera = WallCamera();
+    FrameMotion motion{.colour_delay_s = 0.02, .depth_readout_s = 0.02, .colour_readout_s = 0.03};
+    motion.twist_per_s << 0.3, 0.8, -0.2, 0.4, -0.1, 0.3;
+    const Eigen::Isometry3d T_world_camera = *WallFrame({0, 0, -1}, 0.1).T_world_camera;
+    Frame frame = WallFrame({0, 0, -1}, 0.1);
+    for (int v = 0; v < camera.height; ++v) {
+        const auto place = [&](double time_s, int u, double& depth_m) {
+            const Eigen::Isometry3d T = T_world_camera * Se3Exp(time_s * motion.twist_per_s);
+            const Eigen::Vector3d ray = T.linear() * camera.Unproject(u, v, 1);
+            depth_m = -T.translation().z() / ray.z();
+            return Eigen::Vector3d(T.translation() + depth_m * ray);
+        };
+        for (int u = 0; u < camera.width; ++u) {
+            double depth_m = 0, unused = 0;
+            place(motion.DepthTime(v, camera.height), u, depth_m);
+            frame.depth_m(u, v) = static_cast<float>(depth_m);
+            const Eigen::Vector3d seen = place(motion.ColourTime(v, camera.height), u, unused);
+            const Eigen::Array3f paint = WallPaint(seen.x(), seen.y());
+            frame.colour(u, v) = {static_cast<std::uint8_t>(paint[0] + 0.5f),
+                                  static_cast<std::uint8_t>(paint[1] + 0.5f),
+                                  static_cast<std::uint8_t>(paint[2] + 0.5f)};
+        }
+    }
+    const TextureView right = MakeTextureView(camera, frame, motion),
+                      still = MakeTextureView(camera, frame, {});
+    float worst = 0, worst_still = 0;
+    int points = 0;
+    for (float x = -0.3f; x < 0.35f; x += 0.037f)
+        for (float y = -0.2f; y < 0.2f; y += 0.031f) {
+            const SeenColour seen = See(right, {x, y, 0}, kOut), off = See(still, {x, y, 0}, kOut);
+            ASSERT_GT(seen.weight, 0) << x << " " << y;
+            ASSERT_GT(off.weight, 0);
+            worst = std::max(worst, (seen.rgb - WallPaint(x, y)).abs().maxCoeff());
+            worst_still = std::max(worst_still, (off.rgb - WallPaint(x, y)).abs().maxCoeff());
+            ++points;
+        }
+    EXPECT_GT(points, 200);
+    EXPECT_LT(worst, 4);  // to first order
+    EXPECT_GT(worst_still, 30);
+}
+
 // Half a radian a second, frames a thirtieth apart.
-TEST(TextureView, TheBlurIsThatOfTheTurn) {
+TEST(PathMotion, TheTwistAndTheBlurAreThoseOfTheTurn) {
     std::vector<StampedPose> path;
     for (int i = 0; i < 10; ++i)
         path.push_back({i / 30.0, *WallFrame({0, 0, -1}, 0.5 * i / 30.0).T_world_camera});
-    EXPECT_NEAR(MotionBlur_px(path, 5 / 30.0, WallCamera()), 0.5 / 60 * 150, 1e-3);
-    EXPECT_NEAR(MotionBlur_px(path, 5.5 / 30.0, WallCamera()), 0.5 / 60 * 150, 1e-3);
-    EXPECT_EQ(MotionBlur_px(path, 0, WallCamera()), 0);
-    EXPECT_EQ(MotionBlur_px(path, 9 / 30.0, WallCamera()), 0);
+    const auto blur_px = [&](double stamp_s) {
+        return MotionBlur_px(TwistAt(path, stamp_s), WallCamera());
+    };
+    Vector6d twist;
+    twist << 0, 0.5, 0, 0, 0, 0;
+    EXPECT_LT((TwistAt(path, 5 / 30.0) - twist).norm(), 1e-9);
+    EXPECT_NEAR(blur_px(5 / 30.0), 0.5 / 60 * 150, 1e-3);
+    EXPECT_NEAR(blur_px(5.5 / 30.0), 0.5 / 60 * 150, 1e-3);
+    EXPECT_EQ(blur_px(0), 0);
+    EXPECT_EQ(blur_px(9 / 30.0), 0);
     path.erase(path.begin() + 2, path.begin() + 9);
-    EXPECT_EQ(MotionBlur_px(path, 5 / 30.0, WallCamera()), 0);  // a gap
+    EXPECT_EQ(blur_px(5 / 30.0), 0);  // a gap
 }
 
 TEST(TextureView, TheGainIsThatOfTheModelsColours) {
@@ -102,10 +152,10 @@ TEST(TextureView, TheGainIsThatOfTheModelsColours) {
                            static_cast<std::uint8_t>(paint[2])};
     }
     const Eigen::Array3f exposure(0.8f, 0.7f, 1.1f);
-    TextureView view = MakeTextureView(WallCamera(), WallFrame({0, 0, -1}, 0, exposure));
+    TextureView view = MakeTextureView(WallCamera(), WallFrame({0, 0, -1}, 0, exposure), {});
     EstimateGain(wall, view);
     EXPECT_LT((view.gain * exposure - 1).abs().maxCoeff(), 0.02f) << view.gain.transpose();
-    TextureView elsewhere = MakeTextureView(WallCamera(), WallFrame({5, 0, -1}, 0, exposure));
+    TextureView elsewhere = MakeTextureView(WallCamera(), WallFrame({5, 0, -1}, 0, exposure), {});
     elsewhere.gain.setConstant(3);
     EstimateGain(wall, elsewhere);
     EXPECT_TRUE((elsewhere.gain == 1).all());

@@ -70,6 +70,7 @@ TEST(FolderSource, Seeks) {
     EXPECT_EQ(frame.index, 0);
     EXPECT_FALSE(source->Seek(-1));
     EXPECT_FALSE(source->Seek(4));
+    EXPECT_EQ(source->Stamps_s(), (std::vector<double>{0.5, 1.5, 2.5}));
 }
 
 TEST(FolderSource, CorrectsTheLensUnlessToldNotTo) {

@@ -107,6 +107,8 @@ TEST_F(Klg, DepthAndColourRawAndPacked) {
     EXPECT_TRUE(klg.Seek(1));
     ASSERT_EQ(klg.Read(frame).status, ReadStatus::kOk);
     EXPECT_FLOAT_EQ(frame.depth_m(0, 0), 2);
+    ASSERT_EQ(klg.Stamps_s().size(), 4u);
+    EXPECT_EQ(klg.Stamps_s()[1], frame.stamp_s);
 }
 
 TEST_F(Klg, RedAndBlueSwappedOnRequest) {

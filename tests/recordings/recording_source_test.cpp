@@ -75,6 +75,8 @@ TEST(RecordingSource, CorrectsTheTimeStamps) {
     EXPECT_EQ(frame.colour_delay_s, -0.006);
     EXPECT_NEAR(frame.stamp_s, 0.203, 1e-12);
     EXPECT_NEAR(frame.colour_stamp_s, 0.207, 1e-12);
+    ASSERT_GT(source->Stamps_s().size(), 2u);
+    EXPECT_EQ(source->Stamps_s()[2], frame.stamp_s);
 }
 
 TEST(RecordingSource, ColourOfAnotherSizeIsBroughtIntoTheDepthView) {

@@ -10,6 +10,8 @@
 #include "io/mesh_io.h"
 #include "io/trajectory.h"
 #include "render/mesh_picture.h"
+#include "report/run_record.h"
+#include "run/open_source.h"
 #include "run/run.h"
 #include "support/temp_folder.h"
 #include "synth/sequence_writer.h"
@@ -112,18 +114,36 @@ TEST_F(FinishedDesk, IsSharperThanVertexColoursAtOtherPlaces) {
     EXPECT_GT(texture_db, vertex_db + 4);
     const FinishReport& report = finished.value().report;
     EXPECT_GT(report.model().seen_share, 0.85);
-    EXPECT_EQ(report.frames, 60);
+    EXPECT_LE(report.frames, 30);  // three of each stretch
+    EXPECT_GE(report.frames, report.views);
 }
 
 TEST_F(FinishedDesk, AScanIsFinishedByItsOwnFrames) {
     config.scan.frames = ScanConfig::Frames::kAll;
     config.synthetic.frames = 40;
+    config.pipeline.shutter.depth_readout_s = 0.001;
+    config.pipeline.shutter.colour_readout_s = 0.002;
+    config.pipeline.trackers.photometric.shutter.enabled = false;
     Run(folder / "desk.scan");
     const Result<FinishedModel> finished = Finish(folder / "desk.scan");
     ASSERT_TRUE(finished.ok()) << finished.message();
-    EXPECT_EQ(finished.value().report.frames, 20);
+    EXPECT_LE(finished.value().report.frames, 20);
     EXPECT_GT(finished.value().report.views, 0);
     EXPECT_GT(finished.value().report.model().seen_share, 0.8);
+    // What it needs of the scan besides the frames.
+    const auto scan = OpenSource(folder / "desk.scan", config);
+    ASSERT_TRUE(scan.ok()) << scan.message();
+    FrameSource& source = *scan.value();
+    EXPECT_EQ(source.info().depth_readout_s, 0.001);
+    EXPECT_EQ(source.info().colour_readout_s, 0.002);
+    std::vector<double> stamps_s;
+    for (Frame frame; source.Read(frame).status == ReadStatus::kOk;)
+        stamps_s.push_back(frame.stamp_s);
+    EXPECT_EQ(source.Stamps_s(), stamps_s);
+    const auto run = ReadRunRecord(folder / "run/run.json");
+    ASSERT_TRUE(run.ok());
+    EXPECT_EQ(run.value().depth_readout_s, 0.001);
+    EXPECT_EQ(run.value().colour_readout_s, 0.002);
 }
 
 TEST_F(FinishedDesk, WhatIsMissingIsNamed) {
