@@ -5,12 +5,14 @@
 #include <memory>
 #include <numbers>
 
+#include "box_option.h"
 #include "command.h"
 #include "export/colmap_writer.h"
 #include "export/image_set.h"
 #include "export/level.h"
 #include "export/transforms_json.h"
 #include "export/vdb_writer.h"
+#include "finish/crop.h"
 #include "io/mesh_io.h"
 #include "io/mesh_writers.h"
 #include "io/trajectory.h"
@@ -23,11 +25,13 @@ namespace fs = std::filesystem;
 
 struct ExportArguments {
     std::string input, mesh, cloud, grid, trajectory, kitti, frames, colmap;
+    std::vector<double> box;
     bool level = false;
 
     bool WantsTransforms() const { return fs::path(frames).extension() == ".json"; }
     bool NeedsMesh() const {
-        return level || !mesh.empty() || !cloud.empty() || !colmap.empty() || WantsTransforms();
+        return level || !box.empty() || !mesh.empty() || !cloud.empty() || !colmap.empty() ||
+               WantsTransforms();
     }
     bool NeedsPath() const { return level || !trajectory.empty() || !kitti.empty(); }
     // Whether an output needs data that only a scan file has.
@@ -86,6 +90,8 @@ Status Check(const ExportArguments& a, bool is_run) {
         return Status::Error(
             "--level: turns meshes, clouds and paths only; leave --grid, --frames and --colmap "
             "out");
+    if (!a.box.empty() && a.mesh.empty() && a.cloud.empty())
+        return Status::Error("--box: crops meshes and clouds; give --mesh or --cloud");
     if (!a.mesh.empty())
         if (const Result<MeshFormat> format = MeshFormatOf(a.mesh); !format.ok())
             return Status::Error("--mesh " + format.message());
@@ -137,10 +143,15 @@ Status Export(const ExportArguments& a) {
     std::error_code ignored;
     const bool is_run = fs::is_directory(a.input, ignored);
     if (Status status = Check(a, is_run); !status.ok()) return status;
+    const auto box = BoxOf(a.box);
+    if (!box.ok()) return box.status();
     Result<Content> content = is_run ? FromRun(a) : FromScan(a);
     if (!content.ok()) return content.status();
     if (a.level)
         if (Status status = Turn(a.input, content.value()); !status.ok()) return status;
+    if (box.value())
+        if (Status status = CropMesh(*box.value(), content.value().mesh); !status.ok())
+            return Status::Error("--box: " + a.input + ": " + status.message());
     return Write(a, content.value());
 }
 
@@ -175,6 +186,9 @@ void AddExportCommand(CLI::App& app, CommandContext& context) {
     command->add_flag("--level", a->level,
                       "z up and the floor at z = 0 for --mesh, --cloud, --trajectory and --kitti, "
                       "instead of the first camera's axes; found from the floor");
+    AddBoxOption(*command, a->box,
+                 "Only what lies in this box, for --mesh and --cloud, in the axes of --level if "
+                 "given");
     command->callback([a, &context] { context.exit_code = ExitCode(Export(*a)); });
 }
 

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "box_option.h"
 #include "command.h"
 #include "export/level.h"
 #include "finish/decimate.h"
@@ -22,6 +23,7 @@ namespace {
 struct FinishArguments {
     FinishRequest request;
     std::string out;
+    std::vector<double> box;
     bool keep_triangles = false, keep_flaps = false;
     double watertight_m = 0;
 };
@@ -78,6 +80,9 @@ Status WriteModels(const FinishArguments& a, const FinishedModel& finished) {
 
 Status Finish(const FinishArguments& a) {
     FinishRequest request = a.request;
+    const auto box = BoxOf(a.box);
+    if (!box.ok()) return box.status();
+    request.box_m = box.value();
     request.options.clean.remove_flaps = !a.keep_flaps;
     if (a.keep_triangles) request.options.clean.decimation_share = 1;
     if (!DecimationAvailable() && request.options.lower_levels > 0)
@@ -138,6 +143,7 @@ void AddFinishCommand(CLI::App& app, CommandContext& context) {
         ->capture_default_str();
     command->add_flag("--level", a->request.level,
                       "z up and the floor at z = 0, instead of the first camera's axes");
+    AddBoxOption(*command, a->box, "Only what lies in this box, in the axes of --level if given");
     command->add_flag("--keep-triangles", a->keep_triangles, "Remove no triangles");
     command
         ->add_option("--levels", a->request.options.lower_levels,

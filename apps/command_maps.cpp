@@ -3,6 +3,7 @@
 #include <memory>
 #include <numbers>
 
+#include "box_option.h"
 #include "command.h"
 #include "export/level.h"
 #include "export/robot_maps.h"
@@ -36,9 +37,9 @@ Result<Level> LevelOf(const std::string& path) {
 
 Status Maps(const MapsArguments& a) {
     RobotMaps maps = a.maps;
-    if (!a.box.empty())
-        maps.box_m = Eigen::AlignedBox3d(Eigen::Vector3d(a.box[0], a.box[1], a.box[2]),
-                                         Eigen::Vector3d(a.box[3], a.box[4], a.box[5]));
+    const auto box = BoxOf(a.box);
+    if (!box.ok()) return box.status();
+    maps.box_m = box.value();
     if (!a.heights.empty()) {
         maps.heights.low_m = a.heights[0];
         maps.heights.high_m = a.heights[1];
@@ -80,9 +81,7 @@ void AddMapsCommand(CLI::App& app, CommandContext& context) {
         "FILE.npy");
     add("--resolution", a->maps.resolution_m, "Side of a cell of these maps, metres", "M")
         ->capture_default_str();
-    add("--box", a->box, "Their box: lowest x y z, highest x y z, metres (default: all mapped)",
-        "M")
-        ->expected(6);
+    AddBoxOption(*command, a->box, "Their box (default: all mapped)");
     command->add_flag("--level", a->level,
                       "z up and the floor at z = 0 for all of them, instead of the first camera's "
                       "axes");

@@ -6,6 +6,7 @@
 #include <unordered_map>
 
 #include "export/level.h"
+#include "finish/crop.h"
 #include "io/chosen_frames.h"
 #include "io/frame_reader.h"
 #include "run/open_source.h"
@@ -150,6 +151,9 @@ Result<FinishedModel> FinishRun(const FinishRequest& request, const FinishProgre
         if (!level.ok()) return Status::Error("--level: " + path + ": " + level.message());
         MakeLevel(level.value(), scanned.mesh, scanned.path);
     }
+    if (request.box_m)
+        if (Status status = CropMesh(*request.box_m, scanned.mesh); !status.ok())
+            return Status::Error("--box: " + path + ": " + status.message());
     FinishFrameReader reader(std::move(input.value().frames), scanned.path);
     const SourceInfo info = reader.info();
     const NextPosedFrame next = [&](Frame& frame) { return reader.Next(frame); };

@@ -1,6 +1,8 @@
 // Finishes the model of a scan file or of a run's folder.
 #pragma once
 
+#include <Eigen/Geometry>
+#include <optional>
 #include <string>
 
 #include "core/status.h"
@@ -13,6 +15,8 @@ struct FinishRequest {
     // Where the frames of a run come from, if its source has moved; "": the name in run.json.
     std::string source;
     bool level = false;  // z up and the floor at z = 0 (export/level.h)
+    // Only what lies in this box, in the level world with `level`.
+    std::optional<Eigen::AlignedBox3d> box_m;
     FinishOptions options;
 };
 

@@ -37,6 +37,31 @@ TEST_F(Export, WritesEveryFormatOutOfAScan) {
                   "already contains files");
 }
 
+TEST_F(Export, CropsToABox) {
+    ASSERT_NO_FATAL_FAILURE(Scan(""));
+    const std::string command =
+        "export " + (folder / "run") + " --mesh " + (folder / "m.ply") + " --box ";
+    const auto whole = ReadPly(folder / "run/mesh.ply");
+    ASSERT_TRUE(whole.ok());
+    Eigen::AlignedBox3f all;
+    for (const Eigen::Vector3f& v : whole.value().vertices) all.extend(v);
+    const float middle = all.center().x();
+    const Outcome half = Call(command + fmt::format("{} -9 -9 9 9 9", middle));
+    ASSERT_EQ(half.exit_code, 0) << half.err;
+    const auto cropped = ReadPly(folder / "m.ply");
+    ASSERT_TRUE(cropped.ok());
+    EXPECT_LT(cropped.value().triangles.size(), whole.value().triangles.size());
+    for (const Eigen::Vector3f& v : cropped.value().vertices) EXPECT_GE(v.x(), middle - 1e-5f);
+    ExpectRefused(command + "1 0 0 0 1 1", "--box: give the lowest");
+    ExpectRefused(command + "90 90 90 91 91 91", "nothing of the mesh is in the box");
+    ExpectRefused(
+        "export " + (folder / "run") + " --trajectory " + (folder / "t.txt") + " --box 0 0 0 1 1 1",
+        "give --mesh or --cloud");
+    ExpectRefused(
+        "finish " + (folder / "run") + " --out " + (folder / "f") + " --box 90 90 90 91 91 91",
+        "nothing of the mesh is in the box");
+}
+
 TEST_F(Export, AVolumeIsWrittenOrSaysWhatToInstall) {
     ASSERT_NO_FATAL_FAILURE(Scan(""));
     const std::string command = "export " + (folder / "a.scan") + " --grid " + (folder / "g.vdb");
