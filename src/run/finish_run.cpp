@@ -92,6 +92,7 @@ class FinishFrameReader {
 
     // All frames, where the source does not know their time stamps.
     void BeginAt(const std::vector<double>& stamps_s) {
+        reader_.reset();  // it has the source
         const std::vector<double> known_s = source_->Stamps_s();
         std::vector<std::int64_t> indices;
         for (std::size_t i = 0; i < known_s.size(); ++i)
@@ -154,6 +155,8 @@ Result<FinishedModel> FinishRun(const FinishRequest& request, const FinishProgre
     if (request.box_m)
         if (Status status = CropMesh(*request.box_m, scanned.mesh); !status.ok())
             return Status::Error("--box: " + path + ": " + status.message());
+    // A scan's sessions may have clocks of their own.
+    std::ranges::stable_sort(scanned.path, {}, &StampedPose::stamp_s);
     FinishFrameReader reader(std::move(input.value().frames), scanned.path);
     const SourceInfo info = reader.info();
     const NextPosedFrame next = [&](Frame& frame) { return reader.Next(frame); };

@@ -140,6 +140,8 @@ TEST(PathMotion, TheTwistAndTheBlurAreThoseOfTheTurn) {
     EXPECT_NEAR(blur_px(5.5 / 30.0), 0.5 / 60 * 150, 1e-3);
     EXPECT_EQ(blur_px(0), 0);
     EXPECT_EQ(blur_px(9 / 30.0), 0);
+    path[5].T_world_camera.translation().x() += 3;
+    EXPECT_EQ(blur_px(4 / 30.0), 0);  // a jump
     path.erase(path.begin() + 2, path.begin() + 9);
     EXPECT_EQ(blur_px(5 / 30.0), 0);  // a gap
 }
