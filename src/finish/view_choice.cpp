@@ -16,10 +16,11 @@ std::vector<std::size_t> Stretches(std::span<const StampedPose> path, double lon
     for (std::size_t i = 0; i < path.size(); ++i) {
         const Eigen::Isometry3d& T = path[i].T_world_camera;
         if (!first.empty()) {
+            // A pose that is not a number ends no stretch.
             const Eigen::Isometry3d& T_first = path[first.back()].T_world_camera;
-            if ((T.translation() - T_first.translation()).norm() <=
-                    longer * ViewChoice::kStretch_m &&
-                RotationAngle(T_first, T) <= longer * ViewChoice::kStretch_rad)
+            const double moved_m = (T.translation() - T_first.translation()).norm();
+            if (!(moved_m > longer * ViewChoice::kStretch_m) &&
+                !(RotationAngle(T_first, T) > longer * ViewChoice::kStretch_rad))
                 continue;
         }
         first.push_back(i);
@@ -50,7 +51,6 @@ ViewChoice::ViewChoice(std::span<const StampedPose> path, const PinholeCamera& c
 }
 
 std::optional<std::size_t> ViewChoice::Find(const Frame& frame) const {
-    constexpr double kSame_s = 1.5e-6;  // a trajectory file has microseconds
     const auto found = std::ranges::lower_bound(stamps_s_, frame.stamp_s - kSame_s);
     if (found == stamps_s_.end() || *found > frame.stamp_s + kSame_s) return std::nullopt;
     return static_cast<std::size_t>(found - stamps_s_.begin());

@@ -21,6 +21,8 @@ class ViewChoice {
     static constexpr double kStretch_m = 0.05, kStretch_rad = 0.06;
     static constexpr int kMostStretches = 1000;
     static constexpr std::size_t kCandidates = 3;  // of a stretch
+    // Time stamps are the same: a trajectory file has microseconds.
+    static constexpr double kSame_s = 1.5e-6;
 
     // `path`: by increasing time.
     ViewChoice(std::span<const StampedPose> path, const PinholeCamera& camera);

@@ -7,6 +7,7 @@
 
 #include "export/level.h"
 #include "finish/crop.h"
+#include "finish/view_choice.h"
 #include "io/chosen_frames.h"
 #include "io/frame_reader.h"
 #include "run/open_source.h"
@@ -117,9 +118,8 @@ class FinishFrameReader {
 
   private:
     static bool IsAt(double stamp_s, const std::vector<double>& stamps_s) {
-        constexpr double kSame_s = 1.5e-6;  // a trajectory file has microseconds
-        const auto near = std::ranges::lower_bound(stamps_s, stamp_s - kSame_s);
-        return near != stamps_s.end() && *near <= stamp_s + kSame_s;
+        const auto near = std::ranges::lower_bound(stamps_s, stamp_s - ViewChoice::kSame_s);
+        return near != stamps_s.end() && *near <= stamp_s + ViewChoice::kSame_s;
     }
     void Begin(std::vector<std::int64_t> indices) {
         reader_.reset();

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "finish/wall_frames.h"
 
@@ -82,6 +83,14 @@ TEST(ViewChoice, ALongPathHasLongerStretches) {
     EXPECT_LE(choice.stamps_s().size(), ViewChoice::kMostStretches * ViewChoice::kCandidates);
     EXPECT_GT(choice.stamps_s().size(), ViewChoice::kMostStretches * ViewChoice::kCandidates / 2);
     EXPECT_GT(choice.stamps_s().back(), 0.99 * path.back().stamp_s);
+}
+
+TEST(ViewChoice, APoseThatIsNotANumberEndsNothing) {
+    auto path = Path(
+        ViewChoice::kMostStretches + 100, [](int) { return 0.0; }, 0);
+    for (std::size_t i = 1; i < path.size(); ++i)
+        path[i].T_world_camera.translation().x() = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_LE(ViewChoice(path, WallCamera()).stamps_s().size(), ViewChoice::kCandidates);
 }
 
 TEST(ViewChoice, FindsAFrameByItsTime) {
