@@ -17,8 +17,11 @@ using testing_support::WallFrame;
 template <class Turn>
 std::vector<StampedPose> Path(int count, const Turn& turn_rad, double step_m = 0.01) {
     std::vector<StampedPose> path;
-    for (int i = 0; i < count; ++i)
-        path.push_back({i / 30.0, *WallFrame({step_m * i, 0, -1}, turn_rad(i)).T_world_camera});
+    for (int i = 0; i < count; ++i) {
+        Eigen::Isometry3d T(Eigen::AngleAxisd(turn_rad(i), Eigen::Vector3d::UnitY()));
+        T.translation().x() = step_m * i;
+        path.push_back({i / 30.0, T});
+    }
     return path;
 }
 
