@@ -47,7 +47,7 @@ void Print(const FinishReport& r) {
             &level == &r.levels.front() ? "model" : "lower level", level.triangles,
             1000 * level.error_m, level.width, level.height, 1000 * level.texel_m, level.charts,
             100 * level.seen_share);
-    fmt::print("texture from {} of {} frames\n", r.views, r.frames);
+    fmt::print("texture from {} of the {} frames that were read for it\n", r.views, r.frames);
 }
 
 // The models of all levels, and what else was asked for.

@@ -43,9 +43,9 @@ struct FinishFrames {
     double depth_readout_s = 0, colour_readout_s = 0;
 };
 
-// `path`: where the camera was, in the mesh's world. `mesh` has normals; where it has colours, the
-// texture's exposure is theirs. Errors: an empty mesh, one without normals, too many pieces for a
-// texture, cancelled.
+// `path`: where the camera was, in the mesh's world, by increasing time. `mesh` has normals; where
+// it has colours, the texture's exposure is theirs. Errors: an empty mesh, one without normals, too
+// many pieces for a texture, cancelled.
 Result<FinishedModel> FinishModel(TriangleMesh mesh, const PinholeCamera& camera,
                                   std::span<const StampedPose> path, const FinishFrames& frames,
                                   const FinishOptions& options, const FinishProgress& progress);

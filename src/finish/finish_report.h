@@ -27,7 +27,7 @@ struct FinishReport {
     RemovedFlaps flaps;
     RemovedIslands islands;
     ClosedHoles holes;
-    std::int64_t frames = 0;          // read
+    std::int64_t frames = 0;          // read for the texture
     std::int64_t views = 0;           // of them, that the texture was made from
     std::vector<LevelReport> levels;  // the model, then each lower level
 
