@@ -12,6 +12,7 @@
 #include "run/scan_export.h"
 #include "semantics/objects_file.h"
 #include "start_window.h"
+#include "viz/measuring.h"
 #include "viz/viewer.h"
 
 namespace tessera {
@@ -98,6 +99,7 @@ Status View(const ViewRequest& a, const CommandContext& context) {
     }
     options.window = context.window;
     options.title = a.path;
+    options.measurements = MeasurementsFile(a.path);
     options.width = a.width;
     options.height = a.height;
     Result<std::unique_ptr<Viewer>> viewer = Viewer::OpenModel(std::move(model.value()), options);

@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "models_beside.h"
+#include "viz/measuring.h"
 #include "viz/viewer.h"
 
 namespace tessera {
@@ -18,6 +19,7 @@ ViewerOptions OptionsFor(const RunRequest& request, const RunConfig& config,
     options.height = config.view.height;
     options.close_at_end = config.view.close_at_end;
     options.output_folder = request.output_folder.empty() ? "." : request.output_folder;
+    options.measurements = MeasurementsFile(options.output_folder);
     options.camera = source.camera;
     options.truncation_m = config.pipeline.map.truncation_m;
     const TrackersConfig& trackers = config.pipeline.trackers;

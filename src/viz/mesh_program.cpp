@@ -13,12 +13,14 @@ layout(location = 1) in vec2 normal;
 layout(location = 2) in vec4 colour;
 layout(location = 3) in vec4 mark;  // VertexMark
 uniform mat4 clip_from_position;
+uniform vec4 cut;  // plane in clip space
 out vec3 normal_world;
 out vec4 weighted_colour;
 out vec4 marked;
 
 void main() {
     gl_Position = clip_from_position * vec4(position, 1);
+    gl_ClipDistance[0] = dot(cut, gl_Position);
     vec2 e = normal / 32767;
     vec3 n = vec3(e, 1 - abs(e.x) - abs(e.y));
     if (n.z < 0) n.xy = (1 - abs(e.yx)) * vec2(e.x < 0 ? -1 : 1, e.y < 0 ? -1 : 1);
@@ -96,6 +98,8 @@ void MeshProgram::Use(const PinholeCamera& camera, const Eigen::Isometry3d& T_wo
                 static_cast<float>(camera.fy), static_cast<float>(camera.cx + 0.5),
                 static_cast<float>(camera.cy + 0.5));
     glUniform3fv(program_.Location("up"), 1, up_world.data());
+    const Eigen::Vector4f cut = look.cut_in_clip_space.cast<float>();
+    glUniform4fv(program_.Location("cut"), 1, cut.data());
     glUniform1i(program_.Location("shading"), static_cast<int>(look.shading));
     glUniform2f(program_.Location("coverage"), static_cast<float>(look.levels.once) / 255,
                 static_cast<float>(look.levels.well) / 255);

@@ -18,6 +18,9 @@ class MeshProgram {
     struct Look {
         Shading shading = Shading::kColour;
         CoverageLevels levels;
+        // Where its product with a point is negative, the surface is hidden. Has an effect while
+        // GL_CLIP_DISTANCE0 is enabled.
+        Eigen::Vector4d cut_in_clip_space = Eigen::Vector4d::Zero();
     };
     // Activates the program for this camera. `up`: unit vector in the world frame.
     void Use(const PinholeCamera& camera, const Eigen::Isometry3d& T_world_camera,

@@ -79,6 +79,13 @@ void DrawToolbar(ViewerState& state, const ControlRect& area) {
                                  "The path as the recording gives it, in white  (T)"))
         view.show_truth = !view.show_truth;
     row.Gap();
+    if (state.can_measure() && row.Button("measure", "Measure", state.measuring.on(),
+                                          "Lengths, angles, areas and volumes by clicks  (L)"))
+        state.ToggleMeasuring();
+    if (row.Button("cut", "Cut", view.cut != Cut::kNone,
+                   "Hide a part of the surface, to look inside  (X)"))
+        state.ToggleCut();
+    row.Gap();
     if ((state.link || state.replay) &&
         row.Button("follow", "Follow", view.follow, "Stay with the camera  (F)"))
         state.ToggleFollow();

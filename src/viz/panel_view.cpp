@@ -37,7 +37,9 @@ bool HandlePointer(ViewerState& state, SceneView& scene, const ControlRect& area
         else
             camera.Rotate(kRadPerPx * io.MouseDelta.x, kRadPerPx * io.MouseDelta.y);
     }
-    if (hovered && io.MouseWheel != 0) Zoom(state, camera, io.MouseWheel);
+    const bool wheel = hovered && io.MouseWheel != 0;
+    if (wheel) Zoom(state, camera, io.MouseWheel);
+    if (state.measuring.on()) return ClickToMeasure(state, scene, area) || left || middle || wheel;
     if (hovered && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
         const ImVec2 scale = io.DisplayFramebufferScale;
         const auto x = static_cast<int>((io.MousePos.x - area.x) * scale.x);
@@ -47,8 +49,8 @@ bool HandlePointer(ViewerState& state, SceneView& scene, const ControlRect& area
             camera.LookAt(*point);
         }
     }
-    return left || middle ||
-           (hovered && (io.MouseWheel != 0 || ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)));
+    return left || middle || wheel ||
+           (hovered && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left));
 }
 
 }  // namespace
@@ -78,6 +80,7 @@ bool DrawViewPanel(ViewerState& state, SceneView& scene, const ViewPanelFrame& f
     list.AddImage(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(scene.texture())), from,
                   to);
     DrawObjectNames(state, scene, area);
+    DrawMeasurements(state, scene, area);
     if (scene.triangles() > 0)
         DrawOverlays(state, scene, area, area.x + area.width - frame.inset_width);
     if (state.view_kind == ViewKind::kExpert) DrawToolbar(state, area);

@@ -5,6 +5,7 @@
 #include "render/mesh_picture.h"
 #include "render/projection.h"
 #include "viz/gl_lines.h"
+#include "viz/measure_lines.h"
 #include "viz/mesh_program.h"
 #include "viz/object_boxes.h"
 #include "viz/path_lines.h"
@@ -35,6 +36,7 @@ struct SceneView::Impl {
     };
     void StandUpright();
     bool ChoicesChanged(const ViewerState& state, const Request& request) const;
+    std::optional<Eigen::Vector4d> CutPlane(const ViewChoices& view) const;
     void DrawMesh(const ViewerState& state, const PinholeCamera& pinhole);
     void DrawPaths(const ViewerState& state, const PinholeCamera& pinhole);
 
@@ -45,6 +47,7 @@ struct SceneView::Impl {
     SceneMesh mesh;
     PathLines paths;
     ObjectBoxes boxes;
+    MeasureLines measurements;
     SceneTarget target;
     ViewCamera camera;
     bool followed = false, changed = true;
@@ -138,13 +141,15 @@ bool SceneView::Impl::ChoicesChanged(const ViewerState& state, const Request& re
     return request.width != drawn.request.width || request.height != drawn.request.height ||
            request.smooth != drawn.request.smooth || state.shading() != drawn.shading ||
            a.wireframe != b.wireframe || a.depth_test != b.depth_test ||
-           a.show_truth != b.show_truth || a.show_objects != b.show_objects;
+           a.show_truth != b.show_truth || a.show_objects != b.show_objects || a.cut != b.cut ||
+           a.cut_at != b.cut_at || a.cut_towards != b.cut_towards;
 }
 
 bool SceneView::Draw(const ViewerState& state, const Request& request) {
     Impl& s = *impl_;
     s.changed |= s.paths.Update(state);
     s.changed |= s.boxes.Update(state);
+    s.changed |= s.measurements.Update(state);
     const bool moved = !s.camera.T_world_camera().isApprox(s.drawn.T_world_view, 1e-7);
     const bool at_once = request.may_redraw || (moved && request.by_hand);
     if (!s.ChoicesChanged(state, request) && !((moved || s.changed) && at_once)) return false;
@@ -158,6 +163,17 @@ bool SceneView::Draw(const ViewerState& state, const Request& request) {
     return true;
 }
 
+// (n, d): points with n^T p + d < 0 are hidden; world frame, metres.
+std::optional<Eigen::Vector4d> SceneView::Impl::CutPlane(const ViewChoices& view) const {
+    if (view.cut == Cut::kNone || mesh.bounds().isEmpty()) return std::nullopt;
+    const Eigen::Vector3d towards = view.cut == Cut::kAbove ? camera.up() : view.cut_towards;
+    const Eigen::Vector3d half = 0.5 * mesh.bounds().sizes();
+    const double middle = towards.dot(mesh.bounds().center()), reach = towards.cwiseAbs().dot(half);
+    constexpr double kBeyond = 1.05;  // so that the slider's ends are clearly outside
+    const double at = middle + kBeyond * (2 * view.cut_at - 1) * reach;
+    return Eigen::Vector4d(-towards.x(), -towards.y(), -towards.z(), at);
+}
+
 void SceneView::Impl::DrawMesh(const ViewerState& state, const PinholeCamera& pinhole) {
     if (state.view.depth_test) glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_LESS);
@@ -168,9 +184,18 @@ void SceneView::Impl::DrawMesh(const ViewerState& state, const PinholeCamera& pi
     glDisable(GL_SCISSOR_TEST);
     if (state.view.wireframe) glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
     const Eigen::Isometry3d& T_world_view = drawn.T_world_view;
-    program.Use(pinhole, T_world_view, camera.up(), {drawn.shading, levels});
     const Eigen::Matrix4d clip = ClipFromCamera(pinhole, kNearM, kFarM);
+    const std::optional<Eigen::Vector4d> cut = CutPlane(state.view);
+    MeshProgram::Look look{drawn.shading, levels};
+    if (cut) {
+        // A plane is a row vector: points go by a matrix, planes by its inverse.
+        const Eigen::Matrix4d clip_from_world = clip * T_world_view.inverse().matrix();
+        look.cut_in_clip_space = clip_from_world.inverse().transpose() * *cut;
+        glEnable(GL_CLIP_DISTANCE0);
+    }
+    program.Use(pinhole, T_world_view, camera.up(), look);
     mesh.Draw(clip, T_world_view, program.clip_from_position());
+    glDisable(GL_CLIP_DISTANCE0);
     glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
     glDisable(GL_CULL_FACE);
 }
@@ -182,6 +207,12 @@ void SceneView::Impl::DrawPaths(const ViewerState& state, const PinholeCamera& p
         ClipFromCamera(pinhole, kNearM, kFarM) * drawn.T_world_view.inverse().matrix();
     view.width_px = pinhole.width;
     view.height_px = pinhole.height;
+    // Towards the eye, into the same pixels: lines that lie on a surface are not hidden by it.
+    constexpr double kNearer = 0.995;
+    GlLineProgram::View before_surface = view;
+    before_surface.clip_from_world = ClipFromCamera(pinhole, kNearM, kFarM) *
+                                     Eigen::Vector4d(kNearer, kNearer, kNearer, 1).asDiagonal() *
+                                     drawn.T_world_view.inverse().matrix();
     glEnable(GL_BLEND);
     glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
     glEnable(GL_DEPTH_TEST);
@@ -190,6 +221,7 @@ void SceneView::Impl::DrawPaths(const ViewerState& state, const PinholeCamera& p
         glDepthFunc(hidden ? GL_GREATER : GL_LEQUAL);
         paths.Draw(lines, view, state.view.show_truth, hidden ? 0.22f : 1.0f);
         if (state.view.show_objects) boxes.Draw(lines, view, hidden ? 0.3f : 1.0f);
+        measurements.Draw(lines, before_surface, hidden ? 0.4f : 1.0f);
     }
     glDepthMask(GL_TRUE);
     glDepthFunc(GL_LESS);

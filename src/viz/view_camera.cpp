@@ -81,10 +81,13 @@ void ViewCamera::Approach(const Eigen::Vector3d& wanted_eye, const Eigen::Vector
     Place(from + part * (wanted_eye - from), target_ + part * (wanted_target - target_));
 }
 
+Eigen::Vector3d ViewCamera::LevelDirection() const {
+    return std::cos(azimuth_rad_) * east_ + std::sin(azimuth_rad_) * north_;
+}
+
 Eigen::Vector3d ViewCamera::eye() const {
-    const Eigen::Vector3d level = std::cos(azimuth_rad_) * east_ + std::sin(azimuth_rad_) * north_;
-    return target_ +
-           distance_m_ * (std::cos(elevation_rad_) * level + std::sin(elevation_rad_) * up_);
+    return target_ + distance_m_ * (std::cos(elevation_rad_) * LevelDirection() +
+                                    std::sin(elevation_rad_) * up_);
 }
 
 Eigen::Isometry3d ViewCamera::T_world_camera() const {

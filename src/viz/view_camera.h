@@ -43,6 +43,8 @@ class ViewCamera {
     static PinholeCamera Camera(int width, int height);
     const Eigen::Vector3d& target() const { return target_; }
     Eigen::Vector3d eye() const;
+    // From the target to the eye, without its part along up; unit length.
+    Eigen::Vector3d LevelDirection() const;
     double distance_m() const { return distance_m_; }
     // Width of a pixel at the target, in a picture `height_px` high.
     double PixelSize_m(double height_px) const;

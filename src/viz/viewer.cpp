@@ -89,6 +89,7 @@ Result<std::unique_ptr<Viewer>> Viewer::OpenModel(ViewedModel model, const Viewe
     impl.state.view.follow = false;
     if (model.mesh.colours.empty()) impl.state.view.shading = Shading::kGrey;
     impl.scene->SetModel(model);
+    impl.state.ReadMeasurementsOnce();
     impl.state.system.SetObjects(std::move(model.objects));
     if (model.time_line) {
         impl.state.replay.emplace(std::move(*model.time_line));
@@ -219,6 +220,7 @@ bool Viewer::Impl::DrawExpert(bool may_redraw, bool smooth) {
                        .inset_width = state.replay ? time_line.inset_width(state, layout.view) : 0,
                        .may_redraw = may_redraw,
                        .smooth = smooth});
+    DrawTools(state, *scene, layout.view);
     if (state.replay) time_line.Draw(state, *scene, layout.time_line, layout.view);
     if (!state.link) return drawn;
     {

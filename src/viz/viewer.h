@@ -41,6 +41,7 @@ struct ViewerOptions {
     int width = 1280, height = 720;
     // For screenshots, saved meshes and recordings; created when first needed.
     std::string output_folder = ".";
+    std::string measurements;    // file that keeps them; empty: they are not kept
     PinholeCamera camera;        // of the frames
     double truncation_m = 0.04;  // of the map; limit of the residual's colour scale
     bool labelled = false;       // true if there is a detector, or if the model's mesh has labels

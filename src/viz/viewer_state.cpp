@@ -120,6 +120,20 @@ void ViewerState::SwitchView() {
     if (link) view_kind = view_kind == ViewKind::kScan ? ViewKind::kExpert : ViewKind::kScan;
 }
 
+// Measurements of earlier views are shown at once with a model, and after a run when asked for.
+void ViewerState::ToggleMeasuring() {
+    if (!can_measure()) return;
+    ReadMeasurementsOnce();
+    measuring.Toggle();
+}
+
+void ViewerState::ReadMeasurementsOnce() {
+    if (!measurements_read_) measuring.Open(options.measurements);
+    measurements_read_ = true;
+}
+
+void ViewerState::ToggleCut() { view.cut = view.cut == Cut::kNone ? Cut::kAbove : Cut::kNone; }
+
 Shading ViewerState::shading() const {
     if (view_kind == ViewKind::kExpert) return view.shading;
     return view.coverage ? Shading::kCoverage : Shading::kColour;
@@ -154,10 +168,21 @@ bool ViewerState::OnReplayKey(int key, int mods) {
     }
 }
 
+bool ViewerState::OnMeasuringKey(int key) {
+    switch (key) {
+        case GLFW_KEY_ENTER:
+        case GLFW_KEY_KP_ENTER: measuring.Finish(); return true;
+        case GLFW_KEY_BACKSPACE: measuring.TakeBack(); return true;
+        case GLFW_KEY_ESCAPE: measuring.Toggle(); return true;
+        default: return false;
+    }
+}
+
 void ViewerState::OnKey(int key, int mods) {
     if (mods & (GLFW_MOD_CONTROL | GLFW_MOD_ALT | GLFW_MOD_SUPER)) return;
     if (asks()) return Answer(key);
     if (replay && OnReplayKey(key, mods)) return;
+    if (measuring.on() && !show_help && OnMeasuringKey(key)) return;
     const auto method = static_cast<std::size_t>(key - GLFW_KEY_1);
     if (key >= GLFW_KEY_1 && method < kTrackingMethods.size())
         return SelectMethod(kTrackingMethods[method].method);
@@ -172,6 +197,8 @@ void ViewerState::OnKey(int key, int mods) {
         case GLFW_KEY_TAB: return SwitchView();
         case GLFW_KEY_F: return ToggleFollow();
         case GLFW_KEY_E: return ToggleFirstPerson();
+        case GLFW_KEY_L: return ToggleMeasuring();
+        case GLFW_KEY_X: return ToggleCut();
         case GLFW_KEY_I: view.camera_image = !view.camera_image; return;
         case GLFW_KEY_A: return ViewAll();
         case GLFW_KEY_C: return CycleShading();

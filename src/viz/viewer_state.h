@@ -7,6 +7,7 @@
 #include <string>
 
 #include "viz/controls.h"
+#include "viz/measuring.h"
 #include "viz/quality.h"
 #include "viz/system_view.h"
 #include "viz/viewer.h"
@@ -16,6 +17,13 @@ namespace tessera {
 inline constexpr int kShadings = 6;
 const char* ToString(Shading shading);
 
+// What the 3D view hides, to look inside.
+enum class Cut {
+    kNone,
+    kAbove,  // what is higher than a level plane
+    kFront,  // what is nearer than an upright plane that faced the viewer when this was chosen
+};
+
 struct ViewChoices {
     Shading shading = Shading::kColour;
     bool keep_all = false;  // keep all of the mesh in view
@@ -24,6 +32,9 @@ struct ViewChoices {
     bool coverage = true;       // kScan: show the coverage instead of colours alone
     bool camera_image = true;   // kScan: what the camera sees, in a corner
     bool first_person = false;  // look from the camera's place instead of from behind it
+    Cut cut = Cut::kNone;
+    double cut_at = 0.7;  // where, from 0, which hides all, to 1, which hides nothing
+    Eigen::Vector3d cut_towards = {0, 0, -1};  // kFront: where the viewer was, level, unit length
 };
 
 // Owner thread only.
@@ -41,6 +52,7 @@ struct ViewerState {
     SystemView system;
     std::optional<Replay> replay;  // of a finished run
     Controls controls;
+    Measuring measuring;
     ViewKind view_kind = ViewKind::kExpert;
     ViewChoices view;
     double now_s = 0;                     // of this round, on the window's clock
@@ -83,6 +95,11 @@ struct ViewerState {
     void ToggleFirstPerson();
     void ViewAll();
     void SwitchView();  // between kScan and kExpert
+    // Once the surface no longer changes.
+    bool can_measure() const { return ended(); }
+    void ToggleMeasuring();
+    void ReadMeasurementsOnce();
+    void ToggleCut();
     // Handles a key of the window: GLFW_KEY_* and GLFW_MOD_*.
     void OnKey(int key, int mods);
     // Returns "DIR/PREFIX-YYYYMMDD-HHMMSS.EXTENSION", with a number appended if that exists.
@@ -92,7 +109,10 @@ struct ViewerState {
   private:
     void Send(ViewerCommand::Kind kind, const std::string& path = {});
     bool OnReplayKey(int key, int mods);  // true: it was one of the time line's
+    bool OnMeasuringKey(int key);         // true: it was one of the measuring tool's
     void Answer(int key);
+
+    bool measurements_read_ = false;
 };
 
 }  // namespace tessera

@@ -1,11 +1,13 @@
-// Makes pictures of the start screen and of a run's time line, for docs/images and to look at.
-// Needs Xvfb. In a folder that holds the recording RECORDING and its run RUN:
+// Makes pictures of the start screen, of a run's time line and of measurements (for
+// synthetic:desk), for docs/images and to look at. Needs Xvfb. In a folder that holds the recording
+// RECORDING and its run RUN:
 //   screen_pictures PREFIX 1280x720 RECORDING RUN
-// writes PREFIXstart.png, PREFIXcamera.png, PREFIXscene.png, PREFIXerror.png and
-// PREFIXtime_line.png.
+// writes PREFIXstart.png, PREFIXcamera.png, PREFIXscene.png, PREFIXerror.png, PREFIXtime_line.png
+// and PREFIXmeasure.png.
 #include <cstdio>
 #include <functional>
 #include <string>
+#include <utility>
 
 #include "io/image_io.h"
 #include "io/mesh_io.h"
@@ -99,7 +101,24 @@ Status TimeLinePicture(const Arguments& a, testing_support::VirtualDisplay& disp
     display.MoveTo(static_cast<float>(a.width) / 2, 100);
     for (int i = 0; i < 200 && !find("camera_image"); ++i) round();
     Rounds(round, 10);
-    return WriteColourImage(a.prefix + "time_line.png", viewer.value()->Picture());
+    const Status status = WriteColourImage(a.prefix + "time_line.png", viewer.value()->Picture());
+    if (!status.ok()) return status;
+    Click(display, find, round, "measure");
+    const auto click_at = [&](float x, float y) {  // of 1280x720
+        display.MoveTo(x * static_cast<float>(a.width) / 1280,
+                       y * static_cast<float>(a.height) / 720);
+        Rounds(round, 4);
+        display.Press(1);
+        Rounds(round, 3);
+        display.Release(1);
+        Rounds(round, 10);
+    };
+    for (const auto& [x, y] : {std::pair{470, 296}, {818, 388}})
+        click_at(static_cast<float>(x), static_cast<float>(y));
+    Click(display, find, round, "measure.new");
+    for (const auto& [x, y] : {std::pair{545, 186}, {642, 192}, {639, 236}, {547, 232}, {545, 186}})
+        click_at(static_cast<float>(x), static_cast<float>(y));
+    return WriteColourImage(a.prefix + "measure.png", viewer.value()->Picture());
 }
 
 int MakePictures(Arguments a) {
