@@ -6,14 +6,11 @@
 
 #include "box_option.h"
 #include "command.h"
-#include "export/level.h"
 #include "finish/decimate.h"
 #include "finish/shell.h"
+#include "finished_model.h"
 #include "io/file.h"
-#include "io/image_io.h"
-#include "io/mesh_io.h"
 #include "io/mesh_writers.h"
-#include "render/mesh_picture.h"
 #include "run/finish_run.h"
 #include "stop_signal.h"
 
@@ -50,27 +47,7 @@ void Print(const FinishReport& r) {
     fmt::print("texture from {} of the {} frames that were read for it\n", r.views, r.frames);
 }
 
-// The models of all levels, and what else was asked for.
-Status WriteModels(const FinishArguments& a, const FinishedModel& finished) {
-    const auto upright = [&](const TexturedMesh& model) {
-        TexturedMesh turned = model;
-        if (a.request.level) turned.mesh = WithYDown(std::move(turned.mesh));
-        return turned;
-    };
-    const TexturedMesh& model = finished.model;
-    const MeshView view = ChooseView(model.mesh);
-    for (Status status : {WriteTexturedGlb(a.out + "/model.glb", upright(model)),
-                          WriteTexturedObj(a.out + "/model.obj", model),
-                          WriteColourImage(a.out + "/preview.png",
-                                           RenderTextured(model, view.camera, view.T_world_camera)),
-                          WriteTextFile(a.out + "/finish.json", FinishReportJson(finished.report)),
-                          WritePly(a.out + "/filled.ply", finished.filled)})
-        if (!status.ok()) return status;
-    for (std::size_t i = 0; i < finished.lower_levels.size(); ++i) {
-        Status status = WriteTexturedGlb(fmt::format("{}/model_lod{}.glb", a.out, i + 1),
-                                         upright(finished.lower_levels[i]));
-        if (!status.ok()) return status;
-    }
+Status WriteShell(const FinishArguments& a, const FinishedModel& finished) {
     if (a.watertight_m <= 0) return Status::Ok();
     const Shell shell = MakeShell(finished.surface, a.watertight_m);
     fmt::print("watertight.obj: {} closed pieces, {} open ones as plates\n", shell.closed_pieces,
@@ -101,7 +78,9 @@ Status Finish(const FinishArguments& a) {
     if (terminal) fmt::print(stderr, "\r{:<18}\r", "");
     if (!finished.ok()) return finished.status();
     Print(finished.value().report);
-    return WriteModels(a, finished.value());
+    if (Status status = WriteFinishedModel(a.out, finished.value(), a.request.level); !status.ok())
+        return status;
+    return WriteShell(a, finished.value());
 }
 
 }  // namespace

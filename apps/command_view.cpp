@@ -4,9 +4,12 @@
 #include <memory>
 
 #include "command.h"
+#include "finished_model.h"
+#include "io/file.h"
 #include "io/image_io.h"
 #include "io/mesh_io.h"
 #include "io/trajectory.h"
+#include "run/finish_run.h"
 #include "run/open_source.h"
 #include "run/run_source.h"
 #include "run/scan_export.h"
@@ -86,6 +89,23 @@ FrameImages::Open SourceOf(const RunRecord& run) {
     return [run] { return OpenSourceOf(run); };
 }
 
+// As `tessera finish PATH --out MODEL`. Beside a scan file NAME.scan, MODEL is NAME_model.
+BackgroundJob::Work FinishOf(const std::string& path) {
+    return [path](const BackgroundJob::Progress& progress) -> Result<std::string> {
+        const std::string out = fs::is_directory(path)
+                                    ? (fs::path(path) / "model").string()
+                                    : fs::path(path).replace_extension().string() + "_model";
+        FinishRequest request;
+        request.input = path;
+        const Result<FinishedModel> finished = FinishRun(request, progress);
+        if (!finished.ok()) return finished.status();
+        if (Status status = PrepareOutputFolder(out); !status.ok()) return status;
+        if (Status status = WriteFinishedModel(out, finished.value(), false); !status.ok())
+            return status;
+        return "made: " + out + "/model.glb, and model.obj";
+    };
+}
+
 Status View(const ViewRequest& a, const CommandContext& context) {
     const Result<Files> files = FindFiles(a);
     if (!files.ok()) return files.status();
@@ -97,6 +117,8 @@ Status View(const ViewRequest& a, const CommandContext& context) {
         model.value().open_source = SourceOf(line->run);
         if (line->run.camera) options.camera = *line->run.camera;
     }
+    if (!files.value().run.empty() || a.path.ends_with(".scan"))
+        model.value().finish = FinishOf(a.path);
     options.window = context.window;
     options.title = a.path;
     options.measurements = MeasurementsFile(a.path);

@@ -32,6 +32,7 @@ constexpr Line kLines[] = {
     {"L", "measure by clicks on/off, once the run has ended"},
     {"Enter", "measuring: the next click begins anew"},
     {"Backspace", "measuring: take the last click back"},
+    {"G", "finish: make a clean, textured model of a finished run"},
     {"T", "true path on/off", true},
     {"I", "scan view: the camera's image on/off", true},
     {"", "", true},

@@ -1,5 +1,4 @@
-// Measuring and cutting in the 3D view: the clicks, the figures beside the lines, and the tools'
-// panel.
+// Measuring in the 3D view: the clicks, the figures beside the lines, and the tool's panel.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -88,43 +87,6 @@ const char* WhatNext(const Measuring& measuring) {
     return "Click corners on the surface.";
 }
 
-void MeasureTool(ViewerState& state) {
-    Measuring& measuring = state.measuring;
-    SmallText(palette::kText, WhatNext(measuring));
-    if (!measuring.all().empty())
-        for (const std::string& line : FiguresOf(measuring.all().back()))
-            SmallText(palette::kDim, line);
-    if (!measuring.trouble().empty()) {
-        ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + Scaled(300));
-        SmallText(palette::kBad, measuring.trouble());
-        ImGui::PopTextWrapPos();
-    }
-    if (MarkedButton(state.controls, "measure.back", "Take back", Scaled(80))) measuring.TakeBack();
-    Tip("The last click is undone  (Backspace)");
-    ImGui::SameLine();
-    if (MarkedButton(state.controls, "measure.new", "New", Scaled(60))) measuring.Finish();
-    Tip("The next click begins another measurement  (Enter)");
-    ImGui::SameLine();
-    if (MarkedButton(state.controls, "measure.clear", "Clear all", Scaled(80))) measuring.Clear();
-}
-
-void CutTool(ViewerState& state, SceneView& scene) {
-    ViewChoices& view = state.view;
-    if (MarkedButton(state.controls, "cut.above", "From above", Scaled(100),
-                     view.cut == Cut::kAbove))
-        view.cut = Cut::kAbove;
-    Tip("Hide what is higher");
-    ImGui::SameLine();
-    if (MarkedButton(state.controls, "cut.front", "From the front", Scaled(110),
-                     view.cut == Cut::kFront)) {
-        view.cut = Cut::kFront;
-        view.cut_towards = scene.camera().LevelDirection();
-    }
-    Tip("Hide what is nearer, seen from where you are now");
-    ImGui::SetNextItemWidth(Scaled(220));
-    MarkedSlider(state.controls, "cut.at", view.cut_at, 0, 1, "");
-}
-
 }  // namespace
 
 bool ClickToMeasure(ViewerState& state, const SceneView& scene, const ControlRect& area) {
@@ -161,21 +123,25 @@ void DrawMeasurements(const ViewerState& state, const SceneView& scene, const Co
     list.PopClipRect();
 }
 
-void DrawTools(ViewerState& state, SceneView& scene, const ControlRect& area) {
-    if (!state.measuring.on() && state.view.cut == Cut::kNone) return;
-    ImGui::SetNextWindowPos({area.x + area.width - Scaled(10), area.y + Scaled(76)},
-                            ImGuiCond_Always, {1, 0});
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, Scaled(6));
-    ImGui::Begin("tools", nullptr,
-                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize |
-                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav |
-                     ImGuiWindowFlags_NoFocusOnAppearing);
-    if (state.measuring.on()) MeasureTool(state);
-    if (state.view.cut != Cut::kNone) CutTool(state, scene);
-    const ImVec2 at = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
-    state.controls.Mark("tools", {at.x, at.y, size.x, size.y});
-    ImGui::End();
-    ImGui::PopStyleVar();
+void DrawMeasureTool(ViewerState& state) {
+    GroupTitle("MEASURE");
+    Measuring& measuring = state.measuring;
+    SmallText(palette::kText, WhatNext(measuring));
+    if (!measuring.all().empty())
+        for (const std::string& line : FiguresOf(measuring.all().back()))
+            SmallText(palette::kDim, line);
+    if (!measuring.trouble().empty()) {
+        ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + Scaled(300));
+        SmallText(palette::kBad, measuring.trouble());
+        ImGui::PopTextWrapPos();
+    }
+    if (MarkedButton(state.controls, "measure.back", "Take back", Scaled(80))) measuring.TakeBack();
+    Tip("The last click is undone  (Backspace)");
+    ImGui::SameLine();
+    if (MarkedButton(state.controls, "measure.new", "New", Scaled(60))) measuring.Finish();
+    Tip("The next click begins another measurement  (Enter)");
+    ImGui::SameLine();
+    if (MarkedButton(state.controls, "measure.clear", "Clear all", Scaled(80))) measuring.Clear();
 }
 
 }  // namespace tessera

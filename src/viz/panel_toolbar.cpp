@@ -85,6 +85,10 @@ void DrawToolbar(ViewerState& state, const ControlRect& area) {
     if (row.Button("cut", "Cut", view.cut != Cut::kNone,
                    "Hide a part of the surface, to look inside  (X)"))
         state.ToggleCut();
+    if (state.finishing.offered() &&
+        row.Button("finish", "Finish", state.finishing.state() == BackgroundJob::State::kRunning,
+                   "Make a clean, textured model: model.glb, model.obj  (G)"))
+        state.finishing.Start();
     row.Gap();
     if ((state.link || state.replay) &&
         row.Button("follow", "Follow", view.follow, "Stay with the camera  (F)"))

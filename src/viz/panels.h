@@ -33,9 +33,11 @@ void DrawToolbar(ViewerState& state, const ControlRect& area);
 void DrawOverlays(ViewerState& state, SceneView& scene, const ControlRect& area, float right);
 
 // Measuring: true if a click on the view, the item that ImGui drew last, became a corner; the
-// figures beside the lines; the panel of the tools that are on. All over the 3D view in `area`.
+// figures beside the lines; the tool's part of the panel. All over the 3D view in `area`.
 bool ClickToMeasure(ViewerState& state, const SceneView& scene, const ControlRect& area);
 void DrawMeasurements(const ViewerState& state, const SceneView& scene, const ControlRect& area);
+void DrawMeasureTool(ViewerState& state);
+// The panel of the tools that are on.
 void DrawTools(ViewerState& state, SceneView& scene, const ControlRect& area);
 
 // What the camera sees, in the lower right corner of the 3D view, and the width to keep free for

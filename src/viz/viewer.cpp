@@ -90,6 +90,7 @@ Result<std::unique_ptr<Viewer>> Viewer::OpenModel(ViewedModel model, const Viewe
     if (model.mesh.colours.empty()) impl.state.view.shading = Shading::kGrey;
     impl.scene->SetModel(model);
     impl.state.ReadMeasurementsOnce();
+    impl.state.finishing.Offer(std::move(model.finish));
     impl.state.system.SetObjects(std::move(model.objects));
     if (model.time_line) {
         impl.state.replay.emplace(std::move(*model.time_line));
@@ -143,7 +144,8 @@ bool Viewer::Impl::RunOnce() {
     before_s = now_s;
     if (link) TakeFromLink(*link);
     if (state.replay && state.replay->Advance(since_s)) DrawAtLeast(1);
-    if (time_line.Update(state)) DrawAtLeast(1);
+    const bool has_image = time_line.Update(state);
+    if (state.finishing.Update() || has_image) DrawAtLeast(1);
     for (const Window::Key& key : window->TakeKeys()) {
         if (!ImGui::GetIO().WantTextInput) state.OnKey(key.key, key.mods);
         rounds_to_draw = kSettlingRounds;

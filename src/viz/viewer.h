@@ -12,6 +12,7 @@
 #include "core/mesh.h"
 #include "core/status.h"
 #include "system/viewer_link.h"
+#include "viz/background_job.h"
 #include "viz/frame_images.h"
 #include "viz/time_line.h"
 
@@ -70,6 +71,7 @@ struct ViewedModel {
     std::vector<MapObject> objects;       // matching the mesh's labels; may be empty
     std::optional<TimeLine> time_line;    // of the run; shown below the mesh
     FrameImages::Open open_source;        // with a time line: what the run read; may be empty
+    BackgroundJob::Work finish;           // makes a finished model of it; may be empty
 };
 
 // Area of a control in the window, in pixels from the top left corner.

@@ -199,6 +199,7 @@ void ViewerState::OnKey(int key, int mods) {
         case GLFW_KEY_E: return ToggleFirstPerson();
         case GLFW_KEY_L: return ToggleMeasuring();
         case GLFW_KEY_X: return ToggleCut();
+        case GLFW_KEY_G: return finishing.Start();
         case GLFW_KEY_I: view.camera_image = !view.camera_image; return;
         case GLFW_KEY_A: return ViewAll();
         case GLFW_KEY_C: return CycleShading();

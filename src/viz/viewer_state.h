@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "viz/background_job.h"
 #include "viz/controls.h"
 #include "viz/measuring.h"
 #include "viz/quality.h"
@@ -53,6 +54,7 @@ struct ViewerState {
     std::optional<Replay> replay;  // of a finished run
     Controls controls;
     Measuring measuring;
+    BackgroundJob finishing;  // makes a finished model of what is shown
     ViewKind view_kind = ViewKind::kExpert;
     ViewChoices view;
     double now_s = 0;                     // of this round, on the window's clock

@@ -167,6 +167,30 @@ TEST_F(StartProgram, ARecordingIsScannedToItsEnd) {
 
 TEST_F(StartProgram, AFinishedScanIsShown) { ShowAndCloseTheFinishedScan(); }
 
+TEST_F(StartProgram, AFinishedScanIsMeasuredAndMadeAModel) {
+    const std::string run = std::string(TESSERA_PROGRAM) + " run rec --out done >/dev/null 2>&1";
+    ASSERT_EQ(std::system(run.c_str()), 0);
+    Click("entry.done");
+    Click("open");
+    ASSERT_TRUE(Within(30, [&] { return display_->HasWindow("done - Tessera"); }))
+        << TextOf("stderr");
+    Pause();
+    places_["left"] = {600, 300, 0, 0};  // on the surface
+    places_["right"] = {680, 330, 0, 0};
+    display_->MoveTo(600, 300);
+    Key(XK_l);
+    Click("left");
+    Click("right");
+    EXPECT_TRUE(Within(20, [] { return fs::exists("done/measurements.json"); }));
+    const auto kept = nlohmann::json::parse(TextOf("done/measurements.json"), nullptr, false);
+    EXPECT_GT(kept["measurements"][0]["length_m"], 0.01);
+    Key(XK_g);
+    EXPECT_TRUE(Within(60, [] { return fs::exists("done/model/filled.ply"); }));
+    EXPECT_TRUE(fs::exists("done/model/model.glb"));
+    ASSERT_TRUE(display_->AskToClose("done - Tessera"));
+    EXPECT_EQ(Exit(), 0) << TextOf("stderr");
+}
+
 // What is refused when the run begins is said on the screen, and another choice can be made.
 TEST_F(StartProgram, AfterAnErrorTheScreenStays) {
     Click("output");

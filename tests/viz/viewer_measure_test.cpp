@@ -1,8 +1,9 @@
-// Measures and cuts with the mouse and the keyboard.
+// Measures, cuts and finishes with the mouse and the keyboard.
 #include <X11/keysym.h>
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <filesystem>
 
 #include "support/temp_folder.h"
@@ -211,6 +212,44 @@ TEST_F(ViewerMeasure, CutsHideWhatIsHigherOrNearer) {
     Click("cut");
     EXPECT_EQ(Count(kRed), red);
     EXPECT_FALSE(FindControl("tools"));
+}
+
+TEST_F(ViewerMeasure, AModelIsFinishedWhileTheWindowGoesOn) {
+    std::atomic<int> made = 0;
+    std::atomic<bool> may_end = false;
+    model_.finish = [&](const BackgroundJob::Progress& progress) -> Result<std::string> {
+        while (!may_end)
+            if (!progress("paint", 0.5)) return Status::Error("cancelled");
+        if (++made == 2) return Status::Error("no paint");
+        return std::string("made: model.glb");
+    };
+    Open();
+    EXPECT_FALSE(FindControl("tools"));
+    Click("finish");
+    EXPECT_TRUE(FindControl("finish.running"));
+    Click("finish");  // it runs already
+    Click("cut");     // the window goes on
+    EXPECT_TRUE(FindControl("cut.at"));
+    EXPECT_TRUE(FindControl("finish.running"));
+    Click("finish.cancel");
+    ASSERT_TRUE(Within(20, [&] { return FindControl("finish.done").has_value(); }));
+    EXPECT_EQ(made, 0);
+    may_end = true;
+    for (const char* const end : {"finish.done", "finish.failed"}) {
+        Click("finish");
+        ASSERT_TRUE(Within(20, [&] { return FindControl(end).has_value(); })) << end;
+        Click(end);
+        EXPECT_FALSE(FindControl(end));
+    }
+    EXPECT_EQ(made, 2);
+    may_end = false;
+    Click("finish");
+    viewer_.reset();  // closing the window cancels
+}
+
+TEST_F(ViewerMeasure, AMeshAloneCannotBeFinished) {
+    Open();
+    EXPECT_FALSE(FindControl("finish"));
 }
 
 }  // namespace
