@@ -27,6 +27,7 @@ TrackingStage::TrackingStage(const PipelineConfig& config, const PinholeCamera& 
       motion_(config.motion),
       motion_before_(config.motion),
       aligner_(config.prealign, camera),
+      usual_fit_(config.trackers.judge.doubt_misfit, config.trackers.judge.doubt_known_fraction),
       moving_(config.moving, camera),
       backend_(device),
       trackers_(config.trackers, camera, *backend_) {}
@@ -142,7 +143,8 @@ bool TrackingStage::TrackFrom(const Frame& frame, const BlockMap& map,
                                          .motion = FrameMotionOf(frame)});
     tracked.report.track_ms += watch.LapMs();
     tracked.report.rasterise_ms += trackers_.TakeRasterise_ms();
-    if (track.status != TrackStatus::kGood || track.degenerate) return false;
+    if (track.status != TrackStatus::kGood || track.degenerate || !usual_fit_.Matches(track))
+        return false;
     tracked.report.track = std::move(track);
     motion_.Clear();
     moving_.Clear();
@@ -191,8 +193,21 @@ TrackResult TrackingStage::TrackFrame(const Frame& frame, const PreparedFrame& p
          .frames_since_last = 1 + motion_.lost_frames(),
          .motion = FrameMotionOf(frame),
          .nearest_m = MinWeightDepth(prepared)});
+    DemandUsualFit(frame.stamp_s, track);
     aligner_.KeepNewest(track.status != TrackStatus::kLost);  // same decision as for motion_
     return track;
+}
+
+// Where the camera is not known even roughly, its pose is trusted only if the frame fits well.
+// After a poor frame it is about known, and the frame keeps its pose.
+void TrackingStage::DemandUsualFit(double stamp_s, TrackResult& track) {
+    if (track.status == TrackStatus::kLost) return;
+    const bool unknown = motion_.SinceLast(stamp_s) == 0 || motion_.lost_frames() > 0;
+    if ((unknown || motion_.doubt().poor) && !usual_fit_.Matches(track)) {
+        if (track.status == TrackStatus::kGood) track.reason = usual_fit_.Reason(track);
+        track.status = unknown ? TrackStatus::kLost : TrackStatus::kPoor;
+    }
+    if (track.status == TrackStatus::kGood) usual_fit_.Add(track);
 }
 
 // A nearby person who starts to walk must not outweigh the room behind. So points nearer than the
@@ -224,6 +239,7 @@ void TrackingStage::Reset() {
     motion_.Clear();
     moving_.Clear();
     aligner_.Clear();
+    usual_fit_.Clear();
     trackers_.Reset();
 }
 

@@ -15,6 +15,7 @@
 #include "system/viewer_settings.h"
 #include "tracking/image_aligner.h"
 #include "tracking/moving_detector.h"
+#include "tracking/usual_fit.h"
 
 namespace tessera {
 
@@ -103,6 +104,7 @@ class TrackingStage {
     TrackResult TrackFrame(const Frame& frame, const PreparedFrame& prepared, const BlockMap& map);
     std::shared_ptr<const MovingMask> ExpectMoving(double stamp_s) const;
     void MaskMoving(const Frame& frame, const BlockMap& map, bool hidden, TrackedFrame& tracked);
+    void DemandUsualFit(double stamp_s, TrackResult& track);
     double MinWeightDepth(const PreparedFrame& prepared) const;
     FrameMotion FrameMotionOf(const Frame& frame) const;
     bool Fuses(bool first) const { return !only_track_ && (fusing_ || first); }
@@ -111,6 +113,7 @@ class TrackingStage {
     PinholeCamera camera_;
     MotionModel motion_, motion_before_;  // after and before the last frame
     ImageAligner aligner_;
+    UsualFit usual_fit_;  // not part of the saved state: it is soon known again
     MovingDetector moving_;
     BackendOf backend_;
     Trackers trackers_;

@@ -106,6 +106,11 @@ void TrackJudge::Config::Describe(ConfigParameters& p) {
           "the frame is not fused if its pose is farther from the motion model's prediction");
     p.Add("good_innovation_rad", good_innovation_rad, {0.0, 3.2}, "rad",
           "the frame is not fused if its rotation is farther from the motion model's prediction");
+    p.Add("doubt_misfit", doubt_misfit, {0.0, 1.0}, "",
+          "after a gap in time, or after frames that fitted badly, a frame is trusted only if its "
+          "inlier fraction is at most this share below the usual one; 1 disables this");
+    p.Add("doubt_known_fraction", doubt_known_fraction, {0.0, 1.0}, "",
+          "then it is not trusted either if a smaller fraction of the depth lies in the map");
 }
 
 }  // namespace tessera

@@ -24,6 +24,8 @@ class TrackJudge {
         double max_jump_rad = 0.5;
         double good_innovation_m = 0.2;
         double good_innovation_rad = 0.35;
+        double doubt_misfit = 0.1;
+        double doubt_known_fraction = 0.35;
 
         void Describe(ConfigParameters& parameters);
     };

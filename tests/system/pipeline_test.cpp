@@ -54,6 +54,36 @@ TEST(Pipeline, FollowsASmoothPath) {
     EXPECT_LT(worst_m, 0.004);
 }
 
+// Half of the depth lies beside the map. From frame to frame the rest is enough to track by. After
+// a gap the camera could be anywhere, and half a fit is no evidence.
+TEST(Pipeline, AfterAGapHalfAFitIsNoEvidence) {
+    for (const double gap_s : {1.0 / 30, 0.8}) {
+        Pipeline pipeline(SmallConfig(), SmallCamera());
+        for (int i = 0; i < 15; ++i) ASSERT_TRUE(pipeline.Process(RoomFrame(i)).fused);
+        Frame frame = RoomFrame(14);
+        frame.stamp_s += gap_s;
+        const Frame whole = frame;
+        // Strips before and behind the map in turn: no pose fits them.
+        for (int y = 0; y < frame.depth_m.height(); ++y)
+            for (int x = 0; x < frame.depth_m.width() / 2; ++x)
+                frame.depth_m(x, y) += y / 8 % 2 == 0 ? 0.06f : -0.06f;
+        const FrameReport report = pipeline.Process(frame);
+        EXPECT_LT(report.track.inlier_fraction, 0.75);
+        EXPECT_GT(report.track.inlier_fraction, 0.4);
+        if (gap_s < 0.1) {
+            EXPECT_EQ(report.track.status, TrackStatus::kGood) << report.track.reason;
+        } else {
+            EXPECT_EQ(report.track.status, TrackStatus::kLost);
+            EXPECT_NE(report.track.reason.find("usually"), std::string::npos)
+                << report.track.reason;
+            EXPECT_FALSE(report.fused);
+        }
+        Frame next = whole;
+        next.stamp_s += 1.0 / 30;
+        EXPECT_TRUE(pipeline.Process(next).fused);
+    }
+}
+
 // A hand covers the camera for 0.7 s while the camera steps back from a wall by more than the
 // truncation band. Neither the old velocity nor the covered frames help to find it again.
 TEST(Pipeline, ACameraThatWasCoveredIsFoundWhereItHasMovedTo) {
