@@ -5,13 +5,14 @@
 namespace tessera {
 namespace {
 
-constexpr std::array<std::uint8_t, 4> kMeasuredLine{255, 214, 92, 255};
+constexpr std::array<std::uint8_t, 4> kLineColour{kMeasuredColour.r, kMeasuredColour.g,
+                                                  kMeasuredColour.b, 255};
 
 void Append(const MeasuredEdge& edge, std::vector<LineVertex>& vertices) {
     for (const Eigen::Vector3d* p : {&edge.from, &edge.to})
         vertices.push_back(
             {{static_cast<float>(p->x()), static_cast<float>(p->y()), static_cast<float>(p->z())},
-             kMeasuredLine});
+             kLineColour});
 }
 
 }  // namespace

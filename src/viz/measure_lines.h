@@ -7,6 +7,8 @@
 
 namespace tessera {
 
+inline constexpr Rgb8 kMeasuredColour{255, 214, 92};
+
 class MeasureLines {
   public:
     // Takes over what was measured since. True if anything changed.

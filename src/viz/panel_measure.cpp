@@ -5,14 +5,13 @@
 #include <cmath>
 #include <vector>
 
+#include "viz/measure_lines.h"
 #include "viz/name_plates.h"
 #include "viz/panels.h"
 #include "viz/widgets.h"
 
 namespace tessera {
 namespace {
-
-constexpr Rgb8 kMeasured{255, 214, 92};
 
 std::string MeasuredText(double length_m) {
     return length_m < 1 ? fmt::format("{:.1f} cm", 100 * length_m)
@@ -44,7 +43,8 @@ std::optional<ImVec2> At(const SceneView& scene, const ControlRect& area,
 void DrawFigures(const SceneView& scene, const ControlRect& area, const Measurement& m,
                  NamePlates& plates) {
     const auto figure = [&](const Eigen::Vector3d& p_world, const std::string& text) {
-        if (const auto at = At(scene, area, p_world)) plates.Draw(*at, kMeasured, text, false);
+        if (const auto at = At(scene, area, p_world))
+            plates.Draw(*at, kMeasuredColour, text, false);
     };
     for (const MeasuredEdge& edge : EdgesOf(m))
         figure(0.5 * (edge.from + edge.to), MeasuredText(edge.length_m()));
@@ -89,16 +89,15 @@ const char* WhatNext(const Measuring& measuring) {
 
 }  // namespace
 
-bool ClickToMeasure(ViewerState& state, const SceneView& scene, const ControlRect& area) {
+bool ClickToMeasure(ViewerState& state, const SceneView& scene, const ControlRect& area,
+                    const Eigen::Vector2i& pixel) {
     constexpr float kStill_px = 4;  // a click moves less than that
     const ImGuiIO& io = ImGui::GetIO();
     if (!state.measuring.on() || !ImGui::IsItemHovered() ||
         !ImGui::IsMouseReleased(ImGuiMouseButton_Left) ||
         io.MouseDragMaxDistanceSqr[ImGuiMouseButton_Left] > kStill_px * kStill_px)
         return false;
-    const ImVec2 scale = io.DisplayFramebufferScale;
-    const auto p = NearPoint(scene, static_cast<int>((io.MousePos.x - area.x) * scale.x),
-                             static_cast<int>((io.MousePos.y - area.y) * scale.y));
+    const auto p = NearPoint(scene, pixel.x(), pixel.y());
     bool on_first = false;
     if (const Measurement* const open = state.measuring.open()) {
         const auto first = At(scene, area, open->corners.front());
@@ -117,7 +116,7 @@ void DrawMeasurements(const ViewerState& state, const SceneView& scene, const Co
     for (const Measurement& m : state.measuring.all()) {
         for (const Eigen::Vector3d& corner : m.corners)
             if (const auto at = At(scene, area, corner))
-                list.AddCircleFilled(*at, Scaled(4), Packed(kMeasured));
+                list.AddCircleFilled(*at, Scaled(4), Packed(kMeasuredColour));
         DrawFigures(scene, area, m, plates);
     }
     list.PopClipRect();

@@ -39,12 +39,13 @@ bool HandlePointer(ViewerState& state, SceneView& scene, const ControlRect& area
     }
     const bool wheel = hovered && io.MouseWheel != 0;
     if (wheel) Zoom(state, camera, io.MouseWheel);
-    if (state.measuring.on()) return ClickToMeasure(state, scene, area) || left || middle || wheel;
+    const ImVec2 scale = io.DisplayFramebufferScale;
+    const Eigen::Vector2i pixel(static_cast<int>((io.MousePos.x - area.x) * scale.x),
+                                static_cast<int>((io.MousePos.y - area.y) * scale.y));
+    if (state.measuring.on())
+        return ClickToMeasure(state, scene, area, pixel) || left || middle || wheel;
     if (hovered && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
-        const ImVec2 scale = io.DisplayFramebufferScale;
-        const auto x = static_cast<int>((io.MousePos.x - area.x) * scale.x);
-        const auto y = static_cast<int>((io.MousePos.y - area.y) * scale.y);
-        if (const auto point = scene.PointAt(x, y)) {
+        if (const auto point = scene.PointAt(pixel.x(), pixel.y())) {
             state.view.follow = state.view.keep_all = false;
             camera.LookAt(*point);
         }
@@ -84,6 +85,7 @@ bool DrawViewPanel(ViewerState& state, SceneView& scene, const ViewPanelFrame& f
     if (scene.triangles() > 0)
         DrawOverlays(state, scene, area, area.x + area.width - frame.inset_width);
     if (state.view_kind == ViewKind::kExpert) DrawToolbar(state, area);
+    DrawTools(state, scene, area);
     return drawn;
 }
 

@@ -34,7 +34,9 @@ void DrawOverlays(ViewerState& state, SceneView& scene, const ControlRect& area,
 
 // Measuring: true if a click on the view, the item that ImGui drew last, became a corner; the
 // figures beside the lines; the tool's part of the panel. All over the 3D view in `area`.
-bool ClickToMeasure(ViewerState& state, const SceneView& scene, const ControlRect& area);
+// `pixel`: of the 3D view's picture, under the mouse.
+bool ClickToMeasure(ViewerState& state, const SceneView& scene, const ControlRect& area,
+                    const Eigen::Vector2i& pixel);
 void DrawMeasurements(const ViewerState& state, const SceneView& scene, const ControlRect& area);
 void DrawMeasureTool(ViewerState& state);
 // The panel of the tools that are on.

@@ -222,7 +222,6 @@ bool Viewer::Impl::DrawExpert(bool may_redraw, bool smooth) {
                        .inset_width = state.replay ? time_line.inset_width(state, layout.view) : 0,
                        .may_redraw = may_redraw,
                        .smooth = smooth});
-    DrawTools(state, *scene, layout.view);
     if (state.replay) time_line.Draw(state, *scene, layout.time_line, layout.view);
     if (!state.link) return drawn;
     {

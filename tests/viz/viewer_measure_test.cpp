@@ -7,8 +7,8 @@
 #include <filesystem>
 
 #include "support/temp_folder.h"
-#include "viz/driven_window.h"
 #include "viz/measuring.h"
+#include "viz/model_window.h"
 
 namespace tessera {
 namespace {
@@ -25,31 +25,16 @@ void AddSquare(TriangleMesh& mesh, const std::array<Eigen::Vector3f, 4>& corners
     mesh.triangles.push_back({first + 1, first + 3, first + 2});
 }
 
-class ViewerMeasure : public testing_support::DrivenWindow {
+class ViewerMeasure : public testing_support::ModelWindow {
   protected:
     // A wall: a green square of 2 m, facing the camera at the origin.
     void SetUp() override {
-        DrivenWindow::SetUp();
+        ModelWindow::SetUp();
         if (!display_) return;
         AddSquare(model_.mesh, {{{-1, -1, 3}, {1, -1, 3}, {1, 1, 3}, {-1, 1, 3}}}, kGreen);
         model_.path.push_back(Eigen::Isometry3d::Identity());
     }
-    void Open() {
-        ViewerOptions options;
-        options.wait_s = 0;
-        options.max_fps = 1e9;
-        options.measurements = file_;
-        auto viewer = Viewer::OpenModel(model_, options);
-        ASSERT_TRUE(viewer.ok()) << viewer.message();
-        viewer_ = std::move(viewer.value());
-        Rounds(5);
-        MoveTo("view");  // keys go to the window under the pointer
-    }
-    void TearDown() override { viewer_.reset(); }
-    bool RunOnce() override { return viewer_->RunOnce(); }
-    std::optional<ControlRect> FindControl(const std::string& name) const override {
-        return viewer_->FindControl(name);
-    }
+    void Open() { ModelWindow::Open(model_, file_); }
     static bool Like(const Rgb8& c, const Rgb8& colour) {
         const int high = colour.g > colour.r ? c.g : c.r, low = colour.g > colour.r ? c.r : c.g;
         return high > 60 && high > 2 * low && high > 2 * c.b;
@@ -85,7 +70,6 @@ class ViewerMeasure : public testing_support::DrivenWindow {
     TempFolder folder_;
     const std::string file_ = folder_.path() + "/measurements.json";
     ViewedModel model_;
-    std::unique_ptr<Viewer> viewer_;
 };
 
 TEST_F(ViewerMeasure, AWallsWidthAreaAndVolume) {

@@ -1,7 +1,7 @@
 // Scrubs through a finished run with the mouse and the keyboard.
 #include <X11/keysym.h>
 
-#include "viz/driven_window.h"
+#include "viz/model_window.h"
 
 namespace tessera {
 namespace {
@@ -48,23 +48,8 @@ class RedSource : public FrameSource {
     std::int64_t next_ = 0;
 };
 
-class ViewerTimeLine : public testing_support::DrivenWindow {
+class ViewerTimeLine : public testing_support::ModelWindow {
   protected:
-    void Open(ViewedModel model) {
-        ViewerOptions options;
-        options.wait_s = 0;
-        options.max_fps = 1e9;
-        auto viewer = Viewer::OpenModel(std::move(model), options);
-        ASSERT_TRUE(viewer.ok()) << viewer.message();
-        viewer_ = std::move(viewer.value());
-        Rounds(5);
-        MoveTo("view");  // keys go to the window under the pointer
-    }
-    void TearDown() override { viewer_.reset(); }
-    bool RunOnce() override { return viewer_->RunOnce(); }
-    std::optional<ControlRect> FindControl(const std::string& name) const override {
-        return viewer_->FindControl(name);
-    }
     // The number of the shown frame; -1: none.
     int Frame() const {
         for (int i = 100; i < 110; ++i)
@@ -81,7 +66,6 @@ class ViewerTimeLine : public testing_support::DrivenWindow {
             for (int x = 0; x < picture.width(); ++x) count += is(picture(x, y));
         return count;
     }
-    std::unique_ptr<Viewer> viewer_;
 };
 
 TEST_F(ViewerTimeLine, TheSliderMovesTheCamera) {
