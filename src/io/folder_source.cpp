@@ -117,10 +117,9 @@ class FolderSource : public FrameSource {
 }  // namespace
 
 void FolderSourceConfig::Describe(ConfigParameters& p) {
-    p.Add("max_pair_gap_s", max_pair_gap_s, {1e-6, 10.0}, "s",
-          "colour and depth images whose time stamps differ by this much or more are not paired; "
-          "raise it if the recorder does not synchronise them; in fast motion, colours are then "
-          "offset from their surface");
+    p.Add("max_pair_gap_s", max_pair_gap_s, {0.0, 10.0}, "s",
+          "colour and depth images whose time stamps differ by this much or more are not paired; 0 "
+          "is half of the time between images, at least 0.02 s and at most 0.05 s");
     p.Add(
         "rectify", rectify,
         "correct the lens distortion given in camera.yaml; turn it off only to measure its effect");

@@ -134,21 +134,22 @@ Result<ImagePairs> ReadImageLists(const std::string& depth_list, const std::stri
     const auto colour = ReadList(colour_list, result.notes, listed_colour);
     if (!colour.ok()) return colour.status();
     const std::vector<double> depth_s = Stamps(depth.value()), colour_s = Stamps(colour.value());
+    max_gap_s = PairGap(max_gap_s, depth_s, colour_s);
     for (const StampPair& pair : PairNearest(depth_s, colour_s, max_gap_s, colour_delay_s)) {
         const ListedImage& d = depth.value()[pair.depth];
         const ListedImage& c = colour.value()[pair.colour];
         result.pairs.push_back({d.stamp_s, c.stamp_s, d.name, c.name});
     }
     if (result.pairs.empty())
-        return Status::Error(
-            fmt::format("{}: no image is less than {} s from one in {} (the smallest gap is {:.6g} "
-                        "s); correct the stamps or "
-                        "raise max_pair_gap_s",
-                        depth_list, max_gap_s, colour_list, SmallestGap(depth_s, colour_s)));
+        return Status::Error(fmt::format(
+            "{}: no image is less than {:.3g} s from one in {} (the smallest gap is {:.6g} "
+            "s); correct the stamps or "
+            "raise max_pair_gap_s",
+            depth_list, max_gap_s, colour_list, SmallestGap(depth_s, colour_s)));
     const std::size_t pairs = result.pairs.size();
     if (pairs < depth_s.size() || pairs < colour_s.size())
         result.notes.push_back(fmt::format(
-            "{} of {} depth and {} of {} colour images have no partner less than {} s away",
+            "{} of {} depth and {} of {} colour images have no partner less than {:.3g} s away",
             depth_s.size() - pairs, depth_s.size(), colour_s.size() - pairs, colour_s.size(),
             max_gap_s));
     return result;

@@ -24,8 +24,8 @@ struct ImagePairs {
 // pairs them by nearest time
 // (stamp_pairing.h). Malformed lines and repeated stamps are skipped, unordered lists are sorted;
 // each is reported in the notes. It is an error if a list has no usable line, or if no two images
-// are less than max_gap_s apart. `colour_delay_s`: colour was taken so much later than its stamps
-// say; the stamps are not changed.
+// are less than max_gap_s apart (0: PairGap). `colour_delay_s`: colour was taken so much later than
+// its stamps say; the stamps are not changed.
 Result<ImagePairs> ReadImageLists(const std::string& depth_list, const std::string& colour_list,
                                   double max_gap_s, double colour_delay_s = 0);
 

@@ -92,7 +92,8 @@ ImagePairs PairByStamp(const std::map<double, std::string>& depth,
     unzip(depth, depth_s, depth_names);
     unzip(colour, colour_s, colour_names);
     ImagePairs result;
-    for (const StampPair& pair : PairNearest(depth_s, colour_s, max_gap_s))
+    for (const StampPair& pair :
+         PairNearest(depth_s, colour_s, PairGap(max_gap_s, depth_s, colour_s)))
         result.pairs.push_back({depth_s[pair.depth], colour_s[pair.colour], depth_names[pair.depth],
                                 colour_names[pair.colour]});
     return result;

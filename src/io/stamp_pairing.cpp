@@ -5,6 +5,9 @@
 #include <limits>
 #include <queue>
 #include <tuple>
+#include <utility>
+
+#include "core/quantile.h"
 
 namespace tessera {
 namespace {
@@ -46,7 +49,24 @@ struct Candidate {
     }
 };
 
+// Median time from image to image; 0 if there are fewer than two.
+double MedianInterval(std::span<const double> stamps_s) {
+    std::vector<double> intervals_s;
+    for (std::size_t i = 1; i < stamps_s.size(); ++i)
+        intervals_s.push_back(stamps_s[i] - stamps_s[i - 1]);
+    return intervals_s.empty() ? 0 : Median(std::move(intervals_s));
+}
+
 }  // namespace
+
+double PairGap(double max_gap_s, std::span<const double> depth_stamps_s,
+               std::span<const double> colour_stamps_s) {
+    if (max_gap_s > 0) return max_gap_s;
+    constexpr double kLeast_s = 0.02, kMost_s = 0.05;
+    const double slower_s =
+        std::max(MedianInterval(depth_stamps_s), MedianInterval(colour_stamps_s));
+    return std::clamp(slower_s / 2, kLeast_s, kMost_s);
+}
 
 // The closest remaining pair is always adjacent in the merged order: anything between the two would
 // be closer to one of them. So only neighbours are candidates, and removing a pair creates one new

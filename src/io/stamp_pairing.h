@@ -22,6 +22,12 @@ std::vector<StampPair> PairNearest(std::span<const double> depth_stamps_s,
                                    std::span<const double> colour_stamps_s, double max_gap_s,
                                    double colour_delay_s = 0);
 
+// How far apart the stamps of a pair may be: max_gap_s, or if that is 0, what lets cameras pair
+// that are not synchronised: half of the median time between the images of the slower one, at least
+// 20 ms and at most 50 ms. Both lists as for PairNearest. Thread-safe.
+double PairGap(double max_gap_s, std::span<const double> depth_stamps_s,
+               std::span<const double> colour_stamps_s);
+
 // The smallest distance between a stamp of one list and a stamp of the other; infinity if either is
 // empty.
 double SmallestGap(std::span<const double> depth_stamps_s, std::span<const double> colour_stamps_s);

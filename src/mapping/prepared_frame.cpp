@@ -195,6 +195,12 @@ void RemaskDepth(const Frame& frame, const PreparedFrame::Config& config, Prepar
         ReduceDepth(p, level, p.reduced[level].depth_m);
 }
 
+void ForgetColour(PreparedFrame& p) {
+    p.has_colour = false;
+    for (PreparedFrame::Reduced& reduced : p.reduced)
+        std::fill_n(reduced.intensity.data(), reduced.intensity.size(), -1.0f);
+}
+
 void SetMoving(std::shared_ptr<const MovingMask> moving, PreparedFrame& p) {
     p.moving = std::move(moving);
     if (p.moving->gone_tiles == 0) return;

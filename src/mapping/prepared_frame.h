@@ -62,6 +62,8 @@ void PrepareFrame(const Frame& frame, const PreparedFrame::Config& config, Prepa
 // The same with another mask, for a frame that is prepared already. Keeps its colour.
 void RemaskDepth(const Frame& frame, const PreparedFrame::Config& config, PreparedFrame& prepared,
                  const MovingMask* moving);
+// As if the frame had no colour.
+void ForgetColour(PreparedFrame& prepared);
 // Attaches a mask to a frame that was prepared without the depth of moving pixels.
 void SetMoving(std::shared_ptr<const MovingMask> moving, PreparedFrame& prepared);
 

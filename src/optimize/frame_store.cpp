@@ -34,7 +34,7 @@ Status FrameStore::Add(const Frame& frame, int keyframe, bool is_keyframe,
     Status encoded;
     tbb::parallel_invoke([&] { encoder_.EncodeDepth(raw_depth_, images.depth_png); },
                          [&] {
-                             if (!frame.colour.empty())
+                             if (!frame.colour.empty() && view.colour_weight > 0)
                                  encoded =
                                      EncodeJpeg(frame.colour, kJpegQuality, images.colour_jpeg);
                          });

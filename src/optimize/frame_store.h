@@ -45,8 +45,8 @@ class FrameStore {
           depth_units_per_m_(depth_units_per_m),
           scratch_(std::move(scratch)) {}
 
-    // `T_keyframe_camera` is the identity for the frame of the keyframe. Returns errors of the
-    // encoder.
+    // `T_keyframe_camera` is the identity for the frame of the keyframe. Colour that the view does
+    // not fuse is not kept. Returns errors of the encoder.
     Status Add(const Frame& frame, int keyframe, bool is_keyframe,
                const Eigen::Isometry3d& T_keyframe_camera, const Integrator::View& view);
     // Adds detections to a frame that this process added, if it is still stored.

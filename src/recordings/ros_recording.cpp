@@ -27,8 +27,11 @@ std::vector<double> StampsOf(const RosStream& stream) {
 
 std::vector<StampPair> PairsOf(const RosChoice& choice, double max_gap_s, double colour_delay_s) {
     const std::vector<double> depth_s = StampsOf(*choice.depth);
-    if (choice.colour != nullptr)
-        return PairNearest(depth_s, StampsOf(*choice.colour), max_gap_s, colour_delay_s);
+    if (choice.colour != nullptr) {
+        const std::vector<double> colour_s = StampsOf(*choice.colour);
+        return PairNearest(depth_s, colour_s, PairGap(max_gap_s, depth_s, colour_s),
+                           colour_delay_s);
+    }
     std::vector<StampPair> pairs(depth_s.size());
     for (std::size_t i = 0; i < pairs.size(); ++i) pairs[i] = {i, i};
     return pairs;
@@ -157,10 +160,10 @@ RecordingResult OpenRosRecording(const std::string& path, double max_pair_gap_s,
     for (const StampPair& pair : pairs)
         info.pairs.push_back({depth[pair.depth].stamp_s, colour[pair.colour].stamp_s});
     if (pairs.size() < depth.size())
-        info.notes.push_back(
-            fmt::format("{} of {} depth images have no colour image within {:.0f} ms and are not "
-                        "used (source.max_pair_gap_s)",
-                        depth.size() - pairs.size(), depth.size(), 1000 * max_pair_gap_s));
+        info.notes.push_back(fmt::format(
+            "{} of {} depth images have no colour image near enough in time and are not "
+            "used (source.max_pair_gap_s)",
+            depth.size() - pairs.size(), depth.size()));
     info.fps = MedianFps(info.pairs, info.fps);
     return std::unique_ptr<Recording>(std::make_unique<RosRecording>(
         std::move(files), std::move(contents), choice, std::move(pairs), std::move(info)));

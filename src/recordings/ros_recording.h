@@ -11,7 +11,7 @@ namespace tessera {
 // Whether the folder is a ROS 2 recording: it holds a .mcap or .db3 file.
 bool IsRosFolder(const std::string& path);
 
-// Images are paired by the stamps in their headers, less than max_pair_gap_s apart.
+// Images are paired by the stamps in their headers, less than max_pair_gap_s apart (0: PairGap).
 // `colour_delay_s`: colour was taken so much later than its stamps say.
 RecordingResult OpenRosRecording(const std::string& path, double max_pair_gap_s,
                                  double colour_delay_s = 0);

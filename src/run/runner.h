@@ -80,7 +80,7 @@ class Runner {
     Stopwatch frame_watch_;
     RunSummary summary_;
     TrackStatus last_status_ = TrackStatus::kGood;
-    bool last_degenerate_ = false;
+    bool last_degenerate_ = false, colour_rejected_ = false;
     std::set<std::string> told_;           // errors from writing
     bool begun_ = false, opened_ = false;  // opened_: the observer knows
 };

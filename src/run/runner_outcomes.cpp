@@ -110,7 +110,7 @@ Status Runner::BeginAnew() {
     estimate_.clear();
     times_ = {};
     last_status_ = TrackStatus::kGood;
-    last_degenerate_ = false;
+    last_degenerate_ = colour_rejected_ = false;
     Warn("reset: the map and the path start again");
     if (!output_) return Status::Ok();
     if (Status status = OpenOutput(); !status.ok()) return status;
@@ -154,6 +154,13 @@ void Runner::WarnOnStatusChange(const FrameReport& report) {
                              report.index, reason));
         else
             Warn(fmt::format("frame {}: tracking is good again", report.index));
+    }
+    if (report.tracked() && t.colour_rejected != colour_rejected_) {
+        colour_rejected_ = t.colour_rejected;
+        Warn(fmt::format("frame {}: {}", report.index,
+                         colour_rejected_ ? "the colour image does not fit the map (dark, dazzled "
+                                            "or frozen?); only the depth is used"
+                                          : "the colour image fits the map again"));
     }
     last_status_ = t.status;
     last_degenerate_ = t.degenerate;

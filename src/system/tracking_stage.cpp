@@ -11,11 +11,12 @@
 namespace tessera {
 namespace {
 
-Integrator::View FusionView(const TrackResult& track) {
+Integrator::View FusionView(const TrackResult& track, const PreparedFrame& prepared) {
     return {.T_world_camera = track.T_world_camera,
             .motion = track.motion,
             .gain = static_cast<float>(track.gain),
-            .offset = static_cast<float>(track.offset)};
+            .offset = static_cast<float>(track.offset),
+            .colour_weight = prepared.has_colour ? 1.0f : 0.0f};
 }
 
 }  // namespace
@@ -42,11 +43,13 @@ void TrackingStage::Track(const Frame& frame, const BlockMap& map,
     report.method = trackers_.method();
 
     // 1. Gate the depth and prepare the colour. What moved in earlier frames must not influence
-    // the pose.
+    // the pose, nor must the colours of a camera that hangs.
     Stopwatch watch;
     const std::shared_ptr<const MovingMask> expected =
         given ? nullptr : ExpectMoving(frame.stamp_s);
     backend_->Prepare(frame, config_.frame, expected.get(), keep_images_, prepared);
+    if (config_.trackers.photometric.doubt_contrast > 0 && frozen_colour_.Repeats(frame))
+        ForgetColour(prepared);
     report.prepare_ms = watch.LapMs();
     report.valid_depth_fraction = static_cast<double>(prepared.valid_depth_pixels) /
                                   static_cast<double>(frame.depth_m.size());
@@ -62,13 +65,13 @@ void TrackingStage::Track(const Frame& frame, const BlockMap& map,
 
     // 4. Decide whether to fuse.
     tracked.to_fuse = report.track.status == TrackStatus::kGood && Fuses(report.first);
-    tracked.view = FusionView(report.track);
+    tracked.view = FusionView(report.track, prepared);
 }
 
 void TrackingStage::EstimatePose(const Frame& frame, const BlockMap& map,
                                  const std::optional<Eigen::Isometry3d>& given,
                                  TrackedFrame& tracked) {
-    const PreparedFrame& prepared = tracked.prepared;
+    PreparedFrame& prepared = tracked.prepared;
     FrameReport& report = tracked.report;
     motion_before_ = motion_;
     report.first = !motion_.last().has_value();
@@ -87,13 +90,14 @@ void TrackingStage::EstimatePose(const Frame& frame, const BlockMap& map,
         report.track.status = TrackStatus::kGood;  // the first camera defines the world frame
         aligner_.Align(prepared, Eigen::Isometry3d::Identity());
     } else {
-        report.track = TrackFrame(frame, prepared, map);
+        report.track = TrackFrame(frame, map, prepared);
         report.warning = trackers_.TakeNote();
         if (!report.track.T_world_camera.matrix().allFinite()) {
             report.track = {};
             report.track.reason = "the pose is not a number";
         }
     }
+    report.track.colour_rejected = !frame.colour.empty() && !prepared.has_colour;
     report.first = report.first && report.tracked();
     if (report.tracked())
         motion_.Add({frame.stamp_s, report.track.T_world_camera},
@@ -102,34 +106,6 @@ void TrackingStage::EstimatePose(const Frame& frame, const BlockMap& map,
                      .uncertainty_m = report.track.uncertainty_m});
     else
         motion_.AddLost();
-}
-
-std::shared_ptr<const MovingMask> TrackingStage::ExpectMoving(double stamp_s) const {
-    if (!config_.moving.enabled || !motion_.last()) return nullptr;
-    return moving_.PredictMask(stamp_s, motion_.Predict(stamp_s));
-}
-
-void TrackingStage::HintMoving(const MovingHint& hint,
-                               const std::optional<Eigen::Isometry3d>& T_world_camera) {
-    moving_.SetHint(hint, static_cast<float>(config_.frame.disparity_offset_per_m), T_world_camera);
-}
-
-void TrackingStage::MaskMoving(const Frame& frame, const BlockMap& map, bool hidden,
-                               TrackedFrame& tracked) {
-    const FrameReport& report = tracked.report;
-    if (config_.moving.enabled && report.track.status == TrackStatus::kGood)
-        tracked.report.moving = moving_.Find(
-            {.depth_m = frame.depth_m,
-             .disparity_offset_per_m = static_cast<float>(config_.frame.disparity_offset_per_m),
-             .farthest_m = static_cast<float>(config_.frame.max_depth_m),
-             .stamp_s = frame.stamp_s,
-             .T_world_camera = report.track.T_world_camera},
-            map, backend_->views());
-    const bool moves = report.moving && report.moving->moving_tiles > 0;
-    const MovingMask* moving = moves ? report.moving.get() : nullptr;
-    if (moves || hidden)
-        backend_->Remask(frame, config_.frame, moving, keep_images_, tracked.prepared);
-    if (report.moving) SetMoving(report.moving, tracked.prepared);
 }
 
 bool TrackingStage::TrackFrom(const Frame& frame, const BlockMap& map,
@@ -145,13 +121,14 @@ bool TrackingStage::TrackFrom(const Frame& frame, const BlockMap& map,
     tracked.report.rasterise_ms += trackers_.TakeRasterise_ms();
     if (track.status != TrackStatus::kGood || track.degenerate || !usual_fit_.Matches(track))
         return false;
+    track.colour_rejected = tracked.report.track.colour_rejected;
     tracked.report.track = std::move(track);
     motion_.Clear();
     moving_.Clear();
     motion_.Add({frame.stamp_s, tracked.report.track.T_world_camera}, {});
     aligner_.KeepNewest(true);
     tracked.to_fuse = Fuses(false);
-    tracked.view = FusionView(tracked.report.track);
+    tracked.view = FusionView(tracked.report.track, tracked.prepared);
     return true;
 }
 
@@ -177,13 +154,28 @@ void TrackingStage::Move(const Eigen::Isometry3d& T_new_old) {
     moving_.Move(T_new_old);
 }
 
-TrackResult TrackingStage::TrackFrame(const Frame& frame, const PreparedFrame& prepared,
-                                      const BlockMap& map) {
+// A colour image that contradicts the map (of a camera that is covered or dazzled) would
+// pull the pose away: the frame is then tracked again by its depth alone.
+TrackResult TrackingStage::TrackFrame(const Frame& frame, const BlockMap& map,
+                                      PreparedFrame& prepared) {
+    TrackResult track = TrackOnce(frame, map, prepared);
+    if (track.colour_rejected) {
+        ForgetColour(prepared);
+        aligner_.KeepNewest(false);  // it is replaced
+        track = TrackOnce(frame, map, prepared);
+    }
+    DemandUsualFit(frame.stamp_s, track);
+    aligner_.KeepNewest(track.status != TrackStatus::kLost);  // same decision as for motion_
+    return track;
+}
+
+TrackResult TrackingStage::TrackOnce(const Frame& frame, const BlockMap& map,
+                                     const PreparedFrame& prepared) {
     const Eigen::Isometry3d& T_world_last = motion_.last()->T_world_camera;
     const Eigen::Isometry3d T_world_expected = motion_.Predict(frame.stamp_s);
     const Eigen::Isometry3d T_world_aligned =
         T_world_last * aligner_.Align(prepared, T_world_last.inverse() * T_world_expected);
-    TrackResult track = trackers_.Track(
+    return trackers_.Track(
         {.frame = prepared,
          .map = map,
          .T_world_camera_starts = {T_world_expected, T_world_aligned},
@@ -191,21 +183,24 @@ TrackResult TrackingStage::TrackFrame(const Frame& frame, const PreparedFrame& p
          // With a doubtful last pose, a large step does not count as a jump.
          .since_last_s = motion_.doubt().poor ? 0 : motion_.SinceLast(frame.stamp_s),
          .frames_since_last = 1 + motion_.lost_frames(),
+         .place_known = PlaceKnown(frame.stamp_s),
          .motion = FrameMotionOf(frame),
          .nearest_m = MinWeightDepth(prepared)});
-    DemandUsualFit(frame.stamp_s, track);
-    aligner_.KeepNewest(track.status != TrackStatus::kLost);  // same decision as for motion_
-    return track;
+}
+
+// The frame follows a tracked one without a gap in time.
+bool TrackingStage::PlaceKnown(double stamp_s) const {
+    return motion_.SinceLast(stamp_s) > 0 && motion_.lost_frames() == 0;
 }
 
 // Where the camera is not known even roughly, its pose is trusted only if the frame fits well.
 // After a poor frame it is about known, and the frame keeps its pose.
 void TrackingStage::DemandUsualFit(double stamp_s, TrackResult& track) {
     if (track.status == TrackStatus::kLost) return;
-    const bool unknown = motion_.SinceLast(stamp_s) == 0 || motion_.lost_frames() > 0;
-    if ((unknown || motion_.doubt().poor) && !usual_fit_.Matches(track)) {
+    const bool known = PlaceKnown(stamp_s);
+    if ((!known || motion_.doubt().poor) && !usual_fit_.Matches(track)) {
         if (track.status == TrackStatus::kGood) track.reason = usual_fit_.Reason(track);
-        track.status = unknown ? TrackStatus::kLost : TrackStatus::kPoor;
+        track.status = known ? TrackStatus::kPoor : TrackStatus::kLost;
     }
     if (track.status == TrackStatus::kGood) usual_fit_.Add(track);
 }
@@ -224,41 +219,6 @@ FrameMotion TrackingStage::FrameMotionOf(const Frame& frame) const {
     motion.depth_readout_s = config_.shutter.depth_readout_s;
     motion.colour_readout_s = config_.shutter.colour_readout_s;
     return motion;
-}
-
-void TrackingStage::Apply(const ViewerSettings& settings) {
-    trackers_.Select(settings.method);
-    trackers_.Select(settings.prediction);
-    trackers_.SetAlpha(settings.auto_alpha, settings.alpha);
-    config_.frame.max_depth_m = settings.max_depth_m;
-    aligner_.Enable(settings.prealign);
-    fusing_ = settings.fusing;
-}
-
-void TrackingStage::Reset() {
-    motion_.Clear();
-    moving_.Clear();
-    aligner_.Clear();
-    usual_fit_.Clear();
-    trackers_.Reset();
-}
-
-void TrackingStage::StartAt(const StampedPose& last) {
-    Reset();
-    motion_.Add(last, {});
-}
-
-void TrackingStage::SaveState(StateWriter& state) const {
-    motion_.SaveState(state);
-    aligner_.SaveState(state);
-    trackers_.SaveState(state);
-}
-
-bool TrackingStage::LoadState(StateReader& state) {
-    if (motion_.LoadState(state) && aligner_.LoadState(state) && trackers_.LoadState(state))
-        return true;
-    Reset();
-    return false;
 }
 
 }  // namespace tessera

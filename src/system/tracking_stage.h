@@ -13,6 +13,7 @@
 #include "system/motion_model.h"
 #include "system/pipeline_config.h"
 #include "system/viewer_settings.h"
+#include "tracking/frozen_colour.h"
 #include "tracking/image_aligner.h"
 #include "tracking/moving_detector.h"
 #include "tracking/usual_fit.h"
@@ -101,9 +102,11 @@ class TrackingStage {
   private:
     void EstimatePose(const Frame& frame, const BlockMap& map,
                       const std::optional<Eigen::Isometry3d>& given, TrackedFrame& tracked);
-    TrackResult TrackFrame(const Frame& frame, const PreparedFrame& prepared, const BlockMap& map);
+    TrackResult TrackFrame(const Frame& frame, const BlockMap& map, PreparedFrame& prepared);
+    TrackResult TrackOnce(const Frame& frame, const BlockMap& map, const PreparedFrame& prepared);
     std::shared_ptr<const MovingMask> ExpectMoving(double stamp_s) const;
     void MaskMoving(const Frame& frame, const BlockMap& map, bool hidden, TrackedFrame& tracked);
+    bool PlaceKnown(double stamp_s) const;
     void DemandUsualFit(double stamp_s, TrackResult& track);
     double MinWeightDepth(const PreparedFrame& prepared) const;
     FrameMotion FrameMotionOf(const Frame& frame) const;
@@ -113,7 +116,9 @@ class TrackingStage {
     PinholeCamera camera_;
     MotionModel motion_, motion_before_;  // after and before the last frame
     ImageAligner aligner_;
-    UsualFit usual_fit_;  // not part of the saved state: it is soon known again
+    // Not part of the saved state: they are soon known again.
+    UsualFit usual_fit_;
+    FrozenColour frozen_colour_;
     MovingDetector moving_;
     BackendOf backend_;
     Trackers trackers_;

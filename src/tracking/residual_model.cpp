@@ -149,6 +149,8 @@ ResidualModel::ResidualModel(const Config& config) : config_(config), shutter_(c
 void ResidualModel::Reset() {
     gain_ = 1;
     offset_ = 0;
+    usual_rms_ = 0;
+    contradicted_ = false;
     scales_ = {};
     shutter_.Reset();
 }
@@ -187,6 +189,18 @@ FrameMotion ResidualModel::Timed(FrameMotion motion) const {
     return motion;
 }
 
+// By the share of the map's image gradients that the frame shows: less than 1 if it is blurred, 0
+// if it is blank or of something else.
+bool ResidualModel::Contradicts(const ResidualSums& sums, double intensity_rms) {
+    if (usual_rms_ <= 0 || (!contradicted_ && intensity_rms < 2 * usual_rms_)) return false;
+    double both = 0, map2 = 0;
+    for (std::size_t at = 0; at < sums.scores.size(); at += ScoreSums::kSums) {
+        both += sums.scores[at + 5];
+        map2 += sums.scores[at + 6];
+    }
+    return contradicted_ = both < config_.doubt_contrast * map2;
+}
+
 void ResidualModel::LearnScales(const ResidualEvidence& evidence) {
     const double distance =
         DistanceVariance(evidence, config_.surface_error_voxels * evidence.voxel_size_m);
@@ -206,33 +220,9 @@ void ResidualModel::LearnScales(const ResidualEvidence& evidence) {
 void ResidualModel::LearnColour(const TrackResult& result, const ResidualSums& sums) {
     gain_ = result.gain;
     offset_ = result.offset;
+    Smooth(result.intensity_rms, usual_rms_ <= 0, usual_rms_);
     if (!sums.shutter.empty() && !result.degenerate)
         shutter_.Update(sums.shutter, result.intensity_rms);
-}
-
-void ResidualModel::Config::Describe(ConfigParameters& p) {
-    p.AddChoice("alpha_mode", alpha_mode,
-                {{"fixed", AlphaMode::kFixed}, {"auto", AlphaMode::kAuto}},
-                "fixed uses alpha; auto estimates it from the residuals of the frames so far");
-    p.Add("alpha", alpha, {0.0, 100.0}, "m^2",
-          "photometric weight of [B14] eq. 8 (distances in metres, intensities in [0, 1]); 0 uses "
-          "geometry only; auto starts from this value");
-    p.Add("shading_error", shading_error, {0.0, 1.0}, "",
-          "assumed error of intensities over whole image regions (vignetting, moving light, "
-          "exposure); lowers their weight where shading is the only texture");
-    p.Add("surface_error_voxels", surface_error_voxels, {0.0, 1.0}, "voxels",
-          "assumed error of distances over whole image regions, beyond what residuals show");
-    p.Add("auto_alpha_max", auto_alpha_max, {1e-4, 100.0}, "m^2",
-          "auto: the largest alpha; if intensities dominate, distances no longer show their own "
-          "errors");
-    p.Add("intensity_scale", intensity_scale, {1e-3, 10.0}, "", "Huber scale of intensities");
-    p.Add("brightness", brightness,
-          "estimate gain and offset of every frame, so that auto-exposure does not distort the "
-          "path");
-    p.Add("brightness_prior", brightness_prior, {0.0, 10.0}, "",
-          "weight of the prior gain 1 and offset 0, per unit of photometric weight; raise it if "
-          "exposure is fixed");
-    p.Section("shutter", [&](ConfigParameters& s) { shutter.Describe(s); });
 }
 
 }  // namespace tessera

@@ -46,6 +46,7 @@ class ResidualModel {
         double intensity_scale = 0.1;
         bool brightness = true;
         double brightness_prior = 0.05;
+        double doubt_contrast = 0.25;
         ShutterEstimator::Config shutter;
 
         void Describe(ConfigParameters& parameters);
@@ -72,6 +73,10 @@ class ResidualModel {
     bool WantsShutter(const FrameMotion& motion, double intensity_rms) const {
         return shutter_.Wants(motion, intensity_rms);
     }
+    // Whether the colour image contradicts the map, as that of a dark or dazzled camera: it does
+    // not show the map's contrast, and its errors are much larger than usual. After such an image,
+    // the next must show the contrast, whatever its errors. False while nothing is usual yet.
+    bool Contradicts(const ResidualSums& sums, double intensity_rms);
     // Learns from any frame that fits the map.
     void LearnScales(const ResidualEvidence& evidence);
     // Learns from a tracked frame. A `degenerate` pose explains residuals that it should not; the
@@ -83,6 +88,9 @@ class ResidualModel {
     double gain_ = 1, offset_ = 0;
     ResidualScales scales_;
     ShutterEstimator shutter_;
+    // Not saved: they are soon known again.
+    double usual_rms_ = 0;  // of intensities; 0: not known
+    bool contradicted_ = false;
 };
 
 }  // namespace tessera

@@ -25,6 +25,9 @@ struct TrackInput {
     Eigen::Isometry3d T_world_camera_last;  // the pose at the last tracked frame
     double since_last_s = 0;                // 0 if there is none, or its pose was poor
     int frames_since_last = 1;              // more if frames between were lost
+    // The frame follows a tracked one: colours that contradict the map are then wrong colours.
+    // Otherwise, they may be those of another place.
+    bool place_known = false;
     // Delays and read-out times; the tracker fills in the twist.
     FrameMotion motion;
     double nearest_m = kMinWeightDepth_m;  // nearer points have the weight of this depth
@@ -53,6 +56,9 @@ struct TrackResult {
     double innovation_m = 0, innovation_rad = 0;  // from the motion model's prediction
     double alpha = 0;                             // photometric weight in use, [B14] eq. 8
     double gain = 1, offset = 0;                  // map intensity = gain * image intensity + offset
+    // From a tracker: the colour image contradicts the map and its pose is not to be used, track
+    // again without. In a report: the frame's colour was not used.
+    bool colour_rejected = false;
     int iterations = 0;
 };
 

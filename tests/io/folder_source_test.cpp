@@ -232,7 +232,7 @@ TEST(FolderSourceConfig, DescribesItself) {
     config.Describe(parameters);
     EXPECT_TRUE(parameters.Set("depth_scale", "1000").ok());
     EXPECT_TRUE(parameters.Set("rectify", "off").ok());
-    EXPECT_FALSE(parameters.Set("max_pair_gap_s", "0").ok());
+    EXPECT_FALSE(parameters.Set("max_pair_gap_s", "-1").ok());
     EXPECT_EQ(config.depth_scale, 1000);
     EXPECT_FALSE(config.rectify);
     EXPECT_TRUE(config.Validate().ok());

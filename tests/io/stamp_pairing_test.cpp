@@ -110,6 +110,25 @@ TEST(PairNearest, ManyStampsInOneInstantStayCheap) {
     EXPECT_EQ(PairNearest(depth, colour, 0.02).size(), 100000u);
 }
 
+// Cameras that are not synchronised: whatever the offset, half an interval is near enough.
+TEST(PairGap, IsHalfOfTheSlowerCamerasInterval) {
+    const auto every = [](double interval_s) {
+        std::vector<double> stamps_s;
+        for (int i = 0; i < 9; ++i) stamps_s.push_back(i * interval_s);
+        stamps_s.push_back(100);  // a gap does not count
+        return stamps_s;
+    };
+    EXPECT_DOUBLE_EQ(PairGap(0.007, every(0.1), every(0.1)), 0.007);
+    EXPECT_DOUBLE_EQ(PairGap(0, every(0.06), every(0.08)), 0.04);
+    EXPECT_DOUBLE_EQ(PairGap(0, every(0.08), every(0.06)), 0.04);
+    EXPECT_DOUBLE_EQ(PairGap(0, every(1 / 30.0), every(1 / 30.0)), 0.02);
+    EXPECT_DOUBLE_EQ(PairGap(0, every(1), every(1)), 0.05);
+    EXPECT_DOUBLE_EQ(PairGap(0, {}, std::vector{3.0}), 0.02);
+    EXPECT_EQ(
+        PairNearest(every(0.08), every(0.08 + 1e-5), PairGap(0, every(0.08), every(0.08))).size(),
+        10u);
+}
+
 TEST(SmallestGap, IsTheLeastDistanceBetweenTheLists) {
     EXPECT_DOUBLE_EQ(SmallestGap(std::vector{0.0, 10.0}, std::vector{3.0, 8.5}), 1.5);
     EXPECT_EQ(SmallestGap({}, std::vector{3.0}), std::numeric_limits<double>::infinity());

@@ -41,6 +41,17 @@ TEST(FrameStore, GivesDepthBackExactlyAndColourNearly) {
     EXPECT_LT(off / static_cast<double>(frame.colour.size()), 2.0);
 }
 
+TEST(FrameStore, ColourThatWasNotFusedIsNotKept) {
+    FrameStore store(100000000, 5000);
+    Integrator::View view;
+    view.colour_weight = 0;
+    ASSERT_TRUE(store.Add(FrameAt(0), 0, true, Eigen::Isometry3d::Identity(), view).ok());
+    Frame back = FrameAt(1);
+    ASSERT_TRUE(store.Load(store.frames()[0], back).ok());
+    EXPECT_TRUE(back.colour.empty());
+    EXPECT_FALSE(back.depth_m.empty());
+}
+
 TEST(FrameStore, OverItsLimitKeepsKeyframesAndAnEvenShareOfTheRest) {
     const auto in_memory = [] { return ImageScratch("/absent"); };
     FrameStore unlimited(100000000, 5000, in_memory());

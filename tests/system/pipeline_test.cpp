@@ -189,6 +189,54 @@ TEST(Pipeline, AFrameWithoutColourIsTrackedByItsShape) {
     }
 }
 
+// For a third of a second the colour camera is covered, dazzled, or hangs.
+TEST(Pipeline, WrongColoursNeitherMoveTheCameraNorPaintTheMap) {
+    const auto mean_green = [](Pipeline& pipeline) {
+        const TriangleMesh mesh = pipeline.mapping().Mesh();
+        double sum = 0;
+        for (const Rgb8& colour : mesh.colours) sum += colour.g;
+        return sum / static_cast<double>(mesh.colours.size());
+    };
+    double usual = 0;
+    for (const char* fault : {"none", "dark", "dazzled", "hangs"}) {
+        SCOPED_TRACE(fault);
+        Pipeline pipeline(SmallConfig(), SmallCamera());
+        Frame before = RoomFrame(0);
+        for (int i = 0; i < 30; ++i) {
+            Frame frame = RoomFrame(i);
+            const bool faulty = i >= 10 && i < 20 && fault != std::string("none");
+            if (faulty && fault == std::string("hangs"))
+                frame.colour = before.colour;
+            else if (faulty)
+                std::ranges::fill(
+                    std::span(frame.colour.data(), frame.colour.size()),
+                    fault == std::string("dark") ? Rgb8{3, 3, 3} : Rgb8{255, 255, 255});
+            before = frame;
+            const FrameReport report = pipeline.Process(frame);
+            ASSERT_EQ(report.track.status, TrackStatus::kGood) << i << ": " << report.track.reason;
+            EXPECT_TRUE(report.fused);
+            EXPECT_EQ(report.track.colour_rejected, faulty) << i;
+            const Eigen::Isometry3d truth = SmoothPath(0).inverse() * SmoothPath(i);
+            EXPECT_LT((truth.inverse() * report.track.T_world_camera).translation().norm(), 0.006)
+                << i;
+        }
+        if (fault == std::string("none")) usual = mean_green(pipeline);
+        EXPECT_NEAR(mean_green(pipeline), usual, 2);
+    }
+}
+
+// After a gap colours that do not fit may be those of another place: they are not called wrong.
+TEST(Pipeline, AfterAGapColoursAreNotBlamed) {
+    for (const double gap_s : {0.0, 0.8}) {
+        Pipeline pipeline(SmallConfig(), SmallCamera());
+        for (int i = 0; i < 10; ++i) pipeline.Process(RoomFrame(i));
+        Frame dark = RoomFrame(10);
+        dark.stamp_s += gap_s;
+        std::ranges::fill(std::span(dark.colour.data(), dark.colour.size()), Rgb8{3, 3, 3});
+        EXPECT_EQ(pipeline.Process(dark).track.colour_rejected, gap_s == 0);
+    }
+}
+
 // Position error in metres at the end of a sequence in which two people are in view and walk from
 // the first frame on.
 double OffAmongPeople(double even_within_m) {

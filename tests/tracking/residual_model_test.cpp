@@ -160,6 +160,41 @@ TEST_F(LearntScales, AlphaStaysWithinItsBoundAndWhereItIsFixed) {
 }
 
 // Where the pose is undetermined, it absorbs errors that are not its own.
+// An image that contradicts the map shows none of its contrast, with errors twice as large as
+// usual. Errors alone may be those of a person, no contrast that of a bare wall.
+TEST_F(LearntScales, AnImageOfSomethingElseContradicts) {
+    config_.doubt_contrast = 0.25;
+    model_.emplace(config_);
+    const double usual_rms = 0.02;
+    const ResidualSums fits = Sums();
+    // The map is residual + image: here it is an image of ripples, of which the frame shows
+    // nothing.
+    for (int y = 0; y < points_.height(); ++y)
+        for (int x = 0; x < points_.width(); ++x) {
+            residuals_.intensity[Index(x, y)] =
+                static_cast<float>(0.2 * std::sin(0.9 * x) * std::sin(0.7 * y));
+            points_.intensity[Index(x, y)] = 0.5f;
+        }
+    frame_.intensity = Image<float>(camera_.width, camera_.height, 0.5f);
+    const ResidualSums blank = Sums();
+    EXPECT_FALSE(model_->Contradicts(blank, 5 * usual_rms));  // nothing is usual yet
+    TrackResult usual;
+    usual.intensity_rms = usual_rms;
+    model_->LearnColour(usual, fits);
+    EXPECT_FALSE(model_->Contradicts(blank, 1.9 * usual_rms));
+    EXPECT_TRUE(model_->Contradicts(blank, 2.1 * usual_rms));
+    EXPECT_TRUE(model_->Contradicts(blank, 1.9 * usual_rms));  // after a contradiction
+    EXPECT_FALSE(model_->Contradicts(fits, 5 * usual_rms));
+    EXPECT_FALSE(model_->Contradicts(blank, 1.9 * usual_rms));
+    model_->Reset();
+    EXPECT_FALSE(model_->Contradicts(blank, 2.1 * usual_rms));
+
+    config_.doubt_contrast = 0;
+    model_.emplace(config_);
+    model_->LearnColour(usual, fits);
+    EXPECT_FALSE(model_->Contradicts(blank, 2.1 * usual_rms));
+}
+
 TEST_F(LearntScales, DegenerateFramesTeachNothingAboutTheShutter) {
     ResidualSums sums = Sums();
     arguments_.wants_shutter = true;
