@@ -163,6 +163,7 @@ TrackResult TrackingStage::TrackFrame(const Frame& frame, const BlockMap& map,
         ForgetColour(prepared);
         aligner_.KeepNewest(false);  // it is replaced
         track = TrackOnce(frame, map, prepared);
+        track.colour_rejected = true;
     }
     DemandUsualFit(frame.stamp_s, track);
     aligner_.KeepNewest(track.status != TrackStatus::kLost);  // same decision as for motion_
@@ -198,10 +199,13 @@ bool TrackingStage::PlaceKnown(double stamp_s) const {
 void TrackingStage::DemandUsualFit(double stamp_s, TrackResult& track) {
     if (track.status == TrackStatus::kLost) return;
     const bool known = PlaceKnown(stamp_s);
-    if ((!known || motion_.doubt().poor) && !usual_fit_.Matches(track)) {
+    if ((!known || motion_.doubt().poor || track.colour_rejected) && !usual_fit_.Matches(track)) {
         if (track.status == TrackStatus::kGood) track.reason = usual_fit_.Reason(track);
         track.status = known ? TrackStatus::kPoor : TrackStatus::kLost;
     }
+    // Neither colour nor depth of such a frame can be trusted: its pose is no start for the next.
+    if (track.colour_rejected && track.status == TrackStatus::kPoor)
+        track.status = TrackStatus::kLost;
     if (track.status == TrackStatus::kGood) usual_fit_.Add(track);
 }
 

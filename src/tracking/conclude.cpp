@@ -31,14 +31,14 @@ TrackResult Conclude(const TrackInput& input, const FoundPose& found, ResidualAr
     result.offset = found.offset;
     result.iterations = found.iterations;
     result.T_world_camera = Normalised(found.T_world_local * found.T_local_camera);
-    const bool fits = judge.Fits(found.points, found.valid ? found.sums : PoseSums(), result);
-    if (!found.valid) return result;
+    if (!judge.Fits(found.points, found.valid ? found.sums : PoseSums(), result)) return result;
+
     Enter(found, result, model, distance_scale_m, a);
     const ResidualSums sums = sum(a);
     // Before anything is learnt from it.
     result.colour_rejected =
         input.place_known && a.has_intensity && model.Contradicts(sums, result.intensity_rms);
-    if (!fits || result.colour_rejected) return result;
+    if (result.colour_rejected) return result;
 
     const Eigen::Vector3d camera_local = found.T_local_camera.translation();
     const PoseTerm distances =

@@ -8,12 +8,16 @@
 namespace tessera {
 namespace {
 
+// Of every eighth row: noise is everywhere.
 template <class Pixel>
 std::size_t HashOf(const Image<Pixel>& image) {
     static_assert(std::is_trivially_copyable_v<Pixel>);
-    const std::string_view bytes(reinterpret_cast<const char*>(image.data()),
-                                 image.size() * sizeof(Pixel));
-    return std::hash<std::string_view>{}(bytes);
+    std::size_t hash = 0;
+    for (int y = 0; y < image.height(); y += 8)
+        hash = 31 * hash + std::hash<std::string_view>{}(std::string_view(
+                               reinterpret_cast<const char*>(image.row(y)),
+                               static_cast<std::size_t>(image.width()) * sizeof(Pixel)));
+    return hash;
 }
 
 }  // namespace

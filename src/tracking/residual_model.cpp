@@ -192,7 +192,9 @@ FrameMotion ResidualModel::Timed(FrameMotion motion) const {
 // By the share of the map's image gradients that the frame shows: less than 1 if it is blurred, 0
 // if it is blank or of something else.
 bool ResidualModel::Contradicts(const ResidualSums& sums, double intensity_rms) {
-    if (usual_rms_ <= 0 || (!contradicted_ && intensity_rms < 2 * usual_rms_)) return false;
+    if (config_.doubt_contrast <= 0 || usual_rms_ <= 0 ||
+        (!contradicted_ && intensity_rms < 2 * usual_rms_))
+        return false;
     double both = 0, map2 = 0;
     for (std::size_t at = 0; at < sums.scores.size(); at += ScoreSums::kSums) {
         both += sums.scores[at + 5];

@@ -8,9 +8,9 @@ namespace {
 Frame FrameOf(std::uint8_t shade, float depth_m) {
     Frame frame;
     frame.colour = ColourImage(4, 3, Rgb8{90, 80, 70});
-    frame.colour(3, 2) = {shade, shade, shade};
+    frame.colour(3, 0) = {shade, shade, shade};
     frame.depth_m = DepthImage(4, 3, 2.0f);
-    frame.depth_m(3, 2) = depth_m;
+    frame.depth_m(3, 0) = depth_m;
     return frame;
 }
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <optional>
@@ -189,9 +190,15 @@ TEST_F(LearntScales, AnImageOfSomethingElseContradicts) {
     model_->Reset();
     EXPECT_FALSE(model_->Contradicts(blank, 2.1 * usual_rms));
 
-    config_.doubt_contrast = 0;
+    config_.doubt_contrast = 0;  // off, even if the frame shows the opposite of the map
     model_.emplace(config_);
     model_->LearnColour(usual, fits);
+    std::ranges::transform(residuals_.intensity, residuals_.intensity.begin(),
+                           [](float r) { return 2 * r; });
+    for (int y = 0; y < points_.height(); ++y)
+        for (int x = 0; x < points_.width(); ++x)
+            points_.intensity[Index(x, y)] = 0.5f - residuals_.intensity[Index(x, y)] / 2;
+    EXPECT_FALSE(model_->Contradicts(Sums(), 2.1 * usual_rms));
     EXPECT_FALSE(model_->Contradicts(blank, 2.1 * usual_rms));
 }
 
