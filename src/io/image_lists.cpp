@@ -142,9 +142,8 @@ Result<ImagePairs> ReadImageLists(const std::string& depth_list, const std::stri
     }
     if (result.pairs.empty())
         return Status::Error(fmt::format(
-            "{}: no image is less than {:.3g} s from one in {} (the smallest gap is {:.6g} "
-            "s); correct the stamps or "
-            "raise max_pair_gap_s",
+            "{}: no image is less than {:.3g} s from one in {} (the smallest gap is {:.6g} s); "
+            "correct the stamps or raise max_pair_gap_s",
             depth_list, max_gap_s, colour_list, SmallestGap(depth_s, colour_s)));
     const std::size_t pairs = result.pairs.size();
     if (pairs < depth_s.size() || pairs < colour_s.size())

@@ -41,7 +41,7 @@ class Integrator {
         FrameMotion motion;
         float gain = 1.0f, offset = 0.0f;  // map intensity = gain * image intensity + offset
         float weight = 1.0f;  // for the whole frame, in (0, 1]; their sum for an average of frames
-        float colour_weight = 1.0f;  // 0: the colour is not fused
+        float colour_weight = 1.0f;  // 0: the frame was fused without its colour
     };
 
     struct Report {

@@ -28,6 +28,8 @@ void TrackingStage::MaskMoving(const Frame& frame, const BlockMap& map, bool hid
     const MovingMask* moving = moves ? report.moving.get() : nullptr;
     if (moves || hidden)
         backend_->Remask(frame, config_.frame, moving, keep_images_, tracked.prepared);
+    // A device prepares the whole frame again.
+    if (report.track.colour_rejected) ForgetColour(tracked.prepared);
     if (report.moving) SetMoving(report.moving, tracked.prepared);
 }
 

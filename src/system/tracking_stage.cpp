@@ -154,8 +154,8 @@ void TrackingStage::Move(const Eigen::Isometry3d& T_new_old) {
     moving_.Move(T_new_old);
 }
 
-// A colour image that contradicts the map (of a camera that is covered or dazzled) would
-// pull the pose away: the frame is then tracked again by its depth alone.
+// A colour image that contradicts the map (of a camera that is dark or dazzled) would pull the pose
+// away: the frame is then tracked again by its depth alone.
 TrackResult TrackingStage::TrackFrame(const Frame& frame, const BlockMap& map,
                                       PreparedFrame& prepared) {
     TrackResult track = TrackOnce(frame, map, prepared);
