@@ -1,6 +1,6 @@
 // Decides after a loss when to trust the tracked pose again. A good fit alone is not enough if the
 // camera can be anywhere: it must be relocalised by appearance, or be tracked again soon after the
-// loss.
+// loss, or where it can have got to meanwhile.
 #pragma once
 
 #include <cmath>
@@ -42,11 +42,13 @@ class LostCamera {
         lost_ = (lost_ || !report.tracked()) && started_ && !report.first;
         if (!lost_) return report.tracked() ? JudgeTracked(report) : Verdict::kTracking;
         poor_since_s_.reset();
+        // Where it was expected does not count if it has been lost for long: that is where it was
+        // lost.
         const bool lately = std::abs(report.stamp_s - last_seen_s_) <= max_gap_s_;
-        const bool fits = FitsWell(report.track) && (lately || !tracked.prepared.has_colour);
-        // Where it was expected does not count then: that is where it was lost.
-        const bool there =
-            FitsCompletely(report.track) && CanReach({report.stamp_s, report.track.T_world_camera});
+        const bool reached = CanReach({report.stamp_s, report.track.T_world_camera});
+        const bool fits =
+            FitsWell(report.track) && (lately || reached || !tracked.prepared.has_colour);
+        const bool there = FitsCompletely(report.track) && reached;
         if (!fits && !there) return Verdict::kLost;
         // What the view leaves open is as it was when the camera was relocalised.
         if (relocalised_ && report.track.degenerate) return Verdict::kLost;

@@ -107,6 +107,27 @@ TEST(LostCamera, CanReachWhatIsNearAndSoon) {
     EXPECT_FALSE(camera.CanReach({100.6, AlongX(13)}));
 }
 
+// After a time without depth a view that fits, but is known only in part, is enough where the
+// camera can have got to. Elsewhere, or later, it may be another place.
+TEST(LostCamera, APartOfAViewIsEnoughWithinReach) {
+    const auto verdict = [](double stamp_s, double x_m) {
+        LostCamera camera(LoopConfig{}, 0.5);
+        TrackedFrame before = TrackedAt(100);
+        before.report.first = true;
+        EXPECT_EQ(camera.Judge(before), Verdict::kTracking);
+        TrackedFrame blind = TrackedAt(100.1);
+        blind.report.track.status = TrackStatus::kLost;
+        EXPECT_EQ(camera.Judge(blind), Verdict::kLost);
+        TrackedFrame after = TrackedAt(stamp_s);
+        after.report.track.known_fraction = 0.5;
+        after.report.track.T_world_camera = AlongX(x_m);
+        return camera.Judge(after);
+    };
+    EXPECT_EQ(verdict(100.7, 0.6), Verdict::kFoundAgain);
+    EXPECT_EQ(verdict(100.7, 1.3), Verdict::kLost);  // farther than one walks
+    EXPECT_EQ(verdict(102.1, 0.6), Verdict::kLost);  // too long ago
+}
+
 TEST(LostCamera, WhereTheViewLeavesAMotionOpenARelocalisedPoseIsNotTrusted) {
     LostCamera camera(LoopConfig{}, 0.5);
     camera.Resume(100);
