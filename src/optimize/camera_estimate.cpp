@@ -17,8 +17,9 @@ constexpr double kFocalFloor = 0.0125, kCentreFloor = 0.006;
 // recording whose only texture is shading, which moves with the camera (a bare corner: 430 +- 1.8
 // px for 525).
 constexpr double kFocalCeiling = 0.1;
-constexpr double kReadoutFloor_s = 0.002;  // at 1 rad/s half a pixel at the image border
-constexpr double kVignettingFloor = 0.03;  // twice what intensities err by as it is
+constexpr double kReadoutFloor_s = 0.002;    // at 1 rad/s half a pixel at the image border
+constexpr double kShortestReadout_s = 0.01;  // of a sensor that is read row by row
+constexpr double kVignettingFloor = 0.03;    // twice what intensities err by as it is
 constexpr double kLeastVignetting = -0.3, kMostVignetting = 0.7;
 constexpr double kUsefulFocal = 0.02;  // largest sigma, as a share of the focal length
 
@@ -53,6 +54,12 @@ bool CameraEstimate::centre_shown() const {
 
 bool CameraEstimate::shutter_shown(double given_readout_s) const {
     return Beyond(readout_s - given_readout_s, readout_sigma_s, kReadoutFloor_s);
+}
+
+std::optional<double> CameraEstimate::certain_readout_s() const {
+    if (shutter_shown(0)) return readout_s;
+    const bool certain = readout_sigma_s > 0 && kDeviations * readout_sigma_s < kShortestReadout_s;
+    return certain ? std::optional(0.0) : std::nullopt;
 }
 
 bool CameraEstimate::useful() const {

@@ -7,26 +7,21 @@
 #include <array>
 #include <cmath>
 
+#include "optimize/delay_search.h"
+
 namespace tessera {
 namespace {
 
-// The search.
-constexpr int kDelays = 81, kReadouts = 9;
-constexpr double kDelayStep_s = 0.001, kReadoutStep_s = 0.01;
 constexpr std::size_t kDelayParts = 8;
 // Fewer say nothing about how the estimate changes from part to part.
 constexpr std::size_t kFewestViews = 3 * kDelayParts;
 constexpr std::size_t kMostEnds = 300, kFewestEnds = 200;  // per direction: of a view, of all views
 constexpr double kLongestStep_s = 0.25;                    // between views
-constexpr double kDelayDeviations = 6, kCertainDeviations = 2, kRollsDeviations = 2;
+constexpr double kCertainDeviations = 2;
 // Most estimates are right to a millisecond (docs/benchmarks/shutter.md).
 constexpr double kLeastDelay_s = 0.002;
 
 constexpr std::size_t kDirections = EdgeView::kAhead.size();
-
-struct Peak {
-    double delay_s, readout_s;
-};
 
 Image<std::uint8_t> Smoothed(const Image<float>& image) {
     Image<std::uint8_t> result(image.width(), image.height());
@@ -66,9 +61,8 @@ Eigen::Vector2f Flow(const EdgeView::End& end, int step_px, const PinholeCamera&
 
 }  // namespace
 
-// For each direction: the strength of colour's edges at depth's, by read-out time and delay.
 struct ColourDelayEstimator::Evidence {
-    std::array<std::array<double, kDelays * kReadouts>, kDirections> strength{};
+    std::array<DelayScores, kDirections> strength{};
     std::array<double, kDirections> ends{};
 
     void Add(const Evidence& other) {
@@ -79,45 +73,25 @@ struct ColourDelayEstimator::Evidence {
         }
     }
 
-    // Nothing if there are too few ends, or if the best is at the end of the search.
-    std::optional<Peak> Best() const {
-        std::array<double, kDelays * kReadouts> score{};
+    // Per end; all directions count alike. Nothing if there are too few ends.
+    std::optional<DelayScores> MeanScores() const {
+        DelayScores scores{};
         bool enough = false;
         for (std::size_t d = 0; d < kDirections; ++d) {
             // A shadow of the depth camera only cancels out against the opposite direction.
             if (std::min(ends[d], ends[d ^ 1]) < kFewestEnds) continue;
             enough = true;
-            for (std::size_t i = 0; i < score.size(); ++i) score[i] += strength[d][i] / ends[d];
+            for (std::size_t i = 0; i < scores.size(); ++i) scores[i] += strength[d][i] / ends[d];
         }
-        if (!enough) return std::nullopt;
-        const auto best = static_cast<int>(std::ranges::max_element(score) - score.begin());
-        const int k = best % kDelays, r = best / kDelays;
-        if (k == 0 || r == 0 || k == kDelays - 1 || r == kReadouts - 1) return std::nullopt;
-        // The top of the parabola through three values.
-        const auto between = [&](int apart) {
-            const double before = score[static_cast<std::size_t>(best - apart)],
-                         after = score[static_cast<std::size_t>(best + apart)],
-                         bend = before - 2 * score[static_cast<std::size_t>(best)] + after;
-            return bend < 0 ? 0.5 * (before - after) / bend : 0;
-        };
-        return Peak{(k - kDelays / 2 + between(1)) * kDelayStep_s,
-                    (r - kReadouts / 2 + between(kDelays)) * kReadoutStep_s};
+        return enough ? std::optional(scores) : std::nullopt;
     }
 };
 
-bool ColourDelay::shown() const {
-    return std::abs(delay_s) > std::max(kDelayDeviations * delay_sigma_s, kLeastDelay_s);
-}
+bool ColourDelay::shown() const { return std::abs(certain_s()) > kLeastDelay_s; }
 
 double ColourDelay::certain_s() const {
     const double size_s = std::abs(delay_s) - kCertainDeviations * delay_sigma_s;
     return std::copysign(std::max(0.0, size_s), delay_s);
-}
-
-bool ColourDelay::DepthRolls(double colour_readout_s) const {
-    const double at_once = readout_s - colour_readout_s;
-    const double least = kRollsDeviations * readout_sigma_s;
-    return at_once * at_once - readout_s * readout_s > least * least;
 }
 
 std::string ColourDelayText(const ColourDelay& d) {
@@ -154,9 +128,8 @@ void ColourDelayEstimator::AddView(const View& view, const Vector6d& velocity,
             double* sum = evidence.strength[d].data();
             for (int r = 0; r < kReadouts; ++r)
                 for (int k = 0; k < kDelays; ++k) {
-                    const auto t =
-                        static_cast<float>(view.stamped_delay_s + (k - kDelays / 2) * kDelayStep_s +
-                                           row * (r - kReadouts / 2) * kReadoutStep_s);
+                    const auto t = static_cast<float>(view.stamped_delay_s + SearchedDelay_s(k) +
+                                                      row * SearchedReadout_s(r));
                     *sum++ += At(strength, x + t * flow.x(), y + t * flow.y());
                 }
             ++evidence.ends[d];
@@ -194,7 +167,8 @@ std::vector<std::optional<Vector6d>> ColourDelayEstimator::Velocities() const {
     return velocities;
 }
 
-std::optional<ColourDelay> ColourDelayEstimator::Estimate() const {
+std::optional<ColourDelay> ColourDelayEstimator::Estimate(
+    std::optional<double> colour_readout_s) const {
     const std::vector<std::optional<Vector6d>> velocities = Velocities();
     std::vector<std::size_t> used;
     for (std::size_t i = 0; i < views_.size(); ++i)
@@ -206,29 +180,30 @@ std::optional<ColourDelay> ColourDelayEstimator::Estimate() const {
             if (const View& view = views_[used[i]]; i * kDelayParts / used.size() == part)
                 AddView(view, *velocities[used[i]], parts[part]);
     });
-    const auto without = [&](std::size_t left_out) {
+    const auto without = [&](std::size_t left_out) -> std::optional<DelayPeak> {
         Evidence rest;
         for (std::size_t part = 0; part < kDelayParts; ++part)
             if (part != left_out) rest.Add(parts[part]);
-        return rest.Best();
+        const std::optional<DelayScores> scores = rest.MeanScores();
+        if (!scores) return std::nullopt;
+        return colour_readout_s ? BestOfTwoReadouts(*scores, *colour_readout_s)
+                                : BestOfAllReadouts(*scores);
     };
-    const std::optional<Peak> all = without(kDelayParts);
+    const std::optional<DelayPeak> all = without(kDelayParts);
     if (!all) return std::nullopt;
     // Jackknife.
-    Peak mean{0, 0}, square{0, 0};
+    double mean_s = 0, square_s2 = 0;
     for (std::size_t part = 0; part < kDelayParts; ++part) {
-        const std::optional<Peak> rest = without(part);
+        const std::optional<DelayPeak> rest = without(part);
         if (!rest) return std::nullopt;
-        mean.delay_s += rest->delay_s / kDelayParts;
-        mean.readout_s += rest->readout_s / kDelayParts;
-        square.delay_s += rest->delay_s * rest->delay_s / kDelayParts;
-        square.readout_s += rest->readout_s * rest->readout_s / kDelayParts;
+        mean_s += rest->delay_s / kDelayParts;
+        square_s2 += rest->delay_s * rest->delay_s / kDelayParts;
     }
-    const auto sigma = [](double square_, double mean_) {
-        return std::sqrt((kDelayParts - 1) * std::max(0.0, square_ - mean_ * mean_));
-    };
-    return ColourDelay{all->delay_s, all->readout_s, sigma(square.delay_s, mean.delay_s),
-                       sigma(square.readout_s, mean.readout_s)};
+    return ColourDelay{
+        .delay_s = all->delay_s,
+        .readout_s = all->readout_s,
+        .delay_sigma_s = std::sqrt((kDelayParts - 1) * std::max(0.0, square_s2 - mean_s * mean_s)),
+        .depth_rolls = colour_readout_s.value_or(0) != 0 && all->readout_s == 0};
 }
 
 }  // namespace tessera

@@ -1,7 +1,9 @@
 // How much later than its time stamp says a recording's colour was taken, seen from depth. While
 // the camera turns, colour's edges lie beside those of depth, by their speed in the image times the
 // delay. The delay under which the edges of many frames meet best is the answer. A rolling shutter
-// adds to it in proportion to the row, if depth is not read in the same way.
+// adds to it in proportion to the row, if depth is not read in the same way. Where colour's
+// read-out time is known, depth is taken as read in the same time or all at once, whichever fits
+// better.
 #pragma once
 
 #include <array>
@@ -20,19 +22,16 @@ namespace tessera {
 struct ColourDelay {
     double delay_s = 0;    // between the middle rows, beyond the time stamps
     double readout_s = 0;  // colour's read-out time minus depth's
-    // Standard deviations, from how the estimate changes when eighths of the recording are left
-    // out.
-    double delay_sigma_s = 0, readout_sigma_s = 0;
+    // Standard deviation, from how the estimate changes when eighths of the recording are left out.
+    double delay_sigma_s = 0;
+    bool depth_rolls = false;  // depth is read row by row, as colour is; false if that is not known
     bool used = false;
 
-    // True if the images contradict the time stamps by more than such an estimate can be wrong.
-    bool shown() const;
     // What is certain of it: two standard deviations less. Too much is worse than too little, of
     // which tracking learns the rest.
     double certain_s() const;
-    // True if it is more likely that depth is read row by row, as colour is in this time, than that
-    // all rows of depth are taken at once.
-    bool DepthRolls(double colour_readout_s) const;
+    // True if that is worth correcting.
+    bool shown() const;
 };
 
 // "colour was taken 20.4 +- 1.2 ms later than its time stamps say".
@@ -46,10 +45,11 @@ class ColourDelayEstimator {
     // In time order, about ten per second. `edges`: of the frame, ignored if empty.
     void Add(const Frame& frame, const EdgeView& edges);
 
+    // `colour_readout_s`: nothing if it is not known; both values are then searched for.
     // Works in parallel; the result does not depend on the number of threads. Nothing if fewer than
     // 24 views lie between two others, if there are too few edges in either direction, or if they
     // meet best at the end of the search: 40 ms, for both values.
-    std::optional<ColourDelay> Estimate() const;
+    std::optional<ColourDelay> Estimate(std::optional<double> colour_readout_s) const;
 
   private:
     struct View {

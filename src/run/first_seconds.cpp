@@ -79,8 +79,10 @@ FirstSeconds LookAtFirstSeconds(std::unique_ptr<FrameSource> source,
     }
     FirstSeconds seen;
     seen.colour = registration.Estimate();
-    seen.delay = delay.Estimate();
     if (estimator.frames() >= kLeastViews) seen.camera = estimator.Estimate();
+    // A fit that went astray has a wrong read-out time, too.
+    const bool believed = seen.camera && (seen.camera->plausible() || !info.camera_known);
+    seen.delay = delay.Estimate(believed ? seen.camera->certain_readout_s() : std::nullopt);
     if (seen.colour) seen.colour->known = info.registration_known;
     return seen;
 }

@@ -91,7 +91,7 @@ Json ColourDelayJson(const ColourDelay& delay) {
             {"corrected_ms", 1000 * (delay.used ? delay.certain_s() : 0)},
             {"delay_sigma_ms", 1000 * delay.delay_sigma_s},
             {"readout_difference_ms", 1000 * delay.readout_s},
-            {"readout_difference_sigma_ms", 1000 * delay.readout_sigma_s}};
+            {"depth_rolls", delay.depth_rolls}};
 }
 
 }  // namespace

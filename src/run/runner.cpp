@@ -31,7 +31,7 @@ void BeginShutter(const CameraReport& report, PipelineConfig& config, SourceInfo
 void BeginDepthShutter(const ColourDelay& delay, PipelineConfig& config, SourceInfo& source) {
     const double colour_s =
         config.shutter.colour_readout_s + config.trackers.photometric.shutter.readout_s;
-    if (config.shutter.depth_readout_s != 0 || !delay.DepthRolls(colour_s)) return;
+    if (config.shutter.depth_readout_s != 0 || colour_s == 0 || !delay.depth_rolls) return;
     config.shutter.depth_readout_s = colour_s;
     source.notes.push_back("rolling shutter: depth is read row by row, as colour is");
 }

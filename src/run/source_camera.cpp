@@ -48,8 +48,11 @@ std::optional<PinholeCamera> CameraOfScan(const std::string& path, const Pinhole
     return was;
 }
 
+// OpenNI registers and pairs its images by itself.
+bool IsOni(const std::string& name) { return name.ends_with(".oni"); }
+
 std::string GivenBy(const std::string& name) {
-    if (name.ends_with(".oni")) return "the device";
+    if (IsOni(name)) return "the device";
     return IsRecording(name) ? "the recording" : "camera.yaml";
 }
 
@@ -98,28 +101,30 @@ Result<std::optional<PinholeCamera>> FindCamera(const RunRequest& request, const
     return to_use(*second);
 }
 
-// Corrects the registration, the time stamps and the brightness of colour in `config` if the images
-// show errors, and looks again if they are large.
+// Corrects the time stamps of colour in `config` if the images show an error.
+void CorrectDelay(const FirstSeconds& seen, RunConfig& config, CheckedSource& checked) {
+    checked.delay = seen.delay;
+    if (!checked.delay || !checked.delay->shown()) return;
+    checked.delay->used = true;
+    config.source.colour_delay_s += checked.delay->certain_s();
+    checked.messages.push_back(fmt::format("{}: corrected by {:.1f} ms",
+                                           ColourDelayText(*checked.delay),
+                                           1000 * std::abs(checked.delay->certain_s())));
+}
+
+// Corrects the registration and the brightness of colour in `config` if the images show errors, and
+// looks again if they are large.
 Status CorrectColour(const RunRequest& request, const SourceInfo& given, RunConfig& config,
                      FirstSeconds& seen, CheckedSource& checked) {
-    const bool by_device = request.source.ends_with(".oni");  // OpenNI registers by itself
     checked.colour = seen.colour;
     if (seen.camera)
         checked.vignetting =
             VignettingReport{seen.camera->vignetting, seen.camera->vignetting_sigma};
-    if (by_device) return Status::Ok();
+    if (IsOni(request.source)) return Status::Ok();
     if (checked.colour && checked.colour->shown()) {
         checked.colour->used = true;
         config.source.colour_shift_px = {checked.colour->x_px, checked.colour->y_px};
         checked.messages.push_back(ColourShiftText(*checked.colour) + ": corrected");
-    }
-    checked.delay = seen.delay;
-    if (checked.delay && checked.delay->shown()) {
-        checked.delay->used = true;
-        config.source.colour_delay_s += checked.delay->certain_s();
-        checked.messages.push_back(fmt::format("{}: corrected by {:.1f} ms",
-                                               ColourDelayText(*checked.delay),
-                                               1000 * std::abs(checked.delay->certain_s())));
     }
     const bool believed = seen.camera && (seen.camera->plausible() || !given.camera_known);
     if (believed && seen.camera->vignetting_shown()) {
@@ -156,6 +161,7 @@ Result<CheckedSource> OpenCheckedSource(const RunRequest& request, const RunConf
         LookAtFirstSeconds(std::move(opened.value()), request.selection, given.one_camera);
     if (Status status = CorrectColour(request, given, corrected, seen, checked); !status.ok())
         return status;
+    if (!IsOni(request.source)) CorrectDelay(seen, corrected, checked);
     std::optional<PinholeCamera> camera;
     if (request.resume || request.localise_only) {
         camera = CameraOfScan(request.scan_file, given.camera);

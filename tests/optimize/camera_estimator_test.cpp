@@ -163,5 +163,19 @@ TEST(CameraEstimate, IsBelievedBeyondItsDeviationsAndItsFloorOnly) {
               "camera.yaml says fx 270.0; this recording says 283.5 +- 2.0");
 }
 
+TEST(CameraEstimate, ItsReadOutIsCertainWhereItShowsOrIsClearlySmall) {
+    CameraEstimate estimate;
+    EXPECT_FALSE(estimate.certain_readout_s());  // no deviation: nothing was estimated
+    estimate.readout_s = 0.028;
+    estimate.readout_sigma_s = 0.001;
+    EXPECT_EQ(estimate.certain_readout_s(), 0.028);
+    estimate.readout_sigma_s = 0.005;
+    EXPECT_FALSE(estimate.certain_readout_s());
+    estimate.readout_s = 0.001;
+    EXPECT_FALSE(estimate.certain_readout_s());
+    estimate.readout_sigma_s = 0.0015;
+    EXPECT_EQ(estimate.certain_readout_s(), 0);
+}
+
 }  // namespace
 }  // namespace tessera
