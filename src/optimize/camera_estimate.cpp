@@ -56,8 +56,9 @@ bool CameraEstimate::shutter_shown(double given_readout_s) const {
     return Beyond(readout_s - given_readout_s, readout_sigma_s, kReadoutFloor_s);
 }
 
-std::optional<double> CameraEstimate::certain_readout_s() const {
-    if (shutter_shown(0)) return readout_s;
+std::optional<double> CameraEstimate::certain_readout_s(double given_readout_s) const {
+    if (shutter_shown(given_readout_s)) return readout_s;
+    if (given_readout_s != 0) return given_readout_s;
     const bool certain = readout_sigma_s > 0 && kDeviations * readout_sigma_s < kShortestReadout_s;
     return certain ? std::optional(0.0) : std::nullopt;
 }

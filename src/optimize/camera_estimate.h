@@ -35,8 +35,9 @@ struct CameraEstimate {
     // True if the read-out time differs from the given one. Check first that the focal length is
     // plausible, if one was given: a fit that went astray has a wrong read-out time, too.
     bool shutter_shown(double given_readout_s) const;
-    // The read-out time, 0 if none shows. Nothing if it is too uncertain to say so.
-    std::optional<double> certain_readout_s() const;
+    // The read-out time: the given one unless another shows. Nothing if none is given, none shows
+    // and the estimate is too uncertain to say that it is 0.
+    std::optional<double> certain_readout_s(double given_readout_s) const;
     // True if the estimate is good enough to use when nothing is known about the camera.
     bool useful() const;
 };

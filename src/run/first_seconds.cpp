@@ -53,7 +53,8 @@ std::optional<FrameSelection> PartToSee(FrameSource& source, const FrameSelectio
 }  // namespace
 
 FirstSeconds LookAtFirstSeconds(std::unique_ptr<FrameSource> source,
-                                const FrameSelection& selection, bool one_camera) {
+                                const FrameSelection& selection, bool one_camera,
+                                double colour_readout_s) {
     const std::optional<FrameSelection> part = PartToSee(*source, selection);
     if (!part) return {};
     const SourceInfo info = source->info();
@@ -82,7 +83,12 @@ FirstSeconds LookAtFirstSeconds(std::unique_ptr<FrameSource> source,
     if (estimator.frames() >= kLeastViews) seen.camera = estimator.Estimate();
     // A fit that went astray has a wrong read-out time, too.
     const bool believed = seen.camera && (seen.camera->plausible() || !info.camera_known);
-    seen.delay = delay.Estimate(believed ? seen.camera->certain_readout_s() : std::nullopt);
+    std::optional<double> readout_s;
+    if (believed)
+        readout_s = seen.camera->certain_readout_s(colour_readout_s);
+    else if (colour_readout_s != 0)
+        readout_s = colour_readout_s;
+    seen.delay = delay.Estimate(readout_s);
     if (seen.colour) seen.colour->known = info.registration_known;
     return seen;
 }

@@ -21,7 +21,9 @@ struct FirstSeconds {
 
 // Reads the first eight seconds of the selection, ten frames of each. Consumes the source.
 // `one_camera`: colour and depth are of one camera, whose intrinsics are estimated.
+// `colour_readout_s`: colour's read-out time as configured; 0 if it is not known.
 FirstSeconds LookAtFirstSeconds(std::unique_ptr<FrameSource> source,
-                                const FrameSelection& selection, bool one_camera);
+                                const FrameSelection& selection, bool one_camera,
+                                double colour_readout_s);
 
 }  // namespace tessera

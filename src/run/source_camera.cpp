@@ -94,7 +94,9 @@ Result<std::optional<PinholeCamera>> FindCamera(const RunRequest& request, const
     Result<std::unique_ptr<FrameSource>> again = OpenWith(request.source, config, camera);
     if (!again.ok()) return again.status();
     std::optional<CameraEstimate> second =
-        LookAtFirstSeconds(std::move(again.value()), request.selection, true).camera;
+        LookAtFirstSeconds(std::move(again.value()), request.selection, true,
+                           config.pipeline.shutter.colour_readout_s)
+            .camera;
     if (!second) return camera;
     second->given = given.camera;
     second->misfit_given = first->misfit_given;
@@ -139,7 +141,8 @@ Status CorrectColour(const RunRequest& request, const SourceInfo& given, RunConf
     if (!moved && std::abs(config.source.vignetting) < kLookAgain) return Status::Ok();
     Result<std::unique_ptr<FrameSource>> again = OpenSource(request.source, config);
     if (!again.ok()) return again.status();
-    seen = LookAtFirstSeconds(std::move(again.value()), request.selection, given.one_camera);
+    seen = LookAtFirstSeconds(std::move(again.value()), request.selection, given.one_camera,
+                              config.pipeline.shutter.colour_readout_s);
     if (config.source.vignetting != 0 && seen.camera && seen.camera->plausible())
         config.source.vignetting = checked.vignetting->share += seen.camera->vignetting;
     return Status::Ok();
@@ -158,7 +161,8 @@ Result<CheckedSource> OpenCheckedSource(const RunRequest& request, const RunConf
     }
     RunConfig corrected = config;
     FirstSeconds seen =
-        LookAtFirstSeconds(std::move(opened.value()), request.selection, given.one_camera);
+        LookAtFirstSeconds(std::move(opened.value()), request.selection, given.one_camera,
+                           config.pipeline.shutter.colour_readout_s);
     if (Status status = CorrectColour(request, given, corrected, seen, checked); !status.ok())
         return status;
     if (!IsOni(request.source)) CorrectDelay(seen, corrected, checked);

@@ -165,16 +165,19 @@ TEST(CameraEstimate, IsBelievedBeyondItsDeviationsAndItsFloorOnly) {
 
 TEST(CameraEstimate, ItsReadOutIsCertainWhereItShowsOrIsClearlySmall) {
     CameraEstimate estimate;
-    EXPECT_FALSE(estimate.certain_readout_s());  // no deviation: nothing was estimated
+    EXPECT_FALSE(estimate.certain_readout_s(0));  // no deviation: nothing was estimated
+    EXPECT_EQ(estimate.certain_readout_s(0.03), 0.03);
     estimate.readout_s = 0.028;
     estimate.readout_sigma_s = 0.001;
-    EXPECT_EQ(estimate.certain_readout_s(), 0.028);
+    EXPECT_EQ(estimate.certain_readout_s(0), 0.028);
+    EXPECT_EQ(estimate.certain_readout_s(0.02), 0.028);
+    EXPECT_EQ(estimate.certain_readout_s(0.03), 0.03);  // not shown to be wrong
     estimate.readout_sigma_s = 0.005;
-    EXPECT_FALSE(estimate.certain_readout_s());
+    EXPECT_FALSE(estimate.certain_readout_s(0));
     estimate.readout_s = 0.001;
-    EXPECT_FALSE(estimate.certain_readout_s());
+    EXPECT_FALSE(estimate.certain_readout_s(0));
     estimate.readout_sigma_s = 0.0015;
-    EXPECT_EQ(estimate.certain_readout_s(), 0);
+    EXPECT_EQ(estimate.certain_readout_s(0), 0);
 }
 
 }  // namespace
