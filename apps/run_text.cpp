@@ -70,6 +70,11 @@ std::string RunText(const RunRequest& request, const RunSummary& s) {
     std::string text =
         fmt::format("{}{}: {} frames, {} tracked, {} fused, {} lost, {} skipped\n", request.source,
                     s.stopped ? " (stopped)" : "", n.frames, n.tracked, n.fused, n.lost, n.skipped);
+    if (10 * n.degenerate > n.tracked)
+        text += fmt::format(
+            "note: {} of the tracked frames are degenerate: the scene leaves a motion open, along "
+            "which the path can be wrong\n",
+            n.degenerate);
     if (request.live)
         text += fmt::format(
             "live: {} frames dropped for newer ones, {} tracked but not fused because mapping was "

@@ -53,8 +53,9 @@ class Cli : public testing::Test {
         EXPECT_NE(outcome.err.find(named), std::string::npos) << arguments << "\n" << outcome.err;
     }
     // A run that takes about one second.
-    static std::string SmallRun() {
-        return "run synthetic:desk --set synthetic.width=160 --set synthetic.height=120 --set "
+    static std::string SmallRun(const std::string& scene = "desk") {
+        return "run synthetic:" + scene +
+               " --set synthetic.width=160 --set synthetic.height=120 --set "
                "synthetic.fx=131 "
                "--set synthetic.fy=131 --set synthetic.cx=79.5 --set synthetic.cy=59.5 --set "
                "mapping.voxel_size_m=0.04 "

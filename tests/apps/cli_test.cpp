@@ -278,6 +278,15 @@ TEST_F(Cli, RunsAndEvaluates) {
     EXPECT_EQ(Call("eval rpe " + trajectory + " " + trajectory + " --delta 0.1").exit_code, 0);
 }
 
+TEST_F(Cli, TheSummarySaysThatTheSceneLeftAMotionOpen) {
+    const std::string note = "frames are degenerate: the scene leaves a motion open";
+    EXPECT_EQ(Succeeds(SmallRun() + "--frames 5 --out " + (folder / "desk")).find(note),
+              std::string::npos);
+    const std::string out = Succeeds(
+        SmallRun("floor") + "--frames 5 --tracker sdf-geometric --out " + (folder / "floor"));
+    EXPECT_NE(out.find("note: 4 of the tracked " + note), std::string::npos) << out;
+}
+
 TEST_F(Cli, MostlyLostIsExitCode3) {
     const Outcome run = Call(
         SmallRun() + "--frames 4 --set frame.min_depth_m=50 --set frame.max_depth_m=60 --out " +
