@@ -73,8 +73,10 @@ TEST_F(Recorded, Freiburg1RpyIsTrackedToTwoCentimetres) {
     ASSERT_NO_FATAL_FAILURE(Need("tum_fr1_rpy"));
     if (IsSkipped()) return;
     const RunSummary run = RunOn(sequence, folder / "out");
-    EXPECT_EQ(run.counts.frames, 722);  // 694 by the stamps as recorded
-    EXPECT_EQ(run.counts.tracked, 722);
+    // All of 722 but two, whose colours are nearer in time to others' depth once the delay is
+    // corrected; 694 by the stamps as recorded.
+    EXPECT_EQ(run.counts.frames, 720);
+    EXPECT_EQ(run.counts.tracked, 720);
     ASSERT_TRUE(run.ate.has_value());
     EXPECT_LE(run.ate->error_m.rmse, 0.022);
     EXPECT_LE(run.map.bytes_per_voxel, 12.0);
