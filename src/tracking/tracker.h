@@ -29,7 +29,7 @@ struct TrackInput {
     // Otherwise, they may be those of another place.
     bool place_known = false;
     // Delays and read-out times; the tracker fills in the twist.
-    FrameMotion motion;
+    FrameMotion motion = {};
     double nearest_m = kMinWeightDepth_m;  // nearer points have the weight of this depth
 };
 
@@ -42,9 +42,9 @@ const char* ToString(TrackStatus status);
 
 struct TrackResult {
     Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity();
-    FrameMotion motion;  // while the frame was taken
+    FrameMotion motion = {};  // while the frame was taken
     TrackStatus status = TrackStatus::kLost;
-    std::string reason;  // human-readable, unless good
+    std::string reason = {};  // human-readable, unless good
     // Some motion is constrained less well than TrackJudge requires. The frame may still be fused.
     bool degenerate = false;
     double known_fraction = 0;   // fraction of the points where the map knows the distance
