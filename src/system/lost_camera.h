@@ -42,8 +42,7 @@ class LostCamera {
         lost_ = (lost_ || !report.tracked()) && started_ && !report.first;
         if (!lost_) return report.tracked() ? JudgeTracked(report) : Verdict::kTracking;
         poor_since_s_.reset();
-        // Where it was expected does not count if it has been lost for long: that is where it was
-        // lost.
+        // If it has been lost for long, a fit alone is not enough: another place may fit, too.
         const bool lately = std::abs(report.stamp_s - last_seen_s_) <= max_gap_s_;
         const bool reached = CanReach({report.stamp_s, report.track.T_world_camera});
         const bool fits =
