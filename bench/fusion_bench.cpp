@@ -170,7 +170,7 @@ FusionArguments ArgumentsFor(BlockMap& map) {
     for (int i = 0; i < 3; ++i)
         a.to_camera.translation[i] = static_cast<float>(T_camera_world.translation()(i));
     a.voxel_size_m = map.view().voxel_size_m;
-    a.truncation_m = map.view().truncation_m;
+    a.band = map.view().band;
     a.distance_weight = config.distance_weight;
     a.colour_weighting = config.colour_weighting;
     a.max_weight = static_cast<float>(config.max_weight);

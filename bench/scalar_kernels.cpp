@@ -13,7 +13,7 @@ using L = SumLayout;
 
 struct Point {
     float p[3];  // in the local frame, in metres
-    float weight, image;
+    float depth, weight, image;
 };
 
 void AddDistance(const SdfArguments& a, const Point& point, const ValueAndGradient<float>& s,
@@ -30,7 +30,9 @@ void AddDistance(const SdfArguments& a, const Point& point, const ValueAndGradie
     sums[L::kDistanceError] += w * residual * residual;
     sums[L::kDistanceWeight] += w;
     sums[L::kKnown] += 1.0f;
-    sums[L::kInliers] += std::abs(residual) < a.inlier_distance_m ? 1.0f : 0.0f;
+    const float band = a.band.At(point.depth);
+    sums[L::kBand] += w * band * band;
+    sums[L::kInliers] += std::abs(residual) < 0.5f * band ? 1.0f : 0.0f;
 }
 
 void AddIntensity(const SdfArguments& a, const Point& point, const ValueAndGradient<float>& s,
@@ -54,7 +56,7 @@ void SumPoints(const SdfArguments& a, int first, int last, float* sums) {
     for (int i = first; i < last; ++i) {
         if (a.weight[i] <= 0.0f) continue;
         float q[3];
-        Point point{{}, a.weight[i], a.intensity[i]};
+        Point point{{}, a.z[i], a.weight[i], a.intensity[i]};
         for (int k = 0; k < 3; ++k) {
             const float* r = a.rotation + 3 * k;
             q[k] = r[0] * a.x[i] + r[1] * a.y[i] + r[2] * a.z[i] + a.translation[k];
@@ -90,7 +92,7 @@ float WeightOf(const FusionArguments& a, float distance, float depth) {
 
 void FuseDistance(const FusionArguments& a, float distance, float weight, std::uint32_t dither,
                   Voxel& v) {
-    const float steps = std::min(distance, a.truncation_m) * (kDistanceSteps / a.truncation_m);
+    const float steps = distance * (kDistanceSteps / a.band.most_m);
     const float old_steps = static_cast<float>(static_cast<std::int32_t>(v.field) >> 16);
     const float old_weight = static_cast<float>(v.weight) / kWeightSteps;
     const float average = WeightedAverage(old_steps, old_weight, steps, weight);
@@ -132,13 +134,14 @@ void FuseVoxel(const FusionArguments& a, const float* p, std::size_t at) {
         return;
     const int pixel = static_cast<int>(v) * a.width + static_cast<int>(u);
     const float depth = a.depth_m[pixel], distance = depth - p[2];
-    if (!(depth > 0.0f && distance >= -a.truncation_m)) return;
+    const float band = a.band.At(depth);
+    if (!(depth > 0.0f && distance >= -band)) return;
     Voxel voxel{a.field[at], a.weight[at], a.colour[at]};
     const float weight = WeightOf(a, distance, std::max(depth, 0.05f));
     const auto address = static_cast<std::uint32_t>(at);
     const std::uint32_t dither = DitherBits(address, a.frame);
-    FuseDistance(a, distance, weight, dither, voxel);
-    if (a.packed_colour == nullptr || distance > a.truncation_m) return;
+    FuseDistance(a, std::min(distance, band), weight, dither, voxel);
+    if (a.packed_colour == nullptr || distance > band) return;
     float colour_weight = weight * a.frame_colour_weight / a.frame_weight;
     if (a.colour_weighting == ColourWeighting::kCosine)
         colour_weight *= p[2] / std::sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);

@@ -54,7 +54,6 @@ SdfArguments ArgumentsFor(const FramePoints& points, const Eigen::Isometry3d& T_
     a.gain = 1;
     a.distance_scale_m = static_cast<float>(config.distance_scale_m);
     a.intensity_scale = static_cast<float>(ResidualModel::Config().intensity_scale);
-    a.inlier_distance_m = 0.5f * a.truncation_m;
     return a;
 }
 

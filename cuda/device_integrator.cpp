@@ -58,8 +58,7 @@ void DeviceIntegrator::Fuse(const PreparedFrame& frame, const View& view, BlockM
     const DepthTileView tiles{device_.frame_.tiles(), (a.width + kDepthTilePx - 1) / kDepthTilePx,
                               (a.height + kDepthTilePx - 1) / kDepthTilePx};
     const int count = mirror.FindVisible(
-        tiles, MakeViewCone(camera_, view.T_world_camera,
-                            frame.farthest_m + map.config().truncation_m, map.config()));
+        tiles, MakeViewCone(camera_, view.T_world_camera, frame.farthest_m, map.config()));
     const DeviceMapView layers = mirror.view();
     a.field = layers.field;
     a.weight = layers.weight;

@@ -12,9 +12,10 @@ constexpr int kFirstWanted = 1 << 14;
 
 }  // namespace
 
-DeviceMap::DeviceMap(double voxel_size_m, double truncation_m, DeviceMemory& memory, Stream& stream)
+DeviceMap::DeviceMap(double voxel_size_m, const TruncationBand& band, DeviceMemory& memory,
+                     Stream& stream)
     : voxel_size_m_(voxel_size_m),
-      truncation_m_(truncation_m),
+      band_(band),
       memory_(memory),
       stream_(stream),
       field_(memory),
@@ -46,7 +47,7 @@ DeviceMapView DeviceMap::view() {
             table_.data(),
             static_cast<std::uint32_t>(table_slots_ - 1),
             static_cast<float>(voxel_size_m_),
-            static_cast<float>(truncation_m_)};
+            band_};
 }
 
 bool DeviceMap::Clear() {

@@ -21,11 +21,12 @@ struct DeviceMapView {
     std::uint32_t* revision;
     std::int32_t* table;
     std::uint32_t table_mask;
-    float voxel_size_m, truncation_m;
+    float voxel_size_m;
+    TruncationBand band;
 
     // What the kernels of src/ read.
     BlockMapView readable() const {
-        return {field, neighbours, table, coords, table_mask, voxel_size_m, truncation_m};
+        return {field, neighbours, table, coords, table_mask, voxel_size_m, band};
     }
 };
 
@@ -40,7 +41,8 @@ struct BlockVoxels {
 // Owner thread only. `memory` and `stream` must outlive it.
 class DeviceMap {
   public:
-    DeviceMap(double voxel_size_m, double truncation_m, DeviceMemory& memory, Stream& stream);
+    DeviceMap(double voxel_size_m, const TruncationBand& band, DeviceMemory& memory,
+              Stream& stream);
 
     // Returns false if the device has no room even for an empty map.
     [[nodiscard]] bool Clear();
@@ -90,7 +92,8 @@ class DeviceMap {
     int Select(DeviceBuffer<std::int32_t>& ids);
     void DownloadPart(int begin, int count, BlockVoxels& voxels);
 
-    double voxel_size_m_, truncation_m_;
+    double voxel_size_m_;
+    TruncationBand band_;
     DeviceMemory& memory_;
     Stream& stream_;
     std::int32_t size_ = 0;

@@ -35,7 +35,7 @@ bool DeviceMesher::MeshBlocks(const BlockMap& map, std::span<const BlockId> bloc
         const std::span<const BlockId> part = blocks.first(std::min(most, blocks.size()));
         if (!surface_) surface_.emplace(device_.memory_, device_.stream_);
         if (!surface_->Extract(mirror->view(), part.data(), static_cast<int>(part.size()),
-                               MinWeightSteps(min_weight), arrays_)) {
+                               MakeCellLimits(min_weight, map.config()), arrays_)) {
             surface_.reset();  // its buffers leave less room for a smaller batch
             most = std::min(most, part.size()) / 2;
             if (most < kLeastBlocks) return false;

@@ -43,8 +43,8 @@ DeviceMap* DevicePipeline::MirrorOf(const BlockMap& map) {
                   "a map without releases is needed; it has {} blocks and {} ids", map.count(),
                   map.size());
     mirrored_ = 0;
-    map_ = std::make_unique<DeviceMap>(map.config().voxel_size_m, map.config().truncation_m,
-                                       memory_, stream_);
+    map_ = std::make_unique<DeviceMap>(map.config().voxel_size_m, map.config().band(), memory_,
+                                       stream_);
     if (!map_->Load(map.size(), map.view().coords, map.field(0), map.weight(0), map.colour(0)))
         map_.reset();
     if (map_) mirrored_ = map.identity();

@@ -37,10 +37,9 @@ bool DeviceSurface::Reserve(std::size_t blocks) {
 }
 
 // Fills the buffers that Extract reads, up to first_.
-bool DeviceSurface::Count(const DeviceMapView& map, int count, int min_weight_steps) {
+bool DeviceSurface::Count(const DeviceMapView& map, int count, const CellLimits& limits) {
     const int edge_rows = count * kEdgeRows, cell_rows = count * kCellRows;
-    ForEach(stream_, count * CellRows::kRows,
-            ReadCellRows{map, ids_.data(), min_weight_steps, rows_.data()});
+    ForEach(stream_, count * CellRows::kRows, ReadCellRows{map, ids_.data(), limits, rows_.data()});
     ForEach(
         stream_, cell_rows,
         CountSurface{rows_.data(), cases_.data(), vertex_count_.data(), triangle_count_.data()});
@@ -56,11 +55,11 @@ bool DeviceSurface::Count(const DeviceMapView& map, int count, int min_weight_st
 }
 
 bool DeviceSurface::Extract(const DeviceMapView& map, const std::int32_t* ids, int count,
-                            int min_weight_steps, SurfaceArrays& out) {
+                            const CellLimits& limits, SurfaceArrays& out) {
     const auto blocks = static_cast<std::size_t>(count);
     if (!Reserve(blocks)) return false;
     stream_.Upload(ids_.data(), ids, blocks * sizeof *ids);
-    if (!Count(map, count, min_weight_steps)) return false;
+    if (!Count(map, count, limits)) return false;
     out.first.resize(blocks + 1);
     stream_.Download(out.first.data(), first_.data(), out.first.size() * sizeof out.first[0]);
     stream_.Wait();

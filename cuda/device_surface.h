@@ -32,11 +32,11 @@ class DeviceSurface {
     // Extracts the surface of at most kMaxBlocks blocks, none of them the unknown one. `ids` is in
     // host memory. Returns false if the device has no room.
     [[nodiscard]] bool Extract(const DeviceMapView& map, const std::int32_t* ids, int count,
-                               int min_weight_steps, SurfaceArrays& out);
+                               const CellLimits& limits, SurfaceArrays& out);
 
   private:
     [[nodiscard]] bool Reserve(std::size_t blocks);
-    [[nodiscard]] bool Count(const DeviceMapView& map, int count, int min_weight_steps);
+    [[nodiscard]] bool Count(const DeviceMapView& map, int count, const CellLimits& limits);
 
     Stream& stream_;
     DeviceSorter sums_;

@@ -29,7 +29,7 @@ struct FindReadBlocks {
 struct ReadCellRows {
     DeviceMapView map;
     const std::int32_t* ids;
-    int min_weight_steps;
+    CellLimits limits;
     RowBits* rows;
 
     TESSERA_HD_MEMBER void operator()(int i) const {
@@ -41,10 +41,10 @@ struct ReadCellRows {
             const VoxelPlace place = PlaceOf(x, y, z);
             const std::int64_t at =
                 static_cast<std::int64_t>(blocks[place.slot]) * kBlockVoxels + place.offset;
-            const std::uint32_t flags = CellFlags(map.field[at], map.weight[at], min_weight_steps);
+            const std::uint32_t flags = CellFlags(map.field[at], map.weight[at], limits);
             bits.inside |= (flags & 1) << x;
             bits.usable |= (flags >> 1 & 1) << x;
-            bits.range_end |= flags >> 2 << x;
+            bits.band_end |= flags >> 2 << x;
         }
         rows[i] = bits;
     }

@@ -8,6 +8,7 @@
 #include <bit>
 #include <cmath>
 
+#include "mapping/block_mesh.h"
 #include "mapping/cell_bits.h"
 #include "mapping/field_sampler.h"
 
@@ -20,7 +21,7 @@ class BlockPoints {
     BlockPoints(const BlockMap& map, const CellGrid& grid, double min_weight)
         : map_(map),
           view_(map.view()),
-          min_weight_steps_(static_cast<int>(std::lround(min_weight * kWeightSteps))),
+          limits_(MakeCellLimits(min_weight, map.config())),
           steps_(static_cast<int>(
               std::ceil(2 * map.config().voxel_size_m / grid.resolution_m - 1e-9))),
           size_(grid.size.cast<float>()) {
@@ -44,7 +45,7 @@ class BlockPoints {
             return;
         std::array<BlockId, 8> blocks;
         std::copy_n(view_.neighbours + 8 * static_cast<std::int64_t>(id), 8, blocks.begin());
-        const CellBits bits(map_, blocks, min_weight_steps_);
+        const CellBits bits(map_, blocks, limits_);
         if (!bits.HasBothSigns()) return;
         const CellRows rows = bits.view();
         const auto has_surface = [&](int x, int y, int z) {
@@ -107,7 +108,7 @@ class BlockPoints {
 
     const BlockMap& map_;
     const BlockMapView view_;
-    const int min_weight_steps_;
+    const CellLimits limits_;
     const int steps_;  // samples per voxel
     const Eigen::Vector3f size_;
     Eigen::Matrix3d cells_from_voxels_;

@@ -74,8 +74,6 @@ class AtomicBuffer : public std::streambuf {
     bool begun_ = false;
 };
 
-bool InBand(FieldWord word) { return HasDistance(word) && std::abs(FieldDistance(word)) < 1; }
-
 // IEC 61966-2-1.
 float LinearOfSrgb(float s) {
     return s <= 0.04045f ? s / 12.92f : std::pow((s + 0.055f) / 1.055f, 2.4f);
@@ -84,12 +82,16 @@ float LinearOfSrgb(float s) {
 // Copies each block to one leaf of each grid.
 class LeafWriter {
   public:
-    LeafWriter(openvdb::FloatGrid& surface, openvdb::Vec3SGrid& colour, float truncation_m)
-        : surface_(surface.tree()), colour_(colour.tree()), truncation_m_(truncation_m) {}
+    LeafWriter(openvdb::FloatGrid& surface, openvdb::Vec3SGrid& colour, const BlockMap::Config& map)
+        : surface_(surface.tree()),
+          colour_(colour.tree()),
+          range_m_(static_cast<float>(map.range_m())),
+          truncation_m_(static_cast<float>(map.truncation_m)) {}
 
     void Add(const BlockMap& map, BlockId id) {
         const FieldWord* field = map.field(id);
-        if (std::none_of(field, field + kBlockVoxels, InBand)) return;
+        const auto in_band = [this](FieldWord word) { return InBand(word); };
+        if (std::none_of(field, field + kBlockVoxels, in_band)) return;
         const BlockCoord c = map.coord(id);
         const openvdb::Coord origin(c.x * kBlockSide, c.y * kBlockSide, c.z * kBlockSide);
         auto& surface = *surface_.touchLeaf(origin);
@@ -98,7 +100,8 @@ class LeafWriter {
             if (!HasDistance(field[i])) continue;
             // x varies fastest in our blocks, z in OpenVDB's leaves.
             const openvdb::Index at = openvdb::Index((i & 7) << 6 | (i & 0x38) | i >> 6);
-            const float distance_m = truncation_m_ * FieldDistance(field[i]);
+            const float distance_m =
+                std::clamp(range_m_ * FieldDistance(field[i]), -truncation_m_, truncation_m_);
             if (!InBand(field[i])) {
                 surface.setValueOff(at, distance_m);
                 continue;
@@ -112,9 +115,16 @@ class LeafWriter {
     }
 
   private:
+    // Rounding may leave a distance at the band's end one step short of it.
+    bool InBand(FieldWord word) const {
+        const float step_m = range_m_ / kDistanceSteps;
+        return HasDistance(word) &&
+               range_m_ * std::abs(FieldDistance(word)) < truncation_m_ - step_m;
+    }
+
     openvdb::FloatTree& surface_;
     openvdb::Vec3STree& colour_;
-    const float truncation_m_;
+    const float range_m_, truncation_m_;
 };
 
 Status Write(const std::string& path, const BlockMap& map) {
@@ -130,7 +140,7 @@ Status Write(const std::string& path, const BlockMap& map) {
     colour->setName("Cd");
     colour->setVectorType(openvdb::VEC_INVARIANT);
     colour->setTransform(transform);
-    LeafWriter leaves(*surface, *colour, truncation_m);
+    LeafWriter leaves(*surface, *colour, map.config());
     for (BlockId id = 1; id < map.size(); ++id)
         if (!map.IsFree(id)) leaves.Add(map, id);
     AtomicFile file(path);

@@ -2,10 +2,12 @@
 // functions on plain types, shared by the CPU code and CUDA.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 
 #include "core/scalar_ops.h"
 #include "mapping/field_sampler.h"
+#include "mapping/truncation_band.h"
 #include "mapping/voxel.h"
 
 namespace tessera {
@@ -29,15 +31,15 @@ TESSERA_HD bool Meets(const WorldBox& box, const BlockCoord& block, double block
 struct BandWalk {
     const float* depth_m;  // 0 = none
     std::int32_t width, height;
-    std::int32_t step;        // ray spacing in pixels, along both image axes
-    std::int32_t walk_steps;  // number of steps across the band
+    std::int32_t step;  // ray spacing in pixels, along both image axes
     double fx, fy, cx, cy;
     // p_world [blocks] = block + part + rotation * p_camera [m]. The separate integer part keeps
     // single precision accurate far from the origin.
     float rotation[9];
     float part[3];
     std::int32_t block[3];
-    float truncation_m;
+    float block_m;
+    TruncationBand band;
 
     TESSERA_HD_MEMBER std::int32_t columns() const { return (width + step - 1) / step; }
     TESSERA_HD_MEMBER std::int32_t rows() const { return (height + step - 1) / step; }
@@ -73,10 +75,12 @@ TESSERA_HD void WalkRay(const BandWalk& walk, std::int32_t column, std::int32_t 
     if (z <= 0 || !HasSupport(walk, x, y)) return;
     const auto ray_x = static_cast<float>((x - walk.cx) / walk.fx),
                ray_y = static_cast<float>((y - walk.cy) / walk.fy);
-    for (int i = 0; i <= walk.walk_steps; ++i) {
+    const float band_m = walk.band.At(z);
+    // Steps of half a block at most.
+    const auto steps = static_cast<int>(std::ceil(4.0f * band_m / walk.block_m));
+    for (int i = 0; i <= steps; ++i) {
         const float along =
-            z + walk.truncation_m *
-                    (2.0f * static_cast<float>(i) / static_cast<float>(walk.walk_steps) - 1.0f);
+            z + band_m * (2.0f * static_cast<float>(i) / static_cast<float>(steps) - 1.0f);
         const float p_camera[3] = {ray_x * along, ray_y * along, along};
         std::int32_t low[3], high[3];
         for (int k = 0; k < 3; ++k) {

@@ -25,6 +25,16 @@ void BlockMap::Config::Describe(ConfigParameters& p) {
     p.Add("truncation_m", truncation_m, {0.002, 2.0}, "m",
           "half width of the band around the surface in which distances are stored; a wider band "
           "tracks faster motion, a narrower one preserves thin objects and costs less");
+    p.Add(
+        "band_per_m", band_per_m, {0.0, 10.0}, "1/m",
+        "around a surface z metres away the band's half width is this times z squared, where that "
+        "is more than truncation_m, and four times truncation_m at most; a run measures it "
+        "(band_sigmas); 0: truncation_m everywhere");
+}
+
+TruncationBand BlockMap::Config::band() const {
+    return {static_cast<float>(truncation_m), static_cast<float>(band_per_m),
+            static_cast<float>(range_m())};
 }
 
 Status BlockMap::Config::Validate() const {
@@ -90,7 +100,7 @@ BlockMapView BlockMap::view() const {
             coords_.data(),
             static_cast<std::uint32_t>(table_.size() - 1),
             static_cast<float>(config_.voxel_size_m),
-            static_cast<float>(config_.truncation_m)};
+            config_.band()};
 }
 
 BlockCoord BlockMap::coord(BlockId id) const {

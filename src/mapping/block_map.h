@@ -25,9 +25,17 @@ inline constexpr BlockId kUnknownBlock = 0;
 
 class BlockMap {
   public:
+    static constexpr double kWidestBand = 4;  // truncations
     struct Config {
         double voxel_size_m = 0.01;
-        double truncation_m = 0.04;  // half width of the band; distances are clamped to it
+        double truncation_m = 0.04;  // half width of the band near the camera
+        double band_per_m = 0;       // TruncationBand::per_m; the band is the same everywhere if 0
+
+        TruncationBand band() const;
+        // The largest distance that is stored: the widest band.
+        double range_m() const {
+            return band_per_m > 0 ? kWidestBand * truncation_m : truncation_m;
+        }
 
         void Describe(ConfigParameters& parameters);
         // Checks conditions between keys. The range of each key is checked when the key is set.

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "mapping/truncation_band.h"
 #include "mapping/voxel.h"
 
 namespace tessera {
@@ -14,7 +15,8 @@ struct BlockMapView {
     const std::int32_t* table;   // hash slots, each a BlockId, 0 = empty
     const std::int32_t* coords;  // [blocks * 4]: x, y, z, number
     std::uint32_t table_mask;
-    float voxel_size_m, truncation_m;
+    float voxel_size_m;
+    TruncationBand band;
 };
 
 }  // namespace tessera

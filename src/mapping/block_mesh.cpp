@@ -105,8 +105,11 @@ void MeshConfig::Describe(ConfigParameters& p) {
           "all, higher values remove larger floating specks");
 }
 
-int MinWeightSteps(double min_weight) {
-    return static_cast<int>(std::ceil(min_weight * kWeightSteps));
+CellLimits MakeCellLimits(double min_weight, const BlockMap::Config& map) {
+    // Fused averages rarely reach the end of the band exactly.
+    constexpr double kNearlyAll = 0.99;
+    return {static_cast<int>(std::ceil(min_weight * kWeightSteps)),
+            static_cast<int>(kNearlyAll * map.truncation_m / map.range_m() * kDistanceSteps)};
 }
 
 std::unique_ptr<const BlockMesh> MeshBlock(const BlockMap& map, BlockId id, double min_weight) {
@@ -114,7 +117,7 @@ std::unique_ptr<const BlockMesh> MeshBlock(const BlockMap& map, BlockId id, doub
     thread_local BlockMesh scratch;
     std::copy_n(map.view().neighbours + 8 * static_cast<std::size_t>(id), 8,
                 scratch.blocks.begin());
-    const CellBits bits(map, scratch.blocks, MinWeightSteps(min_weight));
+    const CellBits bits(map, scratch.blocks, MakeCellLimits(min_weight, map.config()));
     if (!bits.HasBothSigns()) return nullptr;
     scratch.coord = map.coord(id);
     scratch.vertices.clear();

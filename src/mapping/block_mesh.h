@@ -48,12 +48,12 @@ Eigen::Vector3f VertexNormal(const BlockMesh::Vertex& vertex);
 inline constexpr int kMeshReads = 17;
 extern const std::array<std::array<int, 3>, kMeshReads> kMeshReadOffsets;
 
-// Converts a minimum voxel weight to the units of CellFlags.
-int MinWeightSteps(double min_weight);
+// What a mesh asks of a voxel: at least this weight.
+CellLimits MakeCellLimits(double min_weight, const BlockMap::Config& map);
 
 // Meshes one block. Uses only cells whose corners all have a distance and enough weight. Skips
-// cells that contain both ends of the distance range: there the field jumps from free space to
-// behind another surface. Returns null if the block has no vertex and no triangle. Thread-safe
+// cells in which the field falls across a whole band: there it jumps from free space to behind
+// another surface. Returns null if the block has no vertex and no triangle. Thread-safe
 // while nobody writes the map.
 std::unique_ptr<const BlockMesh> MeshBlock(const BlockMap& map, BlockId id, double min_weight);
 

@@ -14,21 +14,21 @@ namespace tessera {
 
 class CellBits {
   public:
-    CellBits(const BlockMap& map, const std::array<BlockId, 8>& blocks, int min_weight_steps) {
+    CellBits(const BlockMap& map, const std::array<BlockId, 8>& blocks, const CellLimits& limits) {
         // Indexed by voxel offset. Of each neighbour, only the part that borders this block is
         // filled.
         std::uint8_t own[kBlockVoxels], above[kBlockVoxels], behind[64], beyond[8];
-        ReadFlags(map, blocks[0], 0, kBlockVoxels, min_weight_steps, own);
+        ReadFlags(map, blocks[0], 0, kBlockVoxels, limits, own);
         for (int z = 0; z < kBlockSide; ++z)
-            ReadFlags(map, blocks[2], 64 * z, 8, min_weight_steps, above + 64 * z);
-        ReadFlags(map, blocks[4], 0, 64, min_weight_steps, behind);
-        ReadFlags(map, blocks[6], 0, 8, min_weight_steps, beyond);
+            ReadFlags(map, blocks[2], 64 * z, 8, limits, above + 64 * z);
+        ReadFlags(map, blocks[4], 0, 64, limits, behind);
+        ReadFlags(map, blocks[6], 0, 8, limits, beyond);
         for (int z = 0; z < CellRows::kSide; ++z)
             for (int y = 0; y < CellRows::kSide; ++y) {
                 const auto [slot, offset] = PlaceOf(0, y, z);
                 const std::uint8_t* parts[4] = {own, above, behind, beyond};
                 std::uint8_t last;
-                ReadFlags(map, blocks[slot | 1], offset, 1, min_weight_steps, &last);
+                ReadFlags(map, blocks[slot | 1], offset, 1, limits, &last);
                 const RowBits row = Row(parts[slot >> 1] + offset, last);
                 any_inside_ |= row.usable & row.inside;
                 any_outside_ |= row.usable & ~row.inside;
@@ -44,10 +44,10 @@ class CellBits {
   private:
     // One byte per voxel.
     static void ReadFlags(const BlockMap& map, BlockId block, int offset, int count,
-                          int min_weight_steps, std::uint8_t* flags) {
+                          const CellLimits& limits, std::uint8_t* flags) {
         const FieldWord* field = map.field(block) + offset;
         const std::uint16_t* weight = map.weight(block) + offset;
-        for (int i = 0; i < count; ++i) flags[i] = CellFlags(field[i], weight[i], min_weight_steps);
+        for (int i = 0; i < count; ++i) flags[i] = CellFlags(field[i], weight[i], limits);
     }
     // Bit i of the result is the lowest bit of byte i.
     static std::uint32_t LowestBits(std::uint64_t bytes) {

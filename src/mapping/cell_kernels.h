@@ -17,21 +17,24 @@ TESSERA_HD VoxelPlace PlaceOf(int x, int y, int z) {
     return {x >> 3 | y >> 3 << 1 | z >> 3 << 2, (x & 7) + 8 * (y & 7) + 64 * (z & 7)};
 }
 
+// What CellFlags asks of a voxel.
+struct CellLimits {
+    int weight;    // least weight, in units of 1/kWeightSteps
+    int band_end;  // distances from here on, in steps, are beyond the narrowest band
+};
+
 // A voxel's flags. Bit 0 (inside): its distance is negative. Bit 1 (usable): it has a distance and
-// enough weight, in units of 1/kWeightSteps. Bit 2 (range end): its distance is at an end of the
-// range.
-TESSERA_HD std::uint8_t CellFlags(FieldWord field, std::uint16_t weight, int min_weight_steps) {
-    // Distances from here on count as the end of the range; fused averages rarely reach it exactly.
-    constexpr int kRangeEnd = static_cast<int>(0.99f * kDistanceSteps);
+// enough weight. Bit 2 (band end): its distance is beyond the narrowest band.
+TESSERA_HD std::uint8_t CellFlags(FieldWord field, std::uint16_t weight, const CellLimits& limits) {
     const int distance = static_cast<std::int32_t>(field) >> 16;
-    const int usable = (distance != -32768) & (weight >= min_weight_steps);
-    const int range_end = (distance >= kRangeEnd) | (distance <= -kRangeEnd);
-    return static_cast<std::uint8_t>((distance < 0) | usable << 1 | range_end << 2);
+    const int usable = (distance != -32768) & (weight >= limits.weight);
+    const int band_end = (distance >= limits.band_end) | (distance <= -limits.band_end);
+    return static_cast<std::uint8_t>((distance < 0) | usable << 1 | band_end << 2);
 }
 
 // Flags of a row's eight voxels and the one after them; bit x is voxel x.
 struct RowBits {
-    std::uint32_t inside, usable, range_end;
+    std::uint32_t inside, usable, band_end;
 };
 
 // A block's rows along x, plus the adjacent rows above it along y and z.
@@ -60,8 +63,8 @@ struct CellRows {
             usable &= r.usable;
             all &= r.inside;
             any |= r.inside;
-            far |= r.range_end & ~r.inside;
-            behind |= r.range_end & r.inside;
+            far |= r.band_end & ~r.inside;
+            behind |= r.band_end & r.inside;
         }
         const std::uint32_t jumps = (far | far >> 1) & (behind | behind >> 1);
         return usable & usable >> 1 & (any | any >> 1) & ~(all & all >> 1) & ~jumps & kRowBits;

@@ -110,7 +110,7 @@ class FieldSampler {
             if (kIntensity) intensity[c] = FieldIntensity(word);
         }
         sample.has_intensity &= sample.has_distance;
-        sample.distance = Scaled(Trilinear(distance, cell.fx, cell.fy, cell.fz), map_.truncation_m);
+        sample.distance = Scaled(Trilinear(distance, cell.fx, cell.fy, cell.fz), map_.band.most_m);
         if (kIntensity)
             sample.intensity = Scaled(Trilinear(intensity, cell.fx, cell.fy, cell.fz), 1.0f);
         return sample;

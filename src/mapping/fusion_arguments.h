@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "mapping/truncation_band.h"
 #include "mapping/voxel.h"
 
 namespace tessera {
@@ -47,7 +48,8 @@ struct FusionArguments {
     float twist_per_s[6];
     float colour_delay_s, depth_readout_s, colour_readout_s;
     std::int32_t origin[3];  // voxels
-    float voxel_size_m, truncation_m;
+    float voxel_size_m;
+    TruncationBand band;
     // Weights.
     DistanceWeight distance_weight;
     ColourWeighting colour_weighting;

@@ -107,7 +107,8 @@ class FusionKernels {
         const Int pixel = NearestPixel(a, p, inside);
         const Real depth = V::Gather(a.depth_m, pixel);
         const Real distance = depth - p.z;  // -([B14] eq. 12)
-        const Mask update = inside && (depth > Real(0.0f)) && (distance >= Real(-a.truncation_m));
+        const Real band = a.band.At(depth);
+        const Mask update = inside && (depth > Real(0.0f)) && (distance >= Real(0.0f) - band);
         if (!V::Any(update)) return;
 
         FieldWord* field = a.field + row.at + x;
@@ -117,7 +118,8 @@ class FusionKernels {
                  V::Load(colour)};
         // Quickly forget a surface that is known to have disappeared.
         if (a.gone_m != nullptr) {
-            const Mask gone = update && (V::Gather(a.gone_m, pixel) - p.z > Real(a.truncation_m));
+            const Real seen = V::Gather(a.gone_m, pixel);
+            const Mask gone = update && (seen - p.z > a.band.At(seen));
             v.weight = V::Select(gone, v.weight * Real(kKeptOfGone), v.weight);
         }
         // Weights below the stored resolution would be lost.
@@ -126,11 +128,11 @@ class FusionKernels {
         const Bits address =
             Bits(row.seed + static_cast<std::uint32_t>(x)) + V::AsBits(V::ToInt(V::Numbers()));
         const Bits dither = DitherBits(address, a.frame);
-        FuseDistance(a, update, distance, weight, dither, v);
+        FuseDistance(a, update, V::Min(distance, band), weight, dither, v);
         V::Store(v.field, field);
         V::Store(V::ToInt(v.weight * Real(kWeightSteps) + Real(0.5f)), weight_steps);
 
-        Mask coloured = update && (distance <= Real(a.truncation_m));
+        Mask coloured = update && (distance <= band);
         if (a.packed_colour == nullptr || !V::Any(coloured)) return;
         const Point q =
             a.moving
@@ -222,8 +224,7 @@ class FusionKernels {
     TESSERA_HD_MEMBER static void FuseDistance(const FusionArguments& a, const Mask& update,
                                                const Real& distance, const Real& weight,
                                                const Bits& dither, Voxels& v) {
-        const Real truncated = V::Min(distance, Real(a.truncation_m));
-        const Real steps = truncated * Real(kDistanceSteps / a.truncation_m);
+        const Real steps = distance * Real(kDistanceSteps / a.band.most_m);
         const Real old_steps = V::ToReal(V::AsInt(v.field) >> 16);
         const Real average = WeightedAverage(old_steps, v.weight, steps, weight);
         Int rounded = DitheredRound(average, dither & Bits(0xffffu));

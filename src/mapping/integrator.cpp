@@ -65,12 +65,12 @@ BandWalk MakeBandWalk(const PreparedFrame& frame, const PinholeCamera& camera,
     // Space rays at most half a block apart at the farthest depth.
     walk.step = std::clamp(
         static_cast<int>(0.5 * block_m * camera.fx / std::max(frame.farthest_m, 0.1f)), 1, 8);
-    walk.walk_steps = static_cast<int>(std::ceil(4.0 * map.truncation_m / block_m));
     walk.fx = camera.fx;
     walk.fy = camera.fy;
     walk.cx = camera.cx;
     walk.cy = camera.cy;
-    walk.truncation_m = static_cast<float>(map.truncation_m);
+    walk.block_m = static_cast<float>(block_m);
+    walk.band = map.band();
     const Eigen::Matrix3f R = T_world_camera.linear().cast<float>() / static_cast<float>(block_m);
     const Eigen::Vector3d t = T_world_camera.translation() / block_m;
     for (int i = 0; i < 3; ++i) {
@@ -188,7 +188,7 @@ FusionArguments MakeFusionArguments(const PreparedFrame& frame, const Integrator
     a.moving = !view.motion.twist_per_s.isZero();
     for (int i = 0; i < 3; ++i) a.origin[i] = static_cast<std::int32_t>(origin[i]);
     a.voxel_size_m = static_cast<float>(voxel_m);
-    a.truncation_m = static_cast<float>(map.truncation_m);
+    a.band = map.band();
     a.distance_weight = config.distance_weight;
     a.colour_weighting = config.colour_weighting;
     a.epsilon_m = static_cast<float>(config.epsilon_m);

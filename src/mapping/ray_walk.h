@@ -44,8 +44,8 @@ class RayWalker {
 
     TESSERA_HD_MEMBER explicit RayWalker(const RayArguments& a)
         : a_(a),
-          to_voxels_(a.truncation_m / (kDistanceSteps * a.voxel_size_m)),
-          range_(0.99f * a.truncation_m / a.voxel_size_m) {}
+          to_voxels_(a.band.most_m / (kDistanceSteps * a.voxel_size_m)),
+          jump_(0.99f * a.band.least_m / a.voxel_size_m) {}
 
     // The first surface of each `walking` lane between two depths.
     TESSERA_HD_MEMBER Hits FirstSurface(const Rays& rays, Mask walking, float first_m,
@@ -180,11 +180,11 @@ class RayWalker {
     }
 
     // Refines the zeros between the front and back points of crossed lanes, by regula falsi with
-    // the Illinois rule. A lane finds nothing if a distance is unknown or the drop spans the whole
-    // range.
+    // the Illinois rule. A lane finds nothing if a distance is unknown or the drop spans a whole
+    // band: from free space to behind another surface.
     TESSERA_HD_MEMBER Hits Refine(const Rays& rays, const Walk& w) {
         Real a_z = w.front_z, a = w.front, b_z = w.z, b = w.distance;
-        Mask pending = w.crossed && V::Not((a > Real(range_)) && (b < Real(-range_)));
+        Mask pending = w.crossed && V::Not((a > Real(jump_)) && (b < Real(-jump_)));
         Mask last_front(false), last_behind(false);
         Hits hits{Mask(false), Real(0.0f)};
         for (int i = 0; i < kRefinements && V::Any(pending); ++i) {
@@ -210,7 +210,7 @@ class RayWalker {
 
     const RayArguments& a_;
     const float to_voxels_;  // converts distance steps
-    const float range_;      // nearly the largest distance
+    const float jump_;       // nearly the narrowest band
     Blocks blocks_;
 };
 

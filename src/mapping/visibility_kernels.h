@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "core/scalar_ops.h"
+#include "mapping/truncation_band.h"
 #include "mapping/voxel.h"
 
 namespace tessera {
@@ -32,7 +33,8 @@ struct ViewCone {
     double rotation[9], translation[3];  // T_camera_world, row-major
     double planes[4][3];                 // inward unit normals
     double far_m;
-    double voxel_size_m, truncation_m;
+    double voxel_size_m;
+    TruncationBand band;
     RegionBox regions;  // around the frustum
 
     TESSERA_HD_MEMBER void ToCamera(const double* p_world, double* p_camera) const {
@@ -66,11 +68,13 @@ TESSERA_HD bool MayChange(const DepthTileView& tiles, const ViewCone& cone, cons
         const double at = std::floor(pixel / kDepthTilePx);
         return at < 0 ? 0 : (at < count ? static_cast<std::int32_t>(at) : count - 1);
     };
-    const double near_z = c[2] - radius_m - cone.truncation_m;
+    const double near_z = c[2] - radius_m;
     const std::int32_t last_x = tile(u + ru, tiles.width), last_y = tile(v + rv, tiles.height);
     for (std::int32_t ty = tile(v - rv, tiles.height); ty <= last_y; ++ty)
-        for (std::int32_t tx = tile(u - ru, tiles.width); tx <= last_x; ++tx)
-            if (tiles.farthest_m[ty * tiles.width + tx] > near_z) return true;
+        for (std::int32_t tx = tile(u - ru, tiles.width); tx <= last_x; ++tx) {
+            const float farthest_m = tiles.farthest_m[ty * tiles.width + tx];
+            if (farthest_m + cone.band.At(farthest_m) > near_z) return true;
+        }
     return false;
 }
 

@@ -23,9 +23,11 @@ void DepthTiles::Build(const DepthImage& depth) {
 }
 
 ViewCone MakeViewCone(const PinholeCamera& camera, const Eigen::Isometry3d& T_world_camera,
-                      double far_m, const BlockMap::Config& map) {
-    ViewCone cone{camera.fx, camera.fy, camera.cx,        camera.cy,        {}, {},
-                  {},        far_m,     map.voxel_size_m, map.truncation_m, {}};
+                      float farthest_m, const BlockMap::Config& map) {
+    const TruncationBand band = map.band();
+    const double far_m = farthest_m + band.At(farthest_m);
+    ViewCone cone{camera.fx, camera.fy, camera.cx,        camera.cy, {}, {},
+                  {},        far_m,     map.voxel_size_m, band,      {}};
     const Eigen::Isometry3d T_camera_world = T_world_camera.inverse();
     for (int i = 0; i < 3; ++i) {
         for (int j = 0; j < 3; ++j) cone.rotation[3 * i + j] = T_camera_world.linear()(i, j);
@@ -60,8 +62,7 @@ const std::vector<BlockId>& VisibleBlocks::Find(const BlockMap& map, const Pinho
                                                 const Eigen::Isometry3d& T_world_camera,
                                                 const DepthImage& depth_m, float farthest_m) {
     tiles_.Build(depth_m);
-    const ViewCone cone =
-        MakeViewCone(camera, T_world_camera, farthest_m + map.config().truncation_m, map.config());
+    const ViewCone cone = MakeViewCone(camera, T_world_camera, farthest_m, map.config());
     const double region_m = map.config().voxel_size_m * kBlockSide * kRegionBlocks;
     candidates_.clear();
     for (int z = cone.regions.first[2]; z <= cone.regions.last[2]; ++z)

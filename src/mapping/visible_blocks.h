@@ -20,9 +20,10 @@ struct DepthTiles {
     DepthTileView view() const { return {farthest_m.data(), width, height}; }
 };
 
-// The frustum of a camera at this pose, up to `far_m`, for a map of this configuration.
+// The frustum of a camera at this pose, up to the end of the band around a measurement at
+// `farthest_m`, for a map of this configuration.
 ViewCone MakeViewCone(const PinholeCamera& camera, const Eigen::Isometry3d& T_world_camera,
-                      double far_m, const BlockMap::Config& map);
+                      float farthest_m, const BlockMap::Config& map);
 
 // Finds block ids in increasing order. Owner thread only; uses TBB internally.
 class VisibleBlocks {

@@ -18,14 +18,14 @@ inline constexpr int kBlockVoxels = kBlockSide * kBlockSide * kBlockSide;
 
 // Geometry and intensity in one 32-bit word. The tracker reads both at eight corners, so each
 // corner is one gather. Low half: intensity, 0 = none yet, else 1 + round(65534 * intensity). High
-// half: signed distance in truncations, two's complement, -32768 = none yet, else round(32767 *
-// distance / truncation).
+// half: signed distance in ranges (BlockMap::Config::range_m), two's complement, -32768 = none yet,
+// else round(32767 * distance / range).
 using FieldWord = std::uint32_t;
 inline constexpr FieldWord kUnknownField = 0x80000000u;
 inline constexpr float kDistanceSteps = 32767.0f;
 inline constexpr float kIntensitySteps = 65534.0f;
 
-// Signed distance in truncations, [-1, 1]; positive in front of the surface. Requires HasDistance.
+// Signed distance in ranges, [-1, 1]; positive in front of the surface. Requires HasDistance.
 TESSERA_HD float FieldDistance(FieldWord w) {
     return static_cast<float>(static_cast<std::int32_t>(w) >> 16) * (1.0f / kDistanceSteps);
 }

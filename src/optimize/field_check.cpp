@@ -81,13 +81,14 @@ TrackResult FieldCheck::Track(const PreparedFrame& frame, const FrameMotion& mot
                            .motion = motion});
 }
 
-// Share of the points inside the known field that lie within half the truncation distance of its
+// Share of the points inside the known field that lie within half the band of its
 // surface.
 double FieldCheck::InlierShare(const PreparedFrame& frame,
                                const Eigen::Isometry3d& T_field_camera) const {
     constexpr int kStep = 8;
     FieldSampler sampler(map_.view(), BlockCoord{0, 0, 0});
     const double per_voxel = 1 / settings_.map.voxel_size_m;
+    const TruncationBand band = settings_.map.band();
     int known = 0, fit = 0;
     for (int y = kStep / 2; y < frame.depth_m.height(); y += kStep)
         for (int x = kStep / 2; x < frame.depth_m.width(); x += kStep) {
@@ -98,7 +99,7 @@ double FieldCheck::InlierShare(const PreparedFrame& frame,
             const FieldSample sample = sampler.Sample<false>(sampler.Locate(p.x(), p.y(), p.z()));
             if (!sample.has_distance) continue;
             ++known;
-            fit += std::abs(sample.distance.value) < 0.5 * settings_.map.truncation_m;
+            fit += std::abs(sample.distance.value) < 0.5f * band.At(z);
         }
     return known > 0 ? static_cast<double>(fit) / known : 0;
 }

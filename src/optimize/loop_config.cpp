@@ -30,7 +30,7 @@ void LoopConfig::Describe(ConfigParameters& p) {
     p.Add("min_known_fraction", min_known_fraction, {0.0, 1.0}, "",
           "share of the depth that must lie in the known part of the other side's field");
     p.Add("min_fit", min_fit, {0.0, 1.0}, "",
-          "share of that depth that must lie within half the truncation distance of the surface");
+          "share of that depth that must lie within half the band of the surface");
     p.Add("max_disagreement_m", max_disagreement_m, {0.0, 1.0}, "m",
           "largest difference between the alignments of new to old and of old to new; the same "
           "number applies in radians");

@@ -17,7 +17,7 @@ constexpr int kViews = 8, kTries = 20;
 constexpr int kWaits = 4;  // half a second each
 constexpr std::int64_t kLeastSamples = 1000;
 // A band that is wider by less changes nothing that could be measured.
-constexpr double kClearly = 1.25, kAtMost = 4;
+constexpr double kClearly = 1.25;
 
 // A source of which some results were read before the run: delivers them first.
 class ReplayedSource : public FrameSource {
@@ -68,7 +68,7 @@ bool NextFrame(FrameSource& source, const std::atomic<bool>& stop,
 DepthScatter Typical(std::vector<DepthScatter> views) {
     if (views.empty()) return {};
     const auto middle = views.begin() + static_cast<std::ptrdiff_t>(views.size() / 2);
-    std::ranges::nth_element(views, middle, {}, &DepthScatter::sigma_m);
+    std::ranges::nth_element(views, middle, {}, &DepthScatter::sigma_per_m);
     return *middle;
 }
 
@@ -101,15 +101,19 @@ std::string FitBandToNoise(const FrameSelection& selection, PipelineConfig& conf
                            std::unique_ptr<FrameSource>& source, const std::atomic<bool>& stop) {
     if (config.band_sigmas <= 0) return {};
     const DepthScatter seen = LookAt(selection, config.frame.max_depth_m, stop, source);
-    const double given_m = config.map.truncation_m,
-                 needed_m = std::min(config.band_sigmas * seen.sigma_m, kAtMost * given_m);
-    if (needed_m < kClearly * given_m) return {};
-    config.map.truncation_m = needed_m;
+    BlockMap::Config& map = config.map;
+    map.band_per_m = config.band_sigmas * seen.sigma_per_m;
+    const auto band_mm = [&](double depth_m) {
+        return 1000 * map.band().At(static_cast<float>(depth_m));
+    };
+    const double clearly_mm = kClearly * 1000 * map.truncation_m;
+    if (band_mm(config.frame.max_depth_m) < clearly_mm) map.band_per_m = 0;
+    if (band_mm(seen.depth_m) < clearly_mm) return {};
     return fmt::format(
-        "this camera's depth scatters by {:.0f} mm at {:.1f} m: the map's band is {:.0f} mm "
-        "instead "
-        "of {:.0f}",
-        1000 * seen.sigma_m, seen.depth_m, 1000 * needed_m, 1000 * given_m);
+        "this camera's depth scatters by {:.0f} mm at {:.1f} m: the map's band is {:.0f} mm there "
+        "instead of {:.0f}",
+        1000 * seen.sigma_per_m * seen.depth_m * seen.depth_m, seen.depth_m, band_mm(seen.depth_m),
+        1000 * map.truncation_m);
 }
 
 }  // namespace tessera

@@ -39,7 +39,9 @@ RunConfig ConfigOf(const ScanMeta& meta) {
     config.Describe(parameters);
     // Keys of another version that cannot be read keep their defaults.
     static_cast<void>(parameters.LoadYaml(meta.configuration, "scan"));
-    config.pipeline.map = {.voxel_size_m = meta.voxel_size_m, .truncation_m = meta.truncation_m};
+    config.pipeline.map = {.voxel_size_m = meta.voxel_size_m,
+                           .truncation_m = meta.truncation_m,
+                           .band_per_m = meta.band_per_m};
     return config;
 }
 

@@ -39,7 +39,8 @@ Result<std::vector<BlockCoord>> ReadBlockOrder(ScanFile& file) {
 Status ReadMap(ScanFile& file, bool labels, ScanContent& content) {
     const ScanMeta& meta = content.meta;
     const BlockMap::Config config{.voxel_size_m = meta.voxel_size_m,
-                                  .truncation_m = meta.truncation_m};
+                                  .truncation_m = meta.truncation_m,
+                                  .band_per_m = meta.band_per_m};
     Result<std::vector<BlockCoord>> order = ReadBlockOrder(file);
     if (!order.ok()) return order.status();
     content.map = std::make_unique<BlockMap>(config);

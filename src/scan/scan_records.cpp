@@ -31,6 +31,7 @@ Bytes ScanMeta::Encode() const {
     for (const double value : {depth_units_per_m, voxel_size_m, truncation_m}) state.Put(value);
     state.Put(loops);
     state.Put(configuration);
+    if (band_per_m > 0) state.Put(band_per_m);  // earlier programs have none
     return bytes;
 }
 
@@ -41,7 +42,10 @@ bool ScanMeta::Decode(std::span<const std::uint8_t> bytes) {
     if (!GetCamera(state, camera)) return false;
     for (double* value : {&depth_units_per_m, &voxel_size_m, &truncation_m})
         if (!state.Get(*value) || !(*value > 0) || !std::isfinite(*value)) return false;
-    return state.Get(loops) && state.Get(configuration) && state.at_end();
+    if (!state.Get(loops) || !state.Get(configuration)) return false;
+    band_per_m = 0;
+    if (state.at_end()) return true;
+    return state.Get(band_per_m) && band_per_m > 0 && std::isfinite(band_per_m) && state.at_end();
 }
 
 Bytes PathRecord::Encode() const {

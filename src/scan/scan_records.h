@@ -24,7 +24,7 @@ struct ScanMeta {
     std::string source_name, source_kind;
     PinholeCamera camera;
     double depth_units_per_m = 5000;
-    double voxel_size_m = 0, truncation_m = 0;
+    double voxel_size_m = 0, truncation_m = 0, band_per_m = 0;
     bool loops = false;         // loop closure is on: keyframes and frames are stored
     std::string configuration;  // the complete configuration as YAML
 

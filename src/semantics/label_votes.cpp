@@ -90,15 +90,15 @@ std::vector<BlockId> BlocksOf(const Voting& v, const Eigen::Isometry3d& T_world_
 }
 
 // Returns the claims of the pixel that sees the point; empty if no pixel does.
-Claims ClaimsAt(const Voting& v, const Eigen::Vector3d& p_camera, double truncation_m) {
+Claims ClaimsAt(const Voting& v, const Eigen::Vector3d& p_camera, const TruncationBand& band) {
     if (p_camera.z() < 0.01) return {};
     const Eigen::Vector2d pixel = v.camera.Project(p_camera);
     if (!(std::abs(pixel.x()) < 1e6) || !(std::abs(pixel.y()) < 1e6)) return {};
     const int x = static_cast<int>(std::lround(pixel.x())),
               y = static_cast<int>(std::lround(pixel.y()));
     if (!v.depth_m.Contains(x, y)) return {};
-    const double z = v.depth_m(x, y);
-    if (z <= 0 || std::abs(z - p_camera.z()) > truncation_m) return {};
+    const float z = v.depth_m(x, y);
+    if (z <= 0 || std::abs(z - p_camera.z()) > band.At(z)) return {};
     return {v.labels.detection(x, y), v.labels.second(x, y)};
 }
 
@@ -109,14 +109,15 @@ bool IsSettledOnObject(const VoxelLabel& voxel) {
 VoteCount VoteInBlock(const Voting& v, BlockId id, BlockMap& map) {
     VoteCount count;
     const BlockCoord c = map.coord(id);
-    const double voxel_m = map.config().voxel_size_m, truncation_m = map.config().truncation_m;
-    const float band = static_cast<float>(v.band_m / truncation_m);
+    const double voxel_m = map.config().voxel_size_m;
+    const TruncationBand band = map.config().band();
+    const float farthest = static_cast<float>(v.band_m) / band.most_m;
     const FieldWord* field = map.field(id);
     for (int i = 0; i < kBlockVoxels; ++i) {
-        if (!HasDistance(field[i]) || std::abs(FieldDistance(field[i])) > band) continue;
+        if (!HasDistance(field[i]) || std::abs(FieldDistance(field[i])) > farthest) continue;
         const Eigen::Vector3d voxel(8.0 * c.x + (i & 7), 8.0 * c.y + (i >> 3 & 7),
                                     8.0 * c.z + (i >> 6));
-        const Claims claims = ClaimsAt(v, v.T_camera_world * (voxel * voxel_m), truncation_m);
+        const Claims claims = ClaimsAt(v, v.T_camera_world * (voxel * voxel_m), band);
         if (claims.first == 0) continue;
         VoxelLabel& voxel_label = map.label(id)[i];
         const Vote vote = VoteOf(v, claims, voxel_label);

@@ -22,11 +22,9 @@ void PipelineConfig::Describe(ConfigParameters& p) {
     p.Section("frame", [&](ConfigParameters& s) { frame.Describe(s); });
     p.Section("mapping", [&](ConfigParameters& s) {
         map.Describe(s);
-        s.Add(
-            "band_sigmas", band_sigmas, {0.0, 10.0}, "",
-            "if the camera's depth scatters so much that truncation_m is less than this many "
-            "standard deviations at the median depth of the first seconds, the band is widened to "
-            "that; 0 leaves it as given");
+        s.Add("band_sigmas", band_sigmas, {0.0, 10.0}, "",
+              "where truncation_m is less than this many standard deviations of the depth, as the "
+              "first seconds show them, the band is wider: sets band_per_m; 0 leaves it as given");
         fusion.Describe(s);
         paging.Describe(s);
         device.Describe(s);

@@ -26,8 +26,8 @@ struct ShutterConfig {
 struct PipelineConfig {
     PreparedFrame::Config frame;
     BlockMap::Config map;
-    // The band is at least this many standard deviations of the depth in the first views; 0: as
-    // given.
+    // A run sets map.band_per_m to this many standard deviations of inverse depth in the first
+    // views; 0: as given.
     double band_sigmas = 4;
     Integrator::Config fusion;
     PagingConfig paging;

@@ -15,6 +15,7 @@ struct ScanKey {
 std::vector<ScanKey> KeysOf(const ScanMeta& meta) {
     return {{"mapping.voxel_size_m", fmt::format("{}", meta.voxel_size_m)},
             {"mapping.truncation_m", fmt::format("{}", meta.truncation_m)},
+            {"mapping.band_per_m", fmt::format("{}", meta.band_per_m)},
             {"loops.enabled", meta.loops ? "true" : "false"}};
 }
 
@@ -73,6 +74,7 @@ Result<ScanPlan> BeginScan(const std::string& path, const SourceInfo& source, Ru
     meta.depth_units_per_m = source.depth_units_per_m;
     meta.voxel_size_m = config.pipeline.map.voxel_size_m;
     meta.truncation_m = config.pipeline.map.truncation_m;
+    meta.band_per_m = config.pipeline.map.band_per_m;
     meta.loops = config.loops.enabled;
     ConfigParameters parameters;
     config.Describe(parameters);

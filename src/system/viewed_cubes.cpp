@@ -9,7 +9,7 @@ namespace {
 // Fusion reads and writes this far around the measured surface, and tracking beyond that.
 double MarginOf(const BlockMap::Config& map) {
     constexpr double kPoses_m = 0.3;  // tracking tries poses around the one it finds
-    return map.truncation_m + 2 * kBlockSide * map.voxel_size_m + kPoses_m;
+    return map.range_m() + 2 * kBlockSide * map.voxel_size_m + kPoses_m;
 }
 
 // The camera's measuring range.

@@ -2,6 +2,7 @@
 // plain pointers and numbers. Shared by the CPU's SIMD kernels and CUDA.
 #pragma once
 
+#include "mapping/truncation_band.h"
 #include "tracking/view_arguments.h"
 
 namespace tessera {
@@ -19,7 +20,7 @@ struct IcpArguments : ViewArguments {  // the image is the predicted view
     float intensity_gate;
     float alpha;
     float gain, offset;
-    float inlier_distance_m;  // for SumLayout::kInliers
+    TruncationBand band;  // of the map
     // Residuals per point, NaN where there is none: at this pose, and at the previous one (null at
     // first).
     float* distance_residual;

@@ -93,9 +93,11 @@ class IcpKernels {
         for (int k = 0; k < 3; ++k) V::Store(n[k], a.gradient[k] + i);
         Add(sums, L::kDistanceError, w * residual * residual);
         Add(sums, L::kDistanceWeight, w);
+        const Real band = a.band.At(V::Load(a.z + i));
+        Add(sums, L::kBand, w * band * band);
         Add(sums, L::kKnown, Masked(known, Real(1.0f)));
         Add(sums, L::kInliers,
-            Masked(matched && (V::Abs(residual) < Real(a.inlier_distance_m)), Real(1.0f)));
+            Masked(matched && (V::Abs(residual) < Real(0.5f) * band), Real(1.0f)));
         AddEnergy(a.distance_residual, a.distance_before, i, matched, residual, scale, weight,
                   sums);
         return matched;

@@ -138,7 +138,7 @@ void IcpTracker::PrepareLevel(const TrackInput& input, int level, State& state) 
     a.alpha = static_cast<float>(state.alpha);
     a.intensity_scale = static_cast<float>(residual_model_.config().intensity_scale);
     a.intensity_gate = static_cast<float>(kIntensityGateScales) * a.intensity_scale;
-    a.inlier_distance_m = static_cast<float>(0.5 * input.map.config().truncation_m);
+    a.band = input.map.config().band();
     for (PointResiduals* residuals : {&residuals_, &trial_residuals_})
         residuals->Resize(points.count());
 }

@@ -31,14 +31,16 @@ struct SumLayout {
     static constexpr int kDistanceWeight = 73;      // sum of w
     static constexpr int kIntensityWeight = 74;
     static constexpr int kKnown = 75;     // points with a known distance
-    static constexpr int kInliers = 76;   // of these, those with |r| below the inlier distance
+    static constexpr int kInliers = 76;   // of these, those with |r| below half the band
     static constexpr int kColoured = 77;  // points with a known intensity
     // For methods that accept or reject steps: the robust energy ([B14] eq. 8, with alpha) of the
     // residuals that exist both here and at the previous pose, and the energy of the same residuals
     // there.
     static constexpr int kEnergy = 78;
     static constexpr int kEnergyBefore = 79;
-    static constexpr int kCount = 80;
+    static constexpr int kBand =
+        80;  // sum of w b^2, b: half width of the band at the point's depth
+    static constexpr int kCount = 81;
 };
 
 // Huber's weight: 1 up to the scale, then scale / |r|.

@@ -29,7 +29,6 @@ struct SdfArguments : BlockMapView {
     bool normalise;  // divide distances by their gradient's length where it exceeds 1
     float gain, offset;
     float distance_scale_m, intensity_scale;  // Huber
-    float inlier_distance_m;                  // for SumLayout::kInliers
     // If not null: receive the residuals per point, NaN where unknown, and the distances' gradients
     // in the axes of the local coordinates.
     float* distance_residual;

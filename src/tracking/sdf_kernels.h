@@ -46,7 +46,7 @@ class SdfKernels {
             StoreResidual(a.intensity_residual, i, known, Real(0.0f));
             return;
         }
-        AddDistance(a, i, p, fraction, words, known, weight, sums);
+        AddDistance(a, i, z, p, fraction, words, known, weight, sums);
         if (a.use_intensity) AddColour(a, i, p, fraction, index, words, known, weight, sums);
     }
 
@@ -77,15 +77,15 @@ class SdfKernels {
     }
 
     // The geometric half of [B14] eq. 10: r = psi(p).
-    TESSERA_HD_MEMBER static void AddDistance(const SdfArguments& a, int i, const Real* p,
-                                              const Real* fraction, const Int* words,
+    TESSERA_HD_MEMBER static void AddDistance(const SdfArguments& a, int i, const Real& depth,
+                                              const Real* p, const Real* fraction, const Int* words,
                                               const Mask& known, const Real& point_weight,
                                               Real* sums) {
         Real corner[8];
         for (int c = 0; c < 8; ++c) corner[c] = V::ToReal(words[c] >> 16);
         const auto s = Trilinear(corner, fraction[0], fraction[1], fraction[2]);
-        const Real to_m(a.truncation_m / kDistanceSteps),
-            slope(a.truncation_m / (kDistanceSteps * a.voxel_size_m));
+        const Real to_m(a.band.most_m / kDistanceSteps),
+            slope(a.band.most_m / (kDistanceSteps * a.voxel_size_m));
         // A distance measured along a slanted ray is too long, and so is its gradient: divide by
         // the gradient's length.
         Real steepness(1.0f);
@@ -103,10 +103,12 @@ class SdfKernels {
         AddPoseTerm(j, residual, w, sums + L::kDistance);
         Add(sums, L::kDistanceError, w * residual * residual);
         Add(sums, L::kDistanceWeight, w);
+        const Real band = a.band.At(depth);
+        Add(sums, L::kBand, w * band * band);
         const Mask counted = known && (point_weight > Real(0.0f));
         Add(sums, L::kKnown, Masked(counted, Real(1.0f)));
         Add(sums, L::kInliers,
-            Masked(counted && (V::Abs(residual) < Real(a.inlier_distance_m)), Real(1.0f)));
+            Masked(counted && (V::Abs(residual) < Real(0.5f) * band), Real(1.0f)));
         StoreResidual(a.distance_residual, i, counted, residual);
         if (a.distance_residual == nullptr) return;
         for (int k = 0; k < 3; ++k) V::Store(g[k], a.gradient[k] + i);

@@ -110,7 +110,6 @@ void SdfTracker::PrepareLevel(const TrackInput& input, int level, State& state) 
     a.normalise = config_.normalise;
     a.distance_scale_m = static_cast<float>(config_.distance_scale_m);
     a.intensity_scale = static_cast<float>(residual_model_.config().intensity_scale);
-    a.inlier_distance_m = 0.5f * a.truncation_m;
     if (level > 0) return;
     residuals_.Resize(points.count());
     a.distance_residual = residuals_.distance_m.data();

@@ -26,8 +26,10 @@ bool TrackJudge::Fits(std::int64_t points, const PoseSums& sums, TrackResult& re
     const double known = sums[L::kKnown];
     result.known_fraction = known / static_cast<double>(std::max<std::int64_t>(points, 1));
     result.inlier_fraction = known > 0 ? sums[L::kInliers] / known : 0;
-    if (sums[L::kDistanceWeight] > 0)
+    if (sums[L::kDistanceWeight] > 0) {
         result.distance_rms_m = std::sqrt(sums[L::kDistanceError] / sums[L::kDistanceWeight]);
+        result.band_m = std::sqrt(sums[L::kBand] / sums[L::kDistanceWeight]);
+    }
     if (sums[L::kIntensityWeight] > 0)
         result.intensity_rms = std::sqrt(sums[L::kIntensityError] / sums[L::kIntensityWeight]);
     result.status = TrackStatus::kLost;
@@ -72,7 +74,7 @@ TrackStatus TrackJudge::Status(const TrackInput& input, TrackResult& result) con
                        fmt::format("jumped by {:.2f} m and {:.2f} rad", moved_m, turned_rad));
     if (result.inlier_fraction < config_.good_inlier_fraction)
         return because(kPoor, Misfit(result));
-    if (result.distance_rms_m > config_.good_distance_share * input.map.config().truncation_m)
+    if (result.distance_rms_m > config_.good_distance_share * result.band_m)
         return because(
             kPoor, fmt::format("the depth is {:.1f} cm off the map", 100 * result.distance_rms_m));
     if (!Follows(input.T_world_camera_starts.front(), result.T_world_camera))
@@ -92,12 +94,12 @@ void TrackJudge::Config::Describe(ConfigParameters& p) {
           "tracking is lost if a smaller fraction of the depth lies in the map");
     p.Add("min_inlier_fraction", min_inlier_fraction, {0.0, 1.0}, "",
           "tracking is lost if a smaller fraction of the known depth fits within half the "
-          "truncation");
+          "band");
     p.Add("good_inlier_fraction", good_inlier_fraction, {0.0, 1.0}, "",
           "the frame is not fused if a smaller fraction of the known depth fits");
     p.Add("good_distance_share", good_distance_share, {0.0, 10.0}, "",
           "the frame is not fused if the robust residual of the depth is larger than this share of "
-          "the truncation");
+          "the band");
     p.Add("max_jump_m", max_jump_m, {0.0, 100.0}, "m",
           "tracking is lost if the camera moved farther from one frame to the next");
     p.Add("max_jump_rad", max_jump_rad, {0.0, 3.2}, "rad",

@@ -48,8 +48,9 @@ struct TrackResult {
     // Some motion is constrained less well than TrackJudge requires. The frame may still be fused.
     bool degenerate = false;
     double known_fraction = 0;   // fraction of the points where the map knows the distance
-    double inlier_fraction = 0;  // fraction of the known points within half the truncation
+    double inlier_fraction = 0;  // fraction of the known points within half the band
     double distance_rms_m = 0;   // robustly weighted
+    double band_m = 0;           // half width of the band at the points, weighted alike
     double intensity_rms = 0;    // [0, 1]; 0 without photometric term
     // Standard deviation of the least constrained motion. A rotation counts at the scene's depth.
     double uncertainty_m = 0;

@@ -79,7 +79,7 @@ struct IcpRig {
         a.alpha = 0.05f;
         a.gain = 1.02f;
         a.offset = -0.01f;
-        a.inlier_distance_m = 0.02f;
+        a.band = {0.04f, 0.02f, 0.1f};
         a.distance_residual = distance.data();
         a.intensity_residual = intensity.data();
         for (auto& values : gradient) values.resize(distance.size());

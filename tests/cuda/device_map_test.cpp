@@ -28,7 +28,7 @@ struct MapRig {
         : memory(limit_bytes),
           depth(memory),
           tiles(memory),
-          map(kMap.voxel_size_m, kMap.truncation_m, memory, stream) {
+          map(kMap.voxel_size_m, kMap.band(), memory, stream) {
         EXPECT_TRUE(map.Clear());
     }
 
@@ -89,8 +89,8 @@ TEST(DeviceMap, SeesTheBlocksThatTheIntegratorSees) {
         rig.Allocate(frame);
         DepthTiles tiles;
         tiles.Build(frame.prepared.depth_m);
-        const ViewCone cone = MakeViewCone(DeskCamera(), frame.T_world_camera,
-                                           frame.prepared.farthest_m + kMap.truncation_m, kMap);
+        const ViewCone cone =
+            MakeViewCone(DeskCamera(), frame.T_world_camera, frame.prepared.farthest_m, kMap);
         const int count = rig.map.FindVisible(tiles.view(), cone);
         ASSERT_EQ(count, static_cast<int>(integrator.changed_blocks().size()));
         for (int i = 0; i < count; ++i)

@@ -90,7 +90,6 @@ TEST(DevicePipeline, SumsAreTheProcessorsToTheBit) {
     a.gain = 1;
     a.distance_scale_m = 0.02f;
     a.intensity_scale = 0.1f;
-    a.inlier_distance_m = 0.02f;
     PointResiduals found;
     found.Resize(points.count());
     a.distance_residual = found.distance_m.data();

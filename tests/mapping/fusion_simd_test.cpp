@@ -69,7 +69,7 @@ struct Scene {
         a.depth_readout_s = a.colour_readout_s = 0.03f;
         a.origin[0] = 3;
         a.voxel_size_m = 0.02f;
-        a.truncation_m = 0.2f;
+        a.band = {0.1f, 0.05f, 0.3f};
         a.epsilon_m = 0.025f;
         a.sigma = 60;
         a.max_weight = 100;

@@ -26,6 +26,7 @@ class ScalarRayWalker {
         const double voxel_m = map.config().voxel_size_m;
         voxel_m_ = static_cast<float>(voxel_m);
         truncation_m_ = static_cast<float>(map.config().truncation_m);
+        range_m_ = static_cast<float>(map.config().range_m());
         const BlockCoord origin = OriginOf(map, T_world_camera);
         start_ = (T_world_camera.translation() / voxel_m -
                   kBlockSide * Eigen::Vector3d(origin.x, origin.y, origin.z))
@@ -88,7 +89,7 @@ class ScalarRayWalker {
     Distance DistanceAt(const FieldCell& cell) const {
         const FieldWord word = sampler_.Nearest(cell);
         if (!HasDistance(word)) return {false, 0, 0};
-        const float nearest_m = FieldDistance(word) * truncation_m_;
+        const float nearest_m = FieldDistance(word) * range_m_;
         if (std::abs(nearest_m) > 1.5f * voxel_m_)
             return {true, nearest_m, 0.8f * std::abs(nearest_m) / voxel_m_};
         const FieldSample sample = sampler_.Sample<false>(cell);
@@ -139,7 +140,7 @@ class ScalarRayWalker {
     RayRanges ranges_;
     Eigen::Vector3f start_, step_ = Eigen::Vector3f::Zero();
     Eigen::Matrix3f voxel_from_camera_, camera_from_world_;
-    float voxel_m_ = 0, truncation_m_ = 0, metres_per_voxel_ = 0;
+    float voxel_m_ = 0, truncation_m_ = 0, range_m_ = 0, metres_per_voxel_ = 0;
 };
 
 }  // namespace tessera::testing_support

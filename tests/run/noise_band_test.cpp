@@ -37,14 +37,23 @@ TEST(DepthScatter, IsThatOfTheMeasurements) {
     for (const int width : {640, 320, 160})
         for (const double sigma_per_m : {0.001, 0.004, 0.016}) {
             const DepthScatter seen = MeasureDepthScatter(NoisyCorner(width, sigma_per_m), 8);
-            EXPECT_NEAR(seen.sigma_m / (sigma_per_m * seen.depth_m * seen.depth_m), 1, 0.15)
+            EXPECT_NEAR(seen.sigma_per_m / sigma_per_m, 1, 0.15)
                 << width << " columns, " << sigma_per_m;
             EXPECT_GT(seen.samples, 1000);
         }
 }
 
 TEST(DepthScatter, IsNothingOnPlanesWithoutNoise) {
-    EXPECT_LT(MeasureDepthScatter(NoisyCorner(640, 0), 8).sigma_m, 1e-5);
+    EXPECT_LT(MeasureDepthScatter(NoisyCorner(640, 0), 8).sigma_per_m, 1e-5);
+}
+
+// As a desk's things are before a wall.
+TEST(DepthScatter, IsNotThatOfNearThings) {
+    DepthImage depth_m = NoisyCorner(640, 0.002);
+    for (int y = 240; y < 480; ++y)
+        for (int x = 0; x < 640; ++x)
+            depth_m(x, y) = static_cast<float>(0.9 + 0.1 * std::sin(0.3 * x) * std::sin(0.3 * y));
+    EXPECT_NEAR(MeasureDepthScatter(depth_m, 8).sigma_per_m, 0.002, 0.15 * 0.002);
 }
 
 TEST(DepthScatter, LeavesOutWhatIsTooFar) {
@@ -91,37 +100,42 @@ class NoiseBand : public testing::Test {
         source = std::make_unique<NoisySource>(sigma_per_m, live);
         return FitBandToNoise({}, config, source, stop);
     }
-    double SigmaOf(double sigma_per_m) const {
-        return MeasureDepthScatter(NoisyCorner(160, sigma_per_m), kFarthest_m).sigma_m;
-    }
-
     PipelineConfig config;
     std::atomic<bool> stop{false};
     std::unique_ptr<FrameSource> source;
 };
 
 TEST_F(NoiseBand, StaysWhereTheCameraIsGood) {
-    EXPECT_EQ(Fit(0.001, false), "");
-    EXPECT_EQ(config.map.truncation_m, 0.04);
+    EXPECT_EQ(Fit(0.0001, false), "");
+    EXPECT_EQ(config.map.band_per_m, 0);
+    EXPECT_EQ(config.map.range_m(), 0.04);
 }
 
-TEST_F(NoiseBand, IsFourStandardDeviationsOfABadCamera) {
+// Near the camera the band stays narrow. The view's median depth is 2.5 m.
+TEST_F(NoiseBand, GrowsWithTheNoise) {
+    EXPECT_EQ(Fit(0.001, false), "");
+    EXPECT_NEAR(config.map.band_per_m, 0.004, 0.15 * 0.004);
+    EXPECT_FLOAT_EQ(config.map.band().At(2.0f), 0.04f);
+    EXPECT_NEAR(config.map.band().At(5.0f), 0.1, 0.015);
+}
+
+TEST_F(NoiseBand, SaysThatACameraIsBad) {
     for (const bool live : {false, true}) {
-        config.map.truncation_m = 0.04;
         EXPECT_NE(Fit(0.005, live), "");
-        EXPECT_NEAR(config.map.truncation_m, 4 * SigmaOf(0.005), 0.15 * config.map.truncation_m);
+        EXPECT_NEAR(config.map.band_per_m, 0.02, 0.15 * 0.02);
+        EXPECT_EQ(config.map.truncation_m, 0.04);
     }
 }
 
 TEST_F(NoiseBand, IsNeverMoreThanFourTimesAsWide) {
     Fit(0.1, false);
-    EXPECT_DOUBLE_EQ(config.map.truncation_m, 0.16);
+    EXPECT_FLOAT_EQ(config.map.band().At(8.0f), 0.16f);
 }
 
 TEST_F(NoiseBand, IsAsGivenIfAskedFor) {
     config.band_sigmas = 0;
     EXPECT_EQ(Fit(0.1, true), "");
-    EXPECT_EQ(config.map.truncation_m, 0.04);
+    EXPECT_EQ(config.map.band_per_m, 0);
 }
 
 // Whether the source can seek or not, the run gets each frame and each message once, in order.

@@ -78,7 +78,7 @@ struct Scene {
         a.intensity_gate = 0.5f;
         a.gain = 1.1f;
         a.offset = -0.03f;
-        a.inlier_distance_m = 0.02f;
+        a.band = {0.04f, 0.02f, 0.1f};
         a.distance_residual = distance_residual.data();
         a.intensity_residual = intensity_residual.data();
         for (std::size_t k = 0; k < 3; ++k) a.gradient[k] = gradient[k].data();
@@ -125,7 +125,11 @@ class SlowIcpSums {
         if ((p - surface).norm() >= a_.distance_gate_m || normal.dot(n) <= a_.normal_gate_cosine)
             return;
         const double r = n.dot(p - surface);
-        sums.value[L::kInliers] += std::abs(r) < a_.inlier_distance_m;
+        const double band = std::clamp(0.02 * a_.z[i] * a_.z[i], 0.04, 0.1);
+        const double w =
+            s_.weight[i] * std::min(1.0, static_cast<double>(a_.distance_scale_m) / std::abs(r));
+        sums.value[L::kBand] += w * band * band;
+        sums.value[L::kInliers] += std::abs(r) < 0.5 * band;
         Add(p, n, r, s_.weight[i], a_.distance_scale_m, L::kDistanceError, L::kDistanceWeight, 1.0,
             L::kDistance);
         if (a_.alpha <= 0 || s_.image[i] < 0) return;

@@ -122,13 +122,15 @@ PoseSums SlowSdfSums(const BlockMap& map, const Points& points, const SdfArgumen
             PointJacobian(p, g, t.j);
             return t;
         };
-        const Term d = term(distance, a.truncation_m, 0);
+        const Term d = term(distance, a.band.most_m, 0);
         const double wd = weight * std::min(1.0, a.distance_scale_m / std::abs(d.r));
         AddPoseTerm(d.j, d.r, wd, sums.value + L::kDistance);
         sums.value[L::kDistanceError] += wd * d.r * d.r;
         sums.value[L::kDistanceWeight] += wd;
         sums.value[L::kKnown] += 1;
-        sums.value[L::kInliers] += std::abs(d.r) < a.inlier_distance_m;
+        const double band = a.band.At(points.z[i]);
+        sums.value[L::kBand] += wd * band * band;
+        sums.value[L::kInliers] += std::abs(d.r) < 0.5 * band;
         if (!a.use_intensity || !coloured) continue;
         const bool chroma = a.colour != nullptr;
         const Eigen::Vector3d image =
@@ -184,7 +186,6 @@ TEST_P(SdfRows, AgreeWithTheSlowSums) {
     a.offset = -0.03f;
     a.distance_scale_m = 0.015f;
     a.intensity_scale = 0.1f;
-    a.inlier_distance_m = 0.02f;
     std::vector<float> distance_residual(4096), intensity_residual(4096);
     a.distance_residual = distance_residual.data();
     a.intensity_residual = intensity_residual.data();
