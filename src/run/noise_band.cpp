@@ -99,7 +99,7 @@ DepthScatter LookAt(const FrameSelection& selection, double max_depth_m,
 
 std::string FitBandToNoise(const FrameSelection& selection, PipelineConfig& config,
                            std::unique_ptr<FrameSource>& source, const std::atomic<bool>& stop) {
-    if (config.band_sigmas <= 0) return {};
+    if (config.band_sigmas <= 0 || config.map.band_per_m > 0) return {};
     const DepthScatter seen = LookAt(selection, config.frame.max_depth_m, stop, source);
     BlockMap::Config& map = config.map;
     map.band_per_m = config.band_sigmas * seen.sigma_per_m;

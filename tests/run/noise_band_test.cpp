@@ -121,6 +121,7 @@ TEST_F(NoiseBand, GrowsWithTheNoise) {
 
 TEST_F(NoiseBand, SaysThatACameraIsBad) {
     for (const bool live : {false, true}) {
+        config.map.band_per_m = 0;
         EXPECT_NE(Fit(0.005, live), "");
         EXPECT_NEAR(config.map.band_per_m, 0.02, 0.15 * 0.02);
         EXPECT_EQ(config.map.truncation_m, 0.04);
@@ -136,6 +137,10 @@ TEST_F(NoiseBand, IsAsGivenIfAskedFor) {
     config.band_sigmas = 0;
     EXPECT_EQ(Fit(0.1, true), "");
     EXPECT_EQ(config.map.band_per_m, 0);
+    config = {};
+    config.map.band_per_m = 0.003;
+    EXPECT_EQ(Fit(0.1, true), "");
+    EXPECT_EQ(config.map.band_per_m, 0.003);
 }
 
 // Whether the source can seek or not, the run gets each frame and each message once, in order.
