@@ -28,8 +28,8 @@ void BlockMap::Config::Describe(ConfigParameters& p) {
     p.Add(
         "band_per_m", band_per_m, {0.0, 10.0}, "1/m",
         "around a surface z metres away the band's half width is this times z squared, where that "
-        "is more than truncation_m, and four times truncation_m at most; a run measures it "
-        "(band_sigmas); 0: truncation_m everywhere");
+        "is more than truncation_m, and four times truncation_m at most; 0: a run measures it "
+        "(band_sigmas)");
 }
 
 TruncationBand BlockMap::Config::band() const {
