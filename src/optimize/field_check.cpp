@@ -81,8 +81,7 @@ TrackResult FieldCheck::Track(const PreparedFrame& frame, const FrameMotion& mot
                            .motion = motion});
 }
 
-// Share of the points inside the known field that lie within half the band of its
-// surface.
+// Share of the points inside the known field that lie within half the band of its surface.
 double FieldCheck::InlierShare(const PreparedFrame& frame,
                                const Eigen::Isometry3d& T_field_camera) const {
     constexpr int kStep = 8;

@@ -13,10 +13,10 @@ namespace tessera {
 
 // Looks at the frame at the selection's start and at one in each of the next seconds, or, where the
 // source cannot seek, at its next frame, which it then delivers again. Waits about two seconds at
-// most for a silent camera, and not once `stop` is set. Sets config.map.band_per_m, so that the
-// band is `band_sigmas` standard deviations of the depth or wider; 0 if it is at every depth that
-// counts. Leaves a given one. Returns a message for the user if much of the view needs a wider
-// band.
+// most for a silent camera, and not once `stop` is set. Sets config.map.band_per_m, if it
+// is 0, so that the band is `band_sigmas` standard deviations of the depth where truncation_m is
+// less; leaves it 0 where truncation_m is enough at every depth that counts. Returns a message for
+// the user if much of the view needs a wider band.
 std::string FitBandToNoise(const FrameSelection& selection, PipelineConfig& config,
                            std::unique_ptr<FrameSource>& source, const std::atomic<bool>& stop);
 

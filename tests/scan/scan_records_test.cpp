@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
+#include "scan/small_scan.h"
+
 namespace tessera {
 namespace {
 
@@ -29,6 +33,24 @@ Keyframe SomeKeyframe() {
     overlap.T_with_this_tracked = Eigen::Isometry3d(Eigen::Translation3d(4, 5, 6));
     keyframe.overlaps.push_back(overlap);
     return keyframe;
+}
+
+// A scan of one band has the record that it had before bands grew.
+TEST(ScanRecords, MetaKeepsTheBandsGrowth) {
+    ScanMeta meta = testing_support::SmallMeta();
+    const Bytes of_one_band = meta.Encode();
+    meta.band_per_m = 0.0125;
+    const Bytes bytes = meta.Encode();
+    ScanMeta back;
+    ASSERT_TRUE(back.Decode(bytes));
+    EXPECT_EQ(back.band_per_m, 0.0125);
+    EXPECT_EQ(back.truncation_m, meta.truncation_m);
+    for (std::size_t size = 0; size < bytes.size(); ++size)
+        EXPECT_EQ(back.Decode(std::span(bytes).first(size)), size == of_one_band.size()) << size;
+    ASSERT_TRUE(back.Decode(of_one_band));
+    EXPECT_EQ(back.band_per_m, 0);
+    meta.band_per_m = std::numeric_limits<double>::infinity();
+    EXPECT_FALSE(back.Decode(meta.Encode()));
 }
 
 TEST(ScanRecords, AKeyframeComesBackWithItsViewAndOverlaps) {
