@@ -8,6 +8,7 @@
 
 #include "core/camera.h"
 #include "core/config.h"
+#include "core/depth_distortion.h"
 #include "core/status.h"
 #include "io/frame_source.h"
 
@@ -27,6 +28,9 @@ struct FolderSourceConfig {
     Eigen::Vector2d colour_shift_px = Eigen::Vector2d::Zero();
     // Added to the camera file's. Set by the program; not a configuration key.
     double vignetting = 0;
+    // Taken from the depth of any recording (CorrectDepth). Set by the program; not a configuration
+    // key.
+    DepthDistortion depth_distortion = {};
 
     void Describe(ConfigParameters& parameters);
     Status Validate() const;

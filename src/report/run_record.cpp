@@ -58,6 +58,12 @@ void TakeCorrections(const Json& json, RunRecord& record) {
     const Json shift = used("colour_shift");
     Take(shift, "x_px", record.colour_shift_px[0]);
     Take(shift, "y_px", record.colour_shift_px[1]);
+    DepthDistortion depth;
+    const Json errors = used("depth_distortion");
+    Take(errors, "columns", depth.columns);
+    Take(errors, "rows", depth.rows);
+    Take(errors, "per_m", depth.per_m);
+    if (depth.IsValid()) record.depth_distortion = std::move(depth);
 }
 
 void TakeAte(const Json& json, RunRecord& record) {

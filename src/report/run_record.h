@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/camera.h"
+#include "core/depth_distortion.h"
 #include "core/status.h"
 
 namespace tessera {
@@ -26,6 +27,7 @@ struct RunRecord {
     double colour_delay_s = 0;            // the source's setting and what was found beyond it
     double depth_readout_s = 0, colour_readout_s = 0;  // with which tracking began
     std::array<double, 2> colour_shift_px = {0, 0};    // as corrected; right and down; 0: not
+    DepthDistortion depth_distortion;                  // as corrected; empty: not
     bool has_truth = false;
     std::vector<std::string> command_line, warnings;
     std::vector<std::pair<std::string, std::int64_t>> counts;  // "frames", "tracked", "lost", ...

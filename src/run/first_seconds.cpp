@@ -93,4 +93,27 @@ FirstSeconds LookAtFirstSeconds(std::unique_ptr<FrameSource> source,
     return seen;
 }
 
+std::optional<DepthDistortionEstimate> LookAtDepth(std::unique_ptr<FrameSource> source,
+                                                   const FrameSelection& selection) {
+    constexpr std::int64_t kMostParts = 5, kViewsOfPart = 40;
+    const std::optional<FrameSelection> all = PartToSee(*source, selection);
+    if (!all) return std::nullopt;
+    // A source whose length is not known shows its beginning only.
+    const std::int64_t views = all->count < 0 ? kViewsOfPart * 2 : all->count;
+    const std::int64_t parts = std::clamp<std::int64_t>(views / kViewsOfPart, 1, kMostParts);
+    const std::int64_t of_part =
+        parts < kMostParts ? views / parts : std::min(views / parts, kViewsOfPart);
+    DepthDistortionEstimator estimator(source->info().camera);
+    Frame frame;
+    for (std::int64_t part = 0; part < parts; ++part) {
+        const std::int64_t first = parts > 1 ? part * (views - of_part) / (parts - 1) : 0;
+        estimator.StartPart();
+        for (std::int64_t view = first; view < first + of_part; ++view) {
+            if (!source->Seek(all->start + view * all->stride)) break;
+            if (source->Read(frame).status == ReadStatus::kOk) estimator.Add(frame);
+        }
+    }
+    return estimator.Estimate();
+}
+
 }  // namespace tessera

@@ -1,4 +1,4 @@
-// What a recording's first seconds show about its camera.
+// What a recording shows about its camera before it is run.
 #pragma once
 
 #include <memory>
@@ -9,6 +9,7 @@
 #include "optimize/camera_estimate.h"
 #include "optimize/colour_delay.h"
 #include "optimize/colour_shift.h"
+#include "optimize/depth_distortion_estimator.h"
 
 namespace tessera {
 
@@ -25,5 +26,10 @@ struct FirstSeconds {
 FirstSeconds LookAtFirstSeconds(std::unique_ptr<FrameSource> source,
                                 const FrameSelection& selection, bool one_camera,
                                 double colour_readout_s);
+
+// Reads parts of four seconds of the selection, at most five, evenly spread, ten frames of each
+// second. Consumes the source, which must be able to seek. Nothing if they show too little.
+std::optional<DepthDistortionEstimate> LookAtDepth(std::unique_ptr<FrameSource> source,
+                                                   const FrameSelection& selection);
 
 }  // namespace tessera

@@ -6,6 +6,7 @@
 #include <cctype>
 #include <filesystem>
 
+#include "io/corrected_depth.h"
 #include "io/klg_source.h"
 #include "io/openni_source.h"
 #include "io/pipe_source.h"
@@ -31,13 +32,7 @@ std::string NameProblem(const std::string& name) {
     return scheme + ": is not a kind of source";
 }
 
-}  // namespace
-
-bool IsLiveSource(const std::string& name) {
-    return name.starts_with("openni2:") || name.starts_with("pipe:");
-}
-
-Result<std::unique_ptr<FrameSource>> OpenSource(const std::string& name, const RunConfig& config) {
+Result<std::unique_ptr<FrameSource>> OpenAsItIs(const std::string& name, const RunConfig& config) {
     if (name.starts_with("synthetic:")) return OpenSyntheticScene(name, config.synthetic);
     if (name.starts_with("openni2:") || name.ends_with(".oni"))
         return OpenOpenniSource(name, config.openni);
@@ -56,6 +51,18 @@ Result<std::unique_ptr<FrameSource>> OpenSource(const std::string& name, const R
     if (!std::filesystem::is_directory(name, ignored))
         return Status::Error(fmt::format("{}: is a file; {}", name, kSources));
     return OpenFolderSource(name, config.source);
+}
+
+}  // namespace
+
+bool IsLiveSource(const std::string& name) {
+    return name.starts_with("openni2:") || name.starts_with("pipe:");
+}
+
+Result<std::unique_ptr<FrameSource>> OpenSource(const std::string& name, const RunConfig& config) {
+    Result<std::unique_ptr<FrameSource>> opened = OpenAsItIs(name, config);
+    if (!opened.ok()) return opened;
+    return CorrectDepth(std::move(opened.value()), config.source.depth_distortion);
 }
 
 }  // namespace tessera

@@ -16,6 +16,7 @@
 #include "optimize/camera_estimate.h"
 #include "optimize/colour_delay.h"
 #include "optimize/colour_shift.h"
+#include "optimize/depth_distortion_estimator.h"
 #include "run/timings.h"
 #include "semantics/map_object.h"
 #include "system/frame_plan.h"
@@ -70,6 +71,7 @@ struct RunSummary {
     std::optional<VignettingReport> vignetting;
     std::optional<ColourShift> colour_shift;  // the same for the registration of colour
     std::optional<ColourDelay> colour_delay;  // and for its time stamps
+    std::optional<DepthDistortionEstimate> depth_distortion;
     // Read-out times of the images with which tracking began.
     double depth_readout_s = 0, colour_readout_s = 0;
     std::optional<AteResult> ate;  // against the source's ground truth; none with given poses

@@ -85,6 +85,12 @@ Json ColourShiftJson(const ColourShift& shift) {
             {"frames", shift.frames}};
 }
 
+Json DepthDistortionJson(const DepthDistortionEstimate& e) {
+    return {{"used", e.used},        {"rms_per_m", e.rms_per_m},   {"sigma_per_m", e.sigma_per_m},
+            {"pairs", e.pairs},      {"columns", e.found.columns}, {"rows", e.found.rows},
+            {"per_m", e.found.per_m}};
+}
+
 Json ColourDelayJson(const ColourDelay& delay) {
     return {{"used", delay.used},
             {"delay_ms", 1000 * delay.delay_s},
@@ -158,6 +164,8 @@ std::string RunJson(const RunRequest& request, RunConfig config, const RunSummar
         json["vignetting"] = {{"used", v->used}, {"share", v->share}, {"sigma", v->sigma}};
     if (summary.colour_shift) json["colour_shift"] = ColourShiftJson(*summary.colour_shift);
     if (summary.colour_delay) json["colour_delay"] = ColourDelayJson(*summary.colour_delay);
+    if (summary.depth_distortion)
+        json["depth_distortion"] = DepthDistortionJson(*summary.depth_distortion);
     json["shutter"] = {{"depth_readout_ms", 1000 * summary.depth_readout_s},
                        {"colour_readout_ms", 1000 * summary.colour_readout_s}};
     if (summary.ate) json["ate"] = Json::parse(AteJson(*summary.ate), nullptr, false);

@@ -15,6 +15,7 @@ RunConfig SourceSettings(const RunRecord& run) {
     config.source.vignetting = run.vignetting;
     config.source.colour_delay_s = run.colour_delay_s;
     config.source.colour_shift_px = {run.colour_shift_px[0], run.colour_shift_px[1]};
+    config.source.depth_distortion = run.depth_distortion;
     return config;
 }
 

@@ -76,6 +76,7 @@ Status Runner::Open(const std::atomic<bool>& stop) {
     summary_.colour_shift = checked.value().colour;
     summary_.colour_delay = checked.value().delay;
     summary_.vignetting = checked.value().vignetting;
+    summary_.depth_distortion = checked.value().depth;
     camera_notes_ = std::move(checked.value().messages);
     if (!request_.resume && !request_.localise_only)  // a scan keeps its band
         if (std::string note = FitBandToNoise(request_.selection, config_.pipeline, source, stop);

@@ -78,6 +78,23 @@ void Describe(const SourceInfo& given, const std::optional<CameraReport>& report
         messages.push_back(EstimateText(e, GivenBy(given.name)) + "; the estimate is used");
 }
 
+// Opens the source as the run will, and once more if its depth has errors that can be taken away.
+Status OpenCorrected(const RunRequest& request, RunConfig& config,
+                     const std::optional<PinholeCamera>& camera, CheckedSource& checked) {
+    Result<std::unique_ptr<FrameSource>> opened = OpenWith(request.source, config, camera);
+    if (!opened.ok()) return opened.status();
+    checked.depth = LookAtDepth(std::move(opened.value()), request.selection);
+    if (checked.depth && checked.depth->shown()) {
+        checked.depth->used = true;
+        config.source.depth_distortion = checked.depth->found;
+        checked.messages.push_back(DepthDistortionText(*checked.depth) + ": corrected");
+    }
+    opened = OpenWith(request.source, config, camera);
+    if (!opened.ok()) return opened.status();
+    checked.source = std::move(opened.value());
+    return Status::Ok();
+}
+
 // Looks again with the first estimate if that differs from the given camera.
 Result<std::optional<PinholeCamera>> FindCamera(const RunRequest& request, const RunConfig& config,
                                                 const SourceInfo& given,
@@ -180,9 +197,8 @@ Result<CheckedSource> OpenCheckedSource(const RunRequest& request, const RunConf
         camera = found.value();
         Describe(given, checked.camera, checked.messages);
     }
-    opened = OpenWith(request.source, corrected, camera);
-    if (!opened.ok()) return opened.status();
-    checked.source = std::move(opened.value());
+    if (Status status = OpenCorrected(request, corrected, camera, checked); !status.ok())
+        return status;
     return checked;
 }
 

@@ -1,5 +1,5 @@
 // Opens a run's source with the intrinsics, the registration, the delay and the vignetting of
-// colour estimated from its own images if they contradict the given ones.
+// colour, and the errors of depth, estimated from its own images if they contradict the given ones.
 #pragma once
 
 #include <memory>
@@ -12,6 +12,7 @@
 #include "optimize/camera_estimate.h"
 #include "optimize/colour_delay.h"
 #include "optimize/colour_shift.h"
+#include "optimize/depth_distortion_estimator.h"
 #include "run/run.h"
 
 namespace tessera {
@@ -22,7 +23,8 @@ struct CheckedSource {
     std::optional<ColourShift> colour;    // if it was estimated
     std::optional<ColourDelay> delay;     // if it was estimated
     std::optional<VignettingReport> vignetting;
-    std::vector<std::string> messages;  // for the user
+    std::optional<DepthDistortionEstimate> depth;  // if it was estimated
+    std::vector<std::string> messages;             // for the user
 };
 
 // Estimates the camera for recordings only: the first frames of a live camera belong to the run, a

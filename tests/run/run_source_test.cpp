@@ -23,26 +23,32 @@ TEST(SourceSettings, AreWhatTheRunHasUsed) {
             "vignetting": {"used": true, "share": 0.2},
             "colour_shift": {"used": true, "x_px": 5.5, "y_px": -4},
             "colour_delay": {"used": true, "delay_ms": 9, "corrected_ms": 8},
+            "depth_distortion": {"used": true, "columns": 2, "rows": 2, "per_m": [0, 0.5, 0, 1]},
             "configuration": {"synthetic.speed": 2.5, "source.colour_delay_s": 0.01, "source.unheard_of": 1, "mapping.voxel_size_m": 0.5}})"));
     EXPECT_EQ(config.source.camera, (PinholeCamera{64, 48, 60, 61, 31, 23}));
     EXPECT_EQ(config.source.vignetting, 0.2);
     EXPECT_EQ(config.source.colour_shift_px, Eigen::Vector2d(5.5, -4));
     EXPECT_NEAR(config.source.colour_delay_s, 0.018, 1e-12);
+    EXPECT_EQ(config.source.depth_distortion, (DepthDistortion{2, 2, {0, 0.5f, 0, 1}}));
     EXPECT_EQ(config.synthetic.speed, 2.5);
     EXPECT_EQ(config.pipeline.map.voxel_size_m, RunConfig().pipeline.map.voxel_size_m);
 }
 
 TEST(SourceSettings, LeaveOutWhatWasNotUsed) {
-    for (const char* json :
-         {"{}", R"({"source": {"camera": {"width": 64}}})",
-          R"({"vignetting": {"used": false, "share": 0.2}, "colour_shift": {"x_px": 5}})",
-          R"({"colour_delay": {"used": false, "corrected_ms": 8}})",
-          R"({"vignetting": 3, "colour_shift": [], "colour_delay": 1})"}) {
+    for (
+        const char* json :
+        {"{}", R"({"source": {"camera": {"width": 64}}})",
+         R"({"vignetting": {"used": false, "share": 0.2}, "colour_shift": {"x_px": 5}})",
+         R"({"colour_delay": {"used": false, "corrected_ms": 8}})",
+         R"({"vignetting": 3, "colour_shift": [], "colour_delay": 1})",
+         R"({"depth_distortion": {"used": false, "columns": 2, "rows": 2, "per_m": [0, 0, 0, 1]}})",
+         R"({"depth_distortion": {"used": true, "columns": 9, "rows": 2, "per_m": [0, 0, 0, 1]}})"}) {
         const RunConfig config = SourceSettings(Record(json));
         EXPECT_FALSE(config.source.camera) << json;
         EXPECT_EQ(config.source.vignetting, 0) << json;
         EXPECT_TRUE(config.source.colour_shift_px.isZero()) << json;
         EXPECT_EQ(config.source.colour_delay_s, 0) << json;
+        EXPECT_TRUE(config.source.depth_distortion.empty()) << json;
     }
 }
 

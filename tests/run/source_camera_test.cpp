@@ -2,12 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <vector>
 
 #include "io/image_io.h"
 #include "optimize/box_view.h"
+#include "optimize/distorted_room.h"
 #include "optimize/painted_room.h"
 #include "optimize/squares_view.h"
 #include "support/temp_folder.h"
@@ -169,6 +171,42 @@ TEST(OpenCheckedSource, EvensOutDarkCorners) {
     const Frame even = painted_room::View(0, 0);
     for (const auto& [u, v] : {std::pair(0, 0), {319, 239}, {160, 120}, {5, 235}})
         EXPECT_NEAR(frame.colour(u, v).r, even.colour(u, v).r, 4) << u << ' ' << v;
+}
+
+TEST(OpenCheckedSource, TakesTheErrorsFromDepth) {
+    const TempFolder folder;
+    std::vector<Frame> frames;
+    for (int i = 0; i < 50; ++i) frames.push_back(painted_room::DistortedView(i));
+    CameraCalibration camera;
+    camera.pinhole = painted_room::kCamera;
+    camera.depth_scale = 1000;
+    WriteViews(folder, frames, camera);
+    RunRequest request;
+    request.source = folder.path();
+    for (const bool check : {true, false}) {
+        RunConfig config;
+        config.check_camera = check;
+        const Result<CheckedSource> checked = OpenCheckedSource(request, config);
+        ASSERT_TRUE(checked.ok()) << checked.message();
+        Frame frame;
+        ASSERT_TRUE(checked.value().source->Seek(5));
+        ASSERT_EQ(checked.value().source->Read(frame).status, ReadStatus::kOk);
+        const Frame truth = painted_room::View(5, 0);
+        double square_m2 = 0;
+        for (std::size_t i = 0; i < truth.depth_m.size(); ++i)
+            square_m2 += std::pow(frame.depth_m.data()[i] - truth.depth_m.data()[i], 2);
+        const double rms_m = std::sqrt(square_m2 / static_cast<double>(truth.depth_m.size()));
+        if (check) {
+            ASSERT_TRUE(checked.value().depth);
+            EXPECT_TRUE(checked.value().depth->used);
+            ASSERT_EQ(checked.value().messages.size(), 1u);
+            EXPECT_NE(checked.value().messages[0].find("wrong at 1 m"), std::string::npos);
+            EXPECT_LT(rms_m, 0.006);
+        } else {
+            EXPECT_FALSE(checked.value().depth);
+            EXPECT_GT(rms_m, 0.015);
+        }
+    }
 }
 
 }  // namespace

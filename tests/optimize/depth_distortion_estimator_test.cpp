@@ -1,0 +1,82 @@
+#include "optimize/depth_distortion_estimator.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "optimize/distorted_room.h"
+
+namespace tessera {
+namespace {
+
+using painted_room::DistortedView;
+using painted_room::ErrorAt;
+using painted_room::kCamera;
+using painted_room::View;
+
+constexpr int kViews = 40;
+
+TEST(DepthDistortionEstimator, FindsTheErrorsButForTheirMean) {
+    DepthDistortionEstimator estimator(kCamera);
+    for (int i = 0; i < kViews; ++i) estimator.Add(DistortedView(i));
+    const auto estimate = estimator.Estimate();
+    ASSERT_TRUE(estimate);
+    EXPECT_TRUE(estimate->shown());
+    const DepthDistortion& found = estimate->found;
+    ASSERT_TRUE(found.IsValid());
+    const auto node = [&](int column, int row) {
+        return static_cast<double>(
+            found.per_m[static_cast<std::size_t>(row * found.columns + column)]);
+    };
+    const auto truth = [&](int column, int row) {
+        return ErrorAt((column + 0.5) * kCamera.width / found.columns - 0.5,
+                       (row + 0.5) * kCamera.height / found.rows - 0.5);
+    };
+    double offset = 0;
+    int count = 0;
+    for (int row = 1; row < found.rows - 1; ++row)
+        for (int column = 1; column < found.columns - 1; ++column, ++count)
+            offset += node(column, row) - truth(column, row);
+    offset /= count;
+    double square = 0;
+    for (int row = 1; row < found.rows - 1; ++row)
+        for (int column = 1; column < found.columns - 1; ++column)
+            square += std::pow(node(column, row) - truth(column, row) - offset, 2);
+    EXPECT_LT(std::sqrt(square / count), 0.001);  // the errors' own: 0.003
+    EXPECT_LT(std::abs(offset), 0.002);
+}
+
+TEST(DepthDistortionEstimator, FindsNoneWhereThereIsNone) {
+    DepthDistortionEstimator estimator(kCamera);
+    for (int i = 0; i < kViews; ++i) estimator.Add(View(i, 0));
+    const auto estimate = estimator.Estimate();
+    ASSERT_TRUE(estimate);
+    EXPECT_LT(estimate->rms_per_m, 0.0006);
+    EXPECT_FALSE(estimate->shown());
+}
+
+// The parts show the room from the same places, but the estimator is not told where they are.
+TEST(DepthDistortionEstimator, ComparesOnlyWithinAPart) {
+    DepthDistortionEstimator apart(kCamera), together(kCamera);
+    for (const int first : {0, 20}) {
+        apart.StartPart();
+        for (int i = first; i < first + 12; ++i) {
+            apart.Add(DistortedView(i));
+            together.Add(DistortedView(i));
+        }
+    }
+    const auto of_parts = apart.Estimate(), of_all = together.Estimate();
+    ASSERT_TRUE(of_parts && of_all);
+    EXPECT_LT(of_parts->pairs, of_all->pairs);
+    EXPECT_TRUE(of_parts->shown());
+}
+
+TEST(DepthDistortionEstimator, SaysNothingWithoutMotion) {
+    DepthDistortionEstimator estimator(kCamera);
+    EXPECT_FALSE(estimator.Estimate());
+    for (int i = 0; i < 12; ++i) estimator.Add(DistortedView(3));
+    EXPECT_FALSE(estimator.Estimate());
+}
+
+}  // namespace
+}  // namespace tessera
