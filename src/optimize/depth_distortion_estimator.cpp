@@ -12,9 +12,9 @@
 namespace tessera {
 namespace {
 
-constexpr std::size_t kMostPairs = 200;
+constexpr std::size_t kMostDepthPairs = 200;
 // Of a pair: rotation, and translation as a share of the depth.
-constexpr double kLeastTurn_rad = 0.1, kMostTurn_rad = 0.7, kLeastShift = 0.1, kMostShift = 0.6;
+constexpr double kLeastApart_rad = 0.1, kMostApart_rad = 0.7, kLeastApart = 0.1, kMostApart = 0.6;
 // In standard deviations. What is left after the correction is then a ninth of the error's square.
 constexpr double kSure = 3;
 
@@ -59,13 +59,13 @@ std::optional<DepthDistortionEstimate> DepthDistortionEstimator::Estimate() cons
             const Eigen::Isometry3d T = T_part_camera_[to].inverse() * T_part_camera_[from];
             const double turn = Eigen::AngleAxisd(T.linear()).angle(),
                          shift = T.translation().norm() / depth_m_[from];
-            if (turn > kMostTurn_rad || shift > kMostShift ||
-                (turn < kLeastTurn_rad && shift < kLeastShift))
+            if (turn > kMostApart_rad || shift > kMostApart ||
+                (turn < kLeastApart_rad && shift < kLeastApart))
                 continue;
             candidates.push_back({static_cast<int>(from), static_cast<int>(to), T});
         }
     std::vector<DepthPair> pairs;
-    const std::size_t count = std::min(kMostPairs, candidates.size());
+    const std::size_t count = std::min(kMostDepthPairs, candidates.size());
     for (std::size_t i = 0; i < count; ++i)
         pairs.push_back(candidates[i * candidates.size() / count]);
     DepthDistortionFit fit = FitDepthDistortion(views_, camera_, pairs);

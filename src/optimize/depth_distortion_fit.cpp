@@ -12,7 +12,7 @@
 namespace tessera {
 namespace {
 
-constexpr int kColumns = DistortionNodes::kColumns, kRows = DistortionNodes::kRows,
+constexpr int kAcross = DistortionNodes::kColumns, kDown = DistortionNodes::kRows,
               kNodes = DistortionNodes::kCount;
 constexpr int kEighths = 8;
 constexpr int kFewestViewPairs = 8, kFewestPoints = 100;
@@ -44,11 +44,11 @@ class DistortionFit {
                 for (int j = 0; j < 3; ++j)
                     before_(at[i], at[j]) += kFactor[i] * kFactor[j] / (kBendBefore * kBendBefore);
         };
-        for (int row = 0; row < kRows; ++row)
-            for (int column = 0; column < kColumns; ++column) {
-                const int n = row * kColumns + column;
-                if (column > 0 && column < kColumns - 1) bend(n - 1, n, n + 1);
-                if (row > 0 && row < kRows - 1) bend(n - kColumns, n, n + kColumns);
+        for (int row = 0; row < kDown; ++row)
+            for (int column = 0; column < kAcross; ++column) {
+                const int n = row * kAcross + column;
+                if (column > 0 && column < kAcross - 1) bend(n - 1, n, n + 1);
+                if (row > 0 && row < kDown - 1) bend(n - kAcross, n, n + kAcross);
             }
     }
 
@@ -94,7 +94,7 @@ class DistortionFit {
         fit.pairs = static_cast<int>(
             std::count_if(pairs_.begin(), pairs_.end(), [](const auto& p) { return p.usable; }));
         if (fit.pairs < kFewestViewPairs) return {};
-        fit.distortion = {kColumns, kRows, {}};
+        fit.distortion = {kAcross, kDown, {}};
         for (int i = 0; i < kNodes; ++i)
             fit.distortion.per_m.push_back(static_cast<float>(nodes_.per_m(i)));
         fit.rms_per_m = nodes_.per_m.norm() / std::sqrt(kNodes);
