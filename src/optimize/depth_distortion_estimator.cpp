@@ -17,10 +17,14 @@ constexpr std::size_t kMostDepthPairs = 200;
 constexpr double kLeastApart_rad = 0.1, kMostApart_rad = 0.7, kLeastApart = 0.1, kMostApart = 0.6;
 // In standard deviations. What is left after the correction is then a ninth of the error's square.
 constexpr double kSure = 3;
+// Exact cameras seem to have half of this: the estimate's own errors.
+constexpr double kLeast_per_m = 0.001;
 
 }  // namespace
 
-bool DepthDistortionEstimate::shown() const { return rms_per_m > kSure * sigma_per_m; }
+bool DepthDistortionEstimate::shown() const {
+    return rms_per_m > std::max(kSure * sigma_per_m, kLeast_per_m);
+}
 
 std::string DepthDistortionText(const DepthDistortionEstimate& estimate) {
     return fmt::format(
