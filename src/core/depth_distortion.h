@@ -2,7 +2,6 @@
 // measures disparities; an error of those is one of the inverse depth, the same at all distances.
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
 #include "core/image.h"
@@ -32,7 +31,6 @@ GridPlace PlaceInGrid(double u_px, double v_px, int width, int height, int colum
 // Thread-safe once constructed.
 class DepthCorrection {
   public:
-    DepthCorrection() = default;
     // For images of this size. No correction if `distortion` is empty.
     DepthCorrection(const DepthDistortion& distortion, int width, int height);
 

@@ -28,8 +28,8 @@ struct FolderSourceConfig {
     Eigen::Vector2d colour_shift_px = Eigen::Vector2d::Zero();
     // Added to the camera file's. Set by the program; not a configuration key.
     double vignetting = 0;
-    // Taken from the depth of any recording (CorrectDepth). Set by the program; not a configuration
-    // key.
+    // Errors to take from depth, of any kind of source (CorrectDepth). Set by the program; not a
+    // configuration key.
     DepthDistortion depth_distortion = {};
 
     void Describe(ConfigParameters& parameters);

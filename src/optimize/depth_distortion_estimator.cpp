@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t kMostDepthPairs = 200;
 // Of a pair: rotation, and translation as a share of the depth.
-constexpr double kLeastApart_rad = 0.1, kMostApart_rad = 0.7, kLeastApart = 0.1, kMostApart = 0.6;
+constexpr double kLeastApart_rad = 0.1, kMostApart_rad = 0.7, kLeastShift = 0.1, kMostShift = 0.6;
 // In standard deviations. What is left after the correction is then a ninth of the error's square.
 constexpr double kSure = 3;
 // Exact cameras seem to have half of this: the estimate's own errors.
@@ -63,8 +63,8 @@ std::optional<DepthDistortionEstimate> DepthDistortionEstimator::Estimate() cons
             const Eigen::Isometry3d T = T_part_camera_[to].inverse() * T_part_camera_[from];
             const double turn = Eigen::AngleAxisd(T.linear()).angle(),
                          shift = T.translation().norm() / depth_m_[from];
-            if (turn > kMostApart_rad || shift > kMostApart ||
-                (turn < kLeastApart_rad && shift < kLeastApart))
+            if (turn > kMostApart_rad || shift > kMostShift ||
+                (turn < kLeastApart_rad && shift < kLeastShift))
                 continue;
             candidates.push_back({static_cast<int>(from), static_cast<int>(to), T});
         }

@@ -21,9 +21,9 @@ constexpr int kFewestViewPairs = 8, kFewestPoints = 100;
 constexpr double kNodeBefore = 0.02, kBendBefore = 0.003, kMeanBefore = 1e-4;
 constexpr double kTurnBefore_rad = 0.05, kShiftBefore_m = 0.05;
 constexpr double kAsOne = 20;
-constexpr double kCauchy = 2;  // in deviations
-constexpr double kGate = 10;   // in deviations
-constexpr double kFirstFactor = 3;
+constexpr double kCauchy = 2;                            // in deviations
+constexpr double kGate = 10;                             // in deviations
+constexpr double kFirstFactor = 3, kLeastFactor = 0.05;  // of all deviations
 constexpr double kWorstPair = 2;  // a pair's residuals beside the median pair's
 
 using Vector = Eigen::VectorXd;  // of kNodes
@@ -83,7 +83,8 @@ class DistortionFit {
             motions_[i].moved += twist;
         }
         nodes_.per_m += step;
-        factor_ = std::max(1.4826 * Median(all), 0.05);
+        constexpr double kToDeviation = 1.4826;  // from the median of normal residuals
+        factor_ = std::max(kToDeviation * Median(all), kLeastFactor);
         const double worst = kWorstPair * Median(scales);
         for (std::size_t k = 0; k < measured.size(); ++k)
             pairs_[measured[k]].usable = scales[k] <= worst;
@@ -142,7 +143,7 @@ class DistortionFit {
         Motion& m = motions_[index];
         m.to_nodes.setZero();
         Matrix6d own = Matrix6d::Zero();
-        own.diagonal() << Vector6d::Constant(1 / (kTurnBefore_rad * kTurnBefore_rad));
+        own.diagonal().head<3>().setConstant(1 / (kTurnBefore_rad * kTurnBefore_rad));
         own.diagonal().tail<3>().setConstant(1 / (kShiftBefore_m * kShiftBefore_m));
         m.gradient = own * m.moved;
         Vector6d own_near = Vector6d::Zero();

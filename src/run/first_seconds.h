@@ -27,8 +27,9 @@ FirstSeconds LookAtFirstSeconds(std::unique_ptr<FrameSource> source,
                                 const FrameSelection& selection, bool one_camera,
                                 double colour_readout_s);
 
-// Reads parts of four seconds of the selection, at most five, evenly spread, ten frames of each
-// second. Consumes the source, which must be able to seek. Nothing if they show too little.
+// Reads ten frames of each second: of a selection of up to 20 s all, in parts of at least four
+// seconds; of a longer one five parts of four seconds, evenly spread. Consumes the source. Nothing
+// if they show too little, or if the source cannot seek.
 std::optional<DepthDistortionEstimate> LookAtDepth(std::unique_ptr<FrameSource> source,
                                                    const FrameSelection& selection);
 

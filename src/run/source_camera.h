@@ -30,8 +30,8 @@ struct CheckedSource {
 // Estimates the camera for recordings only: the first frames of a live camera belong to the run, a
 // built-in scene's camera is exact, and a scan keeps the camera it was made with. Intrinsics of two
 // cameras would need two estimates; of those only the registration and the time stamps are checked.
-// Reads the first seconds of the selection, and again with what was found. Errors are those of
-// OpenSource.
+// Reads the first seconds of the selection, again with what was found, and then parts of all of it
+// for the errors of depth. Errors are those of OpenSource.
 Result<CheckedSource> OpenCheckedSource(const RunRequest& request, const RunConfig& config);
 
 }  // namespace tessera

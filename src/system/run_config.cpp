@@ -42,7 +42,8 @@ void RunConfig::Describe(ConfigParameters& p) {
         s.Add("check", check_camera,
               "before a recording is run, estimate its focal length and centre from its first 8 "
               "seconds. If they contradict camera.yaml, warn and use the estimate for this run; "
-              "without camera.yaml, use the estimate. off: use camera.yaml as it is");
+              "without camera.yaml, use the estimate. Also estimate errors of colour and of depth "
+              "and correct them. off: use camera.yaml and the images as they are");
         s.Add("refine", loops.refine_calibration,
               "at the end, estimate focal length and disparity offset from the keyframes and, if "
               "the scan shows that they are off, rebuild the map with the new values; needs "
