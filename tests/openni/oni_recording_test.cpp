@@ -148,9 +148,13 @@ TEST_F(OniRecording, AFileThatIsCutOffIsRefusedOrReadAsFarAsItGoes) {
         }
         const Log log = ReadFrames(*source.value(), 1000, 60);
         EXPECT_TRUE(log.ended) << kept << " of " << size;
-        EXPECT_EQ(log.messages,
-                  std::vector<std::string>{
-                      path + ": the recording is truncated; all frames in it were read"});
+        std::vector<std::string> expected = {
+            path + ": the recording is truncated; all frames in it were read"};
+        // The cut may lie between a depth image and its colour; that depth has no pair.
+        if (log.messages.size() == 2)
+            expected.push_back(path + ": 1 of " + std::to_string(log.frames.size() + 1) +
+                               " depth images had no colour image within 20 ms and were dropped");
+        EXPECT_EQ(log.messages, expected);
         EXPECT_LE(log.frames.size(), recorded);
     }
 }
