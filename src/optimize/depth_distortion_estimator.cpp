@@ -17,13 +17,15 @@ constexpr std::size_t kMostDepthPairs = 200;
 constexpr double kLeastApart_rad = 0.1, kMostApart_rad = 0.7, kLeastShift = 0.1, kMostShift = 0.6;
 // In standard deviations. What is left after the correction is then a ninth of the error's square.
 constexpr double kSure = 3;
-// Exact cameras seem to have half of this: the estimate's own errors.
-constexpr double kLeast_per_m = 0.001;
+// Of the noise. Noisy cameras without errors seem to have up to this much; so do exact cameras,
+// whose surfaces are not quite flat, as if they had the least noise.
+constexpr double kAboveNoise = 2, kLeastNoise_per_m = 0.0005;
 
 }  // namespace
 
 bool DepthDistortionEstimate::shown() const {
-    return rms_per_m > std::max(kSure * sigma_per_m, kLeast_per_m);
+    return rms_per_m >
+           std::max(kSure * sigma_per_m, kAboveNoise * std::max(noise_per_m, kLeastNoise_per_m));
 }
 
 std::string DepthDistortionText(const DepthDistortionEstimate& estimate) {
@@ -77,6 +79,7 @@ std::optional<DepthDistortionEstimate> DepthDistortionEstimator::Estimate() cons
     DepthDistortionEstimate estimate;
     estimate.rms_per_m = fit.rms_per_m;
     estimate.sigma_per_m = fit.sigma_per_m;
+    estimate.noise_per_m = fit.noise_per_m;
     estimate.pairs = fit.pairs;
     for (const float error : fit.distortion.per_m)
         estimate.largest_per_m =

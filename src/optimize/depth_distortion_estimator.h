@@ -19,10 +19,11 @@ struct DepthDistortionEstimate {
     // Root mean square over the image, and its standard deviation.
     double rms_per_m = 0, sigma_per_m = 0;
     double largest_per_m = 0;
-    int pairs = 0;      // of compared views
-    bool used = false;  // it was corrected
+    double noise_per_m = 0;  // standard deviation of a measurement, averaged over a few pixels
+    int pairs = 0;           // of compared views
+    bool used = false;       // it was corrected
 
-    // True if the recording shows more than such an estimate can be wrong.
+    // True if the recording shows more than such an estimate can be wrong, and more than noise.
     bool shown() const;
 };
 

@@ -19,11 +19,11 @@ constexpr int kFewestViewPairs = 8, kFewestPoints = 100;
 // Standard deviations before anything is seen: of a node, of its second differences, and of the
 // mean, in 1/m; of a pair's motion. Residuals of neighbours are correlated, so twenty count as one.
 constexpr double kNodeBefore = 0.02, kBendBefore = 0.003, kMeanBefore = 1e-4;
-constexpr double kTurnBefore_rad = 0.05, kShiftBefore_m = 0.05;
+constexpr double kTurnBefore_rad = 0.15, kShiftBefore_m = 0.15;
 constexpr double kAsOne = 20;
 constexpr double kCauchy = 2;                            // in deviations
 constexpr double kGate = 10;                             // in deviations
-constexpr double kFirstFactor = 3, kLeastFactor = 0.05;  // of all deviations
+constexpr double kFirstFactor = 3, kLeastFactor = 0.05;  // of kDepthNoise_per_m
 constexpr double kWorstPair = 2;  // a pair's residuals beside the median pair's
 
 using Vector = Eigen::VectorXd;  // of kNodes
@@ -66,8 +66,7 @@ class DistortionFit {
             pairs_[i].usable = residuals_.size() >= kFewestPoints;
             if (!pairs_[i].usable) continue;
             std::vector<double> sizes;
-            for (const DepthResidual& r : residuals_)
-                sizes.push_back(std::abs(r.distance_m) / r.deviation_m);
+            for (const DepthResidual& r : residuals_) sizes.push_back(std::abs(r.value));
             scales.push_back(Median(sizes));
             measured.push_back(i);
             for (std::size_t k = 0; k < sizes.size(); k += 8) all.push_back(sizes[k]);
@@ -98,6 +97,7 @@ class DistortionFit {
         fit.distortion = {kAcross, kDown, {}};
         for (int i = 0; i < kNodes; ++i)
             fit.distortion.per_m.push_back(static_cast<float>(nodes_.per_m(i)));
+        fit.noise_per_m = factor_ * kDepthNoise_per_m;
         fit.rms_per_m = nodes_.per_m.norm() / std::sqrt(kNodes);
         const auto solver = hessian_.ldlt();
         double spread = 0;
@@ -152,11 +152,10 @@ class DistortionFit {
         for (const DepthResidual& r : residuals_) depths.push_back(r.z_m);
         const double middle_m = Median(depths);
         for (const DepthResidual& r : residuals_) {
-            const double deviation = factor_ * r.deviation_m;
-            const double far = r.distance_m / (kCauchy * deviation);
-            const double weight = 1 / (deviation * deviation * (1 + far * far) * kAsOne);
+            const double far = r.value / (kCauchy * factor_);
+            const double weight = 1 / (factor_ * factor_ * (1 + far * far) * kAsOne);
             own.noalias() += weight * r.to_motion * r.to_motion.transpose();
-            const Vector6d motion_part = weight * r.distance_m * r.to_motion;
+            const Vector6d motion_part = weight * r.value * r.to_motion;
             m.gradient += motion_part;
             const bool is_near = r.z_m < middle_m;
             if (is_near) own_near += motion_part;
@@ -164,8 +163,8 @@ class DistortionFit {
                 const double w = weight * r.to_nodes[i];
                 for (int j = 0; j < 8; ++j) hessian_(r.nodes[i], r.nodes[j]) += w * r.to_nodes[j];
                 m.to_nodes.row(r.nodes[i]) += w * r.to_motion.transpose();
-                all(r.nodes[i]) += w * r.distance_m;
-                if (is_near) near(r.nodes[i]) += w * r.distance_m;
+                all(r.nodes[i]) += w * r.value;
+                if (is_near) near(r.nodes[i]) += w * r.value;
             }
         }
         m.inverse = own.inverse();

@@ -22,7 +22,8 @@ struct DepthDistortionFit {
     // Root mean square over the nodes, and that of the nodes' standard deviations. These come from
     // how the gradients of parts differ: eighths of the recording, near and far.
     double rms_per_m = 0, sigma_per_m = 0;
-    int pairs = 0;  // that were used; 0: no result
+    double noise_per_m = 0;  // standard deviation of a measured inverse depth
+    int pairs = 0;           // that were used; 0: no result
 };
 
 // `pairs` in the order of time; their motions are refined.

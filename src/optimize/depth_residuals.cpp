@@ -7,12 +7,6 @@
 namespace tessera {
 namespace {
 
-// Deviation of a distance, but for a factor that the residuals show: it grows with z squared.
-double DeviationAt(double z_m) {
-    constexpr double kNear_m = 0.001, kPerM = 0.0015;
-    return kNear_m + kPerM * z_m * z_m;
-}
-
 std::optional<DepthResidual> ResidualAt(int x, int y, const DepthView& from, const DepthView& to,
                                         const PinholeCamera& camera,
                                         const Eigen::Isometry3d& T_to_from,
@@ -39,16 +33,26 @@ std::optional<DepthResidual> ResidualAt(int x, int y, const DepthView& from, con
     const double z_to = 1 / (to.inverse_depth(u, v) - place_to.error_per_m);
     const Eigen::Vector3d apart = p - z_to * ray_to;
     DepthResidual r;
-    r.distance_m = n.dot(apart);
     r.z_m = std::max(z, z_to);
-    r.deviation_m = DeviationAt(r.z_m);
     if (!(apart.norm() < kAside * r.z_m)) return std::nullopt;
+    // How the distance depends on the two inverse depths.
+    const double by_from = n.dot(ray) * z * z, by_to = -n.dot(ray_to) * z_to * z_to;
+    const double deviation_m = kDepthNoise_per_m * std::hypot(by_from, by_to);
+    r.value = n.dot(apart) / deviation_m;
     r.to_motion << p.cross(n), n;
+    r.to_motion /= deviation_m;
+    // The deviation depends on them, too. Without its derivatives whatever makes all depths smaller
+    // seems to fit better: by 1 to 7 % at 1 m.
+    const auto derivative = [&](double by_depth, double depth_m) {
+        const double share = kDepthNoise_per_m * by_depth / deviation_m;
+        return by_depth / deviation_m - 2 * r.value * share * share * depth_m;
+    };
+    const double to_from = derivative(by_from, z), to_to = derivative(by_to, z_to);
     for (int i = 0; i < 4; ++i) {
         r.nodes[i] = place.nodes[i];
-        r.to_nodes[i] = place.share[i] * n.dot(ray) * z * z;
+        r.to_nodes[i] = place.share[i] * to_from;
         r.nodes[4 + i] = place_to.nodes[i];
-        r.to_nodes[4 + i] = -place_to.share[i] * n.dot(ray_to) * z_to * z_to;
+        r.to_nodes[4 + i] = place_to.share[i] * to_to;
     }
     return r;
 }
@@ -73,7 +77,7 @@ void FindDepthResiduals(const DepthView& from, const DepthView& to, const Pinhol
     for (int y = 0; y < from.inverse_depth.height(); y += kEvery)
         for (int x = 0; x < from.inverse_depth.width(); x += kEvery) {
             const auto r = ResidualAt(x, y, from, to, camera, T_to_from, nodes);
-            if (r && std::abs(r->distance_m) < gate * r->deviation_m) residuals.push_back(*r);
+            if (r && std::abs(r->value) < gate) residuals.push_back(*r);
         }
 }
 

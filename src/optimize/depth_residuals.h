@@ -27,17 +27,21 @@ struct DistortionNodes {
     Eigen::VectorXd per_m = Eigen::VectorXd::Zero(kCount);
 };
 
-// A point of one view against the plane at its pixel in the other.
+// A point of one view against the plane at its pixel in the other: their distance, divided by its
+// standard deviation if each inverse depth has one of kDepthNoise_per_m (Sampson's distance).
 struct DepthResidual {
+    double value = 0;
+    double z_m = 0;
     int nodes[8];
-    double to_nodes[8];  // derivatives of the distance, m per 1/m
-    Vector6d to_motion;  // by a twist from the left of T_to_from
-    double distance_m = 0, z_m = 0;
-    double deviation_m = 0;  // of such a distance, but for a common factor
+    double to_nodes[8];  // derivatives of `value`, m
+    // By a twist from the left of T_to_from, but for the deviation's dependence: it changes
+    // nothing.
+    Vector6d to_motion;
 };
+inline constexpr double kDepthNoise_per_m = 0.001;
 
-// `camera`: that of the views. Leaves out distances of more than `gate` deviations, and what is
-// hidden or seen at a slant. Reuses the storage of `residuals`.
+// `camera`: that of the views. Leaves out values beyond `gate`, and what is hidden or seen at a
+// slant. Reuses the storage of `residuals`.
 void FindDepthResiduals(const DepthView& from, const DepthView& to, const PinholeCamera& camera,
                         const Eigen::Isometry3d& T_to_from, const DistortionNodes& nodes,
                         double gate, std::vector<DepthResidual>& residuals);

@@ -86,8 +86,13 @@ Json ColourShiftJson(const ColourShift& shift) {
 }
 
 Json DepthDistortionJson(const DepthDistortionEstimate& e) {
-    return {{"used", e.used},        {"rms_per_m", e.rms_per_m},   {"sigma_per_m", e.sigma_per_m},
-            {"pairs", e.pairs},      {"columns", e.found.columns}, {"rows", e.found.rows},
+    return {{"used", e.used},
+            {"rms_per_m", e.rms_per_m},
+            {"sigma_per_m", e.sigma_per_m},
+            {"noise_per_m", e.noise_per_m},
+            {"pairs", e.pairs},
+            {"columns", e.found.columns},
+            {"rows", e.found.rows},
             {"per_m", e.found.per_m}};
 }
 
