@@ -17,8 +17,8 @@ constexpr std::size_t kMostDepthPairs = 200;
 constexpr double kLeastApart_rad = 0.1, kMostApart_rad = 0.7, kLeastShift = 0.1, kMostShift = 0.6;
 // In standard deviations. What is left after the correction is then a ninth of the error's square.
 constexpr double kSure = 3;
-// Of the noise. Noisy cameras without errors seem to have up to this much; so do exact cameras,
-// whose surfaces are not quite flat, as if they had the least noise.
+// Of the noise, which is taken to be at least this. Noisy cameras seem to have errors of the size
+// of their noise, and exact ones of half a millimetre at 1 m.
 constexpr double kAboveNoise = 2, kLeastNoise_per_m = 0.0005;
 
 }  // namespace

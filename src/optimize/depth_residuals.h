@@ -34,8 +34,8 @@ struct DepthResidual {
     double z_m = 0;
     int nodes[8];
     double to_nodes[8];  // derivatives of `value`, m
-    // By a twist from the left of T_to_from, but for the deviation's dependence: it changes
-    // nothing.
+    // By a twist from the left of T_to_from. The deviation is taken as constant here: its change
+    // with the rotation made no difference to what is found.
     Vector6d to_motion;
 };
 inline constexpr double kDepthNoise_per_m = 0.001;

@@ -79,6 +79,22 @@ TEST(DepthDistortionEstimator, FindsNoneInNoise) {
     EXPECT_LT(estimate->noise_per_m, 0.004);
 }
 
+TEST(DepthDistortionEstimator, IsShownBeyondItsDeviationAndTheNoise) {
+    DepthDistortionEstimate estimate;
+    const auto shown = [&](double rms_per_m, double sigma_per_m, double noise_per_m) {
+        estimate.rms_per_m = rms_per_m;
+        estimate.sigma_per_m = sigma_per_m;
+        estimate.noise_per_m = noise_per_m;
+        return estimate.shown();
+    };
+    EXPECT_TRUE(shown(0.0031, 0.001, 0.0015));
+    EXPECT_FALSE(shown(0.0029, 0.001, 0.0015));
+    EXPECT_TRUE(shown(0.0041, 0.001, 0.002));
+    EXPECT_FALSE(shown(0.0039, 0.001, 0.002));
+    EXPECT_TRUE(shown(0.0011, 0, 0));
+    EXPECT_FALSE(shown(0.0009, 0, 0));
+}
+
 // Views of different parts are not compared: the estimator is not told how they lie.
 TEST(DepthDistortionEstimator, ComparesOnlyWithinAPart) {
     DepthDistortionEstimator apart(kCamera), together(kCamera);
@@ -88,8 +104,9 @@ TEST(DepthDistortionEstimator, ComparesOnlyWithinAPart) {
         together.Add(DistortedView(i));
     }
     EXPECT_FALSE(apart.Estimate());
-    ASSERT_TRUE(together.Estimate());
-    EXPECT_TRUE(together.Estimate()->shown());
+    const auto estimate = together.Estimate();
+    ASSERT_TRUE(estimate);
+    EXPECT_TRUE(estimate->shown());
 }
 
 TEST(DepthDistortionEstimator, SaysNothingWithoutMotion) {
