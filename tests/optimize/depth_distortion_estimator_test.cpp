@@ -95,16 +95,30 @@ TEST(DepthDistortionEstimator, IsShownBeyondItsDeviationAndTheNoise) {
     EXPECT_FALSE(shown(0.0009, 0, 0));
 }
 
-// Views of different parts are not compared: the estimator is not told how they lie.
+// Two parts of the same views have twice the pairs of one. Compared with each other they would have
+// four times as many.
 TEST(DepthDistortionEstimator, ComparesOnlyWithinAPart) {
-    DepthDistortionEstimator apart(kCamera), together(kCamera);
-    for (int i = 0; i < 20; ++i) {
-        apart.StartPart();
-        apart.Add(DistortedView(i));
-        together.Add(DistortedView(i));
+    constexpr int kViewsOfPart = 8;
+    DepthDistortionEstimator one(kCamera), two(kCamera);
+    for (int part = 0; part < 2; ++part) {
+        two.StartPart();
+        for (int i = 0; i < kViewsOfPart; ++i) {
+            two.Add(DistortedView(i));
+            if (part == 0) one.Add(DistortedView(i));
+        }
     }
-    EXPECT_FALSE(apart.Estimate());
-    const auto estimate = together.Estimate();
+    const auto of_one = one.Estimate(), of_two = two.Estimate();
+    ASSERT_TRUE(of_one && of_two);
+    EXPECT_EQ(of_two->pairs, 2 * of_one->pairs);
+}
+
+TEST(DepthDistortionEstimator, FindsTheErrorsFromShortParts) {
+    DepthDistortionEstimator estimator(kCamera);
+    for (const int first : {0, 20}) {
+        estimator.StartPart();
+        for (int i = first; i < first + 12; ++i) estimator.Add(DistortedView(i));
+    }
+    const auto estimate = estimator.Estimate();
     ASSERT_TRUE(estimate);
     EXPECT_TRUE(estimate->shown());
 }
