@@ -11,6 +11,7 @@
 #include "io/image_decoder.h"
 #include "io/jpeg_decoder.h"
 #include "io/png_decoder.h"
+#include "recordings/rvl.h"
 
 namespace tessera {
 namespace {
@@ -42,12 +43,15 @@ auto LayoutOf(const Layouts& layouts, std::string_view encoding) {
     return found == layouts.end() ? nullptr : &*found;
 }
 
-Status CheckSize(const RosImage& message, std::uint32_t pixel_bytes) {
+Status CheckSize(std::uint32_t width, std::uint32_t height) {
     constexpr auto kMost = static_cast<std::uint32_t>(ImageDecoder::kMaxSide_px);
-    if (message.width == 0 || message.height == 0 || message.width > kMost ||
-        message.height > kMost)
-        return Status::Error(
-            fmt::format("an image of {} x {} pixels", message.width, message.height));
+    if (width == 0 || height == 0 || width > kMost || height > kMost)
+        return Status::Error(fmt::format("an image of {} x {} pixels", width, height));
+    return {};
+}
+
+Status CheckSize(const RosImage& message, std::uint32_t pixel_bytes) {
+    if (Status status = CheckSize(message.width, message.height); !status.ok()) return status;
     if (message.row_bytes < message.width * pixel_bytes)
         return Status::Error("the rows of an image are shorter than its width");
     return {};
@@ -91,6 +95,18 @@ Status DecodePng16(ByteView file, Image<std::uint16_t>& depth) {
     if (std::max(header->width, header->height) > ImageDecoder::kMaxSide_px)
         return Status::Error("a depth image that is too large");
     return PngDecoder().DecodeDepth(file, *header, depth);
+}
+
+// Width and height, then the code.
+Status DecodeRvlImage(ByteView file, Image<std::uint16_t>& depth) {
+    std::uint32_t size[2];
+    if (file.size() < sizeof(size)) return Status::Error("compressed depth is empty");
+    std::memcpy(size, file.data(), sizeof(size));
+    if (Status status = CheckSize(size[0], size[1]); !status.ok()) return status;
+    depth.Resize(static_cast<int>(size[0]), static_cast<int>(size[1]));
+    if (!DecodeRvl(file.subspan(sizeof(size)), {depth.data(), depth.size()}))
+        return Status::Error("compressed depth (RVL) is cut off or damaged");
+    return {};
 }
 
 }  // namespace
@@ -153,10 +169,8 @@ Status DecodeRosColour(const RosImage& message, ColourImage& colour) {
 }
 
 Status DecodeRosDepth(const RosCompressedImage& message, Image<std::uint16_t>& depth) {
-    // Before the PNG: the kind, and two numbers a and b of inverse depth, z = a / (stored - b).
+    // Before the image: the kind, and two numbers a and b of inverse depth, z = a / (stored - b).
     constexpr std::size_t kHead = 12;
-    if (message.format.find("rvl") != std::string_view::npos)
-        return Status::Error("depth compressed as RVL is not read; record it as PNG");
     ByteView file = message.data;
     float a = 0, b = 0;
     if (!IsPng(file) && file.size() > kHead) {
@@ -164,7 +178,8 @@ Status DecodeRosDepth(const RosCompressedImage& message, Image<std::uint16_t>& d
         std::memcpy(&b, file.data() + 8, sizeof(b));
         file = file.subspan(kHead);
     }
-    Status status = DecodePng16(file, depth);
+    const bool is_rvl = message.format.find("compressedDepth rvl") != std::string_view::npos;
+    Status status = is_rvl ? DecodeRvlImage(file, depth) : DecodePng16(file, depth);
     if (!status.ok() || !message.format.starts_with("32FC1")) return status;
     std::for_each_n(depth.data(), depth.size(), [&](std::uint16_t& stored) {
         if (stored != 0) stored = StoredDepth(a / (static_cast<float>(stored) - b));

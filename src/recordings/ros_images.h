@@ -16,7 +16,7 @@ bool IsColourEncoding(std::string_view encoding);
 // Depth of floats is in metres and is stored in units of 0.2 mm; see RosDepthScale.
 Status DecodeRosDepth(const RosImage& message, Image<std::uint16_t>& depth);
 Status DecodeRosColour(const RosImage& message, ColourImage& colour);
-// Formats of compressed_depth_image_transport: PNG of 16 bits, also as inverse depth.
+// Formats of compressed_depth_image_transport: PNG of 16 bits or RVL, also as inverse depth.
 Status DecodeRosDepth(const RosCompressedImage& message, Image<std::uint16_t>& depth);
 // JPEG or PNG.
 Status DecodeRosColour(const RosCompressedImage& message, ColourImage& colour);

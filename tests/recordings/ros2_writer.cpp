@@ -8,6 +8,7 @@
 #include <array>
 
 #include "recordings/ros_images_of.h"
+#include "recordings/rvl_encoder.h"
 
 namespace tessera::ros_test {
 namespace {
@@ -71,6 +72,18 @@ std::string ImageOf(const Pixels& pixels, int frame, std::uint32_t late_ns,
     return cdr.bytes() + std::string(reinterpret_cast<const char*>(pixels.data()), bytes);
 }
 
+std::string RvlImageOf(int frame, const std::string& encoding) {
+    const Image<std::uint16_t> depth = DepthOf(frame);
+    std::string data;
+    for (const float value : {0.0f, kInverseA, kInverseB}) Raw(data, value);
+    Raw(data, depth.width());
+    Raw(data, depth.height());
+    data += RvlOf({depth.data(), depth.size()});
+    Cdr cdr;
+    cdr.Header(frame, 0, "depth_optical").Text(encoding + "; compressedDepth rvl");
+    return cdr.Put(static_cast<std::uint32_t>(data.size())).bytes() + data;
+}
+
 std::string TransformsOf() {
     Cdr cdr;
     cdr.Put(std::uint32_t{2}).Header(0, 0, "link").Text("depth_optical");
@@ -132,6 +145,16 @@ std::vector<Message> PlainMessages() {
         messages.push_back({"/cam/color/image_raw", "sensor_msgs/msg/Image", 2 * i + 2,
                             ImageOf(ColourOf(i), i, 4'000'000, "colour_optical", "rgb8")});
     }
+    return messages;
+}
+
+std::vector<Message> RvlMessages(bool floats) {
+    std::vector<Message> messages = PlainMessages();
+    int frame = 0;
+    for (Message& message : messages)
+        if (message.topic == "/cam/depth/image_raw")
+            message = {message.topic + "/compressedDepth", "sensor_msgs/msg/CompressedImage",
+                       message.time_ns, RvlImageOf(frame++, floats ? "32FC1" : "16UC1")};
     return messages;
 }
 

@@ -15,6 +15,10 @@ struct Message {
 
 // The same content as write_bag.py's "plain".
 std::vector<Message> PlainMessages();
+// The same, with depth by compressed_depth_image_transport as RVL; as inverse depth if `floats`:
+// a / (stored - b) metres of stored = DepthOf, with a = kInverseA, b = kInverseB.
+std::vector<Message> RvlMessages(bool floats);
+inline constexpr float kInverseA = 2000, kInverseB = -1000;
 
 // `compression`: "", "lz4" or "zstd". A chunk holds four messages.
 std::string McapOf(const std::vector<Message>& messages, const std::string& compression);

@@ -116,6 +116,23 @@ TEST(RosRecording, ReadsDb3) {
     ExpectPlainRecording(folder.Path("recording.db3"));
 }
 
+TEST(RosRecording, ReadsDepthCompressedAsRvl) {
+    TemporaryFolder folder;
+    WriteDb3(folder.Path("integers.db3"), RvlMessages(false));
+    ExpectPlainRecording(folder.Path("integers.db3"));
+    WriteDb3(folder.Path("floats.db3"), RvlMessages(true));
+    RecordingResult recording = OpenRosRecording(folder.Path("floats.db3"), kRosGap_s);
+    ASSERT_TRUE(recording.ok()) << recording.message();
+    EXPECT_EQ(recording.value()->info().depth_camera.depth_scale, 5000);
+    Image<std::uint16_t> depth;
+    ColourImage colour;
+    ASSERT_TRUE(recording.value()->Load(2, depth, colour).ok());
+    const Image<std::uint16_t> stored = DepthOf(2);
+    ASSERT_EQ(depth.size(), stored.size());
+    for (std::size_t i = 0; i < depth.size(); ++i)
+        ASSERT_NEAR(depth.data()[i], 5000 * kInverseA / (stored.data()[i] - kInverseB), 0.51);
+}
+
 TEST(RosRecording, ReadsTheFilesOfAFolderInOrder) {
     TemporaryFolder folder;
     const std::vector<Message> messages = PlainMessages();
