@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <sstream>
 
-#include "core/frame.h"
 #include "core/input_file.h"
 #include "io/folder_truth.h"
 #include "io/image_lists.h"
@@ -235,9 +234,14 @@ Result<FolderLayout> ReadFolderLayout(const std::string& path, double max_pair_g
     ImagePairs& found = images.value();
     const bool numbered = StampsAreFrameNumbers(found.pairs);
     if (!numbered) {
-        result.colour_delay_s = colour_delay_s;
-        for (ImagePair& pair : found.pairs)
-            CorrectStamps(colour_delay_s, pair.depth_stamp_s, pair.colour_stamp_s);
+        const bool shared = std::ranges::all_of(found.pairs, [](const ImagePair& pair) {
+            return pair.depth_stamp_s == pair.colour_stamp_s;
+        });
+        result.correction = StampCorrection::Of(colour_delay_s, shared);
+        for (ImagePair& pair : found.pairs) {
+            pair.depth_stamp_s += result.correction.depth_s;
+            pair.colour_stamp_s += result.correction.colour_s;
+        }
     }
     result.notes.insert(result.notes.end(), found.notes.begin(), found.notes.end());
     if (Status status = AddFrames(folder, found.pairs, result); !status.ok()) return status;

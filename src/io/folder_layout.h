@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/camera.h"
+#include "core/frame.h"
 #include "core/status.h"
 
 namespace tessera {
@@ -25,7 +26,7 @@ struct FolderLayout {
     bool camera_known = true;
     bool registration_known = true;   // false: the colour camera's place is another device's
     std::uint16_t invalid_depth = 0;  // a stored value that means "no measurement", besides 0
-    double colour_delay_s = 0;        // by which the frames' stamps are corrected
+    StampCorrection correction;       // already in the frames' stamps
     std::vector<FolderFrame> frames;  // strictly increasing depth stamps, at least one
     std::vector<std::string> notes;   // things the user should know
     // Signs that the recording is not read as it was meant.

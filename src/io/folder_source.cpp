@@ -45,7 +45,7 @@ class FolderSource : public FrameSource {
         frame.index = static_cast<std::int64_t>(index);
         frame.stamp_s = listed.depth_stamp_s;
         frame.colour_stamp_s = listed.colour_stamp_s;
-        frame.colour_delay_s = layout_.colour_delay_s;
+        frame.correction = layout_.correction;
         frame.T_world_camera = listed.T_world_camera;
         rectifier_.Fill(depth_, colour_, frame);
         return {};

@@ -41,7 +41,7 @@ class KlgSource : public FrameSource {
           file_(std::move(file)),
           entries_(std::move(index.entries)),
           decoder_(calibration, {config.rectify, config.swap_red_blue}),
-          colour_delay_s_(config.colour_delay_s) {
+          correction_(StampCorrection::Of(config.colour_delay_s, true)) {
         info_.name = path_;
         info_.kind = ".klg log";
         info_.camera = calibration.pinhole;
@@ -65,9 +65,10 @@ class KlgSource : public FrameSource {
             return {ReadStatus::kSkip,
                     fmt::format("{}: frame {}: {}", path_, index, status.message())};
         frame.index = static_cast<std::int64_t>(index);
-        frame.stamp_s = frame.colour_stamp_s = static_cast<double>(entries_[index].stamp_us) * 1e-6;
-        frame.colour_delay_s = colour_delay_s_;
-        CorrectStamps(colour_delay_s_, frame.stamp_s, frame.colour_stamp_s);
+        const double stamp_s = static_cast<double>(entries_[index].stamp_us) * 1e-6;
+        frame.stamp_s = stamp_s + correction_.depth_s;
+        frame.colour_stamp_s = stamp_s + correction_.colour_s;
+        frame.correction = correction_;
         frame.T_world_camera.reset();
         return {};
     }
@@ -80,11 +81,8 @@ class KlgSource : public FrameSource {
 
     std::vector<double> Stamps_s() const override {
         std::vector<double> stamps_s;
-        for (const KlgEntry& entry : entries_) {
-            double depth_s = static_cast<double>(entry.stamp_us) * 1e-6, colour_s = depth_s;
-            CorrectStamps(colour_delay_s_, depth_s, colour_s);
-            stamps_s.push_back(depth_s);
-        }
+        for (const KlgEntry& entry : entries_)
+            stamps_s.push_back(static_cast<double>(entry.stamp_us) * 1e-6 + correction_.depth_s);
         return stamps_s;
     }
 
@@ -108,7 +106,7 @@ class KlgSource : public FrameSource {
     InputFile file_;
     std::vector<KlgEntry> entries_;
     KlgFrameDecoder decoder_;
-    const double colour_delay_s_;
+    const StampCorrection correction_;
     SourceInfo info_;
     std::vector<std::uint8_t> bytes_;
     std::size_t next_ = 0;

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "io/nominal_camera.h"
 #include "io/rectifier.h"
 #include "recordings/phone_depth.h"
@@ -32,6 +34,12 @@ RecordingInfo Configured(RecordingInfo info, const FolderSourceConfig& config) {
     return info;
 }
 
+bool HasSharedStamps(const RecordingInfo& info) {
+    return std::ranges::all_of(info.pairs, [](const RecordedPair& pair) {
+        return pair.depth_stamp_s == pair.colour_stamp_s;
+    });
+}
+
 class RecordingSource : public FrameSource {
   public:
     RecordingSource(const std::string& path, std::unique_ptr<Recording> recording,
@@ -39,7 +47,7 @@ class RecordingSource : public FrameSource {
         : recording_(std::move(recording)),
           recorded_(std::move(info)),
           rectifier_(calibration, {}),
-          colour_delay_s_(colour_delay_s) {
+          correction_(StampCorrection::Of(colour_delay_s, HasSharedStamps(recorded_))) {
         info_.name = path;
         info_.kind = recorded_.kind;
         info_.camera = recorded_.depth_camera.pinhole;
@@ -64,10 +72,9 @@ class RecordingSource : public FrameSource {
         rectifier_.Fill(depth_, colour_, frame);
         const RecordedPair& pair = recorded_.pairs[static_cast<std::size_t>(index)];
         frame.index = index;
-        frame.stamp_s = pair.depth_stamp_s;
-        frame.colour_stamp_s = pair.colour_stamp_s;
-        frame.colour_delay_s = colour_delay_s_;
-        CorrectStamps(colour_delay_s_, frame.stamp_s, frame.colour_stamp_s);
+        frame.stamp_s = pair.depth_stamp_s + correction_.depth_s;
+        frame.colour_stamp_s = pair.colour_stamp_s + correction_.colour_s;
+        frame.correction = correction_;
         frame.T_world_camera.reset();
         return {};
     }
@@ -80,11 +87,8 @@ class RecordingSource : public FrameSource {
 
     std::vector<double> Stamps_s() const override {
         std::vector<double> stamps_s;
-        for (const RecordedPair& pair : recorded_.pairs) {
-            double depth_s = pair.depth_stamp_s, colour_s = pair.colour_stamp_s;
-            CorrectStamps(colour_delay_s_, depth_s, colour_s);
-            stamps_s.push_back(depth_s);
-        }
+        for (const RecordedPair& pair : recorded_.pairs)
+            stamps_s.push_back(pair.depth_stamp_s + correction_.depth_s);
         return stamps_s;
     }
 
@@ -122,7 +126,7 @@ class RecordingSource : public FrameSource {
     std::unique_ptr<Recording> recording_;
     const RecordingInfo recorded_;
     Rectifier rectifier_;
-    const double colour_delay_s_;
+    const StampCorrection correction_;
     SourceInfo info_;
     Image<std::uint16_t> depth_;
     ColourImage colour_;

@@ -34,9 +34,9 @@ Result<std::unique_ptr<DetectionsFile>> DetectionsFile::Read(const std::string& 
 }
 
 Result<std::vector<Detection>> DetectionsFile::Detect(const Frame& frame) {
-    const double correction_s = frame.colour_delay_s / 2;  // rows have the recorded stamps
-    for (const double stamp_s :
-         {frame.colour_stamp_s - correction_s, frame.stamp_s + correction_s}) {
+    // Rows have the recorded stamps.
+    for (const double stamp_s : {frame.colour_stamp_s - frame.correction.colour_s,
+                                 frame.stamp_s - frame.correction.depth_s}) {
         const auto after = by_stamp_.lower_bound(stamp_s);
         auto nearest = after;
         if (after == by_stamp_.end() ||

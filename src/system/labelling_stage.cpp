@@ -49,7 +49,7 @@ bool LabellingStage::Detect(const Frame& frame, LabelReport& report, std::string
     }
     report = {};
     report.stamp_s = frame.stamp_s;
-    report.colour_stamp_s = frame.colour_stamp_s - frame.colour_delay_s / 2;
+    report.colour_stamp_s = frame.colour_stamp_s - frame.correction.colour_s;
     report.detections = std::move(found.value());
     const std::vector<Detection> dynamic =
         ExtractDynamic(classes_, config_.min_probability, report.detections);

@@ -99,25 +99,43 @@ TEST(ReadFolderLayout, RecognisesTumListsAndTheirCameraFile) {
     EXPECT_TRUE(layout.value().notes.empty());
 }
 
-TEST(ReadFolderLayout, CorrectsTimeStampsThatContradictEachOther) {
+TEST(ReadFolderLayout, CorrectsTheTimeStampsThatAreLate) {
     TemporaryFolder folder;
     WriteTumLists(folder);
-    folder.WriteText("depth.txt", "1.00 depth/1.png\n1.04 depth/2.png\n");
+    folder.WriteText("depth.txt", "1.004 depth/1.png\n1.04 depth/2.png\n");
     folder.WriteText("rgb.txt", "1.02 rgb/1.png\n");
     folder.WriteText("groundtruth.txt",
                      "0.9 0 0 0 0 0 0 1\n0.91 1 0 0 0 0 0 1\n1 10 0 0 0 0 0 1\n"
                      "1.01 11 0 0 0 0 0 1\n1.02 12 0 0 0 0 0 1\n"
                      "1.03 13 0 0 0 0 0 1\n1.04 14 0 0 0 0 0 1\n");
+    const auto depth_late = ReadFolderLayout(folder.path(), 0.03, 0.018);
+    ASSERT_TRUE(depth_late.ok()) << depth_late.message();
+    ASSERT_EQ(depth_late.value().frames.size(), 1u);
+    const FolderFrame& frame = depth_late.value().frames[0];
+    EXPECT_EQ(frame.depth_path, folder.Path("depth/2.png"));
+    EXPECT_NEAR(frame.depth_stamp_s, 1.022, 1e-9);
+    EXPECT_EQ(frame.colour_stamp_s, 1.02);
+    ASSERT_TRUE(frame.T_world_camera);
+    EXPECT_NEAR(frame.T_world_camera->translation().x(), 12.2, 1e-6);
+
+    const auto colour_late = ReadFolderLayout(folder.path(), 0.03, -0.018);
+    ASSERT_TRUE(colour_late.ok()) << colour_late.message();
+    ASSERT_EQ(colour_late.value().frames.size(), 1u);
+    EXPECT_EQ(colour_late.value().frames[0].depth_path, folder.Path("depth/1.png"));
+    EXPECT_EQ(colour_late.value().frames[0].depth_stamp_s, 1.004);
+    EXPECT_NEAR(colour_late.value().frames[0].colour_stamp_s, 1.002, 1e-9);
+}
+
+TEST(ReadFolderLayout, WhereImagesShareAStampEachGetsHalfOfTheCorrection) {
+    TemporaryFolder folder;
+    WriteTumLists(folder);
+    folder.WriteText("depth.txt", "1.00 depth/1.png\n1.04 depth/2.png\n");
+    folder.WriteText("rgb.txt", "1.00 rgb/1.png\n1.04 rgb/2.png\n");
     const auto layout = ReadFolderLayout(folder.path(), 0.03, 0.018);
     ASSERT_TRUE(layout.ok()) << layout.message();
-    EXPECT_EQ(layout.value().colour_delay_s, 0.018);
-    ASSERT_EQ(layout.value().frames.size(), 1u);
-    const FolderFrame& frame = layout.value().frames[0];
-    EXPECT_EQ(frame.depth_path, folder.Path("depth/2.png"));
-    EXPECT_NEAR(frame.depth_stamp_s, 1.031, 1e-9);
-    EXPECT_NEAR(frame.colour_stamp_s, 1.029, 1e-9);
-    ASSERT_TRUE(frame.T_world_camera);
-    EXPECT_NEAR(frame.T_world_camera->translation().x(), 13.1, 1e-6);
+    ASSERT_EQ(layout.value().frames.size(), 2u);
+    EXPECT_NEAR(layout.value().frames[1].depth_stamp_s, 1.031, 1e-9);
+    EXPECT_NEAR(layout.value().frames[1].colour_stamp_s, 1.049, 1e-9);
 }
 
 TEST(ReadFolderLayout, FrameNumbersAreNoTimeStampsToCorrect) {
@@ -125,7 +143,7 @@ TEST(ReadFolderLayout, FrameNumbersAreNoTimeStampsToCorrect) {
     WriteTumLists(folder);
     const auto layout = ReadFolderLayout(folder.path(), 0.02, 0.018);
     ASSERT_TRUE(layout.ok()) << layout.message();
-    EXPECT_EQ(layout.value().colour_delay_s, 0);
+    EXPECT_EQ(layout.value().correction.depth_s, 0);
     EXPECT_EQ(layout.value().frames[1].depth_stamp_s, 2);
     EXPECT_EQ(layout.value().frames[1].colour_stamp_s, 2);
 }

@@ -79,7 +79,7 @@ TEST_F(Klg, CorrectsTheTimeStamps) {
     const auto source = Open();
     ASSERT_TRUE(source.ok()) << source.message();
     ASSERT_EQ(source.value()->Read(frame).status, ReadStatus::kOk);
-    EXPECT_EQ(frame.colour_delay_s, 0.02);
+    EXPECT_EQ(frame.correction.colour_s, 0.01);
     EXPECT_NEAR(frame.stamp_s, 1.49, 1e-12);
     EXPECT_NEAR(frame.colour_stamp_s, 1.51, 1e-12);
 }

@@ -72,9 +72,9 @@ TEST(RecordingSource, CorrectsTheTimeStamps) {
     Frame frame;
     ASSERT_TRUE(source->Seek(2));
     ASSERT_EQ(source->Read(frame).status, ReadStatus::kOk);
-    EXPECT_EQ(frame.colour_delay_s, -0.006);
-    EXPECT_NEAR(frame.stamp_s, 0.203, 1e-12);
-    EXPECT_NEAR(frame.colour_stamp_s, 0.207, 1e-12);
+    EXPECT_EQ(frame.correction.colour_s, -0.006);
+    EXPECT_NEAR(frame.stamp_s, 0.2, 1e-12);
+    EXPECT_NEAR(frame.colour_stamp_s, 0.204, 1e-12);
     ASSERT_GT(source->Stamps_s().size(), 2u);
     EXPECT_EQ(source->Stamps_s()[2], frame.stamp_s);
 }

@@ -121,10 +121,11 @@ TEST(OpenCheckedSource, CorrectsTheTimeStamps) {
     Frame frame;
     ASSERT_TRUE(source.Seek(20));
     ASSERT_EQ(source.Read(frame).status, ReadStatus::kOk);
-    EXPECT_NEAR(frame.colour_delay_s, 0.015, 0.001);
-    EXPECT_DOUBLE_EQ(frame.colour_delay_s, 0.005 + checked.value().delay->certain_s());
-    EXPECT_NEAR(frame.stamp_s, 2 - frame.colour_delay_s / 2, 1e-9);
-    EXPECT_NEAR(frame.colour_stamp_s, 2 + frame.colour_delay_s / 2, 1e-9);
+    const double corrected_s = frame.correction.colour_s - frame.correction.depth_s;
+    EXPECT_NEAR(corrected_s, 0.015, 0.001);
+    EXPECT_DOUBLE_EQ(corrected_s, 0.005 + checked.value().delay->certain_s());
+    EXPECT_NEAR(frame.stamp_s, 2 - corrected_s / 2, 1e-9);
+    EXPECT_NEAR(frame.colour_stamp_s, 2 + corrected_s / 2, 1e-9);
 }
 
 // Colour of this camera is said to be read in 30 ms, and no row of it lies beside depth's.

@@ -42,10 +42,9 @@ TEST(DetectionsFile, RowsHaveTheStampsAsRecorded) {
     auto file = Parse("1000.0 cup 0.9 1 2 3 4\n1000.05 tv 0.9 1 2 3 4\n");
     ASSERT_TRUE(file.ok()) << file.message();
     Frame frame;
-    frame.stamp_s = 1000.049;
-    frame.colour_stamp_s = 1000;
-    frame.colour_delay_s = 0.02;
-    CorrectStamps(frame.colour_delay_s, frame.stamp_s, frame.colour_stamp_s);
+    frame.correction = {-0.02, 0.03};
+    frame.stamp_s = 1000.049 - 0.02;
+    frame.colour_stamp_s = 1000 + 0.03;
     auto found = file.value()->Detect(frame).value();
     ASSERT_EQ(found.size(), 1u);
     EXPECT_EQ(found[0].name, "cup");

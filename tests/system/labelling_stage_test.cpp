@@ -76,9 +76,8 @@ TEST(LabellingStage, ReportsTheTimeOfColourAsRecorded) {
                          {64, 48, 50, 50, 31.5, 23.5});
     Frame frame;
     frame.stamp_s = 10;
-    frame.colour_stamp_s = 10.01;
-    frame.colour_delay_s = 0.02;
-    CorrectStamps(frame.colour_delay_s, frame.stamp_s, frame.colour_stamp_s);
+    frame.correction = {-0.01, 0.02};
+    frame.colour_stamp_s = 10.01 + 0.02;
     frame.colour = ColourImage(64, 48, Rgb8{90, 90, 90});
     LabelReport report;
     std::string message;
