@@ -134,7 +134,7 @@ std::vector<int> OverlapFinder::Candidates(const Keyframes& keyframes, int id) c
 }
 
 const DenseView& OverlapFinder::ViewOf(const Keyframe& keyframe) {
-    constexpr std::size_t kMost = 8;
+    constexpr std::size_t kMost = 16;
     const auto cached = std::ranges::find(cache_, keyframe.id, &Cached::id);
     if (cached != cache_.end()) {
         cache_.splice(cache_.begin(), cache_, cached);

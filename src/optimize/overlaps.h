@@ -35,7 +35,7 @@ class OverlapFinder {
         return keyframe.reduced.empty() ? ViewAlignment()
                                         : AlignViews(ViewOf(keyframe), view, T_keyframe_view);
     }
-    // Of a keyframe with a reduced view. Valid until seven other keyframes have been viewed.
+    // Of a keyframe with a reduced view. Valid until 15 other keyframes have been viewed.
     const DenseView& ViewOf(const Keyframe& keyframe);
 
   private:

@@ -1,5 +1,7 @@
 #include "optimize/view_alignment.h"
 
+#include <tbb/parallel_invoke.h>
+
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
@@ -130,10 +132,15 @@ ViewAlignment AlignViews(const DenseView& a, const DenseView& b, const Eigen::Is
             // and its inverse is exp(-x) T_b_a.
             forth = back = Sums();
             const Eigen::Isometry3d T_b_a = result.T_a_b.inverse();
-            AddOneWay(a.levels[level], b.levels[level], T_b_a, -Matrix6d::Identity(), true,
-                      brightness, scales, kGates_m[level], forth);
-            AddOneWay(b.levels[level], a.levels[level], result.T_a_b, Adjoint(result.T_a_b), false,
-                      brightness, scales, kGates_m[level], back);
+            tbb::parallel_invoke(
+                [&] {
+                    AddOneWay(a.levels[level], b.levels[level], T_b_a, -Matrix6d::Identity(), true,
+                              brightness, scales, kGates_m[level], forth);
+                },
+                [&] {
+                    AddOneWay(b.levels[level], a.levels[level], result.T_a_b, Adjoint(result.T_a_b),
+                              false, brightness, scales, kGates_m[level], back);
+                });
             SumMatrix hessian = forth.hessian + back.hessian;
             hessian.triangularView<Eigen::Lower>() = hessian.transpose();
             const SumVector gradient = forth.gradient + back.gradient;
