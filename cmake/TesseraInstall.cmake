@@ -20,7 +20,8 @@ install(FILES LICENSE README.md CHANGELOG.md DESTINATION ${documents} COMPONENT 
 install(DIRECTORY docs/ DESTINATION ${documents} COMPONENT program
     FILES_MATCHING PATTERN "*.md" PATTERN "results" EXCLUDE PATTERN "images" EXCLUDE)
 install(PROGRAMS python/examples/realsense.py python/examples/azure_kinect.py python/examples/orbbec.py
-    python/examples/oak.py python/examples/ros2_topics.py DESTINATION ${documents}/examples COMPONENT program)
+    python/examples/oak.py python/examples/opencv_capture.py python/examples/ros2_topics.py
+    DESTINATION ${documents}/examples COMPONENT program)
 install(FILES python/examples/stream.py DESTINATION ${documents}/examples COMPONENT program)
 
 # The Kinect's driver, in the folder where Debian's OpenNI2 looks for drivers if the prefix is /usr.

@@ -5,6 +5,7 @@ import struct
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 import numpy as np
@@ -17,9 +18,9 @@ import frames  # noqa: E402
 from stream import FrameSender  # noqa: E402
 
 
-def run_example(name):
+def run_example(name, *more_paths):
     """Returns what the example sends, in a process of its own."""
-    script = (f"import sys, runpy; sys.path[:0] = {sys.path[:2]!r}; sys.argv = ['x', '-']\n"
+    script = (f"import sys, runpy; sys.path[:0] = {[*more_paths, *sys.path[:2]]!r}; sys.argv = ['x', '-']\n"
               f"from frames import NoMoreFrames\n"
               f"try:\n    runpy.run_path({str(EXAMPLES / name)!r})\nexcept NoMoreFrames:\n    pass\n")
     return subprocess.run([sys.executable, "-c", script], stdout=subprocess.PIPE, check=True).stdout
@@ -65,6 +66,18 @@ class Senders(unittest.TestCase):
         except ImportError:
             self.skipTest("no OpenCV for Python: apt-get install python3-opencv")
         self.check("azure_kinect.py", 1280, 720)
+
+    def test_opencv_capture(self):
+        before_s = time.time()
+        camera, found = parse(run_example("opencv_capture.py", str(ROOT / "tests/python/stand_ins/opencv")))
+        self.assertEqual([float(camera[key]) for key in ("width", "height", "fx", "fy", "cx", "cy", "depth_scale")],
+                         [frames.WIDTH, frames.HEIGHT, frames.FX, frames.FX, 319.5, 239.5, 1000])
+        self.assertEqual(len(found), 2)
+        self.assertLess(before_s, found[0][0])
+        self.assertLess(found[0][0], found[1][0])
+        for number, (_, depth, colour) in enumerate(found):
+            np.testing.assert_array_equal(depth, frames.depth_mm(number))
+            np.testing.assert_array_equal(colour, frames.colour_rgb(number))
 
     def test_orbbec(self):
         self.check("orbbec.py")
