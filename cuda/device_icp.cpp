@@ -124,6 +124,10 @@ ResidualSums DeviceIcp::SumResiduals(const ResidualArguments& arguments) {
     return device_.SumResidualsOf(arguments, points_, Residuals(kept_, 0));
 }
 
+void DeviceIcp::RemoveShading(const ShadingArguments& arguments) {
+    device_.RemoveShadingOf(arguments, points_, Residuals(kept_, 0));
+}
+
 void DeviceIcp::TakeResiduals(std::vector<float>& distance, std::vector<float>& intensity) {
     const std::size_t bytes = static_cast<std::size_t>(points_.count()) * sizeof(float);
     device_.stream_.Download(distance.data(), Residuals(kept_, 0), bytes);

@@ -24,6 +24,7 @@ class DeviceIcp : public IcpSums {
     PoseSums Sum(const IcpArguments& arguments, int points) override;
     void KeepResiduals(PointResiduals&, PointResiduals&) override { kept_ = 1 - kept_; }
     ResidualSums SumResiduals(const ResidualArguments& arguments) override;
+    void RemoveShading(const ShadingArguments& arguments) override;
 
     // Like those of DevicePipeline, for the kept residuals.
     void TakePoints(FramePoints& points);

@@ -132,6 +132,18 @@ ResidualSums DevicePipeline::SumResidualsOf(ResidualArguments a, const DevicePoi
     return sums;
 }
 
+void DevicePipeline::RemoveShading(const ShadingArguments& arguments) {
+    RemoveShadingOf(arguments, points_, residuals_.data());
+}
+
+void DevicePipeline::RemoveShadingOf(ShadingArguments a, DevicePoints& points,
+                                     const float* residuals) {
+    if (points.count() == 0) return;
+    a.residual = residuals + points.count();
+    a.intensity = points.intensity();
+    residual_sums_.RemoveShading(a);
+}
+
 void DevicePipeline::Download(const DevicePoints& from, FramePoints& points) {
     const auto bytes = static_cast<std::size_t>(from.count()) * sizeof(float);
     stream_.Download(points.x.data(), from.x(), bytes);

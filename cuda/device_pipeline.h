@@ -39,6 +39,7 @@ class DevicePipeline : public Backend, public SdfSums {
                    FramePoints& slots) override;
     PoseSums Sum(const SdfArguments& arguments, int points) override;
     ResidualSums SumResiduals(const ResidualArguments& arguments) override;
+    void RemoveShading(const ShadingArguments& arguments) override;
 
     // For inspection: copies the points without their normals into arrays that Lay has made, and
     // the last Sum's residuals.
@@ -64,6 +65,8 @@ class DevicePipeline : public Backend, public SdfSums {
     // frame, all of which are on the device.
     [[nodiscard]] ResidualSums SumResidualsOf(ResidualArguments arguments,
                                               const DevicePoints& points, const float* residuals);
+    // The same for RemoveShading; the points' intensities change.
+    void RemoveShadingOf(ShadingArguments arguments, DevicePoints& points, const float* residuals);
     // Copies all but the normals into arrays that Lay has made.
     void Download(const DevicePoints& from, FramePoints& points);
     [[nodiscard]] bool ReserveSums(int points);

@@ -24,6 +24,7 @@ class DevicePoints {
     const float* y() const { return y_.data(); }
     const float* z() const { return z_.data(); }
     const float* intensity() const { return intensity_.data(); }
+    float* intensity() { return intensity_.data(); }
     const float* weight() const { return weight_.data(); }
     const float* cb() const { return chroma_.data(); }  // unspecified if none was requested
     const float* cr() const { return chroma_.data() + count_; }

@@ -34,6 +34,20 @@ struct AddParts {
     }
 };
 
+// Per patch, per patch, and per span of a patch's points in a row.
+struct SumPatch {
+    ShadingArguments arguments;
+    TESSERA_HD_MEMBER void operator()(int i) const { ShadingKernels::SumPatch(arguments, i); }
+};
+struct MeanAround {
+    ShadingArguments arguments;
+    TESSERA_HD_MEMBER void operator()(int i) const { ShadingKernels::MeanAround(arguments, i); }
+};
+struct AddShading {
+    ShadingArguments arguments;
+    TESSERA_HD_MEMBER void operator()(int i) const { ShadingKernels::AddShading(arguments, i); }
+};
+
 template <class Kind>
 std::size_t PartRoom(const ResidualArguments& a) {
     return static_cast<std::size_t>(Kind::Groups(a)) *
@@ -43,7 +57,7 @@ std::size_t PartRoom(const ResidualArguments& a) {
 }  // namespace residual_bodies
 
 DeviceResiduals::DeviceResiduals(DeviceMemory& memory, Stream& stream)
-    : stream_(stream), parts_(memory), sums_(memory) {}
+    : stream_(stream), parts_(memory), sums_(memory), patches_(memory) {}
 
 bool DeviceResiduals::Reserve(int width, int height) {
     using residual_bodies::PartRoom;
@@ -52,7 +66,11 @@ bool DeviceResiduals::Reserve(int width, int height) {
     a.height = height;
     const std::size_t room =
         std::max({PartRoom<DistanceSums>(a), PartRoom<ScoreSums>(a), PartRoom<ShutterSums>(a)});
-    return parts_.ReserveScratch(stream_, room) && sums_.ReserveScratch(stream_, room);
+    ShadingArguments shading{};
+    shading.width = width;
+    shading.height = height;
+    return parts_.ReserveScratch(stream_, room) && sums_.ReserveScratch(stream_, room) &&
+           patches_.ReserveScratch(stream_, 3 * static_cast<std::size_t>(shading.Patches()));
 }
 
 template <class Kind>
@@ -63,6 +81,15 @@ void DeviceResiduals::Sum(const ResidualArguments& a, std::vector<double>& sums)
             residual_bodies::AddParts{parts_.data(), parts, Kind::kSums, sums_.data()});
     sums.resize(static_cast<std::size_t>(groups * Kind::kSums));
     stream_.Download(sums.data(), sums_.data(), sums.size() * sizeof(double));
+}
+
+void DeviceResiduals::RemoveShading(ShadingArguments a) {
+    a.sum = patches_.data();
+    a.count = a.sum + a.Patches();
+    a.mean = a.count + a.Patches();
+    ForEach(stream_, a.Patches(), residual_bodies::SumPatch{a});
+    ForEach(stream_, a.Patches(), residual_bodies::MeanAround{a});
+    ForEach(stream_, a.Spans(), residual_bodies::AddShading{a});
 }
 
 template void DeviceResiduals::Sum<DistanceSums>(const ResidualArguments&, std::vector<double>&);

@@ -5,6 +5,7 @@
 
 #include "cuda/device.h"
 #include "tracking/residual_kernels.h"
+#include "tracking/shading_kernels.h"
 
 namespace tessera::TESSERA_DEVICE {
 
@@ -21,10 +22,13 @@ class DeviceResiduals {
     // device.
     template <class Kind>
     void Sum(const ResidualArguments& arguments, std::vector<double>& sums);
+    // RemoveShading for arguments whose points and residuals are on the device.
+    void RemoveShading(ShadingArguments arguments);
 
   private:
     Stream& stream_;
     DeviceBuffer<double> parts_, sums_;
+    DeviceBuffer<float> patches_;  // sums, numbers and means
 };
 
 }  // namespace tessera::TESSERA_DEVICE

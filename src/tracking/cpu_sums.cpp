@@ -22,6 +22,10 @@ ResidualSums CpuSdfSums::SumResiduals(const ResidualArguments& arguments) {
     return tessera::SumResiduals(arguments);
 }
 
+void CpuSdfSums::RemoveShading(const ShadingArguments& arguments) {
+    tessera::RemoveShading(arguments);
+}
+
 void CpuIcpSums::Predict(const BlockMap& map, const PinholeCamera& camera,
                          const Eigen::Isometry3d& T_world_camera, const ModelRange& range,
                          int levels, PredictedView& view, std::vector<IcpModelLevel>& model) {
@@ -46,6 +50,10 @@ void CpuIcpSums::KeepResiduals(PointResiduals& kept, PointResiduals& last) {
 
 ResidualSums CpuIcpSums::SumResiduals(const ResidualArguments& arguments) {
     return tessera::SumResiduals(arguments);
+}
+
+void CpuIcpSums::RemoveShading(const ShadingArguments& arguments) {
+    tessera::RemoveShading(arguments);
 }
 
 }  // namespace tessera

@@ -47,6 +47,8 @@ class IcpSums {
     // SumResiduals for the points, the kept residuals and the frame. A device reads no arrays of
     // `arguments`.
     virtual ResidualSums SumResiduals(const ResidualArguments& arguments) = 0;
+    // RemoveShading for the points and the kept residuals. A device reads no arrays of `arguments`.
+    virtual void RemoveShading(const ShadingArguments& arguments) = 0;
 };
 
 class CpuIcpSums : public IcpSums {
@@ -62,6 +64,7 @@ class CpuIcpSums : public IcpSums {
     PoseSums Sum(const IcpArguments& arguments, int points) override;
     void KeepResiduals(PointResiduals& kept, PointResiduals& last) override;
     ResidualSums SumResiduals(const ResidualArguments& arguments) override;
+    void RemoveShading(const ShadingArguments& arguments) override;
 
   private:
     VectorPath path_;

@@ -166,6 +166,12 @@ void IcpTracker::RunLevel(int level, State& state) {
                                                          : config_.middle_iterations;
     state.sums = SumAt(points, Compare::kWithNothing, state);
     KeepResiduals();
+    if (level == 0 && state.alpha > 0 && residual_model_.TakesForShading(state.sums)) {
+        sums_.RemoveShading(MakeShadingArguments(points_[0], residuals_, state.gain,
+                                                 residual_model_.config().intensity_scale));
+        state.sums = SumAt(points, Compare::kWithNothing, state);
+        KeepResiduals();
+    }
     SolverOptions& options = state.options;
     options.alpha = state.alpha;
     options.least_damping =

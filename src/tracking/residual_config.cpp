@@ -18,6 +18,9 @@ void ResidualModel::Config::Describe(ConfigParameters& p) {
           "auto: the largest alpha; if intensities dominate, distances no longer show their own "
           "errors");
     p.Add("intensity_scale", intensity_scale, {1e-3, 10.0}, "", "Huber scale of intensities");
+    p.Add("remove_shading", remove_shading,
+          "leave out what the intensity errors have in common over a thirteenth of the image's "
+          "width: vignetting, light that moves or is reflected; off aligns with shading, too");
     p.Add("brightness", brightness,
           "estimate gain and offset of every frame, so that auto-exposure does not distort the "
           "path");

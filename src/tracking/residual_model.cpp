@@ -189,6 +189,15 @@ FrameMotion ResidualModel::Timed(FrameMotion motion) const {
     return motion;
 }
 
+bool ResidualModel::TakesForShading(const PoseSums& sums) const {
+    constexpr double kMuchLarger = 2;
+    const double error = sums[SumLayout::kIntensityError],
+                 weight = sums[SumLayout::kIntensityWeight];
+    return config_.remove_shading &&
+           (usual_rms_ <= 0 ||
+            error < kMuchLarger * kMuchLarger * usual_rms_ * usual_rms_ * weight);
+}
+
 // By the share of the map's image gradients that the frame shows: less than 1 if it is blurred, 0
 // if it is blank or of something else.
 bool ResidualModel::Contradicts(const ResidualSums& sums, double intensity_rms) {

@@ -44,6 +44,7 @@ class ResidualModel {
         double surface_error_voxels = 0.1;
         double auto_alpha_max = 0.1;
         double intensity_scale = 0.1;
+        bool remove_shading = true;
         bool brightness = true;
         double brightness_prior = 0.05;
         double doubt_contrast = 0.25;
@@ -73,6 +74,9 @@ class ResidualModel {
     bool WantsShutter(const FrameMotion& motion, double intensity_rms) const {
         return shutter_.Wants(motion, intensity_rms);
     }
+    // Whether the frame's intensity errors may be shading: not if they are much larger than usual.
+    // `sums`: of the finest points.
+    bool TakesForShading(const PoseSums& sums) const;
     // Whether the colour image contradicts the map, as that of a dark or dazzled camera: it does
     // not show the map's contrast, and its errors are much larger than usual. After such an image,
     // the next must show the contrast, whatever its errors. False while nothing is usual yet.

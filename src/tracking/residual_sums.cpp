@@ -60,4 +60,32 @@ ResidualSums SumResiduals(const ResidualArguments& a) {
     return sums;
 }
 
+ShadingArguments MakeShadingArguments(FramePoints& points, const PointResiduals& residuals,
+                                      double gain, double limit) {
+    ShadingArguments a{};
+    a.width = points.width();
+    a.height = points.height();
+    a.residual = residuals.intensity.data();
+    a.intensity = points.intensity.data();
+    a.gain = static_cast<float>(gain);
+    a.limit = static_cast<float>(limit);
+    return a;
+}
+
+void RemoveShading(ShadingArguments a) {
+    std::vector<float> patches(3 * static_cast<std::size_t>(a.Patches()));
+    a.sum = patches.data();
+    a.count = a.sum + a.Patches();
+    a.mean = a.count + a.Patches();
+    tbb::parallel_for(0, a.Rows(), [&](int row) {
+        for (int i = row * a.Columns(); i < (row + 1) * a.Columns(); ++i)
+            ShadingKernels::SumPatch(a, i);
+    });
+    for (int i = 0; i < a.Patches(); ++i) ShadingKernels::MeanAround(a, i);
+    tbb::parallel_for(0, a.height, [&](int row) {
+        for (int i = row * a.Columns(); i < (row + 1) * a.Columns(); ++i)
+            ShadingKernels::AddShading(a, i);
+    });
+}
+
 }  // namespace tessera

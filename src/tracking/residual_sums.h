@@ -8,6 +8,7 @@
 #include "mapping/prepared_frame.h"
 #include "tracking/frame_points.h"
 #include "tracking/residual_kernels.h"
+#include "tracking/shading_kernels.h"
 
 namespace tessera {
 
@@ -31,5 +32,14 @@ ResidualArguments MakeResidualArguments(const PreparedFrame& frame, const Pinhol
 
 // Runs on all threads; the same bytes for any number of them.
 ResidualSums SumResiduals(const ResidualArguments& arguments);
+
+// Arguments for these points and their residuals, without the patches' arrays. `limit`: the Huber
+// scale of intensities.
+ShadingArguments MakeShadingArguments(FramePoints& points, const PointResiduals& residuals,
+                                      double gain, double limit);
+
+// Adds the shading that the residuals show to the intensities of the points. The patches' arrays
+// are its own. Runs on all threads; the same bytes for any number of them.
+void RemoveShading(ShadingArguments arguments);
 
 }  // namespace tessera

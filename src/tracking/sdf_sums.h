@@ -26,6 +26,9 @@ class SdfSums {
     // SumResiduals for these points, their residuals at the last Sum, and the frame. The arguments
     // of that Sum must have requested residuals. A device reads no arrays of `arguments`.
     virtual ResidualSums SumResiduals(const ResidualArguments& arguments) = 0;
+    // RemoveShading for these points and their residuals at the last Sum, which must have requested
+    // them. A device reads no arrays of `arguments`.
+    virtual void RemoveShading(const ShadingArguments& arguments) = 0;
 };
 
 class CpuSdfSums : public SdfSums {
@@ -36,6 +39,7 @@ class CpuSdfSums : public SdfSums {
                    FramePoints& slots) override;
     PoseSums Sum(const SdfArguments& arguments, int points) override;
     ResidualSums SumResiduals(const ResidualArguments& arguments) override;
+    void RemoveShading(const ShadingArguments& arguments) override;
 
   private:
     VectorPath path_;

@@ -152,8 +152,17 @@ void SdfTracker::RunLevel(const TrackInput& input, int level, State& state) {
     options.least_damping =
         LeastDamping(residual_model_.scales(), judge_.expected_within_m(), level);
     const int iterations = level == 0 ? config_.fine_iterations : config_.coarse_iterations;
+    bool removes_shading = false;
     for (int i = 0; i < iterations; ++i) {
         state.sums = SumAt(input, points, state);
+        if (level == 0 && i == 0)
+            removes_shading = state.alpha > 0 && residual_model_.TakesForShading(state.sums);
+        if (removes_shading && i > 0) {
+            // From the second step on, because what a wrong pose leaves looks like shading, too.
+            sums_.RemoveShading(MakeShadingArguments(points_[0], residuals_, state.gain,
+                                                     residual_model_.config().intensity_scale));
+            if (i == 1) state.sums = SumAt(input, points, state);
+        }
         ++state.iterations;
         options.brightness_prior =
             residual_model_.config().brightness_prior * state.sums[L::kBrightness + 2];
@@ -171,7 +180,8 @@ void SdfTracker::RunLevel(const TrackInput& input, int level, State& state) {
         const double turn = state.step.increment.head<3>().norm();
         const double move = state.step.increment.tail<3>().norm();
         const double tolerance = level == 0 ? 1.0 : 4.0;
-        if (turn < 5e-5 * tolerance && move < 5e-5 * tolerance) break;
+        const bool converged = turn < 5e-5 * tolerance && move < 5e-5 * tolerance;
+        if (converged && (i > 0 || !removes_shading)) break;
     }
     state.T_world_camera = Normalised(state.T_world_camera);
 }

@@ -133,6 +133,14 @@ TEST(DevicePipeline, SumsAreTheProcessorsToTheBit) {
     EXPECT_EQ(learnt.scores.size(), 7u * 19 * 14);
     EXPECT_EQ(learnt.shutter.size(), 5u * 20);
     EXPECT_GT(learnt.shutter[5 * 10], 0);
+
+    const ShadingArguments shading = MakeShadingArguments(points, found, 1.1, 0.1);
+    const std::vector<float> before = points.intensity;
+    RemoveShading(shading);
+    device.RemoveShading(shading);
+    device.TakePoints(slots);
+    EXPECT_NE(points.intensity, before);
+    EXPECT_EQ(slots.intensity, points.intensity);
 }
 
 // Tracks consecutive frames against the same map, from the same start.
