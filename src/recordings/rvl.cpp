@@ -49,8 +49,6 @@ bool DecodeRvl(std::span<const std::uint8_t> code, std::span<std::uint16_t> pixe
         std::ranges::fill(pixels.first(without), std::uint16_t{0});
         pixels = pixels.subspan(without);
         if (!numbers.Next(with) || with > pixels.size()) return false;
-        // Two empty runs would go on for ever in a code without end; no encoder writes them.
-        if (without == 0 && with == 0) return false;
         for (std::uint16_t& pixel : pixels.first(with)) {
             std::uint32_t difference = 0;
             if (!numbers.Next(difference)) return false;
