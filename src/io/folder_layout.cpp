@@ -11,6 +11,7 @@
 #include "io/named_images.h"
 #include "io/open3d_camera.h"
 #include "io/published_cameras.h"
+#include "io/stamp_pairing.h"
 
 namespace tessera {
 namespace {
@@ -234,10 +235,7 @@ Result<FolderLayout> ReadFolderLayout(const std::string& path, double max_pair_g
     ImagePairs& found = images.value();
     const bool numbered = StampsAreFrameNumbers(found.pairs);
     if (!numbered) {
-        const bool shared = std::ranges::all_of(found.pairs, [](const ImagePair& pair) {
-            return pair.depth_stamp_s == pair.colour_stamp_s;
-        });
-        result.correction = StampCorrection::Of(colour_delay_s, shared);
+        result.correction = StampCorrection::Of(colour_delay_s, ShareStamps(found.pairs));
         for (ImagePair& pair : found.pairs) {
             pair.depth_stamp_s += result.correction.depth_s;
             pair.colour_stamp_s += result.correction.colour_s;

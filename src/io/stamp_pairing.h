@@ -1,6 +1,7 @@
 // Pairs colour and depth images by time stamp.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -27,6 +28,13 @@ std::vector<StampPair> PairNearest(std::span<const double> depth_stamps_s,
 // 20 ms and at most 50 ms. Both lists as for PairNearest. Thread-safe.
 double PairGap(double max_gap_s, std::span<const double> depth_stamps_s,
                std::span<const double> colour_stamps_s);
+
+// Whether the two images of every pair (depth_stamp_s, colour_stamp_s) have one stamp.
+template <class Pairs>
+bool ShareStamps(const Pairs& pairs) {
+    return std::ranges::all_of(
+        pairs, [](const auto& pair) { return pair.depth_stamp_s == pair.colour_stamp_s; });
+}
 
 // The smallest distance between a stamp of one list and a stamp of the other; infinity if either is
 // empty.

@@ -2,10 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "io/nominal_camera.h"
 #include "io/rectifier.h"
+#include "io/stamp_pairing.h"
 #include "recordings/phone_depth.h"
 
 namespace tessera {
@@ -34,12 +33,6 @@ RecordingInfo Configured(RecordingInfo info, const FolderSourceConfig& config) {
     return info;
 }
 
-bool HasSharedStamps(const RecordingInfo& info) {
-    return std::ranges::all_of(info.pairs, [](const RecordedPair& pair) {
-        return pair.depth_stamp_s == pair.colour_stamp_s;
-    });
-}
-
 class RecordingSource : public FrameSource {
   public:
     RecordingSource(const std::string& path, std::unique_ptr<Recording> recording,
@@ -47,7 +40,7 @@ class RecordingSource : public FrameSource {
         : recording_(std::move(recording)),
           recorded_(std::move(info)),
           rectifier_(calibration, {}),
-          correction_(StampCorrection::Of(colour_delay_s, HasSharedStamps(recorded_))) {
+          correction_(StampCorrection::Of(colour_delay_s, ShareStamps(recorded_.pairs))) {
         info_.name = path;
         info_.kind = recorded_.kind;
         info_.camera = recorded_.depth_camera.pinhole;

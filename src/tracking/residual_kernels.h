@@ -10,6 +10,10 @@
 
 namespace tessera {
 
+// Side of the patches over which errors are assumed to be shared, in points, for points in rows of
+// this width: a fortieth of the image at any resolution.
+TESSERA_HD int PatchSide(int width) { return width >= 80 ? (width + 20) / 40 : 2; }
+
 struct ResidualArguments {
     // The points, row by row, at every step-th pixel (FramePoints). Residuals are NaN where
     // unknown.
@@ -30,9 +34,8 @@ struct ResidualArguments {
     bool has_intensity, wants_shutter;  // which sums to compute
 
     TESSERA_HD_MEMBER int At(int column, int row) const { return row * width + column; }
-    // Side of the patches of DistanceSums, in points: a fortieth of the image at any resolution.
-    // Two by two patches form a block, over which errors are assumed to be shared.
-    TESSERA_HD_MEMBER int Patch() const { return width >= 80 ? (width + 20) / 40 : 2; }
+    // Of DistanceSums. Two by two patches form a block.
+    TESSERA_HD_MEMBER int Patch() const { return PatchSide(width); }
     TESSERA_HD_MEMBER double HuberedWeight(int i, double residual, double scale) const {
         const double size = std::fabs(residual);
         return size > scale ? weight[i] * (scale / size) : weight[i];

@@ -6,8 +6,8 @@
 
 #include <cmath>
 
-#include "core/host_device.h"
 #include "core/scalar_ops.h"
+#include "tracking/residual_kernels.h"
 
 namespace tessera {
 
@@ -20,8 +20,7 @@ struct ShadingArguments {
     // Of the patches: sums and numbers of residuals, and weighted means over 3 x 3 patches.
     float *sum, *count, *mean;
 
-    // Side of the patches in points: a fortieth of the image at any resolution.
-    TESSERA_HD_MEMBER int Patch() const { return width >= 80 ? (width + 20) / 40 : 2; }
+    TESSERA_HD_MEMBER int Patch() const { return PatchSide(width); }
     TESSERA_HD_MEMBER int Columns() const { return (width + Patch() - 1) / Patch(); }
     TESSERA_HD_MEMBER int Rows() const { return (height + Patch() - 1) / Patch(); }
     TESSERA_HD_MEMBER int Patches() const { return Columns() * Rows(); }

@@ -13,6 +13,18 @@ namespace {
 
 using namespace testing_support;
 
+ShadingArguments ArgumentsOf(int width, const std::vector<float>& residual,
+                             std::vector<float>& intensity, float gain) {
+    ShadingArguments a{};
+    a.width = width;
+    a.height = static_cast<int>(residual.size()) / width;
+    a.residual = residual.data();
+    a.intensity = intensity.data();
+    a.gain = gain;
+    a.limit = 0.1f;
+    return a;
+}
+
 // The mean of the residuals in the 3 x 3 patches around a point's, for each point. The patch's own
 // row and column count twice.
 std::vector<double> SlowShading(const ShadingArguments& a) {
@@ -47,13 +59,7 @@ TEST(RemoveShading, AddsTheMeanResidualAroundEachPoint) {
                                              : 0.5f * uniform(random) - 0.2f;
         intensity[i] = uniform(random) < 0.2f ? -1 : 0.3f + 0.5f * uniform(random);
     }
-    ShadingArguments a{};
-    a.width = kWidth;
-    a.height = kHeight;
-    a.residual = residual.data();
-    a.intensity = intensity.data();
-    a.gain = 1.25f;
-    a.limit = 0.1f;
+    const ShadingArguments a = ArgumentsOf(kWidth, residual, intensity, 1.25f);
     ASSERT_EQ(a.Patch(), 2);
     const std::vector<double> shading = SlowShading(a);
     const std::vector<float> before = intensity;
@@ -70,13 +76,7 @@ TEST(RemoveShading, Settles) {
     std::vector<float> map(kWidth * kHeight), intensity(map.size(), 0.5f), residual(map.size());
     for (std::size_t i = 0; i < map.size(); ++i)
         map[i] = 0.5f + uniform(random) + 0.04f * std::sin(0.7f * static_cast<float>(i % kWidth));
-    ShadingArguments a{};
-    a.width = kWidth;
-    a.height = kHeight;
-    a.residual = residual.data();
-    a.intensity = intensity.data();
-    a.gain = 1;
-    a.limit = 0.1f;
+    const ShadingArguments a = ArgumentsOf(kWidth, residual, intensity, 1);
     const auto rms = [&] {
         double sum = 0;
         for (std::size_t i = 0; i < map.size(); ++i) {
