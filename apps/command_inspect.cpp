@@ -11,7 +11,7 @@ namespace tessera {
 namespace {
 
 struct InspectArguments {
-    std::string source, out, tracker;
+    std::string source, out, tracker, labels = "none";
     std::int64_t frame = 0;
     ConfigOptions config;
 };
@@ -24,7 +24,8 @@ Status Inspect(const InspectArguments& a) {
     if (!a.tracker.empty())
         if (Status status = parameters.Set("tracking.method", a.tracker); !status.ok())
             return status;
-    const Result<Inspection> result = InspectFrame(a.source, config, a.frame);
+    const Result<Inspection> result =
+        InspectFrame(a.source, config, a.labels == "none" ? "" : a.labels, a.frame);
     if (!result.ok()) return result.status();
     const FrameReport& report = result.value().report;
     const TrackResult& t = report.track;
@@ -44,7 +45,8 @@ void AddInspectCommand(CLI::App& app, CommandContext& context) {
     auto a = std::make_shared<InspectArguments>();
     CLI::App* command = app.add_subcommand("inspect",
                                            "Compare one frame with the map in a picture: measured "
-                                           "and predicted colour and depth, and residuals");
+                                           "and predicted colour and depth, and residuals; or "
+                                           "detections and objects");
     command->add_option("SOURCE", a->source, "As for tessera run")->required();
     command
         ->add_option("--frame", a->frame,
@@ -57,6 +59,12 @@ void AddInspectCommand(CLI::App& app, CommandContext& context) {
     command
         ->add_option("--tracker", a->tracker, "Tracking method, as tracking.method (default sdf)")
         ->check(CLI::IsMember(TrackingMethodNames()));
+    command
+        ->add_option("--labels", a->labels,
+                     "As for tessera run; shows the frame's detections and the map's objects "
+                     "instead of residuals")
+        ->type_name("MODEL|DETECTIONS|none")
+        ->capture_default_str();
     a->config.AddTo(*command);
     command->callback([a, &context] { context.exit_code = ExitCode(Inspect(*a)); });
 }

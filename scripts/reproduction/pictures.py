@@ -1,4 +1,4 @@
-"""The papers' pictures of reconstructions: [B14] figures 6 to 8, [D18] figures 10, 13 and 17."""
+"""The papers' pictures of reconstructions: [B14] figures 6 to 8, [D18] figures 7, 8, 10, 13 and 17."""
 import dataclasses
 import pathlib
 import shutil
@@ -63,9 +63,14 @@ def b14_figures(bench):
 
 
 def d18_figures(bench):
-    document = Document("[D18] figures 10, 13 and 17: reconstructions with the scene's colours and by object")
+    document = Document("[D18] figures 7, 8, 10, 13 and 17: detections, and reconstructions by object")
     desk = labels_job(bench, "segment").needs[0]
-    cells, jobs = [described(bench, "10", "synthetic:desk, no noise", desk)], [desk]
+    cells = [described(bench, "7, 8, 10", "synthetic:desk, no noise", desk)]
+    frame = min(DESK_POSE, Run(bench, desk).frames - 1)
+    seen = Job("pictures/d18-figure7", ("inspect", "synthetic:desk", *bench.sample.camera, "--labels", "synthetic", "--frame",
+                                        str(frame), "--out", str(bench.folder("pictures/d18-figure7") / "d18-figure7.jpg")))
+    jobs = [desk, add(bench, document, seen, "Figures 7 (first row) and 8 (right column): the detections, the object image "
+                      "made of them, and the one predicted from the map")]
     view = from_pose(bench, desk, DESK_POSE)
     jobs += both_shadings(bench, document, desk, view, "d18-figure10", "Figure 10: the rendered desk")
     real = recorded_desk(bench)

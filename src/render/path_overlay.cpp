@@ -8,6 +8,8 @@
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
+#include "render/annotation.h"
+
 namespace tessera {
 namespace {
 
@@ -21,6 +23,7 @@ class Pen {
     Pen(const PinholeCamera& camera, const Eigen::Isometry3d& T_world_camera, ColourImage& image)
         : camera_(camera),
           T_camera_world_(T_world_camera.inverse()),
+          image_(image),
           canvas_(image.height(), image.width(), CV_8UC3, image.data()),
           thickness_(std::max(1, image.width() / 1000)) {}
 
@@ -38,19 +41,8 @@ class Pen {
     void Write(const Eigen::Vector3d& p_world, const std::string& text, const Rgb8& colour) {
         const Eigen::Vector3d p = T_camera_world_ * p_world;
         if (!(p.z() > kNear_m)) return;
-        const double scale = 0.45 * std::max(1.0, camera_.width / 1280.0);
-        int below = 0;
-        const cv::Size size =
-            cv::getTextSize(text, cv::FONT_HERSHEY_SIMPLEX, scale, thickness_, &below);
         const cv::Point middle = Pixel(p);
-        const cv::Point at((middle.x >> kSubpixelBits) - size.width / 2,
-                           (middle.y >> kSubpixelBits) - below - 3);
-        const bool dark = 0.299 * colour.r + 0.587 * colour.g + 0.114 * colour.b < 140;
-        cv::rectangle(canvas_, {at.x - 3, at.y - size.height - 3},
-                      {at.x + size.width + 3, at.y + below + 1},
-                      {double(colour.r), double(colour.g), double(colour.b)}, cv::FILLED);
-        cv::putText(canvas_, text, at, cv::FONT_HERSHEY_SIMPLEX, scale,
-                    cv::Scalar::all(dark ? 255 : 0), thickness_, cv::LINE_AA);
+        DrawPlate(middle.x >> kSubpixelBits, middle.y >> kSubpixelBits, text, colour, image_);
     }
 
   private:
@@ -64,6 +56,7 @@ class Pen {
 
     const PinholeCamera& camera_;
     Eigen::Isometry3d T_camera_world_;
+    ColourImage& image_;
     cv::Mat canvas_;
     int thickness_;
 };

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/check.h"
+#include "render/annotation.h"
 
 namespace tessera {
 namespace {
@@ -45,26 +46,6 @@ ColourImage DepthPicture(const DepthImage& depth_m, float nearest_m, float farth
     return picture;
 }
 
-class Sheet {
-  public:
-    Sheet(int width, int height) : width_(width), height_(height), image_(3 * width, 2 * height) {}
-
-    void Put(int column, int row, const std::string& name, const ColourImage& tile) {
-        for (int v = 0; v < height_; ++v)
-            std::copy_n(tile.row(v), width_, image_.row(row * height_ + v) + column * width_);
-        cv::Mat canvas(image_.height(), image_.width(), CV_8UC3, image_.data());
-        const cv::Point at(column * width_ + 8, row * height_ + 22);
-        cv::putText(canvas, name, at, cv::FONT_HERSHEY_SIMPLEX, 0.6, {0, 0, 0}, 4, cv::LINE_AA);
-        cv::putText(canvas, name, at, cv::FONT_HERSHEY_SIMPLEX, 0.6, {255, 255, 255}, 1,
-                    cv::LINE_AA);
-    }
-    ColourImage Take() { return std::move(image_); }
-
-  private:
-    int width_, height_;
-    ColourImage image_;
-};
-
 }  // namespace
 
 ColourImage ViewPicture(const Frame& frame, const PredictedView& view, double gain, double offset,
@@ -91,7 +72,7 @@ ColourImage ViewPicture(const Frame& frame, const PredictedView& view, double ga
                 static_cast<float>(gain) * Luma(colour(u, v)) + static_cast<float>(offset);
             intensity_error(u, v) = Signed((view.intensity(u, v) - image) / kFullIntensity);
         }
-    Sheet sheet(width, height);
+    PictureSheet sheet(3, 2, width, height);
     ColourImage measured = colour;
     if (moving != nullptr) TintMoving(*moving, 1, measured);
     sheet.Put(0, 0, moving != nullptr ? "measured colour, magenta: moving" : "measured colour",

@@ -12,15 +12,17 @@
 namespace tessera {
 
 struct Inspection {
-    ColourImage picture;  // render/view_picture.h
-    FrameReport report;   // of the inspected frame
+    // render/view_picture.h; with labels semantics/label_picture.h.
+    ColourImage picture;
+    FrameReport report;  // of the inspected frame
 };
 
 // Tracks and fuses all frames before `frame` (an index as in frames.csv). Then tracks that frame
 // and predicts the view at its pose, with the ray caster or the rasteriser as
-// tracking.icp.prediction says. Errors: bad source, no such frame, or the frame could not be read
-// or was lost.
+// tracking.icp.prediction says. `labels` (as for OpenLabelling; empty: none): objects are labelled
+// as well, and the picture compares the frame's detections with the map's objects. Errors: bad
+// source or detector, no such frame, or the frame could not be read or was lost.
 Result<Inspection> InspectFrame(const std::string& source, const RunConfig& config,
-                                std::int64_t frame);
+                                const std::string& labels, std::int64_t frame);
 
 }  // namespace tessera

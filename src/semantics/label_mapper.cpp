@@ -11,7 +11,6 @@ namespace {
 
 // Minimum number of columns of the predicted view and of the images compared with it.
 constexpr int kSampledColumns = 160;
-constexpr float kNear_m = 0.1f;
 constexpr float kStrayShare = 0.02f;  // outlier pixels of an instance's outline, on each side
 constexpr float kTrim = 0.05f;  // share of a detection's points cut off on each side of each axis
 

@@ -36,6 +36,11 @@ class LabelMapper {
     VoteCount Label(std::span<const Detection> detections, const DepthImage& depth_m,
                     const Eigen::Isometry3d& T_world_camera, BlockMap& map);
 
+    // Returns the object that each pixel of a camera at this pose sees, without those that are not
+    // confirmed, no farther than this (metres along z).
+    Image<VertexLabel> PredictLabels(const Eigen::Isometry3d& T_world_camera, float farthest_m,
+                                     const BlockMap& map);
+
     // Sets the label of each vertex from its voxel: the class and the public number of the voxel's
     // instance. Vertices of unconfirmed instances get no label.
     void LabelVertices(const BlockMap& map, TriangleMesh& mesh) const;
@@ -86,6 +91,8 @@ class LabelMapper {
     bool LoadState(StateReader& state);
 
   private:
+    static constexpr float kNear_m = 0.1f;  // of predicted views
+
     struct LabelledVertex {
         Eigen::Vector3f p_world;
         InstanceId voted_for = 0;

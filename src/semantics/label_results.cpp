@@ -52,6 +52,17 @@ Rgb8 LabelMapper::ColourOf(const BlockMap& map, const BlockMesh& owner,
     return vertex.has_colour ? NoCategoryColour(vertex.colour) : kNoSceneColour;
 }
 
+Image<VertexLabel> LabelMapper::PredictLabels(const Eigen::Isometry3d& T_world_camera,
+                                              float farthest_m, const BlockMap& map) {
+    Image<InstanceId> voted;
+    instance_view_.Predict(map, camera_, T_world_camera, kNear_m,
+                           std::max(2 * kNear_m, std::min(farthest_m, max_depth_m_)), voted);
+    Image<VertexLabel> labels(voted.width(), voted.height());
+    std::transform(voted.data(), voted.data() + voted.size(), labels.data(),
+                   [this](InstanceId id) { return LabelOfInstance(id); });
+    return labels;
+}
+
 // After LoadState every block may have votes.
 void LabelMapper::KnowBlocks(const BlockMap& map) {
     votes_.resize(static_cast<std::size_t>(map.size()),

@@ -56,6 +56,12 @@ VoteCount MappingStage::Label(std::span<const Detection> detections, const Depth
     return labels_->Label(detections, depth_m, T_world_camera, *map_);
 }
 
+Image<VertexLabel> MappingStage::PredictLabels(const Eigen::Isometry3d& T_world_camera) {
+    integrator_->Bring(*map_);
+    return labels_->PredictLabels(T_world_camera, static_cast<float>(config_.frame.max_depth_m),
+                                  *map_);
+}
+
 void MappingStage::CollectDelta(MapDelta& delta) {
     std::ranges::sort(changed_);
     changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());

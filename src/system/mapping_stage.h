@@ -46,6 +46,8 @@ class MappingStage {
                     const Eigen::Isometry3d& T_world_camera);
     // With labels only: for the calls of Label from now on.
     void Apply(const LabelSettings& settings) { labels_->Apply(settings); }
+    // With labels only: the object that each pixel of a camera at this pose sees.
+    Image<VertexLabel> PredictLabels(const Eigen::Isometry3d& T_world_camera);
     // Warning about how labels are predicted, for the user; usually empty.
     std::string labels_warning() const { return labels_ ? labels_->warning() : ""; }
     // With labels, after TakeMesh: the objects in its mesh.

@@ -36,6 +36,7 @@ class Pipeline {
     }
 
     const BlockMap& map() const { return mapping_.map(); }
+    TrackingStage& tracking() { return tracking_; }
     MappingStage& mapping() { return mapping_; }
 
   private:

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/cli_fixture.h"
+#include "io/image_io.h"
 #include "io/mesh_io.h"
 #include "io/trajectory.h"
 
@@ -241,6 +242,12 @@ TEST_F(Cli, InspectDrawsAFrameAgainstTheMap) {
     ASSERT_EQ(inspect.exit_code, 0) << inspect.err;
     EXPECT_NE(inspect.out.find("frame 3 by sdf: good"), std::string::npos) << inspect.out;
     EXPECT_TRUE(std::filesystem::exists(picture));
+    const Outcome labelled = Call("inspect" + arguments.substr(arguments.find(' ')) +
+                                  " --labels synthetic --set labels.min_observations=2");
+    ASSERT_EQ(labelled.exit_code, 0) << labelled.err;
+    EXPECT_EQ(ReadColourImage(picture).value().width(), 2 * 160);  // without labels three beside
+    ExpectRefused("inspect synthetic:desk --frame 3 --out " + picture + " --labels none.onnx",
+                  "none.onnx");
     const Outcome beyond =
         Call("inspect synthetic:desk --frame 99999 --out " + picture + " --set synthetic.frames=2");
     EXPECT_EQ(beyond.exit_code, 2);

@@ -107,6 +107,27 @@ TEST_F(LabelMapperTest, ObjectsOfAnIgnoredClassStay) {
     EXPECT_EQ(objects_after({}), 0u);
 }
 
+// Not before the object is confirmed. From 10 cm to the right it lies farther left in the image.
+TEST_F(LabelMapperTest, PredictsTheObjectsThatACameraSees) {
+    Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity();
+    Label(1, 80);
+    const Image<VertexLabel> before = mapper->PredictLabels(T_world_camera, 2, map);
+    EXPECT_EQ(std::count(before.data(), before.data() + before.size(), VertexLabel()), 160 * 120);
+    for (int i = 0; i < 10; ++i) Label(1, 80);
+    const auto check = [&](const Image<VertexLabel>& labels, int shift) {
+        ASSERT_EQ(labels.width(), 160);
+        for (const int x : {45, 75, 115})
+            EXPECT_EQ(labels(x - shift, 60), (VertexLabel{1, 1})) << x;
+        for (const int x : {33, 126}) EXPECT_EQ(labels(x - shift, 60), VertexLabel()) << x;
+        EXPECT_EQ(labels(75 - shift, 25), VertexLabel());
+    };
+    check(mapper->PredictLabels(T_world_camera, 2, map), 0);
+    T_world_camera.translation().x() = 0.1;
+    check(mapper->PredictLabels(T_world_camera, 2, map), 13);  // 130 px * 0.1 m / 1 m
+    const Image<VertexLabel> near = mapper->PredictLabels(T_world_camera, 0.9f, map);
+    EXPECT_EQ(std::count(near.data(), near.data() + near.size(), VertexLabel()), 160 * 120);
+}
+
 TEST_F(LabelMapperTest, LabelledVerticesAreThoseOfTheObject) {
     for (int i = 0; i < 10; ++i) Label(1, 80);
     Renew();
