@@ -8,6 +8,7 @@
 #include "io/file.h"
 #include "io/image_io.h"
 #include "io/mesh_io.h"
+#include "io/openni_devices.h"
 #include "io/trajectory.h"
 #include "run/finish_run.h"
 #include "run/open_source.h"
@@ -39,7 +40,7 @@ Result<Files> FindFiles(const ViewRequest& a) {
     if (a.path.empty())
         return Status::Error("view: --screenshot and --trajectory need a PATH to show");
     Files files{a.path, a.trajectory, {}, {}};
-    if (a.path.starts_with("synthetic:") || a.path.starts_with("openni2:") ||
+    if (a.path.starts_with("synthetic:") || a.path.starts_with(kOpenniPrefix) ||
         a.path.ends_with(".oni") || a.path.ends_with(".klg"))
         return Status::Error(fmt::format(
             "{}: is a source, not a result; use: tessera run {} --view", a.path, a.path));

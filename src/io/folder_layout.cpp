@@ -1,7 +1,6 @@
 #include "io/folder_layout.h"
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <sstream>
 
@@ -61,14 +60,6 @@ Result<Layout> RecogniseLayout(const fs::path& folder) {
                : "not a known sequence layout; expected rgb.txt and depth.txt (TUM), "
                  "associations.txt (ICL-NUIM), "
                  "frame-000000.depth.png (7-Scenes), or camera.yaml with depth/ and rgb/"));
-}
-
-bool StampsAreFrameNumbers(const std::vector<ImagePair>& pairs) {
-    constexpr double kMostFrames = 1e7;
-    return std::all_of(pairs.begin(), pairs.end(), [](const ImagePair& pair) {
-        const double stamp = pair.depth_stamp_s;
-        return stamp >= 0 && stamp < kMostFrames && stamp == std::floor(stamp);
-    });
 }
 
 bool IsIclFolder(const fs::path& folder, Layout layout) {
@@ -148,25 +139,6 @@ Result<ImagePairs> ReadPairs(const fs::path& folder, Layout layout, double fps,
     return PairByName(folder.string(), FindImageFolders(folder.string()), fps, max_pair_gap_s);
 }
 
-// Stamps that are damaged, or in another unit than seconds, leave few pairs or leap.
-void WarnOfStamps(const ImagePairs& images, std::vector<std::string>& warnings) {
-    constexpr double kLongestPause_s = 60;
-    const std::vector<ImagePair>& pairs = images.pairs;
-    if (2 * pairs.size() < images.listed)
-        warnings.push_back(fmt::format(
-            "only {} of {} depth images {} used; are the time stamps right, and in seconds?",
-            pairs.size(), images.listed, pairs.size() == 1 ? "is" : "are"));
-    std::size_t leaps = 0, first = 0;
-    for (std::size_t i = 1; i < pairs.size(); ++i)
-        if (pairs[i].depth_stamp_s - pairs[i - 1].depth_stamp_s > kLongestPause_s && leaps++ == 0)
-            first = i;
-    if (leaps > 0)
-        warnings.push_back(fmt::format(
-            "time stamps leap by more than {} s, {} time{} (first: by {:.6g} s before {})",
-            kLongestPause_s, leaps, leaps == 1 ? "" : "s",
-            pairs[first].depth_stamp_s - pairs[first - 1].depth_stamp_s, pairs[first].depth));
-}
-
 Status AddFrames(const fs::path& folder, const std::vector<ImagePair>& pairs,
                  FolderLayout& layout) {
     std::size_t absent = 0;
@@ -243,7 +215,7 @@ Result<FolderLayout> ReadFolderLayout(const std::string& path, double max_pair_g
     }
     result.notes.insert(result.notes.end(), found.notes.begin(), found.notes.end());
     if (Status status = AddFrames(folder, found.pairs, result); !status.ok()) return status;
-    if (!numbered) WarnOfStamps(found, result.warnings);
+    if (!numbered) result.warnings = StampWarnings(found);
     AddTruth(path, numbered, result);
     return result;
 }

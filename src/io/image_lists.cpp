@@ -177,4 +177,32 @@ Result<ImagePairs> ReadAssociations(const std::string& list) {
     return result;
 }
 
+bool StampsAreFrameNumbers(const std::vector<ImagePair>& pairs) {
+    constexpr double kMostFrames = 1e7;
+    return std::all_of(pairs.begin(), pairs.end(), [](const ImagePair& pair) {
+        const double stamp = pair.depth_stamp_s;
+        return stamp >= 0 && stamp < kMostFrames && stamp == std::floor(stamp);
+    });
+}
+
+std::vector<std::string> StampWarnings(const ImagePairs& images) {
+    std::vector<std::string> warnings;
+    constexpr double kLongestPause_s = 60;
+    const std::vector<ImagePair>& pairs = images.pairs;
+    if (2 * pairs.size() < images.listed)
+        warnings.push_back(fmt::format(
+            "only {} of {} depth images {} used; are the time stamps right, and in seconds?",
+            pairs.size(), images.listed, pairs.size() == 1 ? "is" : "are"));
+    std::size_t leaps = 0, first = 0;
+    for (std::size_t i = 1; i < pairs.size(); ++i)
+        if (pairs[i].depth_stamp_s - pairs[i - 1].depth_stamp_s > kLongestPause_s && leaps++ == 0)
+            first = i;
+    if (leaps > 0)
+        warnings.push_back(fmt::format(
+            "time stamps leap by more than {} s, {} time{} (first: by {:.6g} s before {})",
+            kLongestPause_s, leaps, leaps == 1 ? "" : "s",
+            pairs[first].depth_stamp_s - pairs[first - 1].depth_stamp_s, pairs[first].depth));
+    return warnings;
+}
+
 }  // namespace tessera

@@ -4,6 +4,7 @@
 #include <OpenNI.h>
 #include <dlfcn.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 
@@ -91,6 +92,24 @@ std::vector<std::string> Advise(const std::string& driver_folder) {
 }
 
 }  // namespace
+
+Result<std::string> FindOpenniDevice(const std::string& name,
+                                     const std::vector<OpenniDevice>& devices) {
+    if (devices.empty())
+        return Status::Error(name +
+                             ": no camera found; is it plugged in, and do you have permission to "
+                             "use it? tessera doctor gives details");
+    const std::string uri = name.substr(std::string(kOpenniPrefix).size());
+    if (uri.empty()) return devices.front().uri;
+    if (std::ranges::find(devices, uri, &OpenniDevice::uri) == devices.end())
+        return Status::Error(name + ": no such camera; tessera doctor lists the cameras");
+    return uri;
+}
+
+bool IsSameOpenniKind(const std::string& uri, const std::string& other) {
+    return uri == other || (other.find('@') != std::string::npos &&
+                            uri.substr(0, uri.find('@')) == other.substr(0, other.find('@')));
+}
 
 OpenniListing ListOpenniDevices() {
     OpenniListing listing;

@@ -4,12 +4,23 @@
 #include <string>
 #include <vector>
 
+#include "core/status.h"
+
 namespace tessera {
+
+// Of the names of sources: "openni2:" is any camera, "openni2:URI" this one.
+inline constexpr const char* kOpenniPrefix = "openni2:";
 
 struct OpenniDevice {
     std::string uri;  // e.g. "1d27/0609@1/5"; with the prefix "openni2:" it names a source
     std::string name, vendor;
 };
+
+// Returns the URI of the device that a source's name stands for. Errors name the source.
+Result<std::string> FindOpenniDevice(const std::string& name,
+                                     const std::vector<OpenniDevice>& devices);
+// True for the same device or one of the same kind. The part of a URI after "@" is the port.
+bool IsSameOpenniKind(const std::string& uri, const std::string& other);
 
 struct OpenniListing {
     bool built_in = false;      // this build has OpenNI2

@@ -10,13 +10,12 @@
 #include "io/openni_camera.h"
 #include "io/rectifier.h"
 #include "io/stream_pairing.h"
+#include "io/stream_watch.h"
 
 namespace tessera {
 namespace {
 
-constexpr const char* kPrefix = "openni2:";
 constexpr double kLongestRead_s = 0.4;
-constexpr double kSilence_s = 1.0;  // after this, the user is told
 // A recording that delivers nothing for this long has no end marker. At the recorded pace it may
 // contain a pause.
 constexpr double kLostEnd_s = 1.5, kLostEndRecordedPace_s = 5;
@@ -29,19 +28,12 @@ double Now_s() {
         .count();
 }
 
-// True for the same device or one of the same kind. The part of a URI after "@" is the port.
-bool IsReplacement(const std::string& uri, const std::string& lost) {
-    return uri == lost || (lost.find('@') != std::string::npos &&
-                           uri.substr(0, uri.find('@')) == lost.substr(0, lost.find('@')));
-}
-
 class OpenniSource : public FrameSource {
   public:
-    OpenniSource(const std::string& name, bool any_device, bool is_recording,
-                 std::shared_ptr<OpenniRuntime> runtime, std::unique_ptr<OpenniCamera> camera,
-                 const OpenniConfig& config)
+    OpenniSource(const std::string& name, bool is_recording, std::shared_ptr<OpenniRuntime> runtime,
+                 std::unique_ptr<OpenniCamera> camera, const OpenniConfig& config)
         : config_(config),
-          any_device_(any_device),
+          any_device_(name == kOpenniPrefix),
           is_recording_(is_recording),
           runtime_(std::move(runtime)),
           camera_(std::move(camera)),
@@ -49,9 +41,8 @@ class OpenniSource : public FrameSource {
           rectifier_(about_.calibration, {}),
           pairing_(config.max_pair_gap_s, about_.shortest_period_s),
           clock_(is_recording ? kLargestPause_s : kLargestJump_s),
-          heard_depth_s_(Now_s()),
-          heard_colour_s_(heard_depth_s_),
-          prefix_(any_device ? "" : name + ": ") {
+          watch_(Now_s()),
+          prefix_(any_device_ ? "" : name + ": ") {
         info_.name = name;
         info_.kind = is_recording ? ".oni recording" : about_.name + " (OpenNI2 camera)";
         info_.camera = about_.calibration.pinhole;
@@ -113,7 +104,7 @@ class OpenniSource : public FrameSource {
     // Checks the image and passes it to the pairing. Returns kSkip if it is unusable.
     ReadResult Take(const OpenniCamera::Arrival& arrival, double now_s) {
         const bool is_depth = arrival.event == OpenniCamera::Event::kDepth;
-        (is_depth ? heard_depth_s_ : heard_colour_s_) = now_s;
+        watch_.Heard(is_depth, now_s);
         const auto skip = [&](const std::string& why) {
             return ReadResult{ReadStatus::kSkip,
                               fmt::format("{}{} image {}: {}", prefix_,
@@ -140,14 +131,14 @@ class OpenniSource : public FrameSource {
     // Returns what the user should know now, each thing once. Usually empty.
     std::string Trouble(double now_s) {
         if (!message_.empty()) return std::exchange(message_, {});
-        const double silence_s = now_s - std::min(heard_depth_s_, heard_colour_s_);
-        if (silence_s < kSilence_s) silence_told_ = false;
-        if (is_recording_ && silence_s > (info_.live ? kLostEndRecordedPace_s : kLostEnd_s)) {
+        if (is_recording_ &&
+            watch_.Silence_s(now_s) > (info_.live ? kLostEndRecordedPace_s : kLostEnd_s)) {
             ended_ = true;
             pairing_.End();
             return prefix_ + "the recording is truncated; all frames in it were read";
         }
-        if (!is_recording_ && silence_s >= kSilence_s && !silence_told_) return Silence(now_s);
+        if (std::string silence = watch_.NewSilence(now_s); !is_recording_ && !silence.empty())
+            return WithoutFrameSync(prefix_ + silence);
         const std::int64_t alone = pairing_.depth_alone();
         if (alone < kManyAlone || alone_told_) return {};
         alone_told_ = true;
@@ -157,18 +148,10 @@ class OpenniSource : public FrameSource {
             prefix_, alone, alone + pairing_.pairs(), 1000 * config_.max_pair_gap_s);
     }
 
-    std::string Silence(double now_s) {
-        silence_told_ = true;
-        const bool no_depth = now_s - heard_depth_s_ >= kSilence_s,
-                   no_colour = now_s - heard_colour_s_ >= kSilence_s;
-        std::string text = fmt::format("{}no {} for {:.1f} s", prefix_,
-                                       no_depth && no_colour ? "images"
-                                       : no_depth            ? "depth images"
-                                                             : "colour images",
-                                       now_s - std::min(heard_depth_s_, heard_colour_s_));
-        if (!camera_->about().frame_sync) return text;
+    std::string WithoutFrameSync(const std::string& silence) {
+        if (!camera_->about().frame_sync) return silence;
         camera_->StopFrameSync();
-        return text + "; trying without frame sync";
+        return silence + "; trying without frame sync";
     }
 
     ReadResult EndOfRecording() {
@@ -195,7 +178,7 @@ class OpenniSource : public FrameSource {
     ReadResult Reconnect() {
         constexpr double kBetweenTries_s = 0.2;
         for (const OpenniDevice& device : runtime_->Devices()) {
-            if (!any_device_ && !IsReplacement(device.uri, about_.uri)) continue;
+            if (!any_device_ && !IsSameOpenniKind(device.uri, about_.uri)) continue;
             Result<std::unique_ptr<OpenniCamera>> opened =
                 OpenniCamera::Open(runtime_, device.uri, false, config_);
             if (!opened.ok()) continue;  // still starting, or in use
@@ -206,7 +189,7 @@ class OpenniSource : public FrameSource {
             camera_ = std::move(opened.value());
             about_.uri = about.uri;
             clock_.Restart();
-            heard_depth_s_ = heard_colour_s_ = Now_s();
+            watch_ = StreamWatch(Now_s());
             return {ReadStatus::kWait, prefix_ + "camera is back"};
         }
         runtime_->WaitForChange(kBetweenTries_s);
@@ -225,10 +208,10 @@ class OpenniSource : public FrameSource {
     StreamPairing::Pair pair_;
     Image<std::uint16_t> depth_;
     ColourImage colour_;
-    double heard_depth_s_, heard_colour_s_;  // when the last image of each stream arrived
+    StreamWatch watch_;
     std::int64_t next_index_ = 0;
     bool ended_ = false, drained_ = false;  // no more images; no more pairs
-    bool silence_told_ = false, alone_told_ = false;
+    bool alone_told_ = false;
     const std::string prefix_;  // for messages
     std::string message_;
     std::string recording_path_;  // empty: the camera is not recording
@@ -249,29 +232,19 @@ Status CheckRecording(const std::string& path) {
 
 Result<std::unique_ptr<FrameSource>> OpenOpenniSource(const std::string& name,
                                                       const OpenniConfig& config) {
-    const bool is_recording = !name.starts_with(kPrefix);
-    std::string uri = is_recording ? name : name.substr(std::string(kPrefix).size());
+    const bool is_recording = !name.starts_with(kOpenniPrefix);
     if (is_recording)
         if (Status status = CheckRecording(name); !status.ok()) return status;
     Result<std::shared_ptr<OpenniRuntime>> runtime = OpenniRuntime::Acquire();
     if (!runtime.ok()) return Status::Error(name + ": " + runtime.message());
-    const bool any_device = uri.empty();
-    if (!is_recording) {
-        const std::vector<OpenniDevice> devices = runtime.value()->Devices();
-        if (devices.empty())
-            return Status::Error(
-                name +
-                ": no camera found; is it plugged in, and do you have permission to "
-                "use it? tessera doctor gives details");
-        if (any_device) uri = devices.front().uri;
-        if (std::ranges::find(devices, uri, &OpenniDevice::uri) == devices.end())
-            return Status::Error(name + ": no such camera; tessera doctor lists the cameras");
-    }
+    const Result<std::string> uri =
+        is_recording ? name : FindOpenniDevice(name, runtime.value()->Devices());
+    if (!uri.ok()) return uri.status();
     Result<std::unique_ptr<OpenniCamera>> camera =
-        OpenniCamera::Open(runtime.value(), uri, is_recording, config);
+        OpenniCamera::Open(runtime.value(), uri.value(), is_recording, config);
     if (!camera.ok()) return Status::Error(name + ": " + camera.message());
     return std::unique_ptr<FrameSource>(std::make_unique<OpenniSource>(
-        name, any_device, is_recording, runtime.value(), std::move(camera.value()), config));
+        name, is_recording, runtime.value(), std::move(camera.value()), config));
 }
 
 }  // namespace tessera

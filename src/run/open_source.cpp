@@ -8,6 +8,7 @@
 
 #include "io/corrected_depth.h"
 #include "io/klg_source.h"
+#include "io/openni_devices.h"
 #include "io/openni_source.h"
 #include "io/pipe_source.h"
 #include "recordings/open_recording.h"
@@ -34,7 +35,7 @@ std::string NameProblem(const std::string& name) {
 
 Result<std::unique_ptr<FrameSource>> OpenAsItIs(const std::string& name, const RunConfig& config) {
     if (name.starts_with("synthetic:")) return OpenSyntheticScene(name, config.synthetic);
-    if (name.starts_with("openni2:") || name.ends_with(".oni"))
+    if (name.starts_with(kOpenniPrefix) || name.ends_with(".oni"))
         return OpenOpenniSource(name, config.openni);
     if (name.starts_with("pipe:")) return OpenPipeSource(name, config.source);
     if (name.ends_with(".scan")) return ScanSource::Open(name);
@@ -56,7 +57,7 @@ Result<std::unique_ptr<FrameSource>> OpenAsItIs(const std::string& name, const R
 }  // namespace
 
 bool IsLiveSource(const std::string& name) {
-    return name.starts_with("openni2:") || name.starts_with("pipe:");
+    return name.starts_with(kOpenniPrefix) || name.starts_with("pipe:");
 }
 
 Result<std::unique_ptr<FrameSource>> OpenSource(const std::string& name, const RunConfig& config) {

@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "scan/block_codec.h"
-#include "scan/page_walk.h"
+#include "scan/found_rows.h"
 #include "scan/scan_file.h"
 #include "scan/scan_records.h"
 
@@ -18,14 +18,13 @@ namespace {
 class Repair {
   public:
     Repair(std::unique_ptr<PageWalk> walk, const std::string& path, const std::string& out)
-        : walk_(std::move(walk)), path_(path), out_(out) {}
+        : found_(std::move(walk)), path_(path), out_(out) {}
 
     Result<RepairReport> Run() {
-        Index();
+        report_.lost = found_.Index();
         if (!FindMeta())
             return Status::Error(path_ + ": nothing can be recovered: the scan's metadata is lost");
-        if (found_[IndexOf(ScanTable::kBlocks)].empty() &&
-            found_[IndexOf(ScanTable::kPath)].empty())
+        if (rows(ScanTable::kBlocks).empty() && rows(ScanTable::kPath).empty())
             return Status::Error(path_ +
                                  ": nothing can be recovered: no block and no pose is intact");
         JudgeLoops();
@@ -42,50 +41,9 @@ class Repair {
     }
 
   private:
-    struct Found {
-        std::int64_t epoch, checkpoint;
-        PageWalk::Place place;
-    };
-    using Rows = std::map<std::int64_t, Found>;
-
-    Rows& rows(ScanTable table) { return found_[IndexOf(table)]; }
-
-    // Finds the newest version of each row. Rows from an earlier epoch than the newest are
-    // leftovers.
-    void Index() {
-        std::array<std::int64_t, kScanTableCount> epochs{};
-        walk_->ForEach([&](const ScanRow& row, const PageWalk::Place& place) {
-            std::int64_t& epoch = epochs[IndexOf(row.table)];
-            if (row.epoch < epoch) return;
-            if (row.epoch > epoch) rows(row.table).clear();
-            epoch = row.epoch;
-            const auto [at, fresh] =
-                rows(row.table).try_emplace(row.key, Found{row.epoch, row.checkpoint, place});
-            if (!fresh && at->second.checkpoint <= row.checkpoint)
-                at->second = {row.epoch, row.checkpoint, place};
-        });
-        ScanRow row;
-        if (Load(ScanTable::kState, static_cast<std::int64_t>(ScanStateKey::kSeal), row)) {
-            ScanSeal seal;
-            if (ScanSeal::Decode(row.data, seal)) seal_ = seal;
-        }
-        if (!seal_) report_.lost.push_back("the number of rows per table");
-        for (const ScanTable table :
-             {ScanTable::kBlocks, ScanTable::kPath, ScanTable::kFrames, ScanTable::kKeyframes}) {
-            if (!seal_) continue;
-            const ScanSeal::Table& sealed = seal_->tables[IndexOf(table)];
-            if (epochs[IndexOf(table)] < sealed.epoch) rows(table).clear();  // emptied since
-            const auto missing = sealed.rows - static_cast<std::int64_t>(rows(table).size());
-            if (missing > 0)
-                report_.lost.push_back(
-                    fmt::format("{} of {} {}", missing, sealed.rows, ToString(table)));
-        }
-    }
-
-    // `row` is valid until the next Load.
+    const ScanRows& rows(ScanTable table) const { return found_.rows(table); }
     bool Load(ScanTable table, std::int64_t key, ScanRow& row) {
-        const auto found = rows(table).find(key);
-        return found != rows(table).end() && walk_->Load(found->second.place, row);
+        return found_.Load(table, key, row);
     }
 
     bool FindMeta() {
@@ -239,12 +197,10 @@ class Repair {
         return meta_.loops ? put(ScanStateKey::kLoops, loops_.Encode()) : Status::Ok();
     }
 
-    std::unique_ptr<PageWalk> walk_;
+    FoundRows found_;
     std::string path_, out_;
     std::unique_ptr<ScanFile> file_;
     RepairReport report_;
-    std::array<Rows, kScanTableCount> found_;
-    std::optional<ScanSeal> seal_;
     ScanMeta meta_;
     LoopProgress loops_;
     std::map<std::int64_t, KeyframePoses> poses_;

@@ -7,6 +7,8 @@
 #include <ctime>
 #include <filesystem>
 
+#include "io/openni_devices.h"
+
 namespace tessera {
 namespace {
 
@@ -46,7 +48,7 @@ const std::vector<DemoScene>& DemoScenes() {
 
 std::string SourceOf(const StartChoices& choices) {
     switch (choices.page) {
-        case StartPage::kCamera: return choices.camera.empty() ? "" : "openni2:" + choices.camera;
+        case StartPage::kCamera: return choices.camera.empty() ? "" : kOpenniPrefix + choices.camera;
         case StartPage::kDemo: return "synthetic:" + choices.scene;
         case StartPage::kFiles: return AsArgument(choices.path);
     }
