@@ -48,7 +48,8 @@ const std::vector<DemoScene>& DemoScenes() {
 
 std::string SourceOf(const StartChoices& choices) {
     switch (choices.page) {
-        case StartPage::kCamera: return choices.camera.empty() ? "" : kOpenniPrefix + choices.camera;
+        case StartPage::kCamera:
+            return choices.camera.empty() ? "" : kOpenniPrefix + choices.camera;
         case StartPage::kDemo: return "synthetic:" + choices.scene;
         case StartPage::kFiles: return AsArgument(choices.path);
     }
