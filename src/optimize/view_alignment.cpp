@@ -107,6 +107,46 @@ void AddOneWay(const DenseView::Level& from, const DenseView::Level& to,
     }
 }
 
+// The sums of both directions, at brightness and scales so far. The unknown is a right increment x
+// of T_a_b: T_a_b exp(x) = exp(Ad(T_a_b) x) T_a_b, and its inverse is exp(-x) T_b_a.
+struct BothWays {
+    Sums forth, back;
+
+    void Sum(const DenseView::Level& a, const DenseView::Level& b, const Eigen::Isometry3d& T_a_b,
+             const Brightness& brightness, const Scales& scales, double gate_m) {
+        forth = back = Sums();
+        const Eigen::Isometry3d T_b_a = T_a_b.inverse();
+        tbb::parallel_invoke(
+            [&] {
+                AddOneWay(a, b, T_b_a, -Matrix6d::Identity(), true, brightness, scales, gate_m,
+                          forth);
+            },
+            [&] {
+                AddOneWay(b, a, T_a_b, Adjoint(T_a_b), false, brightness, scales, gate_m, back);
+            });
+    }
+    SumMatrix Hessian() const {
+        SumMatrix hessian = forth.hessian + back.hessian;
+        hessian.triangularView<Eigen::Lower>() = hessian.transpose();
+        return hessian;
+    }
+};
+
+std::vector<float> Joined(const std::vector<float>& a, const std::vector<float>& b) {
+    std::vector<float> joined = a;
+    joined.insert(joined.end(), b.begin(), b.end());
+    return joined;
+}
+
+// Gain and offset are eliminated.
+Matrix6d InformationOf(const SumMatrix& hessian) {
+    Eigen::Matrix2d own = hessian.bottomRightCorner<2, 2>();
+    own.diagonal().array() += 1e-6;
+    return (hessian.topLeftCorner<6, 6>() -
+            hessian.topRightCorner<6, 2>() * own.inverse() * hessian.bottomLeftCorner<2, 6>()) /
+           kCorrelated;
+}
+
 // Robust standard deviation of absolute values.
 double ScaleOf(const std::vector<float>& sizes) {
     return sizes.empty() ? 0 : 1.4826 * Median(sizes);
@@ -124,37 +164,23 @@ ViewAlignment AlignViews(const DenseView& a, const DenseView& b, const Eigen::Is
     if (a.empty() || b.empty()) return result;
     Brightness brightness;
     Scales scales;
-    Sums forth, back;
+    BothWays sums;
     Vector6d step = Vector6d::Zero();
     for (std::size_t level = 0; level < a.levels.size(); ++level)
         for (int i = 0; i < kIterations[level]; ++i) {
-            // The unknown is a right increment x of T_a_b: T_a_b exp(x) = exp(Ad(T_a_b) x) T_a_b,
-            // and its inverse is exp(-x) T_b_a.
-            forth = back = Sums();
-            const Eigen::Isometry3d T_b_a = result.T_a_b.inverse();
-            tbb::parallel_invoke(
-                [&] {
-                    AddOneWay(a.levels[level], b.levels[level], T_b_a, -Matrix6d::Identity(), true,
-                              brightness, scales, kGates_m[level], forth);
-                },
-                [&] {
-                    AddOneWay(b.levels[level], a.levels[level], result.T_a_b, Adjoint(result.T_a_b),
-                              false, brightness, scales, kGates_m[level], back);
-                });
-            SumMatrix hessian = forth.hessian + back.hessian;
-            hessian.triangularView<Eigen::Lower>() = hessian.transpose();
-            const SumVector gradient = forth.gradient + back.gradient;
-            forth.distances.insert(forth.distances.end(), back.distances.begin(),
-                                   back.distances.end());
-            forth.intensities.insert(forth.intensities.end(), back.intensities.begin(),
-                                     back.intensities.end());
-            if (static_cast<int>(forth.distances.size()) < kLeastPoints) return result;
-            scales.distance = std::max(ScaleOf(forth.distances), kLeastDistanceScale);
-            scales.intensity = std::max(ScaleOf(forth.intensities), kLeastIntensityScale);
+            sums.Sum(a.levels[level], b.levels[level], result.T_a_b, brightness, scales,
+                     kGates_m[level]);
+            const SumMatrix hessian = sums.Hessian();
+            const std::vector<float> distances = Joined(sums.forth.distances, sums.back.distances);
+            if (static_cast<int>(distances.size()) < kLeastPoints) return result;
+            scales.distance = std::max(ScaleOf(distances), kLeastDistanceScale);
+            scales.intensity =
+                std::max(ScaleOf(Joined(sums.forth.intensities, sums.back.intensities)),
+                         kLeastIntensityScale);
             SumMatrix damped = hessian;
             damped.diagonal() *= 1 + 1e-6;
             damped.diagonal().array() += 1e-3;
-            const SumVector all = -damped.ldlt().solve(gradient);
+            const SumVector all = -damped.ldlt().solve(sums.forth.gradient + sums.back.gradient);
             step = all.head<6>();
             if (!all.allFinite()) return result;
             const double size = std::max(step.head<3>().norm(), step.tail<3>().norm());
@@ -162,19 +188,15 @@ ViewAlignment AlignViews(const DenseView& a, const DenseView& b, const Eigen::Is
             result.T_a_b = Normalised(result.T_a_b * Se3Exp(step));
             brightness.gain += all(6);
             brightness.offset += all(7);
-            // Gain and offset are eliminated.
-            Eigen::Matrix2d own = hessian.bottomRightCorner<2, 2>();
-            own.diagonal().array() += 1e-6;
-            result.information =
-                (hessian.topLeftCorner<6, 6>() - hessian.topRightCorner<6, 2>() * own.inverse() *
-                                                     hessian.bottomLeftCorner<2, 6>()) /
-                kCorrelated;
+            result.information = InformationOf(hessian);
         }
     const auto share = [](int part, int whole) {
         return whole > 0 ? static_cast<double>(part) / whole : 0.0;
     };
-    result.overlap = std::min(share(forth.seen, forth.points), share(back.seen, back.points));
-    result.fit = std::min(share(forth.fit, forth.seen), share(back.fit, back.seen));
+    result.overlap = std::min(share(sums.forth.seen, sums.forth.points),
+                              share(sums.back.seen, sums.back.points));
+    result.fit =
+        std::min(share(sums.forth.fit, sums.forth.seen), share(sums.back.fit, sums.back.seen));
     result.converged = step.head<3>().norm() < 2e-3 && step.tail<3>().norm() < 2e-3;
     return result;
 }

@@ -6,58 +6,69 @@
 #include "render/view_picture.h"
 #include "run/open_source.h"
 #include "semantics/label_picture.h"
-#include "system/labelling_stage.h"
+#include "system/frame_labelling.h"
 #include "system/pipeline.h"
 
 namespace tessera {
 namespace {
 
-// The labelling part of a frame's life, on one thread.
-class InspectedLabels {
+// Tracks, fuses and labels as a lockstep run does, but closes no loops.
+class Inspector {
   public:
-    InspectedLabels(Labelling labelling, const LabelConfig& config, const PinholeCamera& camera,
-                    MappingStage& mapping)
+    Inspector(const RunConfig& config, const PinholeCamera& camera)
         : config_(config),
           camera_(camera),
-          classes_(labelling.classes),
-          stage_(std::move(labelling.detector), std::move(labelling.classes), config, camera),
-          mapping_(mapping) {
-        mapping_.EnableLabels(config_, classes_);
-    }
+          pipeline_(config.pipeline, camera),
+          labelling_(config.labels, camera) {}
 
-    // Before the frame is tracked, because people may have to be masked.
-    Status Detect(const Frame& frame, bool inspected, TrackingStage& tracking) {
-        detected_ = inspected || labelled_frames_ % config_.stride == 0;
-        if (!detected_) return Status::Ok();
-        std::string message;
-        if (!stage_.Detect(frame, report_, message)) return Status::Error(message);
-        if (!report_.moving.depth_m.empty()) tracking.HintMoving(report_.moving, std::nullopt);
+    Status BeginLabels(const std::string& detector, const std::string& source) {
+        Result<Labelling> opened =
+            OpenLabelling(detector, source, config_.synthetic, config_.labels);
+        if (!opened.ok()) return opened.status();
+        classes_ = opened.value().classes;
+        pipeline_.mapping().EnableLabels(config_.labels, *classes_);
+        labelling_.Begin(std::move(opened.value()));
         return Status::Ok();
     }
-    void Vote(const Frame& frame, const FrameReport& fused) {
-        if (!fused.fused) return;
-        ++labelled_frames_;
-        if (detected_)
-            mapping_.Label(report_.detections, frame.depth_m, fused.track.T_world_camera);
+
+    // The last frame is not fused.
+    Result<FrameReport> Process(const Frame& frame, bool last) {
+        if (classes_) labelling_.Detect(frame, last, pipeline_.tracking());
+        if (const std::string failure = labelling_.TakeFailure(); !failure.empty())
+            return Status::Error(failure);
+        pipeline_.SetFusing(!last);
+        FrameReport report = pipeline_.Process(frame);
+        if (classes_ && report.fused)
+            if (const std::optional<LabelReport> detected = labelling_.TakeDetections())
+                pipeline_.mapping().Label(detected->detections, frame.depth_m,
+                                          report.track.T_world_camera);
+        return report;
     }
-    ColourImage Picture(const Frame& frame, const ColourImage& predicted_colour,
-                        const Eigen::Isometry3d& T_world_camera) {
+
+    // Of the last frame. May add a warning to its report.
+    ColourImage Picture(const Frame& frame, FrameReport& report) {
+        const TrackResult& track = report.track;
+        PredictedView view;
+        MakePredictor(config_.pipeline.trackers.icp.prediction, report.warning)
+            ->Predict(pipeline_.map(), camera_, track.T_world_camera,
+                      static_cast<float>(config_.pipeline.frame.min_depth_m),
+                      static_cast<float>(config_.pipeline.frame.max_depth_m), view);
+        if (!classes_)
+            return ViewPicture(frame, view, track.gain, track.offset, report.moving.get());
+        const std::vector<Detection>& detections = labelling_.detected()->detections;
         LabelImage objects;
-        MakeLabelImage(frame.depth_m, camera_, report_.detections, config_.region, objects);
-        const Image<VertexLabel> predicted = mapping_.PredictLabels(T_world_camera);
-        return LabelPicture(
-            {frame.colour, report_.detections, objects, predicted_colour, predicted}, classes_);
+        MakeLabelImage(frame.depth_m, camera_, detections, config_.labels.region, objects);
+        return LabelPicture({frame.colour, detections, objects, view.colour,
+                             pipeline_.mapping().PredictLabels(track.T_world_camera)},
+                            *classes_);
     }
 
   private:
-    LabelConfig config_;
+    const RunConfig& config_;
     PinholeCamera camera_;
-    LabelClasses classes_;
-    LabellingStage stage_;
-    MappingStage& mapping_;
-    LabelReport report_;
-    bool detected_ = false;  // `report_` is of this frame
-    std::int64_t labelled_frames_ = 0;
+    Pipeline pipeline_;
+    FrameLabelling labelling_;
+    std::optional<LabelClasses> classes_;  // set if objects are labelled
 };
 
 }  // namespace
@@ -68,14 +79,9 @@ Result<Inspection> InspectFrame(const std::string& name, const RunConfig& config
     Result<std::unique_ptr<FrameSource>> source = OpenSource(name, config);
     if (!source.ok()) return source.status();
     FrameReader reader(std::move(source.value()), {}, config.read_ahead);
-    const PinholeCamera camera = reader.info().camera;
-    Pipeline pipeline(config.pipeline, camera);
-    std::optional<InspectedLabels> labels;
-    if (!detector.empty()) {
-        Result<Labelling> opened = OpenLabelling(detector, name, config.synthetic, config.labels);
-        if (!opened.ok()) return opened.status();
-        labels.emplace(std::move(opened.value()), config.labels, camera, pipeline.mapping());
-    }
+    Inspector inspector(config, reader.info().camera);
+    if (!detector.empty())
+        if (Status status = inspector.BeginLabels(detector, name); !status.ok()) return status;
     Frame frame;
     for (;;) {
         const ReadResult read = reader.Next(frame);
@@ -86,29 +92,15 @@ Result<Inspection> InspectFrame(const std::string& name, const RunConfig& config
         if (read.status == ReadStatus::kSkip || read.status == ReadStatus::kWait) continue;
         if (frame.index > index)
             return Status::Error(fmt::format("{}: frame {} cannot be read", name, index));
-        const bool inspected = frame.index == index;
-        if (labels)
-            if (Status status = labels->Detect(frame, inspected, pipeline.tracking()); !status.ok())
-                return status;
-        pipeline.SetFusing(!inspected);
-        Inspection result;
-        result.report = pipeline.Process(frame);
-        if (labels) labels->Vote(frame, result.report);
-        if (!inspected) continue;
-        const TrackResult& track = result.report.track;
-        if (!result.report.tracked())
+        Result<FrameReport> report = inspector.Process(frame, frame.index == index);
+        if (!report.ok()) return report.status();
+        if (frame.index < index) continue;
+        if (!report.value().tracked())
             return Status::Error(
-                fmt::format("{}: frame {} was lost: {}", name, index, track.reason));
-        PredictedView view;
-        const float nearest_m = static_cast<float>(config.pipeline.frame.min_depth_m);
-        const float farthest_m = static_cast<float>(config.pipeline.frame.max_depth_m);
-        const auto predictor =
-            MakePredictor(config.pipeline.trackers.icp.prediction, result.report.warning);
-        predictor->Predict(pipeline.map(), camera, track.T_world_camera, nearest_m, farthest_m,
-                           view);
-        result.picture =
-            labels ? labels->Picture(frame, view.colour, track.T_world_camera)
-                   : ViewPicture(frame, view, track.gain, track.offset, result.report.moving.get());
+                fmt::format("{}: frame {} was lost: {}", name, index, report.value().track.reason));
+        Inspection result;
+        result.picture = inspector.Picture(frame, report.value());
+        result.report = std::move(report.value());
         return result;
     }
 }

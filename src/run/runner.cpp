@@ -5,7 +5,6 @@
 
 #include "io/trajectory.h"
 #include "run/noise_band.h"
-#include "run/source_camera.h"
 #include "system/live_engine.h"
 #include "system/lockstep_engine.h"
 #include "system/run_control.h"
@@ -66,22 +65,16 @@ Status Runner::Open(const std::atomic<bool>& stop) {
         Result<Trajectory> poses = ReadTrajectory(request_.poses_file);
         if (!poses.ok()) return poses.status();
         given = std::move(poses.value().poses);
-        pose_notes_ = std::move(poses.value().notes);
+        notes_ = std::move(poses.value().notes);
     }
     Result<CheckedSource> checked = OpenCheckedSource(request_, config_);
     if (!checked.ok()) return checked.status();
     std::unique_ptr<FrameSource> source = std::move(checked.value().source);
-    summary_.source = source->info();
-    summary_.camera = checked.value().camera;
-    summary_.colour_shift = checked.value().colour;
-    summary_.colour_delay = checked.value().delay;
-    summary_.vignetting = checked.value().vignetting;
-    summary_.depth_distortion = checked.value().depth;
-    camera_notes_ = std::move(checked.value().messages);
+    Take(std::move(checked.value()), source->info());
     if (!request_.resume && !request_.localise_only)  // a scan keeps its band
         if (std::string note = FitBandToNoise(request_.selection, config_.pipeline, source, stop);
             !note.empty())
-            camera_notes_.push_back(std::move(note));
+            notes_.push_back(std::move(note));
     Labelling labelling;
     if (!request_.labels.empty()) {
         Result<Labelling> opened =
@@ -96,12 +89,7 @@ Status Runner::Open(const std::atomic<bool>& stop) {
     if (!scan.ok()) return scan.status();
     RunConfig config = config_;
     if (request_.localise_only) StayInTheMap(config);
-    if (summary_.camera) BeginShutter(*summary_.camera, config.pipeline, summary_.source);
-    if (summary_.colour_delay)
-        BeginDepthShutter(*summary_.colour_delay, config.pipeline, summary_.source);
-    summary_.depth_readout_s = config.pipeline.shutter.depth_readout_s;
-    summary_.colour_readout_s = config.pipeline.shutter.colour_readout_s +
-                                config.pipeline.trackers.photometric.shutter.readout_s;
+    BeginShutters(config.pipeline);
     EngineInput input{
         std::move(source),
         selection_,
@@ -122,6 +110,25 @@ Status Runner::Open(const std::atomic<bool>& stop) {
     if (const std::string warning = MemoryWarning(config_); !warning.empty()) Warn(warning);
     frame_watch_ = Stopwatch();  // the check of the camera is no frame's time
     return Status::Ok();
+}
+
+// What was found out about the camera before the first frame.
+void Runner::Take(CheckedSource checked, const SourceInfo& source) {
+    summary_.source = source;
+    summary_.camera = checked.camera;
+    summary_.colour_shift = checked.colour;
+    summary_.colour_delay = checked.delay;
+    summary_.vignetting = checked.vignetting;
+    summary_.depth_distortion = checked.depth;
+    notes_.insert(notes_.begin(), checked.messages.begin(), checked.messages.end());
+}
+
+void Runner::BeginShutters(PipelineConfig& config) {
+    if (summary_.camera) BeginShutter(*summary_.camera, config, summary_.source);
+    if (summary_.colour_delay) BeginDepthShutter(*summary_.colour_delay, config, summary_.source);
+    summary_.depth_readout_s = config.shutter.depth_readout_s;
+    summary_.colour_readout_s =
+        config.shutter.colour_readout_s + config.trackers.photometric.shutter.readout_s;
 }
 
 Result<ScanPlan> Runner::OpenScan() {
@@ -147,8 +154,7 @@ Status Runner::Begin() {
         if (Status status = OpenOutput(); !status.ok()) return status;
     opened_ = true;
     if (observer_.on_open) observer_.on_open(summary_.source);
-    for (const std::string& note : camera_notes_) Warn(note);
-    for (const std::string& note : pose_notes_) Warn(note);
+    for (const std::string& note : notes_) Warn(note);
     return Status::Ok();
 }
 

@@ -10,6 +10,7 @@
 #include "run/run.h"
 #include "run/run_output.h"
 #include "run/run_window.h"
+#include "run/source_camera.h"
 #include "system/engine.h"
 
 namespace tessera {
@@ -29,6 +30,8 @@ class Runner {
 
   private:
     Status Open(const std::atomic<bool>& stop);
+    void Take(CheckedSource checked, const SourceInfo& source);
+    void BeginShutters(PipelineConfig& config);
     Result<ScanPlan> OpenScan();
     // Called at the first outcome, not before: a run that is refused reports only its error and
     // leaves the results of an earlier run.
@@ -56,8 +59,8 @@ class Runner {
     Status Finish(const Status& outcome);
     // While a window is open, what the ended run holds can be saved.
     void ServeWindow(const std::atomic<bool>& stop);
-    // Takes over the final poses and the refined calibration.
     Result<AteResult> Evaluate() const;
+    // Takes over the final poses and the refined calibration.
     Status Correct();
     Status WriteMesh();
     std::int64_t Total() const;
@@ -72,16 +75,18 @@ class Runner {
     RunWindow window_;
     MemoryWatch memory_;
     std::vector<StampedPose> truth_, estimate_;
-    std::vector<std::string> camera_notes_, pose_notes_;
+    std::vector<std::string> notes_;  // from opening, for the user
     LabelClasses class_names_;
     std::unique_ptr<Engine> engine_;
     std::unique_ptr<RunOutput> output_;
     StageTimes times_;
     Stopwatch frame_watch_;
     RunSummary summary_;
-    TrackStatus last_status_ = TrackStatus::kGood;
-    bool last_degenerate_ = false, colour_rejected_ = false;
-    std::set<std::string> told_;           // errors from writing
+    struct Told {
+        TrackStatus status = TrackStatus::kGood;
+        bool degenerate = false, colour_rejected = false;
+        std::set<std::string> errors;  // from writing
+    } told_;
     bool begun_ = false, opened_ = false;  // opened_: the observer knows
 };
 

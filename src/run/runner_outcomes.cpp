@@ -55,7 +55,7 @@ void Runner::TakeFrame(const FrameOutcome& outcome) {
 }
 
 void Runner::KeepGoing(const Status& written) {
-    if (!written.ok() && told_.insert(written.message()).second)
+    if (!written.ok() && told_.errors.insert(written.message()).second)
         Warn(written.message() + "; the run goes on and tries again");
 }
 
@@ -109,8 +109,8 @@ Status Runner::BeginAnew() {
     truth_.clear();
     estimate_.clear();
     times_ = {};
-    last_status_ = TrackStatus::kGood;
-    last_degenerate_ = colour_rejected_ = false;
+    told_.status = TrackStatus::kGood;
+    told_.degenerate = told_.colour_rejected = false;
     Warn("reset: the map and the path start again");
     if (!output_) return Status::Ok();
     if (Status status = OpenOutput(); !status.ok()) return status;
@@ -143,7 +143,7 @@ void Runner::Count(const FrameOutcome& outcome) {
 // Warns only when the tracking status changes, not for every lost frame.
 void Runner::WarnOnStatusChange(const FrameReport& report) {
     const TrackResult& t = report.track;
-    if (t.status != last_status_ || t.degenerate != last_degenerate_) {
+    if (t.status != told_.status || t.degenerate != told_.degenerate) {
         const std::string reason = t.reason.empty() ? "" : ": " + t.reason;
         if (t.status != TrackStatus::kGood)
             Warn(fmt::format("frame {}: {}{}", report.index,
@@ -155,15 +155,16 @@ void Runner::WarnOnStatusChange(const FrameReport& report) {
         else
             Warn(fmt::format("frame {}: tracking is good again", report.index));
     }
-    if (report.tracked() && t.colour_rejected != colour_rejected_) {
-        colour_rejected_ = t.colour_rejected;
+    if (report.tracked() && t.colour_rejected != told_.colour_rejected) {
+        told_.colour_rejected = t.colour_rejected;
         Warn(fmt::format("frame {}: {}", report.index,
-                         colour_rejected_ ? "the colour image does not fit the map (dark, dazzled "
-                                            "or frozen?); only the depth is used"
-                                          : "the colour image fits the map again"));
+                         told_.colour_rejected
+                             ? "the colour image does not fit the map (dark, dazzled "
+                               "or frozen?); only the depth is used"
+                             : "the colour image fits the map again"));
     }
-    last_status_ = t.status;
-    last_degenerate_ = t.degenerate;
+    told_.status = t.status;
+    told_.degenerate = t.degenerate;
 }
 
 }  // namespace tessera

@@ -135,6 +135,50 @@ class PartialFile {
     std::string path_, partial_;
 };
 
+// The scans that are merged, and how.
+struct Merge {
+    Part &a, &b;
+    const JointPose& pose;
+    const Offsets& offsets;    // of b
+    const LoopCloser& closer;  // of both
+    const BlockMap& map;
+};
+
+ScanCheckpoint JointCheckpoint(const Merge& merge) {
+    const ScanContent &a = merge.a.content, &b = merge.b.content;
+    ScanCheckpoint checkpoint;
+    std::vector<BlockId> blocks(static_cast<std::size_t>(merge.map.size()) - 1);
+    std::iota(blocks.begin(), blocks.end(), BlockId{1});
+    checkpoint.blocks.Copy(merge.map, blocks);
+    AddPath(a, {}, Eigen::Isometry3d::Identity(), checkpoint);
+    AddPath(b, merge.offsets, merge.pose.T_a_b, checkpoint);
+    AddClosure(merge.closer, checkpoint);
+    checkpoint.progress = Sum(a.progress, b.progress);
+    checkpoint.source = b.source_name;
+    checkpoint.finished = true;
+    return checkpoint;
+}
+
+// Returns the number of frames.
+Result<std::int64_t> WriteJoint(const Merge& merge, const std::string& out) {
+    PartialFile partial(out);
+    ScanMeta meta = merge.a.content.meta;
+    meta.program = TESSERA_VERSION;
+    meta.source_name += " + " + merge.b.content.meta.source_name;
+    Result<std::unique_ptr<ScanFile>> file = ScanFile::Create(partial.partial(), meta.Encode());
+    if (!file.ok()) return file.status();
+    if (Status status = file.value()->Begin(); !status.ok()) return status;
+    for (const auto& [part, by] : {std::pair{&merge.a, Offsets{}}, {&merge.b, merge.offsets}})
+        if (Status status = CopyFrames(*part, by, *file.value()); !status.ok()) return status;
+    if (Status status = file.value()->Commit(false); !status.ok()) return status;
+    const ScanCheckpoint checkpoint = JointCheckpoint(merge);
+    ScanWriter writer(std::move(file.value()), meta.depth_units_per_m);
+    if (Status status = writer.Write(checkpoint); !status.ok()) return status;
+    writer.Close();
+    if (Status status = partial.Complete(); !status.ok()) return status;
+    return checkpoint.progress.frames;
+}
+
 }  // namespace
 
 Result<MergeReport> MergeScans(const std::string& first, const std::string& second,
@@ -179,34 +223,11 @@ Result<MergeReport> MergeScans(const std::string& first, const std::string& seco
     const BlockMap& map = *made.value().map;
 
     // 3. The new scan.
-    PartialFile partial(out);
-    ScanMeta joint_meta = meta;
-    joint_meta.program = TESSERA_VERSION;
-    joint_meta.source_name += " + " + b.content.meta.source_name;
-    Result<std::unique_ptr<ScanFile>> file =
-        ScanFile::Create(partial.partial(), joint_meta.Encode());
-    if (!file.ok()) return file.status();
-    if (Status status = file.value()->Begin(); !status.ok()) return status;
-    for (const auto& [part, by] : {std::pair{&a, Offsets{}}, {&b, offsets}})
-        if (Status status = CopyFrames(*part, by, *file.value()); !status.ok()) return status;
-    if (Status status = file.value()->Commit(false); !status.ok()) return status;
-    ScanCheckpoint checkpoint;
-    std::vector<BlockId> blocks(static_cast<std::size_t>(map.size()) - 1);
-    std::iota(blocks.begin(), blocks.end(), BlockId{1});
-    checkpoint.blocks.Copy(map, blocks);
-    AddPath(a.content, {}, Eigen::Isometry3d::Identity(), checkpoint);
-    AddPath(b.content, offsets, pose->T_a_b, checkpoint);
-    AddClosure(*closer, checkpoint);
-    checkpoint.progress = Sum(a.content.progress, b.content.progress);
-    checkpoint.source = b.content.source_name;
-    checkpoint.finished = true;
-    ScanWriter writer(std::move(file.value()), meta.depth_units_per_m);
-    if (Status status = writer.Write(checkpoint); !status.ok()) return status;
-    writer.Close();
-    if (Status status = partial.Complete(); !status.ok()) return status;
+    const Result<std::int64_t> frames = WriteJoint({a, b, *pose, offsets, *closer, map}, out);
+    if (!frames.ok()) return frames.status();
     return MergeReport{static_cast<int>(pose->places.size()), closer->keyframes().size(),
                        OverlapsAcross(closer->keyframes(), offsets.keyframe),
-                       static_cast<std::int64_t>(blocks.size()), checkpoint.progress.frames};
+                       static_cast<std::int64_t>(map.size()) - 1, frames.value()};
 }
 
 }  // namespace tessera

@@ -9,7 +9,6 @@
 #include "core/stopwatch.h"
 
 namespace tessera {
-
 namespace {
 
 MovingHint HintOf(const Frame& frame, const PinholeCamera& camera,
@@ -29,6 +28,10 @@ MovingHint HintOf(const Frame& frame, const PinholeCamera& camera,
 
 }  // namespace
 
+std::string LabellingStopped(const std::string& why) {
+    return "labelling has stopped, the run continues: " + why;
+}
+
 bool LabellingStage::Detect(const Frame& frame, LabelReport& report, std::string& message) {
     message.clear();
     if (broken_ || !detector_) return false;
@@ -44,7 +47,7 @@ bool LabellingStage::Detect(const Frame& frame, LabelReport& report, std::string
     Result<std::vector<Detection>> found = detect();
     if (!found.ok()) {
         broken_ = true;
-        message = "labelling has stopped, the run continues: " + found.message();
+        message = found.message();
         return false;
     }
     report = {};
@@ -122,7 +125,10 @@ void LabellingThread::Detect(Job& job) {
     ChangeIfWanted();
     Answer answer;
     answer.job = std::move(job);
-    if (!stage_.Detect(*answer.job.frame, answer.report, answer.message)) broken_.store(true);
+    if (!stage_.Detect(*answer.job.frame, answer.report, answer.message)) {
+        broken_.store(true);
+        if (!answer.message.empty()) answer.message = LabellingStopped(answer.message);
+    }
     TESSERA_CHECK(answers_.TryPush(std::move(answer)), "more answers than jobs");
 }
 

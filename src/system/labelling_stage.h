@@ -39,6 +39,9 @@ struct DetectorChange {
     std::shared_ptr<const LabelClasses> classes;
 };
 
+// What a run tells of a detector's failure.
+std::string LabellingStopped(const std::string& why);
+
 // Owner thread only.
 class LabellingStage {
   public:

@@ -10,17 +10,14 @@ LockstepEngine::LockstepEngine(EngineInput input)
       source_(input.source->info()),
       tracking_(config_, source_.camera, input.device, std::move(input.plan)),
       mapping_(config_, source_, input.device, input.viewer, true, notices_),
-      recorder_(source_, config_.record, true, notices_) {
+      recorder_(source_, config_.record, true, notices_),
+      labelling_(config_.labels, source_.camera, std::move(input.open_detector)) {
     if (!input.record_path.empty()) status_ = recorder_.Start(input.record_path, *input.source);
     if (!status_.ok()) return;
     if (input.labelling.detector) {
-        mapping_.stage().EnableLabels(config_.labels, input.labelling.classes);
-        loop_labels_ = LoopCloser::Labels{config_.labels, input.labelling.classes};
-        labelling_ = std::make_unique<LabellingStage>(std::move(input.labelling.detector),
-                                                      std::move(input.labelling.classes),
-                                                      config_.labels, source_.camera);
+        EnableLabels(input.labelling.classes);
+        labelling_.Begin(std::move(input.labelling));
     }
-    open_detector_ = std::move(input.open_detector);
     if (input.scan.file) scan_path_ = input.scan.file->path();
     only_localise_ = input.scan.only_localise();
     if (only_localise_) control_.KeepMap(notices_);
@@ -35,7 +32,7 @@ Status LockstepEngine::StartScan(ScanPlan plan) {
     if (plan.resumed) {
         resume = TrackingResume::Of(plan);
         tracking_.Resume(resume);
-        labelled_frames_ = plan.resumed->progress.labelled_frames;
+        labelling_.Resume(plan.resumed->progress.labelled_frames);
     }
     Status status = mapping_.StartScan(std::move(plan));
     if (auto memory = mapping_.TakeLoops(); memory && loops_)
@@ -78,7 +75,7 @@ void LockstepEngine::Process(FrameOutcome& outcome) {
     outcome.decode_ms = reader_->decode_ms();
     recorder_.Add(frame_);
     mapping_.Begin();
-    Detect();
+    if (LabelsNow()) labelling_.Detect(frame_, false, tracking_.stage());
     tracking_.Begin(frame_);
     tracking_.Track(frame_, mapping_.MapFor(tracking_.stage()), tracked_);
     RelocaliseIfLost();
@@ -86,29 +83,18 @@ void LockstepEngine::Process(FrameOutcome& outcome) {
     Label(outcome);
     CloseLoops(outcome);
     if (mapping_.saving()) tracking_.SaveState(tracked_);
-    mapping_.Record(frame_, tracked_, labelled_frames_, outcome);
+    mapping_.Record(frame_, tracked_, labelling_.frames(), outcome);
     if (loops_ && mapping_.saving()) mapping_.AddLoops(loops_->TakeChanges());
     mapping_.Save(outcome);
     mapping_.Report(frame_, tracked_, outcome);
 }
 
-// Runs before tracking and fusion, because the detections may mask people in the frame.
-void LockstepEngine::Detect() {
-    detected_.reset();
-    if (!mapping_.stage().has_labels() || !mapping_.labelling()) return;
-    if (labelled_frames_ % config_.labels.stride != 0) return;
-    LabelReport report;
-    if (!labelling_->Detect(frame_, report, labels_end_)) return;
-    if (!report.moving.depth_m.empty()) tracking_.stage().HintMoving(report.moving, std::nullopt);
-    detected_ = std::move(report);
-}
-
 void LockstepEngine::Label(FrameOutcome& outcome) {
-    if (!mapping_.stage().has_labels() || !mapping_.labelling() || !tracked_.report.fused) return;
-    ++labelled_frames_;
-    if (!detected_) return;
-    mapping_.Label(frame_.depth_m, tracked_.report.track.T_world_camera, *detected_);
-    outcome.labels = std::exchange(detected_, std::nullopt);
+    if (!LabelsNow() || !tracked_.report.fused) return;
+    std::optional<LabelReport> detected = labelling_.TakeDetections();
+    if (!detected) return;
+    mapping_.Label(frame_.depth_m, tracked_.report.track.T_world_camera, *detected);
+    outcome.labels = std::move(detected);
 }
 
 void LockstepEngine::RelocaliseIfLost() {
@@ -132,14 +118,15 @@ bool LockstepEngine::TakeMessage(FrameOutcome& outcome) {
         outcome.message = std::move(*message);
         return true;
     }
-    if (labels_begin_) {
+    if (std::shared_ptr<const LabelClasses> classes = labelling_.TakeBegun()) {
         outcome.kind = FrameOutcome::Kind::kLabelsBegin;
-        outcome.classes = std::exchange(labels_begin_, nullptr);
+        outcome.classes = std::move(classes);
         return true;
     }
-    if (labels_end_.empty()) return false;
+    const std::string failure = labelling_.TakeFailure();
+    if (failure.empty()) return false;
     outcome.kind = FrameOutcome::Kind::kLabelsEnd;
-    outcome.message = std::exchange(labels_end_, {});
+    outcome.message = LabellingStopped(failure);
     return true;
 }
 
@@ -148,23 +135,17 @@ void LockstepEngine::Apply(const ViewerSettings& settings) {
     mapping_.Apply(settings.labels);
     if (loops_) loops_->Switch(settings.loops.value_or(true));
     mapping_.feed().ShowPrediction(settings.show_prediction);
-    if (std::exchange(detector_, settings.detector) != settings.detector &&
-        !settings.detector.empty())
-        ChangeDetector(settings.detector);
+    // Also without labels so far: then they begin here.
+    if (std::optional<DetectorChange> change = labelling_.Choose(settings.detector)) {
+        notices_.Tell(std::move(change->message));
+        if (change->classes && !mapping_.stage().has_labels()) EnableLabels(*change->classes);
+    }
 }
 
-// The run waits until it is open. Also without labels so far: then they begin here.
-void LockstepEngine::ChangeDetector(const std::string& name) {
-    if (!labelling_) labelling_ = std::make_unique<LabellingStage>(config_.labels, source_.camera);
-    DetectorChange change = labelling_->Change(name, open_detector_);
-    notices_.Tell(std::move(change.message));
-    if (!change.classes) return;
-    if (!mapping_.stage().has_labels()) {
-        mapping_.stage().EnableLabels(config_.labels, *change.classes);
-        loop_labels_ = LoopCloser::Labels{config_.labels, *change.classes};
-        if (loops_) loops_->EnableLabels(*loop_labels_);
-    }
-    labels_begin_ = std::move(change.classes);
+void LockstepEngine::EnableLabels(const LabelClasses& classes) {
+    mapping_.stage().EnableLabels(config_.labels, classes);
+    loop_labels_ = LoopCloser::Labels{config_.labels, classes};
+    if (loops_) loops_->EnableLabels(*loop_labels_);
 }
 
 // Waits while paused. Returns true if there is something to report.

@@ -4,6 +4,7 @@
 
 #include "io/frame_reader.h"
 #include "system/engine.h"
+#include "system/frame_labelling.h"
 #include "system/frame_mapping.h"
 #include "system/frame_tracking.h"
 #include "system/loop_stage.h"
@@ -39,14 +40,14 @@ class LockstepEngine : public Engine {
     void BeginLoops();
 
     void Process(FrameOutcome& outcome);
-    void Detect();
+    bool LabelsNow() const { return mapping_.stage().has_labels() && mapping_.labelling(); }
     void Label(FrameOutcome& outcome);
     void RelocaliseIfLost();
     void CloseLoops(FrameOutcome& outcome);
 
     bool TakeMessage(FrameOutcome& outcome);
     void Apply(const ViewerSettings& settings);
-    void ChangeDetector(const std::string& name);
+    void EnableLabels(const LabelClasses& classes);
     bool HandleViewer(FrameOutcome& outcome);
     bool Execute(const ViewerCommand& command, FrameOutcome& outcome);
     void Finish();
@@ -63,14 +64,8 @@ class LockstepEngine : public Engine {
     bool only_localise_ = false;
     std::string scan_path_;  // of a scan saved from the start; else empty
     RecorderThread recorder_;
-    std::unique_ptr<LabellingStage> labelling_;  // null without labels
-    std::optional<LabelReport> detected_;        // in the current frame
-    std::string labels_end_;                     // why the detector failed, until it is reported
-    std::string detector_;                       // as last chosen
-    OpenDetectorFunction open_detector_;
-    std::shared_ptr<const LabelClasses> labels_begin_;  // of another detector, until reported
-    std::int64_t labelled_frames_ = 0;                  // fused with labelling on
-    std::unique_ptr<FrameReader> reader_;               // null after TakeMesh
+    FrameLabelling labelling_;
+    std::unique_ptr<FrameReader> reader_;  // null after TakeMesh
     Frame frame_;
     TrackedFrame tracked_;
     Status status_;

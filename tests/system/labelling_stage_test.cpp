@@ -99,7 +99,8 @@ class LabellingStageTest : public EngineTest, public testing::WithParamInterface
     int TimesSaid() const {
         int times = 0;
         for (const FrameOutcome& o : outcomes)
-            times += o.message.find("the network fell over") != std::string::npos;
+            times += o.message.starts_with("labelling has stopped, the run continues: ") &&
+                     o.message.find("the network fell over") != std::string::npos;
         return times;
     }
     std::int64_t Labelled() const {
@@ -118,7 +119,7 @@ TEST_P(LabellingStageTest, SaysOnceThatTheDetectorBroke) {
     EXPECT_EQ(report.detections[0].class_id, 1);
     EXPECT_TRUE(message.empty());
     EXPECT_FALSE(stage.Detect({}, report, message));
-    EXPECT_NE(message.find("labelling has stopped"), std::string::npos) << message;
+    EXPECT_NE(message.find("the network fell over"), std::string::npos) << message;
     EXPECT_FALSE(stage.Detect({}, report, message));
     EXPECT_TRUE(message.empty());
 }

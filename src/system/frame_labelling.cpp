@@ -1,0 +1,30 @@
+#include "system/frame_labelling.h"
+
+namespace tessera {
+
+void FrameLabelling::Detect(const Frame& frame, bool always, TrackingStage& tracking) {
+    detected_.reset();
+    if (!always && frames_ % config_.stride != 0) return;
+    LabelReport report;
+    std::string failure;
+    if (!stage_.Detect(frame, report, failure)) {
+        if (!failure.empty()) failure_ = std::move(failure);
+        return;
+    }
+    if (!report.moving.depth_m.empty()) tracking.HintMoving(report.moving, std::nullopt);
+    detected_ = std::move(report);
+}
+
+std::optional<LabelReport> FrameLabelling::TakeDetections() {
+    ++frames_;
+    return std::exchange(detected_, std::nullopt);
+}
+
+std::optional<DetectorChange> FrameLabelling::Choose(const std::string& name) {
+    if (std::exchange(chosen_, name) == name || name.empty()) return std::nullopt;
+    DetectorChange change = stage_.Change(name, open_);
+    if (change.classes) begun_ = change.classes;
+    return change;
+}
+
+}  // namespace tessera

@@ -1,0 +1,53 @@
+// The labelling part of a frame's life where one thread does everything (lockstep, inspect). Live,
+// a LabellingThread detects.
+#pragma once
+
+#include "system/labelling_stage.h"
+#include "system/tracking_stage.h"
+
+namespace tessera {
+
+// Owner thread only.
+class FrameLabelling {
+  public:
+    // `open`: opens another detector during the run; empty if none can be chosen.
+    FrameLabelling(const LabelConfig& config, const PinholeCamera& camera,
+                   OpenDetectorFunction open = {})
+        : config_(config), camera_(camera), open_(std::move(open)), stage_(config, camera) {}
+
+    void Begin(Labelling labelling) {
+        stage_ = LabellingStage(std::move(labelling.detector), std::move(labelling.classes),
+                                config_, camera_);
+    }
+    // Continues a scan in which so many frames were fused with labelling on.
+    void Resume(std::int64_t frames) { frames_ = frames; }
+
+    // Detects in every stride-th fused frame, or `always`. Before the frame is tracked, because
+    // people in it may have to be masked.
+    void Detect(const Frame& frame, bool always, TrackingStage& tracking);
+    // Call after the frame was fused. Its detections; nothing if it was not looked at.
+    std::optional<LabelReport> TakeDetections();
+    // What Detect found in the last frame.
+    const std::optional<LabelReport>& detected() const { return detected_; }
+    std::int64_t frames() const { return frames_; }
+
+    // Replaces the detector, unless it is the one that was chosen last. Returns what came of it.
+    std::optional<DetectorChange> Choose(const std::string& name);
+
+    // Why the detector failed, once; else empty.
+    std::string TakeFailure() { return std::exchange(failure_, {}); }
+    // The classes, once after another detector came into use; else null.
+    std::shared_ptr<const LabelClasses> TakeBegun() { return std::exchange(begun_, nullptr); }
+
+  private:
+    LabelConfig config_;
+    PinholeCamera camera_;
+    OpenDetectorFunction open_;
+    LabellingStage stage_;
+    std::optional<LabelReport> detected_;
+    std::string failure_, chosen_;
+    std::shared_ptr<const LabelClasses> begun_;
+    std::int64_t frames_ = 0;
+};
+
+}  // namespace tessera
