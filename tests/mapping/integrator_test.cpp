@@ -3,8 +3,12 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstring>
 
+#include "core/cpu.h"
+#include "mapping/integrator_fixture.h"
 #include "support/box_room.h"
 
 namespace tessera {
@@ -13,75 +17,6 @@ namespace {
 using testing_support::BoxRoom;
 using testing_support::SmallCamera;
 using testing_support::SmoothPath;
-
-Integrator::View At(const Eigen::Isometry3d& T_world_camera) {
-    Integrator::View view;
-    view.T_world_camera = T_world_camera;
-    return view;
-}
-
-PreparedFrame Prepare(const Frame& frame) {
-    PreparedFrame prepared;
-    PrepareFrame(frame, {}, prepared);
-    return prepared;
-}
-
-BlockMap::Config MapConfig(double voxel_m = 0.02, double truncation_m = 0.08) {
-    BlockMap::Config config;
-    config.voxel_size_m = voxel_m;
-    config.truncation_m = truncation_m;
-    return config;
-}
-
-Frame UniformFrame(const PinholeCamera& camera, float depth_m, Rgb8 colour) {
-    Frame frame;
-    frame.depth_m = DepthImage(camera.width, camera.height, depth_m);
-    frame.colour = ColourImage(camera.width, camera.height, colour);
-    return frame;
-}
-
-// Calls visit(point in metres, field word, weight word, colour word) for every voxel that has a
-// distance.
-template <class Visit>
-void ForKnownVoxels(const BlockMap& map, const Visit& visit) {
-    for (BlockId id = 1; id < map.size(); ++id) {
-        const BlockCoord c = map.coord(id);
-        for (int i = 0; i < kBlockVoxels; ++i) {
-            if (!HasDistance(map.field(id)[i])) continue;
-            const Eigen::Vector3d p =
-                Eigen::Vector3d(c.x * 8 + (i & 7), c.y * 8 + (i >> 3 & 7), c.z * 8 + (i >> 6)) *
-                map.config().voxel_size_m;
-            visit(p, map.field(id)[i], map.weight(id)[i], map.colour(id)[i]);
-        }
-    }
-}
-
-// A person stood at 1 m for ten seconds and has left. Where gone_m says so, a third of a second is
-// enough to clear the map.
-TEST(Integrator, ASurfaceThatIsGoneIsForgottenSoon) {
-    const PinholeCamera camera = SmallCamera();
-    for (const bool known : {false, true}) {
-        BlockMap map(MapConfig());
-        Integrator integrator({}, camera);
-        for (int i = 0; i < 300; ++i)
-            integrator.Integrate(Prepare(UniformFrame(camera, 1.0f, {90, 120, 30})), {}, map);
-        PreparedFrame wall = Prepare(UniformFrame(camera, 2.0f, {90, 120, 30}));
-        if (known) wall.gone_m = DepthImage(camera.width, camera.height, 2.0f);
-        for (int i = 0; i < 10; ++i) integrator.Integrate(wall, {}, map);
-        int solid = 0, free = 0;
-        ForKnownVoxels(map,
-                       [&](const Eigen::Vector3d& p, FieldWord field, std::uint16_t, ColourWord) {
-                           if (p.z() > 1.07 || p.head<2>().norm() > 0.2 * p.z())
-                               return;  // only the centre of the image
-                           (FieldDistance(field) > 0 ? free : solid) += 1;
-                       });
-        EXPECT_GT(free, 1000);
-        if (known)
-            EXPECT_EQ(solid, 0);
-        else
-            EXPECT_GT(solid, 300);
-    }
-}
 
 TEST(Integrator, PlaneGivesItsExactDistance) {
     const PinholeCamera camera = SmallCamera();
@@ -284,44 +219,6 @@ TEST(Integrator, FarFromTheOriginIsAsFine) {
     integrator.Integrate(Prepare(UniformFrame(camera, 1.0f, {90, 90, 90})), At(T), map);
     ForKnownVoxels(map, [&](const Eigen::Vector3d& p, FieldWord field, std::uint16_t, ColourWord) {
         ASSERT_NEAR(FieldDistance(field) * 0.08, std::clamp(1025.0 - p.z(), -0.08, 0.08), 1e-4);
-    });
-}
-
-TEST(Integrator, HostileDepthStaysBounded) {
-    const PinholeCamera camera = SmallCamera();
-    BlockMap map(MapConfig());
-    Integrator::Config config;
-    config.max_new_blocks = 1000;
-    Integrator integrator(config, camera);
-    Frame frame = UniformFrame(camera, 0.0f, {1, 2, 3});
-    EXPECT_EQ(integrator.Integrate(Prepare(frame), {}, map).new_blocks, 0);  // no depth
-
-    frame = UniformFrame(camera, 65.535f, {1, 2, 3});
-    EXPECT_EQ(integrator.Integrate(Prepare(frame), {}, map).new_blocks, 0);  // out of range
-
-    std::uint32_t random = 1;
-    for (float& z : std::span(frame.depth_m.data(), frame.depth_m.size())) {
-        random = random * 1664525u + 1013904223u;
-        z = static_cast<float>(random >> 8) * (6.0f / (1 << 24));
-    }
-    const Integrator::Report report = integrator.Integrate(Prepare(frame), {}, map);
-    EXPECT_LE(report.new_blocks, 1000);
-    for (float& z : std::span(frame.depth_m.data(), frame.depth_m.size()))
-        z = std::numeric_limits<float>::quiet_NaN();
-    EXPECT_EQ(integrator.Integrate(Prepare(frame), {}, map).new_blocks, 0);
-}
-
-TEST(Integrator, SeenThroughIsClearedAgain) {
-    const PinholeCamera camera = SmallCamera();
-    BlockMap map(MapConfig());
-    Integrator integrator({}, camera);
-    for (int i = 0; i < 3; ++i)
-        integrator.Integrate(Prepare(UniformFrame(camera, 1.0f, {9, 9, 9})), {}, map);
-    for (int i = 0; i < 60; ++i)
-        integrator.Integrate(Prepare(UniformFrame(camera, 2.0f, {9, 9, 9})), {}, map);
-    ForKnownVoxels(map, [&](const Eigen::Vector3d& p, FieldWord field, std::uint16_t, ColourWord) {
-        if (p.z() > 1.2 || std::abs(p.x()) > 0.3 || std::abs(p.y()) > 0.3) return;
-        ASSERT_GT(FieldDistance(field), 0.0f) << p.transpose();
     });
 }
 

@@ -1,36 +1,27 @@
 // Complete walks through a rendered room with Kinect noise.
 #include "optimize/loop_closer.h"
 
-#include <tbb/global_control.h>
+#include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <string>
+#include <vector>
 
+#include "optimize/drifting_walk.h"
 #include "optimize/room_walk.h"
 
 namespace tessera {
 namespace {
 
+using testing_support::Bias;
+using testing_support::EndError_m;
 using testing_support::RoomCamera;
 using testing_support::RoomWalk;
+using testing_support::Round;
 using testing_support::Walker;
-
-// One full turn and a little more, every sixth frame.
-std::vector<Frame> Round() { return RoomWalk(0, 120, 6); }
-
-// Odometry error between two frames: 1.5 mm and 0.05 degrees, always in the same direction.
-Eigen::Isometry3d Bias() { return Se3Exp((Vector6d() << 0, 0.0009, 0, 0.0015, 0, 0).finished()); }
-
-void WalkWithDrift(const std::vector<Frame>& frames, Walker& walker) {
-    for (std::size_t i = 0; i < frames.size(); ++i)
-        walker.Go(frames[i], i == 0 ? Eigen::Isometry3d::Identity()
-                                    : frames[i - 1].T_world_camera->inverse() *
-                                          *frames[i].T_world_camera * Bias());
-}
-
-double EndError_m(const std::vector<Frame>& frames, const std::vector<StampedPose>& path) {
-    return (path.back().T_world_camera.translation() - frames.back().T_world_camera->translation())
-        .norm();
-}
+using testing_support::WalkWithDrift;
 
 TEST(LoopCloser, TakesAFifthOrLessOfTheDriftToTheEndAndTheMapFollows) {
     if (!PoseGraphAvailable()) GTEST_SKIP() << "this build has no Ceres: install libceres-dev";
@@ -142,120 +133,6 @@ TEST(LoopCloser, SwitchedOffItClosesNothingUntilItIsOnAgain) {
         EXPECT_EQ(walker.corrections > 0, on_again);
         EXPECT_EQ(walker.closer.loops() > 0, on_again);
     }
-}
-
-// If a map holds a surface twice, tracking can jump from one copy to the other.
-TEST(LoopCloser, AJumpWhileTheMapIsMadeAgainIsNoMotion) {
-    if (!PoseGraphAvailable()) GTEST_SKIP() << "this build has no Ceres: install libceres-dev";
-    const std::vector<Frame> frames = Round();
-    Walker walker(LoopConfig{});
-    std::size_t jumped = 0;
-    for (std::size_t i = 0; i < frames.size(); ++i) {
-        Eigen::Isometry3d step = Eigen::Isometry3d::Identity();
-        if (i > 0)
-            step = frames[i - 1].T_world_camera->inverse() * *frames[i].T_world_camera * Bias();
-        if (jumped == 0 && walker.closer.HasWork()) {
-            step = step * Eigen::Translation3d(0.08, 0, 0);
-            jumped = i;
-        }
-        walker.Go(frames[i], step);
-    }
-    ASSERT_GT(jumped, 0u);
-    const std::vector<StampedPose> path = walker.closer.Path();
-    const Eigen::Isometry3d went =
-        path[jumped - 1].T_world_camera.inverse() * path[jumped].T_world_camera;
-    const Eigen::Isometry3d true_step =
-        frames[jumped - 1].T_world_camera->inverse() * *frames[jumped].T_world_camera;
-    EXPECT_LT((went.translation() - true_step.translation()).norm(), 0.03);
-}
-
-// An image that is too wide for a JPEG is not stored. Its keyframes are still connected to those of
-// the rebuilt map.
-TEST(LoopCloser, FramesThatCannotBeStoredWhileTheMapIsMadeAgainAreTold) {
-    if (!PoseGraphAvailable()) GTEST_SKIP() << "this build has no Ceres: install libceres-dev";
-    const std::vector<Frame> frames = Round();
-    Walker walker(LoopConfig{});
-    int keyframes_lost = 0;
-    for (std::size_t i = 0; i < frames.size(); ++i) {
-        Eigen::Isometry3d step = Eigen::Isometry3d::Identity();
-        if (i > 0)
-            step = frames[i - 1].T_world_camera->inverse() * *frames[i].T_world_camera * Bias();
-        Frame wide = frames[i];
-        wide.colour.Resize(70000, 1);
-        const bool lost = walker.closer.HasWork();
-        const int before = walker.closer.keyframes().size();
-        walker.Go(frames[i], step, lost ? &wide : nullptr);
-        if (lost) keyframes_lost += walker.closer.keyframes().size() - before;
-    }
-    EXPECT_GT(keyframes_lost, 0);
-    EXPECT_NE(walker.all_news.find("cannot be encoded as JPEG"), std::string::npos)
-        << walker.all_news;
-    std::string note;
-    walker.Take(walker.closer.Finish(note));
-    EXPECT_EQ(walker.closer.Path().size(), frames.size());
-    EXPECT_LT(EndError_m(frames, walker.closer.Path()), 0.07);
-}
-
-// Also the latest ones, which are not stored yet because their average is not complete: while the
-// map is made again, the camera stands still.
-TEST(LoopCloser, ACorrectedMapHasEveryFrame) {
-    if (!PoseGraphAvailable()) GTEST_SKIP() << "this build has no Ceres: install libceres-dev";
-    const std::vector<Frame> frames = Round();
-    Walker walker(LoopConfig{});
-    int gone = 0;
-    for (std::size_t i = 0; i < frames.size() && walker.corrections == 0; ++i) {
-        Eigen::Isometry3d step = Eigen::Isometry3d::Identity();
-        if (i > 0)
-            step = frames[i - 1].T_world_camera->inverse() * *frames[i].T_world_camera * Bias();
-        walker.Go(frames[i], step);
-        ++gone;
-        while (walker.corrections == 0 && walker.closer.HasWork()) {
-            walker.Go(frames[i], Eigen::Isometry3d::Identity());
-            ++gone;
-        }
-    }
-    EXPECT_EQ(walker.corrections, 1);
-    float weight = 0;
-    for (const StoredFrame& stored : walker.closer.store().frames()) weight += stored.view.weight;
-    EXPECT_FLOAT_EQ(weight, static_cast<float>(gone));
-}
-
-// The latest frames cannot be stored: the map is corrected without them.
-TEST(LoopCloser, AMapIsCorrectedWithoutFramesThatCannotBeStored) {
-    if (!PoseGraphAvailable()) GTEST_SKIP() << "this build has no Ceres: install libceres-dev";
-    const std::vector<Frame> frames = Round();
-    Walker walker(LoopConfig{});
-    for (std::size_t i = 0; i < frames.size() && walker.corrections == 0; ++i) {
-        Eigen::Isometry3d step = Eigen::Isometry3d::Identity();
-        if (i > 0)
-            step = frames[i - 1].T_world_camera->inverse() * *frames[i].T_world_camera * Bias();
-        walker.Go(frames[i], step);
-        Frame wide = frames[i];
-        wide.colour.Resize(70000, 1);
-        // A new average begins after 6 cm.
-        for (double away_m = 0.06; walker.corrections == 0 && walker.closer.HasWork(); away_m = 0)
-            walker.Go(frames[i], Eigen::Isometry3d(Eigen::Translation3d(away_m, 0, 0)), &wide);
-    }
-    EXPECT_EQ(walker.corrections, 1);
-}
-
-TEST(LoopCloser, CorrectsToTheSameBytesForAnyNumberOfThreads) {
-    if (!PoseGraphAvailable()) GTEST_SKIP() << "this build has no Ceres: install libceres-dev";
-    const std::vector<Frame> frames = Round();
-    std::vector<StampedPose> paths[2];
-    for (const int threads : {1, 3}) {
-        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
-                                        static_cast<std::size_t>(threads));
-        Walker walker(LoopConfig{});
-        WalkWithDrift(frames, walker);
-        std::string note;
-        walker.Take(walker.closer.Finish(note));
-        EXPECT_GE(walker.corrections, 1);
-        paths[threads / 2] = walker.closer.Path();
-    }
-    ASSERT_EQ(paths[0].size(), paths[1].size());
-    for (std::size_t i = 0; i < paths[0].size(); ++i)
-        EXPECT_EQ(paths[0][i].T_world_camera.matrix(), paths[1][i].T_world_camera.matrix()) << i;
 }
 
 // Loops between keyframes in different rooms, which are 6 m apart.

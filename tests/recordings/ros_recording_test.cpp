@@ -3,44 +3,20 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <random>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
 
 #include "io/temporary_folder.h"
 #include "recordings/ros2_writer.h"
 #include "recordings/ros_images_of.h"
+#include "recordings/ros_recording_fixture.h"
 
 namespace tessera {
 namespace {
 
 using namespace ros_test;
-
-constexpr double kRosGap_s = 0.02;
-
-void WriteRosFile(const std::string& path, const std::string& content) {
-    std::ofstream(path, std::ios::binary) << content;
-}
-
-std::string RosFileContent(const std::string& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-}
-
-// False if rosbag is not installed.
-bool WriteBag(const std::string& path, const std::string& variant, const std::string& compression) {
-    const std::string script = std::string(TESSERA_SOURCE_DIR) + "/tests/recordings/write_bag.py";
-    const int state = std::system(
-        ("/usr/bin/python3 " + script + " " + path + " " + variant + " " + compression).c_str());
-    EXPECT_TRUE(state == 0 || WEXITSTATUS(state) == 77);
-    return state == 0;
-}
-
-#define WRITE_BAG_OR_SKIP(path, variant, compression) \
-    if (!WriteBag(path, variant, compression))        \
-    GTEST_SKIP()                                      \
-        << "needs rosbag: apt-get install python3-rosbag python3-sensor-msgs python3-tf2-msgs"
 
 // T_colour_depth of the recordings: the colour camera is 15 mm to the right and turned about y.
 Eigen::Isometry3d ExpectedTransform() {
@@ -48,27 +24,6 @@ Eigen::Isometry3d ExpectedTransform() {
     T_depth_colour.linear() = Eigen::Quaterniond(0.8, 0, 0.6, 0).toRotationMatrix();
     T_depth_colour.translation() = Eigen::Vector3d(0.015, 0, 0);
     return T_depth_colour.inverse();
-}
-
-template <class Pixels>
-bool SamePixels(const Pixels& a, const Pixels& b) {
-    return a.width() == b.width() && a.height() == b.height() &&
-           std::equal(a.data(), a.data() + a.size(), b.data());
-}
-
-void ExpectAllImages(Recording& recording, int frames = kFrames) {
-    ASSERT_EQ(recording.info().pairs.size(), static_cast<std::size_t>(frames));
-    Image<std::uint16_t> depth;
-    ColourImage colour;
-    for (const int i : {4, 0, 2, 1, 3}) {
-        if (i >= frames) continue;
-        const Status status = recording.Load(static_cast<std::size_t>(i), depth, colour);
-        ASSERT_TRUE(status.ok()) << status.message();
-        EXPECT_TRUE(SamePixels(depth, DepthOf(i))) << i;
-        EXPECT_TRUE(SamePixels(colour, ColourOf(i))) << i;
-        EXPECT_NEAR(recording.info().pairs[static_cast<std::size_t>(i)].depth_stamp_s, StampOf(i),
-                    1e-9);
-    }
 }
 
 void ExpectPlainRecording(const std::string& path) {
@@ -190,20 +145,6 @@ TEST(RosRecording, ReadsRealsenseBags) {
     EXPECT_TRUE(info.warnings.empty()) << info.warnings.front();
 }
 
-TEST(RosRecording, AFileThatIsCutOffIsReadUpToThere) {
-    TemporaryFolder folder;
-    const std::string whole = McapOf(PlainMessages(), "zstd");
-    WriteRosFile(folder.Path("a.mcap"), whole.substr(0, whole.size() * 6 / 10));
-    RecordingResult recording = OpenRosRecording(folder.Path("a.mcap"), kRosGap_s);
-    ASSERT_TRUE(recording.ok()) << recording.message();
-    const std::size_t pairs = recording.value()->info().pairs.size();
-    EXPECT_GE(pairs, 1u);
-    EXPECT_LT(pairs, static_cast<std::size_t>(kFrames));
-    ExpectAllImages(*recording.value(), static_cast<int>(pairs));
-    ASSERT_EQ(recording.value()->info().warnings.size(), 1u);
-    EXPECT_TRUE(recording.value()->info().warnings[0].starts_with("damaged or cut off"));
-}
-
 TEST(RosRecording, CountsDepthImagesWithoutColour) {
     TemporaryFolder folder;
     std::vector<Message> messages = PlainMessages();
@@ -225,66 +166,6 @@ TEST(RosRecording, PairsWhatWasTakenAtTheSameTime) {
     const RecordedPair& first = recording.value()->info().pairs[0];
     EXPECT_NEAR(first.depth_stamp_s, StampOf(1), 1e-9);
     EXPECT_NEAR(first.colour_stamp_s, StampOf(0) + 0.004, 1e-9);
-}
-
-TEST(RosRecording, SaysWhatIsMissing) {
-    TemporaryFolder folder;
-    std::vector<Message> messages = PlainMessages();
-    std::erase_if(messages, [](const Message& m) { return m.topic == "/cam/depth/image_raw"; });
-    WriteRosFile(folder.Path("a.mcap"), McapOf(messages, ""));
-    EXPECT_TRUE(OpenRosRecording(folder.Path("a.mcap"), kRosGap_s)
-                    .message()
-                    .starts_with(folder.Path("a.mcap") + ": no depth images"));
-    WriteRosFile(folder.Path("b.mcap"), McapOf(PlainMessages(), ""));
-    EXPECT_NE(OpenRosRecording(folder.Path("b.mcap"), 0.001).message().find("0.004 s apart"),
-              std::string::npos);
-    WriteRosFile(folder.Path("c.bag"), "#ROSBAG V1.2\n");
-    EXPECT_NE(OpenRosRecording(folder.Path("c.bag"), kRosGap_s).message().find("rosbag fix"),
-              std::string::npos);
-    messages = PlainMessages();
-    std::erase_if(messages, [](const Message& m) { return m.topic == "/tf_static"; });
-    WriteRosFile(folder.Path("d.mcap"), McapOf(messages, ""));
-    RecordingResult recording = OpenRosRecording(folder.Path("d.mcap"), kRosGap_s);
-    ASSERT_TRUE(recording.ok()) << recording.message();
-    ASSERT_EQ(recording.value()->info().warnings.size(), 1u);
-    EXPECT_NE(recording.value()->info().warnings[0].find("taken as one"), std::string::npos);
-}
-
-// Opens the file and loads all images, with four bits turned over in the part from `first` on.
-void ReadDamaged(const std::string& path, std::string content, std::size_t first, std::size_t bytes,
-                 unsigned seed) {
-    std::minstd_rand random(seed + 1);
-    for (int i = 0; i < 4; ++i)
-        content[first + random() % bytes] ^= static_cast<char>(1 << random() % 8);
-    WriteRosFile(path, content);
-    RecordingResult recording = OpenRosRecording(path, kRosGap_s);
-    if (!recording.ok()) return;
-    Image<std::uint16_t> depth;
-    ColourImage colour;
-    for (std::size_t i = 0; i < recording.value()->info().pairs.size(); ++i)
-        (void)recording.value()->Load(i, depth, colour).ok();
-}
-
-// Damage gives an error, fewer images or other pixels, never a crash or a huge allocation. The
-// first part has the heads of chunks, records and messages.
-TEST(RosRecording, DamagedFilesAreNoDanger) {
-    TemporaryFolder folder;
-    for (const char* compression : {"", "lz4", "zstd"}) {
-        const std::string good = McapOf(PlainMessages(), compression);
-        for (unsigned seed = 0; seed < 60; ++seed)
-            ReadDamaged(folder.Path("a.mcap"), good, 0, seed % 2 ? good.size() : 2000, seed);
-    }
-}
-
-TEST(RosRecording, DamagedBagsAreNoDanger) {
-    TemporaryFolder folder;
-    const std::string path = folder.Path("a.bag");
-    for (const char* compression : {"none", "bz2"}) {
-        WRITE_BAG_OR_SKIP(path, "plain", compression);
-        const std::string good = RosFileContent(path);
-        for (unsigned seed = 0; seed < 60; ++seed)
-            ReadDamaged(path, good, 13, seed % 2 ? good.size() - 13 : 5000, seed);
-    }
 }
 
 }  // namespace

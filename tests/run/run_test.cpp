@@ -1,59 +1,28 @@
-// A complete run on a small synthetic sequence, and the files it leaves after success and failure.
+// A complete run on a small synthetic sequence, and the files it leaves after success.
 #include "run/run.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
-#include <thread>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "io/mesh_io.h"
 #include "io/trajectory.h"
 #include "mapping/map_estimate.h"
 #include "render/mesh_rasteriser.h"
-#include "support/temp_folder.h"
+#include "run/run_fixture.h"
 
 namespace tessera {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string ReadAll(const std::string& path) {
-    std::ifstream file(path, std::ios::binary);
-    std::stringstream text;
-    text << file.rdbuf();
-    return text.str();
-}
-
-class Run : public testing::Test {
-  protected:
-    // Few small frames, because this tests the run, not the tracker.
-    Run() {
-        config.synthetic.camera = {160, 120, 131.25, 131.25, 79.5, 59.5};
-        config.synthetic.frames = 6;
-        config.pipeline.map.voxel_size_m = 0.04;
-        config.pipeline.map.truncation_m = 0.16;
-        request.source = "synthetic:desk";
-        request.output_folder = folder / "out";
-        request.command_line = {"tessera", "run", "synthetic:desk"};
-        observer.on_warning = [this](const std::string& text) { warnings.push_back(text); };
-    }
-    Result<RunSummary> Execute() { return ExecuteRun(request, config, observer, stop); }
-    std::string Out(const std::string& name) const { return request.output_folder + "/" + name; }
-    nlohmann::json Json(const std::string& name) const {
-        return nlohmann::json::parse(ReadAll(Out(name)));
-    }
-
-    TempFolder folder;
-    RunConfig config;
-    RunRequest request;
-    RunObserver observer;
-    std::vector<std::string> warnings;
-    std::atomic<bool> stop{false};
-};
 
 TEST_F(Run, GoesOnWithoutACameraAndSaysWhatItAssumes) {
     request.record_path = folder / "raw";
@@ -236,56 +205,6 @@ TEST_F(Run, WithoutAFolderNothingIsWritten) {
     ASSERT_TRUE(run.ok()) << run.message();
     EXPECT_TRUE(run.value().ate.has_value());
     EXPECT_TRUE(fs::is_empty(folder.path()));
-}
-
-TEST_F(Run, BadInputIsAnErrorThatNamesIt) {
-    request.poses_file = folder / "none.txt";
-    EXPECT_NE(Execute().message().find("none.txt"), std::string::npos);
-    request.poses_file.clear();
-    std::ofstream(folder / "file") << "x";
-    request.output_folder = folder / "file/out";
-    EXPECT_NE(Execute().message().find("file"), std::string::npos) << Execute().message();
-    request.output_folder = folder / "out";
-    config.pipeline.map.truncation_m = 0.01;
-    EXPECT_NE(Execute().message().find("mapping.truncation_m"), std::string::npos);
-}
-
-TEST_F(Run, ARefusedRunSaysOneThingAndLeavesEarlierResults) {
-    ASSERT_TRUE(Execute().ok());
-    const std::string mesh = ReadAll(Out("mesh.ply"));
-    request.selection.start = 1000;
-    observer.on_open = [](const SourceInfo&) { ADD_FAILURE() << "on_open was called"; };
-    EXPECT_NE(Execute().message().find("1000"), std::string::npos);
-    EXPECT_TRUE(ReadAll(Out("mesh.ply")) == mesh);
-}
-
-// Its window never opens, so nobody would close it.
-TEST_F(Run, ARefusedRunDoesNotWaitForAWindow) {
-    ViewerLink link;
-    link.open = true;
-    request.viewer = &link;
-    request.output_folder = "/proc/no";
-    std::atomic<bool> done{false};
-    std::jthread watch([&] {
-        for (int i = 0; i < 600 && !done; ++i)
-            std::this_thread::sleep_for(std::chrono::milliseconds(50));
-        stop = !done;
-    });
-    const auto run = Execute();
-    done = true;
-    EXPECT_FALSE(run.ok());
-    EXPECT_FALSE(stop);
-}
-
-TEST_F(Run, DepthsOutOfRangeAreNamedOnceAndLost) {
-    config.pipeline.frame.min_depth_m = 50;
-    config.pipeline.frame.max_depth_m = 60;
-    const auto run = Execute();
-    ASSERT_TRUE(run.ok()) << run.message();
-    EXPECT_EQ(run.value().counts.tracked, 0);
-    ASSERT_EQ(warnings.size(), 1u);
-    EXPECT_NE(warnings[0].find("is depth_scale right?"), std::string::npos);
-    EXPECT_TRUE(fs::exists(Out("run.json")));
 }
 
 }  // namespace

@@ -1,0 +1,103 @@
+// ROS recordings that are cut off, damaged or lack something.
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <fstream>
+#include <iterator>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "io/temporary_folder.h"
+#include "recordings/ros2_writer.h"
+#include "recordings/ros_images_of.h"
+#include "recordings/ros_recording.h"
+#include "recordings/ros_recording_fixture.h"
+
+namespace tessera {
+namespace {
+
+using namespace ros_test;
+
+std::string RosFileContent(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+TEST(RosRecording, AFileThatIsCutOffIsReadUpToThere) {
+    TemporaryFolder folder;
+    const std::string whole = McapOf(PlainMessages(), "zstd");
+    WriteRosFile(folder.Path("a.mcap"), whole.substr(0, whole.size() * 6 / 10));
+    RecordingResult recording = OpenRosRecording(folder.Path("a.mcap"), kRosGap_s);
+    ASSERT_TRUE(recording.ok()) << recording.message();
+    const std::size_t pairs = recording.value()->info().pairs.size();
+    EXPECT_GE(pairs, 1u);
+    EXPECT_LT(pairs, static_cast<std::size_t>(kFrames));
+    ExpectAllImages(*recording.value(), static_cast<int>(pairs));
+    ASSERT_EQ(recording.value()->info().warnings.size(), 1u);
+    EXPECT_TRUE(recording.value()->info().warnings[0].starts_with("damaged or cut off"));
+}
+
+TEST(RosRecording, SaysWhatIsMissing) {
+    TemporaryFolder folder;
+    std::vector<Message> messages = PlainMessages();
+    std::erase_if(messages, [](const Message& m) { return m.topic == "/cam/depth/image_raw"; });
+    WriteRosFile(folder.Path("a.mcap"), McapOf(messages, ""));
+    EXPECT_TRUE(OpenRosRecording(folder.Path("a.mcap"), kRosGap_s)
+                    .message()
+                    .starts_with(folder.Path("a.mcap") + ": no depth images"));
+    WriteRosFile(folder.Path("b.mcap"), McapOf(PlainMessages(), ""));
+    EXPECT_NE(OpenRosRecording(folder.Path("b.mcap"), 0.001).message().find("0.004 s apart"),
+              std::string::npos);
+    WriteRosFile(folder.Path("c.bag"), "#ROSBAG V1.2\n");
+    EXPECT_NE(OpenRosRecording(folder.Path("c.bag"), kRosGap_s).message().find("rosbag fix"),
+              std::string::npos);
+    messages = PlainMessages();
+    std::erase_if(messages, [](const Message& m) { return m.topic == "/tf_static"; });
+    WriteRosFile(folder.Path("d.mcap"), McapOf(messages, ""));
+    RecordingResult recording = OpenRosRecording(folder.Path("d.mcap"), kRosGap_s);
+    ASSERT_TRUE(recording.ok()) << recording.message();
+    ASSERT_EQ(recording.value()->info().warnings.size(), 1u);
+    EXPECT_NE(recording.value()->info().warnings[0].find("taken as one"), std::string::npos);
+}
+
+// Opens the file and loads all images, with four bits turned over in the part from `first` on.
+void ReadDamaged(const std::string& path, std::string content, std::size_t first, std::size_t bytes,
+                 unsigned seed) {
+    std::minstd_rand random(seed + 1);
+    for (int i = 0; i < 4; ++i)
+        content[first + random() % bytes] ^= static_cast<char>(1 << random() % 8);
+    WriteRosFile(path, content);
+    RecordingResult recording = OpenRosRecording(path, kRosGap_s);
+    if (!recording.ok()) return;
+    Image<std::uint16_t> depth;
+    ColourImage colour;
+    for (std::size_t i = 0; i < recording.value()->info().pairs.size(); ++i)
+        (void)recording.value()->Load(i, depth, colour).ok();
+}
+
+// Damage gives an error, fewer images or other pixels, never a crash or a huge allocation. The
+// first part has the heads of chunks, records and messages.
+TEST(RosRecording, DamagedFilesAreNoDanger) {
+    TemporaryFolder folder;
+    for (const char* compression : {"", "lz4", "zstd"}) {
+        const std::string good = McapOf(PlainMessages(), compression);
+        for (unsigned seed = 0; seed < 60; ++seed)
+            ReadDamaged(folder.Path("a.mcap"), good, 0, seed % 2 ? good.size() : 2000, seed);
+    }
+}
+
+TEST(RosRecording, DamagedBagsAreNoDanger) {
+    TemporaryFolder folder;
+    const std::string path = folder.Path("a.bag");
+    for (const char* compression : {"none", "bz2"}) {
+        WRITE_BAG_OR_SKIP(path, "plain", compression);
+        const std::string good = RosFileContent(path);
+        for (unsigned seed = 0; seed < 60; ++seed)
+            ReadDamaged(path, good, 13, seed % 2 ? good.size() - 13 : 5000, seed);
+    }
+}
+
+}  // namespace
+}  // namespace tessera

@@ -1,0 +1,114 @@
+// Clicks the controls of settings and checks what the system receives.
+#include <X11/keysym.h>
+
+#include <utility>
+
+#include "viz/viewer_controls.h"
+
+namespace tessera {
+namespace {
+
+TEST_F(ViewerControls, MethodsAreSelected) {
+    Frames(2);
+    for (const auto& [name, method] : {std::pair{"method.icp", TrackingMethod::kIcp},
+                                       {"method.sdf-geometric", TrackingMethod::kSdfGeometric},
+                                       {"method.icp-rgb", TrackingMethod::kIcpRgb},
+                                       {"method.sdf", TrackingMethod::kSdf}}) {
+        Click(name);
+        const ViewerSettings* settings = LastSettings();
+        ASSERT_TRUE(settings) << name;
+        EXPECT_EQ(settings->method, method) << name;
+    }
+    EXPECT_EQ(system_->settings().size(), 4u);
+}
+
+TEST_F(ViewerControls, AlphaIsAutomaticOrSet) {
+    Frames(2);
+    Click("alpha", 0.9f);  // disabled
+    EXPECT_EQ(LastSettings(), nullptr);
+    Click("alpha.auto");
+    ASSERT_NE(LastSettings(), nullptr);
+    EXPECT_FALSE(LastSettings()->auto_alpha);
+    Click("alpha", 0.2f);
+    const double low = LastSettings()->alpha;
+    MoveTo("alpha", 0.2f);
+    display_->Press(1);
+    Rounds(2);
+    MoveTo("alpha", 0.8f);
+    display_->Release(1);
+    Rounds(3);
+    const double high = LastSettings()->alpha;
+    EXPECT_GT(low, 0.0005);
+    EXPECT_LT(high, 2);
+    EXPECT_GT(high, 20 * low);  // the scale is logarithmic
+    EXPECT_FALSE(LastSettings()->auto_alpha);
+}
+
+TEST_F(ViewerControls, SwitchesAndDepth) {
+    Frames(1);
+    Click("fusing");
+    ASSERT_NE(LastSettings(), nullptr);
+    EXPECT_FALSE(LastSettings()->fusing);
+    EXPECT_EQ(LastSettings()->loops, true);
+    Click("loops");
+    EXPECT_EQ(LastSettings()->loops, false);
+    Click("prealign");
+    EXPECT_FALSE(LastSettings()->prealign);
+    Click("prediction");
+    EXPECT_FALSE(LastSettings()->show_prediction);
+    Click("max_depth", 0.1f);
+    EXPECT_LT(LastSettings()->max_depth_m, 2.5);
+    EXPECT_GT(LastSettings()->max_depth_m, 0.5);
+    Click("fusing");
+    EXPECT_TRUE(LastSettings()->fusing);
+    EXPECT_FALSE(LastSettings()->prealign);  // all settings are sent together
+}
+
+TEST_F(ViewerControls, ViewsAreRasterisedAndClassesChosen) {
+    LabelConfig config;
+    config.classes = "cup book";
+    link_.classes.Push(LabelClasses(LabelClasses::Make(config, {}).value()));
+    Frames(1);
+    Click("raster");
+    ASSERT_NE(LastSettings(), nullptr);
+    EXPECT_EQ(LastSettings()->prediction, IcpTracker::Prediction::kRaster);
+    EXPECT_EQ(LastSettings()->labels.prediction, LabelPrediction::kRaster);
+    Click("raster");
+    EXPECT_EQ(LastSettings()->prediction, IcpTracker::Prediction::kRayCast);
+    EXPECT_EQ(LastSettings()->labels.prediction, LabelPrediction::kRayCast);
+    Click("labelling");
+    EXPECT_FALSE(LastSettings()->labels.on);
+    EXPECT_FALSE(viewer_->FindControl("class.book"));
+    Click("classes");
+    Click("class.book");
+    EXPECT_TRUE(LastSettings()->labels.ignored[2]);
+    EXPECT_EQ(LastSettings()->labels.ignored.count(), 1u);
+    Click("class.book");
+    EXPECT_TRUE(LastSettings()->labels.ignored.none());
+}
+
+class ViewerDetectors : public ViewerControls {
+  protected:
+    void SetUp() override {
+        first_options_.models = {"models/a.onnx", "models/b.onnx"};
+        ViewerControls::SetUp();
+    }
+};
+
+TEST_F(ViewerDetectors, ADetectorIsChosenFromTheListOrByItsPath) {
+    Frames(1);
+    Click("detector.choose");
+    Click("detector.b.onnx");
+    ASSERT_NE(LastSettings(), nullptr);
+    EXPECT_EQ(LastSettings()->detector, "models/b.onnx");
+    EXPECT_FALSE(viewer_->FindControl("detector.path"));  // the list has closed
+    Click("detector.choose");
+    Click("detector.path");
+    for (const unsigned long key : {XK_q, XK_period, XK_c, XK_f, XK_g}) Key(key);
+    Click("detector.use");
+    EXPECT_EQ(LastSettings()->detector, "q.cfg");  // q, in a text, is no key of the window
+    EXPECT_TRUE(Commands().empty());
+}
+
+}  // namespace
+}  // namespace tessera
