@@ -48,8 +48,8 @@ TEST(Rvl, DamageIsRefused) {
     for (std::size_t size = 0; size < code.size(); size += 4)
         EXPECT_FALSE(Decodes(code.substr(0, size), decoded)) << size;
     const auto refused = [](const std::string& word, std::size_t count) {
-        Pixels pixels(count);
-        EXPECT_FALSE(Decodes(word, pixels)) << word;
+        Pixels room(count);
+        EXPECT_FALSE(Decodes(word, room)) << word;
     };
     refused({'\x00', '\x00', '\x00', '\x30'}, 2);                            // three without depth
     refused({'\x00', '\x00', '\x00', '\x03'}, 2);                            // three with it
