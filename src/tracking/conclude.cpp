@@ -65,7 +65,8 @@ TrackResult Conclude(const TrackInput& input, const FoundPose& found, ResidualAr
     result.T_world_camera =
         Normalised(found.T_world_local * Se3Exp(-astray) * found.T_local_camera);
     judge.Judge(input, result);
-    if (result.status != TrackStatus::kLost && result.alpha > 0) model.LearnColour(result, sums);
+    if (result.status != TrackStatus::kLost && result.alpha > 0)
+        model.LearnColour(result, sums, found.with_shading);
     return result;
 }
 

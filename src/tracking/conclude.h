@@ -19,6 +19,7 @@ struct FoundPose {
     double alpha = 0, gain = 1, offset = 0;
     int iterations = 0;
     PoseSums sums;
+    PoseSums with_shading;    // the last ones before shading was removed; empty if it was not
     SolverOptions options;    // of the last step
     std::int64_t points = 0;  // points with depth
     bool valid = false;       // false: the method found no pose

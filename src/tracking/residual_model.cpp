@@ -13,6 +13,7 @@ namespace {
 // grows with the region).
 constexpr int kRegionColumns = 5, kRegionRows = 4, kRegions = kRegionColumns * kRegionRows;
 constexpr int kLeastRegions = 5;
+constexpr double kMuchLarger = 2;      // times the usual error: not of this scene
 constexpr double kShareOfFrame = 0.1;  // weight of a new frame in smoothed values
 
 int RegionOf(int column, int columns, int row, int rows) {
@@ -136,6 +137,11 @@ double RatioWithDisagreement(const PoseTerm& distances, const PoseTerm& intensit
     return (distance + pull(distances)) / (intensity + pull(intensities));
 }
 
+double IntensityRms(const PoseSums& sums) {
+    return std::sqrt(sums[SumLayout::kIntensityError] /
+                     std::max(sums[SumLayout::kIntensityWeight], 1e-12));
+}
+
 void Smooth(double measured, bool first, double& value) {
     value += (first ? 1.0 : kShareOfFrame) * (measured - value);
 }
@@ -190,19 +196,15 @@ FrameMotion ResidualModel::Timed(FrameMotion motion) const {
 }
 
 bool ResidualModel::TakesForShading(const PoseSums& sums) const {
-    constexpr double kMuchLarger = 2;
-    const double error = sums[SumLayout::kIntensityError],
-                 weight = sums[SumLayout::kIntensityWeight];
     return config_.remove_shading &&
-           (usual_rms_ <= 0 ||
-            error < kMuchLarger * kMuchLarger * usual_rms_ * usual_rms_ * weight);
+           (usual_rms_ <= 0 || IntensityRms(sums) < kMuchLarger * usual_rms_);
 }
 
 // By the share of the map's image gradients that the frame shows: less than 1 if it is blurred, 0
 // if it is blank or of something else.
 bool ResidualModel::Contradicts(const ResidualSums& sums, double intensity_rms) {
     if (config_.doubt_contrast <= 0 || usual_rms_ <= 0 ||
-        (!contradicted_ && intensity_rms < 2 * usual_rms_))
+        (!contradicted_ && intensity_rms < kMuchLarger * usual_rms_))
         return false;
     double both = 0, map2 = 0;
     for (std::size_t at = 0; at < sums.scores.size(); at += ScoreSums::kSums) {
@@ -228,10 +230,14 @@ void ResidualModel::LearnScales(const ResidualEvidence& evidence) {
     Smooth(distance, scales_.distance_m2 <= 0, scales_.distance_m2);
 }
 
-void ResidualModel::LearnColour(const TrackResult& result, const ResidualSums& sums) {
+void ResidualModel::LearnColour(const TrackResult& result, const ResidualSums& sums,
+                                const PoseSums& with_shading) {
     gain_ = result.gain;
     offset_ = result.offset;
-    Smooth(result.intensity_rms, usual_rms_ <= 0, usual_rms_);
+    // What is compared with it may be shading, so it must contain the shading that is usual.
+    const bool removed = with_shading[SumLayout::kIntensityWeight] > 0;
+    Smooth(removed ? IntensityRms(with_shading) : result.intensity_rms, usual_rms_ <= 0,
+           usual_rms_);
     if (!sums.shutter.empty() && !result.degenerate)
         shutter_.Update(sums.shutter, result.intensity_rms);
 }

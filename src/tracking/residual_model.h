@@ -84,8 +84,9 @@ class ResidualModel {
     // Learns from any frame that fits the map.
     void LearnScales(const ResidualEvidence& evidence);
     // Learns from a tracked frame. A `degenerate` pose explains residuals that it should not; the
-    // shutter is then left alone.
-    void LearnColour(const TrackResult& result, const ResidualSums& sums);
+    // shutter is then left alone. `with_shading`: FoundPose.
+    void LearnColour(const TrackResult& result, const ResidualSums& sums,
+                     const PoseSums& with_shading = {});
 
   private:
     Config config_;
@@ -93,7 +94,7 @@ class ResidualModel {
     ResidualScales scales_;
     ShutterEstimator shutter_;
     // Not saved: they are soon known again.
-    double usual_rms_ = 0;  // of intensities; 0: not known
+    double usual_rms_ = 0;  // of intensities, with their shading; 0: not known
     bool contradicted_ = false;
 };
 

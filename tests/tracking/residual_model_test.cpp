@@ -160,7 +160,6 @@ TEST_F(LearntScales, AlphaStaysWithinItsBoundAndWhereItIsFixed) {
     EXPECT_DOUBLE_EQ(model_->alpha(), 0.25);
 }
 
-// Where the pose is undetermined, it absorbs errors that are not its own.
 // An image that contradicts the map shows none of its contrast, with errors twice as large as
 // usual. Errors alone may be those of a person, no contrast that of a bare wall.
 TEST_F(LearntScales, AnImageOfSomethingElseContradicts) {
@@ -202,6 +201,35 @@ TEST_F(LearntScales, AnImageOfSomethingElseContradicts) {
     EXPECT_FALSE(model_->Contradicts(blank, 2.1 * usual_rms));
 }
 
+// The usual error is that before shading is removed. On a wall with hardly any texture shading is
+// most of it: compared with what is left, each change of it would look like another scene.
+TEST_F(LearntScales, UsualErrorsContainTheirShading) {
+    const auto of_rms = [](double rms) {
+        PoseSums sums;
+        sums.value[SumLayout::kIntensityWeight] = 50;
+        sums.value[SumLayout::kIntensityError] = 50 * rms * rms;
+        return sums;
+    };
+    const ResidualSums fits = Sums();
+    TrackResult result;
+    result.intensity_rms = 0.003;  // what is left
+    model_.emplace(config_);
+    EXPECT_TRUE(model_->TakesForShading(of_rms(0.5)));  // nothing is usual yet
+    model_->LearnColour(result, fits, of_rms(0.01));
+    EXPECT_TRUE(model_->TakesForShading(of_rms(0.019)));
+    EXPECT_FALSE(model_->TakesForShading(of_rms(0.021)));
+
+    model_.emplace(config_);  // a frame whose shading was not removed
+    model_->LearnColour(result, fits);
+    EXPECT_TRUE(model_->TakesForShading(of_rms(0.0059)));
+    EXPECT_FALSE(model_->TakesForShading(of_rms(0.0061)));
+
+    config_.remove_shading = false;
+    model_.emplace(config_);
+    EXPECT_FALSE(model_->TakesForShading(of_rms(0.001)));
+}
+
+// Where the pose is undetermined, it absorbs errors that are not its own.
 TEST_F(LearntScales, DegenerateFramesTeachNothingAboutTheShutter) {
     ResidualSums sums = Sums();
     arguments_.wants_shutter = true;

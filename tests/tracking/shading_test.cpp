@@ -102,32 +102,58 @@ TEST(RemoveShading, IsAThirteenthOfTheImagesWidth) {
     }
 }
 
-// Light that has changed over the image since the map was coloured, on a wall along which only
-// colours show the motion.
-TEST(RemoveShading, LeavesTheTextureToTracking) {
-    BoxRoom room;
-    room.only_back_wall = true;
-    const World world(room);
+// A wall along which only colours show the motion, in light that has changed over the image since
+// the map was coloured.
+class InOtherLight : public ::testing::Test {
+  protected:
+    static BoxRoom Wall() {
+        BoxRoom room;
+        room.only_back_wall = true;
+        return room;
+    }
+    InOtherLight() {
+        Frame frame = world.room.Render(world.camera, T_true);
+        const int width = frame.colour.width();
+        for (int v = 0; v < frame.colour.height(); ++v)
+            for (int u = 0; u < width; ++u) {
+                Rgb8& c = frame.colour(u, v);
+                const double light = 0.85 + 0.15 * std::sin(7.0 * u / width) * std::cos(0.02 * v);
+                c.r = c.g = c.b = static_cast<std::uint8_t>(light * c.r + 0.5);
+            }
+        prepared = Prepare(frame);
+    }
+    TrackResult Track(const TestTracker& tracker) const {
+        const Eigen::Isometry3d T_start = T_true * Eigen::Translation3d(0.006, 0.004, 0);
+        return world.Track(*tracker, prepared, T_start, T_start);
+    }
+
+    const World world{Wall()};
     const Eigen::Isometry3d T_true = SmoothPath(20);
-    Frame frame = world.room.Render(world.camera, T_true);
-    const int width = frame.colour.width();
-    for (int v = 0; v < frame.colour.height(); ++v)
-        for (int u = 0; u < width; ++u) {
-            Rgb8& c = frame.colour(u, v);
-            const double light = 0.85 + 0.15 * std::sin(7.0 * u / width) * std::cos(0.02 * v);
-            c.r = c.g = c.b = static_cast<std::uint8_t>(light * c.r + 0.5);
-        }
-    const PreparedFrame prepared = Prepare(frame);
-    const Eigen::Isometry3d T_start = T_true * Eigen::Translation3d(0.006, 0.004, 0);
+    PreparedFrame prepared;
+};
+
+TEST_F(InOtherLight, TheTextureIsLeftToTracking) {
     const auto error = [&](bool remove) {
         ResidualModel::Config config = FixedAlpha(0.3);
         config.remove_shading = remove;
-        const TestTracker tracker = FineSdf(config);
-        const TrackResult result = world.Track(*tracker, prepared, T_start, T_start);
+        const TrackResult result = Track(FineSdf(config));
         return (T_true.inverse() * result.T_world_camera).translation().norm();
     };
     EXPECT_LT(error(true), 0.002);
     EXPECT_GT(error(false), 2 * error(true));
+}
+
+// Otherwise the next frame's shading would be much larger than usual.
+TEST_F(InOtherLight, TheUsualErrorContainsTheShading) {
+    for (const char* method : {"sdf", "icp-rgb"}) {
+        const TestTracker tracker = std::string(method) == "sdf" ? FineSdf(FixedAlpha(0.3))
+                                                                 : FineIcp(FixedAlpha(0.3), true);
+        const TrackResult result = Track(tracker);
+        PoseSums next;
+        next.value[SumLayout::kIntensityWeight] = 1;
+        next.value[SumLayout::kIntensityError] = 9 * result.intensity_rms * result.intensity_rms;
+        EXPECT_TRUE(tracker.model->TakesForShading(next)) << method;
+    }
 }
 
 }  // namespace
