@@ -2,9 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <optional>
-
-#include "scan/scan_records.h"
+#include "scan/scan_file.h"
 
 namespace tessera {
 
