@@ -201,8 +201,7 @@ TEST_F(LearntScales, AnImageOfSomethingElseContradicts) {
     EXPECT_FALSE(model_->Contradicts(blank, 2.1 * usual_rms));
 }
 
-// The usual error is that before shading is removed. On a wall with hardly any texture shading is
-// most of it: compared with what is left, each change of it would look like another scene.
+// On a wall with hardly any texture shading is most of the error, so what is usual contains it.
 TEST_F(LearntScales, UsualErrorsContainTheirShading) {
     const auto of_rms = [](double rms) {
         PoseSums sums;
