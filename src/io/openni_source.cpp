@@ -137,8 +137,8 @@ class OpenniSource : public FrameSource {
             pairing_.End();
             return prefix_ + "the recording is truncated; all frames in it were read";
         }
-        if (std::string silence = watch_.NewSilence(now_s); !is_recording_ && !silence.empty())
-            return WithoutFrameSync(prefix_ + silence);
+        const std::string silence = is_recording_ ? "" : watch_.NewSilence(now_s);
+        if (!silence.empty()) return WithoutFrameSync(prefix_ + silence);
         const std::int64_t alone = pairing_.depth_alone();
         if (alone < kManyAlone || alone_told_) return {};
         alone_told_ = true;

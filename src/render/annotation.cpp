@@ -48,7 +48,8 @@ void DrawPlate(int middle, int bottom, const std::string& text, const Rgb8& colo
                 cv::LINE_AA);
 }
 
-void DrawFrame(int x_min, int y_min, int x_max, int y_max, const Rgb8& colour, ColourImage& image) {
+void DrawRectangle(int x_min, int y_min, int x_max, int y_max, const Rgb8& colour,
+                   ColourImage& image) {
     cv::rectangle(Canvas(image), {x_min, y_min}, {x_max, y_max}, ToScalar(colour),
                   2 * Thickness(image));
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 
 #include "core/image.h"
 
@@ -28,7 +29,8 @@ class PictureSheet {
 void DrawPlate(int middle, int bottom, const std::string& text, const Rgb8& colour,
                ColourImage& image);
 
-// Draws a frame, in pixels, inclusive at both ends.
-void DrawFrame(int x_min, int y_min, int x_max, int y_max, const Rgb8& colour, ColourImage& image);
+// Draws the outline of a rectangle, in pixels, inclusive at both ends.
+void DrawRectangle(int x_min, int y_min, int x_max, int y_max, const Rgb8& colour,
+                   ColourImage& image);
 
 }  // namespace tessera

@@ -69,8 +69,8 @@ Status Runner::Open(const std::atomic<bool>& stop) {
     }
     Result<CheckedSource> checked = OpenCheckedSource(request_, config_);
     if (!checked.ok()) return checked.status();
+    TakeCamera(checked.value());
     std::unique_ptr<FrameSource> source = std::move(checked.value().source);
-    Take(std::move(checked.value()), source->info());
     if (!request_.resume && !request_.localise_only)  // a scan keeps its band
         if (std::string note = FitBandToNoise(request_.selection, config_.pipeline, source, stop);
             !note.empty())
@@ -112,15 +112,14 @@ Status Runner::Open(const std::atomic<bool>& stop) {
     return Status::Ok();
 }
 
-// What was found out about the camera before the first frame.
-void Runner::Take(CheckedSource checked, const SourceInfo& source) {
-    summary_.source = source;
+void Runner::TakeCamera(const CheckedSource& checked) {
+    summary_.source = checked.source->info();
     summary_.camera = checked.camera;
     summary_.colour_shift = checked.colour;
     summary_.colour_delay = checked.delay;
     summary_.vignetting = checked.vignetting;
     summary_.depth_distortion = checked.depth;
-    notes_.insert(notes_.begin(), checked.messages.begin(), checked.messages.end());
+    notes_.insert(notes_.end(), checked.messages.begin(), checked.messages.end());
 }
 
 void Runner::BeginShutters(PipelineConfig& config) {

@@ -30,7 +30,8 @@ class Runner {
 
   private:
     Status Open(const std::atomic<bool>& stop);
-    void Take(CheckedSource checked, const SourceInfo& source);
+    // What was found out about the camera before the first frame.
+    void TakeCamera(const CheckedSource& checked);
     void BeginShutters(PipelineConfig& config);
     Result<ScanPlan> OpenScan();
     // Called at the first outcome, not before: a run that is refused reports only its error and

@@ -22,8 +22,8 @@ ColourImage DetectionsPicture(const LabelViews& views, const LabelClasses& class
         return static_cast<int>(std::lround(std::clamp(x, -1e4f, 1e4f)));
     };
     for (const Detection& d : views.detections)
-        DrawFrame(pixel(d.box.x_min), pixel(d.box.y_min), pixel(d.box.x_max), pixel(d.box.y_max),
-                  classes.colour(d.class_id), picture);
+        DrawRectangle(pixel(d.box.x_min), pixel(d.box.y_min), pixel(d.box.x_max),
+                      pixel(d.box.y_max), classes.colour(d.class_id), picture);
     for (const Detection& d : views.detections)
         DrawPlate(pixel((d.box.x_min + d.box.x_max) / 2), pixel(d.box.y_min),
                   fmt::format("{} {:.2f}", classes.name(d.class_id), d.probability),

@@ -25,9 +25,10 @@ class FrameLabelling {
     // Detects in every stride-th fused frame, or `always`. Before the frame is tracked, because
     // people in it may have to be masked.
     void Detect(const Frame& frame, bool always, TrackingStage& tracking);
-    // Call after the frame was fused. Its detections; nothing if it was not looked at.
+    // Call after the frame was fused: counts it, and returns its detections. Nothing if it was not
+    // looked at.
     std::optional<LabelReport> TakeDetections();
-    // What Detect found in the last frame.
+    // What Detect found in the last frame, unless it was taken.
     const std::optional<LabelReport>& detected() const { return detected_; }
     std::int64_t frames() const { return frames_; }
 

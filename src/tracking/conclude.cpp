@@ -66,7 +66,7 @@ TrackResult Conclude(const TrackInput& input, const FoundPose& found, ResidualAr
         Normalised(found.T_world_local * Se3Exp(-astray) * found.T_local_camera);
     judge.Judge(input, result);
     if (result.status != TrackStatus::kLost && result.alpha > 0)
-        model.LearnColour(result, sums, found.with_shading);
+        model.LearnColour(result, sums, found.rms_with_shading);
     return result;
 }
 

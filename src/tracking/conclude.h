@@ -19,10 +19,10 @@ struct FoundPose {
     double alpha = 0, gain = 1, offset = 0;
     int iterations = 0;
     PoseSums sums;
-    PoseSums with_shading;    // the last ones before shading was removed; empty if it was not
-    SolverOptions options;    // of the last step
-    std::int64_t points = 0;  // points with depth
-    bool valid = false;       // false: the method found no pose
+    double rms_with_shading = 0;  // of intensities before shading was removed; 0: it was not
+    SolverOptions options;        // of the last step
+    std::int64_t points = 0;      // points with depth
+    bool valid = false;           // false: the method found no pose
 };
 
 // `residuals`: for the finest points (MakeResidualArguments). `sum`: SumResiduals, or a device that

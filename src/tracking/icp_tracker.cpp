@@ -167,7 +167,7 @@ void IcpTracker::RunLevel(int level, State& state) {
     state.sums = SumAt(points, Compare::kWithNothing, state);
     KeepResiduals();
     if (level == 0 && state.alpha > 0 && residual_model_.TakesForShading(state.sums)) {
-        state.with_shading = state.sums;
+        state.rms_with_shading = IntensityRms(state.sums);
         sums_.RemoveShading(MakeShadingArguments(points_[0], residuals_, state.gain,
                                                  residual_model_.config().intensity_scale));
         state.sums = SumAt(points, Compare::kWithNothing, state);

@@ -48,6 +48,12 @@ PoseSums& PoseSums::operator+=(const PoseSums& other) {
     return *this;
 }
 
+double IntensityRms(const PoseSums& sums) {
+    return sums[L::kIntensityWeight] > 0
+               ? std::sqrt(sums[L::kIntensityError] / sums[L::kIntensityWeight])
+               : 0;
+}
+
 PoseSums SumPoints(int count, const std::function<void(int first, int last, double* sums)>& add) {
     const int runs = (count + kRunItems - 1) / kRunItems;
     std::vector<PoseSums> partial(static_cast<std::size_t>(runs));

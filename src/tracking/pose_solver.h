@@ -16,6 +16,9 @@ struct PoseSums {
     double operator[](int i) const { return value[i]; }
 };
 
+// Robust root mean square of the intensity residuals; 0 if there are none.
+double IntensityRms(const PoseSums& sums);
+
 // Calls add(first, last, sums) for ranges of at most kRunItems points (core/tile_sums.h), on all
 // threads, and adds the results in order: the same bytes for any number of threads.
 PoseSums SumPoints(int count, const std::function<void(int first, int last, double* sums)>& add);

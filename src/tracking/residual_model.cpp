@@ -137,11 +137,6 @@ double RatioWithDisagreement(const PoseTerm& distances, const PoseTerm& intensit
     return (distance + pull(distances)) / (intensity + pull(intensities));
 }
 
-double IntensityRms(const PoseSums& sums) {
-    return std::sqrt(sums[SumLayout::kIntensityError] /
-                     std::max(sums[SumLayout::kIntensityWeight], 1e-12));
-}
-
 void Smooth(double measured, bool first, double& value) {
     value += (first ? 1.0 : kShareOfFrame) * (measured - value);
 }
@@ -231,12 +226,11 @@ void ResidualModel::LearnScales(const ResidualEvidence& evidence) {
 }
 
 void ResidualModel::LearnColour(const TrackResult& result, const ResidualSums& sums,
-                                const PoseSums& with_shading) {
+                                double rms_with_shading) {
     gain_ = result.gain;
     offset_ = result.offset;
     // What is compared with it may be shading, so it must contain the shading that is usual.
-    const bool removed = with_shading[SumLayout::kIntensityWeight] > 0;
-    Smooth(removed ? IntensityRms(with_shading) : result.intensity_rms, usual_rms_ <= 0,
+    Smooth(rms_with_shading > 0 ? rms_with_shading : result.intensity_rms, usual_rms_ <= 0,
            usual_rms_);
     if (!sums.shutter.empty() && !result.degenerate)
         shutter_.Update(sums.shutter, result.intensity_rms);

@@ -84,9 +84,9 @@ class ResidualModel {
     // Learns from any frame that fits the map.
     void LearnScales(const ResidualEvidence& evidence);
     // Learns from a tracked frame. A `degenerate` pose explains residuals that it should not; the
-    // shutter is then left alone. `with_shading`: FoundPose.
+    // shutter is then left alone. `rms_with_shading`: as in FoundPose.
     void LearnColour(const TrackResult& result, const ResidualSums& sums,
-                     const PoseSums& with_shading = {});
+                     double rms_with_shading = 0);
 
   private:
     Config config_;

@@ -155,9 +155,10 @@ void SdfTracker::RunLevel(const TrackInput& input, int level, State& state) {
     bool removes_shading = false;
     for (int i = 0; i < iterations; ++i) {
         state.sums = SumAt(input, points, state);
-        if (level == 0 && i == 0)
+        if (level == 0 && i == 0) {
             removes_shading = state.alpha > 0 && residual_model_.TakesForShading(state.sums);
-        if (removes_shading && i == 0) state.with_shading = state.sums;
+            if (removes_shading) state.rms_with_shading = IntensityRms(state.sums);
+        }
         if (removes_shading && i > 0) {
             // From the second step on, because what a wrong pose leaves looks like shading, too.
             sums_.RemoveShading(MakeShadingArguments(points_[0], residuals_, state.gain,

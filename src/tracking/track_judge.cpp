@@ -30,8 +30,7 @@ bool TrackJudge::Fits(std::int64_t points, const PoseSums& sums, TrackResult& re
         result.distance_rms_m = std::sqrt(sums[L::kDistanceError] / sums[L::kDistanceWeight]);
         result.band_m = std::sqrt(sums[L::kBand] / sums[L::kDistanceWeight]);
     }
-    if (sums[L::kIntensityWeight] > 0)
-        result.intensity_rms = std::sqrt(sums[L::kIntensityError] / sums[L::kIntensityWeight]);
+    result.intensity_rms = IntensityRms(sums);
     result.status = TrackStatus::kLost;
     if (known <= 0)
         result.reason = "no depth where the map is known";

@@ -214,7 +214,7 @@ TEST_F(LearntScales, UsualErrorsContainTheirShading) {
     result.intensity_rms = 0.003;  // what is left
     model_.emplace(config_);
     EXPECT_TRUE(model_->TakesForShading(of_rms(0.5)));  // nothing is usual yet
-    model_->LearnColour(result, fits, of_rms(0.01));
+    model_->LearnColour(result, fits, 0.01);
     EXPECT_TRUE(model_->TakesForShading(of_rms(0.019)));
     EXPECT_FALSE(model_->TakesForShading(of_rms(0.021)));
 
