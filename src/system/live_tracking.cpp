@@ -152,8 +152,11 @@ std::optional<Eigen::Isometry3d> LiveTracking::TakeRelocalisation(double stamp_s
     }
     if (!answer.T_world_camera) return std::nullopt;
     if (!state_->lost.lost()) {
-        if (!state_->T_doubted || SamePlace(*state_->T_doubted, *answer.T_world_camera))
+        if (!state_->T_doubted) return std::nullopt;
+        if (SamePlace(*state_->T_doubted, *answer.T_world_camera)) {
+            state_->lost.Confirm();
             return std::nullopt;
+        }
         state_->lost.Doubt();
     }
     links_.notices.Tell(answer.note);

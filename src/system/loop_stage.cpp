@@ -55,6 +55,11 @@ void LoopStage::AfterTracking(const Frame& frame, const BlockMap& map, TrackingS
         std::string note;
         const auto T_map_camera = closer_.Relocalise(tracked.prepared, note);
         lost_ms_ = watch.LapMs();
+        if (!lost && report.track.status == TrackStatus::kGood && T_map_camera &&
+            SamePlace(*T_map_camera, report.track.T_world_camera)) {
+            camera_.Confirm();
+            return Check(tracking, tracked);
+        }
         if (T_map_camera) bring(*T_map_camera);
         if (T_map_camera && tracking.TrackFrom(frame, map, *T_map_camera, tracked)) {
             const StampedPose found{frame.stamp_s, report.track.T_world_camera};

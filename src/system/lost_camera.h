@@ -3,6 +3,7 @@
 // loss, or where it can have got to meanwhile.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -25,7 +26,8 @@ inline bool FitsCompletely(const TrackResult& track) {
 // Owner thread only.
 class LostCamera {
   public:
-    // kDoubtful: tracked, but poorly for so long that the pose may be wrong. Look for the camera.
+    // kDoubtful: tracked, but the pose may be wrong: it was poor for long, or the scene left a
+    // motion open and the camera may have drifted along it. Look for the camera.
     enum class Verdict { kTracking, kFoundAgain, kDoubtful, kLost };
 
     // `max_gap_s`: for this long after the last tracked frame, the camera is assumed to be near its
@@ -64,6 +66,7 @@ class LostCamera {
 
     // The camera was relocalised and tracked there.
     void Found(double stamp_s) {
+        Confirm();
         lost_ = relocalised_ = false;
         last_seen_s_ = stamp_s;
     }
@@ -84,6 +87,11 @@ class LostCamera {
     }
     // It was tracked poorly, and was seen at another place: that place is to be confirmed.
     void Doubt() { lost_ = true; }
+    // Where it was doubted, it was seen at the same place.
+    void Confirm() {
+        drift_m2_ = 0;
+        drifted_since_s_.reset();
+    }
     // The place where the camera was found was wrong.
     void Lose() {
         lost_ = true;
@@ -111,7 +119,24 @@ class LostCamera {
         }
         const bool long_poor =
             std::abs(report.stamp_s - poor_since_s_.value_or(report.stamp_s)) > max_gap_s_;
-        return long_poor ? Verdict::kDoubtful : Verdict::kTracking;
+        return long_poor || Drifted(report) ? Verdict::kDoubtful : Verdict::kTracking;
+    }
+    // Before a bare wall the camera drifts unseen along it. True for a while from the first frame
+    // on that shows enough again.
+    bool Drifted(const FrameReport& report) {
+        // What a frame adds is at most the error of the predicted pose, which it follows then.
+        constexpr double kPredicted_m = 0.02, kDrift_m = 0.05;
+        const double error_m = std::min(report.track.uncertainty_m, kPredicted_m);
+        if (report.track.degenerate) {
+            drift_m2_ += error_m * error_m;
+            return false;
+        }
+        if (drift_m2_ > kDrift_m * kDrift_m) {
+            if (!drifted_since_s_) drifted_since_s_ = report.stamp_s;
+            if (std::abs(report.stamp_s - *drifted_since_s_) <= max_gap_s_) return true;
+        }
+        Confirm();
+        return false;
     }
     bool FitsWell(const TrackResult& track) const {
         return track.status == TrackStatus::kGood && track.inlier_fraction >= config_.min_fit &&
@@ -123,6 +148,8 @@ class LostCamera {
     double last_seen_s_ = 0;
     std::optional<StampedPose> before_;  // the last pose that was tracked well
     std::optional<double> poor_since_s_;
+    double drift_m2_ = 0;  // variance, since the pose was last known in all motions
+    std::optional<double> drifted_since_s_;
     bool started_ = false, lost_ = false, resumed_ = false;
     bool relocalised_ = false;
 };

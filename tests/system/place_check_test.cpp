@@ -141,6 +141,33 @@ TEST(LostCamera, WhereTheViewLeavesAMotionOpenARelocalisedPoseIsNotTrusted) {
     EXPECT_EQ(camera.Judge(TrackedAt(110.4)), Verdict::kLost);
 }
 
+// Frames of 2 cm, of which seven are more than 5 cm. The doubt lasts for half a second.
+TEST(LostCamera, AfterViewsThatLeaveAMotionOpenItsPlaceIsDoubted) {
+    double stamp_s = 0;
+    const auto see = [&stamp_s](LostCamera& camera, int frames, bool degenerate) {
+        Verdict verdict = Verdict::kTracking;
+        for (int i = 0; i < frames; ++i) {
+            TrackedFrame tracked = TrackedAt(stamp_s += 0.03, degenerate);
+            tracked.report.track.uncertainty_m = degenerate ? 1.0 : 0.002;
+            verdict = camera.Judge(tracked);
+        }
+        return verdict;
+    };
+    LostCamera camera(LoopConfig{}, 0.5);
+    see(camera, 6, true);
+    EXPECT_EQ(see(camera, 1, false), Verdict::kTracking);
+    see(camera, 6, true);  // six more: the good one began anew
+    EXPECT_EQ(see(camera, 1, false), Verdict::kTracking);
+    EXPECT_EQ(see(camera, 7, true), Verdict::kTracking);  // not yet: nothing would confirm a place
+    EXPECT_EQ(see(camera, 1, false), Verdict::kDoubtful);
+    EXPECT_EQ(see(camera, 15, false), Verdict::kDoubtful);
+    EXPECT_EQ(see(camera, 2, false), Verdict::kTracking);
+    see(camera, 7, true);
+    EXPECT_EQ(see(camera, 1, false), Verdict::kDoubtful);
+    camera.Confirm();
+    EXPECT_EQ(see(camera, 1, false), Verdict::kTracking);
+}
+
 // A frame of a camera at x, this many frames after the beginning.
 TrackedFrame FrameAt(int frame, double x_m, TrackStatus status) {
     TrackedFrame tracked;
