@@ -85,10 +85,10 @@ struct DistanceSums {
 
 // Intensity sums of a block, with the image gradient divided by depth (the effect of a sideways
 // motion). All are weighted: residual times gradient, in both directions; the gradient, in both
-// directions; its square; its product with the map's gradient at the same points; and the square of
-// the map's gradient.
+// directions; its square; and where the map's gradient is known: the product of the two, the square
+// of the map's, the weight, and the map's, in both directions.
 struct ScoreSums {
-    static constexpr int kSums = 7;
+    static constexpr int kSums = 10;
     TESSERA_HD_MEMBER static int Side(const ResidualArguments& a) { return 2 * a.Patch(); }
     TESSERA_HD_MEMBER static int Columns(const ResidualArguments& a) {
         return (a.width - 2) / Side(a);
@@ -126,6 +126,9 @@ struct ScoreSums {
             if (std::isnan(map2)) continue;
             sums[5] += w * (gu * mu + gv * mv);
             sums[6] += w * map2;
+            sums[7] += w;
+            sums[8] += w * mu;
+            sums[9] += w * mv;
         }
     }
 };

@@ -2,117 +2,15 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
-#include <array>
 #include <cmath>
+
+#include "tracking/residual_errors.h"
 
 namespace tessera {
 namespace {
 
-// Errors are assumed to be shared within regions of the image, but not beyond: depth deformation,
-// calibration and exposure err over large parts of it (docs/information.md shows how the variance
-// grows with the region).
-constexpr int kRegionColumns = 5, kRegionRows = 4, kRegions = kRegionColumns * kRegionRows;
-constexpr int kLeastRegions = 5;
 constexpr double kMuchLarger = 2;      // times the usual error: not of this scene
 constexpr double kShareOfFrame = 0.1;  // weight of a new frame in smoothed values
-
-int RegionOf(int column, int columns, int row, int rows) {
-    return row * kRegionRows / rows * kRegionColumns + column * kRegionColumns / columns;
-}
-
-// The scores (weight times Jacobian times residual) and Hessians of the image's regions.
-template <int kUnknowns>
-struct Regions {
-    using Vector = Eigen::Matrix<double, kUnknowns, 1>;
-    using Matrix = Eigen::Matrix<double, kUnknowns, kUnknowns>;
-    std::array<Vector, kRegions> scores;
-    std::array<Matrix, kRegions> hessians;
-
-    Regions() {
-        scores.fill(Vector::Zero());
-        hessians.fill(Matrix::Zero());
-    }
-
-    // The variance of a residual as it counts in a sum: the covariance of the regions' scores over
-    // the Hessian, at the solution that fits these residuals best. For independent residuals this
-    // is their variance; correlated errors of neighbours make it larger. 0 if there are too few
-    // regions.
-    double Variance() const {
-        Vector score = Vector::Zero();
-        Matrix H = Matrix::Zero(), covariance = Matrix::Zero();
-        int seen = 0;
-        for (std::size_t i = 0; i < kRegions; ++i) {
-            score += scores[i];
-            H += hessians[i];
-            seen += hessians[i].trace() > 0;
-        }
-        if (seen < kLeastRegions) return 0;
-        // Fraction of the trace. A motion that nothing observes has no score either.
-        constexpr double kRegular = 1e-9;
-        const Eigen::LDLT<Matrix> solver(H + kRegular * H.trace() * Matrix::Identity());
-        const Vector best = solver.solve(score);
-        for (std::size_t i = 0; i < kRegions; ++i) {
-            const Vector at_best = scores[i] - hessians[i] * best;
-            covariance += at_best * at_best.transpose();
-        }
-        return solver.solve(covariance).trace() / kUnknowns;
-    }
-};
-
-// Distance variance from the sums over patches (DistanceSums). A patch's Hessian is that of its
-// mean Jacobian. `shared_m` is an error of the whole patch that no residual shows.
-double DistanceVariance(const ResidualEvidence& e, double shared_m) {
-    Vector6d to_metres = Vector6d::Ones();
-    to_metres.head<3>() /= e.scene_depth_m;
-    Regions<6> regions;
-    double weights = 0, weights2 = 0;
-    const int columns = DistanceSums::Columns(e.arguments),
-              blocks = DistanceSums::Groups(e.arguments) / 4;
-    for (int block = 0; block < blocks; ++block) {
-        const auto region = static_cast<std::size_t>(
-            RegionOf(block % columns, columns, block / columns, blocks / columns));
-        for (int patch = 4 * block; patch < 4 * block + 4; ++patch) {
-            const double* const s = e.sums.distances.data() + patch * DistanceSums::kSums;
-            if (s[0] <= 0) continue;
-            const Vector6d jacobian =
-                to_metres.asDiagonal() * Eigen::Map<const Vector6d>(s + DistanceSums::kJacobian);
-            regions.scores[region] +=
-                to_metres.asDiagonal() * Eigen::Map<const Vector6d>(s + DistanceSums::kScore);
-            regions.hessians[region] += jacobian * jacobian.transpose() / s[0];
-            weights += s[0];
-            weights2 += s[0] * s[0];
-        }
-    }
-    const double variance = regions.Variance();
-    return variance > 0 ? variance + shared_m * shared_m * weights2 / weights : 0;
-}
-
-// Intensity variance from ScoreSums, whose scores are residual times image gradient over depth.
-// Errors at edges, where the gradient is large, count by their pull on the pose. Adds the error
-// that a whole block shares (`shading_error`, intensities in [0, 1]). That error hardly pulls where
-// texture has gradients of all signs, but strongly where shading is the only gradient, and
-// residuals against a map of the same shading do not show it. `texture`: the fraction of the map's
-// gradients that the frame's gradients confirm; the noise of the two is independent.
-double IntensityVariance(const ResidualEvidence& e, double shading_error, double& texture) {
-    Regions<2> regions;
-    double shading_scores2 = 0, information = 0, both = 0, map2 = 0;
-    const int columns = ScoreSums::Columns(e.arguments), blocks = ScoreSums::Groups(e.arguments);
-    for (int block = 0; block < blocks; ++block) {
-        const auto region = static_cast<std::size_t>(
-            RegionOf(block % columns, columns, block / columns, blocks / columns));
-        const double* const s = e.sums.scores.data() + block * ScoreSums::kSums;
-        regions.scores[region] += Eigen::Vector2d(s[0], s[1]);
-        regions.hessians[region] += 0.5 * s[4] * Eigen::Matrix2d::Identity();
-        shading_scores2 += s[2] * s[2] + s[3] * s[3];
-        information += s[4];
-        both += s[5];
-        map2 += s[6];
-    }
-    const double variance = regions.Variance();
-    if (variance <= 0 || map2 <= 0) return 0;
-    texture = std::clamp(both / map2, 0.0, 1.0);
-    return variance + shading_error * shading_error * shading_scores2 / information;
-}
 
 // The ratio of the variances, including the disagreement of the two kinds about the pose. The
 // disagreement is also their error, which no scatter within one kind shows (calibration, time,
@@ -153,6 +51,7 @@ void ResidualModel::Reset() {
     usual_rms_ = 0;
     contradicted_ = false;
     scales_ = {};
+    scatter_ = 0;
     shutter_.Reset();
 }
 
@@ -171,15 +70,15 @@ double ResidualModel::alpha() const {
 
 void ResidualModel::SaveState(StateWriter& state) const {
     for (const double value :
-         {gain_, offset_, scales_.distance_m2, scales_.intensity, scales_.texture, scales_.alpha})
+         {gain_, offset_, scales_.distance_m2, scatter_, scales_.texture, scales_.alpha})
         state.Put(value);
     shutter_.SaveState(state);
 }
 
 bool ResidualModel::LoadState(StateReader& state) {
     constexpr double kLargest = 1e6;
-    for (double* value : {&gain_, &offset_, &scales_.distance_m2, &scales_.intensity,
-                          &scales_.texture, &scales_.alpha})
+    for (double* value :
+         {&gain_, &offset_, &scales_.distance_m2, &scatter_, &scales_.texture, &scales_.alpha})
         if (!state.Get(*value) || !(std::abs(*value) <= kLargest)) return false;
     return shutter_.LoadState(state);
 }
@@ -213,14 +112,16 @@ void ResidualModel::LearnScales(const ResidualEvidence& evidence) {
     const double distance =
         DistanceVariance(evidence, config_.surface_error_voxels * evidence.voxel_size_m);
     if (distance <= 0) return;
-    double intensity = 0, texture = 1;
-    if (!evidence.sums.scores.empty())
-        intensity = IntensityVariance(evidence, config_.shading_error, texture);
-    if (intensity > 0) {
-        Smooth(RatioWithDisagreement(evidence.distances, evidence.intensities, distance, intensity),
+    IntensityErrors errors;
+    if (!evidence.sums.scores.empty()) errors = IntensityErrorsOf(evidence, config_.shading_error);
+    if (errors.variance > 0) {
+        Smooth(RatioWithDisagreement(evidence.distances, evidence.intensities, distance,
+                                     errors.variance),
                scales_.alpha <= 0, scales_.alpha);
-        Smooth(texture, scales_.intensity <= 0, scales_.texture);
-        Smooth(intensity, scales_.intensity <= 0, scales_.intensity);
+        Smooth(errors.scatter, scatter_ <= 0, scatter_);
+        // Not smoothed: the camera may turn to a bare wall within a few frames.
+        scales_.intensity = scatter_ + errors.shading;
+        scales_.texture = errors.texture;
     }
     Smooth(distance, scales_.distance_m2 <= 0, scales_.distance_m2);
 }

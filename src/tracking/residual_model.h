@@ -16,10 +16,11 @@ namespace tessera {
 // correlated, so they are larger than the scatter of single residuals.
 struct ResidualScales {
     double distance_m2 = 0;  // 0: not known yet
-    double intensity = 0;    // the same
-    // Fraction of the map's image gradients that the frame confirms; the rest is noise.
+    // The same, of the last frame: it depends on what the frame shows.
+    double intensity = 0;
+    // Fraction of the map's image gradients that the last frame confirms; the rest is noise.
     double texture = 1;
-    // Ratio of the two, with their disagreement shared between them; 0: not known yet.
+    // Ratio of the two, smoothed, with their disagreement shared between them; 0: not known yet.
     double alpha = 0;
 };
 
@@ -62,8 +63,8 @@ class ResidualModel {
     void SetAlpha(bool automatic, double alpha);
 
     const Config& config() const { return config_; }
-    const ResidualScales& scales() const { return scales_; }  // smoothed over frames
-    double alpha() const;                                     // in use, [B14] eq. 8
+    const ResidualScales& scales() const { return scales_; }
+    double alpha() const;                  // in use, [B14] eq. 8
     double gain() const { return gain_; }  // of the last tracked frame: map = gain * image + offset
     double offset() const { return offset_; }
     // The motion with the colour image's delay and read-out time as learnt so far.
@@ -92,6 +93,7 @@ class ResidualModel {
     Config config_;
     double gain_ = 1, offset_ = 0;
     ResidualScales scales_;
+    double scatter_ = 0;  // of intensities, as scales_.intensity without shading; smoothed
     ShutterEstimator shutter_;
     // Not saved: they are soon known again.
     double usual_rms_ = 0;  // of intensities, with their shading; 0: not known

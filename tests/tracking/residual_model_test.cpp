@@ -136,6 +136,23 @@ TEST_F(LearntScales, NoiseInTheMapIsNoTexture) {
     EXPECT_LT(Learn().texture, 0.05);
 }
 
+// The map has the image's shading and nothing else; the frame is as noisy as bare walls are. What
+// pulls are the map's gradients: each block's errors add up, and hide in no noise. The shading that
+// the two share confirms nothing.
+TEST_F(LearntScales, ABareWallHasNoTexture) {
+    config_.shading_error = 0.02;
+    std::normal_distribution<float> noise;
+    for (int i = 0; i < points_.count(); ++i) {
+        const auto at = static_cast<std::size_t>(i);
+        points_.z[at] = 1;
+        const float shading = 0.2f + 0.001f * static_cast<float>(i % points_.width());
+        points_.intensity[at] = shading + 0.01f * noise(random_);
+        residuals_.intensity[at] = shading - points_.intensity[at];
+    }
+    EXPECT_LT(Learn().texture, 0.05);
+    EXPECT_NEAR(Learn().intensity, 256 * 4e-4, 5e-3);
+}
+
 // Disagreement between the two kinds raises the variance of the kind with less information.
 TEST_F(LearntScales, DisagreementIsSharedOut) {
     const double agreed = (Learn(), model_->alpha());
