@@ -130,7 +130,7 @@ TEST(DevicePipeline, SumsAreTheProcessorsToTheBit) {
     EXPECT_EQ(there.scores, learnt.scores);
     EXPECT_EQ(there.shutter, learnt.shutter);
     EXPECT_EQ(learnt.distances.size(), 13u * 4 * 20 * 15);
-    EXPECT_EQ(learnt.scores.size(), 7u * 19 * 14);
+    EXPECT_EQ(learnt.scores.size(), 10u * 19 * 14);
     EXPECT_EQ(learnt.shutter.size(), 5u * 20);
     EXPECT_GT(learnt.shutter[5 * 10], 0);
 
