@@ -192,7 +192,7 @@ void LiveTracking::CheckPlace(TrackedFrame& tracked) {
     tracked.to_fuse = false;
     const Eigen::Isometry3d& T_world_camera = tracked.report.track.T_world_camera;
     if (state_->asked || !state_->place.Due(T_world_camera)) return;
-    state_->place.Ask(tracked.prepared, T_world_camera);
+    state_->place.Ask(tracked.prepared, T_world_camera, tracked.report.track.degenerate);
     Ask(tracked, true);
 }
 

@@ -83,7 +83,7 @@ void LoopStage::Check(TrackingStage& tracking, TrackedFrame& tracked) {
     if (!place_.Due(T_map_camera)) return;
     Stopwatch watch;
     std::string ignored;
-    place_.Ask(tracked.prepared, T_map_camera);
+    place_.Ask(tracked.prepared, T_map_camera, tracked.report.track.degenerate);
     const bool possible = place_.Answer(closer_.Relocalise(tracked.prepared, ignored));
     lost_ms_ = watch.LapMs();
     if (possible) return AddNote(place_.open() ? "" : kPlaceConfirmed, tracked.report.warning);

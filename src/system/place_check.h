@@ -33,8 +33,11 @@ class PlaceCheck {
         return open_ && ViewOverlap(seen_m_, camera_.Every(kKeyframeReduction),
                                     T_map_camera.inverse() * T_map_seen_) < kNewView;
     }
-    // This frame is looked for among the keyframes.
-    void Ask(const PreparedFrame& frame, const Eigen::Isometry3d& T_map_camera) {
+    // This frame is looked for among the keyframes. A view that leaves a motion open, as of a bare
+    // wall, may be found nowhere, and may have drifted: it can confirm the place but not refute it.
+    void Ask(const PreparedFrame& frame, const Eigen::Isometry3d& T_map_camera,
+             bool degenerate = false) {
+        refutes_ = !degenerate;
         seen_m_ = ReducedDepth(frame.depth_m, kKeyframeReduction);
         T_map_seen_ = T_map_camera;
     }
@@ -42,7 +45,8 @@ class PlaceCheck {
     // many views were found elsewhere or nowhere.
     [[nodiscard]] bool Answer(const std::optional<Eigen::Isometry3d>& T_map_found) {
         const bool there = T_map_found && SamePlace(*T_map_found, T_map_seen_);
-        open_ = !there && ++failed_ < kMostFailed;
+        if (!there && refutes_) ++failed_;
+        open_ = !there && failed_ < kMostFailed;
         return there || open_;
     }
     // The map was moved.
@@ -53,7 +57,7 @@ class PlaceCheck {
     static constexpr int kMostFailed = 3;
 
     PinholeCamera camera_;
-    bool open_ = false;
+    bool open_ = false, refutes_ = true;
     int failed_ = 0;
     DepthImage seen_m_;  // of the last view that was looked for, reduced
     Eigen::Isometry3d T_map_seen_ = Eigen::Isometry3d::Identity();

@@ -43,6 +43,19 @@ TEST(PlaceCheck, ASecondViewThereConfirms) {
     EXPECT_FALSE(check.open());
 }
 
+TEST(PlaceCheck, ViewsThatLeaveAMotionOpenConfirmButDoNotRefute) {
+    PlaceCheck check(kPlaceCamera);
+    check.Begin(SeenWall(), AlongX(0));
+    for (int i = 0; i < 5; ++i) {
+        check.Ask(SeenWall(), AlongX(1.5), true);
+        EXPECT_TRUE(check.Answer(i % 2 == 0 ? std::nullopt : std::optional(AlongX(9))));
+        EXPECT_TRUE(check.open());
+    }
+    check.Ask(SeenWall(), AlongX(1.5), true);
+    EXPECT_TRUE(check.Answer(AlongX(1.5)));
+    EXPECT_FALSE(check.open());
+}
+
 TEST(PlaceCheck, ThreeViewsElsewhereOrNowhereRefute) {
     PlaceCheck check(kPlaceCamera);
     check.Begin(SeenWall(), AlongX(0));
