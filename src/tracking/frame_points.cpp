@@ -25,6 +25,12 @@ PinholeImage WithCamera(const Image<float>& image, const PreparedFrame& frame,
 
 }  // namespace
 
+int FinestStep(int configured, int at_vga_px, const PinholeCamera& camera) {
+    if (configured > 0) return configured;
+    const double pixels = static_cast<double>(camera.width) * camera.height;
+    return std::max(2, static_cast<int>(std::lround(at_vga_px * std::sqrt(pixels / (640 * 480)))));
+}
+
 PointArguments MakePointArguments(const PreparedFrame& frame, const PinholeCamera& camera,
                                   const FrameMotion& motion, int step, const DepthWeight& weight,
                                   bool intensities, bool chroma) {

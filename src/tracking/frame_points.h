@@ -18,6 +18,10 @@ struct DepthWeight {
     double noise_depth_m = 0, nearest_m = kMinWeightDepth_m;
 };
 
+// The pixel step of the finest level: `configured`, or for 0 the one at which an image has about as
+// many points as one of 640 x 480 pixels at the step `at_vga_px`, but at least 2.
+int FinestStep(int configured, int at_vga_px, const PinholeCamera& camera);
+
 // Arguments for every step-th pixel. Includes intensities, and chroma besides, only if requested
 // and if the frame has colour. Refers to the frame's images.
 PointArguments MakePointArguments(const PreparedFrame& frame, const PinholeCamera& camera,

@@ -7,9 +7,9 @@ void IcpTracker::Config::Describe(ConfigParameters& p) {
                 {{"raycast", Prediction::kRayCast}, {"raster", Prediction::kRaster}},
                 "source of the predicted view: ray casting of the field, or its mesh drawn by "
                 "OpenGL ([D18]); without OpenGL the ray caster is used instead");
-    p.Add("finest_step_px", finest_step_px, {1, 16}, "px",
+    p.Add("finest_step_px", finest_step_px, {0, 16}, "px",
           "pixel step of the finest level, in both directions, in the frame and in the predicted "
-          "view; [D18] uses 1");
+          "view; 0: 2 at 640 x 480, and in proportion at larger sizes; [D18] uses 1");
     p.Add("levels", levels, {1, 5}, "",
           "number of pyramid levels; each coarser level halves the images");
     p.Add("coarse_iterations", coarse_iterations, {1, 100}, "",

@@ -29,6 +29,7 @@ IcpTracker::IcpTracker(const Config& config, const PinholeCamera& camera, const 
                        ResidualModel& model, bool use_colour,
                        std::unique_ptr<ViewPredictor> predictor, IcpSums* sums)
     : config_(config),
+      finest_step_px_(FinestStep(config.finest_step_px, kStepAtVga_px, camera)),
       camera_(camera),
       judge_(judge),
       residual_model_(model),
@@ -68,7 +69,7 @@ void IcpTracker::PredictAt(const TrackInput& input, const Eigen::Isometry3d& T_w
     const ModelRange range{std::max(kNear_m, 0.7f * input.frame.nearest_m - kMargin_m),
                            1.2f * input.frame.farthest_m + kMargin_m,
                            static_cast<float>(config_.distance_gate_m)};
-    const PinholeCamera camera = camera_.Every(config_.finest_step_px);
+    const PinholeCamera camera = camera_.Every(finest_step_px_);
     state.T_local_camera.setIdentity();
     const Eigen::Isometry3d T_world_camera = Normalised(T_world_view);
     if (predictor_ == nullptr)
@@ -114,7 +115,7 @@ void IcpTracker::PrepareLevel(const TrackInput& input, int level, State& state) 
         state.motion.twist_per_s = Se3Log(input.T_world_camera_last.inverse() *
                                           view_.T_world_camera * state.T_local_camera) /
                                    input.since_last_s;
-    const int step = config_.finest_step_px << level;
+    const int step = finest_step_px_ << level;
     const DepthWeight weight{config_.noise_depth_m, input.nearest_m};
     PointArguments points_arguments =
         MakePointArguments(input.frame, camera_, state.motion, step, weight, state.alpha > 0);

@@ -22,7 +22,7 @@ class IcpTracker : public Tracker {
 
     struct Config {
         Prediction prediction = Prediction::kRayCast;
-        int finest_step_px = 2;
+        int finest_step_px = 0;
         int levels = 3;
         int coarse_iterations = 10;
         int middle_iterations = 8;
@@ -35,6 +35,7 @@ class IcpTracker : public Tracker {
 
         void Describe(ConfigParameters& parameters);
     };
+    static constexpr int kStepAtVga_px = 2;  // of the finest level, unless configured
 
     // `model` must outlive the tracker. Without `use_colour` it tracks by geometry alone.
     // `predictor` predicts the views; null: `sums` casts them. `sums`, if given, must also outlive
@@ -58,6 +59,7 @@ class IcpTracker : public Tracker {
     void TakeStep(const FramePoints& points, State& state);
 
     Config config_;
+    int finest_step_px_;
     PinholeCamera camera_;
     TrackJudge judge_;
     ResidualModel& residual_model_;

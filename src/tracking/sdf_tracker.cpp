@@ -35,6 +35,7 @@ struct SdfTracker::State : FoundPose {
 SdfTracker::SdfTracker(const Config& config, const PinholeCamera& camera, const TrackJudge& judge,
                        ResidualModel& model, bool use_colour, SdfSums* sums)
     : config_(config),
+      finest_step_px_(FinestStep(config.finest_step_px, kStepAtVga_px, camera)),
       camera_(camera),
       judge_(judge),
       residual_model_(model),
@@ -77,7 +78,7 @@ void SdfTracker::MakePoints(const TrackInput& input, int step, FramePoints& poin
     if (state.failed) state.step.valid = false;
 }
 
-// Prepares the points, their intensities and the map for the hot loop, at every (finest_step_px <<
+// Prepares the points, their intensities and the map for the hot loop, at every (finest_step_px_ <<
 // level)-th pixel.
 void SdfTracker::PrepareLevel(const TrackInput& input, int level, State& state) {
     FramePoints& points = points_[static_cast<std::size_t>(level)];
@@ -85,7 +86,7 @@ void SdfTracker::PrepareLevel(const TrackInput& input, int level, State& state) 
     if (input.since_last_s > 0)  // velocity since the last frame, at the present estimate
         state.motion.twist_per_s =
             Se3Log(input.T_world_camera_last.inverse() * state.T_world_camera) / input.since_last_s;
-    MakePoints(input, config_.finest_step_px << level, points, state);
+    MakePoints(input, finest_step_px_ << level, points, state);
     const double block_m = input.map.config().voxel_size_m * kBlockSide;
     const Eigen::Vector3d origin_block =
         (state.T_world_camera.translation() / block_m).array().floor();
@@ -203,8 +204,9 @@ void SdfTracker::Config::Describe(ConfigParameters& p) {
         "chroma", chroma,
         "align chroma as well as luma: the weighted error of all three colour channels, [B14] eq. "
         "6 and 7; helps where neighbouring colours are equally bright");
-    p.Add("finest_step_px", finest_step_px, {1, 16}, "px",
-          "pixel step of the finest level, in both directions");
+    p.Add("finest_step_px", finest_step_px, {0, 16}, "px",
+          "pixel step of the finest level, in both directions; 0: 3 at 640 x 480, and in "
+          "proportion at other sizes, but at least 2; [B14] uses 1");
     p.Add("levels", levels, {1, 5}, "", "number of levels; each coarser level doubles the step");
     p.Add("coarse_iterations", coarse_iterations, {1, 100}, "",
           "maximum number of Gauss-Newton steps on each coarse level");

@@ -19,13 +19,14 @@ class SdfTracker : public Tracker {
         double noise_depth_m = 2.0;
         bool normalise = true;
         bool chroma = false;
-        int finest_step_px = 2;
+        int finest_step_px = 0;
         int levels = 3;
         int coarse_iterations = 20;
         int fine_iterations = 6;
 
         void Describe(ConfigParameters& parameters);
     };
+    static constexpr int kStepAtVga_px = 3;  // of the finest level, unless configured
 
     // `model` must outlive the tracker. Without `use_colour` it tracks by geometry alone. `sums`,
     // if given, must also outlive it; null: a CpuSdfSums of its own.
@@ -44,6 +45,7 @@ class SdfTracker : public Tracker {
     PoseSums SumAt(const TrackInput& input, const FramePoints& points, State& state);
 
     Config config_;
+    int finest_step_px_;
     PinholeCamera camera_;
     TrackJudge judge_;
     ResidualModel& residual_model_;

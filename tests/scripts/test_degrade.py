@@ -100,6 +100,16 @@ class Degrade(unittest.TestCase):
         self.assertTrue((noisy[50:] == 0).all())
         self.assertAlmostEqual(noisy[:50].std() / 5000, 0.3 * 2 * 2 / 42.75, delta=0.002)
 
+    def test_flying_pixels_lie_between_the_surfaces_at_edges_only(self):
+        depth = np.full((100, 100), 5000, np.uint16)
+        depth[:, 50:] = 10000
+        depth[:, 80:] = 0
+        flown = script.flying(depth, 0, np.random.default_rng(1))
+        changed = flown != depth
+        self.assertEqual(set(np.nonzero(changed)[1]), {49, 50})
+        self.assertAlmostEqual(changed.sum() / 200, 0.5, delta=0.1)
+        self.assertTrue(((flown[changed] >= 5000) & (flown[changed] <= 10000)).all())
+
 
 if __name__ == "__main__":
     unittest.main()

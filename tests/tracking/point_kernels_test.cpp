@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/se3.h"
+#include "tracking/frame_points.h"
 
 namespace tessera {
 namespace {
@@ -19,6 +20,22 @@ TEST(PointKernels, WeightIsTheInverseVarianceFromHalfAMetreOn) {
     EXPECT_FLOAT_EQ(PointWeight(1.0f, 2.0f, 2.0f), 1 / 8.0f);
     EXPECT_FLOAT_EQ(PointWeight(0.1f, 0.0f, 0.5f), 1.0f);
     EXPECT_FLOAT_EQ(PointWeight(4.0f, 0.0f, 0.5f), 1.0f);
+}
+
+// Every image size has about as many points as 640 x 480 pixels, or fewer.
+TEST(FinestStep, GrowsWithTheImage) {
+    const auto step = [](int configured, int at_vga_px, int width, int height) {
+        return FinestStep(configured, at_vga_px, {width, height, 500, 500, 0, 0});
+    };
+    EXPECT_EQ(step(0, 3, 640, 480), 3);
+    EXPECT_EQ(step(0, 2, 640, 480), 2);
+    EXPECT_EQ(step(0, 3, 848, 480), 3);
+    EXPECT_EQ(step(0, 3, 1280, 720), 5);
+    EXPECT_EQ(step(0, 3, 1920, 1080), 8);
+    EXPECT_EQ(step(0, 3, 320, 240), 2);
+    EXPECT_EQ(step(0, 3, 80, 60), 2);
+    EXPECT_EQ(step(1, 3, 1920, 1080), 1);
+    EXPECT_EQ(step(4, 3, 640, 480), 4);
 }
 
 // Moved is the exponential of the body twist to first order. A negative time inverts it.
