@@ -35,7 +35,7 @@ std::shared_ptr<const MovingMask> MovingDetector::Find(const Input& input, const
                                                        ViewPredictor& predictor) {
     MovingHistory& m = *memory_;
     MovingAnalysis moments(config_, camera_, m);
-    moments.Ingest(input, step_);
+    moments.Ingest(input, step_, map);
     const DepthChanges changes = moments.Compare();
     if (m.past.empty() || m.now.stamp_s - m.past.back().stamp_s >= kSpacing * config_.window_s)
         m.past.push_back(m.now);
@@ -47,7 +47,7 @@ std::shared_ptr<const MovingMask> MovingDetector::Find(const Input& input, const
         PredictedView view;
         predictor.Predict(map, camera_.Every(kMapQueryStride), input.T_world_camera, kNearest_m,
                           1.2f * input.farthest_m, view);
-        MovingEvidence evidence = moments.Evaluate(changes, hinted_m, view.depth_m);
+        MovingEvidence evidence = moments.Evaluate(changes, hinted_m, map, view.depth_m);
         if (!evidence.fits)
             evidence.candidates = evidence.seeds = evidence.gone =
                 Marks(camera_.width, camera_.height);
@@ -97,7 +97,10 @@ void MovingDetector::SetHint(const MovingHint& hint, float disparity_offset_per_
 }
 
 void MovingDetector::Move(const Eigen::Isometry3d& T_new_old) {
-    for (TileView& view : memory_->past) view.T_world_camera = T_new_old * view.T_world_camera;
+    for (TileView& view : memory_->past) {
+        view.T_world_camera = T_new_old * view.T_world_camera;
+        view.map_end = 0;  // another map
+    }
     for (TileView* view : {&memory_->now, &memory_->hint})
         view->T_world_camera = T_new_old * view->T_world_camera;
 }

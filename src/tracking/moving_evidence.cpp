@@ -50,7 +50,7 @@ int MovingAnalysis::Blur(double turned_rad, double since_s) const {
     return std::min(6, static_cast<int>(turned_rad / since_s * kImageTime_s * camera_.fx + 0.5));
 }
 
-void MovingAnalysis::Ingest(const MovingDetector::Input& input, int step) {
+void MovingAnalysis::Ingest(const MovingDetector::Input& input, int step, const BlockMap& map) {
     MovingHistory& m = memory_;
     const double since_s = input.stamp_s - m.now.stamp_s;
     const bool follows = !m.now.depth_m.empty() && since_s > 0 && since_s < config_.window_s;
@@ -62,6 +62,7 @@ void MovingAnalysis::Ingest(const MovingDetector::Input& input, int step) {
         follows ? Blur(RotationAngle(m.now.T_world_camera, input.T_world_camera), since_s) : 0;
     m.now.T_world_camera = input.T_world_camera;
     m.now.stamp_s = input.stamp_s;
+    m.now.map_end = map.size();
     MakeTiles(input.depth_m, step, input.disparity_offset_per_m, m.now.depth_m);
     NearestInWindow(m.now.depth_m, 1 + m.now.blur, m.now.near_m);
     while (!m.past.empty() && m.past.front().stamp_s < input.stamp_s - 1.1 * config_.window_s)
@@ -80,6 +81,24 @@ std::vector<const TileView*> MovingAnalysis::ToCompare() const {
             moments.push_back(found);
     }
     return moments;
+}
+
+bool MovingAnalysis::IsOld(const TileView& view) const {
+    return memory_.now.stamp_s - view.stamp_s >= kOld * config_.window_s;
+}
+
+// Whether the map had a block at the tile's point one window ago.
+bool MovingAnalysis::MapHadIt(int x, int y, const BlockMap& map) const {
+    const TileView& now = memory_.now;
+    if (memory_.past.empty() || !IsOld(memory_.past.front())) return false;
+    const double block_m = map.config().voxel_size_m * kBlockSide;
+    const Eigen::Vector3i block =
+        (now.T_world_camera * camera_.Unproject(x, y, now.depth_m(x, y)) / block_m)
+            .array()
+            .floor()
+            .cast<int>();
+    const BlockId id = map.Find({block.x(), block.y(), block.z()});
+    return id != kUnknownBlock && id < memory_.past.front().map_end;
 }
 
 DepthChanges MovingAnalysis::Compare() const {
@@ -112,9 +131,8 @@ DepthChanges MovingAnalysis::Compare() const {
         }
     }
     changes.any = HasCore(changes.came) || HasCore(left);
-    const bool old =
-        !moments.empty() && now.stamp_s - moments.back()->stamp_s >= kOld * config_.window_s;
-    if (old && changes.any) MarkSame(now, *moments.back(), camera_, margin_, changes.there);
+    if (!moments.empty() && IsOld(*moments.back()) && changes.any)
+        MarkSame(now, *moments.back(), camera_, margin_, changes.there);
     // Noise disappears in specks, an object as a region.
     KeepRegions(changes.left_m, left, camera_, {config_.min_area_m2, 0}, left);
     for (std::size_t at = 0; at < left.size(); ++at)
@@ -123,7 +141,7 @@ DepthChanges MovingAnalysis::Compare() const {
 }
 
 MovingEvidence MovingAnalysis::Evaluate(const DepthChanges& changes, const DepthImage& hinted_m,
-                                        const DepthImage& predicted_m) const {
+                                        const BlockMap& map, const DepthImage& predicted_m) const {
     const int width = camera_.width, height = camera_.height;
     const TileView& now = memory_.now;
     DepthImage nearest_m, farthest_m;
@@ -141,20 +159,22 @@ MovingEvidence MovingAnalysis::Evaluate(const DepthChanges& changes, const Depth
         for (int x = 0; x < width; ++x) {
             const int u = std::min(x / kMapQueryStride, last_x),
                       v = std::min(y / kMapQueryStride, last_y);
-            const float depth = now.depth_m(x, y), map = predicted_m(u, v);
+            const float depth = now.depth_m(x, y), mapped = predicted_m(u, v);
             if (depth <= 0) continue;
-            e.growing(x, y) = changes.there(x, y) == 0;
-            if (map <= 0) continue;
-            const float off = margin_(std::max(depth, map)), nearest = nearest_m(u, v),
+            const float off = margin_(std::max(depth, mapped)), nearest = nearest_m(u, v),
                         farthest = farthest_m(u, v);
+            const bool fits = mapped > 0 && nearest - off <= depth && depth <= farthest + off;
+            // Neither the view nor the map of one window ago has it.
+            e.growing(x, y) = changes.there(x, y) == 0 && !(fits && MapHadIt(x, y, map));
+            if (mapped <= 0) continue;
             const bool left = changes.left_m(x, y) > 0, before = depth + off < nearest;
             if (before) e.candidates(x, y) = 1;
             if (before && left) e.seeds(x, y) = 1;
             // near_m tolerates edges that are a little off.
-            e.gone(x, y) = map + off < now.near_m(x, y);
+            e.gone(x, y) = mapped + off < now.near_m(x, y);
             if (e.candidates(x, y) != 0 || left) continue;
             ++known;
-            fitting += nearest - off <= depth && depth <= farthest + off;
+            fitting += fits;
         }
     // If the rest does not fit the map either, the camera pose is wrong.
     e.fits =

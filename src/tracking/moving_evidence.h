@@ -50,14 +50,16 @@ class MovingAnalysis {
           margin_{static_cast<float>(config.margin_m), static_cast<float>(config.margin_per_m)},
           memory_(memory) {}
 
-    void Ingest(const MovingDetector::Input& input, int step);
+    void Ingest(const MovingDetector::Input& input, int step, const BlockMap& map);
     DepthChanges Compare() const;
     MovingEvidence Evaluate(const DepthChanges& changes, const DepthImage& hinted_m,
-                            const DepthImage& predicted_m) const;
+                            const BlockMap& map, const DepthImage& predicted_m) const;
     void Decide(MovingEvidence& evidence);
 
   private:
     std::vector<const TileView*> ToCompare() const;
+    bool IsOld(const TileView& view) const;
+    bool MapHadIt(int x, int y, const BlockMap& map) const;
     int Blur(double turned_rad, double since_s) const;
 
     const MovingDetector::Config& config_;

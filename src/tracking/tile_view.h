@@ -6,6 +6,7 @@
 
 #include "core/camera.h"
 #include "core/image.h"
+#include "mapping/block_map.h"
 
 namespace tessera {
 
@@ -17,6 +18,7 @@ struct TileView {
     // The nearest of the tiles at most 1 + blur away, 0 where depth_m is 0: nothing at a tile's
     // position is in front of this depth.
     DepthImage near_m;
+    BlockId map_end = 0;  // the map's blocks below this id are older than the view
 };
 
 // Two measurements at a depth that differ by more than this, in metres, differ by more than noise.

@@ -46,6 +46,34 @@ TEST_F(MovingDetectorTest, AWalkerOfTheFirstFrameIsFoundByWhereItWas) {
     EXPECT_EQ(mask->gone_m(120, 50), 0);             // where nobody was
 }
 
+// It is connected to wall that came into view just now. What the map had there before does not go
+// with it; what is new to the map, or was in it for less than the window, could belong to it.
+TEST_F(MovingDetectorTest, WhatTheMapHadBeforeDoesNotGoWithIt) {
+    constexpr int kHidden = 30;
+    const auto reveal = [&](int when) {
+        const auto fill = [&] {
+            for (int x = -30; x < 30; ++x)
+                for (int y = -25; y < 25; ++y)
+                    map_.Allocate({x, y, static_cast<int>(kWall_m / 0.08f)});
+        };
+        for (int i = 0; i < 60; ++i) {
+            if (i == when) fill();
+            DepthImage depth_m = View(i < 40 ? Box{} : Box{2 * i - 60, 2 * i - 25, 20, 90, 2.83f});
+            HideRows(kHidden, depth_m);
+            See(depth_m);
+        }
+        const auto mask = See(View({60, 95, 20, 90, 2.83f}));
+        EXPECT_EQ(mask->moving(77, 25), 1);
+        EXPECT_EQ(mask->moving(77, 60), 1);
+        return mask->moving(77, 8) != 0;
+    };
+    EXPECT_TRUE(reveal(60));  // never
+    detector_.Clear();
+    EXPECT_TRUE(reveal(50));
+    detector_.Clear();
+    EXPECT_FALSE(reveal(60));  // filled before
+}
+
 // The background of the head is unknown, and the head is 15 cm behind the chest.
 TEST_F(MovingDetectorTest, AHeadGoesWithItsBody) {
     constexpr int kUnknown = 30;
