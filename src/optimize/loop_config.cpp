@@ -38,8 +38,8 @@ void LoopConfig::Describe(ConfigParameters& p) {
           "drift that a loop may correct, as a share of the distance and rotation covered since, "
           "in addition to 15 cm and 0.15 rad; rejects loops between two rooms that look alike");
     p.Add("min_correction_m", min_correction_m, {0.0, 1.0}, "m",
-          "loops with less drift (the same number applies in radians) are recorded but correct "
-          "nothing");
+          "loops that features find with less drift (the same number applies in radians) are "
+          "recorded but correct nothing");
     p.Add("rebuild_frames", rebuild_frames, {1, 100000}, "frames",
           "stored frames fused into the corrected map after each new frame");
 }

@@ -15,6 +15,8 @@ std::string LoopCloser::SeekDrift(const Keyframe& fresh) {
     // Two alignments with older keyframes must say so: one may be wrong, and neighbours in time
     // show no drift.
     constexpr int kRecent = 3, kWitnesses = 2;
+    // The map would not show less.
+    const double least_m = settings_.map.voxel_size_m;
     int witnesses = 0;
     const Keyframe* old = nullptr;
     Drift drift;
@@ -23,7 +25,7 @@ std::string LoopCloser::SeekDrift(const Keyframe& fresh) {
             if (!IsOlder(overlap, id) || !Contradicts(overlap, *factor)) continue;
             const Drift implied = DriftOf(keyframes_[overlap.with], keyframes_[id],
                                           overlap.T_with_this_aligned, config_.max_drift);
-            if (!implied.conceivable || implied.off_m < config_.min_correction_m) continue;
+            if (!implied.conceivable || implied.off_m < least_m) continue;
             ++witnesses;
             if (implied.off_m <= drift.off_m) continue;
             old = &keyframes_[overlap.with];
@@ -34,7 +36,7 @@ std::string LoopCloser::SeekDrift(const Keyframe& fresh) {
     if (first) {
         const std::vector<Eigen::Isometry3d> before = GraphPoses();
         if (Status solved = Optimise(); !solved.ok()) return solved.message();
-        if (MaxDisplacement_m(before) < config_.min_correction_m) {
+        if (MaxDisplacement_m(before) < least_m) {
             SetGraphPoses(before);  // nothing that matters: tracking is more accurate
             return {};
         }

@@ -18,6 +18,7 @@ namespace {
 using testing_support::Bias;
 using testing_support::EndError_m;
 using testing_support::RoomCamera;
+using testing_support::RoomSettings;
 using testing_support::RoomWalk;
 using testing_support::Round;
 using testing_support::Walker;
@@ -76,6 +77,28 @@ TEST(LoopCloser, TakesAFifthOrLessOfTheDriftToTheEndAndTheMapFollows) {
     const float p95 = off_voxels[off_voxels.size() * 95 / 100];
     std::cout << "map against a fresh fusion: 95th percentile " << p95 << " voxels\n";
     EXPECT_LE(p95, 0.5f);
+}
+
+// Two centimetres are two voxels of a fine map, and one of a coarse one: what the map cannot show
+// is left to tracking.
+TEST(LoopCloser, CorrectsWhatTheMapCanShow) {
+    if (!PoseGraphAvailable()) GTEST_SKIP() << "this build has no Ceres: install libceres-dev";
+    const std::vector<Frame> frames = Round();
+    FieldSettings fine = RoomSettings(), coarse = fine;
+    fine.map = {.voxel_size_m = 0.01, .truncation_m = 0.04};
+    coarse.map = {.voxel_size_m = 0.04, .truncation_m = 0.16};
+    Walker in_fine(LoopConfig{}, fine), in_coarse(LoopConfig{}, coarse);
+    for (Walker* walker : {&in_fine, &in_coarse}) {
+        WalkWithDrift(frames, *walker, 0.2);
+        std::string note;
+        walker->Take(walker->closer.Finish(note));
+        std::cout << 1000 * EndError_m(frames, walker->closer.Path()) << " mm, "
+                  << walker->corrections << " corrections\n"
+                  << walker->all_news;
+    }
+    EXPECT_LE(EndError_m(frames, in_fine.closer.Path()), 0.008);
+    EXPECT_TRUE(in_fine.closer.corrected());
+    EXPECT_FALSE(in_coarse.closer.corrected());
 }
 
 // Tracking drifts by half a metre and ten degrees, which is more than a walk of 4 m explains,

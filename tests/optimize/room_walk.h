@@ -51,8 +51,9 @@ inline FieldSettings RoomSettings() {
 // Adds frames at given poses to a LoopCloser and to a map, as the system does, and applies the
 // corrections.
 struct Walker {
-    explicit Walker(const LoopConfig& config)
-        : closer(config, settings, 5000),
+    explicit Walker(const LoopConfig& config, const FieldSettings& field = RoomSettings())
+        : settings(field),
+          closer(config, settings, 5000),
           map(std::make_unique<BlockMap>(settings.map)),
           integrator(settings.fusion, settings.camera) {}
 
@@ -82,7 +83,7 @@ struct Walker {
         ++corrections;
     }
 
-    FieldSettings settings = RoomSettings();
+    FieldSettings settings;
     LoopCloser closer;
     std::unique_ptr<BlockMap> map;
     Integrator integrator;
