@@ -18,7 +18,7 @@ struct TileView {
     // The nearest of the tiles at most 1 + blur away, 0 where depth_m is 0: nothing at a tile's
     // position is in front of this depth.
     DepthImage near_m;
-    BlockId map_end = 0;  // the map's blocks below this id are older than the view
+    BlockId map_end = 0;  // blocks below this id are older, but for ids that paging gave again
 };
 
 // Two measurements at a depth that differ by more than this, in metres, differ by more than noise.

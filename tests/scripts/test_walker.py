@@ -5,6 +5,7 @@ import pathlib
 import sys
 import tempfile
 import unittest
+import unittest.mock
 
 try:
     import numpy as np
@@ -76,6 +77,12 @@ class Walker(unittest.TestCase):
         covered, depth, _, _ = self.walk(wall_m=0.5, distance=1)
         self.assertEqual(covered.max(), 0)
         self.assertTrue((depth[4] == 0.5 * script.STORED_PER_M).all())
+
+    def test_a_walk_that_the_next_would_cut_short_is_refused(self):
+        self.walk(wall_m=2, distance=1)
+        given = [str(FILE), str(self.source), "--out", str(self.out), "--speed", "0.5", "--every", "6"]
+        with unittest.mock.patch.object(sys, "argv", given), self.assertRaisesRegex(SystemExit, "takes 6.4 s"):
+            script.main()
 
 
 if __name__ == "__main__":
