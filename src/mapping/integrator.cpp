@@ -94,6 +94,16 @@ Integrator::Report Integrator::Integrate(const PreparedFrame& frame, const View&
     return report;
 }
 
+Integrator::Report Integrator::Update(const PreparedFrame& frame, const View& view, BlockMap& map) {
+    Report report;
+    ++revision_;
+    added_.clear();
+    Stopwatch watch;
+    Fuse(frame, view, map, report);
+    report.fuse_ms = watch.LapMs();
+    return report;
+}
+
 void Integrator::MarkAllChanged(BlockMap& map) {
     ++revision_;
     changed_ = &none_;

@@ -58,6 +58,8 @@ class Integrator {
     virtual ~Integrator() = default;
 
     Report Integrate(const PreparedFrame& frame, const View& view, BlockMap& map);
+    // The same for the blocks that the map has; adds none.
+    Report Update(const PreparedFrame& frame, const View& view, BlockMap& map);
     // Ids changed by the last call, in increasing order.
     const std::vector<BlockId>& changed_blocks() const { return *changed_; }
     // Blocks added by the last call, in order of allocation.

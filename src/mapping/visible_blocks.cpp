@@ -7,6 +7,25 @@
 #include <cmath>
 
 namespace tessera {
+namespace {
+
+// Calls `visit` with the blocks of each region that may meet the cone.
+template <class Visit>
+void ForEachRegion(const ViewCone& cone, const BlockMap& map, const Visit& visit) {
+    const double region_m = map.config().voxel_size_m * kBlockSide * kRegionBlocks;
+    for (int z = cone.regions.first[2]; z <= cone.regions.last[2]; ++z)
+        for (int y = cone.regions.first[1]; y <= cone.regions.last[1]; ++y)
+            for (int x = cone.regions.first[0]; x <= cone.regions.last[0]; ++x) {
+                const double p_world[3] = {(x + 0.5) * region_m, (y + 0.5) * region_m,
+                                           (z + 0.5) * region_m};
+                double centre[3];
+                cone.ToCamera(p_world, centre);
+                if (cone.MayContain(centre, 0.8661 * region_m))
+                    visit(map.BlocksInRegion({x, y, z}));
+            }
+}
+
+}  // namespace
 
 void DepthTiles::Build(const DepthImage& depth) {
     width = (depth.width() + kDepthTilePx - 1) / kDepthTilePx;
@@ -58,24 +77,23 @@ ViewCone MakeViewCone(const PinholeCamera& camera, const Eigen::Isometry3d& T_wo
     return cone;
 }
 
+bool MaySee(const BlockMap& map, const PinholeCamera& camera,
+            const Eigen::Isometry3d& T_world_camera, float farthest_m) {
+    bool any = false;
+    ForEachRegion(MakeViewCone(camera, T_world_camera, farthest_m, map.config()), map,
+                  [&](std::span<const BlockId> blocks) { any |= !blocks.empty(); });
+    return any;
+}
+
 const std::vector<BlockId>& VisibleBlocks::Find(const BlockMap& map, const PinholeCamera& camera,
                                                 const Eigen::Isometry3d& T_world_camera,
                                                 const DepthImage& depth_m, float farthest_m) {
     tiles_.Build(depth_m);
     const ViewCone cone = MakeViewCone(camera, T_world_camera, farthest_m, map.config());
-    const double region_m = map.config().voxel_size_m * kBlockSide * kRegionBlocks;
     candidates_.clear();
-    for (int z = cone.regions.first[2]; z <= cone.regions.last[2]; ++z)
-        for (int y = cone.regions.first[1]; y <= cone.regions.last[1]; ++y)
-            for (int x = cone.regions.first[0]; x <= cone.regions.last[0]; ++x) {
-                const double p_world[3] = {(x + 0.5) * region_m, (y + 0.5) * region_m,
-                                           (z + 0.5) * region_m};
-                double centre[3];
-                cone.ToCamera(p_world, centre);
-                if (!cone.MayContain(centre, 0.8661 * region_m)) continue;
-                const auto blocks = map.BlocksInRegion({x, y, z});
-                candidates_.insert(candidates_.end(), blocks.begin(), blocks.end());
-            }
+    ForEachRegion(cone, map, [&](std::span<const BlockId> blocks) {
+        candidates_.insert(candidates_.end(), blocks.begin(), blocks.end());
+    });
 
     keep_.resize(candidates_.size());
     tbb::parallel_for(

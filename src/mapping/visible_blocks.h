@@ -25,6 +25,10 @@ struct DepthTiles {
 ViewCone MakeViewCone(const PinholeCamera& camera, const Eigen::Isometry3d& T_world_camera,
                       float farthest_m, const BlockMap::Config& map);
 
+// Whether a camera that measures no farther than `farthest_m` may see any block of the map.
+bool MaySee(const BlockMap& map, const PinholeCamera& camera,
+            const Eigen::Isometry3d& T_world_camera, float farthest_m);
+
 // Finds block ids in increasing order. Owner thread only; uses TBB internally.
 class VisibleBlocks {
   public:

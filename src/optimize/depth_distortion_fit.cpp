@@ -26,16 +26,13 @@ constexpr double kGate = 10;                             // in deviations
 constexpr double kFirstFactor = 3, kLeastFactor = 0.05;  // of kDepthNoise_per_m
 constexpr double kWorstPair = 2;  // a pair's residuals beside the median pair's
 
-using Vector = Eigen::VectorXd;  // of kNodes
-using Matrix = Eigen::MatrixXd;
-
 class DistortionFit {
   public:
     DistortionFit(const std::vector<DepthView>& views, const PinholeCamera& camera,
                   std::vector<DepthPair>& pairs)
         : views_(views), pairs_(pairs), camera_(Averaged(camera, views.front().reduction)) {
-        before_ = Matrix::Identity(kNodes, kNodes) / (kNodeBefore * kNodeBefore);
-        const Vector share = ShareOfNodes();
+        before_ = Eigen::MatrixXd::Identity(kNodes, kNodes) / (kNodeBefore * kNodeBefore);
+        const Eigen::VectorXd share = ShareOfNodes();
         before_ += share * share.transpose() / (kMeanBefore * kMeanBefore);
         const auto bend = [&](int a, int b, int c) {
             const int at[3] = {a, b, c};
@@ -73,7 +70,7 @@ class DistortionFit {
             Add(i);
         }
         if (measured.empty()) return;
-        Vector step = Vector::Zero(kNodes);
+        Eigen::VectorXd step = Eigen::VectorXd::Zero(kNodes);
         if (!motions_only) step = -hessian_.ldlt().solve(gradient_);
         for (const std::size_t i : measured) {
             const Motion& m = motions_[i];
@@ -101,9 +98,9 @@ class DistortionFit {
         fit.rms_per_m = nodes_.per_m.norm() / std::sqrt(kNodes);
         const auto solver = hessian_.ldlt();
         double spread = 0;
-        for (const Matrix* parts : {&by_time_, &by_depth_}) {
+        for (const Eigen::MatrixXd* parts : {&by_time_, &by_depth_}) {
             const double count = static_cast<double>(parts->cols());
-            const Matrix apart = parts->colwise() - parts->rowwise().mean();
+            const Eigen::MatrixXd apart = parts->colwise() - parts->rowwise().mean();
             spread += count / (count - 1) * solver.solve(apart).squaredNorm();
         }
         fit.sigma_per_m = std::sqrt(spread / kNodes);
@@ -118,15 +115,15 @@ class DistortionFit {
     };
 
     void ClearParts() {
-        by_time_ = Matrix::Zero(kNodes, kEighths);
-        by_depth_ = Matrix::Zero(kNodes, 2);
+        by_time_ = Eigen::MatrixXd::Zero(kNodes, kEighths);
+        by_depth_ = Eigen::MatrixXd::Zero(kNodes, 2);
         motions_.resize(pairs_.size());
     }
 
     // By how much of the mean depth all depths are wrong if a node is, in relation to the others.
     // The sum is 1.
-    Vector ShareOfNodes() const {
-        Vector sum = Vector::Zero(kNodes);
+    Eigen::VectorXd ShareOfNodes() const {
+        Eigen::VectorXd sum = Eigen::VectorXd::Zero(kNodes);
         for (const DepthView& view : views_)
             for (int y = 0; y < view.inverse_depth.height(); y += 2)
                 for (int x = 0; x < view.inverse_depth.width(); x += 2) {
@@ -147,7 +144,7 @@ class DistortionFit {
         own.diagonal().tail<3>().setConstant(1 / (kShiftBefore_m * kShiftBefore_m));
         m.gradient = own * m.moved;
         Vector6d own_near = Vector6d::Zero();
-        Vector near = Vector::Zero(kNodes), all = Vector::Zero(kNodes);
+        Eigen::VectorXd near = Eigen::VectorXd::Zero(kNodes), all = Eigen::VectorXd::Zero(kNodes);
         std::vector<double> depths;
         for (const DepthResidual& r : residuals_) depths.push_back(r.z_m);
         const double middle_m = Median(depths);
@@ -170,7 +167,8 @@ class DistortionFit {
         m.inverse = own.inverse();
         const Eigen::Matrix<double, kNodes, 6> reduced = m.to_nodes * m.inverse;
         hessian_.noalias() -= reduced * m.to_nodes.transpose();
-        const Vector whole = all - reduced * m.gradient, of_near = near - reduced * own_near;
+        const Eigen::VectorXd whole = all - reduced * m.gradient,
+                              of_near = near - reduced * own_near;
         gradient_ += whole;
         by_time_.col(static_cast<Eigen::Index>(index * kEighths / pairs_.size())) += whole;
         by_depth_.col(0) += of_near;
@@ -184,9 +182,9 @@ class DistortionFit {
     const PinholeCamera camera_;
     double factor_ = kFirstFactor;
     DistortionNodes nodes_;
-    Vector gradient_ = Vector::Zero(kNodes);
-    Matrix before_, hessian_;
-    Matrix by_time_, by_depth_;             // gradients of parts, a column each
+    Eigen::VectorXd gradient_ = Eigen::VectorXd::Zero(kNodes);
+    Eigen::MatrixXd before_, hessian_;
+    Eigen::MatrixXd by_time_, by_depth_;    // gradients of parts, a column each
     std::vector<DepthResidual> residuals_;  // of the pair at hand
     std::vector<Motion> motions_;
 };

@@ -82,19 +82,27 @@ Status FrameStore::Load(const StoredFrame& stored, Frame& frame) {
 }
 
 Status FrameStore::Decode(const EncodedImages& images, Frame& frame) {
-    const auto header = ReadPngHeader(images.depth_png);
+    Status depth = Status::Ok(), colour = Status::Ok();
+    const auto decode_colour = [&] {
+        if (images.colour_jpeg.empty())
+            frame.colour = {};
+        else
+            colour = DecodeJpeg(images.colour_jpeg, kMaxSide_px, frame.colour);
+    };
+    tbb::parallel_invoke([&] { depth = DecodeDepth(images.depth_png, frame.depth_m); },
+                         decode_colour);
+    return depth.ok() ? colour : depth;
+}
+
+Status FrameStore::DecodeDepth(const std::vector<std::uint8_t>& png, DepthImage& depth_m) {
+    const auto header = ReadPngHeader(png);
     if (!header) return Status::Error("a stored depth image is not a PNG file");
-    if (Status status = decoder_.DecodeDepth(images.depth_png, *header, raw_depth_); !status.ok())
-        return status;
-    frame.depth_m.Resize(raw_depth_.width(), raw_depth_.height());
+    if (Status status = decoder_.DecodeDepth(png, *header, raw_depth_); !status.ok()) return status;
+    depth_m.Resize(raw_depth_.width(), raw_depth_.height());
     const float metres = static_cast<float>(1 / depth_units_per_m_);
-    std::transform(raw_depth_.data(), raw_depth_.data() + raw_depth_.size(), frame.depth_m.data(),
+    std::transform(raw_depth_.data(), raw_depth_.data() + raw_depth_.size(), depth_m.data(),
                    [&](std::uint16_t raw) { return static_cast<float>(raw) * metres; });
-    if (images.colour_jpeg.empty()) {
-        frame.colour = {};
-        return Status::Ok();
-    }
-    return DecodeJpeg(images.colour_jpeg, kMaxSide_px, frame.colour);
+    return Status::Ok();
 }
 
 Status FrameStore::LoadPrepared(const StoredFrame& stored, const PinholeCamera& camera,

@@ -77,6 +77,7 @@ class FrameStore {
 
   private:
     void Thin();
+    Status DecodeDepth(const std::vector<std::uint8_t>& png, DepthImage& depth_m);
 
     std::size_t limit_bytes_, bytes_ = 0;
     double depth_units_per_m_;

@@ -91,8 +91,10 @@ class LoopCloser {
     // empty.
     std::string TakeError() { return std::exchange(trouble_, {}); }
     // At the end of a run: makes all remaining corrections, and refines the calibration if
-    // configured. `note`: message for the user about the calibration.
-    std::optional<Correction> Finish(std::string& note);
+    // configured. `note`: message for the user about the calibration. `in_use`: the map with all
+    // frames and corrections so far, which is then moved as far as possible; if null, as with
+    // labels or a pager, it is fused again.
+    std::optional<Correction> Finish(std::string& note, const BlockMap* in_use = nullptr);
 
     // Outside a run: optimises with every overlap that can be found, and makes the map again from
     // all stored frames.
@@ -146,7 +148,7 @@ class LoopCloser {
     Status OptimiseAgain();
     Status LoadViews(std::vector<CalibrationView>& views);
     Status Calibrate();
-    bool BeginRebuild(double tolerance_m);
+    bool BeginRebuild(double tolerance_m, const BlockMap* in_use = nullptr);
     std::optional<Correction> StepRebuild(int frames);
     void StopRebuilding(const Status& why);
 

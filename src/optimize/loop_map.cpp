@@ -6,6 +6,8 @@
 
 #include "core/se3.h"
 #include "optimize/loop_closer.h"
+#include "optimize/map_motion.h"
+#include "optimize/map_warp.h"
 
 namespace tessera {
 
@@ -24,13 +26,22 @@ double LoopCloser::MaxDisplacement_m(const std::vector<Eigen::Isometry3d>& T_map
 }
 
 // Returns true if a rebuild is in progress, or was started because the map is off by more than the
-// tolerance.
-bool LoopCloser::BeginRebuild(double tolerance_m) {
+// tolerance. `in_use`: see Finish.
+bool LoopCloser::BeginRebuild(double tolerance_m, const BlockMap* in_use) {
     if (rebuild_) return true;
     if (broken_ || !corrected_) return false;
     std::vector<Eigen::Isometry3d> map, graph = GraphPoses();
     for (int i = 0; i < keyframes_.size(); ++i) map.push_back(keyframes_[i].T_map_camera);
     if (MaxDisplacement_m(map) < tolerance_m) return false;
+    if (in_use) {
+        // What frames show a voxel apart would be blurred.
+        const double most_spread_m = settings_.map.voxel_size_m;
+        WarpedMap moved =
+            WarpMap(*in_use, MotionOfBlocks(*in_use, keyframes_, graph, settings_.camera),
+                    settings_.fusion.volume.box(), most_spread_m);
+        rebuild_ = std::make_unique<MapRebuild>(settings_, std::move(graph), std::move(moved));
+        return true;
+    }
     std::unique_ptr<MapPager> pager;
     if (make_pager_) {
         Result<std::unique_ptr<MapPager>> made = make_pager_();
@@ -85,8 +96,10 @@ void LoopCloser::StopRebuilding(const Status& why) {
     trouble_ = "map correction stopped, the trajectory is still corrected: " + why.message();
 }
 
-std::optional<LoopCloser::Correction> LoopCloser::Finish(std::string& note) {
+std::optional<LoopCloser::Correction> LoopCloser::Finish(std::string& note,
+                                                         const BlockMap* in_use) {
     std::optional<Correction> last;
+    if (make_pager_ || labels_) in_use = nullptr;
     StoreLatest();
     if (seeking_ && corrected_) static_cast<void>(OptimiseAgain());  // else as it was
     if (config_.refine_calibration && !keyframes_.empty()) {
@@ -97,15 +110,16 @@ std::optional<LoopCloser::Correction> LoopCloser::Finish(std::string& note) {
                            : status.message();
         if (calibration_ && calibration_->shown) {
             rebuild_.reset();
+            in_use = nullptr;
             if (BeginRebuild(-1)) last = StepRebuild(std::numeric_limits<int>::max());
         }
     }
     if (!corrected_) return last;
     const double tolerance_m = settings_.map.voxel_size_m / 2;
-    // Discards a rebuild with outdated poses.
-    if (rebuild_ && MaxDisplacement_m(rebuild_->T_world_keyframe()) >= tolerance_m)
+    // Discards a rebuild with outdated poses, or one that takes longer than to move the map.
+    if (rebuild_ && (in_use || MaxDisplacement_m(rebuild_->T_world_keyframe()) >= tolerance_m))
         rebuild_.reset();
-    while (BeginRebuild(tolerance_m))
+    while (BeginRebuild(tolerance_m, std::exchange(in_use, nullptr)))
         if (auto next = StepRebuild(std::numeric_limits<int>::max())) last = std::move(next);
     return last;
 }

@@ -17,16 +17,27 @@ MapRebuild::MapRebuild(const FieldSettings& settings,
     if (labels_) map_->EnableLabels();
 }
 
+MapRebuild::MapRebuild(const FieldSettings& settings,
+                       std::vector<Eigen::Isometry3d> T_world_keyframe, WarpedMap moved)
+    : MapRebuild(settings, std::move(T_world_keyframe), nullptr) {
+    moved_ = std::move(moved.map);
+    for (const BlockCoord& c : moved.again) map_->Allocate(c);
+}
+
 Result<bool> MapRebuild::Step(FrameStore& store, int frames) {
     const std::vector<StoredFrame>& stored = store.frames();
     auto next = std::ranges::lower_bound(stored, next_ordinal_, {}, &StoredFrame::ordinal);
     for (int i = 0; i < frames && next != stored.end(); ++i, ++next) {
         next_ordinal_ = next->ordinal + 1;
+        if (moved_ &&
+            !MaySee(*map_, camera_, PoseOf(*next), static_cast<float>(preparation_.max_depth_m)))
+            continue;
         // Skips a frame that cannot be loaded.
         if (!store.LoadPrepared(*next, camera_, preparation_, frame_, prepared_).ok()) continue;
         if (Status status = Fuse(*next); !status.ok()) return status;
     }
     const bool done = next == stored.end();
+    if (done && moved_) AddTheMoved();
     if (done && pager_)
         if (Status status = pager_->Complete(*map_); !status.ok()) return status;
     return done;
@@ -38,11 +49,31 @@ int MapRebuild::Left(const FrameStore& store) const {
         stored.end() - std::ranges::lower_bound(stored, next_ordinal_, {}, &StoredFrame::ordinal));
 }
 
+// Takes over the blocks fused again that are near a surface. The frames saw the rest empty.
+void MapRebuild::AddTheMoved() {
+    const auto near = static_cast<float>(map_->config().truncation_m / map_->config().range_m());
+    const auto surface = [&](FieldWord word) {
+        return HasDistance(word) && FieldDistance(word) < near;
+    };
+    for (BlockId id = 1; id < map_->size(); ++id) {
+        if (std::none_of(map_->field(id), map_->field(id) + kBlockVoxels, surface)) continue;
+        const BlockId to = moved_->Allocate(map_->coord(id));
+        if (to == kUnknownBlock) break;  // the map is full
+        std::copy_n(map_->field(id), kBlockVoxels, moved_->field(to));
+        std::copy_n(map_->weight(id), kBlockVoxels, moved_->weight(to));
+        std::copy_n(map_->colour(id), kBlockVoxels, moved_->colour(to));
+    }
+    map_ = std::move(moved_);
+}
+
 // Fuses the loaded frame.
 Status MapRebuild::Fuse(const StoredFrame& stored) {
     Integrator::View view = stored.view;
-    view.T_world_camera =
-        T_world_keyframe_[static_cast<std::size_t>(stored.keyframe)] * stored.T_keyframe_camera;
+    view.T_world_camera = PoseOf(stored);
+    if (moved_) {
+        integrator_.Update(prepared_, view, *map_);
+        return Status::Ok();
+    }
     if (pager_)
         if (Status status = pager_->Bring(view.T_world_camera, *map_, labels_.get()); !status.ok())
             return status;

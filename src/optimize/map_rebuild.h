@@ -10,6 +10,7 @@
 #include "optimize/field_check.h"
 #include "optimize/frame_store.h"
 #include "optimize/map_pager.h"
+#include "optimize/map_warp.h"
 #include "semantics/label_mapper.h"
 
 namespace tessera {
@@ -21,6 +22,11 @@ class MapRebuild {
     // that receives the frames' detections; may be null. `pager`: if given, holds part of the map.
     MapRebuild(const FieldSettings& settings, std::vector<Eigen::Isometry3d> T_world_keyframe,
                std::unique_ptr<LabelMapper> labels, std::unique_ptr<MapPager> pager = nullptr);
+
+    // Fuses only the blocks that could not be moved, and adds them to the others. Without labels
+    // and pager.
+    MapRebuild(const FieldSettings& settings, std::vector<Eigen::Isometry3d> T_world_keyframe,
+               WarpedMap moved);
 
     void AddKeyframe(const Eigen::Isometry3d& T_world_keyframe) {
         T_world_keyframe_.push_back(T_world_keyframe);
@@ -37,9 +43,15 @@ class MapRebuild {
     std::unique_ptr<MapPager> TakePager() { return std::move(pager_); }
 
   private:
+    Eigen::Isometry3d PoseOf(const StoredFrame& stored) const {
+        return T_world_keyframe_[static_cast<std::size_t>(stored.keyframe)] *
+               stored.T_keyframe_camera;
+    }
     Status Fuse(const StoredFrame& stored);
+    void AddTheMoved();
 
     std::unique_ptr<BlockMap> map_;
+    std::unique_ptr<BlockMap> moved_;  // what is not fused again; null if everything is
     Integrator integrator_;
     PinholeCamera camera_;
     PreparedFrame::Config preparation_;

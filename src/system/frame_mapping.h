@@ -85,6 +85,8 @@ class FrameMapping {
     const BlockMap& MapFor(const TrackingStage& tracking) const {
         return tracking.reads_map() ? stage_.map() : stage_.blocks();
     }
+    // Null if part of the map may be only in the scan file.
+    const BlockMap* whole_map() const { return paging_ ? nullptr : &stage_.map(); }
     PagingStage* paging() { return paging_.get(); }  // null without a memory limit
     bool saving() const { return scan_.has_value(); }
     std::string scan_path() const { return scan_ ? scan_->path() : std::string(); }

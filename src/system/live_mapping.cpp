@@ -203,8 +203,9 @@ void LiveMapping::Reset() {
 
 void LiveMapping::End() {
     if (loops_ && !links_.quit.load() && !only_localise_) {
-        loops_->Finish();
         LoopThread::Update update;
+        while (loops_->TryTake(update)) TakeUpdate(std::move(update), true);
+        loops_->Finish(life_.whole_map(), version());
         while (loops_->TryTake(update)) TakeUpdate(std::move(update), true);
     }
     life_.Finish();

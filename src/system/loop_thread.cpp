@@ -100,12 +100,10 @@ void LoopThread::WorkIdly() {
 // At the end of the run nothing else runs, so this uses all cores.
 void LoopThread::Conclude() {
     if (closer_->corrected())
-        around_.notices.Tell(
-            fmt::format("optimising the corrected path once more; where that moves the map, {} "
-                        "frames are fused again",
-                        closer_->store().frames().size()));
+        around_.notices.Tell("optimising the corrected path once more; the map follows it");
     std::string note;
-    if (auto change = closer_->Finish(note)) HandOver(std::move(*change));
+    const BlockMap* map = last_version_ == version() ? last_map_ : nullptr;
+    if (auto change = closer_->Finish(note, map)) HandOver(std::move(*change), true);
     around_.notices.Tell(std::move(note));
     ReportProblems();
     if (saved_.load()) Push({world_, std::nullopt, nullptr, TakeNews()});
@@ -162,7 +160,7 @@ bool LoopThread::Reply() {
     answer.stamp_s = question.stamp_s;
     answer.check = question.check;
     // A question from before the last reset or correction is obsolete.
-    if (question.map == MapVersion{world_, static_cast<int>(history_.size())})
+    if (question.map == version())
         answer.T_world_camera = closer_->Relocalise(*question.frame, answer.note);
     TESSERA_CHECK(answers_.TryPush(std::move(answer)), "more answers than questions");
     return true;
@@ -180,10 +178,11 @@ void LoopThread::Push(Update update) {
     TESSERA_CHECK(updates_.TryPush(std::move(update)), "more updates than the queue has room for");
 }
 
-void LoopThread::HandOver(LoopCloser::Correction change) {
+// Tracking needs no copy of the last map.
+void LoopThread::HandOver(LoopCloser::Correction change, bool last) {
     history_.push_back(change.T_new_old);
     Update update{world_, std::move(change), nullptr, {}};
-    update.field = CopyLayers(*update.correction->map, settings_.tracked_layers);
+    if (!last) update.field = CopyLayers(*update.correction->map, settings_.tracked_layers);
     if (saved_.load()) update.news = journal_.Take(*closer_);
     Push(std::move(update));
 }

@@ -82,8 +82,12 @@ class LoopThread {
     bool has_update() const { return !updates_.empty(); }
     bool TryTake(Update& update);
     // Call after the last frame. Waits until all corrections are done. The remaining results arrive
-    // as updates.
-    void Finish() { worker_.Finish(); }
+    // as updates. `whole`: the map of this version, if all of it is in memory; else null.
+    void Finish(const BlockMap* whole, MapVersion version) {
+        last_map_ = whole;
+        last_version_ = version;
+        worker_.Finish();
+    }
     // After Finish: the final poses of the tracked frames, and the refined calibration.
     std::vector<StampedPose> Path() const { return closer_->Path(); }
     const std::optional<CalibrationReport>& calibration() const { return closer_->calibration(); }
@@ -129,7 +133,8 @@ class LoopThread {
     void Report();
     void ReportProblems();
     void Push(Update update);
-    void HandOver(LoopCloser::Correction change);
+    MapVersion version() const { return {world_, static_cast<int>(history_.size())}; }
+    void HandOver(LoopCloser::Correction change, bool last = false);
 
     Settings settings_;
     Surroundings around_;
@@ -143,6 +148,8 @@ class LoopThread {
     FifoQueue<Question> questions_{1, wake_};
     FifoQueue<Answer> answers_;
     FifoQueue<Update> updates_;
+    const BlockMap* last_map_ = nullptr;  // of the mapping thread, which waits in Finish
+    MapVersion last_version_;
     std::atomic<bool> saved_;
     std::atomic<bool> seeking_{true};
     // The thread's; the caller's after Finish.

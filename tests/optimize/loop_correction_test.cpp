@@ -114,6 +114,50 @@ TEST(LoopCloser, AMapIsCorrectedWithoutFramesThatCannotBeStored) {
     EXPECT_EQ(walker.corrections, 1);
 }
 
+// The map that was moved, and in part fused again, shows the same surface as one of all frames.
+TEST(LoopCloser, AMapMovedAtTheEndIsLikeOneFusedAgain) {
+    if (!PoseGraphAvailable()) GTEST_SKIP() << "this build has no Ceres: install libceres-dev";
+    const std::vector<Frame> frames = Round();
+    std::unique_ptr<BlockMap> maps[2];
+    std::unique_ptr<BlockMap> before;
+    for (const bool moved : {false, true}) {
+        Walker walker(LoopConfig{});
+        WalkWithDrift(frames, walker, 0.3);
+        ASSERT_EQ(walker.corrections, 0);
+        std::string note;
+        auto correction = walker.closer.Finish(note, moved ? walker.map.get() : nullptr);
+        ASSERT_TRUE(correction.has_value());
+        maps[moved] = std::move(correction->map);
+        before = std::move(walker.map);
+    }
+    // Near the surface of the map that was fused again.
+    struct Difference {
+        double mean_m = 0;
+        int known = 0, missing = 0;
+    };
+    const auto difference = [&](const BlockMap& map) {
+        Difference all;
+        for (BlockId id = 1; id < maps[0]->size(); ++id) {
+            const FieldWord* field = map.field(map.Find(maps[0]->coord(id)));
+            for (int v = 0; v < kBlockVoxels; ++v) {
+                const FieldWord again = maps[0]->field(id)[v];
+                if (!HasDistance(again) || std::abs(FieldDistance(again)) > 0.25f) continue;
+                HasDistance(field[v]) ? ++all.known : ++all.missing;
+                if (HasDistance(field[v]))
+                    all.mean_m += std::abs(FieldDistance(again) - FieldDistance(field[v])) *
+                                  map.config().truncation_m;
+            }
+        }
+        all.mean_m /= all.known;
+        return all;
+    };
+    const Difference moved = difference(*maps[1]), not_moved = difference(*before);
+    EXPECT_LT(moved.mean_m, 0.003);
+    EXPECT_GT(not_moved.mean_m, 0.01);
+    EXPECT_GT(moved.known, 100000);
+    EXPECT_LT(moved.missing, 0.01 * moved.known);
+}
+
 TEST(LoopCloser, CorrectsToTheSameBytesForAnyNumberOfThreads) {
     if (!PoseGraphAvailable()) GTEST_SKIP() << "this build has no Ceres: install libceres-dev";
     const std::vector<Frame> frames = Round();

@@ -1,0 +1,246 @@
+// A map that follows its keyframes without being fused again.
+#include "optimize/map_warp.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/se3.h"
+#include "optimize/map_rebuild.h"
+#include "support/box_room.h"
+
+namespace tessera {
+namespace {
+
+using testing_support::BoxRoom;
+using testing_support::SmallCamera;
+using testing_support::SmoothPath;
+
+const BlockMap::Config kWarped{.voxel_size_m = 0.04, .truncation_m = 0.16};
+
+Frame WarpFrame(int i) {
+    Frame frame = BoxRoom().Render(SmallCamera(), SmoothPath(i), i / 30.0);
+    frame.index = i;
+    return frame;
+}
+
+Eigen::Isometry3d WarpPose(int i) { return SmoothPath(0).inverse() * SmoothPath(i); }
+
+void FuseFrames(BlockMap& map, int count) {
+    Integrator integrator({}, SmallCamera());
+    for (int i = 0; i < count; ++i) {
+        PreparedFrame prepared;
+        PrepareFrame(WarpFrame(i), {}, prepared);
+        Integrator::View view;
+        view.T_world_camera = WarpPose(i);
+        integrator.Integrate(prepared, view, map);
+    }
+}
+
+std::vector<BlockMotion> SameMotion(const BlockMap& map, const Eigen::Vector3f& shift_m,
+                                    float spread_m = 0) {
+    return std::vector<BlockMotion>(static_cast<std::size_t>(map.size()),
+                                    {shift_m, spread_m, true});
+}
+
+struct VoxelPlace {
+    BlockId id;
+    int in;
+};
+VoxelPlace PlaceOf(const BlockMap& map, const Eigen::Vector3i& voxel) {
+    return {map.Find({voxel.x() >> 3, voxel.y() >> 3, voxel.z() >> 3}),
+            (voxel.x() & 7) + 8 * (voxel.y() & 7) + 64 * (voxel.z() & 7)};
+}
+
+// Calls visit(voxel, id, index in the block) for each voxel that is known.
+template <class Visit>
+void ForEachKnown(const BlockMap& map, const Visit& visit) {
+    for (BlockId id = 1; id < map.size(); ++id)
+        for (int in = 0; in < kBlockVoxels; ++in) {
+            const BlockCoord c = map.coord(id);
+            const Eigen::Vector3i voxel(8 * c.x + (in & 7), 8 * c.y + (in >> 3 & 7),
+                                        8 * c.z + (in >> 6));
+            if (HasDistance(map.field(id)[in])) visit(voxel, id, in);
+        }
+}
+
+TEST(WarpMap, CopiesVoxelsThatMoveByWholeOnes) {
+    BlockMap map(kWarped);
+    FuseFrames(map, 3);
+    const Eigen::Vector3i steps(3, -2, 9);
+    const WarpedMap warped =
+        WarpMap(map, SameMotion(map, steps.cast<float>() * 0.04f), WorldBox{}, 0.04);
+    EXPECT_TRUE(warped.again.empty());
+    int known = 0, found = 0, coloured = 0;
+    ForEachKnown(map, [&](const Eigen::Vector3i& voxel, BlockId id, int in) {
+        ++known;
+        const VoxelPlace to = PlaceOf(*warped.map, voxel + steps);
+        EXPECT_EQ(warped.map->field(to.id)[to.in], map.field(id)[in]);
+        EXPECT_EQ(warped.map->weight(to.id)[to.in], map.weight(id)[in]);
+        if (!HasIntensity(map.field(id)[in])) return;
+        EXPECT_EQ(warped.map->colour(to.id)[to.in], map.colour(id)[in]);
+        ++coloured;
+    });
+    ForEachKnown(*warped.map, [&](const Eigen::Vector3i&, BlockId, int) { ++found; });
+    EXPECT_EQ(found, known);
+    EXPECT_GT(coloured, 1000);
+}
+
+// A wall that leans: d = a - n x. Distances are linear, and so is the motion, so both are
+// interpolated exactly.
+TEST(WarpMap, TurnsAWallToWhereItBelongs) {
+    BlockMap map(kWarped);
+    const Eigen::Vector3d normal = Eigen::Vector3d(0.2, -0.1, 1).normalized();
+    for (int i = 0; i < 5 * 5 * 3; ++i) {
+        const BlockId id = map.Allocate({i % 5 - 2, i / 5 % 5 - 2, i / 25 - 1});
+        for (int in = 0; in < kBlockVoxels; ++in) {
+            const BlockCoord c = map.coord(id);
+            const Eigen::Vector3d p =
+                0.04 *
+                Eigen::Vector3d(8 * c.x + (in & 7), 8 * c.y + (in >> 3 & 7), 8 * c.z + (in >> 6));
+            const double d = -normal.dot(p);
+            if (std::abs(d) > 0.15) continue;
+            map.field(id)[in] = static_cast<FieldWord>(std::lround(d / 0.16 * kDistanceSteps))
+                                << 16;
+            map.weight(id)[in] = 512;
+        }
+    }
+    const Eigen::Isometry3d T_new_old =
+        Se3Exp((Vector6d() << 0.004, -0.006, 0.003, 0.05, -0.03, 0.027).finished());
+    std::vector<BlockMotion> motions(static_cast<std::size_t>(map.size()));
+    for (BlockId id = 1; id < map.size(); ++id) {
+        const BlockCoord c = map.coord(id);
+        const Eigen::Vector3d centre =
+            0.04 * (8 * Eigen::Vector3d(c.x, c.y, c.z) + Eigen::Vector3d::Constant(3.5));
+        motions[static_cast<std::size_t>(id)] = {(T_new_old * centre - centre).cast<float>(), 0,
+                                                 true};
+    }
+    const WarpedMap warped = WarpMap(map, motions, WorldBox{}, 0.04);
+    EXPECT_TRUE(warped.again.empty());
+    const Eigen::Vector3d turned = T_new_old.linear() * normal;
+    int inside = 0;
+    double worst_m = 0;
+    ForEachKnown(*warped.map, [&](const Eigen::Vector3i& voxel, BlockId id, int in) {
+        const Eigen::Vector3d p = 0.04 * voxel.cast<double>();
+        EXPECT_EQ(warped.map->weight(id)[in], 512);
+        // At the ends of the slab, means are of fewer voxels.
+        const double d = -turned.dot(p - T_new_old.translation());
+        if (p.head<2>().cwiseAbs().maxCoeff() > 0.5 || std::abs(d) > 0.1) return;
+        ++inside;
+        worst_m = std::max(worst_m, std::abs(d - 0.16 * FieldDistance(warped.map->field(id)[in])));
+    });
+    EXPECT_GT(inside, 2000);
+    EXPECT_LT(worst_m, 0.0005);  // not moved at all, it is 30 mm off
+}
+
+// Two walls come to lie on each other, and one block of a third is seen at two places.
+TEST(WarpMap, LeavesOutWhatCannotBeMoved) {
+    BlockMap map(kWarped);
+    std::vector<BlockMotion> motions(1);
+    const auto add = [&](const BlockCoord& c, float shift_m, float spread_m) {
+        const BlockId id = map.Allocate(c);
+        std::fill_n(map.field(id), kBlockVoxels, FieldWord{0});
+        motions.push_back({{shift_m, 0, 0}, spread_m, true});
+    };
+    add({0, 0, 0}, 0, 0);
+    add({2, 0, 0}, -0.64f, 0);  // onto the first
+    add({10, 0, 0}, 0, 0.039f);
+    add({20, 0, 0}, 0, 0.041f);
+    add({30, 0, 0}, 1.28f, 0);  // out of the box
+    const WorldBox box{true, {-1, -1, -1}, {10.5, 1, 1}};
+    const WarpedMap warped = WarpMap(map, motions, box, 0.04);
+    EXPECT_EQ(warped.again, (std::vector<BlockCoord>{{0, 0, 0}, {20, 0, 0}}));
+    EXPECT_EQ(warped.map->count(), 1);
+    EXPECT_NE(warped.map->Find({10, 0, 0}), kUnknownBlock);
+}
+
+// Blocks that are fused again get what all stored frames say at the new poses; the others stay.
+TEST(WarpMap, WhatIsLeftOutIsFusedAgain) {
+    const Eigen::Isometry3d moved = Se3Exp((Vector6d() << 0, 0, 0, 0.24, 0, 0).finished());
+    FrameStore store(100000000, 5000);
+    for (int i = 0; i < 4; ++i)
+        ASSERT_TRUE(store.Add(WarpFrame(i), 0, i == 0, WarpPose(i), {}).ok());
+    FieldSettings settings;
+    settings.camera = SmallCamera();
+    settings.map = kWarped;
+    BlockMap map(kWarped);
+    FuseFrames(map, 4);
+    std::vector<BlockMotion> motions = SameMotion(map, {0.24f, 0, 0});
+    for (BlockId id = 1; id < map.size(); id += 5)
+        motions[static_cast<std::size_t>(id)].spread_m = 1;
+    WarpedMap warped = WarpMap(map, motions, WorldBox{}, 0.04);
+    const std::vector<BlockCoord> again = warped.again;
+    std::vector<std::pair<BlockCoord, std::vector<FieldWord>>> kept;
+    for (BlockId id = 1; id < warped.map->size(); ++id)
+        kept.push_back(
+            {warped.map->coord(id), {warped.map->field(id), warped.map->field(id) + kBlockVoxels}});
+    BlockMap fresh(kWarped);
+    for (const BlockCoord& c : again) fresh.Allocate(c);
+    Integrator integrator({}, SmallCamera());
+    for (const StoredFrame& stored : store.frames()) {
+        Frame frame;
+        PreparedFrame prepared;
+        ASSERT_TRUE(store.LoadPrepared(stored, SmallCamera(), {}, frame, prepared).ok());
+        Integrator::View view;
+        view.T_world_camera = moved * stored.T_keyframe_camera;
+        integrator.Integrate(prepared, view, fresh);
+    }
+    MapRebuild rebuild(settings, {moved}, std::move(warped));
+    EXPECT_FALSE(rebuild.Step(store, 3).value());
+    EXPECT_TRUE(rebuild.Step(store, 3).value());
+    const std::unique_ptr<BlockMap> whole = rebuild.TakeMap();
+    for (const auto& [c, field] : kept) {
+        const BlockId id = whole->Find(c);
+        ASSERT_NE(id, kUnknownBlock);
+        EXPECT_TRUE(std::equal(field.begin(), field.end(), whole->field(id)));
+    }
+    int fused = 0;
+    for (const BlockCoord& c : again) {
+        const BlockId id = whole->Find(c), same = fresh.Find(c);
+        if (id == kUnknownBlock) continue;
+        ++fused;
+        EXPECT_TRUE(
+            std::equal(fresh.weight(same), fresh.weight(same) + kBlockVoxels, whole->weight(id)));
+        EXPECT_TRUE(
+            std::equal(fresh.field(same), fresh.field(same) + kBlockVoxels, whole->field(id)));
+    }
+    EXPECT_GT(fused, 20);
+    EXPECT_EQ(whole->count(), static_cast<std::int64_t>(kept.size()) + fused);
+}
+
+// A wall seen by two keyframes, of which the nearer one moves.
+TEST(MotionOfBlocks, IsTheMeanOfTheKeyframesThatSeeThem) {
+    const PinholeCamera camera{160, 160, 160, 160, 79.5, 79.5};
+    Keyframes keyframes(camera, 0.7, 10);
+    PreparedFrame wall;
+    wall.depth_m = DepthImage(160, 160, 2.0f);
+    TrackResult at;
+    keyframes.Add(0, 0, wall, at);
+    wall.depth_m = DepthImage(160, 160, 1.0f);
+    at.T_world_camera = Eigen::Translation3d(0.96, 0, 1);
+    keyframes.Add(1, 1, wall, at);
+    for (int k = 0; k < 2; ++k) keyframes[k].reduced = {};  // only the coarse depth
+    std::vector<Eigen::Isometry3d> T_new{Eigen::Isometry3d::Identity(), at.T_world_camera};
+    T_new[1].pretranslate(Eigen::Vector3d(0.02, 0, -0.04));
+    BlockMap map(kWarped);
+    const BlockId left = map.Allocate({-2, 0, 6}), both = map.Allocate({2, 0, 6}),
+                  right = map.Allocate({4, 0, 7}), beside = map.Allocate({4, 0, 8}),
+                  behind = map.Allocate({4, 0, 12});
+    const std::vector<BlockMotion> motions = MotionOfBlocks(map, keyframes, T_new, camera);
+    const auto of = [&](BlockId id) { return motions[static_cast<std::size_t>(id)]; };
+    const Eigen::Vector3f moved(0.02f, 0, -0.04f);
+    EXPECT_TRUE(of(left).seen && of(both).seen && of(right).seen);
+    EXPECT_LT(of(left).shift_m.norm(), 1e-6);
+    EXPECT_LT((of(right).shift_m - moved).norm(), 1e-6);
+    // Its centre is 2.06 m and 1.06 m away.
+    const float share = 1 / (1 + 1.06f * 1.06f / (2.06f * 2.06f));
+    EXPECT_LT((of(both).shift_m - share * moved).norm(), 1e-6);
+    EXPECT_NEAR(of(both).spread_m, std::sqrt(share * (1 - share)) * moved.norm(), 1e-6);
+    EXPECT_LT(of(left).spread_m, 1e-6);
+    EXPECT_TRUE(of(beside).seen);  // it moves with the block beside it
+    EXPECT_LT((of(beside).shift_m - moved).norm(), 1e-6);
+    EXPECT_FALSE(of(behind).seen);
+}
+
+}  // namespace
+}  // namespace tessera
