@@ -29,7 +29,8 @@ class LoopCloser {
     // Replaces the current map. Move camera poses in it likewise: T_new = T_new_old * T_old.
     struct Correction {
         std::unique_ptr<BlockMap> map;
-        std::unique_ptr<LabelMapper> labels;  // of the new map; null without labels
+        // Of the new map; null without labels, or if the map has those of the one in use.
+        std::unique_ptr<LabelMapper> labels;
         // The pager made for the new map, null without paging; it holds all of the map.
         std::unique_ptr<MapPager> pager;
         Eigen::Isometry3d T_new_old = Eigen::Isometry3d::Identity();
@@ -92,8 +93,8 @@ class LoopCloser {
     std::string TakeError() { return std::exchange(trouble_, {}); }
     // At the end of a run: makes all remaining corrections, and refines the calibration if
     // configured. `note`: message for the user about the calibration. `in_use`: the map with all
-    // frames and corrections so far, which is then moved as far as possible; if null, as with
-    // labels or a pager, it is fused again.
+    // frames and corrections so far, which is then moved as far as possible. If null, and with a
+    // pager or labels that move far, it is fused again.
     std::optional<Correction> Finish(std::string& note, const BlockMap* in_use = nullptr);
 
     // Outside a run: optimises with every overlap that can be found, and makes the map again from
@@ -140,6 +141,7 @@ class LoopCloser {
     // The map in use is about to be replaced, or just was: it may hold places twice.
     bool outdated() const { return rebuild_ || swapped_; }
     std::vector<Eigen::Isometry3d> GraphPoses() const;
+    std::vector<Eigen::Isometry3d> MapPoses() const;
     void SetGraphPoses(const std::vector<Eigen::Isometry3d>& T_world_keyframe);
     double MaxDisplacement_m(const std::vector<Eigen::Isometry3d>& T_map_keyframe) const;
     std::optional<CovarianceFactors> Factors() const;
@@ -148,6 +150,7 @@ class LoopCloser {
     Status OptimiseAgain();
     Status LoadViews(std::vector<CalibrationView>& views);
     Status Calibrate();
+    bool MayMove(const BlockMap& in_use) const;
     bool BeginRebuild(double tolerance_m, const BlockMap* in_use = nullptr);
     std::optional<Correction> StepRebuild(int frames);
     void StopRebuilding(const Status& why);

@@ -25,14 +25,26 @@ double LoopCloser::MaxDisplacement_m(const std::vector<Eigen::Isometry3d>& T_map
     return farthest;
 }
 
+std::vector<Eigen::Isometry3d> LoopCloser::MapPoses() const {
+    std::vector<Eigen::Isometry3d> poses;
+    for (int i = 0; i < keyframes_.size(); ++i) poses.push_back(keyframes_[i].T_map_camera);
+    return poses;
+}
+
+// An object that was seen at two places has two instances, which become one only by voting again.
+bool LoopCloser::MayMove(const BlockMap& in_use) const {
+    if (make_pager_) return false;
+    return !labels_ ||
+           (in_use.has_labels() && MaxDisplacement_m(MapPoses()) < settings_.map.truncation_m);
+}
+
 // Returns true if a rebuild is in progress, or was started because the map is off by more than the
 // tolerance. `in_use`: see Finish.
 bool LoopCloser::BeginRebuild(double tolerance_m, const BlockMap* in_use) {
     if (rebuild_) return true;
     if (broken_ || !corrected_) return false;
-    std::vector<Eigen::Isometry3d> map, graph = GraphPoses();
-    for (int i = 0; i < keyframes_.size(); ++i) map.push_back(keyframes_[i].T_map_camera);
-    if (MaxDisplacement_m(map) < tolerance_m) return false;
+    std::vector<Eigen::Isometry3d> graph = GraphPoses();
+    if (MaxDisplacement_m(MapPoses()) < tolerance_m) return false;
     if (in_use) {
         // What frames show a voxel apart would be blurred.
         const double most_spread_m = settings_.map.voxel_size_m;
@@ -99,7 +111,6 @@ void LoopCloser::StopRebuilding(const Status& why) {
 std::optional<LoopCloser::Correction> LoopCloser::Finish(std::string& note,
                                                          const BlockMap* in_use) {
     std::optional<Correction> last;
-    if (make_pager_ || labels_) in_use = nullptr;
     StoreLatest();
     if (seeking_ && corrected_) static_cast<void>(OptimiseAgain());  // else as it was
     if (config_.refine_calibration && !keyframes_.empty()) {
@@ -115,6 +126,7 @@ std::optional<LoopCloser::Correction> LoopCloser::Finish(std::string& note,
         }
     }
     if (!corrected_) return last;
+    if (in_use && !MayMove(*in_use)) in_use = nullptr;
     const double tolerance_m = settings_.map.voxel_size_m / 2;
     // Discards a rebuild with outdated poses, or one that takes longer than to move the map.
     if (rebuild_ && (in_use || MaxDisplacement_m(rebuild_->T_world_keyframe()) >= tolerance_m))

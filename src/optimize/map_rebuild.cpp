@@ -21,7 +21,14 @@ MapRebuild::MapRebuild(const FieldSettings& settings,
                        std::vector<Eigen::Isometry3d> T_world_keyframe, WarpedMap moved)
     : MapRebuild(settings, std::move(T_world_keyframe), nullptr) {
     moved_ = std::move(moved.map);
-    for (const BlockCoord& c : moved.again) map_->Allocate(c);
+    if (moved_->has_labels()) map_->EnableLabels();
+    for (std::size_t i = 0; i < moved.again.size(); ++i) {
+        const BlockId id = map_->Allocate(moved.again[i]);
+        if (id == kUnknownBlock) break;  // the map is full
+        if (moved_->has_labels())
+            std::copy_n(moved.again_labels.data() + i * kBlockVoxels, kBlockVoxels,
+                        map_->label(id));
+    }
 }
 
 Result<bool> MapRebuild::Step(FrameStore& store, int frames) {
@@ -62,6 +69,7 @@ void MapRebuild::AddTheMoved() {
         std::copy_n(map_->field(id), kBlockVoxels, moved_->field(to));
         std::copy_n(map_->weight(id), kBlockVoxels, moved_->weight(to));
         std::copy_n(map_->colour(id), kBlockVoxels, moved_->colour(to));
+        if (map_->has_labels()) std::copy_n(map_->label(id), kBlockVoxels, moved_->label(to));
     }
     map_ = std::move(moved_);
 }

@@ -23,8 +23,8 @@ class MapRebuild {
     MapRebuild(const FieldSettings& settings, std::vector<Eigen::Isometry3d> T_world_keyframe,
                std::unique_ptr<LabelMapper> labels, std::unique_ptr<MapPager> pager = nullptr);
 
-    // Fuses only the blocks that could not be moved, and adds them to the others. Without labels
-    // and pager.
+    // Fuses only the blocks that could not be moved, and adds them to the others. Labels are those
+    // that were moved. Without pager.
     MapRebuild(const FieldSettings& settings, std::vector<Eigen::Isometry3d> T_world_keyframe,
                WarpedMap moved);
 

@@ -91,13 +91,11 @@ class Mover {
     Mover(const BlockMap& map, const Landings& landings, double most_variance)
         : map_(map), landings_(landings), most_variance_(most_variance) {}
 
-    void Move(std::span<const BlockCoord> moved, BlockMap& to) {
-        constexpr std::size_t kAtOnce = 2048;
+    void Move(std::span<const BlockCoord> moved, BlockMap& to) const {
         std::vector<WarpedBlock> next, ready;
         std::span<const BlockCoord> before;
         while (!moved.empty() || !before.empty()) {
             const auto now = moved.first(std::min(kAtOnce, moved.size()));
-            next.resize(now.size());
             tbb::parallel_invoke([&] { Warp(now, next); }, [&] { Put(before, ready, to); });
             moved = moved.subspan(now.size());
             before = now;
@@ -105,8 +103,22 @@ class Mover {
         }
     }
 
+    std::vector<VoxelLabel> Labels(std::span<const BlockCoord> moved) const {
+        std::vector<VoxelLabel> labels;
+        std::vector<WarpedBlock> blocks;
+        for (; !moved.empty(); moved = moved.subspan(blocks.size())) {
+            Warp(moved.first(std::min(kAtOnce, moved.size())), blocks);
+            for (const WarpedBlock& block : blocks)
+                labels.insert(labels.end(), block.label.begin(), block.label.end());
+        }
+        return labels;
+    }
+
   private:
+    static constexpr std::size_t kAtOnce = 2048;
+
     void Warp(std::span<const BlockCoord> coords, std::vector<WarpedBlock>& blocks) const {
+        blocks.resize(coords.size());
         tbb::parallel_for(
             tbb::blocked_range<std::size_t>(0, coords.size(), 64), [&](const auto& range) {
                 BlockWarper warper(map_);
@@ -124,6 +136,7 @@ class Mover {
             std::ranges::copy(blocks[i].field, to.field(id));
             std::ranges::copy(blocks[i].weight, to.weight(id));
             std::ranges::copy(blocks[i].colour, to.colour(id));
+            if (to.has_labels()) std::ranges::copy(blocks[i].label, to.label(id));
         }
     }
 
@@ -140,14 +153,17 @@ WarpedMap WarpMap(const BlockMap& map, const std::vector<BlockMotion>& motions, 
     const double most_spread = most_spread_m / map.config().voxel_size_m,
                  most_variance = most_spread * most_spread;
     const Landings landings = LandingsOf(map, motions, box);
-    WarpedMap warped{std::make_unique<BlockMap>(map.config()), {}};
+    WarpedMap warped{std::make_unique<BlockMap>(map.config()), {}, {}};
+    if (map.has_labels()) warped.map->EnableLabels();
     std::vector<BlockCoord> moved;
     for (const auto& [c, landing] : landings)
         if (landing.voxels)
             (landing.variance() > most_variance ? warped.again : moved).push_back(c);
     std::ranges::sort(warped.again, std::less<>());
     std::ranges::sort(moved, std::less<>());
-    Mover(map, landings, most_variance).Move(moved, *warped.map);
+    const Mover mover(map, landings, most_variance);
+    mover.Move(moved, *warped.map);
+    if (map.has_labels()) warped.again_labels = mover.Labels(warped.again);
     return warped;
 }
 

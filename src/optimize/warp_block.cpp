@@ -29,6 +29,7 @@ std::uint32_t Rounded(float value) { return static_cast<std::uint32_t>(value + 0
 
 void BlockWarper::Warp(const BlockCoord& c, const ShiftsAround& shifts, WarpedBlock& block) {
     block.known = false;
+    if (map_.has_labels()) block.label.fill({});
     if (!Load(c, shifts)) return;
     block.field.fill(kUnknownField);
     block.weight.fill(0);
@@ -49,11 +50,13 @@ void BlockWarper::Warp(const BlockCoord& c, const ShiftsAround& shifts, WarpedBl
             }
             for (int x = 0; x < kBlockSide; ++x, ++at) {
                 const BetweenBlocks in_x(x);
-                const Parts v = Interpolate(
+                const Eigen::Vector3f p =
                     Eigen::Vector3i(x, y, z).cast<float>() -
-                    Between<Eigen::Vector3f>(row[in_x.first], row[in_x.first + 1], in_x.part));
+                    Between<Eigen::Vector3f>(row[in_x.first], row[in_x.first + 1], in_x.part);
+                const Parts v = Interpolate(p);
                 if (v[kKnown] < 0.5f) continue;
                 block.known = true;
+                if (!labels_.empty()) block.label[at] = Nearest(p);
                 const float distance = v[kDistance] / v[kKnown];
                 const std::uint32_t steps = Rounded(kDistanceSteps * std::abs(distance));
                 block.field[at] = (distance < 0 ? 0u - steps : steps) << 16;
@@ -77,6 +80,7 @@ bool BlockWarper::Load(const BlockCoord& c, const ShiftsAround& shifts) {
     first_ = (-most).array().floor().cast<int>();
     size_ = ((kBlockSide - 1) - least.array()).floor().cast<int>() - first_.array() + 2;
     voxels_.assign(static_cast<std::size_t>(size_.prod()), Parts::Zero());
+    labels_.assign(map_.has_labels() ? voxels_.size() : 0, {});
     const Eigen::Vector3i last = first_ + size_ - Eigen::Vector3i::Ones();
     bool any = false;
     for (int z = first_.z() >> 3; z <= last.z() >> 3; ++z)
@@ -103,8 +107,11 @@ void BlockWarper::LoadBlock(BlockId id, const Eigen::Vector3i& corner) {
             const FieldWord* field = map_.field(id) + row;
             const std::uint16_t* weight = map_.weight(id) + row;
             const ColourWord* colour = map_.colour(id) + row;
-            Parts* parts =
-                voxels_.data() + at.x() + size_.x() * (at.y() + y + size_.y() * (at.z() + z));
+            const int first = at.x() + size_.x() * (at.y() + y + size_.y() * (at.z() + z));
+            if (!labels_.empty())
+                std::copy(map_.label(id) + row + low.x(), map_.label(id) + row + high.x(),
+                          labels_.begin() + first + low.x());
+            Parts* parts = voxels_.data() + first;
             for (int x = low.x(); x < high.x(); ++x) {
                 if (!HasDistance(field[x])) continue;
                 Parts& p = parts[x];
@@ -116,6 +123,11 @@ void BlockWarper::LoadBlock(BlockId id, const Eigen::Vector3i& corner) {
                     static_cast<float>(colour[x] >> 20);
             }
         }
+}
+
+VoxelLabel BlockWarper::Nearest(const Eigen::Vector3f& p) const {
+    const Eigen::Vector3i at = p.array().round().cast<int>() - first_.array();
+    return labels_[static_cast<std::size_t>(at.x() + size_.x() * (at.y() + size_.y() * at.z()))];
 }
 
 // Trilinearly; `p` is relative to the block's first voxel.

@@ -16,7 +16,8 @@ struct WarpedBlock {
     std::array<FieldWord, kBlockVoxels> field;
     std::array<std::uint16_t, kBlockVoxels> weight;
     std::array<ColourWord, kBlockVoxels> colour;
-    bool known = false;  // any of its distances
+    std::array<VoxelLabel, kBlockVoxels> label;  // unset if the map has none
+    bool known = false;                          // any of its distances
 };
 
 // Resamples blocks one by one. Owner thread only; the map may be read by others.
@@ -25,8 +26,8 @@ class BlockWarper {
     explicit BlockWarper(const BlockMap& map) : map_(map) {}
 
     // Each voxel becomes the mean of the eight of the map around the place that moves to it. It is
-    // known if at least half of these are, by weight. Between the centres of blocks, shifts are
-    // interpolated.
+    // known if at least half of these are, by weight, and has the label of the nearest. Between the
+    // centres of blocks, shifts are interpolated.
     void Warp(const BlockCoord& c, const ShiftsAround& shifts, WarpedBlock& block);
 
   private:
@@ -38,10 +39,12 @@ class BlockWarper {
     bool Load(const BlockCoord& c, const ShiftsAround& shifts);
     void LoadBlock(BlockId id, const Eigen::Vector3i& corner);
     Parts Interpolate(const Eigen::Vector3f& p) const;
+    VoxelLabel Nearest(const Eigen::Vector3f& p) const;
 
     const BlockMap& map_;
     Eigen::Vector3i first_ = Eigen::Vector3i::Zero(), size_ = Eigen::Vector3i::Zero();
-    std::vector<Parts> voxels_;  // around the block; first_ is relative to its first voxel
+    std::vector<Parts> voxels_;       // around the block; first_ is relative to its first voxel
+    std::vector<VoxelLabel> labels_;  // of these; empty if the map has none
 };
 
 }  // namespace tessera

@@ -163,9 +163,15 @@ std::vector<ObservedObject> LabelMapper::Observe(std::span<const Detection> dete
 
 void LabelMapper::Reset() {
     instances_ = Instances(InstanceConfig(config_));
+    MapMoved();
+    loaded_ = false;
+}
+
+void LabelMapper::MapMoved() {
     votes_.clear();
     shown_.clear();
     away_.clear();
+    loaded_ = true;
 }
 
 void LabelMapper::SaveState(StateWriter& state) const {

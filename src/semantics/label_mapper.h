@@ -85,6 +85,8 @@ class LabelMapper {
     void KeepNumbersOf(const LabelMapper& before) { instances_.KeepNumbersOf(before.instances_); }
     // Forgets everything, for a new map.
     void Reset();
+    // Keeps the objects, for a map in which the same labelled voxels lie elsewhere.
+    void MapMoved();
     // Saves and restores the class names and the instances. LoadState returns false if the classes
     // differ.
     void SaveState(StateWriter& state) const;
@@ -125,7 +127,7 @@ class LabelMapper {
     std::vector<VertexLabel> shown_;  // by InstanceId, as of the last TakeRelabelled
     // Vertices of blocks that were paged out and not meshed since.
     std::map<BlockCoord, std::vector<LabelledVertex>> away_;
-    bool loaded_ = false;  // true after LoadState until the blocks are known
+    bool loaded_ = false;  // true after LoadState or MapMoved until the blocks are known
 };
 
 }  // namespace tessera

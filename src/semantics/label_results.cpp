@@ -63,7 +63,7 @@ Image<VertexLabel> LabelMapper::PredictLabels(const Eigen::Isometry3d& T_world_c
     return labels;
 }
 
-// After LoadState every block may have votes.
+// After LoadState or MapMoved every block may have votes.
 void LabelMapper::KnowBlocks(const BlockMap& map) {
     votes_.resize(static_cast<std::size_t>(map.size()),
                   std::exchange(loaded_, false) ? Votes::kNew : Votes::kNone);

@@ -187,7 +187,9 @@ void MappingStage::Predict(const Eigen::Isometry3d& T_world_camera, int step,
 
 void MappingStage::Replace(std::unique_ptr<BlockMap> map, std::unique_ptr<LabelMapper> labels) {
     Place(std::move(map));
-    if (labels_ && !labels) {
+    if (labels_ && !labels && map_->has_labels()) {
+        labels_->MapMoved();
+    } else if (labels_ && !labels) {
         map_->EnableLabels();
         labels_->Reset();
     } else {

@@ -98,7 +98,8 @@ class MappingStage {
     void Predict(const Eigen::Isometry3d& T_world_camera, int step, PredictedView& view) const;
 
     // Replaces the map by one fused elsewhere from the same frames. `labels`: of the new map, if
-    // this one has labels; null if the new one was begun before that. Whoever follows the map by
+    // this one has labels; null if the new one was begun before that, or if its labels were moved
+    // there from this one. Whoever follows the map by
     // deltas first needs a copy of the new field.
     void Replace(std::unique_ptr<BlockMap> map, std::unique_ptr<LabelMapper> labels);
 

@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "core/se3.h"
 #include "optimize/map_rebuild.h"
@@ -67,6 +69,10 @@ void ForEachKnown(const BlockMap& map, const Visit& visit) {
 TEST(WarpMap, CopiesVoxelsThatMoveByWholeOnes) {
     BlockMap map(kWarped);
     FuseFrames(map, 3);
+    map.EnableLabels();
+    for (BlockId id = 1; id < map.size(); ++id)
+        for (int in = 0; in < kBlockVoxels; ++in)
+            map.label(id)[in].instance = static_cast<InstanceId>(7 * id + in);
     const Eigen::Vector3i steps(3, -2, 9);
     const WarpedMap warped =
         WarpMap(map, SameMotion(map, steps.cast<float>() * 0.04f), WorldBox{}, 0.04);
@@ -77,6 +83,7 @@ TEST(WarpMap, CopiesVoxelsThatMoveByWholeOnes) {
         const VoxelPlace to = PlaceOf(*warped.map, voxel + steps);
         EXPECT_EQ(warped.map->field(to.id)[to.in], map.field(id)[in]);
         EXPECT_EQ(warped.map->weight(to.id)[to.in], map.weight(id)[in]);
+        EXPECT_EQ(warped.map->label(to.id)[to.in].instance, map.label(id)[in].instance);
         if (!HasIntensity(map.field(id)[in])) return;
         EXPECT_EQ(warped.map->colour(to.id)[to.in], map.colour(id)[in]);
         ++coloured;
@@ -165,6 +172,9 @@ TEST(WarpMap, WhatIsLeftOutIsFusedAgain) {
     settings.map = kWarped;
     BlockMap map(kWarped);
     FuseFrames(map, 4);
+    map.EnableLabels();
+    for (BlockId id = 1; id < map.size(); ++id)
+        for (int in = 0; in < kBlockVoxels; ++in) map.label(id)[in].instance = 9;
     std::vector<BlockMotion> motions = SameMotion(map, {0.24f, 0, 0});
     for (BlockId id = 1; id < map.size(); id += 5)
         motions[static_cast<std::size_t>(id)].spread_m = 1;
@@ -194,17 +204,20 @@ TEST(WarpMap, WhatIsLeftOutIsFusedAgain) {
         ASSERT_NE(id, kUnknownBlock);
         EXPECT_TRUE(std::equal(field.begin(), field.end(), whole->field(id)));
     }
-    int fused = 0;
+    int fused = 0, labelled = 0;
     for (const BlockCoord& c : again) {
         const BlockId id = whole->Find(c), same = fresh.Find(c);
         if (id == kUnknownBlock) continue;
         ++fused;
+        labelled += std::ranges::any_of(std::span(whole->label(id), kBlockVoxels),
+                                        [](const VoxelLabel& v) { return v.instance == 9; });
         EXPECT_TRUE(
             std::equal(fresh.weight(same), fresh.weight(same) + kBlockVoxels, whole->weight(id)));
         EXPECT_TRUE(
             std::equal(fresh.field(same), fresh.field(same) + kBlockVoxels, whole->field(id)));
     }
     EXPECT_GT(fused, 20);
+    EXPECT_GT(labelled, 0.8 * fused);  // the others were not known before
     EXPECT_EQ(whole->count(), static_cast<std::int64_t>(kept.size()) + fused);
 }
 

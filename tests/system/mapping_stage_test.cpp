@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "mapping/analytic_fields.h"
+#include "optimize/map_warp.h"
 
 namespace tessera {
 namespace {
@@ -61,6 +62,37 @@ TEST(MappingStage, ObjectsKeepTheirNumbersInACorrectedMap) {
         for (int i = 0; i < 10; ++i) labels->Label({&d, 1}, depth, pose, *corrected);
     mapping.Replace(std::move(corrected), std::move(labels));
     EXPECT_EQ(Numbers(mapping), before);
+}
+
+// Nobody votes again: the labels move with the surface.
+TEST(MappingStage, ObjectsMoveWithTheMap) {
+    LabelConfig config;
+    config.classes = "cup";
+    const LabelClasses classes = LabelClasses::Make(config, {"cup"}).value();
+    const DepthImage depth(160, 120, 1.003f);
+    const Detection cup = Seen(1, 20);
+    PipelineConfig pipeline;
+    pipeline.map = {.voxel_size_m = 0.01, .truncation_m = 0.04};
+    MappingStage mapping(pipeline, {0, 0}, kCamera);
+    mapping.EnableLabels(config, classes);
+    mapping.Replace(Wall(), std::make_unique<LabelMapper>(config, classes, kCamera));
+    for (int i = 0; i < 10; ++i) mapping.Label({&cup, 1}, depth, Eigen::Isometry3d::Identity());
+    MeshUpdate update;
+    mapping.UpdateMesh(Mesher::kNoLimit, update);
+    const std::vector<MapObject> before = mapping.MeasureObjects();
+    ASSERT_EQ(before.size(), 1u);
+
+    const Eigen::Vector3f shift_m(0.104f, -0.03f, 0.007f);
+    const std::vector<BlockMotion> motions(static_cast<std::size_t>(mapping.map().size()),
+                                           {shift_m, 0, true});
+    mapping.Replace(WarpMap(mapping.map(), motions, WorldBox{}, 0.01).map, nullptr);
+    mapping.UpdateMesh(Mesher::kNoLimit, update);
+    const std::vector<MapObject> after = mapping.MeasureObjects();
+    ASSERT_EQ(after.size(), 1u);
+    EXPECT_EQ(after[0].id, before[0].id);
+    EXPECT_EQ(after[0].observations, 10);
+    // A voxel has the label of the nearest one: at most half a voxel off.
+    EXPECT_LT((after[0].centroid - before[0].centroid - shift_m.cast<double>()).norm(), 0.005);
 }
 
 }  // namespace
