@@ -25,6 +25,12 @@ T Between(const T& a, const T& b, float part) {
 // `value` is not negative.
 std::uint32_t Rounded(float value) { return static_cast<std::uint32_t>(value + 0.5f); }
 
+// Of the four samples around a place between the second and the third (Catmull and Rom).
+Eigen::Array4f CubicWeights(float t) {
+    return {t * (t * (1 - 0.5f * t) - 0.5f), t * t * (1.5f * t - 2.5f) + 1,
+            t * (t * (2 - 1.5f * t) + 0.5f), t * t * (0.5f * t - 0.5f)};
+}
+
 }  // namespace
 
 void BlockWarper::Warp(const BlockCoord& c, const ShiftsAround& shifts, WarpedBlock& block) {
@@ -50,9 +56,12 @@ void BlockWarper::Warp(const BlockCoord& c, const ShiftsAround& shifts, WarpedBl
             }
             for (int x = 0; x < kBlockSide; ++x, ++at) {
                 const BetweenBlocks in_x(x);
+                // Rounding must not leave what was loaded.
                 const Eigen::Vector3f p =
-                    Eigen::Vector3i(x, y, z).cast<float>() -
-                    Between<Eigen::Vector3f>(row[in_x.first], row[in_x.first + 1], in_x.part);
+                    (Eigen::Vector3i(x, y, z).cast<float>() -
+                     Between<Eigen::Vector3f>(row[in_x.first], row[in_x.first + 1], in_x.part))
+                        .cwiseMax(low_)
+                        .cwiseMin(high_);
                 const Parts v = Interpolate(p);
                 if (v[kKnown] < 0.5f) continue;
                 block.known = true;
@@ -62,10 +71,11 @@ void BlockWarper::Warp(const BlockCoord& c, const ShiftsAround& shifts, WarpedBl
                 block.field[at] = (distance < 0 ? 0u - steps : steps) << 16;
                 block.weight[at] = static_cast<std::uint16_t>(Rounded(v[kWeight] / v[kKnown]));
                 if (v[kLit] <= 0) continue;
-                const float share = 1 / v[kLit];
-                block.field[at] |= 1u + Rounded(kIntensitySteps * v[kIntensity] * share);
-                block.colour[at] = Rounded(v[kCb] * share) | Rounded(v[kCr] * share) << 10 |
-                                   Rounded(v[kColourWeight] * share) << 20;
+                Eigen::Array4f colour = v.tail<4>() / v[kLit];
+                if (std::abs(distance) < near_) InterpolateColour(p, colour);
+                block.field[at] |= 1u + Rounded(kIntensitySteps * colour[0]);
+                block.colour[at] =
+                    Rounded(colour[1]) | Rounded(colour[2]) << 10 | Rounded(colour[3]) << 20;
             }
         }
 }
@@ -77,8 +87,10 @@ bool BlockWarper::Load(const BlockCoord& c, const ShiftsAround& shifts) {
         least = least.cwiseMin(shift);
         most = most.cwiseMax(shift);
     }
-    first_ = (-most).array().floor().cast<int>();
-    size_ = ((kBlockSide - 1) - least.array()).floor().cast<int>() - first_.array() + 2;
+    low_ = -most;
+    high_ = (kBlockSide - 1) - least.array();
+    first_ = low_.array().floor().cast<int>() - 1;
+    size_ = high_.array().floor().cast<int>() - first_.array() + 3;
     voxels_.assign(static_cast<std::size_t>(size_.prod()), Parts::Zero());
     labels_.assign(map_.has_labels() ? voxels_.size() : 0, {});
     const Eigen::Vector3i last = first_ + size_ - Eigen::Vector3i::Ones();
@@ -125,12 +137,36 @@ void BlockWarper::LoadBlock(BlockId id, const Eigen::Vector3i& corner) {
         }
 }
 
+// Intensity and chroma from 64 voxels. Leaves them as they are, and the weight, if one of these has
+// none.
+void BlockWarper::InterpolateColour(const Eigen::Vector3f& p, Eigen::Array4f& colour) const {
+    const Eigen::Vector3f low = p.array().floor(), part = p - low;
+    const Eigen::Array4f in_x = CubicWeights(part.x()), in_y = CubicWeights(part.y()),
+                         in_z = CubicWeights(part.z());
+    const Eigen::Vector3i at = low.cast<int>() - first_ - Eigen::Vector3i::Ones();
+    Eigen::Array4f sum = Eigen::Array4f::Zero();
+    for (int z = 0; z < 4; ++z)
+        for (int y = 0; y < 4; ++y) {
+            const Parts* v =
+                voxels_.data() + at.x() + size_.x() * (at.y() + y + size_.y() * (at.z() + z));
+            Eigen::Array4f along = Eigen::Array4f::Zero();
+            for (int x = 0; x < 4; ++x) {
+                if (v[x][kLit] == 0) return;
+                along += in_x[x] * v[x].tail<4>();
+            }
+            sum += in_y[y] * in_z[z] * along;
+        }
+    colour[0] = std::clamp(sum[0], 0.0f, 1.0f);
+    colour[1] = std::clamp(sum[1], 0.0f, kChromaSteps);
+    colour[2] = std::clamp(sum[2], 0.0f, kChromaSteps);
+}
+
 VoxelLabel BlockWarper::Nearest(const Eigen::Vector3f& p) const {
     const Eigen::Vector3i at = p.array().round().cast<int>() - first_.array();
     return labels_[static_cast<std::size_t>(at.x() + size_.x() * (at.y() + size_.y() * at.z()))];
 }
 
-// Trilinearly; `p` is relative to the block's first voxel.
+// Trilinearly. `p`, here and above, is relative to the block's first voxel.
 BlockWarper::Parts BlockWarper::Interpolate(const Eigen::Vector3f& p) const {
     const Eigen::Vector3f low = p.array().floor(), part = p - low;
     const Eigen::Vector3i at = low.cast<int>() - first_;

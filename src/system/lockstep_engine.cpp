@@ -198,9 +198,8 @@ void LockstepEngine::Finish() {
     if (reader_) reader_->RequestStop();
     recorder_.Stop();
     if (loops_ && !only_localise_) {
-        notices_.Tell(loops_->Finish(mapping_.whole_map(), [this](auto correction) {
-            mapping_.PutMap(std::move(correction));
-        }));
+        notices_.Tell(
+            loops_->Finish([this](auto correction) { mapping_.PutMap(std::move(correction)); }));
         if (mapping_.saving()) mapping_.AddLoops(loops_->TakeChanges());
     }
     mapping_.Finish();

@@ -47,9 +47,9 @@ class LoopStage {
     double AfterFusion(const Frame& frame, TrackedFrame& tracked,
                        const std::optional<LabelReport>& labels, TrackingStage& tracking,
                        const PutMap& put);
-    // Call once, after the last frame: completes all pending corrections. `map`: the one in use, if
-    // all of it is in memory; else null. Returns a message for the user, usually empty.
-    std::string Finish(const BlockMap* map, const PutMap& put);
+    // Call once, after the last frame: completes all pending corrections. Returns a message for the
+    // user, usually empty.
+    std::string Finish(const PutMap& put);
 
     void EnableLabels(LoopCloser::Labels labels) { closer_.EnableLabels(std::move(labels)); }
     std::vector<StampedPose> Path() const { return closer_.Path(); }
