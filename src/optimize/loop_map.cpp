@@ -4,6 +4,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/memory.h"
 #include "core/se3.h"
 #include "optimize/loop_closer.h"
 #include "optimize/map_motion.h"
@@ -32,8 +33,12 @@ std::vector<Eigen::Isometry3d> LoopCloser::MapPoses() const {
 }
 
 // An object that was seen at two places has two instances, which become one only by voting again.
+// Unlike fusion, moving does not look at the free memory.
 bool LoopCloser::MayMove(const BlockMap& in_use) const {
-    if (make_pager_) return false;
+    constexpr double kMb = 1 << 20, kRoom = 1.2, kLeast_mb = 256;
+    if (make_pager_ ||
+        FreeMemoryMb() < kRoom * static_cast<double>(in_use.bytes()) / kMb + kLeast_mb)
+        return false;
     return !labels_ ||
            (in_use.has_labels() && MaxDisplacement_m(MapPoses()) < settings_.map.truncation_m);
 }

@@ -21,7 +21,7 @@ struct KeyframeView {
 };
 
 // The reduced view of a keyframe has no depth at edges. Old scan files have only the coarse one.
-KeyframeView ViewOf(const Keyframe& keyframe, const PinholeCamera& camera) {
+KeyframeView DepthSeenBy(const Keyframe& keyframe, const PinholeCamera& camera) {
     KeyframeView view;
     const ReducedView& reduced = keyframe.reduced;
     if (reduced.empty()) {
@@ -35,8 +35,8 @@ KeyframeView ViewOf(const Keyframe& keyframe, const PinholeCamera& camera) {
                            return static_cast<float>(units) / ReducedView::kUnitsPerM;
                        });
     }
-    view.farthest_m =
-        *std::max_element(view.depth_m.data(), view.depth_m.data() + view.depth_m.size());
+    for (std::size_t i = 0; i < view.depth_m.size(); ++i)
+        view.farthest_m = std::max(view.farthest_m, view.depth_m.data()[i]);
     return view;
 }
 
@@ -81,7 +81,8 @@ std::vector<BlockMotion> MotionOfBlocks(const BlockMap& map, const Keyframes& ke
         const Eigen::Isometry3d& T_old = keyframes[k].T_map_camera;
         const Eigen::Isometry3d T_old_inverse = T_old.inverse();
         const Eigen::Isometry3d& T_new = T_new_keyframe[static_cast<std::size_t>(k)];
-        const KeyframeView view = ViewOf(keyframes[k], camera);
+        const KeyframeView view = DepthSeenBy(keyframes[k], camera);
+        if (view.farthest_m == 0) continue;
         for (const BlockId id :
              visible.Find(map, view.camera, T_old, view.depth_m, view.farthest_m)) {
             const Eigen::Vector3d centre = CentreOf(map.coord(id), voxel_m),

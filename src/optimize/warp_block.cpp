@@ -18,7 +18,7 @@ struct BetweenBlocks {
 };
 
 template <class T>
-T Between(const T& a, const T& b, float part) {
+T Lerp(const T& a, const T& b, float part) {
     return a + part * (b - a);
 }
 
@@ -50,16 +50,16 @@ void BlockWarper::Warp(const BlockCoord& c, const ShiftsAround& shifts, WarpedBl
                     return shifts[static_cast<std::size_t>(x + 3 * (in_y.first + dy) +
                                                            9 * (in_z.first + dz))];
                 };
-                row[x] = Between<Eigen::Vector3f>(
-                    Between<Eigen::Vector3f>(shift(0, 0), shift(1, 0), in_y.part),
-                    Between<Eigen::Vector3f>(shift(0, 1), shift(1, 1), in_y.part), in_z.part);
+                row[x] = Lerp<Eigen::Vector3f>(
+                    Lerp<Eigen::Vector3f>(shift(0, 0), shift(1, 0), in_y.part),
+                    Lerp<Eigen::Vector3f>(shift(0, 1), shift(1, 1), in_y.part), in_z.part);
             }
             for (int x = 0; x < kBlockSide; ++x, ++at) {
                 const BetweenBlocks in_x(x);
                 // Rounding must not leave what was loaded.
                 const Eigen::Vector3f p =
                     (Eigen::Vector3i(x, y, z).cast<float>() -
-                     Between<Eigen::Vector3f>(row[in_x.first], row[in_x.first + 1], in_x.part))
+                     Lerp<Eigen::Vector3f>(row[in_x.first], row[in_x.first + 1], in_x.part))
                         .cwiseMax(low_)
                         .cwiseMin(high_);
                 const Parts v = Interpolate(p);
@@ -173,12 +173,11 @@ BlockWarper::Parts BlockWarper::Interpolate(const Eigen::Vector3f& p) const {
     const int along_y = size_.x(), along_z = along_y * size_.y();
     const Parts* v = voxels_.data() + at.x() + along_y * at.y() + along_z * at.z();
     const auto along_x = [&](const Parts* from) -> Parts {
-        return Between<Parts>(from[0], from[1], part.x());
+        return Lerp<Parts>(from[0], from[1], part.x());
     };
-    const Parts near = Between<Parts>(along_x(v), along_x(v + along_y), part.y()),
-                far =
-                    Between<Parts>(along_x(v + along_z), along_x(v + along_z + along_y), part.y());
-    return Between<Parts>(near, far, part.z());
+    const Parts near = Lerp<Parts>(along_x(v), along_x(v + along_y), part.y()),
+                far = Lerp<Parts>(along_x(v + along_z), along_x(v + along_z + along_y), part.y());
+    return Lerp<Parts>(near, far, part.z());
 }
 
 }  // namespace tessera
