@@ -82,23 +82,13 @@ BandWalk MakeBandWalk(const PreparedFrame& frame, const PinholeCamera& camera,
 }
 
 Integrator::Report Integrator::Integrate(const PreparedFrame& frame, const View& view,
-                                         BlockMap& map) {
+                                         BlockMap& map, Blocks blocks) {
     Report report;
     ++revision_;
     added_.clear();
     Stopwatch watch;
-    Allocate(frame, view, map, report);
+    if (blocks == Blocks::kNewToo) Allocate(frame, view, map, report);
     report.allocate_ms = watch.LapMs();
-    Fuse(frame, view, map, report);
-    report.fuse_ms = watch.LapMs();
-    return report;
-}
-
-Integrator::Report Integrator::Update(const PreparedFrame& frame, const View& view, BlockMap& map) {
-    Report report;
-    ++revision_;
-    added_.clear();
-    Stopwatch watch;
     Fuse(frame, view, map, report);
     report.fuse_ms = watch.LapMs();
     return report;

@@ -57,9 +57,10 @@ class Integrator {
                VectorPath path = VectorPath::kAuto);
     virtual ~Integrator() = default;
 
-    Report Integrate(const PreparedFrame& frame, const View& view, BlockMap& map);
-    // The same for the blocks that the map has; adds none.
-    Report Update(const PreparedFrame& frame, const View& view, BlockMap& map);
+    // Whether blocks are added along the measured band.
+    enum class Blocks { kNewToo, kExisting };
+    Report Integrate(const PreparedFrame& frame, const View& view, BlockMap& map,
+                     Blocks blocks = Blocks::kNewToo);
     // Ids changed by the last call, in increasing order.
     const std::vector<BlockId>& changed_blocks() const { return *changed_; }
     // Blocks added by the last call, in order of allocation.

@@ -44,7 +44,7 @@ Result<bool> MapRebuild::Step(FrameStore& store, int frames) {
         if (Status status = Fuse(*next); !status.ok()) return status;
     }
     const bool done = next == stored.end();
-    if (done && moved_) AddTheMoved();
+    if (done && moved_) AddToTheMoved();
     if (done && pager_)
         if (Status status = pager_->Complete(*map_); !status.ok()) return status;
     return done;
@@ -57,7 +57,7 @@ int MapRebuild::Left(const FrameStore& store) const {
 }
 
 // Takes over the blocks fused again that are near a surface. The frames saw the rest empty.
-void MapRebuild::AddTheMoved() {
+void MapRebuild::AddToTheMoved() {
     const auto near = static_cast<float>(map_->config().truncation_m / map_->config().range_m());
     const auto surface = [&](FieldWord word) {
         return HasDistance(word) && FieldDistance(word) < near;
@@ -79,7 +79,7 @@ Status MapRebuild::Fuse(const StoredFrame& stored) {
     Integrator::View view = stored.view;
     view.T_world_camera = PoseOf(stored);
     if (moved_) {
-        integrator_.Update(prepared_, view, *map_);
+        integrator_.Integrate(prepared_, view, *map_, Integrator::Blocks::kExisting);
         return Status::Ok();
     }
     if (pager_)

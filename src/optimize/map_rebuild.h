@@ -48,7 +48,7 @@ class MapRebuild {
                stored.T_keyframe_camera;
     }
     Status Fuse(const StoredFrame& stored);
-    void AddTheMoved();
+    void AddToTheMoved();
 
     std::unique_ptr<BlockMap> map_;
     std::unique_ptr<BlockMap> moved_;  // what is not fused again; null if everything is
