@@ -87,4 +87,9 @@ double FreeMemoryMb(const std::string& root) {
            kMb;
 }
 
+bool MemoryHasRoomFor(std::size_t bytes) {
+    constexpr double kSlack = 1.2, kReserve_mb = 256;
+    return FreeMemoryMb() >= kSlack * static_cast<double>(bytes) / kMb + kReserve_mb;
+}
+
 }  // namespace tessera

@@ -1,6 +1,7 @@
 // How much memory this process can still take.
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 namespace tessera {
@@ -9,6 +10,9 @@ namespace tessera {
 // control groups (a container's memory limit) leave, and what SetMemoryLimit leaves. Takes a tenth
 // of a millisecond. Thread-safe. `root`: where /proc and /sys are; for tests.
 double FreeMemoryMb(const std::string& root = "");
+
+// True if this much can be taken and a reserve is left. Thread-safe.
+bool MemoryHasRoomFor(std::size_t bytes);
 
 // The process's memory that counts as its own limit, in MB; 0: none. Thread-safe.
 void SetMemoryLimit(double limit_mb);

@@ -101,6 +101,11 @@ void Integrator::MarkAllChanged(BlockMap& map) {
         if (!map.IsFree(id)) map.MarkChanged(id, revision_);
 }
 
+void Integrator::MarkChanged(BlockMap& map, std::span<const BlockId> blocks) {
+    ++revision_;
+    for (const BlockId id : blocks) map.MarkChanged(id, revision_);
+}
+
 void Integrator::Allocate(const PreparedFrame& frame, const View& view, BlockMap& map,
                           Report& report) {
     const BandWalk walk = MakeBandWalk(frame, camera_, view.T_world_camera, map.config());

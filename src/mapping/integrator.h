@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -67,8 +68,10 @@ class Integrator {
     const std::vector<BlockId>& added_blocks() const { return added_; }
     // Counts the integrations. Blocks changed by the n-th one carry BlockMap::revision n.
     std::uint32_t revision() const { return revision_; }
-    // Call after changing the map by other means: marks all its blocks with a new revision.
+    // Call after changing the map by other means: marks all its blocks, or these, with a new
+    // revision.
     void MarkAllChanged(BlockMap& map);
+    void MarkChanged(BlockMap& map, std::span<const BlockId> blocks);
     // Continues after this many integrations, for a map that they built.
     void SetRevision(std::uint32_t revision) { revision_ = revision; }
     // If a device holds the voxels, copies the changed ones to `map`. The blocks of `map`, without

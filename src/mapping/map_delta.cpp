@@ -12,6 +12,7 @@ namespace tessera {
 namespace {
 
 constexpr std::size_t kFieldBytes = kBlockVoxels * sizeof(FieldWord);
+constexpr std::size_t kWeightBytes = kBlockVoxels * sizeof(std::uint16_t);
 constexpr std::size_t kColourBytes = kBlockVoxels * sizeof(ColourWord);
 constexpr std::size_t kGrain = 64;
 
@@ -58,14 +59,20 @@ void CollectWhole(const BlockMap& map, BlockMap::Layers layers, std::uint32_t re
     CollectDelta(map, layers, blocks, all, revision, delta);
 }
 
+void CopyVoxels(const BlockMap& map, BlockId id, BlockMap& copy, BlockId to) {
+    std::memcpy(copy.field(to), map.field(id), kFieldBytes);
+    if (copy.has_colours()) std::memcpy(copy.colour(to), map.colour(id), kColourBytes);
+    if (copy.layers() == BlockMap::Layers::kAll)
+        std::memcpy(copy.weight(to), map.weight(id), kWeightBytes);
+}
+
 std::unique_ptr<BlockMap> CopyLayers(const BlockMap& map, BlockMap::Layers layers) {
     constexpr std::uint32_t kNoDeltas = std::numeric_limits<std::uint32_t>::max();
     auto copy = std::make_unique<BlockMap>(map.config(), layers);
     for (BlockId id = 1; id < map.size(); ++id) {
         if (map.IsFree(id)) continue;
         copy->AllocateAs(id, map.coord(id));
-        std::memcpy(copy->field(id), map.field(id), kFieldBytes);
-        if (copy->has_colours()) std::memcpy(copy->colour(id), map.colour(id), kColourBytes);
+        CopyVoxels(map, id, *copy, id);
         copy->MarkChanged(id, kNoDeltas);
     }
     return copy;

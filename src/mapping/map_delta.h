@@ -40,8 +40,11 @@ void CollectDelta(const BlockMap& map, BlockMap::Layers layers, std::span<const 
 void CollectWhole(const BlockMap& map, BlockMap::Layers layers, std::uint32_t revision,
                   MapDelta& delta);
 
-// Copies these layers of the whole map at once, with the same ids. Not for kAll.
+// Copies these layers of the whole map at once, with the same ids, but no labels.
 std::unique_ptr<BlockMap> CopyLayers(const BlockMap& map, BlockMap::Layers layers);
+
+// Copies the layers that `copy` has, but no labels, from one block to another.
+void CopyVoxels(const BlockMap& map, BlockId id, BlockMap& copy, BlockId to);
 
 // Brings `copy` up to date. Apply every delta exactly once, in the order of collection, starting
 // from an empty map.

@@ -34,6 +34,8 @@ class LoopCloser {
         // The pager made for the new map, null without paging; it holds all of the map.
         std::unique_ptr<MapPager> pager;
         Eigen::Isometry3d T_new_old = Eigen::Isometry3d::Identity();
+        // The map was moved: what has changed since in the one given to Move is missing.
+        bool moved = false;
     };
 
     struct PathPose {  // a tracked frame
@@ -88,6 +90,14 @@ class LoopCloser {
     std::optional<Correction> Step(int frames);
     // True if Step has work to do.
     bool HasWork() const { return seeking_ && (rebuild_ != nullptr || moved_); }
+    // True if a corrected map is due and the one in use can be moved: see Move. Without Move, Step
+    // fuses all frames again.
+    bool WantsMap() const;
+    bool MovesMap() const { return WantsMap() || (rebuild_ && rebuild_->has_copy()); }
+    // `copy`: of the map in use, with all frames and corrections so far. If null, or if there is
+    // too little memory, all frames are fused again. Blocks about which keyframes disagree are
+    // moved as well as possible, and fused again at the end of the run.
+    void Move(std::unique_ptr<BlockMap> copy);
     // Returns once why the map is no longer corrected, or why frames are missing from it; usually
     // empty.
     std::string TakeError() { return std::exchange(trouble_, {}); }
@@ -151,7 +161,8 @@ class LoopCloser {
     Status LoadViews(std::vector<CalibrationView>& views);
     Status Calibrate();
     bool MayMove(const BlockMap& in_use) const;
-    bool BeginRebuild(double tolerance_m, const BlockMap* in_use = nullptr);
+    bool BeginRebuild(double tolerance_m, const BlockMap* in_use = nullptr,
+                      MapWarp::Doubtful doubtful = MapWarp::Doubtful::kLeftOut);
     std::optional<Correction> StepRebuild(int frames);
     void StopRebuilding(const Status& why);
 
@@ -170,6 +181,7 @@ class LoopCloser {
     std::vector<PoseEdge> edges_;
     std::vector<PathPose> passages_;
     std::unique_ptr<MapRebuild> rebuild_;  // null if the map is up to date
+    std::vector<BlockCoord> doubtful_;     // blocks of the map in use (WarpedMap)
     std::optional<int> relocalised_at_;    // keyframe to which the next one is linked
     int loops_ = 0;
     bool corrected_ = false;  // at least one loop was worth correcting

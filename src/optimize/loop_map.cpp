@@ -35,17 +35,27 @@ std::vector<Eigen::Isometry3d> LoopCloser::MapPoses() const {
 // An object that was seen at two places has two instances, which become one only by voting again.
 // Unlike fusion, moving does not look at the free memory.
 bool LoopCloser::MayMove(const BlockMap& in_use) const {
-    constexpr double kMb = 1 << 20, kRoom = 1.2, kLeast_mb = 256;
-    if (make_pager_ ||
-        FreeMemoryMb() < kRoom * static_cast<double>(in_use.bytes()) / kMb + kLeast_mb)
-        return false;
+    if (make_pager_ || !MemoryHasRoomFor(in_use.bytes())) return false;
     return !labels_ ||
            (in_use.has_labels() && MaxDisplacement_m(MapPoses()) < settings_.map.truncation_m);
 }
 
+bool LoopCloser::WantsMap() const {
+    return HasWork() && !rebuild_ && !broken_ && corrected_ && !make_pager_ && !labels_ &&
+           MaxDisplacement_m(MapPoses()) >= settings_.map.truncation_m;
+}
+
+void LoopCloser::Move(std::unique_ptr<BlockMap> copy) {
+    if (rebuild_) return;
+    if (copy && !MayMove(*copy)) copy.reset();
+    if (BeginRebuild(settings_.map.truncation_m, copy.get(), MapWarp::Doubtful::kMoved))
+        rebuild_->Keep(std::move(copy));
+}
+
 // Returns true if a rebuild is in progress, or was started because the map is off by more than the
-// tolerance. `in_use`: see Finish.
-bool LoopCloser::BeginRebuild(double tolerance_m, const BlockMap* in_use) {
+// tolerance. `in_use`: as in Finish; it stays as it is until the rebuild is done.
+bool LoopCloser::BeginRebuild(double tolerance_m, const BlockMap* in_use,
+                              MapWarp::Doubtful doubtful) {
     if (rebuild_) return true;
     if (broken_ || !corrected_) return false;
     std::vector<Eigen::Isometry3d> graph = GraphPoses();
@@ -53,10 +63,12 @@ bool LoopCloser::BeginRebuild(double tolerance_m, const BlockMap* in_use) {
     if (in_use) {
         // What frames show a voxel apart would be blurred.
         const double most_spread_m = settings_.map.voxel_size_m;
-        WarpedMap moved =
-            WarpMap(*in_use, MotionOfBlocks(*in_use, keyframes_, graph, settings_.camera),
-                    settings_.fusion.volume.box(), most_spread_m);
-        rebuild_ = std::make_unique<MapRebuild>(settings_, std::move(graph), std::move(moved));
+        std::vector<BlockMotion> motions =
+            MotionOfBlocks(*in_use, keyframes_, graph, settings_.camera);
+        for (const BlockCoord& c : doubtful_)
+            motions[static_cast<std::size_t>(in_use->Find(c))].spread_m = BlockMotion::kDoubtful_m;
+        MapWarp warp(*in_use, motions, settings_.fusion.volume.box(), most_spread_m, doubtful);
+        rebuild_ = std::make_unique<MapRebuild>(settings_, std::move(graph), std::move(warp));
         return true;
     }
     std::unique_ptr<MapPager> pager;
@@ -96,6 +108,8 @@ std::optional<LoopCloser::Correction> LoopCloser::StepRebuild(int frames) {
     correction.map = rebuild_->TakeMap();
     correction.labels = rebuild_->TakeLabels();
     correction.pager = rebuild_->TakePager();
+    doubtful_ = rebuild_->TakeDoubtful();
+    correction.moved = rebuild_->has_copy();
     correction.T_new_old =
         Normalised(rebuild_->T_world_keyframe().back() * keyframes_.last().T_map_camera.inverse());
     for (int i = 0; i < keyframes_.size(); ++i)
@@ -133,10 +147,12 @@ std::optional<LoopCloser::Correction> LoopCloser::Finish(std::string& note,
     if (!corrected_) return last;
     if (in_use && !MayMove(*in_use)) in_use = nullptr;
     const double tolerance_m = settings_.map.voxel_size_m / 2;
-    // Discards a rebuild with outdated poses, or one that takes longer than to move the map.
-    if (rebuild_ && (in_use || MaxDisplacement_m(rebuild_->T_world_keyframe()) >= tolerance_m))
+    // Discards a rebuild with outdated poses, one that takes longer than to move the map, and one
+    // that lacks what has changed since.
+    if (rebuild_ && (in_use || rebuild_->has_copy() ||
+                     MaxDisplacement_m(rebuild_->T_world_keyframe()) >= tolerance_m))
         rebuild_.reset();
-    while (BeginRebuild(tolerance_m, std::exchange(in_use, nullptr)))
+    while (BeginRebuild(doubtful_.empty() ? tolerance_m : -1, std::exchange(in_use, nullptr)))
         if (auto next = StepRebuild(std::numeric_limits<int>::max())) last = std::move(next);
     return last;
 }

@@ -10,14 +10,23 @@ namespace tessera {
 namespace {
 
 struct MotionSum {
-    double weight = 0, square_m2 = 0;
-    Eigen::Vector3d shift_m = Eigen::Vector3d::Zero();
+    double weight = 0, square_m2 = 0, surface_weight = 0;
+    Eigen::Vector3d shift_m = Eigen::Vector3d::Zero(), surface_shift_m = shift_m;
 };
 
 struct KeyframeView {
     PinholeCamera camera;
     DepthImage depth_m;
     float farthest_m = 0;
+
+    // A surface is measured within this distance of a point of the camera's, along its ray.
+    bool MeasuresNear(const Eigen::Vector3d& p_camera, double distance_m) const {
+        const Eigen::Vector2d pixel = camera.Project(p_camera);
+        const int u = static_cast<int>(std::lround(pixel.x())),
+                  v = static_cast<int>(std::lround(pixel.y()));
+        return p_camera.z() > 0 && u >= 0 && v >= 0 && u < depth_m.width() &&
+               v < depth_m.height() && std::abs(depth_m(u, v) - p_camera.z()) <= distance_m;
+    }
 };
 
 // The reduced view of a keyframe has no depth at edges. Old scan files have only the coarse one.
@@ -74,7 +83,9 @@ std::vector<BlockMotion> MotionOfBlocks(const BlockMap& map, const Keyframes& ke
                                         const std::vector<Eigen::Isometry3d>& T_new_keyframe,
                                         const PinholeCamera& camera) {
     constexpr double kNearest_m = 0.3;
-    const double voxel_m = map.config().voxel_size_m;
+    const double voxel_m = map.config().voxel_size_m,
+                 radius_m = 0.5 * std::sqrt(3.0) * kBlockSide * voxel_m;
+    const TruncationBand band = map.config().band();
     std::vector<MotionSum> sums(static_cast<std::size_t>(map.size()));
     VisibleBlocks visible;
     for (int k = 0; k < keyframes.size(); ++k) {
@@ -93,15 +104,21 @@ std::vector<BlockMotion> MotionOfBlocks(const BlockMap& map, const Keyframes& ke
             sum.weight += weight;
             sum.shift_m += weight * shift_m;
             sum.square_m2 += weight * shift_m.squaredNorm();
+            if (!view.MeasuresNear(p_camera, radius_m + band.At(static_cast<float>(z)))) continue;
+            sum.surface_weight += weight;
+            sum.surface_shift_m += weight * shift_m;
         }
     }
     std::vector<BlockMotion> motions(sums.size());
     for (std::size_t i = 1; i < sums.size(); ++i) {
         const MotionSum& sum = sums[i];
         if (sum.weight == 0) continue;
-        const Eigen::Vector3d mean = sum.shift_m / sum.weight;
+        const Eigen::Vector3d mean = sum.shift_m / sum.weight,
+                              shift_m = sum.surface_weight > 0
+                                            ? sum.surface_shift_m / sum.surface_weight
+                                            : mean;
         const double variance = sum.square_m2 / sum.weight - mean.squaredNorm();
-        motions[i] = {mean.cast<float>(), static_cast<float>(std::sqrt(std::max(0.0, variance))),
+        motions[i] = {shift_m.cast<float>(), static_cast<float>(std::sqrt(std::max(0.0, variance))),
                       true};
     }
     FillUnseen(map, motions);

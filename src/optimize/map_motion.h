@@ -10,9 +10,12 @@
 namespace tessera {
 
 // The displacement of a block's centre with each keyframe that sees it, weighted like their depths
-// in fusion, by 1 / z^2. The mean tells where the fused surface goes. Where the keyframes move
-// apart, the surface itself changes, and the spread tells by how much.
+// in fusion, by 1 / z^2. The mean over those that see a surface there tells where that goes; if
+// none does, over all. Where the keyframes move apart, the surface itself changes, and the spread
+// over all tells by how much.
 struct BlockMotion {
+    static constexpr float kDoubtful_m = 1e6f;  // a spread: the block is not to be moved
+
     Eigen::Vector3f shift_m = Eigen::Vector3f::Zero();  // mean
     float spread_m = 0;                                 // standard deviation, all axes together
     bool seen = false;  // by a keyframe, or it moves like the blocks beside it that are

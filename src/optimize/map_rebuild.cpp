@@ -18,20 +18,35 @@ MapRebuild::MapRebuild(const FieldSettings& settings,
 }
 
 MapRebuild::MapRebuild(const FieldSettings& settings,
-                       std::vector<Eigen::Isometry3d> T_world_keyframe, WarpedMap moved)
+                       std::vector<Eigen::Isometry3d> T_world_keyframe, MapWarp warp)
     : MapRebuild(settings, std::move(T_world_keyframe), nullptr) {
+    warp_.emplace(std::move(warp));
+}
+
+void MapRebuild::BeginFusion(WarpedMap moved) {
+    if (moved.whole) {
+        map_ = std::move(moved.map);
+        doubtful_ = std::move(moved.doubtful);
+        return;
+    }
     moved_ = std::move(moved.map);
     if (moved_->has_labels()) map_->EnableLabels();
-    for (std::size_t i = 0; i < moved.again.size(); ++i) {
-        const BlockId id = map_->Allocate(moved.again[i]);
+    for (std::size_t i = 0; i < moved.doubtful.size(); ++i) {
+        const BlockId id = map_->Allocate(moved.doubtful[i]);
         if (id == kUnknownBlock) break;  // the map is full
         if (moved_->has_labels())
-            std::copy_n(moved.again_labels.data() + i * kBlockVoxels, kBlockVoxels,
+            std::copy_n(moved.doubtful_labels.data() + i * kBlockVoxels, kBlockVoxels,
                         map_->label(id));
     }
 }
 
 Result<bool> MapRebuild::Step(FrameStore& store, int frames) {
+    if (warp_) {
+        if (!warp_->Step()) return false;
+        BeginFusion(warp_->Take());
+        warp_.reset();
+    }
+    if (copy_) return true;
     const std::vector<StoredFrame>& stored = store.frames();
     auto next = std::ranges::lower_bound(stored, next_ordinal_, {}, &StoredFrame::ordinal);
     for (int i = 0; i < frames && next != stored.end(); ++i, ++next) {
@@ -58,12 +73,8 @@ int MapRebuild::Left(const FrameStore& store) const {
 
 // Takes over the blocks fused again that are near a surface. The frames saw the rest empty.
 void MapRebuild::AddToTheMoved() {
-    const auto near = static_cast<float>(map_->config().truncation_m / map_->config().range_m());
-    const auto surface = [&](FieldWord word) {
-        return HasDistance(word) && FieldDistance(word) < near;
-    };
     for (BlockId id = 1; id < map_->size(); ++id) {
-        if (std::none_of(map_->field(id), map_->field(id) + kBlockVoxels, surface)) continue;
+        if (!HasSurface(map_->field(id), map_->config())) continue;
         const BlockId to = moved_->Allocate(map_->coord(id));
         if (to == kUnknownBlock) break;  // the map is full
         std::copy_n(map_->field(id), kBlockVoxels, moved_->field(to));

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "mapping/integrator.h"
@@ -23,21 +24,26 @@ class MapRebuild {
     MapRebuild(const FieldSettings& settings, std::vector<Eigen::Isometry3d> T_world_keyframe,
                std::unique_ptr<LabelMapper> labels, std::unique_ptr<MapPager> pager = nullptr);
 
-    // Fuses only the blocks that could not be moved, and adds them to the others. Labels are those
-    // that were moved. Without pager.
+    // Moves the map in use, with all frames and labels. Blocks that the warp leaves out are fused
+    // again. Without pager.
     MapRebuild(const FieldSettings& settings, std::vector<Eigen::Isometry3d> T_world_keyframe,
-               WarpedMap moved);
+               MapWarp warp);
 
     void AddKeyframe(const Eigen::Isometry3d& T_world_keyframe) {
         T_world_keyframe_.push_back(T_world_keyframe);
     }
     const std::vector<Eigen::Isometry3d>& T_world_keyframe() const { return T_world_keyframe_; }
 
-    // Fuses at most `frames` more. Returns true if none is left and the map can be taken. Errors
-    // come from the pager; after one the map must not be used.
+    // Moves some blocks, or fuses at most `frames` more. Returns true if none is left and the map
+    // can be taken. Errors come from the pager; after one the map must not be used.
     Result<bool> Step(FrameStore& store, int frames);
     // Frames that are not fused yet.
     int Left(const FrameStore& store) const;
+    // Keeps the warp's map, a copy of the one in use, which goes on.
+    void Keep(std::unique_ptr<BlockMap> copy) { copy_ = std::move(copy); }
+    bool has_copy() const { return copy_ != nullptr; }
+    // Blocks of the map that were moved although keyframes disagree about them.
+    std::vector<BlockCoord> TakeDoubtful() { return std::move(doubtful_); }
     std::unique_ptr<BlockMap> TakeMap() { return std::move(map_); }
     std::unique_ptr<LabelMapper> TakeLabels() { return std::move(labels_); }
     std::unique_ptr<MapPager> TakePager() { return std::move(pager_); }
@@ -48,10 +54,15 @@ class MapRebuild {
                stored.T_keyframe_camera;
     }
     Status Fuse(const StoredFrame& stored);
+    void BeginFusion(WarpedMap moved);
     void AddToTheMoved();
 
     std::unique_ptr<BlockMap> map_;
-    std::unique_ptr<BlockMap> moved_;  // what is not fused again; null if everything is
+    std::unique_ptr<BlockMap> copy_;  // see Keep
+    std::optional<MapWarp> warp_;     // moves the map in use; empty if it is moved
+    // Then what is not fused again, while `map_` has only the blocks that are; else null.
+    std::unique_ptr<BlockMap> moved_;
+    std::vector<BlockCoord> doubtful_;
     Integrator integrator_;
     PinholeCamera camera_;
     PreparedFrame::Config preparation_;

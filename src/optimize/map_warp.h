@@ -7,24 +7,43 @@
 #include <memory>
 #include <vector>
 
-#include "mapping/map_volume.h"
+#include "optimize/block_mover.h"
 #include "optimize/map_motion.h"
 
 namespace tessera {
 
 struct WarpedMap {
     std::unique_ptr<BlockMap> map;
-    // Blocks that are not in `map`, to be fused again; sorted.
-    std::vector<BlockCoord> again;
-    // kBlockVoxels for each of them, moved like the others; empty if the map has none.
-    std::vector<VoxelLabel> again_labels;
+    bool whole = false;  // with the doubtful blocks
+    // Blocks in which shifts disagree, to be fused again; sorted.
+    std::vector<BlockCoord> doubtful;
+    // kBlockVoxels for each of them, moved like the others. Empty if the map is whole, or has none.
+    std::vector<VoxelLabel> doubtful_labels;
 };
 
-// `motions`: by BlockId. Blocks in which shifts differ by more than this standard deviation are
-// left out, blocks outside the box are dropped. Exact to first order in the differences of shifts,
-// which are interpolated between blocks; a shift by whole voxels copies them. Uses TBB internally
-// and gives the same result for any number of threads.
-WarpedMap WarpMap(const BlockMap& map, const std::vector<BlockMotion>& motions, const WorldBox& box,
-                  double most_spread_m);
+// Moves a map, some blocks at a time. Uses TBB internally and gives the same result for any number
+// of threads. Owner thread only; the map may be read by others.
+class MapWarp {
+  public:
+    // Blocks that are doubtful can be moved by the mean of the shifts that are like the first one:
+    // where parts of the map come to lie on each other, that of the oldest part.
+    enum class Doubtful { kLeftOut, kMoved };
+    // `map` outlives the object and stays as it is. `motions`: by BlockId. Blocks in which shifts
+    // differ by more than this standard deviation are doubtful. Blocks outside the box, and those
+    // without surface, are dropped.
+    // Exact to first order in the differences of shifts, which are interpolated between blocks; a
+    // shift by whole voxels copies them.
+    MapWarp(const BlockMap& map, const std::vector<BlockMotion>& motions, const WorldBox& box,
+            double most_spread_m, Doubtful doubtful = Doubtful::kLeftOut);
+
+    // See BlockMover.
+    bool Step() { return mover_->Step(*warped_.map); }
+    // After that, once.
+    WarpedMap Take() { return std::move(warped_); }
+
+  private:
+    WarpedMap warped_;
+    std::unique_ptr<BlockMover> mover_;
+};
 
 }  // namespace tessera

@@ -101,8 +101,11 @@ void FrameMapping::Report(const Frame& frame, const TrackedFrame& tracked, Frame
 
 // ---- Loop closure.
 
-void FrameMapping::PutMap(LoopCloser::Correction correction) {
-    stage_.Replace(std::move(correction.map), std::move(correction.labels));
+void FrameMapping::PutMap(LoopCloser::Correction correction, std::uint32_t moved_at) {
+    if (correction.moved)
+        stage_.ReplaceMoved(std::move(correction.map), correction.T_new_old, moved_at);
+    else
+        stage_.Replace(std::move(correction.map), std::move(correction.labels));
     if (paging_)
         paging_->Replaced(correction.T_new_old,
                           static_cast<const RebuildPaging&>(*correction.pager), stage_, *scan_);

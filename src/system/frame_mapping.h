@@ -54,8 +54,9 @@ class FrameMapping {
     void Report(const Frame& frame, const TrackedFrame& tracked, FrameOutcome& outcome);
 
     // ---- Loop closure.
-    // Replaces the map by a corrected one.
-    void PutMap(LoopCloser::Correction correction);
+    // Replaces the map by a corrected one. `moved_at`: if that was moved, the revision at which the
+    // map in use was copied for it.
+    void PutMap(LoopCloser::Correction correction, std::uint32_t moved_at = 0);
     // Lockstep: loads what a camera at this pose may see.
     void LoadAround(const Eigen::Isometry3d& T_world_camera);
 

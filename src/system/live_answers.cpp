@@ -1,16 +1,22 @@
 // LiveMapping: what the threads of labelling and loop closure answer.
 #include "core/check.h"
+#include "core/memory.h"
 #include "system/live_mapping.h"
 
 namespace tessera {
 
 bool LiveMapping::HasAnswers() const {
-    return (labelling_ && labelling_->has_answer()) || UpdateFits();
+    return (labelling_ && labelling_->has_answer()) || UpdateFits() || life_.stage().following() ||
+           (loops_ && loops_->wants_map());
 }
 
 void LiveMapping::TakeAnswers() {
     if (labelling_) TakeLabels();
     if (loops_) TakeLoops();
+    if (life_.stage().following())
+        life_.stage().Follow();
+    else if (loops_ && loops_->wants_map())
+        CopyMap();
 }
 
 void LiveMapping::TakeDetector(DetectorChange& change) {
@@ -60,17 +66,34 @@ void LiveMapping::TakeLoops() {
     while (UpdateFits() && loops_->TryTake(update)) TakeUpdate(std::move(update), false);
 }
 
+// Some blocks a frame, so that fusion goes on. The copy, and the map that is made of it, need
+// memory. With a device none is given, as only the device has all voxels.
+void LiveMapping::CopyMap() {
+    constexpr int kBlocks = 2048;  // 10 MB, a few milliseconds
+    const BlockMap& map = life_.stage().blocks();
+    if (one_thread_ || (!copier_.begun() && !MemoryHasRoomFor(2 * map.bytes())))
+        return loops_->GiveMap(nullptr, version());
+    if (auto copy = copier_.Copy(map, life_.stage().fused_frames(), kBlocks))
+        loops_->GiveMap(std::move(copy), version());
+}
+
 // Puts the corrected map in place for mapping and the scan, and for tracking unless it has ended.
 void LiveMapping::TakeUpdate(LoopThread::Update update, bool last) {
     if (update.world != world_) return;
     if (update.correction) {
         const Eigen::Isometry3d T_new_old = update.correction->T_new_old;
-        life_.PutMap(std::move(*update.correction));
+        life_.PutMap(std::move(*update.correction), copier_.copied(life_.stage().blocks()));
+        copier_.Stop();
+        std::unique_ptr<MapDelta> changes;
+        if (!last && life_.stage().has_delta()) {
+            changes = links_.deltas.Take();
+            life_.stage().CollectDelta(*changes);
+        }
         corrections_.push_back(T_new_old);
         if (!last)
-            TESSERA_CHECK(
-                links_.map_updates.TryPush({nullptr, world_, std::move(update.field), T_new_old}),
-                "more corrections than the queue has room for");
+            TESSERA_CHECK(links_.map_updates.TryPush(
+                              {std::move(changes), world_, std::move(update.field), T_new_old}),
+                          "more corrections than the queue has room for");
         links_.notices.Tell("map corrected");
         life_.SendMesh();
     }

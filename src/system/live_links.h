@@ -42,7 +42,7 @@ struct MappingTask {
 };
 
 // Mapping to tracking: the blocks that a fused frame changed, or the whole field of a corrected
-// map. `world` is the number of resets before it.
+// map, then with what has changed in it since. `world` is the number of resets before it.
 struct MapUpdate {
     std::unique_ptr<MapDelta> delta;
     int world = 0;

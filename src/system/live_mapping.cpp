@@ -204,7 +204,9 @@ void LiveMapping::Reset() {
 void LiveMapping::End() {
     if (loops_ && !links_.quit.load() && !only_localise_) {
         LoopThread::Update update;
+        copier_.Stop();
         while (loops_->TryTake(update)) TakeUpdate(std::move(update), true);
+        while (life_.stage().following()) life_.stage().Follow();
         loops_->Finish(life_.whole_map(), version());
         while (loops_->TryTake(update)) TakeUpdate(std::move(update), true);
     }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/worker.h"
+#include "mapping/map_copier.h"
 #include "system/frame_mapping.h"
 #include "system/live_links.h"
 #include "system/loop_thread.h"
@@ -58,6 +59,7 @@ class LiveMapping {
     void TakeDetector(DetectorChange& change);
     bool UpdateFits() const;
     void TakeLoops();
+    void CopyMap();
     void TakeUpdate(LoopThread::Update update, bool last);
     void Execute(const ViewerCommand& command);
     void Reset();
@@ -76,6 +78,7 @@ class LiveMapping {
     std::optional<LabelReport> labels_;           // for the next outcome
     std::unique_ptr<LabellingThread> labelling_;  // null without labels
     OpenDetectorFunction open_detector_;
+    MapCopier copier_;                           // for loop closure
     std::unique_ptr<LoopThread> loops_;          // null without loop closure
     std::optional<Worker<MappingTask>> worker_;  // none with a device
 };

@@ -119,9 +119,8 @@ bool LiveTracking::ApplyMapUpdates() {
             state_->place.Move(update.T_new_old);
             state_->lost.Move(update.T_new_old);
             ++state_->version.corrections;
-        } else if (ours) {
-            ApplyDelta(*update.delta, *state_->field);
         }
+        if (ours && update.delta) ApplyDelta(*update.delta, *state_->field);
         links_.deltas.Give(std::move(update.delta));
         any = true;
     }

@@ -65,6 +65,15 @@ void LoopThread::Reset(MapVersion map) {
     worker_.PushOrWait(std::move(job));
 }
 
+void LoopThread::GiveMap(std::unique_ptr<BlockMap> copy, MapVersion map) {
+    map_.store(Asked::kGiven);
+    Job job;
+    job.kind = Job::Kind::kMap;
+    job.map = map;
+    job.copy = std::move(copy);
+    worker_.PushOrWait(std::move(job));
+}
+
 void LoopThread::EnableLabels(LoopCloser::Labels labels) {
     Job job;
     job.kind = Job::Kind::kLabels;
@@ -91,10 +100,17 @@ void LoopThread::Begin() {
 bool LoopThread::HasIdleWork() const { return !questions_.empty() || MayCorrect(); }
 
 void LoopThread::WorkIdly() {
-    constexpr int kFramesAtOnce = 2;  // of a map rebuild; a question waits at most this long
-    if (!Reply() && MayCorrect())
-        if (auto change = closer_->Step(kFramesAtOnce)) HandOver(std::move(*change));
+    if (!Reply() && MayCorrect()) Correct();
     ReportProblems();
+}
+
+void LoopThread::Correct() {
+    constexpr int kFramesAtOnce = 2;  // of a map rebuild; a question waits at most this long
+    if (closer_->WantsMap()) {
+        map_.store(Asked::kYes);
+        return around_.mapping.Notify();
+    }
+    if (auto change = closer_->Step(kFramesAtOnce)) HandOver(std::move(*change));
 }
 
 // At the end of the run nothing else runs, so this uses all cores.
@@ -131,11 +147,17 @@ void LoopThread::Do(Job& job) {
             closer_->AddDetections(job.frame_index, std::move(job.detections));
             journal_.Touch(job.frame_index);
             break;
+        case Job::Kind::kMap:
+            map_.store(Asked::kNo);
+            if (job.map == version()) closer_->Move(std::move(job.copy));
+            break;
         case Job::Kind::kFrame: AddFrame(job);
     }
     Report();
     ReportProblems();
-    Reply();  // before the next job: a lost camera does not wait for a long queue
+    // Before the next job: a lost camera does not wait for a long queue. Nor does a map that is
+    // moved, as frames of which only the pose is kept are in it all the same.
+    if (!Reply() && MayCorrect() && closer_->MovesMap()) Correct();
 }
 
 void LoopThread::AddFrame(Job& job) {

@@ -71,6 +71,10 @@ class LoopThread {
     void Offer(std::unique_ptr<TrackedFrame> tracked, std::unique_ptr<Frame> frame, MapVersion map);
     void OfferDetections(std::int64_t frame_index, std::vector<Detection> detections,
                          MapVersion map);
+    // While this holds, copy the map in use, some blocks at a time, and give the copy, or null if
+    // there is no memory for one. It must hold the frames offered so far, and no others.
+    bool wants_map() const { return map_.load() == Asked::kYes; }
+    void GiveMap(std::unique_ptr<BlockMap> copy, MapVersion map);
     // Waits if the job queue is full.
     void Reset(MapVersion map);
     // Corrected maps that are begun after the frames so far have labels.
@@ -107,7 +111,7 @@ class LoopThread {
 
   private:
     struct Job {
-        enum class Kind { kFrame, kDetections, kReset, kLabels };
+        enum class Kind { kFrame, kDetections, kMap, kReset, kLabels };
         Kind kind = Kind::kFrame;
         MapVersion map;
         double stamp_s = 0;
@@ -117,6 +121,7 @@ class LoopThread {
         std::int64_t frame_index = 0;
         std::vector<Detection> detections;
         std::optional<LoopCloser::Labels> labels;
+        std::unique_ptr<BlockMap> copy;
     };
 
     void Begin();
@@ -125,10 +130,12 @@ class LoopThread {
     void Conclude();
     void BeginWorld(int world);
     bool MayCorrect() const {
-        return seeking_.load() && closer_->HasWork() && updates_.size() < kUpdates - kCorrections;
+        return seeking_.load() && closer_->HasWork() && map_.load() == Asked::kNo &&
+               updates_.size() < kUpdates - kCorrections;
     }
     void Do(Job& job);
     void AddFrame(Job& job);
+    void Correct();
     bool Reply();
     void Report();
     void ReportProblems();
@@ -152,6 +159,8 @@ class LoopThread {
     MapVersion last_version_;
     std::atomic<bool> saved_;
     std::atomic<bool> seeking_{true};
+    enum class Asked { kNo, kYes, kGiven };
+    std::atomic<Asked> map_{Asked::kNo};  // for a copy of the map in use
     // The thread's; the caller's after Finish.
     std::unique_ptr<LoopCloser> closer_;
     LoopJournal journal_;

@@ -201,6 +201,7 @@ void MappingStage::Replace(std::unique_ptr<BlockMap> map, std::unique_ptr<LabelM
 
 void MappingStage::Place(std::unique_ptr<BlockMap> map) {
     map_ = std::move(map);
+    following_.reset();
     mesher_.Clear();
     geometry_.Clear();
     if (labels_) ++labels_revision_;
@@ -215,6 +216,7 @@ void MappingStage::Resume(std::unique_ptr<BlockMap> map, std::uint32_t fused_fra
 
 void MappingStage::Reset() {
     map_->Clear();
+    following_.reset();
     mesher_.Clear();
     geometry_.Clear();
     if (labels_) {

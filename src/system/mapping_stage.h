@@ -4,6 +4,7 @@
 
 #include "mapping/map_delta.h"
 #include "mapping/mesher.h"
+#include "optimize/block_mover.h"
 #include "render/geometry_builder.h"
 #include "scan/block_codec.h"
 #include "semantics/label_mapper.h"
@@ -103,6 +104,15 @@ class MappingStage {
     // deltas first needs a copy of the new field.
     void Replace(std::unique_ptr<BlockMap> map, std::unique_ptr<LabelMapper> labels);
 
+    // The same for one that was moved, by T_new_old at the latest frames, from a copy of this map
+    // at that revision. What has changed since follows: a part of it at once, the latest new blocks
+    // first, the rest with calls of Follow while `following`. What is fused meanwhile stays.
+    // Without labels.
+    void ReplaceMoved(std::unique_ptr<BlockMap> map, const Eigen::Isometry3d& T_new_old,
+                      std::uint32_t moved_at);
+    bool following() const { return following_.has_value(); }
+    void Follow();
+
     // Call before the first frame to continue with a map made of `fused_frames` frames.
     void Resume(std::unique_ptr<BlockMap> map, std::uint32_t fused_frames);
     std::uint32_t fused_frames() const { return integrator_->revision(); }
@@ -138,6 +148,13 @@ class MappingStage {
     std::vector<BlockChange> block_changes_;  // since the last CollectDelta
     // Blocks whose field changed since the last CollectDelta.
     std::vector<BlockId> changed_;
+    struct Following {
+        std::unique_ptr<BlockMap> from;  // the map before
+        BlockMover mover;
+        std::uint32_t replaced_at = 0;     // revision
+        std::size_t added = 0, moved = 0;  // of the mover's, in the map and told
+    };
+    std::optional<Following> following_;
     bool mesh_cleared_ = false;  // since the last UpdateMesh
 };
 

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "mapping/integrator.h"
+#include "mapping/map_copier.h"
 #include "mapping/mesher.h"
 #include "support/box_room.h"
 
@@ -149,6 +150,58 @@ TEST(CopyLayers, AreTheWholeLayersUnderTheSameIdsAndNewToWhoeverLooks) {
         ASSERT_EQ(
             std::memcmp(copy->field(id), world.map.field(id), kBlockVoxels * sizeof(FieldWord)), 0)
             << id;
+}
+
+// Blocks are found by their place.
+void ExpectSameVoxels(const BlockMap& copy, const BlockMap& map) {
+    for (BlockId id = 1; id < map.size(); ++id) {
+        const BlockId here = copy.Find(map.coord(id));
+        ASSERT_NE(here, kUnknownBlock);
+        const auto same = [&](const auto* a, const auto* b) {
+            return std::memcmp(a, b, kBlockVoxels * sizeof(*a)) == 0;
+        };
+        ASSERT_TRUE(same(copy.field(here), map.field(id))) << id;
+        ASSERT_TRUE(same(copy.weight(here), map.weight(id))) << id;
+        ASSERT_TRUE(same(copy.colour(here), map.colour(id))) << id;
+    }
+}
+
+// While the map grows and changes beneath it.
+TEST(MapCopier, TheCopyIsTheMapAsItIsAtTheEnd) {
+    MovingMap world;
+    MapCopier copier;
+    for (int i = 0; i < 3; ++i) world.Fuse(i);
+    constexpr int kSteps = 4;
+    const int some = world.map.size() / kSteps;
+    std::unique_ptr<BlockMap> copy;
+    int steps = 0;
+    for (; !copy; ++steps) {
+        ASSERT_EQ(copier.begun(), steps > 0);
+        copy = copier.Copy(world.map, world.integrator.revision(), some);
+        if (!copy && steps < kSteps) world.Fuse(3 + steps);
+    }
+    EXPECT_GT(steps, kSteps);
+    EXPECT_FALSE(copier.begun());
+    ASSERT_EQ(copy->count(), world.map.count());
+    ExpectSameVoxels(*copy, world.map);
+}
+
+TEST(MapCopier, BeginsAgainWithAnotherMap) {
+    MovingMap world;
+    MapCopier copier;
+    const auto copy = [&](int blocks) {
+        return copier.Copy(world.map, world.integrator.revision(), blocks);
+    };
+    world.Fuse(0);
+    EXPECT_EQ(copy(10), nullptr);
+    world.map.Clear();
+    world.Fuse(1);
+    const auto whole = copy(world.map.size());
+    ASSERT_NE(whole, nullptr);
+    EXPECT_EQ(whole->count(), world.map.count());
+    EXPECT_EQ(copier.copied(world.map), world.integrator.revision());
+    world.map.Clear();
+    EXPECT_EQ(copier.copied(world.map), 0u);
 }
 
 // A consumer that uses revisions to keep data derived from the copy up to date sees every change.

@@ -39,10 +39,15 @@ void FuseFrames(BlockMap& map, int count) {
     }
 }
 
-std::vector<BlockMotion> SameMotion(const BlockMap& map, const Eigen::Vector3f& shift_m,
-                                    float spread_m = 0) {
-    return std::vector<BlockMotion>(static_cast<std::size_t>(map.size()),
-                                    {shift_m, spread_m, true});
+std::vector<BlockMotion> SameMotion(const BlockMap& map, const Eigen::Vector3f& shift_m) {
+    return std::vector<BlockMotion>(static_cast<std::size_t>(map.size()), {shift_m, 0, true});
+}
+
+WarpedMap Warped(const BlockMap& map, const std::vector<BlockMotion>& motions,
+                 const WorldBox& box = {}) {
+    MapWarp warp(map, motions, box, 0.04);
+    while (!warp.Step()) continue;
+    return warp.Take();
 }
 
 struct VoxelPlace {
@@ -66,7 +71,7 @@ void ForEachKnown(const BlockMap& map, const Visit& visit) {
         }
 }
 
-TEST(WarpMap, CopiesVoxelsThatMoveByWholeOnes) {
+TEST(MapWarp, CopiesVoxelsThatMoveByWholeOnes) {
     BlockMap map(kWarped);
     FuseFrames(map, 3);
     map.EnableLabels();
@@ -74,9 +79,8 @@ TEST(WarpMap, CopiesVoxelsThatMoveByWholeOnes) {
         for (int in = 0; in < kBlockVoxels; ++in)
             map.label(id)[in].instance = static_cast<InstanceId>(7 * id + in);
     const Eigen::Vector3i steps(3, -2, 9);
-    const WarpedMap warped =
-        WarpMap(map, SameMotion(map, steps.cast<float>() * 0.04f), WorldBox{}, 0.04);
-    EXPECT_TRUE(warped.again.empty());
+    const WarpedMap warped = Warped(map, SameMotion(map, steps.cast<float>() * 0.04f));
+    EXPECT_TRUE(warped.doubtful.empty());
     int known = 0, found = 0, coloured = 0;
     ForEachKnown(map, [&](const Eigen::Vector3i& voxel, BlockId id, int in) {
         ++known;
@@ -95,7 +99,7 @@ TEST(WarpMap, CopiesVoxelsThatMoveByWholeOnes) {
 
 // A wall that leans: d = a - n x. Distances are linear, and so is the motion, so both are
 // interpolated exactly.
-TEST(WarpMap, TurnsAWallToWhereItBelongs) {
+TEST(MapWarp, TurnsAWallToWhereItBelongs) {
     BlockMap map(kWarped);
     const Eigen::Vector3d normal = Eigen::Vector3d(0.2, -0.1, 1).normalized();
     for (int i = 0; i < 5 * 5 * 3; ++i) {
@@ -122,8 +126,8 @@ TEST(WarpMap, TurnsAWallToWhereItBelongs) {
         motions[static_cast<std::size_t>(id)] = {(T_new_old * centre - centre).cast<float>(), 0,
                                                  true};
     }
-    const WarpedMap warped = WarpMap(map, motions, WorldBox{}, 0.04);
-    EXPECT_TRUE(warped.again.empty());
+    const WarpedMap warped = Warped(map, motions);
+    EXPECT_TRUE(warped.doubtful.empty());
     const Eigen::Vector3d turned = T_new_old.linear() * normal;
     int inside = 0;
     double worst_m = 0;
@@ -141,7 +145,7 @@ TEST(WarpMap, TurnsAWallToWhereItBelongs) {
 }
 
 // Cubics reproduce a parabola, which the mean of neighbours misses by up to 5e-4.
-TEST(WarpMap, DoesNotFlattenColours) {
+TEST(MapWarp, DoesNotFlattenColours) {
     const auto intensity = [](float x) { return 0.3f + 0.002f * (x - 4) * (x - 4); };
     BlockMap map(kWarped);
     for (int i = 0; i < 27; ++i) {
@@ -153,7 +157,7 @@ TEST(WarpMap, DoesNotFlattenColours) {
             map.colour(id)[in] = 700u | 300u << 10 | 16u << 20;
         }
     }
-    const WarpedMap warped = WarpMap(map, SameMotion(map, {0.016f, 0, 0}), WorldBox{}, 0.04);
+    const WarpedMap warped = Warped(map, SameMotion(map, {0.016f, 0, 0}));
     const BlockId id = warped.map->Find({0, 0, 0});
     for (int in = 0; in < kBlockVoxels; ++in) {
         EXPECT_NEAR(FieldIntensity(warped.map->field(id)[in]),
@@ -163,7 +167,7 @@ TEST(WarpMap, DoesNotFlattenColours) {
 }
 
 // Two walls come to lie on each other, and one block of a third is seen at two places.
-TEST(WarpMap, LeavesOutWhatCannotBeMoved) {
+TEST(MapWarp, LeavesOutWhatCannotBeMoved) {
     BlockMap map(kWarped);
     std::vector<BlockMotion> motions(1);
     const auto add = [&](const BlockCoord& c, float shift_m, float spread_m) {
@@ -176,15 +180,14 @@ TEST(WarpMap, LeavesOutWhatCannotBeMoved) {
     add({10, 0, 0}, 0, 0.039f);
     add({20, 0, 0}, 0, 0.041f);
     add({30, 0, 0}, 1.28f, 0);  // out of the box
-    const WorldBox box{true, {-1, -1, -1}, {10.5, 1, 1}};
-    const WarpedMap warped = WarpMap(map, motions, box, 0.04);
-    EXPECT_EQ(warped.again, (std::vector<BlockCoord>{{0, 0, 0}, {20, 0, 0}}));
+    const WarpedMap warped = Warped(map, motions, {true, {-1, -1, -1}, {10.5, 1, 1}});
+    EXPECT_EQ(warped.doubtful, (std::vector<BlockCoord>{{0, 0, 0}, {20, 0, 0}}));
     EXPECT_EQ(warped.map->count(), 1);
     EXPECT_NE(warped.map->Find({10, 0, 0}), kUnknownBlock);
 }
 
 // Blocks that are fused again get what all stored frames say at the new poses; the others stay.
-TEST(WarpMap, WhatIsLeftOutIsFusedAgain) {
+TEST(MapWarp, WhatIsLeftOutIsFusedAgain) {
     const Eigen::Isometry3d moved = Se3Exp((Vector6d() << 0, 0, 0, 0.24, 0, 0).finished());
     FrameStore store(100000000, 5000);
     for (int i = 0; i < 4; ++i)
@@ -198,28 +201,25 @@ TEST(WarpMap, WhatIsLeftOutIsFusedAgain) {
     for (BlockId id = 1; id < map.size(); ++id)
         for (int in = 0; in < kBlockVoxels; ++in) map.label(id)[in].instance = 9;
     std::vector<BlockMotion> motions = SameMotion(map, {0.24f, 0, 0});
-    for (BlockId id = 1; id < map.size(); id += 5)
-        motions[static_cast<std::size_t>(id)].spread_m = 1;
-    WarpedMap warped = WarpMap(map, motions, WorldBox{}, 0.04);
-    const std::vector<BlockCoord> again = warped.again;
+    for (std::size_t id = 1; id < motions.size(); id += 5) motions[id].spread_m = 1;
+    const WarpedMap warped = Warped(map, motions);
     std::vector<std::pair<BlockCoord, std::vector<FieldWord>>> kept;
     for (BlockId id = 1; id < warped.map->size(); ++id)
         kept.push_back(
             {warped.map->coord(id), {warped.map->field(id), warped.map->field(id) + kBlockVoxels}});
     BlockMap fresh(kWarped);
-    for (const BlockCoord& c : again) fresh.Allocate(c);
+    for (const BlockCoord& c : warped.doubtful) fresh.Allocate(c);
     Integrator integrator({}, SmallCamera());
     for (const StoredFrame& stored : store.frames()) {
         Frame frame;
         PreparedFrame prepared;
-        ASSERT_TRUE(store.LoadPrepared(stored, SmallCamera(), {}, frame, prepared).ok());
         Integrator::View view;
+        ASSERT_TRUE(store.LoadPrepared(stored, SmallCamera(), {}, frame, prepared).ok());
         view.T_world_camera = moved * stored.T_keyframe_camera;
         integrator.Integrate(prepared, view, fresh);
     }
-    MapRebuild rebuild(settings, {moved}, std::move(warped));
-    EXPECT_FALSE(rebuild.Step(store, 3).value());
-    EXPECT_TRUE(rebuild.Step(store, 3).value());
+    MapRebuild rebuild(settings, {moved}, MapWarp(map, motions, WorldBox{}, 0.04));
+    while (!rebuild.Step(store, 3).value()) continue;
     const std::unique_ptr<BlockMap> whole = rebuild.TakeMap();
     for (const auto& [c, field] : kept) {
         const BlockId id = whole->Find(c);
@@ -227,7 +227,7 @@ TEST(WarpMap, WhatIsLeftOutIsFusedAgain) {
         EXPECT_TRUE(std::equal(field.begin(), field.end(), whole->field(id)));
     }
     int fused = 0, labelled = 0;
-    for (const BlockCoord& c : again) {
+    for (const BlockCoord& c : warped.doubtful) {
         const BlockId id = whole->Find(c), same = fresh.Find(c);
         if (id == kUnknownBlock) continue;
         ++fused;

@@ -7,6 +7,7 @@
 #include <map>
 #include <vector>
 
+#include "mapping/map_copier.h"
 #include "optimize/loop_closer.h"
 #include "synth/synthetic_source.h"
 
@@ -74,11 +75,19 @@ struct Walker {
         const std::string news =
             closer.Add(stored != nullptr ? *stored : frame, prepared, track, view, true);
         if (!news.empty()) all_news += std::to_string(frame.index) + ": " + news + "\n";
+        if (moves_map && closer.WantsMap())
+            closer.Move(copier.Copy(*map, integrator.revision(), map->size()));
         Take(closer.Step(LoopConfig{}.rebuild_frames));
     }
     void Take(std::optional<LoopCloser::Correction> correction) {
         if (!correction) return;
+        if (correction->moved) {
+            BlockMover mover = MoveRigidly(*map, ChangedSince(*map, copier.copied(*map)),
+                                           correction->T_new_old, {});
+            while (!mover.Step(*correction->map)) continue;
+        }
         map = std::move(correction->map);
+        integrator.MarkAllChanged(*map);
         T_map_camera = Normalised(correction->T_new_old * T_map_camera);
         ++corrections;
     }
@@ -88,6 +97,8 @@ struct Walker {
     std::unique_ptr<BlockMap> map;
     Integrator integrator;
     Eigen::Isometry3d T_map_camera = Eigen::Isometry3d::Identity();
+    bool moves_map = false;  // for a corrected map, as live does
+    MapCopier copier;
     std::string all_news;
     int corrections = 0;
 };

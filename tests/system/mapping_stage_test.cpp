@@ -85,7 +85,9 @@ TEST(MappingStage, ObjectsMoveWithTheMap) {
     const Eigen::Vector3f shift_m(0.104f, -0.03f, 0.007f);
     const std::vector<BlockMotion> motions(static_cast<std::size_t>(mapping.map().size()),
                                            {shift_m, 0, true});
-    mapping.Replace(WarpMap(mapping.map(), motions, WorldBox{}, 0.01).map, nullptr);
+    MapWarp warp(mapping.map(), motions, WorldBox{}, 0.01);
+    while (!warp.Step()) continue;
+    mapping.Replace(warp.Take().map, nullptr);
     mapping.UpdateMesh(Mesher::kNoLimit, update);
     const std::vector<MapObject> after = mapping.MeasureObjects();
     ASSERT_EQ(after.size(), 1u);

@@ -1,0 +1,123 @@
+#include "optimize/block_mover.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
+
+#include <algorithm>
+#include <unordered_set>
+#include <utility>
+
+namespace tessera {
+namespace {
+
+constexpr std::size_t kAtOnce = 1024;
+
+// In voxels.
+Eigen::Vector3d Corner(const BlockCoord& c) { return kBlockSide * Eigen::Vector3d(c.x, c.y, c.z); }
+
+Eigen::AlignedBox3d BoxOf(const BlockCoord& c) {
+    return {Corner(c), Corner(c) + Eigen::Vector3d::Constant(kBlockSide - 1)};
+}
+
+// `T_new_old` in voxels.
+std::vector<BlockCoord> LandingsOfAll(const BlockMap& map, std::span<const BlockId> blocks,
+                                      const Eigen::Isometry3d& T_new_old, const WorldBox& box) {
+    const double block_m = kBlockSide * map.config().voxel_size_m;
+    std::vector<BlockCoord> landings;
+    std::unordered_set<BlockCoord, CoordHash> known;
+    for (const BlockId id : blocks) {
+        const Eigen::AlignedBox3d to = BoxOf(map.coord(id)).transformed(T_new_old);
+        const Eigen::Vector3i first = ((to.min().array() - 0.5) / kBlockSide).floor().cast<int>();
+        const Eigen::Vector3i last = ((to.max().array() + 0.5) / kBlockSide).floor().cast<int>();
+        for (int z = first.z(); z <= last.z(); ++z)
+            for (int y = first.y(); y <= last.y(); ++y)
+                for (int x = first.x(); x <= last.x(); ++x)
+                    if (const BlockCoord c{x, y, z};
+                        InLimits(c) && Meets(box, c, block_m) && known.insert(c).second)
+                        landings.push_back(c);
+    }
+    return landings;
+}
+
+}  // namespace
+
+bool HasSurface(const FieldWord* field, const BlockMap::Config& map) {
+    const auto near = static_cast<float>(map.truncation_m / map.range_m());
+    return std::any_of(field, field + kBlockVoxels, [&](FieldWord word) {
+        return HasDistance(word) && FieldDistance(word) < near;
+    });
+}
+
+BlockMover::BlockMover(const BlockMap& map, std::vector<BlockCoord> landings, ShiftsAt shifts)
+    : map_(map), landings_(std::move(landings)), shifts_(std::move(shifts)) {}
+
+// Blocks are warped while those before are put into the new map.
+bool BlockMover::Step(BlockMap& to, std::uint32_t newest) {
+    next_coords_.clear();
+    for (; begun_ < landings_.size() && next_coords_.size() < kAtOnce; ++begun_)
+        if (to.revision(to.Find(landings_[begun_])) <= newest)
+            next_coords_.push_back(landings_[begun_]);
+    tbb::parallel_invoke([&] { Warp(next_coords_, next_); }, [&] { Put(to, newest); });
+    std::swap(next_, ready_);
+    std::swap(next_coords_, ready_coords_);
+    return ready_coords_.empty();
+}
+
+std::vector<VoxelLabel> BlockMover::Labels(std::span<const BlockCoord> coords) const {
+    std::vector<VoxelLabel> labels;
+    std::vector<WarpedBlock> blocks;
+    for (; !coords.empty(); coords = coords.subspan(blocks.size())) {
+        Warp(coords.first(std::min(kAtOnce, coords.size())), blocks);
+        for (const WarpedBlock& block : blocks)
+            labels.insert(labels.end(), block.label.begin(), block.label.end());
+    }
+    return labels;
+}
+
+void BlockMover::Warp(std::span<const BlockCoord> coords, std::vector<WarpedBlock>& blocks) const {
+    blocks.resize(coords.size());
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, coords.size(), 64),
+                      [&](const auto& range) {
+                          BlockWarper warper(map_);
+                          for (std::size_t i = range.begin(); i < range.end(); ++i)
+                              warper.Warp(coords[i], shifts_(coords[i]), blocks[i]);
+                      });
+}
+
+void BlockMover::Put(BlockMap& to, std::uint32_t newest) {
+    for (std::size_t i = 0; i < ready_coords_.size(); ++i) {
+        const WarpedBlock& block = ready_[i];
+        const BlockId before = to.Find(ready_coords_[i]);
+        if (!block.known || to.revision(before) > newest) continue;
+        const bool is_new = before == kUnknownBlock;
+        if (is_new && !HasSurface(block.field.data(), to.config())) continue;
+        const BlockId id = to.Allocate(ready_coords_[i]);
+        if (id == kUnknownBlock) return;  // the map is full
+        if (is_new) added_.push_back(id);
+        moved_.push_back(id);
+        std::ranges::copy(block.field, to.field(id));
+        std::ranges::copy(block.weight, to.weight(id));
+        std::ranges::copy(block.colour, to.colour(id));
+        if (map_.has_labels() && to.has_labels()) std::ranges::copy(block.label, to.label(id));
+    }
+}
+
+BlockMover MoveRigidly(const BlockMap& map, std::span<const BlockId> blocks,
+                       const Eigen::Isometry3d& T_new_old, const WorldBox& box) {
+    Eigen::Isometry3d T = T_new_old;
+    T.translation() /= map.config().voxel_size_m;
+    const Eigen::Isometry3d T_inverse = T.inverse();
+    return {map, LandingsOfAll(map, blocks, T, box), [T_inverse](const BlockCoord& c) {
+                ShiftsAround shifts;
+                for (int i = 0; i < 27; ++i) {
+                    const BlockCoord at{c.x + i % 3 - 1, c.y + i / 3 % 3 - 1, c.z + i / 9 - 1};
+                    const Eigen::Vector3d centre = BoxOf(at).center();
+                    shifts[static_cast<std::size_t>(i)] =
+                        (centre - T_inverse * centre).cast<float>();
+                }
+                return shifts;
+            }};
+}
+
+}  // namespace tessera

@@ -1,0 +1,93 @@
+// Loops and lost cameras in a whole live run.
+#include <string>
+#include <vector>
+
+#include "optimize/drifting_walk.h"
+#include "optimize/pose_graph.h"
+#include "system/frame_list.h"
+#include "system/live_engine.h"
+
+namespace tessera {
+namespace {
+
+using testing_support::Bias;
+using testing_support::Blank;
+using testing_support::FrameList;
+using testing_support::RoomWalk;
+
+EngineInput InputOf(std::vector<Frame> frames, std::atomic<bool>& stop) {
+    EngineInput input;
+    input.source = std::make_unique<FrameList>(std::move(frames));
+    input.config.loops.enabled = true;
+    input.config.live.queue_frames = 30;  // no frame of the walk is dropped, even on a slow machine
+    input.config.pipeline.map = {.voxel_size_m = 0.02, .truncation_m = 0.08};
+    input.config.pipeline.trackers.sdf.finest_step_px = 1;
+    input.stop = &stop;
+    return input;
+}
+
+// 2 s of a walk, 1.5 s of empty frames, then a view of the beginning, repeated until the camera is
+// relocalised.
+TEST(LiveEngineWithLoops, FindsAKidnappedCamera) {
+    std::vector<Frame> frames = RoomWalk(0, 60, 3);
+    frames.insert(frames.end(), 45, Blank());
+    const Frame again = RoomWalk(31, 1, 1).front();
+    frames.insert(frames.end(), 1800, again);
+    std::atomic<bool> stop{false};
+    LiveEngine engine(InputOf(std::move(frames), stop));
+    FrameOutcome outcome;
+    double error_m = 1;
+    while (engine.Next(outcome)) {
+        const FrameReport& report = outcome.report;
+        if (outcome.kind != FrameOutcome::Kind::kFrame || report.index < 60) continue;
+        if (report.index < 105) {
+            EXPECT_FALSE(report.fused) << report.index;
+            continue;
+        }
+        if (!report.tracked()) continue;
+        error_m = (report.track.T_world_camera.translation() - again.T_world_camera->translation())
+                      .norm();
+        stop.store(true);
+    }
+    EXPECT_LT(error_m, 0.02);
+    EXPECT_FALSE(engine.CorrectedPath().empty());
+}
+
+// A round with odometry that drifts. At its end the camera stands still until the map in use has
+// followed the corrected path.
+TEST(LiveEngineWithLoops, TheMapFollowsDuringTheRun) {
+    if (!PoseGraphAvailable()) GTEST_SKIP() << "this build has no Ceres: install libceres-dev";
+    const std::vector<Frame> walk = testing_support::Round();
+    std::vector<Frame> frames = walk;
+    frames.insert(frames.end(), 1800, walk.back());
+    std::vector<StampedPose> drifted;
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+        Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity();
+        if (i > 0) T_world_camera = drifted.back().T_world_camera;
+        if (i > 0 && i < walk.size())
+            T_world_camera = Normalised(T_world_camera * walk[i - 1].T_world_camera->inverse() *
+                                        *walk[i].T_world_camera * Bias());
+        drifted.push_back({static_cast<double>(i) / 30, T_world_camera});
+    }
+    std::atomic<bool> stop{false};
+    EngineInput input = InputOf(std::move(frames), stop);
+    input.plan = FramePlan({}, drifted, "poses");
+    LiveEngine engine(std::move(input));
+    FrameOutcome outcome;
+    bool corrected = false;
+    while (engine.Next(outcome)) {
+        corrected |= outcome.message == "map corrected";
+        stop.store(corrected);
+    }
+    EXPECT_TRUE(corrected);
+    const auto off_m = [&](const Eigen::Isometry3d& pose) {
+        return (pose.translation() - walk.back().T_world_camera->translation()).norm();
+    };
+    const double before_m = off_m(drifted.back().T_world_camera);
+    EXPECT_GT(before_m, 0.07);
+    EXPECT_LT(off_m(engine.CorrectedPath().back().T_world_camera), before_m / 3);
+    EXPECT_GT(engine.TakeMesh().triangles.size(), 10000u);
+}
+
+}  // namespace
+}  // namespace tessera
