@@ -41,5 +41,29 @@ TEST(MotionOfBlocks, IsTheMeanOfTheKeyframesThatSeeThem) {
     EXPECT_FALSE(of(behind).seen);
 }
 
+// One keyframe sees a wall, which the other, of a later time, looks through.
+TEST(MotionOfBlocks, OfASurfaceIsThatOfTheKeyframesThatSeeIt) {
+    const PinholeCamera camera{160, 160, 160, 160, 79.5, 79.5};
+    Keyframes keyframes(camera, 0.7, 10);
+    PreparedFrame wall;
+    for (const float depth_m : {1.0f, 2.0f}) {
+        wall.depth_m = DepthImage(160, 160, depth_m);
+        keyframes.Add(0, 0, wall, {});
+    }
+    for (int k = 0; k < 2; ++k) keyframes[k].reduced = {};
+    std::vector<Eigen::Isometry3d> T_new(2, Eigen::Isometry3d::Identity());
+    T_new[1].pretranslate(Eigen::Vector3d(0.02, 0, 0));
+    BlockMap map({.voxel_size_m = 0.02, .truncation_m = 0.08});
+    const BlockId near = map.Allocate({0, 0, 6}), far = map.Allocate({0, 0, 12}),
+                  free = map.Allocate({0, 0, 2});
+    const std::vector<BlockMotion> motions = MotionOfBlocks(map, keyframes, T_new, camera);
+    const auto of = [&](BlockId id) { return motions[static_cast<std::size_t>(id)]; };
+    EXPECT_LT(of(near).shift_m.norm(), 1e-6);
+    EXPECT_NEAR(of(near).spread_m, 0.01, 1e-6);  // but the other has changed it
+    EXPECT_NEAR(of(far).shift_m.x(), 0.02, 1e-6);
+    EXPECT_LT(of(far).spread_m, 1e-6);
+    EXPECT_NEAR(of(free).shift_m.x(), 0.01, 1e-6);  // no surface: all that see it
+}
+
 }  // namespace
 }  // namespace tessera
