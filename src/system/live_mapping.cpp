@@ -203,12 +203,16 @@ void LiveMapping::Reset() {
 
 void LiveMapping::End() {
     if (loops_ && !links_.quit.load() && !only_localise_) {
-        LoopThread::Update update;
+        const auto take_all = [this] {
+            LoopThread::Update update;
+            while (loops_->TryTake(update)) TakeUpdate(std::move(update), true);
+            while (life_.stage().following()) life_.stage().Follow();
+        };
+        loops_->Settle();
         copier_.Stop();
-        while (loops_->TryTake(update)) TakeUpdate(std::move(update), true);
-        while (life_.stage().following()) life_.stage().Follow();
+        take_all();
         loops_->Finish(life_.whole_map(), version());
-        while (loops_->TryTake(update)) TakeUpdate(std::move(update), true);
+        take_all();
     }
     life_.Finish();
 }

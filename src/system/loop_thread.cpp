@@ -81,6 +81,14 @@ void LoopThread::EnableLabels(LoopCloser::Labels labels) {
     worker_.PushOrWait(std::move(job));
 }
 
+void LoopThread::Settle() {
+    settled_.store(true);
+    Job job;  // once it is done, no correction is under way
+    job.kind = Job::Kind::kSettle;
+    worker_.PushOrWait(std::move(job));
+    worker_.WaitUntilIdle();
+}
+
 bool LoopThread::TryTake(Update& update) {
     if (!updates_.TryPop(update)) return false;
     wake_.Notify();  // there is room for another correction
@@ -138,6 +146,7 @@ void LoopThread::Do(Job& job) {
     around_.mapping.Notify();  // there is room
     closer_->SetSeeking(seeking_.load());
     switch (job.kind) {
+        case Job::Kind::kSettle: break;
         case Job::Kind::kReset: BeginWorld(job.map.world); break;
         case Job::Kind::kLabels:
             settings_.labels = std::move(job.labels);

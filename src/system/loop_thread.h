@@ -85,7 +85,10 @@ class LoopThread {
     void BeginNews() { saved_.store(true); }
     bool has_update() const { return !updates_.empty(); }
     bool TryTake(Update& update);
-    // Call after the last frame. Waits until all corrections are done. The remaining results arrive
+    // Call after the last frame, then take the updates. Waits until all jobs are done. No map is
+    // corrected from now on before Finish, so that the map in use is known to it.
+    void Settle();
+    // Call after Settle. Waits until all corrections are done. The remaining results arrive
     // as updates. `whole`: the map of this version, if all of it is in memory; else null.
     void Finish(const BlockMap* whole, MapVersion version) {
         last_map_ = whole;
@@ -111,7 +114,7 @@ class LoopThread {
 
   private:
     struct Job {
-        enum class Kind { kFrame, kDetections, kMap, kReset, kLabels };
+        enum class Kind { kFrame, kDetections, kMap, kReset, kLabels, kSettle };
         Kind kind = Kind::kFrame;
         MapVersion map;
         double stamp_s = 0;
@@ -131,7 +134,7 @@ class LoopThread {
     void BeginWorld(int world);
     bool MayCorrect() const {
         return seeking_.load() && closer_->HasWork() && map_.load() == Asked::kNo &&
-               updates_.size() < kUpdates - kCorrections;
+               !settled_.load() && updates_.size() < kUpdates - kCorrections;
     }
     void Do(Job& job);
     void AddFrame(Job& job);
@@ -158,7 +161,7 @@ class LoopThread {
     const BlockMap* last_map_ = nullptr;  // of the mapping thread, which waits in Finish
     MapVersion last_version_;
     std::atomic<bool> saved_;
-    std::atomic<bool> seeking_{true};
+    std::atomic<bool> seeking_{true}, settled_{false};
     enum class Asked { kNo, kYes, kGiven };
     std::atomic<Asked> map_{Asked::kNo};  // for a copy of the map in use
     // The thread's; the caller's after Finish.

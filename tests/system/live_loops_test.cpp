@@ -6,6 +6,7 @@
 #include "optimize/pose_graph.h"
 #include "system/frame_list.h"
 #include "system/live_engine.h"
+#include "system/map_version.h"
 
 namespace tessera {
 namespace {
@@ -24,6 +25,18 @@ EngineInput InputOf(std::vector<Frame> frames, std::atomic<bool>& stop) {
     input.config.pipeline.trackers.sdf.finest_step_px = 1;
     input.stop = &stop;
     return input;
+}
+
+TEST(Carry, AppliesWhatCameSince) {
+    const std::vector<Eigen::Isometry3d> corrections{
+        Eigen::Isometry3d(Eigen::Translation3d(1, 0, 0)),
+        Eigen::Isometry3d(Eigen::Translation3d(0, 2, 0))};
+    for (const auto& [from, expected] :
+         {std::pair{0, Eigen::Vector3d(1, 2, 0)}, {1, {0, 2, 0}}, {2, {0, 0, 0}}}) {
+        Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+        Carry(corrections, from, pose);
+        EXPECT_EQ(pose.translation(), expected) << from;
+    }
 }
 
 // 2 s of a walk, 1.5 s of empty frames, then a view of the beginning, repeated until the camera is

@@ -160,11 +160,16 @@ TEST_F(LoopThreadTest, DoesNotMoveTheMapOfAnotherVersion) {
 }
 
 // A block that no frame has seen is in a map that was moved only.
+constexpr BlockCoord kUnseen{500, 0, 0};
+std::unique_ptr<BlockMap> MapWithUnseen(const BlockMap::Config& config) {
+    auto map = std::make_unique<BlockMap>(config);
+    std::fill_n(map->field(map->Allocate(kUnseen)), kBlockVoxels, FieldWord{0});
+    return map;
+}
+
 TEST_F(LoopThreadTest, MovesTheMapInUseDuringTheRun) {
     if (!PoseGraphAvailable()) GTEST_SKIP() << "this build has no Ceres: install libceres-dev";
-    constexpr BlockCoord kUnseen{500, 0, 0};
-    map = std::make_unique<BlockMap>(settings.map);
-    std::fill_n(map->field(map->Allocate(kUnseen)), kBlockVoxels, FieldWord{0});
+    map = MapWithUnseen(settings.map);
     first_given = 7;  // of another version: the thread asks again
     const std::vector<Frame> walk = RoomWalk(0, 120, 6);
     Drift(walk, 1);
@@ -177,6 +182,19 @@ TEST_F(LoopThreadTest, MovesTheMapInUseDuringTheRun) {
     EXPECT_GE(given, 2);
     EXPECT_NE(map->Find(kUnseen), kUnknownBlock);
     EXPECT_GT(blocks, 1000);
+}
+
+// Whatever was under way when the last frame came.
+TEST_F(LoopThreadTest, SettledItMovesTheMapInUse) {
+    if (!PoseGraphAvailable()) GTEST_SKIP() << "this build has no Ceres: install libceres-dev";
+    map = MapWithUnseen(settings.map);
+    Drift(RoomWalk(0, 120, 6), 1);
+    thread.Settle();
+    TakeCorrections();
+    thread.Finish(map.get(), {0, corrections});
+    TakeCorrections();
+    EXPECT_GE(corrections, 1);
+    EXPECT_NE(map->Find(kUnseen), kUnknownBlock);
 }
 
 // With eight frames whole and the rest thinned, the thread may be late for 60 frames, two seconds.
@@ -216,18 +234,6 @@ TEST_F(LoopThreadTest, AResetForgetsAllAndAnOldQuestionHasNoAnswer) {
     EXPECT_FALSE(ask({1, 0}).T_world_camera.has_value());  // no keyframe exists after the reset
     thread.Finish(nullptr, {});
     EXPECT_TRUE(thread.Path().empty());
-}
-
-TEST(Carry, AppliesWhatCameSince) {
-    const std::vector<Eigen::Isometry3d> corrections{
-        Eigen::Isometry3d(Eigen::Translation3d(1, 0, 0)),
-        Eigen::Isometry3d(Eigen::Translation3d(0, 2, 0))};
-    for (const auto& [from, expected] :
-         {std::pair{0, Eigen::Vector3d(1, 2, 0)}, {1, {0, 2, 0}}, {2, {0, 0, 0}}}) {
-        Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-        Carry(corrections, from, pose);
-        EXPECT_EQ(pose.translation(), expected) << from;
-    }
 }
 
 }  // namespace
