@@ -89,9 +89,9 @@ set(TESSERA_TEST_RESULTS ${CMAKE_BINARY_DIR}/test_results)
 # libraries that cannot be started twice in one. SERIAL is for programs that depend on timing: no
 # other test runs at the same time.
 #
-# The sanitizers run the unit programs: ASan all of them, TSan those with THREADS, which lists the
-# tests, as GoogleTest filters, that start threads of ours. TBB's loops are serial under TSan
-# (tests/support/serial_tbb.cpp), so it has nothing to find in the others. LONG lists tests that take
+# ASan runs the unit programs, TSan all with THREADS, which lists the tests, as GoogleTest filters,
+# that start threads of ours. TBB's loops are serial under TSan (tests/support/serial_tbb.cpp), so it
+# has nothing to find in the others. LONG lists tests that take
 # seconds: they are an entry of their own with the label slow, and the sanitizers skip them, because
 # shorter tests cover the same code.
 function(tessera_test name)
@@ -117,7 +117,8 @@ function(tessera_test name)
 
     set(label ${ARG_LABEL})
     set(filter "")
-    if(ARG_LABEL STREQUAL unit AND (ARG_THREADS OR NOT TESSERA_SANITIZE MATCHES thread))
+    if((TESSERA_SANITIZE MATCHES thread AND ARG_THREADS) OR
+       (ARG_LABEL STREQUAL unit AND NOT TESSERA_SANITIZE MATCHES thread))
         add_dependencies(tessera_sanitized_tests ${name})
         set(label unit-sanitized)  # ctest -L unit and ctest -L sanitized both find it
     endif()
