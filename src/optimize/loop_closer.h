@@ -91,8 +91,10 @@ class LoopCloser {
     // True if Step has work to do.
     bool HasWork() const { return seeking_ && (rebuild_ != nullptr || moved_); }
     // True if a corrected map is due and the one in use can be moved: see Move. Without Move, Step
+    // True if a corrected map is due and the one in use can be moved: see Move. Without Move, Step
     // fuses all frames again.
     bool WantsMap() const;
+    // The same, or the map is being moved.
     bool MovesMap() const { return WantsMap() || (rebuild_ && rebuild_->has_copy()); }
     // `copy`: of the map in use, with all frames and corrections so far. If null, or if there is
     // too little memory, all frames are fused again. Blocks about which keyframes disagree are

@@ -21,11 +21,12 @@ struct KeyframeView {
 
     // A surface is measured within this distance of a point of the camera's, along its ray.
     bool MeasuresNear(const Eigen::Vector3d& p_camera, double distance_m) const {
+        if (p_camera.z() <= 0) return false;
         const Eigen::Vector2d pixel = camera.Project(p_camera);
-        const int u = static_cast<int>(std::lround(pixel.x())),
-                  v = static_cast<int>(std::lround(pixel.y()));
-        return p_camera.z() > 0 && u >= 0 && v >= 0 && u < depth_m.width() &&
-               v < depth_m.height() && std::abs(depth_m(u, v) - p_camera.z()) <= distance_m;
+        const double u = std::round(pixel.x()), v = std::round(pixel.y());
+        return u >= 0 && v >= 0 && u < depth_m.width() && v < depth_m.height() &&
+               std::abs(depth_m(static_cast<int>(u), static_cast<int>(v)) - p_camera.z()) <=
+                   distance_m;
     }
 };
 
