@@ -64,18 +64,8 @@ bool BlockMover::Step(BlockMap& to, std::uint32_t newest) {
     return ready_coords_.empty();
 }
 
-std::vector<VoxelLabel> BlockMover::Labels(std::span<const BlockCoord> coords) const {
-    std::vector<VoxelLabel> labels;
-    std::vector<WarpedBlock> blocks;
-    for (; !coords.empty(); coords = coords.subspan(blocks.size())) {
-        Warp(coords.first(std::min(kAtOnce, coords.size())), blocks);
-        for (const WarpedBlock& block : blocks)
-            labels.insert(labels.end(), block.label.begin(), block.label.end());
-    }
-    return labels;
-}
-
-void BlockMover::Warp(std::span<const BlockCoord> coords, std::vector<WarpedBlock>& blocks) const {
+void BlockMover::Warp(const std::vector<BlockCoord>& coords,
+                      std::vector<WarpedBlock>& blocks) const {
     blocks.resize(coords.size());
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, coords.size(), 64),
                       [&](const auto& range) {

@@ -39,11 +39,8 @@ class BlockMover {
     const std::vector<BlockId>& added() const { return added_; }
     const std::vector<BlockId>& moved() const { return moved_; }
 
-    // Labels of these blocks of the new map, kBlockVoxels for each.
-    std::vector<VoxelLabel> Labels(std::span<const BlockCoord> coords) const;
-
   private:
-    void Warp(std::span<const BlockCoord> coords, std::vector<WarpedBlock>& blocks) const;
+    void Warp(const std::vector<BlockCoord>& coords, std::vector<WarpedBlock>& blocks) const;
     void Put(BlockMap& to, std::uint32_t newest);
 
     const BlockMap& map_;

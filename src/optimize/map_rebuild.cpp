@@ -30,13 +30,13 @@ void MapRebuild::BeginFusion(WarpedMap moved) {
         return;
     }
     moved_ = std::move(moved.map);
+    rough_ = std::move(moved.rough);
     if (moved_->has_labels()) map_->EnableLabels();
-    for (std::size_t i = 0; i < moved.doubtful.size(); ++i) {
-        const BlockId id = map_->Allocate(moved.doubtful[i]);
+    for (const BlockCoord& c : moved.doubtful) {
+        const BlockId id = map_->Allocate(c);
         if (id == kUnknownBlock) break;  // the map is full
-        if (moved_->has_labels())
-            std::copy_n(moved.doubtful_labels.data() + i * kBlockVoxels, kBlockVoxels,
-                        map_->label(id));
+        if (map_->has_labels())
+            std::copy_n(rough_->label(rough_->Find(c)), kBlockVoxels, map_->label(id));
     }
 }
 
@@ -71,18 +71,26 @@ int MapRebuild::Left(const FrameStore& store) const {
         stored.end() - std::ranges::lower_bound(stored, next_ordinal_, {}, &StoredFrame::ordinal));
 }
 
-// Takes over the blocks fused again that are near a surface. The frames saw the rest empty.
+// Takes over the blocks fused again that have a surface. The frames saw the rest empty, or not at
+// all: frames of a busy live run are not all stored.
 void MapRebuild::AddToTheMoved() {
     for (BlockId id = 1; id < map_->size(); ++id) {
-        if (!HasSurface(map_->field(id), map_->config())) continue;
+        const BlockMap* from = map_.get();
+        BlockId block = id;
+        if (std::none_of(map_->field(id), map_->field(id) + kBlockVoxels, HasDistance)) {
+            from = rough_.get();
+            block = rough_->Find(map_->coord(id));
+        }
+        if (!HasSurface(from->field(block), from->config())) continue;
         const BlockId to = moved_->Allocate(map_->coord(id));
         if (to == kUnknownBlock) break;  // the map is full
-        std::copy_n(map_->field(id), kBlockVoxels, moved_->field(to));
-        std::copy_n(map_->weight(id), kBlockVoxels, moved_->weight(to));
-        std::copy_n(map_->colour(id), kBlockVoxels, moved_->colour(to));
-        if (map_->has_labels()) std::copy_n(map_->label(id), kBlockVoxels, moved_->label(to));
+        std::copy_n(from->field(block), kBlockVoxels, moved_->field(to));
+        std::copy_n(from->weight(block), kBlockVoxels, moved_->weight(to));
+        std::copy_n(from->colour(block), kBlockVoxels, moved_->colour(to));
+        if (moved_->has_labels()) std::copy_n(from->label(block), kBlockVoxels, moved_->label(to));
     }
     map_ = std::move(moved_);
+    rough_.reset();
 }
 
 // Fuses the loaded frame.

@@ -61,7 +61,7 @@ class MapRebuild {
     std::unique_ptr<BlockMap> copy_;  // see Keep
     std::optional<MapWarp> warp_;     // moves the map in use; empty if it is moved
     // Then what is not fused again, while `map_` has only the blocks that are; else null.
-    std::unique_ptr<BlockMap> moved_;
+    std::unique_ptr<BlockMap> moved_, rough_;  // `rough_`: WarpedMap
     std::vector<BlockCoord> doubtful_;
     Integrator integrator_;
     PinholeCamera camera_;

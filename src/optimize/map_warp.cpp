@@ -105,14 +105,23 @@ MapWarp::MapWarp(const BlockMap& map, const std::vector<BlockMotion>& motions, c
     }
     std::ranges::sort(warped_.doubtful, std::less<>());
     std::ranges::sort(moved, std::less<>());
-    const double usable = warped_.whole ? std::numeric_limits<double>::infinity() : most_variance;
-    mover_ = std::make_unique<BlockMover>(
-        map, std::move(moved), [landings = std::move(landings), usable](const BlockCoord& c) {
-            return ShiftsOf(landings, c, usable);
-        });
-    if (!map.has_labels()) return;
-    warped_.map->EnableLabels();
-    if (!warped_.whole) warped_.doubtful_labels = mover_->Labels(warped_.doubtful);
+    const auto shared = std::make_shared<const Landings>(std::move(landings));
+    const auto move = [&](std::vector<BlockCoord> coords, double most) {
+        return std::make_unique<BlockMover>(
+            map, std::move(coords),
+            [shared, most](const BlockCoord& c) { return ShiftsOf(*shared, c, most); });
+    };
+    constexpr double kAny = std::numeric_limits<double>::infinity();
+    mover_ = move(std::move(moved), warped_.whole ? kAny : most_variance);
+    if (map.has_labels()) warped_.map->EnableLabels();
+    if (warped_.whole) return;
+    rough_mover_ = move(warped_.doubtful, kAny);
+    warped_.rough = std::make_unique<BlockMap>(map.config());
+    if (map.has_labels()) warped_.rough->EnableLabels();
+}
+
+bool MapWarp::Step() {
+    return mover_->Step(*warped_.map) && (!rough_mover_ || rough_mover_->Step(*warped_.rough));
 }
 
 }  // namespace tessera

@@ -17,8 +17,8 @@ struct WarpedMap {
     bool whole = false;  // with the doubtful blocks
     // Blocks in which shifts disagree, to be fused again; sorted.
     std::vector<BlockCoord> doubtful;
-    // kBlockVoxels for each of them, moved like the others. Empty if the map is whole, or has none.
-    std::vector<VoxelLabel> doubtful_labels;
+    // If the map is not whole: these, moved as well as possible.
+    std::unique_ptr<BlockMap> rough;
 };
 
 // Moves a map, some blocks at a time. Uses TBB internally and gives the same result for any number
@@ -37,13 +37,13 @@ class MapWarp {
             double most_spread_m, Doubtful doubtful = Doubtful::kLeftOut);
 
     // See BlockMover.
-    bool Step() { return mover_->Step(*warped_.map); }
+    bool Step();
     // After that, once.
     WarpedMap Take() { return std::move(warped_); }
 
   private:
     WarpedMap warped_;
-    std::unique_ptr<BlockMover> mover_;
+    std::unique_ptr<BlockMover> mover_, rough_mover_;  // the latter null if the map is whole
 };
 
 }  // namespace tessera

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/se3.h"
-#include "optimize/map_warp.h"
+#include "optimize/map_rebuild.h"
 
 namespace tessera {
 namespace {
@@ -107,6 +107,21 @@ TEST(MapWarp, MovesDoubtfulBlocksAsTheOldestPart) {
     };
     EXPECT_EQ(word({1, 0, 0}), Word(0.04));
     EXPECT_EQ(word({11, 0, 0}), Word(0.12));
+}
+
+// A busy live run does not store all frames.
+TEST(MapRebuild, KeepsDoubtfulBlocksThatNoStoredFrameSaw) {
+    BlockMap map(kMoved);
+    Add(map, {0, 0, 0}, 0.04);
+    MapWarp warp(map, {{}, {{0.32f, 0, 0}, 1, true}}, {}, 0.04);
+    FieldSettings settings;
+    settings.map = kMoved;
+    MapRebuild rebuild(settings, {Eigen::Isometry3d::Identity()}, std::move(warp));
+    FrameStore none(1000000, 5000);
+    while (!rebuild.Step(none, 1).value()) continue;
+    const std::unique_ptr<BlockMap> whole = rebuild.TakeMap();
+    EXPECT_EQ(whole->count(), 1);
+    EXPECT_EQ(whole->field(whole->Find({1, 0, 0}))[9], Word(0.04));
 }
 
 }  // namespace
