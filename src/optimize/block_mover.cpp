@@ -54,10 +54,10 @@ BlockMover::BlockMover(const BlockMap& map, std::vector<BlockCoord> landings, Sh
 
 // Blocks are warped while those before are put into the new map.
 bool BlockMover::Step(BlockMap& to, std::uint32_t newest) {
-    next_coords_.clear();
-    for (; begun_ < landings_.size() && next_coords_.size() < kAtOnce; ++begun_)
-        if (to.revision(to.Find(landings_[begun_])) <= newest)
-            next_coords_.push_back(landings_[begun_]);
+    const std::size_t count = std::min(kAtOnce, landings_.size() - begun_);
+    const auto first = landings_.begin() + static_cast<std::ptrdiff_t>(begun_);
+    next_coords_.assign(first, first + static_cast<std::ptrdiff_t>(count));
+    begun_ += count;
     tbb::parallel_invoke([&] { Warp(next_coords_, next_); }, [&] { Put(to, newest); });
     std::swap(next_, ready_);
     std::swap(next_coords_, ready_coords_);
@@ -78,18 +78,21 @@ void BlockMover::Warp(const std::vector<BlockCoord>& coords,
 void BlockMover::Put(BlockMap& to, std::uint32_t newest) {
     for (std::size_t i = 0; i < ready_coords_.size(); ++i) {
         const WarpedBlock& block = ready_[i];
+        if (!block.known) continue;
         const BlockId before = to.Find(ready_coords_[i]);
-        if (!block.known || to.revision(before) > newest) continue;
-        const bool is_new = before == kUnknownBlock;
+        const bool is_new = before == kUnknownBlock, keep = to.revision(before) > newest;
         if (is_new && !HasSurface(block.field.data(), to.config())) continue;
         const BlockId id = to.Allocate(ready_coords_[i]);
         if (id == kUnknownBlock) return;  // the map is full
         if (is_new) added_.push_back(id);
         moved_.push_back(id);
-        std::ranges::copy(block.field, to.field(id));
-        std::ranges::copy(block.weight, to.weight(id));
-        std::ranges::copy(block.colour, to.colour(id));
-        if (map_.has_labels() && to.has_labels()) std::ranges::copy(block.label, to.label(id));
+        for (std::size_t v = 0; v < kBlockVoxels; ++v) {
+            if (keep && HasDistance(to.field(id)[v])) continue;
+            to.field(id)[v] = block.field[v];
+            to.weight(id)[v] = block.weight[v];
+            to.colour(id)[v] = block.colour[v];
+            if (map_.has_labels() && to.has_labels()) to.label(id)[v] = block.label[v];
+        }
     }
 }
 

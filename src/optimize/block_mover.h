@@ -32,8 +32,8 @@ class BlockMover {
     BlockMover(const BlockMap& map, std::vector<BlockCoord> landings, ShiftsAt shifts);
 
     // Moves the next blocks, 1024 at most, which takes about 40 ms on one core. Replaces those that
-    // `to` has, but not what has changed there since revision `newest`, and adds none without
-    // surface. Returns true once all are moved.
+    // `to` has, and adds none without surface. Of blocks that have changed there since revision
+    // `newest` it only fills in the unknown voxels. Returns true once all are moved.
     bool Step(BlockMap& to, std::uint32_t newest = std::numeric_limits<std::uint32_t>::max());
     // Blocks of `to` so far: those that it did not have, in order of allocation, and all.
     const std::vector<BlockId>& added() const { return added_; }
