@@ -49,8 +49,9 @@ bool HasSurface(const FieldWord* field, const BlockMap::Config& map) {
     });
 }
 
-BlockMover::BlockMover(const BlockMap& map, std::vector<BlockCoord> landings, ShiftsAt shifts)
-    : map_(map), landings_(std::move(landings)), shifts_(std::move(shifts)) {}
+BlockMover::BlockMover(const BlockMap& map, std::vector<BlockCoord> landings, ShiftsAt shifts,
+                       bool labels)
+    : map_(map), landings_(std::move(landings)), shifts_(std::move(shifts)), labels_(labels) {}
 
 // Blocks are warped while those before are put into the new map.
 bool BlockMover::Step(BlockMap& to, std::uint32_t newest) {
@@ -91,7 +92,7 @@ void BlockMover::Put(BlockMap& to, std::uint32_t newest) {
             to.field(id)[v] = block.field[v];
             to.weight(id)[v] = block.weight[v];
             to.colour(id)[v] = block.colour[v];
-            if (map_.has_labels() && to.has_labels()) to.label(id)[v] = block.label[v];
+            if (labels_) to.label(id)[v] = block.label[v];
         }
     }
 }
@@ -101,16 +102,16 @@ BlockMover MoveRigidly(const BlockMap& map, std::span<const BlockId> blocks,
     Eigen::Isometry3d T = T_new_old;
     T.translation() /= map.config().voxel_size_m;
     const Eigen::Isometry3d T_inverse = T.inverse();
-    return {map, LandingsOfAll(map, blocks, T, box), [T_inverse](const BlockCoord& c) {
-                ShiftsAround shifts;
-                for (int i = 0; i < 27; ++i) {
-                    const BlockCoord at{c.x + i % 3 - 1, c.y + i / 3 % 3 - 1, c.z + i / 9 - 1};
-                    const Eigen::Vector3d centre = BoxOf(at).center();
-                    shifts[static_cast<std::size_t>(i)] =
-                        (centre - T_inverse * centre).cast<float>();
-                }
-                return shifts;
-            }};
+    const auto shifts_at = [T_inverse](const BlockCoord& c) {
+        ShiftsAround shifts;
+        for (int i = 0; i < 27; ++i) {
+            const BlockCoord at{c.x + i % 3 - 1, c.y + i / 3 % 3 - 1, c.z + i / 9 - 1};
+            const Eigen::Vector3d centre = BoxOf(at).center();
+            shifts[static_cast<std::size_t>(i)] = (centre - T_inverse * centre).cast<float>();
+        }
+        return shifts;
+    };
+    return {map, LandingsOfAll(map, blocks, T, box), shifts_at, false};
 }
 
 }  // namespace tessera

@@ -28,8 +28,8 @@ class BlockMover {
     using ShiftsAt = std::function<ShiftsAround(const BlockCoord&)>;
 
     // `map` outlives the object. `landings`: the blocks of the new map. `shifts`: around each of
-    // them; thread-safe.
-    BlockMover(const BlockMap& map, std::vector<BlockCoord> landings, ShiftsAt shifts);
+    // them; thread-safe. `labels`: they move as well, and both maps have them.
+    BlockMover(const BlockMap& map, std::vector<BlockCoord> landings, ShiftsAt shifts, bool labels);
 
     // Moves the next blocks, 1024 at most, which takes about 40 ms on one core. Replaces those that
     // `to` has, and adds none without surface. Of blocks that have changed there since revision
@@ -46,6 +46,7 @@ class BlockMover {
     const BlockMap& map_;
     std::vector<BlockCoord> landings_;
     ShiftsAt shifts_;
+    bool labels_;
     std::size_t begun_ = 0;  // of the landings
     // Blocks that are warped, and those that are ready to be put into the new map.
     std::vector<BlockCoord> next_coords_, ready_coords_;
@@ -54,7 +55,7 @@ class BlockMover {
 };
 
 // What becomes of these blocks of `map`, in this order, where everything moves by T_new_old, in the
-// box.
+// box. Without labels.
 BlockMover MoveRigidly(const BlockMap& map, std::span<const BlockId> blocks,
                        const Eigen::Isometry3d& T_new_old, const WorldBox& box);
 

@@ -91,7 +91,6 @@ class LoopCloser {
     // True if Step has work to do.
     bool HasWork() const { return seeking_ && (rebuild_ != nullptr || moved_); }
     // True if a corrected map is due and the one in use can be moved: see Move. Without Move, Step
-    // True if a corrected map is due and the one in use can be moved: see Move. Without Move, Step
     // fuses all frames again.
     bool WantsMap() const;
     // The same, or the map is being moved.

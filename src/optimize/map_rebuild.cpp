@@ -46,7 +46,7 @@ Result<bool> MapRebuild::Step(FrameStore& store, int frames) {
         BeginFusion(warp_->Take());
         warp_.reset();
     }
-    if (copy_) return true;
+    if (copy_) return true;  // the map is whole
     const std::vector<StoredFrame>& stored = store.frames();
     auto next = std::ranges::lower_bound(stored, next_ordinal_, {}, &StoredFrame::ordinal);
     for (int i = 0; i < frames && next != stored.end(); ++i, ++next) {
@@ -71,8 +71,8 @@ int MapRebuild::Left(const FrameStore& store) const {
         stored.end() - std::ranges::lower_bound(stored, next_ordinal_, {}, &StoredFrame::ordinal));
 }
 
-// Takes over the blocks fused again that have a surface. The frames saw the rest empty, or not at
-// all: frames of a busy live run are not all stored.
+// Takes over the blocks fused again that have a surface; the frames saw the rest empty. What they
+// did not see stays as it was moved: a busy live run does not store all frames.
 void MapRebuild::AddToTheMoved() {
     for (BlockId id = 1; id < map_->size(); ++id) {
         const BlockMap* from = map_.get();

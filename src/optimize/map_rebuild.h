@@ -1,6 +1,6 @@
-// Rebuilds the map from the stored frames with corrected keyframe poses, a few frames at a time,
-// while the old map stays in use. By construction the result equals a fresh fusion with the new
-// poses.
+// Makes the map that belongs to corrected keyframe poses, step by step, while the old map stays in
+// use: from all stored frames, which equals a fresh fusion with the new poses, or by moving the map
+// in use.
 #pragma once
 
 #include <memory>

@@ -109,7 +109,8 @@ MapWarp::MapWarp(const BlockMap& map, const std::vector<BlockMotion>& motions, c
     const auto move = [&](std::vector<BlockCoord> coords, double most) {
         return std::make_unique<BlockMover>(
             map, std::move(coords),
-            [shared, most](const BlockCoord& c) { return ShiftsOf(*shared, c, most); });
+            [shared, most](const BlockCoord& c) { return ShiftsOf(*shared, c, most); },
+            map.has_labels());
     };
     constexpr double kAny = std::numeric_limits<double>::infinity();
     mover_ = move(std::move(moved), warped_.whole ? kAny : most_variance);

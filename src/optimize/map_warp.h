@@ -1,7 +1,7 @@
 // A map that follows its keyframes without being fused again: every voxel takes the values from
 // where its surface was. Where frames that saw the same surface move apart, and where two parts of
-// the map come to lie on each other, values cannot be moved; these blocks are left out, to be fused
-// again.
+// the map come to lie on each other, that is only roughly right: these blocks are doubtful, to be
+// fused again.
 #pragma once
 
 #include <memory>
@@ -30,9 +30,8 @@ class MapWarp {
     enum class Doubtful { kLeftOut, kMoved };
     // `map` outlives the object and stays as it is. `motions`: by BlockId. Blocks in which shifts
     // differ by more than this standard deviation are doubtful. Blocks outside the box, and those
-    // without surface, are dropped.
-    // Exact to first order in the differences of shifts, which are interpolated between blocks; a
-    // shift by whole voxels copies them.
+    // without surface, are dropped. Exact to first order in the differences of shifts, which are
+    // interpolated between blocks; a shift by whole voxels copies them.
     MapWarp(const BlockMap& map, const std::vector<BlockMotion>& motions, const WorldBox& box,
             double most_spread_m, Doubtful doubtful = Doubtful::kLeftOut);
 

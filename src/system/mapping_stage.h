@@ -100,14 +100,13 @@ class MappingStage {
 
     // Replaces the map by one fused elsewhere from the same frames. `labels`: of the new map, if
     // this one has labels; null if the new one was begun before that, or if its labels were moved
-    // there from this one. Whoever follows the map by
-    // deltas first needs a copy of the new field.
+    // there from this one. Whoever follows the map by deltas first needs a copy of the new field.
     void Replace(std::unique_ptr<BlockMap> map, std::unique_ptr<LabelMapper> labels);
 
     // The same for one that was moved, by T_new_old at the latest frames, from a copy of this map
     // at that revision. What has changed since follows: a part of it at once, the latest new blocks
-    // first, the rest with calls of Follow while `following`. What is fused meanwhile stays.
-    // Without labels.
+    // first, the rest with calls of Follow while `following`. What is fused meanwhile stays; its
+    // unknown voxels are filled in. Labels, if this map has got any since, are dropped.
     void ReplaceMoved(std::unique_ptr<BlockMap> map, const Eigen::Isometry3d& T_new_old,
                       std::uint32_t moved_at);
     bool following() const { return following_.has_value(); }

@@ -86,6 +86,19 @@ TEST(BlockMover, KeepsWhatIsNewer) {
     EXPECT_TRUE(mover.added().empty());
 }
 
+// Labels that came after the copy was made belong to objects that the new map does not have.
+TEST(MoveRigidly, LeavesLabels) {
+    BlockMap map(kMoved), to(kMoved);
+    map.EnableLabels();
+    to.EnableLabels();
+    const std::vector<BlockId> all{Add(map, {0, 0, 0}, 0.04)};
+    map.label(all[0])[0].instance = 7;
+    BlockMover mover = MoveRigidly(map, all, Eigen::Isometry3d::Identity(), {});
+    while (!mover.Step(to)) continue;
+    ASSERT_EQ(to.count(), 1);
+    EXPECT_EQ(to.label(to.Find({0, 0, 0}))[0].instance, VoxelLabel{}.instance);
+}
+
 // Two walls come to lie on each other, and one block of a third is seen at two places.
 TEST(MapWarp, MovesDoubtfulBlocksAsTheOldestPart) {
     BlockMap map(kMoved);
