@@ -47,8 +47,9 @@ class Runner {
     void AddTimes(const FrameOutcome& outcome, double frame_ms);
     // The source's ground truth in the map's world.
     std::optional<Eigen::Isometry3d> TruthOf(const FrameOutcome& outcome) const;
-    // After a reset, the output files also cover only the new world.
-    Status BeginAnew();
+    // After a reset, the output files also cover only the new world. If nobody asked for it, the
+    // frames before count as lost.
+    Status BeginAnew(const std::string& reason);
     Status OpenOutput();
     // A run goes on without the lines that find no room on the disk. Said once per file.
     void KeepGoing(const Status& written);

@@ -32,7 +32,7 @@ Status Runner::Take(const FrameOutcome& outcome) {
         case Kind::kMessage: Warn(outcome.message); break;
         case Kind::kLabelsBegin: return BeginLabels(*outcome.classes);
         case Kind::kLabelsEnd: Warn(outcome.message), window_.EndLabels(); break;
-        case Kind::kReset: return BeginAnew();
+        case Kind::kReset: return BeginAnew(outcome.message);
     }
     return Status::Ok();
 }
@@ -101,9 +101,15 @@ std::optional<Eigen::Isometry3d> Runner::TruthOf(const FrameOutcome& outcome) co
            *outcome.T_world_camera_truth;
 }
 
-// After a reset, the output files also cover only the new world.
-Status Runner::BeginAnew() {
-    summary_.counts = {};
+Status Runner::BeginAnew(const std::string& reason) {
+    RunCounts counts;
+    if (!reason.empty()) {
+        counts.frames = summary_.counts.frames;
+        counts.skipped = summary_.counts.skipped;
+        counts.dropped = summary_.counts.dropped;
+        counts.lost = summary_.counts.lost + summary_.counts.tracked;
+    }
+    summary_.counts = counts;
     if (summary_.labels) summary_.labels.emplace();
     frames_before_ = 0;
     truth_.clear();
@@ -111,7 +117,7 @@ Status Runner::BeginAnew() {
     times_ = {};
     told_.status = TrackStatus::kGood;
     told_.degenerate = told_.colour_rejected = false;
-    Warn("reset: the map and the path start again");
+    Warn(reason.empty() ? "reset: the map and the path start again" : reason);
     if (!output_) return Status::Ok();
     if (Status status = OpenOutput(); !status.ok()) return status;
     const bool chosen_later = summary_.labels && request_.labels.empty();

@@ -7,6 +7,7 @@
 #include "system/resume_gate.h"
 #include "system/run_config.h"
 #include "system/scan_plan.h"
+#include "system/start_watch.h"
 #include "system/tracking_stage.h"
 
 namespace tessera {
@@ -38,6 +39,7 @@ class FrameTracking {
 
     // Call before the first frame.
     void Resume(const TrackingResume& resume) {
+        resumed_ = true;
         gate_.Begin(resume.state, resume.last, !loops_, stage_);
         if (resume.only_localise) stage_.OnlyTrack();
     }
@@ -48,6 +50,12 @@ class FrameTracking {
         plan_.Track(frame, map, stage_, tracked);
         gate_.AfterTracking(frame, stage_, tracked);
     }
+    // When the frame's pose and status are final.
+    void End(const TrackedFrame& tracked) {
+        if (!resumed_) start_.Add(tracked);
+    }
+    // The scan is to begin again with the next frame.
+    bool start_failed() const { return start_.failed(); }
     // For a scan file: the state travels with its frame, so that a checkpoint after that frame
     // contains it.
     void SaveState(TrackedFrame& tracked) const {
@@ -60,6 +68,8 @@ class FrameTracking {
     void Reset() {
         stage_.Reset();
         gate_.Open();
+        start_.Clear();
+        resumed_ = false;
     }
     TrackingStage& stage() { return stage_; }
     const TrackingStage& stage() const { return stage_; }
@@ -68,6 +78,8 @@ class FrameTracking {
     FramePlan plan_;
     TrackingStage stage_;
     ResumeGate gate_;
+    StartWatch start_;
+    bool resumed_ = false;
     const bool loops_;
 };
 

@@ -44,12 +44,14 @@ LiveTracking::LiveTracking(Settings settings, FramePlan plan, LiveLinks& links,
 
 void LiveTracking::TakeCommands() {
     ViewerCommand command;
-    while (commands_.TryPop(command)) {
-        if (command.kind == ViewerCommand::Kind::kReset) Reset();
-        MappingTask task;
-        task.command = std::move(command);
-        mapping_.Send(std::move(task));
-    }
+    while (commands_.TryPop(command)) Execute(std::move(command));
+}
+
+void LiveTracking::Execute(ViewerCommand command) {
+    if (command.kind == ViewerCommand::Kind::kReset) Reset();
+    MappingTask task;
+    task.command = std::move(command);
+    mapping_.Send(std::move(task));
 }
 
 void LiveTracking::Reset() {
@@ -76,6 +78,7 @@ void LiveTracking::Track(NewFrame& item) {
     life.Begin(frame);
     life.Track(frame, MapToTrackIn(), *task.tracked);
     CheckIfLost(*task.tracked);
+    life.End(*task.tracked);
     task.tracked->tracking_state.clear();
     if (links_.saving.load()) life.SaveState(*task.tracked);
     WaitFor(settings_.config.live.extra_tracking_ms);
@@ -89,6 +92,7 @@ void LiveTracking::Track(NewFrame& item) {
     // The next frame needs a map.
     if (first && settings_.device == nullptr)
         links_.tracking.Wait([this] { return ApplyMapUpdates(); });
+    if (life.start_failed()) Execute({.kind = ViewerCommand::Kind::kReset, .reason = kStartFailed});
 }
 
 const BlockMap& LiveTracking::MapToTrackIn() const {
@@ -175,6 +179,7 @@ void LiveTracking::CheckIfLost(TrackedFrame& tracked) {
             state_->place.Begin(tracked.prepared, found.T_world_camera);
             links_.notices.Tell(kPlaceUnconfirmed);
         }
+        if (by_appearance && tracked.report.tracked()) state_->lost.Reached(found);
         if (verdict == LostCamera::Verdict::kDoubtful && !state_->asked && !state_->place.open()) {
             state_->T_doubted = found.T_world_camera;
             Ask(tracked, false);

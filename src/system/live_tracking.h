@@ -53,6 +53,7 @@ class LiveTracking {
     };
 
     void TakeCommands();
+    void Execute(ViewerCommand command);
     void Reset();
     void Track(NewFrame& item);
     const BlockMap& MapToTrackIn() const;

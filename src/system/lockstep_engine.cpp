@@ -79,6 +79,7 @@ void LockstepEngine::Process(FrameOutcome& outcome) {
     tracking_.Begin(frame_);
     tracking_.Track(frame_, mapping_.MapFor(tracking_.stage()), tracked_);
     RelocaliseIfLost();
+    tracking_.End(tracked_);
     mapping_.Fuse(tracked_, outcome);
     Label(outcome);
     CloseLoops(outcome);
@@ -157,6 +158,10 @@ bool LockstepEngine::HandleViewer(FrameOutcome& outcome) {
             Apply(settings);
             continue;  // there may be something to tell
         }
+        if (tracking_.start_failed()) {
+            Reset(kStartFailed, outcome);
+            return true;
+        }
         if (const auto command = control_.TakeCommand()) {
             if (Execute(*command, outcome)) return true;
             continue;
@@ -169,15 +174,18 @@ bool LockstepEngine::HandleViewer(FrameOutcome& outcome) {
     }
 }
 
+void LockstepEngine::Reset(const std::string& reason, FrameOutcome& outcome) {
+    tracking_.Reset();
+    mapping_.Reset();
+    BeginLoops();
+    outcome.kind = FrameOutcome::Kind::kReset;
+    outcome.message = reason;
+}
+
 // Returns true if there is something to report besides messages.
 bool LockstepEngine::Execute(const ViewerCommand& command, FrameOutcome& outcome) {
     switch (command.kind) {
-        case ViewerCommand::Kind::kReset:
-            tracking_.Reset();
-            mapping_.Reset();
-            BeginLoops();
-            outcome.kind = FrameOutcome::Kind::kReset;
-            return true;
+        case ViewerCommand::Kind::kReset: Reset(command.reason, outcome); return true;
         case ViewerCommand::Kind::kSaveMesh: mapping_.SaveMesh(command.path); break;
         case ViewerCommand::Kind::kSaveScan: mapping_.SaveScan(command.path); break;
         case ViewerCommand::Kind::kRecord:

@@ -69,6 +69,7 @@ void LoopStage::AfterTracking(const Frame& frame, const BlockMap& map, TrackingS
                 AddNote(kPlaceUnconfirmed, note);
             }
             camera_.Found(frame.stamp_s);
+            camera_.Reached(found);
             return AddNote(note, report.warning);
         }
         if (lost && !T_map_camera) AddNote(note, report.warning);

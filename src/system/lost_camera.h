@@ -81,6 +81,8 @@ class LostCamera {
             (found.T_world_camera.translation() - before_->T_world_camera.translation()).norm();
         return way_m <= kNear_m + kFastest_m_per_s * gap_s;
     }
+    // It has got there.
+    void Reached(const StampedPose& found) { before_ = found; }
     // The map was moved.
     void Move(const Eigen::Isometry3d& T_new_old) {
         if (before_) before_->T_world_camera = Normalised(T_new_old * before_->T_world_camera);

@@ -189,15 +189,21 @@ TrackResult TrackingStage::TrackOnce(const Frame& frame, const BlockMap& map,
          .nearest_m = MinWeightDepth(prepared)});
 }
 
-// The frame follows a tracked one without a gap in time.
+// The frame follows a tracked one without a gap in time, and soon enough for its pose to be
+// predicted.
 bool TrackingStage::PlaceKnown(double stamp_s) const {
-    return motion_.SinceLast(stamp_s) > 0 && motion_.lost_frames() == 0;
+    const double since_last_s = motion_.SinceLast(stamp_s);
+    return since_last_s > 0 && motion_.lost_frames() == 0 && usual_fit_.Predicted(since_last_s);
 }
 
 // Where the camera is not known even roughly, its pose is trusted only if the frame fits well.
 // After a poor frame it is about known, and the frame keeps its pose.
 void TrackingStage::DemandUsualFit(double stamp_s, TrackResult& track) {
     if (track.status == TrackStatus::kLost) return;
+    if (track.unexpected && usual_fit_.Confirms(track)) {
+        track.status = TrackStatus::kGood;
+        track.reason.clear();
+    }
     const bool known = PlaceKnown(stamp_s);
     if ((!known || motion_.doubt().poor || track.colour_rejected) && !usual_fit_.Matches(track)) {
         if (track.status == TrackStatus::kGood) track.reason = usual_fit_.Reason(track);

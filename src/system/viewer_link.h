@@ -85,7 +85,8 @@ struct ViewerCommand {
         kStop,  // end the run and save everything
     };
     Kind kind = Kind::kPause;
-    std::string path;
+    std::string path = {};
+    std::string reason = {};  // of a reset that nobody asked for
 };
 
 // Created by the program. Shared by the system's threads and the viewer's.

@@ -48,6 +48,8 @@ void TrackJudge::Judge(const TrackInput& input, TrackResult& result) const {
     const Eigen::Isometry3d& T_world_expected = input.T_world_camera_starts.front();
     result.innovation_m = InnovationOf(T_world_expected, result.T_world_camera);
     result.innovation_rad = RotationAngle(T_world_expected, result.T_world_camera);
+    result.innovation_share = result.innovation_m / config_.good_innovation_m +
+                              result.innovation_rad / config_.good_innovation_rad;
     result.status = Status(input, result);
 }
 
@@ -66,7 +68,9 @@ TrackStatus TrackJudge::Status(const TrackInput& input, TrackResult& result) con
     const Eigen::Isometry3d jump = input.T_world_camera_last.inverse() * result.T_world_camera;
     const double moved_m = jump.translation().norm();
     const double turned_rad = RotationAngle(input.T_world_camera_last, result.T_world_camera);
-    const int frames = input.frames_since_last;
+    constexpr double kUsualRate_per_s = 30;
+    const double frames =
+        std::max<double>(input.frames_since_last, kUsualRate_per_s * input.since_last_s);
     if (input.since_last_s > 0 &&
         (moved_m > frames * config_.max_jump_m || turned_rad > frames * config_.max_jump_rad))
         return because(TrackStatus::kLost,
@@ -76,9 +80,11 @@ TrackStatus TrackJudge::Status(const TrackInput& input, TrackResult& result) con
     if (result.distance_rms_m > config_.good_distance_share * result.band_m)
         return because(
             kPoor, fmt::format("the depth is {:.1f} cm off the map", 100 * result.distance_rms_m));
-    if (!Follows(input.T_world_camera_starts.front(), result.T_world_camera))
+    if (!Follows(input.T_world_camera_starts.front(), result.T_world_camera)) {
+        result.unexpected = !result.degenerate;
         return because(kPoor, fmt::format("{:.2f} m and {:.2f} rad from the predicted pose",
                                           result.innovation_m, result.innovation_rad));
+    }
     return TrackStatus::kGood;
 }
 
@@ -99,17 +105,23 @@ void TrackJudge::Config::Describe(ConfigParameters& p) {
     p.Add("good_distance_share", good_distance_share, {0.0, 10.0}, "",
           "the frame is not fused if the robust residual of the depth is larger than this share of "
           "the band");
-    p.Add("max_jump_m", max_jump_m, {0.0, 100.0}, "m",
-          "tracking is lost if the camera moved farther from one frame to the next");
+    p.Add(
+        "max_jump_m", max_jump_m, {0.0, 100.0}, "m",
+        "tracking is lost if the camera moved farther within a thirtieth of a second, or from one "
+        "frame to the next");
     p.Add("max_jump_rad", max_jump_rad, {0.0, 3.2}, "rad",
-          "tracking is lost if the camera rotated more from one frame to the next");
+          "tracking is lost if the camera rotated more within a thirtieth of a second, or from one "
+          "frame to the next");
     p.Add("good_innovation_m", good_innovation_m, {0.0, 100.0}, "m",
-          "the frame is not fused if its pose is farther from the motion model's prediction");
+          "a pose farther from the motion model's prediction is trusted only if the frame fits as "
+          "well as after a gap in time");
     p.Add("good_innovation_rad", good_innovation_rad, {0.0, 3.2}, "rad",
-          "the frame is not fused if its rotation is farther from the motion model's prediction");
-    p.Add("doubt_misfit", doubt_misfit, {0.0, 1.0}, "",
-          "after a gap in time, or after frames that fitted badly, a frame is trusted only if its "
-          "inlier fraction is at most this share below the usual one; 1 disables this");
+          "the same for a rotation farther from the motion model's prediction");
+    p.Add(
+        "doubt_misfit", doubt_misfit, {0.0, 1.0}, "",
+        "after a gap in time, after frames that fitted badly and far from the prediction, a frame "
+        "is trusted only if its inlier fraction is at most this share below the usual one; 1 "
+        "disables this");
     p.Add("doubt_known_fraction", doubt_known_fraction, {0.0, 1.0}, "",
           "then it is not trusted either if a smaller fraction of the depth lies in the map");
 }

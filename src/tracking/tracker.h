@@ -55,8 +55,12 @@ struct TrackResult {
     // Standard deviation of the least constrained motion. A rotation counts at the scene's depth.
     double uncertainty_m = 0;
     double innovation_m = 0, innovation_rad = 0;  // from the motion model's prediction
-    double alpha = 0;                             // photometric weight in use, [B14] eq. 8
-    double gain = 1, offset = 0;                  // map intensity = gain * image intensity + offset
+    double innovation_share = 0;  // of what is good, of the distance and the angle together
+    // Poor only because one is more, and not degenerate: if the frame fits as well as usual, its
+    // pose is right.
+    bool unexpected = false;
+    double alpha = 0;             // photometric weight in use, [B14] eq. 8
+    double gain = 1, offset = 0;  // map intensity = gain * image intensity + offset
     // From a tracker: the colour image contradicts the map and its pose is not to be used, track
     // again without. In a report: the frame's colour was not used.
     bool colour_rejected = false;

@@ -5,17 +5,26 @@
 namespace tessera {
 
 void UsualFit::Add(const TrackResult& track) {
-    const double share = inliers_ > 0 ? 0.1 : 1.0;
+    const double share = known_ ? 0.1 : 1.0;
+    known_ = true;
     inliers_ += share * (track.inlier_fraction - inliers_);
     distance_rms_m_ += share * (track.distance_rms_m - distance_rms_m_);
+    innovation_share_ += share * (track.innovation_share - innovation_share_);
 }
 
 bool UsualFit::Matches(const TrackResult& track) const {
-    if (inliers_ <= 0 || misfit_ >= 1) return true;
+    if (misfit_ >= 1) return true;
     constexpr double kMostTimes = 1.25;
     return track.known_fraction >= least_known_ &&
            (track.inlier_fraction >= (1 - misfit_) * inliers_ ||
             track.distance_rms_m <= kMostTimes * distance_rms_m_);
+}
+
+bool UsualFit::Predicted(double since_last_s) const {
+    // Twice its usual distance from the predictions must still be a good one. At first, that is
+    // what a camera in a hand moves: some 0.2 m and 0.35 rad in a second.
+    constexpr double kMostShare = 0.5, kShare_per_s = 2;
+    return (known_ ? innovation_share_ : kShare_per_s * since_last_s) < kMostShare;
 }
 
 std::string UsualFit::Reason(const TrackResult& track) const {

@@ -41,6 +41,19 @@ TEST_F(Recorded, Freiburg1RpyIsTrackedAtAFifthOfItsRate) {
     EXPECT_LE(run.ate->error_m.rmse, 0.022);
 }
 
+// Three frames per second. The camera turns by half of the view between two frames, most of all at
+// the start: there it is lost at once, and the scan begins again. The frames before count as lost.
+TEST_F(Recorded, Freiburg1RpyIsTrackedAtATenthOfItsRate) {
+    ASSERT_NO_FATAL_FAILURE(Need("tum_fr1_rpy"));
+    if (IsSkipped()) return;
+    const RunSummary run = RunOn(sequence, folder / "out", 10);
+    EXPECT_EQ(run.counts.frames, 72);
+    EXPECT_EQ(run.counts.tracked + run.counts.lost, 72);
+    EXPECT_GE(run.counts.fused, 50);
+    ASSERT_TRUE(run.ate.has_value());
+    EXPECT_LE(run.ate->error_m.rmse, 0.022);
+}
+
 struct House {
     const char* name;
     double ate_m;

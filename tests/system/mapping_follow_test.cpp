@@ -84,11 +84,11 @@ TEST(MappingStage, AMovedMapTakesOverWhatWasFusedMeanwhile) {
     for (const BlockId id : fresh) {
         is_fresh[static_cast<std::size_t>(id)] = true;
         const BlockCoord c = map.coord(id);
-        const FieldWord* before = fused->field(fused->Find(c));
+        const FieldWord* now = fused->field(fused->Find(c));
         const FieldWord* moved = old->field(old->Find({c.x - by.x, c.y - by.y, c.z - by.z}));
         for (int v = 0; v < kBlockVoxels; ++v) {
-            if (HasDistance(before[v])) {
-                ASSERT_EQ(map.field(id)[v], before[v]);
+            if (HasDistance(now[v])) {
+                ASSERT_EQ(map.field(id)[v], now[v]);
             } else if (HasSurface(moved, old->config())) {
                 ASSERT_EQ(map.field(id)[v], moved[v]);
                 filled += HasDistance(moved[v]);

@@ -25,6 +25,13 @@ void FillDepth(Frame& frame, std::uint32_t seed) {
     }
 }
 
+// In this share of the view, strips lie before and behind the map in turn: no pose fits them.
+void SpoilLeft(Frame& frame, int share) {
+    for (int y = 0; y < frame.depth_m.height(); ++y)
+        for (int x = 0; x < frame.depth_m.width() / share; ++x)
+            frame.depth_m(x, y) += y / 8 % 2 == 0 ? 0.06f : -0.06f;
+}
+
 // Half of the depth lies beside the map. From frame to frame the rest is enough to track by. After
 // a gap the camera could be anywhere, and half a fit is no evidence.
 TEST(Pipeline, AfterAGapHalfAFitIsNoEvidence) {
@@ -34,10 +41,7 @@ TEST(Pipeline, AfterAGapHalfAFitIsNoEvidence) {
         Frame frame = RoomFrame(14);
         frame.stamp_s += gap_s;
         const Frame whole = frame;
-        // Strips before and behind the map in turn: no pose fits them.
-        for (int y = 0; y < frame.depth_m.height(); ++y)
-            for (int x = 0; x < frame.depth_m.width() / 2; ++x)
-                frame.depth_m(x, y) += y / 8 % 2 == 0 ? 0.06f : -0.06f;
+        SpoilLeft(frame, 2);
         const FrameReport report = pipeline.Process(frame);
         EXPECT_LT(report.track.inlier_fraction, 0.75);
         EXPECT_GT(report.track.inlier_fraction, 0.4);
@@ -91,18 +95,60 @@ TEST(Pipeline, AfterAPoorPoseTheCameraMayBeAnywhere) {
     Pipeline pipeline(SmallConfig(), SmallCamera());
     BoxRoom room;
     room.has_ball = true;
-    const auto process = [&](int i, double x_m) {
-        return pipeline.Process(room.Render(
-            SmallCamera(), Eigen::Isometry3d(Eigen::Translation3d(x_m, 0, 0)), i / 30.0));
+    const auto process = [&](int i, double x_m, bool changed = false) {
+        Frame frame = room.Render(SmallCamera(), Eigen::Isometry3d(Eigen::Translation3d(x_m, 0, 0)),
+                                  i / 30.0);
+        if (changed) SpoilLeft(frame, 3);
+        return pipeline.Process(frame);
     };
     for (int i = 0; i < 10; ++i) ASSERT_TRUE(process(i, 0).fused) << i;
-    ASSERT_EQ(process(10, 0.22).track.status, TrackStatus::kPoor);
+    ASSERT_EQ(process(10, 0.22, true).track.status, TrackStatus::kPoor);
     const FrameReport back = process(11, -0.12);  // 0.34 m in one frame
     EXPECT_TRUE(back.tracked()) << back.track.reason;
     for (int i = 12; i < 14; ++i) process(i, -0.12);
     const FrameReport report = process(14, -0.12);
     EXPECT_TRUE(report.fused) << report.track.reason;
     EXPECT_NEAR(report.track.T_world_camera.translation().x(), -0.12, 0.005);
+}
+
+// What is fused may lie far from its prediction, if it fits as well as usual.
+TEST(Pipeline, AFrameThatFitsIsRightWhereverItWasExpected) {
+    for (const bool spoilt : {false, true}) {
+        Pipeline pipeline(SmallConfig(), SmallCamera());
+        BoxRoom room;
+        room.has_ball = true;
+        const auto frame_at = [&](int i, double x_m) {
+            return room.Render(SmallCamera(), Eigen::Isometry3d(Eigen::Translation3d(x_m, 0, 0)),
+                               i / 30.0);
+        };
+        for (int i = 0; i < 10; ++i) ASSERT_TRUE(pipeline.Process(frame_at(i, 0)).fused) << i;
+        Frame frame = frame_at(10, 0.22);
+        if (spoilt) SpoilLeft(frame, 3);
+        const FrameReport report = pipeline.Process(frame);
+        EXPECT_EQ(report.fused, !spoilt) << report.track.reason;
+        EXPECT_GT(report.track.innovation_m, 0.2);
+        EXPECT_NEAR(report.track.T_world_camera.translation().x(), 0.22, 0.005);
+        EXPECT_EQ(report.track.reason.find("predicted") != std::string::npos, spoilt);
+    }
+}
+
+// At 5 Hz the camera turns by more than predictions are worth: half a fit is no evidence then.
+TEST(Pipeline, WhereNothingCanBePredictedHalfAFitIsNoEvidence) {
+    Pipeline pipeline(SmallConfig(), SmallCamera());
+    BoxRoom room;
+    room.has_ball = true;
+    const auto frame_at = [&](int i) {
+        const double way_m = i % 2 == 0 ? 0.04 : -0.04;
+        return room.Render(SmallCamera(), Eigen::Isometry3d(Eigen::Translation3d(way_m, 0, 0)),
+                           i / 5.0);
+    };
+    for (int i = 0; i < 15; ++i) ASSERT_TRUE(pipeline.Process(frame_at(i)).fused) << i;
+    Frame frame = frame_at(15);
+    SpoilLeft(frame, 2);
+    const FrameReport report = pipeline.Process(frame);
+    EXPECT_GT(report.track.inlier_fraction, 0.4);
+    EXPECT_EQ(report.track.status, TrackStatus::kLost);
+    EXPECT_TRUE(pipeline.Process(frame_at(16)).fused);
 }
 
 // Each bad frame is lost with a reason and leaves the map unchanged. The next good frame is

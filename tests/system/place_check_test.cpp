@@ -110,6 +110,9 @@ TEST(LostCamera, CanReachWhatIsNearAndSoon) {
     EXPECT_FALSE(camera.CanReach({103, AlongX(3)}));      // too long ago
     camera.Move(AlongX(10));
     EXPECT_TRUE(camera.CanReach({100.6, AlongX(13.7)}));
+    camera.Reached({101.5, AlongX(14)});
+    EXPECT_TRUE(camera.CanReach({103, AlongX(15)}));
+    camera.Reached({100, AlongX(13)});
     // A frame of the lost camera says nothing.
     TrackedFrame lost = TrackedAt(101);
     lost.report.track.status = TrackStatus::kLost;

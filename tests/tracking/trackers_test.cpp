@@ -201,5 +201,49 @@ TEST(TrackJudge, AllowsAJumpForEachFrameSinceTheLastPose) {
     EXPECT_EQ(status_after(0.61, 2), TrackStatus::kLost);
 }
 
+// The limits are those of a camera at 30 Hz: in a slower recording it moves farther between frames.
+TEST(TrackJudge, ASlowCameraJumpsFarther) {
+    const BlockMap map({});
+    const PreparedFrame frame;
+    const TrackJudge judge(TrackJudge::Config{.max_jump_m = 0.3, .max_jump_rad = 0.5});
+    for (const auto& [moved_m, since_s, expected] : {std::tuple{2.9, 1.0 / 3, TrackStatus::kGood},
+                                                     {3.1, 1.0 / 3, TrackStatus::kLost},
+                                                     {0.31, 1.0 / 60, TrackStatus::kLost},
+                                                     {0.29, 1.0 / 60, TrackStatus::kGood}}) {
+        const Eigen::Isometry3d T_moved(Eigen::Translation3d(moved_m, 0, 0));
+        TrackResult result{.T_world_camera = T_moved, .inlier_fraction = 1};
+        judge.Judge({.frame = frame,
+                     .map = map,
+                     .T_world_camera_starts = {T_moved},
+                     .T_world_camera_last = Eigen::Isometry3d::Identity(),
+                     .since_last_s = since_s},
+                    result);
+        EXPECT_EQ(result.status, expected) << moved_m << " m in " << since_s << " s";
+    }
+}
+
+// Far from the prediction, a pose is poor. A frame that knows all motions well can prove it right.
+TEST(TrackJudge, SaysWhatIsUnexpected) {
+    const BlockMap map({.voxel_size_m = 0.02, .truncation_m = 0.08});
+    const PreparedFrame frame;
+    const TrackJudge judge(TrackJudge::Config{
+        .degenerate_voxels = 0.5, .good_innovation_m = 0.2, .good_innovation_rad = 0.35});
+    for (const auto& [x_m, uncertainty_m, unexpected] :
+         {std::tuple{0.21, 0.009, true}, {0.21, 0.011, false}, {0.19, 0.009, false}}) {
+        const Eigen::Isometry3d T_moved(Eigen::Translation3d(x_m, 0, 0));
+        TrackResult result{
+            .T_world_camera = T_moved, .inlier_fraction = 1, .uncertainty_m = uncertainty_m};
+        judge.Judge({.frame = frame,
+                     .map = map,
+                     .T_world_camera_starts = {Eigen::Isometry3d::Identity()},
+                     .T_world_camera_last = T_moved,
+                     .since_last_s = 0.03},
+                    result);
+        EXPECT_EQ(result.unexpected, unexpected) << x_m << " m, " << uncertainty_m;
+        EXPECT_EQ(result.status, x_m > 0.2 ? TrackStatus::kPoor : TrackStatus::kGood);
+        EXPECT_NEAR(result.innovation_share, x_m / 0.2, 1e-12);
+    }
+}
+
 }  // namespace
 }  // namespace tessera

@@ -15,7 +15,6 @@ TrackResult Fit(double inliers, double known = 0.9, double distance_rms_m = 0.01
 
 TEST(UsualFit, AFrameMayFitALittleWorse) {
     UsualFit usual(0.15, 0.35);
-    EXPECT_TRUE(usual.Matches(Fit(0.2, 0.1)));  // nothing is known yet
     for (int i = 0; i < 5; ++i) usual.Add(Fit(0.8));
     EXPECT_TRUE(usual.Matches(Fit(0.69, 0.9, 0.02)));
     EXPECT_FALSE(usual.Matches(Fit(0.67, 0.9, 0.02)));
@@ -26,8 +25,36 @@ TEST(UsualFit, AFrameMayFitALittleWorse) {
     EXPECT_FALSE(usual.Matches(Fit(1, 0.34)));
     EXPECT_NE(usual.Reason(Fit(1, 0.34)).find("34 % of the depth lies in the map"),
               std::string::npos);
-    usual.Clear();
-    EXPECT_TRUE(usual.Matches(Fit(0.2, 0.1)));
+}
+
+// A map of one frame is the first that a frame can fit: 95 % of it at least are usual.
+TEST(UsualFit, TheFirstFramesMustFitToo) {
+    UsualFit usual(0.1, 0.35);
+    for (int k = 0; k < 2; ++k) {
+        EXPECT_TRUE(usual.Matches(Fit(0.86)));
+        EXPECT_FALSE(usual.Matches(Fit(0.85)));
+        EXPECT_FALSE(usual.Matches(Fit(1, 0.34)));
+        usual.Add(Fit(0.5));
+        EXPECT_TRUE(usual.Matches(Fit(0.5)));
+        usual.Clear();
+    }
+}
+
+// Whether the next pose can be predicted is learnt from how far poses were from their predictions.
+TEST(UsualFit, KnowsWhetherPosesArePredicted) {
+    UsualFit usual(0.1, 0.35);
+    EXPECT_TRUE(usual.Predicted(0.24));  // at first a matter of time only
+    EXPECT_FALSE(usual.Predicted(0.26));
+    TrackResult track = Fit(0.95);
+    track.innovation_share = 0.45;
+    usual.Add(track);
+    EXPECT_TRUE(usual.Predicted(0.4));
+    track.innovation_share = 1;
+    usual.Add(track);
+    EXPECT_FALSE(usual.Predicted(0.03));
+    track.innovation_share = 0.1;
+    for (int i = 0; i < 9; ++i) usual.Add(track);
+    EXPECT_TRUE(usual.Predicted(0.03));
 }
 
 // A single frame hardly changes what is usual; half a second does.
@@ -54,6 +81,8 @@ TEST(UsualFit, CanBeSwitchedOff) {
     UsualFit usual(1, 0.35);
     usual.Add(Fit(0.95));
     EXPECT_TRUE(usual.Matches(Fit(0.01, 0.01)));
+    EXPECT_FALSE(usual.Confirms(Fit(1)));  // of a pose far from its prediction
+    EXPECT_TRUE(UsualFit(0.1, 0.35).Confirms(Fit(1)));
 }
 
 }  // namespace
