@@ -199,11 +199,11 @@ bool TrackingStage::PlaceKnown(double stamp_s) const {
 // Where the camera is not known even roughly, its pose is trusted only if the frame fits well.
 // After a poor frame it is about known, and the frame keeps its pose.
 void TrackingStage::DemandUsualFit(double stamp_s, TrackResult& track) {
-    if (track.status == TrackStatus::kLost) return;
     if (track.unexpected && usual_fit_.Confirms(track)) {
         track.status = TrackStatus::kGood;
         track.reason.clear();
     }
+    if (track.status == TrackStatus::kLost) return;
     const bool known = PlaceKnown(stamp_s);
     if ((!known || motion_.doubt().poor || track.colour_rejected) && !usual_fit_.Matches(track)) {
         if (track.status == TrackStatus::kGood) track.reason = usual_fit_.Reason(track);

@@ -68,13 +68,13 @@ TrackStatus TrackJudge::Status(const TrackInput& input, TrackResult& result) con
     const Eigen::Isometry3d jump = input.T_world_camera_last.inverse() * result.T_world_camera;
     const double moved_m = jump.translation().norm();
     const double turned_rad = RotationAngle(input.T_world_camera_last, result.T_world_camera);
-    constexpr double kUsualRate_per_s = 30;
-    const double frames =
-        std::max<double>(input.frames_since_last, kUsualRate_per_s * input.since_last_s);
+    const int frames = input.frames_since_last;
     if (input.since_last_s > 0 &&
-        (moved_m > frames * config_.max_jump_m || turned_rad > frames * config_.max_jump_rad))
+        (moved_m > frames * config_.max_jump_m || turned_rad > frames * config_.max_jump_rad)) {
+        result.unexpected = !result.degenerate;
         return because(TrackStatus::kLost,
                        fmt::format("jumped by {:.2f} m and {:.2f} rad", moved_m, turned_rad));
+    }
     if (result.inlier_fraction < config_.good_inlier_fraction)
         return because(kPoor, Misfit(result));
     if (result.distance_rms_m > config_.good_distance_share * result.band_m)
@@ -107,21 +107,21 @@ void TrackJudge::Config::Describe(ConfigParameters& p) {
           "the band");
     p.Add(
         "max_jump_m", max_jump_m, {0.0, 100.0}, "m",
-        "tracking is lost if the camera moved farther within a thirtieth of a second, or from one "
-        "frame to the next");
-    p.Add("max_jump_rad", max_jump_rad, {0.0, 3.2}, "rad",
-          "tracking is lost if the camera rotated more within a thirtieth of a second, or from one "
-          "frame to the next");
+        "tracking is lost if the camera moved farther from one frame to the next, unless the frame "
+        "confirms it (doubt_misfit)");
+    p.Add(
+        "max_jump_rad", max_jump_rad, {0.0, 3.2}, "rad",
+        "tracking is lost if the camera rotated more from one frame to the next, unless the frame "
+        "confirms it (doubt_misfit)");
     p.Add("good_innovation_m", good_innovation_m, {0.0, 100.0}, "m",
-          "a pose farther from the motion model's prediction is trusted only if the frame fits as "
-          "well as after a gap in time");
+          "a pose farther from the motion model's prediction is trusted only if the frame "
+          "confirms it (doubt_misfit)");
     p.Add("good_innovation_rad", good_innovation_rad, {0.0, 3.2}, "rad",
           "the same for a rotation farther from the motion model's prediction");
-    p.Add(
-        "doubt_misfit", doubt_misfit, {0.0, 1.0}, "",
-        "after a gap in time, after frames that fitted badly and far from the prediction, a frame "
-        "is trusted only if its inlier fraction is at most this share below the usual one; 1 "
-        "disables this");
+    p.Add("doubt_misfit", doubt_misfit, {0.0, 1.0}, "",
+          "after a gap in time or after frames that fitted badly, a frame is trusted only if its "
+          "inlier fraction is at most this share below the usual one. It confirms a pose far from "
+          "the prediction if that is so counting unknown points as outliers. 1 disables both");
     p.Add("doubt_known_fraction", doubt_known_fraction, {0.0, 1.0}, "",
           "then it is not trusted either if a smaller fraction of the depth lies in the map");
 }

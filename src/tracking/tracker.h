@@ -56,8 +56,8 @@ struct TrackResult {
     double uncertainty_m = 0;
     double innovation_m = 0, innovation_rad = 0;  // from the motion model's prediction
     double innovation_share = 0;  // of what is good, of the distance and the angle together
-    // Poor only because one is more, and not degenerate: if the frame fits as well as usual, its
-    // pose is right.
+    // Poor only because one is more, or lost because the camera jumped, and not degenerate: the
+    // frame may confirm the pose.
     bool unexpected = false;
     double alpha = 0;             // photometric weight in use, [B14] eq. 8
     double gain = 1, offset = 0;  // map intensity = gain * image intensity + offset

@@ -20,6 +20,10 @@ bool UsualFit::Matches(const TrackResult& track) const {
             track.distance_rms_m <= kMostTimes * distance_rms_m_);
 }
 
+bool UsualFit::Confirms(const TrackResult& track) const {
+    return misfit_ < 1 && track.known_fraction * track.inlier_fraction >= (1 - misfit_) * inliers_;
+}
+
 bool UsualFit::Predicted(double since_last_s) const {
     // Twice its usual distance from the predictions must still be a good one. At first, that is
     // what a camera in a hand moves: some 0.2 m and 0.35 rad in a second.

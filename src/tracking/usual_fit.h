@@ -22,8 +22,9 @@ class UsualFit {
     void Add(const TrackResult& track);
     // Whether a frame fits as well. Before the first, 95 % are usual.
     bool Matches(const TrackResult& track) const;
-    // The same, but false if nothing is demanded.
-    bool Confirms(const TrackResult& track) const { return misfit_ < 1 && Matches(track); }
+    // Whether a frame shows nothing that is new to the map and fits as well: at a wrong pose far
+    // from the right one, a part of the view would lie outside. False if nothing is demanded.
+    bool Confirms(const TrackResult& track) const;
     // Whether a frame so long after the last one follows it closely enough for the motion model to
     // predict its pose, as far as it usually does.
     bool Predicted(double since_last_s) const;

@@ -111,7 +111,8 @@ TEST(Pipeline, AfterAPoorPoseTheCameraMayBeAnywhere) {
     EXPECT_NEAR(report.track.T_world_camera.translation().x(), -0.12, 0.005);
 }
 
-// What is fused may lie far from its prediction, if it fits as well as usual.
+// The camera comes back faster than its motion predicts. What is fused may lie far from its
+// prediction, if it fits as well as usual and shows nothing new.
 TEST(Pipeline, AFrameThatFitsIsRightWhereverItWasExpected) {
     for (const bool spoilt : {false, true}) {
         Pipeline pipeline(SmallConfig(), SmallCamera());
@@ -121,13 +122,14 @@ TEST(Pipeline, AFrameThatFitsIsRightWhereverItWasExpected) {
             return room.Render(SmallCamera(), Eigen::Isometry3d(Eigen::Translation3d(x_m, 0, 0)),
                                i / 30.0);
         };
-        for (int i = 0; i < 10; ++i) ASSERT_TRUE(pipeline.Process(frame_at(i, 0)).fused) << i;
-        Frame frame = frame_at(10, 0.22);
+        for (int i = 0; i < 10; ++i)
+            ASSERT_TRUE(pipeline.Process(frame_at(i, 0.03 * i)).fused) << i;
+        Frame frame = frame_at(10, 0.05);
         if (spoilt) SpoilLeft(frame, 3);
         const FrameReport report = pipeline.Process(frame);
         EXPECT_EQ(report.fused, !spoilt) << report.track.reason;
         EXPECT_GT(report.track.innovation_m, 0.2);
-        EXPECT_NEAR(report.track.T_world_camera.translation().x(), 0.22, 0.005);
+        EXPECT_NEAR(report.track.T_world_camera.translation().x(), 0.05, 0.005);
         EXPECT_EQ(report.track.reason.find("predicted") != std::string::npos, spoilt);
     }
 }

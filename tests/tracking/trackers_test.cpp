@@ -193,33 +193,13 @@ TEST(TrackJudge, AllowsAJumpForEachFrameSinceTheLastPose) {
                      .since_last_s = 0.03 * frames,
                      .frames_since_last = frames},
                     result);
+        EXPECT_EQ(result.unexpected, result.status == TrackStatus::kLost);  // may be confirmed
         return result.status;
     };
     EXPECT_EQ(status_after(0.29, 1), TrackStatus::kGood);
     EXPECT_EQ(status_after(0.31, 1), TrackStatus::kLost);
     EXPECT_EQ(status_after(0.31, 2), TrackStatus::kGood);
     EXPECT_EQ(status_after(0.61, 2), TrackStatus::kLost);
-}
-
-// The limits are those of a camera at 30 Hz: in a slower recording it moves farther between frames.
-TEST(TrackJudge, ASlowCameraJumpsFarther) {
-    const BlockMap map({});
-    const PreparedFrame frame;
-    const TrackJudge judge(TrackJudge::Config{.max_jump_m = 0.3, .max_jump_rad = 0.5});
-    for (const auto& [moved_m, since_s, expected] : {std::tuple{2.9, 1.0 / 3, TrackStatus::kGood},
-                                                     {3.1, 1.0 / 3, TrackStatus::kLost},
-                                                     {0.31, 1.0 / 60, TrackStatus::kLost},
-                                                     {0.29, 1.0 / 60, TrackStatus::kGood}}) {
-        const Eigen::Isometry3d T_moved(Eigen::Translation3d(moved_m, 0, 0));
-        TrackResult result{.T_world_camera = T_moved, .inlier_fraction = 1};
-        judge.Judge({.frame = frame,
-                     .map = map,
-                     .T_world_camera_starts = {T_moved},
-                     .T_world_camera_last = Eigen::Isometry3d::Identity(),
-                     .since_last_s = since_s},
-                    result);
-        EXPECT_EQ(result.status, expected) << moved_m << " m in " << since_s << " s";
-    }
 }
 
 // Far from the prediction, a pose is poor. A frame that knows all motions well can prove it right.

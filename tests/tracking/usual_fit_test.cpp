@@ -82,7 +82,16 @@ TEST(UsualFit, CanBeSwitchedOff) {
     usual.Add(Fit(0.95));
     EXPECT_TRUE(usual.Matches(Fit(0.01, 0.01)));
     EXPECT_FALSE(usual.Confirms(Fit(1)));  // of a pose far from its prediction
-    EXPECT_TRUE(UsualFit(0.1, 0.35).Confirms(Fit(1)));
+}
+
+// It must also lie in the map.
+TEST(UsualFit, ConfirmsWhatShowsNothingNew) {
+    UsualFit usual(0.1, 0.35);
+    for (int i = 0; i < 5; ++i) usual.Add(Fit(0.9, 0.95));
+    EXPECT_TRUE(usual.Confirms(Fit(0.9, 0.91)));
+    EXPECT_FALSE(usual.Confirms(Fit(0.9, 0.89)));
+    EXPECT_TRUE(usual.Matches(Fit(0.9, 0.89)));
+    EXPECT_FALSE(usual.Confirms(Fit(0.8, 1)));
 }
 
 }  // namespace
