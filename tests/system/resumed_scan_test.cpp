@@ -75,7 +75,7 @@ TEST_F(Scan, AfterAGapTheCameraIsFoundWhereTheScanEndedAndNowhereElse) {
     const auto tracked = std::ranges::count_if(
         Reports(), [](const FrameReport* report) { return report->tracked(); });
     EXPECT_FALSE(Reports().front()->tracked());
-    EXPECT_LE(tracked, 15);  // of 20; the first one is refused
+    EXPECT_LE(tracked, 16);  // of 20: the first four converge to a wrong pose and are refused
     for (const FrameReport* report : Reports())
         EXPECT_TRUE(!report->tracked() || Error_m(*report, 6) < 0.005)
             << report->index << " " << Error_m(*report, 6);
