@@ -48,8 +48,9 @@ void TrackJudge::Judge(const TrackInput& input, TrackResult& result) const {
     const Eigen::Isometry3d& T_world_expected = input.T_world_camera_starts.front();
     result.innovation_m = InnovationOf(T_world_expected, result.T_world_camera);
     result.innovation_rad = RotationAngle(T_world_expected, result.T_world_camera);
-    result.innovation_share = result.innovation_m / config_.good_innovation_m +
-                              result.innovation_rad / config_.good_innovation_rad;
+    constexpr double kLeast = 1e-6;  // a limit may be 0
+    result.innovation_share = result.innovation_m / std::max(config_.good_innovation_m, kLeast) +
+                              result.innovation_rad / std::max(config_.good_innovation_rad, kLeast);
     result.status = Status(input, result);
 }
 

@@ -223,6 +223,15 @@ TEST(TrackJudge, SaysWhatIsUnexpected) {
         EXPECT_EQ(result.status, x_m > 0.2 ? TrackStatus::kPoor : TrackStatus::kGood);
         EXPECT_NEAR(result.innovation_share, x_m / 0.2, 1e-12);
     }
+    TrackResult still{.inlier_fraction = 1};
+    TrackJudge(TrackJudge::Config{.good_innovation_m = 0, .good_innovation_rad = 0})
+        .Judge({.frame = frame,
+                .map = map,
+                .T_world_camera_starts = {Eigen::Isometry3d::Identity()},
+                .T_world_camera_last = Eigen::Isometry3d::Identity()},
+               still);
+    EXPECT_EQ(still.innovation_share, 0);
+    EXPECT_EQ(still.status, TrackStatus::kGood);
 }
 
 }  // namespace
