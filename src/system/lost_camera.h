@@ -148,7 +148,7 @@ class LostCamera {
     LoopConfig config_;
     double max_gap_s_;
     double last_seen_s_ = 0;
-    std::optional<StampedPose> before_;  // the last pose that was tracked well
+    std::optional<StampedPose> before_;  // the last pose that was tracked well, or found
     std::optional<double> poor_since_s_;
     double drift_m2_ = 0;  // variance, since the pose was last known in all motions
     std::optional<double> drifted_since_s_;

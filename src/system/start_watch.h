@@ -12,7 +12,6 @@ class StartWatch {
     // Call after each frame, when its status is final.
     void Add(const TrackedFrame& tracked) {
         const FrameReport& report = tracked.report;
-        if (report.first) good_ = 0;
         if (report.track.status == TrackStatus::kGood) {
             ++good_;
             lost_ = 0;

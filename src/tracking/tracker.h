@@ -55,9 +55,9 @@ struct TrackResult {
     // Standard deviation of the least constrained motion. A rotation counts at the scene's depth.
     double uncertainty_m = 0;
     double innovation_m = 0, innovation_rad = 0;  // from the motion model's prediction
-    double innovation_share = 0;  // of what is good, of the distance and the angle together
-    // Poor only because one is more, or lost because the camera jumped, and not degenerate: the
-    // frame may confirm the pose.
+    double innovation_share = 0;  // both as shares of what the judge calls good, added up
+    // Poor only because of its innovation, or lost because the camera jumped, and not degenerate:
+    // the frame may confirm the pose.
     bool unexpected = false;
     double alpha = 0;             // photometric weight in use, [B14] eq. 8
     double gain = 1, offset = 0;  // map intensity = gain * image intensity + offset

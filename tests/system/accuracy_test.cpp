@@ -54,6 +54,19 @@ TEST_F(Recorded, Freiburg1RpyIsTrackedAtATenthOfItsRate) {
     EXPECT_LE(run.ate->error_m.rmse, 0.022);
 }
 
+// Two frames per second. Nearly each is found by appearance, and is to be fused at once: nobody
+// gets from one room to another that fast.
+TEST_F(Recorded, Freiburg1RpyIsFusedAtTwoFramesPerSecond) {
+    ASSERT_NO_FATAL_FAILURE(Need("tum_fr1_rpy"));
+    if (IsSkipped()) return;
+    const RunSummary run =
+        RunWith(RunConfig(), sequence, folder / "out", {.start = 450, .stride = 14});
+    EXPECT_EQ(run.counts.frames, 19);
+    EXPECT_GE(run.counts.fused, 13);
+    ASSERT_TRUE(run.ate.has_value());
+    EXPECT_LE(run.ate->error_m.rmse, 0.022);
+}
+
 struct House {
     const char* name;
     double ate_m;

@@ -134,7 +134,7 @@ TEST(Pipeline, AFrameThatFitsIsRightWhereverItWasExpected) {
     }
 }
 
-// At 5 Hz the camera turns by more than predictions are worth: half a fit is no evidence then.
+// At 5 Hz the camera moves by more than predictions are worth: half a fit is no evidence then.
 TEST(Pipeline, WhereNothingCanBePredictedHalfAFitIsNoEvidence) {
     Pipeline pipeline(SmallConfig(), SmallCamera());
     BoxRoom room;

@@ -10,12 +10,11 @@ namespace {
 using testing_support::FrameList;
 using testing_support::RoomWalk;
 
-TrackedFrame At(double stamp_s, TrackStatus status, bool first = false) {
+TrackedFrame At(double stamp_s, TrackStatus status) {
     TrackedFrame tracked;
     tracked.prepared.valid_depth_pixels = 1;
     tracked.report.stamp_s = stamp_s;
     tracked.report.track.status = status;
-    tracked.report.first = first;
     return tracked;
 }
 
@@ -24,7 +23,7 @@ constexpr TrackStatus kGood = TrackStatus::kGood, kLost = TrackStatus::kLost;
 TEST(StartWatch, WaitsForASecondAndForAsManyFrames) {
     for (const int good : {1, 4, 10}) {
         StartWatch watch;
-        for (int i = 0; i < good; ++i) watch.Add(At(i, kGood, i == 0));
+        for (int i = 0; i < good; ++i) watch.Add(At(i, kGood));
         for (int i = 1; i <= good; ++i) {
             EXPECT_FALSE(watch.failed()) << good;
             watch.Add(At(good - 1 + i, kLost));
@@ -36,7 +35,7 @@ TEST(StartWatch, WaitsForASecondAndForAsManyFrames) {
         EXPECT_FALSE(watch.failed());
     }
     StartWatch watch;
-    watch.Add(At(10, kGood, true));
+    watch.Add(At(10, kGood));
     watch.Add(At(10.875, kLost));
     EXPECT_FALSE(watch.failed());
     watch.Add(At(11, kLost));
@@ -45,14 +44,14 @@ TEST(StartWatch, WaitsForASecondAndForAsManyFrames) {
 
 TEST(StartWatch, ALongerScanIsNeverThrownAway) {
     StartWatch watch;
-    for (int i = 0; i < 11; ++i) watch.Add(At(i, kGood, i == 0));
+    for (int i = 0; i < 11; ++i) watch.Add(At(i, kGood));
     for (int i = 11; i < 99; ++i) watch.Add(At(i, kLost));
     EXPECT_FALSE(watch.failed());
 }
 
 TEST(StartWatch, ACoveredCameraHasNothingToBeginWith) {
     StartWatch watch;
-    watch.Add(At(0, kGood, true));
+    watch.Add(At(0, kGood));
     TrackedFrame covered = At(5, kLost);
     covered.prepared.valid_depth_pixels = 0;
     watch.Add(covered);

@@ -27,7 +27,7 @@ TEST(UsualFit, AFrameMayFitALittleWorse) {
               std::string::npos);
 }
 
-// A map of one frame is the first that a frame can fit: 95 % of it at least are usual.
+// Before anything is known, 95 % are usual.
 TEST(UsualFit, TheFirstFramesMustFitToo) {
     UsualFit usual(0.1, 0.35);
     for (int k = 0; k < 2; ++k) {
