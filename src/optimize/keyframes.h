@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <span>
 #include <vector>
 
 #include "core/camera.h"
@@ -34,8 +35,7 @@ class Keyframes {
     void Follow(const Eigen::Isometry3d& T_map_camera);
     // True if the frame, the last one followed, should become a keyframe.
     bool Wanted(const PreparedFrame& frame, const Eigen::Isometry3d& T_map_camera) const;
-    // Sets its T_world_camera from the last keyframe's and their relative pose in the map.
-    // `motion`: while it was captured.
+    // Its T_world_camera is its pose in the map. `motion`: while it was captured.
     Keyframe& Add(std::int64_t frame_index, double stamp_s, const PreparedFrame& frame,
                   const TrackResult& track, const FrameMotion& motion = {});
     // The map was moved, and the last pose with it; the path continues from there.
@@ -54,6 +54,8 @@ class Keyframes {
     const Keyframe& operator[](int id) const { return keyframes_[static_cast<std::size_t>(id)]; }
     Keyframe& last() { return keyframes_.back(); }
     const Keyframe& last() const { return keyframes_.back(); }
+    std::span<const Keyframe> all() const { return keyframes_; }
+    const Eigen::Isometry3d& T_map_last() const { return T_map_last_; }  // the last one followed
 
   private:
     PinholeCamera camera_;

@@ -69,7 +69,7 @@ std::string LoopCloser::Add(const Frame& frame, const PreparedFrame& prepared,
                             const TrackResult& track, const Integrator::View& view, bool fused) {
     std::string news;
     const Eigen::Isometry3d& T_map_camera = track.T_world_camera;
-    keyframes_.Follow(T_map_camera);
+    Follow(T_map_camera);
     // Where the map holds a place twice, tracking may jump from one surface to the other. A new
     // keyframe starts there, so that the frames on both sides can move apart. If the map is known
     // to be like this, the keyframe is linked at the pose where the camera was expected.
@@ -82,7 +82,7 @@ std::string LoopCloser::Add(const Frame& frame, const PreparedFrame& prepared,
                     jumped && outdated() ? *expected : T_map_camera, jumped || outdated());
     if (keyframes_.empty()) return news;
     const Keyframe& last = keyframes_.last();
-    AddPassage(frame.stamp_s, T_map_camera);
+    AddPassage(frame.stamp_s, T_map_camera, fused);
     if (!fused) return news;
     const Status stored =
         Store(prepared.moving ? WithoutMoving(*prepared.moving, frame) : frame, keyframe, view);
@@ -90,6 +90,7 @@ std::string LoopCloser::Add(const Frame& frame, const PreparedFrame& prepared,
         if (config_.overlaps) overlaps_.Find(keyframes_, last.id, true);
         if (seeking_) news = SeekLoop(last, prepared, view.motion);
         if (seeking_ && news.empty()) news = SeekDrift(last);
+        if (seeking_ && news.empty()) news = SeekOtherParts(last, prepared);
         index_.Add(last.id, last.features.descriptors);
     }
     if (keyframe && rebuild_) {
@@ -128,27 +129,17 @@ void LoopCloser::StoreLatest() {
     if (Status stored = StoreAverage(); !stored.ok()) trouble_ = stored.message();
 }
 
-void LoopCloser::Pass(double stamp_s, const Eigen::Isometry3d& T_map_camera) {
-    keyframes_.Follow(T_map_camera);
-    jumps_.Follow(T_map_camera);
-    if (!keyframes_.empty()) AddPassage(stamp_s, T_map_camera);
-}
-
-void LoopCloser::AddPassage(double stamp_s, const Eigen::Isometry3d& T_map_camera) {
-    const Keyframe& last = keyframes_.last();
-    passages_.push_back({stamp_s, last.id, Normalised(last.T_map_camera.inverse() * T_map_camera)});
-}
-
 void LoopCloser::AddKeyframe(const Frame& frame, const PreparedFrame& prepared,
                              const TrackResult& track, const FrameMotion& motion,
                              const Eigen::Isometry3d& T_map_expected, bool doubtful) {
-    const bool first = keyframes_.empty();
+    const std::optional<int> from = LinkedTo(track.T_world_camera);
+    if (!from) LeaveShortPartOut();
     Keyframe& fresh = keyframes_.Add(frame.index, frame.stamp_s, prepared, track, motion);
-    if (!first) {
-        const int from = relocalised_at_.value_or(fresh.id - 1);
-        fresh.T_world_camera = Normalised(keyframes_[from].T_world_camera *
-                                          keyframes_[from].T_map_camera.inverse() * T_map_expected);
-        Link(from, fresh.id, T_map_expected, doubtful);
+    if (from) {
+        fresh.T_world_camera =
+            Normalised(keyframes_[*from].T_world_camera * keyframes_[*from].T_map_camera.inverse() *
+                       T_map_expected);
+        Link(*from, fresh.id, T_map_expected, doubtful);
     }
     relocalised_at_.reset();
     swapped_ = false;
@@ -219,8 +210,9 @@ std::string LoopCloser::CloseLoop(const Keyframe& old, const Keyframe& fresh,
 std::vector<StampedPose> LoopCloser::Path() const {
     std::vector<StampedPose> path;
     for (const PathPose& p : passages_)
-        path.push_back(
-            {p.stamp_s, Normalised(keyframes_[p.keyframe].T_world_camera * p.T_keyframe_camera)});
+        if (!LeftOut(p.keyframe))
+            path.push_back({p.stamp_s, Normalised(keyframes_[p.keyframe].T_world_camera *
+                                                  p.T_keyframe_camera)});
     return path;
 }
 

@@ -20,6 +20,7 @@
 #include "optimize/overlaps.h"
 #include "optimize/place_index.h"
 #include "optimize/pose_graph.h"
+#include "optimize/scan_parts.h"
 
 namespace tessera {
 
@@ -42,6 +43,7 @@ class LoopCloser {
         double stamp_s = 0;
         int keyframe = 0;
         Eigen::Isometry3d T_keyframe_camera;
+        bool fused = true;
     };
     // State needed to continue in another process.
     struct Memory {
@@ -82,10 +84,13 @@ class LoopCloser {
     // Off: frames are kept, but no loop is closed and no corrected map is made before the end.
     void SetSeeking(bool on) { seeking_ = on; }
     // For a tracked frame of which only the pose is kept.
-    void Pass(double stamp_s, const Eigen::Isometry3d& T_map_camera);
+    void Pass(double stamp_s, const Eigen::Isometry3d& T_map_camera, bool fused);
     // Returns T_map_camera for a frame of a lost camera. Empty if the place is unknown or
-    // ambiguous. `note`: message for the user.
-    std::optional<Eigen::Isometry3d> Relocalise(const PreparedFrame& frame, std::string& note);
+    // ambiguous. `note`: message for the user. `T_map_expected`: looks only in its part of the
+    // scan.
+    std::optional<Eigen::Isometry3d> Relocalise(
+        const PreparedFrame& frame, std::string& note,
+        const std::optional<Eigen::Isometry3d>& T_map_expected = std::nullopt);
     // Works on the corrected map: fuses at most this many stored frames into it.
     std::optional<Correction> Step(int frames);
     // True if Step has work to do.
@@ -112,7 +117,7 @@ class LoopCloser {
     // all stored frames.
     Result<Correction> MakeAgain();
 
-    // Corrected poses of all frames, in order.
+    // Corrected poses of all frames, in order; after Finish, of the largest part only.
     std::vector<StampedPose> Path() const;
     const Keyframes& keyframes() const { return keyframes_; }
     const std::vector<PoseEdge>& edges() const { return edges_; }
@@ -132,13 +137,31 @@ class LoopCloser {
     };
 
     void MakeMissingViews();
-    std::vector<Place> PlacesOf(const PreparedFrame& frame);
+    using Allows = std::function<bool(int keyframe)>;
+    std::vector<Place> PlacesOf(const Features& features, const DenseView& view,
+                                const Allows& allows);
     const Place* BestOf(std::vector<Place>& places, const PreparedFrame& frame, std::string& note);
+    std::vector<Place> BestOfParts(const Features& features, const DenseView& view,
+                                   const PreparedFrame& frame, const Allows& allows,
+                                   std::string& note);
     void AddKeyframe(const Frame& frame, const PreparedFrame& prepared, const TrackResult& track,
                      const FrameMotion& motion, const Eigen::Isometry3d& T_map_expected,
                      bool doubtful);
     void Link(int from, int to, const Eigen::Isometry3d& T_map_to, bool doubtful);
-    void AddPassage(double stamp_s, const Eigen::Isometry3d& T_map_camera);
+    void Follow(const Eigen::Isometry3d& T_map_camera);
+    std::optional<int> LatestInPartOf(const Eigen::Isometry3d& T_map_camera) const;
+    std::optional<int> LinkedTo(const Eigen::Isometry3d& T_map_camera) const;
+    void AddPassage(double stamp_s, const Eigen::Isometry3d& T_map_camera, bool fused);
+    std::string SeekOtherParts(const Keyframe& fresh, const PreparedFrame& prepared);
+    std::string JoinAt(const std::vector<Place>& places);
+    std::string JoinParts(int a, int b);
+    std::ptrdiff_t KeyframesAround(const Eigen::Isometry3d& T_map_camera) const;
+    bool LeftOut(int keyframe) const {
+        return keyframe < std::ssize(left_out_) && left_out_[static_cast<std::size_t>(keyframe)];
+    }
+    void LeaveShortPartOut();
+    bool PartsMove() const;
+    std::string KeepLargestPart();
     Status Store(const Frame& frame, bool keyframe, const Integrator::View& view);
     Status StoreAverage();
     void StoreLatest();
@@ -181,6 +204,8 @@ class LoopCloser {
     OverlapFinder overlaps_;
     std::vector<PoseEdge> edges_;
     std::vector<PathPose> passages_;
+    std::vector<CommonPlace> common_;      // of parts that are not joined yet
+    std::vector<bool> left_out_;           // keyframes of parts that are left out of path and map
     std::unique_ptr<MapRebuild> rebuild_;  // null if the map is up to date
     std::vector<BlockCoord> doubtful_;     // blocks of the map in use (WarpedMap)
     std::optional<int> relocalised_at_;    // keyframe to which the next one is linked

@@ -42,6 +42,10 @@ void LoopConfig::Describe(ConfigParameters& p) {
           "recorded but correct nothing");
     p.Add("rebuild_frames", rebuild_frames, {1, 100000}, "frames",
           "stored frames fused into the corrected map after each new frame");
+    p.Add("parts", parts,
+          "where a lost camera is found nowhere for two seconds, begin a new part of the scan, and "
+          "join it with the others when a place is seen again; not with mapping.memory_limit_mb or "
+          "a bounded mapping.volume");
 }
 
 }  // namespace tessera

@@ -23,6 +23,7 @@ struct LoopConfig {
     double max_drift = 0.05;
     double min_correction_m = 0.02;
     int rebuild_frames = 20;
+    bool parts = true;
     bool refine_calibration = false;  // key calibration.refine
     // No key: false if a scan keeps every frame, because these are then the frames in the file.
     bool average_frames = true;

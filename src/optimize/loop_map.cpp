@@ -35,14 +35,14 @@ std::vector<Eigen::Isometry3d> LoopCloser::MapPoses() const {
 // An object that was seen at two places has two instances, which become one only by voting again.
 // Unlike fusion, moving does not look at the free memory.
 bool LoopCloser::MayMove(const BlockMap& in_use) const {
-    if (make_pager_ || !MemoryHasRoomFor(in_use.bytes())) return false;
+    if (make_pager_ || PartsMove() || !MemoryHasRoomFor(in_use.bytes())) return false;
     return !labels_ ||
            (in_use.has_labels() && MaxDisplacement_m(MapPoses()) < settings_.map.truncation_m);
 }
 
 bool LoopCloser::WantsMap() const {
     return HasWork() && !rebuild_ && !broken_ && corrected_ && !make_pager_ && !labels_ &&
-           MaxDisplacement_m(MapPoses()) >= settings_.map.truncation_m;
+           !PartsMove() && MaxDisplacement_m(MapPoses()) >= settings_.map.truncation_m;
 }
 
 void LoopCloser::Move(std::unique_ptr<BlockMap> copy) {
@@ -87,6 +87,7 @@ bool LoopCloser::BeginRebuild(double tolerance_m, const BlockMap* in_use,
                                           static_cast<float>(settings_.preparation.max_depth_m));
     rebuild_ = std::make_unique<MapRebuild>(settings_, std::move(graph), std::move(labels),
                                             std::move(pager));
+    rebuild_->LeaveOut(left_out_);
     return true;
 }
 
@@ -110,8 +111,9 @@ std::optional<LoopCloser::Correction> LoopCloser::StepRebuild(int frames) {
     correction.pager = rebuild_->TakePager();
     doubtful_ = rebuild_->TakeDoubtful();
     correction.moved = rebuild_->has_copy();
-    correction.T_new_old =
-        Normalised(rebuild_->T_world_keyframe().back() * keyframes_.last().T_map_camera.inverse());
+    const int here = relocalised_at_.value_or(keyframes_.last().id);
+    correction.T_new_old = Normalised(rebuild_->T_world_keyframe()[static_cast<std::size_t>(here)] *
+                                      keyframes_[here].T_map_camera.inverse());
     for (int i = 0; i < keyframes_.size(); ++i)
         keyframes_[i].T_map_camera = rebuild_->T_world_keyframe()[static_cast<std::size_t>(i)];
     keyframes_.Move(correction.T_new_old);
@@ -143,6 +145,12 @@ std::optional<LoopCloser::Correction> LoopCloser::Finish(std::string& note,
             in_use = nullptr;
             if (BeginRebuild(-1)) last = StepRebuild(std::numeric_limits<int>::max());
         }
+    }
+    if (const std::string left_out = seeking_ ? KeepLargestPart() : ""; !left_out.empty()) {
+        note += (note.empty() ? "" : "; ") + left_out;
+        rebuild_.reset();
+        in_use = nullptr;
+        if (BeginRebuild(-1)) last = StepRebuild(std::numeric_limits<int>::max());
     }
     if (!corrected_) return last;
     if (in_use && !MayMove(*in_use)) in_use = nullptr;

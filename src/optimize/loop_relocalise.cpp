@@ -23,16 +23,16 @@ bool SamePlace(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
 
 // All places where features agree on a pose and the view fits what a keyframe there saw: its depth,
 // and more than half of the variance of its fine texture.
-std::vector<LoopCloser::Place> LoopCloser::PlacesOf(const PreparedFrame& frame) {
+std::vector<LoopCloser::Place> LoopCloser::PlacesOf(const Features& features, const DenseView& view,
+                                                    const Allows& allows) {
     // Factor compared with a loop: no prior pose narrows down the search.
     constexpr int kManyCandidates = 4;
-    const Features features = ExtractFeatures(frame, settings_.camera, config_.max_features);
-    const DenseView view =
-        MakeDenseView(MakeReducedView(frame, settings_.camera, {}), settings_.camera);
+    int left = kManyCandidates * config_.candidates;
     std::vector<Place> places;
-    for (const auto& candidate :
-         index_.Query(features.descriptors, keyframes_.size(), kManyCandidates * config_.candidates,
-                      config_.min_votes)) {
+    for (const auto& candidate : index_.Query(features.descriptors, keyframes_.size(),
+                                              keyframes_.size(), config_.min_votes)) {
+        if (LeftOut(candidate.keyframe) || !allows(candidate.keyframe)) continue;
+        if (--left < 0) break;
         const Keyframe& old = keyframes_[candidate.keyframe];
         const FeatureMatch match = MatchFeatures(old.features, features, config_);
         if (!match.accepted) continue;
@@ -74,17 +74,46 @@ const LoopCloser::Place* LoopCloser::BestOf(std::vector<Place>& places, const Pr
     return nullptr;
 }
 
-std::optional<Eigen::Isometry3d> LoopCloser::Relocalise(const PreparedFrame& frame,
-                                                        std::string& note) {
+// The best of the allowed places in each part of the scan that has one.
+std::vector<LoopCloser::Place> LoopCloser::BestOfParts(const Features& features,
+                                                       const DenseView& view,
+                                                       const PreparedFrame& frame,
+                                                       const Allows& allows, std::string& note) {
+    std::vector<Place> places = PlacesOf(features, view, allows), best;
+    while (!places.empty()) {
+        const Eigen::Isometry3d T_map_first = places.front().T_map_camera;
+        const auto others = std::stable_partition(
+            places.begin(), places.end(),
+            [&](const Place& place) { return InOnePart(place.T_map_camera, T_map_first); });
+        std::vector<Place> here(places.begin(), others);
+        places.erase(places.begin(), others);
+        if (const Place* place = BestOf(here, frame, note)) best.push_back(*place);
+    }
+    return best;
+}
+
+std::optional<Eigen::Isometry3d> LoopCloser::Relocalise(
+    const PreparedFrame& frame, std::string& note,
+    const std::optional<Eigen::Isometry3d>& T_map_expected) {
     relocalised_at_.reset();
-    std::vector<Place> places = PlacesOf(frame);
-    const Place* best = BestOf(places, frame, note);
-    if (best == nullptr) return std::nullopt;
-    relocalised_at_ = best->keyframe;
-    note = fmt::format("relocalised at frame {}", keyframes_[best->keyframe].frame_index);
+    const Features features = ExtractFeatures(frame, settings_.camera, config_.max_features);
+    const DenseView view =
+        MakeDenseView(MakeReducedView(frame, settings_.camera, {}), settings_.camera);
+    const std::vector<Place> places = BestOfParts(
+        features, view, frame,
+        [&](int id) {
+            return !T_map_expected || InOnePart(keyframes_[id].T_map_camera, *T_map_expected);
+        },
+        note);
+    if (places.empty()) return std::nullopt;
+    const Place& best = *std::ranges::max_element(
+        places, {}, [this](const Place& place) { return KeyframesAround(place.T_map_camera); });
+    relocalised_at_ = best.keyframe;
+    note = fmt::format("relocalised at frame {}", keyframes_[best.keyframe].frame_index);
+    if (std::string joined = JoinAt(places); !joined.empty()) note += "; " + joined;
     keyframes_.Jump();
     jumps_.Reset();
-    return Normalised(best->T_map_camera);
+    return Normalised(best.T_map_camera);
 }
 
 }  // namespace tessera

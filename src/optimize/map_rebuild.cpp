@@ -51,6 +51,8 @@ Result<bool> MapRebuild::Step(FrameStore& store, int frames) {
     auto next = std::ranges::lower_bound(stored, next_ordinal_, {}, &StoredFrame::ordinal);
     for (int i = 0; i < frames && next != stored.end(); ++i, ++next) {
         next_ordinal_ = next->ordinal + 1;
+        const auto keyframe = static_cast<std::size_t>(next->keyframe);
+        if (keyframe < left_out_.size() && left_out_[keyframe]) continue;
         if (moved_ &&
             !MaySee(*map_, camera_, PoseOf(*next), static_cast<float>(preparation_.max_depth_m)))
             continue;

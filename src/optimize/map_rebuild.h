@@ -39,6 +39,8 @@ class MapRebuild {
     Result<bool> Step(FrameStore& store, int frames);
     // Frames that are not fused yet.
     int Left(const FrameStore& store) const;
+    // Frames of these keyframes are not fused. `left_out`: by keyframe; empty: none.
+    void LeaveOut(std::vector<bool> left_out) { left_out_ = std::move(left_out); }
     // Keeps the warp's map, a copy of the one in use, which goes on.
     void Keep(std::unique_ptr<BlockMap> copy) { copy_ = std::move(copy); }
     bool has_copy() const { return copy_ != nullptr; }
@@ -63,6 +65,7 @@ class MapRebuild {
     // Then what is not fused again, while `map_` has only the blocks that are; else null.
     std::unique_ptr<BlockMap> moved_, rough_;  // `rough_`: WarpedMap
     std::vector<BlockCoord> doubtful_;
+    std::vector<bool> left_out_;
     Integrator integrator_;
     PinholeCamera camera_;
     PreparedFrame::Config preparation_;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "optimize/scan_parts.h"
+
 namespace tessera {
 namespace {
 
@@ -96,7 +98,9 @@ bool OverlapFinder::Align(Keyframes& keyframes, int id, int with,
         WithErrors(aligned.information, std::hypot(kFloor_rad, old.skew_rad, fresh.skew_rad),
                    std::hypot(kFloor_m, old.skew_m, fresh.skew_m));
     Overlap overlap{with, aligned.T_a_b, information, std::nullopt};
-    if (tracked) overlap.T_with_this_tracked = Between(old.T_map_camera, fresh.T_map_camera);
+    // Two parts that were just joined are still apart in the map.
+    if (tracked && InOnePart(old.T_map_camera, fresh.T_map_camera))
+        overlap.T_with_this_tracked = Between(old.T_map_camera, fresh.T_map_camera);
     fresh.overlaps.push_back(overlap);
     return true;
 }

@@ -22,16 +22,6 @@ int NearestKeyframe(const Keyframes& keyframes, const Eigen::Isometry3d& T_map_c
     return nearest;
 }
 
-Eigen::Isometry3d WorldsOf(const CommonPlace& place, const Keyframe& in_b) {
-    return Normalised(place.T_world_a_in_b * in_b.T_world_camera.inverse());
-}
-
-bool ShareLittle(const Keyframe& a, const Keyframe& b) {
-    constexpr double kLittle = 0.5;
-    return ViewOverlap(b.depth_m, b.view,
-                       Normalised(a.T_world_camera.inverse() * b.T_world_camera)) < kLittle;
-}
-
 }  // namespace
 
 std::vector<CommonPlace> FindCommonPlaces(LoopCloser& a, std::span<const StoredFrame> frames,
@@ -58,35 +48,7 @@ std::vector<CommonPlace> FindCommonPlaces(LoopCloser& a, std::span<const StoredF
     return places;
 }
 
-std::optional<JointPose> AgreeOnPose(std::span<const CommonPlace> places,
-                                     std::span<const Keyframe> keyframes_of_b) {
-    constexpr double kNear_m = 0.15, kNear_rad = 0.15, kDrift = 0.05;  // as for a loop (DriftOf)
-    const auto in_b = [&](const CommonPlace& place) -> const Keyframe& {
-        return keyframes_of_b[static_cast<std::size_t>(place.in_b)];
-    };
-    JointPose best;
-    for (const CommonPlace& start : places) {
-        const Eigen::Isometry3d T_a_b = WorldsOf(start, in_b(start));
-        JointPose pose{T_a_b, {}};
-        for (const CommonPlace& place : places) {
-            const Eigen::Isometry3d T_world_a_expected = T_a_b * in_b(place).T_world_camera;
-            const double way_m = std::abs(in_b(place).path_length_m - in_b(start).path_length_m);
-            if ((T_world_a_expected.translation() - place.T_world_a_in_b.translation()).norm() <=
-                    kNear_m + kDrift * way_m &&
-                RotationAngle(T_world_a_expected, place.T_world_a_in_b) <=
-                    kNear_rad + kDrift * std::abs(in_b(place).turned_rad - in_b(start).turned_rad))
-                pose.places.push_back(place);
-        }
-        if (pose.places.size() > best.places.size()) best = std::move(pose);
-    }
-    for (const CommonPlace& a : best.places)
-        for (const CommonPlace& b : best.places)
-            if (ShareLittle(in_b(a), in_b(b))) return best;
-    return std::nullopt;
-}
-
 void AppendSession(LoopCloser::Memory b, const JointPose& pose, LoopCloser::Memory& a) {
-    constexpr double kSigma_m = 0.01, kSigma_rad = 0.005;  // of a place
     const int first = static_cast<int>(a.keyframes.size());
     const double way_m = a.keyframes.empty() ? 0 : a.keyframes.back().path_length_m,
                  turned_rad = a.keyframes.empty() ? 0 : a.keyframes.back().turned_rad;
@@ -104,9 +66,10 @@ void AppendSession(LoopCloser::Memory b, const JointPose& pose, LoopCloser::Memo
         edge.to += first;
         a.edges.push_back(std::move(edge));
     }
-    for (const CommonPlace& place : pose.places)
-        a.edges.push_back({place.in_a, place.in_b + first, place.T_in_a_in_b,
-                           RootInformation(kSigma_rad, kSigma_m), true});
+    for (const CommonPlace& place : pose.places) {
+        a.edges.push_back(EdgeAt(place));
+        a.edges.back().to += first;
+    }
     for (LoopCloser::PathPose& passage : b.passages) {
         passage.keyframe += first;
         a.passages.push_back(passage);

@@ -212,6 +212,7 @@ Status Runner::Correct() {
     summary_.calibration = engine_->calibration();
     std::vector<StampedPose> path = engine_->CorrectedPath();
     if (path.empty()) return Status::Ok();
+    CountLeftOut(path);
     estimate_ = std::move(path);
     return output_ ? output_->ReplacePath(estimate_) : Status::Ok();
 }

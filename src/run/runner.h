@@ -47,9 +47,8 @@ class Runner {
     void AddTimes(const FrameOutcome& outcome, double frame_ms);
     // The source's ground truth in the map's world.
     std::optional<Eigen::Isometry3d> TruthOf(const FrameOutcome& outcome) const;
-    // After a reset, the output files also cover only the new world. If nobody asked for it, the
-    // frames before count as lost.
-    Status BeginAnew(const std::string& reason);
+    // After a reset, the output files also cover only the new world.
+    Status BeginAnew();
     Status OpenOutput();
     // A run goes on without the lines that find no room on the disk. Said once per file.
     void KeepGoing(const Status& written);
@@ -62,6 +61,8 @@ class Runner {
     // While a window is open, what the ended run holds can be saved.
     void ServeWindow(const std::atomic<bool>& stop);
     Result<AteResult> Evaluate() const;
+    // Frames of this run that the final path does not have count as lost.
+    void CountLeftOut(const std::vector<StampedPose>& path);
     // Takes over the final poses and the refined calibration.
     Status Correct();
     Status WriteMesh();
@@ -77,7 +78,8 @@ class Runner {
     RunWindow window_;
     MemoryWatch memory_;
     std::vector<StampedPose> truth_, estimate_;
-    std::vector<std::string> notes_;  // from opening, for the user
+    std::vector<std::pair<double, bool>> tracked_;  // stamps of this run's tracked frames; fused?
+    std::vector<std::string> notes_;                // from opening, for the user
     LabelClasses class_names_;
     std::unique_ptr<Engine> engine_;
     std::unique_ptr<RunOutput> output_;

@@ -1,6 +1,8 @@
 // How a run handles each outcome of the engine.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "run/runner.h"
 
 namespace tessera {
@@ -32,7 +34,7 @@ Status Runner::Take(const FrameOutcome& outcome) {
         case Kind::kMessage: Warn(outcome.message); break;
         case Kind::kLabelsBegin: return BeginLabels(*outcome.classes);
         case Kind::kLabelsEnd: Warn(outcome.message), window_.EndLabels(); break;
-        case Kind::kReset: return BeginAnew(outcome.message);
+        case Kind::kReset: return BeginAnew();
     }
     return Status::Ok();
 }
@@ -42,7 +44,10 @@ void Runner::TakeFrame(const FrameOutcome& outcome) {
     Count(outcome);
     if (outcome.T_world_camera_truth)
         truth_.push_back({report.stamp_s, *outcome.T_world_camera_truth});
-    if (report.tracked()) estimate_.push_back({report.stamp_s, report.track.T_world_camera});
+    if (report.tracked()) {
+        estimate_.push_back({report.stamp_s, report.track.T_world_camera});
+        tracked_.emplace_back(report.stamp_s, report.fused);
+    }
     const double frame_ms = frame_watch_.LapMs();
     AddTimes(outcome, frame_ms);
     window_.Show(outcome, summary_.counts, TruthOf(outcome));
@@ -101,23 +106,17 @@ std::optional<Eigen::Isometry3d> Runner::TruthOf(const FrameOutcome& outcome) co
            *outcome.T_world_camera_truth;
 }
 
-Status Runner::BeginAnew(const std::string& reason) {
-    RunCounts counts;
-    if (!reason.empty()) {
-        counts.frames = summary_.counts.frames;
-        counts.skipped = summary_.counts.skipped;
-        counts.dropped = summary_.counts.dropped;
-        counts.lost = summary_.counts.lost + summary_.counts.tracked;
-    }
-    summary_.counts = counts;
+Status Runner::BeginAnew() {
+    summary_.counts = {};
     if (summary_.labels) summary_.labels.emplace();
     frames_before_ = 0;
     truth_.clear();
     estimate_.clear();
+    tracked_.clear();
     times_ = {};
     told_.status = TrackStatus::kGood;
     told_.degenerate = told_.colour_rejected = false;
-    Warn(reason.empty() ? "reset: the map and the path start again" : reason);
+    Warn("reset: the map and the path start again");
     if (!output_) return Status::Ok();
     if (Status status = OpenOutput(); !status.ok()) return status;
     const bool chosen_later = summary_.labels && request_.labels.empty();
@@ -144,6 +143,19 @@ void Runner::Count(const FrameOutcome& outcome) {
     if (!report.tracked()) summary_.last_reason = report.track.reason;
     if (!report.warning.empty()) Warn(fmt::format("frame {}: {}", report.index, report.warning));
     WarnOnStatusChange(report);
+}
+
+void Runner::CountLeftOut(const std::vector<StampedPose>& path) {
+    std::vector<double> stamps_s;
+    for (const StampedPose& pose : path) stamps_s.push_back(pose.stamp_s);
+    std::ranges::sort(stamps_s);
+    RunCounts& n = summary_.counts;
+    for (const auto& [stamp_s, fused] : tracked_) {
+        if (std::ranges::binary_search(stamps_s, stamp_s)) continue;
+        --n.tracked;
+        ++n.lost;
+        n.fused -= fused;
+    }
 }
 
 // Warns only when the tracking status changes, not for every lost frame.

@@ -34,7 +34,7 @@ struct FrameOutcome {
         kMessage,      // text for the user
         kLabelsEnd,    // the detector failed; see `message`
         kLabelsBegin,  // another detector is in use; see `classes`
-        kReset,        // the map and the trajectory start again; see `message`, empty if asked for
+        kReset,        // the map and the trajectory start again
     };
     Kind kind = Kind::kFrame;
     std::string message;

@@ -3,11 +3,12 @@
 
 #include <optional>
 
+#include "optimize/scan_parts.h"
 #include "system/frame_plan.h"
+#include "system/loss_watch.h"
 #include "system/resume_gate.h"
 #include "system/run_config.h"
 #include "system/scan_plan.h"
-#include "system/start_watch.h"
 #include "system/tracking_stage.h"
 
 namespace tessera {
@@ -18,11 +19,9 @@ struct TrackingResume {
     std::optional<StampedPose> last;
     double last_stamp_s = 0;
     bool only_localise = false;
+    int parts = 0;  // places for parts that are taken already
 
-    static TrackingResume Of(const ScanPlan& plan) {
-        const ScanContent& scan = *plan.resumed;
-        return {scan.tracking, scan.LastPose(), scan.progress.last_stamp_s, plan.only_localise()};
-    }
+    static TrackingResume Of(const ScanPlan& plan);
 };
 
 // The thread that tracks owns it.
@@ -33,29 +32,34 @@ class FrameTracking {
         : plan_(std::move(plan)),
           stage_(config.pipeline, camera, device),
           gate_(config.pipeline.motion.max_gap_s),
-          loops_(config.loops.enabled) {
+          loops_(config.loops.enabled),
+          may_part_(loops_ && config.EffectiveLoops().parts) {
         if (loops_) stage_.KeepImages();
     }
 
     // Call before the first frame.
     void Resume(const TrackingResume& resume) {
-        resumed_ = true;
+        parts_ = resume.parts;
         gate_.Begin(resume.state, resume.last, !loops_, stage_);
-        if (resume.only_localise) stage_.OnlyTrack();
+        if (!resume.only_localise) return;
+        stage_.OnlyTrack();
+        may_part_ = false;
     }
+    // Off: no new part of the scan begins.
+    void SetSeeking(bool on) { seeking_ = on; }
 
     // A frame: first selects its method, which decides what map it needs, then tracks.
-    void Begin(const Frame& frame) { plan_.Select(frame, stage_); }
+    void Begin(const Frame& frame) {
+        plan_.Select(frame, stage_);
+        if (watch_.anywhere() && may_part_ && seeking_ && parts_ < kMostParts) BeginPart();
+    }
     void Track(const Frame& frame, const BlockMap& map, TrackedFrame& tracked) {
         plan_.Track(frame, map, stage_, tracked);
         gate_.AfterTracking(frame, stage_, tracked);
+        if (parts_ > 0 && tracked.report.first) tracked.report.warning = kPartBegins;
     }
     // When the frame's pose and status are final.
-    void End(const TrackedFrame& tracked) {
-        if (!resumed_) start_.Add(tracked);
-    }
-    // The scan is to begin again with the next frame.
-    bool start_failed() const { return start_.failed(); }
+    void End(const TrackedFrame& tracked) { watch_.Add(tracked); }
     // For a scan file: the state travels with its frame, so that a checkpoint after that frame
     // contains it.
     void SaveState(TrackedFrame& tracked) const {
@@ -68,19 +72,23 @@ class FrameTracking {
     void Reset() {
         stage_.Reset();
         gate_.Open();
-        start_.Clear();
-        resumed_ = false;
+        watch_.Clear();
+        parts_ = 0;
     }
     TrackingStage& stage() { return stage_; }
     const TrackingStage& stage() const { return stage_; }
 
   private:
+    void BeginPart();
+
     FramePlan plan_;
     TrackingStage stage_;
     ResumeGate gate_;
-    StartWatch start_;
-    bool resumed_ = false;
+    LossWatch watch_;
+    int parts_ = 0;  // begun after the first
+    bool seeking_ = true;
     const bool loops_;
+    bool may_part_;
 };
 
 }  // namespace tessera

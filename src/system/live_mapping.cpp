@@ -179,7 +179,7 @@ void LiveMapping::Offer(MappingTask& task) {
 
 void LiveMapping::Execute(const ViewerCommand& command) {
     switch (command.kind) {
-        case ViewerCommand::Kind::kReset: Reset(command.reason); break;
+        case ViewerCommand::Kind::kReset: Reset(); break;
         case ViewerCommand::Kind::kSaveMesh: life_.SaveMesh(command.path); break;
         case ViewerCommand::Kind::kSaveScan:
             life_.SaveScan(command.path);
@@ -190,13 +190,13 @@ void LiveMapping::Execute(const ViewerCommand& command) {
     life_.SendMesh();
 }
 
-void LiveMapping::Reset(const std::string& reason) {
+void LiveMapping::Reset() {
     ++world_;
     corrections_.clear();
     next_detection_s_ = 0;
     if (loops_) loops_->Reset(version());
     life_.Reset();
-    links_.Report(FrameOutcome::Kind::kReset, reason);
+    links_.Report(FrameOutcome::Kind::kReset, {});
 }
 
 // ---- The end.

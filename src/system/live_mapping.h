@@ -62,7 +62,7 @@ class LiveMapping {
     void CopyMap();
     void TakeUpdate(LoopThread::Update update, bool last);
     void Execute(const ViewerCommand& command);
-    void Reset(const std::string& reason);
+    void Reset();
     void End();
     MapVersion version() const { return {world_, static_cast<int>(corrections_.size())}; }
 

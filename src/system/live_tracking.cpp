@@ -44,14 +44,12 @@ LiveTracking::LiveTracking(Settings settings, FramePlan plan, LiveLinks& links,
 
 void LiveTracking::TakeCommands() {
     ViewerCommand command;
-    while (commands_.TryPop(command)) Execute(std::move(command));
-}
-
-void LiveTracking::Execute(ViewerCommand command) {
-    if (command.kind == ViewerCommand::Kind::kReset) Reset();
-    MappingTask task;
-    task.command = std::move(command);
-    mapping_.Send(std::move(task));
+    while (commands_.TryPop(command)) {
+        if (command.kind == ViewerCommand::Kind::kReset) Reset();
+        MappingTask task;
+        task.command = std::move(command);
+        mapping_.Send(std::move(task));
+    }
 }
 
 void LiveTracking::Reset() {
@@ -92,7 +90,6 @@ void LiveTracking::Track(NewFrame& item) {
     // The next frame needs a map.
     if (first && settings_.device == nullptr)
         links_.tracking.Wait([this] { return ApplyMapUpdates(); });
-    if (life.start_failed()) Execute({.kind = ViewerCommand::Kind::kReset, .reason = kStartFailed});
 }
 
 const BlockMap& LiveTracking::MapToTrackIn() const {
@@ -108,6 +105,7 @@ void LiveTracking::TakeSettings() {
     state_->detector_changed |= settings.detector != state_->detector;
     state_->detector = settings.detector;
     state_->seeking = settings.loops.value_or(true);
+    state_->life.SetSeeking(state_->seeking);
     if (loops_ != nullptr) loops_->SetSeeking(state_->seeking);
 }
 
@@ -170,14 +168,16 @@ std::optional<Eigen::Isometry3d> LiveTracking::TakeRelocalisation(double stamp_s
 
 void LiveTracking::CheckIfLost(TrackedFrame& tracked) {
     if (loops_ == nullptr || !state_->seeking) return;
+    if (tracked.report.first) state_->place.Close();
     const bool by_appearance = state_->lost.relocalised();
     const LostCamera::Verdict verdict = state_->lost.Judge(tracked);
     if (verdict != LostCamera::Verdict::kLost) {
         const StampedPose found{tracked.report.stamp_s, tracked.report.track.T_world_camera};
-        if (by_appearance && !state_->lost.relocalised() &&
-            (state_->place.open() || !state_->lost.CanReach(found))) {
-            state_->place.Begin(tracked.prepared, found.T_world_camera);
-            links_.notices.Tell(kPlaceUnconfirmed);
+        const bool reached = state_->lost.CanReach(found);
+        if (by_appearance && !state_->lost.relocalised() && (state_->place.open() || !reached)) {
+            const bool confirmed =
+                state_->place.Begin(tracked.prepared, found.T_world_camera, reached);
+            links_.notices.Tell(confirmed ? kPlaceConfirmed : kPlaceUnconfirmed);
         }
         if (by_appearance && tracked.report.tracked()) state_->lost.Reached(found);
         if (verdict == LostCamera::Verdict::kDoubtful && !state_->asked && !state_->place.open()) {
@@ -202,7 +202,9 @@ void LiveTracking::CheckPlace(TrackedFrame& tracked) {
 
 void LiveTracking::Ask(const TrackedFrame& tracked, bool check) {
     auto copy = std::make_unique<PreparedFrame>(tracked.prepared);
-    state_->asked = loops_->Ask({state_->version, tracked.report.stamp_s, std::move(copy), check});
+    LoopThread::Question question{state_->version, tracked.report.stamp_s, std::move(copy)};
+    if (check) question.T_map_expected = tracked.report.track.T_world_camera;
+    state_->asked = loops_->Ask(std::move(question));
 }
 
 }  // namespace tessera

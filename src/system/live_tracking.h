@@ -53,7 +53,6 @@ class LiveTracking {
     };
 
     void TakeCommands();
-    void Execute(ViewerCommand command);
     void Reset();
     void Track(NewFrame& item);
     const BlockMap& MapToTrackIn() const;

@@ -134,6 +134,7 @@ bool LockstepEngine::TakeMessage(FrameOutcome& outcome) {
 void LockstepEngine::Apply(const ViewerSettings& settings) {
     tracking_.stage().Apply(settings);
     mapping_.Apply(settings.labels);
+    tracking_.SetSeeking(settings.loops.value_or(true));
     if (loops_) loops_->Switch(settings.loops.value_or(true));
     mapping_.feed().ShowPrediction(settings.show_prediction);
     // Also without labels so far: then they begin here.
@@ -158,10 +159,6 @@ bool LockstepEngine::HandleViewer(FrameOutcome& outcome) {
             Apply(settings);
             continue;  // there may be something to tell
         }
-        if (tracking_.start_failed()) {
-            Reset(kStartFailed, outcome);
-            return true;
-        }
         if (const auto command = control_.TakeCommand()) {
             if (Execute(*command, outcome)) return true;
             continue;
@@ -174,18 +171,15 @@ bool LockstepEngine::HandleViewer(FrameOutcome& outcome) {
     }
 }
 
-void LockstepEngine::Reset(const std::string& reason, FrameOutcome& outcome) {
-    tracking_.Reset();
-    mapping_.Reset();
-    BeginLoops();
-    outcome.kind = FrameOutcome::Kind::kReset;
-    outcome.message = reason;
-}
-
 // Returns true if there is something to report besides messages.
 bool LockstepEngine::Execute(const ViewerCommand& command, FrameOutcome& outcome) {
     switch (command.kind) {
-        case ViewerCommand::Kind::kReset: Reset(command.reason, outcome); return true;
+        case ViewerCommand::Kind::kReset:
+            tracking_.Reset();
+            mapping_.Reset();
+            BeginLoops();
+            outcome.kind = FrameOutcome::Kind::kReset;
+            return true;
         case ViewerCommand::Kind::kSaveMesh: mapping_.SaveMesh(command.path); break;
         case ViewerCommand::Kind::kSaveScan: mapping_.SaveScan(command.path); break;
         case ViewerCommand::Kind::kRecord:

@@ -50,7 +50,6 @@ class LockstepEngine : public Engine {
     void EnableLabels(const LabelClasses& classes);
     bool HandleViewer(FrameOutcome& outcome);
     bool Execute(const ViewerCommand& command, FrameOutcome& outcome);
-    void Reset(const std::string& reason, FrameOutcome& outcome);
     void Finish();
 
     const RunConfig config_;

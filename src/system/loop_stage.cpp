@@ -46,6 +46,7 @@ void LoopStage::AfterTracking(const Frame& frame, const BlockMap& map, TrackingS
                               TrackedFrame& tracked, const LoadAround& bring) {
     lost_ms_ = 0;
     if (!on_) return;
+    if (tracked.report.first) place_.Close();
     const LostCamera::Verdict verdict = camera_.Judge(tracked);
     const bool lost = verdict == LostCamera::Verdict::kLost;
     if (!lost && verdict != LostCamera::Verdict::kDoubtful) return Check(tracking, tracked);
@@ -63,10 +64,10 @@ void LoopStage::AfterTracking(const Frame& frame, const BlockMap& map, TrackingS
         if (T_map_camera) bring(*T_map_camera);
         if (T_map_camera && tracking.TrackFrom(frame, map, *T_map_camera, tracked)) {
             const StampedPose found{frame.stamp_s, report.track.T_world_camera};
-            if (place_.open() || !camera_.CanReach(found)) {
-                place_.Begin(tracked.prepared, found.T_world_camera);
-                tracked.to_fuse = false;
-                AddNote(kPlaceUnconfirmed, note);
+            const bool reached = camera_.CanReach(found);
+            if (place_.open() || !reached) {
+                tracked.to_fuse = place_.Begin(tracked.prepared, found.T_world_camera, reached);
+                AddNote(tracked.to_fuse ? kPlaceConfirmed : kPlaceUnconfirmed, note);
             }
             camera_.Found(frame.stamp_s);
             camera_.Reached(found);
@@ -85,7 +86,8 @@ void LoopStage::Check(TrackingStage& tracking, TrackedFrame& tracked) {
     Stopwatch watch;
     std::string ignored;
     place_.Ask(tracked.prepared, T_map_camera, tracked.report.track.degenerate);
-    const bool possible = place_.Answer(closer_.Relocalise(tracked.prepared, ignored));
+    const bool possible =
+        place_.Answer(closer_.Relocalise(tracked.prepared, ignored, T_map_camera));
     lost_ms_ = watch.LapMs();
     if (possible) return AddNote(place_.open() ? "" : kPlaceConfirmed, tracked.report.warning);
     camera_.Lose();

@@ -30,6 +30,7 @@ void LoopThread::Offer(std::unique_ptr<TrackedFrame> tracked, std::unique_ptr<Fr
     Job job;
     job.map = map;
     job.stamp_s = tracked->report.stamp_s;
+    job.fused = tracked->report.fused;
     job.T_world_camera = tracked->report.track.T_world_camera;
     const int one_in = KeptOneIn(whole_.load());
     const bool whole = tracked->report.fused && one_in > 0 && ++since_whole_ >= one_in;
@@ -171,7 +172,7 @@ void LoopThread::Do(Job& job) {
 
 void LoopThread::AddFrame(Job& job) {
     Carry(history_, job.map.corrections, job.T_world_camera);
-    if (!job.tracked) return closer_->Pass(job.stamp_s, job.T_world_camera);
+    if (!job.tracked) return closer_->Pass(job.stamp_s, job.T_world_camera, job.fused);
     TrackedFrame& tracked = *job.tracked;
     tracked.report.track.T_world_camera = tracked.view.T_world_camera = job.T_world_camera;
     const std::string news =
@@ -189,10 +190,11 @@ bool LoopThread::Reply() {
     Answer answer;
     answer.map = question.map;
     answer.stamp_s = question.stamp_s;
-    answer.check = question.check;
+    answer.check = question.T_map_expected.has_value();
     // A question from before the last reset or correction is obsolete.
     if (question.map == version())
-        answer.T_world_camera = closer_->Relocalise(*question.frame, answer.note);
+        answer.T_world_camera =
+            closer_->Relocalise(*question.frame, answer.note, question.T_map_expected);
     TESSERA_CHECK(answers_.TryPush(std::move(answer)), "more answers than questions");
     return true;
 }

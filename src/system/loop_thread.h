@@ -44,14 +44,15 @@ class LoopThread {
         MapVersion map;
         double stamp_s = 0;
         std::unique_ptr<PreparedFrame> frame;
-        bool check = false;  // of a place found before
+        // Where the camera was found before: the question is whether it is there.
+        std::optional<Eigen::Isometry3d> T_map_expected = {};
     };
     struct Answer {
         MapVersion map;
         double stamp_s = 0;
         std::optional<Eigen::Isometry3d> T_world_camera;
         std::string note;    // for the user
-        bool check = false;  // as in the question
+        bool check = false;  // whether it was expected somewhere
     };
 
     // Frame pools, the threads to notify, and who tells the user. All outlive the LoopThread.
@@ -118,6 +119,7 @@ class LoopThread {
         Kind kind = Kind::kFrame;
         MapVersion map;
         double stamp_s = 0;
+        bool fused = false;
         Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity();
         std::unique_ptr<TrackedFrame> tracked;  // null, like `frame`: only the pose is used
         std::unique_ptr<Frame> frame;

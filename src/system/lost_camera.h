@@ -41,6 +41,7 @@ class LostCamera {
         started_ = started_ || report.first;
         if (std::exchange(resumed_, false))
             lost_ = std::abs(report.stamp_s - last_seen_s_) > max_gap_s_;
+        if (report.first) Found(report.stamp_s);
         lost_ = (lost_ || !report.tracked()) && started_ && !report.first;
         if (!lost_) return report.tracked() ? JudgeTracked(report) : Verdict::kTracking;
         poor_since_s_.reset();

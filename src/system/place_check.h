@@ -1,6 +1,6 @@
 // A camera that was relocalised may be in another room of the same kind. It is tracked, but nothing
 // is fused until a second view, which shares less than half with the first, is found where the
-// camera was tracked to.
+// camera was tracked to; or, if it was lost meanwhile, where it can have got to.
 #pragma once
 
 #include <optional>
@@ -20,12 +20,18 @@ class PlaceCheck {
   public:
     explicit PlaceCheck(const PinholeCamera& camera) : camera_(camera) {}
 
-    // The camera was relocalised and tracked there.
-    void Begin(const PreparedFrame& frame, const Eigen::Isometry3d& T_map_camera) {
+    // The camera was relocalised and tracked there. `reached`: it can have got there from the place
+    // that is being checked. Another view of that is then its second: returns true, and it is
+    // confirmed.
+    bool Begin(const PreparedFrame& frame, const Eigen::Isometry3d& T_map_camera, bool reached) {
+        const bool confirmed = reached && Due(T_map_camera);
         failed_ = 0;
-        open_ = true;
+        open_ = !confirmed;
         Ask(frame, T_map_camera);
+        return confirmed;
     }
+    // The camera is elsewhere.
+    void Close() { open_ = false; }
     // Nothing is fused.
     bool open() const { return open_; }
     // The camera sees enough that is new to ask where this is.

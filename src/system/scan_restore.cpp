@@ -24,14 +24,17 @@ LoopCloser::Memory TakeLoopMemory(ScanContent& scan) {
     for (const PathRecord& record : scan.path) {
         if (!record.tracked() || memory.keyframes.empty()) continue;
         if (record.keyframe >= 0) {
-            memory.passages.push_back({record.stamp_s, record.keyframe, record.T_reference_camera});
+            memory.passages.push_back(
+                {record.stamp_s, record.keyframe, record.T_reference_camera, record.fused});
         } else if (!memory.passages.empty()) {
             const int last = memory.passages.back().keyframe;
             const Eigen::Isometry3d& T_map_keyframe =
                 memory.keyframes[static_cast<std::size_t>(last)].T_map_camera;
-            memory.passages.push_back(
-                {record.stamp_s, last,
-                 Normalised(T_map_keyframe.inverse() * record.T_reference_camera)});
+            if (InOnePart(T_map_keyframe, record.T_reference_camera))
+                memory.passages.push_back(
+                    {record.stamp_s, last,
+                     Normalised(T_map_keyframe.inverse() * record.T_reference_camera),
+                     record.fused});
         }
     }
     for (FrameRecord& frame : scan.frames)

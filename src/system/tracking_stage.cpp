@@ -88,6 +88,7 @@ void TrackingStage::EstimatePose(const Frame& frame, const BlockMap& map,
         report.track.status = TrackStatus::kGood;
     } else if (report.first) {
         report.track.status = TrackStatus::kGood;  // the first camera defines the world frame
+        report.track.T_world_camera = T_world_start_;
         aligner_.Align(prepared, Eigen::Isometry3d::Identity());
     } else {
         report.track = TrackFrame(frame, map, prepared);
@@ -205,6 +206,12 @@ void TrackingStage::DemandUsualFit(double stamp_s, TrackResult& track) {
     }
     if (track.status == TrackStatus::kLost) return;
     const bool known = PlaceKnown(stamp_s);
+    // A pose that is poor for its prediction alone is wrong if predictions are usually worth
+    // nothing, or if it leaves a motion open and there is none.
+    if (track.status == TrackStatus::kPoor &&
+        (track.unexpected ? !usual_fit_.Predicted(motion_.SinceLast(stamp_s))
+                          : !known && track.degenerate))
+        track.status = TrackStatus::kLost;
     if ((!known || motion_.doubt().poor || track.colour_rejected) && !usual_fit_.Matches(track)) {
         if (track.status == TrackStatus::kGood) track.reason = usual_fit_.Reason(track);
         track.status = known ? TrackStatus::kPoor : TrackStatus::kLost;

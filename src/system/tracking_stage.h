@@ -78,6 +78,8 @@ class TrackingStage {
 
     // Whether Track reads the voxels of `map` on the CPU.
     bool reads_map() const { return trackers_.reads_map(); }
+    // The last tracked pose. Nothing before the first.
+    const std::optional<StampedPose>& last() const { return motion_.last(); }
 
     // Takes effect at the next frame. Pose, velocity, brightness and map are kept.
     void Select(TrackingMethod method) { trackers_.Select(method); }
@@ -90,6 +92,9 @@ class TrackingStage {
     void Apply(const ViewerSettings& settings);
     // Forgets the trajectory but keeps the settings. The next frame starts a new world.
     void Reset();
+    // The next frame starts a new part of the map: its camera is there. How well frames usually fit
+    // is not forgotten.
+    void BeginPart(const Eigen::Isometry3d& T_world_start);
 
     // All state that the next pose depends on, besides the map and the settings: the last pose and
     // the motion, what was learnt from colour, and the last frame's reduced images. LoadState
@@ -114,6 +119,7 @@ class TrackingStage {
 
     PipelineConfig config_;
     PinholeCamera camera_;
+    Eigen::Isometry3d T_world_start_ = Eigen::Isometry3d::Identity();  // of the first frame
     MotionModel motion_, motion_before_;  // after and before the last frame
     ImageAligner aligner_;
     // Not part of the saved state: they are soon known again.

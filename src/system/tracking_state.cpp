@@ -13,11 +13,17 @@ void TrackingStage::Apply(const ViewerSettings& settings) {
 }
 
 void TrackingStage::Reset() {
+    BeginPart(Eigen::Isometry3d::Identity());
+    usual_fit_.Clear();
+    frozen_colour_.Clear();
+}
+
+void TrackingStage::BeginPart(const Eigen::Isometry3d& T_world_start) {
+    T_world_start_ = T_world_start;
     motion_.Clear();
     moving_.Clear();
     aligner_.Clear();
-    usual_fit_.Clear();
-    frozen_colour_.Clear();
+    usual_fit_.ForgetPredictions();
     trackers_.Reset();
 }
 

@@ -86,7 +86,6 @@ struct ViewerCommand {
     };
     Kind kind = Kind::kPause;
     std::string path = {};
-    std::string reason = {};  // of a reset that nobody asked for
 };
 
 // Created by the program. Shared by the system's threads and the viewer's.

@@ -9,7 +9,8 @@ void UsualFit::Add(const TrackResult& track) {
     known_ = true;
     inliers_ += share * (track.inlier_fraction - inliers_);
     distance_rms_m_ += share * (track.distance_rms_m - distance_rms_m_);
-    innovation_share_ += share * (track.innovation_share - innovation_share_);
+    const double before = innovation_share_.value_or(track.innovation_share);
+    innovation_share_ = before + share * (track.innovation_share - before);
 }
 
 bool UsualFit::Matches(const TrackResult& track) const {
@@ -28,7 +29,7 @@ bool UsualFit::Predicted(double since_last_s) const {
     // Twice its usual distance from the predictions must still be a good one. At first, that is
     // what a camera in a hand moves: some 0.2 m and 0.35 rad in a second.
     constexpr double kMostShare = 0.5, kShare_per_s = 2;
-    return (known_ ? innovation_share_ : kShare_per_s * since_last_s) < kMostShare;
+    return innovation_share_.value_or(kShare_per_s * since_last_s) < kMostShare;
 }
 
 std::string UsualFit::Reason(const TrackResult& track) const {

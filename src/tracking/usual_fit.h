@@ -4,6 +4,7 @@
 // any of the view is known, all of it may. Owner thread only.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "tracking/tracker.h"
@@ -31,12 +32,16 @@ class UsualFit {
     // Why it does not match.
     std::string Reason(const TrackResult& track) const;
     void Clear() { *this = UsualFit(misfit_, least_known_); }
+    // Of the frames so far, few may have been found far from their predictions because the others
+    // were lost.
+    void ForgetPredictions() { innovation_share_.reset(); }
 
   private:
     double misfit_, least_known_;
     bool known_ = false;  // a frame was added: these are means over the last ten
     // Before, in a map of a single frame, right poses have had 89 to 99 % of inliers.
-    double inliers_ = 0.95, distance_rms_m_ = 0, innovation_share_ = 0;
+    double inliers_ = 0.95, distance_rms_m_ = 0;
+    std::optional<double> innovation_share_;
 };
 
 }  // namespace tessera

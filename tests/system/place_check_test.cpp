@@ -24,7 +24,7 @@ TEST(PlaceCheck, AsksOnlyWhereMostOfTheViewIsNew) {
     PlaceCheck check(kPlaceCamera);
     EXPECT_FALSE(check.open());
     EXPECT_FALSE(check.Due(AlongX(5)));
-    check.Begin(SeenWall(), AlongX(0));
+    EXPECT_FALSE(check.Begin(SeenWall(), AlongX(0), false));
     EXPECT_TRUE(check.open());
     EXPECT_FALSE(check.Due(AlongX(1.0)));
     EXPECT_TRUE(check.Due(AlongX(1.5)));  // the view is 2.46 m wide
@@ -37,15 +37,28 @@ TEST(PlaceCheck, AsksOnlyWhereMostOfTheViewIsNew) {
 
 TEST(PlaceCheck, ASecondViewThereConfirms) {
     PlaceCheck check(kPlaceCamera);
-    check.Begin(SeenWall(), AlongX(0));
+    EXPECT_FALSE(check.Begin(SeenWall(), AlongX(0), false));
     check.Ask(SeenWall(), AlongX(1.5));
     EXPECT_TRUE(check.Answer(AlongX(1.55)));
     EXPECT_FALSE(check.open());
 }
 
+TEST(PlaceCheck, AnotherViewFoundWithinReachConfirms) {
+    PlaceCheck check(kPlaceCamera);
+    EXPECT_FALSE(check.Begin(SeenWall(), AlongX(0), true)) << "it is the first";
+    EXPECT_FALSE(check.Begin(SeenWall(), AlongX(0.1), true)) << "the same view";
+    EXPECT_FALSE(check.Begin(SeenWall(), AlongX(9), false)) << "elsewhere";
+    EXPECT_TRUE(check.open());
+    EXPECT_TRUE(check.Begin(SeenWall(), AlongX(10.5), true));
+    EXPECT_FALSE(check.open());
+    EXPECT_FALSE(check.Begin(SeenWall(), AlongX(12), true)) << "a new place, nothing to confirm";
+    check.Close();
+    EXPECT_FALSE(check.open());
+}
+
 TEST(PlaceCheck, ViewsThatLeaveAMotionOpenConfirmButDoNotRefute) {
     PlaceCheck check(kPlaceCamera);
-    check.Begin(SeenWall(), AlongX(0));
+    EXPECT_FALSE(check.Begin(SeenWall(), AlongX(0), false));
     for (int i = 0; i < 5; ++i) {
         check.Ask(SeenWall(), AlongX(1.5), true);
         EXPECT_TRUE(check.Answer(i % 2 == 0 ? std::nullopt : std::optional(AlongX(9))));
@@ -58,7 +71,7 @@ TEST(PlaceCheck, ViewsThatLeaveAMotionOpenConfirmButDoNotRefute) {
 
 TEST(PlaceCheck, ThreeViewsElsewhereOrNowhereRefute) {
     PlaceCheck check(kPlaceCamera);
-    check.Begin(SeenWall(), AlongX(0));
+    EXPECT_FALSE(check.Begin(SeenWall(), AlongX(0), false));
     check.Ask(SeenWall(), AlongX(1.5));
     EXPECT_TRUE(check.Answer(std::nullopt));
     EXPECT_TRUE(check.open());
@@ -67,7 +80,7 @@ TEST(PlaceCheck, ThreeViewsElsewhereOrNowhereRefute) {
     check.Ask(SeenWall(), AlongX(4.5));
     EXPECT_FALSE(check.Answer(std::nullopt));
     EXPECT_FALSE(check.open());
-    check.Begin(SeenWall(), AlongX(9));  // found again: counts anew
+    EXPECT_FALSE(check.Begin(SeenWall(), AlongX(9), false));  // found again: counts anew
     check.Ask(SeenWall(), AlongX(10.5));
     EXPECT_TRUE(check.Answer(std::nullopt));
 }

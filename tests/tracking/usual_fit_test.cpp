@@ -55,6 +55,10 @@ TEST(UsualFit, KnowsWhetherPosesArePredicted) {
     track.innovation_share = 0.1;
     for (int i = 0; i < 9; ++i) usual.Add(track);
     EXPECT_TRUE(usual.Predicted(0.03));
+    EXPECT_TRUE(usual.Predicted(0.4));
+    usual.ForgetPredictions();
+    EXPECT_FALSE(usual.Predicted(0.26));
+    EXPECT_FALSE(usual.Matches(Fit(0.85, 0.9, 0.02)));  // how well frames fit is not forgotten
 }
 
 // A single frame hardly changes what is usual; half a second does.

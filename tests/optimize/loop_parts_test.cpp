@@ -1,0 +1,151 @@
+// Scans in parts: walks through a rendered room with Kinect noise, of which the second begins
+// elsewhere in the map.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "optimize/loop_closer.h"
+#include "optimize/room_walk.h"
+
+namespace tessera {
+namespace {
+
+using testing_support::RoomWalk;
+using testing_support::Walker;
+
+// A part of the scan: the camera's path is right, and begins at this place of the map.
+void Walk(Walker& walker, const std::vector<Frame>& frames, int part) {
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+        Eigen::Isometry3d T_last_camera = Eigen::Isometry3d::Identity();
+        if (i > 0)
+            T_last_camera = frames[i - 1].T_world_camera->inverse() * *frames[i].T_world_camera;
+        else
+            walker.T_map_camera = PartStart(part);
+        walker.Go(frames[i], T_last_camera);
+    }
+}
+
+double FarthestFrom(const Eigen::Vector3d& p, const BlockMap& map) {
+    double farthest_m = 0;
+    for (BlockId id = 1; id < map.size(); ++id) {
+        if (map.IsFree(id)) continue;
+        const BlockCoord& c = map.coord(id);
+        const double side_m = kBlockSide * map.config().voxel_size_m;
+        farthest_m = std::max(farthest_m, (side_m * Eigen::Vector3d(c.x, c.y, c.z) - p).norm());
+    }
+    return farthest_m;
+}
+
+// Largest distance from the true path of these frames, both begun at the first pose.
+double FarthestOff(const std::vector<StampedPose>& path, const std::vector<Frame>& frames) {
+    double farthest_m = 0;
+    for (std::size_t i = 0; i < path.size(); ++i) {
+        const Eigen::Isometry3d T_first = path[0].T_world_camera.inverse() * path[i].T_world_camera,
+                                T_first_true =
+                                    frames[0].T_world_camera->inverse() * *frames[i].T_world_camera;
+        farthest_m =
+            std::max(farthest_m, (T_first.translation() - T_first_true.translation()).norm());
+    }
+    return farthest_m;
+}
+
+std::vector<Frame> Both(std::vector<Frame> frames, const std::vector<Frame>& more) {
+    frames.insert(frames.end(), more.begin(), more.end());
+    return frames;
+}
+
+struct LoopParts : testing::Test {
+    void SetUp() override {
+        if (!PoseGraphAvailable()) GTEST_SKIP() << "this build has no Ceres: install libceres-dev";
+    }
+};
+
+TEST_F(LoopParts, AreJoinedWhereTheCameraSeesAPlaceOfTheOther) {
+    const std::vector<Frame> first = RoomWalk(0, 16, 6), second = RoomWalk(180, 30, -6);
+    Walker walker(LoopConfig{});
+    Walk(walker, first, 0);
+    Walk(walker, second, 1);
+    EXPECT_NE(walker.all_news.find("is joined with"), std::string::npos) << walker.all_news;
+    std::string note;
+    walker.Take(walker.closer.Finish(note));
+    EXPECT_EQ(note, "");
+    EXPECT_GE(walker.corrections, 1);
+    const std::vector<StampedPose> path = walker.closer.Path();
+    ASSERT_EQ(path.size(), first.size() + second.size());
+    EXPECT_LT(FarthestOff(path, Both(first, second)), 0.015);
+    EXPECT_LT(FarthestFrom(Eigen::Vector3d::Zero(), *walker.map), 10);
+    // The camera went on from where it had come to be.
+    EXPECT_LT(
+        (walker.T_map_camera.translation() - second.back().T_world_camera->translation()).norm(),
+        0.015);
+}
+
+// The path and the map are those of the longer part, in the world of its first camera.
+TEST_F(LoopParts, AShorterPartThatIsNotJoinedIsLeftOut) {
+    for (const bool second_is_longer : {false, true}) {
+        const std::vector<Frame> first = RoomWalk(0, 14, 3),
+                                 second = RoomWalk(360, second_is_longer ? 20 : 12, 3);
+        Walker walker(LoopConfig{});
+        Walk(walker, first, 0);
+        Walk(walker, second, 1);
+        std::string note;
+        walker.Take(walker.closer.Finish(note));
+        EXPECT_EQ(note.find(second_is_longer ? "14 frames are left out" : "12 frames are left out"),
+                  0u)
+            << note;
+        const std::vector<Frame>& kept = second_is_longer ? second : first;
+        const std::vector<StampedPose> path = walker.closer.Path();
+        ASSERT_EQ(path.size(), kept.size());
+        EXPECT_TRUE(path.front().T_world_camera.isApprox(Eigen::Isometry3d::Identity(), 1e-6));
+        EXPECT_LT(FarthestOff(path, kept), 1e-6);
+        EXPECT_GT(walker.map->size(), 100);
+        EXPECT_LT(FarthestFrom(Eigen::Vector3d::Zero(), *walker.map), 10);
+    }
+}
+
+TEST_F(LoopParts, AHandfulOfFramesIsNoPlaceToBeFoundAt) {
+    for (const int count : {10, 11}) {
+        const std::vector<Frame> first = RoomWalk(0, count, 3);
+        Walker walker(LoopConfig{});
+        Walk(walker, first, 0);
+        PreparedFrame prepared;
+        PrepareFrame(first[4], walker.settings.preparation, prepared);
+        std::string note;
+        EXPECT_TRUE(walker.closer.Relocalise(prepared, note)) << count;
+        Walk(walker, RoomWalk(360, 1, 3), 1);
+        EXPECT_EQ(walker.closer.Relocalise(prepared, note).has_value(), count > 10) << count;
+    }
+}
+
+// A lost camera finds its place in both parts, which says how they lie. One view may be of another
+// room of the same kind.
+TEST_F(LoopParts, AreJoinedByALostCameraThatIsFoundInBoth) {
+    Walker walker(LoopConfig{});
+    walker.closer.SetSeeking(false);
+    Walk(walker, RoomWalk(0, 20, 6), 0);
+    Walk(walker, RoomWalk(0, 15, 8), 1);
+    walker.closer.SetSeeking(true);
+    std::string note;
+    PreparedFrame prepared;
+    const auto relocalise = [&](int frame, const std::optional<Eigen::Isometry3d>& expected = {}) {
+        PrepareFrame(RoomWalk(frame, 1, 1)[0], walker.settings.preparation, prepared);
+        return walker.closer.Relocalise(prepared, note, expected);
+    };
+    const auto in_second = relocalise(9, PartStart(1));
+    ASSERT_TRUE(in_second) << note;
+    EXPECT_TRUE(InOnePart(*in_second, PartStart(1)));
+    EXPECT_EQ(note.find("joined"), std::string::npos) << note;
+    const auto found = relocalise(9);
+    ASSERT_TRUE(found) << note;
+    EXPECT_TRUE(InOnePart(*found, PartStart(0))) << "which has more keyframes";
+    EXPECT_EQ(note.find("joined"), std::string::npos) << note;
+    ASSERT_TRUE(relocalise(100)) << note;
+    EXPECT_NE(note.find("is joined with"), std::string::npos) << note;
+    EXPECT_EQ(PartsOf(walker.closer.edges(), walker.closer.keyframes().size()),
+              std::vector<int>(static_cast<std::size_t>(walker.closer.keyframes().size()), 0));
+}
+
+}  // namespace
+}  // namespace tessera

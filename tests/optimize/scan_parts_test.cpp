@@ -1,0 +1,36 @@
+#include "optimize/scan_parts.h"
+
+#include <gtest/gtest.h>
+
+namespace tessera {
+namespace {
+
+PoseEdge Edge(int from, int to) {
+    PoseEdge edge;
+    edge.from = from;
+    edge.to = to;
+    return edge;
+}
+
+TEST(ScanParts, AreWhatEdgesJoin) {
+    EXPECT_EQ(PartsOf({}, 0), std::vector<int>());
+    EXPECT_EQ(PartsOf({}, 3), (std::vector{0, 1, 2}));
+    const PoseEdge chain[] = {Edge(0, 1), Edge(1, 2), Edge(3, 4), Edge(4, 5)};
+    EXPECT_EQ(PartsOf(chain, 6), (std::vector{0, 0, 0, 3, 3, 3}));
+    // In any order and direction, and by way of a later keyframe.
+    const PoseEdge joined[] = {Edge(5, 4), Edge(3, 5), Edge(1, 2), Edge(5, 1)};
+    EXPECT_EQ(PartsOf(joined, 6), (std::vector{0, 1, 1, 1, 1, 1}));
+}
+
+TEST(ScanParts, BeginFarFromEachOther) {
+    EXPECT_TRUE(PartStart(0).isApprox(Eigen::Isometry3d::Identity()));
+    for (int a = 0; a <= kMostParts; ++a)
+        for (int b = 0; b <= kMostParts; ++b)
+            EXPECT_EQ(InOnePart(PartStart(a), PartStart(b)), a == b) << a << " " << b;
+    // Single precision is then half a millimetre or less.
+    for (int part = 0; part <= kMostParts; ++part)
+        EXPECT_LE(PartStart(part).translation().lpNorm<Eigen::Infinity>(), 4096);
+}
+
+}  // namespace
+}  // namespace tessera

@@ -1,0 +1,179 @@
+// A camera that is lost for long begins a new part of the scan.
+#include "system/loss_watch.h"
+
+#include "optimize/scan_parts.h"
+#include "system/engine_fixture.h"
+#include "system/frame_list.h"
+
+namespace tessera {
+namespace {
+
+using testing_support::FrameList;
+using testing_support::RoomWalk;
+
+TrackedFrame At(double stamp_s, TrackStatus status) {
+    TrackedFrame tracked;
+    tracked.prepared.valid_depth_pixels = 1;
+    tracked.prepared.has_colour = true;
+    tracked.report.stamp_s = stamp_s;
+    tracked.report.track.status = status;
+    return tracked;
+}
+
+constexpr TrackStatus kGood = TrackStatus::kGood, kLost = TrackStatus::kLost;
+
+TEST(LossWatch, AfterFewFramesWaitsForASecondAndForAsManyFrames) {
+    for (const int good : {1, 4, 10}) {
+        LossWatch watch;
+        for (int i = 0; i < good; ++i) watch.Add(At(i, kGood));
+        for (int i = 1; i <= good; ++i) {
+            EXPECT_FALSE(watch.anywhere()) << good;
+            watch.Add(At(good - 1 + i, kLost));
+        }
+        EXPECT_TRUE(watch.anywhere()) << good;
+        watch.Clear();
+        EXPECT_FALSE(watch.anywhere());
+        watch.Add(At(90, kLost));  // nothing has begun yet
+        EXPECT_FALSE(watch.anywhere());
+    }
+    LossWatch watch;
+    watch.Add(At(10, kGood));
+    watch.Add(At(10.875, kLost));
+    EXPECT_FALSE(watch.anywhere());
+    watch.Add(At(11, kLost));
+    EXPECT_TRUE(watch.anywhere());
+}
+
+TEST(LossWatch, LaterLooksForTwoSeconds) {
+    LossWatch watch;
+    for (int i = 0; i < 11; ++i) watch.Add(At(i, kGood));
+    watch.Add(At(10.5, TrackStatus::kPoor));
+    for (int i = 1; i < 8; ++i) {
+        watch.Add(At(10.5 + 0.25 * i, kLost));
+        EXPECT_FALSE(watch.anywhere()) << i;
+    }
+    watch.Add(At(12.5, kLost));
+    EXPECT_TRUE(watch.anywhere());
+    watch.Add(At(12.75, kGood));
+    EXPECT_FALSE(watch.anywhere());
+    // After a gap in time, too, it is looked for first.
+    watch.Add(At(50, kLost));
+    watch.Add(At(50.875, kLost));
+    EXPECT_FALSE(watch.anywhere());
+    watch.Add(At(51, kLost));
+    EXPECT_TRUE(watch.anywhere());
+}
+
+TEST(LossWatch, ACoveredCameraHasNothingToBeginWith) {
+    LossWatch watch;
+    watch.Add(At(0, kGood));
+    for (const bool colour : {false, true}) {
+        TrackedFrame covered = At(5, kLost);
+        (colour ? covered.prepared.valid_depth_pixels = 0 : covered.prepared.has_colour = false);
+        watch.Add(covered);
+        EXPECT_FALSE(watch.anywhere());
+    }
+    watch.Add(At(5.125, kLost));
+    EXPECT_TRUE(watch.anywhere());
+    watch.Add(At(5.25, TrackStatus::kPoor));  // it may find its way
+    EXPECT_FALSE(watch.anywhere());
+}
+
+class LostCameraRun : public EngineTest {
+  protected:
+    void Make(bool live, std::vector<Frame> frames) {
+        config.live = {};
+        config.live.queue_frames = 200;
+        EngineInput input = Input({});
+        input.source = std::make_unique<FrameList>(std::move(frames));
+        if (live)
+            engine = std::make_unique<LiveEngine>(std::move(input));
+        else
+            engine = std::make_unique<LockstepEngine>(std::move(input));
+        TakeAll();
+    }
+    // Frames of one place, then `count` of another.
+    static std::vector<Frame> Kidnapped(int first, int count) {
+        std::vector<Frame> frames = RoomWalk(0, first, 1);
+        for (Frame& frame : RoomWalk(200, count, 1)) frames.push_back(std::move(frame));
+        return frames;
+    }
+};
+
+class LostStart : public LostCameraRun, public testing::WithParamInterface<bool> {};
+
+// Two frames of one place, then two seconds of another, which is the scan in the end.
+TEST_P(LostStart, BeginsAgain) {
+    if (!PoseGraphAvailable()) GTEST_SKIP() << "this build has no Ceres: install libceres-dev";
+    Make(GetParam(), Kidnapped(2, 60));
+    EXPECT_NE(Messages().find("2 frames are left out"), std::string::npos) << Messages();
+    const auto reports = Reports();
+    ASSERT_EQ(reports.size(), 62u);
+    EXPECT_FALSE(reports[10]->tracked());
+    EXPECT_TRUE(reports.back()->fused) << reports.back()->track.reason;
+    const auto first = std::ranges::find_if(reports.begin() + 1, reports.end(),
+                                            [](const FrameReport* r) { return r->first; });
+    ASSERT_NE(first, reports.end());
+    EXPECT_NE((*first)->warning.find(kPartBegins), std::string::npos) << (*first)->warning;
+    EXPECT_NEAR((*first)->stamp_s - reports[1]->stamp_s, 1 + 1.0 / 30, 0.05);
+    // The other place has the only map, and its first camera is the world's.
+    const std::vector<StampedPose> path = engine->CorrectedPath();
+    EXPECT_EQ(std::ssize(path), reports.end() - first);
+    ASSERT_FALSE(path.empty());
+    EXPECT_LT(path.back().T_world_camera.translation().norm(), 2);
+    EXPECT_GT(engine->map_statistics().blocks, 100);
+    for (const auto& vertex : engine->TakeMesh().vertices) ASSERT_LT(vertex.norm(), 20);
+}
+INSTANTIATE_TEST_SUITE_P(Engines, LostStart, testing::Bool());
+
+// The camera walks back to where it was before.
+TEST_F(LostCameraRun, TheNewPartIsJoinedWithTheRest) {
+    if (!PoseGraphAvailable()) GTEST_SKIP() << "this build has no Ceres: install libceres-dev";
+    std::vector<Frame> frames = RoomWalk(0, 12, 8);
+    frames.insert(frames.end(), 61, RoomWalk(200, 1, 1)[0]);
+    for (Frame& frame : RoomWalk(200, 49, -4)) frames.push_back(std::move(frame));
+    Make(false, frames);
+    const auto reports = Reports();
+    const auto told = [&](const char* what) {
+        return std::ranges::any_of(reports, [what](const FrameReport* r) {
+            return r->warning.find(what) != std::string::npos;
+        });
+    };
+    EXPECT_TRUE(told("is joined with"));
+    EXPECT_TRUE(told("map corrected"));
+    EXPECT_EQ(Messages().find("left out"), std::string::npos) << Messages();
+    const std::vector<StampedPose> path = engine->CorrectedPath();
+    ASSERT_EQ(path.size(), 12u + 50);
+    for (std::size_t i = 0; i < path.size(); ++i)
+        EXPECT_LT((path[i].T_world_camera.translation() -
+                   frames[i + (i < 12 ? 0 : 60)].T_world_camera->translation())
+                      .norm(),
+                  0.02)
+            << i;
+    for (const auto& vertex : engine->TakeMesh().vertices) ASSERT_LT(vertex.norm(), 20);
+}
+
+TEST_F(LostCameraRun, BeginsNoPartWhereItIsOffOrCannotBe) {
+    const auto parts = [this] {
+        outcomes.clear();
+        Make(false, Kidnapped(2, 40));
+        const auto reports = Reports();
+        return std::ranges::count_if(reports, [](const FrameReport* r) { return r->first; });
+    };
+    EXPECT_EQ(parts(), PoseGraphAvailable() ? 2 : 1);
+    const RunConfig on = config;
+    config.loops.parts = false;
+    EXPECT_EQ(parts(), 1);
+    config = on;
+    config.loops.enabled = false;
+    EXPECT_EQ(parts(), 1);
+    config = on;
+    config.pipeline.fusion.volume.bounded = true;
+    EXPECT_EQ(parts(), 1);
+    config = on;
+    config.pipeline.paging.memory_limit_mb = 100;
+    EXPECT_FALSE(config.EffectiveLoops().parts);
+}
+
+}  // namespace
+}  // namespace tessera
