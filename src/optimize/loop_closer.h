@@ -161,6 +161,8 @@ class LoopCloser {
     }
     void LeaveShortPartOut();
     bool PartsMove() const;
+    std::unique_ptr<MapRebuild> MoveParts(const BlockMap& in_use,
+                                          const std::vector<Eigen::Isometry3d>& graph) const;
     std::string KeepLargestPart();
     Status Store(const Frame& frame, bool keyframe, const Integrator::View& view);
     Status StoreAverage();

@@ -35,14 +35,14 @@ std::vector<Eigen::Isometry3d> LoopCloser::MapPoses() const {
 // An object that was seen at two places has two instances, which become one only by voting again.
 // Unlike fusion, moving does not look at the free memory.
 bool LoopCloser::MayMove(const BlockMap& in_use) const {
-    if (make_pager_ || PartsMove() || !MemoryHasRoomFor(in_use.bytes())) return false;
+    if (make_pager_ || !MemoryHasRoomFor(in_use.bytes())) return false;
     return !labels_ ||
            (in_use.has_labels() && MaxDisplacement_m(MapPoses()) < settings_.map.truncation_m);
 }
 
 bool LoopCloser::WantsMap() const {
     return HasWork() && !rebuild_ && !broken_ && corrected_ && !make_pager_ && !labels_ &&
-           !PartsMove() && MaxDisplacement_m(MapPoses()) >= settings_.map.truncation_m;
+           MaxDisplacement_m(MapPoses()) >= settings_.map.truncation_m;
 }
 
 void LoopCloser::Move(std::unique_ptr<BlockMap> copy) {
@@ -60,6 +60,10 @@ bool LoopCloser::BeginRebuild(double tolerance_m, const BlockMap* in_use,
     if (broken_ || !corrected_) return false;
     std::vector<Eigen::Isometry3d> graph = GraphPoses();
     if (MaxDisplacement_m(MapPoses()) < tolerance_m) return false;
+    if (in_use && PartsMove()) {
+        rebuild_ = MoveParts(*in_use, graph);
+        return true;
+    }
     if (in_use) {
         // What frames show a voxel apart would be blurred.
         const double most_spread_m = settings_.map.voxel_size_m;
@@ -153,7 +157,7 @@ std::optional<LoopCloser::Correction> LoopCloser::Finish(std::string& note,
         if (BeginRebuild(-1)) last = StepRebuild(std::numeric_limits<int>::max());
     }
     if (!corrected_) return last;
-    if (in_use && !MayMove(*in_use)) in_use = nullptr;
+    if (in_use && (PartsMove() || !MayMove(*in_use))) in_use = nullptr;
     const double tolerance_m = settings_.map.voxel_size_m / 2;
     // Discards a rebuild with outdated poses, one that takes longer than to move the map, and one
     // that lacks what has changed since.

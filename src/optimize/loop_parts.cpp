@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "core/se3.h"
+#include "mapping/map_delta.h"
+#include "optimize/block_mover.h"
 #include "optimize/loop_closer.h"
 
 namespace tessera {
@@ -131,6 +134,44 @@ void LoopCloser::LeaveShortPartOut() {
 
 // Two parts were joined, but are not yet in the map.
 bool LoopCloser::PartsMove() const { return MaxDisplacement_m(MapPoses()) > kPartsApart_m / 2; }
+
+// Moves joined parts of a copy of the map to where the graph has them, each as a whole: what else
+// has changed is left to the next correction. Where a surface lands on another, that one stays, as
+// in a map that is moved.
+std::unique_ptr<MapRebuild> LoopCloser::MoveParts(
+    const BlockMap& in_use, const std::vector<Eigen::Isometry3d>& graph) const {
+    const double block_m = kBlockSide * in_use.config().voxel_size_m;
+    const auto in_part = [&](BlockId id, const Eigen::Isometry3d& T_map_camera) {
+        const BlockCoord c = in_use.coord(id);
+        return InOnePart(
+            Eigen::Isometry3d(Eigen::Translation3d(block_m * Eigen::Vector3d(c.x, c.y, c.z))),
+            T_map_camera);
+    };
+    std::unique_ptr<BlockMap> map = CopyLayers(in_use, BlockMap::Layers::kAll);
+    std::vector<Eigen::Isometry3d> T_new_keyframe = MapPoses();
+    std::vector<BlockCoord> doubtful;
+    for (std::size_t k = 0; k < graph.size(); ++k) {
+        if (InOnePart(T_new_keyframe[k], graph[k])) continue;
+        const Eigen::Isometry3d T_old = T_new_keyframe[k],
+                                T_new_old = Normalised(graph[k] * T_old.inverse());
+        for (Eigen::Isometry3d& T : T_new_keyframe)
+            if (InOnePart(T, T_old)) T = Normalised(T_new_old * T);
+        std::vector<BlockId> blocks;
+        for (BlockId id = 1; id < in_use.size(); ++id) {
+            if (in_use.IsFree(id) || !in_part(id, T_old)) continue;
+            blocks.push_back(id);
+            map->Release(id);
+        }
+        BlockMover mover = MoveRigidly(in_use, blocks, T_new_old, settings_.fusion.volume.box());
+        while (!mover.Step(*map, 0)) continue;
+        const std::set<BlockId> added(mover.added().begin(), mover.added().end());
+        for (const BlockId id : mover.moved())
+            if (!added.contains(id)) doubtful.push_back(map->coord(id));
+    }
+    for (BlockId id = 1; id < map->size(); ++id) map->MarkChanged(id, 0);
+    return std::make_unique<MapRebuild>(settings_, std::move(T_new_keyframe), std::move(map),
+                                        std::move(doubtful));
+}
 
 // At the end: parts that were not joined are left out, but for the one with most frames in the map.
 // Its first camera is then that of the world. Returns a message for the user, empty if there is

@@ -23,6 +23,14 @@ MapRebuild::MapRebuild(const FieldSettings& settings,
     warp_.emplace(std::move(warp));
 }
 
+MapRebuild::MapRebuild(const FieldSettings& settings,
+                       std::vector<Eigen::Isometry3d> T_world_keyframe,
+                       std::unique_ptr<BlockMap> made, std::vector<BlockCoord> doubtful)
+    : MapRebuild(settings, std::move(T_world_keyframe), nullptr) {
+    map_ = std::move(made);
+    doubtful_ = std::move(doubtful);
+}
+
 void MapRebuild::BeginFusion(WarpedMap moved) {
     if (moved.whole) {
         map_ = std::move(moved.map);

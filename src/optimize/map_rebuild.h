@@ -29,6 +29,10 @@ class MapRebuild {
     MapRebuild(const FieldSettings& settings, std::vector<Eigen::Isometry3d> T_world_keyframe,
                MapWarp warp);
 
+    // With a map that is made already. `doubtful`: see TakeDoubtful.
+    MapRebuild(const FieldSettings& settings, std::vector<Eigen::Isometry3d> T_world_keyframe,
+               std::unique_ptr<BlockMap> made, std::vector<BlockCoord> doubtful);
+
     void AddKeyframe(const Eigen::Isometry3d& T_world_keyframe) {
         T_world_keyframe_.push_back(T_world_keyframe);
     }
