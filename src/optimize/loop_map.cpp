@@ -150,7 +150,7 @@ std::optional<LoopCloser::Correction> LoopCloser::Finish(std::string& note,
             if (BeginRebuild(-1)) last = StepRebuild(std::numeric_limits<int>::max());
         }
     }
-    if (const std::string left_out = seeking_ ? KeepLargestPart() : ""; !left_out.empty()) {
+    if (const std::string left_out = KeepLargestPart(); !left_out.empty()) {
         note += (note.empty() ? "" : "; ") + left_out;
         rebuild_.reset();
         in_use = nullptr;

@@ -50,7 +50,7 @@ void LoopCloser::AddPassage(double stamp_s, const Eigen::Isometry3d& T_map_camer
 
 // Looks for a keyframe among those of other parts.
 std::string LoopCloser::SeekOtherParts(const Keyframe& fresh, const PreparedFrame& prepared) {
-    const std::vector<int> parts = PartsOf(edges_, keyframes_.size());
+    const std::vector<int> parts = PartsOf(edges_, keyframes_.all());
     if (std::ranges::count(parts, 0) == std::ssize(parts)) return {};
     const auto elsewhere = [&parts, here = parts.back()](int id) {
         return parts[static_cast<std::size_t>(id)] != here;
@@ -74,7 +74,7 @@ std::string LoopCloser::JoinAt(const std::vector<Place>& places) {
     std::string news;
     for (std::size_t i = 0; i < places.size(); ++i)
         for (std::size_t k = 0; k < i; ++k) {
-            const std::vector<int> parts = PartsOf(edges_, keyframes_.size());
+            const std::vector<int> parts = PartsOf(edges_, keyframes_.all());
             const auto part_of = [&parts](const Place& place) {
                 return parts[static_cast<std::size_t>(place.keyframe)];
             };
@@ -91,7 +91,7 @@ std::string LoopCloser::JoinAt(const std::vector<Place>& places) {
 
 // Joins these parts if enough of their common places agree. Returns a message for the user.
 std::string LoopCloser::JoinParts(int a, int b) {
-    const std::vector<int> parts = PartsOf(edges_, keyframes_.size());
+    const std::vector<int> parts = PartsOf(edges_, keyframes_.all());
     const auto part_of = [&parts](int id) { return parts[static_cast<std::size_t>(id)]; };
     std::vector<CommonPlace> places;
     for (CommonPlace place : common_) {
@@ -122,7 +122,7 @@ std::string LoopCloser::JoinParts(int a, int b) {
 void LoopCloser::LeaveShortPartOut() {
     constexpr std::ptrdiff_t kFew = 10;  // as in LossWatch
     if (keyframes_.empty()) return;
-    const std::vector<int> parts = PartsOf(edges_, keyframes_.size());
+    const std::vector<int> parts = PartsOf(edges_, keyframes_.all());
     const auto here = [&parts](int id) {
         return parts[static_cast<std::size_t>(id)] == parts.back();
     };
@@ -177,7 +177,7 @@ std::unique_ptr<MapRebuild> LoopCloser::MoveParts(
 // Its first camera is then that of the world. Returns a message for the user, empty if there is
 // only one.
 std::string LoopCloser::KeepLargestPart() {
-    const std::vector<int> parts = PartsOf(edges_, keyframes_.size());
+    const std::vector<int> parts = PartsOf(edges_, keyframes_.all());
     std::vector<int> frames(parts.size(), 0), fused = frames;  // by the part's first keyframe
     for (const PathPose& p : passages_) {
         const auto part = static_cast<std::size_t>(parts[static_cast<std::size_t>(p.keyframe)]);

@@ -22,17 +22,28 @@ bool ShareLittle(const Keyframe& a, const Keyframe& b) {
 
 }  // namespace
 
-std::vector<int> PartsOf(std::span<const PoseEdge> edges, int count) {
-    std::vector<int> first(static_cast<std::size_t>(count));
+std::vector<int> PartsOf(std::span<const PoseEdge> edges, std::span<const Keyframe> keyframes) {
+    const int count = static_cast<int>(keyframes.size());
+    std::vector<int> first(keyframes.size());
     std::iota(first.begin(), first.end(), 0);
     const auto part_of = [&first](int id) {
         while (first[static_cast<std::size_t>(id)] != id) id = first[static_cast<std::size_t>(id)];
         return id;
     };
-    for (const PoseEdge& edge : edges) {
-        const auto [low, high] = std::minmax({part_of(edge.from), part_of(edge.to)});
+    const auto join = [&](int a, int b) {
+        const auto [low, high] = std::minmax({part_of(a), part_of(b)});
         first[static_cast<std::size_t>(high)] = low;
-    }
+    };
+    for (const PoseEdge& edge : edges) join(edge.from, edge.to);
+    std::vector<int> parts;
+    for (int id = 0; id < count; ++id)
+        if (part_of(id) == id) parts.push_back(id);
+    const auto pose = [&](int id) {
+        return keyframes[static_cast<std::size_t>(id)].T_world_camera;
+    };
+    for (const int a : parts)
+        for (const int b : parts)
+            if (a < b && InOnePart(pose(a), pose(b))) join(a, b);
     for (int id = 0; id < count; ++id) first[static_cast<std::size_t>(id)] = part_of(id);
     return first;
 }

@@ -28,9 +28,9 @@ inline bool InOnePart(const Eigen::Isometry3d& T_map_a, const Eigen::Isometry3d&
     return (T_map_a.translation() - T_map_b.translation()).norm() < kPartsApart_m / 2;
 }
 
-// Keyframes that edges join, directly or by way of others, are one part. Returns for each of
-// `count` keyframes the id of its part's first.
-std::vector<int> PartsOf(std::span<const PoseEdge> edges, int count);
+// Keyframes that edges join, directly or by way of others, are one part; and those that lie beside
+// a part's first, should edges be missing. Returns for each keyframe the id of its part's first.
+std::vector<int> PartsOf(std::span<const PoseEdge> edges, std::span<const Keyframe> keyframes);
 
 // A keyframe of part (or scan) b that was found in part a.
 struct CommonPlace {

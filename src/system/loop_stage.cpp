@@ -66,8 +66,10 @@ void LoopStage::AfterTracking(const Frame& frame, const BlockMap& map, TrackingS
             const StampedPose found{frame.stamp_s, report.track.T_world_camera};
             const bool reached = camera_.CanReach(found);
             if (place_.open() || !reached) {
-                tracked.to_fuse = place_.Begin(tracked.prepared, found.T_world_camera, reached);
-                AddNote(tracked.to_fuse ? kPlaceConfirmed : kPlaceUnconfirmed, note);
+                const bool confirmed =
+                    place_.Begin(tracked.prepared, found.T_world_camera, reached);
+                tracked.to_fuse &= confirmed;
+                AddNote(confirmed ? kPlaceConfirmed : kPlaceUnconfirmed, note);
             }
             camera_.Found(frame.stamp_s);
             camera_.Reached(found);

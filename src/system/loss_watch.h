@@ -2,6 +2,7 @@
 // of the scan begins (optimize/scan_parts.h).
 #pragma once
 
+#include <cmath>
 #include <optional>
 
 #include "system/tracking_stage.h"
@@ -11,7 +12,7 @@ namespace tessera {
 // The tracking stage's owner thread only.
 class LossWatch {
   public:
-    // Call after each frame, when its status is final.
+    // Call after each frame, when its status is final. The clock may start again.
     void Add(const TrackedFrame& tracked) {
         const FrameReport& report = tracked.report;
         if (report.track.status == TrackStatus::kGood) {
@@ -29,9 +30,10 @@ class LossWatch {
             return;
         ++lost_;
         if (!lost_since_s_) lost_since_s_ = report.stamp_s;
-        anywhere_ = good_ <= kFew ? lost_ >= good_ && report.stamp_s - good_s_ >= kLooking_s
-                                  : report.stamp_s - *lost_since_s_ >= kLooking_s &&
-                                        report.stamp_s - tracked_s_ >= kAnywhere_s;
+        anywhere_ = good_ <= kFew
+                        ? lost_ >= good_ && std::abs(report.stamp_s - good_s_) >= kLooking_s
+                        : std::abs(report.stamp_s - *lost_since_s_) >= kLooking_s &&
+                              std::abs(report.stamp_s - tracked_s_) >= kAnywhere_s;
     }
     // The camera sees something, and has been looked for long enough.
     bool anywhere() const { return anywhere_; }

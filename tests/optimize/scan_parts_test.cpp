@@ -12,14 +12,30 @@ PoseEdge Edge(int from, int to) {
     return edge;
 }
 
+// Each a kilometre from the last.
+std::vector<Keyframe> Apart(int count) {
+    std::vector<Keyframe> keyframes(static_cast<std::size_t>(count));
+    for (int id = 0; id < count; ++id)
+        keyframes[static_cast<std::size_t>(id)].T_world_camera = PartStart(id);
+    return keyframes;
+}
+
 TEST(ScanParts, AreWhatEdgesJoin) {
-    EXPECT_EQ(PartsOf({}, 0), std::vector<int>());
-    EXPECT_EQ(PartsOf({}, 3), (std::vector{0, 1, 2}));
+    EXPECT_EQ(PartsOf({}, {}), std::vector<int>());
+    EXPECT_EQ(PartsOf({}, Apart(3)), (std::vector{0, 1, 2}));
     const PoseEdge chain[] = {Edge(0, 1), Edge(1, 2), Edge(3, 4), Edge(4, 5)};
-    EXPECT_EQ(PartsOf(chain, 6), (std::vector{0, 0, 0, 3, 3, 3}));
+    EXPECT_EQ(PartsOf(chain, Apart(6)), (std::vector{0, 0, 0, 3, 3, 3}));
     // In any order and direction, and by way of a later keyframe.
     const PoseEdge joined[] = {Edge(5, 4), Edge(3, 5), Edge(1, 2), Edge(5, 1)};
-    EXPECT_EQ(PartsOf(joined, 6), (std::vector{0, 1, 1, 1, 1, 1}));
+    EXPECT_EQ(PartsOf(joined, Apart(6)), (std::vector{0, 1, 1, 1, 1, 1}));
+}
+
+// A scan that was repaired may lack some.
+TEST(ScanParts, MissingEdgesMakeNoParts) {
+    std::vector<Keyframe> keyframes = Apart(5);
+    keyframes[3].T_world_camera = PartStart(1) * Eigen::Translation3d(20, 0, -30);
+    const PoseEdge edge[] = {Edge(3, 4)};
+    EXPECT_EQ(PartsOf(edge, keyframes), (std::vector{0, 1, 2, 1, 1}));
 }
 
 TEST(ScanParts, BeginFarFromEachOther) {
