@@ -206,11 +206,13 @@ void TrackingStage::DemandUsualFit(double stamp_s, TrackResult& track) {
     }
     if (track.status == TrackStatus::kLost) return;
     const bool known = PlaceKnown(stamp_s);
-    // A pose that is poor for its prediction alone is wrong if predictions are usually worth
-    // nothing, or if it leaves a motion open and there is none.
+    // A pose that is poor for its prediction alone has nothing that speaks for it where predictions
+    // are usually worth nothing, nor has one that leaves a motion open after a gap in time.
+    const double since_last_s = motion_.SinceLast(stamp_s);
+    const bool gap = since_last_s == 0 && motion_.lost_frames() == 0;
     if (track.status == TrackStatus::kPoor &&
-        (track.unexpected ? !usual_fit_.Predicted(motion_.SinceLast(stamp_s))
-                          : !known && track.degenerate))
+        (usual_fit_.Predicted(since_last_s) ? gap && track.degenerate
+                                            : track.unexpected || track.degenerate))
         track.status = TrackStatus::kLost;
     if ((!known || motion_.doubt().poor || track.colour_rejected) && !usual_fit_.Matches(track)) {
         if (track.status == TrackStatus::kGood) track.reason = usual_fit_.Reason(track);
