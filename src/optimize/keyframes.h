@@ -35,7 +35,8 @@ class Keyframes {
     void Follow(const Eigen::Isometry3d& T_map_camera);
     // True if the frame, the last one followed, should become a keyframe.
     bool Wanted(const PreparedFrame& frame, const Eigen::Isometry3d& T_map_camera) const;
-    // Its T_world_camera is its pose in the map. `motion`: while it was captured.
+    // Sets its T_world_camera from the last keyframe's and their relative pose in the map.
+    // `motion`: while it was captured.
     Keyframe& Add(std::int64_t frame_index, double stamp_s, const PreparedFrame& frame,
                   const TrackResult& track, const FrameMotion& motion = {});
     // The map was moved, and the last pose with it; the path continues from there.

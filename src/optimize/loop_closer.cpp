@@ -140,6 +140,8 @@ void LoopCloser::AddKeyframe(const Frame& frame, const PreparedFrame& prepared,
             Normalised(keyframes_[*from].T_world_camera * keyframes_[*from].T_map_camera.inverse() *
                        T_map_expected);
         Link(*from, fresh.id, T_map_expected, doubtful);
+    } else {
+        fresh.T_world_camera = fresh.T_map_camera;
     }
     relocalised_at_.reset();
     swapped_ = false;

@@ -193,7 +193,7 @@ class Generality(Folder):
         self.assertRegex(text, r"\| corner_kinect \| 1 \| 8 \|( \d\.\d\d \|){4}\n\| corner_kinect \| 2 \| 4 \|( \d\.\d\d \|){4}\n")
         self.assertRegex(text, r"\| corner_kinect \| \d\.\d\d \| \d\.\d\d \| \d\.\d\d \| (yes|no) \|\n")
         self.assertRegex(text, r"\| `mapping.voxel_size_m` \| \d\.\d\d \| [+-]\d\.\d\d \| corner_kinect, [x/] 1.5 \| \+0.0 \| – \| 0 \|\n")
-        self.assertIn("- 11 runs.\n", text)
+        self.assertIn("- 12 runs.\n", text)
         self.assertNotIn("voxel_size_m=", text)  # only the commands of the defaults are listed
         self.assertFalse(list(self.root.rglob("mesh.ply")))
 
