@@ -114,10 +114,11 @@ class LoopCloser {
     std::optional<Correction> Finish(std::string& note, const BlockMap* in_use = nullptr);
 
     // Outside a run: optimises with every overlap that can be found, and makes the map again from
-    // all stored frames.
+    // all stored frames of the largest part.
     Result<Correction> MakeAgain();
 
-    // Corrected poses of all frames, in order; after Finish, of the largest part only.
+    // Corrected poses of all frames, in order; after Finish and MakeAgain, of the largest part
+    // only.
     std::vector<StampedPose> Path() const;
     const Keyframes& keyframes() const { return keyframes_; }
     const std::vector<PoseEdge>& edges() const { return edges_; }
@@ -154,7 +155,7 @@ class LoopCloser {
     void AddPassage(double stamp_s, const Eigen::Isometry3d& T_map_camera, bool fused);
     std::string SeekOtherParts(const Keyframe& fresh, const PreparedFrame& prepared);
     std::string JoinAt(const std::vector<Place>& places);
-    std::string JoinParts(int a, int b);
+    std::string JoinParts(std::span<const int> parts, int a, int b);
     std::ptrdiff_t KeyframesAround(const Eigen::Isometry3d& T_map_camera) const;
     bool LeftOut(int keyframe) const {
         return keyframe < std::ssize(left_out_) && left_out_[static_cast<std::size_t>(keyframe)];

@@ -177,6 +177,7 @@ Result<LoopCloser::Correction> LoopCloser::MakeAgain() {
         if (Status solved = Optimise(); !solved.ok()) return solved;
         if (last) break;
     }
+    static_cast<void>(KeepLargestPart());
     std::optional<Correction> made;
     if (BeginRebuild(-1)) made = StepRebuild(std::numeric_limits<int>::max());
     if (!made) return Status::Error(TakeError());

@@ -83,15 +83,15 @@ std::string LoopCloser::JoinAt(const std::vector<Place>& places) {
             if (part_of(*a) > part_of(*b)) std::swap(a, b);  // the part that began later moves
             common_.push_back(
                 {a->keyframe, b->keyframe, Normalised(a->T_old_new * b->T_old_new.inverse()), {}});
-            if (std::string joined = JoinParts(part_of(*a), part_of(*b)); !joined.empty())
+            if (std::string joined = JoinParts(parts, part_of(*a), part_of(*b)); !joined.empty())
                 news = std::move(joined);
         }
     return news;
 }
 
-// Joins these parts if enough of their common places agree. Returns a message for the user.
-std::string LoopCloser::JoinParts(int a, int b) {
-    const std::vector<int> parts = PartsOf(edges_, keyframes_.all());
+// Joins two of the parts (PartsOf) if enough of their common places agree. Returns a message for
+// the user.
+std::string LoopCloser::JoinParts(std::span<const int> parts, int a, int b) {
     const auto part_of = [&parts](int id) { return parts[static_cast<std::size_t>(id)]; };
     std::vector<CommonPlace> places;
     for (CommonPlace place : common_) {
@@ -120,13 +120,12 @@ std::string LoopCloser::JoinParts(int a, int b) {
 // The part of the last keyframe has ended. What it has seen is so little that the camera, found
 // there, would soon be lost again.
 void LoopCloser::LeaveShortPartOut() {
-    constexpr std::ptrdiff_t kFew = 10;  // as in LossWatch
     if (keyframes_.empty()) return;
     const std::vector<int> parts = PartsOf(edges_, keyframes_.all());
     const auto here = [&parts](int id) {
         return parts[static_cast<std::size_t>(id)] == parts.back();
     };
-    if (std::ranges::count_if(passages_, here, &PathPose::keyframe) > kFew) return;
+    if (std::ranges::count_if(passages_, here, &PathPose::keyframe) > kShortPart) return;
     left_out_.resize(parts.size());
     for (int id = 0; id < keyframes_.size(); ++id)
         if (here(id)) left_out_[static_cast<std::size_t>(id)] = true;
@@ -174,36 +173,28 @@ std::unique_ptr<MapRebuild> LoopCloser::MoveParts(
 }
 
 // At the end: parts that were not joined are left out, but for the one with most frames in the map.
-// Its first camera is then that of the world. Returns a message for the user, empty if there is
-// only one.
+// Its first keyframe's camera is then that of the world. Returns a message for the user, empty if
+// there is only one.
 std::string LoopCloser::KeepLargestPart() {
     const std::vector<int> parts = PartsOf(edges_, keyframes_.all());
-    std::vector<int> frames(parts.size(), 0), fused = frames;  // by the part's first keyframe
-    for (const PathPose& p : passages_) {
-        const auto part = static_cast<std::size_t>(parts[static_cast<std::size_t>(p.keyframe)]);
-        ++frames[part];
-        fused[part] += p.fused;
-    }
-    const int kept = static_cast<int>(std::ranges::max_element(fused) - fused.begin());
-    int count = 0, lost = 0;
-    for (int id = 0; id < keyframes_.size(); ++id) {
-        if (parts[static_cast<std::size_t>(id)] != id || id == kept) continue;
-        ++count;
-        lost += frames[static_cast<std::size_t>(id)];
-    }
-    if (count == 0) return {};
-    left_out_.clear();
-    for (const int part : parts) left_out_.push_back(part != kept);
+    std::vector<int> fused(parts.size(), 0);  // by keyframe
+    for (const PathPose& p : passages_) fused[static_cast<std::size_t>(p.keyframe)] += p.fused;
+    left_out_ = OutsideTheLargest(parts, fused);
+    if (left_out_.empty()) return {};
+    const auto kept = std::ranges::find(left_out_, false) - left_out_.begin();
     if (kept != 0) {
-        const Eigen::Isometry3d T_first_world = keyframes_[kept].T_world_camera.inverse();
+        const Eigen::Isometry3d T_first_world =
+            keyframes_[static_cast<int>(kept)].T_world_camera.inverse();
         for (int id = 0; id < keyframes_.size(); ++id)
             keyframes_[id].T_world_camera =
                 Normalised(T_first_world * keyframes_[id].T_world_camera);
     }
     corrected_ = true;
-    return fmt::format(
-        "{} frames are left out: they saw {}, and nothing shows where that lies in the scan", lost,
-        count == 1 ? "another part of the scene" : fmt::format("{} other parts", count));
+    const auto frames =
+        std::ranges::count_if(passages_, [this](const PathPose& p) { return LeftOut(p.keyframe); });
+    const auto others = std::set<int>(parts.begin(), parts.end()).size() - 1;
+    return fmt::format("{} frames are left out, as nothing joins {} with the rest of the scan",
+                       frames, others == 1 ? "their part" : fmt::format("their {} parts", others));
 }
 
 }  // namespace tessera

@@ -48,6 +48,17 @@ std::vector<int> PartsOf(std::span<const PoseEdge> edges, std::span<const Keyfra
     return first;
 }
 
+std::vector<bool> OutsideTheLargest(std::span<const int> parts, std::span<const int> frames) {
+    std::vector<int> sums(parts.size(), 0);
+    for (std::size_t i = 0; i < parts.size(); ++i)
+        sums[static_cast<std::size_t>(parts[i])] += frames[i];
+    const auto largest = static_cast<int>(std::ranges::max_element(sums) - sums.begin());
+    if (std::ranges::count(parts, largest) == std::ssize(parts)) return {};
+    std::vector<bool> outside;
+    for (const int part : parts) outside.push_back(part != largest);
+    return outside;
+}
+
 std::optional<JointPose> AgreeOnPose(std::span<const CommonPlace> places,
                                      std::span<const Keyframe> keyframes_of_b) {
     constexpr double kNear_m = 0.15, kNear_rad = 0.15, kDrift = 0.05;  // as for a loop (DriftOf)

@@ -16,6 +16,8 @@ namespace tessera {
 inline constexpr double kPartsApart_m = 1000;
 // After the first. More would be so far away that single precision shows.
 inline constexpr int kMostParts = 24;
+// A part with no more frames than that knows few places where the camera can be found.
+inline constexpr int kShortPart = 10;
 
 // Where the first camera of a part is in the map; 0 is the scan's first part.
 inline Eigen::Isometry3d PartStart(int part) {
@@ -31,6 +33,10 @@ inline bool InOnePart(const Eigen::Isometry3d& T_map_a, const Eigen::Isometry3d&
 // Keyframes that edges join, directly or by way of others, are one part; and those that lie beside
 // a part's first, should edges be missing. Returns for each keyframe the id of its part's first.
 std::vector<int> PartsOf(std::span<const PoseEdge> edges, std::span<const Keyframe> keyframes);
+
+// Which keyframes are left out of a whole scan: those outside the part with the most frames in the
+// map. `parts`: as above; `frames`: by keyframe. Empty if there is only one part.
+std::vector<bool> OutsideTheLargest(std::span<const int> parts, std::span<const int> frames);
 
 // A keyframe of part (or scan) b that was found in part a.
 struct CommonPlace {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "optimize/scan_parts.h"
 #include "scan/block_codec.h"
 
 namespace tessera {
@@ -138,6 +139,13 @@ Status ReadFrames(ScanFile& file, ScanContent& content) {
     });
 }
 
+std::vector<bool> LeftOutOf(const ScanContent& content) {
+    std::vector<int> fused(content.keyframes.size(), 0);
+    for (const PathRecord& record : content.path)
+        if (record.keyframe >= 0) fused[static_cast<std::size_t>(record.keyframe)] += record.fused;
+    return OutsideTheLargest(PartsOf(content.loops.edges, content.keyframes), fused);
+}
+
 Result<ScanMeta> ReadMeta(ScanFile& file) {
     const Result<Bytes> bytes = file.ReadOne(ScanTable::kMeta, 0);
     if (!bytes.ok()) return bytes.status();
@@ -153,6 +161,8 @@ std::optional<Eigen::Isometry3d> ScanContent::PoseOf(const PathRecord& record) c
     if (!record.tracked()) return std::nullopt;
     const Eigen::Isometry3d& T = record.T_reference_camera;
     if (record.keyframe < 0) return T;
+    if (!left_out.empty() && left_out[static_cast<std::size_t>(record.keyframe)])
+        return std::nullopt;
     return Normalised(keyframes[static_cast<std::size_t>(record.keyframe)].T_world_camera * T);
 }
 
@@ -217,6 +227,7 @@ Result<ScanContent> ReadScan(ScanFile& file, const ScanParts& parts) {
         return DamagedScan(file.path(), "progress");
     for (const auto& read : {ReadKeyframes, ReadPath, ReadStates})
         if (Status status = read(file, content); !status.ok()) return status;
+    content.left_out = LeftOutOf(content);
     if (static_cast<std::int64_t>(content.path.size()) != content.progress.frames)
         return DamagedScan(file.path(), "path");
     // The seal covers every state row, too.

@@ -21,15 +21,17 @@ struct ScanContent {
     std::unique_ptr<BlockMap> map;
     std::vector<PathRecord> path;
     std::vector<Keyframe> keyframes;
+    std::vector<bool> left_out;       // by keyframe, see OutsideTheLargest; empty: none
     std::vector<FrameRecord> frames;  // if requested, by increasing time
     LoopProgress loops;
     std::string source_name;  // of the last session, to which progress.last_index belongs
     // Saved states of TrackingStage and LabelMapper; may be empty.
     Bytes tracking, labels;
 
-    // The current T_world_camera of a frame of the path; nullopt if it was not tracked.
+    // The current T_world_camera of a frame of the path; nullopt if it was not tracked, or is in a
+    // part of the scan that is left out.
     std::optional<Eigen::Isometry3d> PoseOf(const PathRecord& record) const;
-    // The poses of all tracked frames, and the source's ground truth where available.
+    // The poses of all frames that have one, and the source's ground truth where available.
     std::vector<StampedPose> Path() const;
     std::vector<StampedPose> Truth() const;
     // The last tracked frame's camera pose in the map as stored here; nullopt if no frame was

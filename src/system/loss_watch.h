@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "optimize/scan_parts.h"
 #include "system/tracking_stage.h"
 
 namespace tessera {
@@ -30,7 +31,7 @@ class LossWatch {
             return;
         ++lost_;
         if (!lost_since_s_) lost_since_s_ = report.stamp_s;
-        anywhere_ = good_ <= kFew
+        anywhere_ = good_ <= kShortPart
                         ? lost_ >= good_ && std::abs(report.stamp_s - good_s_) >= kLooking_s
                         : std::abs(report.stamp_s - *lost_since_s_) >= kLooking_s &&
                               std::abs(report.stamp_s - tracked_s_) >= kAnywhere_s;
@@ -43,8 +44,6 @@ class LossWatch {
     static constexpr double kLooking_s = 1;
     // As in LostCamera: after that, the camera must be found by appearance.
     static constexpr double kAnywhere_s = 2;
-    // So few frames know few places where the camera can be found.
-    static constexpr int kFew = 10;
 
     std::int64_t good_ = 0, lost_ = 0;    // frames; lost ones since the last good one
     double good_s_ = 0, tracked_s_ = 0;   // the last frame that was tracked well, or at all

@@ -144,6 +144,17 @@ TEST_F(LoopParts, AShorterPartThatIsNotJoinedIsLeftOut) {
     }
 }
 
+TEST_F(LoopParts, AMapMadeOutsideARunHasTheLargestOnly) {
+    Walker walker(LoopConfig{});
+    Walk(walker, RoomWalk(0, 12, 3), 0);
+    Walk(walker, RoomWalk(360, 20, 3), 1);
+    const Result<LoopCloser::Correction> made = walker.closer.MakeAgain();
+    ASSERT_TRUE(made.ok()) << made.message();
+    EXPECT_GT(made.value().map->size(), 100);
+    EXPECT_LT(FarthestFrom(Eigen::Vector3d::Zero(), *made.value().map), 10);
+    EXPECT_EQ(walker.closer.Path().size(), 20u);
+}
+
 TEST_F(LoopParts, AHandfulOfFramesIsNoPlaceToBeFoundAt) {
     for (const int count : {10, 11}) {
         const std::vector<Frame> first = RoomWalk(0, count, 3);

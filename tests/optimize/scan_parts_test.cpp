@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 namespace tessera {
 namespace {
 
@@ -36,6 +38,16 @@ TEST(ScanParts, MissingEdgesMakeNoParts) {
     keyframes[3].T_world_camera = PartStart(1) * Eigen::Translation3d(20, 0, -30);
     const PoseEdge edge[] = {Edge(3, 4)};
     EXPECT_EQ(PartsOf(edge, keyframes), (std::vector{0, 1, 2, 1, 1}));
+}
+
+TEST(ScanParts, TheOneWithMostFramesIsKept) {
+    EXPECT_TRUE(OutsideTheLargest({}, {}).empty());
+    const int one[] = {0, 0, 0}, parts[] = {0, 1, 1, 0, 4}, frames[] = {3, 1, 5, 2, 5};
+    EXPECT_TRUE(OutsideTheLargest(one, std::array{0, 0, 0}).empty());
+    EXPECT_EQ(OutsideTheLargest(parts, frames), (std::vector{true, false, false, true, true}));
+    EXPECT_EQ(OutsideTheLargest(parts, std::array{3, 1, 4, 2, 5}),
+              (std::vector{false, true, true, false, true}))
+        << "of equals the first";
 }
 
 TEST(ScanParts, BeginFarFromEachOther) {

@@ -4,6 +4,7 @@
 #include "optimize/scan_parts.h"
 #include "system/engine_fixture.h"
 #include "system/frame_list.h"
+#include "system/scan_restore.h"
 
 namespace tessera {
 namespace {
@@ -81,11 +82,16 @@ TEST(LossWatch, ACoveredCameraHasNothingToBeginWith) {
 
 class LostCameraRun : public EngineTest {
   protected:
-    void Make(bool live, std::vector<Frame> frames) {
+    void Make(bool live, std::vector<Frame> frames, const std::string& scan = {}) {
         config.live = {};
         config.live.queue_frames = 200;
         EngineInput input = Input({});
         input.source = std::make_unique<FrameList>(std::move(frames));
+        if (!scan.empty()) {
+            Result<ScanPlan> plan = BeginScan(scan, input.source->info(), config);
+            ASSERT_TRUE(plan.ok()) << plan.message();
+            input.scan = std::move(plan.value());
+        }
         if (live)
             engine = std::make_unique<LiveEngine>(std::move(input));
         else
@@ -125,6 +131,26 @@ TEST_P(LostStart, BeginsAgain) {
     for (const auto& vertex : engine->TakeMesh().vertices) ASSERT_LT(vertex.norm(), 20);
 }
 INSTANTIATE_TEST_SUITE_P(Engines, LostStart, testing::Bool());
+
+// What is exported from the file is what the run has written. A later session has the rest.
+TEST_F(LostCameraRun, AScanFileDoesNotShowWhatWasLeftOut) {
+    if (!PoseGraphAvailable()) GTEST_SKIP() << "this build has no Ceres: install libceres-dev";
+    const TempFolder folder;
+    const std::string path = folder / "a.scan";
+    ASSERT_NO_FATAL_FAILURE(Make(false, Kidnapped(2, 60), path));
+    const std::vector<StampedPose> kept = engine->CorrectedPath();
+    ASSERT_FALSE(kept.empty());
+    engine.reset();
+    Result<ScanContent> scan = ReadScan(path, {.map = true, .frames = true});
+    ASSERT_TRUE(scan.ok()) << scan.message();
+    const std::vector<StampedPose> stored = scan.value().Path();
+    ASSERT_EQ(stored.size(), kept.size());
+    for (std::size_t i = 0; i < kept.size(); ++i) {
+        EXPECT_EQ(stored[i].stamp_s, kept[i].stamp_s);
+        EXPECT_TRUE(stored[i].T_world_camera.isApprox(kept[i].T_world_camera, 1e-6)) << i;
+    }
+    EXPECT_EQ(TakeLoopMemory(scan.value()).passages.size(), kept.size() + 2);
+}
 
 // The camera walks back to where it was before.
 TEST_F(LostCameraRun, TheNewPartIsJoinedWithTheRest) {

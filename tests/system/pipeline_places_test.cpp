@@ -168,6 +168,28 @@ TEST(Pipeline, WhereNothingCanBePredictedAFarPoseIsConfirmedOrLost) {
     }
 }
 
+// At the start of a part it is not known again whether poses can be predicted: then only a quarter
+// of a second speaks for it.
+TEST(Pipeline, ANewPartForgetsThatPosesWerePredicted) {
+    for (const bool part : {false, true}) {
+        Pipeline pipeline(SmallConfig(), SmallCamera());
+        BoxRoom room;
+        room.has_ball = true;
+        const Eigen::Isometry3d T_room_camera = Eigen::Isometry3d::Identity();
+        for (int i = 0; i < 10; ++i)
+            ASSERT_TRUE(pipeline.Process(room.Render(SmallCamera(), T_room_camera, 0.3 * i)).fused);
+        if (part) pipeline.tracking().BeginPart(Eigen::Isometry3d(Eigen::Translation3d(9, 0, 0)));
+        const FrameReport first =
+            pipeline.Process(room.Render(SmallCamera(), T_room_camera, 0.3 * 10));
+        ASSERT_TRUE(first.fused);
+        EXPECT_NEAR(first.track.T_world_camera.translation().x(), part ? 9 : 0, 1e-3);
+        Frame frame = room.Render(SmallCamera(), T_room_camera, 0.3 * 11);
+        SpoilLeft(frame, 2);
+        EXPECT_EQ(pipeline.Process(frame).track.status,
+                  part ? TrackStatus::kLost : TrackStatus::kGood);
+    }
+}
+
 // Before a bare wall the camera backs away at once. What the wall leaves open could only follow the
 // prediction, which is far off: poor, or after a gap in time, when there is none, lost.
 TEST(Pipeline, AFarPoseThatLeavesAMotionOpenIsWorthNothingAfterAGap) {
